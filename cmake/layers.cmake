@@ -1,0 +1,25 @@
+# The layers in the order of who may use whom; tools/layers.toml holds the rule that a test checks.
+set(GABLE_LAYERS base math geom program lang material shape scene builtins runtime io render engine)
+
+# gable_layer(NAME [LINK libs...] [PRIVATE libs...]): the static library gable_NAME from all .cpp files of
+# the folder, tests (*_test.cpp) left out; those become the program test_NAME.
+function(gable_layer name)
+  cmake_parse_arguments(ARG "" "" "LINK;PRIVATE;EXCLUDE" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  set(tests ${sources})
+  list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
+  foreach(pattern ${ARG_EXCLUDE})
+    list(FILTER sources EXCLUDE REGEX "${pattern}")
+  endforeach()
+  if(sources)
+    add_library(gable_${name} STATIC ${sources})
+    target_include_directories(gable_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+    target_link_libraries(gable_${name} PUBLIC ${ARG_LINK} PRIVATE ${ARG_PRIVATE})
+  else()
+    add_library(gable_${name} INTERFACE)
+    target_include_directories(gable_${name} INTERFACE ${PROJECT_SOURCE_DIR}/src)
+    target_link_libraries(gable_${name} INTERFACE ${ARG_LINK})
+  endif()
+  set_property(GLOBAL PROPERTY gable_tests_${name} "${tests}")
+endfunction()

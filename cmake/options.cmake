@@ -1,0 +1,40 @@
+# Compiler settings that every target shares.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+
+find_program(GABLE_CCACHE ccache)
+if(GABLE_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${GABLE_CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${GABLE_CCACHE})
+endif()
+
+# Same input, same bytes: no fused multiply-add, no value-changing optimisation.
+add_compile_options(-ffp-contract=off -fno-fast-math)
+add_compile_options(-Wall -Wextra -Wshadow -Wno-missing-field-initializers)
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  add_compile_options(-Wno-missing-braces)
+endif()
+
+# `dev` is optimised and checked at once: NDEBUG stays off, GABLE_DCHECK is on.
+if(GABLE_DEV)
+  add_compile_definitions(GABLE_DCHECKS=1)
+endif()
+
+if(GABLE_SANITIZE)
+  add_compile_options(-fsanitize=${GABLE_SANITIZE} -fno-omit-frame-pointer -g1)
+  add_link_options(-fsanitize=${GABLE_SANITIZE})
+endif()
+
+find_program(GABLE_LLD ld.lld)
+if(GABLE_LLD)
+  add_link_options(-fuse-ld=lld)
+endif()
+
+find_package(Threads REQUIRED)

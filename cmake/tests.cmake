@@ -1,0 +1,16 @@
+# One test program a layer, from the *_test.cpp files beside the sources.
+find_package(GTest REQUIRED)
+include(GoogleTest)
+
+foreach(layer ${GABLE_LAYERS})
+  get_property(tests GLOBAL PROPERTY gable_tests_${layer})
+  if(tests)
+    add_executable(test_${layer} ${tests})
+    target_link_libraries(test_${layer} PRIVATE gable_${layer} GTest::gtest_main Threads::Threads)
+    target_compile_definitions(test_${layer} PRIVATE GABLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    gtest_discover_tests(test_${layer} TEST_PREFIX ${layer}. DISCOVERY_MODE PRE_TEST)
+  endif()
+endforeach()
+if(EXISTS ${PROJECT_SOURCE_DIR}/tests/CMakeLists.txt)
+  add_subdirectory(tests)
+endif()

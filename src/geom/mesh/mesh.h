@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Mesh: polygons with holes over shared positions; the geometry of a shape that is no primitive.
+//
+// A face is a list of loops, the outer one first, holes after it; a loop is a run of corners; a corner
+// names a position and carries the uv coordinates of up to ten sets, an optional normal and the tags
+// of the edge that starts at it. Seen from the face's normal side the outer loop is counter-clockwise
+// and holes are clockwise. Units are metres, the frame is the owner's.
+//
+// Tags and materials are opaque numbers here: the folders above give them their meaning.
+// A Mesh never changes once it is shared (MeshRef); build one with MeshBuilder or edit a copy.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/ref.h"
+#include "math/box.h"
+#include "math/frame.h"
+#include "math/vec.h"
+
+namespace gable {
+
+constexpr int kUvSets = 10;
+
+struct MeshLoop {
+  uint32_t firstCorner = 0;
+  uint32_t cornerCount = 0;
+};
+
+struct MeshFace {
+  uint32_t firstLoop = 0;
+  uint32_t loopCount = 0;
+  /// Slot of the owner's material list: 0 is the shape's own material.
+  uint16_t materialSlot = 0;
+  /// True when corners without normals are to be lit smoothly across edges.
+  bool smooth = false;
+  /// An interned tag set, 0 for none.
+  uint32_t tags = 0;
+};
+
+class Mesh : public RefCounted {
+ public:
+  std::vector<Vec3> positions;
+  std::vector<MeshFace> faces;
+  std::vector<MeshLoop> loops;
+  std::vector<uint32_t> corners;
+  /// Each either empty or as long as corners.
+  std::array<std::vector<Vec2>, kUvSets> uvs;
+  std::vector<Vec3> normals;
+  std::vector<uint32_t> edgeTags;
+
+  bool empty() const { return faces.empty(); }
+  size_t faceCount() const { return faces.size(); }
+  bool hasUv(int set) const { return !uvs[static_cast<size_t>(set)].empty(); }
+
+  std::span<const MeshLoop> loopsOf(size_t face) const {
+    return {loops.data() + faces[face].firstLoop, faces[face].loopCount};
+  }
+  std::span<const uint32_t> cornersOf(const MeshLoop& loop) const {
+    return {corners.data() + loop.firstCorner, loop.cornerCount};
+  }
+  const Vec3& at(uint32_t corner) const { return positions[corners[corner]]; }
+
+  /// Newell's normal of a face's outer loop times twice its area; zero for a degenerate face.
+  Vec3 areaNormal(size_t face) const;
+  Vec3 normal(size_t face) const { return normalized(areaNormal(face)); }
+  /// Area of the outer loop less that of the holes.
+  double area(size_t face) const;
+  double area() const;
+  Box3 bounds() const;
+  /// A hash of everything that an operation can see.
+  uint64_t contentHash() const;
+  /// Counts, indices and vector lengths agree, and no coordinate is NaN or infinite.
+  bool valid() const;
+};
+
+using MeshRef = Ref<Mesh>;
+
+/// Makes meshes loop by loop. Positions are shared where the caller passes the same index.
+class MeshBuilder {
+ public:
+  uint32_t addPosition(const Vec3& p);
+  /// Opens a face; its attributes apply until the next beginFace.
+  void beginFace(uint16_t materialSlot = 0, uint32_t tags = 0, bool smooth = false);
+  void beginLoop();
+  /// Adds a corner to the open loop and gives its index.
+  uint32_t addCorner(uint32_t position, uint32_t edgeTags = 0);
+  /// Sets a uv of a corner; unset ones of the set become (0, 0).
+  void setUv(uint32_t corner, int set, Vec2 uv);
+  void setNormal(uint32_t corner, const Vec3& n);
+  /// A face of one loop.
+  void addPolygon(std::span<const uint32_t> positions, uint16_t materialSlot = 0,
+                  uint32_t tags = 0);
+  /// Copies a face of another mesh with all of its attributes; `map` turns its positions to ours
+  /// (kNoPosition where not copied yet). With `reversed` the face turns round.
+  void copyFace(const Mesh& from, size_t face, std::vector<uint32_t>& map, bool reversed = false);
+  static constexpr uint32_t kNoPosition = 0xffffffff;
+
+  Mesh& mesh() { return mesh_; }
+  Mesh take();
+
+ private:
+  Mesh mesh_;
+};
+
+/// A unit-less box [0,size] with outward faces in the order of CGA's primitiveCube: bottom-up rings
+/// as measured on the original runtime (faces 0321-style orders are listed in mesh.cpp), 8 shared
+/// positions and uv set 0 on each face when asked for.
+Mesh makeBoxMesh(const Vec3& size, bool withUv);
+
+/// A rectangle [0,w] x [0,h]: in the xy plane (normal +z), or in the xz plane (normal +y).
+enum class QuadPlane : uint8_t { Xy, Xz };
+Mesh makeQuadMesh(double w, double h, QuadPlane plane, bool withUv);
+
+/// Applies a scale per axis and then a frame; turns faces round when the scale mirrors. Normals
+/// follow by the inverse transpose.
+Mesh transformed(const Mesh& m, const Vec3& scale, const Frame& frame);
+
+/// Appends all of `from` to `to`; material slots of `from` are shifted by `slotOffset`.
+void append(Mesh& to, const Mesh& from, uint16_t slotOffset = 0);
+
+}  // namespace gable

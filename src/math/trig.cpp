@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "math/trig.h"
+
+#include <cmath>
+
+namespace gable {
+
+namespace {
+
+// Sine of 0..45 degrees and cosine of 0..45 degrees; the halves are exact at 30 and 60.
+double sinOctant(double d) { return d == 30 ? 0.5 : std::sin(toRadians(d)); }
+double cosOctant(double d) { return std::cos(toRadians(d)); }
+
+// Sine of any angle in [0, 90].
+double sinQuadrant(double d) {
+  if (d == 90) return 1;
+  return d <= 45 ? sinOctant(d) : (d == 60 ? cosOctant(30) : cosOctant(90 - d));
+}
+double cosQuadrant(double d) {
+  if (d == 90) return 0;
+  return d <= 45 ? cosOctant(d) : sinOctant(90 - d);
+}
+
+}  // namespace
+
+double sinDeg(double degrees) {
+  double d = std::fmod(degrees, 360.0);
+  if (d < 0) return -sinDeg(-d);
+  if (d >= 180) return -sinDeg(d - 180);
+  return d > 90 ? sinQuadrant(180 - d) : sinQuadrant(d);
+}
+
+double cosDeg(double degrees) {
+  double d = std::fmod(std::fabs(degrees), 360.0);
+  if (d > 180) d = 360 - d;
+  return d > 90 ? -cosQuadrant(180 - d) : cosQuadrant(d);
+}
+
+double tanDeg(double degrees) { return sinDeg(degrees) / cosDeg(degrees); }
+double asinDeg(double v) { return toDegrees(std::asin(v)); }
+double acosDeg(double v) { return toDegrees(std::acos(v)); }
+double atanDeg(double v) { return toDegrees(std::atan(v)); }
+double atan2Deg(double y, double x) { return toDegrees(std::atan2(y, x)); }
+double expOf(double v) { return std::exp(v); }
+double logOf(double v) { return std::log(v); }
+double log10Of(double v) { return std::log10(v); }
+double powOf(double base, double exponent) { return std::pow(base, exponent); }
+
+}  // namespace gable
