@@ -33,8 +33,8 @@ LineColumn Sources::locate(uint32_t file, uint32_t offset) const {
 std::string_view Sources::line(uint32_t file, uint32_t line) const {
   const File& f = files_[file];
   const uint32_t begin = f.lineStarts[line - 1];
-  const uint32_t end = line < f.lineStarts.size() ? f.lineStarts[line] - 1
-                                                  : static_cast<uint32_t>(f.text.size());
+  const uint32_t end =
+      line < f.lineStarts.size() ? f.lineStarts[line] - 1 : static_cast<uint32_t>(f.text.size());
   std::string_view text = std::string_view(f.text).substr(begin, end - begin);
   if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
   return text;
@@ -66,9 +66,8 @@ void Diagnostics::sortByPlace() {
            a.message == b.message && a.shapePath == b.shapePath;
   };
   all_.erase(std::unique(all_.begin(), all_.end(), same), all_.end());
-  errors_ = static_cast<size_t>(std::count_if(all_.begin(), all_.end(), [](const Diagnostic& d) {
-    return d.severity == Severity::Error;
-  }));
+  errors_ = static_cast<size_t>(std::count_if(
+      all_.begin(), all_.end(), [](const Diagnostic& d) { return d.severity == Severity::Error; }));
 }
 
 const char* severityName(Severity s) {

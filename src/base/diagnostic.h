@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// What we tell the author of a rule file, a model or an attribute: a code, a place, a sentence and a
-// remedy. Diagnostics are collected, never thrown, and all of one run are reported.
+// What we tell the author of a rule file, a model or an attribute: a code, a place, a sentence and
+// a remedy. Diagnostics are collected, never thrown, and all of one run are reported.
 #pragma once
 
 #include <cstdint>

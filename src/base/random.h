@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Addressed randomness: a draw is a pure function of its address, never the next number of a stream.
-// An address is made by folding its parts with hashCombine (see base/hash.h); equal addresses give
-// equal draws whatever the thread, the order or the compiler.
+// Addressed randomness: a draw is a pure function of its address, never the next number of a
+// stream. An address is made by folding its parts with hashCombine (see base/hash.h); equal
+// addresses give equal draws whatever the thread, the order or the compiler.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Ref<T>: a counted pointer to an immutable object that many shapes share. T derives from RefCounted.
-// Copies of an empty Ref cost a test; the count is atomic, so Refs may cross threads.
+// Ref<T>: a counted pointer to an immutable object that many shapes share. T derives from
+// RefCounted. Copies of an empty Ref cost a test; the count is atomic, so Refs may cross threads.
 #pragma once
 
 #include <atomic>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Status: how a geometric operation ended. A failure leaves the shape as it was; the runtime turns it
-// into a warning with the rule, the line and the shape's path.
+// Status: how a geometric operation ended. A failure leaves the shape as it was; the runtime turns
+// it into a warning with the rule, the line and the shape's path.
 #pragma once
 
 #include <string>

@@ -30,7 +30,8 @@ Frame rotationXyz(double xDegrees, double yDegrees, double zDegrees) {
   const double sa = sinDeg(xDegrees), ca = cosDeg(xDegrees);
   const double sb = sinDeg(yDegrees), cb = cosDeg(yDegrees);
   const double sg = sinDeg(zDegrees), cg = cosDeg(zDegrees);
-  return Frame::of({}, {cb * cg, cb * sg, -sb}, {sa * sb * cg - ca * sg, ca * cg + sa * sb * sg, sa * cb},
+  return Frame::of({}, {cb * cg, cb * sg, -sb},
+                   {sa * sb * cg - ca * sg, ca * cg + sa * sb * sg, sa * cb},
                    {sa * sg + ca * sb * cg, ca * sb * sg - sa * cg, ca * cb});
 }
 

@@ -55,7 +55,8 @@ inline Frame operator*(const Frame& outer, const Frame& inner) {
 Frame inverse(const Frame& f);
 
 /// The rotation of CGA: about x, then y, then z of the surrounding frame, in degrees
-/// each about a fixed axis (so the matrix on column vectors is Rz * Ry * Rx); quarter turns are exact.
+/// each about a fixed axis (so the matrix on column vectors is Rz * Ry * Rx); quarter turns are
+/// exact.
 Frame rotationXyz(double xDegrees, double yDegrees, double zDegrees);
 
 /// Angles (degrees) for which rotationXyz gives the axes of `f` back.

@@ -9,9 +9,12 @@ namespace gable {
 
 namespace {
 
-// Sine of 0..45 degrees and cosine of 0..45 degrees; the halves are exact at 30 and 60.
-double sinOctant(double d) { return d == 30 ? 0.5 : std::sin(toRadians(d)); }
-double cosOctant(double d) { return std::cos(toRadians(d)); }
+// Sine and cosine of 0..45 degrees; 30 and 45 are exact or alike, so that sin 30 and tan 45 are.
+double sinOctant(double d) {
+  if (d == 45) return 0x1.6a09e667f3bcdp-1;
+  return d == 30 ? 0.5 : std::sin(toRadians(d));
+}
+double cosOctant(double d) { return d == 45 ? 0x1.6a09e667f3bcdp-1 : std::cos(toRadians(d)); }
 
 // Sine of any angle in [0, 90].
 double sinQuadrant(double d) {

@@ -3,10 +3,10 @@
 //
 // Mesh: polygons with holes over shared positions; the geometry of a shape that is no primitive.
 //
-// A face is a list of loops, the outer one first, holes after it; a loop is a run of corners; a corner
-// names a position and carries the uv coordinates of up to ten sets, an optional normal and the tags
-// of the edge that starts at it. Seen from the face's normal side the outer loop is counter-clockwise
-// and holes are clockwise. Units are metres, the frame is the owner's.
+// A face is a list of loops, the outer one first, holes after it; a loop is a run of corners; a
+// corner names a position and carries the uv coordinates of up to ten sets, an optional normal and
+// the tags of the edge that starts at it. Seen from the face's normal side the outer loop is
+// counter-clockwise and holes are clockwise. Units are metres, the frame is the owner's.
 //
 // Tags and materials are opaque numbers here: the folders above give them their meaning.
 // A Mesh never changes once it is shared (MeshRef); build one with MeshBuilder or edit a copy.

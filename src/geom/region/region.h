@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Region: a planar area with holes, in plan coordinates (x right, y up, metres). Outer rings are
-// counter-clockwise, holes clockwise; rings do not repeat their first point. A region may consist of
-// several polygons; polygons of one region do not overlap.
+// counter-clockwise, holes clockwise; rings do not repeat their first point. A region may consist
+// of several polygons; polygons of one region do not overlap.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "material/material.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <string_view>
+#include <unordered_map>
+
+#include "base/check.h"
+#include "base/hash.h"
+
+namespace gable {
+
+const std::array<const char*, kTextureLayers> kTextureLayerNames = {
+    "colormap",  "bumpmap",     "dirtmap",      "specularmap",  "opacitymap",
+    "normalmap", "emissivemap", "occlusionmap", "roughnessmap", "metallicmap"};
+
+namespace {
+
+uint64_t hashVec(uint64_t h, const Vec3& v) {
+  return hashCombine(hashCombine(hashCombine(h, hashDouble(v.x)), hashDouble(v.y)),
+                     hashDouble(v.z));
+}
+
+}  // namespace
+
+uint64_t contentHash(const Material& m) {
+  uint64_t h = hashBytes(m.name);
+  for (const Vec3* v : {&m.color, &m.ambient, &m.specular, &m.emissive}) h = hashVec(h, *v);
+  for (double v : {m.opacity, m.reflectivity, m.shininess, m.bumpValue, m.metallic, m.roughness,
+                   m.opacityCutoff}) {
+    h = hashCombine(h, hashDouble(v));
+  }
+  h = hashCombine(h, (m.doubleSided ? 1u : 0u) | static_cast<unsigned>(m.opacityMode) << 1);
+  h = hashBytes(m.shader, h);
+  for (const TextureMap& t : m.maps) {
+    h = hashBytes(t.path, h);
+    if (t.path.empty()) continue;
+    for (double v : {t.su, t.sv, t.tu, t.tv, t.rw}) h = hashCombine(h, hashDouble(v));
+  }
+  return h;
+}
+
+// Entries lie in blocks that never move, so that get() needs no lock.
+struct MaterialTable::Impl {
+  static constexpr uint32_t kBlock = 256, kBlocks = 1u << 14;
+  struct Entry {
+    Material material;
+    uint64_t hash = 0;
+  };
+  std::mutex mutex;
+  uint32_t count = 0;
+  std::unordered_multimap<uint64_t, MaterialId> index;
+  std::vector<std::unique_ptr<std::array<Entry, kBlock>>> blocks{kBlocks};
+
+  Entry& at(MaterialId id) { return (*blocks[id / kBlock])[id % kBlock]; }
+};
+
+MaterialTable::MaterialTable() : impl_(std::make_unique<Impl>()) { intern(Material{}); }
+MaterialTable::~MaterialTable() = default;
+
+MaterialId MaterialTable::intern(const Material& m) {
+  const uint64_t hash = contentHash(m);
+  std::lock_guard lock(impl_->mutex);
+  auto [first, last] = impl_->index.equal_range(hash);
+  for (; first != last; ++first) {
+    if (impl_->at(first->second).material == m) return first->second;
+  }
+  const MaterialId id = impl_->count++;
+  GABLE_CHECK_LT(id / Impl::kBlock, Impl::kBlocks);
+  auto& block = impl_->blocks[id / Impl::kBlock];
+  if (!block) block = std::make_unique<std::array<Impl::Entry, Impl::kBlock>>();
+  impl_->at(id) = {m, hash};
+  impl_->index.emplace(hash, id);
+  return id;
+}
+
+const Material& MaterialTable::get(MaterialId id) const { return impl_->at(id).material; }
+uint64_t MaterialTable::hashOf(MaterialId id) const { return impl_->at(id).hash; }
+
+bool parseColor(std::string_view text, Vec3& rgb, double& opacity) {
+  if ((text.size() != 7 && text.size() != 9) || text[0] != '#') return false;
+  double parts[4] = {};
+  for (size_t i = 0; 2 * i + 1 < text.size(); ++i) {
+    int value = 0;
+    for (char c : text.substr(1 + 2 * i, 2)) {
+      const int digit = c >= '0' && c <= '9'   ? c - '0'
+                        : c >= 'a' && c <= 'f' ? c - 'a' + 10
+                        : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                               : -1;
+      if (digit < 0) return false;
+      value = value * 16 + digit;
+    }
+    parts[i] = value / 255.0;
+  }
+  rgb = {parts[0], parts[1], parts[2]};
+  if (text.size() == 9) opacity = parts[3];
+  return true;
+}
+
+std::string colorText(const Vec3& rgb) {
+  static constexpr char kDigits[] = "0123456789abcdef";
+  std::string out = "#";
+  for (size_t i = 0; i < 3; ++i) {
+    const int v = static_cast<int>(std::lround(std::clamp(rgb[i], 0.0, 1.0) * 255));
+    out += kDigits[v / 16];
+    out += kDigits[v % 16];
+  }
+  return out;
+}
+
+}  // namespace gable

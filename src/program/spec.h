@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Specs: the one declaration of each operation, function, attribute and selector of the language.
+// The same spec feeds the analysis (names, arity, types, "did you mean"), the virtual machine (what
+// to call), the reference pages, `gable ops --json` and completion in editors.
+//
+// Specs are constants in the .cpp file of what they describe; a Catalogue is the list of all.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "base/status.h"
+#include "program/value.h"
+
+namespace gable {
+
+class OpCall;        // shape/op_call.h
+class FunctionCall;  // shape/function_call.h
+
+/// The type of a parameter. A size takes the prefixes ' and ~ besides a plain number.
+enum class ParamType : uint8_t {
+  Float,
+  Bool,
+  String,
+  Selector,
+  FloatArray,
+  BoolArray,
+  StringArray,
+  /// Float with ' allowed.
+  Size,
+  /// Float with ' and ~ allowed.
+  FloatingSize,
+  /// Any single value or array.
+  Any,
+};
+
+struct ParamSpec {
+  const char* name;
+  ParamType type;
+  const char* doc;
+  /// The default as it is written in CGA; null when the argument is required.
+  const char* defaultText = nullptr;
+  /// For selectors: the words allowed, separated by blanks ("x y z"); null when open.
+  const char* words = nullptr;
+};
+
+/// One way to call: its parameters in order. Trailing parameters with defaults may be left out, and
+/// the called function then sees fewer arguments: defaults are filled in by the callee.
+struct Signature {
+  std::span<const ParamSpec> params;
+  /// What a function returns; Null for operations, and for functions whose result follows the
+  /// argument (min, max).
+  ValueType result = ValueType::Null;
+  /// The last parameter may repeat any number of times.
+  bool variadic = false;
+};
+
+/// What stands in the braces after an operation.
+enum class BlockKind : uint8_t {
+  None,
+  /// { size : ops | ... } with groups and *: split, splitArea.
+  Split,
+  /// { selector op ops | ... }: comp, setback, shapeL, innerRectangle, modify.
+  Selectors,
+  /// { ops }: scatter, inline.
+  Operations,
+  /// { A | B }: union, subtract, intersect.
+  Operands,
+};
+
+/// What a result depends on besides the shape itself and the arguments, and what it does besides
+/// changing the shape. Sharing and scheduling are decided from these.
+enum Effect : uint32_t {
+  kPure = 0,
+  kReadsWorld = 1u << 0,
+  kRandom = 1u << 1,
+  /// Other shapes: inside, touches, minimumDistance.
+  kReadsContext = 1u << 2,
+  kReadsPivot = 1u << 3,
+  kUsesTrim = 1u << 4,
+  /// Registers the shape under a name or in a tree: label, getTreeKey.
+  kReadsPath = 1u << 5,
+  kReports = 1u << 6,
+  kReadsSplit = 1u << 7,
+  kReadsComp = 1u << 8,
+  kReadsInitialShape = 1u << 9,
+  kReadsUvProjection = 1u << 10,
+};
+
+struct OpSpec {
+  const char* name;
+  const char* family;
+  /// One sentence.
+  const char* summary;
+  std::span<const Signature> signatures;
+  Status (*apply)(OpCall&);
+  BlockKind block = BlockKind::None;
+  uint32_t effects = kPure;
+  /// Words of the block's own selectors besides the general ones ("shape remainder").
+  const char* blockWords = nullptr;
+  /// The block may be left out (union Rule, inline).
+  bool blockOptional = false;
+  /// A name beyond the CGA reference: the author's own rule or attribute of that name wins.
+  bool soft = false;
+};
+
+struct FunctionSpec {
+  const char* name;
+  const char* family;
+  const char* summary;
+  std::span<const Signature> signatures;
+  Value (*call)(FunctionCall&);
+  uint32_t effects = kPure;
+  /// May be written without brackets: geometry.nVertices.
+  bool bare = false;
+  bool soft = false;
+};
+
+/// A named property of the current shape: scope.sx, split.index, material.colormap.
+struct AttributeSpec {
+  const char* name;
+  ValueType type;
+  const char* doc;
+  Value (*get)(FunctionCall&);
+  /// Null when it can only be read.
+  Status (*set)(OpCall&, const Value&) = nullptr;
+  uint32_t effects = kPure;
+};
+
+/// A word that comp, setback or an argument takes: front, world.south, eave.
+struct SelectorSpec {
+  const char* name;
+  const char* doc;
+};
+
+/// All that the language offers. Lists are sorted by name; look-ups are O(log n).
+struct Catalogue {
+  std::span<const OpSpec* const> operations;
+  std::span<const FunctionSpec* const> functions;
+  std::span<const AttributeSpec* const> attributes;
+  std::span<const SelectorSpec> selectors;
+
+  const OpSpec* operation(std::string_view name) const;
+  const FunctionSpec* function(std::string_view name) const;
+  const AttributeSpec* attribute(std::string_view name) const;
+  bool isSelector(std::string_view name) const;
+};
+
+}  // namespace gable

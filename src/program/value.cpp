@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The tables of a pool are split into shards, each with its own lock; an id is shard plus index,
+// and contents lie in blocks that never move, so that readers need no lock.
+
+#include "program/value.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "base/check.h"
+
+namespace gable {
+
+ValueType elementType(ValueType array) {
+  switch (array) {
+    case ValueType::FloatArray: return ValueType::Float;
+    case ValueType::BoolArray: return ValueType::Bool;
+    case ValueType::StringArray: return ValueType::String;
+    default: return array;
+  }
+}
+
+ValueType arrayType(ValueType element) {
+  switch (element) {
+    case ValueType::Float: return ValueType::FloatArray;
+    case ValueType::Bool: return ValueType::BoolArray;
+    case ValueType::String: return ValueType::StringArray;
+    default: return element;
+  }
+}
+
+const char* typeName(ValueType t) {
+  switch (t) {
+    case ValueType::Null: return "nothing";
+    case ValueType::Float: return "float";
+    case ValueType::Bool: return "bool";
+    case ValueType::String: return "string";
+    case ValueType::Selector: return "selector";
+    case ValueType::FloatArray: return "float[]";
+    case ValueType::BoolArray: return "bool[]";
+    case ValueType::StringArray: return "string[]";
+  }
+  return "?";
+}
+
+namespace {
+
+uint64_t contentHash(const std::string& s) { return hashBytes(s); }
+uint64_t contentHash(std::string_view s) { return hashBytes(s); }
+uint64_t contentHash(const Array& a) {
+  uint64_t h = hashCombine(static_cast<uint64_t>(a.element), (uint64_t{a.rows} << 32) | a.columns);
+  for (double v : a.numbers) h = hashCombine(h, hashDouble(v));
+  for (StringId s : a.strings) h = hashCombine(h, s);
+  return h;
+}
+
+}  // namespace
+
+template <class T>
+class ValuePool::Table {
+ public:
+  template <class Key>
+  uint32_t intern(Key&& key) {
+    const uint64_t hash = contentHash(key);
+    Shard& shard = shards_[hash % kShards];
+    std::lock_guard lock(shard.mutex);
+    auto [first, last] = shard.index.equal_range(hash);
+    for (; first != last; ++first) {
+      if (shard.at(first->second) == key) return id(hash % kShards, first->second);
+    }
+    const uint32_t index = shard.count++;
+    const uint32_t block = index / kBlock;
+    GABLE_CHECK_LT(block, kBlocks);
+    if (!shard.blocks[block]) shard.blocks[block] = std::make_unique<std::array<T, kBlock>>();
+    (*shard.blocks[block])[index % kBlock] = T(std::forward<Key>(key));
+    shard.index.emplace(hash, index);
+    return id(hash % kShards, index);
+  }
+
+  const T& get(uint32_t id) const { return shards_[id % kShards].at(id / kShards); }
+
+ private:
+  static constexpr uint32_t kShards = 16, kBlock = 1024, kBlocks = 1u << 12;
+  struct Shard {
+    mutable std::mutex mutex;
+    uint32_t count = 0;
+    std::unordered_multimap<uint64_t, uint32_t> index;
+    std::vector<std::unique_ptr<std::array<T, kBlock>>> blocks{kBlocks};
+    const T& at(uint32_t i) const { return (*blocks[i / kBlock])[i % kBlock]; }
+  };
+  static uint32_t id(uint64_t shard, uint32_t index) {
+    return index * kShards + static_cast<uint32_t>(shard);
+  }
+  std::array<Shard, kShards> shards_;
+};
+
+namespace {
+constexpr StringId kEmptyText = 0;
+}
+
+ValuePool::ValuePool()
+    : strings_(std::make_unique<Table<std::string>>()), arrays_(std::make_unique<Table<Array>>()) {}
+ValuePool::~ValuePool() = default;
+
+// The empty string is id 0 without being stored; every other id is the table's plus one.
+StringId ValuePool::intern(std::string_view text) {
+  return text.empty() ? kEmptyText : strings_->intern(text) + 1;
+}
+
+std::string_view ValuePool::text(StringId id) const {
+  return id == kEmptyText ? std::string_view() : std::string_view(strings_->get(id - 1));
+}
+
+Value ValuePool::intern(Array a) {
+  const ValueType type = arrayType(a.element);
+  return Value::array(type, arrays_->intern(std::move(a)));
+}
+
+const Array& ValuePool::array(const Value& v) const { return arrays_->get(v.id); }
+
+std::string numberText(double v) {
+  if (std::isnan(v)) return "nan";
+  if (std::isinf(v)) return v > 0 ? "inf" : "-inf";
+  if (v == 0) return "0";
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g", v);
+  return text;
+}
+
+std::string ValuePool::str(const Value& v) const {
+  switch (v.type) {
+    case ValueType::Null: return "";
+    case ValueType::Float: return numberText(v.number);
+    case ValueType::Bool: return v.truth() ? "true" : "false";
+    case ValueType::String:
+    case ValueType::Selector: return std::string(text(v.id));
+    default: break;
+  }
+  const Array& a = array(v);
+  std::string out = "(" + (a.rows > 1 ? std::to_string(a.rows) + "x" : std::string()) +
+                    std::to_string(a.columns) + ")[";
+  for (size_t i = 0; i < a.size(); ++i) {
+    if (i > 0) out += i % a.columns == 0 ? ";" : ",";
+    if (a.element == ValueType::String)
+      out += text(a.strings[i]);
+    else if (a.element == ValueType::Bool)
+      out += a.numbers[i] != 0 ? "true" : "false";
+    else
+      out += numberText(a.numbers[i]);
+  }
+  return out + "]";
+}
+
+}  // namespace gable
