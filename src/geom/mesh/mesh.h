@@ -6,7 +6,9 @@
 // A face is a list of loops, the outer one first, holes after it; a loop is a run of corners; a
 // corner names a position and carries the uv coordinates of up to ten sets, an optional normal and
 // the tags of the edge that starts at it. Seen from the face's normal side the outer loop is
-// counter-clockwise and holes are clockwise. Units are metres, the frame is the owner's.
+// counter-clockwise and holes are clockwise. Units are metres, the frame is the owner's. A face of
+// one loop with two corners stands for an edge and with one corner for a point (component splits
+// make such shapes).
 //
 // Tags and materials are opaque numbers here: the folders above give them their meaning.
 // A Mesh never changes once it is shared (MeshRef); build one with MeshBuilder or edit a copy.
@@ -107,14 +109,19 @@ class MeshBuilder {
   Mesh mesh_;
 };
 
-/// A unit-less box [0,size] with outward faces in the order of CGA's primitiveCube: bottom-up rings
-/// as measured on the original runtime (faces 0321-style orders are listed in mesh.cpp), 8 shared
-/// positions and uv set 0 on each face when asked for.
+/// A box [0,size] with outward faces in the order of CGA's primitiveCube: bottom, top, front (+z),
+/// right (+x), back, left; 8 shared positions: 0..3 the bottom from the back left corner along +x,
+/// 4..7 the top above them. With uv, set 0 runs (0,0) (1,0) (1,1) (0,1) along each ring, which on
+/// the four sides is u to the right and v up seen from outside.
 Mesh makeBoxMesh(const Vec3& size, bool withUv);
 
 /// A rectangle [0,w] x [0,h]: in the xy plane (normal +z), or in the xz plane (normal +y).
 enum class QuadPlane : uint8_t { Xy, Xz };
 Mesh makeQuadMesh(double w, double h, QuadPlane plane, bool withUv);
+
+/// Turns a face round: loops keep their first corner, edge tags stay with their edges, corner
+/// normals are negated.
+void reverseFace(Mesh& m, size_t face);
 
 /// Applies a scale per axis and then a frame; turns faces round when the scale mirrors. Normals
 /// follow by the inverse transpose.

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Shoelace sums relative to the first point; even-odd point location by crossing counts with exact
+// orientation signs, so that points on an edge are never missed.
+#include "geom/region/region.h"
+
+#include <algorithm>
+
+#include "math/predicates.h"
+
+namespace gable {
+namespace {
+
+enum class Where : uint8_t { Outside, Boundary, Inside };
+
+// Counts crossings of the ray from `p` to +x. An edge counts when it spans p.y half-open, so that a
+// vertex on the ray is counted once.
+Where locate(const Ring& r, Vec2 p) {
+  bool inside = false;
+  for (size_t i = 0, j = r.size() - 1; i < r.size(); j = i++) {
+    const Vec2 a = r[j], b = r[i];
+    if (a == p || b == p) return Where::Boundary;
+    if (a.y == p.y && b.y == p.y) {
+      if (std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x)) return Where::Boundary;
+      continue;
+    }
+    if ((a.y > p.y) == (b.y > p.y)) continue;
+    const int turn = orientation(a, b, p);
+    if (turn == 0) return Where::Boundary;
+    if ((turn > 0) == (b.y > a.y)) inside = !inside;
+  }
+  return inside ? Where::Inside : Where::Outside;
+}
+
+}  // namespace
+
+double signedArea(const Ring& r) {
+  if (r.size() < 3) return 0;
+  double twice = 0;
+  for (size_t i = 1; i + 1 < r.size(); ++i) twice += cross(r[i] - r[0], r[i + 1] - r[0]);
+  return twice / 2;
+}
+
+double area(const Polygon& p) {
+  double a = std::fabs(signedArea(p.outer));
+  for (const Ring& h : p.holes) a -= std::fabs(signedArea(h));
+  return a;
+}
+
+double area(const Region& r) {
+  double a = 0;
+  for (const Polygon& p : r) a += area(p);
+  return a;
+}
+
+Box2 bounds(const Ring& r) {
+  Box2 b;
+  for (const Vec2 p : r) b.include(p);
+  return b;
+}
+
+Box2 bounds(const Polygon& p) { return bounds(p.outer); }
+
+double perimeter(const Ring& r) {
+  double l = 0;
+  for (size_t i = 0, j = r.size() - 1; i < r.size(); j = i++) l += length(r[i] - r[j]);
+  return l;
+}
+
+bool contains(const Polygon& p, Vec2 point) {
+  if (p.outer.empty()) return false;
+  const Where outer = locate(p.outer, point);
+  if (outer == Where::Boundary) return true;
+  bool inside = outer == Where::Inside;
+  for (const Ring& h : p.holes) {
+    if (h.empty()) continue;
+    const Where where = locate(h, point);
+    if (where == Where::Boundary) return true;
+    if (where == Where::Inside) inside = !inside;
+  }
+  return inside;
+}
+
+void orient(Polygon& p) {
+  if (signedArea(p.outer) < 0) std::reverse(p.outer.begin(), p.outer.end());
+  for (Ring& h : p.holes) {
+    if (signedArea(h) > 0) std::reverse(h.begin(), h.end());
+  }
+}
+
+}  // namespace gable
