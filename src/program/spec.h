@@ -18,7 +18,7 @@
 namespace gable {
 
 class OpCall;        // shape/op_call.h
-class FunctionCall;  // shape/function_call.h
+class FunctionCall;  // shape/op_call.h
 
 /// The type of a parameter. A size takes the prefixes ' and ~ besides a plain number.
 enum class ParamType : uint8_t {

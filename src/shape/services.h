@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Services: what operations and functions need from outside the shape. The runtime and the engine
+// implement it; operations know only this interface.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/ref.h"
+#include "base/status.h"
+#include "geom/mesh/mesh.h"
+#include "material/material.h"
+#include "program/value.h"
+#include "shape/shape.h"
+#include "shape/tags.h"
+
+namespace gable {
+
+/// A model that i() inserts: one mesh, its slots' materials (slot k uses materials[k]).
+struct AssetModel : RefCounted {
+  MeshRef mesh;
+  std::vector<Material> materials;
+  Box3 bounds;
+};
+
+struct ImageInfo {
+  bool found = false;
+  uint32_t width = 0, height = 0;
+  bool hasAlpha = false;
+};
+
+/// Files of the project, by the paths that rules write. `fromFile` is the rule file that names the
+/// path. A path never leads out of the project. Any thread may call; answers are cached.
+class Assets {
+ public:
+  virtual ~Assets() = default;
+  /// Null when there is no such model or it cannot be read; `why` then says which.
+  virtual Ref<AssetModel> model(std::string_view path, std::string_view fromFile, bool zUp,
+                                std::string& why) = 0;
+  virtual ImageInfo image(std::string_view path, std::string_view fromFile) = 0;
+  virtual bool exists(std::string_view path, std::string_view fromFile) = 0;
+  /// Project paths that match a pattern with $ (within a folder level) and * (any), sorted.
+  virtual std::vector<std::string> search(std::string_view pattern, std::string_view fromFile) = 0;
+  /// The text of a file, for readTextFile and tables; false when there is none.
+  virtual bool text(std::string_view path, std::string_view fromFile, std::string& out) = 0;
+  /// The project path under which the file is found; the path itself when it is not.
+  virtual std::string resolve(std::string_view path, std::string_view fromFile) = 0;
+};
+
+/// The values that set() gave to rule attributes of a shape, interned. Keys are indices of the
+/// program's attribute table. Any thread may call.
+class AttributePool {
+ public:
+  AttributePool();
+  ~AttributePool();
+  struct Entry {
+    uint32_t key;
+    Value value;
+    bool operator==(const Entry&) const = default;
+  };
+  /// Sorted by key. Set 0 is empty.
+  const std::vector<Entry>& entries(uint32_t set) const;
+  const Value* find(uint32_t set, uint32_t key) const;
+  uint32_t with(uint32_t set, uint32_t key, const Value& value);
+
+  /// Lists of materials for the slots of inserted models; list 0 is empty.
+  const std::vector<MaterialId>& materials(uint32_t list) const;
+  uint32_t internMaterials(std::vector<MaterialId> list);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The initial shape that a derivation started from.
+struct InitialShapeInfo {
+  std::string name;
+  std::string startRule;
+  /// The object frame in the world.
+  Frame origin;
+  double seed = 0;
+  uint32_t index = 0;
+  /// The shape as it was given, in the object frame; for resetGeometry and edge attributes.
+  Shape shape;
+};
+
+/// Which occluders a context query looks at.
+enum class ContextScope : uint8_t { Intra, Inter, All };
+enum class ContextTest : uint8_t { Inside, Overlaps, Touches };
+
+class Services {
+ public:
+  virtual ~Services() = default;
+
+  ValuePool& pool() const { return *pool_; }
+  MaterialTable& materials() const { return *materials_; }
+  AttributePool& attributes() const { return *attributes_; }
+  TagTable& tags() const { return *tags_; }
+  Assets& assets() const { return *assets_; }
+
+  virtual const InitialShapeInfo& initialShape() const = 0;
+  /// Where the local frame of the present rule call lies in the world.
+  virtual const Frame& world() const = 0;
+
+  virtual void report(StringId key, const Value& value) = 0;
+  virtual void print(std::string text) = 0;
+  /// A warning at the present instruction, with the shape's path.
+  virtual void warn(const char* code, std::string message, std::string hint) = 0;
+
+  /// Context queries; labels are by name, 0 for any occluder.
+  virtual bool query(ContextTest test, ContextScope scope, StringId label, const Shape& shape) = 0;
+  virtual double minimumDistance(ContextScope scope, StringId label, const Shape& shape) = 0;
+  virtual double contextCount(ContextScope scope, StringId label) = 0;
+  virtual void label(StringId name, const Shape& shape) = 0;
+  /// The path of the present shape in the shape tree ("0;0;1;").
+  virtual std::string treeKey() const = 0;
+
+ protected:
+  ValuePool* pool_ = nullptr;
+  MaterialTable* materials_ = nullptr;
+  AttributePool* attributes_ = nullptr;
+  TagTable* tags_ = nullptr;
+  Assets* assets_ = nullptr;
+};
+
+}  // namespace gable

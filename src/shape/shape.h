@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Shape: what a rule sees and rewrites. A small value: a scope (an oriented box), a pivot, a geometry
+// handle, and interned material and attributes. Copying one allocates nothing.
+//
+// Frames. Scope and pivot lie in the local frame of the rule call that works on the shape; the
+// runtime knows where that frame lies in the world (OpCall::world). A point p of the scope lies at
+// scope.point(p); the scope covers [0,size] of its own axes. Sizes may be negative (a mirrored
+// scope) or zero (a face, an edge, a point).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/ref.h"
+#include "geom/mesh/mesh.h"
+#include "material/material.h"
+#include "math/frame.h"
+#include "program/value.h"
+
+namespace gable {
+
+/// A box or a rectangle stays a primitive until an operation needs polygons.
+enum class GeometryKind : uint8_t {
+  None,
+  /// [0,sx] x [0,sy] in the plane z = 0 of the scope, normal +z.
+  QuadXy,
+  /// [0,sx] x [0,sz] in the plane y = 0, normal +y.
+  QuadXz,
+  /// Fills the scope.
+  Box,
+  /// `mesh` in scope coordinates, made when the scope had the size `refSize`: a position lies at
+  /// p * size / refSize (component by component; by 1 where refSize is 0).
+  Mesh,
+};
+
+struct Geometry {
+  GeometryKind kind = GeometryKind::None;
+  /// A primitive that carries uv set 0 (each face 0..1). Meshes have their own.
+  bool uv = false;
+  Vec3 refSize;
+  MeshRef mesh;
+};
+
+/// A half-space dot(normal, p) <= distance, in the frame of the shape that carries it.
+struct TrimPlane {
+  Vec3 normal;
+  double distance = 0;
+  /// Of an edge under 40 degrees to the pivot's ground plane.
+  bool horizontal = false;
+};
+
+/// A prepared planar projection (setupProjection), in the frame of the shape that carries it:
+/// u = dot(p - origin, frame.x) / width + offsetU, v likewise with y; uwFactor adds dot(.., z).
+struct UvProjection {
+  bool present = false;
+  Frame frame;
+  double width = 1, height = 1, offsetU = 0, offsetV = 0, uwFactor = 0;
+};
+
+/// What few shapes carry. Immutable once shared; frames as the shape's.
+struct ShapeExtra : RefCounted {
+  std::vector<TrimPlane> trim;
+  std::array<UvProjection, kUvSets> projections;
+};
+
+struct IndexInfo {
+  uint32_t index = 0;
+  uint32_t total = 0;
+};
+
+struct Shape {
+  Frame scope;
+  Vec3 size;
+  Frame pivot;
+  Geometry geometry;
+  MaterialId material = 0;
+  /// 0, or an id of AttributePool's material lists: the materials of the mesh's slots 1, 2, ...
+  uint32_t assetMaterials = 0;
+  /// An id of the AttributePool: the attributes that set() changed.
+  uint32_t attributes = 0;
+  bool trimVertical = true;
+  bool trimHorizontal = false;
+  IndexInfo split;
+  IndexInfo comp;
+  StringId compSelector = 0;
+  /// The address of the shape for randomness; see base/random.h.
+  uint64_t path = 0;
+  Ref<ShapeExtra> extra;
+};
+
+/// The geometry in scope coordinates at the present size (mirrored when a size is negative), as a
+/// mesh. Shares the stored mesh when no scaling is needed. O(size of the mesh).
+MeshRef meshInScope(const Shape& s);
+
+/// The same in the shape's local frame (scope applied).
+Mesh meshInLocal(const Shape& s);
+
+/// What becomes of the scope when the geometry changes.
+enum class ScopeFit : uint8_t {
+  /// Origin, axes and size stay.
+  Keep,
+  /// The scope becomes the bounding box of the new geometry along its present axes.
+  Refit,
+};
+
+/// Gives the shape a mesh in scope coordinates. Meshes that are exactly a rectangle or a box that
+/// fills the scope become primitives again.
+void setMesh(Shape& s, Mesh mesh, ScopeFit fit);
+void setMesh(Shape& s, MeshRef mesh, ScopeFit fit);
+
+/// Puts the scope of a shape to `frame` (in the local frame) with its geometry where it is; the size
+/// becomes the bounding box along the new axes, and the origin its lower corner. A shape without
+/// geometry keeps the box of its old scope.
+void alignScope(Shape& s, const Frame& axes);
+
+/// The extra of `s` for editing: a copy of its own. Put it back with s.extra = makeRef(...).
+ShapeExtra extraOf(const Shape& s);
+
+/// Faces, edges and positions of the geometry without making a mesh of primitives.
+struct GeometryCounts {
+  uint32_t faces = 0, edges = 0, vertices = 0, holes = 0;
+};
+GeometryCounts countsOf(const Geometry& g);
+
+}  // namespace gable
