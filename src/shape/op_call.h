@@ -3,8 +3,8 @@
 //
 // OpCall and FunctionCall: what an operation or a function is given when it runs.
 //
-// An operation edits shape() in place, or gives out child shapes with emit(); it returns a Status. On
-// failure it must leave shape() as it was and emit nothing. After an operation that emitted, the
+// An operation edits shape() in place, or gives out child shapes with emit(); it returns a Status.
+// On failure it must leave shape() as it was and emit nothing. After an operation that emitted, the
 // children run in the order of emission, each on the block slot it was given.
 #pragma once
 
@@ -41,8 +41,8 @@ struct SplitBlock {
   bool repeat = false;
 };
 
-/// How a selector item spreads what it selects: `:` one shape each, `=` all in one, `=:` one for each
-/// connected set.
+/// How a selector item spreads what it selects: `:` one shape each, `=` all in one, `=:` one for
+/// each connected set.
 enum class SelectOperator : uint8_t { Each, All, Connected };
 
 /// A node of a selector expression, in postfix order within SelectorItem.

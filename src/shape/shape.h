@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Shape: what a rule sees and rewrites. A small value: a scope (an oriented box), a pivot, a geometry
-// handle, and interned material and attributes. Copying one allocates nothing.
+// Shape: what a rule sees and rewrites. A small value: a scope (an oriented box), a pivot, a
+// geometry handle, and interned material and attributes. Copying one allocates nothing.
 //
 // Frames. Scope and pivot lie in the local frame of the rule call that works on the shape; the
 // runtime knows where that frame lies in the world (OpCall::world). A point p of the scope lies at
@@ -111,9 +111,9 @@ enum class ScopeFit : uint8_t {
 void setMesh(Shape& s, Mesh mesh, ScopeFit fit);
 void setMesh(Shape& s, MeshRef mesh, ScopeFit fit);
 
-/// Puts the scope of a shape to `frame` (in the local frame) with its geometry where it is; the size
-/// becomes the bounding box along the new axes, and the origin its lower corner. A shape without
-/// geometry keeps the box of its old scope.
+/// Puts the scope of a shape to `frame` (in the local frame) with its geometry where it is; the
+/// size becomes the bounding box along the new axes, and the origin its lower corner. A shape
+/// without geometry keeps the box of its old scope.
 void alignScope(Shape& s, const Frame& axes);
 
 /// The extra of `s` for editing: a copy of its own. Put it back with s.extra = makeRef(...).

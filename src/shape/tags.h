@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Tags: names on faces and edges of a mesh (roof.eave, extrude.top, a user's own). A mesh carries the
-// id of an interned set; the table gives the names. Id 0 is the empty set. Any thread may call.
+// Tags: names on faces and edges of a mesh (roof.eave, extrude.top, a user's own). A mesh carries
+// the id of an interned set; the table gives the names. Id 0 is the empty set. Any thread may call.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "builtins/selectors.h"
+
+namespace gable {
+
+namespace {
+
+constexpr SelectorSpec kWords[] = {
+    {"all", "Every component not selected before."},
+    {"front", "Normal nearest to the scope's +z."},
+    {"back", "Normal nearest to the scope's -z."},
+    {"left", "Normal nearest to the scope's -x."},
+    {"right", "Normal nearest to the scope's +x."},
+    {"top", "Normal nearest to the scope's +y."},
+    {"bottom", "Normal nearest to the scope's -y."},
+    {"object.front", "As front, by the axes of the initial shape."},
+    {"object.back", "As back, by the axes of the initial shape."},
+    {"object.left", "As left, by the axes of the initial shape."},
+    {"object.right", "As right, by the axes of the initial shape."},
+    {"object.top", "As top, by the axes of the initial shape."},
+    {"object.bottom", "As bottom, by the axes of the initial shape."},
+    {"object.side", "All but top and bottom, by the axes of the initial shape."},
+    {"world.south", "Normal nearest to the world's +z."},
+    {"world.north", "Normal nearest to the world's -z."},
+    {"world.west", "Normal nearest to the world's -x."},
+    {"world.east", "Normal nearest to the world's +x."},
+    {"world.up", "Normal nearest to the world's +y."},
+    {"world.down", "Normal nearest to the world's -y."},
+    {"world.side", "All but up and down, by the world's axes."},
+    {"horizontal", "Normal over 78.75 degrees from the scope's ground plane."},
+    {"vertical", "Normal within 11.25 degrees of the scope's ground plane."},
+    {"aslant", "Normal between 11.25 and 78.75 degrees above the scope's ground plane."},
+    {"nutant", "Normal between 11.25 and 78.75 degrees below the scope's ground plane."},
+    {"side", "All but horizontal."},
+    {"border", "Edges at one face, or faces that have such an edge."},
+    {"inside", "Edges between faces, or faces that have only such edges."},
+    {"eave", "Level edges at the foot of a roof."},
+    {"hip", "Slanted convex edges of a roof."},
+    {"valley", "Slanted concave edges of a roof."},
+    {"ridge", "Level edges at the top of a roof."},
+    {"street.front", "The edge or face at the widest street, else object.front."},
+    {"street.back", "Away from streets, opposite the front, else object.back."},
+    {"street.left", "Left of the street front, else object.left."},
+    {"street.right", "Right of the street front, else object.right."},
+    {"street.side", "All edges at streets, else object.side."},
+    {"streetSide", "The older word for street.side."},
+    {"noStreetSide", "Edges that are not at a street."},
+    {"uv.left", "Edges at the lower u border of the texture space."},
+    {"uv.right", "Edges at the upper u border of the texture space."},
+    {"uv.top", "Edges at the upper v border of the texture space."},
+    {"uv.bottom", "Edges at the lower v border of the texture space."},
+    {"uv.uMin", "Edges at the least u."},
+    {"uv.uMax", "Edges at the greatest u."},
+    {"uv.vMin", "Edges at the least v."},
+    {"uv.vMax", "Edges at the greatest v."},
+    {"shape", "The part that the operation makes."},
+    {"remainder", "What the operation leaves."},
+};
+
+}  // namespace
+
+const std::span<const SelectorSpec> kSelectors = kWords;
+
+}  // namespace gable

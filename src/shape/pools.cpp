@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include <algorithm>
+
+#include "base/hash.h"
+#include "base/interned.h"
+#include "shape/services.h"
+#include "shape/tags.h"
+
+namespace gable {
+
+struct TagTable::Impl {
+  ValuePool& pool;
+  Interned<std::vector<StringId>> sets;
+};
+
+TagTable::TagTable(ValuePool& pool) : impl_(new Impl{pool, {}}) { intern({}); }
+TagTable::~TagTable() = default;
+
+const std::vector<StringId>& TagTable::names(TagSetId set) const { return impl_->sets.get(set); }
+
+TagSetId TagTable::intern(std::vector<StringId> names) {
+  std::sort(names.begin(), names.end(),
+            [&](StringId a, StringId b) { return impl_->pool.text(a) < impl_->pool.text(b); });
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  uint64_t hash = names.size();
+  for (StringId s : names) hash = hashCombine(hash, s);
+  return impl_->sets.intern(hash, names);
+}
+
+TagSetId TagTable::of(std::string_view name) { return intern({impl_->pool.intern(name)}); }
+
+TagSetId TagTable::with(TagSetId set, std::string_view name) {
+  std::vector<StringId> all = names(set);
+  all.push_back(impl_->pool.intern(name));
+  return intern(std::move(all));
+}
+
+bool TagTable::has(TagSetId set, std::string_view name) const {
+  const auto& all = names(set);
+  return std::any_of(all.begin(), all.end(),
+                     [&](StringId s) { return impl_->pool.text(s) == name; });
+}
+
+struct AttributePool::Impl {
+  Interned<std::vector<Entry>> sets;
+  Interned<std::vector<MaterialId>> lists;
+};
+
+namespace {
+uint64_t hashOf(const std::vector<AttributePool::Entry>& entries) {
+  uint64_t h = entries.size();
+  for (const auto& e : entries) h = hashCombine(hashCombine(h, e.key), e.value.hash());
+  return h;
+}
+}  // namespace
+
+AttributePool::AttributePool() : impl_(std::make_unique<Impl>()) {
+  impl_->sets.intern(0, {});
+  impl_->lists.intern(0, {});
+}
+AttributePool::~AttributePool() = default;
+
+const std::vector<AttributePool::Entry>& AttributePool::entries(uint32_t set) const {
+  return impl_->sets.get(set);
+}
+
+const Value* AttributePool::find(uint32_t set, uint32_t key) const {
+  const auto& all = entries(set);
+  const auto at = std::lower_bound(all.begin(), all.end(), key,
+                                   [](const Entry& e, uint32_t k) { return e.key < k; });
+  return at != all.end() && at->key == key ? &at->value : nullptr;
+}
+
+uint32_t AttributePool::with(uint32_t set, uint32_t key, const Value& value) {
+  std::vector<Entry> all = entries(set);
+  const auto at = std::lower_bound(all.begin(), all.end(), key,
+                                   [](const Entry& e, uint32_t k) { return e.key < k; });
+  if (at != all.end() && at->key == key)
+    at->value = value;
+  else
+    all.insert(at, {key, value});
+  return impl_->sets.intern(hashOf(all), all);
+}
+
+const std::vector<MaterialId>& AttributePool::materials(uint32_t list) const {
+  return impl_->lists.get(list);
+}
+
+uint32_t AttributePool::internMaterials(std::vector<MaterialId> list) {
+  uint64_t h = list.size();
+  for (MaterialId m : list) h = hashCombine(h, m);
+  return impl_->lists.intern(h, list);
+}
+
+}  // namespace gable
