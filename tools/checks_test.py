@@ -1,0 +1,185 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The Gable authors
+"""Each check objects to what it is there to object to, and to nothing else."""
+import tempfile
+import unittest
+from pathlib import Path
+
+import check
+from checks import layers, links, ops, pictures, sizes, words
+from checks.tree import Tree, code_of, comments_of
+
+HEAD = "// SPDX-License-Identifier: Apache-2.0\n// SPDX-FileCopyrightText: The Gable authors\n"
+RULE = """
+[layers]
+base = []
+geom = ["base"]
+engine = ["*"]
+[tests]
+geom = ["engine"]
+[test_only]
+prefixes = ["gtest/"]
+[third_party]
+"clipper.hpp" = "src/geom/clip.cpp"
+"""
+
+
+class CheckCase(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.root = Path(self.folder.name)
+        self.write("tools/layers.toml", RULE)
+        self.write("src/geom/clip.cpp", HEAD)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def write(self, path, text):
+        full = self.root / path
+        full.parent.mkdir(parents=True, exist_ok=True)
+        full.write_text(text, encoding="utf-8")
+
+    def messages(self, module):
+        return [str(finding) for finding in module.check(Tree(self.root))]
+
+
+class LayersTest(CheckCase):
+    def testAcceptsWhatTheTableAllows(self):
+        self.write("src/base/a.h", "#include <vector>\n#include <sys/stat.h>\n")
+        self.write("src/geom/b.h", '#include "base/a.h"\n')
+        self.write("src/geom/clip.cpp", '#include "geom/b.h"\n#include <clipper.hpp>\n')
+        self.write("src/engine/c.cpp", '#include "geom/b.h"\n#include "base/a.h"\n')
+        self.assertEqual(self.messages(layers), [])
+
+    def testRejectsALayerAbove(self):
+        self.write("src/geom/b.h", "")
+        self.write("src/base/a.h", '#include <string>\n#include "geom/b.h"\n')
+        self.assertEqual(self.messages(layers),
+                         ["src/base/a.h:2: base may not include geom (src/geom/b.h)"])
+
+    def testAllowsToTestsOnlyWhatTheTableSays(self):
+        self.write("src/engine/e.h", "")
+        self.write("src/geom/b_test.cpp", '#include "engine/e.h"\n#include <gtest/gtest.h>\n')
+        self.assertEqual(self.messages(layers), [])
+        self.write("src/geom/b.cpp", '#include "engine/e.h"\n#include <gtest/gtest.h>\n')
+        self.assertEqual(len(self.messages(layers)), 2)
+
+    def testRejectsAThirdPartyHeaderOutsideItsOwner(self):
+        self.write("src/geom/other.cpp", "#include <clipper.hpp>\n")
+        self.write("src/geom/json.cpp", "#include <nlohmann/json.hpp>\n")
+        found = self.messages(layers)
+        self.assertIn("src/geom/other.cpp:1: <clipper.hpp> belongs to src/geom/clip.cpp alone", found)
+        self.assertIn("src/geom/json.cpp:1: <nlohmann/json.hpp> has no owner in tools/layers.toml",
+                      found)
+
+    def testRejectsSourcesMissingFilesAndRings(self):
+        self.write("src/geom/a.cpp", "")
+        self.write("src/geom/b.cpp", '#include "geom/a.cpp"\n#include "geom/none.h"\n')
+        self.write("src/geom/x.h", '#include "geom/y.h"\n')
+        self.write("src/geom/y.h", '#include "geom/x.h"\n')
+        found = self.messages(layers)
+        self.assertIn("src/geom/b.cpp:1: includes the source file src/geom/a.cpp", found)
+        self.assertIn('src/geom/b.cpp:2: no file "geom/none.h"', found)
+        self.assertIn("src/geom/y.h:1: includes src/geom/x.h, which includes it", found)
+        self.assertEqual(len(found), 3)
+
+    def testRejectsAFolderWithoutALine(self):
+        self.write("src/base/a.h", "")
+        self.write("src/extra/b.h", '#include "base/a.h"\n')
+        self.assertEqual(self.messages(layers),
+                         ["src/extra/b.h:1: the folder extra has no line in tools/layers.toml"])
+
+
+class SizesTest(CheckCase):
+    def testCountsFunctionsAndFiles(self):
+        body = "  x += 1;\n" * 99
+        self.write("src/base/a.cpp", "namespace n {\nclass C {\nvoid long_(int a = f({1})) {\n" + body +
+                   "}\nint ok() { return '{'; }\n};\n}\n")
+        self.assertEqual(self.messages(sizes),
+                         ["src/base/a.cpp:3: long_ has 101 lines; 100 is the end"])
+        self.write("src/base/a.cpp", "int a;\n" * 801)
+        self.assertEqual(self.messages(sizes), ["src/base/a.cpp: 801 lines; 800 is the end"])
+
+    def testSeesPastInitialisersOfMembers(self):
+        body = "  x += 1;\n" * 99
+        self.write("src/base/a.cpp", "C::C() : a_{1}, b_(2) {\n" + body + "}\n")
+        self.assertEqual(self.messages(sizes),
+                         ["src/base/a.cpp:1: C::C has 101 lines; 100 is the end"])
+
+    def testLeavesTablesAndNamespacesAlone(self):
+        rows = "  {1, 2},\n" * 120
+        self.write("src/base/a.cpp", "namespace {\nconst int kTable[][2] = {\n" + rows +
+                   "};\nauto kMade = make({\n" + rows + "});\n}\nint f() { return 1; }\n")
+        self.assertEqual(self.messages(sizes), [])
+
+    def testCountsPythonFunctions(self):
+        self.write("tools/a.py", "def f():\n" + "    x = 1\n" * 100)
+        self.assertEqual(self.messages(sizes), ["tools/a.py:1: f has 101 lines; 100 is the end"])
+
+
+class WordsTest(CheckCase):
+    def testRejectsMissingHeadsAndForbiddenWords(self):
+        self.write("src/base/a.cpp", HEAD + "// The caf\u00e9.\nconst char* k = \"caf\u00e9\";\n")
+        self.write("src/base/b.cpp", "int b;\n")
+        self.write("docs/c.md", "See /home" "/me/x and issue" " #12.\n\nTO" "DO\n")
+        found = self.messages(words)
+        self.assertIn("src/base/a.cpp:3: a comment that is not ASCII", found)
+        self.assertIn("src/base/b.cpp:1: the two SPDX lines are missing", found)
+        self.assertEqual(len([f for f in found if f.startswith("docs/c.md")]), 3)
+        self.assertEqual(len(found), 5)
+
+
+class LinksTest(CheckCase):
+    def testFollowsFilesAndHeadings(self):
+        self.write("a.md", "# One two\n[x](b.md) [y](#one-two) [z](https://example.org) `[n](no)`\n"
+                           "![p](p.png)\n```\n[n](no.md)\n```\n")
+        self.write("b.md", "[back](a.md#one-two)\n")
+        self.write("p.png", "")
+        self.assertEqual(self.messages(links), [])
+        self.write("b.md", "[a](a.md#three)\n[c](c.md)\n[q](../a.md)\n")
+        self.assertEqual(self.messages(links), ["b.md:1: no heading #three in a.md",
+                                                "b.md:2: no file c.md", "b.md:3: no file ../a.md"])
+
+
+class PicturesAndOpsTest(CheckCase):
+    def testWeighsPictures(self):
+        self.write("docs/a.png", "x" * 400_001)
+        self.write("docs/b.png", "x" * 400_000)
+        self.assertEqual(len(self.messages(pictures)), 1)
+
+    def testWantsAllThreePartsOfAnOperation(self):
+        for part in ("cpp", "test", "md"):
+            self.write(f"src/builtins/ops/build/roof.{part}", "")
+        self.assertEqual(self.messages(ops), [])
+        self.write("src/builtins/ops/build/wall.cpp", "")
+        self.write("src/builtins/functions/maths/page.md", "")
+        self.assertEqual(self.messages(ops),
+                         ["src/builtins/ops/build/wall.test: is missing",
+                          "src/builtins/ops/build/wall.md: is missing",
+                          "src/builtins/functions/maths/page.cpp: is missing",
+                          "src/builtins/functions/maths/page.test: is missing"])
+
+
+class ExceptionsTest(CheckCase):
+    def testOverlooksWhatIsNamedAndReportsWhatIsStale(self):
+        self.write("src/base/a.cpp", "int a;\n" * 801)
+        self.write("tools/exceptions.txt", "sizes src/base/a.cpp a table\n")
+        tree = Tree(self.root)
+        self.assertEqual(check.run(tree, ["sizes"]), [])
+        self.write("tools/exceptions.txt", "sizes src/base/a.cpp a table\nsizes src/b.cpp why\nsizes x\n")
+        found = [str(f) for f in check.run(Tree(self.root), ["sizes"])]
+        self.assertEqual(found, ["tools/exceptions.txt:3: expected: check, file, reason",
+                                 "tools/exceptions.txt:2: src/b.cpp needs no exception any more"])
+
+
+class TokensTest(unittest.TestCase):
+    def testTellsCodeFromCommentsAndLiterals(self):
+        text = 'int a = 1\'000; // one {\nauto b = R"x(// no {)x"; char c = \'{\'; /* two */\n'
+        self.assertEqual([c for _, c in comments_of(text)], ["// one {", "/* two */"])
+        self.assertNotIn("{", code_of(text))
+        self.assertEqual(len(code_of(text)), len(text))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// node validate.mjs FILE-OR-FOLDER...: runs the Khronos validator over .glb and .gltf files. Exit status 0
+// when none has an error or a warning, 1 when one has, 3 when nothing was there to look at. Infos and hints
+// are counted only. The validator is read from build/validate, where ./test installs it, or from the folder
+// that GABLE_VALIDATOR names.
+import { createRequire } from "node:module";
+import { readFileSync, readdirSync, statSync } from "node:fs";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const home = process.env.GABLE_VALIDATOR ?? resolve(here, "../../build/validate");
+const validator = createRequire(join(home, "package.json"))("gltf-validator");
+
+/** All model files at or below a path, sorted. */
+function modelsAt(path) {
+  if (!statSync(path).isDirectory()) return [path];
+  return readdirSync(path)
+    .sort()
+    .flatMap((name) => {
+      const child = join(path, name);
+      if (statSync(child).isDirectory()) return modelsAt(child);
+      return /\.(glb|gltf)$/.test(name) ? [child] : [];
+    });
+}
+
+const kSeverity = ["error", "warning", "info", "hint"];
+
+/** Prints what is wrong with one file; returns whether it is clean. */
+async function isClean(path) {
+  const report = await validator.validateBytes(new Uint8Array(readFileSync(path)), {
+    uri: path,
+    maxIssues: 100,
+    externalResourceFunction: async (uri) =>
+      new Uint8Array(readFileSync(join(dirname(path), decodeURIComponent(uri)))),
+  });
+  const { numErrors, numWarnings, numInfos, messages } = report.issues;
+  console.log(`${path}: ${numErrors} errors, ${numWarnings} warnings, ${numInfos} infos`);
+  for (const m of messages.filter((each) => each.severity < 2).slice(0, 20)) {
+    console.log(`  ${kSeverity[m.severity]}: ${m.code} ${m.pointer ?? ""} ${m.message}`);
+  }
+  return numErrors === 0 && numWarnings === 0;
+}
+
+const files = process.argv.slice(2).flatMap(modelsAt);
+if (files.length === 0) {
+  console.error("validate.mjs: no .glb or .gltf file was given");
+  process.exit(3);
+}
+let clean = true;
+for (const file of files) clean = (await isClean(file)) && clean;
+process.exit(clean ? 0 : 1);
