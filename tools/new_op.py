@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The Gable authors
+"""Begins an operation: tools/new_op.py FAMILY NAME, for example `tools/new_op.py build roofDome`.
+
+Writes src/builtins/ops/FAMILY/NAME.cpp with its specification and an empty body, a .test whose case
+fails until the body does something, and the .md page for users. Then: write the case first, make it
+pass, write the page. CONTRIBUTING.md tells the rest.
+"""
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+OPS = "src/builtins/ops"
+
+SOURCE = """// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// How {name} works, and on what paper where there is one.
+
+#include "builtins/lists.h"
+#include "shape/op_call.h"
+
+namespace gable {{
+
+namespace {{
+
+Status apply(OpCall& call) {{
+  const double distance = call.number(0);
+  (void)distance;
+  return {{}};
+}}
+
+constexpr ParamSpec kParams[] = {{
+    {{"distance", ParamType::Float, "What the number means, in metres."}},
+}};
+constexpr Signature kSignatures[] = {{{{kParams}}}};
+
+constexpr OpSpec kSpecs[] = {{
+    {{"{name}", "{family}", "One sentence that says what it does to the shape.", kSignatures, apply}},
+}};
+
+}}  // namespace
+
+extern const OpList kOps_{stem};
+const OpList kOps_{stem} = kSpecs;
+
+}}  // namespace gable
+"""
+
+CASE = """== {name}DoesWhatItsNameSays
+rule:
+  Lot --> {name}(1) Done
+shape: lot 4x5
+expect:
+  leaves Done 1
+  area Done 0
+  diagnostics none
+"""
+
+PAGE = """What {name} is for, in one or two sentences a rule author understands.
+
+## Example
+
+```cga
+Lot --> {name}(1) Done
+```
+
+## Notes
+
+What happens at the limits: a distance of zero, a shape with holes, a shape that is not flat.
+"""
+
+
+def snake(name):
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
+
+
+def main():
+    if len(sys.argv) != 3 or not re.fullmatch(r"[a-z_]+", sys.argv[1]) or not re.fullmatch(
+            r"[a-z][A-Za-z0-9]*", sys.argv[2]):
+        print(__doc__, file=sys.stderr)
+        return 2
+    family, name = sys.argv[1:]
+    stem = snake(name)
+    taken = sorted((ROOT / OPS).glob(f"*/{stem}.cpp"))
+    if taken:
+        print(f"{taken[0].relative_to(ROOT)} is there already", file=sys.stderr)
+        return 1
+    folder = ROOT / OPS / family
+    folder.mkdir(parents=True, exist_ok=True)
+    for suffix, text in (("cpp", SOURCE), ("test", CASE), ("md", PAGE)):
+        path = folder / f"{stem}.{suffix}"
+        path.write_text(text.format(name=name, family=family, stem=stem), encoding="utf-8")
+        print(path.relative_to(ROOT))
+    print(f"Next: write the case in {stem}.test, then ./test case.{stem}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
