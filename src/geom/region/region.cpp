@@ -10,9 +10,6 @@
 #include "math/predicates.h"
 
 namespace gable {
-namespace {
-
-enum class Where : uint8_t { Outside, Boundary, Inside };
 
 // Counts crossings of the ray from `p` to +x. An edge counts when it spans p.y half-open, so that a
 // vertex on the ray is counted once.
@@ -33,7 +30,18 @@ Where locate(const Ring& r, Vec2 p) {
   return inside ? Where::Inside : Where::Outside;
 }
 
-}  // namespace
+Where locate(const Polygon& p, Vec2 point) {
+  Where where = locate(p.outer, point);
+  for (const Ring& h : p.holes) {
+    if (where == Where::Boundary) return where;
+    const Where inHole = locate(h, point);
+    if (inHole == Where::Boundary) return inHole;
+    if (inHole == Where::Inside) {
+      where = where == Where::Inside ? Where::Outside : Where::Inside;
+    }
+  }
+  return where;
+}
 
 double signedArea(const Ring& r) {
   if (r.size() < 3) return 0;
@@ -68,19 +76,7 @@ double perimeter(const Ring& r) {
   return l;
 }
 
-bool contains(const Polygon& p, Vec2 point) {
-  if (p.outer.empty()) return false;
-  const Where outer = locate(p.outer, point);
-  if (outer == Where::Boundary) return true;
-  bool inside = outer == Where::Inside;
-  for (const Ring& h : p.holes) {
-    if (h.empty()) continue;
-    const Where where = locate(h, point);
-    if (where == Where::Boundary) return true;
-    if (where == Where::Inside) inside = !inside;
-  }
-  return inside;
-}
+bool contains(const Polygon& p, Vec2 point) { return locate(p, point) != Where::Outside; }
 
 void orient(Polygon& p) {
   if (signedArea(p.outer) < 0) std::reverse(p.outer.begin(), p.outer.end());

@@ -32,7 +32,12 @@ double area(const Region& r);
 Box2 bounds(const Ring& r);
 Box2 bounds(const Polygon& p);
 double perimeter(const Ring& r);
-/// Inside or on the boundary (even-odd over all rings).
+/// Where a point lies, decided with exact signs; O(n). An empty ring has everything outside.
+enum class Where : uint8_t { Outside, Boundary, Inside };
+Where locate(const Ring& r, Vec2 point);
+/// Even-odd over all rings.
+Where locate(const Polygon& p, Vec2 point);
+/// Inside or on the boundary.
 bool contains(const Polygon& p, Vec2 point);
 /// Outer counter-clockwise, holes clockwise.
 void orient(Polygon& p);

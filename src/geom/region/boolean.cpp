@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Clipper 6.4.2 (Vatti's sweep, "A generic solution to polygon clipping", 1992) does the work on
+// integers. Its results may touch or cross by a rounding step; so they are welded at one grid unit
+// and united again until the exact validity test agrees, which one round almost always reaches.
+// Then surviving input points get their own coordinates back, unless that would break validity.
+#include "geom/region/boolean.h"
+
+#include <algorithm>
+#include <cmath>
+#include <polyclipping/clipper.hpp>
+
+#include "geom/region/clean.h"
+
+namespace gable {
+namespace {
+
+using ClipperLib::cInt;
+using ClipperLib::IntPoint;
+using ClipperLib::Paths;
+
+// Rounds of weld and union before the result is taken as it is.
+constexpr int kMaxRounds = 6;
+// Grid coordinates stay below Clipper's limit of 2^62; beyond this extent the grid gets coarser.
+constexpr double kMaxUnits = 0x1.0p52;
+
+bool isFinite(const Ring& r) {
+  return std::all_of(r.begin(), r.end(),
+                     [](Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); });
+}
+
+// The grid around a local origin, and the input points by their grid place.
+class Grid {
+ public:
+  void include(const std::vector<Ring>& rings) {
+    for (const Ring& r : rings) {
+      if (!isFinite(r)) continue;
+      for (const Vec2 p : r) box_.include(p);
+    }
+  }
+  // Chooses the origin: whole metres, so that grid points are exact in map coordinates too.
+  void settle() {
+    if (box_.empty()) return;
+    const Vec2 c = box_.min * 0.5 + box_.max * 0.5;
+    origin_ = {std::floor(c.x), std::floor(c.y)};
+    const double extent = std::max(box_.size().x, box_.size().y);
+    while (extent / unit_ > kMaxUnits) unit_ *= 2;
+  }
+  Paths toPaths(const std::vector<Ring>& rings) {
+    Paths out;
+    for (const Ring& r : rings) {
+      if (r.size() < 2 || !isFinite(r)) continue;
+      ClipperLib::Path path;
+      for (const Vec2 p : r) {
+        const IntPoint q = toGrid(p);
+        originals_.push_back({q, p, originals_.size()});
+        if (path.empty() || path.back() != q) path.push_back(q);
+      }
+      out.push_back(std::move(path));
+    }
+    return out;
+  }
+  // Call after the last toPaths.
+  void sortOriginals() {
+    std::sort(originals_.begin(), originals_.end(), [](const Original& a, const Original& b) {
+      if (a.at.X != b.at.X) return a.at.X < b.at.X;
+      if (a.at.Y != b.at.Y) return a.at.Y < b.at.Y;
+      return a.order < b.order;
+    });
+  }
+  double unit() const { return unit_; }
+  Vec2 fromGrid(Vec2 q) const { return {origin_.x + q.x * unit_, origin_.y + q.y * unit_}; }
+  // The input point at a grid place; `order` is its number in the input.
+  bool original(Vec2 q, Vec2& point, size_t& order) const {
+    const IntPoint key(static_cast<cInt>(q.x), static_cast<cInt>(q.y));
+    const auto it = std::lower_bound(originals_.begin(), originals_.end(), key,
+                                     [](const Original& o, const IntPoint& k) {
+                                       return o.at.X != k.X ? o.at.X < k.X : o.at.Y < k.Y;
+                                     });
+    if (it == originals_.end() || it->at != key) return false;
+    point = it->point;
+    order = it->order;
+    return true;
+  }
+
+ private:
+  struct Original {
+    IntPoint at;
+    Vec2 point;
+    size_t order;
+  };
+  IntPoint toGrid(Vec2 p) const {
+    return {static_cast<cInt>(std::llround((p.x - origin_.x) / unit_)),
+            static_cast<cInt>(std::llround((p.y - origin_.y) / unit_))};
+  }
+  Box2 box_;
+  Vec2 origin_;
+  double unit_ = kRegionGrid;
+  std::vector<Original> originals_;
+};
+
+std::vector<Ring> toRings(const Paths& paths) {
+  std::vector<Ring> out;
+  for (const ClipperLib::Path& path : paths) {
+    Ring r;
+    r.reserve(path.size());
+    for (const IntPoint& p : path) {
+      r.push_back({static_cast<double>(p.X), static_cast<double>(p.Y)});
+    }
+    dropDuplicates(r, 0);
+    if (!r.empty()) out.push_back(std::move(r));
+  }
+  return out;
+}
+
+Paths toPathsExact(const std::vector<Ring>& rings) {
+  Paths out;
+  for (const Ring& r : rings) {
+    ClipperLib::Path path;
+    for (const Vec2 p : r) path.emplace_back(static_cast<cInt>(p.x), static_cast<cInt>(p.y));
+    out.push_back(std::move(path));
+  }
+  return out;
+}
+
+Paths execute(ClipperLib::ClipType type, const Paths& a, const Paths& b,
+              ClipperLib::PolyFillType fill) {
+  ClipperLib::Clipper c;
+  c.StrictlySimple(true);
+  c.PreserveCollinear(true);
+  c.AddPaths(a, ClipperLib::ptSubject, true);
+  c.AddPaths(b, ClipperLib::ptClip, true);
+  Paths out;
+  c.Execute(type, out, fill, fill);
+  return out;
+}
+
+// Valid polygons in grid units from Clipper's output.
+Region settle(const Paths& paths) {
+  std::vector<Ring> rings = toRings(paths);
+  Region region;
+  for (int round = 0; round < kMaxRounds; ++round) {
+    // On the integer grid a distance of one unit is the nearest that a rounded crossing can err.
+    const bool moved = weld(rings, 1.0);
+    if (moved) {
+      rings =
+          toRings(execute(ClipperLib::ctUnion, toPathsExact(rings), {}, ClipperLib::pftPositive));
+    }
+    splitAtRepeats(rings);
+    region = nest(rings);
+    if (isValid(region)) return region;
+    if (!moved) {
+      rings =
+          toRings(execute(ClipperLib::ctUnion, toPathsExact(rings), {}, ClipperLib::pftPositive));
+    }
+  }
+  return region;
+}
+
+constexpr size_t kNoOrder = static_cast<size_t>(-1);
+
+struct OrderedRing {
+  size_t order = kNoOrder;
+  size_t start = 0;
+};
+
+bool lessXy(Vec2 a, Vec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
+
+// Gives a ring its input coordinates back and finds where it starts: at the first input vertex in
+// it, else at the lowest point.
+OrderedRing restore(Ring& r, const Grid& grid, bool originalPoints) {
+  OrderedRing out;
+  size_t lowest = 0;
+  for (size_t i = 0; i < r.size(); ++i) {
+    if (lessXy(r[i], r[lowest])) lowest = i;
+  }
+  out.start = lowest;
+  for (size_t i = 0; i < r.size(); ++i) {
+    Vec2 point;
+    size_t order = 0;
+    const bool known = grid.original(r[i], point, order);
+    r[i] = known && originalPoints ? point : grid.fromGrid(r[i]);
+    if (known && order < out.order) {
+      out.order = order;
+      out.start = i;
+    }
+  }
+  std::rotate(r.begin(), r.begin() + static_cast<std::ptrdiff_t>(out.start), r.end());
+  return out;
+}
+
+bool before(const std::pair<OrderedRing, Ring>& a, const std::pair<OrderedRing, Ring>& b) {
+  if (a.first.order != b.first.order) return a.first.order < b.first.order;
+  return lessXy(a.second[0], b.second[0]);
+}
+
+Region restored(const Region& region, const Grid& grid, bool originalPoints) {
+  std::vector<std::pair<OrderedRing, Ring>> outers;
+  std::vector<std::vector<Ring>> holes;
+  std::vector<size_t> order;
+  for (const Polygon& p : region) {
+    Ring outer = p.outer;
+    const OrderedRing o = restore(outer, grid, originalPoints);
+    outers.emplace_back(o, std::move(outer));
+    std::vector<std::pair<OrderedRing, Ring>> sorted;
+    for (Ring h : p.holes) {
+      const OrderedRing at = restore(h, grid, originalPoints);
+      sorted.emplace_back(at, std::move(h));
+    }
+    std::sort(sorted.begin(), sorted.end(), before);
+    holes.emplace_back();
+    for (auto& [at, h] : sorted) holes.back().push_back(std::move(h));
+    order.push_back(order.size());
+  }
+  std::sort(order.begin(), order.end(),
+            [&](size_t a, size_t b) { return before(outers[a], outers[b]); });
+  Region out;
+  for (const size_t i : order) out.push_back({std::move(outers[i].second), std::move(holes[i])});
+  return out;
+}
+
+Region finish(const Paths& paths, Grid& grid) {
+  grid.sortOriginals();
+  const Region region = settle(paths);
+  Region out = restored(region, grid, true);
+  return isValid(out) ? out : restored(region, grid, false);
+}
+
+std::vector<Ring> orientedRings(const Region& r) {
+  Region copy = r;
+  for (Polygon& p : copy) orient(p);
+  return ringsOf(copy);
+}
+
+ClipperLib::ClipType clipType(BooleanOp op) {
+  switch (op) {
+    case BooleanOp::Union: return ClipperLib::ctUnion;
+    case BooleanOp::Intersection: return ClipperLib::ctIntersection;
+    case BooleanOp::Difference: return ClipperLib::ctDifference;
+    case BooleanOp::SymmetricDifference: break;
+  }
+  return ClipperLib::ctXor;
+}
+
+ClipperLib::PolyFillType fillType(FillRule rule) {
+  switch (rule) {
+    case FillRule::NonZero: return ClipperLib::pftNonZero;
+    case FillRule::EvenOdd: return ClipperLib::pftEvenOdd;
+    case FillRule::Positive: break;
+  }
+  return ClipperLib::pftPositive;
+}
+
+ClipperLib::JoinType joinType(OffsetJoin join) {
+  switch (join) {
+    case OffsetJoin::Miter: return ClipperLib::jtMiter;
+    case OffsetJoin::Round: return ClipperLib::jtRound;
+    case OffsetJoin::Square: break;
+  }
+  return ClipperLib::jtSquare;
+}
+
+ClipperLib::EndType endType(OffsetJoin join) {
+  switch (join) {
+    case OffsetJoin::Miter: return ClipperLib::etOpenButt;
+    case OffsetJoin::Round: return ClipperLib::etOpenRound;
+    case OffsetJoin::Square: break;
+  }
+  return ClipperLib::etOpenSquare;
+}
+
+Region inflate(const Paths& paths, double distance, const OffsetOptions& options,
+               ClipperLib::EndType end, Grid& grid) {
+  ClipperLib::ClipperOffset o(std::max(options.miterLimit, 1.0), options.roundError / grid.unit());
+  o.AddPaths(paths, joinType(options.join), end);
+  Paths out;
+  o.Execute(out, distance / grid.unit());
+  return finish(out, grid);
+}
+
+}  // namespace
+
+Region combine(BooleanOp op, const Region& a, const Region& b) {
+  const std::vector<Ring> ra = orientedRings(a), rb = orientedRings(b);
+  Grid grid;
+  grid.include(ra);
+  grid.include(rb);
+  grid.settle();
+  const Paths pa = grid.toPaths(ra), pb = grid.toPaths(rb);
+  return finish(execute(clipType(op), pa, pb, ClipperLib::pftNonZero), grid);
+}
+
+Region repaired(const std::vector<Ring>& rings, FillRule rule) {
+  Grid grid;
+  grid.include(rings);
+  grid.settle();
+  const Paths paths = grid.toPaths(rings);
+  return finish(execute(ClipperLib::ctUnion, paths, {}, fillType(rule)), grid);
+}
+
+Region offset(const Region& r, double distance, const OffsetOptions& options) {
+  const std::vector<Ring> rings = orientedRings(r);
+  Grid grid;
+  grid.include(rings);
+  grid.settle();
+  const Paths paths = grid.toPaths(rings);
+  if (!std::isfinite(distance)) return {};
+  // Clipper's offset wants clean input; what the caller has may touch or cross.
+  const Paths clean = execute(ClipperLib::ctUnion, paths, {}, ClipperLib::pftNonZero);
+  return inflate(clean, distance, options, ClipperLib::etClosedPolygon, grid);
+}
+
+Region thicken(const std::vector<Vec2>& line, double distance, const OffsetOptions& options) {
+  if (!std::isfinite(distance)) return {};
+  Grid grid;
+  grid.include({line});
+  grid.settle();
+  const Paths paths = grid.toPaths({line});
+  return inflate(paths, std::fabs(distance), options, endType(options.join), grid);
+}
+
+}  // namespace gable
