@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Line by line: `==` opens a case, an unindented `name:` a section, anything indented is text of
+// the section that is open.
+
+#include "case_file.h"
+
+#include <algorithm>
+#include <array>
+
+namespace gable::cases {
+
+namespace {
+
+constexpr std::array<std::string_view, 9> kSections = {"rule",  "file",   "shape",  "set",   "seed",
+                                                       "start", "limits", "values", "expect"};
+
+std::string_view trimmed(std::string_view s) {
+  const size_t first = s.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return s.substr(first, s.find_last_not_of(" \t\r") - first + 1);
+}
+
+size_t indentOf(std::string_view line) {
+  const size_t first = line.find_first_not_of(' ');
+  return first == std::string_view::npos ? line.size() : first;
+}
+
+/// Takes the indentation that all lines share away.
+std::string dedented(const std::vector<std::string_view>& lines) {
+  size_t common = std::string_view::npos;
+  for (std::string_view line : lines) {
+    if (!trimmed(line).empty()) common = std::min(common, indentOf(line));
+  }
+  std::string text;
+  for (std::string_view line : lines) {
+    if (line.size() > common) text += line.substr(common);
+    text += '\n';
+  }
+  return text;
+}
+
+class Reader {
+ public:
+  CaseFile read(std::string_view text) {
+    for (std::string_view line : linesOf(text)) {
+      ++number_;
+      take(line);
+    }
+    closeSection();
+    if (file_.cases.empty() && file_.errors.empty()) error("no case in this file");
+    if (!file_.errors.empty()) file_.cases.clear();
+    return std::move(file_);
+  }
+
+ private:
+  void error(const std::string& what) {
+    file_.errors.push_back("line " + std::to_string(number_) + ": " + what);
+  }
+
+  void take(std::string_view line) {
+    if (line.starts_with("== ")) {
+      openCase(trimmed(line.substr(3)));
+    } else if (line.empty() || line.front() == ' ') {
+      if (open_)
+        lines_.push_back(line);
+      else if (!trimmed(line).empty())
+        error("text outside a section");
+    } else if (line.front() != '#') {
+      openSection(line);
+    }
+  }
+
+  void openCase(std::string_view name) {
+    closeSection();
+    for (const Case& c : file_.cases) {
+      if (c.name == name) error("a second case named " + std::string(name));
+    }
+    file_.cases.push_back({std::string(name), number_, {}});
+  }
+
+  void openSection(std::string_view line) {
+    closeSection();
+    const size_t colon = line.find(':');
+    const std::string_view head = line.substr(0, colon);
+    const size_t blank = head.find(' ');
+    const std::string_view name = head.substr(0, blank);
+    if (colon == std::string_view::npos || file_.cases.empty() ||
+        std::find(kSections.begin(), kSections.end(), name) == kSections.end()) {
+      error("expected a section of a case, not '" + std::string(line) + "'");
+      return;
+    }
+    Section section;
+    section.name = name;
+    if (blank != std::string_view::npos) section.argument = trimmed(head.substr(blank));
+    section.line = number_;
+    const std::string_view rest = trimmed(line.substr(colon + 1));
+    section.textLine = rest.empty() ? number_ + 1 : number_;
+    if (name != "file" && file_.cases.back().find(name)) {
+      error("a second section " + std::string(name));
+    }
+    file_.cases.back().sections.push_back(section);
+    open_ = true;
+    first_ = rest;
+  }
+
+  void closeSection() {
+    if (!open_) return;
+    while (!lines_.empty() && trimmed(lines_.back()).empty()) lines_.pop_back();
+    Section& section = file_.cases.back().sections.back();
+    if (!first_.empty()) section.text = std::string(first_) + "\n";
+    section.text += dedented(lines_);
+    lines_.clear();
+    open_ = false;
+  }
+
+  CaseFile file_;
+  size_t number_ = 0;
+  bool open_ = false;
+  std::string_view first_;
+  std::vector<std::string_view> lines_;
+};
+
+std::vector<std::string> wordsOf(std::string_view line) {
+  std::vector<std::string> words;
+  size_t at = 0;
+  while ((at = line.find_first_not_of(" \t\r", at)) != std::string_view::npos) {
+    const bool quoted = line[at] == '"';
+    const size_t begin = quoted ? at + 1 : at;
+    const size_t end = quoted ? line.find('"', begin) : line.find_first_of(" \t\r", begin);
+    words.emplace_back(line.substr(begin, end == std::string_view::npos ? end : end - begin));
+    if (end == std::string_view::npos) break;
+    at = end + 1;
+  }
+  return words;
+}
+
+}  // namespace
+
+const Section* Case::find(std::string_view section) const {
+  for (const Section& s : sections) {
+    if (s.name == section) return &s;
+  }
+  return nullptr;
+}
+
+std::string_view Case::textOf(std::string_view section) const {
+  const Section* s = find(section);
+  return s ? std::string_view(s->text) : std::string_view();
+}
+
+CaseFile parseCases(std::string_view text) { return Reader().read(text); }
+
+std::vector<Statement> statements(const Section& section) {
+  std::vector<Statement> result;
+  size_t number = section.textLine;
+  for (std::string_view line : linesOf(section.text)) {
+    const std::string_view words = trimmed(line);
+    if (!result.empty() && line.starts_with(' ')) {
+      result.back().block += std::string(line) + "\n";
+    } else if (!words.empty() && words.front() != '#') {
+      result.push_back({wordsOf(words), number, {}});
+    }
+    ++number;
+  }
+  return result;
+}
+
+std::vector<std::string_view> linesOf(std::string_view text) {
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const size_t end = text.find('\n');
+    lines.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) break;
+    text.remove_prefix(end + 1);
+  }
+  return lines;
+}
+
+}  // namespace gable::cases
