@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Each kind of statement is a function from a table; it returns an empty text when the statement
+// holds, and otherwise what was found.
+
+#include "expectation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+#include "measure.h"
+#include "scene/dump.h"
+
+namespace gable::cases {
+
+namespace {
+
+constexpr double kTolerance = 1e-4;
+
+bool parseNumber(std::string_view text, double& out) {
+  const std::string copy(text);
+  char* end = nullptr;
+  out = std::strtod(copy.c_str(), &end);
+  return !copy.empty() && end == copy.c_str() + copy.size();
+}
+
+bool closeTo(double found, double wanted) {
+  return std::abs(found - wanted) <= kTolerance * std::max(1.0, std::abs(wanted));
+}
+
+/// Everything a statement looks at, worked out once a case.
+struct Facts {
+  const Outcome* outcome = nullptr;
+  std::vector<PlacedLeaf> leaves;
+  SceneCounts counts;
+};
+
+using Words = std::vector<std::string>;
+constexpr const char* kNotUnderstood = "the statement is not understood";
+
+bool isNumberWord(const std::string& word) {
+  double number = 0;
+  return parseNumber(word.substr(0, word.find("..")), number);
+}
+
+/// The leaves that a statement speaks of: those of the name at words[1], or all when there is a
+/// number or nothing. `at` becomes the index of the first word behind the name.
+std::vector<const PlacedLeaf*> spokenOf(const Facts& facts, const Words& words, size_t& at) {
+  const bool named = words.size() > 1 && !isNumberWord(words[1]);
+  at = named ? 2 : 1;
+  std::vector<const PlacedLeaf*> chosen;
+  for (const PlacedLeaf& leaf : facts.leaves) {
+    if (!named || leaf.name == words[1]) chosen.push_back(&leaf);
+  }
+  return chosen;
+}
+
+std::string compare(double found, const Words& words, size_t at) {
+  size_t used = 0;
+  const bool good = meets(found, words, at, used);
+  if (used == 0 || at + used != words.size()) return kNotUnderstood;
+  return good ? "" : "found " + roundedText(found);
+}
+
+std::string compare(const Vec3& found, const Words& words, size_t at) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    double wanted = 0;
+    if (at + axis >= words.size() || !parseNumber(words[at + axis], wanted)) return kNotUnderstood;
+    if (!closeTo(found[axis], wanted)) {
+      return "found " + roundedText(found.x) + " " + roundedText(found.y) + " " +
+             roundedText(found.z);
+    }
+  }
+  return "";
+}
+
+template <class Measure>
+std::string sumOver(const Facts& facts, const Words& words, Measure&& measure) {
+  size_t at = 0;
+  double sum = 0;
+  for (const PlacedLeaf* leaf : spokenOf(facts, words, at)) sum += measure(leaf->mesh);
+  return compare(sum, words, at);
+}
+
+std::string checkLeaves(const Facts& facts, const Words& words) {
+  size_t at = 0;
+  const size_t found = spokenOf(facts, words, at).size();
+  return compare(static_cast<double>(found), words, at);
+}
+
+std::string checkArea(const Facts& facts, const Words& words) {
+  return sumOver(facts, words, [](const Mesh& mesh) { return mesh.area(); });
+}
+
+std::string checkVolume(const Facts& facts, const Words& words) {
+  return sumOver(facts, words, volume);
+}
+
+std::string checkBounds(const Facts& facts, const Words& words) {
+  size_t at = 0;
+  Box3 box;
+  for (const PlacedLeaf* leaf : spokenOf(facts, words, at)) box.include(leaf->mesh.bounds());
+  if (words.size() != at + 6) return kNotUnderstood;
+  if (box.empty()) return "there is no such leaf";
+  const std::string low = compare(box.min, words, at);
+  const std::string high = compare(box.max, words, at + 3);
+  if (low.empty() && high.empty()) return "";
+  return "found minimum " + roundedText(box.min.x) + " " + roundedText(box.min.y) + " " +
+         roundedText(box.min.z) + ", maximum " + roundedText(box.max.x) + " " +
+         roundedText(box.max.y) + " " + roundedText(box.max.z);
+}
+
+/// For statements about each leaf: the first complaint, or that there is no leaf at all.
+template <class Look>
+std::string checkEach(const Facts& facts, const Words& words, size_t wordCount, Look&& look) {
+  size_t at = 0;
+  const std::vector<const PlacedLeaf*> leaves = spokenOf(facts, words, at);
+  if (words.size() != at + wordCount) return kNotUnderstood;
+  if (leaves.empty()) return "there is no such leaf";
+  for (const PlacedLeaf* leaf : leaves) {
+    std::string complaint = look(*leaf, at);
+    if (!complaint.empty()) return complaint;
+  }
+  return "";
+}
+
+std::string checkSize(const Facts& facts, const Words& words) {
+  return checkEach(facts, words, 3, [&](const PlacedLeaf& leaf, size_t at) {
+    return compare(leaf.size, words, at);
+  });
+}
+
+std::string checkClosed(const Facts& facts, const Words& words) {
+  return checkEach(facts, words, 0, [](const PlacedLeaf& leaf, size_t) {
+    return isClosed(leaf.mesh) ? std::string() : std::string(leaf.name) + " is open";
+  });
+}
+
+std::string checkFlat(const Facts& facts, const Words& words) {
+  return checkEach(facts, words, 0, [](const PlacedLeaf& leaf, size_t) {
+    return isFlat(leaf.mesh) ? std::string() : std::string(leaf.name) + " is not flat";
+  });
+}
+
+std::string checkNames(const Facts& facts, const Words& words) {
+  Words found{"names"};
+  for (const PlacedLeaf& leaf : facts.leaves) found.emplace_back(leaf.name);
+  if (found == words) return "";
+  std::string text = "found";
+  for (size_t i = 1; i < found.size(); ++i) text += " " + found[i];
+  return text;
+}
+
+std::string plainText(const PlainValue& v) {
+  if (v.kind == PlainValue::Kind::Number) return roundedText(v.number);
+  if (v.kind == PlainValue::Kind::Bool) return v.number != 0 ? "true" : "false";
+  return v.text;
+}
+
+std::string checkReportValues(const std::vector<const PlainValue*>& values, const Words& words) {
+  std::map<std::string, int> counts;
+  for (const PlainValue* v : values) ++counts[plainText(*v)];
+  std::vector<std::string> found;
+  for (const auto& [text, count] : counts) found.push_back(text + "=" + std::to_string(count));
+  std::vector<std::string> wanted(words.begin() + 3, words.end());
+  std::sort(wanted.begin(), wanted.end());
+  std::sort(found.begin(), found.end());
+  if (found == wanted) return "";
+  std::string text = "found";
+  for (const std::string& f : found) text += " " + f;
+  return text;
+}
+
+std::string checkReport(const Facts& facts, const Words& words) {
+  if (words.size() < 4) return kNotUnderstood;
+  std::vector<const PlainValue*> values;
+  double sum = 0, low = INFINITY, high = -INFINITY;
+  for (const Report& report : facts.outcome->scene->reports) {
+    if (report.key != words[1]) continue;
+    values.push_back(&report.value);
+    sum += report.value.number;
+    low = std::min(low, report.value.number);
+    high = std::max(high, report.value.number);
+  }
+  const double n = static_cast<double>(values.size());
+  if (words[2] == "values") return checkReportValues(values, words);
+  if (words[2] == "n") return compare(n, words, 3);
+  if (values.empty()) return "nothing was reported";
+  if (words[2] == "sum") return compare(sum, words, 3);
+  if (words[2] == "avg") return compare(sum / n, words, 3);
+  if (words[2] == "min") return compare(low, words, 3);
+  if (words[2] == "max") return compare(high, words, 3);
+  return kNotUnderstood;
+}
+
+std::string checkAttribute(const Facts& facts, const Words& words) {
+  return checkEach(facts, words, 2, [&](const PlacedLeaf& leaf, size_t at) -> std::string {
+    const uint32_t set = leaf.leaf->attributes;
+    if (set < facts.outcome->scene->attributeSets.size()) {
+      for (const AttributeValue& a : facts.outcome->scene->attributeSets[set]) {
+        if (a.name != words[at] || a.values.empty()) continue;
+        const PlainValue& v = a.values.front();
+        if (v.kind == PlainValue::Kind::Number) return compare(v.number, words, at + 1);
+        return plainText(v) == words[at + 1] ? "" : "found " + plainText(v);
+      }
+    }
+    return "it has no such attribute";
+  });
+}
+
+std::string checkColor(const Facts& facts, const Words& words) {
+  const Scene& scene = *facts.outcome->scene;
+  return checkEach(facts, words, 1, [&](const PlacedLeaf& leaf, size_t at) -> std::string {
+    const std::vector<uint32_t>& list = scene.materialLists[leaf.leaf->materials];
+    const Vec3 color = list.empty() ? Vec3{1, 1, 1} : scene.materials[list.front()].color;
+    return colorText(color) == words[at] ? "" : "found " + colorText(color);
+  });
+}
+
+std::string checkCount(const Facts& facts, const Words& words) {
+  const SceneCounts& c = facts.counts;
+  const std::map<std::string_view, uint64_t> counts = {
+      {"shapes", c.shapes},       {"faces", c.faces},         {"vertices", c.vertices},
+      {"triangles", c.triangles}, {"instances", c.instances}, {"prototypes", c.prototypes},
+      {"materials", c.materials}};
+  return compare(static_cast<double>(counts.at(words[0])), words, 1);
+}
+
+/// "line:column" of a diagnostic, empty where it has no place.
+std::string placeOf(const Outcome& outcome, const Diagnostic& d) {
+  if (!d.span.valid()) return "";
+  const LineColumn at = outcome.sources->locate(d.span.file, d.span.begin);
+  return std::to_string(at.line) + ":" + std::to_string(at.column);
+}
+
+std::string describe(const Outcome& outcome) {
+  std::string text = "found";
+  for (const Diagnostic& d : outcome.diagnostics->all()) {
+    text += std::string(" ") + severityName(d.severity) + " " + d.code + " " + placeOf(outcome, d);
+  }
+  return outcome.diagnostics->all().empty() ? "there is no diagnostic" : text;
+}
+
+bool matches(const Outcome& outcome, const Diagnostic& d, const Words& words) {
+  return words.size() >= 2 && severityName(d.severity) == words[0] && d.code == words[1] &&
+         (words.size() < 3 || placeOf(outcome, d) == words[2]);
+}
+
+std::string checkDiagnostic(const Facts& facts, const Words& words) {
+  if (words.size() < 2 || words.size() > 3) return kNotUnderstood;
+  for (const Diagnostic& d : facts.outcome->diagnostics->all()) {
+    if (matches(*facts.outcome, d, words)) return "";
+  }
+  return describe(*facts.outcome);
+}
+
+std::string checkDiagnostics(const Facts& facts, const Words& words) {
+  if (words.size() < 2) return kNotUnderstood;
+  Words found{"diagnostics"};
+  for (const Diagnostic& d : facts.outcome->diagnostics->all()) found.push_back(d.code);
+  if (found.size() == 1) found.emplace_back("none");
+  return found == words ? "" : describe(*facts.outcome);
+}
+
+std::string checkDump(const Facts& facts, const Statement& statement) {
+  // The block is indented as the author liked; the dump's own indentation is two blanks a level.
+  std::string wanted;
+  const std::vector<std::string_view> lines = linesOf(statement.block);
+  const size_t indent = lines.empty() ? 0 : lines.front().find_first_not_of(' ');
+  for (std::string_view line : lines) {
+    if (line.size() > indent) wanted += std::string(line.substr(indent)) + "\n";
+  }
+  return wanted == facts.outcome->dump ? "" : "found\n" + facts.outcome->dump;
+}
+
+using Check = std::string (*)(const Facts&, const Words&);
+constexpr std::pair<const char*, Check> kChecks[] = {
+    {"leaves", checkLeaves},    {"area", checkArea},
+    {"volume", checkVolume},    {"bounds", checkBounds},
+    {"size", checkSize},        {"closed", checkClosed},
+    {"flat", checkFlat},        {"names", checkNames},
+    {"report", checkReport},    {"attribute", checkAttribute},
+    {"color", checkColor},      {"shapes", checkCount},
+    {"faces", checkCount},      {"vertices", checkCount},
+    {"triangles", checkCount},  {"instances", checkCount},
+    {"prototypes", checkCount}, {"materials", checkCount},
+    {"error", checkDiagnostic}, {"warning", checkDiagnostic},
+    {"note", checkDiagnostic},  {"diagnostics", checkDiagnostics},
+};
+
+std::string evaluate(const Facts& facts, const Statement& statement) {
+  if (statement.words[0] == "dump") return checkDump(facts, statement);
+  for (const auto& [name, check] : kChecks) {
+    if (statement.words[0] == name) return check(facts, statement.words);
+  }
+  return kNotUnderstood;
+}
+
+/// The `print` statements of a case are one expectation together.
+void checkPrints(const std::vector<Statement>& expected, const Outcome& outcome,
+                 std::vector<Failure>& failed) {
+  std::vector<std::string> wanted;
+  size_t line = 0;
+  bool none = false;
+  for (const Statement& s : expected) {
+    if (s.words[0] != "print") continue;
+    line = s.line;
+    if (s.words.size() != 2)
+      failed.push_back({s.line, kNotUnderstood});
+    else if (s.words[1] == "none")
+      none = true;
+    else
+      wanted.push_back(s.words[1]);
+  }
+  if (line == 0 || (wanted.empty() && !none) || wanted == outcome.scene->prints) return;
+  std::string text = "found";
+  for (const std::string& p : outcome.scene->prints) text += " \"" + p + "\"";
+  failed.push_back({line, outcome.scene->prints.empty() ? "nothing was printed" : text});
+}
+
+}  // namespace
+
+bool meets(double found, const std::vector<std::string>& words, size_t at, size_t& used) {
+  used = 0;
+  if (at >= words.size()) return false;
+  double a = 0, b = 0;
+  const size_t dots = words[at].find("..");
+  if (dots != std::string::npos) {
+    if (!parseNumber(words[at].substr(0, dots), a) || !parseNumber(words[at].substr(dots + 2), b)) {
+      return false;
+    }
+    used = 1;
+    return found >= a && found <= b;
+  }
+  if (!parseNumber(words[at], a)) return false;
+  if (at + 2 < words.size() && words[at + 1] == "+-" && parseNumber(words[at + 2], b)) {
+    used = 3;
+    return std::abs(found - a) <= b;
+  }
+  used = 1;
+  return closeTo(found, a);
+}
+
+std::vector<Failure> failures(const std::vector<Statement>& expected, const Outcome& outcome) {
+  std::vector<Failure> failed;
+  Facts facts{&outcome, placedLeaves(*outcome.scene), count(*outcome.scene)};
+  bool allDiagnosticsNamed = false;
+  for (const Statement& s : expected) {
+    if (s.words[0] == "diagnostics") allDiagnosticsNamed = true;
+    if (s.words[0] == "print") continue;
+    std::string complaint = evaluate(facts, s);
+    if (complaint.empty()) continue;
+    std::string statement;
+    for (const std::string& word : s.words) statement += (statement.empty() ? "" : " ") + word;
+    failed.push_back({s.line, statement + ": " + complaint});
+  }
+  checkPrints(expected, outcome, failed);
+  for (const Diagnostic& d : outcome.diagnostics->all()) {
+    const bool named = std::any_of(expected.begin(), expected.end(), [&](const Statement& s) {
+      return matches(outcome, d, s.words);
+    });
+    if (d.severity == Severity::Error && !named && !allDiagnosticsNamed) {
+      failed.push_back({0, "an error that no statement expects: " + format(d, *outcome.sources)});
+    }
+  }
+  return failed;
+}
+
+}  // namespace gable::cases
