@@ -19,7 +19,9 @@ from checks.layers import INCLUDE, Layers
 from checks.tree import Tree
 
 ROOT = Path(__file__).resolve().parent.parent
-FLAGS = ["-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", "-Isrc", "-Iinclude"]
+FLAGS = ["-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", "-Isrc", "-Iinclude",
+         # What test programs are given by the build (cmake/tests.cmake).
+         '-DGABLE_SOURCE_DIR=""', '-DGABLE_WRITTEN_DIR=""']
 
 
 class Headers:
