@@ -134,6 +134,9 @@ struct AttributeSpec {
 struct SelectorSpec {
   const char* name;
   const char* doc;
+  /// What a selection by the word depends on besides the shape, on top of the operation's own
+  /// effects.
+  uint32_t effects = kPure;
 };
 
 /// All that the language offers. Lists are sorted by name; look-ups are O(log n).

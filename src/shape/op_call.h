@@ -50,7 +50,8 @@ struct SelectorTerm {
   enum class Kind : uint8_t { Word, Index, Boolean, Tagged, Not, And, Or } kind = Kind::Word;
   /// Word: the selector's name ("front", "world.south", "remainder"). Tagged: the tag query.
   StringId word = 0;
-  /// Index: the component number. Boolean: 0 or 1, evaluated before the operation.
+  /// Index: the component number. Boolean: 0 or 1, evaluated before the operation. Tagged: 0, or
+  /// 1 or 2 when the query is put to the component's edges or vertices.
   double number = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/check.h"
+#include "base/hash.h"
 
 namespace gable {
 
@@ -23,26 +24,49 @@ Vec3 scaleOf(const Shape& s) {
 // True when a and b differ by no more than rounding at the size `extent`.
 bool same(double a, double b, double extent) { return std::fabs(a - b) <= 1e-9 * (1 + extent); }
 
-bool plainFace(const Mesh& m) {
-  if (m.faces[0].materialSlot != 0 || m.faces[0].tags != 0 || m.faces[0].smooth) return false;
-  if (m.faces.size() != 1 || m.loops.size() != 1 || m.corners.size() != 4) return false;
+// No attribute that a primitive could not carry.
+bool plainMesh(const Mesh& m) {
   if (!m.edgeTags.empty() || !m.normals.empty()) return false;
   for (int set = 0; set < kUvSets; ++set) {
     if (m.hasUv(set)) return false;
   }
+  for (const MeshFace& f : m.faces) {
+    if (f.materialSlot != 0 || f.smooth || f.loopCount != 1) return false;
+  }
   return true;
 }
 
-// The kind of a mesh that is one rectangle covering the scope in the order of makeQuadMesh. Other
-// starting corners of the ring stay meshes: edge indices are visible to rules.
+constexpr std::array<BoxFace, 6> kCubeFaces{{{{0, 1, 2, 3}, kSideBottom},
+                                             {{7, 6, 5, 4}, kSideTop},
+                                             {{3, 2, 6, 7}, kSideFront},
+                                             {{2, 1, 5, 6}, kSideRight},
+                                             {{1, 0, 4, 5}, kSideBack},
+                                             {{0, 3, 7, 4}, kSideLeft}}};
+// The ring 3 2 1 0 of a QuadXz, turned round at the bottom, then a side an edge, then the top.
+constexpr std::array<BoxFace, 6> kExtrudedFaces{{{{3, 0, 1, 2}, kSideBottom},
+                                                 {{3, 2, 6, 7}, kSideFront},
+                                                 {{2, 1, 5, 6}, kSideRight},
+                                                 {{1, 0, 4, 5}, kSideBack},
+                                                 {{0, 3, 7, 4}, kSideLeft},
+                                                 {{7, 6, 5, 4}, kSideTop}}};
+
+Vec3 boxPosition(uint32_t i, const Vec3& size) {
+  const uint32_t around = i % 4;
+  return {around == 1 || around == 2 ? size.x : 0, i >= 4 ? size.y : 0,
+          around == 2 || around == 3 ? size.z : 0};
+}
+
+bool samePoint(const Vec3& a, const Vec3& b, const Vec3& size) {
+  return same(a.x, b.x, size.x) && same(a.y, b.y, size.y) && same(a.z, b.z, size.z);
+}
+
+// The rectangle covering the scope in the order of makeQuadMesh. Other starting corners of the
+// ring stay meshes: edge indices are visible to rules.
 GeometryKind quadKind(const Mesh& m, const Vec3& size) {
-  if (m.faces.empty() || !plainFace(m)) return GeometryKind::Mesh;
-  if (size.x <= 0) return GeometryKind::Mesh;
+  if (size.x <= 0 || m.corners.size() != 4) return GeometryKind::Mesh;
   const auto matches = [&](const Vec3(&ring)[4]) {
     for (uint32_t i = 0; i < 4; ++i) {
-      for (size_t a = 0; a < 3; ++a) {
-        if (!same(m.at(i)[a], ring[i][a], size[a])) return false;
-      }
+      if (!samePoint(m.at(i), ring[i], size)) return false;
     }
     return true;
   };
@@ -56,22 +80,94 @@ GeometryKind quadKind(const Mesh& m, const Vec3& size) {
   return GeometryKind::Mesh;
 }
 
+bool isBox(const Mesh& m, const Vec3& size, BoxOrder order) {
+  if (m.corners.size() != 24 || m.positions.size() != 8) return false;
+  if (size.x <= 0 || size.y <= 0 || size.z <= 0) return false;
+  const auto& faces = boxFaces(order);
+  for (size_t f = 0; f < 6; ++f) {
+    const MeshLoop& loop = m.loopsOf(f)[0];
+    if (loop.cornerCount != 4) return false;
+    for (uint32_t i = 0; i < 4; ++i) {
+      const Vec3 expected = boxPosition(faces[f].ring[i], size);
+      if (!samePoint(m.at(loop.firstCorner + i), expected, size)) return false;
+    }
+  }
+  return true;
+}
+
+// The primitive that a mesh is exactly, or a geometry of kind Mesh without the mesh.
+Geometry recognised(const Mesh& m, const Vec3& size) {
+  Geometry g{GeometryKind::Mesh, false, size, {}};
+  if (!plainMesh(m)) return g;
+  if (m.faceCount() == 1) {
+    g.kind = quadKind(m, size);
+    if (g.kind != GeometryKind::Mesh) g.refSize = {};
+    if (g.kind == GeometryKind::QuadXy) g.tags[kSideFront] = m.faces[0].tags;
+    if (g.kind == GeometryKind::QuadXz) g.tags[kSideTop] = m.faces[0].tags;
+    return g;
+  }
+  if (m.faceCount() != 6) return g;
+  for (const BoxOrder order : {BoxOrder::Cube, BoxOrder::Extruded}) {
+    if (!isBox(m, size, order)) continue;
+    g.kind = GeometryKind::Box;
+    g.order = order;
+    g.refSize = {};
+    for (size_t f = 0; f < 6; ++f) g.tags[boxFaces(order)[f].side] = m.faces[f].tags;
+    break;
+  }
+  return g;
+}
+
+Mesh boxMesh(const Geometry& g, const Vec3& size) {
+  Mesh m = makeBoxMesh(size, g.uv);
+  const auto& faces = boxFaces(g.order);
+  for (size_t f = 0; f < 6; ++f) {
+    const MeshLoop& loop = m.loopsOf(f)[0];
+    for (uint32_t i = 0; i < 4; ++i) m.corners[loop.firstCorner + i] = faces[f].ring[i];
+    m.faces[f].tags = g.tags[faces[f].side];
+  }
+  return m;
+}
+
+Mesh quadMesh(const Geometry& g, const Vec3& size) {
+  const bool xy = g.kind == GeometryKind::QuadXy;
+  Mesh m = makeQuadMesh(size.x, xy ? size.y : size.z, xy ? QuadPlane::Xy : QuadPlane::Xz, g.uv);
+  m.faces[0].tags = g.tags[xy ? kSideFront : kSideTop];
+  return m;
+}
+
 void moveGeometry(Mesh& m, const Vec3& by) {
   for (Vec3& p : m.positions) p += by;
 }
 
 }  // namespace
 
+const std::array<BoxFace, 6>& boxFaces(BoxOrder order) {
+  return order == BoxOrder::Cube ? kCubeFaces : kExtrudedFaces;
+}
+
+uint64_t contentHash(const Geometry& g) {
+  uint64_t h = hashCombine(
+      static_cast<uint64_t>(g.kind) << 16 | static_cast<uint64_t>(g.order) << 8, g.uv ? 1 : 0);
+  for (size_t i = 0; i < 3; ++i) h = hashCombine(h, hashDouble(g.refSize[i]));
+  for (const uint32_t t : g.tags) h = hashCombine(h, t);
+  return g.mesh ? hashCombine(h, g.mesh->contentHash()) : h;
+}
+
+Geometry primitive(GeometryKind kind, uint32_t tags) {
+  Geometry g{kind, false, {}, {}};
+  if (kind == GeometryKind::Box) g.tags.fill(tags);
+  if (kind == GeometryKind::QuadXy) g.tags[kSideFront] = tags;
+  if (kind == GeometryKind::QuadXz) g.tags[kSideTop] = tags;
+  return g;
+}
+
 MeshRef meshInScope(const Shape& s) {
   switch (s.geometry.kind) {
     case GeometryKind::None: return makeRef<Mesh>();
     case GeometryKind::QuadXy:
-    case GeometryKind::QuadXz: {
-      const bool xy = s.geometry.kind == GeometryKind::QuadXy;
-      return makeRef<Mesh>(makeQuadMesh(s.size.x, xy ? s.size.y : s.size.z,
-                                        xy ? QuadPlane::Xy : QuadPlane::Xz, s.geometry.uv));
-    }
-    case GeometryKind::Box: return makeRef<Mesh>(makeBoxMesh(s.size, s.geometry.uv));
+    case GeometryKind::QuadXz: return makeRef<Mesh>(quadMesh(s.geometry, s.size));
+    case GeometryKind::Box: return makeRef<Mesh>(boxMesh(s.geometry, s.size));
     case GeometryKind::Mesh: break;
   }
   const Vec3 scale = scaleOf(s);
@@ -104,14 +200,14 @@ void setMesh(Shape& s, Mesh mesh, ScopeFit fit) {
       if (s.size[i] <= 1e-9 * (1 + extent)) s.size[i] = 0;
     }
   }
-  const GeometryKind kind = quadKind(mesh, s.size);
-  s.geometry = {kind, false, s.size, {}};
-  if (kind == GeometryKind::Mesh) s.geometry.mesh = makeRef<Mesh>(std::move(mesh));
+  s.geometry = recognised(mesh, s.size);
+  if (s.geometry.kind == GeometryKind::Mesh) s.geometry.mesh = makeRef<Mesh>(std::move(mesh));
 }
 
 void setMesh(Shape& s, MeshRef mesh, ScopeFit fit) {
-  if (fit == ScopeFit::Keep && mesh && !mesh->empty() && mesh->faceCount() > 1) {
-    s.geometry = {GeometryKind::Mesh, false, s.size, std::move(mesh)};
+  if (fit == ScopeFit::Keep && mesh && !mesh->empty()) {
+    s.geometry = recognised(*mesh, s.size);
+    if (s.geometry.kind == GeometryKind::Mesh) s.geometry.mesh = std::move(mesh);
   } else {
     setMesh(s, mesh ? Mesh(*mesh) : Mesh(), fit);
   }

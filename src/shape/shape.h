@@ -36,13 +36,44 @@ enum class GeometryKind : uint8_t {
   Mesh,
 };
 
+/// The order of a box's faces and where their rings begin: rules see both through indices.
+enum class BoxOrder : uint8_t {
+  /// That of primitiveCube; see makeBoxMesh.
+  Cube,
+  /// That of an extruded QuadXz: bottom, front, right, back, left, top.
+  Extruded,
+};
+
+/// The sides of a box, as places in Geometry::tags.
+enum BoxSide : uint8_t { kSideLeft, kSideRight, kSideBottom, kSideTop, kSideBack, kSideFront };
+
 struct Geometry {
   GeometryKind kind = GeometryKind::None;
   /// A primitive that carries uv set 0 (each face 0..1). Meshes have their own.
   bool uv = false;
   Vec3 refSize;
   MeshRef mesh;
+  /// Boxes only.
+  BoxOrder order = BoxOrder::Cube;
+  /// Tag sets of a primitive's faces, by the side they look to: a QuadXy has its tags at
+  /// kSideFront, a QuadXz at kSideTop. Zero where there is no face; all zero for meshes.
+  std::array<uint32_t, 6> tags{};
+
+  /// True when an operation could tell the two apart at equal scope sizes. Meshes are compared by
+  /// identity.
+  friend bool operator==(const Geometry&, const Geometry&) = default;
 };
+
+/// Agrees with ==, but hashes the content of a mesh: O(size of the mesh).
+uint64_t contentHash(const Geometry& g);
+
+/// The rings of a box in face order, as indices of the positions of makeBoxMesh, and the side
+/// that each face looks to.
+struct BoxFace {
+  std::array<uint8_t, 4> ring;
+  BoxSide side;
+};
+const std::array<BoxFace, 6>& boxFaces(BoxOrder order);
 
 /// A half-space dot(normal, p) <= distance, in the frame of the shape that carries it.
 struct TrimPlane {
@@ -110,6 +141,9 @@ enum class ScopeFit : uint8_t {
 /// fills the scope become primitives again.
 void setMesh(Shape& s, Mesh mesh, ScopeFit fit);
 void setMesh(Shape& s, MeshRef mesh, ScopeFit fit);
+
+/// A primitive that fills the scope, with one tag set on all of its faces.
+Geometry primitive(GeometryKind kind, uint32_t tags = 0);
 
 /// Puts the scope of a shape to `frame` (in the local frame) with its geometry where it is; the
 /// size becomes the bounding box along the new axes, and the origin its lower corner. A shape
