@@ -1,72 +1,161 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Counts of a scene. Those that do not depend on the place are worked out once a prototype, from
-// the first to the last (an instance's prototype has the smaller index); only the bounds visit
-// every leaf.
+// Counts of a scene, instances expanded. Counts are summed once a prototype, its instances' counts
+// being known before (they have smaller indices), so the work is linear in what is stored.
+//
+// Bounds cannot be summed so: a turned box around a box is too large. They are taken from the
+// points of expanded leaves, as every writer places them, but a prototype or a leaf whose own box,
+// placed, lies within the bounds found so far is passed over: it cannot change them. That keeps the
+// result exact and independent of sharing, while repeated content costs one test.
+#include <algorithm>
+#include <cmath>
 
+#include "scene/flatten.h"
 #include "scene/scene.h"
 
 namespace gable {
-
 namespace {
 
-/// A polygon of n corners with h holes falls into n + 2h - 2 triangles.
-uint64_t triangleCount(const Mesh& mesh, size_t face) {
-  uint64_t corners = 0;
-  for (const MeshLoop& loop : mesh.loopsOf(face)) corners += loop.cornerCount;
-  const uint64_t loops = mesh.loopsOf(face).size();
-  return corners < 3 ? 0 : corners + 2 * (loops - 1) - 2;
-}
-
-SceneCounts countMesh(const Mesh& mesh) {
-  SceneCounts counts;
-  counts.leaves = 1;
-  counts.faces = mesh.faceCount();
-  counts.vertices = mesh.positions.size();
-  for (size_t face = 0; face < mesh.faceCount(); ++face) {
-    counts.triangles += triangleCount(mesh, face);
+struct Tally {
+  uint64_t leaves = 0, faces = 0, vertices = 0, triangles = 0;
+  void add(const Tally& t) {
+    leaves = saturatingAdd(leaves, t.leaves);
+    faces = saturatingAdd(faces, t.faces);
+    vertices = saturatingAdd(vertices, t.vertices);
+    triangles = saturatingAdd(triangles, t.triangles);
   }
-  return counts;
+};
+
+Tally tallyOf(const Mesh& m) {
+  Tally t{1, m.faces.size(), m.positions.size(), 0};
+  for (size_t f = 0; f < m.faces.size(); ++f) {
+    // A polygon of n corners in all and h holes has n + 2h - 2 triangles.
+    uint64_t corners = 0;
+    for (const MeshLoop& loop : m.loopsOf(f)) corners += loop.cornerCount;
+    const uint64_t holes = m.faces[f].loopCount > 0 ? m.faces[f].loopCount - 1 : 0;
+    if (corners >= 3) t.triangles += corners + 2 * holes - 2;
+  }
+  return t;
 }
 
-void add(SceneCounts& to, const SceneCounts& from) {
-  to.leaves += from.leaves;
-  to.faces += from.faces;
-  to.vertices += from.vertices;
-  to.triangles += from.triangles;
+Box3 placed(const Box3& box, const Vec3& scale, const Frame& frame) {
+  Box3 out;
+  if (box.empty()) return out;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 corner{i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
+                      i & 4 ? box.max.z : box.min.z};
+    out.include(frame.point(scaled(corner, scale)));
+  }
+  return out;
 }
+
+// Larger by more than the rounding of one placement.
+Box3 widened(Box3 b) {
+  if (b.empty()) return b;
+  const Vec3 most{std::max(std::fabs(b.min.x), std::fabs(b.max.x)),
+                  std::max(std::fabs(b.min.y), std::fabs(b.max.y)),
+                  std::max(std::fabs(b.min.z), std::fabs(b.max.z))};
+  const double d = 1e-14 * (most.x + most.y + most.z);
+  b.min = b.min - Vec3{d, d, d};
+  b.max = b.max + Vec3{d, d, d};
+  return b;
+}
+
+bool within(const Box3& inner, const Box3& outer) {
+  return inner.empty() ||
+         (inner.min.x >= outer.min.x && inner.min.y >= outer.min.y && inner.min.z >= outer.min.z &&
+          inner.max.x <= outer.max.x && inner.max.y <= outer.max.y && inner.max.z <= outer.max.z);
+}
+
+class Bounds {
+ public:
+  explicit Bounds(const Scene& scene) : scene_(scene) {
+    for (const MeshRef& m : scene.meshes) meshes_.push_back(m->bounds());
+    for (const Prototype& p : scene.prototypes) prototypes_.push_back(ownBox(p));
+  }
+
+  Box3 take() {
+    for (const Root& r : scene_.roots) grow(r.instance.prototype, r.instance.frame);
+    return found_;
+  }
+
+ private:
+  // Contains the prototype in its own frame, with room for rounding.
+  Box3 ownBox(const Prototype& p) const {
+    Box3 box;
+    for (uint32_t i = 0; i < p.leafCount; ++i) {
+      const Leaf& l = scene_.leaves[p.firstLeaf + i];
+      box.include(widened(placed(meshes_[l.mesh], l.scale, l.frame)));
+    }
+    for (uint32_t i = 0; i < p.instanceCount; ++i) {
+      const Instance& in = scene_.instances[p.firstInstance + i];
+      box.include(widened(placed(prototypes_[in.prototype], {1, 1, 1}, in.frame)));
+    }
+    return box;
+  }
+
+  void grow(uint32_t prototype, const Frame& world) {
+    const Box3 box = widened(placed(prototypes_[prototype], {1, 1, 1}, world));
+    if (within(box, found_)) return;
+    if (visits_++ >= kMaxVisits) {
+      found_.include(box);
+      return;
+    }
+    const Prototype& p = scene_.prototypes[prototype];
+    for (uint32_t i = 0; i < p.leafCount; ++i) grow(scene_.leaves[p.firstLeaf + i], world);
+    for (uint32_t i = 0; i < p.instanceCount; ++i) {
+      const Instance& in = scene_.instances[p.firstInstance + i];
+      grow(in.prototype, world * in.frame);
+    }
+  }
+
+  void grow(const Leaf& leaf, const Frame& around) {
+    const Frame world = around * leaf.frame;
+    if (within(widened(placed(meshes_[leaf.mesh], leaf.scale, world)), found_)) return;
+    for (const Vec3& p : scene_.meshes[leaf.mesh]->positions) {
+      found_.include(world.point(scaled(p, leaf.scale)));
+    }
+  }
+
+  // More placed prototypes than any writer could write: beyond, boxes are taken whole, so that a
+  // small scene that stands for 2^70 leaves is measured at all.
+  static constexpr uint64_t kMaxVisits = 20'000'000;
+
+  const Scene& scene_;
+  uint64_t visits_ = 0;
+  std::vector<Box3> meshes_, prototypes_;
+  Box3 found_;
+};
 
 }  // namespace
 
 SceneCounts count(const Scene& scene) {
-  std::vector<SceneCounts> meshes;
-  for (const MeshRef& mesh : scene.meshes) meshes.push_back(countMesh(*mesh));
-  std::vector<SceneCounts> prototypes;
+  std::vector<Tally> meshes, prototypes;
+  for (const MeshRef& m : scene.meshes) meshes.push_back(tallyOf(*m));
   for (const Prototype& p : scene.prototypes) {
-    SceneCounts counts;
-    for (uint32_t i = 0; i < p.leafCount; ++i) {
-      add(counts, meshes[scene.leaves[p.firstLeaf + i].mesh]);
-    }
+    Tally t;
+    for (uint32_t i = 0; i < p.leafCount; ++i) t.add(meshes[scene.leaves[p.firstLeaf + i].mesh]);
     for (uint32_t i = 0; i < p.instanceCount; ++i) {
-      add(counts, prototypes[scene.instances[p.firstInstance + i].prototype]);
+      t.add(prototypes[scene.instances[p.firstInstance + i].prototype]);
     }
-    prototypes.push_back(counts);
+    prototypes.push_back(t);
   }
-  SceneCounts total;
-  for (const Root& root : scene.roots) {
-    add(total, prototypes[root.instance.prototype]);
-    total.shapes += scene.prototypes[root.instance.prototype].shapes;
+  Tally all;
+  SceneCounts counts;
+  for (const Root& r : scene.roots) {
+    all.add(prototypes[r.instance.prototype]);
+    counts.shapes = saturatingAdd(counts.shapes, scene.prototypes[r.instance.prototype].shapes);
   }
-  total.instances = scene.instances.size();
-  total.prototypes = scene.prototypes.size();
-  total.materials = scene.materials.size();
-  forEachLeaf(scene, [&](const Leaf& leaf, const Frame& world) {
-    for (const Vec3& p : scene.meshes[leaf.mesh]->positions) {
-      total.bounds.include(world.point(scaled(p, leaf.scale)));
-    }
-  });
-  return total;
+  counts.leaves = all.leaves;
+  counts.faces = all.faces;
+  counts.vertices = all.vertices;
+  counts.triangles = all.triangles;
+  counts.instances = scene.instances.size();
+  counts.prototypes = scene.prototypes.size();
+  counts.materials = scene.materials.size();
+  counts.bounds = Bounds(scene).take();
+  return counts;
 }
 
 }  // namespace gable
