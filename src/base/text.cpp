@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Edit distance is the optimal string alignment of Damerau and Levenshtein with three rolling rows.
+
+#include "base/text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <limits>
+
+namespace gable {
+
+namespace {
+
+// Decimal position of the first digit that is not zero, to tell overflow from underflow.
+bool isSmall(std::string_view text) {
+  const size_t e = text.find_first_of("eE");
+  if (e != std::string_view::npos) return e + 1 < text.size() && text[e + 1] == '-';
+  return text.find('.') < text.find_first_of("123456789");
+}
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+std::string lower(std::string_view s) {
+  std::string out(s);
+  std::transform(out.begin(), out.end(), out.begin(), [](char c) { return lower(c); });
+  return out;
+}
+
+}  // namespace
+
+std::optional<double> parseDouble(std::string_view text) {
+  const bool negative = !text.empty() && text[0] == '-';
+  if (!text.empty() && (text[0] == '-' || text[0] == '+')) text.remove_prefix(1);
+  if (text.empty() || !((text[0] >= '0' && text[0] <= '9') || text[0] == '.')) return {};
+  double value = 0;
+#if defined(__cpp_lib_to_chars)
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end != text.data() + text.size()) return {};
+  if (error == std::errc::result_out_of_range) {
+    value = isSmall(text) ? 0 : std::numeric_limits<double>::infinity();
+  } else if (error != std::errc()) {
+    return {};
+  }
+#else
+  // Without from_chars for doubles the C library does it; it follows the locale, which programs
+  // that embed us on such platforms leave at "C".
+  const std::string copy(text);
+  char* end = nullptr;
+  value = std::strtod(copy.c_str(), &end);
+  if (end != copy.c_str() + copy.size()) return {};
+#endif
+  return negative ? -value : value;
+}
+
+size_t editDistance(std::string_view a, std::string_view b, size_t limit) {
+  if (a.size() > b.size()) std::swap(a, b);
+  if (b.size() - a.size() > limit) return limit + 1;
+  std::vector<size_t> before(a.size() + 1), last(a.size() + 1), row(a.size() + 1);
+  for (size_t i = 0; i <= a.size(); ++i) last[i] = i;
+  for (size_t j = 1; j <= b.size(); ++j) {
+    row[0] = j;
+    size_t best = row[0];
+    for (size_t i = 1; i <= a.size(); ++i) {
+      const size_t change = a[i - 1] == b[j - 1] ? 0 : 1;
+      row[i] = std::min({row[i - 1] + 1, last[i] + 1, last[i - 1] + change});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        row[i] = std::min(row[i], before[i - 2] + 1);
+      }
+      best = std::min(best, row[i]);
+    }
+    if (best > limit) return limit + 1;
+    std::swap(before, last);
+    std::swap(last, row);
+  }
+  return last[a.size()];
+}
+
+std::string nearestName(std::string_view name, const std::vector<std::string_view>& candidates) {
+  // Names longer than any in a rule file are not worth comparing.
+  constexpr size_t kLongest = 64;
+  if (name.size() < 2 || name.size() > kLongest) return {};
+  const std::string folded = lower(name);
+  size_t bestDistance = std::max<size_t>(1, (name.size() + 1) / 3) + 1;
+  std::string_view best;
+  for (const std::string_view candidate : candidates) {
+    if (candidate == name || candidate.size() > kLongest) continue;
+    const size_t distance = lower(candidate) == folded
+                                ? 0
+                                : editDistance(name, candidate, bestDistance - 1);
+    if (distance < bestDistance && distance < candidate.size()) {
+      bestDistance = distance;
+      best = candidate;
+    }
+  }
+  return std::string(best);
+}
+
+std::string didYouMean(std::string_view name, const std::vector<std::string_view>& candidates) {
+  const std::string nearest = nearestName(name, candidates);
+  return nearest.empty() ? std::string() : "did you mean '" + nearest + "'?";
+}
+
+size_t utf8Length(std::string_view text, size_t at) {
+  const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char lead = byte(at);
+  const size_t length = lead < 0x80             ? 1
+                        : lead >= 0xc2 && lead < 0xe0 ? 2
+                        : lead >= 0xe0 && lead < 0xf0 ? 3
+                        : lead >= 0xf0 && lead < 0xf5 ? 4
+                                                      : 0;
+  if (length == 0 || at + length > text.size()) return 0;
+  for (size_t i = 1; i < length; ++i) {
+    if ((byte(at + i) & 0xc0) != 0x80) return 0;
+  }
+  return length;
+}
+
+void appendUtf8(std::string& out, uint32_t c) {
+  if (c > 0x10ffff || (c >= 0xd800 && c < 0xe000)) c = 0xfffd;
+  const auto put = [&](uint32_t byte) { out += static_cast<char>(byte); };
+  if (c < 0x80) {
+    put(c);
+  } else if (c < 0x800) {
+    put(0xc0 | c >> 6);
+    put(0x80 | (c & 0x3f));
+  } else if (c < 0x10000) {
+    put(0xe0 | c >> 12);
+    put(0x80 | (c >> 6 & 0x3f));
+    put(0x80 | (c & 0x3f));
+  } else {
+    put(0xf0 | c >> 18);
+    put(0x80 | (c >> 12 & 0x3f));
+    put(0x80 | (c >> 6 & 0x3f));
+    put(0x80 | (c & 0x3f));
+  }
+}
+
+}  // namespace gable

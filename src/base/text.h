@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Small helpers for text: numbers independent of the locale, and the nearest known name for
+// "did you mean". All functions are pure.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gable {
+
+/// The number that all of `text` spells (digits, one dot, exponent, leading sign), correctly
+/// rounded; empty if it is not a number. Too large or too small gives infinity or zero.
+std::optional<double> parseDouble(std::string_view text);
+
+/// Changes (insert, delete, replace, swap of neighbours) that lead from `a` to `b`; stops counting
+/// at `limit` + 1. Optimal string alignment, O(|a| |b|), case counts.
+size_t editDistance(std::string_view a, std::string_view b, size_t limit);
+
+/// The candidate nearest to `name`, if near enough to be a slip: about one change in three letters.
+/// A name that differs in case only is always near. Equal distances: the first candidate wins.
+std::string nearestName(std::string_view name, const std::vector<std::string_view>& candidates);
+
+/// "did you mean 'x'?" for a non-empty nearest name, else empty.
+std::string didYouMean(std::string_view name, const std::vector<std::string_view>& candidates);
+
+/// Length in bytes of the UTF-8 sequence at `text[at]`; 0 if it is not a valid one.
+size_t utf8Length(std::string_view text, size_t at);
+
+/// Appends the code point in UTF-8; a surrogate or a value beyond 0x10ffff becomes U+FFFD.
+void appendUtf8(std::string& out, uint32_t codePoint);
+
+}  // namespace gable

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Expressions by precedence climbing (Richards 1979, "operator precedence parsing" in BCPL style).
+// A '%' directly before ':' is no modulo but the end of a weight; ':' is an operator in brackets
+// only, where it makes a range.
+
+#include "base/text.h"
+#include "lang/lexer.h"
+#include "lang/parser_impl.h"
+
+namespace gable::lang {
+
+namespace {
+
+struct Operator {
+  BinaryOp op;
+  int precedence;
+};
+
+// Precedence 0: no binary operator.
+Operator operatorOf(TokenKind kind) {
+  switch (kind) {
+    case TokenKind::Or: return {BinaryOp::Or, 1};
+    case TokenKind::And: return {BinaryOp::And, 2};
+    case TokenKind::EqualEqual: return {BinaryOp::Equal, 3};
+    case TokenKind::NotEqual: return {BinaryOp::NotEqual, 3};
+    case TokenKind::Less: return {BinaryOp::Less, 4};
+    case TokenKind::LessEqual: return {BinaryOp::LessEqual, 4};
+    case TokenKind::Greater: return {BinaryOp::Greater, 4};
+    case TokenKind::GreaterEqual: return {BinaryOp::GreaterEqual, 4};
+    case TokenKind::Plus: return {BinaryOp::Add, 5};
+    case TokenKind::Minus: return {BinaryOp::Subtract, 5};
+    case TokenKind::Star: return {BinaryOp::Multiply, 6};
+    case TokenKind::Slash: return {BinaryOp::Divide, 6};
+    case TokenKind::Percent: return {BinaryOp::Modulo, 6};
+    default: return {BinaryOp::Or, 0};
+  }
+}
+
+}  // namespace
+
+// A whole expression: what an argument, a size or the value of a function may be.
+NodeId Parser::parseExpression() {
+  const Nest nest(*this);
+  if (!nest.ok()) return missing();
+  const uint32_t begin = current().begin;
+  if (is(TokenKind::Tilde) || is(TokenKind::Quote)) {
+    const NodeKind kind = is(TokenKind::Tilde) ? NodeKind::Floating : NodeKind::Relative;
+    advance();
+    const NodeId operand = parseExpression();
+    return make(node(kind, begin), {operand});
+  }
+  const NodeId value = parseBinary(1);
+  if (is(TokenKind::Percent) && ahead(1).kind == TokenKind::Colon) {
+    return parsePercentChoice(value, begin, true);
+  }
+  return value;
+}
+
+NodeId Parser::parseBinary(int minPrecedence) {
+  const uint32_t begin = current().begin;
+  NodeId left = parseUnary();
+  while (!panic_) {
+    const Operator op = operatorOf(current().kind);
+    if (op.precedence == 0 || op.precedence < minPrecedence) break;
+    if (is(TokenKind::Percent) && ahead(1).kind == TokenKind::Colon) break;
+    const bool elementwise = current().elementwise;
+    advance();
+    const NodeId right = parseBinary(op.precedence + 1);
+    Node n = node(NodeKind::Binary, begin);
+    n.op = static_cast<uint8_t>(op.op);
+    if (elementwise) n.flags = kFlagElementwise;
+    left = make(n, {left, right});
+  }
+  return left;
+}
+
+NodeId Parser::parseUnary() {
+  const TokenKind kind = current().kind;
+  const bool prefix = kind == TokenKind::Quote || kind == TokenKind::Tilde;
+  if (!prefix && kind != TokenKind::Minus && kind != TokenKind::Plus && kind != TokenKind::Not) {
+    return parsePostfix();
+  }
+  const Nest nest(*this);
+  if (!nest.ok()) return missing();
+  const Token sign = current();
+  advance();
+  const NodeId operand = parseUnary();
+  if (prefix) {
+    return make(node(kind == TokenKind::Tilde ? NodeKind::Floating : NodeKind::Relative, sign.begin),
+                {operand});
+  }
+  Node n = node(NodeKind::Unary, sign.begin);
+  n.op = static_cast<uint8_t>(kind == TokenKind::Minus  ? UnaryOp::Minus
+                              : kind == TokenKind::Plus ? UnaryOp::Plus
+                                                        : UnaryOp::Not);
+  if (sign.elementwise) n.flags = kFlagElementwise;
+  return make(n, {operand});
+}
+
+NodeId Parser::parsePostfix() {
+  const TokenKind first = current().kind;
+  NodeId value = parsePrimary();
+  if (first == TokenKind::Number || first == TokenKind::String) return value;
+  while (!panic_ && is(TokenKind::LBracket) && tree_.kind(value) != NodeKind::Missing) {
+    value = parseIndex(value);
+  }
+  return value;
+}
+
+NodeId Parser::parsePrimary() {
+  if (panic_) return missing();
+  const Token t = current();
+  if (t.kind == TokenKind::Number) {
+    Node n = node(NodeKind::Number, t.begin);
+    n.number = parseDouble(textOf(t)).value_or(0);
+    advance();
+    n.end = t.end;
+    return tree_.add(n);
+  }
+  if (t.kind == TokenKind::String) {
+    Node n = node(NodeKind::String, t.begin);
+    n.text = tree_.intern(stringValue(textOf(t)));
+    advance();
+    n.end = t.end;
+    return tree_.add(n);
+  }
+  if (t.kind == TokenKind::LParen) {
+    advance();
+    const NodeId inner = parseExpression();
+    expect(TokenKind::RParen, "to close the expression");
+    tree_.setSpan(inner, t.begin, endOfLast());
+    return inner;
+  }
+  if (t.kind == TokenKind::LBracket) return parseArray();
+  if (t.keyword == Keyword::Case) {
+    const Nest nest(*this);
+    return nest.ok() ? parseCaseChoice(true) : missing();
+  }
+  if (t.keyword == Keyword::True || t.keyword == Keyword::False) {
+    Node n = node(NodeKind::Bool, t.begin);
+    n.number = t.keyword == Keyword::True ? 1 : 0;
+    advance();
+    n.end = t.end;
+    return tree_.add(n);
+  }
+  if (isName(t)) return parseNameExpression();
+  unexpected("a value");
+  return missing();
+}
+
+NodeId Parser::parseNameExpression() {
+  const Token name = current();
+  advance();
+  if (!is(TokenKind::LParen)) return named(NodeKind::Name, name);
+  const NodeId arguments = parseArguments();
+  if (memberHere()) return parseMember(name, arguments, NodeKind::ImportCall);
+  Node n = node(NodeKind::Call, name.begin);
+  n.text = tree_.intern(textOf(name));
+  const NodeId block = is(TokenKind::LBrace) ? parseBlock(true) : kNoNode;
+  n.end = endOfLast();
+  return make(n, {arguments, block});
+}
+
+// e, e : e or e : e : e.
+NodeId Parser::parseRange() {
+  const uint32_t begin = current().begin;
+  const NodeId from = parseExpression();
+  if (!accept(TokenKind::Colon)) return from;
+  const NodeId second = parseExpression();
+  if (!accept(TokenKind::Colon)) return make(node(NodeKind::Range, begin), {from, kNoNode, second});
+  const NodeId to = parseExpression();
+  return make(node(NodeKind::Range, begin), {from, second, to});
+}
+
+NodeId Parser::parseArray() {
+  const uint32_t begin = current().begin;
+  advance();
+  Nodes rows;
+  for (;;) {
+    const uint32_t rowBegin = current().begin;
+    Nodes values;
+    do {
+      values.push_back(parseRange());
+    } while (!panic_ && accept(TokenKind::Comma));
+    rows.push_back(list(rowBegin, values));
+    if (panic_ || !accept(TokenKind::Semicolon)) break;
+  }
+  expect(TokenKind::RBracket, "or ',' after a value of the array");
+  return make(node(NodeKind::Array, begin), rows);
+}
+
+NodeId Parser::parseIndex(NodeId base) {
+  const uint32_t begin = tree_[base].begin;
+  advance();
+  const NodeId row = parseRange();
+  const NodeId column = accept(TokenKind::Comma) ? parseRange() : kNoNode;
+  expect(TokenKind::RBracket, "after the index");
+  return make(node(NodeKind::Index, begin), {base, row, column});
+}
+
+// A value, `name = value`, or within closed brackets an override `Rule --> successors`.
+NodeId Parser::parseArgument(bool matched) {
+  if (isName(current()) && ahead(1).kind == TokenKind::Equal) {
+    Node n = node(NodeKind::NamedArg, current().begin);
+    n.text = tree_.intern(textOf(current()));
+    advance();
+    advance();
+    const NodeId value = parseExpression();
+    n.end = endOfLast();
+    return make(n, {value});
+  }
+  if (matched && headAt(at_) == Head::Rule) {
+    const Enter enter(*this, {0, false, true});
+    return parseDefinition(kNoNode, Keyword::None);
+  }
+  return parseExpression();
+}
+
+NodeId Parser::parseArguments() {
+  const Token open = current();
+  advance();
+  const bool matched = open.match != Token::kNoMatch;
+  Nodes items;
+  while (!panic_ && !is(TokenKind::RParen) && (matched || !declarationHere())) {
+    items.push_back(parseArgument(matched));
+    if (!accept(TokenKind::Comma)) break;
+    if (is(TokenKind::RParen)) unexpected("another argument after ','");
+  }
+  if (!accept(TokenKind::RParen)) {
+    if (matched) {
+      unexpected("',' or ')' after an argument");
+      if (open.match >= at_) at_ = open.match;
+      accept(TokenKind::RParen);
+    } else {
+      error("unclosed-bracket", spanOf(open), "this '(' is never closed",
+            "add ')' before " + describe(current()));
+    }
+  }
+  return list(open.begin, items);
+}
+
+}  // namespace gable::lang

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Bodies of rules. What makes them delicate is that "30% : A" starts with an expression, that
+// "{ head : A }" and "{ A }" look alike until the colon, and that a branch ends where the next case,
+// else or weight begins. All three are decided by looking ahead over whole brackets, at most once
+// for each token of a level, so that parsing stays linear.
+
+#include <string>
+
+#include "lang/parser_impl.h"
+
+namespace gable::lang {
+
+// True where a weight "... % :" begins: no successor starts with a number or a bracket, none is
+// followed by an operator.
+bool Parser::weightHere() const {
+  if (is(TokenKind::Number) || is(TokenKind::LParen)) return true;
+  if (!isName(current())) return false;
+  switch (token(skipBrackets(at_ + 1)).kind) {
+    case TokenKind::Percent:
+    case TokenKind::Plus:
+    case TokenKind::Minus:
+    case TokenKind::Star:
+    case TokenKind::Slash: return true;
+    default: return false;
+  }
+}
+
+// True where, inside a block, the next item begins although there was no '|'.
+bool Parser::separatorMissing() const {
+  if (place_.blocks == 0) return false;
+  if (is(TokenKind::Tilde) || is(TokenKind::Quote)) return true;
+  if (!is(TokenKind::Number) && !isName(current())) return false;
+  const TokenKind next = token(skipBrackets(at_ + 1)).kind;
+  return next == TokenKind::Colon || next == TokenKind::Connect || next == TokenKind::Equal;
+}
+
+NodeId Parser::parseSequence() {
+  const uint32_t begin = current().begin;
+  Nodes items;
+  const Nest nest(*this);
+  while (nest.ok() && !panic_ && parseSuccessor(items)) {
+  }
+  Node n = node(NodeKind::Sequence, begin);
+  return make(n, items);
+}
+
+// Reports a token that begins no successor and passes it. False where the sequence ends instead.
+bool Parser::skipBadSuccessor() {
+  const bool closes = is(TokenKind::RBrace) || is(TokenKind::RParen) || is(TokenKind::RBracket);
+  if (atEnd() || (closes && current().match != Token::kNoMatch)) return false;
+  if (is(TokenKind::Pipe) && place_.blocks > 0) return false;
+  if (is(TokenKind::Comma) && place_.inOverrides) return false;
+  if (separatorMissing()) return false;
+  unexpected("an operation, a rule or a new declaration");
+  if (is(TokenKind::LBrace) && current().match != Token::kNoMatch) at_ = current().match;
+  advance();
+  return true;
+}
+
+// Adds one successor; false where the sequence ends.
+bool Parser::parseSuccessor(Nodes& items) {
+  if (declarationHere()) return false;
+  if (is(Keyword::Else)) {
+    if (place_.inChoice) return false;
+    unexpected("an operation or a rule", "'else' belongs to a 'case' or to weights before it");
+    advance();
+    accept(TokenKind::Colon);
+    return true;
+  }
+  if (separatorMissing()) return false;
+  if (is(Keyword::Case) || weightHere()) return parseChoiceInSequence(items);
+  if (is(TokenKind::LBracket)) {
+    items.push_back(parsePush());
+    return true;
+  }
+  if (isName(current())) {
+    items.push_back(parseApply());
+    return true;
+  }
+  return skipBadSuccessor();
+}
+
+bool Parser::parseChoiceInSequence(Nodes& items) {
+  if (place_.inChoice && !items.empty()) return false;
+  if (!items.empty()) {
+    warning("choice-not-first", spanOf(current()),
+            "this choice stands behind other operations; some programs refuse that",
+            "put '[' and ']' around the choice, or move it to a rule of its own");
+  }
+  items.push_back(parseChoice());
+  return true;
+}
+
+NodeId Parser::parseChoice() {
+  const Nest nest(*this);
+  if (!nest.ok()) return missing();
+  if (is(Keyword::Case)) return parseCaseChoice(false);
+  const uint32_t begin = current().begin;
+  const size_t before = at_;
+  const NodeId weight = parseBinary(0);
+  if (!is(TokenKind::Percent)) {
+    unexpected("'%' and ':' after a weight");
+    // Goes on behind the expression; the rest reads as successors.
+    if (at_ == before) advance();
+    return missing();
+  }
+  return parsePercentChoice(weight, begin, false);
+}
+
+NodeId Parser::parseBranchBody(bool expressions) {
+  if (expressions) return parseExpression();
+  Place inner = place_;
+  inner.inChoice = true;
+  const Enter enter(*this, inner);
+  return parseSequence();
+}
+
+// The branch behind "else"; kNoNode if there is none.
+NodeId Parser::parseElse(bool expressions) {
+  if (!is(Keyword::Else)) return kNoNode;
+  Node n = node(NodeKind::Branch, current().begin);
+  advance();
+  if (!accept(TokenKind::Colon)) {
+    unexpected("':' after 'else'",
+               is(Keyword::Case) ? "write 'else : case ...' or only 'case ...'" : "");
+  }
+  const NodeId body = parseBranchBody(expressions);
+  n.end = endOfLast();
+  return make(n, {kNoNode, body});
+}
+
+NodeId Parser::parseCaseChoice(bool expressions) {
+  const Token first = current();
+  Nodes branches;
+  while (!panic_ && is(Keyword::Case)) {
+    Node n = node(NodeKind::Branch, current().begin);
+    advance();
+    const NodeId condition = parseBinary(0);
+    expect(TokenKind::Colon, "after the condition of 'case'");
+    const NodeId body = parseBranchBody(expressions);
+    n.end = endOfLast();
+    branches.push_back(make(n, {condition, body}));
+  }
+  if (const NodeId otherwise = parseElse(expressions); otherwise != kNoNode) {
+    branches.push_back(otherwise);
+  } else if (!panic_) {
+    error("missing-else", spanOf(first), "this 'case' has no 'else'",
+          expressions ? "add 'else : value'" : "add 'else : NIL', or what else shall happen");
+  }
+  Node n = node(NodeKind::Choice, first.begin);
+  n.op = static_cast<uint8_t>(ChoiceKind::Case);
+  return make(n, branches);
+}
+
+// "% :" is next; `firstWeight` stands before it.
+NodeId Parser::parsePercentChoice(NodeId firstWeight, uint32_t begin, bool expressions) {
+  Nodes branches;
+  NodeId weight = firstWeight;
+  uint32_t branchBegin = begin;
+  for (;;) {
+    Node n = node(NodeKind::Branch, branchBegin);
+    accept(TokenKind::Percent);
+    expect(TokenKind::Colon, "after '%'");
+    const NodeId body = parseBranchBody(expressions);
+    n.end = endOfLast();
+    branches.push_back(make(n, {weight, body}));
+    if (panic_ || separatorMissing() || declarationHere() || !weightHere()) break;
+    branchBegin = current().begin;
+    const size_t before = at_;
+    weight = parseBinary(0);
+    if (is(TokenKind::Percent)) continue;
+    unexpected("'%' and ':' after a weight");
+    if (at_ == before) advance();
+    break;
+  }
+  if (const NodeId otherwise = parseElse(expressions); otherwise != kNoNode) {
+    branches.push_back(otherwise);
+  }
+  Node n = node(NodeKind::Choice, begin);
+  n.op = static_cast<uint8_t>(ChoiceKind::Percent);
+  return make(n, branches);
+}
+
+NodeId Parser::parsePush() {
+  const Token open = current();
+  advance();
+  NodeId body;
+  {
+    Place inner;
+    inner.blocks = place_.blocks + 1;
+    const Enter enter(*this, inner);
+    body = parseSequence();
+  }
+  if (!accept(TokenKind::RBracket)) {
+    error("unclosed-bracket", spanOf(open), "this '[' is never closed",
+          "add ']' before " + describe(current()));
+  }
+  return make(node(NodeKind::Push, open.begin), {body});
+}
+
+// True at ".name" directly behind a closing bracket: `imp(a = 1).Rule`.
+bool Parser::memberHere() const {
+  return is(TokenKind::Dot) && isName(ahead(1)) && ahead(1).begin == current().end && at_ > 0 &&
+         tokens_[at_ - 1].kind == TokenKind::RParen;
+}
+
+NodeId Parser::parseMember(const Token& importName, NodeId overrides, NodeKind kind) {
+  advance();
+  Node n = node(kind, importName.begin);
+  n.text = tree_.intern(textOf(current()));
+  advance();
+  const NodeId arguments = is(TokenKind::LParen) ? parseArguments() : kNoNode;
+  n.end = endOfLast();
+  const NodeId name = named(NodeKind::Name, importName);
+  return make(n, {name, overrides, arguments});
+}
+
+// The successor behind `inline`, as the only item of a block.
+NodeId Parser::parseOperand() {
+  const uint32_t begin = current().begin;
+  const NodeId operand = parseApply();
+  const NodeId sequence = make(node(NodeKind::Sequence, begin), {operand});
+  const NodeId item = make(node(NodeKind::Item, begin), {kNoNode, kNoNode, sequence});
+  return make(node(NodeKind::Block, begin), {item});
+}
+
+NodeId Parser::parseApply() {
+  const Nest nest(*this);
+  if (!nest.ok()) return missing();
+  const Token name = current();
+  advance();
+  Nodes children = {is(TokenKind::LParen) ? parseArguments() : kNoNode};
+  if (memberHere()) return parseMember(name, children[0], NodeKind::ImportApply);
+
+  Node n = node(NodeKind::Apply, name.begin);
+  n.text = tree_.intern(textOf(name));
+  const bool takesOperand =
+      name.keyword >= Keyword::Inline && !userWord_[static_cast<size_t>(name.keyword)];
+  if (accept(TokenKind::Dot)) {
+    n.flags |= kFlagTerminal;
+  } else if (takesOperand && isName(current()) && !declarationHere()) {
+    n.flags |= kFlagOperand;
+    children.push_back(parseOperand());
+  } else {
+    while (!panic_ && is(TokenKind::LBrace)) children.push_back(parseBlock(false));
+  }
+  n.end = endOfLast();
+  return make(n, children);
+}
+
+// Looks from the start of an item for the ':' or '=' that ends its head. Two operands in a row are
+// successors, so the search ends there.
+bool Parser::headHere() const {
+  if (is(TokenKind::Tilde) || is(TokenKind::Quote)) return true;
+  if (is(Keyword::Case)) return false;
+  bool afterOperand = false;
+  for (size_t i = at_; i < tokens_.size(); ++i) {
+    const Token& t = tokens_[i];
+    switch (t.kind) {
+      case TokenKind::Colon:
+      case TokenKind::Equal:
+      case TokenKind::Connect:
+        return i > at_ && tokens_[i - 1].kind != TokenKind::Percent;
+      case TokenKind::LParen:
+      case TokenKind::LBracket:
+      case TokenKind::LBrace:
+        if (t.match == Token::kNoMatch) return false;
+        i = t.match;
+        afterOperand = true;
+        break;
+      case TokenKind::Name:
+      case TokenKind::Number:
+      case TokenKind::String:
+        if (afterOperand) return false;
+        afterOperand = true;
+        break;
+      case TokenKind::Pipe:
+      case TokenKind::RBrace:
+      case TokenKind::RParen:
+      case TokenKind::RBracket:
+      case TokenKind::Comma:
+      case TokenKind::Semicolon:
+      case TokenKind::Dot:
+      case TokenKind::At:
+      case TokenKind::Arrow:
+      case TokenKind::End: return false;
+      default: afterOperand = false;
+    }
+  }
+  return false;
+}
+
+NodeId Parser::parseItem(bool expressions) {
+  if (is(TokenKind::LBrace)) return parseBlock(expressions);
+  Node n = node(NodeKind::Item, current().begin);
+  NodeId head = kNoNode;
+  NodeId second = kNoNode;
+  if (headHere()) {
+    head = parseExpression();
+    if (accept(TokenKind::Equal)) {
+      n.op = static_cast<uint8_t>(ItemKind::Combine);
+    } else if (accept(TokenKind::Connect)) {
+      n.op = static_cast<uint8_t>(ItemKind::Connect);
+    } else {
+      expect(TokenKind::Colon, "or '=' after a size or selector");
+      n.op = static_cast<uint8_t>(ItemKind::Each);
+      if (!expressions && headHere()) {
+        second = parseExpression();
+        expect(TokenKind::Colon, "after the second size");
+      }
+    }
+  }
+  const NodeId body = expressions ? parseExpression() : parseSequence();
+  n.end = std::max(n.begin, endOfLast());
+  return make(n, {head, second, body});
+}
+
+NodeId Parser::parseBlock(bool expressions) {
+  const Nest nest(*this);
+  if (!nest.ok()) return missing();
+  const Token open = current();
+  advance();
+  Place inner;
+  inner.blocks = place_.blocks + 1;
+  const Enter enter(*this, inner);
+  Nodes items;
+  bool wantItem = true;
+  while (!panic_ && !is(TokenKind::RBrace)) {
+    if (atEnd() || declarationHere()) break;
+    const size_t before = at_;
+    if (is(TokenKind::Pipe)) {
+      if (wantItem) {
+        warning("empty-item", spanOf(current()), "there is nothing before this '|'",
+                "remove it, or write what belongs there");
+      }
+      advance();
+      wantItem = true;
+      continue;
+    }
+    if (!wantItem) {
+      error("missing-separator", spanOf(current()),
+            "'|' is missing before " + describe(current()),
+            "write '|' between the parts of a block");
+    }
+    items.push_back(parseItem(expressions));
+    wantItem = false;
+    if (at_ == before) {
+      unexpected("a size, a selector or an operation");
+      advance();
+    }
+  }
+  if (wantItem && !items.empty() && is(TokenKind::RBrace)) {
+    warning("empty-item", spanOf(current()), "there is nothing between the last '|' and '}'",
+            "remove the '|'");
+  }
+  if (!accept(TokenKind::RBrace)) {
+    error("unclosed-block", spanOf(open), "this '{' is never closed",
+          "add '}' before " + describe(current()));
+  }
+  Node n = node(NodeKind::Block, open.begin);
+  if (!expressions && accept(TokenKind::Star)) n.flags |= kFlagRepeat;
+  n.end = endOfLast();
+  return make(n, items);
+}
+
+}  // namespace gable::lang

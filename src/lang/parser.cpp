@@ -1,0 +1,494 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Declarations, and what all productions share. The language has no separators: a declaration ends
+// where the next one begins, which headAt and declarationAt see from a few tokens ahead because
+// brackets know their partners. The same test, made stricter inside braces, is what a forgotten
+// bracket recovers at: the head of the next rule closes everything that is open.
+
+#include "lang/parser.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "lang/lexer.h"
+#include "lang/parser_impl.h"
+
+namespace gable::lang {
+
+Parser::Parser(std::string_view text, uint32_t file, const Tokens& tokens,
+               Diagnostics& diagnostics)
+    : text_(text), file_(file), tokens_(tokens.tokens), diagnostics_(diagnostics), tree_(file) {}
+
+// --- Tokens ---
+
+bool Parser::accept(TokenKind kind) {
+  if (!is(kind)) return false;
+  advance();
+  return true;
+}
+
+bool Parser::expect(TokenKind kind, const char* where) {
+  if (accept(kind)) return true;
+  unexpected(std::string(tokenKindName(kind)) + " " + where);
+  return false;
+}
+
+bool Parser::isName(const Token& t) const {
+  return t.kind == TokenKind::Name && t.keyword != Keyword::Case && t.keyword != Keyword::Else &&
+         t.keyword != Keyword::True && t.keyword != Keyword::False;
+}
+
+size_t Parser::skipBrackets(size_t index) const {
+  const Token& t = token(index);
+  if (t.kind != TokenKind::LParen || t.match == Token::kNoMatch) return index;
+  return t.match + 1;
+}
+
+Parser::Head Parser::headAt(size_t index) const {
+  if (!isName(token(index))) return Head::None;
+  size_t next = skipBrackets(index + 1);
+  if (token(next).keyword == Keyword::With) next = skipBrackets(next + 1);
+  if (token(next).kind == TokenKind::Arrow) return Head::Rule;
+  return token(next).kind == TokenKind::Equal ? Head::Function : Head::None;
+}
+
+bool Parser::declarationAt(size_t index, bool insideBlock) const {
+  const Token& t = token(index);
+  const Token& next = token(index + 1);
+  if (t.kind == TokenKind::At) return true;
+  if (t.kind != TokenKind::Name) return false;
+  switch (t.keyword) {
+    case Keyword::Attr:
+    case Keyword::Const:
+    case Keyword::Import:
+    case Keyword::Style:
+      if (isName(next)) return true;
+      break;
+    case Keyword::Version:
+      if (next.kind == TokenKind::String) return true;
+      break;
+    case Keyword::Start:
+    case Keyword::Extension:
+      if (headAt(index + 1) == Head::Rule) return true;
+      break;
+    default: break;
+  }
+  const Head head = headAt(index);
+  return head == Head::Rule || (head == Head::Function && !insideBlock);
+}
+
+void Parser::skipToDeclaration() {
+  while (!atEnd() && !declarationAt(at_, false)) advance();
+}
+
+void Parser::findUserWords() {
+  for (size_t i = 0; i < tokens_.size(); ++i) {
+    const auto keyword = static_cast<size_t>(tokens_[i].keyword);
+    if (tokens_[i].keyword >= Keyword::Inline && headAt(i) == Head::Rule) userWord_[keyword] = true;
+  }
+}
+
+// --- Reports ---
+
+void Parser::error(const char* code, Span span, std::string message, std::string hint) {
+  if (panic_ || at_ == lastErrorAt_) return;
+  lastErrorAt_ = at_;
+  if (inAnnotation_) {
+    diagnostics_.warning("bad-annotation", span, std::move(message), std::move(hint));
+    return;
+  }
+  diagnostics_.error(code, span, std::move(message), std::move(hint));
+  if (++errors_ < kMaxSyntaxErrors) return;
+  diagnostics_.error("too-many-errors", span, "the rest of the file is not read after this mistake",
+                     "correct the mistakes above first");
+  panic_ = true;
+  at_ = tokens_.size() - 1;
+}
+
+void Parser::warning(const char* code, Span span, std::string message, std::string hint) {
+  if (!panic_) diagnostics_.warning(code, span, std::move(message), std::move(hint));
+}
+
+std::string Parser::describe(const Token& t) const {
+  constexpr size_t kShown = 40;
+  if (t.kind == TokenKind::End) return "the end of the file";
+  std::string s(textOf(t).substr(0, kShown));
+  if (t.end - t.begin > kShown) s += "...";
+  return t.kind == TokenKind::String ? "the string " + s : "'" + s + "'";
+}
+
+void Parser::unexpected(const std::string& expected, std::string hint) {
+  if (hint.empty() && is(TokenKind::Semicolon)) hint = "statements need no separator; remove it";
+  error("unexpected-token", spanOf(current()),
+        describe(current()) + " is unexpected here; expected " + expected, std::move(hint));
+}
+
+void Parser::tooDeep() {
+  if (panic_) return;
+  error("nesting-too-deep", spanOf(current()),
+        "expressions and blocks nest deeper than the limit of " + std::to_string(kMaxNesting) +
+            " levels",
+        "move inner parts to rules or functions of their own");
+  panic_ = true;
+  advance();
+  skipToDeclaration();
+}
+
+// --- Nodes ---
+
+Node Parser::node(NodeKind kind, uint32_t begin) const {
+  Node n;
+  n.kind = kind;
+  n.begin = begin;
+  n.end = std::max(begin, endOfLast());
+  return n;
+}
+
+NodeId Parser::make(Node n, const Nodes& children) {
+  const NodeId id = tree_.add(n, children);
+  if (tree_.depth(id) <= kMaxTreeDepth) return id;
+  if (!panic_) {
+    error("nesting-too-deep", {file_, n.begin, n.begin + 1},
+          "this expression has too many parts in a row",
+          "store parts of it in functions or constants");
+    panic_ = true;
+    skipToDeclaration();
+  }
+  return missing();
+}
+
+NodeId Parser::named(NodeKind kind, const Token& t) {
+  Node n;
+  n.kind = kind;
+  n.begin = t.begin;
+  n.end = t.end;
+  n.text = tree_.intern(textOf(t));
+  return tree_.add(n);
+}
+
+NodeId Parser::missing() {
+  Node n;
+  n.kind = NodeKind::Missing;
+  n.begin = n.end = current().begin;
+  return tree_.add(n);
+}
+
+// --- Declarations ---
+
+NodeId Parser::parseAnnotationValue() {
+  const Nest nest(*this);
+  if (!nest.ok()) return missing();
+  const uint32_t begin = current().begin;
+  if (accept(TokenKind::LBrace)) {
+    Nodes items;
+    while (!panic_ && !is(TokenKind::RBrace) && !atEnd()) {
+      items.push_back(parseAnnotationValue());
+      if (!accept(TokenKind::Comma)) break;
+    }
+    accept(TokenKind::RBrace);
+    return make(node(NodeKind::BraceList, begin), items);
+  }
+  if (isName(current()) && ahead(1).kind == TokenKind::Equal) {
+    Node n = node(NodeKind::NamedArg, begin);
+    n.text = tree_.intern(textOf(current()));
+    advance();
+    advance();
+    const NodeId value = parseAnnotationValue();
+    n.end = endOfLast();
+    return make(n, {value});
+  }
+  return parseExpression();
+}
+
+// Annotations never stop a file: a malformed one is a warning, and its brackets are passed over.
+NodeId Parser::parseAnnotation() {
+  const uint32_t begin = current().begin;
+  advance();
+  if (!is(TokenKind::Name)) {
+    unexpected("the name of an annotation after '@'");
+    return kNoNode;
+  }
+  Node n = node(NodeKind::Annotation, begin);
+  const std::string name(textOf(current()));
+  n.text = tree_.intern(name);
+  advance();
+  Nodes arguments;
+  if (is(TokenKind::LParen)) {
+    const Token open = current();
+    advance();
+    inAnnotation_ = true;
+    while (!panic_ && !is(TokenKind::RParen) && !atEnd() && !declarationAt(at_, true)) {
+      arguments.push_back(parseAnnotationValue());
+      if (!accept(TokenKind::Comma)) break;
+    }
+    if (!is(TokenKind::RParen)) {
+      unexpected("',' or ')' in the arguments of '@" + name + "'");
+      if (open.match != Token::kNoMatch && open.match >= at_) at_ = open.match;
+    }
+    accept(TokenKind::RParen);
+    inAnnotation_ = false;
+  }
+  n.end = endOfLast();
+  return make(n, arguments);
+}
+
+NodeId Parser::parseVersion() {
+  Node n = node(NodeKind::Version, current().begin);
+  advance();
+  n.text = tree_.intern(stringValue(textOf(current())));
+  advance();
+  n.end = endOfLast();
+  return make(n, {});
+}
+
+NodeId Parser::parseStyle(NodeId annotations) {
+  advance();
+  Node n = node(NodeKind::Style, current().begin);
+  n.text = tree_.intern(textOf(current()));
+  advance();
+  NodeId base = kNoNode;
+  if (is(Keyword::Extends)) {
+    advance();
+    if (isName(current())) {
+      base = named(NodeKind::Name, current());
+      advance();
+    } else {
+      unexpected("the name of a style after 'extends'");
+    }
+  }
+  n.end = endOfLast();
+  return make(n, {annotations, base});
+}
+
+NodeId Parser::parseStyleNames() {
+  const uint32_t begin = current().begin;
+  advance();
+  Nodes names;
+  while (isName(current())) {
+    names.push_back(named(NodeKind::Name, current()));
+    advance();
+    if (!accept(TokenKind::Comma)) break;
+  }
+  expect(TokenKind::RParen, "after the styles to import");
+  return list(begin, names);
+}
+
+// One item of an override list: `name`, `name = value` or `Name(params) --> successors`.
+NodeId Parser::parseOverride() {
+  const uint32_t begin = current().begin;
+  if (!isName(current())) {
+    unexpected("the name of an attribute or of an extension rule");
+    return kNoNode;
+  }
+  const Token name = current();
+  if (headAt(at_) == Head::Rule) return parseDefinition(kNoNode, Keyword::None);
+  advance();
+  if (!accept(TokenKind::Equal)) return named(NodeKind::Name, name);
+  Node n = node(NodeKind::NamedArg, begin);
+  n.text = tree_.intern(textOf(name));
+  const NodeId value = parseExpression();
+  n.end = endOfLast();
+  return make(n, {value});
+}
+
+NodeId Parser::parseImport(NodeId annotations) {
+  if (is(Keyword::Import) && isName(ahead(1))) advance();
+  Node n = node(NodeKind::Import, current().begin);
+  n.text = tree_.intern(textOf(current()));
+  advance();
+  const NodeId styles = is(TokenKind::LParen) ? parseStyleNames() : kNoNode;
+  NodeId path = kNoNode;
+  if (expect(TokenKind::Colon, "before the path of the import")) {
+    if (is(TokenKind::String)) {
+      Node s = node(NodeKind::String, current().begin);
+      s.text = tree_.intern(stringValue(textOf(current())));
+      advance();
+      s.end = endOfLast();
+      path = tree_.add(s);
+    } else {
+      unexpected("the path of a rule file as a string");
+    }
+  }
+  NodeId overrides = kNoNode;
+  if (is(TokenKind::LParen)) {
+    const Enter enter(*this, {0, false, true});
+    const uint32_t open = current().begin;
+    advance();
+    Nodes items;
+    while (!panic_ && !is(TokenKind::RParen) && !atEnd()) {
+      const size_t before = at_;
+      const NodeId item = parseOverride();
+      if (item != kNoNode) items.push_back(item);
+      if (!accept(TokenKind::Comma) && (at_ == before || !isName(current()))) break;
+    }
+    expect(TokenKind::RParen, "after the overrides of the import");
+    overrides = list(open, items);
+  }
+  n.end = endOfLast();
+  return make(n, {annotations, path, styles, overrides});
+}
+
+NodeId Parser::parseParams() {
+  const uint32_t begin = current().begin;
+  advance();
+  Nodes params;
+  while (isName(current())) {
+    params.push_back(named(NodeKind::Param, current()));
+    advance();
+    if (!accept(TokenKind::Comma)) break;
+  }
+  if (!is(TokenKind::RParen)) {
+    unexpected("the name of a parameter or ')'");
+    const size_t open = at_;
+    while (!atEnd() && !is(TokenKind::RParen) && !declarationAt(at_, true)) advance();
+    if (!is(TokenKind::RParen)) at_ = open;
+  }
+  accept(TokenKind::RParen);
+  return list(begin, params);
+}
+
+NodeId Parser::parseLocals() {
+  const uint32_t begin = current().begin;
+  advance();
+  Nodes locals;
+  if (expect(TokenKind::LParen, "after 'with'")) {
+    while (!panic_ && isName(current())) {
+      Node n = node(NodeKind::Local, current().begin);
+      n.text = tree_.intern(textOf(current()));
+      advance();
+      if (!accept(TokenKind::Assign)) {
+        unexpected("':=' and the value of the local variable", "write 'name := value'");
+        if (!accept(TokenKind::Equal) && !accept(TokenKind::Colon)) break;
+      }
+      const NodeId value = parseExpression();
+      n.end = endOfLast();
+      locals.push_back(make(n, {value}));
+      accept(TokenKind::Comma);
+    }
+    expect(TokenKind::RParen, "after the local variables");
+  }
+  return list(begin, locals);
+}
+
+void Parser::reportAfterValue(std::string_view name) {
+  if (panic_ || atEnd() || declarationAt(at_, false) || place_.inOverrides) return;
+  if (isName(current()) && ahead(1).kind == TokenKind::Colon &&
+      ahead(2).kind == TokenKind::String) {
+    return;
+  }
+  unexpected("a new declaration after the value of '" + std::string(name) + "'");
+  skipToDeclaration();
+}
+
+// attr, const, function or rule: all share the head `name(params) with (locals)`.
+NodeId Parser::parseDefinition(NodeId annotations, Keyword keyword) {
+  const Token name = current();
+  advance();
+  const NodeId params = is(TokenKind::LParen) ? parseParams() : kNoNode;
+  const NodeId locals = is(Keyword::With) ? parseLocals() : kNoNode;
+  Node n = node(NodeKind::Function, name.begin);
+  n.text = tree_.intern(textOf(name));
+
+  if (accept(TokenKind::Arrow)) {
+    if (keyword == Keyword::Attr || keyword == Keyword::Const) {
+      warning("keyword-on-rule", spanOf(name),
+              "'" + std::string(textOf(name)) + "' is a rule; the keyword before it has no effect",
+              "remove the keyword");
+    }
+    n.kind = NodeKind::Rule;
+    if (keyword == Keyword::Start) n.flags = kFlagStart;
+    if (keyword == Keyword::Extension) n.flags = kFlagExtension;
+    const NodeId body = parseSequence();
+    n.end = std::max(n.end, endOfLast());
+    return make(n, {annotations, params, locals, body});
+  }
+
+  if (keyword == Keyword::Attr) n.kind = NodeKind::Attr;
+  if (keyword == Keyword::Const) n.kind = NodeKind::Const;
+  NodeId value = kNoNode;
+  if (expect(TokenKind::Equal, "and a value after the name") || accept(TokenKind::Colon) ||
+      accept(TokenKind::Assign)) {
+    value = parseExpression();
+  } else {
+    value = missing();
+    if (!panic_) skipToDeclaration();
+  }
+  n.end = endOfLast();
+  const NodeId id = make(n, {annotations, params, locals, value});
+  reportAfterValue(textOf(name));
+  return id;
+}
+
+void Parser::parseDeclaration() {
+  panic_ = errors_ >= kMaxSyntaxErrors;
+  inAnnotation_ = false;
+  const uint32_t begin = current().begin;
+  Nodes annotations;
+  while (is(TokenKind::At)) {
+    const NodeId a = parseAnnotation();
+    if (a != kNoNode) annotations.push_back(a);
+  }
+  const NodeId attached = annotations.empty() ? kNoNode : list(begin, annotations);
+  const auto stray = [&] {
+    declarations_.insert(declarations_.end(), annotations.begin(), annotations.end());
+  };
+
+  const Keyword keyword = current().keyword;
+  const bool nameNext = isName(ahead(1));
+  if (keyword == Keyword::Version && ahead(1).kind == TokenKind::String) {
+    stray();
+    declarations_.push_back(parseVersion());
+  } else if (keyword == Keyword::Style && nameNext) {
+    declarations_.push_back(parseStyle(attached));
+  } else if (keyword == Keyword::Import && nameNext) {
+    declarations_.push_back(parseImport(attached));
+  } else if ((keyword == Keyword::Attr || keyword == Keyword::Const) && nameNext) {
+    advance();
+    declarations_.push_back(parseDefinition(attached, keyword));
+  } else if ((keyword == Keyword::Start || keyword == Keyword::Extension) &&
+             headAt(at_ + 1) == Head::Rule) {
+    advance();
+    declarations_.push_back(parseDefinition(attached, keyword));
+  } else if (headAt(at_) != Head::None) {
+    declarations_.push_back(parseDefinition(attached, Keyword::None));
+  } else if (isName(current()) && ahead(1).kind == TokenKind::Colon &&
+             ahead(2).kind == TokenKind::String) {
+    warning("import-without-keyword", spanOf(current()),
+            "this import stands without the word 'import'", "write 'import' before each import");
+    declarations_.push_back(parseImport(attached));
+  } else {
+    stray();
+    if (atEnd()) return;
+    const bool call = isName(current());
+    unexpected("a declaration",
+               call ? "a rule is written 'Name --> ...', a function 'name(a) = ...'" : "");
+    advance();
+    skipToDeclaration();
+  }
+}
+
+Tree Parser::run() {
+  findUserWords();
+  while (!atEnd()) {
+    const size_t before = at_;
+    parseDeclaration();
+    if (at_ == before) advance();
+  }
+  Node n = node(NodeKind::File, 0);
+  n.end = static_cast<uint32_t>(text_.size());
+  tree_.setRoot(tree_.add(n, declarations_));
+  return std::move(tree_);
+}
+
+Tree parse(std::string_view text, uint32_t file, const Tokens& tokens, Diagnostics& diagnostics) {
+  return Parser(text, file, tokens, diagnostics).run();
+}
+
+Tree parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics) {
+  const std::string_view text = sources.text(file);
+  const Tokens tokens = tokenize(text, file, diagnostics);
+  return parse(text, file, tokens, diagnostics);
+}
+
+}  // namespace gable::lang

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The parser's state and its productions, for the three files that implement them: parser.cpp
+// (declarations), parse_successors.cpp (bodies of rules) and parse_expressions.cpp. Not included
+// from anywhere else.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "lang/parser.h"
+#include "lang/token.h"
+#include "lang/tree.h"
+
+namespace gable::lang {
+
+class Parser {
+ public:
+  Parser(std::string_view text, uint32_t file, const Tokens& tokens, Diagnostics& diagnostics);
+
+  Tree run();
+
+ private:
+  enum class Head : uint8_t { None, Rule, Function };
+  using Nodes = std::vector<NodeId>;
+
+  // A level of nesting. Not ok() when there are too many: the production returns at once.
+  class Nest {
+   public:
+    explicit Nest(Parser& p) : p_(p) {
+      if (++p_.nesting_ > kMaxNesting) p_.tooDeep();
+    }
+    ~Nest() { --p_.nesting_; }
+    Nest(const Nest&) = delete;
+    Nest& operator=(const Nest&) = delete;
+    bool ok() const { return p_.nesting_ <= kMaxNesting; }
+
+   private:
+    Parser& p_;
+  };
+
+  // What a sequence of successors stands in; decides what ends it.
+  struct Place {
+    uint32_t blocks = 0;   // open braces and push brackets within the rule
+    bool inChoice = false; // directly in a branch
+    bool inOverrides = false;
+  };
+  class Enter {
+   public:
+    Enter(Parser& p, Place next) : p_(p), saved_(p.place_) { p_.place_ = next; }
+    ~Enter() { p_.place_ = saved_; }
+    Enter(const Enter&) = delete;
+    Enter& operator=(const Enter&) = delete;
+
+   private:
+    Parser& p_;
+    Place saved_;
+  };
+
+  // --- Tokens (parser.cpp) ---
+  const Token& current() const { return tokens_[at_]; }
+  const Token& token(size_t index) const {
+    return index < tokens_.size() ? tokens_[index] : tokens_.back();
+  }
+  const Token& ahead(size_t n) const { return token(at_ + n); }
+  bool is(TokenKind kind) const { return current().kind == kind; }
+  bool is(Keyword keyword) const { return current().keyword == keyword; }
+  bool atEnd() const { return is(TokenKind::End); }
+  std::string_view textOf(const Token& t) const { return text_.substr(t.begin, t.end - t.begin); }
+  void advance() {
+    if (!atEnd()) ++at_;
+  }
+  bool accept(TokenKind kind);
+  /// Reports when it is not there: "expected ')' after the arguments".
+  bool expect(TokenKind kind, const char* where);
+  bool isName(const Token& t) const;
+  uint32_t endOfLast() const { return at_ == 0 ? 0 : tokens_[at_ - 1].end; }
+  /// The token after an optional "(...)" that starts at `index`; `index` itself if there is none.
+  size_t skipBrackets(size_t index) const;
+  Head headAt(size_t index) const;
+  /// True where a declaration begins. Inside blocks `name =` is a selector, so it does not count.
+  bool declarationAt(size_t index, bool insideBlock) const;
+  bool declarationHere() const { return declarationAt(at_, place_.blocks > 0); }
+  /// Goes on to the next declaration.
+  void skipToDeclaration();
+  void findUserWords();
+
+  // --- Reports (parser.cpp) ---
+  Span spanOf(const Token& t) const { return {file_, t.begin, t.end}; }
+  void error(const char* code, Span span, std::string message, std::string hint = {});
+  void warning(const char* code, Span span, std::string message, std::string hint = {});
+  /// At the current token: "'x' is unexpected here; expected ...".
+  void unexpected(const std::string& expected, std::string hint = {});
+  std::string describe(const Token& t) const;
+  void tooDeep();
+
+  // --- Nodes (parser.cpp) ---
+  Node node(NodeKind kind, uint32_t begin) const;
+  NodeId make(Node n, const Nodes& children);
+  NodeId named(NodeKind kind, const Token& t);
+  NodeId missing();
+  NodeId list(uint32_t begin, const Nodes& items) { return make(node(NodeKind::List, begin), items); }
+
+  // --- Declarations (parser.cpp) ---
+  void parseDeclaration();
+  NodeId parseAnnotation();
+  NodeId parseAnnotationValue();
+  NodeId parseVersion();
+  NodeId parseStyle(NodeId annotations);
+  NodeId parseImport(NodeId annotations);
+  NodeId parseOverride();
+  NodeId parseStyleNames();
+  NodeId parseDefinition(NodeId annotations, Keyword keyword);
+  NodeId parseParams();
+  NodeId parseLocals();
+  void reportAfterValue(std::string_view name);
+
+  // --- Successors (parse_successors.cpp) ---
+  NodeId parseSequence();
+  bool parseSuccessor(Nodes& items);
+  bool weightHere() const;
+  bool separatorMissing() const;
+  bool parseChoiceInSequence(Nodes& items);
+  NodeId parseChoice();
+  NodeId parsePercentChoice(NodeId firstWeight, uint32_t begin, bool expressions);
+  NodeId parseCaseChoice(bool expressions);
+  NodeId parseBranchBody(bool expressions);
+  NodeId parseElse(bool expressions);
+  NodeId parseApply();
+  NodeId parseOperand();
+  NodeId parseMember(const Token& importName, NodeId overrides, NodeKind kind);
+  bool memberHere() const;
+  NodeId parsePush();
+  NodeId parseBlock(bool expressions);
+  NodeId parseItem(bool expressions);
+  bool headHere() const;
+  bool skipBadSuccessor();
+
+  // --- Expressions (parse_expressions.cpp) ---
+  NodeId parseExpression();
+  NodeId parseBinary(int minPrecedence);
+  NodeId parseUnary();
+  NodeId parsePostfix();
+  NodeId parsePrimary();
+  NodeId parseNameExpression();
+  NodeId parseArray();
+  NodeId parseRange();
+  NodeId parseIndex(NodeId base);
+  NodeId parseArguments();
+  NodeId parseArgument(bool matched);
+
+  std::string_view text_;
+  uint32_t file_;
+  const std::vector<Token>& tokens_;
+  Diagnostics& diagnostics_;
+  Tree tree_;
+  Nodes declarations_;
+  Place place_;
+  size_t at_ = 0;
+  size_t lastErrorAt_ = SIZE_MAX;
+  size_t errors_ = 0;
+  uint32_t nesting_ = 0;
+  // Set when the rest of a declaration was given up: productions return without reports.
+  bool panic_ = false;
+  // Annotations never fail a file: their mistakes are warnings.
+  bool inAnnotation_ = false;
+  // Rules of the file named like a word that takes an operand.
+  bool userWord_[static_cast<size_t>(Keyword::Intersect) + 1] = {};
+};
+
+}  // namespace gable::lang
