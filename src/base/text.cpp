@@ -6,20 +6,10 @@
 #include "base/text.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cstdlib>
-#include <limits>
 
 namespace gable {
 
 namespace {
-
-// Decimal position of the first digit that is not zero, to tell overflow from underflow.
-bool isSmall(std::string_view text) {
-  const size_t e = text.find_first_of("eE");
-  if (e != std::string_view::npos) return e + 1 < text.size() && text[e + 1] == '-';
-  return text.find('.') < text.find_first_of("123456789");
-}
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -30,30 +20,6 @@ std::string lower(std::string_view s) {
 }
 
 }  // namespace
-
-std::optional<double> parseDouble(std::string_view text) {
-  const bool negative = !text.empty() && text[0] == '-';
-  if (!text.empty() && (text[0] == '-' || text[0] == '+')) text.remove_prefix(1);
-  if (text.empty() || !((text[0] >= '0' && text[0] <= '9') || text[0] == '.')) return {};
-  double value = 0;
-#if defined(__cpp_lib_to_chars)
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end != text.data() + text.size()) return {};
-  if (error == std::errc::result_out_of_range) {
-    value = isSmall(text) ? 0 : std::numeric_limits<double>::infinity();
-  } else if (error != std::errc()) {
-    return {};
-  }
-#else
-  // Without from_chars for doubles the C library does it; it follows the locale, which programs
-  // that embed us on such platforms leave at "C".
-  const std::string copy(text);
-  char* end = nullptr;
-  value = std::strtod(copy.c_str(), &end);
-  if (end != copy.c_str() + copy.size()) return {};
-#endif
-  return negative ? -value : value;
-}
 
 size_t editDistance(std::string_view a, std::string_view b, size_t limit) {
   if (a.size() > b.size()) std::swap(a, b);
@@ -87,9 +53,8 @@ std::string nearestName(std::string_view name, const std::vector<std::string_vie
   std::string_view best;
   for (const std::string_view candidate : candidates) {
     if (candidate == name || candidate.size() > kLongest) continue;
-    const size_t distance = lower(candidate) == folded
-                                ? 0
-                                : editDistance(name, candidate, bestDistance - 1);
+    const size_t distance =
+        lower(candidate) == folded ? 0 : editDistance(name, candidate, bestDistance - 1);
     if (distance < bestDistance && distance < candidate.size()) {
       bestDistance = distance;
       best = candidate;
@@ -106,7 +71,7 @@ std::string didYouMean(std::string_view name, const std::vector<std::string_view
 size_t utf8Length(std::string_view text, size_t at) {
   const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(at);
-  const size_t length = lead < 0x80             ? 1
+  const size_t length = lead < 0x80                   ? 1
                         : lead >= 0xc2 && lead < 0xe0 ? 2
                         : lead >= 0xe0 && lead < 0xf0 ? 3
                         : lead >= 0xf0 && lead < 0xf5 ? 4

@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Small helpers for text: numbers independent of the locale, and the nearest known name for
-// "did you mean". All functions are pure.
+// Small helpers for text: the nearest known name for "did you mean", and UTF-8. All functions are
+// pure.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace gable {
-
-/// The number that all of `text` spells (digits, one dot, exponent, leading sign), correctly
-/// rounded; empty if it is not a number. Too large or too small gives infinity or zero.
-std::optional<double> parseDouble(std::string_view text);
 
 /// Changes (insert, delete, replace, swap of neighbours) that lead from `a` to `b`; stops counting
 /// at `limit` + 1. Optimal string alignment, O(|a| |b|), case counts.

@@ -6,11 +6,9 @@
 
 #include "lang/dump.h"
 
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
+#include <utility>
 
-#include "base/text.h"
+#include "base/number.h"
 
 namespace gable::lang {
 
@@ -51,7 +49,7 @@ class Dumper {
     if (id == kNoNode) return;
     const std::string text(tree_.text(id));
     switch (tree_.kind(id)) {
-      case NodeKind::Number: out_ += numberText(tree_.number(id)); return;
+      case NodeKind::Number: out_ += shortestText(tree_.number(id)); return;
       case NodeKind::Bool: out_ += tree_.number(id) != 0 ? "true" : "false"; return;
       case NodeKind::String: out_ += quoted(text); return;
       case NodeKind::Name:
@@ -271,11 +269,12 @@ class Dumper {
 };
 
 const char* const kTokenNames[] = {
-    "end",    "name",   "number",  "string",    "lparen",  "rparen",       "lbracket", "rbracket",
-    "lbrace", "rbrace", "comma",   "semicolon", "colon",   "assign",       "equal",    "connect",
-    "arrow",  "pipe",   "dot",     "at",        "tilde",   "quote",        "plus",     "minus",
-    "star",   "slash",  "percent", "not",       "less",    "lessEqual",    "greater",  "greaterEqual",
-    "equalEqual", "notEqual", "and", "or"};
+    "end",      "name",      "number",  "string",       "lparen",     "rparen",   "lbracket",
+    "rbracket", "lbrace",    "rbrace",  "comma",        "semicolon",  "colon",    "assign",
+    "equal",    "connect",   "arrow",   "pipe",         "dot",        "at",       "tilde",
+    "quote",    "plus",      "minus",   "star",         "slash",      "percent",  "not",
+    "less",     "lessEqual", "greater", "greaterEqual", "equalEqual", "notEqual", "and",
+    "or",       "caret"};
 
 }  // namespace
 
@@ -321,15 +320,6 @@ std::string quoted(std::string_view text) {
     }
   }
   return out + "\"";
-}
-
-std::string numberText(double value) {
-  char buffer[40];
-  for (int digits = 15; digits <= 17; ++digits) {
-    std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
-    if (parseDouble(buffer) == value) break;
-  }
-  return buffer;
 }
 
 }  // namespace gable::lang

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// The tree and the tokens as text, for goldens, tests and readers. One line a declaration, successor,
-// branch or item, two spaces of indent a level; expressions on their line with all brackets written.
-// Equal trees give equal text. Linear in the tree.
+// The tree and the tokens as text, for goldens, tests and readers. One line a declaration,
+// successor, branch or item, two spaces of indent a level; expressions on their line with all
+// brackets written. Equal trees give equal text. Linear in the tree.
 #pragma once
 
 #include <string>
@@ -24,8 +24,5 @@ std::string dumpTokens(const Tokens& tokens, std::string_view text);
 
 /// `text` as a string literal of the language, quotes included.
 std::string quoted(std::string_view text);
-
-/// The shortest text that reads back as the same number.
-std::string numberText(double value);
 
 }  // namespace gable::lang

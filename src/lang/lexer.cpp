@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// One pass over the bytes. Dots decide most of it: "a.b" is one name, "X." a name and a dot, ".5" and
-// "5." are numbers, ".+" is an operator, and a dot before an operator belongs to the operator
+// One pass over the bytes. Dots decide most of it: "a.b" is one name, "X." a name and a dot, ".5"
+// and "5." are numbers, ".+" is an operator, and a dot before an operator belongs to the operator
 // ("1.==x" compares element by element). Brackets are paired on the way with a stack on which a
-// closing brace overrules open parentheses and brackets, but not the other way round; so a forgotten
+// closing brace overrules open parentheses and brackets, but not the other way round; so a
+// forgotten
 // ")" does not spoil the block around it.
 
 #include "lang/lexer.h"
@@ -130,7 +131,8 @@ class Lexer {
     const auto u = static_cast<unsigned char>(text_[i]);
     if (u < 0x80) return isNameStart(text_[i]);
     const size_t length = utf8Length(text_, i);
-    if (length == 0) return u >= 0x80 && u < 0xc0 && i > 0 && static_cast<unsigned char>(text_[i - 1]) >= 0x80;
+    if (length == 0)
+      return u >= 0x80 && u < 0xc0 && i > 0 && static_cast<unsigned char>(text_[i - 1]) >= 0x80;
     if (length == 2) return !(u == 0xc2 && static_cast<unsigned char>(text_[i + 1]) < 0xc0);
     return !(u == 0xe2 && static_cast<unsigned char>(text_[i + 1]) <= 0x81) &&
            text_.substr(i, 3) != "\xef\xbb\xbf" && text_.substr(i, 3) != "\xe3\x80\x80";
@@ -143,8 +145,7 @@ class Lexer {
   }
 
   void addComment(size_t begin, bool toLineEnd) {
-    out_.comments.push_back(
-        {static_cast<uint32_t>(begin), static_cast<uint32_t>(at_), toLineEnd});
+    out_.comments.push_back({static_cast<uint32_t>(begin), static_cast<uint32_t>(at_), toLineEnd});
   }
 
   // White space, the spaces of web pages, and comments.
@@ -286,13 +287,11 @@ class Lexer {
 
   static TokenKind operatorKind(std::string_view s) {
     static constexpr std::pair<std::string_view, TokenKind> kOperators[] = {
-        {"||", TokenKind::Or},         {"&&", TokenKind::And},
-        {"==", TokenKind::EqualEqual}, {"!=", TokenKind::NotEqual},
-        {"<=", TokenKind::LessEqual},  {">=", TokenKind::GreaterEqual},
-        {"+", TokenKind::Plus},        {"-", TokenKind::Minus},
-        {"*", TokenKind::Star},        {"/", TokenKind::Slash},
-        {"%", TokenKind::Percent},     {"<", TokenKind::Less},
-        {">", TokenKind::Greater},     {"!", TokenKind::Not},
+        {"||", TokenKind::Or},       {"&&", TokenKind::And},       {"==", TokenKind::EqualEqual},
+        {"!=", TokenKind::NotEqual}, {"<=", TokenKind::LessEqual}, {">=", TokenKind::GreaterEqual},
+        {"+", TokenKind::Plus},      {"-", TokenKind::Minus},      {"*", TokenKind::Star},
+        {"/", TokenKind::Slash},     {"%", TokenKind::Percent},    {"<", TokenKind::Less},
+        {">", TokenKind::Greater},   {"!", TokenKind::Not},
     };
     for (const auto& [text, kind] : kOperators) {
       if (text == s) return kind;
@@ -302,11 +301,12 @@ class Lexer {
 
   void lexSign() {
     static constexpr std::pair<std::string_view, TokenKind> kSigns[] = {
-        {"-->", TokenKind::Arrow},    {":=", TokenKind::Assign},   {"=:", TokenKind::Connect},
-        {"(", TokenKind::LParen},     {")", TokenKind::RParen},    {"[", TokenKind::LBracket},
-        {"]", TokenKind::RBracket},   {"{", TokenKind::LBrace},    {"}", TokenKind::RBrace},
-        {",", TokenKind::Comma},      {";", TokenKind::Semicolon}, {":", TokenKind::Colon},
-        {"@", TokenKind::At},         {"~", TokenKind::Tilde},     {"'", TokenKind::Quote},
+        {"-->", TokenKind::Arrow},  {":=", TokenKind::Assign},   {"=:", TokenKind::Connect},
+        {"(", TokenKind::LParen},   {")", TokenKind::RParen},    {"[", TokenKind::LBracket},
+        {"]", TokenKind::RBracket}, {"{", TokenKind::LBrace},    {"}", TokenKind::RBrace},
+        {",", TokenKind::Comma},    {";", TokenKind::Semicolon}, {":", TokenKind::Colon},
+        {"@", TokenKind::At},       {"~", TokenKind::Tilde},     {"'", TokenKind::Quote},
+        {"^", TokenKind::Caret},
     };
     for (const auto& [text, kind] : kSigns) {
       if (startsWith(text)) return push(kind, text.size());
@@ -411,11 +411,43 @@ std::string stringValue(std::string_view s) {
 }
 
 const char* tokenKindName(TokenKind kind) {
-  static constexpr std::array<const char*, 36> kNames = {
-      "the end of the file", "a name", "a number", "a string", "'('", "')'", "'['", "']'", "'{'",
-      "'}'", "','", "';'", "':'", "':='", "'='", "'=:'", "'-->'", "'|'", "'.'", "'@'", "'~'",
-      "a single quote", "'+'", "'-'", "'*'", "'/'", "'%'", "'!'", "'<'", "'<='", "'>'", "'>='",
-      "'=='", "'!='", "'&&'", "'||'"};
+  static constexpr std::array<const char*, 37> kNames = {"the end of the file",
+                                                         "a name",
+                                                         "a number",
+                                                         "a string",
+                                                         "'('",
+                                                         "')'",
+                                                         "'['",
+                                                         "']'",
+                                                         "'{'",
+                                                         "'}'",
+                                                         "','",
+                                                         "';'",
+                                                         "':'",
+                                                         "':='",
+                                                         "'='",
+                                                         "'=:'",
+                                                         "'-->'",
+                                                         "'|'",
+                                                         "'.'",
+                                                         "'@'",
+                                                         "'~'",
+                                                         "a single quote",
+                                                         "'+'",
+                                                         "'-'",
+                                                         "'*'",
+                                                         "'/'",
+                                                         "'%'",
+                                                         "'!'",
+                                                         "'<'",
+                                                         "'<='",
+                                                         "'>'",
+                                                         "'>='",
+                                                         "'=='",
+                                                         "'!='",
+                                                         "'&&'",
+                                                         "'||'",
+                                                         "'^'"};
   return kNames[static_cast<size_t>(kind)];
 }
 

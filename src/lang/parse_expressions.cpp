@@ -5,7 +5,9 @@
 // A '%' directly before ':' is no modulo but the end of a weight; ':' is an operator in brackets
 // only, where it makes a range.
 
-#include "base/text.h"
+#include <limits>
+
+#include "base/number.h"
 #include "lang/lexer.h"
 #include "lang/parser_impl.h"
 
@@ -88,8 +90,9 @@ NodeId Parser::parseUnary() {
   advance();
   const NodeId operand = parseUnary();
   if (prefix) {
-    return make(node(kind == TokenKind::Tilde ? NodeKind::Floating : NodeKind::Relative, sign.begin),
-                {operand});
+    return make(
+        node(kind == TokenKind::Tilde ? NodeKind::Floating : NodeKind::Relative, sign.begin),
+        {operand});
   }
   Node n = node(NodeKind::Unary, sign.begin);
   n.op = static_cast<uint8_t>(kind == TokenKind::Minus  ? UnaryOp::Minus
@@ -114,7 +117,11 @@ NodeId Parser::parsePrimary() {
   const Token t = current();
   if (t.kind == TokenKind::Number) {
     Node n = node(NodeKind::Number, t.begin);
-    n.number = parseDouble(textOf(t)).value_or(0);
+    // Digits that fit no double: beyond the largest unless the exponent is negative.
+    if (!parseNumber(textOf(t), n.number)) {
+      const bool small = textOf(t).find('-') != std::string_view::npos;
+      n.number = small ? 0 : std::numeric_limits<double>::infinity();
+    }
     advance();
     n.end = t.end;
     return tree_.add(n);
@@ -145,7 +152,7 @@ NodeId Parser::parsePrimary() {
     n.end = t.end;
     return tree_.add(n);
   }
-  if (isName(t)) return parseNameExpression();
+  if (isName(t) && !declarationHere()) return parseNameExpression();
   unexpected("a value");
   return missing();
 }

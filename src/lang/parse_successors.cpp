@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Bodies of rules. What makes them delicate is that "30% : A" starts with an expression, that
-// "{ head : A }" and "{ A }" look alike until the colon, and that a branch ends where the next case,
-// else or weight begins. All three are decided by looking ahead over whole brackets, at most once
-// for each token of a level, so that parsing stays linear.
+// "{ head : A }" and "{ A }" look alike until the colon, and that a branch ends where the next
+// case, else or weight begins. All three are decided by looking ahead over whole brackets, at most
+// once for each token of a level, so that parsing stays linear.
 
 #include <string>
 
@@ -261,8 +261,7 @@ bool Parser::headHere() const {
     switch (t.kind) {
       case TokenKind::Colon:
       case TokenKind::Equal:
-      case TokenKind::Connect:
-        return i > at_ && tokens_[i - 1].kind != TokenKind::Percent;
+      case TokenKind::Connect: return i > at_ && tokens_[i - 1].kind != TokenKind::Percent;
       case TokenKind::LParen:
       case TokenKind::LBracket:
       case TokenKind::LBrace:
@@ -275,6 +274,10 @@ bool Parser::headHere() const {
       case TokenKind::String:
         if (afterOperand) return false;
         afterOperand = true;
+        break;
+      case TokenKind::Tilde:
+      case TokenKind::Quote:
+        if (afterOperand) return false;
         break;
       case TokenKind::Pipe:
       case TokenKind::RBrace:
@@ -340,8 +343,7 @@ NodeId Parser::parseBlock(bool expressions) {
       continue;
     }
     if (!wantItem) {
-      error("missing-separator", spanOf(current()),
-            "'|' is missing before " + describe(current()),
+      error("missing-separator", spanOf(current()), "'|' is missing before " + describe(current()),
             "write '|' between the parts of a block");
     }
     items.push_back(parseItem(expressions));

@@ -16,8 +16,7 @@
 
 namespace gable::lang {
 
-Parser::Parser(std::string_view text, uint32_t file, const Tokens& tokens,
-               Diagnostics& diagnostics)
+Parser::Parser(std::string_view text, uint32_t file, const Tokens& tokens, Diagnostics& diagnostics)
     : text_(text), file_(file), tokens_(tokens.tokens), diagnostics_(diagnostics), tree_(file) {}
 
 // --- Tokens ---
@@ -198,7 +197,11 @@ NodeId Parser::parseAnnotationValue() {
     n.end = endOfLast();
     return make(n, {value});
   }
-  return parseExpression();
+  const NodeId value = parseExpression();
+  // @Handle(shape=Window^2): the second shape of that name.
+  if (!accept(TokenKind::Caret)) return value;
+  const NodeId index = parsePrimary();
+  return make(node(NodeKind::Index, begin), {value, index, kNoNode});
 }
 
 // Annotations never stop a file: a malformed one is a warning, and its brackets are passed over.

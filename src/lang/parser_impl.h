@@ -44,8 +44,8 @@ class Parser {
 
   // What a sequence of successors stands in; decides what ends it.
   struct Place {
-    uint32_t blocks = 0;   // open braces and push brackets within the rule
-    bool inChoice = false; // directly in a branch
+    uint32_t blocks = 0;    // open braces and push brackets within the rule
+    bool inChoice = false;  // directly in a branch
     bool inOverrides = false;
   };
   class Enter {
@@ -102,7 +102,9 @@ class Parser {
   NodeId make(Node n, const Nodes& children);
   NodeId named(NodeKind kind, const Token& t);
   NodeId missing();
-  NodeId list(uint32_t begin, const Nodes& items) { return make(node(NodeKind::List, begin), items); }
+  NodeId list(uint32_t begin, const Nodes& items) {
+    return make(node(NodeKind::List, begin), items);
+  }
 
   // --- Declarations (parser.cpp) ---
   void parseDeclaration();

@@ -49,6 +49,7 @@ enum class TokenKind : uint8_t {
   NotEqual,
   And,
   Or,
+  Caret,  // ^, in @Handle only
 };
 
 /// Words with a meaning of their own. All but `case`, `else`, `true` and `false` are names wherever
@@ -79,7 +80,8 @@ struct Token {
 
   uint32_t begin = 0;
   uint32_t end = 0;
-  /// For an opening bracket the index of its closing token and the reverse; kNoMatch if there is none.
+  /// For an opening bracket the index of its closing token and the reverse; kNoMatch if there is
+  /// none.
   uint32_t match = kNoMatch;
   TokenKind kind = TokenKind::End;
   Keyword keyword = Keyword::None;

@@ -56,13 +56,12 @@ bool sameTree(const Tree& a, const Tree& b) { return sameNode(a, a.root(), b, b.
 
 const char* nodeKindName(NodeKind kind) {
   static constexpr std::array<const char*, 37> kNames = {
-      "none",     "file",     "version", "import",    "style",       "attr",
-      "const",    "function", "rule",    "annotation", "param",      "local",
-      "list",     "sequence", "apply",   "importApply", "push",      "choice",
-      "branch",   "block",    "item",    "number",    "string",      "bool",
-      "name",     "call",     "importCall", "unary",  "binary",      "index",
-      "array",    "range",    "relative", "floating", "namedArg",    "braceList",
-      "missing"};
+      "none",      "file",        "version",    "import", "style",    "attr",       "const",
+      "function",  "rule",        "annotation", "param",  "local",    "list",       "sequence",
+      "apply",     "importApply", "push",       "choice", "branch",   "block",      "item",
+      "number",    "string",      "bool",       "name",   "call",     "importCall", "unary",
+      "binary",    "index",       "array",      "range",  "relative", "floating",   "namedArg",
+      "braceList", "missing"};
   return kNames[static_cast<size_t>(kind)];
 }
 

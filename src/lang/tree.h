@@ -7,20 +7,22 @@
 // lang/sema says what it means, and attaches it by node id.
 //
 // Promises: children come in source order; every node has a span; a child is older than its parent
-// (its id is smaller); no path down is longer than kMaxTreeDepth + 1, so walks may recurse. The span of
-// a declaration, parameter, call or named argument starts at its name (see nameSpan); keywords and
-// annotations stand before it. The span of an expression in brackets includes them.
+// (its id is smaller); no path down is longer than kMaxTreeDepth + 1, so walks may recurse. The
+// span of a declaration, parameter, call or named argument starts at its name (see nameSpan);
+// keywords and annotations stand before it. The span of an expression in brackets includes them.
 //
 // The children of each kind ("-" = may be kNoNode; "..." = any number):
 //
 //   File            declarations and stray annotations...
 //   Version         text = "2025.1"
-//   Import          text = id          annotations -, path String -, styles List -, overrides List -
+//   Import          text = id          annotations -, path String -, styles List -, overrides List
+//   -
 //                                      overrides: Name (protect), NamedArg (override), Rule
 //                                      (extension override); an empty list protects everything
 //   Style           text = id          annotations -, base Name -
-//   Attr Const Function  text = name   annotations -, params List -, locals List -, value expression
-//   Rule            text = name        annotations -, params List -, locals List -, body Sequence
+//   Attr Const Function  text = name   annotations -, params List -, locals List -, value
+//   expression Rule            text = name        annotations -, params List -, locals List -, body
+//   Sequence
 //                                      flags Start, Extension
 //   Annotation      text = name        arguments (expression, NamedArg, BraceList)...
 //   Param           text = name
@@ -29,8 +31,8 @@
 //
 //   Sequence        successors (Apply, ImportApply, Push, Choice)...
 //   Apply           text = name        arguments List -, Block...
-//                                      flags Terminal (`X.`), Operand (`inline X`: the block is made
-//                                      from the one successor behind the word)
+//                                      flags Terminal (`X.`), Operand (`inline X`: the block is
+//                                      made from the one successor behind the word)
 //   ImportApply     text = rule name   import Name, overrides List, arguments List -
 //   Push            body Sequence
 //   Choice          op = ChoiceKind    Branch...
