@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+#include "geom/region/triangulate.h"
+
+#include <gtest/gtest.h>
+
+#include "geom/region/corpus.h"
+#include "math/predicates.h"
+
+namespace gable {
+namespace {
+
+std::vector<Vec2> pointsOf(const Polygon& p) {
+  std::vector<Vec2> points = p.outer;
+  for (const Ring& h : p.holes) points.insert(points.end(), h.begin(), h.end());
+  return points;
+}
+
+// Sum of the areas; -1 when a triangle is not counter-clockwise.
+double triangleArea(const Polygon& p, const std::vector<Triangle>& triangles) {
+  const std::vector<Vec2> points = pointsOf(p);
+  double sum = 0;
+  for (const Triangle& t : triangles) {
+    if (orientation(points[t[0]], points[t[1]], points[t[2]]) <= 0) return -1;
+    sum += cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]) / 2;
+  }
+  return sum;
+}
+
+void expectExact(const Polygon& p, const std::string& what, size_t touches = 0) {
+  const std::vector<Triangle> t = triangulate(p);
+  ASSERT_EQ(t.size(), pointsOf(p).size() - 2 + 2 * p.holes.size() - 2 * touches) << what;
+  const double a = area(p);
+  ASSERT_NEAR(triangleArea(p, t), a, 1e-9 * a) << what;
+}
+
+TEST(Triangulate, quadsSplitFromTheFirstVertex) {
+  const Polygon p{{{0, 0}, {2, 0}, {2, 1}, {0, 1}}, {}};
+  EXPECT_EQ(triangulate(p), (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST(Triangulate, concaveQuadTakesTheOtherDiagonal) {
+  expectExact({{{0, 0}, {4, 0}, {1, 1}, {0, 4}}, {}}, "dart");
+  expectExact({{{0, 0}, {4, 0}, {4, 4}, {3, 1}}, {}}, "dart at the end");
+}
+
+TEST(Triangulate, directionOfRingsDoesNotMatter) {
+  const Polygon p{{{0, 3}, {3, 3}, {3, 0}, {0, 0}}, {{{1, 1}, {2, 1}, {2, 2}, {1, 2}}}};
+  const std::vector<Triangle> t = triangulate(p);
+  EXPECT_EQ(t.size(), 8u);
+  EXPECT_DOUBLE_EQ(triangleArea(p, t), 8);
+}
+
+TEST(Triangulate, collinearVerticesMakeNoFlatTriangles) {
+  expectExact({{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 3}, {2, 3}, {1, 3}, {0, 3}}, {}}, "both sides");
+  expectExact({{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {0, 3}, {0, 2}, {0, 1}}, {}}, "triangle");
+}
+
+TEST(Triangulate, holesTouchingInPoints) {
+  const Ring outer = {{0, 0}, {2, 0}, {4, 0}, {4, 4}, {0, 4}};
+  expectExact({outer, {{{2, 0}, {1, 2}, {3, 2}}}}, "at the outer ring", 1);
+  expectExact({outer, {{{4, 0}, {2, 1}, {3, 2}}}}, "in a corner", 1);
+  expectExact({outer, {{{1, 1}, {1, 2}, {2, 2}}, {{2, 2}, {2, 3}, {3, 3}}}}, "at each other", 1);
+  expectExact({outer, {{{1, 1}, {1, 2}, {2, 2}}, {{3, 1}, {2, 2}, {3, 3}}}}, "tip to tip", 1);
+  const Ring five = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 2}};
+  expectExact({five, {{{0, 2}, {1, 3}, {2, 2}}, {{3, 1}, {2, 2}, {3, 3}}}}, "a chain", 2);
+  expectExact({five, {{{0, 2}, {1, 3}, {4, 4}, {1, 2}}}}, "across, in two parts", 2);
+  expectExact({outer, {{{0, 0}, {1, 2}, {2, 1}}}}, "by its leftmost vertex", 1);
+}
+
+TEST(Triangulate, aHoleThatTouchesTheInsideOfAnEdge) {
+  const Polygon p{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{{0, 2}, {1, 3}, {2, 2}}}};
+  EXPECT_NEAR(triangleArea(p, triangulate(p)), area(p), 1e-12);
+}
+
+TEST(Triangulate, holesInARowShareTheirHeight) {
+  Polygon p{{{0, 0}, {40, 0}, {40, 4}, {0, 4}}, {}};
+  for (int i = 0; i < 12; ++i) {
+    const double x = 1 + 3 * i;
+    p.holes.push_back({{x, 1}, {x, 2}, {x + 1, 2}, {x + 1, 1}});
+    p.holes.push_back({{x, 2.5}, {x, 3}, {x + 1, 3}, {x + 1, 2.5}});
+  }
+  expectExact(p, "a facade");
+}
+
+TEST(Triangulate, hopelessInputEnds) {
+  EXPECT_TRUE(triangulate(Polygon{{{0, 0}, {1, 0}, {2, 0}, {3, 0}}, {}}).empty());
+  EXPECT_TRUE(triangulate(Polygon{{{1, 1}, {1, 1}, {1, 1}}, {}}).empty());
+  EXPECT_TRUE(triangulate(Polygon{}).empty());
+  const Polygon bow{{{0, 0}, {4, 4}, {4, 0}, {0, 4}, {2, 7}}, {}};
+  EXPECT_LE(triangulate(bow).size(), 3u);
+  const Polygon outside{{{0, 0}, {1, 0}, {1, 1}}, {{{5, 5}, {6, 6}, {6, 5}}}};
+  EXPECT_LE(triangulate(outside).size(), 6u);
+}
+
+TEST(Triangulate, corpusWithAndWithoutHoles) {
+  const std::vector<corpus::Case> cases = corpus::loadCorpus();
+  if (cases.empty()) GTEST_SKIP() << "the polygon corpus is not beside the repository";
+  for (size_t i = 0; i < cases.size(); ++i) {
+    ASSERT_NO_FATAL_FAILURE(expectExact({cases[i].ring, {}}, std::to_string(i)));
+    ASSERT_NO_FATAL_FAILURE(
+        expectExact(corpus::withHoles(cases[i].ring, i), std::to_string(i) + " with holes"));
+  }
+}
+
+TEST(Triangulate, fiveThousandVerticesInLittleTime) {
+  Polygon comb;
+  for (int i = 0; i < 1250; ++i) {
+    for (const Vec2 p : {Vec2{0.0, 0}, Vec2{0.25, 9}, Vec2{0.5, 9}, Vec2{0.75, 0}}) {
+      comb.outer.push_back({i + p.x, p.y + 0.001 * (i % 7)});
+    }
+  }
+  comb.outer.push_back({1250, -1});
+  comb.outer.push_back({0, -1});
+  expectExact(comb, "comb");
+  Polygon disc;
+  for (int i = 0; i < 5000; ++i) {
+    const double r = 10 + randomUnit(static_cast<uint64_t>(i));
+    disc.outer.push_back(Vec2{cosDeg(i * 0.072), sinDeg(i * 0.072)} * r);
+  }
+  expectExact(disc, "rough disc");
+}
+
+}  // namespace
+}  // namespace gable
