@@ -88,6 +88,8 @@ enum Effect : uint32_t {
   kReadsComp = 1u << 8,
   kReadsInitialShape = 1u << 9,
   kReadsUvProjection = 1u << 10,
+  /// The scope of the shape below on the shape stack: center.
+  kReadsPrevious = 1u << 11,
 };
 
 struct OpSpec {

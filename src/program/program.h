@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Program: compiled rules, the waist of the engine. Above it there is syntax, below it shapes.
+//
+// Code is one array of instructions for a stack machine; a rule, a function and an attribute's
+// initialiser are entry points into it. Expressions push Values; operations take their arguments
+// from the top of the stack, or straight from the constant pool when all of them are constant.
+//
+// A Program is immutable and may be derived by any number of threads at once.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "program/spec.h"
+#include "program/value.h"
+
+namespace gable {
+
+enum class Code : uint8_t {
+  // Expressions. `a` is the operand unless said otherwise.
+  Constant,          // push constants[a]
+  Parameter,         // push parameter a of the rule or function
+  RuleAttribute,     // push attributes[a] as it stands for the shape
+  BuiltinAttribute,  // push builtinAttributes[a]
+  Function,          // call functions[a] with x arguments
+  BuiltinFunction,   // call builtinFunctions[a] with x arguments
+  Negate,
+  Not,
+  Binary,     // x: a BinaryOperator
+  MakeArray,  // a rows of y columns from the stack, row by row
+  MakeRange,  // start, (step,) end from the stack: [start:step:end]; x: 1 with a step
+  Index,      // x index values (1 or 2) and an array
+  WithUnit,   // marks the top with Unit x
+  ToBool,
+  // Flow inside a rule or function.
+  Jump,             // to a
+  JumpIfFalse,      // pops; to a
+  JumpIfFalseKeep,  // && : leaves false on the stack and jumps, else pops
+  JumpIfTrueKeep,   // || : leaves true on the stack and jumps, else pops
+  Choose,           // pops y probabilities (shares of 1), draws, pushes the chosen index (y = none)
+  JumpTable,        // pops an index; to jumpTables[a][index]
+  Return,           // from a function or initialiser, with the top as the value
+  ComponentValues,  // comp(...) { sel expr } as a function: blocks[a]; the values become an array
+  // Shapes.
+  Operation,          // operations[a], x arguments; y: block index + 1
+  OperationConstant,  // the same with the x arguments at constants[b of the next instruction]
+  Operand,            // carries a second operand for the instruction before it
+  CallRule,           // rules[a] with x arguments
+  CallComputed,       // a rule whose name is computed (a string on the stack)
+  Leaf,               // a shape named constants[a] that has no rule
+  SetAttribute,       // pops a value into rule attribute a
+  SetBuiltin,         // pops a value into builtinAttributes[a]
+  PushShape,
+  PopShape,
+  Drop,  // NIL
+  End,   // of a rule's successor or a block slot
+};
+
+enum class BinaryOperator : uint8_t {
+  Add,
+  Subtract,
+  Multiply,
+  Divide,
+  Modulo,
+  Equal,
+  NotEqual,
+  Less,
+  LessEqual,
+  Greater,
+  GreaterEqual,
+  // Element by element (.+ .== ...); the order repeats the one above.
+  EachAdd,
+  EachSubtract,
+  EachMultiply,
+  EachDivide,
+  EachModulo,
+  EachEqual,
+  EachNotEqual,
+  EachLess,
+  EachLessEqual,
+  EachGreater,
+  EachGreaterEqual,
+  EachAnd,
+  EachOr,
+  EachNot,
+};
+
+struct Instruction {
+  Code code = Code::End;
+  uint8_t x = 0;
+  uint16_t y = 0;
+  uint32_t a = 0;
+};
+static_assert(sizeof(Instruction) == 8);
+
+/// An item of a block as compiled. Sizes and index expressions are values on the stack, one for
+/// each item (or term) that needs one, in order of writing; or constants when `constant` is set.
+struct BlockItem {
+  // Split.
+  bool group = false;
+  bool repeat = false;
+  uint32_t length = 0;
+  // Selectors.
+  uint8_t selectOperator = 0;
+  uint32_t firstTerm = 0, termCount = 0;
+  /// Entry of the slot in the code.
+  uint32_t slot = 0;
+  uint32_t entry = 0;
+};
+
+struct BlockTerm {
+  uint8_t kind = 0;
+  StringId word = 0;
+  /// The value on the stack that the term takes, counted from the block's first; -1 for none.
+  int32_t value = -1;
+  double number = 0;
+};
+
+struct BlockCode {
+  BlockKind kind = BlockKind::None;
+  bool repeat = false;
+  std::vector<BlockItem> items;
+  std::vector<BlockTerm> terms;
+  /// Entry points by slot.
+  std::vector<uint32_t> slots;
+  /// How many values of the stack belong to the block (they lie above the arguments).
+  uint32_t valueCount = 0;
+  /// All sizes are constants: they are here, with their units, one a non-group item.
+  std::vector<Value> constantSizes;
+};
+
+struct ParameterInfo {
+  StringId name = 0;
+  ValueType type = ValueType::Null;
+};
+
+/// What the result of a rule or function depends on, itself and all that it reaches.
+struct Dependence {
+  uint32_t effects = 0;
+  /// Sorted indices of Program::attributes that are read.
+  std::vector<uint32_t> attributes;
+};
+
+struct RuleCode {
+  /// As leaves and nodes are called: the name without modules.
+  StringId name = 0;
+  /// With modules; what randomness and traces use.
+  std::string qualifiedName;
+  std::vector<ParameterInfo> parameters;
+  uint32_t entry = 0;
+  uint32_t file = 0;
+  Span span;
+  Dependence reads;
+  /// The rule's shapes get a local frame of their own, and equal ones are derived once.
+  bool shared = false;
+  /// Some operation of its own code looks at the shape below on the stack.
+  bool needsPrevious = false;
+  bool startRule = false;
+  bool hidden = false;
+};
+
+struct FunctionCode {
+  StringId name = 0;
+  uint32_t parameterCount = 0;
+  uint32_t entry = 0;
+  uint32_t file = 0;
+  Span span;
+};
+
+/// A parsed annotation, for inspectors: @Range(min=0, max=10).
+struct AnnotationInfo {
+  std::string name;
+  struct Argument {
+    std::string key;
+    Value value;
+  };
+  std::vector<Argument> arguments;
+};
+
+struct AttributeCode {
+  /// With its module ("imp.height"); the name alone in the main file.
+  std::string name;
+  ValueType type = ValueType::Null;
+  uint32_t entry = 0;
+  bool constant = false;
+  bool hidden = false;
+  /// Attributes of an imported file that take the value of this one, when it is set from outside.
+  int32_t propagatesFrom = -1;
+  std::vector<AnnotationInfo> annotations;
+  Span span;
+  uint64_t site = 0;
+};
+
+struct Program {
+  std::shared_ptr<ValuePool> pool;
+  std::vector<Instruction> code;
+  /// By instruction: where it stands in the text, and its address for randomness.
+  std::vector<Span> spans;
+  std::vector<uint64_t> sites;
+  std::vector<Value> constants;
+  std::vector<BlockCode> blocks;
+  std::vector<std::vector<uint32_t>> jumpTables;
+  std::vector<RuleCode> rules;
+  std::vector<FunctionCode> functions;
+  std::vector<AttributeCode> attributes;
+  std::vector<const OpSpec*> operations;
+  std::vector<const FunctionSpec*> builtinFunctions;
+  std::vector<const AttributeSpec*> builtinAttributes;
+  /// Project paths of the rule files, by file id of the spans.
+  std::vector<std::string> files;
+  /// The rule to start with unless the user names one; -1 when the file has none.
+  int32_t startRule = -1;
+
+  /// The first rule of that name (qualified or not) that takes no parameters; -1 for none.
+  int32_t findRule(std::string_view name) const;
+  int32_t findAttribute(std::string_view name) const;
+  /// The rule to whose code an instruction belongs; -1 for none. Rules lie in the code in their
+  /// order, each from its entry to the next one's. O(log rules).
+  int32_t ruleAt(uint32_t instruction) const;
+};
+
+/// A readable listing, for goldens and for people.
+std::string disassemble(const Program& p);
+
+}  // namespace gable

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Context queries: which other shapes a shape is inside of, overlaps, touches or lies near.
+//
+// A first pass of the derivation collects occluders: labelled shapes, shapes before they are split
+// into components or offset, and leaves. The second pass asks this index. A shape never meets its
+// own ancestors or descendants.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "geom/mesh/mesh.h"
+#include "program/value.h"
+#include "shape/services.h"
+
+namespace gable {
+
+struct Occluder {
+  uint32_t initialShape = 0;
+  /// Child numbers from the initial shape down; a prefix marks an ancestor.
+  std::vector<uint32_t> path;
+  /// 0 for an unlabelled one.
+  StringId label = 0;
+  /// World coordinates.
+  Mesh mesh;
+};
+
+class OccluderIndex {
+ public:
+  explicit OccluderIndex(std::vector<Occluder> occluders);
+  ~OccluderIndex();
+
+  /// `asking` is the shape in world coordinates with its own path. Only closed surfaces occlude.
+  bool test(ContextTest test, ContextScope scope, StringId label, const Occluder& asking) const;
+  /// Infinity when there is no such occluder.
+  double minimumDistance(ContextScope scope, StringId label, const Occluder& asking) const;
+  size_t count(ContextScope scope, StringId label, const Occluder& asking) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gable

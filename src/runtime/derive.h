@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Derivation: a program and initial shapes in, a scene out.
+//
+// Every initial shape is derived on its own, so the work spreads over threads; the result does not
+// depend on their number. Equal sub-derivations of shared rules are derived once and stand in the
+// scene as instances of one prototype; with sharing off the same leaves come out, flattened.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "program/program.h"
+#include "scene/scene.h"
+#include "shape/services.h"
+#include "shape/shape.h"
+
+namespace gable {
+
+/// What a derivation may use up. Exceeding one ends the initial shape that did it with a diagnostic;
+/// what was made until then is kept.
+struct Limits {
+  uint32_t depth = 1024;
+  uint32_t functionDepth = 1024;
+  /// Children of one shape.
+  uint32_t width = 100000;
+  uint32_t arraySize = 100000;
+  /// Shapes made, instances not expanded, all initial shapes together.
+  uint64_t shapes = 50'000'000;
+  /// Positions in meshes of leaves, instances not expanded.
+  uint64_t vertices = 200'000'000;
+  /// Wall-clock seconds; 0 for no limit.
+  double seconds = 0;
+};
+
+struct InitialShape {
+  std::string name;
+  /// The footprint in its object frame: x, y, z as the world's, origin near the shape.
+  Mesh mesh;
+  /// The object frame in the world.
+  Frame origin;
+  /// Attributes by name; they set rule attributes of the same name.
+  std::vector<std::pair<std::string, Value>> attributes;
+  /// Empty: the derivation's start rule.
+  std::string startRule;
+  /// What identifies the shape for randomness: its feature id or name; empty: its index.
+  std::string identity;
+  std::vector<std::pair<std::string, Value>> edgeAttributes;
+};
+
+/// The tables that one or more derivations share.
+struct Environment {
+  explicit Environment(std::shared_ptr<ValuePool> values, Assets& files)
+      : pool(std::move(values)), tags(*pool), assets(files) {}
+  std::shared_ptr<ValuePool> pool;
+  MaterialTable materials;
+  AttributePool attributes;
+  TagTable tags;
+  Assets& assets;
+};
+
+/// A node of the derivation tree, in path order: a shape made by a rule, or an unnamed leaf.
+struct TraceNode {
+  static constexpr uint32_t kNone = 0xffffffff;
+  uint32_t parent = kNone;
+  uint32_t initialShape = 0;
+  StringId name = 0;
+  /// The instruction that made the shape.
+  Span span;
+  /// Scope in the world when the shape was made.
+  Frame scope;
+  Vec3 size;
+  bool leaf = false;
+  bool dropped = false;
+  /// Index among the leaves of its initial shape's prototype, for leaves with geometry.
+  uint32_t leafIndex = kNone;
+};
+
+struct DeriveOptions {
+  int32_t startRule = -1;
+  double seed = 0;
+  bool sharing = true;
+  bool trace = false;
+  int jobs = 1;
+  Limits limits;
+  /// Attribute values for all initial shapes, over those of the shapes.
+  std::vector<std::pair<std::string, Value>> attributes;
+  /// Called from any thread with the number of initial shapes done.
+  std::function<void(size_t done, size_t total)> progress;
+  std::atomic<bool>* cancel = nullptr;
+};
+
+enum class DeriveEnd : uint8_t { Done, LimitReached, Cancelled };
+
+struct DeriveResult {
+  Scene scene;
+  Diagnostics diagnostics;
+  DeriveEnd end = DeriveEnd::Done;
+  std::vector<TraceNode> trace;
+  /// Rule attributes of each initial shape as they were evaluated (visible ones, main file first).
+  std::vector<std::vector<AttributeValue>> attributes;
+  /// Derivations that the sharing cache answered.
+  uint64_t shared = 0;
+};
+
+DeriveResult derive(const Program& program, const std::vector<InitialShape>& shapes,
+                    Environment& environment, const DeriveOptions& options);
+
+}  // namespace gable

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Setting up a derivation, what operations ask of the outside, limits and messages.
+
+#include "runtime/machine.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "runtime/array_ops.h"
+
+namespace gable {
+
+namespace {
+
+constexpr uint32_t kStackSize = 1u << 18;
+/// Room that a single rule or function may need; the compiler refuses larger expressions.
+constexpr uint32_t kStackReserve = 1u << 17;
+
+Status unusedApply(OpCall&) { return {}; }
+constexpr OpSpec kSetSpec{"set", "flow", "", {}, unusedApply};
+
+// What the attribute of a shape may be, when a rule attribute of type `wanted` takes it.
+bool convert(const Value& v, ValueType wanted, const ValuePool& pool, Value& out) {
+  if (wanted == ValueType::Null || v.type == wanted) {
+    out = v;
+    return true;
+  }
+  if (wanted == ValueType::Float && v.type == ValueType::String) {
+    const std::string_view text = pool.text(v.id);
+    double number = 0;
+    const auto r = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (r.ec != std::errc() || text.empty()) return false;
+    out = Value::of(number);
+    return true;
+  }
+  if (wanted == ValueType::Float && v.type == ValueType::Bool) {
+    out = Value::of(v.number);
+    return true;
+  }
+  if (wanted == ValueType::Bool && v.type == ValueType::Float) {
+    out = Value::of(v.number != 0);
+    return true;
+  }
+  if (wanted == ValueType::Bool && v.type == ValueType::String) {
+    const std::string_view text = pool.text(v.id);
+    if (text != "true" && text != "false") return false;
+    out = Value::of(text == "true");
+    return true;
+  }
+  return false;
+}
+
+std::string_view bareName(std::string_view name) {
+  const size_t dot = name.rfind('.');
+  return dot == std::string_view::npos ? name : name.substr(dot + 1);
+}
+
+}  // namespace
+
+Machine::Machine(DeriveShared& shared, uint32_t worker)
+    : shared_(shared), program_(shared.program), worker_(worker), stack_(kStackSize) {
+  pool_ = shared.environment.pool.get();
+  materials_ = &shared.environment.materials;
+  attributes_ = &shared.environment.attributes;
+  tags_ = &shared.environment.tags;
+  assets_ = &shared.environment.assets;
+  builtinSetSpec_ = &kSetSpec;
+  flat_ = !shared.options.sharing || shared.options.trace;
+  collectOccluders_ = shared.collectOccluders;
+}
+
+Machine::~Machine() = default;
+
+OutputRoot Machine::run(const InitialShape& input, uint32_t index) {
+  const uint64_t identity = input.identity.empty() ? hashCombine(0, index)
+                                                   : hashBytes(input.identity, 1);
+  info_.name = input.name;
+  info_.index = index;
+  info_.origin = input.origin;
+  info_.seed = options().seed;
+  info_.shape = Shape{};
+  setUpInitialShape(info_.shape, input.mesh);
+  info_.shape.path = hashCombine(hashDouble(options().seed), identity);
+  worlds_.assign(1, input.origin);
+  aborted_ = false;
+  salt_ = 0;
+  parameters_ = stackTop_ = activationCount_ = 0;
+  children_.clear();
+  shapeStack_.clear();
+  functions_.clear();
+  prototypes_.clear();
+  bindAttributes(input);
+
+  const Output::Mark mark = output_.mark();
+  const uint64_t shapesBefore = shapes_;
+  const int32_t rule = startRuleOf(input);
+  StringId name = pool().intern(input.name);
+  if (rule >= 0) {
+    info_.startRule = program_.rules[static_cast<size_t>(rule)].qualifiedName;
+    beginRoot(static_cast<uint32_t>(rule));
+    execute();
+    // What was open when a limit struck stays: it belongs to the initial shape.
+    while (!prototypes_.empty()) closeOpenPrototype();
+  }
+  OutputRoot root;
+  root.worker = worker_;
+  root.frame = flat_ ? Frame{} : input.origin;
+  root.name = input.name;
+  root.prototype = output_.close(mark, name, shapes_ - shapesBefore, ShareKey{});
+  shared_.shapes.fetch_add(shapes_ - shapesCounted_, std::memory_order_relaxed);
+  shapesCounted_ = shapes_;
+  return root;
+}
+
+int32_t Machine::startRuleOf(const InitialShape& input) {
+  if (input.startRule.empty()) return options().startRule;
+  const int32_t rule = program_.findRule(input.startRule);
+  if (rule < 0) {
+    diagnostics_.error("unknown-start-rule", Span{},
+                       "shape '" + input.name + "' names the start rule '" + input.startRule +
+                           "', which the rules do not have",
+                       "use one of the rules without parameters, or leave the shape's rule empty");
+  }
+  return rule;
+}
+
+void Machine::beginRoot(uint32_t rule) {
+  const RuleCode& code = program_.rules[rule];
+  activationCount_ = 0;
+  Activation& a = pushActivation();
+  a = Activation{};
+  a.shape = info_.shape;
+  a.rule = rule;
+  ++shapes_;
+  if (options().trace) traceShape(a, TraceNode::kNone, nullptr);
+  if (code.needsPrevious) {
+    a.previousScope = a.shape.scope;
+    a.previousSize = a.shape.size;
+  }
+  seen_ = &a.shape;
+  parameters_ = 0;
+  pc_ = program_.code.data() + code.entry;
+}
+
+// Attributes are bound by name: options over the shape's own, both over the initialiser.
+void Machine::bindAttributes(const InitialShape& shape) {
+  attributeValues_.assign(program_.attributes.size(), Value{});
+  attributeStates_.assign(program_.attributes.size(), AttributeState::Unset);
+  const auto bind = [&](const std::string& name, const Value& value) {
+    for (size_t a = 0; a < program_.attributes.size(); ++a) {
+      const AttributeCode& attribute = program_.attributes[a];
+      if (attribute.constant || attribute.propagatesFrom >= 0 || attribute.name != name) continue;
+      if (convert(value, attribute.type, pool(), attributeValues_[a])) {
+        attributeStates_[a] = AttributeState::Known;
+      } else {
+        diagnostics_.warning("attribute-type", attribute.span,
+                             "the value '" + pool().str(value) + "' given for '" + name +
+                                 "' is no " + typeName(attribute.type),
+                             "the value of the rule file is used instead");
+      }
+    }
+  };
+  for (const auto& [name, value] : shape.attributes) bind(name, value);
+  for (const auto& [name, value] : options().attributes) bind(name, value);
+}
+
+std::vector<AttributeValue> Machine::attributeValues() {
+  std::vector<AttributeValue> out;
+  for (uint32_t a = 0; a < program_.attributes.size(); ++a) {
+    const AttributeCode& code = program_.attributes[a];
+    if (code.constant || code.hidden || code.name.find('.') != std::string::npos) continue;
+    aborted_ = false;
+    stackTop_ = 0;
+    seen_ = &info_.shape;
+    out.push_back(plainAttribute(std::string(bareName(code.name)), evaluateAttribute(a), pool()));
+  }
+  return out;
+}
+
+void Machine::report(StringId key, const Value& value) {
+  output_.openEvents.push_back({openInstanceCount(), false, key, value});
+}
+
+void Machine::print(std::string text) {
+  output_.openEvents.push_back({openInstanceCount(), true, pool().intern(text), {}});
+}
+
+uint32_t Machine::openInstanceCount() const {
+  const uint32_t base = prototypes_.empty() ? rootMark_.instances : prototypes_.back().mark.instances;
+  return static_cast<uint32_t>(output_.openInstances.size()) - base;
+}
+
+// The same warning at the same place is told once a worker; merging drops the repetitions.
+void Machine::warn(const char* code, std::string message, std::string hint) {
+  const Span at = here();
+  const uint64_t key = hashBytes(message, hashBytes(code, uint64_t{at.file} << 32 | at.begin));
+  if (warned_[key]++ > 0) return;
+  Diagnostic d{Severity::Warning, code, at, std::move(message), std::move(hint), shapePath()};
+  diagnostics_.add(std::move(d));
+}
+
+Span Machine::here() const {
+  return instruction_ ? program_.spans[pcOf(instruction_)] : Span{};
+}
+
+std::string Machine::shapePath() const {
+  std::string out = info_.name.empty() ? "shape " + std::to_string(info_.index) : info_.name;
+  uint32_t shown = 0;
+  for (uint32_t i = 0; i < activationCount_; ++i) {
+    const Activation& a = activations_[i];
+    if (a.slot) continue;
+    // Endless recursion has a long path: its beginning says enough.
+    if (++shown > 8) return out + " > ...";
+    out += " > " + program_.rules[a.rule].qualifiedName;
+  }
+  return out;
+}
+
+std::string Machine::treeKey() const {
+  std::string out = "0;";
+  for (uint32_t i = 1; i < activationCount_; ++i) {
+    if (!activations_[i].slot) out += std::to_string(activations_[i].ordinal) + ";";
+  }
+  return out;
+}
+
+bool Machine::overLimit(const char* code, std::string message, std::string hint) {
+  instruction_ = pc_ - 1;
+  warn(code, std::move(message), std::move(hint));
+  aborted_ = true;
+  shared_.limitReached.store(true, std::memory_order_relaxed);
+  return false;
+}
+
+bool Machine::countShape() {
+  ++shapes_;
+  return tick();
+}
+
+// Every so often: the clock, the user's wish to stop, and what all workers have made together.
+bool Machine::tick() {
+  if (stackNearlyFull()) {
+    return overLimit("recursion-too-deep", "rules and functions call each other too deeply",
+                     "end the recursion with a case");
+  }
+  if ((++ticks_ & 1023) != 0) return true;
+  if (options().cancel && options().cancel->load(std::memory_order_relaxed)) {
+    aborted_ = true;
+    return false;
+  }
+  const uint64_t total =
+      shared_.shapes.fetch_add(shapes_ - shapesCounted_, std::memory_order_relaxed) + shapes_ -
+      shapesCounted_;
+  shapesCounted_ = shapes_;
+  if (total > options().limits.shapes) {
+    return overLimit("too-many-shapes", "the rules make more than " +
+                                            std::to_string(options().limits.shapes) + " shapes",
+                     "end a recursion earlier, or raise the limit on shapes");
+  }
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - shared_.start;
+  if (options().limits.seconds > 0 && spent.count() > options().limits.seconds) {
+    return overLimit("out-of-time", "the derivation takes longer than " +
+                                        numberText(options().limits.seconds) + " seconds",
+                     "raise the limit on seconds, or derive fewer shapes");
+  }
+  return true;
+}
+
+bool Machine::countVertices(size_t count) {
+  vertices_ += count;
+  if (vertices_ <= options().limits.vertices) return true;
+  return overLimit("too-many-vertices", "the leaves have more than " +
+                                            std::to_string(options().limits.vertices) + " vertices",
+                   "insert simpler models, or raise the limit on vertices");
+}
+
+bool Machine::stackNearlyFull() const { return stackTop_ + kStackReserve > kStackSize; }
+
+std::string_view Machine::fileOf(const Instruction& i) const {
+  const Span& at = program_.spans[pcOf(&i)];
+  return at.valid() && at.file < program_.files.size() ? std::string_view(program_.files[at.file])
+                                                       : std::string_view();
+}
+
+}  // namespace gable

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Machine: one worker's virtual machine. It derives one initial shape after the other, depth first,
+// on stacks of its own: rule calls, block slots and function calls never recurse in C++.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "program/program.h"
+#include "runtime/context.h"
+#include "runtime/derive.h"
+#include "runtime/output.h"
+#include "shape/op_call.h"
+
+namespace gable {
+
+/// What all workers of one derivation share.
+struct DeriveShared {
+  const Program& program;
+  const DeriveOptions& options;
+  Environment& environment;
+  std::chrono::steady_clock::time_point start;
+  std::atomic<uint64_t> shapes{0};
+  std::atomic<uint64_t> vertices{0};
+  std::atomic<bool> stop{false};
+  /// The occluders of the first pass; null while it runs and when no rule asks.
+  const OccluderIndex* occluders = nullptr;
+};
+
+/// One rule call or block slot in progress.
+struct Activation {
+  Shape shape;
+  const Instruction* pc = nullptr;
+  uint32_t rule = 0;
+  /// Parameters begin here on the value stack; slots use those of their rule.
+  uint32_t parameters = 0;
+  /// The value stack is cut to this when the activation ends.
+  uint32_t stackBase = 0;
+  uint32_t shapeStackBase = 0;
+  /// Children of a block that wait for their turn.
+  uint32_t childBase = 0, childNext = 0, childEnd = 0;
+  uint32_t block = 0;
+  /// The activation of the rule call that a slot belongs to (itself for a rule call), and the number
+  /// of the call among its parent's children.
+  uint32_t owner = 0, ordinal = 0;
+  /// In a rule call: children made by it and its slots.
+  uint32_t childCount = 0;
+  /// Children made so far; none at the end makes the shape a leaf.
+  uint32_t made = 0;
+  uint32_t depth = 0;
+  uint32_t traceNode = TraceNode::kNone;
+  bool slot = false;
+  /// The call opened a frame of its own (a shared rule), and with sharing a prototype.
+  bool boundary = false;
+  /// The scope below on the shape stack; kept up only where a rule needs it.
+  Frame previousScope;
+  Vec3 previousSize;
+};
+
+class Machine final : public Services {
+ public:
+  Machine(DeriveShared& shared, uint32_t worker);
+  ~Machine() override;
+
+  /// Derives one initial shape; its place in the output comes back as a root.
+  OutputRoot run(const InitialShape& shape, uint32_t index);
+  Output& output() { return output_; }
+  Diagnostics& diagnostics() { return diagnostics_; }
+  std::vector<TraceNode>& trace() { return trace_; }
+  std::vector<Occluder>& occluders() { return occluders_; }
+  uint64_t cacheHits() const { return cacheHits_; }
+  /// The visible rule attributes of the shape derived last, as evaluated.
+  std::vector<AttributeValue> attributeValues();
+
+  // Services.
+  const InitialShapeInfo& initialShape() const override { return info_; }
+  const Frame& world() const override { return worlds_.back(); }
+  void report(StringId key, const Value& value) override;
+  void print(std::string text) override;
+  void warn(const char* code, std::string message, std::string hint) override;
+  bool query(ContextTest test, ContextScope scope, StringId label, const Shape& shape) override;
+  double minimumDistance(ContextScope scope, StringId label, const Shape& shape) override;
+  double contextCount(ContextScope scope, StringId label) override;
+  void label(StringId name, const Shape& shape) override;
+  std::string treeKey() const override;
+
+ private:
+  struct FunctionFrame {
+    const Instruction* returnTo;
+    uint32_t parameters;
+    uint32_t stackBase;
+    /// The attribute that the value is for; -1 for a function.
+    int32_t attribute;
+    const Shape* shape;
+    uint64_t salt;
+  };
+  struct SavedShape {
+    Shape shape;
+    Frame previousScope;
+    Vec3 previousSize;
+  };
+  struct OpenPrototype {
+    Output::Mark mark;
+    ShareKey key;
+    uint64_t shapesBefore;
+    Frame frame;
+  };
+  enum class AttributeState : uint8_t { Unset, Busy, Known };
+
+  // The loop, and its parts.
+  void execute();
+  /// Runs an instruction of an expression; false when the instruction is none.
+  bool evaluate(const Instruction& i);
+  void beginRule(uint32_t rule, const Instruction* at);
+  void beginRoot(uint32_t rule);
+  void callRule(const Instruction& i);
+  void callComputed(const Instruction& i);
+  void endActivation();
+  void nextChild();
+  void operation(const Instruction& i, const Value* arguments);
+  void startChildren(Activation& a);
+  void makeLeaf(const Shape& shape, StringId name, uint32_t source);
+  void leafInstruction(const Instruction& i);
+  void pushShape();
+  void popShape();
+
+  // Sharing.
+  bool beginShared(const RuleCode& rule, Activation& call);
+  void endShared(const Activation& call);
+  ShareKey keyOf(uint32_t rule, const Activation& call) const;
+  void localise(Shape& shape, const RuleCode& rule, const Frame& outer) const;
+
+  // Expressions.
+  void binary(BinaryOperator op);
+  void index(const Instruction& i);
+  void makeArray(const Instruction& i);
+  void makeRange(const Instruction& i);
+  void choose(const Instruction& i);
+  void ruleAttribute(uint32_t attribute);
+  void callFunction(const Instruction& i);
+  void callBuiltin(const Instruction& i);
+  void returnValue();
+  Value evaluateAttribute(uint32_t attribute);
+  void bindAttributes(const InitialShape& shape);
+
+  // Limits and messages.
+  bool overLimit(const char* code, std::string message, std::string hint);
+  bool tick();
+  Span here() const;
+  std::string shapePath() const;
+
+  const Value& top() const { return stack_[stackTop_ - 1]; }
+  void push(const Value& v) { stack_[stackTop_++] = v; }
+  Value pop() { return stack_[--stackTop_]; }
+  Activation& current() { return activations_[activationCount_ - 1]; }
+  const Activation& current() const { return activations_[activationCount_ - 1]; }
+  Activation& pushActivation();
+  uint32_t pcOf(const Instruction* i) const {
+    return static_cast<uint32_t>(i - program_.code.data());
+  }
+
+  DeriveShared& shared_;
+  const Program& program_;
+  uint32_t worker_;
+  Output output_;
+  Diagnostics diagnostics_;
+  std::unordered_map<uint64_t, uint32_t> warned_;
+  std::vector<TraceNode> trace_;
+  std::vector<Occluder> occluders_;
+
+  // The stacks. Activations are reused, so that their shapes keep no memory busy.
+  std::vector<Value> stack_;
+  uint32_t stackTop_ = 0;
+  std::vector<Activation> activations_;
+  uint32_t activationCount_ = 0;
+  std::vector<OpCall::Child> children_;
+  std::vector<SavedShape> shapeStack_;
+  std::vector<FunctionFrame> functions_;
+  std::vector<Frame> worlds_;
+  std::vector<OpenPrototype> prototypes_;
+  /// Child numbers from the initial shape down, for tree keys.
+  std::vector<SplitItem> splitItems_;
+  std::vector<SelectorItem> selectorItems_;
+  std::vector<SelectorTerm> selectorTerms_;
+
+  // The initial shape at work.
+  InitialShapeInfo info_;
+  std::vector<Value> attributeValues_;
+  std::vector<AttributeState> attributeStates_;
+  const Instruction* pc_ = nullptr;
+  uint32_t parameters_ = 0;
+  /// The shape that expressions see: the current one, or the initial one in an attribute.
+  const Shape* seen_ = nullptr;
+  /// The calling sites of the functions in progress, folded.
+  uint64_t salt_ = 0;
+  bool aborted_ = false;
+  uint64_t shapes_ = 0;
+  uint64_t shapesCounted_ = 0;
+  uint32_t ticks_ = 0;
+  uint64_t cacheHits_ = 0;
+  std::unordered_map<ShareKey, uint32_t, ShareKeyHash> cache_;
+  bool collectOccluders_ = false;
+};
+
+}  // namespace gable

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Expressions. A function or an attribute's initialiser runs in the same loop as the rule that asks:
+// a frame remembers where to go on. Attributes are evaluated once an initial shape, on that shape, at
+// the first use; only a sharing key asks for one out of turn (evaluateAttribute).
+
+#include <cmath>
+
+#include "base/random.h"
+#include "runtime/array_ops.h"
+#include "runtime/machine.h"
+
+namespace gable {
+
+bool Machine::evaluate(const Instruction& i) {
+  switch (i.code) {
+    case Code::Constant: push(program_.constants[i.a]); return true;
+    case Code::Parameter: push(stack_[parameters_ + i.a]); return true;
+    case Code::RuleAttribute: ruleAttribute(i); return true;
+    case Code::BuiltinAttribute: builtinAttribute(i); return true;
+    case Code::Function: callFunction(i); return true;
+    case Code::BuiltinFunction: callBuiltin(i); return true;
+    case Code::Negate: put(negateValue(pop(), pool()), i); return true;
+    case Code::Not: not_(i); return true;
+    case Code::Binary: binary(i); return true;
+    case Code::MakeArray: makeArray(i); return true;
+    case Code::MakeRange: makeRange(i); return true;
+    case Code::Index: index(i); return true;
+    case Code::WithUnit: stack_[stackTop_ - 1].unit = static_cast<Unit>(i.x); return true;
+    case Code::ToBool: stack_[stackTop_ - 1] = Value::of(top().truth()); return true;
+    case Code::Jump: pc_ = program_.code.data() + i.a; return true;
+    case Code::JumpIfFalse:
+      if (!pop().truth()) pc_ = program_.code.data() + i.a;
+      return true;
+    case Code::JumpIfFalseKeep:
+      if (!top().truth()) pc_ = program_.code.data() + i.a;
+      else --stackTop_;
+      return true;
+    case Code::JumpIfTrueKeep:
+      if (top().truth()) pc_ = program_.code.data() + i.a;
+      else --stackTop_;
+      return true;
+    case Code::Choose: choose(i); return true;
+    case Code::JumpTable: {
+      const auto& table = program_.jumpTables[i.a];
+      pc_ = program_.code.data() + table[static_cast<size_t>(pop().number)];
+      return true;
+    }
+    case Code::Return: returnValue(); return true;
+    default: return false;
+  }
+}
+
+void Machine::put(const ValueOrError& r, const Instruction& i) {
+  if (r.error) {
+    instruction_ = &i;
+    warn("wrong-type", r.error, "");
+  }
+  push(r.value);
+}
+
+void Machine::binary(const Instruction& i) {
+  const auto op = static_cast<BinaryOperator>(i.x);
+  const Value b = pop(), a = pop();
+  // The common case first: plain arithmetic and comparison of numbers.
+  if (a.type == ValueType::Float && b.type == ValueType::Float) {
+    switch (op) {
+      case BinaryOperator::Add: push(Value::of(a.number + b.number)); return;
+      case BinaryOperator::Subtract: push(Value::of(a.number - b.number)); return;
+      case BinaryOperator::Multiply: push(Value::of(a.number * b.number)); return;
+      case BinaryOperator::Divide: push(Value::of(a.number / b.number)); return;
+      case BinaryOperator::Less: push(Value::of(a.number < b.number)); return;
+      case BinaryOperator::Greater: push(Value::of(a.number > b.number)); return;
+      case BinaryOperator::Equal: push(Value::of(a.number == b.number)); return;
+      default: break;
+    }
+  }
+  put(applyBinary(op, a, b, pool()), i);
+}
+
+void Machine::not_(const Instruction& i) {
+  const Value v = pop();
+  if (!v.isArray()) {
+    push(Value::of(!v.truth()));
+    return;
+  }
+  Array a = pool().array(v);
+  if (a.element != ValueType::Bool) {
+    put({v, "'!' takes truth values"}, i);
+    return;
+  }
+  for (double& x : a.numbers) x = x != 0 ? 0 : 1;
+  push(pool().intern(std::move(a)));
+}
+
+void Machine::makeArray(const Instruction& i) {
+  const auto& counts = program_.jumpTables[i.a];
+  uint32_t total = 0;
+  for (uint32_t c : counts) total += c;
+  stackTop_ -= total;
+  put(buildArray({stack_.data() + stackTop_, total}, counts, pool()), i);
+}
+
+void Machine::makeRange(const Instruction& i) {
+  const double end = pop().number;
+  const double step = i.x ? pop().number : 1;
+  const double start = pop().number;
+  put(buildRange(start, step, end, options().limits.arraySize, pool()), i);
+}
+
+void Machine::index(const Instruction& i) {
+  stackTop_ -= i.x + 1u;
+  const Value* at = stack_.data() + stackTop_;
+  put(indexArray(at[0], {at + 1, i.x}, pool()), i);
+}
+
+// Shares are of 1; without an `else` (the last way) the rest does nothing.
+void Machine::choose(const Instruction& i) {
+  stackTop_ -= i.y;
+  const Value* shares = stack_.data() + stackTop_;
+  const uint64_t site = hashCombine(salt_, program_.sites[pcOf(&i)]);
+  const double draw = randomUnit(hashCombine(seen_->path, site));
+  double sum = 0;
+  uint32_t chosen = i.y;
+  for (uint32_t k = 0; k < i.y; ++k) {
+    sum += shares[k].number;
+    if (draw < sum) {
+      chosen = k;
+      break;
+    }
+  }
+  push(Value::of(static_cast<double>(chosen)));
+}
+
+void Machine::ruleAttribute(const Instruction& i) {
+  const uint32_t a = i.a;
+  if (seen_->attributes != 0) {
+    if (const Value* set = attributes().find(seen_->attributes, a)) {
+      push(*set);
+      return;
+    }
+  }
+  if (attributeStates_[a] == AttributeState::Known) {
+    push(attributeValues_[a]);
+    return;
+  }
+  instruction_ = &i;
+  enterAttribute(a, pc_);
+}
+
+// Begins the evaluation of an attribute; execution goes on at `returnTo` with its value on the stack.
+void Machine::enterAttribute(uint32_t a, const Instruction* returnTo) {
+  if (attributeStates_[a] == AttributeState::Busy) {
+    warn("cyclic-attribute", "the value of '" + program_.attributes[a].name + "' needs itself",
+         "break the circle with a constant");
+    push(Value::of(0.0));
+    return;
+  }
+  attributeStates_[a] = AttributeState::Busy;
+  functions_.push_back({returnTo, parameters_, stackTop_, static_cast<int32_t>(a), seen_, salt_});
+  parameters_ = stackTop_;
+  seen_ = &info_.shape;
+  salt_ = 0;
+  pc_ = program_.code.data() + program_.attributes[a].entry;
+}
+
+void Machine::callFunction(const Instruction& i) {
+  if (functions_.size() >= options().limits.functionDepth || stackNearlyFull()) {
+    overLimit("function-too-deep", "functions call each other more than " +
+                                       std::to_string(options().limits.functionDepth) +
+                                       " levels deep",
+              "end the recursion with a case");
+    return;
+  }
+  if (!tick()) return;
+  functions_.push_back({pc_, parameters_, stackTop_ - i.x, -1, seen_, salt_});
+  parameters_ = stackTop_ - i.x;
+  salt_ = hashCombine(salt_, program_.sites[pcOf(&i)]);
+  pc_ = program_.code.data() + program_.functions[i.a].entry;
+}
+
+void Machine::returnValue() {
+  const Value v = pop();
+  const FunctionFrame f = functions_.back();
+  functions_.pop_back();
+  if (f.attribute >= 0) {
+    attributeValues_[static_cast<size_t>(f.attribute)] = v;
+    attributeStates_[static_cast<size_t>(f.attribute)] = AttributeState::Known;
+  }
+  stackTop_ = f.stackBase;
+  parameters_ = f.parameters;
+  seen_ = f.shape;
+  salt_ = f.salt;
+  pc_ = f.returnTo;
+  push(v);
+}
+
+Value Machine::evaluateAttribute(uint32_t a) {
+  if (attributeStates_[a] == AttributeState::Known) return attributeValues_[a];
+  const Instruction* resumeAt = pc_;
+  const size_t depth = functions_.size();
+  enterAttribute(a, pc_);
+  while (functions_.size() > depth && !aborted_) {
+    const Instruction& i = *pc_++;
+    evaluate(i);
+  }
+  pc_ = resumeAt;
+  return pop();
+}
+
+void Machine::builtinAttribute(const Instruction& i) {
+  FunctionCall call({}, *seen_, *this);
+  call.place(fileOf(i), 0);
+  instruction_ = &i;
+  push(program_.builtinAttributes[i.a]->get(call));
+}
+
+void Machine::callBuiltin(const Instruction& i) {
+  stackTop_ -= i.x;
+  FunctionCall call({stack_.data() + stackTop_, i.x}, *seen_, *this);
+  call.place(fileOf(i), hashCombine(salt_, program_.sites[pcOf(&i)]));
+  instruction_ = &i;
+  push(program_.builtinFunctions[i.a]->call(call));
+}
+
+}  // namespace gable

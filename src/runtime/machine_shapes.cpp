@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The loop over instructions, and what changes shapes: rule calls, blocks, leaves.
+//
+// A rule call or a block slot is an activation on a stack; the program counter and the parameters of
+// the innermost one are in registers (pc_, parameters_) and are put back when it ends. A block
+// operation leaves its children on children_; they run one after the other before the rule goes on.
+
+#include <utility>
+
+#include "base/check.h"
+#include "runtime/machine.h"
+
+namespace gable {
+
+void Machine::execute() {
+  while (activationCount_ > 0 && !aborted_) {
+    const Instruction& i = *pc_++;
+    if (evaluate(i)) continue;
+    switch (i.code) {
+      case Code::Operation: operation(i, nullptr); break;
+      case Code::OperationConstant: operation(i, &program_.constants[(pc_++)->a]); break;
+      case Code::CallRule: callRule(i); break;
+      case Code::CallComputed: callComputed(i); break;
+      case Code::Leaf: leafInstruction(i); break;
+      case Code::SetAttribute: {
+        const Value v = pop();
+        current().shape.attributes = attributes().with(current().shape.attributes, i.a, v);
+        break;
+      }
+      case Code::SetBuiltin: {
+        const Value v = pop();
+        setBuiltin(i, v);
+        break;
+      }
+      case Code::PushShape: pushShape(); break;
+      case Code::PopShape: popShape(); break;
+      case Code::Drop:
+        ++current().made;
+        if (options().trace) dropTraced();
+        endActivation();
+        break;
+      default: endActivation(); break;
+    }
+  }
+}
+
+Activation& Machine::pushActivation() {
+  if (activationCount_ == activations_.size()) activations_.resize(activations_.size() * 2 + 64);
+  return activations_[activationCount_++];
+}
+
+void Machine::beginRule(uint32_t rule, uint32_t argumentCount, const Instruction* at, bool last) {
+  if (!countShape()) return;
+  const RuleCode& code = program_.rules[rule];
+  const uint32_t callerIndex = activationCount_ - 1;
+  Activation& a = pushActivation();
+  Activation& caller = activations_[callerIndex];
+  if (++caller.made > options().limits.width) {
+    --activationCount_;
+    overLimit("too-many-children", "a shape of rule '" + program_.rules[caller.rule].qualifiedName +
+                                       "' has more than " +
+                                       std::to_string(options().limits.width) + " children",
+              "split into fewer parts, or raise the limit on width");
+    return;
+  }
+  caller.pc = pc_;
+  // The last call of a rule may take the shape itself.
+  if (last) a.shape = std::move(caller.shape);
+  else a.shape = caller.shape;
+  a.shape.path = hashCombine(a.shape.path, program_.sites[pcOf(at)]);
+  a.rule = rule;
+  a.stackBase = stackTop_ - argumentCount;
+  a.parameters = a.stackBase;
+  a.shapeStackBase = static_cast<uint32_t>(shapeStack_.size());
+  a.childBase = a.childNext = a.childEnd = 0;
+  a.made = 0;
+  a.childCount = 0;
+  a.owner = activationCount_ - 1;
+  a.ordinal = activations_[caller.owner].childCount++;
+  a.depth = caller.depth + 1;
+  a.slot = false;
+  a.boundary = false;
+  a.traceNode = TraceNode::kNone;
+  if (a.depth > options().limits.depth) {
+    overLimit("recursion-too-deep", "rules call each other more than " +
+                                        std::to_string(options().limits.depth) + " levels deep",
+              "end the recursion with a case, or raise the limit on depth");
+    return;
+  }
+  if (options().trace) traceShape(a, callerIndex, at);
+  if (code.shared && beginShared(code, a)) {
+    // The cache had the result: the call is over before it began.
+    stackTop_ = a.stackBase;
+    --activationCount_;
+    return;
+  }
+  if (code.needsPrevious) {
+    a.previousScope = a.shape.scope;
+    a.previousSize = a.shape.size;
+  }
+  seen_ = &a.shape;
+  parameters_ = a.parameters;
+  pc_ = program_.code.data() + code.entry;
+}
+
+void Machine::callRule(const Instruction& i) {
+  const bool last = pc_->code == Code::End && shapeStack_.size() == current().shapeStackBase;
+  beginRule(i.a, i.x, &i, last);
+}
+
+void Machine::callComputed(const Instruction& i) {
+  const Value name = pop();
+  const std::string_view text = pool().text(name.id);
+  const int32_t rule = program_.findRule(text);
+  if (rule >= 0) {
+    beginRule(static_cast<uint32_t>(rule), 0, &i, false);
+    return;
+  }
+  warn("unknown-rule", "there is no rule '" + std::string(text) + "' without parameters", "");
+  ++current().made;
+  makeLeaf(current(), name.id, pcOf(&i));
+}
+
+void Machine::leafInstruction(const Instruction& i) {
+  if (!countShape()) return;
+  Activation& a = current();
+  ++a.made;
+  makeLeaf(a, program_.constants[i.a].id, pcOf(&i));
+  ++activations_[a.owner].childCount;
+}
+
+// A child that made nothing is a leaf under the name of its rule.
+void Machine::endActivation() {
+  Activation& a = current();
+  if (a.made == 0) makeLeaf(a, program_.rules[a.rule].name, program_.rules[a.rule].entry);
+  if (a.boundary) endShared(a);
+  stackTop_ = a.stackBase;
+  if (shapeStack_.size() > a.shapeStackBase) shapeStack_.resize(a.shapeStackBase);
+  --activationCount_;
+  if (activationCount_ > 0) resume();
+}
+
+void Machine::resume() {
+  Activation& a = current();
+  seen_ = &a.shape;
+  parameters_ = a.parameters;
+  pc_ = a.pc;
+  if (a.childNext < a.childEnd) {
+    nextChild();
+  } else if (a.childEnd > a.childBase) {
+    children_.erase(children_.begin() + a.childBase, children_.end());
+    a.childBase = a.childNext = a.childEnd = 0;
+  }
+}
+
+void Machine::nextChild() {
+  const uint32_t parentIndex = activationCount_ - 1;
+  Activation& a = pushActivation();
+  Activation& parent = activations_[parentIndex];
+  OpCall::Child& child = children_[parent.childNext++];
+  const BlockCode& block = program_.blocks[parent.block];
+  a.shape = std::move(child.shape);
+  a.rule = parent.rule;
+  a.stackBase = stackTop_;
+  a.parameters = parent.parameters;
+  a.shapeStackBase = static_cast<uint32_t>(shapeStack_.size());
+  a.childBase = a.childNext = a.childEnd = 0;
+  a.made = 0;
+  a.owner = parent.owner;
+  a.depth = parent.depth;
+  a.traceNode = parent.traceNode;
+  a.slot = true;
+  a.boundary = false;
+  if (program_.rules[a.rule].needsPrevious) {
+    a.previousScope = a.shape.scope;
+    a.previousSize = a.shape.size;
+  }
+  seen_ = &a.shape;
+  parameters_ = a.parameters;
+  pc_ = program_.code.data() + block.slots[child.slot];
+}
+
+void Machine::fillSplit(const BlockCode& block, const Value* values) {
+  splitItems_.clear();
+  const bool fixed = !block.constantSizes.empty();
+  size_t next = 0;
+  for (const BlockItem& item : block.items) {
+    SplitItem s;
+    s.group = item.group;
+    s.repeat = item.repeat;
+    s.length = item.length;
+    s.slot = item.slot;
+    if (!item.group) {
+      const Value& v = fixed ? block.constantSizes[next] : values[next];
+      s.size = v.number;
+      s.unit = v.unit;
+      ++next;
+    }
+    splitItems_.push_back(s);
+  }
+}
+
+void Machine::fillSelectors(const BlockCode& block, const Value* values) {
+  selectorTerms_.clear();
+  selectorItems_.clear();
+  for (const BlockTerm& t : block.terms) {
+    SelectorTerm term;
+    term.kind = static_cast<SelectorTerm::Kind>(t.kind);
+    term.word = t.word;
+    term.number = t.value >= 0 ? values[t.value].number : t.number;
+    if (t.value >= 0) {
+      const Value& v = values[t.value];
+      if (v.type == ValueType::Bool) term.kind = SelectorTerm::Kind::Boolean;
+      if (v.type == ValueType::Selector || v.type == ValueType::String) term.word = v.id;
+    }
+    selectorTerms_.push_back(term);
+  }
+  for (const BlockItem& item : block.items) {
+    SelectorItem s;
+    s.terms = std::span(selectorTerms_).subspan(item.firstTerm, item.termCount);
+    s.op = static_cast<SelectOperator>(item.selectOperator);
+    s.slot = item.slot;
+    selectorItems_.push_back(s);
+  }
+}
+
+void Machine::operation(const Instruction& i, const Value* constants) {
+  if (!tick()) return;
+  Activation& a = current();
+  const OpSpec& spec = *program_.operations[i.a];
+  const BlockCode* block = i.y > 0 ? &program_.blocks[i.y - 1] : nullptr;
+  const uint32_t blockValues = block ? block->valueCount : 0;
+  const uint32_t argumentsOnStack = constants ? 0 : i.x;
+  stackTop_ -= blockValues + argumentsOnStack;
+  const Value* stack = stack_.data() + stackTop_;
+  const Value* arguments = constants ? constants : stack;
+  const Value* blockStart = stack + argumentsOnStack;
+
+  OpCall call(spec, a.shape, {arguments, i.x}, *this);
+  OpCallSetup setup(call);
+  setup.previous(a.previousScope, a.previousSize);
+  setup.site(program_.sites[pcOf(&i)]);
+  setup.file(program_.files[program_.rules[a.rule].file]);
+  setup.children(children_);
+  if (block) {
+    setup.slots(static_cast<uint32_t>(block->slots.size()));
+    if (block->kind == BlockKind::Split) {
+      fillSplit(*block, blockStart);
+      setup.split({splitItems_, block->repeat});
+    } else if (block->kind == BlockKind::Selectors) {
+      fillSelectors(*block, blockStart);
+      setup.selectors(selectorItems_);
+    }
+  }
+  if (collectOccluders_ && occludes(spec)) addOccluder(0, a.shape);
+  const auto childBase = static_cast<uint32_t>(children_.size());
+  instruction_ = &i;
+  const Status status = spec.apply(call);
+  if (!status.ok()) {
+    children_.erase(children_.begin() + childBase, children_.end());
+    warn(status.code(), "'" + std::string(spec.name) + "': " + status.message(), status.hint());
+    // Without its parts the shape itself stays as a leaf, so that nothing is lost.
+    return;
+  }
+  if (setup.dropped()) {
+    ++a.made;
+    endActivation();
+    return;
+  }
+  if (!block) return;
+  ++a.made;
+  const auto childEnd = static_cast<uint32_t>(children_.size());
+  if (childEnd - childBase > options().limits.width) {
+    overLimit("too-many-children", "'" + std::string(spec.name) + "' makes " +
+                                       std::to_string(childEnd - childBase) + " shapes of one",
+              "use larger sizes, or raise the limit on width");
+    return;
+  }
+  if (childEnd == childBase) return;
+  a.block = static_cast<uint32_t>(i.y - 1);
+  a.childBase = a.childNext = childBase;
+  a.childEnd = childEnd;
+  a.pc = pc_;
+  shapes_ += childEnd - childBase;
+  nextChild();
+}
+
+void Machine::makeLeaf(Activation& a, StringId name, uint32_t source) {
+  const Shape& s = a.shape;
+  if (options().trace) traceLeaf(a, name, source);
+  if (s.geometry.kind == GeometryKind::None) return;
+  Leaf leaf;
+  leaf.frame = flat_ ? worlds_.back() * s.scope : s.scope;
+  leaf.scale = s.size;
+  switch (s.geometry.kind) {
+    case GeometryKind::Box: leaf.mesh = s.geometry.uv ? kUnitBoxUv : kUnitBox; break;
+    case GeometryKind::QuadXy: leaf.mesh = s.geometry.uv ? kUnitQuadXyUv : kUnitQuadXy; break;
+    case GeometryKind::QuadXz: leaf.mesh = s.geometry.uv ? kUnitQuadXzUv : kUnitQuadXz; break;
+    default: {
+      if (s.geometry.mesh->empty()) return;
+      leaf.mesh = kFirstMesh + output_.meshNumber(s.geometry.mesh);
+      const Vec3& ref = s.geometry.refSize;
+      for (size_t k = 0; k < 3; ++k) leaf.scale[k] = ref[k] != 0 ? s.size[k] / ref[k] : 1;
+      if (!countVertices(s.geometry.mesh->positions.size())) return;
+    }
+  }
+  leaf.materials = output_.materialNumber(s.material, s.assetMaterials);
+  leaf.name = name;
+  leaf.source = source;
+  leaf.attributes = s.attributes;
+  output_.openLeaves.push_back(leaf);
+  if (collectOccluders_) addOccluder(0, s);
+}
+
+void Machine::pushShape() {
+  Activation& a = current();
+  shapeStack_.push_back({a.shape, a.previousScope, a.previousSize});
+  a.previousScope = a.shape.scope;
+  a.previousSize = a.shape.size;
+}
+
+void Machine::popShape() {
+  Activation& a = current();
+  if (shapeStack_.size() == a.shapeStackBase) return;
+  SavedShape& saved = shapeStack_.back();
+  a.shape = std::move(saved.shape);
+  a.previousScope = saved.previousScope;
+  a.previousSize = saved.previousSize;
+  shapeStack_.pop_back();
+}
+
+void Machine::setBuiltin(const Instruction& i, const Value& v) {
+  const OpSpec* set = builtinSetSpec_;
+  Activation& a = current();
+  OpCall call(*set, a.shape, {&v, 1}, *this);
+  OpCallSetup setup(call);
+  setup.previous(a.previousScope, a.previousSize);
+  setup.file(program_.files[program_.rules[a.rule].file]);
+  instruction_ = &i;
+  const Status status = program_.builtinAttributes[i.a]->set(call, v);
+  if (!status.ok()) warn(status.code(), status.message(), status.hint());
+}
+
+}  // namespace gable

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Merging walks the initial shapes in their order and takes over each prototype after the ones that
+// it holds. That is the order in which a single worker finishes them, so one worker or many give the
+// same scene. Names, materials, sources and meshes are numbered as this walk first meets them.
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "base/check.h"
+#include "runtime/output.h"
+
+namespace gable {
+
+namespace {
+
+constexpr uint32_t kUnset = 0xffffffff;
+
+bool sameMesh(const Mesh& a, const Mesh& b) {
+  const auto sameFace = [](const MeshFace& f, const MeshFace& g) {
+    return f.firstLoop == g.firstLoop && f.loopCount == g.loopCount &&
+           f.materialSlot == g.materialSlot && f.smooth == g.smooth && f.tags == g.tags;
+  };
+  const auto sameLoop = [](const MeshLoop& f, const MeshLoop& g) {
+    return f.firstCorner == g.firstCorner && f.cornerCount == g.cornerCount;
+  };
+  return a.positions == b.positions && a.corners == b.corners && a.uvs == b.uvs &&
+         a.normals == b.normals && a.edgeTags == b.edgeTags &&
+         std::equal(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(), sameFace) &&
+         std::equal(a.loops.begin(), a.loops.end(), b.loops.begin(), b.loops.end(), sameLoop);
+}
+
+class Merger {
+ public:
+  Merger(std::vector<Output>& outputs, const MergeInput& input)
+      : outputs_(outputs), input_(input), workers_(outputs.size()) {
+    for (size_t w = 0; w < outputs.size(); ++w) {
+      workers_[w].prototypes.assign(outputs[w].prototypes.size(), kUnset);
+      workers_[w].meshes.assign(outputs[w].meshes.size(), kUnset);
+      workers_[w].materials.assign(outputs[w].materials.size(), kUnset);
+    }
+    scene_.attributeSets.emplace_back();
+    attributeNumbers_.emplace(0, 0);
+  }
+
+  void addRoot(const OutputRoot& r) {
+    const uint32_t prototype = import(r.worker, r.prototype);
+    Root root;
+    root.name = static_cast<uint32_t>(scene_.names.size());
+    scene_.names.push_back(r.name);
+    root.instance = {r.frame, prototype, 0};
+    scene_.roots.push_back(root);
+    replay(r.worker, r.prototype);
+  }
+
+  Scene take() { return std::move(scene_); }
+
+ private:
+  struct Worker {
+    std::vector<uint32_t> prototypes, meshes, materials;
+  };
+
+  // The scene's number of a worker's prototype. Recursion is as deep as shared calls nest, which the
+  // limit on depth bounds.
+  uint32_t import(uint32_t worker, uint32_t prototype) {
+    uint32_t& known = workers_[worker].prototypes[prototype];
+    if (known != kUnset) return known;
+    const OutputPrototype& from = outputs_[worker].prototypes[prototype];
+    const bool shared = from.key.a != 0 || from.key.b != 0;
+    if (shared) {
+      const auto at = byKey_.find(from.key);
+      if (at != byKey_.end()) return known = at->second;
+    }
+    std::vector<Instance> instances(
+        outputs_[worker].instances.begin() + from.range.firstInstance,
+        outputs_[worker].instances.begin() + from.range.firstInstance + from.range.instanceCount);
+    for (Instance& i : instances) i.prototype = import(worker, i.prototype);
+    Prototype to = from.range;
+    to.name = nameNumber(from.range.name);
+    to.firstInstance = static_cast<uint32_t>(scene_.instances.size());
+    scene_.instances.insert(scene_.instances.end(), instances.begin(), instances.end());
+    to.firstLeaf = static_cast<uint32_t>(scene_.leaves.size());
+    for (uint32_t i = 0; i < from.range.leafCount; ++i) {
+      scene_.leaves.push_back(
+          renumbered(outputs_[worker].leaves[from.range.firstLeaf + i], worker));
+    }
+    scene_.prototypes.push_back(to);
+    const auto number = static_cast<uint32_t>(scene_.prototypes.size() - 1);
+    workers_[worker].prototypes[prototype] = number;
+    if (shared) byKey_.emplace(from.key, number);
+    return number;
+  }
+
+  Leaf renumbered(Leaf leaf, uint32_t worker) {
+    if (leaf.mesh >= kFirstMesh) leaf.mesh = meshNumber(worker, leaf.mesh - kFirstMesh);
+    leaf.materials = materialsNumber(worker, leaf.materials);
+    leaf.name = nameNumber(leaf.name);
+    leaf.source = sourceNumber(leaf.source);
+    leaf.attributes = attributesNumber(leaf.attributes);
+    return leaf;
+  }
+
+  uint32_t meshNumber(uint32_t worker, uint32_t mesh) {
+    uint32_t& known = workers_[worker].meshes[mesh];
+    if (known != kUnset) return known;
+    const MeshRef& m = outputs_[worker].meshes[mesh];
+    const uint64_t hash = m->contentHash();
+    auto [first, last] = meshNumbers_.equal_range(hash);
+    for (; first != last; ++first) {
+      if (sameMesh(*scene_.meshes[first->second], *m)) return known = first->second;
+    }
+    known = static_cast<uint32_t>(scene_.meshes.size());
+    scene_.meshes.push_back(m);
+    meshNumbers_.emplace(hash, known);
+    return known;
+  }
+
+  uint32_t materialsNumber(uint32_t worker, uint32_t list) {
+    uint32_t& known = workers_[worker].materials[list];
+    if (known != kUnset) return known;
+    const uint64_t pair = outputs_[worker].materials[list];
+    const auto [at, fresh] =
+        listNumbers_.try_emplace(pair, static_cast<uint32_t>(scene_.materialLists.size()));
+    if (fresh) {
+      std::vector<uint32_t> slots{materialNumber(static_cast<MaterialId>(pair >> 32))};
+      for (MaterialId m : input_.attributes.materials(static_cast<uint32_t>(pair))) {
+        slots.push_back(materialNumber(m));
+      }
+      scene_.materialLists.push_back(std::move(slots));
+    }
+    return known = at->second;
+  }
+
+  uint32_t materialNumber(MaterialId id) {
+    const auto [at, fresh] =
+        materialNumbers_.try_emplace(id, static_cast<uint32_t>(scene_.materials.size()));
+    if (fresh) scene_.materials.push_back(input_.materials.get(id));
+    return at->second;
+  }
+
+  uint32_t nameNumber(StringId id) {
+    const auto [at, fresh] =
+        nameNumbers_.try_emplace(id, static_cast<uint32_t>(scene_.names.size()));
+    if (fresh) scene_.names.emplace_back(input_.program.pool->text(id));
+    return at->second;
+  }
+
+  uint32_t sourceNumber(uint32_t instruction) {
+    const auto [at, fresh] =
+        sourceNumbers_.try_emplace(instruction, static_cast<uint32_t>(scene_.sources.size()));
+    if (fresh) scene_.sources.push_back(placeOf(instruction));
+    return at->second;
+  }
+
+  SourcePlace placeOf(uint32_t instruction) const {
+    const Program& p = input_.program;
+    const int32_t rule = p.ruleAt(instruction);
+    SourcePlace place;
+    if (rule < 0) return place;
+    const RuleCode& code = p.rules[static_cast<size_t>(rule)];
+    place.rule = code.qualifiedName;
+    place.file = p.files[code.file];
+    const Span span = instruction == code.entry ? code.span : p.spans[instruction];
+    if (input_.sources && span.valid()) {
+      const LineColumn at = input_.sources->locate(span.file, span.begin);
+      place.line = at.line;
+      place.column = at.column;
+    }
+    return place;
+  }
+
+  uint32_t attributesNumber(uint32_t set) {
+    const auto [at, fresh] =
+        attributeNumbers_.try_emplace(set, static_cast<uint32_t>(scene_.attributeSets.size()));
+    if (fresh) {
+      std::vector<AttributeValue> values;
+      for (const auto& e : input_.attributes.entries(set)) {
+        values.push_back(plainAttribute(input_.program.attributes[e.key].name, e.value,
+                                        *input_.program.pool));
+      }
+      scene_.attributeSets.push_back(std::move(values));
+    }
+    return at->second;
+  }
+
+  void replay(uint32_t worker, uint32_t prototype) {
+    const Output& out = outputs_[worker];
+    const OutputPrototype& p = out.prototypes[prototype];
+    if (!p.speaks) return;
+    uint32_t event = 0;
+    for (uint32_t i = 0; i <= p.range.instanceCount; ++i) {
+      for (; event < p.eventCount && out.events[p.firstEvent + event].instancesBefore == i;
+           ++event) {
+        speak(out.events[p.firstEvent + event]);
+      }
+      if (i < p.range.instanceCount) {
+        replay(worker, out.instances[p.range.firstInstance + i].prototype);
+      }
+    }
+  }
+
+  void speak(const OutputEvent& e) {
+    const ValuePool& pool = *input_.program.pool;
+    if (e.print) scene_.prints.emplace_back(pool.text(e.text));
+    else scene_.reports.push_back({std::string(pool.text(e.text)), plainValue(e.value, pool)});
+  }
+
+  std::vector<Output>& outputs_;
+  const MergeInput& input_;
+  std::vector<Worker> workers_;
+  Scene scene_;
+  std::unordered_map<ShareKey, uint32_t, ShareKeyHash> byKey_;
+  std::unordered_multimap<uint64_t, uint32_t> meshNumbers_;
+  std::unordered_map<uint64_t, uint32_t> listNumbers_;
+  std::unordered_map<uint32_t, uint32_t> materialNumbers_, nameNumbers_, sourceNumbers_,
+      attributeNumbers_;
+};
+
+}  // namespace
+
+PlainValue plainValue(const Value& v, const ValuePool& pool) {
+  switch (v.type) {
+    case ValueType::Float: return {PlainValue::Kind::Number, v.number, {}};
+    case ValueType::Bool: return {PlainValue::Kind::Bool, v.number, {}};
+    default: return {PlainValue::Kind::Text, 0, pool.str(v)};
+  }
+}
+
+AttributeValue plainAttribute(const std::string& name, const Value& v, const ValuePool& pool) {
+  AttributeValue out{name, {}, 0, 0};
+  if (!v.isArray()) {
+    out.values.push_back(plainValue(v, pool));
+    return out;
+  }
+  const Array& a = pool.array(v);
+  out.rows = a.rows;
+  out.columns = a.columns;
+  for (size_t i = 0; i < a.size(); ++i) {
+    if (a.element == ValueType::String) {
+      out.values.push_back({PlainValue::Kind::Text, 0, std::string(pool.text(a.strings[i]))});
+    } else {
+      const bool isBool = a.element == ValueType::Bool;
+      out.values.push_back(
+          {isBool ? PlainValue::Kind::Bool : PlainValue::Kind::Number, a.numbers[i], {}});
+    }
+  }
+  return out;
+}
+
+Scene merge(std::vector<Output>& outputs, const std::vector<OutputRoot>& roots,
+            const MergeInput& input) {
+  Merger merger(outputs, input);
+  for (const OutputRoot& r : roots) merger.addRoot(r);
+  Scene scene = merger.take();
+  outputs.clear();
+  return scene;
+}
+
+}  // namespace gable

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "runtime/output.h"
+
+namespace gable {
+
+uint32_t Output::meshNumber(const MeshRef& m) {
+  const auto [at, fresh] = meshIndex.try_emplace(m.get(), static_cast<uint32_t>(meshes.size()));
+  if (fresh) meshes.push_back(m);
+  return at->second;
+}
+
+uint32_t Output::materialNumber(MaterialId material, uint32_t assetMaterials) {
+  const uint64_t pair = uint64_t{material} << 32 | assetMaterials;
+  if (pair == lastMaterial_) return lastMaterialNumber_;
+  const auto [at, fresh] = materialIndex.try_emplace(pair, static_cast<uint32_t>(materials.size()));
+  if (fresh) materials.push_back(pair);
+  lastMaterial_ = pair;
+  lastMaterialNumber_ = at->second;
+  return at->second;
+}
+
+Output::Mark Output::mark() const {
+  return {static_cast<uint32_t>(openLeaves.size()), static_cast<uint32_t>(openInstances.size()),
+          static_cast<uint32_t>(openEvents.size())};
+}
+
+namespace {
+
+template <class T>
+uint32_t moveTail(std::vector<T>& from, uint32_t begin, std::vector<T>& to, uint32_t& count) {
+  const auto first = static_cast<uint32_t>(to.size());
+  count = static_cast<uint32_t>(from.size()) - begin;
+  to.insert(to.end(), from.begin() + begin, from.end());
+  from.resize(begin);
+  return first;
+}
+
+}  // namespace
+
+uint32_t Output::close(const Mark& from, StringId name, uint64_t shapes, const ShareKey& key) {
+  OutputPrototype p;
+  p.range.name = name;
+  p.range.shapes = shapes;
+  p.key = key;
+  p.range.firstLeaf = moveTail(openLeaves, from.leaves, leaves, p.range.leafCount);
+  p.range.firstInstance = moveTail(openInstances, from.instances, instances, p.range.instanceCount);
+  p.firstEvent = moveTail(openEvents, from.events, events, p.eventCount);
+  p.speaks = p.eventCount > 0;
+  for (uint32_t i = 0; i < p.range.instanceCount && !p.speaks; ++i) {
+    p.speaks = prototypes[instances[p.range.firstInstance + i].prototype].speaks;
+  }
+  prototypes.push_back(p);
+  return static_cast<uint32_t>(prototypes.size() - 1);
+}
+
+}  // namespace gable

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Output: what one worker of a derivation has made so far, in the worker's own numbering. merge()
+// puts the outputs of all workers into one scene whose order depends on the initial shapes alone.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "program/program.h"
+#include "scene/scene.h"
+#include "shape/services.h"
+
+namespace gable {
+
+/// The inputs of a shared rule call, hashed; equal keys mean equal results.
+struct ShareKey {
+  uint64_t a = 0, b = 0;
+  bool operator==(const ShareKey&) const = default;
+};
+struct ShareKeyHash {
+  size_t operator()(const ShareKey& k) const { return k.a; }
+};
+
+/// A report or a print, placed between the instances of its prototype.
+struct OutputEvent {
+  uint32_t instancesBefore = 0;
+  bool print = false;
+  /// The key of a report, or the text of a print.
+  StringId text = 0;
+  Value value;
+};
+
+struct OutputPrototype {
+  Prototype range;
+  uint32_t firstEvent = 0, eventCount = 0;
+  /// It or something inside reports or prints.
+  bool speaks = false;
+  /// (0, 0) for the prototype of an initial shape, which is never shared.
+  ShareKey key;
+};
+
+/// Leaves hold the worker's own numbers: mesh by Output::meshes, materials by Output::materials, name
+/// a StringId, source an instruction, attributes a set of the AttributePool.
+struct Output {
+  /// Finished prototypes and their content.
+  std::vector<OutputPrototype> prototypes;
+  std::vector<Leaf> leaves;
+  std::vector<Instance> instances;
+  std::vector<OutputEvent> events;
+  /// Content of the prototypes that are still open, the innermost last.
+  std::vector<Leaf> openLeaves;
+  std::vector<Instance> openInstances;
+  std::vector<OutputEvent> openEvents;
+
+  std::vector<MeshRef> meshes;
+  std::unordered_map<const Mesh*, uint32_t> meshIndex;
+  /// (material, asset material list) pairs.
+  std::vector<uint64_t> materials;
+  std::unordered_map<uint64_t, uint32_t> materialIndex;
+
+  uint32_t meshNumber(const MeshRef& m);
+  uint32_t materialNumber(MaterialId material, uint32_t assetMaterials);
+  /// Moves what lies open beyond the marks into a finished prototype and gives its number.
+  struct Mark {
+    uint32_t leaves = 0, instances = 0, events = 0;
+  };
+  Mark mark() const;
+  uint32_t close(const Mark& from, StringId name, uint64_t shapes, const ShareKey& key);
+
+ private:
+  uint64_t lastMaterial_ = ~uint64_t{0};
+  uint32_t lastMaterialNumber_ = 0;
+};
+
+/// Where an initial shape's prototype was made.
+struct OutputRoot {
+  uint32_t worker = 0;
+  uint32_t prototype = 0;
+  Frame frame;
+  std::string name;
+};
+
+struct MergeInput {
+  const Program& program;
+  const MaterialTable& materials;
+  const AttributePool& attributes;
+  const Sources* sources = nullptr;
+};
+
+PlainValue plainValue(const Value& v, const ValuePool& pool);
+AttributeValue plainAttribute(const std::string& name, const Value& v, const ValuePool& pool);
+
+/// Empties the outputs.
+Scene merge(std::vector<Output>& outputs, const std::vector<OutputRoot>& roots,
+            const MergeInput& input);
+
+}  // namespace gable

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Sharing. A call of a shared rule works in a frame of its own, the scope of the shape it was called
+// on; so its result depends on nothing but the inputs that keyOf() hashes, and equal keys have equal
+// results. With sharing on a result becomes a prototype and each call an instance; with sharing off
+// the frames are composed in the same order while deriving, which gives the same numbers.
+
+#include "base/check.h"
+#include "runtime/machine.h"
+
+namespace gable {
+
+namespace {
+
+class KeyHash {
+ public:
+  void add(uint64_t v) {
+    a_ = hashCombine(a_, v);
+    b_ = mix64(b_ * 0x9fb21c651e98df25ULL + v);
+  }
+  void add(double v) { add(hashDouble(v)); }
+  void add(const Vec3& v) {
+    add(v.x);
+    add(v.y);
+    add(v.z);
+  }
+  void add(const Frame& f) {
+    add(f.origin);
+    add(f.x);
+    add(f.y);
+    add(f.z);
+  }
+  ShareKey key() const { return {a_, b_ | 1}; }
+
+ private:
+  uint64_t a_ = 0x243f6a8885a308d3ULL, b_ = 0x13198a2e03707344ULL;
+};
+
+void addExtra(KeyHash& h, const ShapeExtra& extra) {
+  h.add(extra.trim.size());
+  for (const TrimPlane& t : extra.trim) {
+    h.add(t.normal);
+    h.add(t.distance);
+    h.add(uint64_t{t.horizontal});
+  }
+  for (const UvProjection& p : extra.projections) {
+    h.add(uint64_t{p.present});
+    if (!p.present) continue;
+    h.add(p.frame);
+    for (double v : {p.width, p.height, p.offsetU, p.offsetV, p.uwFactor}) h.add(v);
+  }
+}
+
+ShapeExtra localExtra(const ShapeExtra& extra, const Frame& outer) {
+  ShapeExtra out = extra;
+  for (TrimPlane& t : out.trim) {
+    t.distance -= dot(t.normal, outer.origin);
+    t.normal = outer.toLocalDirection(t.normal);
+  }
+  const Frame inward = inverse(outer);
+  for (UvProjection& p : out.projections) {
+    if (p.present) p.frame = inward * p.frame;
+  }
+  return out;
+}
+
+}  // namespace
+
+ShareKey Machine::keyOf(uint32_t rule, const Activation& call) {
+  const RuleCode& code = program_.rules[rule];
+  const uint32_t effects = code.reads.effects;
+  const Shape& s = call.shape;
+  KeyHash h;
+  h.add(uint64_t{rule} << 32 | static_cast<uint32_t>(s.geometry.kind) << 3 |
+        (s.geometry.uv ? 4u : 0u) | (s.trimVertical ? 2u : 0u) | (s.trimHorizontal ? 1u : 0u));
+  h.add(s.size);
+  h.add(uint64_t{s.material} << 32 | s.assetMaterials);
+  h.add(uint64_t{s.attributes});
+  for (uint32_t p = call.parameters; p < stackTop_; ++p) h.add(stack_[p].hash());
+  if (s.geometry.kind == GeometryKind::Mesh) {
+    h.add(s.geometry.refSize);
+    h.add(s.geometry.mesh->sharedHash());
+  }
+  for (uint32_t a : code.reads.attributes) {
+    const Value* set = s.attributes ? attributes().find(s.attributes, a) : nullptr;
+    h.add((set ? *set : evaluateAttribute(a)).hash());
+  }
+  if (effects & kReadsSplit) h.add(uint64_t{s.split.index} << 32 | s.split.total);
+  if (effects & kReadsComp) {
+    h.add(uint64_t{s.comp.index} << 32 | s.comp.total);
+    h.add(uint64_t{s.compSelector});
+  }
+  if (effects & kReadsPivot) h.add(s.pivot);
+  if (s.extra) addExtra(h, *s.extra);
+  return h.key();
+}
+
+// Puts a shape into the frame of its own scope, dropping what the rule cannot see.
+void Machine::localise(Shape& shape, const RuleCode& rule, const Frame& outer) const {
+  const uint32_t effects = rule.reads.effects;
+  shape.pivot = effects & kReadsPivot ? inverse(outer) * shape.pivot : Frame{};
+  if (shape.extra) {
+    const bool seen = effects & (kUsesTrim | kReadsUvProjection);
+    shape.extra = seen ? makeRef<ShapeExtra>(localExtra(*shape.extra, outer)) : Ref<ShapeExtra>();
+  }
+  shape.scope = Frame{};
+}
+
+// True when the cache had the result and its instance has been made.
+bool Machine::beginShared(const RuleCode& rule, Activation& call) {
+  const Frame outer = call.shape.scope;
+  localise(call.shape, rule, outer);
+  if (flat_) {
+    call.boundary = true;
+    worlds_.push_back(worlds_.back() * outer);
+    return false;
+  }
+  const ShareKey key = keyOf(call.rule, call);
+  if (aborted_) return false;
+  if (const auto hit = cache_.find(key); hit != cache_.end()) {
+    ++cacheHits_;
+    addInstance(outer, hit->second);
+    shapes_ += 0;
+    return true;
+  }
+  call.boundary = true;
+  worlds_.push_back(worlds_.back() * outer);
+  prototypes_.push_back({output_.mark(), key, shapes_ - 1, outer});
+  return false;
+}
+
+void Machine::endShared(const Activation& call) {
+  worlds_.pop_back();
+  if (flat_) return;
+  GABLE_DCHECK(call.boundary);
+  closeOpenPrototype();
+}
+
+// A prototype that a limit cut short is kept, but never given to another call.
+void Machine::closeOpenPrototype() {
+  const OpenPrototype open = prototypes_.back();
+  prototypes_.pop_back();
+  const StringId name = program_.rules[open.rule].name;
+  const uint32_t number = output_.close(open.mark, name, shapes_ - open.shapesBefore,
+                                        aborted_ ? ShareKey{} : open.key);
+  if (!aborted_) cache_.emplace(open.key, number);
+  addInstance(open.frame, number);
+}
+
+void Machine::addInstance(const Frame& frame, uint32_t prototype) {
+  const uint32_t base = prototypes_.empty() ? rootMark_.leaves : prototypes_.back().mark.leaves;
+  Instance i;
+  i.frame = frame;
+  i.prototype = prototype;
+  i.leavesBefore = static_cast<uint32_t>(output_.openLeaves.size()) - base;
+  output_.openInstances.push_back(i);
+}
+
+}  // namespace gable
