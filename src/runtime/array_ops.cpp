@@ -10,9 +10,7 @@ namespace gable {
 
 namespace {
 
-bool isText(const Value& v) {
-  return v.type == ValueType::String || v.type == ValueType::Selector;
-}
+bool isText(const Value& v) { return v.type == ValueType::String || v.type == ValueType::Selector; }
 
 double arithmetic(BinaryOperator op, double a, double b) {
   switch (op) {
@@ -56,8 +54,10 @@ Value element(const Array& a, size_t i, ValuePool&) {
 }
 
 void appendElement(Array& to, const Value& v) {
-  if (to.element == ValueType::String) to.strings.push_back(v.id);
-  else to.numbers.push_back(v.number);
+  if (to.element == ValueType::String)
+    to.strings.push_back(v.id);
+  else
+    to.numbers.push_back(v.number);
 }
 
 Value defaultOf(ValueType element) {
@@ -163,7 +163,8 @@ ValueOrError applyBinary(BinaryOperator op, const Value& a, const Value& b, Valu
       return {Value::of(false), "values of different types have no order"};
     }
     // Arrays that differ only in their form (1x2 and 2x1) are unequal, though neither is less.
-    if (equality && a.isArray()) return {Value::of((a.id == b.id) == (op == BinaryOperator::Equal))};
+    if (equality && a.isArray())
+      return {Value::of((a.id == b.id) == (op == BinaryOperator::Equal))};
     return {Value::of(compares(op, compareValues(a, b, pool)))};
   }
   if (op == BinaryOperator::Add && (isText(a) || isText(b))) {
@@ -224,8 +225,10 @@ const char* buildRow(std::span<const Value> items, const ValuePool& pool, Array&
   out.rows = 1;
   for (size_t i = 0; i < items.size(); ++i) {
     const uint32_t rows = items[i].isArray() ? pool.array(items[i]).rows : 1;
-    if (i == 0) out.rows = rows;
-    else if (rows != out.rows) return "the parts of a row differ in height";
+    if (i == 0)
+      out.rows = rows;
+    else if (rows != out.rows)
+      return "the parts of a row differ in height";
   }
   for (const Value& v : items) out.columns += v.isArray() ? pool.array(v).columns : 1;
   for (uint32_t r = 0; r < out.rows; ++r) {
@@ -237,8 +240,10 @@ const char* buildRow(std::span<const Value> items, const ValuePool& pool, Array&
       const Array& a = pool.array(v);
       for (uint32_t c = 0; c < a.columns; ++c) {
         const size_t i = static_cast<size_t>(r) * a.columns + c;
-        if (out.element == ValueType::String) out.strings.push_back(a.strings[i]);
-        else out.numbers.push_back(a.numbers[i]);
+        if (out.element == ValueType::String)
+          out.strings.push_back(a.strings[i]);
+        else
+          out.numbers.push_back(a.numbers[i]);
       }
     }
   }

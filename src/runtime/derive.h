@@ -23,8 +23,8 @@
 
 namespace gable {
 
-/// What a derivation may use up. Exceeding one ends the initial shape that did it with a diagnostic;
-/// what was made until then is kept.
+/// What a derivation may use up. Exceeding one ends the initial shape that did it with a
+/// diagnostic; what was made until then is kept.
 struct Limits {
   uint32_t depth = 1024;
   uint32_t functionDepth = 1024;
@@ -94,6 +94,8 @@ struct DeriveOptions {
   /// Called from any thread with the number of initial shapes done.
   std::function<void(size_t done, size_t total)> progress;
   std::atomic<bool>* cancel = nullptr;
+  /// For lines and columns in the scene's source places; may be null.
+  const Sources* sources = nullptr;
 };
 
 enum class DeriveEnd : uint8_t { Done, LimitReached, Cancelled };

@@ -74,14 +74,14 @@ Machine::Machine(DeriveShared& shared, uint32_t worker)
 Machine::~Machine() = default;
 
 OutputRoot Machine::run(const InitialShape& input, uint32_t index) {
-  const uint64_t identity = input.identity.empty() ? hashCombine(0, index)
-                                                   : hashBytes(input.identity, 1);
+  const uint64_t identity =
+      input.identity.empty() ? hashCombine(0, index) : hashBytes(input.identity, 1);
   info_.name = input.name;
   info_.index = index;
   info_.origin = input.origin;
   info_.seed = options().seed;
   info_.shape = Shape{};
-  setUpInitialShape(info_.shape, input.mesh);
+  setInitialGeometry(info_.shape, input.mesh);
   info_.shape.path = hashCombine(hashDouble(options().seed), identity);
   worlds_.assign(1, input.origin);
   aborted_ = false;
@@ -93,22 +93,28 @@ OutputRoot Machine::run(const InitialShape& input, uint32_t index) {
   prototypes_.clear();
   bindAttributes(input);
 
-  const Output::Mark mark = output_.mark();
-  const uint64_t shapesBefore = shapes_;
+  rootMark_ = output_.mark();
+  const uint64_t shapesBefore = shapesExpanded_;
   const int32_t rule = startRuleOf(input);
-  StringId name = pool().intern(input.name);
+  const StringId name = pool().intern(input.name);
   if (rule >= 0) {
     info_.startRule = program_.rules[static_cast<size_t>(rule)].qualifiedName;
     beginRoot(static_cast<uint32_t>(rule));
     execute();
     // What was open when a limit struck stays: it belongs to the initial shape.
     while (!prototypes_.empty()) closeOpenPrototype();
+  } else {
+    // Without a rule the initial shape itself is the result.
+    activationCount_ = 0;
+    Activation& a = pushActivation();
+    a.shape = info_.shape;
+    makeLeaf(a, name, 0);
   }
   OutputRoot root;
   root.worker = worker_;
   root.frame = flat_ ? Frame{} : input.origin;
   root.name = input.name;
-  root.prototype = output_.close(mark, name, shapes_ - shapesBefore, ShareKey{});
+  root.prototype = output_.close(rootMark_, name, shapesExpanded_ - shapesBefore, ShareKey{});
   shared_.shapes.fetch_add(shapes_ - shapesCounted_, std::memory_order_relaxed);
   shapesCounted_ = shapes_;
   return root;
@@ -133,7 +139,7 @@ void Machine::beginRoot(uint32_t rule) {
   a = Activation{};
   a.shape = info_.shape;
   a.rule = rule;
-  ++shapes_;
+  countShape();
   if (options().trace) traceShape(a, TraceNode::kNone, nullptr);
   if (code.needsPrevious) {
     a.previousScope = a.shape.scope;
@@ -188,7 +194,8 @@ void Machine::print(std::string text) {
 }
 
 uint32_t Machine::openInstanceCount() const {
-  const uint32_t base = prototypes_.empty() ? rootMark_.instances : prototypes_.back().mark.instances;
+  const uint32_t base =
+      prototypes_.empty() ? rootMark_.instances : prototypes_.back().mark.instances;
   return static_cast<uint32_t>(output_.openInstances.size()) - base;
 }
 
@@ -201,9 +208,7 @@ void Machine::warn(const char* code, std::string message, std::string hint) {
   diagnostics_.add(std::move(d));
 }
 
-Span Machine::here() const {
-  return instruction_ ? program_.spans[pcOf(instruction_)] : Span{};
-}
+Span Machine::here() const { return instruction_ ? program_.spans[pcOf(instruction_)] : Span{}; }
 
 std::string Machine::shapePath() const {
   std::string out = info_.name.empty() ? "shape " + std::to_string(info_.index) : info_.name;
@@ -236,6 +241,7 @@ bool Machine::overLimit(const char* code, std::string message, std::string hint)
 
 bool Machine::countShape() {
   ++shapes_;
+  ++shapesExpanded_;
   return tick();
 }
 
@@ -255,15 +261,17 @@ bool Machine::tick() {
       shapesCounted_;
   shapesCounted_ = shapes_;
   if (total > options().limits.shapes) {
-    return overLimit("too-many-shapes", "the rules make more than " +
-                                            std::to_string(options().limits.shapes) + " shapes",
-                     "end a recursion earlier, or raise the limit on shapes");
+    return overLimit(
+        "too-many-shapes",
+        "the rules make more than " + std::to_string(options().limits.shapes) + " shapes",
+        "end a recursion earlier, or raise the limit on shapes");
   }
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - shared_.start;
   if (options().limits.seconds > 0 && spent.count() > options().limits.seconds) {
-    return overLimit("out-of-time", "the derivation takes longer than " +
-                                        numberText(options().limits.seconds) + " seconds",
-                     "raise the limit on seconds, or derive fewer shapes");
+    return overLimit(
+        "out-of-time",
+        "the derivation takes longer than " + numberText(options().limits.seconds) + " seconds",
+        "raise the limit on seconds, or derive fewer shapes");
   }
   return true;
 }
@@ -271,9 +279,10 @@ bool Machine::tick() {
 bool Machine::countVertices(size_t count) {
   vertices_ += count;
   if (vertices_ <= options().limits.vertices) return true;
-  return overLimit("too-many-vertices", "the leaves have more than " +
-                                            std::to_string(options().limits.vertices) + " vertices",
-                   "insert simpler models, or raise the limit on vertices");
+  return overLimit(
+      "too-many-vertices",
+      "the leaves have more than " + std::to_string(options().limits.vertices) + " vertices",
+      "insert simpler models, or raise the limit on vertices");
 }
 
 bool Machine::stackNearlyFull() const { return stackTop_ + kStackReserve > kStackSize; }

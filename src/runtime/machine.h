@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "program/program.h"
+#include "runtime/array_ops.h"
 #include "runtime/context.h"
 #include "runtime/derive.h"
 #include "runtime/output.h"
@@ -21,15 +22,19 @@ namespace gable {
 
 /// What all workers of one derivation share.
 struct DeriveShared {
+  DeriveShared(const Program& p, const DeriveOptions& o, Environment& e)
+      : program(p), options(o), environment(e), start(std::chrono::steady_clock::now()) {}
   const Program& program;
   const DeriveOptions& options;
   Environment& environment;
   std::chrono::steady_clock::time_point start;
   std::atomic<uint64_t> shapes{0};
   std::atomic<uint64_t> vertices{0};
-  std::atomic<bool> stop{false};
   /// The occluders of the first pass; null while it runs and when no rule asks.
   const OccluderIndex* occluders = nullptr;
+  /// The first pass of a derivation whose rules ask about other shapes.
+  bool collectOccluders = false;
+  std::atomic<bool> limitReached{false};
 };
 
 /// One rule call or block slot in progress.
@@ -45,8 +50,8 @@ struct Activation {
   /// Children of a block that wait for their turn.
   uint32_t childBase = 0, childNext = 0, childEnd = 0;
   uint32_t block = 0;
-  /// The activation of the rule call that a slot belongs to (itself for a rule call), and the number
-  /// of the call among its parent's children.
+  /// The activation of the rule call that a slot belongs to (itself for a rule call), and the
+  /// number of the call among its parent's children.
   uint32_t owner = 0, ordinal = 0;
   /// In a rule call: children made by it and its slots.
   uint32_t childCount = 0;
@@ -109,50 +114,79 @@ class Machine final : public Services {
     ShareKey key;
     uint64_t shapesBefore;
     Frame frame;
+    uint32_t rule;
   };
   enum class AttributeState : uint8_t { Unset, Busy, Known };
 
+  const DeriveOptions& options() const { return shared_.options; }
+
   // The loop, and its parts.
   void execute();
-  /// Runs an instruction of an expression; false when the instruction is none.
-  bool evaluate(const Instruction& i);
-  void beginRule(uint32_t rule, const Instruction* at);
   void beginRoot(uint32_t rule);
+  void beginRule(uint32_t rule, uint32_t argumentCount, const Instruction* at, bool last);
   void callRule(const Instruction& i);
   void callComputed(const Instruction& i);
-  void endActivation();
-  void nextChild();
-  void operation(const Instruction& i, const Value* arguments);
-  void startChildren(Activation& a);
-  void makeLeaf(const Shape& shape, StringId name, uint32_t source);
   void leafInstruction(const Instruction& i);
+  void endActivation();
+  void resume();
+  void nextChild();
+  void operation(const Instruction& i, const Value* constants);
+  void fillSplit(const BlockCode& block, const Value* values);
+  void fillSelectors(const BlockCode& block, const Value* values);
+  void setBuiltin(const Instruction& i, const Value& v);
   void pushShape();
   void popShape();
+  void dropShape();
+  void makeLeaf(Activation& a, StringId name, uint32_t source);
 
   // Sharing.
   bool beginShared(const RuleCode& rule, Activation& call);
-  void endShared(const Activation& call);
-  ShareKey keyOf(uint32_t rule, const Activation& call) const;
+  void endShared();
+  ShareKey keyOf(uint32_t rule, const Activation& call);
   void localise(Shape& shape, const RuleCode& rule, const Frame& outer) const;
+  void closeOpenPrototype();
+  void addInstance(const Frame& frame, uint32_t prototype);
+  uint32_t openInstanceCount() const;
 
   // Expressions.
-  void binary(BinaryOperator op);
+  /// Runs an instruction of an expression; false when the instruction is none.
+  bool evaluate(const Instruction& i);
+  void put(const ValueOrError& r, const Instruction& i);
+  void binary(const Instruction& i);
+  void not_(const Instruction& i);
   void index(const Instruction& i);
   void makeArray(const Instruction& i);
   void makeRange(const Instruction& i);
   void choose(const Instruction& i);
-  void ruleAttribute(uint32_t attribute);
+  void ruleAttribute(const Instruction& i);
+  void enterAttribute(uint32_t attribute, const Instruction* returnTo);
+  void builtinAttribute(const Instruction& i);
   void callFunction(const Instruction& i);
   void callBuiltin(const Instruction& i);
   void returnValue();
+  /// An attribute's value now, for a key or a list; nests one level of the loop.
   Value evaluateAttribute(uint32_t attribute);
+
+  // Initial shapes.
   void bindAttributes(const InitialShape& shape);
+  int32_t startRuleOf(const InitialShape& shape);
+
+  // Tracing and occluders.
+  void traceShape(Activation& a, uint32_t parentNode, const Instruction* at);
+  void traceLeaf(const Activation& a, StringId name, uint32_t source);
+  void addOccluder(StringId label, const Shape& s);
+  Occluder asking(const Shape& s) const;
+  std::vector<uint32_t> treePath() const;
 
   // Limits and messages.
   bool overLimit(const char* code, std::string message, std::string hint);
+  bool countShape();
+  bool countVertices(size_t count);
   bool tick();
+  bool stackNearlyFull() const;
   Span here() const;
   std::string shapePath() const;
+  std::string_view fileOf(const Instruction& i) const;
 
   const Value& top() const { return stack_[stackTop_ - 1]; }
   void push(const Value& v) { stack_[stackTop_++] = v; }
@@ -183,7 +217,6 @@ class Machine final : public Services {
   std::vector<FunctionFrame> functions_;
   std::vector<Frame> worlds_;
   std::vector<OpenPrototype> prototypes_;
-  /// Child numbers from the initial shape down, for tree keys.
   std::vector<SplitItem> splitItems_;
   std::vector<SelectorItem> selectorItems_;
   std::vector<SelectorTerm> selectorTerms_;
@@ -201,8 +234,16 @@ class Machine final : public Services {
   bool aborted_ = false;
   uint64_t shapes_ = 0;
   uint64_t shapesCounted_ = 0;
+  uint64_t shapesExpanded_ = 0;
+  uint64_t vertices_ = 0;
   uint32_t ticks_ = 0;
   uint64_t cacheHits_ = 0;
+  /// The instruction at work, for messages.
+  const Instruction* instruction_ = nullptr;
+  const OpSpec* builtinSetSpec_ = nullptr;
+  /// Leaves are placed in the world at once: sharing is off.
+  bool flat_ = false;
+  Output::Mark rootMark_;
   std::unordered_map<ShareKey, uint32_t, ShareKeyHash> cache_;
   bool collectOccluders_ = false;
 };

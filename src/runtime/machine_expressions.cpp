@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Expressions. A function or an attribute's initialiser runs in the same loop as the rule that asks:
-// a frame remembers where to go on. Attributes are evaluated once an initial shape, on that shape, at
-// the first use; only a sharing key asks for one out of turn (evaluateAttribute).
+// Expressions. A function or an attribute's initialiser runs in the same loop as the rule that
+// asks: a frame remembers where to go on. Attributes are evaluated once an initial shape, on that
+// shape, at the first use; only a sharing key asks for one out of turn (evaluateAttribute).
 
 #include <cmath>
 
@@ -34,12 +34,16 @@ bool Machine::evaluate(const Instruction& i) {
       if (!pop().truth()) pc_ = program_.code.data() + i.a;
       return true;
     case Code::JumpIfFalseKeep:
-      if (!top().truth()) pc_ = program_.code.data() + i.a;
-      else --stackTop_;
+      if (!top().truth())
+        pc_ = program_.code.data() + i.a;
+      else
+        --stackTop_;
       return true;
     case Code::JumpIfTrueKeep:
-      if (top().truth()) pc_ = program_.code.data() + i.a;
-      else --stackTop_;
+      if (top().truth())
+        pc_ = program_.code.data() + i.a;
+      else
+        --stackTop_;
       return true;
     case Code::Choose: choose(i); return true;
     case Code::JumpTable: {
@@ -149,7 +153,8 @@ void Machine::ruleAttribute(const Instruction& i) {
   enterAttribute(a, pc_);
 }
 
-// Begins the evaluation of an attribute; execution goes on at `returnTo` with its value on the stack.
+// Begins the evaluation of an attribute; execution goes on at `returnTo` with its value on the
+// stack.
 void Machine::enterAttribute(uint32_t a, const Instruction* returnTo) {
   if (attributeStates_[a] == AttributeState::Busy) {
     warn("cyclic-attribute", "the value of '" + program_.attributes[a].name + "' needs itself",
@@ -167,9 +172,9 @@ void Machine::enterAttribute(uint32_t a, const Instruction* returnTo) {
 
 void Machine::callFunction(const Instruction& i) {
   if (functions_.size() >= options().limits.functionDepth || stackNearlyFull()) {
-    overLimit("function-too-deep", "functions call each other more than " +
-                                       std::to_string(options().limits.functionDepth) +
-                                       " levels deep",
+    overLimit("function-too-deep",
+              "functions call each other more than " +
+                  std::to_string(options().limits.functionDepth) + " levels deep",
               "end the recursion with a case");
     return;
   }

@@ -3,8 +3,8 @@
 //
 // The loop over instructions, and what changes shapes: rule calls, blocks, leaves.
 //
-// A rule call or a block slot is an activation on a stack; the program counter and the parameters of
-// the innermost one are in registers (pc_, parameters_) and are put back when it ends. A block
+// A rule call or a block slot is an activation on a stack; the program counter and the parameters
+// of the innermost one are in registers (pc_, parameters_) and are put back when it ends. A block
 // operation leaves its children on children_; they run one after the other before the rule goes on.
 
 #include <utility>
@@ -13,6 +13,16 @@
 #include "runtime/machine.h"
 
 namespace gable {
+
+namespace {
+
+// Shapes are occluders as they were before these operations.
+bool occludes(const OpSpec& spec) {
+  const std::string_view name = spec.name;
+  return name == "comp" || name == "offset";
+}
+
+}  // namespace
 
 void Machine::execute() {
   while (activationCount_ > 0 && !aborted_) {
@@ -36,11 +46,7 @@ void Machine::execute() {
       }
       case Code::PushShape: pushShape(); break;
       case Code::PopShape: popShape(); break;
-      case Code::Drop:
-        ++current().made;
-        if (options().trace) dropTraced();
-        endActivation();
-        break;
+      case Code::Drop: dropShape(); break;
       default: endActivation(); break;
     }
   }
@@ -59,16 +65,18 @@ void Machine::beginRule(uint32_t rule, uint32_t argumentCount, const Instruction
   Activation& caller = activations_[callerIndex];
   if (++caller.made > options().limits.width) {
     --activationCount_;
-    overLimit("too-many-children", "a shape of rule '" + program_.rules[caller.rule].qualifiedName +
-                                       "' has more than " +
-                                       std::to_string(options().limits.width) + " children",
+    overLimit("too-many-children",
+              "a shape of rule '" + program_.rules[caller.rule].qualifiedName + "' has more than " +
+                  std::to_string(options().limits.width) + " children",
               "split into fewer parts, or raise the limit on width");
     return;
   }
   caller.pc = pc_;
   // The last call of a rule may take the shape itself.
-  if (last) a.shape = std::move(caller.shape);
-  else a.shape = caller.shape;
+  if (last)
+    a.shape = std::move(caller.shape);
+  else
+    a.shape = caller.shape;
   a.shape.path = hashCombine(a.shape.path, program_.sites[pcOf(at)]);
   a.rule = rule;
   a.stackBase = stackTop_ - argumentCount;
@@ -84,12 +92,13 @@ void Machine::beginRule(uint32_t rule, uint32_t argumentCount, const Instruction
   a.boundary = false;
   a.traceNode = TraceNode::kNone;
   if (a.depth > options().limits.depth) {
-    overLimit("recursion-too-deep", "rules call each other more than " +
-                                        std::to_string(options().limits.depth) + " levels deep",
+    overLimit("recursion-too-deep",
+              "rules call each other more than " + std::to_string(options().limits.depth) +
+                  " levels deep",
               "end the recursion with a case, or raise the limit on depth");
     return;
   }
-  if (options().trace) traceShape(a, callerIndex, at);
+  if (options().trace) traceShape(a, caller.traceNode, at);
   if (code.shared && beginShared(code, a)) {
     // The cache had the result: the call is over before it began.
     stackTop_ = a.stackBase;
@@ -134,8 +143,11 @@ void Machine::leafInstruction(const Instruction& i) {
 // A child that made nothing is a leaf under the name of its rule.
 void Machine::endActivation() {
   Activation& a = current();
-  if (a.made == 0) makeLeaf(a, program_.rules[a.rule].name, program_.rules[a.rule].entry);
-  if (a.boundary) endShared(a);
+  if (a.made == 0) {
+    if (a.slot) countShape();
+    makeLeaf(a, program_.rules[a.rule].name, program_.rules[a.rule].entry);
+  }
+  if (a.boundary) endShared();
   stackTop_ = a.stackBase;
   if (shapeStack_.size() > a.shapeStackBase) shapeStack_.resize(a.shapeStackBase);
   --activationCount_;
@@ -180,6 +192,17 @@ void Machine::nextChild() {
   seen_ = &a.shape;
   parameters_ = a.parameters;
   pc_ = program_.code.data() + block.slots[child.slot];
+}
+
+// NIL: the shape goes, and nothing after it runs. What it had made before stays.
+void Machine::dropShape() {
+  Activation& a = current();
+  if (a.slot && a.made == 0) countShape();
+  if (options().trace && a.made == 0 && a.traceNode != TraceNode::kNone && !a.slot) {
+    trace_[a.traceNode].dropped = true;
+  }
+  ++a.made;
+  endActivation();
 }
 
 void Machine::fillSplit(const BlockCode& block, const Value* values) {
@@ -265,16 +288,16 @@ void Machine::operation(const Instruction& i, const Value* constants) {
     return;
   }
   if (setup.dropped()) {
-    ++a.made;
-    endActivation();
+    dropShape();
     return;
   }
   if (!block) return;
   ++a.made;
   const auto childEnd = static_cast<uint32_t>(children_.size());
   if (childEnd - childBase > options().limits.width) {
-    overLimit("too-many-children", "'" + std::string(spec.name) + "' makes " +
-                                       std::to_string(childEnd - childBase) + " shapes of one",
+    overLimit("too-many-children",
+              "'" + std::string(spec.name) + "' makes " + std::to_string(childEnd - childBase) +
+                  " shapes of one",
               "use larger sizes, or raise the limit on width");
     return;
   }
@@ -283,7 +306,6 @@ void Machine::operation(const Instruction& i, const Value* constants) {
   a.childBase = a.childNext = childBase;
   a.childEnd = childEnd;
   a.pc = pc_;
-  shapes_ += childEnd - childBase;
   nextChild();
 }
 

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Merging walks the initial shapes in their order and takes over each prototype after the ones that
-// it holds. That is the order in which a single worker finishes them, so one worker or many give the
-// same scene. Names, materials, sources and meshes are numbered as this walk first meets them.
+// it holds. That is the order in which a single worker finishes them, so one worker or many give
+// the same scene. Names, materials, sources and meshes are numbered as this walk first meets them.
 
 #include <algorithm>
 #include <unordered_map>
@@ -61,8 +61,8 @@ class Merger {
     std::vector<uint32_t> prototypes, meshes, materials;
   };
 
-  // The scene's number of a worker's prototype. Recursion is as deep as shared calls nest, which the
-  // limit on depth bounds.
+  // The scene's number of a worker's prototype. Recursion is as deep as shared calls nest, which
+  // the limit on depth bounds.
   uint32_t import(uint32_t worker, uint32_t prototype) {
     uint32_t& known = workers_[worker].prototypes[prototype];
     if (known != kUnset) return known;
@@ -105,7 +105,7 @@ class Merger {
     uint32_t& known = workers_[worker].meshes[mesh];
     if (known != kUnset) return known;
     const MeshRef& m = outputs_[worker].meshes[mesh];
-    const uint64_t hash = m->contentHash();
+    const uint64_t hash = m->sharedHash();
     auto [first, last] = meshNumbers_.equal_range(hash);
     for (; first != last; ++first) {
       if (sameMesh(*scene_.meshes[first->second], *m)) return known = first->second;
@@ -176,8 +176,8 @@ class Merger {
     if (fresh) {
       std::vector<AttributeValue> values;
       for (const auto& e : input_.attributes.entries(set)) {
-        values.push_back(plainAttribute(input_.program.attributes[e.key].name, e.value,
-                                        *input_.program.pool));
+        values.push_back(
+            plainAttribute(input_.program.attributes[e.key].name, e.value, *input_.program.pool));
       }
       scene_.attributeSets.push_back(std::move(values));
     }
@@ -202,8 +202,10 @@ class Merger {
 
   void speak(const OutputEvent& e) {
     const ValuePool& pool = *input_.program.pool;
-    if (e.print) scene_.prints.emplace_back(pool.text(e.text));
-    else scene_.reports.push_back({std::string(pool.text(e.text)), plainValue(e.value, pool)});
+    if (e.print)
+      scene_.prints.emplace_back(pool.text(e.text));
+    else
+      scene_.reports.push_back({std::string(pool.text(e.text)), plainValue(e.value, pool)});
   }
 
   std::vector<Output>& outputs_;

@@ -42,8 +42,8 @@ struct OutputPrototype {
   ShareKey key;
 };
 
-/// Leaves hold the worker's own numbers: mesh by Output::meshes, materials by Output::materials, name
-/// a StringId, source an instruction, attributes a set of the AttributePool.
+/// Leaves hold the worker's own numbers: mesh by Output::meshes, materials by Output::materials,
+/// name a StringId, source an instruction, attributes a set of the AttributePool.
 struct Output {
   /// Finished prototypes and their content.
   std::vector<OutputPrototype> prototypes;

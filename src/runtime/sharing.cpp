@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Sharing. A call of a shared rule works in a frame of its own, the scope of the shape it was called
-// on; so its result depends on nothing but the inputs that keyOf() hashes, and equal keys have equal
-// results. With sharing on a result becomes a prototype and each call an instance; with sharing off
-// the frames are composed in the same order while deriving, which gives the same numbers.
+// Sharing. A call of a shared rule works in a frame of its own, the scope of the shape it was
+// called on; so its result depends on nothing but the inputs that keyOf() hashes, and equal keys
+// have equal results. With sharing on a result becomes a prototype and each call an instance; with
+// sharing off the frames are composed in the same order while deriving, which gives the same
+// numbers.
 
-#include "base/check.h"
 #include "runtime/machine.h"
 
 namespace gable {
@@ -120,21 +120,20 @@ bool Machine::beginShared(const RuleCode& rule, Activation& call) {
   if (aborted_) return false;
   if (const auto hit = cache_.find(key); hit != cache_.end()) {
     ++cacheHits_;
+    // The call itself has been counted already.
+    shapesExpanded_ += output_.prototypes[hit->second].range.shapes - 1;
     addInstance(outer, hit->second);
-    shapes_ += 0;
     return true;
   }
   call.boundary = true;
   worlds_.push_back(worlds_.back() * outer);
-  prototypes_.push_back({output_.mark(), key, shapes_ - 1, outer});
+  prototypes_.push_back({output_.mark(), key, shapesExpanded_ - 1, outer, call.rule});
   return false;
 }
 
-void Machine::endShared(const Activation& call) {
+void Machine::endShared() {
   worlds_.pop_back();
-  if (flat_) return;
-  GABLE_DCHECK(call.boundary);
-  closeOpenPrototype();
+  if (!flat_) closeOpenPrototype();
 }
 
 // A prototype that a limit cut short is kept, but never given to another call.
@@ -142,7 +141,7 @@ void Machine::closeOpenPrototype() {
   const OpenPrototype open = prototypes_.back();
   prototypes_.pop_back();
   const StringId name = program_.rules[open.rule].name;
-  const uint32_t number = output_.close(open.mark, name, shapes_ - open.shapesBefore,
+  const uint32_t number = output_.close(open.mark, name, shapesExpanded_ - open.shapesBefore,
                                         aborted_ ? ShareKey{} : open.key);
   if (!aborted_) cache_.emplace(open.key, number);
   addInstance(open.frame, number);

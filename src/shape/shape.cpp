@@ -230,6 +230,20 @@ void alignScope(Shape& s, const Frame& axes) {
   setMesh(s, std::move(mesh), ScopeFit::Refit);
 }
 
+void setInitialGeometry(Shape& s, const Mesh& mesh) {
+  Frame axes;
+  if (mesh.faceCount() == 1 && mesh.loops[0].cornerCount >= 3) {
+    const Vec3 up = mesh.normal(0);
+    const Vec3 edge = mesh.at(1) - mesh.at(0);
+    // frameFromZ gives x along the hint and z along the normal; y of the scope is that normal.
+    const Frame f = frameFromZ({}, up, edge);
+    if (up != Vec3{}) axes = Frame::of({}, f.x, f.z, cross(f.x, f.z));
+  }
+  s.scope = axes;
+  if (!mesh.empty()) setMesh(s, transformed(mesh, {1, 1, 1}, inverse(axes)), ScopeFit::Refit);
+  s.pivot = s.scope;
+}
+
 ShapeExtra extraOf(const Shape& s) { return s.extra ? *s.extra : ShapeExtra{}; }
 
 GeometryCounts countsOf(const Geometry& g) {

@@ -150,6 +150,11 @@ Geometry primitive(GeometryKind kind, uint32_t tags = 0);
 /// without geometry keeps the box of its old scope.
 void alignScope(Shape& s, const Frame& axes);
 
+/// Makes `s` the start of a derivation: the geometry in its object frame, with the scope of the
+/// language's initial shapes. A single face gets y along its normal and x along its first edge;
+/// other geometry keeps the object's axes. The pivot is the scope's frame.
+void setInitialGeometry(Shape& s, const Mesh& mesh);
+
 /// The extra of `s` for editing: a copy of its own. Put it back with s.extra = makeRef(...).
 ShapeExtra extraOf(const Shape& s);
 

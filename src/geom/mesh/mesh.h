@@ -15,6 +15,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -42,6 +43,26 @@ struct MeshFace {
   bool smooth = false;
   /// An interned tag set, 0 for none.
   uint32_t tags = 0;
+};
+
+/// A hash that is computed once; copies of the owner compute their own.
+class CachedHash {
+ public:
+  CachedHash() = default;
+  CachedHash(const CachedHash&) {}
+  CachedHash& operator=(const CachedHash&) {
+    value_.store(0, std::memory_order_relaxed);
+    return *this;
+  }
+  template <class Compute>
+  uint64_t get(Compute&& compute) const {
+    uint64_t v = value_.load(std::memory_order_relaxed);
+    if (v == 0) value_.store(v = compute(), std::memory_order_relaxed);
+    return v;
+  }
+
+ private:
+  mutable std::atomic<uint64_t> value_{0};
 };
 
 class Mesh : public RefCounted {
@@ -76,8 +97,15 @@ class Mesh : public RefCounted {
   Box3 bounds() const;
   /// A hash of everything that an operation can see.
   uint64_t contentHash() const;
+  /// The same, computed at the first call only: for meshes that no longer change.
+  uint64_t sharedHash() const {
+    return cachedHash_.get([this] { return contentHash() | 1; });
+  }
   /// Counts, indices and vector lengths agree, and no coordinate is NaN or infinite.
   bool valid() const;
+
+ private:
+  CachedHash cachedHash_;
 };
 
 using MeshRef = Ref<Mesh>;

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// One machine a worker takes initial shapes in turn; the outputs are merged in the order of the
+// shapes. When rules ask about other shapes (inside, touches, ...) there are two passes: the first
+// collects occluders and is thrown away, the second asks them.
+
+#include "runtime/derive.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "base/parallel.h"
+#include "runtime/machine.h"
+
+namespace gable {
+
+namespace {
+
+struct Pass {
+  std::vector<std::unique_ptr<Machine>> machines;
+  std::vector<OutputRoot> roots;
+  std::vector<uint8_t> derived;
+  std::vector<std::vector<AttributeValue>> attributes;
+  /// By initial shape: where its trace nodes and occluders lie in its worker's lists.
+  struct Range {
+    uint32_t worker = 0;
+    size_t traceBegin = 0, traceEnd = 0;
+  };
+  std::vector<Range> ranges;
+};
+
+Pass runPass(DeriveShared& shared, const std::vector<InitialShape>& shapes) {
+  Pass pass;
+  const unsigned jobs =
+      shared.options.jobs > 0 ? static_cast<unsigned>(shared.options.jobs) : defaultJobs();
+  for (unsigned w = 0; w < jobs; ++w) {
+    pass.machines.push_back(std::make_unique<Machine>(shared, w));
+  }
+  pass.roots.resize(shapes.size());
+  pass.derived.assign(shapes.size(), 0);
+  pass.attributes.resize(shapes.size());
+  pass.ranges.resize(shapes.size());
+  std::atomic<size_t> done{0};
+  parallelFor(shapes.size(), jobs, [&](size_t i, unsigned worker) {
+    if (shared.options.cancel && shared.options.cancel->load(std::memory_order_relaxed)) return;
+    Machine& machine = *pass.machines[worker];
+    const size_t traceBegin = machine.trace().size();
+    pass.roots[i] = machine.run(shapes[i], static_cast<uint32_t>(i));
+    pass.derived[i] = 1;
+    if (!shared.collectOccluders) pass.attributes[i] = machine.attributeValues();
+    pass.ranges[i] = {worker, traceBegin, machine.trace().size()};
+    const size_t count = done.fetch_add(1) + 1;
+    if (shared.options.progress) shared.options.progress(count, shapes.size());
+  });
+  return pass;
+}
+
+// Occluders in the order of the initial shapes, whatever worker found them.
+std::vector<Occluder> takeOccluders(Pass& pass) {
+  std::vector<Occluder> all;
+  for (auto& m : pass.machines) {
+    for (Occluder& o : m->occluders()) all.push_back(std::move(o));
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Occluder& a, const Occluder& b) {
+    return a.initialShape < b.initialShape;
+  });
+  return all;
+}
+
+std::vector<TraceNode> takeTrace(const Pass& pass) {
+  std::vector<TraceNode> all;
+  for (const Pass::Range& r : pass.ranges) {
+    const auto& nodes = pass.machines[r.worker]->trace();
+    const size_t shift = all.size();
+    for (size_t i = r.traceBegin; i < r.traceEnd; ++i) {
+      TraceNode n = nodes[i];
+      if (n.parent != TraceNode::kNone) {
+        n.parent = static_cast<uint32_t>(n.parent - r.traceBegin + shift);
+      }
+      all.push_back(n);
+    }
+  }
+  return all;
+}
+
+bool asksContext(const Program& program, const std::vector<InitialShape>& shapes, int32_t start) {
+  const auto asks = [&](int32_t rule) {
+    return rule >= 0 &&
+           (program.rules[static_cast<size_t>(rule)].reads.effects & kReadsContext) != 0;
+  };
+  return asks(start) || std::any_of(shapes.begin(), shapes.end(), [&](const InitialShape& s) {
+           return !s.startRule.empty() && asks(program.findRule(s.startRule));
+         });
+}
+
+}  // namespace
+
+DeriveResult derive(const Program& program, const std::vector<InitialShape>& shapes,
+                    Environment& environment, const DeriveOptions& given) {
+  DeriveOptions options = given;
+  if (options.startRule < 0) options.startRule = program.startRule;
+  DeriveShared shared(program, options, environment);
+  std::unique_ptr<OccluderIndex> occluders;
+  if (asksContext(program, shapes, options.startRule)) {
+    shared.collectOccluders = true;
+    Pass first = runPass(shared, shapes);
+    occluders = std::make_unique<OccluderIndex>(takeOccluders(first));
+    shared.occluders = occluders.get();
+    shared.collectOccluders = false;
+    shared.shapes = 0;
+  }
+  Pass pass = runPass(shared, shapes);
+
+  DeriveResult result;
+  std::vector<Output> outputs;
+  for (auto& m : pass.machines) {
+    result.shared += m->cacheHits();
+    result.diagnostics.append(m->diagnostics());
+  }
+  result.trace = takeTrace(pass);
+  for (auto& m : pass.machines) outputs.push_back(std::move(m->output()));
+  std::vector<OutputRoot> roots;
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    if (pass.derived[i]) roots.push_back(std::move(pass.roots[i]));
+  }
+  result.attributes = std::move(pass.attributes);
+  const bool cancelled = options.cancel && options.cancel->load(std::memory_order_relaxed);
+  result.end = cancelled             ? DeriveEnd::Cancelled
+               : shared.limitReached ? DeriveEnd::LimitReached
+                                     : DeriveEnd::Done;
+  result.diagnostics.sortByPlace();
+  result.scene = merge(outputs, roots,
+                       {program, environment.materials, environment.attributes, options.sources});
+  return result;
+}
+
+}  // namespace gable

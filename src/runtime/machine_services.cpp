@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Tracing, and the questions about other shapes.
+
+#include <limits>
+
+#include "runtime/machine.h"
+
+namespace gable {
+
+void Machine::traceShape(Activation& a, uint32_t parentNode, const Instruction* at) {
+  TraceNode node;
+  node.parent = parentNode;
+  node.initialShape = info_.index;
+  node.name = program_.rules[a.rule].name;
+  node.span = at ? program_.spans[pcOf(at)] : program_.rules[a.rule].span;
+  node.scope = worlds_.back() * a.shape.scope;
+  node.size = a.shape.size;
+  a.traceNode = static_cast<uint32_t>(trace_.size());
+  trace_.push_back(node);
+}
+
+// A rule call that made nothing is its own leaf; a leaf of a slot or of an unknown rule is a child.
+void Machine::traceLeaf(const Activation& a, StringId name, uint32_t source) {
+  const uint32_t leafIndex = a.shape.geometry.kind == GeometryKind::None
+                                 ? TraceNode::kNone
+                                 : static_cast<uint32_t>(output_.openLeaves.size());
+  if (a.made == 0 && !a.slot && a.traceNode != TraceNode::kNone) {
+    trace_[a.traceNode].leaf = true;
+    trace_[a.traceNode].leafIndex = leafIndex;
+    return;
+  }
+  TraceNode node;
+  node.parent = a.traceNode;
+  node.initialShape = info_.index;
+  node.name = name;
+  node.span = program_.spans[source];
+  node.scope = worlds_.back() * a.shape.scope;
+  node.size = a.shape.size;
+  node.leaf = true;
+  node.leafIndex = leafIndex;
+  trace_.push_back(node);
+}
+
+std::vector<uint32_t> Machine::treePath() const {
+  std::vector<uint32_t> path;
+  for (uint32_t i = 1; i < activationCount_; ++i) {
+    if (!activations_[i].slot) path.push_back(activations_[i].ordinal);
+  }
+  return path;
+}
+
+Occluder Machine::asking(const Shape& s) const {
+  Occluder o;
+  o.initialShape = info_.index;
+  o.path = treePath();
+  o.mesh = transformed(meshInLocal(s), {1, 1, 1}, worlds_.back());
+  return o;
+}
+
+void Machine::addOccluder(StringId label, const Shape& s) {
+  if (s.geometry.kind == GeometryKind::None) return;
+  Occluder o = asking(s);
+  o.label = label;
+  occluders_.push_back(std::move(o));
+}
+
+void Machine::label(StringId name, const Shape& shape) {
+  if (collectOccluders_) addOccluder(name, shape);
+}
+
+bool Machine::query(ContextTest test, ContextScope scope, StringId label, const Shape& shape) {
+  return shared_.occluders && shared_.occluders->test(test, scope, label, asking(shape));
+}
+
+double Machine::minimumDistance(ContextScope scope, StringId label, const Shape& shape) {
+  if (!shared_.occluders) return std::numeric_limits<double>::infinity();
+  return shared_.occluders->minimumDistance(scope, label, asking(shape));
+}
+
+double Machine::contextCount(ContextScope scope, StringId label) {
+  if (!shared_.occluders) return 0;
+  return static_cast<double>(shared_.occluders->count(scope, label, asking(*seen_)));
+}
+
+}  // namespace gable
