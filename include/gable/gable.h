@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Gable's public interface: rules and footprints in, places out.
+//
+//   gable::Rules rules = gable::Rules::load("town.cga");
+//   gable::Shapes lots = gable::Shapes::load("lots.geojson");
+//   gable::Model town = gable::derive(rules, lots, {});
+//   town.write("town.glb", {});
+//
+// Nothing here throws, prints or exits. Everything that went wrong comes back as Messages beside the
+// result; a result with errors is empty but safe to use. Lengths are metres, angles degrees, the
+// frame is right-handed with y up (+x east, -z north). Objects are cheap to copy: copies share.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gable {
+
+enum class Level : uint8_t { Note, Warning, Error };
+
+struct Message {
+  Level level = Level::Error;
+  /// Stable, kebab-case; listed in the reference.
+  std::string code;
+  /// Empty when no text is to blame. Lines and columns count from 1.
+  std::string file;
+  uint32_t line = 0, column = 0, endLine = 0, endColumn = 0;
+  std::string text;
+  std::string hint;
+  /// The rules from the initial shape down to where it happened; empty before a derivation.
+  std::string shapePath;
+  /// The message with its place, the line of text and a caret, as a terminal shows it.
+  std::string pretty;
+};
+
+using Messages = std::vector<Message>;
+bool hasErrors(const Messages& messages);
+/// The messages as a JSON array.
+std::string messagesJson(const Messages& messages);
+
+struct LoadOptions {
+  /// The folder that rules may read from; empty: the nearest folder above the rule file that holds a
+  /// `rules` or an `assets` folder, else the rule file's own.
+  std::string project;
+  /// Empty: by the file's extension.
+  std::string dialect;
+};
+
+struct AttributeInfo {
+  std::string name;
+  /// "float", "bool", "string", "float[]", ...
+  std::string type;
+  bool hidden = false;
+  /// Annotations as name and arguments: {"Range", {{"min","0"},{"max","10"}}}.
+  struct Annotation {
+    std::string name;
+    std::vector<std::pair<std::string, std::string>> arguments;
+  };
+  std::vector<Annotation> annotations;
+};
+
+struct RuleInfo {
+  std::string name;
+  size_t parameters = 0;
+  bool start = false;
+  std::string file;
+  uint32_t line = 0;
+};
+
+/// A rule file with all it imports, compiled.
+class Rules {
+ public:
+  /// Reads, parses, analyses and compiles. All messages of all stages are collected.
+  static Rules load(const std::string& path, const LoadOptions& options = {});
+  /// The same for text that is in memory; `path` names it in messages and places it in the project.
+  static Rules parse(const std::string& text, const std::string& path,
+                     const LoadOptions& options = {});
+
+  /// No errors: the rules can be derived.
+  bool ok() const;
+  /// False when the file itself could not be read.
+  bool found() const;
+  const Messages& messages() const;
+  std::vector<AttributeInfo> attributes() const;
+  std::vector<RuleInfo> rules() const;
+  /// The rule that a derivation starts with unless told otherwise; empty when there is none.
+  std::string startRule() const;
+  double parseSeconds() const;
+  /// A listing of the compiled program.
+  std::string disassembly() const;
+
+  struct Impl;
+  explicit Rules(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+  const Impl& impl() const { return *impl_; }
+
+ private:
+  std::shared_ptr<const Impl> impl_;
+};
+
+/// The initial shapes of a derivation: lots, footprints.
+class Shapes {
+ public:
+  /// A rectangle: a corner at the origin, `width` along +x, `depth` along -z, facing up.
+  static Shapes lot(double width, double depth);
+  using Ring = std::vector<std::pair<double, double>>;
+  /// A polygon in plan coordinates (x east, y north), counter-clockwise, with holes.
+  static Shapes polygon(const Ring& outer, const std::vector<Ring>& holes = {});
+  /// .obj .gltf .glb .geojson .json, by extension.
+  static Shapes load(const std::string& path);
+  /// The same for a file's content in memory; `name` gives the extension.
+  static Shapes parse(const std::string& content, const std::string& name);
+
+  size_t size() const;
+  bool ok() const;
+  /// False when the file itself could not be read.
+  bool found() const;
+  const Messages& messages() const;
+
+  struct Impl;
+  explicit Shapes(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+  const Impl& impl() const { return *impl_; }
+
+ private:
+  std::shared_ptr<const Impl> impl_;
+};
+
+/// What a derivation may use up. Beyond it the initial shape at work ends with a message; what was
+/// made until then is kept.
+struct Budget {
+  uint32_t depth = 1024;
+  uint32_t width = 100000;
+  uint64_t shapes = 50'000'000;
+  uint64_t vertices = 200'000'000;
+  /// 0: no limit.
+  double seconds = 0;
+};
+
+struct DeriveSettings {
+  /// Empty: the rules' own start rule.
+  std::string startRule;
+  double seed = 0;
+  /// Names and values as text; arrays as [1,2;3,4]. Over the shapes' own attributes.
+  std::vector<std::pair<std::string, std::string>> attributes;
+  /// Derive equal parts once. Off gives the same model, flattened.
+  bool sharing = true;
+  /// Keep the derivation tree (turns sharing off).
+  bool trace = false;
+  /// 0: as many as the machine has processors.
+  int jobs = 0;
+  Budget budget;
+  /// Called from any thread.
+  std::function<void(size_t done, size_t total)> progress;
+  std::atomic<bool>* cancel = nullptr;
+};
+
+enum class End : uint8_t { Done, LimitReached, Cancelled };
+
+struct WriteSettings {
+  /// glTF: instances as EXT_mesh_gpu_instancing instead of nodes.
+  bool gpuInstancing = false;
+};
+
+struct WriteResult {
+  bool ok = false;
+  uint64_t triangles = 0;
+  uint64_t bytes = 0;
+  Messages messages;
+};
+
+enum class View : uint8_t { Iso, Top, Front, Street };
+
+struct PictureSettings {
+  View view = View::Iso;
+  int width = 1600, height = 900;
+  int samples = 48;
+  /// Degrees; NaN-free "own value" is said by ownSun.
+  bool ownSun = false;
+  double sunElevation = 38, sunAzimuth = 45;
+  /// A camera of one's own: eye and target in metres.
+  bool ownCamera = false;
+  double eye[3] = {0, 0, 0}, target[3] = {0, 0, 0};
+  /// Horizontal angle of view in degrees; 0 for the view's own.
+  double fieldOfView = 0;
+  int jobs = 0;
+  std::function<void(size_t done, size_t total)> progress;
+  std::atomic<bool>* cancel = nullptr;
+};
+
+/// What a derivation made, or a model file that was read.
+class Model {
+ public:
+  /// Reads .obj, .gltf or .glb as it is, for pictures.
+  static Model load(const std::string& path);
+
+  bool ok() const;
+  /// False when a model file could not be read.
+  bool found() const;
+  End end() const;
+  const Messages& messages() const;
+  double deriveSeconds() const;
+  /// Counts, bounds, reports, prints and messages as one JSON object; see the reference. Seconds and
+  /// peak memory are added where given (negative: left out).
+  struct Times {
+    double parse = -1, derive = -1, write = -1, total = -1;
+    int64_t peakBytes = -1;
+    uint64_t triangles = 0;
+  };
+  std::string statsJson(const Times& times) const;
+  /// The evaluated attributes of an initial shape as a JSON object.
+  std::string attributesJson(size_t shape) const;
+  const std::vector<std::string>& prints() const;
+  /// A readable list of the leaves, the same for any number of jobs.
+  std::string dump() const;
+  /// The derivation tree as JSON; empty unless it was asked for.
+  std::string traceJson() const;
+  /// By extension: .glb .gltf .obj .ply .stl, and .png for a picture with default settings.
+  WriteResult write(const std::string& path, const WriteSettings& settings) const;
+  WriteResult picture(const std::string& path, const PictureSettings& settings) const;
+
+  struct Impl;
+  explicit Model(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+  const Impl& impl() const { return *impl_; }
+
+ private:
+  std::shared_ptr<const Impl> impl_;
+};
+
+Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& settings);
+
+/// Rule text in canonical form. Text with mistakes comes back unchanged, with messages.
+struct Formatted {
+  std::string text;
+  Messages messages;
+};
+Formatted format(const std::string& text, const std::string& path);
+
+/// All operations, functions, attributes and selectors with their documentation, as JSON; or of one
+/// name alone (empty when there is none).
+std::string builtinsJson(const std::string& name = {});
+/// The same as readable text.
+std::string builtinsText(const std::string& name = {});
+
+const char* version();
+
+}  // namespace gable
