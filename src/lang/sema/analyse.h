@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The analysis: loads imports, resolves every name, infers types, checks calls against the
+// catalogue and reports every mistake. See resolved.h for what it yields.
+//
+// Names: within a successor a parameterless or called name is an operation if the catalogue has one
+// with that many arguments, else a rule, else a leaf (warning). Soft operations give way to rules
+// of the same name. Within an expression parameters and local variables come first, then functions,
+// attributes and constants of the file, then built-in functions and shape attributes, then selector
+// words. Where a selector is asked for, a word that is known as one wins over attributes.
+#pragma once
+
+#include <string>
+
+#include "base/diagnostic.h"
+#include "base/result.h"
+#include "lang/sema/resolved.h"
+#include "lang/tree.h"
+#include "program/spec.h"
+#include "program/value.h"
+
+namespace gable::lang {
+
+/// Brings the texts of imported files; decides what a path means and what may be read.
+class FileLoader {
+ public:
+  struct File {
+    /// The same file always has the same path, so that cycles are seen.
+    std::string path;
+    std::string text;
+  };
+  virtual ~FileLoader() = default;
+  /// `path` as written in the import of the file `importer` (a path that load returned, or the main
+  /// file's).
+  virtual Result<File> load(const std::string& path, const std::string& importer) = 0;
+};
+
+struct AnalysisInput {
+  /// The main file, parsed, and its path.
+  Tree tree;
+  std::string path;
+  /// The style to derive; "" and "Default" are the same.
+  std::string style;
+};
+
+/// `loader` may be null: imports are then reported as missing. Texts of imported files are added to
+/// `sources`.
+ResolvedProgram analyse(AnalysisInput input, const Catalogue& catalogue, ValuePool& values,
+                        FileLoader* loader, Sources& sources, Diagnostics& diagnostics);
+
+}  // namespace gable::lang
