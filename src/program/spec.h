@@ -76,6 +76,9 @@ enum class BlockKind : uint8_t {
 enum Effect : uint32_t {
   kPure = 0,
   kReadsWorld = 1u << 0,
+  /// Narrows kReadsWorld: it holds only for calls with a selector that namesWorld(), or with one
+  /// that is not known before the call (rotate(rel, scope, ..) needs no world).
+  kReadsWorldByWord = 1u << 16,
   kRandom = 1u << 1,
   /// Other shapes: inside, touches, minimumDistance.
   kReadsContext = 1u << 2,
@@ -91,6 +94,19 @@ enum Effect : uint32_t {
   /// The scope of the shape below on the shape stack: center.
   kReadsPrevious = 1u << 11,
 };
+
+/// Whether a selector asks for a direction or place outside the shape: world.up, object,
+/// street.side, and auto of alignScopeToGeometry.
+inline bool namesWorld(std::string_view word) {
+  return word.starts_with("world") || word.starts_with("object") || word.starts_with("street") ||
+         word == "auto";
+}
+
+/// The effects of a call, once it is known whether one of its selectors namesWorld().
+constexpr uint32_t effectsOfCall(uint32_t effects, bool worldNamed) {
+  const bool narrowed = (effects & kReadsWorldByWord) != 0 && !worldNamed;
+  return effects & ~(kReadsWorldByWord | (narrowed ? kReadsWorld : 0u));
+}
 
 struct OpSpec {
   const char* name;

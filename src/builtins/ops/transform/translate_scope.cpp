@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The Gable authors
 
 #include "builtins/lists.h"
+#include "builtins/ops/shared/frames.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -15,6 +16,23 @@ Status applyT(OpCall& call) {
   return {};
 }
 
+Status applyTranslate(OpCall& call) {
+  Shape& s = call.shape();
+  bool known = false;
+  const Frame system = systemNamed(call.text(1), s, call.services(), known);
+  if (!known) {
+    return call.fail("unknown-selector",
+                     "translate knows no coordinate system '" + std::string(call.text(1)) + "'",
+                     "use scope, pivot, object or world");
+  }
+  const Vec3 v{call.number(2), call.number(3), call.number(4)};
+  if (call.is(0, "abs"))
+    s.scope.origin = system.point(v);
+  else
+    s.scope.origin += system.direction(v);
+  return {};
+}
+
 constexpr ParamSpec kTParams[] = {
     {"tx", ParamType::Size, "Move along the scope's x axis, in metres or as a share of the size."},
     {"ty", ParamType::Size, "Move along the scope's y axis."},
@@ -22,8 +40,24 @@ constexpr ParamSpec kTParams[] = {
 };
 constexpr Signature kTSignatures[] = {{kTParams}};
 
+constexpr ParamSpec kTranslateParams[] = {
+    {"mode", ParamType::Selector,
+     "rel adds the vector to the position of the scope; abs puts the origin of the scope there.",
+     nullptr, "abs rel"},
+    {"coordSystem", ParamType::Selector, "The coordinate system that the vector is written in.",
+     nullptr, "scope pivot object world"},
+    {"x", ParamType::Float, "Along the x axis of that system, in metres."},
+    {"y", ParamType::Float, "Along its y axis."},
+    {"z", ParamType::Float, "Along its z axis."},
+};
+constexpr Signature kTranslateSignatures[] = {{kTranslateParams}};
+
 constexpr OpSpec kSpecs[] = {
     {"t", "transform", "Moves the scope along its own axes.", kTSignatures, applyT},
+    {"translate", "transform",
+     "Moves the scope by a vector, or to a place, in a coordinate system of choice.",
+     kTranslateSignatures, applyTranslate, BlockKind::None,
+     kReadsWorld | kReadsWorldByWord | kReadsPivot},
 };
 
 }  // namespace

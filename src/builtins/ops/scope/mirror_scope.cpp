@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// A mirrored axis is a negative size: the scope's origin goes to the other end, and what is fitted
+// into the scope from then on (an asset, a primitive) comes out mirrored.
+
+#include "builtins/lists.h"
+#include "shape/op_call.h"
+
+namespace gable {
+
+namespace {
+
+Status applyMirrorScope(OpCall& call) {
+  Shape& s = call.shape();
+  const bool flip[3] = {call.arg(0).truth(), call.arg(1).truth(), call.arg(2).truth()};
+  if (!flip[0] && !flip[1] && !flip[2]) return {};
+  const Vec3 by{flip[0] ? s.size.x : 0, flip[1] ? s.size.y : 0, flip[2] ? s.size.z : 0};
+  const GeometryKind kind = s.geometry.kind;
+  Mesh mesh;
+  if (kind != GeometryKind::None) mesh = transformed(*meshInScope(s), {1, 1, 1}, Frame::moved(-by));
+  s.scope.origin = s.scope.point(by);
+  for (size_t i = 0; i < 3; ++i) {
+    if (flip[i]) s.size[i] = -s.size[i];
+  }
+  if (kind != GeometryKind::None) setMesh(s, std::move(mesh), ScopeFit::Keep);
+  return {};
+}
+
+constexpr ParamSpec kParams[] = {
+    {"xFlip", ParamType::Bool, "Whether the x axis turns round."},
+    {"yFlip", ParamType::Bool, "Whether the y axis turns round."},
+    {"zFlip", ParamType::Bool, "Whether the z axis turns round."},
+};
+constexpr Signature kSignatures[] = {{kParams}};
+
+constexpr OpSpec kSpecs[] = {
+    {"mirrorScope", "scope", "Turns axes of the scope round and leaves the geometry as it is.",
+     kSignatures, applyMirrorScope},
+};
+
+}  // namespace
+
+extern const OpList kOps_mirror_scope;
+const OpList kOps_mirror_scope = kSpecs;
+
+}  // namespace gable

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "builtins/lists.h"
+#include "shape/op_call.h"
+
+namespace gable {
+
+namespace {
+
+Status applyCenter(OpCall& call) {
+  Shape& s = call.shape();
+  const Frame& around = call.previousScope();
+  const Vec3 off = call.previousSize() * 0.5 - around.toLocal(s.scope.point(s.size * 0.5));
+  Vec3 by;
+  for (const char c : call.text(0)) {
+    if (c == 'x') by.x = off.x;
+    if (c == 'y') by.y = off.y;
+    if (c == 'z') by.z = off.z;
+  }
+  s.scope.origin += around.direction(by);
+  return {};
+}
+
+constexpr ParamSpec kParams[] = {
+    {"axes", ParamType::Selector, "The axes to centre along; on the others the scope stays.",
+     nullptr, "x y z xy xz yz xyz"},
+};
+constexpr Signature kSignatures[] = {{kParams}};
+
+constexpr OpSpec kSpecs[] = {
+    {"center", "transform",
+     "Moves the scope to the middle of the scope below on the shape stack, the one that the rule "
+     "or bracket began with.",
+     kSignatures, applyCenter, BlockKind::None, kReadsPrevious},
+};
+
+}  // namespace
+
+extern const OpList kOps_center;
+const OpList kOps_center = kSpecs;
+
+}  // namespace gable
