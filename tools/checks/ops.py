@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The Gable authors
-"""Each operation and each family of functions is a .cpp with its .test and its .md beside it."""
+"""Each operation and each family of functions is a .cpp with its .test and its .md beside it.
+Folders named `shared` hold helpers."""
 from .tree import Finding
 
 FOLDERS = ("src/builtins/ops/", "src/builtins/functions/")
@@ -13,8 +14,9 @@ def check(tree):
         stems = {}
         for path in tree.files(*PARTS, under=folder):
             stem, _, suffix = path.rpartition(".")
-            if not stem.endswith("_test") and not stem.endswith("/README"):
-                stems.setdefault(stem, set()).add("." + suffix)
+            if "/shared/" in path or stem.endswith(("_test", "/README")):
+                continue
+            stems.setdefault(stem, set()).add("." + suffix)
         for stem, parts in sorted(stems.items()):
             for part in PARTS:
                 if part not in parts:
