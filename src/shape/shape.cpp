@@ -118,6 +118,12 @@ Geometry recognised(const Mesh& m, const Vec3& size) {
   return g;
 }
 
+// A primitive of negative size is the mirrored one, which still looks outward.
+void turnIfMirrored(Mesh& m, const Vec3& size) {
+  if (((size.x < 0) != (size.y < 0)) == (size.z < 0)) return;
+  for (size_t f = 0; f < m.faceCount(); ++f) reverseFace(m, f);
+}
+
 Mesh boxMesh(const Geometry& g, const Vec3& size) {
   Mesh m = makeBoxMesh(size, g.uv);
   const auto& faces = boxFaces(g.order);
@@ -126,6 +132,7 @@ Mesh boxMesh(const Geometry& g, const Vec3& size) {
     for (uint32_t i = 0; i < 4; ++i) m.corners[loop.firstCorner + i] = faces[f].ring[i];
     m.faces[f].tags = g.tags[faces[f].side];
   }
+  turnIfMirrored(m, size);
   return m;
 }
 
@@ -133,6 +140,7 @@ Mesh quadMesh(const Geometry& g, const Vec3& size) {
   const bool xy = g.kind == GeometryKind::QuadXy;
   Mesh m = makeQuadMesh(size.x, xy ? size.y : size.z, xy ? QuadPlane::Xy : QuadPlane::Xz, g.uv);
   m.faces[0].tags = g.tags[xy ? kSideFront : kSideTop];
+  turnIfMirrored(m, size);
   return m;
 }
 

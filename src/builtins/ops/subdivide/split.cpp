@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Boxes and rectangles are divided by arithmetic alone: a part of one is one. Other geometry is cut
+// by planes, which close what they open, or along lines of equal uv coordinate.
+#include <cmath>
+
+#include "builtins/lists.h"
+#include "builtins/ops/subdivide/shared/parts.h"
+#include "builtins/ops/subdivide/shared/split_sizes.h"
+#include "builtins/ops/subdivide/shared/uv_extent.h"
+#include "geom/mesh/slice.h"
+#include "shape/op_call.h"
+
+namespace gable {
+
+namespace {
+
+// The extent of a scope below which it cannot be divided.
+constexpr double kFlat = 1e-9;
+
+bool isPrimitive(const Geometry& g) { return g.kind != GeometryKind::Mesh && !g.uv; }
+
+// A part of a box has no tags on the sides that the cuts made.
+void dropInnerTags(Geometry& g, Axis axis, bool first, bool last) {
+  if (g.kind != GeometryKind::Box) return;
+  constexpr std::array<std::array<BoxSide, 2>, 3> kEnds{
+      {{kSideLeft, kSideRight}, {kSideBottom, kSideTop}, {kSideBack, kSideFront}}};
+  const auto& ends = kEnds[static_cast<size_t>(axis)];
+  if (!first) g.tags[ends[0]] = 0;
+  if (!last) g.tags[ends[1]] = 0;
+}
+
+// True when a rectangle, which lies in the plane 0 of the axis, has its part there.
+bool holdsGeometry(const Geometry& g, Axis axis, double start) {
+  if (g.kind == GeometryKind::QuadXy && axis == Axis::Z) return start == 0;
+  if (g.kind == GeometryKind::QuadXz && axis == Axis::Y) return start == 0;
+  return true;
+}
+
+Shape numbered(Shape child, size_t index, size_t total) {
+  child.split = {static_cast<uint32_t>(index), static_cast<uint32_t>(total)};
+  forgetFarTrimPlanes(child);
+  return child;
+}
+
+void splitPrimitive(OpCall& call, Axis axis, bool adjust, const SplitPieces& pieces) {
+  const Shape& s = call.shape();
+  const auto a = static_cast<size_t>(axis);
+  const double whole = std::fabs(s.size[a]);
+  for (size_t i = 0; i < pieces.size(); ++i) {
+    const SplitPiece& piece = pieces[i];
+    if (!holdsGeometry(s.geometry, axis, piece.start)) continue;
+    Shape child = scopePart(s, axis, piece.start, piece.size);
+    const double end = piece.start + piece.size;
+    dropInnerTags(child.geometry, axis, piece.start == 0, end >= whole * (1 - 1e-12));
+    const bool flat = (s.geometry.kind == GeometryKind::QuadXy && axis == Axis::Z) ||
+                      (s.geometry.kind == GeometryKind::QuadXz && axis == Axis::Y);
+    if (flat && adjust) child.size[a] = 0;
+    call.emit(numbered(std::move(child), i, pieces.size()), piece.slot, static_cast<uint32_t>(i));
+  }
+}
+
+// The borders between pieces, with those of gaps; `slab` tells where each piece went.
+struct Cuts {
+  std::vector<double> at;
+  std::vector<size_t> slab;
+};
+
+Cuts cutsOf(const SplitPieces& pieces, double from, double whole) {
+  Cuts cuts;
+  double reached = 0;
+  for (const SplitPiece& p : pieces) {
+    const double tolerance = 1e-9 * (1 + whole);
+    if (p.start > reached + tolerance) cuts.at.push_back(from + p.start);
+    reached = p.start + p.size;
+    cuts.slab.push_back(cuts.at.size());
+    if (reached < whole - tolerance) cuts.at.push_back(from + reached);
+  }
+  return cuts;
+}
+
+void splitMesh(OpCall& call, Axis axis, bool adjust, const SplitPieces& pieces) {
+  const Shape& s = call.shape();
+  const MeshRef mesh = meshInScope(s);
+  const auto a = static_cast<size_t>(axis);
+  const double whole = std::fabs(s.size[a]);
+  // Against the axis, parts are counted from the far end.
+  Vec3 direction;
+  direction[a] = s.size[a] < 0 ? -1 : 1;
+  const Cuts cuts = cutsOf(pieces, 0, whole);
+  std::vector<Mesh> parts = sliceMesh(*mesh, direction, cuts.at, true);
+  for (size_t i = 0; i < pieces.size(); ++i) {
+    Mesh& part = parts[cuts.slab[i]];
+    if (part.empty()) continue;
+    Shape child = scopePart(s, axis, pieces[i].start, pieces[i].size);
+    setPartMesh(child, s, std::move(part), adjust);
+    call.emit(numbered(std::move(child), i, pieces.size()), pieces[i].slot,
+              static_cast<uint32_t>(i));
+  }
+}
+
+Status splitAlong(OpCall& call, Axis axis) {
+  const Shape& s = call.shape();
+  const double whole = std::fabs(component(s.size, axis));
+  if (!(whole > kFlat)) {
+    return call.fail("split-flat", "the scope has no extent along the axis of this split",
+                     "split along another axis, or give the scope a size first");
+  }
+  SplitPieces pieces;
+  const Status status = dividePattern(call.splitBlock(), whole, pieces);
+  if (!status.ok()) return status;
+  const bool adjust = !call.is(1, "noAdjust");
+  if (isPrimitive(s.geometry)) {
+    splitPrimitive(call, axis, adjust, pieces);
+  } else {
+    splitMesh(call, axis, adjust, pieces);
+  }
+  return {};
+}
+
+Status splitUv(OpCall& call, int coordinate) {
+  const Shape& s = call.shape();
+  const double wanted = call.number(2, 0);
+  const int set = static_cast<int>(wanted);
+  if (!(wanted >= 0 && wanted < kUvSets)) {
+    return call.fail("uv-set", "there is no uv set of that number", "uv sets are 0 to 9");
+  }
+  const MeshRef mesh = meshInScope(s);
+  if (!mesh->hasUv(set)) {
+    return call.fail("split-no-uv", "the geometry has no texture coordinates in this uv set",
+                     "make some with setupProjection and projectUV");
+  }
+  const UvExtent extent = uvExtent(*mesh, set, coordinate);
+  const bool units = call.is(1, "unitSpace");
+  const double whole = units ? extent.metres : extent.max - extent.min;
+  if (!(whole > kFlat)) {
+    return call.fail("split-flat", "the texture coordinates have no extent in this direction", {});
+  }
+  SplitPieces pieces;
+  const Status status = dividePattern(call.splitBlock(), whole, pieces);
+  if (!status.ok()) return status;
+  Cuts cuts = cutsOf(pieces, 0, whole);
+  const double perUnit = (extent.max - extent.min) / whole;
+  for (double& c : cuts.at) c = extent.min + c * perUnit;
+  std::vector<Mesh> parts = sliceMeshByUv(*mesh, set, coordinate, cuts.at);
+  for (size_t i = 0; i < pieces.size(); ++i) {
+    Mesh& part = parts[cuts.slab[i]];
+    if (part.empty()) continue;
+    Shape child = s;
+    setPartMesh(child, s, std::move(part), true);
+    call.emit(numbered(std::move(child), i, pieces.size()), pieces[i].slot,
+              static_cast<uint32_t>(i));
+  }
+  return {};
+}
+
+Status applySplit(OpCall& call) {
+  const std::string_view axis = call.text(0);
+  if (axis == "x") return splitAlong(call, Axis::X);
+  if (axis == "y") return splitAlong(call, Axis::Y);
+  if (axis == "z") return splitAlong(call, Axis::Z);
+  if (axis == "u") return splitUv(call, 0);
+  if (axis == "v") return splitUv(call, 1);
+  return call.fail("split-axis", "there is no such direction to split along",
+                   "the directions are x, y, z, u and v");
+}
+
+constexpr ParamSpec kScopeParams[] = {
+    {"axis", ParamType::Selector, "The scope axis along which to divide.", nullptr, "x y z"},
+    {"adjustMode", ParamType::Selector,
+     "Whether a part's scope is fitted to its geometry, or parts fill the scope without gaps.",
+     "adjust", "adjust noAdjust"},
+};
+constexpr ParamSpec kUvParams[] = {
+    {"direction", ParamType::Selector, "The texture coordinate along which to divide.", nullptr,
+     "u v"},
+    {"surfaceParameterization", ParamType::Selector,
+     "Whether sizes count in texture coordinates or in metres on the surface.", nullptr,
+     "uvSpace unitSpace"},
+    {"uvSet", ParamType::Float, "The uv set, 0 to 9."},
+};
+constexpr Signature kSignatures[] = {{kScopeParams}, {kUvParams}};
+
+constexpr OpSpec kSpecs[] = {
+    {"split", "subdivide", "Divides the shape into parts along a direction.", kSignatures,
+     applySplit, BlockKind::Split},
+};
+
+}  // namespace
+
+extern const OpList kOps_split;
+const OpList kOps_split = kSpecs;
+
+}  // namespace gable
