@@ -136,6 +136,25 @@ Paths execute(ClipperLib::ClipType type, const Paths& a, const Paths& b,
   return out;
 }
 
+// X and Y exchanged, and the rings turned round, so that they keep their orientation.
+void transpose(Paths& paths) {
+  for (ClipperLib::Path& path : paths) {
+    for (IntPoint& p : path) std::swap(p.X, p.Y);
+    std::reverse(path.begin(), path.end());
+  }
+}
+
+// Unites rings. Clipper may leave polygons apart that share a part of a horizontal edge, however
+// often it is asked; every other round sees them with the axes exchanged.
+std::vector<Ring> united(const std::vector<Ring>& rings, int round) {
+  const bool across = round % 2 == 1;
+  Paths paths = toPathsExact(rings);
+  if (across) transpose(paths);
+  Paths out = execute(ClipperLib::ctUnion, paths, {}, ClipperLib::pftPositive);
+  if (across) transpose(out);
+  return toRings(out);
+}
+
 // Valid polygons in grid units from Clipper's output.
 Region settle(const Paths& paths) {
   std::vector<Ring> rings = toRings(paths);
@@ -143,17 +162,11 @@ Region settle(const Paths& paths) {
   for (int round = 0; round < kMaxRounds; ++round) {
     // On the integer grid a distance of one unit is the nearest that a rounded crossing can err.
     const bool moved = weld(rings, 1.0);
-    if (moved) {
-      rings =
-          toRings(execute(ClipperLib::ctUnion, toPathsExact(rings), {}, ClipperLib::pftPositive));
-    }
+    if (moved) rings = united(rings, round);
     splitAtRepeats(rings);
     region = nest(rings);
     if (isValid(region)) return region;
-    if (!moved) {
-      rings =
-          toRings(execute(ClipperLib::ctUnion, toPathsExact(rings), {}, ClipperLib::pftPositive));
-    }
+    if (!moved) rings = united(rings, round + 1);
   }
   return region;
 }
