@@ -56,6 +56,16 @@ struct MaterialTable::Impl {
   std::unordered_multimap<uint64_t, MaterialId> index;
   std::vector<std::unique_ptr<std::array<Entry, kBlock>>> blocks{kBlocks};
 
+  struct EditHash {
+    size_t operator()(const MaterialEdit& e) const {
+      uint64_t h = uint64_t{e.base} << 32 | e.field;
+      for (const uint64_t v : {e.a, e.b, e.c}) h = hashCombine(h, v);
+      return h;
+    }
+  };
+  // Looked up, never walked through.
+  std::unordered_map<MaterialEdit, MaterialId, EditHash> edits;
+
   Entry& at(MaterialId id) { return (*blocks[id / kBlock])[id % kBlock]; }
 };
 
@@ -80,6 +90,19 @@ MaterialId MaterialTable::intern(const Material& m) {
 
 const Material& MaterialTable::get(MaterialId id) const { return impl_->at(id).material; }
 uint64_t MaterialTable::hashOf(MaterialId id) const { return impl_->at(id).hash; }
+
+bool MaterialTable::findEdit(const MaterialEdit& edit, MaterialId& id) const {
+  std::lock_guard lock(impl_->mutex);
+  const auto at = impl_->edits.find(edit);
+  if (at == impl_->edits.end()) return false;
+  id = at->second;
+  return true;
+}
+
+void MaterialTable::rememberEdit(const MaterialEdit& edit, MaterialId id) {
+  std::lock_guard lock(impl_->mutex);
+  impl_->edits.emplace(edit, id);
+}
 
 bool parseColor(std::string_view text, Vec3& rgb, double& opacity) {
   if ((text.size() != 7 && text.size() != 9) || text[0] != '#') return false;

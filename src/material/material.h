@@ -73,6 +73,15 @@ uint64_t contentHash(const Material& m);
 
 using MaterialId = uint32_t;
 
+/// One change of a material, by which its result is found again: `field` says what is changed, the
+/// rest to what (bits of numbers, hashes of texts).
+struct MaterialEdit {
+  MaterialId base = 0;
+  uint32_t field = 0;
+  uint64_t a = 0, b = 0, c = 0;
+  bool operator==(const MaterialEdit&) const = default;
+};
+
 /// Any thread may call; get() takes no lock and its result stays valid as long as the table.
 class MaterialTable {
  public:
@@ -84,7 +93,23 @@ class MaterialTable {
   /// The content hash of an interned material, without reading it again.
   uint64_t hashOf(MaterialId id) const;
 
+  /// The material that `change` makes of edit.base. Allocates nothing when the same edit was made
+  /// before: rules make the same few edits for each of many shapes.
+  template <class Change>
+  MaterialId edited(const MaterialEdit& edit, Change change) {
+    MaterialId id = 0;
+    if (findEdit(edit, id)) return id;
+    Material m = get(edit.base);
+    change(m);
+    id = intern(m);
+    rememberEdit(edit, id);
+    return id;
+  }
+
  private:
+  bool findEdit(const MaterialEdit& edit, MaterialId& id) const;
+  void rememberEdit(const MaterialEdit& edit, MaterialId id);
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -67,7 +67,8 @@ class AttributePool {
   const Value* find(uint32_t set, uint32_t key) const;
   uint32_t with(uint32_t set, uint32_t key, const Value& value);
 
-  /// Lists of materials for the slots of inserted models; list 0 is empty.
+  /// Lists of materials for the slots of inserted models; list 0 is empty. Behind the materials in
+  /// use a list holds those that the model brought, in the same order, for resetMaterial.
   const std::vector<MaterialId>& materials(uint32_t list) const;
   uint32_t internMaterials(std::vector<MaterialId> list);
 

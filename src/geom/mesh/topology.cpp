@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Edges come from sorting all half-edges by their two positions, components from union-find over
+// positions.
+#include "geom/mesh/topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "math/trig.h"
+
+namespace gable {
+namespace {
+
+uint32_t rootOf(std::vector<uint32_t>& parents, uint32_t i) {
+  while (parents[i] != i) i = parents[i] = parents[parents[i]];
+  return i;
+}
+
+}  // namespace
+
+Topology::Topology(const Mesh& m) : mesh_(m) {
+  linkCorners();
+  findEdges();
+  findTwins();
+  findComponents();
+}
+
+void Topology::linkCorners() {
+  const size_t n = mesh_.corners.size();
+  faceOf_.assign(n, kNone);
+  next_.assign(n, kNone);
+  previous_.assign(n, kNone);
+  for (uint32_t f = 0; f < mesh_.faces.size(); ++f) {
+    for (const MeshLoop& loop : mesh_.loopsOf(f)) {
+      for (uint32_t i = 0; i < loop.cornerCount; ++i) {
+        const uint32_t c = loop.firstCorner + i;
+        const uint32_t after = loop.firstCorner + (i + 1) % loop.cornerCount;
+        faceOf_[c] = f;
+        next_[c] = after;
+        previous_[after] = c;
+      }
+    }
+  }
+}
+
+void Topology::findEdges() {
+  struct Key {
+    uint32_t low, high, corner;
+  };
+  std::vector<Key> keys;
+  keys.reserve(mesh_.corners.size());
+  for (uint32_t c = 0; c < mesh_.corners.size(); ++c) {
+    if (next_[c] == kNone) continue;
+    const uint32_t a = mesh_.corners[c], b = mesh_.corners[next_[c]];
+    keys.push_back({std::min(a, b), std::max(a, b), c});
+  }
+  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+    if (a.low != b.low) return a.low < b.low;
+    return a.high != b.high ? a.high < b.high : a.corner < b.corner;
+  });
+  // Edges are numbered by their first corner, so that they follow the order of faces.
+  std::vector<std::pair<uint32_t, uint32_t>> groups;
+  for (uint32_t i = 0, end = 0; i < keys.size(); i = end) {
+    while (end < keys.size() && keys[end].low == keys[i].low && keys[end].high == keys[i].high)
+      ++end;
+    groups.push_back({i, end});
+  }
+  std::sort(groups.begin(), groups.end(), [&](const auto& a, const auto& b) {
+    return keys[a.first].corner < keys[b.first].corner;
+  });
+  edgeOf_.assign(mesh_.corners.size(), kNone);
+  for (const auto& [begin, end] : groups) {
+    for (uint32_t k = begin; k < end; ++k) {
+      edgeOf_[keys[k].corner] = static_cast<uint32_t>(edgeStarts_.size() - 1);
+      uses_.push_back(keys[k].corner);
+    }
+    edgeStarts_.push_back(static_cast<uint32_t>(uses_.size()));
+  }
+}
+
+void Topology::findTwins() {
+  twin_.assign(mesh_.corners.size(), kNone);
+  closed_ = !mesh_.faces.empty();
+  for (uint32_t e = 0; e < edgeCount(); ++e) {
+    const auto uses = usesOf(e);
+    if (uses.size() != 2) {
+      closed_ = false;
+      continue;
+    }
+    if (mesh_.corners[uses[0]] == mesh_.corners[uses[1]]) continue;
+    twin_[uses[0]] = uses[1];
+    twin_[uses[1]] = uses[0];
+  }
+}
+
+void Topology::findComponents() {
+  std::vector<uint32_t> parents(mesh_.positions.size());
+  std::iota(parents.begin(), parents.end(), 0u);
+  const auto firstOf = [&](uint32_t f) { return mesh_.corners[mesh_.loopsOf(f)[0].firstCorner]; };
+  for (uint32_t c = 0; c < mesh_.corners.size(); ++c) {
+    if (faceOf_[c] == kNone) continue;
+    parents[rootOf(parents, mesh_.corners[c])] = rootOf(parents, firstOf(faceOf_[c]));
+  }
+  std::vector<uint32_t> number(mesh_.positions.size(), kNone);
+  for (uint32_t f = 0; f < mesh_.faces.size(); ++f) {
+    uint32_t& n = number[rootOf(parents, firstOf(f))];
+    if (n == kNone) {
+      n = static_cast<uint32_t>(componentClosed_.size());
+      componentClosed_.push_back(true);
+    }
+    component_.push_back(n);
+  }
+  for (uint32_t e = 0; e < edgeCount(); ++e) {
+    int balance = 0;
+    const auto uses = usesOf(e);
+    for (const uint32_t c : uses) {
+      const uint32_t a = mesh_.corners[c], b = mesh_.corners[next_[c]];
+      balance += a < b ? 1 : (a > b ? -1 : 2);
+    }
+    if (balance != 0) componentClosed_[component_[faceOf_[uses[0]]]] = false;
+  }
+}
+
+double Topology::dihedralAngle(uint32_t edge) const {
+  const uint32_t c = usesOf(edge)[0];
+  if (twin_[c] == kNone) return 0;
+  const Vec3 n = mesh_.normal(faceOf_[c]), o = mesh_.normal(faceOf_[twin_[c]]);
+  const double angle = atan2Deg(length(cross(n, o)), dot(n, o));
+  // Along the half-edge the first face is on the left: the turn to the other normal is to the right
+  // of it at a convex edge.
+  const Vec3 along = mesh_.at(next_[c]) - mesh_.at(c);
+  return dot(cross(n, o), along) >= 0 ? angle : -angle;
+}
+
+}  // namespace gable

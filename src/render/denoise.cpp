@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The edge-avoiding a-trous wavelet of Dammertz et al. 2010 with the variance-driven brightness
+// weight of Schied et al. 2017: five passes of a 5 x 5 spline kernel with growing gaps over the
+// indirect light divided by albedo; the variance shrinks along with it, so later passes stop at
+// what is structure and not noise.
+
+#include "render/denoise.h"
+
+#include "base/parallel.h"
+
+namespace gable::rt {
+
+namespace {
+
+constexpr int kPasses = 5;
+constexpr float kKernel[3] = {3.0f / 8, 1.0f / 4, 1.0f / 16};
+/// Least albedo to divide by.
+constexpr float kLeastAlbedo = 0.02f;
+/// Brightness differences count in standard deviations times this.
+constexpr float kBrightness = 3;
+/// Weight of a normal that is turned by 20 degrees: a third.
+constexpr float kSharpness = 18;
+
+Vec3f divisor(const Vec3f& albedo) {
+  return {std::max(kLeastAlbedo, albedo.x), std::max(kLeastAlbedo, albedo.y),
+          std::max(kLeastAlbedo, albedo.z)};
+}
+
+struct Smoother {
+  const Film& film;
+  std::vector<Vec3f> light;
+  std::vector<float> variance;
+  /// Change of distance from pixel to pixel, across and down.
+  std::vector<Vec2f> slope;
+
+  size_t index(int x, int y) const {
+    return static_cast<size_t>(y) * film.width + static_cast<size_t>(x);
+  }
+  int width() const { return static_cast<int>(film.width); }
+  int height() const { return static_cast<int>(film.height); }
+
+  /// The smaller of the one-sided differences: at an outline, that of the pixel's own side.
+  void findSlopes() {
+    slope.assign(light.size(), {});
+    const auto least = [](float a, float b) { return std::abs(a) < std::abs(b) ? a : b; };
+    for (int y = 0; y < height(); ++y) {
+      for (int x = 0; x < width(); ++x) {
+        const float d = film.distance[index(x, y)];
+        const float l = d - film.distance[index(std::max(0, x - 1), y)];
+        const float r = film.distance[index(std::min(width() - 1, x + 1), y)] - d;
+        const float t = d - film.distance[index(x, std::max(0, y - 1))];
+        const float b = film.distance[index(x, std::min(height() - 1, y + 1))] - d;
+        slope[index(x, y)] = {x == 0             ? r
+                              : x == width() - 1 ? l
+                                                 : least(l, r),
+                              y == 0              ? b
+                              : y == height() - 1 ? t
+                                                  : least(t, b)};
+      }
+    }
+  }
+
+  /// The variance about a pixel: single estimates of few samples are unreliable.
+  float meanVariance(int x, int y) const {
+    float sum = 0, weights = 0;
+    for (int j = -1; j <= 1; ++j) {
+      for (int i = -1; i <= 1; ++i) {
+        const int qx = x + i, qy = y + j;
+        if (qx < 0 || qy < 0 || qx >= width() || qy >= height()) continue;
+        const float w = (i ? 0.5f : 1.0f) * (j ? 0.5f : 1.0f);
+        sum += w * variance[index(qx, qy)];
+        weights += w;
+      }
+    }
+    return sum / weights;
+  }
+
+  void pixel(int x, int y, int gap, std::vector<Vec3f>& toLight,
+             std::vector<float>& toVariance) const {
+    const size_t p = index(x, y);
+    toLight[p] = light[p];
+    toVariance[p] = variance[p];
+    if (film.distance[p] <= 0) return;
+    const float agreement = length(film.normal[p]);
+    const Vec3f normal = normalized(film.normal[p]);
+    const float brightness = luminance(light[p]);
+    const float deviation = kBrightness * std::sqrt(meanVariance(x, y)) + 1e-5f;
+    const float nearness = 1 / (0.004f * film.distance[p] + 1e-3f);
+
+    Vec3f sum;
+    float weights = 0, variances = 0;
+    for (int j = -2; j <= 2; ++j) {
+      for (int i = -2; i <= 2; ++i) {
+        const int qx = x + i * gap, qy = y + j * gap;
+        if (qx < 0 || qy < 0 || qx >= width() || qy >= height()) continue;
+        const size_t q = index(qx, qy);
+        float w = kKernel[std::abs(i)] * kKernel[std::abs(j)];
+        if (i != 0 || j != 0) {
+          if (film.distance[q] <= 0) continue;
+          // Where a pixel's own samples disagree, its mean normal and depth say little.
+          const float agreed = agreement * length(film.normal[q]);
+          const float cosine = std::max(0.0f, dot(normal, normalized(film.normal[q])));
+          const float bend = kSharpness * agreed * agreed * (1 - cosine);
+          const float expected = film.distance[p] + slope[p].x * static_cast<float>(i * gap) +
+                                 slope[p].y * static_cast<float>(j * gap);
+          const float steps = std::abs(slope[p].x * static_cast<float>(i * gap)) +
+                              std::abs(slope[p].y * static_cast<float>(j * gap));
+          const float tolerance = 1 / nearness + 0.5f * steps + 2 * film.spread[p];
+          const float apart = std::abs(film.distance[q] - expected) / tolerance;
+          const float unlike = std::abs(luminance(light[q]) - brightness) / deviation;
+          w *= std::exp(-apart - unlike - bend);
+        }
+        sum += light[q] * w;
+        variances += variance[q] * w * w;
+        weights += w;
+      }
+    }
+    toLight[p] = sum * (1 / weights);
+    toVariance[p] = variances / (weights * weights);
+  }
+};
+
+}  // namespace
+
+std::vector<Vec3f> resolve(const Film& film, bool smooth, unsigned threads) {
+  const size_t pixels = film.direct.size();
+  std::vector<Vec3f> picture(pixels);
+  if (!smooth) {
+    for (size_t i = 0; i < pixels; ++i) picture[i] = film.direct[i] + film.indirect[i];
+    return picture;
+  }
+  Smoother smoother{film, std::vector<Vec3f>(pixels), film.variance, {}};
+  for (size_t i = 0; i < pixels; ++i) {
+    const Vec3f d = divisor(film.albedo[i]);
+    const Vec3f& l = film.indirect[i];
+    smoother.light[i] = {l.x / d.x, l.y / d.y, l.z / d.z};
+  }
+  smoother.findSlopes();
+  std::vector<Vec3f> light(pixels);
+  std::vector<float> variance(pixels);
+  for (int pass = 0; pass < kPasses; ++pass) {
+    parallelFor(
+        film.height, threads,
+        [&](size_t row, unsigned) {
+          for (int x = 0; x < smoother.width(); ++x) {
+            smoother.pixel(x, static_cast<int>(row), 1 << pass, light, variance);
+          }
+        },
+        8);
+    std::swap(light, smoother.light);
+    std::swap(variance, smoother.variance);
+  }
+  for (size_t i = 0; i < pixels; ++i) {
+    picture[i] = film.direct[i] + smoother.light[i] * divisor(film.albedo[i]);
+  }
+  return picture;
+}
+
+}  // namespace gable::rt

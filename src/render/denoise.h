@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Smooths a film's indirect light along surfaces: what little light still jitters from pixel to
+// pixel is averaged with its neighbours of like normal, depth and brightness. Colours, edges and
+// the sun's shadows are not touched: they are kept apart.
+#pragma once
+
+#include "render/integrator.h"
+
+namespace gable::rt {
+
+/// The picture's linear light, exposure not applied; `smooth` false only adds the parts up.
+std::vector<Vec3f> resolve(const Film& film, bool smooth, unsigned threads);
+
+}  // namespace gable::rt

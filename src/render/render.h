@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Pictures of scenes: a path tracer for the processor, with one sun, an analytic sky and a ground
+// plane. It needs no display, and the defaults give an architectural photograph of whatever the
+// rules made: camera, sun side, ground height and exposure follow from the scene.
+//
+//   RenderOptions options;
+//   options.view = View::Street;
+//   Picture picture = render(scene, options);
+//   std::vector<uint8_t> rgba = toRgba8(picture.image);
+//
+// Promises:
+// 1. The same scene and options give the same bytes, whatever `threads` says, on one kind of
+//    machine.
+// 2. No pixel is NaN, infinite or negative, whatever the scene holds; degenerate and non-finite
+//    triangles are left out.
+// 3. An empty scene gives a picture of sky and ground.
+// Lengths are metres, angles degrees, azimuths clockwise from north (-z). Does not read files:
+// textures come decoded from the caller's TextureSource.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "math/vec.h"
+#include "scene/scene.h"
+
+namespace gable {
+
+/// A decoded picture: rows from the top, 4 bytes a pixel, straight alpha, colours in sRGB.
+struct TextureImage {
+  uint32_t width = 0, height = 0;
+  std::vector<uint8_t> rgba;
+};
+
+/// Gives the pictures that materials name. Asked once a path, from the thread that calls render();
+/// the image must stay until render() returns. Null means there is none: the layer is ignored.
+class TextureSource {
+ public:
+  virtual ~TextureSource() = default;
+  virtual const TextureImage* find(const std::string& path) const = 0;
+};
+
+enum class View : uint8_t {
+  /// From above with a long lens, 38 degrees down, two fronts and the roofs in sight.
+  Iso,
+  /// The plan: north up, no perspective.
+  Top,
+  /// Level, from the side of the main front, verticals upright.
+  Front,
+  /// The eye of somebody who stands outside in the street, verticals upright.
+  Street,
+};
+
+struct RenderOptions {
+  View view = View::Iso;
+  uint32_t width = 1600, height = 900;
+  /// Paths a pixel; 16 for a preview, 64 for a final picture.
+  uint32_t samples = 32;
+  /// Diffuse reflections after the first hit.
+  uint32_t bounces = 3;
+  uint32_t seed = 1;
+  /// Smooths what noise is left, guided by colour, normal and depth.
+  bool denoise = true;
+
+  /// Height of the sun above the horizon; absent: 38, for Top 50.
+  std::optional<double> sunElevation;
+  /// Where the sun stands; absent: 45 degrees to the left of the main front's normal.
+  std::optional<double> sunAzimuth;
+  /// Replaces sun and sky by light of this radiance from everywhere (for tests and for models of
+  /// materials); the ground stays as asked for.
+  std::optional<Vec3> uniformSky;
+
+  /// Replace the view's camera in part or whole. `target` alone turns the view's camera; `eye`
+  /// without `target` looks at the scene's centre.
+  std::optional<Vec3> eye, target;
+  /// Horizontal opening angle; absent: the view's lens.
+  std::optional<double> fov;
+  /// The way from the scene's centre that its main front faces; absent: found from the walls, the
+  /// wall direction nearest to south.
+  std::optional<double> frontAzimuth;
+
+  /// An endless ground below the scene.
+  bool ground = true;
+  /// Absent: the scene's lowest point, single things that reach deeper (roots, posts) left out.
+  std::optional<double> groundHeight;
+  /// sRGB.
+  Vec3 groundColor{0x77 / 255.0, 0x76 / 255.0, 0x6a / 255.0};
+  /// Metres over which haze takes 63 % of a thing's colour; 0 for none; absent: by the view.
+  std::optional<double> hazeDistance;
+  /// Moves the exposure by up to 0.3 stops where the picture would be too bright or too dark.
+  bool adaptExposure = true;
+  /// Brightens (or darkens) the picture by so many stops.
+  double exposureStops = 0;
+
+  /// 0: as many as the machine has.
+  unsigned threads = 0;
+  const TextureSource* textures = nullptr;
+  /// Called with the share done, in [0, 1], from one thread at a time; false ends the rendering.
+  std::function<bool(double)> progress;
+};
+
+/// Linear light in sRGB primaries, rows from the top, three floats a pixel; 1 at the camera's
+/// white, before the tone curve.
+struct LinearImage {
+  uint32_t width = 0, height = 0;
+  std::vector<float> rgb;
+};
+
+/// The camera that took a picture. Image coordinates run from 0 to 1, from left and from below; the
+/// point at `horizon` of the height lies straight ahead.
+struct Camera {
+  Vec3 eye, right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};
+  /// Half the picture's width at distance 1; with `parallel`, half the width in metres.
+  double halfWidth = 0.5;
+  double horizon = 0.5;
+  bool parallel = false;
+};
+
+struct RenderStats {
+  /// Instances expanded, and as held in memory.
+  uint64_t triangles = 0, storedTriangles = 0;
+  uint64_t instances = 0;
+  uint64_t rays = 0;
+  struct {
+    double prepare = 0, trace = 0, denoise = 0;
+  } seconds;
+};
+
+struct Picture {
+  LinearImage image;
+  Camera camera;
+  RenderStats stats;
+  /// True when `progress` ended it; the rows that were not reached are black.
+  bool cancelled = false;
+};
+
+Picture render(const Scene& scene, const RenderOptions& options);
+
+/// Tone curve, sRGB encoding and dither: rows from the top, 4 bytes a pixel, opaque.
+std::vector<uint8_t> toRgba8(const LinearImage& image);
+
+}  // namespace gable

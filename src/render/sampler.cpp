@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The Sobol sequence's first two dimensions, scrambled by hashing as in Burley, Practical
+// Hash-based Owen Scrambling (2020): each dimension shuffles the sample index with one nested
+// uniform scramble and scrambles the two coordinates with two more.
+
+#include "render/sampler.h"
+
+namespace gable::rt {
+
+namespace {
+
+constexpr uint32_t reverseBits(uint32_t x) {
+  x = ((x & 0x55555555U) << 1) | ((x >> 1) & 0x55555555U);
+  x = ((x & 0x33333333U) << 2) | ((x >> 2) & 0x33333333U);
+  x = ((x & 0x0f0f0f0fU) << 4) | ((x >> 4) & 0x0f0f0f0fU);
+  x = ((x & 0x00ff00ffU) << 8) | ((x >> 8) & 0x00ff00ffU);
+  return (x << 16) | (x >> 16);
+}
+
+/// A permutation in which a bit depends on lower bits only (Laine and Karras 2011, with the
+/// constants of Vegdahl 2021).
+constexpr uint32_t permuteUpwards(uint32_t x, uint32_t seed) {
+  x ^= x * 0x3d20adeaU;
+  x += seed;
+  x *= (seed >> 16) | 1;
+  x ^= x * 0x05526c56U;
+  x ^= x * 0x53a22864U;
+  return x;
+}
+
+constexpr uint32_t nestedScramble(uint32_t x, uint32_t seed) {
+  return reverseBits(permuteUpwards(reverseBits(x), seed));
+}
+
+/// The second Sobol dimension: its generator matrix is Pascal's triangle modulo 2, whose product
+/// with the index takes five steps of folding; the result is bit-reversed.
+constexpr uint32_t sobolSecondReversed(uint32_t i) {
+  i ^= (i & 0xaaaaaaaaU) >> 1;
+  i ^= (i & 0xccccccccU) >> 2;
+  i ^= (i & 0xf0f0f0f0U) >> 4;
+  i ^= (i & 0xff00ff00U) >> 8;
+  i ^= (i & 0xffff0000U) >> 16;
+  return i;
+}
+
+constexpr float toUnit(uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24f; }
+
+}  // namespace
+
+Sampler::Sampler(uint32_t x, uint32_t y, uint32_t sample, uint32_t seed)
+    : pixel_(mix32(x + mix32(y + mix32(seed + 0x9e3779b9U)))), sample_(sample) {}
+
+Vec2f Sampler::point(uint32_t dimension) const {
+  const uint32_t h = mix32(pixel_ + dimension * 0x9e3779b9U);
+  const uint32_t i = nestedScramble(sample_, h);
+  // Reversed index and reversed second dimension are scrambled upwards and reversed at the end.
+  const uint32_t a = reverseBits(permuteUpwards(i, mix32(h ^ 0x68bc21ebU)));
+  const uint32_t b = reverseBits(permuteUpwards(sobolSecondReversed(i), mix32(h ^ 0x02e5be93U)));
+  return {toUnit(a), toUnit(b)};
+}
+
+float Sampler::number(uint32_t dimension) const {
+  const uint32_t h = mix32(pixel_ + dimension * 0x9e3779b9U);
+  return toUnit(reverseBits(permuteUpwards(nestedScramble(sample_, h), mix32(h ^ 0x68bc21ebU))));
+}
+
+Vec2f onDisc(Vec2f u) {
+  const float a = 2 * u.x - 1, b = 2 * u.y - 1;
+  if (a == 0 && b == 0) return {};
+  float r, phi;
+  if (std::abs(a) > std::abs(b)) {
+    r = a;
+    phi = kPif / 4 * (b / a);
+  } else {
+    r = b;
+    phi = kPif / 2 - kPif / 4 * (a / b);
+  }
+  return {r * std::cos(phi), r * std::sin(phi)};
+}
+
+Vec3f cosineDirection(const Vec3f& n, Vec2f u) {
+  const Vec2f d = onDisc(u);
+  Vec3f t, b;
+  basisAround(n, t, b);
+  return normalized(t * d.x + b * d.y + n * std::sqrt(std::max(1e-8f, 1 - d.x * d.x - d.y * d.y)));
+}
+
+}  // namespace gable::rt

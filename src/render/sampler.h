@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Low-discrepancy samples for the pixels of a picture. A sample is a pure function of pixel,
+// sample index, dimension and seed, so neither threads nor the order of work can change it.
+//
+// Each use of randomness on a path has a dimension of its own; within one the points of a pixel
+// form a scrambled (0,2)-sequence, so n of them cover the square evenly for every n.
+#pragma once
+
+#include <cstdint>
+
+#include "render/vec3f.h"
+
+namespace gable::rt {
+
+class Sampler {
+ public:
+  Sampler(uint32_t x, uint32_t y, uint32_t sample, uint32_t seed);
+  /// A point of [0,1)^2.
+  Vec2f point(uint32_t dimension) const;
+  /// A number in [0,1).
+  float number(uint32_t dimension) const;
+
+ private:
+  uint32_t pixel_, sample_;
+};
+
+/// The unit disc from the unit square, keeping areas and neighbours (Shirley and Chiu 1997).
+Vec2f onDisc(Vec2f u);
+/// A direction about the unit vector `n` with density cos / pi.
+Vec3f cosineDirection(const Vec3f& n, Vec2f u);
+
+/// 32 well mixed bits.
+constexpr uint32_t mix32(uint32_t x) {
+  x ^= x >> 16;
+  x *= 0x21f0aaadU;
+  x ^= x >> 15;
+  x *= 0xd35a2d97U;
+  return x ^ (x >> 15);
+}
+
+}  // namespace gable::rt

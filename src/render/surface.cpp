@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// GGX with Smith's height-correlated masking; directions are drawn from the visible normals
+// (Heitz 2018). The body gets what the coat leaves: its share is Karis's fit of the coat's
+// reflection over all directions, so that white stays white.
+
+#include "render/surface.h"
+
+#include <map>
+
+#include "math/trig.h"
+#include "render/tone.h"
+
+namespace gable::rt {
+
+namespace {
+
+/// Coats rougher than this are part of the body.
+constexpr float kNoCoat = 0.97f;
+/// Keeps the highlight of the sun wider than single precision and the sampling can bear.
+constexpr float kLeastAlpha = 0.0012f;
+/// Share of the light from behind that a leaf lets through (styles, trees: 15 to 25 %).
+constexpr float kLeafTransmission = 0.22f;
+
+Vec3f fresnel(const Vec3f& facing, float cosine) {
+  const float m = std::clamp(1 - cosine, 0.0f, 1.0f);
+  const float m5 = m * m * m * m * m;
+  return facing + (Vec3f{1, 1, 1} - facing) * m5;
+}
+
+/// Karis 2014, Physically Based Shading on Mobile: the coat's reflection is facing * a + b.
+Vec3f coatReflection(const Vec3f& facing, float roughness, float cosine) {
+  const float rx = 1 - roughness, ry = 0.0425f - 0.0275f * roughness;
+  const float rz = 1.04f - 0.572f * roughness, rw = 0.022f * roughness - 0.04f;
+  const float a004 = std::min(rx * rx, std::exp2(-9.28f * cosine)) * rx + ry;
+  const float a = -1.04f * a004 + rz, b = 1.04f * a004 + rw;
+  const Vec3f c = facing * a + Vec3f{b, b, b};
+  return {std::clamp(c.x, 0.0f, 1.0f), std::clamp(c.y, 0.0f, 1.0f), std::clamp(c.z, 0.0f, 1.0f)};
+}
+
+float lambda(float alpha, float cosine) {
+  const float c2 = std::max(1e-8f, cosine * cosine);
+  return 0.5f * (std::sqrt(1 + alpha * alpha * (1 - c2) / c2) - 1);
+}
+
+/// A visible normal of the coat in the frame where z is the shading normal.
+Vec3f visibleNormal(const Vec3f& view, float alpha, Vec2f u) {
+  const Vec3f v = normalized({alpha * view.x, alpha * view.y, view.z});
+  const float l = v.x * v.x + v.y * v.y;
+  const Vec3f t1 = l > 0 ? Vec3f{-v.y, v.x, 0} * (1 / std::sqrt(l)) : Vec3f{1, 0, 0};
+  const Vec3f t2 = cross(v, t1);
+  const float r = std::sqrt(u.x), phi = 2 * kPif * u.y;
+  const float p1 = r * std::cos(phi);
+  const float s = 0.5f * (1 + v.z);
+  const float p2 = (1 - s) * std::sqrt(std::max(0.0f, 1 - p1 * p1)) + s * r * std::sin(phi);
+  const Vec3f n = t1 * p1 + t2 * p2 + v * std::sqrt(std::max(0.0f, 1 - p1 * p1 - p2 * p2));
+  return normalized({alpha * n.x, alpha * n.y, std::max(0.0f, n.z)});
+}
+
+int32_t imageIndex(const std::string& path, const TextureSource* source,
+                   std::map<std::string, int32_t>& known, TextureTable& table) {
+  if (path.empty() || !source) return -1;
+  const auto [at, isNew] = known.try_emplace(path, -1);
+  if (isNew) {
+    const TextureImage* image = source->find(path);
+    const bool usable = image && image->width > 0 && image->height > 0 &&
+                        image->rgba.size() >= static_cast<size_t>(image->width) * image->height * 4;
+    if (usable) {
+      at->second = static_cast<int32_t>(table.images.size());
+      table.images.push_back(image);
+      bool alpha = false;
+      for (size_t i = 3; i < image->rgba.size() && !alpha; i += 4) alpha = image->rgba[i] < 255;
+      table.hasAlpha.push_back(alpha);
+    }
+  }
+  return at->second;
+}
+
+TextureLookup lookupOf(const TextureMap& map, int32_t image) {
+  // The picture is scaled by (su, sv), turned by rw and moved by (tu, tv).
+  TextureLookup l;
+  l.image = image;
+  const double c = cosDeg(map.rw), s = sinDeg(map.rw);
+  l.uu = static_cast<float>(c * map.su);
+  l.uv = static_cast<float>(-s * map.sv);
+  l.vu = static_cast<float>(s * map.su);
+  l.vv = static_cast<float>(c * map.sv);
+  l.u0 = static_cast<float>(map.tu);
+  l.v0 = static_cast<float>(map.tv);
+  return l;
+}
+
+/// srgbToLinear of a byte.
+float decodedByte(uint8_t v) {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> t;
+    for (size_t i = 0; i < t.size(); ++i) t[i] = srgbToLinear(static_cast<float>(i) / 255);
+    return t;
+  }();
+  return table[v];
+}
+
+float unit(double v, double otherwise) {
+  return static_cast<float>(std::isfinite(v) ? std::clamp(v, 0.0, 1.0) : otherwise);
+}
+
+SurfaceMaterial surfaceOf(const Material& m) {
+  SurfaceMaterial s;
+  s.base = isFinite(m.color) ? srgbToLinear(m.color) : Vec3f{};
+  s.emissive = isFinite(m.emissive) ? srgbToLinear(m.emissive) : Vec3f{};
+  s.roughness = unit(m.roughness, 1);
+  s.metallic = unit(m.metallic, 0);
+  s.opacity = unit(m.opacity, 1);
+  s.cutoff = unit(m.opacityCutoff, 0.5);
+  s.mask = m.opacityMode == OpacityMode::Mask;
+  if (m.opacityMode == OpacityMode::Opaque) s.opacity = 1;
+  // Materials of the older shader say reflectivity and shininess instead of roughness.
+  if (m.reflectivity > 0 && m.roughness >= 1) {
+    const Vec3f tint = isFinite(m.specular) ? srgbToLinear(m.specular) : Vec3f{};
+    s.facing = std::max(0.04f, unit(m.reflectivity, 0) * maxOf(tint));
+    s.roughness = static_cast<float>(std::sqrt(2 / (2 + std::clamp(m.shininess, 0.0, 1e4))));
+  }
+  return s;
+}
+
+}  // namespace
+
+std::array<float, 4> TextureTable::sample(const TextureLookup& map, Vec2f uv, bool decode) const {
+  const TextureImage& image = *images[static_cast<size_t>(map.image)];
+  const float fu = map.uu * uv.x + map.uv * uv.y + map.u0;
+  const float fv = map.vu * uv.x + map.vv * uv.y + map.v0;
+  const double w = image.width, h = image.height;
+  // Texel centres lie at halves; v runs up, rows run down.
+  double x = (static_cast<double>(fu) - std::floor(static_cast<double>(fu))) * w - 0.5;
+  double y = (1 - (static_cast<double>(fv) - std::floor(static_cast<double>(fv)))) * h - 0.5;
+  if (!std::isfinite(x) || !std::isfinite(y)) x = y = 0;
+  const double x0 = std::floor(x), y0 = std::floor(y);
+  const float tx = static_cast<float>(x - x0), ty = static_cast<float>(y - y0);
+  const auto wrap = [](double v, uint32_t n) {
+    return v < 0 ? n - 1 : static_cast<uint32_t>(v) % n;
+  };
+  const uint32_t xs[2] = {wrap(x0, image.width), wrap(x0 + 1, image.width)};
+  const uint32_t ys[2] = {wrap(y0, image.height), wrap(y0 + 1, image.height)};
+  std::array<float, 4> sum{};
+  for (int j = 0; j < 2; ++j) {
+    for (int i = 0; i < 2; ++i) {
+      const float weight = (i ? tx : 1 - tx) * (j ? ty : 1 - ty);
+      const uint8_t* texel = &image.rgba[(static_cast<size_t>(ys[j]) * image.width + xs[i]) * 4];
+      for (size_t k = 0; k < 3; ++k) {
+        sum[k] += weight * (decode ? decodedByte(texel[k]) : static_cast<float>(texel[k]) / 255);
+      }
+      sum[3] += weight * (static_cast<float>(texel[3]) / 255);
+    }
+  }
+  return sum;
+}
+
+void makeMaterials(const std::vector<Material>& from, const TextureSource* source,
+                   std::vector<SurfaceMaterial>& to, TextureTable& textures) {
+  std::map<std::string, int32_t> known;
+  to.clear();
+  for (const Material& m : from) {
+    SurfaceMaterial s = surfaceOf(m);
+    for (const TextureLayer layer :
+         {TextureLayer::Color, TextureLayer::Dirt, TextureLayer::Opacity, TextureLayer::Normal,
+          TextureLayer::Emissive, TextureLayer::Roughness, TextureLayer::Metallic}) {
+      const size_t i = static_cast<size_t>(layer);
+      const int32_t image = imageIndex(m.maps[i].path, source, known, textures);
+      if (image < 0) continue;
+      s.maps[i] = lookupOf(m.maps[i], image);
+      s.uvSets |= static_cast<uint16_t>(1u << i);
+    }
+    const int32_t color = s.maps[static_cast<size_t>(TextureLayer::Color)].image;
+    const bool cutOut = s.mask || s.maps[static_cast<size_t>(TextureLayer::Opacity)].image >= 0;
+    const bool mapped = cutOut || (color >= 0 && textures.hasAlpha[static_cast<size_t>(color)]);
+    s.clear = m.opacityMode != OpacityMode::Opaque && (s.opacity < 1 || mapped);
+    if (m.doubleSided && cutOut && s.metallic == 0) s.transmission = kLeafTransmission;
+    to.push_back(s);
+  }
+  // A scene may name no material at all.
+  if (to.empty()) to.emplace_back();
+}
+
+Lobes lobesOf(const Surface& s, const Vec3f& view) {
+  Lobes lobes;
+  const float f = s.facing;
+  lobes.facing = mix({f, f, f}, s.base, s.metallic);
+  lobes.alpha = std::max(kLeastAlpha, s.roughness * s.roughness);
+  const float cosine = std::clamp(dot(s.normal, view), 0.0f, 1.0f);
+  if (s.roughness < kNoCoat || s.metallic > 0) {
+    lobes.coat = coatReflection(lobes.facing, s.roughness, cosine);
+  }
+  lobes.diffuse = s.base * (Vec3f{1, 1, 1} - lobes.coat) * (1 - s.metallic);
+  if (s.transmission > 0) {
+    const float most = std::max(maxOf(s.base), 1e-4f);
+    lobes.through = s.base * (s.transmission * (1 - std::min(1.0f, most)) / most);
+  }
+  const float coat = luminance(lobes.coat);
+  const float body = luminance(lobes.diffuse) + luminance(lobes.through);
+  if (coat > 0) lobes.coatChance = std::clamp(coat / (coat + body), 0.05f, 1.0f);
+  return lobes;
+}
+
+Vec3f evaluate(const Surface& s, const Lobes& lobes, const Vec3f& view, const Vec3f& light) {
+  const float cosLight = dot(s.normal, light);
+  const float cosFacet = dot(s.facet, light);
+  if (cosFacet <= 0) return lobes.through * (std::max(0.0f, -cosLight) / kPif);
+  if (cosLight <= 0) return {};
+  Vec3f value = lobes.diffuse * (1 / kPif);
+  const float cosView = dot(s.normal, view);
+  if (lobes.coatChance > 0 && cosView > 0) {
+    const Vec3f half = normalized(view + light);
+    const float ch = dot(s.normal, half);
+    const float a2 = lobes.alpha * lobes.alpha;
+    // Written so that nothing cancels near the highlight's centre.
+    const Vec3f off = cross(s.normal, half);
+    const float e = dot(off, off) + a2 * ch * ch;
+    const float density = a2 / (kPif * e * e);
+    const float masking = 1 / (1 + lambda(lobes.alpha, cosView) + lambda(lobes.alpha, cosLight));
+    value += fresnel(lobes.facing, dot(view, half)) *
+             (density * masking / (4 * cosView * std::max(1e-4f, cosLight)));
+  }
+  return value * cosLight;
+}
+
+Scatter scatter(const Surface& s, const Lobes& lobes, const Vec3f& view, float pick, Vec2f u) {
+  Scatter out;
+  if (pick < lobes.coatChance) {
+    out.coat = true;
+    Vec3f t, b;
+    basisAround(s.normal, t, b);
+    const Vec3f v = {dot(view, t), dot(view, b), std::max(1e-3f, dot(view, s.normal))};
+    const Vec3f h = visibleNormal(v, lobes.alpha, u);
+    const Vec3f l = h * (2 * dot(v, h)) - v;
+    if (l.z <= 0) return out;
+    out.direction = normalized(t * l.x + b * l.y + s.normal * l.z);
+    if (dot(out.direction, s.facet) <= 0) return out;
+    const float lv = lambda(lobes.alpha, v.z), ll = lambda(lobes.alpha, l.z);
+    out.weight = fresnel(lobes.facing, dot(v, h)) * ((1 + lv) / (1 + lv + ll) / lobes.coatChance);
+    return out;
+  }
+  const float bodyChance = 1 - lobes.coatChance;
+  const float d = luminance(lobes.diffuse), t = luminance(lobes.through);
+  if (d + t <= 0) return out;
+  const float throughChance = t / (d + t);
+  if ((pick - lobes.coatChance) / bodyChance < throughChance) {
+    out.direction = cosineDirection(-s.normal, u);
+    if (dot(out.direction, s.facet) >= 0) return out;
+    out.weight = lobes.through * (1 / (throughChance * bodyChance));
+  } else {
+    out.direction = cosineDirection(s.normal, u);
+    if (dot(out.direction, s.facet) <= 0) return out;
+    out.weight = lobes.diffuse * (1 / ((1 - throughChance) * bodyChance));
+  }
+  return out;
+}
+
+}  // namespace gable::rt

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// How a surface answers light: materials as the tracer keeps them, and one shaded point.
+//
+// A surface is a Lambert body under a GGX coat (4 % facing reflection, as metallic turns it into
+// the base colour), a share of which lets light through. Thin cut-out sheets (double sided, with an
+// opacity map or in mask mode: leaves) also let a fifth of the light through diffusely.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "material/material.h"
+#include "render/render.h"
+#include "render/sampler.h"
+#include "render/vec3f.h"
+
+namespace gable::rt {
+
+struct TextureLookup {
+  /// Index into TextureTable::images, or -1.
+  int32_t image = -1;
+  /// u' = uu * u + uv * v + u0, the same for v.
+  float uu = 1, uv = 0, u0 = 0, vu = 0, vv = 1, v0 = 0;
+};
+
+struct SurfaceMaterial {
+  Vec3f base{1, 1, 1};
+  Vec3f emissive;
+  float roughness = 1, metallic = 0, opacity = 1;
+  float facing = 0.04f;
+  float transmission = 0;
+  float cutoff = 0.5f;
+  bool mask = false;
+  /// Some light may pass straight through.
+  bool clear = false;
+  /// Bit s: uv set s is needed.
+  uint16_t uvSets = 0;
+  std::array<TextureLookup, kTextureLayers> maps;
+};
+
+struct TextureTable {
+  std::vector<const TextureImage*> images;
+  /// Whether any texel of the image lets light through.
+  std::vector<bool> hasAlpha;
+  /// Bilinear, repeating, alpha last; `decode` takes the colours from sRGB to linear light.
+  std::array<float, 4> sample(const TextureLookup& map, Vec2f uv, bool decode) const;
+};
+
+/// Materials with their textures looked up; those without images have no lookups.
+void makeMaterials(const std::vector<Material>& from, const TextureSource* source,
+                   std::vector<SurfaceMaterial>& to, TextureTable& textures);
+
+struct Surface {
+  Vec3f point;
+  /// Both on the viewer's side; `facet` of the triangle, `normal` for shading.
+  Vec3f facet, normal;
+  Vec3f base, emissive;
+  float roughness = 1, metallic = 0, opacity = 1, facing = 0.04f, transmission = 0;
+  /// The picture's own ground, no part of the scene.
+  bool isGround = false;
+};
+
+/// The parts of a surface's answer towards `view`, worked out once a point.
+struct Lobes {
+  Vec3f diffuse;
+  Vec3f facing;
+  Vec3f through;
+  float alpha = 1;
+  /// Chance of sampling the coat.
+  float coatChance = 0;
+  /// Share of light the coat sends back towards the viewer, by colour.
+  Vec3f coat;
+};
+
+Lobes lobesOf(const Surface& s, const Vec3f& view);
+/// Reflected radiance towards `view` for unit irradiance density from `light`, cosine included.
+Vec3f evaluate(const Surface& s, const Lobes& lobes, const Vec3f& view, const Vec3f& light);
+
+struct Scatter {
+  Vec3f direction;
+  /// Value * cosine / density; black when the path ends here.
+  Vec3f weight;
+  /// The direction came from the coat.
+  bool coat = false;
+};
+Scatter scatter(const Surface& s, const Lobes& lobes, const Vec3f& view, float pick, Vec2f u);
+
+}  // namespace gable::rt

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The one file that knows Embree. Structures are built by one thread: with several, the order of
+// primitives in a leaf, and so which of two coinciding faces wins, would change from run to run.
+
+#include "render/tracer.h"
+
+#include <embree3/rtcore.h>
+
+#include <limits>
+#include <vector>
+
+namespace gable::rt {
+
+namespace {
+
+/// Geometry ids in every part; placements follow in the top scene.
+constexpr unsigned kSolid = 0, kClear = 1, kFirstPlacement = 2;
+
+struct ClearGeometry {
+  const World* world = nullptr;
+  const TriangleSet* set = nullptr;
+};
+
+/// What a shadow ray gathers on its way.
+struct ShadowContext {
+  RTCIntersectContext embree;
+  float visibility = 1;
+};
+
+/// Lets light through clear triangles: takes its share and lets the ray go on.
+void passClear(const RTCFilterFunctionNArguments* args) {
+  const auto& geometry = *static_cast<const ClearGeometry*>(args->geometryUserPtr);
+  if (args->valid[0] != -1) return;
+  const unsigned triangle = RTCHitN_primID(args->hit, 1, 0);
+  const float u = RTCHitN_u(args->hit, 1, 0), v = RTCHitN_v(args->hit, 1, 0);
+  const float share = clearness(*geometry.world, *geometry.set, triangle, u, v);
+  auto& shadow = *reinterpret_cast<ShadowContext*>(args->context);
+  shadow.visibility *= share;
+  if (shadow.visibility > 1e-3f) args->valid[0] = 0;
+}
+
+RTCGeometry makeGeometry(RTCDevice device, const TriangleSet& set) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  // Embree reads 16 bytes at the last vertex; sets carry one vertex more than they use.
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                             set.positions.data(), 0, sizeof(Vec3f), set.positions.size() - 1);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                             set.corners.data(), 0, sizeof(set.corners[0]), set.corners.size());
+  return geometry;
+}
+
+}  // namespace
+
+struct Tracer::Impl {
+  const World& world;
+  RTCDevice device = nullptr;
+  /// By part; the first is the top scene, which also holds the placements.
+  std::vector<RTCScene> scenes;
+  std::vector<ClearGeometry> clears;
+
+  explicit Impl(const World& w) : world(w) {
+    device = rtcNewDevice("threads=1,set_affinity=0");
+    clears.resize(world.parts.size());
+    for (size_t p = 0; p < world.parts.size(); ++p) {
+      RTCScene scene = rtcNewScene(device);
+      rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+      rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
+      addSet(scene, world.parts[p].solid, kSolid, nullptr);
+      clears[p] = {&world, &world.parts[p].clear};
+      addSet(scene, world.parts[p].clear, kClear, &clears[p]);
+      scenes.push_back(scene);
+      if (p != 0) rtcCommitScene(scene);
+    }
+    for (size_t i = 0; i < world.placements.size(); ++i) addPlacement(i);
+    rtcCommitScene(scenes[0]);
+  }
+
+  ~Impl() {
+    for (RTCScene scene : scenes) rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+  }
+
+  void addSet(RTCScene scene, const TriangleSet& set, unsigned id, ClearGeometry* clear) {
+    if (set.corners.empty()) return;
+    RTCGeometry geometry = makeGeometry(device, set);
+    if (clear) {
+      rtcSetGeometryUserData(geometry, clear);
+      rtcSetGeometryOccludedFilterFunction(geometry, passClear);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene, geometry, id);
+    rtcReleaseGeometry(geometry);
+  }
+
+  void addPlacement(size_t i) {
+    const Placement& p = world.placements[i];
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, scenes[p.part]);
+    const float columns[12] = {p.x.x, p.x.y, p.x.z, p.y.x,      p.y.y,      p.y.z,
+                               p.z.x, p.z.y, p.z.z, p.origin.x, p.origin.y, p.origin.z};
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scenes[0], geometry, kFirstPlacement + static_cast<unsigned>(i));
+    rtcReleaseGeometry(geometry);
+  }
+};
+
+Tracer::Tracer(const World& world) : impl_(std::make_unique<Impl>(world)) {}
+Tracer::~Tracer() = default;
+
+bool Tracer::intersect(const Ray& ray, Hit& hit) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit r;
+  r.ray = {ray.origin.x,
+           ray.origin.y,
+           ray.origin.z,
+           ray.from,
+           ray.direction.x,
+           ray.direction.y,
+           ray.direction.z,
+           0,
+           ray.to,
+           0xffffffff,
+           0,
+           0};
+  r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(impl_->scenes[0], &context, &r);
+  if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+  hit.distance = r.ray.tfar;
+  hit.normal = {r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z};
+  hit.u = r.hit.u;
+  hit.v = r.hit.v;
+  hit.triangle = r.hit.primID;
+  hit.clear = r.hit.geomID == kClear;
+  hit.placement = kNone;
+  if (r.hit.instID[0] != RTC_INVALID_GEOMETRY_ID) {
+    hit.placement = r.hit.instID[0] - kFirstPlacement;
+    const Placement& p = impl_->world.placements[hit.placement];
+    hit.normal = p.x * hit.normal.x + p.y * hit.normal.y + p.z * hit.normal.z;
+  }
+  return true;
+}
+
+float Tracer::visibility(const Ray& ray) const {
+  ShadowContext context;
+  rtcInitIntersectContext(&context.embree);
+  RTCRay r = {ray.origin.x,
+              ray.origin.y,
+              ray.origin.z,
+              ray.from,
+              ray.direction.x,
+              ray.direction.y,
+              ray.direction.z,
+              0,
+              ray.to,
+              0xffffffff,
+              0,
+              0};
+  rtcOccluded1(impl_->scenes[0], &context.embree, &r);
+  return r.tfar < 0 ? 0 : context.visibility;
+}
+
+}  // namespace gable::rt

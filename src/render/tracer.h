@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Tracer: where rays meet a world. Any number of threads may ask at once.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "render/world.h"
+
+namespace gable::rt {
+
+struct Ray {
+  Vec3f origin;
+  float from = 0;
+  /// Need not be unit; distances count in its length.
+  Vec3f direction;
+  float to = 1e30f;
+};
+
+struct Hit {
+  float distance = 0;
+  /// Not unit, in world coordinates, on the triangle's front.
+  Vec3f normal;
+  /// Barycentric coordinates of the second and third corner.
+  float u = 0, v = 0;
+  /// Index into World::placements, or kNone for part 0.
+  uint32_t placement = kNone;
+  uint32_t triangle = 0;
+  bool clear = false;
+};
+
+class Tracer {
+ public:
+  /// Keeps a reference to the world and shares its vertices. O(n log n).
+  explicit Tracer(const World& world);
+  ~Tracer();
+  Tracer(const Tracer&) = delete;
+  Tracer& operator=(const Tracer&) = delete;
+
+  /// The nearest hit.
+  bool intersect(const Ray& ray, Hit& hit) const;
+  /// The share of light that gets along the ray: 0 behind something solid.
+  float visibility(const Ray& ray) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The share of light that passes straight through a triangle of a `clear` set.
+float clearness(const World& world, const TriangleSet& set, uint32_t triangle, float u, float v);
+
+/// What lies at a hit, seen along the ray's direction.
+Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray);
+
+}  // namespace gable::rt

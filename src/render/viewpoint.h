@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Where the camera stands: the views of RenderOptions, framed on a world. All coordinates are the
+// world's own, less World::origin.
+#pragma once
+
+#include "render/light.h"
+#include "render/render.h"
+#include "render/tracer.h"
+
+namespace gable::rt {
+
+/// What framing needs to know.
+struct Subject {
+  const World& world;
+  const Tracer& tracer;
+  std::vector<Vec3f> points;
+  double groundHeight = 0;
+  /// Compass angle that the main front faces.
+  double frontAzimuth = 180;
+};
+
+double frontAzimuthOf(const World& world);
+
+/// A level or tilted camera in the direction of a compass angle; `pitch` is negative downwards.
+Camera cameraTowards(double azimuth, double pitch);
+
+/// The options' view with their overrides applied. Street views ask the tracer for a free place and
+/// `light` for the sunny side.
+Camera chooseCamera(const Subject& subject, const RenderOptions& options, const Light& light);
+
+/// The best place for a street view; false when no place outside things was found.
+bool findStandpoint(const Subject& subject, const Light& light, double halfWidth, double aspect,
+                    Camera& camera);
+
+/// The ray through a point of the picture, from left and from below in [0, 1]. Unit direction.
+Ray cameraRay(const Camera& camera, double aspect, double x, double y);
+
+}  // namespace gable::rt

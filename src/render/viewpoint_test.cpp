@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "render/viewpoint.h"
+
+#include <gtest/gtest.h>
+
+#include "render/sampler.h"
+#include "render/test_scenes.h"
+#include "render/tone.h"
+
+namespace gable::rt {
+namespace {
+
+struct Set {
+  World world;
+  Tracer tracer;
+  Subject subject;
+  explicit Set(const Scene& scene)
+      : world(makeWorld(scene, nullptr)),
+        tracer(world),
+        subject{world, tracer, framingPoints(world), world.footHeight, frontAzimuthOf(world)} {}
+};
+
+struct Reach {
+  double left = 1, right = 0, low = 1, high = 0;
+};
+
+/// What part of the picture the points take.
+Reach reachOf(const Camera& c, const std::vector<Vec3f>& points, double aspect) {
+  Reach r;
+  for (const Vec3f& p : points) {
+    const Vec3 d = toVec3(p) - c.eye;
+    const double ahead = c.parallel ? 1 : dot(d, c.forward);
+    EXPECT_GT(ahead, 0);
+    const double x = 0.5 + dot(d, c.right) / ahead / (2 * c.halfWidth);
+    const double y = c.horizon + dot(d, c.up) / ahead / (2 * c.halfWidth) * aspect;
+    r.left = std::min(r.left, x);
+    r.right = std::max(r.right, x);
+    r.low = std::min(r.low, y);
+    r.high = std::max(r.high, y);
+  }
+  return r;
+}
+
+Scene boxScene(const Vec3& size, double turn = 0) {
+  SceneMaker m;
+  m.box({-size.x / 2, 0, -size.z / 2}, size, m.material("#808080"));
+  m.leaves.back().frame = rotationXyz(0, turn, 0) * m.leaves.back().frame;
+  return std::move(m.finish());
+}
+
+TEST(Viewpoint, viewsHoldTheWholeSubject) {
+  for (const Vec3& size :
+       {Vec3{10, 8, 12}, Vec3{80, 5, 10}, Vec3{20, 120, 20}, Vec3{300, 1, 200}}) {
+    const Set s(boxScene(size));
+    RenderOptions o;
+    const Light light(o, 38, 225);
+    for (const View view : {View::Iso, View::Top, View::Front}) {
+      o.view = view;
+      const Camera c = chooseCamera(s.subject, o, light);
+      const Reach r = reachOf(c, s.subject.points, 16.0 / 9);
+      EXPECT_GE(r.left, 0.03);
+      EXPECT_LE(r.right, 0.97);
+      EXPECT_GE(r.low, 0.03);
+      EXPECT_LE(r.high, 0.97);
+      EXPECT_GT(std::max(r.right - r.left, r.high - r.low), 0.5);
+    }
+  }
+}
+
+TEST(Viewpoint, frontAndStreetKeepVerticalsUpright) {
+  const Set s(streetScene());
+  RenderOptions o;
+  const Light light(o, 38, 225);
+  for (const View view : {View::Front, View::Street}) {
+    o.view = view;
+    const Camera c = chooseCamera(s.subject, o, light);
+    EXPECT_EQ(c.up, (Vec3{0, 1, 0}));
+    EXPECT_EQ(c.forward.y, 0);
+    EXPECT_LT(c.horizon, 0.45);
+  }
+}
+
+TEST(Viewpoint, streetEyeStandsOnOpenGround) {
+  const Set s(streetScene());
+  RenderOptions o;
+  o.view = View::Street;
+  const Camera c = chooseCamera(s.subject, o, Light(o, 38, 225));
+  Ray up;
+  up.origin = toVec3f(c.eye);
+  up.direction = {0, 1, 0};
+  Hit hit;
+  EXPECT_FALSE(s.tracer.intersect(up, hit));
+  Ray down = up;
+  down.direction = {0, -1, 0};
+  ASSERT_TRUE(s.tracer.intersect(down, hit) || c.eye.y < s.subject.groundHeight + 2);
+}
+
+TEST(Viewpoint, frontFollowsTurnedWalls) {
+  for (const double turn : {-30.0, -10.0, 0.0, 20.0, 40.0}) {
+    const World world = makeWorld(boxScene({20, 10, 8}, turn), nullptr);
+    EXPECT_NEAR(frontAzimuthOf(world), 180 - turn, 0.1);
+    EXPECT_GT(world.wallAgreement, 0.99);
+  }
+}
+
+TEST(Viewpoint, groundIgnoresRootsButFollowsTerrain) {
+  SceneMaker m;
+  const uint32_t grey = m.material("#808080");
+  m.box({0, 0, 0}, {30, 5, 30}, grey);
+  m.box({40, -1, 0}, {0.2, 6, 0.2}, grey);
+  EXPECT_NEAR(makeWorld(m.finish(), nullptr).footHeight, 0, 1e-6);
+  SceneMaker valley;
+  const uint32_t green = valley.material("#6B8743");
+  valley.box({0, 0, 0}, {30, 5, 30}, green);
+  valley.box({30, -8, 0}, {30, 1, 30}, green);
+  EXPECT_NEAR(makeWorld(valley.finish(), nullptr).footHeight, -8, 1e-6);
+}
+
+TEST(Viewpoint, eyeAndTargetReplaceTheView) {
+  const Set s(boxScene({4, 4, 4}));
+  RenderOptions o;
+  o.eye = Vec3{10, 5, 0};
+  o.target = Vec3{0, 5, 0};
+  const Camera c = chooseCamera(s.subject, o, Light(o, 38, 225));
+  EXPECT_NEAR(c.forward.x, -1, 1e-12);
+  EXPECT_NEAR(c.right.z, -1, 1e-12);
+  EXPECT_EQ(c.eye + s.world.origin, (Vec3{10, 5, 0}));
+}
+
+TEST(Sampler, everyDimensionFillsTheSquareEvenly) {
+  for (uint32_t dimension = 0; dimension < 40; ++dimension) {
+    for (const uint32_t bits : {0u, 1u, 2u, 3u, 4u}) {
+      // Elementary intervals: 16 points, one in each of 2^bits x 2^(4-bits) cells.
+      std::vector<int> cells(16, 0);
+      for (uint32_t s = 0; s < 16; ++s) {
+        const Vec2f p = Sampler(5, 9, s, 1).point(dimension);
+        ASSERT_GE(p.x, 0);
+        ASSERT_LT(p.x, 1);
+        const uint32_t x = static_cast<uint32_t>(p.x * static_cast<float>(1u << bits));
+        const uint32_t y = static_cast<uint32_t>(p.y * static_cast<float>(16u >> bits));
+        ++cells[x * (16u >> bits) + y];
+      }
+      for (const int n : cells) EXPECT_EQ(n, 1);
+    }
+  }
+}
+
+TEST(Tone, inverseGivesTheLightBack) {
+  for (const Vec3f& c :
+       {Vec3f{0.2f, 0.4f, 0.7f}, Vec3f{0.72f, 0.77f, 0.77f}, Vec3f{0.1f, 0.1f, 0.1f}}) {
+    const Vec3f back = toneMapped(inverseToneMapped(c));
+    EXPECT_NEAR(back.x, c.x, 1e-3);
+    EXPECT_NEAR(back.y, c.y, 1e-3);
+    EXPECT_NEAR(back.z, c.z, 1e-3);
+  }
+}
+
+TEST(World, normalsSurvivePacking) {
+  for (int i = 0; i < 200; ++i) {
+    const Vec3f n =
+        toVec3f({sinDeg(i * 37) * cosDeg(i * 11), sinDeg(i * 11), cosDeg(i * 37) * cosDeg(i * 11)});
+    EXPECT_GT(dot(unpackNormal(packNormal(n)), n), 0.999999f);
+  }
+}
+
+}  // namespace
+}  // namespace gable::rt

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// How scenes become triangles: meshes are triangulated once each; prototypes are costed from the
+// innermost outwards (an instance's prototype has the smaller index), and one that stands several
+// times becomes a part where that saves memory; then the roots are walked once.
+
+#include "render/world.h"
+
+#include <bit>
+#include <cmath>
+
+#include "math/trig.h"
+#include "render/triangles.h"
+
+namespace gable::rt {
+
+namespace {
+
+/// Rough bytes of a stored triangle and of a placement, acceleration structure included; only
+/// their ratio matters.
+constexpr double kTriangleCost = 100, kPlacementCost = 500;
+/// Beyond this a coordinate is a mistake, and would spoil framing and precision for the rest.
+constexpr double kFarthest = 1e7;
+
+uint32_t materialOf(const Scene& scene, const Leaf& leaf, uint16_t slot, size_t materials) {
+  if (leaf.materials >= scene.materialLists.size()) return 0;
+  const std::vector<uint32_t>& list = scene.materialLists[leaf.materials];
+  if (list.empty()) return 0;
+  const uint32_t m = slot < list.size() ? list[slot] : list[0];
+  return m < materials ? m : 0;
+}
+
+bool usable(const Vec3& p) {
+  return std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest && std::abs(p.z) < kFarthest;
+}
+
+/// Which prototypes are placed instead of merged.
+std::vector<bool> choosePlaced(const Scene& scene, const std::vector<MeshTriangles>& meshes) {
+  const size_t n = scene.prototypes.size();
+  std::vector<double> uses(n, 0), whole(n, 0), inlined(n, 0);
+  for (const Root& root : scene.roots) uses[root.instance.prototype] += 1;
+  for (size_t p = n; p-- > 0;) {
+    const Prototype& prototype = scene.prototypes[p];
+    for (uint32_t i = 0; i < prototype.instanceCount; ++i) {
+      uses[scene.instances[prototype.firstInstance + i].prototype] += uses[p];
+    }
+  }
+  std::vector<bool> placed(n, false);
+  for (size_t p = 0; p < n; ++p) {
+    const Prototype& prototype = scene.prototypes[p];
+    double own = 0;
+    for (uint32_t i = 0; i < prototype.leafCount; ++i) {
+      own += static_cast<double>(meshes[scene.leaves[prototype.firstLeaf + i].mesh].corners.size());
+    }
+    whole[p] = own * kTriangleCost;
+    inlined[p] = own * kTriangleCost;
+    for (uint32_t i = 0; i < prototype.instanceCount; ++i) {
+      const uint32_t child = scene.instances[prototype.firstInstance + i].prototype;
+      whole[p] += whole[child];
+      inlined[p] += placed[child] ? kPlacementCost : inlined[child];
+    }
+    placed[p] = uses[p] > 1 && whole[p] + kPlacementCost * uses[p] < inlined[p] * uses[p];
+  }
+  return placed;
+}
+
+class Builder {
+ public:
+  Builder(const Scene& scene, World& world) : scene_(scene), world_(world) {
+    meshes_.reserve(scene.meshes.size());
+    std::vector<bool> used(scene.meshes.size(), false);
+    for (const Leaf& leaf : scene.leaves) used[leaf.mesh] = true;
+    for (size_t m = 0; m < scene.meshes.size(); ++m) {
+      meshes_.push_back(used[m] ? triangulated(*scene.meshes[m]) : MeshTriangles{});
+    }
+    placed_ = choosePlaced(scene, meshes_);
+    partOf_.assign(scene.prototypes.size(), kNone);
+  }
+
+  void build() {
+    world_.parts.emplace_back();
+    findOrigin();
+    const Frame centred = Frame::moved(-world_.origin);
+    for (const Root& root : scene_.roots) place(root.instance, centred, 0);
+    finish();
+  }
+
+ private:
+  void findOrigin() {
+    bool found = false;
+    for (const Root& root : scene_.roots) {
+      if (found) break;
+      forEachLeaf(scene_, scene_.prototypes[root.instance.prototype], root.instance.frame,
+                  [&](const Leaf&, const Frame& at) {
+                    if (found || !usable(at.origin)) return;
+                    found = true;
+                    world_.origin = {std::round(at.origin.x), std::round(at.origin.y),
+                                     std::round(at.origin.z)};
+                  });
+    }
+  }
+
+  /// Puts an instance into `part`; only part 0 may hold placements.
+  void place(const Instance& instance, const Frame& outer, uint32_t part) {
+    const Frame at = outer * instance.frame;
+    if (part != 0 || !placed_[instance.prototype]) {
+      merge(scene_.prototypes[instance.prototype], at, part);
+      return;
+    }
+    uint32_t& index = partOf_[instance.prototype];
+    if (index == kNone) {
+      index = static_cast<uint32_t>(world_.parts.size());
+      world_.parts.emplace_back();
+      merge(scene_.prototypes[instance.prototype], Frame(), index);
+    }
+    if (world_.parts[index].triangles() == 0 || !usable(at.origin)) return;
+    world_.placements.push_back(
+        {index, toVec3f(at.x), toVec3f(at.y), toVec3f(at.z), toVec3f(at.origin)});
+  }
+
+  void merge(const Prototype& prototype, const Frame& at, uint32_t part) {
+    for (uint32_t i = 0; i < prototype.leafCount; ++i) {
+      const Leaf& leaf = scene_.leaves[prototype.firstLeaf + i];
+      addLeaf(leaf, at * leaf.frame, part);
+    }
+    for (uint32_t i = 0; i < prototype.instanceCount; ++i) {
+      place(scene_.instances[prototype.firstInstance + i], at, part);
+    }
+  }
+
+  void addLeaf(const Leaf& leaf, const Frame& at, uint32_t partIndex) {
+    Part& part = world_.parts[partIndex];
+    const Mesh& mesh = *scene_.meshes[leaf.mesh];
+    const MeshTriangles& triangles = meshes_[leaf.mesh];
+    if (triangles.corners.empty()) return;
+
+    points_.clear();
+    Box3 box;
+    for (const Vec3& p : mesh.positions) {
+      points_.push_back(at.point(scaled(p, leaf.scale)));
+      if (usable(points_.back())) box.include(points_.back());
+    }
+    part.bounds.include(box);
+    if (partIndex == 0 && !box.empty()) feet_.push_back({box.min.y, footArea(points_)});
+
+    uint32_t firstOf[2] = {kNone, kNone};
+    for (size_t t = 0; t < triangles.corners.size(); ++t) {
+      const std::array<uint32_t, 3>& corners = triangles.corners[t];
+      const MeshFace& face = mesh.faces[triangles.faces[t]];
+      const uint32_t material =
+          materialOf(scene_, leaf, face.materialSlot, world_.materials.size());
+      std::array<uint32_t, 3> at3;
+      for (size_t k = 0; k < 3; ++k) at3[k] = mesh.corners[corners[k]];
+      if (!usable(points_[at3[0]]) || !usable(points_[at3[1]]) || !usable(points_[at3[2]])) {
+        continue;
+      }
+      noteWall(part, at3);
+
+      const bool isClear = world_.materials[material].clear;
+      TriangleSet& set = isClear ? part.clear : part.solid;
+      uint32_t& first = firstOf[isClear];
+      if (first == kNone) {
+        first = static_cast<uint32_t>(set.positions.size());
+        for (const Vec3& p : points_) set.positions.push_back(usable(p) ? toVec3f(p) : Vec3f{});
+      }
+      set.corners.push_back({first + at3[0], first + at3[1], first + at3[2]});
+      set.materials.push_back(material);
+      set.attributes.push_back(addAttributes(set, leaf, at, mesh, triangles, t, material));
+    }
+  }
+
+  uint32_t addAttributes(TriangleSet& set, const Leaf& leaf, const Frame& at, const Mesh& mesh,
+                         const MeshTriangles& triangles, size_t t, uint32_t material) {
+    const std::array<uint32_t, 3>& corners = triangles.corners[t];
+    uint32_t head = 0;
+    if (!triangles.normals.empty() && triangles.smooth[t]) head |= 1;
+    const uint16_t wanted = world_.materials[material].uvSets;
+    for (int s = 0; wanted && s < kUvSets; ++s) {
+      // A layer whose own set is missing falls back to set 0.
+      if ((wanted >> s & 1) == 0) continue;
+      if (mesh.hasUv(s))
+        head |= 2u << s;
+      else if (mesh.hasUv(0))
+        head |= 2u;
+    }
+    if (head == 0) return kNone;
+    const uint32_t first = static_cast<uint32_t>(set.pool.size());
+    set.pool.push_back(head);
+    if (head & 1) {
+      const auto inverse = [](double s) { return s != 0 ? 1 / s : 0.0; };
+      const Vec3 unscale{inverse(leaf.scale.x), inverse(leaf.scale.y), inverse(leaf.scale.z)};
+      for (const uint32_t c : corners) {
+        const Vec3 n = normalized(at.direction(scaled(triangles.normals[c], unscale)));
+        set.pool.push_back(packNormal(toVec3f(n)));
+      }
+    }
+    for (int s = 0; s < kUvSets; ++s) {
+      if ((head >> (s + 1) & 1) == 0) continue;
+      for (const uint32_t c : corners) {
+        const Vec2 uv = mesh.uvs[static_cast<size_t>(s)][c];
+        set.pool.push_back(std::bit_cast<uint32_t>(static_cast<float>(uv.x)));
+        set.pool.push_back(std::bit_cast<uint32_t>(static_cast<float>(uv.y)));
+      }
+    }
+    return first;
+  }
+
+  void noteWall(Part& part, const std::array<uint32_t, 3>& at3) {
+    const Vec3 n = cross(points_[at3[1]] - points_[at3[0]], points_[at3[2]] - points_[at3[0]]);
+    const double flat = std::sqrt(n.x * n.x + n.z * n.z);
+    if (!(flat > 3 * std::abs(n.y))) return;
+    const double c = n.z / flat, s = n.x / flat;
+    const double c2 = c * c - s * s, s2 = 2 * s * c;
+    part.wallArea += flat;
+    part.wallCos += flat * (c2 * c2 - s2 * s2);
+    part.wallSin += flat * 2 * s2 * c2;
+  }
+
+  /// Area of the box about the points within half a metre above the lowest.
+  template <class Points>
+  static double footArea(const Points& points) {
+    double lowest = kFarthest;
+    for (const auto& p : points) lowest = std::min(lowest, static_cast<double>(p.y));
+    Box2 foot;
+    for (const auto& p : points) {
+      if (!(static_cast<double>(p.y) <= lowest + 0.5) || std::abs(p.x) > kFarthest) continue;
+      foot.include({static_cast<double>(p.x), static_cast<double>(p.z)});
+    }
+    const Vec2 size = foot.size();
+    return size.x * size.y + 1e-6;
+  }
+
+  /// Bounds, foot and wall directions with placements expanded.
+  void finish() {
+    // Whoever reads four floats at the last position stays inside the buffer.
+    for (Part& part : world_.parts) {
+      part.footArea =
+          footArea(part.solid.corners.empty() ? part.clear.positions : part.solid.positions);
+      part.solid.positions.emplace_back();
+      part.clear.positions.emplace_back();
+    }
+    Box3 bounds = world_.parts[0].bounds;
+    world_.triangles = world_.parts[0].triangles();
+    double area = world_.parts[0].wallArea, c4 = world_.parts[0].wallCos,
+           s4 = world_.parts[0].wallSin;
+    for (const Placement& placement : world_.placements) {
+      const Part& part = world_.parts[placement.part];
+      const Box3 box = placedBox(part.bounds, placement);
+      bounds.include(box);
+      feet_.push_back({box.min.y, part.footArea});
+      world_.triangles += part.triangles();
+      area += part.wallArea;
+      if (std::abs(placement.y.y) < 0.99f) continue;
+      const double yaw =
+          atan2Deg(static_cast<double>(placement.z.x), static_cast<double>(placement.z.z));
+      const double c = cosDeg(4 * yaw), s = sinDeg(4 * yaw);
+      c4 += part.wallCos * c - part.wallSin * s;
+      s4 += part.wallCos * s + part.wallSin * c;
+    }
+    if (bounds.empty()) {
+      bounds.include(Vec3{-5, 0, -5});
+      bounds.include(Vec3{5, 6, 5});
+    }
+    world_.bounds = bounds;
+    world_.footHeight = foot();
+    if (area > 0) {
+      world_.wallAngle = atan2Deg(s4, c4) / 4;
+      world_.wallAgreement = std::sqrt(c4 * c4 + s4 * s4) / area;
+    }
+  }
+
+  static Box3 placedBox(const Box3& b, const Placement& p) {
+    Box3 box;
+    if (b.empty()) return box;
+    for (int k = 0; k < 8; ++k) {
+      const Vec3 c{k & 1 ? b.max.x : b.min.x, k & 2 ? b.max.y : b.min.y, k & 4 ? b.max.z : b.min.z};
+      box.include(toVec3(p.origin) + toVec3(p.x) * c.x + toVec3(p.y) * c.y + toVec3(p.z) * c.z);
+    }
+    return box;
+  }
+
+  /// The height below which a hundredth of all footprint area begins, unless that lies far above
+  /// the lowest point: then the scene has terrain, and its lowest point counts.
+  double foot() {
+    if (feet_.empty()) return world_.bounds.min.y;
+    std::sort(feet_.begin(), feet_.end());
+    double total = 0, sum = 0;
+    for (const auto& [y, area] : feet_) total += area;
+    for (const auto& [y, area] : feet_) {
+      sum += area;
+      if (sum >= 0.01 * total) return y - feet_[0].first < 1.5 ? y : feet_[0].first;
+    }
+    return feet_[0].first;
+  }
+
+  const Scene& scene_;
+  World& world_;
+  std::vector<MeshTriangles> meshes_;
+  std::vector<bool> placed_;
+  std::vector<uint32_t> partOf_;
+  std::vector<Vec3> points_;
+  std::vector<std::pair<double, double>> feet_;
+};
+
+}  // namespace
+
+World makeWorld(const Scene& scene, const TextureSource* textures) {
+  World world;
+  makeMaterials(scene.materials, textures, world.materials, world.textures);
+  Builder(scene, world).build();
+  return world;
+}
+
+std::vector<Vec3f> framingPoints(const World& world, size_t limit) {
+  std::vector<Vec3f> points;
+  const Part& merged = world.parts[0];
+  for (const TriangleSet* set : {&merged.solid, &merged.clear}) {
+    const size_t step = 1 + set->positions.size() / std::max<size_t>(1, limit / 2);
+    for (size_t i = 0; i + 1 < set->positions.size(); i += step)
+      points.push_back(set->positions[i]);
+  }
+  const size_t each =
+      world.placements.empty() ? 0 : std::max<size_t>(8, limit / world.placements.size());
+  for (const Placement& p : world.placements) {
+    const TriangleSet& set = world.parts[p.part].solid.corners.empty() ? world.parts[p.part].clear
+                                                                       : world.parts[p.part].solid;
+    const size_t step = 1 + set.positions.size() / each;
+    for (size_t i = 0; i + 1 < set.positions.size(); i += step) {
+      const Vec3f& q = set.positions[i];
+      points.push_back(p.origin + p.x * q.x + p.y * q.y + p.z * q.z);
+    }
+  }
+  return points;
+}
+
+uint32_t packNormal(const Vec3f& n) {
+  const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+  if (!(sum > 0)) return 0;
+  float u = n.x / sum, v = n.y / sum;
+  if (n.z < 0) {
+    const float pu = u;
+    u = (1 - std::abs(v)) * std::copysign(1.0f, u);
+    v = (1 - std::abs(pu)) * std::copysign(1.0f, v);
+  }
+  const auto word = [](float f) {
+    return static_cast<uint32_t>(std::lround(std::clamp(f * 0.5f + 0.5f, 0.0f, 1.0f) * 65535));
+  };
+  return word(u) | word(v) << 16;
+}
+
+Vec3f unpackNormal(uint32_t packed) {
+  const float u = static_cast<float>(packed & 0xffff) / 65535 * 2 - 1;
+  const float v = static_cast<float>(packed >> 16) / 65535 * 2 - 1;
+  Vec3f n{u, v, 1 - std::abs(u) - std::abs(v)};
+  if (n.z < 0) {
+    n.x = (1 - std::abs(v)) * std::copysign(1.0f, u);
+    n.y = (1 - std::abs(u)) * std::copysign(1.0f, v);
+  }
+  return normalized(n);
+}
+
+}  // namespace gable::rt

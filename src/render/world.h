@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// World: a scene as triangles in single precision, ready for rays.
+//
+// A part is a set of triangles with its own acceleration structure; part 0 holds everything that
+// stands only once, in world coordinates less `origin`; the others are prototypes that are placed
+// several times. Placements are one level deep: prototypes within a placed prototype are merged
+// into it where that costs less memory than placing them one by one.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "math/box.h"
+#include "math/frame.h"
+#include "render/surface.h"
+#include "render/vec3f.h"
+#include "scene/scene.h"
+
+namespace gable::rt {
+
+constexpr uint32_t kNone = 0xffffffff;
+
+/// What a corner carries beyond its position: word 0 says what follows. Bit 0: three normals, one
+/// word each (octahedral); bit 1 + s: three pairs of floats for uv set s, in the order of sets.
+using AttributePool = std::vector<uint32_t>;
+
+struct TriangleSet {
+  /// With one more at the end that no triangle uses.
+  std::vector<Vec3f> positions;
+  std::vector<std::array<uint32_t, 3>> corners;
+  /// Index into World::materials, by triangle.
+  std::vector<uint32_t> materials;
+  /// Where a triangle's record begins in the pool, or kNone.
+  std::vector<uint32_t> attributes;
+  AttributePool pool;
+};
+
+struct Part {
+  /// Light passes some triangles of `clear` and none of `solid`.
+  TriangleSet solid, clear;
+  Box3 bounds;
+  /// Area of the box about what lies within half a metre above the part's lowest point.
+  double footArea = 0;
+  /// Sum over upright triangles of area and of area * (cos, sin) of four times the compass angle
+  /// of their normals: the directions in which its walls look, quarter turns apart.
+  double wallArea = 0, wallCos = 0, wallSin = 0;
+  uint64_t triangles() const { return solid.corners.size() + clear.corners.size(); }
+  const TriangleSet& set(bool isClear) const { return isClear ? clear : solid; }
+};
+
+struct Placement {
+  uint32_t part = 0;
+  Vec3f x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, origin;
+};
+
+struct World {
+  std::vector<Part> parts;
+  std::vector<Placement> placements;
+  std::vector<SurfaceMaterial> materials;
+  TextureTable textures;
+  /// Subtracted from world coordinates before rounding.
+  Vec3 origin;
+  /// Of everything, less `origin`; a unit box about it for an empty scene.
+  Box3 bounds;
+  /// Height of the scene's foot less `origin`, single deep things left out.
+  double footHeight = 0;
+  /// Compass angle of a wall normal (degrees, in (-45, 45]) and how far walls agree on it, 0 to 1.
+  double wallAngle = 0, wallAgreement = 0;
+  /// With placements expanded.
+  uint64_t triangles = 0;
+};
+
+/// O(triangles stored). Textures are asked for here, once each.
+World makeWorld(const Scene& scene, const TextureSource* textures);
+
+/// Points that span the world for framing: corners of triangles or of boxes, at most about `limit`.
+std::vector<Vec3f> framingPoints(const World& world, size_t limit = 200000);
+
+uint32_t packNormal(const Vec3f& n);
+Vec3f unpackNormal(uint32_t packed);
+
+}  // namespace gable::rt
