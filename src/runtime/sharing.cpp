@@ -74,6 +74,8 @@ ShareKey Machine::keyOf(uint32_t rule, const Activation& call) {
   KeyHash h;
   h.add(uint64_t{rule} << 32 | static_cast<uint32_t>(s.geometry.kind) << 3 |
         (s.geometry.uv ? 4u : 0u) | (s.trimVertical ? 2u : 0u) | (s.trimHorizontal ? 1u : 0u));
+  h.add(uint64_t{static_cast<uint8_t>(s.geometry.order)});
+  for (const uint32_t t : s.geometry.tags) h.add(uint64_t{t});
   h.add(s.size);
   h.add(uint64_t{s.material} << 32 | s.assetMaterials);
   h.add(uint64_t{s.attributes});

@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// A box gives its faces, and a rectangle itself, without a mesh; so do the leaves of most facades.
+// All other geometry goes through Components, which counts and selects; what it gives out is put
+// into axes of its own, where a rectangle becomes a primitive again.
+#include <cmath>
+
+#include "builtins/lists.h"
+#include "builtins/ops/subdivide/shared/components.h"
+#include "builtins/ops/subdivide/shared/parts.h"
+#include "builtins/selection.h"
+#include "shape/op_call.h"
+
+namespace gable {
+
+namespace {
+
+// Trim planes of edges flatter than 40 degrees are horizontal; this is the sine.
+constexpr double kSinHorizontal = 0.64278760968653933;
+// Equal faces come out with equal sizes: coordinates in a face's own axes lie on this grid.
+constexpr double kGrid = 0x1.0p-30;
+
+double onGrid(double v) { return std::fabs(v) < 0x1.0p20 ? std::nearbyint(v / kGrid) * kGrid : v; }
+Vec3 onGrid(const Vec3& v) { return {onGrid(v.x), onGrid(v.y), onGrid(v.z)}; }
+
+// The plane through an edge of a face that halves the angle to the face beyond it. All in scope
+// coordinates; `along` runs as the face does.
+struct SharedEdge {
+  Vec3 point, along, normal, otherNormal;
+};
+
+void addTrimPlane(ShapeExtra& extra, const Shape& parent, const SharedEdge& e) {
+  const Vec3 along = normalized(e.along);
+  // From the edge into the other face, less from the edge into this one.
+  const Vec3 out = cross(along, e.normal + e.otherNormal);
+  if (length(out) < 1e-6) return;
+  TrimPlane plane;
+  plane.normal = parent.scope.direction(normalized(out));
+  plane.distance = dot(plane.normal, parent.scope.point(e.point));
+  const Vec3 direction = parent.scope.direction(along);
+  plane.horizontal = std::fabs(dot(direction, parent.pivot.y)) < kSinHorizontal;
+  extra.trim.push_back(plane);
+}
+
+// What all children of a call have in common.
+struct Context {
+  OpCall& call;
+  bool align;
+
+  Shape child(StringId name, size_t index, size_t total) const {
+    Shape s = call.shape();
+    s.comp = {static_cast<uint32_t>(index), static_cast<uint32_t>(total)};
+    s.compSelector = name;
+    return s;
+  }
+  StringId nameOf(const SelectorItem& item, const Selector& selector) const {
+    const bool word = item.terms.size() == 1 && item.terms[0].kind == SelectorTerm::Kind::Word;
+    return word ? item.terms[0].word : call.services().pool().intern(selector.text());
+  }
+};
+
+// A face of a primitive in scope coordinates: a rectangle from its ring.
+struct FlatFace {
+  std::array<Vec3, 4> ring;
+  Vec3 normal;
+  uint32_t tags = 0;
+  BoxSide side = kSideFront;
+};
+
+constexpr std::array<Vec3, 6> kSideNormals{
+    {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
+
+size_t facesOf(const Shape& s, std::array<FlatFace, 6>& out) {
+  const Vec3 z = s.size;
+  switch (s.geometry.kind) {
+    case GeometryKind::QuadXy:
+      out[0] = {{{{0, 0, 0}, {z.x, 0, 0}, {z.x, z.y, 0}, {0, z.y, 0}}}, {0, 0, 1}};
+      out[0].tags = s.geometry.tags[kSideFront];
+      return 1;
+    case GeometryKind::QuadXz:
+      out[0] = {{{{0, 0, z.z}, {z.x, 0, z.z}, {z.x, 0, 0}, {0, 0, 0}}}, {0, 1, 0}};
+      out[0].tags = s.geometry.tags[kSideTop];
+      out[0].side = kSideTop;
+      return 1;
+    case GeometryKind::Box: break;
+    default: return 0;
+  }
+  const auto& faces = boxFaces(s.geometry.order);
+  for (size_t f = 0; f < 6; ++f) {
+    for (size_t i = 0; i < 4; ++i) {
+      const uint32_t p = faces[f].ring[i], around = p % 4;
+      out[f].ring[i] = {around == 1 || around == 2 ? z.x : 0, p >= 4 ? z.y : 0,
+                        around >= 2 ? z.z : 0};
+    }
+    out[f].side = faces[f].side;
+    out[f].normal = kSideNormals[faces[f].side];
+    out[f].tags = s.geometry.tags[faces[f].side];
+  }
+  return 6;
+}
+
+// The side of a box that lies beyond the edge `i` of a face.
+Vec3 beyondEdge(const FlatFace& f, size_t i) {
+  return cross(f.ring[(i + 1) % 4] - f.ring[i], f.normal);
+}
+
+class FlatTags : public TagSource {
+ public:
+  FlatTags(const std::array<FlatFace, 6>& faces, size_t count) : faces_(faces), count_(count) {}
+  void tagsOf(const Selectable& c, Of of, std::vector<uint32_t>& out) const override {
+    out.push_back(faces_[c.index].tags);
+    if (of == Of::Component || count_ == 1) return;
+    // All faces of a box but the one opposite are beyond an edge, and beyond a vertex.
+    const auto opposite = static_cast<BoxSide>(faces_[c.index].side ^ 1);
+    for (size_t f = 0; f < count_; ++f) {
+      if (faces_[f].side != opposite) out.push_back(faces_[f].tags);
+    }
+  }
+
+ private:
+  const std::array<FlatFace, 6>& faces_;
+  size_t count_;
+};
+
+Shape flatChild(const Context& context, Shape s, const FlatFace& face, size_t faceCount) {
+  const Shape& parent = context.call.shape();
+  const Vec3 along = face.ring[1] - face.ring[0], up = face.ring[3] - face.ring[0];
+  const double width = length(along), height = length(up);
+  const Frame own = Frame::of(face.ring[0], along * (1 / width), up * (1 / height), face.normal);
+  s.scope = parent.scope * own;
+  s.pivot = s.scope;
+  s.size = {onGrid(width), onGrid(height), 0};
+  const bool uv = parent.geometry.uv;
+  s.geometry = primitive(GeometryKind::QuadXy, face.tags);
+  s.geometry.uv = uv;
+  if (faceCount > 1) {
+    ShapeExtra extra = extraOf(parent);
+    for (size_t i = 0; i < 4; ++i) {
+      const Vec3 beyond = normalized(beyondEdge(face, i));
+      addTrimPlane(extra, parent,
+                   {face.ring[i], face.ring[(i + 1) % 4] - face.ring[i], face.normal, beyond});
+    }
+    s.extra = makeRef<ShapeExtra>(std::move(extra));
+    forgetFarTrimPlanes(s);
+  }
+  return s;
+}
+
+// True when the primitive's faces can be given out one by one as rectangles.
+bool hasFlatFaces(const OpCall& call, const Shape& s) {
+  const bool kind = s.geometry.kind == GeometryKind::Box ||
+                    s.geometry.kind == GeometryKind::QuadXy ||
+                    s.geometry.kind == GeometryKind::QuadXz;
+  if (!kind || s.size.x <= 0) return false;
+  if (s.geometry.kind != GeometryKind::QuadXz && s.size.y <= 0) return false;
+  if (s.geometry.kind != GeometryKind::QuadXy && s.size.z <= 0) return false;
+  if (s.geometry.kind == GeometryKind::QuadXz && s.size.y < 0) return false;
+  if (s.geometry.kind == GeometryKind::QuadXy && s.size.z < 0) return false;
+  for (const SelectorItem& item : call.selectors()) {
+    if (item.op != SelectOperator::Each) return false;
+  }
+  return true;
+}
+
+void splitFlatFaces(const Context& context) {
+  OpCall& call = context.call;
+  const Shape& s = call.shape();
+  std::array<FlatFace, 6> faces;
+  const size_t count = facesOf(s, faces);
+  const FlatTags tags(faces, count);
+  const Directions directions(call.services(), s);
+  std::array<bool, 6> taken{};
+  for (const SelectorItem& item : call.selectors()) {
+    const Selector selector(item, call.services().pool(), directions);
+    std::array<uint32_t, 6> chosen{};
+    size_t total = 0;
+    for (uint32_t f = 0; f < count; ++f) {
+      Selectable what;
+      what.normal = faces[f].normal;
+      what.index = f;
+      what.border = count == 1;
+      if (taken[f] || !selector.matches(what, &tags, call.services().tags())) continue;
+      taken[f] = true;
+      chosen[total++] = f;
+    }
+    const StringId name = context.nameOf(item, selector);
+    for (size_t i = 0; i < total; ++i) {
+      Shape child = context.child(name, i, total);
+      call.emit(flatChild(context, std::move(child), faces[chosen[i]], count), item.slot,
+                chosen[i]);
+    }
+  }
+}
+
+Frame axesOf(const Component& c, ComponentKind kind) {
+  const bool alongEdge = kind == ComponentKind::Edges || kind == ComponentKind::FaceEdges ||
+                         kind == ComponentKind::FaceVertices;
+  if (!alongEdge) return frameFromZ(c.origin, c.z, c.x);
+  // The edge is exactly x; z leans on it.
+  const Frame f = frameFromZ(c.origin, c.x, c.z);
+  return Frame::of(c.origin, f.z, cross(f.x, f.z), f.x);
+}
+
+// The planes at the edges that a face shares. One that cuts the face itself, as those beside a
+// reflex corner do, would cut what is put into it at the wrong place, and is left out.
+void addFaceTrimPlanes(Shape& s, const Shape& parent, const Mesh& mesh, const Components& all,
+                       const Component& c) {
+  ShapeExtra extra = extraOf(parent);
+  const MeshEdges& edges = all.edges();
+  double extent = 0;
+  for (size_t i = 0; i < 3; ++i) extent = std::max(extent, std::fabs(s.size[i]));
+  const MeshLoop& outer = mesh.loopsOf(c.face)[0];
+  for (uint32_t i = 0; i < outer.cornerCount; ++i) {
+    const uint32_t corner = outer.firstCorner + i;
+    const MeshEdge& e = edges.edges()[edges.edgeOf(corner)];
+    if (e.uses != 2) continue;
+    const uint32_t other = e.corner == corner ? e.other : e.corner;
+    if (edges.faceOf(other) == c.face) continue;
+    const size_t before = extra.trim.size();
+    addTrimPlane(extra, parent,
+                 {mesh.at(corner), mesh.at(edges.next(corner)) - mesh.at(corner),
+                  mesh.normal(c.face), mesh.normal(edges.faceOf(other))});
+    if (extra.trim.size() == before) continue;
+    const TrimPlane& plane = extra.trim.back();
+    for (uint32_t k = 0; k < outer.cornerCount; ++k) {
+      const Vec3 p = parent.scope.point(mesh.at(outer.firstCorner + k));
+      if (dot(plane.normal, p) <= plane.distance + 1e-6 * (1 + extent)) continue;
+      extra.trim.pop_back();
+      break;
+    }
+  }
+  s.extra = makeRef<ShapeExtra>(std::move(extra));
+  forgetFarTrimPlanes(s);
+}
+
+void emitComponents(const Context& context, const Mesh& mesh, const Components& all,
+                    ComponentKind kind, const std::vector<uint32_t>& which, Shape child,
+                    uint32_t slot, bool each) {
+  OpCall& call = context.call;
+  const Shape& parent = call.shape();
+  const Component& first = all.list()[which[0]];
+  Mesh part = all.meshOf(which);
+  child.geometry = {};
+  if (context.align) {
+    const Frame own = axesOf(first, kind);
+    child.scope = parent.scope * own;
+    child.pivot = child.scope;
+    part = transformed(part, {1, 1, 1}, inverse(own));
+    for (Vec3& p : part.positions) p = onGrid(p);
+  } else {
+    child.scope = parent.scope;
+  }
+  child.size = {};
+  setMesh(child, std::move(part), ScopeFit::Refit);
+  if (kind == ComponentKind::Faces && each) {
+    addFaceTrimPlanes(child, parent, mesh, all, first);
+  } else {
+    forgetFarTrimPlanes(child);
+  }
+  call.emit(std::move(child), slot, which[0]);
+}
+
+// A face without area has no axes; it cannot be a shape.
+bool isDegenerate(const Component& c, ComponentKind kind) {
+  return kind != ComponentKind::Vertices && (c.z == Vec3{} || c.x == Vec3{});
+}
+
+void splitMesh(const Context& context, ComponentKind kind) {
+  OpCall& call = context.call;
+  const MeshRef mesh = meshInScope(call.shape());
+  const Components all(*mesh, kind);
+  const Directions directions(call.services(), call.shape());
+  std::vector<bool> taken(all.list().size(), false);
+  for (const SelectorItem& item : call.selectors()) {
+    const Selector selector(item, call.services().pool(), directions);
+    std::vector<uint32_t> chosen;
+    for (uint32_t i = 0; i < all.list().size(); ++i) {
+      const Component& c = all.list()[i];
+      if (taken[i] || isDegenerate(c, kind)) continue;
+      if (!selector.matches(c.what, &all, call.services().tags())) continue;
+      taken[i] = true;
+      chosen.push_back(i);
+    }
+    if (chosen.empty()) continue;
+    std::vector<std::vector<uint32_t>> sets;
+    if (item.op == SelectOperator::All) sets.push_back(chosen);
+    if (item.op == SelectOperator::Connected) sets = all.connected(chosen);
+    if (item.op == SelectOperator::Each) {
+      for (const uint32_t i : chosen) sets.push_back({i});
+    }
+    const StringId name = context.nameOf(item, selector);
+    for (size_t i = 0; i < sets.size(); ++i) {
+      emitComponents(context, *mesh, all, kind, sets[i], context.child(name, i, sets.size()),
+                     item.slot, item.op == SelectOperator::Each);
+    }
+  }
+}
+
+struct KindWord {
+  std::string_view word;
+  ComponentKind kind;
+};
+constexpr KindWord kKinds[] = {
+    {"f", ComponentKind::Faces},           {"faces", ComponentKind::Faces},
+    {"e", ComponentKind::Edges},           {"edges", ComponentKind::Edges},
+    {"fe", ComponentKind::FaceEdges},      {"v", ComponentKind::Vertices},
+    {"vertices", ComponentKind::Vertices}, {"fv", ComponentKind::FaceVertices},
+    {"g", ComponentKind::Materials},       {"groups", ComponentKind::Materials},
+    {"m", ComponentKind::Materials},       {"materials", ComponentKind::Materials},
+    {"h", ComponentKind::Holes},           {"holes", ComponentKind::Holes},
+};
+
+Status applyComp(OpCall& call) {
+  for (const KindWord& k : kKinds) {
+    if (!call.is(0, k.word)) continue;
+    const Context context{call, !call.is(1, "noAlign")};
+    if (k.kind == ComponentKind::Faces && context.align && hasFlatFaces(call, call.shape())) {
+      splitFlatFaces(context);
+    } else {
+      splitMesh(context, k.kind);
+    }
+    return {};
+  }
+  return call.fail("comp-kind", "there is no such kind of component",
+                   "the kinds are f, e, fe, v, fv, g, m and h");
+}
+
+constexpr ParamSpec kParams[] = {
+    {"component", ParamType::Selector,
+     "What to divide into: faces, edges, face edges, vertices, face vertices, groups, materials or "
+     "holes.",
+     nullptr, "f faces e edges fe v vertices fv g groups m materials h holes"},
+    {"scopeAlignment", ParamType::Selector,
+     "zUp gives each component axes of its own, with z along its normal; noAlign keeps the axes "
+     "and the pivot.",
+     "zUp", "zUp noAlign"},
+};
+constexpr Signature kSignatures[] = {{kParams}};
+
+constexpr OpSpec kSpecs[] = {
+    {"comp", "subdivide", "Divides the shape into faces, edges, vertices or other components.",
+     kSignatures, applyComp, BlockKind::Selectors, kReadsWorld | kReadsWorldByWord | kReadsPivot},
+};
+
+}  // namespace
+
+extern const OpList kOps_comp;
+const OpList kOps_comp = kSpecs;
+
+}  // namespace gable

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Components: the faces, edges, vertices, materials or holes of a mesh as a component split counts
+// and selects them, and the axes that each gives its shape.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "builtins/mesh_edges.h"
+#include "builtins/selection.h"
+#include "geom/mesh/mesh.h"
+
+namespace gable {
+
+enum class ComponentKind : uint8_t {
+  Faces,
+  Edges,
+  FaceEdges,
+  Vertices,
+  FaceVertices,
+  Materials,
+  Holes,
+};
+
+struct Component {
+  Selectable what;
+  /// The face; the material slot of Materials.
+  uint32_t face = 0;
+  /// The corner it begins at: of faces the first, of edges the start, of holes the first.
+  uint32_t corner = 0;
+  /// Its origin and axes in scope coordinates: x and z of the shape.
+  Vec3 origin, x, z;
+  /// For edges: from and to, as positions, in the direction of x.
+  uint32_t from = 0, to = 0;
+};
+
+class Components : public TagSource {
+ public:
+  /// Of a mesh in scope coordinates, which must outlive this. O(n log n).
+  Components(const Mesh& m, ComponentKind kind);
+
+  const std::vector<Component>& list() const { return list_; }
+  const MeshEdges& edges() const { return *edges_; }
+
+  /// The geometry of some components (by number) in scope coordinates.
+  Mesh meshOf(const std::vector<uint32_t>& which) const;
+  /// The components as connected sets, in the order of their first members.
+  std::vector<std::vector<uint32_t>> connected(const std::vector<uint32_t>& which) const;
+
+  void tagsOf(const Selectable& c, Of of, std::vector<uint32_t>& out) const override;
+
+ private:
+  void addFaces();
+  void addEdges();
+  void addFaceEdges();
+  void addVertices();
+  void addFaceVertices();
+  void addMaterials();
+  void addHoles();
+  void classifyRoofEdges();
+  bool facesBorder(uint32_t face) const;
+  Vec3 meanNormalOfEdge(uint32_t edge) const;
+  void faceTags(uint32_t face, Of of, std::vector<uint32_t>& out) const;
+  void edgeTags(uint32_t edge, std::vector<uint32_t>& out) const;
+  void vertexTags(uint32_t position, std::vector<uint32_t>& out) const;
+
+  const Mesh& mesh_;
+  ComponentKind kind_;
+  std::unique_ptr<MeshEdges> edges_;
+  std::vector<Vec3> normals_;
+  std::vector<Component> list_;
+};
+
+}  // namespace gable
