@@ -36,9 +36,11 @@ constexpr uint32_t kTile = 16;
 /// The empty ground pales from this distance on, by 63 % a kilometre further.
 constexpr float kNearGround = 250, kGroundFade = 1e-6f;
 
-bool intersect(const Stage& stage, const Ray& ray, Surface& surface, float& distance) {
+bool intersect(const Stage& stage, const Ray& ray, bool ordered, Surface& surface,
+               float& distance) {
   Hit hit;
-  const bool found = stage.tracer.intersect(ray, hit);
+  const bool found =
+      ordered ? stage.tracer.intersectOrdered(ray, hit) : stage.tracer.intersect(ray, hit);
   if (stage.ground && ray.direction.y < 0) {
     const float t = (stage.groundHeight - ray.origin.y) / ray.direction.y;
     // What lies on the ground, within 3 mm, wins over it.
@@ -105,7 +107,7 @@ PathResult tracePath(const Stage& stage, Ray ray, uint32_t x, uint32_t y, uint32
     Surface surface;
     float distance = 0;
     ++result.rays;
-    if (!intersect(stage, ray, surface, distance)) {
+    if (!intersect(stage, ray, sharp, surface, distance)) {
       const Vec3f sky = sharp ? light.shownSky(ray.direction) : light.sky(ray.direction);
       Vec3f& to = sharp ? result.direct : result.indirect;
       to += withoutFireflies(carried * sky, limit * 4);

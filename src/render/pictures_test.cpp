@@ -31,8 +31,10 @@ TEST(Pictures, ofTheStreetForTheEye) {
   if (!folder) GTEST_SKIP() << "set GABLE_PICTURES to a folder to get pictures to look at";
   const char* samples = std::getenv("GABLE_SAMPLES");
   const Scene scene = streetScene();
-  const std::pair<View, const char*> views[] = {
-      {View::Iso, "iso"}, {View::Front, "front"}, {View::Street, "street"}, {View::Top, "top"}};
+  const std::pair<PictureView, const char*> views[] = {{PictureView::Iso, "iso"},
+                                                       {PictureView::Front, "front"},
+                                                       {PictureView::Street, "street"},
+                                                       {PictureView::Top, "top"}};
   for (const auto& [view, name] : views) {
     RenderOptions options;
     options.view = view;

@@ -97,9 +97,9 @@ Picture render(const Scene& scene, const RenderOptions& options) {
       options.groundHeight ? *options.groundHeight - world.origin.y : world.footHeight;
   const double front = options.frontAzimuth ? *options.frontAzimuth : rt::frontAzimuthOf(world);
   const rt::Subject subject{world, tracer, rt::framingPoints(world), foot, front};
-  const rt::Light light(options,
-                        options.sunElevation.value_or(options.view == View::Top ? 50.0 : 38.0),
-                        options.sunAzimuth.value_or(front + 45));
+  const rt::Light light(
+      options, options.sunElevation.value_or(options.view == PictureView::Top ? 50.0 : 38.0),
+      options.sunAzimuth.value_or(front + 45));
   picture.camera = rt::chooseCamera(subject, options, light);
 
   const double haze = hazeDistance(options, picture.camera, world);

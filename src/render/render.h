@@ -6,7 +6,7 @@
 // rules made: camera, sun side, ground height and exposure follow from the scene.
 //
 //   RenderOptions options;
-//   options.view = View::Street;
+//   options.view = PictureView::Street;
 //   Picture picture = render(scene, options);
 //   std::vector<uint8_t> rgba = toRgba8(picture.image);
 //
@@ -46,7 +46,7 @@ class TextureSource {
   virtual const TextureImage* find(const std::string& path) const = 0;
 };
 
-enum class View : uint8_t {
+enum class PictureView : uint8_t {
   /// From above with a long lens, 38 degrees down, two fronts and the roofs in sight.
   Iso,
   /// The plan: north up, no perspective.
@@ -58,7 +58,7 @@ enum class View : uint8_t {
 };
 
 struct RenderOptions {
-  View view = View::Iso;
+  PictureView view = PictureView::Iso;
   uint32_t width = 1600, height = 900;
   /// Paths a pixel; 16 for a preview, 64 for a final picture.
   uint32_t samples = 32;

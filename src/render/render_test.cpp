@@ -116,7 +116,7 @@ TEST(Render, boxCastsAShadowAwayFromTheSun) {
   m.box({-1, 0, -1}, {2, 6, 2}, m.material("#C4C4C4"));
   m.box({-20, 0, -20}, {40, 0.01, 40}, m.material("#C4C4C4"));
   RenderOptions o = smallOptions(64, 64, 16);
-  o.view = View::Top;
+  o.view = PictureView::Top;
   o.sunElevation = 45;
   o.sunAzimuth = 270;
   const Picture p = render(m.finish(), o);
@@ -130,7 +130,7 @@ TEST(Render, boxCastsAShadowAwayFromTheSun) {
 
 TEST(Render, samePixelsForAnyNumberOfThreads) {
   const Scene scene = streetScene();
-  for (const View view : {View::Iso, View::Street}) {
+  for (const PictureView view : {PictureView::Iso, PictureView::Street}) {
     RenderOptions o = smallOptions(96, 54, 3);
     o.view = view;
     o.threads = 1;
@@ -146,7 +146,8 @@ TEST(Render, samePixelsForAnyNumberOfThreads) {
 
 TEST(Render, emptySceneShowsGroundAndSky) {
   const Scene scene;
-  for (const View view : {View::Iso, View::Top, View::Front, View::Street}) {
+  for (const PictureView view :
+       {PictureView::Iso, PictureView::Top, PictureView::Front, PictureView::Street}) {
     RenderOptions o = smallOptions();
     o.view = view;
     const Picture p = render(scene, o);
@@ -177,7 +178,8 @@ TEST(Render, leavesOutBrokenTriangles) {
   strange.opacity = -3;
   m.box({6, 0, 0}, {2, 2, 2}, m.material(strange));
   const Scene& scene = m.finish();
-  for (const View view : {View::Iso, View::Top, View::Front, View::Street}) {
+  for (const PictureView view :
+       {PictureView::Iso, PictureView::Top, PictureView::Front, PictureView::Street}) {
     RenderOptions o = smallOptions();
     o.view = view;
     expectClean(render(scene, o));
@@ -220,6 +222,26 @@ TEST(Render, placedPrototypesLookLikeMergedOnes) {
   }
 }
 
+TEST(Render, laterOfTwoCoincidingFacesShows) {
+  SceneMaker m;
+  m.box({-10, 0, -10}, {20, 1, 20}, m.material("#404040"));
+  m.box({-10, 1, -10}, {20, 2, 20}, m.material("#ff0000"));
+  m.leaves.back().scale.y = 0;
+  m.box({-7, 1, -7}, {14, 0, 14}, m.material("#00ff00"));
+  RenderOptions o = smallOptions(64, 64, 4);
+  o.eye = Vec3{0, 12, 20};
+  o.target = Vec3{0, 1, 0};
+  o.fov = 20;
+  const Picture p = render(m.finish(), o);
+  // Every pixel of the middle is green, none red or grey.
+  for (uint32_t y = 20; y < 44; ++y) {
+    for (uint32_t x = 20; x < 44; ++x) {
+      const float* c = &p.image.rgb[(y * 64 + x) * 3];
+      EXPECT_GT(c[1], 3 * c[0]);
+    }
+  }
+}
+
 TEST(Render, emissiveFacesShineAtNight) {
   const auto brightness = [](const Vec3& emissive) {
     SceneMaker m;
@@ -229,7 +251,7 @@ TEST(Render, emissiveFacesShineAtNight) {
     m.box({-8, -0.1, -8}, {16, 0.1, 16}, m.material("#808080"));
     RenderOptions o = smallOptions(48, 48, 32);
     o.sunElevation = -12;
-    o.view = View::Top;
+    o.view = PictureView::Top;
     return luminanceOf(meanOf(render(m.finish(), o).image, 0.47, 0.47, 0.53, 0.53));
   };
   EXPECT_GT(brightness({1, 0.8, 0.6}), 3 * brightness({0, 0, 0}));
@@ -261,7 +283,7 @@ Picture planOfTexturedQuad(const OneTexture& textures, Material material) {
   quad.materials = m.material(material);
   m.leaves.push_back(quad);
   RenderOptions o = smallOptions(64, 64, 16);
-  o.view = View::Top;
+  o.view = PictureView::Top;
   o.textures = &textures;
   o.groundHeight = -1;
   return render(m.finish(), o);

@@ -57,6 +57,8 @@ double off(double share, double lo, double hi) {
 
 double mark(const Subject& s, const Light& light, const Camera& camera, double aspect) {
   int sides[2] = {0, 0};
+  int flat = 0;
+  Vec3f last;
   int things = 0, sky = 0, inTheWay = 0, near = 0, lit = 0, walls = 0, cut = 0;
   double logSum = 0, logSquares = 0;
   for (int row = 0; row < kRows; ++row) {
@@ -70,8 +72,6 @@ double mark(const Subject& s, const Light& light, const Camera& camera, double a
       const Vec3f p = ray.origin + ray.direction * hit.distance;
       if (static_cast<double>(p.y) < s.groundHeight + 0.5) continue;
       ++things;
-      if (column < kColumns / 3) ++sides[0];
-      if (column >= kColumns - kColumns / 3) ++sides[1];
       cut += row == kRows - 1;
       inTheWay += hit.distance < 2.6f;
       near += hit.distance >= 2.6f && hit.distance < 7;
@@ -80,8 +80,16 @@ double mark(const Subject& s, const Light& light, const Camera& camera, double a
       logSquares += l * l;
       Vec3f n = normalized(hit.normal);
       if (dot(n, ray.direction) > 0) n = -n;
+      // Crowns and other round things turn from column to column, walls do not.
+      const bool goesOn = column > 0 && dot(n, last) > 0.99f;
+      last = n;
       if (std::abs(n.y) > 0.4f) continue;
       ++walls;
+      if (goesOn) {
+        ++flat;
+        if (column < kColumns / 3) ++sides[0];
+        if (column >= kColumns - kColumns / 3) ++sides[1];
+      }
       if (dot(n, light.sunDirection) < 0.05f) continue;
       Ray shadow;
       shadow.origin = p + n * 0.01f;
@@ -94,11 +102,11 @@ double mark(const Subject& s, const Light& light, const Camera& camera, double a
   const double mean = logSum / things;
   const double depth = std::sqrt(std::max(0.0, logSquares / things - mean * mean));
   const double litShare = walls > 0 ? static_cast<double>(lit) / walls : 0;
-  return -6 * off(things / all, 0.5, 0.68) - 3 * off(sky / all, 0.16, 0.32) -
-         8 * off(inTheWay / all, 0, 0.02) - 2 * off(near / all, 0.02, 0.2) -
-         1.5 * off(litShare, 0.5, 0.8) + 1.6 * std::min(depth, 1.5) -
-         4 * off(sides[0] / third, 0.4, 1) - 4 * off(sides[1] / third, 0.4, 1) -
-         1.2 * off(static_cast<double>(cut) / kColumns, 0, 0.3);
+  return -6 * off(things / all, 0.5, 0.68) - 4 * off(flat / all, 0.3, 0.6) -
+         3 * off(sky / all, 0.16, 0.32) - 8 * off(inTheWay / all, 0, 0.02) -
+         2 * off(near / all, 0.02, 0.2) - 1.5 * off(litShare, 0.5, 0.8) +
+         1.6 * std::min(depth, 1.5) - 4 * off(sides[0] / third, 0.4, 1) -
+         4 * off(sides[1] / third, 0.4, 1) - 1.2 * off(static_cast<double>(cut) / kColumns, 0, 0.3);
 }
 
 }  // namespace

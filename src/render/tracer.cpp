@@ -41,6 +41,70 @@ void passClear(const RTCFilterFunctionNArguments* args) {
   if (shadow.visibility > 1e-3f) args->valid[0] = 0;
 }
 
+/// A ray as Embree wants it.
+RTCRay embreeRay(const Ray& ray) {
+  RTCRay r;
+  r.org_x = ray.origin.x;
+  r.org_y = ray.origin.y;
+  r.org_z = ray.origin.z;
+  r.tnear = ray.from;
+  r.dir_x = ray.direction.x;
+  r.dir_y = ray.direction.y;
+  r.dir_z = ray.direction.z;
+  r.time = 0;
+  r.tfar = ray.to;
+  r.mask = 0xffffffff;
+  r.id = 0;
+  r.flags = 0;
+  return r;
+}
+
+Hit hitOf(const World& world, const RTCHit& h, float distance) {
+  Hit hit;
+  hit.distance = distance;
+  hit.normal = {h.Ng_x, h.Ng_y, h.Ng_z};
+  hit.u = h.u;
+  hit.v = h.v;
+  hit.triangle = h.primID;
+  hit.clear = h.geomID == kClear;
+  if (h.instID[0] != RTC_INVALID_GEOMETRY_ID) {
+    hit.placement = h.instID[0] - kFirstPlacement;
+    const Placement& p = world.placements[hit.placement];
+    hit.normal = p.x * hit.normal.x + p.y * hit.normal.y + p.z * hit.normal.z;
+  }
+  return hit;
+}
+
+/// What a ray gathers among coinciding faces.
+struct OrderContext {
+  RTCIntersectContext embree;
+  const World* world = nullptr;
+  Vec3f direction;
+  Hit best;
+  bool found = false;
+
+  /// Whether `a` shows where `a` and `b` coincide.
+  bool shows(const Hit& a, const Hit& b) const {
+    const bool af = dot(a.normal, direction) < 0, bf = dot(b.normal, direction) < 0;
+    if (af != bf) return af;
+    // kNone + 1 is 0: what is placed comes after what is merged.
+    if (a.placement != b.placement) return a.placement + 1 > b.placement + 1;
+    if (a.clear != b.clear) return a.clear;
+    return a.triangle > b.triangle;
+  }
+};
+
+/// Looks at every hit of the ray and lets it go on.
+void noteHit(const RTCFilterFunctionNArguments* args) {
+  if (args->valid[0] != -1) return;
+  args->valid[0] = 0;
+  auto& order = *reinterpret_cast<OrderContext*>(args->context);
+  const RTCHit h = rtcGetHitFromHitN(args->hit, 1, 0);
+  const Hit hit = hitOf(*order.world, h, RTCRayN_tfar(args->ray, 1, 0));
+  if (!order.found || order.shows(hit, order.best)) order.best = hit;
+  order.found = true;
+}
+
 RTCGeometry makeGeometry(RTCDevice device, const TriangleSet& set) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   // Embree reads 16 bytes at the last vertex; sets carry one vertex more than they use.
@@ -65,7 +129,8 @@ struct Tracer::Impl {
     clears.resize(world.parts.size());
     for (size_t p = 0; p < world.parts.size(); ++p) {
       RTCScene scene = rtcNewScene(device);
-      rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+      rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
+                                                         RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
       rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
       addSet(scene, world.parts[p].solid, kSolid, nullptr);
       clears[p] = {&world, &world.parts[p].clear};
@@ -114,52 +179,40 @@ bool Tracer::intersect(const Ray& ray, Hit& hit) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit r;
-  r.ray = {ray.origin.x,
-           ray.origin.y,
-           ray.origin.z,
-           ray.from,
-           ray.direction.x,
-           ray.direction.y,
-           ray.direction.z,
-           0,
-           ray.to,
-           0xffffffff,
-           0,
-           0};
+  r.ray = embreeRay(ray);
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(impl_->scenes[0], &context, &r);
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-  hit.distance = r.ray.tfar;
-  hit.normal = {r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z};
-  hit.u = r.hit.u;
-  hit.v = r.hit.v;
-  hit.triangle = r.hit.primID;
-  hit.clear = r.hit.geomID == kClear;
-  hit.placement = kNone;
-  if (r.hit.instID[0] != RTC_INVALID_GEOMETRY_ID) {
-    hit.placement = r.hit.instID[0] - kFirstPlacement;
-    const Placement& p = impl_->world.placements[hit.placement];
-    hit.normal = p.x * hit.normal.x + p.y * hit.normal.y + p.z * hit.normal.z;
-  }
+  hit = hitOf(impl_->world, r.hit, r.ray.tfar);
+  return true;
+}
+
+bool Tracer::intersectOrdered(const Ray& ray, Hit& hit) const {
+  if (!intersect(ray, hit)) return false;
+  // Distances to one plane differ by rounding, the more the flatter the ray meets it.
+  const float cosine = std::abs(dot(normalized(hit.normal), normalized(ray.direction)));
+  const float slack = (5e-5f + 1e-6f * hit.distance) / std::max(0.05f, cosine);
+  OrderContext order;
+  rtcInitIntersectContext(&order.embree);
+  order.embree.filter = noteHit;
+  order.world = &impl_->world;
+  order.direction = ray.direction;
+  RTCRayHit r;
+  r.ray = embreeRay(ray);
+  r.ray.tnear = std::max(ray.from, hit.distance - slack);
+  r.ray.tfar = std::min(ray.to, hit.distance + slack);
+  r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(impl_->scenes[0], &order.embree, &r);
+  if (order.found) hit = order.best;
   return true;
 }
 
 float Tracer::visibility(const Ray& ray) const {
   ShadowContext context;
   rtcInitIntersectContext(&context.embree);
-  RTCRay r = {ray.origin.x,
-              ray.origin.y,
-              ray.origin.z,
-              ray.from,
-              ray.direction.x,
-              ray.direction.y,
-              ray.direction.z,
-              0,
-              ray.to,
-              0xffffffff,
-              0,
-              0};
+  RTCRay r = embreeRay(ray);
   rtcOccluded1(impl_->scenes[0], &context.embree, &r);
   return r.tfar < 0 ? 0 : context.visibility;
 }

@@ -41,6 +41,9 @@ class Tracer {
 
   /// The nearest hit.
   bool intersect(const Ray& ray, Hit& hit) const;
+  /// The nearest hit, and of faces that coincide there the one that looks at the ray, and of these
+  /// the last in path order: what was laid on a face shows.
+  bool intersectOrdered(const Ray& ray, Hit& hit) const;
   /// The share of light that gets along the ray: 0 behind something solid.
   float visibility(const Ray& ray) const;
 

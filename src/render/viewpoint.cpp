@@ -137,19 +137,19 @@ Camera standardCamera(const Subject& subject, const RenderOptions& options, cons
   const double toFront = subject.frontAzimuth + 180;
   const double tall = subject.world.bounds.max.y - subject.groundHeight;
   switch (options.view) {
-    case View::Top: {
+    case PictureView::Top: {
       Camera camera = cameraTowards(0, -90);
       frameParallel(camera, subject.points, aspect);
       return camera;
     }
-    case View::Front: {
+    case PictureView::Front: {
       Camera camera = cameraTowards(toFront - 30, 0);
       camera.halfWidth = given > 0 ? given : lens(40);
       const double height = subject.groundHeight + std::clamp(0.42 * tall, 1.6, 8.0);
       frameLevel(camera, subject, aspect, height);
       return camera;
     }
-    case View::Street: {
+    case PictureView::Street: {
       Camera camera;
       const double halfWidth = given > 0 ? given : lens(tall > 60 ? 20 : 26);
       if (findStandpoint(subject, light, halfWidth, aspect, camera)) return camera;
@@ -158,7 +158,7 @@ Camera standardCamera(const Subject& subject, const RenderOptions& options, cons
       frameLevel(camera, subject, aspect, subject.groundHeight + 1.62);
       return camera;
     }
-    case View::Iso: break;
+    case PictureView::Iso: break;
   }
   Camera camera = cameraTowards(toFront - 34, -38);
   camera.halfWidth = given > 0 ? given : lens(60);
@@ -193,7 +193,7 @@ Camera chooseCamera(const Subject& subject, const RenderOptions& options, const 
   Camera camera;
   if (options.eye) {
     camera.eye = *options.eye - subject.world.origin;
-    camera.halfWidth = lens(options.view == View::Street ? 26 : 40);
+    camera.halfWidth = lens(options.view == PictureView::Street ? 26 : 40);
   } else {
     camera = standardCamera(subject, options, light, aspect);
     if (camera.parallel) {

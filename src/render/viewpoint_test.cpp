@@ -56,7 +56,7 @@ TEST(Viewpoint, viewsHoldTheWholeSubject) {
     const Set s(boxScene(size));
     RenderOptions o;
     const Light light(o, 38, 225);
-    for (const View view : {View::Iso, View::Top, View::Front}) {
+    for (const PictureView view : {PictureView::Iso, PictureView::Top, PictureView::Front}) {
       o.view = view;
       const Camera c = chooseCamera(s.subject, o, light);
       const Reach r = reachOf(c, s.subject.points, 16.0 / 9);
@@ -73,7 +73,7 @@ TEST(Viewpoint, frontAndStreetKeepVerticalsUpright) {
   const Set s(streetScene());
   RenderOptions o;
   const Light light(o, 38, 225);
-  for (const View view : {View::Front, View::Street}) {
+  for (const PictureView view : {PictureView::Front, PictureView::Street}) {
     o.view = view;
     const Camera c = chooseCamera(s.subject, o, light);
     EXPECT_EQ(c.up, (Vec3{0, 1, 0}));
@@ -85,7 +85,7 @@ TEST(Viewpoint, frontAndStreetKeepVerticalsUpright) {
 TEST(Viewpoint, streetEyeStandsOnOpenGround) {
   const Set s(streetScene());
   RenderOptions o;
-  o.view = View::Street;
+  o.view = PictureView::Street;
   const Camera c = chooseCamera(s.subject, o, Light(o, 38, 225));
   Ray up;
   up.origin = toVec3f(c.eye);
