@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The analysis as a whole: load, declare, infer, report. Types of parameters, functions and
+// attributes depend on each other in circles, so all bodies are walked in silent rounds until
+// nothing changes; types only ever become known or are left open, which bounds the rounds. One more
+// round reports.
+
+#include "lang/sema/analyse.h"
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "lang/sema/analysis.h"
+
+namespace gable::lang {
+
+Analysis::Analysis(const Catalogue& catalogue, ValuePool& values, FileLoader* loader,
+                   Sources& sources, Diagnostics& diagnostics)
+    : catalogue_(catalogue),
+      values_(values),
+      loader_(loader),
+      sources_(sources),
+      diagnostics_(diagnostics) {
+  for (const SelectorSpec& s : catalogue.selectors) selectors_.insert(s.name);
+}
+
+void Analysis::error(const char* code, Span span, std::string message, std::string hint) {
+  if (!mute_) diagnostics_.error(code, span, std::move(message), std::move(hint));
+}
+
+void Analysis::warning(const char* code, Span span, std::string message, std::string hint) {
+  if (!mute_) diagnostics_.warning(code, span, std::move(message), std::move(hint));
+}
+
+// --- Definitions ---
+
+void Analysis::openFrame(ModuleId module, NodeId declaration,
+                         const std::vector<ValueType>& paramTypes, const std::vector<bool>& open) {
+  body_ = {};
+  body_.module = module;
+  body_.types = paramTypes;
+  body_.open = open;
+  for (const NodeId p : tree().children(paramsOf(tree(), declaration))) {
+    if (std::find(body_.slots.begin(), body_.slots.end(), text(p)) != body_.slots.end()) {
+      errorAt("duplicate-parameter", p, quote(text(p)) + " stands here twice",
+              "rename one of the two");
+    }
+    body_.slots.push_back(text(p));
+  }
+  body_.paramCount = body_.slots.size();
+  body_.types.resize(body_.paramCount, ValueType::Null);
+  body_.open.resize(body_.paramCount, false);
+}
+
+// Local variables see the parameters and the local variables before them.
+void Analysis::walkLocals(NodeId declaration) {
+  for (const NodeId local : tree().children(localsOf(tree(), declaration))) {
+    const ValueType type = visit(tree().child(local, 0));
+    body_.slots.push_back(text(local));
+    body_.types.push_back(type);
+  }
+}
+
+void Analysis::walkRule(RuleId id) {
+  const RuleInfo& r = program_.rules[id];
+  const NodeId node = r.node;
+  openFrame(r.module, node, r.paramTypes, openRules_[id]);
+  walkLocals(node);
+  visitSequence(bodyOf(tree(), node));
+  openRules_[id] = body_.open;
+  body_.types.resize(body_.paramCount);
+  program_.rules[id].paramTypes = body_.types;
+}
+
+void Analysis::walkFunction(FunctionId id) {
+  const FunctionInfo& f = program_.functions[id];
+  const NodeId node = f.node;
+  openFrame(f.module, node, f.paramTypes, openFunctions_[id]);
+  walkLocals(node);
+  const NodeId value = bodyOf(tree(), node);
+  const ValueType type = visit(value, f.result);
+  openFunctions_[id] = body_.open;
+  body_.types.resize(body_.paramCount);
+  FunctionInfo& after = program_.functions[id];
+  after.paramTypes = body_.types;
+  if (after.result == ValueType::Null && type != ValueType::Null) {
+    after.result = type;
+    changed_ = true;
+  }
+}
+
+void Analysis::walkAttribute(AttributeId id) {
+  const NodeId node = program_.attributes[id].node;
+  openFrame(program_.attributes[id].module, node, {}, {});
+  body_.attribute = id;
+  walkLocals(node);
+  const ValueType type = visit(bodyOf(tree(), node));
+  AttributeInfo& a = program_.attributes[id];
+  if (a.type == ValueType::Null && type != ValueType::Null) {
+    a.type = type;
+    changed_ = true;
+  }
+  if (a.source != ValueSource::Override) return;
+  const NodeId value = a.valueNode;
+  const ValueType wanted = a.type;
+  body_ = {};
+  body_.module = a.valueModule;
+  body_.attribute = id;
+  expectType(value, visit(value, wanted), wanted, "the value of this attribute");
+}
+
+void Analysis::round() {
+  changed_ = false;
+  const size_t modules = program_.modules.size();
+  // By index: dynamic imports append to all three while they are walked.
+  for (AttributeId i = 0; i < program_.attributes.size(); ++i) walkAttribute(i);
+  for (FunctionId i = 0; i < program_.functions.size(); ++i) walkFunction(i);
+  for (RuleId i = 0; i < program_.rules.size(); ++i) walkRule(i);
+  changed_ = changed_ || program_.modules.size() != modules;
+}
+
+void Analysis::infer() {
+  // Each round that goes on settles at least one type; real programs need three or four.
+  constexpr int kRounds = 20;
+  mute_ = true;
+  for (int i = 0; i < kRounds; ++i) {
+    round();
+    if (!changed_) break;
+  }
+  mute_ = false;
+  round();
+}
+
+// --- Duplicates, which types decide ---
+
+template <class Info>
+void Analysis::reportOverloads(const std::vector<std::vector<uint32_t>>& sets,
+                               const std::vector<Info>& infos, const char* code) {
+  const auto differ = [](const Info& a, const Info& b) {
+    for (size_t i = 0; i < a.paramTypes.size(); ++i) {
+      const bool known = a.paramTypes[i] != ValueType::Null && b.paramTypes[i] != ValueType::Null;
+      if (known && a.paramTypes[i] != b.paramTypes[i]) return true;
+    }
+    return false;
+  };
+  for (const std::vector<uint32_t>& set : sets) {
+    for (size_t i = 0; i < set.size(); ++i) {
+      for (size_t j = 0; j < i; ++j) {
+        const Info& a = infos[set[j]];
+        const Info& b = infos[set[i]];
+        if (a.paramCount != b.paramCount || differ(a, b)) continue;
+        error(code, nameSpan(program_.tree(b.module), b.node),
+              quote(b.name) + " is defined already with " + std::to_string(b.paramCount) +
+                  (b.paramCount == 1 ? " parameter" : " parameters"),
+              "rename one of the two");
+        break;
+      }
+    }
+  }
+}
+
+void Analysis::reportDuplicates(ModuleId firstModule) {
+  for (ModuleId m = firstModule; m < scopes_.size(); ++m) {
+    std::vector<std::vector<uint32_t>> rules, functions;
+    for (const auto& [name, ids] : scopes_[m].rules) rules.push_back(ids);
+    for (const auto& [name, ids] : scopes_[m].functions) functions.push_back(ids);
+    // The maps have no order; reports shall.
+    std::sort(rules.begin(), rules.end());
+    std::sort(functions.begin(), functions.end());
+    reportOverloads(rules, program_.rules, "duplicate-rule");
+    reportOverloads(functions, program_.functions, "duplicate-name");
+  }
+}
+
+// An importer's attribute of another type has only the name in common with the imported one.
+void Analysis::reportOverrideTypes() {
+  for (AttributeInfo& a : program_.attributes) {
+    if (a.source != ValueSource::Propagated) continue;
+    const AttributeInfo& from = program_.attributes[a.from];
+    if (from.type == a.type || from.type == ValueType::Null || a.type == ValueType::Null) continue;
+    warning("propagation-type", nameSpan(program_.tree(from.module), from.node),
+            quote(from.name) + " is a " + typeName(from.type) + ", but " + quote(a.qualifiedName) +
+                " is a " + typeName(a.type) + " and keeps its own value",
+            "rename one, or protect it: import ... (" + a.name + ")");
+    a.source = ValueSource::Own;
+    a.from = kNone;
+  }
+}
+
+void Analysis::chooseStartRule() {
+  RuleId first = kNone;
+  for (const RuleInfo& r : program_.rules) {
+    if (r.module != 0 || r.paramCount != 0 || isImport(0, r.name)) continue;
+    if (first == kNone) first = r.id;
+    if (!r.annotations.startRule && !r.start) continue;
+    program_.startRule = r.id;
+    return;
+  }
+  program_.startRule = first;
+}
+
+// Styles that are not derived now are checked all the same; what is made for them is dropped.
+void Analysis::checkOtherStyles() {
+  const std::string active = program_.modules[0].style;
+  for (const StyleInfo& style : std::vector<StyleInfo>(units_[0].styles)) {
+    if (style.name == active) continue;
+    const size_t modules = program_.modules.size();
+    const size_t rules = program_.rules.size();
+    const size_t functions = program_.functions.size();
+    const size_t attributes = program_.attributes.size();
+    const size_t dynamics = program_.dynamicImports.size();
+    const ModuleId main = addModule(0, "", style.name, kNone, kNoNode, false);
+    addImports(main);
+    infer();
+    reportDuplicates(main);
+    program_.modules.resize(modules);
+    scopes_.resize(modules);
+    program_.rules.resize(rules);
+    program_.functions.resize(functions);
+    program_.attributes.resize(attributes);
+    program_.dynamicImports.resize(dynamics);
+    const auto drop = [](auto& map, auto isNew) {
+      for (auto at = map.begin(); at != map.end();) at = isNew(*at) ? map.erase(at) : std::next(at);
+    };
+    drop(dynamicModules_, [&](const auto& e) { return e.first.first >= modules; });
+    drop(ownValues_, [&](const auto& e) { return e.first >= attributes; });
+    drop(openRules_, [&](const auto& e) { return e.first >= rules; });
+    drop(openFunctions_, [&](const auto& e) { return e.first >= functions; });
+  }
+}
+
+ResolvedProgram Analysis::run(AnalysisInput input) {
+  const uint32_t file = input.tree.file();
+  unitByPath_.emplace(input.path, 0);
+  program_.units.push_back({std::move(input.path), file, std::move(input.tree)});
+  units_.emplace_back();
+  indexUnit(0);
+  std::vector<uint32_t> open;
+  loadImports(0, open);
+
+  std::string style = input.style.empty() ? "Default" : input.style;
+  const std::vector<StyleInfo>& styles = units_[0].styles;
+  if (std::none_of(styles.begin(), styles.end(),
+                   [&](const StyleInfo& s) { return s.name == style; })) {
+    std::vector<std::string_view> names;
+    for (const StyleInfo& s : styles) names.push_back(s.name);
+    error("unknown-style", {}, "the rule file has no style " + quote(style),
+          didYouMean(style, names));
+    style = "Default";
+  }
+  addModule(0, "", style, kNone, kNoNode, false);
+  addImports(0);
+  infer();
+  reportDuplicates(0);
+  reportOverrideTypes();
+  checkOtherStyles();
+  orderAttributes();
+  foldConstants();
+  chooseStartRule();
+  program_.styles = units_[0].styles;
+  program_.description = units_[0].description;
+  return std::move(program_);
+}
+
+ResolvedProgram analyse(AnalysisInput input, const Catalogue& catalogue, ValuePool& values,
+                        FileLoader* loader, Sources& sources, Diagnostics& diagnostics) {
+  return Analysis(catalogue, values, loader, sources, diagnostics).run(std::move(input));
+}
+
+}  // namespace gable::lang

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The state of an analysis, for the files that implement it: modules.cpp (imports, declarations),
+// names.cpp (look-up), calls.cpp (signatures and arguments), expressions.cpp and successors.cpp
+// (the walk over bodies), order.cpp (initialisation), fold.cpp (constants). Not included elsewhere.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "lang/sema/analyse.h"
+#include "lang/sema/resolved.h"
+#include "lang/tree.h"
+#include "program/spec.h"
+#include "program/value.h"
+
+namespace gable::lang {
+
+/// One use of a file is one module; so many are more than any real project has.
+inline constexpr size_t kMaxModules = 2000;
+inline constexpr size_t kMaxUnits = 1000;
+
+/// What a module offers by name. Keys are views of the texts of its tree.
+struct Scope {
+  std::unordered_map<std::string_view, std::vector<RuleId>> rules;
+  std::unordered_map<std::string_view, std::vector<FunctionId>> functions;
+  std::unordered_map<std::string_view, AttributeId> attributes;
+  std::unordered_map<std::string_view, ModuleId> imports;
+  /// Rules that the importer puts in the place of ours.
+  std::unordered_map<std::string_view, std::vector<RuleId>> replaced;
+  std::vector<RuleId> startRules;
+};
+
+/// A declaration with the section of the file it stands in.
+struct Declaration {
+  NodeId node;
+  /// The style it belongs to; "Default" before the first `style`.
+  std::string_view style;
+  Annotations annotations;
+};
+
+/// The declarations of a unit, sorted out once.
+struct UnitIndex {
+  std::vector<Declaration> rules, functions, attributes, imports;
+  /// name -> base, in the order of the file.
+  std::vector<StyleInfo> styles;
+  std::unordered_set<std::string_view> importNames;
+  std::string description;
+};
+
+class Analysis {
+ public:
+  Analysis(const Catalogue& catalogue, ValuePool& values, FileLoader* loader, Sources& sources,
+           Diagnostics& diagnostics);
+
+  ResolvedProgram run(AnalysisInput input);
+
+ private:
+  /// The body that is being walked.
+  struct Body {
+    ModuleId module = 0;
+    /// Names of parameters and local variables; the index is the slot.
+    std::vector<std::string_view> slots;
+    /// Types by slot; those of parameters are inferred, and `open` where uses contradict each
+    /// other.
+    std::vector<ValueType> types;
+    std::vector<bool> open;
+    size_t paramCount = 0;
+    /// Set while the value of an attribute is walked.
+    AttributeId attribute = kNone;
+  };
+
+  // --- modules.cpp: files, styles, imports, declarations ---
+  uint32_t loadUnit(const std::string& path, Span from, uint32_t importerUnit,
+                    std::vector<uint32_t>& open);
+  void indexUnit(uint32_t unit);
+  void loadImports(uint32_t unit, std::vector<uint32_t>& open);
+  ModuleId addModule(uint32_t unit, std::string path, std::string style, ModuleId importer,
+                     NodeId importNode, bool dynamic);
+  std::vector<std::string_view> styleChain(uint32_t unit, std::string_view style) const;
+  void declareAll(ModuleId module);
+  void declareRules(ModuleId module, const std::vector<std::string_view>& chain);
+  void declareFunctions(ModuleId module, const std::vector<std::string_view>& chain);
+  void declareAttributes(ModuleId module, const std::vector<std::string_view>& chain);
+  void addImports(ModuleId module);
+  void bindOverrides(ModuleId module, NodeId overrides, bool dynamic);
+  void bindRuleOverride(ModuleId module, NodeId rule, ModuleId owner);
+  void propagateAttributes(ModuleId module, NodeId overrides);
+  RuleId addRule(ModuleId owner, NodeId node, std::string name, const Annotations& notes);
+  ModuleId dynamicModule(ModuleId module, NodeId node);
+  std::string styleOfImport(ModuleId importer, NodeId import, uint32_t unit);
+
+  // --- names.cpp: look-up ---
+  struct RuleSet {
+    std::vector<RuleId> rules;
+    /// The name begins with the name of an import.
+    bool imported = false;
+  };
+  RuleSet rulesNamed(ModuleId module, std::string_view name) const;
+  std::vector<FunctionId> functionsNamed(ModuleId module, std::string_view name) const;
+  AttributeId attributeNamed(ModuleId module, std::string_view name) const;
+  /// The module and the rest of a name with prefixes of imports.
+  std::pair<ModuleId, std::string_view> enter(ModuleId module, std::string_view name) const;
+  bool isImport(ModuleId module, std::string_view name) const;
+  bool inMissingImport(ModuleId module, std::string_view name) const;
+  bool ruleInAnyStyle(ModuleId module, std::string_view name) const;
+  std::vector<std::string_view> ruleNames(ModuleId module) const;
+  std::vector<std::string_view> valueNames(ModuleId module) const;
+  AttributeId ownValueOf(AttributeId attribute);
+
+  // --- calls.cpp: signatures and arguments ---
+  struct CallTarget {
+    std::string_view name;
+    NodeId node;
+    std::span<const Signature> signatures;
+  };
+  /// Visits the arguments and chooses a signature; 0xffff when none fits, which is reported.
+  uint16_t checkBuiltinCall(const CallTarget& target, std::span<const NodeId> arguments);
+  bool acceptsCount(std::span<const Signature> signatures, size_t count) const;
+  ValueType visitArgument(NodeId node, const std::vector<const ParamSpec*>& params);
+  void checkPrefix(NodeId node, const std::vector<const ParamSpec*>& params);
+  std::vector<ValueType> visitArguments(std::span<const NodeId> arguments);
+  template <class Info>
+  uint32_t chooseOverload(const std::vector<uint32_t>& candidates, const std::vector<Info>& infos,
+                          std::span<const NodeId> arguments, const std::vector<ValueType>& types);
+  std::span<const NodeId> arguments(NodeId list) const;
+  void checkNamedArguments(std::span<const NodeId> arguments);
+
+  // --- expressions.cpp ---
+  ValueType visit(NodeId node, ValueType expected = ValueType::Null);
+  ValueType visitName(NodeId node, ValueType expected);
+  ValueType visitCall(NodeId node);
+  ValueType visitUnary(NodeId node);
+  ValueType visitBinary(NodeId node);
+  ValueType visitElementwise(NodeId node);
+  ValueType visitIndex(NodeId node);
+  ValueType visitArray(NodeId node);
+  ValueType visitChoice(NodeId node, ValueType expected);
+  ValueType visitSelectorWord(NodeId node, const std::vector<const ParamSpec*>& params);
+  ValueType visitHead(NodeId node, const char* blockWords);
+  ValueType visitComp(NodeId node);
+  ValueType visitBuiltinCall(NodeId node, const FunctionSpec& spec,
+                             std::span<const NodeId> arguments);
+  ValueType slotType(uint32_t slot, ValueType expected);
+  bool isSelectorWord(std::string_view word, const char* blockWords) const;
+  void expectType(NodeId node, ValueType got, ValueType wanted, const char* what);
+  void reportUnknownName(NodeId node);
+
+  // --- successors.cpp ---
+  void visitSequence(NodeId node);
+  void visitSuccessor(NodeId node);
+  void visitApply(NodeId node);
+  void visitOperation(NodeId node, const OpSpec& op);
+  void visitSet(NodeId node, const OpSpec& op);
+  void visitLocal(NodeId node, const OpSpec& op);
+  void visitDo(NodeId node, const OpSpec& op);
+  void visitImportCall(NodeId node, bool successor);
+  void visitSuccessorChoice(NodeId node);
+  void visitBlocks(NodeId node, const OpSpec& op);
+  void visitBlock(NodeId block, const OpSpec& op, bool nested);
+  void visitItem(NodeId item, const OpSpec& op);
+  void visitAllBlocks(NodeId node);
+  bool applyRule(NodeId node, const std::vector<RuleId>& rules, std::span<const NodeId> arguments,
+                 const std::vector<ValueType>& types);
+  void makeLeaf(NodeId node, bool known);
+  void reportUndefinedRule(NodeId node, const RuleSet& found);
+  void checkWeights(NodeId choice);
+
+  // --- analyse.cpp: definitions and rounds ---
+  void walkRule(RuleId id);
+  void walkFunction(FunctionId id);
+  void walkAttribute(AttributeId id);
+  void openFrame(ModuleId module, NodeId declaration, const std::vector<ValueType>& paramTypes,
+                 const std::vector<bool>& open);
+  void walkLocals(NodeId declaration);
+  void round();
+  void infer();
+  template <class Info>
+  void reportOverloads(const std::vector<std::vector<uint32_t>>& sets,
+                       const std::vector<Info>& infos, const char* code);
+  void reportDuplicates(ModuleId firstModule);
+  void reportOverrideTypes();
+  void chooseStartRule();
+  void checkOtherStyles();
+
+  // --- order.cpp, fold.cpp ---
+  void orderAttributes();
+  void foldConstants();
+  void foldModule(ModuleId module, bool& changed);
+  Value foldNode(const Module& m, const Tree& t, NodeId node);
+
+  // --- Small helpers ---
+  const Tree& tree() const { return program_.tree(body_.module); }
+  Module& module() { return program_.modules[body_.module]; }
+  std::string_view text(NodeId node) const { return tree().text(node); }
+  void resolve(NodeId node, RefKind kind, uint32_t index = kNone) {
+    Resolution& r = module().resolutions[node];
+    r = Resolution();
+    r.kind = kind;
+    r.index = index;
+  }
+  ValueType typed(NodeId node, ValueType type) {
+    module().types[node] = type;
+    return type;
+  }
+  void error(const char* code, Span span, std::string message, std::string hint = {});
+  void warning(const char* code, Span span, std::string message, std::string hint = {});
+  void errorAt(const char* code, NodeId node, std::string message, std::string hint = {}) {
+    error(code, tree().span(node), std::move(message), std::move(hint));
+  }
+  std::string quote(std::string_view s) const { return "'" + std::string(s) + "'"; }
+
+  const Catalogue& catalogue_;
+  ValuePool& values_;
+  FileLoader* loader_;
+  Sources& sources_;
+  Diagnostics& diagnostics_;
+  ResolvedProgram program_;
+  std::vector<UnitIndex> units_;
+  std::vector<Scope> scopes_;
+  std::map<std::string, uint32_t> unitByPath_;
+  /// By (unit, import node): the unit imported; missing when it could not be loaded.
+  std::map<std::pair<uint32_t, NodeId>, uint32_t> importedUnit_;
+  std::map<std::pair<ModuleId, NodeId>, ModuleId> dynamicModules_;
+  std::map<AttributeId, AttributeId> ownValues_;
+  std::unordered_set<std::string_view> selectors_;
+  Body body_;
+  /// Rounds before the last one say nothing.
+  bool mute_ = false;
+  bool changed_ = false;
+  /// Body::open of rules and functions, between rounds.
+  std::map<RuleId, std::vector<bool>> openRules_;
+  std::map<FunctionId, std::vector<bool>> openFunctions_;
+};
+
+/// What the annotations of a declaration say; mistakes are reported when `diagnostics` is given.
+Annotations readAnnotations(const Tree& tree, NodeId list, GroupNote& group,
+                            Diagnostics* diagnostics);
+
+}  // namespace gable::lang

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Calls. Each argument is visited once, with what the signatures left over by count expect in its
+// place; the types that come out choose the signature. So the cost is linear however deep calls
+// nest.
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "lang/sema/analysis.h"
+
+namespace gable::lang {
+
+namespace {
+
+ValueType valueType(ParamType p) {
+  switch (p) {
+    case ParamType::Float:
+    case ParamType::Size:
+    case ParamType::FloatingSize: return ValueType::Float;
+    case ParamType::Bool: return ValueType::Bool;
+    case ParamType::String: return ValueType::String;
+    case ParamType::Selector: return ValueType::Selector;
+    case ParamType::FloatArray: return ValueType::FloatArray;
+    case ParamType::BoolArray: return ValueType::BoolArray;
+    case ParamType::StringArray: return ValueType::StringArray;
+    case ParamType::Any: break;
+  }
+  return ValueType::Null;
+}
+
+size_t requiredCount(const Signature& s) {
+  size_t n = 0;
+  for (const ParamSpec& p : s.params) n += p.defaultText == nullptr ? 1 : 0;
+  return s.variadic && n > 0 ? n - 1 : n;
+}
+
+bool acceptsArguments(const Signature& s, size_t count) {
+  return count >= requiredCount(s) && (s.variadic || count <= s.params.size());
+}
+
+const ParamSpec* paramAt(const Signature& s, size_t index) {
+  if (index < s.params.size()) return &s.params[index];
+  return s.variadic && !s.params.empty() ? &s.params.back() : nullptr;
+}
+
+bool hasWord(const char* words, std::string_view word) {
+  std::string_view rest = words ? words : "";
+  while (!rest.empty()) {
+    const size_t end = std::min(rest.find(' '), rest.size());
+    if (rest.substr(0, end) == word) return true;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return false;
+}
+
+// A text may stand for a word: sel("x") and strings that carry one.
+bool fits(ValueType got, ParamType wanted) {
+  const ValueType w = valueType(wanted);
+  if (got == ValueType::Null || w == ValueType::Null || got == w) return true;
+  return w == ValueType::Selector && got == ValueType::String;
+}
+
+std::string countText(std::span<const Signature> signatures) {
+  std::vector<size_t> counts;
+  bool open = false;
+  for (const Signature& s : signatures) {
+    for (size_t n = requiredCount(s); n <= s.params.size(); ++n) counts.push_back(n);
+    open = open || s.variadic;
+  }
+  std::sort(counts.begin(), counts.end());
+  counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
+  if (counts.empty()) return "no arguments";
+  std::string out;
+  for (size_t i = 0; i < counts.size(); ++i) {
+    out += (i == 0 ? "" : i + 1 == counts.size() ? " or " : ", ") + std::to_string(counts[i]);
+  }
+  if (open) out += " or more";
+  if (counts == std::vector<size_t>{0}) return "no arguments";
+  return out + (counts == std::vector<size_t>{1} ? " argument" : " arguments");
+}
+
+std::string signatureText(std::string_view name, const Signature& s) {
+  std::string out = std::string(name) + "(";
+  for (size_t i = 0; i < s.params.size(); ++i) {
+    out += (i ? ", " : "") + std::string(s.params[i].name);
+  }
+  return out + (s.variadic ? ", ...)" : ")");
+}
+
+}  // namespace
+
+std::span<const NodeId> Analysis::arguments(NodeId list) const { return tree().children(list); }
+
+bool Analysis::acceptsCount(std::span<const Signature> signatures, size_t count) const {
+  return std::any_of(signatures.begin(), signatures.end(),
+                     [&](const Signature& s) { return acceptsArguments(s, count); });
+}
+
+void Analysis::checkNamedArguments(std::span<const NodeId> args) {
+  for (const NodeId a : args) {
+    const NodeKind kind = tree().kind(a);
+    if (kind == NodeKind::NamedArg) {
+      errorAt("unexpected-assignment", a, quote(text(a)) + " cannot be set in these brackets",
+              "write only the value, in the order of the parameters");
+    } else if (kind == NodeKind::Rule) {
+      errorAt("unexpected-assignment", a, "a rule cannot be defined in these brackets",
+              "define it outside");
+    }
+  }
+}
+
+// ' and ~ only where a size is asked for.
+void Analysis::checkPrefix(NodeId node, const std::vector<const ParamSpec*>& params) {
+  const NodeKind kind = tree().kind(node);
+  if (kind != NodeKind::Relative && kind != NodeKind::Floating) return;
+  const bool floating = kind == NodeKind::Floating;
+  const bool allowed = std::any_of(params.begin(), params.end(), [&](const ParamSpec* p) {
+    return p->type == ParamType::FloatingSize || (p->type == ParamType::Size && !floating);
+  });
+  if (allowed) return;
+  errorAt("bad-prefix", node,
+          std::string(floating ? "'~'" : "a size relative to the scope") + " is not allowed here",
+          floating ? "remove the '~'" : "multiply by scope.sx, scope.sy or scope.sz instead");
+}
+
+// One argument, with the parameters that it may be for.
+ValueType Analysis::visitArgument(NodeId node, const std::vector<const ParamSpec*>& params) {
+  checkPrefix(node, params);
+  const bool wantsWord = std::any_of(params.begin(), params.end(), [](const ParamSpec* p) {
+    return p->type == ParamType::Selector;
+  });
+  if (wantsWord && tree().kind(node) == NodeKind::Name) return visitSelectorWord(node, params);
+  ValueType expected = params.empty() ? ValueType::Null : valueType(params[0]->type);
+  for (const ParamSpec* p : params) {
+    if (valueType(p->type) != expected) expected = ValueType::Null;
+  }
+  return visit(node, expected == ValueType::Selector ? ValueType::Null : expected);
+}
+
+uint16_t Analysis::checkBuiltinCall(const CallTarget& target, std::span<const NodeId> args) {
+  const Tree& t = tree();
+  checkNamedArguments(args);
+  std::vector<uint16_t> left;
+  for (size_t i = 0; i < target.signatures.size(); ++i) {
+    if (acceptsArguments(target.signatures[i], args.size()))
+      left.push_back(static_cast<uint16_t>(i));
+  }
+  if (left.empty()) {
+    for (const NodeId a : args) visitArgument(a, {});
+    errorAt("wrong-argument-count", target.node,
+            quote(target.name) + " takes " + countText(target.signatures) + ", not " +
+                std::to_string(args.size()),
+            target.signatures.empty()
+                ? ""
+                : "write " + signatureText(target.name, target.signatures[0]));
+    return 0xffff;
+  }
+
+  std::vector<ValueType> types;
+  for (size_t i = 0; i < args.size(); ++i) {
+    // A word that only some signatures know decides between them.
+    if (t.kind(args[i]) == NodeKind::Name) {
+      const auto knows = [&](uint16_t s) {
+        const ParamSpec* p = paramAt(target.signatures[s], i);
+        return p->type == ParamType::Selector && hasWord(p->words, t.text(args[i]));
+      };
+      if (std::any_of(left.begin(), left.end(), knows)) {
+        left.erase(std::remove_if(left.begin(), left.end(), [&](uint16_t s) { return !knows(s); }),
+                   left.end());
+      }
+    }
+    std::vector<const ParamSpec*> params;
+    for (const uint16_t s : left) params.push_back(paramAt(target.signatures[s], i));
+    types.push_back(visitArgument(args[i], params));
+    std::vector<uint16_t> fitting;
+    for (const uint16_t s : left) {
+      if (fits(types[i], paramAt(target.signatures[s], i)->type)) fitting.push_back(s);
+    }
+    if (!fitting.empty()) {
+      left = std::move(fitting);
+      continue;
+    }
+    errorAt("type-mismatch", args[i],
+            "argument " + std::to_string(i + 1) + " of " + quote(target.name) + " is a " +
+                typeName(types[i]) + ", not a " + typeName(valueType(params[0]->type)),
+            "the parameter is " + std::string(params[0]->name) + ": " + params[0]->doc);
+  }
+  return left[0];
+}
+
+std::vector<ValueType> Analysis::visitArguments(std::span<const NodeId> args) {
+  checkNamedArguments(args);
+  std::vector<ValueType> types;
+  for (const NodeId a : args) {
+    checkPrefix(a, {});
+    types.push_back(visit(a));
+  }
+  return types;
+}
+
+// The first candidate with as many parameters whose inferred types agree; kNone if there is none.
+template <class Info>
+uint32_t Analysis::chooseOverload(const std::vector<uint32_t>& candidates,
+                                  const std::vector<Info>& infos, std::span<const NodeId> args,
+                                  const std::vector<ValueType>& types) {
+  uint32_t byCount = kNone;
+  for (const uint32_t id : candidates) {
+    const Info& info = infos[id];
+    if (info.paramCount != args.size()) continue;
+    if (byCount == kNone) byCount = id;
+    bool agrees = true;
+    for (size_t i = 0; i < types.size(); ++i) {
+      const ValueType wanted = info.paramTypes[i];
+      agrees = agrees &&
+               (types[i] == ValueType::Null || wanted == ValueType::Null || types[i] == wanted);
+    }
+    if (agrees) return id;
+  }
+  return byCount;
+}
+
+template uint32_t Analysis::chooseOverload(const std::vector<uint32_t>&,
+                                           const std::vector<RuleInfo>&, std::span<const NodeId>,
+                                           const std::vector<ValueType>&);
+template uint32_t Analysis::chooseOverload(const std::vector<uint32_t>&,
+                                           const std::vector<FunctionInfo>&,
+                                           std::span<const NodeId>, const std::vector<ValueType>&);
+
+bool Analysis::isSelectorWord(std::string_view word, const char* blockWords) const {
+  return selectors_.count(word) != 0 || hasWord(blockWords, word);
+}
+
+// A name where a word may stand.
+ValueType Analysis::visitSelectorWord(NodeId node, const std::vector<const ParamSpec*>& params) {
+  const std::string_view word = text(node);
+  bool open = false;
+  bool onlyWords = true;
+  std::vector<std::string_view> known;
+  for (const ParamSpec* p : params) {
+    if (p->type != ParamType::Selector) {
+      onlyWords = false;
+      continue;
+    }
+    open = open || p->words == nullptr;
+    if (hasWord(p->words, word)) {
+      resolve(node, RefKind::Selector);
+      return typed(node, ValueType::Selector);
+    }
+    std::string_view rest = p->words ? p->words : "";
+    while (!rest.empty()) {
+      const size_t end = std::min(rest.find(' '), rest.size());
+      known.push_back(rest.substr(0, end));
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+  }
+  const bool isSlot = std::find(body_.slots.begin(), body_.slots.end(), word) != body_.slots.end();
+  const bool isOwn = isSlot || attributeNamed(body_.module, word) != kNone ||
+                     !functionsNamed(body_.module, word).empty();
+  if (isOwn || !onlyWords) {
+    const ValueType type = visitName(node, ValueType::Null);
+    if (!onlyWords || type != ValueType::Float) return type;
+  }
+  if (open) {
+    resolve(node, RefKind::Selector);
+    return typed(node, ValueType::Selector);
+  }
+  if (isOwn) return module().types[node];
+  resolve(node, RefKind::Selector);
+  std::string list;
+  for (const std::string_view w : known) list += (list.empty() ? "" : ", ") + std::string(w);
+  const std::string near = didYouMean(word, known);
+  errorAt("unknown-selector", node, quote(word) + " is not known here",
+          near.empty() ? "one of: " + list : near);
+  return typed(node, ValueType::Selector);
+}
+
+}  // namespace gable::lang

@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Types of expressions, bottom up, with what the place expects handed down to parameters of unknown
+// type: `extrude(h)` makes h a number. A type that use leaves open is Null and is checked when the
+// rules run; only contradictions between known types are reported.
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "lang/sema/analysis.h"
+
+namespace gable::lang {
+
+namespace {
+
+bool isArrayType(ValueType t) { return t >= ValueType::FloatArray; }
+
+}  // namespace
+
+void Analysis::expectType(NodeId node, ValueType got, ValueType wanted, const char* what) {
+  if (got == ValueType::Null || wanted == ValueType::Null || got == wanted) return;
+  errorAt("type-mismatch", node,
+          std::string(what) + " must be a " + typeName(wanted) + ", not a " + typeName(got), "");
+}
+
+ValueType Analysis::slotType(uint32_t slot, ValueType expected) {
+  ValueType& type = body_.types[slot];
+  if (slot >= body_.paramCount) return type;
+  if (expected == ValueType::Null || expected == type || body_.open[slot]) return type;
+  // Used as two types: it is decided at each call.
+  if (type != ValueType::Null) {
+    type = ValueType::Null;
+    body_.open[slot] = true;
+  } else {
+    type = expected;
+  }
+  changed_ = true;
+  return type;
+}
+
+ValueType Analysis::visit(NodeId node, ValueType expected) {
+  const Tree& t = tree();
+  switch (t.kind(node)) {
+    case NodeKind::Number: return typed(node, ValueType::Float);
+    case NodeKind::Bool: return typed(node, ValueType::Bool);
+    case NodeKind::String: return typed(node, ValueType::String);
+    case NodeKind::Name: return typed(node, visitName(node, expected));
+    case NodeKind::Call: return typed(node, visitCall(node));
+    case NodeKind::ImportCall: visitImportCall(node, false); return ValueType::Null;
+    case NodeKind::Unary: return typed(node, visitUnary(node));
+    case NodeKind::Binary: return typed(node, visitBinary(node));
+    case NodeKind::Index: return typed(node, visitIndex(node));
+    case NodeKind::Array: return typed(node, visitArray(node));
+    case NodeKind::Range:
+      for (const NodeId c : t.children(node)) {
+        if (c != kNoNode) expectType(c, visit(c, ValueType::Float), ValueType::Float, "a bound");
+      }
+      return typed(node, ValueType::FloatArray);
+    case NodeKind::Relative:
+    case NodeKind::Floating: {
+      const NodeId inner = t.child(node, 0);
+      expectType(inner, visit(inner, ValueType::Float), ValueType::Float, "a size");
+      return typed(node, ValueType::Float);
+    }
+    case NodeKind::Choice: return typed(node, visitChoice(node, expected));
+    case NodeKind::NamedArg: visit(t.child(node, 0)); return ValueType::Null;
+    default: return ValueType::Null;
+  }
+}
+
+// --- Names ---
+
+ValueType Analysis::visitName(NodeId node, ValueType expected) {
+  const std::string_view name = text(node);
+  const auto slot = std::find(body_.slots.rbegin(), body_.slots.rend(), name);
+  if (slot != body_.slots.rend()) {
+    const auto index = static_cast<uint32_t>(body_.slots.rend() - slot - 1);
+    resolve(node, RefKind::Slot, index);
+    return slotType(index, expected);
+  }
+  if (AttributeId a = attributeNamed(body_.module, name); a != kNone) {
+    // A replacement that reads what it replaces means the value before.
+    const AttributeInfo& info = program_.attributes[a];
+    if (body_.attribute != kNone &&
+        ((info.source == ValueSource::Propagated && info.from == body_.attribute) ||
+         (info.source == ValueSource::Override && a == body_.attribute))) {
+      a = ownValueOf(a);
+    }
+    resolve(node, RefKind::Attribute, a);
+    return program_.attributes[a].type;
+  }
+  for (const FunctionId f : functionsNamed(body_.module, name)) {
+    if (program_.functions[f].paramCount != 0) continue;
+    resolve(node, RefKind::Function, f);
+    return program_.functions[f].result;
+  }
+  if (const AttributeSpec* a = catalogue_.attribute(name)) {
+    resolve(node, RefKind::ShapeAttribute);
+    module().resolutions[node].spec.attribute = a;
+    return a->type;
+  }
+  const FunctionSpec* f = catalogue_.function(name);
+  if (f && (f->bare || acceptsCount(f->signatures, 0))) return visitBuiltinCall(node, *f, {});
+  if (isSelectorWord(name, nullptr)) {
+    resolve(node, RefKind::Selector);
+    return ValueType::Selector;
+  }
+  reportUnknownName(node);
+  return ValueType::Null;
+}
+
+void Analysis::reportUnknownName(NodeId node) {
+  const std::string_view name = text(node);
+  if (inMissingImport(body_.module, name)) return;
+  const std::vector<FunctionId> overloads = functionsNamed(body_.module, name);
+  const bool isFunction = !overloads.empty() || catalogue_.function(name) != nullptr;
+  if (isFunction) {
+    errorAt("wrong-argument-count", node, quote(name) + " is a function and needs arguments",
+            "write " + quote(std::string(name) + "(...)"));
+    return;
+  }
+  std::string hint = didYouMean(name, valueNames(body_.module));
+  if (hint.empty()) hint = "declare it with 'attr' or 'const', or put it in quotes if it is a text";
+  errorAt("unknown-name", node, "nothing is named " + quote(name), std::move(hint));
+}
+
+// --- Calls ---
+
+ValueType Analysis::visitBuiltinCall(NodeId node, const FunctionSpec& spec,
+                                     std::span<const NodeId> args) {
+  // Written without brackets, a function takes what it takes by default.
+  const bool bare = args.empty() && tree().kind(node) == NodeKind::Name;
+  uint16_t signature = 0xffff;
+  if (bare && !acceptsCount(spec.signatures, 0)) {
+    signature = spec.signatures.empty() ? 0xffff : 0;
+  } else if (spec.signatures.empty()) {
+    visitArguments(args);
+  } else {
+    signature = checkBuiltinCall({spec.name, node, spec.signatures}, args);
+  }
+  resolve(node, RefKind::BuiltinFunction);
+  Resolution& r = module().resolutions[node];
+  r.spec.function = &spec;
+  r.signature = signature;
+  return signature < spec.signatures.size() ? spec.signatures[signature].result : ValueType::Null;
+}
+
+ValueType Analysis::visitCall(NodeId node) {
+  const Tree& t = tree();
+  const std::string_view name = t.text(node);
+  const std::span<const NodeId> args = arguments(t.child(node, 0));
+  if (t.child(node, 1) != kNoNode) return visitComp(node);
+
+  const std::vector<FunctionId> overloads = functionsNamed(body_.module, name);
+  const bool fits = std::any_of(overloads.begin(), overloads.end(), [&](FunctionId f) {
+    return program_.functions[f].paramCount == args.size();
+  });
+  const FunctionSpec* builtin = catalogue_.function(name);
+  if (!fits && builtin) return visitBuiltinCall(node, *builtin, args);
+
+  if (fits) {
+    checkNamedArguments(args);
+    std::vector<ValueType> types;
+    for (size_t i = 0; i < args.size(); ++i) {
+      // With a single overload its parameter tells what the argument is.
+      const FunctionInfo& only = program_.functions[overloads[0]];
+      checkPrefix(args[i], {});
+      types.push_back(visit(args[i], overloads.size() == 1 ? only.paramTypes[i] : ValueType::Null));
+    }
+    const FunctionId f = chooseOverload(overloads, program_.functions, args, types);
+    resolve(node, RefKind::Function, f);
+    for (size_t i = 0; i < args.size(); ++i) {
+      expectType(args[i], types[i], program_.functions[f].paramTypes[i], "this argument");
+    }
+    return program_.functions[f].result;
+  }
+
+  visitArguments(args);
+  const AttributeId attribute = attributeNamed(body_.module, name);
+  if (attribute != kNone && (args.empty() || program_.attributes[attribute].edgeMap)) {
+    resolve(node, RefKind::Attribute, attribute);
+    return program_.attributes[attribute].type;
+  }
+  if (!overloads.empty()) {
+    errorAt("wrong-argument-count", node,
+            quote(name) + " takes " + std::to_string(program_.functions[overloads[0]].paramCount) +
+                " arguments, not " + std::to_string(args.size()),
+            "");
+    return ValueType::Null;
+  }
+  if (inMissingImport(body_.module, name)) return ValueType::Null;
+  std::string hint = didYouMean(name, valueNames(body_.module));
+  if (hint.empty() && !rulesNamed(body_.module, name).rules.empty()) {
+    hint = "it is a rule; rules have no value";
+  }
+  errorAt("unknown-function", node, "there is no function " + quote(name), std::move(hint));
+  return ValueType::Null;
+}
+
+// comp(..) { selector op value | ... }: an array of the values.
+ValueType Analysis::visitComp(NodeId node) {
+  const Tree& t = tree();
+  const std::string_view name = t.text(node);
+  const FunctionSpec* spec = catalogue_.function(name);
+  const OpSpec* op = catalogue_.operation(name);
+  const std::span<const NodeId> args = arguments(t.child(node, 0));
+  ValueType element = ValueType::Null;
+  if (spec) {
+    visitBuiltinCall(node, *spec, args);
+  } else if (op && op->block == BlockKind::Selectors) {
+    const uint16_t signature = checkBuiltinCall({name, node, op->signatures}, args);
+    resolve(node, RefKind::BuiltinFunction);
+    module().resolutions[node].signature = signature;
+  } else {
+    visitArguments(args);
+    errorAt("unknown-function", node, quote(name) + " takes no block as a function",
+            didYouMean(name, {"comp"}));
+  }
+  for (const NodeId item : t.children(t.child(node, 1))) {
+    if (t.kind(item) != NodeKind::Item) {
+      errorAt("unexpected-group", item, "groups have no meaning in the function form",
+              "remove the inner braces");
+      continue;
+    }
+    if (t.child(item, 0) == kNoNode) {
+      errorAt("missing-selector", item, "this part has no selector",
+              "write 'selector : value', for example 'all : 1'");
+    } else {
+      visitHead(t.child(item, 0), nullptr);
+    }
+    const NodeId value = t.child(item, 2);
+    const ValueType type = visit(value, element);
+    if (element == ValueType::Null) element = type;
+    expectType(value, type, element, "each value");
+  }
+  return element == ValueType::Null || isArrayType(element) ? ValueType::Null : arrayType(element);
+}
+
+// The head of an item: words are selectors here, alone and below logical operators.
+ValueType Analysis::visitHead(NodeId node, const char* blockWords) {
+  const Tree& t = tree();
+  if (t.kind(node) == NodeKind::Name && isSelectorWord(t.text(node), blockWords)) {
+    resolve(node, RefKind::Selector);
+    return typed(node, ValueType::Selector);
+  }
+  if (t.kind(node) == NodeKind::Unary && t.unaryOp(node) == UnaryOp::Not) {
+    visitHead(t.child(node, 0), blockWords);
+    return typed(node, ValueType::Bool);
+  }
+  if (t.kind(node) == NodeKind::Binary) {
+    const BinaryOp op = t.binaryOp(node);
+    if (op == BinaryOp::And || op == BinaryOp::Or) {
+      visitHead(t.child(node, 0), blockWords);
+      visitHead(t.child(node, 1), blockWords);
+      return typed(node, ValueType::Bool);
+    }
+    // A selection without another: `border - front`.
+    if (op == BinaryOp::Subtract) {
+      const auto startsWithWord = [&](NodeId n) {
+        while (t.kind(n) == NodeKind::Binary) n = t.child(n, 0);
+        return t.kind(n) == NodeKind::Name && isSelectorWord(t.text(n), blockWords);
+      };
+      if (startsWithWord(t.child(node, 0)) || startsWithWord(t.child(node, 1))) {
+        visitHead(t.child(node, 0), blockWords);
+        visitHead(t.child(node, 1), blockWords);
+        return typed(node, ValueType::Bool);
+      }
+    }
+  }
+  return visit(node);
+}
+
+// --- Operators ---
+
+ValueType Analysis::visitUnary(NodeId node) {
+  const NodeId operand = tree().child(node, 0);
+  const bool isNot = tree().unaryOp(node) == UnaryOp::Not;
+  const ValueType scalar = isNot ? ValueType::Bool : ValueType::Float;
+  if (tree().has(node, kFlagElementwise)) {
+    const ValueType type = visit(operand);
+    if (!isArrayType(type)) expectType(operand, type, scalar, "the operand");
+    return type;
+  }
+  expectType(operand, visit(operand, scalar), scalar, "the operand");
+  return scalar;
+}
+
+ValueType Analysis::visitElementwise(NodeId node) {
+  const NodeId left = tree().child(node, 0);
+  const NodeId right = tree().child(node, 1);
+  const ValueType a = visit(left);
+  const ValueType b = visit(right);
+  const BinaryOp op = tree().binaryOp(node);
+  const auto element = [](ValueType t) { return isArrayType(t) ? elementType(t) : t; };
+  ValueType result = ValueType::Bool;
+  if (op >= BinaryOp::Add) {
+    if (a == ValueType::Null || b == ValueType::Null) return ValueType::Null;
+    const bool isText = element(a) == ValueType::String || element(b) == ValueType::String;
+    if (isText && op != BinaryOp::Add) {
+      errorAt("type-mismatch", node, "texts can only be put together, with '.+'", "");
+    }
+    result = isText ? ValueType::String : ValueType::Float;
+  }
+  const bool isArray = isArrayType(a) || isArrayType(b);
+  if (!isArray && (a == ValueType::Null || b == ValueType::Null)) return ValueType::Null;
+  return isArray ? arrayType(result) : result;
+}
+
+ValueType Analysis::visitBinary(NodeId node) {
+  if (tree().has(node, kFlagElementwise)) return visitElementwise(node);
+  const NodeId left = tree().child(node, 0);
+  const NodeId right = tree().child(node, 1);
+  const BinaryOp op = tree().binaryOp(node);
+  if (op == BinaryOp::And || op == BinaryOp::Or) {
+    expectType(left, visit(left, ValueType::Bool), ValueType::Bool, "the operand");
+    expectType(right, visit(right, ValueType::Bool), ValueType::Bool, "the operand");
+    return ValueType::Bool;
+  }
+  if (op == BinaryOp::Subtract || op == BinaryOp::Multiply || op == BinaryOp::Divide ||
+      op == BinaryOp::Modulo) {
+    expectType(left, visit(left, ValueType::Float), ValueType::Float, "the operand");
+    expectType(right, visit(right, ValueType::Float), ValueType::Float, "the operand");
+    return ValueType::Float;
+  }
+  // + and comparisons: one side tells what a parameter on the other side is.
+  ValueType a = visit(left);
+  const bool hintsRight = op != BinaryOp::Add && a != ValueType::Null;
+  const ValueType b = visit(right, hintsRight ? a : ValueType::Null);
+  if (op != BinaryOp::Add && a == ValueType::Null && b != ValueType::Null &&
+      tree().kind(left) == NodeKind::Name) {
+    a = visit(left, b);
+  }
+  if (op == BinaryOp::Add) {
+    if (a == ValueType::String || b == ValueType::String) return ValueType::String;
+    if (a == ValueType::Null || b == ValueType::Null) return ValueType::Null;
+    expectType(left, a, ValueType::Float, "the operand");
+    expectType(right, b, ValueType::Float, "the operand");
+    return ValueType::Float;
+  }
+  const auto comparable = [](ValueType t) {
+    return t == ValueType::Selector ? ValueType::String : t;
+  };
+  if (a != ValueType::Null && b != ValueType::Null && comparable(a) != comparable(b)) {
+    errorAt("type-mismatch", node,
+            std::string("a ") + typeName(a) + " cannot be compared with a " + typeName(b),
+            "convert one of them with str(), float() or bool()");
+  }
+  return ValueType::Bool;
+}
+
+ValueType Analysis::visitIndex(NodeId node) {
+  const NodeId base = tree().child(node, 0);
+  const ValueType array = visit(base);
+  bool single = true;
+  bool known = true;
+  for (size_t i = 1; i <= 2; ++i) {
+    const NodeId index = tree().child(node, i);
+    if (index == kNoNode) continue;
+    const ValueType type = visit(index);
+    single = single && type == ValueType::Float;
+    known = known && type != ValueType::Null;
+    if (type == ValueType::String || type == ValueType::StringArray) {
+      errorAt("type-mismatch", index, "an index must be a number, numbers or truth values", "");
+    }
+  }
+  if (array == ValueType::Null) return ValueType::Null;
+  if (!isArrayType(array)) {
+    errorAt("type-mismatch", base,
+            std::string("only arrays have an index; this is a ") + typeName(array), "");
+    return ValueType::Null;
+  }
+  if (!known) return ValueType::Null;
+  return single ? elementType(array) : array;
+}
+
+ValueType Analysis::visitArray(NodeId node) {
+  ValueType element = ValueType::Null;
+  for (const NodeId row : tree().children(node)) {
+    for (const NodeId value : tree().children(row)) {
+      ValueType type = visit(value, element);
+      if (isArrayType(type)) type = elementType(type);
+      if (element == ValueType::Null) element = type;
+      expectType(value, type, element, "each element");
+    }
+  }
+  return element == ValueType::Null || element == ValueType::Selector ? ValueType::Null
+                                                                      : arrayType(element);
+}
+
+ValueType Analysis::visitChoice(NodeId node, ValueType expected) {
+  const bool isCase = tree().choiceKind(node) == ChoiceKind::Case;
+  ValueType result = ValueType::Null;
+  for (const NodeId branch : tree().children(node)) {
+    const NodeId condition = tree().child(branch, 0);
+    const ValueType wanted = isCase ? ValueType::Bool : ValueType::Float;
+    if (condition != kNoNode) {
+      expectType(condition, visit(condition, wanted), wanted, isCase ? "a condition" : "a weight");
+    }
+    const NodeId value = tree().child(branch, 1);
+    const ValueType type = visit(value, expected);
+    if (result == ValueType::Null) result = type;
+    expectType(value, type, result, "each branch");
+  }
+  if (!isCase) checkWeights(node);
+  return result;
+}
+
+}  // namespace gable::lang

@@ -1,0 +1,499 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Files to units, units to modules. All files are loaded first, along the imports, which form a
+// graph without cycles; then each use of a file becomes a module, from the main file down, so that
+// an importer's declarations are known when those of the imported file are bound to them.
+//
+// Styles: a module sees the declarations of its style, of the style that one extends, and so on to
+// Default. For one name (and number of parameters) the first in that chain counts.
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "lang/parser.h"
+#include "lang/sema/analysis.h"
+
+namespace gable::lang {
+
+namespace {
+
+constexpr std::string_view kDefaultStyle = "Default";
+
+size_t rankOf(const std::vector<std::string_view>& chain, std::string_view style) {
+  return static_cast<size_t>(std::find(chain.begin(), chain.end(), style) - chain.begin());
+}
+
+std::string joinPath(const std::string& path, std::string_view name) {
+  return path.empty() ? std::string(name) : path + "." + std::string(name);
+}
+
+std::string prefixOf(std::string_view name) { return std::string(name.substr(0, name.find('.'))); }
+
+}  // namespace
+
+// --- Units ---
+
+void Analysis::indexUnit(uint32_t unit) {
+  const Tree& t = program_.units[unit].tree;
+  UnitIndex& index = units_[unit];
+  index.styles.push_back({std::string(kDefaultStyle), "", ""});
+  std::string_view style = kDefaultStyle;
+  GroupNote group;
+  const auto description = [&](NodeId note) {
+    if (t.kind(note) == NodeKind::Annotation && t.text(note) == "RuleFileDescription") {
+      index.description = std::string(t.text(t.child(note, 0)));
+    }
+  };
+  for (const NodeId id : t.children(t.root())) {
+    description(id);
+    if (t.kind(id) == NodeKind::Annotation || t.kind(id) == NodeKind::Version) continue;
+    for (const NodeId note : t.children(annotationsOf(t, id))) description(note);
+    const Annotations notes = readAnnotations(t, annotationsOf(t, id), group, &diagnostics_);
+    const Declaration declaration{id, style, notes};
+    switch (t.kind(id)) {
+      case NodeKind::Style: {
+        style = t.text(id);
+        const auto known = std::find_if(index.styles.begin(), index.styles.end(),
+                                        [&](const StyleInfo& s) { return s.name == style; });
+        if (known != index.styles.end()) {
+          error("duplicate-style", nameSpan(t, id),
+                "the style " + quote(style) + " is there already", "give it another name");
+          break;
+        }
+        const NodeId base = t.child(id, 1);
+        index.styles.push_back({std::string(style),
+                                std::string(base == kNoNode ? kDefaultStyle : t.text(base)),
+                                notes.description});
+        break;
+      }
+      case NodeKind::Import:
+        if (!index.importNames.insert(t.text(id)).second) {
+          error("duplicate-import", nameSpan(t, id),
+                "another import has the name " + quote(t.text(id)), "give it another name");
+          break;
+        }
+        index.imports.push_back(declaration);
+        break;
+      case NodeKind::Attr:
+      case NodeKind::Const: index.attributes.push_back(declaration); break;
+      case NodeKind::Function: index.functions.push_back(declaration); break;
+      case NodeKind::Rule: index.rules.push_back(declaration); break;
+      default: break;
+    }
+  }
+  // Bases may stand behind the styles that extend them.
+  for (const NodeId id : t.children(t.root())) {
+    const NodeId base = t.kind(id) == NodeKind::Style ? t.child(id, 1) : kNoNode;
+    if (base == kNoNode) continue;
+    std::vector<std::string_view> names;
+    for (const StyleInfo& s : index.styles) names.push_back(s.name);
+    if (std::find(names.begin(), names.end(), t.text(base)) == names.end()) {
+      error("unknown-style", t.span(base), "there is no style " + quote(t.text(base)),
+            didYouMean(t.text(base), names));
+    } else if (styleChain(unit, t.text(id)).back() != kDefaultStyle) {
+      error("style-cycle", t.span(base), "the style " + quote(t.text(id)) + " extends itself",
+            "extend another style");
+    }
+  }
+}
+
+std::vector<std::string_view> Analysis::styleChain(uint32_t unit, std::string_view style) const {
+  const std::vector<StyleInfo>& styles = units_[unit].styles;
+  std::vector<std::string_view> chain;
+  while (!style.empty() && chain.size() <= styles.size()) {
+    const auto at = std::find_if(styles.begin(), styles.end(),
+                                 [&](const StyleInfo& s) { return s.name == style; });
+    if (at == styles.end()) break;
+    chain.push_back(at->name);
+    style = at->base;
+  }
+  // A style that extends itself, or an unknown one, still sees the default.
+  if (chain.empty()) chain.push_back(styles[0].name);
+  return chain;
+}
+
+uint32_t Analysis::loadUnit(const std::string& path, Span from, uint32_t importerUnit,
+                            std::vector<uint32_t>& open) {
+  if (!loader_) {
+    error("import-missing", from, "imports cannot be read here", "");
+    return kNone;
+  }
+  Result<FileLoader::File> file = loader_->load(path, program_.units[importerUnit].path);
+  if (!file) {
+    error(file.error().code.c_str(), from, file.error().message, file.error().hint);
+    return kNone;
+  }
+  const auto known = unitByPath_.find(file->path);
+  if (known != unitByPath_.end()) {
+    if (std::find(open.begin(), open.end(), known->second) == open.end()) return known->second;
+    error("import-cycle", from, "the import of '" + path + "' leads back to this file",
+          "move what both need to a third file");
+    return kNone;
+  }
+  if (program_.units.size() >= kMaxUnits) {
+    error("too-many-imports", from,
+          "more than " + std::to_string(kMaxUnits) + " files are imported", "");
+    return kNone;
+  }
+  const auto unit = static_cast<uint32_t>(program_.units.size());
+  const uint32_t id = sources_.add(file->path, std::move(file->text));
+  Tree t = parse(sources_, id, diagnostics_);
+  unitByPath_.emplace(file->path, unit);
+  program_.units.push_back({file->path, id, std::move(t)});
+  units_.emplace_back();
+  indexUnit(unit);
+  loadImports(unit, open);
+  return unit;
+}
+
+void Analysis::loadImports(uint32_t unit, std::vector<uint32_t>& open) {
+  open.push_back(unit);
+  for (size_t i = 0; i < units_[unit].imports.size(); ++i) {
+    const NodeId import = units_[unit].imports[i].node;
+    const Tree& t = program_.units[unit].tree;
+    const NodeId path = t.child(import, 1);
+    if (path == kNoNode) continue;
+    const uint32_t target = loadUnit(std::string(t.text(path)), t.span(path), unit, open);
+    if (target != kNone) importedUnit_[{unit, import}] = target;
+  }
+  open.pop_back();
+}
+
+// --- Modules ---
+
+ModuleId Analysis::addModule(uint32_t unit, std::string path, std::string style, ModuleId importer,
+                             NodeId importNode, bool dynamic) {
+  const auto id = static_cast<ModuleId>(program_.modules.size());
+  Module m;
+  m.id = id;
+  m.unit = unit;
+  m.path = std::move(path);
+  m.style = std::move(style);
+  m.importer = importer;
+  m.importNode = importNode;
+  m.dynamic = dynamic;
+  const size_t nodes = program_.units[unit].tree.size();
+  m.resolutions.resize(nodes);
+  m.types.resize(nodes, ValueType::Null);
+  m.constants.resize(nodes);
+  program_.modules.push_back(std::move(m));
+  scopes_.emplace_back();
+  declareAll(id);
+  return id;
+}
+
+void Analysis::declareAll(ModuleId module) {
+  const Module& m = program_.modules[module];
+  const std::vector<std::string_view> chain = styleChain(m.unit, m.style);
+  declareAttributes(module, chain);
+  declareFunctions(module, chain);
+  declareRules(module, chain);
+}
+
+RuleId Analysis::addRule(ModuleId owner, NodeId node, std::string name, const Annotations& notes) {
+  const Tree& t = program_.tree(owner);
+  RuleInfo r;
+  r.id = static_cast<RuleId>(program_.rules.size());
+  r.module = owner;
+  r.node = node;
+  r.qualifiedName = joinPath(program_.modules[owner].path, name);
+  r.name = std::move(name);
+  r.paramCount = static_cast<uint32_t>(t.children(paramsOf(t, node)).size());
+  r.paramTypes.resize(r.paramCount, ValueType::Null);
+  r.slotCount = r.paramCount + static_cast<uint32_t>(t.children(localsOf(t, node)).size());
+  r.start = t.has(node, kFlagStart);
+  r.extension = t.has(node, kFlagExtension);
+  r.annotations = notes;
+  program_.rules.push_back(std::move(r));
+  return program_.rules.back().id;
+}
+
+void Analysis::declareRules(ModuleId module, const std::vector<std::string_view>& chain) {
+  const uint32_t unit = program_.modules[module].unit;
+  const Tree& t = program_.units[unit].tree;
+  std::map<std::pair<std::string_view, size_t>, size_t> best;
+  const auto keyOf = [&](const Declaration& d) {
+    return std::pair(t.text(d.node), t.children(paramsOf(t, d.node)).size());
+  };
+  for (const Declaration& d : units_[unit].rules) {
+    const auto [at, isNew] = best.emplace(keyOf(d), rankOf(chain, d.style));
+    if (!isNew) at->second = std::min(at->second, rankOf(chain, d.style));
+  }
+  Scope& scope = scopes_[module];
+  for (const Declaration& d : units_[unit].rules) {
+    const std::string_view name = t.text(d.node);
+    const size_t rank = rankOf(chain, d.style);
+    const bool inDefault = d.style == kDefaultStyle;
+    if (!inDefault && (t.has(d.node, kFlagStart) || t.has(d.node, kFlagExtension))) {
+      error("keyword-in-style", nameSpan(t, d.node),
+            quote(name) + " is a start or extension rule, which only the default style can have",
+            "move it before the first style");
+    }
+    if (isImport(module, name)) {
+      if (!inDefault || name.find('.', name.find('.') + 1) != std::string_view::npos) {
+        error("bad-redefinition", nameSpan(t, d.node),
+              quote(name) + " cannot redefine a rule of an import here",
+              "redefine 'import.Rule' in the default style, with one prefix");
+        continue;
+      }
+    }
+    if (rank == chain.size() || rank > best[keyOf(d)]) continue;
+    const RuleId id = addRule(module, d.node, std::string(name), d.annotations);
+    scope.rules[name].push_back(id);
+    if (t.has(d.node, kFlagStart)) scope.startRules.push_back(id);
+    const std::vector<RuleId>& same = scope.rules[name];
+    if (t.has(d.node, kFlagExtension) && same.size() > 1) {
+      error("duplicate-rule", nameSpan(t, d.node),
+            "an extension rule cannot have overloads, and " + quote(name) + " has some",
+            "give them other names");
+    }
+  }
+}
+
+void Analysis::declareFunctions(ModuleId module, const std::vector<std::string_view>& chain) {
+  const uint32_t unit = program_.modules[module].unit;
+  const Tree& t = program_.units[unit].tree;
+  std::map<std::pair<std::string_view, size_t>, size_t> best;
+  const auto keyOf = [&](const Declaration& d) {
+    return std::pair(t.text(d.node), t.children(paramsOf(t, d.node)).size());
+  };
+  for (const Declaration& d : units_[unit].functions) {
+    const auto [at, isNew] = best.emplace(keyOf(d), rankOf(chain, d.style));
+    if (!isNew) at->second = std::min(at->second, rankOf(chain, d.style));
+  }
+  Scope& scope = scopes_[module];
+  for (const Declaration& d : units_[unit].functions) {
+    const size_t rank = rankOf(chain, d.style);
+    if (rank == chain.size() || rank > best[keyOf(d)]) continue;
+    const std::string_view name = t.text(d.node);
+    FunctionInfo f;
+    f.id = static_cast<FunctionId>(program_.functions.size());
+    f.module = module;
+    f.node = d.node;
+    f.name = std::string(name);
+    f.qualifiedName = joinPath(program_.modules[module].path, name);
+    f.paramCount = static_cast<uint32_t>(keyOf(d).second);
+    f.paramTypes.resize(f.paramCount, ValueType::Null);
+    f.slotCount = f.paramCount + static_cast<uint32_t>(t.children(localsOf(t, d.node)).size());
+    scope.functions[name].push_back(f.id);
+    if (f.paramCount == 0 && scope.attributes.count(name) != 0) {
+      error("duplicate-name", nameSpan(t, d.node),
+            quote(name) + " is an attribute or constant already", "rename one of the two");
+    }
+    program_.functions.push_back(std::move(f));
+  }
+}
+
+void Analysis::declareAttributes(ModuleId module, const std::vector<std::string_view>& chain) {
+  const uint32_t unit = program_.modules[module].unit;
+  const Tree& t = program_.units[unit].tree;
+  std::unordered_map<std::string_view, size_t> best;
+  for (const Declaration& d : units_[unit].attributes) {
+    const auto [at, isNew] = best.emplace(t.text(d.node), rankOf(chain, d.style));
+    if (!isNew) at->second = std::min(at->second, rankOf(chain, d.style));
+  }
+  Scope& scope = scopes_[module];
+  for (const Declaration& d : units_[unit].attributes) {
+    const std::string_view name = t.text(d.node);
+    const size_t rank = rankOf(chain, d.style);
+    if (rank == chain.size() || rank > best[name]) continue;
+    if (scope.attributes.count(name) != 0) {
+      error("duplicate-name", nameSpan(t, d.node), quote(name) + " is declared already",
+            "rename one of the two");
+      continue;
+    }
+    AttributeInfo a;
+    a.id = static_cast<AttributeId>(program_.attributes.size());
+    a.module = a.valueModule = module;
+    a.node = d.node;
+    a.valueNode = bodyOf(t, d.node);
+    a.name = std::string(name);
+    a.qualifiedName = joinPath(program_.modules[module].path, name);
+    a.constant = t.kind(d.node) == NodeKind::Const;
+    const size_t params = t.children(paramsOf(t, d.node)).size();
+    a.edgeMap = params == 1 && !a.constant;
+    if (params > 1 || (params == 1 && a.constant)) {
+      error("bad-parameters", nameSpan(t, d.node),
+            quote(name) + " is evaluated once and cannot take parameters",
+            "remove the word before the name to make it a function");
+    }
+    a.slotCount = static_cast<uint32_t>(params + t.children(localsOf(t, d.node)).size());
+    a.annotations = d.annotations;
+    scope.attributes[name] = a.id;
+    program_.attributes.push_back(std::move(a));
+  }
+}
+
+std::string Analysis::styleOfImport(ModuleId importer, NodeId import, uint32_t unit) {
+  const Tree& t = program_.tree(importer);
+  std::string first(kDefaultStyle);
+  bool isFirst = true;
+  for (const NodeId s : t.children(t.child(import, 2))) {
+    std::vector<std::string_view> names;
+    for (const StyleInfo& style : units_[unit].styles) names.push_back(style.name);
+    if (std::find(names.begin(), names.end(), t.text(s)) == names.end()) {
+      error("unknown-style", t.span(s), "the imported file has no style " + quote(t.text(s)),
+            didYouMean(t.text(s), names));
+    } else if (isFirst) {
+      first = std::string(t.text(s));
+      isFirst = false;
+    }
+  }
+  return first;
+}
+
+void Analysis::addImports(ModuleId module) {
+  const uint32_t unit = program_.modules[module].unit;
+  for (size_t i = 0; i < units_[unit].imports.size(); ++i) {
+    const NodeId import = units_[unit].imports[i].node;
+    const auto target = importedUnit_.find({unit, import});
+    if (target == importedUnit_.end()) continue;
+    const Tree& t = program_.tree(module);
+    if (program_.modules.size() >= kMaxModules) {
+      error("too-many-imports", nameSpan(t, import),
+            "the imports unfold to more than " + std::to_string(kMaxModules) + " uses of files",
+            "import less, or less often");
+      return;
+    }
+    const std::string_view name = t.text(import);
+    const ModuleId child = addModule(target->second, joinPath(program_.modules[module].path, name),
+                                     styleOfImport(module, import, target->second), module, import,
+                                     program_.modules[module].dynamic);
+    scopes_[module].imports[name] = child;
+    const NodeId overrides = program_.tree(module).child(import, 3);
+    bindOverrides(child, overrides, false);
+    propagateAttributes(child, overrides);
+    addImports(child);
+  }
+}
+
+void Analysis::bindRuleOverride(ModuleId module, NodeId rule, ModuleId owner) {
+  const Tree& t = program_.tree(owner);
+  const std::string_view name = t.text(rule);
+  const auto own = scopes_[module].rules.find(name);
+  const bool isExtension =
+      own != scopes_[module].rules.end() && program_.rules[own->second[0]].extension;
+  if (!isExtension) {
+    std::vector<std::string_view> names;
+    for (const auto& [n, ids] : scopes_[module].rules) {
+      if (program_.rules[ids[0]].extension) names.push_back(n);
+    }
+    std::sort(names.begin(), names.end());
+    error("not-an-extension", nameSpan(t, rule),
+          "the imported file has no extension rule " + quote(name),
+          names.empty() ? "write 'extension' before the rule in the imported file"
+                        : didYouMean(name, names));
+  }
+  const std::string prefix = program_.modules[module].path;
+  const std::string local = prefix.substr(prefix.rfind('.') + 1);
+  const RuleId id = addRule(owner, rule, joinPath(local, name), {});
+  auto& list = scopes_[module].replaced[name];
+  list.insert(list.begin(), id);
+}
+
+// The list behind an import's path, or the arguments of a dynamic import.
+void Analysis::bindOverrides(ModuleId module, NodeId overrides, bool dynamic) {
+  const ModuleId owner = program_.modules[module].importer;
+  const Tree& t = program_.tree(owner);
+  // Rules of the importer named `import.Rule` come first.
+  const std::string path = program_.modules[module].path;
+  const std::string local = path.substr(path.rfind('.') + 1);
+  for (const auto& [name, ids] : scopes_[owner].rules) {
+    if (name.size() > local.size() + 1 && prefixOf(name) == local) {
+      auto& list = scopes_[module].replaced[name.substr(local.size() + 1)];
+      if (list.empty()) list = ids;
+    }
+  }
+  std::unordered_set<std::string_view> seen;
+  for (const NodeId item : t.children(overrides)) {
+    const std::string_view name = t.text(item);
+    if (t.kind(item) == NodeKind::Rule) {
+      bindRuleOverride(module, item, owner);
+      continue;
+    }
+    const auto at = scopes_[module].attributes.find(name);
+    if (at == scopes_[module].attributes.end() || program_.attributes[at->second].constant) {
+      std::vector<std::string_view> names;
+      for (const auto& [n, id] : scopes_[module].attributes) {
+        if (!program_.attributes[id].constant) names.push_back(n);
+      }
+      std::sort(names.begin(), names.end());
+      error("unknown-attribute", nameSpan(t, item),
+            "the imported file has no attribute " + quote(name), didYouMean(name, names));
+      continue;
+    }
+    if (!seen.insert(name).second) {
+      error("duplicate-override", nameSpan(t, item), quote(name) + " stands here twice",
+            "remove one of the two");
+      continue;
+    }
+    if (t.kind(item) != NodeKind::NamedArg) continue;
+    AttributeInfo& a = program_.attributes[at->second];
+    a.source = dynamic ? ValueSource::Given : ValueSource::Override;
+    a.valueModule = owner;
+    a.valueNode = t.child(item, 0);
+    a.from = kNone;
+  }
+}
+
+// Attributes that are neither protected nor overridden take the value of the importer's attribute
+// of the same name.
+void Analysis::propagateAttributes(ModuleId module, NodeId overrides) {
+  const Module& m = program_.modules[module];
+  const Tree& t = program_.tree(m.importer);
+  if (overrides != kNoNode && t.children(overrides).empty()) return;
+  std::unordered_set<std::string_view> isProtected;
+  for (const NodeId item : t.children(overrides)) {
+    if (t.kind(item) == NodeKind::Name) isProtected.insert(t.text(item));
+  }
+  const std::vector<Declaration>& declared = units_[m.unit].attributes;
+  for (const Declaration& d : declared) {
+    const std::string_view name = program_.tree(module).text(d.node);
+    const auto at = scopes_[module].attributes.find(name);
+    if (at == scopes_[module].attributes.end() || isProtected.count(name) != 0) continue;
+    AttributeInfo& a = program_.attributes[at->second];
+    if (a.node != d.node || d.style != kDefaultStyle || a.constant ||
+        a.source != ValueSource::Own) {
+      continue;
+    }
+    const auto from = scopes_[m.importer].attributes.find(name);
+    if (from == scopes_[m.importer].attributes.end()) continue;
+    if (program_.attributes[from->second].constant) continue;
+    a.source = ValueSource::Propagated;
+    a.from = from->second;
+  }
+}
+
+// The module of `imp(a = e).Rule` at `node`, made at its first visit.
+ModuleId Analysis::dynamicModule(ModuleId module, NodeId node) {
+  const auto known = dynamicModules_.find({module, node});
+  if (known != dynamicModules_.end()) return known->second;
+  const Tree& t = program_.tree(module);
+  const std::string_view name = t.text(t.child(node, 0));
+  const auto fixed = scopes_[module].imports.find(name);
+  ModuleId made = kNone;
+  if (fixed != scopes_[module].imports.end() && program_.modules.size() < kMaxModules) {
+    const Module& origin = program_.modules[fixed->second];
+    const NodeId overrides = t.child(origin.importNode, 3);
+    made = addModule(origin.unit, origin.path, origin.style, module, node, true);
+    bindOverrides(made, overrides, false);
+    propagateAttributes(made, overrides);
+    bindOverrides(made, t.child(node, 1), true);
+    addImports(made);
+    DynamicImport d;
+    d.module = module;
+    d.node = node;
+    d.target = made;
+    for (const NodeId item : t.children(t.child(node, 1))) {
+      if (t.kind(item) != NodeKind::NamedArg) continue;
+      const auto at = scopes_[made].attributes.find(t.text(item));
+      if (at != scopes_[made].attributes.end()) d.given.push_back({at->second, t.child(item, 0)});
+    }
+    program_.dynamicImports.push_back(std::move(d));
+  }
+  dynamicModules_[{module, node}] = made;
+  return made;
+}
+
+}  // namespace gable::lang

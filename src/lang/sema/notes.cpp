@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Annotations to data. A table says what each name does; a name that is not in it is a warning with
+// the nearest name, and is ignored.
+
+#include <algorithm>
+#include <functional>
+
+#include "base/text.h"
+#include "lang/sema/analysis.h"
+
+namespace gable::lang {
+
+namespace {
+
+// Reads the arguments of one annotation.
+class NoteReader {
+ public:
+  NoteReader(const Tree& tree, NodeId node, Diagnostics* diagnostics)
+      : tree_(tree), node_(node), diagnostics_(diagnostics) {}
+
+  void warn(NodeId at, const std::string& message, const std::string& hint) {
+    if (diagnostics_) diagnostics_->warning("bad-annotation", tree_.span(at), message, hint);
+  }
+
+  std::span<const NodeId> arguments() const { return tree_.children(node_); }
+
+  // The number that an argument spells; a sign before it counts.
+  std::optional<double> number(NodeId id) const {
+    if (tree_.kind(id) == NodeKind::Number) return tree_.number(id);
+    if (tree_.kind(id) != NodeKind::Unary || tree_.unaryOp(id) == UnaryOp::Not) return {};
+    const std::optional<double> inner = number(tree_.child(id, 0));
+    if (!inner) return {};
+    return tree_.unaryOp(id) == UnaryOp::Minus ? -*inner : *inner;
+  }
+
+  std::optional<std::string> string(NodeId id) const {
+    if (tree_.kind(id) != NodeKind::String) return {};
+    return std::string(tree_.text(id));
+  }
+
+  // A word, or the word in quotes.
+  std::optional<std::string> word(NodeId id) const {
+    if (tree_.kind(id) == NodeKind::Name) return std::string(tree_.text(id));
+    return string(id);
+  }
+
+  std::optional<bool> truth(NodeId id) const {
+    if (tree_.kind(id) != NodeKind::Bool) return {};
+    return tree_.number(id) != 0;
+  }
+
+  // The single string in the brackets, or "" with a warning.
+  std::string oneString() {
+    if (arguments().size() == 1) {
+      if (const auto s = string(arguments()[0])) return *s;
+    }
+    warn(node_, "'@" + std::string(tree_.text(node_)) + "' takes one string", "");
+    return {};
+  }
+
+  const Tree& tree() const { return tree_; }
+  NodeId node() const { return node_; }
+
+ private:
+  const Tree& tree_;
+  NodeId node_;
+  Diagnostics* diagnostics_;
+};
+
+void readEnumValues(NoteReader& r, EnumNote& note) {
+  for (const NodeId a : r.arguments()) {
+    if (r.tree().kind(a) == NodeKind::NamedArg) continue;
+    if (const auto n = r.number(a)) {
+      note.values.push_back({true, *n, {}});
+    } else if (const auto s = r.string(a)) {
+      note.values.push_back({false, 0, *s});
+    } else if (const auto b = r.truth(a)) {
+      note.values.push_back({false, 0, *b ? "true" : "false"});
+    } else {
+      r.warn(a, "a value of '@Enum' must be a number or a string", "");
+    }
+  }
+}
+
+void readEnum(NoteReader& r, Annotations& out) {
+  EnumNote note;
+  for (const NodeId a : r.arguments()) {
+    if (r.tree().kind(a) != NodeKind::NamedArg) continue;
+    const std::string_view key = r.tree().text(a);
+    const NodeId value = r.tree().child(a, 0);
+    if (key == "restricted" && r.truth(value)) {
+      note.restricted = *r.truth(value);
+    } else if (key == "valuesAttr" && r.word(value)) {
+      note.valuesAttribute = *r.word(value);
+    } else {
+      r.warn(a, "'" + std::string(key) + "' is not understood in '@Enum'",
+             "it takes values, 'valuesAttr=name' and 'restricted=true'");
+    }
+  }
+  readEnumValues(r, note);
+  out.choices = note;
+}
+
+// Numbers in order (min, max, step) or by name; strings make it an enumeration.
+void readRange(NoteReader& r, Annotations& out) {
+  RangeNote note;
+  double* const places[] = {&note.min, &note.max, &note.step};
+  size_t next = 0;
+  for (const NodeId a : r.arguments()) {
+    if (r.string(a)) {
+      EnumNote choices;
+      readEnumValues(r, choices);
+      out.choices = choices;
+      return;
+    }
+    const bool isNamed = r.tree().kind(a) == NodeKind::NamedArg;
+    const NodeId value = isNamed ? r.tree().child(a, 0) : a;
+    const std::string_view key = isNamed ? r.tree().text(a) : std::string_view();
+    const auto n = r.number(value);
+    if (key == "restricted" && r.truth(value)) {
+      note.restricted = *r.truth(value);
+    } else if (n && (key == "min" || key == "max" || key == "stepsize" || key == "step")) {
+      *places[key == "min" ? 0 : key == "max" ? 1 : 2] = *n;
+    } else if (n && !isNamed && next < 3) {
+      *places[next++] = *n;
+    } else {
+      r.warn(a, "this argument of '@Range' is not understood",
+             "write '@Range(min=0, max=10, stepsize=1, restricted=true)'");
+    }
+  }
+  out.range = note;
+}
+
+void readGroup(NoteReader& r, Annotations& out) {
+  out.group = {};
+  for (const NodeId a : r.arguments()) {
+    if (const auto s = r.word(a)) {
+      out.group.path.push_back(*s);
+    } else if (const auto n = r.number(a)) {
+      out.group.order = *n;
+    } else {
+      r.warn(a, "'@Group' takes names of groups and a number", "");
+    }
+  }
+}
+
+void readOrder(NoteReader& r, Annotations& out) {
+  if (r.arguments().size() == 1) out.order = r.number(r.arguments()[0]);
+  if (!out.order) r.warn(r.node(), "'@Order' takes one number", "");
+}
+
+void readHidden(NoteReader& r, Annotations& out) {
+  for (const NodeId a : r.arguments()) {
+    if (const auto name = r.word(a)) out.hiddenNames.push_back(*name);
+  }
+  if (out.hiddenNames.empty()) out.hidden = true;
+}
+
+void readFile(NoteReader& r, Annotations& out) {
+  out.file = FileNote::File;
+  for (const NodeId a : r.arguments()) {
+    if (const auto s = r.string(a)) out.extensions.push_back(*s);
+  }
+}
+
+void readOut(NoteReader& r, Annotations& out) {
+  for (const NodeId a : r.arguments()) {
+    const auto value = r.word(r.tree().child(a, 0));
+    if (r.tree().text(a) == "granularity" && value)
+      out.separateShapes = *value == "separatedShapes";
+  }
+}
+
+struct NoteKind {
+  std::string_view name;
+  void (*read)(NoteReader&, Annotations&);
+};
+
+constexpr NoteKind kNotes[] = {
+    {"Angle", [](NoteReader&, Annotations& o) { o.unit = UnitNote::Angle; }},
+    {"Color", [](NoteReader&, Annotations& o) { o.color = true; }},
+    {"Description", [](NoteReader& r, Annotations& o) { o.description = r.oneString(); }},
+    {"Directory", [](NoteReader&, Annotations& o) { o.file = FileNote::Directory; }},
+    {"DisplayName", [](NoteReader& r, Annotations& o) { o.displayName = r.oneString(); }},
+    {"Distance", [](NoteReader&, Annotations& o) { o.unit = UnitNote::Distance; }},
+    {"Enum", readEnum},
+    {"File", readFile},
+    {"Group", readGroup},
+    {"Handle", [](NoteReader&, Annotations&) {}},
+    {"Hidden", readHidden},
+    {"InLine", [](NoteReader&, Annotations& o) { o.input = InputNote::Line; }},
+    {"InMesh", [](NoteReader&, Annotations& o) { o.input = InputNote::Mesh; }},
+    {"InPoint", [](NoteReader&, Annotations& o) { o.input = InputNote::Point; }},
+    {"InPointCloud", [](NoteReader&, Annotations& o) { o.input = InputNote::PointCloud; }},
+    {"InPolygon", [](NoteReader&, Annotations& o) { o.input = InputNote::Polygon; }},
+    {"MaterialFile", [](NoteReader&, Annotations& o) { o.file = FileNote::MaterialFile; }},
+    {"Order", readOrder},
+    {"Out", readOut},
+    {"Percent", [](NoteReader&, Annotations& o) { o.unit = UnitNote::Percent; }},
+    {"Range", readRange},
+    {"RuleFileDescription", [](NoteReader&, Annotations&) {}},
+    {"StartRule", [](NoteReader&, Annotations& o) { o.startRule = true; }},
+};
+
+}  // namespace
+
+Annotations readAnnotations(const Tree& tree, NodeId list, GroupNote& group,
+                            Diagnostics* diagnostics) {
+  Annotations out;
+  out.group = group;
+  for (const NodeId id : tree.children(list)) {
+    const std::string_view name = tree.text(id);
+    const auto known = std::find_if(std::begin(kNotes), std::end(kNotes),
+                                    [&](const NoteKind& k) { return k.name == name; });
+    if (known != std::end(kNotes)) {
+      NoteReader reader(tree, id, diagnostics);
+      known->read(reader, out);
+    } else if (diagnostics) {
+      std::vector<std::string_view> names;
+      for (const NoteKind& k : kNotes) names.push_back(k.name);
+      diagnostics->warning("unknown-annotation", tree.span(id),
+                           "there is no annotation '@" + std::string(name) + "'; it has no effect",
+                           didYouMean(name, names));
+    }
+  }
+  group = out.group;
+  return out;
+}
+
+}  // namespace gable::lang

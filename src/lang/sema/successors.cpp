@@ -1,0 +1,413 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Bodies of rules. For each name in a sequence it is decided here whether it is an operation, a
+// rule or a leaf; blocks are checked against the kind that the operation declares.
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "lang/sema/analysis.h"
+
+namespace gable::lang {
+
+void Analysis::visitSequence(NodeId node) {
+  if (node == kNoNode) return;
+  for (const NodeId s : tree().children(node)) visitSuccessor(s);
+}
+
+void Analysis::visitSuccessor(NodeId node) {
+  switch (tree().kind(node)) {
+    case NodeKind::Apply: return visitApply(node);
+    case NodeKind::ImportApply: return visitImportCall(node, true);
+    case NodeKind::Push: return visitSequence(tree().child(node, 0));
+    case NodeKind::Choice: return visitSuccessorChoice(node);
+    default: return;
+  }
+}
+
+void Analysis::visitSuccessorChoice(NodeId node) {
+  const bool isCase = tree().choiceKind(node) == ChoiceKind::Case;
+  for (const NodeId branch : tree().children(node)) {
+    const NodeId condition = tree().child(branch, 0);
+    const ValueType wanted = isCase ? ValueType::Bool : ValueType::Float;
+    if (condition != kNoNode) {
+      expectType(condition, visit(condition, wanted), wanted, isCase ? "a condition" : "a weight");
+    }
+    visitSequence(tree().child(branch, 1));
+  }
+  if (!isCase) checkWeights(node);
+}
+
+// Constant weights above 100 % can never all happen; below it something must stand under "else".
+void Analysis::checkWeights(NodeId choice) {
+  double sum = 0;
+  bool known = true;
+  bool hasElse = false;
+  for (const NodeId branch : tree().children(choice)) {
+    const NodeId weight = tree().child(branch, 0);
+    hasElse = hasElse || weight == kNoNode;
+    if (weight == kNoNode) continue;
+    known = known && tree().kind(weight) == NodeKind::Number;
+    sum += tree().number(weight);
+  }
+  if (known && sum > 100 + 1e-9) {
+    warning("weights-over-100", tree().span(choice), "these weights add up to more than 100 %",
+            "lower them; what is above 100 % never happens");
+  }
+  // A chain without else is whole when its weights are.
+  if (!hasElse && (!known || sum < 100 - 1e-3)) {
+    errorAt("missing-else", choice, "these weights do not add up to 100 % and have no 'else'",
+            "add 'else : ...'");
+  }
+}
+
+// --- Rules and leaves ---
+
+void Analysis::makeLeaf(NodeId node, bool known) {
+  resolve(node, RefKind::Leaf);
+  if (known) return;
+  for (const NodeId block : tree().children(node).subspan(1)) {
+    errorAt("unexpected-block", block,
+            quote(text(node)) + " is no operation, so it cannot have a block",
+            didYouMean(text(node), ruleNames(body_.module)));
+  }
+}
+
+void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
+  const std::string_view name = text(node);
+  const Span span = nameSpan(tree(), node);
+  if (!found.rules.empty()) {
+    const RuleInfo& r = program_.rules[found.rules[0]];
+    warning("undefined-rule", span,
+            "the rule " + quote(name) + " takes " + std::to_string(r.paramCount) +
+                (r.paramCount == 1 ? " argument" : " arguments") +
+                ", so this is another name: a leaf",
+            "add or remove arguments");
+    return;
+  }
+  if (ruleInAnyStyle(body_.module, name) || inMissingImport(body_.module, name)) return;
+  std::vector<std::string_view> names;
+  const auto [owner, rest] = enter(body_.module, name);
+  std::string hint = didYouMean(rest, ruleNames(owner));
+  if (hint.empty()) hint = "write " + quote(std::string(name) + ".") + " if it shall be a leaf";
+  warning("undefined-rule", span,
+          "no rule or operation is named " + quote(name) + "; it becomes a leaf", std::move(hint));
+}
+
+bool Analysis::applyRule(NodeId node, const std::vector<RuleId>& rules,
+                         std::span<const NodeId> args, const std::vector<ValueType>& types) {
+  const RuleId id = chooseOverload(rules, program_.rules, args, types);
+  if (id == kNone) return false;
+  resolve(node, RefKind::Rule, id);
+  for (size_t i = 0; i < args.size(); ++i) {
+    expectType(args[i], types[i], program_.rules[id].paramTypes[i], "this argument");
+  }
+  for (const NodeId block : tree().children(node).subspan(1)) {
+    if (tree().kind(block) != NodeKind::Block) continue;
+    errorAt("unexpected-block", block, quote(text(node)) + " is a rule and takes no block",
+            "put the operations into the rule");
+  }
+  return true;
+}
+
+void Analysis::visitApply(NodeId node) {
+  const Tree& t = tree();
+  const std::string_view name = t.text(node);
+  const std::span<const NodeId> args = arguments(t.child(node, 0));
+  const bool hasBlock = t.children(node).size() > 1;
+  if (t.has(node, kFlagTerminal)) {
+    visitArguments(args);
+    return makeLeaf(node, true);
+  }
+  const RuleSet found = rulesNamed(body_.module, name);
+  const OpSpec* op = found.imported ? nullptr : catalogue_.operation(name);
+  const bool ruleFits = std::any_of(found.rules.begin(), found.rules.end(), [&](RuleId r) {
+    return program_.rules[r].paramCount == args.size();
+  });
+  if (op && op->soft) {
+    // The author's own name wins; without brackets and block it is a leaf as ever.
+    if (!found.rules.empty() || (t.child(node, 0) == kNoNode && !hasBlock)) op = nullptr;
+  } else if (op && ruleFits && !hasBlock && !acceptsCount(op->signatures, args.size())) {
+    op = nullptr;
+  }
+  if (op) return visitOperation(node, *op);
+
+  std::vector<ValueType> types;
+  checkNamedArguments(args);
+  for (size_t i = 0; i < args.size(); ++i) {
+    // With a single overload its parameter tells what the argument is.
+    ValueType expected = ValueType::Null;
+    if (found.rules.size() == 1 && ruleFits)
+      expected = program_.rules[found.rules[0]].paramTypes[i];
+    checkPrefix(args[i], {});
+    types.push_back(visit(args[i], expected));
+  }
+  if (applyRule(node, found.rules, args, types)) {
+    visitAllBlocks(node);
+    return;
+  }
+  makeLeaf(node, false);
+  visitAllBlocks(node);
+  if (!hasBlock) reportUndefinedRule(node, found);
+}
+
+// The bodies of blocks that belong to nothing, so that their mistakes are seen too.
+void Analysis::visitAllBlocks(NodeId node) {
+  for (const NodeId block : tree().children(node).subspan(1)) {
+    for (const NodeId item : tree().children(block)) {
+      if (tree().kind(item) == NodeKind::Item) visitSequence(tree().child(item, 2));
+    }
+  }
+}
+
+// `imp(a = e).Rule(args)`, as a successor or in an expression.
+void Analysis::visitImportCall(NodeId node, bool successor) {
+  const Tree& t = tree();
+  const NodeId import = t.child(node, 0);
+  for (const NodeId item : t.children(t.child(node, 1))) {
+    if (t.kind(item) == NodeKind::NamedArg) {
+      visit(t.child(item, 0));
+    } else if (t.kind(item) != NodeKind::Rule) {
+      errorAt("bad-override", item, "a dynamic import takes 'name = value' only",
+              "write the name of the attribute before the value");
+    }
+  }
+  const std::span<const NodeId> args = arguments(t.child(node, 2));
+  const std::vector<ValueType> types = visitArguments(args);
+  if (!successor) {
+    errorAt("bad-dynamic-import", node, "a dynamic import can only apply rules",
+            "store the value in an attribute of the importing file");
+    return;
+  }
+  const auto& imports = scopes_[body_.module].imports;
+  if (imports.count(t.text(import)) == 0) {
+    std::vector<std::string_view> names;
+    for (const auto& [n, id] : imports) names.push_back(n);
+    std::sort(names.begin(), names.end());
+    makeLeaf(node, true);
+    if (units_[module().unit].importNames.count(t.text(import)) == 0) {
+      errorAt("unknown-import", import, "there is no import " + quote(t.text(import)),
+              didYouMean(t.text(import), names));
+    }
+    return;
+  }
+  const ModuleId target = dynamicModule(body_.module, node);
+  if (target == kNone) return makeLeaf(node, true);
+  const RuleSet found = rulesNamed(target, t.text(node));
+  if (applyRule(node, found.rules, args, types)) return;
+  makeLeaf(node, true);
+  warning("undefined-rule", nameSpan(t, import),
+          "the imported file has no rule " + quote(t.text(node)) + " with " +
+              std::to_string(args.size()) + " arguments; it becomes a leaf",
+          didYouMean(t.text(node), ruleNames(target)));
+}
+
+// --- Operations ---
+
+void Analysis::visitOperation(NodeId node, const OpSpec& op) {
+  const std::string_view name = op.name;
+  if (name == "set") return visitSet(node, op);
+  if (name == "local") return visitLocal(node, op);
+  if (name == "do") return visitDo(node, op);
+  const std::span<const NodeId> args = arguments(tree().child(node, 0));
+  const uint16_t signature = checkBuiltinCall({name, node, op.signatures}, args);
+  resolve(node, RefKind::Operation);
+  module().resolutions[node].spec.operation = &op;
+  module().resolutions[node].signature = signature;
+  visitBlocks(node, op);
+}
+
+// set(attribute, value): the first argument is a place, not a value.
+void Analysis::visitSet(NodeId node, const OpSpec& op) {
+  const Tree& t = tree();
+  const std::span<const NodeId> args = arguments(t.child(node, 0));
+  resolve(node, RefKind::Operation);
+  module().resolutions[node].spec.operation = &op;
+  module().resolutions[node].signature = 0;
+  if (args.size() != 2) {
+    visitArguments(args);
+    errorAt("wrong-argument-count", node,
+            "'set' takes 2 arguments, not " + std::to_string(args.size()),
+            "write 'set(attribute, value)'");
+    return;
+  }
+  checkNamedArguments(args);
+  ValueType wanted = ValueType::Null;
+  const NodeId place = args[0];
+  const std::string_view name = t.text(place);
+  if (t.kind(place) != NodeKind::Name) {
+    visit(place);  // sel("material.color." + channel)
+  } else if (const AttributeId a = attributeNamed(body_.module, name); a != kNone) {
+    const AttributeInfo& info = program_.attributes[a];
+    resolve(place, RefKind::Attribute, a);
+    wanted = typed(place, info.type);
+    if (info.constant) {
+      errorAt("not-settable", place, quote(name) + " is a constant and cannot be set",
+              "declare it with 'attr'");
+    }
+  } else if (const AttributeSpec* spec = catalogue_.attribute(name)) {
+    resolve(place, RefKind::ShapeAttribute);
+    module().resolutions[place].spec.attribute = spec;
+    wanted = typed(place, spec->type);
+    if (!spec->set) {
+      errorAt("not-settable", place, quote(name) + " can only be read", "");
+    }
+  } else {
+    resolve(place, RefKind::Selector);
+    std::vector<std::string_view> names;
+    for (const auto& [n, id] : scopes_[body_.module].attributes) names.push_back(n);
+    for (const AttributeSpec* s : catalogue_.attributes) names.push_back(s->name);
+    std::sort(names.begin(), names.end());
+    errorAt("unknown-attribute", place, "there is no attribute " + quote(name),
+            didYouMean(name, names));
+  }
+  expectType(args[1], visit(args[1], wanted), wanted, "the value");
+  visitBlocks(node, op);
+}
+
+// local(name = value, ...) { operations }: each name is an attribute.
+void Analysis::visitLocal(NodeId node, const OpSpec& op) {
+  resolve(node, RefKind::Operation);
+  module().resolutions[node].spec.operation = &op;
+  for (const NodeId a : arguments(tree().child(node, 0))) {
+    const NodeId value = tree().kind(a) == NodeKind::NamedArg ? tree().child(a, 0) : a;
+    ValueType wanted = ValueType::Null;
+    const AttributeId id = value == a ? kNone : attributeNamed(body_.module, text(a));
+    if (id != kNone) {
+      resolve(a, RefKind::Attribute, id);
+      wanted = program_.attributes[id].type;
+    } else {
+      errorAt("unknown-attribute", a, "'local' sets attributes, and this names none",
+              "write 'local(attribute = value) { ... }'");
+    }
+    expectType(value, visit(value, wanted), wanted, "the value");
+  }
+  visitBlocks(node, op);
+}
+
+// do(A(args)): applies a rule in place; the argument is a rule written like a call.
+void Analysis::visitDo(NodeId node, const OpSpec& op) {
+  resolve(node, RefKind::Operation);
+  module().resolutions[node].spec.operation = &op;
+  const std::span<const NodeId> args = arguments(tree().child(node, 0));
+  const NodeId call = args.size() == 1 ? args[0] : kNoNode;
+  const bool isRule = tree().kind(call) == NodeKind::Name || tree().kind(call) == NodeKind::Call;
+  if (!isRule) {
+    errorAt("wrong-argument-count", node, "'do' takes one rule", "write 'do(Rule(arguments))'");
+    return;
+  }
+  const std::span<const NodeId> inner = tree().kind(call) == NodeKind::Call
+                                            ? arguments(tree().child(call, 0))
+                                            : std::span<const NodeId>();
+  const std::vector<ValueType> types = visitArguments(inner);
+  const RuleSet found = rulesNamed(body_.module, text(call));
+  const RuleId id = chooseOverload(found.rules, program_.rules, inner, types);
+  resolve(call, id == kNone ? RefKind::Leaf : RefKind::Rule, id);
+  if (id == kNone) reportUndefinedRule(call, found);
+  visitBlocks(node, op);
+}
+
+// --- Blocks ---
+
+void Analysis::visitBlocks(NodeId node, const OpSpec& op) {
+  const Tree& t = tree();
+  const std::span<const NodeId> blocks = t.children(node).subspan(1);
+  const std::string name = quote(op.name);
+  if (op.block == BlockKind::None) {
+    if (!blocks.empty()) {
+      errorAt("unexpected-block", blocks[0], name + " takes no block", "remove the braces");
+      visitAllBlocks(node);
+    }
+    return;
+  }
+  if (blocks.empty() && !op.blockOptional) {
+    const char* const hints[] = {"", "add '{ size : operations | ... }'",
+                                 "add '{ selector : operations | ... }'", "add '{ operations }'",
+                                 "add '{ operations | operations }'"};
+    errorAt("missing-block", node, name + " needs a block", hints[static_cast<size_t>(op.block)]);
+  }
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    // The perimeter's second block holds its remainder.
+    if (i > 0 && !(i == 1 && op.block == BlockKind::Split)) {
+      errorAt("unexpected-block", blocks[i], name + " takes no further block", "");
+    }
+    visitBlock(blocks[i], op, false);
+  }
+}
+
+void Analysis::visitBlock(NodeId block, const OpSpec& op, bool nested) {
+  const Tree& t = tree();
+  if (t.has(block, kFlagRepeat) && op.block != BlockKind::Split) {
+    errorAt("unexpected-repeat", block, "only splits can be repeated with '*'", "remove the '*'");
+  }
+  const size_t count = t.children(block).size();
+  if (op.block == BlockKind::Operands && !nested && count != 2 && !op.blockOptional) {
+    errorAt("wrong-operand-count", block, quote(op.name) + " takes two operands",
+            "write '" + std::string(op.name) + " { A | B }'");
+  }
+  if (op.block == BlockKind::Operations && count > 1) {
+    errorAt("unexpected-separator", block, quote(op.name) + " takes operations without '|'",
+            "remove the '|'");
+  }
+  for (const NodeId item : t.children(block)) {
+    if (t.kind(item) != NodeKind::Block) {
+      visitItem(item, op);
+      continue;
+    }
+    if (op.block != BlockKind::Split) {
+      errorAt("unexpected-group", item, "only splits have groups", "remove the inner braces");
+    }
+    visitBlock(item, op, true);
+  }
+}
+
+void Analysis::visitItem(NodeId item, const OpSpec& op) {
+  const Tree& t = tree();
+  if (t.kind(item) != NodeKind::Item) return;
+  const NodeId head = t.child(item, 0);
+  const NodeId second = t.child(item, 1);
+  const bool wantsHead = op.block == BlockKind::Split || op.block == BlockKind::Selectors;
+  if (head == kNoNode && wantsHead && t.kind(t.child(item, 2)) != NodeKind::Missing) {
+    const bool isSplit = op.block == BlockKind::Split;
+    errorAt(isSplit ? "missing-size" : "missing-selector", item,
+            std::string("this part has no ") + (isSplit ? "size" : "selector"),
+            isSplit ? "write 'size : operations'" : "write 'selector : operations'");
+  }
+  if (head != kNoNode && !wantsHead) {
+    visit(head);
+    errorAt("unexpected-head", head, quote(op.name) + " takes operations only here",
+            "remove what stands before the ':'");
+  }
+  if (head != kNoNode && op.block == BlockKind::Split) {
+    // { remainder : ... } of the perimeter is a word.
+    if (t.kind(head) == NodeKind::Name && isSelectorWord(t.text(head), op.blockWords)) {
+      resolve(head, RefKind::Selector);
+      typed(head, ValueType::Selector);
+    } else {
+      expectType(head, visit(head, ValueType::Float), ValueType::Float, "a size");
+    }
+    if (t.itemKind(item) != ItemKind::Each) {
+      errorAt("bad-separator", item, "the parts of a split are written 'size : operations'",
+              "replace '=' by ':'");
+    }
+  }
+  if (head != kNoNode && op.block == BlockKind::Selectors) {
+    const ValueType type = visitHead(head, op.blockWords);
+    if (type == ValueType::String || type >= ValueType::FloatArray) {
+      errorAt("type-mismatch", head,
+              std::string("a selector is a word, a condition or an index, not a ") + typeName(type),
+              "");
+    }
+  }
+  if (second != kNoNode) {
+    expectType(second, visit(second, ValueType::Float), ValueType::Float, "a depth");
+    if (op.name != std::string_view("splitAndSetbackPerimeter")) {
+      errorAt("unexpected-head", second, "only splitAndSetbackPerimeter takes a second size",
+              "remove one of the two");
+    }
+  }
+  visitSequence(t.child(item, 2));
+}
+
+}  // namespace gable::lang
