@@ -3,13 +3,14 @@
 //
 // Boxes and rectangles are divided by arithmetic alone: a part of one is one. Other geometry is cut
 // by planes, which close what they open, or along lines of equal uv coordinate.
+#include <algorithm>
 #include <cmath>
 
 #include "builtins/lists.h"
 #include "builtins/ops/subdivide/shared/parts.h"
 #include "builtins/ops/subdivide/shared/split_sizes.h"
 #include "builtins/ops/subdivide/shared/uv_extent.h"
-#include "geom/mesh/slice.h"
+#include "geom/mesh/clip.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -85,13 +86,18 @@ void splitMesh(OpCall& call, Axis axis, bool adjust, const SplitPieces& pieces) 
   const MeshRef mesh = meshInScope(s);
   const auto a = static_cast<size_t>(axis);
   const double whole = std::fabs(s.size[a]);
-  // Against the axis, parts are counted from the far end.
-  Vec3 direction;
-  direction[a] = s.size[a] < 0 ? -1 : 1;
-  const Cuts cuts = cutsOf(pieces, 0, whole);
-  std::vector<Mesh> parts = sliceMesh(*mesh, direction, cuts.at, true);
+  Cuts cuts = cutsOf(pieces, 0, whole);
+  if (s.size[a] < 0) {
+    // Parts are counted from the origin, against the axis.
+    std::reverse(cuts.at.begin(), cuts.at.end());
+    for (double& c : cuts.at) c = -c;
+    for (size_t& slab : cuts.slab) slab = cuts.at.size() - slab;
+  }
+  CutOptions options;
+  options.cap = true;
+  std::vector<MeshPart> parts = sliceAxis(*mesh, static_cast<int>(a), cuts.at, options);
   for (size_t i = 0; i < pieces.size(); ++i) {
-    Mesh& part = parts[cuts.slab[i]];
+    Mesh& part = parts[cuts.slab[i]].mesh;
     if (part.empty()) continue;
     Shape child = scopePart(s, axis, pieces[i].start, pieces[i].size);
     setPartMesh(child, s, std::move(part), adjust);
@@ -143,9 +149,13 @@ Status splitUv(OpCall& call, int coordinate) {
   Cuts cuts = cutsOf(pieces, 0, whole);
   const double perUnit = (extent.max - extent.min) / whole;
   for (double& c : cuts.at) c = extent.min + c * perUnit;
-  std::vector<Mesh> parts = sliceMeshByUv(*mesh, set, coordinate, cuts.at);
+  std::vector<double> field;
+  for (const Vec2 uv : mesh->uvs[static_cast<size_t>(set)]) {
+    field.push_back(uv[static_cast<size_t>(coordinate)]);
+  }
+  std::vector<MeshPart> parts = sliceField(*mesh, field, cuts.at);
   for (size_t i = 0; i < pieces.size(); ++i) {
-    Mesh& part = parts[cuts.slab[i]];
+    Mesh& part = parts[cuts.slab[i]].mesh;
     if (part.empty()) continue;
     Shape child = s;
     setPartMesh(child, s, std::move(part), true);

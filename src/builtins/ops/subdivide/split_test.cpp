@@ -112,7 +112,6 @@ TEST(Split, meshPartsAreFittedOrFillTheScope) {
   ASSERT_EQ(fitted.children.size(), 2u);
   ASSERT_EQ(filling.children.size(), 2u);
   // Scope z runs from north to south: the first part is the upright of the L.
-  EXPECT_EQ(fitted.children[0].shape.geometry.kind, GeometryKind::Mesh);
   EXPECT_NEAR(fitted.children[0].shape.size.x, 2, 1e-12);
   EXPECT_NEAR(fitted.children[0].shape.size.z, 3, 1e-12);
   EXPECT_NEAR(filling.children[0].shape.size.x, 6, 1e-12);

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Each face is fanned into triangles; on a triangle uv is linear, so dp/du follows from its edges.
-// Summing signed triangles makes concave faces come out right.
 #include "builtins/ops/subdivide/shared/uv_extent.h"
 
 #include <algorithm>

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "builtins/auto_tags.h"
+
+#include <algorithm>
+#include <string>
+
+#include "builtins/selection.h"
+
+namespace gable {
+
+AutoTags::AutoTags(const Services& services, std::string_view family)
+    : services_(services), family_(family) {}
+
+TagSetId AutoTags::without(TagSetId set) {
+  if (set == 0) return 0;
+  for (const auto& [from, to] : known_) {
+    if (from == set) return to;
+  }
+  std::vector<StringId> names = services_.tags().names(set);
+  std::erase_if(names, [&](StringId n) { return tagMatches(family_, services_.pool().text(n)); });
+  const TagSetId result = services_.tags().intern(std::move(names));
+  known_.emplace_back(set, result);
+  return result;
+}
+
+TagSetId AutoTags::with(TagSetId set, std::string_view name) {
+  std::string tag(family_);
+  tag += '.';
+  tag += name;
+  return services_.tags().with(without(set), tag);
+}
+
+TagSetId AutoTags::merged(TagSetId a, TagSetId b) const {
+  if (a == 0 || a == b) return b;
+  if (b == 0) return a;
+  std::vector<StringId> names = services_.tags().names(a);
+  const std::vector<StringId>& more = services_.tags().names(b);
+  names.insert(names.end(), more.begin(), more.end());
+  return services_.tags().intern(std::move(names));
+}
+
+}  // namespace gable
