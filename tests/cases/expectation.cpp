@@ -229,30 +229,37 @@ std::string checkCount(const Facts& facts, const Words& words) {
   return compare(static_cast<double>(counts.at(words[0])), words, 1);
 }
 
-/// "line:column" of a diagnostic, empty where it has no place.
-std::string placeOf(const Outcome& outcome, const Diagnostic& d) {
-  if (!d.span.valid()) return "";
-  const LineColumn at = outcome.sources->locate(d.span.file, d.span.begin);
-  return std::to_string(at.line) + ":" + std::to_string(at.column);
+const char* levelName(Level level) {
+  switch (level) {
+    case Level::Error: return "error";
+    case Level::Warning: return "warning";
+    case Level::Note: break;
+  }
+  return "note";
+}
+
+/// "line:column" of a message, empty where it has no place.
+std::string placeOf(const Message& m) {
+  return m.line == 0 ? "" : std::to_string(m.line) + ":" + std::to_string(m.column);
 }
 
 std::string describe(const Outcome& outcome) {
   std::string text = "found";
-  for (const Diagnostic& d : outcome.diagnostics->all()) {
-    text += std::string(" ") + severityName(d.severity) + " " + d.code + " " + placeOf(outcome, d);
+  for (const Message& m : outcome.messages) {
+    text += std::string(" ") + levelName(m.level) + " " + m.code + " " + placeOf(m) + ",";
   }
-  return outcome.diagnostics->all().empty() ? "there is no diagnostic" : text;
+  return outcome.messages.empty() ? "there is no diagnostic" : text;
 }
 
-bool matches(const Outcome& outcome, const Diagnostic& d, const Words& words) {
-  return words.size() >= 2 && severityName(d.severity) == words[0] && d.code == words[1] &&
-         (words.size() < 3 || placeOf(outcome, d) == words[2]);
+bool matches(const Message& m, const Words& words) {
+  return words.size() >= 2 && levelName(m.level) == words[0] && m.code == words[1] &&
+         (words.size() < 3 || placeOf(m) == words[2]);
 }
 
 std::string checkDiagnostic(const Facts& facts, const Words& words) {
   if (words.size() < 2 || words.size() > 3) return kNotUnderstood;
-  for (const Diagnostic& d : facts.outcome->diagnostics->all()) {
-    if (matches(*facts.outcome, d, words)) return "";
+  for (const Message& m : facts.outcome->messages) {
+    if (matches(m, words)) return "";
   }
   return describe(*facts.outcome);
 }
@@ -260,7 +267,7 @@ std::string checkDiagnostic(const Facts& facts, const Words& words) {
 std::string checkDiagnostics(const Facts& facts, const Words& words) {
   if (words.size() < 2) return kNotUnderstood;
   Words found{"diagnostics"};
-  for (const Diagnostic& d : facts.outcome->diagnostics->all()) found.push_back(d.code);
+  for (const Message& m : facts.outcome->messages) found.push_back(m.code);
   if (found.size() == 1) found.emplace_back("none");
   return found == words ? "" : describe(*facts.outcome);
 }
@@ -358,12 +365,11 @@ std::vector<Failure> failures(const std::vector<Statement>& expected, const Outc
     failed.push_back({s.line, statement + ": " + complaint});
   }
   checkPrints(expected, outcome, failed);
-  for (const Diagnostic& d : outcome.diagnostics->all()) {
-    const bool named = std::any_of(expected.begin(), expected.end(), [&](const Statement& s) {
-      return matches(outcome, d, s.words);
-    });
-    if (d.severity == Severity::Error && !named && !allDiagnosticsNamed) {
-      failed.push_back({0, "an error that no statement expects: " + format(d, *outcome.sources)});
+  for (const Message& m : outcome.messages) {
+    const bool named = std::any_of(expected.begin(), expected.end(),
+                                   [&](const Statement& s) { return matches(m, s.words); });
+    if (m.level == Level::Error && !named && !allDiagnosticsNamed) {
+      failed.push_back({0, "an error that no statement expects: " + m.pretty});
     }
   }
   return failed;

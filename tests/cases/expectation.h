@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "base/diagnostic.h"
 #include "case_file.h"
+#include "gable/gable.h"
 #include "scene/scene.h"
 
 namespace gable::cases {
@@ -16,9 +16,8 @@ namespace gable::cases {
 /// What came of a case.
 struct Outcome {
   const Scene* scene = nullptr;
-  const Sources* sources = nullptr;
-  const Diagnostics* diagnostics = nullptr;
-  /// Lines of diagnostics in the rule text are counted from 1 here.
+  /// Of all stages, in the order in which they came.
+  Messages messages;
   std::string dump;
 };
 
@@ -28,7 +27,7 @@ struct Failure {
   std::string message;
 };
 
-/// All failures of the statements, and an error diagnostic that none of them expects.
+/// All failures of the statements, and an error message that none of them expects.
 std::vector<Failure> failures(const std::vector<Statement>& expected, const Outcome& outcome);
 
 /// Whether a number meets an expectation: `12.5`, `12.5 +- 0.1` (three words) or `10..14`. `used`

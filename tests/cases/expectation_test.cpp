@@ -15,8 +15,7 @@ namespace {
 
 struct Made {
   Scene scene;
-  Sources sources;
-  Diagnostics diagnostics;
+  Messages messages;
 
   Made() {
     scene.names = {"Lot", "Tower", "Roof"};
@@ -45,8 +44,12 @@ struct Made {
                      {"Area", {PlainValue::Kind::Number, 4, ""}},
                      {"Kind", {PlainValue::Kind::Text, 0, "a"}}};
     scene.prints = {"two words"};
-    const uint32_t file = sources.add("case.cga", "Lot --> A\n  B\n");
-    diagnostics.warning("undefined-rule", {file, 12, 13}, "'B' is not a rule");
+    Message undefined;
+    undefined.level = Level::Warning;
+    undefined.code = "undefined-rule";
+    undefined.line = 2;
+    undefined.column = 3;
+    messages = {undefined};
   }
 
   std::string complaints(const std::string& text) const {
@@ -54,8 +57,7 @@ struct Made {
     section.text = text + "\n";
     section.textLine = 1;
     std::string all;
-    for (const Failure& f :
-         failures(statements(section), {&scene, &sources, &diagnostics, dumpText(scene)})) {
+    for (const Failure& f : failures(statements(section), {&scene, messages, dumpText(scene)})) {
       all += std::to_string(f.line) + ": " + f.message + "\n";
     }
     return all;
@@ -141,7 +143,9 @@ TEST(Expectation, rejectsWhatDoesNotHold) {
 
 TEST(Expectation, reportsAnErrorThatNobodyExpects) {
   Made made;
-  made.diagnostics.error("unknown-operation", {}, "'extrud' is not an operation");
+  Message unknown;
+  unknown.code = "unknown-operation";
+  made.messages.push_back(unknown);
   EXPECT_NE(made.complaints("leaves 2"), "");
   EXPECT_EQ(made.complaints("leaves 2\nerror unknown-operation"), "");
 }
