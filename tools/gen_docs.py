@@ -1,0 +1,188 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The Gable authors
+"""Writes docs/reference from the engine's own declarations: tools/gen_docs.py GABLE [--check].
+
+GABLE is the program; `gable ops --json` lists all operations, functions, shape attributes and selectors.
+Each .cpp of src/builtins with its .md becomes a page: signatures and parameters from the declarations,
+then the prose. With --check nothing is written; exit status 1 when a page is not what it should be.
+"""
+import argparse
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+BUILTINS = ROOT / "src/builtins"
+REFERENCE = "docs/reference"
+NOTE = "<!-- Made by tools/gen_docs.py; change the source beside {source} instead. -->\n"
+# What only the source tells: which file declares a name. Every declaration is a row {"name", "...", ...}.
+ROW = r'\{{\s*"{name}",'
+
+
+class Reference:
+    def __init__(self, catalogue):
+        self.catalogue = catalogue
+        self.pages = {}     # path -> text
+        self.problems = []
+        self.sources = {p: p.read_text(encoding="utf-8") for kind in ("ops", "functions")
+                        for p in sorted((BUILTINS / kind).rglob("*.cpp"))
+                        if "/shared/" not in p.as_posix() and not p.stem.endswith("_test")}
+
+    def source_of(self, kind, name):
+        """The .cpp below ops/ or functions/ that declares a name."""
+        row = re.compile(ROW.format(name=re.escape(name)))
+        for path, text in self.sources.items():
+            if path.is_relative_to(BUILTINS / kind) and row.search(text):
+                return path
+        self.problems.append(f"{name}: no file of src/builtins/{kind} has a row for it")
+        return None
+
+    def by_source(self, kind, entries):
+        """{source: entries}, in the order of the sources."""
+        groups = {}
+        for entry in entries:
+            source = self.source_of(kind, entry["name"])
+            if source:
+                groups.setdefault(source, []).append(entry)
+        return dict(sorted(groups.items()))
+
+    def make(self):
+        operations = self.by_source("ops", self.catalogue["operations"])
+        functions = self.by_source("functions", self.catalogue["functions"])
+        attributes = self.by_source("functions", self.catalogue["attributes"])
+        for source, entries in operations.items():
+            self.page("operations", source, entries, [])
+        for source in sorted({*functions, *attributes}):
+            self.page("functions", source, functions.get(source, []), attributes.get(source, []))
+        self.index("operations", "Operations", operations, "summary")
+        self.index("functions", "Functions", functions, "summary")
+        self.index("attributes", "Attributes of the shape", attributes, "doc", folder="functions")
+        self.selectors()
+
+    def page(self, folder, source, entries, attributes):
+        prose = source.with_suffix(".md")
+        names = [e["name"] for e in entries] or [source.stem.replace("_", " ").capitalize()]
+        title = ", ".join(names[:6]) + (", ..." if len(names) > 6 else "")
+        intro, rest = split_prose(prose.read_text(encoding="utf-8")) if prose.exists() else ("", "")
+        parts = [NOTE.format(source=source.relative_to(ROOT).as_posix()), f"# {title}\n", intro]
+        parts += [entry_text(e, heading=len(entries) > 1) for e in entries]
+        if attributes:
+            parts.append("## Attributes\n\n" + table(
+                ("name", "type", "", "meaning"),
+                [(f"`{a['name']}`", a["type"], "can be set" if a["writable"] else "", a["doc"])
+                 for a in attributes]))
+        self.pages[f"{REFERENCE}/{folder}/{source.stem}.md"] = "\n".join(p for p in [*parts, rest] if p)
+
+    def index(self, name, title, groups, meaning, folder=None):
+        rows = sorted((entry["name"], source.stem, entry[meaning], entry.get("family", ""))
+                      for source, entries in groups.items() for entry in entries)
+        text = NOTE.format(source="src/builtins") + f"\n# {title}\n\n"
+        families = sorted({row[3] for row in rows})
+        for family in families:
+            if family:
+                text += f"## {family.capitalize()}\n\n"
+            text += table(("name", "what it does" if meaning == "summary" else "meaning"),
+                          [(f"[`{n}`]({folder or name}/{stem}.md)", doc)
+                           for n, stem, doc, f in rows if f == family]) + "\n"
+        self.pages[f"{REFERENCE}/{name}.md"] = text.rstrip("\n") + "\n"
+
+    def selectors(self):
+        text = NOTE.format(source="src/builtins") + "\n# Selectors\n\nWords that choose components, in `comp` and "
+        text += "where an operation takes one.\n\n"
+        text += table(("selector", "chooses"),
+                      [(f"`{s['name']}`", s["doc"]) for s in self.catalogue["selectors"]])
+        self.pages[f"{REFERENCE}/selectors.md"] = text
+
+
+def split_prose(text):
+    """What stands before the first heading, and the rest."""
+    match = re.search(r"^## ", text, re.M)
+    at = match.start() if match else len(text)
+    return tuple(part.strip() + "\n" if part.strip() else "" for part in (text[:at], text[at:]))
+
+
+def table(head, rows):
+    def cell(text):
+        return str(text).replace("|", "\\|").replace("\n", " ")
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return "\n".join(lines + ["| " + " | ".join(map(cell, row)) + " |" for row in rows]) + "\n"
+
+
+def signature(entry, overload):
+    """name(a, b, [c]) with the block behind it."""
+    if entry.get("bare") and not overload["params"]:
+        return entry["name"]
+    names = [f"[{p['name']}]" if "default" in p else p["name"] for p in overload["params"]]
+    if overload.get("variadic"):
+        names.append("...")
+    text = f"{entry['name']}({', '.join(names)})"
+    if entry.get("block"):
+        text += " " + entry["block"]
+    if overload.get("result", "null") not in ("null", ""):
+        text += " : " + overload["result"]
+    return text
+
+
+def entry_text(entry, heading):
+    """Signatures, summary and a table of the parameters; one of a name stands for all overloads."""
+    text = f"## {entry['name']}\n\n" if heading else ""
+    overloads = entry["overloads"] or [{"params": []}]
+    text += "```text\n" + "\n".join(signature(entry, o) for o in overloads) + "\n```\n\n"
+    text += entry["summary"] + "\n"
+    seen, rows = set(), []
+    for overload in overloads:
+        for p in overload["params"]:
+            key = (p["name"], p["type"], p["doc"])
+            if key in seen:
+                continue
+            seen.add(key)
+            words = f" One of `{'`, `'.join(p['words'].split())}`." if p.get("words") else ""
+            rows.append((f"`{p['name']}`", p["type"],
+                         f"`{p['default']}`" if "default" in p else "", p["doc"] + words))
+    if rows:
+        text += "\n" + table(("parameter", "type", "default", "meaning"), rows)
+    return text
+
+
+def stale_pages(pages):
+    """Generated files on disk that no page stands for any more."""
+    for folder in ("operations", "functions"):
+        for path in sorted((ROOT / REFERENCE / folder).glob("*.md")):
+            relative = path.relative_to(ROOT).as_posix()
+            if relative not in pages:
+                yield path, relative
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("gable")
+    parser.add_argument("--check", action="store_true")
+    options = parser.parse_args()
+    answer = subprocess.run([options.gable, "ops", "--json"], capture_output=True, check=True)
+    reference = Reference(json.loads(answer.stdout))
+    reference.make()
+    problems = reference.problems
+    for path, text in sorted(reference.pages.items()):
+        full = ROOT / path
+        if options.check:
+            if not full.exists() or full.read_text(encoding="utf-8") != text:
+                problems.append(f"{path} is not up to date: run tools/gen_docs.py {options.gable}")
+        else:
+            full.parent.mkdir(parents=True, exist_ok=True)
+            full.write_text(text, encoding="utf-8")
+    for full, path in stale_pages(reference.pages):
+        if options.check:
+            problems.append(f"{path} has no source any more")
+        else:
+            full.unlink()
+    for problem in problems:
+        print(problem)
+    print(f"{len(reference.pages)} pages, {len(problems)} problems")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
