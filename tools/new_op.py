@@ -77,24 +77,33 @@ def snake(name):
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
 
 
+def create(root, family, name):
+    """Writes the three files below `root`; returns their paths, none where the stem is taken."""
+    stem = snake(name)
+    if any((root / OPS).glob(f"*/{stem}.cpp")):
+        return []
+    folder = root / OPS / family
+    folder.mkdir(parents=True, exist_ok=True)
+    paths = []
+    for suffix, text in (("cpp", SOURCE), ("test", CASE), ("md", PAGE)):
+        paths.append(folder / f"{stem}.{suffix}")
+        paths[-1].write_text(text.format(name=name, family=family, stem=stem), encoding="utf-8")
+    return paths
+
+
 def main():
     if len(sys.argv) != 3 or not re.fullmatch(r"[a-z_]+", sys.argv[1]) or not re.fullmatch(
             r"[a-z][A-Za-z0-9]*", sys.argv[2]):
         print(__doc__, file=sys.stderr)
         return 2
     family, name = sys.argv[1:]
-    stem = snake(name)
-    taken = sorted((ROOT / OPS).glob(f"*/{stem}.cpp"))
-    if taken:
-        print(f"{taken[0].relative_to(ROOT)} is there already", file=sys.stderr)
+    paths = create(ROOT, family, name)
+    if not paths:
+        print(f"{snake(name)}.cpp is there already", file=sys.stderr)
         return 1
-    folder = ROOT / OPS / family
-    folder.mkdir(parents=True, exist_ok=True)
-    for suffix, text in (("cpp", SOURCE), ("test", CASE), ("md", PAGE)):
-        path = folder / f"{stem}.{suffix}"
-        path.write_text(text.format(name=name, family=family, stem=stem), encoding="utf-8")
+    for path in paths:
         print(path.relative_to(ROOT))
-    print(f"Next: write the case in {stem}.test, then ./test case.{stem}")
+    print(f"Next: write the case in {snake(name)}.test, then ./test case.{snake(name)}")
     return 0
 
 

@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The Gable authors
+"""The tools do what they say."""
+import os
+import struct
+import subprocess
+import tempfile
+import unittest
+import zlib
+from pathlib import Path
+
+import gen_docs
+import new_op
+import run_tests
+import shrink_png
+from checks import ops
+from checks.tree import Tree
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+class FolderCase(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.root = Path(self.folder.name)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+
+class NewOpTest(FolderCase):
+    def testWritesACompleteTripletThatCompiles(self):
+        paths = new_op.create(self.root, "build", "roofDome")
+        self.assertEqual([p.name for p in paths],
+                         ["roof_dome.cpp", "roof_dome.test", "roof_dome.md"])
+        self.assertEqual(ops.check(Tree(self.root)), [])
+        compiled = subprocess.run([os.environ.get("CXX", "g++"), "-std=c++20", "-fsyntax-only", "-Wall",
+                                   "-Wextra", "-Werror", f"-I{ROOT}/src", str(paths[0])],
+                                  capture_output=True, text=True, check=False)
+        self.assertEqual(compiled.stderr, "")
+
+    def testLeavesAnExistingOperationAlone(self):
+        new_op.create(self.root, "build", "roofDome")
+        self.assertEqual(new_op.create(self.root, "other", "roofDome"), [])
+
+
+class ShrinkTest(FolderCase):
+    def write(self, name, width, height, pixel, filtered=0):
+        """An RGB picture; every row with one filter, its bytes already filtered."""
+        def chunk(kind, body):
+            return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+        raw = b"".join(bytes([filtered]) + bytes(v for x in range(width) for v in pixel(x, y))
+                       for y in range(height))
+        (self.root / name).write_bytes(
+            shrink_png.SIGNATURE + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b""))
+        return self.root / name
+
+    def testKeepsFewColoursExactly(self):
+        path = self.write("a.png", 4, 2, lambda x, y: (x * 10, y * 20, 7))
+        width, height, rows = shrink_png.read(path)
+        self.assertEqual((width, height, rows[1][3]), (4, 2, (30, 20, 7)))
+        data = shrink_png.encode(width, height, rows, 256)
+        parts = dict(shrink_png.chunks(data))
+        palette, raw = parts[b"PLTE"], zlib.decompress(parts[b"IDAT"])
+        color = raw[1 * 5 + 1 + 3] * 3
+        self.assertEqual(tuple(palette[color:color + 3]), (30, 20, 7))
+
+    def testUndoesFilters(self):
+        # Filter 1 holds differences to the pixel before: a ramp is a row of ones.
+        path = self.write("a.png", 5, 1, lambda x, y: (1, 2, 3), filtered=1)
+        self.assertEqual(shrink_png.read(path)[2][0][4], (5, 10, 15))
+
+    def testGivesUpPixelsToMeetTheLimit(self):
+        path = self.write("a.png", 64, 64, lambda x, y: (x * 37 % 256, y * 91 % 256, x * y % 256))
+        target = self.root / "b.png"
+        done = subprocess.run(["python3", str(ROOT / "tools/shrink_png.py"), str(path), str(target), "3000"],
+                              capture_output=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertLessEqual(target.stat().st_size, 3000)
+
+
+class RunTestsTest(FolderCase):
+    def testTellsSkippedFromFailed(self):
+        (self.root / "tests.xml").write_text("""<testsuite>
+          <testcase name="a" time="0.1" status="run"><system-out>fine</system-out></testcase>
+          <testcase name="b" time="0.2" status="fail"><failure message=""/><system-out>bad</system-out></testcase>
+          <testcase name="c" time="0" status="notrun"><skipped message="SKIP_RETURN_CODE=77"/></testcase>
+          <testcase name="d" time="0" status="notrun"><skipped message="Unable to find executable"/></testcase>
+        </testsuite>""")
+        states = {name: state for name, state, *_ in run_tests.results(self.root / "tests.xml")}
+        self.assertEqual(states, {"a": "passed", "b": "failed", "c": "skipped", "d": "failed"})
+
+    def testARunThatEndsWithoutResultsFails(self):
+        self.assertEqual(run_tests.summarise([], 8, ["ctest: no such folder"]), 1)
+        self.assertEqual(run_tests.summarise([], 0, []), 1)
+        self.assertEqual(run_tests.summarise([("a", "passed", 0.1, "")], 0, []), 0)
+        self.assertEqual(run_tests.summarise([("a", "passed", 0.1, "")], 8, ["stopped"]), 1)
+
+
+class GenDocsTest(unittest.TestCase):
+    def testDescribesAnOperation(self):
+        entry = {"name": "dome", "summary": "Makes a dome.", "overloads": [
+            {"params": [{"name": "r", "type": "float", "doc": "Radius | metres."},
+                        {"name": "n", "type": "float", "doc": "Steps.", "default": "8"}]}]}
+        text = gen_docs.entry_text(entry, heading=False)
+        self.assertIn("dome(r, [n])", text)
+        self.assertIn("| `r` | float |  | Radius \\| metres. |", text)
+        self.assertIn("| `n` | float | `8` | Steps. |", text)
+
+    def testFindsTheSourceOfEachName(self):
+        reference = gen_docs.Reference({})
+        self.assertEqual(reference.source_of("ops", "t").stem, "translate_scope")
+        self.assertIsNone(reference.source_of("ops", "noSuchOperation"))
+        self.assertEqual(len(reference.problems), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
