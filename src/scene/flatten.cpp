@@ -58,6 +58,20 @@ struct PoolHashes {
 
 }  // namespace
 
+uint64_t leafCount(const Scene& scene) {
+  std::vector<uint64_t> counts;
+  for (const Prototype& p : scene.prototypes) {
+    uint64_t n = p.leafCount;
+    for (uint32_t i = 0; i < p.instanceCount; ++i) {
+      n = saturatingAdd(n, counts[scene.instances[p.firstInstance + i].prototype]);
+    }
+    counts.push_back(n);
+  }
+  uint64_t all = 0;
+  for (const Root& r : scene.roots) all = saturatingAdd(all, counts[r.instance.prototype]);
+  return all;
+}
+
 std::vector<PlacedLeaf> flatLeaves(const Scene& scene) {
   std::vector<PlacedLeaf> out;
   forEachLeaf(scene, [&](const Leaf& leaf, const Frame& world) { out.push_back({&leaf, world}); });

@@ -17,6 +17,9 @@ struct PlacedLeaf {
   Frame world;
 };
 
+/// Instances expanded; linear in what is stored, and the largest number when there are more.
+uint64_t leafCount(const Scene& scene);
+
 /// In path order, instances expanded.
 std::vector<PlacedLeaf> flatLeaves(const Scene& scene);
 

@@ -37,7 +37,8 @@ class Layers:
         return None
 
     def is_test(self, path):
-        return path.endswith("_test.cpp") or path.startswith(("tests/", "fuzz/", "bench/"))
+        return (path.endswith("_test.cpp") or "/testing/" in path
+                or path.startswith(("tests/", "fuzz/", "bench/")))
 
     def resolve(self, path, name):
         """The file of ours that an include means, or None."""

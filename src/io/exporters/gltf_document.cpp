@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Accessors are numbered in the order of writing: first those of instance groups, which nodes name,
+// then those of primitives, unit by unit. Each primitive has two buffer views, one for its vertices
+// and one for its indices.
+#include "io/exporters/gltf_document.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/number.h"
+#include "io/exporters/quaternion.h"
+#include "scene/flatten.h"
+
+namespace gable {
+namespace {
+
+constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125;
+constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+
+// The widest texts that a number in its place can have.
+constexpr uint64_t kWidestOffset = 18'446'744'073'709'551'615u;
+constexpr uint32_t kWidestCount = 4'294'967'295u;
+constexpr float kWidestFloat = -1.17549435e-38f;
+
+void writeRounded(JsonWriter& w, double v, int decimals) {
+  char text[kNumberRoom];
+  w.raw({text, static_cast<size_t>(writeFixed(text, v, decimals) - text)});
+}
+
+void writeVec(JsonWriter& w, const char* name, const Vec3& v, int decimals) {
+  w.key(name).beginArray();
+  for (size_t i = 0; i < 3; ++i) writeRounded(w, v[i], decimals);
+  w.endArray();
+}
+
+void writeFloats(JsonWriter& w, const char* name, const std::array<float, 3>& v, bool roomy) {
+  w.key(name).beginArray();
+  for (const float f : v) w.value(roomy ? kWidestFloat : f);
+  w.endArray();
+}
+
+bool isEmpty(const std::vector<GltfPrimitive>& mesh) {
+  return std::all_of(mesh.begin(), mesh.end(),
+                     [](const GltfPrimitive& p) { return p.indexCount == 0; });
+}
+
+}  // namespace
+
+GltfDocument::GltfDocument(const Scene& scene, const ScenePlan& plan,
+                           const GltfMaterials& materials)
+    : scene_(scene), plan_(plan), materials_(materials) {}
+
+std::vector<GltfDocument::Group> GltfDocument::groupsOf(const ScenePlan& plan, uint32_t unit,
+                                                        bool instanced) {
+  std::vector<Group> groups;
+  std::map<uint32_t, size_t> at;
+  const std::vector<PlannedChild>& children = plan.units()[unit].children;
+  for (uint32_t c = 0; c < children.size(); ++c) {
+    const uint32_t shown = children[c].unit;
+    const bool groupable = instanced && plan.units()[shown].children.empty();
+    const auto known = groupable ? at.find(shown) : at.end();
+    if (known != at.end()) {
+      groups[known->second].children.push_back(c);
+    } else {
+      if (groupable) at[shown] = groups.size();
+      groups.push_back({shown, {c}});
+    }
+  }
+  return groups;
+}
+
+uint64_t GltfDocument::planNodes(const std::vector<bool>& hasMesh, bool instanced) {
+  instanced_ = instanced;
+  const size_t count = plan_.units().size();
+  meshNumbers_.assign(count, -1);
+  int64_t meshes = 0;
+  for (size_t u = 0; u < count; ++u) {
+    if (hasMesh[u]) meshNumbers_[u] = meshes++;
+  }
+  instanceBase_.assign(count, 0);
+  uint32_t accessors = 0;
+  for (uint32_t u = 0; u < count; ++u) {
+    instanceBase_[u] = accessors;
+    if (!instanced_) continue;
+    for (const Group& g : groupsOf(plan_, u, true)) accessors += g.children.size() > 1 ? 3 : 0;
+  }
+  countNodes();
+  uint64_t all = 0;
+  for (const uint32_t u : plan_.rootUnits()) all = saturatingAdd(all, nodeCounts_[u]);
+  return all;
+}
+
+// Depth first with a stack of our own; a unit is counted when its children are.
+void GltfDocument::countNodes() {
+  const size_t count = plan_.units().size();
+  constexpr uint64_t kUnknown = ~uint64_t{0};
+  nodeCounts_.assign(count, kUnknown);
+  std::vector<uint32_t> stack;
+  for (uint32_t root = 0; root < count; ++root) {
+    stack.push_back(root);
+    while (!stack.empty()) {
+      const uint32_t u = stack.back();
+      if (nodeCounts_[u] != kUnknown) {
+        stack.pop_back();
+        continue;
+      }
+      const size_t before = stack.size();
+      uint64_t nodes = 0;
+      for (const Group& g : groupsOf(plan_, u, instanced_)) {
+        if (nodeCounts_[g.unit] == kUnknown) {
+          stack.push_back(g.unit);
+        } else {
+          nodes = saturatingAdd(nodes, nodesFor(g));
+        }
+      }
+      if (stack.size() > before) continue;
+      nodeCounts_[u] = nodes > 0 || meshNumbers_[u] >= 0 ? saturatingAdd(nodes, 1) : 0;
+      stack.pop_back();
+    }
+  }
+}
+
+uint64_t GltfDocument::nodesFor(const Group& g) const {
+  return g.children.size() > 1 ? std::min<uint64_t>(nodeCounts_[g.unit], 1) : nodeCounts_[g.unit];
+}
+
+const std::string& GltfDocument::nameOf(uint32_t unit) const {
+  static const std::string kNone;
+  const ScenePlan::Unit& u = plan_.units()[unit];
+  const uint32_t name =
+      u.leaf != ScenePlan::kNone ? scene_.leaves[u.leaf].name : scene_.prototypes[u.prototype].name;
+  return name < scene_.names.size() ? scene_.names[name] : kNone;
+}
+
+void GltfDocument::writeExtras(JsonWriter& w, const Leaf& leaf) const {
+  if (leaf.source >= scene_.sources.size()) return;
+  const SourcePlace& s = scene_.sources[leaf.source];
+  if (s.rule.empty()) return;
+  w.key("extras").beginObject().field("rule", s.rule).field("line", s.line).endObject();
+}
+
+void GltfDocument::writeNode(JsonWriter& w, uint32_t unit, const NodePlace& place, uint64_t index) {
+  const auto groups = groupsOf(plan_, unit, instanced_);
+  const std::vector<PlannedChild>& children = plan_.units()[unit].children;
+  w.beginObject();
+  if (!place.name->empty()) w.field("name", *place.name);
+  if (meshNumbers_[unit] >= 0) w.field("mesh", meshNumbers_[unit]);
+  const Frame& f = *place.frame;
+  if (f.origin != Vec3{}) writeVec(w, "translation", f.origin, 6);
+  if (f.turned) {
+    w.key("rotation").beginArray();
+    for (const double q : quaternionOf(f)) writeRounded(w, q, 9);
+    w.endArray();
+  }
+  if (place.scale != Vec3{1, 1, 1}) writeVec(w, "scale", place.scale, 9);
+  uint64_t next = index + 1;
+  bool any = false;
+  for (const Group& g : groups) {
+    const uint64_t nodes = nodesFor(g);
+    if (nodes == 0) continue;
+    if (!any) w.key("children").beginArray();
+    any = true;
+    w.value(next);
+    next += nodes;
+  }
+  if (any) w.endArray();
+  if (place.leaf != PlannedChild::kNone) writeExtras(w, scene_.leaves[place.leaf]);
+  w.endObject();
+
+  next = index + 1;
+  uint32_t accessor = instanceBase_[unit];
+  for (const Group& g : groups) {
+    const uint64_t nodes = nodeCount(g.unit);
+    if (g.children.size() > 1) {
+      if (nodes > 0) {
+        w.beginObject().field("name", nameOf(g.unit)).field("mesh", meshNumbers_[g.unit]);
+        w.key("extensions").beginObject().key("EXT_mesh_gpu_instancing").beginObject();
+        w.key("attributes").beginObject().field("TRANSLATION", accessor);
+        w.field("ROTATION", accessor + 1).field("SCALE", accessor + 2).endObject();
+        w.endObject().endObject().endObject();
+        ++next;
+      }
+      accessor += 3;
+    } else if (nodes > 0) {
+      const PlannedChild& c = children[g.children[0]];
+      writeNode(w, c.unit, {&c.frame, c.scale, &nameOf(c.unit), c.leaf}, next);
+      next += nodes;
+    }
+  }
+}
+
+void GltfDocument::writeNodes() {
+  nodes_.clear();
+  roots_.clear();
+  JsonWriter nodes(nodes_), roots(roots_);
+  nodes.beginArray();
+  roots.beginArray();
+  uint64_t index = 0;
+  static const std::string kNoName;
+  for (size_t r = 0; r < scene_.roots.size(); ++r) {
+    const Root& root = scene_.roots[r];
+    const uint32_t unit = plan_.rootUnits()[r];
+    if (nodeCount(unit) == 0) continue;
+    const std::string& name = root.name < scene_.names.size() ? scene_.names[root.name] : kNoName;
+    writeNode(nodes, unit, {&root.instance.frame, {1, 1, 1}, &name, PlannedChild::kNone}, index);
+    roots.value(index);
+    index += nodeCount(unit);
+  }
+  nodes.endArray();
+  roots.endArray();
+  nodesWritten_ = index;
+}
+
+void GltfDocument::writeMeshes(JsonWriter& w, const GltfContent& content) const {
+  uint64_t accessor = 0;
+  for (const auto& groups : content.instances) accessor += 3 * groups.size();
+  bool any = false;
+  for (uint32_t u = 0; u < content.meshes.size(); ++u) {
+    if (isEmpty(content.meshes[u])) continue;
+    if (!any) w.key("meshes").beginArray();
+    any = true;
+    w.beginObject();
+    if (!nameOf(u).empty()) w.field("name", nameOf(u));
+    w.key("primitives").beginArray();
+    for (const GltfPrimitive& p : content.meshes[u]) {
+      if (p.indexCount == 0) continue;
+      const VertexLayout& l = materials_.layout(p.variant);
+      w.beginObject().key("attributes").beginObject();
+      w.field("POSITION", accessor++);
+      w.field("NORMAL", accessor++);
+      if (l.tangentSet >= 0) w.field("TANGENT", accessor++);
+      for (uint32_t i = 0; i < l.uvCount; ++i) {
+        w.field("TEXCOORD_" + std::to_string(i), accessor++);
+      }
+      w.endObject();
+      w.field("indices", accessor++);
+      w.field("material", p.variant).endObject();
+    }
+    w.endArray().endObject();
+  }
+  if (any) w.endArray();
+}
+
+void GltfDocument::writeAccessors(JsonWriter& w, const GltfContent& content, bool roomy) const {
+  uint32_t view = 0;
+  bool any = false;
+  const auto begin = [&](uint32_t bufferView, uint32_t offset, int component, uint32_t count,
+                         const char* type) {
+    if (!any) w.key("accessors").beginArray();
+    any = true;
+    w.beginObject().field("bufferView", bufferView);
+    if (offset) w.field("byteOffset", offset);
+    w.field("componentType", component).field("count", count).field("type", type);
+  };
+  for (const auto& groups : content.instances) {
+    for (const GltfInstances& g : groups) {
+      begin(view++, 0, kFloat, g.count, "VEC3");
+      w.endObject();
+      begin(view++, 0, kFloat, g.count, "VEC4");
+      w.endObject();
+      begin(view++, 0, kFloat, g.count, "VEC3");
+      w.endObject();
+    }
+  }
+  for (const auto& mesh : content.meshes) {
+    for (const GltfPrimitive& p : mesh) {
+      if (p.indexCount == 0) continue;
+      const VertexLayout& l = materials_.layout(p.variant);
+      const uint32_t count = roomy ? kWidestCount : p.vertexCount;
+      uint32_t offset = 0;
+      const auto attribute = [&](const char* type, uint32_t floats, bool position) {
+        begin(view, offset, kFloat, count, type);
+        if (position) {
+          writeFloats(w, "min", p.min, roomy);
+          writeFloats(w, "max", p.max, roomy);
+        }
+        w.endObject();
+        offset += 4 * floats;
+      };
+      attribute("VEC3", 3, true);
+      attribute("VEC3", 3, false);
+      if (l.tangentSet >= 0) attribute("VEC4", 4, false);
+      for (uint32_t i = 0; i < l.uvCount; ++i) attribute("VEC2", 2, false);
+      begin(view + 1, 0, p.wideIndices ? kUnsignedInt : kUnsignedShort,
+            roomy ? kWidestCount : p.indexCount, "SCALAR");
+      w.endObject();
+      view += 2;
+    }
+  }
+  if (any) w.endArray();
+}
+
+void GltfDocument::writeViews(JsonWriter& w, const GltfContent& content, bool roomy) const {
+  bool any = false;
+  const auto view = [&](uint64_t offset, uint64_t bytes, uint32_t stride, int target) {
+    if (!any) w.key("bufferViews").beginArray();
+    any = true;
+    w.beginObject().field("buffer", 0);
+    w.field("byteOffset", roomy ? kWidestOffset : offset);
+    w.field("byteLength", roomy ? kWidestOffset : bytes);
+    if (stride) w.field("byteStride", stride);
+    if (target) w.field("target", target);
+    w.endObject();
+  };
+  for (const auto& groups : content.instances) {
+    for (const GltfInstances& g : groups) {
+      const uint64_t n = g.count;
+      view(g.offset, 12 * n, 0, 0);
+      view(g.offset + 12 * n, 16 * n, 0, 0);
+      view(g.offset + 28 * n, 12 * n, 0, 0);
+    }
+  }
+  for (const auto& mesh : content.meshes) {
+    for (const GltfPrimitive& p : mesh) {
+      if (p.indexCount == 0) continue;
+      const uint32_t stride = materials_.layout(p.variant).stride();
+      view(p.vertexOffset, uint64_t{p.vertexCount} * stride, stride, kArrayBuffer);
+      view(p.indexOffset, uint64_t{p.indexCount} * (p.wideIndices ? 4 : 2), 0, kElementArrayBuffer);
+    }
+  }
+  for (const GltfImageRange& i : content.images) view(i.offset, i.bytes, 0, 0);
+  if (any) w.endArray();
+}
+
+void GltfDocument::writeImages(JsonWriter& w, const GltfContent& content) const {
+  const std::vector<ModelTexture>& images = materials_.images();
+  if (images.empty()) return;
+  uint64_t view = 0;
+  for (const auto& groups : content.instances) view += 3 * groups.size();
+  for (const auto& mesh : content.meshes) {
+    for (const GltfPrimitive& p : mesh) view += p.indexCount ? 2 : 0;
+  }
+  w.key("images").beginArray();
+  for (size_t i = 0; i < images.size(); ++i) {
+    w.beginObject().field("name", images[i].name);
+    if (content.imageUris.empty()) {
+      w.field("bufferView", view + i).field("mimeType", images[i].mime);
+    } else {
+      w.field("uri", content.imageUris[i]);
+    }
+    w.endObject();
+  }
+  w.endArray();
+}
+
+std::string GltfDocument::text(const GltfContent& content, bool roomy) const {
+  std::string out;
+  JsonWriter w(out);
+  w.beginObject();
+  w.key("asset").beginObject().field("version", "2.0").field("generator", "Gable");
+  if (scene_.geoOrigin.present) {
+    w.key("extras").beginObject().key("geoOrigin").beginArray();
+    w.value(scene_.geoOrigin.longitude).value(scene_.geoOrigin.latitude).endArray().endObject();
+  }
+  w.endObject();
+  bool groups = false;
+  for (const auto& g : content.instances) groups = groups || !g.empty();
+  if (groups || materials_.usesTransforms()) {
+    w.key("extensionsUsed").beginArray();
+    if (groups) w.value("EXT_mesh_gpu_instancing");
+    if (materials_.usesTransforms()) w.value("KHR_texture_transform");
+    w.endArray();
+  }
+  if (groups) w.key("extensionsRequired").beginArray().value("EXT_mesh_gpu_instancing").endArray();
+  w.field("scene", 0).key("scenes").beginArray().beginObject();
+  if (nodesWritten_ > 0) w.key("nodes").raw(roots_);
+  w.endObject().endArray();
+  if (nodesWritten_ > 0) w.key("nodes").raw(nodes_);
+  writeMeshes(w, content);
+  materials_.write(w);
+  writeImages(w, content);
+  writeAccessors(w, content, roomy);
+  writeViews(w, content, roomy);
+  if (content.bufferBytes > 0) {
+    w.key("buffers").beginArray().beginObject();
+    if (!content.bufferUri.empty()) w.field("uri", content.bufferUri);
+    w.field("byteLength", roomy ? kWidestOffset : content.bufferBytes);
+    w.endObject().endArray();
+  }
+  w.endObject();
+  return out;
+}
+
+}  // namespace gable

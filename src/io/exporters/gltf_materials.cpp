@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The correspondence of CGA's and glTF's attributes is the table of the CGA reference (material
+// shape attributes): opacitymap is the alpha of the base colour, metallicmap the blue and
+// roughnessmap the green channel of one texture.
+#include "io/exporters/gltf_materials.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "math/trig.h"
+#include "scene/flatten.h"
+
+namespace gable {
+namespace {
+
+double unit(double v) { return v >= 0 ? std::min(v, 1.0) : 0; }
+
+void writeColor(JsonWriter& w, const Vec3& srgb) {
+  for (size_t i = 0; i < 3; ++i) w.value(static_cast<float>(linearOf(srgb[i])));
+}
+
+bool plain(const TextureMap& t) {
+  return t.su == 1 && t.sv == 1 && t.tu == 0 && t.tv == 0 && t.rw == 0;
+}
+
+}  // namespace
+
+double linearOf(double srgb) {
+  const double c = unit(srgb);
+  return c <= 0.04045 ? c / 12.92 : powOf((c + 0.055) / 1.055, 2.4);
+}
+
+GltfMaterials::GltfMaterials(const Scene& scene, const WriteOptions& options,
+                             std::vector<std::string>& warnings)
+    : scene_(scene), keepUv_(options.keepUv), warnings_(warnings), textures_(options, warnings) {}
+
+uint32_t GltfMaterials::variant(uint32_t material, uint32_t uvMask) {
+  const uint64_t key = static_cast<uint64_t>(material) << 32 | uvMask;
+  const auto found = known_.find(key);
+  if (found != known_.end()) return found->second;
+  static const Material kDefault;
+  const Material& m = material == kNoMaterial ? kDefault : scene_.materials[material];
+  Variant v = make(m, uvMask);
+  // Masks that differ in sets which the material does not use give the same variant.
+  for (uint32_t i = 0; i < variants_.size(); ++i) {
+    const VertexLayout &a = variants_[i].layout, &b = v.layout;
+    if (variants_[i].material == v.material && a.tangentSet == b.tangentSet &&
+        std::equal(a.uvSets, a.uvSets + a.uvCount, b.uvSets, b.uvSets + b.uvCount)) {
+      return known_[key] = i;
+    }
+  }
+  variants_.push_back(v);
+  return known_[key] = static_cast<uint32_t>(variants_.size()) - 1;
+}
+
+GltfMaterials::Map GltfMaterials::mapOf(const Material& m, TextureLayer layer, uint32_t uvMask,
+                                        int image) {
+  Map map;
+  const auto set = static_cast<uint32_t>(layer);
+  // A surface without the layer's own uv set shows the texture by set 0.
+  if (uvMask >> set & 1) {
+    map.texcoord = set;
+  } else if (uvMask & 1) {
+    map.texcoord = 0;
+  } else {
+    return map;
+  }
+  map.image = image;
+  map.transform = m.map(layer);
+  if (image != TextureSet::kNone && !plain(map.transform)) usesTransforms_ = true;
+  return map;
+}
+
+void GltfMaterials::warnOnce(const std::string& text) {
+  if (std::find(warnings_.begin(), warnings_.end(), text) == warnings_.end()) {
+    warnings_.push_back(text);
+  }
+}
+
+GltfMaterials::Variant GltfMaterials::make(const Material& m, uint32_t uvMask) {
+  Variant v;
+  v.material = &m;
+  const std::string& opacity = m.map(TextureLayer::Opacity).path;
+  const bool useOpacity = !opacity.empty() && m.opacityMode != OpacityMode::Opaque;
+  if (uvMask != 0) {
+    const std::string& color = m.map(TextureLayer::Color).path;
+    const std::string& roughness = m.map(TextureLayer::Roughness).path;
+    const std::string& metallic = m.map(TextureLayer::Metallic).path;
+    const bool fromOpacity = color.empty() && useOpacity;
+    v.color =
+        mapOf(m, fromOpacity ? TextureLayer::Opacity : TextureLayer::Color, uvMask,
+              useOpacity ? textures_.addColorWithOpacity(color, opacity) : textures_.add(color));
+    v.metallicRoughness =
+        mapOf(m, roughness.empty() ? TextureLayer::Metallic : TextureLayer::Roughness, uvMask,
+              roughness.empty() && metallic.empty()
+                  ? TextureSet::kNone
+                  : textures_.addMetallicRoughness(roughness, metallic));
+    v.normal =
+        mapOf(m, TextureLayer::Normal, uvMask, textures_.add(m.map(TextureLayer::Normal).path));
+    v.occlusion = mapOf(m, TextureLayer::Occlusion, uvMask,
+                        textures_.add(m.map(TextureLayer::Occlusion).path));
+    v.emissive =
+        mapOf(m, TextureLayer::Emissive, uvMask, textures_.add(m.map(TextureLayer::Emissive).path));
+  }
+  const bool textureAlpha = useOpacity && v.color.image != TextureSet::kNone &&
+                            images()[static_cast<size_t>(v.color.image)].hasAlpha;
+  v.transparent = m.opacityMode != OpacityMode::Opaque && (m.opacity < 1 || textureAlpha);
+  for (const TextureLayer l : {TextureLayer::Bump, TextureLayer::Dirt, TextureLayer::Specular}) {
+    if (m.map(l).path.empty()) continue;
+    warnOnce(std::string("glTF has no ") + kTextureLayerNames[static_cast<size_t>(l)] +
+             ": such textures are left out");
+  }
+  addSets(v, uvMask);
+  return v;
+}
+
+// Collects the uv sets in use and turns set numbers into TEXCOORD numbers.
+void GltfMaterials::addSets(Variant& v, uint32_t uvMask) {
+  Map* maps[] = {&v.color, &v.metallicRoughness, &v.normal, &v.occlusion, &v.emissive};
+  uint32_t used = keepUv_ ? uvMask & 1 : 0;
+  for (const Map* map : maps) {
+    if (map->image != TextureSet::kNone) used |= 1u << map->texcoord;
+  }
+  if (v.normal.image != TextureSet::kNone)
+    v.layout.tangentSet = static_cast<int>(v.normal.texcoord);
+  for (uint32_t set = 0; set < kTextureLayers; ++set) {
+    if (used >> set & 1) v.layout.uvSets[v.layout.uvCount++] = static_cast<uint8_t>(set);
+  }
+  for (Map* map : maps) {
+    map->texcoord = static_cast<uint32_t>(std::popcount(used & ((1u << map->texcoord) - 1)));
+  }
+}
+
+void GltfMaterials::writeMap(JsonWriter& w, const char* name, const Map& map) const {
+  if (map.image == TextureSet::kNone) return;
+  w.key(name).beginObject().field("index", map.image);
+  if (map.texcoord) w.field("texCoord", map.texcoord);
+  const TextureMap& t = map.transform;
+  if (!plain(t)) {
+    // Ours turns and scales about the lower left corner with v upwards, glTF's about the upper left
+    // with v downwards: substituting v = 1 - v' on both sides leaves scale and turn as they are and
+    // changes the offset.
+    const double c = cosDeg(t.rw), s = sinDeg(t.rw);
+    w.key("extensions").beginObject().key("KHR_texture_transform").beginObject();
+    w.key("offset").beginArray().value(static_cast<float>(t.tu - s * t.sv));
+    w.value(static_cast<float>(1 - t.tv - c * t.sv)).endArray();
+    if (t.rw != 0) w.field("rotation", static_cast<float>(toRadians(t.rw)));
+    w.key("scale").beginArray().value(static_cast<float>(t.su)).value(static_cast<float>(t.sv));
+    w.endArray().endObject().endObject();
+  }
+  w.endObject();
+}
+
+void GltfMaterials::writeMaterial(JsonWriter& w, const Variant& v) const {
+  const Material& m = *v.material;
+  w.beginObject();
+  w.field("name", m.name.empty() ? colorText(m.color) : m.name);
+  w.key("pbrMetallicRoughness").beginObject();
+  w.key("baseColorFactor").beginArray();
+  writeColor(w, m.color);
+  w.value(static_cast<float>(v.transparent ? unit(m.opacity) : 1)).endArray();
+  writeMap(w, "baseColorTexture", v.color);
+  // With a texture in one channel only the other factor stands alone: white times the factor.
+  w.field("metallicFactor", static_cast<float>(unit(m.metallic)));
+  w.field("roughnessFactor", static_cast<float>(unit(m.roughness)));
+  writeMap(w, "metallicRoughnessTexture", v.metallicRoughness);
+  w.endObject();
+  writeMap(w, "normalTexture", v.normal);
+  writeMap(w, "occlusionTexture", v.occlusion);
+  writeMap(w, "emissiveTexture", v.emissive);
+  if (m.emissive != Vec3{}) {
+    w.key("emissiveFactor").beginArray();
+    writeColor(w, m.emissive);
+    w.endArray();
+  }
+  if (v.transparent) {
+    const bool mask = m.opacityMode == OpacityMode::Mask;
+    w.field("alphaMode", mask ? "MASK" : "BLEND");
+    if (mask) w.field("alphaCutoff", static_cast<float>(unit(m.opacityCutoff)));
+  }
+  if (m.doubleSided) w.field("doubleSided", true);
+  w.endObject();
+}
+
+void GltfMaterials::write(JsonWriter& w) const {
+  if (!variants_.empty()) {
+    w.key("materials").beginArray();
+    for (const Variant& v : variants_) writeMaterial(w, v);
+    w.endArray();
+  }
+  if (images().empty()) return;
+  // One texture an image, one sampler for all: linear with mipmaps, repeated both ways.
+  w.key("textures").beginArray();
+  for (int i = 0; i < static_cast<int>(images().size()); ++i) {
+    w.beginObject().field("sampler", 0).field("source", i).endObject();
+  }
+  w.endArray();
+  w.key("samplers").beginArray().beginObject();
+  w.field("magFilter", 9729).field("minFilter", 9987).field("wrapS", 10497).field("wrapT", 10497);
+  w.endObject().endArray();
+}
+
+}  // namespace gable

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Materials in glTF's terms. A variant is a material together with the uv sets that a surface
+// brings: it fixes the layout of vertices and which TEXCOORD each texture reads.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/json.h"
+#include "io/exporters/textures.h"
+#include "scene/scene.h"
+
+namespace gable {
+
+/// Floats of a vertex: position 3, normal 3, tangent 4 if any, 2 for each uv set.
+struct VertexLayout {
+  /// The uv set of the normal map, or -1.
+  int tangentSet = -1;
+  uint32_t uvCount = 0;
+  /// TEXCOORD_n shows uv set uvSets[n].
+  uint8_t uvSets[kTextureLayers] = {};
+  uint32_t floats() const { return 6 + (tangentSet >= 0 ? 4 : 0) + 2 * uvCount; }
+  uint32_t stride() const { return floats() * 4; }
+};
+
+class GltfMaterials {
+ public:
+  GltfMaterials(const Scene& scene, const WriteOptions& options,
+                std::vector<std::string>& warnings);
+
+  /// `material` indexes Scene::materials or is kNoMaterial; bit s of `uvMask` says that the surface
+  /// has uv set s. Variants are numbered in the order of first use.
+  uint32_t variant(uint32_t material, uint32_t uvMask);
+  const VertexLayout& layout(uint32_t variant) const { return variants_[variant].layout; }
+  size_t count() const { return variants_.size(); }
+  const std::vector<ModelTexture>& images() const { return textures_.all(); }
+  bool usesTransforms() const { return usesTransforms_; }
+
+  /// The members "materials", "textures" and "samplers"; images are up to the caller.
+  void write(JsonWriter& w) const;
+
+ private:
+  struct Map {
+    int image = TextureSet::kNone;
+    uint32_t texcoord = 0;
+    TextureMap transform;
+  };
+  struct Variant {
+    VertexLayout layout;
+    const Material* material = nullptr;
+    bool transparent = false;
+    Map color, metallicRoughness, normal, occlusion, emissive;
+  };
+  Variant make(const Material& m, uint32_t uvMask);
+  Map mapOf(const Material& m, TextureLayer layer, uint32_t uvMask, int image);
+  void addSets(Variant& v, uint32_t uvMask);
+  void writeMaterial(JsonWriter& w, const Variant& v) const;
+  void writeMap(JsonWriter& w, const char* name, const Map& map) const;
+  void warnOnce(const std::string& text);
+
+  const Scene& scene_;
+  bool keepUv_;
+  std::vector<std::string>& warnings_;
+  TextureSet textures_;
+  std::vector<Variant> variants_;
+  std::map<uint64_t, uint32_t> known_;
+  bool usesTransforms_ = false;
+};
+
+/// A colour component from sRGB to linear light (IEC 61966-2-1).
+double linearOf(double srgb);
+
+}  // namespace gable

@@ -1,0 +1,447 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// A GLB begins with its JSON, which holds offsets, counts and bounds that are known only when the
+// geometry behind it has been written. So the geometry is planned first (which primitives there
+// will be), room is kept for the longest JSON that such a plan can have, the geometry is streamed,
+// and the JSON is put into its room, filled up with spaces as the format allows.
+//
+// A unit's leaves are ordered by material variant, in the order in which variants first occur, and
+// cut into primitives of at most 65535 vertices: indices then take two bytes, and what has to be
+// kept in memory until a primitive ends is small. A mesh that has more vertices gets its own.
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <optional>
+
+#include "base/files.h"
+#include "base/hash.h"
+#include "io/exporters/gltf_document.h"
+#include "io/exporters/quaternion.h"
+#include "io/exporters/vertex_writer.h"
+#include "io/uri.h"
+#include "scene/flatten.h"
+
+namespace gable {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian");
+
+constexpr uint32_t kMostVertices = 65535;
+constexpr uint64_t kGlbLimit = 0xffffffff;
+constexpr uint64_t kMostNodes = 50'000'000;
+// Merged into one unit.
+constexpr double kMostLeaves = 1e8;
+
+// A part of a leaf's mesh: what one slot shows.
+struct Draw {
+  uint32_t leaf = 0, placement = 0;
+  uint32_t variant = 0;
+  uint16_t slot = 0;
+  uint32_t corners = 0, triangles = 0;
+};
+
+class GltfWriter {
+ public:
+  GltfWriter(const Scene& scene, const std::string& path, const WriteOptions& options)
+      : scene_(scene),
+        path_(path),
+        binary_(extensionOf(path) == "glb"),
+        options_(options),
+        plan_(scene, options.shareMeshes),
+        materials_(scene, options, report_.warnings),
+        document_(scene, plan_, materials_),
+        recentVariants_(256, {~uint64_t{0}, 0}) {}
+
+  Result<WriteReport> write();
+
+ private:
+  struct MeshInfo {
+    bool known = false;
+    uint32_t uvMask = 0;
+    std::vector<SlotTally> slots;
+  };
+
+  void planUnits();
+  void makeDraws(uint32_t unit);
+  void cutPrimitives(std::vector<GltfPrimitive>& out, std::vector<size_t>* ends);
+  const MeshInfo& infoOf(uint32_t mesh);
+  uint32_t variantOf(uint32_t material, uint32_t uvMask);
+  Error tooLarge(uint64_t bytes) const;
+  std::vector<bool> meshFlags() const;
+
+  void writeBuffer(FileWriter& out);
+  void writeInstances(FileWriter& out, uint32_t unit);
+  void writeUnit(FileWriter& out, VertexWriter& vertices, uint32_t unit);
+  void writeIndices(FileWriter& out, const PrimitiveState& state, bool wide);
+  void align(FileWriter& out);
+  void countTriangles();
+
+  void rewriteNodes(const std::vector<bool>& planned);
+  Result<WriteReport> writeGlb();
+  Result<WriteReport> writeSeparate();
+  std::optional<Error> writeImageFiles();
+
+  const Scene& scene_;
+  std::string path_;
+  bool binary_;
+  const WriteOptions& options_;
+  WriteReport report_;
+  ScenePlan plan_;
+  GltfMaterials materials_;
+  GltfDocument document_;
+  GltfContent content_;
+  std::vector<MeshInfo> meshInfo_;
+  std::vector<std::pair<uint64_t, uint32_t>> recentVariants_;
+  // Where the buffer begins in the file.
+  uint64_t bufferStart_ = 0;
+  // Of the unit at hand.
+  UnitContent unit_;
+  std::vector<Draw> draws_, sorted_;
+  bool tooManyLeaves_ = false;
+};
+
+const GltfWriter::MeshInfo& GltfWriter::infoOf(uint32_t mesh) {
+  MeshInfo& info = meshInfo_[mesh];
+  if (!info.known) {
+    const Mesh& m = *scene_.meshes[mesh];
+    info.known = true;
+    for (int s = 0; s < kUvSets; ++s) info.uvMask |= m.hasUv(s) ? 1u << s : 0;
+    info.slots = slotTallies(m);
+  }
+  return info;
+}
+
+// Neighbouring leaves alternate between few materials: a table in front of the map.
+uint32_t GltfWriter::variantOf(uint32_t material, uint32_t uvMask) {
+  const uint64_t key = static_cast<uint64_t>(material) << 32 | uvMask;
+  auto& entry = recentVariants_[mix64(key) % recentVariants_.size()];
+  if (entry.first != key) entry = {key, materials_.variant(material, uvMask)};
+  return entry.second;
+}
+
+// Fills draws_, ordered by variant and by path within one.
+void GltfWriter::makeDraws(uint32_t unit) {
+  draws_.clear();
+  plan_.collect(unit, unit_);
+  // Rank of each variant by its first occurrence in this unit.
+  std::vector<uint32_t> order, rank(materials_.count(), kNoMaterial);
+  for (const PlannedLeaf& p : unit_.leaves) {
+    const Leaf& leaf = scene_.leaves[p.leaf];
+    const MeshInfo& info = infoOf(leaf.mesh);
+    for (const SlotTally& s : info.slots) {
+      const uint32_t v = variantOf(materialIndexOf(scene_, leaf, s.slot), info.uvMask);
+      if (v >= rank.size()) rank.resize(v + size_t{1}, kNoMaterial);
+      if (rank[v] == kNoMaterial) {
+        rank[v] = static_cast<uint32_t>(order.size());
+        order.push_back(v);
+      }
+      draws_.push_back({p.leaf, p.placement, v, s.slot, s.corners, s.triangles});
+    }
+  }
+  if (order.size() < 2) return;
+  std::vector<size_t> starts(order.size() + 1);
+  for (const Draw& d : draws_) ++starts[rank[d.variant] + 1];
+  for (size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
+  sorted_.resize(draws_.size());
+  for (const Draw& d : draws_) sorted_[starts[rank[d.variant]]++] = d;
+  draws_.swap(sorted_);
+}
+
+// The primitives that draws_ become; `ends` tells where in draws_ each stops.
+void GltfWriter::cutPrimitives(std::vector<GltfPrimitive>& out, std::vector<size_t>* ends) {
+  uint64_t corners = 0;
+  for (size_t i = 0; i < draws_.size(); ++i) {
+    const Draw& d = draws_[i];
+    const bool open = !out.empty() && i > 0 && out.back().variant == d.variant &&
+                      corners + d.corners <= kMostVertices;
+    if (!open) {
+      if (i > 0 && ends) ends->push_back(i);
+      GltfPrimitive p;
+      p.variant = d.variant;
+      // Until it is written: more than nothing.
+      p.indexCount = 3;
+      out.push_back(p);
+      corners = 0;
+    }
+    corners += d.corners;
+    out.back().wideIndices = corners > kMostVertices;
+  }
+  if (ends && !draws_.empty()) ends->push_back(draws_.size());
+}
+
+void GltfWriter::planUnits() {
+  const size_t count = plan_.units().size();
+  meshInfo_.resize(scene_.meshes.size());
+  content_.meshes.resize(count);
+  content_.instances.resize(count);
+  uint64_t bytes = 0;
+  for (uint32_t u = 0; u < count; ++u) {
+    tooManyLeaves_ = plan_.contentSize(u) > kMostLeaves;
+    if (tooManyLeaves_) return;
+    makeDraws(u);
+    cutPrimitives(content_.meshes[u], nullptr);
+    for (const Draw& d : draws_) {
+      bytes +=
+          uint64_t{d.corners} * materials_.layout(d.variant).stride() + uint64_t{d.triangles} * 6;
+    }
+    if (!options_.gpuInstancing) continue;
+    for (const auto& g : GltfDocument::groupsOf(plan_, u, true)) {
+      if (g.children.size() > 1) {
+        content_.instances[u].push_back({0, static_cast<uint32_t>(g.children.size())});
+        bytes += 40 * g.children.size();
+      }
+    }
+  }
+  content_.bufferBytes = bytes;
+  for (const ModelTexture& t : materials_.images()) content_.bufferBytes += t.bytes.size();
+}
+
+Error GltfWriter::tooLarge(uint64_t bytes) const {
+  return {"model-too-large",
+          "'" + path_ + "' would hold " + std::to_string(bytes >> 20) +
+              " MiB, but a .glb file ends at 4096 MiB",
+          "write .gltf, or generate fewer shapes at a time"};
+}
+
+std::vector<bool> GltfWriter::meshFlags() const {
+  std::vector<bool> flags;
+  for (const auto& mesh : content_.meshes) {
+    flags.push_back(std::any_of(mesh.begin(), mesh.end(),
+                                [](const GltfPrimitive& p) { return p.indexCount > 0; }));
+  }
+  return flags;
+}
+
+void GltfWriter::align(FileWriter& out) {
+  const uint64_t rest = (out.offset() - bufferStart_) % 4;
+  if (rest) out.fill(0, 4 - rest);
+}
+
+void GltfWriter::writeIndices(FileWriter& out, const PrimitiveState& state, bool wide) {
+  if (wide) {
+    out.append(state.indices.data(), state.indices.size() * 4);
+    return;
+  }
+  constexpr size_t kStep = 32768;
+  for (size_t i = 0; i < state.indices.size(); i += kStep) {
+    const size_t n = std::min(kStep, state.indices.size() - i);
+    char* p = out.reserve(n * 2);
+    for (size_t k = 0; k < n; ++k) {
+      const auto index = static_cast<uint16_t>(state.indices[i + k]);
+      std::memcpy(p + 2 * k, &index, 2);
+    }
+    out.advance(n * 2);
+  }
+}
+
+void GltfWriter::writeInstances(FileWriter& out, uint32_t unit) {
+  size_t next = 0;
+  const std::vector<PlannedChild>& children = plan_.units()[unit].children;
+  for (const auto& g : GltfDocument::groupsOf(plan_, unit, true)) {
+    if (g.children.size() < 2) continue;
+    content_.instances[unit][next++].offset = out.offset() - bufferStart_;
+    const auto put = [&](std::initializer_list<double> values) {
+      for (const double v : values) {
+        const auto f = static_cast<float>(v);
+        std::memcpy(out.reserve(4), &f, 4);
+        out.advance(4);
+      }
+    };
+    for (const uint32_t c : g.children) {
+      const Vec3& o = children[c].frame.origin;
+      put({o.x, o.y, o.z});
+    }
+    for (const uint32_t c : g.children) {
+      const auto q = quaternionOf(children[c].frame);
+      put({q[0], q[1], q[2], q[3]});
+    }
+    for (const uint32_t c : g.children) {
+      const Vec3& s = children[c].scale;
+      put({s.x, s.y, s.z});
+    }
+  }
+}
+
+void GltfWriter::writeUnit(FileWriter& out, VertexWriter& vertices, uint32_t unit) {
+  makeDraws(unit);
+  std::vector<GltfPrimitive>& primitives = content_.meshes[unit];
+  primitives.clear();
+  std::vector<size_t> ends;
+  cutPrimitives(primitives, &ends);
+  PrimitiveState state;
+  size_t draw = 0;
+  for (size_t i = 0; i < primitives.size() && !out.failed(); ++i) {
+    GltfPrimitive& p = primitives[i];
+    const VertexLayout& layout = materials_.layout(p.variant);
+    state.clear();
+    p.vertexOffset = out.offset() - bufferStart_;
+    for (; draw < ends[i]; ++draw) {
+      const Draw& d = draws_[draw];
+      const Leaf& leaf = scene_.leaves[d.leaf];
+      const bool own = d.placement == ScenePlan::kNone;
+      vertices.add(leaf.mesh, d.slot, own ? Frame{} : unit_.placements[d.placement] * leaf.frame,
+                   own ? Vec3{1, 1, 1} : leaf.scale, layout, state);
+    }
+    p.vertexCount = state.vertexCount;
+    p.indexCount = static_cast<uint32_t>(state.indices.size());
+    p.wideIndices = state.vertexCount > kMostVertices;
+    p.min = state.min;
+    p.max = state.max;
+    p.indexOffset = out.offset() - bufferStart_;
+    writeIndices(out, state, p.wideIndices);
+    align(out);
+  }
+  vertices.trimCache();
+}
+
+void GltfWriter::writeBuffer(FileWriter& out) {
+  bufferStart_ = out.offset();
+  VertexWriter vertices(scene_, out);
+  const auto count = static_cast<uint32_t>(plan_.units().size());
+  for (uint32_t u = 0; u < count && options_.gpuInstancing; ++u) writeInstances(out, u);
+  for (uint32_t u = 0; u < count && !out.failed(); ++u) writeUnit(out, vertices, u);
+  if (binary_) {
+    for (const ModelTexture& t : materials_.images()) {
+      content_.images.push_back({out.offset() - bufferStart_, t.bytes.size()});
+      out.append(t.bytes);
+      align(out);
+    }
+  }
+  content_.bufferBytes = out.offset() - bufferStart_;
+  if (vertices.brokenFaces() > 0) {
+    report_.warnings.push_back(std::to_string(vertices.brokenFaces()) +
+                               " faces are left out: their coordinates are too large or undefined");
+  }
+}
+
+// Triangles with nodes expanded: units are shown by their nodes.
+void GltfWriter::countTriangles() {
+  const size_t count = plan_.units().size();
+  std::vector<uint64_t> shown(count);
+  for (const uint32_t u : plan_.rootUnits()) ++shown[u];
+  // A parent's unit may come after its child's, so this follows the references in rounds of depth.
+  std::vector<uint32_t> waiting(count);
+  for (const auto& unit : plan_.units()) {
+    for (const PlannedChild& c : unit.children) ++waiting[c.unit];
+  }
+  std::vector<uint32_t> ready;
+  for (uint32_t u = 0; u < count; ++u) {
+    if (waiting[u] == 0) ready.push_back(u);
+  }
+  while (!ready.empty()) {
+    const uint32_t u = ready.back();
+    ready.pop_back();
+    uint64_t own = 0;
+    for (const GltfPrimitive& p : content_.meshes[u]) own += p.indexCount / 3;
+    report_.triangles = saturatingAdd(report_.triangles, saturatingMultiply(own, shown[u]));
+    for (const PlannedChild& c : plan_.units()[u].children) {
+      shown[c.unit] = saturatingAdd(shown[c.unit], shown[u]);
+      if (--waiting[c.unit] == 0) ready.push_back(c.unit);
+    }
+  }
+}
+
+// Units that turned out to have no triangle have no mesh and perhaps no node.
+void GltfWriter::rewriteNodes(const std::vector<bool>& planned) {
+  if (meshFlags() == planned) return;
+  document_.planNodes(meshFlags(), options_.gpuInstancing);
+  document_.writeNodes();
+}
+
+Result<WriteReport> GltfWriter::writeGlb() {
+  FileWriter out(path_);
+  if (out.failed()) return out.finish().error();
+  content_.images.resize(materials_.images().size());
+  uint64_t room = document_.text(content_, true).size();
+  room += (4 - room % 4) % 4;
+  content_.images.clear();
+
+  // A file without geometry has no second chunk.
+  const bool hasBuffer = content_.bufferBytes > 0;
+  out.fill(0, 20);
+  out.fill(' ', room);
+  if (hasBuffer) out.fill(0, 8);
+  const std::vector<bool> planned = meshFlags();
+  writeBuffer(out);
+  rewriteNodes(planned);
+  std::string text = document_.text(content_, false);
+  GABLE_CHECK_LE(text.size(), room);
+  if (out.offset() > kGlbLimit) return tooLarge(out.offset());
+
+  const auto word = [](uint64_t v) { return static_cast<uint32_t>(v); };
+  const uint32_t head[5] = {0x46546c67, 2, word(out.offset()), word(room), 0x4e4f534a};
+  const uint32_t chunk[2] = {word(content_.bufferBytes), 0x004e4942};
+  text.insert(0, reinterpret_cast<const char*>(head), sizeof head);
+  out.patch(0, text.data(), text.size());
+  if (hasBuffer) out.patch(20 + room, chunk, sizeof chunk);
+  const Result<uint64_t> bytes = out.finish();
+  if (!bytes.ok()) return bytes.error();
+  report_.bytes = bytes.value();
+  report_.files = {path_};
+  return report_;
+}
+
+std::optional<Error> GltfWriter::writeImageFiles() {
+  const std::string stem = path_.substr(0, path_.size() - extensionOf(path_).size() - 1);
+  for (const ModelTexture& t : materials_.images()) {
+    const std::string file = stem + "-" + t.name;
+    const Result<uint64_t> bytes = writeFile(file, t.bytes);
+    if (!bytes.ok()) return bytes.error();
+    report_.bytes += bytes.value();
+    report_.files.push_back(file);
+    content_.imageUris.push_back(uriOf(fileNameOf(file)));
+  }
+  return {};
+}
+
+Result<WriteReport> GltfWriter::writeSeparate() {
+  report_.files = {path_};
+  const std::string bufferPath = path_.substr(0, path_.size() - extensionOf(path_).size()) + "bin";
+  FileWriter buffer(bufferPath);
+  const std::vector<bool> planned = meshFlags();
+  writeBuffer(buffer);
+  rewriteNodes(planned);
+  if (content_.bufferBytes > 0) {
+    const Result<uint64_t> bytes = buffer.finish();
+    if (!bytes.ok()) return bytes.error();
+    report_.bytes += bytes.value();
+    report_.files.push_back(bufferPath);
+    content_.bufferUri = uriOf(fileNameOf(bufferPath));
+  }
+  if (auto error = writeImageFiles()) return *error;
+  const Result<uint64_t> bytes = writeFile(path_, document_.text(content_, false));
+  if (!bytes.ok()) return bytes.error();
+  report_.bytes += bytes.value();
+  return report_;
+}
+
+Result<WriteReport> GltfWriter::write() {
+  planUnits();
+  if (tooManyLeaves_) {
+    return Error{"model-too-large", "'" + path_ + "' would show more leaves than can be written",
+                 "generate fewer shapes at a time"};
+  }
+  if (binary_ && content_.bufferBytes > kGlbLimit) return tooLarge(content_.bufferBytes);
+  const uint64_t nodes = document_.planNodes(meshFlags(), options_.gpuInstancing);
+  if (nodes > kMostNodes) {
+    return Error{"model-too-large",
+                 "'" + path_ + "' would have " + std::to_string(nodes) + " nodes",
+                 "generate fewer shapes at a time"};
+  }
+  document_.writeNodes();
+  Result<WriteReport> result = binary_ ? writeGlb() : writeSeparate();
+  if (!result.ok()) return result;
+  countTriangles();
+  result->triangles = report_.triangles;
+  return result;
+}
+
+}  // namespace
+
+Result<WriteReport> writeGltf(const Scene& scene, const std::string& path,
+                              const WriteOptions& options) {
+  return GltfWriter(scene, path, options).write();
+}
+
+}  // namespace gable

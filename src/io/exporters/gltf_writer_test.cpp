@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <limits>
+
+#include "io/exporters/gltf_materials.h"
+#include "io/exporters/quaternion.h"
+#include "io/exporters/write_model.h"
+#include "io/testing/glb_model.h"
+#include "io/testing/scenes.h"
+
+namespace gable {
+namespace {
+
+using testing::areaOf;
+using testing::GlbModel;
+using testing::SceneBuilder;
+using testing::street;
+
+std::string written(const std::string& name) {
+  std::filesystem::create_directories(GABLE_WRITTEN_DIR);
+  return std::string(GABLE_WRITTEN_DIR) + "/" + name;
+}
+
+WriteReport writeTo(const Scene& s, const std::string& path, const WriteOptions& o = {}) {
+  const Result<WriteReport> r = writeModel(s, path, o);
+  EXPECT_TRUE(r.ok()) << r.error().message;
+  return r.ok() ? r.value() : WriteReport{};
+}
+
+GlbModel roundTrip(const Scene& s, const std::string& name, const WriteOptions& o = {}) {
+  const std::string path = written(name);
+  const WriteReport report = writeTo(s, path, o);
+  GlbModel model;
+  model.read(path);
+  EXPECT_EQ(report.bytes, model.bytes.size());
+  EXPECT_EQ(report.triangles, model.triangles.size());
+  return model;
+}
+
+void expectSame(const GlbModel& model, const Scene& s) {
+  const Box3 bounds = count(s).bounds;
+  EXPECT_NEAR(length(model.bounds.min - bounds.min), 0, 1e-4);
+  EXPECT_NEAR(length(model.bounds.max - bounds.max), 0, 1e-4);
+  EXPECT_NEAR(model.area, areaOf(s), 1e-5 * model.area);
+  EXPECT_EQ(model.triangles.size(), count(s).triangles);
+}
+
+TEST(GltfWriter, sharedFlatAndInstancedFilesShowTheSameModel) {
+  const Scene s = street(5);
+  WriteOptions flat, instanced;
+  flat.shareMeshes = false;
+  instanced.gpuInstancing = true;
+  const GlbModel a = roundTrip(s, "street.glb");
+  const GlbModel b = roundTrip(s, "street-flat.glb", flat);
+  const GlbModel c = roundTrip(s, "street-instanced.glb", instanced);
+  for (const GlbModel* m : {&a, &b, &c}) expectSame(*m, s);
+  EXPECT_LT(a.bytes.size() * 4, b.bytes.size());
+  EXPECT_LT(c.nodes, a.nodes);
+  EXPECT_EQ(b.meshes, 5u);
+  // Windows, trees and houses.
+  EXPECT_EQ(a.meshes, 7u);
+}
+
+TEST(GltfWriter, nodesAreNamedAfterShapesAndRules) {
+  const GlbModel m = roundTrip(street(2), "names.glb");
+  const JsonValue& first = m.json["nodes"].at(0);
+  EXPECT_EQ(first["name"].text(), "house 0");
+  bool window = false, tree = false;
+  for (const JsonValue& n : m.json["nodes"].items()) {
+    window = window || n["name"].text() == "Window";
+    tree = tree || (n["extras"]["rule"].text() == "Facade" && n["extras"]["line"].number(0) == 7);
+  }
+  EXPECT_TRUE(window);
+  EXPECT_TRUE(tree);
+}
+
+TEST(GltfWriter, normalsLookOutOnEveryKindOfLeaf) {
+  SceneBuilder b;
+  int i = 0;
+  for (const uint32_t mesh : {uint32_t{kUnitBox}, uint32_t{kUnitBoxUv}}) {
+    for (const Vec3& scale : {Vec3{1, 2, 3}, Vec3{-1, 2, 3}, Vec3{-1, -2, 3}, Vec3{-1, -2, -3}}) {
+      b.leaf(mesh, testing::turned(i % 2 ? 30 : 0, {20.0 * i, 0, 0}), scale);
+      b.root("box", b.prototype("P"), Frame{});
+      ++i;
+    }
+  }
+  const GlbModel m = roundTrip(b.scene, "mirrored.glb");
+  ASSERT_EQ(m.triangles.size(), 8u * 12);
+  double volume = 0;
+  for (const auto& t : m.triangles) {
+    const Vec3 n = cross(t.p[1] - t.p[0], t.p[2] - t.p[0]);
+    EXPECT_GT(dot(normalized(n), t.normal[0]), 0.999);
+    volume += dot(t.p[0], cross(t.p[1], t.p[2])) / 6;
+  }
+  EXPECT_NEAR(volume, 8 * 6, 1e-3);
+}
+
+TEST(GltfWriter, leavesWithoutAreaOrWithoutNumbersAreLeftOut) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  SceneBuilder b;
+  b.leaf(kUnitBox, Frame{}, {1, 1, 1});
+  b.leaf(kUnitBox, Frame{}, {1, 0, 1});
+  b.leaf(kUnitBox, Frame{}, {0, 0, 1});
+  b.leaf(kUnitBox, Frame::moved({1e7, 0, 0}), {1e-3, 1, 1});
+  b.leaf(kUnitBox, Frame::moved({nan, 0, 0}), {1, 1, 1});
+  b.leaf(kUnitBox, Frame::moved({1e300, 0, 0}), {1, 1, 1});
+  b.leaf(kUnitQuadXz, Frame{}, {1, 1, 0});
+  b.root("a", b.prototype("P"), Frame{});
+  b.leaf(kUnitQuadXz, Frame{}, {1, 1, 0});
+  b.root("nothing", b.prototype("P"), Frame{});
+  const GlbModel m = roundTrip(b.scene, "degenerate.glb");
+  // A cube, the two large sides of the flat box, the two sides of the thin one that have area.
+  EXPECT_EQ(m.triangles.size(), 12u + 4 + 4);
+  EXPECT_EQ(m.nodes, 1u);
+}
+
+TEST(GltfWriter, emptyScenesAreFiles) {
+  GlbModel m;
+  writeTo(Scene{}, written("empty.glb"));
+  m.read(written("empty.glb"));
+  EXPECT_EQ(m.nodes, 0u);
+  SceneBuilder b;
+  b.root("void", b.prototype("P"), Frame{});
+  EXPECT_EQ(roundTrip(b.scene, "void.glb").nodes, 0u);
+}
+
+TEST(GltfWriter, longUnitsAreCutAndLargeMeshesKeptWhole) {
+  SceneBuilder b;
+  for (int i = 0; i < 6000; ++i) b.leaf(kUnitBox, Frame::moved({i * 2.0, 0, 0}), {1, 1, 1});
+  b.root("row", b.prototype("Row"), Frame{});
+  const uint32_t large = b.mesh(testing::ball(300, 300));
+  b.leaf(large, Frame{}, {5, 5, 5});
+  b.root("ball", b.prototype("Ball"), Frame::moved({0, 20, 0}));
+  const GlbModel m = roundTrip(b.scene, "large.glb");
+  expectSame(m, b.scene);
+  const JsonValue& row = m.json["meshes"].at(0)["primitives"];
+  const JsonValue& ball = m.json["meshes"].at(1)["primitives"];
+  EXPECT_EQ(row.size(), 3u);
+  ASSERT_EQ(ball.size(), 1u);
+  const auto indices = static_cast<size_t>(ball.at(0)["indices"].number(0));
+  EXPECT_EQ(m.json["accessors"].at(indices)["componentType"].number(0), 5125);
+}
+
+TEST(GltfWriter, texturesAreEmbeddedTransformedAndCombined) {
+  const std::string rgb = testing::picture(8, false), rgba = testing::picture(16, true, 2);
+  WriteOptions o;
+  o.readTexture = [&](const std::string& path) -> Result<std::string> {
+    if (path == "none.png") return Error{"file-missing", "there is no such file", {}};
+    if (path == "text.png") return std::string("this is no picture");
+    return path == "alpha.png" ? rgba : rgb;
+  };
+  SceneBuilder b;
+  Material m = testing::colored("bricks", {0.5, 0.5, 0.5});
+  m.map(TextureLayer::Color) = {"a folder/bricks.png", 2, 3, 0.25, 0.5, 90};
+  m.map(TextureLayer::Normal).path = "normal.png";
+  m.map(TextureLayer::Roughness).path = "rough.png";
+  m.map(TextureLayer::Metallic).path = "metal.png";
+  m.map(TextureLayer::Opacity).path = "alpha.png";
+  m.map(TextureLayer::Occlusion).path = "none.png";
+  m.map(TextureLayer::Emissive).path = "text.png";
+  m.map(TextureLayer::Dirt).path = "dirt.png";
+  m.emissive = {0.5, 0, 0};
+  m.doubleSided = true;
+  Material cut = testing::colored("leaves", {1, 1, 1});
+  cut.map(TextureLayer::Color).path = cut.map(TextureLayer::Opacity).path = "alpha.png";
+  cut.opacityMode = OpacityMode::Mask;
+  const uint32_t bricks = b.material(m), leaves = b.material(cut);
+  b.leaf(kUnitBoxUv, Frame{}, {1, 2, 3}, bricks);
+  b.leaf(kUnitBox, Frame::moved({5, 0, 0}), {1, 2, 3}, bricks);
+  b.leaf(kUnitQuadXyUv, testing::turned(45, {9, 0, 0}), {-2, 2, 1}, leaves);
+  b.leaf(b.mesh(testing::holedSquare()), Frame::moved({0, -1, 0}), {1, 1, 1}, bricks);
+  b.root("r", b.prototype("P"), Frame{});
+
+  const GlbModel model = roundTrip(b.scene, "textures.glb", o);
+  expectSame(model, b.scene);
+  const JsonValue& materials = model.json["materials"];
+  ASSERT_EQ(materials.size(), 3u);
+  const JsonValue& first = materials.at(0);
+  EXPECT_EQ(first["alphaMode"].text(), "BLEND");
+  EXPECT_TRUE(first["doubleSided"].boolean(false));
+  EXPECT_TRUE(first["occlusionTexture"].isNull());
+  EXPECT_TRUE(first["emissiveTexture"].isNull());
+  EXPECT_FALSE(first["normalTexture"].isNull());
+  EXPECT_FALSE(first["pbrMetallicRoughness"]["metallicRoughnessTexture"].isNull());
+  const JsonValue& transform =
+      first["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"];
+  EXPECT_EQ(transform["scale"].at(1).number(0), 3);
+  // The same material without uv has no textures.
+  EXPECT_TRUE(materials.at(1)["pbrMetallicRoughness"]["baseColorTexture"].isNull());
+  EXPECT_EQ(materials.at(2)["alphaMode"].text(), "MASK");
+  EXPECT_EQ(model.json["images"].size(), 4u);
+
+  const WriteReport report = writeTo(b.scene, written("textures.gltf"), o);
+  EXPECT_EQ(report.files.size(), 6u);
+  EXPECT_EQ(report.warnings.size(), 3u);
+  for (const std::string& f : report.files) EXPECT_TRUE(fileExists(f));
+}
+
+TEST(GltfWriter, textureTransformsShowTheSamePlace) {
+  // u' = turned(scaled(u, v)) + shift, v upwards; glTF's formula with v downwards must agree.
+  const double su = 2, sv = 3, tu = 0.25, tv = 0.5, rw = 30;
+  SceneBuilder b;
+  Material m = testing::colored("t", {1, 1, 1});
+  m.map(TextureLayer::Color) = {"a.png", su, sv, tu, tv, rw};
+  b.leaf(kUnitQuadXyUv, Frame{}, {1, 1, 1}, b.material(m));
+  b.root("r", b.prototype("P"), Frame{});
+  WriteOptions o;
+  o.readTexture = [](const std::string&) -> Result<std::string> {
+    return testing::picture(4, false);
+  };
+  const GlbModel model = roundTrip(b.scene, "transform.glb", o);
+  const JsonValue& t = model.json["materials"].at(
+      0)["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"];
+  const double a = t["rotation"].number(0), c = std::cos(a), s = std::sin(a);
+  const double gu = 0.3, gv = 1 - 0.8;
+  const double u = c * t["scale"].at(0).number(0) * gu + s * t["scale"].at(1).number(0) * gv +
+                   t["offset"].at(0).number(0);
+  const double v = -s * t["scale"].at(0).number(0) * gu + c * t["scale"].at(1).number(0) * gv +
+                   t["offset"].at(1).number(0);
+  const double turn = rw * 3.14159265358979 / 180;
+  const double wantU = std::cos(turn) * su * 0.3 - std::sin(turn) * sv * 0.8 + tu;
+  const double wantV = std::sin(turn) * su * 0.3 + std::cos(turn) * sv * 0.8 + tv;
+  EXPECT_NEAR(u, wantU, 1e-6);
+  EXPECT_NEAR(1 - v, wantV, 1e-6);
+}
+
+TEST(GltfWriter, equalScenesGiveEqualBytes) {
+  WriteOptions o;
+  const std::string a = readFile(writeTo(street(3), written("equal-1.glb")).files[0]).value();
+  const std::string b = readFile(writeTo(street(3), written("equal-2.glb")).files[0]).value();
+  EXPECT_EQ(a, b);
+}
+
+TEST(GltfWriter, doublingScenesEndInAMessage) {
+  SceneBuilder b;
+  b.leaf(kUnitBox, Frame{}, {1, 1, 1});
+  uint32_t p = b.prototype("P");
+  for (int i = 0; i < 60; ++i) {
+    b.instance(p, Frame{});
+    b.instance(p, Frame::moved({1.0 + i, 0, 0}));
+    p = b.prototype("P");
+  }
+  b.root("r", p, Frame{});
+  for (const char* name : {"deep.glb", "deep.gltf", "deep.obj", "deep.ply", "deep.stl"}) {
+    const auto r = writeModel(b.scene, written(name));
+    ASSERT_FALSE(r.ok()) << name;
+    EXPECT_EQ(r.error().code, "model-too-large");
+    EXPECT_FALSE(fileExists(written(name)));
+  }
+}
+
+TEST(GltfWriter, prototypesThatShowNothingCostNothing) {
+  SceneBuilder b;
+  uint32_t p = b.prototype("P");
+  for (int i = 0; i < 60; ++i) {
+    b.instance(p, Frame{});
+    b.instance(p, Frame::moved({1.0 + i, 0, 0}));
+    p = b.prototype("P");
+  }
+  b.leaf(kUnitBox, Frame{}, {1, 1, 1});
+  b.instance(p, Frame{});
+  b.root("r", b.prototype("P"), Frame{});
+  EXPECT_EQ(roundTrip(b.scene, "nothing.glb").triangles.size(), 12u);
+}
+
+TEST(GltfWriter, unknownFormatsAndFoldersAreTold) {
+  EXPECT_EQ(writeModel(Scene{}, "a.fbx").error().code, "format-unknown");
+  EXPECT_EQ(writeModel(Scene{}, "a").error().code, "format-unknown");
+  for (const std::string& e : modelExtensions()) {
+    EXPECT_EQ(writeModel(street(1), "/no/such/folder/a." + e).error().code, "file-unwritable") << e;
+  }
+}
+
+TEST(GltfMaterials, coloursBecomeLinear) {
+  EXPECT_EQ(linearOf(0), 0);
+  EXPECT_EQ(linearOf(1), 1);
+  EXPECT_NEAR(linearOf(0.5), 0.214041, 1e-6);
+  EXPECT_EQ(linearOf(-1), 0);
+  EXPECT_EQ(linearOf(std::numeric_limits<double>::quiet_NaN()), 0);
+}
+
+TEST(Quaternion, turnsAsTheFrameDoes) {
+  for (int i = 0; i < 200; ++i) {
+    const Frame f = rotationXyz(i * 17.0, i * 29.0, i * 41.0);
+    const auto q = quaternionOf(f);
+    EXPECT_NEAR(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3], 1, 1e-12);
+    const Vec3 v{q[0], q[1], q[2]}, p{1, 2, 3};
+    const Vec3 rotated = p + cross(v, cross(v, p) + p * q[3]) * 2;
+    EXPECT_NEAR(length(rotated - f.direction(p)), 0, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace gable

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The textures that a written model carries: read once, in the order of first use, checked to be
+// pictures that every viewer reads (PNG and JPEG), and combined where a format wants two maps in
+// one file.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "io/exporters/write_model.h"
+
+namespace gable {
+
+struct ModelTexture {
+  /// A file name without folder, unique in the set.
+  std::string name;
+  /// "image/png" or "image/jpeg".
+  std::string mime;
+  std::string bytes;
+  bool hasAlpha = false;
+};
+
+class TextureSet {
+ public:
+  static constexpr int kNone = -1;
+
+  TextureSet(const WriteOptions& options, std::vector<std::string>& warnings)
+      : read_(options.readTexture), warnings_(warnings) {}
+
+  /// The texture of a path; kNone, with one warning a path, when it cannot be used.
+  int add(const std::string& path);
+  /// Colour of one file, transparency of another (its alpha, or its brightness where it has none).
+  int addColorWithOpacity(const std::string& color, const std::string& opacity);
+  /// Roughness in green, metalness in blue, of the same channels of the two files; an empty path
+  /// stands for the constant 1.
+  int addMetallicRoughness(const std::string& roughness, const std::string& metallic);
+
+  const std::vector<ModelTexture>& all() const { return all_; }
+
+ private:
+  Result<std::string> load(const std::string& path) const;
+  int remember(const std::string& key, ModelTexture texture);
+  std::string uniqueName(const std::string& wanted) const;
+  int refuse(const std::string& key, const std::string& path, const std::string& why);
+
+  TextureReader read_;
+  std::vector<std::string>& warnings_;
+  std::vector<ModelTexture> all_;
+  std::map<std::string, int> known_;
+};
+
+}  // namespace gable

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+#include "io/exporters/vertex_writer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace gable {
+namespace {
+
+bool isUnitBox(uint32_t mesh) { return mesh == kUnitBox || mesh == kUnitBoxUv; }
+
+float* put(float* p, const Vec3& v) {
+  p[0] = static_cast<float>(v.x);
+  p[1] = static_cast<float>(v.y);
+  p[2] = static_cast<float>(v.z);
+  return p + 3;
+}
+
+// Differences and products of floats are exact in double precision or at least keep their sign, so
+// the area is zero exactly when the triangle has none. False for NaN.
+bool hasArea(const float* a, const float* b, const float* c) {
+  const Vec3 u{double{b[0]} - a[0], double{b[1]} - a[1], double{b[2]} - a[2]};
+  const Vec3 v{double{c[0]} - a[0], double{c[1]} - a[1], double{c[2]} - a[2]};
+  const Vec3 n = cross(u, v);
+  return dot(n, n) > 0;
+}
+
+void include(PrimitiveState& s, const float* p) {
+  for (size_t i = 0; i < 3; ++i) {
+    s.min[i] = std::min(s.min[i], p[i]);
+    s.max[i] = std::max(s.max[i], p[i]);
+  }
+}
+
+// A unit tangent perpendicular to the normal; any where the uv set does not say.
+Vec3 tangentFor(const Vec3& normal, const Vec3& u) {
+  Vec3 t = u - normal * dot(u, normal);
+  if (!(dot(t, t) > 0)) {
+    const Vec3 other = std::fabs(normal.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    t = other - normal * dot(other, normal);
+  }
+  return normalized(t);
+}
+
+}  // namespace
+
+VertexWriter::VertexWriter(const Scene& scene, FileWriter& out)
+    : scene_(scene),
+      out_(out),
+      boxes_{boxTemplate(*scene.meshes[kUnitBox]), boxTemplate(*scene.meshes[kUnitBoxUv])},
+      uses_(scene.meshes.size()),
+      cache_(scene.meshes.size()) {
+  for (const Leaf& l : scene.leaves) uses_[l.mesh] += uses_[l.mesh] < 2 ? 1 : 0;
+  for (const Instance& in : scene.instances) {
+    // A placed prototype may be expanded several times.
+    const Prototype& p = scene.prototypes[in.prototype];
+    for (uint32_t i = 0; i < p.leafCount; ++i) uses_[scene.leaves[p.firstLeaf + i].mesh] = 2;
+  }
+}
+
+VertexWriter::BoxTemplate VertexWriter::boxTemplate(const Mesh& m) {
+  BoxTemplate box{};
+  Surface s;
+  FaceTriangulator triangulator;
+  s.build(m, triangulator);
+  for (size_t v = 0; v < 24; ++v) {
+    const Vec3 p = m.at(s.corners[v]);
+    box.corner[v] = static_cast<uint8_t>((p.x > 0 ? 1 : 0) | (p.y > 0 ? 2 : 0) | (p.z > 0 ? 4 : 0));
+    const Vec3 n = s.normals[v];
+    const int axis = n.x != 0 ? 0 : n.y != 0 ? 1 : 2;
+    box.side[v] = static_cast<uint8_t>(2 * axis + (n[static_cast<size_t>(axis)] > 0 ? 1 : 0));
+    if (m.hasUv(0)) {
+      const Vec2 uv = m.uvs[0][s.corners[v]];
+      box.uv[v] = {static_cast<float>(uv.x), static_cast<float>(1 - uv.y)};
+    }
+  }
+  size_t i = 0;
+  for (const SurfaceFace& f : s.faces) {
+    for (uint32_t t = 0; t < f.triangleCount; ++t) {
+      for (const uint32_t v : s.triangles[f.firstTriangle + t]) {
+        box.indices[i++] = static_cast<uint8_t>(f.firstVertex + v);
+      }
+    }
+  }
+  return box;
+}
+
+// False when the box needs the general way: mirrored textures, or thin against its distance, where
+// single precision may leave a side without area.
+bool VertexWriter::addBox(uint32_t mesh, const Frame& frame, const Vec3& scale,
+                          const VertexLayout& layout, PrimitiveState& state) {
+  const bool mirrors = scale.x < 0 || scale.y < 0 || scale.z < 0;
+  if (layout.tangentSet >= 0 || layout.uvCount > 1 || (mirrors && layout.uvCount > 0)) return false;
+  const Vec3 size{std::fabs(scale.x), std::fabs(scale.y), std::fabs(scale.z)};
+  const double reach = std::fabs(frame.origin.x) + std::fabs(frame.origin.y) +
+                       std::fabs(frame.origin.z) + size.x + size.y + size.z;
+  const double thin = std::min(std::min(size.x, size.y), size.z);
+  if (!(thin > 1e-6 * reach) || !(reach < 1e18)) return false;
+
+  // A mirrored box is the box from its other corner.
+  const Vec3 low{std::min(scale.x, 0.0), std::min(scale.y, 0.0), std::min(scale.z, 0.0)};
+  const Vec3 high{std::max(scale.x, 0.0), std::max(scale.y, 0.0), std::max(scale.z, 0.0)};
+  float corners[8][3];
+  for (unsigned i = 0; i < 8; ++i) {
+    put(corners[i],
+        frame.point({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z}));
+    include(state, corners[i]);
+  }
+  float normals[6][3];
+  for (unsigned i = 0; i < 3; ++i) {
+    const Vec3& axis = i == 0 ? frame.x : i == 1 ? frame.y : frame.z;
+    put(normals[2 * i], -axis);
+    put(normals[2 * i + 1], axis);
+  }
+  const BoxTemplate& box = boxes_[mesh == kUnitBoxUv ? 1 : 0];
+  const bool uv = layout.uvCount == 1;
+  char* p = out_.reserve(24 * (uv ? 32 : 24));
+  for (size_t v = 0; v < 24; ++v) {
+    std::memcpy(p, corners[box.corner[v]], 12);
+    std::memcpy(p + 12, normals[box.side[v]], 12);
+    p += 24;
+    if (uv) {
+      std::memcpy(p, box.uv[v].data(), 8);
+      p += 8;
+    }
+  }
+  out_.advanceTo(p);
+  const uint32_t base = state.vertexCount;
+  const size_t first = state.indices.size();
+  state.indices.resize(first + 36);
+  for (size_t i = 0; i < 36; ++i) state.indices[first + i] = base + box.indices[i];
+  state.vertexCount += 24;
+  return true;
+}
+
+VertexWriter::CachedSurface& VertexWriter::surfaceOf(uint32_t mesh) {
+  const auto fill = [&](CachedSurface& c) {
+    c.surface.build(*scene_.meshes[mesh], triangulator_);
+    c.tangents.clear();
+  };
+  if (mesh >= kFirstMesh && uses_[mesh] < 2) {
+    fill(single_);
+    return single_;
+  }
+  if (!cache_[mesh]) {
+    cache_[mesh] = std::make_unique<CachedSurface>();
+    fill(*cache_[mesh]);
+    cachedVertices_ += cache_[mesh]->surface.corners.size();
+  }
+  return *cache_[mesh];
+}
+
+void VertexWriter::trimCache() {
+  // About 100 MB of surfaces.
+  constexpr uint64_t kMostVertices = 1'500'000;
+  if (cachedVertices_ < kMostVertices) return;
+  for (auto& c : cache_) c.reset();
+  cachedVertices_ = 0;
+}
+
+void VertexWriter::add(uint32_t mesh, uint16_t slot, const Frame& frame, const Vec3& scale,
+                       const VertexLayout& layout, PrimitiveState& state) {
+  if (isUnitBox(mesh) && addBox(mesh, frame, scale, layout, state)) return;
+  frame_ = frame;
+  scale_ = scale;
+  mirrored_ = ((scale.x < 0) != (scale.y < 0)) != (scale.z < 0);
+  CachedSurface& cached = surfaceOf(mesh);
+  const Mesh& m = *scene_.meshes[mesh];
+  const Tangents* tangents = nullptr;
+  if (layout.tangentSet >= 0) {
+    const auto [at, isNew] = cached.tangents.try_emplace(layout.tangentSet);
+    if (isNew) at->second = tangentsOf(m, cached.surface, layout.tangentSet);
+    tangents = &at->second;
+  }
+  const SurfacePart* part = cached.surface.part(slot);
+  if (!part) return;
+  for (uint32_t f = 0; f < part->faceCount; ++f) {
+    addFace(m, cached.surface, tangents, cached.surface.faces[part->firstFace + f], layout, state);
+  }
+}
+
+const float* VertexWriter::writeVertices(const Mesh& m, const Surface& s, const Tangents* tangents,
+                                         const SurfaceFace& face, const VertexLayout& layout) {
+  scratch_.resize(static_cast<size_t>(face.vertexCount) * layout.floats());
+  float* p = scratch_.data();
+  Vec3 localNormal, normal;
+  for (uint32_t v = face.firstVertex; v < face.firstVertex + face.vertexCount; ++v) {
+    const uint32_t corner = s.corners[v];
+    p = put(p, frame_.point(scaled(m.at(corner), scale_)));
+    if (v == face.firstVertex || s.normals[v] != localNormal) {
+      localNormal = s.normals[v];
+      normal = frame_.direction(scaledNormal(localNormal, scale_));
+    }
+    p = put(p, normal);
+    if (tangents) {
+      const Vec3 u = frame_.direction(scaled(tangents->u[v], scale_));
+      const Vec3 up = frame_.direction(scaled(tangents->v[v], scale_));
+      const Vec3 t = tangentFor(normal, u);
+      p = put(p, t);
+      *p++ = dot(cross(normal, t), up) < 0 ? -1.0f : 1.0f;
+    }
+    for (uint32_t i = 0; i < layout.uvCount; ++i) {
+      const std::vector<Vec2>& uv = m.uvs[layout.uvSets[i]];
+      const Vec2 at = uv.empty() ? Vec2{} : uv[corner];
+      *p++ = static_cast<float>(at.x);
+      *p++ = static_cast<float>(1 - at.y);
+    }
+  }
+  return scratch_.data();
+}
+
+void VertexWriter::addFace(const Mesh& m, const Surface& s, const Tangents* tangents,
+                           const SurfaceFace& face, const VertexLayout& layout,
+                           PrimitiveState& state) {
+  const float* vertices = writeVertices(m, s, tangents, face, layout);
+  if (!std::all_of(scratch_.begin(), scratch_.end(), [](float f) { return std::isfinite(f); })) {
+    ++brokenFaces_;
+    return;
+  }
+  const size_t floats = layout.floats();
+  const size_t first = state.indices.size();
+  for (uint32_t t = 0; t < face.triangleCount; ++t) {
+    const auto& tri = s.triangles[face.firstTriangle + t];
+    if (!hasArea(vertices + tri[0] * floats, vertices + tri[1] * floats,
+                 vertices + tri[2] * floats)) {
+      continue;
+    }
+    const uint32_t base = state.vertexCount;
+    state.indices.push_back(base + tri[0]);
+    state.indices.push_back(base + tri[mirrored_ ? 2 : 1]);
+    state.indices.push_back(base + tri[mirrored_ ? 1 : 2]);
+  }
+  if (state.indices.size() == first) return;
+  for (uint32_t v = 0; v < face.vertexCount; ++v) include(state, vertices + v * floats);
+  out_.append(vertices, face.vertexCount * layout.stride());
+  state.vertexCount += face.vertexCount;
+}
+
+}  // namespace gable

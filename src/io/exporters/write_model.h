@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Writes a scene as a model file that other programs open. The format follows the extension:
+//   .glb .gltf   nodes that share meshes, PBR materials, textures inside (.glb) or beside (.gltf)
+//   .obj         polygons in groups by leaf name, with an .mtl beside it
+//   .ply .stl    one mesh, binary
+//
+// Promises: equal scenes give equal bytes on every machine; no coordinate is NaN or infinite and no
+// triangle has zero area in the numbers as written; a file is complete or not there at all. Memory
+// grows with the scene and its textures, not with what its instances expand to.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "scene/scene.h"
+
+namespace gable {
+
+/// The bytes of a texture by the path that a material names.
+using TextureReader = std::function<Result<std::string>(const std::string& path)>;
+
+struct WriteOptions {
+  /// Without a reader, files stand for themselves: paths are opened as they are.
+  TextureReader readTexture;
+  /// glTF: prototypes that occur several times become one mesh that many nodes show. Off: one mesh
+  /// a root.
+  bool shareMeshes = true;
+  /// glTF: equal children of a node become one node with EXT_mesh_gpu_instancing.
+  bool gpuInstancing = false;
+  /// Keep uv set 0 on surfaces whose material has no texture.
+  bool keepUv = true;
+};
+
+struct WriteReport {
+  /// Instances expanded; those without area left out.
+  uint64_t triangles = 0;
+  /// Of all files written.
+  uint64_t bytes = 0;
+  std::vector<std::string> files;
+  /// One sentence each: a texture that was not found, a surface left out.
+  std::vector<std::string> warnings;
+};
+
+/// Codes: format-unknown, model-too-large, file-unwritable.
+Result<WriteReport> writeModel(const Scene& scene, const std::string& path,
+                               const WriteOptions& options = {});
+
+/// The extensions that writeModel takes, without dots.
+const std::vector<std::string>& modelExtensions();
+
+/// The formats one by one.
+Result<WriteReport> writeGltf(const Scene& scene, const std::string& path,
+                              const WriteOptions& options);
+Result<WriteReport> writeObj(const Scene& scene, const std::string& path,
+                             const WriteOptions& options);
+Result<WriteReport> writePly(const Scene& scene, const std::string& path,
+                             const WriteOptions& options);
+Result<WriteReport> writeStl(const Scene& scene, const std::string& path,
+                             const WriteOptions& options);
+
+}  // namespace gable

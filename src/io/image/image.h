@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Pictures: PNG and JPEG, to eight bits of red, green, blue and alpha (sRGB, straight alpha), rows
+// from the top. Broken input ends in an Error, in bounded time and memory.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+
+namespace gable {
+
+enum class ImageFormat : uint8_t { Unknown, Png, Jpeg };
+
+struct ImageHeader {
+  ImageFormat format = ImageFormat::Unknown;
+  uint32_t width = 0, height = 0;
+  /// An alpha channel or a transparent palette entry.
+  bool hasAlpha = false;
+};
+
+struct Image {
+  uint32_t width = 0, height = 0;
+  /// Four bytes a pixel.
+  std::vector<uint8_t> rgba;
+  const uint8_t* at(uint32_t x, uint32_t y) const {
+    return rgba.data() + (static_cast<size_t>(y) * width + x) * 4;
+  }
+};
+
+/// By the first bytes, whatever the file is called.
+ImageFormat imageFormat(std::string_view bytes);
+
+/// Codes: image-unknown, image-broken, image-too-large (over 2^28 pixels).
+Result<ImageHeader> readImageHeader(std::string_view bytes);
+Result<Image> decodeImage(std::string_view bytes, uint64_t maxPixels = 1ULL << 28);
+
+/// `channels`: 3 drops alpha, 4 keeps it. The same bytes for the same picture on one version of the
+/// PNG library.
+Result<std::string> encodePng(const Image& image, int channels = 4);
+
+}  // namespace gable

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The PNG half of io/image/image.h.
+#pragma once
+
+#include "io/image/image.h"
+
+namespace gable {
+
+Result<ImageHeader> readPngHeader(std::string_view bytes);
+Result<Image> decodePng(std::string_view bytes, uint64_t maxPixels);
+
+}  // namespace gable
