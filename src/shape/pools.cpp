@@ -10,6 +10,18 @@
 
 namespace gable {
 
+void fitModel(AssetModel& model) {
+  model.bounds = model.mesh->bounds();
+  Mesh mesh = *model.mesh;
+  if (!mesh.empty()) {
+    for (Vec3& p : mesh.positions) p = p - model.bounds.min;
+  }
+  if (!model.materials.empty()) {
+    for (MeshFace& f : mesh.faces) f.materialSlot = static_cast<uint16_t>(f.materialSlot + 1);
+  }
+  model.fitted = makeRef<Mesh>(std::move(mesh));
+}
+
 struct TagTable::Impl {
   ValuePool& pool;
   Interned<std::vector<StringId>> sets;

@@ -25,7 +25,13 @@ struct AssetModel : RefCounted {
   MeshRef mesh;
   std::vector<Material> materials;
   Box3 bounds;
+  /// What is inserted: the mesh moved to begin at the origin, with slots that count from 1 where
+  /// there are materials. Made by fitModel; shared by all shapes that insert the model.
+  MeshRef fitted;
 };
+
+/// Fills in `bounds` and `fitted` from the mesh.
+void fitModel(AssetModel& model);
 
 struct ImageInfo {
   bool found = false;

@@ -155,8 +155,9 @@ const std::array<BoxFace, 6>& boxFaces(BoxOrder order) {
 }
 
 uint64_t contentHash(const Geometry& g) {
-  uint64_t h = hashCombine(
-      static_cast<uint64_t>(g.kind) << 16 | static_cast<uint64_t>(g.order) << 8, g.uv ? 1 : 0);
+  uint64_t h =
+      hashCombine(static_cast<uint64_t>(g.kind) << 16 | static_cast<uint64_t>(g.order) << 8,
+                  (g.uv ? 1u : 0u) | (g.instanced ? 2u : 0u));
   for (size_t i = 0; i < 3; ++i) h = hashCombine(h, hashDouble(g.refSize[i]));
   for (const uint32_t t : g.tags) h = hashCombine(h, t);
   return g.mesh ? hashCombine(h, g.mesh->contentHash()) : h;

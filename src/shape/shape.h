@@ -58,6 +58,8 @@ struct Geometry {
   /// Tag sets of a primitive's faces, by the side they look to: a QuadXy has its tags at
   /// kSideFront, a QuadXz at kSideTop. Zero where there is no face; all zero for meshes.
   std::array<uint32_t, 6> tags{};
+  /// An asset or a primitive as it was inserted, whatever became of the scope since.
+  bool instanced = false;
 
   /// True when an operation could tell the two apart at equal scope sizes. Meshes are compared by
   /// identity.

@@ -133,9 +133,9 @@ void flatten(const std::vector<Piece>& pieces, uint32_t& slot, std::vector<Split
 
 void MemoryAssets::addModel(std::string path, Mesh mesh, std::vector<Material> materials) {
   AssetModel m;
-  m.bounds = mesh.bounds();
   m.mesh = makeRef<Mesh>(std::move(mesh));
   m.materials = std::move(materials);
+  fitModel(m);
   models[std::move(path)] = makeRef<AssetModel>(std::move(m));
 }
 
@@ -153,7 +153,7 @@ Ref<AssetModel> MemoryAssets::model(std::string_view path, std::string_view, boo
   if (!zUp) return at->second;
   AssetModel m = *at->second;
   m.mesh = makeRef<Mesh>(transformed(*m.mesh, {1, 1, 1}, rotationXyz(-90, 0, 0)));
-  m.bounds = m.mesh->bounds();
+  fitModel(m);
   return makeRef<AssetModel>(std::move(m));
 }
 

@@ -16,8 +16,6 @@ namespace gable {
 
 namespace {
 
-const Box3 kUnitBox{{0, 0, 0}, {1, 1, 1}};
-
 // The plane of a flat primitive.
 enum class FlatPlane { Xz, Xy, Yz };
 
@@ -27,15 +25,7 @@ FlatPlane planeOf(const Vec3& size) {
   return FlatPlane::Xz;
 }
 
-// Gives the scope a size of its own around the middle of its ground; negative heights go down.
-void centerOnGround(Shape& s, const Vec3& size) {
-  const Vec3 by{(s.size.x - std::fabs(size.x)) / 2, size.y < 0 ? size.y : 0,
-                (s.size.z - std::fabs(size.z)) / 2};
-  s.scope.origin = s.scope.point(by);
-  s.size = {std::fabs(size.x), std::fabs(size.y), std::fabs(size.z)};
-}
-
-// The same in the plane of a flat primitive.
+// Gives a flat primitive a size of its own in the middle of its plane.
 void centerInPlane(Shape& s, FlatPlane plane, double w, double l) {
   w = std::fabs(w);
   l = std::fabs(l);
@@ -47,11 +37,6 @@ void centerInPlane(Shape& s, FlatPlane plane, double w, double l) {
       s.scope.point({plane == FlatPlane::Yz ? 0 : off.x, plane == FlatPlane::Xz ? 0 : off.y,
                      plane == FlatPlane::Xy ? 0 : off.z});
   s.size = size;
-}
-
-void makePrimitive(Shape& s, GeometryKind kind) {
-  s.assetMaterials = 0;
-  s.geometry = {kind, true, s.size, {}};
 }
 
 // Turns a mesh of the plane y = 0 into another plane: the picture stays upright and the face looks
@@ -69,10 +54,7 @@ Status applyCube(OpCall& call) {
   } else {
     fillZeroSizes(s, kUnitBox);
   }
-  if (s.size.x < 0 || s.size.y < 0 || s.size.z < 0)
-    insertMesh(s, makeBoxMesh({1, 1, 1}, true), kUnitBox);
-  else
-    makePrimitive(s, GeometryKind::Box);
+  insertBox(s, true);
   return {};
 }
 
@@ -88,7 +70,7 @@ Status applyQuad(OpCall& call) {
   }
   const bool positive = s.size.x >= 0 && s.size.y >= 0 && s.size.z >= 0;
   if (positive && plane != FlatPlane::Yz) {
-    makePrimitive(s, plane == FlatPlane::Xy ? GeometryKind::QuadXy : GeometryKind::QuadXz);
+    insertPrimitive(s, plane == FlatPlane::Xy ? GeometryKind::QuadXy : GeometryKind::QuadXz, true);
     return {};
   }
   const Mesh mesh = inPlane(makeQuadMesh(1, 1, QuadPlane::Xz, true), plane);

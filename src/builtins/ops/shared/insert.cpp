@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "builtins/ops/shared/frames.h"
+#include "builtins/ops/shared/solids.h"
+#include "builtins/ops/shared/trim.h"
 
 namespace gable {
 
@@ -32,16 +34,59 @@ void fillZeroSizes(Shape& s, const Box3& box) {
   s.scope.origin = s.scope.point(by);
 }
 
+void centerOnGround(Shape& s, const Vec3& size) {
+  const Vec3 by{(s.size.x - std::fabs(size.x)) / 2, size.y < 0 ? size.y : 0,
+                (s.size.z - std::fabs(size.z)) / 2};
+  s.scope.origin = s.scope.point(by);
+  s.size = {std::fabs(size.x), std::fabs(size.y), std::fabs(size.z)};
+}
+
 void insertMesh(Shape& s, Mesh mesh, const Box3& box) {
   if (box.min != Vec3{}) {
     for (Vec3& p : mesh.positions) p = p - box.min;
   }
-  if (isMirrored(s.size)) mesh = reversed(mesh);
+  insertMesh(s, makeRef<Mesh>(std::move(mesh)), box.size());
+}
+
+void insertMesh(Shape& s, MeshRef mesh, const Vec3& size) {
   s.assetMaterials = 0;
-  if (mesh.empty())
-    s.geometry = {};
+  s.geometry = {};
+  if (mesh->empty()) return;
+  if (isMirrored(s.size)) mesh = makeRef<Mesh>(reversed(*mesh));
+  s.geometry = {GeometryKind::Mesh, false, size, std::move(mesh)};
+  s.geometry.instanced = true;
+  trimGeometry(s);
+}
+
+void insertPrimitive(Shape& s, GeometryKind kind, bool uv) {
+  s.assetMaterials = 0;
+  s.geometry = primitive(kind);
+  s.geometry.uv = uv;
+  s.geometry.instanced = true;
+  trimGeometry(s);
+}
+
+void insertBox(Shape& s, bool uv) {
+  if (s.size.x < 0 || s.size.y < 0 || s.size.z < 0)
+    insertMesh(s, makeBoxMesh({1, 1, 1}, uv), kUnitBox);
   else
-    s.geometry = {GeometryKind::Mesh, false, box.size(), makeRef<Mesh>(std::move(mesh))};
+    insertPrimitive(s, GeometryKind::Box, uv);
+}
+
+Mesh builtinModel(std::string_view path) {
+  // Round ones have radius 1 and lie around the axis.
+  const auto round = [](const Mesh& m, double low, double high) {
+    return transformed(m, {0.5, 1 / (high - low), 0.5},
+                       Frame::moved({0.5, -low / (high - low), 0.5}));
+  };
+  if (path == "builtin:cube") return makeBoxMesh({1, 1, 1}, true);
+  if (path == "builtin:cube:notex") return makeBoxMesh({1, 1, 1}, false);
+  if (path == "builtin:quad") return makeQuadMesh(1, 1, QuadPlane::Xz, true);
+  if (path == "builtin:disk") return round(makeDisk(16), 0, 1);
+  if (path == "builtin:sphere") return round(makeSphere(16, 16), -1, 1);
+  if (path == "builtin:cylinder") return round(makeCylinder(16), 0, 1);
+  if (path == "builtin:cone") return round(makeCone(16), 0, 1);
+  return {};
 }
 
 }  // namespace gable

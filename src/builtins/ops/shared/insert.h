@@ -18,9 +18,26 @@ namespace gable {
 /// A dimension in which the box is flat gives no ratio and stays as it is.
 void fillZeroSizes(Shape& s, const Box3& box);
 
+/// Gives the scope a size of its own around the middle of its ground; negative heights go down.
+void centerOnGround(Shape& s, const Vec3& size);
+
 /// Gives the shape a mesh that fills its scope; `box` is the mesh's bounding box, in which it is
 /// moved to begin at the origin. Faces turn round when the scope is mirrored. Materials of an
-/// earlier asset are dropped.
+/// earlier asset are dropped, and the shape's trim planes cut.
 void insertMesh(Shape& s, Mesh mesh, const Box3& box);
+/// The same of a mesh that begins at the origin; it is shared where nothing has to be changed.
+void insertMesh(Shape& s, MeshRef mesh, const Vec3& size);
+
+/// The same with a primitive; sizes must not be negative.
+void insertPrimitive(Shape& s, GeometryKind kind, bool uv);
+/// A box that fills the scope, mirrored or not.
+void insertBox(Shape& s, bool uv);
+
+/// Models that exist without a file: "builtin:cube", "builtin:cube:notex", "builtin:quad",
+/// "builtin:disk", "builtin:sphere", "builtin:cylinder", "builtin:cone". They measure one metre.
+/// An empty mesh for any other name.
+Mesh builtinModel(std::string_view path);
+
+const Box3 kUnitBox{{0, 0, 0}, {1, 1, 1}};
 
 }  // namespace gable

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include <string>
+
+#include "builtins/lists.h"
+#include "builtins/ops/shared/insert.h"
+#include "builtins/shared/materials.h"
+#include "shape/op_call.h"
+
+namespace gable {
+
+namespace {
+
+// Makes the scope ready for a model with a bounding box, as the insert mode says.
+void placeScope(Shape& s, const Box3& box, std::string_view mode) {
+  if (mode == "keepSizeAlignPosition") {
+    centerOnGround(s, box.size());
+    return;
+  }
+  if (mode == "keepSizeAndPosition") s.size = {};
+  fillZeroSizes(s, box);
+}
+
+Status insertBuiltin(OpCall& call, std::string_view path, std::string_view mode) {
+  Shape& s = call.shape();
+  if (path == "builtin:cube" || path == "builtin:cube:notex") {
+    placeScope(s, kUnitBox, mode);
+    insertBox(s, path == "builtin:cube");
+    return {};
+  }
+  Mesh mesh = builtinModel(path);
+  if (mesh.empty()) {
+    return call.fail("missing-asset", "there is no model '" + std::string(path) + "'",
+                     "see the list of built-in models");
+  }
+  const Box3 box = mesh.bounds();
+  placeScope(s, box, mode);
+  insertMesh(s, std::move(mesh), box);
+  return {};
+}
+
+Status applyI(OpCall& call) {
+  const std::string_view path = call.text(0);
+  const std::string_view mode = call.text(2, "alignSizeAndPosition");
+  if (path.starts_with("builtin:")) return insertBuiltin(call, path, mode);
+  std::string why;
+  const Ref<AssetModel> model =
+      call.services().assets().model(path, call.file(), call.is(1, "zUp"), why);
+  if (!model) {
+    return call.fail("missing-asset", "cannot insert '" + std::string(path) + "': " + why,
+                     "paths start at the assets folder or at the root of the project");
+  }
+  Shape& s = call.shape();
+  placeScope(s, model->bounds, mode);
+  insertMesh(s, model->fitted, model->bounds.size());
+  if (!model->materials.empty()) setModelMaterials(s, model->materials, call.services());
+  return {};
+}
+
+constexpr ParamSpec kParams[] = {
+    {"filePath", ParamType::String, "The model, by its path in the project."},
+    {"upAxisOfGeometry", ParamType::Selector, "The axis that is up in the file.", "yUp", "yUp zUp"},
+    {"insertMode", ParamType::Selector,
+     "Fit the model to the scope; keep its size and place; or keep its size and stand it in the "
+     "middle of the scope's ground.",
+     "alignSizeAndPosition", "alignSizeAndPosition keepSizeAndPosition keepSizeAlignPosition"},
+    {"cleanupMode", ParamType::Selector,
+     "Whether readers may mend tiny edges; models are taken as they are in both cases.",
+     "numericalCleanup", "numericalCleanup noCleanup"},
+};
+constexpr Signature kSignatures[] = {{kParams}};
+
+constexpr OpSpec kSpecs[] = {
+    {"i", "asset", "Replaces the geometry by a model from a file, fitted to the scope.",
+     kSignatures, applyI, BlockKind::None, kUsesTrim},
+};
+
+}  // namespace
+
+extern const OpList kOps_insert;
+const OpList kOps_insert = kSpecs;
+
+}  // namespace gable

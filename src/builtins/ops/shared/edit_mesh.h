@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Edits of a shape's mesh that leave its positions: texture coordinates, normals, orientation.
+#pragma once
+
+#include <cmath>
+#include <utility>
+
+#include "shape/op_call.h"
+#include "shape/shape.h"
+
+namespace gable {
+
+/// Gives the shape a changed copy of its mesh, whatever its present scale; a primitive becomes a
+/// mesh. Nothing to do without geometry.
+template <class Edit>
+void editMesh(Shape& s, Edit edit) {
+  if (s.geometry.kind == GeometryKind::None) return;
+  const bool isMesh = s.geometry.kind == GeometryKind::Mesh;
+  Mesh mesh = isMesh ? *s.geometry.mesh : *meshInScope(s);
+  edit(mesh);
+  s.geometry = {GeometryKind::Mesh, false, isMesh ? s.geometry.refSize : s.size,
+                makeRef<Mesh>(std::move(mesh))};
+}
+
+inline bool hasUvSet(const Shape& s, int set) {
+  if (s.geometry.kind == GeometryKind::None) return false;
+  if (s.geometry.kind != GeometryKind::Mesh) return s.geometry.uv && set == 0;
+  return s.geometry.mesh->hasUv(set);
+}
+
+/// The number of a uv set given as an argument.
+inline Status uvSetOf(const OpCall& call, size_t argument, int& set) {
+  const double v = call.number(argument);
+  if (!(v >= 0 && v < kUvSets)) {
+    return call.fail("bad-argument", "there is no uv set " + numberText(v),
+                     "uv sets are numbered 0 to 9");
+  }
+  set = static_cast<int>(v);
+  return {};
+}
+
+}  // namespace gable

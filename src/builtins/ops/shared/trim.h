@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Trim planes: what a component split leaves at the edges of a face, to cut what is put there.
+#pragma once
+
+#include "shape/shape.h"
+
+namespace gable {
+
+/// Cuts the geometry by the shape's trim planes that are switched on (trim.vertical,
+/// trim.horizontal) and closes what was closed. The scope stays. A primitive that no plane meets
+/// stays one, and nothing is allocated. True when something was cut off.
+bool trimGeometry(Shape& s);
+
+}  // namespace gable

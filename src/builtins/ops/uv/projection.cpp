@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Planar projections: setupProjection keeps one with the shape, in its local frame, so that it goes
+// through splits; projectUV writes coordinates from it.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "builtins/lists.h"
+#include "builtins/ops/shared/edit_mesh.h"
+#include "builtins/ops/shared/frames.h"
+#include "shape/op_call.h"
+
+namespace gable {
+
+namespace {
+
+Vec3 axisOf(const Frame& f, char name) { return name == 'x' ? f.x : name == 'y' ? f.y : f.z; }
+
+size_t indexOf(char name) { return static_cast<size_t>(name - 'x'); }
+
+// The size of a tile: absolute, a share of the scope, or as near to the number as makes whole
+// tiles. A scope without extent says nothing.
+double tileSize(const Value& v, double extent) {
+  if (v.unit == Unit::Absolute || extent == 0) return v.number;
+  if (v.unit == Unit::Relative) return v.number * extent;
+  const double tiles = std::max(1.0, std::round(std::fabs(extent / v.number)));
+  return std::copysign(extent / tiles, v.number);
+}
+
+Status applySetup(OpCall& call) {
+  Shape& s = call.shape();
+  int set = 0;
+  if (Status bad = uvSetOf(call, 0, set); !bad) return bad;
+  const std::string_view axes = call.text(1);
+  const size_t dot = axes.find('.');
+  const char u = dot + 2 < axes.size() ? axes[dot + 1] : 0;
+  const char v = dot + 2 < axes.size() ? axes[dot + 2] : 0;
+  if (u < 'x' || u > 'z' || v < 'x' || v > 'z' || u == v) {
+    return call.fail("unknown-selector",
+                     "setupProjection knows no axes '" + std::string(axes) + "'",
+                     "use two axes of the scope or the world, such as scope.xy");
+  }
+  const Frame system = axes.starts_with("world") ? worldFrame(call.services()) : s.scope;
+  UvProjection p;
+  p.present = true;
+  p.width = tileSize(call.arg(2), std::fabs(s.size[indexOf(u)]));
+  p.height = tileSize(call.arg(3), std::fabs(s.size[indexOf(v)]));
+  if (!(std::fabs(p.width) > 0) || !(std::fabs(p.height) > 0) || !std::isfinite(p.width) ||
+      !std::isfinite(p.height)) {
+    return call.fail("bad-argument", "setupProjection cannot make tiles without a size",
+                     "give the texture a width and a height");
+  }
+  const Vec3 x = axisOf(system, u), y = axisOf(system, v);
+  p.frame = Frame::of(system.origin, x, y, cross(x, y));
+  p.offsetU = call.number(4, 0) / p.width;
+  p.offsetV = call.number(5, 0) / p.height;
+  p.uwFactor = call.number(6, 0);
+  ShapeExtra extra = extraOf(s);
+  extra.projections[static_cast<size_t>(set)] = p;
+  s.extra = makeRef<ShapeExtra>(std::move(extra));
+  return {};
+}
+
+// Coordinates of a point of the scope; exact zeros and ones come out as such where the projection
+// spans the scope.
+struct Projector {
+  Vec3 u, v;
+  double u0, v0;
+
+  Projector(const UvProjection& p, const Frame& scope) {
+    const auto row = [&](const Vec3& axis, double size, double offset, Vec3& direction) {
+      direction = scope.toLocalDirection(axis) * (1 / size);
+      return dot(scope.origin - p.frame.origin, axis) / size + offset;
+    };
+    u0 = row(p.frame.x + p.frame.z * p.uwFactor, p.width, p.offsetU, u);
+    v0 = row(p.frame.y, p.height, p.offsetV, v);
+  }
+  Vec2 at(const Vec3& p) const { return {dot(u, p) + u0, dot(v, p) + v0}; }
+};
+
+// True when a rectangle gets just the coordinates that it carries as a primitive.
+bool givesPlainUv(const Shape& s, int set, const Projector& projector) {
+  const GeometryKind kind = s.geometry.kind;
+  if (set != 0 || (kind != GeometryKind::QuadXy && kind != GeometryKind::QuadXz)) return false;
+  const double x = s.size.x, y = s.size.y, z = s.size.z;
+  const bool xy = kind == GeometryKind::QuadXy;
+  const Vec3 corners[4] = {xy ? Vec3{0, 0, 0} : Vec3{0, 0, z}, xy ? Vec3{x, 0, 0} : Vec3{x, 0, z},
+                           xy ? Vec3{x, y, 0} : Vec3{x, 0, 0}, xy ? Vec3{0, y, 0} : Vec3{0, 0, 0}};
+  const Vec2 plain[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  for (size_t i = 0; i < 4; ++i) {
+    const Vec2 off = projector.at(corners[i]) - plain[i];
+    if (std::fabs(off.x) > 1e-9 || std::fabs(off.y) > 1e-9) return false;
+  }
+  return true;
+}
+
+Status applyProject(OpCall& call) {
+  Shape& s = call.shape();
+  int set = 0;
+  if (Status bad = uvSetOf(call, 0, set); !bad) return bad;
+  const size_t layer = static_cast<size_t>(set);
+  if (!s.extra || !s.extra->projections[layer].present) {
+    return call.fail("no-projection",
+                     "projectUV(" + std::to_string(set) + ") has no projection to write",
+                     "call setupProjection for this uv set before");
+  }
+  if (s.geometry.kind == GeometryKind::None) return {};
+  const UvProjection projection = s.extra->projections[layer];
+  const Projector projector(projection, s.scope);
+  if (givesPlainUv(s, set, projector)) {
+    s.geometry.uv = true;
+    s.geometry.instanced = false;
+    return {};
+  }
+  const bool isMesh = s.geometry.kind == GeometryKind::Mesh;
+  const MeshRef placed = meshInScope(s);
+  Mesh mesh = isMesh ? *s.geometry.mesh : *placed;
+  std::vector<Vec2>& uvs = mesh.uvs[layer];
+  uvs.resize(mesh.corners.size());
+  // A mirrored mesh has its corners in another order when placed; its positions have not.
+  for (size_t c = 0; c < mesh.corners.size(); ++c) {
+    uvs[c] = projector.at(placed->positions[mesh.corners[c]]);
+  }
+  s.geometry = {GeometryKind::Mesh, false, isMesh ? s.geometry.refSize : s.size,
+                makeRef<Mesh>(std::move(mesh))};
+  return {};
+}
+
+constexpr ParamSpec kSet = {"uvSet", ParamType::Float,
+                            "The uv set, 0 to 9, which is the texture layer that uses it."};
+constexpr ParamSpec kAxes = {
+    "axes", ParamType::Selector,
+    "Where u and v run: two axes of the scope from its origin, or of the world from its.", nullptr,
+    "scope.xy scope.xz scope.yx scope.yz scope.zx scope.zy world.xy world.xz world.yx world.yz "
+    "world.zx world.zy"};
+constexpr ParamSpec kWidth = {
+    "textureWidth", ParamType::FloatingSize,
+    "Width of a tile in metres; with ' as a share of the scope, with ~ about that wide so that "
+    "whole tiles fit; negative ones mirror."};
+constexpr ParamSpec kHeight = {"textureHeight", ParamType::FloatingSize,
+                               "Height of a tile, likewise."};
+constexpr ParamSpec kOffsetU = {"widthOffset", ParamType::Float, "Shift along u, in metres."};
+constexpr ParamSpec kOffsetV = {"heightOffset", ParamType::Float, "Shift along v, in metres."};
+constexpr ParamSpec kFactor = {"uwFactor", ParamType::Float,
+                               "How much depth counts as u, to bend textures around corners."};
+constexpr ParamSpec kPlainParams[] = {kSet, kAxes, kWidth, kHeight};
+constexpr ParamSpec kOffsetParams[] = {kSet, kAxes, kWidth, kHeight, kOffsetU, kOffsetV};
+constexpr ParamSpec kFactorParams[] = {kSet, kAxes, kWidth, kHeight, kOffsetU, kOffsetV, kFactor};
+constexpr Signature kSetupSignatures[] = {{kPlainParams}, {kOffsetParams}, {kFactorParams}};
+
+constexpr ParamSpec kProjectParams[] = {kSet};
+constexpr Signature kProjectSignatures[] = {{kProjectParams}};
+
+constexpr OpSpec kSpecs[] = {
+    {"setupProjection", "uv",
+     "Prepares a planar projection of a texture, which this shape and its parts keep.",
+     kSetupSignatures, applySetup, BlockKind::None, kReadsWorld | kReadsWorldByWord},
+    {"setupUV", "uv", "Old name of setupProjection.", kSetupSignatures, applySetup, BlockKind::None,
+     kReadsWorld | kReadsWorldByWord, nullptr, false, true},
+    {"projectUV", "uv", "Writes texture coordinates from the prepared projection.",
+     kProjectSignatures, applyProject, BlockKind::None, kReadsUvProjection},
+};
+
+}  // namespace
+
+extern const OpList kOps_projection;
+const OpList kOps_projection = kSpecs;
+
+}  // namespace gable
