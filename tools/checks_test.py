@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 import check
-from checks import layers, links, ops, pictures, sizes, words
+from checks import diagnostics, layers, links, ops, pictures, sizes, words
 from checks.tree import Tree, code_of, comments_of
 
 HEAD = "// SPDX-License-Identifier: Apache-2.0\n// SPDX-FileCopyrightText: The Gable authors\n"
@@ -159,6 +159,16 @@ class PicturesAndOpsTest(CheckCase):
                           "src/builtins/ops/build/wall.md: is missing",
                           "src/builtins/functions/maths/page.cpp: is missing",
                           "src/builtins/functions/maths/page.test: is missing"])
+
+
+class DiagnosticsTest(CheckCase):
+    def testHoldsSourcesAgainstThePage(self):
+        self.write("docs/reference/diagnostics.md", "| code |\n|---|\n| `bad-arrow` | x |\n| `old-one` | x |\n")
+        self.write("src/base/a.cpp", 'void f() { error("bad-arrow", at); d.warning("no-page",\n "x"); }\n')
+        self.write("src/base/a_test.cpp", 'void f() { error("in-a-test", at); }\n')
+        self.assertEqual(self.messages(diagnostics), [
+            "src/base/a.cpp:1: 'no-page' has no line in docs/reference/diagnostics.md",
+            "docs/reference/diagnostics.md: no source has the code 'old-one'"])
 
 
 class ExceptionsTest(CheckCase):

@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The Gable authors
+"""The rules shown in the documents run: documents_test.py GABLE FOLDER.
+
+Every block marked ```cga in a Markdown file is derived on a lot of 30 x 20 metres; none may have an error. Files
+that a block names are not there, which is a warning. Run from the repository's root.
+"""
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+FENCE = re.compile(r"^```cga\n(.*?)^```$", re.M | re.S)
+
+
+def documents():
+    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "*.md"], capture_output=True,
+                            text=True, check=False).stdout.split()
+    found = listed or [p.as_posix() for p in Path(".").rglob("*.md")]
+    # Reference pages repeat the prose beside the source.
+    return sorted(p for p in found if not p.startswith(("build/", "docs/reference/")) and Path(p).exists())
+
+
+def main():
+    gable, folder = sys.argv[1], Path(sys.argv[2])
+    folder.mkdir(parents=True, exist_ok=True)
+    count = failures = 0
+    for document in documents():
+        text = Path(document).read_text(encoding="utf-8")
+        for match in FENCE.finditer(text):
+            count += 1
+            line = text.count("\n", 0, match.start()) + 2
+            rules = folder / f"{document.replace('/', '-')}-{line}.cga"
+            rules.write_text(match.group(1), encoding="utf-8")
+            done = subprocess.run([gable, "generate", str(rules), "--lot", "30x20", "-o",
+                                   str(rules.with_suffix(".glb"))],
+                                  capture_output=True, text=True, check=False)
+            if done.returncode != 0:
+                failures += 1
+                print(f"{document}:{line}: exit status {done.returncode}\n{done.stderr[-2000:]}")
+    print(f"{count} examples, {failures} failures")
+    return 1 if failures or not count else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
