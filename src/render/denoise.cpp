@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // The edge-avoiding a-trous wavelet of Dammertz et al. 2010 with the variance-driven brightness
-// weight of Schied et al. 2017: five passes of a 5 x 5 spline kernel with growing gaps over the
-// indirect light divided by albedo; the variance shrinks along with it, so later passes stop at
-// what is structure and not noise.
+// weight of Schied et al. 2017: passes of a 5 x 5 spline kernel with growing gaps over the light
+// divided by albedo; the variance shrinks along with it, so later passes stop at what is structure
+// and not noise.
 
 #include "render/denoise.h"
 
@@ -14,12 +14,13 @@ namespace gable::rt {
 
 namespace {
 
-constexpr int kPasses = 5;
+/// The sun's light has noise in penumbras only: small, and next to edges to be kept.
+constexpr int kSunPasses = 2, kIndirectPasses = 5;
 constexpr float kKernel[3] = {3.0f / 8, 1.0f / 4, 1.0f / 16};
 /// Least albedo to divide by.
 constexpr float kLeastAlbedo = 0.02f;
 /// Brightness differences count in standard deviations times this.
-constexpr float kBrightness = 3;
+constexpr float kSunBrightness = 1.5f, kIndirectBrightness = 3.5f;
 /// Weight of a normal that is turned by 20 degrees: a third.
 constexpr float kSharpness = 18;
 
@@ -30,10 +31,12 @@ Vec3f divisor(const Vec3f& albedo) {
 
 struct Smoother {
   const Film& film;
-  std::vector<Vec3f> light;
-  std::vector<float> variance;
   /// Change of distance from pixel to pixel, across and down.
   std::vector<Vec2f> slope;
+  /// The layer at work, over albedo.
+  std::vector<Vec3f> light;
+  std::vector<float> variance;
+  float brightnessWeight = 1;
 
   size_t index(int x, int y) const {
     return static_cast<size_t>(y) * film.width + static_cast<size_t>(x);
@@ -43,7 +46,7 @@ struct Smoother {
 
   /// The smaller of the one-sided differences: at an outline, that of the pixel's own side.
   void findSlopes() {
-    slope.assign(light.size(), {});
+    slope.assign(film.direct.size(), {});
     const auto least = [](float a, float b) { return std::abs(a) < std::abs(b) ? a : b; };
     for (int y = 0; y < height(); ++y) {
       for (int x = 0; x < width(); ++x) {
@@ -86,7 +89,7 @@ struct Smoother {
     const float agreement = length(film.normal[p]);
     const Vec3f normal = normalized(film.normal[p]);
     const float brightness = luminance(light[p]);
-    const float deviation = kBrightness * std::sqrt(meanVariance(x, y)) + 1e-5f;
+    const float deviation = brightnessWeight * std::sqrt(meanVariance(x, y)) + 1e-5f;
     const float nearness = 1 / (0.004f * film.distance[p] + 1e-3f);
 
     Vec3f sum;
@@ -120,41 +123,53 @@ struct Smoother {
     toLight[p] = sum * (1 / weights);
     toVariance[p] = variances / (weights * weights);
   }
+
+  /// Leaves the smoothed layer in `light`, over albedo.
+  void run(const FilmLayer& layer, int passes, float weight, unsigned threads) {
+    brightnessWeight = weight;
+    variance = layer.variance;
+    light.resize(layer.light.size());
+    for (size_t i = 0; i < light.size(); ++i) {
+      const Vec3f d = divisor(film.albedo[i]);
+      const Vec3f& l = layer.light[i];
+      light[i] = {l.x / d.x, l.y / d.y, l.z / d.z};
+    }
+    std::vector<Vec3f> toLight(light.size());
+    std::vector<float> toVariance(light.size());
+    for (int pass = 0; pass < passes; ++pass) {
+      parallelFor(
+          film.height, threads,
+          [&](size_t row, unsigned) {
+            for (int x = 0; x < width(); ++x) {
+              pixel(x, static_cast<int>(row), 1 << pass, toLight, toVariance);
+            }
+          },
+          8);
+      std::swap(toLight, light);
+      std::swap(toVariance, variance);
+    }
+  }
 };
 
 }  // namespace
 
 std::vector<Vec3f> resolve(const Film& film, bool smooth, unsigned threads) {
   const size_t pixels = film.direct.size();
-  std::vector<Vec3f> picture(pixels);
+  std::vector<Vec3f> picture = film.direct;
   if (!smooth) {
-    for (size_t i = 0; i < pixels; ++i) picture[i] = film.direct[i] + film.indirect[i];
+    for (size_t i = 0; i < pixels; ++i) picture[i] += film.sun.light[i] + film.indirect.light[i];
     return picture;
   }
-  Smoother smoother{film, std::vector<Vec3f>(pixels), film.variance, {}};
-  for (size_t i = 0; i < pixels; ++i) {
-    const Vec3f d = divisor(film.albedo[i]);
-    const Vec3f& l = film.indirect[i];
-    smoother.light[i] = {l.x / d.x, l.y / d.y, l.z / d.z};
-  }
+  Smoother smoother{film, {}, {}, {}, 1};
   smoother.findSlopes();
-  std::vector<Vec3f> light(pixels);
-  std::vector<float> variance(pixels);
-  for (int pass = 0; pass < kPasses; ++pass) {
-    parallelFor(
-        film.height, threads,
-        [&](size_t row, unsigned) {
-          for (int x = 0; x < smoother.width(); ++x) {
-            smoother.pixel(x, static_cast<int>(row), 1 << pass, light, variance);
-          }
-        },
-        8);
-    std::swap(light, smoother.light);
-    std::swap(variance, smoother.variance);
-  }
-  for (size_t i = 0; i < pixels; ++i) {
-    picture[i] = film.direct[i] + smoother.light[i] * divisor(film.albedo[i]);
-  }
+  const auto add = [&](const FilmLayer& layer, int passes, float weight) {
+    smoother.run(layer, passes, weight, threads);
+    for (size_t i = 0; i < pixels; ++i) {
+      picture[i] += smoother.light[i] * divisor(film.albedo[i]);
+    }
+  };
+  add(film.sun, kSunPasses, kSunBrightness);
+  add(film.indirect, kIndirectPasses, kIndirectBrightness);
   return picture;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Smooths a film's indirect light along surfaces: what little light still jitters from pixel to
-// pixel is averaged with its neighbours of like normal, depth and brightness. Colours, edges and
-// the sun's shadows are not touched: they are kept apart.
+// Smooths a film's light along surfaces: what jitters from pixel to pixel is averaged with its
+// neighbours of like normal, depth and brightness. Colours and edges are not touched: they are kept
+// apart; of the sun's shadows only the grain of their soft rims goes.
 #pragma once
 
 #include "render/integrator.h"

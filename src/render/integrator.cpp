@@ -27,14 +27,37 @@ enum BlockPart : uint32_t { kOpacity, kSun, kDirection, kPick, kRoulette };
 /// Straight passages through clear things a path may make.
 constexpr int kMostPassages = 24;
 /// A light sample may exceed sunlit white by this factor before it counts as a firefly.
-constexpr float kClamp = 6;
+constexpr float kClamp = 4;
 /// Share of the open sky's light that stands for the bounces that are not traced.
-constexpr float kUntracedShare = 0.3f;
+constexpr float kUntracedShare = 0.4f;
 /// Coats smoother than this show a picture of their surroundings, which must not be smoothed.
 constexpr float kMirror = 0.35f;
 constexpr uint32_t kTile = 16;
-/// The empty ground pales from this distance on, by 63 % a kilometre further.
-constexpr float kNearGround = 250, kGroundFade = 1e-6f;
+/// Paling of far ground by squared metres: 63 % after a kilometre.
+constexpr float kGroundFade = 1e-6f;
+
+/// A smooth random value in [-1, 1] over the plane, with features of about one unit.
+float smoothNoise(float x, float z, uint32_t seed) {
+  const float fx = std::floor(x), fz = std::floor(z);
+  const auto corner = [&](int i, int j) {
+    const uint32_t cx = static_cast<uint32_t>(static_cast<int64_t>(fx) + i);
+    const uint32_t cz = static_cast<uint32_t>(static_cast<int64_t>(fz) + j);
+    return static_cast<float>(mix32(cx + mix32(cz + seed)) >> 8) * 0x1p-23f - 1;
+  };
+  const float tx = x - fx, tz = z - fz;
+  const float sx = tx * tx * (3 - 2 * tx), sz = tz * tz * (3 - 2 * tz);
+  return (corner(0, 0) * (1 - sx) + corner(1, 0) * sx) * (1 - sz) +
+         (corner(0, 1) * (1 - sx) + corner(1, 1) * sx) * sz;
+}
+
+/// Soil is nowhere of one tone: a few percent over metres, finer ones near the camera only.
+float groundTone(const Vec3f& p, float distance) {
+  float tone = 1 + 0.05f * smoothNoise(p.x / 19, p.z / 19, 1);
+  const float fine = 60 / (60 + distance);
+  tone += fine * 0.04f * smoothNoise(p.x / 2.3f, p.z / 2.3f, 2);
+  tone += fine * fine * 0.05f * smoothNoise(p.x / 0.31f, p.z / 0.31f, 3);
+  return tone;
+}
 
 bool intersect(const Stage& stage, const Ray& ray, bool ordered, Surface& surface,
                float& distance) {
@@ -50,7 +73,7 @@ bool intersect(const Stage& stage, const Ray& ray, bool ordered, Surface& surfac
       surface.point = ray.origin + ray.direction * t;
       surface.point.y = stage.groundHeight;
       surface.facet = surface.normal = {0, 1, 0};
-      surface.base = stage.light.groundAlbedo;
+      surface.base = stage.light.groundAlbedo * groundTone(surface.point, distance);
       surface.isGround = true;
       distance = t;
       return true;
@@ -114,8 +137,7 @@ PathResult tracePath(const Stage& stage, Ray ray, uint32_t x, uint32_t y, uint32
       break;
     }
     if (sharp && stage.haze > 0) {
-      // Far ground fades sooner: there is no edge where it meets the sky.
-      const float far = surface.isGround ? std::max(0.0f, distance - kNearGround) : 0;
+      const float far = surface.isGround ? std::max(0.0f, distance - stage.nearGround) : 0;
       const float clear = std::exp(-distance * stage.haze - far * far * kGroundFade);
       result.direct += carried * light.horizon() * (1 - clear);
       carried *= clear;
@@ -148,8 +170,9 @@ PathResult tracePath(const Stage& stage, Ray ray, uint32_t x, uint32_t y, uint32
     }
     const Vec3f direct =
         sunlight(stage, surface, lobes, view, sampler.point(block + kSun), result.rays);
-    (sharp ? result.direct : result.indirect) +=
-        withoutFireflies(carried * direct, sharp ? limit * 4 : limit);
+    (mirrored && sharp ? result.direct
+     : sharp           ? result.sun
+             : result.indirect) += withoutFireflies(carried * direct, sharp ? limit * 4 : limit);
 
     if (depth >= stage.bounces) {
       const Vec3f rest = lobes.diffuse * light.skyIrradiance * (kUntracedShare / kPif);
@@ -174,8 +197,9 @@ PathResult tracePath(const Stage& stage, Ray ray, uint32_t x, uint32_t y, uint32
     ray.origin = offset(surface.point, surface.facet, next.direction);
     ray.direction = next.direction;
   }
-  if (!isFinite(result.direct)) result.direct = {};
-  if (!isFinite(result.indirect)) result.indirect = {};
+  for (Vec3f* part : {&result.direct, &result.sun, &result.indirect}) {
+    if (!isFinite(*part)) *part = {};
+  }
   return result;
 }
 
@@ -208,6 +232,26 @@ class PixelFilter {
   std::array<float, kSteps + 1> cumulative_{};
 };
 
+/// Adds up a layer's samples.
+struct LayerSum {
+  Vec3f light;
+  float sum = 0, squares = 0;
+
+  void add(const Vec3f& sample, const Vec3f& albedo) {
+    light += sample;
+    const float l = luminance(sample) / std::max(0.02f, luminance(albedo));
+    sum += l;
+    squares += l * l;
+  }
+  /// `share` is one over the number of samples.
+  void store(FilmLayer& layer, size_t i, float share) const {
+    layer.light[i] = light * share;
+    const float mean = sum * share, spread = squares * share - mean * mean;
+    // With one sample nothing is known of the spread; assume it as large as the light.
+    layer.variance[i] = share < 1 ? std::max(0.0f, spread) * share / (1 - share) : mean * mean;
+  }
+};
+
 struct PixelTask {
   const Stage& stage;
   const Camera& camera;
@@ -218,8 +262,9 @@ struct PixelTask {
   uint64_t run(uint32_t x, uint32_t y) const {
     const double width = options.width, height = options.height, aspect = width / height;
     const uint32_t n = std::max(1u, options.samples);
-    Vec3f direct, indirect, albedo, normal;
-    float distance = 0, distances = 0, hits = 0, sum = 0, squares = 0;
+    Vec3f direct, albedo, normal;
+    LayerSum sun, indirect;
+    float distance = 0, distances = 0, hits = 0;
     uint64_t rays = 0;
     for (uint32_t s = 0; s < n; ++s) {
       const Vec2f u = Sampler(x, y, s, options.seed).point(kPixelDimension);
@@ -228,21 +273,20 @@ struct PixelTask {
       const Ray ray = cameraRay(camera, aspect, px / width, 1 - py / height);
       const PathResult path = tracePath(stage, ray, x, y, s, options.seed);
       direct += path.direct;
-      indirect += path.indirect;
+      sun.add(path.sun, path.albedo);
+      indirect.add(path.indirect, path.albedo);
       albedo += path.albedo;
       normal += path.normal;
       distance += path.distance;
       distances += path.distance * path.distance;
       hits += path.distance > 0 ? 1.0f : 0.0f;
       rays += path.rays;
-      const float l = luminance(path.indirect) / std::max(0.02f, luminance(path.albedo));
-      sum += l;
-      squares += l * l;
     }
     const float k = 1 / static_cast<float>(n);
     const size_t i = static_cast<size_t>(y) * options.width + x;
     film.direct[i] = direct * k;
-    film.indirect[i] = indirect * k;
+    sun.store(film.sun, i, k);
+    indirect.store(film.indirect, i, k);
     film.albedo[i] = albedo * k;
     if (hits > 0) {
       film.normal[i] = normal * (1 / hits);
@@ -250,10 +294,6 @@ struct PixelTask {
       film.spread[i] =
           std::sqrt(std::max(0.0f, distances / hits - film.distance[i] * film.distance[i]));
     }
-    const float mean = sum * k;
-    // With one sample nothing is known of the spread; assume it as large as the light.
-    film.variance[i] =
-        n > 1 ? std::max(0.0f, squares * k - mean * mean) / static_cast<float>(n - 1) : mean * mean;
     return rays;
   }
 };
@@ -265,10 +305,12 @@ bool tracePicture(const Stage& stage, const Camera& camera, const RenderOptions&
   film.width = options.width;
   film.height = options.height;
   const size_t pixels = static_cast<size_t>(options.width) * options.height;
-  for (std::vector<Vec3f>* v : {&film.direct, &film.indirect, &film.albedo, &film.normal}) {
+  for (std::vector<Vec3f>* v :
+       {&film.direct, &film.sun.light, &film.indirect.light, &film.albedo, &film.normal}) {
     v->assign(pixels, {});
   }
-  for (std::vector<float>* v : {&film.distance, &film.spread, &film.variance}) {
+  for (std::vector<float>* v :
+       {&film.distance, &film.spread, &film.sun.variance, &film.indirect.variance}) {
     v->assign(pixels, 0);
   }
 

@@ -36,14 +36,14 @@ class Stopwatch {
 double hazeDistance(const RenderOptions& options, const Camera& camera, const rt::World& world) {
   if (options.hazeDistance) return *options.hazeDistance;
   if (options.uniformSky || camera.parallel) return 0;
-  return std::max(6000.0, 10 * length(world.bounds.center() - camera.eye));
+  return std::max(6000.0, 16 * length(world.bounds.center() - camera.eye));
 }
 
 /// Share of the picture's mean light that a lens scatters over all of it: shadows keep some light.
-constexpr float kVeil = 0.006f;
+constexpr float kVeil = 0.008f;
 /// The mean level that a picture should have, and how many stops the exposure may move for it: the
-/// stone on which the exposure rests stays between 200 and 220.
-constexpr float kMeanLevel = 126 / 255.0f, kLeastStops = -0.3f, kMostStops = 0.2f;
+/// stone on which the exposure rests stays between 195 and 225.
+constexpr float kMeanLevel = 126 / 255.0f, kLeastStops = -0.3f, kMostStops = 0.35f;
 
 /// Mean display level of some thousand pixels.
 float meanLevel(const std::vector<rt::Vec3f>& pixels, float exposure) {
@@ -103,12 +103,15 @@ Picture render(const Scene& scene, const RenderOptions& options) {
   picture.camera = rt::chooseCamera(subject, options, light);
 
   const double haze = hazeDistance(options, picture.camera, world);
+  const double away =
+      length(world.bounds.center() - picture.camera.eye) + length(world.bounds.size()) / 2;
   const rt::Stage stage{world,
                         tracer,
                         light,
                         options.ground,
                         static_cast<float>(foot),
                         static_cast<float>(haze > 0 ? 1 / haze : 0),
+                        static_cast<float>(std::max(250.0, 2 * away)),
                         options.bounces};
   picture.stats.seconds.prepare = watch.lap();
 

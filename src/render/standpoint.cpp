@@ -57,8 +57,9 @@ double off(double share, double lo, double hi) {
 
 double mark(const Subject& s, const Light& light, const Camera& camera, double aspect) {
   int sides[2] = {0, 0};
-  int flat = 0;
+  int flat = 0, blank = 0;
   Vec3f last;
+  Hit lastHit;
   int things = 0, sky = 0, inTheWay = 0, near = 0, lit = 0, walls = 0, cut = 0;
   double logSum = 0, logSquares = 0;
   for (int row = 0; row < kRows; ++row) {
@@ -83,6 +84,9 @@ double mark(const Subject& s, const Light& light, const Camera& camera, double a
       // Crowns and other round things turn from column to column, walls do not.
       const bool goesOn = column > 0 && dot(n, last) > 0.99f;
       last = n;
+      // One triangle from column to column: a bare wall, however sunlit.
+      blank += goesOn && hit.triangle == lastHit.triangle && hit.placement == lastHit.placement;
+      lastHit = hit;
       if (std::abs(n.y) > 0.4f) continue;
       ++walls;
       if (goesOn) {
@@ -103,10 +107,11 @@ double mark(const Subject& s, const Light& light, const Camera& camera, double a
   const double depth = std::sqrt(std::max(0.0, logSquares / things - mean * mean));
   const double litShare = walls > 0 ? static_cast<double>(lit) / walls : 0;
   return -6 * off(things / all, 0.5, 0.68) - 4 * off(flat / all, 0.3, 0.6) -
-         3 * off(sky / all, 0.16, 0.32) - 8 * off(inTheWay / all, 0, 0.02) -
-         2 * off(near / all, 0.02, 0.2) - 1.5 * off(litShare, 0.5, 0.8) +
-         1.6 * std::min(depth, 1.5) - 4 * off(sides[0] / third, 0.4, 1) -
-         4 * off(sides[1] / third, 0.4, 1) - 1.2 * off(static_cast<double>(cut) / kColumns, 0, 0.3);
+         3 * off(blank / all, 0, 0.1) - 3 * off(sky / all, 0.16, 0.32) -
+         8 * off(inTheWay / all, 0, 0.02) - 2 * off(near / all, 0.02, 0.2) -
+         1.5 * off(litShare, 0.5, 0.8) + 2.4 * std::min(depth, 1.5) -
+         4 * off(sides[0] / third, 0.4, 1) - 4 * off(sides[1] / third, 0.4, 1) -
+         1.2 * off(static_cast<double>(cut) / kColumns, 0, 0.3);
 }
 
 }  // namespace
