@@ -6,6 +6,7 @@
 
 #include "geom/mesh/extrude.h"
 #include "geom/mesh/face_plane.h"
+#include "geom/mesh/face_triangles.h"
 #include "geom/mesh/topology.h"
 #include "geom/mesh/uv.h"
 #include "geom/region/corpus.h"
@@ -16,9 +17,10 @@ namespace {
 // The triangles of a mesh as faces with positions of their own, as a careless exporter writes them.
 Mesh soup(const Mesh& m) {
   MeshBuilder b;
-  std::vector<Triangle> triangles;
-  for (size_t f = 0; f < m.faceCount(); ++f) triangulateFace(m, f, triangles);
-  for (const Triangle& t : triangles) {
+  std::vector<std::array<uint32_t, 3>> triangles;
+  FaceTriangulator triangulator;
+  for (size_t f = 0; f < m.faceCount(); ++f) triangulator.add(m, f, triangles);
+  for (const auto& t : triangles) {
     b.beginFace();
     b.beginLoop();
     for (const uint32_t c : t) {

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Between the faces of a mesh and plane polygons: where 2D operations on faces begin and end, and
-// the triangles of faces.
+// Between the faces of a mesh and plane polygons: where 2D operations on faces begin and end.
 #pragma once
-
-#include <span>
-#include <vector>
 
 #include "geom/mesh/mesh.h"
 #include "geom/region/region.h"
-#include "geom/region/triangulate.h"
 
 namespace gable {
 
@@ -27,9 +22,5 @@ void addFace(MeshBuilder& b, const Polygon& p, const Frame& frame, uint16_t mate
 
 /// A mesh of one face for each polygon.
 Mesh meshOf(const Region& r, const Frame& frame);
-
-/// Appends triangles of corner numbers of the mesh, oriented as the face. Coordinates are projected
-/// along the axis nearest to the normal, so nothing is rounded. A face without area gives none.
-void triangulateFace(const Mesh& m, size_t face, std::vector<Triangle>& out);
 
 }  // namespace gable

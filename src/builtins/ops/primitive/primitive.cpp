@@ -9,7 +9,7 @@
 
 #include "builtins/lists.h"
 #include "builtins/ops/shared/insert.h"
-#include "builtins/ops/shared/solids.h"
+#include "geom/primitive/solids.h"
 #include "shape/op_call.h"
 
 namespace gable {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "builtins/ops/shared/frames.h"
-#include "builtins/ops/shared/solids.h"
 #include "builtins/ops/shared/trim.h"
+#include "geom/primitive/solids.h"
 
 namespace gable {
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
-
-#include "builtins/ops/shared/solids.h"
+//
+// Rings of points are made once and shared by the faces above and below them.
+#include "geom/primitive/solids.h"
 
 #include <vector>
 
