@@ -96,10 +96,11 @@ enum Effect : uint32_t {
 };
 
 /// Whether a selector asks for a direction or place outside the shape: world.up, object,
-/// street.side, and auto of alignScopeToGeometry.
+/// street.side; and what looks at the world without saying so: auto of alignScopeToGeometry,
+/// conform of setNormals.
 inline bool namesWorld(std::string_view word) {
   return word.starts_with("world") || word.starts_with("object") || word.starts_with("street") ||
-         word == "auto";
+         word == "auto" || word == "conform";
 }
 
 /// The effects of a call, once it is known whether one of its selectors namesWorld().

@@ -22,6 +22,13 @@ void fitModel(AssetModel& model) {
   model.fitted = makeRef<Mesh>(std::move(mesh));
 }
 
+MeshRef fittedMesh(const AssetModel& model) {
+  if (model.fitted) return model.fitted;
+  AssetModel made = model;
+  fitModel(made);
+  return made.fitted;
+}
+
 struct TagTable::Impl {
   ValuePool& pool;
   Interned<std::vector<StringId>> sets;

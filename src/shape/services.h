@@ -32,6 +32,8 @@ struct AssetModel : RefCounted {
 
 /// Fills in `bounds` and `fitted` from the mesh.
 void fitModel(AssetModel& model);
+/// What is inserted, made anew where the model does not have it.
+MeshRef fittedMesh(const AssetModel& model);
 
 struct ImageInfo {
   bool found = false;

@@ -53,7 +53,7 @@ Status applyI(OpCall& call) {
   }
   Shape& s = call.shape();
   placeScope(s, model->bounds, mode);
-  insertMesh(s, model->fitted, model->bounds.size());
+  insertMesh(s, fittedMesh(*model), model->bounds.size());
   if (!model->materials.empty()) setModelMaterials(s, model->materials, call.services());
   return {};
 }

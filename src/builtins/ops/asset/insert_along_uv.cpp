@@ -152,7 +152,7 @@ Status applyInsert(OpCall& call) {
   const Vec3 size = model->bounds.size();
   const double height = call.number(2);
   const double lift = call.is(4, "keepPosition") ? model->bounds.min.y : 0;
-  Mesh unit = *model->fitted;
+  Mesh unit = *fittedMesh(*model);
   unit.normals.clear();
   for (Vec3& p : unit.positions) {
     p = {size.x > 0 ? p.x / size.x : 0, size.y > 0 ? (p.y + lift) / size.y * height : lift,
