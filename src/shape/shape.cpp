@@ -26,7 +26,11 @@ bool same(double a, double b, double extent) { return std::fabs(a - b) <= 1e-9 *
 
 // No attribute that a primitive could not carry.
 bool plainMesh(const Mesh& m) {
-  if (!m.edgeTags.empty() || !m.normals.empty()) return false;
+  if (!m.normals.empty()) return false;
+  if (m.faceCount() > 1 &&
+      std::any_of(m.edgeTags.begin(), m.edgeTags.end(), [](uint32_t t) { return t != 0; })) {
+    return false;
+  }
   for (int set = 0; set < kUvSets; ++set) {
     if (m.hasUv(set)) return false;
   }
@@ -102,8 +106,9 @@ Geometry recognised(const Mesh& m, const Vec3& size) {
   if (m.faceCount() == 1) {
     g.kind = quadKind(m, size);
     if (g.kind != GeometryKind::Mesh) g.refSize = {};
-    if (g.kind == GeometryKind::QuadXy) g.tags[kSideFront] = m.faces[0].tags;
-    if (g.kind == GeometryKind::QuadXz) g.tags[kSideTop] = m.faces[0].tags;
+    if (g.kind == GeometryKind::Mesh) return g;
+    g.tags[g.kind == GeometryKind::QuadXy ? kSideFront : kSideTop] = m.faces[0].tags;
+    for (size_t i = 0; i < m.edgeTags.size(); ++i) g.tags[quadEdges(g.kind)[i]] = m.edgeTags[i];
     return g;
   }
   if (m.faceCount() != 6) return g;
@@ -140,6 +145,9 @@ Mesh quadMesh(const Geometry& g, const Vec3& size) {
   const bool xy = g.kind == GeometryKind::QuadXy;
   Mesh m = makeQuadMesh(size.x, xy ? size.y : size.z, xy ? QuadPlane::Xy : QuadPlane::Xz, g.uv);
   m.faces[0].tags = g.tags[xy ? kSideFront : kSideTop];
+  if (hasEdgeTags(g)) {
+    for (const BoxSide side : quadEdges(g.kind)) m.edgeTags.push_back(g.tags[side]);
+  }
   turnIfMirrored(m, size);
   return m;
 }
@@ -152,6 +160,18 @@ void moveGeometry(Mesh& m, const Vec3& by) {
 
 const std::array<BoxFace, 6>& boxFaces(BoxOrder order) {
   return order == BoxOrder::Cube ? kCubeFaces : kExtrudedFaces;
+}
+
+const std::array<BoxSide, 4>& quadEdges(GeometryKind quad) {
+  static constexpr std::array<BoxSide, 4> kXy{kSideBottom, kSideRight, kSideTop, kSideLeft};
+  static constexpr std::array<BoxSide, 4> kXz{kSideFront, kSideRight, kSideBack, kSideLeft};
+  return quad == GeometryKind::QuadXy ? kXy : kXz;
+}
+
+bool hasEdgeTags(const Geometry& quad) {
+  const auto& edges = quadEdges(quad.kind);
+  return std::any_of(edges.begin(), edges.end(),
+                     [&](BoxSide side) { return quad.tags[side] != 0; });
 }
 
 uint64_t contentHash(const Geometry& g) {

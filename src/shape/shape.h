@@ -55,8 +55,9 @@ struct Geometry {
   MeshRef mesh;
   /// Boxes only.
   BoxOrder order = BoxOrder::Cube;
-  /// Tag sets of a primitive's faces, by the side they look to: a QuadXy has its tags at
-  /// kSideFront, a QuadXz at kSideTop. Zero where there is no face; all zero for meshes.
+  /// Tag sets of a box's faces, by the side they look to. A rectangle has those of its face at
+  /// the side it looks to (QuadXy kSideFront, QuadXz kSideTop) and those of its edges at the sides
+  /// they look to; see quadEdges. All zero for meshes.
   std::array<uint32_t, 6> tags{};
   /// An asset or a primitive as it was inserted, whatever became of the scope since.
   bool instanced = false;
@@ -76,6 +77,11 @@ struct BoxFace {
   BoxSide side;
 };
 const std::array<BoxFace, 6>& boxFaces(BoxOrder order);
+
+/// The sides that the edges of a rectangle look to, in the order of its ring.
+const std::array<BoxSide, 4>& quadEdges(GeometryKind quad);
+/// True when a rectangle's edges have tags.
+bool hasEdgeTags(const Geometry& quad);
 
 /// A half-space dot(normal, p) <= distance, in the frame of the shape that carries it.
 struct TrimPlane {

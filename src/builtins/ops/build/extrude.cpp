@@ -64,6 +64,7 @@ bool extrudeToBox(Shape& s, const Wanted& w, AutoTags& tags) {
   const bool flat = s.geometry.kind == GeometryKind::QuadXz;
   if (!flat && s.geometry.kind != GeometryKind::QuadXy) return false;
   const double depth = flat ? s.size.z : s.size.y;
+  if (hasEdgeTags(s.geometry)) return false;
   if (s.geometry.uv || s.size.x <= 0 || depth <= 0 || w.options.distance <= 0) return false;
   if ((flat ? s.size.y : s.size.z) < 0) return false;
   const bool along = w.options.mode == ExtrudeMode::Along || w.options.mode == ExtrudeMode::FlatTop;

@@ -66,25 +66,35 @@ struct FlatFace {
   Vec3 normal;
   uint32_t tags = 0;
   BoxSide side = kSideFront;
+  /// Of rectangles only: box edges have none.
+  std::array<uint32_t, 4> edgeTags{};
 };
 
 constexpr std::array<Vec3, 6> kSideNormals{
     {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
 
+FlatFace quadFace(const Shape& s) {
+  const Vec3 z = s.size;
+  FlatFace f;
+  if (s.geometry.kind == GeometryKind::QuadXy) {
+    f.ring = {{{0, 0, 0}, {z.x, 0, 0}, {z.x, z.y, 0}, {0, z.y, 0}}};
+    f.normal = {0, 0, 1};
+  } else {
+    f.ring = {{{0, 0, z.z}, {z.x, 0, z.z}, {z.x, 0, 0}, {0, 0, 0}}};
+    f.normal = {0, 1, 0};
+    f.side = kSideTop;
+  }
+  f.tags = s.geometry.tags[f.side];
+  const auto& edges = quadEdges(s.geometry.kind);
+  for (size_t i = 0; i < 4; ++i) f.edgeTags[i] = s.geometry.tags[edges[i]];
+  return f;
+}
+
 size_t facesOf(const Shape& s, std::array<FlatFace, 6>& out) {
   const Vec3 z = s.size;
-  switch (s.geometry.kind) {
-    case GeometryKind::QuadXy:
-      out[0] = {{{{0, 0, 0}, {z.x, 0, 0}, {z.x, z.y, 0}, {0, z.y, 0}}}, {0, 0, 1}};
-      out[0].tags = s.geometry.tags[kSideFront];
-      return 1;
-    case GeometryKind::QuadXz:
-      out[0] = {{{{0, 0, z.z}, {z.x, 0, z.z}, {z.x, 0, 0}, {0, 0, 0}}}, {0, 1, 0}};
-      out[0].tags = s.geometry.tags[kSideTop];
-      out[0].side = kSideTop;
-      return 1;
-    case GeometryKind::Box: break;
-    default: return 0;
+  if (s.geometry.kind != GeometryKind::Box) {
+    out[0] = quadFace(s);
+    return 1;
   }
   const auto& faces = boxFaces(s.geometry.order);
   for (size_t f = 0; f < 6; ++f) {
@@ -110,7 +120,11 @@ class FlatTags : public TagSource {
   FlatTags(const std::array<FlatFace, 6>& faces, size_t count) : faces_(faces), count_(count) {}
   void tagsOf(const Selectable& c, Of of, std::vector<uint32_t>& out) const override {
     out.push_back(faces_[c.index].tags);
-    if (of == Of::Component || count_ == 1) return;
+    if (of == Of::Component) return;
+    if (count_ == 1) {
+      out.insert(out.end(), faces_[0].edgeTags.begin(), faces_[0].edgeTags.end());
+      return;
+    }
     // All faces of a box but the one opposite are beyond an edge, and beyond a vertex.
     const auto opposite = static_cast<BoxSide>(faces_[c.index].side ^ 1);
     for (size_t f = 0; f < count_; ++f) {
@@ -134,6 +148,8 @@ Shape flatChild(const Context& context, Shape s, const FlatFace& face, size_t fa
   const bool uv = parent.geometry.uv;
   s.geometry = primitive(GeometryKind::QuadXy, face.tags);
   s.geometry.uv = uv;
+  const auto& edges = quadEdges(GeometryKind::QuadXy);
+  for (size_t i = 0; i < 4; ++i) s.geometry.tags[edges[i]] = face.edgeTags[i];
   if (faceCount > 1) {
     ShapeExtra extra = extraOf(parent);
     for (size_t i = 0; i < 4; ++i) {

@@ -9,8 +9,8 @@
 #include "builtins/lists.h"
 #include "builtins/ops/subdivide/shared/parts.h"
 #include "builtins/ops/subdivide/shared/split_sizes.h"
-#include "builtins/ops/subdivide/shared/uv_extent.h"
 #include "geom/mesh/clip.h"
+#include "geom/mesh/uv.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -22,9 +22,10 @@ constexpr double kFlat = 1e-9;
 
 bool isPrimitive(const Geometry& g) { return g.kind != GeometryKind::Mesh && !g.uv; }
 
-// A part of a box has no tags on the sides that the cuts made.
+// A part has no tags on the sides, or edges, that the cuts made.
 void dropInnerTags(Geometry& g, Axis axis, bool first, bool last) {
-  if (g.kind != GeometryKind::Box) return;
+  if (g.kind == GeometryKind::QuadXy && axis == Axis::Z) return;
+  if (g.kind == GeometryKind::QuadXz && axis == Axis::Y) return;
   constexpr std::array<std::array<BoxSide, 2>, 3> kEnds{
       {{kSideLeft, kSideRight}, {kSideBottom, kSideTop}, {kSideBack, kSideFront}}};
   const auto& ends = kEnds[static_cast<size_t>(axis)];
@@ -137,9 +138,11 @@ Status splitUv(OpCall& call, int coordinate) {
     return call.fail("split-no-uv", "the geometry has no texture coordinates in this uv set",
                      "make some with setupProjection and projectUV");
   }
-  const UvExtent extent = uvExtent(*mesh, set, coordinate);
+  const auto a = static_cast<size_t>(coordinate);
+  const Box2 box = uvBounds(*mesh, set);
+  const double range = box.max[a] - box.min[a];
   const bool units = call.is(1, "unitSpace");
-  const double whole = units ? extent.metres : extent.max - extent.min;
+  const double whole = units ? range * uvUnitLength(*mesh, set)[a] : range;
   if (!(whole > kFlat)) {
     return call.fail("split-flat", "the texture coordinates have no extent in this direction", {});
   }
@@ -147,12 +150,9 @@ Status splitUv(OpCall& call, int coordinate) {
   const Status status = dividePattern(call.splitBlock(), whole, pieces);
   if (!status.ok()) return status;
   Cuts cuts = cutsOf(pieces, 0, whole);
-  const double perUnit = (extent.max - extent.min) / whole;
-  for (double& c : cuts.at) c = extent.min + c * perUnit;
+  for (double& c : cuts.at) c = box.min[a] + c * (range / whole);
   std::vector<double> field;
-  for (const Vec2 uv : mesh->uvs[static_cast<size_t>(set)]) {
-    field.push_back(uv[static_cast<size_t>(coordinate)]);
-  }
+  for (const Vec2 uv : mesh->uvs[static_cast<size_t>(set)]) field.push_back(uv[a]);
   std::vector<MeshPart> parts = sliceField(*mesh, field, cuts.at);
   for (size_t i = 0; i < pieces.size(); ++i) {
     Mesh& part = parts[cuts.slab[i]].mesh;
