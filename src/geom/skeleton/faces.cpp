@@ -26,6 +26,7 @@ class UnionFind {
     while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
     return a;
   }
+  void addOne() { parent_.push_back(static_cast<uint32_t>(parent_.size())); }
   /// The smaller one leads.
   void join(uint32_t a, uint32_t b) {
     a = find(a);
@@ -310,6 +311,7 @@ bool Assembly::cutAt(const Trace::Merge& merge) {
     uint32_t fresh = start;
     if (nearest > slack) {
       fresh = static_cast<uint32_t>(vertices_.size());
+      points_.addOne();
       const double rise = vertices_[b].height - vertices_[a].height;
       vertices_.push_back({at(a) + (at(b) - at(a)) * share, vertices_[a].height + share * rise});
     }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "geom/skeleton/faces.h"
 #include "geom/skeleton/planes.h"
@@ -33,6 +34,9 @@ struct Input {
   double step = 1;
   Vec2 center;
   double topWeight = 0;
+  /// What counts as in line, in grid steps: 2^-30 of the extent and the rounding of far
+  /// coordinates.
+  double slack = 0;
   /// Per ring the face of its first edge.
   std::vector<uint32_t> firstFace;
 };
@@ -55,6 +59,9 @@ bool readInput(const Polygon& polygon, std::span<const std::vector<double>> weig
   const double extent = std::max(box.size().x, box.size().y);
   in.step = std::ldexp(1.0, std::ilogb(extent) + 1 - kGridBits);
   in.center = box.center();
+  const double far = std::max(
+      {std::abs(box.min.x), std::abs(box.min.y), std::abs(box.max.x), std::abs(box.max.y)});
+  in.slack = 0x1p21 + far * 0x1p-51 / in.step;
   uint32_t face = 0;
   for (size_t k = 0; k < rings.size(); ++k) {
     const Ring& r = *rings[k];
@@ -144,58 +151,91 @@ void dropDegenerate(Input& in, std::vector<InputEdge>& ring) {
   }
 }
 
-/// True where two planes are one: the same line, the same direction, the same speed.
-bool samePlane(const Input& in, const InputEdge& a, const InputEdge& b) {
-  if (a.weight != b.weight) return false;
-  const GridPoint &p = in.points[a.from], &q = in.points[a.to];
-  const GridPoint &r = in.points[b.from], &s = in.points[b.to];
-  if (crossOf(p, q, r) != 0 || crossOf(p, q, s) != 0) return false;
-  return static_cast<Int128>(q.x - p.x) * (s.x - r.x) +
-             static_cast<Int128>(q.y - p.y) * (s.y - r.y) >
-         0;
+Vec2 gridVec(GridPoint p) { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
+
+/// The line of an edge and its speed, as a leader of edges in one plane.
+struct Line {
+  Vec2 origin, direction;
+  double weight = 0;
+  size_t edge = 0;
+};
+
+/// True where an edge lies in the leader's plane: both ends within `slack` of its line, or exactly
+/// on it where slack is nothing.
+bool liesOn(const Input& in, const Line& line, const InputEdge& leader, const InputEdge& e,
+            double slack) {
+  if (line.weight != e.weight) return false;
+  const Vec2 p = gridVec(in.points[e.from]) - line.origin;
+  // Doubles see a grid point on the line within two steps.
+  if (std::abs(cross(line.direction, p)) > slack + 2) return false;
+  const Vec2 q = gridVec(in.points[e.to]) - line.origin;
+  if (std::abs(cross(line.direction, q)) > slack + 2) return false;
+  const double along = dot(line.direction, q - p);
+  if (along <= 0) return false;
+  // A short edge must point the same way too, since its face may reach far.
+  if (slack > 0) return std::abs(cross(line.direction, q - p)) <= 5e-8 * along + 2;
+  const GridPoint &a = in.points[leader.from], &b = in.points[leader.to];
+  return crossOf(a, b, in.points[e.from]) == 0 && crossOf(a, b, in.points[e.to]) == 0;
 }
 
-/// Gives each edge a plane; edges in one plane share it.
+/// Gives each edge a plane; edges in one plane share it, that of the longest. O(n * planes).
 std::vector<PlaneId> assignPlanes(const Input& in, const std::vector<const InputEdge*>& edges,
-                                  Planes& planes) {
-  // Candidates lie next to each other once sorted by direction and distance, both rounded; an edge
-  // looks a little way back only, so rounding at a bucket's border is met by looking at both sides.
-  struct Key {
-    double angle, offset;
-    size_t edge;
-  };
-  std::vector<Key> keys;
-  for (size_t i = 0; i < edges.size(); ++i) {
-    const GridPoint &p = in.points[edges[i]->from], &q = in.points[edges[i]->to];
-    const Vec2 d = normalized(Vec2{static_cast<double>(q.x - p.x), static_cast<double>(q.y - p.y)});
-    const double offset = d.x * static_cast<double>(p.y) - d.y * static_cast<double>(p.x);
-    // A pseudo angle that grows with the direction.
-    keys.push_back({d.y >= 0 ? -d.x : 2 + d.x, offset, i});
+                                  double slack, Planes& planes) {
+  std::vector<size_t> order(edges.size());
+  std::vector<double> lengths;
+  for (const InputEdge* e : edges) {
+    lengths.push_back(length(gridVec(in.points[e->to]) - gridVec(in.points[e->from])));
   }
-  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
-    return a.offset != b.offset ? a.offset < b.offset : a.edge < b.edge;
-  });
-  std::vector<size_t> leader(edges.size());
-  const double slack = 16.0;
-  for (size_t i = 0; i < keys.size(); ++i) {
-    leader[keys[i].edge] = keys[i].edge;
-    for (size_t j = i; j-- > 0 && keys[i].offset - keys[j].offset < slack;) {
-      if (std::abs(keys[i].angle - keys[j].angle) > 1e-9) continue;
-      if (!samePlane(in, *edges[keys[j].edge], *edges[keys[i].edge])) continue;
-      leader[keys[i].edge] = leader[keys[j].edge];
-      break;
-    }
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return lengths[a] > lengths[b]; });
+  std::vector<Line> lines;
+  std::vector<size_t> lineOf(edges.size());
+  for (const size_t i : order) {
+    const InputEdge& e = *edges[i];
+    const auto known = std::find_if(lines.begin(), lines.end(), [&](const Line& l) {
+      return liesOn(in, l, *edges[l.edge], e, slack);
+    });
+    lineOf[i] = static_cast<size_t>(known - lines.begin());
+    if (known != lines.end()) continue;
+    const Vec2 from = gridVec(in.points[e.from]);
+    lines.push_back({from, normalized(gridVec(in.points[e.to]) - from), e.weight, i});
   }
-  std::vector<PlaneId> planeOf(edges.size(), kNone);
+  // Numbered in the order of the edges, so that a plane's hair does not hang on lengths.
+  std::vector<PlaneId> planeOfLine(lines.size(), kNone), planeOf(edges.size());
   for (size_t i = 0; i < edges.size(); ++i) {
-    PlaneId& plane = planeOf[leader[i]];
+    PlaneId& plane = planeOfLine[lineOf[i]];
     if (plane == kNone) {
-      const InputEdge& e = *edges[leader[i]];
+      const InputEdge& e = *edges[lines[lineOf[i]].edge];
       plane = planes.add(in.points[e.from], in.points[e.to], e.weight / in.topWeight);
     }
     planeOf[i] = plane;
   }
   return planeOf;
+}
+
+/// True where the corners in which shared planes meet are still the polygon's corners, but for
+/// `reach`, and no edge is so short that this turns it round.
+bool keepsCorners(const Input& in, const std::vector<PlaneId>& planeOf, double reach,
+                  const Planes& planes) {
+  size_t first = 0;
+  for (const auto& ring : in.rings) {
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const PlaneId p = planeOf[first + (i + ring.size() - 1) % ring.size()];
+      const PlaneId q = planeOf[first + i];
+      const Vec2 corner = gridVec(in.points[ring[i].from]);
+      if (length(gridVec(in.points[ring[i].to]) - corner) < 4 * reach) return false;
+      if (p == q) continue;
+      const Plane &a = planes[p], &b = planes[q];
+      const double det = a.na * b.nb - b.na * a.nb;
+      const double fa = a.na * corner.x + a.nb * corner.y + a.nc;
+      const double fb = b.na * corner.x + b.nb * corner.y + b.nc;
+      const Vec2 shift{fa * b.nb - fb * a.nb, a.na * fb - b.na * fa};
+      if (!(length(shift) <= reach * std::abs(det))) return false;
+    }
+    first += ring.size();
+  }
+  return true;
 }
 
 /// True where a ring goes on so straight (10^-6) that a difference in weight cannot be met by a
@@ -233,6 +273,79 @@ std::vector<std::vector<WaveInput>> makeRings(const Input& in, const std::vector
     }
   }
   return rings;
+}
+
+double distanceTo(Vec2 p, Vec2 a, Vec2 b) {
+  const Vec2 d = b - a;
+  const double share = std::clamp(dot(p - a, d) / std::max(dot(d, d), 1e-300), 0.0, 1.0);
+  return length(p - (a + d * share));
+}
+
+/// Moves corners that touch another part of the boundary (within `reach`, in grid units) back from
+/// it by twice as much, into the outside of their own ring. True if there are any. O(n^2).
+bool loosenContacts(Input& in, double reach) {
+  const auto at = [&](uint32_t i) {
+    return Vec2{static_cast<double>(in.points[i].x), static_cast<double>(in.points[i].y)};
+  };
+  struct Move {
+    uint32_t point;
+    Vec2 by;
+  };
+  std::vector<Move> moves;
+  for (const auto& own : in.rings) {
+    for (size_t i = 0; i < own.size(); ++i) {
+      const uint32_t before = own[(i + own.size() - 1) % own.size()].from;
+      const uint32_t p = own[i].from, after = own[i].to;
+      const Vec2 to = normalized(at(p) - at(before)), from = normalized(at(after) - at(p));
+      // Only corners that stick into the polygon or lie straight can be in the way.
+      if (cross(to, from) > 1e-6) continue;
+      bool touches = false;
+      for (const auto& ring : in.rings) {
+        for (const InputEdge& e : ring) {
+          if (e.from == p || e.to == p) continue;
+          touches = touches || distanceTo(at(p), at(e.from), at(e.to)) <= reach;
+        }
+      }
+      if (!touches) continue;
+      const Vec2 back = normalized(from - to), right = normalized(perpendicular(from + to)) * -1.0;
+      moves.push_back({p, (length(from - to) > 1e-6 ? back : right) * (2 * reach)});
+    }
+  }
+  for (const Move& m : moves) {
+    in.points[m.point].x += static_cast<int64_t>(std::nearbyint(m.by.x));
+    in.points[m.point].y += static_cast<int64_t>(std::nearbyint(m.by.y));
+  }
+  return !moves.empty();
+}
+
+/// One run over the polygon as it is on the grid; edges within `slack` of one line share a plane.
+WaveEnd sweep(const Polygon& polygon, const Input& in, double slack, double maxHeight,
+              Skeleton& out) {
+  std::vector<const InputEdge*> edges;
+  for (const auto& ring : in.rings) {
+    for (const InputEdge& e : ring) edges.push_back(&e);
+  }
+  Planes planes;
+  const std::vector<PlaneId> planeOf = assignPlanes(in, edges, slack, planes);
+  if (slack > 0 && !keepsCorners(in, planeOf, 8 * slack, planes)) return WaveEnd::Stuck;
+  Trace trace;
+  for (const GridPoint& p : in.points) {
+    trace.nodes.push_back({{static_cast<double>(p.x), static_cast<double>(p.y), 0}});
+  }
+  FaceInput faceInput;
+  const std::vector<std::vector<WaveInput>> rings = makeRings(in, planeOf, planes, faceInput);
+  uint32_t top = kNone;
+  const double timeStep = in.step / in.topWeight;
+  if (maxHeight / timeStep < 0x1p70) top = planes.addLevel(maxHeight / timeStep);
+  const WaveEnd end = runWavefront(planes, rings, top, trace);
+  if (end != WaveEnd::Done) return end;
+  faceInput.inputPoints.push_back(polygon.outer);
+  for (const Ring& h : polygon.holes) faceInput.inputPoints.push_back(h);
+  faceInput.center = in.center;
+  faceInput.step = in.step;
+  faceInput.timeStep = timeStep;
+  faceInput.top = top == kNone ? 0 : maxHeight;
+  return assembleFaces(faceInput, trace, out) ? end : WaveEnd::Stuck;
 }
 
 Skeleton failed(const char* code, const char* message, const char* hint) {
@@ -273,39 +386,18 @@ Skeleton buildSkeleton(const Polygon& polygon, std::span<const std::vector<doubl
     }
   }
 
-  FaceInput faceInput;
-  std::vector<const InputEdge*> edges;
-  for (const auto& ring : in.rings) {
-    for (const InputEdge& e : ring) edges.push_back(&e);
-  }
-  Planes planes;
-  const std::vector<PlaneId> planeOf = assignPlanes(in, edges, planes);
-  Trace trace;
-  for (const GridPoint& p : in.points) {
-    trace.nodes.push_back({{static_cast<double>(p.x), static_cast<double>(p.y), 0}});
-  }
-  const std::vector<std::vector<WaveInput>> rings = makeRings(in, planeOf, planes, faceInput);
-  uint32_t top = kNone;
-  const double timeStep = in.step / in.topWeight;
-  if (maxHeight / timeStep < 0x1p70) top = planes.addLevel(maxHeight / timeStep);
-  const WaveEnd end = runWavefront(planes, rings, top, trace);
-  if (end == WaveEnd::Unbounded) {
-    return failed("skeleton-unbounded", "part of the polygon is never swept",
-                  "Give at least one edge of each part a slope.");
-  }
-
+  // First with walls in line as they were meant, then as they are to the last bit; a polygon that
+  // touches itself is taken apart there by a hair, then by more of it.
   Skeleton result;
-  if (end == WaveEnd::Done) {
-    faceInput.inputPoints.push_back(polygon.outer);
-    for (const Ring& h : polygon.holes) faceInput.inputPoints.push_back(h);
-    faceInput.center = in.center;
-    faceInput.step = in.step;
-    faceInput.timeStep = timeStep;
-    faceInput.top = top == kNone ? 0 : maxHeight;
-    if (assembleFaces(faceInput, trace, result)) return result;
+  WaveEnd end = sweep(polygon, in, in.slack, maxHeight, result);
+  if (end != WaveEnd::Done) end = sweep(polygon, in, 0, maxHeight, result = {});
+  for (const double reach : {0x1p18, 0x1p30}) {
+    if (end == WaveEnd::Done) break;
+    if (loosenContacts(in, reach)) end = sweep(polygon, in, 0, maxHeight, result = {});
   }
+  if (end == WaveEnd::Done) return result;
   return failed("skeleton-failed", "the polygon's skeleton could not be found",
-                "The polygon may touch or cross itself; clean it up first.");
+                "The polygon may cross itself; clean it up first.");
 }
 
 }  // namespace gable

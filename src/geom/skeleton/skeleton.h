@@ -4,25 +4,24 @@
 // The weighted straight skeleton of a polygon with holes: every edge sweeps inwards at its own
 // speed, and the ground that an edge sweeps is its face. Lifted by time, the faces are the roof.
 //
-// Promises, for a simple polygon (rings closed implicitly, neither touching nor crossing):
-//  1. faces[i] belongs to the i-th edge, outer ring first, then the holes, edge k from point k to
-//  k+1;
-//  2. a face is a counter-clockwise loop that begins with its own edge, and all its vertices lie in
-//     the plane through that edge whose slope is 1 / weight;
-//  3. the faces tile the polygon: neighbours share vertices by index, and a vertex of one is a
-//  vertex
-//     of the other (no T-junctions); vertices 0 .. inputCount-1 are the polygon's own, height 0;
-//  4. the result depends on nothing but the arguments.
-// An edge shorter than the grid (2^-51 of the extent) has an empty face. Where collinear neighbours
-// of one weight meet, their faces part at a right angle to the edge. An edge of weight 0 stands
-// still: its face is upright and has no area in plan. Between collinear neighbours that differ in
-// weight stands an upright face (a step), listed after the edges' own.
+// Promises, for a simple polygon (outer ring counter-clockwise, holes clockwise, not crossing):
+// 1. faces[i] is of the i-th edge, outer ring first, then the holes; edge k starts at point k.
+// 2. A face is a counter-clockwise loop that begins with its own edge; all its vertices lie in the
+//    plane through that edge whose slope is 1 / weight.
+// 3. The faces tile the polygon and share vertices by index, without T-junctions. The first
+//    inputCount vertices are the polygon's own, at height 0.
+// 4. The result depends on nothing but the arguments.
+//
+// Where edges in one line and of one weight meet, at the start or later, their faces part at a
+// right angle to the line; what is in line is told at 2^-30 of the extent. An edge of weight 0
+// stands still: its face is upright and has no area in plan. Between neighbours in line that differ
+// in weight stands an upright face (a step), listed after the edges' own. An edge without length,
+// or within a spike of no width, has an empty face. Rings may touch themselves and each other.
 //
 // Units are metres; heights are times: after height h an edge has moved by weight * h. Coordinates
-// may be large (the shape is recentred). What cannot be done ends in `status`, with no faces: code
-// "skeleton-input" for a polygon that is not one, "skeleton-unbounded" where nothing moves and no
-// maxHeight ends it, "skeleton-failed" for one that touches itself. O(n r + n log n) for r reflex
-// corners.
+// may be large (the shape is recentred). What cannot be done ends in `status`, with no faces:
+// "skeleton-input" for what is no polygon, "skeleton-unbounded" where all weights are 0,
+// "skeleton-failed" for rings that cross. O(n r + m log m) for r reflex corners and m events.
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,7 @@ namespace {
 using namespace skeleton_testing;
 
 const Ring kRectangle{{0, 0}, {10, 0}, {10, 6}, {0, 6}};
-const Ring kTee{{0, 0}, {12, 0}, {12, 4}, {8, 4}, {8, 9}, {4, 9}, {4, 4}, {0, 4}};
+const Ring kTee{{0, 0}, {12, 0}, {12, 7}, {8, 7}, {8, 12}, {4, 12}, {4, 7}, {0, 7}};
 
 Ring regular(int n, double radius, Vec2 center = {}) {
   Ring r;
@@ -82,14 +82,16 @@ TEST(Skeleton, symmetricShapeGivesSymmetricFaces) {
   }
 }
 
-TEST(Skeleton, collinearWingsPartAtARightAngle) {
-  for (const double degrees : {0.0, 90.0, 31.0}) {
+TEST(Skeleton, wingsInOneLinePartAtARightAngle) {
+  for (const double degrees : {0.0, 90.0, 31.0, 17.3}) {
     const Polygon p{turned(kTee, degrees, {100, 200}), {}};
     const Skeleton s = buildSkeleton(p);
     ASSERT_EQ(broken(p, s), "") << degrees;
     EXPECT_EQ(openEdges(s), 0u) << degrees;
     EXPECT_NEAR(signedArea(planOf(s, s.faces[2].loop)), signedArea(planOf(s, s.faces[6].loop)),
                 1e-6);
+    // The hollow between the wing and the body ends in the wing's own ridge.
+    EXPECT_EQ(s.faces[3].loop.size(), 4u) << degrees;
   }
 }
 
@@ -146,8 +148,8 @@ TEST(Skeleton, maxHeightCutsTheRoofOff) {
   EXPECT_DOUBLE_EQ(s.maxHeight(), 1);
   double sum = 0;
   for (const SkeletonFace& f : s.faces) sum += signedArea(planOf(s, f.loop));
-  // What is left is the tee set back by one: 10 x 2 and 2 x 5.
-  EXPECT_NEAR(sum, area(p) - 30, 1e-9);
+  // What is left is the tee set back by one: 10 x 5 and 2 x 5.
+  EXPECT_NEAR(sum, area(p) - 60, 1e-9);
 }
 
 TEST(Skeleton, millimetresInKilometresSurvive) {
@@ -173,6 +175,39 @@ TEST(Skeleton, refusesWhatIsNoPolygon) {
   EXPECT_STREQ(buildSkeleton({kRectangle, {}}, still).status.code(), "skeleton-unbounded");
   EXPECT_STREQ(buildSkeleton({kRectangle, {}}, bad).status.code(), "skeleton-input");
   EXPECT_STREQ(buildSkeleton({kRectangle, {}}, few).status.code(), "skeleton-input");
+}
+
+TEST(Skeleton, ringsMayTouch) {
+  const Ring square{{0, 0}, {20, 0}, {20, 20}, {0, 20}};
+  const Polygon cases[] = {
+      {square, {{{10, 0}, {5, 5}, {15, 5}}}},
+      {square, {{{0, 0}, {3, 8}, {8, 3}}}},
+      {square, {{{10, 10}, {5, 12}, {12, 16}}, {{10, 10}, {12, 5}, {5, 5}}}},
+      {square, {{{5, 0}, {5, 5}, {10, 5}, {10, 0}}}},
+      {square, {{{5, 5}, {5, 10}, {10, 10}, {10, 5}}, {{10, 6}, {10, 12}, {15, 12}, {15, 6}}}},
+      {{{0, 0}, {10, 0}, {10, 10}, {20, 10}, {20, 20}, {10, 20}, {10, 10}, {0, 10}}, {}},
+      {{{0, 0}, {20, 0}, {20, 20}, {12, 20}, {10, 0}, {8, 20}, {0, 20}}, {}},
+  };
+  for (const Polygon& p : cases) {
+    const Skeleton s = buildSkeleton(p);
+    EXPECT_EQ(broken(p, s), "") << &p - cases;
+    EXPECT_EQ(openEdges(s), 0u) << &p - cases;
+  }
+}
+
+TEST(Skeleton, nearlyParallelWallsCollapseTogether) {
+  // A comb, turned so that its teeth are parallel but for rounding.
+  Ring comb;
+  for (int i = 0; i < 150; ++i) {
+    const double x = 2.0 * i;
+    for (const Vec2 v : {Vec2{x, 0}, {x + 1, 0}, {x + 1, 20}, {x + 2, 20}}) comb.push_back(v);
+  }
+  comb.push_back({300, 30});
+  comb.push_back({0, 30});
+  const Polygon p{turned(comb, 17.2), {}};
+  const Skeleton s = buildSkeleton(p);
+  EXPECT_EQ(broken(p, s), "");
+  EXPECT_EQ(openEdges(s), 0u);
 }
 
 TEST(Skeleton, crossingPolygonsEndWithoutACrash) {
@@ -227,9 +262,9 @@ TEST_P(SkeletonCorpus, everyPolygonIsTiledByItsFaces) {
 INSTANTIATE_TEST_SUITE_P(All, SkeletonCorpus,
                          testing::Values(std::pair{false, false}, std::pair{false, true},
                                          std::pair{true, false}, std::pair{true, true}),
-                         [](const auto& info) {
-                           return std::string(info.param.first ? "holes" : "plain") +
-                                  (info.param.second ? "Weighted" : "");
+                         [](const auto& param) {
+                           return std::string(param.param.first ? "holes" : "plain") +
+                                  (param.param.second ? "Weighted" : "");
                          });
 
 }  // namespace

@@ -48,6 +48,20 @@ struct Event {
   uint32_t memo = kNone;
 };
 
+// Candidates so late (grid units; the extent is 2^51) hardly ever come up: a vertex and a plane
+// that run along with each other. They wait until nothing else is left.
+constexpr double kLate = 0x1p60;
+
+/// A plane that a reflex vertex may run into, and not before `low`.
+struct Candidate {
+  double low = 0;
+  bool late = false;
+  EventTime time;
+};
+
+// Candidates are found with bounds twice as wide as those of planes.h, for the order of summation.
+constexpr double kCandidateRounding = 0x1p-46;
+
 class Simulation {
  public:
   Simulation(const Planes& planes, uint32_t top, Trace& trace)
@@ -77,6 +91,8 @@ class Simulation {
   void runAlong(uint32_t v);
   void schedule(uint32_t v);
   void scheduleCollapse(uint32_t e);
+  void findCandidates(uint32_t v, const EventTime* after);
+  bool evaluate(Candidate& c) const;
   void scheduleSplits(uint32_t v, const EventTime* after);
   uint32_t struckEdge(uint32_t v, PlaneId plane) const;
   void capAll();
@@ -99,7 +115,7 @@ class Simulation {
   std::vector<Event> events_;
   std::vector<uint32_t> heap_;
   std::vector<ExactTime> memo_;
-  std::vector<std::pair<double, EventTime>> candidates_;
+  std::vector<Candidate> candidates_;
   Event now_;
   bool started_ = false;
   bool stuck_ = false;
@@ -371,65 +387,110 @@ uint32_t Simulation::struckEdge(uint32_t v, PlaneId plane) const {
 
 // What is going to happen.
 
+// An edge's length grows or shrinks evenly and is nothing when its planes meet. One that has been
+// nothing and shrinks runs backwards: the wavefront crosses itself, as the polygon must have done.
 void Simulation::scheduleCollapse(uint32_t e) {
   ++edges_[e].version;
-  const auto t = planes_.meeting(planeOf(prevId(e)), planeOf(e), planeOf(nextId(e)));
-  if (!t || isPast(*t)) return;
-  push({*t, EventKind::Collapse, e, edges_[e].version, kNone});
+  const PlaneId before = planeOf(prevId(e)), own = planeOf(e), after = planeOf(nextId(e));
+  const auto t = planes_.meeting(before, own, after);
+  if (!t) return;
+  const bool past = isPast(*t);
+  const int shrinks =
+      planes_.speedSign(before, own, after) * planes_.turn(before, own) * planes_.turn(own, after);
+  if (past ? shrinks > 0 : shrinks < 0) stuck_ = true;
+  if (!past) push({*t, EventKind::Collapse, e, edges_[e].version, kNone});
 }
 
-// Pushes the earliest candidates of a reflex vertex, and a mark to look for more when they are used
-// up. `after` is the mark that was reached.
-void Simulation::scheduleSplits(uint32_t v, const EventTime* after) {
+/// Finds the planes that a reflex vertex may run into, after the mark `after` or from now on.
+void Simulation::findCandidates(uint32_t v, const EventTime* after) {
   const PlaneId P = planeOf(vertices_[v].left), Q = planeOf(vertices_[v].right);
   const Plane &a = planes_[P], &b = planes_[Q];
   const double pq = a.na * b.nb - b.na * a.nb;
   // The determinants of (P, Q, E) are linear in E's plane.
   const double denA = a.nb * b.ns - b.nb * a.ns, denB = b.na * a.ns - a.na * b.ns;
   const double numA = a.nb * b.nc - b.nb * a.nc, numB = b.na * a.nc - a.na * b.nc;
-  const double earliest = started_ ? now_.time.value - now_.time.error : 0;
+  const double earliest = after != nullptr ? after->value
+                          : started_       ? now_.time.value - now_.time.error
+                                           : 0;
   candidates_.clear();
   for (const PlaneId E : livePlanes_) {
     if (E == P || E == Q) continue;
     const Plane& e = planes_[E];
     const double den = pq * e.ns + denA * e.na + denB * e.nb;
     const double num = pq * e.nc + numA * e.na + numB * e.nb;
+    const double denError = kCandidateRounding * (a.ns + b.ns + e.ns);
     // The plane is ahead of the vertex only while det(a b s) is negative.
-    const double denError = 0x1p-45 * (a.ns + b.ns + e.ns);
     if (den > denError) continue;
-    if (den < -denError) {
-      const double numError = 0x1p-45 * (std::abs(a.nc) + std::abs(b.nc) + std::abs(e.nc));
-      const double late = (-num + numError) / (-den - denError);
-      if ((num < 0 && late < earliest) || num > numError) continue;
+    const double numError = kCandidateRounding * (std::abs(a.nc) + std::abs(b.nc) + std::abs(e.nc));
+    Candidate c{0, false, {num / den, 0, {P, Q, E}}};
+    if (den < -4 * denError) {
+      c.time.error =
+          1.01 * (numError + std::abs(c.time.value) * denError) / (std::abs(den) - denError);
+      c.low = c.time.value - c.time.error;
+      if (c.time.value + c.time.error < earliest) continue;
+    } else if (std::abs(num) - numError > 5 * denError * kLate) {
+      // The vertex runs along with the plane.
+      c.low = kLate;
+    } else if (!evaluate(c)) {
+      continue;
     }
-    if (planes_.speedSign(P, Q, E) >= 0) continue;
-    const auto t = planes_.meeting(P, Q, E);
-    if (!t) continue;
-    const double low = t->value - t->error;
-    if (after != nullptr ? low <= after->value : isPast(*t)) continue;
-    candidates_.emplace_back(low, *t);
+    c.late = c.low >= kLate;
+    if (!c.late && ((after != nullptr && c.low <= after->value) || isPast(c.time))) continue;
+    candidates_.push_back(c);
   }
-  const auto byLow = [](const auto& x, const auto& y) { return x.first < y.first; };
-  size_t take = candidates_.size();
+}
+
+/// Puts the exact time into a candidate; false where there is no meeting ahead.
+bool Simulation::evaluate(Candidate& c) const {
+  const auto [P, Q, E] = c.time.planes;
+  if (planes_.speedSign(P, Q, E) >= 0) return false;
+  const auto t = planes_.meeting(P, Q, E);
+  if (!t) return false;
+  c.time = *t;
+  c.low = t->value - t->error;
+  c.late = false;
+  return true;
+}
+
+/// Pushes the earliest candidates of a reflex vertex, and a mark to look for more when they are
+/// used up. `after` is the mark that was reached.
+void Simulation::scheduleSplits(uint32_t v, const EventTime* after) {
+  findCandidates(v, after);
+  const auto lateOnes = std::stable_partition(candidates_.begin(), candidates_.end(),
+                                              [](const Candidate& c) { return !c.late; });
+  size_t known = static_cast<size_t>(lateOnes - candidates_.begin());
+  const bool lookedAtLate = known == 0 && after != nullptr;
+  if (lookedAtLate) {
+    // Nothing but late ones is left: now they are looked at, all at once.
+    std::erase_if(candidates_, [this](Candidate& c) { return !evaluate(c) || isPast(c.time); });
+    known = candidates_.size();
+  }
   uint32_t& batch = vertices_[v].batch;
-  if (take > batch) {
-    take = batch;
-    std::nth_element(candidates_.begin(),
-                     candidates_.begin() + static_cast<std::ptrdiff_t>(take - 1), candidates_.end(),
-                     byLow);
+  size_t take = lookedAtLate ? known : std::min<size_t>(known, batch);
+  if (take < candidates_.size()) {
     Event mark;
     mark.kind = EventKind::MoreCandidates;
-    mark.time.value = candidates_[take - 1].first;
     mark.subject = v;
+    if (take > 0) {
+      std::nth_element(candidates_.begin(),
+                       candidates_.begin() + static_cast<std::ptrdiff_t>(take - 1),
+                       candidates_.begin() + static_cast<std::ptrdiff_t>(known),
+                       [](const Candidate& x, const Candidate& y) { return x.low < y.low; });
+      mark.time.value = candidates_[take - 1].low;
+    } else {
+      mark.time.value = kLate / 2;
+    }
+    // Lows below nothing only repeat candidates, and their exact form needs few digits.
+    if (std::abs(mark.time.value) < 0x1p-40) mark.time.value = -0x1p-40;
     // Equal lows belong to the batch, since the next one starts strictly after the mark.
-    for (size_t i = take; i < candidates_.size(); ++i) {
-      if (candidates_[i].first <= mark.time.value) std::swap(candidates_[i], candidates_[take++]);
+    for (size_t i = take; i < known; ++i) {
+      if (candidates_[i].low <= mark.time.value) std::swap(candidates_[i], candidates_[take++]);
     }
     batch *= 2;
     push(mark);
   }
   for (size_t i = 0; i < take; ++i) {
-    push({candidates_[i].second, EventKind::Split, v, candidates_[i].second.planes[2], kNone});
+    push({candidates_[i].time, EventKind::Split, v, candidates_[i].time.planes[2], kNone});
   }
 }
 
@@ -507,7 +568,7 @@ WaveEnd Simulation::run() {
   }
   if (stuck_) return WaveEnd::Stuck;
   if (aliveEdges_ == 0) return WaveEnd::Done;
-  if (top_ == kNone) return WaveEnd::Unbounded;
+  if (top_ == kNone) return WaveEnd::Stuck;
   capAll();
   return WaveEnd::Done;
 }
