@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "engine/project.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/files.h"
+#include "io/importers/image.h"
+#include "io/importers/model.h"
+
+namespace gable {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A project of more files than this is no project; listing stops there.
+constexpr size_t kMostFiles = 200000;
+
+bool climbs(std::string_view path) {
+  size_t from = 0;
+  while (from <= path.size()) {
+    const size_t to = std::min(path.find_first_of("/\\", from), path.size());
+    if (path.substr(from, to - from) == "..") return true;
+    from = to + 1;
+  }
+  return false;
+}
+
+std::string canonical(const fs::path& p) {
+  std::error_code error;
+  const fs::path c = fs::weakly_canonical(p, error);
+  return error ? std::string() : c.string();
+}
+
+}  // namespace
+
+Project::Project(std::string root) : root_(canonical(root.empty() ? "." : root)) {
+  rootName_ = fs::path(root_).filename().string();
+}
+
+std::string Project::rootFor(const std::string& ruleFile) {
+  const fs::path folder = fs::path(canonical(ruleFile)).parent_path();
+  std::error_code error;
+  for (fs::path at = folder; at.has_relative_path(); at = at.parent_path()) {
+    if (fs::is_directory(at / "rules", error) || fs::is_directory(at / "assets", error)) {
+      return at.string();
+    }
+  }
+  return folder.string();
+}
+
+// The canonical path of a candidate when it is a file below the root.
+std::string Project::inside(const std::string& candidate) const {
+  std::error_code error;
+  if (!fs::is_regular_file(candidate, error)) return {};
+  const std::string real = canonical(candidate);
+  const bool below = real.size() > root_.size() && real.compare(0, root_.size(), root_) == 0 &&
+                     (root_ == "/" || real[root_.size()] == '/');
+  return below ? real : std::string();
+}
+
+std::string Project::locate(std::string_view path, std::string_view fromFile) const {
+  if (path.empty() || climbs(path) || path.find('\0') != std::string_view::npos) return {};
+  std::string clean(path);
+  std::replace(clean.begin(), clean.end(), '\\', '/');
+  std::vector<std::string> candidates;
+  if (clean[0] == '/') {
+    candidates.push_back(root_ + clean);
+    const size_t second = clean.find('/', 1);
+    if (second != std::string::npos && clean.substr(1, second - 1) == rootName_) {
+      candidates.push_back(root_ + clean.substr(second));
+    }
+  } else {
+    candidates.push_back(root_ + "/assets/" + clean);
+    candidates.push_back(root_ + "/" + clean);
+    const std::string folder = folderOf(std::string(fromFile));
+    if (!folder.empty()) candidates.push_back(root_ + "/" + folder + "/" + clean);
+  }
+  for (const std::string& c : candidates) {
+    std::string found = inside(c);
+    if (!found.empty()) return found;
+  }
+  return {};
+}
+
+std::string Project::projectPath(const std::string& file) const {
+  const std::string real = canonical(file);
+  if (real.compare(0, root_.size(), root_) == 0 && real.size() > root_.size()) {
+    return real.substr(root_.size() + (root_ == "/" ? 0 : 1));
+  }
+  return file;
+}
+
+Ref<AssetModel> Project::model(std::string_view path, std::string_view fromFile, bool zUp,
+                               std::string& why) {
+  const std::string file = locate(path, fromFile);
+  if (file.empty()) {
+    why = "there is no file '" + std::string(path) + "' in the project";
+    return {};
+  }
+  std::lock_guard lock(mutex_);
+  const auto [at, fresh] = models_.try_emplace(file + (zUp ? "|z" : "|y"));
+  if (fresh) {
+    Result<Asset> asset = readAsset(file);
+    if (asset.ok()) {
+      auto* m = new AssetModel;
+      m->mesh = asset->mesh;
+      if (zUp) {
+        m->mesh = makeRef<Mesh>(transformed(*m->mesh, {1, 1, 1}, rotationXyz(-90, 0, 0)));
+      }
+      m->materials = asset->materials;
+      m->bounds = m->mesh->bounds();
+      at->second.model = Ref<AssetModel>(m);
+    } else {
+      at->second.why = asset.error().message;
+    }
+  }
+  why = at->second.why;
+  return at->second.model;
+}
+
+ImageInfo Project::image(std::string_view path, std::string_view fromFile) {
+  const std::string file = locate(path, fromFile);
+  if (file.empty()) return {};
+  std::lock_guard lock(mutex_);
+  const auto [at, fresh] = images_.try_emplace(file);
+  if (fresh) {
+    const auto info = readImageInfo(file);
+    if (info.ok()) at->second = {true, info.value().width, info.value().height, info.value().hasAlpha};
+  }
+  return at->second;
+}
+
+bool Project::exists(std::string_view path, std::string_view fromFile) {
+  return !locate(path, fromFile).empty();
+}
+
+const std::vector<std::string>& Project::files() {
+  if (listed_) return files_;
+  listed_ = true;
+  std::error_code error;
+  fs::recursive_directory_iterator it(root_, fs::directory_options::skip_permission_denied, error);
+  for (; !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
+    if (files_.size() >= kMostFiles) break;
+    if (it->is_regular_file(error) && !it->is_symlink(error)) {
+      files_.push_back(it->path().string().substr(root_.size()));
+    }
+  }
+  std::sort(files_.begin(), files_.end());
+  return files_;
+}
+
+// Relative patterns are matched below assets/ and below the root; results are paths from the root.
+std::vector<std::string> Project::search(std::string_view pattern, std::string_view) {
+  std::vector<std::string> patterns;
+  if (!pattern.empty() && pattern[0] == '/') {
+    patterns.emplace_back(pattern);
+    const std::string prefix = "/" + rootName_ + "/";
+    if (pattern.compare(0, prefix.size(), prefix) == 0) {
+      patterns.emplace_back(pattern.substr(prefix.size() - 1));
+    }
+  } else {
+    patterns.push_back("/assets/" + std::string(pattern));
+    patterns.push_back("/" + std::string(pattern));
+  }
+  std::lock_guard lock(mutex_);
+  std::vector<std::string> out;
+  for (const std::string& file : files()) {
+    const auto fits = [&](const std::string& p) { return matchesPattern(p, file); };
+    if (std::any_of(patterns.begin(), patterns.end(), fits)) out.push_back(file);
+  }
+  return out;
+}
+
+bool Project::text(std::string_view path, std::string_view fromFile, std::string& out) {
+  const std::string file = locate(path, fromFile);
+  if (file.empty()) return false;
+  Result<std::string> content = readFile(file, 64u << 20);
+  if (!content.ok()) return false;
+  out = std::move(content.value());
+  return true;
+}
+
+std::string Project::resolve(std::string_view path, std::string_view fromFile) {
+  const std::string file = locate(path, fromFile);
+  return file.empty() ? std::string(path) : file.substr(root_.size());
+}
+
+// Greedy matching with one step back a wildcard: O(pattern x path) at worst.
+bool matchesPattern(std::string_view pattern, std::string_view path) {
+  std::vector<char> reachable(path.size() + 1, 0), next;
+  reachable[0] = 1;
+  for (char c : pattern) {
+    next.assign(path.size() + 1, 0);
+    if (c == '*' || c == '$') {
+      bool running = false;
+      for (size_t i = 0; i <= path.size(); ++i) {
+        running = running || reachable[i];
+        next[i] = running;
+        if (c == '$' && i < path.size() && path[i] == '/') running = false;
+      }
+    } else {
+      for (size_t i = 0; i < path.size(); ++i) next[i + 1] = reachable[i] && path[i] == c;
+    }
+    reachable.swap(next);
+  }
+  return reachable[path.size()];
+}
+
+}  // namespace gable

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Project: the folder that rules may read from, and the models, pictures and tables in it.
+//
+// A path that a rule writes is looked up as "/a/b" from the project's root (with or without the
+// project folder's own name in front), else in `assets/`, in the root, and beside the rule file.
+// Nothing outside of the root is ever read: no "..", no links that lead out.
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "shape/services.h"
+
+namespace gable {
+
+class Project final : public Assets {
+ public:
+  explicit Project(std::string root);
+
+  /// The project root for a rule file that names none: the nearest folder above that holds a `rules`
+  /// or an `assets` folder, else the file's own.
+  static std::string rootFor(const std::string& ruleFile);
+
+  const std::string& root() const { return root_; }
+  /// The file on disk of a project path; empty when there is none inside of the project.
+  std::string locate(std::string_view path, std::string_view fromFile) const;
+  /// "rules/town.cga" for a file below the root, else the path itself.
+  std::string projectPath(const std::string& file) const;
+
+  Ref<AssetModel> model(std::string_view path, std::string_view fromFile, bool zUp,
+                        std::string& why) override;
+  ImageInfo image(std::string_view path, std::string_view fromFile) override;
+  bool exists(std::string_view path, std::string_view fromFile) override;
+  std::vector<std::string> search(std::string_view pattern, std::string_view fromFile) override;
+  bool text(std::string_view path, std::string_view fromFile, std::string& out) override;
+  std::string resolve(std::string_view path, std::string_view fromFile) override;
+
+ private:
+  struct ModelEntry {
+    Ref<AssetModel> model;
+    std::string why;
+  };
+  std::string inside(const std::string& candidate) const;
+  const std::vector<std::string>& files();
+
+  std::string root_;
+  std::string rootName_;
+  std::mutex mutex_;
+  std::map<std::string, ModelEntry> models_;
+  std::map<std::string, ImageInfo> images_;
+  std::vector<std::string> files_;
+  bool listed_ = false;
+};
+
+/// Whether a project path matches a pattern: $ is any run of characters but '/', * is any run.
+bool matchesPattern(std::string_view pattern, std::string_view path);
+
+}  // namespace gable
