@@ -129,7 +129,8 @@ ImageInfo Project::image(std::string_view path, std::string_view fromFile) {
   const auto [at, fresh] = images_.try_emplace(file);
   if (fresh) {
     const auto info = readImageInfo(file);
-    if (info.ok()) at->second = {true, info.value().width, info.value().height, info.value().hasAlpha};
+    if (info.ok())
+      at->second = {true, info.value().width, info.value().height, info.value().hasAlpha};
   }
   return at->second;
 }

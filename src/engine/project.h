@@ -23,8 +23,8 @@ class Project final : public Assets {
  public:
   explicit Project(std::string root);
 
-  /// The project root for a rule file that names none: the nearest folder above that holds a `rules`
-  /// or an `assets` folder, else the file's own.
+  /// The project root for a rule file that names none: the nearest folder above that holds a
+  /// `rules` or an `assets` folder, else the file's own.
   static std::string rootFor(const std::string& ruleFile);
 
   const std::string& root() const { return root_; }

@@ -54,6 +54,7 @@ enum class Code : uint8_t {
   CallComputed,       // a rule whose name is computed (a string on the stack)
   Leaf,               // a shape named constants[a] that has no rule
   SetAttribute,       // pops a value into rule attribute a
+  Initialise,         // push the value of attribute a, evaluated anew on the present shape
   SetBuiltin,         // pops a value into builtinAttributes[a]
   PushShape,
   PopShape,
@@ -112,6 +113,9 @@ struct BlockItem {
   uint32_t slot = 0;
   uint32_t entry = 0;
 };
+
+/// Kinds of BlockTerm, in the order of the selector terms that operations see.
+enum class SelectTermKind : uint8_t { Word, Index, Boolean, Tagged, Not, And, Or };
 
 struct BlockTerm {
   uint8_t kind = 0;

@@ -164,6 +164,9 @@ class Machine final : public Services {
   void callFunction(const Instruction& i);
   void callBuiltin(const Instruction& i);
   void returnValue();
+  void initialise(const Instruction& i);
+  void componentValues(const Instruction& i);
+  void runUntil(size_t depth);
   /// An attribute's value now, for a key or a list; nests one level of the loop.
   Value evaluateAttribute(uint32_t attribute);
 

@@ -52,6 +52,8 @@ bool Machine::evaluate(const Instruction& i) {
       return true;
     }
     case Code::Return: returnValue(); return true;
+    case Code::Initialise: initialise(i); return true;
+    case Code::ComponentValues: componentValues(i); return true;
     default: return false;
   }
 }
@@ -201,17 +203,71 @@ void Machine::returnValue() {
   push(v);
 }
 
+// The attributes of a dynamic import are evaluated at the call, each time.
+void Machine::initialise(const Instruction& i) {
+  functions_.push_back({pc_, parameters_, stackTop_, -1, seen_, salt_});
+  parameters_ = stackTop_;
+  salt_ = hashCombine(salt_, program_.sites[pcOf(&i)]);
+  pc_ = program_.code.data() + program_.attributes[i.a].entry;
+}
+
+// comp(...) { selector expr } as an expression: the components of the shape are made and dropped
+// again; each block body is evaluated on its component.
+void Machine::componentValues(const Instruction& i) {
+  const BlockCode& block = program_.blocks[i.y - 1u];
+  stackTop_ -= block.valueCount + i.x;
+  const Value* arguments = stack_.data() + stackTop_;
+  Shape shape = *seen_;
+  std::vector<OpCall::Child> parts;
+  OpCall call(*program_.operations[i.a], shape, {arguments, i.x}, *this);
+  OpCallSetup setup(call);
+  setup.previous(shape.scope, shape.size);
+  setup.site(program_.sites[pcOf(&i)]);
+  setup.file(fileOf(i));
+  setup.children(parts);
+  setup.slots(static_cast<uint32_t>(block.slots.size()));
+  fillSelectors(block, arguments + i.x);
+  setup.selectors(selectorItems_);
+  instruction_ = &i;
+  const Status status = call.spec().apply(call);
+  if (!status.ok()) {
+    warn(status.code(), "'comp': " + status.message(), status.hint());
+    parts.clear();
+  }
+  const Instruction* resumeAt = pc_;
+  const Shape* outer = seen_;
+  std::vector<Value> values;
+  for (const OpCall::Child& part : parts) {
+    if (aborted_ || functions_.size() >= options().limits.functionDepth) break;
+    const size_t depth = functions_.size();
+    functions_.push_back({resumeAt, parameters_, stackTop_, -1, outer, salt_});
+    seen_ = &part.shape;
+    pc_ = program_.code.data() + block.slots[part.slot];
+    runUntil(depth);
+    values.push_back(pop());
+  }
+  pc_ = resumeAt;
+  seen_ = outer;
+  const uint32_t count = static_cast<uint32_t>(values.size());
+  put(buildArray(values, {&count, 1}, pool()), i);
+}
+
+// The loop for expressions that C++ asks for; ends when the functions begun since have returned.
+void Machine::runUntil(size_t depth) {
+  while (functions_.size() > depth && !aborted_) {
+    const Instruction& next = *pc_++;
+    evaluate(next);
+  }
+}
+
 Value Machine::evaluateAttribute(uint32_t a) {
   if (attributeStates_[a] == AttributeState::Known) return attributeValues_[a];
   const Instruction* resumeAt = pc_;
   const size_t depth = functions_.size();
   enterAttribute(a, pc_);
-  while (functions_.size() > depth && !aborted_) {
-    const Instruction& i = *pc_++;
-    evaluate(i);
-  }
+  runUntil(depth);
   pc_ = resumeAt;
-  return pop();
+  return aborted_ ? Value{} : pop();
 }
 
 void Machine::builtinAttribute(const Instruction& i) {

@@ -72,18 +72,15 @@ ShareKey Machine::keyOf(uint32_t rule, const Activation& call) {
   const uint32_t effects = code.reads.effects;
   const Shape& s = call.shape;
   KeyHash h;
-  h.add(uint64_t{rule} << 32 | static_cast<uint32_t>(s.geometry.kind) << 3 |
-        (s.geometry.uv ? 4u : 0u) | (s.trimVertical ? 2u : 0u) | (s.trimHorizontal ? 1u : 0u));
-  h.add(uint64_t{static_cast<uint8_t>(s.geometry.order)});
-  for (const uint32_t t : s.geometry.tags) h.add(uint64_t{t});
+  h.add(uint64_t{rule} << 32 | (s.trimVertical ? 2u : 0u) | (s.trimHorizontal ? 1u : 0u));
   h.add(s.size);
   h.add(uint64_t{s.material} << 32 | s.assetMaterials);
   h.add(uint64_t{s.attributes});
   for (uint32_t p = call.parameters; p < stackTop_; ++p) h.add(stack_[p].hash());
-  if (s.geometry.kind == GeometryKind::Mesh) {
-    h.add(s.geometry.refSize);
-    h.add(s.geometry.mesh->sharedHash());
-  }
+  Geometry geometry = s.geometry;
+  // A primitive fills the scope whatever the scope was when it was made.
+  if (geometry.kind != GeometryKind::Mesh) geometry.refSize = {};
+  h.add(contentHash(geometry));
   for (uint32_t a : code.reads.attributes) {
     const Value* set = s.attributes ? attributes().find(s.attributes, a) : nullptr;
     h.add((set ? *set : evaluateAttribute(a)).hash());

@@ -180,7 +180,7 @@ uint64_t contentHash(const Geometry& g) {
                   (g.uv ? 1u : 0u) | (g.instanced ? 2u : 0u));
   for (size_t i = 0; i < 3; ++i) h = hashCombine(h, hashDouble(g.refSize[i]));
   for (const uint32_t t : g.tags) h = hashCombine(h, t);
-  return g.mesh ? hashCombine(h, g.mesh->contentHash()) : h;
+  return g.mesh ? hashCombine(h, g.mesh->sharedHash()) : h;
 }
 
 Geometry primitive(GeometryKind kind, uint32_t tags) {

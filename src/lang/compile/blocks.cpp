@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Blocks: the braces after an operation, flattened into items. Each item has a slot of code; sizes
+// and index expressions are pushed after the operation's arguments, in order of writing.
+
+#include "lang/compile/unit_compiler.h"
+
+namespace gable::lang {
+
+uint32_t UnitCompiler::newBlock(NodeId node, const OpSpec& spec) {
+  const auto number = static_cast<uint32_t>(e_.program().blocks.size());
+  e_.program().blocks.emplace_back();
+  e_.program().blocks[number].kind = spec.block;
+  uses_.branches = true;
+  blockValues_.clear();
+  const auto parts = t_.children(node);
+  for (size_t i = 1; i < parts.size(); ++i) {
+    e_.program().blocks[number].repeat |= t_.has(parts[i], kFlagRepeat);
+    blockItems(parts[i], number);
+  }
+  return number;
+}
+
+void UnitCompiler::blockItems(NodeId node, uint32_t number) {
+  for (NodeId part : t_.children(node)) {
+    BlockItem item;
+    if (t_.kind(part) == NodeKind::Block) {
+      item.group = true;
+      item.repeat = t_.has(part, kFlagRepeat);
+      const size_t at = e_.program().blocks[number].items.size();
+      e_.program().blocks[number].items.push_back(item);
+      blockItems(part, number);
+      BlockCode& code = e_.program().blocks[number];
+      code.items[at].length = static_cast<uint32_t>(code.items.size() - at - 1);
+      continue;
+    }
+    BlockCode& code = e_.program().blocks[number];
+    const NodeId head = t_.child(part, 0), second = t_.child(part, 1);
+    item.slot = static_cast<uint32_t>(code.slots.size());
+    item.firstTerm = static_cast<uint32_t>(code.terms.size());
+    const ItemKind kind = t_.itemKind(part);
+    item.selectOperator = kind == ItemKind::Plain ? 0 : static_cast<uint8_t>(kind) - 1;
+    if (head != kNoNode) {
+      if (code.kind == BlockKind::Selectors)
+        selectorTerms(head, number);
+      else
+        blockValues_.push_back(head);
+      if (second != kNoNode) blockValues_.push_back(second);
+    }
+    item.termCount = static_cast<uint32_t>(code.terms.size()) - item.firstTerm;
+    code.items.push_back(item);
+    code.slots.push_back(0);
+    pending_.push_back({number, item.slot, t_.child(part, 2)});
+  }
+}
+
+// A selector expression in postfix order. What is no word is a value: an index or a truth value.
+void UnitCompiler::selectorTerms(NodeId node, uint32_t number) {
+  using Kind = SelectTermKind;
+  BlockCode& code = e_.program().blocks[number];
+  const auto add = [&](Kind kind, StringId word, int32_t value) {
+    BlockTerm term;
+    term.kind = static_cast<uint8_t>(kind);
+    term.word = word;
+    term.value = value;
+    code.terms.push_back(term);
+  };
+  ValuePool& pool = *e_.program().pool;
+  const NodeKind kind = t_.kind(node);
+  if (kind == NodeKind::Name && m_.at(node).kind == RefKind::Selector) {
+    add(Kind::Word, pool.intern(t_.text(node)), -1);
+    if (namesWorld(t_.text(node))) uses_.effects |= kReadsWorld | kReadsInitialShape;
+    if (t_.text(node).starts_with("street")) uses_.effects |= kReadsInitialShape;
+  } else if (kind == NodeKind::Call && t_.text(node) == "isTagged") {
+    taggedTerm(node, code);
+  } else if (kind == NodeKind::Unary && t_.unaryOp(node) == UnaryOp::Not) {
+    selectorTerms(t_.child(node, 0), number);
+    add(Kind::Not, 0, -1);
+  } else if (kind == NodeKind::Binary &&
+             (t_.binaryOp(node) == BinaryOp::And || t_.binaryOp(node) == BinaryOp::Or)) {
+    selectorTerms(t_.child(node, 0), number);
+    selectorTerms(t_.child(node, 1), number);
+    add(t_.binaryOp(node) == BinaryOp::And ? Kind::And : Kind::Or, 0, -1);
+  } else {
+    add(Kind::Index, 0, static_cast<int32_t>(blockValues_.size()));
+    blockValues_.push_back(node);
+  }
+}
+
+// isTagged("query" [, e | v]).
+void UnitCompiler::taggedTerm(NodeId node, BlockCode& code) {
+  const NodeId arguments = t_.child(node, 0);
+  BlockTerm term;
+  term.kind = static_cast<uint8_t>(SelectTermKind::Tagged);
+  const NodeId component = t_.child(arguments, 1);
+  if (component != kNoNode) term.number = t_.text(component) == "e" ? 1 : 2;
+  Value query;
+  const NodeId text = t_.child(arguments, 0);
+  if (constantOf(text, query)) {
+    term.word = query.id;
+  } else {
+    term.value = static_cast<int32_t>(blockValues_.size());
+    blockValues_.push_back(text);
+  }
+  code.terms.push_back(term);
+}
+
+// Sizes that are all constant stay in the block; otherwise every value goes over the stack.
+void UnitCompiler::pushBlockValues(uint32_t number) {
+  const std::vector<NodeId> values = std::move(blockValues_);
+  blockValues_.clear();
+  if (e_.program().blocks[number].kind == BlockKind::Split) {
+    std::vector<Value> fixed(values.size());
+    bool all = !values.empty();
+    for (size_t i = 0; i < values.size(); ++i) all = all && constantOf(values[i], fixed[i]);
+    if (all) {
+      e_.program().blocks[number].constantSizes = std::move(fixed);
+      return;
+    }
+  }
+  for (NodeId v : values) expression(v);
+  e_.program().blocks[number].valueCount = static_cast<uint32_t>(values.size());
+}
+
+// comp(f) { front : expr | ... } as an expression: an array of the values of all components.
+void UnitCompiler::componentValues(NodeId node, const FunctionSpec& spec) {
+  uses_.effects |= spec.effects;
+  const OpSpec* operation = componentOperation_;
+  if (!operation) return;
+  const NodeId arguments = t_.child(node, 0);
+  const auto number = static_cast<uint32_t>(e_.program().blocks.size());
+  e_.program().blocks.emplace_back();
+  e_.program().blocks[number].kind = BlockKind::Selectors;
+  std::vector<NodeId> outer = std::move(blockValues_);
+  std::vector<PendingSlot> outerSlots = std::move(pending_);
+  blockValues_.clear();
+  pending_.clear();
+  blockItems(t_.child(node, 1), number);
+  const std::vector<PendingSlot> slots = std::move(pending_);
+  pending_ = std::move(outerSlots);
+  const size_t count = pushArguments(arguments);
+  pushBlockValues(number);
+  blockValues_ = std::move(outer);
+  e_.emit(Code::ComponentValues, t_.span(node), e_.operation(operation),
+          static_cast<uint8_t>(count), static_cast<uint16_t>(number + 1), e_.site("comp"));
+  // The bodies stand behind, jumped over.
+  const uint32_t over = e_.jump(Code::Jump, t_.span(node));
+  for (const PendingSlot& s : slots) {
+    e_.program().blocks[number].slots[s.slot] = e_.here();
+    expression(s.sequence);
+    e_.emit(Code::Return, t_.span(s.sequence));
+  }
+  e_.land(over);
+}
+
+}  // namespace gable::lang

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Rules come first in the code, in their order, each followed by its slots: Program::ruleAt relies
+// on it. Functions and initialisers follow.
+
+#include "lang/compile/compile.h"
+
+#include <algorithm>
+
+#include "lang/compile/dependence.h"
+#include "lang/compile/unit_compiler.h"
+
+namespace gable::lang {
+
+namespace {
+
+class Compiler {
+ public:
+  Compiler(const ResolvedProgram& resolved, const Catalogue& catalogue,
+           std::shared_ptr<ValuePool> pool, const Sources& sources)
+      : r_(resolved), component_(catalogue.operation("comp")), emitter_(program_) {
+    program_.pool = std::move(pool);
+    for (uint32_t f = 0; f < sources.size(); ++f) program_.files.push_back(sources.path(f));
+  }
+
+  Program run() {
+    ruleUses_.resize(r_.rules.size());
+    functionUses_.resize(r_.functions.size());
+    for (const RuleInfo& rule : r_.rules) compileRule(rule);
+    for (const FunctionInfo& f : r_.functions) compileFunction(f);
+    for (const AttributeInfo& a : r_.attributes) compileAttribute(a);
+    closeDependence(program_, ruleUses_, functionUses_);
+    program_.startRule = r_.startRule == kNone ? -1 : static_cast<int32_t>(r_.startRule);
+    return std::move(program_);
+  }
+
+ private:
+  UnitCompiler unit(ModuleId module, Uses& uses, std::string_view qualifiedName) {
+    emitter_.beginUnit(qualifiedName);
+    return UnitCompiler(r_, module, emitter_, uses, component_);
+  }
+
+  void compileRule(const RuleInfo& rule) {
+    const Tree& tree = r_.tree(rule.module);
+    RuleCode code;
+    const size_t dot = rule.name.rfind('.');
+    code.name =
+        program_.pool->intern(dot == std::string::npos ? rule.name : rule.name.substr(dot + 1));
+    code.qualifiedName = rule.qualifiedName;
+    code.entry = emitter_.here();
+    code.span = nameSpan(tree, rule.node);
+    code.file = tree.file();
+    code.startRule = rule.start || rule.annotations.startRule;
+    code.hidden = rule.annotations.hidden;
+    for (NodeId p : tree.children(paramsOf(tree, rule.node))) {
+      code.parameters.push_back({program_.pool->intern(tree.text(p)), ValueType::Null});
+    }
+    Uses& uses = ruleUses_[rule.id];
+    UnitCompiler compiler = unit(rule.module, uses, rule.qualifiedName);
+    compiler.locals(localsOf(tree, rule.node));
+    compiler.body(bodyOf(tree, rule.node), tree.span(rule.node));
+    code.needsPrevious = (uses.effects & kReadsPrevious) != 0;
+    program_.rules.push_back(std::move(code));
+  }
+
+  void compileFunction(const FunctionInfo& f) {
+    const Tree& tree = r_.tree(f.module);
+    FunctionCode code;
+    code.name = program_.pool->intern(f.name);
+    code.parameterCount = f.paramCount;
+    code.entry = emitter_.here();
+    code.span = nameSpan(tree, f.node);
+    code.file = tree.file();
+    UnitCompiler compiler = unit(f.module, functionUses_[f.id], f.qualifiedName);
+    compiler.locals(localsOf(tree, f.node));
+    compiler.expression(bodyOf(tree, f.node));
+    emitter_.emit(Code::Return, code.span);
+    program_.functions.push_back(code);
+  }
+
+  void compileAttribute(const AttributeInfo& a) {
+    const Tree& tree = r_.tree(a.module);
+    AttributeCode code;
+    code.name = a.qualifiedName;
+    code.type = a.type;
+    code.constant = a.constant;
+    code.hidden = a.annotations.hidden;
+    code.span = nameSpan(tree, a.node);
+    code.entry = emitter_.here();
+    code.annotations = listed(a.annotations);
+    // A random value of an attribute must not change with the text around it, so it has a unit.
+    Uses ignored;
+    if (a.source == ValueSource::Propagated) {
+      code.propagatesFrom = static_cast<int32_t>(a.from);
+      emitter_.emit(Code::RuleAttribute, code.span, a.from);
+    } else if (a.source == ValueSource::Override) {
+      unit(a.valueModule, ignored, a.qualifiedName).expression(a.valueNode);
+    } else {
+      UnitCompiler compiler = unit(a.module, ignored, a.qualifiedName);
+      compiler.locals(localsOf(tree, a.node));
+      compiler.expression(bodyOf(tree, a.node));
+    }
+    emitter_.emit(Code::Return, code.span);
+    program_.attributes.push_back(std::move(code));
+  }
+
+  std::vector<AnnotationInfo> listed(const Annotations& a) const;
+
+  const ResolvedProgram& r_;
+  const OpSpec* component_;
+  Program program_;
+  Emitter emitter_;
+  std::vector<Uses> ruleUses_, functionUses_;
+};
+
+std::vector<AnnotationInfo> Compiler::listed(const Annotations& a) const {
+  ValuePool& pool = *program_.pool;
+  std::vector<AnnotationInfo> out;
+  const auto flag = [&](bool is, const char* name) {
+    if (is) out.push_back({name, {}});
+  };
+  const auto text = [&](const std::string& value, const char* name) {
+    if (!value.empty()) out.push_back({name, {{"", pool.string(value)}}});
+  };
+  text(a.description, "Description");
+  text(a.displayName, "DisplayName");
+  if (a.order) out.push_back({"Order", {{"", Value::of(*a.order)}}});
+  if (!a.group.path.empty()) {
+    AnnotationInfo group{"Group", {}};
+    for (const std::string& g : a.group.path) group.arguments.push_back({"", pool.string(g)});
+    if (a.group.order) group.arguments.push_back({"order", Value::of(*a.group.order)});
+    out.push_back(std::move(group));
+  }
+  if (a.range) {
+    AnnotationInfo range{"Range",
+                         {{"min", Value::of(a.range->min)}, {"max", Value::of(a.range->max)}}};
+    if (a.range->step != 0) range.arguments.push_back({"stepsize", Value::of(a.range->step)});
+    range.arguments.push_back({"restricted", Value::of(a.range->restricted)});
+    out.push_back(std::move(range));
+  }
+  if (a.choices) {
+    AnnotationInfo choices{"Enum", {}};
+    for (const EnumValue& v : a.choices->values) {
+      choices.arguments.push_back({"", v.isNumber ? Value::of(v.number) : pool.string(v.text)});
+    }
+    if (!a.choices->valuesAttribute.empty()) {
+      choices.arguments.push_back({"valuesAttr", pool.string(a.choices->valuesAttribute)});
+    }
+    choices.arguments.push_back({"restricted", Value::of(a.choices->restricted)});
+    out.push_back(std::move(choices));
+  }
+  flag(a.unit == UnitNote::Angle, "Angle");
+  flag(a.unit == UnitNote::Distance, "Distance");
+  flag(a.unit == UnitNote::Percent, "Percent");
+  if (a.file != FileNote::None) {
+    AnnotationInfo file{a.file == FileNote::Directory      ? "Directory"
+                        : a.file == FileNote::MaterialFile ? "MaterialFile"
+                                                           : "File",
+                        {}};
+    for (const std::string& e : a.extensions) file.arguments.push_back({"", pool.string(e)});
+    out.push_back(std::move(file));
+  }
+  flag(a.color, "Color");
+  flag(a.hidden, "Hidden");
+  return out;
+}
+
+}  // namespace
+
+Program compile(const ResolvedProgram& resolved, const Catalogue& catalogue,
+                std::shared_ptr<ValuePool> pool, const Sources& sources) {
+  return Compiler(resolved, catalogue, std::move(pool), sources).run();
+}
+
+}  // namespace gable::lang

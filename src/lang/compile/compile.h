@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Resolved trees to a Program. The analysis must have reported no error; compiling cannot fail
+// then. Linear in the trees.
+#pragma once
+
+#include <memory>
+
+#include "base/diagnostic.h"
+#include "lang/sema/resolved.h"
+#include "program/program.h"
+
+namespace gable::lang {
+
+Program compile(const ResolvedProgram& resolved, const Catalogue& catalogue,
+                std::shared_ptr<ValuePool> pool, const Sources& sources);
+
+}  // namespace gable::lang

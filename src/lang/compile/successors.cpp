@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Successors: operations, rule calls and choices. The slots of blocks are compiled behind the
+// rule's own code (see blocks.cpp).
+
+#include "lang/compile/unit_compiler.h"
+
+namespace gable::lang {
+
+void UnitCompiler::body(NodeId node, Span end) {
+  sequence(node);
+  e_.emit(Code::End, end);
+  // Compiling a slot may add slots of inner blocks to the list.
+  for (size_t i = 0; i < pending_.size(); ++i) {
+    const PendingSlot slot = pending_[i];
+    e_.program().blocks[slot.block].slots[slot.slot] = e_.here();
+    sequence(slot.sequence);
+    e_.emit(Code::End, t_.span(slot.sequence));
+  }
+  pending_.clear();
+}
+
+void UnitCompiler::sequence(NodeId node) {
+  for (NodeId part : t_.children(node)) successor(part);
+}
+
+void UnitCompiler::successor(NodeId node) {
+  switch (t_.kind(node)) {
+    case NodeKind::Apply: apply(node); break;
+    case NodeKind::ImportApply: importApply(node); break;
+    case NodeKind::Choice: choice(node, false); break;
+    case NodeKind::Push:
+      e_.emit(Code::PushShape, t_.span(node));
+      sequence(t_.child(node, 0));
+      e_.emit(Code::PopShape, t_.span(node));
+      break;
+    case NodeKind::Sequence: sequence(node); break;
+    default: break;
+  }
+}
+
+void UnitCompiler::apply(NodeId node) {
+  const Resolution& ref = m_.at(node);
+  const NodeId arguments = t_.child(node, 0);
+  switch (ref.kind) {
+    case RefKind::Operation: operation(node, *ref.spec.operation, arguments); break;
+    case RefKind::Rule: callRule(node, ref.index, arguments); break;
+    default: {
+      const Value name = e_.program().pool->string(t_.text(node));
+      e_.emit(Code::Leaf, t_.span(node), e_.constant(name));
+      break;
+    }
+  }
+}
+
+void UnitCompiler::importApply(NodeId node) {
+  const Resolution& ref = m_.at(node);
+  if (ref.kind != RefKind::Rule) {
+    apply(node);
+    return;
+  }
+  enterDynamicImport(node);
+  callRule(node, ref.index, t_.child(node, 2));
+}
+
+// The attributes of a dynamic import become attributes of the shape: first those that are given, in
+// the caller's view, then the others, each seeing those before it.
+void UnitCompiler::enterDynamicImport(NodeId node) {
+  const DynamicImport* import = r_.dynamicImport(m_.id, node);
+  if (!import) return;
+  for (const DynamicImport::Given& g : import->given) {
+    expression(g.value);
+    e_.emit(Code::SetAttribute, t_.span(g.value), g.attribute);
+  }
+  for (AttributeId a : import->initOrder) {
+    e_.emit(Code::Initialise, t_.span(node), a);
+    e_.emit(Code::SetAttribute, t_.span(node), a);
+  }
+}
+
+void UnitCompiler::callRule(NodeId node, uint32_t rule, NodeId arguments) {
+  const size_t count = pushArguments(arguments);
+  uses_.rules.insert(rule);
+  uses_.branches = true;
+  e_.emit(Code::CallRule, nameSpan(t_, node), rule, static_cast<uint8_t>(count), 0,
+          e_.site(r_.rules[rule].qualifiedName));
+}
+
+// set(attribute, value): the first argument is a place, no value.
+bool UnitCompiler::setStatement(NodeId arguments) {
+  const auto list = t_.children(arguments);
+  if (list.size() != 2) return false;
+  const Resolution& place = m_.at(list[0]);
+  if (place.kind != RefKind::Attribute && place.kind != RefKind::ShapeAttribute) return false;
+  expression(list[1]);
+  if (place.kind == RefKind::Attribute) {
+    e_.emit(Code::SetAttribute, t_.span(arguments), place.index);
+  } else {
+    uses_.effects |= place.spec.attribute->effects;
+    e_.emit(Code::SetBuiltin, t_.span(arguments), e_.attribute(place.spec.attribute));
+  }
+  return true;
+}
+
+void UnitCompiler::operation(NodeId node, const OpSpec& spec, NodeId arguments) {
+  if (std::string_view(spec.name) == "set" && setStatement(arguments)) return;
+  uses_.effects |= effectsOf(spec.effects, arguments);
+  const Span span = t_.span(node);
+  const auto list = t_.children(arguments);
+  const bool hasBlock = t_.children(node).size() > 1;
+
+  // When nothing has to be evaluated the arguments are read where they are.
+  std::vector<Value> fixed(list.size());
+  bool allFixed = true;
+  for (size_t i = 0; i < list.size(); ++i) allFixed = allFixed && constantOf(list[i], fixed[i]);
+  const uint32_t blockNumber = hasBlock ? newBlock(node, spec) : 0;
+  if (!allFixed) pushArguments(arguments);
+  if (hasBlock) pushBlockValues(blockNumber);
+  const uint64_t site = e_.site(spec.name);
+  const Code code = allFixed ? Code::OperationConstant : Code::Operation;
+  e_.emit(code, span, e_.operation(&spec), static_cast<uint8_t>(list.size()),
+          static_cast<uint16_t>(hasBlock ? blockNumber + 1 : 0), site);
+  if (allFixed) e_.emit(Code::Operand, span, e_.constantRun(fixed));
+}
+
+void UnitCompiler::choice(NodeId node, bool inExpression) {
+  if (t_.choiceKind(node) == ChoiceKind::Percent)
+    percentChoice(node, inExpression);
+  else
+    caseChoice(node, inExpression);
+}
+
+void UnitCompiler::branchBody(NodeId branch, bool inExpression) {
+  const NodeId inner = t_.child(branch, 1);
+  if (inExpression)
+    expression(inner);
+  else
+    successor(inner);
+}
+
+void UnitCompiler::caseChoice(NodeId node, bool inExpression) {
+  std::vector<uint32_t> ends;
+  bool complete = false;
+  for (NodeId branch : t_.children(node)) {
+    const NodeId condition = t_.child(branch, 0);
+    const Span span = t_.span(branch);
+    if (condition == kNoNode) {
+      branchBody(branch, inExpression);
+      complete = true;
+      break;
+    }
+    expression(condition);
+    const uint32_t next = e_.jump(Code::JumpIfFalse, t_.span(condition));
+    branchBody(branch, inExpression);
+    ends.push_back(e_.jump(Code::Jump, span));
+    e_.land(next);
+  }
+  if (!complete && inExpression) {
+    e_.emit(Code::Constant, t_.span(node), e_.constant(Value{}));
+  }
+  for (uint32_t jump : ends) e_.land(jump);
+}
+
+void UnitCompiler::percentChoice(NodeId node, bool inExpression) {
+  const Span span = t_.span(node);
+  uint16_t weighted = 0;
+  for (NodeId branch : t_.children(node)) {
+    const NodeId weight = t_.child(branch, 0);
+    if (weight == kNoNode) continue;
+    expression(weight);
+    e_.emit(Code::Constant, t_.span(weight), e_.constant(Value::of(100.0)));
+    e_.emit(Code::Binary, t_.span(weight), 0, static_cast<uint8_t>(BinaryOperator::Divide));
+    ++weighted;
+  }
+  uses_.effects |= kRandom;
+  e_.emit(Code::Choose, span, 0, 0, weighted, e_.site("%"));
+  const uint32_t table = e_.table(std::vector<uint32_t>(weighted + 1u));
+  e_.emit(Code::JumpTable, span, table);
+  std::vector<uint32_t> ends;
+  uint16_t way = 0;
+  bool complete = false;
+  for (NodeId branch : t_.children(node)) {
+    const bool last = t_.child(branch, 0) == kNoNode;
+    e_.program().jumpTables[table][last ? weighted : way++] = e_.here();
+    complete = complete || last;
+    branchBody(branch, inExpression);
+    ends.push_back(e_.jump(Code::Jump, t_.span(branch)));
+  }
+  if (!complete) {
+    e_.program().jumpTables[table][weighted] = e_.here();
+    if (inExpression) e_.emit(Code::Constant, span, e_.constant(Value{}));
+  }
+  for (uint32_t jump : ends) e_.land(jump);
+}
+
+}  // namespace gable::lang

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// UnitCompiler: the code of one rule, function or attribute's initialiser, and what it depends on.
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "lang/compile/emitter.h"
+#include "lang/sema/resolved.h"
+
+namespace gable::lang {
+
+/// What a unit uses directly; closed over calls by dependence.cpp.
+struct Uses {
+  uint32_t effects = 0;
+  std::set<uint32_t> attributes, rules, functions;
+  /// It makes shapes in several parts: a block or a rule call.
+  bool branches = false;
+};
+
+class UnitCompiler {
+ public:
+  UnitCompiler(const ResolvedProgram& resolved, ModuleId module, Emitter& emitter, Uses& uses,
+               const OpSpec* componentOperation)
+      : r_(resolved),
+        m_(resolved.modules[module]),
+        t_(resolved.tree(module)),
+        e_(emitter),
+        uses_(uses),
+        componentOperation_(componentOperation) {}
+
+  /// Pushes the `with` variables of a declaration; they follow the parameters in the frame.
+  void locals(NodeId list);
+  void expression(NodeId node);
+  /// A rule's body: the successor, then the slots of its blocks.
+  void body(NodeId sequence, Span end);
+
+ private:
+  struct PendingSlot {
+    uint32_t block;
+    uint32_t slot;
+    NodeId sequence;
+  };
+
+  // Successors.
+  void sequence(NodeId node);
+  void successor(NodeId node);
+  void apply(NodeId node);
+  void importApply(NodeId node);
+  void callRule(NodeId node, uint32_t rule, NodeId arguments);
+  void operation(NodeId node, const OpSpec& spec, NodeId arguments);
+  bool setStatement(NodeId arguments);
+  void choice(NodeId node, bool inExpression);
+  void caseChoice(NodeId node, bool inExpression);
+  void percentChoice(NodeId node, bool inExpression);
+  void branchBody(NodeId branch, bool inExpression);
+  void enterDynamicImport(NodeId node);
+
+  // Blocks.
+  uint32_t newBlock(NodeId node, const OpSpec& spec);
+  void blockItems(NodeId node, uint32_t block);
+  void selectorTerms(NodeId node, uint32_t block);
+  void taggedTerm(NodeId node, BlockCode& code);
+  void pushBlockValues(uint32_t block);
+
+  // Expressions.
+  void name(NodeId node);
+  void call(NodeId node, NodeId arguments);
+  void unary(NodeId node);
+  void binary(NodeId node);
+  void array(NodeId node);
+  void index(NodeId node);
+  void range(NodeId node);
+  void componentValues(NodeId node, const FunctionSpec& spec);
+  /// The value of an expression that needs no evaluation, with its unit.
+  bool constantOf(NodeId node, Value& out) const;
+  uint32_t effectsOf(uint32_t effects, NodeId arguments) const;
+  void functionEffects(const FunctionSpec& spec, NodeId arguments);
+  size_t pushArguments(NodeId arguments);
+
+  const ResolvedProgram& r_;
+  const Module& m_;
+  const Tree& t_;
+  Emitter& e_;
+  Uses& uses_;
+  std::vector<PendingSlot> pending_;
+  /// The sizes and indices of the block at hand.
+  std::vector<NodeId> blockValues_;
+  /// What the function form of comp runs.
+  const OpSpec* componentOperation_;
+};
+
+}  // namespace gable::lang
