@@ -8,9 +8,9 @@
 //   gable::Model town = gable::derive(rules, lots, {});
 //   town.write("town.glb", {});
 //
-// Nothing here throws, prints or exits. Everything that went wrong comes back as Messages beside the
-// result; a result with errors is empty but safe to use. Lengths are metres, angles degrees, the
-// frame is right-handed with y up (+x east, -z north). Objects are cheap to copy: copies share.
+// Nothing here throws, prints or exits. Everything that went wrong comes back as Messages beside
+// the result; a result with errors is empty but safe to use. Lengths are metres, angles degrees,
+// the frame is right-handed with y up (+x east, -z north). Objects are cheap to copy: copies share.
 #pragma once
 
 #include <atomic>
@@ -46,8 +46,8 @@ bool hasErrors(const Messages& messages);
 std::string messagesJson(const Messages& messages);
 
 struct LoadOptions {
-  /// The folder that rules may read from; empty: the nearest folder above the rule file that holds a
-  /// `rules` or an `assets` folder, else the rule file's own.
+  /// The folder that rules may read from; empty: the nearest folder above the rule file that holds
+  /// a `rules` or an `assets` folder, else the rule file's own.
   std::string project;
   /// Empty: by the file's extension.
   std::string dialect;
@@ -99,6 +99,7 @@ class Rules {
   struct Impl;
   explicit Rules(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
   const Impl& impl() const { return *impl_; }
+  const std::shared_ptr<const Impl>& shared() const { return impl_; }
 
  private:
   std::shared_ptr<const Impl> impl_;
@@ -174,10 +175,10 @@ struct WriteResult {
   Messages messages;
 };
 
-enum class View : uint8_t { Iso, Top, Front, Street };
+enum class PictureView : uint8_t { Iso, Top, Front, Street };
 
 struct PictureSettings {
-  View view = View::Iso;
+  PictureView view = PictureView::Iso;
   int width = 1600, height = 900;
   int samples = 48;
   /// Degrees; NaN-free "own value" is said by ownSun.
@@ -205,8 +206,8 @@ class Model {
   End end() const;
   const Messages& messages() const;
   double deriveSeconds() const;
-  /// Counts, bounds, reports, prints and messages as one JSON object; see the reference. Seconds and
-  /// peak memory are added where given (negative: left out).
+  /// Counts, bounds, reports, prints and messages as one JSON object; see the reference. Seconds
+  /// and peak memory are added where given (negative: left out).
   struct Times {
     double parse = -1, derive = -1, write = -1, total = -1;
     int64_t peakBytes = -1;

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The commands. Each takes its parsed arguments and gives an exit status.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common.h"
+
+struct GenerateArguments {
+  DeriveArguments derive;
+  std::string output;
+  std::string stats;
+  bool gpuInstancing = false;
+};
+int runGenerate(const GenerateArguments& arguments);
+
+struct CheckArguments {
+  std::vector<std::string> rules;
+  std::string project;
+  std::string dialect;
+  bool json = false;
+};
+int runCheck(const CheckArguments& arguments);
+
+struct FormatArguments {
+  std::vector<std::string> files;
+  /// Say which files would change, and change none.
+  bool check = false;
+  /// Print to stdout instead of writing back.
+  bool toStdout = false;
+};
+int runFormat(const FormatArguments& arguments);
+
+struct RenderArguments {
+  DeriveArguments derive;
+  std::string output;
+  std::string view = "iso";
+  std::string size = "1600x900";
+  int samples = 48;
+  std::string sun;
+  std::string eye, target;
+  double fieldOfView = 0;
+};
+int runRender(const RenderArguments& arguments);
+
+struct TraceArguments {
+  DeriveArguments derive;
+  std::string output = "-";
+};
+int runTrace(const TraceArguments& arguments);
+
+struct OpsArguments {
+  std::string name;
+  bool json = false;
+};
+int runOps(const OpsArguments& arguments);

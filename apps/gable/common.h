@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// What the commands share: exit statuses, options that several take, messages and progress.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gable/gable.h"
+
+/// The exit statuses that scripts rely on.
+enum ExitStatus : int {
+  kExitDone = 0,
+  /// The rules or the inputs are wrong.
+  kExitWrong = 1,
+  /// The command line is wrong.
+  kExitUsage = 2,
+  /// A file could not be read or written.
+  kExitFile = 3,
+  /// A limit or a cancel ended it; what was made is written.
+  kExitLimit = 4,
+};
+
+/// The options of commands that derive rules.
+struct DeriveArguments {
+  std::string rules;
+  std::string shapes;
+  std::string lot;
+  std::string start;
+  std::vector<std::string> set;
+  double seed = 0;
+  std::string project;
+  std::string dialect;
+  int jobs = 0;
+  bool noSharing = false;
+  double maxSeconds = 0;
+  uint64_t maxShapes = 50'000'000;
+  uint32_t maxDepth = 1024;
+};
+
+/// Parses "30x40"; false when it is no pair of positive numbers.
+bool parsePair(const std::string& text, double& a, double& b);
+
+/// Rules and shapes as the arguments name them; an exit status other than kExitDone when they are
+/// not usable (messages have been printed then).
+struct Inputs {
+  gable::Rules rules = gable::Rules(nullptr);
+  gable::Shapes shapes = gable::Shapes(nullptr);
+  gable::DeriveSettings settings;
+};
+int readInputs(const DeriveArguments& arguments, Inputs& inputs);
+
+/// Prints messages to stderr, the worst kind last in the summary; returns the number of errors.
+size_t printMessages(const gable::Messages& messages);
+
+/// The exit status that a derivation asks for.
+int statusOf(const gable::Model& model);
+
+/// A line of progress on a terminal; silent in a pipe. Erased when it goes out of scope.
+class ProgressLine {
+ public:
+  explicit ProgressLine(const char* what);
+  ~ProgressLine();
+  std::function<void(size_t, size_t)> callback();
+
+ private:
+  const char* what_;
+  bool terminal_;
+};
+
+/// Largest resident memory so far, in bytes.
+int64_t peakBytes();
+double secondsNow();
+
+/// Writes to a file, or to stdout for "-"; an exit status.
+int writeText(const std::string& path, const std::string& text);
+
+/// Ctrl-C cancels instead of killing: what was made is still written.
+std::atomic<bool>* cancelFlag();

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The command line: options to arguments, one command each.
+
+#include <CLI/CLI.hpp>
+
+#include "commands.h"
+
+namespace {
+
+void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
+  auto* shapes = app->add_option("--shapes", a.shapes, "Footprints: .geojson .obj .gltf .glb");
+  app->add_option("--lot", a.lot, "A rectangular lot in metres, such as 30x40 (default 20x20)")
+      ->excludes(shapes);
+  app->add_option("--start", a.start, "The rule to start with");
+  app->add_option("--set", a.set, "An attribute's value: NAME=VALUE; may be repeated")
+      ->type_size(1)
+      ->expected(1)
+      ->take_all();
+  app->add_option("--seed", a.seed, "The seed of all chance (default 0)");
+  app->add_option("--project", a.project, "The folder that the rules may read from");
+  app->add_option("--jobs", a.jobs, "Threads (default: one a processor)");
+  app->add_flag("--no-sharing", a.noSharing, "Derive equal parts again instead of sharing them");
+  app->add_option("--dialect", a.dialect, "The rules' notation, when the extension does not tell");
+  app->add_option("--max-seconds", a.maxSeconds, "Stop deriving after so long");
+  app->add_option("--max-shapes", a.maxShapes, "Stop after so many shapes");
+  app->add_option("--max-depth", a.maxDepth, "Rule calls within rule calls (default 1024)");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Gable turns rules into places: shape grammars (CGA) in, 3D models out.", "gable");
+  app.set_version_flag("--version", std::string("gable ") + gable::version());
+  app.require_subcommand(1);
+  int status = kExitDone;
+
+  GenerateArguments generate;
+  auto* generateApp = app.add_subcommand("generate", "Derive rules and write a model");
+  generateApp->add_option("rules", generate.derive.rules, "The rule file")->required();
+  addDeriveOptions(generateApp, generate.derive);
+  generateApp
+      ->add_option("-o,--output", generate.output, "The model: .glb .gltf .obj .ply .stl .png")
+      ->required();
+  generateApp->add_option("--stats", generate.stats,
+                          "Write counts as JSON to a file, or - for stdout");
+  generateApp->add_flag("--gpu-instancing", generate.gpuInstancing,
+                        "glTF: EXT_mesh_gpu_instancing instead of nodes");
+  generateApp->callback([&] { status = runGenerate(generate); });
+
+  CheckArguments check;
+  auto* checkApp = app.add_subcommand("check", "Report all mistakes of rule files");
+  checkApp->add_option("rules", check.rules, "Rule files")->required();
+  checkApp->add_option("--project", check.project, "The folder that the rules may read from");
+  checkApp->add_option("--dialect", check.dialect, "The rules' notation");
+  checkApp->add_flag("--json", check.json, "Machine-readable output");
+  checkApp->callback([&] { status = runCheck(check); });
+
+  FormatArguments format;
+  auto* formatApp = app.add_subcommand("format", "Put rule files into canonical form");
+  formatApp->add_option("files", format.files, "Rule files")->required();
+  formatApp->add_flag("--check", format.check, "Change nothing; fail if a file would change");
+  formatApp->add_flag("--stdout", format.toStdout, "Print instead of writing back");
+  formatApp->callback([&] { status = runFormat(format); });
+
+  RenderArguments render;
+  auto* renderApp = app.add_subcommand("render", "Draw rules or a model as a picture");
+  renderApp->add_option("input", render.derive.rules, "A rule file or a model (.glb .gltf .obj)")
+      ->required();
+  addDeriveOptions(renderApp, render.derive);
+  renderApp->add_option("-o,--output", render.output, "The picture: .png")->required();
+  renderApp->add_option("--view", render.view, "iso, top, front or street")
+      ->check(CLI::IsMember({"iso", "top", "front", "street"}));
+  renderApp->add_option("--size", render.size, "Pixels (default 1600x900)");
+  renderApp->add_option("--samples", render.samples, "Paths a pixel (default 48)")
+      ->check(CLI::Range(1, 65536));
+  renderApp->add_option("--sun", render.sun, "elevation,azimuth in degrees (azimuth from north)");
+  renderApp->add_option("--eye", render.eye, "The camera's place: x,y,z in metres");
+  renderApp->add_option("--target", render.target, "What it looks at: x,y,z in metres");
+  renderApp->add_option("--fov", render.fieldOfView, "Horizontal angle of view in degrees");
+  renderApp->callback([&] { status = runRender(render); });
+
+  TraceArguments trace;
+  auto* traceApp = app.add_subcommand("trace", "Write the derivation tree as JSON");
+  traceApp->add_option("rules", trace.derive.rules, "The rule file")->required();
+  addDeriveOptions(traceApp, trace.derive);
+  traceApp->add_option("-o,--output", trace.output, "A file, or - for stdout (default)");
+  traceApp->callback([&] { status = runTrace(trace); });
+
+  OpsArguments ops;
+  auto* opsApp = app.add_subcommand("ops", "List what is built in, or explain one name");
+  opsApp->add_option("name", ops.name, "An operation, function or attribute");
+  opsApp->add_flag("--json", ops.json, "Machine-readable output");
+  opsApp->callback([&] { status = runOps(ops); });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    // Help and version are no mistakes; all else is a wrong command line.
+    return app.exit(e) == 0 ? kExitDone : kExitUsage;
+  }
+  return status;
+}

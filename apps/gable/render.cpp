@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "commands.h"
+
+namespace {
+
+bool endsWith(const std::string& text, const char* end) {
+  const std::string e(end);
+  return text.size() >= e.size() && text.compare(text.size() - e.size(), e.size(), e) == 0;
+}
+
+bool isModel(const std::string& path) {
+  return endsWith(path, ".glb") || endsWith(path, ".gltf") || endsWith(path, ".obj");
+}
+
+/// "x,y,z" or "x,y": `count` numbers.
+bool parseNumbers(const std::string& text, double* out, int count) {
+  const char* at = text.c_str();
+  for (int i = 0; i < count; ++i) {
+    char* end = nullptr;
+    out[i] = std::strtod(at, &end);
+    if (end == at || *end != (i + 1 < count ? ',' : '\0')) return false;
+    at = end + 1;
+  }
+  return true;
+}
+
+int usage(const char* option, const char* form) {
+  std::fprintf(stderr, "gable: %s takes %s\n", option, form);
+  return kExitUsage;
+}
+
+int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
+  const std::pair<const char*, gable::PictureView> views[] = {
+      {"iso", gable::PictureView::Iso},
+      {"top", gable::PictureView::Top},
+      {"front", gable::PictureView::Front},
+      {"street", gable::PictureView::Street}};
+  for (const auto& [name, view] : views) {
+    if (a.view == name) s.view = view;
+  }
+  double width = 0, height = 0;
+  if (!parsePair(a.size, width, height) || width > 16384 || height > 16384) {
+    return usage("--size", "width x height in pixels, such as 1600x900");
+  }
+  s.width = static_cast<int>(width);
+  s.height = static_cast<int>(height);
+  s.samples = a.samples;
+  s.fieldOfView = a.fieldOfView;
+  s.jobs = a.derive.jobs;
+  s.cancel = cancelFlag();
+  double sun[2];
+  if (!a.sun.empty()) {
+    if (!parseNumbers(a.sun, sun, 2)) return usage("--sun", "elevation,azimuth in degrees");
+    s.ownSun = true;
+    s.sunElevation = sun[0];
+    s.sunAzimuth = sun[1];
+  }
+  if (a.eye.empty() != a.target.empty()) return usage("--eye", "a --target as well");
+  if (!a.eye.empty()) {
+    if (!parseNumbers(a.eye, s.eye, 3) || !parseNumbers(a.target, s.target, 3)) {
+      return usage("--eye and --target", "x,y,z in metres");
+    }
+    s.ownCamera = true;
+  }
+  return kExitDone;
+}
+
+}  // namespace
+
+int runRender(const RenderArguments& arguments) {
+  gable::PictureSettings settings;
+  if (const int status = pictureSettings(arguments, settings)) return status;
+  gable::Model model(nullptr);
+  if (isModel(arguments.derive.rules)) {
+    model = gable::Model::load(arguments.derive.rules);
+  } else {
+    Inputs inputs;
+    if (const int status = readInputs(arguments.derive, inputs)) return status;
+    model = gable::derive(inputs.rules, inputs.shapes, inputs.settings);
+  }
+  printMessages(model.messages());
+  if (!model.found()) return kExitFile;
+  if (gable::hasErrors(model.messages())) return kExitWrong;
+  ProgressLine progress("drawing");
+  settings.progress = progress.callback();
+  const gable::WriteResult written = model.picture(arguments.output, settings);
+  printMessages(written.messages);
+  if (gable::hasErrors(written.messages)) return kExitFile;
+  return written.ok ? statusOf(model) : kExitLimit;
+}

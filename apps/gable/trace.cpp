@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "commands.h"
+
+int runTrace(const TraceArguments& arguments) {
+  Inputs inputs;
+  if (const int status = readInputs(arguments.derive, inputs)) return status;
+  inputs.settings.trace = true;
+  const gable::Model model = gable::derive(inputs.rules, inputs.shapes, inputs.settings);
+  printMessages(model.messages());
+  if (gable::hasErrors(model.messages())) return kExitWrong;
+  if (const int status = writeText(arguments.output, model.traceJson())) return status;
+  return statusOf(model);
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// What stands behind the public classes. Only the engine sees it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "engine/project.h"
+#include "gable/gable.h"
+#include "program/program.h"
+#include "runtime/derive.h"
+#include "scene/scene.h"
+
+namespace gable {
+
+/// An initial shape as it was read, before attribute values meet a rule file's pool.
+struct ShapeFootprint {
+  std::string name;
+  std::string id;
+  Mesh mesh;
+  Frame origin;
+  std::vector<AttributeValue> attributes;
+};
+
+struct Rules::Impl {
+  bool found = true;
+  Messages messages;
+  std::shared_ptr<ValuePool> pool = std::make_shared<ValuePool>();
+  Sources sources;
+  Program program;
+  std::shared_ptr<Project> project;
+  bool ok = false;
+  double seconds = 0;
+};
+
+struct Shapes::Impl {
+  bool found = true;
+  Messages messages;
+  std::vector<ShapeFootprint> footprints;
+  GeoOrigin geoOrigin;
+};
+
+struct Model::Impl {
+  bool found = true;
+  Messages messages;
+  std::shared_ptr<Project> project;
+  /// Holds the tables that trace names point into.
+  std::shared_ptr<const Rules::Impl> rules;
+  DeriveResult result;
+  double seconds = 0;
+};
+
+/// Seconds of a steady clock.
+double now();
+
+Message toMessage(const Diagnostic& d, const Sources& sources);
+Messages toMessages(const Diagnostics& diagnostics, const Sources& sources);
+Message errorMessage(const Error& e);
+
+/// Text of the command line ("3", "true", "#ff0000", "[1,2;3,4]") as a value.
+Value valueOfText(const std::string& text, ValuePool& pool);
+Value valueOfAttribute(const AttributeValue& a, ValuePool& pool);
+
+std::string statsOf(const DeriveResult& result, const Messages& messages,
+                    const Model::Times& times);
+std::string traceOf(const DeriveResult& result, const Program& program, const Sources& sources);
+
+}  // namespace gable

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// From rules and shapes to a model, and from a model to files and pictures.
+
+#include <map>
+
+#include "base/files.h"
+#include "base/json.h"
+#include "engine/impl.h"
+#include "io/exporters/write_model.h"
+#include "io/image/image.h"
+#include "render/render.h"
+#include "scene/dump.h"
+
+namespace gable {
+
+namespace {
+
+std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, ValuePool& pool) {
+  std::vector<InitialShape> out;
+  out.reserve(shapes.footprints.size());
+  for (const ShapeFootprint& f : shapes.footprints) {
+    InitialShape s;
+    s.name = f.name;
+    s.mesh = f.mesh;
+    s.origin = f.origin;
+    s.identity = f.id;
+    for (const AttributeValue& a : f.attributes) {
+      s.attributes.emplace_back(a.name, valueOfAttribute(a, pool));
+    }
+    out.push_back(std::move(s));
+  }
+  return out;
+}
+
+Limits limitsOf(const Budget& b) {
+  Limits l;
+  l.depth = b.depth;
+  l.width = b.width;
+  l.shapes = b.shapes;
+  l.vertices = b.vertices;
+  l.seconds = b.seconds;
+  return l;
+}
+
+void writePlain(JsonWriter& json, const PlainValue& v) {
+  switch (v.kind) {
+    case PlainValue::Kind::Number: json.value(v.number); break;
+    case PlainValue::Kind::Bool: json.value(v.number != 0); break;
+    case PlainValue::Kind::Text: json.value(v.text); break;
+  }
+}
+
+// Textures by the paths that materials name, decoded once.
+class ProjectTextures final : public TextureSource {
+ public:
+  explicit ProjectTextures(const Project* project) : project_(project) {}
+
+  const TextureImage* find(const std::string& path) const override {
+    const auto [at, fresh] = images_.try_emplace(path);
+    if (fresh) load(path, at->second);
+    return at->second.width > 0 ? &at->second : nullptr;
+  }
+
+ private:
+  void load(const std::string& path, TextureImage& out) const {
+    const std::string file = project_ ? project_->locate(path, "") : path;
+    if (file.empty()) return;
+    const auto bytes = readFile(file, 256u << 20);
+    if (!bytes.ok()) return;
+    auto image = decodeImage(bytes.value());
+    if (!image.ok()) return;
+    out = {image.value().width, image.value().height, std::move(image.value().rgba)};
+  }
+
+  const Project* project_;
+  mutable std::map<std::string, TextureImage> images_;
+};
+
+WriteResult failedWrite(const Error& e) {
+  WriteResult r;
+  r.messages.push_back(errorMessage(e));
+  return r;
+}
+
+RenderOptions renderOptions(const PictureSettings& s) {
+  RenderOptions o;
+  o.view = static_cast<View>(s.view);
+  o.width = static_cast<uint32_t>(s.width);
+  o.height = static_cast<uint32_t>(s.height);
+  o.samples = static_cast<uint32_t>(s.samples);
+  if (s.ownSun) {
+    o.sunElevation = s.sunElevation;
+    o.sunAzimuth = s.sunAzimuth;
+  }
+  if (s.ownCamera) {
+    o.eye = Vec3{s.eye[0], s.eye[1], s.eye[2]};
+    o.target = Vec3{s.target[0], s.target[1], s.target[2]};
+  }
+  if (s.fieldOfView > 0) o.fov = s.fieldOfView;
+  o.threads = static_cast<unsigned>(std::max(0, s.jobs));
+  o.progress = [&s](double share) {
+    if (s.progress) s.progress(static_cast<size_t>(share * 1000), 1000);
+    return !(s.cancel && s.cancel->load(std::memory_order_relaxed));
+  };
+  return o;
+}
+
+}  // namespace
+
+Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& settings) {
+  const double begin = now();
+  auto impl = std::make_shared<Model::Impl>();
+  const Rules::Impl& r = rules.impl();
+  if (!r.ok) return Model(std::move(impl));
+  impl->project = r.project;
+  impl->rules = rules.shared();
+  Environment environment(r.pool, *r.project);
+  DeriveOptions options;
+  options.seed = settings.seed;
+  options.sharing = settings.sharing;
+  options.trace = settings.trace;
+  options.jobs = settings.jobs;
+  options.limits = limitsOf(settings.budget);
+  options.progress = settings.progress;
+  options.cancel = settings.cancel;
+  options.sources = &r.sources;
+  for (const auto& [name, text] : settings.attributes) {
+    if (r.program.findAttribute(name) < 0) {
+      impl->messages.push_back(errorMessage(
+          {"unknown-attribute", "the rules have no attribute '" + name + "' to set", ""}));
+    }
+    options.attributes.emplace_back(name, valueOfText(text, *r.pool));
+  }
+  if (!settings.startRule.empty()) {
+    options.startRule = r.program.findRule(settings.startRule);
+    if (options.startRule < 0) {
+      impl->messages.push_back(errorMessage(
+          {"unknown-start-rule",
+           "the rules have no rule '" + settings.startRule + "' without parameters to start with",
+           ""}));
+    }
+  } else if (r.program.startRule < 0) {
+    impl->messages.push_back(
+        errorMessage({"no-start-rule", "the rule file has no rule to start with",
+                      "name one with --start, or mark one @StartRule"}));
+  }
+  if (hasErrors(impl->messages)) return Model(std::move(impl));
+  impl->result =
+      gable::derive(r.program, initialShapes(shapes.impl(), *r.pool), environment, options);
+  impl->result.scene.geoOrigin = shapes.impl().geoOrigin;
+  const Messages made = toMessages(impl->result.diagnostics, r.sources);
+  impl->messages.insert(impl->messages.end(), made.begin(), made.end());
+  impl->seconds = now() - begin;
+  return Model(std::move(impl));
+}
+
+bool Model::ok() const { return !hasErrors(impl_->messages); }
+bool Model::found() const { return impl_->found; }
+const Messages& Model::messages() const { return impl_->messages; }
+double Model::deriveSeconds() const { return impl_->seconds; }
+const std::vector<std::string>& Model::prints() const { return impl_->result.scene.prints; }
+std::string Model::dump() const { return dumpText(impl_->result.scene); }
+End Model::end() const { return static_cast<End>(impl_->result.end); }
+
+std::string Model::statsJson(const Times& times) const {
+  return statsOf(impl_->result, impl_->messages, times);
+}
+
+std::string Model::traceJson() const {
+  if (!impl_->rules) return "[]\n";
+  return traceOf(impl_->result, impl_->rules->program, impl_->rules->sources);
+}
+
+std::string Model::attributesJson(size_t shape) const {
+  std::string out;
+  JsonWriter json(out);
+  json.beginObject();
+  if (shape < impl_->result.attributes.size()) {
+    for (const AttributeValue& a : impl_->result.attributes[shape]) {
+      json.key(a.name);
+      if (a.rows == 0) {
+        if (a.values.empty())
+          json.null();
+        else
+          writePlain(json, a.values[0]);
+        continue;
+      }
+      json.beginArray();
+      for (uint32_t r = 0; r < a.rows; ++r) {
+        if (a.rows > 1) json.beginArray();
+        for (uint32_t c = 0; c < a.columns; ++c) writePlain(json, a.values[r * a.columns + c]);
+        if (a.rows > 1) json.endArray();
+      }
+      json.endArray();
+    }
+  }
+  json.endObject();
+  return out;
+}
+
+WriteResult Model::write(const std::string& path, const WriteSettings& settings) const {
+  if (extensionOf(path) == "png") return picture(path, {});
+  WriteOptions options;
+  options.gpuInstancing = settings.gpuInstancing;
+  options.readTexture = [this](const std::string& texture) -> Result<std::string> {
+    const std::string file = impl_->project ? impl_->project->locate(texture, "") : texture;
+    if (file.empty()) {
+      return Error{"texture-not-found", "there is no picture '" + texture + "' in the project", ""};
+    }
+    return readFile(file, 256u << 20);
+  };
+  Result<WriteReport> report = writeModel(impl_->result.scene, path, options);
+  if (!report.ok()) return failedWrite(report.error());
+  WriteResult out;
+  out.ok = true;
+  out.triangles = report->triangles;
+  out.bytes = report->bytes;
+  for (const std::string& w : report->warnings) {
+    out.messages.push_back(
+        toMessage({Severity::Warning, "written-with-loss", Span{}, w, {}, {}}, Sources{}));
+  }
+  return out;
+}
+
+WriteResult Model::picture(const std::string& path, const PictureSettings& settings) const {
+  RenderOptions options = renderOptions(settings);
+  const ProjectTextures textures(impl_->project.get());
+  options.textures = &textures;
+  const Picture picture = render(impl_->result.scene, options);
+  const Result<std::string> png =
+      encodePng({picture.image.width, picture.image.height, toRgba8(picture.image)}, 3);
+  if (!png.ok()) return failedWrite(png.error());
+  Result<uint64_t> written = writeFile(path, png.value());
+  if (!written.ok()) return failedWrite(written.error());
+  WriteResult out;
+  out.ok = !picture.cancelled;
+  out.triangles = picture.stats.triangles;
+  out.bytes = written.value();
+  return out;
+}
+
+const char* version() { return "0.1.0"; }
+
+}  // namespace gable

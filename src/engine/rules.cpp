@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Text to program: parse, analyse, compile. Each stage adds its messages; a program exists only
+// when no stage found an error.
+
+#include "base/files.h"
+#include "builtins/catalogue.h"
+#include "engine/impl.h"
+#include "lang/compile/compile.h"
+#include "lang/format.h"
+#include "lang/parser.h"
+#include "lang/sema/analyse.h"
+
+namespace gable {
+
+namespace {
+
+/// A rule file larger than this is no rule file.
+constexpr uint64_t kLargestRuleFile = 256u << 20;
+
+class ProjectLoader final : public lang::FileLoader {
+ public:
+  explicit ProjectLoader(const Project& project) : project_(project) {}
+
+  Result<File> load(const std::string& path, const std::string& importer) override {
+    std::string file = project_.locate(path, importer);
+    if (file.empty()) file = project_.locate("rules/" + path, importer);
+    if (file.empty()) {
+      return Error{"import-not-found", "there is no rule file '" + path + "' in the project",
+                   "paths count from the project's folder, or from the importing file's"};
+    }
+    Result<std::string> text = readFile(file, kLargestRuleFile);
+    if (!text.ok()) return text.error();
+    return File{project_.projectPath(file), std::move(text.value())};
+  }
+
+ private:
+  const Project& project_;
+};
+
+std::shared_ptr<Rules::Impl> failed(const Error& e) {
+  auto impl = std::make_shared<Rules::Impl>();
+  impl->found = false;
+  impl->messages.push_back(errorMessage(e));
+  return impl;
+}
+
+}  // namespace
+
+Rules Rules::load(const std::string& path, const LoadOptions& options) {
+  Result<std::string> text = readFile(path, kLargestRuleFile);
+  if (!text.ok()) return Rules(failed(text.error()));
+  return parse(text.value(), path, options);
+}
+
+Rules Rules::parse(const std::string& text, const std::string& path, const LoadOptions& options) {
+  const double begin = now();
+  auto impl = std::make_shared<Impl>();
+  if (!options.dialect.empty() && options.dialect != "cga") {
+    return Rules(failed({"unknown-dialect", "there is no notation '" + options.dialect + "'",
+                         "the notation of this version is cga"}));
+  }
+  impl->project =
+      std::make_shared<Project>(options.project.empty() ? Project::rootFor(path) : options.project);
+  Diagnostics diagnostics;
+  const std::string name = impl->project->projectPath(path);
+  const uint32_t file = impl->sources.add(name, text);
+  lang::AnalysisInput input{lang::parse(impl->sources, file, diagnostics), name, ""};
+  ProjectLoader loader(*impl->project);
+  const lang::ResolvedProgram resolved = lang::analyse(
+      std::move(input), builtinCatalogue(), *impl->pool, &loader, impl->sources, diagnostics);
+  if (!diagnostics.hasErrors()) {
+    impl->program = lang::compile(resolved, builtinCatalogue(), impl->pool, impl->sources);
+    impl->ok = true;
+  }
+  diagnostics.sortByPlace();
+  impl->messages = toMessages(diagnostics, impl->sources);
+  impl->seconds = now() - begin;
+  return Rules(std::move(impl));
+}
+
+bool Rules::ok() const { return impl_->ok; }
+bool Rules::found() const { return impl_->found; }
+const Messages& Rules::messages() const { return impl_->messages; }
+double Rules::parseSeconds() const { return impl_->seconds; }
+std::string Rules::disassembly() const { return disassemble(impl_->program); }
+
+std::vector<AttributeInfo> Rules::attributes() const {
+  std::vector<AttributeInfo> out;
+  for (const AttributeCode& a : impl_->program.attributes) {
+    if (a.constant || a.propagatesFrom >= 0) continue;
+    AttributeInfo info{a.name, typeName(a.type), a.hidden, {}};
+    for (const AnnotationInfo& n : a.annotations) {
+      AttributeInfo::Annotation annotation{n.name, {}};
+      for (const auto& argument : n.arguments) {
+        annotation.arguments.emplace_back(argument.key, impl_->pool->str(argument.value));
+      }
+      info.annotations.push_back(std::move(annotation));
+    }
+    out.push_back(std::move(info));
+  }
+  return out;
+}
+
+std::vector<RuleInfo> Rules::rules() const {
+  std::vector<RuleInfo> out;
+  for (const RuleCode& r : impl_->program.rules) {
+    out.push_back({r.qualifiedName, r.parameters.size(), r.startRule, impl_->program.files[r.file],
+                   impl_->sources.locate(r.span.file, r.span.begin).line});
+  }
+  return out;
+}
+
+std::string Rules::startRule() const {
+  const int32_t rule = impl_->program.startRule;
+  return rule < 0 ? std::string() : impl_->program.rules[static_cast<size_t>(rule)].qualifiedName;
+}
+
+Formatted format(const std::string& text, const std::string& path) {
+  Sources sources;
+  Diagnostics diagnostics;
+  const uint32_t file = sources.add(path, text);
+  Formatted out;
+  out.text = lang::format(sources, file, diagnostics);
+  diagnostics.sortByPlace();
+  out.messages = toMessages(diagnostics, sources);
+  if (diagnostics.hasErrors()) out.text = text;
+  return out;
+}
+
+}  // namespace gable

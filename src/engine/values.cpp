@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Attribute values from text and from files, as values of a rule file's pool.
+
+#include <charconv>
+
+#include "engine/impl.h"
+
+namespace gable {
+
+namespace {
+
+bool numberOf(std::string_view text, double& out) {
+  const auto r = std::from_chars(text.data(), text.data() + text.size(), out);
+  return r.ec == std::errc() && r.ptr == text.data() + text.size();
+}
+
+Value scalarOfText(std::string_view text, ValuePool& pool) {
+  double number = 0;
+  if (numberOf(text, number)) return Value::of(number);
+  if (text == "true" || text == "false") return Value::of(text == "true");
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') {
+    text = text.substr(1, text.size() - 2);
+  }
+  return pool.string(text);
+}
+
+std::vector<std::string_view> cut(std::string_view text, char at) {
+  std::vector<std::string_view> out;
+  size_t from = 0;
+  for (size_t i = 0; i <= text.size(); ++i) {
+    if (i < text.size() && text[i] != at) continue;
+    std::string_view part = text.substr(from, i - from);
+    while (!part.empty() && part.front() == ' ') part.remove_prefix(1);
+    while (!part.empty() && part.back() == ' ') part.remove_suffix(1);
+    out.push_back(part);
+    from = i + 1;
+  }
+  return out;
+}
+
+void append(Array& a, const Value& v) {
+  if (a.element == ValueType::String)
+    a.strings.push_back(v.id);
+  else
+    a.numbers.push_back(v.number);
+}
+
+}  // namespace
+
+// [1,2;3,4]: rows by semicolons; the first element decides the type.
+Value valueOfText(const std::string& text, ValuePool& pool) {
+  if (text.size() < 2 || text.front() != '[' || text.back() != ']') {
+    return scalarOfText(text, pool);
+  }
+  Array a;
+  const std::string_view inner = std::string_view(text).substr(1, text.size() - 2);
+  if (inner.find_first_not_of(' ') == std::string_view::npos) return pool.intern(std::move(a));
+  for (std::string_view row : cut(inner, ';')) {
+    const auto items = cut(row, ',');
+    for (size_t i = 0; i < items.size(); ++i) {
+      Value v = scalarOfText(items[i], pool);
+      if (a.rows == 0 && i == 0) a.element = v.type;
+      // A ragged or mixed list is no array: it stays text, and the type check says so.
+      if (v.type != a.element) return pool.string(text);
+      append(a, v);
+    }
+    if (a.rows > 0 && items.size() != a.columns) return pool.string(text);
+    a.columns = static_cast<uint32_t>(items.size());
+    ++a.rows;
+  }
+  return pool.intern(std::move(a));
+}
+
+Value valueOfAttribute(const AttributeValue& a, ValuePool& pool) {
+  const auto single = [&](const PlainValue& v) {
+    switch (v.kind) {
+      case PlainValue::Kind::Number: return Value::of(v.number);
+      case PlainValue::Kind::Bool: return Value::of(v.number != 0);
+      default: return pool.string(v.text);
+    }
+  };
+  if (a.rows == 0) return a.values.empty() ? Value{} : single(a.values[0]);
+  Array out;
+  out.rows = a.rows;
+  out.columns = a.columns;
+  if (!a.values.empty()) out.element = single(a.values[0]).type;
+  for (const PlainValue& v : a.values) append(out, single(v));
+  return pool.intern(std::move(out));
+}
+
+}  // namespace gable
