@@ -5,7 +5,7 @@
 //
 // A first pass of the derivation collects occluders: labelled shapes, shapes before they are split
 // into components or offset, and leaves. The second pass asks this index. A shape never meets its
-// own ancestors or descendants.
+// own ancestors or descendants, and never itself.
 #pragma once
 
 #include <cstdint>
@@ -26,16 +26,19 @@ struct Occluder {
   StringId label = 0;
   /// World coordinates.
   Mesh mesh;
+  Frame scope;
+  Vec3 size;
 };
 
+/// Any number of threads may ask at once.
 class OccluderIndex {
  public:
   explicit OccluderIndex(std::vector<Occluder> occluders);
   ~OccluderIndex();
 
-  /// `asking` is the shape in world coordinates with its own path. Only closed surfaces occlude.
+  /// Only closed surfaces occlude. O(log occluders + near triangles^2).
   bool test(ContextTest test, ContextScope scope, StringId label, const Occluder& asking) const;
-  /// Infinity when there is no such occluder.
+  /// Between scopes, over shapes with that label; infinity when there is none.
   double minimumDistance(ContextScope scope, StringId label, const Occluder& asking) const;
   size_t count(ContextScope scope, StringId label, const Occluder& asking) const;
 

@@ -56,6 +56,8 @@ Occluder Machine::asking(const Shape& s) const {
   o.initialShape = info_.index;
   o.path = treePath();
   o.mesh = transformed(meshInLocal(s), {1, 1, 1}, worlds_.back());
+  o.scope = worlds_.back() * s.scope;
+  o.size = s.size;
   return o;
 }
 
