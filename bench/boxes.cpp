@@ -20,7 +20,6 @@
 #include <vector>
 
 #include "builtins/catalogue.h"
-#include "engine/project.h"
 #include "lang/compile/compile.h"
 #include "lang/parser.h"
 #include "lang/sema/analyse.h"
@@ -139,6 +138,22 @@ std::vector<Workload> workloads() {
   return all;
 }
 
+// The rules of the workloads read no files.
+class NoAssets final : public Assets {
+ public:
+  Ref<AssetModel> model(std::string_view, std::string_view, bool, std::string& why) override {
+    why = "there are no files here";
+    return {};
+  }
+  ImageInfo image(std::string_view, std::string_view) override { return {}; }
+  bool exists(std::string_view, std::string_view) override { return false; }
+  std::vector<std::string> search(std::string_view, std::string_view) override { return {}; }
+  bool text(std::string_view, std::string_view, std::string&) override { return false; }
+  std::string resolve(std::string_view path, std::string_view) override {
+    return std::string(path);
+  }
+};
+
 Program compileText(const char* text, const std::shared_ptr<ValuePool>& pool) {
   Sources sources;
   Diagnostics diagnostics;
@@ -193,8 +208,8 @@ bool agree(const VertexBuffer& a, const VertexBuffer& b) {
 bool run(const Workload& w, int runs) {
   const auto pool = std::make_shared<ValuePool>();
   const Program program = compileText(w.rules, pool);
-  Project project(".");
-  Environment environment(pool, project);
+  NoAssets assets;
+  Environment environment(pool, assets);
   VertexBuffer byRules, byLoops;
   DeriveOptions options;
   options.jobs = 1;
