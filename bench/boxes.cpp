@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Rules against loops: the same boxes by rules (from the parsed program) and by hard-coded C++, both
-// to the same flattened mesh in a reused buffer, on one thread.
+// Rules against loops: the same boxes by rules (from the parsed program) and by hard-coded C++,
+// both to the same flattened mesh in a reused buffer, on one thread.
 //
 //   W1      a building of 20 x 10 bays on four sides, 5 boxes a bay: 4000 boxes
 //   W1x25   the same 25 times over
 //   W2      1000 buildings of 100 boxes with sizes of their own
 //
-// Runs are interleaved; the medians and their ratio are printed. With `--runs N` N runs (default 9).
+// Runs are interleaved; the medians and their ratio are printed. With `--runs N` N runs (default
+// 9).
 
 #include <algorithm>
 #include <chrono>
@@ -123,8 +124,9 @@ void houseByLoops(const House& house, VertexBuffer& out) {
 
 std::vector<Workload> workloads() {
   std::vector<Workload> all;
-  all.push_back({"W1", kFacadeRules, {lot(0, 0, 30, 20, 0)}, 4000,
-                 [](VertexBuffer& out) { buildingByLoops(0, 0, out); }});
+  all.push_back({"W1", kFacadeRules, {lot(0, 0, 30, 20, 0)}, 4000, [](VertexBuffer& out) {
+                   buildingByLoops(0, 0, out);
+                 }});
   std::vector<InitialShape> row;
   for (int i = 0; i < 25; ++i) row.push_back(lot(i * 50.0, 0, 30, 20, 0));
   all.push_back({"W1x25", kFacadeRules, std::move(row), 100000, [](VertexBuffer& out) {
@@ -159,8 +161,8 @@ Program compileText(const char* text, const std::shared_ptr<ValuePool>& pool) {
   Diagnostics diagnostics;
   const uint32_t file = sources.add("bench.cga", text);
   lang::AnalysisInput input{lang::parse(sources, file, diagnostics), "bench.cga", ""};
-  const auto resolved = lang::analyse(std::move(input), builtinCatalogue(), *pool, nullptr, sources,
-                                      diagnostics);
+  const auto resolved =
+      lang::analyse(std::move(input), builtinCatalogue(), *pool, nullptr, sources, diagnostics);
   for (const Diagnostic& d : diagnostics.all()) std::fputs(format(d, sources).c_str(), stderr);
   GABLE_CHECK(!diagnostics.hasErrors());
   return lang::compile(resolved, builtinCatalogue(), pool, sources);
@@ -213,11 +215,12 @@ bool run(const Workload& w, int runs) {
   VertexBuffer byRules, byLoops;
   DeriveOptions options;
   options.jobs = 1;
-  const auto rules = [&](bool sharing) {
-    options.sharing = sharing;
+  LeafStream stream(program, environment, options);
+  const auto rules = [&] {
     byRules.clear();
-    const DeriveResult result = derive(program, w.shapes, environment, options);
-    flatten(result.scene, byRules);
+    stream.run(w.shapes, [&](std::span<const Leaf> leaves) {
+      for (const Leaf& leaf : leaves) appendBox(leaf.frame, leaf.scale, byRules);
+    });
   };
   const auto sharedOnly = [&] {
     options.sharing = true;
@@ -227,7 +230,7 @@ bool run(const Workload& w, int runs) {
     byLoops.clear();
     w.loops(byLoops);
   };
-  rules(false);
+  rules();
   loops();
   const bool same = agree(byRules, byLoops) && byLoops.vertexCount() == w.boxes * 24;
   std::vector<double> ruleSeconds, loopSeconds, sharedSeconds;
@@ -239,16 +242,18 @@ bool run(const Workload& w, int runs) {
              }) /
              repeat;
     };
-    ruleSeconds.push_back(times([&] { rules(false); }));
+    ruleSeconds.push_back(times(rules));
     loopSeconds.push_back(times(loops));
     sharedSeconds.push_back(times(sharedOnly));
   }
   const double boxes = static_cast<double>(w.boxes);
-  const double rule = median(ruleSeconds), loop = median(loopSeconds), shared = median(sharedSeconds);
-  std::printf("%-6s rules %6.2f M boxes/s   loops %6.2f M boxes/s   ratio %.2f   "
-              "shared derivation %.1f times the loops%s%s\n",
-              w.name, boxes / rule * 1e-6, boxes / loop * 1e-6, rule / loop, loop / shared,
-              same ? "" : "   THE BOXES DIFFER", boxes / loop < 8e6 ? "   LOOPS TOO SLOW" : "");
+  const double rule = median(ruleSeconds), loop = median(loopSeconds),
+               shared = median(sharedSeconds);
+  std::printf(
+      "%-6s rules %6.2f M boxes/s   loops %6.2f M boxes/s   ratio %.2f   "
+      "shared derivation %.1f times the loops%s%s\n",
+      w.name, boxes / rule * 1e-6, boxes / loop * 1e-6, rule / loop, loop / shared,
+      same ? "" : "   THE BOXES DIFFER", boxes / loop < 8e6 ? "   LOOPS TOO SLOW" : "");
   return same;
 }
 

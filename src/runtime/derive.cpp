@@ -135,4 +135,39 @@ DeriveResult derive(const Program& program, const std::vector<InitialShape>& sha
   return result;
 }
 
+struct LeafStream::Impl {
+  Impl(const Program& program, Environment& environment, const DeriveOptions& given)
+      : options(given), shared(program, options, environment) {
+    options.sharing = false;
+    options.trace = false;
+    if (options.startRule < 0) options.startRule = program.startRule;
+    machine = std::make_unique<Machine>(shared, 0);
+  }
+  DeriveOptions options;
+  DeriveShared shared;
+  std::unique_ptr<Machine> machine;
+};
+
+LeafStream::LeafStream(const Program& program, Environment& environment,
+                       const DeriveOptions& options)
+    : impl_(std::make_unique<Impl>(program, environment, options)) {}
+
+LeafStream::~LeafStream() = default;
+
+void LeafStream::run(const std::vector<InitialShape>& shapes,
+                     const std::function<void(std::span<const Leaf>)>& take) {
+  Output& output = impl_->machine->output();
+  for (uint32_t i = 0; i < shapes.size(); ++i) {
+    impl_->machine->derive(shapes[i], i);
+    take(output.openLeaves);
+    output.drop();
+  }
+}
+
+const Mesh& LeafStream::mesh(const Leaf& leaf) const {
+  return *impl_->machine->output().meshes[leaf.mesh - kFirstMesh];
+}
+
+const Diagnostics& LeafStream::diagnostics() const { return impl_->machine->diagnostics(); }
+
 }  // namespace gable

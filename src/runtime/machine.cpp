@@ -74,6 +74,18 @@ Machine::Machine(DeriveShared& shared, uint32_t worker)
 Machine::~Machine() = default;
 
 OutputRoot Machine::run(const InitialShape& input, uint32_t index) {
+  const uint64_t shapesBefore = shapesExpanded_;
+  derive(input, index);
+  OutputRoot root;
+  root.worker = worker_;
+  root.frame = flat_ ? Frame{} : input.origin;
+  root.name = input.name;
+  root.prototype = output_.close(rootMark_, pool().intern(input.name),
+                                 shapesExpanded_ - shapesBefore, ShareKey{});
+  return root;
+}
+
+void Machine::derive(const InitialShape& input, uint32_t index) {
   const uint64_t identity =
       input.identity.empty() ? hashCombine(0, index) : hashBytes(input.identity, 1);
   info_.name = input.name;
@@ -94,9 +106,7 @@ OutputRoot Machine::run(const InitialShape& input, uint32_t index) {
   bindAttributes(input);
 
   rootMark_ = output_.mark();
-  const uint64_t shapesBefore = shapesExpanded_;
   const int32_t rule = startRuleOf(input);
-  const StringId name = pool().intern(input.name);
   if (rule >= 0) {
     info_.startRule = program_.rules[static_cast<size_t>(rule)].qualifiedName;
     beginRoot(static_cast<uint32_t>(rule));
@@ -108,16 +118,10 @@ OutputRoot Machine::run(const InitialShape& input, uint32_t index) {
     activationCount_ = 0;
     Activation& a = pushActivation();
     a.shape = info_.shape;
-    makeLeaf(a, name, 0);
+    makeLeaf(a, pool().intern(input.name), 0);
   }
-  OutputRoot root;
-  root.worker = worker_;
-  root.frame = flat_ ? Frame{} : input.origin;
-  root.name = input.name;
-  root.prototype = output_.close(rootMark_, name, shapesExpanded_ - shapesBefore, ShareKey{});
   shared_.shapes.fetch_add(shapes_ - shapesCounted_, std::memory_order_relaxed);
   shapesCounted_ = shapes_;
-  return root;
 }
 
 int32_t Machine::startRuleOf(const InitialShape& input) {

@@ -74,6 +74,8 @@ class Machine final : public Services {
 
   /// Derives one initial shape; its place in the output comes back as a root.
   OutputRoot run(const InitialShape& shape, uint32_t index);
+  /// The same, but leaves everything open in the output.
+  void derive(const InitialShape& shape, uint32_t index);
   Output& output() { return output_; }
   Diagnostics& diagnostics() { return diagnostics_; }
   std::vector<TraceNode>& trace() { return trace_; }

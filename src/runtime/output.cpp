@@ -26,6 +26,14 @@ Output::Mark Output::mark() const {
           static_cast<uint32_t>(openEvents.size())};
 }
 
+void Output::drop() {
+  openLeaves.clear();
+  openInstances.clear();
+  openEvents.clear();
+  meshes.clear();
+  meshIndex.clear();
+}
+
 namespace {
 
 template <class T>

@@ -63,11 +63,13 @@ struct Output {
 
   uint32_t meshNumber(const MeshRef& m);
   uint32_t materialNumber(MaterialId material, uint32_t assetMaterials);
-  /// Moves what lies open beyond the marks into a finished prototype and gives its number.
   struct Mark {
     uint32_t leaves = 0, instances = 0, events = 0;
   };
   Mark mark() const;
+  /// Forgets what is open, with the numbering of meshes and materials.
+  void drop();
+  /// Moves what lies open beyond the marks into a finished prototype and gives its number.
   uint32_t close(const Mark& from, StringId name, uint64_t shapes, const ShareKey& key);
 
  private:
