@@ -175,10 +175,10 @@ struct WriteResult {
   Messages messages;
 };
 
-enum class PictureView : uint8_t { Iso, Top, Front, Street };
+enum class View : uint8_t { Iso, Top, Front, Street };
 
 struct PictureSettings {
-  PictureView view = PictureView::Iso;
+  View view = View::Iso;
   int width = 1600, height = 900;
   int samples = 48;
   /// Degrees; NaN-free "own value" is said by ownSun.

@@ -10,6 +10,7 @@
 #include "engine/impl.h"
 #include "io/exporters/write_model.h"
 #include "io/image/image.h"
+#include "io/importers/model.h"
 #include "render/render.h"
 #include "scene/dump.h"
 
@@ -86,7 +87,7 @@ WriteResult failedWrite(const Error& e) {
 
 RenderOptions renderOptions(const PictureSettings& s) {
   RenderOptions o;
-  o.view = static_cast<View>(s.view);
+  o.view = static_cast<PictureView>(s.view);
   o.width = static_cast<uint32_t>(s.width);
   o.height = static_cast<uint32_t>(s.height);
   o.samples = static_cast<uint32_t>(s.samples);
@@ -222,6 +223,37 @@ WriteResult Model::write(const std::string& path, const WriteSettings& settings)
         toMessage({Severity::Warning, "written-with-loss", Span{}, w, {}, {}}, Sources{}));
   }
   return out;
+}
+
+Model Model::load(const std::string& path) {
+  auto impl = std::make_shared<Impl>();
+  Result<Asset> asset = readAsset(path);
+  if (!asset.ok()) {
+    impl->found = false;
+    impl->messages.push_back(errorMessage(asset.error()));
+    return Model(std::move(impl));
+  }
+  // A model is a scene of one leaf; its textures are found beside it.
+  impl->project = std::make_shared<Project>(folderOf(path));
+  Scene& scene = impl->result.scene;
+  scene.names.push_back(fileNameOf(path));
+  scene.materials = asset->materials;
+  if (scene.materials.empty()) scene.materials.emplace_back();
+  std::vector<uint32_t> slots;
+  for (uint32_t m = 0; m < scene.materials.size(); ++m) slots.push_back(m);
+  scene.materialLists.push_back(std::move(slots));
+  scene.attributeSets.emplace_back();
+  scene.sources.emplace_back();
+  scene.meshes.push_back(asset->mesh);
+  Leaf leaf;
+  leaf.mesh = kFirstMesh;
+  scene.leaves.push_back(leaf);
+  Prototype prototype;
+  prototype.leafCount = 1;
+  prototype.shapes = 1;
+  scene.prototypes.push_back(prototype);
+  scene.roots.push_back({0, {}});
+  return Model(std::move(impl));
 }
 
 WriteResult Model::picture(const std::string& path, const PictureSettings& settings) const {

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "base/files.h"
-#include "io/importers/image.h"
+#include "io/image/image.h"
 #include "io/importers/model.h"
 
 namespace gable {
@@ -128,7 +128,9 @@ ImageInfo Project::image(std::string_view path, std::string_view fromFile) {
   std::lock_guard lock(mutex_);
   const auto [at, fresh] = images_.try_emplace(file);
   if (fresh) {
-    const auto info = readImageInfo(file);
+    const auto bytes = readFile(file, 256u << 20);
+    if (!bytes.ok()) return at->second;
+    const auto info = readImageHeader(bytes.value());
     if (info.ok())
       at->second = {true, info.value().width, info.value().height, info.value().hasAlpha};
   }
