@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geom/mesh/face_plane.h"
+#include ""
 #include "geom/mesh/topology.h"
 #include "math/trig.h"
 

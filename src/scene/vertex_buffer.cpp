@@ -7,7 +7,7 @@
 #include <cstring>
 #include <vector>
 
-#include "geom/mesh/face_plane.h"
+#include ""
 
 namespace gable {
 
