@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// setback and its kin differ in how edges get their distances; what happens then is the same, and
+// lies in ops/shared/set_back.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "builtins/lists.h"
+#include "builtins/ops/shared/set_back.h"
+#include "builtins/ops/subdivide/shared/components.h"
+#include "builtins/ops/subdivide/shared/parts.h"
+#include "builtins/selection.h"
+#include "shape/op_call.h"
+
+namespace gable {
+
+namespace {
+
+// What uv selectors say about each corner's edge.
+std::vector<uint8_t> uvSidesOf(const Mesh& m, const Components& edges, int set) {
+  std::vector<uint8_t> sides(m.corners.size(), 0);
+  if (!m.hasUv(set)) return sides;
+  const auto& uvs = m.uvs[static_cast<size_t>(set)];
+  Box2 box;
+  for (const Vec2 uv : uvs) box.include(uv);
+  const double same = 1e-6 * (1 + std::max(box.size().x, box.size().y));
+  size_t at = 0;
+  for (size_t f = 0; f < m.faceCount(); ++f) {
+    const PatchPlane plane(m, f);
+    for (; at < edges.list().size() && edges.list()[at].face == f; ++at) {
+      const Component& c = edges.list()[at];
+      const Vec3 out = plane.frame().toLocalDirection(c.z);
+      const Vec2 d = plane.uvAlong(set, {out.x, out.y});
+      uint8_t s = std::fabs(d.x) > std::fabs(d.y) ? (d.x < 0 ? kUvLeft : kUvRight)
+                                                  : (d.y < 0 ? kUvBottom : kUvTop);
+      const Vec2 a = uvs[c.corner], b = uvs[edges.edges().next(c.corner)];
+      const auto both = [&](size_t axis, double v) {
+        return std::fabs(a[axis] - v) <= same && std::fabs(b[axis] - v) <= same;
+      };
+      if (both(0, box.min.x)) s |= kUvMinU;
+      if (both(0, box.max.x)) s |= kUvMaxU;
+      if (both(1, box.min.y)) s |= kUvMinV;
+      if (both(1, box.max.y)) s |= kUvMaxV;
+      sides[c.corner] = s;
+    }
+  }
+  return sides;
+}
+
+// The face edges of a shape and which item of the block each belongs to.
+struct EdgeChoice {
+  MeshRef mesh;
+  Components edges;
+  // By corner.
+  std::vector<uint32_t> group;
+  std::vector<double> distance;
+
+  explicit EdgeChoice(MeshRef m)
+      : mesh(std::move(m)),
+        edges(*mesh, ComponentKind::FaceEdges),
+        group(mesh->corners.size(), kNoGroup),
+        distance(mesh->corners.size(), 0) {}
+};
+
+bool isRemainder(const OpCall& call, const SelectorItem& item) {
+  return item.terms.size() == 1 && item.terms[0].kind == SelectorTerm::Kind::Word &&
+         call.services().pool().text(item.terms[0].word) == "remainder";
+}
+
+void chooseEdges(const OpCall& call, const Shape& s, int uvSet, EdgeChoice& choice) {
+  const Directions directions(call.services(), s);
+  const std::vector<uint8_t> uvSides = uvSidesOf(*choice.mesh, choice.edges, uvSet);
+  const auto count = static_cast<uint32_t>(choice.edges.list().size());
+  for (uint32_t i = 0; i < call.selectors().size(); ++i) {
+    const SelectorItem& item = call.selectors()[i];
+    if (isRemainder(call, item)) continue;
+    const Selector selector(item, call.services().pool(), directions);
+    for (const Component& c : choice.edges.list()) {
+      if (choice.group[c.corner] != kNoGroup) continue;
+      Selectable what = c.what;
+      what.uvSides = uvSides[c.corner];
+      if (selector.matches(what, &choice.edges, call.services().tags(), count)) {
+        choice.group[c.corner] = i;
+      }
+    }
+  }
+}
+
+// Gives polygons out: each as a shape, or all in one.
+class Emitter {
+ public:
+  Emitter(OpCall& call, const Mesh& from) : call_(call), from_(from) {}
+
+  void emit(const std::vector<PatchFace>& faces, const SelectorItem& item) {
+    if (faces.empty()) return;
+    if (item.op == SelectOperator::Each) {
+      for (const PatchFace& f : faces) emitOne({&f, 1}, item.slot);
+    } else {
+      emitOne(faces, item.slot);
+    }
+  }
+
+ private:
+  void emitOne(std::span<const PatchFace> faces, uint32_t slot) {
+    Shape child = call_.shape();
+    setPartMesh(child, call_.shape(), meshOfPatches(from_, faces), true);
+    forgetFarTrimPlanes(child);
+    call_.emit(std::move(child), slot, piece_++);
+  }
+
+  OpCall& call_;
+  const Mesh& from_;
+  uint32_t piece_ = 0;
+};
+
+Status setBackFaces(EdgeChoice& choice, SetBack& job) {
+  for (size_t f = 0; f < choice.mesh->faceCount(); ++f) {
+    if (choice.mesh->normal(f) == Vec3{}) continue;
+    const Status status = job.addFace(f, choice.distance, choice.group);
+    if (!status.ok()) return status;
+  }
+  return {};
+}
+
+Status noFace(const OpCall& call) {
+  return call.fail("no-geometry", "the shape has no face whose edges could be set back",
+                   "insert a primitive or an asset first");
+}
+
+Status badDistance(const OpCall& call) {
+  return call.fail("setback-distance", "a setback distance is not a finite number",
+                   "check the expression for a division by zero");
+}
+
+// The part that all of setback's forms have in common, once edges have groups and distances.
+Status finish(OpCall& call, EdgeChoice& choice) {
+  for (const double d : choice.distance) {
+    if (!std::isfinite(d)) return badDistance(call);
+  }
+  SetBack job(*choice.mesh, call.services(), true);
+  const Status status = setBackFaces(choice, job);
+  if (!status.ok()) return status;
+  Emitter out(call, *choice.mesh);
+  for (uint32_t i = 0; i < call.selectors().size(); ++i) {
+    const SelectorItem& item = call.selectors()[i];
+    out.emit(isRemainder(call, item) ? job.remainders() : job.strips(i), item);
+  }
+  return {};
+}
+
+bool uvSetOf(const OpCall& call, size_t argument, int& set) {
+  const double wanted = call.number(argument, 0);
+  set = static_cast<int>(wanted);
+  return wanted >= 0 && wanted < kUvSets;
+}
+
+Status noUvSet(const OpCall& call) {
+  return call.fail("uv-set", "there is no uv set of that number", "uv sets are 0 to 9");
+}
+
+// A list by face edge, or one number for all.
+double listed(const OpCall& call, const Value& v, size_t index, double otherwise) {
+  if (!v.isArray()) return v.number;
+  const Array& a = call.services().pool().array(v);
+  return index < a.numbers.size() ? a.numbers[index] : otherwise;
+}
+
+Status applySetback(OpCall& call) {
+  int uvSet = 0;
+  if (!uvSetOf(call, 1, uvSet)) return noUvSet(call);
+  EdgeChoice choice(meshInScope(call.shape()));
+  if (choice.mesh->empty()) return noFace(call);
+  chooseEdges(call, call.shape(), uvSet, choice);
+  for (const Component& c : choice.edges.list()) {
+    choice.distance[c.corner] = listed(call, call.arg(0), c.what.index, 0);
+  }
+  return finish(call, choice);
+}
+
+// The area that remains when chosen edges are set back by their least distance plus `more`, at most
+// by their greatest. Negative when it cannot be told.
+struct Range {
+  std::vector<double> least, most;
+};
+
+double remainderArea(const EdgeChoice& from, const Range& range, double more,
+                     const Services& services, Status& status) {
+  EdgeChoice choice(from.mesh);
+  choice.group = from.group;
+  for (size_t c = 0; c < choice.distance.size(); ++c) {
+    choice.distance[c] = std::min(range.least[c] + more, range.most[c]);
+  }
+  SetBack job(*choice.mesh, services, false);
+  status = setBackFaces(choice, job);
+  if (!status.ok()) return -1;
+  const std::vector<PatchFace> faces = job.remainders();
+  return faces.empty() ? 0 : meshOfPatches(*choice.mesh, faces).area();
+}
+
+Status applySetbackToArea(OpCall& call) {
+  const double wanted = call.number(0);
+  if (!(wanted > 0) || !std::isfinite(wanted)) {
+    return call.fail("setback-area", "the area that is to remain is not positive",
+                     "give a positive number of square metres");
+  }
+  size_t lists = 0;
+  while (call.has(1 + lists) && call.arg(1 + lists).isArray()) ++lists;
+  int uvSet = 0;
+  if (!uvSetOf(call, 1 + lists, uvSet)) return noUvSet(call);
+  EdgeChoice choice(meshInScope(call.shape()));
+  if (choice.mesh->empty()) return noFace(call);
+  chooseEdges(call, call.shape(), uvSet, choice);
+  const Box3 box = choice.mesh->bounds();
+  const double reach = length(box.size());
+  Range range{std::vector<double>(choice.distance.size(), 0),
+              std::vector<double>(choice.distance.size(), reach)};
+  for (const Component& c : choice.edges.list()) {
+    if (lists > 0) range.least[c.corner] = listed(call, call.arg(1), c.what.index, 0);
+    if (lists > 1) range.most[c.corner] = listed(call, call.arg(2), c.what.index, reach);
+    if (!std::isfinite(range.least[c.corner]) || !std::isfinite(range.most[c.corner])) {
+      return badDistance(call);
+    }
+  }
+  // The area falls as the distance grows: halve the interval until it is found. Where even the ends
+  // do not reach it, the nearer end is the answer.
+  double lo = 0, hi = reach;
+  Status status;
+  if (remainderArea(choice, range, 0, call.services(), status) <= wanted) hi = 0;
+  for (int step = 0; step < 60 && hi - lo > 1e-9 * reach && status.ok(); ++step) {
+    const double middle = (lo + hi) / 2;
+    (remainderArea(choice, range, middle, call.services(), status) > wanted ? lo : hi) = middle;
+  }
+  if (!status.ok()) return status;
+  for (const Component& c : choice.edges.list()) {
+    choice.distance[c.corner] = std::min(range.least[c.corner] + hi, range.most[c.corner]);
+  }
+  return finish(call, choice);
+}
+
+// shapeL, shapeU and shapeO: widths by side of the scope.
+struct Wing {
+  const char* side;
+  size_t argument;
+};
+
+Status applyWings(OpCall& call, std::span<const Wing> wings) {
+  EdgeChoice choice(meshInScope(call.shape()));
+  if (choice.mesh->empty()) return noFace(call);
+  const Directions directions(call.services(), call.shape());
+  for (const Component& c : choice.edges.list()) {
+    for (const Wing& w : wings) {
+      if (!selectsDirection(w.side, c.what.normal, directions)) continue;
+      choice.group[c.corner] = 0;
+      choice.distance[c.corner] = call.number(w.argument);
+    }
+    if (!std::isfinite(choice.distance[c.corner])) return badDistance(call);
+  }
+  SetBack job(*choice.mesh, call.services(), true);
+  const Status status = setBackFaces(choice, job);
+  if (!status.ok()) return status;
+  Emitter out(call, *choice.mesh);
+  for (const SelectorItem& item : call.selectors()) {
+    out.emit(isRemainder(call, item) ? job.remainders() : job.strips(0), item);
+  }
+  return {};
+}
+
+constexpr Wing kL[] = {{"front", 0}, {"left", 1}};
+constexpr Wing kU[] = {{"front", 0}, {"right", 1}, {"left", 2}};
+constexpr Wing kO[] = {{"front", 0}, {"right", 1}, {"back", 2}, {"left", 3}};
+Status applyShapeL(OpCall& call) { return applyWings(call, kL); }
+Status applyShapeU(OpCall& call) { return applyWings(call, kU); }
+Status applyShapeO(OpCall& call) { return applyWings(call, kO); }
+
+constexpr const char* kDistanceDoc = "How far the selected edges are moved inward, in metres.";
+constexpr const char* kUvDoc = "The uv set for selectors such as uv.left.";
+constexpr ParamSpec kDistance[] = {
+    {"distance", ParamType::Float, kDistanceDoc},
+    {"uvSet", ParamType::Float, kUvDoc, "0"},
+};
+constexpr ParamSpec kDistances[] = {
+    {"distances", ParamType::FloatArray,
+     "A distance for each face edge, in order; 0 where missing."},
+    {"uvSet", ParamType::Float, kUvDoc, "0"},
+};
+constexpr Signature kSetback[] = {{kDistance}, {kDistances}};
+
+constexpr const char* kAreaDoc = "The area that shall remain, in square metres.";
+constexpr ParamSpec kArea[] = {
+    {"area", ParamType::Float, kAreaDoc},
+    {"uvSet", ParamType::Float, kUvDoc, "0"},
+};
+constexpr ParamSpec kAreaLeast[] = {
+    {"area", ParamType::Float, kAreaDoc},
+    {"minDistances", ParamType::FloatArray, "The least distance of each face edge."},
+    {"uvSet", ParamType::Float, kUvDoc, "0"},
+};
+constexpr ParamSpec kAreaRange[] = {
+    {"area", ParamType::Float, kAreaDoc},
+    {"minDistances", ParamType::FloatArray, "The least distance of each face edge."},
+    {"maxDistances", ParamType::FloatArray, "The greatest distance of each face edge."},
+    {"uvSet", ParamType::Float, kUvDoc, "0"},
+};
+constexpr Signature kToArea[] = {{kArea}, {kAreaLeast}, {kAreaRange}};
+
+constexpr ParamSpec kFront{"frontWidth", ParamType::Float, "The depth of the front wing."};
+constexpr ParamSpec kRight{"rightWidth", ParamType::Float, "The width of the right wing."};
+constexpr ParamSpec kBack{"backWidth", ParamType::Float, "The depth of the back wing."};
+constexpr ParamSpec kLeft{"leftWidth", ParamType::Float, "The width of the left wing."};
+constexpr ParamSpec kLParams[] = {kFront, kLeft};
+constexpr ParamSpec kUParams[] = {kFront, kRight, kLeft};
+constexpr ParamSpec kOParams[] = {kFront, kRight, kBack, kLeft};
+constexpr Signature kLSignatures[] = {{kLParams}};
+constexpr Signature kUSignatures[] = {{kUParams}};
+constexpr Signature kOSignatures[] = {{kOParams}};
+
+constexpr uint32_t kEffects = kReadsWorld | kReadsWorldByWord;
+constexpr OpSpec kSpecs[] = {
+    {"setback", "subdivide", "Moves selected edges of each face inward and gives out the strips.",
+     kSetback, applySetback, BlockKind::Selectors, kEffects, "remainder"},
+    {"setbackPerEdge", "subdivide", "As setback, with a distance that is worked out for each edge.",
+     kSetback, applySetback, BlockKind::Selectors, kEffects, "remainder"},
+    {"setbackToArea", "subdivide", "As setback, by such a distance that a given area remains.",
+     kToArea, applySetbackToArea, BlockKind::Selectors, kEffects, "remainder"},
+    {"shapeL", "subdivide", "Gives out an L of a front and a left wing, and what remains.",
+     kLSignatures, applyShapeL, BlockKind::Selectors, kPure, "shape remainder"},
+    {"shapeU", "subdivide", "Gives out a U of a front, a right and a left wing, and what remains.",
+     kUSignatures, applyShapeU, BlockKind::Selectors, kPure, "shape remainder"},
+    {"shapeO", "subdivide", "Gives out a ring of four wings, and what remains.", kOSignatures,
+     applyShapeO, BlockKind::Selectors, kPure, "shape remainder"},
+};
+
+}  // namespace
+
+extern const OpList kOps_setback;
+const OpList kOps_setback = kSpecs;
+
+}  // namespace gable
