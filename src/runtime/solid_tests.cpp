@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include ""
+#include "geom/mesh/face_triangles.h"
 #include "geom/mesh/topology.h"
 #include "math/trig.h"
 
@@ -150,11 +150,12 @@ bool lieOnEachOther(const Tri& s, const Tri& t) {
 
 TriangleSoup soupOf(const Mesh& m) {
   TriangleSoup s;
-  std::vector<Triangle> corners;
+  FaceTriangulator faces;
+  std::vector<std::array<uint32_t, 3>> corners;
   for (size_t f = 0; f < m.faceCount(); ++f) {
     corners.clear();
-    triangulateFace(m, f, corners);
-    for (const Triangle& t : corners) s.triangles.push_back({m.at(t[0]), m.at(t[1]), m.at(t[2])});
+    faces.add(m, f, corners);
+    for (const auto& t : corners) s.triangles.push_back({m.at(t[0]), m.at(t[1]), m.at(t[2])});
   }
   for (const Tri& t : s.triangles) {
     for (const Vec3& p : t) s.box.include(p);

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <vector>
 
-#include ""
+#include "geom/mesh/face_triangles.h"
 
 namespace gable {
 
@@ -43,10 +43,11 @@ Vec3f narrow(const Vec3& v) {
 
 void appendMesh(const Mesh& mesh, const Frame& frame, const Vec3& scale, VertexBuffer& out) {
   const Mesh placed = transformed(mesh, scale, frame);
-  std::vector<Triangle> triangles;
+  FaceTriangulator faces;
+  std::vector<std::array<uint32_t, 3>> triangles;
   for (size_t f = 0; f < placed.faceCount(); ++f) {
     triangles.clear();
-    triangulateFace(placed, f, triangles);
+    faces.add(placed, f, triangles);
     if (triangles.empty()) continue;
     const Vec3f n = narrow(placed.normal(f));
     const auto loops = placed.loopsOf(f);
@@ -61,7 +62,7 @@ void appendMesh(const Mesh& mesh, const Frame& frame, const Vec3& scale, VertexB
       *v = {{p.x, p.y, p.z}, {n.x, n.y, n.z}, {static_cast<float>(uv.x), static_cast<float>(uv.y)}};
     }
     uint32_t* i = out.reserveIndices(triangles.size() * 3);
-    for (const Triangle& t : triangles) {
+    for (const auto& t : triangles) {
       for (uint32_t c : t) *i++ = base + c - first;
     }
     out.advance(end - first, triangles.size() * 3);
