@@ -86,4 +86,8 @@ Roof shedRoof(const Polygon& polygon, RoofPitch pitch, int64_t edge = 0);
 /// Every edge joined to a point above the mean of all vertices. By angle: of the first edge's face.
 Roof pyramidRoof(const Polygon& polygon, RoofPitch pitch);
 
+/// Two slopes that fall from one ridge above the middle of the polygon, parallel to `direction`;
+/// they reach the bottom at the polygon's farthest points on either side.
+Roof ridgeRoof(const Polygon& polygon, RoofPitch pitch, Vec2 direction);
+
 }  // namespace gable

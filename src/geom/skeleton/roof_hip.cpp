@@ -9,6 +9,7 @@
 // planes meet.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "geom/skeleton/roof.h"
@@ -77,11 +78,37 @@ SlopePlane slopeOf(const RoofPieces& roof, const Plan& plan, uint32_t e) {
   return {a, normalized(perpendicular(b - a)), isUpright(w) ? 0 : 1 / w};
 }
 
+/// Vertices outside the polygon, told apart by height: where the overhangs of a gable and an eave
+/// run into each other, the same place has two.
+class OutsideVertices {
+ public:
+  explicit OutsideVertices(RoofPieces& roof) : roof_(roof) {}
+
+  /// The vertex above or below `v` at the height; corners of the polygon and vertices of the inside
+  /// stay what they are.
+  uint32_t at(uint32_t v, double height) {
+    if (v < firstOutside_) return v;
+    auto& known = variants_[v];
+    for (const uint32_t k : known) {
+      if (std::abs(roof_.vertex(k).height - height) <= roof_.tolerance()) return k;
+    }
+    known.push_back(known.empty() ? v : roof_.addVertex(roof_.vertex(v)));
+    roof_.setHeight(known.back(), height);
+    return known.back();
+  }
+  uint32_t add(Vec2 xy) { return roof_.addVertex({xy, 0}); }
+
+ private:
+  RoofPieces& roof_;
+  uint32_t firstOutside_ = static_cast<uint32_t>(roof_.vertexCount());
+  std::map<uint32_t, std::vector<uint32_t>> variants_;
+};
+
 /// Parts a strip outside a gable end among the slopes over the gable.
 class GableStrip {
  public:
-  GableStrip(RoofPieces& roof, const Plan& plan, const Skeleton& inside)
-      : roof_(roof), plan_(plan), inside_(inside) {}
+  GableStrip(RoofPieces& roof, const Plan& plan, const Skeleton& inside, OutsideVertices& outside)
+      : roof_(roof), plan_(plan), inside_(inside), outside_(outside) {}
 
   /// `strip` begins with the edge's end and start. The slopes along the gable's top are those whose
   /// faces border the upright one.
@@ -89,11 +116,13 @@ class GableStrip {
 
  private:
   uint32_t slopeAt(uint32_t from, uint32_t to) const;
+  void addPiece(uint32_t slope, std::vector<uint32_t> piece);
   bool cut(std::vector<uint32_t>& strip, uint32_t at, Vec2 direction, std::vector<uint32_t>& rest);
 
   RoofPieces& roof_;
   const Plan& plan_;
   const Skeleton& inside_;
+  OutsideVertices& outside_;
 };
 
 uint32_t GableStrip::slopeAt(uint32_t from, uint32_t to) const {
@@ -133,7 +162,7 @@ bool GableStrip::cut(std::vector<uint32_t>& strip, uint32_t vertex, Vec2 directi
   }
   if (hit == n) return false;
   const Vec2 p = roof_.vertex(strip[hit]).xy, q = roof_.vertex(strip[(hit + 1) % n]).xy;
-  const uint32_t fresh = roof_.addVertex({p + (q - p) * share, 0});
+  const uint32_t fresh = outside_.add(p + (q - p) * share);
   std::vector<uint32_t> one{fresh}, two{vertex};
   for (size_t i = (hit + 1) % n;; i = (i + 1) % n) {
     one.push_back(strip[i]);
@@ -168,21 +197,17 @@ bool GableStrip::add(uint32_t edge, const std::vector<uint32_t>& upright,
     if (dot(ridge, outwards) < 0) ridge = -ridge;
     std::vector<uint32_t> rest;
     if (dot(ridge, outwards) < 1e-3 || !cut(strip, top[i + 1], ridge, rest)) return false;
-    for (const uint32_t v : strip) {
-      if (v >= roof_.edgeCount() && v != top[i + 1]) {
-        roof_.setHeight(v, a.heightAt(roof_.vertex(v).xy));
-      }
-    }
-    roof_.addSlopePiece(slopes[i], strip);
+    addPiece(slopes[i], strip);
     strip = std::move(rest);
   }
-  const SlopePlane last = slopeOf(roof_, plan_, slopes.back());
-  for (const uint32_t v : strip) {
-    const bool onTop = std::find(top.begin(), top.end(), v) != top.end();
-    if (!onTop) roof_.setHeight(v, last.heightAt(roof_.vertex(v).xy));
-  }
-  roof_.addSlopePiece(slopes.back(), strip);
+  addPiece(slopes.back(), strip);
   return true;
+}
+
+void GableStrip::addPiece(uint32_t slope, std::vector<uint32_t> piece) {
+  const SlopePlane plane = slopeOf(roof_, plan_, slope);
+  for (uint32_t& v : piece) v = outside_.at(v, plane.heightAt(roof_.vertex(v).xy));
+  roof_.addSlopePiece(slope, std::move(piece));
 }
 
 /// The ground outside one ring: the ring reversed, in a wide frame if it is the outer one.
@@ -221,7 +246,8 @@ Outside outsideOf(const RoofPieces& roof, const Plan& plan, uint32_t r) {
 
 Status addOverhangs(RoofPieces& roof, const Plan& plan, const Skeleton& inside) {
   if (!anyPositive(plan.reach)) return {};
-  GableStrip gables(roof, plan, inside);
+  OutsideVertices outsideVertices(roof);
+  GableStrip gables(roof, plan, inside, outsideVertices);
   for (uint32_t r = 0; r < roof.ringCount(); ++r) {
     const Outside outside = outsideOf(roof, plan, r);
     if (!anyPositive(outside.weights)) continue;
@@ -233,7 +259,7 @@ Status addOverhangs(RoofPieces& roof, const Plan& plan, const Skeleton& inside) 
     std::vector<uint32_t> number(s.vertices.size());
     for (uint32_t v = 0; v < s.vertices.size(); ++v) {
       const bool corner = v >= frame && v < frame + n;
-      number[v] = corner ? first + n - 1 - (v - frame) : roof.addVertex({s.vertices[v].xy, 0});
+      number[v] = corner ? first + n - 1 - (v - frame) : outsideVertices.add(s.vertices[v].xy);
     }
     for (const SkeletonFace& f : s.faces) {
       if (f.step || f.loop.size() < 3 || (r == 0 && f.ring == 0)) continue;
@@ -251,9 +277,7 @@ Status addOverhangs(RoofPieces& roof, const Plan& plan, const Skeleton& inside) 
         continue;
       }
       const SlopePlane slope = slopeOf(roof, plan, first + k);
-      for (const uint32_t v : loop) {
-        if (v >= roof.edgeCount()) roof.setHeight(v, slope.heightAt(roof.vertex(v).xy));
-      }
+      for (uint32_t& v : loop) v = outsideVertices.at(v, slope.heightAt(roof.vertex(v).xy));
       roof.addSlopePiece(first + k, std::move(loop));
     }
   }

@@ -250,13 +250,26 @@ void RoofPieces::dropStraightVertices(Roof& roof) {
       }
     }
   }
+  // A sliver that would lose its shape keeps all of its vertices, and so do its neighbours theirs.
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const RoofFace& f : roof.faces) {
+      for (const RoofLoop& l : f.loops) {
+        const auto isBent = [&](uint32_t v) { return bent[v] != 0; };
+        const auto kept = std::count_if(l.vertices.begin(), l.vertices.end(), isBent);
+        if (kept >= 3 || kept == static_cast<std::ptrdiff_t>(l.vertices.size())) continue;
+        for (const uint32_t v : l.vertices) bent[v] = 1;
+        changed = true;
+      }
+    }
+  }
   for (RoofFace& f : roof.faces) {
     for (RoofLoop& l : f.loops) {
       std::vector<uint32_t> kept;
       for (const uint32_t v : l.vertices) {
         if (bent[v]) kept.push_back(v);
       }
-      if (kept.size() < 3 || kept.size() == l.vertices.size()) continue;
+      if (kept.size() == l.vertices.size()) continue;
       rememberDropped(roof, l.vertices, bent);
       l.vertices = std::move(kept);
     }
@@ -336,7 +349,10 @@ Roof RoofPieces::finish(bool even) {
     for (auto& l : loops) f.loops.push_back({std::move(l), {}});
     roof.faces.push_back(std::move(f));
   }
-  dropStraightVertices(roof);
+  // Only an overhang leaves such vertices: a face has a piece inside and one outside then.
+  if (std::any_of(slopes_.begin(), slopes_.end(), [](const auto& p) { return p.size() > 1; })) {
+    dropStraightVertices(roof);
+  }
   assignRoles(roof);
   startAtEaves(roof);
   if (even) evenRidges(roof);

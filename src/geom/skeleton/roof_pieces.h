@@ -29,6 +29,8 @@ class RoofPieces {
   uint32_t addVertex(const SkeletonVertex& v);
   const SkeletonVertex& vertex(uint32_t v) const { return vertices_[v]; }
   void setHeight(uint32_t v, double h) { vertices_[v].height = h; }
+  /// Below this, lengths are rounding.
+  double tolerance() const { return tolerance_; }
   size_t vertexCount() const { return vertices_.size(); }
 
   /// Adds a piece to the slope of an edge; pieces that share edges grow together.

@@ -231,4 +231,195 @@ Roof pyramidRoof(const Polygon& given, RoofPitch pitch) {
   return std::move(lifted.roof);
 }
 
+namespace {
+
+/// A directed border of one side of the ridge; `edge` is the polygon's edge it runs along, if any.
+struct SideBorder {
+  uint32_t from = 0, to = 0;
+  int64_t edge = -1;
+};
+
+/// Cuts an outline along the line v = 0 of its (u, v) coordinates into what lies on either side.
+class RidgeCut {
+ public:
+  RidgeCut(LiftedOutline& lifted, const Polygon& polygon, Vec2 along, double middle, double half,
+           double rise)
+      : lifted_(lifted),
+        polygon_(polygon),
+        along_(along),
+        up_(perpendicular(along)),
+        middle_(middle),
+        half_(half),
+        rise_(rise) {}
+
+  void run();
+
+ private:
+  double sideOf(Vec2 p) const {
+    const double v = dot(p, up_) - middle_;
+    return std::abs(v) <= lifted_.tolerance ? 0 : v;
+  }
+  double heightAt(Vec2 p) const { return (half_ - std::abs(sideOf(p))) * rise_; }
+  Vec2 at(uint32_t v) const { return lifted_.roof.vertices[v].xy; }
+  void cutRings();
+  void joinAcross();
+  void addSlopes(const std::vector<SideBorder>& borders);
+  static size_t sharpestLeft(const std::vector<SideBorder>& borders, const std::vector<char>& used,
+                             size_t last, const RidgeCut& cut);
+
+  LiftedOutline& lifted_;
+  const Polygon& polygon_;
+  Vec2 along_, up_;
+  double middle_, half_, rise_;
+  /// Of the sides v > 0 and v < 0.
+  std::vector<SideBorder> borders_[2];
+  std::vector<uint32_t> onLine_;
+};
+
+/// Lifts the rings, puts vertices where they meet the line and adds the upright sides.
+void RidgeCut::cutRings() {
+  int64_t number = 0;
+  for (size_t r = 0; r < lifted_.ringCount(); ++r) {
+    const Ring& ring = lifted_.ring(r);
+    const size_t n = ring.size();
+    std::vector<uint32_t> top;
+    for (size_t i = 0; i < n; ++i) {
+      top.push_back(lifted_.lift(r, i, heightAt(ring[i])));
+      if (sideOf(ring[i]) == 0) onLine_.push_back(top.back());
+    }
+    for (size_t i = 0; i < n; ++i, ++number) {
+      const size_t j = (i + 1) % n;
+      const double a = sideOf(ring[i]), b = sideOf(ring[j]);
+      if (a * b < 0) {
+        const Vec2 p = ring[i] + (ring[j] - ring[i]) * (a / (a - b));
+        const uint32_t v = lifted_.addVertex(p, half_ * rise_);
+        onLine_.push_back(v);
+        borders_[a > 0 ? 0 : 1].push_back({top[i], v, number});
+        borders_[b > 0 ? 0 : 1].push_back({v, top[j], number});
+        lifted_.addSide(r, i, {top[j], v, top[i]});
+        continue;
+      }
+      // An edge on the line bounds the side that its inside lies on.
+      const bool above = a + b != 0 ? a + b > 0 : dot(ring[j] - ring[i], along_) > 0;
+      borders_[above ? 0 : 1].push_back({top[i], top[j], number});
+      lifted_.addSide(r, i, {top[j], top[i]});
+    }
+  }
+}
+
+/// The ridge: pieces of the line inside the polygon.
+void RidgeCut::joinAcross() {
+  std::sort(onLine_.begin(), onLine_.end(), [this](uint32_t a, uint32_t b) {
+    const double ua = dot(at(a), along_), ub = dot(at(b), along_);
+    return ua != ub ? ua < ub : a < b;
+  });
+  const auto bordered = [&](uint32_t a, uint32_t b) {
+    for (const auto& side : borders_) {
+      for (const SideBorder& s : side) {
+        if ((s.from == a && s.to == b) || (s.from == b && s.to == a)) return true;
+      }
+    }
+    return false;
+  };
+  for (size_t i = 0; i + 1 < onLine_.size(); ++i) {
+    const uint32_t a = onLine_[i], b = onLine_[i + 1];
+    if (bordered(a, b) || !contains(polygon_, (at(a) + at(b)) * 0.5)) continue;
+    borders_[0].push_back({a, b, -1});
+    borders_[1].push_back({b, a, -1});
+  }
+}
+
+/// Where several borders go on from the end of one, the sharpest turn to the left keeps parts apart
+/// that touch in a point.
+size_t RidgeCut::sharpestLeft(const std::vector<SideBorder>& borders, const std::vector<char>& used,
+                              size_t last, const RidgeCut& cut) {
+  size_t best = borders.size();
+  double least = 0;
+  const Vec2 back = cut.at(borders[last].from) - cut.at(borders[last].to);
+  for (size_t i = 0; i < borders.size(); ++i) {
+    if (used[i] || borders[i].from != borders[last].to) continue;
+    const Vec2 out = cut.at(borders[i].to) - cut.at(borders[i].from);
+    double inside = atan2Deg(cross(out, back), dot(out, back));
+    if (inside <= 0) inside += 360;
+    if (best == borders.size() || inside < least) {
+      best = i;
+      least = inside;
+    }
+  }
+  return best;
+}
+
+void RidgeCut::addSlopes(const std::vector<SideBorder>& borders) {
+  struct Part {
+    RoofLoop loop;
+    Ring plan;
+    int64_t edge = -1;
+  };
+  std::vector<Part> outer, inner;
+  std::vector<char> used(borders.size(), 0);
+  for (size_t i = 0; i < borders.size(); ++i) {
+    if (used[i]) continue;
+    Part part;
+    for (size_t k = i; k < borders.size(); k = sharpestLeft(borders, used, k, *this)) {
+      used[k] = 1;
+      part.loop.vertices.push_back(borders[k].from);
+      part.loop.edges.push_back(borders[k].edge < 0 ? RoofEdgeRole::Ridge : RoofEdgeRole::Border);
+      part.plan.push_back(at(borders[k].from));
+      if (part.edge < 0) part.edge = borders[k].edge;
+    }
+    if (part.plan.size() < 3) continue;
+    (signedArea(part.plan) > 0 ? outer : inner).push_back(std::move(part));
+  }
+  for (Part& p : outer) {
+    std::vector<RoofLoop> loops;
+    markEaves(lifted_.roof, lifted_.tolerance, p.loop);
+    loops.push_back(std::move(p.loop));
+    for (Part& h : inner) {
+      if (!contains(Polygon{p.plan, {}}, h.plan[0])) continue;
+      markEaves(lifted_.roof, lifted_.tolerance, h.loop);
+      loops.push_back(h.loop);
+    }
+    size_t r = 0;
+    auto edge = static_cast<size_t>(std::max<int64_t>(p.edge, 0));
+    while (edge >= lifted_.ring(r).size()) edge -= lifted_.ring(r++).size();
+    lifted_.addFace(RoofRole::Slope, r, edge, std::move(loops));
+  }
+}
+
+void RidgeCut::run() {
+  cutRings();
+  joinAcross();
+  std::vector<RoofFace> sides = std::move(lifted_.roof.faces);
+  lifted_.roof.faces.clear();
+  for (const auto& borders : borders_) addSlopes(borders);
+  lifted_.roof.faces.insert(lifted_.roof.faces.end(), sides.begin(), sides.end());
+  lifted_.addBottom();
+}
+
+}  // namespace
+
+Roof ridgeRoof(const Polygon& given, RoofPitch pitch, Vec2 direction) {
+  if (auto no = refused(given, pitch)) return *no;
+  const Vec2 along = normalized(direction);
+  std::vector<bool> reversed;
+  const Polygon polygon = orientedCopy(given, reversed);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vec2 p : polygon.outer) {
+    low = std::min(low, dot(p, perpendicular(along)));
+    high = std::max(high, dot(p, perpendicular(along)));
+  }
+  LiftedOutline lifted(polygon);
+  const double half = (high - low) / 2;
+  if (!(length(along) > 0) || !(half > lifted.tolerance)) {
+    return failedRoof("skeleton-input",
+                      "the polygon is flat across the ridge or the ridge has no "
+                      "direction",
+                      "Give the ridge another direction.");
+  }
+  const double rise = pitch.by == RoofPitch::By::Angle ? tanDeg(pitch.value) : pitch.value / half;
+  RidgeCut(lifted, polygon, along, low + half, half, rise).run();
+  restoreEdgeNumbers(lifted.roof, given, reversed);
+  return std::move(lifted.roof);
+}
+
 }  // namespace gable

@@ -255,6 +255,41 @@ TEST(Roof, pyramidMeetsOverTheMeanOfTheVertices) {
   EXPECT_NEAR(volume(r), 60, 1e-9);
 }
 
+TEST(Roof, ridgeRunsAlongItsDirection) {
+  const Roof r = ridgeRoof(kRectangle, angle(45), {-2, 0});
+  ASSERT_TRUE(r.status.ok());
+  EXPECT_EQ(count(r, RoofRole::Slope), 2u);
+  EXPECT_EQ(count(r, RoofRole::SideOuter), 2u);
+  EXPECT_EQ(openEdges(r), 0u);
+  EXPECT_NEAR(top(r), 3, 1e-12);
+  EXPECT_NEAR(volume(r), 90, 1e-9);
+  EXPECT_EQ(countEdges(r, RoofEdgeRole::Ridge), 2u);
+  EXPECT_EQ(countEdges(r, RoofEdgeRole::Eave), 2u);
+}
+
+TEST(Roof, ridgeCutsConcaveShapesAndHoles) {
+  const Polygon comb{{{0, 0},
+                      {14, 0},
+                      {14, 10},
+                      {11, 10},
+                      {11, 3},
+                      {8, 3},
+                      {8, 10},
+                      {6, 10},
+                      {6, 5},
+                      {4, 5},
+                      {4, 10},
+                      {0, 10}},
+                     {{{1, 4}, {1, 6}, {2, 6}, {2, 4}}}};
+  const Roof r = ridgeRoof(comb, angle(45), {1, 0});
+  ASSERT_TRUE(r.status.ok());
+  EXPECT_EQ(openEdges(r), 0u);
+  EXPECT_LT(bend(r), 1e-9);
+  // The lower part is one, three teeth reach over the ridge, and the hole lies across it.
+  EXPECT_EQ(count(r, RoofRole::Slope), 4u);
+  EXPECT_EQ(count(r, RoofRole::SideInner), 4u);
+}
+
 TEST(Roof, clockwiseRingsKeepTheirEdgeNumbers) {
   Polygon p = kRectangle;
   std::reverse(p.outer.begin(), p.outer.end());
@@ -276,6 +311,83 @@ TEST(Roof, refusesPitchesThatAreNone) {
     EXPECT_STREQ(pyramidRoof(kRectangle, angle(a)).status.code(), "roof-pitch");
   }
 }
+
+double planArea(const Roof& r) {
+  double sum = 0;
+  for (const RoofFace& f : r.faces) {
+    if (f.role != RoofRole::Slope) continue;
+    for (const RoofLoop& l : f.loops) {
+      Ring plan;
+      for (const uint32_t v : l.vertices) plan.push_back(r.vertices[v].xy);
+      sum += signedArea(plan);
+    }
+  }
+  return sum;
+}
+
+/// Empty where a roof without overhangs is closed and flat-faced and covers the polygon.
+std::string broken(const Polygon& p, const Roof& r) {
+  if (!r.status.ok()) return std::string("status ") + r.status.code();
+  const double extent = length(bounds(p).size());
+  for (const SkeletonVertex& v : r.vertices) {
+    if (!isFinite({v.xy.x, v.xy.y, v.height})) return "coordinate not finite";
+    if (v.height < 0) return "below the bottom";
+  }
+  if (const size_t open = openEdges(r)) return std::to_string(open) + " open edges";
+  if (std::abs(planArea(r) - area(p)) > 1e-6 * area(p)) return "does not cover the polygon";
+  if (bend(r) > 1e-6 * extent) return "bent by " + std::to_string(bend(r) / extent);
+  if (!(volume(r) > 0)) return "no volume";
+  return {};
+}
+
+class RoofCorpus : public testing::TestWithParam<bool> {};
+
+TEST_P(RoofCorpus, everyRoofClosesOverThePolygon) {
+  const auto cases = corpus::loadCorpus(5);
+  if (cases.empty()) GTEST_SKIP() << "the polygon corpus is not there (GABLE_SHARED)";
+  const char* const kinds[] = {"hip", "gable", "shed", "ridge"};
+  size_t good[4] = {};
+  std::string first[4];
+  for (size_t i = 0; i < cases.size(); ++i) {
+    const Polygon p = GetParam() ? corpus::withHoles(cases[i].ring, i) : Polygon{cases[i].ring, {}};
+    const Roof roofs[] = {hipRoof(p, angle(30)), gableRoof(p, angle(40)),
+                          shedRoof(p, angle(20), static_cast<int64_t>(i)),
+                          ridgeRoof(p, angle(30), {cosDeg(i % 8 * 45.0), sinDeg(i % 8 * 45.0)})};
+    for (size_t k = 0; k < 4; ++k) {
+      const std::string wrong = broken(p, roofs[k]);
+      if (wrong.empty())
+        ++good[k];
+      else if (first[k].empty())
+        first[k] = std::to_string(i) + ": " + wrong;
+    }
+  }
+  for (size_t k = 0; k < 4; ++k) EXPECT_EQ(good[k], cases.size()) << kinds[k] << " " << first[k];
+}
+
+TEST_P(RoofCorpus, overhangsStayFlat) {
+  const auto cases = corpus::loadCorpus(7);
+  if (cases.empty()) GTEST_SKIP() << "the polygon corpus is not there (GABLE_SHARED)";
+  size_t good = 0;
+  std::string first;
+  for (size_t i = 0; i < cases.size(); ++i) {
+    const Polygon p = GetParam() ? corpus::withHoles(cases[i].ring, i) : Polygon{cases[i].ring, {}};
+    const double extent = length(bounds(p).size()), reach = 0.02 * extent;
+    const Roof hip = hipRoof(p, angle(30), reach);
+    const Roof gable = gableRoof(p, angle(40), {reach, reach / 2});
+    const bool fine = hip.status.ok() && gable.status.ok() && bend(hip) < 1e-6 * extent &&
+                      bend(gable) < 1e-6 * extent && planArea(hip) > area(p) &&
+                      planArea(gable) > area(p);
+    if (fine)
+      ++good;
+    else if (first.empty())
+      first = std::to_string(i);
+  }
+  EXPECT_EQ(good, cases.size()) << first;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RoofCorpus, testing::Values(false, true), [](const auto& param) {
+  return std::string(param.param ? "holes" : "plain");
+});
 
 }  // namespace
 }  // namespace gable
