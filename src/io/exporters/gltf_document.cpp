@@ -237,7 +237,7 @@ void GltfDocument::writeMeshes(JsonWriter& w, const GltfContent& content) const 
       }
       w.endObject();
       w.field("indices", accessor++);
-      w.field("material", p.variant).endObject();
+      w.field("material", materials_.materialOf(p.variant)).endObject();
     }
     w.endArray().endObject();
   }

@@ -52,8 +52,21 @@ uint32_t GltfMaterials::variant(uint32_t material, uint32_t uvMask) {
       return known_[key] = i;
     }
   }
+  numberMaterial(v);
   variants_.push_back(v);
   return known_[key] = static_cast<uint32_t>(variants_.size()) - 1;
+}
+
+void GltfMaterials::numberMaterial(Variant& v) {
+  for (const Variant& o : variants_) {
+    if (o.material == v.material && o.color.sameAs(v.color) &&
+        o.metallicRoughness.sameAs(v.metallicRoughness) && o.normal.sameAs(v.normal) &&
+        o.occlusion.sameAs(v.occlusion) && o.emissive.sameAs(v.emissive)) {
+      v.number = o.number;
+      return;
+    }
+  }
+  v.number = materials_++;
 }
 
 GltfMaterials::Map GltfMaterials::mapOf(const Material& m, TextureLayer layer, uint32_t uvMask,
@@ -188,7 +201,12 @@ void GltfMaterials::writeMaterial(JsonWriter& w, const Variant& v) const {
 void GltfMaterials::write(JsonWriter& w) const {
   if (!variants_.empty()) {
     w.key("materials").beginArray();
-    for (const Variant& v : variants_) writeMaterial(w, v);
+    uint32_t next = 0;
+    for (const Variant& v : variants_) {
+      if (v.number != next) continue;
+      writeMaterial(w, v);
+      ++next;
+    }
     w.endArray();
   }
   if (images().empty()) return;

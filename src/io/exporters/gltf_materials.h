@@ -37,6 +37,9 @@ class GltfMaterials {
   uint32_t variant(uint32_t material, uint32_t uvMask);
   const VertexLayout& layout(uint32_t variant) const { return variants_[variant].layout; }
   size_t count() const { return variants_.size(); }
+  /// The number of the variant's glTF material: variants that differ in their layout only share
+  /// one.
+  uint32_t materialOf(uint32_t variant) const { return variants_[variant].number; }
   const std::vector<ModelTexture>& images() const { return textures_.all(); }
   bool usesTransforms() const { return usesTransforms_; }
 
@@ -48,14 +51,18 @@ class GltfMaterials {
     int image = TextureSet::kNone;
     uint32_t texcoord = 0;
     TextureMap transform;
+    bool sameAs(const Map& o) const { return image == o.image && texcoord == o.texcoord; }
   };
   struct Variant {
     VertexLayout layout;
     const Material* material = nullptr;
     bool transparent = false;
+    /// Of the glTF material.
+    uint32_t number = 0;
     Map color, metallicRoughness, normal, occlusion, emissive;
   };
   Variant make(const Material& m, uint32_t uvMask);
+  void numberMaterial(Variant& v);
   Map mapOf(const Material& m, TextureLayer layer, uint32_t uvMask, int image);
   void addSets(Variant& v, uint32_t uvMask);
   void writeMaterial(JsonWriter& w, const Variant& v) const;
@@ -67,6 +74,7 @@ class GltfMaterials {
   std::vector<std::string>& warnings_;
   TextureSet textures_;
   std::vector<Variant> variants_;
+  uint32_t materials_ = 0;
   std::map<uint64_t, uint32_t> known_;
   bool usesTransforms_ = false;
 };

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// GeoJSON (RFC 7946, and the coordinate systems of its predecessor of 2008). Degrees become metres
+// about the middle of all coordinates; a file whose `crs` names a projected system, or whose
+// numbers cannot be degrees, is taken as metres already.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/json.h"
+#include "base/number.h"
+#include "geom/region/boolean.h"
+#include "geom/region/clean.h"
+#include "geom/region/region.h"
+#include "io/geo/transverse_mercator.h"
+#include "io/importers/shape_input.h"
+
+namespace gable {
+namespace {
+
+// Vertices nearer than this to each other or to the line through their neighbours say nothing about
+// a building; survey coordinates are written to a centimetre at best.
+constexpr double kTolerance = 1e-3;
+// Beyond, a plane is no picture of the Earth.
+constexpr double kWidestDegrees = 10;
+// More than once around the Earth.
+constexpr double kFarthest = 1e8;
+constexpr int kDeepestCollection = 16;
+constexpr size_t kMostMessages = 100;
+
+struct Feature {
+  const JsonValue* geometry = nullptr;
+  const JsonValue* properties = nullptr;
+  std::string id;
+  size_t number = 0;
+};
+
+std::string textOf(const JsonValue& v) {
+  return v.isNumber() ? shortestText(v.number(0)) : v.text();
+}
+
+bool pointOf(const JsonValue& v, Vec2& out) {
+  if (v.size() < 2 || !v.at(0).isNumber() || !v.at(1).isNumber()) return false;
+  out = {v.at(0).number(0), v.at(1).number(0)};
+  return std::isfinite(out.x) && std::isfinite(out.y);
+}
+
+class GeoJsonReader {
+ public:
+  explicit GeoJsonReader(std::string path) : path_(std::move(path)) {}
+
+  Result<ShapeFile> read(std::string_view text);
+
+ private:
+  void collect(const JsonValue& v);
+  void chooseProjection(const JsonValue& root);
+  void measure(const JsonValue& geometry, int depth);
+  void addFeature(const Feature& f);
+  void addGeometry(const JsonValue& geometry, int depth);
+  void addPolygon(const JsonValue& rings);
+  bool readRing(const JsonValue& coordinates, Ring& out);
+  void addFace(const Polygon& p);
+  Vec2 local(Vec2 p) const {
+    if (!projection_) return p - shift_;
+    return projection_->forward({p.x < west_ ? p.x + 360 : p.x, p.y});
+  }
+  void complain(Severity severity, const char* code, const std::string& what,
+                const std::string& hint = {});
+  std::string place() const;
+  static void addAttributes(const JsonValue& properties, ShapeInput& shape);
+
+  std::string path_;
+  ShapeFile out_;
+  std::vector<Feature> features_;
+  Box2 extent_;
+  // Longitudes from the prime meridian eastwards, for input on both sides of the 180th.
+  Box2 eastward_;
+  double west_ = -1e300;
+  Vec2 shift_;
+  std::optional<TransverseMercator> projection_;
+  // Of the feature at hand.
+  const Feature* feature_ = nullptr;
+  std::string name_;
+  MeshBuilder builder_;
+  size_t faces_ = 0, messages_ = 0, otherGeometries_ = 0;
+};
+
+std::string GeoJsonReader::place() const {
+  std::string out = "feature " + std::to_string(feature_->number + 1);
+  if (!feature_->id.empty()) out += " (id " + feature_->id + ")";
+  if (!name_.empty()) out += " '" + name_ + "'";
+  return out;
+}
+
+void GeoJsonReader::complain(Severity severity, const char* code, const std::string& what,
+                             const std::string& hint) {
+  // A file that is wrong throughout is told so once, not a million times.
+  if (++messages_ > kMostMessages) return;
+  Diagnostic d;
+  d.severity = severity;
+  d.code = code;
+  d.message = place() + " of '" + path_ + "': " + what;
+  d.hint = hint;
+  out_.diagnostics.add(std::move(d));
+}
+
+void GeoJsonReader::collect(const JsonValue& v) {
+  const std::string& type = v["type"].text();
+  if (type == "FeatureCollection") {
+    for (const JsonValue& f : v["features"].items()) {
+      if (f.isObject()) collect(f);
+    }
+    return;
+  }
+  Feature f;
+  f.number = features_.size();
+  if (type == "Feature") {
+    f.geometry = v.find("geometry");
+    f.properties = v.find("properties");
+    f.id = textOf(v["id"]);
+    for (const char* key : {"osm_id", "id", "@id", "fid", "OBJECTID"}) {
+      if (f.id.empty() && f.properties) f.id = textOf((*f.properties)[key]);
+    }
+  } else {
+    f.geometry = &v;
+  }
+  features_.push_back(std::move(f));
+}
+
+// The extent of all polygons.
+void GeoJsonReader::measure(const JsonValue& geometry, int depth) {
+  const std::string& type = geometry["type"].text();
+  const auto polygon = [&](const JsonValue& rings) {
+    for (const JsonValue& ring : rings.items()) {
+      for (const JsonValue& p : ring.items()) {
+        Vec2 at;
+        if (!pointOf(p, at)) continue;
+        extent_.include(at);
+        eastward_.include({at.x < 0 ? at.x + 360 : at.x, at.y});
+      }
+    }
+  };
+  if (type == "Polygon") polygon(geometry["coordinates"]);
+  if (type == "MultiPolygon") {
+    for (const JsonValue& p : geometry["coordinates"].items()) polygon(p);
+  }
+  if (type == "GeometryCollection" && depth < kDeepestCollection) {
+    for (const JsonValue& g : geometry["geometries"].items()) measure(g, depth + 1);
+  }
+}
+
+// Whether a `crs` member names longitude and latitude; true when there is none.
+bool namesDegrees(const JsonValue& root) {
+  const std::string& name = root["crs"]["properties"]["name"].text();
+  if (name.empty()) return true;
+  const auto endsWith = [&](const std::string& tail) {
+    return name.size() >= tail.size() &&
+           name.compare(name.size() - tail.size(), tail.size(), tail) == 0;
+  };
+  return endsWith("CRS84") || endsWith(":4326") || endsWith(":4258") || endsWith(":4269");
+}
+
+void GeoJsonReader::chooseProjection(const JsonValue& root) {
+  for (const Feature& f : features_) {
+    if (f.geometry) measure(*f.geometry, 0);
+  }
+  if (extent_.empty()) return;
+  const bool canBeDegrees =
+      extent_.min.x >= -180 && extent_.max.x <= 180 && extent_.min.y >= -90 && extent_.max.y <= 90;
+  if (!namesDegrees(root) || !canBeDegrees) {
+    // Metres. Large map coordinates are brought near the origin, by whole metres.
+    const Vec2 c = extent_.center();
+    if (std::fabs(c.x) > 1e5 || std::fabs(c.y) > 1e5) shift_ = {std::floor(c.x), std::floor(c.y)};
+    return;
+  }
+  Box2 box = extent_;
+  if (box.size().x > 180 && eastward_.size().x < box.size().x) {
+    box = eastward_;
+    west_ = 0;
+  }
+  const Vec2 c = box.center();
+  projection_.emplace(LonLat{c.x, c.y});
+  out_.geoOrigin = {true, projection_->center().longitude, projection_->center().latitude};
+  if (box.size().x > kWidestDegrees || box.size().y > kWidestDegrees) {
+    out_.diagnostics.warning("geojson-wide", {},
+                             "'" + path_ + "' spans more than " + shortestText(kWidestDegrees) +
+                                 " degrees: lengths are distorted",
+                             "read a part of it at a time");
+  }
+}
+
+bool GeoJsonReader::readRing(const JsonValue& coordinates, Ring& out) {
+  out.clear();
+  for (const JsonValue& v : coordinates.items()) {
+    Vec2 p;
+    if (!pointOf(v, p)) {
+      complain(Severity::Error, "geojson-coordinates", "a position is not two numbers");
+      return false;
+    }
+    const Vec2 at = local(p);
+    if (!(std::fabs(at.x) < kFarthest && std::fabs(at.y) < kFarthest)) {
+      complain(Severity::Error, "geojson-coordinates", "a position is too far away");
+      return false;
+    }
+    out.push_back(at);
+  }
+  dropDuplicates(out, kTolerance);
+  dropCollinear(out, kTolerance);
+  return true;
+}
+
+void GeoJsonReader::addFace(const Polygon& p) {
+  builder_.beginFace();
+  const auto loop = [&](const Ring& ring) {
+    builder_.beginLoop();
+    for (const Vec2 v : ring) builder_.addCorner(builder_.addPosition(fromPlan(v)));
+  };
+  loop(p.outer);
+  for (const Ring& hole : p.holes) loop(hole);
+  ++faces_;
+}
+
+void GeoJsonReader::addPolygon(const JsonValue& rings) {
+  Polygon p;
+  if (!readRing(rings.at(0), p.outer)) return;
+  if (p.outer.size() < 3) {
+    complain(Severity::Warning, "geojson-empty", "a polygon has fewer than three corners");
+    return;
+  }
+  for (size_t i = 1; i < rings.size(); ++i) {
+    Ring hole;
+    if (!readRing(rings.at(i), hole)) return;
+    if (hole.size() >= 3) p.holes.push_back(std::move(hole));
+  }
+  orient(p);
+  if (!isSimple(p.outer)) {
+    complain(Severity::Error, "geojson-crossing", "the outline of a polygon crosses itself",
+             "mend the polygon in a map editor");
+    return;
+  }
+  if (isValid(p)) {
+    addFace(p);
+    return;
+  }
+  // Holes side by side, or across the outline: what they leave of the area.
+  Region holes;
+  for (const Ring& h : p.holes) holes.push_back({h, {}});
+  for (Polygon& h : holes) orient(h);
+  const Region left = subtract({{p.outer, {}}}, holes);
+  complain(Severity::Warning, "geojson-holes",
+           "holes of a polygon touch or cross each other or its outline and are merged",
+           "mend the polygon in a map editor");
+  for (const Polygon& part : left) addFace(part);
+}
+
+void GeoJsonReader::addGeometry(const JsonValue& geometry, int depth) {
+  const std::string& type = geometry["type"].text();
+  if (type == "Polygon") {
+    addPolygon(geometry["coordinates"]);
+  } else if (type == "MultiPolygon") {
+    for (const JsonValue& p : geometry["coordinates"].items()) addPolygon(p);
+  } else if (type == "GeometryCollection" && depth < kDeepestCollection) {
+    for (const JsonValue& g : geometry["geometries"].items()) addGeometry(g, depth + 1);
+  } else {
+    ++otherGeometries_;
+  }
+}
+
+PlainValue plainOf(const JsonValue& v) {
+  if (v.isNumber()) return {PlainValue::Kind::Number, v.number(0), {}};
+  if (v.isBool()) return {PlainValue::Kind::Bool, v.boolean(false) ? 1.0 : 0.0, {}};
+  return {PlainValue::Kind::Text, 0, v.text()};
+}
+
+void GeoJsonReader::addAttributes(const JsonValue& properties, ShapeInput& shape) {
+  const auto isPlain = [](const JsonValue& v) { return v.isNumber() || v.isBool() || v.isText(); };
+  for (const auto& [name, v] : properties.members()) {
+    AttributeValue a;
+    a.name = name;
+    if (isPlain(v)) {
+      a.values.push_back(plainOf(v));
+    } else if (v.isArray() && v.size() > 0) {
+      // A list of values of one kind is an array of one row.
+      const bool alike = std::all_of(v.items().begin(), v.items().end(), [&](const JsonValue& e) {
+        return isPlain(e) && e.kind() == v.at(0).kind();
+      });
+      if (!alike) continue;
+      for (const JsonValue& e : v.items()) a.values.push_back(plainOf(e));
+      a.rows = 1;
+      a.columns = static_cast<uint32_t>(v.size());
+    } else {
+      continue;
+    }
+    shape.attributes.push_back(std::move(a));
+  }
+}
+
+void GeoJsonReader::addFeature(const Feature& f) {
+  feature_ = &f;
+  name_ = f.properties ? (*f.properties)["name"].text() : std::string{};
+  builder_ = MeshBuilder();
+  faces_ = 0;
+  const size_t before = messages_ + otherGeometries_;
+  if (f.geometry && f.geometry->isObject()) addGeometry(*f.geometry, 0);
+  if (faces_ == 0) {
+    if (messages_ + otherGeometries_ == before) {
+      complain(Severity::Warning, "geojson-empty", "it has no polygon");
+    }
+    return;
+  }
+  ShapeInput shape;
+  shape.mesh = builder_.take();
+  shape.id = f.id;
+  shape.name = !name_.empty()  ? name_
+               : !f.id.empty() ? f.id
+                               : "shape " + std::to_string(f.number + 1);
+  if (f.properties) addAttributes(*f.properties, shape);
+  out_.shapes.push_back(std::move(shape));
+}
+
+Result<ShapeFile> GeoJsonReader::read(std::string_view text) {
+  const Result<JsonValue> root = parseJson(text);
+  if (!root.ok()) {
+    return Error{"shapes-broken", "'" + path_ + "': " + root.error().message, root.error().hint};
+  }
+  if (!root.value()["type"].isText()) {
+    return Error{"shapes-broken", "'" + path_ + "' is JSON but not GeoJSON: it has no type", {}};
+  }
+  collect(root.value());
+  chooseProjection(root.value());
+  for (const Feature& f : features_) addFeature(f);
+  if (messages_ > kMostMessages) {
+    out_.diagnostics.warning("geojson-more", {},
+                             "'" + path_ + "' has " + std::to_string(messages_ - kMostMessages) +
+                                 " more messages of this kind");
+  }
+  if (otherGeometries_ > 0) {
+    Diagnostic d;
+    d.severity = Severity::Note;
+    d.code = "geojson-no-polygon";
+    d.message = std::to_string(otherGeometries_) + " geometries of '" + path_ +
+                "' are no polygons and are passed over";
+    out_.diagnostics.add(std::move(d));
+  }
+  if (out_.shapes.empty() && !out_.diagnostics.hasErrors()) {
+    return Error{
+        "shapes-empty", "'" + path_ + "' has no polygon that could be an initial shape", {}};
+  }
+  return std::move(out_);
+}
+
+}  // namespace
+
+Result<ShapeFile> readGeoJsonShapes(std::string_view text, const std::string& path) {
+  return GeoJsonReader(path).read(text);
+}
+
+}  // namespace gable

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Triangles of all meshes that the scene shows, in one mesh. Vertices that files repeat for the
+// sake of normals and uv coordinates are one position again where their coordinates are equal to
+// the bit.
+#include "io/importers/gltf_meshes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/hash.h"
+
+namespace gable {
+namespace {
+
+constexpr size_t kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6;
+
+size_t modeOf(const JsonValue& primitive) {
+  const JsonValue* mode = primitive.find("mode");
+  return mode ? GltfFile::index(*mode) : kTriangles;
+}
+
+}  // namespace
+
+bool GltfMeshes::add(const GltfPlacement& placement, uint32_t group) {
+  const JsonValue& mesh = file_.json()["meshes"].at(placement.mesh);
+  for (const JsonValue& p : mesh["primitives"].items()) {
+    if (!readPrimitive(p)) {
+      ++broken_;
+      continue;
+    }
+    place(placement.world);
+    const JsonValue* material = p.find("material");
+    addTriangles(p, material ? GltfFile::index(*material) : GltfFile::kNone, placement.world,
+                 group);
+    work_ += positions_.size() + indices_.size();
+    if (work_ > kMostWork) return false;
+  }
+  return true;
+}
+
+bool GltfMeshes::readPrimitive(const JsonValue& p) {
+  const size_t mode = modeOf(p);
+  if (mode != kTriangles && mode != kTriangleStrip && mode != kTriangleFan) return false;
+  const JsonValue& accessors = file_.json()["accessors"];
+  const JsonValue& attributes = p["attributes"];
+  const auto accessor = [&](const std::string& name) -> const JsonValue* {
+    const JsonValue* number = attributes.find(name);
+    return number ? &accessors.at(GltfFile::index(*number)) : nullptr;
+  };
+  const JsonValue* positions = accessor("POSITION");
+  if (!positions || !file_.read(*positions, 3, positions_)) return false;
+  const size_t count = positions_.size() / 3;
+  const JsonValue* normals = accessor("NORMAL");
+  normals_.clear();
+  if (normals && (!file_.read(*normals, 3, normals_) || normals_.size() != count * 3)) {
+    normals_.clear();
+  }
+  uvs_.clear();
+  for (int set = 0; set < kUvSets; ++set) {
+    const JsonValue* uv = accessor("TEXCOORD_" + std::to_string(set));
+    if (!uv) break;
+    uvs_.emplace_back();
+    if (!file_.read(*uv, 2, uvs_.back()) || uvs_.back().size() != count * 2) {
+      uvs_.pop_back();
+      break;
+    }
+  }
+  return file_.readIndices(p, count, indices_);
+}
+
+// The vertices' places in the world, as numbers of shared positions.
+void GltfMeshes::place(const Affine& world) {
+  const size_t count = positions_.size() / 3;
+  numbers_.resize(count);
+  for (size_t v = 0; v < count; ++v) {
+    const Vec3 p = world.point({positions_[3 * v], positions_[3 * v + 1], positions_[3 * v + 2]});
+    if (!isFinite(p)) {
+      // Equal to nothing; faces with such a point are dropped.
+      numbers_[v] = static_cast<uint32_t>(points_.size());
+      points_.push_back(p);
+      continue;
+    }
+    const auto [at, isNew] = known_.try_emplace(std::array<double, 3>{p.x, p.y, p.z},
+                                                static_cast<uint32_t>(points_.size()));
+    if (isNew) points_.push_back(p);
+    numbers_[v] = at->second;
+  }
+}
+
+size_t GltfMeshes::PositionHash::operator()(const std::array<double, 3>& p) const {
+  return hashCombine(hashCombine(hashDouble(p[0]), hashDouble(p[1])), hashDouble(p[2]));
+}
+
+// Which TEXCOORD becomes uv set `set`: set 0 is the colour's, others only where they differ.
+int GltfMeshes::texcoordFor(size_t material, int set) const {
+  const int most = static_cast<int>(uvs_.size());
+  if (material >= materials_.size()) return set == 0 && most > 0 ? 0 : -1;
+  const auto& texcoords = materials_[material].texcoords;
+  const int base = std::max(texcoords[0], 0);
+  const int wanted = set == 0 ? base : texcoords[static_cast<size_t>(set)];
+  if (wanted < 0 || wanted >= most || (set > 0 && wanted == base)) return -1;
+  return wanted;
+}
+
+uint16_t GltfMeshes::slotOf(size_t material) {
+  const size_t known = std::min(material, materials_.size());
+  if (slots_.empty()) slots_.assign(materials_.size() + 1, 0);
+  uint32_t& slot = slots_[known];
+  if (slot == 0) {
+    if (asset_.materials.size() >= 65535) return 0;
+    asset_.materials.push_back(known < materials_.size() ? materials_[known].material : Material{});
+    slot = static_cast<uint32_t>(asset_.materials.size());
+  }
+  return static_cast<uint16_t>(slot - 1);
+}
+
+void GltfMeshes::addTriangles(const JsonValue& primitive, size_t material, const Affine& world,
+                              uint32_t group) {
+  const size_t mode = modeOf(primitive);
+  const bool mirrors = world.determinant() < 0;
+  const uint16_t slot = slotOf(material);
+  int sets[kUvSets];
+  for (int s = 0; s < kUvSets; ++s) sets[s] = texcoordFor(material, s);
+  const size_t step = mode == kTriangles ? 3 : 1;
+  for (size_t i = 0; i + 2 < indices_.size(); i += step) {
+    uint32_t v[3] = {indices_[mode == kTriangleFan ? 0 : i], indices_[i + 1], indices_[i + 2]};
+    const bool turn = mirrors != (mode == kTriangleStrip && i % 2 == 1);
+    if (turn) std::swap(v[1], v[2]);
+    triangle_.assign({numbers_[v[0]], numbers_[v[1]], numbers_[v[2]]});
+    if (!filter_.accept(triangle_)) continue;
+    MeshBuilder& b = filter_.builder();
+    b.beginFace(slot);
+    b.beginLoop();
+    for (const uint32_t vertex : v) {
+      const uint32_t c = b.addCorner(filter_.position(numbers_[vertex]));
+      for (int s = 0; s < kUvSets; ++s) {
+        if (sets[s] < 0) continue;
+        const std::vector<double>& uv = uvs_[static_cast<size_t>(sets[s])];
+        const Vec2 at{uv[2 * vertex], 1 - uv[2 * vertex + 1]};
+        b.setUv(c, s, std::isfinite(at.x) && std::isfinite(at.y) ? at : Vec2{});
+      }
+      if (normals_.empty()) continue;
+      const Vec3 n{normals_[3 * vertex], normals_[3 * vertex + 1], normals_[3 * vertex + 2]};
+      const Vec3 turned = normalized(world.normal(n));
+      b.setNormal(c, isFinite(turned) ? filter_.direction(turned) : Vec3{});
+    }
+    asset_.faceGroups.push_back(group);
+  }
+}
+
+Mesh GltfMeshes::take() {
+  Mesh m = filter_.builder().take();
+  if (m.normals.empty()) return m;
+  // Normals that say no more than the faces themselves are not worth keeping.
+  for (size_t f = 0; f < m.faceCount(); ++f) {
+    const Vec3 flat = m.normal(f);
+    for (const MeshLoop& loop : m.loopsOf(f)) {
+      for (uint32_t i = 0; i < loop.cornerCount; ++i) {
+        const Vec3 n = m.normals[loop.firstCorner + i];
+        if (n != Vec3{} && dot(n, flat) < 0.9999) return m;
+      }
+    }
+  }
+  m.normals.clear();
+  return m;
+}
+
+Result<Asset> readGltfAsset(std::string_view bytes, const AssetOptions& options) {
+  Result<GltfFile> file = GltfFile::open(bytes, options);
+  if (!file.ok()) return file.error();
+  Asset asset;
+  asset.warnings = file->warnings();
+  const std::vector<GltfMaterial> materials = readGltfMaterials(*file, options, asset);
+  GltfMeshes meshes(*file, materials, asset, options.zUp);
+  for (const GltfPlacement& p : file->placements()) {
+    asset.groups.push_back(p.name);
+    if (!meshes.add(p, static_cast<uint32_t>(asset.groups.size() - 1))) {
+      return Error{
+          "asset-broken", "'" + options.path + "' shows more triangles than can be read", {}};
+    }
+  }
+  if (meshes.dropped() > 0) {
+    asset.warnings.push_back(std::to_string(meshes.dropped()) +
+                             " triangles without area are left out");
+  }
+  if (meshes.broken() > 0) {
+    asset.warnings.push_back(std::to_string(meshes.broken()) + " primitives cannot be read");
+  }
+  Mesh mesh = meshes.take();
+  return finishAsset(std::move(mesh), std::move(asset), options);
+}
+
+}  // namespace gable

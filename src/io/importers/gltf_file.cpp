@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+#include "io/importers/gltf_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "io/importers/base64.h"
+#include "io/uri.h"
+
+namespace gable {
+namespace {
+
+// Accessors without a buffer are zeros and cost the file nothing, so they are bounded.
+constexpr size_t kMostZeros = 1'000'000;
+
+uint32_t wordAt(std::string_view bytes, size_t at) {
+  uint32_t v = 0;
+  std::memcpy(&v, bytes.data() + at, 4);
+  return v;
+}
+
+int bytesOf(int component) {
+  switch (component) {
+    case 5120:
+    case 5121: return 1;
+    case 5122:
+    case 5123: return 2;
+    case 5125:
+    case 5126: return 4;
+    default: return 0;
+  }
+}
+
+int componentsOf(const std::string& type) {
+  if (type == "SCALAR") return 1;
+  if (type == "VEC2") return 2;
+  if (type == "VEC3") return 3;
+  return type == "VEC4" ? 4 : 0;
+}
+
+template <class T>
+double numberAt(const char* p, double scale) {
+  T v;
+  std::memcpy(&v, p, sizeof v);
+  return std::max(static_cast<double>(v) / scale, -1.0);
+}
+
+double componentAt(const char* p, int component, bool normalized) {
+  if (component == 5126) {
+    float f = 0;
+    std::memcpy(&f, p, 4);
+    return f;
+  }
+  if (!normalized) {
+    switch (component) {
+      case 5120: return static_cast<signed char>(*p);
+      case 5121: return static_cast<unsigned char>(*p);
+      case 5122: {
+        int16_t v;
+        std::memcpy(&v, p, 2);
+        return v;
+      }
+      case 5123: {
+        uint16_t v;
+        std::memcpy(&v, p, 2);
+        return v;
+      }
+      default: {
+        uint32_t v;
+        std::memcpy(&v, p, 4);
+        return v;
+      }
+    }
+  }
+  switch (component) {
+    case 5120: return numberAt<int8_t>(p, 127);
+    case 5121: return numberAt<uint8_t>(p, 255);
+    case 5122: return numberAt<int16_t>(p, 32767);
+    case 5123: return numberAt<uint16_t>(p, 65535);
+    default: return numberAt<uint32_t>(p, 4294967295.0);
+  }
+}
+
+Vec3 vecOf(const JsonValue& v, const Vec3& fallback) {
+  if (v.size() != 3) return fallback;
+  return {v.at(0).number(fallback.x), v.at(1).number(fallback.y), v.at(2).number(fallback.z)};
+}
+
+Error broken(const AssetOptions& options, const std::string& why) {
+  return {"asset-broken", "'" + options.path + "' is not a glTF file that can be read: " + why, {}};
+}
+
+}  // namespace
+
+Affine operator*(const Affine& outer, const Affine& inner) {
+  return {outer.direction(inner.x), outer.direction(inner.y), outer.direction(inner.z),
+          outer.point(inner.origin)};
+}
+
+Vec3 Affine::normal(const Vec3& n) const {
+  const Vec3 c = cross(y, z) * n.x + cross(z, x) * n.y + cross(x, y) * n.z;
+  return determinant() < 0 ? -c : c;
+}
+
+size_t GltfFile::index(const JsonValue& v) {
+  const double n = v.number(-1);
+  return n >= 0 && n < 9e15 && n == std::floor(n) ? static_cast<size_t>(n) : kNone;
+}
+
+Result<GltfFile> GltfFile::open(std::string_view bytes, const AssetOptions& options) {
+  std::string_view text = bytes, chunk;
+  if (bytes.substr(0, 4) == "glTF") {
+    if (bytes.size() < 20 || wordAt(bytes, 4) != 2) return broken(options, "the head is wrong");
+    const size_t size = wordAt(bytes, 12);
+    if (wordAt(bytes, 16) != 0x4e4f534a || size > bytes.size() - 20) {
+      return broken(options, "the JSON chunk is cut off");
+    }
+    text = bytes.substr(20, size);
+    const size_t next = 20 + (size + 3) / 4 * 4;
+    if (next + 8 <= bytes.size() && wordAt(bytes, next + 4) == 0x004e4942) {
+      chunk = bytes.substr(next + 8, wordAt(bytes, next));
+    }
+  }
+  GltfFile file;
+  Result<JsonValue> json = parseJson(text);
+  if (!json.ok()) return broken(options, json.error().message);
+  file.json_ = std::move(*json);
+  if (!file.json_.isObject()) return broken(options, "the JSON is no object");
+  const std::string& version = file.json_["asset"]["version"].text();
+  if (version.empty() || version[0] != '2') return broken(options, "it is not of version 2");
+  for (const JsonValue& e : file.json_["extensionsRequired"].items()) {
+    const std::string& name = e.text();
+    if (name == "KHR_texture_transform" || name == "KHR_mesh_quantization" ||
+        name.substr(0, 14) == "KHR_materials_") {
+      continue;
+    }
+    return Error{"asset-broken", "'" + options.path + "' needs the extension '" + name + "'",
+                 "save it without compression and extensions"};
+  }
+  file.loadBuffers(chunk, options);
+  return file;
+}
+
+void GltfFile::loadBuffers(std::string_view chunk, const AssetOptions& options) {
+  for (const JsonValue& b : json_["buffers"].items()) {
+    buffers_.emplace_back();
+    const JsonValue* uri = b.find("uri");
+    std::string mime;
+    if (!uri) {
+      if (buffers_.size() == 1) buffers_.back() = chunk;
+    } else if (!readDataUri(uri->text(), mime, buffers_.back())) {
+      const std::string path = relativeTo(options.path, pathOf(uri->text()));
+      Result<std::string> bytes =
+          options.readFile ? options.readFile(path)
+                           : Result<std::string>(Error{"file-missing", "nothing may be read", {}});
+      if (bytes.ok()) {
+        buffers_.back() = std::move(*bytes);
+      } else {
+        warnings_.push_back("the buffer '" + path + "' is left out: " + bytes.error().message);
+      }
+    }
+  }
+}
+
+std::string_view GltfFile::view(size_t i) const {
+  const JsonValue& v = json_["bufferViews"].at(i);
+  const size_t buffer = index(v["buffer"]);
+  if (!v.isObject() || buffer >= buffers_.size()) return {};
+  const std::string_view all = buffers_[buffer];
+  const size_t offset = v.find("byteOffset") ? index(v["byteOffset"]) : 0;
+  const size_t length = index(v["byteLength"]);
+  if (offset > all.size() || length > all.size() - offset) return {};
+  return all.substr(offset, length);
+}
+
+bool GltfFile::describe(const JsonValue& a, Elements& out) const {
+  out.component = static_cast<int>(std::min<size_t>(index(a["componentType"]), 100000));
+  out.components = componentsOf(a["type"].text());
+  out.count = index(a["count"]);
+  out.normalized = a["normalized"].boolean(false);
+  const size_t bytes = static_cast<size_t>(bytesOf(out.component) * out.components);
+  if (bytes == 0 || out.count == kNone) return false;
+  if (!a.find("bufferView")) return out.count <= kMostZeros;
+  const size_t viewIndex = index(a["bufferView"]);
+  const std::string_view all = view(viewIndex);
+  const size_t offset = a.find("byteOffset") ? index(a["byteOffset"]) : 0;
+  const JsonValue& stride = json_["bufferViews"].at(viewIndex)["byteStride"];
+  out.stride = stride.isNumber() ? index(stride) : bytes;
+  if (out.stride < bytes || out.stride > 4096) return false;
+  if (out.count == 0) return true;
+  if (offset > all.size() || all.size() - offset < bytes) return false;
+  if ((all.size() - offset - bytes) / out.stride < out.count - 1) return false;
+  out.data = all.data() + offset;
+  return true;
+}
+
+bool GltfFile::applySparse(const JsonValue& accessor, const Elements& e,
+                           std::vector<double>& out) const {
+  const JsonValue* sparse = accessor.find("sparse");
+  if (!sparse) return true;
+  const size_t count = index((*sparse)["count"]);
+  const JsonValue &indices = (*sparse)["indices"], &values = (*sparse)["values"];
+  const int type = static_cast<int>(std::min<size_t>(index(indices["componentType"]), 100000));
+  const size_t size = static_cast<size_t>(bytesOf(type));
+  const size_t width = static_cast<size_t>(e.components);
+  const size_t valueSize = static_cast<size_t>(bytesOf(e.component));
+  const auto range = [&](const JsonValue& v) {
+    const std::string_view all = view(index(v["bufferView"]));
+    const size_t offset = v.find("byteOffset") ? index(v["byteOffset"]) : 0;
+    return offset > all.size() ? std::string_view{} : all.substr(offset);
+  };
+  const std::string_view at = range(indices), numbers = range(values);
+  if (count > e.count || size == 0 || type == 5126 || at.size() / size < count ||
+      numbers.size() / (valueSize * width) < count) {
+    return false;
+  }
+  for (size_t i = 0; i < count; ++i) {
+    const auto element = static_cast<size_t>(componentAt(at.data() + i * size, type, false));
+    if (element >= e.count) return false;
+    for (size_t c = 0; c < width; ++c) {
+      out[element * width + c] =
+          componentAt(numbers.data() + (i * width + c) * valueSize, e.component, e.normalized);
+    }
+  }
+  return true;
+}
+
+bool GltfFile::read(const JsonValue& accessor, int components, std::vector<double>& out) const {
+  Elements e;
+  if (!describe(accessor, e) || e.components != components) return false;
+  const auto width = static_cast<size_t>(components);
+  const auto size = static_cast<size_t>(bytesOf(e.component));
+  out.assign(e.count * width, 0);
+  for (size_t i = 0; e.data && i < e.count; ++i) {
+    for (size_t c = 0; c < width; ++c) {
+      out[i * width + c] = componentAt(e.data + i * e.stride + c * size, e.component, e.normalized);
+    }
+  }
+  return applySparse(accessor, e, out);
+}
+
+bool GltfFile::readIndices(const JsonValue& primitive, size_t vertexCount,
+                           std::vector<uint32_t>& out) const {
+  out.clear();
+  const JsonValue* number = primitive.find("indices");
+  if (!number) {
+    for (size_t i = 0; i < vertexCount; ++i) out.push_back(static_cast<uint32_t>(i));
+    return true;
+  }
+  Elements e;
+  if (!describe(json_["accessors"].at(index(*number)), e) || e.components != 1 ||
+      e.component == 5126) {
+    return false;
+  }
+  for (size_t i = 0; e.data && i < e.count; ++i) {
+    const double v = componentAt(e.data + i * e.stride, e.component, false);
+    if (!(v >= 0 && v < static_cast<double>(vertexCount))) return false;
+    out.push_back(static_cast<uint32_t>(v));
+  }
+  return true;
+}
+
+Affine GltfFile::localOf(const JsonValue& node) {
+  const JsonValue& m = node["matrix"];
+  Affine a;
+  if (m.size() == 16) {
+    const auto column = [&](size_t c) {
+      return Vec3{m.at(4 * c).number(0), m.at(4 * c + 1).number(0), m.at(4 * c + 2).number(0)};
+    };
+    return {column(0), column(1), column(2), column(3)};
+  }
+  const JsonValue& r = node["rotation"];
+  if (r.size() == 4) {
+    const double x = r.at(0).number(0), y = r.at(1).number(0), z = r.at(2).number(0),
+                 w = r.at(3).number(1);
+    const double n = x * x + y * y + z * z + w * w;
+    const double s = n > 0 ? 2 / n : 0;
+    a.x = {1 - s * (y * y + z * z), s * (x * y + z * w), s * (x * z - y * w)};
+    a.y = {s * (x * y - z * w), 1 - s * (x * x + z * z), s * (y * z + x * w)};
+    a.z = {s * (x * z + y * w), s * (y * z - x * w), 1 - s * (x * x + y * y)};
+  }
+  const Vec3 scale = vecOf(node["scale"], {1, 1, 1});
+  a.x = a.x * scale.x;
+  a.y = a.y * scale.y;
+  a.z = a.z * scale.z;
+  a.origin = vecOf(node["translation"], {});
+  return a;
+}
+
+std::vector<GltfPlacement> GltfFile::placements() const {
+  const std::vector<JsonValue>& nodes = json_["nodes"].items();
+  struct Visit {
+    size_t node;
+    Affine around;
+  };
+  std::vector<Visit> stack;
+  const JsonValue& scenes = json_["scenes"];
+  const size_t scene = json_.find("scene") ? index(json_["scene"]) : 0;
+  if (scene < scenes.size()) {
+    const auto& roots = scenes.at(scene)["nodes"].items();
+    for (auto r = roots.rbegin(); r != roots.rend(); ++r) stack.push_back({index(*r), {}});
+  } else {
+    // A library of nodes: all that are no child.
+    std::vector<bool> isChild(nodes.size());
+    for (const JsonValue& n : nodes) {
+      for (const JsonValue& c : n["children"].items()) {
+        if (index(c) < nodes.size()) isChild[index(c)] = true;
+      }
+    }
+    for (size_t n = nodes.size(); n-- > 0;) {
+      if (!isChild[n]) stack.push_back({n, {}});
+    }
+  }
+  std::vector<bool> seen(nodes.size());
+  std::vector<GltfPlacement> out;
+  while (!stack.empty()) {
+    const Visit visit = stack.back();
+    stack.pop_back();
+    if (visit.node >= nodes.size() || seen[visit.node]) continue;
+    seen[visit.node] = true;
+    const JsonValue& n = nodes[visit.node];
+    const Affine world = visit.around * localOf(n);
+    const size_t mesh = index(n["mesh"]);
+    if (mesh < json_["meshes"].size() && world.finite()) {
+      const std::string& name = n["name"].text();
+      out.push_back({mesh, world, name.empty() ? json_["meshes"].at(mesh)["name"].text() : name});
+    }
+    const auto& children = n["children"].items();
+    for (auto c = children.rbegin(); c != children.rend(); ++c) stack.push_back({index(*c), world});
+  }
+  return out;
+}
+
+}  // namespace gable

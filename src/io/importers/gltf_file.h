@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// A glTF 2.0 or GLB file, opened: its JSON, its buffers, and checked access to both. Every index
+// and every range is checked where it is used, so that no file can lead outside its own bytes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/json.h"
+#include "io/importers/asset.h"
+#include "math/vec.h"
+
+namespace gable {
+
+/// An affine map by columns: x, y, z and the origin.
+struct Affine {
+  Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, origin;
+  Vec3 direction(const Vec3& d) const { return x * d.x + y * d.y + z * d.z; }
+  Vec3 point(const Vec3& p) const { return origin + direction(p); }
+  double determinant() const { return dot(x, cross(y, z)); }
+  /// The direction of a normal, not unit: the cofactors, with the sign that keeps it on its side.
+  Vec3 normal(const Vec3& n) const;
+  bool finite() const { return isFinite(x) && isFinite(y) && isFinite(z) && isFinite(origin); }
+};
+Affine operator*(const Affine& outer, const Affine& inner);
+
+/// A node with a mesh, in the scene.
+struct GltfPlacement {
+  size_t mesh = 0;
+  Affine world;
+  std::string name;
+};
+
+class GltfFile {
+ public:
+  static constexpr size_t kNone = ~size_t{0};
+
+  /// Codes: asset-broken.
+  static Result<GltfFile> open(std::string_view bytes, const AssetOptions& options);
+
+  const JsonValue& json() const { return json_; }
+  /// The value as an index, or kNone.
+  static size_t index(const JsonValue& v);
+
+  /// Numbers of an accessor, `components` wanted of each element; normalised integers become
+  /// fractions. False when the accessor does not fit its description or the buffer.
+  bool read(const JsonValue& accessor, int components, std::vector<double>& out) const;
+  /// Indices; the plain count from 0 where the primitive has none.
+  bool readIndices(const JsonValue& primitive, size_t vertexCount,
+                   std::vector<uint32_t>& out) const;
+  /// The bytes of a buffer view; empty when there is none.
+  std::string_view view(size_t index) const;
+
+  /// Nodes of the scene that show a mesh, parents before children. Each node is placed once,
+  /// however often the file names it.
+  std::vector<GltfPlacement> placements() const;
+
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  struct Elements {
+    const char* data = nullptr;
+    size_t stride = 0, count = 0;
+    int component = 0, components = 0;
+    bool normalized = false;
+  };
+  bool describe(const JsonValue& accessor, Elements& out) const;
+  bool applySparse(const JsonValue& accessor, const Elements& e, std::vector<double>& out) const;
+  void loadBuffers(std::string_view chunk, const AssetOptions& options);
+  static Affine localOf(const JsonValue& node);
+
+  JsonValue json_;
+  std::vector<std::string> buffers_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace gable

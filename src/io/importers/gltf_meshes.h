@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Collects the triangles of placed glTF meshes into one mesh.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "io/importers/face_filter.h"
+#include "io/importers/gltf_file.h"
+#include "io/importers/gltf_materials.h"
+
+namespace gable {
+
+class GltfMeshes {
+ public:
+  /// Slots and groups of the faces go to `asset`.
+  GltfMeshes(const GltfFile& file, const std::vector<GltfMaterial>& materials, Asset& asset,
+             bool zUp)
+      : file_(file), materials_(materials), asset_(asset), filter_(points_, zUp) {}
+
+  /// False when there is too much of it.
+  bool add(const GltfPlacement& placement, uint32_t group);
+  Mesh take();
+  uint64_t dropped() const { return filter_.dropped(); }
+  /// Numbers read so far; a small file can show one mesh a million times.
+  uint64_t work() const { return work_; }
+  static constexpr uint64_t kMostWork = 200'000'000;
+  /// Primitives that are no triangles or whose data is wrong.
+  uint64_t broken() const { return broken_; }
+
+ private:
+  struct PositionHash {
+    size_t operator()(const std::array<double, 3>& p) const;
+  };
+  bool readPrimitive(const JsonValue& p);
+  void place(const Affine& world);
+  int texcoordFor(size_t material, int set) const;
+  uint16_t slotOf(size_t material);
+  void addTriangles(const JsonValue& primitive, size_t material, const Affine& world,
+                    uint32_t group);
+
+  const GltfFile& file_;
+  const std::vector<GltfMaterial>& materials_;
+  Asset& asset_;
+  std::vector<Vec3> points_;
+  FaceFilter filter_;
+  std::unordered_map<std::array<double, 3>, uint32_t, PositionHash> known_;
+  std::vector<uint32_t> slots_;
+  uint64_t work_ = 0, broken_ = 0;
+  // Of the primitive at hand.
+  std::vector<double> positions_, normals_;
+  std::vector<std::vector<double>> uvs_;
+  std::vector<uint32_t> indices_, numbers_, triangle_;
+};
+
+}  // namespace gable

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "base/random.h"
+#include "io/importers/asset.h"
+#include "io/importers/mtl_file.h"
+#include "io/importers/obj_file.h"
+#include "io/importers/shape_input.h"
+
+namespace gable {
+namespace {
+
+Result<Asset> read(const std::string& text, const std::string& mtl = {}) {
+  AssetOptions o;
+  o.path = "models/house.obj";
+  o.readFile = [mtl](const std::string& path) -> Result<std::string> {
+    if (path == "models/house.mtl") return mtl;
+    return Error{"file-missing", "'" + path + "' is not there", {}};
+  };
+  return readObjAsset(text, o);
+}
+
+constexpr const char* kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+TEST(ObjAsset, readsPolygonsWithMaterialsAndGroups) {
+  const std::string text = std::string("mtllib house.mtl\n") + kSquare +
+                           "v 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n"
+                           "o House\ng Wall\nusemtl red\nf 1 2 3 4\n"
+                           "g Roof\nusemtl tile roof\nf 1/1/1 2/2/1 3/3/1\n"
+                           "usemtl red\nf -1 -5 -4\n";
+  auto r = read(text,
+                "newmtl red\nKd 1 0 0\nd 0.5\n\nnewmtl tile roof\nKd 0.5\n"
+                "map_Kd -s 2 3 1 -clamp on tex\\tile roof.png\nnorm ../n.png\nPr 0.25\n");
+  ASSERT_TRUE(r.ok()) << r.error().message;
+  const Asset& a = *r;
+  EXPECT_EQ(a.mesh->faceCount(), 3u);
+  EXPECT_EQ(a.mesh->positions.size(), 5u);
+  ASSERT_EQ(a.materials.size(), 2u);
+  EXPECT_EQ(a.materials[0].color, (Vec3{1, 0, 0}));
+  EXPECT_EQ(a.materials[0].opacity, 0.5);
+  const Material& tile = a.materials[1];
+  EXPECT_EQ(tile.name, "tile roof");
+  EXPECT_EQ(tile.color, (Vec3{0.5, 0.5, 0.5}));
+  EXPECT_EQ(tile.map(TextureLayer::Color).path, "models/tex/tile roof.png");
+  EXPECT_EQ(tile.map(TextureLayer::Color).sv, 3);
+  EXPECT_EQ(tile.map(TextureLayer::Normal).path, "n.png");
+  EXPECT_EQ(tile.roughness, 0.25);
+  EXPECT_EQ(a.groups, (std::vector<std::string>{"Wall", "Roof"}));
+  EXPECT_EQ(a.faceGroups, (std::vector<uint32_t>{0, 1, 1}));
+  EXPECT_EQ(a.mesh->faces[2].materialSlot, 0);
+  EXPECT_TRUE(a.mesh->hasUv(0));
+  EXPECT_EQ(a.mesh->uvs[0][6], (Vec2{1, 1}));
+  EXPECT_EQ(a.mesh->normals[4], (Vec3{0, 0, 1}));
+  EXPECT_TRUE(a.warnings.empty());
+}
+
+TEST(ObjAsset, wrongLinesAreCountedAndPassedOver) {
+  auto r = read(std::string(kSquare) +
+                "f 1 2 3 4\nf 1 2 9\nf 1 2\nf a b c\nf 0 1 2\nf -9 1 2\nf 1/7 2 3\nf 1/ 2/ 3/\n"
+                "v nan 1 2\nf 1 2 5\nv 1e999 0 0\nf 1 2 6\nf 1 1 1 1\nf 1 2 1\nnonsense\n"
+                "vn x\nvt\nf 4294967297 1 2\nf 99999999999999999999999 1 2\nusemtl\ng\no\n");
+  ASSERT_TRUE(r.ok());
+  EXPECT_EQ(r->mesh->faceCount(), 2u);
+  EXPECT_EQ(r->warnings.size(), 2u);
+}
+
+TEST(ObjAsset, continuationsCommentsAndLineEnds) {
+  auto r =
+      read("# a square\r\nv 0 0 0\r\nv 1 \\\r\n 0 0\r\n\tv 1 1 0 # corner\nv 0 1 0\nf 1 2 \\\n3 4");
+  ASSERT_TRUE(r.ok()) << r.error().message;
+  EXPECT_NEAR(r->mesh->area(), 1, 1e-12);
+}
+
+TEST(ObjAsset, filesWithoutFacesAreErrors) {
+  for (const char* text :
+       {"", "v 0 0 0", "f 1 2 3", "\\\n\\\n\\", "v 1e12 0 0\nv 0 1 0\nv 0 0 2e13\nf 1 2 3"}) {
+    const auto r = read(text);
+    ASSERT_FALSE(r.ok()) << text;
+    EXPECT_EQ(r.error().code, "asset-empty");
+  }
+}
+
+TEST(ObjAsset, zUpModelsStandUp) {
+  AssetOptions o;
+  o.zUp = true;
+  auto r = readObjAsset("v 0 0 0\nv 1 0 0\nv 1 0 2\nv 0 0 2\nf 1 2 3 4\n", o);
+  ASSERT_TRUE(r.ok());
+  EXPECT_EQ(r->bounds.size(), (Vec3{1, 2, 0}));
+  EXPECT_EQ(r->mesh->normal(0), (Vec3{0, 0, 1}));
+}
+
+TEST(ObjAsset, readingIsLinear) {
+  // Ten times the text must not take a hundred times as long; a line of many corners included.
+  const auto text = [](int n) {
+    std::string t;
+    for (int i = 0; i < n; ++i) {
+      t += "v " + std::to_string(i) + " " + std::to_string(i % 7) + " 0\n";
+      t += "usemtl m" + std::to_string(i) + "\ng g" + std::to_string(i) + "\n";
+      if (i > 2) t += "f -1 -2 -3\n";
+    }
+    t += "f";
+    for (int i = 1; i <= n; ++i) t += " " + std::to_string(i);
+    return t;
+  };
+  const auto seconds = [](const std::string& t) {
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_TRUE(read(t).ok());
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  const double small = seconds(text(5000)), large = seconds(text(50000));
+  EXPECT_LT(large, 40 * small + 0.5);
+}
+
+TEST(ObjAsset, garbageNeverHurts) {
+  const std::string good =
+      std::string("mtllib house.mtl\n") + kSquare +
+      "vt 0 0\nvt 1 1\nvn 0 0 1\ng a\nusemtl m\ns 1\nf 1/1/1 2/2/1 3//1 4\nf -4 -3 -2\n";
+  for (uint64_t seed = 0; seed < 3000; ++seed) {
+    std::string text = good;
+    for (uint64_t k = 0; k < 4; ++k) {
+      const uint64_t bits = randomBits(hashCombine(seed, k));
+      const size_t at = bits % text.size();
+      switch (bits >> 60) {
+        case 0: text.erase(at, 1 + (bits >> 20) % 9); break;
+        case 1: text.insert(at, text.substr((bits >> 20) % text.size(), 12)); break;
+        default: text[at] = static_cast<char>(bits >> 32);
+      }
+      if (text.empty()) text = " ";
+    }
+    const auto r = read(text, text);
+    if (r.ok()) {
+      EXPECT_TRUE(r.value().mesh->valid());
+      EXPECT_EQ(r.value().faceGroups.size(), r.value().mesh->faceCount());
+    }
+  }
+}
+
+TEST(ObjShapes, objectsOrGroupsAreShapes) {
+  const std::string text =
+      std::string(kSquare) + "o A\nf 1 2 3\no B\nf 1 3 4\nf 2 3 4\no A\nf 2 3 4\n";
+  auto r = readObjShapes(text, "x/lots.obj");
+  ASSERT_TRUE(r.ok());
+  ASSERT_EQ(r->shapes.size(), 2u);
+  EXPECT_EQ(r->shapes[0].name, "A");
+  EXPECT_EQ(r->shapes[0].mesh.faceCount(), 2u);
+  EXPECT_EQ(r->shapes[1].mesh.positions.size(), 4u);
+  auto plain = readObjShapes(std::string(kSquare) + "f 1 2 3\n", "x/lots.obj");
+  ASSERT_TRUE(plain.ok());
+  EXPECT_EQ(plain->shapes[0].name, "lots");
+  EXPECT_FALSE(readObjShapes("v 0 0 0\n", "a.obj").ok());
+}
+
+TEST(RelativePaths, stayInOneForm) {
+  EXPECT_EQ(relativeTo("a/b.obj", "c.png"), "a/c.png");
+  EXPECT_EQ(relativeTo("a/b.obj", "../t/./c.png"), "t/c.png");
+  EXPECT_EQ(relativeTo("b.obj", "..\\..\\c.png"), "../../c.png");
+  EXPECT_EQ(relativeTo("a/b.obj", "/abs//c.png"), "/abs/c.png");
+  EXPECT_EQ(relativeTo("a/b/c.obj", "../../../x"), "../x");
+}
+
+}  // namespace
+}  // namespace gable

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Initial shapes from files: footprints with attributes.
+//
+//   GeoJSON  a shape a feature with polygons, a face a polygon, holes kept; properties are
+//   attributes OBJ      a shape an object (o), or a group (g) where there are no objects, or the
+//   whole file glTF     a shape a node with a mesh
+//
+// Promises: coordinates are local metres with y up; every face has an area; equal input gives equal
+// shapes. What is wrong with one shape is a Diagnostic that names it, and the others are read.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "base/result.h"
+#include "geom/mesh/mesh.h"
+#include "io/importers/asset.h"
+#include "scene/scene.h"
+
+namespace gable {
+
+struct ShapeInput {
+  std::string name;
+  Mesh mesh;
+  std::vector<AttributeValue> attributes;
+  /// The feature's own id, as text; may be empty.
+  std::string id;
+};
+
+struct ShapeFile {
+  std::vector<ShapeInput> shapes;
+  GeoOrigin geoOrigin;
+  Diagnostics diagnostics;
+};
+
+/// By extension: .geojson .json .obj .gltf .glb. Codes: shapes-unknown, shapes-broken,
+/// shapes-empty, and those of assets.
+Result<ShapeFile> readShapes(std::string_view bytes, const AssetOptions& options);
+Result<ShapeFile> readGeoJsonShapes(std::string_view text, const std::string& path);
+Result<ShapeFile> readObjShapes(std::string_view text, const std::string& path);
+Result<ShapeFile> readGltfShapes(std::string_view bytes, const AssetOptions& options);
+
+/// A rectangular lot: a corner at the origin, `width` along +x, `depth` to the north (-z), facing
+/// up, the first edge on its south side.
+ShapeInput lotShape(double width, double depth);
+/// "30x40" or "12.5X8": two positive numbers in metres.
+bool parseLot(std::string_view text, double& width, double& depth);
+
+/// The number that a value means: a number itself, or a text such as "12", " 7.5 m" or "3,5".
+bool numericValue(const PlainValue& v, double& out);
+
+}  // namespace gable
