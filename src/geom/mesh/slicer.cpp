@@ -143,9 +143,15 @@ void Slicer::setPlane(uint32_t face) {
   along_ = cross(up_, normal);
 }
 
+// Points and edges have no holes.
+std::span<const MeshLoop> Slicer::loopsThatCount(uint32_t face) const {
+  const auto loops = mesh_.loopsOf(face);
+  return loops[0].cornerCount < 3 ? loops.first(1) : loops;
+}
+
 cut::Face Slicer::faceOf(uint32_t face) const {
   cut::Face out;
-  for (const MeshLoop& loop : mesh_.loopsOf(face)) {
+  for (const MeshLoop& loop : loopsThatCount(face)) {
     cut::Loop l;
     for (uint32_t i = 0; i < loop.cornerCount; ++i) {
       const uint32_t c = loop.firstCorner + i;
@@ -173,7 +179,7 @@ std::vector<std::vector<Piece>> Slicer::slice(std::span<const double> cuts) {
 void Slicer::sliceFace(uint32_t face, std::span<const double> cuts,
                        std::vector<std::vector<Piece>>& slabs) {
   double low = values_[mesh_.loopsOf(face)[0].firstCorner], high = low;
-  for (const MeshLoop& loop : mesh_.loopsOf(face)) {
+  for (const MeshLoop& loop : loopsThatCount(face)) {
     for (uint32_t i = 0; i < loop.cornerCount; ++i) {
       low = std::min(low, values_[loop.firstCorner + i]);
       high = std::max(high, values_[loop.firstCorner + i]);
@@ -217,6 +223,7 @@ void Slicer::sliceFace(uint32_t face, std::span<const double> cuts,
 void Slicer::sliceEdge(uint32_t face, std::span<const double> cuts, size_t firstCut, size_t lastCut,
                        std::vector<std::vector<Piece>>& slabs) {
   const cut::Face whole = faceOf(face);
+  if (whole.empty()) return;
   const bool rising = values_[whole[0][0].attributes] < values_[whole[0][1].attributes];
   cut::Corner from = whole[0][rising ? 0 : 1];
   const cut::Corner to = whole[0][rising ? 1 : 0];

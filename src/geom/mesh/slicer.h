@@ -55,6 +55,7 @@ class Slicer : public cut::Host {
                  std::vector<std::vector<Piece>>& slabs);
   void setPlane(uint32_t face);
   Vec3 gradientOf(uint32_t face, const Vec3& normal) const;
+  std::span<const MeshLoop> loopsThatCount(uint32_t face) const;
   cut::Face faceOf(uint32_t face) const;
   bool onCut(uint32_t attributes) const;
   uint32_t pointOn(const cut::Corner& a, const cut::Corner& b);
