@@ -16,7 +16,7 @@ namespace {
 constexpr double kEyeHeight = 1.62;
 /// The camera is shifted up: the horizon lies at this share of the height.
 constexpr double kHorizon = 0.31;
-constexpr int kPlaces = 480, kDirections = 24;
+constexpr int kPlaces = 640, kDirections = 24;
 constexpr int kColumns = 20, kRows = 12;
 
 /// The foot of somebody who stands at (x, z); false where there is no open ground.
@@ -107,7 +107,7 @@ double mark(const Subject& s, const Light& light, const Camera& camera, double a
   const double depth = std::sqrt(std::max(0.0, logSquares / things - mean * mean));
   const double litShare = walls > 0 ? static_cast<double>(lit) / walls : 0;
   return -6 * off(things / all, 0.5, 0.68) - 4 * off(flat / all, 0.3, 0.6) -
-         3 * off(blank / all, 0, 0.1) - 3 * off(sky / all, 0.16, 0.32) -
+         6 * off(blank / all, 0, 0.08) - 3 * off(sky / all, 0.16, 0.32) -
          8 * off(inTheWay / all, 0, 0.02) - 2 * off(near / all, 0.02, 0.2) -
          1.5 * off(litShare, 0.5, 0.8) + 2.4 * std::min(depth, 1.5) -
          4 * off(sides[0] / third, 0.4, 1) - 4 * off(sides[1] / third, 0.4, 1) -
@@ -120,7 +120,7 @@ bool findStandpoint(const Subject& s, const Light& light, double halfWidth, doub
                     Camera& camera) {
   const Box3& box = s.world.bounds;
   const double tall = std::max(0.0, box.max.y - s.groundHeight);
-  const double margin = std::clamp(0.9 * tall, 7.0, 30.0);
+  const double margin = std::clamp(1.4 * tall, 8.0, 150.0);
   const Vec3 size = box.size();
   double best = -50;
   for (int i = 0; i < kPlaces; ++i) {

@@ -26,7 +26,7 @@ constexpr float kToe = 0.08f;
 /// How far colours are drawn together before the curve, and apart after it. The curve's own
 /// contrast spreads colours too: with these, sunlit brick and leaves keep the saturation of their
 /// base colours within a tenth.
-constexpr float kInset = 0.27f, kOutset = 1.10f;
+constexpr float kInset = 0.27f, kOutset = 1.20f;
 
 constexpr float curve(float x) {
   return (x * (2.51f * x + kToe)) / (x * (2.43f * x + 0.59f) + 0.14f);

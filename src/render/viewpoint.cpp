@@ -145,7 +145,11 @@ Camera standardCamera(const Subject& subject, const RenderOptions& options, cons
     case PictureView::Front: {
       Camera camera = cameraTowards(toFront - 30, 0);
       camera.halfWidth = given > 0 ? given : lens(40);
-      const double height = subject.groundHeight + std::clamp(0.42 * tall, 1.6, 8.0);
+      // A park or a town is seen from a hill, a house from a ladder.
+      const Vec3 size = subject.world.bounds.size();
+      const double hill = std::min(0.06 * std::max(size.x, size.z), 60.0);
+      const double height =
+          subject.groundHeight + std::max(std::clamp(0.42 * tall, 1.6, 8.0), hill);
       frameLevel(camera, subject, aspect, height);
       return camera;
     }
