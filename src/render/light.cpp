@@ -21,8 +21,9 @@ namespace {
 /// under pale walls plainly blue.
 constexpr Vec3f kSun{1.0f, 0.93f, 0.83f};
 constexpr Vec3f kSkyTint{0.86f, 1.01f, 1.30f};
-/// Irradiance of the sky on a horizontal plane while the sun gives 1.
-constexpr float kSkyShare = 0.16f;
+/// Irradiance of the sky on a horizontal plane while the sun gives 1. Measured skies give 0.16; a
+/// little more brings a shaded wall to a quarter of a sunlit one without neighbours to light it.
+constexpr float kSkyShare = 0.178f;
 constexpr double kSunRadius = 0.5;
 /// Display level of sunlit stone of albedo 0.55.
 constexpr float kStoneAlbedo = 0.55f, kStoneLevel = 211 / 255.0f;

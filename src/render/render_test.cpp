@@ -103,7 +103,7 @@ TEST(Render, shadedWallHasAQuarterOfTheSunlitWall) {
   const Vec3 lit = lightOfWall({0, 6, 60}, {0, 6, 0}, &level);
   const Vec3 shaded = lightOfWall({60, 6, 0}, {0, 6, 0});
   const double ratio = luminanceOf(shaded) / luminanceOf(lit);
-  EXPECT_GE(ratio, 0.20);
+  EXPECT_GE(ratio, 0.22);
   EXPECT_LE(ratio, 0.28);
   // Shade is cooler than sun.
   EXPECT_GT(shaded.z / shaded.x, lit.z / lit.x);
