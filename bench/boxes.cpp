@@ -44,9 +44,9 @@ Glass --> s('1, '1, 0.05) primitiveCube()
 // 5 floors of 4 bays of 5 boxes, stacked slabs: 100 boxes a building.
 constexpr const char* kTownRules = R"(
 attr height = 15
-Lot --> s('1, height, '1) primitiveCube() split(y) { ~3 : Floor }*
+Lot --> extrude(height) split(y) { ~3 : Floor }*
 Floor --> split(x) { ~(scope.sx / 4) : Bay }*
-Bay --> split(z) { ~(scope.sz / 5) : primitiveCube() }*
+Bay --> split(z) { ~(scope.sz / 5) : Box. }*
 )";
 
 struct Workload {
