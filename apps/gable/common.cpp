@@ -47,6 +47,7 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
     inputs.shapes = gable::Shapes::lot(width, depth);
   }
   printMessages(inputs.shapes.messages());
+  if (arguments.cutNested) inputs.shapes = inputs.shapes.withNestedCut();
   if (!inputs.shapes.found()) return kExitFile;
   if (!inputs.shapes.ok() && inputs.shapes.size() == 0) return kExitWrong;
   gable::DeriveSettings& s = inputs.settings;

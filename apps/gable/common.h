@@ -29,6 +29,7 @@ struct DeriveArguments {
   std::string rules;
   std::string shapes;
   std::string lot;
+  bool cutNested = false;
   std::string start;
   std::vector<std::string> set;
   double seed = 0;

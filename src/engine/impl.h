@@ -54,6 +54,10 @@ struct Model::Impl {
   double seconds = 0;
 };
 
+/// Cuts footprints that lie within others out of those: flat single faces at one height only.
+/// O(n^2) box tests, a boolean operation a nested pair.
+void cutNested(std::vector<ShapeFootprint>& footprints);
+
 /// Seconds of a steady clock.
 double now();
 

@@ -10,13 +10,23 @@
 #include "engine/impl.h"
 #include "io/exporters/write_model.h"
 #include "io/image/image.h"
-#include "io/importers/model.h"
+#include "io/importers/asset.h"
 #include "render/render.h"
 #include "scene/dump.h"
 
 namespace gable {
 
 namespace {
+
+// Names of properties as rules can write them: "building:levels" is building_levels.
+std::string identifier(std::string name) {
+  for (char& c : name) {
+    const bool fits = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                      c == '_' || c == '.';
+    if (!fits) c = '_';
+  }
+  return name;
+}
 
 std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, ValuePool& pool) {
   std::vector<InitialShape> out;
@@ -28,7 +38,7 @@ std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, ValuePool& p
     s.origin = f.origin;
     s.identity = f.id;
     for (const AttributeValue& a : f.attributes) {
-      s.attributes.emplace_back(a.name, valueOfAttribute(a, pool));
+      s.attributes.emplace_back(identifier(a.name), valueOfAttribute(a, pool));
     }
     out.push_back(std::move(s));
   }
@@ -56,7 +66,7 @@ void writePlain(JsonWriter& json, const PlainValue& v) {
 // Textures by the paths that materials name, decoded once.
 class ProjectTextures final : public TextureSource {
  public:
-  explicit ProjectTextures(const Project* project) : project_(project) {}
+  explicit ProjectTextures(Project* project) : project_(project) {}
 
   const TextureImage* find(const std::string& path) const override {
     const auto [at, fresh] = images_.try_emplace(path);
@@ -66,16 +76,15 @@ class ProjectTextures final : public TextureSource {
 
  private:
   void load(const std::string& path, TextureImage& out) const {
-    const std::string file = project_ ? project_->locate(path, "") : path;
-    if (file.empty()) return;
-    const auto bytes = readFile(file, 256u << 20);
+    if (!project_) return;
+    const auto bytes = project_->texture(path);
     if (!bytes.ok()) return;
     auto image = decodeImage(bytes.value());
     if (!image.ok()) return;
     out = {image.value().width, image.value().height, std::move(image.value().rgba)};
   }
 
-  const Project* project_;
+  Project* project_;
   mutable std::map<std::string, TextureImage> images_;
 };
 
@@ -206,11 +215,8 @@ WriteResult Model::write(const std::string& path, const WriteSettings& settings)
   WriteOptions options;
   options.gpuInstancing = settings.gpuInstancing;
   options.readTexture = [this](const std::string& texture) -> Result<std::string> {
-    const std::string file = impl_->project ? impl_->project->locate(texture, "") : texture;
-    if (file.empty()) {
-      return Error{"texture-not-found", "there is no picture '" + texture + "' in the project", ""};
-    }
-    return readFile(file, 256u << 20);
+    if (impl_->project) return impl_->project->texture(texture);
+    return Error{"texture-not-found", "there is no picture '" + texture + "'", ""};
   };
   Result<WriteReport> report = writeModel(impl_->result.scene, path, options);
   if (!report.ok()) return failedWrite(report.error());
@@ -227,14 +233,14 @@ WriteResult Model::write(const std::string& path, const WriteSettings& settings)
 
 Model Model::load(const std::string& path) {
   auto impl = std::make_shared<Impl>();
-  Result<Asset> asset = readAsset(path);
+  impl->project = std::make_shared<Project>(folderOf(path).empty() ? "." : folderOf(path));
+  Result<Asset> asset = impl->project->load("/" + fileNameOf(path));
   if (!asset.ok()) {
     impl->found = false;
     impl->messages.push_back(errorMessage(asset.error()));
     return Model(std::move(impl));
   }
   // A model is a scene of one leaf; its textures are found beside it.
-  impl->project = std::make_shared<Project>(folderOf(path));
   Scene& scene = impl->result.scene;
   scene.names.push_back(fileNameOf(path));
   scene.materials = asset->materials;

@@ -8,7 +8,7 @@
 
 #include "base/files.h"
 #include "io/image/image.h"
-#include "io/importers/model.h"
+#include "io/importers/asset.h"
 
 namespace gable {
 
@@ -18,6 +18,7 @@ namespace {
 
 /// A project of more files than this is no project; listing stops there.
 constexpr size_t kMostFiles = 200000;
+constexpr uint64_t kLargestAsset = 1ull << 30;
 
 bool climbs(std::string_view path) {
   size_t from = 0;
@@ -94,6 +95,46 @@ std::string Project::projectPath(const std::string& file) const {
   return file;
 }
 
+// Files that the asset names are read through the project, so that none lies outside.
+Result<Asset> Project::read(const std::string& file, bool zUp) const {
+  Result<std::string> bytes = readFile(file, kLargestAsset);
+  if (!bytes.ok()) return bytes.error();
+  AssetOptions options;
+  options.path = projectPath(file);
+  options.zUp = zUp;
+  options.readFile = [this](const std::string& path) -> Result<std::string> {
+    const std::string found = locate("/" + path, "");
+    if (found.empty()) return Error{"file-unreadable", "there is no file '" + path + "'", ""};
+    return readFile(found, kLargestAsset);
+  };
+  return readAsset(bytes.value(), options);
+}
+
+Result<Asset> Project::load(std::string_view path) {
+  const std::string file = locate(path, "");
+  if (file.empty()) {
+    return Error{"file-unreadable", "there is no file '" + std::string(path) + "'", ""};
+  }
+  Result<Asset> asset = read(file, false);
+  std::lock_guard lock(mutex_);
+  if (asset.ok()) embedded_.insert(asset->textures.begin(), asset->textures.end());
+  return asset;
+}
+
+Result<std::string> Project::texture(const std::string& path) {
+  {
+    std::lock_guard lock(mutex_);
+    const auto at = embedded_.find(path);
+    if (at != embedded_.end()) return at->second;
+  }
+  const std::string file = locate(path, "");
+  if (file.empty()) {
+    return Error{"texture-not-found", "there is no picture '" + path + "' in the project",
+                 "paths count from the project's folder or its assets folder"};
+  }
+  return readFile(file, kLargestAsset);
+}
+
 Ref<AssetModel> Project::model(std::string_view path, std::string_view fromFile, bool zUp,
                                std::string& why) {
   const std::string file = locate(path, fromFile);
@@ -104,15 +145,13 @@ Ref<AssetModel> Project::model(std::string_view path, std::string_view fromFile,
   std::lock_guard lock(mutex_);
   const auto [at, fresh] = models_.try_emplace(file + (zUp ? "|z" : "|y"));
   if (fresh) {
-    Result<Asset> asset = readAsset(file);
+    Result<Asset> asset = read(file, zUp);
     if (asset.ok()) {
       auto* m = new AssetModel;
       m->mesh = asset->mesh;
-      if (zUp) {
-        m->mesh = makeRef<Mesh>(transformed(*m->mesh, {1, 1, 1}, rotationXyz(-90, 0, 0)));
-      }
       m->materials = asset->materials;
-      m->bounds = m->mesh->bounds();
+      m->bounds = asset->bounds;
+      embedded_.insert(asset->textures.begin(), asset->textures.end());
       at->second.model = Ref<AssetModel>(m);
     } else {
       at->second.why = asset.error().message;
@@ -128,7 +167,7 @@ ImageInfo Project::image(std::string_view path, std::string_view fromFile) {
   std::lock_guard lock(mutex_);
   const auto [at, fresh] = images_.try_emplace(file);
   if (fresh) {
-    const auto bytes = readFile(file, 256u << 20);
+    const auto bytes = readFile(file, kLargestAsset);
     if (!bytes.ok()) return at->second;
     const auto info = readImageHeader(bytes.value());
     if (info.ok())

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "io/importers/asset.h"
 #include "shape/services.h"
 
 namespace gable {
@@ -32,6 +33,10 @@ class Project final : public Assets {
   std::string locate(std::string_view path, std::string_view fromFile) const;
   /// "rules/town.cga" for a file below the root, else the path itself.
   std::string projectPath(const std::string& file) const;
+  /// A model file by its project path, with the textures in it known to texture() from then on.
+  Result<Asset> load(std::string_view path);
+  /// The bytes of a texture by the path that a material names, those inside of models included.
+  Result<std::string> texture(const std::string& path);
 
   Ref<AssetModel> model(std::string_view path, std::string_view fromFile, bool zUp,
                         std::string& why) override;
@@ -47,6 +52,7 @@ class Project final : public Assets {
     std::string why;
   };
   std::string inside(const std::string& candidate) const;
+  Result<Asset> read(const std::string& file, bool zUp) const;
   const std::vector<std::string>& files();
 
   std::string root_;
@@ -54,6 +60,7 @@ class Project final : public Assets {
   std::mutex mutex_;
   std::map<std::string, ModelEntry> models_;
   std::map<std::string, ImageInfo> images_;
+  std::map<std::string, std::string> embedded_;
   std::vector<std::string> files_;
   bool listed_ = false;
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Initial shapes: lots, polygons and files of footprints. Each shape gets an object frame near it, so
-// that coordinates far from the origin lose nothing.
+// Initial shapes: lots, polygons and files of footprints. Each shape gets an object frame near it,
+// so that coordinates far from the origin lose nothing.
 
 #include <cmath>
 
@@ -10,7 +10,7 @@
 #include "engine/impl.h"
 #include "geom/mesh/face_plane.h"
 #include "geom/region/region.h"
-#include "io/importers/shapes.h"
+#include "io/importers/shape_input.h"
 
 namespace gable {
 
@@ -77,16 +77,28 @@ Shapes Shapes::load(const std::string& path) {
 
 Shapes Shapes::parse(const std::string& content, const std::string& name) {
   auto impl = std::make_shared<Impl>();
-  Sources sources;
-  Diagnostics diagnostics;
-  ShapeFile file = readShapes(content, name, diagnostics);
-  impl->geoOrigin = file.geoOrigin;
-  for (ShapeInput& s : file.shapes) impl->footprints.push_back(footprint(std::move(s)));
+  AssetOptions options;
+  options.path = name;
+  options.readFile = [](const std::string& path) { return readFile(path, kLargestShapeFile); };
+  Result<ShapeFile> file = readShapes(content, options);
+  if (!file.ok()) {
+    impl->messages.push_back(errorMessage(file.error()));
+    return Shapes(std::move(impl));
+  }
+  impl->geoOrigin = file->geoOrigin;
+  for (ShapeInput& s : file->shapes) impl->footprints.push_back(footprint(std::move(s)));
+  Diagnostics diagnostics = file->diagnostics;
   if (impl->footprints.empty() && !diagnostics.hasErrors()) {
     diagnostics.error("no-shapes", Span{}, "'" + name + "' holds no shape to derive",
                       "polygons, or faces of a model, become initial shapes");
   }
-  impl->messages = toMessages(diagnostics, sources);
+  impl->messages = toMessages(diagnostics, Sources{});
+  return Shapes(std::move(impl));
+}
+
+Shapes Shapes::withNestedCut() const {
+  auto impl = std::make_shared<Impl>(*impl_);
+  cutNested(impl->footprints);
   return Shapes(std::move(impl));
 }
 

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Footprints within footprints. Maps draw a building in a court, or the tower of a church, as a
+// polygon inside of another; derived as they are, the two would stand in each other.
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/impl.h"
+#include "geom/mesh/face_plane.h"
+#include "geom/region/boolean.h"
+
+namespace gable {
+
+namespace {
+
+/// Shapes whose heights differ by more than this do not lie in one plane.
+constexpr double kSamePlane = 0.01;
+/// So much of a shape must lie in another to be nested in it.
+constexpr double kNestedShare = 0.98;
+
+struct Plan {
+  bool flat = false;
+  double height = 0;
+  Region region;
+  Box2 box;
+  double size = 0;
+};
+
+Frame groundFrame(double height) {
+  return Frame::of({0, height, 0}, {1, 0, 0}, {0, 0, -1}, {0, 1, 0});
+}
+
+Plan planOf(const ShapeFootprint& f) {
+  Plan p;
+  const Mesh world = transformed(f.mesh, {1, 1, 1}, f.origin);
+  const Box3 box = world.bounds();
+  if (box.empty() || box.size().y > kSamePlane) return p;
+  p.flat = true;
+  p.height = box.min.y;
+  for (size_t face = 0; face < world.faceCount(); ++face) {
+    Polygon polygon = facePolygon(world, face, groundFrame(p.height));
+    orient(polygon);
+    p.region.push_back(std::move(polygon));
+  }
+  for (const Polygon& polygon : p.region) {
+    p.box.include(bounds(polygon).min);
+    p.box.include(bounds(polygon).max);
+  }
+  p.size = area(p.region);
+  return p;
+}
+
+bool within(const Box2& inner, const Box2& outer) {
+  return inner.min.x >= outer.min.x - kSamePlane && inner.min.y >= outer.min.y - kSamePlane &&
+         inner.max.x <= outer.max.x + kSamePlane && inner.max.y <= outer.max.y + kSamePlane;
+}
+
+}  // namespace
+
+void cutNested(std::vector<ShapeFootprint>& footprints) {
+  std::vector<Plan> plans;
+  for (const ShapeFootprint& f : footprints) plans.push_back(planOf(f));
+  for (size_t outer = 0; outer < plans.size(); ++outer) {
+    Plan& o = plans[outer];
+    if (!o.flat) continue;
+    bool cut = false;
+    const Region whole = o.region;
+    for (size_t inner = 0; inner < plans.size(); ++inner) {
+      const Plan& i = plans[inner];
+      if (inner == outer || !i.flat || i.size <= 0 || i.size >= o.size) continue;
+      if (std::fabs(i.height - o.height) > kSamePlane || !within(i.box, o.box)) continue;
+      if (area(intersect(whole, i.region)) < kNestedShare * i.size) continue;
+      o.region = subtract(o.region, i.region);
+      cut = true;
+    }
+    if (!cut || o.region.empty()) continue;
+    const Frame toObject = inverse(footprints[outer].origin);
+    footprints[outer].mesh =
+        transformed(meshOf(o.region, groundFrame(o.height)), {1, 1, 1}, toObject);
+  }
+}
+
+}  // namespace gable
