@@ -11,7 +11,9 @@
 
 namespace gable::lang {
 
-Tree::Tree(uint32_t file) : file_(file), nodes_(1), depths_(1, 0), texts_(1) {}
+Tree::Tree(uint32_t file) : file_(file), nodes_(1), depths_(1, 0) {
+  texts_.push_back(std::make_unique<std::string>());
+}
 
 NodeId Tree::add(Node n, std::span<const NodeId> children) {
   n.firstChild = static_cast<uint32_t>(children_.size());
@@ -28,9 +30,9 @@ uint32_t Tree::intern(std::string_view text) {
   if (text.empty()) return 0;
   const auto found = textIds_.find(text);
   if (found != textIds_.end()) return found->second;
-  texts_.emplace_back(text);
+  texts_.push_back(std::make_unique<std::string>(text));
   const auto id = static_cast<uint32_t>(texts_.size() - 1);
-  textIds_.emplace(texts_.back(), id);
+  textIds_.emplace(*texts_.back(), id);
   return id;
 }
 

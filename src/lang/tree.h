@@ -61,8 +61,8 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <initializer_list>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -168,6 +168,11 @@ struct Node {
 class Tree {
  public:
   explicit Tree(uint32_t file = Span::kNoFile);
+  // Moving keeps all texts in place, so views of them stay valid.
+  Tree(Tree&&) noexcept = default;
+  Tree& operator=(Tree&&) noexcept = default;
+  Tree(const Tree&) = delete;
+  Tree& operator=(const Tree&) = delete;
 
   uint32_t file() const { return file_; }
   /// The File node; kNoNode before setRoot.
@@ -183,7 +188,7 @@ class Tree {
   ChoiceKind choiceKind(NodeId id) const { return static_cast<ChoiceKind>(nodes_[id].op); }
   ItemKind itemKind(NodeId id) const { return static_cast<ItemKind>(nodes_[id].op); }
   bool has(NodeId id, NodeFlag flag) const { return (nodes_[id].flags & flag) != 0; }
-  std::string_view text(NodeId id) const { return texts_[nodes_[id].text]; }
+  std::string_view text(NodeId id) const { return *texts_[nodes_[id].text]; }
   double number(NodeId id) const { return nodes_[id].number; }
   Span span(NodeId id) const { return {file_, nodes_[id].begin, nodes_[id].end}; }
 
@@ -220,8 +225,8 @@ class Tree {
   std::vector<Node> nodes_;
   std::vector<uint16_t> depths_;
   std::vector<NodeId> children_;
-  // A deque keeps the strings in place, so that the keys may be views of them.
-  std::deque<std::string> texts_;
+  // The keys are views of the strings.
+  std::vector<std::unique_ptr<std::string>> texts_;
   std::unordered_map<std::string_view, uint32_t> textIds_;
 };
 

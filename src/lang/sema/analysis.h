@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "base/text.h"
 #include "lang/sema/analyse.h"
 #include "lang/sema/resolved.h"
 #include "lang/tree.h"
@@ -25,6 +26,8 @@ namespace gable::lang {
 
 /// One use of a file is one module; so many are more than any real project has.
 inline constexpr size_t kMaxModules = 2000;
+/// Bounds the work where large files are imported many times.
+inline constexpr size_t kMaxModuleNodes = 8'000'000;
 inline constexpr size_t kMaxUnits = 1000;
 
 /// What a module offers by name. Keys are views of the texts of its tree.
@@ -95,6 +98,7 @@ class Analysis {
   void propagateAttributes(ModuleId module, NodeId overrides);
   RuleId addRule(ModuleId owner, NodeId node, std::string name, const Annotations& notes);
   ModuleId dynamicModule(ModuleId module, NodeId node);
+  bool tooManyModules(uint32_t unit) const;
   std::string styleOfImport(ModuleId importer, NodeId import, uint32_t unit);
 
   // --- names.cpp: look-up ---
@@ -215,6 +219,14 @@ class Analysis {
   void errorAt(const char* code, NodeId node, std::string message, std::string hint = {}) {
     error(code, tree().span(node), std::move(message), std::move(hint));
   }
+  /// "did you mean" among what `names` returns; silent rounds and long runs of mistakes skip it.
+  template <class Names>
+  std::string near(std::string_view name, Names names) {
+    constexpr int kMaxHints = 200;
+    if (mute_ || hints_ >= kMaxHints) return {};
+    ++hints_;
+    return didYouMean(name, names());
+  }
   std::string quote(std::string_view s) const { return "'" + std::string(s) + "'"; }
 
   const Catalogue& catalogue_;
@@ -235,6 +247,9 @@ class Analysis {
   /// Rounds before the last one say nothing.
   bool mute_ = false;
   bool changed_ = false;
+  int hints_ = 0;
+  /// Nodes of all modules together.
+  size_t nodes_ = 0;
   /// Body::open of rules and functions, between rounds.
   std::map<RuleId, std::vector<bool>> openRules_;
   std::map<FunctionId, std::vector<bool>> openFunctions_;

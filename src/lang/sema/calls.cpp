@@ -7,7 +7,6 @@
 
 #include <algorithm>
 
-#include "base/text.h"
 #include "lang/sema/analysis.h"
 
 namespace gable::lang {
@@ -270,9 +269,9 @@ ValueType Analysis::visitSelectorWord(NodeId node, const std::vector<const Param
   resolve(node, RefKind::Selector);
   std::string list;
   for (const std::string_view w : known) list += (list.empty() ? "" : ", ") + std::string(w);
-  const std::string near = didYouMean(word, known);
+  const std::string nearest = near(word, [&] { return known; });
   errorAt("unknown-selector", node, quote(word) + " is not known here",
-          near.empty() ? "one of: " + list : near);
+          nearest.empty() ? "one of: " + list : nearest);
   return typed(node, ValueType::Selector);
 }
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 
-#include "base/text.h"
 #include "lang/sema/analysis.h"
 
 namespace gable::lang {
@@ -111,6 +110,7 @@ ValueType Analysis::visitName(NodeId node, ValueType expected) {
 }
 
 void Analysis::reportUnknownName(NodeId node) {
+  if (mute_) return;
   const std::string_view name = text(node);
   if (inMissingImport(body_.module, name)) return;
   const std::vector<FunctionId> overloads = functionsNamed(body_.module, name);
@@ -120,7 +120,7 @@ void Analysis::reportUnknownName(NodeId node) {
             "write " + quote(std::string(name) + "(...)"));
     return;
   }
-  std::string hint = didYouMean(name, valueNames(body_.module));
+  std::string hint = near(name, [&] { return valueNames(body_.module); });
   if (hint.empty()) hint = "declare it with 'attr' or 'const', or put it in quotes if it is a text";
   errorAt("unknown-name", node, "nothing is named " + quote(name), std::move(hint));
 }
@@ -190,7 +190,7 @@ ValueType Analysis::visitCall(NodeId node) {
     return ValueType::Null;
   }
   if (inMissingImport(body_.module, name)) return ValueType::Null;
-  std::string hint = didYouMean(name, valueNames(body_.module));
+  std::string hint = near(name, [&] { return valueNames(body_.module); });
   if (hint.empty() && !rulesNamed(body_.module, name).rules.empty()) {
     hint = "it is a rule; rules have no value";
   }
@@ -215,7 +215,7 @@ ValueType Analysis::visitComp(NodeId node) {
   } else {
     visitArguments(args);
     errorAt("unknown-function", node, quote(name) + " takes no block as a function",
-            didYouMean(name, {"comp"}));
+            near(name, [&] { return std::vector<std::string_view>{"comp"}; }));
   }
   for (const NodeId item : t.children(t.child(node, 1))) {
     if (t.kind(item) != NodeKind::Item) {

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 
-#include "base/text.h"
 #include "lang/parser.h"
 #include "lang/sema/analysis.h"
 
@@ -90,7 +89,7 @@ void Analysis::indexUnit(uint32_t unit) {
     for (const StyleInfo& s : index.styles) names.push_back(s.name);
     if (std::find(names.begin(), names.end(), t.text(base)) == names.end()) {
       error("unknown-style", t.span(base), "there is no style " + quote(t.text(base)),
-            didYouMean(t.text(base), names));
+            near(t.text(base), [&] { return names; }));
     } else if (styleChain(unit, t.text(id)).back() != kDefaultStyle) {
       error("style-cycle", t.span(base), "the style " + quote(t.text(id)) + " extends itself",
             "extend another style");
@@ -174,6 +173,7 @@ ModuleId Analysis::addModule(uint32_t unit, std::string path, std::string style,
   m.importNode = importNode;
   m.dynamic = dynamic;
   const size_t nodes = program_.units[unit].tree.size();
+  nodes_ += nodes;
   m.resolutions.resize(nodes);
   m.types.resize(nodes, ValueType::Null);
   m.constants.resize(nodes);
@@ -334,13 +334,18 @@ std::string Analysis::styleOfImport(ModuleId importer, NodeId import, uint32_t u
     for (const StyleInfo& style : units_[unit].styles) names.push_back(style.name);
     if (std::find(names.begin(), names.end(), t.text(s)) == names.end()) {
       error("unknown-style", t.span(s), "the imported file has no style " + quote(t.text(s)),
-            didYouMean(t.text(s), names));
+            near(t.text(s), [&] { return names; }));
     } else if (isFirst) {
       first = std::string(t.text(s));
       isFirst = false;
     }
   }
   return first;
+}
+
+bool Analysis::tooManyModules(uint32_t unit) const {
+  return program_.modules.size() >= kMaxModules ||
+         nodes_ + program_.units[unit].tree.size() > kMaxModuleNodes;
 }
 
 void Analysis::addImports(ModuleId module) {
@@ -350,9 +355,8 @@ void Analysis::addImports(ModuleId module) {
     const auto target = importedUnit_.find({unit, import});
     if (target == importedUnit_.end()) continue;
     const Tree& t = program_.tree(module);
-    if (program_.modules.size() >= kMaxModules) {
-      error("too-many-imports", nameSpan(t, import),
-            "the imports unfold to more than " + std::to_string(kMaxModules) + " uses of files",
+    if (tooManyModules(target->second)) {
+      error("too-many-imports", nameSpan(t, import), "the imports unfold to too many uses of files",
             "import less, or less often");
       return;
     }
@@ -383,7 +387,7 @@ void Analysis::bindRuleOverride(ModuleId module, NodeId rule, ModuleId owner) {
     error("not-an-extension", nameSpan(t, rule),
           "the imported file has no extension rule " + quote(name),
           names.empty() ? "write 'extension' before the rule in the imported file"
-                        : didYouMean(name, names));
+                        : near(name, [&] { return names; }));
   }
   const std::string prefix = program_.modules[module].path;
   const std::string local = prefix.substr(prefix.rfind('.') + 1);
@@ -420,7 +424,7 @@ void Analysis::bindOverrides(ModuleId module, NodeId overrides, bool dynamic) {
       }
       std::sort(names.begin(), names.end());
       error("unknown-attribute", nameSpan(t, item),
-            "the imported file has no attribute " + quote(name), didYouMean(name, names));
+            "the imported file has no attribute " + quote(name), near(name, [&] { return names; }));
       continue;
     }
     if (!seen.insert(name).second) {
@@ -473,7 +477,11 @@ ModuleId Analysis::dynamicModule(ModuleId module, NodeId node) {
   const std::string_view name = t.text(t.child(node, 0));
   const auto fixed = scopes_[module].imports.find(name);
   ModuleId made = kNone;
-  if (fixed != scopes_[module].imports.end() && program_.modules.size() < kMaxModules) {
+  if (fixed != scopes_[module].imports.end() &&
+      tooManyModules(program_.modules[fixed->second].unit)) {
+    error("too-many-imports", nameSpan(t, node), "the imports unfold to too many uses of files",
+          "import less, or less often");
+  } else if (fixed != scopes_[module].imports.end()) {
     const Module& origin = program_.modules[fixed->second];
     const NodeId overrides = t.child(origin.importNode, 3);
     made = addModule(origin.unit, origin.path, origin.style, module, node, true);

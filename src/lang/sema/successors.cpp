@@ -6,7 +6,6 @@
 
 #include <algorithm>
 
-#include "base/text.h"
 #include "lang/sema/analysis.h"
 
 namespace gable::lang {
@@ -70,11 +69,12 @@ void Analysis::makeLeaf(NodeId node, bool known) {
   for (const NodeId block : tree().children(node).subspan(1)) {
     errorAt("unexpected-block", block,
             quote(text(node)) + " is no operation, so it cannot have a block",
-            didYouMean(text(node), ruleNames(body_.module)));
+            near(text(node), [&] { return ruleNames(body_.module); }));
   }
 }
 
 void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
+  if (mute_) return;
   const std::string_view name = text(node);
   const Span span = nameSpan(tree(), node);
   if (!found.rules.empty()) {
@@ -88,8 +88,8 @@ void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
   }
   if (ruleInAnyStyle(body_.module, name) || inMissingImport(body_.module, name)) return;
   std::vector<std::string_view> names;
-  const auto [owner, rest] = enter(body_.module, name);
-  std::string hint = didYouMean(rest, ruleNames(owner));
+  const std::pair<ModuleId, std::string_view> place = enter(body_.module, name);
+  std::string hint = near(place.second, [&] { return ruleNames(place.first); });
   if (hint.empty()) hint = "write " + quote(std::string(name) + ".") + " if it shall be a leaf";
   warning("undefined-rule", span,
           "no rule or operation is named " + quote(name) + "; it becomes a leaf", std::move(hint));
@@ -188,7 +188,7 @@ void Analysis::visitImportCall(NodeId node, bool successor) {
     makeLeaf(node, true);
     if (units_[module().unit].importNames.count(t.text(import)) == 0) {
       errorAt("unknown-import", import, "there is no import " + quote(t.text(import)),
-              didYouMean(t.text(import), names));
+              near(t.text(import), [&] { return names; }));
     }
     return;
   }
@@ -200,7 +200,7 @@ void Analysis::visitImportCall(NodeId node, bool successor) {
   warning("undefined-rule", nameSpan(t, import),
           "the imported file has no rule " + quote(t.text(node)) + " with " +
               std::to_string(args.size()) + " arguments; it becomes a leaf",
-          didYouMean(t.text(node), ruleNames(target)));
+          near(t.text(node), [&] { return ruleNames(target); }));
 }
 
 // --- Operations ---
@@ -255,12 +255,13 @@ void Analysis::visitSet(NodeId node, const OpSpec& op) {
     }
   } else {
     resolve(place, RefKind::Selector);
-    std::vector<std::string_view> names;
-    for (const auto& [n, id] : scopes_[body_.module].attributes) names.push_back(n);
-    for (const AttributeSpec* s : catalogue_.attributes) names.push_back(s->name);
-    std::sort(names.begin(), names.end());
-    errorAt("unknown-attribute", place, "there is no attribute " + quote(name),
-            didYouMean(name, names));
+    errorAt("unknown-attribute", place, "there is no attribute " + quote(name), near(name, [&] {
+              std::vector<std::string_view> names;
+              for (const auto& [n, id] : scopes_[body_.module].attributes) names.push_back(n);
+              for (const AttributeSpec* s : catalogue_.attributes) names.push_back(s->name);
+              std::sort(names.begin(), names.end());
+              return names;
+            }));
   }
   expectType(args[1], visit(args[1], wanted), wanted, "the value");
   visitBlocks(node, op);
