@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 
 #include "base/check.h"
@@ -35,15 +34,15 @@ class SelfLoader : public lang::FileLoader {
 
 void checkFormat(const Sources& sources, uint32_t file, const lang::Tree& tree) {
   Diagnostics diagnostics;
-  const std::optional<std::string> once = lang::formatRules(sources, file, diagnostics);
-  if (!once) return;
+  const std::string once = lang::format(sources, file, diagnostics);
+  if (diagnostics.hasErrors()) return;
   Sources again;
-  const uint32_t id = again.add("fuzz.cga", *once);
+  const uint32_t id = again.add("fuzz.cga", once);
   const lang::Tree second = lang::parse(again, id, diagnostics);
   GABLE_CHECK(lang::sameTree(tree, second));
-  const std::optional<std::string> twice = lang::formatRules(again, id, diagnostics);
-  GABLE_CHECK(twice.has_value());
-  GABLE_CHECK_EQ(*once, *twice);
+  const std::string twice = lang::format(again, id, diagnostics);
+  GABLE_CHECK(!diagnostics.hasErrors());
+  GABLE_CHECK_EQ(once, twice);
 }
 
 }  // namespace
