@@ -51,6 +51,21 @@ class Assembly {
   struct Half {
     uint32_t from = 0, to = 0;
   };
+  struct FaceView {
+    SkeletonVertex origin;
+    Vec2 along, up;
+    double rise = 0;
+    Vec2 operator()(const SkeletonVertex& v) const {
+      const Vec2 d = v.xy - origin.xy;
+      return {dot(d, along), dot(d, up) + (v.height - origin.height) * rise};
+    }
+  };
+  struct Above {
+    size_t index = 0;
+    bool isVertex = false;
+    double share = 0;
+    double distance = std::numeric_limits<double>::infinity();
+  };
 
   Vec2 at(uint32_t v) const { return vertices_[v].xy; }
   void placeVertices();
@@ -62,7 +77,10 @@ class Assembly {
   bool cutAt(const Trace::Merge& merge);
   void insertAcross(uint32_t a, uint32_t b, uint32_t fresh);
   void replaceVertex(uint32_t from, uint32_t to, Loop& also);
-  size_t cornerFacing(const Loop& loop, uint32_t v, Vec2 direction) const;
+  FaceView viewOf(uint32_t edge, uint32_t origin) const;
+  size_t cornerFacingUp(const Loop& loop, uint32_t v, const FaceView& view) const;
+  Above findAbove(const Loop& loop, size_t s, const FaceView& view, double slack) const;
+  void replaceLoop(uint32_t which, Loop one, Loop two, uint32_t group);
   void simplify(Loop& loop) const;
   bool encloses(const Loop& loop, Vec2 p) const;
   uint32_t numberOf(uint32_t v);
@@ -219,17 +237,48 @@ bool Assembly::linkLoops() {
   return true;
 }
 
-/// The place of v in the loop where the direction points inside, or the loop's size.
-size_t Assembly::cornerFacing(const Loop& loop, uint32_t v, Vec2 direction) const {
+/// A face seen square on: x along its edge, y up the face. Upright faces go by their height.
+Assembly::FaceView Assembly::viewOf(uint32_t edge, uint32_t origin) const {
+  const FaceInput::Edge& e = in_.edges[edge];
+  const Vec2 along = normalized(at(e.to) - at(e.from));
+  const double rise = e.upright ? in_.step / in_.timeStep : 0;
+  return {vertices_[origin], along, e.upright ? Vec2{} : perpendicular(along), rise};
+}
+
+/// The place of v in the loop where "up" points inside, or the loop's size.
+size_t Assembly::cornerFacingUp(const Loop& loop, uint32_t v, const FaceView& view) const {
   const size_t n = loop.size();
+  const Vec2 up{0, 1};
   for (size_t i = 0; i < n; ++i) {
     if (loop[i] != v) continue;
-    const Vec2 out = at(loop[(i + 1) % n]) - at(v), in = at(loop[(i + n - 1) % n]) - at(v);
-    const bool leftOfOut = cross(out, direction) > 0, rightOfIn = cross(direction, in) > 0;
+    const Vec2 out = view(vertices_[loop[(i + 1) % n]]),
+               in = view(vertices_[loop[(i + n - 1) % n]]);
+    const bool leftOfOut = cross(out, up) > 0, rightOfIn = cross(up, in) > 0;
     const bool convex = cross(out, in) > 0;
     if (convex ? leftOfOut && rightOfIn : leftOfOut || rightOfIn) return i;
   }
   return n;
+}
+
+/// The nearest place of the loop straight above its corner s: a vertex, or a point of an edge.
+Assembly::Above Assembly::findAbove(const Loop& loop, size_t s, const FaceView& view,
+                                    double slack) const {
+  Above above;
+  const size_t n = loop.size();
+  for (size_t i = 0; i < n; ++i) {
+    const Vec2 p = view(vertices_[loop[i]]), q = view(vertices_[loop[(i + 1) % n]]);
+    if (i != s && std::abs(p.x) <= slack) {
+      const bool beside = i == (s + 1) % n || (i + 1) % n == s;
+      if (p.y >= (beside ? slack : -slack) && p.y < above.distance) above = {i, true, 0, p.y};
+      continue;
+    }
+    const bool reaches = (p.x < 0) != (q.x < 0) && std::abs(q.x) > slack;
+    if (i == s || (i + 1) % n == s || !reaches) continue;
+    const double share = p.x / (p.x - q.x);
+    const double y = p.y + share * (q.y - p.y);
+    if (y >= -slack && y < above.distance) above = {i, false, share, y};
+  }
+  return above;
 }
 
 /// Puts a vertex into the edge a b of the face that runs it as b a.
@@ -254,102 +303,72 @@ void Assembly::replaceVertex(uint32_t from, uint32_t to, Loop& also) {
   points_.join(from, to);
 }
 
-/// Cuts the loop of a merge from its node along the edge's normal to the loop's other side.
+/// Cuts the loop of a merge from its node straight up to the loop's other side.
 bool Assembly::cutAt(const Trace::Merge& merge) {
   const uint32_t start = points_.find(merge.node);
-  const double slack = slack_[groups_.find(merge.left)];
-  const FaceInput::Edge& base = in_.edges[merge.left];
-  const Vec2 along = normalized(at(base.to) - at(base.from));
-  const Vec2 up = perpendicular(along);
-  auto& pieces = loopsOfGroup_[groups_.find(merge.left)];
+  const uint32_t group = groups_.find(merge.left);
+  const double slack = slack_[group];
+  const FaceView view = viewOf(merge.left, start);
   uint32_t which = kNone;
   size_t s = 0;
-  for (const uint32_t piece : pieces) {
-    s = cornerFacing(loops_[piece], start, up);
+  for (const uint32_t piece : loopsOfGroup_[group]) {
+    s = cornerFacingUp(loops_[piece], start, view);
     if (s == loops_[piece].size()) continue;
     which = piece;
     break;
   }
   if (which == kNone) return false;
-  const Loop loop = loops_[which];
-  const size_t n = loop.size();
+  Loop loop = loops_[which];
+  const Above above = findAbove(loop, s, view, slack);
+  if (std::isinf(above.distance)) return false;
 
-  // The nearest place of the loop straight above the start: a vertex or a point of an edge.
-  double nearest = std::numeric_limits<double>::infinity();
-  size_t hit = n;
-  bool atVertex = false;
-  double share = 0;
-  for (size_t i = 0; i < n; ++i) {
-    const Vec2 p = at(loop[i]) - at(start), q = at(loop[(i + 1) % n]) - at(start);
-    const double px = dot(p, along), qx = dot(q, along);
-    const double py = dot(p, up), qy = dot(q, up);
-    if (i != s && std::abs(px) <= slack) {
-      const bool beside = i == (s + 1) % n || (i + 1) % n == s;
-      if (py >= (beside ? slack : -slack) && py < nearest) {
-        nearest = py;
-        hit = i;
-        atVertex = true;
-      }
-      continue;
-    }
-    if (i == s || (i + 1) % n == s || std::abs(qx) <= slack || (px < 0) == (qx < 0)) continue;
-    const double k = px / (px - qx);
-    const double y = py + k * (qy - py);
-    if (y >= -slack && y < nearest) {
-      nearest = y;
-      hit = i;
-      atVertex = false;
-      share = k;
-    }
-  }
-  if (hit == n) return false;
-
-  Loop whole = loop;
-  size_t e = hit;
-  if (!atVertex) {
-    const uint32_t a = loop[hit], b = loop[(hit + 1) % n];
+  const bool parts = above.distance > slack;
+  size_t e = above.index;
+  if (!above.isVertex) {
+    const uint32_t a = loop[e], b = loop[(e + 1) % loop.size()];
     uint32_t fresh = start;
-    if (nearest > slack) {
+    if (parts) {
       fresh = static_cast<uint32_t>(vertices_.size());
       points_.addOne();
       const double rise = vertices_[b].height - vertices_[a].height;
-      vertices_.push_back({at(a) + (at(b) - at(a)) * share, vertices_[a].height + share * rise});
+      vertices_.push_back(
+          {at(a) + (at(b) - at(a)) * above.share, vertices_[a].height + above.share * rise});
     }
-    e = hit + 1;
-    whole.insert(whole.begin() + static_cast<std::ptrdiff_t>(e), fresh);
+    ++e;
+    loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(e), fresh);
+    if (s >= e) ++s;
     insertAcross(a, b, fresh);
   }
-  const size_t first = atVertex || s < e ? s : s + 1;
   Loop one, two;
-  for (size_t i = first; i != e; i = (i + 1) % whole.size()) one.push_back(whole[i]);
-  for (size_t i = e; i != first; i = (i + 1) % whole.size()) two.push_back(whole[i]);
+  for (size_t i = s; i != e; i = (i + 1) % loop.size()) one.push_back(loop[i]);
+  for (size_t i = e; i != s; i = (i + 1) % loop.size()) two.push_back(loop[i]);
   // A cut without length parts the loop at a point; otherwise both parts have the cut as an edge.
-  if (nearest > slack) {
-    one.push_back(whole[e]);
+  if (parts) {
+    one.push_back(loop[e]);
     two.push_back(start);
-  } else if (whole[e] != start) {
-    const uint32_t keep = std::min(whole[e], start), gone = std::max(whole[e], start);
+  } else if (loop[e] != start) {
+    const uint32_t keep = std::min(loop[e], start), gone = std::max(loop[e], start);
     if (gone < inputCount_) return false;
     replaceVertex(gone, keep, one);
     replaceVertex(gone, keep, two);
   }
+  replaceLoop(which, std::move(one), std::move(two), group);
+  return true;
+}
+
+/// Two loops for one; each edge goes with the loop that it is on.
+void Assembly::replaceLoop(uint32_t which, Loop one, Loop two, uint32_t group) {
   loops_[which] = std::move(one);
   const auto added = static_cast<uint32_t>(loops_.size());
   loops_.push_back(std::move(two));
-  pieces.push_back(added);
-  // Each edge of the loop goes with the part that its ends are on.
-  const auto holds = [](const Loop& l, uint32_t a, uint32_t b) {
-    for (size_t i = 0; i < l.size(); ++i) {
-      if (l[i] == a && l[(i + 1) % l.size()] == b) return true;
-    }
-    return false;
-  };
+  loopsOfGroup_[group].push_back(added);
+  const Loop& l = loops_[added];
   for (uint32_t k = 0; k < loopOf_.size(); ++k) {
-    if (loopOf_[k] == which && holds(loops_[added], in_.edges[k].from, in_.edges[k].to)) {
-      loopOf_[k] = added;
+    if (loopOf_[k] != which) continue;
+    for (size_t i = 0; i < l.size(); ++i) {
+      if (l[i] == in_.edges[k].from && l[(i + 1) % l.size()] == in_.edges[k].to) loopOf_[k] = added;
     }
   }
-  return true;
 }
 
 bool Assembly::cutLoops() {

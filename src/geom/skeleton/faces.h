@@ -16,6 +16,8 @@ struct FaceInput {
   /// An edge put into the wavefront (in that order): its nodes and the face it makes.
   struct Edge {
     uint32_t from = 0, to = 0, face = 0;
+    /// True where it stands still.
+    bool upright = false;
   };
   /// An upright face between collinear edges of two weights; stands on the start of an edge.
   struct Step {

@@ -265,11 +265,11 @@ std::vector<std::vector<WaveInput>> makeRings(const Input& in, const std::vector
         const int64_t dx = q.x - p.x, dy = q.y - p.y;
         const GridPoint left{p.x - dy, p.y + dx}, right{p.x + dy, p.y - dx};
         wave.push_back({planes.add(p, before.weight > e.weight ? right : left, 0), e.from});
-        out.edges.push_back({e.from, e.from, stepFace++});
+        out.edges.push_back({e.from, e.from, stepFace++, true});
         out.steps.push_back({k, e.face - in.firstFace[k]});
       }
       wave.push_back({planeOf[next++], e.from});
-      out.edges.push_back({e.from, e.to, e.face});
+      out.edges.push_back({e.from, e.to, e.face, e.weight == 0});
     }
   }
   return rings;
@@ -390,12 +390,16 @@ Skeleton buildSkeleton(const Polygon& polygon, std::span<const std::vector<doubl
   // touches itself is taken apart there by a hair, then by more of it.
   Skeleton result;
   WaveEnd end = sweep(polygon, in, in.slack, maxHeight, result);
-  if (end != WaveEnd::Done) end = sweep(polygon, in, 0, maxHeight, result = {});
+  if (end == WaveEnd::Stuck) end = sweep(polygon, in, 0, maxHeight, result = {});
   for (const double reach : {0x1p18, 0x1p30}) {
-    if (end == WaveEnd::Done) break;
+    if (end != WaveEnd::Stuck) break;
     if (loosenContacts(in, reach)) end = sweep(polygon, in, 0, maxHeight, result = {});
   }
   if (end == WaveEnd::Done) return result;
+  if (end == WaveEnd::Unbounded) {
+    return failed("skeleton-unbounded", "part of the polygon is never swept",
+                  "Give one of the edges around it a slope.");
+  }
   return failed("skeleton-failed", "the polygon's skeleton could not be found",
                 "The polygon may cross itself; clean it up first.");
 }

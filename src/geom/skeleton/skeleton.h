@@ -20,8 +20,9 @@
 //
 // Units are metres; heights are times: after height h an edge has moved by weight * h. Coordinates
 // may be large (the shape is recentred). What cannot be done ends in `status`, with no faces:
-// "skeleton-input" for what is no polygon, "skeleton-unbounded" where all weights are 0,
-// "skeleton-failed" for rings that cross. O(n r + m log m) for r reflex corners and m events.
+// "skeleton-input" for what is no polygon, "skeleton-unbounded" where only edges of weight 0 bound
+// a part, "skeleton-failed" for rings that cross. O(n r + m log m) for r reflex corners and m
+// events.
 #pragma once
 
 #include <cstdint>

@@ -4,7 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "geom/region/corpus.h"
 #include "geom/skeleton/skeleton_testing.h"
@@ -235,6 +239,64 @@ TEST(Skeleton, repeatedPointsAndSpikesAreTakenOut) {
   const Skeleton s = buildSkeleton(p);
   ASSERT_TRUE(s.status.ok());
   EXPECT_DOUBLE_EQ(s.maxHeight(), 3);
+}
+
+TEST(Skeleton, uprightNeighboursInOneLineShareTheirTop) {
+  const Polygon p{{{0, 0}, {4, 0}, {10, 0}, {10, 6}, {0, 6}}, {}};
+  const std::vector<std::vector<double>> w{{0, 0, 1, 1, 1}};
+  const Skeleton s = buildSkeleton(p, w, 2);
+  ASSERT_EQ(broken(p, s, w, 2), "");
+  EXPECT_EQ(s.faces[0].loop.size(), 4u);
+  EXPECT_EQ(s.faces[1].loop.size(), 4u);
+}
+
+TEST(Skeleton, groundThatNothingSweepsIsUnbounded) {
+  // The one moving edge starts in a funnel and is gone where its neighbours meet.
+  const Polygon p{{{0, 0}, {10, 0}, {10, 10}, {6, 4}, {4, 4}, {0, 10}}, {}};
+  const std::vector<std::vector<double>> w{{0, 0, 0, 1, 0, 0}};
+  const Skeleton s = buildSkeleton(p, w);
+  EXPECT_TRUE(s.status.ok() || std::string(s.status.code()) == "skeleton-unbounded");
+  EXPECT_TRUE(buildSkeleton(p, w, 1).status.ok());
+}
+
+/// Vertices at the top where the faces' upper borders do not go on, and borders below the top.
+size_t brokenTops(const Skeleton& s, double top) {
+  std::set<std::pair<uint32_t, uint32_t>> halves;
+  for (const SkeletonFace& f : s.faces) {
+    const auto add = [&](const std::vector<uint32_t>& l) {
+      for (size_t i = 0; i < l.size(); ++i) halves.insert({l[i], l[(i + 1) % l.size()]});
+    };
+    add(f.loop);
+    for (const auto& h : f.holes) add(h);
+  }
+  size_t wrong = 0;
+  std::map<uint32_t, int> balance;
+  for (const auto& [a, b] : halves) {
+    if ((a < s.inputCount && b < s.inputCount) || halves.count({b, a}) != 0) continue;
+    if (std::abs(s.vertices[a].height - top) + std::abs(s.vertices[b].height - top) > 1e-9) ++wrong;
+    ++balance[a];
+    --balance[b];
+  }
+  for (const auto& [v, b] : balance) wrong += b != 0 ? 1 : 0;
+  return wrong;
+}
+
+TEST(SkeletonSetback, everyPolygonIsLeftWithClosedRings) {
+  const auto cases = corpus::loadCorpus(2);
+  if (cases.empty()) GTEST_SKIP() << "the polygon corpus is not there (GABLE_SHARED)";
+  for (size_t i = 0; i < cases.size(); ++i) {
+    const Polygon p = i % 2 ? corpus::withHoles(cases[i].ring, i) : Polygon{cases[i].ring, {}};
+    // Two edges of five move, by three hundredths of the extent.
+    auto w = randomWeights(p, i);
+    const double reach = 0.03 * length(bounds(p).size());
+    for (auto& ring : w) {
+      for (double& v : ring) v = v < 1.1 ? reach : 0;
+    }
+    w[0][0] = reach;
+    const Skeleton s = buildSkeleton(p, w, 1);
+    ASSERT_EQ(broken(p, s, w, 1), "") << i;
+    ASSERT_EQ(brokenTops(s, 1), 0u) << i;
+  }
 }
 
 class SkeletonCorpus : public testing::TestWithParam<std::pair<bool, bool>> {};

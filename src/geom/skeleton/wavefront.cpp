@@ -52,6 +52,9 @@ struct Event {
 // that run along with each other. They wait until nothing else is left.
 constexpr double kLate = 0x1p60;
 
+// Edges of weight nothing move by 2^-63, so what only they bound is closed after more than this.
+constexpr double kNever = 0x1p95;
+
 /// A plane that a reflex vertex may run into, and not before `low`.
 struct Candidate {
   double low = 0;
@@ -567,7 +570,7 @@ WaveEnd Simulation::run() {
     split(event.subject, struck);
   }
   if (stuck_) return WaveEnd::Stuck;
-  if (aliveEdges_ == 0) return WaveEnd::Done;
+  if (aliveEdges_ == 0) return now_.time.value > kNever ? WaveEnd::Unbounded : WaveEnd::Done;
   if (top_ == kNone) return WaveEnd::Stuck;
   capAll();
   return WaveEnd::Done;

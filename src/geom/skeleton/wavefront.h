@@ -46,8 +46,8 @@ struct WaveInput {
   uint32_t startNode = 0;
 };
 
-/// Stuck is what crossing chains come to.
-enum class WaveEnd : uint8_t { Done, Stuck };
+/// Unbounded: part of the ground lies between edges that stand still. Stuck: the chains crossed.
+enum class WaveEnd : uint8_t { Done, Unbounded, Stuck };
 
 /// Runs rings of edges (each a list, its corners as nodes of `trace` already) to the end or to the
 /// level plane `top` (kNone for none). O(n r + m log m) for r reflex corners and m events.
