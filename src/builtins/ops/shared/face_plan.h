@@ -14,6 +14,11 @@ namespace gable {
 /// going there and back changes no bit; otherwise x runs along the first edge.
 Frame planFrame(const Mesh& m, size_t face);
 
+/// Axes square to a coordinate axis (0 to 2) with z along it, or against it for a negative sign. x
+/// and y lie as rectangles have them: a ring that starts at the least x and y and runs along x
+/// first is that of a rectangle that fills a scope.
+Frame axisFrame(size_t axis, double sign);
+
 /// A point of a polygon of planFrame, at a height above it.
 inline Vec3 fromPlanFrame(const Frame& f, Vec2 p, double height = 0) {
   return f.point({p.x, p.y, height});
