@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Colours as "#RRGGBB" and "#RRGGBBOO", and their components: sRGB, and hue (degrees), saturation
+// and value of the hexcone (A. R. Smith, 1978). Hue wraps around, the rest is clamped to 0..1.
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "builtins/lists.h"
+#include "material/material.h"
+#include "shape/op_call.h"
+
+namespace gable {
+
+namespace {
+
+void appendByte(std::string& out, double component) {
+  static constexpr char kDigits[] = "0123456789ABCDEF";
+  const double c = component >= 0 ? std::min(component, 1.0) : 0;
+  const auto v = static_cast<unsigned>(std::floor(c * 255 + 0.5));
+  out += kDigits[v / 16];
+  out += kDigits[v % 16];
+}
+
+std::string hexOf(const Vec3& rgb) {
+  std::string out = "#";
+  for (size_t i = 0; i < 3; ++i) appendByte(out, rgb[i]);
+  return out;
+}
+
+Vec3 rgbOf(double hue, double saturation, double value) {
+  const auto unit = [](double v) { return v >= 0 ? std::min(v, 1.0) : 0.0; };
+  const double s = unit(saturation), v = unit(value);
+  double h = std::fmod(hue, 360.0);
+  if (!(h >= 0)) h = h < 0 ? h + 360 : 0;
+  const double sector = h / 60, chroma = v * s;
+  const double second = chroma * (1 - std::fabs(std::fmod(sector, 2.0) - 1));
+  const double low = v - chroma;
+  const double c = chroma + low, x = second + low;
+  switch (static_cast<int>(sector)) {
+    case 0: return {c, x, low};
+    case 1: return {x, c, low};
+    case 2: return {low, c, x};
+    case 3: return {low, x, c};
+    case 4: return {x, low, c};
+    default: return {c, low, x};
+  }
+}
+
+Vec3 hsvOf(const Vec3& rgb) {
+  const double high = std::max({rgb.x, rgb.y, rgb.z}), low = std::min({rgb.x, rgb.y, rgb.z});
+  const double range = high - low;
+  double hue = 0;
+  if (range > 0) {
+    if (high == rgb.x)
+      hue = 60 * ((rgb.y - rgb.z) / range);
+    else if (high == rgb.y)
+      hue = 60 * ((rgb.z - rgb.x) / range + 2);
+    else
+      hue = 60 * ((rgb.x - rgb.y) / range + 4);
+    if (hue < 0) hue += 360;
+  }
+  return {hue, high > 0 ? range / high : 0, high};
+}
+
+Value fromRgb(FunctionCall& call) {
+  std::string out = hexOf({call.number(0), call.number(1), call.number(2)});
+  if (call.has(3)) appendByte(out, call.number(3));
+  return call.result(out);
+}
+
+Value fromHsv(FunctionCall& call) {
+  std::string out = hexOf(rgbOf(call.number(0), call.number(1), call.number(2)));
+  if (call.has(3)) appendByte(out, call.number(3));
+  return call.result(out);
+}
+
+bool readColor(FunctionCall& call, Vec3& rgb, double& opacity) {
+  if (parseColor(call.text(0), rgb, opacity)) return true;
+  call.fail("bad-argument", "'" + std::string(call.text(0)) + "' is not a colour",
+            "write \"#rrggbb\" or \"#rrggbboo\"", {});
+  return false;
+}
+
+template <size_t component>
+Value rgbComponent(FunctionCall& call) {
+  Vec3 rgb;
+  double opacity = 0;
+  return Value::of(readColor(call, rgb, opacity) ? rgb[component] : 0.0);
+}
+
+template <size_t component>
+Value hsvComponent(FunctionCall& call) {
+  Vec3 rgb;
+  double opacity = 0;
+  return Value::of(readColor(call, rgb, opacity) ? hsvOf(rgb)[component] : 0.0);
+}
+
+Value opacityOf(FunctionCall& call) {
+  Vec3 rgb;
+  double opacity = 0;
+  return Value::of(readColor(call, rgb, opacity) ? opacity : 0.0);
+}
+
+// Ramps as evenly spaced colours, in our own choice of tones.
+struct Ramp {
+  const char* name;
+  std::span<const Vec3> stops;
+};
+constexpr Vec3 kWhiteToBlack[] = {{1, 1, 1}, {0, 0, 0}};
+constexpr Vec3 kGreenToRed[] = {{0, 1, 0}, {1, 1, 0}, {1, 0, 0}};
+constexpr Vec3 kYellowToRed[] = {{1, 1, 0}, {1, 0, 0}};
+constexpr Vec3 kRedToBlue[] = {{1, 0, 0}, {1, 1, 1}, {0, 0, 1}};
+constexpr Vec3 kOrangeToBlue[] = {{1, 0.5, 0}, {1, 1, 1}, {0, 0.25, 1}};
+constexpr Vec3 kBrownToBlue[] = {{0.55, 0.3, 0.1}, {1, 1, 1}, {0, 0.25, 1}};
+constexpr Vec3 kSpectrum[] = {{1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}};
+constexpr Ramp kRamps[] = {
+    {"whiteToBlack", kWhiteToBlack}, {"greenToRed", kGreenToRed},     {"yellowToRed", kYellowToRed},
+    {"redToBlue", kRedToBlue},       {"orangeToBlue", kOrangeToBlue}, {"brownToBlue", kBrownToBlue},
+    {"spectrum", kSpectrum},
+};
+
+Value colorRamp(FunctionCall& call) {
+  const std::string_view name = call.text(0);
+  const auto ramp = std::find_if(std::begin(kRamps), std::end(kRamps),
+                                 [&](const Ramp& r) { return r.name == name; });
+  if (ramp == std::end(kRamps)) {
+    return call.fail("bad-argument", "there is no colour ramp '" + std::string(name) + "'",
+                     "use whiteToBlack, greenToRed, yellowToRed, redToBlue, orangeToBlue, "
+                     "brownToBlue or spectrum",
+                     call.result("#FFFFFF"));
+  }
+  const double last = static_cast<double>(ramp->stops.size() - 1);
+  const double v = call.number(1);
+  const double at = v > 0 ? std::min(v, 1.0) * last : 0;
+  const auto i = static_cast<size_t>(std::min(at, last - 1));
+  const double share = at - static_cast<double>(i);
+  return call.result(hexOf(ramp->stops[i] * (1 - share) + ramp->stops[i + 1] * share));
+}
+
+constexpr ParamSpec kRed = {"red", ParamType::Float, "Red, 0 to 1."};
+constexpr ParamSpec kGreen = {"green", ParamType::Float, "Green, 0 to 1."};
+constexpr ParamSpec kBlue = {"blue", ParamType::Float, "Blue, 0 to 1."};
+constexpr ParamSpec kOpacity = {"opacity", ParamType::Float, "Opacity, 0 to 1."};
+constexpr ParamSpec kHue = {"hue", ParamType::Float, "Hue in degrees; red 0, green 120, blue 240."};
+constexpr ParamSpec kSaturation = {"saturation", ParamType::Float, "Saturation, 0 to 1."};
+constexpr ParamSpec kValue = {"value", ParamType::Float,
+                              "Value (lightness of the purest tone), 0 to 1."};
+constexpr ParamSpec kRgbParams[] = {kRed, kGreen, kBlue};
+constexpr ParamSpec kRgboParams[] = {kRed, kGreen, kBlue, kOpacity};
+constexpr ParamSpec kHsvParams[] = {kHue, kSaturation, kValue};
+constexpr ParamSpec kHsvoParams[] = {kHue, kSaturation, kValue, kOpacity};
+constexpr ParamSpec kHexParams[] = {
+    {"hexValue", ParamType::String, "A colour as \"#rrggbb\" or \"#rrggbboo\"."}};
+constexpr ParamSpec kRampParams[] = {
+    {"gradient", ParamType::String,
+     "whiteToBlack, greenToRed, yellowToRed, redToBlue, orangeToBlue, brownToBlue or spectrum."},
+    {"value", ParamType::Float, "The place on the ramp, 0 to 1."}};
+constexpr Signature kRgb[] = {{kRgbParams, ValueType::String}};
+constexpr Signature kRgbo[] = {{kRgboParams, ValueType::String}};
+constexpr Signature kHsv[] = {{kHsvParams, ValueType::String}};
+constexpr Signature kHsvo[] = {{kHsvoParams, ValueType::String}};
+constexpr Signature kOfHex[] = {{kHexParams, ValueType::Float}};
+constexpr Signature kOfRamp[] = {{kRampParams, ValueType::String}};
+
+constexpr const char* kFamily = "colors";
+constexpr FunctionSpec kFunctions[] = {
+    {"colorRGBToHex", kFamily, "A colour from red, green and blue.", kRgb, fromRgb},
+    {"colorRGBOToHex", kFamily, "A colour from red, green, blue and opacity.", kRgbo, fromRgb},
+    {"colorHSVToHex", kFamily, "A colour from hue, saturation and value.", kHsv, fromHsv},
+    {"colorHSVOToHex", kFamily, "A colour from hue, saturation, value and opacity.", kHsvo,
+     fromHsv},
+    {"colorHexToR", kFamily, "The red of a colour, 0 to 1.", kOfHex, rgbComponent<0>},
+    {"colorHexToG", kFamily, "The green of a colour, 0 to 1.", kOfHex, rgbComponent<1>},
+    {"colorHexToB", kFamily, "The blue of a colour, 0 to 1.", kOfHex, rgbComponent<2>},
+    {"colorHexToO", kFamily, "The opacity of a colour, 0 to 1; 0 when it has none.", kOfHex,
+     opacityOf},
+    {"colorHexToH", kFamily, "The hue of a colour in degrees.", kOfHex, hsvComponent<0>},
+    {"colorHexToS", kFamily, "The saturation of a colour, 0 to 1.", kOfHex, hsvComponent<1>},
+    {"colorHexToV", kFamily, "The value of a colour, 0 to 1.", kOfHex, hsvComponent<2>},
+    {"colorRamp", kFamily, "The colour at a place of a ramp.", kOfRamp, colorRamp},
+};
+
+}  // namespace
+
+extern const FunctionList kFunctions_colors;
+const FunctionList kFunctions_colors = {kFunctions, {}};
+
+}  // namespace gable

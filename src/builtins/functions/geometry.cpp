@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Measures of the shape's geometry at its present size. Boxes and rectangles are answered without
+// making a mesh where rules ask most: areas and counts.
+
+#include <algorithm>
+#include <cmath>
+
+#include "builtins/lists.h"
+#include "builtins/ops/shared/edit_mesh.h"
+#include "builtins/ops/shared/frames.h"
+#include "builtins/ops/subdivide/shared/uv_extent.h"
+#include "builtins/selection.h"
+#include "builtins/shared/arrays.h"
+#include "builtins/shared/materials.h"
+#include "geom/mesh/topology.h"
+#include "math/trig.h"
+#include "shape/op_call.h"
+
+namespace gable {
+
+namespace {
+
+Value number(size_t v) { return Value::of(static_cast<double>(v)); }
+
+bool selects(FunctionCall& call, size_t argument, const Vec3& normal, const Directions& d) {
+  const std::string_view word = call.text(argument);
+  return word == "all" || word == "surface" || selectsDirection(word, normal, d);
+}
+
+double plainArea(const Shape& s) {
+  const double x = std::fabs(s.size.x), y = std::fabs(s.size.y), z = std::fabs(s.size.z);
+  switch (s.geometry.kind) {
+    case GeometryKind::None: return 0;
+    case GeometryKind::QuadXy: return x * y;
+    case GeometryKind::QuadXz: return x * z;
+    case GeometryKind::Box: return 2 * (x * y + y * z + z * x);
+    case GeometryKind::Mesh: break;
+  }
+  return meshInScope(s)->area();
+}
+
+Value area(FunctionCall& call) {
+  const Shape& s = call.shape();
+  if (!call.has(0)) return Value::of(plainArea(s));
+  const Directions directions(call.services(), s);
+  const MeshRef m = meshInScope(s);
+  double sum = 0;
+  for (size_t f = 0; f < m->faceCount(); ++f) {
+    if (selects(call, 0, m->areaNormal(f), directions)) sum += m->area(f);
+  }
+  return Value::of(sum);
+}
+
+Value isOriented(FunctionCall& call) {
+  const Directions directions(call.services(), call.shape());
+  const MeshRef m = meshInScope(call.shape());
+  for (size_t f = 0; f < m->faceCount(); ++f) {
+    if (selects(call, 0, m->areaNormal(f), directions)) return Value::of(true);
+  }
+  return Value::of(false);
+}
+
+// The mean normal in the world; that of the first face where faces cancel each other out, and the
+// z axis of the scope where there is none (points, edges).
+Vec3 worldNormal(FunctionCall& call) {
+  const Shape& s = call.shape();
+  const MeshRef m = meshInScope(s);
+  Vec3 sum;
+  double total = 0;
+  for (size_t f = 0; f < m->faceCount(); ++f) {
+    sum += m->areaNormal(f);
+    total += length(m->areaNormal(f));
+  }
+  if (length(sum) <= 1e-9 * total) sum = m->empty() ? Vec3{} : m->areaNormal(0);
+  if (sum == Vec3{}) sum = {0, 0, 1};
+  return normalized(call.services().world().direction(s.scope.direction(sum)));
+}
+
+Value angle(FunctionCall& call) {
+  const Vec3 n = worldNormal(call);
+  const double across = std::sqrt(n.x * n.x + n.z * n.z);
+  const double slope = atan2Deg(across, std::fabs(n.y));
+  if (call.text(0) == "maxSlope") return Value::of(slope);
+  if (call.text(0) == "zenith") return Value::of(90 - slope);
+  // Downhill is where the upper side of the surface leans to; north is -z.
+  if (across <= 1e-12) return Value::of(0.0);
+  const double side = n.y < 0 ? -1 : 1;
+  const double azimuth = atan2Deg(side * n.x, -side * n.z);
+  return Value::of(azimuth < 0 ? azimuth + 360 : azimuth + 0.0);
+}
+
+Value height(FunctionCall& call) {
+  const Shape& s = call.shape();
+  if (s.geometry.kind == GeometryKind::None) return Value::of(0.0);
+  const Vec3 up = s.scope.toLocalDirection(worldFrame(call.services()).y);
+  const MeshRef m = meshInScope(s);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vec3& p : m->positions) {
+    low = std::min(low, dot(p, up));
+    high = std::max(high, dot(p, up));
+  }
+  return Value::of(std::max(high - low, 0.0));
+}
+
+Value nVertices(FunctionCall& call) { return number(countsOf(call.shape().geometry).vertices); }
+Value nEdges(FunctionCall& call) { return number(countsOf(call.shape().geometry).edges); }
+Value nFaces(FunctionCall& call) { return number(countsOf(call.shape().geometry).faces); }
+Value nHoles(FunctionCall& call) { return number(countsOf(call.shape().geometry).holes); }
+
+Value volumeOf(FunctionCall& call) {
+  const Shape& s = call.shape();
+  if (s.geometry.kind == GeometryKind::Box) {
+    return Value::of(std::fabs(s.size.x * s.size.y * s.size.z));
+  }
+  return Value::of(s.geometry.kind == GeometryKind::Mesh ? std::fabs(volume(*meshInScope(s)))
+                                                         : 0.0);
+}
+
+Value boundary(FunctionCall& call) { return Value::of(boundaryLength(*meshInScope(call.shape()))); }
+
+Value isClosed(FunctionCall& call) {
+  const GeometryKind kind = call.shape().geometry.kind;
+  if (kind != GeometryKind::Mesh) return Value::of(kind == GeometryKind::Box);
+  return Value::of(Topology(*call.shape().geometry.mesh).closed());
+}
+
+Value isConcaveOf(FunctionCall& call) {
+  if (call.shape().geometry.kind != GeometryKind::Mesh) return Value::of(false);
+  return Value::of(isConcave(*meshInScope(call.shape())));
+}
+
+Value isPlanarOf(FunctionCall& call) {
+  const GeometryKind kind = call.shape().geometry.kind;
+  if (kind != GeometryKind::Mesh) return Value::of(kind != GeometryKind::None);
+  return Value::of(isPlanar(*meshInScope(call.shape()), call.number(0, 0.25)));
+}
+
+Value isRectangularOf(FunctionCall& call) {
+  const GeometryKind kind = call.shape().geometry.kind;
+  if (kind != GeometryKind::Mesh) return Value::of(kind != GeometryKind::None);
+  return Value::of(isRectangular(*meshInScope(call.shape()), call.number(0, 0.25)));
+}
+
+Value isInstanced(FunctionCall& call) { return Value::of(call.shape().geometry.instanced); }
+
+// The uv set of an argument, 0 without one; false when the shape has no such coordinates.
+bool uvSet(FunctionCall& call, int& set) {
+  const double v = call.number(0, 0);
+  set = v >= 0 && v < kUvSets ? static_cast<int>(v) : -1;
+  return set >= 0 && hasUvSet(call.shape(), set);
+}
+
+template <int coordinate>
+Value uvRange(FunctionCall& call) {
+  int set = 0;
+  if (!uvSet(call, set)) return Value::of(0.0);
+  const UvExtent e = uvExtent(*meshInScope(call.shape()), set, coordinate);
+  return Value::of(call.text(1) == "unitSpace" ? e.metres : e.max - e.min);
+}
+
+template <int coordinate, bool upper>
+Value uvBound(FunctionCall& call) {
+  int set = 0;
+  if (!uvSet(call, set)) return Value::of(0.0);
+  const UvExtent e = uvExtent(*meshInScope(call.shape()), set, coordinate);
+  return Value::of(upper ? e.max : e.min);
+}
+
+Value hasUvs(FunctionCall& call) {
+  int set = 0;
+  if (call.has(0)) return Value::of(uvSet(call, set));
+  for (set = 0; set < kUvSets; ++set) {
+    if (hasUvSet(call.shape(), set)) return Value::of(true);
+  }
+  return Value::of(false);
+}
+
+// Names of the materials in the order of their first faces.
+Value materials(FunctionCall& call) {
+  const Shape& s = call.shape();
+  const Services& services = call.services();
+  std::vector<uint16_t> slots;
+  if (s.geometry.kind == GeometryKind::Mesh) {
+    for (const MeshFace& f : s.geometry.mesh->faces) {
+      if (std::find(slots.begin(), slots.end(), f.materialSlot) == slots.end()) {
+        slots.push_back(f.materialSlot);
+      }
+    }
+  } else if (s.geometry.kind != GeometryKind::None) {
+    slots.push_back(0);
+  }
+  const auto& list = services.attributes().materials(s.assetMaterials);
+  std::vector<std::string> names;
+  for (const uint16_t slot : slots) {
+    const bool own = slot == 0 || slot > list.size() / 2;
+    names.push_back(services.materials().get(own ? s.material : list[slot - 1u]).name);
+  }
+  return stringArray(names, services.pool());
+}
+
+// Models are read as one mesh, without groups.
+Value groups(FunctionCall& call) { return stringArray({}, call.services().pool()); }
+
+// All tags of the faces or edges, sorted, each once.
+std::vector<std::string> tagNames(FunctionCall& call) {
+  const Services& services = call.services();
+  const std::string_view query = call.text(0, ""), of = call.text(1, "all");
+  const MeshRef m = meshInScope(call.shape());
+  std::vector<TagSetId> sets;
+  if (of == "all" || of == "faces") {
+    for (const MeshFace& f : m->faces) sets.push_back(f.tags);
+  }
+  if (of == "all" || of == "edges") sets.insert(sets.end(), m->edgeTags.begin(), m->edgeTags.end());
+  std::sort(sets.begin(), sets.end());
+  sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
+  std::vector<std::string> names;
+  for (const TagSetId set : sets) {
+    for (const StringId name : services.tags().names(set)) {
+      const std::string_view tag = services.pool().text(name);
+      if (query.empty() || tagMatches(query, tag)) names.emplace_back(tag);
+    }
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+Value tags(FunctionCall& call) { return stringArray(tagNames(call), call.services().pool()); }
+Value hasTags(FunctionCall& call) { return Value::of(!tagNames(call).empty()); }
+
+constexpr ValueType kFloat = ValueType::Float, kBool = ValueType::Bool;
+constexpr const char* kOrientations =
+    "all surface front back left right top bottom side object.front object.back object.left "
+    "object.right object.top object.bottom object.side world.north world.south world.west "
+    "world.east world.up world.down world.side street.front street.back street.left street.right "
+    "street.side";
+
+constexpr Signature kNumber[] = {{{}, kFloat}};
+constexpr Signature kTruth[] = {{{}, kBool}};
+constexpr Signature kNames[] = {{{}, ValueType::StringArray}};
+constexpr ParamSpec kAreaParams[] = {{"faceOrientation", ParamType::Selector,
+                                      "Which faces count, by the way they look.", nullptr,
+                                      kOrientations}};
+constexpr Signature kArea[] = {{{}, kFloat}, {kAreaParams, kFloat}};
+constexpr ParamSpec kOrientedParams[] = {{"orientation", ParamType::Selector,
+                                          "The way that a face has to look.", nullptr,
+                                          kOrientations}};
+constexpr Signature kOriented[] = {{kOrientedParams, kBool}};
+constexpr ParamSpec kAngleParams[] = {
+    {"angleType", ParamType::Selector,
+     "The slope against the ground, the direction of downhill clockwise from north, or what the "
+     "slope lacks to 90.",
+     nullptr, "maxSlope azimuth zenith"}};
+constexpr Signature kAngle[] = {{kAngleParams, kFloat}};
+constexpr ParamSpec kToleranceParams[] = {
+    {"tolerance", ParamType::Float, "How far angles may be off, in degrees.", "0.25"}};
+constexpr Signature kTolerance[] = {{kToleranceParams, kBool}};
+constexpr ParamSpec kUvSet = {"uvSet", ParamType::Float, "The uv set, 0 to 9."};
+constexpr ParamSpec kUvParams[] = {kUvSet};
+constexpr Signature kUvBound[] = {{{}, kFloat}, {kUvParams, kFloat}};
+constexpr Signature kHasUv[] = {{{}, kBool}, {kUvParams, kBool}};
+constexpr ParamSpec kRangeParams[] = {
+    kUvSet,
+    {"surfaceParameterization", ParamType::Selector,
+     "In the units of the coordinates, or in metres along the surface.", nullptr,
+     "uvSpace unitSpace"}};
+constexpr Signature kRange[] = {{kRangeParams, kFloat}};
+constexpr ParamSpec kQuery = {"tagQuery", ParamType::String,
+                              "Tags to count: a name or its beginning by dots; ? stands for one "
+                              "part, * for some."};
+constexpr ParamSpec kOf = {"components", ParamType::Selector, "Whose tags count.", nullptr,
+                           "all faces edges vertices"};
+constexpr ParamSpec kQueryParams[] = {kQuery};
+constexpr ParamSpec kQueryOfParams[] = {kQuery, kOf};
+constexpr Signature kTags[] = {{{}, ValueType::StringArray},
+                               {kQueryParams, ValueType::StringArray},
+                               {kQueryOfParams, ValueType::StringArray}};
+constexpr Signature kHasTags[] = {{{}, kBool}, {kQueryParams, kBool}, {kQueryOfParams, kBool}};
+
+constexpr const char* kFamily = "geometry";
+constexpr uint32_t kByWord = kReadsWorld | kReadsWorldByWord;
+constexpr FunctionSpec kFunctions[] = {
+    {"geometry.area", kFamily, "The area of all faces, or of those that look a certain way.", kArea,
+     area, kByWord, true},
+    {"geometry.angle", kFamily, "How steep the surface is, and where it slopes to, in degrees.",
+     kAngle, angle, kReadsWorld},
+    {"geometry.boundaryLength", kFamily, "The length of all edges with only one face.", kNumber,
+     boundary, kPure, true},
+    {"geometry.du", kFamily, "The range of u of a uv set.", kRange, uvRange<0>},
+    {"geometry.dv", kFamily, "The range of v of a uv set.", kRange, uvRange<1>},
+    {"geometry.groups", kFamily, "The names of the groups of the geometry.", kNames, groups, kPure,
+     true},
+    {"geometry.hasTags", kFamily, "Whether any component has a tag, or a certain tag.", kHasTags,
+     hasTags, kPure, true},
+    {"geometry.hasUVs", kFamily, "Whether there are texture coordinates, in any or a certain set.",
+     kHasUv, hasUvs, kPure, true},
+    {"geometry.height", kFamily, "The height of the geometry in the world.", kNumber, height,
+     kReadsWorld, true},
+    {"geometry.isClosedSurface", kFamily, "Whether every edge belongs to exactly two faces.",
+     kTruth, isClosed, kPure, true},
+    {"geometry.isConcave", kFamily, "Whether any face is concave or has a hole.", kTruth,
+     isConcaveOf, kPure, true},
+    {"geometry.isInstanced", kFamily,
+     "Whether the geometry is an asset or primitive as it was inserted.", kTruth, isInstanced,
+     kReadsPath, true},
+    {"geometry.isOriented", kFamily, "Whether any face looks a certain way.", kOriented, isOriented,
+     kByWord},
+    {"geometry.isPlanar", kFamily, "Whether every face is flat.", kTolerance, isPlanarOf, kPure,
+     true},
+    {"geometry.isRectangular", kFamily, "Whether every face is a rectangle.", kTolerance,
+     isRectangularOf, kPure, true},
+    {"geometry.materials", kFamily, "The names of the materials in the order of their first faces.",
+     kNames, materials, kPure, true},
+    {"geometry.nEdges", kFamily, "The number of edges.", kNumber, nEdges, kPure, true},
+    {"geometry.nFaces", kFamily, "The number of faces.", kNumber, nFaces, kPure, true},
+    {"geometry.nHoles", kFamily, "The number of holes in faces.", kNumber, nHoles, kPure, true},
+    {"geometry.nVertices", kFamily, "The number of vertices.", kNumber, nVertices, kPure, true},
+    {"geometry.tags", kFamily, "The tags of the components, sorted.", kTags, tags, kPure, true},
+    {"geometry.uMin", kFamily, "The least u of a uv set, of set 0 without argument.", kUvBound,
+     uvBound<0, false>, kPure, true},
+    {"geometry.uMax", kFamily, "The greatest u of a uv set.", kUvBound, uvBound<0, true>, kPure,
+     true},
+    {"geometry.vMin", kFamily, "The least v of a uv set.", kUvBound, uvBound<1, false>, kPure,
+     true},
+    {"geometry.vMax", kFamily, "The greatest v of a uv set.", kUvBound, uvBound<1, true>, kPure,
+     true},
+    {"geometry.volume", kFamily, "The volume that the faces enclose.", kNumber, volumeOf, kPure,
+     true},
+};
+
+}  // namespace
+
+extern const FunctionList kFunctions_geometry;
+const FunctionList kFunctions_geometry = {kFunctions, {}};
+
+}  // namespace gable

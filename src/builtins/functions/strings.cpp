@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Texts are UTF-8; positions and lengths count characters, not bytes.
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/regex.h"
+#include "base/text.h"
+#include "builtins/lists.h"
+#include "builtins/shared/arrays.h"
+#include "shape/op_call.h"
+
+namespace gable {
+
+namespace {
+
+constexpr size_t kNone = std::string_view::npos;
+
+size_t stepAt(std::string_view text, size_t at) {
+  return std::max<size_t>(utf8Length(text, at), 1);
+}
+
+size_t lengthOf(std::string_view text) {
+  size_t n = 0;
+  for (size_t at = 0; at < text.size(); at += stepAt(text, at)) ++n;
+  return n;
+}
+
+// The byte at which a character begins; the end of the text beyond the last.
+size_t byteOf(std::string_view text, double character) {
+  size_t at = 0;
+  for (double n = 0; n + 1 <= character && at < text.size(); ++n) at += stepAt(text, at);
+  return at;
+}
+
+Value position(std::string_view text, size_t byte) {
+  return Value::of(byte == kNone ? -1.0 : static_cast<double>(lengthOf(text.substr(0, byte))));
+}
+
+Value length(FunctionCall& call) { return Value::of(static_cast<double>(lengthOf(call.text(0)))); }
+
+// The byte of the n-th match, counted from 0 without overlaps.
+size_t findNth(std::string_view text, std::string_view match, double n) {
+  if (match.empty() || !(n >= 0)) return kNone;
+  size_t at = text.find(match);
+  for (double i = 1; i <= n && at != kNone; ++i) at = text.find(match, at + match.size());
+  return at;
+}
+
+Value find(FunctionCall& call) {
+  return position(call.text(0), findNth(call.text(0), call.text(1), call.number(2)));
+}
+
+Value count(FunctionCall& call) {
+  double n = 0;
+  const std::string_view text = call.text(0), match = call.text(1);
+  for (size_t at = match.empty() ? kNone : text.find(match); at != kNone;
+       at = text.find(match, at + match.size())) {
+    ++n;
+  }
+  return Value::of(n);
+}
+
+Value substring(FunctionCall& call) {
+  const std::string_view text = call.text(0);
+  const size_t begin = byteOf(text, call.number(1)), end = byteOf(text, call.number(2));
+  return call.result(begin < end ? text.substr(begin, end - begin) : std::string_view());
+}
+
+std::vector<std::string> splitAtText(std::string_view text, std::string_view delimiter) {
+  std::vector<std::string> parts;
+  if (delimiter.empty()) {
+    // Between all characters, and before and after them.
+    parts.emplace_back();
+    for (size_t at = 0; at < text.size() && parts.size() < kMaxArraySize; at += stepAt(text, at)) {
+      parts.emplace_back(text.substr(at, stepAt(text, at)));
+    }
+    parts.emplace_back();
+    return parts;
+  }
+  size_t from = 0, at = text.find(delimiter);
+  while (at != kNone && parts.size() < kMaxArraySize) {
+    parts.emplace_back(text.substr(from, at - from));
+    from = at + delimiter.size();
+    at = text.find(delimiter, from);
+  }
+  parts.emplace_back(text.substr(from));
+  return parts;
+}
+
+std::vector<std::string> splitAtRegex(std::string_view text, const Regex& regex) {
+  std::vector<std::string> parts;
+  size_t from = 0, search = 0;
+  while (search <= text.size() && parts.size() < kMaxArraySize) {
+    const Regex::Match m = regex.search(text, search);
+    if (!m.found) break;
+    // An empty match at either end of what is left would make empty parts without end.
+    if (m.end == m.begin && (m.begin == from || m.begin >= text.size())) {
+      search = m.end + 1;
+      continue;
+    }
+    parts.emplace_back(text.substr(from, m.begin - from));
+    from = m.end;
+    search = std::max(m.end, m.begin + (m.end == m.begin ? 1 : 0));
+  }
+  parts.emplace_back(text.substr(from));
+  return parts;
+}
+
+Value splitString(FunctionCall& call) {
+  ValuePool& pool = call.services().pool();
+  const std::string_view text = call.text(0), delimiter = call.text(1);
+  std::vector<std::string> parts;
+  if (delimiter.size() > 1 && delimiter[0] == '$') {
+    const Regex regex(delimiter.substr(1));
+    if (!regex.valid()) {
+      return call.fail("bad-regex",
+                       "'" + std::string(delimiter.substr(1)) +
+                           "' is not a regular expression: " + regex.error(),
+                       "put a backslash before letters with a meaning", stringArray({}, pool));
+    }
+    parts = splitAtRegex(text, regex);
+  } else {
+    parts = splitAtText(text, delimiter);
+  }
+  if (parts.size() > kMaxArraySize) {
+    return call.fail("array-too-large", "splitString would make too many parts",
+                     "arrays have up to 100000 elements", stringArray({}, pool));
+  }
+  return stringArray(parts, pool);
+}
+
+Value findFirst(FunctionCall& call) {
+  const Value& in = call.arg(0);
+  if (!in.isArray()) return position(call.text(0), findNth(call.text(0), call.text(1), 0));
+  const Array& a = call.array(0);
+  const double epsilon = call.number(2, 0);
+  for (size_t i = 0; i < a.size(); ++i) {
+    const bool equal = a.element == ValueType::String
+                           ? a.strings[i] == call.arg(1).id
+                           : std::fabs(a.numbers[i] - call.number(1)) <= epsilon;
+    if (equal) return Value::of(static_cast<double>(i));
+  }
+  return Value::of(-1.0);
+}
+
+Value findLast(FunctionCall& call) {
+  const std::string_view text = call.text(0), match = call.text(1);
+  return position(text, match.empty() ? kNone : text.rfind(match));
+}
+
+Value getPrefix(FunctionCall& call) {
+  const std::string_view text = call.text(0);
+  const size_t at = findNth(text, call.text(1), 0);
+  return call.result(at == kNone ? std::string_view() : text.substr(0, at));
+}
+
+Value getSuffix(FunctionCall& call) {
+  const std::string_view text = call.text(0), match = call.text(1);
+  const size_t at = match.empty() ? kNone : text.rfind(match);
+  return call.result(at == kNone ? std::string_view() : text.substr(at + match.size()));
+}
+
+Value getRange(FunctionCall& call) {
+  const std::string_view text = call.text(0), left = call.text(1), right = call.text(2);
+  const size_t from = findNth(text, left, 0);
+  const size_t to = right.empty() ? kNone : text.rfind(right);
+  if (from == kNone || to == kNone || to < from + left.size()) return call.result("");
+  return call.result(text.substr(from + left.size(), to - from - left.size()));
+}
+
+Value replace(FunctionCall& call) {
+  const std::string_view text = call.text(0), old = call.text(1);
+  if (old.empty()) return call.arg(0);
+  const std::string by = call.services().pool().str(call.arg(2));
+  std::string out;
+  size_t from = 0;
+  for (size_t at = text.find(old); at != kNone; at = text.find(old, from)) {
+    out.append(text.substr(from, at - from)).append(by);
+    from = at + old.size();
+    if (out.size() > (size_t{1} << 26)) break;
+  }
+  return call.result(out.append(text.substr(from)));
+}
+
+constexpr ParamSpec kInput = {"inputString", ParamType::String, "The text to look at."};
+constexpr ParamSpec kMatch = {"matchString", ParamType::String, "The text to look for."};
+constexpr ValueType kFloat = ValueType::Float, kString = ValueType::String;
+
+constexpr ParamSpec kOneParams[] = {kInput};
+constexpr Signature kLen[] = {{kOneParams, kFloat}};
+constexpr ParamSpec kFindParams[] = {
+    kInput, kMatch, {"n", ParamType::Float, "Which occurrence, counted from 0."}};
+constexpr Signature kFind[] = {{kFindParams, kFloat}};
+constexpr ParamSpec kMatchParams[] = {kInput, kMatch};
+constexpr Signature kNumberOfMatch[] = {{kMatchParams, kFloat}};
+constexpr Signature kTextOfMatch[] = {{kMatchParams, kString}};
+constexpr ParamSpec kSubstringParams[] = {
+    kInput,
+    {"startPos", ParamType::Float, "The first character to take, counted from 0."},
+    {"endPos", ParamType::Float, "The first character not to take any more."}};
+constexpr Signature kSubstring[] = {{kSubstringParams, kString}};
+constexpr ParamSpec kSplitParams[] = {
+    kInput,
+    {"delimiter", ParamType::String,
+     "What separates the parts; a regular expression after a leading $."}};
+constexpr Signature kSplit[] = {{kSplitParams, ValueType::StringArray}};
+constexpr ParamSpec kRangeParams[] = {
+    kInput,
+    {"leftMatchString", ParamType::String, "The text whose first occurrence comes before."},
+    {"rightMatchString", ParamType::String, "The text whose last occurrence comes after."}};
+constexpr Signature kRange[] = {{kRangeParams, kString}};
+
+constexpr ParamSpec kOld = {"oldString", ParamType::String, "The text to replace everywhere."};
+constexpr ParamSpec kNewText[] = {
+    kInput, kOld, {"newString", ParamType::String, "The text to put there."}};
+constexpr ParamSpec kNewFloat[] = {
+    kInput, kOld, {"newString", ParamType::Float, "A number to put there."}};
+constexpr ParamSpec kNewBool[] = {
+    kInput, kOld, {"newString", ParamType::Bool, "A truth value to put there."}};
+constexpr Signature kReplace[] = {{kNewText, kString}, {kNewFloat, kString}, {kNewBool, kString}};
+
+constexpr ParamSpec kFirstFloat[] = {
+    {"array", ParamType::FloatArray, "Numbers to look through."},
+    {"value", ParamType::Float, "The number to look for."},
+    {"epsilon", ParamType::Float, "How far a number may be off and still be taken."}};
+constexpr ParamSpec kFirstString[] = {{"array", ParamType::StringArray, "Texts to look through."},
+                                      {"value", ParamType::String, "The text to look for."}};
+constexpr ParamSpec kFirstBool[] = {
+    {"array", ParamType::BoolArray, "Truth values to look through."},
+    {"value", ParamType::Bool, "The value to look for."}};
+constexpr Signature kFirst[] = {
+    {kMatchParams, kFloat}, {kFirstFloat, kFloat}, {kFirstString, kFloat}, {kFirstBool, kFloat}};
+
+constexpr const char* kFamily = "strings";
+constexpr FunctionSpec kFunctions[] = {
+    {"len", kFamily, "The number of characters of a text.", kLen, length},
+    {"find", kFamily, "The position of the n-th occurrence of a text; -1 when there is none.",
+     kFind, find},
+    {"count", kFamily, "How often a text occurs in another.", kNumberOfMatch, count},
+    {"substring", kFamily, "The characters of a text from one position to before another.",
+     kSubstring, substring},
+    {"splitString", kFamily, "The parts of a text between separators.", kSplit, splitString},
+    {"findFirst", kFamily,
+     "The position of the first occurrence in a text or an array; -1 when there is none.", kFirst,
+     findFirst},
+    {"findLast", kFamily, "The position of the last occurrence of a text; -1 when there is none.",
+     kNumberOfMatch, findLast},
+    {"getPrefix", kFamily, "What comes before the first occurrence of a text.", kTextOfMatch,
+     getPrefix},
+    {"getSuffix", kFamily, "What comes after the last occurrence of a text.", kTextOfMatch,
+     getSuffix},
+    {"getRange", kFamily, "What stands between two texts.", kRange, getRange},
+    {"replace", kFamily, "A text with all occurrences of another one replaced.", kReplace, replace},
+};
+
+}  // namespace
+
+extern const FunctionList kFunctions_strings;
+const FunctionList kFunctions_strings = {kFunctions, {}};
+
+}  // namespace gable
