@@ -186,17 +186,23 @@ class Side {
 // Loops with the corners on the cut put in.
 std::vector<std::vector<Item>> withCutCorners(const Face& face, Host& host) {
   std::vector<std::vector<Item>> loops;
+  loops.reserve(face.size());
   uint32_t order = 0;
   for (const Loop& loop : face) {
     std::vector<Item> items;
+    items.reserve(loop.size() + 4);
+    const int firstSide = host.side(loop[0]);
+    int here = firstSide;
     for (size_t i = 0; i < loop.size(); ++i) {
       const Corner& a = loop[i];
-      const Corner& b = loop[(i + 1) % loop.size()];
-      const int sa = host.side(a), sb = host.side(b);
-      items.push_back({a, host.place(a), sa, order++});
-      if (sa * sb >= 0) continue;
-      const Corner c = host.split(a, b);
-      items.push_back({c, host.place(c), 0, order++});
+      const Corner& b = loop[i + 1 == loop.size() ? 0 : i + 1];
+      const int next = i + 1 == loop.size() ? firstSide : host.side(b);
+      items.push_back({a, host.place(a), here, order++});
+      if (here * next < 0) {
+        const Corner c = host.split(a, b);
+        items.push_back({c, host.place(c), 0, order++});
+      }
+      here = next;
     }
     loops.push_back(std::move(items));
   }
@@ -292,12 +298,46 @@ void nestItems(std::vector<ItemLoop> loops, std::vector<Face>& out) {
   }
 }
 
+// Most cuts meet a loop in two places: one chain below, one above. No sorting is needed then; false
+// when it is not so.
+bool cutSimply(const ItemLoop& loop, uint32_t cutEdge, Face& below, Face& above) {
+  size_t on[2] = {0, 0}, count = 0;
+  for (size_t i = 0; i < loop.size(); ++i) {
+    if (loop[i].side != 0) continue;
+    if (count == 2) return false;
+    on[count++] = i;
+  }
+  if (count != 2) return false;
+  const size_t n = loop.size();
+  const int first = loop[(on[0] + 1) % n].side, second = loop[(on[1] + 1) % n].side;
+  if (first * second >= 0) return false;
+  for (const int k : {0, 1}) {
+    ItemLoop part;
+    for (size_t i = on[k]; i != on[1 - k]; i = (i + 1) % n) part.push_back(loop[i]);
+    part.push_back(loop[on[1 - k]]);
+    part.back().corner.edge = cutEdge;
+    if (!hasArea(part, areaOf(part))) continue;
+    startNear(part, loop[0].place);
+    ((k == 0 ? first : second) < 0 ? below : above).push_back(cornersOf(part));
+  }
+  return true;
+}
+
 }  // namespace
 
 void cutFace(const Face& face, Host& host, uint32_t cutEdge, std::vector<Face>& below,
              std::vector<Face>& above) {
-  if (face.empty() || face[0].empty()) return;
+  for (const Loop& loop : face) {
+    if (loop.empty()) return;
+  }
+  if (face.empty()) return;
   const std::vector<ItemLoop> loops = withCutCorners(face, host);
+  Face low, high;
+  if (loops.size() == 1 && cutSimply(loops[0], cutEdge, low, high)) {
+    if (!low.empty()) below.push_back(std::move(low));
+    if (!high.empty()) above.push_back(std::move(high));
+    return;
+  }
   ItemLoop line;
   for (const ItemLoop& loop : loops) {
     for (const Item& i : loop) {
