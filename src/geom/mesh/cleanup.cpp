@@ -10,6 +10,7 @@
 
 #include "base/hash.h"
 #include "geom/mesh/rebuild.h"
+#include "math/cell.h"
 #include "math/trig.h"
 
 namespace gable {
@@ -31,9 +32,9 @@ std::vector<uint32_t> representatives(const std::vector<Vec3>& positions, double
   std::vector<uint32_t> out(positions.size());
   for (uint32_t i = 0; i < positions.size(); ++i) {
     const Vec3& p = positions[i];
-    const auto x = static_cast<int64_t>(std::floor(p.x * inverse));
-    const auto y = static_cast<int64_t>(std::floor(p.y * inverse));
-    const auto z = static_cast<int64_t>(std::floor(p.z * inverse));
+    const auto x = cellIndex(p.x * inverse);
+    const auto y = cellIndex(p.y * inverse);
+    const auto z = cellIndex(p.z * inverse);
     uint32_t best = i;
     for (int64_t k = 0; k < 27; ++k) {
       const auto cell = cells.find(cellKey(x + k % 3 - 1, y + k / 3 % 3 - 1, z + k / 9 - 1));

@@ -126,6 +126,12 @@ TEST(Cleanup, nearPositionsMergeAndCollapsedEdgesGo) {
   EXPECT_TRUE(m.positions.empty());
 }
 
+TEST(Cleanup, farPositionsAreNoTrouble) {
+  Mesh m = makeBoxMesh({1e300, 1e25, 1}, false);
+  mergePositions(m, 0);
+  EXPECT_EQ(m.positions.size(), 8u);
+}
+
 TEST(Cleanup, aRoundDrumKeepsItsSides) {
   Ring circle;
   for (int i = 0; i < 72; ++i) circle.push_back({cosDeg(i * 5.0), sinDeg(i * 5.0)});

@@ -12,6 +12,7 @@
 
 #include "base/hash.h"
 #include "geom/region/segment_grid.h"
+#include "math/cell.h"
 #include "math/predicates.h"
 
 namespace gable {
@@ -66,8 +67,8 @@ class CellMap {
 
   /// The kept point within `tolerance` of p, or p itself, which then is kept.
   Vec2 snap(Vec2 p, double tolerance) {
-    const auto cx = static_cast<int64_t>(std::floor(p.x * inverse_));
-    const auto cy = static_cast<int64_t>(std::floor(p.y * inverse_));
+    const auto cx = cellIndex(p.x * inverse_);
+    const auto cy = cellIndex(p.y * inverse_);
     bool found = false;
     size_t best = 0;
     for (int64_t y = cy - 1; y <= cy + 1; ++y) {

@@ -96,8 +96,8 @@ class Search {
     for (const Segment& s : edges) {
       if (s.a.x != s.b.x) rising.push_back(s.a.x < s.b.x ? s : Segment{s.b, s.a});
     }
-    std::sort(rising.begin(), rising.end(),
-              [](const Segment& s, const Segment& t) { return s.a.x < t.a.x; });
+    std::stable_sort(rising.begin(), rising.end(),
+                     [](const Segment& s, const Segment& t) { return s.a.x < t.a.x; });
     std::vector<Segment> active;
     size_t next = 0;
     slabStarts_.push_back(0);

@@ -263,9 +263,12 @@ class Clipping {
     for (const uint32_t b : blockers) items_[fill[cellOf(at(b))]++] = b;
   }
 
-  int column(double x) const { return cellIndex((x - box_.min.x) * inverse_.x); }
-  int row(double y) const { return cellIndex((y - box_.min.y) * inverse_.y); }
-  int cellIndex(double v) const { return std::clamp(static_cast<int>(v), 0, side_ - 1); }
+  int column(double x) const { return clampCell((x - box_.min.x) * inverse_.x); }
+  int row(double y) const { return clampCell((y - box_.min.y) * inverse_.y); }
+  int clampCell(double v) const {
+    if (!(v > 0)) return 0;
+    return v < side_ ? static_cast<int>(v) : side_ - 1;
+  }
   size_t cellOf(Vec2 p) const {
     return static_cast<size_t>(row(p.y)) * static_cast<size_t>(side_) +
            static_cast<size_t>(column(p.x));
