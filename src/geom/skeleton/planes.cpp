@@ -54,7 +54,8 @@ PlaneId Planes::add(GridPoint from, GridPoint to, double weight) {
   p.na = static_cast<double>(p.a) / length;
   p.nb = static_cast<double>(p.b) / length;
   p.nc = static_cast<double>(p.c) / length;
-  p.ns = w;
+  // From s itself: where the weight is next to nothing, the hair is a part that counts.
+  p.ns = quotient(p.s, len.shiftedLeft(53));
   planes_.push_back(p);
   return static_cast<PlaneId>(planes_.size() - 1);
 }
