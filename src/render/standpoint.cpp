@@ -17,6 +17,9 @@ constexpr double kEyeHeight = 1.62;
 /// The camera is shifted up: the horizon lies at this share of the height.
 constexpr double kHorizon = 0.31;
 constexpr int kPlaces = 640, kDirections = 24;
+/// The best places are looked at once more, with so many steps about each.
+constexpr size_t kRefined = 8;
+constexpr int kSteps = 16;
 constexpr int kColumns = 20, kRows = 12;
 
 /// The foot of somebody who stands at (x, z); false where there is no open ground.
@@ -107,6 +110,7 @@ double mark(const Subject& s, const Light& light, const Camera& camera, double a
   const double depth = std::sqrt(std::max(0.0, logSquares / things - mean * mean));
   const double litShare = walls > 0 ? static_cast<double>(lit) / walls : 0;
   return -6 * off(things / all, 0.5, 0.68) - 4 * off(flat / all, 0.3, 0.6) -
+         3 * off((things - walls) / all, 0, 0.1) - 3 * off((walls - flat) / all, 0, 0.16) -
          6 * off(blank / all, 0, 0.08) - 3 * off(sky / all, 0.16, 0.32) -
          8 * off(inTheWay / all, 0, 0.02) - 2 * off(near / all, 0.02, 0.2) -
          1.5 * off(litShare, 0.5, 0.8) + 2.4 * std::min(depth, 1.5) -
@@ -114,52 +118,69 @@ double mark(const Subject& s, const Light& light, const Camera& camera, double a
          1.2 * off(static_cast<double>(cut) / kColumns, 0, 0.3);
 }
 
+struct Standpoint {
+  double mark = -100;
+  Camera camera;
+};
+
+struct Search {
+  const Subject& subject;
+  const Light& light;
+  double halfWidth, aspect;
+
+  /// Looks from (x, z) in `count` directions, `step` degrees apart about `azimuth`, and keeps the
+  /// best picture in `best`.
+  void lookAround(double x, double z, double azimuth, double step, int count,
+                  Standpoint& best) const {
+    Vec3 foot;
+    if (!openGround(subject, x, z, foot) || !roomAround(subject, foot)) return;
+    const double tall = std::max(1.0, subject.world.bounds.max.y - subject.groundHeight);
+    const double raised = (foot.y - subject.groundHeight) / tall;
+    for (int k = 0; k < count; ++k) {
+      Camera c = cameraTowards(azimuth + (k - 0.5 * (count - 1)) * step, 0);
+      c.eye = foot + Vec3{0, kEyeHeight, 0};
+      c.halfWidth = halfWidth;
+      c.horizon = kHorizon;
+      const double m = mark(subject, light, c, aspect) - 2 * raised;
+      if (m > best.mark) best = {m, c};
+    }
+  }
+};
+
 }  // namespace
 
 bool findStandpoint(const Subject& s, const Light& light, double halfWidth, double aspect,
                     Camera& camera) {
   const Box3& box = s.world.bounds;
   const double tall = std::max(0.0, box.max.y - s.groundHeight);
-  const double margin = std::clamp(1.4 * tall, 8.0, 150.0);
+  const double margin = std::clamp(1.2 * tall, 8.0, 150.0);
   const Vec3 size = box.size();
-  double best = -50;
+  const Search search{s, light, halfWidth, aspect};
+
+  std::vector<Standpoint> found(kPlaces);
   for (int i = 0; i < kPlaces; ++i) {
     // The two-dimensional golden sequence (Roberts 2018) fills the plan evenly.
     const double u = std::fmod(0.5 + 0.7548776662466927 * i, 1.0);
     const double v = std::fmod(0.5 + 0.5698402909980532 * i, 1.0);
-    Vec3 foot;
-    if (!openGround(s, box.min.x - margin + u * (size.x + 2 * margin),
-                    box.min.z - margin + v * (size.z + 2 * margin), foot) ||
-        !roomAround(s, foot)) {
-      continue;
-    }
-    const double raised = (foot.y - s.groundHeight) / std::max(1.0, tall);
-    for (int k = 0; k < kDirections; ++k) {
-      Camera c = cameraTowards(s.frontAzimuth + (k + 0.5) * 360 / kDirections, 0);
-      c.eye = foot + Vec3{0, kEyeHeight, 0};
-      c.halfWidth = halfWidth;
-      c.horizon = kHorizon;
-      const double m = mark(s, light, c, aspect) - 2 * raised;
-      if (m > best) {
-        best = m;
-        camera = c;
-      }
+    search.lookAround(box.min.x - margin + u * (size.x + 2 * margin),
+                      box.min.z - margin + v * (size.z + 2 * margin), s.frontAzimuth,
+                      360.0 / kDirections, kDirections, found[static_cast<size_t>(i)]);
+  }
+  // A few steps to the side of the best places often clear a tree or open a street.
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Standpoint& a, const Standpoint& b) { return a.mark > b.mark; });
+  Standpoint best = found[0];
+  for (size_t f = 0; f < kRefined && found[f].mark > -50; ++f) {
+    const Camera& c = found[f].camera;
+    const double azimuth = atan2Deg(c.forward.x, -c.forward.z);
+    for (int i = 1; i <= kSteps; ++i) {
+      const double r = 6 * std::sqrt(static_cast<double>(i) / kSteps);
+      search.lookAround(c.eye.x + r * sinDeg(137.5 * i), c.eye.z + r * cosDeg(137.5 * i), azimuth,
+                        4, 7, best);
     }
   }
-  if (best <= -50) return false;
-  const double azimuth = atan2Deg(camera.forward.x, -camera.forward.z);
-  for (const double turn : {-5.0, -2.5, 2.5, 5.0}) {
-    Camera c = camera;
-    const Camera turned = cameraTowards(azimuth + turn, 0);
-    c.right = turned.right;
-    c.forward = turned.forward;
-    const double m = mark(s, light, c, aspect);
-    if (m > best) {
-      best = m;
-      camera = c;
-    }
-  }
-  return true;
+  camera = best.camera;
+  return best.mark > -50;
 }
 
 }  // namespace gable::rt
