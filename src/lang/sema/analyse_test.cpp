@@ -190,6 +190,16 @@ TEST(Analyse, ownFunctionsWinOverBuiltIns) {
   EXPECT_EQ(a.meaning("min"), "function:min@0 builtin:min/0");
 }
 
+TEST(Analyse, oneMistakeGivesOneMessage) {
+  const Analysed a(
+      "import i : \"gone.cga\"\nA --> scater(surface, '2, 3) { A } s(1, unitSpace) f(word, ~3)"
+      " set(i.x, 1) extrude(i.y + i.f(1)) i.R extrude(g(uv, 0))");
+  EXPECT_EQ(a.problems(),
+            "1:12 import-missing\n2:30 unexpected-block\n2:36 wrong-argument-count\n"
+            "2:52 undefined-rule (warning)\n2:110 unknown-function\n");
+  EXPECT_EQ(a.hint(1), "did you mean 'scatter'?");
+}
+
 // --- Selectors ---
 
 TEST(Analyse, wordsAreSelectorsWhereOneIsAskedFor) {

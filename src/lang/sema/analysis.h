@@ -131,6 +131,8 @@ class Analysis {
   ValueType visitArgument(NodeId node, const std::vector<const ParamSpec*>& params);
   void checkPrefix(NodeId node, const std::vector<const ParamSpec*>& params);
   std::vector<ValueType> visitArguments(std::span<const NodeId> arguments);
+  void visitLoosely(std::span<const NodeId> arguments);
+  bool isKnownValue(std::string_view name) const;
   template <class Info>
   uint32_t chooseOverload(const std::vector<uint32_t>& candidates, const std::vector<Info>& infos,
                           std::span<const NodeId> arguments, const std::vector<ValueType>& types);

@@ -147,7 +147,7 @@ uint16_t Analysis::checkBuiltinCall(const CallTarget& target, std::span<const No
       left.push_back(static_cast<uint16_t>(i));
   }
   if (left.empty()) {
-    for (const NodeId a : args) visitArgument(a, {});
+    visitLoosely(args);
     errorAt("wrong-argument-count", target.node,
             quote(target.name) + " takes " + countText(target.signatures) + ", not " +
                 std::to_string(args.size()),
@@ -197,6 +197,20 @@ std::vector<ValueType> Analysis::visitArguments(std::span<const NodeId> args) {
     types.push_back(visit(a));
   }
   return types;
+}
+
+// Arguments of something unknown: a word that nothing else is may be one of its selectors.
+void Analysis::visitLoosely(std::span<const NodeId> args) {
+  for (NodeId a : args) {
+    while (tree().kind(a) == NodeKind::Relative || tree().kind(a) == NodeKind::Floating) {
+      a = tree().child(a, 0);
+    }
+    if (tree().kind(a) == NodeKind::Name && !isKnownValue(text(a))) {
+      resolve(a, RefKind::Selector);
+    } else {
+      visit(a);
+    }
+  }
 }
 
 // The first candidate with as many parameters whose inferred types agree; kNone if there is none.

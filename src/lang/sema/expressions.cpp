@@ -176,7 +176,7 @@ ValueType Analysis::visitCall(NodeId node) {
     return program_.functions[f].result;
   }
 
-  visitArguments(args);
+  visitLoosely(args);
   const AttributeId attribute = attributeNamed(body_.module, name);
   if (attribute != kNone && (args.empty() || program_.attributes[attribute].edgeMap)) {
     resolve(node, RefKind::Attribute, attribute);
@@ -213,7 +213,7 @@ ValueType Analysis::visitComp(NodeId node) {
     resolve(node, RefKind::BuiltinFunction);
     module().resolutions[node].signature = signature;
   } else {
-    visitArguments(args);
+    visitLoosely(args);
     errorAt("unknown-function", node, quote(name) + " takes no block as a function",
             near(name, [&] { return std::vector<std::string_view>{"comp"}; }));
   }

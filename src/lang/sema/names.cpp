@@ -58,6 +58,13 @@ std::vector<FunctionId> Analysis::functionsNamed(ModuleId module, std::string_vi
   return at == scopes_[owner].functions.end() ? std::vector<FunctionId>() : at->second;
 }
 
+bool Analysis::isKnownValue(std::string_view name) const {
+  return std::find(body_.slots.begin(), body_.slots.end(), name) != body_.slots.end() ||
+         attributeNamed(body_.module, name) != kNone ||
+         !functionsNamed(body_.module, name).empty() || catalogue_.attribute(name) != nullptr ||
+         catalogue_.function(name) != nullptr;
+}
+
 AttributeId Analysis::attributeNamed(ModuleId module, std::string_view name) const {
   const auto [owner, rest] = enter(module, name);
   const auto at = scopes_[owner].attributes.find(rest);

@@ -117,7 +117,7 @@ void Analysis::visitApply(NodeId node) {
   const std::span<const NodeId> args = arguments(t.child(node, 0));
   const bool hasBlock = t.children(node).size() > 1;
   if (t.has(node, kFlagTerminal)) {
-    visitArguments(args);
+    visitLoosely(args);
     return makeLeaf(node, true);
   }
   const RuleSet found = rulesNamed(body_.module, name);
@@ -135,7 +135,8 @@ void Analysis::visitApply(NodeId node) {
 
   std::vector<ValueType> types;
   checkNamedArguments(args);
-  for (size_t i = 0; i < args.size(); ++i) {
+  if (found.rules.empty()) visitLoosely(args);
+  for (size_t i = 0; i < args.size() && !found.rules.empty(); ++i) {
     // With a single overload its parameter tells what the argument is.
     ValueType expected = ValueType::Null;
     if (found.rules.size() == 1 && ruleFits)
@@ -253,6 +254,8 @@ void Analysis::visitSet(NodeId node, const OpSpec& op) {
     if (!spec->set) {
       errorAt("not-settable", place, quote(name) + " can only be read", "");
     }
+  } else if (inMissingImport(body_.module, name)) {
+    resolve(place, RefKind::Selector);
   } else {
     resolve(place, RefKind::Selector);
     errorAt("unknown-attribute", place, "there is no attribute " + quote(name), near(name, [&] {
