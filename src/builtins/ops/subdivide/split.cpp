@@ -8,6 +8,7 @@
 
 #include "builtins/lists.h"
 #include "builtins/ops/subdivide/shared/parts.h"
+#include "builtins/ops/subdivide/shared/slabs.h"
 #include "builtins/ops/subdivide/shared/split_sizes.h"
 #include "geom/mesh/clip.h"
 #include "geom/mesh/uv.h"
@@ -40,12 +41,6 @@ bool holdsGeometry(const Geometry& g, Axis axis, double start) {
   return true;
 }
 
-Shape numbered(Shape child, size_t index, size_t total) {
-  child.split = {static_cast<uint32_t>(index), static_cast<uint32_t>(total)};
-  forgetFarTrimPlanes(child);
-  return child;
-}
-
 void splitPrimitive(OpCall& call, Axis axis, bool adjust, const SplitPieces& pieces) {
   const Shape& s = call.shape();
   const auto a = static_cast<size_t>(axis);
@@ -63,50 +58,6 @@ void splitPrimitive(OpCall& call, Axis axis, bool adjust, const SplitPieces& pie
   }
 }
 
-// The borders between pieces, with those of gaps; `slab` tells where each piece went.
-struct Cuts {
-  std::vector<double> at;
-  std::vector<size_t> slab;
-};
-
-Cuts cutsOf(const SplitPieces& pieces, double from, double whole) {
-  Cuts cuts;
-  double reached = 0;
-  for (const SplitPiece& p : pieces) {
-    const double tolerance = 1e-9 * (1 + whole);
-    if (p.start > reached + tolerance) cuts.at.push_back(from + p.start);
-    reached = p.start + p.size;
-    cuts.slab.push_back(cuts.at.size());
-    if (reached < whole - tolerance) cuts.at.push_back(from + reached);
-  }
-  return cuts;
-}
-
-void splitMesh(OpCall& call, Axis axis, bool adjust, const SplitPieces& pieces) {
-  const Shape& s = call.shape();
-  const MeshRef mesh = meshInScope(s);
-  const auto a = static_cast<size_t>(axis);
-  const double whole = std::fabs(s.size[a]);
-  Cuts cuts = cutsOf(pieces, 0, whole);
-  if (s.size[a] < 0) {
-    // Parts are counted from the origin, against the axis.
-    std::reverse(cuts.at.begin(), cuts.at.end());
-    for (double& c : cuts.at) c = -c;
-    for (size_t& slab : cuts.slab) slab = cuts.at.size() - slab;
-  }
-  CutOptions options;
-  options.cap = true;
-  std::vector<MeshPart> parts = sliceAxis(*mesh, static_cast<int>(a), cuts.at, options);
-  for (size_t i = 0; i < pieces.size(); ++i) {
-    Mesh& part = parts[cuts.slab[i]].mesh;
-    if (part.empty()) continue;
-    Shape child = scopePart(s, axis, pieces[i].start, pieces[i].size);
-    setPartMesh(child, s, std::move(part), adjust);
-    call.emit(numbered(std::move(child), i, pieces.size()), pieces[i].slot,
-              static_cast<uint32_t>(i));
-  }
-}
-
 Status splitAlong(OpCall& call, Axis axis) {
   const Shape& s = call.shape();
   const double whole = std::fabs(component(s.size, axis));
@@ -121,7 +72,7 @@ Status splitAlong(OpCall& call, Axis axis) {
   if (isPrimitive(s.geometry)) {
     splitPrimitive(call, axis, adjust, pieces);
   } else {
-    splitMesh(call, axis, adjust, pieces);
+    emitSlabs(call, axis, pieces, adjust, true);
   }
   return {};
 }
