@@ -56,16 +56,16 @@ Value arcTangent2(FunctionCall& call) {
 
 Value least(FunctionCall& call) {
   const ValuePool& pool = call.services().pool();
-  return compareValues(call.arg(1), call.arg(0), pool) < 0 ? call.arg(1) : call.arg(0);
+  return orderOf(call.arg(1), call.arg(0), pool) < 0 ? call.arg(1) : call.arg(0);
 }
 Value greatest(FunctionCall& call) {
   const ValuePool& pool = call.services().pool();
-  return compareValues(call.arg(1), call.arg(0), pool) > 0 ? call.arg(1) : call.arg(0);
+  return orderOf(call.arg(1), call.arg(0), pool) > 0 ? call.arg(1) : call.arg(0);
 }
 Value clamped(FunctionCall& call) {
   const ValuePool& pool = call.services().pool();
-  if (compareValues(call.arg(0), call.arg(1), pool) < 0) return call.arg(1);
-  return compareValues(call.arg(0), call.arg(2), pool) > 0 ? call.arg(2) : call.arg(0);
+  if (orderOf(call.arg(0), call.arg(1), pool) < 0) return call.arg(1);
+  return orderOf(call.arg(0), call.arg(2), pool) > 0 ? call.arg(2) : call.arg(0);
 }
 
 constexpr ParamSpec kX[] = {{"x", ParamType::Float, "A number."}};

@@ -56,7 +56,7 @@ int compareElements(const Array& a, size_t i, const Array& b, size_t j, const Va
 
 }  // namespace
 
-int compareValues(const Value& a, const Value& b, const ValuePool& pool) {
+int orderOf(const Value& a, const Value& b, const ValuePool& pool) {
   if (!a.isArray()) {
     if (a.type == ValueType::String) return pool.text(a.id).compare(pool.text(b.id));
     return compareNumbers(a.number, b.number);

@@ -26,7 +26,7 @@ std::vector<std::string> itemsOf(std::string_view list);
 std::string listOf(const std::vector<std::string>& items);
 
 /// < 0, 0, > 0: numbers, texts by bytes, arrays row by row; of equal rows the shorter is less.
-int compareValues(const Value& a, const Value& b, const ValuePool& pool);
+int orderOf(const Value& a, const Value& b, const ValuePool& pool);
 
 /// A text as a number: what stands at its beginning; NaN when that is none.
 double numberOf(std::string_view text);
