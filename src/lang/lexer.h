@@ -15,8 +15,8 @@
 
 namespace gable::lang {
 
-/// About 150 times the largest rule file seen in the field; bounds memory to some hundred MiB.
-inline constexpr size_t kMaxTokens = 4'000'000;
+/// About 50 times the largest rule file seen in the field; bounds memory to some hundred MiB.
+inline constexpr size_t kMaxTokens = 2'000'000;
 
 /// `file` is the id that spans of diagnostics carry.
 Tokens tokenize(std::string_view text, uint32_t file, Diagnostics& diagnostics);

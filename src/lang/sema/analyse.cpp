@@ -25,12 +25,20 @@ Analysis::Analysis(const Catalogue& catalogue, ValuePool& values, FileLoader* lo
   for (const SelectorSpec& s : catalogue.selectors) selectors_.insert(s.name);
 }
 
+// Beyond kMaxMessages of a kind a reader needs no more, and memory stays bounded.
 void Analysis::error(const char* code, Span span, std::string message, std::string hint) {
-  if (!mute_) diagnostics_.error(code, span, std::move(message), std::move(hint));
+  if (mute_) return;
+  if (++errors_ <= kMaxMessages) {
+    diagnostics_.error(code, span, std::move(message), std::move(hint));
+  } else if (errors_ == kMaxMessages + 1) {
+    diagnostics_.error("too-many-errors", span, "mistakes from here on are not shown",
+                       "correct those above first");
+  }
 }
 
 void Analysis::warning(const char* code, Span span, std::string message, std::string hint) {
-  if (!mute_) diagnostics_.warning(code, span, std::move(message), std::move(hint));
+  if (mute_ || ++warnings_ > kMaxMessages) return;
+  diagnostics_.warning(code, span, std::move(message), std::move(hint));
 }
 
 // --- Definitions ---

@@ -200,6 +200,14 @@ TEST(Analyse, oneMistakeGivesOneMessage) {
   EXPECT_EQ(a.hint(1), "did you mean 'scatter'?");
 }
 
+TEST(Analyse, messagesAreBounded) {
+  std::string text = "A -->";
+  for (int i = 0; i < 3000; ++i) text += " extrude(x) B";
+  const Analysed a(text);
+  EXPECT_EQ(a.diagnostics.errorCount(), 1001u);
+  EXPECT_EQ(a.diagnostics.all().size(), 2001u);
+}
+
 // --- Selectors ---
 
 TEST(Analyse, wordsAreSelectorsWhereOneIsAskedFor) {

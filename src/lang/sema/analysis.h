@@ -30,6 +30,8 @@ inline constexpr size_t kMaxModules = 2000;
 inline constexpr size_t kMaxModuleNodes = 8'000'000;
 inline constexpr size_t kMaxUnits = 1000;
 
+inline constexpr size_t kMaxMessages = 1000;
+
 /// What a module offers by name. Keys are views of the texts of its tree.
 struct Scope {
   std::unordered_map<std::string_view, std::vector<RuleId>> rules;
@@ -250,6 +252,8 @@ class Analysis {
   bool mute_ = false;
   bool changed_ = false;
   int hints_ = 0;
+  size_t errors_ = 0;
+  size_t warnings_ = 0;
   /// Nodes of all modules together.
   size_t nodes_ = 0;
   /// Body::open of rules and functions, between rounds.
