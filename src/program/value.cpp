@@ -6,9 +6,10 @@
 
 #include "program/value.h"
 
+#include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include "base/check.h"
 
@@ -126,9 +127,46 @@ std::string numberText(double v) {
   if (std::isinf(v)) return v > 0 ? "inf" : "-inf";
   if (v == 0) return "0";
   char text[40];
-  std::snprintf(text, sizeof text, "%.6g", v);
-  return text;
+  // Sixteen digits: what the original shows of 0.1 as a float is 0.1000000014901161, while sums
+  // such as 0.1 + 0.2 still look as an author expects.
+  const auto end = std::to_chars(text, text + sizeof text, v, std::chars_format::general, 16);
+  return std::string(text, end.ptr);
 }
+
+namespace {
+
+std::string elementText(const Array& a, size_t i, const ValuePool& pool) {
+  if (a.element == ValueType::String) return std::string(pool.text(a.strings[i]));
+  if (a.element == ValueType::Bool) return a.numbers[i] != 0 ? "true" : "false";
+  return numberText(a.numbers[i]);
+}
+
+std::string rowText(const Array& a, const ValuePool& pool) {
+  std::string out = "(" + std::to_string(a.columns) + ")[";
+  for (size_t i = 0; i < a.size(); ++i) {
+    if (i > 0) out += ',';
+    out += elementText(a, i, pool);
+  }
+  return out + "]";
+}
+
+// A line for each row; columns are flush right and three blanks apart.
+std::string tableText(const Array& a, const ValuePool& pool) {
+  std::vector<std::string> cells;
+  std::vector<size_t> widths(a.columns, 0);
+  for (size_t i = 0; i < a.size(); ++i) {
+    cells.push_back(elementText(a, i, pool));
+    widths[i % a.columns] = std::max(widths[i % a.columns], cells[i].size());
+  }
+  std::string out = "(" + std::to_string(a.rows) + "x" + std::to_string(a.columns) + ")";
+  for (size_t i = 0; i < cells.size(); ++i) {
+    if (i % a.columns == 0) out += '\n';
+    out.append(3 + widths[i % a.columns] - cells[i].size(), ' ').append(cells[i]);
+  }
+  return out;
+}
+
+}  // namespace
 
 std::string ValuePool::str(const Value& v) const {
   switch (v.type) {
@@ -140,18 +178,7 @@ std::string ValuePool::str(const Value& v) const {
     default: break;
   }
   const Array& a = array(v);
-  std::string out = "(" + (a.rows > 1 ? std::to_string(a.rows) + "x" : std::string()) +
-                    std::to_string(a.columns) + ")[";
-  for (size_t i = 0; i < a.size(); ++i) {
-    if (i > 0) out += i % a.columns == 0 ? ";" : ",";
-    if (a.element == ValueType::String)
-      out += text(a.strings[i]);
-    else if (a.element == ValueType::Bool)
-      out += a.numbers[i] != 0 ? "true" : "false";
-    else
-      out += numberText(a.numbers[i]);
-  }
-  return out + "]";
+  return a.rows > 1 ? tableText(a, *this) : rowText(a, *this);
 }
 
 }  // namespace gable

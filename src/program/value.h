@@ -99,8 +99,8 @@ class ValuePool {
   Value intern(Array a);
   const Array& array(const Value& v) const;
 
-  /// The value as str() prints it: numbers with up to six significant digits as the original does,
-  /// arrays as (n)[a,b,c] or (r x c)[a,b;c,d].
+  /// The value as str() prints it: numbers with up to sixteen significant digits,
+  /// lists as (n)[a,b,c], tables as (rxc) and a line for each row, columns flush right.
   std::string str(const Value& v) const;
 
  private:

@@ -15,6 +15,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include "case_file.h"
@@ -104,9 +105,24 @@ std::vector<ValueLine> valueLines(const Section& section) {
   return result;
 }
 
+/// The elements of a printed table: its size, then a line for each row. Cells have no blanks.
+std::vector<std::string> tableElements(std::string_view text) {
+  std::vector<std::string> elements(1, "[");
+  std::istringstream lines{std::string(text.substr(text.find('\n') + 1))};
+  for (std::string line; std::getline(lines, line);) {
+    if (elements.size() > 1) elements.emplace_back(";");
+    std::istringstream cells(line);
+    for (std::string cell; cells >> cell;) elements.push_back(cell);
+  }
+  return elements;
+}
+
 /// The elements of "(3)[1,2,3]" or "[1, 2; 3, 4]" without blanks and the size before the bracket;
 /// the text itself when it is no array. Row ends stay as ";".
 std::vector<std::string> elementsOf(std::string_view text) {
+  if (text.starts_with('(') && text.find('\n') != std::string_view::npos) {
+    return tableElements(text);
+  }
   const size_t open = text.find('[');
   if (open == std::string_view::npos || text.back() != ']') return {std::string(text)};
   std::vector<std::string> elements(1, "[");

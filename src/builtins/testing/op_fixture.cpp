@@ -385,7 +385,18 @@ Value callFunction(std::string_view name, const std::vector<Arg>& args, FakeServ
 
 std::string callText(std::string_view name, const std::vector<Arg>& args, FakeServices& services,
                      const Shape& shape) {
-  return services.pool().str(callFunction(name, args, services, shape));
+  const ValuePool& pool = services.pool();
+  const Value v = callFunction(name, args, services, shape);
+  if (!v.isArray() || pool.array(v).rows <= 1) return pool.str(v);
+  // Tables on one line: (2x2)[1,2;3,4].
+  const Array& a = pool.array(v);
+  std::string out = "(" + std::to_string(a.rows) + "x" + std::to_string(a.columns) + ")[";
+  for (size_t i = 0; i < a.size(); ++i) {
+    if (i > 0) out += i % a.columns == 0 ? ';' : ',';
+    const bool text = a.element == ValueType::String;
+    out += pool.str({a.element, Unit::Absolute, text ? a.strings[i] : 0, text ? 0 : a.numbers[i]});
+  }
+  return out + "]";
 }
 
 double callNumber(std::string_view name, const std::vector<Arg>& args, FakeServices& services,

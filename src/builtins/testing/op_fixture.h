@@ -195,7 +195,7 @@ class Op {
 /// Calls a function by name; `site` is part of the address of random draws.
 Value callFunction(std::string_view name, const std::vector<Arg>& args, FakeServices& services,
                    const Shape& shape = {}, uint64_t site = 0);
-/// The result as str() prints it.
+/// The result as str() prints it, but tables on one line: (2x2)[1,2;3,4].
 std::string callText(std::string_view name, const std::vector<Arg>& args, FakeServices& services,
                      const Shape& shape = {});
 double callNumber(std::string_view name, const std::vector<Arg>& args, FakeServices& services,

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "program/value.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace gable {
+namespace {
+
+TEST(NumberText, showsUpToSixteenDigits) {
+  EXPECT_EQ(numberText(14), "14");
+  EXPECT_EQ(numberText(-0.0), "0");
+  EXPECT_EQ(numberText(1.69), "1.69");
+  EXPECT_EQ(numberText(0.1 + 0.2), "0.3");
+  EXPECT_EQ(numberText(3 * 0.15), "0.45");
+  EXPECT_EQ(numberText(static_cast<double>(0.1f)), "0.1000000014901161");
+  EXPECT_EQ(numberText(1.0 / 3), "0.3333333333333333");
+  EXPECT_EQ(numberText(1234567.25), "1234567.25");
+  EXPECT_EQ(numberText(std::numeric_limits<double>::infinity()), "inf");
+  EXPECT_EQ(numberText(-std::numeric_limits<double>::infinity()), "-inf");
+  EXPECT_EQ(numberText(std::nan("")), "nan");
+}
+
+TEST(ValuePool, showsArrays) {
+  ValuePool pool;
+  Array a;
+  a.rows = 2;
+  a.columns = 2;
+  a.numbers = {1, 0.5, 2, 1e20};
+  EXPECT_EQ(pool.str(pool.intern(a)), "(2x2)\n   1     0.5\n   2   1e+20");
+  a.rows = 1;
+  a.columns = 4;
+  EXPECT_EQ(pool.str(pool.intern(a)), "(4)[1,0.5,2,1e+20]");
+  EXPECT_EQ(pool.str(pool.intern(Array{})), "(0)[]");
+}
+
+}  // namespace
+}  // namespace gable
