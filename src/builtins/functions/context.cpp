@@ -50,6 +50,7 @@ Vec3 converted(FunctionCall& call, size_t first, const Vec3& v) {
               "use scope, pivot, object or world", {});
     return v;
   }
+  if (call.arg(first).id == call.arg(first + 1).id) return v;
   if (call.text(first + 2) == "orient") {
     return anglesXyz(inverse(to) * from * rotationXyz(v.x, v.y, v.z));
   }
