@@ -143,7 +143,10 @@ ValueType Analysis::visitBuiltinCall(NodeId node, const FunctionSpec& spec,
   Resolution& r = module().resolutions[node];
   r.spec.function = &spec;
   r.signature = signature;
-  return signature < spec.signatures.size() ? spec.signatures[signature].result : ValueType::Null;
+  if (signature >= spec.signatures.size()) return ValueType::Null;
+  // A result that the signature leaves open follows the first argument.
+  const ValueType result = spec.signatures[signature].result;
+  return result == ValueType::Null && !args.empty() ? module().types[args[0]] : result;
 }
 
 ValueType Analysis::visitCall(NodeId node) {
