@@ -83,6 +83,8 @@ enum Effect : uint32_t {
   /// Other shapes: inside, touches, minimumDistance.
   kReadsContext = 1u << 2,
   kReadsPivot = 1u << 3,
+  /// Only the directions of the pivot's axes, not its place: comp, r.
+  kReadsPivotAxes = 1u << 12,
   kUsesTrim = 1u << 4,
   /// Registers the shape under a name or in a tree: label, getTreeKey.
   kReadsPath = 1u << 5,

@@ -127,7 +127,7 @@ Value atRowColumn(const Array& a, double row, double column, ValuePool& pool) {
 
 }  // namespace
 
-int compareValues(const Value& a, const Value& b, const ValuePool& pool) {
+int orderOfValues(const Value& a, const Value& b, const ValuePool& pool) {
   if (isText(a) && isText(b)) {
     const int c = pool.text(a.id).compare(pool.text(b.id));
     return c < 0 ? -1 : c > 0 ? 1 : 0;
@@ -165,7 +165,7 @@ ValueOrError applyBinary(BinaryOperator op, const Value& a, const Value& b, Valu
     // Arrays that differ only in their form (1x2 and 2x1) are unequal, though neither is less.
     if (equality && a.isArray())
       return {Value::of((a.id == b.id) == (op == BinaryOperator::Equal))};
-    return {Value::of(compares(op, compareValues(a, b, pool)))};
+    return {Value::of(compares(op, orderOfValues(a, b, pool)))};
   }
   if (op == BinaryOperator::Add && (isText(a) || isText(b))) {
     return {pool.string(pool.str(a) + pool.str(b))};

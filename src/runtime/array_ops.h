@@ -29,6 +29,6 @@ ValueOrError buildArray(std::span<const Value> items, std::span<const uint32_t> 
 /// [start : step : end]; no element when the step leads away. At most `limit` elements.
 ValueOrError buildRange(double start, double step, double end, size_t limit, ValuePool& pool);
 /// < 0, 0, > 0; by rows, then by columns, then by rows' number.
-int compareValues(const Value& a, const Value& b, const ValuePool& pool);
+int orderOfValues(const Value& a, const Value& b, const ValuePool& pool);
 
 }  // namespace gable

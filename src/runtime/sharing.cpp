@@ -7,6 +7,8 @@
 // sharing off the frames are composed in the same order while deriving, which gives the same
 // numbers.
 
+#include <cmath>
+
 #include "runtime/machine.h"
 
 namespace gable {
@@ -52,6 +54,15 @@ void addExtra(KeyHash& h, const ShapeExtra& extra) {
   }
 }
 
+// Axes that are parallel but for rounding become exactly so: else no two calls would be alike.
+Frame withoutNoise(const Frame& f) {
+  const auto straight = [](const Vec3& v, size_t axis) {
+    return std::fabs(v[axis] - 1) < 1e-12 && std::fabs(v[(axis + 1) % 3]) < 1e-12 &&
+           std::fabs(v[(axis + 2) % 3]) < 1e-12;
+  };
+  return straight(f.x, 0) && straight(f.y, 1) && straight(f.z, 2) ? Frame::moved(f.origin) : f;
+}
+
 ShapeExtra localExtra(const ShapeExtra& extra, const Frame& outer) {
   ShapeExtra out = extra;
   for (TrimPlane& t : out.trim) {
@@ -90,7 +101,7 @@ ShareKey Machine::keyOf(uint32_t rule, const Activation& call) {
     h.add(uint64_t{s.comp.index} << 32 | s.comp.total);
     h.add(uint64_t{s.compSelector});
   }
-  if (effects & kReadsPivot) h.add(s.pivot);
+  if (effects & (kReadsPivot | kReadsPivotAxes)) h.add(s.pivot);
   if (s.extra) addExtra(h, *s.extra);
   return h.key();
 }
@@ -98,7 +109,12 @@ ShareKey Machine::keyOf(uint32_t rule, const Activation& call) {
 // Puts a shape into the frame of its own scope, dropping what the rule cannot see.
 void Machine::localise(Shape& shape, const RuleCode& rule, const Frame& outer) const {
   const uint32_t effects = rule.reads.effects;
-  shape.pivot = effects & kReadsPivot ? inverse(outer) * shape.pivot : Frame{};
+  if (effects & (kReadsPivot | kReadsPivotAxes)) {
+    shape.pivot = withoutNoise(inverse(outer) * shape.pivot);
+    if ((effects & kReadsPivot) == 0) shape.pivot.origin = {};
+  } else {
+    shape.pivot = Frame{};
+  }
   if (shape.extra) {
     const bool seen = effects & (kUsesTrim | kReadsUvProjection);
     shape.extra = seen ? makeRef<ShapeExtra>(localExtra(*shape.extra, outer)) : Ref<ShapeExtra>();

@@ -356,7 +356,7 @@ constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"comp", "subdivide", "Divides the shape into faces, edges, vertices or other components.",
-     kSignatures, applyComp, BlockKind::Selectors, kReadsWorld | kReadsWorldByWord | kReadsPivot},
+     kSignatures, applyComp, BlockKind::Selectors, kReadsWorld | kReadsWorldByWord | kReadsPivotAxes},
 };
 
 }  // namespace

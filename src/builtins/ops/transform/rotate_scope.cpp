@@ -91,14 +91,14 @@ constexpr OpSpec kSpecs[] = {
     {"r", "transform",
      "Turns the scope and its geometry about the axes of the pivot, around the scope's origin or "
      "centre.",
-     kRSignatures, applyR, BlockKind::None, kReadsPivot},
+     kRSignatures, applyR, BlockKind::None, kReadsPivotAxes},
     {"rotate", "transform",
      "Turns the scope around its origin, by angles in a coordinate system of choice.",
      kRotateSignatures, applyRotate, BlockKind::None,
-     kReadsWorld | kReadsWorldByWord | kReadsPivot},
+     kReadsWorld | kReadsWorldByWord | kReadsPivotAxes},
     {"rotateScope", "transform",
      "Turns the scope alone about the axes of the pivot and fits it around the geometry again.",
-     kRotateScopeSignatures, applyRotateScope, BlockKind::None, kReadsPivot},
+     kRotateScopeSignatures, applyRotateScope, BlockKind::None, kReadsPivotAxes},
 };
 
 }  // namespace
