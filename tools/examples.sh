@@ -16,19 +16,26 @@ example_names() {
 # words FILE: the words of a file without its comments, one a line; none where there is no file.
 words() { [ ! -f "$1" ] || sed 's/#.*//' "$1" | xargs -n 1; }
 
-# generate_example GABLE NAME MODEL ARGUMENT...
-generate_example() {
-  local gable=$1 name=$2 model=$3 folder=examples/$2 arguments
-  shift 3
-  mapfile -t arguments < <(words "$folder/generate.args")
-  [ ! -f "$folder/buildings.geojson" ] || arguments+=(--shapes "$folder/buildings.geojson")
-  "$gable" generate "$folder/$name.cga" ${arguments[@]+"${arguments[@]}"} "$@" -o "$model"
+# derive_arguments NAME: what `gable generate` and `gable render` are told about an example.
+derive_arguments() {
+  echo "examples/$1/$1.cga"
+  words "examples/$1/generate.args"
+  [ ! -f "examples/$1/buildings.geojson" ] || printf '%s\n' --shapes "examples/$1/buildings.geojson"
 }
 
-# render_example GABLE NAME MODEL PICTURE ARGUMENT...
+# generate_example GABLE NAME MODEL ARGUMENT...
+generate_example() {
+  local gable=$1 name=$2 model=$3 arguments
+  shift 3
+  mapfile -t arguments < <(derive_arguments "$name")
+  "$gable" generate "${arguments[@]}" "$@" -o "$model"
+}
+
+# render_example GABLE NAME PICTURE VIEW ARGUMENT...: VIEW.args beside the rules names the camera.
+# Drawn from the rules, not from the model: parts that occur often are held in memory once.
 render_example() {
-  local gable=$1 name=$2 model=$3 picture=$4 arguments
+  local gable=$1 name=$2 picture=$3 view=$4 arguments
   shift 4
-  mapfile -t arguments < <(words "examples/$name/picture.args")
-  "$gable" render "$model" ${arguments[@]+"${arguments[@]}"} "$@" -o "$picture"
+  mapfile -t arguments < <(derive_arguments "$name"; words "examples/$name/$view.args")
+  "$gable" render "${arguments[@]}" "$@" -o "$picture"
 }

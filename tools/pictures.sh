@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: The Gable authors
 #
 # tools/pictures.sh [EXAMPLE...]: makes the pictures of the examples anew, examples/NAME/NAME.png and, from
-# street height, examples/NAME/street.png where street.args names a view. Each stays under 400 kB:
+# street height, examples/NAME/NAME-street.png where street.args names a view. Each stays under 400 kB:
 # tools/shrink_png.py brings it to a palette and, where that is not enough, to fewer colours. Look at them
 # before committing them.
 set -euo pipefail
@@ -19,15 +19,12 @@ examples=("$@")
 mkdir -p build/pictures
 
 for name in "${examples[@]}"; do
-  model=build/pictures/$name.glb
-  step "Generating $name" "picture-$name.log" generate_example "$gable" "$name" "$model" || exit 1
-  step "Drawing $name" "picture-$name.log" \
-    render_example "$gable" "$name" "$model" "build/pictures/$name.png" --size 1280x720 || exit 1
-  python3 -B tools/shrink_png.py "build/pictures/$name.png" "examples/$name/$name.png"
-  if [ -f "examples/$name/street.args" ]; then
-    mapfile -t arguments < <(words "examples/$name/street.args")
-    step "Drawing $name from the street" "picture-$name.log" \
-      "$gable" render "$model" "${arguments[@]}" --size 1280x720 -o "build/pictures/$name-street.png" || exit 1
-    python3 -B tools/shrink_png.py "build/pictures/$name-street.png" "examples/$name/street.png"
-  fi
+  for view in picture street; do
+    [ "$view" = picture ] || [ -f "examples/$name/$view.args" ] || continue
+    drawn=$name
+    [ "$view" = picture ] || drawn=$name-$view
+    step "Drawing $drawn" "picture-$drawn.log" \
+      render_example "$gable" "$name" "build/pictures/$drawn.png" "$view" --size 1280x720 || exit 1
+    python3 -B tools/shrink_png.py "build/pictures/$drawn.png" "examples/$name/$drawn.png"
+  done
 done
