@@ -390,6 +390,9 @@ bool Assembly::cutLoops() {
 }
 
 bool Assembly::checkAreas() const {
+  for (const SkeletonVertex& v : vertices_) {
+    if (!isFinite({v.xy.x, v.xy.y, v.height})) return false;
+  }
   double total = 0, polygon = 0;
   const auto areaOf = [&](const auto& points, const auto& at) {
     double sum = 0;

@@ -343,7 +343,7 @@ std::string broken(const Polygon& p, const Roof& r) {
 class RoofCorpus : public testing::TestWithParam<bool> {};
 
 TEST_P(RoofCorpus, everyRoofClosesOverThePolygon) {
-  const auto cases = corpus::loadCorpus(5);
+  const auto cases = corpus::loadCorpus(8);
   if (cases.empty()) GTEST_SKIP() << "the polygon corpus is not there (GABLE_SHARED)";
   const char* const kinds[] = {"hip", "gable", "shed", "ridge"};
   size_t good[4] = {};
@@ -365,7 +365,7 @@ TEST_P(RoofCorpus, everyRoofClosesOverThePolygon) {
 }
 
 TEST_P(RoofCorpus, overhangsStayFlat) {
-  const auto cases = corpus::loadCorpus(7);
+  const auto cases = corpus::loadCorpus(11);
   if (cases.empty()) GTEST_SKIP() << "the polygon corpus is not there (GABLE_SHARED)";
   size_t good = 0;
   std::string first;

@@ -336,7 +336,9 @@ WaveEnd sweep(const Polygon& polygon, const Input& in, double slack, double maxH
   const std::vector<std::vector<WaveInput>> rings = makeRings(in, planeOf, planes, faceInput);
   uint32_t top = kNone;
   const double timeStep = in.step / in.topWeight;
-  if (maxHeight / timeStep < 0x1p70) top = planes.addLevel(maxHeight / timeStep);
+  // Nothing is that high, and what is lower than a grid step is no height.
+  const double topTime = std::max(maxHeight / timeStep, 0x1p-20);
+  if (topTime < 0x1p70) top = planes.addLevel(topTime);
   const WaveEnd end = runWavefront(planes, rings, top, trace);
   if (end != WaveEnd::Done) return end;
   faceInput.inputPoints.push_back(polygon.outer);

@@ -74,8 +74,6 @@ class Simulation {
   WaveEnd run();
 
  private:
-  WaveEdge& prevOf(const WaveEdge& e) { return edges_[vertices_[e.tail].left]; }
-  WaveEdge& nextOf(const WaveEdge& e) { return edges_[vertices_[e.head].right]; }
   uint32_t prevId(uint32_t e) const { return vertices_[edges_[e].tail].left; }
   uint32_t nextId(uint32_t e) const { return vertices_[edges_[e].head].right; }
   PlaneId planeOf(uint32_t e) const { return edges_[e].plane; }
@@ -329,19 +327,10 @@ void Simulation::settle(uint32_t v) {
   const PlaneId P = planeOf(p), Q = planeOf(q);
   if (P == Q) {
     mergeAcross(v);
-    const uint32_t tail = edges_[p].tail, head = edges_[p].head;
-    // The plane beyond either end may now be a pair's partner.
-    if (nextId(p) == p) {
-      vertices_[head].alive = false;
-      killEdge(p);
-      return;
-    }
-    if (nextId(nextId(p)) == p) {
-      settle(tail);
-      return;
-    }
-    (void)head;
-    scheduleCollapse(p);
+    if (nextId(p) == p || nextId(nextId(p)) == p)
+      settle(edges_[p].tail);
+    else
+      scheduleCollapse(p);
     return;
   }
   if (planeOf(nextId(q)) == P) {
@@ -541,8 +530,8 @@ WaveEnd Simulation::run() {
     level.kind = EventKind::MoreCandidates;
     level.time.value = planes_[top_].nc;
   }
-  // Each event but the marks removes an edge or splits one; twelve per corner is far beyond any
-  // run.
+  // Of events that change something there are a few per corner, of others at most one for each
+  // pair of a corner and a plane; this is beyond any run that goes right.
   const size_t limit = 4096 + 64 * corners + corners * corners * 4;
   while (!stuck_ && aliveEdges_ > 0 && !heap_.empty()) {
     if (++steps_ > limit) return WaveEnd::Stuck;
