@@ -150,4 +150,35 @@ size_t OccluderIndex::count(ContextScope scope, StringId label, const Occluder& 
       }));
 }
 
+namespace {
+
+// What an order goes by, least first.
+double orderKey(ContextOrder order, const Mesh& m) {
+  const Box3 box = m.bounds();
+  switch (order) {
+    case ContextOrder::Northernmost: return box.min.z;
+    case ContextOrder::Southernmost: return -box.max.z;
+    case ContextOrder::Easternmost: return -box.max.x;
+    case ContextOrder::Westernmost: return box.min.x;
+    case ContextOrder::Highest: return -box.max.y;
+    case ContextOrder::Lowest: return box.min.y;
+    case ContextOrder::LargestArea: return -m.area();
+    case ContextOrder::SmallestArea: return m.area();
+  }
+  return 0;
+}
+
+}  // namespace
+
+size_t OccluderIndex::rank(ContextScope scope, StringId label, ContextOrder order,
+                           const Occluder& asking) const {
+  // The asking shape may itself be among the labelled ones, with the rounding of another path.
+  const double key = orderKey(order, asking.mesh) - kContactTolerance;
+  return static_cast<size_t>(
+      std::count_if(impl_->entries.begin(), impl_->entries.end(), [&](const Impl::Entry& e) {
+        return e.occluder.label == label && inScope(scope, e.occluder, asking) &&
+               orderKey(order, e.occluder.mesh) < key;
+      }));
+}
+
 }  // namespace gable

@@ -41,6 +41,8 @@ class OccluderIndex {
   /// Between scopes, over shapes with that label; infinity when there is none.
   double minimumDistance(ContextScope scope, StringId label, const Occluder& asking) const;
   size_t count(ContextScope scope, StringId label, const Occluder& asking) const;
+  /// How many shapes with that label come before the asking one in an order; equals do not.
+  size_t rank(ContextScope scope, StringId label, ContextOrder order, const Occluder& asking) const;
 
  private:
   struct Impl;

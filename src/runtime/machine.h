@@ -93,6 +93,8 @@ class Machine final : public Services {
   bool query(ContextTest test, ContextScope scope, StringId label, const Shape& shape) override;
   double minimumDistance(ContextScope scope, StringId label, const Shape& shape) override;
   double contextCount(ContextScope scope, StringId label) override;
+  double contextRank(ContextScope scope, StringId label, ContextOrder order,
+                     const Shape& shape) override;
   void label(StringId name, const Shape& shape) override;
   std::string treeKey() const override;
 

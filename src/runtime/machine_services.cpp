@@ -86,4 +86,10 @@ double Machine::contextCount(ContextScope scope, StringId label) {
   return static_cast<double>(shared_.occluders->count(scope, label, asking(*seen_)));
 }
 
+double Machine::contextRank(ContextScope scope, StringId label, ContextOrder order,
+                            const Shape& shape) {
+  if (!shared_.occluders) return 0;
+  return static_cast<double>(shared_.occluders->rank(scope, label, order, asking(shape)));
+}
+
 }  // namespace gable

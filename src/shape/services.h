@@ -101,6 +101,18 @@ struct InitialShapeInfo {
 enum class ContextScope : uint8_t { Intra, Inter, All };
 enum class ContextTest : uint8_t { Inside, Overlaps, Touches };
 
+/// By what contextCompare ranks shapes: the first has rank 0.
+enum class ContextOrder : uint8_t {
+  Northernmost,
+  Southernmost,
+  Easternmost,
+  Westernmost,
+  Highest,
+  Lowest,
+  LargestArea,
+  SmallestArea,
+};
+
 class Services {
  public:
   virtual ~Services() = default;
@@ -124,6 +136,9 @@ class Services {
   virtual bool query(ContextTest test, ContextScope scope, StringId label, const Shape& shape) = 0;
   virtual double minimumDistance(ContextScope scope, StringId label, const Shape& shape) = 0;
   virtual double contextCount(ContextScope scope, StringId label) = 0;
+  /// How many shapes with the label come before this one.
+  virtual double contextRank(ContextScope scope, StringId label, ContextOrder order,
+                             const Shape& shape) = 0;
   virtual void label(StringId name, const Shape& shape) = 0;
   /// The path of the present shape in the shape tree ("0;0;1;").
   virtual std::string treeKey() const = 0;

@@ -37,6 +37,28 @@ Value contextCount(FunctionCall& call) {
   return Value::of(call.services().contextCount(scopeOf(call, 0), call.arg(1).id));
 }
 
+Value contextCompare(FunctionCall& call) {
+  static constexpr std::pair<std::string_view, ContextOrder> kOrders[] = {
+      {"world.northernmost", ContextOrder::Northernmost},
+      {"world.southernmost", ContextOrder::Southernmost},
+      {"world.easternmost", ContextOrder::Easternmost},
+      {"world.westernmost", ContextOrder::Westernmost},
+      {"world.highest", ContextOrder::Highest},
+      {"world.lowest", ContextOrder::Lowest},
+      {"area.largest", ContextOrder::LargestArea},
+      {"area.smallest", ContextOrder::SmallestArea},
+  };
+  if (call.text(1).empty()) return Value::of(0.0);
+  for (const auto& [name, order] : kOrders) {
+    if (call.text(2) != name) continue;
+    return Value::of(
+        call.services().contextRank(scopeOf(call, 0), call.arg(1).id, order, call.shape()));
+  }
+  return call.fail("unknown-selector",
+                   "contextCompare knows no order '" + std::string(call.text(2)) + "'",
+                   "use world.highest, area.largest or another of its words", Value::of(0.0));
+}
+
 // A position or orientation of one system in another.
 Vec3 converted(FunctionCall& call, size_t first, const Vec3& v) {
   bool known = false;
@@ -96,6 +118,15 @@ constexpr Signature kQuery[] = {
     {{}, ValueType::Bool}, {kTargetParams, ValueType::Bool}, {kTargetLabelParams, ValueType::Bool}};
 constexpr Signature kOfLabel[] = {{kLabelledParams, ValueType::Float}};
 
+constexpr ParamSpec kCompareParams[] = {
+    kTarget,
+    kNeededLabel,
+    {"comparisonType", ParamType::Selector, "What the order goes by; the first has rank 0.",
+     nullptr,
+     "world.northernmost world.southernmost world.easternmost world.westernmost world.highest "
+     "world.lowest area.largest area.smallest"}};
+constexpr Signature kCompare[] = {{kCompareParams, ValueType::Float}};
+
 constexpr const char* kSystems = "scope pivot object world";
 constexpr ParamSpec kAxis = {"coordinate", ParamType::Selector, "The coordinate to give.", nullptr,
                              "x y z"};
@@ -134,6 +165,9 @@ constexpr FunctionSpec kFunctions[] = {
      kOfLabel, minimumDistance, kReadsContext},
     {"contextCount", kFamily, "How many shapes were labelled so.", kOfLabel, contextCount,
      kReadsContext},
+    {"contextCompare", kFamily,
+     "How many labelled shapes lie further north, are higher, larger and so on than this one.",
+     kCompare, contextCompare, kReadsContext},
     {"convert", kFamily, "A position or orientation of one coordinate system in another.", kConvert,
      convert, kReadsWorld | kReadsWorldByWord | kReadsPivot},
     {"getTreeKey", kFamily, "The path of the shape in the shape tree, a list of child numbers.",

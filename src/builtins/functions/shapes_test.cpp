@@ -198,6 +198,8 @@ TEST_F(Shapes, contextQueriesAskTheServices) {
             std::numeric_limits<double>::infinity());
   EXPECT_EQ(number("contextCount", s, {word("all"), "block"}), 3);
   EXPECT_EQ(number("contextCount", s, {word("all"), ""}), 0);
+  EXPECT_EQ(number("contextCompare", s, {word("all"), "block", word("world.highest")}), 4);
+  EXPECT_EQ(number("contextCompare", s, {word("all"), "", word("world.highest")}), 0);
   EXPECT_EQ(text("getTreeKey", s), "0;");
   EXPECT_EQ(number("print", s, {5}), 5);
   EXPECT_EQ(services.prints, std::vector<std::string>{"5"});

@@ -78,6 +78,9 @@ class FakeServices : public Services {
   bool query(ContextTest, ContextScope, StringId, const Shape&) override { return queryAnswer; }
   double minimumDistance(ContextScope, StringId, const Shape&) override { return distanceAnswer; }
   double contextCount(ContextScope, StringId) override { return countAnswer; }
+  double contextRank(ContextScope, StringId, ContextOrder order, const Shape&) override {
+    return static_cast<double>(order);
+  }
   void label(StringId name, const Shape& shape) override;
   std::string treeKey() const override { return treeKeyAnswer; }
 
