@@ -282,8 +282,9 @@ void GeoJsonReader::addAttributes(const JsonValue& properties, ShapeInput& shape
       a.values.push_back(plainOf(v));
     } else if (v.isArray() && v.size() > 0) {
       // A list of values of one kind is an array of one row.
+      const JsonValue::Kind kind = v.at(0).kind();
       const bool alike = std::all_of(v.items().begin(), v.items().end(), [&](const JsonValue& e) {
-        return isPlain(e) && e.kind() == v.at(0).kind();
+        return isPlain(e) && e.kind() == kind;
       });
       if (!alike) continue;
       for (const JsonValue& e : v.items()) a.values.push_back(plainOf(e));
