@@ -252,6 +252,21 @@ TEST(GltfShapes, nodesAreShapes) {
   EXPECT_EQ(r->shapes[0].mesh.area(), 200);
   EXPECT_EQ(r->shapes[0].mesh.bounds().min.x, 5);
   EXPECT_GT(r->shapes[0].mesh.normal(0).y, 0.99);
+  // The two triangles are one rectangle again.
+  ASSERT_EQ(r->shapes[0].mesh.faceCount(), 1u);
+  EXPECT_EQ(r->shapes[0].mesh.corners.size(), 4u);
+}
+
+TEST(GltfShapes, holesComeBack) {
+  SceneBuilder b;
+  b.leaf(b.mesh(testing::holedSquare()), testing::turned(33, {100, 0, 50}), {1, 1, 1});
+  b.root("yard", b.prototype("P"), Frame{});
+  auto r = readShapes(writtenBytes(b.scene, "yard.glb"), optionsFor("yard.glb"));
+  ASSERT_TRUE(r.ok());
+  const Mesh& m = r->shapes[0].mesh;
+  ASSERT_EQ(m.faceCount(), 1u);
+  EXPECT_EQ(m.loopsOf(0).size(), 2u);
+  EXPECT_NEAR(m.area(), 91, 1e-3);
 }
 
 TEST(DataUri, readsBase64) {

@@ -6,12 +6,17 @@
 
 #include "base/files.h"
 #include "base/number.h"
+#include "geom/mesh/cleanup.h"
 #include "io/importers/face_filter.h"
 #include "io/importers/gltf_meshes.h"
 #include "io/importers/obj_file.h"
 
 namespace gable {
 namespace {
+
+// Single precision at the size of a block, in metres, and what it does to directions, in degrees.
+constexpr double kSamePlace = 1e-4;
+constexpr double kSamePlane = 0.05;
 
 std::string stemOf(const std::string& path) {
   const std::string name = fileNameOf(path);
@@ -113,9 +118,15 @@ Result<ShapeFile> readGltfShapes(std::string_view bytes, const AssetOptions& opt
     dropped += meshes.dropped();
     ShapeInput shape;
     shape.mesh = meshes.take();
+    shape.mesh.normals.clear();
+    for (auto& uv : shape.mesh.uvs) uv.clear();
+    // Footprints come as triangles; what lies in one plane is one polygon again.
+    mergePositions(shape.mesh, kSamePlace);
+    mergeCoplanarFaces(shape.mesh, kSamePlane);
+    removeCollinearVertices(shape.mesh, kSamePlane);
+    dropDegenerateFaces(shape.mesh, 0);
     if (shape.mesh.empty()) continue;
     shape.name = p.name.empty() ? stemOf(options.path) : p.name;
-    shape.mesh.normals.clear();
     out.shapes.push_back(std::move(shape));
   }
   noteDropped(out, dropped, 0);
