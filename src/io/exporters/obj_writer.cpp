@@ -85,7 +85,6 @@ class ObjWriter {
   std::vector<bool> materialUsed_;
   uint32_t group_ = kNoMaterial, material_ = kNoMaterial;
   bool anyMaterial_ = false;
-  bool unitUv_ = false;
   uint64_t vertices_ = 0, uvs_ = 0, normals_ = 0;
   // Of the leaf at hand.
   std::vector<Vec3> placed_;

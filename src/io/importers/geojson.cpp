@@ -275,9 +275,10 @@ PlainValue plainOf(const JsonValue& v) {
 
 void GeoJsonReader::addAttributes(const JsonValue& properties, ShapeInput& shape) {
   const auto isPlain = [](const JsonValue& v) { return v.isNumber() || v.isBool() || v.isText(); };
-  for (const auto& [name, v] : properties.members()) {
+  for (const JsonValue::Member& member : properties.members()) {
+    const JsonValue& v = member.second;
     AttributeValue a;
-    a.name = name;
+    a.name = member.first;
     if (isPlain(v)) {
       a.values.push_back(plainOf(v));
     } else if (v.isArray() && v.size() > 0) {
