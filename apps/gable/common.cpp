@@ -31,7 +31,8 @@ size_t printMessages(const gable::Messages& messages) {
 }
 
 int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
-  inputs.rules = gable::Rules::load(arguments.rules, {arguments.project, arguments.dialect});
+  inputs.rules =
+      gable::Rules::load(arguments.rules, {arguments.project, arguments.dialect, arguments.style});
   printMessages(inputs.rules.messages());
   if (!inputs.rules.found()) return kExitFile;
   if (!inputs.rules.ok()) return kExitWrong;

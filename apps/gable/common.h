@@ -35,6 +35,7 @@ struct DeriveArguments {
   double seed = 0;
   std::string project;
   std::string dialect;
+  std::string style;
   int jobs = 0;
   bool noSharing = false;
   double maxSeconds = 0;

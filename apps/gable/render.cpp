@@ -35,11 +35,10 @@ int usage(const char* option, const char* form) {
 }
 
 int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
-  const std::pair<const char*, gable::View> views[] = {
-      {"iso", gable::View::Iso},
-      {"top", gable::View::Top},
-      {"front", gable::View::Front},
-      {"street", gable::View::Street}};
+  const std::pair<const char*, gable::View> views[] = {{"iso", gable::View::Iso},
+                                                       {"top", gable::View::Top},
+                                                       {"front", gable::View::Front},
+                                                       {"street", gable::View::Street}};
   for (const auto& [name, view] : views) {
     if (a.view == name) s.view = view;
   }

@@ -13,6 +13,7 @@
 // the frame is right-handed with y up (+x east, -z north). Objects are cheap to copy: copies share.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -51,6 +52,8 @@ struct LoadOptions {
   std::string project;
   /// Empty: by the file's extension.
   std::string dialect;
+  /// A style that the rule file declares; empty: none.
+  std::string style;
 };
 
 struct AttributeInfo {
@@ -113,6 +116,11 @@ class Shapes {
   using Ring = std::vector<std::pair<double, double>>;
   /// A polygon in plan coordinates (x east, y north), counter-clockwise, with holes.
   static Shapes polygon(const Ring& outer, const std::vector<Ring>& holes = {});
+  /// Faces over vertices in metres (y up). `holes` names holes by lists of face numbers: the first
+  /// is the face that has them, the others are its holes.
+  static Shapes mesh(const std::vector<std::array<double, 3>>& vertices,
+                     const std::vector<std::vector<uint32_t>>& faces,
+                     const std::vector<std::vector<uint32_t>>& holes = {});
   /// .obj .gltf .glb .geojson .json, by extension.
   static Shapes load(const std::string& path);
   /// The same for a file's content in memory; `name` gives the extension.

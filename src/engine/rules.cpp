@@ -66,7 +66,7 @@ Rules Rules::parse(const std::string& text, const std::string& path, const LoadO
   Diagnostics diagnostics;
   const std::string name = impl->project->projectPath(path);
   const uint32_t file = impl->sources.add(name, text);
-  lang::AnalysisInput input{lang::parse(impl->sources, file, diagnostics), name, ""};
+  lang::AnalysisInput input{lang::parse(impl->sources, file, diagnostics), name, options.style};
   ProjectLoader loader(*impl->project);
   const lang::ResolvedProgram resolved = lang::analyse(
       std::move(input), builtinCatalogue(), *impl->pool, &loader, impl->sources, diagnostics);

@@ -4,6 +4,7 @@
 // Initial shapes: lots, polygons and files of footprints. Each shape gets an object frame near it,
 // so that coordinates far from the origin lose nothing.
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/files.h"
@@ -64,6 +65,85 @@ Shapes Shapes::polygon(const Ring& outer, const std::vector<Ring>& holes) {
   for (const Ring& h : holes) p.holes.push_back(ring(h));
   orient(p);
   return ofPolygon(p, "polygon");
+}
+
+namespace {
+
+// What is wrong with faces and holes given as numbers; empty when nothing is.
+std::string meshMistake(size_t vertexCount, const std::vector<std::vector<uint32_t>>& faces,
+                        const std::vector<std::vector<uint32_t>>& holes) {
+  for (size_t f = 0; f < faces.size(); ++f) {
+    if (faces[f].size() < 3) return "face " + std::to_string(f) + " has fewer than three vertices";
+    for (uint32_t v : faces[f]) {
+      if (v >= vertexCount) {
+        return "face " + std::to_string(f) + " names vertex " + std::to_string(v) +
+               ", which does not exist";
+      }
+    }
+  }
+  std::vector<bool> used(faces.size(), false);
+  for (const std::vector<uint32_t>& list : holes) {
+    for (uint32_t f : list) {
+      if (f >= faces.size()) return "hole " + std::to_string(f) + " is no face";
+      if (used[f]) return "face " + std::to_string(f) + " stands twice in the lists of holes";
+      used[f] = true;
+    }
+  }
+  return {};
+}
+
+void addLoop(MeshBuilder& b, const std::vector<uint32_t>& ring) {
+  b.beginLoop();
+  for (uint32_t v : ring) b.addCorner(v);
+}
+
+}  // namespace
+
+Shapes Shapes::mesh(const std::vector<std::array<double, 3>>& vertices,
+                    const std::vector<std::vector<uint32_t>>& faces,
+                    const std::vector<std::vector<uint32_t>>& holes) {
+  auto impl = std::make_shared<Impl>();
+  const std::string mistake = meshMistake(vertices.size(), faces, holes);
+  if (!mistake.empty()) {
+    impl->messages.push_back(errorMessage({"shape-mesh", mistake, "mend the lists of faces"}));
+    return Shapes(std::move(impl));
+  }
+  MeshBuilder b;
+  std::vector<std::vector<uint32_t>> rings = faces;
+  for (const auto& v : vertices) b.addPosition({v[0], v[1], v[2]});
+  std::vector<const std::vector<uint32_t>*> holesOf(faces.size(), nullptr);
+  std::vector<bool> isHole(faces.size(), false);
+  const auto normalOf = [&](const std::vector<uint32_t>& ring) {
+    Vec3 sum;
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const auto& p = vertices[ring[i]];
+      const auto& q = vertices[ring[(i + 1) % ring.size()]];
+      sum += cross(Vec3{p[0], p[1], p[2]}, Vec3{q[0], q[1], q[2]});
+    }
+    return sum;
+  };
+  for (const std::vector<uint32_t>& list : holes) {
+    if (list.empty()) continue;
+    holesOf[list[0]] = &list;
+    for (size_t k = 1; k < list.size(); ++k) {
+      isHole[list[k]] = true;
+      // Holes turn the other way than their face.
+      std::vector<uint32_t>& ring = rings[list[k]];
+      if (dot(normalOf(ring), normalOf(rings[list[0]])) > 0) std::reverse(ring.begin(), ring.end());
+    }
+  }
+  for (size_t f = 0; f < faces.size(); ++f) {
+    if (isHole[f]) continue;
+    b.beginFace();
+    addLoop(b, rings[f]);
+    if (!holesOf[f]) continue;
+    for (size_t k = 1; k < holesOf[f]->size(); ++k) addLoop(b, rings[(*holesOf[f])[k]]);
+  }
+  ShapeInput input;
+  input.name = "mesh";
+  input.mesh = b.take();
+  impl->footprints.push_back(footprint(std::move(input)));
+  return Shapes(std::move(impl));
 }
 
 Shapes Shapes::load(const std::string& path) {
