@@ -96,6 +96,9 @@ TEST_P(Example, standsOnAnyFootprint) {
     const Scene& scene = model.impl().result.scene;
     EXPECT_GT(count(scene).leaves, 5u) << footprint.name;
     EXPECT_EQ(joined(faults(scene)), "") << footprint.name;
+    settings.sharing = false;
+    EXPECT_TRUE(derive(rules, footprint.shapes, settings).dump() == model.dump())
+        << footprint.name << " differs without sharing";
   }
 }
 
