@@ -213,18 +213,35 @@ void Machine::initialise(const Instruction& i) {
 
 // comp(...) { selector expr } as an expression: the components of the shape are made and dropped
 // again; each block body is evaluated on its component.
+namespace {
+
+// The values of parts in the order of components; those in no part have the type's default.
+std::vector<Value> valuesByComponent(const std::vector<Value>& values,
+                                     const std::vector<uint32_t>& partOf) {
+  Value none = values.empty() ? Value::of(0.0) : values[0];
+  none.id = 0;
+  none.number = 0;
+  std::vector<Value> out;
+  for (const uint32_t part : partOf) out.push_back(part < values.size() ? values[part] : none);
+  return out;
+}
+
+}  // namespace
+
 void Machine::componentValues(const Instruction& i) {
   const BlockCode& block = program_.blocks[i.y - 1u];
   stackTop_ -= block.valueCount + i.x;
   const Value* arguments = stack_.data() + stackTop_;
   Shape shape = *seen_;
   std::vector<OpCall::Child> parts;
+  std::vector<uint32_t> partOf;
   OpCall call(*program_.operations[i.a], shape, {arguments, i.x}, *this);
   OpCallSetup setup(call);
   setup.previous(shape.scope, shape.size);
   setup.site(program_.sites[pcOf(&i)]);
   setup.file(fileOf(i));
   setup.children(parts);
+  setup.componentChildren(partOf);
   setup.slots(static_cast<uint32_t>(block.slots.size()));
   fillSelectors(block, arguments + i.x);
   setup.selectors(selectorItems_);
@@ -233,6 +250,7 @@ void Machine::componentValues(const Instruction& i) {
   if (!status.ok()) {
     warn(status.code(), "'comp': " + status.message(), status.hint());
     parts.clear();
+    partOf.clear();
   }
   const Instruction* resumeAt = pc_;
   const Shape* outer = seen_;
@@ -248,8 +266,8 @@ void Machine::componentValues(const Instruction& i) {
   }
   pc_ = resumeAt;
   seen_ = outer;
-  const uint32_t count = static_cast<uint32_t>(values.size());
-  put(buildArray(values, {&count, 1}, pool()), i);
+  const auto count = static_cast<uint32_t>(partOf.size());
+  put(buildArray(valuesByComponent(values, partOf), {&count, 1}, pool()), i);
 }
 
 // The loop for expressions that C++ asks for; ends when the functions begun since have returned.

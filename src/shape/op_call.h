@@ -103,6 +103,16 @@ class OpCall {
   /// Gives out a child for a block slot. Its address for randomness is derived from shape().path,
   /// the slot and `piece`, which must differ among children of one slot.
   void emit(Shape child, uint32_t slot, uint32_t piece);
+  /// For component splits, which run as a function too: says how many components there are, and
+  /// that one of them is in the child given out last.
+  void countComponents(size_t count) {
+    if (componentChild_) componentChild_->assign(count, kNoChild);
+  }
+  void placeComponent(size_t component) {
+    if (componentChild_)
+      (*componentChild_)[component] = static_cast<uint32_t>(children_->size() - 1);
+  }
+  static constexpr uint32_t kNoChild = 0xffffffff;
   /// Deletes the shape (NIL): nothing after the operation runs.
   void drop() { dropped_ = true; }
 
@@ -136,6 +146,7 @@ class OpCall {
   std::span<const SelectorItem> selectors_;
   uint32_t slotCount_ = 0;
   std::vector<Child>* children_ = nullptr;
+  std::vector<uint32_t>* componentChild_ = nullptr;
   bool dropped_ = false;
   uint64_t site_ = 0;
   std::string_view file_;
@@ -153,6 +164,8 @@ class OpCallSetup {
   void selectors(std::span<const SelectorItem> items) { call_.selectors_ = items; }
   void slots(uint32_t count) { call_.slotCount_ = count; }
   void children(std::vector<OpCall::Child>& out) { call_.children_ = &out; }
+  /// For each component the child that it went to, kNoChild for those not selected.
+  void componentChildren(std::vector<uint32_t>& out) { call_.componentChild_ = &out; }
   void site(uint64_t site) { call_.site_ = site; }
   void file(std::string_view file) { call_.file_ = file; }
   bool dropped() const { return call_.dropped_; }

@@ -154,4 +154,32 @@ void UnitCompiler::componentValues(NodeId node, const FunctionSpec& spec) {
   e_.land(over);
 }
 
+// What setbackPerEdge(expr) means: comp(fe) { all : expr }.
+void UnitCompiler::valuePerEdge(NodeId node) {
+  if (!componentOperation_) return expression(node);
+  uses_.effects |= effectsOfCall(componentOperation_->effects, false);
+  ValuePool& pool = *e_.program().pool;
+  const auto number = static_cast<uint32_t>(e_.program().blocks.size());
+  BlockCode block;
+  block.kind = BlockKind::Selectors;
+  BlockTerm all;
+  all.kind = static_cast<uint8_t>(SelectTermKind::Word);
+  all.word = pool.intern("all");
+  all.value = -1;
+  block.terms.push_back(all);
+  BlockItem item;
+  item.termCount = 1;
+  block.items.push_back(item);
+  block.slots.push_back(0);
+  e_.program().blocks.push_back(std::move(block));
+  e_.emit(Code::Constant, t_.span(node), e_.constant(pool.selector("fe")));
+  e_.emit(Code::ComponentValues, t_.span(node), e_.operation(componentOperation_), 1,
+          static_cast<uint16_t>(number + 1), e_.site("comp"));
+  const uint32_t over = e_.jump(Code::Jump, t_.span(node));
+  e_.program().blocks[number].slots[0] = e_.here();
+  expression(node);
+  e_.emit(Code::Return, t_.span(node));
+  e_.land(over);
+}
+
 }  // namespace gable::lang

@@ -115,7 +115,14 @@ void UnitCompiler::operation(NodeId node, const OpSpec& spec, NodeId arguments) 
   bool allFixed = true;
   for (size_t i = 0; i < list.size(); ++i) allFixed = allFixed && constantOf(list[i], fixed[i]);
   const uint32_t blockNumber = hasBlock ? newBlock(node, spec) : 0;
-  if (!allFixed) pushArguments(arguments);
+  const bool perEdge = std::string_view(spec.name) == "setbackPerEdge";
+  for (size_t i = 0; !allFixed && i < list.size(); ++i) {
+    if (perEdge && i == 0) {
+      valuePerEdge(list[i]);
+    } else {
+      expression(list[i]);
+    }
+  }
   if (hasBlock) pushBlockValues(blockNumber);
   const uint64_t site = e_.site(spec.name);
   const Code code = allFixed ? Code::OperationConstant : Code::Operation;

@@ -74,6 +74,7 @@ class UnitCompiler {
   void index(NodeId node);
   void range(NodeId node);
   void componentValues(NodeId node, const FunctionSpec& spec);
+  void valuePerEdge(NodeId node);
   /// The value of an expression that needs no evaluation, with its unit.
   bool constantOf(NodeId node, Value& out) const;
   uint32_t effectsOf(uint32_t effects, NodeId arguments) const;

@@ -187,6 +187,7 @@ void splitFlatFaces(const Context& context) {
   const FlatTags tags(faces, count);
   const Directions directions(call.services(), s);
   std::array<bool, 6> taken{};
+  call.countComponents(count);
   for (const SelectorItem& item : call.selectors()) {
     const Selector selector(item, call.services().pool(), directions);
     std::array<uint32_t, 6> chosen{};
@@ -205,6 +206,7 @@ void splitFlatFaces(const Context& context) {
       Shape child = context.child(name, i, total);
       call.emit(flatChild(context, std::move(child), faces[chosen[i]], count), item.slot,
                 chosen[i]);
+      call.placeComponent(chosen[i]);
     }
   }
 }
@@ -275,6 +277,7 @@ void emitComponents(const Context& context, const Mesh& mesh, const Components& 
     forgetFarTrimPlanes(child);
   }
   call.emit(std::move(child), slot, which[0]);
+  for (const uint32_t component : which) call.placeComponent(component);
 }
 
 // A face without area has no axes; it cannot be a shape.
@@ -288,6 +291,7 @@ void splitMesh(const Context& context, ComponentKind kind) {
   const Components all(*mesh, kind);
   const Directions directions(call.services(), call.shape());
   std::vector<bool> taken(all.list().size(), false);
+  call.countComponents(all.list().size());
   for (const SelectorItem& item : call.selectors()) {
     const Selector selector(item, call.services().pool(), directions);
     std::vector<uint32_t> chosen;

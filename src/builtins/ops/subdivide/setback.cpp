@@ -157,7 +157,7 @@ bool uvSetOf(const OpCall& call, size_t argument, int& set) {
 }
 
 Status noUvSet(const OpCall& call) {
-  return call.fail("uv-set", "there is no uv set of that number", "uv sets are 0 to 9");
+  return call.fail("bad-argument", "there is no uv set of that number", "uv sets are 0 to 9");
 }
 
 // A list by face edge, or one number for all.

@@ -82,7 +82,7 @@ Status splitUv(OpCall& call, int coordinate) {
   const double wanted = call.number(2, 0);
   const int set = static_cast<int>(wanted);
   if (!(wanted >= 0 && wanted < kUvSets)) {
-    return call.fail("uv-set", "there is no uv set of that number", "uv sets are 0 to 9");
+    return call.fail("bad-argument", "there is no uv set of that number", "uv sets are 0 to 9");
   }
   const MeshRef mesh = meshInScope(s);
   if (!mesh->hasUv(set)) {

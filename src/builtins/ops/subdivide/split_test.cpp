@@ -175,7 +175,7 @@ TEST(Split, uvWithoutCoordinatesIsAFailure) {
   EXPECT_STREQ(ran.status.code(), "split-no-uv");
   const Ran set =
       Op("split").args(word("u"), word("uvSpace"), 12).split({1}).on(wallShape(1, 1), services);
-  EXPECT_STREQ(set.status.code(), "uv-set");
+  EXPECT_STREQ(set.status.code(), "bad-argument");
 }
 
 TEST(Split, farTrimPlanesAreForgottenSoThatPartsAreEqual) {
