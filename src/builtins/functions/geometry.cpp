@@ -203,10 +203,10 @@ Value materials(FunctionCall& call) {
 // Models are read as one mesh, without groups.
 Value groups(FunctionCall& call) { return stringArray({}, call.services().pool()); }
 
-// All tags of the faces or edges, sorted, each once.
-std::vector<std::string> tagNames(FunctionCall& call) {
+// All tags of the faces or edges that a query means, sorted, each once.
+std::vector<std::string> tagNames(FunctionCall& call, std::string_view of) {
   const Services& services = call.services();
-  const std::string_view query = call.text(0, ""), of = call.text(1, "all");
+  const std::string_view query = call.text(0, "");
   const MeshRef m = meshInScope(call.shape());
   std::vector<TagSetId> sets;
   if (of == "all" || of == "faces") {
@@ -227,8 +227,14 @@ std::vector<std::string> tagNames(FunctionCall& call) {
   return names;
 }
 
-Value tags(FunctionCall& call) { return stringArray(tagNames(call), call.services().pool()); }
-Value hasTags(FunctionCall& call) { return Value::of(!tagNames(call).empty()); }
+Value tags(FunctionCall& call) {
+  return stringArray(tagNames(call, call.text(1, "all")), call.services().pool());
+}
+Value hasTags(FunctionCall& call) {
+  return Value::of(!tagNames(call, call.text(1, "all")).empty());
+}
+// Within a selector the component split itself asks the components; see selection.h.
+Value isTagged(FunctionCall& call) { return Value::of(!tagNames(call, "all").empty()); }
 
 constexpr ValueType kFloat = ValueType::Float, kBool = ValueType::Bool;
 constexpr const char* kOrientations =
@@ -277,6 +283,11 @@ constexpr ParamSpec kQueryOfParams[] = {kQuery, kOf};
 constexpr Signature kTags[] = {{{}, ValueType::StringArray},
                                {kQueryParams, ValueType::StringArray},
                                {kQueryOfParams, ValueType::StringArray}};
+constexpr ParamSpec kSubcomponent = {"subcomponent", ParamType::Selector,
+                                     "Puts the query to the edges or the vertices of a component.",
+                                     nullptr, "e v"};
+constexpr ParamSpec kTaggedParams[] = {kQuery, kSubcomponent};
+constexpr Signature kIsTagged[] = {{kQueryParams, kBool}, {kTaggedParams, kBool}};
 constexpr Signature kHasTags[] = {{{}, kBool}, {kQueryParams, kBool}, {kQueryOfParams, kBool}};
 
 constexpr const char* kFamily = "geometry";
@@ -317,6 +328,8 @@ constexpr FunctionSpec kFunctions[] = {
     {"geometry.nFaces", kFamily, "The number of faces.", kNumber, nFaces, kPure, true},
     {"geometry.nHoles", kFamily, "The number of holes in faces.", kNumber, nHoles, kPure, true},
     {"geometry.nVertices", kFamily, "The number of vertices.", kNumber, nVertices, kPure, true},
+    {"isTagged", kFamily, "Selects components by their tags; elsewhere, whether any has the tag.",
+     kIsTagged, isTagged},
     {"geometry.tags", kFamily, "The tags of the components, sorted.", kTags, tags, kPure, true},
     {"geometry.uMin", kFamily, "The least u of a uv set, of set 0 without argument.", kUvBound,
      uvBound<0, false>, kPure, true},

@@ -82,8 +82,10 @@ class SelectorReader {
     SelectorTerm term;
     if (take("isTagged(")) {
       const size_t end = text_.find(')');
+      const size_t comma = std::min(text_.find(','), end);
       term.kind = SelectorTerm::Kind::Tagged;
-      term.word = pool_.intern(text_.substr(0, end));
+      term.word = pool_.intern(text_.substr(0, comma));
+      if (comma < end) term.number = text_[end - 1] == 'e' ? 1 : 2;
       text_.remove_prefix(end + 1);
       out_.push_back(term);
       return;

@@ -175,7 +175,8 @@ class Op {
   }
   /// Slots are numbered in the order of writing.
   Op& split(std::vector<Piece> pieces, bool repeat = false);
-  /// Selector items: an expression of words, numbers, isTagged(x), ! && || and brackets, then
+  /// Selector items: an expression of words, numbers, isTagged(x) or
+  /// isTagged(x, e), ! && || and brackets, then
   /// nothing for `:`, or `=` or `=:`. The slot is the place in the list.
   Op& select(std::vector<std::string> items);
   Op& slots(uint32_t count);

@@ -281,6 +281,9 @@ TEST(Comp, tagsSelectWithParentsWildcardsAndSubcomponents) {
   EXPECT_EQ(count("f", "isTagged(*.low)"), 1u);
   EXPECT_EQ(count("f", "isTagged(?.low)"), 0u);
   EXPECT_EQ(count("f", "!isTagged(wall)"), 4u);
+  EXPECT_EQ(count("f", "isTagged(wall.top, e)"), 5u);
+  EXPECT_EQ(count("f", "isTagged(wall.top, v)"), 5u);
+  EXPECT_EQ(count("e", "isTagged(wall.top, v)"), 8u);
   EXPECT_EQ(count("e", "isTagged(wall.top)"), 4u);
   EXPECT_EQ(count("v", "isTagged(wall.top)"), 4u);
 }
