@@ -54,8 +54,18 @@ void addExtra(KeyHash& h, const ShapeExtra& extra) {
   }
 }
 
-// Axes that are parallel but for rounding become exactly so: else no two calls would be alike.
-Frame withoutNoise(const Frame& f) {
+// What is alike but for rounding becomes exactly so: else no two calls would be alike. Coordinates
+// go to a grid of a thousand-millionth of a metre, directions to a finer one.
+double onGrid(double v, double grid) {
+  return std::fabs(v) < 0x1.0p20 ? std::nearbyint(v / grid) * grid : v;
+}
+Vec3 onGrid(const Vec3& v, double grid) {
+  return {onGrid(v.x, grid), onGrid(v.y, grid), onGrid(v.z, grid)};
+}
+constexpr double kPlaceGrid = 0x1.0p-30, kDirectionGrid = 0x1.0p-40;
+
+Frame withoutNoise(Frame f) {
+  f.origin = onGrid(f.origin, kPlaceGrid);
   const auto straight = [](const Vec3& v, size_t axis) {
     return std::fabs(v[axis] - 1) < 1e-12 && std::fabs(v[(axis + 1) % 3]) < 1e-12 &&
            std::fabs(v[(axis + 2) % 3]) < 1e-12;
@@ -66,12 +76,12 @@ Frame withoutNoise(const Frame& f) {
 ShapeExtra localExtra(const ShapeExtra& extra, const Frame& outer) {
   ShapeExtra out = extra;
   for (TrimPlane& t : out.trim) {
-    t.distance -= dot(t.normal, outer.origin);
-    t.normal = outer.toLocalDirection(t.normal);
+    t.distance = onGrid(t.distance - dot(t.normal, outer.origin), kPlaceGrid);
+    t.normal = onGrid(outer.toLocalDirection(t.normal), kDirectionGrid);
   }
   const Frame inward = inverse(outer);
   for (UvProjection& p : out.projections) {
-    if (p.present) p.frame = inward * p.frame;
+    if (p.present) p.frame = withoutNoise(inward * p.frame);
   }
   return out;
 }
