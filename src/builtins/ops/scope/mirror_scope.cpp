@@ -27,6 +27,20 @@ Status applyMirrorScope(OpCall& call) {
   return {};
 }
 
+// Each mirrored axis is turned round within the scope; faces keep looking outward.
+Status applyMirror(OpCall& call) {
+  Shape& s = call.shape();
+  Vec3 scale{1, 1, 1}, by;
+  for (size_t i = 0; i < 3; ++i) {
+    if (!call.arg(i).truth()) continue;
+    scale[i] = -1;
+    by[i] = s.size[i];
+  }
+  if (s.geometry.kind == GeometryKind::None || by == Vec3{}) return {};
+  setMesh(s, transformed(*meshInScope(s), scale, Frame::moved(by)), ScopeFit::Keep);
+  return {};
+}
+
 constexpr ParamSpec kParams[] = {
     {"xFlip", ParamType::Bool, "Whether the x axis turns round."},
     {"yFlip", ParamType::Bool, "Whether the y axis turns round."},
@@ -37,6 +51,8 @@ constexpr Signature kSignatures[] = {{kParams}};
 constexpr OpSpec kSpecs[] = {
     {"mirrorScope", "scope", "Turns axes of the scope round and leaves the geometry as it is.",
      kSignatures, applyMirrorScope},
+    {"mirror", "scope", "Mirrors the geometry within the scope, which stays.", kSignatures,
+     applyMirror},
 };
 
 }  // namespace

@@ -91,6 +91,23 @@ TEST(MirrorScope, leavesTheGeometryAndTurnsTheBox) {
   expectSamePlace(back, s);
 }
 
+TEST(Mirror, turnsTheGeometryRoundWithinTheScope) {
+  FakeServices services;
+  const Shape s = polygonShape({{{0, 0}, {6, 0}, {3, 3}, {0, 3}}});
+  const Shape a = Op("mirror").args(true, false, false).on(s, services).shape;
+  EXPECT_EQ(a.scope, s.scope);
+  EXPECT_EQ(a.size, s.size);
+  EXPECT_NEAR(meshInScope(a)->area(), meshInScope(s)->area(), 1e-9);
+  EXPECT_GT(meshInScope(a)->normal(0).y, 0.9);
+  const Shape b = Op("mirror").args(true, false, false).on(a, services).shape;
+  expectSamePlace(b, s);
+  Shape up = boxShape({1, 2, 3});
+  up.scope = rotationXyz(10, 20, 30);
+  const Shape c = Op("mirror").args(true, true, true).on(up, services).shape;
+  expectSamePlace(c, up);
+  EXPECT_NEAR(enclosedVolume(meshInLocal(c)), 6, 1e-9);
+}
+
 TEST(RotateScope, fitsTheBoxAgain) {
   FakeServices services;
   Shape s = boxShape({2, 3, 4});
