@@ -19,6 +19,11 @@ endif()
 
 # Same input, same bytes: no fused multiply-add, no value-changing optimisation.
 add_compile_options(-ffp-contract=off -fno-fast-math)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # g++ 12 loses the rounding of (double)(float)x when it packs neighbouring conversions into one
+  # vector (src/io/exporters/stl_writer.cpp shows it from -O2 on). Loops are not affected.
+  add_compile_options(-fno-tree-slp-vectorize)
+endif()
 add_compile_options(-Wall -Wextra -Wshadow -Wno-missing-field-initializers)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 warns wrongly about "literal" + std::string (its bug 105651).

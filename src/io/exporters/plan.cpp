@@ -54,7 +54,9 @@ ScenePlan::ScenePlan(const Scene& scene, bool share) : scene_(scene), share_(sha
 
 void ScenePlan::measure() {
   for (const MeshRef& m : scene_.meshes) meshBytes_.push_back(bytesOf(*m));
-  if (share_) {
+  const bool anyLarge = std::any_of(meshBytes_.begin(), meshBytes_.end(),
+                                    [](double bytes) { return bytes >= kAloneBytes; });
+  if (share_ && anyLarge) {
     for (const Leaf& l : scene_.leaves) {
       if (meshBytes_[l.mesh] >= kAloneBytes) alone_.push_back(aloneKey(l));
     }
@@ -134,9 +136,11 @@ void ScenePlan::measureContents() {
 }
 
 bool ScenePlan::standsAlone(const Leaf& leaf) const {
+  // Most scenes have none: leaves, which fill memory, are not even looked at.
+  if (alone_.empty()) return false;
   // A node must not flatten its mesh.
   const bool flat = leaf.scale.x == 0 || leaf.scale.y == 0 || leaf.scale.z == 0;
-  return !alone_.empty() && !flat && meshBytes_[leaf.mesh] >= kAloneBytes &&
+  return !flat && meshBytes_[leaf.mesh] >= kAloneBytes &&
          std::binary_search(alone_.begin(), alone_.end(), aloneKey(leaf));
 }
 

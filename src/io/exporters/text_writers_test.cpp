@@ -122,6 +122,17 @@ TEST_F(TextWriters, plyAndStlShowTheScene) {
   }
 }
 
+// Which holds only where numbers are really rounded to single precision on their way.
+TEST_F(TextWriters, stlNormalsAreThoseOfTheVerticesAsWritten) {
+  write(testing::street(3), "n.stl");
+  const Soup soup = testing::readStl(text("n.stl"));
+  for (size_t i = 0; i < soup.polygons.size(); ++i) {
+    const std::vector<Vec3>& p = soup.polygons[i];
+    const Vec3 n = normalized(cross(p[1] - p[0], p[2] - p[0]));
+    ASSERT_NEAR(length(n - soup.normals[i]), 0, 1.1e-7) << i;
+  }
+}
+
 TEST_F(TextWriters, facesWithoutAreaOrWithoutNumbersAreLeftOut) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   SceneBuilder b;

@@ -14,6 +14,8 @@
 namespace gable::testing {
 
 struct Soup {
+  /// As the file tells them, by polygon; STL only.
+  std::vector<Vec3> normals;
   std::vector<std::vector<Vec3>> polygons;
   Box3 bounds;
   double area = 0, volume = 0, smallest = 1e300;
@@ -46,13 +48,14 @@ inline Soup readStl(const std::string& bytes) {
   size_t at = 80;
   const auto count = take<uint32_t>(bytes, at);
   for (uint32_t i = 0; i < count && at < bytes.size(); ++i) {
-    at += 12;
     std::vector<Vec3> p;
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < 4; ++k) {
       const auto x = take<float>(bytes, at), y = take<float>(bytes, at), z = take<float>(bytes, at);
       p.push_back({x, y, z});
     }
     at += 2;
+    out.normals.push_back(p[0]);
+    p.erase(p.begin());
     out.add(std::move(p));
   }
   return out;
