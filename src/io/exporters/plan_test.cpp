@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+#include "io/exporters/plan.h"
+
+#include <gtest/gtest.h>
+
+#include "io/exporters/surface.h"
+#include "io/testing/scenes.h"
+
+namespace gable {
+namespace {
+
+using testing::SceneBuilder;
+
+// A prototype of `boxes` boxes.
+uint32_t wall(SceneBuilder& b, int boxes) {
+  for (int i = 0; i < boxes; ++i) b.leaf(kUnitBox, Frame::moved({i * 2.0, 0, 0}), {1, 1, 1});
+  return b.prototype("Wall");
+}
+
+// Every leaf of the flattened scene is shown once, whatever the plan: counts leaves by following
+// units and their children.
+uint64_t shownLeaves(const ScenePlan& plan, uint32_t unit) {
+  UnitContent content;
+  plan.collect(unit, content);
+  EXPECT_LE(static_cast<double>(content.leaves.size()), plan.contentSize(unit));
+  uint64_t n = content.leaves.size();
+  for (const PlannedChild& c : plan.units()[unit].children) n += shownLeaves(plan, c.unit);
+  return n;
+}
+
+void expectWhole(const Scene& s) {
+  for (const bool share : {true, false}) {
+    const ScenePlan plan(s, share);
+    uint64_t n = 0;
+    for (const uint32_t u : plan.rootUnits()) n += shownLeaves(plan, u);
+    EXPECT_EQ(n, count(s).leaves);
+    EXPECT_TRUE(share || plan.units().size() == s.roots.size());
+  }
+}
+
+TEST(Plan, whatStandsOnceIsMerged) {
+  SceneBuilder b;
+  const uint32_t w = wall(b, 50);
+  b.instance(w, Frame::moved({0, 5, 0}));
+  b.root("house", b.prototype("House"), Frame{});
+  const ScenePlan plan(b.scene, true);
+  EXPECT_EQ(plan.units().size(), 1u);
+  expectWhole(b.scene);
+}
+
+TEST(Plan, whatStandsOftenIsAUnitUnlessTiny) {
+  SceneBuilder b;
+  const uint32_t large = wall(b, 50), tiny = wall(b, 1);
+  for (int i = 0; i < 20; ++i) {
+    b.instance(large, Frame::moved({0, 5.0 * i, 0}));
+    b.instance(tiny, Frame::moved({0, 5.0 * i, 9}));
+  }
+  b.root("house", b.prototype("House"), Frame{});
+  const ScenePlan plan(b.scene, true);
+  ASSERT_EQ(plan.units().size(), 2u);
+  EXPECT_EQ(plan.units()[0].children.size(), 20u);
+  expectWhole(b.scene);
+}
+
+TEST(Plan, equalRootsShareTheirUnitAndTakeInWhatIsBelow) {
+  SceneBuilder b;
+  const uint32_t w = wall(b, 5);
+  for (int i = 0; i < 40; ++i) b.instance(w, Frame::moved({0, 5.0 * i, 0}));
+  const uint32_t house = b.prototype("House");
+  for (int i = 0; i < 100; ++i) b.root("house", house, Frame::moved({50.0 * i, 0, 0}));
+  const ScenePlan plan(b.scene, true);
+  ASSERT_EQ(plan.units().size(), 1u);
+  EXPECT_TRUE(plan.units()[0].solid);
+  expectWhole(b.scene);
+}
+
+TEST(Plan, largeMeshesStandAloneWhenTheyOccurTwice) {
+  SceneBuilder b;
+  const uint32_t tree = b.mesh(testing::ball(20, 30)), statue = b.mesh(testing::ball(20, 31));
+  b.leaf(tree, Frame{}, {1, 2, 1});
+  b.leaf(tree, Frame::moved({5, 0, 0}), {1, 3, -1});
+  b.leaf(tree, Frame::moved({9, 0, 0}), {1, 0, 1});
+  b.leaf(statue, Frame{}, {1, 1, 1});
+  b.root("garden", b.prototype("Garden"), Frame{});
+  const ScenePlan plan(b.scene, true);
+  ASSERT_EQ(plan.units().size(), 2u);
+  // A node must not flatten its mesh, so that the third tree is merged.
+  EXPECT_EQ(plan.units()[0].children.size(), 2u);
+  EXPECT_EQ(plan.units()[0].children[1].scale, (Vec3{1, 3, -1}));
+  expectWhole(b.scene);
+}
+
+TEST(Plan, nestedScenesAreShownWhole) {
+  SceneBuilder b;
+  uint32_t p = wall(b, 7);
+  const uint32_t tree = b.mesh(testing::ball(20, 30));
+  for (int level = 0; level < 5; ++level) {
+    b.leaf(tree, Frame::moved({1, 1.0 * level, 0}), {1, 1, 1});
+    b.instance(p, Frame{});
+    b.leaf(kUnitBox, Frame{}, {1, 1, 1});
+    b.instance(p, testing::turned(30, {3, 0, 0}));
+    if (level % 2) b.instance(p, Frame::moved({0, 0, 9}));
+    p = b.prototype("Level");
+    b.root("r", p, Frame::moved({100.0 * level, 0, 0}));
+  }
+  expectWhole(b.scene);
+  expectWhole(testing::street(6));
+  expectWhole(Scene{});
+}
+
+TEST(Surface, verticesOfSmoothMeshesAreShared) {
+  FaceTriangulator t;
+  Surface s;
+  const Mesh ball = testing::ball(10, 12);
+  s.build(ball, t);
+  ASSERT_EQ(s.parts.size(), 1u);
+  EXPECT_EQ(s.parts[0].faceCount, 1u);
+  EXPECT_EQ(s.corners.size(), ball.positions.size());
+  EXPECT_EQ(s.triangles.size(), 12u * 2 * 9);
+  for (size_t v = 0; v < s.corners.size(); ++v) {
+    EXPECT_GT(dot(s.normals[v], normalized(ball.at(s.corners[v]))), 0.95);
+  }
+}
+
+TEST(Surface, partsFollowTheSlots) {
+  MeshBuilder b;
+  std::vector<uint32_t> ids;
+  for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{1, 1, 0}, Vec3{0, 1, 0}}) {
+    ids.push_back(b.addPosition(p));
+  }
+  for (const uint16_t slot : {uint16_t{5}, uint16_t{1}, uint16_t{5}, uint16_t{65535}}) {
+    b.addPolygon(ids, slot);
+  }
+  const Mesh m = b.take();
+  const std::vector<SlotTally> tallies = slotTallies(m);
+  ASSERT_EQ(tallies.size(), 3u);
+  EXPECT_EQ(tallies[1].slot, 5);
+  EXPECT_EQ(tallies[1].corners, 8u);
+  EXPECT_EQ(tallies[1].triangles, 4u);
+  FaceTriangulator t;
+  Surface s;
+  s.build(m, t);
+  ASSERT_EQ(s.parts.size(), 3u);
+  EXPECT_EQ(s.part(5)->faceCount, 2u);
+  EXPECT_EQ(s.part(65535)->faceCount, 1u);
+  EXPECT_EQ(s.part(2), nullptr);
+}
+
+TEST(Surface, tangentsRunAlongTheTexture) {
+  MeshBuilder b;
+  std::vector<uint32_t> ids;
+  b.beginFace();
+  b.beginLoop();
+  // u runs to the left and v up: a mirrored texture.
+  for (const Vec2 p : {Vec2{0, 0}, Vec2{2, 0}, Vec2{2, 1}, Vec2{0, 1}}) {
+    b.setUv(b.addCorner(b.addPosition({p.x, p.y, 0})), 0, {-p.x, p.y});
+  }
+  const Mesh m = b.take();
+  FaceTriangulator t;
+  Surface s;
+  s.build(m, t);
+  const Tangents tangents = tangentsOf(m, s, 0);
+  for (size_t v = 0; v < 4; ++v) {
+    EXPECT_EQ(normalized(tangents.u[v]), (Vec3{-1, 0, 0}));
+    EXPECT_EQ(normalized(tangents.v[v]), (Vec3{0, 1, 0}));
+  }
+}
+
+TEST(Surface, scaledNormalsStayOutside) {
+  const Vec3 n = normalized({1, 1, 0});
+  EXPECT_NEAR(length(scaledNormal(n, {2, 1, 1}) - normalized({1, 2, 0})), 0, 1e-12);
+  EXPECT_EQ(scaledNormal({0, 1, 0}, {3, 0, 2}), (Vec3{0, 1, 0}));
+  EXPECT_EQ(scaledNormal({0, 1, 0}, {1, -2, 1}), (Vec3{0, -1, 0}));
+  EXPECT_EQ(scaledNormal({1, 0, 0}, {3, 0, 2}), (Vec3{1, 0, 0}));
+}
+
+}  // namespace
+}  // namespace gable
