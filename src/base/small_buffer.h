@@ -5,8 +5,8 @@
 // that short lists on the stack allocate nothing.
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <new>
 #include <type_traits>
 #include <vector>
 
@@ -17,11 +17,14 @@ class SmallBuffer {
   static_assert(std::is_trivially_copyable_v<T>);
 
  public:
+  // The first N are raw memory: a buffer on the stack costs nothing before it is used.
+  SmallBuffer() {}
+
   void push_back(const T& value) {
     if (count_ < N) {
-      here_[count_] = value;
+      ::new (static_cast<void*>(here_ + count_ * sizeof(T))) T(value);
     } else {
-      if (count_ == N) more_.assign(here_.begin(), here_.end());
+      if (count_ == N) more_.assign(begin(), end());
       more_.push_back(value);
     }
     ++count_;
@@ -32,15 +35,17 @@ class SmallBuffer {
   }
   size_t size() const { return count_; }
   bool empty() const { return count_ == 0; }
-  T* begin() { return count_ <= N ? here_.data() : more_.data(); }
+  T* begin() { return count_ <= N ? reinterpret_cast<T*>(here_) : more_.data(); }
   T* end() { return begin() + count_; }
-  const T* begin() const { return count_ <= N ? here_.data() : more_.data(); }
+  const T* begin() const {
+    return count_ <= N ? reinterpret_cast<const T*>(here_) : more_.data();
+  }
   const T* end() const { return begin() + count_; }
   T& operator[](size_t i) { return begin()[i]; }
   const T& operator[](size_t i) const { return begin()[i]; }
 
  private:
-  std::array<T, N> here_;
+  alignas(T) std::byte here_[N * sizeof(T)];
   std::vector<T> more_;
   size_t count_ = 0;
 };

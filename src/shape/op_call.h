@@ -103,6 +103,9 @@ class OpCall {
   /// Gives out a child for a block slot. Its address for randomness is derived from shape().path,
   /// the slot and `piece`, which must differ among children of one slot.
   void emit(Shape child, uint32_t slot, uint32_t piece);
+  /// The same for a child that is much like shape(): gives out a copy of it, to be edited in place
+  /// before the next one is given out.
+  Shape& emitCopy(uint32_t slot, uint32_t piece);
   /// For component splits, which run as a function too: says how many components there are, and
   /// that one of them is in the child given out last.
   void countComponents(size_t count) {

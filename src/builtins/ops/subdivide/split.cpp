@@ -34,27 +34,25 @@ void dropInnerTags(Geometry& g, Axis axis, bool first, bool last) {
   if (!last) g.tags[ends[1]] = 0;
 }
 
-// True when a rectangle, which lies in the plane 0 of the axis, has its part there.
-bool holdsGeometry(const Geometry& g, Axis axis, double start) {
-  if (g.kind == GeometryKind::QuadXy && axis == Axis::Z) return start == 0;
-  if (g.kind == GeometryKind::QuadXz && axis == Axis::Y) return start == 0;
-  return true;
-}
-
 void splitPrimitive(OpCall& call, Axis axis, bool adjust, const SplitPieces& pieces) {
   const Shape& s = call.shape();
   const auto a = static_cast<size_t>(axis);
-  const double whole = std::fabs(s.size[a]);
-  for (size_t i = 0; i < pieces.size(); ++i) {
+  const double whole = std::fabs(s.size[a]), sign = s.size[a] < 0 ? -1 : 1;
+  const bool flat = (s.geometry.kind == GeometryKind::QuadXy && axis == Axis::Z) ||
+                    (s.geometry.kind == GeometryKind::QuadXz && axis == Axis::Y);
+  const Vec3& along = axis == Axis::X ? s.scope.x : axis == Axis::Y ? s.scope.y : s.scope.z;
+  const auto total = static_cast<uint32_t>(pieces.size());
+  for (uint32_t i = 0; i < total; ++i) {
     const SplitPiece& piece = pieces[i];
-    if (!holdsGeometry(s.geometry, axis, piece.start)) continue;
-    Shape child = scopePart(s, axis, piece.start, piece.size);
+    // A rectangle lies in the plane 0 of the axis that is square to it.
+    if (flat && piece.start != 0) continue;
+    Shape& child = call.emitCopy(piece.slot, i);
+    child.scope.origin = s.scope.origin + along * (sign * piece.start);
+    child.size[a] = flat && adjust ? 0 : sign * piece.size;
+    child.split = {i, total};
     const double end = piece.start + piece.size;
     dropInnerTags(child.geometry, axis, piece.start == 0, end >= whole * (1 - 1e-12));
-    const bool flat = (s.geometry.kind == GeometryKind::QuadXy && axis == Axis::Z) ||
-                      (s.geometry.kind == GeometryKind::QuadXz && axis == Axis::Y);
-    if (flat && adjust) child.size[a] = 0;
-    call.emit(numbered(std::move(child), i, pieces.size()), piece.slot, static_cast<uint32_t>(i));
+    forgetFarTrimPlanes(child);
   }
 }
 
