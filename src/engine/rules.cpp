@@ -6,6 +6,7 @@
 
 #include "base/files.h"
 #include "builtins/catalogue.h"
+#include "dialects/dialect.h"
 #include "engine/impl.h"
 #include "lang/compile/compile.h"
 #include "lang/format.h"
@@ -39,6 +40,23 @@ class ProjectLoader final : public lang::FileLoader {
   const Project& project_;
 };
 
+/// The notation of a file: null for Gable's own language. Error when there is none of that name.
+Result<const Dialect*> dialectFor(const std::string& name, const std::string& path) {
+  if (name.empty()) return dialectOfPath(path);
+  if (name == "cga") return static_cast<const Dialect*>(nullptr);
+  if (const Dialect* d = dialectNamed(name)) return d;
+  std::string names = "cga";
+  for (const Dialect* d : dialects()) names += std::string(", ") + d->name;
+  return Error{"unknown-dialect", "there is no notation '" + name + "'",
+               "the notations are " + names};
+}
+
+lang::Tree parseAs(const Dialect* dialect, const Sources& sources, uint32_t file,
+                   Diagnostics& diagnostics) {
+  if (!dialect) return lang::parse(sources, file, diagnostics);
+  return dialect->parse({sources, file, builtinCatalogue()}, diagnostics);
+}
+
 std::shared_ptr<Rules::Impl> failed(const Error& e) {
   auto impl = std::make_shared<Rules::Impl>();
   impl->found = false;
@@ -57,16 +75,15 @@ Rules Rules::load(const std::string& path, const LoadOptions& options) {
 Rules Rules::parse(const std::string& text, const std::string& path, const LoadOptions& options) {
   const double begin = now();
   auto impl = std::make_shared<Impl>();
-  if (!options.dialect.empty() && options.dialect != "cga") {
-    return Rules(failed({"unknown-dialect", "there is no notation '" + options.dialect + "'",
-                         "the notation of this version is cga"}));
-  }
+  const Result<const Dialect*> dialect = dialectFor(options.dialect, path);
+  if (!dialect.ok()) return Rules(failed(dialect.error()));
   impl->project =
       std::make_shared<Project>(options.project.empty() ? Project::rootFor(path) : options.project);
   Diagnostics diagnostics;
   const std::string name = impl->project->projectPath(path);
   const uint32_t file = impl->sources.add(name, text);
-  lang::AnalysisInput input{lang::parse(impl->sources, file, diagnostics), name, options.style};
+  lang::AnalysisInput input{parseAs(dialect.value(), impl->sources, file, diagnostics), name,
+                            options.style};
   ProjectLoader loader(*impl->project);
   const lang::ResolvedProgram resolved = lang::analyse(
       std::move(input), builtinCatalogue(), *impl->pool, &loader, impl->sources, diagnostics);

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "dialects/dialect.h"
+
+#include <algorithm>
+#include <string>
+
+namespace gable {
+
+std::span<const Dialect* const> dialects() {
+  // One line a dialect, by name.
+  static const std::span<const Dialect* const> kAll;
+  return kAll;
+}
+
+const Dialect* dialectNamed(std::string_view name) {
+  for (const Dialect* d : dialects()) {
+    if (name == d->name) return d;
+  }
+  return nullptr;
+}
+
+const Dialect* dialectOfPath(std::string_view path) {
+  std::string lower(path);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  for (const Dialect* d : dialects()) {
+    for (const char* extension : d->extensions) {
+      if (lower.ends_with(extension)) return d;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace gable

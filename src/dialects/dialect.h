@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The notations that Gable reads besides its own language. A dialect is a parser that lowers its
+// text to the neutral tree of lang/tree.h; from there on nothing knows of it. Every node keeps its
+// span in the dialect's text, so that messages and traces point there.
+//
+// Promises: any text gives a tree with a File root; mistakes are reported, all of them in one run,
+// and what is right beside them is lowered all the same. A tree from a text without errors can be
+// printed (lang/print.h) and parsed to the same tree.
+//
+// To add a dialect: a folder here with a README, and a line in dialect.cpp.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "base/diagnostic.h"
+#include "lang/tree.h"
+#include "program/spec.h"
+
+namespace gable {
+
+struct DialectInput {
+  const Sources& sources;
+  uint32_t file;
+  /// What the tree may name: the names of a dialect's author must not clash with it.
+  const Catalogue& catalogue;
+};
+
+struct Dialect {
+  /// What --dialect takes.
+  const char* name;
+  /// As its users call it.
+  const char* title;
+  /// With the dot, in lower case.
+  std::span<const char* const> extensions;
+  lang::Tree (*parse)(const DialectInput& input, Diagnostics& diagnostics);
+};
+
+/// All dialects, by name.
+std::span<const Dialect* const> dialects();
+/// Null when there is none of that name.
+const Dialect* dialectNamed(std::string_view name);
+/// By the extension of a path, whatever its case; null for Gable's own language.
+const Dialect* dialectOfPath(std::string_view path);
+
+}  // namespace gable
