@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Any bytes as OBJ, as its material file, and as a file of shapes: reading ends in valid meshes or in
-// a status.
+// Any bytes as OBJ, as its material file, and as a file of shapes: reading ends in valid meshes or
+// in a status.
 
 #include <cstddef>
 #include <cstdint>

@@ -20,6 +20,8 @@ REFERENCE = "docs/reference"
 NOTE = "<!-- Made by tools/gen_docs.py; change the source beside {source} instead. -->\n"
 # What only the source tells: which file declares a name. Every declaration is a row {"name", "...", ...}.
 ROW = r'\{{\s*"{name}",'
+# Names that the source makes from a table of another file, by how they begin.
+FAMILIES = {"material.": BUILTINS / "functions/material.cpp"}
 
 
 class Reference:
@@ -36,6 +38,9 @@ class Reference:
         row = re.compile(ROW.format(name=re.escape(name)))
         for path, text in self.sources.items():
             if path.is_relative_to(BUILTINS / kind) and row.search(text):
+                return path
+        for start, path in FAMILIES.items():
+            if kind == "functions" and name.startswith(start):
                 return path
         self.problems.append(f"{name}: no file of src/builtins/{kind} has a row for it")
         return None

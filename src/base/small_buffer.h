@@ -37,9 +37,7 @@ class SmallBuffer {
   bool empty() const { return count_ == 0; }
   T* begin() { return count_ <= N ? reinterpret_cast<T*>(here_) : more_.data(); }
   T* end() { return begin() + count_; }
-  const T* begin() const {
-    return count_ <= N ? reinterpret_cast<const T*>(here_) : more_.data();
-  }
+  const T* begin() const { return count_ <= N ? reinterpret_cast<const T*>(here_) : more_.data(); }
   const T* end() const { return begin() + count_; }
   T& operator[](size_t i) { return begin()[i]; }
   const T& operator[](size_t i) const { return begin()[i]; }

@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Three passes. Spacing looks at neighbouring tokens and says which are written without a blank
-// between them. Layout walks the tree and marks the tokens that begin a line, with their indent: a
-// construct stays on one line if it fits and holds no comment, else its parts get lines of their own.
-// Writing puts the tokens out, comments between them, and breaks what is still too long after commas
-// and before operators.
+// between them. Layout walks the tree and marks the tokens that begin a line, with their indent:
+// where the source begins one between two parts of a construct, so does the result, and a part that
+// does not fit begins one too. Writing puts the tokens out, comments between them, and breaks what
+// is still too long after commas and before operators.
 
 #include "lang/format.h"
 
@@ -19,9 +19,7 @@ namespace gable::lang {
 
 namespace {
 
-constexpr size_t kColumns = 100;
-/// A rule this short stays on one line with its head.
-constexpr size_t kShortRule = 80;
+constexpr size_t kColumns = 120;
 constexpr size_t kIndent = 2;
 
 bool endsOperand(const Token& t) {
@@ -49,6 +47,7 @@ class Formatter {
     const size_t n = tokens_.size();
     marks_.resize(n);
     findCommentsBefore();
+    findAskedLines();
     markContexts();
     findSpaces();
     layoutFile();
@@ -58,17 +57,17 @@ class Formatter {
  private:
   struct Mark {
     bool newLine = false;
-    bool blankLine = false;  // also where the source has none
-    bool space = true;       // a blank before the token
+    bool space = true;  // a blank before the token
     bool unary = false;
     bool softBreak = false;
-    bool push = false;            // a bracket of push and pop
-    bool attachedColon = false;   // of case, else and weights
+    bool push = false;           // a bracket of push and pop
+    bool attachedColon = false;  // of case, else and weights
     bool repeatStar = false;
-    bool annotation = false;      // inside one
+    bool annotation = false;  // inside one
     uint32_t indent = 0;
-    uint32_t firstComment = 0;    // of those before the token
-    uint32_t offset = 0;          // width of all before it, on one line
+    uint32_t asked = 0;         // lines that the source begins at tokens up to this one
+    uint32_t firstComment = 0;  // of those before the token
+    uint32_t offset = 0;        // width of all before it, on one line
   };
 
   // --- Places in the token list ---
@@ -93,10 +92,11 @@ class Formatter {
     return i + 1 < marks_.size() ? marks_[i + 1].firstComment
                                  : static_cast<uint32_t>(comments_.size());
   }
-  // Comments strictly within the tokens [first, end).
-  bool hasComments(size_t first, size_t end) const {
-    if (end <= first + 1) return false;
-    return marks_[end].firstComment > commentsEnd(first);
+  void findAskedLines() {
+    for (size_t i = 1; i < tokens_.size(); ++i) {
+      const bool here = newlinesBetween(tokens_[i - 1].end, tokens_[i].begin) > 0;
+      marks_[i].asked = marks_[i - 1].asked + (here ? 1 : 0);
+    }
   }
 
   // --- What the tree knows of single tokens ---
@@ -196,8 +196,8 @@ class Formatter {
       case TokenKind::Percent: return tokens_[i + 1].kind != TokenKind::Colon;
       case TokenKind::Star: return !marks_[i].repeatStar;
       case TokenKind::LParen: {
-        const bool word = a.keyword == Keyword::Case || a.keyword == Keyword::Else ||
-                          a.keyword == Keyword::With;
+        const bool word =
+            a.keyword == Keyword::Case || a.keyword == Keyword::Else || a.keyword == Keyword::With;
         return a.kind != TokenKind::Name || word;
       }
       case TokenKind::LBracket: return marks_[i].push || !endsOperand(a);
@@ -212,33 +212,58 @@ class Formatter {
     const Token& last = tokens_[end - 1];
     return marks_[end - 1].offset + (last.end - last.begin) - marks_[first].offset;
   }
-  bool fits(size_t first, size_t end, size_t indent, size_t columns = kColumns) const {
-    return !hasComments(first, end) && indent + width(first, end) <= columns;
+
+  // Whether the source begins a line at a token.
+  bool asked(size_t token) const { return marks_[token].asked > marks_[token - 1].asked; }
+  bool askedWithin(size_t first, size_t end) const {
+    return end > first && marks_[end - 1].asked > marks_[first].asked;
   }
 
-  void breakBefore(size_t token, size_t indent, bool blank = false) {
+  // One past the closing brackets that follow.
+  size_t withClosers(size_t end) const {
+    while (end < tokens_.size() &&
+           (tokens_[end].kind == TokenKind::RBrace || tokens_[end].kind == TokenKind::RBracket ||
+            marks_[end].repeatStar)) {
+      ++end;
+    }
+    return end;
+  }
+
+  // Whether the line in hand can go on up to there.
+  bool fitsHere(size_t end) const {
+    return lineIndent_ + width(lineFirst_, withClosers(end)) <= kColumns;
+  }
+  // Whether [first, end) stays as it is on the line in hand.
+  bool stays(size_t first, size_t end) const { return !askedWithin(first, end) && fitsHere(end); }
+
+  void breakBefore(size_t token, size_t indent) {
     marks_[token].newLine = true;
     marks_[token].indent = static_cast<uint32_t>(indent);
-    marks_[token].blankLine = marks_[token].blankLine || blank;
+    lineFirst_ = token;
+    lineIndent_ = indent;
+  }
+
+  // A part of a construct begins a line where the source says so or where it does not fit else.
+  void place(size_t first, size_t end, size_t indent) {
+    // Behind an opening bracket a new line would give no room.
+    const bool atStart = lineIndent_ + width(lineFirst_, first) <= indent;
+    if (asked(first) || (!fitsHere(end) && !atStart)) breakBefore(first, indent);
+  }
+  void placeCloser(size_t token, size_t indent) {
+    if (asked(token)) breakBefore(token, indent);
   }
 
   void layoutFile() {
     size_t previousEnd = 0;
-    bool previousLong = false;
     for (const NodeId id : tree_.children(tree_.root())) {
       size_t first = firstOf(id);
       // The keyword before the name belongs to the declaration.
       if (first > previousEnd && tokens_[first - 1].keyword != Keyword::None &&
           tokens_[first - 1].begin >= (previousEnd ? tokens_[previousEnd - 1].end : 0) &&
-          tree_.kind(id) != NodeKind::Annotation && tree_.kind(id) != NodeKind::Version) {
-        const bool isNote = marks_[first - 1].annotation;
-        if (!isNote) --first;
+          !isPlain(id) && !marks_[first - 1].annotation) {
+        --first;
       }
-      const bool isLong = layoutDeclaration(id, first);
-      const NodeId notes = isPlain(id) ? kNoNode : annotationsOf(tree_, id);
-      const size_t top = notes == kNoNode ? first : firstOf(notes);
-      if (top > 0 && (isLong || previousLong)) marks_[top].blankLine = true;
-      previousLong = isLong;
+      layoutDeclaration(id, first);
       previousEnd = endOf(id);
     }
     breakBefore(tokens_.size() - 1, 0);
@@ -248,98 +273,92 @@ class Formatter {
     return tree_.kind(id) == NodeKind::Annotation || tree_.kind(id) == NodeKind::Version;
   }
 
-  // True when it takes more than one line, annotations apart.
-  bool layoutDeclaration(NodeId id, size_t first) {
-    breakBefore(first, 0);
-    if (isPlain(id)) return false;
-    layoutAnnotations(annotationsOf(tree_, id));
+  void layoutDeclaration(NodeId id, size_t first) {
+    if (isPlain(id)) return breakBefore(first, 0);
+    if (layoutAnnotations(annotationsOf(tree_, id))) {
+      place(first, endOf(id), 0);
+    } else {
+      breakBefore(first, 0);
+    }
     switch (tree_.kind(id)) {
-      case NodeKind::Import: return layoutImport(id, first);
-      case NodeKind::Rule: return layoutRule(id, first);
-      case NodeKind::Style: return false;
-      default: return layoutValue(id, first);
+      case NodeKind::Import: return layoutImport(id);
+      case NodeKind::Rule: return layoutRule(id);
+      case NodeKind::Style: return;
+      default: return layoutValue(id);
     }
   }
 
-  // On one line if they fit; @Group speaks for what follows too and stands alone.
-  void layoutAnnotations(NodeId list) {
-    const auto notes = tree_.children(list);
-    if (notes.empty()) return;
-    const bool together = fits(firstOf(list), endOf(notes.back()), 0);
-    bool afterGroup = true;
-    for (const NodeId note : notes) {
+  // @Group speaks for what follows too and stands alone. True when the declaration may go on
+  // behind.
+  bool layoutAnnotations(NodeId list) {
+    bool alone = true;
+    for (const NodeId note : tree_.children(list)) {
       const bool group = tree_.text(note) == "Group";
-      if (afterGroup || group || !together) breakBefore(firstOf(note), 0);
-      afterGroup = group;
+      if (alone || group) {
+        breakBefore(firstOf(note), 0);
+      } else {
+        place(firstOf(note), endOf(note), 0);
+      }
+      alone = group;
     }
+    return !alone;
   }
 
-  bool layoutImport(NodeId id, size_t first) {
+  void layoutImport(NodeId id) {
     const NodeId overrides = tree_.child(id, 3);
-    if (overrides == kNoNode || fits(first, endOf(id), 0)) return false;
+    if (overrides == kNoNode) return;
     for (const NodeId item : tree_.children(overrides)) {
-      breakBefore(firstOf(item), kIndent);
-      if (tree_.kind(item) == NodeKind::Rule) layoutBody(bodyOf(tree_, item), kIndent, true);
+      place(firstOf(item), endOf(item), kIndent);
+      if (tree_.kind(item) == NodeKind::Rule) layoutBody(bodyOf(tree_, item), kIndent);
     }
-    breakBefore(endOf(overrides) - 1, 0);
-    return true;
+    placeCloser(endOf(overrides) - 1, 0);
   }
 
-  bool layoutLocals(NodeId id, size_t first) {
+  void layoutLocals(NodeId id) {
     const NodeId locals = localsOf(tree_, id);
-    if (locals == kNoNode || fits(first, endOf(locals), 0, kShortRule)) return false;
+    if (locals == kNoNode) return;
     for (const NodeId local : tree_.children(locals)) {
-      breakBefore(firstOf(local), 2 * kIndent);
+      place(firstOf(local), endOf(local), 2 * kIndent);
       layoutExpression(tree_.child(local, 0), 2 * kIndent);
     }
-    breakBefore(endOf(locals) - 1, 0);
-    return true;
+    placeCloser(endOf(locals) - 1, 0);
   }
 
-  bool layoutValue(NodeId id, size_t first) {
-    if (fits(first, endOf(id), 0)) return false;
-    layoutLocals(id, first);
+  void layoutValue(NodeId id) {
+    layoutLocals(id);
     const NodeId value = bodyOf(tree_, id);
-    if (isBrokenAnyway(value)) breakBefore(firstOf(value), kIndent);
+    if (tree_.kind(value) == NodeKind::Choice) place(firstOf(value), endOf(value), kIndent);
     layoutExpression(value, kIndent);
-    return true;
   }
 
-  bool isBrokenAnyway(NodeId value) const { return tree_.kind(value) == NodeKind::Choice; }
-
-  bool layoutRule(NodeId id, size_t first) {
+  void layoutRule(NodeId id) {
+    layoutLocals(id);
     const NodeId body = bodyOf(tree_, id);
     const auto parts = tree_.children(body);
-    if (parts.empty()) return layoutLocals(id, first);
-    const bool simple = parts.size() <= 3 &&
-                        std::all_of(parts.begin(), parts.end(), [&](NodeId s) {
-                          const NodeKind k = tree_.kind(s);
-                          return (k == NodeKind::Apply && tree_.children(s).size() == 1) ||
-                                 k == NodeKind::ImportApply;
-                        });
-    const bool oneBlock = parts.size() == 1 && tree_.kind(parts[0]) == NodeKind::Apply;
-    if ((simple || oneBlock) && fits(first, endOf(id), 0, kShortRule)) return false;
-    layoutLocals(id, first);
-    layoutBody(body, kIndent, true);
-    return true;
+    // Choices of a rule have a line for each branch.
+    if (parts.size() == 1 && tree_.kind(parts[0]) == NodeKind::Choice) {
+      for (const NodeId branch : tree_.children(parts[0])) {
+        breakBefore(firstOf(branch), kIndent);
+        layoutBody(tree_.child(branch, 1), 2 * kIndent);
+      }
+      return;
+    }
+    layoutBody(body, kIndent);
   }
 
-  // A sequence on lines of its own. `top`: directly in a rule, where choices are always broken.
-  void layoutBody(NodeId sequence, size_t indent, bool top = false) {
+  void layoutBody(NodeId sequence, size_t indent) {
     for (const NodeId s : tree_.children(sequence)) {
-      breakBefore(firstOf(s), indent);
-      layoutSuccessor(s, indent, top);
+      place(firstOf(s), endOf(s), indent);
+      if (!stays(firstOf(s), endOf(s))) layoutSuccessor(s, indent);
     }
   }
 
-  void layoutSuccessor(NodeId id, size_t indent, bool top) {
-    const bool isChoice = tree_.kind(id) == NodeKind::Choice;
-    if (!(top && isChoice) && fits(firstOf(id), endOf(id), indent)) return;
+  void layoutSuccessor(NodeId id, size_t indent) {
     switch (tree_.kind(id)) {
       case NodeKind::Choice: return layoutChoice(id, indent);
       case NodeKind::Push:
         layoutBody(tree_.child(id, 0), indent + kIndent);
-        return breakBefore(endOf(id) - 1, indent);
+        return placeCloser(endOf(id) - 1, indent);
       case NodeKind::Apply: return layoutApply(id, indent);
       default: return;
     }
@@ -356,61 +375,61 @@ class Formatter {
         for (const NodeId s : tree_.children(tree_.child(item, 2))) layoutApply(s, indent);
         continue;
       }
-      if (i > 1) breakBefore(firstOf(children[i]), indent);
+      if (i > 1) place(firstOf(children[i]), endOf(children[i]), indent);
       layoutBlock(children[i], indent);
     }
   }
 
+  // Items behind the first begin with their '|', which stands under the first item of a block that
+  // opens on a line of its own.
   void layoutBlock(NodeId block, size_t indent) {
-    if (fits(firstOf(block), endOf(block), indent, kShortRule)) return;
-    const auto items = tree_.children(block);
-    const bool plain = items.size() == 1 && tree_.kind(items[0]) == NodeKind::Item &&
-                       tree_.itemKind(items[0]) == ItemKind::Plain;
-    const size_t inner = indent + (plain ? 1 : 2) * kIndent;
+    if (stays(firstOf(block), endOf(block))) return;
     const size_t end = endOf(block) - (tree_.has(block, kFlagRepeat) ? 2 : 1);
-    for (size_t i = 0; i < items.size(); ++i) {
-      const size_t first = firstOf(items[i]);
+    for (const NodeId item : tree_.children(block)) {
+      const size_t first = firstOf(item);
+      const bool plain =
+          tree_.kind(item) == NodeKind::Item && tree_.itemKind(item) == ItemKind::Plain;
+      if (tokens_[first - 1].kind == TokenKind::Pipe) {
+        placePipe(first - 1, endOf(item), indent + kIndent);
+      } else if (!plain) {
+        place(first, endOf(item), indent + 2 * kIndent);
+      }
       if (plain) {
-        layoutBody(tree_.child(items[i], 2), inner);
-        continue;
+        layoutBody(tree_.child(item, 2), indent + kIndent);
+      } else if (!stays(first, endOf(item))) {
+        layoutItem(item, indent + 2 * kIndent);
       }
-      if (i == 0 || tokens_[first - 1].kind != TokenKind::Pipe) {
-        breakBefore(first, inner);
-      } else {
-        breakBefore(first - 1, indent + kIndent);
-      }
-      layoutItem(items[i], inner);
     }
     // A '|' behind the last item.
-    if (end > 0 && tokens_[end - 1].kind == TokenKind::Pipe) breakBefore(end - 1, indent + kIndent);
-    if (!items.empty()) breakBefore(end, indent);
+    if (end > 0 && tokens_[end - 1].kind == TokenKind::Pipe) placeCloser(end - 1, indent + kIndent);
+    placeCloser(end, indent);
+  }
+
+  // A line end before or behind a '|' is one before it.
+  void placePipe(size_t pipe, size_t end, size_t indent) {
+    if (asked(pipe + 1) || asked(pipe) || !fitsHere(end)) breakBefore(pipe, indent);
   }
 
   void layoutItem(NodeId item, size_t indent) {
-    if (fits(firstOf(item), endOf(item), indent)) return;
     if (tree_.kind(item) == NodeKind::Block) return layoutBlock(item, indent);
     const NodeId body = tree_.child(item, 2);
-    if (tree_.kind(body) == NodeKind::Sequence) {
-      const auto parts = tree_.children(body);
-      // A single operation with a block stays behind its head.
-      const bool single = parts.size() == 1 && tree_.kind(parts[0]) == NodeKind::Apply &&
-                          tree_.children(parts[0]).size() > 1 &&
-                          !hasComments(firstOf(item), firstOf(parts[0]) + 1);
-      if (single) return layoutApply(parts[0], indent);
-      return layoutBody(body, indent + kIndent);
+    if (tree_.kind(body) != NodeKind::Sequence) return layoutExpression(body, indent + kIndent);
+    const auto parts = tree_.children(body);
+    // A single operation with a block stays behind its head.
+    if (parts.size() == 1 && tree_.kind(parts[0]) == NodeKind::Apply &&
+        tree_.children(parts[0]).size() > 1) {
+      return layoutApply(parts[0], indent);
     }
-    layoutExpression(body, indent + kIndent);
+    layoutBody(body, indent + kIndent);
   }
 
   void layoutChoice(NodeId choice, size_t indent) {
     for (const NodeId branch : tree_.children(choice)) {
-      breakBefore(firstOf(branch), indent);
-      if (fits(firstOf(branch), endOf(branch), indent)) continue;
+      place(firstOf(branch), endOf(branch), indent);
       const NodeId body = tree_.child(branch, 1);
       if (tree_.kind(body) == NodeKind::Sequence) {
         layoutBody(body, indent + kIndent);
       } else {
-        if (isBrokenAnyway(body)) breakBefore(firstOf(body), indent + kIndent);
         layoutExpression(body, indent + kIndent);
       }
     }
@@ -418,9 +437,9 @@ class Formatter {
 
   // Choices and comp blocks in an expression that does not fit.
   void layoutExpression(NodeId id, size_t indent) {
-    if (id == kNoNode || fits(firstOf(id), endOf(id), indent)) return;
-    const bool bare = tree_.kind(id) == NodeKind::Choice &&
-                      tokens_[firstOf(id)].kind != TokenKind::LParen;
+    if (id == kNoNode || stays(firstOf(id), endOf(id))) return;
+    const bool bare =
+        tree_.kind(id) == NodeKind::Choice && tokens_[firstOf(id)].kind != TokenKind::LParen;
     if (bare) {
       layoutChoice(id, indent);
     } else if (tree_.kind(id) == NodeKind::Block) {
@@ -463,20 +482,9 @@ class Formatter {
            tokens_[i].kind != TokenKind::RParen;
   }
 
-  // True when the source has a blank line somewhere before token i.
-  bool hasBlankLine(size_t i) const {
-    uint32_t from = i == 0 ? 0 : tokens_[i - 1].end;
-    for (uint32_t c = marks_[i].firstComment; c < commentsEnd(i); ++c) {
-      if (newlinesBetween(from, comments_[c].begin) > 1) return true;
-      from = comments_[c].end;
-    }
-    return newlinesBetween(from, tokens_[i].begin) > 1;
-  }
-
   // Writes the comments before token i. True when the token must begin a line.
   bool writeComments(size_t i) {
     bool mustBreak = false;
-    bool blankAsked = marks_[i].blankLine && !hasBlankLine(i);
     uint32_t from = i == 0 ? 0 : tokens_[i - 1].end;
     const size_t indent = marks_[i].newLine ? marks_[i].indent : indent_ + continuation();
     for (uint32_t c = marks_[i].firstComment; c < commentsEnd(i); ++c) {
@@ -486,8 +494,7 @@ class Formatter {
       if (trailing) {
         if (!out_.empty() && out_.back() != ' ' && out_.back() != '\n') out_ += ' ';
       } else {
-        startLine(indent, !out_.empty() && (blankAsked || (lines > 1 && mayBlank(i))));
-        blankAsked = false;
+        startLine(indent, !out_.empty() && lines > 1 && mayBlank(i));
       }
       std::string_view body = text_.substr(comment.begin, comment.end - comment.begin);
       while (!body.empty() && (body.back() == ' ' || body.back() == '\t' || body.back() == '\r')) {
@@ -498,7 +505,6 @@ class Formatter {
       mustBreak = comment.toLineEnd || !trailing;
       from = comment.end;
     }
-    blankAsked_ = blankAsked;
     afterComment_ = from;
     return mustBreak;
   }
@@ -519,7 +525,7 @@ class Formatter {
       if (m.newLine) {
         const size_t lines = newlinesBetween(afterComment_, tokens_[i].begin);
         broken_ = false;
-        startLine(m.indent, !out_.empty() && (blankAsked_ || (lines > 1 && mayBlank(i))));
+        startLine(m.indent, !out_.empty() && lines > 1 && mayBlank(i));
       } else if (mustBreak) {
         breakLine();
       } else if (m.softBreak && tooLong(i, nextBreak[i])) {
@@ -555,12 +561,14 @@ class Formatter {
   const std::vector<Comment>& comments_;
   const Tree& tree_;
   std::vector<Mark> marks_;
+  // The line that the layout is filling.
+  size_t lineFirst_ = 0;
+  size_t lineIndent_ = 0;
   std::string out_;
   size_t lineStart_ = 0;
   size_t indent_ = 0;
   uint32_t afterComment_ = 0;
   bool atLineStart_ = true;
-  bool blankAsked_ = false;
   // The line continues one that was too long: further ones align with it.
   bool broken_ = false;
 };

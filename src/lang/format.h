@@ -7,7 +7,7 @@
 // Promises:
 //  1. The formatted text parses to the same tree.
 //  2. Formatting a formatted text changes nothing.
-//  3. Lines stay within 100 columns where a break is possible; comments are never broken.
+//  3. Lines stay within 120 columns where a break is possible; comments are never broken.
 // Linear in the text.
 #pragma once
 

@@ -32,53 +32,66 @@ TEST(Format, shortDeclarationsStayOnOneLine) {
             "attr h = 10\nconst c = h * 2 + -1\n\nf(a, b) = a - b * -c\nA --> B C(1, 2) X.\n");
 }
 
-TEST(Format, longRulesGetALineForEachSuccessor) {
-  EXPECT_EQ(formatted("attr h = 1\nA --> s('1,' -0.5,0) t(0,1,0) primitiveCube() X.\nB --> C"),
-            R"(attr h = 1
+TEST(Format, linesBeginWhereTheAuthorBeganThem) {
+  EXPECT_EQ(
+      formatted("attr h = 1\nA --> s('1,' -0.5,0) t(0,1,0) X.\nB -->\nC\n  [D\n E]\n\n\nF --> G"),
+      R"(attr h = 1
+A --> s('1, '-0.5, 0) t(0, 1, 0) X.
+B -->
+  C
+  [ D
+    E ]
 
-A -->
-  s('1, '-0.5, 0)
-  t(0, 1, 0)
-  primitiveCube()
-  X.
+F --> G
+)");
+  EXPECT_EQ(formatted("Facade --> split(y) {\n3 : Ground |\n{ ~h : Floor }* | 1 : Top\n}"),
+            R"(Facade --> split(y) {
+      3 : Ground
+    | { ~h : Floor }* | 1 : Top
+  }
+)");
+}
 
-B --> C
+TEST(Format, successorsThatDoNotFitBeginALine) {
+  EXPECT_EQ(
+      formatted("A --> translate(rel, scope, 0, 1.25, 0) [ primitiveCube() Column(0.25, "
+                "\"sandstone\", true) ] scatter(surface, 12, uniform) { Lamp } NIL"),
+      R"(A --> translate(rel, scope, 0, 1.25, 0) [ primitiveCube() Column(0.25, "sandstone", true) ]
+  scatter(surface, 12, uniform) { Lamp } NIL
 )");
 }
 
 TEST(Format, blocksBreakWhenTheyDoNotFit) {
-  EXPECT_EQ(formatted("Facade --> split(y) { groundFloorHeight : GroundFloor | { ~floorHeight : Floor "
-                      "}* | corniceHeight : Cornice(1) X. }"),
-            R"(Facade -->
-  split(y) {
-      groundFloorHeight : GroundFloor
-    | { ~floorHeight : Floor }*
-    | corniceHeight : Cornice(1) X.
-  }
+  EXPECT_EQ(
+      formatted("Facade --> split(y) { groundFloorHeight : GroundFloor | { ~floorHeight : Floor "
+                "}* | corniceHeight : Cornice(1) Cornice(2) Cornice(3) | ~1 : Attic }"),
+      R"(Facade -->
+  split(y) { groundFloorHeight : GroundFloor | { ~floorHeight : Floor }*
+    | corniceHeight : Cornice(1) Cornice(2) Cornice(3) | ~1 : Attic }
 )");
   EXPECT_EQ(formatted("A --> comp(f) { top = Roof | side : Wall }"),
             "A --> comp(f) { top = Roof | side : Wall }\n");
-  EXPECT_EQ(formatted("A --> splitAndSetbackPerimeter('0.1){~30:rand(3,15):Yellow}*{remainder:Grey}"),
-            "A -->\n  splitAndSetbackPerimeter('0.1) { ~30 : rand(3, 15) : Yellow }* "
-            "{ remainder : Grey }\n");
+  EXPECT_EQ(
+      formatted("A --> splitAndSetbackPerimeter('0.1){~30:rand(3,15):Yellow}*{remainder:Grey}"),
+      "A --> splitAndSetbackPerimeter('0.1) { ~30 : rand(3, 15) : Yellow }* "
+      "{ remainder : Grey }\n");
 }
 
-TEST(Format, choicesGetALineForEachBranch) {
+TEST(Format, choicesOfARuleGetALineForEachBranch) {
   EXPECT_EQ(formatted("A --> case a>1 : B C case(b) : [D] else : 30% : E else : NIL\n"
                       "f(x) = case x : 1 else : 2"),
             R"(A -->
   case a > 1: B C
   case (b): [ D ]
   else: 30%: E else: NIL
-
 f(x) = case x: 1 else: 2
 )");
 }
 
-TEST(Format, annotationsStandAboveTheirDeclaration) {
+TEST(Format, aGroupStandsAboveWhatItSpeaksFor) {
   EXPECT_EQ(formatted("@Group(\"A\",1) @Order( 2 ) @Range(min=0,max =1) attr h=1\n"
-                      "@Handle(shape=A^2,slip={a,b}) attr i = 1"),
-            "@Group(\"A\", 1)\n@Order(2) @Range(min=0, max=1)\nattr h = 1\n"
+                      "@Handle(shape=A^2,slip={a,b})\nattr i = 1"),
+            "@Group(\"A\", 1)\n@Order(2) @Range(min=0, max=1) attr h = 1\n"
             "@Handle(shape=A^2, slip={a, b})\nattr i = 1\n");
 }
 
@@ -91,7 +104,7 @@ TEST(Format, importsAndLocals) {
 
 TEST(Format, arraysRangesAndIndices) {
   EXPECT_EQ(formatted("f = a [ 1,0 : 2:9 ].+[ 1,2;3 ,4 ]\nA --> primitiveCube [ B ] [C]"),
-            "f = a[1, 0:2:9] .+ [1, 2; 3, 4]\n\nA -->\n  primitiveCube\n  [ B ]\n  [ C ]\n");
+            "f = a[1, 0:2:9] .+ [1, 2; 3, 4]\nA --> primitiveCube [ B ] [ C ]\n");
 }
 
 TEST(Format, commentsStayWhereTheyAre) {
@@ -119,32 +132,28 @@ attr a = 1 // one
 // before A
 
 A --> // after the arrow
-  B /* inside */
-  C # end of C
-
+  B /* inside */ C # end of C
 // last in A
-D -->
-  comp(f) { // first
+D --> comp(f) { // first
       top : E // roof
     // sides
-    | side : F
-  }
+    | side : F }
 // end
 )");
 }
 
 TEST(Format, longExpressionsBreakAfterCommasAndBeforeOperators) {
-  const std::string out =
-      formatted("const total = firstVeryLongName + secondVeryLongName * thirdVeryLongName + "
-                "fourthVeryLongName + fifthVeryLongName\n"
-                "const l = listItem(\"aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa\", "
-                "\"bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb\", \"cccccccccccccccccccc\")");
-  EXPECT_EQ(out,
-            R"(const total = firstVeryLongName + secondVeryLongName * thirdVeryLongName + fourthVeryLongName
-    + fifthVeryLongName
-
-const l = listItem("aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa",
-    "bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb", "cccccccccccccccccccc")
+  const std::string out = formatted(
+      "const total = firstVeryLongName + secondVeryLongName * thirdVeryLongName + "
+      "fourthVeryLongName + fifthVeryLongName + sixthVeryLongName\n"
+      "const l = listItem(\"aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa\", "
+      "\"bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb\", \"cccccccccccccccccccc\")");
+  EXPECT_EQ(
+      out,
+      R"(const total = firstVeryLongName + secondVeryLongName * thirdVeryLongName + fourthVeryLongName + fifthVeryLongName
+    + sixthVeryLongName
+const l = listItem("aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa", "bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb",
+    "cccccccccccccccccccc")
 )");
 }
 
@@ -156,25 +165,173 @@ TEST(Format, emptyAndOddFiles) {
   EXPECT_EQ(formatted(""), "");
   EXPECT_EQ(formatted("\r\n\r\n"), "");
   EXPECT_EQ(formatted("// only this"), "// only this\n");
-  EXPECT_EQ(formatted("\xef\xbb\xbf" "A --> B\r\nC --> D\r\n"), "A --> B\nC --> D\n");
+  EXPECT_EQ(formatted("\xef\xbb\xbf"
+                      "A --> B\r\nC --> D\r\n"),
+            "A --> B\nC --> D\n");
   EXPECT_EQ(formatted("A -->"), "A -->\n");
 }
 
 // Comments and line breaks at random between the words of a text change nothing.
 TEST(Format, holdsItsPromisesForAnyWhiteSpace) {
-  const char* const words[] = {
-      "version \"2025.1\"", "import", "a", "(", "s", ")", ":", "\"a.cga\"", "(", "h", "=", "3", ",",
-      "Roof", "(", "x", ")", "-->", "roofHip", "(", "x", ")", ")", "@Group(\"G\",1)", "@Order(2)",
-      "attr", "h", "=", "case", "a", ">", "1", ":", "[", "1", ";", "-", "2", "]", "else", ":", "[",
-      "1", ":", "9", "]", "[", "0", "]", "start", "Lot", "(", "p", ")", "with", "(", "q", ":=", "p",
-      "r", ":=", "2", ")", "-->", "extrude", "(", "world.up", ",", "'", "1", ")", "[", "t", "(", "0",
-      ",", "-", "-", "1", ",", "!", "a", ")", "A", ".", "]", "split", "(", "x", ")", "{", "~", "1",
-      ":", "B", "|", "{", "'", "0.5", ":", "C", "|", "1", ":", "2", ":", "D", "}", "*", "}", "*",
-      "inline", "(", "unify", ")", "comp", "(", "f", ")", "{", "top", "=:", "F", "|", "!", "side",
-      "=", "imp", "(", "h", "=", "2", ")", ".G", "}", "A", "-->", "30", "%", ":", "B", "20", "%",
-      ":", "case", "x", ".==", "2", ":", "C", "else", ":", "E", "else", ":", "NIL"};
-  const char* const spaces[] = {" ", " ", " ", "\n", "\n\n\n", " // c\n", "\n# d\n", " /* e */ ",
-                                "\n/* f */\n", "\t", "\n// g\n\n// h\n"};
+  const char* const words[] = {"version \"2025.1\"",
+                               "import",
+                               "a",
+                               "(",
+                               "s",
+                               ")",
+                               ":",
+                               "\"a.cga\"",
+                               "(",
+                               "h",
+                               "=",
+                               "3",
+                               ",",
+                               "Roof",
+                               "(",
+                               "x",
+                               ")",
+                               "-->",
+                               "roofHip",
+                               "(",
+                               "x",
+                               ")",
+                               ")",
+                               "@Group(\"G\",1)",
+                               "@Order(2)",
+                               "attr",
+                               "h",
+                               "=",
+                               "case",
+                               "a",
+                               ">",
+                               "1",
+                               ":",
+                               "[",
+                               "1",
+                               ";",
+                               "-",
+                               "2",
+                               "]",
+                               "else",
+                               ":",
+                               "[",
+                               "1",
+                               ":",
+                               "9",
+                               "]",
+                               "[",
+                               "0",
+                               "]",
+                               "start",
+                               "Lot",
+                               "(",
+                               "p",
+                               ")",
+                               "with",
+                               "(",
+                               "q",
+                               ":=",
+                               "p",
+                               "r",
+                               ":=",
+                               "2",
+                               ")",
+                               "-->",
+                               "extrude",
+                               "(",
+                               "world.up",
+                               ",",
+                               "'",
+                               "1",
+                               ")",
+                               "[",
+                               "t",
+                               "(",
+                               "0",
+                               ",",
+                               "-",
+                               "-",
+                               "1",
+                               ",",
+                               "!",
+                               "a",
+                               ")",
+                               "A",
+                               ".",
+                               "]",
+                               "split",
+                               "(",
+                               "x",
+                               ")",
+                               "{",
+                               "~",
+                               "1",
+                               ":",
+                               "B",
+                               "|",
+                               "{",
+                               "'",
+                               "0.5",
+                               ":",
+                               "C",
+                               "|",
+                               "1",
+                               ":",
+                               "2",
+                               ":",
+                               "D",
+                               "}",
+                               "*",
+                               "}",
+                               "*",
+                               "inline",
+                               "(",
+                               "unify",
+                               ")",
+                               "comp",
+                               "(",
+                               "f",
+                               ")",
+                               "{",
+                               "top",
+                               "=:",
+                               "F",
+                               "|",
+                               "!",
+                               "side",
+                               "=",
+                               "imp",
+                               "(",
+                               "h",
+                               "=",
+                               "2",
+                               ")",
+                               ".G",
+                               "}",
+                               "A",
+                               "-->",
+                               "30",
+                               "%",
+                               ":",
+                               "B",
+                               "20",
+                               "%",
+                               ":",
+                               "case",
+                               "x",
+                               ".==",
+                               "2",
+                               ":",
+                               "C",
+                               "else",
+                               ":",
+                               "E",
+                               "else",
+                               ":",
+                               "NIL"};
+  const char* const spaces[] = {
+      " ",       " ",         " ",           "\n", "\n\n\n",          " // c\n",
+      "\n# d\n", " /* e */ ", "\n/* f */\n", "\t", "\n// g\n\n// h\n"};
   std::mt19937 random(3);
   for (int round = 0; round < 400; ++round) {
     const size_t kinds = round % 3 == 0 ? std::size(spaces) : 5;

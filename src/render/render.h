@@ -93,7 +93,8 @@ struct RenderOptions {
   Vec3 groundColor{0x77 / 255.0, 0x76 / 255.0, 0x6a / 255.0};
   /// Metres over which haze takes 63 % of a thing's colour; 0 for none; absent: by the view.
   std::optional<double> hazeDistance;
-  /// Moves the exposure by up to a third of a stop where the picture would be too bright or too dark.
+  /// Moves the exposure by up to a third of a stop where the picture would be too bright or too
+  /// dark.
   bool adaptExposure = true;
   /// Brightens (or darkens) the picture by so many stops.
   double exposureStops = 0;

@@ -84,9 +84,8 @@ void appendBox(const Frame& frame, const Vec3& size, VertexBuffer& out) {
   const Vec3 ex = frame.x * size.x, ey = frame.y * size.y, ez = frame.z * size.z;
   const Vec3& o = frame.origin;
   const Vec3 oz = o + ez;
-  const Vec3f corners[8] = {narrow(o),       narrow(o + ex),  narrow(o + ey),
-                            narrow(o + ex + ey), narrow(oz),      narrow(oz + ex),
-                            narrow(oz + ey), narrow(oz + ex + ey)};
+  const Vec3f corners[8] = {narrow(o),  narrow(o + ex),  narrow(o + ey),  narrow(o + ex + ey),
+                            narrow(oz), narrow(oz + ex), narrow(oz + ey), narrow(oz + ex + ey)};
   // A mirrored box turns its faces round.
   const bool mirrored = size.x * size.y * size.z < 0;
   BufferVertex* v = out.reserveVertices(24);
@@ -109,8 +108,10 @@ void appendBox(const Frame& frame, const Vec3& size, VertexBuffer& out) {
 
 void flatten(const Scene& scene, VertexBuffer& out) {
   forEachLeaf(scene, [&](const Leaf& leaf, const Frame& world) {
-    if (leaf.mesh == kUnitBox || leaf.mesh == kUnitBoxUv) appendBox(world, leaf.scale, out);
-    else appendMesh(*scene.meshes[leaf.mesh], world, leaf.scale, out);
+    if (leaf.mesh == kUnitBox || leaf.mesh == kUnitBoxUv)
+      appendBox(world, leaf.scale, out);
+    else
+      appendMesh(*scene.meshes[leaf.mesh], world, leaf.scale, out);
   });
 }
 

@@ -44,8 +44,8 @@ class VertexBuffer {
   size_t indexCount_ = 0, indexCapacity_ = 0;
 };
 
-/// Appends every leaf, instances expanded, in path order. Faces are flat-shaded; a face of n corners
-/// has n vertices of its own. A box is 24 vertices and 36 indices.
+/// Appends every leaf, instances expanded, in path order. Faces are flat-shaded; a face of n
+/// corners has n vertices of its own. A box is 24 vertices and 36 indices.
 void flatten(const Scene& scene, VertexBuffer& out);
 
 /// Appends an upright or turned box: the unit box scaled by `size` and placed by `frame`.

@@ -6,6 +6,7 @@
 1. With 1 and with 2 threads the model and the statistics are the same, byte for byte.
 2. No error, and something was made.
 3. The Khronos validator, where node is there, finds no error and no warning.
+4. The rules are formatted, and fewer than 300 lines.
 What is made stays in FOLDER. Run from the repository's root.
 """
 import json
@@ -56,6 +57,12 @@ class ExampleTest(unittest.TestCase):
         done = subprocess.run(["node", "tools/validate/validate.mjs", str(self.model)],
                               capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def testIsFormattedAndShort(self):
+        rules = Path(f"examples/{NAME}/{NAME}.cga")
+        done = subprocess.run([GABLE, "format", "--check", str(rules)], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertLess(len(rules.read_text().splitlines()), 300)
 
 
 if __name__ == "__main__":

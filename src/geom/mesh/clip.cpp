@@ -28,7 +28,7 @@ std::vector<MeshPart> sliceAxis(const Mesh& m, int axis, std::span<const double>
   for (const uint32_t p : m.corners) values.push_back(m.positions[p][static_cast<size_t>(axis)]);
   Vec3 direction;
   direction[static_cast<size_t>(axis)] = 1;
-  slicing::Slicer slicer(m, std::move(values), axis, direction);
+  slicing::Slicer slicer(m, std::move(values), axis, direction, options.tolerance);
   return run(slicer, cuts, options);
 }
 
@@ -37,13 +37,13 @@ std::vector<MeshPart> sliceDirection(const Mesh& m, const Vec3& direction,
   std::vector<double> values;
   values.reserve(m.corners.size());
   for (const uint32_t p : m.corners) values.push_back(dot(direction, m.positions[p]));
-  slicing::Slicer slicer(m, std::move(values), -1, direction);
+  slicing::Slicer slicer(m, std::move(values), -1, direction, options.tolerance);
   return run(slicer, cuts, options);
 }
 
 std::vector<MeshPart> sliceField(const Mesh& m, std::span<const double> cornerValues,
                                  std::span<const double> cuts, uint32_t cutEdgeTags) {
-  slicing::Slicer slicer(m, {cornerValues.begin(), cornerValues.end()}, -1, Vec3{});
+  slicing::Slicer slicer(m, {cornerValues.begin(), cornerValues.end()}, -1, Vec3{}, 0);
   CutOptions options;
   options.cutEdgeTags = cutEdgeTags;
   return run(slicer, cuts, options);

@@ -12,8 +12,7 @@
 //   3. A face in the plane of a cut goes to exactly one side: the one that its normal leaves
 //      (a solid's top stays with what is below it).
 //   4. No NaN, no part with less than 1e-12 of its box's area. Points within 1e-9 of the extent
-//   from
-//      a cut count as lying on it.
+//      from a cut, or within the options' tolerance, count as lying on it.
 //   5. With `cap`, each closed component of the mesh that a cut opens gets planar faces, holes
 //      included, that close both sides again. Cap uvs are 0.
 // Each face costs O(n log n) a cut that meets it. Input must be valid() and finite.
@@ -34,6 +33,8 @@ struct CutOptions {
   uint32_t capTags = 0;
   /// Edge tags of the edges that a cut makes in faces that it cuts.
   uint32_t cutEdgeTags = 0;
+  /// Points whose value differs by no more than this from a cut's count as lying on it.
+  double tolerance = 0;
 };
 
 /// A part of a mesh and where it comes from.

@@ -154,6 +154,20 @@ TEST(Clip, aVertexThatTouchesTheCutSplitsNothing) {
   EXPECT_DOUBLE_EQ(parts[1].mesh.area(), 8);
 }
 
+TEST(Clip, cornersWithinTheToleranceMakeNoSlivers) {
+  CutOptions options;
+  options.cap = true;
+  options.tolerance = 1e-6;
+  // Through two edges of a unit cube, but for a rounding.
+  const double across = std::sqrt(0.5);
+  const PlaneCut cut =
+      cutByPlane(makeBoxMesh({1, 1, 1}, true), {{across, 0, across}, across + 4e-8}, options);
+  for (const MeshPart* part : {&cut.back, &cut.front}) {
+    EXPECT_EQ(part->mesh.faceCount(), 5u);
+    EXPECT_NEAR(std::fabs(volume(part->mesh)), 0.5, 1e-6);
+  }
+}
+
 TEST(Clip, fieldsCutByUv) {
   Mesh quad = makeQuadMesh(4, 2, QuadPlane::Xy, true);
   std::vector<double> u;

@@ -25,7 +25,8 @@ T mix(const T& a, const T& b, double t) {
 
 }  // namespace
 
-Slicer::Slicer(const Mesh& m, std::vector<double> cornerValues, int axis, const Vec3& direction)
+Slicer::Slicer(const Mesh& m, std::vector<double> cornerValues, int axis, const Vec3& direction,
+               double tolerance)
     : mesh_(m),
       axis_(axis),
       direction_(direction),
@@ -33,15 +34,15 @@ Slicer::Slicer(const Mesh& m, std::vector<double> cornerValues, int axis, const 
       values_(std::move(cornerValues)),
       uvs_(m.uvs),
       normals_(m.normals) {
-  measureTolerance();
+  measureTolerance(tolerance);
   collapseShortEdges();
 }
 
-void Slicer::measureTolerance() {
+void Slicer::measureTolerance(double least) {
   if (values_.empty()) return;
   const auto [low, high] = std::minmax_element(values_.begin(), values_.end());
   const double reach = std::max(std::fabs(*low), std::fabs(*high));
-  tolerance_ = std::max(kOnCut * (*high - *low), 4e-16 * reach);
+  tolerance_ = std::max({kOnCut * (*high - *low), 4e-16 * reach, least});
 }
 
 // An edge so short that both its ends may lie on one cut has no direction that a cut could use, so

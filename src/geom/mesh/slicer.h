@@ -24,8 +24,10 @@ struct Piece {
 class Slicer : public cut::Host {
  public:
   /// Values at the corners. `axis` 0..2 makes new points exact in that coordinate; -1 for none.
-  /// `direction` is the gradient of the values, zero where it differs from face to face.
-  Slicer(const Mesh& m, std::vector<double> cornerValues, int axis, const Vec3& direction);
+  /// `direction` is the gradient of the values, zero where it differs from face to face. Values
+  /// nearer to a cut than `tolerance` lie on it; a share of the extent is the least that is used.
+  Slicer(const Mesh& m, std::vector<double> cornerValues, int axis, const Vec3& direction,
+         double tolerance);
 
   /// Pieces of each slab, in the order of faces.
   std::vector<std::vector<Piece>> slice(std::span<const double> cuts);
@@ -47,7 +49,7 @@ class Slicer : public cut::Host {
     uint32_t from, to;
   };
 
-  void measureTolerance();
+  void measureTolerance(double least);
   void collapseShortEdges();
   void sliceFace(uint32_t face, std::span<const double> cuts,
                  std::vector<std::vector<Piece>>& slabs);

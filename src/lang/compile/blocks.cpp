@@ -124,11 +124,11 @@ void UnitCompiler::pushBlockValues(uint32_t number) {
 }
 
 // comp(f) { front : expr | ... } as an expression: an array of the values of all components.
-void UnitCompiler::componentValues(NodeId node, const FunctionSpec& spec) {
-  uses_.effects |= spec.effects;
+void UnitCompiler::componentValues(NodeId node) {
   const OpSpec* operation = componentOperation_;
   if (!operation) return;
   const NodeId arguments = t_.child(node, 0);
+  uses_.effects |= effectsOf(operation->effects, arguments);
   const auto number = static_cast<uint32_t>(e_.program().blocks.size());
   e_.program().blocks.emplace_back();
   e_.program().blocks[number].kind = BlockKind::Selectors;

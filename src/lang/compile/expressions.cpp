@@ -77,7 +77,8 @@ void UnitCompiler::expression(NodeId node) {
     case NodeKind::Relative:
     case NodeKind::Floating: {
       expression(t_.child(node, 0));
-      const ::gable::Unit unit = t_.kind(node) == NodeKind::Relative ? ::gable::Unit::Relative : ::gable::Unit::Floating;
+      const ::gable::Unit unit =
+          t_.kind(node) == NodeKind::Relative ? ::gable::Unit::Relative : ::gable::Unit::Floating;
       e_.emit(Code::WithUnit, span, 0, static_cast<uint8_t>(unit));
       break;
     }
@@ -115,7 +116,7 @@ void UnitCompiler::call(NodeId node, NodeId arguments) {
     }
     case RefKind::BuiltinFunction: {
       if (t_.kind(node) == NodeKind::Call && t_.child(node, 1) != kNoNode) {
-        componentValues(node, *ref.spec.function);
+        componentValues(node);
         break;
       }
       functionEffects(*ref.spec.function, arguments);

@@ -73,7 +73,7 @@ class UnitCompiler {
   void array(NodeId node);
   void index(NodeId node);
   void range(NodeId node);
-  void componentValues(NodeId node, const FunctionSpec& spec);
+  void componentValues(NodeId node);
   void valuePerEdge(NodeId node);
   /// The value of an expression that needs no evaluation, with its unit.
   bool constantOf(NodeId node, Value& out) const;

@@ -271,7 +271,8 @@ TEST(Analyse, typesAreInferredThroughCalls) {
   const Analysed a(
       "A(x) --> B(x) B(y) --> extrude(y) C(n) --> i(n)\n"
       "f(a) = g(a) g(b) = b * 2 h = f(1) r(n) = case n > 0 : r(n-1) else : \"done\"\n"
-      "attr p = h attr m = min(p, 2) attr q = r(3) attr list = [1,2;3,4] const e = comp(f) { all : scope.sx }");
+      "attr p = h attr m = min(p, 2) attr q = r(3) attr list = [1,2;3,4] const e = comp(f) { all : "
+      "scope.sx }");
   EXPECT_CLEAN(a);
   EXPECT_EQ(a.rule("A", 1).paramTypes[0], ValueType::Float);
   EXPECT_EQ(a.rule("C", 1).paramTypes[0], ValueType::String);

@@ -54,7 +54,7 @@ enum class RefKind : uint8_t {
   Operation,
   /// index: FunctionId.
   Function,
-  /// spec.function, signature. For `comp(..){..}` too.
+  /// spec.function, signature. For `comp(..) {..}` too, which is an operation: spec is null there.
   BuiltinFunction,
   /// index: AttributeId, of an attr or const. As the first argument of `set`: what is set.
   Attribute,

@@ -19,7 +19,8 @@ TEST(Flow, printShowsValuesAndArrays) {
   Op("print").args(2.5).on(s, services);
   Op("print").args(table({{1, 2}, {3, 4}})).on(s, services);
   Op("print").args("text").on(s, services);
-  EXPECT_EQ(services.prints, (std::vector<std::string>{"2.5", "(2x2)\n   1   2\n   3   4", "text"}));
+  EXPECT_EQ(services.prints,
+            (std::vector<std::string>{"2.5", "(2x2)\n   1   2\n   3   4", "text"}));
 }
 
 TEST(Flow, reportRecordsKeyAndValue) {

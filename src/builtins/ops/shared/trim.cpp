@@ -12,6 +12,9 @@ namespace gable {
 
 namespace {
 
+// Planes through the corners of polygons that were snapped to a grid are this far off, in metres.
+constexpr double kOnPlane = 1e-6;
+
 // How far the scope's box lies beyond a plane at most; the geometry lies within the box.
 double beyond(const Shape& s, const TrimPlane& plane) {
   double far = dot(plane.normal, s.scope.origin) - plane.distance;
@@ -43,7 +46,7 @@ bool trimGeometry(Shape& s) {
   bool trimmed = false;
   for (const TrimPlane& plane : s.extra->trim) {
     if (!(plane.horizontal ? s.trimHorizontal : s.trimVertical)) continue;
-    if (boxed && beyond(s, plane) <= 1e-9 * (1 + extent)) continue;
+    if (boxed && beyond(s, plane) <= std::max(kOnPlane, 1e-9 * (1 + extent))) continue;
     if (!mesh) mesh = meshInScope(s);
     if (mesh->empty()) break;
     Plane cut;
@@ -51,6 +54,7 @@ bool trimGeometry(Shape& s) {
     cut.offset = plane.distance - dot(plane.normal, s.scope.origin);
     CutOptions options;
     options.cap = true;
+    options.tolerance = kOnPlane;
     options.capSlot = mesh->faces[0].materialSlot;
     PlaneCut parts = cutByPlane(*mesh, cut, options);
     if (parts.front.mesh.empty()) continue;

@@ -360,7 +360,8 @@ constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"comp", "subdivide", "Divides the shape into faces, edges, vertices or other components.",
-     kSignatures, applyComp, BlockKind::Selectors, kReadsWorld | kReadsWorldByWord | kReadsPivotAxes},
+     kSignatures, applyComp, BlockKind::Selectors,
+     kReadsWorld | kReadsWorldByWord | kReadsPivotAxes},
 };
 
 }  // namespace

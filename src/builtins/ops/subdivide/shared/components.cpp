@@ -151,7 +151,9 @@ void Components::addFaceEdges() {
   for (uint32_t f = 0; f < mesh_.faceCount(); ++f) {
     for (const MeshLoop& loop : mesh_.loopsOf(f)) {
       // An edge is a face edge of its own, once.
-      const uint32_t count = loop.cornerCount == 2 ? 1 : loop.cornerCount < 2 ? 0 : loop.cornerCount;
+      const uint32_t count = loop.cornerCount == 2  ? 1
+                             : loop.cornerCount < 2 ? 0
+                                                    : loop.cornerCount;
       for (uint32_t i = 0; i < count; ++i) {
         Component c;
         c.face = f;
