@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "lang/testing.h"
 
@@ -173,162 +176,14 @@ TEST(Format, emptyAndOddFiles) {
 
 // Comments and line breaks at random between the words of a text change nothing.
 TEST(Format, holdsItsPromisesForAnyWhiteSpace) {
-  const char* const words[] = {"version \"2025.1\"",
-                               "import",
-                               "a",
-                               "(",
-                               "s",
-                               ")",
-                               ":",
-                               "\"a.cga\"",
-                               "(",
-                               "h",
-                               "=",
-                               "3",
-                               ",",
-                               "Roof",
-                               "(",
-                               "x",
-                               ")",
-                               "-->",
-                               "roofHip",
-                               "(",
-                               "x",
-                               ")",
-                               ")",
-                               "@Group(\"G\",1)",
-                               "@Order(2)",
-                               "attr",
-                               "h",
-                               "=",
-                               "case",
-                               "a",
-                               ">",
-                               "1",
-                               ":",
-                               "[",
-                               "1",
-                               ";",
-                               "-",
-                               "2",
-                               "]",
-                               "else",
-                               ":",
-                               "[",
-                               "1",
-                               ":",
-                               "9",
-                               "]",
-                               "[",
-                               "0",
-                               "]",
-                               "start",
-                               "Lot",
-                               "(",
-                               "p",
-                               ")",
-                               "with",
-                               "(",
-                               "q",
-                               ":=",
-                               "p",
-                               "r",
-                               ":=",
-                               "2",
-                               ")",
-                               "-->",
-                               "extrude",
-                               "(",
-                               "world.up",
-                               ",",
-                               "'",
-                               "1",
-                               ")",
-                               "[",
-                               "t",
-                               "(",
-                               "0",
-                               ",",
-                               "-",
-                               "-",
-                               "1",
-                               ",",
-                               "!",
-                               "a",
-                               ")",
-                               "A",
-                               ".",
-                               "]",
-                               "split",
-                               "(",
-                               "x",
-                               ")",
-                               "{",
-                               "~",
-                               "1",
-                               ":",
-                               "B",
-                               "|",
-                               "{",
-                               "'",
-                               "0.5",
-                               ":",
-                               "C",
-                               "|",
-                               "1",
-                               ":",
-                               "2",
-                               ":",
-                               "D",
-                               "}",
-                               "*",
-                               "}",
-                               "*",
-                               "inline",
-                               "(",
-                               "unify",
-                               ")",
-                               "comp",
-                               "(",
-                               "f",
-                               ")",
-                               "{",
-                               "top",
-                               "=:",
-                               "F",
-                               "|",
-                               "!",
-                               "side",
-                               "=",
-                               "imp",
-                               "(",
-                               "h",
-                               "=",
-                               "2",
-                               ")",
-                               ".G",
-                               "}",
-                               "A",
-                               "-->",
-                               "30",
-                               "%",
-                               ":",
-                               "B",
-                               "20",
-                               "%",
-                               ":",
-                               "case",
-                               "x",
-                               ".==",
-                               "2",
-                               ":",
-                               "C",
-                               "else",
-                               ":",
-                               "E",
-                               "else",
-                               ":",
-                               "NIL"};
+  std::vector<std::string> words = {"version \"2025.1\""};
+  std::istringstream others(R"(
+    import a ( s ) : "a.cga" ( h = 3 , Roof ( x ) --> roofHip ( x ) ) @Group("G",1) @Order(2)
+    attr h = case a > 1 : [ 1 ; - 2 ] else : [ 1 : 9 ] [ 0 ] start Lot ( p ) with ( q := p r :=
+    2 ) --> extrude ( world.up , ' 1 ) [ t ( 0 , - - 1 , ! a ) A . ] split ( x ) { ~ 1 : B | { '
+    0.5 : C | 1 : 2 : D } * } * inline ( unify ) comp ( f ) { top =: F | ! side = imp ( h = 2 )
+    .G } A --> 30 % : B 20 % : case x .== 2 : C else : E else : NIL)");
+  for (std::string word; others >> word;) words.push_back(word);
   const char* const spaces[] = {
       " ",       " ",         " ",           "\n", "\n\n\n",          " // c\n",
       "\n# d\n", " /* e */ ", "\n/* f */\n", "\t", "\n// g\n\n// h\n"};
@@ -336,10 +191,10 @@ TEST(Format, holdsItsPromisesForAnyWhiteSpace) {
   for (int round = 0; round < 400; ++round) {
     const size_t kinds = round % 3 == 0 ? std::size(spaces) : 5;
     std::string text;
-    for (const char* word : words) {
+    for (const std::string& word : words) {
       text += word;
       // ".G" is the member of a run-time import only right behind the bracket.
-      const bool glued = word == std::string_view(")") && text.size() > 3;
+      const bool glued = word == ")" && text.size() > 3;
       text += glued ? "" : random() % 2 ? " " : spaces[random() % kinds];
     }
     ASSERT_NE(formatted(text), "errors") << text;
