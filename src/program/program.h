@@ -10,6 +10,7 @@
 // A Program is immutable and may be derived by any number of threads at once.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -134,6 +135,9 @@ struct BlockCode {
   std::vector<uint32_t> slots;
   /// How many values of the stack belong to the block (they lie above the arguments).
   uint32_t valueCount = 0;
+  /// By slot: the preferred size of what most likely comes of it (@PreferredSize); empty when no
+  /// slot has one.
+  std::vector<std::array<double, 3>> preferredSizes;
   /// All sizes are constants: they are here, with their units, one a non-group item.
   std::vector<Value> constantSizes;
 };

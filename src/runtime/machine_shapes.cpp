@@ -269,6 +269,7 @@ void Machine::operation(const Instruction& i, const Value* constants) {
   setup.children(children_);
   if (block) {
     setup.slots(static_cast<uint32_t>(block->slots.size()));
+    setup.preferredSizes(block->preferredSizes);
     if (block->kind == BlockKind::Split) {
       fillSplit(*block, blockStart);
       setup.split({splitItems_, block->repeat});

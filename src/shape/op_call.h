@@ -8,6 +8,7 @@
 // children run in the order of emission, each on the block slot it was given.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -100,6 +101,13 @@ class OpCall {
   /// The number of slots of a block of operations or operands (0 without a block).
   uint32_t slotCount() const { return slotCount_; }
 
+  /// The size that what comes of a slot is meant to have; 0 along an axis for any.
+  Vec3 preferredSize(uint32_t slot) const {
+    if (slot >= preferredSizes_.size()) return {};
+    const std::array<double, 3>& p = preferredSizes_[slot];
+    return {p[0], p[1], p[2]};
+  }
+
   /// Gives out a child for a block slot. Its address for randomness is derived from shape().path,
   /// the slot and `piece`, which must differ among children of one slot.
   void emit(Shape child, uint32_t slot, uint32_t piece);
@@ -148,6 +156,7 @@ class OpCall {
   SplitBlock splitBlock_;
   std::span<const SelectorItem> selectors_;
   uint32_t slotCount_ = 0;
+  std::span<const std::array<double, 3>> preferredSizes_;
   std::vector<Child>* children_ = nullptr;
   std::vector<uint32_t>* componentChild_ = nullptr;
   bool dropped_ = false;
@@ -166,6 +175,9 @@ class OpCallSetup {
   void split(const SplitBlock& b) { call_.splitBlock_ = b; }
   void selectors(std::span<const SelectorItem> items) { call_.selectors_ = items; }
   void slots(uint32_t count) { call_.slotCount_ = count; }
+  void preferredSizes(std::span<const std::array<double, 3>> sizes) {
+    call_.preferredSizes_ = sizes;
+  }
   void children(std::vector<OpCall::Child>& out) { call_.children_ = &out; }
   /// For each component the child that it went to, kNoChild for those not selected.
   void componentChildren(std::vector<uint32_t>& out) { call_.componentChild_ = &out; }

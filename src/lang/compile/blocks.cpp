@@ -51,8 +51,50 @@ void UnitCompiler::blockItems(NodeId node, uint32_t number) {
     item.termCount = static_cast<uint32_t>(code.terms.size()) - item.firstTerm;
     code.items.push_back(item);
     code.slots.push_back(0);
+    if (const auto* preferred = preferredSizeOf(t_.child(part, 2))) {
+      code.preferredSizes.resize(code.slots.size());
+      code.preferredSizes.back() = *preferred;
+    }
     pending_.push_back({number, item.slot, t_.child(part, 2)});
   }
+}
+
+// The branch with the largest weight that is a number; the first of equals, and of unknown ones.
+NodeId UnitCompiler::likeliestBranch(NodeId choice) const {
+  NodeId best = kNoNode;
+  double most = -1, sum = 0;
+  for (NodeId branch : t_.children(choice)) {
+    const NodeId weight = t_.child(branch, 0);
+    Value v;
+    double share = 0;
+    if (weight == kNoNode) {
+      share = 100 - sum;
+    } else if (constantOf(weight, v) && v.type == ValueType::Float) {
+      share = v.number;
+    }
+    sum += share;
+    if (share > most) {
+      most = share;
+      best = branch;
+    }
+  }
+  return best;
+}
+
+const std::array<double, 3>* UnitCompiler::preferredSizeOf(NodeId sequence) const {
+  for (NodeId part : t_.children(sequence)) {
+    if (t_.kind(part) == NodeKind::Choice) {
+      const NodeId branch = likeliestBranch(part);
+      return branch == kNoNode ? nullptr : preferredSizeOf(t_.child(branch, 1));
+    }
+    if (t_.kind(part) != NodeKind::Apply && t_.kind(part) != NodeKind::ImportApply) continue;
+    const Resolution& ref = m_.at(part);
+    if (ref.kind == RefKind::Leaf) return nullptr;
+    if (ref.kind != RefKind::Rule) continue;
+    const auto& size = r_.rules[ref.index].annotations.preferredSize;
+    return size ? &*size : nullptr;
+  }
+  return nullptr;
 }
 
 // A selector expression in postfix order. What is no word is a value: an index or a truth value.

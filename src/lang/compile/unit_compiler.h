@@ -4,6 +4,7 @@
 // UnitCompiler: the code of one rule, function or attribute's initialiser, and what it depends on.
 #pragma once
 
+#include <array>
 #include <set>
 #include <vector>
 
@@ -64,6 +65,9 @@ class UnitCompiler {
   void selectorTerms(NodeId node, uint32_t block);
   void taggedTerm(NodeId node, BlockCode& code);
   void pushBlockValues(uint32_t block);
+  /// The preferred size of the shape that most likely comes of a sequence; null when there is none.
+  const std::array<double, 3>* preferredSizeOf(NodeId sequence) const;
+  NodeId likeliestBranch(NodeId choice) const;
 
   // Expressions.
   void name(NodeId node);

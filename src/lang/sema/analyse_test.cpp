@@ -584,8 +584,11 @@ TEST(Analyse, annotationsBecomeData) {
 @Range("A", "B") attr old = "A" @Enum(1, 2, restricted=false) @Hidden attr e = 1
 @Enum(valuesAttr=list) attr d = "x" @Group @Color attr c = "#ff" @File("png","jpg") attr f = ""
 @StartRule @InPolygon Lot --> X.
-@Decription("x") @Orders attr q = 1)");
-  EXPECT_EQ(a.problems(), "8:1 unknown-annotation (warning)\n8:18 unknown-annotation (warning)\n");
+@Decription("x") @Orders attr q = 1
+@PreferredSize(4, 3.5, 0) Bay --> X. @PreferredSize(4) Bad --> X.)");
+  EXPECT_EQ(a.problems(),
+            "8:1 unknown-annotation (warning)\n8:18 unknown-annotation (warning)\n"
+            "9:38 bad-annotation (warning)\n");
   EXPECT_EQ(a.hint(0), "did you mean 'Description'?");
   EXPECT_EQ(a.program.description, "A house");
   const Annotations& h = a.attribute("h").annotations;
@@ -613,6 +616,8 @@ TEST(Analyse, annotationsBecomeData) {
   EXPECT_EQ(a.attribute("f").annotations.extensions.size(), 2u);
   EXPECT_TRUE(a.rule("Lot").annotations.startRule);
   EXPECT_EQ(a.rule("Lot").annotations.input, InputNote::Polygon);
+  EXPECT_EQ(*a.rule("Bay").annotations.preferredSize, (std::array<double, 3>{4, 3.5, 0}));
+  EXPECT_FALSE(a.rule("Bad").annotations.preferredSize);
 }
 
 }  // namespace

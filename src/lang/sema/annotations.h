@@ -5,6 +5,7 @@
 // hidden. They never change a derivation.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -67,6 +68,9 @@ struct Annotations {
   /// @Hidden(a, b) before an import: only these of its attributes.
   std::vector<std::string> hiddenNames;
   bool startRule = false;
+  /// @PreferredSize(x, y, z) of a rule: what splitRepeat, splitGrid and margin fit its shapes to;
+  /// 0 along an axis: any size.
+  std::optional<std::array<double, 3>> preferredSize;
   /// @Out(granularity=separatedShapes).
   bool separateShapes = false;
 };

@@ -173,6 +173,22 @@ void readOut(NoteReader& r, Annotations& out) {
   }
 }
 
+void readPreferredSize(NoteReader& r, Annotations& out) {
+  std::array<double, 3> size{};
+  bool good = r.arguments().size() == 3;
+  for (size_t i = 0; good && i < 3; ++i) {
+    const auto n = r.number(r.arguments()[i]);
+    good = n && *n >= 0 && *n < 1e9;
+    if (good) size[i] = *n;
+  }
+  if (good) {
+    out.preferredSize = size;
+  } else {
+    r.warn(r.node(), "'@PreferredSize' takes three sizes of zero or more",
+           "write '@PreferredSize(4, 3, 0)'; 0 means any size");
+  }
+}
+
 struct NoteKind {
   std::string_view name;
   void (*read)(NoteReader&, Annotations&);
@@ -199,6 +215,7 @@ constexpr NoteKind kNotes[] = {
     {"Order", readOrder},
     {"Out", readOut},
     {"Percent", [](NoteReader&, Annotations& o) { o.unit = UnitNote::Percent; }},
+    {"PreferredSize", readPreferredSize},
     {"Range", readRange},
     {"RuleFileDescription", [](NoteReader&, Annotations&) {}},
     {"StartRule", [](NoteReader&, Annotations& o) { o.startRule = true; }},

@@ -12,12 +12,25 @@ namespace gable {
 
 namespace {
 
+// Where the model's unit cube has to lie for the scope to be filled, and the model with it. A face
+// has its model behind it, a metre deep.
+void placeUnitCube(Shape& s, const Box3& box) {
+  const double behind = s.size.z == 0 ? -1 : 0;
+  Vec3 unit = s.size;
+  for (size_t i = 0; i < 3; ++i) {
+    if (unit[i] == 0) unit[i] = 1;
+  }
+  s.scope.origin = s.scope.point(scaled(box.min, unit) + Vec3{0, 0, behind});
+  s.size = scaled(box.size(), unit);
+}
+
 // Makes the scope ready for a model with a bounding box, as the insert mode says.
 void placeScope(Shape& s, const Box3& box, std::string_view mode) {
   if (mode == "keepSizeAlignPosition") {
     centerOnGround(s, box.size());
     return;
   }
+  if (mode == "unitCube") return placeUnitCube(s, box);
   if (mode == "keepSizeAndPosition") s.size = {};
   fillZeroSizes(s, box);
 }
@@ -62,9 +75,11 @@ constexpr ParamSpec kParams[] = {
     {"filePath", ParamType::String, "The model, by its path in the project."},
     {"upAxisOfGeometry", ParamType::Selector, "The axis that is up in the file.", "yUp", "yUp zUp"},
     {"insertMode", ParamType::Selector,
-     "Fit the model to the scope; keep its size and place; or keep its size and stand it in the "
-     "middle of the scope's ground.",
-     "alignSizeAndPosition", "alignSizeAndPosition keepSizeAndPosition keepSizeAlignPosition"},
+     "Fit the model to the scope; keep its size and place; keep its size and stand it in the "
+     "middle "
+     "of the scope's ground; or fit its unit cube, beyond which a prepared model may reach.",
+     "alignSizeAndPosition",
+     "alignSizeAndPosition keepSizeAndPosition keepSizeAlignPosition unitCube"},
     {"cleanupMode", ParamType::Selector,
      "Whether readers may mend tiny edges; models are taken as they are in both cases.",
      "numericalCleanup", "numericalCleanup noCleanup"},

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number.h"
 #include "builtins/lists.h"
 #include "builtins/ops/subdivide/shared/parts.h"
 #include "builtins/ops/subdivide/shared/slabs.h"
@@ -56,6 +57,17 @@ void splitPrimitive(OpCall& call, Axis axis, bool adjust, const SplitPieces& pie
   }
 }
 
+// Where a direction is named the parts are meant to fit.
+void warnOfOverflow(const OpCall& call, double whole) {
+  const double over = overflowOf(call.splitBlock(), whole);
+  if (over <= 1e-9 * (1 + whole)) return;
+  call.services().warn("split-overflow",
+                       "'split': the parts are " + shortestText(over) +
+                           " m longer than the shape, of " + shortestText(whole) +
+                           " m; the last ones are cut or not made",
+                       "make them smaller, or the shape larger");
+}
+
 Status splitAlong(OpCall& call, Axis axis) {
   const Shape& s = call.shape();
   const double whole = std::fabs(component(s.size, axis));
@@ -66,7 +78,10 @@ Status splitAlong(OpCall& call, Axis axis) {
   SplitPieces pieces;
   const Status status = dividePattern(call.splitBlock(), whole, pieces);
   if (!status.ok()) return status;
-  const bool adjust = !call.is(1, "noAdjust");
+  const bool toRoot = call.is(1, "toRoot");
+  if (toRoot) mirrorPieces(pieces, whole);
+  if (toRoot || call.is(1, "fromRoot")) warnOfOverflow(call, whole);
+  const bool adjust = !call.is(toRoot || call.is(1, "fromRoot") ? 2 : 1, "noAdjust");
   if (isPrimitive(s.geometry)) {
     splitPrimitive(call, axis, adjust, pieces);
   } else {
@@ -131,6 +146,13 @@ constexpr ParamSpec kScopeParams[] = {
      "Whether a part's scope is fitted to its geometry, or parts fill the scope without gaps.",
      "adjust", "adjust noAdjust"},
 };
+constexpr ParamSpec kDirectionParams[] = {
+    kScopeParams[0],
+    {"direction", ParamType::Selector,
+     "Whether the first part lies at the scope's origin or at its far end.", nullptr,
+     "fromRoot toRoot"},
+    kScopeParams[1],
+};
 constexpr ParamSpec kUvParams[] = {
     {"direction", ParamType::Selector, "The texture coordinate along which to divide.", nullptr,
      "u v"},
@@ -139,7 +161,7 @@ constexpr ParamSpec kUvParams[] = {
      "uvSpace unitSpace"},
     {"uvSet", ParamType::Float, "The uv set, 0 to 9."},
 };
-constexpr Signature kSignatures[] = {{kScopeParams}, {kUvParams}};
+constexpr Signature kSignatures[] = {{kScopeParams}, {kDirectionParams}, {kUvParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"split", "subdivide", "Divides the shape into parts along a direction.", kSignatures,

@@ -6,6 +6,7 @@
 
 #include "builtins/lists.h"
 #include "builtins/ops/shared/frames.h"
+#include "builtins/ops/shared/quarter_turn.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -54,8 +55,22 @@ Status applyRotate(OpCall& call) {
 
 Status applyRotateScope(OpCall& call) {
   Shape& s = call.shape();
+  const size_t first = call.argCount() == 4 ? 1 : 0;
+  bool known = true;
+  const Frame system = first == 1 ? systemNamed(call.text(0), s, call.services(), known) : s.pivot;
+  if (!known) {
+    return call.fail("unknown-selector",
+                     "rotateScope knows no coordinate system '" + std::string(call.text(0)) + "'",
+                     "use scope, pivot, object or world");
+  }
+  const Vec3 angles{call.number(first), call.number(first + 1), call.number(first + 2)};
+  QuarterTurn quarter;
+  if (first == 1 && call.is(0, "scope") && quarterTurnOf(angles, quarter)) {
+    turnScope(s, quarter);
+    return {};
+  }
   Frame axes = s.scope;
-  turnAxes(axes, turnIn(s.pivot, rotationXyz(call.number(0), call.number(1), call.number(2))));
+  turnAxes(axes, turnIn(system, rotationXyz(angles.x, angles.y, angles.z)));
   realignScope(s, axes);
   return {};
 }
@@ -85,7 +100,15 @@ constexpr ParamSpec kRotateParams[] = {
     {"zAngle", ParamType::Float, "About its z axis; done last."},
 };
 constexpr Signature kRotateSignatures[] = {{kRotateParams}};
-constexpr Signature kRotateScopeSignatures[] = {{kAngles}};
+constexpr ParamSpec kSystemAndAngles[] = {
+    {"coordSystem", ParamType::Selector,
+     "The coordinate system that the angles are written in; the pivot's without it.", nullptr,
+     "scope pivot object world"},
+    kRotateParams[2],
+    kRotateParams[3],
+    kRotateParams[4],
+};
+constexpr Signature kRotateScopeSignatures[] = {{kAngles}, {kSystemAndAngles}};
 
 constexpr OpSpec kSpecs[] = {
     {"r", "transform",
@@ -98,7 +121,8 @@ constexpr OpSpec kSpecs[] = {
      kReadsWorld | kReadsWorldByWord | kReadsPivotAxes},
     {"rotateScope", "transform",
      "Turns the scope alone about the axes of the pivot and fits it around the geometry again.",
-     kRotateScopeSignatures, applyRotateScope, BlockKind::None, kReadsPivotAxes},
+     kRotateScopeSignatures, applyRotateScope, BlockKind::None,
+     kReadsWorld | kReadsWorldByWord | kReadsPivotAxes},
 };
 
 }  // namespace

@@ -14,12 +14,19 @@ namespace gable {
 Cuts cutsOf(const SplitPieces& pieces, double from, double whole) {
   Cuts cuts;
   double reached = 0;
-  for (const SplitPiece& p : pieces) {
+  const auto add = [&](const SplitPiece& p) {
     const double tolerance = 1e-9 * (1 + whole);
     if (p.start > reached + tolerance) cuts.at.push_back(from + p.start);
     reached = p.start + p.size;
     cuts.slab.push_back(cuts.at.size());
     if (reached < whole - tolerance) cuts.at.push_back(from + reached);
+  };
+  // Pieces that are counted from the far end come from there.
+  if (pieces.size() > 1 && pieces[1].start < pieces[0].start) {
+    for (size_t i = pieces.size(); i-- > 0;) add(pieces[i]);
+    std::reverse(cuts.slab.begin(), cuts.slab.end());
+  } else {
+    for (const SplitPiece& p : pieces) add(p);
   }
   return cuts;
 }

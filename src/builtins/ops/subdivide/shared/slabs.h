@@ -18,7 +18,7 @@ struct Cuts {
   std::vector<size_t> slab;
 };
 
-/// Of pieces of [0, whole]; borders are given from `from` on.
+/// Of pieces of [0, whole] in order from either end; borders are given from `from` on.
 Cuts cutsOf(const SplitPieces& pieces, double from, double whole);
 
 /// The child as one of the pieces of its split.

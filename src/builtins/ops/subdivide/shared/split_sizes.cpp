@@ -247,6 +247,20 @@ void Divider::repetition(Range r, double start, double length) {
 
 }  // namespace
 
+void mirrorPieces(SplitPieces& pieces, double whole) {
+  for (SplitPiece& p : pieces) p.start = std::max(0.0, whole - p.start - p.size);
+}
+
+double overflowOf(const SplitBlock& block, double whole) {
+  double sum = 0;
+  for (const SplitItem& item : block.items) {
+    if (block.repeat || item.repeat) return 0;
+    if (item.group || item.unit == Unit::Floating) continue;
+    sum += std::max(0.0, item.unit == Unit::Relative ? item.size * whole : item.size);
+  }
+  return sum - whole;
+}
+
 Status dividePattern(const SplitBlock& block, double whole, SplitPieces& out) {
   bool finite = std::isfinite(whole);
   for (const SplitItem& item : block.items) {

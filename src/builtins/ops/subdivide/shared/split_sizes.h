@@ -36,6 +36,13 @@ struct SplitPiece {
 
 using SplitPieces = SmallBuffer<SplitPiece, 48>;
 
+/// The pieces as seen from the other end: the first lies there. Sizes and order stay.
+void mirrorPieces(SplitPieces& pieces, double whole);
+
+/// How much longer than `whole` the absolute and relative sizes of an unrepeated pattern are;
+/// nothing above zero when they fit or when some are repeated.
+double overflowOf(const SplitBlock& block, double whole);
+
 /// Divides [0, whole]; pieces come in order and do not overlap. O(items + pieces).
 /// Failures: split-size-number, split-endless, split-too-many.
 Status dividePattern(const SplitBlock& block, double whole, SplitPieces& out);

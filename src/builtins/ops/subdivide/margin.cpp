@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// A frame around a middle, as a grid of three by three. Pieces that face out or in have scopes of
+// their own: quarter turns about the axis that is not divided, which leave their boxes in place.
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/number.h"
+#include "builtins/lists.h"
+#include "builtins/ops/shared/quarter_turn.h"
+#include "builtins/ops/subdivide/shared/cells.h"
+#include "shape/op_call.h"
+
+namespace gable {
+
+namespace {
+
+enum class Role : uint8_t { Corner, Edge, Center };
+
+constexpr std::string_view kRoleWords[] = {"corner", "edge", "center"};
+
+// The selectors are in postfix order; indices and tags select nothing here.
+bool selects(const SelectorItem& item, Role role, const ValuePool& pool) {
+  std::vector<bool> stack;
+  const auto pop = [&] {
+    if (stack.empty()) return false;
+    const bool top = stack.back();
+    stack.pop_back();
+    return top;
+  };
+  for (const SelectorTerm& t : item.terms) {
+    switch (t.kind) {
+      case SelectorTerm::Kind::Word: {
+        const std::string_view word = pool.text(t.word);
+        stack.push_back(word == "all" || word == kRoleWords[static_cast<size_t>(role)]);
+        break;
+      }
+      case SelectorTerm::Kind::Boolean: stack.push_back(t.number != 0); break;
+      case SelectorTerm::Kind::Not: stack.push_back(!pop()); break;
+      case SelectorTerm::Kind::And:
+      case SelectorTerm::Kind::Or: {
+        const bool b = pop(), a = pop();
+        stack.push_back(t.kind == SelectorTerm::Kind::And ? a && b : a || b);
+        break;
+      }
+      default: stack.push_back(false);
+    }
+  }
+  return pop();
+}
+
+// The slot of a role, and whether there is one.
+struct RoleSlot {
+  bool wanted = false;
+  uint32_t slot = 0;
+};
+
+RoleSlot slotOf(const OpCall& call, Role role) {
+  for (const SelectorItem& item : call.selectors()) {
+    if (selects(item, role, call.services().pool())) return {true, item.slot};
+  }
+  return {};
+}
+
+// A third of a length: the margin, what is between, the margin again. Nothing is made of no length.
+struct Thirds {
+  SplitPieces pieces;
+  // For each piece -1, 0 or 1: near, middle, far.
+  std::vector<int> place;
+
+  Thirds(double whole, double margin) {
+    const double tolerance = 1e-9 * (1 + whole);
+    add(0, margin, -1, tolerance);
+    add(margin, whole - 2 * margin, 0, tolerance);
+    add(whole - margin, margin, 1, tolerance);
+  }
+
+ private:
+  void add(double start, double size, int where, double tolerance) {
+    if (!(size > tolerance)) return;
+    pieces.push_back({start, size, 0});
+    place.push_back(where);
+  }
+};
+
+// How wide the margin is along an axis: at most half of it.
+double marginAlong(OpCall& call, Axis axis, double preferred, bool& cut) {
+  const double whole = std::fabs(component(call.shape().size, axis));
+  double m = call.has(1) ? call.sized(1, whole) : 0;
+  if (m == 0) return std::min(preferred, whole / 2);
+  if (m > whole / 2 + 1e-9 * (1 + whole)) cut = true;
+  return std::min(m, whole / 2);
+}
+
+// Quarter turns about the axis that is not divided. With b and c the next axes in the cycle x y z,
+// the edge at the far end of b needs none to look outward along b, nor the corner at the far end of
+// both.
+int turnsOf(int b, int c) {
+  if (b != 0 && c != 0) return b > 0 ? (c > 0 ? 0 : 3) : (c > 0 ? 1 : 2);
+  if (b != 0) return b > 0 ? 0 : 2;
+  return c > 0 ? 1 : 3;
+}
+
+class Margin {
+ public:
+  Margin(OpCall& call, const AxisPair& pair, double mu, double mv)
+      : call_(call),
+        pair_(pair),
+        u_(std::fabs(component(call.shape().size, pair.u)), mu),
+        v_(std::fabs(component(call.shape().size, pair.v)), mv),
+        cells_(call.shape(), pair.u, u_.pieces, pair.v, v_.pieces) {}
+
+  void emit(const RoleSlot (&slots)[3], std::string_view orientation) {
+    uint32_t piece = 0;
+    for (size_t i = 0; i < u_.place.size(); ++i) {
+      for (size_t j = 0; j < v_.place.size(); ++j, ++piece) {
+        const int border = (u_.place[i] != 0) + (v_.place[j] != 0);
+        const RoleSlot& slot = slots[2 - border];
+        Shape child;
+        if (!slot.wanted || !cells_.take(i, j, child)) continue;
+        if (border > 0 && orientation != "default") turn(child, i, j, orientation == "in");
+        call_.emit(std::move(child), slot.slot, piece);
+      }
+    }
+  }
+
+ private:
+  void turn(Shape& child, size_t i, size_t j, bool in) const {
+    const auto a = static_cast<size_t>(pair_.whole);
+    const bool uIsB = static_cast<size_t>(pair_.u) == (a + 1) % 3;
+    const int b = uIsB ? u_.place[i] : v_.place[j], c = uIsB ? v_.place[j] : u_.place[i];
+    turnScope(child, quarterTurn(a, turnsOf(b, c) + (in ? 2 : 0)));
+  }
+
+  OpCall& call_;
+  AxisPair pair_;
+  Thirds u_, v_;
+  Cells cells_;
+};
+
+Status applyMargin(OpCall& call) {
+  Axis axis;
+  if (!axisNamed(call.text(0), axis)) {
+    return call.fail("split-axis", "there is no such axis", "the axes are x, y and z");
+  }
+  AxisPair pair;
+  if (!axesAround(call.shape(), axis, pair)) {
+    return call.fail("split-flat", "the scope has an extent along one axis only",
+                     "give the scope a size first");
+  }
+  const double wanted = call.number(1, 0);
+  if (!(wanted >= 0) || !std::isfinite(wanted)) {
+    return call.fail("bad-argument", "a margin of " + shortestText(wanted) + " is none",
+                     "write a width of zero or more; zero takes the corner's preferred size");
+  }
+  RoleSlot slots[3];
+  for (const Role r : {Role::Corner, Role::Edge, Role::Center}) {
+    slots[static_cast<size_t>(r)] = slotOf(call, r);
+  }
+  const Vec3 preferred = slots[0].wanted ? call.preferredSize(slots[0].slot) : Vec3{};
+  bool cut = false;
+  const double mu = marginAlong(call, pair.u, component(preferred, pair.u), cut);
+  const double mv = marginAlong(call, pair.v, component(preferred, pair.v), cut);
+  if (cut) {
+    call.services().warn("margin-too-wide",
+                         "'margin': the margin is wider than half of the shape and ends there",
+                         "make it narrower, or write it as a share: '0.2");
+  }
+  Margin(call, pair, mu, mv).emit(slots, call.text(2, "default"));
+  return {};
+}
+
+constexpr ParamSpec kParams[] = {
+    {"axis", ParamType::Selector,
+     "The scope axis that is not divided. A flat shape is divided in its plane, whatever the axis.",
+     nullptr, "x y z"},
+    {"width", ParamType::Size,
+     "Of the margin, in metres or, with ', as a share of the size along each axis (0 to 0.5); 0 "
+     "takes the preferred size of the corner.",
+     "0"},
+    {"orientation", ParamType::Selector,
+     "Whether the pieces keep the axes of the shape, or corners and edges face out or in.",
+     "default", "default out in"},
+};
+constexpr Signature kSignatures[] = {{kParams}};
+
+constexpr OpSpec kSpecs[] = {
+    {"margin", "subdivide",
+     "Divides the shape into four corners, four edges and a centre around an axis.", kSignatures,
+     applyMargin, BlockKind::Selectors, kPure, "corner edge center", false, true},
+};
+
+}  // namespace
+
+extern const OpList kOps_margin;
+const OpList kOps_margin = kSpecs;
+
+}  // namespace gable

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The number of pieces comes from the preferred size (@PreferredSize) of the rule in the block; the
+// pieces then share the length equally, so that all of them are one shape.
+
+#include <cmath>
+
+#include "builtins/lists.h"
+#include "builtins/ops/subdivide/shared/cells.h"
+#include "shape/op_call.h"
+
+namespace gable {
+
+namespace {
+
+constexpr double kFlat = 1e-9;
+
+Status flatFailure(const OpCall& call) {
+  return call.fail("split-flat", "the scope has no extent along the axis of this split",
+                   "split along another axis, or give the scope a size first");
+}
+
+Status axisFailure(const OpCall& call) {
+  return call.fail("split-axis", "there is no such direction to split along",
+                   "the directions are x, y and z");
+}
+
+void emitCells(OpCall& call, Cells& cells, size_t rows, size_t columns) {
+  const auto total = static_cast<uint32_t>(rows * columns);
+  for (uint32_t k = 0; k < total; ++k) {
+    Shape child;
+    if (!cells.take(k / columns, k % columns, child)) continue;
+    child.split = {k, total};
+    call.emit(std::move(child), 0, k);
+  }
+}
+
+Status applyRepeat(OpCall& call) {
+  Axis axis;
+  if (!axisNamed(call.text(0), axis)) return axisFailure(call);
+  const Shape& s = call.shape();
+  const double whole = std::fabs(component(s.size, axis));
+  if (!(whole > kFlat)) return flatFailure(call);
+  SplitPieces pieces;
+  const Status status =
+      equalPieces(whole, component(call.preferredSize(0), axis), call.text(1, "halfUp"), pieces);
+  if (!status.ok()) return status;
+  const SplitPieces none;
+  Cells cells(s, axis, pieces, axis, none);
+  emitCells(call, cells, pieces.size(), 1);
+  return {};
+}
+
+Status applyGrid(OpCall& call) {
+  Axis axis;
+  if (!axisNamed(call.text(0), axis)) return axisFailure(call);
+  const Shape& s = call.shape();
+  AxisPair pair;
+  if (!axesAround(s, axis, pair)) return flatFailure(call);
+  // The outer loop runs along x, or along z where x stays whole.
+  if (pair.whole == Axis::X) std::swap(pair.u, pair.v);
+  const Vec3 preferred = call.preferredSize(0);
+  const std::string_view rounding = call.text(1, "halfUp");
+  SplitPieces rows, columns;
+  for (const auto& [a, out] : {std::pair{pair.u, &rows}, std::pair{pair.v, &columns}}) {
+    const double whole = std::fabs(component(s.size, a));
+    const Status status = equalPieces(whole, component(preferred, a), rounding, *out);
+    if (!status.ok()) return status;
+  }
+  if (uint64_t{rows.size()} * columns.size() > kMaxSplitPieces) {
+    return call.fail("split-too-many",
+                     "this would make more than " + std::to_string(kMaxSplitPieces) + " shapes",
+                     "make the preferred size larger");
+  }
+  Cells cells(s, pair.u, rows, pair.v, columns);
+  emitCells(call, cells, rows.size(), columns.size());
+  return {};
+}
+
+constexpr ParamSpec kRounding = {
+    "rounding", ParamType::Selector,
+    "How the number of pieces comes of length / preferred size: to the nearest number, halves up "
+    "or "
+    "to the even one; to the number whose pieces are nearest in size; up; or down.",
+    "halfUp", "halfUp even closest ceil floor"};
+constexpr ParamSpec kRepeatParams[] = {
+    {"axis", ParamType::Selector, "The scope axis along which to divide.", nullptr, "x y z"},
+    kRounding,
+};
+constexpr ParamSpec kGridParams[] = {
+    {"axis", ParamType::Selector,
+     "The scope axis that is not divided. A flat shape is divided in its plane, whatever the axis.",
+     nullptr, "x y z"},
+    kRounding,
+};
+constexpr Signature kRepeatSignatures[] = {{kRepeatParams}};
+constexpr Signature kGridSignatures[] = {{kGridParams}};
+
+constexpr OpSpec kSpecs[] = {
+    {"splitGrid", "subdivide",
+     "Divides the shape along two axes into equal parts that fit the preferred size of what they "
+     "become.",
+     kGridSignatures, applyGrid, BlockKind::Operations, kPure, nullptr, false, true},
+    {"splitRepeat", "subdivide",
+     "Divides the shape along an axis into equal parts that fit the preferred size of what they "
+     "become.",
+     kRepeatSignatures, applyRepeat, BlockKind::Operations, kPure, nullptr, false, true},
+};
+
+}  // namespace
+
+extern const OpList kOps_split_repeat;
+const OpList kOps_split_repeat = kSpecs;
+
+}  // namespace gable
