@@ -36,6 +36,12 @@ constexpr const char* kNames[] = {"constant",
                                   "operand",
                                   "call",
                                   "call-computed",
+                                  "run",
+                                  "begin-turns",
+                                  "end-turn",
+                                  "begin-locals",
+                                  "bind",
+                                  "end-locals",
                                   "leaf",
                                   "set",
                                   "initialise",
@@ -58,6 +64,7 @@ std::string operandText(const Program& p, const Instruction& i) {
     case Code::Leaf: return quoted(p.constants[i.a], *p.pool);
     case Code::RuleAttribute:
     case Code::SetAttribute:
+    case Code::Bind:
     case Code::Initialise: return p.attributes[i.a].name;
     case Code::BuiltinAttribute:
     case Code::SetBuiltin: return p.builtinAttributes[i.a]->name;
@@ -66,6 +73,7 @@ std::string operandText(const Program& p, const Instruction& i) {
     case Code::Operation:
     case Code::OperationConstant:
     case Code::ComponentValues: return p.operations[i.a]->name;
+    case Code::RunRule:
     case Code::CallRule: return p.rules[i.a].qualifiedName;
     case Code::Binary: return std::to_string(i.x);
     case Code::Parameter:
@@ -74,6 +82,8 @@ std::string operandText(const Program& p, const Instruction& i) {
     case Code::JumpIfFalseKeep:
     case Code::JumpIfTrueKeep:
     case Code::JumpTable:
+    case Code::BeginTurns:
+    case Code::EndTurn:
     case Code::Operand:
     case Code::MakeArray: return std::to_string(i.a);
     default: return {};

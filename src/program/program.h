@@ -53,10 +53,16 @@ enum class Code : uint8_t {
   Operand,            // carries a second operand for the instruction before it
   CallRule,           // rules[a] with x arguments
   CallComputed,       // a rule whose name is computed (a string on the stack)
-  Leaf,               // a shape named constants[a] that has no rule
-  SetAttribute,       // pops a value into rule attribute a
-  Initialise,         // push the value of attribute a, evaluated anew on the present shape
-  SetBuiltin,         // pops a value into builtinAttributes[a]
+  RunRule,            // rules[a] with x arguments, on the present shape itself
+  BeginTurns,         // pops a number of turns; to a when there is none
+  EndTurn,            // to a for the next turn, on when there is none
+  BeginLocals,        // opens a block of attribute values that end with it
+  Bind,               // pops a value for rule attribute a until the block ends
+  EndLocals,
+  Leaf,          // a shape named constants[a] that has no rule
+  SetAttribute,  // pops a value into rule attribute a
+  Initialise,    // push the value of attribute a, evaluated anew on the present shape
+  SetBuiltin,    // pops a value into builtinAttributes[a]
   PushShape,
   PopShape,
   Drop,  // NIL

@@ -95,6 +95,9 @@ enum Effect : uint32_t {
   kReadsUvProjection = 1u << 10,
   /// The scope of the shape below on the shape stack: center.
   kReadsPrevious = 1u << 11,
+  /// The operation understands a deformed shape; for all others the deformation goes into the
+  /// geometry first.
+  kTakesDeformed = 1u << 13,
 };
 
 /// Whether a selector asks for a direction or place outside the shape: world.up, object,

@@ -101,6 +101,9 @@ void Machine::derive(const InitialShape& input, uint32_t index) {
   parameters_ = stackTop_ = activationCount_ = 0;
   children_.clear();
   shapeStack_.clear();
+  frames_.clear();
+  locals_.clear();
+  previous_.clear();
   functions_.clear();
   prototypes_.clear();
   bindAttributes(input);

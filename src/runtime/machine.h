@@ -37,6 +37,27 @@ struct DeriveShared {
   std::atomic<bool> limitReached{false};
 };
 
+/// What an activation does to its shape in passing: a rule run in place, the turns of a repeat, or
+/// a block of local attribute values.
+struct InPlaceFrame {
+  enum class Kind : uint8_t { Rule, Turns, Locals } kind = Kind::Rule;
+  /// The scope below on the shape stack is kept in previous_, at this place.
+  bool keepsPrevious = false;
+  uint32_t previous = 0;
+  /// Rules run in place now, this one included.
+  uint32_t calls = 0;
+  // Rule: what goes on behind it.
+  const Instruction* back = nullptr;
+  uint32_t parameters = 0, stackBase = 0, rule = 0;
+  // Turns: the one at work.
+  uint32_t turn = 0, turns = 0;
+  IndexInfo split;
+  // Locals: the values of the block around.
+  uint32_t locals = 0, localCount = 0;
+  /// Rule and Turns: the address of the shape before.
+  uint64_t path = 0;
+};
+
 /// One rule call or block slot in progress.
 struct Activation {
   Shape shape;
@@ -47,6 +68,8 @@ struct Activation {
   /// The value stack is cut to this when the activation ends.
   uint32_t stackBase = 0;
   uint32_t shapeStackBase = 0;
+  /// What the activation does in place, and the local values that it binds, begin here.
+  uint32_t frameBase = 0, localBase = 0;
   /// Children of a block that wait for their turn.
   uint32_t childBase = 0, childNext = 0, childEnd = 0;
   uint32_t block = 0;
@@ -97,6 +120,7 @@ class Machine final : public Services {
                      const Shape& shape) override;
   void label(StringId name, const Shape& shape) override;
   std::string treeKey() const override;
+  void leaf() override;
 
  private:
   struct FunctionFrame {
@@ -138,10 +162,23 @@ class Machine final : public Services {
   void fillSplit(const BlockCode& block, const Value* values);
   void fillSelectors(const BlockCode& block, const Value* values);
   void setBuiltin(const Instruction& i, const Value& v);
+  void setAttribute(const Instruction& i);
   void pushShape();
   void popShape();
   void dropShape();
   void makeLeaf(Activation& a, StringId name, uint32_t source);
+
+  // In place: do, repeat, local.
+  void runRule(const Instruction& i);
+  void beginTurns(const Instruction& i);
+  void endTurn(const Instruction& i);
+  void beginLocals();
+  void bind(uint32_t attribute, const Value& v);
+  void endLocals();
+  void endInPlace();
+  InPlaceFrame& openFrame(InPlaceFrame::Kind kind);
+  bool countStep();
+  const Value* localValue(const Shape& s, uint32_t attribute) const;
 
   // Sharing.
   bool beginShared(const RuleCode& rule, Activation& call);
@@ -221,6 +258,17 @@ class Machine final : public Services {
   uint32_t activationCount_ = 0;
   std::vector<OpCall::Child> children_;
   std::vector<SavedShape> shapeStack_;
+  std::vector<InPlaceFrame> frames_;
+  struct LocalValue {
+    /// The value bound before it, as Shape::locals has it.
+    uint32_t outer;
+    uint32_t attribute;
+    Value value;
+  };
+  std::vector<LocalValue> locals_;
+  /// For rules run in place that look at the shape below.
+  std::vector<std::pair<Frame, Vec3>> previous_;
+  uint64_t steps_ = 0;
   std::vector<FunctionFrame> functions_;
   std::vector<Frame> worlds_;
   std::vector<OpenPrototype> prototypes_;

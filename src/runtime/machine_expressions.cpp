@@ -141,6 +141,12 @@ void Machine::choose(const Instruction& i) {
 
 void Machine::ruleAttribute(const Instruction& i) {
   const uint32_t a = i.a;
+  if (seen_->locals != 0) {
+    if (const Value* local = localValue(*seen_, a)) {
+      push(*local);
+      return;
+    }
+  }
   if (seen_->attributes != 0) {
     if (const Value* set = attributes().find(seen_->attributes, a)) {
       push(*set);

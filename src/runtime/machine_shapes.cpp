@@ -11,6 +11,7 @@
 
 #include "base/check.h"
 #include "runtime/machine.h"
+#include "shape/deformation.h"
 
 namespace gable {
 
@@ -34,11 +35,7 @@ void Machine::execute() {
       case Code::CallRule: callRule(i); break;
       case Code::CallComputed: callComputed(i); break;
       case Code::Leaf: leafInstruction(i); break;
-      case Code::SetAttribute: {
-        const Value v = pop();
-        current().shape.attributes = attributes().with(current().shape.attributes, i.a, v);
-        break;
-      }
+      case Code::SetAttribute: setAttribute(i); break;
       case Code::SetBuiltin: {
         const Value v = pop();
         setBuiltin(i, v);
@@ -47,7 +44,18 @@ void Machine::execute() {
       case Code::PushShape: pushShape(); break;
       case Code::PopShape: popShape(); break;
       case Code::Drop: dropShape(); break;
-      default: endActivation(); break;
+      case Code::RunRule: runRule(i); break;
+      case Code::BeginTurns: beginTurns(i); break;
+      case Code::EndTurn: endTurn(i); break;
+      case Code::BeginLocals: beginLocals(); break;
+      case Code::Bind: bind(i.a, pop()); break;
+      case Code::EndLocals: endLocals(); break;
+      default:
+        if (frames_.size() > current().frameBase)
+          endInPlace();
+        else
+          endActivation();
+        break;
     }
   }
 }
@@ -63,7 +71,8 @@ void Machine::beginRule(uint32_t rule, uint32_t argumentCount, const Instruction
   const uint32_t callerIndex = activationCount_ - 1;
   Activation& a = pushActivation();
   Activation& caller = activations_[callerIndex];
-  if (++caller.made > options().limits.width) {
+  // Turns and rules run in place have limits of their own.
+  if (++caller.made > options().limits.width && frames_.size() == caller.frameBase) {
     --activationCount_;
     overLimit("too-many-children",
               "a shape of rule '" + program_.rules[caller.rule].qualifiedName + "' has more than " +
@@ -82,6 +91,8 @@ void Machine::beginRule(uint32_t rule, uint32_t argumentCount, const Instruction
   a.stackBase = stackTop_ - argumentCount;
   a.parameters = a.stackBase;
   a.shapeStackBase = static_cast<uint32_t>(shapeStack_.size());
+  a.frameBase = static_cast<uint32_t>(frames_.size());
+  a.localBase = static_cast<uint32_t>(locals_.size());
   a.childBase = a.childNext = a.childEnd = 0;
   a.made = 0;
   a.childCount = 0;
@@ -115,7 +126,9 @@ void Machine::beginRule(uint32_t rule, uint32_t argumentCount, const Instruction
 }
 
 void Machine::callRule(const Instruction& i) {
-  const bool last = pc_->code == Code::End && shapeStack_.size() == current().shapeStackBase;
+  const Activation& a = current();
+  const bool last = pc_->code == Code::End && shapeStack_.size() == a.shapeStackBase &&
+                    frames_.size() == a.frameBase;
   beginRule(i.a, i.x, &i, last);
 }
 
@@ -150,6 +163,8 @@ void Machine::endActivation() {
   if (a.boundary) endShared();
   stackTop_ = a.stackBase;
   if (shapeStack_.size() > a.shapeStackBase) shapeStack_.resize(a.shapeStackBase);
+  if (frames_.size() > a.frameBase) frames_.resize(a.frameBase);
+  if (locals_.size() > a.localBase) locals_.resize(a.localBase);
   --activationCount_;
   if (activationCount_ > 0) resume();
 }
@@ -178,6 +193,8 @@ void Machine::nextChild() {
   a.stackBase = stackTop_;
   a.parameters = parent.parameters;
   a.shapeStackBase = static_cast<uint32_t>(shapeStack_.size());
+  a.frameBase = static_cast<uint32_t>(frames_.size());
+  a.localBase = static_cast<uint32_t>(locals_.size());
   a.childBase = a.childNext = a.childEnd = 0;
   a.made = 0;
   a.owner = parent.owner;
@@ -278,6 +295,7 @@ void Machine::operation(const Instruction& i, const Value* constants) {
       setup.selectors(selectorItems_);
     }
   }
+  if (isDeformed(a.shape) && (spec.effects & kTakesDeformed) == 0) bakeDeformation(a.shape);
   if (collectOccluders_ && occludes(spec)) addOccluder(0, a.shape);
   const auto childBase = static_cast<uint32_t>(children_.size());
   instruction_ = &i;
@@ -311,6 +329,7 @@ void Machine::operation(const Instruction& i, const Value* constants) {
 }
 
 void Machine::makeLeaf(Activation& a, StringId name, uint32_t source) {
+  if (isDeformed(a.shape) && a.shape.geometry.kind != GeometryKind::None) bakeDeformation(a.shape);
   const Shape& s = a.shape;
   if (options().trace) traceLeaf(a, name, source);
   if (s.geometry.kind == GeometryKind::None) return;
@@ -354,9 +373,20 @@ void Machine::popShape() {
   shapeStack_.pop_back();
 }
 
+// A value that a block around binds hides the shape's own, so it is bound anew.
+void Machine::setAttribute(const Instruction& i) {
+  const Value v = pop();
+  Shape& s = current().shape;
+  if (s.locals != 0 && localValue(s, i.a))
+    bind(i.a, v);
+  else
+    s.attributes = attributes().with(s.attributes, i.a, v);
+}
+
 void Machine::setBuiltin(const Instruction& i, const Value& v) {
   const OpSpec* set = builtinSetSpec_;
   Activation& a = current();
+  if (isDeformed(a.shape)) bakeDeformation(a.shape);
   OpCall call(*set, a.shape, {&v, 1}, *this);
   OpCallSetup setup(call);
   setup.previous(a.previousScope, a.previousSize);

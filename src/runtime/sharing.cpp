@@ -52,6 +52,14 @@ void addExtra(KeyHash& h, const ShapeExtra& extra) {
     h.add(p.frame);
     for (double v : {p.width, p.height, p.offsetU, p.offsetV, p.uwFactor}) h.add(v);
   }
+  h.add(uint64_t{extra.deformed});
+  if (!extra.deformed) return;
+  const Deformation& d = extra.deformation;
+  for (const Affine* a : {&d.near, &d.far}) {
+    for (const Vec3* v : {&a->x, &a->y, &a->z, &a->origin}) h.add(*v);
+  }
+  h.add(d.front);
+  h.add(d.top);
 }
 
 // What is alike but for rounding becomes exactly so: else no two calls would be alike. Coordinates
@@ -103,7 +111,8 @@ ShareKey Machine::keyOf(uint32_t rule, const Activation& call) {
   if (geometry.kind != GeometryKind::Mesh) geometry.refSize = {};
   h.add(contentHash(geometry));
   for (uint32_t a : code.reads.attributes) {
-    const Value* set = s.attributes ? attributes().find(s.attributes, a) : nullptr;
+    const Value* set = s.locals ? localValue(s, a) : nullptr;
+    if (!set && s.attributes) set = attributes().find(s.attributes, a);
     h.add((set ? *set : evaluateAttribute(a)).hash());
   }
   if (effects & kReadsSplit) h.add(uint64_t{s.split.index} << 32 | s.split.total);
@@ -126,7 +135,8 @@ void Machine::localise(Shape& shape, const RuleCode& rule, const Frame& outer) c
     shape.pivot = Frame{};
   }
   if (shape.extra) {
-    const bool seen = effects & (kUsesTrim | kReadsUvProjection);
+    // A deformation is told in the scope's own terms, so it comes along as it is.
+    const bool seen = shape.extra->deformed || (effects & (kUsesTrim | kReadsUvProjection)) != 0;
     shape.extra = seen ? makeRef<ShapeExtra>(localExtra(*shape.extra, outer)) : Ref<ShapeExtra>();
   }
   shape.scope = Frame{};

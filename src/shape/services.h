@@ -143,6 +143,10 @@ class Services {
   /// The path of the present shape in the shape tree ("0;0;1;").
   virtual std::string treeKey() const = 0;
 
+  /// Leaves a copy of the shape at work in the result, as a leaf named after its rule. The shape
+  /// goes on, and its rule has made something.
+  virtual void leaf() = 0;
+
  protected:
   ValuePool* pool_ = nullptr;
   MaterialTable* materials_ = nullptr;

@@ -17,6 +17,7 @@
 #include "base/ref.h"
 #include "geom/mesh/mesh.h"
 #include "material/material.h"
+#include "math/affine.h"
 #include "math/frame.h"
 #include "program/value.h"
 
@@ -99,10 +100,23 @@ struct UvProjection {
   double width = 1, height = 1, offsetU = 0, offsetV = 0, uwFactor = 0;
 };
 
+/// What no orthonormal scope can say: a shear, or a far side unlike the near one. A point u of the
+/// unit cube lies at scope.point(scaled(near(u), size)) on the near side, at that of `far` on the
+/// far side, and between them in between. Scope and size stay as they were when the deformation
+/// began; see shape/deformation.h.
+struct Deformation {
+  Affine near, far;
+  /// Factors on the points of a body's front, then of its top, done before all else.
+  Vec3 front{1, 1, 1}, top{1, 1, 1};
+  bool operator==(const Deformation&) const = default;
+};
+
 /// What few shapes carry. Immutable once shared; frames as the shape's.
 struct ShapeExtra : RefCounted {
   std::vector<TrimPlane> trim;
   std::array<UvProjection, kUvSets> projections;
+  bool deformed = false;
+  Deformation deformation;
 };
 
 struct IndexInfo {
@@ -120,6 +134,8 @@ struct Shape {
   uint32_t assetMaterials = 0;
   /// An id of the AttributePool: the attributes that set() changed.
   uint32_t attributes = 0;
+  /// The innermost value that `local` gave to an attribute, as the runtime counts them; 0 for none.
+  uint32_t locals = 0;
   bool trimVertical = true;
   bool trimHorizontal = false;
   IndexInfo split;

@@ -69,6 +69,8 @@ class FakeServices : public Services {
   bool queryAnswer = false;
   double distanceAnswer = 0, countAnswer = 0;
   std::string treeKeyAnswer = "0;";
+  /// How many leaves operations left on the way.
+  size_t leaves = 0;
 
   const InitialShapeInfo& initialShape() const override { return initial; }
   const Frame& world() const override { return worldFrame; }
@@ -83,6 +85,7 @@ class FakeServices : public Services {
   }
   void label(StringId name, const Shape& shape) override;
   std::string treeKey() const override { return treeKeyAnswer; }
+  void leaf() override { ++leaves; }
 
  private:
   ValuePool ownPool_;

@@ -103,8 +103,60 @@ bool UnitCompiler::setStatement(NodeId arguments) {
   return true;
 }
 
+void UnitCompiler::blockInPlace(NodeId node) {
+  for (NodeId block : t_.children(node).subspan(1)) {
+    for (NodeId item : t_.children(block)) {
+      if (t_.kind(item) == NodeKind::Item) successor(t_.child(item, 2));
+    }
+  }
+}
+
+// What these three do they do to the present shape, so their blocks are part of the code around.
+bool UnitCompiler::inPlace(NodeId node, const OpSpec& spec, NodeId arguments) {
+  const std::string_view name = spec.name;
+  const Span span = t_.span(node);
+  if (name == "do") {
+    const NodeId call = t_.child(arguments, 0);
+    const Resolution& rule = m_.at(call);
+    if (rule.kind != RefKind::Rule) {
+      e_.emit(Code::Leaf, span, e_.constant(e_.program().pool->string(t_.text(call))));
+      return true;
+    }
+    const size_t count =
+        pushArguments(t_.kind(call) == NodeKind::Call ? t_.child(call, 0) : kNoNode);
+    uses_.rules.insert(rule.index);
+    uses_.branches = true;
+    e_.emit(Code::RunRule, span, rule.index, static_cast<uint8_t>(count), 0,
+            e_.site(r_.rules[rule.index].qualifiedName));
+    return true;
+  }
+  if (name == "repeat") {
+    expression(t_.child(arguments, 0));
+    uses_.branches = true;
+    const uint32_t begin = e_.emit(Code::BeginTurns, span, 0, 0, 0, e_.site(name));
+    blockInPlace(node);
+    e_.emit(Code::EndTurn, span, begin + 1, 0, 0, e_.program().sites[begin]);
+    e_.land(begin);
+    return true;
+  }
+  if (name == "local") {
+    // All values are those of the block around; a value bound last is found first.
+    for (NodeId a : t_.children(arguments)) expression(t_.child(a, 0));
+    e_.emit(Code::BeginLocals, span);
+    const auto values = t_.children(arguments);
+    for (size_t i = values.size(); i-- > 0;) {
+      e_.emit(Code::Bind, t_.span(values[i]), m_.at(values[i]).index);
+    }
+    blockInPlace(node);
+    e_.emit(Code::EndLocals, span);
+    return true;
+  }
+  return false;
+}
+
 void UnitCompiler::operation(NodeId node, const OpSpec& spec, NodeId arguments) {
   if (std::string_view(spec.name) == "set" && setStatement(arguments)) return;
+  if (inPlace(node, spec, arguments)) return;
   uses_.effects |= effectsOf(spec.effects, arguments);
   const Span span = t_.span(node);
   const auto list = t_.children(arguments);

@@ -53,6 +53,9 @@ class UnitCompiler {
   void callRule(NodeId node, uint32_t rule, NodeId arguments);
   void operation(NodeId node, const OpSpec& spec, NodeId arguments);
   bool setStatement(NodeId arguments);
+  /// do, repeat and local; false for any other operation.
+  bool inPlace(NodeId node, const OpSpec& spec, NodeId arguments);
+  void blockInPlace(NodeId node);
   void choice(NodeId node, bool inExpression);
   void caseChoice(NodeId node, bool inExpression);
   void percentChoice(NodeId node, bool inExpression);

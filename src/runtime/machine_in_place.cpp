@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// What changes the present shape in passing, without a child: rules run in place (do), turns
+// (repeat) and attribute values for a while (local). Each is a frame on a stack of its own; an
+// activation that ends early (NIL) drops the frames that it opened.
+//
+// A rule run in place and every turn have an address of their own for chance. Local values form a
+// chain from the innermost outwards that shapes point into: they are no part of the shape's
+// attributes, cost no interning, and end with their block.
+
+#include <algorithm>
+
+#include "runtime/machine.h"
+
+namespace gable {
+
+InPlaceFrame& Machine::openFrame(InPlaceFrame::Kind kind) {
+  const uint32_t calls = frames_.empty() ? 0 : frames_.back().calls;
+  InPlaceFrame& f = frames_.emplace_back();
+  f.kind = kind;
+  f.calls = calls;
+  return f;
+}
+
+// Rules in place and turns make no shapes, so that they need a limit of their own.
+bool Machine::countStep() {
+  if (!tick()) return false;
+  if (++steps_ <= options().limits.shapes) return true;
+  return overLimit("too-many-turns",
+                   "the rules run more than " + std::to_string(options().limits.shapes) +
+                       " rules and turns in place",
+                   "repeat less often, or raise the limit on shapes");
+}
+
+void Machine::runRule(const Instruction& i) {
+  if (!countStep()) return;
+  Activation& a = current();
+  const RuleCode& code = program_.rules[i.a];
+  InPlaceFrame& f = openFrame(InPlaceFrame::Kind::Rule);
+  if (a.depth + ++f.calls > options().limits.depth) {
+    overLimit("recursion-too-deep",
+              "rules call each other more than " + std::to_string(options().limits.depth) +
+                  " levels deep",
+              "end the recursion with a case, or raise the limit on depth");
+    return;
+  }
+  f.back = pc_;
+  f.parameters = a.parameters;
+  f.stackBase = stackTop_ - i.x;
+  f.rule = a.rule;
+  f.path = a.shape.path;
+  if (code.needsPrevious) {
+    f.keepsPrevious = true;
+    f.previous = static_cast<uint32_t>(previous_.size());
+    previous_.emplace_back(a.previousScope, a.previousSize);
+    a.previousScope = a.shape.scope;
+    a.previousSize = a.shape.size;
+  }
+  a.shape.path = hashCombine(a.shape.path, program_.sites[pcOf(&i)]);
+  a.rule = i.a;
+  a.parameters = parameters_ = f.stackBase;
+  pc_ = program_.code.data() + code.entry;
+}
+
+void Machine::endInPlace() {
+  const InPlaceFrame& f = frames_.back();
+  Activation& a = current();
+  a.shape.path = f.path;
+  a.rule = f.rule;
+  a.parameters = parameters_ = f.parameters;
+  stackTop_ = f.stackBase;
+  pc_ = f.back;
+  if (f.keepsPrevious) {
+    // Activations that ended early may have left theirs above.
+    a.previousScope = previous_[f.previous].first;
+    a.previousSize = previous_[f.previous].second;
+    previous_.resize(f.previous);
+  }
+  frames_.pop_back();
+}
+
+void Machine::beginTurns(const Instruction& i) {
+  const double count = pop().number;
+  if (!(count >= 1)) {
+    pc_ = program_.code.data() + i.a;
+    return;
+  }
+  Shape& s = current().shape;
+  InPlaceFrame& f = openFrame(InPlaceFrame::Kind::Turns);
+  f.turns = static_cast<uint32_t>(std::min(count, 4e9));
+  f.split = s.split;
+  f.path = s.path;
+  s.split = {0, f.turns};
+  s.path = hashCombine(hashCombine(f.path, program_.sites[pcOf(&i)]), 0);
+}
+
+void Machine::endTurn(const Instruction& i) {
+  if (!countStep()) return;
+  InPlaceFrame& f = frames_.back();
+  Shape& s = current().shape;
+  if (++f.turn == f.turns) {
+    s.split = f.split;
+    s.path = f.path;
+    frames_.pop_back();
+    return;
+  }
+  if (f.turn >= options().limits.width) {
+    overLimit("too-many-turns",
+              "'repeat' takes more than " + std::to_string(options().limits.width) + " turns",
+              "repeat less often, or raise the limit on width");
+    return;
+  }
+  s.split = {f.turn, f.turns};
+  s.path = hashCombine(hashCombine(f.path, program_.sites[pcOf(&i)]), f.turn);
+  pc_ = program_.code.data() + i.a;
+}
+
+void Machine::beginLocals() {
+  InPlaceFrame& f = openFrame(InPlaceFrame::Kind::Locals);
+  f.locals = current().shape.locals;
+  f.localCount = static_cast<uint32_t>(locals_.size());
+}
+
+void Machine::bind(uint32_t attribute, const Value& v) {
+  Shape& s = current().shape;
+  locals_.push_back({s.locals, attribute, v});
+  s.locals = static_cast<uint32_t>(locals_.size());
+}
+
+void Machine::endLocals() {
+  const InPlaceFrame& f = frames_.back();
+  current().shape.locals = f.locals;
+  locals_.resize(f.localCount);
+  frames_.pop_back();
+}
+
+const Value* Machine::localValue(const Shape& s, uint32_t attribute) const {
+  for (uint32_t at = s.locals; at != 0; at = locals_[at - 1].outer) {
+    if (locals_[at - 1].attribute == attribute) return &locals_[at - 1].value;
+  }
+  return nullptr;
+}
+
+void Machine::leaf() {
+  if (!countShape()) return;
+  Activation& a = current();
+  if (a.made == 0) a.made = 1;
+  makeLeaf(a, program_.rules[a.rule].name, pcOf(instruction_));
+  ++activations_[a.owner].childCount;
+}
+
+}  // namespace gable
