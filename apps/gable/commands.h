@@ -52,6 +52,15 @@ struct TraceArguments {
 };
 int runTrace(const TraceArguments& arguments);
 
+struct AssetArguments {
+  std::string model;
+  std::string output;
+  std::string pivot, rotate, volume;
+  std::string name;
+  bool zUp = false;
+};
+int runAssetPrepare(const AssetArguments& arguments);
+
 struct OpsArguments {
   std::string name;
   bool json = false;

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
+#include <random>
 
 bool parsePair(const std::string& text, double& a, double& b) {
   char* end = nullptr;
@@ -19,6 +20,26 @@ bool parsePair(const std::string& text, double& a, double& b) {
   const char* second = end + 1;
   b = std::strtod(second, &end);
   return end != second && *end == '\0' && a > 0 && b > 0 && a < 1e7 && b < 1e7;
+}
+
+bool parseNumbers(const std::string& text, double* out, int count) {
+  const char* at = text.c_str();
+  for (int i = 0; i < count; ++i) {
+    char* end = nullptr;
+    out[i] = std::strtod(at, &end);
+    if (end == at || *end != (i + 1 < count ? ',' : '\0')) return false;
+    at = end + 1;
+  }
+  return true;
+}
+
+bool parseSeed(const std::string& text, double& seed) {
+  if (text == "random") {
+    seed = static_cast<int32_t>(std::random_device{}());
+    std::fprintf(stderr, "seed %.0f\n", seed);
+    return true;
+  }
+  return parseNumbers(text, &seed, 1);
 }
 
 size_t printMessages(const gable::Messages& messages) {
@@ -53,7 +74,11 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
   if (!inputs.shapes.ok() && inputs.shapes.size() == 0) return kExitWrong;
   gable::DeriveSettings& s = inputs.settings;
   s.startRule = arguments.start;
-  s.seed = arguments.seed;
+  if (!parseSeed(arguments.seed, s.seed)) {
+    std::fprintf(stderr, "gable: --seed takes a number or the word random, not '%s'\n",
+                 arguments.seed.c_str());
+    return kExitUsage;
+  }
   s.sharing = !arguments.noSharing;
   s.jobs = arguments.jobs;
   s.budget.seconds = arguments.maxSeconds;

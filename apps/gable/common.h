@@ -32,7 +32,8 @@ struct DeriveArguments {
   bool cutNested = false;
   std::string start;
   std::vector<std::string> set;
-  double seed = 0;
+  /// A number, or "random".
+  std::string seed = "0";
   std::string project;
   std::string dialect;
   std::string style;
@@ -45,6 +46,12 @@ struct DeriveArguments {
 
 /// Parses "30x40"; false when it is no pair of positive numbers.
 bool parsePair(const std::string& text, double& a, double& b);
+
+/// "x,y,z" or "x,y": `count` numbers.
+bool parseNumbers(const std::string& text, double* out, int count);
+
+/// A number; or "random", which draws a signed integer of 32 bits and says which.
+bool parseSeed(const std::string& text, double& seed);
 
 /// Rules and shapes as the arguments name them; an exit status other than kExitDone when they are
 /// not usable (messages have been printed then).

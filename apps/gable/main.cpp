@@ -20,7 +20,7 @@ void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
       ->type_size(1)
       ->expected(1)
       ->take_all();
-  app->add_option("--seed", a.seed, "The seed of all chance (default 0)");
+  app->add_option("--seed", a.seed, "The seed of all chance (default 0); random draws one");
   app->add_option("--project", a.project, "The folder that the rules may read from");
   app->add_option("--jobs", a.jobs, "Threads (default: one a processor)");
   app->add_flag("--no-sharing", a.noSharing, "Derive equal parts again instead of sharing them");
@@ -89,6 +89,22 @@ int main(int argc, char** argv) {
   addDeriveOptions(traceApp, trace.derive);
   traceApp->add_option("-o,--output", trace.output, "A file, or - for stdout (default)");
   traceApp->callback([&] { status = runTrace(trace); });
+
+  AssetArguments asset;
+  auto* assetApp = app.add_subcommand("asset", "Make models ready for use");
+  assetApp->require_subcommand(1);
+  auto* prepareApp =
+      assetApp->add_subcommand("prepare", "Map the volume of a model to the unit cube");
+  prepareApp->add_option("model", asset.model, "The model: .glb .gltf .obj")->required();
+  prepareApp->add_option("--pivot", asset.pivot,
+                         "The point that becomes the origin: x,y,z (default: its lower corner)");
+  prepareApp->add_option("--rotate", asset.rotate, "Degrees about x, y and z, around the pivot");
+  prepareApp->add_option("--size", asset.volume,
+                         "What fills a scope, from the pivot: x,y,z (default: its box)");
+  prepareApp->add_option("--name", asset.name, "The name of the model in the file");
+  prepareApp->add_flag("--z-up", asset.zUp, "The up axis of the file is z");
+  prepareApp->add_option("-o,--output", asset.output, "The asset: .glb .gltf .obj")->required();
+  prepareApp->callback([&] { status = runAssetPrepare(asset); });
 
   OpsArguments ops;
   auto* opsApp = app.add_subcommand("ops", "List what is built in, or explain one name");

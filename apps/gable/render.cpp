@@ -17,18 +17,6 @@ bool isModel(const std::string& path) {
   return endsWith(path, ".glb") || endsWith(path, ".gltf") || endsWith(path, ".obj");
 }
 
-/// "x,y,z" or "x,y": `count` numbers.
-bool parseNumbers(const std::string& text, double* out, int count) {
-  const char* at = text.c_str();
-  for (int i = 0; i < count; ++i) {
-    char* end = nullptr;
-    out[i] = std::strtod(at, &end);
-    if (end == at || *end != (i + 1 < count ? ',' : '\0')) return false;
-    at = end + 1;
-  }
-  return true;
-}
-
 int usage(const char* option, const char* form) {
   std::fprintf(stderr, "gable: %s takes %s\n", option, form);
   return kExitUsage;

@@ -206,11 +206,30 @@ struct PictureSettings {
   std::atomic<bool>* cancel = nullptr;
 };
 
+/// How a model becomes an asset that fills scopes: its volume is mapped to the unit cube.
+struct PrepareSettings {
+  /// The point of the model that becomes the origin; without it the lower corner of its box.
+  bool ownPivot = false;
+  double pivot[3] = {0, 0, 0};
+  /// Degrees about x, then y, then z, around the pivot.
+  double rotate[3] = {0, 0, 0};
+  /// What fills a scope, from the pivot to +x, +y and +z; without it the model's box.
+  bool ownVolume = false;
+  double volume[3] = {1, 1, 1};
+  /// The file's up axis is z.
+  bool zUp = false;
+  std::string name;
+};
+
 /// What a derivation made, or a model file that was read.
 class Model {
  public:
   /// Reads .obj, .gltf or .glb as it is, for pictures.
   static Model load(const std::string& path);
+  /// Of a model that was read: the same as an asset, for i(.., unitCube) and post-process tables.
+  Model prepared(const PrepareSettings& settings) const;
+  /// Of a model that was read: minimum, then maximum.
+  std::array<double, 6> bounds() const;
 
   bool ok() const;
   /// False when a model file could not be read.

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <string>
 
+#include "dialects/gbbg/gbbg.h"
+
 namespace gable {
 
 std::span<const Dialect* const> dialects() {
   // One line a dialect, by name.
-  static const std::span<const Dialect* const> kAll;
+  static const Dialect* const kAll[] = {&kGbbgDialect};
   return kAll;
 }
 

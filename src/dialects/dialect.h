@@ -13,9 +13,11 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "base/diagnostic.h"
+#include "lang/sema/analyse.h"
 #include "lang/tree.h"
 #include "program/spec.h"
 
@@ -26,6 +28,8 @@ struct DialectInput {
   uint32_t file;
   /// What the tree may name: the names of a dialect's author must not clash with it.
   const Catalogue& catalogue;
+  /// Brings other files that a text names; null where there are none.
+  lang::FileLoader* loader = nullptr;
 };
 
 struct Dialect {
@@ -36,6 +40,8 @@ struct Dialect {
   /// With the dot, in lower case.
   std::span<const char* const> extensions;
   lang::Tree (*parse)(const DialectInput& input, Diagnostics& diagnostics);
+  /// The text in canonical form, or as it is when it has mistakes; null when the notation has none.
+  std::string (*format)(const Sources& sources, uint32_t file, Diagnostics& diagnostics) = nullptr;
 };
 
 /// All dialects, by name.

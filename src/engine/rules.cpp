@@ -52,9 +52,9 @@ Result<const Dialect*> dialectFor(const std::string& name, const std::string& pa
 }
 
 lang::Tree parseAs(const Dialect* dialect, const Sources& sources, uint32_t file,
-                   Diagnostics& diagnostics) {
+                   lang::FileLoader& loader, Diagnostics& diagnostics) {
   if (!dialect) return lang::parse(sources, file, diagnostics);
-  return dialect->parse({sources, file, builtinCatalogue()}, diagnostics);
+  return dialect->parse({sources, file, builtinCatalogue(), &loader}, diagnostics);
 }
 
 std::shared_ptr<Rules::Impl> failed(const Error& e) {
@@ -82,9 +82,9 @@ Rules Rules::parse(const std::string& text, const std::string& path, const LoadO
   Diagnostics diagnostics;
   const std::string name = impl->project->projectPath(path);
   const uint32_t file = impl->sources.add(name, text);
-  lang::AnalysisInput input{parseAs(dialect.value(), impl->sources, file, diagnostics), name,
-                            options.style};
   ProjectLoader loader(*impl->project);
+  lang::AnalysisInput input{parseAs(dialect.value(), impl->sources, file, loader, diagnostics),
+                            name, options.style};
   const lang::ResolvedProgram resolved = lang::analyse(
       std::move(input), builtinCatalogue(), *impl->pool, &loader, impl->sources, diagnostics);
   if (!diagnostics.hasErrors()) {
@@ -139,7 +139,9 @@ Formatted format(const std::string& text, const std::string& path) {
   Diagnostics diagnostics;
   const uint32_t file = sources.add(path, text);
   Formatted out;
-  out.text = lang::format(sources, file, diagnostics);
+  const Dialect* dialect = dialectOfPath(path);
+  const auto layout = dialect ? dialect->format : lang::format;
+  out.text = layout ? layout(sources, file, diagnostics) : text;
   diagnostics.sortByPlace();
   out.messages = toMessages(diagnostics, sources);
   if (diagnostics.hasErrors()) out.text = text;

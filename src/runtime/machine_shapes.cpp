@@ -105,7 +105,7 @@ void Machine::beginRule(uint32_t rule, uint32_t argumentCount, const Instruction
   if (a.depth > options().limits.depth) {
     overLimit("recursion-too-deep",
               "rules call each other more than " + std::to_string(options().limits.depth) +
-                  " levels deep",
+                  " levels deep, at last '" + code.qualifiedName + "'",
               "end the recursion with a case, or raise the limit on depth");
     return;
   }

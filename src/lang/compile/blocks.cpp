@@ -87,6 +87,9 @@ const std::array<double, 3>* UnitCompiler::preferredSizeOf(NodeId sequence) cons
       const NodeId branch = likeliestBranch(part);
       return branch == kNoNode ? nullptr : preferredSizeOf(t_.child(branch, 1));
     }
+    if (t_.kind(part) == NodeKind::Push) {
+      if (const auto* size = preferredSizeOf(t_.child(part, 0))) return size;
+    }
     if (t_.kind(part) != NodeKind::Apply && t_.kind(part) != NodeKind::ImportApply) continue;
     const Resolution& ref = m_.at(part);
     if (ref.kind == RefKind::Leaf) return nullptr;

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The GBBG notation (.gbbg) as one of Gable's dialects; README.md has its EBNF.
+#pragma once
+
+#include "dialects/dialect.h"
+
+namespace gable {
+
+extern const Dialect kGbbgDialect;
+
+}  // namespace gable

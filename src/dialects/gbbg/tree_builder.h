@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Nodes of the neutral tree in few words. All nodes that are made between two calls of at() have
+// one span: what of the dialect's text they stand for.
+#pragma once
+
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "lang/tree.h"
+
+namespace gable::gbbg {
+
+class TreeBuilder {
+ public:
+  using NodeId = lang::NodeId;
+  using Nodes = std::vector<NodeId>;
+
+  explicit TreeBuilder(uint32_t file) : tree_(file) {}
+
+  void at(Span span) { span_ = span; }
+
+  NodeId number(double v) {
+    if (v < 0) {
+      const NodeId inner = number(-v);
+      lang::Node n = node(lang::NodeKind::Unary);
+      n.op = static_cast<uint8_t>(lang::UnaryOp::Minus);
+      return tree_.add(n, {inner});
+    }
+    lang::Node n = node(lang::NodeKind::Number);
+    n.number = v;
+    return tree_.add(n);
+  }
+  NodeId relative(double v) { return tree_.add(node(lang::NodeKind::Relative), {number(v)}); }
+  NodeId floating(double v) { return tree_.add(node(lang::NodeKind::Floating), {number(v)}); }
+  NodeId boolean(bool v) {
+    lang::Node n = node(lang::NodeKind::Bool);
+    n.number = v;
+    return tree_.add(n);
+  }
+  NodeId word(std::string_view text) { return named(lang::NodeKind::Name, text, {}); }
+  NodeId text(std::string_view text) { return named(lang::NodeKind::String, text, {}); }
+  NodeId list(const Nodes& items) { return tree_.add(node(lang::NodeKind::List), items); }
+
+  NodeId annotation(std::string_view name, const Nodes& arguments) {
+    return named(lang::NodeKind::Annotation, name, arguments);
+  }
+  NodeId attribute(std::string_view name, NodeId value) {
+    return named(lang::NodeKind::Attr, name, {0, 0, 0, value});
+  }
+  NodeId rule(std::string_view name, const Nodes& annotations, NodeId body) {
+    const NodeId notes = annotations.empty() ? lang::kNoNode : list(annotations);
+    return named(lang::NodeKind::Rule, name, {notes, 0, 0, body});
+  }
+
+  NodeId sequence(const Nodes& successors) {
+    return tree_.add(node(lang::NodeKind::Sequence), successors);
+  }
+  /// An operation, or a rule where there are no arguments.
+  NodeId apply(std::string_view name, const Nodes& arguments = {}, NodeId block = lang::kNoNode) {
+    Nodes children = {arguments.empty() ? lang::kNoNode : list(arguments)};
+    if (block != lang::kNoNode) children.push_back(block);
+    return named(lang::NodeKind::Apply, name, children);
+  }
+  NodeId leaf(std::string_view name) {
+    const NodeId id = named(lang::NodeKind::Apply, name, {lang::kNoNode});
+    tree_.addFlags(id, lang::kFlagTerminal);
+    return id;
+  }
+  NodeId push(NodeId body) { return tree_.add(node(lang::NodeKind::Push), {body}); }
+
+  NodeId block(const Nodes& items) { return tree_.add(node(lang::NodeKind::Block), items); }
+  /// `head : body`, or the body alone.
+  NodeId item(NodeId head, NodeId body) {
+    lang::Node n = node(lang::NodeKind::Item);
+    n.op = static_cast<uint8_t>(head ? lang::ItemKind::Each : lang::ItemKind::Plain);
+    return tree_.add(n, {head, lang::kNoNode, body});
+  }
+  /// Conditions, or weights in percent, with bodies; kNoNode stands for `else`.
+  NodeId choice(lang::ChoiceKind kind, const std::vector<std::pair<NodeId, NodeId>>& branches) {
+    Nodes made;
+    for (const auto& [head, body] : branches) {
+      made.push_back(tree_.add(node(lang::NodeKind::Branch), {head, body}));
+    }
+    lang::Node n = node(lang::NodeKind::Choice);
+    n.op = static_cast<uint8_t>(kind);
+    return tree_.add(n, made);
+  }
+
+  lang::Tree finish(const Nodes& declarations, uint32_t size) {
+    lang::Node n = node(lang::NodeKind::File);
+    n.begin = 0;
+    n.end = size;
+    tree_.setRoot(tree_.add(n, declarations));
+    return std::move(tree_);
+  }
+
+ private:
+  lang::Node node(lang::NodeKind kind) const {
+    lang::Node n;
+    n.kind = kind;
+    if (span_.valid()) {
+      n.begin = span_.begin;
+      n.end = span_.end;
+    }
+    return n;
+  }
+  NodeId named(lang::NodeKind kind, std::string_view name, const Nodes& children) {
+    lang::Node n = node(kind);
+    n.text = tree_.intern(name);
+    return tree_.add(n, children);
+  }
+
+  lang::Tree tree_;
+  Span span_;
+};
+
+}  // namespace gable::gbbg
