@@ -34,6 +34,13 @@ struct FormatArguments {
 };
 int runFormat(const FormatArguments& arguments);
 
+struct ConvertArguments {
+  std::string rules;
+  std::string dialect;
+  std::string output = "-";
+};
+int runConvert(const ConvertArguments& arguments);
+
 struct RenderArguments {
   DeriveArguments derive;
   std::string output;

@@ -10,6 +10,8 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <mutex>
 #include <random>
 
@@ -126,6 +128,16 @@ int64_t peakBytes() {
 double secondsNow() {
   using Clock = std::chrono::steady_clock;
   return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+}
+
+bool readText(const std::string& path, std::string& text) {
+  std::ifstream in(path, std::ios::binary);
+  if (in) {
+    text.assign((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    return true;
+  }
+  std::fprintf(stderr, "gable: '%s' could not be read\n", path.c_str());
+  return false;
 }
 
 int writeText(const std::string& path, const std::string& text) {

@@ -84,6 +84,9 @@ class ProgressLine {
 int64_t peakBytes();
 double secondsNow();
 
+/// Reads a whole file; false, with a message, when that fails.
+bool readText(const std::string& path, std::string& text);
+
 /// Writes to a file, or to stdout for "-"; an exit status.
 int writeText(const std::string& path, const std::string& text);
 

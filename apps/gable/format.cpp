@@ -2,20 +2,14 @@
 // SPDX-FileCopyrightText: The Gable authors
 
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 
 #include "commands.h"
 
 int runFormat(const FormatArguments& arguments) {
   int status = kExitDone;
   for (const std::string& path : arguments.files) {
-    std::ifstream in(path, std::ios::binary);
-    if (!in) {
-      std::fprintf(stderr, "gable: '%s' could not be read\n", path.c_str());
-      return kExitFile;
-    }
-    const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    std::string text;
+    if (!readText(path, text)) return kExitFile;
     const gable::Formatted formatted = gable::format(text, path);
     if (gable::hasErrors(formatted.messages)) {
       printMessages(formatted.messages);

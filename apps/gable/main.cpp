@@ -66,6 +66,15 @@ int main(int argc, char** argv) {
   formatApp->add_flag("--stdout", format.toStdout, "Print instead of writing back");
   formatApp->callback([&] { status = runFormat(format); });
 
+  ConvertArguments convert;
+  auto* convertApp =
+      app.add_subcommand("convert", "Rewrite a grammar of another notation in Gable's language");
+  convertApp->add_option("rules", convert.rules, "The grammar: .grammar, .pg3d")->required();
+  convertApp->add_option("--dialect", convert.dialect,
+                         "Its notation, when the extension does not tell");
+  convertApp->add_option("-o,--output", convert.output, "A file, or - for stdout (default)");
+  convertApp->callback([&] { status = runConvert(convert); });
+
   RenderArguments render;
   auto* renderApp = app.add_subcommand("render", "Draw rules or a model as a picture");
   renderApp->add_option("input", render.derive.rules, "A rule file or a model (.glb .gltf .obj)")

@@ -8,7 +8,9 @@
 
 #include "base/files.h"
 #include "io/image/image.h"
+#include "io/image/patterns.h"
 #include "io/importers/asset.h"
+#include "material/builtin_textures.h"
 
 namespace gable {
 
@@ -126,6 +128,9 @@ Result<std::string> Project::texture(const std::string& path) {
     std::lock_guard lock(mutex_);
     const auto at = embedded_.find(path);
     if (at != embedded_.end()) return at->second;
+  }
+  for (size_t i = 0; i < kBuiltinTextures.size(); ++i) {
+    if (path == builtinTexturePath(i)) return encodePng(drawPattern(i), 3);
   }
   const std::string file = locate(path, "");
   if (file.empty()) {

@@ -11,6 +11,7 @@
 #include "lang/compile/compile.h"
 #include "lang/format.h"
 #include "lang/parser.h"
+#include "lang/print.h"
 #include "lang/sema/analyse.h"
 
 namespace gable {
@@ -132,6 +133,29 @@ std::vector<RuleInfo> Rules::rules() const {
 std::string Rules::startRule() const {
   const int32_t rule = impl_->program.startRule;
   return rule < 0 ? std::string() : impl_->program.rules[static_cast<size_t>(rule)].qualifiedName;
+}
+
+Converted convert(const std::string& text, const std::string& path, const std::string& name) {
+  Converted out;
+  const Result<const Dialect*> dialect = dialectFor(name, path);
+  if (!dialect.ok()) {
+    out.messages.push_back(errorMessage(dialect.error()));
+    return out;
+  }
+  Sources sources;
+  Diagnostics diagnostics;
+  const uint32_t file = sources.add(path, text);
+  if (!dialect.value()) {
+    out.text = lang::format(sources, file, diagnostics);
+  } else {
+    const lang::Tree tree = parseAs(dialect.value(), sources, file, diagnostics);
+    const uint32_t printed = sources.add("converted.cga", lang::print(tree));
+    if (!diagnostics.hasErrors()) out.text = lang::format(sources, printed, diagnostics);
+  }
+  diagnostics.sortByPlace();
+  out.messages = toMessages(diagnostics, sources);
+  if (diagnostics.hasErrors()) out.text.clear();
+  return out;
 }
 
 Formatted format(const std::string& text, const std::string& path) {

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include <cstdio>
+
+#include "commands.h"
+
+int runConvert(const ConvertArguments& arguments) {
+  std::string text;
+  if (!readText(arguments.rules, text)) return kExitFile;
+  const gable::Converted converted = gable::convert(text, arguments.rules, arguments.dialect);
+  printMessages(converted.messages);
+  if (gable::hasErrors(converted.messages)) return kExitWrong;
+  return writeText(arguments.output, converted.text);
+}

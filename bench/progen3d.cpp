@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// How fast a ProGen3d grammar becomes a scene, on one thread and without a file: bench/million.grammar
+// by the public interface, from derivation to the finished scene. Prints boxes a second (the median
+// of the runs) and bytes a box (the peak of resident memory above that before the first run).
+//
+//   bench_progen3d [--runs N] [--no-sharing] [GRAMMAR]
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "gable/gable.h"
+
+namespace {
+
+double peakBytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024;
+}
+
+// The number behind a key of the statistics.
+double statistic(const std::string& json, const char* key) {
+  const size_t at = json.find(std::string("\"") + key + "\"");
+  if (at == std::string::npos) return 0;
+  return std::atof(json.c_str() + json.find(':', at) + 1);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string path = GABLE_BENCH_DIR "/million.grammar";
+  int runs = 5;
+  gable::DeriveSettings settings;
+  settings.jobs = 1;
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--runs") == 0 && i + 1 < argc)
+      runs = std::max(1, std::atoi(argv[++i]));
+    else if (std::strcmp(argv[i], "--no-sharing") == 0)
+      settings.sharing = false;
+    else
+      path = argv[i];
+  }
+  const gable::Rules rules = gable::Rules::load(path);
+  for (const gable::Message& m : rules.messages()) std::fputs(m.pretty.c_str(), stderr);
+  if (!rules.ok()) return 1;
+  const gable::Shapes lot = gable::Shapes::lot(20, 20);
+  const double before = peakBytes();
+  double boxes = 0, bytes = 0;
+  std::vector<double> seconds;
+  for (int run = 0; run < runs; ++run) {
+    using Clock = std::chrono::steady_clock;
+    const auto begin = Clock::now();
+    const gable::Model model = gable::derive(rules, lot, settings);
+    seconds.push_back(std::chrono::duration<double>(Clock::now() - begin).count());
+    if (run == 0) bytes = peakBytes() - before;
+    boxes = statistic(model.statsJson({}), "leaves");
+    if (!model.ok()) return 1;
+  }
+  std::sort(seconds.begin(), seconds.end());
+  std::printf("%.0f boxes   %.2f M boxes/s (best %.2f)   %.0f bytes a box\n", boxes,
+              boxes / seconds[seconds.size() / 2] * 1e-6, boxes / seconds[0] * 1e-6,
+              boxes > 0 ? bytes / boxes : 0);
+  return 0;
+}

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// ProGen3d grammars (.grammar, .pg3d) as a dialect; see README.md.
+#pragma once
+
+#include "dialects/dialect.h"
+
+namespace gable {
+
+extern const Dialect kProgen3d;
+
+}  // namespace gable
