@@ -42,6 +42,8 @@ class Merger {
     }
     scene_.attributeSets.emplace_back();
     attributeNumbers_.emplace(0, 0);
+    // A single worker finishes prototypes in the order of the walk, so its leaves stay in place.
+    if (outputs.size() == 1) scene_.leaves = std::move(outputs[0].leaves);
   }
 
   void addRoot(const OutputRoot& r) {
@@ -80,10 +82,15 @@ class Merger {
     to.name = nameNumber(from.range.name);
     to.firstInstance = static_cast<uint32_t>(scene_.instances.size());
     scene_.instances.insert(scene_.instances.end(), instances.begin(), instances.end());
-    to.firstLeaf = static_cast<uint32_t>(scene_.leaves.size());
-    for (uint32_t i = 0; i < from.range.leafCount; ++i) {
-      scene_.leaves.push_back(
-          renumbered(outputs_[worker].leaves[from.range.firstLeaf + i], worker));
+    if (outputs_.size() == 1) {
+      Leaf* leaves = scene_.leaves.data() + from.range.firstLeaf;
+      for (uint32_t i = 0; i < from.range.leafCount; ++i) renumber(leaves[i], worker);
+    } else {
+      to.firstLeaf = static_cast<uint32_t>(scene_.leaves.size());
+      for (uint32_t i = 0; i < from.range.leafCount; ++i) {
+        scene_.leaves.push_back(outputs_[worker].leaves[from.range.firstLeaf + i]);
+        renumber(scene_.leaves.back(), worker);
+      }
     }
     scene_.prototypes.push_back(to);
     const auto number = static_cast<uint32_t>(scene_.prototypes.size() - 1);
@@ -92,13 +99,15 @@ class Merger {
     return number;
   }
 
-  Leaf renumbered(Leaf leaf, uint32_t worker) {
+  void renumber(Leaf& leaf, uint32_t worker) {
     if (leaf.mesh >= kFirstMesh) leaf.mesh = meshNumber(worker, leaf.mesh - kFirstMesh);
     leaf.materials = materialsNumber(worker, leaf.materials);
-    leaf.name = nameNumber(leaf.name);
-    leaf.source = sourceNumber(leaf.source);
-    leaf.attributes = attributesNumber(leaf.attributes);
-    return leaf;
+    // Neighbours often agree, which spares the look-ups.
+    if (leaf.name != lastName_.first) lastName_ = {leaf.name, nameNumber(leaf.name)};
+    leaf.name = lastName_.second;
+    if (leaf.source != lastSource_.first) lastSource_ = {leaf.source, sourceNumber(leaf.source)};
+    leaf.source = lastSource_.second;
+    if (leaf.attributes != 0) leaf.attributes = attributesNumber(leaf.attributes);
   }
 
   uint32_t meshNumber(uint32_t worker, uint32_t mesh) {
@@ -211,6 +220,8 @@ class Merger {
   std::vector<Output>& outputs_;
   const MergeInput& input_;
   std::vector<Worker> workers_;
+  /// What was asked for last, and its number.
+  std::pair<uint32_t, uint32_t> lastName_{kUnset, 0}, lastSource_{kUnset, 0};
   Scene scene_;
   std::unordered_map<ShareKey, uint32_t, ShareKeyHash> byKey_;
   std::unordered_multimap<uint64_t, uint32_t> meshNumbers_;

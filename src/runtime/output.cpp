@@ -40,6 +40,11 @@ template <class T>
 uint32_t moveTail(std::vector<T>& from, uint32_t begin, std::vector<T>& to, uint32_t& count) {
   const auto first = static_cast<uint32_t>(to.size());
   count = static_cast<uint32_t>(from.size()) - begin;
+  // A large model of one initial shape need not be copied.
+  if (begin == 0 && to.empty()) {
+    to.swap(from);
+    return 0;
+  }
   to.insert(to.end(), from.begin() + begin, from.end());
   from.resize(begin);
   return first;
