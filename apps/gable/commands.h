@@ -36,6 +36,7 @@ int runFormat(const FormatArguments& arguments);
 
 struct ConvertArguments {
   std::string rules;
+  std::string project;
   std::string dialect;
   std::string output = "-";
 };

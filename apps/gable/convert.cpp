@@ -8,7 +8,8 @@
 int runConvert(const ConvertArguments& arguments) {
   std::string text;
   if (!readText(arguments.rules, text)) return kExitFile;
-  const gable::Converted converted = gable::convert(text, arguments.rules, arguments.dialect);
+  const gable::Converted converted =
+      gable::convert(text, arguments.rules, {arguments.project, arguments.dialect});
   printMessages(converted.messages);
   if (gable::hasErrors(converted.messages)) return kExitWrong;
   return writeText(arguments.output, converted.text);

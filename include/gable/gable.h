@@ -273,15 +273,14 @@ struct Formatted {
 };
 Formatted format(const std::string& text, const std::string& path);
 
-/// Rule text of another notation (`dialect`, or by the extension of `path`) as text of Gable's own
-/// language. Both derive to the same model. Text of Gable's own language comes back formatted; with
-/// mistakes the text is empty.
+/// Rule text of another notation as text of Gable's own language. Both derive to the same model.
+/// Text of Gable's own language comes back formatted; with mistakes the text is empty.
 struct Converted {
   std::string text;
   Messages messages;
 };
 Converted convert(const std::string& text, const std::string& path,
-                  const std::string& dialect = {});
+                  const LoadOptions& options = {});
 
 /// All operations, functions, attributes and selectors with their documentation, as JSON; or of one
 /// name alone (empty when there is none).

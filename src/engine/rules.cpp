@@ -135,20 +135,22 @@ std::string Rules::startRule() const {
   return rule < 0 ? std::string() : impl_->program.rules[static_cast<size_t>(rule)].qualifiedName;
 }
 
-Converted convert(const std::string& text, const std::string& path, const std::string& name) {
+Converted convert(const std::string& text, const std::string& path, const LoadOptions& options) {
   Converted out;
-  const Result<const Dialect*> dialect = dialectFor(name, path);
+  const Result<const Dialect*> dialect = dialectFor(options.dialect, path);
   if (!dialect.ok()) {
     out.messages.push_back(errorMessage(dialect.error()));
     return out;
   }
   Sources sources;
   Diagnostics diagnostics;
-  const uint32_t file = sources.add(path, text);
+  const Project project(options.project.empty() ? Project::rootFor(path) : options.project);
+  const uint32_t file = sources.add(project.projectPath(path), text);
   if (!dialect.value()) {
     out.text = lang::format(sources, file, diagnostics);
   } else {
-    const lang::Tree tree = parseAs(dialect.value(), sources, file, diagnostics);
+    ProjectLoader loader(project);
+    const lang::Tree tree = parseAs(dialect.value(), sources, file, loader, diagnostics);
     const uint32_t printed = sources.add("converted.cga", lang::print(tree));
     if (!diagnostics.hasErrors()) out.text = lang::format(sources, printed, diagnostics);
   }
