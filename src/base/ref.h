@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Ref<T>: a counted pointer to an immutable object that many shapes share. T derives from
-// RefCounted. Copies of an empty Ref cost a test; the count is atomic, so Refs may cross threads.
+// Ref<T>: a counted pointer to an immutable object that many shapes share. Copies of an empty Ref
+// cost a test. T derives from RefCounted, whose count is atomic, so that Refs may cross threads; or
+// from LocalRefCounted when all its Refs stay on one thread at a time.
 #pragma once
 
 #include <atomic>
@@ -23,6 +24,19 @@ class RefCounted {
 
  private:
   mutable std::atomic<uint32_t> count_{0};
+};
+
+class LocalRefCounted {
+ public:
+  LocalRefCounted() = default;
+  LocalRefCounted(const LocalRefCounted&) {}
+  LocalRefCounted& operator=(const LocalRefCounted&) { return *this; }
+
+  void addRef() const { ++count_; }
+  bool dropRef() const { return --count_ == 0; }
+
+ private:
+  mutable uint32_t count_ = 0;
 };
 
 template <class T>

@@ -6,7 +6,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstring>
 #include <new>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -29,11 +31,22 @@ class SmallBuffer {
     }
     ++count_;
   }
+  void assign(std::span<const T> values) {
+    clear();
+    if (values.size() <= N) {
+      if (!values.empty()) std::memcpy(here_, values.data(), values.size_bytes());
+    } else {
+      more_.assign(values.begin(), values.end());
+    }
+    count_ = values.size();
+  }
   void clear() {
     count_ = 0;
     more_.clear();
   }
   size_t size() const { return count_; }
+  /// How many fit without allocating.
+  static constexpr size_t capacityHere() { return N; }
   bool empty() const { return count_ == 0; }
   T* begin() { return count_ <= N ? reinterpret_cast<T*>(here_) : more_.data(); }
   T* end() { return begin() + count_; }

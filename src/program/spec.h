@@ -17,6 +17,7 @@
 
 namespace gable {
 
+struct LightPart;    // shape/part.h
 class OpCall;        // shape/op_call.h
 class FunctionCall;  // shape/op_call.h
 
@@ -129,7 +130,15 @@ struct OpSpec {
   bool blockOptional = false;
   /// A name beyond the CGA reference: the author's own rule or attribute of that name wins.
   bool soft = false;
+  /// The same on a light part, for operations that can do with one; null for others. False when
+  /// this call must be done the long way, and then the part is as it was.
+  bool (*applyLight)(LightPart&, std::span<const Value>) = nullptr;
 };
+
+constexpr OpSpec withLight(OpSpec spec, bool (*applyLight)(LightPart&, std::span<const Value>)) {
+  spec.applyLight = applyLight;
+  return spec;
+}
 
 struct FunctionSpec {
   const char* name;

@@ -14,10 +14,6 @@ namespace gable {
 
 namespace {
 
-constexpr uint32_t kStackSize = 1u << 18;
-/// Room that a single rule or function may need; the compiler refuses larger expressions.
-constexpr uint32_t kStackReserve = 1u << 17;
-
 Status unusedApply(OpCall&) { return {}; }
 constexpr OpSpec kSetSpec{"set", "flow", "", {}, unusedApply};
 
@@ -60,7 +56,12 @@ std::string_view bareName(std::string_view name) {
 }  // namespace
 
 Machine::Machine(DeriveShared& shared, uint32_t worker)
-    : shared_(shared), program_(shared.program), worker_(worker), stack_(kStackSize) {
+    : shared_(shared),
+      program_(shared.program),
+      worker_(worker),
+      stackMemory_(new std::byte[kStackSize * sizeof(Value)]),
+      stack_(reinterpret_cast<Value*>(stackMemory_.get())),
+      splits_(shared.program.blocks.size()) {
   pool_ = shared.environment.pool.get();
   materials_ = &shared.environment.materials;
   attributes_ = &shared.environment.attributes;
@@ -69,6 +70,7 @@ Machine::Machine(DeriveShared& shared, uint32_t worker)
   builtinSetSpec_ = &kSetSpec;
   flat_ = !shared.options.sharing || shared.options.trace;
   collectOccluders_ = shared.collectOccluders;
+  lightPartsAllowed_ = !collectOccluders_ && !shared.options.trace;
 }
 
 Machine::~Machine() = default;
@@ -100,6 +102,7 @@ void Machine::derive(const InitialShape& input, uint32_t index) {
   salt_ = 0;
   parameters_ = stackTop_ = activationCount_ = 0;
   children_.clear();
+  pieces_.clear();
   shapeStack_.clear();
   frames_.clear();
   locals_.clear();
@@ -246,19 +249,12 @@ bool Machine::overLimit(const char* code, std::string message, std::string hint)
   return false;
 }
 
-bool Machine::countShape() {
-  ++shapes_;
-  ++shapesExpanded_;
-  return tick();
-}
-
-// Every so often: the clock, the user's wish to stop, and what all workers have made together.
-bool Machine::tick() {
+// The clock, the user's wish to stop, and what all workers have made together.
+bool Machine::rareTick() {
   if (stackNearlyFull()) {
     return overLimit("recursion-too-deep", "rules and functions call each other too deeply",
                      "end the recursion with a case");
   }
-  if ((++ticks_ & 1023) != 0) return true;
   if (options().cancel && options().cancel->load(std::memory_order_relaxed)) {
     aborted_ = true;
     return false;
@@ -291,8 +287,6 @@ bool Machine::countVertices(size_t count) {
       "the leaves have more than " + std::to_string(options().limits.vertices) + " vertices",
       "insert simpler models, or raise the limit on vertices");
 }
-
-bool Machine::stackNearlyFull() const { return stackTop_ + kStackReserve > kStackSize; }
 
 std::string_view Machine::fileOf(const Instruction& i) const {
   const Span& at = program_.spans[pcOf(&i)];

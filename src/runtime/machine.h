@@ -6,11 +6,13 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "base/small_buffer.h"
 #include "program/program.h"
 #include "runtime/array_ops.h"
 #include "runtime/context.h"
@@ -70,9 +72,12 @@ struct Activation {
   uint32_t shapeStackBase = 0;
   /// What the activation does in place, and the local values that it binds, begin here.
   uint32_t frameBase = 0, localBase = 0;
-  /// Children of a block that wait for their turn.
+  /// Children of a block that wait for their turn: in pieces_, to be made by the plan, or in
+  /// children_.
   uint32_t childBase = 0, childNext = 0, childEnd = 0;
   uint32_t block = 0;
+  bool inPieces = false;
+  PartPlan plan;
   /// The activation of the rule call that a slot belongs to (itself for a rule call), and the
   /// number of the call among its parent's children.
   uint32_t owner = 0, ordinal = 0;
@@ -144,6 +149,23 @@ class Machine final : public Services {
     Frame frame;
     uint32_t rule;
   };
+  /// A slot whose parts become leaves in a few plain steps, or go.
+  struct LightSlot {
+    bool light = false;
+    /// NIL: the parts go.
+    bool drop = false;
+    /// Rules called on the way; the slot's own rule gives the name where there is none.
+    uint8_t calls = 0;
+    /// Of the leaf: a rule of its own, or a name without one.
+    bool named = false;
+    StringId name = 0;
+    uint32_t source = 0;
+    struct Step {
+      bool (*apply)(LightPart&, std::span<const Value>);
+      std::span<const Value> args;
+    };
+    SmallBuffer<Step, 4> steps;
+  };
   enum class AttributeState : uint8_t { Unset, Busy, Known };
 
   const DeriveOptions& options() const { return shared_.options; }
@@ -152,14 +174,21 @@ class Machine final : public Services {
   void execute();
   void beginRoot(uint32_t rule);
   void beginRule(uint32_t rule, uint32_t argumentCount, const Instruction* at, bool last);
+  void becomeRule(const Instruction& i);
+  bool enterRule(Activation& a, uint32_t callerDepth, uint32_t callerTrace, const Instruction* at);
   void callRule(const Instruction& i);
   void callComputed(const Instruction& i);
   void leafInstruction(const Instruction& i);
   void endActivation();
   void resume();
   void nextChild();
+  void makeChild();
+  void makeLightParts(Activation& a);
+  bool makeLightPart(Activation& a, const SplitPiece& piece, const LightSlot& slot);
+  LightSlot lightSlot(uint32_t rule, uint32_t entry) const;
   void operation(const Instruction& i, const Value* constants);
-  void fillSplit(const BlockCode& block, const Value* values);
+  SplitBlock splitBlock(uint32_t number, const Value* values);
+  void fillBlock(uint32_t number, const Value* values, PartPlan& plan, BlockInput& input);
   void fillSelectors(const BlockCode& block, const Value* values);
   void setBuiltin(const Instruction& i, const Value& v);
   void setAttribute(const Instruction& i);
@@ -224,10 +253,19 @@ class Machine final : public Services {
 
   // Limits and messages.
   bool overLimit(const char* code, std::string message, std::string hint);
-  bool countShape();
+  bool countShape() {
+    ++shapes_;
+    ++shapesExpanded_;
+    return tick();
+  }
   bool countVertices(size_t count);
-  bool tick();
-  bool stackNearlyFull() const;
+  /// Every operation and shape: the stack's end, and now and then all that costs more to look at.
+  bool tick() {
+    if (!stackNearlyFull() && (++ticks_ & 1023) != 0) return true;
+    return rareTick();
+  }
+  bool rareTick();
+  bool stackNearlyFull() const { return stackTop_ + kStackReserve > kStackSize; }
   Span here() const;
   std::string shapePath() const;
   std::string_view fileOf(const Instruction& i) const;
@@ -252,11 +290,17 @@ class Machine final : public Services {
   std::vector<Occluder> occluders_;
 
   // The stacks. Activations are reused, so that their shapes keep no memory busy.
-  std::vector<Value> stack_;
+  static constexpr uint32_t kStackSize = 1u << 18;
+  /// Room that a single rule or function may need; the compiler refuses larger expressions.
+  static constexpr uint32_t kStackReserve = 1u << 17;
+  /// Untouched until it is used: clearing it would cost more than a small derivation.
+  std::unique_ptr<std::byte[]> stackMemory_;
+  Value* const stack_;
   uint32_t stackTop_ = 0;
   std::vector<Activation> activations_;
   uint32_t activationCount_ = 0;
-  std::vector<OpCall::Child> children_;
+  std::vector<BlockChild> children_;
+  std::vector<SplitPiece> pieces_;
   std::vector<SavedShape> shapeStack_;
   std::vector<InPlaceFrame> frames_;
   struct LocalValue {
@@ -272,7 +316,13 @@ class Machine final : public Services {
   std::vector<FunctionFrame> functions_;
   std::vector<Frame> worlds_;
   std::vector<OpenPrototype> prototypes_;
-  std::vector<SplitItem> splitItems_;
+  /// By block: the items of a split with the sizes of the last time, and its slots.
+  struct SplitState {
+    std::vector<SplitItem> items;
+    SplitMemo memo;
+    std::vector<LightSlot> slots;
+  };
+  std::vector<SplitState> splits_;
   std::vector<SelectorItem> selectorItems_;
   std::vector<SelectorTerm> selectorTerms_;
 
@@ -301,6 +351,10 @@ class Machine final : public Services {
   Output::Mark rootMark_;
   std::unordered_map<ShareKey, uint32_t, ShareKeyHash> cache_;
   bool collectOccluders_ = false;
+  /// Nobody wants to see every shape.
+  bool lightPartsAllowed_ = false;
+  /// Where the parts in progress lie: the parent's scope in the frame of the leaves.
+  Frame lightFrame_;
 };
 
 }  // namespace gable

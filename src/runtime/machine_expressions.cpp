@@ -105,7 +105,7 @@ void Machine::makeArray(const Instruction& i) {
   uint32_t total = 0;
   for (uint32_t c : counts) total += c;
   stackTop_ -= total;
-  put(buildArray({stack_.data() + stackTop_, total}, counts, pool()), i);
+  put(buildArray({stack_ + stackTop_, total}, counts, pool()), i);
 }
 
 void Machine::makeRange(const Instruction& i) {
@@ -117,14 +117,14 @@ void Machine::makeRange(const Instruction& i) {
 
 void Machine::index(const Instruction& i) {
   stackTop_ -= i.x + 1u;
-  const Value* at = stack_.data() + stackTop_;
+  const Value* at = stack_ + stackTop_;
   put(indexArray(at[0], {at + 1, i.x}, pool()), i);
 }
 
 // Shares are of 1; without an `else` (the last way) the rest does nothing.
 void Machine::choose(const Instruction& i) {
   stackTop_ -= i.y;
-  const Value* shares = stack_.data() + stackTop_;
+  const Value* shares = stack_ + stackTop_;
   const uint64_t site = hashCombine(salt_, program_.sites[pcOf(&i)]);
   const double draw = randomUnit(hashCombine(seen_->path, site));
   double sum = 0;
@@ -237,20 +237,20 @@ std::vector<Value> valuesByComponent(const std::vector<Value>& values,
 void Machine::componentValues(const Instruction& i) {
   const BlockCode& block = program_.blocks[i.y - 1u];
   stackTop_ -= block.valueCount + i.x;
-  const Value* arguments = stack_.data() + stackTop_;
+  const Value* arguments = stack_ + stackTop_;
   Shape shape = *seen_;
-  std::vector<OpCall::Child> parts;
+  std::vector<BlockChild> parts;
   std::vector<uint32_t> partOf;
-  OpCall call(*program_.operations[i.a], shape, {arguments, i.x}, *this);
-  OpCallSetup setup(call);
-  setup.previous(shape.scope, shape.size);
-  setup.site(program_.sites[pcOf(&i)]);
-  setup.file(fileOf(i));
-  setup.children(parts);
-  setup.componentChildren(partOf);
-  setup.slots(static_cast<uint32_t>(block.slots.size()));
   fillSelectors(block, arguments + i.x);
-  setup.selectors(selectorItems_);
+  BlockInput input;
+  input.selectors = selectorItems_;
+  input.slotCount = static_cast<uint32_t>(block.slots.size());
+  input.children = &parts;
+  input.componentChild = &partOf;
+  const Frame scope = shape.scope;
+  const Vec3 size = shape.size;
+  const CallPlace place{scope, size, fileOf(i), program_.sites[pcOf(&i)]};
+  OpCall call(*program_.operations[i.a], shape, {arguments, i.x}, *this, place, &input);
   instruction_ = &i;
   const Status status = call.spec().apply(call);
   if (!status.ok()) {
@@ -261,7 +261,7 @@ void Machine::componentValues(const Instruction& i) {
   const Instruction* resumeAt = pc_;
   const Shape* outer = seen_;
   std::vector<Value> values;
-  for (const OpCall::Child& part : parts) {
+  for (const BlockChild& part : parts) {
     if (aborted_ || functions_.size() >= options().limits.functionDepth) break;
     const size_t depth = functions_.size();
     functions_.push_back({resumeAt, parameters_, stackTop_, -1, outer, salt_});
@@ -303,7 +303,7 @@ void Machine::builtinAttribute(const Instruction& i) {
 
 void Machine::callBuiltin(const Instruction& i) {
   stackTop_ -= i.x;
-  FunctionCall call({stack_.data() + stackTop_, i.x}, *seen_, *this);
+  FunctionCall call({stack_ + stackTop_, i.x}, *seen_, *this);
   call.place(fileOf(i), hashCombine(salt_, program_.sites[pcOf(&i)]));
   instruction_ = &i;
   push(program_.builtinFunctions[i.a]->call(call));

@@ -28,7 +28,6 @@ bool occludes(const OpSpec& spec) {
 void Machine::execute() {
   while (activationCount_ > 0 && !aborted_) {
     const Instruction& i = *pc_++;
-    if (evaluate(i)) continue;
     switch (i.code) {
       case Code::Operation: operation(i, nullptr); break;
       case Code::OperationConstant: operation(i, &program_.constants[(pc_++)->a]); break;
@@ -50,12 +49,13 @@ void Machine::execute() {
       case Code::BeginLocals: beginLocals(); break;
       case Code::Bind: bind(i.a, pop()); break;
       case Code::EndLocals: endLocals(); break;
-      default:
+      case Code::End:
         if (frames_.size() > current().frameBase)
           endInPlace();
         else
           endActivation();
         break;
+      default: evaluate(i); break;
     }
   }
 }
@@ -67,7 +67,6 @@ Activation& Machine::pushActivation() {
 
 void Machine::beginRule(uint32_t rule, uint32_t argumentCount, const Instruction* at, bool last) {
   if (!countShape()) return;
-  const RuleCode& code = program_.rules[rule];
   const uint32_t callerIndex = activationCount_ - 1;
   Activation& a = pushActivation();
   Activation& caller = activations_[callerIndex];
@@ -86,7 +85,6 @@ void Machine::beginRule(uint32_t rule, uint32_t argumentCount, const Instruction
     a.shape = std::move(caller.shape);
   else
     a.shape = caller.shape;
-  a.shape.path = hashCombine(a.shape.path, program_.sites[pcOf(at)]);
   a.rule = rule;
   a.stackBase = stackTop_ - argumentCount;
   a.parameters = a.stackBase;
@@ -94,11 +92,36 @@ void Machine::beginRule(uint32_t rule, uint32_t argumentCount, const Instruction
   a.frameBase = static_cast<uint32_t>(frames_.size());
   a.localBase = static_cast<uint32_t>(locals_.size());
   a.childBase = a.childNext = a.childEnd = 0;
+  a.ordinal = activations_[caller.owner].childCount++;
+  if (enterRule(a, caller.depth, caller.traceNode, at)) return;
+  stackTop_ = a.stackBase;
+  --activationCount_;
+}
+
+// A slot that ends with a rule call has nothing left to do when the rule ends: its activation
+// becomes the rule's, with the shape where it is.
+void Machine::becomeRule(const Instruction& i) {
+  if (!countShape()) return;
+  Activation& a = current();
+  a.rule = i.a;
+  a.parameters = stackTop_ - i.x;
+  a.ordinal = activations_[a.owner].childCount++;
+  if (enterRule(a, a.depth, a.traceNode, &i)) return;
+  stackTop_ = a.stackBase;
+  --activationCount_;
+  resume();
+}
+
+// Sets an activation that has its shape, its rule and its place on the stacks to the rule's
+// beginning. False when the cache had the result: the call is over before it began.
+bool Machine::enterRule(Activation& a, uint32_t callerDepth, uint32_t callerTrace,
+                        const Instruction* at) {
+  const RuleCode& code = program_.rules[a.rule];
+  a.shape.path = hashCombine(a.shape.path, program_.sites[pcOf(at)]);
   a.made = 0;
   a.childCount = 0;
   a.owner = activationCount_ - 1;
-  a.ordinal = activations_[caller.owner].childCount++;
-  a.depth = caller.depth + 1;
+  a.depth = callerDepth + 1;
   a.slot = false;
   a.boundary = false;
   a.traceNode = TraceNode::kNone;
@@ -107,15 +130,10 @@ void Machine::beginRule(uint32_t rule, uint32_t argumentCount, const Instruction
               "rules call each other more than " + std::to_string(options().limits.depth) +
                   " levels deep, at last '" + code.qualifiedName + "'",
               "end the recursion with a case, or raise the limit on depth");
-    return;
+    return true;
   }
-  if (options().trace) traceShape(a, caller.traceNode, at);
-  if (code.shared && beginShared(code, a)) {
-    // The cache had the result: the call is over before it began.
-    stackTop_ = a.stackBase;
-    --activationCount_;
-    return;
-  }
+  if (options().trace) traceShape(a, callerTrace, at);
+  if (code.shared && beginShared(code, a)) return false;
   if (code.needsPrevious) {
     a.previousScope = a.shape.scope;
     a.previousSize = a.shape.size;
@@ -123,13 +141,17 @@ void Machine::beginRule(uint32_t rule, uint32_t argumentCount, const Instruction
   seen_ = &a.shape;
   parameters_ = a.parameters;
   pc_ = program_.code.data() + code.entry;
+  return true;
 }
 
 void Machine::callRule(const Instruction& i) {
   const Activation& a = current();
   const bool last = pc_->code == Code::End && shapeStack_.size() == a.shapeStackBase &&
                     frames_.size() == a.frameBase;
-  beginRule(i.a, i.x, &i, last);
+  if (last && a.slot)
+    becomeRule(i);
+  else
+    beginRule(i.a, i.x, &i, last);
 }
 
 void Machine::callComputed(const Instruction& i) {
@@ -174,21 +196,36 @@ void Machine::resume() {
   seen_ = &a.shape;
   parameters_ = a.parameters;
   pc_ = a.pc;
-  if (a.childNext < a.childEnd) {
-    nextChild();
-  } else if (a.childEnd > a.childBase) {
-    children_.erase(children_.begin() + a.childBase, children_.end());
-    a.childBase = a.childNext = a.childEnd = 0;
-  }
+  if (a.childEnd > a.childBase) nextChild();
 }
 
+// Goes on with the children of a block, or with the rule when there are none left.
 void Machine::nextChild() {
+  Activation& a = current();
+  if (a.inPieces) makeLightParts(a);
+  if (a.childNext < a.childEnd) return makeChild();
+  if (a.inPieces)
+    pieces_.resize(a.childBase);
+  else
+    children_.erase(children_.begin() + a.childBase, children_.end());
+  a.childBase = a.childNext = a.childEnd = 0;
+}
+
+void Machine::makeChild() {
   const uint32_t parentIndex = activationCount_ - 1;
   Activation& a = pushActivation();
   Activation& parent = activations_[parentIndex];
-  OpCall::Child& child = children_[parent.childNext++];
-  const BlockCode& block = program_.blocks[parent.block];
-  a.shape = std::move(child.shape);
+  const uint32_t number = parent.childNext++;
+  uint32_t slot;
+  if (parent.inPieces) {
+    const SplitPiece& piece = pieces_[number];
+    slot = piece.slot;
+    makePart(parent.shape, parent.plan, piece, parent.plan.first + number - parent.childBase,
+             a.shape);
+  } else {
+    slot = children_[number].slot;
+    a.shape = std::move(children_[number].shape);
+  }
   a.rule = parent.rule;
   a.stackBase = stackTop_;
   a.parameters = parent.parameters;
@@ -208,7 +245,7 @@ void Machine::nextChild() {
   }
   seen_ = &a.shape;
   parameters_ = a.parameters;
-  pc_ = program_.code.data() + block.slots[child.slot];
+  pc_ = program_.code.data() + program_.blocks[parent.block].slots[slot];
 }
 
 // NIL: the shape goes, and nothing after it runs. What it had made before stays.
@@ -222,24 +259,35 @@ void Machine::dropShape() {
   endActivation();
 }
 
-void Machine::fillSplit(const BlockCode& block, const Value* values) {
-  splitItems_.clear();
+// The items of a block are kept from one time to the next; what was divided by the same sizes is
+// known as long as they stay the same.
+SplitBlock Machine::splitBlock(uint32_t number, const Value* values) {
+  const BlockCode& block = program_.blocks[number];
+  SplitState& state = splits_[number];
   const bool fixed = !block.constantSizes.empty();
-  size_t next = 0;
-  for (const BlockItem& item : block.items) {
-    SplitItem s;
-    s.group = item.group;
-    s.repeat = item.repeat;
-    s.length = item.length;
-    s.slot = item.slot;
-    if (!item.group) {
-      const Value& v = fixed ? block.constantSizes[next] : values[next];
-      s.size = v.number;
-      s.unit = v.unit;
-      ++next;
+  const bool fresh = state.items.empty();
+  if (fresh) {
+    for (const BlockItem& item : block.items) {
+      SplitItem s;
+      s.group = item.group;
+      s.repeat = item.repeat;
+      s.length = item.length;
+      s.slot = item.slot;
+      state.items.push_back(s);
     }
-    splitItems_.push_back(s);
   }
+  if (fresh || !fixed) {
+    const Value* v = fixed ? block.constantSizes.data() : values;
+    for (SplitItem& s : state.items) {
+      if (s.group) continue;
+      // Written so that what is no number counts as changed.
+      if (!(s.size == v->number) || s.unit != v->unit) state.memo.known = false;
+      s.size = v->number;
+      s.unit = v->unit;
+      ++v;
+    }
+  }
+  return {state.items, block.repeat, &state.memo};
 }
 
 void Machine::fillSelectors(const BlockCode& block, const Value* values) {
@@ -266,6 +314,21 @@ void Machine::fillSelectors(const BlockCode& block, const Value* values) {
   }
 }
 
+void Machine::fillBlock(uint32_t number, const Value* values, PartPlan& plan, BlockInput& input) {
+  const BlockCode& block = program_.blocks[number];
+  input.children = &children_;
+  input.pieces = &pieces_;
+  input.plan = &plan;
+  input.slotCount = static_cast<uint32_t>(block.slots.size());
+  input.preferredSizes = block.preferredSizes;
+  if (block.kind == BlockKind::Split) {
+    input.split = splitBlock(number, values);
+  } else if (block.kind == BlockKind::Selectors) {
+    fillSelectors(block, values);
+    input.selectors = selectorItems_;
+  }
+}
+
 void Machine::operation(const Instruction& i, const Value* constants) {
   if (!tick()) return;
   Activation& a = current();
@@ -274,30 +337,19 @@ void Machine::operation(const Instruction& i, const Value* constants) {
   const uint32_t blockValues = block ? block->valueCount : 0;
   const uint32_t argumentsOnStack = constants ? 0 : i.x;
   stackTop_ -= blockValues + argumentsOnStack;
-  const Value* stack = stack_.data() + stackTop_;
+  const Value* stack = stack_ + stackTop_;
   const Value* arguments = constants ? constants : stack;
   const Value* blockStart = stack + argumentsOnStack;
 
-  OpCall call(spec, a.shape, {arguments, i.x}, *this);
-  OpCallSetup setup(call);
-  setup.previous(a.previousScope, a.previousSize);
-  setup.site(program_.sites[pcOf(&i)]);
-  setup.file(program_.files[program_.rules[a.rule].file]);
-  setup.children(children_);
-  if (block) {
-    setup.slots(static_cast<uint32_t>(block->slots.size()));
-    setup.preferredSizes(block->preferredSizes);
-    if (block->kind == BlockKind::Split) {
-      fillSplit(*block, blockStart);
-      setup.split({splitItems_, block->repeat});
-    } else if (block->kind == BlockKind::Selectors) {
-      fillSelectors(*block, blockStart);
-      setup.selectors(selectorItems_);
-    }
-  }
   if (isDeformed(a.shape) && (spec.effects & kTakesDeformed) == 0) bakeDeformation(a.shape);
+  const CallPlace place{a.previousScope, a.previousSize, program_.files[program_.rules[a.rule].file],
+                        program_.sites[pcOf(&i)]};
+  BlockInput input;
+  if (block) fillBlock(i.y - 1u, blockStart, a.plan, input);
+  OpCall call(spec, a.shape, {arguments, i.x}, *this, place, block ? &input : nullptr);
   if (collectOccluders_ && occludes(spec)) addOccluder(0, a.shape);
   const auto childBase = static_cast<uint32_t>(children_.size());
+  const auto pieceBase = static_cast<uint32_t>(pieces_.size());
   instruction_ = &i;
   const Status status = spec.apply(call);
   if (!status.ok()) {
@@ -306,24 +358,24 @@ void Machine::operation(const Instruction& i, const Value* constants) {
     // Without its parts the shape itself stays as a leaf, so that nothing is lost.
     return;
   }
-  if (setup.dropped()) {
+  if (call.dropped()) {
     dropShape();
     return;
   }
   if (!block) return;
   ++a.made;
-  const auto childEnd = static_cast<uint32_t>(children_.size());
-  if (childEnd - childBase > options().limits.width) {
+  a.inPieces = pieces_.size() > pieceBase;
+  a.childBase = a.childNext = a.inPieces ? pieceBase : childBase;
+  a.childEnd = static_cast<uint32_t>(a.inPieces ? pieces_.size() : children_.size());
+  const uint32_t count = a.childEnd - a.childBase;
+  if (count > options().limits.width) {
     overLimit("too-many-children",
-              "'" + std::string(spec.name) + "' makes " + std::to_string(childEnd - childBase) +
-                  " shapes of one",
+              "'" + std::string(spec.name) + "' makes " + std::to_string(count) + " shapes of one",
               "use larger sizes, or raise the limit on width");
     return;
   }
-  if (childEnd == childBase) return;
+  if (count == 0) return;
   a.block = static_cast<uint32_t>(i.y - 1);
-  a.childBase = a.childNext = childBase;
-  a.childEnd = childEnd;
   a.pc = pc_;
   nextChild();
 }
@@ -333,7 +385,8 @@ void Machine::makeLeaf(Activation& a, StringId name, uint32_t source) {
   const Shape& s = a.shape;
   if (options().trace) traceLeaf(a, name, source);
   if (s.geometry.kind == GeometryKind::None) return;
-  Leaf leaf;
+  if (s.geometry.kind == GeometryKind::Mesh && s.geometry.mesh->empty()) return;
+  Leaf& leaf = output_.openLeaves.emplace_back();
   leaf.frame = flat_ ? worlds_.back() * s.scope : s.scope;
   leaf.scale = s.size;
   switch (s.geometry.kind) {
@@ -341,18 +394,16 @@ void Machine::makeLeaf(Activation& a, StringId name, uint32_t source) {
     case GeometryKind::QuadXy: leaf.mesh = s.geometry.uv ? kUnitQuadXyUv : kUnitQuadXy; break;
     case GeometryKind::QuadXz: leaf.mesh = s.geometry.uv ? kUnitQuadXzUv : kUnitQuadXz; break;
     default: {
-      if (s.geometry.mesh->empty()) return;
       leaf.mesh = kFirstMesh + output_.meshNumber(s.geometry.mesh);
       const Vec3& ref = s.geometry.refSize;
       for (size_t k = 0; k < 3; ++k) leaf.scale[k] = ref[k] != 0 ? s.size[k] / ref[k] : 1;
-      if (!countVertices(s.geometry.mesh->positions.size())) return;
+      countVertices(s.geometry.mesh->positions.size());
     }
   }
   leaf.materials = output_.materialNumber(s.material, s.assetMaterials);
   leaf.name = name;
   leaf.source = source;
   leaf.attributes = s.attributes;
-  output_.openLeaves.push_back(leaf);
   if (collectOccluders_) addOccluder(0, s);
 }
 
@@ -384,13 +435,11 @@ void Machine::setAttribute(const Instruction& i) {
 }
 
 void Machine::setBuiltin(const Instruction& i, const Value& v) {
-  const OpSpec* set = builtinSetSpec_;
   Activation& a = current();
   if (isDeformed(a.shape)) bakeDeformation(a.shape);
-  OpCall call(*set, a.shape, {&v, 1}, *this);
-  OpCallSetup setup(call);
-  setup.previous(a.previousScope, a.previousSize);
-  setup.file(program_.files[program_.rules[a.rule].file]);
+  const CallPlace place{a.previousScope, a.previousSize,
+                        program_.files[program_.rules[a.rule].file]};
+  OpCall call(*builtinSetSpec_, a.shape, {&v, 1}, *this, place);
   instruction_ = &i;
   const Status status = program_.builtinAttributes[i.a]->set(call, v);
   if (!status.ok()) warn(status.code(), status.message(), status.hint());

@@ -47,8 +47,7 @@ void addExtra(KeyHash& h, const ShapeExtra& extra) {
     h.add(uint64_t{t.horizontal});
   }
   for (const UvProjection& p : extra.projections) {
-    h.add(uint64_t{p.present});
-    if (!p.present) continue;
+    h.add(static_cast<uint64_t>(p.set) + 1);
     h.add(p.frame);
     for (double v : {p.width, p.height, p.offsetU, p.offsetV, p.uwFactor}) h.add(v);
   }
@@ -88,9 +87,7 @@ ShapeExtra localExtra(const ShapeExtra& extra, const Frame& outer) {
     t.normal = onGrid(outer.toLocalDirection(t.normal), kDirectionGrid);
   }
   const Frame inward = inverse(outer);
-  for (UvProjection& p : out.projections) {
-    if (p.present) p.frame = withoutNoise(inward * p.frame);
-  }
+  for (UvProjection& p : out.projections) p.frame = withoutNoise(inward * p.frame);
   return out;
 }
 

@@ -116,9 +116,7 @@ void bakeDeformation(Shape& s) {
   }
   extra.deformed = false;
   extra.deformation = {};
-  const bool empty =
-      extra.trim.empty() && std::none_of(extra.projections.begin(), extra.projections.end(),
-                                         [](const UvProjection& p) { return p.present; });
+  const bool empty = extra.trim.empty() && extra.projections.empty();
   s.extra = empty ? Ref<ShapeExtra>() : makeRef<ShapeExtra>(extra);
 }
 

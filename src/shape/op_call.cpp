@@ -8,16 +8,31 @@ namespace gable {
 double component(const Vec3& v, Axis a) { return v[static_cast<size_t>(a)]; }
 
 void OpCall::emit(Shape child, uint32_t slot, uint32_t piece) {
-  child.path = hashCombine(hashCombine(shape_.path, site_), uint64_t{slot} << 32 | piece);
-  children_->push_back({std::move(child), slot});
+  child.path = hashCombine(hashCombine(shape_.path, place_.site), uint64_t{slot} << 32 | piece);
+  block_->children->push_back({std::move(child), slot});
 }
 
-Shape& OpCall::emitCopy(uint32_t slot, uint32_t piece) {
-  Child& child = children_->emplace_back();
-  child.shape = shape_;
-  child.slot = slot;
-  child.shape.path = hashCombine(hashCombine(shape_.path, site_), uint64_t{slot} << 32 | piece);
-  return child.shape;
+void OpCall::emitParts(Axis axis, bool flatten, std::span<const SplitPiece> pieces) {
+  const GeometryKind kind = shape_.geometry.kind;
+  const bool square = (kind == GeometryKind::QuadXy && axis == Axis::Z) ||
+                      (kind == GeometryKind::QuadXz && axis == Axis::Y);
+  PartPlan plan{axis, square && flatten, static_cast<uint32_t>(pieces.size()), 0,
+                hashCombine(shape_.path, place_.site)};
+  if (square) {
+    // A rectangle lies in the plane 0 of the axis that is square to it.
+    while (plan.first < pieces.size() && pieces[plan.first].start != 0) ++plan.first;
+    pieces = pieces.subspan(plan.first, plan.first < pieces.size() ? 1 : 0);
+  }
+  if (block_->pieces) {
+    *block_->plan = plan;
+    block_->pieces->insert(block_->pieces->end(), pieces.begin(), pieces.end());
+    return;
+  }
+  for (uint32_t i = 0; i < pieces.size(); ++i) {
+    BlockChild& child = block_->children->emplace_back();
+    child.slot = pieces[i].slot;
+    makePart(shape_, plan, pieces[i], plan.first + i, child.shape);
+  }
 }
 
 Value FunctionCall::fail(const char* code, std::string message, std::string hint,

@@ -18,6 +18,7 @@
 #include "base/status.h"
 #include "program/spec.h"
 #include "program/value.h"
+#include "shape/part.h"
 #include "shape/services.h"
 #include "shape/shape.h"
 
@@ -35,11 +36,20 @@ struct SplitItem {
   uint32_t length = 0;
 };
 
+/// The last division by a block's sizes, for whoever divides an equal length next.
+struct SplitMemo {
+  bool known = false;
+  double whole = 0;
+  std::vector<SplitPiece> pieces;
+};
+
 /// The evaluated braces after a split-like operation, flattened in order of writing.
 struct SplitBlock {
   std::span<const SplitItem> items;
   /// A * after the closing brace.
   bool repeat = false;
+  /// May be null. What it knows was made with equal items.
+  SplitMemo* memo = nullptr;
 };
 
 /// How a selector item spreads what it selects: `:` one shape each, `=` all in one, `=:` one for
@@ -62,21 +72,56 @@ struct SelectorItem {
   uint32_t slot = 0;
 };
 
-/// An axis of the scope, for the relative sizes of arguments.
-enum class Axis : uint8_t { X, Y, Z };
 double component(const Vec3& v, Axis a);
+
+/// A child shape and the block slot that works on it.
+struct BlockChild {
+  Shape shape;
+  uint32_t slot = 0;
+};
+
+/// The braces after an operation: what stands in them, and where the children go.
+struct BlockInput {
+  SplitBlock split;
+  std::span<const SelectorItem> selectors;
+  /// Of a block of operations or operands.
+  uint32_t slotCount = 0;
+  /// By slot; see OpCall::preferredSize. May be shorter.
+  std::span<const std::array<double, 3>> preferredSizes;
+  std::vector<BlockChild>* children = nullptr;
+  /// Where emitParts leaves its pieces and its plan, for the parts to be made later. When null they
+  /// are made at once and become children.
+  std::vector<SplitPiece>* pieces = nullptr;
+  PartPlan* plan = nullptr;
+  /// For each component the child that it went to, kNoChild for those not selected. May be null.
+  std::vector<uint32_t>* componentChild = nullptr;
+  static constexpr uint32_t kNoChild = 0xffffffff;
+};
+
+/// Where an operation is called from.
+struct CallPlace {
+  /// The scope of the shape below on the shape stack.
+  const Frame& previousScope;
+  const Vec3& previousSize;
+  /// The rule file, for asset paths.
+  std::string_view file;
+  /// Part of the address of random draws.
+  uint64_t site = 0;
+};
 
 class OpCall {
  public:
-  OpCall(const OpSpec& spec, Shape& shape, std::span<const Value> args, Services& services)
-      : spec_(spec), shape_(shape), args_(args), services_(services) {}
+  /// `block` may be null for operations without one.
+  OpCall(const OpSpec& spec, Shape& shape, std::span<const Value> args, Services& services,
+         const CallPlace& place, BlockInput* block = nullptr)
+      : spec_(spec), shape_(shape), args_(args), services_(services), place_(place), block_(block) {}
 
   const OpSpec& spec() const { return spec_; }
   Shape& shape() { return shape_; }
   /// The scope of the shape below on the shape stack: that of the shape when its rule, its block
   /// slot or its bracket began.
-  const Frame& previousScope() const { return *previousScope_; }
-  const Vec3& previousSize() const { return *previousSize_; }
+  const Frame& previousScope() const { return place_.previousScope; }
+  const Vec3& previousSize() const { return place_.previousSize; }
 
   // Arguments. Types have been checked against the signature; text and defaults are the callee's.
   size_t argCount() const { return args_.size(); }
@@ -96,97 +141,60 @@ class OpCall {
   bool truth(size_t i, bool otherwise) const { return has(i) ? args_[i].truth() : otherwise; }
 
   // The block.
-  const SplitBlock& splitBlock() const { return splitBlock_; }
-  std::span<const SelectorItem> selectors() const { return selectors_; }
+  SplitBlock splitBlock() const { return block_ ? block_->split : SplitBlock{}; }
+  std::span<const SelectorItem> selectors() const {
+    return block_ ? block_->selectors : std::span<const SelectorItem>{};
+  }
   /// The number of slots of a block of operations or operands (0 without a block).
-  uint32_t slotCount() const { return slotCount_; }
+  uint32_t slotCount() const { return block_ ? block_->slotCount : 0; }
 
   /// The size that what comes of a slot is meant to have; 0 along an axis for any.
   Vec3 preferredSize(uint32_t slot) const {
-    if (slot >= preferredSizes_.size()) return {};
-    const std::array<double, 3>& p = preferredSizes_[slot];
+    if (!block_ || slot >= block_->preferredSizes.size()) return {};
+    const std::array<double, 3>& p = block_->preferredSizes[slot];
     return {p[0], p[1], p[2]};
   }
 
   /// Gives out a child for a block slot. Its address for randomness is derived from shape().path,
   /// the slot and `piece`, which must differ among children of one slot.
   void emit(Shape child, uint32_t slot, uint32_t piece);
-  /// The same for a child that is much like shape(): gives out a copy of it, to be edited in place
-  /// before the next one is given out.
-  Shape& emitCopy(uint32_t slot, uint32_t piece);
+  /// Gives out the parts of shape(), a box or a rectangle without uv coordinates, along an axis.
+  /// With `flatten` a rectangle has no extent square to its plane afterwards.
+  void emitParts(Axis axis, bool flatten, std::span<const SplitPiece> pieces);
   /// For component splits, which run as a function too: says how many components there are, and
   /// that one of them is in the child given out last.
   void countComponents(size_t count) {
-    if (componentChild_) componentChild_->assign(count, kNoChild);
+    if (block_->componentChild) block_->componentChild->assign(count, BlockInput::kNoChild);
   }
   void placeComponent(size_t component) {
-    if (componentChild_)
-      (*componentChild_)[component] = static_cast<uint32_t>(children_->size() - 1);
+    if (block_->componentChild)
+      (*block_->componentChild)[component] = static_cast<uint32_t>(block_->children->size() - 1);
   }
-  static constexpr uint32_t kNoChild = 0xffffffff;
   /// Deletes the shape (NIL): nothing after the operation runs.
   void drop() { dropped_ = true; }
+  bool dropped() const { return dropped_; }
 
   Services& services() const { return services_; }
   const Frame& world() const { return services_.world(); }
   /// The rule file of the instruction, for asset paths.
-  std::string_view file() const { return file_; }
+  std::string_view file() const { return place_.file; }
   /// The address of the k-th draw of this call.
   uint64_t randomAddress(uint64_t k) const {
-    return hashCombine(hashCombine(shape_.path, site_), k);
+    return hashCombine(hashCombine(shape_.path, place_.site), k);
   }
 
   Status fail(const char* code, std::string message, std::string hint = {}) const {
     return Status::failure(code, std::move(message), std::move(hint));
   }
 
-  struct Child {
-    Shape shape;
-    uint32_t slot;
-  };
-
  private:
-  friend class OpCallSetup;
   const OpSpec& spec_;
   Shape& shape_;
   std::span<const Value> args_;
   Services& services_;
-  const Frame* previousScope_ = nullptr;
-  const Vec3* previousSize_ = nullptr;
-  SplitBlock splitBlock_;
-  std::span<const SelectorItem> selectors_;
-  uint32_t slotCount_ = 0;
-  std::span<const std::array<double, 3>> preferredSizes_;
-  std::vector<Child>* children_ = nullptr;
-  std::vector<uint32_t>* componentChild_ = nullptr;
+  const CallPlace& place_;
+  BlockInput* block_;
   bool dropped_ = false;
-  uint64_t site_ = 0;
-  std::string_view file_;
-};
-
-/// For the runtime and for tests: fills in what an OpCall cannot get from its constructor.
-class OpCallSetup {
- public:
-  explicit OpCallSetup(OpCall& call) : call_(call) {}
-  void previous(const Frame& scope, const Vec3& size) {
-    call_.previousScope_ = &scope;
-    call_.previousSize_ = &size;
-  }
-  void split(const SplitBlock& b) { call_.splitBlock_ = b; }
-  void selectors(std::span<const SelectorItem> items) { call_.selectors_ = items; }
-  void slots(uint32_t count) { call_.slotCount_ = count; }
-  void preferredSizes(std::span<const std::array<double, 3>> sizes) {
-    call_.preferredSizes_ = sizes;
-  }
-  void children(std::vector<OpCall::Child>& out) { call_.children_ = &out; }
-  /// For each component the child that it went to, kNoChild for those not selected.
-  void componentChildren(std::vector<uint32_t>& out) { call_.componentChild_ = &out; }
-  void site(uint64_t site) { call_.site_ = site; }
-  void file(std::string_view file) { call_.file_ = file; }
-  bool dropped() const { return call_.dropped_; }
-
- private:
-  OpCall& call_;
 };
 
 class FunctionCall {

@@ -273,6 +273,22 @@ void setInitialGeometry(Shape& s, const Mesh& mesh) {
   s.pivot = s.scope;
 }
 
+const UvProjection* ShapeExtra::projection(int set) const {
+  for (const UvProjection& p : projections) {
+    if (p.set == set) return &p;
+  }
+  return nullptr;
+}
+
+void ShapeExtra::setProjection(const UvProjection& p) {
+  const auto at = std::lower_bound(projections.begin(), projections.end(), p.set,
+                                   [](const UvProjection& q, int set) { return q.set < set; });
+  if (at != projections.end() && at->set == p.set)
+    *at = p;
+  else
+    projections.insert(at, p);
+}
+
 ShapeExtra extraOf(const Shape& s) { return s.extra ? *s.extra : ShapeExtra{}; }
 
 GeometryCounts countsOf(const Geometry& g) {

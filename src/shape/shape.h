@@ -95,7 +95,7 @@ struct TrimPlane {
 /// A prepared planar projection (setupProjection), in the frame of the shape that carries it:
 /// u = dot(p - origin, frame.x) / width + offsetU, v likewise with y; uwFactor adds dot(.., z).
 struct UvProjection {
-  bool present = false;
+  int set = 0;
   Frame frame;
   double width = 1, height = 1, offsetU = 0, offsetV = 0, uwFactor = 0;
 };
@@ -111,12 +111,18 @@ struct Deformation {
   bool operator==(const Deformation&) const = default;
 };
 
-/// What few shapes carry. Immutable once shared; frames as the shape's.
-struct ShapeExtra : RefCounted {
+/// What few shapes carry. Immutable once shared; frames as the shape's. Never leaves its worker.
+struct ShapeExtra : LocalRefCounted {
   std::vector<TrimPlane> trim;
-  std::array<UvProjection, kUvSets> projections;
   bool deformed = false;
   Deformation deformation;
+  /// By uv set, those that have one.
+  std::vector<UvProjection> projections;
+
+  /// Null where the set has none.
+  const UvProjection* projection(int set) const;
+  /// Takes the place of the set's former one.
+  void setProjection(const UvProjection& p);
 };
 
 struct IndexInfo {

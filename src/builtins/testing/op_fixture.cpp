@@ -307,7 +307,7 @@ Shape meshShape(Mesh mesh) {
 
 std::vector<Shape> Ran::of(uint32_t slot) const {
   std::vector<Shape> out;
-  for (const OpCall::Child& c : children) {
+  for (const BlockChild& c : children) {
     if (c.slot == slot) out.push_back(c.shape);
   }
   return out;
@@ -360,17 +360,16 @@ Ran Op::on(const Shape& shape, FakeServices& services) const {
 
   Ran ran;
   ran.shape = shape;
-  OpCall call(*spec, ran.shape, values, services);
-  OpCallSetup setup(call);
-  setup.previous(hasPrevious_ ? previousScope_ : shape.scope,
-                 hasPrevious_ ? previousSize_ : shape.size);
-  setup.split({items, repeat_});
-  setup.selectors(selectors);
-  setup.slots(slotCount);
-  setup.children(ran.children);
-  setup.file("rules/test.cga");
+  BlockInput input;
+  input.split = {items, repeat_};
+  input.selectors = selectors;
+  input.slotCount = slotCount;
+  input.children = &ran.children;
+  const CallPlace place{hasPrevious_ ? previousScope_ : shape.scope,
+                        hasPrevious_ ? previousSize_ : shape.size, "rules/test.cga"};
+  OpCall call(*spec, ran.shape, values, services, place, &input);
   ran.status = spec->apply(call);
-  ran.dropped = setup.dropped();
+  ran.dropped = call.dropped();
   return ran;
 }
 

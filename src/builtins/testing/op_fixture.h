@@ -144,7 +144,7 @@ Shape emptyShape(const Vec3& size);
 struct Ran {
   Status status;
   Shape shape;
-  std::vector<OpCall::Child> children;
+  std::vector<BlockChild> children;
   bool dropped = false;
 
   /// The children of a slot, in order.

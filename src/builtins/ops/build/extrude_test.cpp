@@ -148,7 +148,7 @@ TEST(Extrude, sidesOfAnyPolygonAreRectangles) {
   const Ran ran = Op("extrude").args(3.1).on(s, services);
   const Ran faces = Op("comp").args(word("f")).select({"side"}).on(ran.shape, services);
   ASSERT_EQ(faces.children.size(), 5u);
-  for (const OpCall::Child& c : faces.children) {
+  for (const BlockChild& c : faces.children) {
     EXPECT_EQ(c.shape.geometry.kind, GeometryKind::QuadXy);
     EXPECT_NEAR(c.shape.size.y, 3.1, 1e-9);
     EXPECT_NEAR(c.shape.scope.y.y, 1, 1e-12);

@@ -114,7 +114,7 @@ TEST(Scatter, pointsLieInTheirDomain) {
   const Ran surface = Op("scatter").args(word("surface"), 300, word("uniform")).on(l, services);
   ASSERT_EQ(surface.children.size(), 300u);
   size_t lower = 0;
-  for (const OpCall::Child& c : surface.children) {
+  for (const BlockChild& c : surface.children) {
     const Vec3 p = c.shape.scope.origin;
     EXPECT_EQ(c.shape.size, Vec3{});
     EXPECT_TRUE(p.x <= 4.0001 || -p.z <= 4.0001);
@@ -125,7 +125,7 @@ TEST(Scatter, pointsLieInTheirDomain) {
   EXPECT_NEAR(static_cast<double>(lower) / 300, 2. / 3, 0.1);
   Shape roof = Op("roofHip").args(45).on(l, services).shape;
   const Ran volume = Op("scatter").args(word("volume"), 100, word("uniform")).on(roof, services);
-  for (const OpCall::Child& c : volume.children) {
+  for (const BlockChild& c : volume.children) {
     const Vec3 p = c.shape.scope.origin;
     EXPECT_TRUE(p.y >= 0 && p.y <= std::min({p.x, -p.z, 8 - p.x, 8 + p.z}) + 1e-9);
   }
@@ -138,7 +138,7 @@ TEST(Scatter, gaussianClustersAboutItsMean) {
                       .on(boxShape({10, 10, 10}), services);
   ASSERT_EQ(ran.children.size(), 400u);
   double x = 0, z = 0;
-  for (const OpCall::Child& c : ran.children) {
+  for (const BlockChild& c : ran.children) {
     x += c.shape.scope.origin.x / 400;
     z += c.shape.scope.origin.z / 400;
     EXPECT_GE(c.shape.scope.origin.x, 0);
@@ -176,7 +176,7 @@ TEST(SplitArea, partsHaveTheirAreas) {
   EXPECT_EQ(ran.children[2].shape.split.total, 3u);
   const Ran fifths = Op("splitArea").args(word("z")).split({relative(0.2)}, true).on(l, services);
   ASSERT_EQ(fifths.children.size(), 5u);
-  for (const OpCall::Child& c : fifths.children) {
+  for (const BlockChild& c : fifths.children) {
     EXPECT_NEAR(meshInLocal(c.shape).area(), 48 / 5., 1e-6);
   }
   EXPECT_STREQ(Op("splitArea").args(word("y")).split({1}).on(l, services).status.code(),

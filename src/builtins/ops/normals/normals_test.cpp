@@ -114,14 +114,16 @@ TEST(ResetGeometry, bringsTheInitialShapeBack) {
   s.scope.origin = {1, 2, 3};
   ShapeExtra extra;
   extra.trim.push_back({{0, 1, 0}, 0, false});
-  extra.projections[2].present = true;
+  UvProjection projection;
+  projection.set = 2;
+  extra.setProjection(projection);
   s.extra = makeRef<ShapeExtra>(std::move(extra));
   const Shape r = Op("resetGeometry").on(s, services).shape;
   EXPECT_EQ(r.geometry.kind, GeometryKind::QuadXz);
   EXPECT_EQ(r.size, (Vec3{7, 0, 8}));
   EXPECT_EQ(r.material, 5u);
   EXPECT_TRUE(r.extra->trim.empty());
-  EXPECT_TRUE(r.extra->projections[2].present);
+  EXPECT_TRUE(r.extra->projection(2));
   const Vec3 inWorld = services.worldFrame.point(r.scope.point({1, 0, 2}));
   const Vec3 expected = services.initial.origin.point({1, 0, 2});
   EXPECT_NEAR(length(inWorld - expected), 0, 1e-9);

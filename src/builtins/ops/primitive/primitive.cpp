@@ -9,6 +9,7 @@
 
 #include "builtins/lists.h"
 #include "builtins/ops/shared/insert.h"
+#include "builtins/ops/shared/trim.h"
 #include "geom/primitive/solids.h"
 #include "shape/op_call.h"
 
@@ -56,6 +57,14 @@ Status applyCube(OpCall& call) {
   }
   insertBox(s, true);
   return {};
+}
+
+bool applyCubeLight(LightPart& part, std::span<const Value> args) {
+  const bool solid = part.size.x > 0 && part.size.y > 0 && part.size.z > 0;
+  if (!args.empty() || !solid || reachesTrimPlane(part)) return false;
+  part.kind = GeometryKind::Box;
+  part.uv = true;
+  return true;
 }
 
 Status applyQuad(OpCall& call) {
@@ -191,8 +200,9 @@ constexpr OpSpec kSpecs[] = {
      applyQuad, BlockKind::None, kUsesTrim},
     {"primitiveDisk", "primitive", "Replaces the geometry by a disk.", kDiskSignatures, applyDisk,
      BlockKind::None, kUsesTrim},
-    {"primitiveCube", "primitive", "Replaces the geometry by a box.", kCubeSignatures, applyCube,
-     BlockKind::None, kUsesTrim},
+    withLight({"primitiveCube", "primitive", "Replaces the geometry by a box.", kCubeSignatures,
+               applyCube, BlockKind::None, kUsesTrim},
+              applyCubeLight),
     {"primitiveSphere", "primitive", "Replaces the geometry by a sphere.", kSphereSignatures,
      applySphere, BlockKind::None, kUsesTrim},
     {"primitiveCylinder", "primitive", "Replaces the geometry by an upright cylinder.",

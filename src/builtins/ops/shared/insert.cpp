@@ -12,6 +12,7 @@
 namespace gable {
 
 void fillZeroSizes(Shape& s, const Box3& box) {
+  if (s.size.x != 0 && s.size.y != 0 && s.size.z != 0) return;
   const Vec3 asset = box.size();
   int zeros = 0, ratios = 0;
   double sum = 0;
@@ -23,7 +24,6 @@ void fillZeroSizes(Shape& s, const Box3& box) {
       ++ratios;
     }
   }
-  if (zeros == 0) return;
   const double ratio = zeros == 3 ? 1 : ratios > 0 ? sum / ratios : 1;
   Vec3 by;
   for (size_t i = 0; i < 3; ++i) {
@@ -60,10 +60,15 @@ void insertMesh(Shape& s, MeshRef mesh, const Vec3& size) {
 
 void insertPrimitive(Shape& s, GeometryKind kind, bool uv) {
   s.assetMaterials = 0;
-  s.geometry = primitive(kind);
-  s.geometry.uv = uv;
-  s.geometry.instanced = true;
-  trimGeometry(s);
+  Geometry& g = s.geometry;
+  g.kind = kind;
+  g.uv = uv;
+  g.refSize = {};
+  g.mesh = {};
+  g.order = BoxOrder::Cube;
+  g.tags.fill(0);
+  g.instanced = true;
+  if (s.extra) trimGeometry(s);
 }
 
 void insertBox(Shape& s, bool uv) {

@@ -15,12 +15,19 @@ namespace {
 // Planes through the corners of polygons that were snapped to a grid are this far off, in metres.
 constexpr double kOnPlane = 1e-6;
 
-// How far the scope's box lies beyond a plane at most; the geometry lies within the box.
-double beyond(const Shape& s, const TrimPlane& plane) {
-  double far = dot(plane.normal, s.scope.origin) - plane.distance;
-  const Vec3* const axes[3] = {&s.scope.x, &s.scope.y, &s.scope.z};
-  for (size_t i = 0; i < 3; ++i) far += std::max(0.0, dot(plane.normal, *axes[i]) * s.size[i]);
-  return far;
+// True when the box of that size at an origin along the axes lies wholly behind a plane; geometry
+// lies within the box of its scope.
+bool behind(const Vec3& origin, const Frame& axes, const Vec3& size, const TrimPlane& plane) {
+  const double extent = std::fabs(size.x) + std::fabs(size.y) + std::fabs(size.z);
+  double far = dot(plane.normal, origin) - plane.distance;
+  far += std::max(0.0, dot(plane.normal, axes.x) * size.x);
+  far += std::max(0.0, dot(plane.normal, axes.y) * size.y);
+  far += std::max(0.0, dot(plane.normal, axes.z) * size.z);
+  return far <= std::max(kOnPlane, 1e-9 * (1 + extent));
+}
+
+bool isOn(const Shape& s, const TrimPlane& plane) {
+  return plane.horizontal ? s.trimHorizontal : s.trimVertical;
 }
 
 bool fillsItsBox(const Shape& s) {
@@ -40,13 +47,12 @@ bool fillsItsBox(const Shape& s) {
 bool trimGeometry(Shape& s) {
   if (!s.extra || s.extra->trim.empty() || s.geometry.kind == GeometryKind::None) return false;
   if (!s.trimVertical && !s.trimHorizontal) return false;
-  const double extent = std::fabs(s.size.x) + std::fabs(s.size.y) + std::fabs(s.size.z);
   const bool boxed = fillsItsBox(s);
   MeshRef mesh;
   bool trimmed = false;
   for (const TrimPlane& plane : s.extra->trim) {
-    if (!(plane.horizontal ? s.trimHorizontal : s.trimVertical)) continue;
-    if (boxed && beyond(s, plane) <= std::max(kOnPlane, 1e-9 * (1 + extent))) continue;
+    if (!isOn(s, plane)) continue;
+    if (boxed && behind(s.scope.origin, s.scope, s.size, plane)) continue;
     if (!mesh) mesh = meshInScope(s);
     if (mesh->empty()) break;
     Plane cut;
@@ -65,6 +71,14 @@ bool trimGeometry(Shape& s) {
   s.geometry = {};
   if (!mesh->empty()) s.geometry = {GeometryKind::Mesh, false, s.size, std::move(mesh)};
   return true;
+}
+
+bool reachesTrimPlane(const LightPart& part) {
+  const Shape& s = part.parent;
+  if (!s.extra) return false;
+  return std::any_of(s.extra->trim.begin(), s.extra->trim.end(), [&](const TrimPlane& plane) {
+    return isOn(s, plane) && !behind(part.origin, s.scope, part.size, plane);
+  });
 }
 
 }  // namespace gable

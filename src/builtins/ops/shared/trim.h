@@ -4,7 +4,7 @@
 // Trim planes: what a component split leaves at the edges of a face, to cut what is put there.
 #pragma once
 
-#include "shape/shape.h"
+#include "shape/part.h"
 
 namespace gable {
 
@@ -12,5 +12,8 @@ namespace gable {
 /// trim.horizontal) and closes what was closed. The scope stays. A primitive that no plane meets
 /// stays one, and nothing is allocated. True when something was cut off.
 bool trimGeometry(Shape& s);
+
+/// True when a box that fills the part's scope would be cut by the parent's trim planes.
+bool reachesTrimPlane(const LightPart& part);
 
 }  // namespace gable

@@ -205,7 +205,7 @@ TEST(Comp, edgesAreCountedOnceAndFaceEdgesForEachFace) {
 
 TEST(Comp, edgesLieAlongTheirX) {
   const Ran ran = comp(boxShape({2, 3, 4}), "e", {"all"});
-  for (const OpCall::Child& c : ran.children) {
+  for (const BlockChild& c : ran.children) {
     const Shape& s = c.shape;
     EXPECT_EQ(s.size.y, 0);
     EXPECT_EQ(s.size.z, 0);
@@ -233,13 +233,13 @@ TEST(Comp, faceEdgesLookOutOfTheirFace) {
 
 TEST(Comp, verticesArePoints) {
   const Ran ran = comp(boxShape({2, 3, 4}), "v", {"all"});
-  for (const OpCall::Child& c : ran.children) {
+  for (const BlockChild& c : ran.children) {
     EXPECT_EQ(c.shape.size, Vec3{});
     EXPECT_NEAR(std::fabs(c.shape.scope.z.y), std::sqrt(1. / 3), 1e-12);
   }
   const Ran corners = comp(quadShape(2, 2), "fv", {"all"});
   ASSERT_EQ(corners.children.size(), 4u);
-  for (const OpCall::Child& c : corners.children) {
+  for (const BlockChild& c : corners.children) {
     EXPECT_NEAR(std::fabs(c.shape.scope.z.x), std::sqrt(0.5), 1e-12);
     EXPECT_NEAR(c.shape.scope.y.y, 1, 1e-12);
   }
@@ -310,7 +310,7 @@ TEST(Comp, roofEdgesAreToldApart) {
   EXPECT_EQ(comp(s, "e", {"valley"}).children.size(), 1u);
   EXPECT_EQ(comp(s, "e", {"hip"}).children.size(), 5u);
   EXPECT_EQ(comp(s, "e", {"ridge"}).children.size(), 2u);
-  for (const OpCall::Child& c : comp(s, "e", {"hip", "valley"}).children) {
+  for (const BlockChild& c : comp(s, "e", {"hip", "valley"}).children) {
     EXPECT_GT(c.shape.scope.x.y, 0);
   }
 }
@@ -325,7 +325,7 @@ TEST(Comp, facesOfHostilePolygonsKeepTheirAreaInAScopeOfTheirOwn) {
   for (const TestPolygon& p : polygons) {
     const Shape s = polygonShape(p.rings);
     const double extent = std::max(s.size.x, s.size.z);
-    for (const OpCall::Child& c : comp(s, "f", {"all"}).children) {
+    for (const BlockChild& c : comp(s, "f", {"all"}).children) {
       EXPECT_NEAR(meshInLocal(c.shape).area(), meshInLocal(s).area(), 1e-6 * extent * extent);
       EXPECT_EQ(c.shape.size.z, 0) << p.number;
       EXPECT_NEAR(c.shape.scope.z.y, 1, 1e-9);

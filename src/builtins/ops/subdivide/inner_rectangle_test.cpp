@@ -91,7 +91,7 @@ TEST(InnerRectangle, hostilePolygonsHaveOne) {
     const double extent = std::max(s.size.x, s.size.z), area = areaOf({s});
     const Ran ran = inner(s);
     ASSERT_TRUE(ran.status.ok()) << p.number;
-    for (const OpCall::Child& c : ran.children) EXPECT_TRUE(meshInLocal(c.shape).valid());
+    for (const BlockChild& c : ran.children) EXPECT_TRUE(meshInLocal(c.shape).valid());
     EXPECT_LE(areaOf(ran.of(0)), area * (1 + 1e-6)) << p.number;
     EXPECT_NEAR(areaOf(ran.of(0)) + areaOf(ran.of(1)), area, 1e-3 * extent * extent) << p.number;
   }

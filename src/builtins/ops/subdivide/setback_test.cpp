@@ -176,7 +176,7 @@ TEST(Setback, hostilePolygonsAreTiled) {
         continue;
       }
       double sum = 0;
-      for (const OpCall::Child& c : ran.children) {
+      for (const BlockChild& c : ran.children) {
         const Mesh m = meshInLocal(c.shape);
         ASSERT_TRUE(m.valid()) << p.number;
         EXPECT_GT(m.areaNormal(0).y, 0) << p.number;

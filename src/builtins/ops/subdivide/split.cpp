@@ -24,39 +24,6 @@ constexpr double kFlat = 1e-9;
 
 bool isPrimitive(const Geometry& g) { return g.kind != GeometryKind::Mesh && !g.uv; }
 
-// A part has no tags on the sides, or edges, that the cuts made.
-void dropInnerTags(Geometry& g, Axis axis, bool first, bool last) {
-  if (g.kind == GeometryKind::QuadXy && axis == Axis::Z) return;
-  if (g.kind == GeometryKind::QuadXz && axis == Axis::Y) return;
-  constexpr std::array<std::array<BoxSide, 2>, 3> kEnds{
-      {{kSideLeft, kSideRight}, {kSideBottom, kSideTop}, {kSideBack, kSideFront}}};
-  const auto& ends = kEnds[static_cast<size_t>(axis)];
-  if (!first) g.tags[ends[0]] = 0;
-  if (!last) g.tags[ends[1]] = 0;
-}
-
-void splitPrimitive(OpCall& call, Axis axis, bool adjust, const SplitPieces& pieces) {
-  const Shape& s = call.shape();
-  const auto a = static_cast<size_t>(axis);
-  const double whole = std::fabs(s.size[a]), sign = s.size[a] < 0 ? -1 : 1;
-  const bool flat = (s.geometry.kind == GeometryKind::QuadXy && axis == Axis::Z) ||
-                    (s.geometry.kind == GeometryKind::QuadXz && axis == Axis::Y);
-  const Vec3& along = axis == Axis::X ? s.scope.x : axis == Axis::Y ? s.scope.y : s.scope.z;
-  const auto total = static_cast<uint32_t>(pieces.size());
-  for (uint32_t i = 0; i < total; ++i) {
-    const SplitPiece& piece = pieces[i];
-    // A rectangle lies in the plane 0 of the axis that is square to it.
-    if (flat && piece.start != 0) continue;
-    Shape& child = call.emitCopy(piece.slot, i);
-    child.scope.origin = s.scope.origin + along * (sign * piece.start);
-    child.size[a] = flat && adjust ? 0 : sign * piece.size;
-    child.split = {i, total};
-    const double end = piece.start + piece.size;
-    dropInnerTags(child.geometry, axis, piece.start == 0, end >= whole * (1 - 1e-12));
-    forgetFarTrimPlanes(child);
-  }
-}
-
 // Where a direction is named the parts are meant to fit.
 void warnOfOverflow(const OpCall& call, double whole) {
   const double over = overflowOf(call.splitBlock(), whole);
@@ -83,7 +50,7 @@ Status splitAlong(OpCall& call, Axis axis) {
   if (toRoot || call.is(1, "fromRoot")) warnOfOverflow(call, whole);
   const bool adjust = !call.is(toRoot || call.is(1, "fromRoot") ? 2 : 1, "noAdjust");
   if (isPrimitive(s.geometry)) {
-    splitPrimitive(call, axis, adjust, pieces);
+    call.emitParts(axis, adjust, {pieces.begin(), pieces.size()});
   } else {
     emitSlabs(call, axis, pieces, adjust, true);
   }

@@ -129,7 +129,7 @@ TEST(Split, solidsAreClosedAfterTheCut) {
   const Ran ran = split(s, "x", {1, 2, 1});
   ASSERT_EQ(ran.children.size(), 3u);
   double volume = 0;
-  for (const OpCall::Child& c : ran.children) {
+  for (const BlockChild& c : ran.children) {
     const Mesh m = meshInLocal(c.shape);
     EXPECT_EQ(m.faceCount(), 6u);
     EXPECT_TRUE(isClosed(m));
@@ -203,7 +203,7 @@ TEST(Split, partsOfHostilePolygonsMakeUpTheWhole) {
       const Ran ran = split(s, axis, {floating(1), relative(0.13), floating(2)}, false);
       ASSERT_TRUE(ran.status.ok()) << p.number;
       double sum = 0;
-      for (const OpCall::Child& c : ran.children) {
+      for (const BlockChild& c : ran.children) {
         const Mesh m = meshInLocal(c.shape);
         ASSERT_TRUE(m.valid()) << p.number;
         sum += m.area();

@@ -19,6 +19,16 @@ Status applyS(OpCall& call) {
   return {};
 }
 
+bool applySLight(LightPart& part, std::span<const Value> args) {
+  Vec3 size;
+  for (size_t i = 0; i < 3; ++i) {
+    size[i] = args[i].unit == Unit::Relative ? args[i].number * part.size[i] : args[i].number;
+    if (!(size[i] >= 0)) return false;
+  }
+  part.size = size + Vec3{};
+  return true;
+}
+
 constexpr ParamSpec kParams[] = {
     {"xSize", ParamType::Size,
      "New size along the scope's x axis; ' takes a share of the old one."},
@@ -28,8 +38,9 @@ constexpr ParamSpec kParams[] = {
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
-    {"s", "transform", "Sets the size of the scope; the geometry is scaled with it.", kSignatures,
-     applyS},
+    withLight({"s", "transform", "Sets the size of the scope; the geometry is scaled with it.",
+               kSignatures, applyS},
+              applySLight),
 };
 
 }  // namespace

@@ -16,6 +16,15 @@ Status applyT(OpCall& call) {
   return {};
 }
 
+bool applyTLight(LightPart& part, std::span<const Value> args) {
+  Vec3 by;
+  for (size_t i = 0; i < 3; ++i) {
+    by[i] = args[i].unit == Unit::Relative ? args[i].number * part.size[i] : args[i].number;
+  }
+  part.origin += part.parent.scope.direction(by);
+  return true;
+}
+
 Status applyTranslate(OpCall& call) {
   Shape& s = call.shape();
   bool known = false;
@@ -53,7 +62,8 @@ constexpr ParamSpec kTranslateParams[] = {
 constexpr Signature kTranslateSignatures[] = {{kTranslateParams}};
 
 constexpr OpSpec kSpecs[] = {
-    {"t", "transform", "Moves the scope along its own axes.", kTSignatures, applyT},
+    withLight({"t", "transform", "Moves the scope along its own axes.", kTSignatures, applyT},
+              applyTLight),
     {"translate", "transform",
      "Moves the scope by a vector, or to a place, in a coordinate system of choice.",
      kTranslateSignatures, applyTranslate, BlockKind::None,

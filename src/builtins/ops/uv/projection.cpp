@@ -45,7 +45,7 @@ Status applySetup(OpCall& call) {
   }
   const Frame system = axes.starts_with("world") ? worldFrame(call.services()) : s.scope;
   UvProjection p;
-  p.present = true;
+  p.set = set;
   p.width = tileSize(call.arg(2), std::fabs(s.size[indexOf(u)]));
   p.height = tileSize(call.arg(3), std::fabs(s.size[indexOf(v)]));
   if (!(std::fabs(p.width) > 0) || !(std::fabs(p.height) > 0) || !std::isfinite(p.width) ||
@@ -59,7 +59,7 @@ Status applySetup(OpCall& call) {
   p.offsetV = call.number(5, 0) / p.height;
   p.uwFactor = call.number(6, 0);
   ShapeExtra extra = extraOf(s);
-  extra.projections[static_cast<size_t>(set)] = p;
+  extra.setProjection(p);
   s.extra = makeRef<ShapeExtra>(std::move(extra));
   return {};
 }
@@ -102,13 +102,14 @@ Status applyProject(OpCall& call) {
   int set = 0;
   if (Status bad = uvSetOf(call, 0, set); !bad) return bad;
   const size_t layer = static_cast<size_t>(set);
-  if (!s.extra || !s.extra->projections[layer].present) {
+  const UvProjection* found = s.extra ? s.extra->projection(set) : nullptr;
+  if (!found) {
     return call.fail("no-projection",
                      "projectUV(" + std::to_string(set) + ") has no projection to write",
                      "call setupProjection for this uv set before");
   }
   if (s.geometry.kind == GeometryKind::None) return {};
-  const UvProjection projection = s.extra->projections[layer];
+  const UvProjection projection = *found;
   const Projector projector(projection, s.scope);
   if (givesPlainUv(s, set, projector)) {
     s.geometry.uv = true;

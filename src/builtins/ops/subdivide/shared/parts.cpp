@@ -3,24 +3,9 @@
 
 #include "builtins/ops/subdivide/shared/parts.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace gable {
-
-namespace {
-
-// How far a box reaches beyond a plane; negative when it lies wholly behind.
-double reach(const Shape& s, const TrimPlane& plane, double grow) {
-  const Frame& f = s.scope;
-  const Vec3 half{std::fabs(s.size.x) / 2 + grow, std::fabs(s.size.y) / 2 + grow,
-                  std::fabs(s.size.z) / 2 + grow};
-  return dot(plane.normal, f.point(s.size * 0.5)) - plane.distance +
-         std::fabs(dot(plane.normal, f.x)) * half.x + std::fabs(dot(plane.normal, f.y)) * half.y +
-         std::fabs(dot(plane.normal, f.z)) * half.z;
-}
-
-}  // namespace
 
 Shape scopePart(const Shape& parent, Axis axis, double start, double size) {
   Shape child = parent;
@@ -59,19 +44,6 @@ void setPartMesh(Shape& child, const Shape& parent, Mesh mesh, bool adjust) {
   child.scope.origin = child.scope.point(corner);
   child.size = size;
   setMesh(child, std::move(moved), ScopeFit::Keep);
-}
-
-void forgetFarTrimPlanes(Shape& s) {
-  if (!s.extra || s.extra->trim.empty()) return;
-  const double grow = std::max({std::fabs(s.size.x), std::fabs(s.size.y), std::fabs(s.size.z)}) / 4;
-  const auto far = [&](const TrimPlane& p) { return reach(s, p, grow) < 0; };
-  if (std::none_of(s.extra->trim.begin(), s.extra->trim.end(), far)) return;
-  ShapeExtra extra = *s.extra;
-  std::erase_if(extra.trim, far);
-  const bool projected = std::any_of(extra.projections.begin(), extra.projections.end(),
-                                     [](const UvProjection& p) { return p.present; });
-  s.extra =
-      extra.trim.empty() && !projected ? Ref<ShapeExtra>() : makeRef<ShapeExtra>(std::move(extra));
 }
 
 }  // namespace gable

@@ -20,9 +20,4 @@ Shape scopePart(const Shape& parent, Axis axis, double start, double size);
 /// sizes that were negative stay negative.
 void setPartMesh(Shape& child, const Shape& parent, Mesh mesh, bool adjust);
 
-/// Forgets the trim planes that the shape is too far from to meet: those which the scope, grown by
-/// a quarter of its largest size on all sides, lies behind. Equal parts of a facade then are equal
-/// shapes, whatever their distance from its corners.
-void forgetFarTrimPlanes(Shape& s);
-
 }  // namespace gable

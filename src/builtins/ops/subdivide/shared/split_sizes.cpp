@@ -261,7 +261,9 @@ double overflowOf(const SplitBlock& block, double whole) {
   return sum - whole;
 }
 
-Status dividePattern(const SplitBlock& block, double whole, SplitPieces& out) {
+namespace {
+
+Status divide(const SplitBlock& block, double whole, SplitPieces& out) {
   bool finite = std::isfinite(whole);
   for (const SplitItem& item : block.items) {
     if (!item.group) finite &= std::isfinite(item.size);
@@ -286,6 +288,23 @@ Status dividePattern(const SplitBlock& block, double whole, SplitPieces& out) {
   Divider repeated({wrapped.begin(), wrapped.size()}, whole, out);
   repeated.sequence({0, wrapped.size()}, 0, whole);
   return repeated.takeStatus();
+}
+
+}  // namespace
+
+Status dividePattern(const SplitBlock& block, double whole, SplitPieces& out) {
+  SplitMemo* memo = block.memo;
+  if (memo && memo->known && memo->whole == whole) {
+    out.assign(memo->pieces);
+    return {};
+  }
+  Status status = divide(block, whole, out);
+  if (memo && status.ok() && out.size() <= out.capacityHere()) {
+    memo->known = true;
+    memo->whole = whole;
+    memo->pieces.assign(out.begin(), out.end());
+  }
+  return status;
 }
 
 }  // namespace gable

@@ -28,12 +28,6 @@ namespace gable {
 /// The most shapes that one split may make, as the original's derivation width.
 constexpr uint32_t kMaxSplitPieces = 100000;
 
-struct SplitPiece {
-  double start = 0;
-  double size = 0;
-  uint32_t slot = 0;
-};
-
 using SplitPieces = SmallBuffer<SplitPiece, 48>;
 
 /// The pieces as seen from the other end: the first lies there. Sizes and order stay.

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Parts of a box or a rectangle along an axis of its scope. A split gives out a plan and the pieces
+// of the divided length; each part is made when its turn comes, once, where it will be worked on.
+#pragma once
+
+#include <cstdint>
+
+#include "shape/shape.h"
+
+namespace gable {
+
+/// An axis of the scope.
+enum class Axis : uint8_t { X, Y, Z };
+
+/// Where a part of a divided length begins, how long it is, and the block slot that it goes to.
+struct SplitPiece {
+  double start = 0;
+  double size = 0;
+  uint32_t slot = 0;
+};
+
+/// What the parts of one split have in common.
+struct PartPlan {
+  Axis axis = Axis::X;
+  /// The axis is square to a rectangle: its part keeps no extent there.
+  bool flat = false;
+  /// How many pieces the length has; split.total of every part.
+  uint32_t total = 0;
+  /// The number of the first piece given out: all but one of those square to a rectangle are left
+  /// out.
+  uint32_t first = 0;
+  /// The address that those of the parts are derived from.
+  uint64_t path = 0;
+};
+
+/// Makes the part number `index`. The piece is measured from the scope's origin in the direction of
+/// its extent (so against the axis where the size is negative). Tags of the sides, or edges, that
+/// the cuts made are dropped.
+void makePart(const Shape& parent, const PartPlan& plan, const SplitPiece& piece, uint32_t index,
+              Shape& part);
+
+/// A part that becomes a leaf in a few plain steps: it moves along its parent's axes, changes its
+/// size and becomes a primitive, and is never made as a shape. Its parent is a box or a rectangle
+/// of a size that is nowhere negative.
+struct LightPart {
+  const Shape& parent;
+  /// Of the scope, in the parent's local frame.
+  Vec3 origin;
+  Vec3 size;
+  GeometryKind kind;
+  bool uv = false;
+};
+
+/// The part that makePart would make of the piece.
+LightPart lightPart(const Shape& parent, const PartPlan& plan, const SplitPiece& piece);
+
+/// Forgets the trim planes that the shape is too far from to meet: those which the scope, grown by
+/// a quarter of its largest size on all sides, lies behind. Equal parts of a facade then are equal
+/// shapes, whatever their distance from its corners.
+void forgetFarTrimPlanes(Shape& s);
+
+}  // namespace gable
