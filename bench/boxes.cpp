@@ -9,8 +9,8 @@
 //   W2      1000 buildings of 100 boxes with sizes of their own
 //
 // Runs are interleaved; the medians and their ratio are printed. With `--runs N` N runs (default
-// 9). `--rules NAME` runs the rules of one workload alone until `--boxes N` are made (20 000 000), for
-// a profiler.
+// 9). `--rules NAME` runs the rules of one workload alone until `--boxes N` are made (20 000 000),
+// for a profiler.
 
 #include <algorithm>
 #include <cmath>

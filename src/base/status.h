@@ -5,6 +5,7 @@
 // it into a warning with the rule, the line and the shape's path.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -16,22 +17,25 @@ class [[nodiscard]] Status {
   /// `code` is a diagnostic code (a string literal), `message` one sentence, `hint` the remedy.
   static Status failure(const char* code, std::string message, std::string hint = {}) {
     Status s;
-    s.code_ = code;
-    s.message_ = std::move(message);
-    s.hint_ = std::move(hint);
+    s.failure_ = std::make_shared<Failure>(Failure{code, std::move(message), std::move(hint)});
     return s;
   }
 
-  bool ok() const { return code_ == nullptr; }
+  bool ok() const { return !failure_; }
   explicit operator bool() const { return ok(); }
-  const char* code() const { return code_; }
-  const std::string& message() const { return message_; }
-  const std::string& hint() const { return hint_; }
+  /// Of a failure: null and empty where all went well.
+  const char* code() const { return ok() ? nullptr : failure_->code; }
+  std::string message() const { return ok() ? std::string() : failure_->message; }
+  std::string hint() const { return ok() ? std::string() : failure_->hint; }
 
  private:
-  const char* code_ = nullptr;
-  std::string message_;
-  std::string hint_;
+  struct Failure {
+    const char* code;
+    std::string message;
+    std::string hint;
+  };
+  // What went well costs a null pointer.
+  std::shared_ptr<const Failure> failure_;
 };
 
 }  // namespace gable

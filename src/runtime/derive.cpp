@@ -157,11 +157,13 @@ LeafStream::~LeafStream() = default;
 void LeafStream::run(const std::vector<InitialShape>& shapes,
                      const std::function<void(std::span<const Leaf>)>& take) {
   Output& output = impl_->machine->output();
+  impl_->machine->setSink(&take);
   for (uint32_t i = 0; i < shapes.size(); ++i) {
     impl_->machine->derive(shapes[i], i);
-    take(output.openLeaves);
+    if (!output.openLeaves.empty()) take(output.openLeaves);
     output.drop();
   }
+  impl_->machine->setSink(nullptr);
 }
 
 const Mesh& LeafStream::mesh(const Leaf& leaf) const {

@@ -122,9 +122,10 @@ class LeafStream {
   /// All must outlive the stream.
   LeafStream(const Program& program, Environment& environment, const DeriveOptions& options);
   ~LeafStream();
-  /// Calls `take` with the leaves of each initial shape in turn, placed in the world, in path
-  /// order. Leaf::mesh is valid for the unit primitives (below kFirstMesh); other meshes are given
-  /// by mesh(). The span is good until `take` returns.
+  /// Calls `take` with the leaves of one initial shape after the other, placed in the world, in
+  /// path order, some at a time while they are still at hand. Leaf::mesh is valid for the unit
+  /// primitives (below kFirstMesh); other meshes are given by mesh(). The span is good until `take`
+  /// returns.
   void run(const std::vector<InitialShape>& shapes,
            const std::function<void(std::span<const Leaf>)>& take);
   const Mesh& mesh(const Leaf& leaf) const;

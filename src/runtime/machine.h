@@ -7,7 +7,9 @@
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -104,6 +106,10 @@ class Machine final : public Services {
   OutputRoot run(const InitialShape& shape, uint32_t index);
   /// The same, but leaves everything open in the output.
   void derive(const InitialShape& shape, uint32_t index);
+  /// Takes the leaves of the derivations that follow, a batch whenever there are enough; what is
+  /// left at the end of a derivation stays in the output. For sharing off only.
+  using LeafSink = std::function<void(std::span<const Leaf>)>;
+  void setSink(const LeafSink* sink) { sink_ = sink; }
   Output& output() { return output_; }
   Diagnostics& diagnostics() { return diagnostics_; }
   std::vector<TraceNode>& trace() { return trace_; }
@@ -166,6 +172,14 @@ class Machine final : public Services {
     };
     SmallBuffer<Step, 4> steps;
   };
+  /// What the light parts of a block have in common.
+  struct LightRun {
+    /// The axes of the parent's scope in the frame of the leaves.
+    Frame frame;
+    /// The scope's axis that it is divided along.
+    Vec3 along;
+    uint32_t materials = 0;
+  };
   enum class AttributeState : uint8_t { Unset, Busy, Known };
 
   const DeriveOptions& options() const { return shared_.options; }
@@ -184,11 +198,14 @@ class Machine final : public Services {
   void nextChild();
   void makeChild();
   void makeLightParts(Activation& a);
-  bool makeLightPart(Activation& a, const SplitPiece& piece, const LightSlot& slot);
+  bool makeLightPart(Activation& a, const LightRun& run, const SplitPiece& piece,
+                     const LightSlot& slot);
   LightSlot lightSlot(uint32_t rule, uint32_t entry) const;
   void operation(const Instruction& i, const Value* constants);
   SplitBlock splitBlock(uint32_t number, const Value* values);
   void fillBlock(uint32_t number, const Value* values, PartPlan& plan, BlockInput& input);
+  bool splitAsBefore(const Instruction& i, Activation& a, const Value* values);
+  void beginChildren(const Instruction& i, uint32_t childBase, uint32_t pieceBase);
   void fillSelectors(const BlockCode& block, const Value* values);
   void setBuiltin(const Instruction& i, const Value& v);
   void setAttribute(const Instruction& i);
@@ -196,6 +213,13 @@ class Machine final : public Services {
   void popShape();
   void dropShape();
   void makeLeaf(Activation& a, StringId name, uint32_t source);
+  /// Hands the leaves on while they are still in the nearest cache.
+  void passLeaves() {
+    if (sink_ && output_.openLeaves.size() >= kLeafBatch) {
+      (*sink_)(output_.openLeaves);
+      output_.openLeaves.clear();
+    }
+  }
 
   // In place: do, repeat, local.
   void runRule(const Instruction& i);
@@ -214,6 +238,7 @@ class Machine final : public Services {
   void endShared();
   ShareKey keyOf(uint32_t rule, const Activation& call);
   void localise(Shape& shape, const RuleCode& rule, const Frame& outer) const;
+  void openWorld(const Frame& frame);
   void closeOpenPrototype();
   void addInstance(const Frame& frame, uint32_t prototype);
   uint32_t openInstanceCount() const;
@@ -351,10 +376,10 @@ class Machine final : public Services {
   Output::Mark rootMark_;
   std::unordered_map<ShareKey, uint32_t, ShareKeyHash> cache_;
   bool collectOccluders_ = false;
+  static constexpr size_t kLeafBatch = 64;
+  const LeafSink* sink_ = nullptr;
   /// Nobody wants to see every shape.
   bool lightPartsAllowed_ = false;
-  /// Where the parts in progress lie: the parent's scope in the frame of the leaves.
-  Frame lightFrame_;
 };
 
 }  // namespace gable

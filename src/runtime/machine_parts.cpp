@@ -75,8 +75,8 @@ Machine::LightSlot Machine::lightSlot(uint32_t rule, uint32_t entry) const {
 // Makes parts of the current block as long as they are light.
 void Machine::makeLightParts(Activation& a) {
   const Shape& s = a.shape;
-  const bool plain = lightPartsAllowed_ && s.geometry.kind != GeometryKind::None &&
-                     s.size.x >= 0 && s.size.y >= 0 && s.size.z >= 0 && s.assetMaterials == 0;
+  const bool plain = lightPartsAllowed_ && s.geometry.kind != GeometryKind::None && s.size.x >= 0 &&
+                     s.size.y >= 0 && s.size.z >= 0 && s.assetMaterials == 0;
   if (!plain) return;
   std::vector<LightSlot>& slots = splits_[a.block].slots;
   if (slots.empty()) {
@@ -84,18 +84,26 @@ void Machine::makeLightParts(Activation& a) {
       slots.push_back(lightSlot(a.rule, entry));
     }
   }
-  lightFrame_ = flat_ ? worlds_.back() * s.scope : s.scope;
+  // Only the first part that is light needs to know where the parent lies.
+  if (a.childNext == a.childEnd || !slots[pieces_[a.childNext].slot].light) return;
+  const LightRun run{flat_ && !s.scope.turned ? worlds_.back()
+                     : flat_                  ? worlds_.back() * s.scope
+                                              : s.scope,
+                     directionOf(s, a.plan.axis), output_.materialNumber(s.material, 0)};
   while (a.childNext < a.childEnd) {
     const SplitPiece& piece = pieces_[a.childNext];
     const LightSlot& slot = slots[piece.slot];
-    if (!slot.light || !makeLightPart(a, piece, slot)) return;
+    if (!slot.light || !makeLightPart(a, run, piece, slot)) return;
     ++a.childNext;
   }
 }
 
-bool Machine::makeLightPart(Activation& a, const SplitPiece& piece, const LightSlot& slot) {
+bool Machine::makeLightPart(Activation& a, const LightRun& run, const SplitPiece& piece,
+                            const LightSlot& slot) {
   if (a.depth + slot.calls > options().limits.depth) return false;
-  LightPart part = lightPart(a.shape, a.plan, piece);
+  const Shape& s = a.shape;
+  LightPart part{s, s.scope.origin + run.along * piece.start, s.size, s.geometry.kind};
+  part.size[static_cast<size_t>(a.plan.axis)] = a.plan.flat ? 0 : piece.size;
   for (const LightSlot::Step& step : slot.steps) {
     if (!step.apply(part, step.args)) return false;
   }
@@ -106,15 +114,10 @@ bool Machine::makeLightPart(Activation& a, const SplitPiece& piece, const LightS
   if (slot.calls > 0 || slot.named) ++activations_[a.owner].childCount;
   if (!tick()) return false;
   if (slot.drop) return true;
-  Leaf& leaf = output_.openLeaves.emplace_back();
-  leaf.frame = lightFrame_;
+  Leaf& leaf = output_.openLeaves.emplace_back(run.frame, part.size, unitMesh(part.kind, part.uv),
+                                               run.materials, slot.name, slot.source, s.attributes);
   leaf.frame.origin = flat_ ? worlds_.back().point(part.origin) : part.origin;
-  leaf.scale = part.size;
-  leaf.mesh = unitMesh(part.kind, part.uv);
-  leaf.materials = output_.materialNumber(a.shape.material, 0);
-  leaf.name = slot.name;
-  leaf.source = slot.source;
-  leaf.attributes = a.shape.attributes;
+  passLeaves();
   return true;
 }
 

@@ -7,6 +7,7 @@
 // of the innermost one are in registers (pc_, parameters_) and are put back when it ends. A block
 // operation leaves its children on children_; they run one after the other before the rule goes on.
 
+#include <cmath>
 #include <utility>
 
 #include "base/check.h"
@@ -329,6 +330,21 @@ void Machine::fillBlock(uint32_t number, const Value* values, PartPlan& plan, Bl
   }
 }
 
+// A box or a rectangle that is divided like the one before needs no call: the parts are known.
+bool Machine::splitAsBefore(const Instruction& i, Activation& a, const Value* values) {
+  const SplitMemo& memo = *splitBlock(i.y - 1u, values).memo;
+  const Geometry& g = a.shape.geometry;
+  if (!memo.known || memo.givenOutOf != g.kind || g.kind == GeometryKind::None || g.uv ||
+      isDeformed(a.shape) ||
+      std::fabs(a.shape.size[static_cast<size_t>(memo.plan.axis)]) != memo.whole) {
+    return false;
+  }
+  a.plan = memo.plan;
+  a.plan.path = hashCombine(a.shape.path, program_.sites[pcOf(&i)]);
+  pieces_.insert(pieces_.end(), memo.pieces.begin(), memo.pieces.end());
+  return true;
+}
+
 void Machine::operation(const Instruction& i, const Value* constants) {
   if (!tick()) return;
   Activation& a = current();
@@ -340,20 +356,24 @@ void Machine::operation(const Instruction& i, const Value* constants) {
   const Value* stack = stack_ + stackTop_;
   const Value* arguments = constants ? constants : stack;
   const Value* blockStart = stack + argumentsOnStack;
+  const auto childBase = static_cast<uint32_t>(block ? children_.size() : 0);
+  const auto pieceBase = static_cast<uint32_t>(block ? pieces_.size() : 0);
+  if (block && block->kind == BlockKind::Split && argumentsOnStack == 0 &&
+      splitAsBefore(i, a, blockStart)) {
+    return beginChildren(i, childBase, pieceBase);
+  }
 
   if (isDeformed(a.shape) && (spec.effects & kTakesDeformed) == 0) bakeDeformation(a.shape);
-  const CallPlace place{a.previousScope, a.previousSize, program_.files[program_.rules[a.rule].file],
-                        program_.sites[pcOf(&i)]};
+  const CallPlace place{a.previousScope, a.previousSize,
+                        program_.files[program_.rules[a.rule].file], program_.sites[pcOf(&i)]};
   BlockInput input;
   if (block) fillBlock(i.y - 1u, blockStart, a.plan, input);
   OpCall call(spec, a.shape, {arguments, i.x}, *this, place, block ? &input : nullptr);
   if (collectOccluders_ && occludes(spec)) addOccluder(0, a.shape);
-  const auto childBase = static_cast<uint32_t>(children_.size());
-  const auto pieceBase = static_cast<uint32_t>(pieces_.size());
   instruction_ = &i;
   const Status status = spec.apply(call);
   if (!status.ok()) {
-    children_.erase(children_.begin() + childBase, children_.end());
+    if (block) children_.erase(children_.begin() + childBase, children_.end());
     warn(status.code(), "'" + std::string(spec.name) + "': " + status.message(), status.hint());
     // Without its parts the shape itself stays as a leaf, so that nothing is lost.
     return;
@@ -362,7 +382,12 @@ void Machine::operation(const Instruction& i, const Value* constants) {
     dropShape();
     return;
   }
-  if (!block) return;
+  if (block) beginChildren(i, childBase, pieceBase);
+}
+
+// Starts on the children that an operation has left beyond the marks.
+void Machine::beginChildren(const Instruction& i, uint32_t childBase, uint32_t pieceBase) {
+  Activation& a = current();
   ++a.made;
   a.inPieces = pieces_.size() > pieceBase;
   a.childBase = a.childNext = a.inPieces ? pieceBase : childBase;
@@ -370,7 +395,8 @@ void Machine::operation(const Instruction& i, const Value* constants) {
   const uint32_t count = a.childEnd - a.childBase;
   if (count > options().limits.width) {
     overLimit("too-many-children",
-              "'" + std::string(spec.name) + "' makes " + std::to_string(count) + " shapes of one",
+              "'" + std::string(program_.operations[i.a]->name) + "' makes " +
+                  std::to_string(count) + " shapes of one",
               "use larger sizes, or raise the limit on width");
     return;
   }
@@ -405,6 +431,7 @@ void Machine::makeLeaf(Activation& a, StringId name, uint32_t source) {
   leaf.source = source;
   leaf.attributes = s.attributes;
   if (collectOccluders_) addOccluder(0, s);
+  passLeaves();
 }
 
 void Machine::pushShape() {

@@ -139,13 +139,25 @@ void Machine::localise(Shape& shape, const RuleCode& rule, const Frame& outer) c
   shape.scope = Frame{};
 }
 
+void Machine::openWorld(const Frame& frame) {
+  worlds_.emplace_back();
+  const Frame& outer = worlds_.end()[-2];
+  Frame& inner = worlds_.back();
+  if (outer.turned && !frame.turned) {
+    inner = outer;
+    inner.origin = outer.point(frame.origin);
+  } else {
+    inner = outer * frame;
+  }
+}
+
 // True when the cache had the result and its instance has been made.
 bool Machine::beginShared(const RuleCode& rule, Activation& call) {
   const Frame outer = call.shape.scope;
   localise(call.shape, rule, outer);
   if (flat_) {
     call.boundary = true;
-    worlds_.push_back(worlds_.back() * outer);
+    openWorld(outer);
     return false;
   }
   const ShareKey key = keyOf(call.rule, call);
@@ -158,7 +170,7 @@ bool Machine::beginShared(const RuleCode& rule, Activation& call) {
     return true;
   }
   call.boundary = true;
-  worlds_.push_back(worlds_.back() * outer);
+  openWorld(outer);
   prototypes_.push_back({output_.mark(), key, shapesExpanded_ - 1, outer, call.rule});
   return false;
 }

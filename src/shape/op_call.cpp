@@ -12,7 +12,8 @@ void OpCall::emit(Shape child, uint32_t slot, uint32_t piece) {
   block_->children->push_back({std::move(child), slot});
 }
 
-void OpCall::emitParts(Axis axis, bool flatten, std::span<const SplitPiece> pieces) {
+void OpCall::emitParts(Axis axis, bool flatten, std::span<const SplitPiece> pieces,
+                       bool repeatable) {
   const GeometryKind kind = shape_.geometry.kind;
   const bool square = (kind == GeometryKind::QuadXy && axis == Axis::Z) ||
                       (kind == GeometryKind::QuadXz && axis == Axis::Y);
@@ -25,6 +26,10 @@ void OpCall::emitParts(Axis axis, bool flatten, std::span<const SplitPiece> piec
   }
   if (block_->pieces) {
     *block_->plan = plan;
+    if (SplitMemo* memo = block_->split.memo; memo && repeatable && !square) {
+      memo->givenOutOf = kind;
+      memo->plan = plan;
+    }
     block_->pieces->insert(block_->pieces->end(), pieces.begin(), pieces.end());
     return;
   }

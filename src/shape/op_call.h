@@ -41,6 +41,10 @@ struct SplitMemo {
   bool known = false;
   double whole = 0;
   std::vector<SplitPiece> pieces;
+  /// The operation gave out exactly these as the parts of a box or a rectangle of that kind, and
+  /// would do so again for an equal length along the axis.
+  GeometryKind givenOutOf = GeometryKind::None;
+  PartPlan plan;
 };
 
 /// The evaluated braces after a split-like operation, flattened in order of writing.
@@ -114,7 +118,12 @@ class OpCall {
   /// `block` may be null for operations without one.
   OpCall(const OpSpec& spec, Shape& shape, std::span<const Value> args, Services& services,
          const CallPlace& place, BlockInput* block = nullptr)
-      : spec_(spec), shape_(shape), args_(args), services_(services), place_(place), block_(block) {}
+      : spec_(spec),
+        shape_(shape),
+        args_(args),
+        services_(services),
+        place_(place),
+        block_(block) {}
 
   const OpSpec& spec() const { return spec_; }
   Shape& shape() { return shape_; }
@@ -159,8 +168,10 @@ class OpCall {
   /// the slot and `piece`, which must differ among children of one slot.
   void emit(Shape child, uint32_t slot, uint32_t piece);
   /// Gives out the parts of shape(), a box or a rectangle without uv coordinates, along an axis.
-  /// With `flatten` a rectangle has no extent square to its plane afterwards.
-  void emitParts(Axis axis, bool flatten, std::span<const SplitPiece> pieces);
+  /// With `flatten` a rectangle has no extent square to its plane afterwards. `repeatable` when the
+  /// pieces follow from the block, the arguments and the extent along the axis alone: the runtime
+  /// may then do without the operation next time.
+  void emitParts(Axis axis, bool flatten, std::span<const SplitPiece> pieces, bool repeatable);
   /// For component splits, which run as a function too: says how many components there are, and
   /// that one of them is in the child given out last.
   void countComponents(size_t count) {

@@ -12,27 +12,28 @@ namespace gable {
 
 namespace {
 
-// How far a box reaches beyond a plane; negative when it lies wholly behind.
-double reach(const Shape& s, const TrimPlane& plane, double grow) {
-  const Frame& f = s.scope;
-  const Vec3 half{std::fabs(s.size.x) / 2 + grow, std::fabs(s.size.y) / 2 + grow,
-                  std::fabs(s.size.z) / 2 + grow};
-  return dot(plane.normal, f.point(s.size * 0.5)) - plane.distance +
-         std::fabs(dot(plane.normal, f.x)) * half.x + std::fabs(dot(plane.normal, f.y)) * half.y +
-         std::fabs(dot(plane.normal, f.z)) * half.z;
-}
+// A box around a shape, grown on all sides.
+struct GrownBox {
+  const Frame& axes;
+  Vec3 half, middle;
+  double reach;
 
-// Origin and size of a part whose other fields are its parent's.
-void placePart(const Shape& parent, const PartPlan& plan, const SplitPiece& piece, Vec3& origin,
-               Vec3& size) {
-  const auto a = static_cast<size_t>(plan.axis);
-  const double sign = parent.size[a] < 0 ? -1 : 1;
-  const Vec3& along = plan.axis == Axis::X   ? parent.scope.x
-                      : plan.axis == Axis::Y ? parent.scope.y
-                                             : parent.scope.z;
-  origin = parent.scope.origin + along * (sign * piece.start);
-  size[a] = plan.flat ? 0 : sign * piece.size;
-}
+  explicit GrownBox(const Shape& s) : axes(s.scope) {
+    const Vec3 size{std::fabs(s.size.x), std::fabs(s.size.y), std::fabs(s.size.z)};
+    const double grow = std::max({size.x, size.y, size.z}) / 4;
+    half = {size.x / 2 + grow, size.y / 2 + grow, size.z / 2 + grow};
+    middle = axes.point(s.size * 0.5);
+    reach = half.x + half.y + half.z;
+  }
+  bool liesBehind(const TrimPlane& p) const {
+    const double beyond = dot(p.normal, middle) - p.distance;
+    if (beyond + reach < 0) return true;
+    return beyond + std::fabs(dot(p.normal, axes.x)) * half.x +
+               std::fabs(dot(p.normal, axes.y)) * half.y +
+               std::fabs(dot(p.normal, axes.z)) * half.z <
+           0;
+  }
+};
 
 void dropInnerTags(Geometry& g, Axis axis, bool first, bool last) {
   if (g.kind == GeometryKind::QuadXy && axis == Axis::Z) return;
@@ -46,28 +47,24 @@ void dropInnerTags(Geometry& g, Axis axis, bool first, bool last) {
 
 }  // namespace
 
-LightPart lightPart(const Shape& parent, const PartPlan& plan, const SplitPiece& piece) {
-  LightPart part{parent, parent.scope.origin, parent.size, parent.geometry.kind};
-  placePart(parent, plan, piece, part.origin, part.size);
-  return part;
-}
-
 void makePart(const Shape& parent, const PartPlan& plan, const SplitPiece& piece, uint32_t index,
               Shape& part) {
   part = parent;
-  placePart(parent, plan, piece, part.scope.origin, part.size);
+  const auto a = static_cast<size_t>(plan.axis);
+  const double whole = std::fabs(parent.size[a]), sign = parent.size[a] < 0 ? -1 : 1;
+  part.scope.origin = parent.scope.origin + directionOf(parent, plan.axis) * (sign * piece.start);
+  part.size[a] = plan.flat ? 0 : sign * piece.size;
   part.split = {index, plan.total};
   part.path = hashCombine(plan.path, uint64_t{piece.slot} << 32 | index);
   const double end = piece.start + piece.size;
-  const double whole = std::fabs(parent.size[static_cast<size_t>(plan.axis)]);
   dropInnerTags(part.geometry, plan.axis, piece.start == 0, end >= whole * (1 - 1e-12));
   if (part.extra) forgetFarTrimPlanes(part);
 }
 
 void forgetFarTrimPlanes(Shape& s) {
   if (!s.extra || s.extra->trim.empty()) return;
-  const double grow = std::max({std::fabs(s.size.x), std::fabs(s.size.y), std::fabs(s.size.z)}) / 4;
-  const auto far = [&](const TrimPlane& p) { return reach(s, p, grow) < 0; };
+  const GrownBox box(s);
+  const auto far = [&](const TrimPlane& p) { return box.liesBehind(p); };
   const auto& trim = s.extra->trim;
   const auto gone = std::count_if(trim.begin(), trim.end(), far);
   if (gone == 0) return;

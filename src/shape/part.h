@@ -53,8 +53,10 @@ struct LightPart {
   bool uv = false;
 };
 
-/// The part that makePart would make of the piece.
-LightPart lightPart(const Shape& parent, const PartPlan& plan, const SplitPiece& piece);
+/// The scope's axis, in the shape's local frame.
+inline const Vec3& directionOf(const Shape& s, Axis axis) {
+  return axis == Axis::X ? s.scope.x : axis == Axis::Y ? s.scope.y : s.scope.z;
+}
 
 /// Forgets the trim planes that the shape is too far from to meet: those which the scope, grown by
 /// a quarter of its largest size on all sides, lies behind. Equal parts of a facade then are equal

@@ -416,7 +416,10 @@ Status setAttribute(std::string_view name, const Arg& value, Shape& shape, FakeS
   const AttributeSpec* spec = builtinCatalogue().attribute(name);
   GABLE_CHECK(spec != nullptr && spec->set != nullptr);
   const OpSpec* op = builtinCatalogue().operation("t");
-  OpCall call(*op, shape, {}, services);
+  const Frame scope = shape.scope;
+  const Vec3 size = shape.size;
+  const CallPlace place{scope, size, "rules/test.cga"};
+  OpCall call(*op, shape, {}, services, place);
   return spec->set(call, value.value(services.pool()));
 }
 

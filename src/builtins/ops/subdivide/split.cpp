@@ -45,12 +45,12 @@ Status splitAlong(OpCall& call, Axis axis) {
   SplitPieces pieces;
   const Status status = dividePattern(call.splitBlock(), whole, pieces);
   if (!status.ok()) return status;
-  const bool toRoot = call.is(1, "toRoot");
+  const bool toRoot = call.is(1, "toRoot"), directed = toRoot || call.is(1, "fromRoot");
   if (toRoot) mirrorPieces(pieces, whole);
-  if (toRoot || call.is(1, "fromRoot")) warnOfOverflow(call, whole);
-  const bool adjust = !call.is(toRoot || call.is(1, "fromRoot") ? 2 : 1, "noAdjust");
+  if (directed) warnOfOverflow(call, whole);
+  const bool adjust = !call.is(directed ? 2 : 1, "noAdjust");
   if (isPrimitive(s.geometry)) {
-    call.emitParts(axis, adjust, {pieces.begin(), pieces.size()});
+    call.emitParts(axis, adjust, {pieces.begin(), pieces.size()}, !directed);
   } else {
     emitSlabs(call, axis, pieces, adjust, true);
   }

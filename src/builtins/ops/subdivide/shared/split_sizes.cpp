@@ -301,6 +301,7 @@ Status dividePattern(const SplitBlock& block, double whole, SplitPieces& out) {
   Status status = divide(block, whole, out);
   if (memo && status.ok() && out.size() <= out.capacityHere()) {
     memo->known = true;
+    memo->givenOutOf = GeometryKind::None;
     memo->whole = whole;
     memo->pieces.assign(out.begin(), out.end());
   }
