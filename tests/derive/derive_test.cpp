@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Derivations as wholes: that sharing, threads and the short ways of the machine change nothing but
+// the time, and that limits end what would never end.
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "gable/gable.h"
+
+namespace gable {
+namespace {
+
+struct Text {
+  const char* name;
+  const char* rules;
+};
+
+// Rules whose parts become leaves in a few plain steps, and some that only look so.
+const Text kTexts[] = {
+    {"facade", R"(
+Lot --> extrude(12) comp(f) { side : Facade | top : Roof. }
+Facade --> split(y) { ~3 : Floor }*
+Floor --> split(x) { ~2 : Bay }*
+Bay --> split(x) { 0.15 : Frame | ~1 : Middle | 0.15 : Frame }
+Middle --> split(y) { 0.15 : Frame | ~1 : Glass | 0.15 : NIL }
+Frame --> s('1, '1, 0.2) primitiveCube()
+Glass --> t(0, 0, -0.1) s('1, '1, 0.05) primitiveCube()
+)"},
+    {"trimmed at the corners", R"(
+Lot --> extrude(6) comp(f) { side : Facade }
+Facade --> split(x) { 0.5 : Post | ~1 : Wall. | 0.5 : Post }
+Post --> t(-0.4, 0, 0) s('2, '1, 0.6) primitiveCube()
+)"},
+    {"untrimmed", R"(
+Lot --> extrude(6) comp(f) { side : Facade }
+Facade --> set(trim.vertical, false) split(x) { 0.5 : Post | ~1 : Wall. | 0.5 : Post }
+Post --> t(-0.4, 0, 0) s('2, '1, 0.6) primitiveCube()
+)"},
+    {"chains, names, drops", R"(
+Lot --> extrude(5) split(x) { 1 : A | 1 : B | 1 : C. | 1 : NIL | 1 : D | 1 : s('1, 1, '1) }
+A --> s('1, 2, '1) AA
+AA --> AAA
+AAA --> primitiveCube()
+B --> Named.
+D --> NIL
+)"},
+    {"flat and mirrored", R"(
+Lot --> [ split(y) { ~1 : Ground. } ] [ split(z) { 1 : Strip | ~1 : Rest. } ]
+        [ s('-1, 2, '1) split(x) { 1 : Left | ~1 : Cube } ] t(0, 3, 0) s('1, 0, '1) split(x) { ~1 : Cube }
+Strip --> s('1, 0, 0.5)
+Left --> s('1, '1, '1)
+Cube --> primitiveCube()
+)"},
+    {"coloured, with attributes and numbers", R"(
+attr depth = 0.3
+Lot --> color("#ff8800") set(depth, 0.7) extrude(4) split(z) { ~1 : Slice(split.index) }*
+Slice(n) --> split(x) { 1 : Piece | ~1 : Other(n) }
+Piece --> s('1, '1, depth)
+Other(n) --> case n % 2 == 0 : s('1, n + 1, '1) else : split(y) { 1 : Low. | ~2 : NIL }
+)"},
+    {"repeated with changing sizes", R"(
+Lot --> extrude(rand(3, 9)) split(y) { 2 : Floor | { ~(scope.sy / 5) : Floor }* | 0.5 : Floor }
+Floor --> split(x) { ~rand(0.5, 2) : Box | 1 : Box }*
+Box --> primitiveCube()
+)"},
+};
+
+std::string dumpOf(const Rules& rules, const DeriveSettings& settings) {
+  const Model model = derive(rules, Shapes::lot(9.5, 7), settings);
+  EXPECT_TRUE(model.ok());
+  return model.dump();
+}
+
+class Derivation : public testing::TestWithParam<Text> {};
+
+TEST_P(Derivation, isTheSameStepByStep) {
+  const Rules rules = Rules::parse(GetParam().rules, "text.cga");
+  ASSERT_TRUE(rules.ok());
+  DeriveSettings settings;
+  settings.jobs = 1;
+  settings.sharing = false;
+  const Model quick = derive(rules, Shapes::lot(9.5, 7), settings);
+  settings.trace = true;
+  const Model steps = derive(rules, Shapes::lot(9.5, 7), settings);
+  EXPECT_FALSE(quick.dump().empty());
+  EXPECT_EQ(quick.dump(), steps.dump());
+  EXPECT_EQ(quick.statsJson({}), steps.statsJson({}));
+}
+
+TEST_P(Derivation, isTheSameWithSharing) {
+  const Rules rules = Rules::parse(GetParam().rules, "text.cga");
+  ASSERT_TRUE(rules.ok());
+  DeriveSettings settings;
+  settings.jobs = 1;
+  const std::string shared = dumpOf(rules, settings);
+  settings.sharing = false;
+  EXPECT_EQ(dumpOf(rules, settings), shared);
+}
+
+TEST_P(Derivation, isTheSameOnTwoThreads) {
+  const Rules rules = Rules::parse(GetParam().rules, "text.cga");
+  ASSERT_TRUE(rules.ok());
+  std::vector<std::array<double, 3>> vertices;
+  std::vector<std::vector<uint32_t>> faces;
+  for (uint32_t i = 0; i < 40; ++i) {
+    const double x = 20.0 * i, w = 6 + i % 7, d = 5 + i % 5;
+    for (const auto& p : {std::pair{0.0, 0.0}, {w, 0.0}, {w, -d}, {0.0, -d}}) {
+      vertices.push_back({x + p.first, 0, p.second});
+    }
+    faces.push_back({4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3});
+  }
+  const Shapes shapes = Shapes::mesh(vertices, faces);
+  DeriveSettings settings;
+  settings.jobs = 1;
+  const std::string one = derive(rules, shapes, settings).dump();
+  settings.jobs = 2;
+  EXPECT_EQ(derive(rules, shapes, settings).dump(), one);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Derivation, testing::ValuesIn(kTexts), [](const auto& each) {
+  std::string name = each.param.name;
+  std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
+  return name;
+});
+
+std::string codes(const Model& model) {
+  std::string out;
+  for (const Message& m : model.messages()) out += m.code + ' ';
+  return out;
+}
+
+Model limited(const char* text, const Budget& budget) {
+  const Rules rules = Rules::parse(text, "text.cga");
+  EXPECT_TRUE(rules.ok());
+  DeriveSettings settings;
+  settings.jobs = 1;
+  settings.budget = budget;
+  return derive(rules, Shapes::lot(10, 10), settings);
+}
+
+TEST(Limits, endRecursionAndKeepWhatWasMade) {
+  const Model model = limited("Lot --> [ Kept. ] Lot", {});
+  EXPECT_EQ(model.end(), End::LimitReached);
+  EXPECT_EQ(codes(model), "recursion-too-deep ");
+  EXPECT_NE(model.dump().find("Kept"), std::string::npos);
+}
+
+TEST(Limits, countPartsThatAreNeverMadeAsShapes) {
+  Budget budget;
+  budget.shapes = 5000;
+  const Model model = limited("Lot --> split(x) { ~0.001 : Slice. }*", budget);
+  EXPECT_EQ(model.end(), End::LimitReached);
+  EXPECT_EQ(codes(model), "too-many-shapes ");
+}
+
+TEST(Limits, boundTheChildrenOfOneShape) {
+  Budget budget;
+  budget.width = 100;
+  const Model model = limited("Lot --> split(x) { ~0.01 : Slice. }*", budget);
+  EXPECT_EQ(model.end(), End::LimitReached);
+  EXPECT_EQ(codes(model), "too-many-children ");
+}
+
+}  // namespace
+}  // namespace gable
