@@ -155,15 +155,21 @@ class Machine final : public Services {
     Frame frame;
     uint32_t rule;
   };
-  /// A slot whose parts become leaves in a few plain steps, or go.
+  /// A slot whose parts become leaves in a few plain steps, or go, or are divided once more.
   struct LightSlot {
     bool light = false;
     /// NIL: the parts go.
     bool drop = false;
-    /// Rules called on the way; the slot's own rule gives the name where there is none.
-    uint8_t calls = 0;
-    /// Of the leaf: a rule of its own, or a name without one.
+    /// The last rule called works in a frame of its own, and so do the steps.
+    bool boundary = false;
+    /// The leaf has a name without a rule.
     bool named = false;
+    /// Rules called on the way, and the one whose code comes last.
+    uint8_t calls = 0;
+    uint32_t rule = 0;
+    /// The block of the split at the end, plus 1; 0 for a leaf.
+    uint32_t block = 0;
+    /// Of the leaf.
     StringId name = 0;
     uint32_t source = 0;
     struct Step {
@@ -172,13 +178,26 @@ class Machine final : public Services {
     };
     SmallBuffer<Step, 4> steps;
   };
-  /// What the light parts of a block have in common.
-  struct LightRun {
-    /// The axes of the parent's scope in the frame of the leaves.
-    Frame frame;
+  /// What light parts are cut from.
+  struct LightSource {
+    /// Where the local frame lies in the frame of the leaves.
+    const Frame& world;
+    const Frame& scope;
+    /// The scope's axes in the frame of the leaves.
+    const Frame& leafFrame;
     /// The scope's axis that it is divided along.
     Vec3 along;
-    uint32_t materials = 0;
+    Vec3 size;
+    GeometryKind kind;
+    uint32_t materials, attributes;
+    const LightTrim* trim;
+    /// Of the rule call that the parts belong to; null when it is light itself.
+    uint32_t* childCount;
+  };
+  struct LightMark {
+    size_t leaves;
+    uint64_t shapes, shapesExpanded;
+    uint32_t childCount;
   };
   enum class AttributeState : uint8_t { Unset, Busy, Known };
 
@@ -198,8 +217,14 @@ class Machine final : public Services {
   void nextChild();
   void makeChild();
   void makeLightParts(Activation& a);
-  bool makeLightPart(Activation& a, const LightRun& run, const SplitPiece& piece,
-                     const LightSlot& slot);
+  bool makeLightPart(const LightSource& from, const PartPlan& plan, const SplitPiece& piece,
+                     const LightSlot& slot, uint32_t depth, uint32_t nested);
+  bool finishLightPart(const LightSource& from, LightPart& part, const LightSlot& slot,
+                       uint32_t depth, uint32_t nested);
+  bool splitLightPart(const LightSource& from, const LightPart& part, const LightSlot& slot,
+                      uint32_t depth, uint32_t nested);
+  bool isPlainSplit(const Instruction& at) const;
+  const std::vector<LightSlot>& lightSlots(uint32_t block, uint32_t rule);
   LightSlot lightSlot(uint32_t rule, uint32_t entry) const;
   void operation(const Instruction& i, const Value* constants);
   SplitBlock splitBlock(uint32_t number, const Value* values);

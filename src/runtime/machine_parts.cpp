@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Light parts. Most leaves of a facade come of a part of a split by a slot like
+// Light parts. Most leaves of a facade come of rules like
 //
-//   0.15 : Frame          Frame --> s('1, '1, 0.2) primitiveCube()
+//   Bay   --> split(x) { 0.15 : Frame | ~1 : Glass. | 0.15 : Frame }
+//   Frame --> s('1, '1, 0.2) primitiveCube()
 //
-// whose code is a straight line of plain operations with constant arguments. Such parts are never
-// made as shapes: the steps run on a LightPart, a few numbers, and write the leaf. What they cannot
-// do (a size of zero, a box that a trim plane meets) is done the long way, part by part, and both
-// ways give the same leaves, counts and numbers of children.
+// whose code is a straight line of plain operations with constant arguments, and perhaps a split by
+// constant sizes at its end. Such parts are never made as shapes: the steps run on a LightPart, a
+// few numbers, and write the leaf. What they cannot do (a size of zero, a box that a trim plane
+// meets, a length that was not divided before) is done the long way, part by part, and both ways
+// give the same leaves, counts and numbers of children.
+
+#include <algorithm>
 
 #include "runtime/machine.h"
 
@@ -16,8 +20,9 @@ namespace gable {
 
 namespace {
 
-// A chain of calls longer than this is not worth following.
+// Chains of calls and splits within splits longer than this are not worth following.
 constexpr uint8_t kMostCalls = 8;
+constexpr uint32_t kMostNested = 8;
 
 uint32_t unitMesh(GeometryKind kind, bool uv) {
   switch (kind) {
@@ -29,8 +34,17 @@ uint32_t unitMesh(GeometryKind kind, bool uv) {
 
 }  // namespace
 
+// A split that ends its code and has nothing to be computed.
+bool Machine::isPlainSplit(const Instruction& at) const {
+  if (!flat_ || at.code != Code::OperationConstant || at.y == 0) return false;
+  const BlockCode& block = program_.blocks[at.y - 1u];
+  return block.kind == BlockKind::Split && !block.constantSizes.empty() &&
+         (&at)[2].code == Code::End;
+}
+
 Machine::LightSlot Machine::lightSlot(uint32_t rule, uint32_t entry) const {
   LightSlot slot;
+  slot.rule = rule;
   slot.name = program_.rules[rule].name;
   slot.source = program_.rules[rule].entry;
   const Instruction* at = program_.code.data() + entry;
@@ -38,6 +52,11 @@ Machine::LightSlot Machine::lightSlot(uint32_t rule, uint32_t entry) const {
     switch (at->code) {
       case Code::Operation:
       case Code::OperationConstant: {
+        if (isPlainSplit(*at)) {
+          slot.block = at->y;
+          slot.light = true;
+          return slot;
+        }
         const OpSpec& spec = *program_.operations[at->a];
         if (!spec.applyLight || at->y > 0) return {};
         if (at->code == Code::Operation && at->x > 0) return {};
@@ -48,11 +67,15 @@ Machine::LightSlot Machine::lightSlot(uint32_t rule, uint32_t entry) const {
       }
       case Code::CallRule: {
         const RuleCode& called = program_.rules[at->a];
-        if (at->x > 0 || at[1].code != Code::End || called.shared || called.needsPrevious ||
+        if (at->x > 0 || at[1].code != Code::End || called.needsPrevious || slot.boundary ||
             slot.calls == kMostCalls) {
           return {};
         }
+        // The steps behind it work in the rule's own frame.
+        if (called.shared && (!flat_ || !slot.steps.empty())) return {};
+        slot.boundary = called.shared;
         ++slot.calls;
+        slot.rule = at->a;
         slot.name = called.name;
         slot.source = called.entry;
         at = program_.code.data() + called.entry - 1;
@@ -72,52 +95,132 @@ Machine::LightSlot Machine::lightSlot(uint32_t rule, uint32_t entry) const {
   }
 }
 
+const std::vector<Machine::LightSlot>& Machine::lightSlots(uint32_t block, uint32_t rule) {
+  std::vector<LightSlot>& slots = splits_[block].slots;
+  if (slots.empty()) {
+    for (uint32_t entry : program_.blocks[block].slots) slots.push_back(lightSlot(rule, entry));
+  }
+  return slots;
+}
+
 // Makes parts of the current block as long as they are light.
 void Machine::makeLightParts(Activation& a) {
   const Shape& s = a.shape;
   const bool plain = lightPartsAllowed_ && s.geometry.kind != GeometryKind::None && s.size.x >= 0 &&
                      s.size.y >= 0 && s.size.z >= 0 && s.assetMaterials == 0;
-  if (!plain) return;
-  std::vector<LightSlot>& slots = splits_[a.block].slots;
-  if (slots.empty()) {
-    for (uint32_t entry : program_.blocks[a.block].slots) {
-      slots.push_back(lightSlot(a.rule, entry));
-    }
-  }
-  // Only the first part that is light needs to know where the parent lies.
-  if (a.childNext == a.childEnd || !slots[pieces_[a.childNext].slot].light) return;
-  const LightRun run{flat_ && !s.scope.turned ? worlds_.back()
-                     : flat_                  ? worlds_.back() * s.scope
-                                              : s.scope,
-                     directionOf(s, a.plan.axis), output_.materialNumber(s.material, 0)};
+  if (!plain || a.childNext == a.childEnd) return;
+  const std::vector<LightSlot>& slots = lightSlots(a.block, a.rule);
+  // Only a part that is light needs to know where the parent lies.
+  if (!slots[pieces_[a.childNext].slot].light) return;
+  static const Frame kHere;
+  const Frame& world = flat_ ? worlds_.back() : kHere;
+  const Frame axes = s.scope.turned || !flat_ ? world * s.scope : world;
+  const LightTrim trim{s};
+  const LightSource source{world,
+                           s.scope,
+                           axes,
+                           directionOf(s.scope, a.plan.axis),
+                           s.size,
+                           s.geometry.kind,
+                           output_.materialNumber(s.material, 0),
+                           s.attributes,
+                           s.extra && !s.extra->trim.empty() ? &trim : nullptr,
+                           &activations_[a.owner].childCount};
   while (a.childNext < a.childEnd) {
     const SplitPiece& piece = pieces_[a.childNext];
     const LightSlot& slot = slots[piece.slot];
-    if (!slot.light || !makeLightPart(a, run, piece, slot)) return;
+    if (!slot.light) return;
+    const LightMark mark{output_.openLeaves.size(), shapes_, shapesExpanded_, *source.childCount};
+    if (!makeLightPart(source, a.plan, piece, slot, a.depth, 0)) {
+      output_.openLeaves.resize(mark.leaves);
+      shapes_ = mark.shapes;
+      shapesExpanded_ = mark.shapesExpanded;
+      *source.childCount = mark.childCount;
+      return;
+    }
     ++a.childNext;
+    if (!tick()) return;
+    passLeaves();
   }
 }
 
-bool Machine::makeLightPart(Activation& a, const LightRun& run, const SplitPiece& piece,
-                            const LightSlot& slot) {
-  if (a.depth + slot.calls > options().limits.depth) return false;
-  const Shape& s = a.shape;
-  LightPart part{s, s.scope.origin + run.along * piece.start, s.size, s.geometry.kind};
-  part.size[static_cast<size_t>(a.plan.axis)] = a.plan.flat ? 0 : piece.size;
+// False when it has to be done the long way; what was written until then is the caller's to drop.
+bool Machine::makeLightPart(const LightSource& from, const PartPlan& plan, const SplitPiece& piece,
+                            const LightSlot& slot, uint32_t depth, uint32_t nested) {
+  depth += slot.calls;
+  if (depth > options().limits.depth) return false;
+  LightPart part{&from.scope, from.scope.origin + from.along * piece.start,
+                 from.size,   from.kind,
+                 false,       from.trim};
+  part.size[static_cast<size_t>(plan.axis)] = plan.flat ? 0 : piece.size;
+  if (from.childCount && (slot.calls > 0 || slot.named)) ++*from.childCount;
+  if (slot.boundary) {
+    Frame outer = from.scope;
+    outer.origin = part.origin;
+    const Frame world = from.world * outer;
+    static const Frame kOwn;
+    const bool trimmed = part.trim && !isFarFromTrim(part);
+    const LightTrim trim{trimmed ? part.trim->shape : current().shape, true,
+                         trimmed ? part.trim->there(part.origin) : Vec3{}};
+    part = {&kOwn, {}, part.size, part.kind, false, trimmed ? &trim : nullptr};
+    return finishLightPart({world,
+                            kOwn,
+                            world,
+                            {},
+                            part.size,
+                            part.kind,
+                            from.materials,
+                            from.attributes,
+                            part.trim,
+                            nullptr},
+                           part, slot, depth, nested);
+  }
+  return finishLightPart(from, part, slot, depth, nested);
+}
+
+// The steps of a part in the frame that they work in, and then its leaf, or its parts.
+bool Machine::finishLightPart(const LightSource& from, LightPart& part, const LightSlot& slot,
+                              uint32_t depth, uint32_t nested) {
   for (const LightSlot::Step& step : slot.steps) {
     if (!step.apply(part, step.args)) return false;
   }
   // Each call is a shape, and so is a leaf or an end that belongs to no call.
-  const uint32_t shapes = slot.named ? slot.calls + 1u : std::max<uint32_t>(slot.calls, 1);
+  const uint32_t shapes = slot.block > 0 ? slot.calls
+                          : slot.named   ? slot.calls + 1u
+                                         : std::max<uint32_t>(slot.calls, 1);
   shapes_ += shapes;
   shapesExpanded_ += shapes;
-  if (slot.calls > 0 || slot.named) ++activations_[a.owner].childCount;
-  if (!tick()) return false;
   if (slot.drop) return true;
-  Leaf& leaf = output_.openLeaves.emplace_back(run.frame, part.size, unitMesh(part.kind, part.uv),
-                                               run.materials, slot.name, slot.source, s.attributes);
-  leaf.frame.origin = flat_ ? worlds_.back().point(part.origin) : part.origin;
-  passLeaves();
+  if (slot.block > 0) return splitLightPart(from, part, slot, depth, nested);
+  Leaf& leaf =
+      output_.openLeaves.emplace_back(from.leafFrame, part.size, unitMesh(part.kind, part.uv),
+                                      from.materials, slot.name, slot.source, from.attributes);
+  leaf.frame.origin = flat_ ? from.world.point(part.origin) : part.origin;
+  return true;
+}
+
+bool Machine::splitLightPart(const LightSource& from, const LightPart& part, const LightSlot& slot,
+                             uint32_t depth, uint32_t nested) {
+  const uint32_t block = slot.block - 1u;
+  const SplitMemo& memo = splits_[block].memo;
+  const bool known = nested < kMostNested && memo.known && memo.givenOutOf == part.kind &&
+                     !part.uv && part.size[static_cast<size_t>(memo.plan.axis)] == memo.whole &&
+                     memo.pieces.size() <= options().limits.width;
+  if (!known) return false;
+  Frame scope = from.scope;
+  scope.origin = part.origin;
+  const LightSource inner{from.world,     scope,
+                          from.leafFrame, directionOf(scope, memo.plan.axis),
+                          part.size,      part.kind,
+                          from.materials, from.attributes,
+                          part.trim,      slot.calls > 0 ? nullptr : from.childCount};
+  const std::vector<LightSlot>& slots = lightSlots(block, slot.rule);
+  for (const SplitPiece& piece : memo.pieces) {
+    const LightSlot& next = slots[piece.slot];
+    if (!next.light || !makeLightPart(inner, memo.plan, piece, next, depth, nested + 1)) {
+      return false;
+    }
+  }
   return true;
 }
 

@@ -12,21 +12,25 @@ namespace gable {
 
 namespace {
 
+// Places that were computed in different frames differ by less, in metres.
+constexpr double kRounding = 1e-6;
+
 // A box around a shape, grown on all sides.
 struct GrownBox {
   const Frame& axes;
   Vec3 half, middle;
   double reach;
 
-  explicit GrownBox(const Shape& s) : axes(s.scope) {
-    const Vec3 size{std::fabs(s.size.x), std::fabs(s.size.y), std::fabs(s.size.z)};
+  GrownBox(const Frame& f, const Vec3& origin, const Vec3& s) : axes(f) {
+    const Vec3 size{std::fabs(s.x), std::fabs(s.y), std::fabs(s.z)};
     const double grow = std::max({size.x, size.y, size.z}) / 4;
     half = {size.x / 2 + grow, size.y / 2 + grow, size.z / 2 + grow};
-    middle = axes.point(s.size * 0.5);
+    middle = origin + axes.direction(s * 0.5);
     reach = half.x + half.y + half.z;
   }
-  bool liesBehind(const TrimPlane& p) const {
-    const double beyond = dot(p.normal, middle) - p.distance;
+  // By more than `clearance`.
+  bool liesBehind(const TrimPlane& p, double clearance = 0) const {
+    const double beyond = dot(p.normal, middle) - p.distance + clearance;
     if (beyond + reach < 0) return true;
     return beyond + std::fabs(dot(p.normal, axes.x)) * half.x +
                std::fabs(dot(p.normal, axes.y)) * half.y +
@@ -52,7 +56,8 @@ void makePart(const Shape& parent, const PartPlan& plan, const SplitPiece& piece
   part = parent;
   const auto a = static_cast<size_t>(plan.axis);
   const double whole = std::fabs(parent.size[a]), sign = parent.size[a] < 0 ? -1 : 1;
-  part.scope.origin = parent.scope.origin + directionOf(parent, plan.axis) * (sign * piece.start);
+  part.scope.origin =
+      parent.scope.origin + directionOf(parent.scope, plan.axis) * (sign * piece.start);
   part.size[a] = plan.flat ? 0 : sign * piece.size;
   part.split = {index, plan.total};
   part.path = hashCombine(plan.path, uint64_t{piece.slot} << 32 | index);
@@ -61,9 +66,18 @@ void makePart(const Shape& parent, const PartPlan& plan, const SplitPiece& piece
   if (part.extra) forgetFarTrimPlanes(part);
 }
 
+bool isFarFromTrim(const LightPart& part) {
+  const Shape& s = part.trim->shape;
+  const GrownBox box(s.scope, part.trim->there(part.origin), part.size);
+  for (const TrimPlane& p : s.extra->trim) {
+    if (!box.liesBehind(p, kRounding)) return false;
+  }
+  return true;
+}
+
 void forgetFarTrimPlanes(Shape& s) {
   if (!s.extra || s.extra->trim.empty()) return;
-  const GrownBox box(s);
+  const GrownBox box(s.scope, s.scope.origin, s.size);
   const auto far = [&](const TrimPlane& p) { return box.liesBehind(p); };
   const auto& trim = s.extra->trim;
   const auto gone = std::count_if(trim.begin(), trim.end(), far);

@@ -41,21 +41,37 @@ struct PartPlan {
 void makePart(const Shape& parent, const PartPlan& plan, const SplitPiece& piece, uint32_t index,
               Shape& part);
 
+/// The trim planes that light parts are subject to: those of a shape with the same axes.
+struct LightTrim {
+  const Shape& shape;
+  /// The parts' local frame is not the shape's, but begins at `origin` along the axes.
+  bool ownFrame = false;
+  Vec3 origin;
+
+  /// A place of the parts' local frame in the shape's.
+  Vec3 there(const Vec3& p) const { return ownFrame ? origin + shape.scope.direction(p) : p; }
+};
+
 /// A part that becomes a leaf in a few plain steps: it moves along its parent's axes, changes its
 /// size and becomes a primitive, and is never made as a shape. Its parent is a box or a rectangle
 /// of a size that is nowhere negative.
 struct LightPart {
-  const Shape& parent;
-  /// Of the scope, in the parent's local frame.
+  /// The parent's scope: its axes are the part's.
+  const Frame* parent;
+  /// Of the scope, in the local frame.
   Vec3 origin;
   Vec3 size;
   GeometryKind kind;
   bool uv = false;
+  /// Null where nothing trims.
+  const LightTrim* trim = nullptr;
 };
 
-/// The scope's axis, in the shape's local frame.
-inline const Vec3& directionOf(const Shape& s, Axis axis) {
-  return axis == Axis::X ? s.scope.x : axis == Axis::Y ? s.scope.y : s.scope.z;
+/// True when a part as a shape would certainly forget all its trim planes.
+bool isFarFromTrim(const LightPart& part);
+
+inline const Vec3& directionOf(const Frame& f, Axis axis) {
+  return axis == Axis::X ? f.x : axis == Axis::Y ? f.y : f.z;
 }
 
 /// Forgets the trim planes that the shape is too far from to meet: those which the scope, grown by

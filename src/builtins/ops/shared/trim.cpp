@@ -15,15 +15,13 @@ namespace {
 // Planes through the corners of polygons that were snapped to a grid are this far off, in metres.
 constexpr double kOnPlane = 1e-6;
 
-// True when the box of that size at an origin along the axes lies wholly behind a plane; geometry
+// How far the box of that size at an origin along the axes lies beyond a plane at most; geometry
 // lies within the box of its scope.
-bool behind(const Vec3& origin, const Frame& axes, const Vec3& size, const TrimPlane& plane) {
-  const double extent = std::fabs(size.x) + std::fabs(size.y) + std::fabs(size.z);
-  double far = dot(plane.normal, origin) - plane.distance;
-  far += std::max(0.0, dot(plane.normal, axes.x) * size.x);
-  far += std::max(0.0, dot(plane.normal, axes.y) * size.y);
-  far += std::max(0.0, dot(plane.normal, axes.z) * size.z);
-  return far <= std::max(kOnPlane, 1e-9 * (1 + extent));
+double beyond(const Vec3& origin, const Frame& axes, const Vec3& size, const TrimPlane& plane) {
+  return dot(plane.normal, origin) - plane.distance +
+         std::max(0.0, dot(plane.normal, axes.x) * size.x) +
+         std::max(0.0, dot(plane.normal, axes.y) * size.y) +
+         std::max(0.0, dot(plane.normal, axes.z) * size.z);
 }
 
 bool isOn(const Shape& s, const TrimPlane& plane) {
@@ -47,12 +45,14 @@ bool fillsItsBox(const Shape& s) {
 bool trimGeometry(Shape& s) {
   if (!s.extra || s.extra->trim.empty() || s.geometry.kind == GeometryKind::None) return false;
   if (!s.trimVertical && !s.trimHorizontal) return false;
+  const double extent = std::fabs(s.size.x) + std::fabs(s.size.y) + std::fabs(s.size.z);
+  const double slack = std::max(kOnPlane, 1e-9 * (1 + extent));
   const bool boxed = fillsItsBox(s);
   MeshRef mesh;
   bool trimmed = false;
   for (const TrimPlane& plane : s.extra->trim) {
     if (!isOn(s, plane)) continue;
-    if (boxed && behind(s.scope.origin, s.scope, s.size, plane)) continue;
+    if (boxed && beyond(s.scope.origin, s.scope, s.size, plane) <= slack) continue;
     if (!mesh) mesh = meshInScope(s);
     if (mesh->empty()) break;
     Plane cut;
@@ -74,10 +74,13 @@ bool trimGeometry(Shape& s) {
 }
 
 bool reachesTrimPlane(const LightPart& part) {
-  const Shape& s = part.parent;
-  if (!s.extra) return false;
+  if (!part.trim) return false;
+  const Shape& s = part.trim->shape;
+  const Vec3 origin = part.trim->there(part.origin);
+  const double extent = part.size.x + part.size.y + part.size.z;
   return std::any_of(s.extra->trim.begin(), s.extra->trim.end(), [&](const TrimPlane& plane) {
-    return isOn(s, plane) && !behind(part.origin, s.scope, part.size, plane);
+    if (!isOn(s, plane) || dot(plane.normal, origin) - plane.distance + extent < 0) return false;
+    return beyond(origin, s.scope, part.size, plane) > kOnPlane / 2;
   });
 }
 

@@ -13,7 +13,7 @@ namespace gable {
 /// stays one, and nothing is allocated. True when something was cut off.
 bool trimGeometry(Shape& s);
 
-/// True when a box that fills the part's scope would be cut by the parent's trim planes.
+/// False when a box that fills the part's scope is clear of the trim planes.
 bool reachesTrimPlane(const LightPart& part);
 
 }  // namespace gable

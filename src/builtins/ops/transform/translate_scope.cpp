@@ -21,7 +21,7 @@ bool applyTLight(LightPart& part, std::span<const Value> args) {
   for (size_t i = 0; i < 3; ++i) {
     by[i] = args[i].unit == Unit::Relative ? args[i].number * part.size[i] : args[i].number;
   }
-  part.origin += part.parent.scope.direction(by);
+  part.origin += part.parent->direction(by);
   return true;
 }
 
