@@ -1,15 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The Gable authors
 #
-# What an example is: examples/NAME/NAME.cga, on the shapes of examples/NAME/buildings.geojson where
-# there is such a file. generate.args and picture.args beside them hold further arguments of
+# What an example is: examples/NAME/NAME.cga, or a grammar of that name in another notation, on the
+# shapes of examples/NAME/buildings.geojson where there is such a file. generate.args and picture.args beside them hold further arguments of
 # `gable generate` and `gable render`; # starts a comment in them. Sourced from the repository's root.
 
 example_names() {
-  local rules name
-  for rules in examples/*/*.cga; do
-    name=$(basename "$rules" .cga)
-    if [ -f "$rules" ] && [ "$rules" = "examples/$name/$name.cga" ]; then echo "$name"; fi
+  local folder name
+  for folder in examples/*/; do
+    name=$(basename "$folder")
+    if [ -n "$(example_rules "$name")" ]; then echo "$name"; fi
+  done
+}
+
+# example_rules NAME: its rule file; nothing when there is no such example.
+example_rules() {
+  local extension
+  for extension in cga gbbg grammar pg3d park; do
+    [ ! -f "examples/$1/$1.$extension" ] || { echo "examples/$1/$1.$extension" && return; }
   done
 }
 
@@ -18,7 +26,7 @@ words() { [ ! -f "$1" ] || sed 's/#.*//' "$1" | xargs -n 1; }
 
 # derive_arguments NAME: what `gable generate` and `gable render` are told about an example.
 derive_arguments() {
-  echo "examples/$1/$1.cga"
+  example_rules "$1"
   words "examples/$1/generate.args"
   [ ! -f "examples/$1/buildings.geojson" ] || printf '%s\n' --shapes "examples/$1/buildings.geojson"
 }

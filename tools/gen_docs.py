@@ -71,7 +71,10 @@ class Reference:
         prose = source.with_suffix(".md")
         names = [e["name"] for e in entries] or [source.stem.replace("_", " ").capitalize()]
         title = ", ".join(names[:6]) + (", ..." if len(names) > 6 else "")
-        intro, rest = split_prose(prose.read_text(encoding="utf-8")) if prose.exists() else ("", "")
+        text = prose.read_text(encoding="utf-8") if prose.exists() else ""
+        # Pictures lie beside the prose.
+        beside = "../../../" + source.parent.relative_to(ROOT).as_posix() + "/"
+        intro, rest = split_prose(re.sub(r"(!\[[^\]]*\]\()([\w-]+\.png\))", rf"\g<1>{beside}\g<2>", text))
         parts = [NOTE.format(source=source.relative_to(ROOT).as_posix()), f"# {title}\n", intro]
         parts += [entry_text(e, heading=len(entries) > 1) for e in entries]
         if attributes:

@@ -59,7 +59,8 @@ class ExampleTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def testIsFormattedAndShort(self):
-        rules = Path(f"examples/{NAME}/{NAME}.cga")
+        known = (Path(f"examples/{NAME}/{NAME}.{e}") for e in ("cga", "gbbg", "grammar", "pg3d", "park"))
+        rules = next(path for path in known if path.exists())
         done = subprocess.run([GABLE, "format", "--check", str(rules)], capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertLess(len(rules.read_text().splitlines()), 300)
