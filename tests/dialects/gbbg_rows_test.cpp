@@ -482,6 +482,37 @@ TEST(Gbbg, G23WithTheEmptyOptionFloorsAreDrawn) {
   EXPECT_NEAR(floors / 900, 1 / 1.2, 0.04);
 }
 
+// Converted to Gable's own language a grammar gives the same model, draw by draw.
+void expectSameConverted(const std::string& grammar, const std::string& project = {}) {
+  const std::string path = (project.empty() ? "" : project + "/") + "test.gbbg";
+  const LoadOptions options{project, {}, {}};
+  const Converted converted = convert(grammar, path, options);
+  ASSERT_FALSE(hasErrors(converted.messages));
+  const Rules before = Rules::parse(grammar, path, options);
+  const Rules after = Rules::parse(converted.text, path + ".cga", options);
+  for (const Message& m : after.messages()) ADD_FAILURE() << m.pretty;
+  for (const double seed : {0.0, 7.0}) {
+    DeriveSettings settings;
+    settings.seed = seed;
+    const Model a = derive(before, Shapes::lot(20, 30), settings);
+    const Model b = derive(after, Shapes::lot(20, 30), settings);
+    EXPECT_FALSE(a.dump().empty());
+    EXPECT_EQ(a.dump(), b.dump()) << converted.text;
+  }
+}
+
+TEST(Gbbg, ConvertedGrammarsGiveTheSameModel) {
+  expectSameConverted(testBuilding());
+  expectSameConverted(
+      "select weighted\nterminal A [1, 1, 0], B 2D, \"c d\" Empty, E [2, 0, 0]\n"
+      "START -> Margin(X, Relative, 0.3, FacingIn) {A | B 1, EMPTY 2, \"c d\" 0.1 | P}\n"
+      "P -> Component(Z, TopPlusBottom) {A | B}\nP -> Split(Z, {1.25}, ToRoot) {Q 1, A 3 | R}\n"
+      "Q -> Scope(T(1, 2, 3, Set), R(10, -20, 30, World), S(2, -1, 0, Set)) {A 1, B 1} weight 2\n"
+      "R -> Repeat(X) {E 1, A 2}\n");
+  const std::string folder = GABLE_SOURCE_DIR "/examples/gbbg";
+  expectSameConverted(readFile(folder + "/gbbg.gbbg").value(), folder);
+}
+
 TEST(Gbbg, FootprintsAreStartShapesToo) {
   const std::string rules =
       "\nterminal F\nshape B\nSTART -> Split(Y, {3}) {F | B}\nB -> Scope() {F}";
