@@ -19,7 +19,7 @@ std::string quote(std::string_view s) { return "'" + std::string(s) + "'"; }
 class Checker {
  public:
   Checker(const Grammar& grammar, Diagnostics& diagnostics)
-      : grammar_(grammar), diagnostics_(diagnostics) {}
+      : grammar_(grammar), diagnostics_(diagnostics), broken_(diagnostics.hasErrors()) {}
 
   Vocabulary run() {
     for (const Statement& s : grammar_.statements) {
@@ -89,6 +89,7 @@ class Checker {
 
   void addAsset(const AssetLine& line) {
     SymbolInfo* s = out_.find(line.symbol.text);
+    if (!s && broken_) return;
     if (!s) {
       diagnostics_.warning("gbbg-unknown-symbol", line.symbol.span,
                            "no shape of this grammar is " + quote(line.symbol.text),
@@ -111,7 +112,7 @@ class Checker {
   }
 
   void checkStart() {
-    if (!out_.starts.empty() || out_.find(kStart)) return;
+    if (broken_ || !out_.starts.empty() || out_.find(kStart)) return;
     diagnostics_.error("gbbg-no-start", {}, "the grammar has no shape to begin with",
                        "add 'axiom NAME size (30, 30, 30)', or a rule for START");
   }
@@ -126,12 +127,12 @@ class Checker {
       s.rules.clear();
     }
     const bool reached = reached_.count(s.name) > 0;
-    if (!s.rules.empty() && !reached && s.name != kStart) {
+    if (!broken_ && !s.rules.empty() && !reached && s.name != kStart) {
       diagnostics_.warning("gbbg-unknown-predecessor", s.rules[0]->predecessor.span,
                            "nothing becomes " + quote(s.name) + ", so this rule never applies",
                            near(s.name, reachedNames()));
     }
-    if (s.rules.empty() && !s.terminal && reached) {
+    if (!broken_ && s.rules.empty() && !s.terminal && reached) {
       diagnostics_.warning(
           "gbbg-no-rule", s.span,
           "there is no rule for the non-terminal shape " + quote(s.name) + "; it stays as it is",
@@ -158,6 +159,8 @@ class Checker {
 
   const Grammar& grammar_;
   Diagnostics& diagnostics_;
+  /// Statements are missing, so nothing is said of what they may have held.
+  bool broken_;
   Vocabulary out_;
   int hints_ = 0;
   /// What the axiom or a rule makes.
