@@ -58,8 +58,11 @@ class LineCutter : public cut::Host {
     return {cross(points_[c.point], normal_), values_[c.point]};
   }
   cut::Corner split(const cut::Corner& a, const cut::Corner& b) override {
-    const double t = (offset_ - values_[a.point]) / (values_[b.point] - values_[a.point]);
-    points_.push_back(points_[a.point] + (points_[b.point] - points_[a.point]) * t);
+    // From below to above, so that neighbours that run along the edge both ways agree to the bit.
+    const bool up = values_[a.point] < values_[b.point];
+    const uint32_t low = up ? a.point : b.point, high = up ? b.point : a.point;
+    const double t = (offset_ - values_[low]) / (values_[high] - values_[low]);
+    points_.push_back(points_[low] + (points_[high] - points_[low]) * t);
     values_.push_back(offset_);
     return {static_cast<uint32_t>(points_.size() - 1), 0, a.edge};
   }

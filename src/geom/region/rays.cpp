@@ -1,0 +1,407 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Without a width the region falls into sectors: the boundary from one hit to the next, and the
+// centre. With one, each path is a strip cut to the region, and the regions are what is left.
+#include "geom/region/rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "geom/region/line.h"
+#include "geom/region/places.h"
+#include "geom/region/segment_grid.h"
+#include "math/predicates.h"
+
+namespace gable {
+namespace {
+
+// Several centres are never joined by paths of no width.
+constexpr double kLeastWidth = 0.02;
+
+struct Ray {
+  Vec2 from, to;
+  // On the outer ring: the edge and the place on it.
+  uint32_t edge = kNoEdge;
+  double at = 0;
+};
+
+class Rays {
+ public:
+  Rays(const Polygon& p, const RayOptions& o) : p_(p), o_(o), edges_(edgesOf(p)) {
+    scale_ = length(bounds(p).size());
+  }
+
+  RayResult run(std::span<const Vec2> centres, std::span<const RayTarget> targets) {
+    RayResult out;
+    for (const Vec2 c : centres) {
+      if (locate(p_, c) == Where::Inside) {
+        centres_.push_back(c);
+      } else {
+        out.moved = true;
+      }
+    }
+    if (centres_.empty()) centres_.push_back(poleOf(p_).centre);
+    for (const RayTarget& t : targets) castTo(t);
+    dropDuplicates();
+    link();
+    out.rays = static_cast<uint32_t>(rays_.size());
+    out.links = static_cast<uint32_t>(links_.size());
+    if (rays_.size() + 2 * links_.size() < 2) {
+      out.pieces.push_back(wholePiece(p_));
+      return out;
+    }
+    if (o_.pathWidth > 0 || centres_.size() > 1) {
+      withPaths(out.pieces);
+    } else {
+      sectors(out.pieces);
+    }
+    return out;
+  }
+
+ private:
+  // The first boundary point along a ray, beyond its start; edges at `except` do not count.
+  bool firstHit(Vec2 from, Vec2 d, Vec2 except, bool hasExcept, Ray& hit, double& reach) const {
+    bool found = false;
+    reach = 1e300;
+    for (uint32_t i = 0; i < edges_.size(); ++i) {
+      const Vec2 a = edges_[i].a, b = edges_[i].b;
+      if (hasExcept && (a == except || b == except)) continue;
+      const double det = cross(d, b - a);
+      if (det == 0) continue;
+      const double t = cross(a - from, b - a) / det;
+      const double u = cross(a - from, d) / det;
+      if (!(t > 0) || u < 0 || u > 1 || t >= reach) continue;
+      reach = t;
+      hit = {from, a + (b - a) * u, i, u};
+      found = true;
+    }
+    return found;
+  }
+
+  // A ray from a centre to a target; false when it is hidden from there.
+  bool rayTo(Vec2 c, const RayTarget& t, Ray& ray) const {
+    double reach = 0;
+    if (t.kind == RayTarget::Kind::Direction) {
+      return length(t.value) > 0 && firstHit(c, t.value, {}, false, ray, reach);
+    }
+    const Vec2 d = t.value - c;
+    if (!(length(d) > 0)) return false;
+    // A vertex of the region is met exactly; nothing else may lie before it.
+    for (uint32_t i = 0; i < edges_.size(); ++i) {
+      if (!(edges_[i].a == t.value)) continue;
+      Ray first;
+      const bool blocked = firstHit(c, d, t.value, true, first, reach) && reach < 1 - 1e-9;
+      // The ray must come from within: a corner may be seen through its own outside.
+      const Vec2 before = t.value - d * 1e-6;
+      if (blocked || locate(p_, before) == Where::Outside) {
+        if (!o_.stopHidden || !blocked) return false;
+        ray = first;
+        return true;
+      }
+      ray = {c, t.value, i, 0};
+      return true;
+    }
+    if (!firstHit(c, d, {}, false, ray, reach)) return false;
+    return reach >= 1 - 1e-9 || o_.stopHidden;
+  }
+
+  void castTo(const RayTarget& t) {
+    bool found = false;
+    Ray best;
+    for (const Vec2 c : centres_) {
+      Ray r;
+      if (!rayTo(c, t, r)) continue;
+      if (found && length(r.to - r.from) >= length(best.to - best.from)) continue;
+      best = r;
+      found = true;
+    }
+    if (found) rays_.push_back(best);
+  }
+
+  void dropDuplicates() {
+    std::vector<Ray> kept;
+    const double least = std::max(o_.pathWidth, 1e-9 * scale_);
+    for (const Ray& r : rays_) {
+      const bool near = std::any_of(kept.begin(), kept.end(),
+                                    [&](const Ray& k) { return length(k.to - r.to) < least; });
+      if (!near) kept.push_back(r);
+    }
+    rays_ = std::move(kept);
+  }
+
+  bool sees(Vec2 a, Vec2 b) const {
+    return std::none_of(edges_.begin(), edges_.end(), [&](const Segment& e) {
+      return orientation(a, b, e.a) * orientation(a, b, e.b) <= 0 &&
+             orientation(e.a, e.b, a) * orientation(e.a, e.b, b) <= 0;
+    });
+  }
+
+  bool crossesAny(Vec2 a, Vec2 b) const {
+    const auto meets = [&](const Ray& r) {
+      if (r.from == a || r.from == b || r.to == a || r.to == b) return false;
+      return orientation(a, b, r.from) * orientation(a, b, r.to) <= 0 &&
+             orientation(r.from, r.to, a) * orientation(r.from, r.to, b) <= 0;
+    };
+    return std::any_of(links_.begin(), links_.end(), meets);
+  }
+
+  void addLink(size_t i, size_t k) {
+    if (!sees(centres_[i], centres_[k]) || crossesAny(centres_[i], centres_[k])) return;
+    links_.push_back({centres_[i], centres_[k]});
+  }
+
+  void link() {
+    const size_t n = centres_.size();
+    if (n < 2 || o_.links == CentreLinks::None) return;
+    if (o_.links == CentreLinks::Pairs) {
+      for (size_t i = 0; i + 1 < n; i += 2) addLink(i, i + 1);
+    } else if (o_.links == CentreLinks::Loop) {
+      linkAround();
+    } else {
+      linkTree();
+    }
+    // Rays give way to links.
+    std::erase_if(rays_, [&](const Ray& r) { return crossesAny(r.from, r.to); });
+    std::vector<Ray> kept;
+    for (const Ray& r : rays_) {
+      const bool crosses = std::any_of(kept.begin(), kept.end(), [&](const Ray& k) {
+        return !(k.from == r.from) &&
+               orientation(k.from, k.to, r.from) * orientation(k.from, k.to, r.to) <= 0 &&
+               orientation(r.from, r.to, k.from) * orientation(r.from, r.to, k.to) <= 0;
+      });
+      if (!crosses) kept.push_back(r);
+    }
+    rays_ = std::move(kept);
+  }
+
+  // By angle around the middle of all centres, which gives a round that does not cross itself.
+  void linkAround() {
+    Vec2 middle;
+    for (const Vec2 c : centres_)
+      middle = middle + c * (1.0 / static_cast<double>(centres_.size()));
+    std::vector<size_t> order(centres_.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+      const Vec2 u = centres_[a] - middle, v = centres_[b] - middle;
+      const bool upU = u.y > 0 || (u.y == 0 && u.x > 0), upV = v.y > 0 || (v.y == 0 && v.x > 0);
+      if (upU != upV) return upU;
+      const double c = cross(u, v);
+      return c != 0 ? c > 0 : a < b;
+    });
+    for (size_t i = 0; i < order.size(); ++i) {
+      if (order.size() == 2 && i == 1) break;
+      addLink(order[i], order[(i + 1) % order.size()]);
+    }
+  }
+
+  // The shortest tree of what sees each other; then, as far as wanted, further short links.
+  void linkTree() {
+    struct Link {
+      size_t a, b;
+      double length;
+    };
+    std::vector<Link> all;
+    for (size_t a = 0; a < centres_.size(); ++a) {
+      for (size_t b = a + 1; b < centres_.size(); ++b) {
+        if (sees(centres_[a], centres_[b]))
+          all.push_back({a, b, length(centres_[b] - centres_[a])});
+      }
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Link& a, const Link& b) { return a.length < b.length; });
+    std::vector<size_t> group(centres_.size());
+    std::iota(group.begin(), group.end(), size_t{0});
+    std::vector<Link> others;
+    for (const Link& l : all) {
+      const size_t from = group[l.a], to = group[l.b];
+      if (from == to) {
+        others.push_back(l);
+        continue;
+      }
+      std::replace(group.begin(), group.end(), from, to);
+      addLink(l.a, l.b);
+    }
+    if (o_.links != CentreLinks::Thin) return;
+    std::erase_if(others, [&](const Link& l) { return crossesAny(centres_[l.a], centres_[l.b]); });
+    const auto take = static_cast<size_t>(
+        std::round(std::clamp(o_.thin, 0.0, 1.0) * static_cast<double>(others.size())));
+    for (size_t i = 0; i < take; ++i) addLink(others[i].a, others[i].b);
+  }
+
+  // The part of a strip along a path that lies in the region and touches the path.
+  Region strip(const Ray& r, bool toBoundary, double width) const {
+    const Vec2 d = normalized(r.to - r.from), n = perpendicular(d) * (width / 2);
+    const Vec2 end = toBoundary ? r.to + d * width : r.to;
+    const Ring ring{r.from - n, end - n, end + n, r.from + n};
+    Region inside = intersect({{ring, {}}}, {p_});
+    const Vec2 start = r.from + (r.to - r.from) * 0.5;
+    const bool any = std::any_of(inside.begin(), inside.end(),
+                                 [&](const Polygon& p) { return contains(p, start); });
+    if (any) std::erase_if(inside, [&](const Polygon& p) { return !contains(p, start); });
+    return inside;
+  }
+
+  void withPaths(std::vector<Piece>& out) const {
+    const double width = std::max(o_.pathWidth, kLeastWidth);
+    Region centres;
+    if (o_.centre.shape != PlanShape::None && o_.centre.reach() > 0) {
+      for (const Vec2 c : centres_) {
+        for (Polygon& p : intersect({{ringOf(o_.centre, c), {}}}, {p_})) {
+          if (contains(p, c)) centres.push_back(std::move(p));
+        }
+      }
+      if (centres.size() > 1) centres = repaired(ringsOf(centres), FillRule::NonZero);
+    }
+    Region taken = centres;
+    std::vector<Piece> paths;
+    const EdgeOrigin side{kNoEdge, EdgeRole::Path, EdgeOrigin::kNoSide};
+    const auto addPath = [&](const Ray& r, bool toBoundary) {
+      const Region s = subtract(strip(r, toBoundary, width), taken);
+      for (const Polygon& p : s) {
+        Piece piece;
+        piece.kind = PieceKind::Path;
+        piece.ix = static_cast<uint32_t>(paths.size());
+        piece.axis = normalized(r.to - r.from);
+        piece.width = length(r.to - r.from);
+        piece.height = width;
+        piece.polygon = p;
+        const EdgeSource sources[] = {sourceOf(p_)};
+        piece.edges = originsOf(p, sources, side);
+        paths.push_back(std::move(piece));
+      }
+      taken = unite(taken, s);
+    };
+    for (const Ray& r : links_) addPath(r, false);
+    for (const Ray& r : rays_) addPath(r, true);
+    Piece whole = wholePiece(p_);
+    uint32_t index = 0;
+    for (Polygon& p : subtract({p_}, taken)) {
+      Piece piece = whole;
+      piece.ix = index++;
+      std::vector<EdgeSource> sources{sourceOf(p_)};
+      for (const Polygon& c : centres) {
+        sources.push_back(
+            sourceOf(c, std::vector<EdgeOrigin>(edgeCount(c),
+                                                {kNoEdge, EdgeRole::Centre, EdgeOrigin::kNoSide})));
+      }
+      piece.edges = originsOf(p, sources, side);
+      piece.polygon = std::move(p);
+      out.push_back(std::move(piece));
+    }
+    out.insert(out.end(), paths.begin(), paths.end());
+    addCentres(centres, out);
+  }
+
+  void addCentres(const Region& centres, std::vector<Piece>& out) const {
+    uint32_t index = 0;
+    for (const Polygon& c : centres) {
+      Piece piece;
+      piece.kind = PieceKind::Junction;
+      piece.ix = index++;
+      const EdgeSource sources[] = {sourceOf(p_)};
+      piece.edges = originsOf(c, sources);
+      piece.polygon = c;
+      out.push_back(std::move(piece));
+    }
+  }
+
+  void sectors(std::vector<Piece>& out) {
+    // A ray that ends at a hole divides nothing.
+    const size_t outer = p_.outer.size();
+    std::erase_if(rays_, [&](const Ray& r) { return r.edge >= outer; });
+    std::stable_sort(rays_.begin(), rays_.end(), [](const Ray& a, const Ray& b) {
+      return a.edge != b.edge ? a.edge < b.edge : a.at < b.at;
+    });
+    if (rays_.size() < 2) {
+      out.push_back(wholePiece(p_));
+      return;
+    }
+    const Vec2 c = centres_[0];
+    std::vector<bool> given(p_.holes.size(), false);
+    for (size_t i = 0; i < rays_.size(); ++i) {
+      const Ray& a = rays_[i];
+      const Ray& b = rays_[(i + 1) % rays_.size()];
+      Piece piece = sector(c, a, b);
+      piece.ix = static_cast<uint32_t>(i);
+      addHoles(piece, given);
+      out.push_back(std::move(piece));
+    }
+    if (o_.centre.shape == PlanShape::None || !(o_.centre.reach() > 0)) return;
+    Region centre;
+    for (Polygon& p : intersect({{ringOf(o_.centre, c), {}}}, {p_})) {
+      if (contains(p, c)) centre.push_back(std::move(p));
+    }
+    std::vector<Piece> cut;
+    for (const Piece& s : out) {
+      for (Piece& p : combineTraced(BooleanOp::Difference, s, centre,
+                                    {kNoEdge, EdgeRole::Centre, EdgeOrigin::kNoSide})) {
+        cut.push_back(std::move(p));
+      }
+    }
+    out = std::move(cut);
+    addCentres(centre, out);
+  }
+
+  // The centre, a's hit, the boundary, b's hit.
+  Piece sector(Vec2 c, const Ray& a, const Ray& b) const {
+    Piece piece;
+    const auto add = [&](Vec2 at, EdgeOrigin origin) {
+      if (!piece.polygon.outer.empty() && piece.polygon.outer.back() == at) {
+        piece.edges.back() = origin;
+        return;
+      }
+      piece.polygon.outer.push_back(at);
+      piece.edges.push_back(origin);
+    };
+    const EdgeOrigin cut{kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide};
+    const auto kept = [](uint32_t e) { return EdgeOrigin{e, EdgeRole::Kept, EdgeOrigin::kNoSide}; };
+    const auto n = static_cast<uint32_t>(p_.outer.size());
+    add(c, cut);
+    add(a.to, kept(a.edge));
+    const bool sameEdge = a.edge == b.edge && b.at > a.at;
+    for (uint32_t e = a.edge, k = 0; !sameEdge && k < n; ++k) {
+      e = (e + 1) % n;
+      add(p_.outer[e], kept(e));
+      if (e == b.edge) break;
+    }
+    add(b.to, cut);
+    return piece;
+  }
+
+  void addHoles(Piece& piece, std::vector<bool>& given) const {
+    const Ring outer = piece.polygon.outer;
+    auto first = static_cast<uint32_t>(p_.outer.size());
+    for (size_t h = 0; h < p_.holes.size(); ++h) {
+      const auto n = static_cast<uint32_t>(p_.holes[h].size());
+      const bool in = !given[h] && std::any_of(p_.holes[h].begin(), p_.holes[h].end(), [&](Vec2 v) {
+        return locate(outer, v) == Where::Inside;
+      });
+      if (in) {
+        given[h] = true;
+        piece.polygon.holes.push_back(p_.holes[h]);
+        for (uint32_t i = 0; i < n; ++i) {
+          piece.edges.push_back({first + i, EdgeRole::Kept, EdgeOrigin::kNoSide});
+        }
+      }
+      first += n;
+    }
+  }
+
+  const Polygon& p_;
+  const RayOptions& o_;
+  std::vector<Segment> edges_;
+  double scale_ = 0;
+  std::vector<Vec2> centres_;
+  std::vector<Ray> rays_, links_;
+};
+
+}  // namespace
+
+RayResult castRays(const Polygon& p, std::span<const Vec2> centres,
+                   std::span<const RayTarget> targets, const RayOptions& options) {
+  return Rays(p, options).run(centres, targets);
+}
+
+}  // namespace gable
