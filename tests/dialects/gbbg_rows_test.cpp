@@ -60,6 +60,7 @@ TEST(Gbbg, G2SymbolsAreAnyText) {
   std::string names;
   for (const TracedShape& s : run.leaves()) names += s.name + " ";
   EXPECT_EQ(names, "a_b split_ _9 a_b_ ");
+  EXPECT_EQ(derived("axiom Axiom size (1, 1, 1)\nterminal Axiom").leaves("Axiom").size(), 1u);
 }
 
 TEST(Gbbg, G3ChancesAreNormalisedAndDrawnForEachPiece) {

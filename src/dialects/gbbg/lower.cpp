@@ -76,6 +76,8 @@ class Lowering {
 // --- Declarations ---
 
 lang::Tree Lowering::run(uint32_t size) {
+  // Symbols come before what has to be named besides them.
+  for (const SymbolInfo& s : vocabulary_.symbols) names_.of(s.name);
   attributes();
   axiom();
   for (const SymbolInfo& s : vocabulary_.symbols) {
