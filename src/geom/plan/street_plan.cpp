@@ -7,6 +7,7 @@
 // neighbours only, and blocks are what is left of the area.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geom/plan/street_graph.h"
