@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "math/trig.h"
 
@@ -102,6 +103,38 @@ Line arc(Vec2 center, double radius, double fromDegrees, double toDegrees, doubl
   for (double i = 0; i <= n; ++i) {
     const double a = fromDegrees + turn * (i / n);
     out.push_back(center + Vec2{cosDeg(a), sinDeg(a)} * radius);
+  }
+  return out;
+}
+
+// D. Douglas, T. Peucker (1973), on a stack.
+Line simplified(const Line& line, double tolerance) {
+  if (line.size() < 3) return line;
+  std::vector<bool> kept(line.size(), false);
+  kept.front() = kept.back() = true;
+  std::vector<std::pair<size_t, size_t>> open{{0, line.size() - 1}};
+  while (!open.empty()) {
+    const auto [from, to] = open.back();
+    open.pop_back();
+    const Vec2 a = line[from], d = line[to] - a;
+    double worst = tolerance;
+    size_t at = from;
+    for (size_t i = from + 1; i < to; ++i) {
+      const double t = dot(d, d) > 0 ? std::clamp(dot(line[i] - a, d) / dot(d, d), 0.0, 1.0) : 0;
+      const double off = length(line[i] - (a + d * t));
+      if (off > worst) {
+        worst = off;
+        at = i;
+      }
+    }
+    if (at == from) continue;
+    kept[at] = true;
+    open.emplace_back(from, at);
+    open.emplace_back(at, to);
+  }
+  Line out;
+  for (size_t i = 0; i < line.size(); ++i) {
+    if (kept[i]) out.push_back(line[i]);
   }
   return out;
 }

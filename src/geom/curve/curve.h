@@ -34,6 +34,10 @@ Line bezier(std::span<const Vec2> controls, double tolerance);
 /// point.
 Line arc(Vec2 center, double radius, double fromDegrees, double toDegrees, double tolerance);
 
+/// The line without points that lie within `tolerance` of the line without them; the ends stay.
+/// O(n^2) at worst, O(n log n) mostly.
+Line simplified(const Line& line, double tolerance);
+
 /// Lengths along a line.
 class Path {
  public:

@@ -62,6 +62,17 @@ TEST(CatmullRom, ofTwoPointsIsALineAndOfOneAPoint) {
   EXPECT_EQ(catmullRom(Line{{0, 0}, {NAN, 1}, {1, 0}}, false, 0.1).size(), 2u);
 }
 
+TEST(Simplified, keepsItsToleranceAndItsEnds) {
+  for (uint64_t seed = 0; seed < 50; ++seed) {
+    const Line fine = catmullRom(walk(seed * 31, 6), false, 0.01);
+    const Line coarse = simplified(fine, 0.5);
+    EXPECT_LT(coarse.size(), fine.size());
+    EXPECT_EQ(coarse.front(), fine.front());
+    EXPECT_EQ(coarse.back(), fine.back());
+    for (const Vec2 p : fine) EXPECT_LE(distanceTo(coarse, p), 0.5 + 1e-9);
+  }
+}
+
 TEST(Bezier, meetsTheEndsOfItsPieces) {
   const Line controls{{0, 0}, {0, 10}, {10, 10}, {10, 0}, {10, -10}, {20, -10}, {20, 0}};
   const Line line = bezier(controls, 0.01);

@@ -59,14 +59,18 @@ double frontageOf(const Polygon& p, const std::vector<uint32_t>& street) {
   return sum;
 }
 
+// A run of street edges that turns left by more than the corner's angle from its first edge to
+// one of the others: rounded corners count as well.
 bool hasStreetCorner(const Polygon& p, const std::vector<uint32_t>& street) {
   const Ring& r = p.outer;
   const size_t n = r.size();
+  const auto direction = [&](size_t i) { return normalized(r[(i + 1) % n] - r[i % n]); };
   for (size_t i = 0; i < n; ++i) {
-    const size_t before = (i + n - 1) % n;
-    if (street[i] == Parcel::kNoStreet || street[before] == Parcel::kNoStreet) continue;
-    const Vec2 in = normalized(r[i] - r[before]), out = normalized(r[(i + 1) % n] - r[i]);
-    if (cross(in, out) > 0 && dot(in, out) < kCornerCos) return true;
+    if (street[i] == Parcel::kNoStreet) continue;
+    for (size_t k = i + 1; k < i + n && street[k % n] != Parcel::kNoStreet; ++k) {
+      const Vec2 in = direction(i), out = direction(k);
+      if (cross(in, out) > 0 && dot(in, out) < kCornerCos) return true;
+    }
   }
   return false;
 }
@@ -209,6 +213,60 @@ std::vector<Share> sharesOf(const Polygon& block, const std::vector<uint32_t>& s
   return shares;
 }
 
+struct SharpBlock {
+  Polygon polygon;
+  std::vector<uint32_t> street;
+  bool changed = false;
+};
+
+// Where two long edges with short ones between them would meet; false when they would not, near by
+// and outside.
+bool cornerOf(const Ring& r, size_t before, size_t after, Vec2& corner) {
+  constexpr double kNear = 15;
+  const size_t n = r.size();
+  const Vec2 a = r[before], u = r[(before + 1) % n] - a, c = r[after], v = r[(after + 1) % n] - c;
+  const double turn = cross(u, v);
+  if (turn <= 0.1 * length(u) * length(v)) return false;
+  const double t = cross(c - a, v) / turn;
+  corner = a + u * t;
+  for (size_t i = (before + 1) % n; i != after; i = (i + 1) % n) {
+    if (cross(u, r[i] - a) < 0 || cross(v, r[i] - c) < 0) return false;
+  }
+  return t > 1 && length(corner - r[(before + 1) % n]) < kNear && length(corner - c) < kNear;
+}
+
+// The block with the corners that its kerbs round off: it contains the block.
+SharpBlock sharpened(const Polygon& block, const std::vector<uint32_t>& street) {
+  constexpr double kShort = 4;
+  const Ring& r = block.outer;
+  const size_t n = r.size();
+  std::vector<size_t> longs;
+  for (size_t i = 0; i < n; ++i) {
+    if (length(r[(i + 1) % n] - r[i]) >= kShort) longs.push_back(i);
+  }
+  SharpBlock out{{{}, block.holes}, {}, false};
+  for (size_t k = 0; k < longs.size(); ++k) {
+    const size_t before = longs[k], after = longs[(k + 1) % longs.size()];
+    const size_t between = (after + n - before) % n;
+    Vec2 corner;
+    if (between > 1 && cornerOf(r, before, after, corner)) {
+      out.polygon.outer.push_back(corner);
+      out.street.push_back(street[after]);
+      out.changed = true;
+      continue;
+    }
+    for (size_t m = 1; m <= between; ++m) {
+      out.polygon.outer.push_back(r[(before + m) % n]);
+      out.street.push_back(street[(before + m) % n]);
+    }
+  }
+  out.street.insert(out.street.end(), street.begin() + static_cast<std::ptrdiff_t>(n),
+                    street.end());
+  const bool sound = out.changed && isValid(out.polygon) &&
+                     area(subtract({block}, {out.polygon})) < 1e-9 * area(block);
+  return sound ? out : SharpBlock{block, street, false};
+}
+
 // Lots of about the target's area, square to the street.
 void cutLots(const Share& share, const ParcelOptions& o, std::vector<Polygon>& lots) {
   const double along = share.length();
@@ -273,27 +331,30 @@ size_t bestNeighbour(const std::vector<Parcel>& lots, size_t i, Polygon& joined)
 std::vector<Parcel> parcelsBySkeleton(const Polygon& block, const std::vector<bool>& street,
                                       const ParcelOptions& options) {
   const std::vector<uint32_t> streets = streetsOf(block, street);
+  const SharpBlock sharp = sharpened(block, streets);
   std::vector<std::vector<double>> weights;
   size_t e = 0;
-  for (const Ring& r : ringsOfPolygon(block)) {
+  for (const Ring& r : ringsOfPolygon(sharp.polygon)) {
     weights.emplace_back();
     for (size_t i = 0; i < r.size(); ++i, ++e) {
-      weights.back().push_back(streets[e] == Parcel::kNoStreet ? 0 : 1);
+      weights.back().push_back(sharp.street[e] == Parcel::kNoStreet ? 0 : 1);
     }
   }
-  const Skeleton skeleton = buildSkeleton(block, weights);
+  const Skeleton skeleton = buildSkeleton(sharp.polygon, weights);
   if (!skeleton.status.ok()) return parcelsByBox(block, street, options);
   std::vector<Polygon> lots;
-  std::vector<Share> shares = sharesOf(block, streets, skeleton);
+  std::vector<Share> shares = sharesOf(sharp.polygon, sharp.street, skeleton);
   for (uint32_t s = 0; s < shares.size(); ++s) {
     ParcelOptions own = options;
     own.address = hashCombine(options.address, s);
     cutLots(shares[s], own, lots);
   }
   std::vector<Parcel> out;
-  for (Polygon& lot : lots) {
-    std::vector<uint32_t> traced = tracedStreets(lot, block, streets);
-    out.push_back(finished(std::move(lot), std::move(traced)));
+  for (const Polygon& lot : lots) {
+    for (Polygon& within : sharp.changed ? intersect({lot}, {block}) : Region{lot}) {
+      std::vector<uint32_t> traced = tracedStreets(within, block, streets);
+      out.push_back(finished(std::move(within), std::move(traced)));
+    }
   }
   // The smallest of the unfit joins a neighbour, until all are fit or alone.
   std::vector<bool> alone(out.size(), false);

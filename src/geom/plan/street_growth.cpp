@@ -23,6 +23,8 @@ namespace gable {
 namespace {
 
 constexpr size_t kMostSteps = 20000;
+/// How far the straight pieces of a street may lie from its curve, in metres.
+constexpr double kBend = 0.3;
 
 double degreesOf(Vec2 d) { return atan2Deg(d.y, d.x); }
 Vec2 unit(double degrees) { return {cosDeg(degrees), sinDeg(degrees)}; }
@@ -254,7 +256,7 @@ class Grower {
         }
         lines_.push_back(line);
         family_.push_back(family);
-        out_.push_back({joinedEnds(std::move(line), spacing), width});
+        out_.push_back({simplified(joinedEnds(std::move(line), spacing), kBend), width});
       }
     }
   }
