@@ -13,7 +13,7 @@ void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
   auto* shapes = app->add_option("--shapes", a.shapes, "Footprints: .geojson .obj .gltf .glb");
   app->add_option("--lot", a.lot, "A rectangular lot in metres, such as 30x40 (default 20x20)")
       ->excludes(shapes);
-  app->add_flag("--cut-nested", a.cutNested, "Cut footprints within another out of it");
+  app->add_flag("--cut-nested", a.cutNested, "Cut footprints out of larger ones that they lie in");
   app->add_option("--style", a.style, "A style that the rule file declares");
   app->add_option("--start", a.start, "The rule to start with");
   app->add_option("--set", a.set, "An attribute's value: NAME=VALUE; may be repeated")

@@ -126,8 +126,8 @@ class Shapes {
   /// The same for a file's content in memory; `name` gives the extension.
   static Shapes parse(const std::string& content, const std::string& name);
 
-  /// The same with footprints that lie within another cut out of it, so that buildings in courts do
-  /// not stand in their neighbours.
+  /// The same with footprints cut out of larger ones that they lie in or overlap, so that buildings
+  /// in courts do not stand in their neighbours.
   Shapes withNestedCut() const;
 
   size_t size() const;

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Footprints within footprints. Maps draw a building in a court, or the tower of a church, as a
-// polygon inside of another; derived as they are, the two would stand in each other.
+// polygon inside of another, and neighbours that overlap; derived as they are, the two would stand
+// in each other.
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +18,12 @@ namespace {
 
 /// Shapes whose heights differ by more than this do not lie in one plane.
 constexpr double kSamePlane = 0.01;
-/// So much of a shape must lie in another to be nested in it.
-constexpr double kNestedShare = 0.98;
+/// Neighbours share less than this of the smaller one by the rounding of coordinates.
+constexpr double kOverlapShare = 0.005;
+/// A shape of which others leave less than this share stands within them, drawn in by so many
+/// metres that no wall of it lies in one of theirs.
+constexpr double kRestShare = 0.02;
+constexpr double kDrawnIn = 0.5;
 
 struct Plan {
   bool flat = false;
@@ -52,9 +57,8 @@ Plan planOf(const ShapeFootprint& f) {
   return p;
 }
 
-bool within(const Box2& inner, const Box2& outer) {
-  return inner.min.x >= outer.min.x - kSamePlane && inner.min.y >= outer.min.y - kSamePlane &&
-         inner.max.x <= outer.max.x + kSamePlane && inner.max.y <= outer.max.y + kSamePlane;
+bool apart(const Box2& a, const Box2& b) {
+  return a.max.x < b.min.x || b.max.x < a.min.x || a.max.y < b.min.y || b.max.y < a.min.y;
 }
 
 }  // namespace
@@ -70,12 +74,15 @@ void cutNested(std::vector<ShapeFootprint>& footprints) {
     for (size_t inner = 0; inner < plans.size(); ++inner) {
       const Plan& i = plans[inner];
       if (inner == outer || !i.flat || i.size <= 0 || i.size >= o.size) continue;
-      if (std::fabs(i.height - o.height) > kSamePlane || !within(i.box, o.box)) continue;
-      if (area(intersect(whole, i.region)) < kNestedShare * i.size) continue;
+      if (std::fabs(i.height - o.height) > kSamePlane || apart(i.box, o.box)) continue;
+      if (area(intersect(whole, i.region)) < kOverlapShare * i.size) continue;
       o.region = subtract(o.region, i.region);
       cut = true;
     }
-    if (!cut || o.region.empty()) continue;
+    if (!cut) continue;
+    if (area(o.region) < kRestShare * o.size) o.region = offset(whole, -kDrawnIn);
+    if (o.region.empty()) continue;
+
     const Frame toObject = inverse(footprints[outer].origin);
     footprints[outer].mesh =
         transformed(meshOf(o.region, groundFrame(o.height)), {1, 1, 1}, toObject);

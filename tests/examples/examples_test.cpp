@@ -2,13 +2,11 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Every rule set of examples/ on footprints from 6 m to 60 m, convex or not, with and without a
-// hole: it derives without an error, and what it makes is sound. The town of Monaco has numbers of
-// its own to meet.
+// hole: it derives without an error, and what it makes is sound.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -16,14 +14,12 @@
 
 #include "engine/impl.h"
 #include "gable/gable.h"
+#include "scene_faults.h"
 
 namespace gable {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A face smaller than this is a sliver that nobody meant: a tenth of a square millimetre.
-constexpr double kLeastArea = 1e-7;
 
 std::string sourceDir() { return GABLE_SOURCE_DIR; }
 
@@ -58,29 +54,6 @@ std::vector<Footprint> footprints() {
           {"20 x 14", Shapes::lot(20, 14)},  {"60 x 60", Shapes::lot(60, 60)},
           {"a bend", Shapes::polygon(bend)}, {"a wedge", Shapes::polygon(wedge)},
           {"round", Shapes::polygon(round)}, {"a court", Shapes::polygon(court, {hole})}};
-}
-
-/// What is unsound in a scene, each once; empty when all is well. Leaves of prototypes are looked
-/// at once.
-std::set<std::string> faults(const Scene& scene) {
-  std::set<std::string> found;
-  for (const Leaf& leaf : scene.leaves) {
-    const std::string& name = scene.names[leaf.name];
-    const Mesh placed = transformed(*scene.meshes[leaf.mesh], leaf.scale, leaf.frame);
-    for (const Vec3& p : placed.positions) {
-      if (!isFinite(p)) found.insert(name + ": a coordinate is not finite");
-    }
-    for (size_t face = 0; face < placed.faceCount(); ++face) {
-      if (!(placed.area(face) > kLeastArea)) found.insert(name + ": a face without area");
-    }
-  }
-  return found;
-}
-
-std::string joined(const std::set<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += "  " + line + "\n";
-  return text;
 }
 
 class Example : public testing::TestWithParam<std::string> {};
@@ -118,28 +91,6 @@ TEST_P(Example, changesWithTheSeedAndOnlyWithIt) {
 
 INSTANTIATE_TEST_SUITE_P(All, Example, testing::ValuesIn(exampleNames()),
                          [](const auto& each) { return each.param; });
-
-// All 1218 footprints, 300 leaves a building or more on average.
-TEST(Monaco, derivesEveryBuilding) {
-  const Rules rules = Rules::load(rulesOf("monaco"));
-  const Shapes shapes = Shapes::load(sourceDir() + "/examples/monaco/buildings.geojson");
-  ASSERT_TRUE(rules.ok() && shapes.ok());
-  ASSERT_EQ(shapes.size(), 1218u);
-  const Model model = derive(rules, shapes, {});
-  EXPECT_FALSE(hasErrors(model.messages())) << messagesJson(model.messages());
-  const Scene& scene = model.impl().result.scene;
-  ASSERT_EQ(scene.roots.size(), 1218u);
-  EXPECT_GE(count(scene).leaves, 300u * 1218u);
-  EXPECT_EQ(joined(faults(scene)), "");
-  size_t empty = 0;
-  for (const Root& root : scene.roots) {
-    size_t leaves = 0;
-    forEachLeaf(scene, scene.prototypes[root.instance.prototype], root.instance.frame,
-                [&](const Leaf&, const Frame&) { ++leaves; });
-    if (leaves == 0) ++empty;
-  }
-  EXPECT_EQ(empty, 0u) << "buildings without a leaf";
-}
 
 }  // namespace
 }  // namespace gable
