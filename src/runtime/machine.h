@@ -237,6 +237,7 @@ class Machine final : public Services {
   void pushShape();
   void popShape();
   void dropShape();
+  void leaveBracket();
   void makeLeaf(Activation& a, StringId name, uint32_t source);
   /// Hands the leaves on while they are still in the nearest cache.
   void passLeaves() {

@@ -257,7 +257,21 @@ void Machine::dropShape() {
     trace_[a.traceNode].dropped = true;
   }
   ++a.made;
-  endActivation();
+  if (shapeStack_.size() > a.shapeStackBase) {
+    leaveBracket();
+  } else {
+    endActivation();
+  }
+}
+
+// Goes on behind the ']' of the innermost open bracket: brackets are nested in the code as they are
+// in the text.
+void Machine::leaveBracket() {
+  for (size_t open = 1; open > 0; ++pc_) {
+    if (pc_->code == Code::PushShape) ++open;
+    if (pc_->code == Code::PopShape) --open;
+  }
+  popShape();
 }
 
 // The items of a block are kept from one time to the next; what was divided by the same sizes is

@@ -175,7 +175,12 @@ Status applyOffset(OpCall& call) {
     offset.inside = inward.remainders();
     offset.border = inward.stripOfEachEdge();
   }
-  setPartMesh(s, Shape(s), assembled(*mesh, offset, call.text(1, "all")), true);
+  Mesh result = assembled(*mesh, offset, call.text(1, "all"));
+  if (result.faceCount() == 0) {
+    call.drop();
+  } else {
+    setPartMesh(s, Shape(s), std::move(result), true);
+  }
   return {};
 }
 
