@@ -98,26 +98,26 @@ int TextureSet::add(const std::string& path) {
       path, {name, png ? "image/png" : "image/jpeg", std::move(*bytes), header.value().hasAlpha});
 }
 
+Result<TextureSet::Layer> TextureSet::readLayer(const std::string& path) const {
+  if (path.empty()) return Layer{{1, 1, {255, 255, 255, 255}}, false};
+  Result<std::string> bytes = load(path);
+  if (!bytes.ok()) return bytes.error();
+  Result<Image> image = decodeImage(*bytes);
+  if (!image.ok()) return image.error();
+  return Layer{std::move(*image), readImageHeader(*bytes).value().hasAlpha};
+}
+
 int TextureSet::addColorWithOpacity(const std::string& color, const std::string& opacity) {
   if (color == opacity) return add(color);
   const std::string key = color + "\n" + opacity;
   const auto known = known_.find(key);
   if (known != known_.end()) return known->second;
-  Image white{1, 1, {255, 255, 255, 255}};
-  Image pictures[2] = {white, white};
-  bool alpha = false;
-  const std::string* paths[2] = {&color, &opacity};
-  for (int i = 0; i < 2; ++i) {
-    if (paths[i]->empty()) continue;
-    Result<std::string> bytes = load(*paths[i]);
-    if (!bytes.ok()) return refuse(key, *paths[i], bytes.error().message);
-    Result<Image> image = decodeImage(*bytes);
-    if (!image.ok()) return refuse(key, *paths[i], image.error().message);
-    if (i == 1) alpha = readImageHeader(*bytes).value().hasAlpha;
-    pictures[i] = std::move(*image);
-  }
+  Result<Layer> base = readLayer(color), cover = readLayer(opacity);
+  if (!base.ok()) return refuse(key, color, base.error().message);
+  if (!cover.ok()) return refuse(key, opacity, cover.error().message);
+  const bool alpha = cover->hasAlpha;
   const Image both =
-      mixed(pictures[0], pictures[1], [&](const uint8_t* c, const uint8_t* o, uint8_t* out) {
+      mixed(base->image, cover->image, [&](const uint8_t* c, const uint8_t* o, uint8_t* out) {
         std::copy(c, c + 3, out);
         out[3] = alpha ? o[3] : o[0];
       });
@@ -132,19 +132,11 @@ int TextureSet::addMetallicRoughness(const std::string& roughness, const std::st
   const std::string key = roughness + "\r" + metallic;
   const auto known = known_.find(key);
   if (known != known_.end()) return known->second;
-  Image white{1, 1, {255, 255, 255, 255}};
-  Image pictures[2] = {white, white};
-  const std::string* paths[2] = {&roughness, &metallic};
-  for (int i = 0; i < 2; ++i) {
-    if (paths[i]->empty()) continue;
-    Result<std::string> bytes = load(*paths[i]);
-    if (!bytes.ok()) return refuse(key, *paths[i], bytes.error().message);
-    Result<Image> image = decodeImage(*bytes);
-    if (!image.ok()) return refuse(key, *paths[i], image.error().message);
-    pictures[i] = std::move(*image);
-  }
+  Result<Layer> rough = readLayer(roughness), metal = readLayer(metallic);
+  if (!rough.ok()) return refuse(key, roughness, rough.error().message);
+  if (!metal.ok()) return refuse(key, metallic, metal.error().message);
   const Image both =
-      mixed(pictures[0], pictures[1], [](const uint8_t* r, const uint8_t* m, uint8_t* out) {
+      mixed(rough->image, metal->image, [](const uint8_t* r, const uint8_t* m, uint8_t* out) {
         out[0] = 255;
         out[1] = r[1];
         out[2] = m[2];

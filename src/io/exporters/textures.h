@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "io/exporters/write_model.h"
+#include "io/image/image.h"
 
 namespace gable {
 
@@ -42,7 +43,13 @@ class TextureSet {
   const std::vector<ModelTexture>& all() const { return all_; }
 
  private:
+  struct Layer {
+    Image image;
+    bool hasAlpha = false;
+  };
   Result<std::string> load(const std::string& path) const;
+  /// The picture of a path; a white one for no path.
+  Result<Layer> readLayer(const std::string& path) const;
   int remember(const std::string& key, ModelTexture texture);
   std::string uniqueName(const std::string& wanted) const;
   int refuse(const std::string& key, const std::string& path, const std::string& why);

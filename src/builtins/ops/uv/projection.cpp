@@ -55,9 +55,11 @@ Status applySetup(OpCall& call) {
   }
   const Vec3 x = axisOf(system, u), y = axisOf(system, v);
   p.frame = Frame::of(system.origin, x, y, cross(x, y));
-  p.offsetU = call.number(4, 0) / p.width;
+  // The old form with five arguments has the factor in the fifth place.
+  const bool old = call.argCount() == 5;
+  p.offsetU = old ? 0 : call.number(4, 0) / p.width;
   p.offsetV = call.number(5, 0) / p.height;
-  p.uwFactor = call.number(6, 0);
+  p.uwFactor = call.number(old ? 4 : 6, 0);
   ShapeExtra extra = extraOf(s);
   extra.setProjection(p);
   s.extra = makeRef<ShapeExtra>(std::move(extra));
@@ -148,9 +150,11 @@ constexpr ParamSpec kOffsetV = {"heightOffset", ParamType::Float, "Shift along v
 constexpr ParamSpec kFactor = {"uwFactor", ParamType::Float,
                                "How much depth counts as u, to bend textures around corners."};
 constexpr ParamSpec kPlainParams[] = {kSet, kAxes, kWidth, kHeight};
+constexpr ParamSpec kOldFactorParams[] = {kSet, kAxes, kWidth, kHeight, kFactor};
 constexpr ParamSpec kOffsetParams[] = {kSet, kAxes, kWidth, kHeight, kOffsetU, kOffsetV};
 constexpr ParamSpec kFactorParams[] = {kSet, kAxes, kWidth, kHeight, kOffsetU, kOffsetV, kFactor};
-constexpr Signature kSetupSignatures[] = {{kPlainParams}, {kOffsetParams}, {kFactorParams}};
+constexpr Signature kSetupSignatures[] = {
+    {kPlainParams}, {kOldFactorParams}, {kOffsetParams}, {kFactorParams}};
 
 constexpr ParamSpec kProjectParams[] = {kSet};
 constexpr Signature kProjectSignatures[] = {{kProjectParams}};
