@@ -60,10 +60,12 @@ class ExampleTest(unittest.TestCase):
 
     def testIsFormattedAndShort(self):
         known = (Path(f"examples/{NAME}/{NAME}.{e}") for e in ("cga", "gbbg", "grammar", "pg3d", "park"))
-        rules = next(path for path in known if path.exists())
-        done = subprocess.run([GABLE, "format", "--check", str(rules)], capture_output=True, text=True, check=False)
+        files = [next(path for path in known if path.exists()), *Path("examples/rules").glob("*.cga")]
+        done = subprocess.run([GABLE, "format", "--check", *map(str, files)], capture_output=True,
+                              text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        self.assertLess(len(rules.read_text().splitlines()), 300)
+        for rules in files:
+            self.assertLess(len(rules.read_text().splitlines()), 300, rules)
 
 
 if __name__ == "__main__":
