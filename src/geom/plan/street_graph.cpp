@@ -11,6 +11,7 @@
 #include <map>
 #include <utility>
 
+#include "geom/region/hull.h"
 #include "geom/region/segment_grid.h"
 #include "math/trig.h"
 
@@ -247,15 +248,23 @@ class Stretches {
   std::map<uint32_t, uint32_t> nodes_;
 };
 
+// Inside, and further than `margin` from the border.
+bool isWithin(const Region& area, Vec2 p, double margin) {
+  return std::any_of(area.begin(), area.end(),
+                     [&](const Polygon& q) { return signedDistance(q, p) > margin; });
+}
+
 // Pieces of the dead ends that are too short; empty when there are none.
-std::vector<bool> shortEnds(const StreetGraph& g, double shortest, const Places& places,
-                            const std::vector<Piece>& pieces) {
+std::vector<bool> shortEnds(const StreetGraph& g, const StreetGraphOptions& options,
+                            const Places& places, const std::vector<Piece>& pieces) {
   std::map<std::pair<double, double>, bool> gone;
   bool any = false;
   for (const StreetGraph::Edge& e : g.edges) {
     const bool loose = g.nodes[e.from].edges.size() == 1 || g.nodes[e.to].edges.size() == 1;
     const bool alone = g.nodes[e.from].edges.size() == 1 && g.nodes[e.to].edges.size() == 1;
-    if (!loose || alone || Path(e.line).length() >= shortest) continue;
+    if (!loose || alone || Path(e.line).length() >= options.shortest) continue;
+    const uint32_t tip = g.nodes[e.from].edges.size() == 1 ? e.from : e.to;
+    if (options.area && !isWithin(*options.area, g.nodes[tip].point, options.snap)) continue;
     any = true;
     for (size_t i = 0; i + 1 < e.line.size(); ++i) {
       const Vec2 middle = (e.line[i] + e.line[i + 1]) * 0.5;
@@ -316,7 +325,7 @@ StreetGraph buildStreetGraph(const std::vector<Street>& streets,
   StreetGraph g = Stretches(pieces, places, streets).graph();
   // Each round may free the next dead end.
   for (;;) {
-    const std::vector<bool> gone = shortEnds(g, options.shortest, places, pieces);
+    const std::vector<bool> gone = shortEnds(g, options, places, pieces);
     if (gone.empty()) break;
     std::vector<Piece> kept;
     for (size_t i = 0; i < pieces.size(); ++i) {

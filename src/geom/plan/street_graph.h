@@ -50,6 +50,8 @@ struct StreetGraphOptions {
   double snap = 1;
   /// Dead ends shorter than this go; longer ones stay.
   double shortest = 10;
+  /// May be null. Dead ends that leave the area, or end at its border, stay.
+  const Region* area = nullptr;
 };
 
 StreetGraph buildStreetGraph(const std::vector<Street>& streets,

@@ -94,6 +94,16 @@ TEST(StreetGraph, dropsShortDeadEndsAndKeepsLongOnes) {
   EXPECT_EQ(g.edges.size(), 3u);
 }
 
+TEST(StreetGraph, keepsDeadEndsAtTheBorder) {
+  const Region area = square(100);
+  StreetGraphOptions o;
+  o.shortest = 40;
+  o.area = &area;
+  const std::vector<Street> streets{{{{0, 20}, {100, 20}}, 8}, {{{50, 0}, {50, 50}}, 8}};
+  // To the border below it stays, into the area above it goes.
+  EXPECT_EQ(buildStreetGraph(streets, o).edges.size(), 3u);
+}
+
 TEST(StreetGraph, keepsARingAndALoop) {
   const StreetGraph ring = buildStreetGraph({{{{0, 0}, {50, 0}, {50, 50}, {0, 50}, {0, 0}}, 8}});
   expectSound(ring);

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "geom/plan/parcels.h"
+
+#include <cmath>
+
+#include "builtins/lists.h"
+#include "builtins/ops/layout/shared/ground.h"
+#include "shape/op_call.h"
+
+namespace gable {
+
+namespace {
+
+// The longest edge along a street; of none the longest.
+uint32_t frontOf(const Parcel& p) {
+  const Ring& r = p.polygon.outer;
+  uint32_t best = 0;
+  double longest = -1;
+  for (uint32_t i = 0; i < r.size(); ++i) {
+    double l = length(r[(i + 1) % r.size()] - r[i]);
+    if (p.street[i] != Parcel::kNoStreet) l += 1e9;
+    if (l > longest) {
+      longest = l;
+      best = i;
+    }
+  }
+  return best;
+}
+
+Status optionsOf(const OpCall& call, ParcelOptions& o) {
+  o.targetArea = call.number(1);
+  if (!(o.targetArea > 0)) {
+    return call.fail("bad-argument", "parcels need an area larger than 0",
+                     "give the area of a lot in square metres");
+  }
+  o.minWidth = call.number(2, std::sqrt(o.targetArea) / 3);
+  o.minArea = call.number(3, o.targetArea / 3);
+  o.minFrontage = o.minWidth / 2;
+  o.irregularity = call.number(4, 0.1);
+  const bool sound = o.minWidth >= 0 && o.minArea >= 0 && o.irregularity >= 0;
+  if (sound) return {};
+  return call.fail("bad-argument", "the least sizes of parcels cannot be negative", {});
+}
+
+// The first item that takes the parcel; corner takes those at a corner of two streets.
+const SelectorItem* itemFor(const OpCall& call, bool corner) {
+  for (const SelectorItem& item : call.selectors()) {
+    if (item.terms.size() != 1 || item.terms[0].kind != SelectorTerm::Kind::Word) continue;
+    const std::string_view word = call.services().pool().text(item.terms[0].word);
+    if (word == "all" || word == "lot" || (word == "corner" && corner)) return &item;
+  }
+  return nullptr;
+}
+
+Status applyParcels(OpCall& call) {
+  ParcelOptions options;
+  if (Status bad = optionsOf(call, options); !bad) return bad;
+  std::vector<Ground> grounds;
+  if (Status bad = groundsOf(call, grounds); !bad) return bad;
+  const bool bySkeleton = call.is(0, "skeleton");
+  uint32_t number = 0;
+  for (size_t g = 0; g < grounds.size(); ++g) {
+    options.address = call.randomAddress(g);
+    const auto divide = bySkeleton ? parcelsBySkeleton : parcelsByBox;
+    for (const Parcel& p : divide(grounds[g].polygon, grounds[g].street, options)) {
+      const uint32_t piece = number++;
+      const SelectorItem* item = itemFor(call, p.corner);
+      if (!item) continue;
+      std::vector<bool> street;
+      for (uint32_t e : p.street) street.push_back(e != Parcel::kNoStreet);
+      call.emit(groundPart(call, grounds[g], p.polygon, frontOf(p), street), item->slot, piece);
+    }
+  }
+  return {};
+}
+
+constexpr ParamSpec kParams[] = {
+    {"method", ParamType::Selector,
+     "box cuts halves off halves, across the longer side; skeleton lays lots in rows along the "
+     "streets.",
+     nullptr, "box skeleton"},
+    {"area", ParamType::Float, "About how large a lot is to be, in square metres."},
+    {"minWidth", ParamType::Float, "No lot is narrower; a third of the side of a square lot.",
+     "sqrt(area) / 3"},
+    {"minArea", ParamType::Float, "No lot is smaller.", "area / 3"},
+    {"irregularity", ParamType::Float,
+     "How far a border may lie from its regular place, 0 to 0.4 of the length.", "0.1"},
+};
+constexpr Signature kSignatures[] = {{kParams}};
+
+constexpr OpSpec kSpecs[] = {
+    {"parcels", "layout", "Divides a block into lots, each with a side on a street.", kSignatures,
+     applyParcels, BlockKind::Selectors, kRandom, "lot corner", false, true},
+};
+
+}  // namespace
+
+extern const OpList kOps_parcels;
+const OpList kOps_parcels = kSpecs;
+
+}  // namespace gable
