@@ -49,7 +49,6 @@ const char* typeName(ValueType t) {
 
 namespace {
 
-uint64_t contentHash(const std::string& s) { return hashBytes(s); }
 uint64_t contentHash(std::string_view s) { return hashBytes(s); }
 uint64_t contentHash(const Array& a) {
   uint64_t h = hashCombine(static_cast<uint64_t>(a.element), (uint64_t{a.rows} << 32) | a.columns);
