@@ -54,9 +54,9 @@ struct Model::Impl {
   double seconds = 0;
 };
 
-/// Cuts footprints out of larger ones that they lie in or overlap: flat faces at one height only. Of
-/// a footprint that others cover wholly an inner part stays. O(n^2) box tests, a boolean operation a
-/// pair that meets.
+/// Cuts footprints out of larger ones that they lie in or overlap: flat faces at one height only.
+/// Of a footprint that others cover wholly an inner part stays. O(n^2) box tests, a boolean
+/// operation a pair that meets.
 void cutNested(std::vector<ShapeFootprint>& footprints);
 
 /// Seconds of a steady clock.

@@ -180,11 +180,14 @@ class Machine final : public Services {
   };
   /// What light parts are cut from.
   struct LightSource {
-    /// Where the local frame lies in the frame of the leaves.
+    /// Where the local frame lies in the frame of the leaves: the axes of `world`, at `place`.
     const Frame& world;
-    const Frame& scope;
+    Vec3 place;
+    /// The scope in the local frame: the axes of `axes`, at `origin`.
+    const Frame& axes;
+    Vec3 origin;
     /// The scope's axes in the frame of the leaves.
-    const Frame& leafFrame;
+    const Frame& leafAxes;
     /// The scope's axis that it is divided along.
     Vec3 along;
     Vec3 size;

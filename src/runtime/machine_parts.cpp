@@ -114,11 +114,13 @@ void Machine::makeLightParts(Activation& a) {
   if (!slots[pieces_[a.childNext].slot].light) return;
   static const Frame kHere;
   const Frame& world = flat_ ? worlds_.back() : kHere;
-  const Frame axes = s.scope.turned || !flat_ ? world * s.scope : world;
+  const Frame leafAxes = s.scope.turned || !flat_ ? world * s.scope : world;
   const LightTrim trim{s};
   const LightSource source{world,
+                           world.origin,
                            s.scope,
-                           axes,
+                           s.scope.origin,
+                           leafAxes,
                            directionOf(s.scope, a.plan.axis),
                            s.size,
                            s.geometry.kind,
@@ -149,23 +151,24 @@ bool Machine::makeLightPart(const LightSource& from, const PartPlan& plan, const
                             const LightSlot& slot, uint32_t depth, uint32_t nested) {
   depth += slot.calls;
   if (depth > options().limits.depth) return false;
-  LightPart part{&from.scope, from.scope.origin + from.along * piece.start,
-                 from.size,   from.kind,
-                 false,       from.trim};
+  LightPart part{&from.axes, from.origin + from.along * piece.start, from.size, from.kind, false,
+                 from.trim};
   part.size[static_cast<size_t>(plan.axis)] = plan.flat ? 0 : piece.size;
   if (from.childCount && (slot.calls > 0 || slot.named)) ++*from.childCount;
   if (slot.boundary) {
-    Frame outer = from.scope;
-    outer.origin = part.origin;
-    const Frame world = from.world * outer;
+    // The rule's frame has the world's axes when the scope has the local ones.
+    if (from.axes.turned) return false;
     static const Frame kOwn;
+    const Vec3 place = from.place + from.world.direction(part.origin);
     const bool trimmed = part.trim && !isFarFromTrim(part);
     const LightTrim trim{trimmed ? part.trim->shape : current().shape, true,
                          trimmed ? part.trim->there(part.origin) : Vec3{}};
     part = {&kOwn, {}, part.size, part.kind, false, trimmed ? &trim : nullptr};
-    return finishLightPart({world,
+    return finishLightPart({from.world,
+                            place,
                             kOwn,
-                            world,
+                            {},
+                            from.world,
                             {},
                             part.size,
                             part.kind,
@@ -193,9 +196,9 @@ bool Machine::finishLightPart(const LightSource& from, LightPart& part, const Li
   if (slot.drop) return true;
   if (slot.block > 0) return splitLightPart(from, part, slot, depth, nested);
   Leaf& leaf =
-      output_.openLeaves.emplace_back(from.leafFrame, part.size, unitMesh(part.kind, part.uv),
+      output_.openLeaves.emplace_back(from.leafAxes, part.size, unitMesh(part.kind, part.uv),
                                       from.materials, slot.name, slot.source, from.attributes);
-  leaf.frame.origin = flat_ ? from.world.point(part.origin) : part.origin;
+  leaf.frame.origin = flat_ ? from.place + from.world.direction(part.origin) : part.origin;
   return true;
 }
 
@@ -207,13 +210,11 @@ bool Machine::splitLightPart(const LightSource& from, const LightPart& part, con
                      !part.uv && part.size[static_cast<size_t>(memo.plan.axis)] == memo.whole &&
                      memo.pieces.size() <= options().limits.width;
   if (!known) return false;
-  Frame scope = from.scope;
-  scope.origin = part.origin;
-  const LightSource inner{from.world,     scope,
-                          from.leafFrame, directionOf(scope, memo.plan.axis),
-                          part.size,      part.kind,
-                          from.materials, from.attributes,
-                          part.trim,      slot.calls > 0 ? nullptr : from.childCount};
+  const LightSource inner{
+      from.world,      from.place,    from.axes,
+      part.origin,     from.leafAxes, directionOf(from.axes, memo.plan.axis),
+      part.size,       part.kind,     from.materials,
+      from.attributes, part.trim,     slot.calls > 0 ? nullptr : from.childCount};
   const std::vector<LightSlot>& slots = lightSlots(block, slot.rule);
   for (const SplitPiece& piece : memo.pieces) {
     const LightSlot& next = slots[piece.slot];
