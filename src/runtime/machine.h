@@ -58,8 +58,8 @@ struct InPlaceFrame {
   IndexInfo split;
   // Locals: the values of the block around.
   uint32_t locals = 0, localCount = 0;
-  /// Rule and Turns: the address of the shape before.
-  uint64_t path = 0;
+  /// Rule and Turns: the address of the shape before. Turns: that of the loop.
+  uint64_t path = 0, loopPath = 0;
 };
 
 /// One rule call or block slot in progress.
@@ -144,7 +144,10 @@ class Machine final : public Services {
     uint64_t salt;
   };
   struct SavedShape {
+    SavedShape() = default;
+    explicit SavedShape(const Shape& s) : shape(s) {}
     Shape shape;
+    /// Kept where the rule needs them.
     Frame previousScope;
     Vec3 previousSize;
   };

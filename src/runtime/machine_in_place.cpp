@@ -15,6 +15,12 @@
 
 namespace gable {
 
+namespace {
+
+constexpr size_t kManyLeaves = 1u << 14;
+
+}  // namespace
+
 InPlaceFrame& Machine::openFrame(InPlaceFrame::Kind kind) {
   const uint32_t calls = frames_.empty() ? 0 : frames_.back().calls;
   InPlaceFrame& f = frames_.emplace_back();
@@ -92,7 +98,8 @@ void Machine::beginTurns(const Instruction& i) {
   f.split = s.split;
   f.path = s.path;
   s.split = {0, f.turns};
-  s.path = hashCombine(hashCombine(f.path, program_.sites[pcOf(&i)]), 0);
+  f.loopPath = hashCombine(f.path, program_.sites[pcOf(&i)]);
+  s.path = hashCombine(f.loopPath, 0);
 }
 
 void Machine::endTurn(const Instruction& i) {
@@ -112,7 +119,7 @@ void Machine::endTurn(const Instruction& i) {
     return;
   }
   s.split = {f.turn, f.turns};
-  s.path = hashCombine(hashCombine(f.path, program_.sites[pcOf(&i)]), f.turn);
+  s.path = hashCombine(f.loopPath, f.turn);
   pc_ = program_.code.data() + i.a;
 }
 
@@ -146,6 +153,9 @@ void Machine::leaf() {
   if (!countShape()) return;
   Activation& a = current();
   if (a.made == 0) a.made = 1;
+  // Growing fourfold touches less memory than doubling does; what is never touched costs nothing.
+  std::vector<Leaf>& open = output_.openLeaves;
+  if (open.size() == open.capacity() && open.size() >= kManyLeaves) open.reserve(open.size() * 4);
   makeLeaf(a, program_.rules[a.rule].name, pcOf(instruction_));
   ++activations_[a.owner].childCount;
 }

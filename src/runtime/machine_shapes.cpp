@@ -450,7 +450,10 @@ void Machine::makeLeaf(Activation& a, StringId name, uint32_t source) {
 
 void Machine::pushShape() {
   Activation& a = current();
-  shapeStack_.push_back({a.shape, a.previousScope, a.previousSize});
+  SavedShape& saved = shapeStack_.emplace_back(a.shape);
+  if (!program_.rules[a.rule].needsPrevious) return;
+  saved.previousScope = a.previousScope;
+  saved.previousSize = a.previousSize;
   a.previousScope = a.shape.scope;
   a.previousSize = a.shape.size;
 }
@@ -460,8 +463,10 @@ void Machine::popShape() {
   if (shapeStack_.size() == a.shapeStackBase) return;
   SavedShape& saved = shapeStack_.back();
   a.shape = std::move(saved.shape);
-  a.previousScope = saved.previousScope;
-  a.previousSize = saved.previousSize;
+  if (program_.rules[a.rule].needsPrevious) {
+    a.previousScope = saved.previousScope;
+    a.previousSize = saved.previousSize;
+  }
   shapeStack_.pop_back();
 }
 

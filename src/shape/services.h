@@ -123,6 +123,14 @@ class Services {
   TagTable& tags() const { return *tags_; }
   Assets& assets() const { return *assets_; }
 
+  /// The numbered texture that a shape got last, so that the next like it needs no look-up.
+  struct TextureMemo {
+    bool known = false;
+    MaterialId before = 0, after = 0;
+    double number = 0, quarters = 0, scale = 0;
+  };
+  TextureMemo& textureMemo() { return textureMemo_; }
+
   virtual const InitialShapeInfo& initialShape() const = 0;
   /// Where the local frame of the present rule call lies in the world.
   virtual const Frame& world() const = 0;
@@ -146,6 +154,9 @@ class Services {
   /// Leaves a copy of the shape at work in the result, as a leaf named after its rule. The shape
   /// goes on, and its rule has made something.
   virtual void leaf() = 0;
+
+ private:
+  TextureMemo textureMemo_;
 
  protected:
   ValuePool* pool_ = nullptr;

@@ -80,7 +80,7 @@ class Lexer {
   void token() {
     const char c = peek();
     if (isDigit(c) || (c == '.' && isDigit(peek(1)))) return number();
-    if (isLetter(c)) return name();
+    if (isLetter(c)) return name(1);
     if (c == '-' && peek(1) == '>') return add(TokenKind::Arrow, 2);
     switch (c) {
       case '(': return add(TokenKind::Open, 1);
@@ -119,12 +119,12 @@ class Lexer {
         n = e;
       }
     }
-    if (isLetter(peek(n))) return name();
+    if (isLetter(peek(n))) return name(n);
     add(TokenKind::Number, n);
   }
 
-  void name() {
-    size_t n = 0;
+  // The first `n` characters are known to belong to it.
+  void name(size_t n) {
     while (isLetter(peek(n)) || isDigit(peek(n)) || (peek(n) == '.' && isLetter(peek(n + 1)))) ++n;
     add(TokenKind::Name, n);
   }

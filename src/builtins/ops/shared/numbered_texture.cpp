@@ -46,6 +46,12 @@ std::string stemOf(const std::string& path) {
 
 void wearNumberedTexture(Shape& s, Services& services, double number, double quarters,
                          double scale) {
+  Services::TextureMemo& last = services.textureMemo();
+  if (last.known && last.before == s.material && last.number == number &&
+      last.quarters == quarters && last.scale == scale) {
+    s.material = last.after;
+    return;
+  }
   const double index = std::trunc(number);
   const double turns = std::trunc(quarters);
   const MaterialEdit edit{s.material, kNumberedTextureEdit, std::bit_cast<uint64_t>(index),
@@ -59,6 +65,7 @@ void wearNumberedTexture(Shape& s, Services& services, double number, double qua
     if (std::isfinite(scale)) map.su = map.sv = 2 * scale;
     if (std::isfinite(turns)) map.rw = 90 * std::fmod(turns, 4);
   });
+  last = {true, edit.base, s.material, number, quarters, scale};
 }
 
 }  // namespace gable
