@@ -17,6 +17,10 @@ namespace {
 constexpr double kSliver = 1e-9;
 // Streets nearer to each other than their share of the width are one.
 constexpr double kSnapShare = 0.25;
+// A kerb lies half of the width from the centre line, and farther than the ends of its stretch.
+constexpr double kKerbShare = 0.4;
+// The cosine of the angle between a kerb and the centre line, at least.
+constexpr double kParallel = 0.8;
 
 Vec2 middleOf(const Polygon& p) {
   const Box2 box = bounds(p);
@@ -62,6 +66,25 @@ std::vector<Street> grown(const OpCall& call, const Ground& ground, uint64_t add
   return fieldStreets(area, field, o);
 }
 
+// Which edges of a roadway are its kerbs: as far from the centre line as half of the width, and
+// along it. By edge of the outer ring, then of the holes.
+std::vector<bool> kerbs(const Polygon& roadway, const StreetGraph::Edge& street) {
+  const Path centre(street.line);
+  std::vector<bool> out;
+  const auto add = [&](const Ring& ring) {
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const Vec2 a = ring[i], b = ring[(i + 1) % ring.size()];
+      const Path::Place place = centre.at(centre.nearest((a + b) * 0.5));
+      const double away = length((a + b) * 0.5 - place.point);
+      const bool parallel = std::fabs(dot(normalized(b - a), place.tangent)) > kParallel;
+      out.push_back(parallel && away > street.width * kKerbShare);
+    }
+  };
+  add(roadway.outer);
+  for (const Ring& hole : roadway.holes) add(hole);
+  return out;
+}
+
 const SelectorItem* itemFor(const OpCall& call, std::string_view what) {
   for (const SelectorItem& item : call.selectors()) {
     if (item.terms.size() != 1 || item.terms[0].kind != SelectorTerm::Kind::Word) continue;
@@ -89,21 +112,24 @@ Status applyStreets(OpCall& call) {
     joined.area = &area;
     joined.snap = std::max(width * kSnapShare, 0.5);
     joined.shortest = spacing / 2;
-    const StreetPlan plan =
-        planStreets(buildStreetGraph(streets, joined), area, width / 3, width * width);
-    const auto emit = [&](const Region& parts, std::string_view what, bool allStreet) {
+    const StreetGraph graph = buildStreetGraph(streets, joined);
+    const StreetPlan plan = planStreets(graph, area, width / 3, width * width);
+    const auto emit = [&](const Region& parts, std::string_view what, auto&& streetEdges) {
       const SelectorItem* item = itemFor(call, what);
       for (const Polygon& p : parts) {
         const uint32_t number = piece++;
         if (!item || gable::area(p) < kSliver * gable::area(area)) continue;
-        const std::vector<bool> tags(allStreet ? p.outer.size() : 0, true);
-        call.emit(groundPart(call, ground, p, kNoFront, tags), item->slot, number);
+        call.emit(groundPart(call, ground, p, kNoFront, streetEdges(p)), item->slot, number);
       }
     };
-    emit(plan.blocks, "block", true);
-    for (const Region& r : plan.roadways) emit(r, "roadway", false);
-    for (const Region& r : plan.junctions) emit(r, "junction", false);
-    emit(plan.islands, "island", false);
+    const auto all = [](const Polygon& p) { return std::vector<bool>(p.outer.size(), true); };
+    const auto none = [](const Polygon&) { return std::vector<bool>(); };
+    emit(plan.blocks, "block", all);
+    for (size_t e = 0; e < plan.roadways.size(); ++e) {
+      emit(plan.roadways[e], "roadway", [&](const Polygon& p) { return kerbs(p, graph.edges[e]); });
+    }
+    for (const Region& r : plan.junctions) emit(r, "junction", none);
+    emit(plan.islands, "island", none);
   }
   return {};
 }

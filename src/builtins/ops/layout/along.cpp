@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The edges that an item selects are joined to lines, which end where the outline turns sharply,
+// and each line is measured out. The middle between two sides of a street is found from the longer
+// one: every place of it is paired with the nearest place of another.
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "builtins/lists.h"
+#include "builtins/ops/shared/face_plan.h"
+#include "builtins/ops/shared/refit.h"
+#include "builtins/ops/subdivide/shared/components.h"
+#include "geom/curve/curve.h"
+#include "geom/mesh/face_plane.h"
+#include "math/trig.h"
+#include "shape/op_call.h"
+
+namespace gable {
+
+namespace {
+
+// Lines end where the outline turns by more degrees than this: rounded corners belong to them.
+constexpr double kSharpTurn = 50;
+constexpr double kMostPlaces = 100000;
+constexpr const char* kStreetTag = "street";
+constexpr uint32_t kNoItem = 0xffffffff;
+
+// Edges one after the other in the plane of their face, the face to their left.
+struct Chain {
+  Line line;
+  bool closed = false;
+};
+
+struct Layout {
+  Spacing spacing;
+  double offset = 0;
+  bool inward = false, along = false;
+};
+
+bool isWord(const OpCall& call, const SelectorItem& item, std::string_view word) {
+  return item.terms.size() == 1 && item.terms[0].kind == SelectorTerm::Kind::Word &&
+         call.services().pool().text(item.terms[0].word) == word;
+}
+
+// By corner: the edge that begins there is one of a street. Without tags every edge is.
+std::vector<bool> streetEdges(const OpCall& call, const Mesh& m) {
+  std::vector<bool> out(m.corners.size(), false);
+  bool any = false;
+  for (size_t c = 0; c < m.edgeTags.size(); ++c) {
+    out[c] = call.services().tags().has(m.edgeTags[c], kStreetTag);
+    any = any || out[c];
+  }
+  if (!any) out.assign(out.size(), true);
+  return out;
+}
+
+// By corner: the item that takes the edge; the first of several.
+std::vector<uint32_t> itemsOfEdges(OpCall& call, const Mesh& m, const std::vector<bool>& street) {
+  std::vector<uint32_t> out(m.corners.size(), kNoItem);
+  const Components edges(m, ComponentKind::FaceEdges);
+  const Directions directions(call.services(), call.shape());
+  const auto count = static_cast<uint32_t>(edges.list().size());
+  for (uint32_t i = 0; i < call.selectors().size(); ++i) {
+    const SelectorItem& item = call.selectors()[i];
+    if (isWord(call, item, "middle")) continue;
+    const bool streets = isWord(call, item, "street");
+    const Selector selector(item, call.services().pool(), directions);
+    for (const Component& c : edges.list()) {
+      if (out[c.corner] != kNoItem) continue;
+      const bool taken = streets ? street[c.corner]
+                                 : selector.matches(c.what, &edges, call.services().tags(), count);
+      if (taken) out[c.corner] = i;
+    }
+  }
+  return out;
+}
+
+bool turnsSharply(Vec2 before, Vec2 at, Vec2 after) {
+  const Vec2 a = normalized(at - before), b = normalized(after - at);
+  return dot(a, b) < cosDeg(kSharpTurn);
+}
+
+// The chosen edges of a ring as lines, from the first sharp corner or gap on.
+void addChains(const Ring& ring, const std::vector<bool>& chosen, std::vector<Chain>& out) {
+  const size_t n = ring.size();
+  const auto goesOn = [&](size_t i) {
+    const size_t before = (i + n - 1) % n;
+    return chosen[before] && chosen[i] && !turnsSharply(ring[before], ring[i], ring[(i + 1) % n]);
+  };
+  size_t first = 0;
+  while (first < n && goesOn(first)) ++first;
+  if (first == n) {
+    out.push_back({ring, true});
+    return;
+  }
+  for (size_t k = 0; k < n; ++k) {
+    const size_t i = (first + k) % n;
+    if (!chosen[i]) continue;
+    if (!goesOn(i)) out.push_back({{ring[i]}, false});
+    out.back().line.push_back(ring[(i + 1) % n]);
+  }
+}
+
+// All rings of a face; `chosen` tells by corner of the mesh.
+template <class Chosen>
+std::vector<Chain> chainsOf(const Mesh& m, size_t face, const Frame& frame, Chosen&& chosen) {
+  std::vector<Chain> out;
+  for (const MeshLoop& loop : m.loopsOf(face)) {
+    if (loop.cornerCount < 3) continue;
+    Ring ring;
+    std::vector<bool> mine;
+    for (uint32_t i = 0; i < loop.cornerCount; ++i) {
+      const uint32_t corner = loop.firstCorner + i;
+      const Vec3 p = frame.toLocal(m.positions[m.corners[corner]]);
+      ring.push_back({p.x, p.y});
+      mine.push_back(chosen(corner));
+    }
+    addChains(ring, mine, out);
+  }
+  return out;
+}
+
+std::vector<double> stationsOf(const Path& path, const Spacing& spacing) {
+  if (!path.closed()) return stations(path.length(), spacing);
+  std::vector<double> out;
+  const double count = std::max(1.0, std::nearbyint(path.length() / spacing.step));
+  if (!std::isfinite(count) || count > kMostPlaces) return out;
+  for (double i = 0; i < count; ++i) out.push_back(path.length() * i / count);
+  return out;
+}
+
+// Places halfway between the longest line and the nearest of the others.
+std::vector<Path::Place> middlePlaces(const std::vector<Chain>& chains, const Spacing& spacing) {
+  std::vector<Path> paths;
+  for (const Chain& c : chains) paths.emplace_back(c.line, c.closed);
+  std::vector<Path::Place> out;
+  if (paths.size() < 2) return out;
+  size_t longest = 0;
+  for (size_t i = 1; i < paths.size(); ++i) {
+    if (paths[i].length() > paths[longest].length()) longest = i;
+  }
+  for (const double s : stationsOf(paths[longest], spacing)) {
+    Path::Place place = paths[longest].at(s);
+    double best = std::numeric_limits<double>::infinity();
+    Vec2 facing = place.point;
+    for (size_t i = 0; i < paths.size(); ++i) {
+      if (i == longest) continue;
+      const Vec2 p = paths[i].at(paths[i].nearest(place.point)).point;
+      if (length(p - place.point) >= best) continue;
+      best = length(p - place.point);
+      facing = p;
+    }
+    place.point = (place.point + facing) * 0.5;
+    out.push_back(place);
+  }
+  return out;
+}
+
+Ref<Mesh> pointMesh() {
+  MeshBuilder b;
+  const uint32_t p = b.addPosition({});
+  b.addPolygon({&p, 1});
+  return makeRef<Mesh>(b.take());
+}
+
+// Gives out one child after the other.
+class Emitter {
+ public:
+  Emitter(OpCall& call, const Layout& layout) : call_(call), layout_(layout) {}
+
+  void emit(const Frame& plane, const Path::Place& place, uint32_t slot) {
+    // Outward is to the right of the edge.
+    const Vec2 out{place.tangent.y, -place.tangent.x};
+    const Vec2 at = place.point + out * layout_.offset;
+    const Vec2 z = layout_.along ? place.tangent : layout_.inward ? out * -1.0 : out;
+    const Vec3 facing = plane.direction({z.x, z.y, 0});
+    Shape child = call_.shape();
+    child.scope = call_.shape().scope *
+                  Frame::of(fromPlanFrame(plane, at), cross(plane.z, facing), plane.z, facing);
+    child.size = {};
+    setMesh(child, point_, ScopeFit::Keep);
+    forgetFarTrimPlanes(child);
+    call_.emit(std::move(child), slot, piece_++);
+  }
+
+ private:
+  OpCall& call_;
+  const Layout& layout_;
+  Ref<Mesh> point_ = pointMesh();
+  uint32_t piece_ = 0;
+};
+
+Status layoutOf(const OpCall& call, Layout& out) {
+  out.spacing.step = call.number(0);
+  out.offset = call.number(1, 0);
+  out.spacing.startInset = out.spacing.endInset = call.number(2, 0);
+  out.spacing.stretch = call.is(3, "stretch");
+  out.inward = call.is(4, "inward");
+  out.along = call.is(4, "along");
+  if (!(out.spacing.step > 0) || !std::isfinite(out.offset) || !(out.spacing.startInset >= 0)) {
+    return call.fail("bad-argument",
+                     "along needs a spacing larger than 0 and an inset that is not negative",
+                     "such as along(8, 0, 4)");
+  }
+  return {};
+}
+
+// What would be made at most; a little more where lines begin and end.
+bool tooMany(const Mesh& m, const Spacing& spacing, size_t items) {
+  double whole = 0;
+  for (size_t f = 0; f < m.faceCount(); ++f) {
+    for (const MeshLoop& loop : m.loopsOf(f)) {
+      for (uint32_t i = 0; i < loop.cornerCount; ++i) {
+        const uint32_t next = loop.firstCorner + (i + 1) % loop.cornerCount;
+        whole +=
+            length(m.positions[m.corners[next]] - m.positions[m.corners[loop.firstCorner + i]]);
+      }
+    }
+  }
+  return !(whole / spacing.step * static_cast<double>(items) <= kMostPlaces);
+}
+
+Status applyAlong(OpCall& call) {
+  Layout layout;
+  if (Status bad = layoutOf(call, layout); !bad) return bad;
+  const MeshRef mesh = meshInScope(call.shape());
+  if (mesh->faceCount() == 0) {
+    return call.fail("no-geometry", "the shape has no edges to place things along",
+                     "start from a footprint, or insert a primitive first");
+  }
+  if (tooMany(*mesh, layout.spacing, call.selectors().size())) {
+    return call.fail("along-too-many", "along would make more than 100000 shapes",
+                     "give a larger spacing, or divide the shape first");
+  }
+  const std::vector<bool> street = streetEdges(call, *mesh);
+  const std::vector<uint32_t> items = itemsOfEdges(call, *mesh, street);
+  Emitter emitter(call, layout);
+  for (size_t f = 0; f < mesh->faceCount(); ++f) {
+    if (mesh->normal(f) == Vec3{}) continue;
+    const Frame plane = planFrame(*mesh, f);
+    for (uint32_t i = 0; i < call.selectors().size(); ++i) {
+      const SelectorItem& item = call.selectors()[i];
+      if (isWord(call, item, "middle")) {
+        const auto sides =
+            chainsOf(*mesh, f, plane, [&](uint32_t corner) -> bool { return street[corner]; });
+        for (const Path::Place& p : middlePlaces(sides, layout.spacing)) {
+          emitter.emit(plane, p, item.slot);
+        }
+        continue;
+      }
+      const auto mine = [&](uint32_t corner) { return items[corner] == i; };
+      for (const Chain& c : chainsOf(*mesh, f, plane, mine)) {
+        const Path path(c.line, c.closed);
+        for (const double s : stationsOf(path, layout.spacing)) {
+          emitter.emit(plane, path.at(s), item.slot);
+        }
+      }
+    }
+  }
+  return {};
+}
+
+constexpr ParamSpec kParams[] = {
+    {"spacing", ParamType::Float, "From one place to the next along the edges, in metres."},
+    {"offset", ParamType::Float, "How far beside the edge: outwards, inwards where negative.", "0"},
+    {"inset", ParamType::Float, "Kept free at both ends of each line of edges.", "0"},
+    {"fit", ParamType::Selector,
+     "centred shares what is left over between both ends; stretch makes the spacing a little "
+     "longer "
+     "or shorter, so that both ends are met.",
+     "centred", "centred stretch"},
+    {"facing", ParamType::Selector, "Where z points: outward across the edge, inward, or along it.",
+     "outward", "outward inward along"},
+};
+constexpr Signature kSignatures[] = {{kParams}};
+
+constexpr OpSpec kSpecs[] = {
+    {"along", "layout", "Gives out places along the edges of the faces, at equal spacing.",
+     kSignatures, applyAlong, BlockKind::Selectors, kReadsWorld | kReadsWorldByWord,
+     "street middle", false, true},
+};
+
+}  // namespace
+
+extern const OpList kOps_along;
+const OpList kOps_along = kSpecs;
+
+}  // namespace gable
