@@ -7,13 +7,14 @@
 #include <string>
 
 #include "dialects/gbbg/gbbg.h"
+#include "dialects/park/park.h"
 #include "dialects/progen3d/progen3d.h"
 
 namespace gable {
 
 std::span<const Dialect* const> dialects() {
   // One line a dialect, by name.
-  static const Dialect* const kAll[] = {&kGbbgDialect, &kProgen3d};
+  static const Dialect* const kAll[] = {&kGbbgDialect, &kParkDialect, &kProgen3d};
   return kAll;
 }
 

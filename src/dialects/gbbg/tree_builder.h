@@ -44,6 +44,20 @@ class TreeBuilder {
   NodeId text(std::string_view text) { return named(lang::NodeKind::String, text, {}); }
   NodeId list(const Nodes& items) { return tree_.add(node(lang::NodeKind::List), items); }
 
+  NodeId unary(lang::UnaryOp op, NodeId operand) {
+    lang::Node n = node(lang::NodeKind::Unary);
+    n.op = static_cast<uint8_t>(op);
+    return tree_.add(n, {operand});
+  }
+  NodeId binary(lang::BinaryOp op, NodeId left, NodeId right) {
+    lang::Node n = node(lang::NodeKind::Binary);
+    n.op = static_cast<uint8_t>(op);
+    return tree_.add(n, {left, right});
+  }
+  NodeId call(std::string_view function, const Nodes& arguments) {
+    return named(lang::NodeKind::Call, function, {list(arguments), lang::kNoNode});
+  }
+
   NodeId annotation(std::string_view name, const Nodes& arguments) {
     return named(lang::NodeKind::Annotation, name, arguments);
   }
@@ -72,6 +86,17 @@ class TreeBuilder {
   NodeId push(NodeId body) { return tree_.add(node(lang::NodeKind::Push), {body}); }
 
   NodeId block(const Nodes& items) { return tree_.add(node(lang::NodeKind::Block), items); }
+  /// `a || b`, as a selector.
+  NodeId choiceOfWords(std::string_view a, std::string_view b) {
+    const NodeId left = word(a), right = word(b);
+    return binary(lang::BinaryOp::Or, left, right);
+  }
+  /// `head = body`: all that the head selects in one.
+  NodeId together(NodeId head, NodeId body) {
+    lang::Node n = node(lang::NodeKind::Item);
+    n.op = static_cast<uint8_t>(lang::ItemKind::Combine);
+    return tree_.add(n, {head, lang::kNoNode, body});
+  }
   /// `head : body`, or the body alone.
   NodeId item(NodeId head, NodeId body) {
     lang::Node n = node(lang::NodeKind::Item);

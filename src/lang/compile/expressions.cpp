@@ -139,10 +139,16 @@ uint32_t UnitCompiler::effectsOf(uint32_t effects, NodeId arguments) const {
   for (NodeId argument : t_.children(arguments)) {
     Value v;
     if (constantOf(argument, v)) {
-      worldNamed |= v.type == ValueType::Selector && namesWorld(e_.program().pool->text(v.id));
+      const std::string_view text = v.type == ValueType::Selector || v.type == ValueType::String
+                                        ? e_.program().pool->text(v.id)
+                                        : std::string_view();
+      // A selection written as text may name the world anywhere in it.
+      worldNamed |= v.type == ValueType::Selector ? namesWorld(text)
+                                                  : text.find("world.") != std::string_view::npos;
     } else {
       const ValueType type = m_.types[argument];
-      worldNamed |= type == ValueType::Selector || type == ValueType::Null;
+      worldNamed |= type == ValueType::Selector || type == ValueType::Null ||
+                    (type == ValueType::String && (effects & kReadsWorldByWord) != 0);
     }
   }
   return effectsOfCall(effects, worldNamed) | (worldNamed ? kReadsWorld : 0u);

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// A grid of cells with paths and junctions between; the kernel is geom/region/grid_partition.
+#include <cmath>
+
+#include "base/number.h"
+#include "builtins/lists.h"
+#include "builtins/ops/region/shared/region_job.h"
+
+namespace gable {
+
+namespace {
+
+constexpr double kPathWidth = 3;
+
+// A count, a list of sizes, or a text.
+Status dimensionOf(const OpCall& call, size_t argument, GridDim& out) {
+  if (!call.has(argument)) return {};
+  const Value& v = call.arg(argument);
+  if (v.type == ValueType::FloatArray) {
+    for (const double s : call.services().pool().array(v).numbers) {
+      out.sizes.push_back({DrawnRange{s, s}, {}});
+    }
+    out.count = static_cast<uint32_t>(out.sizes.size());
+    return {};
+  }
+  std::string problem;
+  if (readDimension(textOf(call, argument, ""), out, problem)) return {};
+  return call.fail("bad-argument", problem, "write a count, a list of sizes or \"3 {2, 6, 2}\"");
+}
+
+Status optionsOf(const OpCall& call, GridOptions& o) {
+  Status status = dimensionOf(call, 0, o.x);
+  if (status.ok()) status = dimensionOf(call, 1, o.y);
+  if (!status.ok()) return status;
+  o.pathWidth = call.number(2, kPathWidth);
+  if (!(o.pathWidth >= 0) || !std::isfinite(o.pathWidth)) {
+    return call.fail("bad-argument", "a path cannot be " + shortestText(o.pathWidth) + " wide",
+                     "write a width of zero or more");
+  }
+  const std::string figure = textOf(call, 3, "");
+  std::string problem;
+  if (!figure.empty() && figure != "none" && !readFigure(figure, o.junction, problem)) {
+    return call.fail("bad-argument", problem,
+                     "write romb(r), circle(r), square(a), rect(a, b) or polygon(n, r)");
+  }
+  const std::string options = textOf(call, 4, "");
+  const std::string fit = option(options, "fit"), base = option(options, "template");
+  o.fit = fit == "fail"                        ? GridFit::Fail
+          : fit == "center" || fit == "centre" ? GridFit::Center
+                                               : GridFit::Stretch;
+  o.base = base == "corners" ? GridTemplate::Corners
+           : base == "obb"   ? GridTemplate::Oriented
+           : base == "aabb"  ? GridTemplate::Axes
+           : base == "inner" ? GridTemplate::Inner
+                             : GridTemplate::Auto;
+  // The other way to count: lines instead of cells.
+  if (!option(options, "lines").empty()) {
+    if (o.x.count > 0) ++o.x.count;
+    if (o.y.count > 0) ++o.y.count;
+  }
+  return {};
+}
+
+Status problemOf(OpCall& call, GridProblem problem) {
+  switch (problem) {
+    case GridProblem::TooManyCells:
+      return failOrElse(call, "grid-too-many", "the grid would have more than 100000 cells",
+                        "write larger sizes or smaller counts");
+    case GridProblem::DoesNotFit:
+      return failOrElse(call, "grid-does-not-fit", "the cells do not fit into the region",
+                        "write smaller sizes, or fit=stretch");
+    default:
+      return failOrElse(call, "no-geometry", "the region has no area to divide",
+                        "divide a larger region");
+  }
+}
+
+std::string_view wordOf(PieceKind kind) {
+  switch (kind) {
+    case PieceKind::Cell: return "region";
+    case PieceKind::Path: return "path";
+    case PieceKind::Junction: return "junction";
+    case PieceKind::Remainder: break;
+  }
+  return "remainder";
+}
+
+Status applyGrid(OpCall& call) {
+  GridOptions options;
+  Status status = optionsOf(call, options);
+  if (!status.ok()) return status;
+  RegionJob job(call);
+  if (job.empty()) return noRegion(call);
+  const std::string text = textOf(call, 4, "");
+  for (size_t f = 0; f < job.faces().size(); ++f) {
+    RegionView& view = *job.faces()[f];
+    options.seed = call.randomAddress(f);
+    GridResult g = gridPartition(view.polygon(), options);
+    if (g.problem != GridProblem::None) return problemOf(call, g.problem);
+    if (g.junctionClamped) {
+      call.services().warn("junction-clamped",
+                           "'grid': the junctions were made smaller to keep apart",
+                           "make them smaller, or the cells larger");
+    }
+    for (Piece& p : g.pieces) {
+      std::vector<EdgeMark> marks = view.marksOf(p, p.kind != PieceKind::Remainder, false);
+      std::optional<CellMark> cell;
+      if (p.kind == PieceKind::Cell) {
+        cell = CellMark{
+            p.ix, p.iy, g.nx, g.ny, p.width, p.height, patternNamed(option(text, "pattern"))};
+      }
+      const std::string_view word = wordOf(p.kind);
+      job.keep(f, word, std::move(p), std::move(marks), cell);
+    }
+  }
+  job.emit();
+  return {};
+}
+
+constexpr ParamSpec kParams[] = {
+    {"columns", ParamType::Any,
+     "A count, a list of sizes in metres, or a text like \"3 {2, [4,6] a[-5,5]}\": a count, and "
+     "sizes in turn, with ranges that are drawn and angles in degrees."},
+    {"rows", ParamType::Any, "The same from south to north."},
+    {"pathWidth", ParamType::Float, "Of the paths between cells; 0 for none.", "3"},
+    {"junction", ParamType::Any,
+     "What stands at crossings: \"none\", or \"romb(r)\", \"circle(r)\", \"square(a)\", "
+     "\"rect(a, b)\", \"polygon(n, r)\".",
+     "\"none\""},
+    {"options", ParamType::String,
+     "fit=stretch|center|fail, template=auto|corners|obb|aabb|inner, "
+     "pattern=auto|centre|pair|mirror|extend|local|radial, lines.",
+     "\"\""},
+};
+constexpr Signature kSignatures[] = {{kParams}};
+
+constexpr OpSpec kSpecs[] = {
+    {"grid", "region", "Divides a region into rows and columns with paths between.", kSignatures,
+     applyGrid, BlockKind::Selectors, kRandom, "region path junction remainder otherwise", false,
+     true},
+};
+
+}  // namespace
+
+extern const OpList kOps_grid;
+const OpList kOps_grid = kSpecs;
+
+}  // namespace gable

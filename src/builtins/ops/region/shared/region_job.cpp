@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+#include "builtins/ops/region/shared/region_job.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/number.h"
+#include "geom/region/peel.h"
+#include "geom/region/places.h"
+
+namespace gable {
+
+RegionJob::RegionJob(OpCall& call) : call_(call), mesh_(meshInScope(call.shape())) {
+  for (const size_t f : regionFaces(*mesh_)) {
+    faces_.push_back(std::make_unique<RegionView>(call.services(), *mesh_, f));
+  }
+}
+
+void RegionJob::keep(size_t face, std::string_view word, Piece piece, std::vector<EdgeMark> marks,
+                     std::optional<CellMark> cell) {
+  kept_.push_back({face, std::string(word), std::move(piece), std::move(marks), cell});
+}
+
+void RegionJob::emit() {
+  const ValuePool& pool = call_.services().pool();
+  const Shape parent = call_.shape();
+  uint32_t piece = 0;
+  for (const SelectorItem& item : call_.selectors()) {
+    std::vector<const Kept*> mine;
+    for (const Kept& k : kept_) {
+      if (selectsWord(item, k.word, pool)) mine.push_back(&k);
+    }
+    if (item.op == SelectOperator::Each) {
+      for (const Kept* k : mine) {
+        call_.emit(faces_[k->face]->shapeOf(parent, k->piece, k->marks, k->cell), item.slot,
+                   piece++);
+      }
+      continue;
+    }
+    // One shape for each face of the parent, of all its pieces.
+    for (size_t f = 0; f < faces_.size(); ++f) {
+      std::vector<Piece> pieces;
+      std::vector<std::vector<EdgeMark>> marks;
+      for (const Kept* k : mine) {
+        if (k->face != f) continue;
+        pieces.push_back(k->piece);
+        pieces.back().axis = {1, 0};
+        marks.push_back(k->marks);
+      }
+      if (pieces.empty()) continue;
+      call_.emit(faces_[f]->shapeOf(parent, pieces, marks, std::nullopt), item.slot, piece++);
+    }
+  }
+}
+
+Frame RegionJob::worldIn(size_t face) const {
+  const Frame& plane = faces_[face]->plane().frame();
+  const Shape& s = call_.shape();
+  const auto local = [&](const Vec3& d) {
+    return plane.toLocalDirection(
+        s.scope.toLocalDirection(call_.services().world().toLocalDirection(d)));
+  };
+  return Frame::of({}, local({1, 0, 0}), local({0, 1, 0}), local({0, 0, 1}));
+}
+
+std::string textOf(const OpCall& call, size_t argument, std::string_view otherwise) {
+  if (!call.has(argument)) return std::string(otherwise);
+  const Value& v = call.arg(argument);
+  if (v.type == ValueType::Float) return shortestText(v.number);
+  if (v.type == ValueType::String || v.type == ValueType::Selector) {
+    return std::string(call.text(argument));
+  }
+  return std::string(otherwise);
+}
+
+Status noRegion(OpCall& call) {
+  return failOrElse(call, "no-geometry", "the shape has no face that could be divided",
+                    "begin with a lot or a face");
+}
+
+Status selected(OpCall& call, size_t argument, std::string_view otherwise, const RegionJob& job,
+                size_t face, const RegionView& view, std::vector<EdgePart>& out) {
+  std::string problem;
+  const SelectionInput input{view, call.randomAddress(1000 + face), job.worldIn(face)};
+  if (selectEdges(textOf(call, argument, otherwise), input, out, problem)) return {};
+  return call.fail("bad-selection", "the selection cannot be read: " + problem,
+                   "write words like outer, inner, side(W), longest, with & | - !");
+}
+
+Status discsOf(OpCall& call, size_t argument, const RegionView& view, uint64_t seed,
+               std::vector<Disc>& out) {
+  const Value& v = call.arg(argument);
+  if (v.type == ValueType::FloatArray) {
+    const Array& a = call.services().pool().array(v);
+    const Vec3 origin;
+    const Frame& plane = view.plane().frame();
+    const Vec3 o = plane.toLocal(origin);
+    for (size_t i = 0; i + 1 < a.numbers.size(); i += 2) {
+      out.push_back({{a.numbers[i] + o.x, a.numbers[i + 1] + o.y}, 0});
+    }
+    return {};
+  }
+  ScatterOptions options;
+  options.seed = seed;
+  TextReader r(call.services().pool().text(v.id));
+  double n = v.number;
+  DrawnRange radius;
+  if (v.type == ValueType::String) {
+    bool ok = r.number(n);
+    if (ok && r.accept('{')) ok = r.range(radius) && r.accept('}');
+    if (!ok || !r.atEnd()) {
+      return call.fail("bad-argument", "these are no discs to scatter",
+                       "write a number and a radius, \"5 {[5,10]}\", or a list of coordinates");
+    }
+  }
+  constexpr double kMostDiscs = 5000;
+  if (!(n >= 0 && n <= kMostDiscs) || !(radius.low >= 0) || !std::isfinite(radius.high)) {
+    return call.fail("bad-argument", "there can be 0 to 5000 discs of radii above zero",
+                     "scatter fewer");
+  }
+  options.count = static_cast<uint32_t>(n);
+  options.least = std::min(radius.low, radius.high);
+  options.most = std::max(radius.low, radius.high);
+  out = scatterDiscs(view.polygon(), options);
+  return {};
+}
+
+Status linesOf(OpCall& call, size_t argument, double inset, const RegionJob& job, size_t face,
+               const RegionView& view, std::vector<Polyline>& out) {
+  std::vector<LogicalRange> ranges;
+  if (!readRanges(textOf(call, argument, ""), ranges)) {
+    std::vector<EdgePart> parts;
+    const Status status = selected(call, argument, "all", job, face, view, parts);
+    if (!status.ok()) return status;
+    for (const Polyline& line : runsOf(view.polygon(), parts, {})) {
+      out.push_back(movedLeft(line, inset));
+    }
+    return {};
+  }
+  // Of a mirrored cell the numbers run the other way.
+  const std::optional<CellMark>& cell = view.cell();
+  const bool four = view.logicalCount() == 4 && cell;
+  const bool mx = four && cell->mirroredX(), my = four && cell->mirroredY();
+  for (LogicalRange& r : ranges) {
+    if (mx && r.logical % 2 == 0 && r.logical < 4) r.logical = 2 - r.logical;
+    if (my && r.logical % 2 == 1 && r.logical < 4) r.logical = 4 - r.logical;
+  }
+  const std::vector<uint32_t> logical = view.logicals();
+  if (!(inset > 0)) {
+    out = parametrise(view.polygon().outer, logical, ranges, mx == my);
+    return {};
+  }
+  for (const Piece& p : contract(view.polygon(), inset)) {
+    std::vector<uint32_t> moved;
+    for (size_t i = 0; i < p.polygon.outer.size(); ++i) {
+      const uint32_t source = p.edges[i].source;
+      moved.push_back(source < logical.size() ? logical[source] : EdgeMark::kNoLogical);
+    }
+    for (Polyline& line : parametrise(p.polygon.outer, moved, ranges, mx == my)) {
+      out.push_back(std::move(line));
+    }
+  }
+  return {};
+}
+
+}  // namespace gable

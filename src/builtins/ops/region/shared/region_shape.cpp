@@ -1,0 +1,436 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+#include "builtins/ops/region/shared/region_shape.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "base/number.h"
+#include "builtins/ops/shared/refit.h"
+#include "builtins/ops/subdivide/shared/parts.h"
+#include "geom/region/autoindex.h"
+
+namespace gable {
+
+namespace {
+
+constexpr std::string_view kEdgePrefix = "region.edge.";
+constexpr std::string_view kRolePrefix = "region.role.";
+constexpr std::string_view kPeelPrefix = "region.peel.";
+constexpr std::string_view kDepthPrefix = "region.depth.";
+constexpr std::string_view kCellPrefix = "region.cell ";
+
+constexpr std::string_view kRoles[] = {"kept", "path", "centre", "hole",
+                                       "cut",  "base", "inner",  "cap"};
+
+constexpr std::string_view kPatterns[] = {"auto",    "centre",  "pair",  "mirror", "extend",
+                                          "extendL", "extendR", "local", "radial"};
+
+EdgeRole roleNamed(std::string_view name) {
+  for (size_t i = 0; i < std::size(kRoles); ++i) {
+    if (kRoles[i] == name) return static_cast<EdgeRole>(i);
+  }
+  return EdgeRole::Kept;
+}
+
+// The parts of a text between separators.
+std::vector<std::string_view> partsOf(std::string_view text, char separator) {
+  std::vector<std::string_view> out;
+  while (!text.empty()) {
+    const size_t end = text.find(separator);
+    out.push_back(text.substr(0, end));
+    text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
+  }
+  return out;
+}
+
+uint32_t wholeNumber(std::string_view text, uint32_t otherwise) {
+  uint32_t v = otherwise;
+  const auto r = std::from_chars(text.data(), text.data() + text.size(), v);
+  return r.ec == std::errc() ? v : otherwise;
+}
+
+double numberOf(std::string_view text) {
+  double v = 0;
+  parseNumber(text, v);
+  return v;
+}
+
+bool readCell(std::string_view tag, CellMark& c) {
+  const std::vector<std::string_view> p = partsOf(tag.substr(kCellPrefix.size()), ' ');
+  if (p.size() != 7) return false;
+  c.ix = wholeNumber(p[0], 0);
+  c.iy = wholeNumber(p[1], 0);
+  c.nx = std::max(1u, wholeNumber(p[2], 1));
+  c.ny = std::max(1u, wholeNumber(p[3], 1));
+  c.w = numberOf(p[4]);
+  c.h = numberOf(p[5]);
+  c.pattern = patternNamed(p[6]);
+  return true;
+}
+
+// Reads the tags of a face; false when they say nothing of regions.
+bool readFace(const Services& services, uint32_t set, RegionFacts& facts, uint32_t& others) {
+  bool known = false;
+  std::vector<StringId> rest;
+  for (const StringId id : services.tags().names(set)) {
+    const std::string_view tag = services.pool().text(id);
+    CellMark c;
+    if (tag.starts_with(kDepthPrefix)) {
+      facts.depth = wholeNumber(tag.substr(kDepthPrefix.size()), 0);
+      known = true;
+    } else if (tag.starts_with(kCellPrefix) && readCell(tag, c)) {
+      facts.cell = c;
+    } else {
+      rest.push_back(id);
+    }
+  }
+  others = services.tags().intern(std::move(rest));
+  return known;
+}
+
+EdgeMark readEdge(const Services& services, uint32_t set) {
+  EdgeMark m;
+  std::vector<StringId> rest;
+  for (const StringId id : services.tags().names(set)) {
+    const std::string_view tag = services.pool().text(id);
+    if (tag.starts_with(kEdgePrefix)) {
+      const auto p = partsOf(tag.substr(kEdgePrefix.size()), '.');
+      if (p.size() == 2) {
+        m.level = wholeNumber(p[0], 0);
+        m.logical = wholeNumber(p[1], EdgeMark::kNoLogical);
+      }
+    } else if (tag.starts_with(kRolePrefix)) {
+      m.role = roleNamed(tag.substr(kRolePrefix.size()));
+    } else if (tag.starts_with(kPeelPrefix)) {
+      const auto p = partsOf(tag.substr(kPeelPrefix.size()), '.');
+      if (p.size() == 2) m.peels.push_back({wholeNumber(p[0], 0), roleNamed(p[1])});
+    } else {
+      rest.push_back(id);
+    }
+  }
+  m.others = services.tags().intern(std::move(rest));
+  return m;
+}
+
+// Rings begin at their vertex nearest to the south-west, as rectangles do.
+size_t southWest(const Ring& r, Vec2 x) {
+  const Vec2 diagonal = x + perpendicular(x);
+  size_t best = 0;
+  for (size_t i = 1; i < r.size(); ++i) {
+    if (dot(r[i], diagonal) < dot(r[best], diagonal) - 1e-9) best = i;
+  }
+  return best;
+}
+
+}  // namespace
+
+CellPattern patternNamed(std::string_view name) {
+  for (size_t i = 0; i < std::size(kPatterns); ++i) {
+    if (kPatterns[i] == name) return static_cast<CellPattern>(i);
+  }
+  if (name == "center") return CellPattern::Centre;
+  return CellPattern::Auto;
+}
+
+bool CellMark::mirrored(uint32_t i, uint32_t n) const {
+  switch (pattern) {
+    case CellPattern::Local:
+    case CellPattern::Radial: return false;
+    case CellPattern::Pair: return i % 2 == 1;
+    case CellPattern::Auto:
+      if (n % 2 == 0) return i % 2 == 1;
+      break;
+    default: break;
+  }
+  return 2 * i >= n && !(n % 2 == 1 && i == n / 2);
+}
+
+bool CellMark::along(bool y, double& u) const {
+  const uint32_t i = y ? iy : ix, n = y ? ny : nx;
+  const bool middle = n % 2 == 1 && i == n / 2 && n > 1;
+  const bool extend = pattern == CellPattern::Extend || pattern == CellPattern::ExtendL ||
+                      pattern == CellPattern::ExtendR;
+  if (extend) {
+    // The address runs on over cells from the border.
+    const uint32_t fromLow = i, fromHigh = n - 1 - i;
+    const bool high =
+        pattern == CellPattern::ExtendR || (pattern == CellPattern::Extend && fromHigh < fromLow);
+    u -= high ? fromHigh : fromLow;
+    if (u < 0 || u > 1) return false;
+    if (high) u = 1 - u;
+    return true;
+  }
+  if (middle && pattern != CellPattern::Local && pattern != CellPattern::Radial) {
+    u = 0.5;
+    return true;
+  }
+  if (mirrored(i, n)) u = 1 - u;
+  return true;
+}
+
+RegionView::RegionView(const Services& services, const Mesh& mesh, size_t face)
+    : services_(services), mesh_(mesh), plane_(mesh, face) {
+  RegionFacts facts;
+  const bool known = readFace(services, mesh.faces[face].tags, facts, otherFaceTags_);
+  depth_ = facts.depth;
+  cell_ = facts.cell;
+  const std::vector<Ring> rings = ringsOf(polygon());
+  for (size_t r = 0; r < rings.size(); ++r) {
+    for (size_t i = 0; i < rings[r].size(); ++i) {
+      const uint32_t corner = plane_.cornerOf(r, i);
+      marks_.push_back(readEdge(services, mesh.edgeTags.empty() ? 0 : mesh.edgeTags[corner]));
+    }
+  }
+  if (!known) {
+    const LogicalEdges l = autoindex(polygon().outer);
+    for (size_t i = 0; i < l.of.size(); ++i) marks_[i].logical = l.of[i];
+  }
+  for (size_t i = 0; i < rings[0].size(); ++i) {
+    if (marks_[i].logical != EdgeMark::kNoLogical) {
+      logicalCount_ = std::max(logicalCount_, marks_[i].logical + 1);
+    }
+  }
+}
+
+std::vector<uint32_t> RegionView::logicals() const {
+  std::vector<uint32_t> out;
+  for (size_t i = 0; i < polygon().outer.size(); ++i) out.push_back(marks_[i].logical);
+  return out;
+}
+
+std::vector<EdgeMark> RegionView::marksOf(const Piece& piece, bool grid, bool reindex) const {
+  std::vector<EdgeMark> out;
+  const std::vector<Ring> rings = ringsOf(piece.polygon);
+  size_t i = 0;
+  for (const Ring& r : rings) {
+    for (size_t k = 0; k < r.size(); ++k, ++i) {
+      const EdgeOrigin& o = piece.edges[i];
+      EdgeMark m;
+      const bool inherits = o.source < marks_.size();
+      if (inherits) m = marks_[o.source];
+      if (o.role != EdgeRole::Kept && o.role != EdgeRole::Base) {
+        m.level = depth_ + 1;
+        m.role = o.role;
+        if (o.role != EdgeRole::Inner) m.others = 0;
+        // A moved edge is no longer what earlier peels made.
+        m.peels.clear();
+      }
+      if (o.role == EdgeRole::Base || o.role == EdgeRole::Inner || o.role == EdgeRole::Cap) {
+        m.role = o.role;
+        m.peels.push_back({depth_ + 1, o.role});
+      }
+      if (grid && &r == &rings[0]) {
+        uint32_t side = o.side;
+        if (side > 3) {
+          // The 45 degree edge belongs to the side along x, in mirrored cells too.
+          const Vec2 n = -perpendicular(r[(k + 1) % r.size()] - r[k]);
+          const double u = dot(n, piece.axis), v = dot(n, perpendicular(piece.axis));
+          const bool across = std::fabs(u) >= std::fabs(v) * (1 - 1e-6);
+          side = across ? (u < 0 ? 0 : 2) : (v > 0 ? 1 : 3);
+        }
+        m.logical = side;
+      } else if (o.role == EdgeRole::Cap || !inherits) {
+        m.logical = EdgeMark::kNoLogical;
+      }
+      out.push_back(std::move(m));
+    }
+  }
+  if (reindex) {
+    const LogicalEdges l = autoindex(piece.polygon.outer);
+    for (size_t k = 0; k < l.of.size(); ++k) out[k].logical = l.of[k];
+  }
+  return out;
+}
+
+uint32_t RegionView::tagsOf(const EdgeMark& m) const {
+  ValuePool& pool = services_.pool();
+  std::vector<StringId> names = services_.tags().names(m.others);
+  const std::string logical = m.logical == EdgeMark::kNoLogical ? "n" : std::to_string(m.logical);
+  names.push_back(pool.intern(std::string(kEdgePrefix) + std::to_string(m.level) + '.' + logical));
+  if (m.role != EdgeRole::Kept) {
+    names.push_back(
+        pool.intern(std::string(kRolePrefix) + std::string(kRoles[static_cast<size_t>(m.role)])));
+  }
+  for (const PeelMark& p : m.peels) {
+    names.push_back(pool.intern(std::string(kPeelPrefix) + std::to_string(p.depth) + '.' +
+                                std::string(kRoles[static_cast<size_t>(p.role)])));
+  }
+  return services_.tags().intern(std::move(names));
+}
+
+uint32_t RegionView::faceTags(uint32_t depth, const std::optional<CellMark>& cell) const {
+  ValuePool& pool = services_.pool();
+  std::vector<StringId> names = services_.tags().names(otherFaceTags_);
+  names.push_back(pool.intern(std::string(kDepthPrefix) + std::to_string(depth)));
+  if (cell) {
+    std::string text(kCellPrefix);
+    for (const uint32_t v : {cell->ix, cell->iy, cell->nx, cell->ny}) {
+      text += std::to_string(v) + ' ';
+    }
+    text += shortestText(cell->w) + ' ' + shortestText(cell->h) + ' ';
+    text += kPatterns[static_cast<size_t>(cell->pattern)];
+    names.push_back(pool.intern(text));
+  }
+  return services_.tags().intern(std::move(names));
+}
+
+Mesh RegionView::meshOf(std::span<const Piece> pieces, std::span<const std::vector<EdgeMark>> marks,
+                        uint32_t tags) {
+  std::vector<PatchFace> faces;
+  for (size_t p = 0; p < pieces.size(); ++p) {
+    PatchFace face;
+    face.plane = &plane_;
+    face.tags = tags;
+    size_t first = 0;
+    for (const Ring& r : ringsOf(pieces[p].polygon)) {
+      const auto at = static_cast<uint32_t>(plane_.points.size());
+      const auto n = static_cast<uint32_t>(r.size());
+      plane_.points.insert(plane_.points.end(), r.begin(), r.end());
+      const auto start = static_cast<uint32_t>(southWest(r, pieces[p].axis));
+      PatchLoop loop;
+      for (uint32_t k = 0; k < n; ++k) {
+        const uint32_t i = (start + k) % n;
+        loop.push_back({at + i, at + (i + 1) % n, tagsOf(marks[p][first + i]), 0});
+      }
+      face.patch.loops.push_back(std::move(loop));
+      first += n;
+    }
+    faces.push_back(std::move(face));
+  }
+  return meshOfPatches(mesh_, faces);
+}
+
+Frame RegionView::axesAlong(const Shape& parent, Vec2 along) const {
+  const Frame& plane = plane_.frame();
+  const Vec3 x = normalized(plane.x * along.x + plane.y * along.y);
+  const Vec3 n = plane.z;
+  // The axis of the scope that is the normal stays so.
+  const bool upright = std::fabs(n.y) >= std::fabs(n.z);
+  const Vec3 up = n.y < 0 && upright ? -n : n;
+  Frame f = upright ? Frame::of({}, x, up, cross(x, up)) : Frame::of({}, x, cross(n, x), n);
+  return Frame::of(parent.scope.origin, parent.scope.direction(f.x), parent.scope.direction(f.y),
+                   parent.scope.direction(f.z));
+}
+
+Shape RegionView::shapeOf(const Shape& parent, std::span<const Piece> pieces,
+                          std::span<const std::vector<EdgeMark>> marks,
+                          const std::optional<CellMark>& cell) {
+  Shape child = parent;
+  setPartMesh(child, parent, meshOf(pieces, marks, faceTags(depth_ + 1, cell)), true);
+  const Vec2 axis = pieces[0].axis;
+  if (std::fabs(axis.y) > 1e-9 || axis.x < 0) alignScope(child, axesAlong(parent, axis));
+  forgetFarTrimPlanes(child);
+  return child;
+}
+
+void RegionView::replace(Shape& shape, std::span<const Piece> pieces) {
+  std::vector<std::vector<EdgeMark>> marks;
+  for (const Piece& p : pieces) {
+    marks.emplace_back();
+    for (const EdgeOrigin& o : p.edges) {
+      EdgeMark m;
+      if (o.source < marks_.size()) m = marks_[o.source];
+      if (o.role != EdgeRole::Kept && o.role != EdgeRole::Inner) {
+        m.role = o.role;
+        m.level = depth_ + 1;
+      }
+      // What moved off the border is no border.
+      if (o.role == EdgeRole::Inner) m.level = depth_ + 1;
+      marks.back().push_back(std::move(m));
+    }
+  }
+  const Shape parent = shape;
+  setPartMesh(shape, parent, meshOf(pieces, marks, faceTags(depth_, cell_)), true);
+}
+
+Shape RegionView::pointAt(const Shape& parent, Vec2 at, Vec2 along) const {
+  Shape child = parent;
+  Frame f = axesAlong(parent, along);
+  f.origin = parent.scope.point(plane_.frame().point({at.x, at.y, 0}));
+  child.scope = f;
+  child.size = {};
+  MeshBuilder b;
+  const uint32_t p = b.addPosition({});
+  b.addPolygon({&p, 1});
+  setMesh(child, b.take(), ScopeFit::Keep);
+  forgetFarTrimPlanes(child);
+  return child;
+}
+
+Shape RegionView::segmentAt(const Shape& parent, Vec2 a, Vec2 b) const {
+  Shape child = pointAt(parent, a, b - a);
+  const double l = length(b - a);
+  child.size = {l, 0, 0};
+  MeshBuilder builder;
+  const uint32_t p[2] = {builder.addPosition({}), builder.addPosition({l, 0, 0})};
+  builder.addPolygon(p);
+  setMesh(child, builder.take(), ScopeFit::Keep);
+  return child;
+}
+
+RegionFacts regionFactsOf(const Services& services, const Shape& shape) {
+  RegionFacts facts;
+  if (shape.geometry.kind == GeometryKind::None || shape.geometry.kind == GeometryKind::Box) {
+    return facts;
+  }
+  uint32_t tags = 0, others = 0;
+  switch (shape.geometry.kind) {
+    case GeometryKind::QuadXy: tags = shape.geometry.tags[kSideFront]; break;
+    case GeometryKind::QuadXz: tags = shape.geometry.tags[kSideTop]; break;
+    default: tags = shape.geometry.mesh->faces[0].tags;
+  }
+  readFace(services, tags, facts, others);
+  return facts;
+}
+
+bool selectsWord(const SelectorItem& item, std::string_view word, const ValuePool& pool) {
+  std::vector<bool> stack;
+  const auto pop = [&] {
+    if (stack.empty()) return false;
+    const bool top = stack.back();
+    stack.pop_back();
+    return top;
+  };
+  for (const SelectorTerm& t : item.terms) {
+    switch (t.kind) {
+      case SelectorTerm::Kind::Word: {
+        const std::string_view own = pool.text(t.word);
+        stack.push_back(own == word || (own == "all" && word != "otherwise"));
+        break;
+      }
+      case SelectorTerm::Kind::Boolean: stack.push_back(t.number != 0); break;
+      case SelectorTerm::Kind::Not: stack.push_back(!pop()); break;
+      case SelectorTerm::Kind::And:
+      case SelectorTerm::Kind::Or: {
+        const bool b = pop(), a = pop();
+        stack.push_back(t.kind == SelectorTerm::Kind::And ? a && b : a || b);
+        break;
+      }
+      default: stack.push_back(false);
+    }
+  }
+  return pop();
+}
+
+Status failOrElse(OpCall& call, const char* code, const std::string& message,
+                  const std::string& hint) {
+  for (const SelectorItem& item : call.selectors()) {
+    if (!selectsWord(item, "otherwise", call.services().pool())) continue;
+    call.emit(call.shape(), item.slot, 0);
+    return {};
+  }
+  return call.fail(code, message, hint);
+}
+
+std::vector<size_t> regionFaces(const Mesh& mesh) {
+  std::vector<size_t> out;
+  for (size_t f = 0; f < mesh.faceCount(); ++f) {
+    if (mesh.normal(f) != Vec3{}) out.push_back(f);
+  }
+  return out;
+}
+
+}  // namespace gable

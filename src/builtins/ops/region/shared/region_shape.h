@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// A face of a shape as a region: its polygon, and what its tags say of where it comes from.
+//
+// Provenance lives in tags, so it goes wherever a face and its edges go:
+//
+//   face   region.depth.D                       so many partitions lie behind it
+//          region.cell IX IY NX NY W H PATTERN  the cell of a grid that it is, or was cut from
+//   edge   region.edge.L.S                      made by partition L (0: the initial outline), of
+//   the
+//                                               logical edge S (n: of none)
+//          region.role.R                        path, centre, hole, cut, base, inner or cap
+//          region.peel.D.R                      base, inner or cap of the peel that made depth D
+//
+// Plan coordinates are those of the face's plane, which for faces square to a scope axis are the
+// scope's: (x, -z) seen from above, (x, y) seen from the front.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "builtins/ops/shared/patchwork.h"
+#include "geom/region/grid_partition.h"
+#include "geom/region/piece.h"
+#include "shape/op_call.h"
+
+namespace gable {
+
+struct PeelMark {
+  uint32_t depth = 0;
+  EdgeRole role = EdgeRole::Base;
+  bool operator==(const PeelMark&) const = default;
+};
+
+struct EdgeMark {
+  static constexpr uint32_t kNoLogical = 0xffffffff;
+  uint32_t level = 0;
+  uint32_t logical = kNoLogical;
+  EdgeRole role = EdgeRole::Kept;
+  std::vector<PeelMark> peels;
+  /// Tags of other families.
+  uint32_t others = 0;
+};
+
+/// How a grid of more than two cells is mirrored; see the page of grid.
+enum class CellPattern : uint8_t {
+  Auto,
+  Centre,
+  Pair,
+  Mirror,
+  Extend,
+  ExtendL,
+  ExtendR,
+  Local,
+  Radial
+};
+
+struct CellMark {
+  uint32_t ix = 0, iy = 0, nx = 1, ny = 1;
+  double w = 0, h = 0;
+  CellPattern pattern = CellPattern::Auto;
+
+  bool mirroredX() const { return mirrored(ix, nx); }
+  bool mirroredY() const { return mirrored(iy, ny); }
+  /// An address along one axis with 0 at the border side, as the cell sees it; false when the
+  /// pattern places nothing here.
+  bool along(bool y, double& u) const;
+
+ private:
+  bool mirrored(uint32_t i, uint32_t n) const;
+};
+
+class RegionView {
+ public:
+  /// A face of a mesh in scope coordinates, which must outlive this.
+  RegionView(const Services& services, const Mesh& mesh, size_t face);
+
+  const Polygon& polygon() const { return plane_.polygon(); }
+  const PatchPlane& plane() const { return plane_; }
+  const std::vector<EdgeMark>& marks() const { return marks_; }
+  uint32_t depth() const { return depth_; }
+  const std::optional<CellMark>& cell() const { return cell_; }
+  uint32_t logicalCount() const { return logicalCount_; }
+  /// By edge of the outer ring.
+  std::vector<uint32_t> logicals() const;
+
+  /// The marks of a piece of this region, one partition deeper. Grids say their sides; pieces of
+  /// others keep the logical edges that they inherit, or are indexed anew with `reindex`.
+  std::vector<EdgeMark> marksOf(const Piece& piece, bool grid, bool reindex) const;
+
+  /// A shape that is the pieces: their marks as tags, the scope along the first piece's axis.
+  Shape shapeOf(const Shape& parent, std::span<const Piece> pieces,
+                std::span<const std::vector<EdgeMark>> marks, const std::optional<CellMark>& cell);
+  Shape shapeOf(const Shape& parent, const Piece& piece, const std::vector<EdgeMark>& marks,
+                const std::optional<CellMark>& cell) {
+    return shapeOf(parent, {&piece, 1}, {&marks, 1}, cell);
+  }
+  /// The same region as it was, with other polygons: depth and marks do not go deeper.
+  void replace(Shape& shape, std::span<const Piece> pieces);
+
+  /// A point with x along a direction of the plane and the normal up (or forward).
+  Shape pointAt(const Shape& parent, Vec2 at, Vec2 along) const;
+  /// A line of a width of nothing: one straight part.
+  Shape segmentAt(const Shape& parent, Vec2 a, Vec2 b) const;
+
+ private:
+  uint32_t tagsOf(const EdgeMark& m) const;
+  uint32_t faceTags(uint32_t depth, const std::optional<CellMark>& cell) const;
+  Frame axesAlong(const Shape& parent, Vec2 along) const;
+  Mesh meshOf(std::span<const Piece> pieces, std::span<const std::vector<EdgeMark>> marks,
+              uint32_t tags);
+
+  const Services& services_;
+  const Mesh& mesh_;
+  PatchPlane plane_;
+  std::vector<EdgeMark> marks_;
+  uint32_t depth_ = 0;
+  uint32_t otherFaceTags_ = 0;
+  uint32_t logicalCount_ = 0;
+  std::optional<CellMark> cell_;
+};
+
+/// What the face tags of a shape say, for attributes of rules.
+struct RegionFacts {
+  uint32_t depth = 0;
+  std::optional<CellMark> cell;
+};
+RegionFacts regionFactsOf(const Services& services, const Shape& shape);
+
+/// The pattern of that name; Auto for others.
+CellPattern patternNamed(std::string_view name);
+
+/// Whether a selector of a block is the word, alone or among others.
+bool selectsWord(const SelectorItem& item, std::string_view word, const ValuePool& pool);
+
+/// An operation that could not be done: the block's `otherwise` gets the shape, or the call fails.
+Status failOrElse(OpCall& call, const char* code, const std::string& message,
+                  const std::string& hint);
+
+/// The faces of a shape that have an area.
+std::vector<size_t> regionFaces(const Mesh& mesh);
+
+}  // namespace gable

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The small texts that operations on regions take: selections of edges, sizes of grids, figures.
+// Words do not mind capitals.
+//
+//   selection  outer & !side(W)      see the page of peel for all words
+//   dimension  3 { [7,15] a[-15,15], 4 }
+//   figure     romb(3)  circle(2.5)  square(4)  rect(4, 2)  polygon(6, 3)
+//   range      [7,15]  [7-15]  7
+//
+// A text that cannot be read gives false and says in `problem` what is wrong with it.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "builtins/ops/region/shared/region_shape.h"
+#include "geom/region/along.h"
+#include "geom/region/grid_partition.h"
+
+namespace gable {
+
+/// Reads words, numbers and signs of a text, skipping blanks.
+class TextReader {
+ public:
+  explicit TextReader(std::string_view text) : text_(text) {}
+
+  bool atEnd();
+  /// The next sign, or 0.
+  char peek();
+  bool accept(char c);
+  bool accept(std::string_view sign);
+  /// Letters, digits and _, in lower case; empty where none begins.
+  std::string word();
+  bool number(double& v);
+  bool range(DrawnRange& r);
+  size_t place() const { return at_; }
+  void goTo(size_t place) { at_ = place; }
+
+ private:
+  void skip();
+  std::string_view text_;
+  size_t at_ = 0;
+};
+
+bool readDimension(std::string_view text, GridDim& out, std::string& problem);
+bool readFigure(std::string_view text, PlanFigure& out, std::string& problem);
+
+/// The value of `name=value` in a list of options; empty when it is not there, "1" for a word
+/// alone.
+std::string option(std::string_view options, std::string_view name);
+
+struct SelectionInput {
+  const RegionView& view;
+  /// For random(p).
+  uint64_t seed = 0;
+  /// From the world to the plane of the region, for world.W and the like.
+  Frame world;
+};
+
+/// The parts of edges that a selection means, ascending.
+bool selectEdges(std::string_view text, const SelectionInput& input, std::vector<EdgePart>& out,
+                 std::string& problem);
+
+/// Ranges along logical edges, "[0.02,1] [0,1] [0,0.15] 0": an entry for each logical edge from 0
+/// on; [] and 0 are none, _ the whole. False when the text is no such list.
+bool readRanges(std::string_view text, std::vector<LogicalRange>& out);
+
+}  // namespace gable

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Expressions of conditions and arguments, as nodes of the neutral tree.
+#pragma once
+
+#include <string_view>
+
+#include "dialects/gbbg/tree_builder.h"
+#include "dialects/park/grammar.h"
+
+namespace gable::park {
+
+/// Reads or, and, comparisons, + - * /, !, brackets, numbers, constants and the names that a region
+/// knows of itself (w, h, area, ix, iy, nx, ny, bx, by, mx, my, border). A mistake is reported and
+/// gives a node that stands for nothing.
+lang::NodeId expression(const Grammar& g, std::string_view text, Span span,
+                        gbbg::TreeBuilder& builder, Diagnostics& diagnostics);
+
+}  // namespace gable::park

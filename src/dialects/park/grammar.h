@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// What a park grammar says: rules of operations with braces. Arguments stay text, since the
+// operations on regions read the same small texts; see builtins/ops/region.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostic.h"
+
+namespace gable::park {
+
+struct Op;
+using Sequence = std::vector<Op>;
+
+/// One alternative of a block: `0.75 : TreeStrip`, `region : Lawn`, `30% : A`.
+struct Part {
+  std::string label;
+  Sequence body;
+  Span span;
+};
+
+/// `{ ... }`, its parts divided by | or, in Choose, by commas.
+struct Block {
+  std::vector<Part> parts;
+  Span span;
+};
+
+struct Argument {
+  std::string text;
+  Span span;
+};
+
+struct Op {
+  std::string name;
+  std::vector<Argument> arguments;
+  /// Brackets behind a name: CentrePoint [CentreRegionSize].
+  std::string size;
+  bool called = false;
+  std::vector<Block> blocks;
+  bool hasElse = false;
+  Sequence otherwise;
+  Span span;
+};
+
+/// `case (w == 15) : ...`; no condition for the body of a plain rule and for else.
+struct Branch {
+  std::string condition;
+  Sequence body;
+  Span span;
+};
+
+struct Rule {
+  std::string name;
+  std::vector<std::string> parameters;
+  bool function = false;
+  std::vector<Branch> branches;
+  Span span, nameSpan;
+};
+
+struct Grammar {
+  /// Values of constants, by name.
+  std::map<std::string, double> constants;
+  std::vector<Rule> rules;
+
+  const Rule* rule(std::string_view name) const;
+};
+
+/// Reads any text; mistakes are reported and what is right beside them is kept.
+Grammar parseGrammar(std::string_view text, uint32_t file, Diagnostics& diagnostics);
+
+/// A number, a constant, or what + - * / and brackets make of them; false for other texts.
+bool constantValue(const Grammar& g, std::string_view text, double& value);
+
+/// The text with constants in the place of their names.
+std::string withConstants(const Grammar& g, std::string_view text);
+
+/// Names do not mind capitals where they are operations.
+std::string lowered(std::string_view text);
+
+}  // namespace gable::park

@@ -1,0 +1,457 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Recursive descent over characters. A rule ends where the next begins: at a name that an arrow or
+// an equals sign follows, with parameters or without.
+#include <algorithm>
+#include <cctype>
+
+#include "base/number.h"
+#include "dialects/park/grammar.h"
+
+namespace gable::park {
+
+std::string lowered(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+const Rule* Grammar::rule(std::string_view name) const {
+  for (const Rule& r : rules) {
+    if (r.name == name) return &r;
+  }
+  return nullptr;
+}
+
+namespace {
+
+constexpr int kDeepest = 200;
+
+bool isLetter(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
+bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+// Typographic quotes become plain ones; spans stay right because blanks fill up.
+std::string plainQuotes(std::string_view text) {
+  std::string out(text);
+  for (size_t i = 0; i + 2 < out.size(); ++i) {
+    const bool quote = out[i] == '\xe2' && out[i + 1] == '\x80' &&
+                       (out[i + 2] == '\x9c' || out[i + 2] == '\x9d' || out[i + 2] == '\x9e');
+    if (!quote) continue;
+    const bool opens = out[i + 2] != '\x9d';
+    out[i] = opens ? ' ' : '"';
+    out[i + 1] = ' ';
+    out[i + 2] = opens ? '"' : ' ';
+  }
+  return out;
+}
+
+class Parser {
+ public:
+  Parser(std::string text, uint32_t file, Diagnostics& diagnostics)
+      : text_(std::move(text)), file_(file), diagnostics_(diagnostics) {
+    blankComments();
+  }
+
+  Grammar run() {
+    while (!atEnd()) {
+      const size_t start = at_;
+      declaration();
+      if (at_ == start) ++at_;
+    }
+    return std::move(grammar_);
+  }
+
+ private:
+  // --- Characters ---
+
+  void blankComments() {
+    bool quoted = false;
+    for (size_t i = 0; i < text_.size(); ++i) {
+      if (text_[i] == '"') quoted = !quoted;
+      if (quoted) {
+        if (text_[i] == '\n') quoted = false;
+        continue;
+      }
+      const bool line = text_.compare(i, 2, "//") == 0, block = text_.compare(i, 2, "/*") == 0;
+      if (!line && !block) continue;
+      size_t end = text_.find(line ? "\n" : "*/", i + 2);
+      if (end == std::string::npos) {
+        if (block) error("unclosed-comment", span(i, i + 2), "this comment has no end", "write */");
+        end = text_.size();
+      } else if (block) {
+        end += 2;
+      }
+      for (size_t k = i; k < end; ++k) {
+        if (text_[k] != '\n') text_[k] = ' ';
+      }
+      i = end - 1;
+    }
+  }
+  void skip() {
+    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
+  }
+  bool atEnd() {
+    skip();
+    return at_ >= text_.size();
+  }
+  char peek() {
+    skip();
+    return at_ < text_.size() ? text_[at_] : '\0';
+  }
+  bool accept(std::string_view sign) {
+    skip();
+    if (text_.compare(at_, sign.size(), sign) != 0) return false;
+    at_ += sign.size();
+    return true;
+  }
+  std::string name() {
+    skip();
+    size_t end = at_;
+    if (end < text_.size() && isLetter(text_[end])) {
+      while (end < text_.size() && (isLetter(text_[end]) || isDigit(text_[end]))) ++end;
+    }
+    std::string out = text_.substr(at_, end - at_);
+    at_ = end;
+    return out;
+  }
+  Span span(size_t begin, size_t end) const {
+    return {file_, static_cast<uint32_t>(begin), static_cast<uint32_t>(end)};
+  }
+  void error(const char* code, Span where, std::string message, std::string hint) {
+    diagnostics_.error(code, where, std::move(message), std::move(hint));
+  }
+  void unexpected(const char* wanted) {
+    const size_t end = std::min(at_ + 1, text_.size());
+    error("unexpected-text", span(std::min(at_, end), end),
+          std::string(wanted) + " was expected here", "see the notation's grammar");
+  }
+
+  // Up to one of the signs outside of brackets and quotes; the sign is not taken.
+  std::string until(std::string_view signs) {
+    skip();
+    const size_t start = at_;
+    int depth = 0;
+    bool quoted = false;
+    for (; at_ < text_.size(); ++at_) {
+      const char c = text_[at_];
+      if (c == '"') quoted = !quoted;
+      if (quoted) continue;
+      if (depth == 0 && signs.find(c) != std::string_view::npos) break;
+      if (c == '(' || c == '[' || c == '{') ++depth;
+      if (c == ')' || c == ']' || c == '}') {
+        if (depth == 0) break;
+        --depth;
+      }
+    }
+    size_t end = at_;
+    while (end > start && std::isspace(static_cast<unsigned char>(text_[end - 1]))) --end;
+    return text_.substr(start, end - start);
+  }
+
+  // --- Declarations ---
+
+  // Whether a rule, a constant or a function begins here.
+  bool declarationHere() {
+    const size_t start = at_;
+    const std::string first = name();
+    bool is = first == "fun" && isLetter(peek());
+    if (!is && !first.empty()) {
+      is = accept("->") || accept("-->") || (peek() == '=' && text_.compare(at_, 2, "==") != 0);
+      if (!is && accept("(")) {
+        until("");
+        is = accept(")") && (accept("->") || accept("-->"));
+      }
+    }
+    at_ = start;
+    return is;
+  }
+
+  void declaration() {
+    const size_t start = at_;
+    Rule r;
+    std::string first = name();
+    if (first == "fun" && isLetter(peek())) {
+      r.function = true;
+      first = name();
+    }
+    if (first.empty()) {
+      unexpected("the name of a rule");
+      while (!atEnd() && !declarationHere()) ++at_;
+      return;
+    }
+    r.name = first;
+    r.nameSpan = span(at_ - first.size(), at_);
+    if (!r.function && peek() == '=') {
+      accept("=");
+      return constant(r.name, r.nameSpan);
+    }
+    if (accept("(")) {
+      while (peek() != ')' && !atEnd()) {
+        r.parameters.push_back(until(",)"));
+        if (!accept(",")) break;
+      }
+      if (!accept(")")) unexpected("')'");
+    }
+    if (!accept("-->") && !accept("->")) {
+      unexpected("'->'");
+      while (!atEnd() && !declarationHere()) ++at_;
+      return;
+    }
+    branches(r);
+    r.span = span(start, at_);
+    if (grammar_.rule(r.name)) {
+      error("duplicate-rule", r.nameSpan, "the rule '" + r.name + "' stands here a second time",
+            "give one of them another name");
+      return;
+    }
+    grammar_.rules.push_back(std::move(r));
+  }
+
+  void constant(const std::string& what, Span where) {
+    skip();
+    const size_t start = at_;
+    // To the end of the line.
+    while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+    double v = 0;
+    if (constantValue(grammar_, std::string_view(text_).substr(start, at_ - start), v)) {
+      grammar_.constants[what] = v;
+    } else {
+      error("bad-constant", where, "the constant '" + what + "' is no number",
+            "write a number, or + - * / of numbers and constants above");
+    }
+  }
+
+  void branches(Rule& r) {
+    for (;;) {
+      const size_t start = at_;
+      Branch b;
+      const std::string word = name();
+      const bool isCase = word == "case", isElse = word == "else" && !r.branches.empty();
+      if (!isCase && !isElse) {
+        at_ = start;
+        if (r.branches.empty()) {
+          b.body = sequence(0);
+          b.span = span(start, at_);
+          r.branches.push_back(std::move(b));
+        }
+        return;
+      }
+      if (isCase) b.condition = until(":");
+      if (!accept(":")) unexpected("':'");
+      b.body = sequence(0);
+      b.span = span(start, at_);
+      r.branches.push_back(std::move(b));
+      if (isElse) return;
+    }
+  }
+
+  // --- Sequences ---
+
+  Sequence sequence(int depth) {
+    Sequence out;
+    if (depth > kDeepest) {
+      if (!tooDeep_) error("nesting-too-deep", span(at_, at_), "braces are nested too deep", "");
+      tooDeep_ = true;
+      return out;
+    }
+    while (isLetter(peek()) && !declarationHere()) {
+      const size_t start = at_;
+      const std::string word = name();
+      if (word == "case" || word == "else") {
+        at_ = start;
+        break;
+      }
+      out.push_back(operation(word, start, depth));
+    }
+    return out;
+  }
+
+  Op operation(const std::string& word, size_t start, int depth) {
+    Op op;
+    op.name = word;
+    if (accept("(")) {
+      op.called = true;
+      while (peek() != ')' && !atEnd()) {
+        skip();
+        const size_t begin = at_;
+        op.arguments.push_back({until(","), span(begin, at_)});
+        if (!accept(",")) break;
+      }
+      if (!accept(")")) unexpected("')'");
+    } else if (accept("[")) {
+      op.size = until("]");
+      if (!accept("]")) unexpected("']'");
+    }
+    const bool choose = lowered(word) == "choose";
+    while (peek() == '{') op.blocks.push_back(block(depth, choose));
+    const size_t before = at_;
+    if (!op.blocks.empty() && name() == "else" && peek() == '{') {
+      op.hasElse = true;
+      for (Part& p : block(depth, false).parts) {
+        op.otherwise.insert(op.otherwise.end(), p.body.begin(), p.body.end());
+      }
+    } else {
+      at_ = before;
+    }
+    op.span = span(start, at_);
+    return op;
+  }
+
+  Block block(int depth, bool choose) {
+    Block b;
+    skip();
+    const size_t start = at_;
+    accept("{");
+    while (peek() != '}' && !atEnd()) {
+      const size_t begin = at_;
+      Part p;
+      p.label = label();
+      p.body = sequence(depth + 1);
+      p.span = span(begin, at_);
+      b.parts.push_back(std::move(p));
+      if (!accept(choose ? "," : "|")) break;
+      // An empty part at the end counts, but for a comma that is left over.
+      if (peek() == '}' && !choose) b.parts.push_back({});
+    }
+    if (!accept("}")) {
+      unexpected("'}'");
+      while (!atEnd() && peek() != '}' && !declarationHere()) ++at_;
+      accept("}");
+    }
+    b.span = span(start, at_);
+    return b;
+  }
+
+  // `0.75 :`, `25% :`, `region :`; empty where there is none.
+  std::string label() {
+    skip();
+    const size_t start = at_;
+    while (at_ < text_.size() &&
+           (isLetter(text_[at_]) || isDigit(text_[at_]) ||
+            std::string_view(".'% ").find(text_[at_]) != std::string_view::npos)) {
+      ++at_;
+    }
+    std::string out = text_.substr(start, at_ - start);
+    if (accept(":")) {
+      while (!out.empty() && out.back() == ' ') out.pop_back();
+      return out;
+    }
+    at_ = start;
+    return {};
+  }
+
+  std::string text_;
+  uint32_t file_;
+  Diagnostics& diagnostics_;
+  Grammar grammar_;
+  size_t at_ = 0;
+  bool tooDeep_ = false;
+};
+
+// Numbers, constants, + - * / and brackets.
+class Constant {
+ public:
+  Constant(const Grammar& g, std::string_view text) : g_(g), text_(text) {}
+  bool run(double& v) {
+    v = sum(0);
+    skip();
+    return ok_ && at_ == text_.size() && at_ > 0;
+  }
+
+ private:
+  void skip() {
+    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
+  }
+  bool accept(char c) {
+    skip();
+    if (at_ >= text_.size() || text_[at_] != c) return false;
+    ++at_;
+    return true;
+  }
+  double sum(int depth) {
+    double v = product(depth);
+    for (;;) {
+      if (accept('+')) {
+        v += product(depth);
+      } else if (accept('-')) {
+        v -= product(depth);
+      } else {
+        return v;
+      }
+    }
+  }
+  double product(int depth) {
+    double v = value(depth);
+    for (;;) {
+      if (accept('*')) {
+        v *= value(depth);
+      } else if (accept('/')) {
+        const double by = value(depth);
+        ok_ = ok_ && by != 0;
+        v = by != 0 ? v / by : 0;
+      } else {
+        return v;
+      }
+    }
+  }
+  double value(int depth) {
+    if (depth > kDeepest) ok_ = false;
+    if (!ok_) return 0;
+    if (accept('-')) return -value(depth + 1);
+    if (accept('(')) {
+      const double v = sum(depth + 1);
+      ok_ = accept(')') && ok_;
+      return v;
+    }
+    skip();
+    double v = 0;
+    const char* begin = text_.data() + at_;
+    const char* after = readNumber(begin, text_.data() + text_.size(), v);
+    if (after != begin) {
+      at_ += static_cast<size_t>(after - begin);
+      return v;
+    }
+    size_t end = at_;
+    while (end < text_.size() && (isLetter(text_[end]) || isDigit(text_[end]))) ++end;
+    const auto found = g_.constants.find(std::string(text_.substr(at_, end - at_)));
+    ok_ = end > at_ && found != g_.constants.end();
+    at_ = end;
+    return ok_ ? found->second : 0;
+  }
+
+  const Grammar& g_;
+  std::string_view text_;
+  size_t at_ = 0;
+  bool ok_ = true;
+};
+
+}  // namespace
+
+Grammar parseGrammar(std::string_view text, uint32_t file, Diagnostics& diagnostics) {
+  return Parser(plainQuotes(text), file, diagnostics).run();
+}
+
+bool constantValue(const Grammar& g, std::string_view text, double& value) {
+  return Constant(g, text).run(value);
+}
+
+std::string withConstants(const Grammar& g, std::string_view text) {
+  std::string out;
+  for (size_t i = 0; i < text.size();) {
+    if (!isLetter(text[i])) {
+      // What begins with a digit is no name: 3a stays.
+      out += text[i++];
+      continue;
+    }
+    size_t end = i;
+    while (end < text.size() && (isLetter(text[end]) || isDigit(text[end]))) ++end;
+    const auto found = g.constants.find(std::string(text.substr(i, end - i)));
+    out += found != g.constants.end() ? shortestText(found->second)
+                                      : std::string(text.substr(i, end - i));
+    i = end;
+  }
+  return out;
+}
+
+}  // namespace gable::park
