@@ -305,13 +305,21 @@ class Lowering {
     Slots s = slotsOf(op, {{"region"}, {"path", "section"}, {"centre", "center", "junction"}});
     std::string junction = "none";
     Part junctionPart;
+    bool onPlate = false;
     if (s.part[2] && !s.empty[2]) {
       bool own = false;
       const std::string figure = figureAtHead(s.part[2]->body, &own);
       if (!figure.empty()) junction = figure;
       // The figure itself is what the grid cuts out.
       junctionPart = *s.part[2];
-      if (own) junctionPart.body.erase(junctionPart.body.begin());
+      if (own) {
+        // What follows the figure stands on it.
+        Op plate;
+        plate.name = "Centre";
+        plate.span = junctionPart.body[0].span;
+        junctionPart.body[0] = plate;
+      }
+      onPlate = own && junctionPart.body.size() > 1;
       s.part[2] = &junctionPart;
     }
     const bool together = joinedPath(s.part[1], junction);
@@ -336,13 +344,24 @@ class Lowering {
       items.push_back(b_.together(both, joinedBody(*s.part[1])));
     } else if (!s.empty[1]) {
       items.push_back(item("path", s.part[1], "Path"));
-      items.push_back(s.part[2] && !s.empty[2] ? item("junction", s.part[2], "Path")
-                                               : item("junction", s.part[1], "Path"));
+      items.push_back(onPlate                    ? plateItem(junctionPart)
+                      : s.part[2] && !s.empty[2] ? item("junction", s.part[2], "Path")
+                                                 : item("junction", s.part[1], "Path"));
     }
     items.push_back(item("remainder", s.part[0], "Grass"));
     addElse(op, items);
     b_.at(op.span);
     out.push_back(b_.apply("grid", arguments, b_.block(items)));
+  }
+
+  // The figure as a leaf of its own, and what stands there.
+  NodeId plateItem(const Part& p) {
+    const Sequence rest(p.body.begin() + 1, p.body.end());
+    b_.at(p.span);
+    const NodeId plate = b_.push(b_.sequence({colour("Centre"), b_.leaf("Centre")}));
+    const NodeId above = b_.push(sequence(rest, ""));
+    b_.at(p.span);
+    return b_.item(b_.word("junction"), b_.sequence({plate, above}));
   }
 
   // { ParkPathCentered }, where that is joined { RombCenter(r) ParkPath }: junctions and paths in

@@ -310,6 +310,30 @@ class Voronoi {
       }
     }
     areas = std::move(cut);
+    addLostCentres(sites, areas, junctions);
+  }
+
+  // Smoothing may take a cell away from its site; the disc then lies in the path.
+  void addLostCentres(const std::vector<Disc>& sites, const std::vector<Piece>& areas,
+                      std::vector<Piece>& junctions) const {
+    Region taken;
+    for (const Piece& a : areas) taken.push_back(a.polygon);
+    for (uint32_t i = 0; i < sites.size(); ++i) {
+      const bool given = std::any_of(junctions.begin(), junctions.end(),
+                                     [&](const Piece& j) { return j.ix == i; });
+      if (given || !(sites[i].radius > 0)) continue;
+      const Region disc{{ringOf({PlanShape::Circle, sites[i].radius, 0, 24}, sites[i].centre), {}}};
+      const EdgeOrigin made{kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide};
+      Region others = taken;
+      for (const Piece& j : junctions) others.push_back(j.polygon);
+      for (const Piece& p : combineTraced(BooleanOp::Intersection, wholePiece(p_), disc, made)) {
+        for (Piece& free : combineTraced(BooleanOp::Difference, p, others, made)) {
+          free.kind = PieceKind::Junction;
+          free.ix = i;
+          junctions.push_back(std::move(free));
+        }
+      }
+    }
   }
 
   const Polygon& p_;

@@ -40,7 +40,7 @@ Status become(OpCall& call, const PlanFigure& figure) {
     return call.fail("region-vanished", "nothing of the figure lies in the region",
                      "make it larger");
   }
-  view.replace(s, pieces);
+  view.replace(s, pieces, true);
   return {};
 }
 

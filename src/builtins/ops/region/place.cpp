@@ -183,6 +183,22 @@ Status stationsOf(const OpCall& call, std::string_view text, const Polyline& lin
   return {};
 }
 
+// What two edges place beside their common corner stands between both, once, whichever edge comes
+// first. O(n^2).
+void mergeNear(std::vector<Station>& stations, double distance) {
+  std::vector<Station> out;
+  for (const Station& s : stations) {
+    const auto near = std::find_if(
+        out.begin(), out.end(), [&](const Station& o) { return length(o.at - s.at) < distance; });
+    if (near == out.end()) {
+      out.push_back(s);
+    } else {
+      near->at = (near->at + s.at) * 0.5;
+    }
+  }
+  stations = std::move(out);
+}
+
 Status applyDistribute(OpCall& call) {
   RegionJob job(call);
   Status status = oneFace(call, job);
@@ -197,21 +213,18 @@ Status applyDistribute(OpCall& call) {
   for (const EdgeMark& m : view.marks()) group.push_back(m.logical);
   const double inset = call.number(2, 0);
   Placer placer(call, view, figure, option(textOf(call, 4, ""), "over").empty());
-  std::vector<Vec2> used;
+  std::vector<Station> all;
   for (const Polyline& line : runsOf(view.polygon(), parts, group)) {
     std::vector<Station> stations;
     status = stationsOf(call, textOf(call, 1, "1"), line, stations);
     if (!status.ok()) return status;
-    for (const Station& s : stations) {
-      const Vec2 at = s.at + perpendicular(s.along) * inset;
-      // What two edges place on their common corner stands there once.
-      const bool twice =
-          std::any_of(used.begin(), used.end(), [&](Vec2 u) { return length(u - at) < 1e-6; });
-      if (twice) continue;
-      used.push_back(at);
-      placer.add(at, s.along);
-    }
+    for (const Station& s : stations)
+      all.push_back({s.at + perpendicular(s.along) * inset, s.along});
   }
+  double spacing = 0;
+  if (!parseNumber(textOf(call, 1, "1"), spacing)) spacing = 0;
+  mergeNear(all, std::max(1e-6, spacing / 4));
+  for (const Station& s : all) placer.add(s.at, s.along);
   placer.finish();
   return {};
 }

@@ -132,6 +132,8 @@ CellPattern patternNamed(std::string_view name) {
     if (kPatterns[i] == name) return static_cast<CellPattern>(i);
   }
   if (name == "center") return CellPattern::Centre;
+  if (name == "extendl") return CellPattern::ExtendL;
+  if (name == "extendr") return CellPattern::ExtendR;
   return CellPattern::Auto;
 }
 
@@ -326,7 +328,7 @@ Shape RegionView::shapeOf(const Shape& parent, std::span<const Piece> pieces,
   return child;
 }
 
-void RegionView::replace(Shape& shape, std::span<const Piece> pieces) {
+void RegionView::replace(Shape& shape, std::span<const Piece> pieces, bool reindex) {
   std::vector<std::vector<EdgeMark>> marks;
   for (const Piece& p : pieces) {
     marks.emplace_back();
@@ -341,6 +343,9 @@ void RegionView::replace(Shape& shape, std::span<const Piece> pieces) {
       if (o.role == EdgeRole::Inner) m.level = depth_ + 1;
       marks.back().push_back(std::move(m));
     }
+    if (!reindex) continue;
+    const LogicalEdges l = autoindex(p.polygon.outer);
+    for (size_t k = 0; k < l.of.size(); ++k) marks.back()[k].logical = l.of[k];
   }
   const Shape parent = shape;
   setPartMesh(shape, parent, meshOf(pieces, marks, faceTags(depth_, cell_)), true);

@@ -99,8 +99,9 @@ class RegionView {
                 const std::optional<CellMark>& cell) {
     return shapeOf(parent, {&piece, 1}, {&marks, 1}, cell);
   }
-  /// The same region as it was, with other polygons: depth and marks do not go deeper.
-  void replace(Shape& shape, std::span<const Piece> pieces);
+  /// The same region as it was, with other polygons: it does not go deeper. With `reindex` the
+  /// logical edges are found anew.
+  void replace(Shape& shape, std::span<const Piece> pieces, bool reindex = false);
 
   /// A point with x along a direction of the plane and the normal up (or forward).
   Shape pointAt(const Shape& parent, Vec2 at, Vec2 along) const;

@@ -1,0 +1,555 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The park notation and the operations on regions behind it, row by row. What can be measured on
+// outlines alone (areas on hostile polygons, origins of edges) is tested beside the kernel in
+// geom/region; here rules run.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/files.h"
+#include "engine/impl.h"
+#include "gable/gable.h"
+#include "geom/mesh/topology.h"
+#include "geom/region/corpus.h"
+#include "scene/scene.h"
+
+namespace gable {
+namespace {
+
+struct Made {
+  std::map<std::string, int> count;
+  std::map<std::string, double> area;
+  std::map<std::string, std::vector<Vec3>> places;
+  std::map<std::string, bool> closed;
+  Messages messages;
+  /// Of the boxes' diagonals: the length of straight lines.
+  std::map<std::string, double> length;
+  double whole = 0;
+
+  bool has(const std::string& code) const {
+    for (const Message& m : messages) {
+      if (m.code == code) return true;
+    }
+    return false;
+  }
+};
+
+Made run(const std::string& text, const Shapes& shapes, double seed = 1,
+         const std::string& name = "test.park", bool sharing = true) {
+  const Rules rules = Rules::parse(text, name);
+  DeriveSettings settings;
+  settings.seed = seed;
+  settings.jobs = 1;
+  settings.sharing = sharing;
+  const Model model = derive(rules, shapes, settings);
+  Made out;
+  out.messages = rules.messages();
+  out.messages.insert(out.messages.end(), model.messages().begin(), model.messages().end());
+  const Scene& scene = model.impl().result.scene;
+  forEachLeaf(scene, [&](const Leaf& leaf, const Frame& world) {
+    const std::string symbol = scene.names[leaf.name];
+    const Mesh placed = transformed(*scene.meshes[leaf.mesh], leaf.scale, world);
+    ++out.count[symbol];
+    out.area[symbol] += placed.area();
+    out.length[symbol] += length(placed.bounds().size());
+    out.whole += placed.area();
+    out.places[symbol].push_back(placed.bounds().center());
+    const bool closed = Topology(placed).closed();
+    const auto [at, isNew] = out.closed.emplace(symbol, closed);
+    if (!isNew) at->second = at->second && closed;
+  });
+  return out;
+}
+Made rules(const std::string& text, const Shapes& shapes, double seed = 1) {
+  return run(text, shapes, seed, "test.cga");
+}
+
+Shapes cShape() {
+  return Shapes::polygon(
+      {{0, 0}, {30, 0}, {30, 8}, {10, 8}, {10, 22}, {30, 22}, {30, 30}, {0, 30}});
+}
+
+// The length of the edges that a selection means, on the region that comes of a lot by `before`.
+double selectedLength(const std::string& selection, const Shapes& shapes,
+                      const std::string& before = "R") {
+  const Made m = rules(
+      "Lot --> " + before + "\nR --> parametrise(\"" + selection + "\") { Line. } X.", shapes);
+  for (const Message& x : m.messages) ADD_FAILURE() << selection << ": " << x.text;
+  return m.length.count("Line") ? m.length.at("Line") : 0;
+}
+
+std::string example(const std::string& name) {
+  const Result<std::string> text =
+      readFile(std::string(GABLE_SOURCE_DIR) + "/examples/park/" + name + ".park");
+  return text.ok() ? text.value() : std::string();
+}
+
+const Shapes kLot = Shapes::lot(20, 20);
+
+TEST(ParkRows, P1GridCountsCellsPathsAndJunctions) {
+  const Made m = run(example("square"), kLot);
+  EXPECT_EQ(m.count.at("ParkPath"), 4);
+  EXPECT_NEAR(m.area.at("ParkPath"), 60, 1e-3);
+  EXPECT_NEAR(m.area.at("Centre"), 18, 1e-3);
+  EXPECT_EQ(m.count.at("TreeStrip"), 4);
+  EXPECT_NEAR(m.area.at("TreeStrip"), 4 * 12.9375, 1e-3);
+  const double bed = m.area.at("TreeRegion");
+  EXPECT_NEAR(m.area.at("GrassRegion") + bed, 4 * 67.5625, 1e-3);
+}
+
+TEST(ParkRows, P2SizesCyclicCountsAndFits) {
+  const Made m =
+      run("PathWidth = 2\nR -> Grid(5 {3, 15}, 3) { C }\nC -> case (w == 15 && h == 15) : Big "
+          "case (w == 3 && h == 3) : Small else : Side",
+          Shapes::lot(47, 25));
+  EXPECT_EQ(m.count.at("Big"), 2);
+  EXPECT_EQ(m.count.at("Small"), 6);
+  EXPECT_EQ(m.count.at("Side"), 7);
+  EXPECT_NEAR(m.whole, 47 * 25, 1e-3);
+  EXPECT_EQ(rules("Lot --> grid(\"{3}\", 1, 0) { region : A }", kLot).count.at("A"), 7);
+  EXPECT_NEAR(
+      rules("Lot --> grid(\"2 {3}\", \"1 {20}\", 0, \"none\", \"fit=center\") { region : A }", kLot)
+          .area.at("A"),
+      120, 1e-6);
+}
+
+TEST(ParkRows, P3RangesAndAnglesKeepLinesApart) {
+  for (int seed = 0; seed < 1000; seed += 10) {
+    const Made m = run(example("irregular"), Shapes::lot(40, 40), seed);
+    EXPECT_NEAR(m.whole, 1600, 0.01) << seed;
+  }
+}
+
+TEST(ParkRows, P5JunctionsOfFiveShapes) {
+  for (const char* figure : {"Romb(2)", "Circle(2)", "Square(3)", "Rect(4,2)", "Polygon(6,2)"}) {
+    const Made m =
+        run(std::string("R -> Grid(3, 3) { A } { B } { ") + figure + " C }", Shapes::lot(40, 40));
+    EXPECT_EQ(m.count.at("Centre"), 4) << figure;
+    EXPECT_NEAR(m.area.at("A") + m.area.at("B") + m.area.at("Centre"), 1600, 0.01) << figure;
+  }
+  EXPECT_TRUE(run("R -> Grid(3, 3) { A } { B } { Circle(30) C }", kLot).has("junction-clamped"));
+}
+
+TEST(ParkRows, P6OtherOutlinesKeepTheirArea) {
+  const Made m = rules("Lot --> grid(3, 3, 1) { all : A }", cShape());
+  EXPECT_NEAR(m.whole, 620, 0.01);
+  const Made inner =
+      rules("Lot --> grid(2, 2, 1, \"none\", \"template=inner\") { all : A }", cShape());
+  EXPECT_NEAR(inner.whole, 620, 0.01);
+}
+
+TEST(ParkRows, P7VoronoiFormsAreEqual) {
+  const std::string sites = "\nCircleRegions -> ScatterCircles(5 {[5-10]})\n";
+  const Shapes lot = Shapes::lot(60, 50);
+  const Made a =
+      run("Region -> VoronoiSmoothed(CircleRegions) { SmoothRegions } { Path }" + sites, lot);
+  const Made b =
+      run("Region -> VoronoiRegions(CircleRegions)\n{ SmoothRegions } { Path }" + sites, lot);
+  EXPECT_EQ(a.count.at("SmoothRegions"), 5);
+  EXPECT_EQ(a.area.at("SmoothRegions"), b.area.at("SmoothRegions"));
+  EXPECT_NEAR(a.whole, 3000, 0.01);
+}
+
+TEST(ParkRows, P8SmoothingStaysInTheCell) {
+  double before = 0;
+  for (const char* smooth : {"none", "average(2)", "chaikin(2)", "round(2)"}) {
+    const Made m = rules(std::string("Lot --> voronoi([10,-10,40,-12,25,-35], 3, \"") + smooth +
+                             "\") { region : A | path : B }",
+                         Shapes::lot(60, 50));
+    EXPECT_NEAR(m.whole, 3000, 0.01) << smooth;
+    if (before == 0) before = m.area.at("A");
+    EXPECT_LE(m.area.at("A"), before + 1e-6) << smooth;
+  }
+}
+
+TEST(ParkRows, P9SomethingAtTheSites) {
+  const Made m = run("R -> VoronoiRegions(S) { A } { B } { C }\nS -> ScatterCircles(4 {3})",
+                     Shapes::lot(60, 50));
+  EXPECT_EQ(m.count.at("C"), 4);
+  EXPECT_NEAR(m.whole, 3000, 0.01);
+}
+
+TEST(ParkRows, P10RaysToCornersPointsAndDirections) {
+  const Made m = run(example("circular"), Shapes::lot(40, 31));
+  EXPECT_EQ(m.count.at("Fountain"), 1);
+  EXPECT_EQ(m.count.at("Grass"), 4);
+  EXPECT_NEAR(m.whole, 1240, 0.01);
+  const Made c =
+      rules("Lot --> castRays([5, -4], \"corners\", 1, 2) { region : A | path : B | centre : C }",
+            cShape());
+  EXPECT_EQ(c.count.at("B"), 6);
+  EXPECT_NEAR(c.whole, 620, 0.01);
+  EXPECT_EQ(
+      rules("Lot --> castRays(\"centre\", \"directions(10, 130, 250)\", 1) { region : A }", kLot)
+          .count.at("A"),
+      3);
+}
+
+TEST(ParkRows, P11CentresJoinedWithoutCrossings) {
+  for (const char* links : {"none", "loop", "tree", "pairs", "thin share=0.5"}) {
+    const Made m = rules(std::string("Lot --> castRays(\"5 {4}\", \"corners\", 1, 2, \"connect=") +
+                             links + "\") { region : A | path : B | centre : C }",
+                         Shapes::lot(60, 50));
+    EXPECT_NEAR(m.whole, 3000, 0.02) << links;
+  }
+}
+
+TEST(ParkRows, P12PeelFollowsOrEndsSquare) {
+  const Shapes leaning = Shapes::polygon({{0, 0}, {10, 0}, {14, 4}, {0, 4}});
+  EXPECT_NEAR(run("R -> Peel(S) { 1: A | B }", leaning).area.at("A"), 10.5, 1e-3);
+  EXPECT_NEAR(run("R -> Peel(S, 1, CornersOrthogonal) { A | B }", leaning).area.at("A"), 10, 1e-3);
+  EXPECT_NEAR(run("R -> Peel(S, 50%) { A | B }", Shapes::lot(20, 10)).area.at("A"), 50, 1);
+}
+
+TEST(ParkRows, P13ContractStaysInside) {
+  EXPECT_NEAR(run("R -> Contract(1) A", kLot).area.at("A"), 324, 1e-3);
+  EXPECT_LE(run("R -> Contract(1, centre) A", cShape()).area.at("A"), 620);
+}
+
+TEST(ParkRows, P14PlacesLieInside) {
+  const Made m = run("R -> Place(CENTRE) { Square(0.5) }", cShape());
+  EXPECT_NEAR(m.whole, 620, 1e-3);
+  EXPECT_NEAR(m.area.at("Thing"), 0.25, 1e-6);
+  const Made uv = rules("Lot --> place(\"(0.25, 0.75)\") { P } X.", kLot);
+  EXPECT_NEAR(uv.places.at("P")[0].x, 5, 1e-9);
+  EXPECT_NEAR(uv.places.at("P")[0].z, -15, 1e-9);
+}
+
+TEST(ParkRows, P15TreesTwoMetresApart) {
+  const Made m = run("PathWidth = 2\nR -> Distribute(S: 0.375, 2) { T }", Shapes::lot(9, 9));
+  const std::vector<Vec3>& t = m.places.at("T");
+  ASSERT_EQ(t.size(), 5u);
+  for (size_t i = 1; i < t.size(); ++i) EXPECT_NEAR(length(t[i] - t[i - 1]), 2, 1e-9);
+  EXPECT_NEAR(t[0].z, -0.375, 1e-9);
+}
+
+TEST(ParkRows, P16ScatteredDiscsAreApart) {
+  const Made m = run("R -> ScatterCircles(8 {[1,2]}, edge=1, min=0.5) { D }", Shapes::lot(30, 30));
+  ASSERT_EQ(m.count.at("D"), 8);
+  const std::vector<Vec3>& d = m.places.at("D");
+  for (size_t i = 0; i < d.size(); ++i) {
+    for (size_t k = 0; k < i; ++k) EXPECT_GE(length(d[i] - d[k]), 2.5);
+    EXPECT_GE(d[i].x, 2);
+    EXPECT_LE(d[i].x, 28);
+  }
+}
+
+TEST(ParkRows, P17SweepsAreClosedVolumes) {
+  const Made m = run(example("square"), kLot);
+  EXPECT_EQ(m.count.at("Bush"), 4);
+  EXPECT_TRUE(m.closed.at("Bush"));
+}
+
+TEST(ParkRows, P18RangesPerLogicalEdge) {
+  const Made m = run("R -> Parametrise([0.1, 0.9] [] [0.1, 0.9], Square(10))", kLot);
+  EXPECT_EQ(m.count.at("Line"), 2);
+  EXPECT_NEAR(m.length.at("Line"), 16, 1e-6);
+  EXPECT_NEAR(selectedLength("[0.02,1] [0,1] [0,0.15]", kLot), 20 * 2.13, 1e-6);
+}
+
+TEST(ParkRows, P19JoinedChooseConstantsFunctions) {
+  const Made m =
+      run("PathWidth = 2\nSize = PathWidth + 1\nRegion -> Grid(2, 2) { ParkQuarter }\n{ "
+          "ParkPathCentered }\n"
+          "ParkPathCentered ->\njoined { RombCenter(Size) ParkPath(Size) }",
+          kLot);
+  EXPECT_EQ(m.count.at("ParkPath"), 1);
+  EXPECT_NEAR(m.area.at("ParkPath"), 78, 1e-3);
+  std::set<std::string> seen;
+  for (const auto& [name, n] : run(example("irregular"), Shapes::lot(40, 40)).count)
+    seen.insert(name);
+  EXPECT_TRUE(seen.count("GrassRegion") && seen.count("BushRegion") && seen.count("Plant1Region"));
+}
+
+TEST(ParkRows, P20MissingModelsAreBoxes) {
+  const Made m = run("R -> Place(CENTRE) { Tree }\nTree -> loadModel(“tree”)", kLot);
+  EXPECT_TRUE(m.has("missing-asset"));
+  EXPECT_EQ(m.count.at("Tree"), 1);
+  EXPECT_NEAR(m.area.at("Tree"), 6, 1e-6);
+}
+
+TEST(ParkRows, P21NothingIsLostOnASliver) {
+  const Shapes sliver = Shapes::lot(10, 0.01);
+  for (const char* op : {"grid(3, 3, 1) { all : A }", "voronoi(\"3 {2}\", 1) { all : A }",
+                         "castRays(\"centre\", \"corners\", 1) { all : A }",
+                         "peel(outer, 1) { all : A }", "peel(\"pathside\", 1) { all : A }"}) {
+    const Made m = rules(std::string("Lot --> ") + op, sliver);
+    EXPECT_NEAR(m.whole, 0.1, 2e-3) << op;
+  }
+  for (const char* op : {"contract(1)", "place(centre, \"circle(1)\", \"over\") { NIL }",
+                         "distribute(outer, 1, 1) { NIL }", "scatterCircles(3, 1) { NIL }",
+                         "sweep(outer, 0.1) { NIL }"}) {
+    const Made m = rules(std::string("Lot --> ") + op + " A.", sliver);
+    EXPECT_NEAR(m.area.at("A"), 0.1, 1e-9) << op;
+  }
+  EXPECT_EQ(run("R -> Grid(2 {3}, 1, fit=fail) { A } else { B }", kLot).count.at("B"), 1);
+}
+
+TEST(ParkRows, P22OuterInnerAndLevels) {
+  const std::string nested =
+      "grid(2, 2, 0) { region : case region.ix == 0 && region.iy == 0 : "
+      "grid(2, 2, 0) { region : case region.ix == 0 && region.iy == 0 : R else : NIL } else : NIL "
+      "}";
+  EXPECT_NEAR(selectedLength("outer", kLot, nested), 10, 1e-6);
+  EXPECT_NEAR(selectedLength("inner", kLot, nested), 10, 1e-6);
+  EXPECT_NEAR(selectedLength("outer(-1)", kLot, nested), 10, 1e-6);
+  EXPECT_NEAR(selectedLength("outer(0)", kLot, nested), 10, 1e-6);
+  const std::string last =
+      "grid(2, 2, 0) { region : case region.ix == 0 && region.iy == 0 : "
+      "grid(2, 2, 0) { region : case region.ix == 1 && region.iy == 0 : R else : NIL } else : NIL "
+      "}";
+  EXPECT_NEAR(selectedLength("outer", kLot, last), 5, 1e-6);
+  EXPECT_NEAR(selectedLength("outer(0)", kLot, last), 10, 1e-6);
+}
+
+TEST(ParkRows, P23PeeledBaseInnerSegment) {
+  const std::string strip = "peel(\"side(W)\", 2) { strip : R | rest : NIL }";
+  EXPECT_NEAR(selectedLength("PEELED_BASE", kLot, strip), 20, 1e-3);
+  EXPECT_NEAR(selectedLength("PI", kLot, strip), 20, 1e-3);
+  EXPECT_NEAR(selectedLength("PS", kLot, strip), 20, 1e-3);
+  const std::string rest =
+      "peel(\"side(W)\", 2) { rest : peel(\"side(E)\", 2) { rest : R | strip : NIL } | strip : NIL "
+      "}";
+  EXPECT_NEAR(selectedLength("PI", kLot, rest), 20, 1e-3);
+  EXPECT_NEAR(selectedLength("PI | PI(1)", kLot, rest), 40, 1e-3);
+}
+
+TEST(ParkRows, P24LogicalEdgesClockwiseFromTheSouthWest) {
+  const Shapes lot = Shapes::lot(20, 10);
+  const std::pair<const char*, double> sides[] = {{"0", 10}, {"1", 20}, {"2", 10}, {"3", 20}};
+  for (const auto& [index, length] : sides) {
+    EXPECT_NEAR(selectedLength(std::string("all & ") + index, lot), length, 1e-9) << index;
+  }
+  EXPECT_NEAR(selectedLength("all & [0,1]", lot), 10, 1e-9);
+  EXPECT_NEAR(selectedLength("all & [0,1][2,2.5]", lot), 15, 1e-9);
+  EXPECT_NEAR(selectedLength("all & [0.4,2.9]", lot), 6 + 20 + 9, 1e-9);
+  for (const auto& [side, index] : {std::pair{"W", "0"}, {"N", "1"}, {"E", "2"}, {"S", "3"}}) {
+    EXPECT_NEAR(selectedLength(std::string(side) + " - " + index, lot), 0, 1e-9) << side;
+  }
+}
+
+TEST(ParkRows, P25SidesShareTheOutline) {
+  double sum = 0;
+  for (const char* side : {"side(W)", "side(N)", "side(E)", "side(S)"})
+    sum += selectedLength(side, cShape());
+  EXPECT_NEAR(sum, selectedLength("all", cShape()), 1e-9);
+}
+
+TEST(ParkRows, P26FacingIsStrict) {
+  EXPECT_NEAR(selectedLength("facing(E)", cShape()), 8 + 14 + 8, 1e-9);
+  EXPECT_NEAR(selectedLength("facing(world.E)", cShape()), 30, 1e-9);
+  double sum = 0;
+  for (const char* d : {"W", "N", "E", "S"})
+    sum += selectedLength(std::string("facing(") + d + ")", cShape());
+  EXPECT_NEAR(sum, selectedLength("all", cShape()), 1e-9);
+}
+
+TEST(ParkRows, P27AnglesAreHalfOpenAndWrap) {
+  const Shapes lot = Shapes::lot(20, 10);
+  EXPECT_NEAR(selectedLength("angle(85, 95)", lot), 20, 1e-9);
+  EXPECT_NEAR(selectedLength("angle(170, 10)", lot), 40, 1e-9);
+  EXPECT_NEAR(selectedLength("angle(80, 90)", lot), 0, 1e-9);
+}
+
+TEST(ParkRows, P28SectorsSumUp) {
+  double sum = 0;
+  for (int a = 0; a < 360; a += 60) {
+    sum += selectedLength("sector(" + std::to_string(a) + ", " + std::to_string(a + 60) + ")",
+                          cShape());
+  }
+  EXPECT_NEAR(sum, selectedLength("all", cShape()), 1e-6);
+  EXPECT_GE(selectedLength("sector(10, 20, whole)", cShape()),
+            selectedLength("sector(10, 20)", cShape()));
+}
+
+TEST(ParkRows, P29GrowSharesAllEdges) {
+  double sum = 0;
+  for (const char* d : {"W", "N", "E", "S"})
+    sum += selectedLength(std::string("grow(") + d + ")", cShape());
+  EXPECT_NEAR(sum, selectedLength("all", cShape()), 1e-9);
+  EXPECT_LE(selectedLength("grow(W, E; 10)", cShape()), selectedLength("grow(W, E)", cShape()));
+}
+
+TEST(ParkRows, P30Filters) {
+  const Shapes p = Shapes::polygon({{0, 0}, {10, 0}, {10, 4}, {0, 7}});
+  EXPECT_NEAR(selectedLength("shortest", p), 4, 1e-9);
+  EXPECT_NEAR(selectedLength("len > 9", p), 10 + std::sqrt(109.0), 1e-9);
+  EXPECT_NEAR(selectedLength("index(1)", p), 4, 1e-9);
+  EXPECT_NEAR(selectedLength("nth(2)", p), 10 + std::sqrt(109.0), 1e-9);
+  EXPECT_NEAR(selectedLength("random(1)", p), selectedLength("all", p), 1e-9);
+  EXPECT_NEAR(selectedLength("random(0)", p), 0, 1e-9);
+}
+
+TEST(ParkRows, P31Roles) {
+  const std::string quarter =
+      "grid(2, 2, 2, \"romb(3)\") { region : case region.ix == 0 && region.iy == 0 : R else : NIL "
+      "}";
+  EXPECT_NEAR(selectedLength("centreside", kLot, quarter), std::sqrt(2.0), 1e-3);
+  EXPECT_NEAR(selectedLength("pathside", kLot, quarter), 16, 1e-3);
+  EXPECT_NEAR(selectedLength("border", kLot, quarter), 18, 1e-3);
+  EXPECT_NEAR(selectedLength("holeside", kLot, "place(centre, \"square(2)\") { NIL } R"), 8, 1e-3);
+  EXPECT_NEAR(
+      selectedLength("cut", kLot, "grid(2, 1, 0) { region : case region.ix == 0 : R else : NIL }"),
+      20, 1e-6);
+}
+
+TEST(ParkRows, P32SelectionsCombine) {
+  const double all = selectedLength("all", cShape());
+  for (const char* a : {"facing(E)", "side(W)", "len>9", "sector(0,90)"}) {
+    const std::string s = a;
+    EXPECT_NEAR(selectedLength(s + " | !(" + s + ")", cShape()), all, 1e-6) << a;
+    EXPECT_NEAR(selectedLength(s + " & !(" + s + ")", cShape()), 0, 1e-6) << a;
+    EXPECT_NEAR(selectedLength("all - " + s, cShape()), all - selectedLength(s, cShape()), 1e-6)
+        << a;
+    EXPECT_NEAR(selectedLength(s + " || N", cShape()) + selectedLength(s + " && N", cShape()),
+                selectedLength(s, cShape()) + selectedLength("N", cShape()), 1e-6)
+        << a;
+  }
+}
+
+TEST(ParkRows, P35TreesStandSymmetrically) {
+  const Made m = run(example("square"), kLot);
+  std::vector<Vec3> trees = m.places.at("TallTree");
+  EXPECT_EQ(trees.size() % 4, 0u);
+  for (const Vec3& t : trees) {
+    for (const Vec3& mirrored : {Vec3{20 - t.x, t.y, t.z}, Vec3{t.x, t.y, -20 - t.z}}) {
+      double nearest = 1e9;
+      for (const Vec3& u : trees) nearest = std::min(nearest, length(u - mirrored));
+      EXPECT_LT(nearest, 1e-9);
+    }
+  }
+}
+
+TEST(ParkRows, P36PatternsOfAddresses) {
+  const auto xs = [&](int n, const std::string& pattern, const std::string& u) {
+    const Made m =
+        rules("Lot --> grid(" + std::to_string(n) + ", 1, 0, \"none\", \"pattern=" + pattern +
+                  "\") { region : place(\"(" + u + ", 0.5)\") { P } X. }",
+              Shapes::lot(10.0 * n, 10));
+    std::vector<double> out;
+    for (const Vec3& p : m.places.count("P") ? m.places.at("P") : std::vector<Vec3>{}) {
+      out.push_back(std::round(p.x * 1000) / 1000);
+    }
+    return out;
+  };
+  using V = std::vector<double>;
+  EXPECT_EQ(xs(3, "centre", "0.8"), (V{8, 15, 22}));
+  EXPECT_EQ(xs(4, "pair", "0.8"), (V{8, 12, 28, 32}));
+  EXPECT_EQ(xs(4, "mirror", "0.8"), (V{8, 18, 22, 32}));
+  EXPECT_EQ(xs(3, "local", "0.8"), (V{8, 18, 28}));
+  EXPECT_EQ(xs(4, "extend", "1.8"), (V{18, 22}));
+  EXPECT_EQ(xs(4, "extendL", "1.8"), (V{18}));
+}
+
+TEST(ParkRows, P37ChoppedCornersBelongToOneSideEverywhere) {
+  const Made m = rules(
+      "Lot --> grid(2, 2, 2, \"romb(3)\") { region : peel(\"E\", 1) { strip : A | rest : B } }",
+      kLot);
+  ASSERT_EQ(m.count.at("A"), 4);
+  // Mirror images have their centres mirrored.
+  for (const Vec3& a : m.places.at("A")) {
+    double nearest = 1e9;
+    for (const Vec3& b : m.places.at("A"))
+      nearest = std::min(nearest, length(b - Vec3{20 - a.x, a.y, a.z}));
+    EXPECT_LT(nearest, 1e-6);
+  }
+}
+
+TEST(ParkRows, P38BoundaryMetric) {
+  const auto types = [](int n) {
+    std::string cases;
+    for (int x = 0; x < 3; ++x) {
+      for (int y = 0; y < 3; ++y) {
+        cases += "case (bx == " + std::to_string(x) + " && by == " + std::to_string(y) + "): Type" +
+                 std::to_string(x) + std::to_string(y) + " ";
+      }
+    }
+    const std::string size = std::to_string(n);
+    return run("R -> Grid(" + size + ", " + size + ") { C } {}\nC -> " + cases + " else: Other",
+               Shapes::lot(50, 50))
+        .count.size();
+  };
+  EXPECT_EQ(types(3), 4u);
+  EXPECT_EQ(types(4), 4u);
+  EXPECT_EQ(types(5), 9u);
+}
+
+TEST(ParkRows, P39GrammarsAsWritten) {
+  const Made e5 = run(example("recursive"), Shapes::lot(14, 14));
+  EXPECT_EQ(e5.count.at("TreeRegion"), 24);
+  EXPECT_EQ(e5.count.at("CementPath"), 9);
+  EXPECT_NEAR(e5.area.at("CementPath"), 76, 1e-6);
+  EXPECT_NEAR(e5.area.at("TreeRegion") + e5.area.at("StonePath"), 120, 1e-6);
+  const Made e7 = run(example("cells"), Shapes::lot(62, 24));
+  EXPECT_NEAR(e7.whole, 62 * 24, 1e-3);
+  EXPECT_EQ(run("Region -> grid(2, 1) { CellRegion }", kLot).count.at("CellRegion"), 2);
+  EXPECT_EQ(run("Park -> grid(2, 1) { SubPark1 }\nSubPark1 -> grid(3,2) { ParkRegion1 }", kLot)
+                .count.at("ParkRegion1"),
+            12);
+}
+
+TEST(ParkRows, P40RegionsWithHoles) {
+  const Shapes holed = Shapes::polygon({{0, 0}, {30, 0}, {30, 30}, {0, 30}},
+                                       {{{10, 10}, {20, 10}, {20, 20}, {10, 20}}});
+  for (const char* op :
+       {"grid(3, 3, 1) { all : A }", "voronoi([5,-5,25,-25], 1) { all : A }",
+        "castRays([5,-5], \"corners\", 1) { all : A }", "peel(all, 1) { all : A }"}) {
+    EXPECT_NEAR(rules(std::string("Lot --> ") + op, holed).whole, 800, 0.01) << op;
+  }
+}
+
+TEST(ParkRows, P41VolumesAreClosed) {
+  const Made m =
+      run("R -> Grid(2, 2) { Lawn } { Path } { Circle(2) Basin }\nLawn -> Peel(OUTER) { 0.5: Kerb "
+          "| Grass }",
+          kLot);
+  EXPECT_EQ(m.count.at("Kerb"), 4);
+  const Made kerbs = rules(
+      "Lot --> grid(2, 2, 2, \"circle(3)\") { region : peel(all, 0.3) { strip : extrude(0.15) Kerb "
+      "| rest : Lawn } "
+      "| junction : extrude(0.4) Basin | path : extrude(0.05) Path }",
+      kLot);
+  for (const char* name : {"Kerb", "Basin", "Path"}) EXPECT_TRUE(kerbs.closed.at(name)) << name;
+}
+
+TEST(ParkRows, P42ConvertedTextMakesTheSameModel) {
+  for (const char* name : {"square", "circular", "freeform", "recursive", "irregular", "cells"}) {
+    const std::string text = example(name);
+    const Rules park = Rules::parse(text, "a.park");
+    ASSERT_FALSE(hasErrors(park.messages())) << name;
+    const Rules cga = Rules::parse(convert(text, "a.park").text, "a.cga");
+    ASSERT_FALSE(hasErrors(cga.messages())) << name;
+    const Shapes lot = Shapes::lot(60, 50);
+    EXPECT_EQ(derive(park, lot, {}).dump(), derive(cga, lot, {}).dump()) << name;
+  }
+}
+
+TEST(ParkRows, SharingChangesNothing) {
+  for (const char* name : {"square", "recursive", "irregular"}) {
+    const Made a = run(example(name), Shapes::lot(60, 50), 3, "a.park", true);
+    const Made b = run(example(name), Shapes::lot(60, 50), 3, "a.park", false);
+    EXPECT_EQ(a.count, b.count) << name;
+    EXPECT_NEAR(a.whole, b.whole, 1e-9) << name;
+  }
+}
+
+TEST(ParkNotation, ReportsWhatItCannotRead) {
+  EXPECT_TRUE(run("", kLot).has("no-rules"));
+  EXPECT_TRUE(run("R -> Grid(2, 2) { A } )", kLot).has("unexpected-text"));
+  EXPECT_TRUE(run("R -> Nonsense(2) { A }", kLot).has("unknown-operation"));
+  EXPECT_TRUE(run("R -> A\nR -> B", kLot).has("duplicate-rule"));
+  EXPECT_TRUE(run("P = x + \nR -> A", kLot).has("bad-constant"));
+  EXPECT_TRUE(run("R -> case (w == ) : A else : B", kLot).has("bad-expression"));
+  EXPECT_TRUE(run("R -> Grid(2,2) {A}{B}{C}{D}", kLot).has("too-many-blocks"));
+}
+
+}  // namespace
+}  // namespace gable
