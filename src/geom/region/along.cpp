@@ -194,9 +194,9 @@ Polyline movedLeft(const Polyline& line, double by) {
   return out;
 }
 
-std::vector<Piece> ribbons(const Polygon& p, std::span<const Polyline> lines, double width,
-                           bool round) {
-  std::vector<Piece> out;
+std::vector<RegionPiece> ribbons(const Polygon& p, std::span<const Polyline> lines, double width,
+                                 bool round) {
+  std::vector<RegionPiece> out;
   OffsetOptions options;
   options.join = round ? OffsetJoin::Round : OffsetJoin::Miter;
   options.miterLimit = 4;
@@ -210,7 +210,7 @@ std::vector<Piece> ribbons(const Polygon& p, std::span<const Polyline> lines, do
     }
     const EdgeSource sources[] = {sourceOf(p)};
     for (Polygon& b : intersect(band, {p})) {
-      Piece piece;
+      RegionPiece piece;
       piece.kind = PieceKind::Path;
       piece.ix = static_cast<uint32_t>(out.size());
       piece.width = line.length();

@@ -65,7 +65,7 @@ std::vector<Polyline> parametrise(const Ring& outer, std::span<const uint32_t> l
 Polyline movedLeft(const Polyline& line, double by);
 
 /// The band of a width around lines, cut to the region; with `round`, round ends and corners.
-std::vector<Piece> ribbons(const Polygon& p, std::span<const Polyline> lines, double width,
-                           bool round);
+std::vector<RegionPiece> ribbons(const Polygon& p, std::span<const Polyline> lines, double width,
+                                 bool round);
 
 }  // namespace gable

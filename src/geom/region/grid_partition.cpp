@@ -262,20 +262,20 @@ Family familyOf(const Bands& bands, double path, std::vector<Line> lines, double
 }
 
 struct StripPart {
-  Piece piece;
+  RegionPiece piece;
   size_t strip;
 };
 
 // Cuts a piece by all lines of a family. Made edges are the `after` side of what lies before the
 // line, and the `before` side of what lies beyond.
-void cutByFamily(const Piece& whole, const Family& f, uint8_t after, uint8_t before,
+void cutByFamily(const RegionPiece& whole, const Family& f, uint8_t after, uint8_t before,
                  std::vector<StripPart>& out) {
-  std::vector<Piece> rest{whole};
+  std::vector<RegionPiece> rest{whole};
   for (size_t k = 0; k < f.cuts.size(); ++k) {
-    std::vector<Piece> beyond;
-    for (const Piece& p : rest) {
+    std::vector<RegionPiece> beyond;
+    for (const RegionPiece& p : rest) {
       for (StripPiece& s : splitByLine(p.polygon, f.cuts[k].at, f.cuts[k].along)) {
-        Piece part = p;
+        RegionPiece part = p;
         const bool first = s.strip == 0;
         part.edges.clear();
         for (const uint32_t e : s.edgeOrigin) {
@@ -295,7 +295,7 @@ void cutByFamily(const Piece& whole, const Family& f, uint8_t after, uint8_t bef
     }
     rest = std::move(beyond);
   }
-  for (Piece& p : rest) out.push_back({std::move(p), f.cuts.size()});
+  for (RegionPiece& p : rest) out.push_back({std::move(p), f.cuts.size()});
 }
 
 bool nearRight(const Quad& q) {
@@ -381,9 +381,9 @@ bool boxesMeet(const Box2& a, const Box2& b) {
 
 // Cuts the shapes out of all pieces, and adds what of them lies in the region.
 void placeJunctions(const Polygon& whole, const std::vector<Ring>& rings,
-                    std::vector<Piece>& pieces) {
-  std::vector<Piece> out;
-  for (Piece& p : pieces) {
+                    std::vector<RegionPiece>& pieces) {
+  std::vector<RegionPiece> out;
+  for (RegionPiece& p : pieces) {
     Region holes;
     const Box2 box = bounds(p.polygon);
     for (const Ring& r : rings) {
@@ -395,17 +395,17 @@ void placeJunctions(const Polygon& whole, const std::vector<Ring>& rings,
       continue;
     }
     const EdgeOrigin made{kNoEdge, EdgeRole::Centre, EdgeOrigin::kNoSide};
-    for (Piece& cut : combineTraced(BooleanOp::Difference, p, holes, made)) {
+    for (RegionPiece& cut : combineTraced(BooleanOp::Difference, p, holes, made)) {
       out.push_back(std::move(cut));
     }
   }
   uint32_t index = 0;
   for (const Ring& r : rings) {
-    Piece p = wholePiece(whole);
+    RegionPiece p = wholePiece(whole);
     p.kind = PieceKind::Junction;
     p.ix = index++;
     const EdgeOrigin made{kNoEdge, EdgeRole::Path, EdgeOrigin::kNoSide};
-    for (Piece& cut : combineTraced(BooleanOp::Intersection, p, {{r, {}}}, made)) {
+    for (RegionPiece& cut : combineTraced(BooleanOp::Intersection, p, {{r, {}}}, made)) {
       const Box2 b = bounds(r);
       cut.width = b.size().x;
       cut.height = b.size().y;
@@ -478,17 +478,17 @@ class Grid {
   }
 
   void partition(const Base& base, GridResult& result) {
-    std::vector<Piece> inside{withSides(base)};
-    std::vector<Piece> remainder;
+    std::vector<RegionPiece> inside{withSides(base)};
+    std::vector<RegionPiece> remainder;
     if (base.inner) {
       const Region rect{{{base.quad.begin(), base.quad.end()}, {}}};
       const EdgeOrigin made{kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide};
       remainder = combineTraced(BooleanOp::Difference, inside[0], rect, made);
       inside = combineTraced(BooleanOp::Intersection, inside[0], rect, made);
-      for (Piece& r : remainder) r.kind = PieceKind::Remainder;
+      for (RegionPiece& r : remainder) r.kind = PieceKind::Remainder;
     }
-    std::vector<Piece> pieces;
-    for (const Piece& p : inside) cut(p, base, pieces);
+    std::vector<RegionPiece> pieces;
+    for (const RegionPiece& p : inside) cut(p, base, pieces);
     if (o_.junction.shape != PlanShape::None && !fx_.paths.empty() && !fy_.paths.empty()) {
       placeJunctions(inside[0].polygon,
                      junctionRings(fx_, fy_, o_.junction, result.junctionClamped), pieces);
@@ -497,7 +497,7 @@ class Grid {
     const double mean = area(p_) / (static_cast<double>(result.nx) * result.ny);
     mergeSlivers(pieces, std::min(o_.sliver, std::sqrt(mean) / 50),
                  std::min(o_.minArea, mean / 50));
-    std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+    std::stable_sort(pieces.begin(), pieces.end(), [](const RegionPiece& a, const RegionPiece& b) {
       return a.kind != b.kind ? a.kind < b.kind : a.iy != b.iy ? a.iy < b.iy : a.ix < b.ix;
     });
     number(pieces);
@@ -505,8 +505,8 @@ class Grid {
   }
 
   // Input edges know the side of the template that they look to.
-  Piece withSides(const Base& base) const {
-    Piece whole = wholePiece(p_);
+  RegionPiece withSides(const Base& base) const {
+    RegionPiece whole = wholePiece(p_);
     const Vec2 x = normalized(base.quad[1] - base.quad[0]), y = perpendicular(x);
     size_t i = 0;
     for (const Ring& r : ringsOf(p_)) {
@@ -520,7 +520,7 @@ class Grid {
     return whole;
   }
 
-  void cut(const Piece& whole, const Base& base, std::vector<Piece>& out) const {
+  void cut(const RegionPiece& whole, const Base& base, std::vector<RegionPiece>& out) const {
     const Vec2 x = normalized(base.quad[1] - base.quad[0]);
     std::vector<StripPart> columns;
     cutByFamily(whole, fx_, 2, 0, columns);
@@ -530,7 +530,7 @@ class Grid {
       for (StripPart& r : rows) {
         const Family::Strip& sx = fx_.strips[c.strip];
         const Family::Strip& sy = fy_.strips[r.strip];
-        Piece& p = r.piece;
+        RegionPiece& p = r.piece;
         p.kind = sx.path && sy.path   ? PieceKind::Junction
                  : sx.path || sy.path ? PieceKind::Path
                                       : PieceKind::Cell;
@@ -552,7 +552,7 @@ class Grid {
   }
 
   // Between a cell and a path lies the path's side.
-  void label(Piece& p, bool pathX, bool pathY) const {
+  void label(RegionPiece& p, bool pathX, bool pathY) const {
     for (EdgeOrigin& e : p.edges) {
       if (e.source != kNoEdge || e.role != EdgeRole::Cut || e.side > 3) continue;
       const bool acrossX = e.side == 0 || e.side == 2;
@@ -564,9 +564,9 @@ class Grid {
     }
   }
 
-  static void number(std::vector<Piece>& pieces) {
+  static void number(std::vector<RegionPiece>& pieces) {
     for (size_t i = 0; i < pieces.size(); ++i) {
-      const Piece* before = i > 0 ? &pieces[i - 1] : nullptr;
+      const RegionPiece* before = i > 0 ? &pieces[i - 1] : nullptr;
       const bool same = before && before->kind == pieces[i].kind && before->ix == pieces[i].ix &&
                         before->iy == pieces[i].iy && pieces[i].kind == PieceKind::Cell;
       pieces[i].part = same ? before->part + 1 : 0;

@@ -83,7 +83,7 @@ enum class GridProblem : uint8_t { None, NoArea, TooManyCells, DoesNotFit, NotFi
 struct GridResult {
   GridProblem problem = GridProblem::None;
   /// Cells row by row, then paths, then junctions, then remainders.
-  std::vector<Piece> pieces;
+  std::vector<RegionPiece> pieces;
   uint32_t nx = 0, ny = 0;
   /// The junctions were made smaller to keep clear of each other.
   bool junctionClamped = false;

@@ -29,22 +29,23 @@ const size_t kStride = strideWanted();
 
 Polygon rect(double w, double h) { return {{{0, 0}, {w, 0}, {w, h}, {0, h}}, {}}; }
 
-double areaOf(const std::vector<Piece>& pieces, PieceKind kind) {
+double areaOf(const std::vector<RegionPiece>& pieces, PieceKind kind) {
   double sum = 0;
-  for (const Piece& p : pieces) sum += p.kind == kind ? area(p.polygon) : 0;
+  for (const RegionPiece& p : pieces) sum += p.kind == kind ? area(p.polygon) : 0;
   return sum;
 }
 
-size_t countOf(const std::vector<Piece>& pieces, PieceKind kind) {
+size_t countOf(const std::vector<RegionPiece>& pieces, PieceKind kind) {
   size_t n = 0;
-  for (const Piece& p : pieces) n += p.kind == kind;
+  for (const RegionPiece& p : pieces) n += p.kind == kind;
   return n;
 }
 
 // What every partition promises: all area is there, all rings are valid, all origins are right.
-void expectPartition(const Polygon& p, const std::vector<Piece>& pieces, const std::string& name) {
+void expectPartition(const Polygon& p, const std::vector<RegionPiece>& pieces,
+                     const std::string& name) {
   double sum = 0;
-  for (const Piece& piece : pieces) {
+  for (const RegionPiece& piece : pieces) {
     sum += area(piece.polygon);
     ASSERT_EQ(piece.edges.size(), edgeCount(piece.polygon)) << name;
     EXPECT_TRUE(isValid(piece.polygon)) << name;
@@ -54,11 +55,11 @@ void expectPartition(const Polygon& p, const std::vector<Piece>& pieces, const s
 }
 
 // Edges that are no part of the input edge they name; collinear neighbours count as one edge.
-size_t wrongOrigins(const Polygon& p, const std::vector<Piece>& pieces) {
+size_t wrongOrigins(const Polygon& p, const std::vector<RegionPiece>& pieces) {
   const std::vector<Ring> source = ringsOf(p);
   const std::vector<Segment> edges = edgesOf(p);
   size_t wrong = 0;
-  for (const Piece& piece : pieces) {
+  for (const RegionPiece& piece : pieces) {
     size_t i = 0;
     for (const Segment& e : edgesOf(piece.polygon)) {
       const EdgeOrigin o = piece.edges[i++];
@@ -107,7 +108,7 @@ TEST(GridPartition, DividesASquareWithARombInTheMiddle) {
   EXPECT_NEAR(areaOf(g.pieces, PieceKind::Cell), 322, 1e-3);
   EXPECT_NEAR(areaOf(g.pieces, PieceKind::Path), 60, 1e-3);
   EXPECT_NEAR(areaOf(g.pieces, PieceKind::Junction), 18, 1e-3);
-  for (const Piece& p : g.pieces) {
+  for (const RegionPiece& p : g.pieces) {
     if (p.kind == PieceKind::Cell) {
       EXPECT_EQ(p.polygon.outer.size(), 5u);
     }
@@ -121,7 +122,7 @@ TEST(GridPartition, TakesSizesInTurn) {
   const GridResult g = gridPartition(rect(14, 14), o);
   ASSERT_EQ(g.problem, GridProblem::None);
   std::vector<double> areas;
-  for (const Piece& p : g.pieces) {
+  for (const RegionPiece& p : g.pieces) {
     if (p.kind == PieceKind::Cell) areas.push_back(area(p.polygon));
   }
   const std::vector<double> golden{12, 36, 12, 12, 36, 12};
@@ -180,7 +181,7 @@ TEST(GridPartition, NeighboursWithoutPathShareTheirPoints) {
     o.seed = seed;
     const GridResult g = gridPartition(rect(17.3, 11.7), o);
     std::vector<Vec2> points;
-    for (const Piece& p : g.pieces) {
+    for (const RegionPiece& p : g.pieces) {
       for (const Vec2 v : p.polygon.outer) points.push_back(v);
     }
     size_t near = 0;
@@ -247,7 +248,7 @@ TEST(Peel, HoldsOnTheCorpus) {
         if (randomUnit(hashCombine(area(p) > 0 ? i : 0, 7)) < 0.5) edges.push_back({i, 0, 1, d});
       }
       const PeelResult r = peel(p, edges, ends);
-      std::vector<Piece> all = r.strips;
+      std::vector<RegionPiece> all = r.strips;
       all.insert(all.end(), r.rest.begin(), r.rest.end());
       expectPartition(p, all, name);
       EXPECT_EQ(wrongOrigins(p, all), 0u) << name;
@@ -259,13 +260,13 @@ TEST(Contract, StaysInsideOnTheCorpus) {
   overCorpus(2 * kStride, [](const Polygon& p, const std::string& name) {
     const double d = std::sqrt(area(p)) * 0.03;
     double sum = 0;
-    for (const Piece& piece : contract(p, d)) {
+    for (const RegionPiece& piece : contract(p, d)) {
       sum += area(piece.polygon);
       EXPECT_TRUE(isValid(piece.polygon)) << name;
       EXPECT_LT(area(subtract({piece.polygon}, {p})), 2 * kRegionGrid * perimeter(p)) << name;
     }
     EXPECT_LT(sum, area(p)) << name;
-    for (const Piece& piece : contractTowards(p, 0.3, middleOf(p))) {
+    for (const RegionPiece& piece : contractTowards(p, 0.3, middleOf(p))) {
       EXPECT_LT(area(subtract({piece.polygon}, {p})), 2 * kRegionGrid * perimeter(p)) << name;
     }
   });
@@ -446,7 +447,7 @@ TEST(Along, SpacesExactlyAndEvenly) {
 
 TEST(Along, RibbonsOfClosedLinesAreRings) {
   const Polyline ring{{{2, 2}, {8, 2}, {8, 8}, {2, 8}}, true};
-  const std::vector<Piece> r = ribbons(rect(10, 10), {&ring, 1}, 1, false);
+  const std::vector<RegionPiece> r = ribbons(rect(10, 10), {&ring, 1}, 1, false);
   ASSERT_EQ(r.size(), 1u);
   EXPECT_EQ(r[0].polygon.holes.size(), 1u);
   EXPECT_NEAR(area(r[0].polygon), 24, 1e-3);

@@ -134,8 +134,8 @@ class Peel {
                        [&](const PeelEdge& e) { return e.edge == edge; });
   }
 
-  Piece traced(const Polygon& s, bool strip) const {
-    Piece piece;
+  RegionPiece traced(const Polygon& s, bool strip) const {
+    RegionPiece piece;
     piece.polygon = s;
     EdgeSource input = sourceOf(p_);
     if (strip) {
@@ -170,8 +170,8 @@ PeelResult peel(const Polygon& p, std::span<const PeelEdge> edges, PeelEnds ends
   return Peel(p, edges, ends).run();
 }
 
-std::vector<Piece> contract(const Polygon& p, double distance) {
-  std::vector<Piece> out;
+std::vector<RegionPiece> contract(const Polygon& p, double distance) {
+  std::vector<RegionPiece> out;
   if (!(distance > 0)) {
     out.push_back(wholePiece(p));
     return out;
@@ -180,7 +180,7 @@ std::vector<Piece> contract(const Polygon& p, double distance) {
   options.miterLimit = kMiterLimit;
   const std::vector<Ring> source = ringsOf(p);
   for (const Polygon& inset : intersect(offset({p}, -distance, options), {p})) {
-    Piece piece;
+    RegionPiece piece;
     piece.polygon = inset;
     for (const uint32_t e : traceEdges(ringsOf(inset), source, 2 * kTrace, distance)) {
       // Bevels of long miters come of no edge.
@@ -193,7 +193,7 @@ std::vector<Piece> contract(const Polygon& p, double distance) {
   return out;
 }
 
-std::vector<Piece> contractTowards(const Polygon& p, double share, Vec2 centre) {
+std::vector<RegionPiece> contractTowards(const Polygon& p, double share, Vec2 centre) {
   const double keep = 1 - std::clamp(share, 0.0, 0.9);
   std::vector<Ring> rings = ringsOf(p);
   for (Ring& r : rings) {
@@ -202,9 +202,9 @@ std::vector<Piece> contractTowards(const Polygon& p, double share, Vec2 centre) 
   EdgeSource moved{rings, wholePiece(p).edges};
   for (EdgeOrigin& e : moved.origins) e.role = EdgeRole::Inner;
   const EdgeSource sources[] = {sourceOf(p), std::move(moved)};
-  std::vector<Piece> out;
+  std::vector<RegionPiece> out;
   for (const Polygon& inner : intersect(repaired(rings, FillRule::EvenOdd), {p})) {
-    Piece piece;
+    RegionPiece piece;
     piece.polygon = inner;
     piece.edges = originsOf(inner, sources);
     piece.part = piece.ix = static_cast<uint32_t>(out.size());

@@ -33,16 +33,16 @@ enum class PeelEnds : uint8_t { Follow, Orthogonal };
 
 struct PeelResult {
   /// Several when the selection is not contiguous or the region is not convex.
-  std::vector<Piece> strips, rest;
+  std::vector<RegionPiece> strips, rest;
 };
 
 /// Distances that are not above zero, and edges out of range, do not move.
 PeelResult peel(const Polygon& p, std::span<const PeelEdge> edges, PeelEnds ends);
 
 /// Inset by a distance with mitered corners. Empty when nothing is left.
-std::vector<Piece> contract(const Polygon& p, double distance);
+std::vector<RegionPiece> contract(const Polygon& p, double distance);
 
 /// Every vertex moved by a share (0 to 0.9) of its way to a centre, then cut to the region.
-std::vector<Piece> contractTowards(const Polygon& p, double share, Vec2 centre);
+std::vector<RegionPiece> contractTowards(const Polygon& p, double share, Vec2 centre);
 
 }  // namespace gable

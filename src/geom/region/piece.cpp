@@ -48,11 +48,11 @@ double commonBorder(const Polygon& a, const Polygon& b) {
 }
 
 // Puts `small` into `large`; false when they have no area in common sides.
-bool absorb(Piece& large, const Piece& small) {
+bool absorb(RegionPiece& large, const RegionPiece& small) {
   const Region sum = unite({large.polygon}, {small.polygon});
   if (sum.size() != 1) return false;
   const EdgeSource sources[] = {sourceOf(large), sourceOf(small)};
-  Piece out = large;
+  RegionPiece out = large;
   out.polygon = sum[0];
   out.edges = originsOf(out.polygon, sources);
   large = std::move(out);
@@ -83,8 +83,8 @@ EdgeSource sourceOf(const Ring& r, EdgeOrigin origin) {
   return {{r}, std::vector<EdgeOrigin>(r.size(), origin)};
 }
 
-Piece wholePiece(const Polygon& p) {
-  Piece out;
+RegionPiece wholePiece(const Polygon& p) {
+  RegionPiece out;
   out.polygon = p;
   const size_t n = edgeCount(p);
   for (uint32_t i = 0; i < n; ++i) out.edges.push_back({i, EdgeRole::Kept, EdgeOrigin::kNoSide});
@@ -107,15 +107,16 @@ std::vector<EdgeOrigin> originsOf(const Polygon& p, std::span<const EdgeSource> 
   return out;
 }
 
-std::vector<Piece> combineTraced(BooleanOp op, const Piece& a, const Region& b, EdgeOrigin made) {
+std::vector<RegionPiece> combineTraced(BooleanOp op, const RegionPiece& a, const Region& b,
+                                       EdgeOrigin made) {
   std::vector<EdgeSource> sources{sourceOf(a)};
   for (const Polygon& p : b) {
     sources.push_back(sourceOf(p, std::vector<EdgeOrigin>(edgeCount(p), made)));
   }
-  std::vector<Piece> out;
+  std::vector<RegionPiece> out;
   uint32_t part = a.part;
   for (Polygon& p : combine(op, {a.polygon}, b)) {
-    Piece piece = a;
+    RegionPiece piece = a;
     piece.edges = originsOf(p, sources, made);
     piece.polygon = std::move(p);
     piece.part = part++;
@@ -135,7 +136,7 @@ double thickness(const Polygon& p) {
   return round > 0 ? 2 * area(p) / round : 0;
 }
 
-bool absorbSliver(std::vector<Piece>& pieces, const Piece& sliver) {
+bool absorbSliver(std::vector<RegionPiece>& pieces, const RegionPiece& sliver) {
   const Box2 box = grown(bounds(sliver.polygon), kTrace);
   struct Neighbour {
     size_t index;
@@ -155,9 +156,9 @@ bool absorbSliver(std::vector<Piece>& pieces, const Piece& sliver) {
                      [&](const Neighbour& n) { return absorb(pieces[n.index], sliver); });
 }
 
-void mergeSlivers(std::vector<Piece>& pieces, double sliver, double minArea) {
+void mergeSlivers(std::vector<RegionPiece>& pieces, double sliver, double minArea) {
   for (size_t i = 0; i < pieces.size();) {
-    const Piece& s = pieces[i];
+    const RegionPiece& s = pieces[i];
     const bool small = area(s.polygon) < minArea || thickness(s.polygon) < sliver;
     if (small && absorbSliver(pieces, s)) {
       pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(i));

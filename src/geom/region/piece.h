@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Piece: what a partition of a region gives out, with the origin of each of its edges. Plan
+// RegionPiece: what a partition of a region gives out, with the origin of each of its edges. Plan
 // coordinates, metres.
 //
 // Promises of every function here:
@@ -55,7 +55,7 @@ struct EdgeOrigin {
 
 enum class PieceKind : uint8_t { Cell, Path, Junction, Remainder };
 
-struct Piece {
+struct RegionPiece {
   Polygon polygon;
   /// By edge, through the outer ring and the holes.
   std::vector<EdgeOrigin> edges;
@@ -82,7 +82,7 @@ size_t edgeCount(const Polygon& p);
 /// The input itself: edge i comes from edge i.
 EdgeSource sourceOf(const Polygon& p);
 EdgeSource sourceOf(const Polygon& p, std::vector<EdgeOrigin> origins);
-inline EdgeSource sourceOf(const Piece& p) { return sourceOf(p.polygon, p.edges); }
+inline EdgeSource sourceOf(const RegionPiece& p) { return sourceOf(p.polygon, p.edges); }
 /// All edges of a ring with one origin.
 EdgeSource sourceOf(const Ring& r, EdgeOrigin origin);
 
@@ -94,10 +94,11 @@ std::vector<EdgeOrigin> originsOf(const Polygon& p, std::span<const EdgeSource> 
 
 /// `a` op `b`, with origins from a's edges, then from b's, which all take `made`. Other fields are
 /// those of `a`; the parts are numbered.
-std::vector<Piece> combineTraced(BooleanOp op, const Piece& a, const Region& b, EdgeOrigin made);
+std::vector<RegionPiece> combineTraced(BooleanOp op, const RegionPiece& a, const Region& b,
+                                       EdgeOrigin made);
 
 /// The piece as the whole of a polygon.
-Piece wholePiece(const Polygon& p);
+RegionPiece wholePiece(const Polygon& p);
 
 /// Twice the area by the perimeter: the width of what is long and thin.
 double thickness(const Polygon& p);
@@ -105,11 +106,11 @@ double perimeter(const Polygon& p);
 
 /// Unites a piece with the one of `pieces` that shares the longest border with it, paths first;
 /// false when none does.
-bool absorbSliver(std::vector<Piece>& pieces, const Piece& sliver);
+bool absorbSliver(std::vector<RegionPiece>& pieces, const RegionPiece& sliver);
 
 /// Unites pieces thinner than `sliver` or smaller than `minArea` with the neighbour that shares the
 /// longest border, paths first; those without a neighbour stay. Slivers of paths stay with paths
 /// where they can.
-void mergeSlivers(std::vector<Piece>& pieces, double sliver, double minArea);
+void mergeSlivers(std::vector<RegionPiece>& pieces, double sliver, double minArea);
 
 }  // namespace gable

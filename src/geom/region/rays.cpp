@@ -243,7 +243,7 @@ class Rays {
     return inside;
   }
 
-  void withPaths(std::vector<Piece>& out) const {
+  void withPaths(std::vector<RegionPiece>& out) const {
     const double width = std::max(o_.pathWidth, kLeastWidth);
     Region centres;
     if (o_.centre.shape != PlanShape::None && o_.centre.reach() > 0) {
@@ -255,12 +255,12 @@ class Rays {
       if (centres.size() > 1) centres = repaired(ringsOf(centres), FillRule::NonZero);
     }
     Region taken = centres;
-    std::vector<Piece> paths;
+    std::vector<RegionPiece> paths;
     const EdgeOrigin side{kNoEdge, EdgeRole::Path, EdgeOrigin::kNoSide};
     const auto addPath = [&](const Ray& r, bool toBoundary) {
       const Region s = subtract(strip(r, toBoundary, width), taken);
       for (const Polygon& p : s) {
-        Piece piece;
+        RegionPiece piece;
         piece.kind = PieceKind::Path;
         piece.ix = static_cast<uint32_t>(paths.size());
         piece.axis = normalized(r.to - r.from);
@@ -275,10 +275,10 @@ class Rays {
     };
     for (const Ray& r : links_) addPath(r, false);
     for (const Ray& r : rays_) addPath(r, true);
-    Piece whole = wholePiece(p_);
+    RegionPiece whole = wholePiece(p_);
     uint32_t index = 0;
     for (Polygon& p : subtract({p_}, taken)) {
-      Piece piece = whole;
+      RegionPiece piece = whole;
       piece.ix = index++;
       std::vector<EdgeSource> sources{sourceOf(p_)};
       for (const Polygon& c : centres) {
@@ -294,10 +294,10 @@ class Rays {
     addCentres(centres, out);
   }
 
-  void addCentres(const Region& centres, std::vector<Piece>& out) const {
+  void addCentres(const Region& centres, std::vector<RegionPiece>& out) const {
     uint32_t index = 0;
     for (const Polygon& c : centres) {
-      Piece piece;
+      RegionPiece piece;
       piece.kind = PieceKind::Junction;
       piece.ix = index++;
       const EdgeSource sources[] = {sourceOf(p_)};
@@ -307,7 +307,7 @@ class Rays {
     }
   }
 
-  void sectors(std::vector<Piece>& out) {
+  void sectors(std::vector<RegionPiece>& out) {
     // A ray that ends at a hole divides nothing.
     const size_t outer = p_.outer.size();
     std::erase_if(rays_, [&](const Ray& r) { return r.edge >= outer; });
@@ -323,7 +323,7 @@ class Rays {
     for (size_t i = 0; i < rays_.size(); ++i) {
       const Ray& a = rays_[i];
       const Ray& b = rays_[(i + 1) % rays_.size()];
-      Piece piece = sector(c, a, b);
+      RegionPiece piece = sector(c, a, b);
       piece.ix = static_cast<uint32_t>(i);
       addHoles(piece, given);
       out.push_back(std::move(piece));
@@ -333,10 +333,10 @@ class Rays {
     for (Polygon& p : intersect({{ringOf(o_.centre, c), {}}}, {p_})) {
       if (contains(p, c)) centre.push_back(std::move(p));
     }
-    std::vector<Piece> cut;
-    for (const Piece& s : out) {
-      for (Piece& p : combineTraced(BooleanOp::Difference, s, centre,
-                                    {kNoEdge, EdgeRole::Centre, EdgeOrigin::kNoSide})) {
+    std::vector<RegionPiece> cut;
+    for (const RegionPiece& s : out) {
+      for (RegionPiece& p : combineTraced(BooleanOp::Difference, s, centre,
+                                          {kNoEdge, EdgeRole::Centre, EdgeOrigin::kNoSide})) {
         cut.push_back(std::move(p));
       }
     }
@@ -345,8 +345,8 @@ class Rays {
   }
 
   // The centre, a's hit, the boundary, b's hit.
-  Piece sector(Vec2 c, const Ray& a, const Ray& b) const {
-    Piece piece;
+  RegionPiece sector(Vec2 c, const Ray& a, const Ray& b) const {
+    RegionPiece piece;
     const auto add = [&](Vec2 at, EdgeOrigin origin) {
       if (!piece.polygon.outer.empty() && piece.polygon.outer.back() == at) {
         piece.edges.back() = origin;
@@ -370,7 +370,7 @@ class Rays {
     return piece;
   }
 
-  void addHoles(Piece& piece, std::vector<bool>& given) const {
+  void addHoles(RegionPiece& piece, std::vector<bool>& given) const {
     const Ring outer = piece.polygon.outer;
     auto first = static_cast<uint32_t>(p_.outer.size());
     for (size_t h = 0; h < p_.holes.size(); ++h) {

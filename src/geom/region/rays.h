@@ -43,7 +43,7 @@ struct RayOptions {
 
 struct RayResult {
   /// Regions, paths, centres.
-  std::vector<Piece> pieces;
+  std::vector<RegionPiece> pieces;
   /// Rays that were cast.
   uint32_t rays = 0, links = 0;
   /// A centre outside was moved to the middle.

@@ -69,18 +69,18 @@ std::vector<size_t> neighboursOf(size_t i, std::span<const Disc> sites, const Bo
 }
 
 // The region cut by the bisectors of a cell: what lies nearer to its site.
-std::vector<Piece> cellOf(const Piece& whole, size_t i, std::span<const Disc> sites,
-                          const Box2& box) {
-  std::vector<Piece> cell{whole};
+std::vector<RegionPiece> cellOf(const RegionPiece& whole, size_t i, std::span<const Disc> sites,
+                                const Box2& box) {
+  std::vector<RegionPiece> cell{whole};
   for (const size_t k : neighboursOf(i, sites, box)) {
     const Vec2 a = sites[i].centre, b = sites[k].centre;
-    std::vector<Piece> nearer;
-    for (const Piece& p : cell) {
+    std::vector<RegionPiece> nearer;
+    for (const RegionPiece& p : cell) {
       // The bisector with the site to its left; equal lines for both sites.
       const Vec2 along = perpendicular(b - a);
       for (StripPiece& s : splitByLine(p.polygon, (a + b) * 0.5, along)) {
         if (s.strip != 0) continue;
-        Piece part = p;
+        RegionPiece part = p;
         part.edges.clear();
         for (const uint32_t e : s.edgeOrigin) {
           part.edges.push_back(e < StripPiece::kOnLine
@@ -93,7 +93,7 @@ std::vector<Piece> cellOf(const Piece& whole, size_t i, std::span<const Disc> si
     }
     cell = std::move(nearer);
   }
-  for (Piece& p : cell) p.ix = static_cast<uint32_t>(i);
+  for (RegionPiece& p : cell) p.ix = static_cast<uint32_t>(i);
   return cell;
 }
 
@@ -166,8 +166,8 @@ class Voronoi {
       if (apart && locate(p_, d.centre) == Where::Inside) out.sites.push_back(d);
     }
     if (out.sites.empty()) return out;
-    std::vector<Piece> cells = allCells(out.sites);
-    std::vector<Piece> orphans = takeOrphans(cells, out.sites);
+    std::vector<RegionPiece> cells = allCells(out.sites);
+    std::vector<RegionPiece> orphans = takeOrphans(cells, out.sites);
     if (o_.orphans == Orphans::Merge) mergeInto(cells, orphans);
     if (o_.orphans == Orphans::Own) {
       cells.insert(cells.end(), orphans.begin(), orphans.end());
@@ -178,19 +178,20 @@ class Voronoi {
   }
 
  private:
-  std::vector<Piece> allCells(const std::vector<Disc>& sites) const {
+  std::vector<RegionPiece> allCells(const std::vector<Disc>& sites) const {
     Box2 box = bounds(p_);
-    const Piece whole = wholePiece(p_);
-    std::vector<Piece> cells;
+    const RegionPiece whole = wholePiece(p_);
+    std::vector<RegionPiece> cells;
     for (size_t i = 0; i < sites.size(); ++i) {
-      for (Piece& p : cellOf(whole, i, sites, box)) cells.push_back(std::move(p));
+      for (RegionPiece& p : cellOf(whole, i, sites, box)) cells.push_back(std::move(p));
     }
     return cells;
   }
 
-  static std::vector<Piece> takeOrphans(std::vector<Piece>& cells, const std::vector<Disc>& sites) {
-    std::vector<Piece> kept, orphans;
-    for (Piece& c : cells) {
+  static std::vector<RegionPiece> takeOrphans(std::vector<RegionPiece>& cells,
+                                              const std::vector<Disc>& sites) {
+    std::vector<RegionPiece> kept, orphans;
+    for (RegionPiece& c : cells) {
       const bool own = contains(c.polygon, sites[c.ix].centre);
       (own ? kept : orphans).push_back(std::move(c));
       if (!own) orphans.back().part = 1;
@@ -201,10 +202,10 @@ class Voronoi {
 
   // As slivers are: each goes to the neighbour with the longest border, again and again, until none
   // has a neighbour.
-  static void mergeInto(std::vector<Piece>& cells, std::vector<Piece>& orphans) {
+  static void mergeInto(std::vector<RegionPiece>& cells, std::vector<RegionPiece>& orphans) {
     for (bool moved = true; moved && !orphans.empty();) {
-      std::vector<Piece> rest;
-      for (Piece& o : orphans) {
+      std::vector<RegionPiece> rest;
+      for (RegionPiece& o : orphans) {
         if (!absorbSliver(cells, o)) rest.push_back(std::move(o));
       }
       moved = rest.size() < orphans.size();
@@ -212,36 +213,36 @@ class Voronoi {
     }
   }
 
-  void finish(std::vector<Piece>& cells, VoronoiResult& out) const {
-    std::vector<Piece> areas;
-    for (const Piece& c : cells) {
-      for (Piece& s : shrunk(c)) areas.push_back(std::move(s));
+  void finish(std::vector<RegionPiece>& cells, VoronoiResult& out) const {
+    std::vector<RegionPiece> areas;
+    for (const RegionPiece& c : cells) {
+      for (RegionPiece& s : shrunk(c)) areas.push_back(std::move(s));
     }
-    std::vector<Piece> junctions;
+    std::vector<RegionPiece> junctions;
     if (o_.centres) cutCentres(out.sites, areas, junctions);
     Region taken;
-    for (const Piece& a : areas) taken.push_back(a.polygon);
-    for (const Piece& j : junctions) taken.push_back(j.polygon);
+    for (const RegionPiece& a : areas) taken.push_back(a.polygon);
+    for (const RegionPiece& j : junctions) taken.push_back(j.polygon);
     const bool full = o_.pathWidth <= 0 && o_.smoothing.kind == Smoothing::Kind::None &&
                       o_.orphans != Orphans::Path;
     out.pieces = std::move(areas);
     if (!full) {
       const EdgeOrigin made{kNoEdge, EdgeRole::Path, EdgeOrigin::kNoSide};
       uint32_t index = 0;
-      for (Piece& p : combineTraced(BooleanOp::Difference, wholePiece(p_), taken, made)) {
+      for (RegionPiece& p : combineTraced(BooleanOp::Difference, wholePiece(p_), taken, made)) {
         p.kind = PieceKind::Path;
         p.ix = index++;
         p.part = 0;
         out.pieces.push_back(std::move(p));
       }
     }
-    for (Piece& j : junctions) out.pieces.push_back(std::move(j));
+    for (RegionPiece& j : junctions) out.pieces.push_back(std::move(j));
   }
 
   // The cell less half a path, smoothed.
-  std::vector<Piece> shrunk(const Piece& cell) const {
+  std::vector<RegionPiece> shrunk(const RegionPiece& cell) const {
     const double half = o_.pathWidth / 2;
-    std::vector<Piece> inner;
+    std::vector<RegionPiece> inner;
     if (!(half > 0)) {
       inner.push_back(cell);
     } else {
@@ -249,16 +250,16 @@ class Voronoi {
       for (uint32_t i = 0; i < cell.edges.size(); ++i) {
         if (o_.borderPath || cell.edges[i].role != EdgeRole::Kept) edges.push_back({i, 0, 1, half});
       }
-      const std::vector<Piece> rest = o_.borderPath
-                                          ? contract(cell.polygon, half)
-                                          : peel(cell.polygon, edges, PeelEnds::Follow).rest;
-      for (const Piece& r : rest) inner.push_back(named(r, cell));
+      const std::vector<RegionPiece> rest = o_.borderPath
+                                                ? contract(cell.polygon, half)
+                                                : peel(cell.polygon, edges, PeelEnds::Follow).rest;
+      for (const RegionPiece& r : rest) inner.push_back(named(r, cell));
     }
     if (o_.smoothing.kind == Smoothing::Kind::None) return inner;
-    std::vector<Piece> out;
-    for (const Piece& p : inner) {
+    std::vector<RegionPiece> out;
+    for (const RegionPiece& p : inner) {
       for (Polygon& s : smoothed(p.polygon, o_.smoothing)) {
-        Piece piece = p;
+        RegionPiece piece = p;
         const EdgeSource sources[] = {sourceOf(p)};
         piece.edges = originsOf(s, sources, {kNoEdge, EdgeRole::Path, EdgeOrigin::kNoSide});
         piece.polygon = std::move(s);
@@ -270,8 +271,8 @@ class Voronoi {
   }
 
   // Origins of a shrunk cell in terms of the region: moved edges lie beside the path.
-  Piece named(const Piece& shrunkCell, const Piece& cell) const {
-    Piece out = cell;
+  RegionPiece named(const RegionPiece& shrunkCell, const RegionPiece& cell) const {
+    RegionPiece out = cell;
     out.polygon = shrunkCell.polygon;
     out.edges.clear();
     for (const EdgeOrigin& e : shrunkCell.edges) {
@@ -286,10 +287,10 @@ class Voronoi {
     return out;
   }
 
-  void cutCentres(const std::vector<Disc>& sites, std::vector<Piece>& areas,
-                  std::vector<Piece>& junctions) const {
-    std::vector<Piece> cut;
-    for (Piece& a : areas) {
+  void cutCentres(const std::vector<Disc>& sites, std::vector<RegionPiece>& areas,
+                  std::vector<RegionPiece>& junctions) const {
+    std::vector<RegionPiece> cut;
+    for (RegionPiece& a : areas) {
       const Disc& d = sites[a.ix];
       if (!(d.radius > 0) || !contains(a.polygon, d.centre)) {
         cut.push_back(std::move(a));
@@ -301,10 +302,10 @@ class Voronoi {
       const Region disc{{ringOf(circle, d.centre), {}}};
       const EdgeOrigin inside{kNoEdge, EdgeRole::Hole, EdgeOrigin::kNoSide};
       const EdgeOrigin outside{kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide};
-      for (Piece& p : combineTraced(BooleanOp::Difference, a, disc, inside)) {
+      for (RegionPiece& p : combineTraced(BooleanOp::Difference, a, disc, inside)) {
         cut.push_back(std::move(p));
       }
-      for (Piece& p : combineTraced(BooleanOp::Intersection, a, disc, outside)) {
+      for (RegionPiece& p : combineTraced(BooleanOp::Intersection, a, disc, outside)) {
         p.kind = PieceKind::Junction;
         junctions.push_back(std::move(p));
       }
@@ -314,20 +315,21 @@ class Voronoi {
   }
 
   // Smoothing may take a cell away from its site; the disc then lies in the path.
-  void addLostCentres(const std::vector<Disc>& sites, const std::vector<Piece>& areas,
-                      std::vector<Piece>& junctions) const {
+  void addLostCentres(const std::vector<Disc>& sites, const std::vector<RegionPiece>& areas,
+                      std::vector<RegionPiece>& junctions) const {
     Region taken;
-    for (const Piece& a : areas) taken.push_back(a.polygon);
+    for (const RegionPiece& a : areas) taken.push_back(a.polygon);
     for (uint32_t i = 0; i < sites.size(); ++i) {
       const bool given = std::any_of(junctions.begin(), junctions.end(),
-                                     [&](const Piece& j) { return j.ix == i; });
+                                     [&](const RegionPiece& j) { return j.ix == i; });
       if (given || !(sites[i].radius > 0)) continue;
       const Region disc{{ringOf({PlanShape::Circle, sites[i].radius, 0, 24}, sites[i].centre), {}}};
       const EdgeOrigin made{kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide};
       Region others = taken;
-      for (const Piece& j : junctions) others.push_back(j.polygon);
-      for (const Piece& p : combineTraced(BooleanOp::Intersection, wholePiece(p_), disc, made)) {
-        for (Piece& free : combineTraced(BooleanOp::Difference, p, others, made)) {
+      for (const RegionPiece& j : junctions) others.push_back(j.polygon);
+      for (const RegionPiece& p :
+           combineTraced(BooleanOp::Intersection, wholePiece(p_), disc, made)) {
+        for (RegionPiece& free : combineTraced(BooleanOp::Difference, p, others, made)) {
           free.kind = PieceKind::Junction;
           free.ix = i;
           junctions.push_back(std::move(free));

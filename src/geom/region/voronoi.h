@@ -49,7 +49,7 @@ struct VoronoiOptions {
 
 struct VoronoiResult {
   /// Cells in the order of their sites (ix), then paths, then junctions.
-  std::vector<Piece> pieces;
+  std::vector<RegionPiece> pieces;
   /// Of the sites given those that lie in the region and apart from others.
   std::vector<Disc> sites;
 };

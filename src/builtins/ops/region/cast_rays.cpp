@@ -115,7 +115,7 @@ Status applyCastRays(OpCall& call) {
                            "'castRays': a centre outside of the region was left out",
                            "give coordinates in the region");
     }
-    for (Piece& p : r.pieces) {
+    for (RegionPiece& p : r.pieces) {
       std::vector<EdgeMark> marks = view.marksOf(p, false, p.kind == PieceKind::Cell);
       const std::string_view word = p.kind == PieceKind::Cell   ? "region"
                                     : p.kind == PieceKind::Path ? "path"

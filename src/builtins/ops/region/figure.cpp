@@ -34,7 +34,7 @@ Status become(OpCall& call, const PlanFigure& figure) {
   RegionView& view = *job.faces()[0];
   const Region ring{{ringOf(figure, middleOf(view.polygon())), {}}};
   const EdgeOrigin made{kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide};
-  const std::vector<Piece> pieces =
+  const std::vector<RegionPiece> pieces =
       combineTraced(BooleanOp::Intersection, wholePiece(view.polygon()), ring, made);
   if (pieces.empty()) {
     return call.fail("region-vanished", "nothing of the figure lies in the region",

@@ -104,7 +104,7 @@ Status applyGrid(OpCall& call) {
                            "'grid': the junctions were made smaller to keep apart",
                            "make them smaller, or the cells larger");
     }
-    for (Piece& p : g.pieces) {
+    for (RegionPiece& p : g.pieces) {
       std::vector<EdgeMark> marks = view.marksOf(p, p.kind != PieceKind::Remainder, false);
       std::optional<CellMark> cell;
       if (p.kind == PieceKind::Cell) {

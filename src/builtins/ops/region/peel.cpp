@@ -39,11 +39,11 @@ Status applyPeel(OpCall& call) {
     std::vector<PeelEdge> edges;
     for (const EdgePart& p : parts) edges.push_back({p.edge, p.from, p.to, distance});
     PeelResult r = peel(view.polygon(), edges, ends);
-    for (Piece& p : r.strips) {
+    for (RegionPiece& p : r.strips) {
       std::vector<EdgeMark> marks = view.marksOf(p, false, false);
       job.keep(f, "strip", std::move(p), std::move(marks), view.cell());
     }
-    for (Piece& p : r.rest) {
+    for (RegionPiece& p : r.rest) {
       std::vector<EdgeMark> marks = view.marksOf(p, false, false);
       job.keep(f, "rest", std::move(p), std::move(marks), view.cell());
     }
@@ -67,7 +67,7 @@ Status applyContract(OpCall& call) {
     return call.fail("bad-argument", "a region is contracted by zero or more",
                      "write metres, or a share: '0.2");
   }
-  std::vector<Piece> pieces;
+  std::vector<RegionPiece> pieces;
   if (v.unit == Unit::Relative) {
     pieces = contractTowards(view.polygon(), v.number, middleOf(view.polygon()));
   } else {
@@ -75,14 +75,15 @@ Status applyContract(OpCall& call) {
     if (towards && !pieces.empty()) {
       const double radius = poleOf(view.polygon()).radius;
       const double share = radius > 0 ? std::min(0.9, v.number / radius) : 0;
-      std::vector<Piece> both;
+      std::vector<RegionPiece> both;
       const EdgeOrigin made{kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide};
       Region inner;
-      for (const Piece& p : contractTowards(view.polygon(), share, middleOf(view.polygon()))) {
+      for (const RegionPiece& p :
+           contractTowards(view.polygon(), share, middleOf(view.polygon()))) {
         inner.push_back(p.polygon);
       }
-      for (const Piece& p : pieces) {
-        for (Piece& c : combineTraced(BooleanOp::Intersection, p, inner, made)) {
+      for (const RegionPiece& p : pieces) {
+        for (RegionPiece& c : combineTraced(BooleanOp::Intersection, p, inner, made)) {
           both.push_back(std::move(c));
         }
       }

@@ -81,7 +81,7 @@ class Placer {
     }
     const Region ring{{ringOf(figure_, at, along), {}}};
     const EdgeOrigin made{kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide};
-    for (Piece& p :
+    for (RegionPiece& p :
          combineTraced(BooleanOp::Intersection, wholePiece(view_.polygon()), ring, made)) {
       p.axis = along;
       call_.emit(view_.shapeOf(parent_, p, view_.marksOf(p, false, true), std::nullopt), 0,
@@ -95,7 +95,7 @@ class Placer {
     const Region together =
         holes_.size() > 1 ? repaired(ringsOf(holes_), FillRule::NonZero) : holes_;
     const EdgeOrigin made{kNoEdge, EdgeRole::Hole, EdgeOrigin::kNoSide};
-    const std::vector<Piece> left =
+    const std::vector<RegionPiece> left =
         combineTraced(BooleanOp::Difference, wholePiece(view_.polygon()), together, made);
     if (!left.empty()) view_.replace(call_.shape(), left);
   }

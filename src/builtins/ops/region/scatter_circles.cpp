@@ -65,7 +65,7 @@ Status applyScatterCircles(OpCall& call) {
       }
     }
     for (const Disc& d : discs) {
-      Piece p;
+      RegionPiece p;
       p.polygon.outer = ringOf({PlanShape::Circle, d.radius, 0, 24}, d.centre);
       p.edges.assign(24, {kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide});
       call.emit(view.shapeOf(call.shape(), p, view.marksOf(p, false, true), std::nullopt), 0,

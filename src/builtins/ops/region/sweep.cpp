@@ -32,7 +32,7 @@ Status applySweep(OpCall& call) {
     Status status = checked(call, inset);
     if (status.ok()) status = linesOf(call, 0, inset, job, f, view, lines);
     if (!status.ok()) return status;
-    for (const Piece& p : ribbons(view.polygon(), lines, width, round)) {
+    for (const RegionPiece& p : ribbons(view.polygon(), lines, width, round)) {
       call.emit(view.shapeOf(call.shape(), p, view.marksOf(p, false, true), std::nullopt), 0,
                 piece++);
     }

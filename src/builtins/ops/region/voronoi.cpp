@@ -65,7 +65,7 @@ Status applyVoronoi(OpCall& call) {
       return failOrElse(call, "no-sites", "no site lies in the region",
                         "write smaller radii or other coordinates");
     }
-    for (Piece& p : v.pieces) {
+    for (RegionPiece& p : v.pieces) {
       std::vector<EdgeMark> marks = view.marksOf(p, false, p.kind == PieceKind::Cell);
       const std::string_view word = p.kind == PieceKind::Cell   ? "region"
                                     : p.kind == PieceKind::Path ? "path"

@@ -18,8 +18,8 @@ RegionJob::RegionJob(OpCall& call) : call_(call), mesh_(meshInScope(call.shape()
   }
 }
 
-void RegionJob::keep(size_t face, std::string_view word, Piece piece, std::vector<EdgeMark> marks,
-                     std::optional<CellMark> cell) {
+void RegionJob::keep(size_t face, std::string_view word, RegionPiece piece,
+                     std::vector<EdgeMark> marks, std::optional<CellMark> cell) {
   kept_.push_back({face, std::string(word), std::move(piece), std::move(marks), cell});
 }
 
@@ -41,7 +41,7 @@ void RegionJob::emit() {
     }
     // One shape for each face of the parent, of all its pieces.
     for (size_t f = 0; f < faces_.size(); ++f) {
-      std::vector<Piece> pieces;
+      std::vector<RegionPiece> pieces;
       std::vector<std::vector<EdgeMark>> marks;
       for (const Kept* k : mine) {
         if (k->face != f) continue;
@@ -152,7 +152,7 @@ Status linesOf(OpCall& call, size_t argument, double inset, const RegionJob& job
     out = parametrise(view.polygon().outer, logical, ranges, mx == my);
     return {};
   }
-  for (const Piece& p : contract(view.polygon(), inset)) {
+  for (const RegionPiece& p : contract(view.polygon(), inset)) {
     std::vector<uint32_t> moved;
     for (size_t i = 0; i < p.polygon.outer.size(); ++i) {
       const uint32_t source = p.edges[i].source;

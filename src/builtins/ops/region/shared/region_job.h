@@ -23,7 +23,7 @@ class RegionJob {
   const std::vector<std::unique_ptr<RegionView>>& faces() const { return faces_; }
 
   /// Keeps a piece for the item of the block with that word.
-  void keep(size_t face, std::string_view word, Piece piece, std::vector<EdgeMark> marks,
+  void keep(size_t face, std::string_view word, RegionPiece piece, std::vector<EdgeMark> marks,
             std::optional<CellMark> cell);
   /// Gives out what was kept: in the order of the block's items, each piece by itself, or all in
   /// one shape after `=`.
@@ -37,7 +37,7 @@ class RegionJob {
   struct Kept {
     size_t face;
     std::string word;
-    Piece piece;
+    RegionPiece piece;
     std::vector<EdgeMark> marks;
     std::optional<CellMark> cell;
   };

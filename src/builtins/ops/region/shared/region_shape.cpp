@@ -203,7 +203,7 @@ std::vector<uint32_t> RegionView::logicals() const {
   return out;
 }
 
-std::vector<EdgeMark> RegionView::marksOf(const Piece& piece, bool grid, bool reindex) const {
+std::vector<EdgeMark> RegionView::marksOf(const RegionPiece& piece, bool grid, bool reindex) const {
   std::vector<EdgeMark> out;
   const std::vector<Ring> rings = ringsOf(piece.polygon);
   size_t i = 0;
@@ -279,8 +279,8 @@ uint32_t RegionView::faceTags(uint32_t depth, const std::optional<CellMark>& cel
   return services_.tags().intern(std::move(names));
 }
 
-Mesh RegionView::meshOf(std::span<const Piece> pieces, std::span<const std::vector<EdgeMark>> marks,
-                        uint32_t tags) {
+Mesh RegionView::meshOf(std::span<const RegionPiece> pieces,
+                        std::span<const std::vector<EdgeMark>> marks, uint32_t tags) {
   std::vector<PatchFace> faces;
   for (size_t p = 0; p < pieces.size(); ++p) {
     PatchFace face;
@@ -317,7 +317,7 @@ Frame RegionView::axesAlong(const Shape& parent, Vec2 along) const {
                    parent.scope.direction(f.z));
 }
 
-Shape RegionView::shapeOf(const Shape& parent, std::span<const Piece> pieces,
+Shape RegionView::shapeOf(const Shape& parent, std::span<const RegionPiece> pieces,
                           std::span<const std::vector<EdgeMark>> marks,
                           const std::optional<CellMark>& cell) {
   Shape child = parent;
@@ -328,9 +328,9 @@ Shape RegionView::shapeOf(const Shape& parent, std::span<const Piece> pieces,
   return child;
 }
 
-void RegionView::replace(Shape& shape, std::span<const Piece> pieces, bool reindex) {
+void RegionView::replace(Shape& shape, std::span<const RegionPiece> pieces, bool reindex) {
   std::vector<std::vector<EdgeMark>> marks;
-  for (const Piece& p : pieces) {
+  for (const RegionPiece& p : pieces) {
     marks.emplace_back();
     for (const EdgeOrigin& o : p.edges) {
       EdgeMark m;

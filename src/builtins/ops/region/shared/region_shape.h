@@ -90,18 +90,18 @@ class RegionView {
 
   /// The marks of a piece of this region, one partition deeper. Grids say their sides; pieces of
   /// others keep the logical edges that they inherit, or are indexed anew with `reindex`.
-  std::vector<EdgeMark> marksOf(const Piece& piece, bool grid, bool reindex) const;
+  std::vector<EdgeMark> marksOf(const RegionPiece& piece, bool grid, bool reindex) const;
 
   /// A shape that is the pieces: their marks as tags, the scope along the first piece's axis.
-  Shape shapeOf(const Shape& parent, std::span<const Piece> pieces,
+  Shape shapeOf(const Shape& parent, std::span<const RegionPiece> pieces,
                 std::span<const std::vector<EdgeMark>> marks, const std::optional<CellMark>& cell);
-  Shape shapeOf(const Shape& parent, const Piece& piece, const std::vector<EdgeMark>& marks,
+  Shape shapeOf(const Shape& parent, const RegionPiece& piece, const std::vector<EdgeMark>& marks,
                 const std::optional<CellMark>& cell) {
     return shapeOf(parent, {&piece, 1}, {&marks, 1}, cell);
   }
   /// The same region as it was, with other polygons: it does not go deeper. With `reindex` the
   /// logical edges are found anew.
-  void replace(Shape& shape, std::span<const Piece> pieces, bool reindex = false);
+  void replace(Shape& shape, std::span<const RegionPiece> pieces, bool reindex = false);
 
   /// A point with x along a direction of the plane and the normal up (or forward).
   Shape pointAt(const Shape& parent, Vec2 at, Vec2 along) const;
@@ -112,7 +112,7 @@ class RegionView {
   uint32_t tagsOf(const EdgeMark& m) const;
   uint32_t faceTags(uint32_t depth, const std::optional<CellMark>& cell) const;
   Frame axesAlong(const Shape& parent, Vec2 along) const;
-  Mesh meshOf(std::span<const Piece> pieces, std::span<const std::vector<EdgeMark>> marks,
+  Mesh meshOf(std::span<const RegionPiece> pieces, std::span<const std::vector<EdgeMark>> marks,
               uint32_t tags);
 
   const Services& services_;
