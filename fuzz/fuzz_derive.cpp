@@ -21,6 +21,9 @@ gable::Model derived(const gable::Rules& rules, bool sharing) {
   settings.budget.width = 1000;
   settings.budget.shapes = 2000;
   settings.budget.vertices = 100000;
+  settings.budget.steps = 100000;
+  // Some operations take long for a step; checks and sanitizers add to it.
+  settings.budget.seconds = 2;
   return gable::derive(rules, gable::Shapes::lot(9, 7), settings);
 }
 

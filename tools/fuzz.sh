@@ -49,6 +49,7 @@ for target in "${targets[@]}"; do
   find=$(ls -t "build/fuzz/found/$target" | grep -v '^smallest$' | head -n 1)
   if [ -n "$find" ]; then
     "build/fuzz/fuzz_$target" -minimize_crash=1 -max_total_time=60 \
+      -timeout=10 -rss_limit_mb=4096 \
       -exact_artifact_path="build/fuzz/found/$target/smallest" "build/fuzz/found/$target/$find" \
       >"build/log/fuzz-$target-smallest.log" 2>&1 || true
     say "${red}$target: build/fuzz/found/$target/$find$plain"

@@ -86,6 +86,8 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
   s.budget.seconds = arguments.maxSeconds;
   s.budget.shapes = arguments.maxShapes;
   s.budget.depth = arguments.maxDepth;
+  s.budget.steps = arguments.maxSteps;
+  s.budget.bytes = arguments.maxMegabytes << 20;
   s.cancel = cancelFlag();
   for (const std::string& pair : arguments.set) {
     const size_t equals = pair.find('=');

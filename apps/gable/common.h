@@ -42,6 +42,8 @@ struct DeriveArguments {
   double maxSeconds = 0;
   uint64_t maxShapes = 50'000'000;
   uint32_t maxDepth = 1024;
+  uint64_t maxSteps = 4'000'000'000;
+  uint64_t maxMegabytes = 4096;
 };
 
 /// Parses "30x40"; false when it is no pair of positive numbers.

@@ -26,8 +26,15 @@ void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
   app->add_flag("--no-sharing", a.noSharing, "Derive equal parts again instead of sharing them");
   app->add_option("--dialect", a.dialect, "The rules' notation, when the extension does not tell");
   app->add_option("--max-seconds", a.maxSeconds, "Stop deriving after so long");
-  app->add_option("--max-shapes", a.maxShapes, "Stop after so many shapes");
-  app->add_option("--max-depth", a.maxDepth, "Rule calls within rule calls (default 1024)");
+  app->add_option("--max-shapes", a.maxShapes, "Stop after so many shapes")
+      ->check(CLI::NonNegativeNumber);
+  app->add_option("--max-steps", a.maxSteps, "Stop after so many operations and calls")
+      ->check(CLI::NonNegativeNumber);
+  app->add_option("--max-memory", a.maxMegabytes,
+                  "Stop when deriving takes so many megabytes (default 4096, 0: no limit)")
+      ->check(CLI::Range(uint64_t{0}, uint64_t{1} << 40));
+  app->add_option("--max-depth", a.maxDepth, "Rule calls within rule calls (default 1024)")
+      ->check(CLI::NonNegativeNumber);
 }
 
 }  // namespace

@@ -151,6 +151,10 @@ struct Budget {
   uint32_t width = 100000;
   uint64_t shapes = 50'000'000;
   uint64_t vertices = 200'000'000;
+  /// Operations and calls, each weighed by the size of what it works on.
+  uint64_t steps = 4'000'000'000;
+  /// By how many bytes the process may grow while deriving; 0: no limit.
+  uint64_t bytes = uint64_t{4} << 30;
   /// 0: no limit.
   double seconds = 0;
 };

@@ -40,7 +40,20 @@ std::string_view Sources::line(uint32_t file, uint32_t line) const {
   return text;
 }
 
+namespace {
+
+// Messages quote what authors wrote, which may be megabytes.
+void shorten(std::string& text) {
+  constexpr size_t kMost = 2000, kEnd = 200;
+  if (text.size() > kMost) text.replace(kMost - kEnd, text.size() - kMost, " ... ");
+}
+
+}  // namespace
+
 void Diagnostics::add(Diagnostic d) {
+  shorten(d.message);
+  shorten(d.hint);
+  shorten(d.shapePath);
   if (d.severity == Severity::Error) ++errors_;
   all_.push_back(std::move(d));
 }
@@ -101,6 +114,14 @@ std::string excerpt(const Sources& sources, const Span& span, const LineColumn& 
   return out + std::string(std::max<size_t>(1, std::min(length, room)), '^') + "\n";
 }
 
+// Signs that would move a terminal's cursor or change its colours become question marks.
+void disarm(std::string& text) {
+  for (char& c : text) {
+    const auto u = static_cast<unsigned char>(c);
+    if ((u < ' ' && c != '\n' && c != '\t') || u == 0x7f) c = '?';
+  }
+}
+
 }  // namespace
 
 std::string format(const Diagnostic& d, const Sources& sources) {
@@ -115,6 +136,7 @@ std::string format(const Diagnostic& d, const Sources& sources) {
   if (d.span.valid()) out += excerpt(sources, d.span, at);
   if (!d.shapePath.empty()) out += "  in " + d.shapePath + "\n";
   if (!d.hint.empty()) out += "  hint: " + d.hint + "\n";
+  disarm(out);
   return out;
 }
 

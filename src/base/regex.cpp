@@ -441,14 +441,18 @@ Regex::~Regex() = default;
 Regex::Regex(Regex&&) noexcept = default;
 Regex& Regex::operator=(Regex&&) noexcept = default;
 
-Regex::Match Regex::search(std::string_view text, size_t from) const {
+Regex::Match Regex::search(std::string_view text, size_t from, size_t* work) const {
   if (!valid()) return {};
   // What failed from an earlier beginning fails from a later one too, so `tried` is kept.
   Program::Run run{*program_, text};
-  for (size_t begin = from; begin <= text.size() && run.work > 0; ++begin) {
-    if (run.matches(0, begin, Program::Run::kAnywhere, run.tried)) return {true, begin, run.end};
+  const size_t allowed = work ? std::min(*work, kMaxWork) : kMaxWork;
+  run.work = allowed;
+  Match match;
+  for (size_t begin = from; begin <= text.size() && run.work > 0 && !match.found; ++begin) {
+    if (run.matches(0, begin, Program::Run::kAnywhere, run.tried)) match = {true, begin, run.end};
   }
-  return {};
+  if (work) *work -= allowed - run.work;
+  return match;
 }
 
 bool Regex::matchesWhole(std::string_view text) const {

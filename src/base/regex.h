@@ -36,8 +36,9 @@ class Regex {
   };
   /// The leftmost match that begins at `from` or later; alternatives and repeats are tried in their
   /// order, as usual. Not found when the pattern is not valid or the search takes more
-  /// than kMaxWork steps.
-  Match search(std::string_view text, size_t from = 0) const;
+  /// than kMaxWork steps. `work`, where given, holds the steps that this and later searches may
+  /// take together.
+  Match search(std::string_view text, size_t from = 0, size_t* work = nullptr) const;
   bool matchesWhole(std::string_view text) const;
 
   /// Steps that a search may take; they also bound the memory it needs.

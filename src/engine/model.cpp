@@ -51,6 +51,8 @@ Limits limitsOf(const Budget& b) {
   l.width = b.width;
   l.shapes = b.shapes;
   l.vertices = b.vertices;
+  l.steps = b.steps;
+  l.bytes = b.bytes;
   l.seconds = b.seconds;
   return l;
 }

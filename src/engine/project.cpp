@@ -225,7 +225,7 @@ std::vector<std::string> Project::search(std::string_view pattern, std::string_v
 bool Project::text(std::string_view path, std::string_view fromFile, std::string& out) {
   const std::string file = locate(path, fromFile);
   if (file.empty()) return false;
-  Result<std::string> content = readFile(file, 64u << 20);
+  Result<std::string> content = readFile(file, kMaxTextLength);
   if (!content.ok()) return false;
   out = std::move(content.value());
   return true;

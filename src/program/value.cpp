@@ -142,7 +142,7 @@ std::string elementText(const Array& a, size_t i, const ValuePool& pool) {
 
 std::string rowText(const Array& a, const ValuePool& pool) {
   std::string out = "(" + std::to_string(a.columns) + ")[";
-  for (size_t i = 0; i < a.size(); ++i) {
+  for (size_t i = 0; i < a.size() && out.size() <= kMaxTextLength; ++i) {
     if (i > 0) out += ',';
     out += elementText(a, i, pool);
   }
@@ -153,12 +153,14 @@ std::string rowText(const Array& a, const ValuePool& pool) {
 std::string tableText(const Array& a, const ValuePool& pool) {
   std::vector<std::string> cells;
   std::vector<size_t> widths(a.columns, 0);
-  for (size_t i = 0; i < a.size(); ++i) {
+  size_t length = 0;
+  for (size_t i = 0; i < a.size() && length <= kMaxTextLength; ++i) {
     cells.push_back(elementText(a, i, pool));
+    length += cells[i].size();
     widths[i % a.columns] = std::max(widths[i % a.columns], cells[i].size());
   }
   std::string out = "(" + std::to_string(a.rows) + "x" + std::to_string(a.columns) + ")";
-  for (size_t i = 0; i < cells.size(); ++i) {
+  for (size_t i = 0; i < cells.size() && out.size() <= kMaxTextLength; ++i) {
     if (i % a.columns == 0) out += '\n';
     out.append(3 + widths[i % a.columns] - cells[i].size(), ' ').append(cells[i]);
   }

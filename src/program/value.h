@@ -67,6 +67,11 @@ ValueType elementType(ValueType array);
 ValueType arrayType(ValueType element);
 const char* typeName(ValueType t);
 
+/// Bytes that a text may have, and elements that an array may have. What would become longer is a
+/// mistake of the rules, reported where it happens.
+inline constexpr size_t kMaxTextLength = size_t{1} << 24;
+inline constexpr size_t kMaxArraySize = 100000;
+
 /// A rows x columns table, stored by rows; a plain list has one row.
 struct Array {
   ValueType element = ValueType::Float;
@@ -100,7 +105,8 @@ class ValuePool {
   const Array& array(const Value& v) const;
 
   /// The value as str() prints it: numbers with up to sixteen significant digits,
-  /// lists as (n)[a,b,c], tables as (rxc) and a line for each row, columns flush right.
+  /// lists as (n)[a,b,c], tables as (rxc) and a line for each row, columns flush right. A text that
+  /// would become longer than kMaxTextLength ends soon after it.
   std::string str(const Value& v) const;
 
  private:

@@ -168,7 +168,11 @@ ValueOrError applyBinary(BinaryOperator op, const Value& a, const Value& b, Valu
     return {Value::of(compares(op, orderOfValues(a, b, pool)))};
   }
   if (op == BinaryOperator::Add && (isText(a) || isText(b))) {
-    return {pool.string(pool.str(a) + pool.str(b))};
+    const std::string joined = pool.str(a) + pool.str(b);
+    if (joined.size() > kMaxTextLength) {
+      return {a, "the text would be longer than 16 megabytes", "text-too-long"};
+    }
+    return {pool.string(joined)};
   }
   if (a.type != ValueType::Float || b.type != ValueType::Float) {
     return {Value::of(0.0), "arithmetic takes numbers"};
@@ -220,6 +224,8 @@ ValueOrError indexArray(const Value& array, std::span<const Value> indices, Valu
 
 namespace {
 
+constexpr const char* kTooLarge = "the array would have more than 100000 elements";
+
 // One row of items side by side: single values and arrays of equal height.
 const char* buildRow(std::span<const Value> items, const ValuePool& pool, Array& out) {
   out.rows = 1;
@@ -231,6 +237,7 @@ const char* buildRow(std::span<const Value> items, const ValuePool& pool, Array&
       return "the parts of a row differ in height";
   }
   for (const Value& v : items) out.columns += v.isArray() ? pool.array(v).columns : 1;
+  if (out.size() > kMaxArraySize) return kTooLarge;
   for (uint32_t r = 0; r < out.rows; ++r) {
     for (const Value& v : items) {
       if (!v.isArray()) {
@@ -264,12 +271,13 @@ ValueOrError buildArray(std::span<const Value> items, std::span<const uint32_t> 
     Array row;
     row.element = out.element;
     if (const char* error = buildRow(items.subspan(next, count), pool, row)) {
-      return {Value{}, error};
+      return {Value{}, error, error == kTooLarge ? "array-too-large" : "wrong-type"};
     }
     next += count;
     if (out.rows > 0 && row.columns != out.columns) {
       return {Value{}, "the rows of an array differ in length"};
     }
+    if (out.size() + row.size() > kMaxArraySize) return {Value{}, kTooLarge, "array-too-large"};
     out.columns = row.columns;
     out.rows += row.rows;
     out.numbers.insert(out.numbers.end(), row.numbers.begin(), row.numbers.end());
@@ -284,7 +292,9 @@ ValueOrError buildRange(double start, double step, double end, size_t limit, Val
   const bool runs = step > 0 ? start <= end : step < 0 && start >= end;
   if (runs && std::isfinite(start) && std::isfinite(step) && std::isfinite(end)) {
     const double count = std::floor((end - start) / step) + 1;
-    if (count > static_cast<double>(limit)) return {Value{}, "the range has too many elements"};
+    if (count > static_cast<double>(limit)) {
+      return {Value{}, "the range has too many elements", "array-too-large"};
+    };
     out.rows = 1;
     out.columns = static_cast<uint32_t>(count);
     for (uint32_t i = 0; i < out.columns; ++i) out.numbers.push_back(start + i * step);

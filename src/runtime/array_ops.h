@@ -17,6 +17,8 @@ struct ValueOrError {
   Value value;
   /// Null when all is well; a sentence otherwise.
   const char* error = nullptr;
+  /// The code of that diagnostic.
+  const char* code = "wrong-type";
 };
 
 ValueOrError applyBinary(BinaryOperator op, const Value& a, const Value& b, ValuePool& pool);

@@ -44,6 +44,7 @@ Pass runPass(DeriveShared& shared, const std::vector<InitialShape>& shapes) {
   std::atomic<size_t> done{0};
   parallelFor(shapes.size(), jobs, [&](size_t i, unsigned worker) {
     if (shared.options.cancel && shared.options.cancel->load(std::memory_order_relaxed)) return;
+    if (shared.exhausted.load(std::memory_order_relaxed)) return;
     Machine& machine = *pass.machines[worker];
     const size_t traceBegin = machine.trace().size();
     pass.roots[i] = machine.run(shapes[i], static_cast<uint32_t>(i));
@@ -109,6 +110,7 @@ DeriveResult derive(const Program& program, const std::vector<InitialShape>& sha
     shared.occluders = occluders.get();
     shared.collectOccluders = false;
     shared.shapes = 0;
+    shared.steps = 0;
   }
   Pass pass = runPass(shared, shapes);
 
@@ -125,13 +127,21 @@ DeriveResult derive(const Program& program, const std::vector<InitialShape>& sha
     if (pass.derived[i]) roots.push_back(std::move(pass.roots[i]));
   }
   result.attributes = std::move(pass.attributes);
+  bool complete = true;
+  result.scene =
+      merge(outputs, roots,
+            {program, environment.materials, environment.attributes, options.sources}, complete);
+  if (!complete) {
+    result.diagnostics.warning("too-many-reports", Span{},
+                               "the rules report or print more than can be kept",
+                               "report sums, or report in rules that are called less often");
+    shared.limitReached = true;
+  }
   const bool cancelled = options.cancel && options.cancel->load(std::memory_order_relaxed);
   result.end = cancelled             ? DeriveEnd::Cancelled
                : shared.limitReached ? DeriveEnd::LimitReached
                                      : DeriveEnd::Done;
   result.diagnostics.sortByPlace();
-  result.scene = merge(outputs, roots,
-                       {program, environment.materials, environment.attributes, options.sources});
   return result;
 }
 

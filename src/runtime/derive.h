@@ -25,7 +25,8 @@
 namespace gable {
 
 /// What a derivation may use up. Exceeding one ends the initial shape that did it with a
-/// diagnostic; what was made until then is kept.
+/// diagnostic, and where the limit is on all initial shapes together those that wait as well; what
+/// was made until then is kept.
 struct Limits {
   uint32_t depth = 1024;
   uint32_t functionDepth = 1024;
@@ -36,6 +37,13 @@ struct Limits {
   uint64_t shapes = 50'000'000;
   /// Positions in meshes of leaves, instances not expanded.
   uint64_t vertices = 200'000'000;
+  /// Positions of the mesh of one shape.
+  uint64_t shapeVertices = 4'000'000;
+  /// Operations and calls, each weighed by the size of what it works on; all initial shapes
+  /// together.
+  uint64_t steps = 4'000'000'000;
+  /// By how many bytes the process may grow; 0 for no limit.
+  uint64_t bytes = uint64_t{4} << 30;
   /// Wall-clock seconds; 0 for no limit.
   double seconds = 0;
 };

@@ -249,12 +249,27 @@ bool Machine::overLimit(const char* code, std::string message, std::string hint)
   return false;
 }
 
-// The clock, the user's wish to stop, and what all workers have made together.
-bool Machine::rareTick() {
-  if (stackNearlyFull()) {
-    return overLimit("recursion-too-deep", "rules and functions call each other too deeply",
-                     "end the recursion with a case");
-  }
+bool Machine::stackFull() {
+  return overLimit("recursion-too-deep", "rules and functions call each other too deeply",
+                   "end the recursion with a case");
+}
+
+// A limit on all initial shapes together.
+bool Machine::overTotal(const char* code, std::string message, std::string hint) {
+  shared_.exhausted.store(true, std::memory_order_relaxed);
+  return overLimit(code, std::move(message), std::move(hint));
+}
+
+uint64_t Machine::lengthOf(const Value& v) const {
+  return v.isArray() ? pool_->array(v).size() * sizeof(double) : pool_->text(v.id).size();
+}
+
+// The clock, memory, the user's wish to stop, and what all workers have made and done together.
+bool Machine::look() {
+  const Limits& limits = options().limits;
+  workSinceMemory_ += work_;
+  const uint64_t steps = shared_.steps.fetch_add(work_, std::memory_order_relaxed) + work_;
+  work_ = 0;
   if (options().cancel && options().cancel->load(std::memory_order_relaxed)) {
     aborted_ = true;
     return false;
@@ -263,18 +278,30 @@ bool Machine::rareTick() {
       shared_.shapes.fetch_add(shapes_ - shapesCounted_, std::memory_order_relaxed) + shapes_ -
       shapesCounted_;
   shapesCounted_ = shapes_;
-  if (total > options().limits.shapes) {
-    return overLimit(
-        "too-many-shapes",
-        "the rules make more than " + std::to_string(options().limits.shapes) + " shapes",
-        "end a recursion earlier, or raise the limit on shapes");
+  if (total > limits.shapes) {
+    return overTotal("too-many-shapes",
+                     "the rules make more than " + std::to_string(limits.shapes) + " shapes",
+                     "end a recursion earlier, or raise the limit on shapes");
+  }
+  if (steps > limits.steps) {
+    return overTotal("too-many-steps",
+                     "the derivation takes more than " + std::to_string(limits.steps) + " steps",
+                     "end a recursion earlier, or raise the limit on steps");
   }
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - shared_.start;
-  if (options().limits.seconds > 0 && spent.count() > options().limits.seconds) {
-    return overLimit(
-        "out-of-time",
-        "the derivation takes longer than " + numberText(options().limits.seconds) + " seconds",
-        "raise the limit on seconds, or derive fewer shapes");
+  if (limits.seconds > 0 && spent.count() > limits.seconds) {
+    return overTotal("out-of-time",
+                     "the derivation takes longer than " + numberText(limits.seconds) + " seconds",
+                     "raise the limit on seconds, or derive fewer shapes");
+  }
+  if (limits.bytes > 0 && workSinceMemory_ >= kStepsBetweenMemory) {
+    workSinceMemory_ = 0;
+    if (residentBytes() > shared_.bytesBefore + limits.bytes) {
+      return overTotal(
+          "out-of-memory",
+          "the derivation takes more than " + std::to_string(limits.bytes >> 20) + " megabytes",
+          "raise the limit on memory, or derive fewer shapes");
+    }
   }
   return true;
 }

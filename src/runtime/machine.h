@@ -14,6 +14,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/memory.h"
 #include "base/small_buffer.h"
 #include "program/program.h"
 #include "runtime/array_ops.h"
@@ -33,12 +34,16 @@ struct DeriveShared {
   Environment& environment;
   std::chrono::steady_clock::time_point start;
   std::atomic<uint64_t> shapes{0};
-  std::atomic<uint64_t> vertices{0};
+  std::atomic<uint64_t> steps{0};
+  /// What the process held before.
+  const uint64_t bytesBefore = residentBytes();
   /// The occluders of the first pass; null while it runs and when no rule asks.
   const OccluderIndex* occluders = nullptr;
   /// The first pass of a derivation whose rules ask about other shapes.
   bool collectOccluders = false;
   std::atomic<bool> limitReached{false};
+  /// A limit on all initial shapes together has been reached: none begins any more.
+  std::atomic<bool> exhausted{false};
 };
 
 /// What an activation does to its shape in passing: a rule run in place, the turns of a repeat, or
@@ -134,6 +139,10 @@ class Machine final : public Services {
   void leaf() override;
 
  private:
+  static constexpr uint64_t kStepsBetweenLooks = 1024;
+  /// A look at memory takes microseconds.
+  static constexpr uint64_t kStepsBetweenMemory = 16384;
+
   struct FunctionFrame {
     const Instruction* returnTo;
     uint32_t parameters;
@@ -244,6 +253,7 @@ class Machine final : public Services {
   void popShape();
   void dropShape();
   void leaveBracket();
+  void shapeTooLarge(const OpSpec& spec);
   void makeLeaf(Activation& a, StringId name, uint32_t source);
   /// Hands the leaves on while they are still in the nearest cache.
   void passLeaves() {
@@ -316,12 +326,20 @@ class Machine final : public Services {
     return tick();
   }
   bool countVertices(size_t count);
-  /// Every operation and shape: the stack's end, and now and then all that costs more to look at.
-  bool tick() {
-    if (!stackNearlyFull() && (++ticks_ & 1023) != 0) return true;
-    return rareTick();
+  /// Counts work. Every so often it looks at the limits; false when one ends the initial shape.
+  bool tick(uint64_t steps = 1) {
+    if (stackNearlyFull()) return stackFull();
+    work_ += steps;
+    return work_ < kStepsBetweenLooks || look();
   }
-  bool rareTick();
+  bool look();
+  bool stackFull();
+  bool overTotal(const char* code, std::string message, std::string hint);
+  /// Texts and arrays cost by their length; the next tick() looks at the limits.
+  void weigh(const Value& v) {
+    if (v.type >= ValueType::String) work_ += lengthOf(v) / 16;
+  }
+  uint64_t lengthOf(const Value& v) const;
   bool stackNearlyFull() const { return stackTop_ + kStackReserve > kStackSize; }
   Span here() const;
   std::string shapePath() const;
@@ -398,7 +416,9 @@ class Machine final : public Services {
   uint64_t shapesCounted_ = 0;
   uint64_t shapesExpanded_ = 0;
   uint64_t vertices_ = 0;
-  uint32_t ticks_ = 0;
+  /// Steps since the last look at the limits, and since the last look at memory.
+  uint64_t work_ = 0;
+  uint64_t workSinceMemory_ = 0;
   uint64_t cacheHits_ = 0;
   /// The instruction at work, for messages.
   const Instruction* instruction_ = nullptr;

@@ -61,9 +61,10 @@ bool Machine::evaluate(const Instruction& i) {
 void Machine::put(const ValueOrError& r, const Instruction& i) {
   if (r.error) {
     instruction_ = &i;
-    warn("wrong-type", r.error, "");
+    warn(r.code, r.error, "");
   }
   push(r.value);
+  weigh(r.value);
 }
 
 void Machine::binary(const Instruction& i) {
@@ -306,7 +307,9 @@ void Machine::callBuiltin(const Instruction& i) {
   FunctionCall call({stack_ + stackTop_, i.x}, *seen_, *this);
   call.place(fileOf(i), hashCombine(salt_, program_.sites[pcOf(&i)]));
   instruction_ = &i;
-  push(program_.builtinFunctions[i.a]->call(call));
+  const Value v = program_.builtinFunctions[i.a]->call(call);
+  push(v);
+  weigh(v);
 }
 
 }  // namespace gable

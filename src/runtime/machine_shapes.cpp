@@ -24,6 +24,16 @@ bool occludes(const OpSpec& spec) {
   return name == "comp" || name == "offset";
 }
 
+uint64_t verticesOf(const Shape& s) {
+  return s.geometry.kind == GeometryKind::Mesh ? s.geometry.mesh->positions.size() : 0;
+}
+
+uint64_t stepsOf(const OpSpec& spec, const Shape& s) {
+  // A primitive is turned into a mesh by the operations that take long.
+  const uint64_t vertices = verticesOf(s);
+  return spec.stepsPerVertex > 1 ? (8 + vertices) * spec.stepsPerVertex : 1 + vertices;
+}
+
 }  // namespace
 
 void Machine::execute() {
@@ -360,9 +370,9 @@ bool Machine::splitAsBefore(const Instruction& i, Activation& a, const Value* va
 }
 
 void Machine::operation(const Instruction& i, const Value* constants) {
-  if (!tick()) return;
   Activation& a = current();
   const OpSpec& spec = *program_.operations[i.a];
+  if (!tick(stepsOf(spec, a.shape))) return;
   const BlockCode* block = i.y > 0 ? &program_.blocks[i.y - 1] : nullptr;
   const uint32_t blockValues = block ? block->valueCount : 0;
   const uint32_t argumentsOnStack = constants ? 0 : i.x;
@@ -396,7 +406,13 @@ void Machine::operation(const Instruction& i, const Value* constants) {
     dropShape();
     return;
   }
-  if (block) beginChildren(i, childBase, pieceBase);
+  if (!block) {
+    const uint64_t vertices = verticesOf(a.shape);
+    work_ += vertices;
+    if (vertices > options().limits.shapeVertices) shapeTooLarge(spec);
+    return;
+  }
+  beginChildren(i, childBase, pieceBase);
 }
 
 // Starts on the children that an operation has left beyond the marks.
@@ -418,6 +434,15 @@ void Machine::beginChildren(const Instruction& i, uint32_t childBase, uint32_t p
   a.block = static_cast<uint32_t>(i.y - 1);
   a.pc = pc_;
   nextChild();
+}
+
+// The shape itself goes: a leaf of that size would be too much for what comes after.
+void Machine::shapeTooLarge(const OpSpec& spec) {
+  current().shape.geometry = Geometry{};
+  overLimit("too-much-geometry",
+            "'" + std::string(spec.name) + "' gives the shape more than " +
+                std::to_string(options().limits.shapeVertices) + " vertices",
+            "end the recursion earlier, or divide the shape first");
 }
 
 void Machine::makeLeaf(Activation& a, StringId name, uint32_t source) {

@@ -57,6 +57,7 @@ class Merger {
   }
 
   Scene take() { return std::move(scene_); }
+  bool complete() const { return !full(); }
 
  private:
   struct Worker {
@@ -193,10 +194,13 @@ class Merger {
     return at->second;
   }
 
+  bool full() const { return events_ > input_.mostEvents || eventBytes_ > input_.mostEventBytes; }
+
+  // Instances multiply: a few nested calls can stand for more prints than memory holds.
   void replay(uint32_t worker, uint32_t prototype) {
     const Output& out = outputs_[worker];
     const OutputPrototype& p = out.prototypes[prototype];
-    if (!p.speaks) return;
+    if (!p.speaks || full()) return;
     uint32_t event = 0;
     for (uint32_t i = 0; i <= p.range.instanceCount; ++i) {
       for (; event < p.eventCount && out.events[p.firstEvent + event].instancesBefore == i;
@@ -211,10 +215,16 @@ class Merger {
 
   void speak(const OutputEvent& e) {
     const ValuePool& pool = *input_.program.pool;
-    if (e.print)
-      scene_.prints.emplace_back(pool.text(e.text));
-    else
-      scene_.reports.push_back({std::string(pool.text(e.text)), plainValue(e.value, pool)});
+    const std::string_view text = pool.text(e.text);
+    ++events_;
+    eventBytes_ += text.size();
+    if (e.print) {
+      if (!full()) scene_.prints.emplace_back(text);
+      return;
+    }
+    PlainValue value = plainValue(e.value, pool);
+    eventBytes_ += value.text.size();
+    if (!full()) scene_.reports.push_back({std::string(text), std::move(value)});
   }
 
   std::vector<Output>& outputs_;
@@ -222,6 +232,7 @@ class Merger {
   std::vector<Worker> workers_;
   /// What was asked for last, and its number.
   std::pair<uint32_t, uint32_t> lastName_{kUnset, 0}, lastSource_{kUnset, 0};
+  uint64_t events_ = 0, eventBytes_ = 0;
   Scene scene_;
   std::unordered_map<ShareKey, uint32_t, ShareKeyHash> byKey_;
   std::unordered_multimap<uint64_t, uint32_t> meshNumbers_;
@@ -262,9 +273,10 @@ AttributeValue plainAttribute(const std::string& name, const Value& v, const Val
 }
 
 Scene merge(std::vector<Output>& outputs, const std::vector<OutputRoot>& roots,
-            const MergeInput& input) {
+            const MergeInput& input, bool& complete) {
   Merger merger(outputs, input);
   for (const OutputRoot& r : roots) merger.addRoot(r);
+  complete = merger.complete();
   Scene scene = merger.take();
   outputs.clear();
   return scene;

@@ -90,13 +90,16 @@ struct MergeInput {
   const MaterialTable& materials;
   const AttributePool& attributes;
   const Sources* sources = nullptr;
+  /// Reports and prints, instances expanded, and the bytes of their texts.
+  uint64_t mostEvents = 20'000'000;
+  uint64_t mostEventBytes = uint64_t{1} << 30;
 };
 
 PlainValue plainValue(const Value& v, const ValuePool& pool);
 AttributeValue plainAttribute(const std::string& name, const Value& v, const ValuePool& pool);
 
-/// Empties the outputs.
+/// Empties the outputs. `complete` is false when there were more reports and prints than allowed.
 Scene merge(std::vector<Output>& outputs, const std::vector<OutputRoot>& roots,
-            const MergeInput& input);
+            const MergeInput& input, bool& complete);
 
 }  // namespace gable

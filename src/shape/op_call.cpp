@@ -9,7 +9,9 @@ double component(const Vec3& v, Axis a) { return v[static_cast<size_t>(a)]; }
 
 void OpCall::emit(Shape child, uint32_t slot, uint32_t piece) {
   child.path = hashCombine(hashCombine(shape_.path, place_.site), uint64_t{slot} << 32 | piece);
-  block_->children->push_back({std::move(child), slot});
+  // More than any limit on width allows: the runtime will refuse them all.
+  constexpr size_t kMost = 1'000'000;
+  if (block_->children->size() < kMost) block_->children->push_back({std::move(child), slot});
 }
 
 void OpCall::emitParts(Axis axis, bool flatten, std::span<const SplitPiece> pieces,
@@ -38,6 +40,20 @@ void OpCall::emitParts(Axis axis, bool flatten, std::span<const SplitPiece> piec
     child.slot = pieces[i].slot;
     makePart(shape_, plan, pieces[i], plan.first + i, child.shape);
   }
+}
+
+Value FunctionCall::result(std::string_view text) const {
+  if (text.size() <= kMaxTextLength) return services_.pool().string(text);
+  return fail("text-too-long", "the text would be longer than 16 megabytes", "",
+              services_.pool().string(""));
+}
+
+Value FunctionCall::result(Array a) const {
+  if (a.size() <= kMaxArraySize) return services_.pool().intern(std::move(a));
+  Array none;
+  none.element = a.element;
+  return fail("array-too-large", "the array would have more than 100000 elements", "",
+              services_.pool().intern(std::move(none)));
 }
 
 Value FunctionCall::fail(const char* code, std::string message, std::string hint,

@@ -224,8 +224,9 @@ class FunctionCall {
     return has(i) ? text(i) : otherwise;
   }
   const Array& array(size_t i) const { return services_.pool().array(args_[i]); }
-  Value result(std::string_view text) const { return services_.pool().string(text); }
-  Value result(Array a) const { return services_.pool().intern(std::move(a)); }
+  /// A text or an array; one that is longer than allowed is reported, and empty.
+  Value result(std::string_view text) const;
+  Value result(Array a) const;
 
   Services& services() const { return services_; }
   std::string_view file() const { return file_; }

@@ -7,7 +7,7 @@ from .tree import Finding, line_at
 
 PAGE = "docs/reference/diagnostics.md"
 # A code is a kebab-case text that is the first argument of a call, or of a braced value, of such a name.
-CODE = re.compile(r'\b(?:\w*(?:[eE]rror|[wW]arn|[wW]arning|[fF]ail|[fF]ailed|[fF]ailure|[nN]ote|Status|refuse|reject)'
+CODE = re.compile(r'\b(?:\w*(?:[eE]rror|[wW]arn|[wW]arning|[fF]ail|[fF]ailed|[fF]ailure|[nN]ote|Status|refuse|reject|over(?:Limit|Total))'
                   r'\w*\s*[({]+\s*(?:[\w.:]+,\s*)?|code = )"([a-z0-9]+(?:-[a-z0-9]+)+)"')
 ROW = re.compile(r"^\| `([a-z0-9-]+)` \|", re.M)
 

@@ -26,7 +26,10 @@ Value sum(FunctionCall& call) {
     return Value::of(std::accumulate(a.numbers.begin(), a.numbers.end(), 0.0));
   }
   std::string all;
-  for (const StringId s : a.strings) all += call.services().pool().text(s);
+  for (const StringId s : a.strings) {
+    all += call.services().pool().text(s);
+    if (all.size() > kMaxTextLength) break;
+  }
   return call.result(all);
 }
 

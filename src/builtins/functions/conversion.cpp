@@ -26,7 +26,7 @@ Value toBool(FunctionCall& call) {
 
 Value toText(FunctionCall& call) {
   ValuePool& pool = call.services().pool();
-  return pool.string(pool.str(call.arg(0)));
+  return call.result(pool.str(call.arg(0)));
 }
 
 Value toSelector(FunctionCall& call) { return Value::selector(call.arg(0).id); }

@@ -212,7 +212,9 @@ template <Misfit misfit>
 Value sorted(FunctionCall& call) {
   const bool array = call.arg(0).isArray();
   ValuePool& pool = call.services().pool();
-  const Paths given = array ? stringsOf(call.array(0), pool) : itemsOf(call.text(0));
+  const std::vector<std::string_view> items =
+      array ? std::vector<std::string_view>() : itemsOf(call.text(0));
+  const Paths given = array ? stringsOf(call.array(0), pool) : Paths(items.begin(), items.end());
   const double limit = call.number(2, 0);
   Paths out;
   for (Ranked& r : ranked(call, given, call.text(1), misfit)) {

@@ -14,7 +14,7 @@ namespace gable {
 
 namespace {
 
-using Items = std::vector<std::string>;
+using Items = std::vector<std::string_view>;
 
 Items items(const FunctionCall& call) { return itemsOf(call.text(0)); }
 Value list(const FunctionCall& call, const Items& all) { return call.result(listOf(all)); }
@@ -100,15 +100,15 @@ Value listRemove(FunctionCall& call) {
 template <bool keepMatching>
 Value filtered(FunctionCall& call) {
   Items kept;
-  for (std::string& item : items(call)) {
-    if (matches(item, call.text(1)) == keepMatching) kept.push_back(std::move(item));
+  for (const std::string_view item : items(call)) {
+    if (matches(item, call.text(1)) == keepMatching) kept.push_back(item);
   }
   return list(call, kept);
 }
 
 Value listClean(FunctionCall& call) {
   Items all = items(call);
-  all.erase(std::remove(all.begin(), all.end(), std::string()), all.end());
+  all.erase(std::remove(all.begin(), all.end(), std::string_view()), all.end());
   return list(call, all);
 }
 
@@ -121,16 +121,25 @@ Value listTerminate(FunctionCall& call) {
 Value listFromArray(FunctionCall& call) {
   const Array& a = call.array(0);
   const ValuePool& pool = call.services().pool();
-  Items all;
-  for (size_t i = 0; i < a.size(); ++i) {
+  std::vector<std::string> all;
+  size_t length = 0;
+  for (size_t i = 0; i < a.size() && length <= kMaxTextLength; ++i) {
     const bool text = a.element == ValueType::String;
     all.push_back(text ? std::string(pool.text(a.strings[i]))
                        : pool.str({a.element, Unit::Absolute, 0, a.numbers[i]}));
+    length += all.back().size();
   }
-  return list(call, all);
+  return call.result(listOf(all));
 }
 
-Value listToArray(FunctionCall& call) { return stringArray(items(call), call.services().pool()); }
+Value listToArray(FunctionCall& call) {
+  const Items all = items(call);
+  if (all.size() <= kMaxArraySize) {
+    return stringArray({all.begin(), all.end()}, call.services().pool());
+  }
+  return call.fail("array-too-large", "the list has more items than an array may have",
+                   "arrays have up to 100000 elements", stringArray({}, call.services().pool()));
+}
 
 constexpr ParamSpec kList = {"stringList", ParamType::String, "Items, each ended by a semicolon."};
 constexpr ParamSpec kSearch = {"searchString", ParamType::String,

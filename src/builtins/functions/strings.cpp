@@ -92,9 +92,9 @@ std::vector<std::string> splitAtText(std::string_view text, std::string_view del
 
 std::vector<std::string> splitAtRegex(std::string_view text, const Regex& regex) {
   std::vector<std::string> parts;
-  size_t from = 0, search = 0;
+  size_t from = 0, search = 0, work = 4 * Regex::kMaxWork;
   while (search <= text.size() && parts.size() < kMaxArraySize) {
-    const Regex::Match m = regex.search(text, search);
+    const Regex::Match m = regex.search(text, search, &work);
     if (!m.found) break;
     // An empty match at either end of what is left would make empty parts without end.
     if (m.end == m.begin && (m.begin == from || m.begin >= text.size())) {
@@ -180,7 +180,7 @@ Value replace(FunctionCall& call) {
   for (size_t at = text.find(old); at != kNone; at = text.find(old, from)) {
     out.append(text.substr(from, at - from)).append(by);
     from = at + old.size();
-    if (out.size() > (size_t{1} << 26)) break;
+    if (out.size() > kMaxTextLength) break;
   }
   return call.result(out.append(text.substr(from)));
 }

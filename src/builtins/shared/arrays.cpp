@@ -27,21 +27,32 @@ std::vector<std::string> stringsOf(const Array& a, const ValuePool& pool) {
   return out;
 }
 
-std::vector<std::string> itemsOf(std::string_view list) {
-  std::vector<std::string> items;
+std::vector<std::string_view> itemsOf(std::string_view list) {
+  std::vector<std::string_view> items;
   while (!list.empty()) {
     const size_t end = std::min(list.find(';'), list.size());
-    items.emplace_back(list.substr(0, end));
+    items.push_back(list.substr(0, end));
     list.remove_prefix(std::min(end + 1, list.size()));
   }
   return items;
 }
 
-std::string listOf(const std::vector<std::string>& items) {
+namespace {
+
+template <class Text>
+std::string listed(const std::vector<Text>& items) {
   std::string out;
-  for (const std::string& s : items) out += s + ";";
+  for (const Text& s : items) {
+    out.append(s).push_back(';');
+    if (out.size() > kMaxTextLength) break;
+  }
   return out;
 }
+
+}  // namespace
+
+std::string listOf(const std::vector<std::string>& items) { return listed(items); }
+std::string listOf(const std::vector<std::string_view>& items) { return listed(items); }
 
 namespace {
 

@@ -12,18 +12,16 @@
 
 namespace gable {
 
-/// As many elements as an array may have.
-constexpr size_t kMaxArraySize = 100000;
-
 /// A row of strings.
 Value stringArray(const std::vector<std::string>& items, ValuePool& pool);
 /// The elements of a string array as texts.
 std::vector<std::string> stringsOf(const Array& a, const ValuePool& pool);
 
-/// The items of a string list ("a;b;"); an item after the last semicolon counts too.
-std::vector<std::string> itemsOf(std::string_view list);
-/// A string list, each item ended by a semicolon.
+/// The items of a string list ("a;b;"), parts of its text; an item after the last semicolon counts.
+std::vector<std::string_view> itemsOf(std::string_view list);
+/// A string list, each item ended by a semicolon; one that grows beyond kMaxTextLength ends there.
 std::string listOf(const std::vector<std::string>& items);
+std::string listOf(const std::vector<std::string_view>& items);
 
 /// < 0, 0, > 0: numbers, texts by bytes, arrays row by row; of equal rows the shorter is less.
 int orderOf(const Value& a, const Value& b, const ValuePool& pool);

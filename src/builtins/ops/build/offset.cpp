@@ -193,8 +193,8 @@ constexpr ParamSpec kParams[] = {
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
-    {"offset", "build", "Moves the outline of each face inward or outward.", kSignatures,
-     applyOffset},
+    heavy({"offset", "build", "Moves the outline of each face inward or outward.", kSignatures,
+           applyOffset}),
 };
 
 }  // namespace

@@ -48,10 +48,11 @@ constexpr Signature kCleanup[] = {{kCleanupParams}};
 constexpr Signature kNone[] = {{}};
 
 constexpr OpSpec kSpecs[] = {
-    {"cleanupGeometry", "edit", "Unites vertices and coplanar faces and drops degenerate ones.",
-     kCleanup, applyCleanup},
-    {"trim", "edit", "Cuts the geometry by the trim planes that a component split left.", kNone,
-     applyTrim, BlockKind::None, kUsesTrim},
+    heavy({"cleanupGeometry", "edit",
+           "Unites vertices and coplanar faces and drops degenerate ones.", kCleanup,
+           applyCleanup}),
+    heavy({"trim", "edit", "Cuts the geometry by the trim planes that a component split left.",
+           kNone, applyTrim, BlockKind::None, kUsesTrim}),
 };
 
 }  // namespace

@@ -182,7 +182,8 @@ constexpr ParamSpec kParams[] = {
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
-    {"convexify", "edit", "Cuts concave faces into convex ones.", kSignatures, applyConvexify},
+    heavy(
+        {"convexify", "edit", "Cuts concave faces into convex ones.", kSignatures, applyConvexify}),
 };
 
 }  // namespace

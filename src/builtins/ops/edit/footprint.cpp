@@ -50,8 +50,8 @@ Status applyFootprint(OpCall& call) {
 constexpr Signature kNone[] = {{}};
 
 constexpr OpSpec kSpecs[] = {
-    {"footprint", "edit", "Replaces the geometry by its outline on the ground of the scope.", kNone,
-     applyFootprint},
+    heavy({"footprint", "edit", "Replaces the geometry by its outline on the ground of the scope.",
+           kNone, applyFootprint}),
 };
 
 }  // namespace

@@ -316,17 +316,18 @@ constexpr Signature kPyramid[] = {{kAngle}, {kValue}};
 constexpr Signature kRidge[] = {{kAngle}, {kValue}};
 
 constexpr OpSpec kSpecs[] = {
-    {"roofHip", "roof", "Puts a hip roof on each face: a slope rises from every edge.", kHip,
-     applyHip},
-    {"roofGable", "roof", "Puts a gable roof on each face: slopes at the eaves, upright ends.",
-     kGable, applyGable},
-    {"roofShed", "roof", "Puts a shed roof on each face: one slope that rises from an edge.", kShed,
-     applyShed},
-    {"roofPyramid", "roof", "Joins the edges of each face to a point above its middle.", kPyramid,
-     applyPyramid},
-    {"roofRidge", "roof",
-     "Puts two slopes on each face that meet in one ridge along the scope's x.", kRidge,
-     applyRidge},
+    heavy({"roofHip", "roof", "Puts a hip roof on each face: a slope rises from every edge.", kHip,
+           applyHip}),
+    heavy({"roofGable", "roof",
+           "Puts a gable roof on each face: slopes at the eaves, upright ends.", kGable,
+           applyGable}),
+    heavy({"roofShed", "roof", "Puts a shed roof on each face: one slope that rises from an edge.",
+           kShed, applyShed}),
+    heavy({"roofPyramid", "roof", "Joins the edges of each face to a point above its middle.",
+           kPyramid, applyPyramid}),
+    heavy({"roofRidge", "roof",
+           "Puts two slopes on each face that meet in one ridge along the scope's x.", kRidge,
+           applyRidge}),
 };
 
 }  // namespace

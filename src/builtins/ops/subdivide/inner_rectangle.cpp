@@ -180,11 +180,12 @@ constexpr Signature kSignatures[] = {{kParams}};
 constexpr Signature kNone[] = {{}};
 
 constexpr OpSpec kSpecs[] = {
-    {"innerRectangle", "subdivide",
-     "Gives out the largest rectangle in each face, and what remains.", kSignatures,
-     applyInnerRectangle, BlockKind::Selectors, kPure, "shape remainder"},
-    {"innerRect", "subdivide", "Replaces each face by the largest rectangle in it along the scope.",
-     kNone, applyInnerRect},
+    heavy({"innerRectangle", "subdivide",
+           "Gives out the largest rectangle in each face, and what remains.", kSignatures,
+           applyInnerRectangle, BlockKind::Selectors, kPure, "shape remainder"}),
+    heavy({"innerRect", "subdivide",
+           "Replaces each face by the largest rectangle in it along the scope.", kNone,
+           applyInnerRect}),
 };
 
 }  // namespace

@@ -318,18 +318,22 @@ constexpr Signature kOSignatures[] = {{kOParams}};
 
 constexpr uint32_t kEffects = kReadsWorld | kReadsWorldByWord;
 constexpr OpSpec kSpecs[] = {
-    {"setback", "subdivide", "Moves selected edges of each face inward and gives out the strips.",
-     kSetback, applySetback, BlockKind::Selectors, kEffects, "remainder"},
-    {"setbackPerEdge", "subdivide", "As setback, with a distance that is worked out for each edge.",
-     kSetback, applySetback, BlockKind::Selectors, kEffects, "remainder"},
-    {"setbackToArea", "subdivide", "As setback, by such a distance that a given area remains.",
-     kToArea, applySetbackToArea, BlockKind::Selectors, kEffects, "remainder"},
-    {"shapeL", "subdivide", "Gives out an L of a front and a left wing, and what remains.",
-     kLSignatures, applyShapeL, BlockKind::Selectors, kPure, "shape remainder"},
-    {"shapeU", "subdivide", "Gives out a U of a front, a right and a left wing, and what remains.",
-     kUSignatures, applyShapeU, BlockKind::Selectors, kPure, "shape remainder"},
-    {"shapeO", "subdivide", "Gives out a ring of four wings, and what remains.", kOSignatures,
-     applyShapeO, BlockKind::Selectors, kPure, "shape remainder"},
+    heavy({"setback", "subdivide",
+           "Moves selected edges of each face inward and gives out the strips.", kSetback,
+           applySetback, BlockKind::Selectors, kEffects, "remainder"}),
+    heavy({"setbackPerEdge", "subdivide",
+           "As setback, with a distance that is worked out for each edge.", kSetback, applySetback,
+           BlockKind::Selectors, kEffects, "remainder"}),
+    heavy({"setbackToArea", "subdivide",
+           "As setback, by such a distance that a given area remains.", kToArea, applySetbackToArea,
+           BlockKind::Selectors, kEffects, "remainder"}),
+    heavy({"shapeL", "subdivide", "Gives out an L of a front and a left wing, and what remains.",
+           kLSignatures, applyShapeL, BlockKind::Selectors, kPure, "shape remainder"}),
+    heavy({"shapeU", "subdivide",
+           "Gives out a U of a front, a right and a left wing, and what remains.", kUSignatures,
+           applyShapeU, BlockKind::Selectors, kPure, "shape remainder"}),
+    heavy({"shapeO", "subdivide", "Gives out a ring of four wings, and what remains.", kOSignatures,
+           applyShapeO, BlockKind::Selectors, kPure, "shape remainder"}),
 };
 
 }  // namespace

@@ -119,8 +119,8 @@ constexpr ParamSpec kParams[] = {
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
-    {"splitArea", "subdivide", "Divides a flat shape into parts of given areas.", kSignatures,
-     applySplitArea, BlockKind::Split},
+    heavy({"splitArea", "subdivide", "Divides a flat shape into parts of given areas.", kSignatures,
+           applySplitArea, BlockKind::Split}),
 };
 
 }  // namespace

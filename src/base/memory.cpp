@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Linux tells in /proc/self/statm: two numbers of pages, the second those that are resident.
+
+#include "base/memory.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <cstddef>
+
+namespace gable {
+
+uint64_t residentBytes() {
+  const int file = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  if (file < 0) return 0;
+  char text[128];
+  const ssize_t n = ::read(file, text, sizeof text);
+  ::close(file);
+  if (n <= 0) return 0;
+  const char* const end = text + n;
+  uint64_t total = 0, resident = 0;
+  const auto first = std::from_chars(text, end, total);
+  if (first.ec != std::errc() || first.ptr == end) return 0;
+  if (std::from_chars(first.ptr + 1, end, resident).ec != std::errc()) return 0;
+  return resident * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace gable
