@@ -55,7 +55,6 @@ std::string Project::rootFor(const std::string& ruleFile) {
   return folder.string();
 }
 
-// The canonical path of a candidate when it is a file below the root.
 std::string Project::inside(const std::string& candidate) const {
   std::error_code error;
   if (!fs::is_regular_file(candidate, error)) return {};

@@ -31,6 +31,8 @@ class Project final : public Assets {
   const std::string& root() const { return root_; }
   /// The file on disk of a project path; empty when there is none inside of the project.
   std::string locate(std::string_view path, std::string_view fromFile) const;
+  /// The canonical path of a file on disk when it is a plain file below the root, else empty.
+  std::string inside(const std::string& candidate) const;
   /// "rules/town.cga" for a file below the root, else the path itself.
   std::string projectPath(const std::string& file) const;
   /// A model file by its project path, with the textures in it known to texture() from then on.
@@ -51,7 +53,6 @@ class Project final : public Assets {
     Ref<AssetModel> model;
     std::string why;
   };
-  std::string inside(const std::string& candidate) const;
   Result<Asset> read(const std::string& file, bool zUp) const;
   const std::vector<std::string>& files();
 

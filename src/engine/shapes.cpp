@@ -159,7 +159,12 @@ Shapes Shapes::parse(const std::string& content, const std::string& name) {
   auto impl = std::make_shared<Impl>();
   AssetOptions options;
   options.path = name;
-  options.readFile = [](const std::string& path) { return readFile(path, kLargestShapeFile); };
+  // Buffers are read from the file's own folder and below, nowhere else.
+  options.readFile = [&name](const std::string& path) -> Result<std::string> {
+    const std::string found = Project(folderOf(name)).inside(path);
+    if (found.empty()) return Error{"file-missing", "there is no such file in the folder", {}};
+    return readFile(found, kLargestShapeFile);
+  };
   Result<ShapeFile> file = readShapes(content, options);
   if (!file.ok()) {
     impl->messages.push_back(errorMessage(file.error()));

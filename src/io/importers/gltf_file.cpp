@@ -14,6 +14,8 @@ namespace {
 
 // Accessors without a buffer are zeros and cost the file nothing, so they are bounded.
 constexpr size_t kMostZeros = 1'000'000;
+/// In all buffers together, the last one excepted.
+constexpr uint64_t kMostBytes = uint64_t{1} << 31;
 
 uint32_t wordAt(std::string_view bytes, size_t at) {
   uint32_t v = 0;
@@ -144,8 +146,11 @@ Result<GltfFile> GltfFile::open(std::string_view bytes, const AssetOptions& opti
 }
 
 void GltfFile::loadBuffers(std::string_view chunk, const AssetOptions& options) {
+  uint64_t held = 0;
   for (const JsonValue& b : json_["buffers"].items()) {
     buffers_.emplace_back();
+    // Many buffers may name one large file.
+    if (held > kMostBytes) continue;
     const JsonValue* uri = b.find("uri");
     std::string mime;
     if (!uri) {
@@ -161,6 +166,7 @@ void GltfFile::loadBuffers(std::string_view chunk, const AssetOptions& options) 
         warnings_.push_back("the buffer '" + path + "' is left out: " + bytes.error().message);
       }
     }
+    held += buffers_.back().size();
   }
 }
 

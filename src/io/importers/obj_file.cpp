@@ -111,7 +111,9 @@ class ObjParser {
       out_.corners.push_back(c);
     }
     f.cornerCount = static_cast<uint32_t>(out_.corners.size()) - f.firstCorner;
-    if (f.cornerCount < 3) {
+    // Triangles of a concave face take quadratic time.
+    constexpr uint32_t kMostCorners = 100'000;
+    if (f.cornerCount < 3 || f.cornerCount > kMostCorners) {
       out_.corners.resize(f.firstCorner);
       return false;
     }
