@@ -262,6 +262,8 @@ bool FileRun::readLimit(const Statement& s, Budget& budget) {
     budget.shapes = static_cast<uint64_t>(n);
   else if (s.words[0] == "vertices")
     budget.vertices = static_cast<uint64_t>(n);
+  else if (s.words[0] == "steps")
+    budget.steps = static_cast<uint64_t>(n);
   else if (s.words[0] == "seconds")
     budget.seconds = n;
   else
