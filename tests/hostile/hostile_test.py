@@ -312,9 +312,9 @@ class ShapeFiles(Case):
     def testDeepDocumentsAreRefused(self):
         for name in ("a.geojson", "a.gltf"):
             for opening in ("[", "{\"a\":", "[{\"a\":", "{\"type\":\"GeometryCollection\",\"geometries\":["):
-                self.shapes(name, opening * DEEP, status=1, codes=["shapes-broken"])
+                self.shapes(name, opening * DEEP, status=1, codes=["asset-broken"])
         nested = '{"type":"Polygon","coordinates":' + "[" * DEEP + "1" + "]" * DEEP + "}"
-        self.shapes("a.geojson", nested, status=1, codes=["shapes-broken"])
+        self.shapes("a.geojson", nested, status=1, codes=["asset-broken"])
 
     def testHugeDocumentsAreReadOrRefused(self):
         count = HUGE // 20
