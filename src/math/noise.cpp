@@ -77,7 +77,10 @@ double gradientNoise(const Vec3& p, uint64_t address) {
   return std::clamp(mix(layer(0), layer(1), w), -1.0, 1.0);
 }
 
-double fractalNoise(Vec2 p, int octaves, uint64_t address) {
+namespace {
+
+template <class Place>
+double sumOfOctaves(Place p, int octaves, uint64_t address) {
   double sum = 0, strength = 1, whole = 0;
   for (int i = 0; i < std::clamp(octaves, 1, 16); ++i) {
     sum += strength * gradientNoise(p, hashCombine(address, static_cast<uint64_t>(i)));
@@ -86,6 +89,16 @@ double fractalNoise(Vec2 p, int octaves, uint64_t address) {
     p = p * 2;
   }
   return sum / whole;
+}
+
+}  // namespace
+
+double fractalNoise(Vec2 p, int octaves, uint64_t address) {
+  return sumOfOctaves(p, octaves, address);
+}
+
+double fractalNoise(const Vec3& p, int octaves, uint64_t address) {
+  return sumOfOctaves(p, octaves, address);
 }
 
 }  // namespace gable

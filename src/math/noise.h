@@ -18,5 +18,6 @@ double gradientNoise(const Vec3& p, uint64_t address);
 /// Octaves of it, each twice as fine and half as strong as the one before; in [-1, 1]. From 1 to 16
 /// octaves.
 double fractalNoise(Vec2 p, int octaves, uint64_t address);
+double fractalNoise(const Vec3& p, int octaves, uint64_t address);
 
 }  // namespace gable

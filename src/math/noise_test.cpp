@@ -23,6 +23,7 @@ TEST(Noise, staysInItsRangeAndUsesIt) {
     sum += v;
     EXPECT_LE(std::fabs(fractalNoise(p, 5, 7)), 1);
     EXPECT_LE(std::fabs(gradientNoise(Vec3{p.x, p.y, p.x * p.y}, 7)), 1);
+    EXPECT_LE(std::fabs(fractalNoise(Vec3{p.x, p.y, p.x * p.y}, 5, 7)), 1);
   }
   EXPECT_LT(low, -0.8);
   EXPECT_GT(high, 0.8);

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Noise, and where in the world a shape is. Noise follows from its arguments alone, so that a rule
+// that is given a place as a number can still be shared; only who reads world.* is not.
+
+#include "math/noise.h"
+
+#include <cmath>
+
+#include "builtins/lists.h"
+#include "shape/op_call.h"
+
+namespace gable {
+
+namespace {
+
+// Of every field of noise; a third coordinate tells fields apart.
+constexpr uint64_t kField = 0x6e6f697365ULL;
+constexpr double kMostOctaves = 16;
+
+Value noise(FunctionCall& call) {
+  const double x = call.number(0), y = call.number(1);
+  return Value::of(call.argCount() == 3 ? gradientNoise(Vec3{x, y, call.number(2)}, kField)
+                                        : gradientNoise(Vec2{x, y}, kField));
+}
+
+Value fractal(FunctionCall& call) {
+  const double octaves = call.number(0), x = call.number(1), y = call.number(2);
+  if (!(octaves >= 1 && octaves <= kMostOctaves)) {
+    return call.fail("bad-argument", "fractalNoise takes 1 to 16 octaves",
+                     "such as fractalNoise(4, world.x / 50, world.z / 50)", Value::of(0.0));
+  }
+  const int n = static_cast<int>(octaves);
+  return Value::of(call.argCount() == 4 ? fractalNoise(Vec3{x, y, call.number(3)}, n, kField)
+                                        : fractalNoise(Vec2{x, y}, n, kField));
+}
+
+template <size_t axis>
+Value placeInWorld(FunctionCall& call) {
+  return Value::of(call.services().world().point(call.shape().scope.origin)[axis]);
+}
+
+constexpr ParamSpec kX = {"x", ParamType::Float, "The first coordinate."};
+constexpr ParamSpec kY = {"y", ParamType::Float, "The second coordinate."};
+constexpr ParamSpec kZ = {"z", ParamType::Float, "The third one, or the number of a field."};
+constexpr ParamSpec kOctaves = {"octaves", ParamType::Float,
+                                "How many times finer noise is added, 1 to 16."};
+constexpr ParamSpec kPlaneParams[] = {kX, kY};
+constexpr ParamSpec kSpaceParams[] = {kX, kY, kZ};
+constexpr ParamSpec kFractalPlaneParams[] = {kOctaves, kX, kY};
+constexpr ParamSpec kFractalSpaceParams[] = {kOctaves, kX, kY, kZ};
+constexpr Signature kNoise[] = {{kPlaneParams, ValueType::Float}, {kSpaceParams, ValueType::Float}};
+constexpr Signature kFractal[] = {{kFractalPlaneParams, ValueType::Float},
+                                  {kFractalSpaceParams, ValueType::Float}};
+
+constexpr FunctionSpec kFunctions[] = {
+    {"noise", "noise", "Smooth noise, -1 to 1, that changes over a distance of about 1.", kNoise,
+     noise, kPure, false, true},
+    {"fractalNoise", "noise", "Noise with finer and finer detail, -1 to 1.", kFractal, fractal,
+     kPure, false, true},
+};
+
+constexpr AttributeSpec kAttributes[] = {
+    {"world.x", ValueType::Float, "Place of the scope's origin in the world: metres to the east.",
+     placeInWorld<0>, nullptr, kReadsWorld},
+    {"world.y", ValueType::Float, "Metres above the world's zero.", placeInWorld<1>, nullptr,
+     kReadsWorld},
+    {"world.z", ValueType::Float, "Metres to the south.", placeInWorld<2>, nullptr, kReadsWorld},
+};
+
+}  // namespace
+
+extern const FunctionList kFunctions_noise;
+const FunctionList kFunctions_noise = {kFunctions, kAttributes};
+
+}  // namespace gable
