@@ -178,6 +178,9 @@ class Machine final : public Services {
     bool named = false;
     /// Rules called on the way, and the one whose code comes last.
     uint8_t calls = 0;
+    /// What a part counts as: each call is a shape, and so is a leaf or an end that belongs to
+    /// none.
+    uint32_t shapes = 0;
     uint32_t rule = 0;
     /// The block of the split at the end, plus 1; 0 for a leaf.
     uint32_t block = 0;
@@ -199,7 +202,7 @@ class Machine final : public Services {
     const Frame& axes;
     Vec3 origin;
     /// The scope's axes in the frame of the leaves.
-    const Frame& leafAxes;
+    const Frame* leafAxes;
     /// The scope's axis that it is divided along.
     Vec3 along;
     Vec3 size;
@@ -208,6 +211,11 @@ class Machine final : public Services {
     const LightTrim* trim;
     /// Of the rule call that the parts belong to; null when it is light itself.
     uint32_t* childCount;
+  };
+  /// Where the local frame of a light part lies in the frame of the leaves, and its axes there.
+  struct LightPlace {
+    Vec3 origin;
+    const Frame* axes;
   };
   struct LightMark {
     size_t leaves;
@@ -234,10 +242,8 @@ class Machine final : public Services {
   void makeLightParts(Activation& a);
   bool makeLightPart(const LightSource& from, const PartPlan& plan, const SplitPiece& piece,
                      const LightSlot& slot, uint32_t depth, uint32_t nested);
-  bool finishLightPart(const LightSource& from, LightPart& part, const LightSlot& slot,
-                       uint32_t depth, uint32_t nested);
-  bool splitLightPart(const LightSource& from, const LightPart& part, const LightSlot& slot,
-                      uint32_t depth, uint32_t nested);
+  bool splitLightPart(const LightSource& from, const LightPlace& place, const LightPart& part,
+                      const LightSlot& slot, uint32_t depth, uint32_t nested);
   bool isPlainSplit(const Instruction& at) const;
   const std::vector<LightSlot>& lightSlots(uint32_t block, uint32_t rule);
   LightSlot lightSlot(uint32_t rule, uint32_t entry) const;

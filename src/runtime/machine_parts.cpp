@@ -24,6 +24,9 @@ namespace {
 constexpr uint8_t kMostCalls = 8;
 constexpr uint32_t kMostNested = 8;
 
+// The frame of a rule that works in its own: the local one.
+constexpr Frame kOwnFrame{};
+
 uint32_t unitMesh(GeometryKind kind, bool uv) {
   switch (kind) {
     case GeometryKind::QuadXy: return uv ? kUnitQuadXyUv : kUnitQuadXy;
@@ -98,7 +101,12 @@ Machine::LightSlot Machine::lightSlot(uint32_t rule, uint32_t entry) const {
 const std::vector<Machine::LightSlot>& Machine::lightSlots(uint32_t block, uint32_t rule) {
   std::vector<LightSlot>& slots = splits_[block].slots;
   if (slots.empty()) {
-    for (uint32_t entry : program_.blocks[block].slots) slots.push_back(lightSlot(rule, entry));
+    for (uint32_t entry : program_.blocks[block].slots) {
+      LightSlot slot = lightSlot(rule, entry);
+      const uint32_t own = slot.named ? 1 : 0;
+      slot.shapes = slot.block > 0 ? slot.calls : std::max<uint32_t>(slot.calls + own, 1);
+      slots.push_back(std::move(slot));
+    }
   }
   return slots;
 }
@@ -112,15 +120,14 @@ void Machine::makeLightParts(Activation& a) {
   const std::vector<LightSlot>& slots = lightSlots(a.block, a.rule);
   // Only a part that is light needs to know where the parent lies.
   if (!slots[pieces_[a.childNext].slot].light) return;
-  static const Frame kHere;
-  const Frame& world = flat_ ? worlds_.back() : kHere;
+  const Frame& world = flat_ ? worlds_.back() : kOwnFrame;
   const Frame leafAxes = s.scope.turned || !flat_ ? world * s.scope : world;
   const LightTrim trim{s};
   const LightSource source{world,
                            world.origin,
                            s.scope,
                            s.scope.origin,
-                           leafAxes,
+                           &leafAxes,
                            directionOf(s.scope, a.plan.axis),
                            s.size,
                            s.geometry.kind,
@@ -146,7 +153,8 @@ void Machine::makeLightParts(Activation& a) {
   }
 }
 
-// False when it has to be done the long way; what was written until then is the caller's to drop.
+// The steps of a part in the frame that they work in, and then its leaf, or its parts. False when
+// it has to be done the long way; what was written until then is the caller's to drop.
 bool Machine::makeLightPart(const LightSource& from, const PartPlan& plan, const SplitPiece& piece,
                             const LightSlot& slot, uint32_t depth, uint32_t nested) {
   depth += slot.calls;
@@ -155,55 +163,36 @@ bool Machine::makeLightPart(const LightSource& from, const PartPlan& plan, const
                  from.trim};
   part.size[static_cast<size_t>(plan.axis)] = plan.flat ? 0 : piece.size;
   if (from.childCount && (slot.calls > 0 || slot.named)) ++*from.childCount;
+  LightPlace place{from.place, from.leafAxes};
+  // The rule's frame has the world's axes when the scope has the local ones.
+  if (slot.boundary && from.axes.turned) return false;
+  const bool trimmed = slot.boundary && part.trim && !isFarFromTrim(part);
+  const LightTrim trim{trimmed ? part.trim->shape : current().shape, true,
+                       trimmed ? part.trim->there(part.origin) : Vec3{}};
   if (slot.boundary) {
-    // The rule's frame has the world's axes when the scope has the local ones.
-    if (from.axes.turned) return false;
-    static const Frame kOwn;
-    const Vec3 place = from.place + from.world.direction(part.origin);
-    const bool trimmed = part.trim && !isFarFromTrim(part);
-    const LightTrim trim{trimmed ? part.trim->shape : current().shape, true,
-                         trimmed ? part.trim->there(part.origin) : Vec3{}};
-    part = {&kOwn, {}, part.size, part.kind, false, trimmed ? &trim : nullptr};
-    return finishLightPart({from.world,
-                            place,
-                            kOwn,
-                            {},
-                            from.world,
-                            {},
-                            part.size,
-                            part.kind,
-                            from.materials,
-                            from.attributes,
-                            part.trim,
-                            nullptr},
-                           part, slot, depth, nested);
+    place.origin += from.world.direction(part.origin);
+    place.axes = &from.world;
+    part.parent = &kOwnFrame;
+    part.origin = {};
+    part.trim = trimmed ? &trim : nullptr;
   }
-  return finishLightPart(from, part, slot, depth, nested);
-}
-
-// The steps of a part in the frame that they work in, and then its leaf, or its parts.
-bool Machine::finishLightPart(const LightSource& from, LightPart& part, const LightSlot& slot,
-                              uint32_t depth, uint32_t nested) {
   for (const LightSlot::Step& step : slot.steps) {
     if (!step.apply(part, step.args)) return false;
   }
-  // Each call is a shape, and so is a leaf or an end that belongs to no call.
-  const uint32_t shapes = slot.block > 0 ? slot.calls
-                          : slot.named   ? slot.calls + 1u
-                                         : std::max<uint32_t>(slot.calls, 1);
-  shapes_ += shapes;
-  shapesExpanded_ += shapes;
+  shapes_ += slot.shapes;
+  shapesExpanded_ += slot.shapes;
   if (slot.drop) return true;
-  if (slot.block > 0) return splitLightPart(from, part, slot, depth, nested);
+  if (slot.block > 0) return splitLightPart(from, place, part, slot, depth, nested);
   Leaf& leaf =
-      output_.openLeaves.emplace_back(from.leafAxes, part.size, unitMesh(part.kind, part.uv),
+      output_.openLeaves.emplace_back(*place.axes, part.size, unitMesh(part.kind, part.uv),
                                       from.materials, slot.name, slot.source, from.attributes);
-  leaf.frame.origin = flat_ ? from.place + from.world.direction(part.origin) : part.origin;
+  leaf.frame.origin = flat_ ? place.origin + from.world.direction(part.origin) : part.origin;
   return true;
 }
 
-bool Machine::splitLightPart(const LightSource& from, const LightPart& part, const LightSlot& slot,
-                             uint32_t depth, uint32_t nested) {
+bool Machine::splitLightPart(const LightSource& from, const LightPlace& place,
+                             const LightPart& part, const LightSlot& slot, uint32_t depth,
+                             uint32_t nested) {
   const uint32_t block = slot.block - 1u;
   const SplitMemo& memo = splits_[block].memo;
   const bool known = nested < kMostNested && memo.known && memo.givenOutOf == part.kind &&
@@ -211,10 +200,10 @@ bool Machine::splitLightPart(const LightSource& from, const LightPart& part, con
                      memo.pieces.size() <= options().limits.width;
   if (!known) return false;
   const LightSource inner{
-      from.world,      from.place,    from.axes,
-      part.origin,     from.leafAxes, directionOf(from.axes, memo.plan.axis),
-      part.size,       part.kind,     from.materials,
-      from.attributes, part.trim,     slot.calls > 0 ? nullptr : from.childCount};
+      from.world,      place.origin, *part.parent,
+      part.origin,     place.axes,   directionOf(*part.parent, memo.plan.axis),
+      part.size,       part.kind,    from.materials,
+      from.attributes, part.trim,    slot.calls > 0 ? nullptr : from.childCount};
   const std::vector<LightSlot>& slots = lightSlots(block, slot.rule);
   for (const SplitPiece& piece : memo.pieces) {
     const LightSlot& next = slots[piece.slot];

@@ -61,7 +61,7 @@ Status applyCube(OpCall& call) {
 
 bool applyCubeLight(LightPart& part, std::span<const Value> args) {
   const bool solid = part.size.x > 0 && part.size.y > 0 && part.size.z > 0;
-  if (!args.empty() || !solid || reachesTrimPlane(part)) return false;
+  if (!args.empty() || !solid || (part.trim && reachesTrimPlane(part))) return false;
   part.kind = GeometryKind::Box;
   part.uv = true;
   return true;
