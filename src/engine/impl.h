@@ -24,6 +24,8 @@ struct ShapeFootprint {
   Mesh mesh;
   Frame origin;
   std::vector<AttributeValue> attributes;
+  /// By face, or empty.
+  std::vector<std::string> faceTags;
 };
 
 struct Rules::Impl {

@@ -37,6 +37,7 @@ std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, ValuePool& p
     s.mesh = f.mesh;
     s.origin = f.origin;
     s.identity = f.id;
+    s.faceTags = f.faceTags;
     for (const AttributeValue& a : f.attributes) {
       s.attributes.emplace_back(identifier(a.name), valueOfAttribute(a, pool));
     }

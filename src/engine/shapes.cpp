@@ -25,6 +25,7 @@ ShapeFootprint footprint(ShapeInput input) {
   f.name = std::move(input.name);
   f.id = std::move(input.id);
   f.attributes = std::move(input.attributes);
+  f.faceTags = std::move(input.faceTags);
   const Box3 box = input.mesh.bounds();
   Vec3 origin;
   if (!box.empty()) {

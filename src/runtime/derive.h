@@ -61,6 +61,8 @@ struct InitialShape {
   /// What identifies the shape for randomness: its feature id or name; empty: its index.
   std::string identity;
   std::vector<std::pair<std::string, Value>> edgeAttributes;
+  /// By face of the mesh, or empty: its tag, if it has one.
+  std::vector<std::string> faceTags;
 };
 
 /// The tables that one or more derivations share.

@@ -95,7 +95,15 @@ void Machine::derive(const InitialShape& input, uint32_t index) {
   info_.origin = input.origin;
   info_.seed = options().seed;
   info_.shape = Shape{};
-  setInitialGeometry(info_.shape, input.mesh);
+  if (input.faceTags.size() == input.mesh.faceCount() && !input.mesh.empty()) {
+    Mesh mesh = input.mesh;
+    for (size_t f = 0; f < mesh.faceCount(); ++f) {
+      if (!input.faceTags[f].empty()) mesh.faces[f].tags = tags().of(input.faceTags[f]);
+    }
+    setInitialGeometry(info_.shape, std::move(mesh));
+  } else {
+    setInitialGeometry(info_.shape, input.mesh);
+  }
   info_.shape.path = hashCombine(hashDouble(options().seed), identity);
   worlds_.assign(1, input.origin);
   aborted_ = false;

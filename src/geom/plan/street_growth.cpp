@@ -82,6 +82,12 @@ double moved(double share, double step, uint64_t address, uint64_t k) {
 
 }  // namespace
 
+std::vector<Street> streetsWithin(const Region& area, const std::vector<Street>& streets) {
+  std::vector<Street> out;
+  for (const Street& s : streets) clip(area, s.line, s.width, out);
+  return out;
+}
+
 std::vector<Street> gridStreets(const Region& area, const GridStreets& o) {
   std::vector<Street> out;
   const Vec2 x = unit(o.angle), y = perpendicular(x);

@@ -21,6 +21,9 @@ namespace gable {
 
 constexpr size_t kMostGrown = 20000;
 
+/// The parts of streets that lie within an area. O(points * edges of the area).
+std::vector<Street> streetsWithin(const Region& area, const std::vector<Street>& streets);
+
 struct GridStreets {
   /// Of the streets along the grid's x axis and those across.
   double spacing = 80, crossSpacing = 120;

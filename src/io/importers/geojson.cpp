@@ -55,10 +55,14 @@ class GeoJsonReader {
  private:
   void collect(const JsonValue& v);
   void chooseProjection(const JsonValue& root);
-  void measure(const JsonValue& geometry, int depth);
+  void measure(const JsonValue& geometry, bool lines, int depth);
   void addFeature(const Feature& f);
   void addGeometry(const JsonValue& geometry, int depth);
   void addPolygon(const JsonValue& rings);
+  void addLine(const JsonValue& coordinates);
+  void buildLines(MeshBuilder& b, std::vector<std::string>& tags, size_t facesBefore) const;
+  void addAllLines();
+  bool readPoints(const JsonValue& coordinates, std::vector<Vec2>& out);
   bool readRing(const JsonValue& coordinates, Ring& out);
   void addFace(const Polygon& p);
   Vec2 local(Vec2 p) const {
@@ -83,6 +87,11 @@ class GeoJsonReader {
   const Feature* feature_ = nullptr;
   std::string name_;
   MeshBuilder builder_;
+  std::vector<std::vector<Vec2>> lines_;
+  // Those of features without polygons.
+  MeshBuilder allLines_;
+  std::vector<std::string> allLineTags_;
+  size_t lineFeatures_ = 0;
   size_t faces_ = 0, messages_ = 0, otherGeometries_ = 0;
 };
 
@@ -128,25 +137,28 @@ void GeoJsonReader::collect(const JsonValue& v) {
   features_.push_back(std::move(f));
 }
 
-// The extent of all polygons.
-void GeoJsonReader::measure(const JsonValue& geometry, int depth) {
+// The extent of all polygons, or of lines too.
+void GeoJsonReader::measure(const JsonValue& geometry, bool lines, int depth) {
   const std::string& type = geometry["type"].text();
-  const auto polygon = [&](const JsonValue& rings) {
-    for (const JsonValue& ring : rings.items()) {
-      for (const JsonValue& p : ring.items()) {
-        Vec2 at;
-        if (!pointOf(p, at)) continue;
-        extent_.include(at);
-        eastward_.include({at.x < 0 ? at.x + 360 : at.x, at.y});
-      }
+  const auto line = [&](const JsonValue& points) {
+    for (const JsonValue& p : points.items()) {
+      Vec2 at;
+      if (!pointOf(p, at)) continue;
+      extent_.include(at);
+      eastward_.include({at.x < 0 ? at.x + 360 : at.x, at.y});
     }
   };
-  if (type == "Polygon") polygon(geometry["coordinates"]);
+  const auto polygon = [&](const JsonValue& rings) {
+    for (const JsonValue& ring : rings.items()) line(ring);
+  };
+  const JsonValue& coordinates = geometry["coordinates"];
+  if (type == "Polygon" || (lines && type == "MultiLineString")) polygon(coordinates);
+  if (lines && type == "LineString") line(coordinates);
   if (type == "MultiPolygon") {
-    for (const JsonValue& p : geometry["coordinates"].items()) polygon(p);
+    for (const JsonValue& p : coordinates.items()) polygon(p);
   }
   if (type == "GeometryCollection" && depth < kDeepestCollection) {
-    for (const JsonValue& g : geometry["geometries"].items()) measure(g, depth + 1);
+    for (const JsonValue& g : geometry["geometries"].items()) measure(g, lines, depth + 1);
   }
 }
 
@@ -162,8 +174,12 @@ bool namesDegrees(const JsonValue& root) {
 }
 
 void GeoJsonReader::chooseProjection(const JsonValue& root) {
-  for (const Feature& f : features_) {
-    if (f.geometry) measure(*f.geometry, 0);
+  // Lines count where there is nothing else.
+  for (const bool lines : {false, true}) {
+    if (!extent_.empty()) break;
+    for (const Feature& f : features_) {
+      if (f.geometry) measure(*f.geometry, lines, 0);
+    }
   }
   if (extent_.empty()) return;
   const bool canBeDegrees =
@@ -190,7 +206,7 @@ void GeoJsonReader::chooseProjection(const JsonValue& root) {
   }
 }
 
-bool GeoJsonReader::readRing(const JsonValue& coordinates, Ring& out) {
+bool GeoJsonReader::readPoints(const JsonValue& coordinates, std::vector<Vec2>& out) {
   out.clear();
   for (const JsonValue& v : coordinates.items()) {
     Vec2 p;
@@ -205,6 +221,11 @@ bool GeoJsonReader::readRing(const JsonValue& coordinates, Ring& out) {
     }
     out.push_back(at);
   }
+  return true;
+}
+
+bool GeoJsonReader::readRing(const JsonValue& coordinates, Ring& out) {
+  if (!readPoints(coordinates, out)) return false;
   dropDuplicates(out, kTolerance);
   dropCollinear(out, kTolerance);
   return true;
@@ -254,12 +275,68 @@ void GeoJsonReader::addPolygon(const JsonValue& rings) {
   for (const Polygon& part : left) addFace(part);
 }
 
+void GeoJsonReader::addLine(const JsonValue& coordinates) {
+  std::vector<Vec2> line;
+  if (!readPoints(coordinates, line)) return;
+  const auto near = [](Vec2 a, Vec2 b) { return length(a - b) < kTolerance; };
+  line.erase(std::unique(line.begin(), line.end(), near), line.end());
+  if (line.size() > 1) {
+    lines_.push_back(std::move(line));
+  } else {
+    complain(Severity::Warning, "geojson-empty", "a line has fewer than two points");
+  }
+}
+
+// A face of two corners for each stretch.
+void GeoJsonReader::buildLines(MeshBuilder& b, std::vector<std::string>& tags,
+                               size_t facesBefore) const {
+  double width = 0;
+  if (feature_->properties) {
+    const JsonValue& v = (*feature_->properties)["width"];
+    if (v.isNumber()) width = v.number(0);
+    if (v.isText() && !parseNumber(v.text(), width)) width = 0;
+  }
+  const std::string tag = width > 0 ? "width=" + shortestText(width) : std::string{};
+  if (!tag.empty()) tags.resize(facesBefore);
+  size_t stretches = 0;
+  for (const std::vector<Vec2>& line : lines_) {
+    uint32_t from = b.addPosition(fromPlan(line[0]));
+    const uint32_t first = from;
+    for (size_t i = 1; i < line.size(); ++i, ++stretches) {
+      const bool back = i > 1 && i + 1 == line.size() && line[i] == line[0];
+      const uint32_t to = back ? first : b.addPosition(fromPlan(line[i]));
+      const uint32_t ends[2] = {from, to};
+      b.addPolygon(ends);
+      from = to;
+    }
+  }
+  if (!tag.empty()) tags.resize(facesBefore + stretches, tag);
+}
+
+void GeoJsonReader::addAllLines() {
+  ShapeInput shape;
+  shape.mesh = allLines_.take();
+  if (shape.mesh.empty()) return;
+  if (!out_.shapes.empty()) {
+    otherGeometries_ += lineFeatures_;
+    return;
+  }
+  shape.name = "lines";
+  shape.faceTags = std::move(allLineTags_);
+  if (!shape.faceTags.empty()) shape.faceTags.resize(shape.mesh.faceCount());
+  out_.shapes.push_back(std::move(shape));
+}
+
 void GeoJsonReader::addGeometry(const JsonValue& geometry, int depth) {
   const std::string& type = geometry["type"].text();
   if (type == "Polygon") {
     addPolygon(geometry["coordinates"]);
   } else if (type == "MultiPolygon") {
     for (const JsonValue& p : geometry["coordinates"].items()) addPolygon(p);
+  } else if (type == "LineString") {
+    addLine(geometry["coordinates"]);
+  } else if (type == "MultiLineString") {
+    for (const JsonValue& l : geometry["coordinates"].items()) addLine(l);
   } else if (type == "GeometryCollection" && depth < kDeepestCollection) {
     for (const JsonValue& g : geometry["geometries"].items()) addGeometry(g, depth + 1);
   } else {
@@ -303,16 +380,24 @@ void GeoJsonReader::addFeature(const Feature& f) {
   name_ = f.properties ? (*f.properties)["name"].text() : std::string{};
   builder_ = MeshBuilder();
   faces_ = 0;
+  lines_.clear();
   const size_t before = messages_ + otherGeometries_;
   if (f.geometry && f.geometry->isObject()) addGeometry(*f.geometry, 0);
+  if (faces_ == 0 && !lines_.empty()) {
+    buildLines(allLines_, allLineTags_, allLines_.mesh().faceCount());
+    ++lineFeatures_;
+    return;
+  }
   if (faces_ == 0) {
     if (messages_ + otherGeometries_ == before) {
-      complain(Severity::Warning, "geojson-empty", "it has no polygon");
+      complain(Severity::Warning, "geojson-empty", "it has no polygon and no line");
     }
     return;
   }
   ShapeInput shape;
+  buildLines(builder_, shape.faceTags, builder_.mesh().faceCount());
   shape.mesh = builder_.take();
+  if (!shape.faceTags.empty()) shape.faceTags.resize(shape.mesh.faceCount());
   shape.id = f.id;
   shape.name = !name_.empty()  ? name_
                : !f.id.empty() ? f.id
@@ -332,6 +417,7 @@ Result<ShapeFile> GeoJsonReader::read(std::string_view text) {
   collect(root.value());
   chooseProjection(root.value());
   for (const Feature& f : features_) addFeature(f);
+  addAllLines();
   if (messages_ > kMostMessages) {
     out_.diagnostics.warning("geojson-more", {},
                              "'" + path_ + "' has " + std::to_string(messages_ - kMostMessages) +
@@ -346,8 +432,9 @@ Result<ShapeFile> GeoJsonReader::read(std::string_view text) {
     out_.diagnostics.add(std::move(d));
   }
   if (out_.shapes.empty() && !out_.diagnostics.hasErrors()) {
-    return Error{
-        "shapes-empty", "'" + path_ + "' has no polygon that could be an initial shape", {}};
+    return Error{"shapes-empty",
+                 "'" + path_ + "' has no polygon and no line that could be an initial shape",
+                 {}};
   }
   return std::move(out_);
 }

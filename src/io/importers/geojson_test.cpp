@@ -125,6 +125,39 @@ TEST(GeoJson, wrongFeaturesAreNamedAndTheOthersRead) {
   EXPECT_EQ(all[3].code, "geojson-coordinates");
 }
 
+TEST(GeoJson, linesAloneBecomeOneShape) {
+  const std::string a = R"({"type":"LineString","coordinates":[[0,0],[50,0],[50,50]]})",
+                    b = R"({"type":"MultiLineString","coordinates":[[[0,9],[9,9]],[[1,1],[1,1]]]})";
+  auto r = readGeoJsonShapes(R"({"type":"FeatureCollection","crs":{"properties":{"name":"x"}},)"
+                             R"("features":[)" +
+                                 feature(a, R"({"width":7.5})") + "," + feature(b) + "]}",
+                             "roads.geojson");
+  ASSERT_TRUE(r.ok());
+  ASSERT_EQ(r->shapes.size(), 1u);
+  const ShapeInput& s = r->shapes[0];
+  EXPECT_EQ(s.name, "lines");
+  ASSERT_EQ(s.mesh.faceCount(), 3u);
+  EXPECT_TRUE(s.mesh.valid());
+  EXPECT_EQ(s.faceTags, (std::vector<std::string>{"width=7.5", "width=7.5", ""}));
+  // Stretches of a line share their points.
+  EXPECT_EQ(s.mesh.corners[1], s.mesh.corners[2]);
+  EXPECT_EQ(s.mesh.positions.size(), 5u);
+}
+
+TEST(GeoJson, linesBesideAPolygonBelongToItsShape) {
+  const std::string line = R"({"type":"LineString","coordinates":[[7.42,43.73],[7.421,43.731]]})";
+  auto r = readGeoJsonShapes(collection(feature(R"({"type":"GeometryCollection","geometries":[)" +
+                                                polygon(kRing) + "," + line + "]}") +
+                                        "," + feature(line)),
+                             "town.geojson");
+  ASSERT_TRUE(r.ok());
+  ASSERT_EQ(r->shapes.size(), 1u);
+  EXPECT_EQ(r->shapes[0].mesh.faceCount(), 2u);
+  // The other line is passed over.
+  ASSERT_EQ(r->diagnostics.all().size(), 1u);
+  EXPECT_EQ(r->diagnostics.all()[0].code, "geojson-no-polygon");
+}
+
 TEST(GeoJson, closingPointsDuplicatesAndStraightCornersGo) {
   auto r = readGeoJsonShapes(feature(polygon("[[7.42,43.73],[7.4205,43.73],[7.4205,43.73],[7.421,"
                                              "43.73],[7.421,43.731],[7.42,43.731],[7.42,43.73]]")),

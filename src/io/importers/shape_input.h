@@ -4,10 +4,12 @@
 // Initial shapes from files: footprints with attributes.
 //
 //   GeoJSON  a shape a feature with polygons, a face a polygon, holes kept; properties are
-//   attributes OBJ      a shape an object (o), or a group (g) where there are no objects, or the
-//   whole file glTF     a shape a node with a mesh
+//            attributes. Lines beside polygons in a feature belong to its shape; those of a file
+//            without any polygon make one shape, "lines". A line is faces of two corners.
+//   OBJ      a shape an object (o), or a group (g) where there are no objects, or the whole file
+//   glTF     a shape a node with a mesh
 //
-// Promises: coordinates are local metres with y up; every face has an area; equal input gives equal
+// Promises: coordinates are local metres with y up; every face has an area, but for lines; equal input gives equal
 // shapes. What is wrong with one shape is a Diagnostic that names it, and the others are read.
 #pragma once
 
@@ -29,6 +31,8 @@ struct ShapeInput {
   std::vector<AttributeValue> attributes;
   /// The feature's own id, as text; may be empty.
   std::string id;
+  /// By face, or empty: a tag for it; lines have "width=7.5" by their property `width`.
+  std::vector<std::string> faceTags;
 };
 
 struct ShapeFile {

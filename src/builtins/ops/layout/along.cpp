@@ -3,12 +3,14 @@
 //
 // The edges that an item selects are joined to lines, which end where the outline turns sharply,
 // and each line is measured out. The middle between two sides of a street is found from the longer
-// one: every place of it is paired with the nearest place of another.
+// one: every place of it is paired with the nearest place of another. Lines that are the shape's
+// own geometry are measured out as they are.
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "builtins/lists.h"
+#include "builtins/ops/layout/shared/polylines.h"
 #include "builtins/ops/shared/face_plan.h"
 #include "builtins/ops/shared/refit.h"
 #include "builtins/ops/subdivide/shared/components.h"
@@ -36,7 +38,7 @@ struct Chain {
 struct Layout {
   Spacing spacing;
   double offset = 0;
-  bool inward = false, along = false;
+  enum class Facing : uint8_t { Outward, Inward, Along } facing = Facing::Outward;
 };
 
 bool isWord(const OpCall& call, const SelectorItem& item, std::string_view word) {
@@ -100,6 +102,21 @@ void addChains(const Ring& ring, const std::vector<bool>& chosen, std::vector<Ch
     if (!chosen[i]) continue;
     if (!goesOn(i)) out.push_back({{ring[i]}, false});
     out.back().line.push_back(ring[(i + 1) % n]);
+  }
+}
+
+// A line, ended where it turns sharply.
+void addChains(const Polyline2& line, std::vector<Chain>& out) {
+  if (line.closed) {
+    addChains(line.line, std::vector<bool>(line.line.size(), true), out);
+    return;
+  }
+  out.push_back({{line.line[0]}, false});
+  for (size_t i = 1; i < line.line.size(); ++i) {
+    if (i > 1 && turnsSharply(line.line[i - 2], line.line[i - 1], line.line[i])) {
+      out.push_back({{line.line[i - 1]}, false});
+    }
+    out.back().line.push_back(line.line[i]);
   }
 }
 
@@ -170,19 +187,29 @@ class Emitter {
  public:
   Emitter(OpCall& call, const Layout& layout) : call_(call), layout_(layout) {}
 
-  void emit(const Frame& plane, const Path::Place& place, uint32_t slot) {
-    // Outward is to the right of the edge.
-    const Vec2 out{place.tangent.y, -place.tangent.x};
-    const Vec2 at = place.point + out * layout_.offset;
-    const Vec2 z = layout_.along ? place.tangent : layout_.inward ? out * -1.0 : out;
+  // Outward is to the right of an edge, and away from a line. `index` is the place's number on its
+  // line.
+  void emit(const Frame& plane, const Path::Place& place, uint32_t slot, size_t index, size_t total,
+            bool ofLine = false) {
+    const Vec2 right{place.tangent.y, -place.tangent.x};
+    const Vec2 at = place.point + right * layout_.offset;
+    const Vec2 out = ofLine && layout_.offset < 0 ? right * -1.0 : right;
+    const Vec2 z = layout_.facing == Layout::Facing::Along    ? place.tangent
+                   : layout_.facing == Layout::Facing::Inward ? out * -1.0
+                                                              : out;
     const Vec3 facing = plane.direction({z.x, z.y, 0});
     Shape child = call_.shape();
     child.scope = call_.shape().scope *
                   Frame::of(fromPlanFrame(plane, at), cross(plane.z, facing), plane.z, facing);
     child.size = {};
+    child.split = {static_cast<uint32_t>(index), static_cast<uint32_t>(total)};
     setMesh(child, point_, ScopeFit::Keep);
     forgetFarTrimPlanes(child);
     call_.emit(std::move(child), slot, piece_++);
+  }
+
+  void emit(const Frame& plane, const std::vector<Path::Place>& places, uint32_t slot) {
+    for (size_t i = 0; i < places.size(); ++i) emit(plane, places[i], slot, i, places.size());
   }
 
  private:
@@ -197,8 +224,8 @@ Status layoutOf(const OpCall& call, Layout& out) {
   out.offset = call.number(1, 0);
   out.spacing.startInset = out.spacing.endInset = call.number(2, 0);
   out.spacing.stretch = call.is(3, "stretch");
-  out.inward = call.is(4, "inward");
-  out.along = call.is(4, "along");
+  if (call.is(4, "inward")) out.facing = Layout::Facing::Inward;
+  if (call.is(4, "along")) out.facing = Layout::Facing::Along;
   if (!(out.spacing.step > 0) || !std::isfinite(out.offset) || !(out.spacing.startInset >= 0)) {
     return call.fail("bad-argument",
                      "along needs a spacing larger than 0 and an inset that is not negative",
@@ -220,6 +247,37 @@ bool tooMany(const Mesh& m, const Spacing& spacing, size_t items) {
     }
   }
   return !(whole / spacing.step * static_cast<double>(items) <= kMostPlaces);
+}
+
+std::vector<Path::Place> placesOn(const Chain& chain, const Spacing& spacing) {
+  const Path path(chain.line, chain.closed);
+  std::vector<Path::Place> out;
+  for (const double s : stationsOf(path, spacing)) out.push_back(path.at(s));
+  return out;
+}
+
+// Along lines every item gets its places; `sides` gets those to the right, then those to the left,
+// where the line is seen from its other end.
+void emitAlongLines(OpCall& call, const Mesh& mesh, const Layout& layout, Emitter& emitter) {
+  const auto lines = polylinesOf(mesh, call.services().tags(), call.services().pool());
+  for (const Polyline2& line : lines) {
+    const Frame plane = groundAt(line.height);
+    std::vector<Chain> chains;
+    addChains(line, chains);
+    for (const SelectorItem& item : call.selectors()) {
+      const bool sides = isWord(call, item, "sides");
+      for (const Chain& chain : chains) {
+        const std::vector<Path::Place> places = placesOn(chain, layout.spacing);
+        for (size_t i = 0; i < places.size(); ++i) {
+          emitter.emit(plane, places[i], item.slot, i, places.size(), true);
+        }
+        for (size_t i = 0; sides && i < places.size(); ++i) {
+          const Path::Place back{places[i].point, places[i].tangent * -1.0};
+          emitter.emit(plane, back, item.slot, i, places.size(), true);
+        }
+      }
+    }
+  }
 }
 
 Status applyAlong(OpCall& call) {
@@ -245,26 +303,25 @@ Status applyAlong(OpCall& call) {
       if (isWord(call, item, "middle")) {
         const auto sides =
             chainsOf(*mesh, f, plane, [&](uint32_t corner) -> bool { return street[corner]; });
-        for (const Path::Place& p : middlePlaces(sides, layout.spacing)) {
-          emitter.emit(plane, p, item.slot);
-        }
+        emitter.emit(plane, middlePlaces(sides, layout.spacing), item.slot);
         continue;
       }
       const auto mine = [&](uint32_t corner) { return items[corner] == i; };
       for (const Chain& c : chainsOf(*mesh, f, plane, mine)) {
-        const Path path(c.line, c.closed);
-        for (const double s : stationsOf(path, layout.spacing)) {
-          emitter.emit(plane, path.at(s), item.slot);
-        }
+        emitter.emit(plane, placesOn(c, layout.spacing), item.slot);
       }
     }
   }
+  emitAlongLines(call, *mesh, layout, emitter);
   return {};
 }
 
 constexpr ParamSpec kParams[] = {
     {"spacing", ParamType::Float, "From one place to the next along the edges, in metres."},
-    {"offset", ParamType::Float, "How far beside the edge: outwards, inwards where negative.", "0"},
+    {"offset", ParamType::Float,
+     "How far beside the edge: outwards, inwards where negative. Of a line: to its right, to its "
+     "left where negative.",
+     "0"},
     {"inset", ParamType::Float, "Kept free at both ends of each line of edges.", "0"},
     {"fit", ParamType::Selector,
      "centred shares what is left over between both ends; stretch makes the spacing a little "
@@ -279,7 +336,7 @@ constexpr Signature kSignatures[] = {{kParams}};
 constexpr OpSpec kSpecs[] = {
     {"along", "layout", "Gives out places along the edges of the faces, at equal spacing.",
      kSignatures, applyAlong, BlockKind::Selectors, kReadsWorld | kReadsWorldByWord,
-     "street middle", false, true},
+     "street middle sides", false, true},
 };
 
 }  // namespace

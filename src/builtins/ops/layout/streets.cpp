@@ -6,7 +6,11 @@
 
 #include "builtins/lists.h"
 #include "builtins/ops/layout/shared/ground.h"
+#include "builtins/ops/layout/shared/kerbs.h"
+#include "builtins/ops/shared/face_plan.h"
 #include "geom/plan/street_growth.h"
+#include "geom/region/boolean.h"
+#include "geom/region/hull.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -17,10 +21,9 @@ namespace {
 constexpr double kSliver = 1e-9;
 // Streets nearer to each other than their share of the width are one.
 constexpr double kSnapShare = 0.25;
-// A kerb lies half of the width from the centre line, and farther than the ends of its stretch.
-constexpr double kKerbShare = 0.4;
-// The cosine of the angle between a kerb and the centre line, at least.
-constexpr double kParallel = 0.8;
+// Points that lie nearer than this to the line without them are left out of given lines.
+constexpr double kSmooth = 0.01;
+constexpr double kOnBorder = 1e-3;
 
 Vec2 middleOf(const Polygon& p) {
   const Box2 box = bounds(p);
@@ -66,23 +69,45 @@ std::vector<Street> grown(const OpCall& call, const Ground& ground, uint64_t add
   return fieldStreets(area, field, o);
 }
 
-// Which edges of a roadway are its kerbs: as far from the centre line as half of the width, and
-// along it. By edge of the outer ring, then of the holes.
-std::vector<bool> kerbs(const Polygon& roadway, const StreetGraph::Edge& street) {
-  const Path centre(street.line);
-  std::vector<bool> out;
-  const auto add = [&](const Ring& ring) {
-    for (size_t i = 0; i < ring.size(); ++i) {
-      const Vec2 a = ring[i], b = ring[(i + 1) % ring.size()];
-      const Path::Place place = centre.at(centre.nearest((a + b) * 0.5));
-      const double away = length((a + b) * 0.5 - place.point);
-      const bool parallel = std::fabs(dot(normalized(b - a), place.tangent)) > kParallel;
-      out.push_back(parallel && away > street.width * kKerbShare);
-    }
-  };
-  add(roadway.outer);
-  for (const Ring& hole : roadway.holes) add(hole);
-  return out;
+std::vector<Polyline2> givenLines(OpCall& call) {
+  const MeshRef mesh = meshInScope(call.shape());
+  return polylinesOf(*mesh, call.services().tags(), call.services().pool());
+}
+
+// The lines of the shape, within the area.
+std::vector<Street> given(const std::vector<Polyline2>& lines, const Region& area, double width) {
+  std::vector<Street> streets;
+  for (const Polyline2& l : lines) {
+    Line line = l.line;
+    if (l.closed) line.push_back(line.front());
+    streets.push_back({simplified(line, kSmooth), l.width > 0 ? l.width : width});
+  }
+  return streetsWithin(area, streets);
+}
+
+// Where given lines have no face beside them: the ground within a distance of their hull.
+Status groundAround(const OpCall& call, const std::vector<Polyline2>& lines, double reach,
+                    std::vector<Ground>& out) {
+  std::vector<Vec2> points;
+  for (const Polyline2& l : lines) points.insert(points.end(), l.line.begin(), l.line.end());
+  Ground g;
+  const Ring hull = convexHull(points);
+  Region area;
+  if (hull.size() > 2) {
+    area = offset({{hull, {}}}, reach);
+  } else if (!lines.empty()) {
+    OffsetOptions square;
+    square.join = OffsetJoin::Square;
+    area = thicken(lines[0].line, reach, square);
+  }
+  if (area.empty()) {
+    return call.fail("no-geometry", "streets(given) has no lines",
+                     "make them with curve, or read lines from a file");
+  }
+  g.polygon = area[0];
+  g.frame = groundAt(lines[0].height);
+  out.push_back(std::move(g));
+  return {};
 }
 
 const SelectorItem* itemFor(const OpCall& call, std::string_view what) {
@@ -102,16 +127,22 @@ Status applyStreets(OpCall& call) {
                      "such as streets(grid, 80, 12)");
   }
   std::vector<Ground> grounds;
-  if (Status bad = groundsOf(call, grounds); !bad) return bad;
+  const bool areGiven = call.is(0, "given");
+  const std::vector<Polyline2> lines = areGiven ? givenLines(call) : std::vector<Polyline2>{};
+  Status sound = groundsOf(call, grounds);
+  if (areGiven && !sound) sound = groundAround(call, lines, spacing, grounds);
+  if (!sound) return sound;
   uint32_t piece = 0;
   for (size_t g = 0; g < grounds.size(); ++g) {
     const Ground& ground = grounds[g];
-    const std::vector<Street> streets = grown(call, ground, call.randomAddress(g));
     const Region area{ground.polygon};
+    const std::vector<Street> streets =
+        areGiven ? given(lines, area, width) : grown(call, ground, call.randomAddress(g));
     StreetGraphOptions joined;
     joined.area = &area;
     joined.snap = std::max(width * kSnapShare, 0.5);
-    joined.shortest = spacing / 2;
+    // Given streets all stay.
+    joined.shortest = areGiven ? joined.snap : spacing / 2;
     const StreetGraph graph = buildStreetGraph(streets, joined);
     const StreetPlan plan = planStreets(graph, area, width / 3, width * width);
     const auto emit = [&](const Region& parts, std::string_view what, auto&& streetEdges) {
@@ -122,11 +153,29 @@ Status applyStreets(OpCall& call) {
         call.emit(groundPart(call, ground, p, kNoFront, streetEdges(p)), item->slot, number);
       }
     };
-    const auto all = [](const Polygon& p) { return std::vector<bool>(p.outer.size(), true); };
+    // The border of the ground is no street; grown streets take the outer one for one.
+    const auto all = [&](const Polygon& p) {
+      std::vector<bool> out;
+      const auto add = [&](const Ring& ring) {
+        for (size_t i = 0; i < ring.size(); ++i) {
+          const Vec2 middle = (ring[i] + ring[(i + 1) % ring.size()]) * 0.5;
+          out.push_back(!areGiven || distanceToBoundary(ground.polygon, middle) > kOnBorder);
+        }
+      };
+      add(p.outer);
+      for (const Ring& hole : p.holes) {
+        if (areGiven) add(hole);
+      }
+      return out;
+    };
     const auto none = [](const Polygon&) { return std::vector<bool>(); };
     emit(plan.blocks, "block", all);
     for (size_t e = 0; e < plan.roadways.size(); ++e) {
-      emit(plan.roadways[e], "roadway", [&](const Polygon& p) { return kerbs(p, graph.edges[e]); });
+      const StreetGraph::Edge& street = graph.edges[e];
+      const Polyline2 centre{street.line};
+      emit(plan.roadways[e], "roadway", [&](const Polygon& p) {
+        return kerbsAlong(p, {&centre, 1}, street.width);
+      });
     }
     for (const Region& r : plan.junctions) emit(r, "junction", none);
     emit(plan.islands, "island", none);
@@ -138,9 +187,11 @@ constexpr ParamSpec kParams[] = {
     {"pattern", ParamType::Selector,
      "grid: two families of straight streets; radial: rings and spokes around the middle; field: "
      "main streets and others between them, along a field of directions that turns around the "
-     "middle.",
-     nullptr, "grid radial field"},
-    {"spacing", ParamType::Float, "From street to street, in metres."},
+     "middle; given: the lines of the shape.",
+     nullptr, "grid radial field given"},
+    {"spacing", ParamType::Float,
+     "From street to street, in metres. given: how far the ground reaches beyond them, where there "
+     "is no face."},
     {"width", ParamType::Float, "Of a street, pavements included; main streets are wider.", "12"},
     {"irregularity", ParamType::Float, "How far streets leave their regular places, 0 to 0.4.",
      "0.1"},

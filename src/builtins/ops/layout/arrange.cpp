@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Footprints find their places on the faces of a shape: what finds none on the first face tries the
+// next. A wish that is not given is drawn on the face.
+#include "geom/plan/arrange.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "builtins/lists.h"
+#include "builtins/ops/layout/shared/ground.h"
+#include "geom/region/boolean.h"
+#include "geom/region/places.h"
+#include "math/trig.h"
+#include "shape/op_call.h"
+
+namespace gable {
+
+namespace {
+
+constexpr uint32_t kMostFootprints = 2000;
+constexpr double kMostPoints = 100000;
+// Parts of the remainder smaller than this share of the ground are rounding.
+constexpr double kSliver = 1e-9;
+// An edge of the remainder is one of the ground when its middle lies this near to it.
+constexpr double kOnEdge = 1e-3;
+constexpr uint32_t kDrawTries = 64;
+
+Vec2 drawnIn(const OpCall& call, const Polygon& p, uint64_t k) {
+  const Box2 box = bounds(p);
+  for (uint32_t attempt = 0; attempt < kDrawTries; ++attempt) {
+    const uint64_t address = hashCombine(call.randomAddress(k), attempt);
+    const Vec2 at{randomIn(hashCombine(address, 0), box.min.x, box.max.x),
+                  randomIn(hashCombine(address, 1), box.min.y, box.max.y)};
+    if (contains(p, at)) return at;
+  }
+  return middleOf(p);
+}
+
+// The direction of the nearest edge of the outline, in degrees; the face lies to its left.
+double nearestEdge(const Polygon& p, Vec2 at) {
+  double best = HUGE_VAL;
+  Vec2 along{1, 0};
+  const auto look = [&](const Ring& ring) {
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const Vec2 a = ring[i], d = ring[(i + 1) % ring.size()] - a;
+      const double t = dot(d, d) > 0 ? std::clamp(dot(at - a, d) / dot(d, d), 0.0, 1.0) : 0;
+      const double distance = length(at - (a + d * t));
+      if (distance >= best) continue;
+      best = distance;
+      along = d;
+    }
+  };
+  look(p.outer);
+  for (const Ring& hole : p.holes) look(hole);
+  return atan2Deg(along.y, along.x);
+}
+
+// Row by row: width and depth, then perhaps where the middle is to be, then perhaps the turn.
+std::vector<Footprint> wanted(const OpCall& call, const Array& rows, const Polygon& ground) {
+  std::vector<Footprint> out;
+  for (uint32_t r = 0; r < rows.rows; ++r) {
+    const double* n = rows.numbers.data() + size_t{r} * rows.columns;
+    Footprint f{n[0], n[1], {}, 0};
+    f.wish = rows.columns >= 4 ? Vec2{n[2], -n[3]} : drawnIn(call, ground, 2 * uint64_t{r});
+    if (rows.columns >= 5) {
+      f.angle = n[4];
+    } else if (call.is(3, "edge")) {
+      f.angle = nearestEdge(ground, f.wish);
+    } else if (call.is(3, "random")) {
+      f.angle = randomIn(call.randomAddress(2 * uint64_t{r} + 1), 0, 360);
+    }
+    out.push_back(f);
+  }
+  return out;
+}
+
+const SelectorItem* itemFor(const OpCall& call, std::string_view what) {
+  for (const SelectorItem& item : call.selectors()) {
+    if (item.terms.size() != 1 || item.terms[0].kind != SelectorTerm::Kind::Word) continue;
+    const std::string_view word = call.services().pool().text(item.terms[0].word);
+    if (word == what || word == "all") return &item;
+  }
+  return nullptr;
+}
+
+// Which edges of a part of the ground lie on edges of the ground that are a street.
+std::vector<bool> streetOf(const Ground& ground, const Polygon& part) {
+  std::vector<bool> out;
+  if (std::find(ground.street.begin(), ground.street.end(), true) == ground.street.end())
+    return out;
+  std::vector<std::pair<Vec2, Vec2>> streets;
+  size_t edge = 0;
+  const auto collect = [&](const Ring& ring) {
+    for (size_t i = 0; i < ring.size(); ++i, ++edge) {
+      if (ground.street[edge]) streets.emplace_back(ring[i], ring[(i + 1) % ring.size()]);
+    }
+  };
+  collect(ground.polygon.outer);
+  for (const Ring& hole : ground.polygon.holes) collect(hole);
+  const auto mark = [&](const Ring& ring) {
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const Vec2 at = (ring[i] + ring[(i + 1) % ring.size()]) * 0.5;
+      out.push_back(std::any_of(streets.begin(), streets.end(), [&](const auto& s) {
+        const Vec2 d = s.second - s.first;
+        const double t = dot(d, d) > 0 ? std::clamp(dot(at - s.first, d) / dot(d, d), 0.0, 1.0) : 0;
+        return length(at - (s.first + d * t)) < kOnEdge;
+      }));
+    }
+  };
+  mark(part.outer);
+  for (const Ring& hole : part.holes) mark(hole);
+  return out;
+}
+
+Status checked(const OpCall& call, const Array& rows, double gap, double edge) {
+  if (rows.numbers.size() != rows.size() || rows.columns < 2 || rows.rows > kMostFootprints) {
+    return call.fail("bad-argument", "footprints are up to 2000 rows of two: width, depth",
+                     "such as arrange([12, 9; 6, 5], 2)");
+  }
+  if (gap >= 0 && edge >= 0 && std::isfinite(gap) && std::isfinite(edge)) return {};
+  return call.fail("bad-argument", "the gaps between footprints and to the border are not negative",
+                   "write 0 where they may touch");
+}
+
+Status applyArrange(OpCall& call) {
+  const Array rows = call.services().pool().array(call.arg(0));
+  const double gap = call.number(1, 1), edge = call.number(2, gap);
+  if (Status bad = checked(call, rows, gap, edge); !bad) return bad;
+  std::vector<Ground> grounds;
+  if (Status bad = groundsOf(call, grounds); !bad) return bad;
+  const SelectorItem* placed = itemFor(call, "placed");
+  const SelectorItem* remainder = itemFor(call, "remainder");
+  std::vector<bool> done(rows.rows, false);
+  uint32_t rest = rows.rows;
+  for (const Ground& ground : grounds) {
+    std::vector<Footprint> footprints = wanted(call, rows, ground.polygon);
+    for (size_t i = 0; i < footprints.size(); ++i) {
+      if (done[i]) footprints[i].width = 0;
+    }
+    const std::vector<ArrangedPlace> places = arrange(ground.polygon, footprints, gap, edge);
+    Region covered;
+    for (uint32_t i = 0; i < places.size(); ++i) {
+      if (!places[i].placed) continue;
+      done[i] = true;
+      const Polygon part{footprints[i].at(places[i].middle), {}};
+      covered.push_back(part);
+      if (!placed) continue;
+      Shape child = groundPart(call, ground, part, 0, {});
+      child.split = {i, rows.rows};
+      call.emit(std::move(child), placed->slot, i);
+    }
+    if (!remainder) continue;
+    for (const Polygon& p : subtract({ground.polygon}, covered)) {
+      const uint32_t piece = rest++;
+      if (gable::area(p) < kSliver * gable::area(ground.polygon)) continue;
+      call.emit(groundPart(call, ground, p, kNoFront, streetOf(ground, p)), remainder->slot, piece);
+    }
+  }
+  return {};
+}
+
+Status applySpaced(OpCall& call) {
+  const double distance = call.number(0), edge = call.number(2, 0), jitter = call.number(3, 0.8);
+  if (!(distance > 0) || !std::isfinite(distance) || !(edge >= 0) || !(jitter >= 0)) {
+    return call.fail("bad-argument",
+                     "scatterSpaced needs a distance above zero and no negative edge or jitter",
+                     "such as scatterSpaced(6, poisson, 2)");
+  }
+  std::vector<Ground> grounds;
+  if (Status bad = groundsOf(call, grounds); !bad) return bad;
+  MeshBuilder b;
+  const uint32_t p = b.addPosition({});
+  b.addPolygon({&p, 1});
+  const Ref<Mesh> point = makeRef<Mesh>(b.take());
+  uint32_t piece = 0;
+  for (size_t g = 0; g < grounds.size(); ++g) {
+    const Ground& ground = grounds[g];
+    const uint64_t address = call.randomAddress(g);
+    const auto most = static_cast<size_t>(kMostPoints);
+    if (gable::area(ground.polygon) / (distance * distance) > kMostPoints) {
+      return call.fail("scatter-too-many", "scatterSpaced would make more than 100000 shapes",
+                       "give a larger distance, or divide the shape first");
+    }
+    const auto points = call.is(1, "jittered")
+                            ? scatterJittered(ground.polygon, distance, jitter, edge, most, address)
+                            : scatterPoisson(ground.polygon, distance, edge, most, address);
+    const Vec3 x = ground.frame.x, y = ground.frame.z;
+    for (const Vec2 at : points) {
+      Shape child = call.shape();
+      child.scope =
+          call.shape().scope * Frame::of(ground.frame.point({at.x, at.y, 0}), x, y, cross(x, y));
+      child.size = {};
+      setMesh(child, point, ScopeFit::Keep);
+      forgetFarTrimPlanes(child);
+      call.emit(std::move(child), 0, piece++);
+    }
+  }
+  return {};
+}
+
+constexpr ParamSpec kArrangeParams[] = {
+    {"footprints", ParamType::FloatArray,
+     "A row for each: width and depth, then perhaps x and z in the scope of where its middle is to "
+     "be, then perhaps its turn in degrees. Without a place one is drawn."},
+    {"gap", ParamType::Float, "Between any two, in metres.", "1"},
+    {"edge", ParamType::Float, "Between them and the border.", "gap"},
+    {"turn", ParamType::Selector,
+     "Without a turn of its own a footprint lies as the scope does, fronts the edge nearest to its "
+     "wish, or is turned at random.",
+     "scope", "scope edge random"},
+};
+constexpr Signature kArrange[] = {{kArrangeParams}};
+constexpr ParamSpec kSpacedParams[] = {
+    {"distance", ParamType::Float, "Between points: at least, or from cell to cell."},
+    {"pattern", ParamType::Selector,
+     "poisson: as many as fit, no two nearer than the distance; jittered: one in each cell of a "
+     "grid, moved from its middle.",
+     "poisson", "poisson jittered"},
+    {"edge", ParamType::Float, "Kept free along the border, in metres.", "0"},
+    {"jitter", ParamType::Float, "jittered: how far points may be moved, as a share of the cell.",
+     "0.8"},
+};
+constexpr Signature kSpaced[] = {{kSpacedParams}};
+
+constexpr OpSpec kSpecs[] = {
+    heavy({"arrange", "layout",
+           "Finds free places for footprints, each near to where it is wished.", kArrange,
+           applyArrange, BlockKind::Selectors, kRandom, "placed remainder", false, true}),
+    {"scatterSpaced", "layout", "Gives out points that keep a distance from each other.", kSpaced,
+     applySpaced, BlockKind::Operations, kRandom, nullptr, false, true},
+};
+
+}  // namespace
+
+extern const OpList kOps_arrange;
+const OpList kOps_arrange = kSpecs;
+
+}  // namespace gable
