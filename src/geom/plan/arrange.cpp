@@ -85,13 +85,15 @@ Ring Footprint::at(Vec2 middle, double margin) const {
 }
 
 std::vector<ArrangedPlace> arrange(const Polygon& area, const std::vector<Footprint>& footprints,
-                                   double gap, double edge, const Region& taken) {
+                                   double gap, double edge, const Region& taken,
+                                   ArrangeOrder sequence) {
   std::vector<ArrangedPlace> out(footprints.size());
   std::vector<size_t> order(footprints.size());
   std::iota(order.begin(), order.end(), size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+  const auto larger = [&](size_t a, size_t b) {
     return footprints[a].width * footprints[a].depth > footprints[b].width * footprints[b].depth;
-  });
+  };
+  if (sequence == ArrangeOrder::Largest) std::stable_sort(order.begin(), order.end(), larger);
   const Region ground = taken.empty() ? Region{area} : subtract({area}, taken);
   std::vector<Ring> placed;
   for (const size_t i : order) {

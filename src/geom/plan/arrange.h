@@ -7,12 +7,14 @@
 // Promises
 //  1. What is placed lies within the area, `edge` from its border and `gap` from all others, up to
 //     a tenth of a millimetre.
-//  2. The largest are placed first, of equals the first; none is moved afterwards. A rectangle gets
-//     the place nearest to its wish that is free at its turn, where distances to others are
-//     measured along its own sides; there is no place only where there is none.
+//  2. The largest are placed first, of equals the first, or all in the order given; none is moved
+//     afterwards. A rectangle gets the place nearest to its wish that is free at its turn, where
+//     distances to others are measured along its own sides; there is no place only where there is
+//     none.
 //  3. Equal input gives equal output.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "geom/region/region.h"
@@ -36,10 +38,13 @@ struct ArrangedPlace {
   Vec2 middle;
 };
 
+enum class ArrangeOrder : uint8_t { Largest, Given };
+
 /// By footprint. Footprints of no size are never placed. `taken` is ground that is not free.
 /// O(n^2 log n) for n footprints and the edges of the area together.
 std::vector<ArrangedPlace> arrange(const Polygon& area, const std::vector<Footprint>& footprints,
-                                   double gap, double edge, const Region& taken = {});
+                                   double gap, double edge, const Region& taken = {},
+                                   ArrangeOrder order = ArrangeOrder::Largest);
 
 /// A place in each cell of a grid of `distance`, moved from its middle by up to `jitter` of half
 /// of the distance along both axes; those that are inside of the area and `edge` from its border.

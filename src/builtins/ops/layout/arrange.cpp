@@ -12,6 +12,7 @@
 #include "builtins/lists.h"
 #include "builtins/ops/layout/shared/ground.h"
 #include "geom/region/boolean.h"
+#include "geom/region/hull.h"
 #include "geom/region/places.h"
 #include "math/trig.h"
 #include "shape/op_call.h"
@@ -77,13 +78,25 @@ std::vector<Footprint> wanted(const OpCall& call, const Array& rows, const Polyg
   return out;
 }
 
-const SelectorItem* itemFor(const OpCall& call, std::string_view what) {
+// `all` takes what no word before it took, unless that is asked for by name alone.
+const SelectorItem* itemFor(const OpCall& call, std::string_view what, bool orAll = true) {
   for (const SelectorItem& item : call.selectors()) {
     if (item.terms.size() != 1 || item.terms[0].kind != SelectorTerm::Kind::Word) continue;
     const std::string_view word = call.services().pool().text(item.terms[0].word);
-    if (word == what || word == "all") return &item;
+    if (word == what || (orAll && word == "all")) return &item;
   }
   return nullptr;
+}
+
+// The shortest line around all that was placed on a ground.
+void emitHull(OpCall& call, const Ground& ground, const Region& covered, const SelectorItem* item,
+              uint32_t piece) {
+  std::vector<Vec2> points;
+  for (const Polygon& p : covered) points.insert(points.end(), p.outer.begin(), p.outer.end());
+  Ring ring = convexHull(points);
+  if (item && ring.size() > 2) {
+    call.emit(groundPart(call, ground, {std::move(ring), {}}, kNoFront, {}), item->slot, piece);
+  }
 }
 
 // Which edges of a part of the ground lie on edges of the ground that are a street.
@@ -133,14 +146,17 @@ Status applyArrange(OpCall& call) {
   if (Status bad = groundsOf(call, grounds); !bad) return bad;
   const SelectorItem* placed = itemFor(call, "placed");
   const SelectorItem* remainder = itemFor(call, "remainder");
+  const SelectorItem* hull = itemFor(call, "hull", false);
   std::vector<bool> done(rows.rows, false);
-  uint32_t rest = rows.rows;
+  uint32_t rest = rows.rows, hulls = 0;
   for (const Ground& ground : grounds) {
     std::vector<Footprint> footprints = wanted(call, rows, ground.polygon);
     for (size_t i = 0; i < footprints.size(); ++i) {
       if (done[i]) footprints[i].width = 0;
     }
-    const std::vector<ArrangedPlace> places = arrange(ground.polygon, footprints, gap, edge);
+    const ArrangeOrder order = call.is(4, "given") ? ArrangeOrder::Given : ArrangeOrder::Largest;
+    const std::vector<ArrangedPlace> places =
+        arrange(ground.polygon, footprints, gap, edge, {}, order);
     Region covered;
     for (uint32_t i = 0; i < places.size(); ++i) {
       if (!places[i].placed) continue;
@@ -152,6 +168,7 @@ Status applyArrange(OpCall& call) {
       child.split = {i, rows.rows};
       call.emit(std::move(child), placed->slot, i);
     }
+    emitHull(call, ground, covered, hull, hulls++);
     if (!remainder) continue;
     for (const Polygon& p : subtract({ground.polygon}, covered)) {
       const uint32_t piece = rest++;
@@ -211,6 +228,9 @@ constexpr ParamSpec kArrangeParams[] = {
      "Without a turn of its own a footprint lies as the scope does, fronts the edge nearest to its "
      "wish, or is turned at random.",
      "scope", "scope edge random"},
+    {"order", ParamType::Selector,
+     "Who finds a place first: the largest, or the first row, then the second and so on.",
+     "largest", "largest given"},
 };
 constexpr Signature kArrange[] = {{kArrangeParams}};
 constexpr ParamSpec kSpacedParams[] = {
@@ -228,7 +248,7 @@ constexpr Signature kSpaced[] = {{kSpacedParams}};
 constexpr OpSpec kSpecs[] = {
     heavy({"arrange", "layout",
            "Finds free places for footprints, each near to where it is wished.", kArrange,
-           applyArrange, BlockKind::Selectors, kRandom, "placed remainder", false, true}),
+           applyArrange, BlockKind::Selectors, kRandom, "placed remainder hull", false, true}),
     {"scatterSpaced", "layout", "Gives out points that keep a distance from each other.", kSpaced,
      applySpaced, BlockKind::Operations, kRandom, nullptr, false, true},
 };
