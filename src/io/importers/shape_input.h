@@ -9,8 +9,9 @@
 //   OBJ      a shape an object (o), or a group (g) where there are no objects, or the whole file
 //   glTF     a shape a node with a mesh
 //
-// Promises: coordinates are local metres with y up; every face has an area, but for lines; equal input gives equal
-// shapes. What is wrong with one shape is a Diagnostic that names it, and the others are read.
+// Promises: coordinates are local metres with y up; every face has an area, but for lines; equal
+// input gives equal shapes. What is wrong with one shape is a Diagnostic that names it, and the
+// others are read.
 #pragma once
 
 #include <string>
