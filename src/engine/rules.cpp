@@ -21,6 +21,12 @@ namespace {
 /// A rule file larger than this is no rule file.
 constexpr uint64_t kLargestRuleFile = 256u << 20;
 
+lang::Tree parseAs(const Dialect* dialect, const Sources& sources, uint32_t file,
+                   lang::FileLoader& loader, Diagnostics& diagnostics) {
+  if (!dialect) return lang::parse(sources, file, diagnostics);
+  return dialect->parse({sources, file, builtinCatalogue(), &loader}, diagnostics);
+}
+
 class ProjectLoader final : public lang::FileLoader {
  public:
   explicit ProjectLoader(const Project& project) : project_(project) {}
@@ -37,6 +43,10 @@ class ProjectLoader final : public lang::FileLoader {
     return File{project_.projectPath(file), std::move(text.value())};
   }
 
+  lang::Tree parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics) override {
+    return parseAs(dialectOfPath(sources.path(file)), sources, file, *this, diagnostics);
+  }
+
  private:
   const Project& project_;
 };
@@ -50,12 +60,6 @@ Result<const Dialect*> dialectFor(const std::string& name, const std::string& pa
   for (const Dialect* d : dialects()) names += std::string(", ") + d->name;
   return Error{"unknown-dialect", "there is no notation '" + name + "'",
                "the notations are " + names};
-}
-
-lang::Tree parseAs(const Dialect* dialect, const Sources& sources, uint32_t file,
-                   lang::FileLoader& loader, Diagnostics& diagnostics) {
-  if (!dialect) return lang::parse(sources, file, diagnostics);
-  return dialect->parse({sources, file, builtinCatalogue(), &loader}, diagnostics);
 }
 
 std::shared_ptr<Rules::Impl> failed(const Error& e) {

@@ -112,6 +112,10 @@ std::vector<std::string_view> Analysis::styleChain(uint32_t unit, std::string_vi
   return chain;
 }
 
+Tree FileLoader::parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics) {
+  return lang::parse(sources, file, diagnostics);
+}
+
 uint32_t Analysis::loadUnit(const std::string& path, Span from, uint32_t importerUnit,
                             std::vector<uint32_t>& open) {
   if (!loader_) {
@@ -137,7 +141,7 @@ uint32_t Analysis::loadUnit(const std::string& path, Span from, uint32_t importe
   }
   const auto unit = static_cast<uint32_t>(program_.units.size());
   const uint32_t id = sources_.add(file->path, std::move(file->text));
-  Tree t = parse(sources_, id, diagnostics_);
+  Tree t = loader_->parse(sources_, id, diagnostics_);
   unitByPath_.emplace(file->path, unit);
   program_.units.push_back({file->path, id, std::move(t)});
   units_.emplace_back();

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Rules that import files of other notations: one derivation runs all of them.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "gable/gable.h"
+
+namespace gable {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Imports : public testing::Test {
+ protected:
+  Imports()
+      : folder_(fs::path(testing::TempDir()) / ("gable-imports-" + std::to_string(getpid()))) {
+    fs::create_directories(folder_ / "rules");
+  }
+  ~Imports() override { fs::remove_all(folder_); }
+
+  std::string put(const std::string& name, const std::string& text) {
+    const fs::path path = folder_ / "rules" / name;
+    std::ofstream(path) << text;
+    return path.string();
+  }
+
+  static size_t count(const std::string& text, const std::string& word) {
+    size_t n = 0;
+    for (size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++n;
+    return n;
+  }
+
+ private:
+  fs::path folder_;
+};
+
+TEST_F(Imports, grammarsOfOtherNotationsAreDerivedTogether) {
+  put("tower.grammar", "Tower -> S ( 2 3 2 ) I ( Cube 1 ) [ T ( 0 1 0 ) I ( Cube 2 ) ]\n");
+  put("wall.gbbg", "terminal Brick\nSTART -> Split(X, {1, 1}, FromRoot) {Brick | Brick | Brick}\n");
+  const Rules rules =
+      Rules::load(put("main.cga",
+                      "import tower : \"tower.grammar\"\n"
+                      "import wall : \"wall.gbbg\"\n"
+                      "@StartRule\n"
+                      "Lot --> extrude(2) split(x) { 4 : tower.Tower | ~1 : wall.START }\n"));
+  ASSERT_TRUE(rules.ok()) << (rules.messages().empty() ? "" : rules.messages()[0].text);
+  const Model model = derive(rules, Shapes::lot(8, 4), {});
+  ASSERT_TRUE(model.ok());
+  const std::string dump = model.dump();
+  EXPECT_EQ(count(dump, "Brick"), 3u) << dump;
+  EXPECT_EQ(count(dump, "Tower"), 2u) << dump;
+}
+
+TEST_F(Imports, mistakesInThemAreReportedAtTheirPlace) {
+  put("tower.grammar", "Tower -> S ( 2 3 2 ) I ( Cube 1\n");
+  const Rules rules =
+      Rules::load(put("main.cga", "import t : \"tower.grammar\"\nLot --> t.Tower\n"));
+  ASSERT_FALSE(rules.messages().empty());
+  bool told = false;
+  for (const Message& m : rules.messages())
+    told |= m.file.find("tower.grammar") != std::string::npos;
+  EXPECT_TRUE(told);
+}
+
+}  // namespace
+}  // namespace gable
