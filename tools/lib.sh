@@ -40,7 +40,8 @@ step() {
   while kill -0 "$pid" 2>/dev/null; do
     tick=$((tick + 1))
     if [ "$terminal" = 1 ] && [ $((tick % 4)) = 0 ]; then
-      last=$(tail -n 1 "$log" | tr -d '\r' | cut -c "1-$((${COLUMNS:-$(tput cols 2>/dev/null || echo 80)} - 30))")
+      # What a warning advises is no progress.
+      last=$(tail -n 1 "$log" | sed '/^ *hint:/d' | tr -d '\r' | cut -c "1-$((${COLUMNS:-$(tput cols 2>/dev/null || echo 80)} - 30))")
       printf '%s%s %s%s %s%s' "$wipe" "$label" "$dim" "$(spell $((SECONDS - start)))" "$last" "$plain"
     elif [ "$terminal" = 0 ] && [ $((tick % 600)) = 0 ]; then
       say "  $label: $(spell $((SECONDS - start))) $(tail -n 1 "$log" | cut -c 1-80)"
