@@ -183,10 +183,10 @@ bool Machine::makeLightPart(const LightSource& from, const PartPlan& plan, const
   shapesExpanded_ += slot.shapes;
   if (slot.drop) return true;
   if (slot.block > 0) return splitLightPart(from, place, part, slot, depth, nested);
-  Leaf& leaf =
-      output_.openLeaves.emplace_back(*place.axes, part.size, unitMesh(part.kind, part.uv),
-                                      from.materials, slot.name, slot.source, from.attributes);
-  leaf.frame.origin = flat_ ? place.origin + from.world.direction(part.origin) : part.origin;
+  output_.openLeaves.push_back(Leaf{*place.axes, part.size, unitMesh(part.kind, part.uv),
+                                    from.materials, slot.name, slot.source, from.attributes});
+  Vec3& origin = output_.openLeaves.back().frame.origin;
+  origin = flat_ ? place.origin + from.world.direction(part.origin) : part.origin;
   return true;
 }
 
