@@ -116,6 +116,16 @@ node_usable() {
   [ "$major" -ge 18 ]
 }
 
+# The packages of the studio's page, installed anew when their lock changes.
+install_page_packages() {
+  (cd "$root/studio" && npm ci --no-audit --no-fund --loglevel=error)
+  cp "$root/studio/package-lock.json" "$root/studio/node_modules/installed.json"
+}
+page_packages() {
+  cmp -s "$root/studio/package-lock.json" "$root/studio/node_modules/installed.json" ||
+    step "Installing what the studio's page needs" page-packages.log install_page_packages
+}
+
 # build PRESET [TARGET...]: configures where needed and builds. Ninja itself runs CMake again when a
 # file of the build description changed, so the configuration is done by hand only once.
 build() {

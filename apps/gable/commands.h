@@ -74,3 +74,9 @@ struct OpsArguments {
   bool json = false;
 };
 int runOps(const OpsArguments& arguments);
+
+struct StudioArguments {
+  std::string folder = ".";
+  int port = 0;
+};
+int runStudioCommand(const StudioArguments& arguments);

@@ -37,6 +37,13 @@ void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
       ->check(CLI::NonNegativeNumber);
 }
 
+void addStudio(CLI::App& app, StudioArguments& a, int& status) {
+  auto* studio = app.add_subcommand("studio", "Serve a page to write rules and see places");
+  studio->add_option("folder", a.folder, "The project (default: this folder)");
+  studio->add_option("--port", a.port, "Default: any that is free")->check(CLI::Range(0, 65535));
+  studio->callback([&a, &status] { status = runStudioCommand(a); });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -129,6 +136,8 @@ int main(int argc, char** argv) {
   opsApp->add_flag("--json", ops.json, "Machine-readable output");
   opsApp->callback([&] { status = runOps(ops); });
 
+  StudioArguments studio;
+  addStudio(app, studio, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -54,6 +54,12 @@ struct LoadOptions {
   std::string dialect;
   /// A style that the rule file declares; empty: none.
   std::string style;
+  /// Texts that stand for files of the project while they are being edited, by project path
+  /// ("rules/windows.cga").
+  std::vector<std::pair<std::string, std::string>> overlay;
+  /// Assets that these rules have read of the same project are not read again, nor are changes of
+  /// their files seen. May be null.
+  const class Rules* assetsOf = nullptr;
 };
 
 struct AttributeInfo {
@@ -225,6 +231,31 @@ struct PrepareSettings {
   std::string name;
 };
 
+/// A shape of the derivation tree. Nodes are in the order of the derivation, a parent before its
+/// children, so the index of a node is its step.
+struct TreeNode {
+  static constexpr uint32_t kNone = 0xffffffff;
+  uint32_t parent = kNone;
+  /// The initial shape that it belongs to.
+  uint32_t shape = 0;
+  /// Indices into Tree::names and Tree::files.
+  uint32_t name = 0, file = 0;
+  /// The operation that made the shape; from 1.
+  uint32_t line = 0, column = 0, endLine = 0, endColumn = 0;
+  /// The scope in the world: an origin, three unit axes, a size.
+  std::array<double, 12> frame{};
+  std::array<double, 3> size{};
+  bool leaf = false, dropped = false;
+  /// The place of a leaf's geometry among all leaves in path order, as draw lists count them; of
+  /// other shapes the first leaf below them. Leaves below are firstLeaf up to endLeaf; kNone: none.
+  uint32_t firstLeaf = 0, endLeaf = 0;
+};
+
+struct Tree {
+  std::vector<TreeNode> nodes;
+  std::vector<std::string> names, files;
+};
+
 /// What a derivation made, or a model file that was read.
 class Model {
  public:
@@ -256,6 +287,15 @@ class Model {
   std::string dump() const;
   /// The derivation tree as JSON; empty unless it was asked for.
   std::string traceJson() const;
+  /// The same as data; empty unless it was asked for.
+  Tree tree() const;
+  /// Leaves, instances expanded; the largest number when there are more.
+  uint64_t leafCount() const;
+  /// The model for a graphics card: batches of instances and of merged triangles; the bytes are
+  /// described in docs/dev/studio-protocol.md.
+  std::string drawList() const;
+  /// The bytes of a texture by the path that a draw list names; empty when there is none.
+  std::string texture(const std::string& path) const;
   /// By extension: .glb .gltf .obj .ply .stl, and .png for a picture with default settings.
   WriteResult write(const std::string& path, const WriteSettings& settings) const;
   WriteResult picture(const std::string& path, const PictureSettings& settings) const;

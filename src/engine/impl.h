@@ -76,4 +76,6 @@ std::string statsOf(const DeriveResult& result, const Messages& messages,
                     const Model::Times& times);
 std::string traceOf(const DeriveResult& result, const Program& program, const Sources& sources);
 
+Tree treeOf(const DeriveResult& result, const Program& program, const Sources& sources);
+
 }  // namespace gable

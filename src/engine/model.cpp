@@ -8,11 +8,13 @@
 #include "base/files.h"
 #include "base/json.h"
 #include "engine/impl.h"
+#include "io/exporters/draw_list.h"
 #include "io/exporters/write_model.h"
 #include "io/image/image.h"
 #include "io/importers/asset.h"
 #include "render/render.h"
 #include "scene/dump.h"
+#include "scene/flatten.h"
 
 namespace gable {
 
@@ -211,6 +213,21 @@ std::string Model::attributesJson(size_t shape) const {
   }
   json.endObject();
   return out;
+}
+
+Tree Model::tree() const {
+  return impl_->rules ? treeOf(impl_->result, impl_->rules->program, impl_->rules->sources)
+                      : Tree{};
+}
+
+uint64_t Model::leafCount() const { return gable::leafCount(impl_->result.scene); }
+
+std::string Model::drawList() const { return gable::drawList(impl_->result.scene); }
+
+std::string Model::texture(const std::string& path) const {
+  if (!impl_->project) return {};
+  Result<std::string> bytes = impl_->project->texture(path);
+  return bytes.ok() ? std::move(bytes.value()) : std::string();
 }
 
 WriteResult Model::write(const std::string& path, const WriteSettings& settings) const {

@@ -29,7 +29,8 @@ lang::Tree parseAs(const Dialect* dialect, const Sources& sources, uint32_t file
 
 class ProjectLoader final : public lang::FileLoader {
  public:
-  explicit ProjectLoader(const Project& project) : project_(project) {}
+  ProjectLoader(const Project& project, const LoadOptions& options)
+      : project_(project), options_(options) {}
 
   Result<File> load(const std::string& path, const std::string& importer) override {
     std::string file = project_.locate(path, importer);
@@ -38,9 +39,13 @@ class ProjectLoader final : public lang::FileLoader {
       return Error{"import-not-found", "there is no rule file '" + path + "' in the project",
                    "paths count from the project's folder, or from the importing file's"};
     }
+    std::string name = project_.projectPath(file);
+    for (const auto& [edited, content] : options_.overlay) {
+      if (edited == name) return File{std::move(name), content};
+    }
     Result<std::string> text = readFile(file, kLargestRuleFile);
     if (!text.ok()) return text.error();
-    return File{project_.projectPath(file), std::move(text.value())};
+    return File{std::move(name), std::move(text.value())};
   }
 
   lang::Tree parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics) override {
@@ -49,6 +54,7 @@ class ProjectLoader final : public lang::FileLoader {
 
  private:
   const Project& project_;
+  const LoadOptions& options_;
 };
 
 /// The notation of a file: null for Gable's own language. Error when there is none of that name.
@@ -84,10 +90,14 @@ Rules Rules::parse(const std::string& text, const std::string& path, const LoadO
   if (!dialect.ok()) return Rules(failed(dialect.error()));
   impl->project =
       std::make_shared<Project>(options.project.empty() ? Project::rootFor(path) : options.project);
+  if (options.assetsOf && options.assetsOf->impl_ && options.assetsOf->impl().project &&
+      options.assetsOf->impl().project->root() == impl->project->root()) {
+    impl->project = options.assetsOf->impl().project;
+  }
   Diagnostics diagnostics;
   const std::string name = impl->project->projectPath(path);
   const uint32_t file = impl->sources.add(name, text);
-  ProjectLoader loader(*impl->project);
+  ProjectLoader loader(*impl->project, options);
   lang::AnalysisInput input{parseAs(dialect.value(), impl->sources, file, loader, diagnostics),
                             name, options.style};
   const lang::ResolvedProgram resolved = lang::analyse(
@@ -153,7 +163,7 @@ Converted convert(const std::string& text, const std::string& path, const LoadOp
   if (!dialect.value()) {
     out.text = lang::format(sources, file, diagnostics);
   } else {
-    ProjectLoader loader(project);
+    ProjectLoader loader(project, options);
     const lang::Tree tree = parseAs(dialect.value(), sources, file, loader, diagnostics);
     const uint32_t printed = sources.add("converted.cga", lang::print(tree));
     if (!diagnostics.hasErrors()) out.text = lang::format(sources, printed, diagnostics);

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The studio's server: a page on this machine where rules are written and places are seen.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "gable/gable.h"
+
+namespace gable {
+
+struct StudioSettings {
+  /// The only folder that can be read and written.
+  std::string project = ".";
+  /// Holds the built page: index.html and what it names.
+  std::string page;
+  /// Holds examples, a folder each; may be empty.
+  std::string examples;
+  /// Loopback, unless others are meant to come in.
+  std::string address = "127.0.0.1";
+  /// 0: any that is free.
+  uint16_t port = 0;
+  /// What a page must show; empty: drawn anew.
+  std::string token;
+};
+
+struct StudioResult {
+  bool ok = false;
+  Messages messages;
+};
+
+/// Serves until `stop` is true. `ready` gets the address of the page, token and all, once it can be
+/// opened.
+StudioResult runStudio(const StudioSettings& settings, const std::atomic<bool>& stop,
+                       const std::function<void(const std::string& url)>& ready);
+
+}  // namespace gable

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The derivation tree as data. Leaves are numbered through all initial shapes, as the flattened
+// scene counts them; a shape's leaves lie together because both are in path order.
+
+#include <algorithm>
+
+#include "engine/impl.h"
+#include "scene/flatten.h"
+
+namespace gable {
+
+namespace {
+
+std::vector<uint64_t> firstLeafOfRoots(const Scene& scene) {
+  std::vector<uint64_t> counts;
+  for (const Prototype& p : scene.prototypes) {
+    uint64_t n = p.leafCount;
+    for (uint32_t i = 0; i < p.instanceCount; ++i) {
+      n = saturatingAdd(n, counts[scene.instances[p.firstInstance + i].prototype]);
+    }
+    counts.push_back(n);
+  }
+  std::vector<uint64_t> first{0};
+  for (const Root& r : scene.roots) {
+    first.push_back(saturatingAdd(first.back(), counts[r.instance.prototype]));
+  }
+  return first;
+}
+
+void setFrame(TreeNode& out, const TraceNode& n) {
+  size_t i = 0;
+  for (const Vec3& v : {n.scope.origin, n.scope.x, n.scope.y, n.scope.z}) {
+    for (const double d : {v.x, v.y, v.z}) out.frame[i++] = d;
+  }
+  out.size = {n.size.x, n.size.y, n.size.z};
+}
+
+void setPlace(TreeNode& out, const Span& span, const Sources& sources) {
+  if (!span.valid()) return;
+  const LineColumn from = sources.locate(span.file, span.begin);
+  const LineColumn to = sources.locate(span.file, span.end);
+  out.file = span.file;
+  out.line = from.line;
+  out.column = from.column;
+  out.endLine = to.line;
+  out.endColumn = to.column;
+}
+
+}  // namespace
+
+Tree treeOf(const DeriveResult& result, const Program& program, const Sources& sources) {
+  Tree tree;
+  for (uint32_t f = 0; f < sources.size(); ++f) tree.files.emplace_back(sources.path(f));
+  const std::vector<uint64_t> first = firstLeafOfRoots(result.scene);
+  std::vector<std::pair<StringId, uint32_t>> named;
+  for (const TraceNode& n : result.trace) named.emplace_back(n.name, 0);
+  std::sort(named.begin(), named.end());
+  named.erase(std::unique(named.begin(), named.end()), named.end());
+  for (const auto& [id, unused] : named) tree.names.emplace_back(program.pool->text(id));
+  for (const TraceNode& n : result.trace) {
+    TreeNode out;
+    out.parent = n.parent;
+    out.shape = n.initialShape;
+    const auto at = std::lower_bound(named.begin(), named.end(), std::pair{n.name, 0u});
+    out.name = static_cast<uint32_t>(at - named.begin());
+    setPlace(out, n.span, sources);
+    setFrame(out, n);
+    out.leaf = n.leaf;
+    out.dropped = n.dropped;
+    out.firstLeaf = out.endLeaf = TreeNode::kNone;
+    if (n.leafIndex != TraceNode::kNone && n.initialShape + 1 < first.size()) {
+      out.firstLeaf = static_cast<uint32_t>(first[n.initialShape] + n.leafIndex);
+      out.endLeaf = out.firstLeaf + 1;
+    }
+    tree.nodes.push_back(out);
+  }
+  // Children stand behind their parents, so one pass from the end joins all ranges.
+  for (size_t i = tree.nodes.size(); i-- > 0;) {
+    const TreeNode& n = tree.nodes[i];
+    if (n.parent == TreeNode::kNone || n.firstLeaf == TreeNode::kNone) continue;
+    TreeNode& above = tree.nodes[n.parent];
+    const bool none = above.firstLeaf == TreeNode::kNone;
+    above.firstLeaf = none ? n.firstLeaf : std::min(above.firstLeaf, n.firstLeaf);
+    above.endLeaf = none ? n.endLeaf : std::max(above.endLeaf, n.endLeaf);
+  }
+  return tree;
+}
+
+}  // namespace gable

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "studio/gallery.h"
+
+#include <filesystem>
+#include <sstream>
+
+#include "base/files.h"
+#include "base/json.h"
+
+namespace gable::studio {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kNotations[] = {"cga", "gbbg", "grammar", "park"};
+
+// The heading of a page and the first sentence below it.
+void readHead(const std::string& page, std::string& title, std::string& text) {
+  std::istringstream in(page);
+  for (std::string line; std::getline(in, line);) {
+    if (line.compare(0, 2, "# ") == 0) {
+      title = line.substr(2);
+    } else if (!title.empty() && !line.empty()) {
+      text += (text.empty() ? "" : " ") + line;
+    } else if (!text.empty()) {
+      break;
+    }
+  }
+  const size_t end = text.find(". ");
+  if (end != std::string::npos) text.resize(end);
+  if (!text.empty() && text.back() == '.') text.pop_back();
+}
+
+}  // namespace
+
+Gallery::Gallery(const std::string& folder)
+    : folder_(folder.empty() ? "/nonexistent" : folder), present_(folder_.ok()) {}
+
+std::string Gallery::rulesOf(const std::string& name) const {
+  if (!present_ || !plainPath(name) || name.find('/') != std::string::npos) return {};
+  for (const char* notation : kNotations) {
+    const std::string file = std::string(name).append("/").append(name).append(".") + notation;
+    const Result<std::string> place = folder_.place(file);
+    if (place.ok() && fileExists(place.value())) return file;
+  }
+  return {};
+}
+
+std::string Gallery::list() const {
+  std::string out;
+  JsonWriter json(out);
+  json.beginArray();
+  std::string last;
+  const std::vector<ProjectFile> files = present_ ? folder_.list() : std::vector<ProjectFile>();
+  for (const ProjectFile& f : files) {
+    const std::string name = f.path.substr(0, f.path.find('/'));
+    if (name == last || name == f.path) continue;
+    last = name;
+    const std::string rules = rulesOf(name);
+    if (rules.empty()) continue;
+    std::string title = name, text;
+    if (const auto page = folder_.read(name + "/README.md"); page.ok()) {
+      title.clear();
+      readHead(page.value(), title, text);
+    }
+    const auto has = [&](const std::string& file) {
+      const auto place = folder_.place(name + "/" + file);
+      return place.ok() && fileExists(place.value());
+    };
+    json.beginObject().key("name").value(name).key("title").value(title);
+    json.key("text").value(text).key("notation").value(extensionOf(rules));
+    json.key("picture").value(has(name + ".png"));
+    json.key("shapes").value(has("buildings.geojson"));
+    const auto arguments = folder_.read(name + "/generate.args");
+    json.key("arguments").value(arguments.ok() ? arguments.value() : std::string());
+    json.endObject();
+  }
+  json.endArray();
+  return out;
+}
+
+Result<std::string> Gallery::picture(const std::string& name) const {
+  if (rulesOf(name).empty()) return Error{"file-missing", "there is no such example", ""};
+  return folder_.read(std::string(name).append("/").append(name).append(".png"));
+}
+
+Result<std::string> Gallery::copyTo(ProjectFiles& files, const std::string& name) const {
+  if (rulesOf(name).empty()) return Error{"file-missing", "there is no such example", ""};
+  std::string target = name;
+  for (int i = 2; i < 1000; ++i) {
+    const auto place = files.place(target);
+    if (!place.ok()) return place.error();
+    if (!fs::exists(place.value())) break;
+    target = name + "-" + std::to_string(i);
+  }
+  for (const ProjectFile& f : folder_.list()) {
+    if (f.path.compare(0, name.size() + 1, name + "/") != 0) continue;
+    const std::string inner = f.path.substr(name.size() + 1);
+    // Pictures and pages of an example describe it; rules do not need them.
+    if (extensionOf(inner) == "args" || extensionOf(inner) == "md") continue;
+    if (inner.find('/') == std::string::npos && extensionOf(inner) == "png") continue;
+    const auto content = folder_.read(f.path);
+    if (!content.ok()) return content.error();
+    const auto written = files.write(target + "/" + inner, content.value(), "none");
+    if (!written.ok()) return written.error();
+  }
+  return target;
+}
+
+}  // namespace gable::studio

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// A small HTTP server for one machine. Requests are read on one thread and answered on a few
+// others.
+//
+// Promises, each with a test:
+// 1. Listens on the loopback address unless told otherwise.
+// 2. A request that `admit` refuses is answered before its body is read.
+// 3. Heads, bodies, connections, waiting requests and the time to send a request are bounded.
+// 4. When a client goes away, `cancelled` of its request becomes true.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/result.h"
+
+namespace gable::studio {
+
+struct HttpRequest {
+  std::string method;
+  /// Decoded, without the query.
+  std::string path;
+  /// Decoded; of a name that comes twice, the last.
+  std::map<std::string, std::string> query;
+  /// Names in lower case.
+  std::map<std::string, std::string> headers;
+  std::string body;
+  std::shared_ptr<std::atomic<bool>> cancelled;
+
+  /// Empty when there is none.
+  std::string header(const std::string& name) const;
+  std::string argument(const std::string& name) const;
+};
+
+struct HttpResponse {
+  int status = 200;
+  std::string type = "application/json";
+  std::string body;
+  std::vector<std::pair<std::string, std::string>> headers;
+};
+
+struct HttpSettings {
+  std::string address = "127.0.0.1";
+  /// 0: any that is free.
+  uint16_t port = 0;
+  uint64_t maxBody = 64u << 20;
+  uint32_t maxHead = 16u << 10;
+  unsigned workers = 4;
+  unsigned maxConnections = 128;
+  unsigned maxWaiting = 64;
+  double headSeconds = 20, bodySeconds = 30, writeSeconds = 60;
+};
+
+class HttpServer {
+ public:
+  /// The answer to a request.
+  using Handler = std::function<HttpResponse(const HttpRequest&)>;
+  /// Status 200: the request may go on. Sees the head only.
+  using Admit = std::function<HttpResponse(const HttpRequest&)>;
+
+  HttpServer(HttpSettings settings, Admit admit, Handler handler);
+  /// Waits for requests at work, which see themselves cancelled.
+  ~HttpServer();
+
+  /// The port. Codes: address-unusable.
+  Result<uint16_t> listen();
+  /// Serves until `stop` is true; looks ten times a second. After listen().
+  void run(const std::atomic<bool>& stop);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// "a%20b" to "a b"; false where the escape is broken or stands for a zero byte.
+bool decodePercent(const std::string& text, std::string& out);
+
+}  // namespace gable::studio

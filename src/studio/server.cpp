@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// What each address of the studio answers. docs/dev/studio-protocol.md has the table.
+
+#include <cstdlib>
+#include <map>
+#include <optional>
+
+#include "base/files.h"
+#include "base/json.h"
+#include "gable/studio.h"
+#include "studio/gallery.h"
+#include "studio/guard.h"
+#include "studio/http.h"
+#include "studio/project_files.h"
+#include "studio/session.h"
+
+namespace gable {
+
+namespace studio {
+namespace {
+
+constexpr const char* kBytes = "application/octet-stream";
+/// The page may load and do what is its own, and nothing else.
+constexpr const char* kPolicy =
+    "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; font-src 'self'; "
+    "img-src 'self' blob: data:; connect-src 'self' blob:; frame-ancestors 'none'; base-uri 'none'";
+
+int statusFor(const std::string& code) {
+  if (code == "path-outside" || code == "kind-refused") return 403;
+  if (code == "version-differs") return 409;
+  if (code == "file-missing" || code == "derivation-gone" || code == "texture-not-found")
+    return 404;
+  if (code == "file-too-large") return 413;
+  if (code == "file-unwritable" || code == "file-unreadable") return 500;
+  return 422;
+}
+
+HttpResponse failed(const Error& e) {
+  std::string out;
+  JsonWriter json(out);
+  json.beginObject().key("code").value(e.code).key("message").value(e.message);
+  json.key("hint").value(e.hint).endObject();
+  return {statusFor(e.code), "application/json", out, {}};
+}
+
+HttpResponse bytesOf(Result<std::string> content, const char* type = kBytes) {
+  if (!content.ok()) return failed(content.error());
+  return {200, type, std::move(content.value()), {{"Cache-Control", "no-store"}}};
+}
+
+HttpResponse jsonOf(std::string json) { return {200, "application/json", std::move(json), {}}; }
+
+HttpResponse missing() { return {404, "text/plain", "There is nothing here.\n", {}}; }
+
+const char* typeOf(const std::string& path) {
+  static const std::map<std::string, const char*> kTypes = {{"html", "text/html; charset=utf-8"},
+                                                            {"js", "text/javascript"},
+                                                            {"css", "text/css"},
+                                                            {"svg", "image/svg+xml"},
+                                                            {"png", "image/png"},
+                                                            {"woff2", "font/woff2"},
+                                                            {"json", "application/json"},
+                                                            {"txt", "text/plain"}};
+  const auto at = kTypes.find(extensionOf(path));
+  return at == kTypes.end() ? kBytes : at->second;
+}
+
+uint64_t numberOf(const std::string& text) {
+  return static_cast<uint64_t>(std::strtoull(text.c_str(), nullptr, 10));
+}
+
+class Router {
+ public:
+  explicit Router(const StudioSettings& settings)
+      : files_(settings.project),
+        page_(settings.page),
+        gallery_(settings.examples),
+        session_(files_) {
+    routes_["GET /api/project"] = [this](const HttpRequest&) { return project(); };
+    routes_["GET /api/ops"] = [](const HttpRequest&) { return jsonOf(builtinsJson()); };
+    routes_["GET /api/file"] = [this](const HttpRequest& r) { return file(r); };
+    routes_["PUT /api/file"] = [this](const HttpRequest& r) { return save(r); };
+    routes_["GET /api/previous"] = [this](const HttpRequest& r) {
+      return bytesOf(files_.previous(r.argument("path")));
+    };
+    routes_["GET /api/recovery"] = [this](const HttpRequest& r) {
+      Result<std::string> kept = files_.recovery(r.argument("path"));
+      // Nothing to recover is the usual case and no failure.
+      if (!kept.ok() && kept.error().code == "file-missing") return HttpResponse{204, "", "", {}};
+      return bytesOf(std::move(kept));
+    };
+    routes_["PUT /api/recovery"] = [this](const HttpRequest& r) { return keepRecovery(r); };
+    routes_["DELETE /api/recovery"] = [this](const HttpRequest& r) {
+      files_.dropRecovery(r.argument("path"));
+      return jsonOf("{}");
+    };
+    routes_["POST /api/derive"] = [this](const HttpRequest& r) { return derived(r, false); };
+    routes_["POST /api/tree"] = [this](const HttpRequest& r) { return derived(r, true); };
+    routes_["POST /api/format"] = [this](const HttpRequest& r) { return formatted(r); };
+    routes_["GET /api/progress"] = [this](const HttpRequest& r) { return progress(r); };
+    routes_["GET /api/export"] = [this](const HttpRequest& r) {
+      return bytesOf(
+          session_.exportModel(numberOf(r.argument("derivation")), r.argument("format")));
+    };
+    routes_["GET /api/texture"] = [this](const HttpRequest& r) {
+      return bytesOf(session_.texture(numberOf(r.argument("derivation")), r.argument("path")));
+    };
+    routes_["GET /api/examples"] = [this](const HttpRequest&) { return jsonOf(gallery_.list()); };
+    routes_["GET /api/example-picture"] = [this](const HttpRequest& r) {
+      return bytesOf(gallery_.picture(r.argument("name")), "image/png");
+    };
+    routes_["POST /api/example-copy"] = [this](const HttpRequest& r) { return copied(r); };
+  }
+
+  bool ok() const { return files_.ok(); }
+
+  HttpResponse answer(const HttpRequest& r) {
+    if (r.path.compare(0, 5, "/api/") != 0) return page(r);
+    const auto at = routes_.find(r.method + " " + r.path);
+    return at == routes_.end() ? missing() : at->second(r);
+  }
+
+ private:
+  HttpResponse page(const HttpRequest& r) const {
+    const std::string path = r.path == "/" ? "index.html" : r.path.substr(1);
+    if (!page_.ok()) return missing();
+    HttpResponse out = bytesOf(page_.read(path), typeOf(path));
+    // Built files carry a hash of their content in their name; the page itself does not.
+    const bool hashed = path.compare(0, 7, "assets/") == 0;
+    out.headers = {{"Content-Security-Policy", kPolicy},
+                   {"Referrer-Policy", "no-referrer"},
+                   {"Cache-Control", hashed ? "max-age=31536000, immutable" : "no-store"}};
+    return out;
+  }
+
+  HttpResponse project() const {
+    std::string out;
+    JsonWriter json(out);
+    json.beginObject().key("root").value(files_.root());
+    json.key("name").value(fileNameOf(files_.root())).key("version").value(version());
+    json.key("files").beginArray();
+    for (const ProjectFile& f : files_.list()) {
+      json.beginObject().key("path").value(f.path).key("bytes").value(f.bytes);
+      json.key("stamp").value(f.stamp).endObject();
+    }
+    json.endArray().endObject();
+    return jsonOf(out);
+  }
+
+  HttpResponse file(const HttpRequest& r) const {
+    Result<std::string> content = files_.read(r.argument("path"));
+    if (!content.ok()) return failed(content.error());
+    const std::string version = ProjectFiles::versionOf(content.value());
+    HttpResponse out = bytesOf(std::move(content));
+    out.headers.emplace_back("X-Gable-Version", version);
+    return out;
+  }
+
+  HttpResponse save(const HttpRequest& r) {
+    const Result<std::string> version =
+        files_.write(r.argument("path"), r.body, r.argument("expected"));
+    if (!version.ok()) return failed(version.error());
+    session_.forget();
+    std::string out;
+    JsonWriter(out).beginObject().key("version").value(version.value()).endObject();
+    return jsonOf(out);
+  }
+
+  HttpResponse keepRecovery(const HttpRequest& r) {
+    const auto kept = files_.keepRecovery(r.argument("path"), r.body);
+    return kept.ok() ? jsonOf("{}") : failed(kept.error());
+  }
+
+  HttpResponse derived(const HttpRequest& r, bool tree) {
+    const Result<JsonValue> request = parseJson(r.body, {32, 1'000'000});
+    if (!request.ok()) return failed(request.error());
+    if (!plainPath(request.value()["file"].text())) {
+      return failed({"path-outside", "'file' names no file of the project", ""});
+    }
+    return bytesOf(tree ? session_.tree(request.value(), r.cancelled)
+                        : session_.derive(request.value(), r.cancelled));
+  }
+
+  HttpResponse formatted(const HttpRequest& r) const {
+    const std::string path = r.argument("path");
+    if (!plainPath(path)) return failed({"path-outside", "'path' names no file", ""});
+    const Formatted text = format(r.body, path);
+    std::string out;
+    JsonWriter json(out);
+    json.beginObject().key("text").value(text.text);
+    json.key("messages").raw(messagesJson(text.messages)).endObject();
+    return jsonOf(out);
+  }
+
+  HttpResponse progress(const HttpRequest& r) const {
+    const auto [done, total] = session_.progress(r.argument("page"));
+    std::string out;
+    JsonWriter json(out);
+    json.beginObject().key("done").value(static_cast<uint64_t>(done));
+    json.key("total").value(static_cast<uint64_t>(total)).endObject();
+    return jsonOf(out);
+  }
+
+  HttpResponse copied(const HttpRequest& r) {
+    const Result<std::string> folder = gallery_.copyTo(files_, r.argument("name"));
+    if (!folder.ok()) return failed(folder.error());
+    session_.forget();
+    std::string out;
+    JsonWriter(out).beginObject().key("folder").value(folder.value()).endObject();
+    return jsonOf(out);
+  }
+
+  ProjectFiles files_;
+  ProjectFiles page_;
+  Gallery gallery_;
+  Session session_;
+  std::map<std::string, HttpServer::Handler> routes_;
+};
+
+StudioResult refusal(const Error& e) {
+  Message m;
+  m.code = e.code;
+  m.text = e.message;
+  m.hint = e.hint;
+  m.pretty = "error: " + e.message + (e.hint.empty() ? "" : "\n  " + e.hint) + "\n";
+  return {false, {m}};
+}
+
+}  // namespace
+}  // namespace studio
+
+StudioResult runStudio(const StudioSettings& settings, const std::atomic<bool>& stop,
+                       const std::function<void(const std::string& url)>& ready) {
+  using namespace studio;
+  Router router(settings);
+  if (!router.ok()) {
+    return refusal({"folder-missing", "there is no folder '" + settings.project + "'",
+                    "name the folder of your rules, or make it first"});
+  }
+  const std::string token = settings.token.empty() ? drawToken() : settings.token;
+  std::optional<Guard> guard;
+  HttpSettings http;
+  http.address = settings.address;
+  http.port = settings.port;
+  HttpServer server(
+      http, [&guard](const HttpRequest& r) { return guard->admit(r); },
+      [&router](const HttpRequest& r) { return router.answer(r); });
+  const Result<uint16_t> port = server.listen();
+  if (!port.ok()) return refusal(port.error());
+  const std::string end = ":" + std::to_string(port.value());
+  guard.emplace(token, std::vector<std::string>{"127.0.0.1" + end, "localhost" + end, "[::1]" + end,
+                                                settings.address + end});
+  ready("http://" + settings.address + end + "/?token=" + token);
+  server.run(stop);
+  return {true, {}};
+}
+
+}  // namespace gable

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "studio/session.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include "base/files.h"
+
+namespace gable::studio {
+
+struct Session::Work {
+  Cancel cancel;
+  std::atomic<size_t> done{0}, total{0};
+};
+
+namespace {
+
+constexpr size_t kRulesKept = 4, kShapesKept = 4, kModelsKept = 4, kPagesKept = 64;
+constexpr double kMostSeconds = 600, kUsualSeconds = 20;
+constexpr double kMostShapes = 50e6, kUsualShapes = 5e6;
+constexpr uint64_t kMostLeavesWritten = 20'000'000;
+constexpr uint64_t kTreeShapes = 400'000;
+
+template <class Kept>
+void keep(std::deque<Kept>& kept, Kept one, size_t most) {
+  kept.push_front(std::move(one));
+  if (kept.size() > most) kept.pop_back();
+}
+
+std::string joined(const char* mark, std::string json, const std::string& rest) {
+  json.append((4 - json.size() % 4) % 4, ' ');
+  const auto size = static_cast<uint32_t>(json.size());
+  std::string out = mark;
+  out.append(reinterpret_cast<const char*>(&size), sizeof size);
+  return out + json + rest;
+}
+
+DeriveSettings settingsOf(const JsonValue& request) {
+  DeriveSettings s;
+  s.startRule = request["start"].text();
+  s.seed = request["seed"].number(0);
+  for (const auto& [name, value] : request["attributes"].members()) {
+    s.attributes.emplace_back(name, value.text());
+  }
+  const JsonValue& limits = request["limits"];
+  s.budget.seconds = std::clamp(limits["seconds"].number(kUsualSeconds), 0.01, kMostSeconds);
+  s.budget.shapes =
+      static_cast<uint64_t>(std::clamp(limits["shapes"].number(kUsualShapes), 1.0, kMostShapes));
+  s.budget.vertices = 50'000'000;
+  return s;
+}
+
+void writeRules(JsonWriter& json, const Rules& rules) {
+  json.key("startRule").value(rules.startRule()).key("rules").beginArray();
+  for (const RuleInfo& r : rules.rules()) {
+    json.beginObject().key("name").value(r.name);
+    json.key("parameters").value(static_cast<uint64_t>(r.parameters)).key("start").value(r.start);
+    json.key("file").value(r.file).key("line").value(r.line).endObject();
+  }
+  json.endArray().key("attributes").beginArray();
+  for (const AttributeInfo& a : rules.attributes()) {
+    json.beginObject().key("name").value(a.name).key("type").value(a.type);
+    json.key("hidden").value(a.hidden).key("annotations").beginArray();
+    for (const AttributeInfo::Annotation& n : a.annotations) {
+      json.beginObject().key("name").value(n.name).key("arguments").beginArray();
+      for (const auto& [key, value] : n.arguments) {
+        json.beginArray().value(key).value(value).endArray();
+      }
+      json.endArray().endObject();
+    }
+    json.endArray().endObject();
+  }
+  json.endArray();
+}
+
+const char* endName(End end) {
+  switch (end) {
+    case End::Done: return "done";
+    case End::LimitReached: return "limit";
+    case End::Cancelled: break;
+  }
+  return "cancelled";
+}
+
+template <class T>
+void put(std::string& out, const T& value) {
+  out.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+// Column by column, so that a page reads each as one array.
+std::string treeBytes(const Tree& tree) {
+  std::string out;
+  const auto column = [&](auto member) {
+    for (const TreeNode& n : tree.nodes) put(out, static_cast<uint32_t>(n.*member));
+  };
+  for (auto member : {&TreeNode::parent, &TreeNode::shape, &TreeNode::name, &TreeNode::file,
+                      &TreeNode::line, &TreeNode::column, &TreeNode::endLine, &TreeNode::endColumn,
+                      &TreeNode::firstLeaf, &TreeNode::endLeaf}) {
+    column(member);
+  }
+  for (const TreeNode& n : tree.nodes) put(out, uint32_t{n.leaf} | uint32_t{n.dropped} << 1);
+  for (const TreeNode& n : tree.nodes) {
+    for (const double v : n.frame) put(out, static_cast<float>(v));
+  }
+  for (const TreeNode& n : tree.nodes) {
+    for (const double v : n.size) put(out, static_cast<float>(v));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::shared_ptr<const Rules> Session::rulesOf(const JsonValue& request) {
+  const std::string& file = request["file"].text();
+  LoadOptions options;
+  options.project = files_.root();
+  options.style = request["style"].text();
+  std::string key = file + '\0' + options.style + '\0' + request["text"].text();
+  for (const auto& [path, text] : request["overlay"].members()) {
+    options.overlay.emplace_back(path, text.text());
+    key += '\0' + path + '\0' + text.text();
+  }
+  std::shared_ptr<const Rules> assets;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [known, rules] : rules_) {
+      if (known == key) return rules;
+    }
+    if (!rules_.empty()) assets = rules_.front().second;
+  }
+  options.assetsOf = assets.get();
+  auto rules = std::make_shared<const Rules>(
+      Rules::parse(request["text"].text(), files_.root() + "/" + file, options));
+  const std::lock_guard lock(mutex_);
+  keep(rules_, {std::move(key), rules}, kRulesKept);
+  return rules;
+}
+
+Result<std::shared_ptr<const Shapes>> Session::shapesOf(const JsonValue& request) {
+  const JsonValue& spec = request["shapes"];
+  const auto shared = [](Shapes s) { return std::make_shared<const Shapes>(std::move(s)); };
+  const std::string& file = spec["file"].text();
+  if (file.empty()) {
+    const JsonValue& ring = spec["polygon"];
+    if (ring.size() >= 3) {
+      Shapes::Ring points;
+      for (const JsonValue& p : ring.items()) {
+        points.emplace_back(p.at(0).number(0), p.at(1).number(0));
+      }
+      return shared(Shapes::polygon(points));
+    }
+    const auto side = [&](size_t i) { return std::clamp(spec["lot"].at(i).number(20), 0.01, 1e6); };
+    return shared(Shapes::lot(side(0), side(1)));
+  }
+  const Result<std::string> place = files_.place(file);
+  if (!place.ok()) return place.error();
+  const Result<std::string> content = files_.read(file);
+  if (!content.ok()) return content.error();
+  const std::string key = file + '\0' + ProjectFiles::versionOf(content.value());
+  {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [known, shapes] : shapes_) {
+      if (known == key) return shapes;
+    }
+  }
+  std::shared_ptr<const Shapes> shapes = shared(Shapes::parse(content.value(), place.value()));
+  const std::lock_guard lock(mutex_);
+  keep(shapes_, {key, shapes}, kShapesKept);
+  return shapes;
+}
+
+std::shared_ptr<Session::Work> Session::begin(const JsonValue& request, const Cancel& cancel) {
+  const std::string& page = request["page"].text();
+  auto work = std::make_shared<Work>();
+  work->cancel = cancel;
+  if (page.empty()) return work;
+  const std::lock_guard lock(mutex_);
+  // Pages that are long gone do not pile up.
+  if (works_.size() >= kPagesKept && !works_.count(page)) works_.erase(works_.begin());
+  std::shared_ptr<Work>& before = works_[page];
+  if (before) before->cancel->store(true);
+  before = work;
+  return work;
+}
+
+Result<Model> Session::deriveFor(const JsonValue& request, const Rules& rules, Work& work,
+                                 bool trace) {
+  const Result<std::shared_ptr<const Shapes>> shapes = shapesOf(request);
+  if (!shapes.ok()) return shapes.error();
+  if (shapes.value()->size() == 0) {
+    const Messages& why = shapes.value()->messages();
+    return Error{"no-shapes", why.empty() ? "there is no shape to derive" : why[0].text, ""};
+  }
+  DeriveSettings settings = settingsOf(request);
+  settings.trace = trace;
+  if (trace) settings.budget.shapes = std::min(settings.budget.shapes, kTreeShapes);
+  // A value may outlive its attribute while the rules are being written.
+  const std::vector<AttributeInfo> known = rules.attributes();
+  std::erase_if(settings.attributes, [&](const auto& value) {
+    return std::none_of(known.begin(), known.end(),
+                        [&](const AttributeInfo& a) { return a.name == value.first; });
+  });
+  settings.cancel = work.cancel.get();
+  settings.progress = [&work](size_t done, size_t total) {
+    work.done = done;
+    work.total = total;
+  };
+  return gable::derive(rules, *shapes.value(), settings);
+}
+
+Result<std::string> Session::derive(const JsonValue& request, const Cancel& cancel) {
+  const std::shared_ptr<Work> work = begin(request, cancel);
+  const std::shared_ptr<const Rules> rules = rulesOf(request);
+  std::string text;
+  JsonWriter json(text);
+  json.beginObject();
+  writeRules(json, *rules);
+  Messages messages = rules->messages();
+  if (!rules->ok() || request["only"].text() == "check") {
+    json.key("end").value(rules->ok() ? "checked" : "wrong");
+    json.key("messages").raw(messagesJson(messages)).endObject();
+    return joined("GBS1", text, {});
+  }
+  const Result<Model> derived = deriveFor(request, *rules, *work, false);
+  if (!derived.ok()) return derived.error();
+  const Model& model = derived.value();
+  const Messages& more = model.messages();
+  messages.insert(messages.end(), more.begin(), more.end());
+  const bool wrong = hasErrors(more) && model.end() == End::Done;
+  const bool drawn = !wrong && model.end() != End::Cancelled;
+  uint64_t number = 0;
+  if (drawn) {
+    const std::lock_guard lock(mutex_);
+    number = ++last_;
+    keep(made_, {number, model}, kModelsKept);
+  }
+  json.key("end").value(wrong ? "wrong" : endName(model.end()));
+  json.key("derivation").value(number);
+  json.key("messages").raw(messagesJson(messages));
+  json.key("values").raw(model.attributesJson(0));
+  Model::Times times;
+  times.parse = rules->parseSeconds();
+  times.derive = model.deriveSeconds();
+  json.key("stats").raw(model.statsJson(times)).endObject();
+  return joined("GBS1", text, drawn ? model.drawList() : std::string());
+}
+
+Result<std::string> Session::tree(const JsonValue& request, const Cancel& cancel) {
+  const std::shared_ptr<Work> work = begin(request, cancel);
+  const std::shared_ptr<const Rules> rules = rulesOf(request);
+  if (!rules->ok()) return Error{"rules-wrong", "rules with errors have no derivation", ""};
+  Result<Model> derived = deriveFor(request, *rules, *work, true);
+  if (!derived.ok()) return derived.error();
+  const Tree tree = derived->tree();
+  std::string text;
+  JsonWriter json(text);
+  json.beginObject().key("count").value(static_cast<uint64_t>(tree.nodes.size()));
+  json.key("end").value(endName(derived->end())).key("names").beginArray();
+  for (const std::string& n : tree.names) json.value(n);
+  json.endArray().key("files").beginArray();
+  for (const std::string& f : tree.files) json.value(f);
+  json.endArray().endObject();
+  return joined("GBT1", text, treeBytes(tree));
+}
+
+std::optional<Model> Session::made(uint64_t number) const {
+  const std::lock_guard lock(mutex_);
+  for (const Made& m : made_) {
+    if (m.number == number) return m.model;
+  }
+  return std::nullopt;
+}
+
+Result<std::string> Session::exportModel(uint64_t derivation, const std::string& format) const {
+  const std::optional<Model> model = made(derivation);
+  if (!model) return Error{"derivation-gone", "this derivation is no longer kept", "derive again"};
+  if (model->leafCount() > kMostLeavesWritten) {
+    return Error{"model-too-large", "the model has too many leaves to be written here",
+                 "gable generate has no such limit"};
+  }
+  constexpr const char* kFormats[] = {"glb", "obj", "ply", "stl", "png"};
+  if (std::none_of(std::begin(kFormats), std::end(kFormats),
+                   [&](const char* f) { return format == f; })) {
+    return Error{"format-unknown", "models are not written as '" + format + "' here",
+                 "glb, obj, ply, stl and png are"};
+  }
+  std::string folder = (std::filesystem::temp_directory_path() / "gable-XXXXXX").string();
+  if (!mkdtemp(folder.data())) return Error{"file-unwritable", "there is no room for files", ""};
+  const std::string file = folder + "/model." + format;
+  const WriteResult written = model->write(file, {});
+  Result<std::string> bytes = readFile(file);
+  std::error_code ignored;
+  std::filesystem::remove_all(folder, ignored);
+  if (!written.ok && !written.messages.empty()) {
+    return Error{written.messages[0].code, written.messages[0].text, written.messages[0].hint};
+  }
+  return bytes;
+}
+
+Result<std::string> Session::texture(uint64_t derivation, const std::string& path) const {
+  const std::optional<Model> model = made(derivation);
+  std::string bytes = model ? model->texture(path) : std::string();
+  if (bytes.empty()) return Error{"texture-not-found", "there is no picture '" + path + "'", ""};
+  return bytes;
+}
+
+std::pair<size_t, size_t> Session::progress(const std::string& page) const {
+  const std::lock_guard lock(mutex_);
+  const auto at = works_.find(page);
+  if (at == works_.end()) return {0, 0};
+  return {at->second->done.load(), at->second->total.load()};
+}
+
+void Session::forget() {
+  const std::lock_guard lock(mutex_);
+  rules_.clear();
+  shapes_.clear();
+}
+
+}  // namespace gable::studio

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Session: derivations for pages. Rules, shapes and the latest models stay in memory, so that a
+// keystroke costs what it changes. A derivation that a page asks for cancels the one before of the
+// same page and lane; all are limited.
+//
+// Any thread may call. What is asked for and answered: docs/dev/studio-protocol.md.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "base/json.h"
+#include "gable/gable.h"
+#include "studio/project_files.h"
+
+namespace gable::studio {
+
+class Session {
+ public:
+  using Cancel = std::shared_ptr<std::atomic<bool>>;
+
+  explicit Session(const ProjectFiles& files) : files_(files) {}
+
+  /// The answer to /api/derive: "GBS1", JSON, draw list.
+  Result<std::string> derive(const JsonValue& request, const Cancel& cancel);
+  /// The answer to /api/tree: "GBT1", JSON, nodes.
+  Result<std::string> tree(const JsonValue& request, const Cancel& cancel);
+  /// A model file of a derivation; `format` is an extension.
+  Result<std::string> exportModel(uint64_t derivation, const std::string& format) const;
+  Result<std::string> texture(uint64_t derivation, const std::string& path) const;
+  /// Initial shapes done and in all, of the derivation that a page waits for.
+  std::pair<size_t, size_t> progress(const std::string& page) const;
+  /// Files have changed: what was read of them is read again.
+  void forget();
+
+ private:
+  struct Work;
+  struct Made {
+    uint64_t number;
+    Model model;
+  };
+
+  std::shared_ptr<const Rules> rulesOf(const JsonValue& request);
+  Result<std::shared_ptr<const Shapes>> shapesOf(const JsonValue& request);
+  std::optional<Model> made(uint64_t number) const;
+  std::shared_ptr<Work> begin(const JsonValue& request, const Cancel& cancel);
+  Result<Model> deriveFor(const JsonValue& request, const Rules& rules, Work& work, bool trace);
+
+  const ProjectFiles& files_;
+  mutable std::mutex mutex_;
+  std::deque<std::pair<std::string, std::shared_ptr<const Rules>>> rules_;
+  std::deque<std::pair<std::string, std::shared_ptr<const Shapes>>> shapes_;
+  std::deque<Made> made_;
+  std::map<std::string, std::shared_ptr<Work>> works_;
+  uint64_t last_ = 0;
+};
+
+}  // namespace gable::studio

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// What a stranger may try: paths that lead out, foreign pages, bodies that are huge or slow,
+// thousands of requests, rules that never end.
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "gable/studio.h"
+#include "studio/gallery.h"
+#include "studio/guard.h"
+#include "studio/project_files.h"
+#include "studio/session.h"
+
+namespace gable::studio {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+class Folder : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    root_ = ::testing::TempDir() + "gable-studio-" +
+            ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::remove_all(root_);
+    fs::create_directories(root_ + "/project/rules");
+    put("project/rules/a.cga", "@StartRule\nLot --> extrude(3) Body\n");
+    put("secret.txt", "secret");
+  }
+  void TearDown() override { fs::remove_all(root_); }
+  void put(const std::string& path, const std::string& text) {
+    std::ofstream(root_ + "/" + path) << text;
+  }
+  std::string project() const { return root_ + "/project"; }
+  std::string root_;
+};
+
+using Files = Folder;
+
+TEST_F(Files, namesThatLeadOutAreRefused) {
+  ProjectFiles files(project());
+  for (const char* path :
+       {"../secret.txt", "rules/../../secret.txt", "/etc/passwd", "", ".", "..", "rules//a.cga",
+        "rules/.hidden", ".gable/previous/x", "a\\b", "c:x", "rules/", "a\nb", "./rules/a.cga"}) {
+    EXPECT_FALSE(files.read(path).ok()) << path;
+    EXPECT_FALSE(files.write(path, "x", "").ok()) << path;
+    EXPECT_FALSE(files.keepRecovery(path, "x").ok()) << path;
+  }
+  EXPECT_EQ(files.read("rules/a.cga").value().substr(0, 10), "@StartRule");
+}
+
+TEST_F(Files, linksThatLeadOutAreRefused) {
+  fs::create_symlink(root_ + "/secret.txt", project() + "/link.txt");
+  fs::create_directory_symlink(root_, project() + "/up");
+  ProjectFiles files(project());
+  EXPECT_EQ(files.read("link.txt").error().code, "path-outside");
+  EXPECT_EQ(files.read("up/secret.txt").error().code, "path-outside");
+  EXPECT_EQ(files.write("up/new.txt", "x", "").error().code, "path-outside");
+  EXPECT_FALSE(fs::exists(root_ + "/new.txt"));
+}
+
+TEST_F(Files, theStudiosOwnFolderCannotBeALinkOut) {
+  fs::create_directories(root_ + "/else");
+  fs::create_directory_symlink(root_ + "/else", project() + "/.gable");
+  ProjectFiles files(project());
+  EXPECT_FALSE(files.keepRecovery("a.cga", "x").ok());
+  EXPECT_FALSE(files.write("rules/a.cga", "y", "").ok());
+  EXPECT_TRUE(fs::is_empty(root_ + "/else"));
+}
+
+TEST_F(Files, writingKeepsTheVersionBefore) {
+  ProjectFiles files(project());
+  const std::string before = files.read("rules/a.cga").value();
+  const std::string version = files.version("rules/a.cga");
+  const auto written = files.write("rules/a.cga", "new", version);
+  ASSERT_TRUE(written.ok());
+  EXPECT_EQ(files.read("rules/a.cga").value(), "new");
+  EXPECT_EQ(files.previous("rules/a.cga").value(), before);
+  EXPECT_EQ(written.value(), files.version("rules/a.cga"));
+}
+
+TEST_F(Files, theSecondOfTwoWritersIsTold) {
+  ProjectFiles files(project());
+  const std::string version = files.version("rules/a.cga");
+  ASSERT_TRUE(files.write("rules/a.cga", "first", version).ok());
+  EXPECT_EQ(files.write("rules/a.cga", "second", version).error().code, "version-differs");
+  EXPECT_EQ(files.read("rules/a.cga").value(), "first");
+  EXPECT_EQ(files.write("rules/a.cga", "third", "none").error().code, "version-differs");
+  EXPECT_TRUE(files.write("rules/b.cga", "new", "none").ok());
+}
+
+TEST_F(Files, onlyKindsOfAProjectAreWritten) {
+  ProjectFiles files(project());
+  for (const char* path : {"run.sh", "a.so", "Makefile", "x.desktop", "a.html"}) {
+    EXPECT_EQ(files.write(path, "x", "").error().code, "kind-refused") << path;
+  }
+}
+
+TEST_F(Files, theListHidesWhatIsHidden) {
+  put("project/.env", "x");
+  ProjectFiles files(project());
+  ASSERT_TRUE(files.keepRecovery("rules/a.cga", "x").ok());
+  const auto list = files.list();
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_EQ(list[0].path, "rules/a.cga");
+  EXPECT_EQ(files.recovery("rules/a.cga").value(), "x");
+  files.dropRecovery("rules/a.cga");
+  EXPECT_FALSE(files.recovery("rules/a.cga").ok());
+}
+
+HttpRequest request(const char* method, const char* path, const char* host) {
+  HttpRequest r;
+  r.method = method;
+  r.path = path;
+  r.headers = {{"host", host}, {"x-gable-token", "right"}};
+  return r;
+}
+
+TEST(StudioGuard, knowsItsHostOriginAndToken) {
+  const Guard guard("right", {"127.0.0.1:80", "localhost:80"});
+  HttpRequest r = request("GET", "/api/project", "localhost:80");
+  EXPECT_EQ(guard.admit(r).status, 200);
+  r.headers["origin"] = "http://localhost:80";
+  EXPECT_EQ(guard.admit(r).status, 200);
+  for (const char* origin : {"http://evil.example", "null", "https://localhost:80", "localhost:80",
+                             "http://localhost:81"}) {
+    r.headers["origin"] = origin;
+    EXPECT_EQ(guard.admit(r).status, 403) << origin;
+  }
+  r.headers.erase("origin");
+  for (const char* token : {"", "righ", "right ", "wrong"}) {
+    r.headers["x-gable-token"] = token;
+    EXPECT_EQ(guard.admit(r).status, 401) << token;
+  }
+  // A name that was made to lead here.
+  EXPECT_EQ(guard.admit(request("GET", "/", "evil.example:80")).status, 403);
+  EXPECT_EQ(guard.admit(request("GET", "/", "")).status, 403);
+  EXPECT_EQ(guard.admit(request("POST", "/", "localhost:80")).status, 405);
+  EXPECT_EQ(guard.admit(request("TRACE", "/api/project", "localhost:80")).status, 405);
+}
+
+TEST(StudioHttp, decodesAddresses) {
+  std::string out;
+  EXPECT_TRUE(decodePercent("a%20b%2Fc", out));
+  EXPECT_EQ(out, "a b/c");
+  for (const char* broken : {"%", "%4", "%zz", "%00"}) EXPECT_FALSE(decodePercent(broken, out));
+}
+
+// A server on a port of its own, asked by plain sockets.
+class Server : public Folder {
+ protected:
+  void SetUp() override {
+    Folder::SetUp();
+    fs::create_directories(root_ + "/page");
+    put("page/index.html", "<p>page");
+    StudioSettings settings;
+    settings.project = project();
+    settings.page = root_ + "/page";
+    settings.token = "right";
+    thread_ = std::thread([this, settings] {
+      runStudio(settings, stop_, [this](const std::string& url) {
+        port_ = std::stoi(url.substr(url.find(':', 7) + 1));
+      });
+    });
+    while (port_ == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  void TearDown() override {
+    stop_ = true;
+    thread_.join();
+    Folder::TearDown();
+  }
+
+  int connectTo() const {
+    const int s = socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(static_cast<uint16_t>(port_));
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(connect(s, reinterpret_cast<sockaddr*>(&to), sizeof to), 0);
+    return s;
+  }
+  std::string head(const std::string& line, size_t length) const {
+    return line + " HTTP/1.1\r\nHost: localhost:" + std::to_string(port_) +
+           "\r\nX-Gable-Token: right\r\nContent-Length: " + std::to_string(length) + "\r\n";
+  }
+  static void send(int s, const std::string& text) {
+    size_t sent = 0;
+    while (sent < text.size()) {
+      const ssize_t n = ::send(s, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
+      if (n <= 0) return;
+      sent += static_cast<size_t>(n);
+    }
+  }
+  static std::string receive(int s) {
+    std::string out;
+    char buffer[4096];
+    for (ssize_t n = 0; (n = recv(s, buffer, sizeof buffer, 0)) > 0;) {
+      out.append(buffer, static_cast<size_t>(n));
+    }
+    return out;
+  }
+  std::string ask(const std::string& line, const std::string& body = {},
+                  const std::string& more = {}) const {
+    const int s = connectTo();
+    send(s, head(line, body.size()) + "Connection: close\r\n" + more + "\r\n" + body);
+    const std::string out = receive(s);
+    close(s);
+    return out;
+  }
+  static int status(const std::string& answer) {
+    return answer.size() > 12 ? std::stoi(answer.substr(9, 3)) : 0;
+  }
+
+  std::atomic<bool> stop_{false};
+  std::atomic<int> port_{0};
+  std::thread thread_;
+};
+
+TEST_F(Server, servesItsPageWithAStrictPolicy) {
+  const std::string answer = ask("GET /");
+  EXPECT_EQ(status(answer), 200);
+  EXPECT_NE(answer.find("<p>page"), std::string::npos);
+  EXPECT_NE(answer.find("Content-Security-Policy: default-src 'none'"), std::string::npos);
+  EXPECT_EQ(status(ask("GET /../secret.txt")), 403);
+  EXPECT_EQ(status(ask("GET /%2e%2e/secret.txt")), 403);
+  EXPECT_EQ(status(ask("GET /none.js")), 404);
+}
+
+TEST_F(Server, readsAndWritesTheProjectAlone) {
+  EXPECT_EQ(status(ask("GET /api/file?path=rules%2Fa.cga")), 200);
+  EXPECT_EQ(status(ask("GET /api/file?path=..%2Fsecret.txt")), 403);
+  EXPECT_EQ(status(ask("PUT /api/file?path=..%2Fnew.txt", "x")), 403);
+  EXPECT_EQ(status(ask("PUT /api/file?path=new.cga&expected=none", "Lot --> X")), 200);
+  EXPECT_EQ(status(ask("PUT /api/file?path=new.cga&expected=none", "Lot --> Y")), 409);
+  EXPECT_FALSE(fs::exists(root_ + "/new.txt"));
+}
+
+TEST_F(Server, refusesForeignPagesBeforeTheirBody) {
+  const int s = connectTo();
+  send(s, head("PUT /api/file?path=x.cga", 60u << 20) + "Origin: http://evil.example\r\n\r\n");
+  EXPECT_EQ(status(receive(s)), 403);
+  close(s);
+}
+
+TEST_F(Server, refusesBodiesThatAreTooLarge) {
+  const int s = connectTo();
+  send(s, head("PUT /api/file?path=x.cga", size_t{65} << 20) + "\r\n");
+  EXPECT_EQ(status(receive(s)), 413);
+  close(s);
+  EXPECT_EQ(status(ask("GET /" + std::string(40000, 'a'))), 431);
+}
+
+TEST_F(Server, aSlowClientHoldsNobodyUp) {
+  std::vector<int> slow;
+  for (int i = 0; i < 60; ++i) {
+    slow.push_back(connectTo());
+    send(slow.back(), head("PUT /api/recovery?path=x.cga", 1000) + "\r\nx");
+  }
+  EXPECT_EQ(status(ask("GET /api/project")), 200);
+  for (const int s : slow) close(s);
+}
+
+TEST_F(Server, answersThousandsOfRequests) {
+  const int s = connectTo();
+  for (int i = 0; i < 3000; ++i) {
+    send(s, head("GET /api/progress?page=x", 0) + "\r\n");
+    char buffer[1024];
+    ASSERT_GT(recv(s, buffer, sizeof buffer, 0), 0) << i;
+  }
+  close(s);
+  for (int i = 0; i < 500; ++i) ASSERT_EQ(status(ask("GET /api/progress?page=x")), 200) << i;
+}
+
+TEST_F(Server, noiseIsNoRequest) {
+  for (const char* noise :
+       {"\r\n\r\n", "GET\r\n\r\n", "\x16\x03\x01\x02", "GET / HTTP/9.9\r\n\r\n"}) {
+    const int s = connectTo();
+    send(s, noise);
+    shutdown(s, SHUT_WR);
+    const std::string answer = receive(s);
+    EXPECT_TRUE(answer.empty() || status(answer) >= 400) << answer;
+    close(s);
+  }
+  EXPECT_EQ(status(ask("POST /api/derive", "{")), 422);
+  EXPECT_EQ(status(ask("POST /api/derive", "[]")), 403);
+  EXPECT_EQ(status(ask("POST /api/derive", std::string(100000, '['))), 422);
+  EXPECT_EQ(status(ask("GET /api/nothing")), 404);
+}
+
+constexpr const char* kEndless =
+    R"({"file":"rules/e.cga","text":"@StartRule\nLot --> A\nA --> t(0,1,0) split(x){'0.5:A|'0.5:A}",)"
+    R"("page":"p","seed":0,"shapes":{"lot":[20,20]},"limits":{"seconds":)";
+
+TEST_F(Server, rulesThatNeverEndAreEnded) {
+  const auto begin = Clock::now();
+  const std::string answer = ask("POST /api/derive", std::string(kEndless) + "0.5}}");
+  EXPECT_EQ(status(answer), 200);
+  EXPECT_NE(answer.find("GBS1"), std::string::npos);
+  EXPECT_LT(Clock::now() - begin, std::chrono::seconds(10));
+}
+
+TEST_F(Server, aPageThatIsClosedStopsItsWork) {
+  const std::string body = std::string(kEndless) + "500,\"shapes\":50000000}}";
+  const auto begin = Clock::now();
+  const int s = connectTo();
+  send(s, head("POST /api/derive", body.size()) + "\r\n" + body);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  close(s);
+  // The server ends only when its work has ended.
+  stop_ = true;
+  thread_.join();
+  EXPECT_LT(Clock::now() - begin, std::chrono::seconds(10));
+  thread_ = std::thread([] {});
+}
+
+TEST_F(Server, derivesDrawsAndWrites) {
+  const std::string body =
+      R"({"file":"rules/a.cga","text":"attr h = 3\n@StartRule\nLot --> extrude(h) B","page":"p",)"
+      R"("attributes":{"h":"5","gone":"1"},"shapes":{"lot":[4,2]}})";
+  const std::string answer = ask("POST /api/derive", body);
+  EXPECT_EQ(status(answer), 200);
+  EXPECT_NE(answer.find(R"("end":"done")"), std::string::npos);
+  EXPECT_NE(answer.find(R"("values":{"h":5})"), std::string::npos);
+  EXPECT_NE(answer.find("GBL1"), std::string::npos);
+  EXPECT_NE(ask("POST /api/tree", body).find("GBT1"), std::string::npos);
+  const std::string glb = ask("GET /api/export?derivation=1&format=glb");
+  EXPECT_NE(glb.find("glTF"), std::string::npos);
+  EXPECT_EQ(status(ask("GET /api/export?derivation=1&format=sh")), 422);
+  EXPECT_EQ(status(ask("GET /api/export?derivation=9&format=glb")), 404);
+}
+
+TEST_F(Folder, examplesOpenAsCopies) {
+  const Gallery gallery(std::string(GABLE_SOURCE_DIR) + "/examples");
+  ProjectFiles files(project());
+  EXPECT_NE(gallery.list().find("\"name\":\"haussmann\""), std::string::npos);
+  EXPECT_EQ(gallery.copyTo(files, "haussmann").value(), "haussmann");
+  EXPECT_EQ(gallery.copyTo(files, "haussmann").value(), "haussmann-2");
+  EXPECT_TRUE(fs::exists(project() + "/haussmann-2/haussmann.cga"));
+  for (const char* name : {"..", "../src", "", "nothing", "haussmann/"}) {
+    EXPECT_FALSE(gallery.copyTo(files, name).ok()) << name;
+    EXPECT_FALSE(gallery.picture(name).ok()) << name;
+  }
+}
+
+}  // namespace
+}  // namespace gable::studio

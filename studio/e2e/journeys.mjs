@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Whole journeys in a browser. Ends with 77, which counts as skipped, where there is no Chromium.
+// GABLE_SHOTS=FOLDER keeps a picture of each journey's end; GABLE_JOURNEY=NAME runs one.
+
+import assert from 'node:assert/strict';
+import { mkdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { CHROMIUM, clean, drawn, hasBrowser, launch, openPage, project, serve, untilDrawn } from './studio.mjs';
+
+if (!hasBrowser()) {
+  console.log(`skipped: no Chromium at ${CHROMIUM}; GABLE_CHROMIUM names another`);
+  process.exit(77);
+}
+
+const shots = process.env.GABLE_SHOTS;
+if (shots) mkdirSync(shots, { recursive: true });
+
+const status = (page) => page.locator('.status').innerText();
+const rows = (page) => page.locator('.tree .tr');
+const code = (page) => page.locator('.cm-content');
+
+/** Waits for the first model and its tree. */
+async function ready(page) {
+  await page.waitForSelector('.tree .tr', { timeout: 60_000 });
+}
+
+/** Puts the caret behind a text of the editor, which must be in sight. */
+async function caretBehind(page, text) {
+  await code(page).focus();
+  await page.keyboard.press('Control+f');
+  await page.locator('.cm-search input[name=search]').pressSequentially(text);
+  await page.keyboard.press('Enter');
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('ArrowRight');
+}
+
+/** Where a rule set of one lot of its own is enough. */
+const HOUSE = `@Group("Size") @Range(min=3, max=30) attr height = 9
+@Group("Size") @Enum("red", "blue") attr paint = "red"
+
+@StartRule
+Lot -->
+    extrude(height)
+    comp(f) { side : Wall | top : Roof }
+
+Wall -->
+    color(case paint == "red" : "#aa3322" else : "#2233aa")
+    Face.
+
+Roof -->
+    color("#555555")
+    Slab.
+`;
+
+const journeys = {
+  async opensAndDraws({ page }) {
+    await ready(page);
+    assert.match(await status(page), /No problems/);
+    assert.match(await status(page), /\d shapes/);
+    assert.ok((await drawn(page)) > 0);
+  },
+
+  async editChangesTheModel({ page }) {
+    await ready(page);
+    const pixels = () => page.locator('canvas').screenshot();
+    const before = await pixels();
+    const count = await drawn(page);
+    await caretBehind(page, 'attr height = 9');
+    await page.keyboard.type('5');
+    await untilDrawn(page, count);
+    assert.ok(!before.equals(await pixels()));
+    await page.waitForFunction(() => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === '95');
+  },
+
+  async aBrokenRuleIsMarkedAndTheModelStays({ page }) {
+    await ready(page);
+    await caretBehind(page, 'extrude(height');
+    await page.keyboard.press('Delete');
+    await page.waitForSelector('.cm-lintRange-error');
+    await page.waitForSelector('.banner');
+    assert.match(await page.locator('.banner').innerText(), /Last model that worked/);
+    assert.match(await status(page), /1 error/);
+    assert.ok((await page.locator('.prob').count()) >= 1);
+    await page.keyboard.type(')');
+    await page.waitForSelector('.banner', { state: 'detached' });
+    assert.match(await status(page), /No problems/);
+  },
+
+  async aFaceLeadsToItsRule({ page }) {
+    await ready(page);
+    const box = await page.locator('canvas').boundingBox();
+    const middle = [box.x + box.width / 2, box.y + box.height / 2];
+    await page.mouse.click(...middle);
+    await page.waitForSelector('.tr.on');
+    assert.match(await page.locator('.tr.on').innerText(), /Lot/);
+    await page.mouse.click(...middle);
+    await page.waitForFunction(() => /Wall|Roof/.test(document.querySelector('.tr.on')?.textContent ?? ''));
+    await page.waitForSelector('.cm-hit');
+    assert.match(await page.locator('.cm-hit').innerText(), /(Wall|Roof) -->/);
+    await page.getByRole('tab', { name: 'Shape' }).click();
+    assert.match(await page.locator('.who').innerText(), /journey\.cga:\d+/);
+    await page.keyboard.press('Escape');
+    await page.waitForFunction(() => /Lot/.test(document.querySelector('.tr.on')?.textContent ?? ''));
+  },
+
+  async anAttributeIsDraggedTypedAndReset({ page }) {
+    await ready(page);
+    const field = page.locator('#attr-height');
+    const box = await field.boundingBox();
+    const count = await drawn(page);
+    await page.mouse.move(box.x + 40, box.y + 10);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 90, box.y + 10, { steps: 5 });
+    await page.mouse.up();
+    await untilDrawn(page, count);
+    const dragged = Number(await field.getAttribute('aria-valuenow'));
+    assert.ok(dragged > 12 && dragged < 20, String(dragged));
+    await field.press('Enter');
+    await page.keyboard.type('3*7');
+    await page.keyboard.press('Enter');
+    await page.waitForFunction(() => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === '21');
+    await page.getByRole('button', { name: 'Reset height' }).click();
+    await page.waitForFunction(() => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === '9');
+    await page.getByRole('button', { name: 'Undo a value' }).click();
+    await page.waitForFunction(() => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === '21');
+    await page.locator('#attr-paint').selectOption('blue');
+    await page.waitForFunction(() => /2 changed/.test(document.querySelector('.sec h3')?.textContent ?? ''));
+  },
+
+  async completionAndHoverKnowTheOperations({ page }) {
+    await ready(page);
+    await caretBehind(page, 'extrude(height)');
+    await page.keyboard.press('Enter');
+    await page.keyboard.type('roofH');
+    await page.waitForSelector('.cm-tooltip-autocomplete');
+    assert.match(await page.locator('.cm-tooltip-autocomplete').innerText(), /roofHip/);
+    await page.keyboard.press('Escape');
+    for (let i = 0; i < 6; ++i) await page.keyboard.press('Backspace');
+    await page.getByText('extrude', { exact: true }).first().hover();
+    await page.waitForSelector('.hover-card');
+    assert.match(await page.locator('.hover-card').innerText(), /extrude\(/);
+  },
+
+  async savesAndKeepsWhatWasBefore({ page, folder }) {
+    await ready(page);
+    await caretBehind(page, 'attr height = 9');
+    await page.keyboard.type('.5');
+    await page.waitForSelector('.crumb .dirty');
+    await page.keyboard.press('Control+s');
+    await page.waitForSelector('.crumb .dirty', { state: 'detached' });
+    assert.match(readFileSync(join(folder, 'journey.cga'), 'utf8'), /height = 9\.5/);
+    assert.equal(readFileSync(join(folder, '.gable/previous/journey.cga'), 'utf8'), HOUSE);
+  },
+
+  async nothingIsLostWhenTheServerDies({ page, folder, server, again }) {
+    await ready(page);
+    await caretBehind(page, 'attr height = 9');
+    await page.keyboard.type('.25');
+    await page.waitForTimeout(700);
+    await server.stop();
+    await page.keyboard.type('1');
+    await page.waitForSelector('text=Not connected', { timeout: 15_000 });
+    assert.match(await code(page).innerText(), /height = 9\.251/);
+    const next = await again();
+    const second = await openPage(page.context().browser(), next.url);
+    await ready(second.page);
+    assert.match(await code(second.page).innerText(), /height = 9\.25/);
+    assert.equal(readFileSync(join(folder, 'journey.cga'), 'utf8'), HOUSE);
+    await second.context.close();
+    return { complaintsExpected: true };
+  },
+
+  async twoPagesDoNotLoseEachOthersEdits({ page, server }) {
+    await ready(page);
+    const other = await openPage(page.context().browser(), server.url);
+    await ready(other.page);
+    await caretBehind(other.page, 'attr height = 9');
+    await caretBehind(page, '@StartRule');
+    await page.keyboard.type(' ');
+    await other.page.keyboard.type('7');
+    await other.page.keyboard.press('Control+s');
+    await other.page.waitForSelector('.crumb .dirty', { state: 'detached' });
+    await page.waitForSelector('.conflict', { timeout: 15_000 });
+    assert.match(await code(page).innerText(), /height = 9\n/);
+    await page.getByRole('button', { name: 'Take theirs' }).click();
+    await page.waitForFunction(() => /height = 97/.test(document.querySelector('.cm-content')?.textContent ?? ''));
+    await other.context.close();
+  },
+
+  async exportsAModelThatOthersRead({ page, folder }) {
+    await ready(page);
+    await page.getByRole('button', { name: 'Export' }).click();
+    const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('menuitem', { name: '.glb' }).click()]);
+    const file = join(folder, 'model.glb');
+    await download.saveAs(file);
+    const bytes = readFileSync(file);
+    assert.equal(bytes.toString('latin1', 0, 4), 'glTF');
+    assert.equal(bytes.readUInt32LE(8), statSync(file).size);
+  },
+
+  async theGalleryOpensACopy({ page, folder }) {
+    await ready(page);
+    await page.keyboard.press('Alt+4');
+    await page.waitForSelector('.gc img');
+    await page.getByRole('button', { name: /Tower/ }).first().click();
+    await page.waitForSelector('text=tower.cga', { timeout: 60_000 });
+    await ready(page);
+    assert.ok(statSync(join(folder, 'tower/tower.cga')).size > 100);
+  },
+
+  async worksInTheLight({ page }) {
+    await ready(page);
+    await page.getByRole('button', { name: 'Light or dark' }).click();
+    assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), 'light');
+    await page.keyboard.press('?');
+    assert.match(await page.getByRole('dialog').innerText(), /frame the selection/);
+    await page.keyboard.press('Escape');
+    await page.waitForSelector('[role=dialog]', { state: 'detached' });
+  },
+};
+
+async function travel(browser, name) {
+  const folder = project();
+  writeFileSync(join(folder, 'journey.cga'), HOUSE);
+  let server = await serve(folder);
+  const { page, context, complaints } = await openPage(browser, server.url);
+  const again = async () => (server = await serve(folder));
+  try {
+    const outcome = await journeys[name]({ page, folder, server, again });
+    if (!outcome?.complaintsExpected) assert.deepEqual(complaints, []);
+    return null;
+  } catch (error) {
+    return error;
+  } finally {
+    if (shots) await page.screenshot({ path: join(shots, `${name}.png`) }).catch(() => undefined);
+    await context.close();
+    await server.stop();
+    clean(folder);
+  }
+}
+
+const only = process.env.GABLE_JOURNEY;
+const browser = await launch();
+let failed = 0;
+for (const name of Object.keys(journeys)) {
+  if (only && only !== name) continue;
+  const began = Date.now();
+  const error = await travel(browser, name);
+  console.log(`${error ? 'failed' : 'passed'}  ${name}  ${((Date.now() - began) / 1000).toFixed(1)} s`);
+  if (error) {
+    ++failed;
+    console.log(error.stack ?? String(error));
+  }
+}
+await browser.close();
+process.exit(failed ? 1 : 0);

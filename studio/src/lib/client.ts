@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// EngineClient: the one way from the page to the server.
+
+import { decodeDerived, decodeTree, type Derived, type DrawList, type Message, type Tree } from './protocol';
+
+export interface ProjectFile {
+  path: string;
+  bytes: number;
+  stamp: string;
+}
+
+export interface ProjectInfo {
+  root: string;
+  name: string;
+  version: string;
+  files: ProjectFile[];
+}
+
+export interface Example {
+  name: string;
+  title: string;
+  text: string;
+  notation: string;
+  picture: boolean;
+  shapes: boolean;
+  arguments: string;
+}
+
+export type ShapesSpec = { lot: [number, number] } | { file: string } | { polygon: [number, number][] };
+
+export interface DeriveRequest {
+  page: string;
+  file: string;
+  text: string;
+  overlay: Record<string, string>;
+  start: string;
+  seed: number;
+  attributes: Record<string, string>;
+  shapes: ShapesSpec;
+  limits?: { seconds?: number; shapes?: number };
+}
+
+/** What the server refused, with its code. */
+export class Refusal extends Error {
+  constructor(
+    readonly status: number,
+    readonly code: string,
+    message: string,
+  ) {
+    super(message);
+  }
+}
+
+const TOKEN = 'gable.token';
+
+/** From the address, and from then on from this tab's memory. */
+function takeToken(): string {
+  const url = new URL(location.href);
+  const given = url.searchParams.get('token');
+  if (!given) return sessionStorage.getItem(TOKEN) ?? '';
+  sessionStorage.setItem(TOKEN, given);
+  url.searchParams.delete('token');
+  history.replaceState(null, '', url);
+  return given;
+}
+
+export class EngineClient {
+  readonly page = crypto.randomUUID();
+  private readonly token = takeToken();
+
+  private async call(method: string, path: string, body?: string | Blob, signal?: AbortSignal): Promise<Response> {
+    const answer = await fetch(`/api/${path}`, {
+      method,
+      headers: { 'X-Gable-Token': this.token },
+      ...(body === undefined ? {} : { body }),
+      ...(signal ? { signal } : {}),
+    });
+    if (answer.ok) return answer;
+    const text = await answer.text();
+    try {
+      const said = JSON.parse(text) as { code: string; message: string };
+      throw new Refusal(answer.status, said.code, said.message);
+    } catch (error) {
+      if (error instanceof Refusal) throw error;
+      throw new Refusal(answer.status, 'refused', text.trim() || answer.statusText);
+    }
+  }
+
+  async project(): Promise<ProjectInfo> {
+    return (await this.call('GET', 'project')).json() as Promise<ProjectInfo>;
+  }
+
+  async ops(): Promise<unknown> {
+    return (await this.call('GET', 'ops')).json();
+  }
+
+  async read(path: string): Promise<{ text: string; version: string }> {
+    const answer = await this.call('GET', `file?path=${encodeURIComponent(path)}`);
+    return { text: await answer.text(), version: answer.headers.get('X-Gable-Version') ?? '' };
+  }
+
+  /** Writes where the file still is the version expected; "none" for a file that is new. */
+  async write(path: string, content: string | Blob, expected: string): Promise<string> {
+    const query = `file?path=${encodeURIComponent(path)}&expected=${expected}`;
+    const answer = (await (await this.call('PUT', query, content)).json()) as { version: string };
+    return answer.version;
+  }
+
+  async recovery(path: string): Promise<string | null> {
+    const answer = await this.call('GET', `recovery?path=${encodeURIComponent(path)}`);
+    return answer.status === 204 ? null : answer.text();
+  }
+
+  async keepRecovery(path: string, text: string): Promise<void> {
+    await this.call('PUT', `recovery?path=${encodeURIComponent(path)}`, text);
+  }
+
+  async dropRecovery(path: string): Promise<void> {
+    await this.call('DELETE', `recovery?path=${encodeURIComponent(path)}`);
+  }
+
+  async derive(request: DeriveRequest, signal: AbortSignal): Promise<{ derived: Derived; draw: DrawList | null }> {
+    const answer = await this.call('POST', 'derive', JSON.stringify(request), signal);
+    return decodeDerived(await answer.arrayBuffer());
+  }
+
+  async tree(request: DeriveRequest, signal: AbortSignal): Promise<Tree> {
+    const own = { ...request, page: `${request.page} tree` };
+    const answer = await this.call('POST', 'tree', JSON.stringify(own), signal);
+    return decodeTree(await answer.arrayBuffer());
+  }
+
+  async progress(): Promise<{ done: number; total: number }> {
+    const answer = await this.call('GET', `progress?page=${encodeURIComponent(this.page)}`);
+    return answer.json() as Promise<{ done: number; total: number }>;
+  }
+
+  async format(path: string, text: string): Promise<{ text: string; messages: Message[] }> {
+    const answer = await this.call('POST', `format?path=${encodeURIComponent(path)}`, text);
+    return answer.json() as Promise<{ text: string; messages: Message[] }>;
+  }
+
+  async exported(derivation: number, format: string, signal: AbortSignal): Promise<Blob> {
+    const query = `export?derivation=${derivation}&format=${format}`;
+    return (await this.call('GET', query, undefined, signal)).blob();
+  }
+
+  async texture(derivation: number, path: string): Promise<Blob> {
+    const query = `texture?derivation=${derivation}&path=${encodeURIComponent(path)}`;
+    return (await this.call('GET', query)).blob();
+  }
+
+  async examples(): Promise<Example[]> {
+    return (await this.call('GET', 'examples')).json() as Promise<Example[]>;
+  }
+
+  async examplePicture(name: string): Promise<Blob> {
+    return (await this.call('GET', `example-picture?name=${encodeURIComponent(name)}`)).blob();
+  }
+
+  async copyExample(name: string): Promise<string> {
+    const answer = await this.call('POST', `example-copy?name=${encodeURIComponent(name)}`);
+    return ((await answer.json()) as { folder: string }).folder;
+  }
+}

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// What the server says, as types, and the decoding of its binary answers. The fields are described
+// in docs/dev/studio-protocol.md.
+
+export interface Message {
+  severity: 'error' | 'warning' | 'note';
+  code: string;
+  message: string;
+  hint?: string;
+  file?: string;
+  line?: number;
+  column?: number;
+  endLine?: number;
+  endColumn?: number;
+  shapePath?: string;
+}
+
+export interface Annotation {
+  name: string;
+  arguments: [string, string][];
+}
+
+export interface AttributeInfo {
+  name: string;
+  type: string;
+  hidden: boolean;
+  annotations: Annotation[];
+}
+
+export interface RuleInfo {
+  name: string;
+  parameters: number;
+  start: boolean;
+  file: string;
+  line: number;
+}
+
+export type Value = number | boolean | string | Value[] | null;
+
+export interface ReportTotal {
+  n: number;
+  sum?: number;
+  avg?: number;
+  min?: number;
+  max?: number;
+  values?: Record<string, number>;
+}
+
+export interface Stats {
+  shapes: number;
+  leaves: number;
+  faces: number;
+  triangles: number;
+  instances: number;
+  bbox: { min: [number, number, number]; max: [number, number, number] };
+  reports: Record<string, ReportTotal>;
+  prints: string[];
+  seconds: { parse: number; derive: number };
+}
+
+export type End = 'done' | 'limit' | 'cancelled' | 'wrong' | 'checked';
+
+export interface Derived {
+  end: End;
+  derivation?: number;
+  startRule: string;
+  rules: RuleInfo[];
+  attributes: AttributeInfo[];
+  messages: Message[];
+  values?: Record<string, Value>;
+  stats?: Stats;
+}
+
+export interface Look {
+  roughness: number;
+  metallic: number;
+  opacity?: number;
+  cutoff?: number;
+  emissive?: number;
+  map?: string;
+  uv?: [number, number, number, number, number];
+}
+
+/** A draw call: merged triangles, or instances of one geometry where `matrix` is there. */
+export interface Batch {
+  look: number;
+  position: Float32Array;
+  normal: Float32Array;
+  index: Uint32Array;
+  uv?: Float32Array;
+  /** sRGB with alpha, four bytes a vertex or an instance. */
+  color: Uint8Array;
+  leaf: Float32Array;
+  matrix?: Float32Array;
+}
+
+export interface DrawList {
+  leaves: number;
+  truncated: boolean;
+  looks: Look[];
+  batches: Batch[];
+}
+
+export interface Tree {
+  count: number;
+  end: End;
+  names: string[];
+  files: string[];
+  parent: Uint32Array;
+  shape: Uint32Array;
+  name: Uint32Array;
+  file: Uint32Array;
+  line: Uint32Array;
+  column: Uint32Array;
+  endLine: Uint32Array;
+  endColumn: Uint32Array;
+  firstLeaf: Uint32Array;
+  endLeaf: Uint32Array;
+  flags: Uint32Array;
+  /** Twelve a node: origin, x, y, z. */
+  frame: Float32Array;
+  size: Float32Array;
+}
+
+export const NONE = 0xffffffff;
+
+interface Parts {
+  json: unknown;
+  bytes: ArrayBuffer;
+  start: number;
+}
+
+/** Splits "MARK", a count, JSON, the rest; throws on another mark. */
+function parts(bytes: ArrayBuffer, from: number, mark: string): Parts {
+  const head = new TextDecoder('latin1').decode(new Uint8Array(bytes, from, 4));
+  if (head !== mark) throw new Error(`The server's answer begins with ${head}, not ${mark}.`);
+  const size = new DataView(bytes).getUint32(from + 4, true);
+  const json: unknown = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, from + 8, size)));
+  return { json, bytes, start: from + 8 + size };
+}
+
+type Section = [number, number];
+interface BatchHead {
+  look: number;
+  position: Section;
+  normal: Section;
+  index: Section;
+  uv?: Section;
+  color: Section;
+  leaf: Section;
+  matrix?: Section;
+}
+
+export function decodeDrawList(bytes: ArrayBuffer, from = 0): DrawList {
+  const { json, start } = parts(bytes, from, 'GBL1');
+  const head = json as Omit<DrawList, 'batches'> & { batches: BatchHead[] };
+  const floats = (s: Section) => new Float32Array(bytes, start + s[0], s[1]);
+  const batches = head.batches.map((b): Batch => ({
+    look: b.look,
+    position: floats(b.position),
+    normal: floats(b.normal),
+    index: new Uint32Array(bytes, start + b.index[0], b.index[1]),
+    color: new Uint8Array(bytes, start + b.color[0], b.color[1] * 4),
+    leaf: floats(b.leaf),
+    ...(b.uv ? { uv: floats(b.uv) } : {}),
+    ...(b.matrix ? { matrix: floats(b.matrix) } : {}),
+  }));
+  return { ...head, batches };
+}
+
+export function decodeDerived(bytes: ArrayBuffer): { derived: Derived; draw: DrawList | null } {
+  const { json, start } = parts(bytes, 0, 'GBS1');
+  return {
+    derived: json as Derived,
+    draw: start < bytes.byteLength ? decodeDrawList(bytes, start) : null,
+  };
+}
+
+export function decodeTree(bytes: ArrayBuffer): Tree {
+  const { json, start } = parts(bytes, 0, 'GBT1');
+  const head = json as Pick<Tree, 'count' | 'end' | 'names' | 'files'>;
+  const n = head.count;
+  let at = start;
+  const column = () => {
+    const out = new Uint32Array(bytes, at, n);
+    at += n * 4;
+    return out;
+  };
+  const floats = (each: number) => {
+    const out = new Float32Array(bytes, at, n * each);
+    at += n * each * 4;
+    return out;
+  };
+  return {
+    ...head,
+    parent: column(),
+    shape: column(),
+    name: column(),
+    file: column(),
+    line: column(),
+    column: column(),
+    endLine: column(),
+    endColumn: column(),
+    firstLeaf: column(),
+    endLeaf: column(),
+    flags: column(),
+    frame: floats(12),
+    size: floats(3),
+  };
+}

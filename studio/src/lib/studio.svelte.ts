@@ -1,0 +1,515 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Studio: all that the page knows. Panels read it and call its methods; none has a state of its own
+// that another panel would have to know.
+
+import { EngineClient, Refusal, type DeriveRequest, type Example, type ProjectFile, type ShapesSpec } from './client';
+import { groupFields, valueText, type Group } from './fields';
+import type { AttributeInfo, Derived, DrawList, Message, RuleInfo, Stats, Value } from './protocol';
+import { readRegistry, type Entry } from './registry';
+import { Shapes } from './tree';
+
+export type Page = 'rules' | 'gallery';
+export type Theme = 'dark' | 'light';
+
+export interface Doc {
+  path: string;
+  text: string;
+  /** What the file says, and which version that is; "none" for a file that is not there yet. */
+  saved: string;
+  version: string;
+}
+
+/** What makes a place besides the rules. Values are texts as the engine takes them. */
+export interface Place {
+  start: string;
+  seed: number;
+  attributes: Record<string, string>;
+  shapes: ShapesSpec;
+}
+
+interface Remembered {
+  main: string;
+  places: Record<string, Place>;
+}
+
+export interface Toast {
+  text: string;
+  action?: { label: string; run: () => void };
+}
+
+const RULES = /\.(cga|gbbg|grammar|pg3d|park)$/;
+const SHAPES = /\.(geojson|obj|glb|gltf)$/;
+const MEMORY = 'studio.json';
+/** A derivation younger than this is waited for: pictures come in while a slider is dragged. */
+const PATIENCE_MS = 350;
+const TREE_AFTER_MS = 250;
+const MOST_TREE_SHAPES = 300_000;
+
+export function newPlace(): Place {
+  return { start: '', seed: 0, attributes: {}, shapes: { lot: [20, 30] } };
+}
+
+export class Studio {
+  readonly client = new EngineClient();
+  page = $state<Page>('rules');
+  theme = $state<Theme>('dark');
+  name = $state('');
+  files = $state.raw<ProjectFile[]>([]);
+  docs = $state<Doc[]>([]);
+  main = $state('');
+  active = $state('');
+  place = $state<Place>(newPlace());
+  examples = $state.raw<Example[]>([]);
+  registry = $state.raw<Entry[]>([]);
+  ready = $state(false);
+  connected = $state(true);
+  /** What could not be done at all, in a sentence. */
+  trouble = $state('');
+  toast = $state.raw<Toast | null>(null);
+
+  rules = $state.raw<RuleInfo[]>([]);
+  startRule = $state('');
+  attributes = $state.raw<AttributeInfo[]>([]);
+  values = $state.raw<Record<string, Value>>({});
+  messages = $state.raw<Message[]>([]);
+  stats = $state.raw<Stats | null>(null);
+  derivation = $state(0);
+  end = $state<Derived['end'] | ''>('');
+  /** When the model that is shown was made, where later rules had errors. */
+  lastGood = $state('');
+  deriving = $state(0);
+  progress = $state.raw<{ done: number; total: number } | null>(null);
+  shapes = $state.raw<Shapes | null>(null);
+  selected = $state(-1);
+  hovered = $state(-1);
+  canUndo = $state(0);
+  canRedo = $state(0);
+
+  /** Set by the view and the editor. */
+  show: ((draw: DrawList, stats: Stats) => void) | null = null;
+  reveal: ((file: string, line: number, column?: number) => void) | null = null;
+
+  readonly groups = $derived<Group[]>(groupFields(this.attributes));
+  readonly errors = $derived(this.messages.filter((m) => m.severity === 'error').length);
+  readonly warnings = $derived(this.messages.filter((m) => m.severity === 'warning').length);
+  readonly ruleFiles = $derived(this.files.filter((f) => RULES.test(f.path)));
+  readonly shapeFiles = $derived(this.files.filter((f) => SHAPES.test(f.path)));
+
+  private places: Record<string, Place> = {};
+  private address: string[] = [];
+  private running: { abort: AbortController; began: number } | null = null;
+  private again = false;
+  private treeAbort: AbortController | null = null;
+  private treeTimer = 0;
+  private keepTimer = 0;
+  private toastTimer = 0;
+  private pollDelay = 2000;
+  private undone: string[] = [];
+  private done: string[] = [];
+  private lastStep = 0;
+
+  async open(): Promise<void> {
+    this.theme = localStorage.getItem('gable.theme') === 'light' ? 'light' : 'dark';
+    try {
+      const [project, ops] = await Promise.all([this.client.project(), this.client.ops()]);
+      this.name = project.name;
+      this.files = project.files;
+      this.registry = readRegistry(ops);
+      await this.recall();
+      const first = this.ruleFiles.find((f) => f.path === this.main) ?? this.ruleFiles[0];
+      if (first) await this.openRules(first.path);
+      else this.page = 'gallery';
+      this.ready = true;
+      void this.client.examples().then((examples) => (this.examples = examples));
+      this.poll();
+    } catch (error) {
+      this.trouble =
+        error instanceof Refusal && error.status === 401
+          ? 'This page needs the address that gable studio printed, with its token.'
+          : `The studio could not be reached: ${String(error)}`;
+    }
+  }
+
+  private async recall(): Promise<void> {
+    const text = await this.client.recovery(MEMORY);
+    if (!text) return;
+    try {
+      const memory = JSON.parse(text) as Remembered;
+      this.main = memory.main;
+      this.places = memory.places;
+    } catch {
+      // A memory that cannot be read is none.
+    }
+  }
+
+  doc(path: string): Doc | undefined {
+    return this.docs.find((d) => d.path === path);
+  }
+
+  dirty(path: string): boolean {
+    const doc = this.doc(path);
+    return !!doc && doc.text !== doc.saved;
+  }
+
+  /** Opens a rule file as the one that is derived. */
+  async openRules(path: string, place?: Place): Promise<void> {
+    await this.openFile(path);
+    this.main = path;
+    this.place = place ?? this.places[path] ?? newPlace();
+    this.done = [JSON.stringify(this.place)];
+    this.undone = [];
+    this.canUndo = this.canRedo = 0;
+    this.shapes = null;
+    this.selected = -1;
+    this.address = [];
+    this.page = 'rules';
+    this.changed();
+  }
+
+  async openFile(path: string): Promise<void> {
+    if (!this.doc(path)) {
+      const [file, kept] = await Promise.all([this.client.read(path), this.client.recovery(path)]);
+      this.docs.push({ path, text: kept ?? file.text, saved: file.text, version: file.version });
+    }
+    this.active = path;
+  }
+
+  closeFile(path: string): void {
+    if (path === this.main) return;
+    this.docs = this.docs.filter((d) => d.path !== path);
+    if (this.active === path) this.active = this.main;
+  }
+
+  /** The text of a file has changed in the editor. */
+  edit(path: string, text: string): void {
+    const doc = this.doc(path);
+    if (!doc || doc.text === text) return;
+    doc.text = text;
+    this.changed();
+  }
+
+  async save(path = this.active): Promise<void> {
+    const doc = this.doc(path);
+    if (!doc) return;
+    const text = doc.text;
+    try {
+      doc.version = await this.client.write(path, text, doc.version);
+      doc.saved = text;
+      await this.client.dropRecovery(path);
+      this.say(`Saved ${path}`);
+    } catch (error) {
+      if (error instanceof Refusal && error.code === 'version-differs') await this.conflict(doc);
+      else this.trouble = `${path} could not be saved: ${(error as Error).message}`;
+    }
+  }
+
+  conflictOf = $state<{ path: string; theirs: string; version: string } | null>(null);
+
+  private async conflict(doc: Doc): Promise<void> {
+    const { text, version } = await this.client.read(doc.path);
+    this.conflictOf = { path: doc.path, theirs: text, version };
+  }
+
+  /** Ends a conflict: with what the editor says, or with what the file says. */
+  async resolve(mine: boolean): Promise<void> {
+    const conflict = this.conflictOf;
+    const doc = conflict && this.doc(conflict.path);
+    this.conflictOf = null;
+    if (!conflict || !doc) return;
+    doc.version = conflict.version;
+    doc.saved = conflict.theirs;
+    if (mine) return this.save(doc.path);
+    doc.text = conflict.theirs;
+    await this.client.dropRecovery(doc.path);
+    this.changed();
+  }
+
+  setAttribute(name: string, value: Value | undefined): void {
+    const attributes = { ...this.place.attributes };
+    if (value === undefined) delete attributes[name];
+    else attributes[name] = valueText(value);
+    this.change({ attributes });
+  }
+
+  /** A step of the history; steps of one kind within half a second are one. */
+  change(part: Partial<Place>): void {
+    this.place = { ...this.place, ...part };
+    const now = Date.now();
+    const kind = Object.keys(part).join() + Object.keys(part.attributes ?? {}).length;
+    if (now - this.lastStep > 500 || kind !== this.lastKind) this.done.push('');
+    this.lastStep = now;
+    this.lastKind = kind;
+    this.done[this.done.length - 1] = JSON.stringify(this.place);
+    this.undone = [];
+    this.countSteps();
+    this.changed();
+  }
+  private lastKind = '';
+
+  private countSteps(): void {
+    this.canUndo = this.done.length - 1;
+    this.canRedo = this.undone.length;
+  }
+
+  undo(): void {
+    if (this.done.length < 2) return;
+    this.undone.push(this.done.pop()!);
+    this.restore();
+  }
+
+  redo(): void {
+    const step = this.undone.pop();
+    if (step === undefined) return;
+    this.done.push(step);
+    this.restore();
+  }
+
+  private restore(): void {
+    this.place = JSON.parse(this.done[this.done.length - 1]!) as Place;
+    this.lastStep = 0;
+    this.countSteps();
+    this.changed();
+  }
+
+  private changed(): void {
+    clearTimeout(this.keepTimer);
+    this.keepTimer = window.setTimeout(() => void this.keep(), 250);
+    this.derive();
+  }
+
+  /** What would be lost with this page goes to the server. */
+  private async keep(): Promise<void> {
+    this.places = { ...this.places, [this.main]: $state.snapshot(this.place) };
+    const memory: Remembered = { main: this.main, places: this.places };
+    try {
+      await this.client.keepRecovery(MEMORY, JSON.stringify(memory));
+      for (const doc of this.docs) {
+        if (doc.text !== doc.saved) await this.client.keepRecovery(doc.path, doc.text);
+      }
+      this.connected = true;
+    } catch (error) {
+      if (!(error instanceof Refusal)) this.connected = false;
+    }
+  }
+
+  private request(): DeriveRequest {
+    const overlay: Record<string, string> = {};
+    for (const doc of this.docs) if (doc.path !== this.main && doc.text !== doc.saved) overlay[doc.path] = doc.text;
+    const place = $state.snapshot(this.place);
+    return { page: this.client.page, file: this.main, text: this.doc(this.main)?.text ?? '', overlay, ...place };
+  }
+
+  /** Asks for a new model; a younger one that is under way comes first, an older one is given up. */
+  derive(): void {
+    if (!this.main) return;
+    clearTimeout(this.treeTimer);
+    this.treeAbort?.abort();
+    if (this.running) {
+      this.again = true;
+      if (performance.now() - this.running.began > PATIENCE_MS) this.running.abort.abort();
+      return;
+    }
+    void this.deriveNow();
+  }
+
+  private async deriveNow(): Promise<void> {
+    this.again = false;
+    const run = { abort: new AbortController(), began: performance.now() };
+    this.running = run;
+    this.deriving = run.began;
+    const watch = window.setInterval(() => void this.watchProgress(run.began), 500);
+    const impatient = window.setInterval(() => {
+      if (this.again && performance.now() - run.began > PATIENCE_MS) run.abort.abort();
+    }, 50);
+    try {
+      const { derived, draw } = await this.client.derive(this.request(), run.abort.signal);
+      this.connected = true;
+      this.take(derived, draw);
+    } catch (error) {
+      if (error instanceof Refusal) {
+        this.messages = [{ severity: 'error', code: error.code, message: error.message }];
+        this.end = 'wrong';
+      } else if (!run.abort.signal.aborted) this.connected = false;
+    } finally {
+      clearInterval(watch);
+      clearInterval(impatient);
+      this.running = null;
+      this.deriving = 0;
+      this.progress = null;
+    }
+    if (this.again) void this.deriveNow();
+  }
+
+  private async watchProgress(began: number): Promise<void> {
+    if (performance.now() - began < 900) return;
+    try {
+      this.progress = await this.client.progress();
+    } catch {
+      this.progress = null;
+    }
+  }
+
+  /** Gives up the derivation under way; the picture stays. */
+  cancel(): boolean {
+    if (!this.running) return false;
+    this.again = false;
+    this.running.abort.abort();
+    return true;
+  }
+
+  private take(derived: Derived, draw: DrawList | null): void {
+    if (derived.end === 'cancelled') return;
+    this.messages = derived.messages;
+    const wasGood = this.end !== 'wrong';
+    this.end = derived.end;
+    if (derived.end === 'wrong' || !draw || !derived.stats) {
+      if (wasGood && this.stats) this.lastGood = new Date().toLocaleTimeString('en-GB');
+      return;
+    }
+    this.rules = derived.rules;
+    this.startRule = derived.startRule;
+    this.attributes = derived.attributes;
+    this.values = derived.values ?? {};
+    this.stats = derived.stats;
+    this.derivation = derived.derivation ?? 0;
+    this.lastGood = '';
+    this.show?.(draw, derived.stats);
+    if (derived.stats.shapes <= MOST_TREE_SHAPES) {
+      this.treeTimer = window.setTimeout(() => void this.fetchTree(), TREE_AFTER_MS);
+    } else {
+      this.shapes = null;
+      this.selected = -1;
+    }
+  }
+
+  private async fetchTree(): Promise<void> {
+    const abort = new AbortController();
+    this.treeAbort = abort;
+    try {
+      const tree = await this.client.tree(this.request(), abort.signal);
+      if (abort.signal.aborted) return;
+      const shapes = new Shapes(tree);
+      this.shapes = shapes;
+      this.selected = this.address.length ? shapes.find(this.address) : -1;
+      this.hovered = -1;
+    } catch {
+      // The next derivation asks again.
+    }
+  }
+
+  select(node: number, reveal = true): void {
+    this.selected = node;
+    this.address = node >= 0 && this.shapes ? this.shapes.address(node) : [];
+    if (reveal && node >= 0) this.revealShape(node);
+  }
+
+  revealShape(node: number): void {
+    const shapes = this.shapes;
+    if (!shapes) return;
+    const file = shapes.tree.files[shapes.tree.file[node]!] ?? '';
+    const place = this.ruleOf(node);
+    this.reveal?.(place?.file ?? file, place?.line ?? shapes.tree.line[node]!);
+  }
+
+  /** The rule that a shape is to be rewritten by: the one of its name. */
+  ruleOf(node: number): RuleInfo | undefined {
+    const name = this.shapes?.nameOf(node);
+    return this.rules.find((r) => r.name === name) ?? this.rules.find((r) => r.name.endsWith(`.${name}`));
+  }
+
+  selectAbove(): void {
+    if (!this.shapes || this.selected < 0) return;
+    const path = this.shapes.pathTo(this.selected);
+    this.select(path.length > 1 ? path[path.length - 2]! : -1);
+  }
+
+  reroll(): void {
+    this.change({ seed: crypto.getRandomValues(new Uint16Array(1))[0]! });
+  }
+
+  setTheme(theme: Theme): void {
+    this.theme = theme;
+    localStorage.setItem('gable.theme', theme);
+  }
+
+  async format(): Promise<void> {
+    const doc = this.doc(this.active);
+    if (!doc) return;
+    const { text, messages } = await this.client.format(doc.path, doc.text);
+    if (messages.some((m) => m.severity === 'error')) this.say('Text with errors is not formatted.');
+    else this.edit(doc.path, text);
+  }
+
+  async newRules(): Promise<void> {
+    let path = 'rules.cga';
+    for (let i = 2; this.files.some((f) => f.path === path); ++i) path = `rules-${i}.cga`;
+    const text = 'attr height = 12\n\n@StartRule\nLot -->\n    extrude(height)\n    color("#e6dac5")\n    Building\n';
+    await this.client.write(path, text, 'none');
+    this.files = (await this.client.project()).files;
+    await this.openRules(path);
+  }
+
+  async openExample(example: Example): Promise<void> {
+    const folder = await this.client.copyExample(example.name);
+    this.files = (await this.client.project()).files;
+    const place = newPlace();
+    const words = example.arguments.split(/\s+/);
+    const lot = /^(\d+(?:\.\d+)?)x(\d+(?:\.\d+)?)$/.exec(words[words.indexOf('--lot') + 1] ?? '');
+    if (lot && words.includes('--lot')) place.shapes = { lot: [Number(lot[1]), Number(lot[2])] };
+    if (words.includes('--seed')) place.seed = Number(words[words.indexOf('--seed') + 1]) || 0;
+    if (example.shapes) place.shapes = { file: `${folder}/buildings.geojson` };
+    await this.openRules(`${folder}/${example.name}.${example.notation}`, place);
+    this.say(`Opened a copy in ${folder}`);
+  }
+
+  say(text: string, action?: Toast['action']): void {
+    this.toast = action ? { text, action } : { text };
+    clearTimeout(this.toastTimer);
+    this.toastTimer = window.setTimeout(() => (this.toast = null), 5000);
+  }
+
+  /** Sees files that others change, and whether the server is there. */
+  private poll(): void {
+    window.setTimeout(() => void this.look().then(() => this.poll()), this.pollDelay);
+  }
+
+  private async look(): Promise<void> {
+    if (document.hidden) return;
+    try {
+      const before = new Map(this.files.map((f) => [f.path, f.stamp]));
+      const { files } = await this.client.project();
+      this.files = files;
+      if (!this.connected) {
+        this.connected = true;
+        void this.keep();
+        this.derive();
+      }
+      this.pollDelay = 2000;
+      for (const f of files) {
+        const known = before.get(f.path);
+        if (known !== undefined && known !== f.stamp) await this.changedElsewhere(f.path);
+      }
+    } catch (error) {
+      if (error instanceof Refusal) return;
+      this.connected = false;
+      this.pollDelay = Math.min(10_000, this.pollDelay * 2);
+    }
+  }
+
+  private async changedElsewhere(path: string): Promise<void> {
+    const doc = this.doc(path);
+    if (!doc) return;
+    const { text, version } = await this.client.read(path);
+    if (version === doc.version) return;
+    if (doc.text !== doc.saved && doc.text !== text) {
+      this.conflictOf = { path, theirs: text, version };
+      return;
+    }
+    doc.text = doc.saved = text;
+    doc.version = version;
+    this.say(`${path} was changed elsewhere and read again`);
+    this.derive();
+  }
+}

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+import { mount } from 'svelte';
+import App from './App.svelte';
+import './styles/tokens.css';
+import './styles/studio.css';
+import './styles/page.css';
+
+const target = document.getElementById('app');
+if (target) mount(App, { target });

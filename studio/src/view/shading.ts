@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Materials of batches. Colour is data of each vertex or instance, and every fragment knows its
+// leaf, so that marking and picking need no other geometry.
+
+import * as THREE from 'three';
+import type { Look } from '../lib/protocol';
+
+/** Shared by all materials: setting one value marks everywhere. */
+export interface Marks {
+  /** Leaves from, to; empty where from is not below to. */
+  selected: { value: THREE.Vector2 };
+  accent: { value: THREE.Color };
+}
+
+const HEAD = `
+attribute vec4 tint;
+attribute float leaf;
+varying vec3 vTint;
+varying float vLeaf;
+`;
+const LEAF = `
+float leafOfMesh = leaf;
+vLeaf = leafOfMesh;
+vTint = pow(tint.rgb, vec3(2.2));
+`;
+
+/** A material of a look; textures come later, by name. */
+export function lookMaterial(look: Look, marks: Marks): THREE.MeshLambertMaterial {
+  const opacity = look.opacity ?? 1;
+  const material = new THREE.MeshLambertMaterial({
+    side: THREE.DoubleSide,
+    transparent: opacity < 1,
+    opacity,
+    depthWrite: opacity > 0.9,
+    alphaTest: look.cutoff ?? 0,
+  });
+  if (look.emissive) material.emissive.setHex(swapRgb(look.emissive));
+  const metal = look.metallic;
+  material.onBeforeCompile = (shader) => {
+    shader.uniforms.selected = marks.selected;
+    shader.uniforms.accent = marks.accent;
+    shader.vertexShader = HEAD + shader.vertexShader.replace('#include <uv_vertex>', LEAF + '#include <uv_vertex>');
+    shader.fragmentShader =
+      'varying vec3 vTint;\nvarying float vLeaf;\nuniform vec2 selected;\nuniform vec3 accent;\n' +
+      shader.fragmentShader.replace(
+        '#include <map_fragment>',
+        `diffuseColor.rgb *= vTint;
+         ${metal > 0.4 ? 'diffuseColor.rgb *= 0.82;' : ''}
+         if (vLeaf + 0.5 > selected.x && vLeaf + 0.5 < selected.y) diffuseColor.rgb = mix(diffuseColor.rgb, accent, 0.06);
+         #include <map_fragment>`,
+      );
+  };
+  material.customProgramCacheKey = () => `look${metal > 0.4 ? 'm' : ''}`;
+  return material;
+}
+
+/** Little-endian bytes r, g, b to 0xrrggbb. */
+export function swapRgb(value: number): number {
+  return ((value & 0xff) << 16) | (value & 0xff00) | ((value >> 16) & 0xff);
+}
+
+/**
+ * Draws leaf numbers, from 1, as colours, and the direction of the face in alpha, so that edges
+ * within a leaf show as well. Nothing is blended: a pixel belongs to one leaf.
+ */
+export function leafMaterial(instanced: boolean): THREE.ShaderMaterial {
+  return new THREE.ShaderMaterial({
+    side: THREE.DoubleSide,
+    blending: THREE.NoBlending,
+    vertexShader: `
+      attribute float leaf;
+      varying float vLeaf;
+      varying vec3 vWorld;
+      void main() {
+        vLeaf = leaf + 1.0;
+        vec4 p = vec4(position, 1.0);
+        ${instanced ? 'p = instanceMatrix * p;' : ''}
+        p = modelMatrix * p;
+        vWorld = p.xyz;
+        gl_Position = projectionMatrix * viewMatrix * p;
+      }`,
+    fragmentShader: `
+      varying float vLeaf;
+      varying vec3 vWorld;
+      void main() {
+        float n = floor(vLeaf + 0.5);
+        vec3 d = normalize(cross(dFdx(vWorld), dFdy(vWorld)));
+        float face = (d.x * 0.31 + d.y * 0.43 + d.z * 0.57) * 0.35 + 0.6;
+        gl_FragColor = vec4(mod(n, 256.0), mod(floor(n / 256.0), 256.0), floor(n / 65536.0), face * 255.0) / 255.0;
+      }`,
+  });
+}
+
+/** Lays outlines of marked leaves and thin edges between leaves over a picture. */
+export function outlineMaterial(): THREE.ShaderMaterial {
+  return new THREE.ShaderMaterial({
+    transparent: true,
+    depthTest: false,
+    depthWrite: false,
+    uniforms: {
+      leaves: { value: null },
+      texel: { value: new THREE.Vector2() },
+      selected: { value: new THREE.Vector2() },
+      hovered: { value: new THREE.Vector2() },
+      accent: { value: new THREE.Color() },
+      text: { value: new THREE.Color() },
+      edges: { value: 0.0 },
+    },
+    vertexShader: 'varying vec2 vUv; void main() { vUv = uv; gl_Position = vec4(position.xy, 0.0, 1.0); }',
+    fragmentShader: `
+      uniform sampler2D leaves;
+      uniform vec2 texel;
+      uniform vec2 selected;
+      uniform vec2 hovered;
+      uniform vec3 accent;
+      uniform vec3 text;
+      uniform float edges;
+      varying vec2 vUv;
+      float number(vec4 c) { return floor(c.r * 255.0 + 0.5) + floor(c.g * 255.0 + 0.5) * 256.0 + floor(c.b * 255.0 + 0.5) * 65536.0 - 1.0; }
+      float within(float n, vec2 range) { return step(range.x, n) * (1.0 - step(range.y, n)); }
+      void main() {
+        vec4 here = texture2D(leaves, vUv);
+        float n = number(here);
+        float s = within(n, selected), h = within(n, hovered);
+        float sEdge = 0.0, hEdge = 0.0, fold = 0.0;
+        for (int i = 0; i < 8; ++i) {
+          float a = float(i) * 0.7853982;
+          vec4 there = texture2D(leaves, vUv + vec2(cos(a), sin(a)) * texel * 1.5);
+          float m = number(there);
+          sEdge += abs(s - within(m, selected));
+          hEdge += abs(h - within(m, hovered));
+        }
+        if (edges > 0.0) {
+          vec4 right = texture2D(leaves, vUv + vec2(texel.x, 0.0));
+          vec4 up = texture2D(leaves, vUv + vec2(0.0, texel.y));
+          fold = step(0.5, abs(number(right) - n)) + step(0.5, abs(number(up) - n)) + step(0.03, abs(right.a - here.a)) + step(0.03, abs(up.a - here.a));
+          fold = min(fold, 1.0) * (n < 0.0 ? 0.0 : 1.0);
+        }
+        float selectedLine = smoothstep(0.0, 2.5, sEdge), hoveredLine = smoothstep(0.0, 4.0, hEdge);
+        if (selectedLine > 0.0) gl_FragColor = vec4(accent, selectedLine);
+        else if (hoveredLine > 0.0) gl_FragColor = vec4(text, hoveredLine * 0.9);
+        else gl_FragColor = vec4(0.03, 0.035, 0.04, fold * edges);
+        #include <colorspace_fragment>
+      }`,
+  });
+}
+
+/** Ground with a grid of `step` metres that fades out from a centre. */
+export function groundMaterial(): THREE.ShaderMaterial {
+  return new THREE.ShaderMaterial({
+    transparent: true,
+    depthWrite: false,
+    uniforms: {
+      line: { value: new THREE.Color() },
+      centre: { value: new THREE.Vector2() },
+      reach: { value: 50 },
+      cell: { value: 10 },
+    },
+    vertexShader: `
+      varying vec3 vWorld;
+      void main() {
+        vec4 p = modelMatrix * vec4(position, 1.0);
+        vWorld = p.xyz;
+        gl_Position = projectionMatrix * viewMatrix * p;
+      }`,
+    fragmentShader: `
+      uniform vec3 line;
+      uniform vec2 centre;
+      uniform float reach;
+      uniform float cell;
+      varying vec3 vWorld;
+      void main() {
+        vec2 at = vWorld.xz / cell;
+        vec2 width = fwidth(at);
+        vec2 d = abs(fract(at - 0.5) - 0.5) / max(width, vec2(1e-5));
+        float on = (1.0 - smoothstep(0.6, 1.4, min(d.x, d.y))) * (1.0 - smoothstep(0.25, 0.6, max(width.x, width.y)));
+        float fade = 1.0 - smoothstep(reach * 0.45, reach, distance(vWorld.xz, centre));
+        gl_FragColor = vec4(line, on * fade * 0.6);
+        #include <colorspace_fragment>
+      }`,
+  });
+}

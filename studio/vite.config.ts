@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+import { svelte } from '@sveltejs/vite-plugin-svelte';
+import { defineConfig } from 'vitest/config';
+
+// The page is built into build/studio of the repository, where the program looks for it.
+export default defineConfig({
+  plugins: [svelte()],
+  build: { outDir: '../build/studio', emptyOutDir: true, target: 'es2022', assetsInlineLimit: 0 },
+  test: { include: ['src/**/*.test.ts'], environment: 'node', css: true },
+});
