@@ -296,8 +296,9 @@ TEST_F(Server, noiseIsNoRequest) {
   EXPECT_EQ(status(ask("GET /api/nothing")), 404);
 }
 
+// Chance keeps its parts from being shared, which would end it early.
 constexpr const char* kEndless =
-    R"({"file":"rules/e.cga","text":"@StartRule\nLot --> A\nA --> t(0,1,0) split(x){'0.5:A|'0.5:A}",)"
+    R"({"file":"rules/e.cga","text":"@StartRule\nLot --> A\nA --> t(0,rand(0,1),0) split(x){'0.5:A|'0.5:A}",)"
     R"("page":"p","seed":0,"shapes":{"lot":[20,20]},"limits":{"seconds":)";
 
 TEST_F(Server, rulesThatNeverEndAreEnded) {
@@ -322,6 +323,18 @@ TEST_F(Server, aPageThatIsClosedStopsItsWork) {
   thread_ = std::thread([] {});
 }
 
+TEST_F(Server, aNewRequestOfAPageEndsTheOneBefore) {
+  const std::string body = std::string(kEndless) + "500,\"shapes\":50000000}}";
+  const int s = connectTo();
+  send(s, head("POST /api/derive", body.size()) + "Connection: close\r\n\r\n" + body);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EXPECT_EQ(status(ask("POST /api/derive", std::string(kEndless) + "0.01}}")), 200);
+  const std::string first = receive(s);
+  close(s);
+  EXPECT_EQ(status(first), 200);
+  EXPECT_NE(first.find(R"("end":"cancelled")"), std::string::npos);
+}
+
 TEST_F(Server, derivesDrawsAndWrites) {
   const std::string body =
       R"({"file":"rules/a.cga","text":"attr h = 3\n@StartRule\nLot --> extrude(h) B","page":"p",)"
@@ -336,6 +349,26 @@ TEST_F(Server, derivesDrawsAndWrites) {
   EXPECT_NE(glb.find("glTF"), std::string::npos);
   EXPECT_EQ(status(ask("GET /api/export?derivation=1&format=sh")), 422);
   EXPECT_EQ(status(ask("GET /api/export?derivation=9&format=glb")), 404);
+}
+
+TEST_F(Folder, importsComeFromUnsavedText) {
+  put("project/rules/b.cga", "W --> extrude(1) Low\n");
+  ProjectFiles files(project());
+  Session session(files);
+  const auto ask = [&](const std::string& overlay) {
+    const std::string json =
+        R"({"file":"rules/a.cga","text":"import b : \"rules/b.cga\"\n@StartRule\nLot --> b.W",)"
+        R"("shapes":{"lot":[4,2]},"overlay":{)" +
+        overlay + "}}";
+    const auto request = parseJson(json);
+    std::string out =
+        session.derive(request.value(), std::make_shared<std::atomic<bool>>(false)).value();
+    std::erase_if(out, [](char c) { return c == ' ' || c == '\n'; });
+    return out;
+  };
+  EXPECT_NE(ask("").find("\"max\":[4,1,"), std::string::npos) << ask("").substr(0, 2000);
+  EXPECT_NE(ask(R"("rules/b.cga":"W --> extrude(7) High\n")").find("\"max\":[4,7,"),
+            std::string::npos);
 }
 
 TEST_F(Folder, examplesOpenAsCopies) {
