@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr std::string_view kSharedRules = "rules/";
 constexpr const char* kNotations[] = {"cga", "gbbg", "grammar", "park"};
 
 // The heading of a page and the first sentence below it.
@@ -106,6 +107,14 @@ Result<std::string> Gallery::copyTo(ProjectFiles& files, const std::string& name
     if (!content.ok()) return content.error();
     const auto written = files.write(target + "/" + inner, content.value(), "none");
     if (!written.ok()) return written.error();
+  }
+  // What examples import together; a file of the project's own stays as it is.
+  for (const ProjectFile& f : folder_.list()) {
+    if (f.path.compare(0, kSharedRules.size(), kSharedRules) != 0) continue;
+    const auto content = folder_.read(f.path);
+    if (!content.ok()) return content.error();
+    const auto written = files.write(f.path, content.value(), "none");
+    if (!written.ok() && written.error().code != "version-differs") return written.error();
   }
   return target;
 }

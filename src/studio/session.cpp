@@ -112,16 +112,34 @@ std::string treeBytes(const Tree& tree) {
   return out;
 }
 
+// What counts as the project of a rule file, as the command line finds it: the nearest folder above
+// with a folder `rules` or `assets` in it, else the whole. With a '/' at its end, or empty.
+std::string projectOf(const ProjectFiles& files, const std::string& file) {
+  for (size_t end = file.rfind('/'); end != std::string::npos && end > 0;
+       end = file.rfind('/', end - 1)) {
+    const std::string folder = file.substr(0, end + 1);
+    for (const char* name : {"rules", "assets"}) {
+      const Result<std::string> place = files.place(folder + name);
+      std::error_code error;
+      if (place.ok() && std::filesystem::is_directory(place.value(), error)) return folder;
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 std::shared_ptr<const Rules> Session::rulesOf(const JsonValue& request) {
   const std::string& file = request["file"].text();
   LoadOptions options;
-  options.project = files_.root();
+  const std::string inner = projectOf(files_, file);
+  options.project = files_.root() + "/" + inner;
   options.style = request["style"].text();
   std::string key = file + '\0' + options.style + '\0' + request["text"].text();
   for (const auto& [path, text] : request["overlay"].members()) {
-    options.overlay.emplace_back(path, text.text());
+    if (path.compare(0, inner.size(), inner) == 0) {
+      options.overlay.emplace_back(path.substr(inner.size()), text.text());
+    }
     key += '\0' + path + '\0' + text.text();
   }
   std::shared_ptr<const Rules> assets;

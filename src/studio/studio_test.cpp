@@ -374,10 +374,13 @@ TEST_F(Folder, importsComeFromUnsavedText) {
 TEST_F(Folder, examplesOpenAsCopies) {
   const Gallery gallery(std::string(GABLE_SOURCE_DIR) + "/examples");
   ProjectFiles files(project());
+  put("project/rules/trees.cga", "// mine\n");
   EXPECT_NE(gallery.list().find("\"name\":\"haussmann\""), std::string::npos);
   EXPECT_EQ(gallery.copyTo(files, "haussmann").value(), "haussmann");
   EXPECT_EQ(gallery.copyTo(files, "haussmann").value(), "haussmann-2");
   EXPECT_TRUE(fs::exists(project() + "/haussmann-2/haussmann.cga"));
+  EXPECT_TRUE(fs::exists(project() + "/rules/setting.cga"));
+  EXPECT_EQ(files.read("rules/trees.cga").value(), "// mine\n");
   for (const char* name : {"..", "../src", "", "nothing", "haussmann/"}) {
     EXPECT_FALSE(gallery.copyTo(files, name).ok()) << name;
     EXPECT_FALSE(gallery.picture(name).ok()) << name;

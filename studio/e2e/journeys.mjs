@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Whole journeys in a browser. Ends with 77, which counts as skipped, where there is no Chromium.
+// Whole journeys in a browser: those below, and those of journeys/*.mjs, each of which exports an
+// object of functions. A journey gets { page, folder, server, again, context }: a page on a project with
+// HOUSE in it. Ends with 77, which counts as skipped, where there is no Chromium.
 // GABLE_SHOTS=FOLDER keeps a picture of each journey's end; GABLE_JOURNEY=NAME runs one.
 
 import assert from 'node:assert/strict';
-import { mkdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { CHROMIUM, clean, drawn, hasBrowser, launch, openPage, project, serve, untilDrawn } from './studio.mjs';
+import {
+  CHROMIUM, HOUSE, caretBehind, clean, code, drawn, hasBrowser, launch, openPage, project, ready, serve, status, untilDrawn,
+} from './studio.mjs';
 
 if (!hasBrowser()) {
   console.log(`skipped: no Chromium at ${CHROMIUM}; GABLE_CHROMIUM names another`);
@@ -16,43 +20,6 @@ if (!hasBrowser()) {
 
 const shots = process.env.GABLE_SHOTS;
 if (shots) mkdirSync(shots, { recursive: true });
-
-const status = (page) => page.locator('.status').innerText();
-const rows = (page) => page.locator('.tree .tr');
-const code = (page) => page.locator('.cm-content');
-
-/** Waits for the first model and its tree. */
-async function ready(page) {
-  await page.waitForSelector('.tree .tr', { timeout: 60_000 });
-}
-
-/** Puts the caret behind a text of the editor, which must be in sight. */
-async function caretBehind(page, text) {
-  await code(page).focus();
-  await page.keyboard.press('Control+f');
-  await page.locator('.cm-search input[name=search]').pressSequentially(text);
-  await page.keyboard.press('Enter');
-  await page.keyboard.press('Escape');
-  await page.keyboard.press('ArrowRight');
-}
-
-/** Where a rule set of one lot of its own is enough. */
-const HOUSE = `@Group("Size") @Range(min=3, max=30) attr height = 9
-@Group("Size") @Enum("red", "blue") attr paint = "red"
-
-@StartRule
-Lot -->
-    extrude(height)
-    comp(f) { side : Wall | top : Roof }
-
-Wall -->
-    color(case paint == "red" : "#aa3322" else : "#2233aa")
-    Face.
-
-Roof -->
-    color("#555555")
-    Slab.
-`;
 
 const journeys = {
   async opensAndDraws({ page }) {
@@ -221,6 +188,11 @@ const journeys = {
   },
 };
 
+const more = new URL('journeys/', import.meta.url);
+for (const file of existsSync(more) ? readdirSync(more).sort() : []) {
+  if (file.endsWith('.mjs')) Object.assign(journeys, (await import(new URL(file, more))).default);
+}
+
 async function travel(browser, name) {
   const folder = project();
   writeFileSync(join(folder, 'journey.cga'), HOUSE);
@@ -228,7 +200,7 @@ async function travel(browser, name) {
   const { page, context, complaints } = await openPage(browser, server.url);
   const again = async () => (server = await serve(folder));
   try {
-    const outcome = await journeys[name]({ page, folder, server, again });
+    const outcome = await journeys[name]({ page, folder, server, again, context });
     if (!outcome?.complaintsExpected) assert.deepEqual(complaints, []);
     return null;
   } catch (error) {

@@ -15,10 +15,10 @@ export const gable = process.env.GABLE ?? join(root, 'build/dev/gable');
 
 export const hasBrowser = () => existsSync(CHROMIUM);
 
-/** A copy of some examples in a folder of its own. */
+/** A copy of some examples, with the rules that they share, in a folder of its own. */
 export function project(...examples) {
   const folder = mkdtempSync(join(tmpdir(), 'gable-studio-'));
-  for (const name of examples) {
+  for (const name of examples.length ? [...examples, 'rules'] : []) {
     cpSync(join(root, 'examples', name), join(folder, name), { recursive: true });
   }
   return folder;
@@ -79,3 +79,40 @@ export async function untilDrawn(page, before) {
 }
 
 export const clean = (folder) => rmSync(folder, { recursive: true, force: true });
+
+export const status = (page) => page.locator('.status').innerText();
+export const rows = (page) => page.locator('.tree .tr');
+export const code = (page) => page.locator('.cm-content');
+
+/** Waits for the first model and its tree. */
+export async function ready(page) {
+  await page.waitForSelector('.tree .tr', { timeout: 60_000 });
+}
+
+/** Puts the caret behind a text of the editor, which must be in sight. */
+export async function caretBehind(page, text) {
+  await code(page).focus();
+  await page.keyboard.press('Control+f');
+  await page.locator('.cm-search input[name=search]').pressSequentially(text);
+  await page.keyboard.press('Enter');
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('ArrowRight');
+}
+
+/** Where a rule set of one lot of its own is enough. */
+export const HOUSE = `@Group("Size") @Range(min=3, max=30) attr height = 9
+@Group("Size") @Enum("red", "blue") attr paint = "red"
+
+@StartRule
+Lot -->
+    extrude(height)
+    comp(f) { side : Wall | top : Roof }
+
+Wall -->
+    color(case paint == "red" : "#aa3322" else : "#2233aa")
+    Face.
+
+Roof -->
+    color("#555555")
+    Slab.
+`;
