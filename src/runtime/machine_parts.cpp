@@ -63,7 +63,7 @@ Machine::LightSlot Machine::lightSlot(uint32_t rule, uint32_t entry) const {
         const OpSpec& spec = *program_.operations[at->a];
         if (!spec.applyLight || at->y > 0) return {};
         if (at->code == Code::Operation && at->x > 0) return {};
-        const Value* args = at->x > 0 ? &program_.constants[at[1].a] : nullptr;
+        const Value* args = at->x > 0 ? program_.constants.data() + at[1].a : nullptr;
         slot.steps.push_back({spec.applyLight, {args, at->x}});
         if (at->code == Code::OperationConstant) ++at;
         break;

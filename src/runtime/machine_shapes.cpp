@@ -41,7 +41,7 @@ void Machine::execute() {
     const Instruction& i = *pc_++;
     switch (i.code) {
       case Code::Operation: operation(i, nullptr); break;
-      case Code::OperationConstant: operation(i, &program_.constants[(pc_++)->a]); break;
+      case Code::OperationConstant: operation(i, program_.constants.data() + (pc_++)->a); break;
       case Code::CallRule: callRule(i); break;
       case Code::CallComputed: callComputed(i); break;
       case Code::Leaf: leafInstruction(i); break;
