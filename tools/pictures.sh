@@ -3,7 +3,8 @@
 # SPDX-FileCopyrightText: The Gable authors
 #
 # tools/pictures.sh [EXAMPLE...]: makes the pictures of the examples anew, examples/NAME/NAME.png and, from
-# street height, examples/NAME/NAME-street.png where street.args names a view. Each stays under 400 kB:
+# street height and from the side, examples/NAME/NAME-street.png and NAME-side.png where street.args and side.args
+# name a view. Each stays under 400 kB:
 # tools/shrink_png.py brings it to a palette and, where that is not enough, to fewer colours. Look at them
 # before committing them.
 set -euo pipefail
@@ -19,7 +20,7 @@ examples=("$@")
 mkdir -p build/pictures
 
 for name in "${examples[@]}"; do
-  for view in picture street; do
+  for view in picture street side; do
     [ "$view" = picture ] || [ -f "examples/$name/$view.args" ] || continue
     drawn=$name
     [ "$view" = picture ] || drawn=$name-$view

@@ -26,6 +26,11 @@ using Triangle = std::array<uint32_t, 3>;
 /// Indices into the vertices of the outer ring and the holes, concatenated.
 std::vector<Triangle> triangulate(const Polygon& p);
 
+/// The same triangles with edges exchanged until each circle through a triangle's corners is free
+/// of its neighbours' (Lawson 1977): no long slivers, and bands between two outlines become strips
+/// from one to the other. O(n^2) at worst, about linear after ear clipping.
+std::vector<Triangle> triangulateEvenly(const Polygon& p);
+
 /// The same on flat arrays: ring k ends before points[ringEnds[k]], the outer ring is the first.
 /// Appends to `out`.
 void triangulate(std::span<const Vec2> points, std::span<const uint32_t> ringEnds,

@@ -14,6 +14,7 @@
 #include "builtins/ops/shared/face_plan.h"
 #include "builtins/ops/subdivide/shared/parts.h"
 #include "geom/mesh/face_plane.h"
+#include "geom/region/clean.h"
 #include "geom/region/hull.h"
 #include "geom/region/triangulate.h"
 #include "geom/region/voronoi.h"
@@ -25,6 +26,9 @@ namespace {
 
 constexpr double kMostPoints = 200000;
 constexpr double kMostCuts = 6;
+// Points of a slope this near to each other, or to the line past them, would make triangles without
+// an area.
+constexpr double kNoWidth = 1e-3;
 
 // One mesh of all faces; nothing left deletes the shape.
 void become(OpCall& call, Mesh mesh) {
@@ -101,7 +105,7 @@ void addSlope(MeshBuilder& b, const Ground& g, const Polygon& p, const Points& l
       position.push_back(b.addPosition(fromPlanFrame(g.frame, at, isLow ? -drop : 0)));
     }
   }
-  for (const Triangle& t : triangulate(p)) {
+  for (const Triangle& t : triangulateEvenly(p)) {
     b.beginFace(g.materialSlot, g.tags, true);
     b.beginLoop();
     for (const uint32_t corner : t) b.addCorner(position[corner]);
@@ -126,7 +130,9 @@ Status applyRing(OpCall& call) {
   MeshBuilder b;
   for (const Ground& g : grounds) {
     const Points low = sortedPoints(offset({g.polygon}, to, options));
-    for (const Polygon& p : bandAround({g.polygon}, from, to, join)) addSlope(b, g, p, low, drop);
+    Region band = bandAround({g.polygon}, from, to, join);
+    clean(band, kNoWidth);
+    for (const Polygon& p : band) addSlope(b, g, p, low, drop);
   }
   become(call, b.take());
   return {};
