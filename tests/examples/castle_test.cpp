@@ -568,6 +568,21 @@ TEST(Castles, threadsAndSharingChangeNothing) {
   EXPECT_TRUE(one.dump() == two.dump());
 }
 
+TEST(Castles, standOnLotsOfOtherRules) {
+  const Rules rules = Rules::parse(
+      "version \"2025.1\"\nimport castle : \"castle/castle.cga\"\n"
+      "Lot --> split(x) { 240 : t(0, 3, 0) castle.Lot | ~1 : Field. }",
+      source("examples/town/test.cga"));
+  const Model m = derived(rules, Shapes::lot(400, 240), 3);
+  EXPECT_EQ(reported(m, "gate").size(), 1u);
+  const Box3 box = count(sceneOf(m)).bounds;
+  EXPECT_GE(box.min.y, -0.01);
+  forEachNamed(m, "Yard", [&](const Mesh& mesh, const Frame&) {
+    EXPECT_NEAR(mesh.bounds().min.y, 3 + 9 + 0.05, 1e-6);
+    EXPECT_LT(mesh.bounds().max.x, 240);
+  });
+}
+
 TEST(Castles, fitSmallerLots) {
   for (const double side : {10.0, 30.0, 80.0, 170.0, 240.0}) {
     const Model m = derived(castle(), Shapes::lot(side, side), 3);

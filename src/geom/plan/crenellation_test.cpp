@@ -100,7 +100,7 @@ TEST(Crenellation, goesRoundTowersEvenly) {
 }
 
 TEST(Crenellation, makesUpAnyPolygon) {
-  const auto corpus = corpus::loadCorpus(10);
+  const auto corpus = corpus::loadCorpus(25);
   if (corpus.empty()) GTEST_SKIP() << "the polygon corpus is not here";
   size_t crenellated = 0;
   for (size_t i = 0; i < corpus.size(); ++i) {

@@ -27,7 +27,7 @@ TEST(Outline, aRingAroundASquareHasItsArea) {
 }
 
 TEST(Outline, ringsAroundAnythingAreValidAndAdjoin) {
-  const auto corpus = corpus::loadCorpus(8);
+  const auto corpus = corpus::loadCorpus(16);
   if (corpus.empty()) GTEST_SKIP() << "the polygon corpus is not here";
   for (size_t i = 0; i < corpus.size(); ++i) {
     Polygon p = corpus::withHoles(corpus[i].ring, i);
@@ -44,7 +44,7 @@ TEST(Outline, ringsAroundAnythingAreValidAndAdjoin) {
 }
 
 TEST(Outline, roughenedOutlinesStayNearAndAreValid) {
-  const auto corpus = corpus::loadCorpus(8);
+  const auto corpus = corpus::loadCorpus(16);
   if (corpus.empty()) GTEST_SKIP() << "the polygon corpus is not here";
   size_t changed = 0;
   for (size_t i = 0; i < corpus.size(); ++i) {
