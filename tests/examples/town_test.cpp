@@ -14,6 +14,7 @@
 #include "gable/gable.h"
 #include "geom/mesh/face_plane.h"
 #include "geom/region/boolean.h"
+#include "scene_faults.h"
 
 namespace gable {
 namespace {
@@ -67,6 +68,7 @@ struct Town {
 TEST(TownExample, hasTwoThousandBuildings) {
   const Town town(1000, 1);
   EXPECT_FALSE(hasErrors(town.model.messages())) << messagesJson(town.model.messages());
+  EXPECT_EQ(joined(faults(town.scene())), "");
   const std::string stats = town.model.statsJson({});
   const size_t at = stats.find("\"buildings\"");
   ASSERT_NE(at, std::string::npos);
@@ -78,6 +80,7 @@ TEST(TownExample, hasTwoThousandBuildings) {
 TEST(TownExample, buildingsKeepOutOfTheRoadways) {
   for (const double seed : {1.0, 2.0, 3.0}) {
     const Town town(300, seed);
+    EXPECT_EQ(joined(faults(town.scene())), "") << "seed " << seed;
     ASSERT_GT(town.roadways.size(), 10u);
     ASSERT_GT(town.walls.size(), 1000u);
     EXPECT_GT(town.lamps, 20u);

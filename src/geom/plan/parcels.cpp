@@ -326,6 +326,30 @@ size_t bestNeighbour(const std::vector<Parcel>& lots, size_t i, Polygon& joined)
   return found;
 }
 
+// The same where rounding has left a crack around the lot: it is grown over the crack, as far as
+// the block reaches and nobody else's lot is in the way.
+size_t neighbourAcrossCrack(const std::vector<Parcel>& lots, size_t i, const Polygon& block,
+                            Polygon& joined) {
+  constexpr double kCrack = 1e-3;
+  const Region grown = intersect(offset({lots[i].polygon}, kCrack), {block});
+  double best = 0;
+  size_t found = lots.size();
+  for (size_t k = 0; k < lots.size(); ++k) {
+    const double common = k == i ? 0 : area(intersect(grown, {lots[k].polygon}));
+    if (common <= best) continue;
+    Region mine = grown;
+    for (size_t m = 0; m < lots.size(); ++m) {
+      if (m != i && m != k) mine = subtract(mine, {lots[m].polygon});
+    }
+    Region both = unite(mine, {lots[k].polygon});
+    if (both.size() != 1) continue;
+    best = common;
+    found = k;
+    joined = std::move(both[0]);
+  }
+  return found;
+}
+
 }  // namespace
 
 std::vector<Parcel> parcelsBySkeleton(const Polygon& block, const std::vector<bool>& street,
@@ -367,7 +391,8 @@ std::vector<Parcel> parcelsBySkeleton(const Polygon& block, const std::vector<bo
     }
     if (worst == out.size()) break;
     Polygon joined;
-    const size_t with = bestNeighbour(out, worst, joined);
+    size_t with = bestNeighbour(out, worst, joined);
+    if (with == out.size()) with = neighbourAcrossCrack(out, worst, block, joined);
     if (with == out.size()) {
       alone[worst] = true;
       continue;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geom/plan/street_growth.h"
 #include "geom/region/boolean.h"
 #include "geom/region/clean.h"
 #include "geom/region/corpus.h"
@@ -34,6 +35,8 @@ void expectSound(const Polygon& block, const std::vector<Parcel>& parcels, const
     if (parcels.size() == 1) continue;
     EXPECT_GE(p.frontage, o.minFrontage * (1 - 1e-9));
     EXPECT_GE(area(p.polygon), o.minArea * (1 - 1e-9));
+    const OrientedRect box = smallestRect(p.polygon.outer);
+    EXPECT_GE(std::min(box.width, box.height), o.minWidth * (1 - 1e-9));
   }
   EXPECT_NEAR(sum, area(block), tolerance * (1 + area(block)));
 }
@@ -87,6 +90,40 @@ TEST_P(Parcels, keepToTheSidesThatHaveAStreet) {
   expectSound(block, parcels, o, 1e-9);
   EXPECT_GE(parcels.size(), 6u);
   for (const Parcel& p : parcels) EXPECT_FALSE(p.corner);
+}
+
+// Every lot of a town has its street, its area and its width, whatever the seed; each block has
+// lots at corners, and no sliver is left beside them.
+TEST_P(Parcels, ofGrownStreetsAreAllFit) {
+  size_t lots = 0, corners = 0, blocks = 0;
+  for (uint64_t seed = 0; seed < 6; ++seed) {
+    const Region area{{{{0, 0}, {420, 0}, {400, 380}, {150, 420}, {0, 300}}, {}}};
+    DirectionField field;
+    field.addGrid({200, 200}, 12 * static_cast<double>(seed), 0);
+    field.addRadial({150, 180}, 120);
+    field.setNoise(20, 150, seed);
+    FieldStreets grown;
+    grown.spacing = 75;
+    grown.mainSpacing = 200;
+    grown.address = seed;
+    const auto graph = buildStreetGraph(fieldStreets(area, field, grown), {2, 30, &area});
+    ParcelOptions o;
+    o.targetArea = 320;
+    o.minArea = 120;
+    o.minWidth = 7;
+    o.minFrontage = 5;
+    o.address = seed;
+    for (const Polygon& block : planStreets(graph, area, 4, 400).blocks) {
+      const auto parcels = GetParam()(block, {}, o);
+      expectSound(block, parcels, o, 1e-6);
+      ++blocks;
+      lots += parcels.size();
+      for (const Parcel& p : parcels) corners += p.corner;
+    }
+  }
+  EXPECT_GT(blocks, 60u);
+  EXPECT_GT(lots, 6 * blocks);
+  EXPECT_GT(corners, 2 * blocks);
 }
 
 TEST_P(Parcels, areTheBlockItselfWhereItIsSmall) {

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The example worlds, seed after seed: nothing breaks, no building reaches into a street or into
+// another one, and every house can be walked to from a street. GABLE_SEEDS says how many seeds
+// (3 without it); tools/worlds.sh asks for 200.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "engine/impl.h"
+#include "gable/gable.h"
+#include "geom/mesh/face_plane.h"
+#include "geom/region/boolean.h"
+#include "geom/region/clean.h"
+#include "geom/region/hull.h"
+#include "scene_faults.h"
+
+namespace gable {
+namespace {
+
+// Rounding of walls that share a border.
+constexpr double kTouch = 0.01;
+// Two houses of the suburb are at least so far apart, and a house and a street.
+constexpr double kHouseGap = 1, kStreetGap = 0.5;
+
+int seeds() {
+  const char* asked = std::getenv("GABLE_SEEDS");
+  return asked ? std::max(1, std::atoi(asked)) : 3;
+}
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+Model derived(const std::string& example, double side, double seed, Settings set) {
+  const Rules rules =
+      Rules::load(std::string(GABLE_SOURCE_DIR) + "/examples/" + example + "/" + example + ".cga");
+  DeriveSettings settings;
+  settings.seed = seed;
+  settings.jobs = 2;
+  settings.attributes = std::move(set);
+  return derive(rules, Shapes::lot(side, side), settings);
+}
+
+struct World {
+  std::vector<Polygon> roads;
+  std::vector<Polygon> buildings;
+  // Where the public walks: roads and pavements.
+  std::vector<Polygon> ways;
+};
+
+const Frame kGround = Frame::of({}, {1, 0, 0}, {0, 0, -1}, {0, 1, 0});
+
+std::vector<Polygon> facesNamed(const Scene& scene, const std::string& name, double low = -1,
+                                double high = 1) {
+  std::vector<Polygon> out;
+  forEachLeaf(scene, [&](const Leaf& leaf, const Frame& world) {
+    if (scene.names[leaf.name] != name) return;
+    const Mesh mesh = transformed(*scene.meshes[leaf.mesh], leaf.scale, world);
+    for (size_t f = 0; f < mesh.faceCount(); ++f) {
+      const double y = mesh.at(mesh.loopsOf(f)[0].firstCorner).y;
+      if (y < low || y > high) continue;
+      Polygon p = facePolygon(mesh, f, kGround);
+      orient(p);
+      out.push_back(std::move(p));
+    }
+  });
+  return out;
+}
+
+// Everything between the walls and under the roof of a house of the suburb, from its drive.
+void addSuburbHouses(const Scene& scene, double unit, std::vector<Polygon>& out) {
+  bool inDrive = false;
+  forEachLeaf(scene, [&](const Leaf& leaf, const Frame& world) {
+    const bool drive = scene.names[leaf.name] == "Concrete";
+    if (drive && !inDrive) {
+      const auto corner = [&](double x, double z) {
+        const Vec3 p = world.point({(1.75 + x) * unit, 0, (z - 1.75) * unit});
+        return Vec2{p.x, -p.z};
+      };
+      const double w = 2.3391, d = 1.9588;
+      Polygon p{{corner(-w, d), corner(w, d), corner(w, -d), corner(-w, -d)}, {}};
+      orient(p);
+      out.push_back(std::move(p));
+    }
+    inDrive = drive;
+  });
+}
+
+// The plan of a building of the town: the lower edges of its walls, one after the other.
+Polygon planOf(const Scene& scene, const Prototype& building, const Frame& world) {
+  std::vector<std::pair<Vec2, Vec2>> edges;
+  double lowest = 1e300;
+  forEachLeaf(scene, building, world, [&](const Leaf& leaf, const Frame& at) {
+    if (scene.names[leaf.name] != "Wall") return;
+    const Mesh m = transformed(*scene.meshes[leaf.mesh], leaf.scale, at);
+    lowest = std::min(lowest, m.bounds().min.y);
+  });
+  forEachLeaf(scene, building, world, [&](const Leaf& leaf, const Frame& at) {
+    if (scene.names[leaf.name] != "Wall") return;
+    const Mesh m = transformed(*scene.meshes[leaf.mesh], leaf.scale, at);
+    for (size_t f = 0; f < m.faceCount(); ++f) {
+      const auto corners = m.cornersOf(m.loopsOf(f)[0]);
+      for (size_t i = 0; i < corners.size(); ++i) {
+        const Vec3 a = m.positions[corners[i]], b = m.positions[corners[(i + 1) % corners.size()]];
+        if (a.y > lowest + 0.01 || b.y > lowest + 0.01) continue;
+        edges.push_back({{a.x, -a.z}, {b.x, -b.z}});
+      }
+    }
+  });
+  Polygon plan;
+  if (edges.empty()) return plan;
+  Vec2 at = edges[0].first;
+  while (!edges.empty()) {
+    const auto next = std::min_element(
+        edges.begin(), edges.end(),
+        [&](const auto& a, const auto& b) { return length(a.first - at) < length(b.first - at); });
+    if (length(next->first - at) > 0.01) break;
+    plan.outer.push_back(next->first);
+    at = next->second;
+    edges.erase(next);
+  }
+  orient(plan);
+  return plan;
+}
+
+void addTownBuildings(const Scene& scene, const Prototype& prototype, const Frame& world,
+                      std::vector<Polygon>& out) {
+  const std::string& name = scene.names[prototype.name];
+  if (name == "Volume" || name == "Detached") {
+    out.push_back(planOf(scene, prototype, world));
+    return;
+  }
+  for (uint32_t i = 0; i < prototype.instanceCount; ++i) {
+    const Instance& instance = scene.instances[prototype.firstInstance + i];
+    addTownBuildings(scene, scene.prototypes[instance.prototype], world * instance.frame, out);
+  }
+}
+
+bool apart(const Box2& a, const Box2& b, double gap) {
+  return a.max.x + gap < b.min.x || b.max.x + gap < a.min.x || a.max.y + gap < b.min.y ||
+         b.max.y + gap < a.min.y;
+}
+
+// Whether two polygons are nearer than `gap`; with 0 whether they share more than a border.
+bool tooNear(const Polygon& a, const Polygon& b, double gap) {
+  if (apart(bounds(a), bounds(b), gap)) return false;
+  const Region grown = gap > 0 ? offset({a}, gap - kTouch) : offset({a}, -kTouch);
+  return area(intersect(grown, {b})) > kTouch * kTouch;
+}
+
+bool crosses(const Polygon& p, Vec2 a, Vec2 b) {
+  for (double t = 0.05; t < 1; t += 0.05) {
+    if (locate(p, a + (b - a) * t) == Where::Inside) return true;
+  }
+  return false;
+}
+
+// Some straight way from a wall to the nearest street leads through no other building.
+bool reachable(const World& w, size_t which) {
+  const Ring& ring = w.buildings[which].outer;
+  for (size_t i = 0; i < ring.size(); ++i) {
+    for (const double t : {0.0, 0.25, 0.5, 0.75}) {
+      const Vec2 from = ring[i] + (ring[(i + 1) % ring.size()] - ring[i]) * t;
+      Vec2 to;
+      double best = 1e300;
+      for (const Polygon& way : w.ways) {
+        const Ring& r = way.outer;
+        for (size_t k = 0; k < r.size(); ++k) {
+          const Vec2 d = r[(k + 1) % r.size()] - r[k];
+          const double s = std::clamp(dot(from - r[k], d) / std::max(dot(d, d), 1e-12), 0.0, 1.0);
+          const Vec2 q = r[k] + d * s;
+          if (length(q - from) >= best) continue;
+          best = length(q - from);
+          to = q;
+        }
+      }
+      const bool blocked =
+          std::any_of(w.buildings.begin(), w.buildings.end(),
+                      [&](const Polygon& other) { return crosses(other, from, to); });
+      if (!blocked) return true;
+    }
+  }
+  return false;
+}
+
+void expectSound(const World& w, double gap, double streetGap, const std::string& what) {
+  size_t inStreets = 0, inOthers = 0, unreachable = 0;
+  std::vector<Box2> boxes;
+  for (const Polygon& p : w.buildings) boxes.push_back(bounds(p));
+  for (size_t i = 0; i < w.buildings.size(); ++i) {
+    ASSERT_TRUE(isValid(w.buildings[i])) << what << ", building " << i;
+    for (const Polygon& road : w.roads) {
+      inStreets += tooNear(w.buildings[i], road, streetGap) ? 1 : 0;
+    }
+    for (size_t k = 0; k < i; ++k) {
+      if (apart(boxes[i], boxes[k], gap)) continue;
+      inOthers += tooNear(w.buildings[i], w.buildings[k], gap) ? 1 : 0;
+    }
+    if (reachable(w, i)) continue;
+    ++unreachable;
+    const Vec2 c = bounds(w.buildings[i]).center();
+    std::printf("%s: no way to the building at %.1f, %.1f\n", what.c_str(), c.x, -c.y);
+  }
+  EXPECT_EQ(inStreets, 0u) << what;
+  EXPECT_EQ(inOthers, 0u) << what;
+  EXPECT_EQ(unreachable, 0u) << what;
+}
+
+TEST(Worlds, theSuburbKeepsItsGaps) {
+  for (int seed = 0; seed < seeds(); ++seed) {
+    const Model m = derived("suburb", 320, seed,
+                            {{"detail", "false"}, {"planting", "false"}, {"outskirts", "false"}});
+    ASSERT_FALSE(hasErrors(m.messages())) << messagesJson(m.messages());
+    const Scene& scene = m.impl().result.scene;
+    World w{facesNamed(scene, "Asphalt"), {}, {}};
+    w.ways = w.roads;
+    addSuburbHouses(scene, 2, w.buildings);
+    EXPECT_GE(w.buildings.size(), 140u);
+    expectSound(w, kHouseGap, kStreetGap, "seed " + std::to_string(seed));
+  }
+}
+
+TEST(Worlds, theTownsBuildingsKeepToTheirLots) {
+  for (int seed = 0; seed < seeds(); ++seed) {
+    const Model m = derived("town", 300, seed, {{"planting", "false"}});
+    ASSERT_FALSE(hasErrors(m.messages())) << messagesJson(m.messages());
+    const Scene& scene = m.impl().result.scene;
+    EXPECT_EQ(joined(faults(scene)), "") << "seed " << seed;
+    World w{facesNamed(scene, "Asphalt"), {}, {}};
+    // Pavements lie higher than the paving of yards.
+    w.ways = facesNamed(scene, "Paving", 0.125, 0.135);
+    w.ways.insert(w.ways.end(), w.roads.begin(), w.roads.end());
+    for (const Root& root : scene.roots) {
+      addTownBuildings(scene, scene.prototypes[root.instance.prototype], root.instance.frame,
+                       w.buildings);
+    }
+    EXPECT_GT(w.buildings.size(), 60u);
+    expectSound(w, 0, 0, "seed " + std::to_string(seed));
+  }
+}
+
+}  // namespace
+}  // namespace gable
