@@ -175,6 +175,9 @@ struct DeriveSettings {
   bool sharing = true;
   /// Keep the derivation tree (turns sharing off).
   bool trace = false;
+  /// With `trace`: the model also has the shapes that rules replace, each as they got it, so that a
+  /// derivation can be shown step by step.
+  bool traceShapes = false;
   /// 0: as many as the machine has processors.
   int jobs = 0;
   Budget budget;
@@ -246,9 +249,14 @@ struct TreeNode {
   std::array<double, 12> frame{};
   std::array<double, 3> size{};
   bool leaf = false, dropped = false;
+  /// Made by a rule call, so that a step of the derivation replaces it.
+  bool ruleCall = false;
   /// The place of a leaf's geometry among all leaves in path order, as draw lists count them; of
   /// other shapes the first leaf below them. Leaves below are firstLeaf up to endLeaf; kNone: none.
   uint32_t firstLeaf = 0, endLeaf = 0;
+  /// Its own places among the leaves: as its rule got it (with DeriveSettings::traceShapes), and as it
+  /// stays where it is a leaf; kNone: none.
+  uint32_t before = kNone, after = kNone;
 };
 
 struct Tree {
@@ -294,6 +302,9 @@ class Model {
   /// The model for a graphics card: batches of instances and of merged triangles; the bytes are
   /// described in docs/dev/studio-protocol.md.
   std::string drawList() const;
+  /// JSON of one leaf by its number in draw lists: name, rule, place, material, attributes; empty when
+  /// there is none.
+  std::string leafJson(uint64_t number) const;
   /// The bytes of a texture by the path that a draw list names; empty when there is none.
   std::string texture(const std::string& path) const;
   /// By extension: .glb .gltf .obj .ply .stl, and .png for a picture with default settings.

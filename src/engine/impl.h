@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "base/json.h"
 #include "engine/project.h"
 #include "gable/gable.h"
 #include "program/program.h"
@@ -75,6 +76,9 @@ Value valueOfAttribute(const AttributeValue& a, ValuePool& pool);
 std::string statsOf(const DeriveResult& result, const Messages& messages,
                     const Model::Times& times);
 std::string traceOf(const DeriveResult& result, const Program& program, const Sources& sources);
+
+/// A number, a text, a bool, or an array of them.
+void writeAttribute(JsonWriter& json, const AttributeValue& a);
 
 Tree treeOf(const DeriveResult& result, const Program& program, const Sources& sources);
 

@@ -60,14 +60,6 @@ Limits limitsOf(const Budget& b) {
   return l;
 }
 
-void writePlain(JsonWriter& json, const PlainValue& v) {
-  switch (v.kind) {
-    case PlainValue::Kind::Number: json.value(v.number); break;
-    case PlainValue::Kind::Bool: json.value(v.number != 0); break;
-    case PlainValue::Kind::Text: json.value(v.text); break;
-  }
-}
-
 // Textures by the paths that materials name, decoded once.
 class ProjectTextures final : public TextureSource {
  public:
@@ -136,6 +128,7 @@ Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& set
   options.seed = settings.seed;
   options.sharing = settings.sharing;
   options.trace = settings.trace;
+  options.traceShapes = settings.trace && settings.traceShapes;
   options.jobs = settings.jobs;
   options.limits = limitsOf(settings.budget);
   options.progress = settings.progress;
@@ -195,20 +188,7 @@ std::string Model::attributesJson(size_t shape) const {
   if (shape < impl_->result.attributes.size()) {
     for (const AttributeValue& a : impl_->result.attributes[shape]) {
       json.key(a.name);
-      if (a.rows == 0) {
-        if (a.values.empty())
-          json.null();
-        else
-          writePlain(json, a.values[0]);
-        continue;
-      }
-      json.beginArray();
-      for (uint32_t r = 0; r < a.rows; ++r) {
-        if (a.rows > 1) json.beginArray();
-        for (uint32_t c = 0; c < a.columns; ++c) writePlain(json, a.values[r * a.columns + c]);
-        if (a.rows > 1) json.endArray();
-      }
-      json.endArray();
+      writeAttribute(json, a);
     }
   }
   json.endObject();

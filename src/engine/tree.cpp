@@ -69,10 +69,18 @@ Tree treeOf(const DeriveResult& result, const Program& program, const Sources& s
     setFrame(out, n);
     out.leaf = n.leaf;
     out.dropped = n.dropped;
+    out.ruleCall = n.ruleCall;
     out.firstLeaf = out.endLeaf = TreeNode::kNone;
-    if (n.leafIndex != TraceNode::kNone && n.initialShape + 1 < first.size()) {
-      out.firstLeaf = static_cast<uint32_t>(first[n.initialShape] + n.leafIndex);
-      out.endLeaf = out.firstLeaf + 1;
+    const auto numberOf = [&](uint32_t index) {
+      const bool known = index != TraceNode::kNone && n.initialShape + 1 < first.size();
+      return known ? static_cast<uint32_t>(first[n.initialShape] + index) : TreeNode::kNone;
+    };
+    out.before = numberOf(n.shapeIndex);
+    out.after = numberOf(n.leafIndex);
+    for (const uint32_t own : {out.before, out.after}) {
+      if (own == TreeNode::kNone) continue;
+      if (out.firstLeaf == TreeNode::kNone) out.firstLeaf = own;
+      out.endLeaf = own + 1;
     }
     tree.nodes.push_back(out);
   }

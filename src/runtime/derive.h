@@ -89,8 +89,12 @@ struct TraceNode {
   Vec3 size;
   bool leaf = false;
   bool dropped = false;
+  /// Made by a rule call: there is a step of the derivation that replaces it.
+  bool ruleCall = false;
   /// Index among the leaves of its initial shape's prototype, for leaves with geometry.
   uint32_t leafIndex = kNone;
+  /// With DeriveOptions::traceShapes: the same for the shape as the rule got it.
+  uint32_t shapeIndex = kNone;
 };
 
 struct DeriveOptions {
@@ -98,6 +102,8 @@ struct DeriveOptions {
   double seed = 0;
   bool sharing = true;
   bool trace = false;
+  /// With `trace`: shapes that rules replace are leaves of the scene as well.
+  bool traceShapes = false;
   int jobs = 1;
   Limits limits;
   /// Attribute values for all initial shapes, over those of the shapes.

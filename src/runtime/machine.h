@@ -261,6 +261,7 @@ class Machine final : public Services {
   void leaveBracket();
   void shapeTooLarge(const OpSpec& spec);
   void makeLeaf(Activation& a, StringId name, uint32_t source);
+  bool putLeaf(const Shape& s, StringId name, uint32_t source);
   /// Hands the leaves on while they are still in the nearest cache.
   void passLeaves() {
     if (sink_ && output_.openLeaves.size() >= kLeafBatch) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "runtime/machine.h"
+#include "shape/deformation.h"
 
 namespace gable {
 
@@ -17,6 +18,15 @@ void Machine::traceShape(Activation& a, uint32_t parentNode, const Instruction* 
   node.span = at ? program_.spans[pcOf(at)] : program_.rules[a.rule].span;
   node.scope = worlds_.back() * a.shape.scope;
   node.size = a.shape.size;
+  node.ruleCall = true;
+  if (options().traceShapes) {
+    Shape asMade = a.shape;
+    if (isDeformed(asMade)) bakeDeformation(asMade);
+    const auto index = static_cast<uint32_t>(output_.openLeaves.size());
+    if (putLeaf(asMade, node.name, at ? pcOf(at) : program_.rules[a.rule].entry)) {
+      node.shapeIndex = index;
+    }
+  }
   a.traceNode = static_cast<uint32_t>(trace_.size());
   trace_.push_back(node);
 }

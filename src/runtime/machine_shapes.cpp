@@ -447,10 +447,16 @@ void Machine::shapeTooLarge(const OpSpec& spec) {
 
 void Machine::makeLeaf(Activation& a, StringId name, uint32_t source) {
   if (isDeformed(a.shape) && a.shape.geometry.kind != GeometryKind::None) bakeDeformation(a.shape);
-  const Shape& s = a.shape;
   if (options().trace) traceLeaf(a, name, source);
-  if (s.geometry.kind == GeometryKind::None) return;
-  if (s.geometry.kind == GeometryKind::Mesh && s.geometry.mesh->empty()) return;
+  if (!putLeaf(a.shape, name, source)) return;
+  if (collectOccluders_) addOccluder(0, a.shape);
+  passLeaves();
+}
+
+// False for a shape without geometry.
+bool Machine::putLeaf(const Shape& s, StringId name, uint32_t source) {
+  if (s.geometry.kind == GeometryKind::None) return false;
+  if (s.geometry.kind == GeometryKind::Mesh && s.geometry.mesh->empty()) return false;
   Leaf& leaf = output_.openLeaves.emplace_back();
   leaf.frame = flat_ ? worlds_.back() * s.scope : s.scope;
   leaf.scale = s.size;
@@ -469,8 +475,7 @@ void Machine::makeLeaf(Activation& a, StringId name, uint32_t source) {
   leaf.name = name;
   leaf.source = source;
   leaf.attributes = s.attributes;
-  if (collectOccluders_) addOccluder(0, s);
-  passLeaves();
+  return true;
 }
 
 void Machine::pushShape() {

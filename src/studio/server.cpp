@@ -30,7 +30,8 @@ constexpr const char* kPolicy =
 int statusFor(const std::string& code) {
   if (code == "path-outside" || code == "kind-refused") return 403;
   if (code == "version-differs") return 409;
-  if (code == "file-missing" || code == "derivation-gone" || code == "texture-not-found")
+  if (code == "file-missing" || code == "derivation-gone" || code == "leaf-missing" ||
+      code == "texture-not-found")
     return 404;
   if (code == "file-too-large") return 413;
   if (code == "file-unwritable" || code == "file-unreadable") return 500;
@@ -103,6 +104,11 @@ class Router {
     routes_["GET /api/export"] = [this](const HttpRequest& r) {
       return bytesOf(
           session_.exportModel(numberOf(r.argument("derivation")), r.argument("format")));
+    };
+    routes_["GET /api/leaf"] = [this](const HttpRequest& r) {
+      return bytesOf(
+          session_.leaf(numberOf(r.argument("derivation")), numberOf(r.argument("leaf"))),
+          "application/json");
     };
     routes_["GET /api/texture"] = [this](const HttpRequest& r) {
       return bytesOf(session_.texture(numberOf(r.argument("derivation")), r.argument("path")));

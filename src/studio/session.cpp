@@ -24,6 +24,8 @@ constexpr double kMostSeconds = 600, kUsualSeconds = 20;
 constexpr double kMostShapes = 50e6, kUsualShapes = 5e6;
 constexpr uint64_t kMostLeavesWritten = 20'000'000;
 constexpr uint64_t kTreeShapes = 400'000;
+/// A person looks at each step, and each has geometry of its own.
+constexpr uint64_t kStepShapes = 60'000;
 
 template <class Kept>
 void keep(std::deque<Kept>& kept, Kept one, size_t most) {
@@ -102,7 +104,10 @@ std::string treeBytes(const Tree& tree) {
                       &TreeNode::firstLeaf, &TreeNode::endLeaf}) {
     column(member);
   }
-  for (const TreeNode& n : tree.nodes) put(out, uint32_t{n.leaf} | uint32_t{n.dropped} << 1);
+  for (const TreeNode& n : tree.nodes)
+    put(out, uint32_t{n.leaf} | uint32_t{n.dropped} << 1 | uint32_t{n.ruleCall} << 2);
+  column(&TreeNode::before);
+  column(&TreeNode::after);
   for (const TreeNode& n : tree.nodes) {
     for (const double v : n.frame) put(out, static_cast<float>(v));
   }
@@ -206,7 +211,7 @@ std::shared_ptr<Session::Work> Session::begin(const JsonValue& request, const Ca
 }
 
 Result<Model> Session::deriveFor(const JsonValue& request, const Rules& rules, Work& work,
-                                 bool trace) {
+                                 Trace trace) {
   const Result<std::shared_ptr<const Shapes>> shapes = shapesOf(request);
   if (!shapes.ok()) return shapes.error();
   if (shapes.value()->size() == 0) {
@@ -214,8 +219,10 @@ Result<Model> Session::deriveFor(const JsonValue& request, const Rules& rules, W
     return Error{"no-shapes", why.empty() ? "there is no shape to derive" : why[0].text, ""};
   }
   DeriveSettings settings = settingsOf(request);
-  settings.trace = trace;
-  if (trace) settings.budget.shapes = std::min(settings.budget.shapes, kTreeShapes);
+  settings.trace = trace != Trace::None;
+  settings.traceShapes = trace == Trace::Steps;
+  if (trace == Trace::Tree) settings.budget.shapes = std::min(settings.budget.shapes, kTreeShapes);
+  if (trace == Trace::Steps) settings.budget.shapes = std::min(settings.budget.shapes, kStepShapes);
   // A value may outlive its attribute while the rules are being written.
   const std::vector<AttributeInfo> known = rules.attributes();
   std::erase_if(settings.attributes, [&](const auto& value) {
@@ -243,7 +250,7 @@ Result<std::string> Session::derive(const JsonValue& request, const Cancel& canc
     json.key("messages").raw(messagesJson(messages)).endObject();
     return joined("GBS1", text, {});
   }
-  const Result<Model> derived = deriveFor(request, *rules, *work, false);
+  const Result<Model> derived = deriveFor(request, *rules, *work, Trace::None);
   if (!derived.ok()) return derived.error();
   const Model& model = derived.value();
   const Messages& more = model.messages();
@@ -271,7 +278,8 @@ Result<std::string> Session::tree(const JsonValue& request, const Cancel& cancel
   const std::shared_ptr<Work> work = begin(request, cancel);
   const std::shared_ptr<const Rules> rules = rulesOf(request);
   if (!rules->ok()) return Error{"rules-wrong", "rules with errors have no derivation", ""};
-  Result<Model> derived = deriveFor(request, *rules, *work, true);
+  const bool steps = request["steps"].boolean(false);
+  Result<Model> derived = deriveFor(request, *rules, *work, steps ? Trace::Steps : Trace::Tree);
   if (!derived.ok()) return derived.error();
   const Tree tree = derived->tree();
   std::string text;
@@ -282,7 +290,7 @@ Result<std::string> Session::tree(const JsonValue& request, const Cancel& cancel
   json.endArray().key("files").beginArray();
   for (const std::string& f : tree.files) json.value(f);
   json.endArray().endObject();
-  return joined("GBT1", text, treeBytes(tree));
+  return joined("GBT1", text, treeBytes(tree) + (steps ? derived->drawList() : std::string()));
 }
 
 std::optional<Model> Session::made(uint64_t number) const {
@@ -317,6 +325,16 @@ Result<std::string> Session::exportModel(uint64_t derivation, const std::string&
     return Error{written.messages[0].code, written.messages[0].text, written.messages[0].hint};
   }
   return bytes;
+}
+
+Result<std::string> Session::leaf(uint64_t derivation, uint64_t number) const {
+  const std::optional<Model> model = made(derivation);
+  if (!model) return Error{"derivation-gone", "this derivation is no longer kept", "derive again"};
+  std::string json = model->leafJson(number);
+  if (json.empty()) {
+    return Error{"leaf-missing", "there is no leaf " + std::to_string(number), ""};
+  }
+  return json;
 }
 
 Result<std::string> Session::texture(uint64_t derivation, const std::string& path) const {

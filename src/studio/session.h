@@ -31,10 +31,12 @@ class Session {
 
   /// The answer to /api/derive: "GBS1", JSON, draw list.
   Result<std::string> derive(const JsonValue& request, const Cancel& cancel);
-  /// The answer to /api/tree: "GBT1", JSON, nodes.
+  /// The answer to /api/tree: "GBT1", JSON, nodes; with "steps" the draw list of all steps' shapes.
   Result<std::string> tree(const JsonValue& request, const Cancel& cancel);
   /// A model file of a derivation; `format` is an extension.
   Result<std::string> exportModel(uint64_t derivation, const std::string& format) const;
+  /// JSON of a leaf by its number in the draw list.
+  Result<std::string> leaf(uint64_t derivation, uint64_t number) const;
   Result<std::string> texture(uint64_t derivation, const std::string& path) const;
   /// Initial shapes done and in all, of the derivation that a page waits for.
   std::pair<size_t, size_t> progress(const std::string& page) const;
@@ -43,6 +45,7 @@ class Session {
 
  private:
   struct Work;
+  enum class Trace : uint8_t { None, Tree, Steps };
   struct Made {
     uint64_t number;
     Model model;
@@ -52,7 +55,7 @@ class Session {
   Result<std::shared_ptr<const Shapes>> shapesOf(const JsonValue& request);
   std::optional<Model> made(uint64_t number) const;
   std::shared_ptr<Work> begin(const JsonValue& request, const Cancel& cancel);
-  Result<Model> deriveFor(const JsonValue& request, const Rules& rules, Work& work, bool trace);
+  Result<Model> deriveFor(const JsonValue& request, const Rules& rules, Work& work, Trace trace);
 
   const ProjectFiles& files_;
   mutable std::mutex mutex_;

@@ -345,10 +345,29 @@ TEST_F(Server, derivesDrawsAndWrites) {
   EXPECT_NE(answer.find(R"("values":{"h":5})"), std::string::npos);
   EXPECT_NE(answer.find("GBL1"), std::string::npos);
   EXPECT_NE(ask("POST /api/tree", body).find("GBT1"), std::string::npos);
+  const std::string leaf = ask("GET /api/leaf?derivation=1&leaf=0");
+  EXPECT_EQ(status(leaf), 200);
+  EXPECT_NE(leaf.find(R"("name":"B")"), std::string::npos);
+  EXPECT_NE(leaf.find(R"("color":"#ffffff")"), std::string::npos);
+  EXPECT_EQ(status(ask("GET /api/leaf?derivation=1&leaf=1")), 404);
   const std::string glb = ask("GET /api/export?derivation=1&format=glb");
   EXPECT_NE(glb.find("glTF"), std::string::npos);
   EXPECT_EQ(status(ask("GET /api/export?derivation=1&format=sh")), 422);
   EXPECT_EQ(status(ask("GET /api/export?derivation=9&format=glb")), 404);
+}
+
+// The lot is replaced by a box, the box by six faces, and these stay.
+TEST_F(Server, stepsHoldEachShapeAsItsRuleGotIt) {
+  const std::string body =
+      R"({"file":"rules/a.cga","page":"p","steps":true,"shapes":{"lot":[4,2]},)"
+      R"("text":"@StartRule\nLot --> extrude(3) Box\nBox --> comp(f) { all : Face. }"})";
+  const std::string answer = ask("POST /api/tree", body);
+  EXPECT_EQ(status(answer), 200);
+  EXPECT_NE(answer.find(R"("count":8)"), std::string::npos);
+  // Lot and Box as they were, and six faces.
+  EXPECT_NE(answer.find(R"("leaves":8)"), std::string::npos);
+  const std::string plain = ask("POST /api/derive", body);
+  EXPECT_NE(plain.find(R"("leaves":6)"), std::string::npos);
 }
 
 TEST_F(Folder, importsComeFromUnsavedText) {

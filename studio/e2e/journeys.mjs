@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Whole journeys in a browser: those below, and those of journeys/*.mjs, each of which exports an
-// object of functions. A journey gets { page, folder, server, again, context }: a page on a project with
+// object of functions. `node e2e/journeys.mjs [first|STEM...]`: those below, of some files, or all. A journey gets { page, folder, server, again, context }: a page on a project with
 // HOUSE in it. Ends with 77, which counts as skipped, where there is no Chromium.
 // GABLE_SHOTS=FOLDER keeps a picture of each journey's end; GABLE_JOURNEY=NAME runs one.
 
 import assert from 'node:assert/strict';
-import { existsSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import {
   CHROMIUM, HOUSE, caretBehind, clean, code, drawn, hasBrowser, launch, openPage, project, ready, serve, status, untilDrawn,
@@ -139,20 +139,36 @@ const journeys = {
     return { complaintsExpected: true };
   },
 
-  async twoPagesDoNotLoseEachOthersEdits({ page, server }) {
+  async twoPagesDoNotLoseEachOthersEdits({ page, server, folder }) {
     await ready(page);
     const other = await openPage(page.context().browser(), server.url);
     await ready(other.page);
+    const text = (p) => p.locator('.cm-content').innerText();
+    // Edits of different lines are joined, on both pages and in the file.
+    await caretBehind(page, 'Roof -->');
+    await page.keyboard.type(' // flat');
     await caretBehind(other.page, 'attr height = 9');
-    await caretBehind(page, '@StartRule');
-    await page.keyboard.type(' ');
     await other.page.keyboard.type('7');
     await other.page.keyboard.press('Control+s');
     await other.page.waitForSelector('.crumb .dirty', { state: 'detached' });
+    await page.waitForFunction(() => /height = 97/.test(document.querySelector('.cm-content')?.innerText ?? ''), null, { timeout: 15_000 });
+    assert.match(await text(page), /Roof --> \/\/ flat/);
+    assert.equal(await page.locator('.conflict').count(), 0);
+    await page.keyboard.press('Control+s');
+    await page.waitForSelector('.crumb .dirty', { state: 'detached' });
+    assert.match(readFileSync(join(folder, 'journey.cga'), 'utf8'), /height = 97[^]*Roof --> \/\/ flat/);
+    await other.page.waitForFunction(() => /flat/.test(document.querySelector('.cm-content')?.innerText ?? ''), null, { timeout: 15_000 });
+    // Edits of one line are a question.
+    await caretBehind(page, 'attr height = 97');
+    await page.keyboard.type('.5');
+    await caretBehind(other.page, 'attr height = 97');
+    await other.page.keyboard.type('.25');
+    await other.page.keyboard.press('Control+s');
     await page.waitForSelector('.conflict', { timeout: 15_000 });
-    assert.match(await code(page).innerText(), /height = 9\n/);
+    assert.match(await text(page), /height = 97\.5/);
     await page.getByRole('button', { name: 'Take theirs' }).click();
-    await page.waitForFunction(() => /height = 97/.test(document.querySelector('.cm-content')?.textContent ?? ''));
+    await page.waitForFunction(() => /height = 97\.25/.test(document.querySelector('.cm-content')?.innerText ?? ''));
+    assert.deepEqual(other.complaints.filter((c) => !/409/.test(c)), []);
     await other.context.close();
   },
 
@@ -188,26 +204,32 @@ const journeys = {
   },
 };
 
+const wanted = process.argv.slice(2);
+const chosen = wanted.length && !wanted.includes('first') ? {} : { ...journeys };
 const more = new URL('journeys/', import.meta.url);
-for (const file of existsSync(more) ? readdirSync(more).sort() : []) {
-  if (file.endsWith('.mjs')) Object.assign(journeys, (await import(new URL(file, more))).default);
+for (const file of readdirSync(more).sort()) {
+  const stem = file.replace(/\.mjs$/, '');
+  if (stem === file || (wanted.length && !wanted.includes(stem))) continue;
+  Object.assign(chosen, (await import(new URL(file, more))).default);
 }
 
 async function travel(browser, name) {
   const folder = project();
   writeFileSync(join(folder, 'journey.cga'), HOUSE);
   let server = await serve(folder);
-  const { page, context, complaints } = await openPage(browser, server.url);
   const again = async () => (server = await serve(folder));
+  let opened;
   try {
-    const outcome = await journeys[name]({ page, folder, server, again, context });
+    opened = await openPage(browser, server.url);
+    const { page, context, complaints } = opened;
+    const outcome = await chosen[name]({ page, folder, server, again, context });
     if (!outcome?.complaintsExpected) assert.deepEqual(complaints, []);
     return null;
   } catch (error) {
     return error;
   } finally {
-    if (shots) await page.screenshot({ path: join(shots, `${name}.png`) }).catch(() => undefined);
-    await context.close();
+    if (shots && opened) await opened.page.screenshot({ path: join(shots, `${name}.png`) }).catch(() => undefined);
+    await opened?.context.close();
     await server.stop();
     clean(folder);
   }
@@ -216,7 +238,7 @@ async function travel(browser, name) {
 const only = process.env.GABLE_JOURNEY;
 const browser = await launch();
 let failed = 0;
-for (const name of Object.keys(journeys)) {
+for (const name of Object.keys(chosen)) {
   if (only && only !== name) continue;
   const began = Date.now();
   const error = await travel(browser, name);

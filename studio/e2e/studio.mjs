@@ -61,6 +61,8 @@ export async function launch() {
 /** A page at 1280 x 720 that collects what the console complains about. */
 export async function openPage(browser, url, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, ...options });
+  // Machines that do other things as well are slow.
+  context.setDefaultTimeout(60_000);
   const page = await context.newPage();
   const complaints = [];
   page.on('console', (m) => {

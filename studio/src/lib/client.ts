@@ -3,7 +3,7 @@
 //
 // EngineClient: the one way from the page to the server.
 
-import { decodeDerived, decodeTree, type Derived, type DrawList, type Message, type Tree } from './protocol';
+import { decodeDerived, decodeTree, type Derived, type DrawList, type LeafInfo, type Message, type Tree } from './protocol';
 
 export interface ProjectFile {
   path: string;
@@ -126,10 +126,15 @@ export class EngineClient {
     return decodeDerived(await answer.arrayBuffer());
   }
 
-  async tree(request: DeriveRequest, signal: AbortSignal): Promise<Tree> {
-    const own = { ...request, page: `${request.page} tree` };
+  /** The derivation tree; `steps`: with a draw list of the shapes of all steps. */
+  async tree(request: DeriveRequest, signal: AbortSignal, steps = false): Promise<{ tree: Tree; draw: DrawList | null }> {
+    const own = { ...request, steps, page: `${request.page} tree` };
     const answer = await this.call('POST', 'tree', JSON.stringify(own), signal);
     return decodeTree(await answer.arrayBuffer());
+  }
+
+  async leaf(derivation: number, leaf: number): Promise<LeafInfo> {
+    return (await this.call('GET', `leaf?derivation=${derivation}&leaf=${leaf}`)).json() as Promise<LeafInfo>;
   }
 
   async progress(): Promise<{ done: number; total: number }> {

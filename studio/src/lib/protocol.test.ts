@@ -37,12 +37,14 @@ it('reads wrong rules without one', () => {
 });
 
 it('reads a tree column by column', () => {
-  const columns = new Uint32Array(11 * 2).map((_, i) => i);
+  const columns = new Uint32Array(13 * 2).map((_, i) => i);
   const floats = new Float32Array(15 * 2).map((_, i) => i / 2);
-  const tree = decodeTree(message('GBT1', { count: 2, end: 'done', names: ['A'], files: ['a'] }, join(bytes(columns), bytes(floats))).buffer as ArrayBuffer);
+  const { tree, draw } = decodeTree(message('GBT1', { count: 2, end: 'done', names: ['A'], files: ['a'] }, join(bytes(columns), bytes(floats))).buffer as ArrayBuffer);
   expect([...tree.shape]).toEqual([2, 3]);
   expect([...tree.flags]).toEqual([20, 21]);
+  expect([...tree.before, ...tree.after]).toEqual([22, 23, 24, 25]);
   expect(tree.size[5]).toBe(14.5);
+  expect(draw).toBeNull();
 });
 
 it('refuses what begins otherwise', () => {

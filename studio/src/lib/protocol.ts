@@ -118,7 +118,11 @@ export interface Tree {
   endColumn: Uint32Array;
   firstLeaf: Uint32Array;
   endLeaf: Uint32Array;
+  /** 1 leaf, 2 dropped, 4 made by a rule call, so that a step replaces it. */
   flags: Uint32Array;
+  /** In the draw list of all steps: the shape as it was made, and as it stays where it is a leaf. */
+  before: Uint32Array;
+  after: Uint32Array;
   /** Twelve a node: origin, x, y, z. */
   frame: Float32Array;
   size: Float32Array;
@@ -178,7 +182,8 @@ export function decodeDerived(bytes: ArrayBuffer): { derived: Derived; draw: Dra
   };
 }
 
-export function decodeTree(bytes: ArrayBuffer): Tree {
+/** The tree, and the draw list of all steps where it was asked for. */
+export function decodeTree(bytes: ArrayBuffer): { tree: Tree; draw: DrawList | null } {
   const { json, start } = parts(bytes, 0, 'GBT1');
   const head = json as Pick<Tree, 'count' | 'end' | 'names' | 'files'>;
   const n = head.count;
@@ -193,7 +198,7 @@ export function decodeTree(bytes: ArrayBuffer): Tree {
     at += n * each * 4;
     return out;
   };
-  return {
+  const tree: Tree = {
     ...head,
     parent: column(),
     shape: column(),
@@ -206,7 +211,23 @@ export function decodeTree(bytes: ArrayBuffer): Tree {
     firstLeaf: column(),
     endLeaf: column(),
     flags: column(),
+    before: column(),
+    after: column(),
     frame: floats(12),
     size: floats(3),
   };
+  return { tree, draw: at < bytes.byteLength ? decodeDrawList(bytes, at) : null };
+}
+
+/** What is known of one leaf. */
+export interface LeafInfo {
+  name: string;
+  rule?: string;
+  file?: string;
+  line?: number;
+  column?: number;
+  faces: number;
+  vertices: number;
+  material: Record<string, string | number>;
+  attributes: Record<string, Value>;
 }

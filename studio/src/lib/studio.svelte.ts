@@ -7,6 +7,8 @@
 import { EngineClient, Refusal, type DeriveRequest, type Example, type ProjectFile, type ShapesSpec } from './client';
 import { groupFields, valueText, type Group } from './fields';
 import type { AttributeInfo, Derived, DrawList, Message, RuleInfo, Stats, Value } from './protocol';
+import { Guide } from '../guide/guide.svelte';
+import { merge } from './merge';
 import { readRegistry, type Entry } from './registry';
 import { Shapes } from './tree';
 
@@ -27,6 +29,8 @@ export interface Place {
   seed: number;
   attributes: Record<string, string>;
   shapes: ShapesSpec;
+  /** Where the usual ones are not enough. */
+  limits?: { seconds?: number; shapes?: number };
 }
 
 interface Remembered {
@@ -84,12 +88,16 @@ export class Studio {
   shapes = $state.raw<Shapes | null>(null);
   selected = $state(-1);
   hovered = $state(-1);
+  /** Pictures a second while the view moves. */
+  fps = $state(0);
   canUndo = $state(0);
   canRedo = $state(0);
 
   /** Set by the view and the editor. */
-  show: ((draw: DrawList, stats: Stats) => void) | null = null;
+  show: ((draw: DrawList, stats: Stats, lives?: Float32Array | null) => void) | null = null;
   reveal: ((file: string, line: number, column?: number) => void) | null = null;
+
+  readonly guide = new Guide(this);
 
   readonly groups = $derived<Group[]>(groupFields(this.attributes));
   readonly errors = $derived(this.messages.filter((m) => m.severity === 'error').length);
@@ -97,6 +105,7 @@ export class Studio {
   readonly ruleFiles = $derived(this.files.filter((f) => RULES.test(f.path)));
   readonly shapeFiles = $derived(this.files.filter((f) => SHAPES.test(f.path)));
 
+  private latest: { draw: DrawList; stats: Stats } | null = null;
   private places: Record<string, Place> = {};
   private address: string[] = [];
   private running: { abort: AbortController; began: number } | null = null;
@@ -118,7 +127,7 @@ export class Studio {
       this.files = project.files;
       this.registry = readRegistry(ops);
       await this.recall();
-      const first = this.ruleFiles.find((f) => f.path === this.main) ?? this.ruleFiles[0];
+      const first = this.ruleFiles.find((f) => f.path === this.main) ?? this.ruleFiles.find((f) => !/^(.*\/)?rules\//.test(f.path)) ?? this.ruleFiles[0];
       if (first) await this.openRules(first.path);
       else this.page = 'gallery';
       this.ready = true;
@@ -209,7 +218,23 @@ export class Studio {
 
   private async conflict(doc: Doc): Promise<void> {
     const { text, version } = await this.client.read(doc.path);
-    this.conflictOf = { path: doc.path, theirs: text, version };
+    if (this.join(doc, text, version)) await this.save(doc.path);
+  }
+
+  /** Takes what others wrote into what is edited here; asks where both changed the same lines. */
+  private join(doc: Doc, theirs: string, version: string): boolean {
+    const merged = merge(doc.saved, doc.text, theirs);
+    if (merged.conflicts) {
+      this.conflictOf = { path: doc.path, theirs, version };
+      return false;
+    }
+    const edited = doc.text !== doc.saved;
+    doc.text = merged.text;
+    doc.saved = theirs;
+    doc.version = version;
+    this.say(edited ? `${doc.path} was changed elsewhere; both edits are in it now` : `${doc.path} was changed elsewhere and read again`);
+    this.changed();
+    return true;
   }
 
   /** Ends a conflict: with what the editor says, or with what the file says. */
@@ -375,9 +400,10 @@ export class Studio {
     this.stats = derived.stats;
     this.derivation = derived.derivation ?? 0;
     this.lastGood = '';
-    this.show?.(draw, derived.stats);
+    this.latest = { draw, stats: derived.stats };
+    if (!this.guide.open) this.show?.(draw, derived.stats);
     if (derived.stats.shapes <= MOST_TREE_SHAPES) {
-      this.treeTimer = window.setTimeout(() => void this.fetchTree(), TREE_AFTER_MS);
+      this.treeTimer = window.setTimeout(() => void this.fetchTree(), this.guide.open ? 0 : TREE_AFTER_MS);
     } else {
       this.shapes = null;
       this.selected = -1;
@@ -385,22 +411,47 @@ export class Studio {
   }
 
   private async fetchTree(): Promise<void> {
+    this.treeAbort?.abort();
     const abort = new AbortController();
     this.treeAbort = abort;
+    const steps = this.guide.open;
     try {
-      const tree = await this.client.tree(this.request(), abort.signal);
-      if (abort.signal.aborted) return;
+      const { tree, draw } = await this.client.tree(this.request(), abort.signal, steps);
+      if (abort.signal.aborted || steps !== this.guide.open) return;
       const shapes = new Shapes(tree);
       this.shapes = shapes;
       this.selected = this.address.length ? shapes.find(this.address) : -1;
       this.hovered = -1;
+      if (steps && draw) {
+        this.guide.take(shapes, draw, tree.end === 'limit');
+        this.showAgain();
+      }
     } catch {
       // The next derivation asks again.
     }
   }
 
+  /** Gives the view what it is to show, once more. */
+  showAgain(): void {
+    if (!this.latest) return;
+    const { draw, steps } = this.guide;
+    if (this.guide.open && draw && steps) this.show?.(draw, this.latest.stats, steps.lives(draw.leaves));
+    else this.show?.(this.latest.draw, this.latest.stats);
+  }
+
+  /** Opens the guide at its last step, or goes back to the model. */
+  toggleGuide(): void {
+    if (!this.latest || !this.shapes) return;
+    if (this.guide.open) {
+      this.guide.close();
+      this.showAgain();
+    } else this.guide.open = true;
+    void this.fetchTree();
+  }
+
   select(node: number, reveal = true): void {
     this.selected = node;
+    this.guide.follow(node);
     this.address = node >= 0 && this.shapes ? this.shapes.address(node) : [];
     if (reveal && node >= 0) this.revealShape(node);
   }
@@ -503,13 +554,6 @@ export class Studio {
     if (!doc) return;
     const { text, version } = await this.client.read(path);
     if (version === doc.version) return;
-    if (doc.text !== doc.saved && doc.text !== text) {
-      this.conflictOf = { path, theirs: text, version };
-      return;
-    }
-    doc.text = doc.saved = text;
-    doc.version = version;
-    this.say(`${path} was changed elsewhere and read again`);
-    this.derive();
+    this.join(doc, text, version);
   }
 }

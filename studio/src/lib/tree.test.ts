@@ -13,7 +13,7 @@ function grow(text: string): Shapes {
   const tree: Tree = {
     count: n, end: 'done', names, files: ['a.cga'], parent: column().fill(NONE), shape: column(), name: column(), file: column(),
     line: column(), column: column(), endLine: column(), endColumn: column(), firstLeaf: column().fill(NONE), endLeaf: column().fill(NONE),
-    flags: column(), frame: new Float32Array(n * 12), size: new Float32Array(n * 3),
+    flags: column(), before: column(), after: column(), frame: new Float32Array(n * 12), size: new Float32Array(n * 3),
   };
   const stack: number[] = [];
   let leaf = 0;

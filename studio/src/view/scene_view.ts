@@ -8,13 +8,29 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Batch, DrawList, Look } from '../lib/protocol';
-import { groundMaterial, leafMaterial, lookMaterial, outlineMaterial, type Marks } from './shading';
+import { emptyGroup, ghostBox, manyScopes, scopeLines, type ScopeBox } from './boxes';
+import { Detail, MOVING, STILL } from './detail';
+import { Navigation, type Mode } from './navigation';
+import { Pictures } from './pictures';
+import { groundMaterial, heightMaterial, leafMaterial, lookMaterial, outlineMaterial, skyMaterial, steppedShadow, type Marks } from './shading';
 
 export interface ViewColors {
   ground: string;
   line: string;
   accent: string;
   text: string;
+  ghost: string;
+  /** The sky over the place, where it is shown. */
+  zenith: string;
+  horizon: string;
+}
+
+/** What a picture costs. */
+export interface Cost {
+  calls: number;
+  triangles: number;
+  /** Of all buffers on the graphics card. */
+  bytes: number;
 }
 
 export interface Bounds {
@@ -30,8 +46,11 @@ export interface Range {
 const NOTHING: Range = { from: 0, to: 0 };
 /** Passes that a still picture is made of. */
 const PASSES = 40;
+const MOST_MATERIALS = 400;
+/** Metres from the middle to a corner of what counts as a place, not a building. */
+const WIDE = 150;
 const QUIET_MS = 220;
-const SLOW_PASS_MS = 180;
+const SLOW_PASS_MS = 400;
 
 interface Batched {
   mesh: THREE.Mesh;
@@ -54,7 +73,11 @@ export class SceneView {
   drawn: (() => void) | null = null;
   /** Called when the camera has moved. */
   moved: (() => void) | null = null;
-  loadTexture: ((path: string) => Promise<Blob>) | null = null;
+  /** Called with the seconds that a picture took, from the drawing of one to the end of it. */
+  timed: ((seconds: number) => void) | null = null;
+  readonly pictures = new Pictures();
+
+  readonly navigation: Navigation;
 
   private readonly scene = new THREE.Scene();
   private readonly model = new THREE.Group();
@@ -65,13 +88,25 @@ export class SceneView {
   private readonly marks: Marks = {
     selected: { value: new THREE.Vector2() },
     accent: { value: new THREE.Color() },
+    guideStep: { value: 1e9 },
   };
   private readonly overlay = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), outlineMaterial());
   private readonly copy: THREE.Mesh<THREE.PlaneGeometry, THREE.MeshBasicMaterial>;
   private readonly flat = new THREE.OrthographicCamera(-1, 1, 1, -1, 0, 1);
-  private readonly leafMerged = leafMaterial(false);
-  private readonly leafInstanced = leafMaterial(true);
+  private readonly leafMerged = leafMaterial(false, this.marks);
+  private readonly leafInstanced = leafMaterial(true, this.marks);
+  private readonly steppedMerged = leafMaterial(false, this.marks, true);
+  private readonly steppedInstanced = leafMaterial(true, this.marks, true);
+  private readonly steppedShadow = steppedShadow(this.marks);
+  private readonly heightMerged = heightMaterial(false);
+  private readonly heightInstanced = heightMaterial(true);
+  private readonly dome = new THREE.Mesh(new THREE.SphereGeometry(1, 32, 16), skyMaterial());
   private readonly scopes = new THREE.Group();
+  private readonly manyScopes = new THREE.Group();
+  private readonly ghosts = new THREE.Group();
+  private readonly ghostColor = new THREE.Color();
+  private readonly groundColor = new THREE.Color();
+  private readonly horizonColor = new THREE.Color();
   private leafTarget = new THREE.WebGLRenderTarget(1, 1, { type: THREE.UnsignedByteType });
   private passTarget = new THREE.WebGLRenderTarget(1, 1, { type: THREE.HalfFloatType });
   private sumTarget = new THREE.WebGLRenderTarget(1, 1, { type: THREE.HalfFloatType });
@@ -84,9 +119,17 @@ export class SceneView {
   private dirty = false;
   private leavesStale = true;
   private pass = 0;
+  private drawnWith = { calls: 0, triangles: 0 };
   private quiet = 0;
   private frame = 0;
   private framed = false;
+  /** Counts models, so that one that was sorted too late is not shown. */
+  private models = 0;
+  private detail: Detail | null = null;
+  private readonly materials = new Map<string, THREE.MeshLambertMaterial>();
+  private sky_ = false;
+  private wireframe = false;
+  private waiting: WebGLSync | null = null;
   /** Refinement has left the sun elsewhere. */
   private sunMoved = false;
 
@@ -96,6 +139,7 @@ export class SceneView {
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.renderer.shadowMap.autoUpdate = false;
     this.renderer.autoClear = false;
+    this.renderer.info.autoReset = false;
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(2048, 2048);
     this.sun.shadow.bias = -0.0004;
@@ -103,6 +147,9 @@ export class SceneView {
     this.ground = new THREE.Mesh(new THREE.PlaneGeometry(1, 1), new THREE.MeshLambertMaterial());
     this.ground.rotation.x = -Math.PI / 2;
     this.ground.receiveShadow = true;
+    // All of the model is above it, so that it need not hide anything; and nothing flickers.
+    this.ground.material.depthWrite = false;
+    this.ground.renderOrder = -5;
     this.grid = new THREE.Mesh(new THREE.PlaneGeometry(1, 1), groundMaterial());
     this.grid.rotation.x = -Math.PI / 2;
     this.copy = new THREE.Mesh(
@@ -110,24 +157,68 @@ export class SceneView {
       new THREE.MeshBasicMaterial({ transparent: true, depthTest: false, depthWrite: false, toneMapped: false }),
     );
     for (const screen of [this.overlay, this.copy]) screen.frustumCulled = false;
-    this.scene.add(this.model, this.sun, this.sun.target, this.sky, this.ground, this.grid, this.scopes);
+    this.dome.frustumCulled = false;
+    this.dome.renderOrder = -10;
+    this.dome.visible = false;
+    this.scene.add(this.dome, this.model, this.sun, this.sun.target, this.sky, this.ground, this.grid);
+    this.scene.add(this.scopes, this.manyScopes, this.ghosts);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.maxPolarAngle = Math.PI * 0.495;
     this.controls.addEventListener('change', () => {
-      this.leavesStale = true;
       this.camera.updateMatrixWorld();
-      this.moved?.();
-      this.redraw();
+      this.cameraMoved();
     });
+    this.navigation = new Navigation(this);
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
   }
 
+  cameraMoved(): void {
+    this.leavesStale = true;
+    this.moved?.();
+    this.redraw();
+  }
+
+  setMode(mode: Mode): void {
+    this.navigation.setMode(mode);
+    this.fitGround();
+    this.redraw();
+  }
+
+  /** Where a point of the world is on the canvas, in CSS pixels; null behind the camera. */
+  project(at: [number, number, number]): { x: number; y: number } | null {
+    const p = new THREE.Vector3(...at).project(this.camera);
+    if (p.z > 1) return null;
+    return { x: ((p.x + 1) / 2) * this.canvas.clientWidth, y: ((1 - p.y) / 2) * this.canvas.clientHeight };
+  }
+
+  /** The first surface below a point. */
+  heightBelow(at: THREE.Vector3): number {
+    const floor = this.ground.position.y;
+    const reach = Math.max(1, at.y - floor) + 1;
+    const down = new THREE.OrthographicCamera(-0.05, 0.05, 0.05, -0.05, 0, reach);
+    down.position.copy(at);
+    down.up.set(0, 0, -1);
+    down.lookAt(at.x, at.y - 1, at.z);
+    for (const m of [this.heightMerged, this.heightInstanced]) {
+      m.uniforms.base!.value = floor - 1;
+      m.uniforms.range!.value = reach + 1;
+    }
+    this.renderData(this.pickTarget, down, (b) => (b.mesh instanceof THREE.InstancedMesh ? this.heightInstanced : this.heightMerged));
+    const bytes = new Uint8Array(4);
+    this.renderer.readRenderTargetPixels(this.pickTarget, 0, 0, 1, 1, bytes);
+    if (bytes[3] === 0) return Math.min(0, this.bounds.min[1]);
+    return floor - 1 + (((bytes[0]! * 256 + bytes[1]!) * 256 + bytes[2]!) / 16777216) * (reach + 1);
+  }
+
   setColors(colors: ViewColors): void {
-    const ground = new THREE.Color(colors.ground);
-    this.scene.background = ground;
-    this.scene.fog = new THREE.Fog(ground, 100, 1000);
+    const ground = this.groundColor.set(colors.ground);
+    this.horizonColor.set(colors.horizon);
+    this.ghostColor.set(colors.ghost);
+    this.dome.material.uniforms.horizon!.value = this.horizonColor;
+    (this.dome.material.uniforms.zenith!.value as THREE.Color).set(colors.zenith);
+    this.setSky(this.sky_);
     this.ground.material.color.copy(ground).multiplyScalar(1.05);
     (this.grid.material.uniforms.line!.value as THREE.Color).set(colors.line);
     this.marks.accent.value.set(colors.accent);
@@ -138,16 +229,37 @@ export class SceneView {
     this.redraw();
   }
 
-  setModel(list: DrawList, bounds: Bounds): void {
+  /** With the sky the ground fades into the horizon; without, into a ground without end. */
+  setSky(on: boolean): void {
+    this.sky_ = on;
+    this.dome.visible = on;
+    const far = on ? this.horizonColor : this.groundColor;
+    this.scene.background = far;
+    this.scene.fog = new THREE.Fog(far, 100, 1000);
+    this.fitGround();
+    this.redraw();
+  }
+
+  /**
+   * Shows another model. `lives`: two numbers a leaf, from and up to which step of a derivation it is
+   * there; without, all leaves are.
+   */
+  async setModel(list: DrawList, bounds: Bounds, lives: Float32Array | null = null): Promise<void> {
+    const number = ++this.models;
+    const materials = list.looks.map((look) => this.materialOf(look, !!lives));
+    const batches = list.batches.map((batch) => this.batched(batch, materials[batch.look]!, lives));
+    // Sorting a large model takes a while; the one before stays in sight until then.
+    const detail = lives || !Detail.worthIt(batches.map((b) => b.mesh)) ? null : await Detail.of(batches.map((b) => b.mesh), () => number !== this.models);
+    if (number !== this.models) return;
+    this.detail = detail;
     for (const { mesh } of this.batches) {
       mesh.geometry.dispose();
       if (mesh instanceof THREE.InstancedMesh) mesh.dispose();
     }
-    for (const each of this.batches) each.plain.dispose();
     this.model.clear();
-    const materials = list.looks.map((look) => this.materialOf(look));
-    this.batches = list.batches.map((batch) => this.batched(batch, materials[batch.look]!));
+    this.batches = batches;
     for (const { mesh } of this.batches) this.model.add(mesh);
+    this.setWireframe(this.wireframe);
     this.bounds = bounds;
     this.fitGround();
     this.fitSun();
@@ -159,39 +271,37 @@ export class SceneView {
     this.redraw();
   }
 
-  private materialOf(look: Look): THREE.MeshLambertMaterial {
-    const material = lookMaterial(look, this.marks);
-    if (look.map && this.loadTexture) void this.applyTexture(material, look, this.loadTexture);
+  // Materials stay from one model to the next: a material that nothing uses any more takes its program
+  // along, and to build that again costs more than all else of a keystroke.
+  private materialOf(look: Look, stepped: boolean): THREE.MeshLambertMaterial {
+    const key = JSON.stringify([look, stepped]);
+    const known = this.materials.get(key);
+    if (known) return known;
+    if (this.materials.size >= MOST_MATERIALS) this.materials.clear();
+    const material = lookMaterial(look, this.marks, stepped);
+    this.materials.set(key, material);
+    if (look.map) void this.applyTexture(material, look);
     return material;
   }
 
-  private async applyTexture(
-    material: THREE.MeshLambertMaterial,
-    look: Look,
-    load: (path: string) => Promise<Blob>,
-  ): Promise<void> {
-    try {
-      const picture = await createImageBitmap(await load(look.map ?? ''), { imageOrientation: 'flipY' });
-      const texture = new THREE.Texture(picture);
-      texture.flipY = false;
-      texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
-      texture.colorSpace = THREE.SRGBColorSpace;
-      texture.generateMipmaps = true;
-      texture.anisotropy = 4;
-      const [su, sv, tu, tv, rw] = look.uv ?? [1, 1, 0, 0, 0];
-      texture.repeat.set(su, sv);
-      texture.offset.set(tu, tv);
-      texture.rotation = (rw * Math.PI) / 180;
-      texture.needsUpdate = true;
-      material.map = texture;
-      material.needsUpdate = true;
-      this.redraw();
-    } catch {
-      // Without its picture a face keeps its colour.
-    }
+  private async applyTexture(material: THREE.MeshLambertMaterial, look: Look): Promise<void> {
+    const placed = this.pictures.placed(look.map ?? '', look.uv);
+    const texture = placed instanceof THREE.Texture ? placed : await placed;
+    if (!texture) return;
+    material.map = texture;
+    material.needsUpdate = true;
+    if (placed instanceof THREE.Texture) return;
+    this.leavesStale = true;
+    this.redraw();
   }
 
-  private batched(batch: Batch, plain: THREE.Material): Batched {
+  /** Files have changed: pictures are loaded again. */
+  forgetPictures(): void {
+    this.pictures.clear();
+    this.materials.clear();
+  }
+
+  private batched(batch: Batch, plain: THREE.Material, lives: Float32Array | null): Batched {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', new THREE.BufferAttribute(batch.position, 3));
     geometry.setAttribute('normal', new THREE.BufferAttribute(batch.normal, 3));
@@ -210,17 +320,27 @@ export class SceneView {
       mesh = new THREE.Mesh(geometry, plain);
     }
     mesh.frustumCulled = false;
+    if (lives) {
+      const life = new Float32Array(batch.leaf.length * 2);
+      for (let i = 0; i < batch.leaf.length; ++i) {
+        life[i * 2] = lives[batch.leaf[i]! * 2] ?? 0;
+        life[i * 2 + 1] = lives[batch.leaf[i]! * 2 + 1] ?? 1e9;
+      }
+      geometry.setAttribute('life', batch.matrix ? new THREE.InstancedBufferAttribute(life, 2) : new THREE.BufferAttribute(life, 2));
+      mesh.customDepthMaterial = this.steppedShadow;
+    }
     mesh.castShadow = !plain.transparent;
     mesh.receiveShadow = true;
-    return { mesh, plain, leaf: batch.matrix ? this.leafInstanced : this.leafMerged };
+    const leaf = lives ? (batch.matrix ? this.steppedInstanced : this.steppedMerged) : batch.matrix ? this.leafInstanced : this.leafMerged;
+    return { mesh, plain, leaf };
   }
 
-  private get centre(): THREE.Vector3 {
+  get centre(): THREE.Vector3 {
     const { min, max } = this.bounds;
     return new THREE.Vector3((min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2);
   }
 
-  private get radius(): number {
+  get radius(): number {
     const { min, max } = this.bounds;
     return Math.max(1, Math.hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2]) / 2);
   }
@@ -237,12 +357,13 @@ export class SceneView {
     const uniforms = this.grid.material.uniforms;
     (uniforms.centre!.value as THREE.Vector2).set(c.x, c.z);
     uniforms.reach!.value = Math.max(30, r * 3.2);
-    uniforms.cell!.value = r < 12 ? 1 : 10;
+    uniforms.cell!.value = r < 12 ? 1 : r < 250 ? 10 : 100;
     if (this.scene.fog instanceof THREE.Fog) {
-      this.scene.fog.near = r * 5;
-      this.scene.fog.far = r * 22;
+      this.scene.fog.near = r * (this.sky_ ? 2.5 : 5);
+      this.scene.fog.far = r * (this.sky_ ? 12 : 22);
     }
-    this.camera.near = Math.max(0.05, r / 300);
+    const near = this.navigation?.mode === 'walk' ? 0.08 : 0.05;
+    this.camera.near = this.navigation?.mode === 'orbit' || !this.navigation ? Math.max(near, r / 300) : near;
     this.camera.far = r * 60;
     this.camera.updateProjectionMatrix();
   }
@@ -252,6 +373,7 @@ export class SceneView {
     const e = (elevation * Math.PI) / 180;
     const a = (azimuth * Math.PI) / 180;
     const to = direction ?? new THREE.Vector3(Math.sin(a) * Math.cos(e), Math.sin(e), Math.cos(a) * Math.cos(e));
+    if (!direction) (this.dome.material.uniforms.sun!.value as THREE.Vector3).copy(to);
     const r = this.radius * 1.08;
     this.sun.position.copy(this.centre).addScaledVector(to, r * 3);
     this.sun.target.position.copy(this.centre);
@@ -285,17 +407,32 @@ export class SceneView {
   }
 
   setWireframe(on: boolean): void {
+    this.wireframe = on;
     for (const { plain } of this.batches) (plain as THREE.MeshLambertMaterial).wireframe = on;
     this.redraw();
   }
 
   /** A box in the accent colour with its axes; null hides it. */
-  setScope(frame: ArrayLike<number> | null, size: ArrayLike<number> | null): void {
-    this.scopes.traverse((o) => {
-      if (o instanceof THREE.LineSegments) (o.geometry as THREE.BufferGeometry).dispose();
-    });
-    this.scopes.clear();
-    if (frame && size) this.scopes.add(...scopeLines(frame, size, this.marks.accent.value));
+  setScope(box: ScopeBox | null): void {
+    emptyGroup(this.scopes);
+    if (box) this.scopes.add(...scopeLines(box, this.marks.accent.value));
+    this.redraw();
+  }
+
+  /** The scopes of many shapes, thinly. */
+  setScopes(boxes: ScopeBox[]): void {
+    emptyGroup(this.manyScopes);
+    if (boxes.length) this.manyScopes.add(manyScopes(boxes, this.marks.accent.value));
+    this.redraw();
+  }
+
+  /** Shows a derivation as it is after a step, and what the step has replaced. */
+  setStep(step: number, ghost: ScopeBox | null): void {
+    this.marks.guideStep.value = step;
+    emptyGroup(this.ghosts);
+    if (ghost) this.ghosts.add(...ghostBox(ghost, this.ghostColor));
+    this.leavesStale = true;
+    this.renderer.shadowMap.needsUpdate = true;
     this.redraw();
   }
 
@@ -310,10 +447,19 @@ export class SceneView {
     const direction = reset
       ? new THREE.Vector3(0.52, 0.5, 0.82).normalize()
       : this.camera.position.clone().sub(this.controls.target).normalize();
-    const vertical = (this.camera.fov * Math.PI) / 360;
-    const across = Math.atan(Math.tan(vertical) * Math.min(1, this.camera.aspect));
+    // A wide, flat place fills the picture when all corners of its box just fit; a house has air around it.
+    const upward = Math.tan((this.camera.fov * Math.PI) / 360);
+    const right = new THREE.Vector3(0, 1, 0).cross(direction).normalize();
+    const up = direction.clone().cross(right);
+    const fit = Math.atan(upward * Math.min(1, this.camera.aspect));
+    let far = radius > WIDE ? 0 : (radius * 1.02) / Math.sin(fit);
+    for (let i = 0; i < 8 && radius > WIDE; ++i) {
+      const corner = new THREE.Vector3(...[0, 1, 2].map((k) => (i & (1 << k) ? bounds.max : bounds.min)[k]!)).sub(centre);
+      const wide = Math.abs(corner.dot(right)) / (upward * this.camera.aspect);
+      far = Math.max(far, corner.dot(direction) + Math.max(wide, Math.abs(corner.dot(up)) / upward));
+    }
     this.controls.target.copy(centre);
-    this.camera.position.copy(centre).addScaledVector(direction, (radius * 1.02) / Math.sin(across));
+    this.camera.position.copy(centre).addScaledVector(direction, radius > WIDE ? far * 1.1 : far);
     this.controls.update();
     this.leavesStale = true;
     this.redraw();
@@ -331,17 +477,27 @@ export class SceneView {
   }
 
   private renderLeaves(target: THREE.WebGLRenderTarget): void {
+    this.renderData(target, this.camera, (b) => b.leaf);
+  }
+
+  /** Draws the model alone, with materials that write data. */
+  private renderData(target: THREE.WebGLRenderTarget, camera: THREE.Camera, material: (b: Batched) => THREE.Material): void {
     const background = this.scene.background;
+    const besides = [this.dome, this.ground, this.grid, this.scopes, this.manyScopes, this.ghosts];
+    const seen = besides.map((o) => o.visible);
+    const shadows = this.renderer.shadowMap.needsUpdate;
     this.scene.background = null;
-    this.ground.visible = this.grid.visible = this.scopes.visible = false;
-    for (const b of this.batches) b.mesh.material = b.leaf;
+    this.renderer.shadowMap.needsUpdate = false;
+    for (const o of besides) o.visible = false;
+    for (const b of this.batches) b.mesh.material = material(b);
     this.renderer.setRenderTarget(target);
     this.renderer.setClearColor(0, 0);
     this.renderer.clear();
-    this.renderer.render(this.scene, this.camera);
+    this.renderer.render(this.scene, camera);
     this.renderer.setRenderTarget(null);
     for (const b of this.batches) b.mesh.material = b.plain;
-    this.ground.visible = this.grid.visible = this.scopes.visible = true;
+    besides.forEach((o, i) => (o.visible = seen[i]!));
+    this.renderer.shadowMap.needsUpdate = shadows;
     this.scene.background = background;
   }
 
@@ -367,10 +523,14 @@ export class SceneView {
   private tick(): void {
     this.frame = 0;
     if (this.dirty) {
+      const began = performance.now();
       this.render();
       this.drawn?.();
       clearTimeout(this.quiet);
-      this.quiet = window.setTimeout(() => this.refine(), QUIET_MS);
+      this.whenDrawn(() => {
+        this.timed?.((performance.now() - began) / 1000);
+        this.quiet = window.setTimeout(() => this.refine(), QUIET_MS);
+      });
     }
   }
 
@@ -381,8 +541,35 @@ export class SceneView {
     this.sunMoved = false;
     this.renderer.setRenderTarget(null);
     this.renderer.clear();
+    this.chooseDetail(MOVING);
+    this.renderer.info.reset();
     this.renderer.render(this.scene, this.camera);
+    this.drawnWith = { calls: this.renderer.info.render.calls, triangles: this.renderer.info.render.triangles };
     if (this.selected.to > this.selected.from || this.hovered.to > this.hovered.from) this.drawOverlay(0);
+  }
+
+  /** Of a large model: its shadows, where they are to be drawn anew, and then what the camera sees. */
+  private chooseDetail(budget: number): void {
+    if (!this.detail) return;
+    if (this.renderer.shadowMap.needsUpdate) {
+      this.detail.selectForShadow((2 * this.radius) / this.sun.shadow.mapSize.x);
+      // Drawing on one pixel draws the shadow map as well.
+      this.renderer.setRenderTarget(this.pickTarget);
+      this.renderer.render(this.scene, this.camera);
+      this.renderer.setRenderTarget(null);
+      this.renderer.clear();
+    }
+    this.detail.select(this.camera, this.canvas.clientHeight, budget);
+  }
+
+  /** A large model at rest: more of it, once. */
+  private settle(): void {
+    this.chooseDetail(STILL);
+    this.renderer.clear();
+    this.renderer.render(this.scene, this.camera);
+    this.leavesStale = true;
+    this.drawOverlay(0.16);
+    this.pass = PASSES;
   }
 
   private drawOverlay(edges: number): void {
@@ -401,6 +588,7 @@ export class SceneView {
   /** One more pass of a still picture, then room for whatever else the page has to do. */
   private refine(): void {
     if (this.dirty || this.pass >= PASSES || !this.canvas.isConnected) return;
+    if (this.detail) return this.settle();
     const began = performance.now();
     const i = this.pass + 1;
     const size = this.renderer.getDrawingBufferSize(new THREE.Vector2());
@@ -423,12 +611,29 @@ export class SceneView {
     this.sky.intensity = skylight;
     this.pass = i;
     if (i % 10 === 0 || i === PASSES) this.showSum();
-    // Reading a pixel waits for the drawing itself, which calls only queue.
-    this.renderer.readRenderTargetPixels(this.pickTarget, 0, 0, 1, 1, new Uint8Array(4));
-    const took = performance.now() - began;
-    // Where a pass is slow, refining would hold up the page: the picture stays as it is.
-    if (took > SLOW_PASS_MS) this.pass = PASSES;
-    this.quiet = window.setTimeout(() => this.refine(), Math.max(8, took));
+    this.whenDrawn(() => {
+      const took = performance.now() - began;
+      // Where a pass is slow, refining would hold up the page: the picture stays as it is.
+      if (took > SLOW_PASS_MS && i % 10 !== 0) this.pass = PASSES;
+      this.quiet = window.setTimeout(() => this.refine(), Math.max(8, took));
+    });
+  }
+
+  /** Calls back when the graphics card has drawn what was queued, without waiting for it. */
+  private whenDrawn(then: () => void): void {
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    if (this.waiting) gl.deleteSync(this.waiting);
+    const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    this.waiting = fence;
+    if (!fence) return then();
+    gl.flush();
+    const look = () => {
+      if (this.waiting !== fence || this.dirty) return;
+      const state = gl.clientWaitSync(fence, 0, 0);
+      if (state === gl.TIMEOUT_EXPIRED) this.quiet = window.setTimeout(look, 4);
+      else then();
+    };
+    this.quiet = window.setTimeout(look, 2);
   }
 
   private aroundSun(i: number): THREE.Vector3 {
@@ -465,30 +670,23 @@ export class SceneView {
     this.drawOverlay(0.22);
   }
 
-  get drawCalls(): number {
-    return this.batches.length;
+  /** What the latest picture cost, and what the model holds of the graphics card's memory. */
+  cost(): Cost {
+    let bytes = 0;
+    for (const { mesh } of this.batches) {
+      const geometry = mesh.geometry as THREE.BufferGeometry;
+      for (const name of Object.keys(geometry.attributes)) bytes += geometry.attributes[name]!.array.byteLength;
+      bytes += geometry.index?.array.byteLength ?? 0;
+      if (mesh instanceof THREE.InstancedMesh) bytes += mesh.instanceMatrix.array.byteLength;
+    }
+    return { ...this.drawnWith, bytes };
   }
 
   dispose(): void {
     cancelAnimationFrame(this.frame);
     clearTimeout(this.quiet);
+    this.navigation.dispose();
     this.controls.dispose();
     this.renderer.dispose();
   }
-}
-
-function scopeLines(frame: ArrayLike<number>, size: ArrayLike<number>, accent: THREE.Color): THREE.LineSegments[] {
-  const at = (x: number, y: number, z: number) =>
-    [0, 1, 2].map((i) => frame[i]! + frame[3 + i]! * x + frame[6 + i]! * y + frame[9 + i]! * z);
-  const [w, h, d] = [size[0]!, size[1]!, size[2]!];
-  const corner = (i: number) => at(i & 1 ? w : 0, i & 2 ? h : 0, i & 4 ? d : 0);
-  const box: number[] = [];
-  for (let i = 0; i < 8; ++i) for (const bit of [1, 2, 4]) if (!(i & bit)) box.push(...corner(i), ...corner(i | bit));
-  const length = Math.max(w, h, d) * 0.25;
-  const lines = (points: number[], color: THREE.ColorRepresentation) => {
-    const geometry = new THREE.BufferGeometry().setAttribute('position', new THREE.Float32BufferAttribute(points, 3));
-    return new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color, depthTest: false, transparent: true }));
-  };
-  const axis = (x: number, y: number, z: number) => [...at(0, 0, 0), ...at(x * length, y * length, z * length)];
-  return [lines(box, accent), lines(axis(1, 0, 0), 0xe0564e), lines(axis(0, 1, 0), 0x69b545), lines(axis(0, 0, 1), 0x4f86e0)];
 }

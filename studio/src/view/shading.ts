@@ -12,6 +12,8 @@ export interface Marks {
   /** Leaves from, to; empty where from is not below to. */
   selected: { value: THREE.Vector2 };
   accent: { value: THREE.Color };
+  /** The step that is shown; only materials of a derivation in steps look at it. */
+  guideStep: { value: number };
 }
 
 const HEAD = `
@@ -26,8 +28,30 @@ vLeaf = leafOfMesh;
 vTint = pow(tint.rgb, vec3(2.2));
 `;
 
+/** A derivation in steps: each vertex or instance knows from and up to which step it is there. */
+const STEPPED_HEAD = `
+attribute vec2 life;
+uniform float guideStep;
+varying float vFresh;
+`;
+const STEPPED = `
+vFresh = guideStep > 0.5 && abs(life.x - guideStep) < 0.5 ? 1.0 : 0.0;
+if (guideStep + 0.5 < life.x || guideStep + 0.5 > life.y) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+`;
+
+/** Casts the shadows of what is there at a step. */
+export function steppedShadow(marks: Marks): THREE.MeshDepthMaterial {
+  const material = new THREE.MeshDepthMaterial({ depthPacking: THREE.RGBADepthPacking, side: THREE.DoubleSide });
+  material.onBeforeCompile = (shader) => {
+    shader.uniforms.guideStep = marks.guideStep;
+    shader.vertexShader = STEPPED_HEAD + shader.vertexShader.replace('#include <project_vertex>', '#include <project_vertex>' + STEPPED);
+  };
+  material.customProgramCacheKey = () => 'stepped shadow';
+  return material;
+}
+
 /** A material of a look; textures come later, by name. */
-export function lookMaterial(look: Look, marks: Marks): THREE.MeshLambertMaterial {
+export function lookMaterial(look: Look, marks: Marks, stepped = false): THREE.MeshLambertMaterial {
   const opacity = look.opacity ?? 1;
   const material = new THREE.MeshLambertMaterial({
     side: THREE.DoubleSide,
@@ -42,17 +66,23 @@ export function lookMaterial(look: Look, marks: Marks): THREE.MeshLambertMateria
     shader.uniforms.selected = marks.selected;
     shader.uniforms.accent = marks.accent;
     shader.vertexShader = HEAD + shader.vertexShader.replace('#include <uv_vertex>', LEAF + '#include <uv_vertex>');
+    if (stepped) {
+      shader.uniforms.guideStep = marks.guideStep;
+      shader.vertexShader = STEPPED_HEAD + shader.vertexShader.replace('#include <project_vertex>', '#include <project_vertex>' + STEPPED);
+    }
     shader.fragmentShader =
+      (stepped ? 'varying float vFresh;\n' : '') +
       'varying vec3 vTint;\nvarying float vLeaf;\nuniform vec2 selected;\nuniform vec3 accent;\n' +
       shader.fragmentShader.replace(
         '#include <map_fragment>',
         `diffuseColor.rgb *= vTint;
          ${metal > 0.4 ? 'diffuseColor.rgb *= 0.82;' : ''}
          if (vLeaf + 0.5 > selected.x && vLeaf + 0.5 < selected.y) diffuseColor.rgb = mix(diffuseColor.rgb, accent, 0.06);
+         ${stepped ? 'diffuseColor.rgb = mix(diffuseColor.rgb, accent, 0.75 * vFresh);' : ''}
          #include <map_fragment>`,
       );
   };
-  material.customProgramCacheKey = () => `look${metal > 0.4 ? 'm' : ''}`;
+  material.customProgramCacheKey = () => `look${metal > 0.4 ? 'm' : ''}${stepped ? 's' : ''}`;
   return material;
 }
 
@@ -65,11 +95,13 @@ export function swapRgb(value: number): number {
  * Draws leaf numbers, from 1, as colours, and the direction of the face in alpha, so that edges
  * within a leaf show as well. Nothing is blended: a pixel belongs to one leaf.
  */
-export function leafMaterial(instanced: boolean): THREE.ShaderMaterial {
+export function leafMaterial(instanced: boolean, marks: Marks, stepped = false): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     side: THREE.DoubleSide,
     blending: THREE.NoBlending,
+    uniforms: { guideStep: marks.guideStep },
     vertexShader: `
+      ${stepped ? STEPPED_HEAD : ''}
       attribute float leaf;
       varying float vLeaf;
       varying vec3 vWorld;
@@ -80,6 +112,7 @@ export function leafMaterial(instanced: boolean): THREE.ShaderMaterial {
         p = modelMatrix * p;
         vWorld = p.xyz;
         gl_Position = projectionMatrix * viewMatrix * p;
+        ${stepped ? STEPPED : ''}
       }`,
     fragmentShader: `
       varying float vLeaf;
@@ -89,6 +122,67 @@ export function leafMaterial(instanced: boolean): THREE.ShaderMaterial {
         vec3 d = normalize(cross(dFdx(vWorld), dFdy(vWorld)));
         float face = (d.x * 0.31 + d.y * 0.43 + d.z * 0.57) * 0.35 + 0.6;
         gl_FragColor = vec4(mod(n, 256.0), mod(floor(n / 256.0), 256.0), floor(n / 65536.0), face * 255.0) / 255.0;
+      }`,
+  });
+}
+
+/** Draws heights over a base, in 65536ths of a metre up to 256 m, as three bytes; alpha tells of any. */
+export function heightMaterial(instanced: boolean): THREE.ShaderMaterial {
+  return new THREE.ShaderMaterial({
+    side: THREE.DoubleSide,
+    blending: THREE.NoBlending,
+    uniforms: { base: { value: 0 }, range: { value: 256 } },
+    vertexShader: `
+      varying float vHeight;
+      void main() {
+        vec4 p = vec4(position, 1.0);
+        ${instanced ? 'p = instanceMatrix * p;' : ''}
+        p = modelMatrix * p;
+        vHeight = p.y;
+        gl_Position = projectionMatrix * viewMatrix * p;
+      }`,
+    fragmentShader: `
+      varying float vHeight;
+      uniform float base;
+      uniform float range;
+      void main() {
+        float h = clamp((vHeight - base) / range, 0.0, 0.999999) * 16777216.0;
+        gl_FragColor = vec4(floor(h / 65536.0), mod(floor(h / 256.0), 256.0), mod(floor(h), 256.0), 255.0) / 255.0;
+      }`,
+  });
+}
+
+/** A dome of sky: paler towards the horizon, brighter towards the sun. */
+export function skyMaterial(): THREE.ShaderMaterial {
+  return new THREE.ShaderMaterial({
+    side: THREE.BackSide,
+    depthWrite: false,
+    depthTest: false,
+    fog: false,
+    uniforms: {
+      horizon: { value: new THREE.Color() },
+      zenith: { value: new THREE.Color() },
+      sun: { value: new THREE.Vector3(0, 1, 0) },
+    },
+    vertexShader: `
+      varying vec3 vAt;
+      void main() {
+        vAt = position;
+        gl_Position = projectionMatrix * mat4(mat3(viewMatrix)) * vec4(position, 1.0);
+        gl_Position.z = gl_Position.w * 0.99999;
+      }`,
+    fragmentShader: `
+      uniform vec3 horizon;
+      uniform vec3 zenith;
+      uniform vec3 sun;
+      varying vec3 vAt;
+      void main() {
+        vec3 d = normalize(vAt);
+        vec3 c = mix(horizon, zenith, smoothstep(0.0, 0.55, d.y));
+        float near = max(0.0, dot(d, sun));
+        c += vec3(1.0, 0.86, 0.62) * (0.16 * pow(near, 24.0) + 0.9 * smoothstep(0.9993, 0.9996, near));
+        gl_FragColor = vec4(c, 1.0);
+        #include <colorspace_fragment>
       }`,
   });
 }

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The derivation guide: steps, ghosts, stops.
+
+import assert from 'node:assert/strict';
+import { caretBehind, drawn, ready, untilDrawn } from '../studio.mjs';
+
+const stepOf = async (page) => Number((await page.locator('.guide .step b').innerText()).replace(/\D/g, ''));
+const untilStep = (page, n) =>
+  page.waitForFunction((want) => Number(document.querySelector('.guide .step b')?.textContent?.replace(/\D/g, '')) === want, n);
+const picture = (page) => page.locator('.stage canvas').screenshot();
+
+async function openGuide(page) {
+  await ready(page);
+  const before = await drawn(page);
+  await page.locator('.stage canvas').focus();
+  await page.keyboard.press('g');
+  await page.waitForSelector('.guide .lane');
+  await page.waitForFunction(() => / of 6/.test(document.querySelector('.guide .step')?.textContent ?? ''));
+  await untilDrawn(page, before);
+}
+
+export default {
+  async theGuideGoesStepByStep({ page }) {
+    await openGuide(page);
+    assert.equal(await stepOf(page), 6);
+    const whole = await picture(page);
+    await page.keyboard.press('Home');
+    await untilStep(page, 0);
+    await page.waitForSelector('.tr.later');
+    await page.keyboard.press('.');
+    await untilStep(page, 1);
+    // The lot is replaced by four walls and a roof: they show, the selection and the editor are at the lot.
+    assert.match(await page.locator('.tr.on').innerText(), /Lot/);
+    assert.match(await page.locator('.tag.replaced').innerText(), /replaced: Lot/);
+    assert.match(await page.locator('.cm-hit').innerText(), /Lot -->/);
+    await page.getByRole('tab', { name: 'Shape' }).click();
+    const said = await page.locator('aside .scroll').innerText();
+    assert.match(said, /Replaced in this step by 5 shapes/);
+    assert.match(said, /What this step changed/);
+    assert.match(said, /Wall\s+4/);
+    const first = await picture(page);
+    assert.ok(!whole.equals(first));
+    await page.locator('.stage canvas').focus();
+    await page.keyboard.press('.');
+    await untilStep(page, 2);
+    assert.match(await page.locator('.tr.on').innerText(), /Wall/);
+    assert.ok((await page.locator('.tr.was').count()) >= 1);
+    await page.keyboard.press(',');
+    await untilStep(page, 1);
+    await page.keyboard.press('End');
+    await untilStep(page, 6);
+    await page.keyboard.press('g');
+    await page.waitForSelector('.guide .lane', { state: 'detached' });
+    await page.waitForSelector('.tree .tr');
+  },
+
+  async theGuidePlaysUpToAStop({ page }) {
+    await openGuide(page);
+    await page.getByLabel('Stop on a rule').selectOption('Roof');
+    await page.getByLabel('Speed').selectOption('20');
+    await page.locator('.stage canvas').focus();
+    await page.keyboard.press('Home');
+    await page.keyboard.press('Space');
+    await page.waitForFunction(() => /Roof/.test(document.querySelector('.tr.on')?.textContent ?? ''));
+    await page.waitForSelector('button[aria-label=Play]');
+    const at = await stepOf(page);
+    await page.waitForTimeout(300);
+    assert.equal(await stepOf(page), at);
+    await page.keyboard.press('Home');
+    await page.keyboard.press('Shift+Period');
+    await untilStep(page, at);
+  },
+
+  async theGuideIsScrubbedAndStaysWhereItWasWhenTheRulesChange({ page }) {
+    await openGuide(page);
+    const lane = page.locator('.guide .lane');
+    const box = await lane.boundingBox();
+    await page.mouse.move(box.x + box.width * 0.1, box.y + 20);
+    await page.mouse.down();
+    await page.mouse.move(box.x + box.width / 3, box.y + 20, { steps: 4 });
+    await page.mouse.up();
+    await untilStep(page, 2);
+    await lane.focus();
+    await page.keyboard.press('ArrowRight');
+    await untilStep(page, 3);
+    assert.match(await lane.getAttribute('aria-valuetext'), /Step 3 of 6, replaces Wall/);
+    // One more rule before: the same wall is two steps later.
+    await caretBehind(page, '    extrude(height)');
+    await page.keyboard.press('Enter');
+    await page.keyboard.type('[ t(0, 20, 0) Roof ]');
+    await page.waitForFunction(() => / of 7/.test(document.querySelector('.guide .step')?.textContent ?? ''));
+    await untilStep(page, 4);
+    assert.match(await page.locator('.tr.on').innerText(), /Wall/);
+  },
+};

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The view: ways to move, what it shows, what a picked face tells.
+
+import assert from 'node:assert/strict';
+import { drawn, ready, untilDrawn } from '../studio.mjs';
+
+const picture = (page) => page.locator('.stage canvas').screenshot();
+
+/** Does something to the view and asserts that the picture is another. */
+async function changes(page, what, act) {
+  const before = await picture(page);
+  const count = await drawn(page);
+  await act();
+  await untilDrawn(page, count);
+  assert.ok(!before.equals(await picture(page)), what);
+}
+
+/** The colour of the picture's middle at a height from 0, above, to 1, in 0..255. */
+function colorAt(page, share) {
+  return page.evaluate((y) => {
+    const from = document.querySelector('.stage canvas');
+    const copy = document.createElement('canvas');
+    copy.width = from.width;
+    copy.height = from.height;
+    const g = copy.getContext('2d');
+    g.drawImage(from, 0, 0);
+    return [...g.getImageData(Math.floor(from.width / 2), Math.floor((from.height - 1) * y), 1, 1).data];
+  }, share);
+}
+
+export default {
+  /** Row S20: orbit, pan, zoom; sky, ground, pictures a second. */
+  async S20_theViewOrbitsPansZoomsUnderASky({ page }) {
+    await ready(page);
+    const canvas = page.locator('.stage canvas');
+    await canvas.focus();
+    await changes(page, 'orbit', () => page.keyboard.press('ArrowLeft'));
+    await changes(page, 'pan', () => page.keyboard.press('Shift+ArrowUp'));
+    await changes(page, 'zoom', () => page.keyboard.press('+'));
+    const box = await canvas.boundingBox();
+    await changes(page, 'drag', async () => {
+      await page.mouse.move(box.x + 200, box.y + 200);
+      await page.mouse.down();
+      await page.mouse.move(box.x + 260, box.y + 220, { steps: 3 });
+      await page.mouse.up();
+    });
+    const below = await colorAt(page, 0.02);
+    await page.getByRole('button', { name: 'Sun' }).click();
+    await changes(page, 'sky', () => page.getByLabel('Sky').check());
+    const sky = await colorAt(page, 0.02);
+    assert.ok(sky[2] > below[2] + 25, `blue above: ${sky} after ${below}`);
+    await changes(page, 'frame', () => canvas.press('Shift+F'));
+    assert.match(await page.locator('.status').innerText(), /\d+ fps/);
+  },
+
+  /** Row C15: shaded and wireframe, next seed. */
+  async C15_theViewShowsWiresAndScopes({ page }) {
+    await ready(page);
+    const canvas = page.locator('.stage canvas');
+    await canvas.focus();
+    await changes(page, 'wireframe', () => page.keyboard.press('w'));
+    await changes(page, 'shaded', () => page.keyboard.press('w'));
+    await page.locator('.tree .tr').first().click();
+    await canvas.focus();
+    await changes(page, 'scopes below', () => page.keyboard.press('s'));
+    await changes(page, 'no scopes', () => page.keyboard.press('s'));
+    const seed = await page.locator('#seed').getAttribute('aria-valuenow');
+    await page.keyboard.press('r');
+    await page.waitForFunction((old) => document.querySelector('#seed')?.getAttribute('aria-valuenow') !== old, seed);
+  },
+
+  async onePlaceIsWalkedAndFlown({ page }) {
+    await ready(page);
+    const canvas = page.locator('.stage canvas');
+    await canvas.focus();
+    await changes(page, 'walk', () => page.keyboard.press('3'));
+    assert.equal(await page.getByRole('radio', { name: 'walk' }).getAttribute('aria-checked'), 'true');
+    // At eye height the horizon is in the middle: sky above, ground below.
+    const [up, down] = [await colorAt(page, 0.1), await colorAt(page, 0.95)];
+    assert.ok(up[2] > down[2] + 20, `${up} above ${down}`);
+    await changes(page, 'ahead', () => page.keyboard.press('w', { delay: 300 }));
+    await changes(page, 'turn', () => page.keyboard.press('ArrowLeft', { delay: 300 }));
+    await changes(page, 'fly', async () => {
+      await page.keyboard.press('2');
+      await page.keyboard.press('e', { delay: 300 });
+    });
+    await changes(page, 'orbit', async () => {
+      await page.keyboard.press('1');
+      await page.keyboard.press('Shift+F');
+    });
+  },
+
+  async aLeafTellsItsMaterialAndPlace({ page }) {
+    await ready(page);
+    const box = await page.locator('.stage canvas').boundingBox();
+    await page.getByRole('tab', { name: 'Shape' }).click();
+    await page.keyboard.down('Control');
+    await page.mouse.click(box.x + box.width * 0.3, box.y + box.height * 0.68);
+    await page.keyboard.up('Control');
+    await page.waitForFunction(() => /Material/.test(document.querySelector('aside .scroll')?.textContent ?? ''));
+    const said = await page.locator('aside .scroll').innerText();
+    assert.match(said, /#aa3322/);
+    assert.match(said, /journey\.cga:\d+/);
+    assert.match(await page.locator('.path').innerText(), /Lot[^]*Wall[^]*Face/);
+  },
+};
