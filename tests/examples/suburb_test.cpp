@@ -604,7 +604,9 @@ TEST(SuburbRows, S19AnotherModelMakesOtherHouses) {
   fs::create_directories(folder / "rules");
   fs::copy(kFolder + "suburb.cga", folder);
   fs::copy(kFolder + "house.obj", folder);
-  fs::copy(kFolder + "../rules/trees.cga", folder / "rules");
+  for (const char* shared : {"trees.cga", "parts.cga"}) {
+    fs::copy(kFolder + "../rules/" + shared, folder / "rules");
+  }
   const auto facesOf = [&] {
     const Model m = derivedFrom(Rules::load((folder / "suburb.cga").string()), kSide, kSide, 1,
                                 {{"detail", "false"}, {"outskirts", "false"}});
