@@ -27,8 +27,8 @@ Model derived(const Rules& rules) {
   settings.jobs = 1;
   settings.budget.depth = 64;
   settings.budget.width = 200;
-  settings.budget.shapes = 1000;
-  settings.budget.vertices = 100000;
+  settings.budget.shapes = 300;
+  settings.budget.vertices = 20000;
   return derive(rules, Shapes::lot(9, 7), settings);
 }
 

@@ -44,7 +44,7 @@ step() {
       last=$(tail -n 1 "$log" | sed '/^ *hint:/d' | tr -d '\r' | cut -c "1-$((${COLUMNS:-$(tput cols 2>/dev/null || echo 80)} - 30))")
       printf '%s%s %s%s %s%s' "$wipe" "$label" "$dim" "$(spell $((SECONDS - start)))" "$last" "$plain"
     elif [ "$terminal" = 0 ] && [ $((tick % 600)) = 0 ]; then
-      say "  $label: $(spell $((SECONDS - start))) $(tail -n 1 "$log" | cut -c 1-80)"
+      say "  $label: $(spell $((SECONDS - start))) $(tail -n 1 "$log" | sed "/^ *hint:/d" | cut -c 1-80)"
     fi
     sleep 0.05
   done
