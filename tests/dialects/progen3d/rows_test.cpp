@@ -588,7 +588,8 @@ void expectSameBodies(const std::string& grammar, const std::string& name) {
   // The text is in canonical form and free of complaints.
   const Formatted formatted = format(converted.text, "converted.cga");
   EXPECT_EQ(formatted.text, converted.text) << name;
-  for (const Message& m : Rules::parse(converted.text, "converted.cga").messages()) {
+  const Rules rules = Rules::parse(converted.text, "converted.cga");
+  for (const Message& m : rules.messages()) {
     ADD_FAILURE() << name << ": " << m.pretty;
   }
 }
