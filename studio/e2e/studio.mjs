@@ -38,6 +38,7 @@ export async function serve(folder, port = 0) {
   return {
     url,
     port: Number(at.port),
+    pid: child.pid,
     token: at.searchParams.get('token'),
     stop: () =>
       new Promise((resolve) => {
