@@ -7,5 +7,7 @@ import { defineConfig } from 'vitest/config';
 export default defineConfig({
   plugins: [svelte()],
   build: { outDir: '../build/studio', emptyOutDir: true, target: 'es2022', assetsInlineLimit: 0 },
+  // Tests read examples and reference pages of the repository.
+  server: { fs: { allow: ['..'] } },
   test: { include: ['src/**/*.test.ts'], environment: 'node', css: true },
 });

@@ -136,6 +136,18 @@ class Shapes {
   /// in courts do not stand in their neighbours.
   Shapes withNestedCut() const;
 
+  /// Some of the shapes, by index; their draws stay those that they have among all. Numbers that
+  /// name no shape are left out.
+  Shapes only(const std::vector<size_t>& indices) const;
+
+  /// A shape in plan: the outer ring of its largest face, its name, the area of its faces.
+  struct Outline {
+    std::string name;
+    Ring ring;
+    double area = 0;
+  };
+  Outline outline(size_t shape) const;
+
   size_t size() const;
   bool ok() const;
   /// False when the file itself could not be read.
@@ -169,6 +181,8 @@ struct DeriveSettings {
   /// Empty: the rules' own start rule.
   std::string startRule;
   double seed = 0;
+  /// Seeds of single initial shapes, by index, in place of `seed`.
+  std::vector<std::pair<size_t, double>> shapeSeeds;
   /// Names and values as text; arrays as [1,2;3,4]. Over the shapes' own attributes.
   std::vector<std::pair<std::string, std::string>> attributes;
   /// Derive equal parts once. Off gives the same model, flattened.

@@ -27,6 +27,8 @@ struct ShapeFootprint {
   std::vector<AttributeValue> attributes;
   /// By face, or empty.
   std::vector<std::string> faceTags;
+  /// Its place in the input that it was chosen from; below 0: the place where it is.
+  int64_t index = -1;
 };
 
 struct Rules::Impl {

@@ -40,6 +40,7 @@ std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, ValuePool& p
     s.origin = f.origin;
     s.identity = f.id;
     s.faceTags = f.faceTags;
+    s.index = f.index;
     for (const AttributeValue& a : f.attributes) {
       s.attributes.emplace_back(identifier(a.name), valueOfAttribute(a, pool));
     }
@@ -155,8 +156,11 @@ Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& set
                       "name one with --start, or mark one @StartRule"}));
   }
   if (hasErrors(impl->messages)) return Model(std::move(impl));
-  impl->result =
-      gable::derive(r.program, initialShapes(shapes.impl(), *r.pool), environment, options);
+  std::vector<InitialShape> initial = initialShapes(shapes.impl(), *r.pool);
+  for (const auto& [index, seed] : settings.shapeSeeds) {
+    if (index < initial.size()) initial[index].seed = seed;
+  }
+  impl->result = gable::derive(r.program, initial, environment, options);
   impl->result.scene.geoOrigin = shapes.impl().geoOrigin;
   const Messages made = toMessages(impl->result.diagnostics, r.sources);
   impl->messages.insert(impl->messages.end(), made.begin(), made.end());

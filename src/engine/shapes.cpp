@@ -188,6 +188,40 @@ Shapes Shapes::withNestedCut() const {
   return Shapes(std::move(impl));
 }
 
+Shapes Shapes::only(const std::vector<size_t>& indices) const {
+  auto impl = std::make_shared<Impl>();
+  impl->found = impl_->found;
+  impl->messages = impl_->messages;
+  impl->geoOrigin = impl_->geoOrigin;
+  for (const size_t i : indices) {
+    if (i >= impl_->footprints.size()) continue;
+    ShapeFootprint f = impl_->footprints[i];
+    if (f.index < 0) f.index = static_cast<int64_t>(i);
+    impl->footprints.push_back(std::move(f));
+  }
+  return Shapes(std::move(impl));
+}
+
+Shapes::Outline Shapes::outline(size_t shape) const {
+  Outline out;
+  if (shape >= impl_->footprints.size()) return out;
+  const ShapeFootprint& f = impl_->footprints[shape];
+  out.name = f.id.empty() ? f.name : f.id;
+  double largest = -1;
+  for (size_t face = 0; face < f.mesh.faceCount(); ++face) {
+    const double area = f.mesh.area(face);
+    out.area += area;
+    if (area <= largest || f.mesh.loopsOf(face).empty()) continue;
+    largest = area;
+    out.ring.clear();
+    for (const uint32_t corner : f.mesh.cornersOf(f.mesh.loopsOf(face)[0])) {
+      const Vec3 p = f.origin.point(f.mesh.positions[corner]);
+      out.ring.emplace_back(p.x, -p.z);
+    }
+  }
+  return out;
+}
+
 size_t Shapes::size() const { return impl_->footprints.size(); }
 bool Shapes::ok() const { return !hasErrors(impl_->messages); }
 bool Shapes::found() const { return impl_->found; }

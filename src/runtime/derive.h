@@ -11,6 +11,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -60,6 +61,10 @@ struct InitialShape {
   std::string startRule;
   /// What identifies the shape for randomness: its feature id or name; empty: its index.
   std::string identity;
+  /// The index that counts where some shapes of an input are left out; below 0: the place here.
+  int64_t index = -1;
+  /// In place of the derivation's seed.
+  std::optional<double> seed;
   std::vector<std::pair<std::string, Value>> edgeAttributes;
   /// By face of the mesh, or empty: its tag, if it has one.
   std::vector<std::string> faceTags;

@@ -88,12 +88,14 @@ OutputRoot Machine::run(const InitialShape& input, uint32_t index) {
 }
 
 void Machine::derive(const InitialShape& input, uint32_t index) {
+  const uint64_t place = input.index < 0 ? index : static_cast<uint64_t>(input.index);
   const uint64_t identity =
-      input.identity.empty() ? hashCombine(0, index) : hashBytes(input.identity, 1);
+      input.identity.empty() ? hashCombine(0, place) : hashBytes(input.identity, 1);
   info_.name = input.name;
   info_.index = index;
   info_.origin = input.origin;
-  info_.seed = options().seed;
+  const double seed = input.seed.value_or(options().seed);
+  info_.seed = seed;
   info_.shape = Shape{};
   if (input.faceTags.size() == input.mesh.faceCount() && !input.mesh.empty()) {
     Mesh mesh = input.mesh;
@@ -104,7 +106,7 @@ void Machine::derive(const InitialShape& input, uint32_t index) {
   } else {
     setInitialGeometry(info_.shape, input.mesh);
   }
-  info_.shape.path = hashCombine(hashDouble(options().seed), identity);
+  info_.shape.path = hashCombine(hashDouble(seed), identity);
   worlds_.assign(1, input.origin);
   aborted_ = false;
   salt_ = 0;

@@ -10,11 +10,13 @@
 #include "base/files.h"
 #include "base/json.h"
 #include "gable/studio.h"
+#include "studio/export.h"
 #include "studio/gallery.h"
 #include "studio/guard.h"
 #include "studio/http.h"
 #include "studio/project_files.h"
 #include "studio/session.h"
+#include "studio/workshop.h"
 
 namespace gable {
 
@@ -101,15 +103,21 @@ class Router {
     routes_["POST /api/tree"] = [this](const HttpRequest& r) { return derived(r, true); };
     routes_["POST /api/format"] = [this](const HttpRequest& r) { return formatted(r); };
     routes_["GET /api/progress"] = [this](const HttpRequest& r) { return progress(r); };
-    routes_["GET /api/export"] = [this](const HttpRequest& r) {
-      return bytesOf(
-          session_.exportModel(numberOf(r.argument("derivation")), r.argument("format")));
+    routes_["GET /api/export"] = [this](const HttpRequest& r) { return exported(r); };
+    routes_["GET /api/export-progress"] = [this](const HttpRequest& r) {
+      return jsonOf(exports_.progressJson(r.argument("page")));
     };
     routes_["GET /api/leaf"] = [this](const HttpRequest& r) {
       return bytesOf(
           session_.leaf(numberOf(r.argument("derivation")), numberOf(r.argument("leaf"))),
           "application/json");
     };
+    routes_["POST /api/convert"] = [this](const HttpRequest& r) { return converted(r); };
+    routes_["POST /api/shapes"] = [this](const HttpRequest& r) { return shapes(r); };
+    routes_["GET /api/model"] = [this](const HttpRequest& r) {
+      return bytesOf(modelPreview(files_, session_, r.argument("path")));
+    };
+    routes_["POST /api/asset"] = [this](const HttpRequest& r) { return asset(r); };
     routes_["GET /api/texture"] = [this](const HttpRequest& r) {
       return bytesOf(session_.texture(numberOf(r.argument("derivation")), r.argument("path")));
     };
@@ -209,6 +217,47 @@ class Router {
     return jsonOf(out);
   }
 
+  HttpResponse exported(const HttpRequest& r) {
+    const Result<Model> model = session_.model(numberOf(r.argument("derivation")));
+    if (!model.ok()) return failed(model.error());
+    Result<Exported> made =
+        exports_.write(model.value(), r.argument("format"), r.argument("page"), r.cancelled);
+    if (!made.ok()) return failed(made.error());
+    return {200,
+            kBytes,
+            std::move(made->bytes),
+            {{"Cache-Control", "no-store"}, {"X-Gable-Extension", made->extension}}};
+  }
+
+  HttpResponse converted(const HttpRequest& r) const {
+    const std::string path = r.argument("path");
+    if (!plainPath(path)) return failed({"path-outside", "'path' names no file", ""});
+    LoadOptions options;
+    options.project = files_.root();
+    const Converted text = convert(r.body, files_.root() + "/" + path, options);
+    std::string out;
+    JsonWriter json(out);
+    json.beginObject().key("text").value(text.text);
+    json.key("messages").raw(messagesJson(text.messages)).endObject();
+    return jsonOf(out);
+  }
+
+  HttpResponse shapes(const HttpRequest& r) {
+    const Result<JsonValue> request = parseJson(r.body, {32, 1'000'000});
+    if (!request.ok()) return failed(request.error());
+    const auto found = session_.shapesOf(request.value());
+    return found.ok() ? jsonOf(outlinesJson(*found.value())) : failed(found.error());
+  }
+
+  HttpResponse asset(const HttpRequest& r) {
+    const Result<JsonValue> request = parseJson(r.body, {8, 1000});
+    if (!request.ok()) return failed(request.error());
+    Result<std::string> made = prepareAsset(files_, request.value());
+    if (!made.ok()) return failed(made.error());
+    session_.forget();
+    return jsonOf(std::move(made.value()));
+  }
+
   HttpResponse copied(const HttpRequest& r) {
     const Result<std::string> folder = gallery_.copyTo(files_, r.argument("name"));
     if (!folder.ok()) return failed(folder.error());
@@ -222,6 +271,7 @@ class Router {
   ProjectFiles page_;
   Gallery gallery_;
   Session session_;
+  Exports exports_;
   std::map<std::string, HttpServer::Handler> routes_;
 };
 

@@ -19,10 +19,10 @@ struct Session::Work {
 
 namespace {
 
-constexpr size_t kRulesKept = 4, kShapesKept = 4, kModelsKept = 4, kPagesKept = 64;
+constexpr size_t kRulesKept = 4, kShapesKept = 4, kModelsKept = 4, kModelsOfAll = 16,
+                 kPagesKept = 64;
 constexpr double kMostSeconds = 600, kUsualSeconds = 20;
 constexpr double kMostShapes = 50e6, kUsualShapes = 5e6;
-constexpr uint64_t kMostLeavesWritten = 20'000'000;
 constexpr uint64_t kTreeShapes = 400'000;
 /// A person looks at each step, and each has geometry of its own.
 constexpr uint64_t kStepShapes = 60'000;
@@ -47,6 +47,9 @@ DeriveSettings settingsOf(const JsonValue& request) {
   s.seed = request["seed"].number(0);
   for (const auto& [name, value] : request["attributes"].members()) {
     s.attributes.emplace_back(name, value.text());
+  }
+  for (const auto& [index, seed] : request["seeds"].members()) {
+    s.shapeSeeds.emplace_back(std::strtoull(index.c_str(), nullptr, 10), seed.number(0));
   }
   const JsonValue& limits = request["limits"];
   s.budget.seconds = std::clamp(limits["seconds"].number(kUsualSeconds), 0.01, kMostSeconds);
@@ -179,6 +182,19 @@ Result<std::shared_ptr<const Shapes>> Session::shapesOf(const JsonValue& request
     const auto side = [&](size_t i) { return std::clamp(spec["lot"].at(i).number(20), 0.01, 1e6); };
     return shared(Shapes::lot(side(0), side(1)));
   }
+  Result<std::shared_ptr<const Shapes>> all = fileShapes(file);
+  if (!all.ok() || spec["only"].size() == 0) return all;
+  std::vector<size_t> chosen;
+  for (const JsonValue& index : spec["only"].items()) {
+    const double i = index.number(-1);
+    if (i >= 0 && i < static_cast<double>(all.value()->size())) {
+      chosen.push_back(static_cast<size_t>(i));
+    }
+  }
+  return shared(all.value()->only(chosen));
+}
+
+Result<std::shared_ptr<const Shapes>> Session::fileShapes(const std::string& file) {
   const Result<std::string> place = files_.place(file);
   if (!place.ok()) return place.error();
   const Result<std::string> content = files_.read(file);
@@ -190,7 +206,7 @@ Result<std::shared_ptr<const Shapes>> Session::shapesOf(const JsonValue& request
       if (known == key) return shapes;
     }
   }
-  std::shared_ptr<const Shapes> shapes = shared(Shapes::parse(content.value(), place.value()));
+  auto shapes = std::make_shared<const Shapes>(Shapes::parse(content.value(), place.value()));
   const std::lock_guard lock(mutex_);
   keep(shapes_, {key, shapes}, kShapesKept);
   return shapes;
@@ -261,7 +277,7 @@ Result<std::string> Session::derive(const JsonValue& request, const Cancel& canc
   if (drawn) {
     const std::lock_guard lock(mutex_);
     number = ++last_;
-    keep(made_, {number, model}, kModelsKept);
+    keepModel({number, model, request["page"].text()});
   }
   json.key("end").value(wrong ? "wrong" : endName(model.end()));
   json.key("derivation").value(number);
@@ -301,30 +317,27 @@ std::optional<Model> Session::made(uint64_t number) const {
   return std::nullopt;
 }
 
-Result<std::string> Session::exportModel(uint64_t derivation, const std::string& format) const {
-  const std::optional<Model> model = made(derivation);
+Result<Model> Session::model(uint64_t derivation) const {
+  std::optional<Model> model = made(derivation);
   if (!model) return Error{"derivation-gone", "this derivation is no longer kept", "derive again"};
-  if (model->leafCount() > kMostLeavesWritten) {
-    return Error{"model-too-large", "the model has too many leaves to be written here",
-                 "gable generate has no such limit"};
+  return std::move(*model);
+}
+
+uint64_t Session::adopt(Model model) {
+  const std::lock_guard lock(mutex_);
+  keepModel({++last_, std::move(model), "workshop"});
+  return last_;
+}
+
+void Session::keepModel(Made made) {
+  const std::string page = made.page;
+  made_.push_front(std::move(made));
+  size_t own = 0;
+  for (auto at = made_.begin(); at != made_.end();) {
+    const bool old = at->page == page && ++own > kModelsKept;
+    at = old ? made_.erase(at) : at + 1;
   }
-  constexpr const char* kFormats[] = {"glb", "obj", "ply", "stl", "png"};
-  if (std::none_of(std::begin(kFormats), std::end(kFormats),
-                   [&](const char* f) { return format == f; })) {
-    return Error{"format-unknown", "models are not written as '" + format + "' here",
-                 "glb, obj, ply, stl and png are"};
-  }
-  std::string folder = (std::filesystem::temp_directory_path() / "gable-XXXXXX").string();
-  if (!mkdtemp(folder.data())) return Error{"file-unwritable", "there is no room for files", ""};
-  const std::string file = folder + "/model." + format;
-  const WriteResult written = model->write(file, {});
-  Result<std::string> bytes = readFile(file);
-  std::error_code ignored;
-  std::filesystem::remove_all(folder, ignored);
-  if (!written.ok && !written.messages.empty()) {
-    return Error{written.messages[0].code, written.messages[0].text, written.messages[0].hint};
-  }
-  return bytes;
+  if (made_.size() > kModelsOfAll) made_.pop_back();
 }
 
 Result<std::string> Session::leaf(uint64_t derivation, uint64_t number) const {

@@ -33,10 +33,14 @@ class Session {
   Result<std::string> derive(const JsonValue& request, const Cancel& cancel);
   /// The answer to /api/tree: "GBT1", JSON, nodes; with "steps" the draw list of all steps' shapes.
   Result<std::string> tree(const JsonValue& request, const Cancel& cancel);
-  /// A model file of a derivation; `format` is an extension.
-  Result<std::string> exportModel(uint64_t derivation, const std::string& format) const;
   /// JSON of a leaf by its number in the draw list.
   Result<std::string> leaf(uint64_t derivation, uint64_t number) const;
+  /// A derivation that is kept. Code: derivation-gone.
+  Result<Model> model(uint64_t derivation) const;
+  /// Keeps a model that was not derived, for its textures; its number.
+  uint64_t adopt(Model model);
+  /// Shapes of a request: a lot, a polygon, a file or some shapes of it.
+  Result<std::shared_ptr<const Shapes>> shapesOf(const JsonValue& request);
   Result<std::string> texture(uint64_t derivation, const std::string& path) const;
   /// Initial shapes done and in all, of the derivation that a page waits for.
   std::pair<size_t, size_t> progress(const std::string& page) const;
@@ -49,10 +53,14 @@ class Session {
   struct Made {
     uint64_t number;
     Model model;
+    /// Models of other pages, or of a page's wall of variations, do not push this one out.
+    std::string page;
   };
+  /// With the lock held.
+  void keepModel(Made made);
 
   std::shared_ptr<const Rules> rulesOf(const JsonValue& request);
-  Result<std::shared_ptr<const Shapes>> shapesOf(const JsonValue& request);
+  Result<std::shared_ptr<const Shapes>> fileShapes(const std::string& file);
   std::optional<Model> made(uint64_t number) const;
   std::shared_ptr<Work> begin(const JsonValue& request, const Cancel& cancel);
   Result<Model> deriveFor(const JsonValue& request, const Rules& rules, Work& work, Trace trace);

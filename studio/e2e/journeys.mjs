@@ -90,7 +90,7 @@ const journeys = {
     await page.waitForFunction(() => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === '21');
     await page.getByRole('button', { name: 'Reset height' }).click();
     await page.waitForFunction(() => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === '9');
-    await page.getByRole('button', { name: 'Undo a value' }).click();
+    await page.getByRole('button', { name: 'Undo', exact: true }).click();
     await page.waitForFunction(() => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === '21');
     await page.locator('#attr-paint').selectOption('blue');
     await page.waitForFunction(() => /2 changed/.test(document.querySelector('.sec h3')?.textContent ?? ''));

@@ -5,6 +5,7 @@ import App from './App.svelte';
 import './styles/tokens.css';
 import './styles/studio.css';
 import './styles/page.css';
+import './styles/panels.css';
 
 const target = document.getElementById('app');
 if (target) mount(App, { target });

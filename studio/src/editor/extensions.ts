@@ -4,40 +4,54 @@
 // Completion, hover and marks of the editor.
 
 import { snippetCompletion, type Completion, type CompletionContext, type CompletionResult } from '@codemirror/autocomplete';
-import type { Diagnostic } from '@codemirror/lint';
+import { forEachDiagnostic, type Diagnostic } from '@codemirror/lint';
 import { RangeSetBuilder, StateEffect, StateField, type EditorState, type Text } from '@codemirror/state';
 import { Decoration, EditorView, hoverTooltip, WidgetType, type DecorationSet, type Tooltip } from '@codemirror/view';
 import type { AttributeInfo, Message, RuleInfo } from '../lib/protocol';
-import { signatureText, type Entry } from '../lib/registry';
+import type { Notation } from '../lib/notation';
+import type { Definition } from '../text/rules';
+import { findWord, type Word } from '../text/words';
 
 export interface Known {
-  registry: Entry[];
+  notation: Notation;
+  words: Word[];
+  /** What the text itself defines. */
+  defined: Definition[];
   rules: RuleInfo[];
   attributes: AttributeInfo[];
 }
 
-const ICONS: Record<Entry['kind'], string> = { operation: 'function', function: 'method', attribute: 'property', selector: 'enum' };
+/** What a message's hint says to write instead: "did you mean 'x'". */
+export function proposal(m: Message): string | null {
+  return /did you mean '([^']+)'/i.exec(`${m.message} ${m.hint ?? ''}`)?.[1] ?? null;
+}
 
-function entryCompletion(entry: Entry): Completion {
-  const base = { label: entry.name, type: ICONS[entry.kind], detail: entry.kind, info: entry.summary };
-  const params = entry.signatures[0]?.params.filter((p) => p.default === undefined) ?? [];
-  if (entry.bare || entry.signatures.length === 0) return base;
-  const inside = params.map((p) => `\${${p.name}}`).join(', ');
-  const block = entry.block.startsWith('{ size') || entry.block.startsWith('{ selector') ? ' { ${} : ${} }' : entry.block ? ' { ${} }' : '';
-  return snippetCompletion(`${entry.name}(${inside})${block}`, base);
+const TYPES: Record<string, string> = { operation: 'function', function: 'method', attribute: 'property', selector: 'enum', annotation: 'keyword' };
+
+function wordCompletion(word: Word): Completion {
+  const base = { label: word.name, type: TYPES[word.kind] ?? 'text', detail: word.kind, info: word.text };
+  return word.snippet ? snippetCompletion(word.snippet, base) : base;
+}
+
+/** Inside of a string or a comment nothing is completed. */
+function inQuietText(context: CompletionContext): boolean {
+  const line = context.state.doc.lineAt(context.pos);
+  const before = line.text.slice(0, context.pos - line.from);
+  return (before.match(/"/g)?.length ?? 0) % 2 === 1 || /\/\/|(^|\s)#/.test(before.replace(/"[^"]*"/g, ''));
 }
 
 export function completions(known: () => Known) {
   return (context: CompletionContext): CompletionResult | null => {
-    const word = context.matchBefore(/@?[A-Za-z_][\w.]*/);
-    if (!word || (word.from === word.to && !context.explicit)) return null;
-    const { registry, rules, attributes } = known();
-    const options: Completion[] = [
-      ...rules.map((r): Completion => ({ label: r.name, type: 'class', detail: 'rule', boost: 3 })),
-      ...attributes.map((a): Completion => ({ label: a.name, type: 'variable', detail: a.type, boost: 2 })),
-      ...registry.map(entryCompletion),
-    ];
-    return { from: word.from, options, validFor: /^@?[\w.]*$/ };
+    const word = context.matchBefore(/@?[A-Za-z_][\w.]*|@/);
+    if ((!word || word.from === word.to) && !context.explicit) return null;
+    if (inQuietText(context)) return null;
+    const { words, defined, rules, attributes } = known();
+    const names = new Map<string, Completion>();
+    for (const w of words) names.set(w.name, wordCompletion(w));
+    for (const a of attributes) names.set(a.name, { label: a.name, type: 'variable', detail: a.type, boost: 2 });
+    for (const r of rules) names.set(r.name, { label: r.name, type: 'class', detail: 'rule', boost: 3 });
+    for (const d of defined) names.set(d.name, { label: d.name, type: d.kind === 'rule' ? 'class' : 'variable', detail: d.kind, boost: 3 });
+    return { from: word ? word.from : context.pos, options: [...names.values()], validFor: /^@?[\w.]*$/ };
   };
 }
 
@@ -53,9 +67,13 @@ function wordAt(state: EditorState, pos: number): { from: number; to: number; te
 export function explain(known: () => Known) {
   return hoverTooltip((view, pos): Tooltip | null => {
     const word = wordAt(view.state, pos);
-    const entry = word && known().registry.find((e) => e.name === word.text);
-    if (!word || !entry) return null;
-    return { pos: word.from, end: word.to, above: true, create: () => ({ dom: entryCard(entry) }) };
+    if (!word) return null;
+    const { words, defined, notation } = known();
+    const own = defined.find((d) => d.name === word.text);
+    const found = own ? definitionCard(view.state, own) : undefined;
+    const builtIn = found ? undefined : findWord(words, word.text, notation);
+    if (!found && !builtIn) return null;
+    return { pos: word.from, end: word.to, above: true, create: () => ({ dom: found ?? wordCard(builtIn!) }) };
   }, { hoverTime: 350 });
 }
 
@@ -66,16 +84,24 @@ function element(tag: string, className: string, text = ''): HTMLElement {
   return out;
 }
 
-function entryCard(entry: Entry): HTMLElement {
+function wordCard(word: Word): HTMLElement {
   const card = element('div', 'hover-card');
-  const count = Math.max(1, Math.min(3, entry.signatures.length));
-  for (let i = 0; i < count; ++i) card.append(element('code', '', signatureText(entry, i)));
-  card.append(element('p', '', entry.summary));
-  for (const p of entry.signatures[0]?.params ?? []) {
+  for (const signature of word.signatures.slice(0, 3)) card.append(element('code', '', signature));
+  card.append(element('p', '', word.text));
+  for (const p of word.params) {
     const row = element('p', 'param');
-    row.append(element('b', '', p.name), ` ${p.doc}`, p.default === undefined ? '' : ` Default: ${p.default}.`);
+    row.append(element('b', '', p.name), ` ${p.text}`);
     card.append(row);
   }
+  return card;
+}
+
+/** What a name of the file stands for: its first lines. */
+function definitionCard(state: EditorState, definition: Definition): HTMLElement {
+  const card = element('div', 'hover-card');
+  const lines = state.sliceDoc(definition.from, definition.to).split('\n');
+  card.append(element('code', 'lines', lines.slice(0, 6).join('\n') + (lines.length > 6 ? '\n…' : '')));
+  card.append(element('p', 'param', `${definition.kind}, line ${state.doc.lineAt(Math.min(definition.from, state.doc.length)).number}`));
   return card;
 }
 
@@ -95,9 +121,27 @@ export function diagnostics(doc: Text, file: string, messages: Message[]): Diagn
         to: Math.max(from + 1, to) > doc.length ? doc.length : Math.max(from + 1, to),
         severity: m.severity === 'note' ? ('info' as const) : m.severity,
         message: m.hint ? `${m.message}. ${m.hint}` : m.message,
+        ...(proposal(m) ? { actions: [{ name: `Write ${proposal(m)}  (Ctrl .)`, apply: (view: EditorView, a: number, b: number) => replace(view, a, b, proposal(m)!) }] } : {}),
       };
     })
     .sort((a, b) => a.from - b.from);
+}
+
+function replace(view: EditorView, from: number, to: number, insert: string): void {
+  view.dispatch({ changes: { from, to, insert }, userEvent: 'input.fix' });
+}
+
+/** Writes what the message at the caret proposes. */
+export function fixAt(view: EditorView): boolean {
+  const head = view.state.selection.main.head;
+  const line = view.state.doc.lineAt(head);
+  let done = false;
+  forEachDiagnostic(view.state, (d, from, to) => {
+    if (done || to < line.from || from > line.to || !d.actions?.length) return;
+    done = true;
+    d.actions[0]!.apply(view, from, to);
+  });
+  return done;
 }
 
 /** The lines of a selected shape: its rule, and the line that made it. */

@@ -3,7 +3,7 @@
 //
 // EngineClient: the one way from the page to the server.
 
-import { decodeDerived, decodeTree, type Derived, type DrawList, type LeafInfo, type Message, type Tree } from './protocol';
+import { decodeDerived, decodeModel, decodeTree, type Derived, type DrawList, type LeafInfo, type Message, type ModelPreview, type Tree } from './protocol';
 
 export interface ProjectFile {
   path: string;
@@ -28,7 +28,32 @@ export interface Example {
   arguments: string;
 }
 
-export type ShapesSpec = { lot: [number, number] } | { file: string } | { polygon: [number, number][] };
+export type ShapesSpec = { lot: [number, number] } | { file: string; only?: number[] } | { polygon: [number, number][] };
+
+/** An initial shape in plan: x east, y north. */
+export interface Outline {
+  name: string;
+  area: number;
+  ring: [number, number][];
+}
+
+export interface AssetRequest {
+  path: string;
+  to: string;
+  pivot: number[];
+  size: number[];
+  rotate: number[];
+  zUp: boolean;
+  name: string;
+  expected: string;
+}
+
+export interface ExportNews {
+  busy: boolean;
+  done: number;
+  total: number;
+  bytes: number;
+}
 
 export interface DeriveRequest {
   page: string;
@@ -38,6 +63,8 @@ export interface DeriveRequest {
   start: string;
   seed: number;
   attributes: Record<string, string>;
+  /** Of single initial shapes, by index. */
+  seeds?: Record<string, number>;
   shapes: ShapesSpec;
   limits?: { seconds?: number; shapes?: number };
 }
@@ -101,6 +128,10 @@ export class EngineClient {
     return { text: await answer.text(), version: answer.headers.get('X-Gable-Version') ?? '' };
   }
 
+  async readBytes(path: string): Promise<ArrayBuffer> {
+    return (await this.call('GET', `file?path=${encodeURIComponent(path)}`)).arrayBuffer();
+  }
+
   /** Writes where the file still is the version expected; "none" for a file that is new. */
   async write(path: string, content: string | Blob, expected: string): Promise<string> {
     const query = `file?path=${encodeURIComponent(path)}&expected=${expected}`;
@@ -147,9 +178,43 @@ export class EngineClient {
     return answer.json() as Promise<{ text: string; messages: Message[] }>;
   }
 
-  async exported(derivation: number, format: string, signal: AbortSignal): Promise<Blob> {
-    const query = `export?derivation=${derivation}&format=${format}`;
-    return (await this.call('GET', query, undefined, signal)).blob();
+  /** A model as a file; `received` hears of its bytes. The extension is "obj.zip" for several files. */
+  async exported(
+    derivation: number,
+    format: string,
+    signal: AbortSignal,
+    received: (bytes: number, total: number) => void = () => undefined,
+  ): Promise<{ blob: Blob; extension: string }> {
+    const answer = await this.call('GET', `export?derivation=${derivation}&format=${format}&page=${this.page}`, undefined, signal);
+    const total = Number(answer.headers.get('Content-Length') ?? 0);
+    const chunks: Uint8Array<ArrayBuffer>[] = [];
+    let bytes = 0;
+    const reader = answer.body?.getReader();
+    for (let part = await reader?.read(); part && !part.done; part = await reader?.read()) {
+      chunks.push(part.value);
+      received((bytes += part.value.length), total);
+    }
+    return { blob: new Blob(chunks), extension: answer.headers.get('X-Gable-Extension') ?? format };
+  }
+
+  async exportNews(): Promise<ExportNews> {
+    return (await this.call('GET', `export-progress?page=${this.page}`)).json() as Promise<ExportNews>;
+  }
+
+  async converted(path: string, text: string): Promise<{ text: string; messages: Message[] }> {
+    return (await this.call('POST', `convert?path=${encodeURIComponent(path)}`, text)).json() as Promise<{ text: string; messages: Message[] }>;
+  }
+
+  async outlines(shapes: ShapesSpec): Promise<{ count: number; shapes: Outline[]; messages: Message[] }> {
+    return (await this.call('POST', 'shapes', JSON.stringify({ shapes }))).json() as Promise<{ count: number; shapes: Outline[]; messages: Message[] }>;
+  }
+
+  async model(path: string): Promise<ModelPreview> {
+    return decodeModel(await (await this.call('GET', `model?path=${encodeURIComponent(path)}`)).arrayBuffer());
+  }
+
+  async prepareAsset(request: AssetRequest): Promise<{ version: string; bounds: number[] }> {
+    return (await this.call('POST', 'asset', JSON.stringify(request))).json() as Promise<{ version: string; bounds: number[] }>;
   }
 
   async texture(derivation: number, path: string): Promise<Blob> {

@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// The keys that the page shows under `?`.
+// Keys that the editor, the view or a page take themselves. All others stand in commands.ts; the
+// list under `?` shows both.
 
 export const KEYS: [string, string][] = [
-  ['Ctrl S', 'save the file'],
-  ['Ctrl Z', 'undo; outside of the text: the last value'],
-  ['Ctrl Shift Z', 'redo'],
-  ['Ctrl B', 'editor'],
-  ['Ctrl I', 'shapes and inspector'],
-  ['Ctrl J', 'problems'],
-  ['Ctrl \\', 'view alone'],
   ['F8', 'next problem'],
-  ['F12', 'go to the rule'],
+  ['Shift F8', 'previous problem'],
+  ['F12', 'go to where a name is defined'],
+  ['Shift F12', 'where a name is used'],
+  ['F2', 'rename'],
+  ['Ctrl .', 'mend what is marked on this line'],
   ['Ctrl Enter', 'select the shapes of the rule'],
-  ['Shift Alt F', 'format'],
   ['Ctrl Space', 'complete'],
-  ['R', 'new seed'],
+  ['Ctrl /', 'comment'],
   ['F', 'frame the selection'],
   ['Shift F', 'frame all'],
   ['W', 'wireframe'],
@@ -28,8 +25,7 @@ export const KEYS: [string, string][] = [
   [', .', 'guide: a step back, on'],
   ['Shift .', 'guide: next stop'],
   ['Esc', 'the shape above; stop deriving'],
-  ['Alt 1', 'rules'],
-  ['Alt 4', 'gallery'],
-  ['Alt N', 'new rules'],
-  ['?', 'this list'],
 ];
+
+/** Those of the text, which the palette sends there. */
+export const EDITOR_KEYS = new Set(['F8', 'Shift F8', 'F12', 'Shift F12', 'F2', 'Ctrl .', 'Ctrl Enter', 'Ctrl Space', 'Ctrl /']);

@@ -182,6 +182,20 @@ export function decodeDerived(bytes: ArrayBuffer): { derived: Derived; draw: Dra
   };
 }
 
+/** A model that was read, for the workshop. */
+export interface ModelPreview {
+  derivation: number;
+  /** Least corner, then greatest. */
+  bounds: number[];
+  stats: Stats;
+  draw: DrawList;
+}
+
+export function decodeModel(bytes: ArrayBuffer): ModelPreview {
+  const { json, start } = parts(bytes, 0, 'GBM1');
+  return { ...(json as Omit<ModelPreview, 'draw'>), draw: decodeDrawList(bytes, start) };
+}
+
 /** The tree, and the draw list of all steps where it was asked for. */
 export function decodeTree(bytes: ArrayBuffer): { tree: Tree; draw: DrawList | null } {
   const { json, start } = parts(bytes, 0, 'GBT1');

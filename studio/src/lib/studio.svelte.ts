@@ -5,6 +5,7 @@
 // that another panel would have to know.
 
 import { EngineClient, Refusal, type DeriveRequest, type Example, type ProjectFile, type ShapesSpec } from './client';
+import { applied, difference, History, type Step } from './history';
 import { groupFields, valueText, type Group } from './fields';
 import type { AttributeInfo, Derived, DrawList, Message, RuleInfo, Stats, Value } from './protocol';
 import { Guide } from '../guide/guide.svelte';
@@ -12,7 +13,7 @@ import { merge } from './merge';
 import { readRegistry, type Entry } from './registry';
 import { Shapes } from './tree';
 
-export type Page = 'rules' | 'gallery';
+export type Page = 'rules' | 'variations' | 'assets' | 'gallery';
 export type Theme = 'dark' | 'light';
 
 export interface Doc {
@@ -31,6 +32,8 @@ export interface Place {
   shapes: ShapesSpec;
   /** Where the usual ones are not enough. */
   limits?: { seconds?: number; shapes?: number };
+  /** Seeds of single shapes, which a new seed leaves alone; by index. */
+  seeds?: Record<string, number>;
 }
 
 interface Remembered {
@@ -46,6 +49,7 @@ export interface Toast {
 const RULES = /\.(cga|gbbg|grammar|pg3d|park)$/;
 const SHAPES = /\.(geojson|obj|glb|gltf)$/;
 const MEMORY = 'studio.json';
+const HISTORY = 'history.json';
 /** A derivation younger than this is waited for: pictures come in while a slider is dragged. */
 const PATIENCE_MS = 350;
 const TREE_AFTER_MS = 250;
@@ -90,12 +94,16 @@ export class Studio {
   hovered = $state(-1);
   /** Pictures a second while the view moves. */
   fps = $state(0);
-  canUndo = $state(0);
-  canRedo = $state(0);
+  /** What undo and redo would take back or do again; empty for nothing. */
+  undoLabel = $state('');
+  redoLabel = $state('');
+
+  /** Other shapes stand elsewhere: the next model is framed. */
+  reframe = false;
 
   /** Set by the view and the editor. */
   show: ((draw: DrawList, stats: Stats, lives?: Float32Array | null) => void) | null = null;
-  reveal: ((file: string, line: number, column?: number) => void) | null = null;
+  reveal: ((file: string, line: number, column?: number, focus?: boolean) => void) | null = null;
 
   readonly guide = new Guide(this);
 
@@ -115,9 +123,7 @@ export class Studio {
   private keepTimer = 0;
   private toastTimer = 0;
   private pollDelay = 2000;
-  private undone: string[] = [];
-  private done: string[] = [];
-  private lastStep = 0;
+  private readonly history = new History();
 
   async open(): Promise<void> {
     this.theme = localStorage.getItem('gable.theme') === 'light' ? 'light' : 'dark';
@@ -131,6 +137,7 @@ export class Studio {
       if (first) await this.openRules(first.path);
       else this.page = 'gallery';
       this.ready = true;
+      if (location.hash.startsWith('#share=')) await this.openLink();
       void this.client.examples().then((examples) => (this.examples = examples));
       this.poll();
     } catch (error) {
@@ -141,8 +148,19 @@ export class Studio {
     }
   }
 
+  /** The address of the page is a link to a shared place. */
+  private async openLink(): Promise<void> {
+    const link = location.hash;
+    history.replaceState(null, '', location.pathname);
+    const { openShared } = await import('./sharing');
+    const said = await openShared(this, link);
+    if (said) this.say(said);
+  }
+
   private async recall(): Promise<void> {
-    const text = await this.client.recovery(MEMORY);
+    const [text, steps] = await Promise.all([this.client.recovery(MEMORY), this.client.recovery(HISTORY)]);
+    if (steps) this.history.recall(steps);
+    this.countSteps();
     if (!text) return;
     try {
       const memory = JSON.parse(text) as Remembered;
@@ -167,9 +185,6 @@ export class Studio {
     await this.openFile(path);
     this.main = path;
     this.place = place ?? this.places[path] ?? newPlace();
-    this.done = [JSON.stringify(this.place)];
-    this.undone = [];
-    this.canUndo = this.canRedo = 0;
     this.shapes = null;
     this.selected = -1;
     this.address = [];
@@ -178,11 +193,15 @@ export class Studio {
   }
 
   async openFile(path: string): Promise<void> {
-    if (!this.doc(path)) {
-      const [file, kept] = await Promise.all([this.client.read(path), this.client.recovery(path)]);
-      this.docs.push({ path, text: kept ?? file.text, saved: file.text, version: file.version });
-    }
+    await this.loadFile(path);
     this.active = path;
+  }
+
+  /** Opens a file without going there. */
+  async loadFile(path: string): Promise<void> {
+    if (this.doc(path)) return;
+    const [file, kept] = await Promise.all([this.client.read(path), this.client.recovery(path)]);
+    if (!this.doc(path)) this.docs.push({ path, text: kept ?? file.text, saved: file.text, version: file.version });
   }
 
   closeFile(path: string): void {
@@ -191,11 +210,25 @@ export class Studio {
     if (this.active === path) this.active = this.main;
   }
 
-  /** The text of a file has changed in the editor. */
-  edit(path: string, text: string): void {
-    const doc = this.doc(path);
-    if (!doc || doc.text === text) return;
-    doc.text = text;
+  /** The text of a file has changed in the editor. A label makes it a step of its own. */
+  edit(path: string, text: string, label = ''): void {
+    this.editAll([[path, text]], label);
+  }
+
+  /** The same for several files, as one step. */
+  editAll(texts: [string, string][], label = '', group = ''): void {
+    const step: Step = { label: label || 'Typing', texts: [], place: null };
+    for (const [path, text] of texts) {
+      const doc = this.doc(path);
+      const change = doc && difference(path, doc.text, text);
+      if (!doc || !change) continue;
+      doc.text = text;
+      step.texts.push(change);
+    }
+    if (!step.texts.length) return;
+    const line = !label && step.texts.some((t) => t.inserted.includes('\n'));
+    this.history.record(step, group || (label || line ? '' : `text ${step.texts[0]!.path}`));
+    this.countSteps();
     this.changed();
   }
 
@@ -212,6 +245,10 @@ export class Studio {
       if (error instanceof Refusal && error.code === 'version-differs') await this.conflict(doc);
       else this.trouble = `${path} could not be saved: ${(error as Error).message}`;
     }
+  }
+
+  async saveAll(): Promise<void> {
+    for (const doc of this.docs) if (doc.text !== doc.saved) await this.save(doc.path);
   }
 
   conflictOf = $state<{ path: string; theirs: string; version: string } | null>(null);
@@ -255,46 +292,51 @@ export class Studio {
     const attributes = { ...this.place.attributes };
     if (value === undefined) delete attributes[name];
     else attributes[name] = valueText(value);
-    this.change({ attributes });
+    // Going back to the default is a step of its own.
+    this.change({ attributes }, name, `${value === undefined ? 'reset' : 'place'} ${name}`);
   }
 
-  /** A step of the history; steps of one kind within half a second are one. */
-  change(part: Partial<Place>): void {
+  /** A step of the history; steps of one name within half a second are one. */
+  change(part: Partial<Place>, label = Object.keys(part).join(' and '), group = `place ${label}`): void {
+    const before = JSON.stringify(this.place);
     this.place = { ...this.place, ...part };
-    const now = Date.now();
-    const kind = Object.keys(part).join() + Object.keys(part.attributes ?? {}).length;
-    if (now - this.lastStep > 500 || kind !== this.lastKind) this.done.push('');
-    this.lastStep = now;
-    this.lastKind = kind;
-    this.done[this.done.length - 1] = JSON.stringify(this.place);
-    this.undone = [];
+    const after = JSON.stringify(this.place);
+    if (before === after) return;
+    if (part.shapes && 'file' in part.shapes) this.reframe = true;
+    this.history.record({ label, texts: [], place: { main: this.main, before, after } }, group);
     this.countSteps();
     this.changed();
   }
-  private lastKind = '';
 
   private countSteps(): void {
-    this.canUndo = this.done.length - 1;
-    this.canRedo = this.undone.length;
+    this.undoLabel = this.history.undoLabel;
+    this.redoLabel = this.history.redoLabel;
   }
 
   undo(): void {
-    if (this.done.length < 2) return;
-    this.undone.push(this.done.pop()!);
-    this.restore();
+    void this.restore(this.history.undo(), 'Undid');
   }
 
   redo(): void {
-    const step = this.undone.pop();
-    if (step === undefined) return;
-    this.done.push(step);
-    this.restore();
+    void this.restore(this.history.redo(), 'Did again');
   }
 
-  private restore(): void {
-    this.place = JSON.parse(this.done[this.done.length - 1]!) as Place;
-    this.lastStep = 0;
+  private async restore(step: Step | null, verb: string): Promise<void> {
+    if (!step) return;
+    for (const path of new Set(step.texts.map((t) => t.path))) await this.loadFile(path).catch(() => undefined);
+    let lost = false;
+    for (const change of step.texts) {
+      const doc = this.doc(change.path);
+      const text = doc && applied(doc.text, change);
+      if (doc && typeof text === 'string') doc.text = text;
+      else lost = true;
+    }
+    const place = step.place;
+    if (place && place.main === this.main) this.place = JSON.parse(place.after) as Place;
+    else if (place) this.places = { ...this.places, [place.main]: JSON.parse(place.after) as Place };
     this.countSteps();
+    if (lost) this.say('That text was changed elsewhere; the rest was undone.');
+    else if (step.label !== 'Typing') this.say(`${verb}: ${step.label}`);
     this.changed();
   }
 
@@ -310,6 +352,7 @@ export class Studio {
     const memory: Remembered = { main: this.main, places: this.places };
     try {
       await this.client.keepRecovery(MEMORY, JSON.stringify(memory));
+      await this.client.keepRecovery(HISTORY, this.history.keep());
       for (const doc of this.docs) {
         if (doc.text !== doc.saved) await this.client.keepRecovery(doc.path, doc.text);
       }
@@ -317,6 +360,11 @@ export class Studio {
     } catch (error) {
       if (!(error instanceof Refusal)) this.connected = false;
     }
+  }
+
+  /** What would be derived with other parts of the place. */
+  requestFor(part: Partial<Place>): DeriveRequest {
+    return { ...this.request(), ...part };
   }
 
   private request(): DeriveRequest {
@@ -476,8 +524,36 @@ export class Studio {
     this.select(path.length > 1 ? path[path.length - 2]! : -1);
   }
 
-  reroll(): void {
-    this.change({ seed: crypto.getRandomValues(new Uint16Array(1))[0]! });
+  /** The initial shape of the selection; -1 without one. */
+  get selectedLot(): number {
+    return this.selected >= 0 && this.shapes ? this.shapes.tree.shape[this.selected]! : -1;
+  }
+
+  seedOf(lot: number): number {
+    return this.place.seeds?.[lot] ?? this.place.seed;
+  }
+
+  pinned(lot: number): boolean {
+    return this.place.seeds?.[lot] !== undefined;
+  }
+
+  /** Holds the seed of a lot, or lets it go with the others again. */
+  pin(lot: number): void {
+    const { [lot]: held, ...rest } = this.place.seeds ?? {};
+    this.change({ seeds: held === undefined ? { ...rest, [lot]: this.place.seed } : rest }, held === undefined ? 'Pin' : 'Unpin');
+  }
+
+  setSeed(seed: number, lot = -1): void {
+    const whole = Math.max(-0x80000000, Math.min(0x7fffffff, Math.round(seed)));
+    if (lot >= 0) this.change({ seeds: { ...this.place.seeds, [lot]: whole } }, 'Seed of the lot');
+    else this.change({ seed: whole }, 'Seed');
+  }
+
+  /** A new seed for the selected lot among several, else for all that are not pinned. */
+  reroll(all = false): void {
+    const seed = crypto.getRandomValues(new Int32Array(1))[0]! & 0x7fffffff;
+    const several = (this.shapes?.roots.length ?? 0) > 1;
+    this.setSeed(seed, !all && several ? this.selectedLot : -1);
   }
 
   setTheme(theme: Theme): void {
@@ -490,7 +566,11 @@ export class Studio {
     if (!doc) return;
     const { text, messages } = await this.client.format(doc.path, doc.text);
     if (messages.some((m) => m.severity === 'error')) this.say('Text with errors is not formatted.');
-    else this.edit(doc.path, text);
+    else this.edit(doc.path, text, 'Format');
+  }
+
+  async refreshFiles(): Promise<void> {
+    this.files = (await this.client.project()).files;
   }
 
   async newRules(): Promise<void> {

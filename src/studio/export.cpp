@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Models are written to a folder of their own in the system's place for such things; what lies in
+// it then goes to the page, as it is or, where there are several files, as an archive.
+
+#include "studio/export.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "base/files.h"
+#include "studio/zip.h"
+
+namespace gable::studio {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kFormats[] = {"glb", "gltf", "obj", "ply", "stl", "png"};
+constexpr uint64_t kMostLeavesWritten = 20'000'000;
+constexpr uint64_t kLargestArchive = 2ull << 30;
+
+/// A folder that goes with everything in it.
+struct Folder {
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "gable-XXXXXX").string();
+    if (mkdtemp(name.data())) path = name;
+  }
+  ~Folder() {
+    std::error_code ignored;
+    if (!path.empty()) fs::remove_all(path, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string path;
+};
+
+std::vector<std::string> filesBelow(const std::string& folder) {
+  std::vector<std::string> out;
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
+       at.increment(error)) {
+    if (at->is_regular_file(error)) out.push_back(at->path().string());
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+uint64_t bytesBelow(const std::string& folder) {
+  uint64_t sum = 0;
+  for (const std::string& file : filesBelow(folder)) {
+    std::error_code error;
+    const uint64_t size = fs::file_size(file, error);
+    if (!error) sum += size;
+  }
+  return sum;
+}
+
+Result<Exported> collected(const std::string& folder, const std::string& format) {
+  const std::vector<std::string> files = filesBelow(folder);
+  if (bytesBelow(folder) > kLargestArchive) {
+    return Error{"model-too-large", "the files are too large to be sent to a page",
+                 "gable generate has no such limit"};
+  }
+  std::vector<std::pair<std::string, std::string>> contents;
+  for (const std::string& file : files) {
+    Result<std::string> bytes = readFile(file);
+    if (!bytes.ok()) return bytes.error();
+    contents.emplace_back(file.substr(folder.size() + 1), std::move(bytes.value()));
+  }
+  if (contents.size() == 1) return Exported{std::move(contents[0].second), format};
+  return Exported{zipped(contents), format + ".zip"};
+}
+
+}  // namespace
+
+Result<Exported> Exports::write(const Model& model, const std::string& format,
+                                const std::string& page, const Session::Cancel& cancel) {
+  if (std::none_of(std::begin(kFormats), std::end(kFormats),
+                   [&](const char* f) { return format == f; })) {
+    return Error{"format-unknown", "models are not written as '" + format + "' here",
+                 "glb, gltf, obj, ply, stl and png are"};
+  }
+  if (model.leafCount() > kMostLeavesWritten) {
+    return Error{"model-too-large", "the model has too many leaves to be written here",
+                 "gable generate has no such limit"};
+  }
+  const Folder folder;
+  if (folder.path.empty()) return Error{"file-unwritable", "there is no room for files", ""};
+  auto work = std::make_shared<Work>();
+  work->folder = folder.path;
+  {
+    const std::lock_guard lock(mutex_);
+    works_[page] = work;
+  }
+  WriteResult written;
+  const std::string file = folder.path + "/model." + format;
+  if (format == "png") {
+    PictureSettings settings;
+    settings.cancel = cancel.get();
+    settings.progress = [&work](size_t done, size_t total) {
+      work->done = done;
+      work->total = total;
+    };
+    written = model.picture(file, settings);
+  } else {
+    written = model.write(file, {});
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    if (works_[page] == work) works_.erase(page);
+  }
+  if (cancel && cancel->load()) return Error{"cancelled", "the export was stopped", ""};
+  if (!written.ok) {
+    if (written.messages.empty()) return Error{"file-unwritable", "nothing was written", ""};
+    return Error{written.messages[0].code, written.messages[0].text, written.messages[0].hint};
+  }
+  return collected(folder.path, format);
+}
+
+std::string Exports::progressJson(const std::string& page) const {
+  std::shared_ptr<Work> work;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto at = works_.find(page);
+    if (at != works_.end()) work = at->second;
+  }
+  std::string out;
+  JsonWriter json(out);
+  json.beginObject().key("busy").value(work != nullptr);
+  json.key("done").value(work ? work->done.load() : uint64_t{0});
+  json.key("total").value(work ? work->total.load() : uint64_t{0});
+  json.key("bytes").value(work ? bytesBelow(work->folder) : uint64_t{0}).endObject();
+  return out;
+}
+
+}  // namespace gable::studio

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Exports: models as files for a page, with news of how far they are.
+//
+// Any thread may call.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "gable/gable.h"
+#include "studio/session.h"
+
+namespace gable::studio {
+
+struct Exported {
+  std::string bytes;
+  /// "glb", or "obj.zip" where a format makes several files.
+  std::string extension;
+};
+
+class Exports {
+ public:
+  /// `format` is an extension. Codes: format-unknown, model-too-large, file-unwritable, cancelled,
+  /// and those of the writers.
+  Result<Exported> write(const Model& model, const std::string& format, const std::string& page,
+                         const Session::Cancel& cancel);
+  /// Of the page's export under way: `done` of `total`, or `bytes` written where no total is known.
+  std::string progressJson(const std::string& page) const;
+
+ private:
+  struct Work {
+    std::atomic<uint64_t> done{0}, total{0};
+    std::string folder;
+  };
+  mutable std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<Work>> works_;
+};
+
+}  // namespace gable::studio

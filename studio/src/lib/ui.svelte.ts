@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// What is open on the page. Nothing here is kept.
+
+export type Tool = 'select' | 'lot';
+
+export class Ui {
+  /** What the palette begins with; null while it is closed. */
+  palette = $state<string | null>(null);
+  share = $state(false);
+  exporting = $state(false);
+  /** The rules as a form instead of as text. */
+  form = $state(false);
+  tool = $state<Tool>('select');
+  /** The attribute that the wall of variations is over; empty: seeds. */
+  vary = $state('');
+}
+
+export const ui = new Ui();
+
+/** Presses keys for somebody: "Ctrl Shift Z" on an element. */
+export function press(keys: string, target: EventTarget): void {
+  const parts = keys.split(' ');
+  const last = parts.at(-1) ?? '';
+  const shift = parts.includes('Shift');
+  const named: Record<string, string> = { Esc: 'Escape', Space: ' ' };
+  const key = named[last] ?? (last.length === 1 && !shift ? last.toLowerCase() : last);
+  const codes: Record<string, number> = { F2: 113, F8: 119, F12: 123, Enter: 13, ' ': 32, '.': 190 };
+  target.dispatchEvent(
+    new KeyboardEvent('keydown', {
+      key,
+      keyCode: codes[key] ?? key.toUpperCase().charCodeAt(0),
+      ctrlKey: parts.includes('Ctrl'),
+      altKey: parts.includes('Alt'),
+      shiftKey: shift,
+      bubbles: true,
+      cancelable: true,
+    }),
+  );
+}
