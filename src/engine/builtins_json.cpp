@@ -27,12 +27,13 @@ const char* paramTypeName(ParamType t) {
   return "any";
 }
 
-const char* blockName(BlockKind k) {
-  switch (k) {
+const char* blockName(const OpSpec& op) {
+  switch (op.block) {
     case BlockKind::None: return "";
     case BlockKind::Split: return "{ size : operations | ... }";
     case BlockKind::Selectors: return "{ selector : operations | ... }";
-    case BlockKind::Operations: return "{ operations }";
+    case BlockKind::Operations:
+      return op.blockWords ? "{ operations | otherwise : operations }" : "{ operations }";
     case BlockKind::Operands: break;
   }
   return "{ A | B }";
@@ -62,7 +63,7 @@ void writeOperation(JsonWriter& json, const OpSpec& op) {
   json.beginObject();
   json.key("name").value(op.name).key("family").value(op.family);
   json.key("summary").value(op.summary);
-  if (op.block != BlockKind::None) json.key("block").value(blockName(op.block));
+  if (op.block != BlockKind::None) json.key("block").value(blockName(op));
   writeSignatures(json, op.signatures, false);
   json.endObject();
 }
@@ -150,7 +151,7 @@ std::string builtinsJson(const std::string& name) {
 std::string builtinsText(const std::string& name) {
   const Catalogue& c = builtinCatalogue();
   if (!name.empty()) {
-    if (const OpSpec* op = c.operation(name)) return callText(*op, blockName(op->block));
+    if (const OpSpec* op = c.operation(name)) return callText(*op, blockName(*op));
     if (const FunctionSpec* f = c.function(name)) return callText(*f, "");
     if (const AttributeSpec* a = c.attribute(name)) {
       return std::string(a->name) + " (" + typeName(a->type) + ") - " + a->doc + "\n";

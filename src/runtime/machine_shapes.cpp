@@ -348,7 +348,7 @@ void Machine::fillBlock(uint32_t number, const Value* values, PartPlan& plan, Bl
   input.preferredSizes = block.preferredSizes;
   if (block.kind == BlockKind::Split) {
     input.split = splitBlock(number, values);
-  } else if (block.kind == BlockKind::Selectors) {
+  } else if (block.kind == BlockKind::Selectors || block.kind == BlockKind::Operations) {
     fillSelectors(block, values);
     input.selectors = selectorItems_;
   }

@@ -7,6 +7,7 @@
 
 #include "builtins/lists.h"
 #include "builtins/ops/region/shared/region_shape.h"
+#include "builtins/ops/region/shared/region_text.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -23,14 +24,10 @@ Value ix(FunctionCall& call) { return counted(cellOf(call).ix); }
 Value iy(FunctionCall& call) { return counted(cellOf(call).iy); }
 Value nx(FunctionCall& call) { return counted(cellOf(call).nx); }
 Value ny(FunctionCall& call) { return counted(cellOf(call).ny); }
-Value bx(FunctionCall& call) {
-  const CellMark c = cellOf(call);
-  return counted(std::min(c.ix, c.nx - 1 - c.ix));
-}
-Value by(FunctionCall& call) {
-  const CellMark c = cellOf(call);
-  return counted(std::min(c.iy, c.ny - 1 - c.iy));
-}
+Value bx(FunctionCall& call) { return counted(cellOf(call).bx()); }
+Value by(FunctionCall& call) { return counted(cellOf(call).by()); }
+Value part(FunctionCall& call) { return counted(cellOf(call).part); }
+Value choice(FunctionCall& call) { return counted(cellOf(call).choice); }
 Value mirroredX(FunctionCall& call) { return Value::of(cellOf(call).mirroredX()); }
 Value mirroredY(FunctionCall& call) { return Value::of(cellOf(call).mirroredY()); }
 Value cellWidth(FunctionCall& call) { return Value::of(cellOf(call).w); }
@@ -50,6 +47,39 @@ Value onBorder(FunctionCall& call) {
   return Value::of(false);
 }
 
+// Whether a selection means any part of the outline.
+Value selects(FunctionCall& call) {
+  const MeshRef mesh = meshInScope(call.shape());
+  const Frame& scope = call.shape().scope;
+  const Frame& world = call.services().world();
+  for (const size_t f : regionFaces(*mesh)) {
+    const RegionView view(call.services(), *mesh, f);
+    const auto local = [&](const Vec3& d) {
+      return view.plane().frame().toLocalDirection(
+          scope.toLocalDirection(world.toLocalDirection(d)));
+    };
+    const SelectionInput input{view, call.randomAddress(1000 + f),
+                               Frame::of({}, local({1, 0, 0}), local({0, 1, 0}), local({0, 0, 1}))};
+    std::vector<EdgePart> parts;
+    std::string problem;
+    if (!selectEdges(call.text(0), input, parts, problem)) {
+      return call.fail("bad-selection", "the selection cannot be read: " + problem,
+                       "write words like outer, inner, side(W), longest, with & | - !",
+                       Value::of(false));
+    }
+    if (!parts.empty()) return Value::of(true);
+  }
+  return Value::of(false);
+}
+
+constexpr ParamSpec kSelection[] = {
+    {"selection", ParamType::String, "Edges of the outline; words as in peel."}};
+constexpr Signature kSelects[] = {{kSelection, ValueType::Bool}};
+constexpr FunctionSpec kFunctions[] = {
+    {"region.selects", "region", "Whether a selection means any edge of the region.", kSelects,
+     selects, kRandom | kReadsWorld | kReadsWorldByWord, false, true},
+};
+
 constexpr ValueType kFloat = ValueType::Float;
 constexpr ValueType kBool = ValueType::Bool;
 
@@ -58,8 +88,16 @@ constexpr AttributeSpec kAttributes[] = {
     {"region.iy", kFloat, "Row of the cell, from the south.", iy},
     {"region.nx", kFloat, "How many columns the grid has; 1 outside of grids.", nx},
     {"region.ny", kFloat, "How many rows the grid has.", ny},
-    {"region.bx", kFloat, "Columns between the cell and the nearer end of its row.", bx},
+    {"region.bx", kFloat,
+     "Columns between the cell and the nearer end of its row; outside of grids the cells between "
+     "it "
+     "and the boundary.",
+     bx},
     {"region.by", kFloat, "Rows between the cell and the nearer end of its column.", by},
+    {"region.piece", kFloat, "Which part of its cell the region is, when the cell fell apart.",
+     part},
+    {"region.choice", kFloat,
+     "Which of several figures a junction of a grid is, from 1; 0 is a plain crossing.", choice},
     {"region.mx", kBool, "Whether the cell is mirrored in x; see grid.", mirroredX},
     {"region.my", kBool, "Whether the cell is mirrored in y.", mirroredY},
     {"region.w", kFloat, "Width that the cell was laid out with, before it was cut to the region.",
@@ -73,6 +111,6 @@ constexpr AttributeSpec kAttributes[] = {
 }  // namespace
 
 extern const FunctionList kFunctions_region;
-const FunctionList kFunctions_region = {{}, kAttributes};
+const FunctionList kFunctions_region = {kFunctions, kAttributes};
 
 }  // namespace gable

@@ -64,9 +64,13 @@ class TreeBuilder {
   NodeId attribute(std::string_view name, NodeId value) {
     return named(lang::NodeKind::Attr, name, {0, 0, 0, value});
   }
-  NodeId rule(std::string_view name, const Nodes& annotations, NodeId body) {
+  NodeId rule(std::string_view name, const Nodes& annotations, NodeId body,
+              const std::vector<std::string>& parameters = {}) {
     const NodeId notes = annotations.empty() ? lang::kNoNode : list(annotations);
-    return named(lang::NodeKind::Rule, name, {notes, 0, 0, body});
+    Nodes made;
+    for (const std::string& p : parameters) made.push_back(named(lang::NodeKind::Param, p, {}));
+    const NodeId params = made.empty() ? lang::kNoNode : list(made);
+    return named(lang::NodeKind::Rule, name, {notes, params, 0, body});
   }
 
   NodeId sequence(const Nodes& successors) {
@@ -78,6 +82,8 @@ class TreeBuilder {
     if (block != lang::kNoNode) children.push_back(block);
     return named(lang::NodeKind::Apply, name, children);
   }
+  /// An operation with empty brackets.
+  NodeId applyBare(std::string_view name) { return named(lang::NodeKind::Apply, name, {list({})}); }
   NodeId leaf(std::string_view name) {
     const NodeId id = named(lang::NodeKind::Apply, name, {lang::kNoNode});
     tree_.addFlags(id, lang::kFlagTerminal);

@@ -3,6 +3,7 @@
 //
 #include "dialects/park/expression.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstring>
 #include <string>
@@ -22,10 +23,12 @@ struct Known {
   std::string_view name;
   const char* attribute;
 };
-constexpr Known kKnown[] = {{"w", "region.w"},   {"h", "region.h"},          {"ix", "region.ix"},
-                            {"iy", "region.iy"}, {"nx", "region.nx"},        {"ny", "region.ny"},
-                            {"bx", "region.bx"}, {"by", "region.by"},        {"mx", "region.mx"},
-                            {"my", "region.my"}, {"border", "region.border"}};
+constexpr Known kKnown[] = {
+    {"w", "region.w"},           {"h", "region.h"},           {"ix", "region.ix"},
+    {"iy", "region.iy"},         {"nx", "region.nx"},         {"ny", "region.ny"},
+    {"bx", "region.bx"},         {"by", "region.by"},         {"mx", "region.mx"},
+    {"my", "region.my"},         {"border", "region.border"}, {"piece", "region.piece"},
+    {"choice", "region.choice"}, {"depth", "region.depth"}};
 
 struct Sign {
   std::string_view text;
@@ -43,9 +46,14 @@ constexpr int kLevels = 5;
 
 class Reader {
  public:
-  Reader(const Grammar& g, std::string_view text, Span span, gbbg::TreeBuilder& b,
-         Diagnostics& diagnostics)
-      : g_(g), text_(text), span_(span), b_(b), diagnostics_(diagnostics) {}
+  Reader(const Grammar& g, const std::vector<std::string>& parameters, std::string_view text,
+         Span span, gbbg::TreeBuilder& b, Diagnostics& diagnostics)
+      : g_(g),
+        parameters_(parameters),
+        text_(text),
+        span_(span),
+        b_(b),
+        diagnostics_(diagnostics) {}
 
   NodeId run() {
     const NodeId e = level(0, 0);
@@ -125,6 +133,9 @@ class Reader {
     const std::string name(text_.substr(at_, end - at_));
     if (name.empty()) return fail("this was not expected");
     at_ = end;
+    if (std::find(parameters_.begin(), parameters_.end(), name) != parameters_.end()) {
+      return b_.word(name);
+    }
     if (const auto c = g_.constants.find(name); c != g_.constants.end())
       return b_.number(c->second);
     if (name == "area") return b_.call("geometry.area", {});
@@ -135,6 +146,7 @@ class Reader {
   }
 
   const Grammar& g_;
+  const std::vector<std::string>& parameters_;
   std::string_view text_;
   Span span_;
   gbbg::TreeBuilder& b_;
@@ -146,9 +158,10 @@ class Reader {
 
 }  // namespace
 
-lang::NodeId expression(const Grammar& g, std::string_view text, Span span,
-                        gbbg::TreeBuilder& builder, Diagnostics& diagnostics) {
-  return Reader(g, text, span, builder, diagnostics).run();
+lang::NodeId expression(const Grammar& g, const std::vector<std::string>& parameters,
+                        std::string_view text, Span span, gbbg::TreeBuilder& builder,
+                        Diagnostics& diagnostics) {
+  return Reader(g, parameters, text, span, builder, diagnostics).run();
 }
 
 }  // namespace gable::park

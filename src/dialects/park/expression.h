@@ -12,9 +12,11 @@
 namespace gable::park {
 
 /// Reads or, and, comparisons, + - * /, !, brackets, numbers, constants and the names that a region
-/// knows of itself (w, h, area, ix, iy, nx, ny, bx, by, mx, my, border). A mistake is reported and
-/// gives a node that stands for nothing.
-lang::NodeId expression(const Grammar& g, std::string_view text, Span span,
-                        gbbg::TreeBuilder& builder, Diagnostics& diagnostics);
+/// knows of itself (w, h, area, ix, iy, nx, ny, bx, by, mx, my, piece, choice, depth, border), and
+/// before all those the parameters of the rule around. A mistake is reported and gives a node that
+/// stands for nothing.
+lang::NodeId expression(const Grammar& g, const std::vector<std::string>& parameters,
+                        std::string_view text, Span span, gbbg::TreeBuilder& builder,
+                        Diagnostics& diagnostics);
 
 }  // namespace gable::park

@@ -80,6 +80,15 @@ bool constantValue(const Grammar& g, std::string_view text, double& value);
 /// The text with constants in the place of their names.
 std::string withConstants(const Grammar& g, std::string_view text);
 
+/// The text with other texts in the place of some of its names.
+std::string withWords(std::string_view text, const std::map<std::string, std::string>& words);
+
+/// The operations with arguments in the place of the names of parameters.
+Sequence withArguments(const Sequence& body, const std::map<std::string, std::string>& words);
+
+/// What stands between the brackets of `Name(a, b)`.
+std::vector<std::string> argumentTexts(std::string_view call);
+
 /// Names do not mind capitals where they are operations.
 std::string lowered(std::string_view text);
 

@@ -8,10 +8,10 @@
 #include "dialects/park/lower.h"
 
 #include <algorithm>
-#include <set>
 
 #include "base/number.h"
 #include "dialects/park/expression.h"
+#include "dialects/park/meanings.h"
 
 namespace gable::park {
 
@@ -25,38 +25,6 @@ constexpr double kPathWidth = 3;
 // Of what is swept without saying how wide: a box hedge.
 constexpr double kHedgeWidth = 0.6, kHedgeHeight = 1;
 
-bool isFigure(std::string_view op) {
-  return op == "romb" || op == "rombcenter" || op == "circle" || op == "square" || op == "rect" ||
-         op == "polygon";
-}
-bool isPointSet(std::string_view op) {
-  return op == "scattercircles" || op == "scatter" || op == "corners" || op == "entrances";
-}
-
-bool isMaterialWord(std::string_view name) {
-  return name.size() > 1 &&
-         std::none_of(name.begin(), name.end(), [](char c) { return c >= 'a' && c <= 'z'; });
-}
-
-// What a name looks like.
-const char* colourOf(std::string_view name) {
-  struct Hint {
-    const char* part;
-    const char* colour;
-  };
-  static constexpr Hint kHints[] = {
-      {"blue", "#5f8f8f"},   {"tree", "#3f7a34"},   {"bush", "#4a7f3a"},   {"hedge", "#3f7034"},
-      {"plant1", "#c86a8a"}, {"plant2", "#c9a24a"}, {"plant", "#8f7ab8"},  {"flower", "#c86a8a"},
-      {"cement", "#b5b5b0"}, {"stone", "#a89f92"},  {"path", "#cbbfa6"},   {"fountain", "#8fa8b8"},
-      {"water", "#6f9fc0"},  {"centre", "#b8b0a4"}, {"center", "#b8b0a4"}, {"grass", "#6fa854"},
-      {"green", "#5f9f4a"},  {"region", "#7fb25f"}, {"park", "#7fb25f"},   {"smooth", "#7fb25f"}};
-  const std::string low = lowered(name);
-  for (const Hint& h : kHints) {
-    if (low.find(h.part) != std::string::npos) return h.colour;
-  }
-  return "#9a9a92";
-}
-
 class Lowering {
  public:
   Lowering(const Grammar& g, uint32_t file, Diagnostics& diagnostics)
@@ -69,7 +37,7 @@ class Lowering {
     Nodes rules;
     bool first = true;
     for (const Rule& r : g_.rules) {
-      if (r.function || isExpression(r)) continue;
+      if (r.function || isPointSet(r)) continue;
       rules.push_back(rule(r, first));
       first = false;
     }
@@ -78,15 +46,6 @@ class Lowering {
 
  private:
   // --- Rules ---
-
-  static const Op* onlyOp(const Rule& r) {
-    if (r.branches.size() != 1 || r.branches[0].body.size() != 1) return nullptr;
-    return &r.branches[0].body[0];
-  }
-  static bool isExpression(const Rule& r) {
-    const Op* op = onlyOp(r);
-    return op && op->blocks.empty() && isPointSet(lowered(op->name)) && op->called;
-  }
 
   NodeId rule(const Rule& r, bool start) {
     rule_ = &r;
@@ -102,8 +61,7 @@ class Lowering {
         break;
       }
       b_.at(br.span);
-      const NodeId condition =
-          br.condition.empty() ? kNoNode : expression(g_, br.condition, br.span, b_, diagnostics_);
+      const NodeId condition = br.condition.empty() ? kNoNode : expressionOf(br.condition, br.span);
       branches.emplace_back(condition, steps);
     }
     b_.at(r.nameSpan);
@@ -113,7 +71,7 @@ class Lowering {
       }
       body = b_.sequence({b_.choice(lang::ChoiceKind::Case, branches)});
     }
-    return b_.rule(r.name, notes, body);
+    return b_.rule(r.name, notes, body, r.parameters);
   }
 
   NodeId colour(std::string_view name) { return b_.apply("color", {b_.text(colourOf(name))}); }
@@ -155,7 +113,11 @@ class Lowering {
     if (name == "joined") return joined(op, out), false;
     if (name == "loadmodel") return model(op, out), false;
     if (name == "innerrect") return innerRect(op, out), false;
-    if (name == "contract" || name == "insert") return contract(op, out), true;
+    if (name == "select") return select(op, out), false;
+    if (name == "quadmap") return quadMap(op, out), false;
+    if (name == "contract") return contract(op, out), true;
+    if (name == "insert") return insert(op, out), true;
+    if (name == "noholes") return out.push_back(b_.applyBare("cutHoles")), true;
     if (isFigure(name)) return figure(op, out), true;
     if (name == "place") return place(op, out), true;
     if (name == "distribute") return distribute(op, out), true;
@@ -164,8 +126,9 @@ class Lowering {
       return sweep(op, out), true;
     }
     if (name == "parametrise") return lines(op, out), true;
-    if (g_.rule(op.name)) {
-      out.push_back(b_.apply(op.name));
+    if (const Rule* r = g_.rule(op.name)) {
+      if (r->function) return inlined(*r, op, out);
+      call(*r, op, out);
       return false;
     }
     if (op.blocks.empty()) {
@@ -181,11 +144,13 @@ class Lowering {
 
   bool symbol(const Op& op, Nodes& out) {
     const Rule* r = g_.rule(op.name);
-    if (r && !r->function) {
-      out.push_back(b_.apply(op.name));
+    if (r && r->function) return inlined(*r, op, out);
+    if (r) {
+      call(*r, op, out);
       return false;
     }
     if (lowered(op.name) == "grid") return grid(op, out), false;
+    if (lowered(op.name) == "noholes") return out.push_back(b_.applyBare("cutHoles")), true;
     if (isMaterialWord(op.name)) {
       out.push_back(colour(op.name));
       return true;
@@ -193,6 +158,40 @@ class Lowering {
     out.push_back(colour(op.name));
     out.push_back(b_.leaf(op.name));
     return false;
+  }
+
+  void call(const Rule& r, const Op& op, Nodes& out) {
+    if (r.parameters.size() != op.arguments.size()) {
+      diagnostics_.error("wrong-argument-count", op.span,
+                         "'" + op.name + "' takes " + std::to_string(r.parameters.size()) +
+                             " arguments, not " + std::to_string(op.arguments.size()),
+                         "give a value for each of its parameters");
+      return;
+    }
+    Nodes arguments;
+    for (size_t i = 0; i < op.arguments.size(); ++i) arguments.push_back(number(op, i, 0));
+    out.push_back(b_.apply(op.name, arguments));
+  }
+
+  // The steps of a function, with the arguments in the place of its parameters.
+  bool inlined(const Rule& r, const Op& op, Nodes& out) {
+    constexpr int kDeepest = 20;
+    if (functions_ >= kDeepest || r.branches.size() != 1) {
+      diagnostics_.error("nesting-too-deep", op.span,
+                         "the function '" + op.name + "' calls itself, or has cases",
+                         "make it a rule: leave out 'fun'");
+      return true;
+    }
+    std::map<std::string, std::string> words;
+    for (size_t i = 0; i < r.parameters.size() && i < op.arguments.size(); ++i) {
+      words[r.parameters[i]] = op.arguments[i].text;
+    }
+    ++functions_;
+    bool open = true;
+    for (const Op& inner : withArguments(r.branches[0].body, words)) open = step(inner, out);
+    --functions_;
+    b_.at(op.span);
+    return open;
   }
 
   // --- Blocks ---
@@ -251,7 +250,56 @@ class Lowering {
   // --- Arguments ---
 
   std::string text(const Op& op, size_t i) const {
-    return i < op.arguments.size() ? withConstants(g_, op.arguments[i].text) : std::string();
+    return i < op.arguments.size() ? constants(op.arguments[i].text) : std::string();
+  }
+  // With constants in the place of their names; a parameter of the rule hides a constant.
+  std::string constants(const std::string& text) const {
+    if (rule_->parameters.empty()) return withConstants(g_, text);
+    Grammar rest;
+    rest.constants = g_.constants;
+    for (const std::string& p : rule_->parameters) rest.constants.erase(p);
+    return withConstants(rest, text);
+  }
+  NodeId expressionOf(std::string_view text, Span span) {
+    return expression(g_, rule_->parameters, text, span, b_, diagnostics_);
+  }
+  // A number that is known before the rule runs.
+  bool known(std::string_view text, double& value) const {
+    for (const std::string& p : rule_->parameters) {
+      if (withWords(text, {{p, ""}}) != text) return false;
+    }
+    return constantValue(g_, text, value);
+  }
+  bool isParameter(const std::string& word) const {
+    const auto& all = rule_->parameters;
+    return std::find(all.begin(), all.end(), word) != all.end();
+  }
+  // A text in which parameters of the rule stand is put together when the rule runs.
+  NodeId textNode(const std::string& text) {
+    NodeId sum = kNoNode;
+    std::string plain;
+    const auto add = [&](NodeId next) {
+      sum = sum == kNoNode ? next : b_.binary(lang::BinaryOp::Add, sum, next);
+    };
+    for (size_t i = 0; i < text.size();) {
+      const auto letter = [&](size_t k) {
+        return std::isalnum(static_cast<unsigned char>(text[k])) || text[k] == '_';
+      };
+      size_t end = i;
+      while (end < text.size() && letter(end)) ++end;
+      const std::string word = text.substr(i, end - i);
+      if (end > i && isParameter(word)) {
+        if (sum == kNoNode || !plain.empty()) add(b_.text(plain));
+        plain.clear();
+        add(b_.word(word));
+      } else {
+        plain += end > i ? word : text.substr(i, 1);
+      }
+      i = std::max(end, i + 1);
+    }
+    if (sum == kNoNode) return b_.text(plain);
+    if (!plain.empty()) add(b_.text(plain));
+    return sum;
   }
   NodeId number(const Op& op, size_t i, double otherwise) {
     if (i >= op.arguments.size()) return b_.number(otherwise);
@@ -260,43 +308,14 @@ class Lowering {
       t = t.substr(name + 1);
     }
     double v = 0;
+    if (isParameter(t)) return b_.word(t);
     if (!t.empty() && (t.front() == '\'' || t.back() == '%')) {
       const bool percent = t.back() == '%';
       const std::string bare = percent ? t.substr(0, t.size() - 1) : t.substr(1);
-      if (constantValue(g_, bare, v)) return b_.relative(percent ? v / 100 : v);
+      if (known(bare, v)) return b_.relative(percent ? v / 100 : v);
     }
-    if (constantValue(g_, t, v)) return b_.number(v);
-    return expression(g_, t, op.arguments[i].span, b_, diagnostics_);
-  }
-
-  // A figure at the head of a sequence, or of the rule that it names alone: "romb(3)".
-  std::string figureAtHead(const Sequence& s, bool* own = nullptr, int depth = 0) const {
-    if (s.empty() || depth > 20) return {};
-    const std::string name = lowered(s[0].name);
-    if (isFigure(name) && s[0].called) {
-      if (own) *own = depth == 0;
-      return figureText(s[0]);
-    }
-    const Rule* r = s[0].called ? nullptr : g_.rule(s[0].name);
-    if (s.size() != 1 || !r || r->branches.size() != 1) return {};
-    return figureAtHead(r->branches[0].body, own, depth + 1);
-  }
-  std::string figureText(const Op& op) const {
-    std::string out = lowered(op.name) == "rombcenter" ? "romb" : lowered(op.name);
-    out += '(';
-    for (size_t i = 0; i < op.arguments.size(); ++i) {
-      double v = 0;
-      const bool known = constantValue(g_, op.arguments[i].text, v);
-      // RombCenter(..) of the sketches.
-      out += (i > 0 ? ", " : "") + (known ? shortestText(v) : std::string("3"));
-    }
-    return out + ')';
-  }
-
-  // The operation that an argument names through a rule of its own, or writes itself.
-  const Op* expressionRule(const std::string& name) const {
-    const Rule* r = g_.rule(name);
-    return r ? onlyOp(*r) : nullptr;
+    if (known(t, v)) return b_.number(v);
+    return expressionOf(t, op.arguments[i].span);
   }
 
   // --- Operations ---
@@ -304,47 +323,49 @@ class Lowering {
   void grid(const Op& op, Nodes& out) {
     Slots s = slotsOf(op, {{"region"}, {"path", "section"}, {"centre", "center", "junction"}});
     std::string junction = "none";
+    JunctionChoices choices;
     Part junctionPart;
     bool onPlate = false;
     if (s.part[2] && !s.empty[2]) {
-      bool own = false;
-      const std::string figure = figureAtHead(s.part[2]->body, &own);
-      if (!figure.empty()) junction = figure;
-      // The figure itself is what the grid cuts out.
+      choices = junctionChoices(g_, *s.part[2]);
       junctionPart = *s.part[2];
-      if (own) {
-        // What follows the figure stands on it.
-        Op plate;
-        plate.name = "Centre";
-        plate.span = junctionPart.body[0].span;
-        junctionPart.body[0] = plate;
+      if (!choices.parts.empty()) {
+        junction = choices.figures;
+      } else if (const std::string figure = headOf(junctionPart, onPlate); !figure.empty()) {
+        junction = figure;
       }
-      onPlate = own && junctionPart.body.size() > 1;
       s.part[2] = &junctionPart;
     }
-    const bool together = joinedPath(s.part[1], junction);
+    const Op* together = joinedOp(g_, s.part[1]);
+    Sequence joinedRest;
+    if (together) {
+      const Joined joined = joinedParts(g_, *together);
+      if (!joined.figures.empty()) junction = joined.figures;
+      joinedRest = joined.rest;
+    }
     std::string options;
     for (size_t i = 2; i < op.arguments.size(); ++i) options += (i > 2 ? " " : "") + text(op, i);
     Nodes arguments;
     for (size_t i = 0; i < 2; ++i) {
       const std::string dim = text(op, i);
       double v = 0;
-      if (constantValue(g_, dim, v)) {
+      if (known(dim, v)) {
         arguments.push_back(b_.number(v));
       } else {
-        arguments.push_back(b_.text(dim.empty() && op.arguments.empty() ? "2" : dim));
+        arguments.push_back(textNode(dim.empty() && op.arguments.empty() ? "2" : dim));
       }
     }
     arguments.push_back(b_.number(s.empty[1] ? 0 : pathWidth_));
-    arguments.push_back(b_.text(junction));
-    arguments.push_back(b_.text(options));
+    arguments.push_back(textNode(junction));
+    arguments.push_back(textNode(options));
     Nodes items{item("region", s.part[0], "Grass")};
     if (together) {
       const NodeId both = b_.choiceOfWords("path", "junction");
-      items.push_back(b_.together(both, joinedBody(*s.part[1])));
+      items.push_back(b_.together(both, sequence(joinedRest, "Path")));
     } else if (!s.empty[1]) {
       items.push_back(item("path", s.part[1], "Path"));
-      items.push_back(onPlate                    ? plateItem(junctionPart)
+      items.push_back(!choices.parts.empty()     ? choiceItem(choices, s.part[1])
+                      : onPlate                  ? plateItem(junctionPart)
                       : s.part[2] && !s.empty[2] ? item("junction", s.part[2], "Path")
                                                  : item("junction", s.part[1], "Path"));
     }
@@ -354,76 +375,124 @@ class Lowering {
     out.push_back(b_.apply("grid", arguments, b_.block(items)));
   }
 
+  // The figure at the head of a part. The figure itself is what the grid cuts out; what follows it
+  // stands on it.
+  std::string headOf(Part& part, bool& onPlate) {
+    bool own = false;
+    const std::string figure = figureAtHead(g_, part.body, &own);
+    if (own) {
+      Op plate;
+      plate.name = "Centre";
+      plate.span = part.body[0].span;
+      part.body[0] = plate;
+    }
+    onPlate = own && part.body.size() > 1;
+    return figure;
+  }
+
+  // What stands at a junction depends on which of several figures it is.
+  NodeId choiceItem(const JunctionChoices& choices, const Part* path) {
+    std::vector<std::pair<NodeId, NodeId>> branches;
+    for (size_t i = 0; i < choices.parts.size(); ++i) {
+      Part part = choices.parts[i];
+      bool onPlate = false;
+      const std::string figure = headOf(part, onPlate);
+      const NodeId body = onPlate ? plateBody(part) : sequence(part.body, "Region");
+      b_.at(part.span);
+      const NodeId is = b_.binary(lang::BinaryOp::Equal, b_.word("region.choice"),
+                                  b_.number(figure.empty() ? 0 : static_cast<double>(i + 1)));
+      branches.emplace_back(is, body);
+    }
+    const NodeId plain = path && !path->body.empty()
+                             ? sequence(path->body, "Path")
+                             : b_.sequence({colour("Path"), b_.leaf("Path")});
+    branches.emplace_back(kNoNode, plain);
+    const NodeId which = b_.choice(lang::ChoiceKind::Case, branches);
+    return b_.item(b_.word("junction"), b_.sequence({which}));
+  }
+
   // The figure as a leaf of its own, and what stands there.
-  NodeId plateItem(const Part& p) {
+  NodeId plateBody(const Part& p) {
     const Sequence rest(p.body.begin() + 1, p.body.end());
     b_.at(p.span);
     const NodeId plate = b_.push(b_.sequence({colour("Centre"), b_.leaf("Centre")}));
     const NodeId above = b_.push(sequence(rest, ""));
     b_.at(p.span);
-    return b_.item(b_.word("junction"), b_.sequence({plate, above}));
+    return b_.sequence({plate, above});
   }
+  NodeId plateItem(const Part& p) { return b_.item(b_.word("junction"), plateBody(p)); }
 
-  // { ParkPathCentered }, where that is joined { RombCenter(r) ParkPath }: junctions and paths in
-  // one shape.
-  bool joinedPath(const Part* path, std::string& junction) const {
-    const Op* op = joinedOp(path);
-    if (!op || op->blocks.empty() || op->blocks[0].parts.empty()) return false;
-    for (const Op& inner : op->blocks[0].parts[0].body) {
-      if (isFigure(lowered(inner.name))) junction = figureText(inner);
-    }
-    return true;
-  }
-  const Op* joinedOp(const Part* path) const {
-    if (!path || path->body.size() != 1) return nullptr;
-    const Op* op = &path->body[0];
-    if (!op->called && op->blocks.empty()) op = expressionRule(op->name);
-    return op && lowered(op->name) == "joined" ? op : nullptr;
-  }
-  NodeId joinedBody(const Part& path) {
-    Sequence rest;
-    for (const Op& inner : joinedOp(&path)->blocks[0].parts[0].body) {
-      if (!isFigure(lowered(inner.name))) rest.push_back(inner);
-    }
-    return sequence(rest, "Path");
-  }
-
+  // The region becomes the figures in one; what else stands in the braces is done with that.
   void joined(const Op& op, Nodes& out) {
-    for (const Block& b : op.blocks) {
-      for (const Part& p : b.parts) {
-        const NodeId body = sequence(p.body, rule_->name);
-        out.push_back(b_.push(body));
-      }
+    const Joined j = joinedParts(g_, op);
+    if (!j.figures.empty()) out.push_back(b_.apply("joined", {textNode(j.figures)}));
+    bool open = true;
+    for (const Op& inner : j.rest) open = step(inner, out);
+    if (open) {
+      out.push_back(colour(rule_->name));
+      out.push_back(b_.leaf(rule_->name));
     }
   }
 
-  // A count with a radius: "5 {[5-10]}".
-  std::string discs(const std::string& argument) const {
-    if (const Op* op = expressionRule(argument)) {
-      return op->arguments.empty() ? "1" : withConstants(g_, op->arguments[0].text);
+  // Each part takes the region when its selection means an edge of it; the first that does.
+  void select(const Op& op, Nodes& out) {
+    std::vector<std::pair<NodeId, NodeId>> branches;
+    for (const Part& p : partsOf(op)) {
+      if (p.label.empty()) {
+        diagnostics_.error("bad-argument", p.span, "a part of Select has no selection",
+                           "write 'outer : A | side(W) : B'");
+        return;
+      }
+      const NodeId body = sequence(p.body, rule_->name);
+      b_.at(p.span);
+      const NodeId condition = b_.call("region.selects", {textNode(constants(p.label))});
+      branches.emplace_back(condition, body);
     }
-    const size_t bracket = argument.find('(');
-    if (bracket != std::string::npos && argument.back() == ')') {
-      return withConstants(g_, argument.substr(bracket + 1, argument.size() - bracket - 2));
+    const NodeId rest = op.hasElse ? sequence(op.otherwise, rule_->name)
+                                   : b_.sequence({colour(rule_->name), b_.leaf(rule_->name)});
+    b_.at(op.span);
+    if (branches.empty()) {
+      out.push_back(b_.push(rest));
+      return;
     }
-    return withConstants(g_, argument);
+    branches.emplace_back(kNoNode, rest);
+    out.push_back(b_.choice(lang::ChoiceKind::Case, branches));
+  }
+
+  void quadMap(const Op& op, Nodes& out) {
+    const Slots s = slotsOf(op, {{"region"}, {"remainder", "rest"}});
+    Nodes items{item("region", s.part[0], "Grass"),
+                item("remainder", s.part[1] ? s.part[1] : s.part[0], "Grass")};
+    addElse(op, items);
+    b_.at(op.span);
+    out.push_back(b_.apply("quadMap", {number(op, 0, 2), number(op, 1, 2)}, b_.block(items)));
   }
 
   void voronoi(const Op& op, Nodes& out) {
-    const Slots s = slotsOf(op, {{"region"}, {"path", "section"}, {"centre", "center"}});
-    const std::string sites = op.arguments.empty() ? "5 {3}" : discs(op.arguments[0].text);
-    std::string smooth = text(op, 1), options = text(op, 2);
-    if (smooth.find('=') != std::string::npos) std::swap(smooth, options);
+    const Slots s =
+        slotsOf(op, {{"region"}, {"path", "section"}, {"centre", "center"}, {"junction"}});
+    const std::string sites = op.arguments.empty() ? "5 {3}" : discs(g_, op.arguments[0].text);
+    std::string smooth, options;
+    for (size_t i = 1; i < op.arguments.size(); ++i) {
+      std::string a = text(op, i);
+      if (lowered(a).starts_with("jitter(") && a.back() == ')') {
+        a = "jitter=" + a.substr(7, a.size() - 8);
+      }
+      if (lowered(a).starts_with("smooth=")) a = a.substr(7);
+      std::string& to = a.find('=') != std::string::npos ? options : smooth;
+      to += (to.empty() ? "" : " ") + a;
+    }
     if (smooth.empty()) smooth = "average(2)";
     Nodes items{item("region", s.part[0], "Grass")};
     if (!s.empty[1]) items.push_back(item("path", s.part[1], "Path"));
+    if (s.part[3]) items.push_back(item("junction", s.part[3], "Path"));
     if (s.part[2]) items.push_back(item("centre", s.part[2], "Centre"));
     addElse(op, items);
     b_.at(op.span);
-    out.push_back(b_.apply(
-        "voronoi",
-        {b_.text(sites), b_.number(s.empty[1] ? 0 : pathWidth_), b_.text(smooth), b_.text(options)},
-        b_.block(items)));
+    out.push_back(b_.apply("voronoi",
+                           {textNode(sites), b_.number(s.empty[1] ? 0 : pathWidth_),
+                            textNode(smooth), textNode(options)},
+                           b_.block(items)));
   }
 
   void rays(const Op& op, Nodes& out) {
@@ -436,11 +505,17 @@ class Lowering {
       source = source.substr(0, source.find_last_not_of(' ', bracket - 1) + 1);
     }
     double v = 0;
-    const bool sized = constantValue(g_, size, v) && v > 0;
+    const bool sized = known(size, v) && v > 0;
     const bool middle = lowered(source) == "centre" || lowered(source) == "center";
     std::string targets = op.arguments.size() > 1 ? op.arguments[1].text : "corners";
-    if (const Op* t = expressionRule(targets)) targets = lowered(t->name);
+    if (const Op* t = onlyOp(g_, targets)) {
+      targets = lowered(t->name) + "(";
+      for (const Argument& a : t->arguments) targets += a.text + " ";
+      targets += ')';
+    }
+    targets = constants(targets);
     if (lowered(targets).starts_with("corners")) targets = "corners";
+    if (lowered(targets).starts_with("entrances")) targets = lowered(targets);
     // With a sized centre and two blocks these are { centre } { region }.
     const bool swapped = sized && op.blocks.size() == 2 && op.blocks[0].parts.size() == 1 &&
                          op.blocks[0].parts[0].label.empty();
@@ -455,11 +530,12 @@ class Lowering {
     addElse(op, items);
     b_.at(op.span);
     double count = 0;
-    const bool counted = constantValue(g_, targets, count);
+    const bool counted = known(targets, count);
     out.push_back(b_.apply(
         "castRays",
-        {b_.text(middle ? "centre" : discs(source)), counted ? b_.number(count) : b_.text(targets),
-         b_.number(s.empty[path] ? 0 : pathWidth_), b_.text(sized ? size : "0"), b_.text(options)},
+        {textNode(middle ? "centre" : discs(g_, source)),
+         counted ? b_.number(count) : textNode(targets), b_.number(s.empty[path] ? 0 : pathWidth_),
+         textNode(sized ? size : "0"), textNode(options)},
         b_.block(items)));
   }
 
@@ -476,47 +552,34 @@ class Lowering {
     }
     std::string options;
     for (size_t i = flags; i < op.arguments.size(); ++i) {
-      if (lowered(op.arguments[i].text) == "cornersorthogonal") options = "orthogonal";
+      if (lowered(op.arguments[i].text) == "cornersorthogonal") options = "orthogonal ";
     }
+    std::string smooth;
+    for (const Argument& a : op.arguments) {
+      if (lowered(a.text).starts_with("smooth=")) smooth = constants(a.text);
+    }
+    options += smooth;
     const std::string selection = op.arguments.empty() ? "outer" : text(op, 0);
     Nodes items{item("strip", s.part[0], "Strip"), item("rest", s.part[1], "Grass")};
     addElse(op, items);
     b_.at(op.span);
-    out.push_back(b_.apply("peel", {b_.text(selection), number(sized, 1, 1), b_.text(options)},
-                           b_.block(items)));
+    const bool own = selection.find('{') != std::string::npos;
+    out.push_back(b_.apply(
+        "peel", {textNode(selection), own ? b_.number(0) : number(sized, 1, 1), textNode(options)},
+        b_.block(items)));
   }
 
   void choose(const Op& op, Nodes& out) {
-    std::vector<const Part*> parts;
-    for (const Block& b : op.blocks) {
-      for (const Part& p : b.parts) parts.push_back(&p);
-    }
-    if (parts.empty()) return;
-    std::vector<double> weights;
-    double given = 0, open = 0;
-    for (const Part* p : parts) {
-      std::string label = p->label;
-      if (!label.empty() && label.back() == '%') label.pop_back();
-      double w = -1;
-      if (!constantValue(g_, label, w)) w = -1;
-      weights.push_back(w);
-      given += std::max(0.0, w);
-      open += w < 0;
-    }
-    const double each = open > 0 ? std::max(0.0, 100 - given) / open : 0;
+    const std::vector<Part> parts = partsOf(op);
+    const std::vector<double> shares = sharesOf(g_, parts);
     std::vector<std::pair<NodeId, NodeId>> branches;
     for (size_t i = 0; i < parts.size(); ++i) {
-      const NodeId body = sequence(parts[i]->body, rule_->name);
+      const NodeId body = sequence(parts[i].body, rule_->name);
       b_.at(op.span);
-      const bool last = i + 1 == parts.size();
-      const double w = weights[i] < 0 ? each : weights[i] * (given > 100 ? 100 / given : 1);
-      branches.emplace_back(last ? kNoNode : b_.number(w), body);
+      branches.emplace_back(i + 1 == parts.size() ? kNoNode : b_.number(shares[i]), body);
     }
-    if (branches.size() == 1) {
-      out.push_back(b_.push(branches[0].second));
-    } else {
-      out.push_back(b_.choice(lang::ChoiceKind::Percent, branches));
-    }
+    if (branches.size() == 1) out.push_back(b_.push(branches[0].second));
+    if (branches.size() > 1) out.push_back(b_.choice(lang::ChoiceKind::Percent, branches));
   }
 
   void model(const Op& op, Nodes& out) {
@@ -548,11 +611,29 @@ class Lowering {
     out.push_back(b_.apply("innerRectangle", {b_.word(along)}, b_.block(items)));
   }
 
+  // With a centre, what is 0.9 or less is a share of the way to it.
   void contract(const Op& op, Nodes& out) {
-    Nodes arguments{number(op, 0, 1)};
     const std::string towards = lowered(text(op, 1));
-    if (towards == "centre" || towards == "center") arguments.push_back(b_.word("centre"));
-    out.push_back(b_.apply("contract", arguments));
+    const bool centre = towards == "centre" || towards == "center";
+    double v = 0;
+    const bool share = centre && known(text(op, 0), v) && v <= 0.9;
+    Nodes arguments{share ? b_.relative(v) : number(op, 0, 1)};
+    if (centre && !share) arguments.push_back(b_.word("centre"));
+    Nodes items;
+    addElse(op, items);
+    b_.at(op.span);
+    out.push_back(b_.apply("contract", arguments, items.empty() ? kNoNode : b_.block(items)));
+  }
+
+  // Cuts discs off the outer corners.
+  void insert(const Op& op, Nodes& out) {
+    const std::string radius = op.arguments.empty() ? "1" : text(op, 0);
+    const NodeId nothing = b_.sequence({b_.apply("NIL")});
+    Nodes items{b_.item(kNoNode, nothing)};
+    addElse(op, items);
+    b_.at(op.span);
+    out.push_back(b_.apply("place", {b_.text("corner(outer)"), textNode("circle(" + radius + ")")},
+                           b_.block(items)));
   }
 
   void figure(const Op& op, Nodes& out) {
@@ -572,21 +653,20 @@ class Lowering {
       for (const Part& p : b.parts) body = sequence(p.body, "Thing");
     }
     b_.at(op.span);
-    return b_.block({b_.item(kNoNode, body != kNoNode ? body : b_.sequence({}))});
+    Nodes items{b_.item(kNoNode, body != kNoNode ? body : b_.sequence({}))};
+    addElse(op, items);
+    b_.at(op.span);
+    return b_.block(items);
   }
-  std::string figureOfBlock(const Op& op) const {
-    for (const Block& b : op.blocks) {
-      for (const Part& p : b.parts) {
-        const std::string f = figureAtHead(p.body);
-        if (!f.empty()) return f;
+  static std::string flagsOf(const Op& op) {
+    std::string out;
+    for (const Argument& a : op.arguments) {
+      const std::string word = lowered(a.text);
+      if (word == "over" || word == "split" || word == "align") {
+        out += (out.empty() ? "" : " ") + word;
       }
     }
-    return "none";
-  }
-
-  static bool hasFlag(const Op& op, std::string_view flag) {
-    return std::any_of(op.arguments.begin(), op.arguments.end(),
-                       [&](const Argument& a) { return lowered(a.text) == flag; });
+    return out;
   }
 
   void place(const Op& op, Nodes& out) {
@@ -595,28 +675,27 @@ class Lowering {
     if (lowered(where) == "centre" || lowered(where) == "center") where = "centre";
     const NodeId block = things(op);
     out.push_back(b_.apply(
-        "place",
-        {b_.text(where), b_.text(figureOfBlock(op)), b_.text(hasFlag(op, "over") ? "over" : "")},
-        block));
+        "place", {textNode(where), textNode(figureOfBlock(g_, op)), b_.text(flagsOf(op))}, block));
   }
 
   // sel : inset, positions
   void distribute(const Op& op, Nodes& out) {
     std::string selection = op.arguments.empty() ? "all" : text(op, 0);
-    double inset = 0;
+    NodeId inset = b_.number(0);
     if (const size_t colon = selection.find(':'); colon != std::string::npos) {
-      constantValue(g_, std::string_view(selection).substr(colon + 1), inset);
+      Op by = op;
+      by.arguments[0].text = selection.substr(colon + 1);
+      inset = number(by, 0, 0);
       selection.resize(colon);
     }
     const NodeId block = things(op);
     double spacing = 1;
     const std::string positions = text(op, 1);
-    const bool spaced = positions.empty() || constantValue(g_, positions, spacing);
-    out.push_back(b_.apply(
-        "distribute",
-        {b_.text(selection), spaced ? b_.number(spacing) : b_.text(positions), b_.number(inset),
-         b_.text(figureOfBlock(op)), b_.text(hasFlag(op, "over") ? "over" : "")},
-        block));
+    const bool spaced = positions.empty() || known(positions, spacing);
+    out.push_back(b_.apply("distribute",
+                           {textNode(selection), spaced ? b_.number(spacing) : textNode(positions),
+                            inset, textNode(figureOfBlock(g_, op)), b_.text(flagsOf(op))},
+                           block));
   }
 
   void scatter(const Op& op, Nodes& out) {
@@ -627,7 +706,7 @@ class Lowering {
       radius = what.substr(brace + 1, what.find('}') - brace - 1);
     }
     double n = 0;
-    if (count.find_first_not_of(' ') != std::string::npos && !constantValue(g_, count, n)) {
+    if (count.find_first_not_of(' ') != std::string::npos && !known(count, n)) {
       diagnostics_.error("bad-argument", op.span, "'" + what + "' is no count with a radius",
                          "write 5 {[2,4]}");
     }
@@ -639,51 +718,11 @@ class Lowering {
     }
     const NodeId block = things(op);
     out.push_back(
-        b_.apply("scatterCircles", {b_.number(n), b_.text(radius), b_.text(options)}, block));
-  }
-
-  // Lines that an argument means: a function of the grammar, a Parametrise, or a selection.
-  struct Lines {
-    std::string ranges;
-    double inset = 0;
-    std::string figure;
-  };
-  Lines linesOf(const std::string& argument, int depth = 0) {
-    Lines l;
-    l.ranges = withConstants(g_, argument);
-    std::string name = argument.substr(0, argument.find('('));
-    while (!name.empty() && name.back() == ' ') name.pop_back();
-    const Rule* r = g_.rule(name);
-    const Op* op = r ? onlyOp(*r) : nullptr;
-    if (!op || depth > 20) return l;
-    return linesOf(*op);
-  }
-  Lines linesOf(const Op& op) {
-    Lines l;
-    for (const Argument& a : op.arguments) {
-      const std::string word = lowered(a.text.substr(0, a.text.find('(')));
-      if (isFigure(word) && a.text.back() == ')') {
-        l.figure = withConstants(g_, a.text);
-      } else if (lowered(a.text) != "perimeter") {
-        l.ranges += (l.ranges.empty() ? "" : " ") + withConstants(g_, a.text);
-      }
-    }
-    for (const Block& b : op.blocks) {
-      for (const Part& p : b.parts) {
-        for (const Op& inner : p.body) {
-          double v = 0;
-          if (lowered(inner.name) == "contract" && !inner.arguments.empty() &&
-              constantValue(g_, inner.arguments[0].text, v)) {
-            l.inset = v;
-          }
-        }
-      }
-    }
-    return l;
+        b_.apply("scatterCircles", {b_.number(n), textNode(radius), textNode(options)}, block));
   }
 
   void sweep(const Op& op, Nodes& out) {
-    const Lines l = linesOf(op.arguments.empty() ? std::string("all") : op.arguments[0].text);
+    const Lines l = linesOf(g_, op.arguments.empty() ? std::string("all") : op.arguments[0].text);
     double width = kHedgeWidth, height = 0;
     std::string options;
     for (size_t i = 1; i < op.arguments.size(); ++i) {
@@ -691,9 +730,10 @@ class Lowering {
       const size_t equals = a.find('=');
       const std::string value =
           equals != std::string::npos ? op.arguments[i].text.substr(equals + 1) : "";
-      if (a.starts_with("width")) constantValue(g_, value, width);
-      if (a.starts_with("height")) constantValue(g_, value, height);
-      if (a.find("round") != std::string::npos) options = "round";
+      if (a.starts_with("width")) known(value, width);
+      if (a.starts_with("height")) known(value, height);
+      if (a == "round") options += "round ";
+      if (a.starts_with("joins") || a.starts_with("ends")) options += a + " ";
     }
     // What has no rule is a hedge.
     Nodes body;
@@ -708,28 +748,31 @@ class Lowering {
       }
     }
     b_.at(op.span);
+    Nodes items{b_.item(kNoNode, b_.sequence(body))};
+    addElse(op, items);
+    b_.at(op.span);
     out.push_back(b_.apply(
-        "sweep", {b_.text(l.ranges), b_.number(width), b_.number(l.inset), b_.text(options)},
-        b_.block({b_.item(kNoNode, b_.sequence(body))})));
+        "sweep", {textNode(l.ranges), b_.number(width), b_.number(l.inset), b_.text(options)},
+        b_.block(items)));
   }
 
   void lines(const Op& op, Nodes& out) {
-    Op bare = op;
-    bare.blocks.clear();
-    const Lines l = linesOf(bare);
+    const Lines l = linesOf(g_, op);
     if (!l.figure.empty()) {
-      const size_t bracket = l.figure.find('(');
       Op shape;
-      shape.name = l.figure.substr(0, bracket);
+      shape.name = l.figure.substr(0, l.figure.find('('));
       shape.span = op.span;
-      shape.arguments.push_back(
-          {l.figure.substr(bracket + 1, l.figure.size() - bracket - 2), op.span});
+      for (const std::string& a : argumentTexts(l.figure)) shape.arguments.push_back({a, op.span});
       figure(shape, out);
     }
-    const NodeId block = op.blocks.empty()
+    // A Contract alone in the braces says where the lines run.
+    const std::vector<Part> parts = partsOf(op);
+    const bool moved = l.inset > 0 && parts.size() == 1 && parts[0].body.size() == 1;
+    const NodeId block = op.blocks.empty() || moved
                              ? b_.block({b_.item(kNoNode, b_.sequence({b_.leaf("Line")}))})
                              : things(op);
-    out.push_back(b_.apply("parametrise", {b_.text(l.ranges), b_.number(0)}, block));
+    out.push_back(
+        b_.apply("parametrise", {textNode(l.ranges), b_.number(moved ? l.inset : 0)}, block));
   }
 
   const Grammar& g_;
@@ -737,6 +780,8 @@ class Lowering {
   Diagnostics& diagnostics_;
   const Rule* rule_ = nullptr;
   double pathWidth_ = kPathWidth;
+  // Functions within functions.
+  int functions_ = 0;
 };
 
 }  // namespace

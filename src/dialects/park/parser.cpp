@@ -283,12 +283,15 @@ class Parser {
       op.size = until("]");
       if (!accept("]")) unexpected("']'");
     }
-    const bool choose = lowered(word) == "choose";
-    while (peek() == '{') op.blocks.push_back(block(depth, choose));
+    const std::string what = lowered(word);
+    const Parts parts = what == "choose"   ? Parts::Choices
+                        : what == "select" ? Parts::Selections
+                                           : Parts::Plain;
+    while (peek() == '{') op.blocks.push_back(block(depth, parts));
     const size_t before = at_;
-    if (!op.blocks.empty() && name() == "else" && peek() == '{') {
+    if ((!op.blocks.empty() || op.called) && name() == "else" && peek() == '{') {
       op.hasElse = true;
-      for (Part& p : block(depth, false).parts) {
+      for (Part& p : block(depth, Parts::Plain).parts) {
         op.otherwise.insert(op.otherwise.end(), p.body.begin(), p.body.end());
       }
     } else {
@@ -298,7 +301,11 @@ class Parser {
     return op;
   }
 
-  Block block(int depth, bool choose) {
+  // Of Choose parts are divided by commas, of Select they begin with any selection.
+  enum class Parts { Plain, Choices, Selections };
+
+  Block block(int depth, Parts parts) {
+    const bool choose = parts == Parts::Choices;
     Block b;
     skip();
     const size_t start = at_;
@@ -306,7 +313,7 @@ class Parser {
     while (peek() != '}' && !atEnd()) {
       const size_t begin = at_;
       Part p;
-      p.label = label();
+      p.label = parts == Parts::Selections ? selectionLabel() : label();
       p.body = sequence(depth + 1);
       p.span = span(begin, at_);
       b.parts.push_back(std::move(p));
@@ -321,6 +328,16 @@ class Parser {
     }
     b.span = span(start, at_);
     return b;
+  }
+
+  // What stands before a colon; empty where the part has none.
+  std::string selectionLabel() {
+    skip();
+    const size_t start = at_;
+    std::string out = until(":|");
+    if (accept(":")) return out;
+    at_ = start;
+    return {};
   }
 
   // `0.75 :`, `25% :`, `region :`; empty where there is none.
@@ -436,7 +453,7 @@ bool constantValue(const Grammar& g, std::string_view text, double& value) {
   return Constant(g, text).run(value);
 }
 
-std::string withConstants(const Grammar& g, std::string_view text) {
+std::string withWords(std::string_view text, const std::map<std::string, std::string>& words) {
   std::string out;
   for (size_t i = 0; i < text.size();) {
     if (!isLetter(text[i])) {
@@ -446,11 +463,57 @@ std::string withConstants(const Grammar& g, std::string_view text) {
     }
     size_t end = i;
     while (end < text.size() && (isLetter(text[end]) || isDigit(text[end]))) ++end;
-    const auto found = g.constants.find(std::string(text.substr(i, end - i)));
-    out += found != g.constants.end() ? shortestText(found->second)
-                                      : std::string(text.substr(i, end - i));
+    const std::string word(text.substr(i, end - i));
+    const auto found = words.find(word);
+    out += found != words.end() ? found->second : word;
     i = end;
   }
+  return out;
+}
+
+std::string withConstants(const Grammar& g, std::string_view text) {
+  std::map<std::string, std::string> words;
+  for (const auto& [name, value] : g.constants) words[name] = shortestText(value);
+  return withWords(text, words);
+}
+
+Sequence withArguments(const Sequence& body, const std::map<std::string, std::string>& words) {
+  Sequence out = body;
+  for (Op& op : out) {
+    const auto own = words.find(op.name);
+    if (own != words.end() && !op.called && op.blocks.empty()) op.name = own->second;
+    for (Argument& a : op.arguments) a.text = withWords(a.text, words);
+    op.size = withWords(op.size, words);
+    for (Block& b : op.blocks) {
+      for (Part& p : b.parts) {
+        p.label = withWords(p.label, words);
+        p.body = withArguments(p.body, words);
+      }
+    }
+    op.otherwise = withArguments(op.otherwise, words);
+  }
+  return out;
+}
+
+std::vector<std::string> argumentTexts(std::string_view call) {
+  std::vector<std::string> out;
+  const size_t open = call.find('(');
+  if (open == std::string_view::npos || call.back() != ')') return out;
+  const std::string_view inside = call.substr(open + 1, call.size() - open - 2);
+  size_t begin = 0;
+  int depth = 0;
+  for (size_t i = 0; i <= inside.size(); ++i) {
+    const char c = i < inside.size() ? inside[i] : ',';
+    if (c == '(' || c == '[' || c == '{') ++depth;
+    if (c == ')' || c == ']' || c == '}') --depth;
+    if (c != ',' || (depth > 0 && i < inside.size())) continue;
+    std::string_view one = inside.substr(begin, i - begin);
+    while (!one.empty() && one.front() == ' ') one.remove_prefix(1);
+    while (!one.empty() && one.back() == ' ') one.remove_suffix(1);
+    out.emplace_back(one);
+    begin = i + 1;
+  }
+  if (out.size() == 1 && out[0].empty()) out.clear();
   return out;
 }
 

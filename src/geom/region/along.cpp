@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geom/region/grid_partition.h"
 namespace gable {
 
 double Polyline::length() const {
@@ -194,11 +195,48 @@ Polyline movedLeft(const Polyline& line, double by) {
   return out;
 }
 
+namespace {
+
+// The band around an open line.
+Region bandOf(std::vector<Vec2> line, double half, const RibbonOptions& o) {
+  OffsetOptions options;
+  options.miterLimit = 4;
+  if (line.size() < 2) return {};
+  if (o.ends == RibbonEnds::Square) {
+    line[0] = line[0] - normalized(line[1] - line[0]) * half;
+    const size_t last = line.size() - 1;
+    line[last] = line[last] + normalized(line[last] - line[last - 1]) * half;
+  }
+  if (o.roundJoins && o.ends == RibbonEnds::Round) {
+    options.join = OffsetJoin::Round;
+    return thicken(line, half, options);
+  }
+  std::vector<Ring> parts;
+  const auto disc = [&](Vec2 at) { parts.push_back(ringOf({PlanShape::Circle, half, 0, 24}, at)); };
+  if (o.roundJoins) {
+    for (size_t i = 1; i < line.size(); ++i) {
+      for (const Polygon& p : thicken({line[i - 1], line[i]}, half, options)) {
+        parts.push_back(p.outer);
+      }
+      if (i + 1 < line.size()) disc(line[i]);
+    }
+  } else {
+    parts = ringsOf(thicken(line, half, options));
+  }
+  if (o.ends == RibbonEnds::Round) {
+    disc(line.front());
+    disc(line.back());
+  }
+  return repaired(parts, FillRule::NonZero);
+}
+
+}  // namespace
+
 std::vector<RegionPiece> ribbons(const Polygon& p, std::span<const Polyline> lines, double width,
-                                 bool round) {
+                                 const RibbonOptions& o) {
   std::vector<RegionPiece> out;
   OffsetOptions options;
-  options.join = round ? OffsetJoin::Round : OffsetJoin::Miter;
+  options.join = o.roundJoins ? OffsetJoin::Round : OffsetJoin::Miter;
   options.miterLimit = 4;
   for (const Polyline& line : lines) {
     Region band;
@@ -206,7 +244,7 @@ std::vector<RegionPiece> ribbons(const Polygon& p, std::span<const Polyline> lin
       const Region area = repaired({line.points}, FillRule::EvenOdd);
       band = subtract(offset(area, width / 2, options), offset(area, -width / 2, options));
     } else {
-      band = thicken(line.points, width / 2, options);
+      band = bandOf(line.points, width / 2, o);
     }
     const EdgeSource sources[] = {sourceOf(p)};
     for (Polygon& b : intersect(band, {p})) {

@@ -64,8 +64,16 @@ std::vector<Polyline> parametrise(const Ring& outer, std::span<const uint32_t> l
 /// A line moved to its left, with mitered corners; folds are not resolved.
 Polyline movedLeft(const Polyline& line, double by);
 
-/// The band of a width around lines, cut to the region; with `round`, round ends and corners.
+enum class RibbonEnds : uint8_t { Butt, Square, Round };
+
+struct RibbonOptions {
+  /// Else corners are mitered.
+  bool roundJoins = false;
+  RibbonEnds ends = RibbonEnds::Butt;
+};
+
+/// The band of a width around lines, cut to the region.
 std::vector<RegionPiece> ribbons(const Polygon& p, std::span<const Polyline> lines, double width,
-                                 bool round);
+                                 const RibbonOptions& options = {});
 
 }  // namespace gable

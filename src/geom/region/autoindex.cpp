@@ -122,6 +122,29 @@ LogicalEdges byFacing(const Ring& r, Vec2 east) {
   return out;
 }
 
+// The logical edges between bends, given as ascending vertices.
+LogicalEdges betweenBends(const Ring& outer, const std::vector<size_t>& bends) {
+  const size_t n = outer.size();
+  // The first logical edge is the one that ends, clockwise, farthest to the north-west: it begins
+  // at the bend nearest to the south-west corner of the box.
+  const OrientedRect box = orientedFrame(outer);
+  size_t first = 0;
+  for (size_t k = 1; k < bends.size(); ++k) {
+    if (length(outer[bends[k]] - box.origin) < length(outer[bends[first]] - box.origin)) first = k;
+  }
+  LogicalEdges out;
+  out.count = static_cast<uint32_t>(bends.size());
+  out.of.assign(n, 0);
+  for (size_t k = 0; k < bends.size(); ++k) {
+    const size_t begin = bends[(first + k) % bends.size()];
+    const size_t end = bends[(first + k + 1) % bends.size()];
+    for (size_t i = begin; i != end; i = (i + 1) % n) {
+      out.of[i] = static_cast<uint32_t>(bends.size() - 1 - k);
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 OrientedRect orientedFrame(const Ring& outer) {
@@ -200,23 +223,52 @@ LogicalEdges autoindex(const Ring& outer) {
     if (turn > 30 || (turn > 15 && shorter > mean)) bends.push_back(i);
   }
   if (bends.size() < 3) return sidesOf(outer);
-  // The first logical edge is the one that ends, clockwise, farthest to the north-west: it begins
-  // at the bend nearest to the south-west corner of the box.
-  const OrientedRect box = orientedFrame(outer);
-  size_t first = 0;
-  for (size_t k = 1; k < bends.size(); ++k) {
-    if (length(outer[bends[k]] - box.origin) < length(outer[bends[first]] - box.origin)) first = k;
+  return betweenBends(outer, bends);
+}
+
+LogicalEdges chainsOf(const Ring& outer, const std::vector<uint32_t>& kind) {
+  const size_t n = outer.size();
+  std::vector<size_t> bends;
+  for (size_t i = 0; i < n; ++i) {
+    const Vec2 in = outer[i] - outer[(i + n - 1) % n], out = outer[(i + 1) % n] - outer[i];
+    const bool changes = kind[i] != kind[(i + n - 1) % n];
+    if (changes && std::fabs(turnAngle(in, out)) * 180 / kPi > 30) bends.push_back(i);
   }
-  LogicalEdges out;
-  out.count = static_cast<uint32_t>(bends.size());
-  out.of.assign(n, 0);
-  for (size_t k = 0; k < bends.size(); ++k) {
-    const size_t begin = bends[(first + k) % bends.size()];
-    const size_t end = bends[(first + k + 1) % bends.size()];
-    for (size_t i = begin; i != end; i = (i + 1) % n) {
-      out.of[i] = static_cast<uint32_t>(bends.size() - 1 - k);
+  return bends.size() >= 3 ? betweenBends(outer, bends) : autoindex(outer);
+}
+
+LogicalEdges sectorOf(const Ring& outer, const std::vector<SectorSide>& side) {
+  const size_t n = outer.size();
+  // Where, clockwise, the first ray begins: behind the border of the centre, or at the centre.
+  std::vector<size_t> starts;
+  for (size_t i = 0; i < n; ++i) {
+    const SectorSide own = side[i], next = side[(i + 1) % n];
+    if (own == SectorSide::Ray && next == SectorSide::Centre) starts.push_back(i);
+  }
+  if (starts.empty()) {
+    for (size_t i = 0; i < n; ++i) {
+      const size_t k = (i + 1) % n;
+      const Vec2 in = outer[k] - outer[i], out = outer[(k + 1) % n] - outer[k];
+      const bool turns = std::fabs(turnAngle(in, out)) * 180 / kPi > 1;
+      if (side[i] == SectorSide::Ray && side[k] == SectorSide::Ray && turns) starts.push_back(i);
     }
   }
+  if (starts.size() != 1) return autoindex(outer);
+  LogicalEdges out;
+  out.of.assign(n, 0);
+  uint32_t number = 1;
+  SectorSide before = SectorSide::Ray;
+  for (size_t k = 0; k < n; ++k) {
+    const size_t i = (starts[0] + n - k) % n;
+    if (side[i] == SectorSide::Centre) continue;
+    const Vec2 own = outer[(i + 1) % n] - outer[i];
+    const Vec2 last = outer[(i + 2) % n] - outer[(i + 1) % n];
+    const bool bend = std::fabs(turnAngle(own, last)) * 180 / kPi > 30;
+    if (k > 0 && (side[i] != before || (side[i] == SectorSide::Outer && bend))) ++number;
+    out.of[i] = number;
+    before = side[i];
+  }
+  out.count = number + 1;
   return out;
 }
 

@@ -48,6 +48,18 @@ struct LogicalEdges {
 /// vertices nearest to the corners of the oriented box. A triangle has one side of no length.
 LogicalEdges sidesOf(const Ring& outer);
 
+/// Edges of one kind (equal numbers in `kind`, by edge) as long as they do not bend by more than 30
+/// degrees where the kind changes; as `autoindex` where there are fewer than three such.
+LogicalEdges chainsOf(const Ring& outer, const std::vector<uint32_t>& kind);
+
+/// What an edge of a sector between two rays lies on.
+enum class SectorSide : uint8_t { Centre, Ray, Outer };
+
+/// 0 is the border of the centre (no edge where the centre is a point), 1 the first ray clockwise,
+/// then the outer chain between bends of more than 30 degrees, and last the other ray: so that 1
+/// and -1 are each other's images. As `autoindex` where the ring is no sector.
+LogicalEdges sectorOf(const Ring& outer, const std::vector<SectorSide>& side);
+
 /// As `sidesOf` where the ring is roughly a quad, else an edge between any two bends.
 LogicalEdges autoindex(const Ring& outer);
 

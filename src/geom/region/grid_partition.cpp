@@ -343,34 +343,64 @@ Base baseOf(const Polygon& p, GridTemplate wanted) {
   return innerBase(p, box.x);
 }
 
-// The shape of a crossing, as large as it may be.
-std::vector<Ring> junctionRings(const Family& fx, const Family& fy, PlanFigure figure,
-                                bool& clamped) {
+// What stands at a crossing.
+struct Junction {
+  Ring ring;
+  uint32_t ix = 0, iy = 0, choice = 0;
+};
+
+// Which of the choices a crossing takes; the number of choices when none.
+size_t chosen(const std::vector<JunctionChoice>& choices, uint32_t ix, uint32_t iy, uint32_t nx,
+              uint32_t ny, uint64_t seed) {
+  double sum = 0;
+  for (size_t i = 0; i < choices.size(); ++i) {
+    if (choices[i].where && choices[i].where(ix, iy, nx, ny)) return i;
+    if (!choices[i].where) sum += std::max(0.0, choices[i].weight);
+  }
+  double draw = randomUnit(hashCombine(hashCombine(seed, ix), iy)) * sum;
+  for (size_t i = 0; i < choices.size(); ++i) {
+    if (choices[i].where) continue;
+    draw -= std::max(0.0, choices[i].weight);
+    if (draw < 0) return i;
+  }
+  return choices.size();
+}
+
+// The shapes of crossings, as large as they may be.
+std::vector<Junction> junctionRings(const Family& fx, const Family& fy, const GridOptions& o,
+                                    bool& clamped) {
   struct Crossing {
     Vec2 at, x;
+    uint32_t ix, iy;
   };
   std::vector<Crossing> at;
-  for (const Line& a : fy.paths) {
-    for (const Line& b : fx.paths) {
+  for (uint32_t iy = 0; iy < fy.paths.size(); ++iy) {
+    for (uint32_t ix = 0; ix < fx.paths.size(); ++ix) {
+      const Line &a = fy.paths[iy], &b = fx.paths[ix];
       const double det = cross(a.along, b.along);
       if (std::fabs(det) < 1e-9) continue;
-      at.push_back({a.at + a.along * (cross(b.at - a.at, b.along) / det), -a.along});
+      at.push_back({a.at + a.along * (cross(b.at - a.at, b.along) / det), -a.along, ix, iy});
     }
   }
-  std::vector<Ring> out;
-  const double reach = figure.reach();
+  const auto nx = static_cast<uint32_t>(fx.paths.size());
+  const auto ny = static_cast<uint32_t>(fy.paths.size());
+  std::vector<Junction> out;
   for (size_t i = 0; i < at.size(); ++i) {
+    const size_t c =
+        chosen(o.junctions, at[i].ix, at[i].iy, nx, ny, hashCombine(o.seed, 0x6a756e63));
+    if (c == o.junctions.size() || o.junctions[c].figure.shape == PlanShape::None) continue;
     double nearest = 1e300;
     for (size_t k = 0; k < at.size(); ++k) {
       if (k != i) nearest = std::min(nearest, length(at[k].at - at[i].at));
     }
-    PlanFigure f = figure;
+    PlanFigure f = o.junctions[c].figure;
+    const double reach = f.reach();
     if (reach > 0.49 * nearest) {
       f.a *= 0.49 * nearest / reach;
       f.b *= 0.49 * nearest / reach;
       clamped = true;
     }
-    out.push_back(ringOf(f, at[i].at, at[i].x));
+    out.push_back({ringOf(f, at[i].at, at[i].x), at[i].ix, at[i].iy, static_cast<uint32_t>(c)});
   }
   return out;
 }
@@ -380,8 +410,10 @@ bool boxesMeet(const Box2& a, const Box2& b) {
 }
 
 // Cuts the shapes out of all pieces, and adds what of them lies in the region.
-void placeJunctions(const Polygon& whole, const std::vector<Ring>& rings,
+void placeJunctions(const Polygon& whole, const std::vector<Junction>& junctions, bool everywhere,
                     std::vector<RegionPiece>& pieces) {
+  std::vector<Ring> rings;
+  for (const Junction& j : junctions) rings.push_back(j.ring);
   std::vector<RegionPiece> out;
   for (RegionPiece& p : pieces) {
     Region holes;
@@ -389,7 +421,8 @@ void placeJunctions(const Polygon& whole, const std::vector<Ring>& rings,
     for (const Ring& r : rings) {
       if (boxesMeet(box, bounds(r))) holes.push_back({r, {}});
     }
-    if (p.kind == PieceKind::Junction) p.kind = PieceKind::Path;
+    // What a figure leaves of its crossing is path.
+    if (p.kind == PieceKind::Junction && (everywhere || !holes.empty())) p.kind = PieceKind::Path;
     if (holes.empty()) {
       out.push_back(std::move(p));
       continue;
@@ -399,11 +432,13 @@ void placeJunctions(const Polygon& whole, const std::vector<Ring>& rings,
       out.push_back(std::move(cut));
     }
   }
-  uint32_t index = 0;
-  for (const Ring& r : rings) {
+  for (const Junction& j : junctions) {
+    const Ring& r = j.ring;
     RegionPiece p = wholePiece(whole);
     p.kind = PieceKind::Junction;
-    p.ix = index++;
+    p.ix = j.ix;
+    p.iy = j.iy;
+    p.choice = j.choice + 1;
     const EdgeOrigin made{kNoEdge, EdgeRole::Path, EdgeOrigin::kNoSide};
     for (RegionPiece& cut : combineTraced(BooleanOp::Intersection, p, {{r, {}}}, made)) {
       const Box2 b = bounds(r);
@@ -489,9 +524,10 @@ class Grid {
     }
     std::vector<RegionPiece> pieces;
     for (const RegionPiece& p : inside) cut(p, base, pieces);
-    if (o_.junction.shape != PlanShape::None && !fx_.paths.empty() && !fy_.paths.empty()) {
-      placeJunctions(inside[0].polygon,
-                     junctionRings(fx_, fy_, o_.junction, result.junctionClamped), pieces);
+    if (!inside.empty() && !o_.junctions.empty() && !fx_.paths.empty() && !fy_.paths.empty()) {
+      const std::vector<Junction> junctions = junctionRings(fx_, fy_, o_, result.junctionClamped);
+      placeJunctions(inside[0].polygon, junctions,
+                     junctions.size() == fx_.paths.size() * fy_.paths.size(), pieces);
     }
     pieces.insert(pieces.end(), remainder.begin(), remainder.end());
     const double mean = area(p_) / (static_cast<double>(result.nx) * result.ny);

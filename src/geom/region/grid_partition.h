@@ -14,6 +14,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -64,14 +65,24 @@ struct PlanFigure {
 /// Counter-clockwise; x is the figure's first axis.
 Ring ringOf(const PlanFigure& figure, Vec2 middle, Vec2 x = {1, 0});
 
+/// A figure for some crossings: those that `where` (may be empty) takes, drawn by weight. A shape
+/// of None leaves the plain crossing.
+struct JunctionChoice {
+  PlanFigure figure;
+  double weight = 1;
+  /// Columns and rows count the crossings, from 0.
+  std::function<bool(uint32_t ix, uint32_t iy, uint32_t nx, uint32_t ny)> where;
+};
+
 struct GridOptions {
   GridDim x, y;
   /// Of paths; never more than a quarter of the shorter extent.
   double pathWidth = 0;
   GridFit fit = GridFit::Stretch;
   GridTemplate base = GridTemplate::Auto;
-  /// In the place of plain crossings.
-  PlanFigure junction;
+  /// In the place of plain crossings. The first choice whose `where` takes a crossing stands there;
+  /// choices without one are drawn from by weight, when no other took it.
+  std::vector<JunctionChoice> junctions;
   uint64_t seed = 0;
   /// Beneath these a piece goes to a neighbour; the area counts at most as two hundredths of the
   /// mean cell.

@@ -99,8 +99,7 @@ GridOptions gridOf(uint32_t nx, uint32_t ny, double path) {
 
 TEST(GridPartition, DividesASquareWithARombInTheMiddle) {
   GridOptions o = gridOf(2, 2, 2);
-  o.junction.shape = PlanShape::Romb;
-  o.junction.a = 3;
+  o.junctions = {{{PlanShape::Romb, 3, 0, 24}, 1, {}}};
   const GridResult g = gridPartition(rect(20, 20), o);
   ASSERT_EQ(g.problem, GridProblem::None);
   EXPECT_EQ(countOf(g.pieces, PieceKind::Cell), 4u);
@@ -196,13 +195,13 @@ TEST(GridPartition, ClampsJunctionsThatAreTooLarge) {
   for (const PlanShape shape : {PlanShape::Romb, PlanShape::Circle, PlanShape::Square,
                                 PlanShape::Rect, PlanShape::Polygon}) {
     GridOptions o = gridOf(3, 3, 1);
-    o.junction = {shape, 30, 30, 6};
+    o.junctions = {{{shape, 30, 30, 6}, 1, {}}};
     const Polygon p = rect(30, 30);
     const GridResult g = gridPartition(p, o);
     EXPECT_TRUE(g.junctionClamped);
     EXPECT_EQ(countOf(g.pieces, PieceKind::Junction), 4u);
     expectPartition(p, g.pieces, "clamped");
-    o.junction = {shape, 1, 1, 6};
+    o.junctions = {{{shape, 1, 1, 6}, 1, {}}};
     const GridResult small = gridPartition(p, o);
     EXPECT_FALSE(small.junctionClamped);
     expectPartition(p, small.pieces, "small");
@@ -212,7 +211,7 @@ TEST(GridPartition, ClampsJunctionsThatAreTooLarge) {
 TEST(GridPartition, HoldsOnTheCorpus) {
   overCorpus(kStride, [](const Polygon& p, const std::string& name) {
     GridOptions o = gridOf(3, 3, std::sqrt(area(p)) / 20);
-    o.junction = {PlanShape::Romb, std::sqrt(area(p)) / 15, 0, 24};
+    o.junctions = {{{PlanShape::Romb, std::sqrt(area(p)) / 15, 0, 24}, 1, {}}};
     const GridResult g = gridPartition(p, o);
     ASSERT_EQ(g.problem, GridProblem::None) << name;
     expectPartition(p, g.pieces, name);
@@ -347,7 +346,7 @@ TEST(Voronoi, BuildsSomethingAtTheSites) {
   o.centres = true;
   const Polygon p = rect(20, 10);
   const VoronoiResult r = voronoiPartition(p, sites, o);
-  EXPECT_EQ(countOf(r.pieces, PieceKind::Junction), 2u);
+  EXPECT_EQ(countOf(r.pieces, PieceKind::Remainder), 2u);
   expectPartition(p, r.pieces, "centres");
 }
 
@@ -447,7 +446,7 @@ TEST(Along, SpacesExactlyAndEvenly) {
 
 TEST(Along, RibbonsOfClosedLinesAreRings) {
   const Polyline ring{{{2, 2}, {8, 2}, {8, 8}, {2, 8}}, true};
-  const std::vector<RegionPiece> r = ribbons(rect(10, 10), {&ring, 1}, 1, false);
+  const std::vector<RegionPiece> r = ribbons(rect(10, 10), {&ring, 1}, 1);
   ASSERT_EQ(r.size(), 1u);
   EXPECT_EQ(r[0].polygon.holes.size(), 1u);
   EXPECT_NEAR(area(r[0].polygon), 24, 1e-3);

@@ -164,10 +164,82 @@ class Peel {
   std::vector<std::pair<Segment, uint32_t>> inner_;
 };
 
+// A ring of the rest with its runs of Inner edges smoothed; their ends stay.
+Ring withSmoothRuns(const Ring& r, std::span<const EdgeOrigin> edges, const Smoothing& s) {
+  const size_t n = r.size();
+  const auto inner = [&](size_t i) { return edges[i % n].role == EdgeRole::Inner; };
+  size_t start = 0;
+  while (start < n && inner(start)) ++start;
+  if (start == n) {
+    const Region whole = smoothed(Polygon{r, {}}, s);
+    return whole.size() == 1 ? whole[0].outer : r;
+  }
+  Ring out;
+  for (size_t k = 0; k < n;) {
+    const size_t i = start + k;
+    if (!inner(i)) {
+      out.push_back(r[i % n]);
+      ++k;
+      continue;
+    }
+    std::vector<Vec2> line{r[i % n]};
+    for (; k < n && inner(start + k); ++k) line.push_back(r[(start + k + 1) % n]);
+    line = smoothed(line, s);
+    out.insert(out.end(), line.begin(), line.end() - 1);
+  }
+  return out;
+}
+
+// The same peel with the border between strips and rest smoothed.
+PeelResult smoothedPeel(const Polygon& p, std::span<const PeelEdge> edges, const PeelResult& plain,
+                        const Smoothing& s) {
+  PeelResult out;
+  Region taken;
+  std::vector<EdgeSource> sources{sourceOf(p)};
+  EdgeOrigin border{kNoEdge, EdgeRole::Inner, EdgeOrigin::kNoSide};
+  for (const RegionPiece& rest : plain.rest) {
+    std::vector<Ring> rings;
+    size_t first = 0;
+    for (const Ring& r : ringsOf(rest.polygon)) {
+      const auto own = std::span(rest.edges).subspan(first, r.size());
+      for (const EdgeOrigin& e : own) {
+        if (e.role == EdgeRole::Inner && border.source == kNoEdge) border.source = e.source;
+      }
+      // Holes turn the other way; smoothed alone they would be outlines.
+      rings.push_back(signedArea(r) > 0 ? withSmoothRuns(r, own, s) : r);
+      first += r.size();
+    }
+    for (Polygon& inner : subtract(intersect(repaired(rings, FillRule::NonZero), {p}), taken)) {
+      RegionPiece piece = rest;
+      piece.edges = originsOf(inner, sources, border);
+      taken.push_back(inner);
+      piece.polygon = std::move(inner);
+      piece.part = piece.ix = static_cast<uint32_t>(out.rest.size());
+      out.rest.push_back(std::move(piece));
+    }
+  }
+  for (const PeelEdge& e : edges) {
+    if (e.edge < sources[0].origins.size()) sources[0].origins[e.edge].role = EdgeRole::Base;
+  }
+  for (const RegionPiece& r : out.rest) sources.push_back(sourceOf(r));
+  const EdgeOrigin cap{kNoEdge, EdgeRole::Cap, EdgeOrigin::kNoSide};
+  for (Polygon& strip : subtract({p}, taken)) {
+    RegionPiece piece;
+    piece.edges = originsOf(strip, sources, cap);
+    piece.polygon = std::move(strip);
+    piece.part = piece.ix = static_cast<uint32_t>(out.strips.size());
+    out.strips.push_back(std::move(piece));
+  }
+  return out;
+}
+
 }  // namespace
 
-PeelResult peel(const Polygon& p, std::span<const PeelEdge> edges, PeelEnds ends) {
-  return Peel(p, edges, ends).run();
+PeelResult peel(const Polygon& p, std::span<const PeelEdge> edges, PeelEnds ends,
+                const Smoothing& smoothing) {
+  PeelResult plain = Peel(p, edges, ends).run();
+  if (smoothing.kind == Smoothing::Kind::None) return plain;
+  return smoothedPeel(p, edges, plain, smoothing);
 }
 
 std::vector<RegionPiece> contract(const Polygon& p, double distance) {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "geom/region/piece.h"
+#include "geom/region/smooth.h"
 
 namespace gable {
 
@@ -36,8 +37,10 @@ struct PeelResult {
   std::vector<RegionPiece> strips, rest;
 };
 
-/// Distances that are not above zero, and edges out of range, do not move.
-PeelResult peel(const Polygon& p, std::span<const PeelEdge> edges, PeelEnds ends);
+/// Distances that are not above zero, and edges out of range, do not move. The border between
+/// strips and rest may be smoothed, once for both.
+PeelResult peel(const Polygon& p, std::span<const PeelEdge> edges, PeelEnds ends,
+                const Smoothing& smoothing = {});
 
 /// Inset by a distance with mitered corners. Empty when nothing is left.
 std::vector<RegionPiece> contract(const Polygon& p, double distance);

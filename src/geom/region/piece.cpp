@@ -91,10 +91,13 @@ RegionPiece wholePiece(const Polygon& p) {
   return out;
 }
 
-std::vector<EdgeOrigin> originsOf(const Polygon& p, std::span<const EdgeSource> sources,
-                                  EdgeOrigin otherwise) {
-  const std::vector<Ring> rings = ringsOf(p);
-  std::vector<EdgeOrigin> out(edgeCount(p), otherwise);
+namespace {
+
+std::vector<EdgeOrigin> originsOfRings(const std::vector<Ring>& rings,
+                                       std::span<const EdgeSource> sources, EdgeOrigin otherwise) {
+  size_t count = 0;
+  for (const Ring& r : rings) count += r.size();
+  std::vector<EdgeOrigin> out(count, otherwise);
   std::vector<bool> known(out.size(), false);
   for (const EdgeSource& s : sources) {
     const std::vector<uint32_t> traced = traceEdges(rings, s.rings, kTrace);
@@ -107,17 +110,32 @@ std::vector<EdgeOrigin> originsOf(const Polygon& p, std::span<const EdgeSource> 
   return out;
 }
 
+}  // namespace
+
+std::vector<EdgeOrigin> originsOf(const Polygon& p, std::span<const EdgeSource> sources,
+                                  EdgeOrigin otherwise) {
+  return originsOfRings(ringsOf(p), sources, otherwise);
+}
+
 std::vector<RegionPiece> combineTraced(BooleanOp op, const RegionPiece& a, const Region& b,
                                        EdgeOrigin made) {
-  std::vector<EdgeSource> sources{sourceOf(a)};
+  // All of b is one source, and all results are traced at once: there may be hundreds of each.
+  EdgeSource other;
   for (const Polygon& p : b) {
-    sources.push_back(sourceOf(p, std::vector<EdgeOrigin>(edgeCount(p), made)));
+    for (Ring& r : ringsOf(p)) other.rings.push_back(std::move(r));
+    other.origins.resize(other.origins.size() + edgeCount(p), made);
   }
+  const EdgeSource sources[] = {sourceOf(a), std::move(other)};
+  Region all = combine(op, {a.polygon}, b);
+  const std::vector<EdgeOrigin> origins = originsOfRings(ringsOf(all), sources, made);
   std::vector<RegionPiece> out;
   uint32_t part = a.part;
-  for (Polygon& p : combine(op, {a.polygon}, b)) {
+  auto first = origins.begin();
+  for (Polygon& p : all) {
     RegionPiece piece = a;
-    piece.edges = originsOf(p, sources, made);
+    const auto last = first + static_cast<std::ptrdiff_t>(edgeCount(p));
+    piece.edges.assign(first, last);
+    first = last;
     piece.polygon = std::move(p);
     piece.part = part++;
     out.push_back(std::move(piece));

@@ -64,6 +64,8 @@ struct RegionPiece {
   uint32_t ix = 0, iy = 0;
   /// Parts of one cell are numbered.
   uint32_t part = 0;
+  /// Of junctions: which of several figures it is, from 1; 0 is a plain crossing.
+  uint32_t choice = 0;
   /// The size that it was laid out with, before clipping.
   double width = 0, height = 0;
   /// Along the piece's x axis: along a path, along the template's x for cells.

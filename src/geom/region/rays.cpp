@@ -19,6 +19,8 @@ namespace {
 
 // Several centres are never joined by paths of no width.
 constexpr double kLeastWidth = 0.02;
+// Sectors are no thinner, in metres, and no smaller, in square metres.
+constexpr double kThinSector = 0.02;
 
 struct Ray {
   Vec2 from, to;
@@ -148,7 +150,9 @@ class Rays {
   }
 
   void addLink(size_t i, size_t k) {
-    if (!sees(centres_[i], centres_[k]) || crossesAny(centres_[i], centres_[k])) return;
+    const bool mayCross = o_.links == CentreLinks::Opposite;
+    if (!sees(centres_[i], centres_[k])) return;
+    if (!mayCross && crossesAny(centres_[i], centres_[k])) return;
     links_.push_back({centres_[i], centres_[k]});
   }
 
@@ -157,7 +161,7 @@ class Rays {
     if (n < 2 || o_.links == CentreLinks::None) return;
     if (o_.links == CentreLinks::Pairs) {
       for (size_t i = 0; i + 1 < n; i += 2) addLink(i, i + 1);
-    } else if (o_.links == CentreLinks::Loop) {
+    } else if (o_.links == CentreLinks::Loop || o_.links == CentreLinks::Opposite) {
       linkAround();
     } else {
       linkTree();
@@ -190,6 +194,12 @@ class Rays {
       const double c = cross(u, v);
       return c != 0 ? c > 0 : a < b;
     });
+    if (o_.links == CentreLinks::Opposite) {
+      // Of an odd number the last stays without a partner.
+      const size_t half = order.size() / 2;
+      for (size_t i = 0; i < half; ++i) addLink(order[i], order[i + half]);
+      return;
+    }
     for (size_t i = 0; i < order.size(); ++i) {
       if (order.size() == 2 && i == 1) break;
       addLink(order[i], order[(i + 1) % order.size()]);
@@ -291,6 +301,9 @@ class Rays {
       out.push_back(std::move(piece));
     }
     out.insert(out.end(), paths.begin(), paths.end());
+    // A sector too thin to be one belongs to the path beside it.
+    mergeSlivers(out, std::min(kThinSector, o_.pathWidth / 50),
+                 std::min(kThinSector, area(p_) / 1e4));
     addCentres(centres, out);
   }
 

@@ -27,9 +27,9 @@ struct RayTarget {
   Vec2 value;
 };
 
-/// How several centres are joined: not at all, in a round, by the shortest tree, two and two, or by
-/// the tree and a share of the shortest links besides.
-enum class CentreLinks : uint8_t { None, Loop, Tree, Pairs, Thin };
+/// How several centres are joined: not at all, in a round, by the shortest tree, two and two, each
+/// with the one across (these may cross), or by the tree and a share of the shortest links besides.
+enum class CentreLinks : uint8_t { None, Loop, Tree, Pairs, Opposite, Thin };
 
 struct RayOptions {
   double pathWidth = 0;

@@ -3,23 +3,85 @@
 //
 // A convex cell in the plane is found by halving the box with the bisectors of the nearest sites
 // (until those left are too far to reach it); the region is then cut by the few bisectors that
-// bound the cell. What the cells leave free is the path.
+// bound the cell. What the cells leave free is the path, which falls into sections at the hulls of
+// the places where cells meet.
 #include "geom/region/voronoi.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
+#include "base/random.h"
+#include "geom/region/autoindex.h"
 #include "geom/region/grid_partition.h"
 #include "geom/region/line.h"
 #include "geom/region/peel.h"
+#include "geom/region/segment_grid.h"
 
 namespace gable {
 namespace {
 
 constexpr double kSameSite = 1e-3;
 
+// While cells are made, the edge between two of them names the other site: kSite + its index.
+constexpr uint32_t kSite = 0x80000000;
+
+bool boxesMeet(const Box2& a, const Box2& b) {
+  return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y;
+}
+
+bool isBorder(const EdgeOrigin& e) { return e.source >= kSite && e.source != kNoEdge; }
+
+// Sites in squares that hold about one each, visited ring by ring around a place.
+class Buckets {
+ public:
+  Buckets(std::span<const Disc> sites, const Box2& box) : origin_(box.min) {
+    const Vec2 size = box.size();
+    const double n = static_cast<double>(sites.size());
+    side_ = std::max({std::sqrt(size.x * size.y / n), std::max(size.x, size.y) / 1000, 1e-9});
+    nx_ = static_cast<int>(size.x / side_) + 1;
+    ny_ = static_cast<int>(size.y / side_) + 1;
+    of_.resize(static_cast<size_t>(nx_) * static_cast<size_t>(ny_));
+    for (size_t i = 0; i < sites.size(); ++i) {
+      const auto [x, y] = squareOf(sites[i].centre);
+      of_[index(x, y)].push_back(i);
+    }
+  }
+  // No site of a ring is nearer than this.
+  double nearest(int ring) const { return (ring - 1) * side_; }
+  int most() const { return std::max(nx_, ny_) + 1; }
+  std::vector<size_t> ringAround(Vec2 p, int ring) const {
+    const auto [cx, cy] = squareOf(p);
+    std::vector<size_t> out;
+    for (int y = std::max(0, cy - ring); y <= std::min(ny_ - 1, cy + ring); ++y) {
+      const bool whole = y == cy - ring || y == cy + ring;
+      for (int x = cx - ring; x <= cx + ring; x += whole || ring == 0 ? 1 : 2 * ring) {
+        if (x < 0 || x >= nx_) continue;
+        const std::vector<size_t>& here = of_[index(x, y)];
+        out.insert(out.end(), here.begin(), here.end());
+      }
+    }
+    return out;
+  }
+
+ private:
+  std::pair<int, int> squareOf(Vec2 p) const {
+    return {std::clamp(static_cast<int>((p.x - origin_.x) / side_), 0, nx_ - 1),
+            std::clamp(static_cast<int>((p.y - origin_.y) / side_), 0, ny_ - 1)};
+  }
+  size_t index(int x, int y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(nx_) + static_cast<size_t>(x);
+  }
+  Vec2 origin_;
+  double side_ = 1;
+  int nx_ = 1, ny_ = 1;
+  std::vector<std::vector<size_t>> of_;
+};
+
 // The sites whose bisectors bound the cell of site i within the box.
-std::vector<size_t> neighboursOf(size_t i, std::span<const Disc> sites, const Box2& box) {
+std::vector<size_t> neighboursOf(size_t i, std::span<const Disc> sites, const Buckets& buckets,
+                                 const Box2& box) {
   struct Corner {
     Vec2 at;
     size_t edge;  // The bisector of the edge that starts here.
@@ -29,20 +91,14 @@ std::vector<size_t> neighboursOf(size_t i, std::span<const Disc> sites, const Bo
                            {{box.max.x, box.min.y}, none},
                            {box.max, none},
                            {{box.min.x, box.max.y}, none}};
-  std::vector<size_t> order;
-  for (size_t k = 0; k < sites.size(); ++k) {
-    if (k != i) order.push_back(k);
-  }
   const Vec2 own = sites[i].centre;
   const auto away = [&](size_t k) { return length(sites[k].centre - own); };
-  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
-    const double da = away(a), db = away(b);
-    return da != db ? da < db : a < b;
-  });
-  for (const size_t k : order) {
-    double reach = 0;
-    for (const Corner& c : cell) reach = std::max(reach, length(c.at - own));
-    if (away(k) > 2 * reach) break;
+  const auto reach = [&] {
+    double r = 0;
+    for (const Corner& c : cell) r = std::max(r, length(c.at - own));
+    return r;
+  };
+  const auto halve = [&](size_t k) {
     const Vec2 normal = sites[k].centre - own;
     const double limit = dot(normal, own + sites[k].centre) / 2;
     std::vector<Corner> next;
@@ -58,6 +114,18 @@ std::vector<size_t> neighboursOf(size_t i, std::span<const Disc> sites, const Bo
       }
     }
     cell = std::move(next);
+  };
+  for (int ring = 0; buckets.nearest(ring) <= 2 * reach() && ring < buckets.most(); ++ring) {
+    std::vector<size_t> order = buckets.ringAround(own, ring);
+    std::erase(order, i);
+    std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+      const double da = away(a), db = away(b);
+      return da != db ? da < db : a < b;
+    });
+    for (const size_t k : order) {
+      if (away(k) > 2 * reach()) break;
+      halve(k);
+    }
   }
   std::vector<size_t> out;
   for (const Corner& c : cell) {
@@ -70,9 +138,9 @@ std::vector<size_t> neighboursOf(size_t i, std::span<const Disc> sites, const Bo
 
 // The region cut by the bisectors of a cell: what lies nearer to its site.
 std::vector<RegionPiece> cellOf(const RegionPiece& whole, size_t i, std::span<const Disc> sites,
-                                const Box2& box) {
+                                const Buckets& buckets, const Box2& box) {
   std::vector<RegionPiece> cell{whole};
-  for (const size_t k : neighboursOf(i, sites, box)) {
+  for (const size_t k : neighboursOf(i, sites, buckets, box)) {
     const Vec2 a = sites[i].centre, b = sites[k].centre;
     std::vector<RegionPiece> nearer;
     for (const RegionPiece& p : cell) {
@@ -85,7 +153,8 @@ std::vector<RegionPiece> cellOf(const RegionPiece& whole, size_t i, std::span<co
         for (const uint32_t e : s.edgeOrigin) {
           part.edges.push_back(e < StripPiece::kOnLine
                                    ? p.edges[e]
-                                   : EdgeOrigin{kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide});
+                                   : EdgeOrigin{kSite + static_cast<uint32_t>(k), EdgeRole::Cut,
+                                                EdgeOrigin::kNoSide});
         }
         part.polygon = std::move(s.polygon);
         nearer.push_back(std::move(part));
@@ -97,61 +166,32 @@ std::vector<RegionPiece> cellOf(const RegionPiece& whole, size_t i, std::span<co
   return cell;
 }
 
-// Edges no longer than `most`.
-Ring subdivided(const Ring& r, double most) {
-  Ring out;
-  for (size_t i = 0; i < r.size(); ++i) {
-    const Vec2 a = r[i], b = r[(i + 1) % r.size()];
-    const double n = std::clamp(std::ceil(length(b - a) / most), 1.0, 1000.0);
-    for (double k = 0; k < n; ++k) out.push_back(a + (b - a) * (k / n));
-  }
-  return out;
+// A tenth of the outline, or 6 metres: between two bends of a border.
+double bendLength(const Polygon& p, double jitter) {
+  return std::max(2 * jitter, std::min(6.0, 0.05 * perimeter(p)));
 }
 
-Ring averaged(const Ring& r, double weight) {
-  Ring out;
-  const double side = (1 - weight) / 2;
-  const size_t n = r.size();
-  for (size_t i = 0; i < n; ++i) {
-    out.push_back((r[(i + n - 1) % n] + r[(i + 1) % n]) * side + r[i] * weight);
+// A border between two cells with bends, from a to b; the same points for both cells.
+void addBent(Vec2 a, Vec2 b, size_t own, size_t other, std::span<const Disc> sites,
+             const VoronoiOptions& o, double bend, Ring& out) {
+  const size_t low = std::min(own, other), high = std::max(own, other);
+  const Vec2 across = normalized(sites[high].centre - sites[low].centre);
+  const bool forward = dot(b - a, perpendicular(across)) > 0;
+  const Vec2 from = forward ? a : b, to = forward ? b : a;
+  const double l = length(to - from);
+  const auto n = static_cast<uint32_t>(std::clamp(std::ceil(l / bend - 1e-6), 1.0, 200.0));
+  std::vector<Vec2> inner;
+  const uint64_t border = hashCombine(hashCombine(o.seed, low), high);
+  for (uint32_t k = 1; k < n; ++k) {
+    // Near its ends a border could meet the next one.
+    const double most = std::min(o.jitter, 0.3 * l * std::min(k, n - k) / n);
+    inner.push_back(from + (to - from) * (static_cast<double>(k) / n) +
+                    across * randomIn(hashCombine(border, k), -most, most));
   }
-  return out;
+  if (!forward) std::reverse(inner.begin(), inner.end());
+  out.push_back(a);
+  out.insert(out.end(), inner.begin(), inner.end());
 }
-
-Ring cornersCut(const Ring& r) {
-  Ring out;
-  for (size_t i = 0; i < r.size(); ++i) {
-    const Vec2 a = r[i], b = r[(i + 1) % r.size()];
-    out.push_back(a * 0.75 + b * 0.25);
-    out.push_back(a * 0.25 + b * 0.75);
-  }
-  return out;
-}
-
-}  // namespace
-
-Region smoothed(const Polygon& p, const Smoothing& s) {
-  if (s.kind == Smoothing::Kind::None) return {p};
-  if (s.kind == Smoothing::Kind::Round) {
-    OffsetOptions round;
-    round.join = OffsetJoin::Round;
-    return intersect(offset(offset({p}, -s.radius, round), s.radius, round), {p});
-  }
-  std::vector<Ring> rings;
-  for (const Ring& r : ringsOf(p)) {
-    Ring out = r;
-    if (s.kind == Smoothing::Kind::Average) {
-      out = subdivided(r, std::max(std::min(6.0, 0.1 * perimeter(r)), 1e-6));
-    }
-    for (uint32_t k = 0; k < std::min(s.times, 6u); ++k) {
-      out = s.kind == Smoothing::Kind::Average ? averaged(out, s.weight) : cornersCut(out);
-    }
-    rings.push_back(std::move(out));
-  }
-  return intersect(repaired(rings, FillRule::NonZero), {p});
-}
-
-namespace {
 
 class Voronoi {
  public:
@@ -159,33 +199,96 @@ class Voronoi {
 
   VoronoiResult run(std::span<const Disc> sites) {
     VoronoiResult out;
-    for (const Disc& d : sites) {
-      const bool apart = std::none_of(out.sites.begin(), out.sites.end(), [&](const Disc& other) {
-        return length(other.centre - d.centre) < kSameSite;
-      });
-      if (apart && locate(p_, d.centre) == Where::Inside) out.sites.push_back(d);
-    }
+    addSites(sites, out.sites);
     if (out.sites.empty()) return out;
     std::vector<RegionPiece> cells = allCells(out.sites);
+    if (o_.jitter > 0) bend(cells, out.sites);
     std::vector<RegionPiece> orphans = takeOrphans(cells, out.sites);
     if (o_.orphans == Orphans::Merge) mergeInto(cells, orphans);
     if (o_.orphans == Orphans::Own) {
       cells.insert(cells.end(), orphans.begin(), orphans.end());
       orphans.clear();
     }
+    countRings(cells);
     finish(cells, out);
+    for (RegionPiece& p : out.pieces) {
+      for (EdgeOrigin& e : p.edges) {
+        if (isBorder(e)) e.source = kNoEdge;
+      }
+    }
     return out;
   }
 
  private:
+  void addSites(std::span<const Disc> sites, std::vector<Disc>& out) const {
+    std::vector<std::pair<double, size_t>> byX;
+    for (size_t i = 0; i < sites.size(); ++i) byX.push_back({sites[i].centre.x, i});
+    std::sort(byX.begin(), byX.end());
+    std::vector<bool> same(sites.size(), false);
+    for (size_t a = 0; a < byX.size(); ++a) {
+      for (size_t b = a + 1; b < byX.size() && byX[b].first - byX[a].first < kSameSite; ++b) {
+        const size_t i = byX[a].second, k = byX[b].second;
+        if (length(sites[i].centre - sites[k].centre) < kSameSite) same[std::max(i, k)] = true;
+      }
+    }
+    for (size_t i = 0; i < sites.size(); ++i) {
+      if (!same[i] && locate(p_, sites[i].centre) == Where::Inside) out.push_back(sites[i]);
+    }
+  }
+
   std::vector<RegionPiece> allCells(const std::vector<Disc>& sites) const {
-    Box2 box = bounds(p_);
+    const Box2 box = bounds(p_);
+    const Buckets buckets(sites, box);
     const RegionPiece whole = wholePiece(p_);
     std::vector<RegionPiece> cells;
     for (size_t i = 0; i < sites.size(); ++i) {
-      for (RegionPiece& p : cellOf(whole, i, sites, box)) cells.push_back(std::move(p));
+      for (RegionPiece& p : cellOf(whole, i, sites, buckets, box)) cells.push_back(std::move(p));
     }
     return cells;
+  }
+
+  // Bends the borders. What two cells would share stays with the first; what none has goes to a
+  // neighbour.
+  void bend(std::vector<RegionPiece>& cells, const std::vector<Disc>& sites) const {
+    const double step = bendLength(p_, o_.jitter);
+    std::vector<RegionPiece> out;
+    Region taken;
+    for (const RegionPiece& c : cells) {
+      EdgeSource source;
+      size_t edge = 0;
+      for (const Ring& r : ringsOf(c.polygon)) {
+        Ring ring;
+        const size_t before = source.origins.size();
+        for (size_t k = 0; k < r.size(); ++k, ++edge) {
+          const EdgeOrigin& e = c.edges[edge];
+          const Vec2 a = r[k], b = r[(k + 1) % r.size()];
+          if (isBorder(e)) {
+            addBent(a, b, c.ix, e.source - kSite, sites, o_, step, ring);
+          } else {
+            ring.push_back(a);
+          }
+          source.origins.resize(before + ring.size(), e);
+        }
+        source.rings.push_back(std::move(ring));
+      }
+      const EdgeSource sources[] = {sourceOf(p_), source};
+      Region others;
+      for (const Polygon& t : taken) {
+        if (boxesMeet(bounds(t), bounds(c.polygon))) others.push_back(t);
+      }
+      for (Polygon& p :
+           subtract(intersect(repaired(source.rings, FillRule::NonZero), {p_}), others)) {
+        RegionPiece piece = c;
+        piece.edges = originsOf(p, sources);
+        taken.push_back(p);
+        piece.polygon = std::move(p);
+        out.push_back(std::move(piece));
+      }
+    }
+    std::vector<RegionPiece> left = combineTraced(BooleanOp::Difference, wholePiece(p_), taken,
+                                                  {kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide});
+    cells = std::move(out);
+    mergeInto(cells, left);
   }
 
   static std::vector<RegionPiece> takeOrphans(std::vector<RegionPiece>& cells,
@@ -213,30 +316,200 @@ class Voronoi {
     }
   }
 
+  // Cells at the boundary are 0 away from it, their neighbours 1, and so on.
+  static void countRings(std::vector<RegionPiece>& cells) {
+    constexpr uint32_t kUnknown = 0xffffffff;
+    std::map<uint32_t, std::vector<size_t>> bySite;
+    for (size_t i = 0; i < cells.size(); ++i) bySite[cells[i].ix].push_back(i);
+    std::vector<size_t> front;
+    for (size_t i = 0; i < cells.size(); ++i) {
+      const bool atBoundary =
+          std::any_of(cells[i].edges.begin(), cells[i].edges.end(),
+                      [](const EdgeOrigin& e) { return e.role == EdgeRole::Kept; });
+      cells[i].iy = atBoundary ? 0 : kUnknown;
+      if (atBoundary) front.push_back(i);
+    }
+    for (uint32_t ring = 1; !front.empty(); ++ring) {
+      std::vector<size_t> next;
+      for (const size_t i : front) {
+        for (const EdgeOrigin& e : cells[i].edges) {
+          if (!isBorder(e)) continue;
+          const auto found = bySite.find(e.source - kSite);
+          if (found == bySite.end()) continue;
+          for (const size_t k : found->second) {
+            if (cells[k].iy != kUnknown) continue;
+            cells[k].iy = ring;
+            next.push_back(k);
+          }
+        }
+      }
+      front = std::move(next);
+    }
+    for (RegionPiece& c : cells) {
+      if (c.iy == kUnknown) c.iy = 0;
+    }
+  }
+
   void finish(std::vector<RegionPiece>& cells, VoronoiResult& out) const {
     std::vector<RegionPiece> areas;
     for (const RegionPiece& c : cells) {
       for (RegionPiece& s : shrunk(c)) areas.push_back(std::move(s));
     }
-    std::vector<RegionPiece> junctions;
-    if (o_.centres) cutCentres(out.sites, areas, junctions);
+    std::vector<RegionPiece> centres;
+    std::vector<RegionPiece> uncut = o_.centres ? areas : std::vector<RegionPiece>();
+    if (o_.centres) cutCentres(out.sites, areas, centres);
     Region taken;
     for (const RegionPiece& a : areas) taken.push_back(a.polygon);
-    for (const RegionPiece& j : junctions) taken.push_back(j.polygon);
+    for (const RegionPiece& c : centres) taken.push_back(c.polygon);
     const bool full = o_.pathWidth <= 0 && o_.smoothing.kind == Smoothing::Kind::None &&
                       o_.orphans != Orphans::Path;
-    out.pieces = std::move(areas);
     if (!full) {
       const EdgeOrigin made{kNoEdge, EdgeRole::Path, EdgeOrigin::kNoSide};
-      uint32_t index = 0;
-      for (RegionPiece& p : combineTraced(BooleanOp::Difference, wholePiece(p_), taken, made)) {
-        p.kind = PieceKind::Path;
-        p.ix = index++;
-        p.part = 0;
-        out.pieces.push_back(std::move(p));
+      addPaths(combineTraced(BooleanOp::Difference, wholePiece(p_), taken, made), cells,
+               o_.centres ? uncut : areas, out.pieces);
+    }
+    areas.insert(areas.end(), std::make_move_iterator(out.pieces.begin()),
+                 std::make_move_iterator(out.pieces.end()));
+    areas.insert(areas.end(), std::make_move_iterator(centres.begin()),
+                 std::make_move_iterator(centres.end()));
+    out.pieces = std::move(areas);
+  }
+
+  // The network taken apart at its junctions.
+  void addPaths(std::vector<RegionPiece> network, const std::vector<RegionPiece>& cells,
+                const std::vector<RegionPiece>& areas, std::vector<RegionPiece>& out) const {
+    const std::vector<Ring> hulls = meetingHulls(cells, areas);
+    std::vector<Box2> boxes;
+    for (const Ring& h : hulls) boxes.push_back(bounds(h));
+    const EdgeOrigin cut{kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide};
+    std::vector<RegionPiece> junctions;
+    for (RegionPiece& n : network) {
+      n.kind = PieceKind::Path;
+      n.part = 0;
+      Region here;
+      const Box2 box = bounds(n.polygon);
+      for (size_t i = 0; i < hulls.size(); ++i) {
+        if (boxesMeet(boxes[i], box)) here.push_back({hulls[i], {}});
+      }
+      if (here.empty()) {
+        out.push_back(std::move(n));
+        continue;
+      }
+      for (RegionPiece& j : combineTraced(BooleanOp::Intersection, n, here, cut)) {
+        j.kind = PieceKind::Junction;
+        junctions.push_back(std::move(j));
+      }
+      for (RegionPiece& s : combineTraced(BooleanOp::Difference, n, here, cut)) {
+        out.push_back(std::move(s));
       }
     }
-    for (RegionPiece& j : junctions) out.pieces.push_back(std::move(j));
+    out.insert(out.end(), std::make_move_iterator(junctions.begin()),
+               std::make_move_iterator(junctions.end()));
+    const double thin = std::min(0.02, o_.pathWidth / 50);
+    mergeSlivers(out, thin, std::min(0.25, o_.pathWidth * o_.pathWidth / 20));
+    uint32_t index = 0;
+    for (RegionPiece& p : out) {
+      p.ix = index++;
+      p.part = 0;
+      const OrientedRect frame = orientedFrame(p.polygon.outer);
+      p.axis = frame.width >= frame.height ? frame.x : perpendicular(frame.x);
+      p.width = std::max(frame.width, frame.height);
+      p.height = o_.pathWidth;
+    }
+  }
+
+  // Where three cells meet, or two at the boundary: the hull of what of each is nearest, a little
+  // into the cells, so that it closes all ways.
+  std::vector<Ring> meetingHulls(const std::vector<RegionPiece>& cells,
+                                 const std::vector<RegionPiece>& areas) const {
+    struct Corner {
+      Vec2 at;
+      uint32_t cell;
+      bool boundary;
+    };
+    std::vector<Corner> corners;
+    for (const RegionPiece& c : cells) {
+      size_t first = 0;
+      for (const Ring& r : ringsOf(c.polygon)) {
+        const size_t n = r.size();
+        for (size_t k = 0; k < n; ++k) {
+          const bool kept = c.edges[first + k].role == EdgeRole::Kept ||
+                            c.edges[first + (k + n - 1) % n].role == EdgeRole::Kept;
+          corners.push_back({r[k], c.ix, kept});
+        }
+        first += n;
+      }
+    }
+    std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
+      return a.at.x != b.at.x   ? a.at.x < b.at.x
+             : a.at.y != b.at.y ? a.at.y < b.at.y
+                                : a.cell < b.cell;
+    });
+    std::map<uint32_t, std::vector<const RegionPiece*>> bySite;
+    for (const RegionPiece& a : areas) bySite[a.ix].push_back(&a);
+    const double near = 1e-6 * length(bounds(p_).size()) + 4 * kRegionGrid;
+    std::vector<bool> used(corners.size(), false);
+    std::vector<Ring> out;
+    for (size_t i = 0; i < corners.size(); ++i) {
+      if (used[i]) continue;
+      std::set<uint32_t> sites;
+      bool boundary = false;
+      for (size_t k = i; k < corners.size() && corners[k].at.x - corners[i].at.x <= near; ++k) {
+        if (used[k] || length(corners[k].at - corners[i].at) > near) continue;
+        used[k] = true;
+        sites.insert(corners[k].cell);
+        boundary = boundary || corners[k].boundary;
+      }
+      if (sites.size() < (boundary && o_.borderPath ? 2u : 3u)) continue;
+      Ring hull = hullAt(corners[i].at, sites, bySite, boundary && o_.borderPath);
+      if (hull.size() >= 3) out.push_back(std::move(hull));
+    }
+    return out;
+  }
+
+  Ring hullAt(Vec2 v, const std::set<uint32_t>& sites,
+              const std::map<uint32_t, std::vector<const RegionPiece*>>& bySite,
+              bool boundary) const {
+    // Into the cell, in metres: some grid steps.
+    const double into = std::min(1e-3, o_.pathWidth / 100);
+    std::vector<Vec2> points;
+    for (const uint32_t s : sites) {
+      const auto found = bySite.find(s);
+      if (found == bySite.end()) continue;
+      double least = 1e300;
+      Vec2 best;
+      for (const RegionPiece* a : found->second) {
+        const Vec2 q = nearestOnOutline(a->polygon, v);
+        if (length(q - v) < least) {
+          least = length(q - v);
+          best = q;
+        }
+      }
+      if (!(least > 0)) continue;
+      points.push_back(best + normalized(best - v) * into);
+      if (!boundary) continue;
+      const Vec2 foot = nearestOnOutline(p_, best);
+      if (length(foot - best) > 0) points.push_back(foot + normalized(foot - best) * into);
+    }
+    if (points.size() < 3) return {};
+    points.push_back(v);
+    return convexHull(points);
+  }
+
+  static Vec2 nearestOnOutline(const Polygon& p, Vec2 at) {
+    double least = 1e300;
+    Vec2 best = at;
+    for (const Segment& s : edgesOf(p)) {
+      const Vec2 d = s.b - s.a;
+      const double l = dot(d, d);
+      const double t = l > 0 ? std::clamp(dot(at - s.a, d) / l, 0.0, 1.0) : 0;
+      const Vec2 q = s.a + d * t;
+      if (length(q - at) < least) {
+        least = length(q - at);
+        best = q;
+      }
+    }
+    return best;
   }
 
   // The cell less half a path, smoothed.
@@ -306,7 +579,7 @@ class Voronoi {
         cut.push_back(std::move(p));
       }
       for (RegionPiece& p : combineTraced(BooleanOp::Intersection, a, disc, outside)) {
-        p.kind = PieceKind::Junction;
+        p.kind = PieceKind::Remainder;
         junctions.push_back(std::move(p));
       }
     }
@@ -330,7 +603,7 @@ class Voronoi {
       for (const RegionPiece& p :
            combineTraced(BooleanOp::Intersection, wholePiece(p_), disc, made)) {
         for (RegionPiece& free : combineTraced(BooleanOp::Difference, p, others, made)) {
-          free.kind = PieceKind::Junction;
+          free.kind = PieceKind::Remainder;
           free.ix = i;
           junctions.push_back(std::move(free));
         }

@@ -9,7 +9,9 @@
 //      named).
 //   2. Smoothed outlines stay within their cell.
 //   3. Every edge has its origin; Kept edges lie on the input's boundary.
-// O(k^2 + k * n log n) for k sites.
+//   4. Paths are sections along borders of cells and junctions where three cells, or two cells and
+//      the region's boundary, meet.
+// O(k * n log n) for k sites that lie evenly.
 #pragma once
 
 #include <cstdint>
@@ -17,21 +19,9 @@
 
 #include "geom/region/piece.h"
 #include "geom/region/places.h"
+#include "geom/region/smooth.h"
 
 namespace gable {
-
-struct Smoothing {
-  enum class Kind : uint8_t { None, Average, Chaikin, Round } kind = Kind::None;
-  /// Average and Chaikin: how often.
-  uint32_t times = 2;
-  /// Average: what a vertex keeps of itself.
-  double weight = 1.0 / 3;
-  /// Round: the radius.
-  double radius = 0;
-};
-
-/// The smoothed outline within `p`; several where it falls apart, empty where nothing is left.
-Region smoothed(const Polygon& p, const Smoothing& s);
 
 /// A part of a cell that its site is not in: goes to the neighbour with the longest border, is a
 /// cell of its own, or becomes path.
@@ -43,12 +33,16 @@ struct VoronoiOptions {
   bool borderPath = true;
   Orphans orphans = Orphans::Merge;
   Smoothing smoothing;
-  /// Discs at the sites, by their radius, are cut out and given out as junctions.
+  /// Borders between cells are bent by up to this many metres, the same on both sides.
+  double jitter = 0;
+  uint64_t seed = 0;
+  /// Discs at the sites, by their radius, are cut out and given out as remainders.
   bool centres = false;
 };
 
 struct VoronoiResult {
-  /// Cells in the order of their sites (ix), then paths, then junctions.
+  /// Cells in the order of their sites (ix; iy counts the cells to cross to the boundary), then
+  /// paths (cells, sections and junctions of their kinds), then the discs at the sites.
   std::vector<RegionPiece> pieces;
   /// Of the sites given those that lie in the region and apart from others.
   std::vector<Disc> sites;

@@ -42,7 +42,7 @@ void UnitCompiler::blockItems(NodeId node, uint32_t number) {
     const ItemKind kind = t_.itemKind(part);
     item.selectOperator = kind == ItemKind::Plain ? 0 : static_cast<uint8_t>(kind) - 1;
     if (head != kNoNode) {
-      if (code.kind == BlockKind::Selectors)
+      if (code.kind == BlockKind::Selectors || code.kind == BlockKind::Operations)
         selectorTerms(head, number);
       else
         blockValues_.push_back(head);

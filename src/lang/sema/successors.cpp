@@ -350,7 +350,8 @@ void Analysis::visitBlock(NodeId block, const OpSpec& op, bool nested) {
     errorAt("wrong-operand-count", block, quote(op.name) + " takes two operands",
             "write '" + std::string(op.name) + " { A | B }'");
   }
-  if (op.block == BlockKind::Operations && count > 1) {
+  const size_t most = op.block == BlockKind::Operations && op.blockWords ? 2 : 1;
+  if (op.block == BlockKind::Operations && count > most) {
     errorAt("unexpected-separator", block, quote(op.name) + " takes operations without '|'",
             "remove the '|'");
   }
@@ -378,7 +379,13 @@ void Analysis::visitItem(NodeId item, const OpSpec& op) {
             std::string("this part has no ") + (isSplit ? "size" : "selector"),
             isSplit ? "write 'size : operations'" : "write 'selector : operations'");
   }
-  if (head != kNoNode && !wantsHead) {
+  // place { A | otherwise : B }: the word beside plain operations.
+  const bool word = op.block == BlockKind::Operations && op.blockWords && head != kNoNode &&
+                    t.kind(head) == NodeKind::Name && isSelectorWord(t.text(head), op.blockWords);
+  if (word) {
+    resolve(head, RefKind::Selector);
+    typed(head, ValueType::Selector);
+  } else if (head != kNoNode && !wantsHead) {
     visit(head);
     errorAt("unexpected-head", head, quote(op.name) + " takes operations only here",
             "remove what stands before the ':'");

@@ -9,6 +9,7 @@
 #include "base/number.h"
 #include "builtins/lists.h"
 #include "builtins/ops/region/shared/region_job.h"
+#include "geom/region/along.h"
 #include "geom/region/places.h"
 #include "math/trig.h"
 
@@ -31,6 +32,17 @@ Status centresOf(OpCall& call, const RegionView& view, uint64_t seed, std::vecto
   const Status status = discsOf(call, 0, view, seed, discs);
   for (const Disc& d : discs) out.push_back(d.centre);
   return status;
+}
+
+// A place on the outline: 0.5 is the middle of logical edge 0, 1.25 a quarter along edge 1.
+Vec2 entranceAt(const RegionView& view, double at) {
+  const std::vector<uint32_t> logical = view.logicals();
+  const double count = std::max(1u, view.logicalCount());
+  const double turn = std::fmod(std::fmod(at, count) + count, count);
+  const LogicalRange whole[] = {{static_cast<uint32_t>(turn), 0, 1}};
+  const std::vector<Polyline> lines = parametrise(view.polygon().outer, logical, whole, true);
+  if (lines.empty()) return view.polygon().outer[0];
+  return stationAt(lines[0], turn - std::floor(turn)).at;
 }
 
 Status targetsOf(OpCall& call, const RegionView& view, std::vector<RayTarget>& out) {
@@ -59,11 +71,22 @@ Status targetsOf(OpCall& call, const RegionView& view, std::vector<RayTarget>& o
       }
       if (r.accept(')')) return {};
     }
+    if (w == "entrances" && r.accept('(')) {
+      const bool bracket = r.accept('[');
+      double at = 0;
+      while (r.number(at)) {
+        out.push_back({RayTarget::Kind::Point, entranceAt(view, at)});
+        r.accept(',');
+      }
+      if ((!bracket || r.accept(']')) && r.accept(')')) return {};
+    }
     n = -1;
   }
   if (!(n >= 0 && n <= 1000)) {
-    return call.fail("bad-argument", "these are no targets for rays",
-                     "write corners, a count, \"directions(0, 90)\" or a list of coordinates");
+    return call.fail(
+        "bad-argument", "these are no targets for rays",
+        "write corners, a count, \"directions(0, 90)\", \"entrances(0.5, 2.5)\" or a list of "
+        "coordinates");
   }
   for (double k = 0; k < n; ++k) {
     const double a = 360 * k / n;
@@ -92,11 +115,12 @@ Status applyCastRays(OpCall& call) {
   const std::string options = textOf(call, 4, "");
   o.stopHidden = option(options, "hidden") == "stop";
   const std::string links = option(options, "connect");
-  o.links = links == "none"    ? CentreLinks::None
-            : links == "loop"  ? CentreLinks::Loop
-            : links == "pairs" ? CentreLinks::Pairs
-            : links == "thin"  ? CentreLinks::Thin
-                               : CentreLinks::Tree;
+  o.links = links == "none"       ? CentreLinks::None
+            : links == "loop"     ? CentreLinks::Loop
+            : links == "pairs"    ? CentreLinks::Pairs
+            : links == "opposite" ? CentreLinks::Opposite
+            : links == "thin"     ? CentreLinks::Thin
+                                  : CentreLinks::Tree;
   parseNumber(option(options, "share"), o.thin);
   for (size_t f = 0; f < job.faces().size(); ++f) {
     RegionView& view = *job.faces()[f];
@@ -116,7 +140,8 @@ Status applyCastRays(OpCall& call) {
                            "give coordinates in the region");
     }
     for (RegionPiece& p : r.pieces) {
-      std::vector<EdgeMark> marks = view.marksOf(p, false, p.kind == PieceKind::Cell);
+      std::vector<EdgeMark> marks =
+          view.marksOf(p, p.kind == PieceKind::Cell ? EdgeIndex::Sector : EdgeIndex::Inherited);
       const std::string_view word = p.kind == PieceKind::Cell   ? "region"
                                     : p.kind == PieceKind::Path ? "path"
                                                                 : "centre";
@@ -132,11 +157,12 @@ constexpr ParamSpec kParams[] = {
      "\"centre\", a text \"1 {15}\" (places scattered so far from the boundary and each other), "
      "or a list of coordinates."},
     {"targets", ParamType::Any,
-     "\"corners\", a count of equal angles, \"directions(0, 90)\", or a list of coordinates."},
+     "\"corners\", a count of equal angles, \"directions(0, 90)\", \"entrances(0.5, 2.5)\" (places "
+     "along logical edges: here the middles of 0 and 2), or a list of coordinates."},
     {"pathWidth", ParamType::Float, "Of the paths along rays; 0 for none.", "3"},
     {"centre", ParamType::Any, "Around each centre: a radius, or a figure as \"square(4)\".", "0"},
     {"options", ParamType::String,
-     "hidden=drop|stop, connect=tree|none|loop|pairs|thin, share=0.5 (of thin).", "\"\""},
+     "hidden=drop|stop, connect=tree|none|loop|pairs|opposite|thin, share=0.5 (of thin).", "\"\""},
 };
 constexpr Signature kSignatures[] = {{kParams}};
 

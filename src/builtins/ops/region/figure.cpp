@@ -3,6 +3,7 @@
 //
 // A region replaced by a figure in its middle, as far as it lies in the region. A shape without a
 // face becomes the figure itself, in the ground plane of its scope.
+#include <algorithm>
 #include <cmath>
 
 #include "builtins/lists.h"
@@ -12,18 +13,27 @@ namespace gable {
 
 namespace {
 
-Status become(OpCall& call, const PlanFigure& figure) {
-  if (!(figure.a > 0) || !(figure.b > 0) || !std::isfinite(figure.a + figure.b)) {
+bool isFigure(const PlanFigure& f) { return f.a > 0 && f.b > 0 && std::isfinite(f.a + f.b); }
+
+// The shape becomes the figures around its middle, as far as they lie in it.
+Status become(OpCall& call, std::span<const PlanFigure> figures) {
+  if (!std::all_of(figures.begin(), figures.end(), isFigure)) {
     return call.fail("bad-argument", "a figure needs lengths above zero", "write 1 or more");
   }
   RegionJob job(call);
   Shape& s = call.shape();
+  const auto around = [&](Vec2 middle) {
+    std::vector<Ring> rings;
+    for (const PlanFigure& f : figures) rings.push_back(ringOf(f, middle));
+    return rings.size() == 1 ? Region{{rings[0], {}}} : repaired(rings, FillRule::NonZero);
+  };
   if (job.empty()) {
-    Ring ring = ringOf(figure, {0, 0});
     MeshBuilder b;
-    std::vector<uint32_t> corners;
-    for (const Vec2 p : ring) corners.push_back(b.addPosition(fromPlan(p)));
-    b.addPolygon(corners);
+    for (const Polygon& p : around({0, 0})) {
+      std::vector<uint32_t> corners;
+      for (const Vec2 v : p.outer) corners.push_back(b.addPosition(fromPlan(v)));
+      b.addPolygon(corners);
+    }
     setMesh(s, b.take(), ScopeFit::Refit);
     return {};
   }
@@ -32,16 +42,40 @@ Status become(OpCall& call, const PlanFigure& figure) {
                      "take it apart first: comp(f) { all : ... }");
   }
   RegionView& view = *job.faces()[0];
-  const Region ring{{ringOf(figure, middleOf(view.polygon())), {}}};
+  const Region together = around(middleOf(view.polygon()));
   const EdgeOrigin made{kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide};
   const std::vector<RegionPiece> pieces =
-      combineTraced(BooleanOp::Intersection, wholePiece(view.polygon()), ring, made);
+      combineTraced(BooleanOp::Intersection, wholePiece(view.polygon()), together, made);
   if (pieces.empty()) {
     return call.fail("region-vanished", "nothing of the figure lies in the region",
                      "make it larger");
   }
   view.replace(s, pieces, true);
   return {};
+}
+Status become(OpCall& call, const PlanFigure& figure) { return become(call, {&figure, 1}); }
+
+// "romb(3) rect(8, 2)": one after the other.
+Status applyJoined(OpCall& call) {
+  const std::string text = textOf(call, 0, "");
+  std::vector<PlanFigure> figures;
+  for (size_t begin = text.find_first_not_of(" ,|"); begin != std::string::npos;
+       begin = text.find_first_not_of(" ,|", begin)) {
+    const size_t close = text.find(')', begin);
+    const size_t end = close == std::string::npos ? text.size() : close + 1;
+    PlanFigure f;
+    std::string problem;
+    if (!readFigure(std::string_view(text).substr(begin, end - begin), f, problem)) {
+      return call.fail("bad-argument", problem, "write joined(\"romb(3) rect(8, 2)\")");
+    }
+    figures.push_back(f);
+    begin = end;
+  }
+  if (figures.empty()) {
+    return call.fail("bad-argument", "there are no figures to join",
+                     "write joined(\"romb(3) rect(8, 2)\")");
+  }
+  return become(call, figures);
 }
 
 Status applyCircle(OpCall& call) {
@@ -68,6 +102,9 @@ constexpr ParamSpec kRect[] = {{"width", ParamType::Float, "Along x."},
                                {"height", ParamType::Float, "Across."}};
 constexpr ParamSpec kPolygon[] = {{"sides", ParamType::Float, "Three or more."}, kRadius};
 constexpr Signature kCircleSignatures[] = {{kCircle}};
+constexpr ParamSpec kJoined[] = {
+    {"figures", ParamType::String, "One after the other: \"romb(3) rect(8, 2)\"."}};
+constexpr Signature kJoinedSignatures[] = {{kJoined}};
 constexpr Signature kRombSignatures[] = {{kRomb}};
 constexpr Signature kSquareSignatures[] = {{kSquare}};
 constexpr Signature kRectSignatures[] = {{kRect}};
@@ -76,6 +113,8 @@ constexpr Signature kPolygonSignatures[] = {{kPolygon}};
 constexpr OpSpec kSpecs[] = {
     {"circle", "region", "Replaces a region by a circle in its middle.", kCircleSignatures,
      applyCircle, BlockKind::None, kPure, nullptr, false, true},
+    {"joined", "region", "Replaces a region by several figures in its middle, united.",
+     kJoinedSignatures, applyJoined, BlockKind::None, kPure, nullptr, false, true},
     {"rect", "region", "Replaces a region by a rectangle in its middle.", kRectSignatures,
      applyRect, BlockKind::None, kPure, nullptr, false, true},
     {"regularPolygon", "region", "Replaces a region by a polygon of equal sides in its middle.",

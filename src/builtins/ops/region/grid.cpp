@@ -6,7 +6,9 @@
 
 #include "base/number.h"
 #include "builtins/lists.h"
+#include "builtins/ops/region/shared/plan_text.h"
 #include "builtins/ops/region/shared/region_job.h"
+#include "geom/region/quad_map.h"
 
 namespace gable {
 
@@ -41,9 +43,10 @@ Status optionsOf(const OpCall& call, GridOptions& o) {
   }
   const std::string figure = textOf(call, 3, "");
   std::string problem;
-  if (!figure.empty() && figure != "none" && !readFigure(figure, o.junction, problem)) {
+  if (!figure.empty() && figure != "none" && !readJunctions(figure, o.junctions, problem)) {
     return call.fail("bad-argument", problem,
-                     "write romb(r), circle(r), square(a), rect(a, b) or polygon(n, r)");
+                     "write romb(r), circle(r), square(a), rect(a, b) or polygon(n, r), or several "
+                     "of them with | between");
   }
   const std::string options = textOf(call, 4, "");
   const std::string fit = option(options, "fit"), base = option(options, "template");
@@ -105,11 +108,22 @@ Status applyGrid(OpCall& call) {
                            "make them smaller, or the cells larger");
     }
     for (RegionPiece& p : g.pieces) {
-      std::vector<EdgeMark> marks = view.marksOf(p, p.kind != PieceKind::Remainder, false);
+      const EdgeIndex sides =
+          option(text, "dominance") == "y" ? EdgeIndex::GridByY : EdgeIndex::Grid;
+      std::vector<EdgeMark> marks =
+          view.marksOf(p, p.kind == PieceKind::Remainder ? EdgeIndex::Inherited : sides);
       std::optional<CellMark> cell;
-      if (p.kind == PieceKind::Cell) {
-        cell = CellMark{
-            p.ix, p.iy, g.nx, g.ny, p.width, p.height, patternNamed(option(text, "pattern"))};
+      if (p.kind == PieceKind::Cell || p.kind == PieceKind::Junction) {
+        const bool crossing = p.kind == PieceKind::Junction;
+        cell = CellMark{p.ix,
+                        p.iy,
+                        std::max(1u, g.nx - (crossing ? 1 : 0)),
+                        std::max(1u, g.ny - (crossing ? 1 : 0)),
+                        p.width,
+                        p.height,
+                        patternNamed(option(text, "pattern")),
+                        p.part,
+                        p.choice};
       }
       const std::string_view word = wordOf(p.kind);
       job.keep(f, word, std::move(p), std::move(marks), cell);
@@ -119,6 +133,37 @@ Status applyGrid(OpCall& call) {
   return {};
 }
 
+Status applyQuadMap(OpCall& call) {
+  RegionJob job(call);
+  if (job.empty()) return noRegion(call);
+  const double nx = call.number(0), ny = call.number(1);
+  constexpr double kMost = 100;
+  if (!(nx >= 1 && nx <= kMost && ny >= 1 && ny <= kMost)) {
+    return failOrElse(call, "bad-argument", "a map has 1 to 100 columns and rows",
+                      "write quadMap(4, 3)");
+  }
+  for (size_t f = 0; f < job.faces().size(); ++f) {
+    RegionView& view = *job.faces()[f];
+    QuadMapResult q = quadMap(view.polygon(), static_cast<uint32_t>(nx), static_cast<uint32_t>(ny));
+    for (RegionPiece& p : q.pieces) {
+      const bool rest = p.kind == PieceKind::Remainder;
+      std::vector<EdgeMark> marks = view.marksOf(p, rest ? EdgeIndex::Inherited : EdgeIndex::Grid);
+      std::optional<CellMark> cell;
+      if (!rest) {
+        cell = CellMark{p.ix,    p.iy,     static_cast<uint32_t>(nx), static_cast<uint32_t>(ny),
+                        p.width, p.height, CellPattern::Auto,         p.part};
+      }
+      job.keep(f, rest ? "remainder" : "region", std::move(p), std::move(marks), cell);
+    }
+  }
+  job.emit();
+  return {};
+}
+
+constexpr ParamSpec kMapParams[] = {{"columns", ParamType::Float, "From west to east."},
+                                    {"rows", ParamType::Float, "From south to north."}};
+constexpr Signature kMapSignatures[] = {{kMapParams}};
+
 constexpr ParamSpec kParams[] = {
     {"columns", ParamType::Any,
      "A count, a list of sizes in metres, or a text like \"3 {2, [4,6] a[-5,5]}\": a count, and "
@@ -127,11 +172,14 @@ constexpr ParamSpec kParams[] = {
     {"pathWidth", ParamType::Float, "Of the paths between cells; 0 for none.", "3"},
     {"junction", ParamType::Any,
      "What stands at crossings: \"none\", or \"romb(r)\", \"circle(r)\", \"square(a)\", "
-     "\"rect(a, b)\", \"polygon(n, r)\".",
+     "\"rect(a, b)\", \"polygon(n, r)\". Several with | between are drawn from, with shares "
+     "(\"30%: romb(3) | circle(2)\") or by place (\"case ix == 0: romb(3) | circle(2)\"); "
+     "region.choice says which it is.",
      "\"none\""},
     {"options", ParamType::String,
      "fit=stretch|center|fail, template=auto|corners|obb|aabb|inner, "
-     "pattern=auto|centre|pair|mirror|extend|local|radial, lines.",
+     "pattern=auto|centre|pair|mirror|extend|local|radial, dominance=x|y (which side an edge at 45 "
+     "degrees belongs to), lines.",
      "\"\""},
 };
 constexpr Signature kSignatures[] = {{kParams}};
@@ -139,6 +187,9 @@ constexpr Signature kSignatures[] = {{kParams}};
 constexpr OpSpec kSpecs[] = {
     {"grid", "region", "Divides a region into rows and columns with paths between.", kSignatures,
      applyGrid, BlockKind::Selectors, kRandom, "region path junction remainder otherwise", false,
+     true},
+    {"quadMap", "region", "Divides a region into rows and columns that follow its four sides.",
+     kMapSignatures, applyQuadMap, BlockKind::Selectors, kPure, "region remainder otherwise", false,
      true},
 };
 

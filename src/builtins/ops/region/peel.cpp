@@ -4,47 +4,121 @@
 // Strips along the boundary, and contracting; the kernel is geom/region/peel.
 #include "geom/region/peel.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "builtins/lists.h"
+#include "builtins/ops/region/shared/plan_text.h"
 #include "builtins/ops/region/shared/region_job.h"
+#include "geom/region/cut_holes.h"
 #include "geom/region/places.h"
 
 namespace gable {
 
 namespace {
 
+// "{W: 2, N & outer: 4}": selections with distances of their own. Later ones win.
+struct OwnDistance {
+  std::string selection;
+  double metres = 0;
+};
+
+bool readDistances(std::string_view text, std::vector<OwnDistance>& out) {
+  size_t begin = 0, depth = 0;
+  for (size_t i = 0; i <= text.size(); ++i) {
+    const char c = i < text.size() ? text[i] : ',';
+    if (c == '(' || c == '[') ++depth;
+    if ((c == ')' || c == ']') && depth > 0) --depth;
+    if (c != ',' || (depth > 0 && i < text.size())) continue;
+    const std::string_view item = text.substr(begin, i - begin);
+    begin = i + 1;
+    const size_t colon = item.rfind(':');
+    if (colon == std::string_view::npos) return false;
+    TextReader r(item.substr(colon + 1));
+    OwnDistance d{std::string(item.substr(0, colon)), 0};
+    if (!r.number(d.metres) || !r.atEnd() || !std::isfinite(d.metres)) return false;
+    out.push_back(std::move(d));
+  }
+  return true;
+}
+
+// The edges to move, with their distances.
+Status edgesOf(OpCall& call, const RegionJob& job, size_t f, double distance,
+               std::vector<PeelEdge>& edges) {
+  const RegionView& view = *job.faces()[f];
+  const std::string text = textOf(call, 0, "outer");
+  TextReader r(text);
+  std::vector<EdgePart> parts;
+  if (!r.accept('{')) {
+    const Status status = selected(call, 0, "outer", job, f, view, parts);
+    for (const EdgePart& p : parts) edges.push_back({p.edge, p.from, p.to, distance});
+    return status;
+  }
+  std::vector<OwnDistance> own;
+  const size_t close = text.rfind('}');
+  const bool read = close != std::string::npos && close >= r.place() &&
+                    readDistances(std::string_view(text).substr(r.place(), close - r.place()), own);
+  if (!read) {
+    return call.fail("bad-selection", "these are no selections with distances",
+                     "write \"{side(W): 2, side(N): 4}\"");
+  }
+  for (const OwnDistance& d : own) {
+    std::string problem;
+    parts.clear();
+    const SelectionInput input{view, call.randomAddress(1000 + f), job.worldIn(f)};
+    if (!selectEdges(d.selection, input, parts, problem)) {
+      return call.fail("bad-selection", "the selection cannot be read: " + problem,
+                       "write words like outer, inner, side(W), longest, with & | - !");
+    }
+    for (const EdgePart& p : parts) {
+      std::erase_if(edges, [&](const PeelEdge& e) { return e.edge == p.edge; });
+      edges.push_back({p.edge, p.from, p.to, d.metres});
+    }
+  }
+  std::sort(edges.begin(), edges.end(), [](const PeelEdge& a, const PeelEdge& b) {
+    return a.edge != b.edge ? a.edge < b.edge : a.from < b.from;
+  });
+  return {};
+}
+
 Status applyPeel(OpCall& call) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
+  const std::string options = textOf(call, 2, "");
   const PeelEnds ends =
-      option(textOf(call, 2, ""), "orthogonal").empty() ? PeelEnds::Follow : PeelEnds::Orthogonal;
+      option(options, "orthogonal").empty() ? PeelEnds::Follow : PeelEnds::Orthogonal;
+  Smoothing smoothing;
+  if (const size_t at = options.find("smooth="); at != std::string::npos) {
+    if (!readSmoothing(std::string_view(options).substr(at + 7), smoothing)) {
+      return call.fail("bad-argument", "there is no such smoothing",
+                       "write smooth=average(2), chaikin(2) or bezier, after other options");
+    }
+  }
   for (size_t f = 0; f < job.faces().size(); ++f) {
     RegionView& view = *job.faces()[f];
     // Shares are of the largest distance that there is.
     const Value& v = call.arg(1);
     double distance = v.number;
     if (v.unit == Unit::Relative) distance *= poleOf(view.polygon()).radius;
-    if (!(distance > 0) || !std::isfinite(distance)) {
+    const bool own = textOf(call, 0, "outer").find('{') != std::string::npos;
+    if ((!own && !(distance > 0)) || !std::isfinite(distance)) {
       return failOrElse(call, "bad-argument", "a strip needs a width above zero",
                         "write metres, or a share of the region's inner radius: '0.5");
     }
-    std::vector<EdgePart> parts;
-    const Status status = selected(call, 0, "outer", job, f, view, parts);
+    std::vector<PeelEdge> edges;
+    const Status status = edgesOf(call, job, f, distance, edges);
     if (!status.ok()) return status;
-    if (parts.empty()) {
+    if (edges.empty()) {
       return failOrElse(call, "empty-selection", "the selection means no edge of this region",
                         "select others, or write what else shall happen: otherwise : ...");
     }
-    std::vector<PeelEdge> edges;
-    for (const EdgePart& p : parts) edges.push_back({p.edge, p.from, p.to, distance});
-    PeelResult r = peel(view.polygon(), edges, ends);
+    PeelResult r = peel(view.polygon(), edges, ends, smoothing);
     for (RegionPiece& p : r.strips) {
-      std::vector<EdgeMark> marks = view.marksOf(p, false, false);
+      std::vector<EdgeMark> marks = view.marksOf(p, EdgeIndex::Inherited);
       job.keep(f, "strip", std::move(p), std::move(marks), view.cell());
     }
     for (RegionPiece& p : r.rest) {
-      std::vector<EdgeMark> marks = view.marksOf(p, false, false);
+      std::vector<EdgeMark> marks = view.marksOf(p, EdgeIndex::Inherited);
       job.keep(f, "rest", std::move(p), std::move(marks), view.cell());
     }
   }
@@ -59,8 +133,8 @@ Status applyContract(OpCall& call) {
   const bool towards = call.has(1) || v.unit == Unit::Relative;
   Shape shape = call.shape();
   if (job.faces().size() != 1) {
-    return call.fail("no-geometry", "only a shape of one face can be contracted",
-                     "take it apart first: comp(f) { all : contract(1) }");
+    return failOrElse(call, "no-geometry", "only a shape of one face can be contracted",
+                      "take it apart first: comp(f) { all : contract(1) }");
   }
   RegionView& view = *job.faces()[0];
   if (!std::isfinite(v.number) || v.number < 0) {
@@ -91,19 +165,41 @@ Status applyContract(OpCall& call) {
     }
   }
   if (pieces.empty()) {
-    return call.fail("region-vanished", "nothing of the region is left",
-                     "contract by less; half of its width is the most");
+    return failOrElse(call, "region-vanished", "nothing of the region is left",
+                      "contract by less; half of its width is the most");
   }
   view.replace(shape, pieces);
   call.shape() = std::move(shape);
   return {};
 }
 
+Status applyCutHoles(OpCall& call) {
+  RegionJob job(call);
+  if (job.empty()) return noRegion(call);
+  if (job.faces().size() != 1) {
+    return call.fail("no-geometry", "the shape is not one face",
+                     "take it apart first: comp(f) { all : cutHoles }");
+  }
+  RegionView& view = *job.faces()[0];
+  if (view.polygon().holes.empty()) return {};
+  const std::vector<RegionPiece> pieces = withoutHoles(view.polygon());
+  Shape shape = call.shape();
+  view.replace(shape, pieces, true);
+  call.shape() = std::move(shape);
+  return {};
+}
+
 constexpr ParamSpec kPeel[] = {
-    {"selection", ParamType::Selector, "The edges that are moved: outer, \"outer & !side(W)\"."},
+    {"selection", ParamType::Selector,
+     "The edges that are moved: outer, \"outer & !side(W)\"; or selections with distances of their "
+     "own, \"{side(W): 2, side(N): 4}\", which then hold in the place of the size."},
     {"size", ParamType::Size,
      "How far, in metres or, with ', as a share of the radius of the largest disc inside."},
-    {"options", ParamType::String, "orthogonal: strips end square to their edge.", "\"\""},
+    {"options", ParamType::String,
+     "orthogonal: strips end square to their edge; smooth=average(2) (or chaikin(2), bezier): the "
+     "border "
+     "between strip and rest is smoothed.",
+     "\"\""},
 };
 constexpr ParamSpec kContract[] = {
     {"size", ParamType::Size,
@@ -112,6 +208,7 @@ constexpr ParamSpec kContract[] = {
      "centre center"},
 };
 constexpr ParamSpec kContractPlain[] = {kContract[0]};
+constexpr Signature kCutHolesSignatures[] = {{}};
 constexpr Signature kPeelSignatures[] = {{kPeel}};
 constexpr Signature kContractSignatures[] = {{kContractPlain}, {kContract}};
 
@@ -120,7 +217,9 @@ constexpr OpSpec kSpecs[] = {
      BlockKind::Selectors, kRandom | kReadsWorld | kReadsWorldByWord, "strip rest otherwise", false,
      true},
     {"contract", "region", "Moves the boundary of a region inward.", kContractSignatures,
-     applyContract, BlockKind::None, kPure, nullptr, false, true},
+     applyContract, BlockKind::Operations, kPure, "otherwise", true, true},
+    {"cutHoles", "region", "Cuts a region apart so that no part of it has a hole.",
+     kCutHolesSignatures, applyCutHoles, BlockKind::None, kPure, nullptr, false, true},
 };
 
 }  // namespace

@@ -10,6 +10,9 @@
 #include "builtins/lists.h"
 #include "builtins/ops/region/shared/region_job.h"
 #include "geom/region/autoindex.h"
+#include "geom/region/cut_holes.h"
+#include "geom/region/segment_grid.h"
+#include "math/trig.h"
 
 namespace gable {
 
@@ -33,87 +36,196 @@ Quad cornersOf(const RegionView& view) {
   return {box.at(0, 0), box.at(box.width, 0), box.at(box.width, box.height), box.at(0, box.height)};
 }
 
-// Where a text says; false when the pattern of the cell places nothing here.
-Status placeOf(OpCall& call, const RegionView& view, std::string_view text, bool& here, Vec2& at) {
+// The corners of the outline between two edges that a selection means.
+Status cornersBetween(OpCall& call, const RegionJob& job, std::string_view selection,
+                      std::vector<Vec2>& out) {
+  const RegionView& view = *job.faces()[0];
+  const Ring& r = view.polygon().outer;
+  std::vector<EdgePart> parts;
+  std::string problem;
+  const SelectionInput input{view, call.randomAddress(1000), job.worldIn(0)};
+  if (!selectEdges(selection, input, parts, problem)) {
+    return call.fail("bad-selection", "the selection cannot be read: " + problem,
+                     "write corner(0) or corner(outer)");
+  }
+  std::vector<bool> begins(r.size(), false), ends(r.size(), false);
+  for (const EdgePart& e : parts) {
+    if (e.edge >= r.size()) continue;
+    begins[e.edge] = begins[e.edge] || e.from <= 0;
+    ends[e.edge] = ends[e.edge] || e.to >= 1;
+  }
+  constexpr double kLeastTurn = 15;
+  for (size_t i = 0; i < r.size(); ++i) {
+    const size_t before = (i + r.size() - 1) % r.size();
+    const Vec2 in = r[i] - r[before], out1 = r[(i + 1) % r.size()] - r[i];
+    const double turn = std::fabs(atan2Deg(cross(in, out1), dot(in, out1)));
+    if (begins[i] && ends[before] && turn > kLeastTurn) out.push_back(r[i]);
+  }
+  return {};
+}
+
+// Where a text says; nothing when the pattern of the cell places nothing here.
+Status placesOf(OpCall& call, const RegionJob& job, std::string_view text, std::vector<Vec2>& out) {
+  const RegionView& view = *job.faces()[0];
   TextReader r(text);
-  here = true;
-  if (r.accept('(')) {
-    double u = 0, v = 0;
-    if (r.number(u) && r.accept(',') && r.number(v) && r.accept(')') && r.atEnd()) {
-      if (view.cell()) here = view.cell()->along(false, u) && view.cell()->along(true, v);
-      const Quad q = cornersOf(view);
+  if (r.peek() == '(') {
+    const Quad q = cornersOf(view);
+    bool read = true;
+    while (read && r.accept('(')) {
+      double u = 0, v = 0;
+      read = r.number(u) && r.accept(',') && r.number(v) && r.accept(')');
+      r.accept(',');
+      if (!read || (view.cell() && !view.cell()->address(u, v))) continue;
       const Vec2 low = q[0] + (q[1] - q[0]) * u, high = q[3] + (q[2] - q[3]) * u;
-      at = low + (high - low) * v;
-      return {};
+      out.push_back(low + (high - low) * v);
     }
+    if (read && r.atEnd()) return {};
   }
   const std::string w = r.word();
   if ((w == "centre" || w == "center") && r.atEnd()) {
-    at = middleOf(view.polygon());
+    out.push_back(middleOf(view.polygon()));
     return {};
   }
   if (w == "centroid" && r.atEnd()) {
-    at = centroid(view.polygon());
+    out.push_back(centroid(view.polygon()));
     return {};
   }
-  double i = 0;
-  if (w == "corner" && r.accept('(') && r.number(i) && r.accept(')')) {
-    // Clockwise from the south-west.
-    static constexpr size_t kOrder[] = {0, 3, 2, 1};
-    at = cornersOf(view)[kOrder[static_cast<size_t>(std::fmod(std::clamp(i, 0.0, 1e6), 4))]];
-    return {};
+  if (w == "corner" && r.accept('(')) {
+    const size_t inside = r.place();
+    double i = 0;
+    if (r.number(i) && r.accept(')') && r.atEnd()) {
+      // Clockwise from the south-west.
+      static constexpr size_t kOrder[] = {0, 3, 2, 1};
+      const auto k = static_cast<uint32_t>(std::fmod(std::clamp(i, 0.0, 1e6), 4));
+      // Corner k begins side k; of a mirrored cell it ends the image of side k.
+      uint32_t corner = k;
+      if (view.cell() && view.logicalCount() == 4) {
+        const uint32_t side = view.cell()->side(k), next = view.cell()->side((k + 1) % 4);
+        corner = next == (side + 1) % 4 ? side : (side + 1) % 4;
+      }
+      out.push_back(cornersOf(view)[kOrder[corner]]);
+      return {};
+    }
+    const size_t close = text.rfind(')');
+    if (close != std::string_view::npos && close > inside) {
+      return cornersBetween(call, job, text.substr(inside, close - inside), out);
+    }
   }
   return call.fail("bad-argument", "'" + std::string(text) + "' is no place of a region",
-                   "write centre, centroid, corner(0) or \"(0.8, 0.1)\"");
+                   "write centre, centroid, corner(0), corner(outer) or \"(0.8, 0.1)\"");
+}
+
+// Along the edge of the outline that is nearest to a place.
+Vec2 alongNearest(const Polygon& p, Vec2 at) {
+  Vec2 best{1, 0};
+  double least = 1e300;
+  for (const Segment& s : edgesOf(p)) {
+    const double d = distanceTo(s, at);
+    if (d >= least || !(length(s.b - s.a) > 0)) continue;
+    least = d;
+    best = normalized(s.b - s.a);
+  }
+  return best;
 }
 
 // Gives out a point, or a figure there, which is cut out of the region.
 class Placer {
  public:
-  Placer(OpCall& call, RegionView& view, PlanFigure figure, bool cut)
-      : call_(call), view_(view), figure_(figure), cut_(cut), parent_(call.shape()) {}
+  Placer(OpCall& call, RegionView& view, PlanFigure figure, const std::string& options)
+      : call_(call),
+        view_(view),
+        figure_(figure),
+        cut_(option(options, "over").empty()),
+        split_(!option(options, "split").empty()),
+        slot_(thingSlot(call)),
+        parent_(call.shape()) {}
 
   void add(Vec2 at, Vec2 along) {
     if (!contains(view_.polygon(), at)) return;
     if (figure_.shape == PlanShape::None) {
-      call_.emit(view_.pointAt(parent_, at, along), 0, count_++);
+      if (slot_) call_.emit(view_.pointAt(parent_, at, along), *slot_, count_);
+      ++count_;
       return;
     }
     const Region ring{{ringOf(figure_, at, along), {}}};
+    if (occupied(ring)) {
+      ++nested_;
+      return;
+    }
     const EdgeOrigin made{kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide};
     for (RegionPiece& p :
          combineTraced(BooleanOp::Intersection, wholePiece(view_.polygon()), ring, made)) {
       p.axis = along;
-      call_.emit(view_.shapeOf(parent_, p, view_.marksOf(p, false, true), std::nullopt), 0,
-                 count_++);
+      if (slot_) {
+        call_.emit(view_.shapeOf(parent_, p, view_.marksOf(p, EdgeIndex::Outline), std::nullopt),
+                   *slot_, count_);
+      }
+      ++count_;
     }
     holes_.push_back(ring[0]);
   }
 
   void finish() {
+    if (nested_ > 0) {
+      call_.services().warn("place-occupied",
+                            "'" + std::string(call_.spec().name) + "': " + std::to_string(nested_) +
+                                " figures were left out, because others stand there",
+                            "place them farther apart, or make them smaller");
+    }
+    if (count_ == 0) giveToOtherwise(call_);
     if (!cut_ || holes_.empty()) return;
     const Region together =
         holes_.size() > 1 ? repaired(ringsOf(holes_), FillRule::NonZero) : holes_;
     const EdgeOrigin made{kNoEdge, EdgeRole::Hole, EdgeOrigin::kNoSide};
-    const std::vector<RegionPiece> left =
+    std::vector<RegionPiece> left =
         combineTraced(BooleanOp::Difference, wholePiece(view_.polygon()), together, made);
-    if (!left.empty()) view_.replace(call_.shape(), left);
+    if (split_) left = apart(left);
+    if (left.empty()) {
+      // The figures took all of it.
+      call_.shape().geometry = Geometry{};
+      return;
+    }
+    view_.replace(call_.shape(), left);
   }
 
  private:
+  bool occupied(const Region& ring) const {
+    const Box2 box = bounds(ring[0]);
+    return std::any_of(holes_.begin(), holes_.end(), [&](const Polygon& h) {
+      const Box2 other = bounds(h);
+      const bool near = box.min.x < other.max.x && other.min.x < box.max.x &&
+                        box.min.y < other.max.y && other.min.y < box.max.y;
+      return near && area(intersect(ring, {h})) > 1e-6 * area(h);
+    });
+  }
+  // Pieces without holes, with the edges of the region that they come from.
+  static std::vector<RegionPiece> apart(const std::vector<RegionPiece>& pieces) {
+    std::vector<RegionPiece> out;
+    for (const RegionPiece& p : pieces) {
+      for (RegionPiece& part : withoutHoles(p.polygon)) {
+        for (EdgeOrigin& e : part.edges) {
+          if (e.source != kNoEdge) e = p.edges[e.source];
+        }
+        out.push_back(std::move(part));
+      }
+    }
+    return out;
+  }
+
   OpCall& call_;
   RegionView& view_;
   PlanFigure figure_;
-  bool cut_;
+  bool cut_, split_;
+  std::optional<uint32_t> slot_;
   Shape parent_;
   Region holes_;
-  uint32_t count_ = 0;
+  uint32_t count_ = 0, nested_ = 0;
 };
 
 Status oneFace(OpCall& call, const RegionJob& job) {
   if (job.faces().size() == 1) return {};
-  return call.fail("no-geometry", "the shape is not one face",
-                   "take it apart first: comp(f) { all : ... }");
+  return failOrElse(call, "no-geometry", "the shape is not one face",
+                    "take it apart first: comp(f) { all : ... }");
 }
 
 Status figureOf(OpCall& call, size_t argument, PlanFigure& figure) {
@@ -126,17 +238,22 @@ Status figureOf(OpCall& call, size_t argument, PlanFigure& figure) {
 
 Status applyPlace(OpCall& call) {
   RegionJob job(call);
-  Status status = oneFace(call, job);
+  if (job.empty()) return noRegion(call);
+  if (job.faces().size() != 1) return oneFace(call, job);
+  Status status;
   PlanFigure figure;
   if (status.ok()) status = figureOf(call, 1, figure);
   if (!status.ok()) return status;
   RegionView& view = *job.faces()[0];
-  bool here = true;
-  Vec2 at;
-  status = placeOf(call, view, textOf(call, 0, "centre"), here, at);
-  if (!status.ok() || !here) return status;
-  Placer placer(call, view, figure, option(textOf(call, 2, ""), "over").empty());
-  placer.add(at, {1, 0});
+  std::vector<Vec2> places;
+  status = placesOf(call, job, textOf(call, 0, "centre"), places);
+  if (!status.ok()) return status;
+  const std::string options = textOf(call, 2, "");
+  const bool align = !option(options, "align").empty();
+  Placer placer(call, view, figure, options);
+  for (const Vec2 at : places) {
+    placer.add(at, align ? alongNearest(view.polygon(), at) : Vec2{1, 0});
+  }
   placer.finish();
   return {};
 }
@@ -201,7 +318,9 @@ void mergeNear(std::vector<Station>& stations, double distance) {
 
 Status applyDistribute(OpCall& call) {
   RegionJob job(call);
-  Status status = oneFace(call, job);
+  if (job.empty()) return noRegion(call);
+  if (job.faces().size() != 1) return oneFace(call, job);
+  Status status;
   PlanFigure figure;
   if (status.ok()) status = figureOf(call, 3, figure);
   if (!status.ok()) return status;
@@ -212,7 +331,7 @@ Status applyDistribute(OpCall& call) {
   std::vector<uint32_t> group;
   for (const EdgeMark& m : view.marks()) group.push_back(m.logical);
   const double inset = call.number(2, 0);
-  Placer placer(call, view, figure, option(textOf(call, 4, ""), "over").empty());
+  Placer placer(call, view, figure, textOf(call, 4, ""));
   std::vector<Station> all;
   for (const Polyline& line : runsOf(view.polygon(), parts, group)) {
     std::vector<Station> stations;
@@ -234,12 +353,16 @@ constexpr ParamSpec kFigure = {
     "A figure that is cut out of the region and given out, as \"circle(1)\"; without one a point "
     "is given out.",
     "\"none\""};
-constexpr ParamSpec kOptions = {"options", ParamType::String,
-                                "over: the figure is not cut out of the region.", "\"\""};
+constexpr ParamSpec kOptions = {
+    "options", ParamType::String,
+    "over: the figure is not cut out of the region; split: the region is cut apart "
+    "so that it gets no holes; align: x runs along the nearest edge.",
+    "\"\""};
 constexpr ParamSpec kPlace[] = {
     {"where", ParamType::Selector,
      "centre (of a region that is not convex: the place farthest from its boundary), centroid, "
-     "corner(i) clockwise from the south-west, or \"(u, v)\" in shares of the sides."},
+     "corner(i) clockwise from the south-west, corner(selection) between selected edges, or "
+     "\"(u, v)\" in shares of the sides, also several."},
     kFigure,
     kOptions};
 constexpr ParamSpec kDistribute[] = {
@@ -255,9 +378,9 @@ constexpr Signature kDistributeSignatures[] = {{kDistribute}};
 
 constexpr OpSpec kSpecs[] = {
     {"place", "region", "Puts something at a place of a region.", kPlaceSignatures, applyPlace,
-     BlockKind::Operations, kPure, nullptr, false, true},
+     BlockKind::Operations, kRandom | kReadsWorld | kReadsWorldByWord, "otherwise", false, true},
     {"distribute", "region", "Puts things along edges of a region.", kDistributeSignatures,
-     applyDistribute, BlockKind::Operations, kRandom | kReadsWorld | kReadsWorldByWord, nullptr,
+     applyDistribute, BlockKind::Operations, kRandom | kReadsWorld | kReadsWorldByWord, "otherwise",
      false, true},
 };
 

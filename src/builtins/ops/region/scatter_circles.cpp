@@ -40,6 +40,7 @@ Status applyScatterCircles(OpCall& call) {
     return 0.0;
   };
   uint32_t piece = 0;
+  const std::optional<uint32_t> slot = thingSlot(call);
   for (size_t f = 0; f < job.faces().size(); ++f) {
     RegionView& view = *job.faces()[f];
     std::vector<Disc> discs;
@@ -68,10 +69,14 @@ Status applyScatterCircles(OpCall& call) {
       RegionPiece p;
       p.polygon.outer = ringOf({PlanShape::Circle, d.radius, 0, 24}, d.centre);
       p.edges.assign(24, {kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide});
-      call.emit(view.shapeOf(call.shape(), p, view.marksOf(p, false, true), std::nullopt), 0,
-                piece++);
+      if (slot) {
+        call.emit(view.shapeOf(call.shape(), p, view.marksOf(p, EdgeIndex::Outline), std::nullopt),
+                  *slot, piece);
+      }
+      ++piece;
     }
   }
+  if (piece == 0) giveToOtherwise(call);
   return {};
 }
 
@@ -85,7 +90,7 @@ constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"scatterCircles", "region", "Scatters discs that touch neither each other nor the boundary.",
-     kSignatures, applyScatterCircles, BlockKind::Operations, kRandom, nullptr, false, true},
+     kSignatures, applyScatterCircles, BlockKind::Operations, kRandom, "otherwise", false, true},
 };
 
 }  // namespace

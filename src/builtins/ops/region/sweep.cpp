@@ -24,19 +24,30 @@ Status applySweep(OpCall& call) {
     return call.fail("bad-argument", "a ribbon needs a width above zero",
                      "to get lines without a width write parametrise");
   }
-  const bool round = !option(textOf(call, 3, ""), "round").empty();
+  const std::string options = textOf(call, 3, "");
+  RibbonOptions ribbon;
+  if (!option(options, "round").empty()) ribbon = {true, RibbonEnds::Round};
+  if (option(options, "joins") == "round") ribbon.roundJoins = true;
+  const std::string ends = option(options, "ends");
+  if (ends == "round") ribbon.ends = RibbonEnds::Round;
+  if (ends == "square") ribbon.ends = RibbonEnds::Square;
   uint32_t piece = 0;
+  const std::optional<uint32_t> slot = thingSlot(call);
   for (size_t f = 0; f < job.faces().size(); ++f) {
     RegionView& view = *job.faces()[f];
     std::vector<Polyline> lines;
     Status status = checked(call, inset);
     if (status.ok()) status = linesOf(call, 0, inset, job, f, view, lines);
     if (!status.ok()) return status;
-    for (const RegionPiece& p : ribbons(view.polygon(), lines, width, round)) {
-      call.emit(view.shapeOf(call.shape(), p, view.marksOf(p, false, true), std::nullopt), 0,
-                piece++);
+    for (const RegionPiece& p : ribbons(view.polygon(), lines, width, ribbon)) {
+      if (slot) {
+        call.emit(view.shapeOf(call.shape(), p, view.marksOf(p, EdgeIndex::Outline), std::nullopt),
+                  *slot, piece);
+      }
+      ++piece;
     }
   }
+  if (piece == 0) giveToOtherwise(call);
   return {};
 }
 
@@ -45,6 +56,7 @@ Status applyParametrise(OpCall& call) {
   if (job.empty()) return noRegion(call);
   const double inset = call.number(1, 0);
   uint32_t piece = 0;
+  const std::optional<uint32_t> slot = thingSlot(call);
   for (size_t f = 0; f < job.faces().size(); ++f) {
     const RegionView& view = *job.faces()[f];
     std::vector<Polyline> lines;
@@ -54,11 +66,15 @@ Status applyParametrise(OpCall& call) {
     for (const Polyline& line : lines) {
       const size_t n = line.points.size();
       for (size_t i = 0; i + (line.closed ? 0 : 1) < n; ++i) {
-        call.emit(view.segmentAt(call.shape(), line.points[i], line.points[(i + 1) % n]), 0,
-                  piece++);
+        if (slot) {
+          call.emit(view.segmentAt(call.shape(), line.points[i], line.points[(i + 1) % n]), *slot,
+                    piece);
+        }
+        ++piece;
       }
     }
   }
+  if (piece == 0) giveToOtherwise(call);
   return {};
 }
 
@@ -67,10 +83,12 @@ constexpr ParamSpec kLines = {
     "A selection of edges as in peel, or ranges along the logical edges from 0 on: "
     "\"[0.02,1] [0,1] [0,0.15]\", [] for none, _ for a whole edge."};
 constexpr ParamSpec kInset = {"inset", ParamType::Float, "How far inside the boundary.", "0"};
-constexpr ParamSpec kSweep[] = {kLines,
-                                {"width", ParamType::Float, "Of the ribbon, in metres."},
-                                kInset,
-                                {"options", ParamType::String, "round: ends and corners.", "\"\""}};
+constexpr ParamSpec kSweep[] = {
+    kLines,
+    {"width", ParamType::Float, "Of the ribbon, in metres."},
+    kInset,
+    {"options", ParamType::String, "joins=mitre|round, ends=butt|square|round; round: both.",
+     "\"\""}};
 constexpr ParamSpec kParametrise[] = {kLines, kInset};
 constexpr Signature kSweepSignatures[] = {{kSweep}};
 constexpr Signature kParametriseSignatures[] = {{kParametrise}};
@@ -78,10 +96,10 @@ constexpr Signature kParametriseSignatures[] = {{kParametrise}};
 constexpr OpSpec kSpecs[] = {
     {"sweep", "region", "Makes ribbons of a width along the boundary of a region.",
      kSweepSignatures, applySweep, BlockKind::Operations, kRandom | kReadsWorld | kReadsWorldByWord,
-     nullptr, false, true},
+     "otherwise", false, true},
     {"parametrise", "region", "Gives out parts of the boundary as straight lines.",
      kParametriseSignatures, applyParametrise, BlockKind::Operations,
-     kRandom | kReadsWorld | kReadsWorldByWord, nullptr, false, true},
+     kRandom | kReadsWorld | kReadsWorldByWord, "otherwise", false, true},
 };
 
 }  // namespace

@@ -6,34 +6,13 @@
 
 #include "base/number.h"
 #include "builtins/lists.h"
+#include "builtins/ops/region/shared/plan_text.h"
 #include "builtins/ops/region/shared/region_job.h"
 #include "geom/region/voronoi.h"
 
 namespace gable {
 
 namespace {
-
-bool readSmoothing(const std::string& text, Smoothing& s) {
-  TextReader r(text);
-  const std::string name = r.word();
-  double a = 0, b = 0;
-  const bool hasA = r.accept('(') && r.number(a);
-  const bool hasB = hasA && r.accept(',') && r.number(b);
-  if (hasA && !r.accept(')')) return false;
-  if (name.empty() || name == "none") {
-    s.kind = Smoothing::Kind::None;
-  } else if (name == "average" || name == "chaikin") {
-    s.kind = name == "average" ? Smoothing::Kind::Average : Smoothing::Kind::Chaikin;
-    if (hasA) s.times = static_cast<uint32_t>(std::clamp(a, 0.0, 6.0));
-    if (hasB) s.weight = std::clamp(b, 0.0, 1.0);
-  } else if (name == "round") {
-    s.kind = Smoothing::Kind::Round;
-    s.radius = hasA ? std::max(0.0, a) : 1;
-  } else {
-    return false;
-  }
-  return std::isfinite(s.radius);
-}
 
 Status applyVoronoi(OpCall& call) {
   RegionJob job(call);
@@ -46,13 +25,21 @@ Status applyVoronoi(OpCall& call) {
   }
   if (!readSmoothing(textOf(call, 2, "average(2)"), o.smoothing)) {
     return call.fail("bad-argument", "there is no such smoothing",
-                     "write none, average(2), chaikin(2) or round(1)");
+                     "write none, average(2), chaikin(2), bezier or round(1)");
   }
   const std::string options = textOf(call, 3, "");
   o.borderPath = option(options, "borderpath") != "none";
   const std::string orphans = option(options, "orphans");
   o.orphans = orphans == "own" ? Orphans::Own : orphans == "path" ? Orphans::Path : Orphans::Merge;
+  if (const std::string jitter = option(options, "jitter"); !jitter.empty()) {
+    if (!parseNumber(jitter, o.jitter) || !(o.jitter >= 0) || !std::isfinite(o.jitter)) {
+      return call.fail("bad-argument", "borders are bent by zero metres or more",
+                       "write jitter=0.5");
+    }
+  }
+  bool junctions = false;
   for (const SelectorItem& item : call.selectors()) {
+    junctions = junctions || selectsWord(item, "junction", call.services().pool());
     o.centres = o.centres || selectsWord(item, "centre", call.services().pool());
   }
   for (size_t f = 0; f < job.faces().size(); ++f) {
@@ -60,17 +47,34 @@ Status applyVoronoi(OpCall& call) {
     std::vector<Disc> sites;
     const Status status = discsOf(call, 0, view, call.randomAddress(f), sites);
     if (!status.ok()) return status;
+    o.seed = call.randomAddress(500 + f);
     VoronoiResult v = voronoiPartition(view.polygon(), sites, o);
     if (v.pieces.empty()) {
       return failOrElse(call, "no-sites", "no site lies in the region",
                         "write smaller radii or other coordinates");
     }
     for (RegionPiece& p : v.pieces) {
-      std::vector<EdgeMark> marks = view.marksOf(p, false, p.kind == PieceKind::Cell);
-      const std::string_view word = p.kind == PieceKind::Cell   ? "region"
-                                    : p.kind == PieceKind::Path ? "path"
-                                                                : "centre";
-      job.keep(f, word, std::move(p), std::move(marks), std::nullopt);
+      std::vector<EdgeMark> marks =
+          view.marksOf(p, p.kind == PieceKind::Cell ? EdgeIndex::Chains : EdgeIndex::Inherited);
+      // Without a part of their own in the block junctions are path.
+      const std::string_view word = p.kind == PieceKind::Cell                    ? "region"
+                                    : p.kind == PieceKind::Remainder             ? "centre"
+                                    : p.kind == PieceKind::Junction && junctions ? "junction"
+                                                                                 : "path";
+      std::optional<CellMark> cell;
+      if (p.kind == PieceKind::Cell) {
+        const Vec2 size = bounds(p.polygon).size();
+        cell = CellMark{p.ix,
+                        p.iy,
+                        static_cast<uint32_t>(v.sites.size()),
+                        1,
+                        size.x,
+                        size.y,
+                        CellPattern::Local,
+                        p.part};
+        cell->free = true;
+      }
+      job.keep(f, word, std::move(p), std::move(marks), cell);
     }
   }
   job.emit();
@@ -83,15 +87,18 @@ constexpr ParamSpec kParams[] = {
      "coordinates in the region."},
     {"pathWidth", ParamType::Float, "Of the paths between cells; 0 for none.", "3"},
     {"smooth", ParamType::Any,
-     "\"none\", \"average(times, weight)\", \"chaikin(times)\" or \"round(radius)\".",
+     "\"none\", \"average(times, weight)\", \"chaikin(times)\", \"bezier\" or \"round(radius)\".",
      "\"average(2)\""},
-    {"options", ParamType::String, "borderpath=half|none, orphans=merge|own|path.", "\"\""},
+    {"options", ParamType::String,
+     "borderpath=half|none, orphans=merge|own|path, jitter=0.5 (metres by which borders are bent).",
+     "\"\""},
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"voronoi", "region", "Divides a region into cells around scattered places.", kSignatures,
-     applyVoronoi, BlockKind::Selectors, kRandom, "region path centre otherwise", false, true},
+     applyVoronoi, BlockKind::Selectors, kRandom, "region path junction centre otherwise", false,
+     true},
 };
 
 }  // namespace

@@ -76,6 +76,11 @@ std::string textOf(const OpCall& call, size_t argument, std::string_view otherwi
 }
 
 Status noRegion(OpCall& call) {
+  // What went to an otherwise before is at its end.
+  if (call.shape().geometry.kind == GeometryKind::None &&
+      call.spec().block == BlockKind::Operations) {
+    return {};
+  }
   return failOrElse(call, "no-geometry", "the shape has no face that could be divided",
                     "begin with a lot or a face");
 }
@@ -143,9 +148,15 @@ Status linesOf(OpCall& call, size_t argument, double inset, const RegionJob& job
   const std::optional<CellMark>& cell = view.cell();
   const bool four = view.logicalCount() == 4 && cell;
   const bool mx = four && cell->mirroredX(), my = four && cell->mirroredY();
+  uint32_t beyond = 0;
   for (LogicalRange& r : ranges) {
-    if (mx && r.logical % 2 == 0 && r.logical < 4) r.logical = 2 - r.logical;
-    if (my && r.logical % 2 == 1 && r.logical < 4) r.logical = 4 - r.logical;
+    if (r.logical >= view.logicalCount()) ++beyond;
+    if (four && r.logical < 4) r.logical = cell->side(r.logical);
+  }
+  if (beyond > 0) {
+    call.services().warn(
+        "range-beyond", "there are more ranges than the region has logical edges",
+        "leave out those behind edge " + std::to_string(std::max(1u, view.logicalCount()) - 1));
   }
   const std::vector<uint32_t> logical = view.logicals();
   if (!(inset > 0)) {

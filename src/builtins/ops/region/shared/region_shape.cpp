@@ -60,7 +60,7 @@ double numberOf(std::string_view text) {
 
 bool readCell(std::string_view tag, CellMark& c) {
   const std::vector<std::string_view> p = partsOf(tag.substr(kCellPrefix.size()), ' ');
-  if (p.size() != 7) return false;
+  if (p.size() != 10) return false;
   c.ix = wholeNumber(p[0], 0);
   c.iy = wholeNumber(p[1], 0);
   c.nx = std::max(1u, wholeNumber(p[2], 1));
@@ -68,6 +68,9 @@ bool readCell(std::string_view tag, CellMark& c) {
   c.w = numberOf(p[4]);
   c.h = numberOf(p[5]);
   c.pattern = patternNamed(p[6]);
+  c.part = wholeNumber(p[7], 0);
+  c.choice = wholeNumber(p[8], 0);
+  c.free = p[9] == "free";
   return true;
 }
 
@@ -137,7 +140,30 @@ CellPattern patternNamed(std::string_view name) {
   return CellPattern::Auto;
 }
 
+uint32_t CellMark::turns() const {
+  if (pattern != CellPattern::Radial || free) return 0;
+  return iy % 2 == 0 ? ix % 2 : 3 - ix % 2;
+}
+
+uint32_t CellMark::side(uint32_t k) const {
+  if (mirroredX() && k % 2 == 0) k = 2 - k;
+  if (mirroredY() && k % 2 == 1) k = 4 - k;
+  return (k + 4 - turns()) % 4;
+}
+
+bool CellMark::address(double& u, double& v) const {
+  if (free) return true;
+  if (!along(false, u) || !along(true, v)) return false;
+  for (uint32_t t = turns(); t > 0; --t) {
+    const double before = u;
+    u = 1 - v;
+    v = before;
+  }
+  return true;
+}
+
 bool CellMark::mirrored(uint32_t i, uint32_t n) const {
+  if (free) return false;
   switch (pattern) {
     case CellPattern::Local:
     case CellPattern::Radial: return false;
@@ -203,7 +229,37 @@ std::vector<uint32_t> RegionView::logicals() const {
   return out;
 }
 
-std::vector<EdgeMark> RegionView::marksOf(const RegionPiece& piece, bool grid, bool reindex) const {
+namespace {
+
+LogicalEdges logicalsOf(const RegionPiece& piece, EdgeIndex index) {
+  const Ring& outer = piece.polygon.outer;
+  if (index == EdgeIndex::Chains) {
+    std::vector<uint32_t> kind;
+    for (size_t i = 0; i < outer.size(); ++i) {
+      // Made edges of one role are one kind; of the input each edge is.
+      const EdgeOrigin& e = piece.edges[i];
+      kind.push_back(e.role == EdgeRole::Kept ? e.source
+                                              : 0x80000000u + static_cast<uint32_t>(e.role));
+    }
+    return chainsOf(outer, kind);
+  }
+  if (index == EdgeIndex::Sector) {
+    std::vector<SectorSide> side;
+    for (size_t i = 0; i < outer.size(); ++i) {
+      const EdgeRole role = piece.edges[i].role;
+      side.push_back(role == EdgeRole::Kept     ? SectorSide::Outer
+                     : role == EdgeRole::Centre ? SectorSide::Centre
+                                                : SectorSide::Ray);
+    }
+    return sectorOf(outer, side);
+  }
+  return autoindex(outer);
+}
+
+}  // namespace
+
+std::vector<EdgeMark> RegionView::marksOf(const RegionPiece& piece, EdgeIndex index) const {
+  const bool grid = index == EdgeIndex::Grid || index == EdgeIndex::GridByY;
   std::vector<EdgeMark> out;
   const std::vector<Ring> rings = ringsOf(piece.polygon);
   size_t i = 0;
@@ -227,10 +283,11 @@ std::vector<EdgeMark> RegionView::marksOf(const RegionPiece& piece, bool grid, b
       if (grid && &r == &rings[0]) {
         uint32_t side = o.side;
         if (side > 3) {
-          // The 45 degree edge belongs to the side along x, in mirrored cells too.
+          // The 45 degree edge belongs to one side, and to its image in mirrored cells.
           const Vec2 n = -perpendicular(r[(k + 1) % r.size()] - r[k]);
           const double u = dot(n, piece.axis), v = dot(n, perpendicular(piece.axis));
-          const bool across = std::fabs(u) >= std::fabs(v) * (1 - 1e-6);
+          const double tie = index == EdgeIndex::GridByY ? 1 + 1e-6 : 1 - 1e-6;
+          const bool across = std::fabs(u) >= std::fabs(v) * tie;
           side = across ? (u < 0 ? 0 : 2) : (v > 0 ? 1 : 3);
         }
         m.logical = side;
@@ -240,10 +297,9 @@ std::vector<EdgeMark> RegionView::marksOf(const RegionPiece& piece, bool grid, b
       out.push_back(std::move(m));
     }
   }
-  if (reindex) {
-    const LogicalEdges l = autoindex(piece.polygon.outer);
-    for (size_t k = 0; k < l.of.size(); ++k) out[k].logical = l.of[k];
-  }
+  if (grid || index == EdgeIndex::Inherited) return out;
+  const LogicalEdges l = logicalsOf(piece, index);
+  for (size_t k = 0; k < l.of.size(); ++k) out[k].logical = l.of[k];
   return out;
 }
 
@@ -274,6 +330,8 @@ uint32_t RegionView::faceTags(uint32_t depth, const std::optional<CellMark>& cel
     }
     text += shortestText(cell->w) + ' ' + shortestText(cell->h) + ' ';
     text += kPatterns[static_cast<size_t>(cell->pattern)];
+    text += ' ' + std::to_string(cell->part) + ' ' + std::to_string(cell->choice);
+    text += cell->free ? " free" : " grid";
     names.push_back(pool.intern(text));
   }
   return services_.tags().intern(std::move(names));
@@ -422,12 +480,35 @@ bool selectsWord(const SelectorItem& item, std::string_view word, const ValuePoo
 
 Status failOrElse(OpCall& call, const char* code, const std::string& message,
                   const std::string& hint) {
+  // After operations with plain parts the shape goes on.
+  if (call.spec().block == BlockKind::Operations) {
+    if (giveToOtherwise(call)) return {};
+    return call.fail(code, message, hint);
+  }
   for (const SelectorItem& item : call.selectors()) {
     if (!selectsWord(item, "otherwise", call.services().pool())) continue;
     call.emit(call.shape(), item.slot, 0);
     return {};
   }
   return call.fail(code, message, hint);
+}
+
+std::optional<uint32_t> thingSlot(OpCall& call) {
+  if (call.selectors().empty()) return 0;
+  for (const SelectorItem& item : call.selectors()) {
+    if (item.terms.empty()) return item.slot;
+  }
+  return std::nullopt;
+}
+
+bool giveToOtherwise(OpCall& call) {
+  for (const SelectorItem& item : call.selectors()) {
+    if (!selectsWord(item, "otherwise", call.services().pool())) continue;
+    call.emit(call.shape(), item.slot, 0);
+    call.shape().geometry = Geometry{};
+    return true;
+  }
+  return false;
 }
 
 std::vector<size_t> regionFaces(const Mesh& mesh) {

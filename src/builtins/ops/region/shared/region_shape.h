@@ -6,7 +6,8 @@
 // Provenance lives in tags, so it goes wherever a face and its edges go:
 //
 //   face   region.depth.D                       so many partitions lie behind it
-//          region.cell IX IY NX NY W H PATTERN  the cell of a grid that it is, or was cut from
+//          region.cell IX IY NX NY W H PATTERN PART CHOICE KIND
+//                                               the cell that it is, or was cut from
 //   edge   region.edge.L.S                      made by partition L (0: the initial outline), of
 //   the
 //                                               logical edge S (n: of none)
@@ -17,6 +18,7 @@
 // scope's: (x, -z) seen from above, (x, y) seen from the front.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <string>
@@ -63,16 +65,34 @@ struct CellMark {
   uint32_t ix = 0, iy = 0, nx = 1, ny = 1;
   double w = 0, h = 0;
   CellPattern pattern = CellPattern::Auto;
+  /// Parts of one cell are numbered; of junctions `choice` is the figure, from 1.
+  uint32_t part = 0, choice = 0;
+  /// Not of a grid: ix counts the cells, and iy how many lie between it and the boundary.
+  bool free = false;
+
+  /// How many cells lie between this one and the border.
+  uint32_t bx() const { return free ? iy : std::min(ix, nx - 1 - ix); }
+  uint32_t by() const { return free ? 0 : std::min(iy, ny - 1 - iy); }
 
   bool mirroredX() const { return mirrored(ix, nx); }
   bool mirroredY() const { return mirrored(iy, ny); }
-  /// An address along one axis with 0 at the border side, as the cell sees it; false when the
-  /// pattern places nothing here.
-  bool along(bool y, double& u) const;
+  /// Quarter turns to the left of a radial pattern.
+  uint32_t turns() const;
+  /// The side (0 west, 1 north, 2 east, 3 south) that a side of the first cell is here.
+  uint32_t side(uint32_t k) const;
+  /// An address with 0 at the border side, as the cell sees it; false when the pattern places
+  /// nothing here.
+  bool address(double& u, double& v) const;
 
  private:
+  bool along(bool y, double& u) const;
   bool mirrored(uint32_t i, uint32_t n) const;
 };
+
+/// What the logical edges of a piece are: those that its edges inherit; the sides of a grid's cell,
+/// where an edge at 45 degrees belongs to the side along x or along y; chains of edges of one
+/// origin; the rays and the outer chain of a sector; or what its outline alone says.
+enum class EdgeIndex : uint8_t { Inherited, Grid, GridByY, Chains, Sector, Outline };
 
 class RegionView {
  public:
@@ -88,9 +108,8 @@ class RegionView {
   /// By edge of the outer ring.
   std::vector<uint32_t> logicals() const;
 
-  /// The marks of a piece of this region, one partition deeper. Grids say their sides; pieces of
-  /// others keep the logical edges that they inherit, or are indexed anew with `reindex`.
-  std::vector<EdgeMark> marksOf(const RegionPiece& piece, bool grid, bool reindex) const;
+  /// The marks of a piece of this region, one partition deeper.
+  std::vector<EdgeMark> marksOf(const RegionPiece& piece, EdgeIndex index) const;
 
   /// A shape that is the pieces: their marks as tags, the scope along the first piece's axis.
   Shape shapeOf(const Shape& parent, std::span<const RegionPiece> pieces,
@@ -141,6 +160,13 @@ bool selectsWord(const SelectorItem& item, std::string_view word, const ValuePoo
 /// An operation that could not be done: the block's `otherwise` gets the shape, or the call fails.
 Status failOrElse(OpCall& call, const char* code, const std::string& message,
                   const std::string& hint);
+
+/// Of a block { A | otherwise : B }: the slot of A; none where only otherwise is there.
+std::optional<uint32_t> thingSlot(OpCall& call);
+
+/// For operations after which the shape goes on: where nothing could be done, `otherwise` gets the
+/// shape, which then ends here. False without such a part.
+bool giveToOtherwise(OpCall& call);
 
 /// The faces of a shape that have an area.
 std::vector<size_t> regionFaces(const Mesh& mesh);

@@ -407,10 +407,8 @@ class SelectionReader {
 
   // Sides are mirrored with the cell.
   uint32_t seen(uint32_t logical) const {
-    if (view_.logicalCount() > 4 || !view_.cell()) return logical;
-    if (view_.cell()->mirroredX() && logical % 2 == 0) return 2 - logical;
-    if (view_.cell()->mirroredY() && logical % 2 == 1) return 4 - logical;
-    return logical;
+    if (view_.logicalCount() > 4 || !view_.cell() || logical > 3) return logical;
+    return view_.cell()->side(logical);
   }
   EdgeSet logical(uint32_t k) const {
     const uint32_t count = std::max(1u, view_.logicalCount());
@@ -511,51 +509,101 @@ class SelectionReader {
   }
 
   // The group of the first direction when all directions grow from where their rays meet the
-  // outline: always the edge that turns least from a group's direction is attached to it.
+  // outline: always the part that turns least from a group's mean normal is attached to it. An edge
+  // that two rays meet is divided where the bisector of both meets it.
   EdgeSet grow(const std::vector<Vec2>& directions, double threshold) const {
     const Vec2 c = middleOf(view_.polygon());
     constexpr int kNone = -1;
-    std::vector<int> group(outer_, kNone);
-    const auto hit = [&](Vec2 d) {
-      size_t best = outer_;
-      double reach = 1e300;
-      for (size_t i = 0; i < outer_; ++i) {
-        const Vec2 e = to_[i] - from_[i];
-        const double det = cross(d, e);
-        if (det == 0) continue;
-        const double t = cross(from_[i] - c, e) / det, u = cross(from_[i] - c, d) / det;
-        if (t > 0 && u >= 0 && u <= 1 && t < reach) {
-          reach = t;
-          best = i;
-        }
-      }
-      return best;
+    struct Part {
+      size_t edge;
+      double from, to;
+      int group;
+    };
+    std::vector<Part> parts;
+    for (size_t i = 0; i < outer_; ++i) parts.push_back({i, 0, 1, kNone});
+    std::vector<Vec2> normals(directions.size());
+    const auto join = [&](Part& p, int g) {
+      p.group = g;
+      const double l = length(to_[p.edge] - from_[p.edge]) * (p.to - p.from);
+      normals[static_cast<size_t>(g)] = normals[static_cast<size_t>(g)] + outward(p.edge) * l;
     };
     for (size_t g = 0; g < directions.size(); ++g) {
-      const size_t i = hit(directions[g]);
-      if (i < outer_ && group[i] == kNone) group[i] = static_cast<int>(g);
+      double at = 0;
+      const size_t edge = hitFrom(c, directions[g], at);
+      if (edge == outer_) continue;
+      const auto part = std::find_if(parts.begin(), parts.end(), [&](const Part& p) {
+        return p.edge == edge && at >= p.from && at <= p.to;
+      });
+      if (part == parts.end()) continue;
+      if (part->group == kNone) {
+        join(*part, static_cast<int>(g));
+        continue;
+      }
+      const Vec2 middle =
+          normalized(directions[static_cast<size_t>(part->group)]) + normalized(directions[g]);
+      double cut = 0, own = 0;
+      if (!(length(middle) > 0) || hitFrom(c, middle, cut) != edge) continue;
+      const Vec2 first = directions[static_cast<size_t>(part->group)];
+      if (hitFrom(c, first, own) != edge || !(cut > part->from && cut < part->to)) continue;
+      Part rest = *part;
+      (at > own ? part->to : part->from) = cut;
+      (at > own ? rest.from : rest.to) = cut;
+      rest.group = kNone;
+      join(rest, static_cast<int>(g));
+      parts.insert(at > own ? part + 1 : part, rest);
     }
+    attach(parts, normals, threshold);
+    EdgeSet out(n_);
+    for (const Part& p : parts) {
+      if (p.group == 0) out.add(p.edge, p.from, p.to);
+    }
+    return out;
+  }
+
+  // The edge of the outer ring that a ray meets first, and the share of it; outer_ when none.
+  size_t hitFrom(Vec2 c, Vec2 d, double& share) const {
+    size_t best = outer_;
+    double reach = 1e300;
+    for (size_t i = 0; i < outer_; ++i) {
+      const Vec2 e = to_[i] - from_[i];
+      const double det = cross(d, e);
+      if (det == 0) continue;
+      const double t = cross(from_[i] - c, e) / det, u = cross(from_[i] - c, d) / det;
+      if (t > 0 && u >= 0 && u <= 1 && t < reach) {
+        reach = t;
+        best = i;
+        share = u;
+      }
+    }
+    return best;
+  }
+
+  template <class Parts>
+  void attach(Parts& parts, std::vector<Vec2>& normals, double threshold) const {
+    const size_t n = parts.size();
     for (;;) {
       double least = 1e300;
-      size_t edge = outer_;
-      int to = kNone;
-      for (size_t i = 0; i < outer_; ++i) {
-        if (group[i] != kNone) continue;
-        for (const size_t k : {(i + 1) % outer_, (i + outer_ - 1) % outer_}) {
-          if (group[k] == kNone) continue;
-          const Vec2 d = directions[static_cast<size_t>(group[k])], n = outward(i);
-          const double turn = std::fabs(atan2Deg(cross(d, n), dot(d, n)));
+      size_t part = n;
+      int to = -1;
+      for (size_t i = 0; i < n; ++i) {
+        if (parts[i].group >= 0) continue;
+        for (const size_t k : {(i + 1) % n, (i + n - 1) % n}) {
+          if (parts[k].group < 0) continue;
+          const Vec2 d = normals[static_cast<size_t>(parts[k].group)], o = outward(parts[i].edge);
+          const double turn = std::fabs(atan2Deg(cross(d, o), dot(d, o)));
           if (turn < least) {
             least = turn;
-            edge = i;
-            to = group[k];
+            part = i;
+            to = parts[k].group;
           }
         }
       }
-      if (edge == outer_ || least > threshold) break;
-      group[edge] = to;
+      if (part == n || least > threshold) return;
+      auto& p = parts[part];
+      p.group = to;
+      const double l = length(to_[p.edge] - from_[p.edge]) * (p.to - p.from);
+      normals[static_cast<size_t>(to)] = normals[static_cast<size_t>(to)] + outward(p.edge) * l;
     }
-    return where([&](size_t i) { return i < outer_ && group[i] == 0; });
   }
 
   EdgeSet peeled(EdgeRole role, bool both, int last) const {
@@ -580,6 +628,58 @@ class SelectionReader {
     const int depth = static_cast<int>(view_.depth());
     const int ancestor = k >= 0 ? depth - 1 - k : -1 - k;
     return where([&](size_t i) { return static_cast<int>(view_.marks()[i].level) <= ancestor; });
+  }
+
+  // An edge whose two ends lie on the initial boundary, whatever made it.
+  EdgeSet strictOuter() const {
+    std::vector<bool> on(n_, false);
+    forEachCorner([&](size_t before, size_t i) {
+      on[i] = view_.marks()[i].level == 0 || view_.marks()[before].level == 0;
+    });
+    EdgeSet s(n_);
+    forEachCorner([&](size_t before, size_t i) {
+      if (on[before] && on[i]) s.add(before);
+    });
+    return s;
+  }
+
+  // Calls visit(edge that ends, edge that begins) for each vertex of all rings.
+  template <class Visit>
+  void forEachCorner(Visit&& visit) const {
+    size_t first = 0;
+    for (const Ring& r : ringsOf(view_.polygon())) {
+      for (size_t i = 0; i < r.size(); ++i) {
+        visit(first + (i + r.size() - 1) % r.size(), first + i);
+      }
+      first += r.size();
+    }
+  }
+
+  // Edges that share a vertex with what is selected; what is selected itself is not among them.
+  EdgeSet touching(const EdgeSet& set) const {
+    std::vector<bool> begins(n_, false), ends(n_, false), any(n_, false);
+    for (const EdgePart& p : set.parts()) {
+      any[p.edge] = true;
+      begins[p.edge] = begins[p.edge] || p.from <= 0;
+      ends[p.edge] = ends[p.edge] || p.to >= 1;
+    }
+    EdgeSet s(n_);
+    forEachCorner([&](size_t before, size_t i) {
+      if (ends[before] && !any[i]) s.add(i);
+      if (begins[i] && !any[before]) s.add(before);
+    });
+    return s;
+  }
+
+  // Edges with a corner at an end: where one logical edge ends and another begins.
+  EdgeSet atCorners() const {
+    EdgeSet s(n_);
+    forEachCorner([&](size_t before, size_t i) {
+      if (view_.marks()[before].logical == view_.marks()[i].logical) return;
+      s.add(before);
+      s.add(i);
+    });
+    return s;
   }
 
   // The ranges of parameters along logical edges: [0.4, 2.9].
@@ -655,6 +755,12 @@ class SelectionReader {
     if (const int k = sideOf(w); k >= 0) return side(k);
     if (w == "all") return EdgeSet::all(n_);
     if (w == "outer" || w == "outer_edge" || w == "outeredgesselection") {
+      const size_t before = r_.place();
+      if (r_.accept('(') && r_.word() == "strict") {
+        close();
+        return strictOuter();
+      }
+      r_.goTo(before);
       return r_.peek() == '(' ? outerOf(optionalArgument(0)) : outerOf(-1);
     }
     if (w == "inner") return outerOf(-1).complement();
@@ -668,6 +774,13 @@ class SelectionReader {
       return peeled(EdgeRole::Inner, false, optionalArgument(0));
     if (w == "peeled_segment" || w == "ps") {
       return peeled(EdgeRole::Inner, true, optionalArgument(0));
+    }
+    if (w == "corners") return atCorners();
+    if (w == "touches") {
+      open();
+      const EdgeSet inside = either();
+      close();
+      return touching(inside);
     }
     if (w == "longest") return byLength(true);
     if (w == "shortest") return byLength(false);

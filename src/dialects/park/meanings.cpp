@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+#include "dialects/park/meanings.h"
+
+#include <algorithm>
+
+#include "base/number.h"
+
+namespace gable::park {
+
+namespace {
+
+// Rules that name each other in a ring are followed so far.
+constexpr int kDeepest = 20;
+
+std::string figureAtHead(const Grammar& g, const Sequence& s, bool* own, int depth) {
+  if (s.empty() || depth > kDeepest) return {};
+  if (isFigure(lowered(s[0].name)) && s[0].called) {
+    if (own) *own = depth == 0;
+    return figureText(g, s[0]);
+  }
+  const Rule* r = s[0].called ? nullptr : g.rule(s[0].name);
+  if (s.size() != 1 || !r || r->branches.size() != 1) return {};
+  return figureAtHead(g, r->branches[0].body, own, depth + 1);
+}
+
+Lines linesOf(const Grammar& g, const Op& op, int depth);
+
+Lines linesOf(const Grammar& g, const std::string& argument, int depth) {
+  Lines l;
+  l.ranges = withConstants(g, argument);
+  std::string name = argument.substr(0, argument.find('('));
+  while (!name.empty() && name.back() == ' ') name.pop_back();
+  const Rule* r = g.rule(name);
+  const Op* op = r ? onlyOp(*r) : nullptr;
+  if (!op || depth > kDeepest) return l;
+  // The function's arguments in the place of its parameters.
+  std::map<std::string, std::string> words;
+  const std::vector<std::string> given = argumentTexts(argument);
+  for (size_t i = 0; i < r->parameters.size() && i < given.size(); ++i) {
+    words[r->parameters[i]] = given[i];
+  }
+  return linesOf(g, withArguments({*op}, words)[0], depth + 1);
+}
+
+Lines linesOf(const Grammar& g, const Op& op, int depth) {
+  Lines l;
+  // One function may stand for another.
+  if (g.rule(op.name) && op.called && depth <= kDeepest) {
+    std::string call = op.name + '(';
+    for (const Argument& a : op.arguments) call += (call.back() == '(' ? "" : ", ") + a.text;
+    return linesOf(g, call + ')', depth + 1);
+  }
+  for (const Argument& a : op.arguments) {
+    const std::string word = lowered(a.text.substr(0, a.text.find('(')));
+    if (isFigure(word) && a.text.back() == ')') {
+      l.figure = withConstants(g, a.text);
+    } else if (lowered(a.text) != "perimeter") {
+      l.ranges += (l.ranges.empty() ? "" : " ") + withConstants(g, a.text);
+    }
+  }
+  for (const Part& p : partsOf(op)) {
+    for (const Op& inner : p.body) {
+      double v = 0;
+      if (lowered(inner.name) == "contract" && !inner.arguments.empty() &&
+          constantValue(g, inner.arguments[0].text, v)) {
+        l.inset = v;
+      }
+    }
+  }
+  return l;
+}
+
+}  // namespace
+
+bool isFigure(std::string_view op) {
+  return op == "romb" || op == "rombcenter" || op == "circle" || op == "square" || op == "rect" ||
+         op == "polygon";
+}
+
+bool isMaterialWord(std::string_view name) {
+  return name.size() > 1 &&
+         std::none_of(name.begin(), name.end(), [](char c) { return c >= 'a' && c <= 'z'; });
+}
+
+const char* colourOf(std::string_view name) {
+  struct Hint {
+    const char* part;
+    const char* colour;
+  };
+  static constexpr Hint kHints[] = {
+      {"blue", "#5f8f8f"},   {"tree", "#3f7a34"},   {"bush", "#4a7f3a"},   {"hedge", "#3f7034"},
+      {"plant1", "#c86a8a"}, {"plant2", "#c9a24a"}, {"plant", "#8f7ab8"},  {"flower", "#c86a8a"},
+      {"cement", "#b5b5b0"}, {"stone", "#a89f92"},  {"path", "#cbbfa6"},   {"fountain", "#8fa8b8"},
+      {"water", "#6f9fc0"},  {"centre", "#b8b0a4"}, {"center", "#b8b0a4"}, {"grass", "#6fa854"},
+      {"green", "#5f9f4a"},  {"region", "#7fb25f"}, {"park", "#7fb25f"},   {"smooth", "#7fb25f"}};
+  const std::string low = lowered(name);
+  for (const Hint& h : kHints) {
+    if (low.find(h.part) != std::string::npos) return h.colour;
+  }
+  return "#9a9a92";
+}
+
+const Op* onlyOp(const Rule& r) {
+  if (r.branches.size() != 1 || r.branches[0].body.size() != 1) return nullptr;
+  return &r.branches[0].body[0];
+}
+
+const Op* onlyOp(const Grammar& g, std::string_view rule) {
+  const Rule* r = g.rule(rule);
+  return r ? onlyOp(*r) : nullptr;
+}
+
+bool isPointSet(const Rule& r) {
+  const Op* op = onlyOp(r);
+  if (!op || !op->blocks.empty() || !op->called) return false;
+  const std::string name = lowered(op->name);
+  return name == "scattercircles" || name == "scatter" || name == "corners" || name == "entrances";
+}
+
+std::string figureText(const Grammar& g, const Op& op) {
+  std::string out = lowered(op.name) == "rombcenter" ? "romb" : lowered(op.name);
+  out += '(';
+  for (size_t i = 0; i < op.arguments.size(); ++i) {
+    double v = 0;
+    const bool known = constantValue(g, op.arguments[i].text, v);
+    // RombCenter(..) of the sketches; else a parameter, which is filled in when the rule runs.
+    const std::string& text = op.arguments[i].text;
+    const bool sketch = text.find_first_not_of(". ") == std::string::npos;
+    out += (i > 0 ? ", " : "") + (known ? shortestText(v) : sketch ? std::string("3") : text);
+  }
+  return out + ')';
+}
+
+std::string figureAtHead(const Grammar& g, const Sequence& s, bool* own) {
+  return figureAtHead(g, s, own, 0);
+}
+
+std::string figureOfBlock(const Grammar& g, const Op& op) {
+  for (const Part& p : partsOf(op)) {
+    const std::string f = figureAtHead(g, p.body);
+    if (!f.empty()) return f;
+  }
+  return "none";
+}
+
+const Op* joinedOp(const Grammar& g, const Part* part) {
+  if (!part || part->body.size() != 1) return nullptr;
+  const Op* op = &part->body[0];
+  if (!op->called && op->blocks.empty()) op = onlyOp(g, op->name);
+  return op && lowered(op->name) == "joined" ? op : nullptr;
+}
+
+Joined joinedParts(const Grammar& g, const Op& op) {
+  Joined out;
+  for (const Part& p : partsOf(op)) {
+    for (const Op& inner : p.body) {
+      const std::string figure = figureAtHead(g, {inner});
+      if (figure.empty()) {
+        out.rest.push_back(inner);
+      } else {
+        out.figures += (out.figures.empty() ? "" : " ") + figure;
+      }
+    }
+  }
+  return out;
+}
+
+std::string discs(const Grammar& g, const std::string& argument) {
+  if (const Op* op = onlyOp(g, argument)) {
+    return op->arguments.empty() ? "1" : withConstants(g, op->arguments[0].text);
+  }
+  const size_t bracket = argument.find('(');
+  if (bracket != std::string::npos && argument.back() == ')') {
+    return withConstants(g, argument.substr(bracket + 1, argument.size() - bracket - 2));
+  }
+  return withConstants(g, argument);
+}
+
+Lines linesOf(const Grammar& g, const std::string& argument) { return linesOf(g, argument, 0); }
+Lines linesOf(const Grammar& g, const Op& op) { return linesOf(g, op, 0); }
+
+std::vector<Part> partsOf(const Op& op) {
+  std::vector<Part> out;
+  for (const Block& b : op.blocks) out.insert(out.end(), b.parts.begin(), b.parts.end());
+  return out;
+}
+
+std::vector<double> sharesOf(const Grammar& g, const std::vector<Part>& parts) {
+  std::vector<double> out;
+  double given = 0, open = 0;
+  for (const Part& p : parts) {
+    std::string label = p.label;
+    if (!label.empty() && label.back() == '%') label.pop_back();
+    double w = -1;
+    if (!constantValue(g, label, w)) w = -1;
+    out.push_back(w);
+    given += std::max(0.0, w);
+    open += w < 0;
+  }
+  const double each = open > 0 ? std::max(0.0, 100 - given) / open : 0;
+  for (double& w : out) w = w < 0 ? each : w * (given > 100 ? 100 / given : 1);
+  return out;
+}
+
+JunctionChoices junctionChoices(const Grammar& g, const Part& part) {
+  JunctionChoices out;
+  const Op* op = part.body.size() == 1 ? &part.body[0] : nullptr;
+  const Rule* r = op && !op->called && op->blocks.empty() ? g.rule(op->name) : nullptr;
+  if (r && r->branches.size() == 1 && r->branches[0].body.size() == 1) op = onlyOp(*r);
+  if (op && lowered(op->name) == "choose") {
+    out.parts = partsOf(*op);
+    const std::vector<double> shares = sharesOf(g, out.parts);
+    for (size_t i = 0; i < out.parts.size(); ++i) {
+      const std::string figure = figureAtHead(g, out.parts[i].body);
+      out.figures += (i > 0 ? " | " : "") + shortestText(shares[i]) + "%: ";
+      out.figures += figure.empty() ? "none" : figure;
+    }
+  } else if (r && r->branches.size() > 1) {
+    for (const Branch& b : r->branches) {
+      std::string condition = withConstants(g, b.condition);
+      if (!condition.empty() && condition.front() == '(' && condition.back() == ')' &&
+          condition.find(')') == condition.size() - 1) {
+        condition = condition.substr(1, condition.size() - 2);
+      }
+      const std::string figure = figureAtHead(g, b.body);
+      if (!out.figures.empty()) out.figures += " | ";
+      if (!condition.empty()) out.figures += "case " + condition + ": ";
+      out.figures += figure.empty() ? "none" : figure;
+      out.parts.push_back({"", b.body, b.span});
+    }
+  }
+  return out;
+}
+
+}  // namespace gable::park

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The park notation beyond the rows: parameters, functions, other blocks, and what single
+// operations can be told.
+
+#include "tests/dialects/park/park_testing.h"
+
+namespace gable {
+namespace {
+
+using namespace park_testing;
+
+TEST(ParkNotation, ReportsWhatItCannotRead) {
+  EXPECT_TRUE(run("", kLot).has("no-rules"));
+  EXPECT_TRUE(run("R -> Grid(2, 2) { A } )", kLot).has("unexpected-text"));
+  EXPECT_TRUE(run("R -> Nonsense(2) { A }", kLot).has("unknown-operation"));
+  EXPECT_TRUE(run("R -> A\nR -> B", kLot).has("duplicate-rule"));
+  EXPECT_TRUE(run("P = x + \nR -> A", kLot).has("bad-constant"));
+  EXPECT_TRUE(run("R -> case (w == ) : A else : B", kLot).has("bad-expression"));
+  EXPECT_TRUE(run("R -> Grid(2,2) {A}{B}{C}{D}", kLot).has("too-many-blocks"));
+  EXPECT_TRUE(run("R -> A(1)\nA(x, y) -> B", kLot).has("wrong-argument-count"));
+  EXPECT_TRUE(run("R -> F\nfun F -> F", kLot).has("nesting-too-deep"));
+  EXPECT_TRUE(run("R -> Select { A }", kLot).has("bad-argument"));
+}
+
+TEST(ParkNotation, RulesTakeParameters) {
+  const Made m =
+      run("Width = 9\nR -> Strip(2, 0.5)\n"
+          "Strip(Width, r) -> Peel(all, Width) { Edge(Width * 2) | Disc(r) }\n"
+          "Edge(a) -> case (a == 4): Right else: Wrong\n"
+          "Disc(r) -> Circle(r * 4)",
+          kLot);
+  EXPECT_EQ(m.count.at("Right"), 1);
+  EXPECT_NEAR(m.area.at("Right"), 400 - 256, 1e-3);
+  // A disc of 24 sides.
+  EXPECT_NEAR(m.area.at("Disc"), 12 * 4 * std::sin(kPi / 12), 1e-3);
+  // In texts as well: the spacing of trees, and the figure that is cut out.
+  const Made t = run("R -> Trees(5, 1)\nTrees(d, r) -> Distribute(S : r, [: d : ]) { Circle(r) T }",
+                     Shapes::lot(20, 10));
+  EXPECT_EQ(t.count.at("T"), 4);
+}
+
+TEST(ParkNotation, FunctionsAreFilledIn) {
+  const Made m = run("R -> Bordered(2) Lawn\nfun Bordered(d) -> Contract(d)", kLot);
+  EXPECT_NEAR(m.area.at("Lawn"), 256, 1e-3);
+  const Made lines =
+      run("R -> Sweep(Around(3), width=0.5) { Hedge }\n"
+          "fun Around(d) -> Parametrise(_ _ _ _) { Contract(d) }",
+          kLot);
+  EXPECT_EQ(lines.count.at("Hedge"), 1);
+}
+
+TEST(ParkNotation, OtherwiseIsDoneWhenNothingElseIs) {
+  EXPECT_NEAR(run("R -> Contract(30) { } else { B }", kLot).area.at("B"), 400, 1e-6);
+  EXPECT_NEAR(run("R -> Contract(30) else { B } A", kLot).whole, 400, 1e-6);
+  EXPECT_EQ(run("R -> Contract(1) else { B } A", kLot).count.count("B"), 0u);
+  EXPECT_EQ(run("R -> Place((2, 2)) { Circle(1) } else { B } A", kLot).count.at("B"), 1);
+  EXPECT_EQ(run("R -> Distribute(pathside, 2) { T } else { B } A", kLot).count.at("B"), 1);
+  EXPECT_EQ(run("R -> ScatterCircles(3 {50}) { T } else { B } A", kLot).count.at("B"), 1);
+  EXPECT_EQ(run("R -> Sweep(pathside) { T } else { B } A", kLot).count.at("B"), 1);
+  const Made done = run("R -> Place(CENTRE) { Circle(1) T } else { B } A", kLot);
+  EXPECT_EQ(done.count.count("B"), 0u);
+  EXPECT_NEAR(done.whole, 400, 1e-3);
+}
+
+TEST(ParkNotation, SelectTakesTheFirstSelectionThatMeansAnEdge) {
+  const std::string cells =
+      "R -> Grid(3, 3) { C } {}\nC -> Select { W & outer : Left | outer : "
+      "Side } else { Middle }";
+  const Made m = run(cells, Shapes::lot(30, 30));
+  EXPECT_EQ(m.count.at("Middle"), 1);
+  EXPECT_EQ(m.count.at("Left") + m.count.at("Side"), 8);
+}
+
+TEST(ParkNotation, InsertCutsTheOuterCorners) {
+  const Made m = run("R -> Insert(2) Lawn", kLot);
+  const double quarter = 12 * 4 * std::sin(kPi / 12) / 4;
+  EXPECT_NEAR(m.area.at("Lawn"), 400 - 4 * quarter, 1e-3);
+  // Of a cell only the corner that is the park's own.
+  const Made cells = run("R -> Grid(2, 2) { Insert(2) C } {}", kLot);
+  EXPECT_NEAR(cells.area.at("C"), 400 - 4 * quarter, 1e-3);
+}
+
+TEST(ParkNotation, JoinedUnitesFigures) {
+  const Made m = run("R -> joined { Rect(10, 2) Rect(2, 10) Cross }", kLot);
+  EXPECT_EQ(m.count.at("Cross"), 1);
+  EXPECT_NEAR(m.area.at("Cross"), 36, 1e-3);
+}
+
+TEST(ParkNotation, JunctionsAreChosen) {
+  const std::string drawn =
+      "PathWidth = 2\nR -> Grid(5, 5) { A } { B } { Choose { 50%: Romb(3) Stone, Circle(2) Basin } "
+      "}";
+  const Made m = run(drawn, Shapes::lot(100, 100));
+  EXPECT_EQ(m.count.at("Stone") + m.count.at("Basin"), 16);
+  EXPECT_GT(m.count.at("Stone"), 0);
+  EXPECT_GT(m.count.at("Basin"), 0);
+  const std::string placed =
+      "PathWidth = 2\nR -> Grid(4, 4) { A } { B } { J }\n"
+      "J -> case (bx == 1 && by == 1): Circle(4) Pond else: Romb(2) Plaza";
+  const Made p = run(placed, Shapes::lot(100, 100));
+  EXPECT_EQ(p.count.at("Pond"), 1);
+  EXPECT_EQ(p.count.at("Plaza"), 8);
+  EXPECT_NEAR(p.whole - p.area.at("Pond") - p.area.at("Plaza"), 10000, 0.01);
+}
+
+TEST(ParkNotation, EntrancesArePlacesAlongTheOutline) {
+  const Made m =
+      run("PathWidth = 1\nR -> CastRays(CENTRE, Entrances([0.5, 1.5, 2.5])) { A } { B }", kLot);
+  EXPECT_EQ(m.count.at("B"), 3);
+  for (const Vec3& at : m.places.at("B")) {
+    EXPECT_TRUE(std::fabs(at.x - 10) < 0.01 || std::fabs(at.z + 10) < 0.01);
+  }
+}
+
+TEST(ParkNotation, MapsAreCellsBetweenTheSides) {
+  const Made m = run("R -> QuadMap(4, 3) { C | Rest }", Shapes::lot(40, 30));
+  EXPECT_EQ(m.count.at("C"), 12);
+  EXPECT_NEAR(m.area.at("C"), 1200, 1e-2);
+  const Shapes bent =
+      Shapes::polygon({{0, 0}, {20, -4}, {40, 0}, {44, 15}, {40, 30}, {20, 34}, {0, 30}, {-4, 15}});
+  const Made b = run("R -> QuadMap(4, 3) { C | Rest }", bent);
+  EXPECT_NEAR(b.whole, 40 * 30 + 4 * 0.5 * (40 * 4 + 30 * 4) / 2, 0.1);
+  EXPECT_EQ(b.count.at("C"), 12);
+}
+
+TEST(ParkNotation, VoronoiPathsAreSections) {
+  const std::string sites = "\nS -> ScatterCircles(12 {2})";
+  const Made m = run("R -> VoronoiRegions(S, none) { A | path: P | junction: J }" + sites,
+                     Shapes::lot(80, 60));
+  EXPECT_GT(m.count.at("P"), 12);
+  EXPECT_GT(m.count.at("J"), 8);
+  EXPECT_NEAR(m.whole, 4800, 0.01);
+  // With no word for junctions they are path.
+  const Made p = run("R -> VoronoiRegions(S, none) { A } { P }" + sites, Shapes::lot(80, 60));
+  EXPECT_EQ(p.count.at("P"), m.count.at("P") + m.count.at("J"));
+}
+
+TEST(ParkNotation, VoronoiBordersMayBend) {
+  const std::string sites = "\nS -> ScatterCircles(9 {2})";
+  for (const char* more : {"none, jitter(2)", "bezier, jitter(1)", "bezier", "chaikin(3)"}) {
+    const std::string text = std::string("R -> VoronoiRegions(S, ") + more + ") { A } { P }";
+    const Made m = run(text + sites, Shapes::lot(80, 60));
+    EXPECT_NEAR(m.whole, 4800, 0.02) << more;
+    EXPECT_GE(m.count.at("A"), 9) << more;
+  }
+  const std::string dry = "PathWidth = 0\nR -> VoronoiRegions(S, none, jitter(2)) { A } {}";
+  EXPECT_NEAR(run(dry + sites, Shapes::lot(80, 60)).area.at("A"), 4800, 0.02);
+}
+
+TEST(ParkNotation, VoronoiTakesHundredsOfSites) {
+  const Made m =
+      rules("Lot --> voronoi(\"400 {0.5}\", 0, \"none\") { region : A }", Shapes::lot(200, 150));
+  EXPECT_EQ(m.count.at("A"), 400);
+  EXPECT_NEAR(m.whole, 30000, 0.05);
+}
+
+TEST(ParkNotation, CellsCountTheWayToTheBoundary) {
+  const Made m = rules(
+      "Lot --> voronoi(\"60 {1}\", 0, \"none\") { region : Cell }\n"
+      "Cell --> case region.bx == 0 : Outer. case region.bx == 1 : Second. else : Inner.",
+      Shapes::lot(100, 100));
+  EXPECT_GT(m.count.at("Outer"), 12);
+  EXPECT_GT(m.count.at("Second"), 6);
+  EXPECT_GT(m.count.at("Inner"), 3);
+}
+
+TEST(ParkNotation, PeelsTakeDistancesOfTheirOwn) {
+  const Made m = run("R -> Peel({W: 2, N: 4}) { A | B }", Shapes::lot(20, 10));
+  EXPECT_NEAR(m.area.at("B"), 18 * 6, 1e-3);
+  EXPECT_NEAR(m.whole, 200, 1e-3);
+}
+
+TEST(ParkNotation, PeelsAreSmoothedOnBothSides) {
+  const std::string text = "R -> Peel(all, 4, smooth=average(3)) { A | B }";
+  const Made m = run(text, cShape());
+  EXPECT_NEAR(m.whole, 620, 0.01);
+  const Made sharp = run("R -> Peel(all, 4) { A | B }", cShape());
+  EXPECT_LT(m.area.at("B"), sharp.area.at("B"));
+  const Made one = run("R -> Peel(W | N, 4, smooth=bezier) { A | B }", Shapes::lot(40, 30));
+  EXPECT_NEAR(one.whole, 1200, 0.01);
+  EXPECT_EQ(one.count.at("B"), 1);
+}
+
+TEST(ParkNotation, SelectionsOfVertexNeighbours) {
+  const Shapes lot = Shapes::lot(20, 10);
+  EXPECT_NEAR(selectedLength("touches(W)", lot), 40, 1e-9);
+  EXPECT_NEAR(selectedLength("all - touches(W) - W", lot), 10, 1e-9);
+  EXPECT_NEAR(selectedLength("corners", lot), 60, 1e-9);
+  // The ends of a strip lie between vertices of the border.
+  const std::string strip = "peel(\"W\", 2) { strip : R | rest : NIL }";
+  EXPECT_NEAR(selectedLength("outer", lot, strip), 10 + 2 * 2, 1e-3);
+  EXPECT_NEAR(selectedLength("outer(strict)", lot, strip), 2 * 10 + 2 * 2, 1e-3);
+}
+
+TEST(ParkNotation, PlacesAlignAndSplit) {
+  const Made m = run("R -> Place(CENTRE, split) { Square(2) Bed } Lawn", kLot);
+  EXPECT_NEAR(m.whole, 400, 1e-3);
+  const Made list = run("R -> Place((0.2, 0.2) (0.8, 0.8)) { Circle(1) T } L", kLot);
+  EXPECT_EQ(list.count.at("T"), 2);
+  const Made crowded = run("R -> Place((0.5, 0.5) (0.52, 0.5)) { Circle(1) T } L", kLot);
+  EXPECT_EQ(crowded.count.at("T"), 1);
+  EXPECT_TRUE(crowded.has("place-occupied"));
+}
+
+TEST(ParkNotation, SweepsEndAsTold) {
+  const auto ribbon = [](const std::string& options) {
+    const Made m =
+        rules("Lot --> contract(10) sweep(\"[0.2,0.8]\", 1, 2, \"" + options + "\") { H. } NIL",
+              Shapes::lot(50, 50));
+    return m.area.at("H");
+  };
+  const double butt = ribbon("ends=butt");
+  EXPECT_NEAR(ribbon("ends=square"), butt + 1, 1e-2);
+  EXPECT_GT(ribbon("ends=round"), butt + 0.7);
+}
+
+TEST(ParkNotation, TooManyRangesAreReported) {
+  EXPECT_TRUE(run("R -> Parametrise(_ _ _ _ _)", kLot).has("range-beyond"));
+  EXPECT_FALSE(run("R -> Parametrise(_ _ _ _)", kLot).has("range-beyond"));
+}
+
+TEST(ParkNotation, ConvertedTextMakesTheSameModel) {
+  const char* grammars[] = {
+      "R -> Grid(3, 3) { A(1) } { B } { Choose { Romb(1) C, 20%: Circle(1) D } }\n"
+      "A(d) -> Contract(d) else { E } Place((0.3, 0.3)) { Circle(d / 4) T }",
+      "R -> Select { len > 50 : A | outer : Peel({W: 2, E: 1}) { B | C } } else { D }",
+      "R -> VoronoiRegions(6 {2}, bezier, jitter=1) { A | path: B | junction: C }"};
+  for (const char* text : grammars) {
+    const Rules park = Rules::parse(text, "a.park");
+    ASSERT_FALSE(hasErrors(park.messages())) << text;
+    const Rules cga = Rules::parse(convert(text, "a.park").text, "a.cga");
+    ASSERT_FALSE(hasErrors(cga.messages())) << convert(text, "a.park").text;
+    const Shapes lot = Shapes::lot(40, 40);
+    EXPECT_EQ(derive(park, lot, {}).dump(), derive(cga, lot, {}).dump()) << text;
+  }
+}
+
+}  // namespace
+}  // namespace gable
