@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The Gable authors
 #
-# tools/pictures.sh [EXAMPLE...]: makes the pictures of the examples anew, examples/NAME/NAME.png and, from
-# street height and from the side, examples/NAME/NAME-street.png and NAME-side.png where street.args and side.args
-# name a view. Each stays under 400 kB:
+# tools/pictures.sh [EXAMPLE...]: makes the pictures of the examples anew, examples/NAME/NAME.png and, where
+# street.args, side.args or above.args name a view, examples/NAME/NAME-street.png and so on. Each stays under 400 kB:
 # tools/shrink_png.py brings it to a palette and, where that is not enough, to fewer colours. Look at them
 # before committing them.
 set -euo pipefail
@@ -20,7 +19,7 @@ examples=("$@")
 mkdir -p build/pictures
 
 for name in "${examples[@]}"; do
-  for view in picture street side; do
+  for view in picture street side above; do
     [ "$view" = picture ] || [ -f "examples/$name/$view.args" ] || continue
     drawn=$name
     [ "$view" = picture ] || drawn=$name-$view

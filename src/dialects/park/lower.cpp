@@ -595,8 +595,10 @@ class Lowering {
     std::vector<std::pair<NodeId, NodeId>> branches;
     const std::string name = rule_->name;
     for (const std::string& path : tries) {
+      // Models have colours of their own.
+      const NodeId white = b_.apply("color", {b_.text("#ffffff")});
       branches.emplace_back(b_.call("fileExists", {b_.text(path)}),
-                            b_.sequence({inserted(path), b_.leaf(name)}));
+                            b_.sequence({white, inserted(path), b_.leaf(name)}));
     }
     // What is missing is reported, and a box stands for it.
     branches.emplace_back(kNoNode, b_.sequence({inserted(tries[0]), inserted("builtin:cube"),

@@ -334,7 +334,7 @@ class Parser {
   std::string selectionLabel() {
     skip();
     const size_t start = at_;
-    std::string out = until(":|");
+    std::string out = until(":");
     if (accept(":")) return out;
     at_ = start;
     return {};

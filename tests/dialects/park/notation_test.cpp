@@ -4,7 +4,7 @@
 // The park notation beyond the rows: parameters, functions, other blocks, and what single
 // operations can be told.
 
-#include "tests/dialects/park/park_testing.h"
+#include "park_testing.h"
 
 namespace gable {
 namespace {

@@ -42,14 +42,7 @@ struct Made {
   }
 };
 
-inline Made run(const std::string& text, const Shapes& shapes, double seed = 1,
-                const std::string& name = "test.park", bool sharing = true) {
-  const Rules rules = Rules::parse(text, name);
-  DeriveSettings settings;
-  settings.seed = seed;
-  settings.jobs = 1;
-  settings.sharing = sharing;
-  const Model model = derive(rules, shapes, settings);
+inline Made collect(const Rules& rules, const Model& model) {
   Made out;
   out.messages = rules.messages();
   out.messages.insert(out.messages.end(), model.messages().begin(), model.messages().end());
@@ -68,6 +61,26 @@ inline Made run(const std::string& text, const Shapes& shapes, double seed = 1,
   });
   return out;
 }
+
+inline Made run(const std::string& text, const Shapes& shapes, double seed = 1,
+                const std::string& name = "test.park", bool sharing = true) {
+  const Rules rules = Rules::parse(text, name);
+  DeriveSettings settings;
+  settings.seed = seed;
+  settings.jobs = 1;
+  settings.sharing = sharing;
+  return collect(rules, derive(rules, shapes, settings));
+}
+
+/// Every `stride`-th polygon of the corpus; all of them with GABLE_WHOLE_CORPUS. None where the
+/// corpus is not.
+inline void forCorpus(size_t stride, const std::function<void(const Polygon&, size_t)>& visit) {
+  const char* all = std::getenv("GABLE_WHOLE_CORPUS");
+  const size_t step = all && *all ? 1 : stride;
+  const std::vector<corpus::Case> cases = corpus::loadCorpus(step);
+  for (size_t i = 0; i < cases.size(); ++i) visit({cases[i].ring, {}}, i * step);
+}
+
 inline Made rules(const std::string& text, const Shapes& shapes, double seed = 1) {
   return run(text, shapes, seed, "test.cga");
 }

@@ -5,12 +5,80 @@
 // outlines alone (areas on hostile polygons, origins of edges) is tested beside the kernel in
 // geom/region; here rules run.
 
-#include "tests/dialects/park/park_testing.h"
+#include "park_testing.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/random.h"
+#include "builtins/ops/region/shared/region_text.h"
+#include "geom/region/autoindex.h"
+#include "geom/region/cut_holes.h"
+#include "geom/region/grid_partition.h"
+#include "geom/region/peel.h"
+#include "geom/region/places.h"
+#include "geom/region/quad_map.h"
+#include "geom/region/rays.h"
+#include "geom/region/segment_grid.h"
+#include "geom/region/voronoi.h"
 
 namespace gable {
 namespace {
 
 using namespace park_testing;
+
+GridOptions gridOf(const std::string& x, const std::string& y, double path) {
+  GridOptions o;
+  std::string problem;
+  EXPECT_TRUE(readDimension(x, o.x, problem) && readDimension(y, o.y, problem)) << problem;
+  o.pathWidth = path;
+  return o;
+}
+
+size_t cellsOf(const GridResult& g) {
+  size_t n = 0;
+  for (const RegionPiece& p : g.pieces) n += p.kind == PieceKind::Cell;
+  return n;
+}
+
+// How many edges were looked at.
+size_t expectOrigins(const Polygon& p, const std::vector<RegionPiece>& pieces,
+                     const std::string& name) {
+  const std::vector<Segment> source = edgesOf(p);
+  SegmentGrid index(source);
+  const double near = 4 * kRegionGrid;
+  size_t seen = 0, unresolved = 0, wrong = 0;
+  for (const RegionPiece& piece : pieces) {
+    size_t i = 0;
+    for (const Segment& e : edgesOf(piece.polygon)) {
+      const EdgeOrigin o = piece.edges[i++];
+      ++seen;
+      const Vec2 middle = (e.a + e.b) * 0.5;
+      bool lies = false, lonely = length(e.b - e.a) > 100 * near;
+      index.query({middle - Vec2{near, near}, middle + Vec2{near, near}}, [&](uint32_t k) {
+        const Segment& s = source[k];
+        lies = lies || (distanceTo(s, e.a) < near && distanceTo(s, e.b) < near &&
+                        dot(e.b - e.a, s.b - s.a) > 0);
+      });
+      const bool kept = o.role == EdgeRole::Kept || o.role == EdgeRole::Base;
+      unresolved += lies && lonely && !kept;
+      if (!kept) continue;
+      if (o.source >= source.size()) {
+        ++wrong;
+      } else {
+        // Of neighbours in one line either will do.
+        const Segment& own = source[o.source];
+        const Vec2 d = normalized(own.b - own.a);
+        const double off =
+            std::max(std::fabs(cross(d, e.a - own.a)), std::fabs(cross(d, e.b - own.a)));
+        wrong += std::min(off, distanceTo(own, middle)) > near;
+      }
+    }
+  }
+  EXPECT_EQ(unresolved, 0u) << name;
+  EXPECT_EQ(wrong, 0u) << name;
+  return seen;
+}
 
 TEST(ParkRows, P1GridCountsCellsPathsAndJunctions) {
   const Made m = run(example("square"), kLot);
@@ -40,9 +108,51 @@ TEST(ParkRows, P2SizesCyclicCountsAndFits) {
 }
 
 TEST(ParkRows, P3RangesAndAnglesKeepLinesApart) {
-  for (int seed = 0; seed < 1000; seed += 10) {
+  for (int seed = 0; seed < 1000; seed += 20) {
     const Made m = run(example("irregular"), Shapes::lot(40, 40), seed);
     EXPECT_NEAR(m.whole, 1600, 0.01) << seed;
+  }
+  // Lines that met within would make cells beyond the rows times the columns.
+  const Polygon block{{{0, 0}, {12, 1}, {11, 19}, {-1, 18}}, {}};
+  for (uint64_t seed = 0; seed < 1000; ++seed) {
+    GridOptions outer = gridOf("3 {[7,15]a[-15,15]}", "2", 3);
+    outer.sliver = outer.minArea = 0;
+    outer.seed = seed;
+    const Polygon lot{{{0, 0}, {40, 0}, {40, 40}, {0, 40}}, {}};
+    EXPECT_EQ(cellsOf(gridPartition(lot, outer)), 6u) << seed;
+    GridOptions inner = gridOf("2 {a[-5,5]}", "{[1.5,4]a[-25,25]}", 0);
+    inner.sliver = inner.minArea = 0;
+    inner.seed = seed;
+    const GridResult g = gridPartition(block, inner);
+    EXPECT_EQ(cellsOf(g), size_t{g.nx} * g.ny) << seed;
+  }
+}
+
+// In the grid of beds without paths, what lies near another point is that point, bit for bit.
+TEST(ParkRows, P4CellsWithoutPathsShareTheirBorders) {
+  const Polygon blocks[] = {{{{0, 0}, {11, 0}, {11, 18}, {0, 18}}, {}},
+                            {{{0, 0}, {12.3, 1.1}, {10.9, 19.7}, {-1.3, 18.2}}, {}}};
+  for (const Polygon& block : blocks) {
+    for (uint64_t seed = 0; seed < 40; ++seed) {
+      GridOptions o = gridOf("2 {a[-5,5]}", "{[1.5,4]a[-25,25]}", 0);
+      o.sliver = o.minArea = 0;
+      o.seed = seed;
+      const GridResult g = gridPartition(block, o);
+      std::set<std::pair<double, double>> points;
+      double sum = 0;
+      for (const RegionPiece& p : g.pieces) {
+        sum += area(p.polygon);
+        for (const Vec2 v : p.polygon.outer) points.insert({v.x, v.y});
+      }
+      EXPECT_NEAR(sum, area(block), 1e-6);
+      size_t near = 0;
+      for (const auto& a : points) {
+        for (const auto& b : points) {
+          near += a != b && std::hypot(a.first - b.first, a.second - b.second) < 1e-6;
+        }
+      }
+      EXPECT_EQ(near, 0u) << seed;
+    }
   }
 }
 
@@ -187,11 +297,37 @@ TEST(ParkRows, P19JoinedChooseConstantsFunctions) {
   EXPECT_TRUE(seen.count("GrassRegion") && seen.count("BushRegion") && seen.count("Plant1Region"));
 }
 
-TEST(ParkRows, P20MissingModelsAreBoxes) {
+TEST(ParkRows, P20ModelsAreLoaded) {
   const Made m = run("R -> Place(CENTRE) { Tree }\nTree -> loadModel(“tree”)", kLot);
   EXPECT_TRUE(m.has("missing-asset"));
   EXPECT_EQ(m.count.at("Tree"), 1);
   EXPECT_NEAR(m.area.at("Tree"), 6, 1e-6);
+  // A triangle of half a square metre as OBJ, a larger one as glTF, each at the place that is told.
+  const std::string folder = testing::TempDir() + "gable_park_models/";
+  std::filesystem::create_directories(folder);
+  const auto write = [&](const char* name, const std::string& text) {
+    std::ofstream(folder + name) << text;
+  };
+  write("tree.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write(
+      "lamp.gltf",
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,)"
+      R"("componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[2,2,0]}],)"
+      R"("bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":)"
+      R"("data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAAAAAAEAAAAAA"}]})");
+  write("models.park",
+        "R -> Place((0.25, 0.5)) { Tree } Place((0.75, 0.5)) { Lamp }\n"
+        "Tree -> loadModel(\"tree\")\nLamp -> loadModel(\"lamp\")\n");
+  LoadOptions settings;
+  settings.project = folder;
+  const Rules rules = Rules::load(folder + "models.park", settings);
+  const Made loaded = collect(rules, derive(rules, kLot, {}));
+  for (const Message& x : loaded.messages) ADD_FAILURE() << x.text;
+  EXPECT_NEAR(loaded.area.at("Tree"), 0.5, 1e-6);
+  EXPECT_NEAR(loaded.area.at("Lamp"), 2, 1e-6);
+  EXPECT_NEAR(loaded.places.at("Lamp")[0].z, -10, 1e-6);
+  EXPECT_GT(loaded.places.at("Lamp")[0].x, loaded.places.at("Tree")[0].x + 9);
 }
 
 TEST(ParkRows, P21NothingIsLostOnASliver) {
@@ -333,6 +469,93 @@ TEST(ParkRows, P32SelectionsCombine) {
   }
 }
 
+// Rectangle, turned quad, roughly a quad, and anything else.
+TEST(ParkRows, P33AutoindexingOfFourClasses) {
+  const LogicalEdges straight = autoindex({{0, 0}, {20, 0}, {20, 10}, {0, 10}});
+  EXPECT_EQ(straight.of, (std::vector<uint32_t>{3, 2, 1, 0}));
+  // Turned: the longest side is x, west looks to -x of that.
+  const Vec2 x{cosDeg(30), sinDeg(30)}, y = perpendicular(x);
+  const LogicalEdges turned = autoindex({{0, 0}, x * 20, x * 20 + y * 8, y * 8});
+  EXPECT_EQ(turned.of, (std::vector<uint32_t>{3, 2, 1, 0}));
+  // Many edges, four sides.
+  int right = 0;
+  constexpr uint64_t kQuads = 300;
+  for (uint64_t q = 0; q < kQuads; ++q) {
+    Ring r;
+    std::vector<uint32_t> wanted;
+    const Vec2 corner[] = {{0, 0}, {60, 2}, {58, 41}, {1, 38}};
+    for (uint32_t k = 0; k < 4; ++k) {
+      const Vec2 a = corner[k], b = corner[(k + 1) % 4], n = normalized(perpendicular(b - a));
+      for (int i = 0; i < 6; ++i) {
+        const double off =
+            i > 0 ? randomIn(hashCombine(q, 10 * k + static_cast<uint64_t>(i)), -0.8, 0.8) : 0;
+        r.push_back(a + (b - a) * (i / 6.0) + n * off);
+        wanted.push_back(3 - k);
+      }
+    }
+    right += autoindex(r).of == wanted;
+  }
+  EXPECT_GE(right, 298);
+  // A cross is none of these: an edge between any two bends.
+  const Ring cross{{1, 1},   {20, 1},   {20, -1}, {1, -1}, {1, -20}, {-1, -20},
+                   {-1, -1}, {-20, -1}, {-20, 1}, {-1, 1}, {-1, 20}, {1, 20}};
+  EXPECT_EQ(autoindex({cross.rbegin(), cross.rend()}).count, 12u);
+  forCorpus(10, [](const Polygon& p, size_t i) {
+    const LogicalEdges l = autoindex(p.outer);
+    ASSERT_EQ(l.of.size(), p.outer.size()) << i;
+    // Each logical edge is one run of the ring.
+    size_t changes = 0;
+    for (size_t k = 0; k < l.of.size(); ++k) {
+      changes += l.of[k] != l.of[(k + 1) % l.of.size()];
+      EXPECT_LT(l.of[k], l.count) << i;
+    }
+    EXPECT_LE(changes, size_t{l.count}) << i;
+  });
+}
+
+// No edge of any piece is unresolved: what lies on the region's outline says on which edge, and
+// what says so lies there.
+TEST(ParkRows, P34ProvenanceThroughEveryOperation) {
+  size_t seen = 0;
+  forCorpus(80, [&](const Polygon& p, size_t i) {
+    const double size = std::sqrt(area(p));
+    std::map<std::string, std::vector<RegionPiece>> made;
+    GridOptions grid = gridOf("3", "3", size / 20);
+    made["grid"] = gridPartition(p, grid).pieces;
+    const Disc site[] = {{poleOf(p).centre, 0}, {p.outer[0] * 0.5 + poleOf(p).centre * 0.5, 0}};
+    VoronoiOptions cells;
+    cells.pathWidth = size / 40;
+    cells.borderPath = false;
+    made["voronoi"] = voronoiPartition(p, site, cells).pieces;
+    RayOptions rays;
+    rays.pathWidth = size / 50;
+    const Vec2 centre[] = {poleOf(p).centre};
+    std::vector<RayTarget> corners;
+    for (const Vec2 v : p.outer) corners.push_back({RayTarget::Kind::Point, v});
+    made["rays"] = castRays(p, centre, corners, rays).pieces;
+    std::vector<PeelEdge> half;
+    for (uint32_t e = 0; e < edgeCount(p); e += 2) half.push_back({e, 0, 1, size / 30});
+    PeelResult strips = peel(p, half, PeelEnds::Follow);
+    made["strip"] = strips.strips;
+    made["rest"] = strips.rest;
+    Smoothing smooth;
+    smooth.kind = Smoothing::Kind::Average;
+    made["smooth"] = peel(p, half, PeelEnds::Orthogonal, smooth).rest;
+    made["map"] = quadMap(p, 3, 2).pieces;
+    made["holes"] = withoutHoles(corpus::withHoles(p.outer, i));
+    const Region disc{{ringOf({PlanShape::Circle, size / 10, 0, 24}, poleOf(p).centre), {}}};
+    made["place"] = combineTraced(BooleanOp::Difference, wholePiece(p), disc,
+                                  {kNoEdge, EdgeRole::Hole, EdgeOrigin::kNoSide});
+    for (const auto& [name, pieces] : made) {
+      const Polygon source = name == "holes" ? corpus::withHoles(p.outer, i) : p;
+      seen += expectOrigins(source, pieces, name + " of polygon " + std::to_string(i));
+    }
+  });
+  if (!corpus::loadCorpus(2000).empty()) {
+    EXPECT_GT(seen, 5000u);
+  }
+}
+
 TEST(ParkRows, P35TreesStandSymmetrically) {
   const Made m = run(example("square"), kLot);
   std::vector<Vec3> trees = m.places.at("TallTree");
@@ -401,52 +624,131 @@ TEST(ParkRows, P38BoundaryMetric) {
 }
 
 TEST(ParkRows, P39GrammarsAsWritten) {
+  // E1 is P1's; here in one shape with its paths, as the variant has it.
+  const Made e1 = run(example("square"), kLot);
+  EXPECT_NEAR(e1.area.at("TreeStrip"), 4 * 12.9375, 1e-3);
+  EXPECT_NEAR(e1.area.at("GrassRegion") + e1.area.at("TreeRegion"), 4 * 67.5625, 1e-3);
+  EXPECT_EQ(e1.count.at("TreeRegion"), 4);
+  EXPECT_EQ(e1.count.at("Tree"), 4);
+  EXPECT_EQ(e1.count.at("Fountain"), 1);
+  // E2 with its plaza in the very middle: the golden numbers are of that.
+  const Made e2 =
+      run("PathWidth = 2\nCentreRegionSize = 5\nRegion -> CastRays(CENTRE "
+          "[CentreRegionSize], CastToList) { CentreRegion } { CutRegion }\n"
+          "CastToList -> Corners(Region)\nCentreRegion -> Plaza\nCutRegion -> Grass",
+          Shapes::lot(40, 30));
+  EXPECT_EQ(e2.count.at("Grass"), 4);
+  EXPECT_EQ(e2.count.at("Path"), 4);
+  EXPECT_NEAR(e2.area.at("Grass"), 966.05, 0.01);
+  EXPECT_NEAR(e2.area.at("Path"), 156.31, 0.01);
+  EXPECT_NEAR(e2.area.at("Plaza"), 77.65, 0.01);
+  const Made written = run(example("circular"), Shapes::lot(40, 31));
+  EXPECT_EQ(written.count.at("Grass"), 4);
+  EXPECT_NEAR(written.area.at("Fountain"), 77.65, 0.01);
+  // E3: five islands, and one network around them.
+  const Made e3 = run(example("freeform"), Shapes::lot(60, 50));
+  EXPECT_EQ(e3.count.at("SmoothRegions"), 5);
+  EXPECT_NEAR(e3.whole, 3000, 0.01);
+  EXPECT_GT(e3.area.at("Path"), 0.15 * 3000);
+  // E4: two lines of eight metres.
+  const Made e4 = run("R -> Parametrise([0.1, 0.9] [] [0.1, 0.9], Square(10))", kLot);
+  EXPECT_NEAR(e4.length.at("Line"), 16, 1e-6);
+  for (const Vec3& at : e4.places.at("Line")) {
+    EXPECT_NEAR(std::fabs(at.x - 10), 5, 1e-9);
+    EXPECT_NEAR(at.z, -10, 1e-9);
+  }
   const Made e5 = run(example("recursive"), Shapes::lot(14, 14));
   EXPECT_EQ(e5.count.at("TreeRegion"), 24);
   EXPECT_EQ(e5.count.at("CementPath"), 9);
   EXPECT_NEAR(e5.area.at("CementPath"), 76, 1e-6);
   EXPECT_NEAR(e5.area.at("TreeRegion") + e5.area.at("StonePath"), 120, 1e-6);
-  const Made e7 = run(example("cells"), Shapes::lot(62, 24));
-  EXPECT_NEAR(e7.whole, 62 * 24, 1e-3);
-  EXPECT_EQ(run("Region -> grid(2, 1) { CellRegion }", kLot).count.at("CellRegion"), 2);
-  EXPECT_EQ(run("Park -> grid(2, 1) { SubPark1 }\nSubPark1 -> grid(3,2) { ParkRegion1 }", kLot)
-                .count.at("ParkRegion1"),
-            12);
+  // E6: some ninety beds, of four kinds.
+  const Made e6 = run(example("irregular"), Shapes::lot(40, 40));
+  int beds = 0;
+  for (const char* kind : {"GrassRegion", "BushRegion", "Plant1Region", "Plant2Region"}) {
+    beds += e6.count.at(kind);
+    EXPECT_GT(e6.count.at(kind), 8) << kind;
+  }
+  EXPECT_GT(beds, 60);
+  EXPECT_LT(beds, 120);
+  // E7 on a lot that its sizes fill: 3, 15, 3, 15, 3 by 3, 15, 3, and paths of 3 metres.
+  const Made e7 = run(example("cells"), Shapes::lot(39 + 12, 21 + 6));
+  EXPECT_NEAR(e7.whole, 51 * 27, 1e-3);
+  EXPECT_EQ(e7.count.at("SimplePark"), 2);
+  EXPECT_EQ(e7.count.at("TreeRegion"), 6);
+  EXPECT_NEAR(e7.area.at("SimplePark"), 2 * 225, 1e-3);
+  EXPECT_NEAR(e7.area.at("TreeRegion"), 6 * 9, 1e-3);
+  EXPECT_NEAR(e7.area.at("GrassRegion"), 7 * 45, 1e-3);
+  const Made e8 = run("Region -> grid(2, 1) { CellRegion }", kLot);
+  EXPECT_EQ(e8.count.at("CellRegion"), 2);
+  EXPECT_NEAR(e8.area.at("CellRegion"), 17 * 20, 1e-3);
+  const Made e9 =
+      run("Park -> grid(2, 1) { SubPark1 }\nSubPark1 -> grid(3,2) { ParkRegion1 }", kLot);
+  EXPECT_EQ(e9.count.at("ParkRegion1"), 12);
+  EXPECT_NEAR(e9.whole, 400, 1e-3);
 }
 
 TEST(ParkRows, P40RegionsWithHoles) {
   const Shapes holed = Shapes::polygon({{0, 0}, {30, 0}, {30, 30}, {0, 30}},
                                        {{{10, 10}, {20, 10}, {20, 20}, {10, 20}}});
-  for (const char* op :
-       {"grid(3, 3, 1) { all : A }", "voronoi([5,-5,25,-25], 1) { all : A }",
-        "castRays([5,-5], \"corners\", 1) { all : A }", "peel(all, 1) { all : A }"}) {
+  for (const char* op : {"grid(3, 3, 1) { all : A }", "voronoi([5,-5,25,-25], 1) { all : A }",
+                         "castRays([5,-5], \"corners\", 1) { all : A }", "peel(all, 1) { all : A }",
+                         "quadMap(3, 3) { all : A }", "cutHoles() comp(f) { all : A }"}) {
     EXPECT_NEAR(rules(std::string("Lot --> ") + op, holed).whole, 800, 0.01) << op;
   }
+  EXPECT_GT(run("R -> NoHoles A", holed).area.at("A"), 799.9);
+  forCorpus(25, [](const Polygon& plain, size_t i) {
+    const Polygon p = corpus::withHoles(plain.outer, i);
+    double sum = 0;
+    for (const RegionPiece& piece : withoutHoles(p)) {
+      EXPECT_TRUE(piece.polygon.holes.empty()) << i;
+      sum += area(piece.polygon);
+    }
+    EXPECT_NEAR(sum, area(p), 1e-9 * area(p) + 1e-9) << i;
+  });
 }
 
 TEST(ParkRows, P41VolumesAreClosed) {
-  const Made m =
-      run("R -> Grid(2, 2) { Lawn } { Path } { Circle(2) Basin }\nLawn -> Peel(OUTER) { 0.5: Kerb "
-          "| Grass }",
-          kLot);
-  EXPECT_EQ(m.count.at("Kerb"), 4);
   const Made kerbs = rules(
       "Lot --> grid(2, 2, 2, \"circle(3)\") { region : peel(all, 0.3) { strip : extrude(0.15) Kerb "
-      "| rest : Lawn } "
-      "| junction : extrude(0.4) Basin | path : extrude(0.05) Path }",
+      "| rest : Lawn } | junction : peel(all, 0.4) { strip : extrude(0.5) Basin | rest : "
+      "extrude(0.3) Water } | path : extrude(0.05) Path }\n"
+      "Lawn --> place(centre, \"circle(2)\") { extrude(0.2) Bed } "
+      "sweep(\"[0.1,1] [0,1] [0,0.5]\", 0.6, 0.8) { extrude(1) Hedge } Grass.",
       kLot);
-  for (const char* name : {"Kerb", "Basin", "Path"}) EXPECT_TRUE(kerbs.closed.at(name)) << name;
+  for (const char* name : {"Kerb", "Basin", "Water", "Path", "Bed", "Hedge"}) {
+    ASSERT_TRUE(kerbs.count.count(name)) << name;
+    EXPECT_TRUE(kerbs.closed.at(name)) << name;
+  }
+  // In a park on a plot of the real world, all that is built on the ground is closed.
+  const std::string folder = std::string(GABLE_SOURCE_DIR) + "/examples/";
+  LoadOptions settings;
+  settings.project = folder;
+  const Rules rules = Rules::load(folder + "gardens/gardens.cga", settings);
+  const Made park =
+      collect(rules, derive(rules, Shapes::load(folder + "gardens/buildings.geojson"), {}));
+  EXPECT_GT(park.count.at("Built"), 200);
+  EXPECT_TRUE(park.closed.at("Built"));
 }
 
 TEST(ParkRows, P42ConvertedTextMakesTheSameModel) {
+  std::vector<std::string> texts;
   for (const char* name : {"square", "circular", "freeform", "recursive", "irregular", "cells"}) {
-    const std::string text = example(name);
+    texts.push_back(example(name));
+  }
+  texts.push_back(
+      "PathWidth = 2\nRegion -> Grid(2, 2) { ParkQuarter }\n{ ParkPathCentered }\n"
+      "ParkPathCentered ->\njoined { RombCenter(3) ParkPath(3) }");
+  texts.push_back("R -> Parametrise([0.1, 0.9] [] [0.1, 0.9], Square(10))");
+  texts.push_back("Region -> grid(2, 1) { CellRegion }");
+  texts.push_back("Park -> grid(2, 1) { SubPark1 }\nSubPark1 -> grid(3,2) { ParkRegion1 }");
+  for (const std::string& text : texts) {
     const Rules park = Rules::parse(text, "a.park");
-    ASSERT_FALSE(hasErrors(park.messages())) << name;
+    ASSERT_FALSE(hasErrors(park.messages())) << text;
     const Rules cga = Rules::parse(convert(text, "a.park").text, "a.cga");
-    ASSERT_FALSE(hasErrors(cga.messages())) << name;
+    ASSERT_FALSE(hasErrors(cga.messages())) << text;
     const Shapes lot = Shapes::lot(60, 50);
-    EXPECT_EQ(derive(park, lot, {}).dump(), derive(cga, lot, {}).dump()) << name;
+    EXPECT_EQ(derive(park, lot, {}).dump(), derive(cga, lot, {}).dump()) << text;
   }
 }
 
