@@ -49,18 +49,18 @@ const pictures = {
   },
 };
 
-const place = project('gbbg', 'rowhouse', 'tower');
-const server = await serve(place);
 const browser = await launch();
 for (const name of only.length ? only : Object.keys(pictures)) {
+  const place = project('gbbg', 'rowhouse', 'tower');
+  const server = await serve(place);
   const { page, context } = await openPage(browser, server.url, { viewport: { width: 1440, height: 810 } });
   await ready(page);
   await pictures[name]({ page });
   await page.waitForTimeout(5000);
   await page.screenshot({ path: join(folder, `${name}.png`) });
   await context.close();
+  await server.stop();
+  clean(place);
   console.log(name);
 }
 await browser.close();
-await server.stop();
-clean(place);
