@@ -39,6 +39,14 @@ class Grid {
       for (const Vec2 p : r) box_.include(p);
     }
   }
+  // Leaves room for what is moved outward so far.
+  void widen(double distance) {
+    if (box_.empty() || !std::isfinite(distance)) return;
+    const Vec2 d{std::fabs(distance), std::fabs(distance)};
+    const Vec2 low = box_.min - d, high = box_.max + d;
+    box_.include(low);
+    box_.include(high);
+  }
   // Chooses the origin: whole metres, so that grid points are exact in map coordinates too.
   void settle() {
     if (box_.empty()) return;
@@ -316,6 +324,7 @@ Region offset(const Region& r, double distance, const OffsetOptions& options) {
   const std::vector<Ring> rings = orientedRings(r);
   Grid grid;
   grid.include(rings);
+  grid.widen(distance * std::max(options.miterLimit, 1.0));
   grid.settle();
   const Paths paths = grid.toPaths(rings);
   if (!std::isfinite(distance)) return {};
@@ -328,6 +337,7 @@ Region thicken(const std::vector<Vec2>& line, double distance, const OffsetOptio
   if (!std::isfinite(distance)) return {};
   Grid grid;
   grid.include({line});
+  grid.widen(distance * std::max(options.miterLimit, 1.0));
   grid.settle();
   const Paths paths = grid.toPaths({line});
   return inflate(paths, std::fabs(distance), options, endType(options.join), grid);
