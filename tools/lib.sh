@@ -116,10 +116,11 @@ node_usable() {
   [ "$major" -ge 18 ]
 }
 
-# The packages of the studio's page, installed anew when their lock changes.
+# The packages of the studio's page, installed anew when their lock changes: the versions of the lock,
+# which stays as it is. `npm ci` would ask for the lock to name what other platforms need as well.
 install_page_packages() {
-  (cd "$root/studio" && npm ci --no-audit --no-fund --loglevel=error)
-  cp "$root/studio/package-lock.json" "$root/studio/node_modules/installed.json"
+  (cd "$root/studio" && npm install --no-save --no-audit --no-fund --loglevel=error) &&
+    cp "$root/studio/package-lock.json" "$root/studio/node_modules/installed.json"
 }
 page_packages() {
   cmp -s "$root/studio/package-lock.json" "$root/studio/node_modules/installed.json" ||
