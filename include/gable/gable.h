@@ -268,8 +268,8 @@ struct TreeNode {
   /// The place of a leaf's geometry among all leaves in path order, as draw lists count them; of
   /// other shapes the first leaf below them. Leaves below are firstLeaf up to endLeaf; kNone: none.
   uint32_t firstLeaf = 0, endLeaf = 0;
-  /// Its own places among the leaves: as its rule got it (with DeriveSettings::traceShapes), and as it
-  /// stays where it is a leaf; kNone: none.
+  /// Its own places among the leaves: as its rule got it (with DeriveSettings::traceShapes), and as
+  /// it stays where it is a leaf; kNone: none.
   uint32_t before = kNone, after = kNone;
 };
 
@@ -316,8 +316,8 @@ class Model {
   /// The model for a graphics card: batches of instances and of merged triangles; the bytes are
   /// described in docs/dev/studio-protocol.md.
   std::string drawList() const;
-  /// JSON of one leaf by its number in draw lists: name, rule, place, material, attributes; empty when
-  /// there is none.
+  /// JSON of one leaf by its number in draw lists: name, rule, place, material, attributes; empty
+  /// when there is none.
   std::string leafJson(uint64_t number) const;
   /// The bytes of a texture by the path that a draw list names; empty when there is none.
   std::string texture(const std::string& path) const;
