@@ -188,7 +188,7 @@ class Parser {
     }
     if (accept("(")) {
       while (peek() != ')' && !atEnd()) {
-        r.parameters.push_back(until(",)"));
+        parameter(r);
         if (!accept(",")) break;
       }
       if (!accept(")")) unexpected("')'");
@@ -206,6 +206,16 @@ class Parser {
       return;
     }
     grammar_.rules.push_back(std::move(r));
+  }
+
+  void parameter(Rule& r) {
+    std::string parameter = name();
+    if (!parameter.empty() && (peek() == ',' || peek() == ')')) {
+      r.parameters.push_back(std::move(parameter));
+      return;
+    }
+    unexpected("the name of a parameter");
+    until(",)");
   }
 
   void constant(const std::string& what, Span where) {
