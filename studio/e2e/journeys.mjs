@@ -11,6 +11,7 @@ import { mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from 'n
 import { join } from 'node:path';
 import {
   CHROMIUM, HOUSE, caretBehind, clean, code, drawn, hasBrowser, launch, openPage, project, ready, serve, status, untilDrawn,
+  viewPixels,
 } from './studio.mjs';
 
 if (!hasBrowser()) {
@@ -31,7 +32,7 @@ const journeys = {
 
   async editChangesTheModel({ page }) {
     await ready(page);
-    const pixels = () => page.locator('canvas').screenshot();
+    const pixels = () => viewPixels(page);
     const before = await pixels();
     const count = await drawn(page);
     await caretBehind(page, 'attr height = 9');
@@ -241,7 +242,12 @@ let failed = 0;
 for (const name of Object.keys(chosen)) {
   if (only && only !== name) continue;
   const began = Date.now();
-  const error = await travel(browser, name);
+  // A machine busy with other things may starve a browser: what fails is tried once more, and told.
+  let error = await travel(browser, name);
+  if (error) {
+    console.log(`again   ${name}: ${String(error).split('\n')[0]}`);
+    error = await travel(browser, name);
+  }
   console.log(`${error ? 'failed' : 'passed'}  ${name}  ${((Date.now() - began) / 1000).toFixed(1)} s`);
   if (error) {
     ++failed;

@@ -119,3 +119,11 @@ Roof -->
     color("#555555")
     Slab.
 `;
+
+/**
+ * A picture of the view as it is now. A locator's own screenshot waits until its element stands still,
+ * which takes a busy machine longer than it should.
+ */
+export async function viewPixels(page, canvas = 'canvas') {
+  return page.screenshot({ clip: await page.locator(canvas).first().boundingBox() });
+}

@@ -8,7 +8,7 @@ import { spawnSync } from 'node:child_process';
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { palette, toast } from '../hands.mjs';
-import { caretBehind, drawn, gable, openPage, ready, untilDrawn } from '../studio.mjs';
+import { caretBehind, drawn, gable, openPage, ready, untilDrawn, viewPixels } from '../studio.mjs';
 
 /** A box with its least corner at the origin. */
 function boxObj(x, y, z) {
@@ -79,11 +79,10 @@ export default {
     await page.keyboard.type(' + rand(0, 20)');
     await page.waitForTimeout(1500);
     // Shaded, and as wires.
-    const canvas = page.locator('canvas').first();
-    const shaded = await canvas.screenshot();
+    const shaded = await viewPixels(page);
     await page.getByRole('button', { name: 'Wireframe' }).click();
     await page.waitForTimeout(900);
-    assert.ok(!shaded.equals(await canvas.screenshot()));
+    assert.ok(!shaded.equals(await viewPixels(page)));
     await page.getByRole('button', { name: 'Wireframe' }).click();
     // A picture of the view.
     await page.keyboard.press('Control+e');

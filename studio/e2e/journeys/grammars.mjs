@@ -7,7 +7,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { asText, form, openByPalette, palette, text, toast } from '../hands.mjs';
-import { caretBehind, drawn, ready, root, status, untilDrawn } from '../studio.mjs';
+import { caretBehind, drawn, ready, root, status, untilDrawn, viewPixels } from '../studio.mjs';
 
 const TEST_BUILDING = readFileSync(join(root, 'tests/dialects/data/test_building.gbbg'), 'utf8');
 const SMALL_GBBG = `# A small house.
@@ -36,7 +36,7 @@ export default {
       await untilDrawn(page, before);
       await page.waitForTimeout(900);
       assert.equal(await page.locator('#seed').getAttribute('aria-valuenow'), String(seed));
-      return page.locator('canvas').first().screenshot();
+      return viewPixels(page);
     };
     const least = await set(-2147483648);
     await set(2147483647);
@@ -151,14 +151,14 @@ export default {
     writeFileSync(join(folder, 'square.park'), readFileSync(join(root, 'examples/park/square.park')));
     await ready(page);
     await openByPalette(page, 'square.park');
-    const before = await page.locator('canvas').first().screenshot();
+    const before = await viewPixels(page);
     const count = await drawn(page);
     await caretBehind(page, 'Grid(2');
     await page.keyboard.press('Backspace');
     await page.keyboard.type('3');
     await untilDrawn(page, count);
     await page.waitForTimeout(1200);
-    assert.ok(!before.equals(await page.locator('canvas').first().screenshot()));
+    assert.ok(!before.equals(await viewPixels(page)));
     assert.match(await status(page), /Park/);
     await page.getByText('Grid', { exact: true }).first().hover();
     await page.waitForSelector('.hover-card');

@@ -4,12 +4,12 @@
 // The derivation guide: steps, ghosts, stops.
 
 import assert from 'node:assert/strict';
-import { caretBehind, drawn, ready, untilDrawn } from '../studio.mjs';
+import { caretBehind, drawn, ready, untilDrawn, viewPixels } from '../studio.mjs';
 
 const stepOf = async (page) => Number((await page.locator('.guide .step b').innerText()).replace(/\D/g, ''));
 const untilStep = (page, n) =>
   page.waitForFunction((want) => Number(document.querySelector('.guide .step b')?.textContent?.replace(/\D/g, '')) === want, n);
-const picture = (page) => page.locator('.stage canvas').screenshot();
+const picture = (page) => viewPixels(page, '.stage canvas');
 
 async function openGuide(page) {
   await ready(page);

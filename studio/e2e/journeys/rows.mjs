@@ -4,7 +4,7 @@
 // Rows of the compatibility tables that need an interface, each a journey named after its row.
 
 import assert from 'node:assert/strict';
-import { caretBehind, drawn, ready, status, untilDrawn } from '../studio.mjs';
+import { caretBehind, drawn, ready, status, untilDrawn, viewPixels } from '../studio.mjs';
 
 const shapesOf = async (page) => Number(/([\d\s\u2009\u202f]+) shapes/.exec(await status(page))[1].replace(/\D/g, ''));
 
@@ -19,7 +19,7 @@ export default {
     await ready(page);
     assert.match(await status(page), /ProGen3d/);
     const before = await shapesOf(page);
-    const picture = await page.locator('.stage canvas').screenshot();
+    const picture = await viewPixels(page, '.stage canvas');
     const count = await drawn(page);
     await caretBehind(page, 'Row 9');
     await page.keyboard.press('Backspace');
@@ -29,6 +29,6 @@ export default {
       const text = document.querySelector('.status')?.textContent ?? '';
       return !/Deriving/.test(text) && Number(/([\d\s]+) shapes/.exec(text)?.[1].replace(/\D/g, '')) < n;
     }, before);
-    assert.ok(!picture.equals(await page.locator('.stage canvas').screenshot()));
+    assert.ok(!picture.equals(await viewPixels(page, '.stage canvas')));
   },
 };

@@ -4,9 +4,9 @@
 // The view: ways to move, what it shows, what a picked face tells.
 
 import assert from 'node:assert/strict';
-import { drawn, ready, untilDrawn } from '../studio.mjs';
+import { drawn, ready, untilDrawn, viewPixels } from '../studio.mjs';
 
-const picture = (page) => page.locator('.stage canvas').screenshot();
+const picture = (page) => viewPixels(page, '.stage canvas');
 
 /** Does something to the view and asserts that the picture is another. */
 async function changes(page, what, act) {
