@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 
 #include "base/check.h"
@@ -22,18 +21,6 @@
 namespace {
 
 using namespace gable;
-
-// A project without images: theirs are looked for in all of its folders.
-LoadOptions inEmptyProject() {
-  static const std::string folder = [] {
-    const auto path = std::filesystem::temp_directory_path() / "gable-fuzz-progen3d";
-    std::filesystem::create_directories(path);
-    return path.string();
-  }();
-  LoadOptions options;
-  options.project = folder;
-  return options;
-}
 
 Model derived(const Rules& rules) {
   DeriveSettings settings;
@@ -71,12 +58,15 @@ void checkTree(const std::string& text) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   checkTree(text);
-  const Rules rules = Rules::parse(text, "fuzz.grammar", inEmptyProject());
+  // Images are looked for in all folders of the project: here it has none.
+  LoadOptions options;
+  options.project = "/nonexistent";
+  const Rules rules = Rules::parse(text, "fuzz.grammar", options);
   const Converted converted = convert(text, "fuzz.grammar");
   GABLE_CHECK_EQ(rules.ok(), !converted.text.empty());
   if (!rules.ok()) return 0;
   const Model model = derived(rules);
-  const Model other = derived(Rules::parse(converted.text, "fuzz.cga", inEmptyProject()));
+  const Model other = derived(Rules::parse(converted.text, "fuzz.cga", options));
   if (model.end() == End::Done && other.end() == End::Done) {
     GABLE_CHECK_EQ(model.dump(), other.dump());
   }
