@@ -11,21 +11,9 @@ namespace gable {
 
 namespace {
 
-std::vector<uint64_t> countsOf(const Scene& scene) {
-  std::vector<uint64_t> counts;
-  for (const Prototype& p : scene.prototypes) {
-    uint64_t n = p.leafCount;
-    for (uint32_t i = 0; i < p.instanceCount; ++i) {
-      n = saturatingAdd(n, counts[scene.instances[p.firstInstance + i].prototype]);
-    }
-    counts.push_back(n);
-  }
-  return counts;
-}
-
 /// The leaf of that number in path order; null when there is none.
 const Leaf* leafAt(const Scene& scene, uint64_t number) {
-  const std::vector<uint64_t> counts = countsOf(scene);
+  const std::vector<uint64_t> counts = prototypeLeafCounts(scene);
   const Prototype* p = nullptr;
   for (const Root& r : scene.roots) {
     const uint64_t here = counts[r.instance.prototype];

@@ -14,14 +14,7 @@ namespace gable {
 namespace {
 
 std::vector<uint64_t> firstLeafOfRoots(const Scene& scene) {
-  std::vector<uint64_t> counts;
-  for (const Prototype& p : scene.prototypes) {
-    uint64_t n = p.leafCount;
-    for (uint32_t i = 0; i < p.instanceCount; ++i) {
-      n = saturatingAdd(n, counts[scene.instances[p.firstInstance + i].prototype]);
-    }
-    counts.push_back(n);
-  }
+  const std::vector<uint64_t> counts = prototypeLeafCounts(scene);
   std::vector<uint64_t> first{0};
   for (const Root& r : scene.roots) {
     first.push_back(saturatingAdd(first.back(), counts[r.instance.prototype]));

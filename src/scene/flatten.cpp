@@ -58,7 +58,7 @@ struct PoolHashes {
 
 }  // namespace
 
-uint64_t leafCount(const Scene& scene) {
+std::vector<uint64_t> prototypeLeafCounts(const Scene& scene) {
   std::vector<uint64_t> counts;
   for (const Prototype& p : scene.prototypes) {
     uint64_t n = p.leafCount;
@@ -67,6 +67,11 @@ uint64_t leafCount(const Scene& scene) {
     }
     counts.push_back(n);
   }
+  return counts;
+}
+
+uint64_t leafCount(const Scene& scene) {
+  const std::vector<uint64_t> counts = prototypeLeafCounts(scene);
   uint64_t all = 0;
   for (const Root& r : scene.roots) all = saturatingAdd(all, counts[r.instance.prototype]);
   return all;

@@ -20,6 +20,9 @@ struct PlacedLeaf {
 /// Instances expanded; linear in what is stored, and the largest number when there are more.
 uint64_t leafCount(const Scene& scene);
 
+/// The same for each prototype.
+std::vector<uint64_t> prototypeLeafCounts(const Scene& scene);
+
 /// In path order, instances expanded.
 std::vector<PlacedLeaf> flatLeaves(const Scene& scene);
 
