@@ -11,6 +11,7 @@
 #include "builtins/lists.h"
 #include "builtins/ops/shared/quarter_turn.h"
 #include "builtins/ops/subdivide/shared/cells.h"
+#include "builtins/selection.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -21,36 +22,6 @@ enum class Role : uint8_t { Corner, Edge, Center };
 
 constexpr std::string_view kRoleWords[] = {"corner", "edge", "center"};
 
-// The selectors are in postfix order; indices and tags select nothing here.
-bool selects(const SelectorItem& item, Role role, const ValuePool& pool) {
-  std::vector<bool> stack;
-  const auto pop = [&] {
-    if (stack.empty()) return false;
-    const bool top = stack.back();
-    stack.pop_back();
-    return top;
-  };
-  for (const SelectorTerm& t : item.terms) {
-    switch (t.kind) {
-      case SelectorTerm::Kind::Word: {
-        const std::string_view word = pool.text(t.word);
-        stack.push_back(word == "all" || word == kRoleWords[static_cast<size_t>(role)]);
-        break;
-      }
-      case SelectorTerm::Kind::Boolean: stack.push_back(t.number != 0); break;
-      case SelectorTerm::Kind::Not: stack.push_back(!pop()); break;
-      case SelectorTerm::Kind::And:
-      case SelectorTerm::Kind::Or: {
-        const bool b = pop(), a = pop();
-        stack.push_back(t.kind == SelectorTerm::Kind::And ? a && b : a || b);
-        break;
-      }
-      default: stack.push_back(false);
-    }
-  }
-  return pop();
-}
-
 // The slot of a role, and whether there is one.
 struct RoleSlot {
   bool wanted = false;
@@ -59,7 +30,8 @@ struct RoleSlot {
 
 RoleSlot slotOf(const OpCall& call, Role role) {
   for (const SelectorItem& item : call.selectors()) {
-    if (selects(item, role, call.services().pool())) return {true, item.slot};
+    const std::string_view word = kRoleWords[static_cast<size_t>(role)];
+    if (selectsWord(item, word, call.services().pool())) return {true, item.slot};
   }
   return {};
 }

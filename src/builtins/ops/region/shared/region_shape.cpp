@@ -449,35 +449,6 @@ RegionFacts regionFactsOf(const Services& services, const Shape& shape) {
   return facts;
 }
 
-bool selectsWord(const SelectorItem& item, std::string_view word, const ValuePool& pool) {
-  std::vector<bool> stack;
-  const auto pop = [&] {
-    if (stack.empty()) return false;
-    const bool top = stack.back();
-    stack.pop_back();
-    return top;
-  };
-  for (const SelectorTerm& t : item.terms) {
-    switch (t.kind) {
-      case SelectorTerm::Kind::Word: {
-        const std::string_view own = pool.text(t.word);
-        stack.push_back(own == word || (own == "all" && word != "otherwise"));
-        break;
-      }
-      case SelectorTerm::Kind::Boolean: stack.push_back(t.number != 0); break;
-      case SelectorTerm::Kind::Not: stack.push_back(!pop()); break;
-      case SelectorTerm::Kind::And:
-      case SelectorTerm::Kind::Or: {
-        const bool b = pop(), a = pop();
-        stack.push_back(t.kind == SelectorTerm::Kind::And ? a && b : a || b);
-        break;
-      }
-      default: stack.push_back(false);
-    }
-  }
-  return pop();
-}
-
 Status failOrElse(OpCall& call, const char* code, const std::string& message,
                   const std::string& hint) {
   // After operations with plain parts the shape goes on.

@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "builtins/ops/shared/patchwork.h"
+#include "builtins/selection.h"
 #include "geom/region/grid_partition.h"
 #include "geom/region/piece.h"
 #include "shape/op_call.h"
@@ -153,9 +154,6 @@ RegionFacts regionFactsOf(const Services& services, const Shape& shape);
 
 /// The pattern of that name; Auto for others.
 CellPattern patternNamed(std::string_view name);
-
-/// Whether a selector of a block is the word, alone or among others.
-bool selectsWord(const SelectorItem& item, std::string_view word, const ValuePool& pool);
 
 /// An operation that could not be done: the block's `otherwise` gets the shape, or the call fails.
 Status failOrElse(OpCall& call, const char* code, const std::string& message,
