@@ -9,6 +9,7 @@
 import assert from 'node:assert/strict';
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
+import { meter, told } from './processes.mjs';
 import { CHROMIUM, caretBehind, clean, drawn, hasBrowser, launch, openPage, project, ready, serve, untilDrawn } from './studio.mjs';
 
 if (!hasBrowser()) {
@@ -17,6 +18,7 @@ if (!hasBrowser()) {
 }
 
 const KEYSTROKES = 24;
+const MOST_MS_A_KEY = 400;
 const shots = process.env.GABLE_SHOTS;
 if (shots) mkdirSync(shots, { recursive: true });
 
@@ -46,6 +48,10 @@ async function remember(server, main, place) {
   assert.equal(answer.status, 200);
 }
 
+function add(sum, cost) {
+  for (const key of Object.keys(sum)) sum[key] += cost[key] / KEYSTROKES;
+}
+
 const figures = {
   async latency(browser) {
     const folder = project('suburb_house');
@@ -57,30 +63,42 @@ const figures = {
     await page.keyboard.type('.');
     await page.waitForTimeout(1500);
     await page.evaluate(() => {
-      window.times = [];
-      let began = 0;
-      addEventListener('keydown', () => (began = performance.now()), true);
       const canvas = document.querySelector('.stage canvas');
       const gl = canvas.getContext('webgl2');
-      new MutationObserver(() => {
-        // Reading a pixel ends when the picture is there.
-        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
-        if (began) window.times.push(performance.now() - began);
-        began = 0;
-      }).observe(canvas, { attributeFilter: ['data-drawn'] });
+      let began = 0;
+      addEventListener('keydown', () => (began = performance.now()), true);
+      // Nothing looks again and again: that would be measured as well.
+      window.nextPicture = () => (window.picture = new Promise((there) => {
+        const watch = new MutationObserver(() => {
+          watch.disconnect();
+          // Reading a pixel ends when the picture is there.
+          gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+          there(performance.now() - began);
+        });
+        watch.observe(canvas, { attributeFilter: ['data-drawn'] });
+      })) && undefined;
     });
     const free = share();
+    const cost = meter(server.pid);
+    const first = { server: 0, page: 0, graphics: 0, browser: 0, all: 0 };
+    const after = { ...first };
+    const times = [];
     for (let i = 0; i < KEYSTROKES; ++i) {
-      const before = await drawn(page);
+      await page.evaluate(() => window.nextPicture());
+      cost();
       // 34.1, 34, 34.2, 34 …: each key makes another roof.
       await page.keyboard.press(i % 2 ? 'Backspace' : `Digit${1 + ((i / 2) % 9)}`);
-      await untilDrawn(page, before);
+      times.push(await page.evaluate(() => window.picture));
+      add(first, cost());
       await page.waitForTimeout(330);
+      add(after, cost());
     }
-    const times = (await page.evaluate(() => window.times)).sort((a, b) => a - b);
+    console.log(`processor milliseconds a keystroke, up to the picture: ${told(first)}; in the 330 ms after it: ${told(after)}`);
+    // Processor time says what the clock of a busy machine does not; others in its caches double it.
+    assert.ok(first.all < MOST_MS_A_KEY, `${first.all} ms of processor time a keystroke`);
+    times.sort((a, b) => a - b);
     const at = (part) => times[Math.min(times.length - 1, Math.floor(times.length * part))];
     if (shots) await page.screenshot({ path: join(shots, 'latency.png') });
-    assert.ok(times.length >= KEYSTROKES - 2, `${times.length} pictures`);
     const idle = Math.min(free, share());
     held('keystroke to picture, median', `${at(0.5).toFixed(0)} ms of 100`, at(0.5) < 100, idle);
     held('keystroke to picture, 95th percentile', `${at(0.95).toFixed(0)} ms of 250`, at(0.95) < 250, idle);

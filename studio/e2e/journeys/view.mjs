@@ -55,6 +55,24 @@ export default {
     assert.match(await page.locator('.status').innerText(), /\d+ fps/);
   },
 
+  /** What changes is drawn at once, coarsely where that is slow; what stands still is drawn in full. */
+  async aPictureIsRefinedWhenNothingMoves({ page }) {
+    await ready(page);
+    const canvas = page.locator('.stage canvas');
+    const refined = () => page.waitForFunction(() => {
+      const c = document.querySelector('.stage canvas');
+      return c.dataset.refined === c.dataset.drawn;
+    }, null, { timeout: 240_000 });
+    await refined();
+    await canvas.focus();
+    await changes(page, 'turn', () => page.keyboard.press('ArrowLeft'));
+    const first = await picture(page);
+    await refined();
+    const pixels = await canvas.evaluate((c) => ({ width: c.width, height: c.height, wide: c.clientWidth, high: c.clientHeight }));
+    assert.ok(pixels.width >= pixels.wide && pixels.height >= pixels.high, JSON.stringify(pixels));
+    assert.ok(!first.equals(await picture(page)), 'the first picture is finer later');
+  },
+
   /** Row C15: shaded and wireframe, next seed. */
   async C15_theViewShowsWiresAndScopes({ page }) {
     await ready(page);

@@ -53,7 +53,13 @@ const HISTORY = 'history.json';
 /** A derivation younger than this is waited for: pictures come in while a slider is dragged. */
 const PATIENCE_MS = 350;
 const TREE_AFTER_MS = 250;
+const WORTH_TELLING_MS = 100;
 const MOST_TREE_SHAPES = 300_000;
+
+/** What was there where nothing of it has changed, so that no panel is drawn anew. */
+function sameOr<T>(before: T, now: T): T {
+  return JSON.stringify(before) === JSON.stringify(now) ? before : now;
+}
 
 export function newPlace(): Place {
   return { start: '', seed: 0, attributes: {}, shapes: { lot: [20, 30] } };
@@ -87,6 +93,7 @@ export class Studio {
   end = $state<Derived['end'] | ''>('');
   /** When the model that is shown was made, where later rules had errors. */
   lastGood = $state('');
+  /** When the derivation under way began; 0 for none, or for one that has only just begun. */
   deriving = $state(0);
   progress = $state.raw<{ done: number; total: number } | null>(null);
   shapes = $state.raw<Shapes | null>(null);
@@ -391,7 +398,7 @@ export class Studio {
     this.again = false;
     const run = { abort: new AbortController(), began: performance.now() };
     this.running = run;
-    this.deriving = run.began;
+    const late = window.setTimeout(() => (this.deriving = run.began), WORTH_TELLING_MS);
     const watch = window.setInterval(() => void this.watchProgress(run.began), 500);
     const impatient = window.setInterval(() => {
       if (this.again && performance.now() - run.began > PATIENCE_MS) run.abort.abort();
@@ -406,6 +413,7 @@ export class Studio {
         this.end = 'wrong';
       } else if (!run.abort.signal.aborted) this.connected = false;
     } finally {
+      clearTimeout(late);
       clearInterval(watch);
       clearInterval(impatient);
       this.running = null;
@@ -434,17 +442,17 @@ export class Studio {
 
   private take(derived: Derived, draw: DrawList | null): void {
     if (derived.end === 'cancelled') return;
-    this.messages = derived.messages;
+    if (derived.messages.length || this.messages.length) this.messages = derived.messages;
     const wasGood = this.end !== 'wrong';
     this.end = derived.end;
     if (derived.end === 'wrong' || !draw || !derived.stats) {
       if (wasGood && this.stats) this.lastGood = new Date().toLocaleTimeString('en-GB');
       return;
     }
-    this.rules = derived.rules;
+    this.rules = sameOr(this.rules, derived.rules);
     this.startRule = derived.startRule;
-    this.attributes = derived.attributes;
-    this.values = derived.values ?? {};
+    this.attributes = sameOr(this.attributes, derived.attributes);
+    this.values = sameOr(this.values, derived.values ?? {});
     this.stats = derived.stats;
     this.derivation = derived.derivation ?? 0;
     this.lastGood = '';

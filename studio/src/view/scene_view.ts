@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// SceneView: a draw list on a canvas. It draws when something changed and then, while nothing does,
-// refines the picture: further passes with a moved sun and moved pixels are averaged into soft
-// shadows, light from the whole sky and smooth edges. The first picture never waits for that.
+// SceneView: a draw list on a canvas. While something changes its pictures are as fine as they can be in
+// time (Pace). Once nothing does, it draws one in full and then refines it: further passes with a moved sun
+// and moved pixels are averaged into soft shadows, light from the whole sky and smooth edges.
 
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
@@ -11,8 +11,10 @@ import type { Batch, DrawList, Look } from '../lib/protocol';
 import { emptyGroup, ghostBox, manyScopes, scopeLines, type ScopeBox } from './boxes';
 import { Detail, MOVING, STILL } from './detail';
 import { Navigation, type Mode } from './navigation';
+import { isSoftware, Pace } from './pace';
 import { Pictures } from './pictures';
 import { groundMaterial, heightMaterial, leafMaterial, lookMaterial, outlineMaterial, skyMaterial, steppedShadow, type Marks } from './shading';
+import { Lights, spread } from './sun';
 
 export interface ViewColors {
   ground: string;
@@ -46,10 +48,15 @@ export interface Range {
 const NOTHING: Range = { from: 0, to: 0 };
 /** Passes that a still picture is made of. */
 const PASSES = 40;
+const SHOWN_AFTER = 10;
+/** How dark thin edges between leaves are in a refined picture, and in one of a large place. */
+const FINE_EDGES = 0.22;
+const PLACE_EDGES = 0.16;
 const MOST_MATERIALS = 400;
 /** Metres from the middle to a corner of what counts as a place, not a building. */
 const WIDE = 150;
-const QUIET_MS = 220;
+/** So long nothing changes before a picture is drawn in full: longer than it takes from key to key. */
+const QUIET_MS = 400;
 const SLOW_PASS_MS = 400;
 
 interface Batched {
@@ -58,22 +65,17 @@ interface Batched {
   leaf: THREE.Material;
 }
 
-/** The i-th number of the radical inverse sequence: evenly spread however many are taken. */
-function spread(i: number, base: number): number {
-  let out = 0;
-  for (let f = 1 / base, n = i; n > 0; n = Math.floor(n / base), f /= base) out += f * (n % base);
-  return out;
-}
-
 export class SceneView {
   readonly renderer: THREE.WebGLRenderer;
   readonly camera = new THREE.PerspectiveCamera(28, 1, 0.1, 5000);
   readonly controls: OrbitControls;
   /** Called after each first picture of a change, not after refinements. */
   drawn: (() => void) | null = null;
+  /** Called when a picture is as good as it gets. */
+  refined: (() => void) | null = null;
   /** Called when the camera has moved. */
   moved: (() => void) | null = null;
-  /** Called with the seconds that a picture took, from the drawing of one to the end of it. */
+  /** Called with the seconds that a picture took of a camera that moves, from the drawing of it to its end. */
   timed: ((seconds: number) => void) | null = null;
   readonly pictures = new Pictures();
 
@@ -81,8 +83,10 @@ export class SceneView {
 
   private readonly scene = new THREE.Scene();
   private readonly model = new THREE.Group();
-  private readonly sun = new THREE.DirectionalLight(0xfff1dc, 2.9);
-  private readonly sky = new THREE.HemisphereLight(0xe4edf4, 0x9a948a, 1.7);
+  private readonly lights: Lights;
+  private readonly pace: Pace;
+  /** The processor draws, as on a machine without a graphics card. */
+  readonly software: boolean;
   private readonly ground: THREE.Mesh<THREE.PlaneGeometry, THREE.MeshLambertMaterial>;
   private readonly grid: THREE.Mesh<THREE.PlaneGeometry, THREE.ShaderMaterial>;
   private readonly marks: Marks = {
@@ -107,18 +111,28 @@ export class SceneView {
   private readonly ghostColor = new THREE.Color();
   private readonly groundColor = new THREE.Color();
   private readonly horizonColor = new THREE.Color();
-  private leafTarget = new THREE.WebGLRenderTarget(1, 1, { type: THREE.UnsignedByteType });
-  private passTarget = new THREE.WebGLRenderTarget(1, 1, { type: THREE.HalfFloatType });
-  private sumTarget = new THREE.WebGLRenderTarget(1, 1, { type: THREE.HalfFloatType });
+  private readonly leafTarget = new THREE.WebGLRenderTarget(1, 1, { minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter });
+  /** The picture before it is refined. */
+  private readonly picture: THREE.WebGLRenderTarget;
+  private readonly passTarget = new THREE.WebGLRenderTarget(1, 1, { colorSpace: THREE.SRGBColorSpace });
+  private readonly sumTarget = new THREE.WebGLRenderTarget(1, 1, { type: THREE.HalfFloatType });
+  /** What the canvas shows below the outlines. */
+  private shown: THREE.WebGLRenderTarget;
   private readonly pickTarget = new THREE.WebGLRenderTarget(1, 1);
   private batches: Batched[] = [];
   private bounds: Bounds = { min: [0, 0, 0], max: [20, 0, 20] };
   private selected = NOTHING;
   private hovered = NOTHING;
-  private sunAngles = { elevation: 44, azimuth: -28 };
   private dirty = false;
+  /** The next picture is drawn in full at once. */
+  private fine = false;
+  /** The picture that is shown is less than the canvas could show. */
+  private coarse = false;
   private leavesStale = true;
+  /** The camera has moved since the latest picture. */
+  private panned = false;
   private pass = 0;
+  private passes = PASSES;
   private drawnWith = { calls: 0, triangles: 0 };
   private quiet = 0;
   private frame = 0;
@@ -129,21 +143,29 @@ export class SceneView {
   private readonly materials = new Map<string, THREE.MeshLambertMaterial>();
   private sky_ = false;
   private wireframe = false;
+  private share = 0;
+  /** Pixels of the canvas. */
+  private readonly size = new THREE.Vector2();
   private waiting: WebGLSync | null = null;
-  /** Refinement has left the sun elsewhere. */
-  private sunMoved = false;
 
-  constructor(readonly canvas: HTMLCanvasElement) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+  /** `posed`: for pictures that are taken as soon as they are drawn, so that all are in full. */
+  constructor(
+    readonly canvas: HTMLCanvasElement,
+    private readonly posed = false,
+  ) {
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: false, preserveDrawingBuffer: true });
+    const software = isSoftware(this.renderer.getContext());
+    this.software = software;
+    this.pace = new Pace(software);
+    this.lights = new Lights(software && !posed);
+    this.picture = new THREE.WebGLRenderTarget(1, 1, { colorSpace: THREE.SRGBColorSpace, samples: software && !posed ? 0 : 4 });
+    this.shown = this.picture;
     this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = THREE.PCFShadowMap;
+    // A processor pays for each look at the shadows; refining makes them soft all the same.
+    this.renderer.shadowMap.type = software && !posed ? THREE.BasicShadowMap : THREE.PCFShadowMap;
     this.renderer.shadowMap.autoUpdate = false;
     this.renderer.autoClear = false;
     this.renderer.info.autoReset = false;
-    this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(2048, 2048);
-    this.sun.shadow.bias = -0.0004;
-    this.sun.shadow.normalBias = 0.04;
     this.ground = new THREE.Mesh(new THREE.PlaneGeometry(1, 1), new THREE.MeshLambertMaterial());
     this.ground.rotation.x = -Math.PI / 2;
     this.ground.receiveShadow = true;
@@ -160,7 +182,7 @@ export class SceneView {
     this.dome.frustumCulled = false;
     this.dome.renderOrder = -10;
     this.dome.visible = false;
-    this.scene.add(this.dome, this.model, this.sun, this.sun.target, this.sky, this.ground, this.grid);
+    this.scene.add(this.dome, this.model, this.lights.group, this.ground, this.grid);
     this.scene.add(this.scopes, this.manyScopes, this.ghosts);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
@@ -175,7 +197,7 @@ export class SceneView {
   }
 
   cameraMoved(): void {
-    this.leavesStale = true;
+    this.leavesStale = this.panned = true;
     this.moved?.();
     this.redraw();
   }
@@ -259,10 +281,11 @@ export class SceneView {
     this.model.clear();
     this.batches = batches;
     for (const { mesh } of this.batches) this.model.add(mesh);
-    this.setWireframe(this.wireframe);
+    this.fitWires();
     this.bounds = bounds;
     this.fitGround();
     this.fitSun();
+    this.lights.forget();
     if (!this.framed && list.leaves > 0) {
       this.framed = true;
       this.frameAll();
@@ -368,71 +391,68 @@ export class SceneView {
     this.camera.updateProjectionMatrix();
   }
 
-  private fitSun(direction?: THREE.Vector3): void {
-    const { elevation, azimuth } = this.sunAngles;
-    const e = (elevation * Math.PI) / 180;
-    const a = (azimuth * Math.PI) / 180;
-    const to = direction ?? new THREE.Vector3(Math.sin(a) * Math.cos(e), Math.sin(e), Math.cos(a) * Math.cos(e));
-    if (!direction) (this.dome.material.uniforms.sun!.value as THREE.Vector3).copy(to);
-    const r = this.radius * 1.08;
-    this.sun.position.copy(this.centre).addScaledVector(to, r * 3);
-    this.sun.target.position.copy(this.centre);
-    const camera = this.sun.shadow.camera;
-    camera.left = camera.bottom = -r;
-    camera.right = camera.top = r;
-    camera.near = r;
-    camera.far = r * 5;
-    camera.updateProjectionMatrix();
-    this.sun.shadow.normalBias = r / 700;
-    this.renderer.shadowMap.needsUpdate = true;
+  private fitSun(): void {
+    this.lights.fit(this.centre, this.radius, this.radius > WIDE);
+    (this.dome.material.uniforms.sun!.value as THREE.Vector3).copy(this.lights.direction());
   }
 
   setSun(elevation: number, azimuth: number): void {
-    this.sunAngles = { elevation, azimuth };
-    this.fitSun();
+    this.lights.turn(elevation, azimuth);
+    (this.dome.material.uniforms.sun!.value as THREE.Vector3).copy(this.lights.direction());
     this.redraw();
   }
 
   setSelected(range: Range | null): void {
-    this.selected = range ?? NOTHING;
-    this.marks.selected.value.set(this.selected.from, this.selected.to);
-    this.redraw();
+    const next = range ?? NOTHING;
+    if (next.from === this.selected.from && next.to === this.selected.to) return;
+    this.selected = next;
+    this.marks.selected.value.set(next.from, next.to);
+    this.redraw(true);
   }
 
   setHovered(range: Range | null): void {
     const next = range ?? NOTHING;
     if (next.from === this.hovered.from && next.to === this.hovered.to) return;
     this.hovered = next;
-    this.redraw();
+    // The picture itself stays; one that is about to be drawn has the outline anyway.
+    if (!this.dirty) this.present();
   }
 
   setWireframe(on: boolean): void {
+    if (on === this.wireframe) return;
     this.wireframe = on;
-    for (const { plain } of this.batches) (plain as THREE.MeshLambertMaterial).wireframe = on;
-    this.redraw();
+    this.fitWires();
+    this.redraw(true);
+  }
+
+  private fitWires(): void {
+    for (const { plain } of this.batches) (plain as THREE.MeshLambertMaterial).wireframe = this.wireframe;
   }
 
   /** A box in the accent colour with its axes; null hides it. */
   setScope(box: ScopeBox | null): void {
+    if (!box && !this.scopes.children.length) return;
     emptyGroup(this.scopes);
     if (box) this.scopes.add(...scopeLines(box, this.marks.accent.value));
-    this.redraw();
+    this.redraw(true);
   }
 
   /** The scopes of many shapes, thinly. */
   setScopes(boxes: ScopeBox[]): void {
+    if (!boxes.length && !this.manyScopes.children.length) return;
     emptyGroup(this.manyScopes);
     if (boxes.length) this.manyScopes.add(manyScopes(boxes, this.marks.accent.value));
-    this.redraw();
+    this.redraw(true);
   }
 
   /** Shows a derivation as it is after a step, and what the step has replaced. */
   setStep(step: number, ghost: ScopeBox | null): void {
+    if (step === this.marks.guideStep.value && !ghost && !this.ghosts.children.length) return;
     this.marks.guideStep.value = step;
     emptyGroup(this.ghosts);
     if (ghost) this.ghosts.add(...ghostBox(ghost, this.ghostColor));
     this.leavesStale = true;
-    this.renderer.shadowMap.needsUpdate = true;
+    this.lights.forget();
     this.redraw();
   }
 
@@ -485,9 +505,7 @@ export class SceneView {
     const background = this.scene.background;
     const besides = [this.dome, this.ground, this.grid, this.scopes, this.manyScopes, this.ghosts];
     const seen = besides.map((o) => o.visible);
-    const shadows = this.renderer.shadowMap.needsUpdate;
     this.scene.background = null;
-    this.renderer.shadowMap.needsUpdate = false;
     for (const o of besides) o.visible = false;
     for (const b of this.batches) b.mesh.material = material(b);
     this.renderer.setRenderTarget(target);
@@ -497,79 +515,108 @@ export class SceneView {
     this.renderer.setRenderTarget(null);
     for (const b of this.batches) b.mesh.material = b.plain;
     besides.forEach((o, i) => (o.visible = seen[i]!));
-    this.renderer.shadowMap.needsUpdate = shadows;
     this.scene.background = background;
   }
 
   private resize(): void {
     const { clientWidth: w, clientHeight: h } = this.canvas;
     if (!w || !h) return;
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
-    this.renderer.setSize(w, h, false);
-    const size = this.renderer.getDrawingBufferSize(new THREE.Vector2());
-    for (const target of [this.leafTarget, this.passTarget, this.sumTarget]) target.setSize(size.x, size.y);
-    (this.overlay.material.uniforms.texel!.value as THREE.Vector2).set(1 / size.x, 1 / size.y);
+    this.share = 0;
     this.camera.aspect = w / h;
     this.camera.updateProjectionMatrix();
     this.leavesStale = true;
     this.render();
+    clearTimeout(this.quiet);
+    this.quiet = window.setTimeout(() => this.refine(), QUIET_MS);
   }
 
-  redraw(): void {
+  /** Draws anew; `fine`: what changes does not move, so that the picture may take a little longer. */
+  redraw(fine = false): void {
+    this.fine = this.dirty ? this.fine && fine : fine;
     this.dirty = true;
     if (!this.frame) this.frame = requestAnimationFrame(() => this.tick());
   }
 
   private tick(): void {
     this.frame = 0;
-    if (this.dirty) {
-      const began = performance.now();
-      this.render();
-      this.drawn?.();
-      clearTimeout(this.quiet);
-      this.whenDrawn(() => {
-        this.timed?.((performance.now() - began) / 1000);
-        this.quiet = window.setTimeout(() => this.refine(), QUIET_MS);
-      });
-    }
+    if (!this.dirty) return;
+    const began = performance.now();
+    const moving = !this.fine;
+    this.render();
+    this.drawn?.();
+    clearTimeout(this.quiet);
+    this.whenDrawn(() => {
+      const seconds = (performance.now() - began) / 1000;
+      if (moving) this.pace.took(seconds);
+      if (this.panned) this.timed?.(seconds);
+      this.panned = false;
+      this.quiet = window.setTimeout(() => this.refine(), QUIET_MS);
+    });
   }
 
   private render(): void {
-    this.dirty = false;
+    const share = this.fine || this.posed ? 1 : this.pace.share;
+    this.dirty = this.fine = false;
     this.pass = 0;
-    if (this.sunMoved) this.fitSun();
-    this.sunMoved = false;
-    this.renderer.setRenderTarget(null);
-    this.renderer.clear();
-    this.chooseDetail(MOVING);
+    this.passes = PASSES;
+    this.coarse = share < 1 || !!this.detail;
+    this.draw(share, MOVING);
+  }
+
+  /** The canvas has this share of the pixels each way that the screen has for it; the page enlarges it. */
+  private setShare(share: number): void {
+    if (share === this.share) return;
+    this.share = share;
+    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio) * share);
+    this.renderer.setSize(this.canvas.clientWidth, this.canvas.clientHeight, false);
+    const size = this.renderer.getDrawingBufferSize(this.size);
+    for (const target of [this.picture, this.leafTarget]) target.setSize(size.x, size.y);
+    (this.overlay.material.uniforms.texel!.value as THREE.Vector2).set(1 / size.x, 1 / size.y);
+    this.leavesStale = true;
+  }
+
+  /** A picture with the light of the sun as it is set. */
+  private draw(share: number, budget: number): void {
+    this.setShare(share);
+    this.lights.first(share < 1);
+    this.chooseDetail(budget);
     this.renderer.info.reset();
-    this.renderer.render(this.scene, this.camera);
+    this.renderScene(this.picture);
     this.drawnWith = { calls: this.renderer.info.render.calls, triangles: this.renderer.info.render.triangles };
-    if (this.selected.to > this.selected.from || this.hovered.to > this.hovered.from) this.drawOverlay(0);
+    this.shown = this.picture;
+    this.present();
+  }
+
+  private renderScene(target: THREE.WebGLRenderTarget): void {
+    // Each sun knows whether its shadows are stale.
+    this.renderer.shadowMap.needsUpdate = true;
+    this.renderer.setRenderTarget(target);
+    this.renderer.clear();
+    this.renderer.render(this.scene, this.camera);
+    this.renderer.setRenderTarget(null);
+    this.renderer.shadowMap.needsUpdate = false;
+  }
+
+  /** Puts the latest picture on the canvas, with outlines. */
+  private present(edges = this.shown === this.sumTarget ? FINE_EDGES : 0): void {
+    this.renderer.setRenderTarget(null);
+    this.copy.material.map = this.shown.texture;
+    this.copy.material.opacity = 1;
+    this.renderer.clear();
+    this.renderer.render(this.copy, this.flat);
+    const outlined = this.selected.to > this.selected.from || this.hovered.to > this.hovered.from;
+    if (edges > 0 || outlined) this.drawOverlay(edges);
   }
 
   /** Of a large model: its shadows, where they are to be drawn anew, and then what the camera sees. */
   private chooseDetail(budget: number): void {
     if (!this.detail) return;
-    if (this.renderer.shadowMap.needsUpdate) {
-      this.detail.selectForShadow((2 * this.radius) / this.sun.shadow.mapSize.x);
+    if (this.lights.stale) {
+      this.detail.selectForShadow(this.lights.texel);
       // Drawing on one pixel draws the shadow map as well.
-      this.renderer.setRenderTarget(this.pickTarget);
-      this.renderer.render(this.scene, this.camera);
-      this.renderer.setRenderTarget(null);
-      this.renderer.clear();
+      this.renderScene(this.pickTarget);
     }
     this.detail.select(this.camera, this.canvas.clientHeight, budget);
-  }
-
-  /** A large model at rest: more of it, once. */
-  private settle(): void {
-    this.chooseDetail(STILL);
-    this.renderer.clear();
-    this.renderer.render(this.scene, this.camera);
-    this.leavesStale = true;
-    this.drawOverlay(0.16);
-    this.pass = PASSES;
   }
 
   private drawOverlay(edges: number): void {
@@ -585,38 +632,48 @@ export class SceneView {
     this.renderer.render(this.overlay, this.flat);
   }
 
-  /** One more pass of a still picture, then room for whatever else the page has to do. */
+  /** One more step towards the best picture, then room for whatever else the page has to do. */
   private refine(): void {
-    if (this.dirty || this.pass >= PASSES || !this.canvas.isConnected) return;
-    if (this.detail) return this.settle();
+    if (this.dirty || this.pass >= this.passes || !this.canvas.isConnected) return;
     const began = performance.now();
-    const i = this.pass + 1;
-    const size = this.renderer.getDrawingBufferSize(new THREE.Vector2());
-    // Four passes in ten look from the sun, spread over its disc; the others are light of the sky.
-    const fromSun = i % 5 < 2;
-    const sunlight = this.sun.intensity;
-    const skylight = this.sky.intensity;
-    this.sunMoved = true;
-    this.fitSun(fromSun ? this.aroundSun(i) : this.inSky(i));
-    this.sun.color.set(fromSun ? 0xfff1dc : 0xe6eef4);
-    this.sun.intensity = fromSun ? sunlight * 2.1 : 2.9;
-    this.sky.intensity = 0.5;
-    this.camera.setViewOffset(size.x, size.y, spread(i, 2) - 0.5, spread(i, 3) - 0.5, size.x, size.y);
-    this.renderer.setRenderTarget(this.sumTarget);
-    if (this.pass === 0) this.renderer.clear();
-    this.accumulate(i);
-    this.camera.clearViewOffset();
-    this.sun.intensity = sunlight;
-    this.sun.color.set(0xfff1dc);
-    this.sky.intensity = skylight;
-    this.pass = i;
-    if (i % 10 === 0 || i === PASSES) this.showSum();
+    if (this.coarse) this.settle();
+    else this.addPass();
     this.whenDrawn(() => {
       const took = performance.now() - began;
-      // Where a pass is slow, refining would hold up the page: the picture stays as it is.
-      if (took > SLOW_PASS_MS && i % 10 !== 0) this.pass = PASSES;
-      this.quiet = window.setTimeout(() => this.refine(), Math.max(8, took));
+      // Where passes are slow, fewer have to do.
+      if (took > SLOW_PASS_MS) this.passes = SHOWN_AFTER;
+      if (this.pass >= this.passes) this.refined?.();
+      else this.quiet = window.setTimeout(() => this.refine(), Math.max(8, took));
     });
+  }
+
+  /** The picture in full, as it was moved: of a large model more, of others all pixels. */
+  private settle(): void {
+    this.coarse = false;
+    this.draw(1, STILL);
+    if (!this.detail) return;
+    this.leavesStale = true;
+    this.present(PLACE_EDGES);
+    this.pass = this.passes;
+  }
+
+  private addPass(): void {
+    const i = this.pass + 1;
+    const { size } = this;
+    for (const target of [this.passTarget, this.sumTarget]) target.setSize(size.x, size.y);
+    this.lights.pass(i);
+    this.camera.setViewOffset(size.x, size.y, spread(i, 2) - 0.5, spread(i, 3) - 0.5, size.x, size.y);
+    this.renderScene(this.passTarget);
+    this.camera.clearViewOffset();
+    this.renderer.setRenderTarget(this.sumTarget);
+    if (i === 1) this.renderer.clear();
+    this.copy.material.map = this.passTarget.texture;
+    this.copy.material.opacity = 1 / i;
+    this.renderer.render(this.copy, this.flat);
+    this.pass = i;
+    if (i % SHOWN_AFTER !== 0) return;
+    this.shown = this.sumTarget;
+    this.present();
   }
 
   /** Calls back when the graphics card has drawn what was queued, without waiting for it. */
@@ -634,40 +691,6 @@ export class SceneView {
       else then();
     };
     this.quiet = window.setTimeout(look, 2);
-  }
-
-  private aroundSun(i: number): THREE.Vector3 {
-    const { elevation, azimuth } = this.sunAngles;
-    const e = ((elevation + (spread(i, 5) - 0.5) * 2.4) * Math.PI) / 180;
-    const a = ((azimuth + (spread(i, 7) - 0.5) * 2.4) * Math.PI) / 180;
-    return new THREE.Vector3(Math.sin(a) * Math.cos(e), Math.sin(e), Math.cos(a) * Math.cos(e));
-  }
-
-  private inSky(i: number): THREE.Vector3 {
-    const y = Math.sqrt(0.03 + 0.95 * spread(i, 2));
-    const a = 2 * Math.PI * spread(i, 3);
-    const r = Math.sqrt(1 - y * y);
-    return new THREE.Vector3(Math.sin(a) * r, y, Math.cos(a) * r);
-  }
-
-  private accumulate(i: number): void {
-    this.renderer.setRenderTarget(this.passTarget);
-    this.renderer.clear();
-    this.renderer.render(this.scene, this.camera);
-    this.renderer.setRenderTarget(this.sumTarget);
-    this.copy.material.map = this.passTarget.texture;
-    this.copy.material.opacity = 1 / i;
-    this.renderer.render(this.copy, this.flat);
-    this.renderer.setRenderTarget(null);
-  }
-
-  private showSum(): void {
-    this.renderer.setRenderTarget(null);
-    this.copy.material.map = this.sumTarget.texture;
-    this.copy.material.opacity = 1;
-    this.renderer.clear();
-    this.renderer.render(this.copy, this.flat);
-    this.drawOverlay(0.22);
   }
 
   /** What the latest picture cost, and what the model holds of the graphics card's memory. */

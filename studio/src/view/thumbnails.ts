@@ -29,7 +29,7 @@ export class Thumbnails {
     private readonly canvas: HTMLCanvasElement,
     private readonly client: EngineClient,
   ) {
-    this.view = new SceneView(canvas);
+    this.view = new SceneView(canvas, true);
     this.view.setColors(themeColors());
     this.view.pictures.load = async (path) => {
       ++this.pending;
