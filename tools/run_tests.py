@@ -51,7 +51,8 @@ class Progress:
 
 
 def command(options, junit):
-    line = ["ctest", "--test-dir", options.build, "-j", str(options.jobs), "--timeout", str(TIMEOUT)]
+    line = ["ctest", "--test-dir", options.build, "-j", str(options.jobs),
+            "--timeout", str(options.timeout)]
     if options.exclude_label:
         line += ["-LE", options.exclude_label]
     if options.filters:
@@ -125,6 +126,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("build")
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--timeout", type=int, default=TIMEOUT, help="seconds for one test")
     parser.add_argument("--list", action="store_true")
     parser.add_argument("--exclude-label")
     parser.add_argument("filters", nargs="*")

@@ -32,7 +32,7 @@ status=0
 for preset in "${presets[@]}"; do
   build "$preset" || { status=1 && continue; }
   say "${bold}$preset${plain}"
-  python3 -B tools/run_tests.py "build/$preset" --jobs "$(jobs)" --exclude-label check \
+  python3 -B tools/run_tests.py "build/$preset" --jobs "$(jobs)" --timeout 3600 --exclude-label check \
     ${filters[@]+"${filters[@]}"} || status=1
 done
 exit $status

@@ -201,21 +201,22 @@ class Machine final : public Services {
     /// The scope in the local frame: the axes of `axes`, at `origin`.
     const Frame& axes;
     Vec3 origin;
-    /// The scope's axes in the frame of the leaves.
-    const Frame* leafAxes;
+    /// What the leaves have in common: attributes, materials, and the axes of the scope, or of the
+    /// world below a rule that works in a frame of its own.
+    const Leaf *leaf, *worldLeaf;
     /// The scope's axis that it is divided along.
     Vec3 along;
     Vec3 size;
     GeometryKind kind;
-    uint32_t materials, attributes;
     const LightTrim* trim;
     /// Of the rule call that the parts belong to; null when it is light itself.
     uint32_t* childCount;
   };
-  /// Where the local frame of a light part lies in the frame of the leaves, and its axes there.
+  /// Where the local frame of a light part lies in the frame of the leaves, and what its leaf is
+  /// like.
   struct LightPlace {
     Vec3 origin;
-    const Frame* axes;
+    const Leaf* leaf;
   };
   struct LightMark {
     size_t leaves;

@@ -13,6 +13,7 @@
 // give the same leaves, counts and numbers of children.
 
 #include <algorithm>
+#include <optional>
 
 #include "runtime/machine.h"
 
@@ -121,19 +122,26 @@ void Machine::makeLightParts(Activation& a) {
   // Only a part that is light needs to know where the parent lies.
   if (!slots[pieces_[a.childNext].slot].light) return;
   const Frame& world = flat_ ? worlds_.back() : kOwnFrame;
-  const Frame leafAxes = s.scope.turned || !flat_ ? world * s.scope : world;
-  const LightTrim trim{s};
+  Leaf worldLeaf;
+  worldLeaf.frame = world;
+  worldLeaf.materials = output_.materialNumber(s.material, 0);
+  worldLeaf.attributes = s.attributes;
+  std::optional<Leaf> turnedLeaf;
+  if (s.scope.turned) turnedLeaf.emplace(worldLeaf).frame = world * s.scope;
+  LightPlanes planes;
+  const bool trimmed = s.extra && !s.extra->trim.empty();
+  if (trimmed) findLightPlanes(s, planes);
+  const LightTrim trim{{planes.begin(), planes.size()}, &s.scope, {}};
   const LightSource source{world,
                            world.origin,
                            s.scope,
                            s.scope.origin,
-                           &leafAxes,
+                           turnedLeaf ? &*turnedLeaf : &worldLeaf,
+                           &worldLeaf,
                            directionOf(s.scope, a.plan.axis),
                            s.size,
                            s.geometry.kind,
-                           output_.materialNumber(s.material, 0),
-                           s.attributes,
-                           s.extra && !s.extra->trim.empty() ? &trim : nullptr,
+                           trimmed ? &trim : nullptr,
                            &activations_[a.owner].childCount};
   while (a.childNext < a.childEnd) {
     const SplitPiece& piece = pieces_[a.childNext];
@@ -163,18 +171,20 @@ bool Machine::makeLightPart(const LightSource& from, const PartPlan& plan, const
                  from.trim};
   part.size[static_cast<size_t>(plan.axis)] = plan.flat ? 0 : piece.size;
   if (from.childCount && (slot.calls > 0 || slot.named)) ++*from.childCount;
-  LightPlace place{from.place, from.leafAxes};
+  LightPlace place{from.place, from.leaf};
   // The rule's frame has the world's axes when the scope has the local ones.
   if (slot.boundary && from.axes.turned) return false;
-  const bool trimmed = slot.boundary && part.trim && !isFarFromTrim(part);
-  const LightTrim trim{trimmed ? part.trim->shape : current().shape, true,
-                       trimmed ? part.trim->there(part.origin) : Vec3{}};
+  std::optional<LightTrim> trim;
   if (slot.boundary) {
     place.origin += from.world.direction(part.origin);
-    place.axes = &from.world;
+    place.leaf = from.worldLeaf;
+    if (part.trim && isFarFromTrim(part)) part.trim = nullptr;
+    if (part.trim) {
+      trim = LightTrim{part.trim->planes, nullptr, part.trim->there(part.origin)};
+      part.trim = &*trim;
+    }
     part.parent = &kOwnFrame;
     part.origin = {};
-    part.trim = trimmed ? &trim : nullptr;
   }
   for (const LightSlot::Step& step : slot.steps) {
     if (!step.apply(part, step.args)) return false;
@@ -183,10 +193,14 @@ bool Machine::makeLightPart(const LightSource& from, const PartPlan& plan, const
   shapesExpanded_ += slot.shapes;
   if (slot.drop) return true;
   if (slot.block > 0) return splitLightPart(from, place, part, slot, depth, nested);
-  output_.openLeaves.push_back(Leaf{*place.axes, part.size, unitMesh(part.kind, part.uv),
-                                    from.materials, slot.name, slot.source, from.attributes});
-  Vec3& origin = output_.openLeaves.back().frame.origin;
-  origin = flat_ ? place.origin + from.world.direction(part.origin) : part.origin;
+  // Completed where it stays: a copy of what was just written would wait for its stores.
+  output_.openLeaves.push_back(*place.leaf);
+  Leaf& leaf = output_.openLeaves.back();
+  leaf.frame.origin = flat_ ? place.origin + from.world.direction(part.origin) : part.origin;
+  leaf.scale = part.size;
+  leaf.mesh = unitMesh(part.kind, part.uv);
+  leaf.name = slot.name;
+  leaf.source = slot.source;
   return true;
 }
 
@@ -199,11 +213,17 @@ bool Machine::splitLightPart(const LightSource& from, const LightPlace& place,
                      !part.uv && part.size[static_cast<size_t>(memo.plan.axis)] == memo.whole &&
                      memo.pieces.size() <= options().limits.width;
   if (!known) return false;
-  const LightSource inner{
-      from.world,      place.origin, *part.parent,
-      part.origin,     place.axes,   directionOf(*part.parent, memo.plan.axis),
-      part.size,       part.kind,    from.materials,
-      from.attributes, part.trim,    slot.calls > 0 ? nullptr : from.childCount};
+  const LightSource inner{from.world,
+                          place.origin,
+                          *part.parent,
+                          part.origin,
+                          place.leaf,
+                          from.worldLeaf,
+                          directionOf(*part.parent, memo.plan.axis),
+                          part.size,
+                          part.kind,
+                          part.trim,
+                          slot.calls > 0 ? nullptr : from.childCount};
   const std::vector<LightSlot>& slots = lightSlots(block, slot.rule);
   for (const SplitPiece& piece : memo.pieces) {
     const LightSlot& next = slots[piece.slot];

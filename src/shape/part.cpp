@@ -28,9 +28,8 @@ struct GrownBox {
     middle = origin + axes.direction(s * 0.5);
     reach = half.x + half.y + half.z;
   }
-  // By more than `clearance`.
-  bool liesBehind(const TrimPlane& p, double clearance = 0) const {
-    const double beyond = dot(p.normal, middle) - p.distance + clearance;
+  bool liesBehind(const TrimPlane& p) const {
+    const double beyond = dot(p.normal, middle) - p.distance;
     if (beyond + reach < 0) return true;
     return beyond + std::fabs(dot(p.normal, axes.x)) * half.x +
                std::fabs(dot(p.normal, axes.y)) * half.y +
@@ -66,11 +65,26 @@ void makePart(const Shape& parent, const PartPlan& plan, const SplitPiece& piece
   if (part.extra) forgetFarTrimPlanes(part);
 }
 
-bool isFarFromTrim(const LightPart& part) {
-  const Shape& s = part.trim->shape;
-  const GrownBox box(s.scope, part.trim->there(part.origin), part.size);
+void findLightPlanes(const Shape& s, LightPlanes& out) {
   for (const TrimPlane& p : s.extra->trim) {
-    if (!box.liesBehind(p, kRounding)) return false;
+    LightPlane plane;
+    plane.along = s.scope.toLocalDirection(p.normal);
+    plane.distance = p.distance - dot(p.normal, s.scope.origin);
+    plane.on = p.horizontal ? s.trimHorizontal : s.trimVertical;
+    for (size_t i = 0; i < 3; ++i) {
+      plane.ahead[i] = std::max(0.0, plane.along[i]);
+      plane.spread += std::fabs(plane.along[i]);
+    }
+    out.push_back(plane);
+  }
+}
+
+bool isFarFromTrim(const LightPart& part) {
+  const Vec3 origin = part.trim->there(part.origin);
+  const double grown = std::max({part.size.x, part.size.y, part.size.z}) / 4;
+  for (const LightPlane& p : part.trim->planes) {
+    const double reach = dot(p.along, origin) + dot(p.ahead, part.size) + grown * p.spread;
+    if (reach + kRounding >= p.distance) return false;
   }
   return true;
 }

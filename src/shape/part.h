@@ -6,7 +6,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
+#include "base/small_buffer.h"
 #include "shape/shape.h"
 
 namespace gable {
@@ -41,16 +43,35 @@ struct PartPlan {
 void makePart(const Shape& parent, const PartPlan& plan, const SplitPiece& piece, uint32_t index,
               Shape& part);
 
+/// A trim plane along the axes of a scope: dot(along, p) <= distance for p measured from its
+/// origin.
+struct LightPlane {
+  Vec3 along;
+  /// The sides of a box that look beyond the plane: it reaches dot(ahead, size) further than its
+  /// origin.
+  Vec3 ahead;
+  /// |along.x| + |along.y| + |along.z|: what a box reaches further when it grows by 1 on all sides.
+  double spread = 0;
+  double distance = 0;
+  /// Switched on (trim.vertical, trim.horizontal).
+  bool on = false;
+};
+
 /// The trim planes that light parts are subject to: those of a shape with the same axes.
 struct LightTrim {
-  const Shape& shape;
-  /// The parts' local frame is not the shape's, but begins at `origin` along the axes.
-  bool ownFrame = false;
+  std::span<const LightPlane> planes;
+  /// The shape's scope, which the planes are measured in; null when the parts' local frame is not
+  /// the shape's but begins at `origin` in that scope, with its axes.
+  const Frame* scope = nullptr;
   Vec3 origin;
 
-  /// A place of the parts' local frame in the shape's.
-  Vec3 there(const Vec3& p) const { return ownFrame ? origin + shape.scope.direction(p) : p; }
+  /// A place of the parts' local frame in the shape's scope.
+  Vec3 there(const Vec3& p) const { return scope ? scope->toLocal(p) : origin + p; }
 };
+
+/// The trim planes of a shape, for its light parts.
+using LightPlanes = SmallBuffer<LightPlane, 4>;
+void findLightPlanes(const Shape& s, LightPlanes& out);
 
 /// A part that becomes a leaf in a few plain steps: it moves along its parent's axes, changes its
 /// size and becomes a primitive, and is never made as a shape. Its parent is a box or a rectangle

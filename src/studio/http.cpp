@@ -158,7 +158,7 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
     working_ = true;
     stream_.expires_never();
     watch();
-    asio::post(server_.pool, [self = shared_from_this()] {
+    asio::post(server_.pool, [self = shared_from_this()]() mutable {
       // What a handler throws would end the program.
       std::shared_ptr<HttpResponse> answer;
       try {
@@ -166,7 +166,9 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
       } catch (const std::exception&) {
         answer = std::make_shared<HttpResponse>(plain(500, "The answer could not be made.\n"));
       }
-      asio::post(self->server_.io, [self, answer] { self->onAnswer(std::move(*answer)); });
+      // The connection goes back whole: it must not end on this thread.
+      asio::io_context& io = self->server_.io;
+      asio::post(io, [self = std::move(self), answer] { self->onAnswer(std::move(*answer)); });
     });
   }
 

@@ -75,13 +75,12 @@ bool trimGeometry(Shape& s) {
 
 bool reachesTrimPlane(const LightPart& part) {
   if (!part.trim) return false;
-  const Shape& s = part.trim->shape;
   const Vec3 origin = part.trim->there(part.origin);
-  const double extent = part.size.x + part.size.y + part.size.z;
-  return std::any_of(s.extra->trim.begin(), s.extra->trim.end(), [&](const TrimPlane& plane) {
-    if (!isOn(s, plane) || dot(plane.normal, origin) - plane.distance + extent < 0) return false;
-    return beyond(origin, s.scope, part.size, plane) > kOnPlane / 2;
-  });
+  for (const LightPlane& p : part.trim->planes) {
+    const double reach = dot(p.along, origin) + dot(p.ahead, part.size);
+    if (p.on && reach > p.distance + kOnPlane / 2) return true;
+  }
+  return false;
 }
 
 }  // namespace gable
