@@ -15,7 +15,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view kSharedRules = "rules/";
 constexpr const char* kNotations[] = {"cga", "gbbg", "grammar", "park"};
 
 // The heading of a page and the first sentence below it.
@@ -33,6 +32,18 @@ void readHead(const std::string& page, std::string& title, std::string& text) {
   const size_t end = text.find(". ");
   if (end != std::string::npos) text.resize(end);
   if (!text.empty() && text.back() == '.') text.pop_back();
+}
+
+// The first parts of the paths that a rule file imports: folders beside its own.
+std::vector<std::string> foldersImported(const std::string& rules) {
+  std::vector<std::string> out;
+  std::istringstream in(rules);
+  for (std::string line; std::getline(in, line);) {
+    const size_t from = line.find('"') + 1, to = line.find('/', from);
+    if (line.compare(0, 7, "import ") != 0 || from == 0 || to == std::string::npos) continue;
+    out.push_back(line.substr(from, to - from));
+  }
+  return out;
 }
 
 }  // namespace
@@ -108,15 +119,29 @@ Result<std::string> Gallery::copyTo(ProjectFiles& files, const std::string& name
     const auto written = files.write(target + "/" + inner, content.value(), "none");
     if (!written.ok()) return written.error();
   }
-  // What examples import together; a file of the project's own stays as it is.
+  // What examples import together, and the examples that this one imports.
+  std::vector<std::string> folders = {"rules"};
+  const auto rules = folder_.read(rulesOf(name));
+  for (std::string& f : foldersImported(rules.ok() ? rules.value() : std::string())) {
+    if (f != name && !rulesOf(f).empty()) folders.push_back(std::move(f));
+  }
+  for (const std::string& folder : folders) {
+    const Result<bool> copied = copyMissing(files, folder + "/");
+    if (!copied.ok()) return copied.error();
+  }
+  return target;
+}
+
+Result<bool> Gallery::copyMissing(ProjectFiles& files, const std::string& folder) const {
   for (const ProjectFile& f : folder_.list()) {
-    if (f.path.compare(0, kSharedRules.size(), kSharedRules) != 0) continue;
+    const std::string kind = extensionOf(f.path);
+    if (f.path.compare(0, folder.size(), folder) != 0 || kind == "args" || kind == "md") continue;
     const auto content = folder_.read(f.path);
     if (!content.ok()) return content.error();
     const auto written = files.write(f.path, content.value(), "none");
     if (!written.ok() && written.error().code != "version-differs") return written.error();
   }
-  return target;
+  return true;
 }
 
 }  // namespace gable::studio

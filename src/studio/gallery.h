@@ -19,10 +19,12 @@ class Gallery {
   /// PNG. Code: file-missing.
   Result<std::string> picture(const std::string& name) const;
   /// Copies an example into a folder of its name, or of the name and a number where there is one;
-  /// gives that folder's path in the project.
+  /// gives that folder's path in the project. Rules that it imports come along; files that are
+  /// there stay.
   Result<std::string> copyTo(ProjectFiles& files, const std::string& name) const;
 
  private:
+  Result<bool> copyMissing(ProjectFiles& files, const std::string& folder) const;
   std::string rulesOf(const std::string& name) const;
   ProjectFiles folder_;
   bool present_;

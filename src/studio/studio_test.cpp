@@ -400,6 +400,9 @@ TEST_F(Folder, examplesOpenAsCopies) {
   EXPECT_TRUE(fs::exists(project() + "/haussmann-2/haussmann.cga"));
   EXPECT_TRUE(fs::exists(project() + "/rules/setting.cga"));
   EXPECT_EQ(files.read("rules/trees.cga").value(), "// mine\n");
+  // The town imports the castle.
+  EXPECT_EQ(gallery.copyTo(files, "town").value(), "town");
+  EXPECT_TRUE(fs::exists(project() + "/castle/castle.cga"));
   for (const char* name : {"..", "../src", "", "nothing", "haussmann/"}) {
     EXPECT_FALSE(gallery.copyTo(files, name).ok()) << name;
     EXPECT_FALSE(gallery.picture(name).ok()) << name;

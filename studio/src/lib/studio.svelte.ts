@@ -90,6 +90,8 @@ export class Studio {
   messages = $state.raw<Message[]>([]);
   stats = $state.raw<Stats | null>(null);
   derivation = $state(0);
+  /** The derivation that the shapes belong to: they come a little later. */
+  shapesOf = $state(0);
   end = $state<Derived['end'] | ''>('');
   /** When the model that is shown was made, where later rules had errors. */
   lastGood = $state('');
@@ -471,11 +473,13 @@ export class Studio {
     const abort = new AbortController();
     this.treeAbort = abort;
     const steps = this.guide.open;
+    const { derivation } = this;
     try {
       const { tree, draw } = await this.client.tree(this.request(), abort.signal, steps);
       if (abort.signal.aborted || steps !== this.guide.open) return;
       const shapes = new Shapes(tree);
       this.shapes = shapes;
+      this.shapesOf = derivation;
       this.selected = this.address.length ? shapes.find(this.address) : -1;
       this.hovered = -1;
       if (steps && draw) {

@@ -4,7 +4,7 @@
 // Detail: of a large model only what can be seen is drawn. Instances are sorted once, by cell of a grid
 // over the ground and then by size, so that what is large enough in a cell is the beginning of a run.
 // For each picture the runs of cells in sight are copied together, a few memory moves a cell; where
-// that is still too much, the least size goes up.
+// that is still too much, the least size goes up. The graphics card holds what was drawn at most, not all.
 
 import * as THREE from 'three';
 
@@ -20,6 +20,8 @@ const SIDE = 12;
 const FEW = 1500;
 /** The time that sorting may take before others have a turn. */
 const SLICE_MS = 12;
+/** Instances that there is room for before any are drawn. */
+const LEAST_ROOM = 64;
 
 interface Cell {
   from: number;
@@ -39,6 +41,8 @@ interface Sorted {
   leaf: Float32Array;
   /** How many of each cell are drawn. */
   taken: Uint32Array;
+  /** How many there is room for on the graphics card. */
+  room: number;
 }
 
 export function trianglesOf(mesh: THREE.Mesh): number {
@@ -108,6 +112,7 @@ export class Detail {
 
   private fill(): void {
     for (const s of this.sorted) {
+      makeRoom(s, s.taken.reduce((sum, n) => sum + n, 0));
       const matrix = s.mesh.instanceMatrix;
       const tint = s.mesh.geometry.getAttribute('tint') as THREE.InstancedBufferAttribute;
       const leaf = s.mesh.geometry.getAttribute('leaf') as THREE.InstancedBufferAttribute;
@@ -129,6 +134,15 @@ export class Detail {
       }
     }
   }
+}
+
+/** Room for so many instances; what there was room for stays, so that moving to and fro changes nothing. */
+function makeRoom(s: Sorted, count: number): void {
+  if (count <= s.room) return;
+  s.room = Math.min(s.sizes.length, Math.max(LEAST_ROOM, Math.ceil(count * 1.25)));
+  s.mesh.instanceMatrix = new THREE.InstancedBufferAttribute(new Float32Array(s.room * 16), 16).setUsage(THREE.DynamicDrawUsage) as THREE.InstancedBufferAttribute;
+  s.mesh.geometry.setAttribute('tint', new THREE.InstancedBufferAttribute(new Uint8Array(s.room * 4), 4, true));
+  s.mesh.geometry.setAttribute('leaf', new THREE.InstancedBufferAttribute(new Float32Array(s.room), 1));
 }
 
 /** How many at the beginning of a cell are no smaller than a size. */
@@ -171,8 +185,8 @@ function sortInstances(mesh: THREE.InstancedMesh): Sorted {
   keys.sort();
   const tint = (geometry.getAttribute('tint') as THREE.InstancedBufferAttribute).array as Uint8Array;
   const leaf = (geometry.getAttribute('leaf') as THREE.InstancedBufferAttribute).array as Float32Array;
-  // The draw list itself is put in order, so that it stays one; the copies are what is drawn.
-  const drawn = { matrix: new Float32Array(n * 16), tint: new Uint8Array(n * 4), leaf: new Float32Array(n) };
+  // The draw list itself is put in order, so that it stays one.
+  const ordered = { matrix: new Float32Array(n * 16), tint: new Uint8Array(n * 4), leaf: new Float32Array(n) };
   const out: Sorted = {
     mesh,
     triangles: (geometry.index?.count ?? 0) / 3,
@@ -182,6 +196,7 @@ function sortInstances(mesh: THREE.InstancedMesh): Sorted {
     tint,
     leaf,
     taken: new Uint32Array(0),
+    room: 0,
   };
   let cell = -1;
   const bounds = new THREE.Box3();
@@ -206,18 +221,17 @@ function sortInstances(mesh: THREE.InstancedMesh): Sorted {
     bounds.expandByPoint(new THREE.Vector3(at[i * 3], at[i * 3 + 1], at[i * 3 + 2]));
     largest = Math.max(largest, sizes[i]!);
     out.sizes[k] = sizes[i]!;
-    drawn.matrix.set(from.subarray(i * 16, i * 16 + 16), k * 16);
-    drawn.tint.set(tint.subarray(i * 4, i * 4 + 4), k * 4);
-    drawn.leaf[k] = leaf[i]!;
+    ordered.matrix.set(from.subarray(i * 16, i * 16 + 16), k * 16);
+    ordered.tint.set(tint.subarray(i * 4, i * 4 + 4), k * 4);
+    ordered.leaf[k] = leaf[i]!;
   }
   close(n);
   out.taken = new Uint32Array(out.cells.length);
-  from.set(drawn.matrix);
-  tint.set(drawn.tint);
-  leaf.set(drawn.leaf);
-  mesh.instanceMatrix = new THREE.InstancedBufferAttribute(drawn.matrix, 16).setUsage(THREE.DynamicDrawUsage) as THREE.InstancedBufferAttribute;
-  geometry.setAttribute('tint', new THREE.InstancedBufferAttribute(drawn.tint, 4, true));
-  geometry.setAttribute('leaf', new THREE.InstancedBufferAttribute(drawn.leaf, 1));
+  from.set(ordered.matrix);
+  tint.set(ordered.tint);
+  leaf.set(ordered.leaf);
+  makeRoom(out, 1);
+  mesh.count = 0;
   return out;
 }
 

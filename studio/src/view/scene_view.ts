@@ -194,6 +194,8 @@ export class SceneView {
     this.navigation = new Navigation(this);
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
+    this.fitGround();
+    this.frameAll();
   }
 
   cameraMoved(): void {
