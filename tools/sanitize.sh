@@ -20,7 +20,10 @@ done
 [ ${#presets[@]} -gt 0 ] || presets=(asan tsan)
 
 mapfile -t needed < <(packages run test)
+node_usable || needed+=(nodejs npm)
 install "${needed[@]}"
+# Journeys through the studio have a server to watch.
+page_packages
 
 # A finding ends the program that made it, so that it counts as a failed test.
 export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_init_order=1:check_initialization_order=1
