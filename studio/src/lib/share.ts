@@ -43,7 +43,7 @@ export function fromBase64(text: string): Uint8Array<ArrayBuffer> {
 
 /** The part of a link behind "#share=". */
 export async function encode(bundle: Bundle): Promise<string> {
-  const bytes = await through(new TextEncoder().encode(JSON.stringify(bundle)), new CompressionStream('deflate-raw'));
+  const bytes = await through(new TextEncoder().encode(JSON.stringify(bundle)), new CompressionStream('deflate'));
   return toBase64(bytes).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
 }
 
@@ -85,7 +85,7 @@ export async function decode(text: string): Promise<Bundle | string> {
   const code = /#share=([\w-]+)/.exec(trimmed)?.[1] ?? (/^[\w-]{20,}$/.exec(trimmed)?.[0] ?? '');
   if (!code) return 'This is no link to a shared place: one has #share= in it.';
   try {
-    const bytes = await through(fromBase64(code.replaceAll('-', '+').replaceAll('_', '/')), new DecompressionStream('deflate-raw'));
+    const bytes = await through(fromBase64(code.replaceAll('-', '+').replaceAll('_', '/')), new DecompressionStream('deflate'));
     if (bytes.length > LARGEST_BUNDLE) return 'This is larger than a shared place can be.';
     return check(new TextDecoder().decode(bytes));
   } catch {
