@@ -14,13 +14,15 @@
 #include "gable/gable.h"
 #include "geom/mesh/face_plane.h"
 #include "geom/region/boolean.h"
+#include "io/exporters/draw_list.h"
+#include "scene/flatten.h"
 #include "scene_faults.h"
 
 namespace gable {
 namespace {
 
 // Leaves that stand for buildings, by their names.
-const std::set<std::string> kWalls = {"Wall", "Cornice", "Glazing"};
+const std::set<std::string> kWalls = {"Stucco", "Brick", "Siding", "Glazing"};
 // Rounding.
 constexpr double kTouch = 0.01;
 
@@ -65,8 +67,25 @@ struct Town {
   }
 };
 
-TEST(TownExample, hasTwoThousandBuildings) {
+// The rule files that leaves come from, without their folders.
+std::set<std::string> filesOf(const Scene& scene) {
+  std::set<std::string> out;
+  for (const SourcePlace& place : scene.sources) {
+    out.insert(place.file.substr(place.file.rfind('/') + 1));
+  }
+  return out;
+}
+
+TEST(TownExample, hasTwoThousandBuildingsOfAllStylesAParkAndACastle) {
   const Town town(1000, 1);
+  const std::set<std::string> files = filesOf(town.scene());
+  for (const char* file : {"haussmann.cga", "monaco.cga", "rowhouse.cga", "suburb_house.cga",
+                           "tower.cga", "gardens.cga", "castle.cga"}) {
+    EXPECT_EQ(files.count(file), 1u) << file;
+  }
+  // The studio draws so many.
+  EXPECT_LT(prototypeLeafCounts(town.scene())[town.scene().roots.at(0).instance.prototype],
+            kMostLeaves);
   EXPECT_FALSE(hasErrors(town.model.messages())) << messagesJson(town.model.messages());
   EXPECT_EQ(joined(faults(town.scene())), "");
   const std::string stats = town.model.statsJson({});
