@@ -5,7 +5,7 @@
 // one thread, beside the figures that were measured when the kernel was chosen: each is to stay
 // within twice of those. Half of the polygons of 200 vertices are shuffled tours, the worst case.
 //
-// bench_regions [POLYGONS]: so many of each size (40).
+// bench_regions [POLYGONS [NAME]]: so many of each size (40); only operations with NAME in theirs.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,6 +19,7 @@
 #include "base/random.h"
 #include "geom/region/along.h"
 #include "geom/region/boolean.h"
+#include "geom/region/corpus.h"
 #include "geom/region/grid_partition.h"
 #include "geom/region/hull.h"
 #include "geom/region/inner_rectangle.h"
@@ -80,6 +81,13 @@ std::vector<Polygon> polygonsOf(int n, int count) {
   return out;
 }
 
+struct Job {
+  const char* name;
+  std::array<double, 3> known;
+  // The sites are places in the polygon for the operations that take some.
+  std::function<void(const Polygon&, const std::vector<Disc>& sites)> work;
+};
+
 // Of this thread alone, so that other work on the machine does not count.
 double threadMicroseconds() {
   timespec t;
@@ -87,40 +95,25 @@ double threadMicroseconds() {
   return 1e6 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_nsec);
 }
 
+// Other work on the machine only adds, for moments or for seconds: each polygon's time is the best
+// of several runs one after the other, and of several rounds over all polygons.
 double microseconds(const std::vector<Polygon>& polygons,
-                    const std::function<void(const Polygon&)>& work) {
-  std::vector<double> all;
-  for (const Polygon& p : polygons) {
-    // The best of three: other work on the machine only adds.
-    double best = 1e300;
-    for (int k = 0; k < 3; ++k) {
-      const double start = threadMicroseconds();
-      work(p);
-      best = std::min(best, threadMicroseconds() - start);
+                    const std::vector<std::vector<Disc>>& sites, const Job& job) {
+  std::vector<double> best(polygons.size(), 1e300);
+  for (int round = 0; round < 3; ++round) {
+    for (size_t i = 0; i < polygons.size(); ++i) {
+      for (int k = 0; k < 3; ++k) {
+        const double start = threadMicroseconds();
+        job.work(polygons[i], sites[i]);
+        best[i] = std::min(best[i], threadMicroseconds() - start);
+      }
     }
-    all.push_back(best);
   }
-  std::sort(all.begin(), all.end());
-  return all[all.size() / 2];
+  std::sort(best.begin(), best.end());
+  return best[best.size() / 2];
 }
 
-std::vector<Disc> sitesIn(const Polygon& p, uint32_t count) {
-  std::vector<Disc> out;
-  const Box2 b = bounds(p);
-  for (uint64_t i = 0; i < 4000 && out.size() < count; ++i) {
-    const Vec2 c{randomIn(hashCombine(i, 1), b.min.x, b.max.x),
-                 randomIn(hashCombine(i, 2), b.min.y, b.max.y)};
-    if (locate(p, c) == Where::Inside) out.push_back({c, 0});
-  }
-  return out;
-}
-
-struct Job {
-  const char* name;
-  std::array<double, 3> known;
-  std::function<void(const Polygon&, size_t size)> work;
-};
-
+// How many sites polygons of each size get.
 constexpr std::array<uint32_t, 3> kSites{12, 16, 30};
 
 // Each adds what it makes to `sum`, so that no work can be left out.
@@ -143,45 +136,45 @@ std::vector<Job> allJobs(double& sum) {
   return {
       {"inset",
        {5.7, 15, 215},
-       [=, &sum](const Polygon& p, size_t) { use(offset({p}, -1).size()); }},
+       [=, &sum](const Polygon& p, const auto&) { use(offset({p}, -1).size()); }},
       {"difference",
        {4.6, 16, 362},
-       [=, &sum](const Polygon& p, size_t) { use(subtract({p}, square).size()); }},
+       [=, &sum](const Polygon& p, const auto&) { use(subtract({p}, square).size()); }},
       {"peel, follow",
        {11, 67, 2500},
-       [=, &sum](const Polygon& p, size_t) {
+       [=, &sum](const Polygon& p, const auto&) {
          use(peel(p, half(p), PeelEnds::Follow).rest.size());
        }},
       {"peel, orthogonal",
        {11, 67, 2500},
-       [=, &sum](const Polygon& p, size_t) {
+       [=, &sum](const Polygon& p, const auto&) {
          use(peel(p, half(p), PeelEnds::Orthogonal).rest.size());
        }},
       {"contract",
        {5.7, 15, 215},
-       [=, &sum](const Polygon& p, size_t) { use(contract(p, 1).size()); }},
+       [=, &sum](const Polygon& p, const auto&) { use(contract(p, 1).size()); }},
       {"voronoi",
        {48, 107, 887},
-       [=, &sum](const Polygon& p, size_t s) {
-         use(voronoiPartition(p, sitesIn(p, kSites[s]), {}).pieces.size());
+       [=, &sum](const Polygon& p, const std::vector<Disc>& sites) {
+         use(voronoiPartition(p, sites, {}).pieces.size());
        }},
       {"voronoi, smooth paths",
        {195, 340, 2118},
-       [=, &sum](const Polygon& p, size_t s) {
+       [=, &sum](const Polygon& p, const std::vector<Disc>& sites) {
          VoronoiOptions o;
          o.pathWidth = 1;
          o.smoothing.kind = Smoothing::Kind::Average;
-         use(voronoiPartition(p, sitesIn(p, kSites[s]), o).pieces.size());
+         use(voronoiPartition(p, sites, o).pieces.size());
        }},
       {"rays",
        {0.9, 7.6, 69},
-       [=, &sum](const Polygon& p, size_t) {
+       [=, &sum](const Polygon& p, const auto&) {
          const Vec2 c[] = {p.outer.size() == 200 ? p.outer[0] * 0.999 : Vec2{0.1, 0.2}};
          use(castRays(p, c, corners(p), {}).pieces.size());
        }},
       {"rays with paths",
        {65, 367, 1224},
-       [=, &sum](const Polygon& p, size_t) {
+       [=, &sum](const Polygon& p, const auto&) {
          RayOptions o;
          o.pathWidth = 0.5;
          o.centre = {PlanShape::Circle, 2, 0, 24};
@@ -190,25 +183,27 @@ std::vector<Job> allJobs(double& sum) {
        }},
       {"grid 3 x 3 with paths",
        {88, 172, 1342},
-       [=, &sum](const Polygon& p, size_t) { use(gridPartition(p, grid).pieces.size()); }},
+       [=, &sum](const Polygon& p, const auto&) { use(gridPartition(p, grid).pieces.size()); }},
       {"oriented box",
        {0.2, 1.1, 8.5},
-       [=, &sum](const Polygon& p, size_t) { sum += smallestRect(p.outer).width; }},
+       [=, &sum](const Polygon& p, const auto&) { sum += smallestRect(p.outer).width; }},
       {"inner rectangle",
        {227, 471, 3736},
-       [=, &sum](const Polygon& p, size_t) {
+       [=, &sum](const Polygon& p, const auto&) {
          sum += largestInnerRect(p, {1, 0}).width;
        }},
-      {"pole", {8.2, 23, 473}, [=, &sum](const Polygon& p, size_t) { sum += poleOf(p).radius; }},
+      {"pole",
+       {8.2, 23, 473},
+       [=, &sum](const Polygon& p, const auto&) { sum += poleOf(p).radius; }},
       {"ribbon",
        {2.4, 15, 438},
-       [=, &sum](const Polygon& p, size_t) {
+       [=, &sum](const Polygon& p, const auto&) {
          std::vector<Vec2> line = p.outer;
          use(thicken(line, 0.3).size());
        }},
       {"scatter 190 points",
        {79, 103, 266},
-       [=, &sum](const Polygon& p, size_t) {
+       [=, &sum](const Polygon& p, const auto&) {
          const double d = std::sqrt(area(p) / 260);
          use(scatterPoisson(p, d, 0, 190, 1).size());
        }},
@@ -221,16 +216,22 @@ int main(int argc, char** argv) {
   const int count = argc > 1 ? std::max(1, std::atoi(argv[1])) : 40;
   constexpr std::array<int, 3> kSizes{4, 20, 200};
   std::array<std::vector<Polygon>, 3> polygons;
-  for (size_t s = 0; s < 3; ++s) polygons[s] = polygonsOf(kSizes[s], count);
+  std::array<std::vector<std::vector<Disc>>, 3> sites;
+  for (size_t s = 0; s < 3; ++s) {
+    polygons[s] = polygonsOf(kSizes[s], count);
+    for (const Polygon& p : polygons[s]) sites[s].push_back(corpus::sitesIn(p, kSites[s]));
+  }
   double sum = 0;
   const std::vector<Job> jobs = allJobs(sum);
   std::printf("%-24s %28s %28s\n%-24s %8s %9s %9s %10s %8s %8s\n", "microseconds", "measured",
               "to stay within twice of", "", "n4", "n20", "n200", "n4", "n20", "n200");
+  const std::string only = argc > 2 ? argv[2] : "";
   int over = 0;
   for (const Job& j : jobs) {
+    if (std::string(j.name).find(only) == std::string::npos) continue;
     std::array<double, 3> t{};
     for (size_t s = 0; s < 3; ++s) {
-      t[s] = microseconds(polygons[s], [&](const Polygon& p) { j.work(p, s); });
+      t[s] = microseconds(polygons[s], sites[s], j);
     }
     std::string late;
     for (size_t s = 0; s < 3; ++s) {

@@ -14,9 +14,6 @@
 namespace gable {
 namespace {
 
-// (3 + 16 eps) eps with eps = 2^-53: Shewchuk's ccwerrboundA.
-constexpr double kOrientBound = 3.3306690738754716e-16;
-
 class Expansion {
  public:
   void addProduct(double a, double b) {
@@ -48,6 +45,8 @@ class Expansion {
   size_t count_ = 0;
 };
 
+}  // namespace
+
 int exactOrientation(Vec2 a, Vec2 b, Vec2 c) {
   Expansion e;
   e.addProduct(a.x, b.y);
@@ -57,18 +56,6 @@ int exactOrientation(Vec2 a, Vec2 b, Vec2 c) {
   e.addProduct(c.x, a.y);
   e.addProduct(-c.x, b.y);
   return e.sign();
-}
-
-}  // namespace
-
-int orientation(Vec2 a, Vec2 b, Vec2 c) {
-  const double left = (a.x - c.x) * (b.y - c.y);
-  const double right = (a.y - c.y) * (b.x - c.x);
-  const double det = left - right;
-  const double bound = kOrientBound * (std::fabs(left) + std::fabs(right));
-  if (det > bound) return 1;
-  if (det < -bound) return -1;
-  return exactOrientation(a, b, c);
 }
 
 bool onSegment(Vec2 a, Vec2 b, Vec2 p) {

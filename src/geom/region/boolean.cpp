@@ -5,6 +5,7 @@
 // integers. Its results may touch or cross by a rounding step; so they are welded at one grid unit
 // and united again until the exact validity test agrees, which one round almost always reaches.
 // Then surviving input points get their own coordinates back, unless that would break validity.
+// Most results keep clear of all that: one look tells that neither is needed.
 #include "geom/region/boolean.h"
 
 #include <algorithm>
@@ -24,6 +25,9 @@ using ClipperLib::Paths;
 constexpr int kMaxRounds = 6;
 // Grid coordinates stay below Clipper's limit of 2^62; beyond this extent the grid gets coarser.
 constexpr double kMaxUnits = 0x1.0p52;
+// In grid units: points on the grid are moved by up to 0.71 when they get their coordinates back,
+// and weld takes what is nearer than 1.
+constexpr double kClear = 1.5;
 
 bool isFinite(const Ring& r) {
   return std::all_of(r.begin(), r.end(),
@@ -78,6 +82,12 @@ class Grid {
     });
   }
   double unit() const { return unit_; }
+  // Coordinates are so much finer than the grid that points on it keep their distances.
+  bool isFine() const {
+    const double reach = std::max({std::fabs(box_.min.x), std::fabs(box_.min.y),
+                                   std::fabs(box_.max.x), std::fabs(box_.max.y)});
+    return reach * 0x1.0p-52 < unit_ / 256;
+  }
   Vec2 fromGrid(Vec2 q) const { return {origin_.x + q.x * unit_, origin_.y + q.y * unit_}; }
   // The input point at a grid place; `order` is its number in the input.
   bool original(Vec2 q, Vec2& point, size_t& order) const {
@@ -243,7 +253,11 @@ Region restored(const Region& region, const Grid& grid, bool originalPoints) {
 
 Region finish(const Paths& paths, Grid& grid) {
   grid.sortOriginals();
-  const Region region = settle(paths);
+  Region region;
+  if (grid.isFine() && nestClear(toRings(paths), kClear, region)) {
+    return restored(region, grid, true);
+  }
+  region = settle(paths);
   Region out = restored(region, grid, true);
   return isValid(out) ? out : restored(region, grid, false);
 }
@@ -329,7 +343,10 @@ Region offset(const Region& r, double distance, const OffsetOptions& options) {
   const Paths paths = grid.toPaths(rings);
   if (!std::isfinite(distance)) return {};
   // Clipper's offset wants clean input; what the caller has may touch or cross.
-  const Paths clean = execute(ClipperLib::ctUnion, paths, {}, ClipperLib::pftNonZero);
+  Region clear;
+  const Paths clean = nestClear(toRings(paths), kClear, clear)
+                          ? toPathsExact(ringsOf(clear))
+                          : execute(ClipperLib::ctUnion, paths, {}, ClipperLib::pftNonZero);
   return inflate(clean, distance, options, ClipperLib::etClosedPolygon, grid);
 }
 

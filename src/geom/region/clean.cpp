@@ -8,17 +8,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
-#include "base/hash.h"
+#include "geom/region/point_cells.h"
 #include "geom/region/segment_grid.h"
-#include "math/cell.h"
 #include "math/predicates.h"
 
 namespace gable {
 namespace {
 
-bool isSpike(Vec2 a, Vec2 b, Vec2 c) { return orientation(a, b, c) == 0 && dot(b - a, c - b) < 0; }
+bool isSpike(Vec2 a, Vec2 b, Vec2 c) { return dot(b - a, c - b) < 0 && orientation(a, b, c) == 0; }
 
 // Passes over the ring until one changes nothing; `drop(a, b, c)` says that b goes. A vertex at the
 // seam may be judged by a neighbour that goes in the same pass; the next one judges it again.
@@ -60,46 +58,6 @@ void dropNearLines(Ring& r, double tolerance) {
   }
   r.swap(kept);
 }
-
-class CellMap {
- public:
-  explicit CellMap(double size) : inverse_(1 / size) {}
-
-  /// The kept point within `tolerance` of p, or p itself, which then is kept.
-  Vec2 snap(Vec2 p, double tolerance) {
-    const auto cx = cellIndex(p.x * inverse_);
-    const auto cy = cellIndex(p.y * inverse_);
-    bool found = false;
-    size_t best = 0;
-    for (int64_t y = cy - 1; y <= cy + 1; ++y) {
-      for (int64_t x = cx - 1; x <= cx + 1; ++x) {
-        const auto cell = cells_.find(key(x, y));
-        if (cell == cells_.end()) continue;
-        for (const size_t i : cell->second) {
-          const bool near = length(points_[i] - p) <= tolerance;
-          if (near && (!found || i < best)) {
-            best = i;
-            found = true;
-          }
-        }
-      }
-    }
-    if (found) return points_[best];
-    cells_[key(cx, cy)].push_back(points_.size());
-    points_.push_back(p);
-    return p;
-  }
-  const std::vector<Vec2>& points() const { return points_; }
-
- private:
-  // Distinct cells of one key only cost time.
-  static uint64_t key(int64_t x, int64_t y) {
-    return hashCombine(static_cast<uint64_t>(x), static_cast<uint64_t>(y));
-  }
-  double inverse_;
-  std::vector<Vec2> points_;
-  std::unordered_map<uint64_t, std::vector<size_t>> cells_;
-};
 
 struct Insertion {
   uint32_t edge;
@@ -241,10 +199,12 @@ void clean(Region& r, double tolerance) {
 
 bool weld(std::vector<Ring>& rings, double tolerance) {
   bool changed = false;
-  CellMap cells(std::max(tolerance, 1e-12));
+  size_t count = 0;
+  for (const Ring& r : rings) count += r.size();
+  PointCells cells(tolerance, count);
   for (Ring& r : rings) {
     for (Vec2& p : r) {
-      const Vec2 kept = cells.snap(p, tolerance);
+      const Vec2 kept = cells.points()[cells.snap(p)];
       changed = changed || !(kept == p);
       p = kept;
     }
@@ -303,17 +263,30 @@ std::vector<uint32_t> traceEdges(const std::vector<Ring>& result, const std::vec
     const Vec2 by = normalized(perpendicular(s.b - s.a)) * shift;
     s = {s.a + by, s.b + by};
   }
-  SegmentGrid grid(edges);
+  return traceSegments(edgesOf(result), edges, tolerance);
+}
+
+std::vector<uint32_t> traceSegments(std::span<const Segment> result,
+                                    std::span<const Segment> sources, double tolerance) {
   std::vector<uint32_t> out;
-  for (const Segment& e : edgesOf(result)) {
+  out.reserve(result.size());
+  // So few are looked at faster one by one.
+  constexpr size_t kFew = 12;
+  const bool few = sources.size() <= kFew || result.size() <= 2;
+  SegmentGrid grid(few ? std::span<const Segment>() : sources);
+  for (const Segment& e : result) {
     const Vec2 middle = (e.a + e.b) * 0.5;
     Box2 box;
     box.include(middle - Vec2{tolerance, tolerance});
     box.include(middle + Vec2{tolerance, tolerance});
     uint32_t best = kNoEdge;
     double bestCost = 0;
-    grid.query(box, [&](uint32_t i) {
-      const Segment& s = edges[i];
+    const auto look = [&](uint32_t i) {
+      const Segment& s = sources[i];
+      if (std::max(s.a.x, s.b.x) < box.min.x || std::min(s.a.x, s.b.x) > box.max.x ||
+          std::max(s.a.y, s.b.y) < box.min.y || std::min(s.a.y, s.b.y) > box.max.y) {
+        return;
+      }
       const Vec2 d = normalized(s.b - s.a);
       // Both ends lie on the source line; a miter may reach beyond the source's own ends.
       const double off = std::max(std::fabs(cross(d, e.a - s.a)), std::fabs(cross(d, e.b - s.a)));
@@ -324,7 +297,12 @@ std::vector<uint32_t> traceEdges(const std::vector<Ring>& result, const std::vec
         best = i;
         bestCost = cost;
       }
-    });
+    };
+    if (few) {
+      for (uint32_t i = 0; i < sources.size(); ++i) look(i);
+    } else {
+      grid.query(box, look);
+    }
     out.push_back(best);
   }
   return out;

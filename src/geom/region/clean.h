@@ -16,9 +16,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geom/region/region.h"
+#include "geom/region/segment_grid.h"
 
 namespace gable {
 
@@ -51,6 +53,12 @@ void splitAtRepeats(std::vector<Ring>& rings);
 /// hole of the smallest outer ring around it; holes without one are dropped. Rings must not cross.
 Region nest(std::vector<Ring> rings);
 
+/// The same where nothing is in doubt: every vertex is further than `distance` from each edge that
+/// it does not end, nothing crosses or is nested wrongly, so that `out` is valid and stays so when
+/// its points move by less than half the distance. False, and nothing done, otherwise; also in
+/// rare cases that are near the distance.
+bool nestClear(const std::vector<Ring>& rings, double distance, Region& out);
+
 /// For each edge of `result` (all rings concatenated), the edge of `sources` (all concatenated)
 /// that it lies on within `tolerance` and with the same direction, opposite ones second best;
 /// kNoEdge where there is none. With `shift`, source edges are moved to their left by it first:
@@ -58,6 +66,10 @@ Region nest(std::vector<Ring> rings);
 constexpr uint32_t kNoEdge = 0xffffffff;
 std::vector<uint32_t> traceEdges(const std::vector<Ring>& result, const std::vector<Ring>& sources,
                                  double tolerance, double shift = 0);
+
+/// The same for edges one by one.
+std::vector<uint32_t> traceSegments(std::span<const Segment> result,
+                                    std::span<const Segment> sources, double tolerance);
 
 /// The rings of a region in order: outer, holes, next polygon.
 std::vector<Ring> ringsOf(const Region& r);

@@ -99,5 +99,57 @@ TEST(Clean, corpusPolygonsAreValidAndStaySoWithHoles) {
   }
 }
 
+// What is clear stays valid when every point moves by less than half the distance.
+TEST(NestClear, holdsWhenPointsMove) {
+  const auto cases = corpus::loadCorpus(9);
+  if (cases.empty()) GTEST_SKIP() << "the polygon corpus is not here";
+  size_t clear = 0, valid = 0;
+  for (size_t i = 0; i < cases.size(); ++i) {
+    const Polygon p = corpus::withHoles(cases[i].ring, i);
+    std::vector<Ring> rings{p.outer};
+    rings.insert(rings.end(), p.holes.begin(), p.holes.end());
+    const double distance = 1e-4 * length(bounds(p).size());
+    Region region;
+    const bool said = nestClear(rings, distance, region);
+    clear += said;
+    valid += isValid(p);
+    if (!said) continue;
+    EXPECT_TRUE(isValid(region)) << i;
+    for (uint64_t turn = 0; turn < 4; ++turn) {
+      uint64_t k = 0;
+      Region moved = region;
+      const auto shake = [&](Ring& r) {
+        for (Vec2& v : r) {
+          const double a = 360 * randomUnit(hashCombine(hashCombine(i, turn), k++));
+          v = v + Vec2{cosDeg(a), sinDeg(a)} * (0.499 * distance);
+        }
+      };
+      for (Polygon& q : moved) {
+        shake(q.outer);
+        for (Ring& h : q.holes) shake(h);
+      }
+      EXPECT_TRUE(isValid(moved)) << i;
+    }
+  }
+  EXPECT_GT(clear, valid / 2);
+}
+
+TEST(NestClear, seesWhatIsInDoubt) {
+  const Ring square{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+  Region out;
+  EXPECT_TRUE(nestClear({square}, 1, out));
+  EXPECT_FALSE(nestClear({{{0, 0}, {10, 10}, {10, 0}, {0, 10}}}, 1, out));
+  // A vertex near an edge, two near each other, a spike, rings near and in each other.
+  EXPECT_FALSE(nestClear({{{0, 0}, {10, 0}, {10, 10}, {5, 0.5}, {0, 10}}}, 1, out));
+  EXPECT_FALSE(nestClear({{{0, 0}, {10, 0}, {10.5, 0.5}, {10, 10}, {0, 10}}}, 1, out));
+  EXPECT_FALSE(nestClear({{{0, 0}, {10, 0}, {20, 0.3}, {10, 0.6}, {10, 10}, {0, 10}}}, 1, out));
+  EXPECT_FALSE(nestClear({square, {{10.5, 0}, {20, 0}, {20, 10}}}, 1, out));
+  EXPECT_FALSE(nestClear({square, {{3, 3}, {6, 3}, {6, 6}}}, 1, out));
+  EXPECT_FALSE(nestClear({square, {{3, 3}, {3, 3.5}, {6, 3}}}, 1, out));
+  EXPECT_FALSE(nestClear({{{20, 0}, {20, 10}, {30, 0}}}, 1, out));
+  EXPECT_TRUE(nestClear({square, {{3, 3}, {6, 6}, {6, 3}}}, 1, out));
+  EXPECT_EQ(out.size(), 1u);
+}
+
 }  // namespace
 }  // namespace gable

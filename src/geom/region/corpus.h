@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// For tests only: the hostile polygon corpus, and seeded holes to punch into it. The corpus lies
-// outside the repository; where it is absent `loadCorpus` gives nothing and tests skip.
+// For tests and benchmarks only: the hostile polygon corpus, seeded holes to punch into it, and
+// places in a polygon. The corpus lies outside the repository; where it is absent `loadCorpus`
+// gives nothing and tests skip.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "base/random.h"
+#include "geom/region/places.h"
 #include "geom/region/region.h"
 #include "geom/region/segment_grid.h"
 #include "math/trig.h"
@@ -94,6 +96,19 @@ inline Polygon withHoles(const Ring& outer, uint64_t seed) {
     if (r > least) p.holes.push_back(holeRing(c, r, at));
   }
   return p;
+}
+
+/// Places in a polygon at random, the same for equal polygons: `count` of them, or those of 4000
+/// tries.
+inline std::vector<Disc> sitesIn(const Polygon& p, uint32_t count) {
+  std::vector<Disc> sites;
+  const Box2 b = bounds(p);
+  for (uint64_t i = 0; i < 4000 && sites.size() < count; ++i) {
+    const Vec2 c{randomIn(hashCombine(i, 1), b.min.x, b.max.x),
+                 randomIn(hashCombine(i, 2), b.min.y, b.max.y)};
+    if (locate(p, c) == Where::Inside) sites.push_back({c, 0});
+  }
+  return sites;
 }
 
 }  // namespace gable::corpus

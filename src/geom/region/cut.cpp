@@ -300,7 +300,7 @@ void nestItems(std::vector<ItemLoop> loops, std::vector<Face>& out) {
 
 // Most cuts meet a loop in two places: one chain below, one above. No sorting is needed then; false
 // when it is not so.
-bool cutSimply(const ItemLoop& loop, uint32_t cutEdge, Face& below, Face& above) {
+bool cutSimply(const ItemLoop& loop, uint32_t cutEdge, Face& below, Face* above) {
   size_t on[2] = {0, 0}, count = 0;
   for (size_t i = 0; i < loop.size(); ++i) {
     if (loop[i].side != 0) continue;
@@ -312,30 +312,31 @@ bool cutSimply(const ItemLoop& loop, uint32_t cutEdge, Face& below, Face& above)
   const int first = loop[(on[0] + 1) % n].side, second = loop[(on[1] + 1) % n].side;
   if (first * second >= 0) return false;
   for (const int k : {0, 1}) {
+    const bool low = (k == 0 ? first : second) < 0;
+    if (!low && !above) continue;
     ItemLoop part;
     for (size_t i = on[k]; i != on[1 - k]; i = (i + 1) % n) part.push_back(loop[i]);
     part.push_back(loop[on[1 - k]]);
     part.back().corner.edge = cutEdge;
     if (!hasArea(part, areaOf(part))) continue;
     startNear(part, loop[0].place);
-    ((k == 0 ? first : second) < 0 ? below : above).push_back(cornersOf(part));
+    (low ? below : *above).push_back(cornersOf(part));
   }
   return true;
 }
 
-}  // namespace
-
-void cutFace(const Face& face, Host& host, uint32_t cutEdge, std::vector<Face>& below,
-             std::vector<Face>& above) {
+// What lies above is left out where nobody asks for it.
+void cutInto(const Face& face, Host& host, uint32_t cutEdge, std::vector<Face>& below,
+             std::vector<Face>* above) {
   for (const Loop& loop : face) {
     if (loop.empty()) return;
   }
   if (face.empty()) return;
   const std::vector<ItemLoop> loops = withCutCorners(face, host);
   Face low, high;
-  if (loops.size() == 1 && cutSimply(loops[0], cutEdge, low, high)) {
+  if (loops.size() == 1 && cutSimply(loops[0], cutEdge, low, above ? &high : nullptr)) {
     if (!low.empty()) below.push_back(std::move(low));
-    if (!high.empty()) above.push_back(std::move(high));
+    if (!high.empty()) above->push_back(std::move(high));
     return;
   }
   ItemLoop line;
@@ -346,11 +347,23 @@ void cutFace(const Face& face, Host& host, uint32_t cutEdge, std::vector<Face>& 
   }
   const Vec2 start = loops[0][0].place;
   for (const int sign : {1, -1}) {
+    if (sign < 0 && !above) continue;
     Side side(loops, line, sign, cutEdge);
     std::vector<ItemLoop> parts = side.takeLoops();
     for (ItemLoop& p : parts) startNear(p, start);
-    nestItems(std::move(parts), sign > 0 ? below : above);
+    nestItems(std::move(parts), sign > 0 ? below : *above);
   }
+}
+
+}  // namespace
+
+void cutFace(const Face& face, Host& host, uint32_t cutEdge, std::vector<Face>& below,
+             std::vector<Face>& above) {
+  cutInto(face, host, cutEdge, below, &above);
+}
+
+void keepBelow(const Face& face, Host& host, uint32_t cutEdge, std::vector<Face>& below) {
+  cutInto(face, host, cutEdge, below, nullptr);
 }
 
 void nestLoops(std::vector<Loop> loops, const Host& host, std::vector<Face>& out) {

@@ -45,6 +45,9 @@ class Host {
 void cutFace(const Face& face, Host& host, uint32_t cutEdge, std::vector<Face>& below,
              std::vector<Face>& above);
 
+/// Appends the parts below only: the same ones.
+void keepBelow(const Face& face, Host& host, uint32_t cutEdge, std::vector<Face>& below);
+
 /// Orients nothing, but finds the holes of each outer loop: what mesh caps and cuts share. Drops
 /// loops without area; takes loops apart that visit a point twice.
 void nestLoops(std::vector<Loop> loops, const Host& host, std::vector<Face>& out);

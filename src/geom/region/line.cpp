@@ -49,6 +49,19 @@ class LineCutter : public cut::Host {
     return out;
   }
 
+  std::vector<StripPiece> before(double offset) {
+    offset_ = offset;
+    std::vector<cut::Face> below;
+    if (crosses(face_)) {
+      cut::keepBelow(face_, *this, StripPiece::kOnLine, below);
+    } else if (liesBelow(face_)) {
+      below.push_back(std::move(face_));
+    }
+    std::vector<StripPiece> out;
+    for (const cut::Face& f : below) out.push_back(pieceOf(f, 0));
+    return out;
+  }
+
   int side(const cut::Corner& c) const override {
     const double d = values_[c.point] - offset_;
     return std::fabs(d) <= tolerance_ ? 0 : (d < 0 ? -1 : 1);
@@ -133,6 +146,12 @@ std::vector<StripPiece> splitByLine(const Polygon& p, Vec2 point, Vec2 direction
   const Vec2 right = -perpendicular(direction);
   const double offsets[] = {dot(right, point)};
   return splitIntoStrips(p, right, offsets);
+}
+
+std::vector<StripPiece> leftOfLine(const Polygon& p, Vec2 point, Vec2 direction) {
+  if (p.outer.size() < 3) return {};
+  const Vec2 right = -perpendicular(direction);
+  return LineCutter(p, right).before(dot(right, point));
 }
 
 }  // namespace gable

@@ -41,5 +41,7 @@ std::vector<StripPiece> splitIntoStrips(const Polygon& p, Vec2 normal,
 
 /// By the line through `point` along `direction`: strip 0 is its left side, strip 1 its right.
 std::vector<StripPiece> splitByLine(const Polygon& p, Vec2 point, Vec2 direction);
+/// The left side only: the same pieces, in less time.
+std::vector<StripPiece> leftOfLine(const Polygon& p, Vec2 point, Vec2 direction);
 
 }  // namespace gable

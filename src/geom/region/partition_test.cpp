@@ -299,20 +299,9 @@ TEST(Places, DiscsAreDisjointAndInside) {
   }
 }
 
-std::vector<Disc> sitesIn(const Polygon& p, uint32_t count) {
-  std::vector<Disc> sites;
-  const Box2 b = bounds(p);
-  for (uint64_t i = 0; i < 4000 && sites.size() < count; ++i) {
-    const Vec2 c{randomIn(hashCombine(i, 1), b.min.x, b.max.x),
-                 randomIn(hashCombine(i, 2), b.min.y, b.max.y)};
-    if (locate(p, c) == Where::Inside) sites.push_back({c, 0});
-  }
-  return sites;
-}
-
 TEST(Voronoi, HoldsOnTheCorpus) {
   overCorpus(kStride, [](const Polygon& p, const std::string& name) {
-    const std::vector<Disc> sites = sitesIn(p, 8);
+    const std::vector<Disc> sites = corpus::sitesIn(p, 8);
     if (sites.empty()) return;
     VoronoiOptions o;
     const VoronoiResult bare = voronoiPartition(p, sites, o);
@@ -324,7 +313,7 @@ TEST(Voronoi, HoldsOnTheCorpus) {
 
 TEST(Voronoi, SmoothsWithinTheCellOnTheCorpus) {
   overCorpus(10 * kStride, [](const Polygon& p, const std::string& name) {
-    const std::vector<Disc> sites = sitesIn(p, 6);
+    const std::vector<Disc> sites = corpus::sitesIn(p, 6);
     if (sites.empty()) return;
     VoronoiOptions o;
     o.pathWidth = std::sqrt(area(p)) / 30;
@@ -380,7 +369,7 @@ TEST(Rays, LeaveOutCornersThatAreHidden) {
 
 TEST(Rays, JoinCentresWithoutCrossings) {
   const Polygon p = rect(60, 40);
-  const std::vector<Disc> sites = sitesIn(p, 7);
+  const std::vector<Disc> sites = corpus::sitesIn(p, 7);
   std::vector<Vec2> centres;
   for (const Disc& d : sites) centres.push_back(d.centre);
   RayOptions o;

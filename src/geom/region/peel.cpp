@@ -59,11 +59,24 @@ class Peel {
     }
     std::vector<Ring> shapes;
     for (const PeelEdge& e : jobs_) sweep(e, shapes);
+    const RegionPiece whole = wholePiece(p_);
+    Region strips;
+    EdgeSource beside;
     Region swept = intersect(repaired(shapes, FillRule::NonZero), {p_});
-    std::erase_if(swept, [&](const Polygon& s) { return !touchesBase(s); });
-    const Region left = subtract({p_}, swept);
-    for (const Polygon& s : swept) out.strips.push_back(traced(s, true));
-    for (const Polygon& s : left) out.rest.push_back(traced(s, false));
+    std::vector<std::vector<EdgeOrigin>> edges = stripOrigins(swept);
+    for (size_t i = 0; i < swept.size(); ++i) {
+      const bool base = std::any_of(edges[i].begin(), edges[i].end(),
+                                    [](const EdgeOrigin& e) { return e.role == EdgeRole::Base; });
+      if (!base) continue;
+      RegionPiece strip;
+      strip.polygon = swept[i];
+      strip.edges = std::move(edges[i]);
+      for (Ring& r : ringsOf(strip.polygon)) beside.rings.push_back(std::move(r));
+      beside.origins.insert(beside.origins.end(), strip.edges.begin(), strip.edges.end());
+      strips.push_back(std::move(swept[i]));
+      out.strips.push_back(std::move(strip));
+    }
+    for (RegionPiece& left : leftBeside(whole, strips, beside)) out.rest.push_back(std::move(left));
     for (uint32_t i = 0; i < out.strips.size(); ++i) out.strips[i].part = out.strips[i].ix = i;
     for (uint32_t i = 0; i < out.rest.size(); ++i) out.rest[i].part = out.rest[i].ix = i;
     return out;
@@ -123,24 +136,9 @@ class Peel {
     shapes.push_back(std::move(r));
   }
 
-  bool touchesBase(const Polygon& s) const {
-    for (const uint32_t t : traceEdges(ringsOf(s), rings_, kTrace)) {
-      if (t != kNoEdge && isBase(t)) return true;
-    }
-    return false;
-  }
-  bool isBase(uint32_t edge) const {
-    return std::any_of(jobs_.begin(), jobs_.end(),
-                       [&](const PeelEdge& e) { return e.edge == edge; });
-  }
-
-  RegionPiece traced(const Polygon& s, bool strip) const {
-    RegionPiece piece;
-    piece.polygon = s;
+  std::vector<std::vector<EdgeOrigin>> stripOrigins(const Region& strips) const {
     EdgeSource input = sourceOf(p_);
-    if (strip) {
-      for (const PeelEdge& e : jobs_) input.origins[e.edge].role = EdgeRole::Base;
-    }
+    for (const PeelEdge& e : jobs_) input.origins[e.edge].role = EdgeRole::Base;
     EdgeSource moved;
     for (const auto& [segment, edge] : inner_) {
       moved.rings.push_back({segment.a, segment.b});
@@ -149,8 +147,7 @@ class Peel {
       }
     }
     const EdgeSource sources[] = {std::move(input), std::move(moved)};
-    piece.edges = originsOf(s, sources, {kNoEdge, EdgeRole::Cap, EdgeOrigin::kNoSide});
-    return piece;
+    return originsOf(strips, sources, {kNoEdge, EdgeRole::Cap, EdgeOrigin::kNoSide});
   }
 
   const Polygon& p_;
@@ -251,13 +248,18 @@ std::vector<RegionPiece> contract(const Polygon& p, double distance) {
   OffsetOptions options;
   options.miterLimit = kMiterLimit;
   const std::vector<Ring> source = ringsOf(p);
-  for (const Polygon& inset : intersect(offset({p}, -distance, options), {p})) {
+  Region inner = offset({p}, -distance, options);
+  // Rounding reaches over the boundary only where the distance is next to nothing.
+  if (distance < 16 * kRegionGrid) inner = intersect(inner, {p});
+  const std::vector<uint32_t> traced = traceEdges(ringsOf(inner), source, 2 * kTrace, distance);
+  size_t next = 0;
+  for (Polygon& inset : inner) {
     RegionPiece piece;
-    piece.polygon = inset;
-    for (const uint32_t e : traceEdges(ringsOf(inset), source, 2 * kTrace, distance)) {
+    piece.polygon = std::move(inset);
+    for (size_t k = edgeCount(piece.polygon); k-- > 0; ++next) {
       // Bevels of long miters come of no edge.
-      const EdgeRole role = e == kNoEdge ? EdgeRole::Cut : EdgeRole::Inner;
-      piece.edges.push_back({e, role, EdgeOrigin::kNoSide});
+      const EdgeRole role = traced[next] == kNoEdge ? EdgeRole::Cut : EdgeRole::Inner;
+      piece.edges.push_back({traced[next], role, EdgeOrigin::kNoSide});
     }
     piece.part = piece.ix = static_cast<uint32_t>(out.size());
     out.push_back(std::move(piece));

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geom/region/faces.h"
 #include "geom/region/segment_grid.h"
 
 namespace gable {
@@ -26,36 +27,65 @@ bool overlap(const Box2& a, const Box2& b) {
   return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y;
 }
 
-// The length of the edges of `a` that lie on edges of `b`.
-double commonBorder(const Polygon& a, const Polygon& b) {
-  const std::vector<Ring> rings = ringsOf(a), others = ringsOf(b);
+// The edges of a polygon that reach into a box.
+std::vector<Segment> edgesWithin(const Polygon& p, const Box2& box) {
+  std::vector<Segment> out;
+  const auto add = [&](const Ring& r) {
+    for (size_t i = 0, j = r.size() - 1; i < r.size(); j = i++) {
+      const Vec2 a = r[j], b = r[i];
+      if (std::max(a.x, b.x) < box.min.x || std::min(a.x, b.x) > box.max.x ||
+          std::max(a.y, b.y) < box.min.y || std::min(a.y, b.y) > box.max.y) {
+        continue;
+      }
+      out.push_back({a, b});
+    }
+  };
+  add(p.outer);
+  for (const Ring& h : p.holes) add(h);
+  return out;
+}
+
+// The length of the edges that lie on others.
+double lengthOn(std::span<const Segment> edges, std::span<const Segment> others) {
   double sum = 0;
   size_t i = 0;
-  const std::vector<Segment> edges = edgesOf(rings);
-  for (const uint32_t t : traceEdges(rings, others, kTrace)) {
+  for (const uint32_t t : traceSegments(edges, others, kTrace)) {
     if (t != kNoEdge) sum += length(edges[i].b - edges[i].a);
     ++i;
   }
+  return sum;
+}
+
+// The length of border that a polygon within `box` shares with another.
+double commonBorder(const Polygon& a, const Box2& box, const Polygon& b) {
+  const std::vector<Segment> near = edgesWithin(b, box);
+  if (near.empty()) return 0;
+  const std::vector<Segment> edges = edgesOf(a);
   // Long edges of the sliver may have several neighbours' edges on them, and no middle on any.
-  i = 0;
-  const std::vector<Segment> back = edgesOf(others);
-  double sumBack = 0;
-  for (const uint32_t t : traceEdges(others, rings, kTrace)) {
-    if (t != kNoEdge) sumBack += length(back[i].b - back[i].a);
-    ++i;
-  }
-  return std::max(sum, sumBack);
+  return std::max(lengthOn(edges, near), lengthOn(near, edges));
 }
 
 // Puts `small` into `large`; false when they have no area in common sides.
 bool absorb(RegionPiece& large, const RegionPiece& small) {
+  std::vector<Segment> edges = edgesOf(large.polygon);
+  const size_t own = edges.size();
+  for (const Segment& s : edgesOf(small.polygon)) edges.push_back(s);
+  std::vector<Face> faces;
+  if (facesOf(edges, {}, 2 * kRegionGrid, faces)) {
+    if (faces.size() != 1) return false;
+    large.polygon = std::move(faces[0].polygon);
+    std::vector<EdgeOrigin> named;
+    for (const uint32_t e : faces[0].edges) {
+      named.push_back(e < own ? large.edges[e] : small.edges[e - own]);
+    }
+    large.edges = std::move(named);
+    return true;
+  }
   const Region sum = unite({large.polygon}, {small.polygon});
   if (sum.size() != 1) return false;
   const EdgeSource sources[] = {sourceOf(large), sourceOf(small)};
-  RegionPiece out = large;
-  out.polygon = sum[0];
-  out.edges = originsOf(out.polygon, sources);
-  large = std::move(out);
+  large.edges = originsOf(sum[0], sources);
+  large.polygon = sum[0];
   return true;
 }
 
@@ -117,6 +147,36 @@ std::vector<EdgeOrigin> originsOf(const Polygon& p, std::span<const EdgeSource> 
   return originsOfRings(ringsOf(p), sources, otherwise);
 }
 
+std::vector<std::vector<EdgeOrigin>> originsOf(const Region& r, std::span<const EdgeSource> sources,
+                                               EdgeOrigin otherwise) {
+  const std::vector<EdgeOrigin> all = originsOfRings(ringsOf(r), sources, otherwise);
+  std::vector<std::vector<EdgeOrigin>> out;
+  auto first = all.begin();
+  for (const Polygon& p : r) {
+    const auto last = first + static_cast<std::ptrdiff_t>(edgeCount(p));
+    out.emplace_back(first, last);
+    first = last;
+  }
+  return out;
+}
+
+namespace {
+
+std::vector<RegionPiece> piecesLike(const RegionPiece& a, Region polygons,
+                                    std::vector<std::vector<EdgeOrigin>> edges) {
+  std::vector<RegionPiece> out;
+  for (size_t i = 0; i < polygons.size(); ++i) {
+    RegionPiece piece = a;
+    piece.edges = std::move(edges[i]);
+    piece.polygon = std::move(polygons[i]);
+    piece.part = a.part + static_cast<uint32_t>(i);
+    out.push_back(std::move(piece));
+  }
+  return out;
+}
+
+}  // namespace
+
 std::vector<RegionPiece> combineTraced(BooleanOp op, const RegionPiece& a, const Region& b,
                                        EdgeOrigin made) {
   // All of b is one source, and all results are traced at once: there may be hundreds of each.
@@ -127,20 +187,38 @@ std::vector<RegionPiece> combineTraced(BooleanOp op, const RegionPiece& a, const
   }
   const EdgeSource sources[] = {sourceOf(a), std::move(other)};
   Region all = combine(op, {a.polygon}, b);
-  const std::vector<EdgeOrigin> origins = originsOfRings(ringsOf(all), sources, made);
-  std::vector<RegionPiece> out;
-  uint32_t part = a.part;
-  auto first = origins.begin();
-  for (Polygon& p : all) {
-    RegionPiece piece = a;
-    const auto last = first + static_cast<std::ptrdiff_t>(edgeCount(p));
-    piece.edges.assign(first, last);
-    first = last;
-    piece.polygon = std::move(p);
-    piece.part = part++;
-    out.push_back(std::move(piece));
+  std::vector<std::vector<EdgeOrigin>> edges = originsOf(all, sources, made);
+  return piecesLike(a, std::move(all), std::move(edges));
+}
+
+std::vector<RegionPiece> leftBeside(const RegionPiece& whole, const Region& parts,
+                                    const EdgeSource& beside) {
+  std::vector<Segment> edges = edgesOf(whole.polygon);
+  std::vector<EdgeOrigin> origins = whole.edges;
+  size_t first = 0;
+  for (const Ring& r : beside.rings) {
+    // Turned round, and from the first point on, so that results start where booleans' do.
+    for (size_t k = r.size(); k-- > 0;) {
+      edges.push_back({r[k + 1 == r.size() ? 0 : k + 1], r[k]});
+      origins.push_back(beside.origins[first + k]);
+    }
+    first += r.size();
   }
-  return out;
+  std::vector<Face> faces;
+  Region left;
+  std::vector<std::vector<EdgeOrigin>> named;
+  if (facesOf(edges, {}, 2 * kRegionGrid, faces)) {
+    for (Face& f : faces) {
+      named.emplace_back();
+      for (const uint32_t e : f.edges) named.back().push_back(origins[e]);
+      left.push_back(std::move(f.polygon));
+    }
+  } else {
+    const EdgeSource sources[] = {sourceOf(whole), beside};
+    left = subtract({whole.polygon}, parts);
+    named = originsOf(left, sources, {kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide});
+  }
+  return piecesLike(whole, std::move(left), std::move(named));
 }
 
 double perimeter(const Polygon& p) {
@@ -154,7 +232,7 @@ double thickness(const Polygon& p) {
   return round > 0 ? 2 * area(p) / round : 0;
 }
 
-bool absorbSliver(std::vector<RegionPiece>& pieces, const RegionPiece& sliver) {
+size_t absorbSliver(std::vector<RegionPiece>& pieces, const RegionPiece& sliver) {
   const Box2 box = grown(bounds(sliver.polygon), kTrace);
   struct Neighbour {
     size_t index;
@@ -164,26 +242,34 @@ bool absorbSliver(std::vector<RegionPiece>& pieces, const RegionPiece& sliver) {
   std::vector<Neighbour> found;
   for (size_t k = 0; k < pieces.size(); ++k) {
     if (&pieces[k] == &sliver || !overlap(box, bounds(pieces[k].polygon))) continue;
-    const double border = commonBorder(sliver.polygon, pieces[k].polygon);
+    const double border = commonBorder(sliver.polygon, box, pieces[k].polygon);
     if (border > kTrace) found.push_back({k, border, pieces[k].kind == PieceKind::Path});
   }
   std::stable_sort(found.begin(), found.end(), [](const Neighbour& a, const Neighbour& b) {
     return a.path != b.path ? a.path : a.border > b.border;
   });
-  return std::any_of(found.begin(), found.end(),
-                     [&](const Neighbour& n) { return absorb(pieces[n.index], sliver); });
+  for (const Neighbour& n : found) {
+    if (absorb(pieces[n.index], sliver)) return n.index;
+  }
+  return pieces.size();
 }
 
 void mergeSlivers(std::vector<RegionPiece>& pieces, double sliver, double minArea) {
+  const auto isSmall = [&](const RegionPiece& p) {
+    return area(p.polygon) < minArea || thickness(p.polygon) < sliver;
+  };
+  std::vector<char> small;
+  for (const RegionPiece& p : pieces) small.push_back(isSmall(p));
   for (size_t i = 0; i < pieces.size();) {
-    const RegionPiece& s = pieces[i];
-    const bool small = area(s.polygon) < minArea || thickness(s.polygon) < sliver;
-    if (small && absorbSliver(pieces, s)) {
-      pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(i));
-      i = 0;
-    } else {
+    const size_t into = small[i] ? absorbSliver(pieces, pieces[i]) : pieces.size();
+    if (into == pieces.size()) {
       ++i;
+      continue;
     }
+    small[into] = isSmall(pieces[into]);
+    pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(i));
+    small.erase(small.begin() + static_cast<std::ptrdiff_t>(i));
+    i = std::min(i, into);
   }
 }
 

@@ -94,10 +94,20 @@ std::vector<EdgeOrigin> originsOf(const Polygon& p, std::span<const EdgeSource> 
                                   EdgeOrigin otherwise = {kNoEdge, EdgeRole::Cut,
                                                           EdgeOrigin::kNoSide});
 
+/// The same for all polygons of a region at once.
+std::vector<std::vector<EdgeOrigin>> originsOf(const Region& r, std::span<const EdgeSource> sources,
+                                               EdgeOrigin otherwise);
+
 /// `a` op `b`, with origins from a's edges, then from b's, which all take `made`. Other fields are
 /// those of `a`; the parts are numbered.
 std::vector<RegionPiece> combineTraced(BooleanOp op, const RegionPiece& a, const Region& b,
                                        EdgeOrigin made);
+
+/// What is left of `whole` beside `parts`, which lie in it apart from each other. Edges along a
+/// part take what `beside` says of its edge; its rings are those of the parts, in their order.
+/// Other fields are those of `whole`; the parts are numbered.
+std::vector<RegionPiece> leftBeside(const RegionPiece& whole, const Region& parts,
+                                    const EdgeSource& beside);
 
 /// The piece as the whole of a polygon.
 RegionPiece wholePiece(const Polygon& p);
@@ -106,9 +116,9 @@ RegionPiece wholePiece(const Polygon& p);
 double thickness(const Polygon& p);
 double perimeter(const Polygon& p);
 
-/// Unites a piece with the one of `pieces` that shares the longest border with it, paths first;
-/// false when none does.
-bool absorbSliver(std::vector<RegionPiece>& pieces, const RegionPiece& sliver);
+/// Unites a piece with the one of `pieces` that shares the longest border with it, paths first: the
+/// number of that one, or of pieces when none does.
+size_t absorbSliver(std::vector<RegionPiece>& pieces, const RegionPiece& sliver);
 
 /// Unites pieces thinner than `sliver` or smaller than `minArea` with the neighbour that shares the
 /// longest border, paths first; those without a neighbour stay. Slivers of paths stay with paths

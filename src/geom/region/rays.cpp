@@ -2,15 +2,18 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Without a width the region falls into sectors: the boundary from one hit to the next, and the
-// centre. With one, each path is a strip cut to the region, and the regions are what is left.
+// centre. With one, each path is a strip within the halves of the angles to its neighbours, cut to
+// the little of the region's outline that is near it, and the regions are what is left.
 #include "geom/region/rays.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "geom/region/hull.h"
 #include "geom/region/line.h"
 #include "geom/region/places.h"
+#include "geom/region/point_cells.h"
 #include "geom/region/segment_grid.h"
 #include "math/predicates.h"
 
@@ -33,6 +36,12 @@ class Rays {
  public:
   Rays(const Polygon& p, const RayOptions& o) : p_(p), o_(o), edges_(edgesOf(p)) {
     scale_ = length(bounds(p).size());
+    uint32_t first = 0;
+    for (const Ring& r : ringsOf(p)) {
+      const auto n = static_cast<uint32_t>(r.size());
+      for (uint32_t i = 0; i < n; ++i) before_.push_back(first + (i + n - 1) % n);
+      first += n;
+    }
   }
 
   RayResult run(std::span<const Vec2> centres, std::span<const RayTarget> targets) {
@@ -67,8 +76,14 @@ class Rays {
   bool firstHit(Vec2 from, Vec2 d, Vec2 except, bool hasExcept, Ray& hit, double& reach) const {
     bool found = false;
     reach = 1e300;
+    double last = 0;
     for (uint32_t i = 0; i < edges_.size(); ++i) {
       const Vec2 a = edges_[i].a, b = edges_[i].b;
+      // Most edges lie on one side of the ray; neighbours in a ring share a point.
+      const double left = i > 0 && edges_[i - 1].b == a ? last : cross(d, a - from);
+      const double right = cross(d, b - from);
+      last = right;
+      if ((left > 0 && right > 0) || (left < 0 && right < 0)) continue;
       if (hasExcept && (a == except || b == except)) continue;
       const double det = cross(d, b - a);
       if (det == 0) continue;
@@ -82,6 +97,14 @@ class Rays {
     return found;
   }
 
+  // Whether the corner where an edge starts is seen from a place through the region's outside. For
+  // corners that the outlines visit once.
+  bool fromOutside(uint32_t edge, Vec2 place) const {
+    const Vec2 a = edges_[before_[edge]].a, v = edges_[edge].a, b = edges_[edge].b;
+    const bool right = orientation(v, b, place) < 0, behind = orientation(a, v, place) < 0;
+    return orientation(a, v, b) >= 0 ? right || behind : right && behind;
+  }
+
   // A ray from a centre to a target; false when it is hidden from there.
   bool rayTo(Vec2 c, const RayTarget& t, Ray& ray) const {
     double reach = 0;
@@ -91,18 +114,25 @@ class Rays {
     const Vec2 d = t.value - c;
     if (!(length(d) > 0)) return false;
     // A vertex of the region is met exactly; nothing else may lie before it.
+    uint32_t corner = kNoEdge, visits = 0;
     for (uint32_t i = 0; i < edges_.size(); ++i) {
       if (!(edges_[i].a == t.value)) continue;
+      if (visits++ == 0) corner = i;
+    }
+    if (visits > 0) {
       Ray first;
       const bool blocked = firstHit(c, d, t.value, true, first, reach) && reach < 1 - 1e-9;
       // The ray must come from within: a corner may be seen through its own outside.
-      const Vec2 before = t.value - d * 1e-6;
-      if (blocked || locate(p_, before) == Where::Outside) {
+      const auto outside = [&] {
+        return visits == 1 ? fromOutside(corner, c)
+                           : locate(p_, t.value - d * 1e-6) == Where::Outside;
+      };
+      if (blocked || outside()) {
         if (!o_.stopHidden || !blocked) return false;
         ray = first;
         return true;
       }
-      ray = {c, t.value, i, 0};
+      ray = {c, t.value, corner, 0};
       return true;
     }
     if (!firstHit(c, d, {}, false, ray, reach)) return false;
@@ -124,11 +154,9 @@ class Rays {
 
   void dropDuplicates() {
     std::vector<Ray> kept;
-    const double least = std::max(o_.pathWidth, 1e-9 * scale_);
+    PointCells ends(std::max(o_.pathWidth, 1e-9 * scale_), rays_.size());
     for (const Ray& r : rays_) {
-      const bool near = std::any_of(kept.begin(), kept.end(),
-                                    [&](const Ray& k) { return length(k.to - r.to) < least; });
-      if (!near) kept.push_back(r);
+      if (ends.snap(r.to) == kept.size()) kept.push_back(r);
     }
     rays_ = std::move(kept);
   }
@@ -240,64 +268,210 @@ class Rays {
     for (size_t i = 0; i < take; ++i) addLink(others[i].a, others[i].b);
   }
 
-  // The part of a strip along a path that lies in the region and touches the path.
-  Region strip(const Ray& r, bool toBoundary, double width) const {
+  // Rays by their centre and direction, and for each the next one of its centre counter-clockwise.
+  std::vector<size_t> nextRays() const {
+    std::vector<size_t> order(rays_.size()), next(rays_.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    const auto upper = [](Vec2 d) { return d.y > 0 || (d.y == 0 && d.x > 0); };
+    std::sort(order.begin(), order.end(), [&](size_t i, size_t k) {
+      const Ray &a = rays_[i], &b = rays_[k];
+      if (!(a.from == b.from)) {
+        return a.from.x != b.from.x ? a.from.x < b.from.x : a.from.y < b.from.y;
+      }
+      const Vec2 u = a.to - a.from, v = b.to - b.from;
+      if (upper(u) != upper(v)) return upper(u);
+      const int turn = orientation(a.from, a.to, b.to);
+      return turn != 0 ? turn > 0 : i < k;
+    });
+    for (size_t first = 0; first < order.size();) {
+      size_t last = first + 1;
+      while (last < order.size() && rays_[order[last]].from == rays_[order[first]].from) ++last;
+      for (size_t k = first; k < last; ++k) {
+        next[order[k]] = order[k + 1 < last ? k + 1 : first];
+      }
+      first = last;
+    }
+    return next;
+  }
+
+  // What lies to the left of a line, of an outline. It may run back along the line.
+  static Ring leftOf(const Ring& r, Vec2 at, Vec2 along) {
+    Ring out;
+    double last = r.empty() ? 0 : cross(along, r.back() - at);
+    for (size_t i = 0, j = r.size() - 1; i < r.size(); j = i++) {
+      const double here = cross(along, r[i] - at);
+      if ((last < 0 && here > 0) || (last > 0 && here < 0)) {
+        out.push_back(r[j] + (r[i] - r[j]) * (last / (last - here)));
+      }
+      if (here >= 0) out.push_back(r[i]);
+      last = here;
+    }
+    return out;
+  }
+
+  // The strip along a path, within the halves of the angles to the rays beside it.
+  Ring strip(const Ray& r, double width, const Ray* next, const Ray* previous) const {
     const Vec2 d = normalized(r.to - r.from), n = perpendicular(d) * (width / 2);
-    const Vec2 end = toBoundary ? r.to + d * width : r.to;
-    const Ring ring{r.from - n, end - n, end + n, r.from + n};
-    Region inside = intersect({{ring, {}}}, {p_});
-    const Vec2 start = r.from + (r.to - r.from) * 0.5;
-    const bool any = std::any_of(inside.begin(), inside.end(),
-                                 [&](const Polygon& p) { return contains(p, start); });
-    if (any) std::erase_if(inside, [&](const Polygon& p) { return !contains(p, start); });
-    return inside;
+    const Vec2 end = next ? r.to + d * width : r.to;
+    Ring ring{r.from - n, end - n, end + n, r.from + n};
+    const auto halve = [&](const Ray& other, bool after) {
+      const Vec2 e = normalized(other.to - other.from);
+      const double turn = cross(d, e);
+      // Beyond a half turn nothing is shared.
+      if (after ? !(turn > 0) : !(turn < 0)) return;
+      ring = leftOf(ring, r.from, after ? -(d + e) : d + e);
+    };
+    if (next) halve(*next, true);
+    if (previous) halve(*previous, false);
+    return ring;
+  }
+
+  // The outlines of `free` near a convex ring. They may run back over themselves there, but count
+  // as before within the ring.
+  static Region nearby(const Polygon& free, const Ring& convex, double margin) {
+    const auto cut = [&](Ring r) {
+      for (size_t i = 0; i < convex.size() && !r.empty(); ++i) {
+        const Vec2 a = convex[i], b = convex[(i + 1) % convex.size()];
+        const Vec2 along = normalized(b - a);
+        if (along == Vec2{}) continue;
+        r = leftOf(r, a - perpendicular(along) * margin, along);
+      }
+      return r;
+    };
+    Region out{{cut(free.outer), {}}};
+    for (const Ring& h : free.holes) {
+      Ring r = cut(h);
+      if (r.size() >= 3) out[0].holes.push_back(std::move(r));
+    }
+    return out;
+  }
+
+  // The part of a strip in the region that its ray runs through.
+  Region section(const Ray& r, const Ring& strip, const Region& free) const {
+    Region parts;
+    for (const Polygon& f : free) {
+      const Region near = nearby(f, strip, scale_ * 1e-3);
+      if (near[0].outer.size() < 3) continue;
+      for (Polygon& p : intersect({{strip, {}}}, near)) parts.push_back(std::move(p));
+    }
+    for (const double t : {0.999, 0.75, 0.5, 0.25}) {
+      const Vec2 on = r.from + (r.to - r.from) * t;
+      for (Polygon& p : parts) {
+        if (contains(p, on)) return {std::move(p)};
+      }
+    }
+    return {};
+  }
+
+  // What the figures around the centres take of the region.
+  Region allCentres() const {
+    Region centres;
+    if (o_.centre.shape == PlanShape::None || !(o_.centre.reach() > 0)) return centres;
+    for (const Vec2 c : centres_) {
+      const Polygon figure{ringOf(o_.centre, c), {}};
+      if (signedDistance(p_, c) > o_.centre.reach() * 1.001) {
+        centres.push_back(figure);
+        continue;
+      }
+      for (Polygon& p : intersect({figure}, {p_})) {
+        if (contains(p, c)) centres.push_back(std::move(p));
+      }
+    }
+    return centres.size() > 1 ? repaired(ringsOf(centres), FillRule::NonZero) : centres;
+  }
+
+  // The region without the centres; they are holes where they keep clear of all else.
+  Region besideCentres(const Region& centres) const {
+    if (centres.empty()) return {p_};
+    if (centres.size() == 1 && centres[0].holes.empty() && centres_.size() == 1 &&
+        signedDistance(p_, centres_[0]) > o_.centre.reach() * 1.001) {
+      Polygon out = p_;
+      out.holes.push_back(centres[0].outer);
+      std::reverse(out.holes.back().begin(), out.holes.back().end());
+      return {out};
+    }
+    return subtract({p_}, centres);
+  }
+
+  struct Section {
+    Vec2 centre, to;
+    bool link = false;
+    Polygon polygon;
+    Box2 box;
+  };
+
+  // Links first, then rays; what two would share stays with the first. Rays of one centre share
+  // nothing.
+  std::vector<Section> allSections(double width, const Region& free) const {
+    std::vector<Section> out;
+    const auto add = [&](const Ray& r, const Ring& strip, bool link) {
+      const size_t before = out.size();
+      for (Polygon& p : section(r, strip, free)) {
+        const Box2 box = bounds(p);
+        Region taken;
+        for (size_t k = 0; k < before; ++k) {
+          const Section& s = out[k];
+          const bool meets = s.box.min.x <= box.max.x && box.min.x <= s.box.max.x &&
+                             s.box.min.y <= box.max.y && box.min.y <= s.box.max.y;
+          const bool beside = !link && !s.link && s.centre == r.from;
+          if (meets && !beside) taken.push_back(s.polygon);
+        }
+        Region rest{std::move(p)};
+        if (!taken.empty()) rest = subtract(rest, taken);
+        for (Polygon& q : rest) {
+          const Box2 own = bounds(q);
+          out.push_back({r.from, r.to, link, std::move(q), own});
+        }
+      }
+    };
+    for (const Ray& r : links_) add(r, strip(r, width, nullptr, nullptr), true);
+    const std::vector<size_t> next = nextRays();
+    std::vector<size_t> previous(next.size());
+    for (size_t i = 0; i < next.size(); ++i) previous[next[i]] = i;
+    for (size_t i = 0; i < rays_.size(); ++i) {
+      add(rays_[i], strip(rays_[i], width, &rays_[next[i]], &rays_[previous[i]]), false);
+    }
+    return out;
   }
 
   void withPaths(std::vector<RegionPiece>& out) const {
     const double width = std::max(o_.pathWidth, kLeastWidth);
-    Region centres;
-    if (o_.centre.shape != PlanShape::None && o_.centre.reach() > 0) {
-      for (const Vec2 c : centres_) {
-        for (Polygon& p : intersect({{ringOf(o_.centre, c), {}}}, {p_})) {
-          if (contains(p, c)) centres.push_back(std::move(p));
-        }
-      }
-      if (centres.size() > 1) centres = repaired(ringsOf(centres), FillRule::NonZero);
-    }
-    Region taken = centres;
-    std::vector<RegionPiece> paths;
+    const Region centres = allCentres();
     const EdgeOrigin side{kNoEdge, EdgeRole::Path, EdgeOrigin::kNoSide};
-    const auto addPath = [&](const Ray& r, bool toBoundary) {
-      const Region s = subtract(strip(r, toBoundary, width), taken);
-      for (const Polygon& p : s) {
-        RegionPiece piece;
-        piece.kind = PieceKind::Path;
-        piece.ix = static_cast<uint32_t>(paths.size());
-        piece.axis = normalized(r.to - r.from);
-        piece.width = length(r.to - r.from);
-        piece.height = width;
-        piece.polygon = p;
-        const EdgeSource sources[] = {sourceOf(p_)};
-        piece.edges = originsOf(p, sources, side);
-        paths.push_back(std::move(piece));
+    Region taken = centres;
+    EdgeSource beside;
+    for (const Ring& r : ringsOf(centres)) {
+      beside.rings.push_back(r);
+      beside.origins.resize(beside.origins.size() + r.size(),
+                            {kNoEdge, EdgeRole::Centre, EdgeOrigin::kNoSide});
+    }
+    std::vector<RegionPiece> paths;
+    Region sections;
+    for (Section& s : allSections(width, besideCentres(centres))) {
+      RegionPiece piece;
+      piece.kind = PieceKind::Path;
+      piece.ix = static_cast<uint32_t>(paths.size());
+      piece.axis = normalized(s.to - s.centre);
+      piece.width = length(s.to - s.centre);
+      piece.height = width;
+      paths.push_back(std::move(piece));
+      for (Ring& r : ringsOf(s.polygon)) {
+        beside.origins.resize(beside.origins.size() + r.size(), side);
+        beside.rings.push_back(std::move(r));
       }
-      taken = unite(taken, s);
-    };
-    for (const Ray& r : links_) addPath(r, false);
-    for (const Ray& r : rays_) addPath(r, true);
-    RegionPiece whole = wholePiece(p_);
+      taken.push_back(s.polygon);
+      sections.push_back(std::move(s.polygon));
+    }
+    const EdgeSource sources[] = {sourceOf(p_)};
+    std::vector<std::vector<EdgeOrigin>> edges = originsOf(sections, sources, side);
+    for (size_t i = 0; i < paths.size(); ++i) {
+      paths[i].polygon = std::move(sections[i]);
+      paths[i].edges = std::move(edges[i]);
+    }
     uint32_t index = 0;
-    for (Polygon& p : subtract({p_}, taken)) {
-      RegionPiece piece = whole;
+    for (RegionPiece& piece : leftBeside(wholePiece(p_), taken, beside)) {
       piece.ix = index++;
-      std::vector<EdgeSource> sources{sourceOf(p_)};
-      for (const Polygon& c : centres) {
-        sources.push_back(
-            sourceOf(c, std::vector<EdgeOrigin>(edgeCount(c),
-                                                {kNoEdge, EdgeRole::Centre, EdgeOrigin::kNoSide})));
-      }
-      piece.edges = originsOf(p, sources, side);
-      piece.polygon = std::move(p);
+      piece.part = 0;
       out.push_back(std::move(piece));
     }
     out.insert(out.end(), paths.begin(), paths.end());
@@ -405,6 +579,8 @@ class Rays {
   const Polygon& p_;
   const RayOptions& o_;
   std::vector<Segment> edges_;
+  // By edge: the one before it in its ring.
+  std::vector<uint32_t> before_;
   double scale_ = 0;
   std::vector<Vec2> centres_;
   std::vector<Ray> rays_, links_;

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "geom/region/corpus.h"
+#include "geom/region/locator.h"
+
 namespace gable {
 namespace {
 
@@ -48,6 +51,38 @@ TEST(Region, rayThroughVerticesCountsOnce) {
   EXPECT_FALSE(contains(p, {-1, 2}));
   EXPECT_FALSE(contains(p, {-1, 0}));
   EXPECT_FALSE(contains(p, {2, 0}));
+}
+
+TEST(Locator, saysWhatLocateSays) {
+  const auto cases = corpus::loadCorpus(29);
+  if (cases.empty()) GTEST_SKIP() << "the polygon corpus is not here";
+  for (size_t i = 0; i < cases.size(); ++i) {
+    const Polygon p = corpus::withHoles(cases[i].ring, i);
+    const Locator locator(p);
+    const Box2 box = bounds(p);
+    const double slack = 1e-3 * length(box.size());
+    std::vector<Vec2> points = p.outer;
+    for (uint64_t k = 0; k < 100; ++k) {
+      const uint64_t at = hashCombine(i, k);
+      points.push_back({randomIn(hashCombine(at, 0), box.min.x - slack, box.max.x + slack),
+                        randomIn(hashCombine(at, 1), box.min.y - slack, box.max.y + slack)});
+      // At the height of a vertex.
+      points.push_back({points.back().x, p.outer[k % p.outer.size()].y});
+    }
+    for (size_t k = 0; k < p.outer.size(); ++k) {
+      points.push_back((p.outer[k] + p.outer[(k + 1) % p.outer.size()]) * 0.5);
+    }
+    size_t sure = 0;
+    for (const Vec2 v : points) {
+      EXPECT_EQ(locator.at(v), locate(p, v)) << i;
+      if (!locator.surelyOutside(v, slack)) continue;
+      ++sure;
+      for (const Vec2 d : {Vec2{slack, 0}, Vec2{0, slack}, Vec2{-slack, 0}, Vec2{0, -slack}}) {
+        EXPECT_EQ(locate(p, v + d * 0.99), Where::Outside) << i;
+      }
+    }
+    EXPECT_GT(sure, 0u) << i;
+  }
 }
 
 }  // namespace

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
-//
+
 #include "geom/region/smooth.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "geom/region/boolean.h"
+#include "geom/region/clean.h"
 #include "geom/region/piece.h"
+#include "geom/region/places.h"
 
 namespace gable {
 namespace {
@@ -95,9 +97,15 @@ Region smoothed(const Polygon& p, const Smoothing& s) {
     round.join = OffsetJoin::Round;
     return intersect(offset(offset({p}, -s.radius, round), s.radius, round), {p});
   }
-  std::vector<Ring> rings;
-  for (const Ring& r : ringsOf(p)) rings.push_back(bent(r, s, perimeter(r), true));
-  return intersect(repaired(rings, FillRule::NonZero), {p});
+  if (isConvex(p)) {
+    // It stays convex, and within.
+    Region within;
+    const Ring ring = bent(p.outer, s, perimeter(p), true);
+    if (nestClear({ring}, 2 * kRegionGrid, within)) return within;
+  }
+  Polygon out{bent(p.outer, s, perimeter(p.outer), true), {}};
+  for (const Ring& h : p.holes) out.holes.push_back(bent(h, s, perimeter(h), true));
+  return intersect({out}, {p});
 }
 
 std::vector<Vec2> smoothed(const std::vector<Vec2>& line, const Smoothing& s) {
