@@ -101,6 +101,12 @@ class SizesTest(CheckCase):
         self.write("src/base/a.cpp", "int a;\n" * 801)
         self.assertEqual(self.messages(sizes), ["src/base/a.cpp: 801 lines; 800 is the end"])
 
+    def testKeepsStylesShort(self):
+        self.write("examples/tower/tower.cga", "A --> B\n" * 300)
+        self.write("examples/town/town.cga", "A --> B\n" * 300)
+        self.assertEqual(self.messages(sizes),
+                         ["examples/tower/tower.cga: 300 lines; 299 is the end"])
+
     def testSeesPastInitialisersOfMembers(self):
         body = "  x += 1;\n" * 99
         self.write("src/base/a.cpp", "C::C() : a_{1}, b_(2) {\n" + body + "}\n")

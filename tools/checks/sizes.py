@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The Gable authors
-"""Files of at most 800 lines, functions of at most 100."""
+"""Files of at most 800 lines, functions of at most 100; styles of under 300."""
 import ast
 import re
 
@@ -8,6 +8,9 @@ from .tree import CPP, Finding, code_of, line_at
 
 FILE_LINES = 800
 FUNCTION_LINES = 100
+# The styles among the examples are to be read whole.
+STYLES = ("haussmann", "monaco", "rowhouse", "suburb_house", "tower")
+STYLE_LINES = 299
 SCRIPTS = (".py", ".sh", ".cmake", ".mjs", ".ts", ".svelte")
 # What opens a brace without being a function.
 _SCOPE = re.compile(r"\b(namespace|class|struct|union|enum|extern)\b")
@@ -84,4 +87,8 @@ def check(tree):
             if last - first + 1 > FUNCTION_LINES:
                 findings.append(Finding(path, first, f"{name} has {last - first + 1} lines; "
                                         f"{FUNCTION_LINES} is the end", f"{path}:{name}"))
+    for path in (f"examples/{name}/{name}.cga" for name in STYLES):
+        lines = tree.text(path).count("\n") if tree.exists(path) else 0
+        if lines > STYLE_LINES:
+            findings.append(Finding(path, 0, f"{lines} lines; {STYLE_LINES} is the end", path))
     return findings
