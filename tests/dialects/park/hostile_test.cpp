@@ -187,8 +187,10 @@ TEST(ParkHostile, ManyGardensHaveNothingOnAnythingElse) {
   for (const Message& x : rules.messages()) ADD_FAILURE() << x.text;
   const Shapes plot = Shapes::load(folder + "gardens/buildings.geojson");
   const char* all = std::getenv("GABLE_WHOLE_CORPUS");
-  const int seeds = all && *all ? 200 : 8;
-  for (int seed = 1; seed <= seeds; ++seed) {
+  // In these a lamp stood where a bench had cut a corner off its place.
+  std::vector<int> seeds = {18, 30, 53, 58};
+  for (int seed = 1; seed <= (all && *all ? 200 : 6); ++seed) seeds.push_back(seed);
+  for (const int seed : seeds) {
     DeriveSettings settings;
     settings.seed = seed;
     settings.attributes = {{"plan", "true"}};
