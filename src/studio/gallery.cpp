@@ -23,6 +23,8 @@ void readHead(const std::string& page, std::string& title, std::string& text) {
   for (std::string line; std::getline(in, line);) {
     if (line.compare(0, 2, "# ") == 0) {
       title = line.substr(2);
+    } else if (line.compare(0, 2, "![") == 0) {
+      continue;  // The picture has a place of its own.
     } else if (!title.empty() && !line.empty()) {
       text += (text.empty() ? "" : " ") + line;
     } else if (!text.empty()) {

@@ -395,6 +395,7 @@ TEST_F(Folder, examplesOpenAsCopies) {
   ProjectFiles files(project());
   put("project/rules/trees.cga", "// mine\n");
   EXPECT_NE(gallery.list().find("\"name\":\"haussmann\""), std::string::npos);
+  EXPECT_EQ(gallery.list().find("!["), std::string::npos);
   EXPECT_EQ(gallery.copyTo(files, "haussmann").value(), "haussmann");
   EXPECT_EQ(gallery.copyTo(files, "haussmann").value(), "haussmann-2");
   EXPECT_TRUE(fs::exists(project() + "/haussmann-2/haussmann.cga"));

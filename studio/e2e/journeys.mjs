@@ -11,7 +11,7 @@ import { mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from 'n
 import { join } from 'node:path';
 import {
   CHROMIUM, HOUSE, caretBehind, clean, code, drawn, hasBrowser, launch, openPage, project, ready, serve, status, untilDrawn,
-  viewPixels,
+  untilRefined, viewPixels,
 } from './studio.mjs';
 
 if (!hasBrowser()) {
@@ -229,7 +229,10 @@ async function travel(browser, name) {
   } catch (error) {
     return error;
   } finally {
-    if (shots && opened) await opened.page.screenshot({ path: join(shots, `${name}.png`) }).catch(() => undefined);
+    if (shots && opened) {
+      await untilRefined(opened.page, 30_000).catch(() => undefined);
+      await opened.page.screenshot({ path: join(shots, `${name}.png`) }).catch(() => undefined);
+    }
     await opened?.context.close();
     await server.stop();
     clean(folder);

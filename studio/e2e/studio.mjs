@@ -4,9 +4,9 @@
 // Starts `gable studio` on a new folder and a browser on its page.
 
 import { spawn } from 'node:child_process';
-import { cpSync, existsSync, mkdtempSync, rmSync } from 'node:fs';
+import { cpSync, existsSync, mkdirSync, mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { dirname, join } from 'node:path';
 import { chromium } from 'playwright-core';
 
 export const CHROMIUM = process.env.GABLE_CHROMIUM ?? '/usr/bin/chromium';
@@ -17,7 +17,9 @@ export const hasBrowser = () => existsSync(CHROMIUM);
 
 /** A copy of some examples, with the rules that they share, in a folder of its own. */
 export function project(...examples) {
-  const folder = mkdtempSync(join(tmpdir(), 'gable-studio-'));
+  // The page shows the folder's name.
+  const folder = join(mkdtempSync(join(tmpdir(), 'gable-studio-')), 'places');
+  mkdirSync(folder);
   for (const name of examples.length ? [...examples, 'rules'] : []) {
     cpSync(join(root, 'examples', name), join(folder, name), { recursive: true });
   }
@@ -81,7 +83,15 @@ export async function untilDrawn(page, before) {
   await page.waitForFunction((n) => Number(document.querySelector('canvas')?.dataset.drawn ?? 0) > n, before, { timeout: 60_000 });
 }
 
-export const clean = (folder) => rmSync(folder, { recursive: true, force: true });
+export const clean = (folder) => rmSync(dirname(folder), { recursive: true, force: true });
+
+/** Waits until the view is as good as it gets, where there is one. */
+export async function untilRefined(page, timeout = 60_000) {
+  await page.waitForFunction(() => {
+    const canvas = document.querySelector('.stage canvas');
+    return !canvas || canvas.dataset.refined === canvas.dataset.drawn;
+  }, null, { timeout });
+}
 
 export const status = (page) => page.locator('.status').innerText();
 export const rows = (page) => page.locator('.tree .tr');

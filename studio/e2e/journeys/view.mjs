@@ -4,7 +4,7 @@
 // The view: ways to move, what it shows, what a picked face tells.
 
 import assert from 'node:assert/strict';
-import { drawn, ready, untilDrawn, viewPixels } from '../studio.mjs';
+import { drawn, ready, untilDrawn, untilRefined, viewPixels } from '../studio.mjs';
 
 const picture = (page) => viewPixels(page, '.stage canvas');
 
@@ -59,15 +59,11 @@ export default {
   async aPictureIsRefinedWhenNothingMoves({ page }) {
     await ready(page);
     const canvas = page.locator('.stage canvas');
-    const refined = () => page.waitForFunction(() => {
-      const c = document.querySelector('.stage canvas');
-      return c.dataset.refined === c.dataset.drawn;
-    }, null, { timeout: 240_000 });
-    await refined();
+    await untilRefined(page, 240_000);
     await canvas.focus();
     await changes(page, 'turn', () => page.keyboard.press('ArrowLeft'));
     const first = await picture(page);
-    await refined();
+    await untilRefined(page, 240_000);
     const pixels = await canvas.evaluate((c) => ({ width: c.width, height: c.height, wide: c.clientWidth, high: c.clientHeight }));
     assert.ok(pixels.width >= pixels.wide && pixels.height >= pixels.high, JSON.stringify(pixels));
     assert.ok(!first.equals(await picture(page)), 'the first picture is finer later');

@@ -198,6 +198,7 @@ export class Studio {
     this.selected = -1;
     this.address = [];
     this.page = 'rules';
+    this.reframe = true;
     this.changed();
   }
 
