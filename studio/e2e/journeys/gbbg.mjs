@@ -78,6 +78,14 @@ async function number(page, label, value) {
   await page.keyboard.press('Enter');
 }
 const button = (page, name) => page.getByRole('button', { name, exact: true }).click();
+/** Opens the list of problems once there are any. */
+async function openProblems(page) {
+  await page.waitForFunction(() => /warning|error/.test(document.querySelector('.status')?.textContent ?? ''));
+  for (let i = 0; i < 5 && !(await page.locator('.prob').count()); ++i) {
+    await openProblems(page);
+    await page.waitForTimeout(500);
+  }
+}
 const problems = (page) => page.locator('.problems').innerText();
 
 export default {
@@ -102,7 +110,7 @@ export default {
     await page.keyboard.press('Backspace');
     await page.keyboard.type('2');
     await becomes(() => countOf(page, 'Wall', 'Brick'), [6, 0]);
-    await page.keyboard.press('Control+j');
+    await openProblems(page);
     await page.waitForFunction(() => /Wall/.test(document.querySelector('.problems')?.innerText ?? ''));
   },
 
@@ -182,7 +190,7 @@ export default {
     await size(page, 'C', [10, 3, 3]);
     await becomes(() => countOf(page, 'A', 'B', 'C'), [1, 0, 1]);
     await asText(page);
-    await page.keyboard.press('Control+j');
+    await openProblems(page);
     await becomes(async () => /cut|reach|fit|long/i.test(await problems(page)), true);
   },
 
@@ -280,7 +288,7 @@ export default {
     const { page } = at;
     await open(at, 'axiom START size (4, 5, 6)\nSTART -> Scope() {Nobody}\n');
     await becomes(() => countOf(page, 'Nobody'), [1]);
-    await page.keyboard.press('Control+j');
+    await openProblems(page);
     await becomes(async () => /Nobody/.test(await problems(page)), true);
     await caretBehind(page, '{Nobody}');
     await page.keyboard.press('Enter');

@@ -73,6 +73,27 @@ export default {
     await untilStep(page, at);
   },
 
+  async aStopIsSetBesideTheText({ page }) {
+    await ready(page);
+    await caretBehind(page, 'color("#555555")');
+    await page.keyboard.press('F9');
+    await page.waitForSelector('.cm-stop');
+    await openGuide(page);
+    await page.getByLabel('Speed').selectOption('20');
+    await page.locator('.stage canvas').focus();
+    await page.keyboard.press('Home');
+    await page.keyboard.press('Space');
+    await page.waitForFunction(() => /Roof/.test(document.querySelector('.tr.on')?.textContent ?? ''));
+    await page.waitForSelector('button[aria-label=Play]');
+    // A click beside the line takes it away, another sets it again.
+    await page.locator('.cm-stop').click();
+    await page.waitForSelector('.cm-stop', { state: 'detached' });
+    const line = await page.locator('.cm-line', { hasText: 'Wall -->' }).boundingBox();
+    const gutter = await page.locator('.cm-stop-gutter').boundingBox();
+    await page.mouse.click(gutter.x + gutter.width / 2, line.y + line.height / 2);
+    await page.waitForSelector('.cm-stop');
+  },
+
   async theGuideIsScrubbedAndStaysWhereItWasWhenTheRulesChange({ page }) {
     await openGuide(page);
     const lane = page.locator('.guide .lane');

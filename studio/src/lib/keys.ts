@@ -10,6 +10,7 @@ export const KEYS: [string, string][] = [
   ['F12', 'go to where a name is defined'],
   ['Shift F12', 'where a name is used'],
   ['F2', 'rename'],
+  ['F9', 'guide: stop at the rule of this line'],
   ['Ctrl .', 'mend what is marked on this line'],
   ['Ctrl Enter', 'select the shapes of the rule'],
   ['Ctrl Space', 'complete'],
@@ -28,4 +29,4 @@ export const KEYS: [string, string][] = [
 ];
 
 /** Those of the text, which the palette sends there. */
-export const EDITOR_KEYS = new Set(['F8', 'Shift F8', 'F12', 'Shift F12', 'F2', 'Ctrl .', 'Ctrl Enter', 'Ctrl Space', 'Ctrl /']);
+export const EDITOR_KEYS = new Set(['F8', 'Shift F8', 'F12', 'Shift F12', 'F2', 'F9', 'Ctrl .', 'Ctrl Enter', 'Ctrl Space', 'Ctrl /']);
