@@ -35,7 +35,7 @@ def sentence(name):
 
 def page(names):
     lines = ["# The studio in pictures", "",
-             "How the page looks at the end of each of its journeys: browser tests that do what a person does, at 1280 × 720 on a "
+             "How the page looks at the end of each of its journeys: browser tests that do what a person does, at 1280 by 720 on a "
              "renderer in software. `tools/journey_pictures.py` makes this page. [The guide](../guide/studio.md) tells how to "
              "do these things.", ""]
     for title, found in names:

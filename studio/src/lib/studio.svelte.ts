@@ -199,6 +199,9 @@ export class Studio {
     this.address = [];
     this.page = 'rules';
     this.reframe = true;
+    // What other rules have made, or are about to, is not shown for these.
+    this.latest = null;
+    this.running?.abort.abort();
     this.changed();
   }
 

@@ -266,15 +266,15 @@ export class SceneView {
 
   /**
    * Shows another model. `lives`: two numbers a leaf, from and up to which step of a derivation it is
-   * there; without, all leaves are.
+   * there; without, all leaves are. False where a later one came first.
    */
-  async setModel(list: DrawList, bounds: Bounds, lives: Float32Array | null = null): Promise<void> {
+  async setModel(list: DrawList, bounds: Bounds, lives: Float32Array | null = null): Promise<boolean> {
     const number = ++this.models;
     const materials = list.looks.map((look) => this.materialOf(look, !!lives));
     const batches = list.batches.map((batch) => this.batched(batch, materials[batch.look]!, lives));
     // Sorting a large model takes a while; the one before stays in sight until then.
     const detail = lives || !Detail.worthIt(batches.map((b) => b.mesh)) ? null : await Detail.of(batches.map((b) => b.mesh), () => number !== this.models);
-    if (number !== this.models) return;
+    if (number !== this.models) return false;
     this.detail = detail;
     for (const { mesh } of this.batches) {
       mesh.geometry.dispose();
@@ -294,6 +294,7 @@ export class SceneView {
     }
     this.leavesStale = true;
     this.redraw();
+    return true;
   }
 
   // Materials stay from one model to the next: a material that nothing uses any more takes its program
@@ -384,7 +385,9 @@ export class SceneView {
     uniforms.reach!.value = Math.max(30, r * 3.2);
     uniforms.cell!.value = r < 12 ? 1 : r < 250 ? 10 : 100;
     if (this.scene.fog instanceof THREE.Fog) {
-      this.scene.fog.near = r * (this.sky_ ? 2.5 : 5);
+      // Who stands in a place looks into the haze; who turns it does not have it between.
+      const inside = this.sky_ && this.navigation && this.navigation.mode !== 'orbit';
+      this.scene.fog.near = r * (inside ? 2.5 : this.sky_ ? 4 : 5);
       this.scene.fog.far = r * (this.sky_ ? 12 : 22);
     }
     const near = this.navigation?.mode === 'walk' ? 0.08 : 0.05;
