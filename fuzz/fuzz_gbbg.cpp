@@ -10,6 +10,7 @@
 
 #include "base/check.h"
 #include "gable/gable.h"
+#include "small_settings.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
@@ -26,12 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     GABLE_CHECK(!m.code.empty() && !m.text.empty());
   }
   if (!rules.ok()) return 0;
-  gable::DeriveSettings settings;
-  settings.jobs = 1;
-  settings.budget.depth = 64;
-  settings.budget.width = 1000;
-  settings.budget.shapes = 2000;
-  settings.budget.vertices = 100000;
+  gable::DeriveSettings settings = smallSettings(2000, 100000);
   const gable::Model shared = gable::derive(rules, gable::Shapes::lot(9, 7), settings);
   settings.sharing = false;
   const gable::Model alone = gable::derive(rules, gable::Shapes::lot(9, 7), settings);

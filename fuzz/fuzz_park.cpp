@@ -10,6 +10,7 @@
 
 #include "base/check.h"
 #include "gable/gable.h"
+#include "small_settings.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
@@ -27,12 +28,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   for (const gable::Message& m : again.messages()) {
     GABLE_CHECK(m.code.find("unexpected") == std::string::npos);
   }
-  gable::DeriveSettings settings;
-  settings.jobs = 1;
-  settings.budget.depth = 64;
-  settings.budget.width = 1000;
-  settings.budget.shapes = 1000;
-  settings.budget.vertices = 50000;
+  gable::DeriveSettings settings = smallSettings(1000, 50000);
   const gable::Model shared = gable::derive(rules, gable::Shapes::lot(20, 20), settings);
   settings.sharing = false;
   const gable::Model alone = gable::derive(rules, gable::Shapes::lot(20, 20), settings);

@@ -35,12 +35,15 @@ class Faces {
       add(s, static_cast<uint32_t>(half_.size()));
     }
     chordsFrom_ = static_cast<uint32_t>(edges.size());
-    for (const Segment& s : chords) add(s, static_cast<uint32_t>(half_.size()));
+    for (const Segment& s : chords) {
+      round_ += length(s.b - s.a);
+      add(s, static_cast<uint32_t>(half_.size()));
+    }
     chordsTo_ = static_cast<uint32_t>(half_.size());
   }
 
   bool run(std::vector<Face>& out) {
-    if (!leadThroughPoints() || !strikeOpposites()) return false;
+    if (!std::isfinite(round_) || !leadThroughPoints() || !strikeOpposites()) return false;
     std::vector<Ring> rings;
     if (!follow(rings)) return false;
     // A face may touch itself in a point.

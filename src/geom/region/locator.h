@@ -88,7 +88,7 @@ class Locator {
  private:
   size_t row(double y) const {
     const double at = (y - box_.min.y) * inverse_;
-    return at > 0 ? std::min(rows_ - 1, static_cast<size_t>(at)) : 0;
+    return at > 0 ? static_cast<size_t>(std::min(at, static_cast<double>(rows_ - 1))) : 0;
   }
   Box2 box_;
   size_t rows_ = 1;

@@ -250,6 +250,7 @@ std::vector<Vec2> scatterPoisson(const Polygon& p, double distance, double edge,
                                  uint64_t seed) {
   const Box2 box = bounds(p);
   if (!(distance > 0) || box.empty() || !std::isfinite(distance)) return {};
+  if (!std::isfinite(length(box.size()))) return {};
   SparsePoints points(box, distance);
   const Locator locator(p);
   const auto isFree = [&](Vec2 c) {

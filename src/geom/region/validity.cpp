@@ -188,7 +188,8 @@ bool allClear(const std::vector<Ring>& rings, double distance) {
     const size_t n = r.size();
     if (n < 3) return false;
     for (size_t i = 0, j = n - 1; i < n; j = i++) {
-      if (!(length(r[i] - r[j]) > 1.0001 * distance)) return false;
+      const double l = length(r[i] - r[j]);
+      if (!(l > 1.0001 * distance) || !std::isfinite(l)) return false;
       if (!cornerClear(r[j], r[i], r[i + 1 == n ? 0 : i + 1], distance)) return false;
     }
   }

@@ -286,8 +286,13 @@ class Voronoi {
         out.push_back(std::move(piece));
       }
     }
-    std::vector<RegionPiece> left = combineTraced(BooleanOp::Difference, wholePiece(p_), taken,
-                                                  {kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide});
+    EdgeSource beside;
+    for (Ring& r : gable::ringsOf(taken)) {
+      beside.origins.resize(beside.origins.size() + r.size(),
+                            {kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide});
+      beside.rings.push_back(std::move(r));
+    }
+    std::vector<RegionPiece> left = leftBeside(wholePiece(p_), taken, beside);
     cells = std::move(out);
     mergeInto(cells, left);
   }
