@@ -82,7 +82,7 @@ const button = (page, name) => page.getByRole('button', { name, exact: true }).c
 async function openProblems(page) {
   await page.waitForFunction(() => /warning|error/.test(document.querySelector('.status')?.textContent ?? ''));
   for (let i = 0; i < 5 && !(await page.locator('.prob').count()); ++i) {
-    await openProblems(page);
+    await page.keyboard.press('Control+j');
     await page.waitForTimeout(500);
   }
 }
