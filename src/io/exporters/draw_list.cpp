@@ -22,6 +22,8 @@ namespace {
 
 /// From so many places on, instances are smaller than merged copies of even a small mesh.
 constexpr uint32_t kOftenEnough = 3;
+// Each geometry of its own is a draw call, or several; beyond so many only those that save most.
+constexpr size_t kMostOwn = 100;
 constexpr uint32_t kMerged = 0xffffffff;
 /// Stands for the zero scale of a flat shape, which no normal survives.
 constexpr double kFlat = 1e-5;
@@ -92,6 +94,7 @@ class Builder {
 
   std::string build() {
     countMeshes();
+    findOften();
     findDrawn();
     for (const Root& r : scene_.roots) {
       addPrototype(scene_.prototypes[r.instance.prototype], r.instance.frame);
@@ -147,6 +150,19 @@ class Builder {
     }
   }
 
+  void findOften() {
+    std::vector<std::pair<double, uint32_t>> own;
+    for (uint32_t m = kFirstMesh; m < uses_.size(); ++m) {
+      if (uses_[m] < kOftenEnough) continue;
+      const double copies = static_cast<double>(uses_[m] - 1);
+      own.push_back({-copies * static_cast<double>(scene_.meshes[m]->positions.size()), m});
+    }
+    std::sort(own.begin(), own.end());
+    if (own.size() > kMostOwn) own.resize(kMostOwn);
+    often_.assign(uses_.size(), false);
+    for (const auto& [saved, m] : own) often_[m] = true;
+  }
+
   uint32_t lookIndex(uint32_t material, const Material& m) {
     const size_t at = material == kNoMaterial ? scene_.materials.size() : material;
     if (looks_[at] == 0) {
@@ -167,7 +183,7 @@ class Builder {
   }
 
   void add(const Leaf& leaf, const Frame& world, uint32_t number) {
-    const bool often = leaf.mesh < kFirstMesh || uses_[leaf.mesh] >= kOftenEnough;
+    const bool often = leaf.mesh < kFirstMesh || often_[leaf.mesh];
     const bool mirrored = leaf.scale.x * leaf.scale.y * leaf.scale.z < 0;
     const Surface& surface = surfaceOf(leaf.mesh);
     for (const SurfacePart& part : surface.parts) {
@@ -294,6 +310,7 @@ class Builder {
   std::vector<bool> drawn_;
   FaceTriangulator triangulator_;
   std::vector<uint64_t> uses_;
+  std::vector<bool> often_;
   /// By material, the default one last: one more than the look, 0 for not asked yet.
   std::vector<uint32_t> looks_;
   std::map<Look, size_t> lookNames_;
