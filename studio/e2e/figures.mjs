@@ -116,7 +116,7 @@ const figures = {
   },
 
   async town(browser) {
-    const folder = project('town', 'castle');
+    const folder = project('town', 'castle', 'gardens', 'monaco', 'haussmann', 'tower', 'rowhouse', 'suburb_house');
     const server = await served(folder);
     await remember(server, 'town/town.cga', { start: '', seed: 1, attributes: {}, shapes: { lot: [1000, 1000] }, limits: { seconds: 400 } });
     const { page, context, complaints } = await openPage(browser, server.url);
