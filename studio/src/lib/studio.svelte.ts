@@ -61,6 +61,12 @@ function sameOr<T>(before: T, now: T): T {
   return JSON.stringify(before) === JSON.stringify(now) ? before : now;
 }
 
+/** A file that is imported with values of its own is listed once more: the first of a name counts. */
+function once<T>(all: T[], key: (one: T) => string): T[] {
+  const seen = new Set<string>();
+  return all.filter((one) => seen.size !== seen.add(key(one)).size);
+}
+
 export function newPlace(): Place {
   return { start: '', seed: 0, attributes: {}, shapes: { lot: [20, 30] } };
 }
@@ -455,9 +461,9 @@ export class Studio {
       if (wasGood && this.stats) this.lastGood = new Date().toLocaleTimeString('en-GB');
       return;
     }
-    this.rules = sameOr(this.rules, derived.rules);
+    this.rules = sameOr(this.rules, once(derived.rules, (r) => `${r.name} ${r.parameters}`));
     this.startRule = derived.startRule;
-    this.attributes = sameOr(this.attributes, derived.attributes);
+    this.attributes = sameOr(this.attributes, once(derived.attributes, (a) => a.name));
     this.values = sameOr(this.values, derived.values ?? {});
     this.stats = derived.stats;
     this.derivation = derived.derivation ?? 0;
