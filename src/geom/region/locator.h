@@ -10,9 +10,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "geom/region/crossing.h"
 #include "geom/region/region.h"
 #include "geom/region/segment_grid.h"
-#include "math/predicates.h"
 
 namespace gable {
 
@@ -71,16 +71,9 @@ class Locator {
     bool inside = false;
     const size_t y = row(p.y);
     for (uint32_t k = starts_[y]; k < starts_[y + 1]; ++k) {
-      const auto [a, b] = edges_[k];
-      if (a == p || b == p) return Where::Boundary;
-      if (a.y == p.y && b.y == p.y) {
-        if (std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x)) return Where::Boundary;
-        continue;
-      }
-      if ((a.y > p.y) == (b.y > p.y)) continue;
-      const int turn = orientation(a, b, p);
-      if (turn == 0) return Where::Boundary;
-      if ((turn > 0) == (b.y > a.y)) inside = !inside;
+      const Crossing crossing = crossingOf(edges_[k].a, edges_[k].b, p);
+      if (crossing == Crossing::Touches) return Where::Boundary;
+      if (crossing == Crossing::Crosses) inside = !inside;
     }
     return inside ? Where::Inside : Where::Outside;
   }

@@ -7,25 +7,16 @@
 
 #include <algorithm>
 
-#include "math/predicates.h"
+#include "geom/region/crossing.h"
 
 namespace gable {
 
-// Counts crossings of the ray from `p` to +x. An edge counts when it spans p.y half-open, so that a
-// vertex on the ray is counted once.
 Where locate(const Ring& r, Vec2 p) {
   bool inside = false;
   for (size_t i = 0, j = r.size() - 1; i < r.size(); j = i++) {
-    const Vec2 a = r[j], b = r[i];
-    if (a == p || b == p) return Where::Boundary;
-    if (a.y == p.y && b.y == p.y) {
-      if (std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x)) return Where::Boundary;
-      continue;
-    }
-    if ((a.y > p.y) == (b.y > p.y)) continue;
-    const int turn = orientation(a, b, p);
-    if (turn == 0) return Where::Boundary;
-    if ((turn > 0) == (b.y > a.y)) inside = !inside;
+    const Crossing crossing = crossingOf(r[j], r[i], p);
+    if (crossing == Crossing::Touches) return Where::Boundary;
+    if (crossing == Crossing::Crosses) inside = !inside;
   }
   return inside ? Where::Inside : Where::Outside;
 }
