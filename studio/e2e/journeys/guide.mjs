@@ -21,6 +21,16 @@ async function openGuide(page) {
   await untilDrawn(page, before);
 }
 
+/** Plays from the beginning, fast, and waits for the guide to stop at that shape. */
+async function playUpTo(page, shape) {
+  await page.getByLabel('Speed').selectOption('20');
+  await page.locator('.stage canvas').focus();
+  await page.keyboard.press('Home');
+  await page.keyboard.press('Space');
+  await page.waitForFunction((name) => document.querySelector('.tr.on')?.textContent?.includes(name), shape);
+  await page.waitForSelector('button[aria-label=Play]');
+}
+
 export default {
   async theGuideGoesStepByStep({ page }) {
     await openGuide(page);
@@ -59,12 +69,7 @@ export default {
   async theGuidePlaysUpToAStop({ page }) {
     await openGuide(page);
     await page.getByLabel('Stop on a rule').selectOption('Roof');
-    await page.getByLabel('Speed').selectOption('20');
-    await page.locator('.stage canvas').focus();
-    await page.keyboard.press('Home');
-    await page.keyboard.press('Space');
-    await page.waitForFunction(() => /Roof/.test(document.querySelector('.tr.on')?.textContent ?? ''));
-    await page.waitForSelector('button[aria-label=Play]');
+    await playUpTo(page, 'Roof');
     const at = await stepOf(page);
     await page.waitForTimeout(300);
     assert.equal(await stepOf(page), at);
@@ -79,12 +84,7 @@ export default {
     await page.keyboard.press('F9');
     await page.waitForSelector('.cm-stop');
     await openGuide(page);
-    await page.getByLabel('Speed').selectOption('20');
-    await page.locator('.stage canvas').focus();
-    await page.keyboard.press('Home');
-    await page.keyboard.press('Space');
-    await page.waitForFunction(() => /Roof/.test(document.querySelector('.tr.on')?.textContent ?? ''));
-    await page.waitForSelector('button[aria-label=Play]');
+    await playUpTo(page, 'Roof');
     // A click beside the line takes it away, another sets it again.
     await page.locator('.cm-stop').click();
     await page.waitForSelector('.cm-stop', { state: 'detached' });

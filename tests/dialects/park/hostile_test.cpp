@@ -4,6 +4,10 @@
 // Regions that are hard: each operation ends with all area given out, or with a word about why not.
 // And the garden of the examples with many seeds: nothing lies on anything else.
 
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "base/random.h"
 #include "geom/region/boolean.h"
 #include "geom/region/hull.h"
@@ -78,11 +82,23 @@ double stepAlong(const Hard& h) {
   return kRegionGrid * (name == "a needle" ? 2000 : name == "one millimetre wide" ? 40 : 0);
 }
 
-TEST(ParkHostile, PartitionsEndWithAllAreaOrAWord) {
+using Metres = std::function<std::string(double share)>;
+
+// The operations on every hard region; lengths are shares of its size.
+void forEachHard(const std::function<std::vector<std::string>(const Metres&)>& operations,
+                 const std::function<void(const Hard&, double size, const std::string& op)>& look) {
   for (const Hard& h : hardRegions()) {
     const double size = h.area > 0 ? std::sqrt(h.area) : 10;
-    const auto metres = [&](double share) { return std::to_string(share * size); };
-    const std::string ops[] = {
+    const Metres metres = [&](double share) { return std::to_string(share * size); };
+    for (const std::string& op : operations(metres)) {
+      if (!takesLong(h, op)) look(h, size, op);
+    }
+  }
+}
+
+TEST(ParkHostile, PartitionsEndWithAllAreaOrAWord) {
+  const auto operations = [](const Metres& metres) -> std::vector<std::string> {
+    return {
         "grid(3, 3, " + metres(0.05) + ") { all : A }",
         "grid(2, 2, 0, \"circle(" + metres(0.1) + ")\", \"template=inner\") { all : A }",
         "voronoi(\"6 {" + metres(0.01) + "}\", " + metres(0.03) + ") { all : A }",
@@ -93,24 +109,21 @@ TEST(ParkHostile, PartitionsEndWithAllAreaOrAWord) {
         "peel(\"longest\", '0.3, \"orthogonal\") { all : A }",
         "peel(\"facing(W)\", " + metres(0.05) + ", \"smooth=average(2)\") { all : A }",
         "quadMap(3, 3) { all : A }"};
-    for (const std::string& op : ops) {
-      if (takesLong(h, op)) continue;
-      const Made m = rules("Lot --> " + op, h.shapes);
-      if (h.area > 0) {
-        EXPECT_NEAR(m.whole, h.area, 1e-5 * h.area + 1e-4 * size + stepAlong(h))
-            << h.name << ": " << op;
-      } else {
-        EXPECT_TRUE(m.whole > 0 || !m.messages.empty()) << h.name << ": " << op;
-      }
+  };
+  forEachHard(operations, [](const Hard& h, double size, const std::string& op) {
+    const Made m = rules("Lot --> " + op, h.shapes);
+    if (h.area > 0) {
+      EXPECT_NEAR(m.whole, h.area, 1e-5 * h.area + 1e-4 * size + stepAlong(h))
+          << h.name << ": " << op;
+    } else {
+      EXPECT_TRUE(m.whole > 0 || !m.messages.empty()) << h.name << ": " << op;
     }
-  }
+  });
 }
 
 TEST(ParkHostile, OtherOperationsLeaveAShapeOrAWord) {
-  for (const Hard& h : hardRegions()) {
-    const double size = h.area > 0 ? std::sqrt(h.area) : 10;
-    const auto metres = [&](double share) { return std::to_string(share * size); };
-    const std::string ops[] = {
+  const auto operations = [](const Metres& metres) -> std::vector<std::string> {
+    return {
         "contract(" + metres(0.05) + ")",
         "contract('0.5)",
         "place(centre, \"circle(" + metres(0.05) + ")\") { B }",
@@ -121,16 +134,15 @@ TEST(ParkHostile, OtherOperationsLeaveAShapeOrAWord) {
         "parametrise(\"_ _ _ _\") { B }",
         "cutHoles()",
         "joined(\"circle(" + metres(0.1) + ") rect(" + metres(0.3) + ", " + metres(0.1) + ")\")"};
-    for (const std::string& op : ops) {
-      if (takesLong(h, op)) continue;
-      const Made m = rules("Lot --> " + op + " A.", h.shapes);
-      EXPECT_TRUE(m.count.count("A") || !m.messages.empty()) << h.name << ": " << op;
-      const auto left = m.area.find("A");
-      if (left != m.area.end() && h.area > 0) {
-        EXPECT_LE(left->second, h.area * (1 + 1e-6) + 1e-6 + stepAlong(h)) << h.name << ": " << op;
-      }
+  };
+  forEachHard(operations, [](const Hard& h, double, const std::string& op) {
+    const Made m = rules("Lot --> " + op + " A.", h.shapes);
+    EXPECT_TRUE(m.count.count("A") || !m.messages.empty()) << h.name << ": " << op;
+    const auto left = m.area.find("A");
+    if (left != m.area.end() && h.area > 0) {
+      EXPECT_LE(left->second, h.area * (1 + 1e-6) + 1e-6 + stepAlong(h)) << h.name << ": " << op;
     }
-  }
+  });
 }
 
 // Convex and not, with holes: the sum of what a rule makes of the corpus is what there was.
