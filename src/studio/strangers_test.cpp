@@ -2,11 +2,7 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // More of what a stranger may try, address by address and notation by notation.
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -16,45 +12,14 @@
 #include "base/json.h"
 #include "gable/studio.h"
 #include "studio/http.h"
+#include "studio/testing/stranger.h"
 
 namespace gable::studio {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace studio::testing;
 using Clock = std::chrono::steady_clock;
-
-int connectTo(int port) {
-  const int s = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in to{};
-  to.sin_family = AF_INET;
-  to.sin_port = htons(static_cast<uint16_t>(port));
-  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  if (connect(s, reinterpret_cast<sockaddr*>(&to), sizeof to) != 0) ADD_FAILURE() << "no server";
-  return s;
-}
-
-/// False when the other side has closed.
-bool send(int s, const std::string& text) {
-  for (size_t sent = 0; sent < text.size();) {
-    const ssize_t n = ::send(s, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
-    if (n <= 0) return false;
-    sent += static_cast<size_t>(n);
-  }
-  return true;
-}
-
-std::string receive(int s) {
-  std::string out;
-  char buffer[4096];
-  for (ssize_t n = 0; (n = recv(s, buffer, sizeof buffer, 0)) > 0;) {
-    out.append(buffer, static_cast<size_t>(n));
-  }
-  return out;
-}
-
-int status(const std::string& answer) {
-  return answer.size() > 12 ? std::stoi(answer.substr(9, 3)) : 0;
-}
 
 // A bare server with little patience: everybody is admitted, everything is answered with a word.
 class Impatient : public ::testing::Test {
@@ -185,24 +150,18 @@ class Stranger : public ::testing::Test {
     settings.project = root_ + "/project";
     settings.page = root_ + "/page";
     settings.token = "right";
-    thread_ = std::thread([this, settings] {
-      runStudio(settings, stop_, [this](const std::string& url) {
-        port_ = std::stoi(url.substr(url.find(':', 7) + 1));
-      });
-    });
-    while (port_ == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    studio_.start(settings);
   }
   void TearDown() override {
-    stop_ = true;
-    thread_.join();
+    studio_.stop();
     fs::remove_all(root_);
   }
   std::string ask(const std::string& line, const std::string& body = {},
                   const std::string& more = "X-Gable-Token: right\r\n") const {
-    const int s = connectTo(port_);
-    send(s, line + " HTTP/1.1\r\nHost: localhost:" + std::to_string(port_) + "\r\n" + more +
-                "Connection: close\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" +
-                body);
+    const int s = connectTo(studio_.port());
+    send(s, line + " HTTP/1.1\r\nHost: localhost:" + std::to_string(studio_.port()) + "\r\n" +
+                more + "Connection: close\r\nContent-Length: " + std::to_string(body.size()) +
+                "\r\n\r\n" + body);
     const std::string out = receive(s);
     close(s);
     return out;
@@ -217,9 +176,7 @@ class Stranger : public ::testing::Test {
   }
 
   std::string root_;
-  std::atomic<bool> stop_{false};
-  std::atomic<int> port_{0};
-  std::thread thread_;
+  RunningStudio studio_;
 };
 
 TEST_F(Stranger, noAddressLeadsOutOfTheProject) {

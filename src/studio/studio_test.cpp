@@ -3,11 +3,7 @@
 //
 // What a stranger may try: paths that lead out, foreign pages, bodies that are huge or slow,
 // thousands of requests, rules that never end.
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -19,11 +15,13 @@
 #include "studio/guard.h"
 #include "studio/project_files.h"
 #include "studio/session.h"
+#include "studio/testing/stranger.h"
 
 namespace gable::studio {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace studio::testing;
 using Clock = std::chrono::steady_clock;
 
 class Folder : public ::testing::Test {
@@ -166,47 +164,17 @@ class Server : public Folder {
     settings.project = project();
     settings.page = root_ + "/page";
     settings.token = "right";
-    thread_ = std::thread([this, settings] {
-      runStudio(settings, stop_, [this](const std::string& url) {
-        port_ = std::stoi(url.substr(url.find(':', 7) + 1));
-      });
-    });
-    while (port_ == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    studio_.start(settings);
   }
   void TearDown() override {
-    stop_ = true;
-    thread_.join();
+    studio_.stop();
     Folder::TearDown();
   }
 
-  int connectTo() const {
-    const int s = socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in to{};
-    to.sin_family = AF_INET;
-    to.sin_port = htons(static_cast<uint16_t>(port_));
-    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    EXPECT_EQ(connect(s, reinterpret_cast<sockaddr*>(&to), sizeof to), 0);
-    return s;
-  }
+  int connectTo() const { return testing::connectTo(studio_.port()); }
   std::string head(const std::string& line, size_t length) const {
-    return line + " HTTP/1.1\r\nHost: localhost:" + std::to_string(port_) +
+    return line + " HTTP/1.1\r\nHost: localhost:" + std::to_string(studio_.port()) +
            "\r\nX-Gable-Token: right\r\nContent-Length: " + std::to_string(length) + "\r\n";
-  }
-  static void send(int s, const std::string& text) {
-    size_t sent = 0;
-    while (sent < text.size()) {
-      const ssize_t n = ::send(s, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
-      if (n <= 0) return;
-      sent += static_cast<size_t>(n);
-    }
-  }
-  static std::string receive(int s) {
-    std::string out;
-    char buffer[4096];
-    for (ssize_t n = 0; (n = recv(s, buffer, sizeof buffer, 0)) > 0;) {
-      out.append(buffer, static_cast<size_t>(n));
-    }
-    return out;
   }
   std::string ask(const std::string& line, const std::string& body = {},
                   const std::string& more = {}) const {
@@ -216,13 +184,8 @@ class Server : public Folder {
     close(s);
     return out;
   }
-  static int status(const std::string& answer) {
-    return answer.size() > 12 ? std::stoi(answer.substr(9, 3)) : 0;
-  }
 
-  std::atomic<bool> stop_{false};
-  std::atomic<int> port_{0};
-  std::thread thread_;
+  RunningStudio studio_;
 };
 
 TEST_F(Server, servesItsPageWithAStrictPolicy) {
@@ -317,10 +280,8 @@ TEST_F(Server, aPageThatIsClosedStopsItsWork) {
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   close(s);
   // The server ends only when its work has ended.
-  stop_ = true;
-  thread_.join();
+  studio_.stop();
   EXPECT_LT(Clock::now() - begin, std::chrono::seconds(10));
-  thread_ = std::thread([] {});
 }
 
 TEST_F(Server, aNewRequestOfAPageEndsTheOneBefore) {
