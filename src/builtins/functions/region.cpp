@@ -27,7 +27,14 @@ Value ny(FunctionCall& call) { return counted(cellOf(call).ny); }
 Value bx(FunctionCall& call) { return counted(cellOf(call).bx()); }
 Value by(FunctionCall& call) { return counted(cellOf(call).by()); }
 Value part(FunctionCall& call) { return counted(cellOf(call).part); }
-Value choice(FunctionCall& call) { return counted(cellOf(call).choice); }
+Value choice(FunctionCall& call) {
+  const CellMark c = cellOf(call);
+  return counted(c.free ? 0 : c.choice);
+}
+Value orphan(FunctionCall& call) {
+  const CellMark c = cellOf(call);
+  return Value::of(c.free && c.choice == 1);
+}
 Value mirroredX(FunctionCall& call) { return Value::of(cellOf(call).mirroredX()); }
 Value mirroredY(FunctionCall& call) { return Value::of(cellOf(call).mirroredY()); }
 Value cellWidth(FunctionCall& call) { return Value::of(cellOf(call).w); }
@@ -98,6 +105,9 @@ constexpr AttributeSpec kAttributes[] = {
      part},
     {"region.choice", kFloat,
      "Which of several figures a junction of a grid is, from 1; 0 is a plain crossing.", choice},
+    {"region.orphan", kBool,
+     "Whether the region is a part of a Voronoi cell that its site is not in, kept by orphans=own.",
+     orphan},
     {"region.mx", kBool, "Whether the cell is mirrored in x; see grid.", mirroredX},
     {"region.my", kBool, "Whether the cell is mirrored in y.", mirroredY},
     {"region.w", kFloat, "Width that the cell was laid out with, before it was cut to the region.",

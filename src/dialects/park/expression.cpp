@@ -28,7 +28,7 @@ constexpr Known kKnown[] = {
     {"iy", "region.iy"},         {"nx", "region.nx"},         {"ny", "region.ny"},
     {"bx", "region.bx"},         {"by", "region.by"},         {"mx", "region.mx"},
     {"my", "region.my"},         {"border", "region.border"}, {"piece", "region.piece"},
-    {"choice", "region.choice"}, {"depth", "region.depth"}};
+    {"choice", "region.choice"}, {"depth", "region.depth"},   {"orphan", "region.orphan"}};
 
 struct Sign {
   std::string_view text;

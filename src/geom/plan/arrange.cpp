@@ -35,10 +35,31 @@ Ring sumOf(const Ring& a, const Ring& b) {
   return convexHull(points);
 }
 
-void addBorder(const Polygon& area, const Ring& shape, Region& out) {
+// Everything within a distance of a convex ring, up to the rounding of the corners: sides are moved
+// exactly, and around a corner a polygon runs outside of the arc, by a hundredth of the distance at
+// most.
+Ring within(const Ring& convex, double distance) {
+  if (!(distance > 0) || convex.size() < 3) return convex;
+  constexpr double kStep = 15;
+  Ring out;
+  const size_t n = convex.size();
+  for (size_t i = 0; i < n; ++i) {
+    const Vec2 in = normalized(convex[i] - convex[(i + n - 1) % n]),
+               next = normalized(convex[(i + 1) % n] - convex[i]);
+    const double turn = atan2Deg(cross(in, next), dot(in, next));
+    const double parts = std::max(1.0, std::ceil(turn / kStep - 1e-9)), half = turn / parts / 2;
+    const double first = atan2Deg(-in.x, in.y);
+    for (double k = 0; k < parts; ++k) {
+      out.push_back(convex[i] + unit(first + (2 * k + 1) * half) * (distance / cosDeg(half)));
+    }
+  }
+  return out;
+}
+
+void addBorder(const Polygon& area, const Ring& shape, double edge, Region& out) {
   const auto add = [&](const Ring& ring) {
     for (size_t i = 0; i < ring.size(); ++i) {
-      Ring sum = sumOf({ring[i], ring[(i + 1) % ring.size()]}, shape);
+      Ring sum = within(sumOf({ring[i], ring[(i + 1) % ring.size()]}, shape), edge);
       if (sum.size() > 2) out.push_back({std::move(sum), {}});
     }
   };
@@ -100,9 +121,9 @@ std::vector<ArrangedPlace> arrange(const Polygon& area, const std::vector<Footpr
     const Footprint& f = footprints[i];
     if (!isSound(f)) continue;
     Region blocked;
-    for (const Polygon& p : ground) addBorder(p, f.at({}, edge + kRounding), blocked);
-    const Ring withGap = f.at({}, gap + kRounding);
-    for (const Ring& other : placed) blocked.push_back({sumOf(other, withGap), {}});
+    const Ring shape = f.at({}, kRounding);
+    for (const Polygon& p : ground) addBorder(p, shape, edge, blocked);
+    for (const Ring& other : placed) blocked.push_back({within(sumOf(other, shape), gap), {}});
     ArrangedPlace& place = out[i];
     place.placed = nearestIn(subtract(ground, blocked), f.wish, place.middle);
     if (place.placed) placed.push_back(f.at(place.middle));

@@ -8,9 +8,9 @@
 //  1. What is placed lies within the area, `edge` from its border and `gap` from all others, up to
 //     a tenth of a millimetre.
 //  2. The largest are placed first, of equals the first, or all in the order given; none is moved
-//     afterwards. A rectangle gets the place nearest to its wish that is free at its turn, where
-//     distances to others are measured along its own sides; there is no place only where there is
-//     none.
+//     afterwards. A rectangle gets the place nearest to its wish that is free at its turn; only
+//     from corner to corner a hundredth more than the gap may be kept. There is no place only where
+//     there is none.
 //  3. Equal input gives equal output.
 #pragma once
 

@@ -32,6 +32,17 @@ struct Ray {
   double at = 0;
 };
 
+// Whether two segments have a point in common; on one line they must overlap.
+bool meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  const int p = orientation(a, b, c), q = orientation(a, b, d);
+  if (p * q > 0 || orientation(c, d, a) * orientation(c, d, b) > 0) return false;
+  if (p != 0 || q != 0) return true;
+  const auto apart = [](double from, double to, double other, double end) {
+    return std::max(from, to) < std::min(other, end) || std::max(other, end) < std::min(from, to);
+  };
+  return !apart(a.x, b.x, c.x, d.x) && !apart(a.y, b.y, c.y, d.y);
+}
+
 class Rays {
  public:
   Rays(const Polygon& p, const RayOptions& o) : p_(p), o_(o), edges_(edgesOf(p)) {
@@ -162,17 +173,14 @@ class Rays {
   }
 
   bool sees(Vec2 a, Vec2 b) const {
-    return std::none_of(edges_.begin(), edges_.end(), [&](const Segment& e) {
-      return orientation(a, b, e.a) * orientation(a, b, e.b) <= 0 &&
-             orientation(e.a, e.b, a) * orientation(e.a, e.b, b) <= 0;
-    });
+    return std::none_of(edges_.begin(), edges_.end(),
+                        [&](const Segment& e) { return meet(a, b, e.a, e.b); });
   }
 
   bool crossesAny(Vec2 a, Vec2 b) const {
     const auto meets = [&](const Ray& r) {
       if (r.from == a || r.from == b || r.to == a || r.to == b) return false;
-      return orientation(a, b, r.from) * orientation(a, b, r.to) <= 0 &&
-             orientation(r.from, r.to, a) * orientation(r.from, r.to, b) <= 0;
+      return meet(a, b, r.from, r.to);
     };
     return std::any_of(links_.begin(), links_.end(), meets);
   }
@@ -199,9 +207,7 @@ class Rays {
     std::vector<Ray> kept;
     for (const Ray& r : rays_) {
       const bool crosses = std::any_of(kept.begin(), kept.end(), [&](const Ray& k) {
-        return !(k.from == r.from) &&
-               orientation(k.from, k.to, r.from) * orientation(k.from, k.to, r.to) <= 0 &&
-               orientation(r.from, r.to, k.from) * orientation(r.from, r.to, k.to) <= 0;
+        return !(k.from == r.from) && meet(k.from, k.to, r.from, r.to);
       });
       if (!crosses) kept.push_back(r);
     }

@@ -4,6 +4,7 @@
 // Paths from centres to the boundary; the kernel is geom/region/rays.
 #include "geom/region/rays.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/number.h"
@@ -80,19 +81,48 @@ Status targetsOf(OpCall& call, const RegionView& view, std::vector<RayTarget>& o
       }
       if ((!bracket || r.accept(']')) && r.accept(')')) return {};
     }
+    std::vector<Disc> places;
+    if (readPoints(call.text(1), places)) {
+      const Vec2 corner = bounds(view.polygon()).min;
+      for (const Disc& d : places) out.push_back({RayTarget::Kind::Point, d.centre + corner});
+      return {};
+    }
     n = -1;
   }
   if (!(n >= 0 && n <= 1000)) {
     return call.fail(
         "bad-argument", "these are no targets for rays",
-        "write corners, a count, \"directions(0, 90)\", \"entrances(0.5, 2.5)\" or a list of "
-        "coordinates");
+        "write corners, a count, \"directions(0, 90)\", \"entrances(0.5, 2.5)\" or places, \"(3, 4) "
+        "(10, 4)\"");
   }
   for (double k = 0; k < n; ++k) {
     const double a = 360 * k / n;
     out.push_back({RayTarget::Kind::Direction, {cosDeg(a), sinDeg(a)}});
   }
   return {};
+}
+
+// How several centres are joined, and whether rays end at what hides their target.
+Status linksOf(const OpCall& call, RayOptions& o) {
+  const Status status = optionsAre(call, 4, "hidden=drop|stop connect=* share=#");
+  if (!status.ok()) return status;
+  const std::string options = textOf(call, 4, ""), links = option(options, "connect");
+  o.stopHidden = option(options, "hidden") == "stop";
+  parseNumber(option(options, "share"), o.thin);
+  TextReader r(links);
+  const std::string word = r.word();
+  constexpr std::pair<std::string_view, CentreLinks> kKnown[] = {
+      {"tree", CentreLinks::Tree},         {"none", CentreLinks::None},
+      {"loop", CentreLinks::Loop},         {"pairs", CentreLinks::Pairs},
+      {"opposite", CentreLinks::Opposite}, {"thin", CentreLinks::Thin}};
+  const auto* found = std::find_if(std::begin(kKnown), std::end(kKnown),
+                                   [&](const auto& k) { return k.first == word; });
+  bool read = links.empty() || found != std::end(kKnown);
+  if (!links.empty() && read) o.links = found->second;
+  if (word == "thin" && r.accept('(')) read = r.number(o.thin) && r.accept(')');
+  if (read && r.atEnd() && o.thin >= 0 && o.thin <= 1) return {};
+  return call.fail("bad-argument", "centres cannot be joined so",
+                   "write connect=tree, none, loop, pairs, opposite or thin(0.5), a share of 0 to 1");
 }
 
 Status applyCastRays(OpCall& call) {
@@ -112,16 +142,7 @@ Status applyCastRays(OpCall& call) {
   } else if (!figure.empty() && figure != "none" && !readFigure(figure, o.centre, problem)) {
     return call.fail("bad-argument", problem, "write a radius, circle(r), square(a) or romb(r)");
   }
-  const std::string options = textOf(call, 4, "");
-  o.stopHidden = option(options, "hidden") == "stop";
-  const std::string links = option(options, "connect");
-  o.links = links == "none"       ? CentreLinks::None
-            : links == "loop"     ? CentreLinks::Loop
-            : links == "pairs"    ? CentreLinks::Pairs
-            : links == "opposite" ? CentreLinks::Opposite
-            : links == "thin"     ? CentreLinks::Thin
-                                  : CentreLinks::Tree;
-  parseNumber(option(options, "share"), o.thin);
+  if (const Status status = linksOf(call, o); !status.ok()) return status;
   for (size_t f = 0; f < job.faces().size(); ++f) {
     RegionView& view = *job.faces()[f];
     std::vector<Vec2> centres;
@@ -135,17 +156,31 @@ Status applyCastRays(OpCall& call) {
                         "give more targets, or a centre that sees them");
     }
     if (r.moved) {
+      const bool any = std::any_of(centres.begin(), centres.end(), [&](Vec2 c) {
+        return locate(view.polygon(), c) == Where::Inside;
+      });
       call.services().warn("centre-moved",
-                           "'castRays': a centre outside of the region was left out",
+                           any ? "'castRays': a centre outside of the region was left out"
+                               : "'castRays': the centre is outside of the region; rays come from "
+                                 "its middle",
                            "give coordinates in the region");
     }
+    const auto cells = static_cast<uint32_t>(std::count_if(
+        r.pieces.begin(), r.pieces.end(),
+        [](const RegionPiece& p) { return p.kind == PieceKind::Cell; }));
     for (RegionPiece& p : r.pieces) {
       std::vector<EdgeMark> marks =
           view.marksOf(p, p.kind == PieceKind::Cell ? EdgeIndex::Sector : EdgeIndex::Inherited);
       const std::string_view word = p.kind == PieceKind::Cell   ? "region"
                                     : p.kind == PieceKind::Path ? "path"
                                                                 : "centre";
-      job.keep(f, word, std::move(p), std::move(marks), std::nullopt);
+      std::optional<CellMark> cell;
+      if (p.kind == PieceKind::Cell) {
+        const Vec2 size = bounds(p.polygon).size();
+        cell = CellMark{p.ix, 0, cells, 1, size.x, size.y, CellPattern::Local, p.part};
+        cell->free = true;
+      }
+      job.keep(f, word, std::move(p), std::move(marks), cell);
     }
   }
   job.emit();
@@ -155,14 +190,14 @@ Status applyCastRays(OpCall& call) {
 constexpr ParamSpec kParams[] = {
     {"centres", ParamType::Any,
      "\"centre\", a text \"1 {15}\" (places scattered so far from the boundary and each other), "
-     "or a list of coordinates."},
+     "places \"(3, 4) (10, 4)\", or a list of coordinates."},
     {"targets", ParamType::Any,
      "\"corners\", a count of equal angles, \"directions(0, 90)\", \"entrances(0.5, 2.5)\" (places "
-     "along logical edges: here the middles of 0 and 2), or a list of coordinates."},
+     "along logical edges: here the middles of 0 and 2), places, or a list of coordinates."},
     {"pathWidth", ParamType::Float, "Of the paths along rays; 0 for none.", "3"},
     {"centre", ParamType::Any, "Around each centre: a radius, or a figure as \"square(4)\".", "0"},
     {"options", ParamType::String,
-     "hidden=drop|stop, connect=tree|none|loop|pairs|opposite|thin, share=0.5 (of thin).", "\"\""},
+     "hidden=drop|stop, connect=tree|none|loop|pairs|opposite|thin(0.5).", "\"\""},
 };
 constexpr Signature kSignatures[] = {{kParams}};
 

@@ -15,45 +15,59 @@ namespace {
 
 bool isFigure(const PlanFigure& f) { return f.a > 0 && f.b > 0 && std::isfinite(f.a + f.b); }
 
-// The shape becomes the figures around its middle, as far as they lie in it.
-Status become(OpCall& call, std::span<const PlanFigure> figures) {
+// Of a shape without a face: the figures in the ground plane of its scope.
+void setFigures(Shape& s, const Region& figures) {
+  MeshBuilder b;
+  for (const Polygon& p : figures) {
+    std::vector<uint32_t> corners;
+    for (const Vec2 v : p.outer) corners.push_back(b.addPosition(fromPlan(v)));
+    b.addPolygon(corners);
+  }
+  setMesh(s, b.take(), ScopeFit::Refit);
+}
+
+// The shape becomes the figures around its middle, as far as they lie in it unless they are free.
+// Of a region of several pieces it is the middle of the largest.
+Status become(OpCall& call, std::span<const PlanFigure> figures, size_t reach) {
   if (!std::all_of(figures.begin(), figures.end(), isFigure)) {
     return call.fail("bad-argument", "a figure needs lengths above zero", "write 1 or more");
   }
   RegionJob job(call);
-  Shape& s = call.shape();
   const auto around = [&](Vec2 middle) {
     std::vector<Ring> rings;
     for (const PlanFigure& f : figures) rings.push_back(ringOf(f, middle));
     return rings.size() == 1 ? Region{{rings[0], {}}} : repaired(rings, FillRule::NonZero);
   };
   if (job.empty()) {
-    MeshBuilder b;
-    for (const Polygon& p : around({0, 0})) {
-      std::vector<uint32_t> corners;
-      for (const Vec2 v : p.outer) corners.push_back(b.addPosition(fromPlan(v)));
-      b.addPolygon(corners);
-    }
-    setMesh(s, b.take(), ScopeFit::Refit);
+    setFigures(call.shape(), around({0, 0}));
     return {};
   }
-  if (job.faces().size() != 1) {
-    return call.fail("no-geometry", "the shape is not one face",
-                     "take it apart first: comp(f) { all : ... }");
-  }
-  RegionView& view = *job.faces()[0];
-  const Region together = around(middleOf(view.polygon()));
+  if (!job.flat()) return noOneRegion(call);
+  const size_t face = job.largest();
+  const Polygon& region = job.faces()[face]->polygon();
+  const Region together = around(middleOf(region));
   const EdgeOrigin made{kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide};
-  const std::vector<RegionPiece> pieces =
-      combineTraced(BooleanOp::Intersection, wholePiece(view.polygon()), together, made);
-  if (pieces.empty()) {
-    return call.fail("region-vanished", "nothing of the figure lies in the region",
-                     "make it larger");
+  std::vector<std::vector<RegionPiece>> pieces(job.faces().size());
+  if (call.is(reach, "free")) {
+    const EdgeSource sources[] = {sourceOf(region)};
+    for (const Polygon& p : together) {
+      RegionPiece piece = wholePiece(p);
+      piece.edges = originsOf(p, sources, made);
+      pieces[face].push_back(std::move(piece));
+    }
+  } else {
+    pieces[face] = combineTraced(BooleanOp::Intersection, wholePiece(region), together, made);
   }
-  view.replace(s, pieces, true);
+  if (pieces[face].empty()) {
+    return failOrElse(call, "region-vanished", "nothing of the figure lies in the region",
+                      "make it larger, or free");
+  }
+  job.replace(call.shape(), pieces, true);
   return {};
 }
-Status become(OpCall& call, const PlanFigure& figure) { return become(call, {&figure, 1}); }
+Status become(OpCall& call, const PlanFigure& figure, size_t reach) {
+  return become(call, {&figure, 1}, reach);
+}
 
 // "romb(3) rect(8, 2)": one after the other.
 Status applyJoined(OpCall& call) {
@@ -75,35 +89,42 @@ Status applyJoined(OpCall& call) {
     return call.fail("bad-argument", "there are no figures to join",
                      "write joined(\"romb(3) rect(8, 2)\")");
   }
-  return become(call, figures);
+  return become(call, figures, 1);
 }
 
 Status applyCircle(OpCall& call) {
   const double n = std::clamp(call.number(1, 24), 3.0, 1000.0);
-  return become(call, {PlanShape::Circle, call.number(0), 1, static_cast<uint32_t>(n)});
+  return become(call, {PlanShape::Circle, call.number(0), 1, static_cast<uint32_t>(n)}, 2);
 }
-Status applyRomb(OpCall& call) { return become(call, {PlanShape::Romb, call.number(0), 1, 4}); }
-Status applySquare(OpCall& call) { return become(call, {PlanShape::Square, call.number(0), 1, 4}); }
+Status applyRomb(OpCall& call) { return become(call, {PlanShape::Romb, call.number(0), 1, 4}, 1); }
+Status applySquare(OpCall& call) { return become(call, {PlanShape::Square, call.number(0), 1, 4}, 1); }
 Status applyRect(OpCall& call) {
-  return become(call, {PlanShape::Rect, call.number(0), call.number(1), 4});
+  return become(call, {PlanShape::Rect, call.number(0), call.number(1), 4}, 2);
 }
 Status applyPolygon(OpCall& call) {
   const double n = std::clamp(call.number(0), 3.0, 1000.0);
-  return become(call, {PlanShape::Polygon, call.number(1), 1, static_cast<uint32_t>(n)});
+  return become(call, {PlanShape::Polygon, call.number(1), 1, static_cast<uint32_t>(n)}, 2);
 }
 
+constexpr ParamSpec kReach = {
+    "reach", ParamType::Selector,
+    "inside: only as far as the figure lies in the region; free: all of it.", "inside",
+    "inside free"};
 constexpr ParamSpec kRadius = {"radius", ParamType::Float, "From the middle to a corner."};
 constexpr ParamSpec kCircle[] = {
     {"radius", ParamType::Float, "In metres."},
-    {"segments", ParamType::Float, "How many sides stand for the circle.", "24"}};
-constexpr ParamSpec kRomb[] = {kRadius};
-constexpr ParamSpec kSquare[] = {{"side", ParamType::Float, "In metres."}};
+    {"segments", ParamType::Float, "How many sides stand for the circle.", "24"},
+    kReach};
+constexpr ParamSpec kRomb[] = {kRadius, kReach};
+constexpr ParamSpec kSquare[] = {{"side", ParamType::Float, "In metres."}, kReach};
 constexpr ParamSpec kRect[] = {{"width", ParamType::Float, "Along x."},
-                               {"height", ParamType::Float, "Across."}};
-constexpr ParamSpec kPolygon[] = {{"sides", ParamType::Float, "Three or more."}, kRadius};
+                               {"height", ParamType::Float, "Across."},
+                               kReach};
+constexpr ParamSpec kPolygon[] = {{"sides", ParamType::Float, "Three or more."}, kRadius, kReach};
 constexpr Signature kCircleSignatures[] = {{kCircle}};
 constexpr ParamSpec kJoined[] = {
-    {"figures", ParamType::String, "One after the other: \"romb(3) rect(8, 2)\"."}};
+    {"figures", ParamType::String, "One after the other: \"romb(3) rect(8, 2)\"."},
+    kReach};
 constexpr Signature kJoinedSignatures[] = {{kJoined}};
 constexpr Signature kRombSignatures[] = {{kRomb}};
 constexpr Signature kSquareSignatures[] = {{kSquare}};
@@ -112,17 +133,17 @@ constexpr Signature kPolygonSignatures[] = {{kPolygon}};
 
 constexpr OpSpec kSpecs[] = {
     {"circle", "region", "Replaces a region by a circle in its middle.", kCircleSignatures,
-     applyCircle, BlockKind::None, kPure, nullptr, false, true},
+     applyCircle, BlockKind::Operations, kPure, "otherwise", true, true},
     {"joined", "region", "Replaces a region by several figures in its middle, united.",
-     kJoinedSignatures, applyJoined, BlockKind::None, kPure, nullptr, false, true},
+     kJoinedSignatures, applyJoined, BlockKind::Operations, kPure, "otherwise", true, true},
     {"rect", "region", "Replaces a region by a rectangle in its middle.", kRectSignatures,
-     applyRect, BlockKind::None, kPure, nullptr, false, true},
+     applyRect, BlockKind::Operations, kPure, "otherwise", true, true},
     {"regularPolygon", "region", "Replaces a region by a polygon of equal sides in its middle.",
-     kPolygonSignatures, applyPolygon, BlockKind::None, kPure, nullptr, false, true},
+     kPolygonSignatures, applyPolygon, BlockKind::Operations, kPure, "otherwise", true, true},
     {"romb", "region", "Replaces a region by a square on its corner in its middle.",
-     kRombSignatures, applyRomb, BlockKind::None, kPure, nullptr, false, true},
+     kRombSignatures, applyRomb, BlockKind::Operations, kPure, "otherwise", true, true},
     {"square", "region", "Replaces a region by a square in its middle.", kSquareSignatures,
-     applySquare, BlockKind::None, kPure, nullptr, false, true},
+     applySquare, BlockKind::Operations, kPure, "otherwise", true, true},
 };
 
 }  // namespace

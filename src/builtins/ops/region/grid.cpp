@@ -32,6 +32,19 @@ Status dimensionOf(const OpCall& call, size_t argument, GridDim& out) {
   return call.fail("bad-argument", problem, "write a count, a list of sizes or \"3 {2, 6, 2}\"");
 }
 
+// Of 0 cells there is one, but no line.
+bool countsNone(const OpCall& call, size_t argument) {
+  const std::string text = textOf(call, argument, "");
+  TextReader r(text);
+  double n = 1;
+  return r.number(n) && n < 1;
+}
+
+constexpr std::string_view kOptions =
+    "fit=stretch|center|centre|fail template=auto|corners|obb|aabb|inner "
+    "pattern=auto|centre|center|pair|mirror|extend|extendl|extendr|local|radial dominance=x|y|split "
+    "symxy lines sliver=# minarea=#";
+
 Status optionsOf(const OpCall& call, GridOptions& o) {
   Status status = dimensionOf(call, 0, o.x);
   if (status.ok()) status = dimensionOf(call, 1, o.y);
@@ -48,6 +61,8 @@ Status optionsOf(const OpCall& call, GridOptions& o) {
                      "write romb(r), circle(r), square(a), rect(a, b) or polygon(n, r), or several "
                      "of them with | between");
   }
+  status = optionsAre(call, 4, kOptions);
+  if (!status.ok()) return status;
   const std::string options = textOf(call, 4, "");
   const std::string fit = option(options, "fit"), base = option(options, "template");
   o.fit = fit == "fail"                        ? GridFit::Fail
@@ -58,10 +73,12 @@ Status optionsOf(const OpCall& call, GridOptions& o) {
            : base == "aabb"  ? GridTemplate::Axes
            : base == "inner" ? GridTemplate::Inner
                              : GridTemplate::Auto;
+  parseNumber(option(options, "sliver"), o.sliver);
+  parseNumber(option(options, "minarea"), o.minArea);
   // The other way to count: lines instead of cells.
   if (!option(options, "lines").empty()) {
-    if (o.x.count > 0) ++o.x.count;
-    if (o.y.count > 0) ++o.y.count;
+    if (o.x.count > 0 && !countsNone(call, 0)) ++o.x.count;
+    if (o.y.count > 0 && !countsNone(call, 1)) ++o.y.count;
   }
   return {};
 }
@@ -90,13 +107,41 @@ std::string_view wordOf(PieceKind kind) {
   return "remainder";
 }
 
+// Edges at 45 degrees to the cell are divided in their middle: each half goes to the side beside it.
+void divideDiagonals(RegionPiece& p) {
+  const Ring& r = p.polygon.outer;
+  const Vec2 x = normalized(p.axis);
+  Ring ring;
+  std::vector<EdgeOrigin> edges;
+  for (size_t i = 0; i < r.size(); ++i) {
+    const Vec2 a = r[i], b = r[(i + 1) % r.size()], n = -perpendicular(b - a);
+    const double u = dot(n, x), v = dot(n, perpendicular(x));
+    ring.push_back(a);
+    edges.push_back(p.edges[i]);
+    if (!isDiagonal(u, v)) continue;
+    const uint8_t across = u < 0 ? 0 : 2, along = v > 0 ? 1 : 3;
+    // Counter-clockwise east comes before north, north before west, and so on.
+    const bool acrossFirst = (u > 0) == (v > 0);
+    edges.back().side = acrossFirst ? across : along;
+    ring.push_back((a + b) * 0.5);
+    edges.push_back(p.edges[i]);
+    edges.back().side = acrossFirst ? along : across;
+  }
+  edges.insert(edges.end(), p.edges.begin() + static_cast<std::ptrdiff_t>(r.size()), p.edges.end());
+  p.polygon.outer = std::move(ring);
+  p.edges = std::move(edges);
+}
+
 Status applyGrid(OpCall& call) {
   GridOptions options;
   Status status = optionsOf(call, options);
   if (!status.ok()) return status;
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
-  const std::string text = textOf(call, 4, "");
+  const std::string text = textOf(call, 4, ""), dominance = option(text, "dominance");
+  const EdgeIndex sides = dominance == "y"       ? EdgeIndex::GridByY
+                          : dominance == "split" ? EdgeIndex::GridSplit
+                                                 : EdgeIndex::Grid;
   for (size_t f = 0; f < job.faces().size(); ++f) {
     RegionView& view = *job.faces()[f];
     options.seed = call.randomAddress(f);
@@ -108,8 +153,7 @@ Status applyGrid(OpCall& call) {
                            "make them smaller, or the cells larger");
     }
     for (RegionPiece& p : g.pieces) {
-      const EdgeIndex sides =
-          option(text, "dominance") == "y" ? EdgeIndex::GridByY : EdgeIndex::Grid;
+      if (dominance == "split" && p.kind == PieceKind::Cell) divideDiagonals(p);
       std::vector<EdgeMark> marks =
           view.marksOf(p, p.kind == PieceKind::Remainder ? EdgeIndex::Inherited : sides);
       std::optional<CellMark> cell;
@@ -124,6 +168,7 @@ Status applyGrid(OpCall& call) {
                         patternNamed(option(text, "pattern")),
                         p.part,
                         p.choice};
+        cell->symmetric = !option(text, "symxy").empty();
       }
       const std::string_view word = wordOf(p.kind);
       job.keep(f, word, std::move(p), std::move(marks), cell);
@@ -178,8 +223,10 @@ constexpr ParamSpec kParams[] = {
      "\"none\""},
     {"options", ParamType::String,
      "fit=stretch|center|fail, template=auto|corners|obb|aabb|inner, "
-     "pattern=auto|centre|pair|mirror|extend|local|radial, dominance=x|y (which side an edge at 45 "
-     "degrees belongs to), lines.",
+     "pattern=auto|centre|pair|mirror|extend|local|radial, dominance=x|y|split (which side an edge "
+     "at 45 degrees belongs to; split: half to each), symxy (region.bx is never above region.by, so "
+     "that cells on both sides of a diagonal are alike), lines (counts are of paths), sliver=0.02 "
+     "and minarea=0.25: what is thinner or smaller goes to a neighbour.",
      "\"\""},
 };
 constexpr Signature kSignatures[] = {{kParams}};

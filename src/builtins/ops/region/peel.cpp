@@ -84,15 +84,16 @@ Status edgesOf(OpCall& call, const RegionJob& job, size_t f, double distance,
 Status applyPeel(OpCall& call) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
+  if (const Status status = optionsAre(call, 2, "orthogonal smooth=*"); !status.ok()) {
+    return status;
+  }
   const std::string options = textOf(call, 2, "");
   const PeelEnds ends =
       option(options, "orthogonal").empty() ? PeelEnds::Follow : PeelEnds::Orthogonal;
   Smoothing smoothing;
-  if (const size_t at = options.find("smooth="); at != std::string::npos) {
-    if (!readSmoothing(std::string_view(options).substr(at + 7), smoothing)) {
-      return call.fail("bad-argument", "there is no such smoothing",
-                       "write smooth=average(2), chaikin(2) or bezier, after other options");
-    }
+  if (!readSmoothing(option(options, "smooth"), smoothing)) {
+    return call.fail("bad-argument", "there is no such smoothing",
+                     "write smooth=average(2), chaikin(2) or bezier");
   }
   for (size_t f = 0; f < job.faces().size(); ++f) {
     RegionView& view = *job.faces()[f];
@@ -126,66 +127,59 @@ Status applyPeel(OpCall& call) {
   return {};
 }
 
+// Of a face: moved inward by a distance and, towards a centre, drawn together besides.
+std::vector<RegionPiece> contracted(const Polygon& p, const Value& size, bool towards) {
+  if (size.unit == Unit::Relative) return contractTowards(p, size.number, middleOf(p));
+  std::vector<RegionPiece> pieces = contract(p, size.number);
+  if (!towards || pieces.empty()) return pieces;
+  const double radius = poleOf(p).radius;
+  const double share = radius > 0 ? std::min(0.9, size.number / radius) : 0;
+  std::vector<RegionPiece> both;
+  const EdgeOrigin made{kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide};
+  Region inner;
+  for (const RegionPiece& c : contractTowards(p, share, middleOf(p))) inner.push_back(c.polygon);
+  for (const RegionPiece& c : pieces) {
+    for (RegionPiece& part : combineTraced(BooleanOp::Intersection, c, inner, made)) {
+      both.push_back(std::move(part));
+    }
+  }
+  return both;
+}
+
 Status applyContract(OpCall& call) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
+  if (!job.flat()) return noOneRegion(call);
   const Value& v = call.arg(0);
-  const bool towards = call.has(1) || v.unit == Unit::Relative;
-  Shape shape = call.shape();
-  if (job.faces().size() != 1) {
-    return failOrElse(call, "no-geometry", "only a shape of one face can be contracted",
-                      "take it apart first: comp(f) { all : contract(1) }");
-  }
-  RegionView& view = *job.faces()[0];
   if (!std::isfinite(v.number) || v.number < 0) {
     return call.fail("bad-argument", "a region is contracted by zero or more",
                      "write metres, or a share: '0.2");
   }
-  std::vector<RegionPiece> pieces;
-  if (v.unit == Unit::Relative) {
-    pieces = contractTowards(view.polygon(), v.number, middleOf(view.polygon()));
-  } else {
-    pieces = contract(view.polygon(), v.number);
-    if (towards && !pieces.empty()) {
-      const double radius = poleOf(view.polygon()).radius;
-      const double share = radius > 0 ? std::min(0.9, v.number / radius) : 0;
-      std::vector<RegionPiece> both;
-      const EdgeOrigin made{kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide};
-      Region inner;
-      for (const RegionPiece& p :
-           contractTowards(view.polygon(), share, middleOf(view.polygon()))) {
-        inner.push_back(p.polygon);
-      }
-      for (const RegionPiece& p : pieces) {
-        for (RegionPiece& c : combineTraced(BooleanOp::Intersection, p, inner, made)) {
-          both.push_back(std::move(c));
-        }
-      }
-      pieces = std::move(both);
-    }
+  std::vector<std::vector<RegionPiece>> pieces;
+  bool any = false;
+  for (const auto& view : job.faces()) {
+    pieces.push_back(contracted(view->polygon(), v, call.has(1)));
+    any = any || !pieces.back().empty();
   }
-  if (pieces.empty()) {
+  if (!any) {
     return failOrElse(call, "region-vanished", "nothing of the region is left",
                       "contract by less; half of its width is the most");
   }
-  view.replace(shape, pieces);
-  call.shape() = std::move(shape);
+  job.replace(call.shape(), pieces);
   return {};
 }
 
 Status applyCutHoles(OpCall& call) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
-  if (job.faces().size() != 1) {
-    return call.fail("no-geometry", "the shape is not one face",
-                     "take it apart first: comp(f) { all : cutHoles }");
-  }
-  RegionView& view = *job.faces()[0];
-  if (view.polygon().holes.empty()) return {};
-  const std::vector<RegionPiece> pieces = withoutHoles(view.polygon());
-  Shape shape = call.shape();
-  view.replace(shape, pieces, true);
-  call.shape() = std::move(shape);
+  if (!job.flat()) return noOneRegion(call);
+  const bool holes =
+      std::any_of(job.faces().begin(), job.faces().end(),
+                  [](const auto& view) { return !view->polygon().holes.empty(); });
+  if (!holes) return {};
+  std::vector<std::vector<RegionPiece>> pieces;
+  for (const auto& view : job.faces()) pieces.push_back(withoutHoles(view->polygon()));
+  job.replace(call.shape(), pieces, true);
   return {};
 }
 

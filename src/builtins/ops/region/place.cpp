@@ -36,14 +36,38 @@ Quad cornersOf(const RegionView& view) {
   return {box.at(0, 0), box.at(box.width, 0), box.at(box.width, box.height), box.at(0, box.height)};
 }
 
+bool hasFourSides(const RegionView& view) {
+  bool has[4] = {};
+  for (size_t i = 0; i < view.polygon().outer.size(); ++i) {
+    if (view.marks()[i].logical < 4) has[view.marks()[i].logical] = true;
+  }
+  return view.logicalCount() == 4 && has[0] && has[1] && has[2] && has[3];
+}
+
+// Of a region that is no quadrilateral: where, clockwise, logical edge k begins, or the next one that
+// there is. Corner 0 of a sector is its centre.
+Vec2 logicalCorner(const RegionView& view, uint32_t k) {
+  const Ring& r = view.polygon().outer;
+  const size_t n = r.size();
+  const uint32_t count = std::max(1u, view.logicalCount());
+  for (uint32_t step = 0; step < count; ++step) {
+    const uint32_t wanted = (k + step) % count;
+    for (size_t i = 0; i < n; ++i) {
+      const size_t next = (i + 1) % n;
+      if (view.marks()[i].logical == wanted && view.marks()[next].logical != wanted) return r[next];
+    }
+  }
+  return r[0];
+}
+
 // The corners of the outline between two edges that a selection means.
-Status cornersBetween(OpCall& call, const RegionJob& job, std::string_view selection,
+Status cornersBetween(OpCall& call, const RegionJob& job, size_t face, std::string_view selection,
                       std::vector<Vec2>& out) {
-  const RegionView& view = *job.faces()[0];
+  const RegionView& view = *job.faces()[face];
   const Ring& r = view.polygon().outer;
   std::vector<EdgePart> parts;
   std::string problem;
-  const SelectionInput input{view, call.randomAddress(1000), job.worldIn(0)};
+  const SelectionInput input{view, call.randomAddress(1000 + face), job.worldIn(face)};
   if (!selectEdges(selection, input, parts, problem)) {
     return call.fail("bad-selection", "the selection cannot be read: " + problem,
                      "write corner(0) or corner(outer)");
@@ -65,8 +89,9 @@ Status cornersBetween(OpCall& call, const RegionJob& job, std::string_view selec
 }
 
 // Where a text says; nothing when the pattern of the cell places nothing here.
-Status placesOf(OpCall& call, const RegionJob& job, std::string_view text, std::vector<Vec2>& out) {
-  const RegionView& view = *job.faces()[0];
+Status placesOf(OpCall& call, const RegionJob& job, size_t face, std::string_view text,
+                std::vector<Vec2>& out) {
+  const RegionView& view = *job.faces()[face];
   TextReader r(text);
   if (r.peek() == '(') {
     const Quad q = cornersOf(view);
@@ -94,12 +119,18 @@ Status placesOf(OpCall& call, const RegionJob& job, std::string_view text, std::
     const size_t inside = r.place();
     double i = 0;
     if (r.number(i) && r.accept(')') && r.atEnd()) {
+      const double count = std::max(1u, view.logicalCount());
+      const auto k = static_cast<uint32_t>(
+          std::fmod(std::fmod(std::clamp(std::floor(i), -1e6, 1e6), count) + count, count));
+      if (!hasFourSides(view)) {
+        out.push_back(logicalCorner(view, k));
+        return {};
+      }
       // Clockwise from the south-west.
       static constexpr size_t kOrder[] = {0, 3, 2, 1};
-      const auto k = static_cast<uint32_t>(std::fmod(std::clamp(i, 0.0, 1e6), 4));
       // Corner k begins side k; of a mirrored cell it ends the image of side k.
       uint32_t corner = k;
-      if (view.cell() && view.logicalCount() == 4) {
+      if (view.cell()) {
         const uint32_t side = view.cell()->side(k), next = view.cell()->side((k + 1) % 4);
         corner = next == (side + 1) % 4 ? side : (side + 1) % 4;
       }
@@ -108,7 +139,7 @@ Status placesOf(OpCall& call, const RegionJob& job, std::string_view text, std::
     }
     const size_t close = text.rfind(')');
     if (close != std::string_view::npos && close > inside) {
-      return cornersBetween(call, job, text.substr(inside, close - inside), out);
+      return cornersBetween(call, job, face, text.substr(inside, close - inside), out);
     }
   }
   return call.fail("bad-argument", "'" + std::string(text) + "' is no place of a region",
@@ -131,14 +162,16 @@ Vec2 alongNearest(const Polygon& p, Vec2 at) {
 // Gives out a point, or a figure there, which is cut out of the region.
 class Placer {
  public:
-  Placer(OpCall& call, RegionView& view, PlanFigure figure, const std::string& options)
+  Placer(OpCall& call, RegionView& view, PlanFigure figure, const std::string& options,
+         uint32_t count = 0)
       : call_(call),
         view_(view),
         figure_(figure),
         cut_(option(options, "over").empty()),
         split_(!option(options, "split").empty()),
         slot_(thingSlot(call)),
-        parent_(call.shape()) {}
+        parent_(call.shape()),
+        count_(count) {}
 
   void add(Vec2 at, Vec2 along) {
     if (!contains(view_.polygon(), at)) return;
@@ -165,27 +198,20 @@ class Placer {
     holes_.push_back(ring[0]);
   }
 
-  void finish() {
-    if (nested_ > 0) {
-      call_.services().warn("place-occupied",
-                            "'" + std::string(call_.spec().name) + "': " + std::to_string(nested_) +
-                                " figures were left out, because others stand there",
-                            "place them farther apart, or make them smaller");
-    }
-    if (count_ == 0) giveToOtherwise(call_);
-    if (!cut_ || holes_.empty()) return;
+  /// How many were given out on this face and those before it, and how many found no place.
+  uint32_t count() const { return count_; }
+  uint32_t nested() const { return nested_; }
+  bool cuts() const { return cut_ && !holes_.empty(); }
+
+  /// What the figures leave of the face; nothing when they took all of it.
+  std::vector<RegionPiece> left() const {
+    if (!cuts()) return {wholePiece(view_.polygon())};
     const Region together =
         holes_.size() > 1 ? repaired(ringsOf(holes_), FillRule::NonZero) : holes_;
     const EdgeOrigin made{kNoEdge, EdgeRole::Hole, EdgeOrigin::kNoSide};
     std::vector<RegionPiece> left =
         combineTraced(BooleanOp::Difference, wholePiece(view_.polygon()), together, made);
-    if (split_) left = apart(left);
-    if (left.empty()) {
-      // The figures took all of it.
-      call_.shape().geometry = Geometry{};
-      return;
-    }
-    view_.replace(call_.shape(), left);
+    return split_ ? apart(left) : left;
   }
 
  private:
@@ -222,11 +248,27 @@ class Placer {
   uint32_t count_ = 0, nested_ = 0;
 };
 
-Status oneFace(OpCall& call, const RegionJob& job) {
-  if (job.faces().size() == 1) return {};
-  return failOrElse(call, "no-geometry", "the shape is not one face",
-                    "take it apart first: comp(f) { all : ... }");
+// The shape becomes what the figures leave of it.
+void finish(OpCall& call, RegionJob& job, std::span<const Placer> placers) {
+  uint32_t nested = 0;
+  bool cuts = false;
+  for (const Placer& p : placers) {
+    nested += p.nested();
+    cuts = cuts || p.cuts();
+  }
+  if (nested > 0) {
+    call.services().warn("place-occupied",
+                         "'" + std::string(call.spec().name) + "': " + std::to_string(nested) +
+                             " figures were left out, because others stand there",
+                         "place them farther apart, or make them smaller");
+  }
+  if (placers.empty() || placers.back().count() == 0) giveToOtherwise(call);
+  if (!cuts) return;
+  std::vector<std::vector<RegionPiece>> left;
+  for (const Placer& p : placers) left.push_back(p.left());
+  job.replace(call.shape(), left);
 }
+
 
 Status figureOf(OpCall& call, size_t argument, PlanFigure& figure) {
   const std::string text = textOf(call, argument, "");
@@ -236,25 +278,32 @@ Status figureOf(OpCall& call, size_t argument, PlanFigure& figure) {
                    "write romb(r), circle(r), square(a), rect(a, b) or polygon(n, r)");
 }
 
+constexpr std::string_view kFlags = "over split align chain";
+
 Status applyPlace(OpCall& call) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
-  if (job.faces().size() != 1) return oneFace(call, job);
-  Status status;
+  if (!job.flat()) return noOneRegion(call);
   PlanFigure figure;
-  if (status.ok()) status = figureOf(call, 1, figure);
+  Status status = figureOf(call, 1, figure);
+  if (status.ok()) status = optionsAre(call, 2, "over split align");
   if (!status.ok()) return status;
-  RegionView& view = *job.faces()[0];
+  // Of several pieces the largest is meant.
+  const size_t largest = job.largest();
   std::vector<Vec2> places;
-  status = placesOf(call, job, textOf(call, 0, "centre"), places);
+  status = placesOf(call, job, largest, textOf(call, 0, "centre"), places);
   if (!status.ok()) return status;
   const std::string options = textOf(call, 2, "");
   const bool align = !option(options, "align").empty();
-  Placer placer(call, view, figure, options);
-  for (const Vec2 at : places) {
-    placer.add(at, align ? alongNearest(view.polygon(), at) : Vec2{1, 0});
+  std::vector<Placer> placers;
+  for (const auto& view : job.faces()) {
+    placers.emplace_back(call, *view, figure, options,
+                         placers.empty() ? 0 : placers.back().count());
+    for (const Vec2 at : places) {
+      placers.back().add(at, align ? alongNearest(view->polygon(), at) : Vec2{1, 0});
+    }
   }
-  placer.finish();
+  finish(call, job, placers);
   return {};
 }
 
@@ -263,7 +312,7 @@ Status stationsOf(const OpCall& call, std::string_view text, const Polyline& lin
                   std::vector<Station>& out) {
   double spacing = 0;
   if (parseNumber(text, spacing)) {
-    out = spaced(line, spacing);
+    for (const Station& s : spaced(line, spacing)) out.push_back(s);
     return {};
   }
   const Status bad = call.fail("bad-argument", "these are no positions along an edge",
@@ -296,8 +345,29 @@ Status stationsOf(const OpCall& call, std::string_view text, const Polyline& lin
   const bool real = written.find('.') != std::string_view::npos;
   double count = real ? std::round(line.length() / item) : item;
   if (!(count <= 100000)) return bad;
-  out = evenly(line, static_cast<uint32_t>(std::max(1.0, count)), start, end);
+  for (const Station& s :
+       evenly(line, static_cast<uint32_t>(std::max(1.0, count)), start, end)) {
+    out.push_back(s);
+  }
   return {};
+}
+
+// The same on lines that count as one, whose lengths follow each other.
+Status stationsOnChain(const OpCall& call, std::string_view text, std::span<const Polyline> lines,
+                       std::vector<Station>& out) {
+  // A straight line of the whole length has the stations, and each lies on one of the lines.
+  Polyline straight{{{0, 0}, {0, 0}}, false};
+  for (const Polyline& line : lines) straight.points[1].x += line.length();
+  if (!(straight.points[1].x > 0)) return {};
+  std::vector<Station> flat;
+  const Status status = stationsOf(call, text, straight, flat);
+  for (const Station& s : flat) {
+    double along = s.at.x;
+    size_t k = 0;
+    while (k + 1 < lines.size() && along > lines[k].length()) along -= lines[k++].length();
+    out.push_back(stationAt(lines[k], along / lines[k].length()));
+  }
+  return status;
 }
 
 // What two edges place beside their common corner stands between both, once, whichever edge comes
@@ -316,35 +386,51 @@ void mergeNear(std::vector<Station>& stations, double distance) {
   stations = std::move(out);
 }
 
-Status applyDistribute(OpCall& call) {
-  RegionJob job(call);
-  if (job.empty()) return noRegion(call);
-  if (job.faces().size() != 1) return oneFace(call, job);
-  Status status;
-  PlanFigure figure;
-  if (status.ok()) status = figureOf(call, 3, figure);
-  if (!status.ok()) return status;
-  RegionView& view = *job.faces()[0];
+// Stations along the selected edges of a face, `inset` inside of them.
+Status stationsAlong(OpCall& call, const RegionJob& job, size_t face, double inset, bool chain,
+                     std::vector<Station>& out) {
+  const RegionView& view = *job.faces()[face];
   std::vector<EdgePart> parts;
-  status = selected(call, 0, "all", job, 0, view, parts);
+  Status status = selected(call, 0, "all", job, face, view, parts);
   if (!status.ok()) return status;
   std::vector<uint32_t> group;
   for (const EdgeMark& m : view.marks()) group.push_back(m.logical);
-  const double inset = call.number(2, 0);
-  Placer placer(call, view, figure, textOf(call, 4, ""));
-  std::vector<Station> all;
-  for (const Polyline& line : runsOf(view.polygon(), parts, group)) {
-    std::vector<Station> stations;
-    status = stationsOf(call, textOf(call, 1, "1"), line, stations);
-    if (!status.ok()) return status;
-    for (const Station& s : stations)
-      all.push_back({s.at + perpendicular(s.along) * inset, s.along});
+  std::vector<Polyline> lines = runsOf(view.polygon(), parts, chain ? std::vector<uint32_t>{} : group);
+  const std::string positions = textOf(call, 1, "1");
+  if (chain) {
+    status = stationsOnChain(call, positions, lines, out);
+  } else {
+    for (const Polyline& line : lines) {
+      if (status.ok()) status = stationsOf(call, positions, line, out);
+    }
   }
+  for (Station& s : out) s.at = s.at + perpendicular(s.along) * inset;
+  return status;
+}
+
+Status applyDistribute(OpCall& call) {
+  RegionJob job(call);
+  if (job.empty()) return noRegion(call);
+  if (!job.flat()) return noOneRegion(call);
+  PlanFigure figure;
+  Status status = figureOf(call, 3, figure);
+  if (status.ok()) status = optionsAre(call, 4, kFlags);
+  if (!status.ok()) return status;
+  const double inset = call.number(2, 0);
+  const std::string options = textOf(call, 4, "");
   double spacing = 0;
   if (!parseNumber(textOf(call, 1, "1"), spacing)) spacing = 0;
-  mergeNear(all, std::max(1e-6, spacing / 4));
-  for (const Station& s : all) placer.add(s.at, s.along);
-  placer.finish();
+  std::vector<Placer> placers;
+  for (size_t f = 0; f < job.faces().size(); ++f) {
+    placers.emplace_back(call, *job.faces()[f], figure, options,
+                         placers.empty() ? 0 : placers.back().count());
+    std::vector<Station> stations;
+    status = stationsAlong(call, job, f, inset, !option(options, "chain").empty(), stations);
+    if (!status.ok()) return status;
+    mergeNear(stations, std::max(1e-6, spacing / 4));
+    for (const Station& s : stations) placers.back().add(s.at, s.along);
+  }
+  finish(call, job, placers);
   return {};
 }
 
@@ -356,12 +442,13 @@ constexpr ParamSpec kFigure = {
 constexpr ParamSpec kOptions = {
     "options", ParamType::String,
     "over: the figure is not cut out of the region; split: the region is cut apart "
-    "so that it gets no holes; align: x runs along the nearest edge.",
+    "so that it gets no holes; align: x runs along the nearest edge; chain (of distribute): the "
+    "selected edges count as one, so that positions are shares of their length together.",
     "\"\""};
 constexpr ParamSpec kPlace[] = {
     {"where", ParamType::Selector,
      "centre (of a region that is not convex: the place farthest from its boundary), centroid, "
-     "corner(i) clockwise from the south-west, corner(selection) between selected edges, or "
+     "corner(i) clockwise from the south-west, where logical edge i begins, corner(selection) between selected edges, or "
      "\"(u, v)\" in shares of the sides, also several."},
     kFigure,
     kOptions};

@@ -4,6 +4,7 @@
 // Discs scattered in a region.
 #include <cmath>
 
+#include "base/number.h"
 #include "builtins/lists.h"
 #include "builtins/ops/region/shared/region_job.h"
 
@@ -26,18 +27,12 @@ Status applyScatterCircles(OpCall& call) {
     return call.fail("bad-argument", "there can be 0 to 5000 discs of radii above zero",
                      "write a count and a radius: scatterCircles(5, \"[2,4]\")");
   }
+  if (const Status status = optionsAre(call, 2, "gap=# edge=#"); !status.ok()) return status;
   const std::string options = textOf(call, 2, "");
   const auto metres = [&](std::string_view name) {
     double v = 0;
-    TextReader o(options);
-    while (!o.atEnd()) {
-      const std::string key = o.word();
-      if (key.empty()) break;
-      if (o.accept('=') && !o.number(v)) o.word();
-      if (key == name) return std::max(0.0, v);
-      o.accept(',');
-    }
-    return 0.0;
+    parseNumber(option(options, name), v);
+    return v;
   };
   uint32_t piece = 0;
   const std::optional<uint32_t> slot = thingSlot(call);

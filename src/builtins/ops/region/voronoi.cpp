@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Voronoi cells with paths between; the kernel is geom/region/voronoi.
+#include <algorithm>
 #include <cmath>
 
 #include "base/number.h"
@@ -13,6 +14,15 @@
 namespace gable {
 
 namespace {
+
+// A piece that its site is not in, of a cell that has another which it is in.
+bool isOrphan(const RegionPiece& p, const VoronoiResult& v) {
+  const Vec2 site = v.sites[p.ix].centre;
+  return !contains(p.polygon, site) &&
+         std::any_of(v.pieces.begin(), v.pieces.end(), [&](const RegionPiece& o) {
+           return o.kind == PieceKind::Cell && o.ix == p.ix && contains(o.polygon, site);
+         });
+}
 
 Status applyVoronoi(OpCall& call) {
   RegionJob job(call);
@@ -27,16 +37,16 @@ Status applyVoronoi(OpCall& call) {
     return call.fail("bad-argument", "there is no such smoothing",
                      "write none, average(2), chaikin(2), bezier or round(1)");
   }
+  if (const Status status =
+          optionsAre(call, 3, "borderpath=half|none orphans=merge|own|path jitter=#");
+      !status.ok()) {
+    return status;
+  }
   const std::string options = textOf(call, 3, "");
   o.borderPath = option(options, "borderpath") != "none";
   const std::string orphans = option(options, "orphans");
   o.orphans = orphans == "own" ? Orphans::Own : orphans == "path" ? Orphans::Path : Orphans::Merge;
-  if (const std::string jitter = option(options, "jitter"); !jitter.empty()) {
-    if (!parseNumber(jitter, o.jitter) || !(o.jitter >= 0) || !std::isfinite(o.jitter)) {
-      return call.fail("bad-argument", "borders are bent by zero metres or more",
-                       "write jitter=0.5");
-    }
-  }
+  parseNumber(option(options, "jitter"), o.jitter);
   bool junctions = false;
   for (const SelectorItem& item : call.selectors()) {
     junctions = junctions || selectsWord(item, "junction", call.services().pool());
@@ -73,6 +83,7 @@ Status applyVoronoi(OpCall& call) {
                         CellPattern::Local,
                         p.part};
         cell->free = true;
+        cell->choice = isOrphan(p, v) ? 1 : 0;
       }
       job.keep(f, word, std::move(p), std::move(marks), cell);
     }
@@ -83,8 +94,8 @@ Status applyVoronoi(OpCall& call) {
 
 constexpr ParamSpec kParams[] = {
     {"sites", ParamType::Any,
-     "A count, a text \"5 {[5,10]}\" (discs of a drawn radius that are scattered), or a list of "
-     "coordinates in the region."},
+     "A count, a text \"5 {[5,10]}\" (discs of a drawn radius that are scattered), places \"(3, 4) "
+     "(10, 4, 2)\", with a radius or without, or a list of coordinates in the region."},
     {"pathWidth", ParamType::Float, "Of the paths between cells; 0 for none.", "3"},
     {"smooth", ParamType::Any,
      "\"none\", \"average(times, weight)\", \"chaikin(times)\", \"bezier\" or \"round(radius)\".",

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/number.h"
+#include "builtins/ops/subdivide/shared/parts.h"
 #include "geom/region/peel.h"
 #include "geom/region/places.h"
 
@@ -55,6 +56,46 @@ void RegionJob::emit() {
   }
 }
 
+bool RegionJob::flat() const {
+  constexpr double kOnPlane = 1e-6;
+  const Frame& first = faces_[0]->plane().frame();
+  return std::all_of(faces_.begin(), faces_.end(), [&](const auto& view) {
+    const Frame& f = view->plane().frame();
+    return dot(f.z, first.z) > 1 - kOnPlane &&
+           std::fabs(dot(f.origin - first.origin, first.z)) < kOnPlane;
+  });
+}
+
+size_t RegionJob::largest() const {
+  size_t best = 0;
+  for (size_t f = 1; f < faces_.size(); ++f) {
+    if (area(faces_[f]->polygon()) > area(faces_[best]->polygon())) best = f;
+  }
+  return best;
+}
+
+void RegionJob::replace(Shape& shape, std::span<const std::vector<RegionPiece>> byFace,
+                        bool reindex) {
+  Mesh mesh;
+  bool any = false;
+  for (size_t f = 0; f < faces_.size(); ++f) {
+    if (byFace[f].empty()) continue;
+    Mesh part = faces_[f]->replaced(byFace[f], reindex);
+    if (any) {
+      append(mesh, part);
+    } else {
+      mesh = std::move(part);
+    }
+    any = true;
+  }
+  if (!any) {
+    shape.geometry = Geometry{};
+    return;
+  }
+  const Shape parent = shape;
+  setPartMesh(shape, parent, std::move(mesh), true);
+}
+
 Frame RegionJob::worldIn(size_t face) const {
   const Frame& plane = faces_[face]->plane().frame();
   const Shape& s = call_.shape();
@@ -73,6 +114,19 @@ std::string textOf(const OpCall& call, size_t argument, std::string_view otherwi
     return std::string(call.text(argument));
   }
   return std::string(otherwise);
+}
+
+Status optionsAre(const OpCall& call, size_t argument, std::string_view known) {
+  std::string problem;
+  if (checkOptions(textOf(call, argument, ""), known, problem)) return {};
+  std::string hint;
+  for (const char c : known) hint += c == ' ' ? std::string(", ") : std::string(1, c);
+  return call.fail("bad-argument", problem, "options are " + hint);
+}
+
+Status noOneRegion(OpCall& call) {
+  return failOrElse(call, "no-geometry", "the faces of the shape do not lie in one plane",
+                    "take it apart first: comp(f) { all : ... }");
 }
 
 Status noRegion(OpCall& call) {
@@ -97,16 +151,20 @@ Status selected(OpCall& call, size_t argument, std::string_view otherwise, const
 Status discsOf(OpCall& call, size_t argument, const RegionView& view, uint64_t seed,
                std::vector<Disc>& out) {
   const Value& v = call.arg(argument);
+  const Vec3 origin = view.plane().frame().toLocal({});
+  const Vec2 o{origin.x, origin.y};
   if (v.type == ValueType::FloatArray) {
     const Array& a = call.services().pool().array(v);
-    const Vec3 origin;
-    const Frame& plane = view.plane().frame();
-    const Vec3 o = plane.toLocal(origin);
     for (size_t i = 0; i + 1 < a.numbers.size(); i += 2) {
-      out.push_back({{a.numbers[i] + o.x, a.numbers[i + 1] + o.y}, 0});
+      out.push_back({Vec2{a.numbers[i], a.numbers[i + 1]} + o, 0});
     }
     return {};
   }
+  if (v.type == ValueType::String && readPoints(call.text(argument), out)) {
+    for (Disc& d : out) d.centre = d.centre + bounds(view.polygon()).min;
+    return {};
+  }
+  out.clear();
   ScatterOptions options;
   options.seed = seed;
   TextReader r(call.services().pool().text(v.id));
@@ -117,7 +175,7 @@ Status discsOf(OpCall& call, size_t argument, const RegionView& view, uint64_t s
     if (ok && r.accept('{')) ok = r.range(radius) && r.accept('}');
     if (!ok || !r.atEnd()) {
       return call.fail("bad-argument", "these are no discs to scatter",
-                       "write a number and a radius, \"5 {[5,10]}\", or a list of coordinates");
+                       "write a number and a radius, \"5 {[5,10]}\", or places, \"(3, 4) (10, 4)\"");
     }
   }
   constexpr double kMostDiscs = 5000;

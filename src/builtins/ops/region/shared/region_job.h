@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,14 @@ class RegionJob {
   void emit();
   size_t kept() const { return kept_.size(); }
 
+  /// Whether all faces lie in one plane and look to one side: a region of one or several pieces.
+  bool flat() const;
+  /// The face of the largest area.
+  size_t largest() const;
+  /// The shape with other polygons in the place of each face; see RegionView::replace. With none
+  /// at all it has no geometry.
+  void replace(Shape& shape, std::span<const std::vector<RegionPiece>> byFace, bool reindex = false);
+
   /// Of the world, in the plane of a face.
   Frame worldIn(size_t face) const;
 
@@ -49,6 +58,13 @@ class RegionJob {
 
 /// An argument that is a number or a text: what it says as text.
 std::string textOf(const OpCall& call, size_t argument, std::string_view otherwise);
+
+/// A failure that names what is wrong when an argument has other options than `known` (see
+/// checkOptions).
+Status optionsAre(const OpCall& call, size_t argument, std::string_view known);
+
+/// The failure of a shape whose faces are no region: they do not lie in one plane.
+Status noOneRegion(OpCall& call);
 
 /// The failure of a shape without a face to divide.
 Status noRegion(OpCall& call);

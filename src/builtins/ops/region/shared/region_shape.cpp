@@ -71,6 +71,7 @@ bool readCell(std::string_view tag, CellMark& c) {
   c.part = wholeNumber(p[7], 0);
   c.choice = wholeNumber(p[8], 0);
   c.free = p[9] == "free";
+  c.symmetric = p[9] == "symxy";
   return true;
 }
 
@@ -259,7 +260,8 @@ LogicalEdges logicalsOf(const RegionPiece& piece, EdgeIndex index) {
 }  // namespace
 
 std::vector<EdgeMark> RegionView::marksOf(const RegionPiece& piece, EdgeIndex index) const {
-  const bool grid = index == EdgeIndex::Grid || index == EdgeIndex::GridByY;
+  const bool grid = index == EdgeIndex::Grid || index == EdgeIndex::GridByY ||
+                    index == EdgeIndex::GridSplit;
   std::vector<EdgeMark> out;
   const std::vector<Ring> rings = ringsOf(piece.polygon);
   size_t i = 0;
@@ -282,12 +284,12 @@ std::vector<EdgeMark> RegionView::marksOf(const RegionPiece& piece, EdgeIndex in
       }
       if (grid && &r == &rings[0]) {
         uint32_t side = o.side;
-        if (side > 3) {
+        const Vec2 n = -perpendicular(r[(k + 1) % r.size()] - r[k]);
+        const double u = dot(n, piece.axis), v = dot(n, perpendicular(piece.axis));
+        const bool tie = isDiagonal(u, v) && index != EdgeIndex::GridSplit;
+        if (side > 3 || tie) {
           // The 45 degree edge belongs to one side, and to its image in mirrored cells.
-          const Vec2 n = -perpendicular(r[(k + 1) % r.size()] - r[k]);
-          const double u = dot(n, piece.axis), v = dot(n, perpendicular(piece.axis));
-          const double tie = index == EdgeIndex::GridByY ? 1 + 1e-6 : 1 - 1e-6;
-          const bool across = std::fabs(u) >= std::fabs(v) * tie;
+          const bool across = tie ? index == EdgeIndex::Grid : std::fabs(u) >= std::fabs(v);
           side = across ? (u < 0 ? 0 : 2) : (v > 0 ? 1 : 3);
         }
         m.logical = side;
@@ -331,7 +333,7 @@ uint32_t RegionView::faceTags(uint32_t depth, const std::optional<CellMark>& cel
     text += shortestText(cell->w) + ' ' + shortestText(cell->h) + ' ';
     text += kPatterns[static_cast<size_t>(cell->pattern)];
     text += ' ' + std::to_string(cell->part) + ' ' + std::to_string(cell->choice);
-    text += cell->free ? " free" : " grid";
+    text += cell->free ? " free" : cell->symmetric ? " symxy" : " grid";
     names.push_back(pool.intern(text));
   }
   return services_.tags().intern(std::move(names));
@@ -386,7 +388,7 @@ Shape RegionView::shapeOf(const Shape& parent, std::span<const RegionPiece> piec
   return child;
 }
 
-void RegionView::replace(Shape& shape, std::span<const RegionPiece> pieces, bool reindex) {
+Mesh RegionView::replaced(std::span<const RegionPiece> pieces, bool reindex) {
   std::vector<std::vector<EdgeMark>> marks;
   for (const RegionPiece& p : pieces) {
     marks.emplace_back();
@@ -405,8 +407,12 @@ void RegionView::replace(Shape& shape, std::span<const RegionPiece> pieces, bool
     const LogicalEdges l = autoindex(p.polygon.outer);
     for (size_t k = 0; k < l.of.size(); ++k) marks.back()[k].logical = l.of[k];
   }
+  return meshOf(pieces, marks, faceTags(depth_, cell_));
+}
+
+void RegionView::replace(Shape& shape, std::span<const RegionPiece> pieces, bool reindex) {
   const Shape parent = shape;
-  setPartMesh(shape, parent, meshOf(pieces, marks, faceTags(depth_, cell_)), true);
+  setPartMesh(shape, parent, replaced(pieces, reindex), true);
 }
 
 Shape RegionView::pointAt(const Shape& parent, Vec2 at, Vec2 along) const {

@@ -70,10 +70,12 @@ struct CellMark {
   uint32_t part = 0, choice = 0;
   /// Not of a grid: ix counts the cells, and iy how many lie between it and the boundary.
   bool free = false;
+  /// The distances from the border are told smaller one first.
+  bool symmetric = false;
 
   /// How many cells lie between this one and the border.
-  uint32_t bx() const { return free ? iy : std::min(ix, nx - 1 - ix); }
-  uint32_t by() const { return free ? 0 : std::min(iy, ny - 1 - iy); }
+  uint32_t bx() const { return free ? iy : symmetric ? std::min(byX(), byY()) : byX(); }
+  uint32_t by() const { return free ? 0 : symmetric ? std::max(byX(), byY()) : byY(); }
 
   bool mirroredX() const { return mirrored(ix, nx); }
   bool mirroredY() const { return mirrored(iy, ny); }
@@ -86,14 +88,22 @@ struct CellMark {
   bool address(double& u, double& v) const;
 
  private:
+  uint32_t byX() const { return std::min(ix, nx - 1 - ix); }
+  uint32_t byY() const { return std::min(iy, ny - 1 - iy); }
   bool along(bool y, double& u) const;
   bool mirrored(uint32_t i, uint32_t n) const;
 };
 
 /// What the logical edges of a piece are: those that its edges inherit; the sides of a grid's cell,
-/// where an edge at 45 degrees belongs to the side along x or along y; chains of edges of one
-/// origin; the rays and the outer chain of a sector; or what its outline alone says.
-enum class EdgeIndex : uint8_t { Inherited, Grid, GridByY, Chains, Sector, Outline };
+/// where an edge at 45 degrees belongs to the side along x or along y, or has been divided between
+/// both; chains of edges of one origin; the rays and the outer chain of a sector; or what its outline alone says.
+enum class EdgeIndex : uint8_t { Inherited, Grid, GridByY, GridSplit, Chains, Sector, Outline };
+
+/// Whether a direction lies at 45 degrees to the axes.
+inline bool isDiagonal(double x, double y) {
+  const double a = x < 0 ? -x : x, b = y < 0 ? -y : y;
+  return a > 0 && (a < b ? b - a : a - b) <= 1e-6 * (a < b ? b : a);
+}
 
 class RegionView {
  public:
@@ -122,6 +132,8 @@ class RegionView {
   /// The same region as it was, with other polygons: it does not go deeper. With `reindex` the
   /// logical edges are found anew.
   void replace(Shape& shape, std::span<const RegionPiece> pieces, bool reindex = false);
+  /// The mesh that `replace` gives the shape.
+  Mesh replaced(std::span<const RegionPiece> pieces, bool reindex = false);
 
   /// A point with x along a direction of the plane and the normal up (or forward).
   Shape pointAt(const Shape& parent, Vec2 at, Vec2 along) const;

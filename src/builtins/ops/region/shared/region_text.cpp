@@ -181,21 +181,106 @@ bool readFigure(std::string_view text, PlanFigure& out, std::string& problem) {
   return false;
 }
 
-std::string option(std::string_view options, std::string_view name) {
-  TextReader r(options);
+namespace {
+
+struct Option {
+  std::string name, value = "1";
+  bool bare = true;
+};
+
+// False at what is no option; those before it have been read.
+bool readOptions(std::string_view text, std::vector<Option>& out) {
+  TextReader r(text);
   while (!r.atEnd()) {
-    const std::string key = r.word();
-    if (key.empty()) return {};
-    std::string value = "1";
+    Option o;
+    o.name = r.word();
+    if (o.name.empty()) return false;
     if (r.accept('=')) {
-      value = r.word();
-      double v = 0;
-      if (value.empty() && r.number(v)) value = shortestText(v);
+      o.bare = false;
+      o.value.clear();
+      r.peek();
+      size_t at = r.place(), depth = 0;
+      for (; at < text.size(); ++at) {
+        const char c = text[at];
+        if (depth == 0 && (c == ',' || std::isspace(static_cast<unsigned char>(c)))) break;
+        if (c == '(' || c == '[') ++depth;
+        if ((c == ')' || c == ']') && depth > 0) --depth;
+        o.value += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      }
+      r.goTo(at);
     }
-    if (key == name) return value;
+    out.push_back(std::move(o));
     r.accept(',');
   }
+  return true;
+}
+
+bool isOneOf(std::string_view value, std::string_view words) {
+  for (size_t begin = 0; begin <= words.size();) {
+    const size_t end = std::min(words.find('|', begin), words.size());
+    if (words.substr(begin, end - begin) == value) return true;
+    begin = end + 1;
+  }
+  return false;
+}
+
+// Whether one of the known options, divided by blanks, takes this one.
+bool isKnown(const Option& o, std::string_view known) {
+  for (size_t begin = 0; begin < known.size();) {
+    const size_t end = std::min(known.find(' ', begin), known.size());
+    const std::string_view item = known.substr(begin, end - begin);
+    begin = end + 1;
+    const size_t equals = std::min(item.find('='), item.size());
+    if (item.substr(0, equals) != o.name) continue;
+    if (equals == item.size() || o.bare) return o.bare && equals == item.size();
+    const std::string_view takes = item.substr(equals + 1);
+    double v = 0;
+    if (takes == "*") return !o.value.empty();
+    if (takes == "#") return parseNumber(o.value, v) && std::isfinite(v) && v >= 0;
+    return isOneOf(o.value, takes);
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string option(std::string_view options, std::string_view name) {
+  std::vector<Option> all;
+  readOptions(options, all);
+  for (const Option& o : all) {
+    if (o.name == name) return o.value;
+  }
   return {};
+}
+
+bool checkOptions(std::string_view options, std::string_view known, std::string& problem) {
+  std::vector<Option> all;
+  const bool read = readOptions(options, all);
+  for (const Option& o : all) {
+    if (isKnown(o, known)) continue;
+    problem = "'" + o.name + (o.bare ? "" : "=" + o.value) + "' is none of its options";
+    return false;
+  }
+  if (!read) problem = "'" + std::string(options) + "' cannot be read as options";
+  return read;
+}
+
+bool readPoints(std::string_view text, std::vector<Disc>& out) {
+  TextReader r(text);
+  const bool named = r.word() == "points";
+  if (!named) r.goTo(0);
+  const bool bracket = named ? r.accept('(') : r.accept('[');
+  if (named && !bracket) return false;
+  while (r.accept('(')) {
+    Disc d;
+    if (!r.number(d.centre.x) || !r.accept(',') || !r.number(d.centre.y)) return false;
+    if (r.accept(',') && (!r.number(d.radius) || !(d.radius >= 0))) return false;
+    if (!r.accept(')') || !std::isfinite(d.centre.x + d.centre.y + d.radius)) return false;
+    out.push_back(d);
+    r.accept(',');
+  }
+  if (bracket && !r.accept(named ? ')' : ']')) return false;
+  return r.atEnd() && !out.empty();
 }
 
 bool readRanges(std::string_view text, std::vector<LogicalRange>& out) {

@@ -188,14 +188,16 @@ class SelectionReader {
     if (view_.logicalCount() > 4 || !view_.cell() || logical > 3) return logical;
     return view_.cell()->side(logical);
   }
-  EdgeSet logical(uint32_t k) const {
-    const uint32_t count = std::max(1u, view_.logicalCount());
-    const uint32_t wanted = seen(k % count);
+  // Counted from the end where it is negative: -1 is the last.
+  EdgeSet logical(double k) const {
+    const double count = std::max(1u, view_.logicalCount());
+    const double turn = std::fmod(std::fmod(std::trunc(std::clamp(k, -1e9, 1e9)), count) + count, count);
+    const uint32_t wanted = seen(static_cast<uint32_t>(turn));
     return where([&](size_t i) { return view_.marks()[i].logical == wanted; });
   }
 
   EdgeSet side(int k) const {
-    if (view_.logicalCount() == 4) return logical(static_cast<uint32_t>(k));
+    if (view_.logicalCount() == 4) return logical(k);
     const LogicalEdges l = sidesOf(view_.polygon().outer);
     return where([&](size_t i) { return i < outer_ && l.of[i] == static_cast<uint32_t>(k); });
   }
@@ -467,8 +469,9 @@ class SelectionReader {
                         view_.logicalCount() == 4;
     for (double k = std::floor(a); k < b && k < a + 1000; ++k) {
       const double from = std::max(a - k, 0.0), to = std::min(b - k, 1.0);
+      const double count = std::max(1u, view_.logicalCount());
       const uint32_t wanted =
-          seen(static_cast<uint32_t>(std::fmod(k, std::max(1u, view_.logicalCount()))));
+          seen(static_cast<uint32_t>(std::fmod(std::fmod(k, count) + count, count)));
       addAlong(wanted, turned ? from : 1 - to, turned ? to : 1 - from, s);
     }
     return s;
@@ -504,7 +507,7 @@ class SelectionReader {
         if (!argument(b)) return s;
         s = s.united(parameters(a, b));
       } else {
-        s = s.united(logical(static_cast<uint32_t>(std::clamp(a, 0.0, 1e9))));
+        s = s.united(logical(a));
       }
       if (!r_.accept(']')) fail("']' is missing");
     } while (problem_.empty() && r_.accept('['));
@@ -525,7 +528,7 @@ class SelectionReader {
     if (r_.accept('[')) return bracket();
     const size_t start = r_.place();
     double number = 0;
-    if (r_.number(number)) return logical(static_cast<uint32_t>(std::clamp(number, 0.0, 1e9)));
+    if (r_.number(number)) return logical(number);
     const std::string w = r_.word();
     const auto role = [&](EdgeRole wanted) {
       return where([&](size_t i) { return view_.marks()[i].role == wanted; });
