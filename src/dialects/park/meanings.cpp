@@ -4,6 +4,7 @@
 #include "dialects/park/meanings.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include "base/number.h"
 
@@ -44,8 +45,39 @@ Lines linesOf(const Grammar& g, const std::string& argument, int depth) {
   return linesOf(g, withArguments({*op}, words)[0], depth + 1);
 }
 
+// Ranges at the head of an argument, "[0.1, 0.9] _ 0", are an entry for each logical edge; what
+// follows them is a selection.
+void addLines(const std::string& argument, std::string& ranges, std::string& selections) {
+  const auto blank = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
+  size_t at = 0;
+  const std::string before = ranges;
+  while (at < argument.size()) {
+    while (at < argument.size() && blank(argument[at])) ++at;
+    size_t end = at;
+    const char c = at < argument.size() ? argument[at] : '\0';
+    if (c == '[' || c == '{') {
+      end = std::min(argument.find(c == '[' ? ']' : '}', at), argument.size() - 1) + 1;
+    } else if (c == '_' || c == '0') {
+      end = at + 1;
+    }
+    const bool whole = end >= argument.size() || blank(argument[end]) || argument[end] == '[' ||
+                       argument[end] == '{';
+    if (end == at || !whole) break;
+    ranges += (ranges.empty() ? "" : " ") + argument.substr(at, end - at);
+    at = end;
+  }
+  if (at < argument.size() && at > 0 &&
+      std::string_view("|&-").find(argument[at]) != std::string_view::npos) {
+    // A range that a selection begins with.
+    ranges = before;
+    at = 0;
+  }
+  if (at < argument.size()) selections += (selections.empty() ? "" : "; ") + argument.substr(at);
+}
+
 Lines linesOf(const Grammar& g, const Op& op, int depth) {
   Lines l;
+  std::string selections;
   // One function may stand for another.
   if (g.rule(op.name) && op.called && depth <= kDeepest) {
     std::string call = op.name + '(';
@@ -57,15 +89,14 @@ Lines linesOf(const Grammar& g, const Op& op, int depth) {
     if (isFigure(word) && a.text.back() == ')') {
       l.figure = withConstants(g, a.text);
     } else if (lowered(a.text) != "perimeter") {
-      l.ranges += (l.ranges.empty() ? "" : " ") + withConstants(g, a.text);
+      addLines(withConstants(g, a.text), l.ranges, selections);
     }
   }
+  l.ranges += (l.ranges.empty() || selections.empty() ? "" : "; ") + selections;
   for (const Part& p : partsOf(op)) {
     for (const Op& inner : p.body) {
-      double v = 0;
-      if (lowered(inner.name) == "contract" && !inner.arguments.empty() &&
-          constantValue(g, inner.arguments[0].text, v)) {
-        l.inset = v;
+      if (lowered(inner.name) == "contract" && !inner.arguments.empty()) {
+        l.inset = withConstants(g, inner.arguments[0].text);
       }
     }
   }
@@ -116,7 +147,8 @@ bool isPointSet(const Rule& r) {
   const Op* op = onlyOp(r);
   if (!op || !op->blocks.empty() || !op->called) return false;
   const std::string name = lowered(op->name);
-  return name == "scattercircles" || name == "scatter" || name == "corners" || name == "entrances";
+  return name == "scattercircles" || name == "scatter" || name == "corners" ||
+         name == "entrances" || name == "directions" || name == "points";
 }
 
 std::string figureText(const Grammar& g, const Op& op) {
@@ -169,7 +201,13 @@ Joined joinedParts(const Grammar& g, const Op& op) {
 
 std::string discs(const Grammar& g, const std::string& argument) {
   if (const Op* op = onlyOp(g, argument)) {
-    return op->arguments.empty() ? "1" : withConstants(g, op->arguments[0].text);
+    if (op->arguments.empty()) return "1";
+    std::string all = withConstants(g, op->arguments[0].text);
+    const bool places = lowered(op->name) == "points";
+    for (size_t i = 1; places && i < op->arguments.size(); ++i) {
+      all += ' ' + withConstants(g, op->arguments[i].text);
+    }
+    return all;
   }
   const size_t bracket = argument.find('(');
   if (bracket != std::string::npos && argument.back() == ')') {

@@ -47,7 +47,8 @@ std::string discs(const Grammar& g, const std::string& argument);
 /// Lines that an argument means: a function of the grammar, a Parametrise, or a selection.
 struct Lines {
   std::string ranges;
-  double inset = 0;
+  /// How far inside; empty for not at all.
+  std::string inset;
   std::string figure;
 };
 Lines linesOf(const Grammar& g, const std::string& argument);

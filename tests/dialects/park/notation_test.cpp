@@ -237,5 +237,85 @@ TEST(ParkNotation, ConvertedTextMakesTheSameModel) {
   }
 }
 
+TEST(ParkNotation, ElseStandsBehindFiguresAndLines) {
+  EXPECT_EQ(run("R -> Contract(1) Circle(1) else { B } A", kLot).count.at("A"), 1);
+  const Shapes sliver = Shapes::lot(10, 0.01);
+  EXPECT_EQ(run("R -> Parametrise(pathside) { Contract(1) } else { B }", sliver).count.at("B"), 1);
+  EXPECT_TRUE(run("R -> InnerRect(edge) { A | B } else { C }", kLot).has("unexpected-text"));
+}
+
+TEST(ParkNotation, WordsThatNobodyKnowsAreErrors) {
+  for (const char* text :
+       {"R -> Peel(OUTER, 1, CornersSquare) { A | B }", "R -> Place(CENTRE, under) { Circle(1) A }",
+        "R -> Distribute(OUTER, 2, cot) { A }", "R -> Sweep(OUTER, breadth=2) { A }",
+        "R -> InnerRect(box) { A | B }"}) {
+    EXPECT_TRUE(run(text, kLot).has("bad-argument")) << text;
+  }
+}
+
+TEST(ParkNotation, PointsAndDirections) {
+  const Made places = run("R -> Place((0.25, 0.5), (0.75, 0.5)) { A }\n", kLot);
+  EXPECT_EQ(places.count.at("A"), 2);
+  EXPECT_EQ(run("R -> Place([(0.25, 0.5), (0.75, 0.5)]) { A }\n", kLot).count.at("A"), 2);
+  const Made rays = run(
+      "PathWidth = 1\nR -> CastRays(Middle [Square(4)], Ways) { centre: C | region: A | path: B }\n"
+      "Middle -> Points((10, 8))\nWays -> Directions(0, 90, 180, 270)",
+      kLot);
+  EXPECT_EQ(rays.count.at("A"), 4);
+  EXPECT_NEAR(rays.area.at("C"), 16, 1e-3);
+  EXPECT_NEAR(rays.places.at("C")[0].z, -8, 1e-6);
+  const Made ends = run(
+      "PathWidth = 1\nR -> CastRays(CENTRE, Points((0, 0), (20, 0), (20, 20))) { A } { B }", kLot);
+  EXPECT_EQ(ends.count.at("B"), 3);
+  const Made cells = run(
+      "R -> VoronoiRegions(Points((4, 4), (16, 4, 2), (10, 16)), none) { A } { B } { C }", kLot);
+  EXPECT_EQ(cells.count.at("A"), 3);
+  EXPECT_EQ(cells.count.at("C"), 1);
+}
+
+TEST(ParkNotation, CentresJoinedInPart) {
+  const Made m =
+      run("PathWidth = 1\nR -> CastRays(Points((10, 10), (30, 10), (30, 30), (10, 30)), "
+          "Corners(Region), connect=thin(1)) { A } { B }",
+          Shapes::lot(40, 40));
+  EXPECT_EQ(m.count.at("B"), 9);
+  EXPECT_NEAR(m.whole, 1600, 0.01);
+}
+
+TEST(ParkNotation, FiguresMayReachBeyond) {
+  EXPECT_NEAR(run("R -> Circle(15, free) A", kLot).area.at("A"), 698.8, 0.1);
+  EXPECT_NEAR(run("R -> Square(30) A", kLot).area.at("A"), 400, 1e-6);
+}
+
+TEST(ParkNotation, WhatIsCutOffCornersMayBeUsed) {
+  const Made m = run("R -> Insert(2) { Bed }", kLot);
+  EXPECT_EQ(m.count.at("Bed"), 4);
+  EXPECT_NEAR(m.whole, 400, 1e-3);
+}
+
+TEST(ParkNotation, HedgesHaveCrossSections) {
+  const Made m = run(
+      "R -> Hedges(0.5) Lawn\nHedges(w) -> Sweep(Around(w * 2), width=w, height=1.2, profile=dome) "
+      "{ Hedge }\nfun Around(d) -> Parametrise(_ _ [0, 0.5]) { Contract(d) }",
+      kLot);
+  for (const Message& x : m.messages) ADD_FAILURE() << x.text;
+  EXPECT_EQ(m.count.at("Hedge"), 1);
+  EXPECT_TRUE(m.closed.at("Hedge"));
+  EXPECT_TRUE(run("R -> Sweep(OUTER, profile=wave) { Hedge }", kLot).has("bad-argument"));
+  EXPECT_TRUE(run("R -> Sweep(OUTER, width=0) { L }", kLot).count.count("L"));
+}
+
+TEST(ParkNotation, LinesOfRangesAndSelections) {
+  const Made m = run("R -> Parametrise([0, 0.5] _ , facing(E))", kLot);
+  EXPECT_NEAR(m.length.at("Line"), 10 + 20 + 20, 1e-6);
+  const Made f =
+      run("R -> Sweep(Sides(outer & W, 2), width=1) { Strip }\nStrip -> GREEN\n"
+          "fun Sides(sel, d) -> Parametrise([] [0.25, 0.75], sel) { Contract(d) }",
+          kLot);
+  for (const Message& x : f.messages) ADD_FAILURE() << x.text;
+  EXPECT_NEAR(f.area.at("Strip"), 8 + 20, 1);
+  EXPECT_EQ(f.count.at("Strip"), 2);
+}
+
 }  // namespace
 }  // namespace gable

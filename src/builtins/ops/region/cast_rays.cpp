@@ -90,10 +90,10 @@ Status targetsOf(OpCall& call, const RegionView& view, std::vector<RayTarget>& o
     n = -1;
   }
   if (!(n >= 0 && n <= 1000)) {
-    return call.fail(
-        "bad-argument", "these are no targets for rays",
-        "write corners, a count, \"directions(0, 90)\", \"entrances(0.5, 2.5)\" or places, \"(3, 4) "
-        "(10, 4)\"");
+    return call.fail("bad-argument", "these are no targets for rays",
+                     "write corners, a count, \"directions(0, 90)\", \"entrances(0.5, 2.5)\" or "
+                     "places, \"(3, 4) "
+                     "(10, 4)\"");
   }
   for (double k = 0; k < n; ++k) {
     const double a = 360 * k / n;
@@ -121,8 +121,9 @@ Status linksOf(const OpCall& call, RayOptions& o) {
   if (!links.empty() && read) o.links = found->second;
   if (word == "thin" && r.accept('(')) read = r.number(o.thin) && r.accept(')');
   if (read && r.atEnd() && o.thin >= 0 && o.thin <= 1) return {};
-  return call.fail("bad-argument", "centres cannot be joined so",
-                   "write connect=tree, none, loop, pairs, opposite or thin(0.5), a share of 0 to 1");
+  return call.fail(
+      "bad-argument", "centres cannot be joined so",
+      "write connect=tree, none, loop, pairs, opposite or thin(0.5), a share of 0 to 1");
 }
 
 Status applyCastRays(OpCall& call) {
@@ -165,9 +166,9 @@ Status applyCastRays(OpCall& call) {
                                  "its middle",
                            "give coordinates in the region");
     }
-    const auto cells = static_cast<uint32_t>(std::count_if(
-        r.pieces.begin(), r.pieces.end(),
-        [](const RegionPiece& p) { return p.kind == PieceKind::Cell; }));
+    const auto cells = static_cast<uint32_t>(
+        std::count_if(r.pieces.begin(), r.pieces.end(),
+                      [](const RegionPiece& p) { return p.kind == PieceKind::Cell; }));
     for (RegionPiece& p : r.pieces) {
       std::vector<EdgeMark> marks =
           view.marksOf(p, p.kind == PieceKind::Cell ? EdgeIndex::Sector : EdgeIndex::Inherited);

@@ -97,7 +97,9 @@ Status applyCircle(OpCall& call) {
   return become(call, {PlanShape::Circle, call.number(0), 1, static_cast<uint32_t>(n)}, 2);
 }
 Status applyRomb(OpCall& call) { return become(call, {PlanShape::Romb, call.number(0), 1, 4}, 1); }
-Status applySquare(OpCall& call) { return become(call, {PlanShape::Square, call.number(0), 1, 4}, 1); }
+Status applySquare(OpCall& call) {
+  return become(call, {PlanShape::Square, call.number(0), 1, 4}, 1);
+}
 Status applyRect(OpCall& call) {
   return become(call, {PlanShape::Rect, call.number(0), call.number(1), 4}, 2);
 }
@@ -117,14 +119,12 @@ constexpr ParamSpec kCircle[] = {
     kReach};
 constexpr ParamSpec kRomb[] = {kRadius, kReach};
 constexpr ParamSpec kSquare[] = {{"side", ParamType::Float, "In metres."}, kReach};
-constexpr ParamSpec kRect[] = {{"width", ParamType::Float, "Along x."},
-                               {"height", ParamType::Float, "Across."},
-                               kReach};
+constexpr ParamSpec kRect[] = {
+    {"width", ParamType::Float, "Along x."}, {"height", ParamType::Float, "Across."}, kReach};
 constexpr ParamSpec kPolygon[] = {{"sides", ParamType::Float, "Three or more."}, kRadius, kReach};
 constexpr Signature kCircleSignatures[] = {{kCircle}};
 constexpr ParamSpec kJoined[] = {
-    {"figures", ParamType::String, "One after the other: \"romb(3) rect(8, 2)\"."},
-    kReach};
+    {"figures", ParamType::String, "One after the other: \"romb(3) rect(8, 2)\"."}, kReach};
 constexpr Signature kJoinedSignatures[] = {{kJoined}};
 constexpr Signature kRombSignatures[] = {{kRomb}};
 constexpr Signature kSquareSignatures[] = {{kSquare}};

@@ -42,7 +42,8 @@ bool countsNone(const OpCall& call, size_t argument) {
 
 constexpr std::string_view kOptions =
     "fit=stretch|center|centre|fail template=auto|corners|obb|aabb|inner "
-    "pattern=auto|centre|center|pair|mirror|extend|extendl|extendr|local|radial dominance=x|y|split "
+    "pattern=auto|centre|center|pair|mirror|extend|extendl|extendr|local|radial "
+    "dominance=x|y|split "
     "symxy lines sliver=# minarea=#";
 
 Status optionsOf(const OpCall& call, GridOptions& o) {
@@ -107,7 +108,8 @@ std::string_view wordOf(PieceKind kind) {
   return "remainder";
 }
 
-// Edges at 45 degrees to the cell are divided in their middle: each half goes to the side beside it.
+// Edges at 45 degrees to the cell are divided in their middle: each half goes to the side beside
+// it.
 void divideDiagonals(RegionPiece& p) {
   const Ring& r = p.polygon.outer;
   const Vec2 x = normalized(p.axis);
@@ -224,7 +226,8 @@ constexpr ParamSpec kParams[] = {
     {"options", ParamType::String,
      "fit=stretch|center|fail, template=auto|corners|obb|aabb|inner, "
      "pattern=auto|centre|pair|mirror|extend|local|radial, dominance=x|y|split (which side an edge "
-     "at 45 degrees belongs to; split: half to each), symxy (region.bx is never above region.by, so "
+     "at 45 degrees belongs to; split: half to each), symxy (region.bx is never above region.by, "
+     "so "
      "that cells on both sides of a diagonal are alike), lines (counts are of paths), sliver=0.02 "
      "and minarea=0.25: what is thinner or smaller goes to a neighbour.",
      "\"\""},

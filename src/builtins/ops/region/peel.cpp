@@ -173,9 +173,8 @@ Status applyCutHoles(OpCall& call) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
   if (!job.flat()) return noOneRegion(call);
-  const bool holes =
-      std::any_of(job.faces().begin(), job.faces().end(),
-                  [](const auto& view) { return !view->polygon().holes.empty(); });
+  const bool holes = std::any_of(job.faces().begin(), job.faces().end(),
+                                 [](const auto& view) { return !view->polygon().holes.empty(); });
   if (!holes) return {};
   std::vector<std::vector<RegionPiece>> pieces;
   for (const auto& view : job.faces()) pieces.push_back(withoutHoles(view->polygon()));

@@ -44,8 +44,8 @@ bool hasFourSides(const RegionView& view) {
   return view.logicalCount() == 4 && has[0] && has[1] && has[2] && has[3];
 }
 
-// Of a region that is no quadrilateral: where, clockwise, logical edge k begins, or the next one that
-// there is. Corner 0 of a sector is its centre.
+// Of a region that is no quadrilateral: where, clockwise, logical edge k begins, or the next one
+// that there is. Corner 0 of a sector is its centre.
 Vec2 logicalCorner(const RegionView& view, uint32_t k) {
   const Ring& r = view.polygon().outer;
   const size_t n = r.size();
@@ -269,7 +269,6 @@ void finish(OpCall& call, RegionJob& job, std::span<const Placer> placers) {
   job.replace(call.shape(), left);
 }
 
-
 Status figureOf(OpCall& call, size_t argument, PlanFigure& figure) {
   const std::string text = textOf(call, argument, "");
   std::string problem;
@@ -345,8 +344,7 @@ Status stationsOf(const OpCall& call, std::string_view text, const Polyline& lin
   const bool real = written.find('.') != std::string_view::npos;
   double count = real ? std::round(line.length() / item) : item;
   if (!(count <= 100000)) return bad;
-  for (const Station& s :
-       evenly(line, static_cast<uint32_t>(std::max(1.0, count)), start, end)) {
+  for (const Station& s : evenly(line, static_cast<uint32_t>(std::max(1.0, count)), start, end)) {
     out.push_back(s);
   }
   return {};
@@ -395,7 +393,8 @@ Status stationsAlong(OpCall& call, const RegionJob& job, size_t face, double ins
   if (!status.ok()) return status;
   std::vector<uint32_t> group;
   for (const EdgeMark& m : view.marks()) group.push_back(m.logical);
-  std::vector<Polyline> lines = runsOf(view.polygon(), parts, chain ? std::vector<uint32_t>{} : group);
+  std::vector<Polyline> lines =
+      runsOf(view.polygon(), parts, chain ? std::vector<uint32_t>{} : group);
   const std::string positions = textOf(call, 1, "1");
   if (chain) {
     status = stationsOnChain(call, positions, lines, out);
@@ -448,7 +447,8 @@ constexpr ParamSpec kOptions = {
 constexpr ParamSpec kPlace[] = {
     {"where", ParamType::Selector,
      "centre (of a region that is not convex: the place farthest from its boundary), centroid, "
-     "corner(i) clockwise from the south-west, where logical edge i begins, corner(selection) between selected edges, or "
+     "corner(i) clockwise from the south-west, where logical edge i begins, corner(selection) "
+     "between selected edges, or "
      "\"(u, v)\" in shares of the sides, also several."},
     kFigure,
     kOptions};

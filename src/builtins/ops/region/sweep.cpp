@@ -4,8 +4,10 @@
 // Lines along a boundary, as ribbons of a width or as bare segments.
 #include <cmath>
 
+#include "base/number.h"
 #include "builtins/lists.h"
 #include "builtins/ops/region/shared/region_job.h"
+#include "geom/region/profile_sweep.h"
 
 namespace gable {
 
@@ -16,35 +18,90 @@ Status checked(const OpCall& call, double inset) {
   return call.fail("bad-argument", "an inset is zero or more metres", "write 0 or leave it out");
 }
 
+struct SweepOptions {
+  double width = 0, height = 0;
+  RibbonOptions ribbon;
+  std::optional<Profile> profile;
+};
+
+// A name, or points in shares: "(0,0)(0,1)(1,0.6)(1,0)".
+bool readProfile(std::string_view text, std::optional<Profile>& out) {
+  out = profileNamed(text);
+  if (out) return true;
+  std::vector<Disc> points;
+  if (!readPoints(text, points)) return false;
+  out.emplace();
+  for (const Disc& d : points) out->push_back(d.centre);
+  return isProfile(*out);
+}
+
+Status optionsOf(const OpCall& call, SweepOptions& o) {
+  o.width = call.number(1);
+  if (!(o.width >= 0) || !std::isfinite(o.width)) {
+    return call.fail("bad-argument", "a ribbon cannot be " + shortestText(o.width) + " wide",
+                     "write a width above zero, or 0 for bare lines");
+  }
+  const Status status = optionsAre(
+      call, 3, "round joins=mitre|miter|round ends=butt|square|round height=# profile=*");
+  if (!status.ok()) return status;
+  const std::string options = textOf(call, 3, "");
+  if (!option(options, "round").empty()) o.ribbon = {true, RibbonEnds::Round};
+  if (option(options, "joins") == "round") o.ribbon.roundJoins = true;
+  const std::string ends = option(options, "ends"), profile = option(options, "profile");
+  if (ends == "round") o.ribbon.ends = RibbonEnds::Round;
+  if (ends == "square") o.ribbon.ends = RibbonEnds::Square;
+  parseNumber(option(options, "height"), o.height);
+  if (profile.empty()) {
+    if (o.height > 0) o.profile = profileNamed("box");
+  } else if (!readProfile(profile, o.profile)) {
+    return call.fail("bad-argument", "'" + profile + "' is no cross-section",
+                     "write box, batter, gable, round, dome, kerb, or points from x = 0 to 1 "
+                     "without blanks: profile=(0,0)(0,1)(1,0.6)(1,0)");
+  } else if (!(o.height > 0)) {
+    o.height = o.width;
+  }
+  if (o.profile && !(o.width > 0)) {
+    return call.fail("bad-argument", "a cross-section needs a width above zero",
+                     "write how wide the volume is");
+  }
+  return {};
+}
+
 Status applySweep(OpCall& call) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
-  const double width = call.number(1), inset = call.number(2, 0);
-  if (!(width > 0) || !std::isfinite(width)) {
-    return call.fail("bad-argument", "a ribbon needs a width above zero",
-                     "to get lines without a width write parametrise");
-  }
-  const std::string options = textOf(call, 3, "");
-  RibbonOptions ribbon;
-  if (!option(options, "round").empty()) ribbon = {true, RibbonEnds::Round};
-  if (option(options, "joins") == "round") ribbon.roundJoins = true;
-  const std::string ends = option(options, "ends");
-  if (ends == "round") ribbon.ends = RibbonEnds::Round;
-  if (ends == "square") ribbon.ends = RibbonEnds::Square;
+  SweepOptions o;
+  const double inset = call.number(2, 0);
+  Status status = checked(call, inset);
+  if (status.ok()) status = optionsOf(call, o);
+  if (!status.ok()) return status;
   uint32_t piece = 0;
   const std::optional<uint32_t> slot = thingSlot(call);
+  const auto give = [&](Shape child) {
+    if (slot) call.emit(std::move(child), *slot, piece);
+    ++piece;
+  };
   for (size_t f = 0; f < job.faces().size(); ++f) {
     RegionView& view = *job.faces()[f];
     std::vector<Polyline> lines;
-    Status status = checked(call, inset);
-    if (status.ok()) status = linesOf(call, 0, inset, job, f, view, lines);
+    status = linesOf(call, 0, inset, job, f, view, lines);
     if (!status.ok()) return status;
-    for (const RegionPiece& p : ribbons(view.polygon(), lines, width, ribbon)) {
-      if (slot) {
-        call.emit(view.shapeOf(call.shape(), p, view.marksOf(p, EdgeIndex::Outline), std::nullopt),
-                  *slot, piece);
+    if (!(o.width > 0) || o.profile) {
+      for (const Polyline& line : lines) {
+        if (line.points.size() < 2) continue;
+        if (!o.profile) {
+          give(view.lineOf(call.shape(), line.points, line.closed));
+          continue;
+        }
+        Mesh mesh =
+            sweptProfile(view.polygon(), line, o.width, o.height, *o.profile, o.ribbon.ends);
+        if (mesh.faceCount() == 0) continue;
+        give(view.solidOf(call.shape(), std::move(mesh), line.points[1] - line.points[0]));
       }
-      ++piece;
+      continue;
+    }
+    for (const RegionPiece& p : ribbons(view.polygon(), lines, o.width, o.ribbon)) {
+      give(view.shapeOf(call.shape(), p, view.marksOf(p, EdgeIndex::Outline), std::nullopt));
     }
   }
   if (piece == 0) giveToOtherwise(call);
@@ -81,13 +138,17 @@ Status applyParametrise(OpCall& call) {
 constexpr ParamSpec kLines = {
     "lines", ParamType::Selector,
     "A selection of edges as in peel, or ranges along the logical edges from 0 on: "
-    "\"[0.02,1] [0,1] [0,0.15]\", [] for none, _ for a whole edge."};
+    "\"[0.02,1] [0,1] [0,0.15]\", [] for none, _ for a whole edge; several of both with ; "
+    "between."};
 constexpr ParamSpec kInset = {"inset", ParamType::Float, "How far inside the boundary.", "0"};
 constexpr ParamSpec kSweep[] = {
     kLines,
-    {"width", ParamType::Float, "Of the ribbon, in metres."},
+    {"width", ParamType::Float, "Of the ribbon, in metres; 0 for bare lines."},
     kInset,
-    {"options", ParamType::String, "joins=mitre|round, ends=butt|square|round; round: both.",
+    {"options", ParamType::String,
+     "joins=mitre|round, ends=butt|square|round; round: both. height=1.2 makes volumes of that "
+     "height, profile=box|batter|gable|round|dome|kerb gives them a cross-section, or points in "
+     "shares of width and height: profile=(0,0)(0,1)(1,0.6)(1,0).",
      "\"\""}};
 constexpr ParamSpec kParametrise[] = {kLines, kInset};
 constexpr Signature kSweepSignatures[] = {{kSweep}};

@@ -141,9 +141,14 @@ Status noRegion(OpCall& call) {
 
 Status selected(OpCall& call, size_t argument, std::string_view otherwise, const RegionJob& job,
                 size_t face, const RegionView& view, std::vector<EdgePart>& out) {
+  return selectedBy(call, textOf(call, argument, otherwise), job, face, view, out);
+}
+
+Status selectedBy(OpCall& call, std::string_view selection, const RegionJob& job, size_t face,
+                  const RegionView& view, std::vector<EdgePart>& out) {
   std::string problem;
   const SelectionInput input{view, call.randomAddress(1000 + face), job.worldIn(face)};
-  if (selectEdges(textOf(call, argument, otherwise), input, out, problem)) return {};
+  if (selectEdges(selection, input, out, problem)) return {};
   return call.fail("bad-selection", "the selection cannot be read: " + problem,
                    "write words like outer, inner, side(W), longest, with & | - !");
 }
@@ -174,8 +179,9 @@ Status discsOf(OpCall& call, size_t argument, const RegionView& view, uint64_t s
     bool ok = r.number(n);
     if (ok && r.accept('{')) ok = r.range(radius) && r.accept('}');
     if (!ok || !r.atEnd()) {
-      return call.fail("bad-argument", "these are no discs to scatter",
-                       "write a number and a radius, \"5 {[5,10]}\", or places, \"(3, 4) (10, 4)\"");
+      return call.fail(
+          "bad-argument", "these are no discs to scatter",
+          "write a number and a radius, \"5 {[5,10]}\", or places, \"(3, 4) (10, 4)\"");
     }
   }
   constexpr double kMostDiscs = 5000;
@@ -190,18 +196,11 @@ Status discsOf(OpCall& call, size_t argument, const RegionView& view, uint64_t s
   return {};
 }
 
-Status linesOf(OpCall& call, size_t argument, double inset, const RegionJob& job, size_t face,
-               const RegionView& view, std::vector<Polyline>& out) {
-  std::vector<LogicalRange> ranges;
-  if (!readRanges(textOf(call, argument, ""), ranges)) {
-    std::vector<EdgePart> parts;
-    const Status status = selected(call, argument, "all", job, face, view, parts);
-    if (!status.ok()) return status;
-    for (const Polyline& line : runsOf(view.polygon(), parts, {})) {
-      out.push_back(movedLeft(line, inset));
-    }
-    return {};
-  }
+namespace {
+
+// The lines of ranges along logical edges.
+void linesOfRanges(OpCall& call, std::vector<LogicalRange> ranges, double inset,
+                   const RegionView& view, std::vector<Polyline>& out) {
   // Of a mirrored cell the numbers run the other way.
   const std::optional<CellMark>& cell = view.cell();
   const bool four = view.logicalCount() == 4 && cell;
@@ -218,8 +217,10 @@ Status linesOf(OpCall& call, size_t argument, double inset, const RegionJob& job
   }
   const std::vector<uint32_t> logical = view.logicals();
   if (!(inset > 0)) {
-    out = parametrise(view.polygon().outer, logical, ranges, mx == my);
-    return {};
+    for (Polyline& line : parametrise(view.polygon().outer, logical, ranges, mx == my)) {
+      out.push_back(std::move(line));
+    }
+    return;
   }
   for (const RegionPiece& p : contract(view.polygon(), inset)) {
     std::vector<uint32_t> moved;
@@ -229,6 +230,32 @@ Status linesOf(OpCall& call, size_t argument, double inset, const RegionJob& job
     }
     for (Polyline& line : parametrise(p.polygon.outer, moved, ranges, mx == my)) {
       out.push_back(std::move(line));
+    }
+  }
+}
+
+}  // namespace
+
+Status linesOf(OpCall& call, size_t argument, double inset, const RegionJob& job, size_t face,
+               const RegionView& view, std::vector<Polyline>& out) {
+  const std::string text = textOf(call, argument, "");
+  for (size_t begin = 0; begin <= text.size();) {
+    size_t end = begin;
+    for (int depth = 0; end < text.size() && (depth > 0 || text[end] != ';'); ++end) {
+      depth += text[end] == '(' ? 1 : text[end] == ')' ? -1 : 0;
+    }
+    const std::string part = text.substr(begin, end - begin);
+    begin = end + 1;
+    std::vector<LogicalRange> ranges;
+    if (readRanges(part, ranges)) {
+      linesOfRanges(call, std::move(ranges), inset, view, out);
+      continue;
+    }
+    std::vector<EdgePart> parts;
+    const Status status = selectedBy(call, part.empty() ? "all" : part, job, face, view, parts);
+    if (!status.ok()) return status;
+    for (const Polyline& line : runsOf(view.polygon(), parts, {})) {
+      out.push_back(movedLeft(line, inset));
     }
   }
   return {};

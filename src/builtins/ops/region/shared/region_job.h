@@ -37,7 +37,8 @@ class RegionJob {
   size_t largest() const;
   /// The shape with other polygons in the place of each face; see RegionView::replace. With none
   /// at all it has no geometry.
-  void replace(Shape& shape, std::span<const std::vector<RegionPiece>> byFace, bool reindex = false);
+  void replace(Shape& shape, std::span<const std::vector<RegionPiece>> byFace,
+               bool reindex = false);
 
   /// Of the world, in the plane of a face.
   Frame worldIn(size_t face) const;
@@ -73,13 +74,16 @@ Status noRegion(OpCall& call);
 Status selected(OpCall& call, size_t argument, std::string_view otherwise, const RegionJob& job,
                 size_t face, const RegionView& view, std::vector<EdgePart>& out);
 
+Status selectedBy(OpCall& call, std::string_view selection, const RegionJob& job, size_t face,
+                  const RegionView& view, std::vector<EdgePart>& out);
+
 /// Discs by a text "5 {[5-10]}" or a list of coordinates x, y, x, y (from the scope's origin, in
 /// the plane).
 Status discsOf(OpCall& call, size_t argument, const RegionView& view, uint64_t seed,
                std::vector<Disc>& out);
 
-/// The lines that a text means: ranges along logical edges, or a selection. With an inset they lie
-/// on the region contracted by it.
+/// The lines that a text means: ranges along logical edges, or a selection, or several of both with
+/// ; between. With an inset they lie on the region contracted by it.
 Status linesOf(OpCall& call, size_t argument, double inset, const RegionJob& job, size_t face,
                const RegionView& view, std::vector<Polyline>& out);
 

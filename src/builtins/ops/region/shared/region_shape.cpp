@@ -260,8 +260,8 @@ LogicalEdges logicalsOf(const RegionPiece& piece, EdgeIndex index) {
 }  // namespace
 
 std::vector<EdgeMark> RegionView::marksOf(const RegionPiece& piece, EdgeIndex index) const {
-  const bool grid = index == EdgeIndex::Grid || index == EdgeIndex::GridByY ||
-                    index == EdgeIndex::GridSplit;
+  const bool grid =
+      index == EdgeIndex::Grid || index == EdgeIndex::GridByY || index == EdgeIndex::GridSplit;
   std::vector<EdgeMark> out;
   const std::vector<Ring> rings = ringsOf(piece.polygon);
   size_t i = 0;
@@ -438,6 +438,26 @@ Shape RegionView::segmentAt(const Shape& parent, Vec2 a, Vec2 b) const {
   builder.addPolygon(p);
   setMesh(child, builder.take(), ScopeFit::Keep);
   return child;
+}
+
+Shape RegionView::solidOf(const Shape& parent, Mesh mesh, Vec2 along) const {
+  Shape child = parent;
+  for (Vec3& p : mesh.positions) p = plane_.frame().point(p);
+  setPartMesh(child, parent, std::move(mesh), true);
+  alignScope(child, axesAlong(parent, along));
+  forgetFarTrimPlanes(child);
+  return child;
+}
+
+Shape RegionView::lineOf(const Shape& parent, std::span<const Vec2> points, bool closed) const {
+  MeshBuilder b;
+  std::vector<uint32_t> at;
+  for (const Vec2 p : points) at.push_back(b.addPosition({p.x, p.y, 0}));
+  for (size_t i = 0; i + (closed ? 0 : 1) < at.size(); ++i) {
+    const uint32_t ends[2] = {at[i], at[(i + 1) % at.size()]};
+    b.addPolygon(ends);
+  }
+  return solidOf(parent, b.take(), points[1] - points[0]);
 }
 
 RegionFacts regionFactsOf(const Services& services, const Shape& shape) {

@@ -96,7 +96,8 @@ struct CellMark {
 
 /// What the logical edges of a piece are: those that its edges inherit; the sides of a grid's cell,
 /// where an edge at 45 degrees belongs to the side along x or along y, or has been divided between
-/// both; chains of edges of one origin; the rays and the outer chain of a sector; or what its outline alone says.
+/// both; chains of edges of one origin; the rays and the outer chain of a sector; or what its
+/// outline alone says.
 enum class EdgeIndex : uint8_t { Inherited, Grid, GridByY, GridSplit, Chains, Sector, Outline };
 
 /// Whether a direction lies at 45 degrees to the axes.
@@ -137,6 +138,10 @@ class RegionView {
 
   /// A point with x along a direction of the plane and the normal up (or forward).
   Shape pointAt(const Shape& parent, Vec2 at, Vec2 along) const;
+  /// A mesh in coordinates of the plane, with the scope along a direction of it.
+  Shape solidOf(const Shape& parent, Mesh mesh, Vec2 along) const;
+  /// Lines of a width of nothing, straight part by straight part, as one shape.
+  Shape lineOf(const Shape& parent, std::span<const Vec2> points, bool closed) const;
   /// A line of a width of nothing: one straight part.
   Shape segmentAt(const Shape& parent, Vec2 a, Vec2 b) const;
 

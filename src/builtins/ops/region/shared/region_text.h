@@ -49,16 +49,16 @@ class TextReader {
 bool readDimension(std::string_view text, GridDim& out, std::string& problem);
 bool readFigure(std::string_view text, PlanFigure& out, std::string& problem);
 
-/// "(3, 4) (10, 4, 2.5)", perhaps in points( .. ) or [ .. ]: places from the south-west corner of the
-/// region's box, and discs where a radius follows. False when the text is no such list.
+/// "(3, 4) (10, 4, 2.5)", perhaps in points( .. ) or [ .. ]: places from the south-west corner of
+/// the region's box, and discs where a radius follows. False when the text is no such list.
 bool readPoints(std::string_view text, std::vector<Disc>& out);
 
 /// The value of `name=value` in a list of options, in lower case; empty when it is not there, "1"
 /// for a word alone. A value goes on to the next blank or comma outside of brackets.
 std::string option(std::string_view options, std::string_view name);
 
-/// Whether options are among the known ones: "fit=stretch|center|fail sliver=# smooth=* lines" knows
-/// words, numbers, any text, and a word that stands alone.
+/// Whether options are among the known ones: "fit=stretch|center|fail sliver=# smooth=* lines"
+/// knows words, numbers, any text, and a word that stands alone.
 bool checkOptions(std::string_view options, std::string_view known, std::string& problem);
 
 struct SelectionInput {

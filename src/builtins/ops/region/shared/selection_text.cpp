@@ -191,7 +191,8 @@ class SelectionReader {
   // Counted from the end where it is negative: -1 is the last.
   EdgeSet logical(double k) const {
     const double count = std::max(1u, view_.logicalCount());
-    const double turn = std::fmod(std::fmod(std::trunc(std::clamp(k, -1e9, 1e9)), count) + count, count);
+    const double turn =
+        std::fmod(std::fmod(std::trunc(std::clamp(k, -1e9, 1e9)), count) + count, count);
     const uint32_t wanted = seen(static_cast<uint32_t>(turn));
     return where([&](size_t i) { return view_.marks()[i].logical == wanted; });
   }

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The work of lower(): rules, sequences and arguments in lower.cpp, one operation of the notation
+// each in lower_operations.cpp.
+#pragma once
+
+#include <algorithm>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "dialects/gbbg/tree_builder.h"
+#include "dialects/park/meanings.h"
+#include "lang/tree.h"
+
+namespace gable::park {
+
+using lang::kNoNode;
+using lang::NodeId;
+using Nodes = std::vector<NodeId>;
+
+constexpr double kPathWidth = 3;
+
+class Lowering {
+ public:
+  Lowering(const Grammar& g, uint32_t file, Diagnostics& diagnostics)
+      : g_(g), b_(file), diagnostics_(diagnostics) {
+    const auto found = g.constants.find("PathWidth");
+    pathWidth_ = found != g.constants.end() ? found->second : kPathWidth;
+  }
+
+  lang::Tree run(uint32_t size);
+
+ private:
+  // --- Rules ---
+
+  NodeId rule(const Rule& r, bool start);
+
+  NodeId colour(std::string_view name);
+
+  // --- Sequences ---
+
+  // `owner` names the leaf that the region itself becomes; none for parts that stand for nothing.
+  NodeId sequence(const Sequence& ops, std::string_view owner);
+  static bool coloured(const Sequence& ops);
+
+  // Adds what an operation becomes; false when the region has been given away by it.
+  bool step(const Op& op, Nodes& out);
+
+  bool symbol(const Op& op, Nodes& out);
+
+  void call(const Rule& r, const Op& op, Nodes& out);
+
+  // The steps of a function, with the arguments in the place of its parameters.
+  bool inlined(const Rule& r, const Op& op, Nodes& out);
+
+  // --- Blocks ---
+
+  // The parts of an operation's blocks by what they are for: { r } { p } { c }, { r | p | c }, or
+  // with names.
+  struct Slots {
+    std::vector<const Part*> part;
+    // Braces with nothing in them, which is not the same as none.
+    std::vector<bool> empty;
+  };
+  Slots slotsOf(const Op& op, const std::vector<std::vector<std::string>>& names);
+
+  NodeId item(const char* word, const Part* p, const char* otherwise);
+  void addElse(const Op& op, Nodes& items);
+
+  // Of an operation that only has a block for what stands behind else.
+  NodeId elseBlock(const Op& op);
+  void noElse(const Op& op);
+
+  // --- Arguments ---
+
+  // What an operation does not know is an error: arguments from `first` on that are none of the
+  // words, and do not begin with one that ends in =.
+  void checkWords(const Op& op, size_t first, std::initializer_list<std::string_view> words);
+
+  std::string text(const Op& op, size_t i) const;
+  // With constants in the place of their names; a parameter of the rule hides a constant.
+  std::string constants(const std::string& text) const;
+  NodeId expressionOf(std::string_view text, Span span);
+  // A number that is known before the rule runs.
+  bool known(std::string_view text, double& value) const;
+  bool isParameter(const std::string& word) const;
+  // A text in which parameters of the rule stand is put together when the rule runs.
+  NodeId textNode(const std::string& text);
+  NodeId number(const Op& op, size_t i, double otherwise);
+
+  // --- Operations ---
+
+  void grid(const Op& op, Nodes& out);
+
+  // The figure at the head of a part. The figure itself is what the grid cuts out; what follows it
+  // stands on it.
+  std::string headOf(Part& part, bool& onPlate);
+
+  // What stands at a junction depends on which of several figures it is.
+  NodeId choiceItem(const JunctionChoices& choices, const Part* path);
+
+  // The figure as a leaf of its own, and what stands there.
+  NodeId plateBody(const Part& p);
+  NodeId plateItem(const Part& p);
+
+  // The region becomes the figures in one; what else stands in the braces is done with that.
+  void joined(const Op& op, Nodes& out);
+
+  // Each part takes the region when its selection means an edge of it; the first that does.
+  void select(const Op& op, Nodes& out);
+
+  void quadMap(const Op& op, Nodes& out);
+
+  void voronoi(const Op& op, Nodes& out);
+
+  void rays(const Op& op, Nodes& out);
+
+  void peel(const Op& op, Nodes& out);
+
+  void choose(const Op& op, Nodes& out);
+
+  void model(const Op& op, Nodes& out);
+
+  void innerRect(const Op& op, Nodes& out);
+
+  // With a centre, what is 0.9 or less is a share of the way to it.
+  void contract(const Op& op, Nodes& out);
+
+  // Cuts discs off the outer corners.
+  void insert(const Op& op, Nodes& out);
+
+  void figure(const Op& op, Nodes& out);
+
+  NodeId things(const Op& op);
+  static std::string flagsOf(const Op& op);
+
+  void place(const Op& op, Nodes& out);
+
+  // sel : inset, positions
+  void distribute(const Op& op, Nodes& out);
+
+  void scatter(const Op& op, Nodes& out);
+
+  // What stands behind the equals sign.
+  static std::string valueOf(const std::string& text);
+  NodeId insetOf(const Lines& l, const Op& op);
+
+  void sweep(const Op& op, Nodes& out);
+
+  void lines(const Op& op, Nodes& out);
+
+  const Grammar& g_;
+  gbbg::TreeBuilder b_;
+  Diagnostics& diagnostics_;
+  const Rule* rule_ = nullptr;
+  double pathWidth_ = kPathWidth;
+  // Functions within functions.
+  int functions_ = 0;
+};
+
+}  // namespace gable::park
