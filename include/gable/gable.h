@@ -57,9 +57,10 @@ struct LoadOptions {
   /// Texts that stand for files of the project while they are being edited, by project path
   /// ("rules/windows.cga").
   std::vector<std::pair<std::string, std::string>> overlay;
-  /// Assets that these rules have read of the same project are not read again, nor are changes of
-  /// their files seen. May be null.
-  const class Rules* assetsOf = nullptr;
+  /// Rules of the same project as they were before: assets that they have read are not read again,
+  /// nor are changes of their files seen, and models made by them are of use to
+  /// DeriveSettings::before. May be null.
+  const class Rules* before = nullptr;
 };
 
 struct AttributeInfo {
@@ -194,6 +195,12 @@ struct DeriveSettings {
   bool traceShapes = false;
   /// 0: as many as the machine has processors.
   int jobs = 0;
+  /// Keep in the model what a later derivation needs to take parts of it over.
+  bool remember = false;
+  /// A model that was made with `remember`, by rules that these came after (LoadOptions::before).
+  /// Parts whose rules, attributes, seed and footprints are as they were are taken over from it;
+  /// the result is the same as without. Implies `remember`. May be null.
+  const class Model* before = nullptr;
   Budget budget;
   /// Called from any thread.
   std::function<void(size_t done, size_t total)> progress;

@@ -34,10 +34,15 @@ struct ShapeFootprint {
 struct Rules::Impl {
   bool found = true;
   Messages messages;
-  std::shared_ptr<ValuePool> pool = std::make_shared<ValuePool>();
+  std::shared_ptr<ValuePool> pool;
   Sources sources;
   Program program;
   std::shared_ptr<Project> project;
+  /// The pool with the tables of derivations. Shared with the rules that came before, so that what
+  /// those have made can be compared; they grow a little with each text, so after a number of
+  /// generations there are new ones.
+  std::shared_ptr<Environment> tables;
+  uint32_t generation = 0;
   bool ok = false;
   double seconds = 0;
 };

@@ -124,8 +124,9 @@ Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& set
   if (!r.ok) return Model(std::move(impl));
   impl->project = r.project;
   impl->rules = rules.shared();
-  Environment environment(r.pool, *r.project);
   DeriveOptions options;
+  options.remember = settings.remember || settings.before;
+  if (settings.before) options.before = &settings.before->impl().result;
   options.seed = settings.seed;
   options.sharing = settings.sharing;
   options.trace = settings.trace;
@@ -160,7 +161,7 @@ Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& set
   for (const auto& [index, seed] : settings.shapeSeeds) {
     if (index < initial.size()) initial[index].seed = seed;
   }
-  impl->result = gable::derive(r.program, initial, environment, options);
+  impl->result = gable::derive(r.program, initial, *r.tables, options);
   impl->result.scene.geoOrigin = shapes.impl().geoOrigin;
   const Messages made = toMessages(impl->result.diagnostics, r.sources);
   impl->messages.insert(impl->messages.end(), made.begin(), made.end());

@@ -20,6 +20,8 @@ namespace {
 
 /// A rule file larger than this is no rule file.
 constexpr uint64_t kLargestRuleFile = 256u << 20;
+/// Texts that share tables before new ones are begun.
+constexpr uint32_t kGenerations = 256;
 
 lang::Tree parseAs(const Dialect* dialect, const Sources& sources, uint32_t file,
                    lang::FileLoader& loader, Diagnostics& diagnostics) {
@@ -68,6 +70,22 @@ Result<const Dialect*> dialectFor(const std::string& name, const std::string& pa
                "the notations are " + names};
 }
 
+// The project and its tables: those of the rules before where they are of the same project.
+void takeTables(Rules::Impl& to, const std::string& root, const Rules::Impl* before) {
+  to.project = std::make_shared<Project>(root);
+  if (before && before->project && before->project->root() == to.project->root()) {
+    to.project = before->project;
+    if (before->generation < kGenerations) {
+      to.pool = before->pool;
+      to.tables = before->tables;
+      to.generation = before->generation + 1;
+      return;
+    }
+  }
+  to.pool = std::make_shared<ValuePool>();
+  to.tables = std::make_shared<Environment>(to.pool, *to.project);
+}
+
 std::shared_ptr<Rules::Impl> failed(const Error& e) {
   auto impl = std::make_shared<Rules::Impl>();
   impl->found = false;
@@ -88,12 +106,8 @@ Rules Rules::parse(const std::string& text, const std::string& path, const LoadO
   auto impl = std::make_shared<Impl>();
   const Result<const Dialect*> dialect = dialectFor(options.dialect, path);
   if (!dialect.ok()) return Rules(failed(dialect.error()));
-  impl->project =
-      std::make_shared<Project>(options.project.empty() ? Project::rootFor(path) : options.project);
-  if (options.assetsOf && options.assetsOf->impl_ && options.assetsOf->impl().project &&
-      options.assetsOf->impl().project->root() == impl->project->root()) {
-    impl->project = options.assetsOf->impl().project;
-  }
+  takeTables(*impl, options.project.empty() ? Project::rootFor(path) : options.project,
+             options.before && options.before->impl_ ? &options.before->impl() : nullptr);
   Diagnostics diagnostics;
   const std::string name = impl->project->projectPath(path);
   const uint32_t file = impl->sources.add(name, text);

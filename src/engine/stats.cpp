@@ -86,6 +86,7 @@ std::string statsOf(const DeriveResult& result, const Messages& messages,
   json.key("triangles").value(times.triangles > 0 ? times.triangles : c.triangles);
   json.key("instances").value(c.instances).key("prototypes").value(c.prototypes);
   json.key("materials").value(c.materials);
+  if (result.recalled > 0) json.key("recalled").value(result.recalled);
   json.key("bbox").beginObject().key("min");
   const Vec3 none;
   writeVec(json, c.bounds.empty() ? none : c.bounds.min);

@@ -11,7 +11,9 @@
 #include <memory>
 
 #include "base/parallel.h"
+#include "program/reach.h"
 #include "runtime/machine.h"
+#include "runtime/recall.h"
 
 namespace gable {
 
@@ -85,6 +87,29 @@ std::vector<TraceNode> takeTrace(const Pass& pass) {
   return all;
 }
 
+// The parts of all workers, each after those inside it.
+void gatherParts(const Pass& pass, Recall& recall) {
+  for (const auto& m : pass.machines) {
+    const auto shift = static_cast<uint32_t>(recall.parts.size());
+    const auto operationShift = static_cast<uint32_t>(recall.operations.size());
+    for (RecallPart p : m->parts()) {
+      p.firstInside += shift;
+      p.firstOperation += operationShift;
+      p.endOperation += operationShift;
+      recall.parts.push_back(p);
+    }
+    const auto& operations = m->keptOperations();
+    recall.operations.insert(recall.operations.end(), operations.begin(), operations.end());
+  }
+  recall.partNumbers.reserve(recall.parts.size());
+  for (uint32_t i = 0; i < recall.parts.size(); ++i) {
+    recall.partNumbers.emplace(recall.parts[i].key, i);
+  }
+  for (uint32_t i = 0; i < recall.operations.size(); ++i) {
+    recall.operationNumbers.emplace(recall.operations[i]->key, i);
+  }
+}
+
 bool asksContext(const Program& program, const std::vector<InitialShape>& shapes, int32_t start) {
   const auto asks = [&](int32_t rule) {
     return rule >= 0 &&
@@ -101,9 +126,15 @@ DeriveResult derive(const Program& program, const std::vector<InitialShape>& sha
                     Environment& environment, const DeriveOptions& given) {
   DeriveOptions options = given;
   if (options.startRule < 0) options.startRule = program.startRule;
+  const bool asks = asksContext(program, shapes, options.startRule);
+  if (asks || options.trace || !options.sharing) options.remember = false;
   DeriveShared shared(program, options, environment);
+  if (options.remember) {
+    shared.reach = reachOf(program);
+    shared.before = recallInput(options.before, program, environment);
+  }
   std::unique_ptr<OccluderIndex> occluders;
-  if (asksContext(program, shapes, options.startRule)) {
+  if (asks) {
     shared.collectOccluders = true;
     Pass first = runPass(shared, shapes);
     occluders = std::make_unique<OccluderIndex>(takeOccluders(first));
@@ -118,9 +149,17 @@ DeriveResult derive(const Program& program, const std::vector<InitialShape>& sha
   std::vector<Output> outputs;
   for (auto& m : pass.machines) {
     result.shared += m->cacheHits();
+    result.recalled += m->recalled();
     result.diagnostics.append(m->diagnostics());
   }
   result.trace = takeTrace(pass);
+  std::shared_ptr<Recall> recall;
+  if (options.remember && !shared.limitReached && !shared.unrepeatable) {
+    recall = std::make_shared<Recall>();
+    recall->tables = &environment;
+    for (const AttributeCode& a : program.attributes) recall->attributes.push_back(a.name);
+    gatherParts(pass, *recall);
+  }
   for (auto& m : pass.machines) outputs.push_back(std::move(m->output()));
   std::vector<OutputRoot> roots;
   for (size_t i = 0; i < shapes.size(); ++i) {
@@ -130,7 +169,8 @@ DeriveResult derive(const Program& program, const std::vector<InitialShape>& sha
   bool complete = true;
   result.scene =
       merge(outputs, roots,
-            {program, environment.materials, environment.attributes, options.sources}, complete);
+            {program, environment.materials, environment.attributes, options.sources, recall.get()},
+            complete);
   if (!complete) {
     result.diagnostics.warning("too-many-reports", Span{},
                                "the rules report or print more than can be kept",
@@ -141,6 +181,7 @@ DeriveResult derive(const Program& program, const std::vector<InitialShape>& sha
   result.end = cancelled             ? DeriveEnd::Cancelled
                : shared.limitReached ? DeriveEnd::LimitReached
                                      : DeriveEnd::Done;
+  if (complete && result.end == DeriveEnd::Done) result.recall = std::move(recall);
   result.diagnostics.sortByPlace();
   return result;
 }

@@ -102,6 +102,9 @@ struct TraceNode {
   uint32_t shapeIndex = kNone;
 };
 
+struct DeriveResult;
+struct Recall;
+
 struct DeriveOptions {
   int32_t startRule = -1;
   double seed = 0;
@@ -116,6 +119,12 @@ struct DeriveOptions {
   /// Called from any thread with the number of initial shapes done.
   std::function<void(size_t done, size_t total)> progress;
   std::atomic<bool>* cancel = nullptr;
+  /// Keep in the result what a later derivation needs to take parts of it over. Without effect
+  /// where sharing is off and where rules ask about other shapes.
+  bool remember = false;
+  /// With `remember`: a derivation in the same environment whose parts may be taken over; null for
+  /// none. The result is the same.
+  const DeriveResult* before = nullptr;
   /// For lines and columns in the scene's source places; may be null.
   const Sources* sources = nullptr;
 };
@@ -131,6 +140,10 @@ struct DeriveResult {
   std::vector<std::vector<AttributeValue>> attributes;
   /// Derivations that the sharing cache answered.
   uint64_t shared = 0;
+  /// Shapes that were taken over from the derivation before, instances expanded.
+  uint64_t recalled = 0;
+  /// With DeriveOptions::remember, of a derivation that came to its end.
+  std::shared_ptr<const Recall> recall;
 };
 
 DeriveResult derive(const Program& program, const std::vector<InitialShape>& shapes,

@@ -71,12 +71,21 @@ Machine::Machine(DeriveShared& shared, uint32_t worker)
   flat_ = !shared.options.sharing || shared.options.trace;
   collectOccluders_ = shared.collectOccluders;
   lightPartsAllowed_ = !collectOccluders_ && !shared.options.trace;
+  remembers_ = shared.options.remember;
+  if (remembers_) {
+    costs_.resize(program_.rules.size());
+    operationCosts_.resize(program_.code.size());
+  }
+  if (shared.before.recall) {
+    recaller_ = std::make_unique<Recaller>(shared.before, output_, cache_);
+  }
 }
 
 Machine::~Machine() = default;
 
 OutputRoot Machine::run(const InitialShape& input, uint32_t index) {
   const uint64_t shapesBefore = shapesExpanded_;
+  const size_t partsBefore = parts_.size();
   derive(input, index);
   OutputRoot root;
   root.worker = worker_;
@@ -84,6 +93,10 @@ OutputRoot Machine::run(const InitialShape& input, uint32_t index) {
   root.name = input.name;
   root.prototype = output_.close(rootMark_, pool().intern(input.name),
                                  shapesExpanded_ - shapesBefore, ShareKey{});
+  for (size_t p = partsBefore; p < parts_.size(); ++p) {
+    parts_[p].prototype = root.prototype;
+    parts_[p].worker = worker_;
+  }
   return root;
 }
 
@@ -119,12 +132,14 @@ void Machine::derive(const InitialShape& input, uint32_t index) {
   previous_.clear();
   functions_.clear();
   prototypes_.clear();
+  openParts_.clear();
   bindAttributes(input);
 
   rootMark_ = output_.mark();
   const int32_t rule = startRuleOf(input);
   if (rule >= 0) {
     info_.startRule = program_.rules[static_cast<size_t>(rule)].qualifiedName;
+    if (remembers_) beginRemembering();
     beginRoot(static_cast<uint32_t>(rule));
     execute();
     // What was open when a limit struck stays: it belongs to the initial shape.
@@ -168,6 +183,7 @@ void Machine::beginRoot(uint32_t rule) {
   seen_ = &a.shape;
   parameters_ = 0;
   pc_ = program_.code.data() + code.entry;
+  if (remembers_ && beginPart(a)) activationCount_ = 0;
 }
 
 // Attributes are bound by name: options over the shape's own, both over the initialiser.
@@ -206,10 +222,12 @@ std::vector<AttributeValue> Machine::attributeValues() {
 }
 
 void Machine::report(StringId key, const Value& value) {
+  noteEffect();
   output_.openEvents.push_back({openInstanceCount(), false, key, value});
 }
 
 void Machine::print(std::string text) {
+  noteEffect();
   output_.openEvents.push_back({openInstanceCount(), true, pool().intern(text), {}});
 }
 
@@ -223,6 +241,8 @@ uint32_t Machine::openInstanceCount() const {
 void Machine::warn(const char* code, std::string message, std::string hint) {
   const Span at = here();
   const uint64_t key = hashBytes(message, hashBytes(code, uint64_t{at.file} << 32 | at.begin));
+  ++warnings_;
+  noteEffect();
   if (warned_[key]++ > 0) return;
   Diagnostic d{Severity::Warning, code, at, std::move(message), std::move(hint), shapePath()};
   diagnostics_.add(std::move(d));
@@ -252,7 +272,8 @@ std::string Machine::treeKey() const {
 }
 
 bool Machine::overLimit(const char* code, std::string message, std::string hint) {
-  instruction_ = pc_ - 1;
+  // An initial shape may be over a limit before its first instruction.
+  instruction_ = pc_ && pc_ != program_.code.data() ? pc_ - 1 : nullptr;
   warn(code, std::move(message), std::move(hint));
   aborted_ = true;
   shared_.limitReached.store(true, std::memory_order_relaxed);
@@ -279,6 +300,7 @@ bool Machine::look() {
   const Limits& limits = options().limits;
   workSinceMemory_ += work_;
   const uint64_t steps = shared_.steps.fetch_add(work_, std::memory_order_relaxed) + work_;
+  stepsBefore_ += work_;
   work_ = 0;
   if (options().cancel && options().cancel->load(std::memory_order_relaxed)) {
     aborted_ = true;

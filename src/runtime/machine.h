@@ -17,13 +17,17 @@
 #include "base/memory.h"
 #include "base/small_buffer.h"
 #include "program/program.h"
+#include "program/reach.h"
 #include "runtime/array_ops.h"
 #include "runtime/context.h"
 #include "runtime/derive.h"
 #include "runtime/output.h"
+#include "runtime/recall.h"
 #include "shape/op_call.h"
 
 namespace gable {
+
+class KeyHash;
 
 /// What all workers of one derivation share.
 struct DeriveShared {
@@ -41,6 +45,12 @@ struct DeriveShared {
   const OccluderIndex* occluders = nullptr;
   /// The first pass of a derivation whose rules ask about other shapes.
   bool collectOccluders = false;
+  /// By rule, and what came before; with DeriveOptions::remember.
+  std::vector<Reach> reach;
+  RecallInput before;
+  /// Something happened while an attribute was evaluated: where that is told depends on which part
+  /// comes first, so no part can stand for itself.
+  std::atomic<bool> unrepeatable{false};
   std::atomic<bool> limitReached{false};
   /// A limit on all initial shapes together has been reached: none begins any more.
   std::atomic<bool> exhausted{false};
@@ -97,6 +107,8 @@ struct Activation {
   bool slot = false;
   /// The call opened a frame of its own (a shared rule), and with sharing a prototype.
   bool boundary = false;
+  /// The result is to be remembered.
+  bool kept = false;
   /// The scope below on the shape stack; kept up only where a rule needs it.
   Frame previousScope;
   Vec3 previousSize;
@@ -120,6 +132,13 @@ class Machine final : public Services {
   std::vector<TraceNode>& trace() { return trace_; }
   std::vector<Occluder>& occluders() { return occluders_; }
   uint64_t cacheHits() const { return cacheHits_; }
+  /// With DeriveOptions::remember: the parts of all initial shapes, each after those inside it.
+  const std::vector<RecallPart>& parts() const { return parts_; }
+  const std::vector<std::shared_ptr<const RecallOperation>>& keptOperations() const {
+    return keptOperations_;
+  }
+  /// Shapes taken over from the derivation before, instances expanded.
+  uint64_t recalled() const { return recalled_; }
   /// The visible rule attributes of the shape derived last, as evaluated.
   std::vector<AttributeValue> attributeValues();
 
@@ -293,6 +312,30 @@ class Machine final : public Services {
   void addInstance(const Frame& frame, uint32_t prototype);
   uint32_t openInstanceCount() const;
 
+  // Recall.
+  /// Looks at the initial shape at work.
+  void beginRemembering();
+  /// True when the call's result was remembered and lies in the output.
+  bool beginPart(Activation& call);
+  void endPart();
+  void takePart(const RecallPart& part);
+  bool recallPrototype(const ShareKey& key, uint32_t& number);
+  void countTaken();
+  bool worthKeeping(uint32_t rule);
+  /// Runs the operation at `i`, or takes what it did the time before.
+  Status applyRemembering(OpCall& call, const Instruction& i, std::span<const Value> arguments,
+                          const BlockInput* block);
+  bool takeOperation(const ShareKey& key, Shape& shape);
+  void keepOperation(const ShareKey& key, const Shape& shape, size_t firstChild);
+  ShareKey operationKey(OpCall& call, std::span<const Value> arguments, const BlockInput* block);
+  void addShape(KeyHash& h, const Shape& s) const;
+  ShareKey partKey(const Activation& call);
+  uint64_t inputsOf(uint32_t rule);
+  uint64_t hashOfInitialShape() const;
+  Output::Mark placeInRoot() const;
+  /// Reports, prints and warnings in an attribute's initialiser come with its first use.
+  void noteEffect();
+
   // Expressions.
   /// Runs an instruction of an expression; false when the instruction is none.
   bool evaluate(const Instruction& i);
@@ -434,12 +477,43 @@ class Machine final : public Services {
   /// Leaves are placed in the world at once: sharing is off.
   bool flat_ = false;
   Output::Mark rootMark_;
-  std::unordered_map<ShareKey, uint32_t, ShareKeyHash> cache_;
+  PrototypeNumbers cache_;
   bool collectOccluders_ = false;
   static constexpr size_t kLeafBatch = 64;
   const LeafSink* sink_ = nullptr;
   /// Nobody wants to see every shape.
   bool lightPartsAllowed_ = false;
+
+  /// Parts are remembered, and taken over where recaller_ knows them.
+  bool remembers_ = false;
+  std::unique_ptr<Recaller> recaller_;
+  std::vector<RecallPart> parts_;
+  /// Those at work, with the counts at their beginning.
+  struct OpenPart {
+    RecallPart part;
+    uint32_t rule = 0;
+    uint64_t warnings = 0;
+  };
+  std::vector<OpenPart> openParts_;
+  /// By rule: how many calls came, and what those that were kept took.
+  struct RuleCost {
+    uint64_t calls = 0, measured = 0, steps = 0;
+  };
+  std::vector<RuleCost> costs_;
+  std::vector<std::shared_ptr<const RecallOperation>> keptOperations_;
+  /// By instruction: how often the operation ran, and what it took where it was looked at.
+  struct OperationCost {
+    uint64_t calls = 0, measured = 0;
+    std::chrono::steady_clock::duration time{};
+  };
+  std::vector<OperationCost> operationCosts_;
+  /// Of the initial shape at work: itself, by attribute the value given from outside (0: none), and
+  /// by rule what inputsOf() gives (0: not known).
+  uint64_t shapeHash_ = 0;
+  std::vector<uint64_t> given_, inputs_;
+  /// Warnings, repetitions counted, and steps done before the last look at the limits.
+  uint64_t warnings_ = 0, stepsBefore_ = 0;
+  uint64_t recalled_ = 0;
 };
 
 }  // namespace gable

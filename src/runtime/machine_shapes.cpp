@@ -144,7 +144,9 @@ bool Machine::enterRule(Activation& a, uint32_t callerDepth, uint32_t callerTrac
     return true;
   }
   if (options().trace) traceShape(a, callerTrace, at);
+  a.kept = false;
   if (code.shared && beginShared(code, a)) return false;
+  if (remembers_ && beginPart(a)) return false;
   if (code.needsPrevious) {
     a.previousScope = a.shape.scope;
     a.previousSize = a.shape.size;
@@ -193,6 +195,7 @@ void Machine::endActivation() {
     if (a.slot) countShape();
     makeLeaf(a, program_.rules[a.rule].name, program_.rules[a.rule].entry);
   }
+  if (a.kept) endPart();
   if (a.boundary) endShared();
   stackTop_ = a.stackBase;
   if (shapeStack_.size() > a.shapeStackBase) shapeStack_.resize(a.shapeStackBase);
@@ -250,6 +253,7 @@ void Machine::makeChild() {
   a.traceNode = parent.traceNode;
   a.slot = true;
   a.boundary = false;
+  a.kept = false;
   if (program_.rules[a.rule].needsPrevious) {
     a.previousScope = a.shape.scope;
     a.previousSize = a.shape.size;
@@ -395,7 +399,9 @@ void Machine::operation(const Instruction& i, const Value* constants) {
   OpCall call(spec, a.shape, {arguments, i.x}, *this, place, block ? &input : nullptr);
   if (collectOccluders_ && occludes(spec)) addOccluder(0, a.shape);
   instruction_ = &i;
-  const Status status = spec.apply(call);
+  const Status status = remembers_ && prototypes_.empty()
+                            ? applyRemembering(call, i, {arguments, i.x}, block ? &input : nullptr)
+                            : spec.apply(call);
   if (!status.ok()) {
     if (block) children_.erase(children_.begin() + childBase, children_.end());
     warn(status.code(), "'" + std::string(spec.name) + "': " + status.message(), status.hint());

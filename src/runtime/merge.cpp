@@ -9,7 +9,7 @@
 #include <unordered_map>
 
 #include "base/check.h"
-#include "runtime/output.h"
+#include "runtime/recall.h"
 
 namespace gable {
 
@@ -56,6 +56,27 @@ class Merger {
     replay(r.worker, r.prototype);
   }
 
+  /// The number in the scene of a worker's finished prototype.
+  uint32_t numberOf(uint32_t worker, uint32_t prototype) const {
+    return workers_[worker].prototypes[prototype];
+  }
+
+  /// What the scene's numbers stand for.
+  void explain(Recall& recall) {
+    inverse(nameNumbers_, recall.names, scene_.names.size());
+    inverse(listNumbers_, recall.materials, scene_.materialLists.size());
+    inverse(attributeNumbers_, recall.attributeSets, scene_.attributeSets.size());
+    recall.sources.resize(scene_.sources.size());
+    for (const auto& [instruction, number] : sourceNumbers_) {
+      const int32_t rule = input_.program.ruleAt(instruction);
+      if (rule < 0) continue;
+      const RuleCode& code = input_.program.rules[static_cast<size_t>(rule)];
+      recall.sources[number] = {code.qualifiedName, code.parameters.size(),
+                                instruction - code.entry};
+    }
+    recall.prototypeNumbers = std::move(byKey_);
+  }
+
   Scene take() { return std::move(scene_); }
   bool complete() const { return !full(); }
 
@@ -63,6 +84,20 @@ class Merger {
   struct Worker {
     std::vector<uint32_t> prototypes, meshes, materials;
   };
+
+  template <class Numbers, class T>
+  static void inverse(const Numbers& numbers, std::vector<T>& out, size_t count) {
+    out.assign(count, T{});
+    for (const auto& [id, number] : numbers) out[number] = id;
+  }
+
+  void remember(const Output& output, const OutputPrototype& p) {
+    Recall& recall = *input_.recall;
+    recall.prototypes.push_back(
+        {p.key, static_cast<uint32_t>(recall.events.size()), p.eventCount, p.speaks});
+    recall.events.insert(recall.events.end(), output.events.begin() + p.firstEvent,
+                         output.events.begin() + p.firstEvent + p.eventCount);
+  }
 
   // The scene's number of a worker's prototype. Recursion is as deep as shared calls nest, which
   // the limit on depth bounds.
@@ -94,6 +129,7 @@ class Merger {
       }
     }
     scene_.prototypes.push_back(to);
+    if (input_.recall) remember(outputs_[worker], from);
     const auto number = static_cast<uint32_t>(scene_.prototypes.size() - 1);
     workers_[worker].prototypes[prototype] = number;
     if (shared) byKey_.emplace(from.key, number);
@@ -234,7 +270,7 @@ class Merger {
   std::pair<uint32_t, uint32_t> lastName_{kUnset, 0}, lastSource_{kUnset, 0};
   uint64_t events_ = 0, eventBytes_ = 0;
   Scene scene_;
-  std::unordered_map<ShareKey, uint32_t, ShareKeyHash> byKey_;
+  PrototypeNumbers byKey_;
   std::unordered_multimap<uint64_t, uint32_t> meshNumbers_;
   std::unordered_map<uint64_t, uint32_t> listNumbers_;
   std::unordered_map<uint32_t, uint32_t> materialNumbers_, nameNumbers_, sourceNumbers_,
@@ -277,6 +313,10 @@ Scene merge(std::vector<Output>& outputs, const std::vector<OutputRoot>& roots,
   Merger merger(outputs, input);
   for (const OutputRoot& r : roots) merger.addRoot(r);
   complete = merger.complete();
+  if (input.recall) {
+    for (RecallPart& p : input.recall->parts) p.prototype = merger.numberOf(p.worker, p.prototype);
+    merger.explain(*input.recall);
+  }
   Scene scene = merger.take();
   outputs.clear();
   return scene;

@@ -90,6 +90,8 @@ struct MergeInput {
   const MaterialTable& materials;
   const AttributePool& attributes;
   const Sources* sources = nullptr;
+  /// Gets what the scene's numbers stand for, where it is not null; see runtime/recall.h.
+  struct Recall* recall = nullptr;
   /// Reports and prints, instances expanded, and the bytes of their texts.
   uint64_t mostEvents = 20'000'000;
   uint64_t mostEventBytes = uint64_t{1} << 30;

@@ -9,57 +9,34 @@
 
 #include <cmath>
 
+#include "runtime/key_hash.h"
 #include "runtime/machine.h"
 
 namespace gable {
 
-namespace {
-
-class KeyHash {
- public:
-  void add(uint64_t v) {
-    a_ = hashCombine(a_, v);
-    b_ = mix64(b_ * 0x9fb21c651e98df25ULL + v);
-  }
-  void add(double v) { add(hashDouble(v)); }
-  void add(const Vec3& v) {
-    add(v.x);
-    add(v.y);
-    add(v.z);
-  }
-  void add(const Frame& f) {
-    add(f.origin);
-    add(f.x);
-    add(f.y);
-    add(f.z);
-  }
-  ShareKey key() const { return {a_, b_ | 1}; }
-
- private:
-  uint64_t a_ = 0x243f6a8885a308d3ULL, b_ = 0x13198a2e03707344ULL;
-};
-
-void addExtra(KeyHash& h, const ShapeExtra& extra) {
-  h.add(extra.trim.size());
+void KeyHash::add(const ShapeExtra& extra) {
+  add(extra.trim.size());
   for (const TrimPlane& t : extra.trim) {
-    h.add(t.normal);
-    h.add(t.distance);
-    h.add(uint64_t{t.horizontal});
+    add(t.normal);
+    add(t.distance);
+    add(uint64_t{t.horizontal});
   }
   for (const UvProjection& p : extra.projections) {
-    h.add(static_cast<uint64_t>(p.set) + 1);
-    h.add(p.frame);
-    for (double v : {p.width, p.height, p.offsetU, p.offsetV, p.uwFactor}) h.add(v);
+    add(static_cast<uint64_t>(p.set) + 1);
+    add(p.frame);
+    for (double v : {p.width, p.height, p.offsetU, p.offsetV, p.uwFactor}) add(v);
   }
-  h.add(uint64_t{extra.deformed});
+  add(uint64_t{extra.deformed});
   if (!extra.deformed) return;
   const Deformation& d = extra.deformation;
   for (const Affine* a : {&d.near, &d.far}) {
-    for (const Vec3* v : {&a->x, &a->y, &a->z, &a->origin}) h.add(*v);
+    for (const Vec3* v : {&a->x, &a->y, &a->z, &a->origin}) add(*v);
   }
-  h.add(d.front);
-  h.add(d.top);
+  add(d.front);
+  add(d.top);
 }
+
+namespace {
 
 // What is alike but for rounding becomes exactly so: else no two calls would be alike. Coordinates
 // go to a grid of a thousand-millionth of a metre, directions to a finer one.
@@ -98,7 +75,8 @@ ShareKey Machine::keyOf(uint32_t rule, const Activation& call) {
   const uint32_t effects = code.reads.effects;
   const Shape& s = call.shape;
   KeyHash h;
-  h.add(uint64_t{rule} << 32 | (s.trimVertical ? 2u : 0u) | (s.trimHorizontal ? 1u : 0u));
+  h.add(remembers_ ? shared_.reach[rule].code : uint64_t{rule});
+  h.add(uint64_t{s.trimVertical} << 1 | uint64_t{s.trimHorizontal});
   h.add(s.size);
   h.add(uint64_t{s.material} << 32 | s.assetMaterials);
   h.add(uint64_t{s.attributes});
@@ -118,7 +96,7 @@ ShareKey Machine::keyOf(uint32_t rule, const Activation& call) {
     h.add(uint64_t{s.compSelector});
   }
   if (effects & (kReadsPivot | kReadsPivotAxes)) h.add(s.pivot);
-  if (s.extra) addExtra(h, *s.extra);
+  if (s.extra) h.add(*s.extra);
   return h.key();
 }
 
@@ -162,11 +140,16 @@ bool Machine::beginShared(const RuleCode& rule, Activation& call) {
   }
   const ShareKey key = keyOf(call.rule, call);
   if (aborted_) return false;
-  if (const auto hit = cache_.find(key); hit != cache_.end()) {
+  const auto hit = cache_.find(key);
+  uint32_t number = 0;
+  if (hit != cache_.end()) {
     ++cacheHits_;
+    number = hit->second;
+  }
+  if (hit != cache_.end() || recallPrototype(key, number)) {
     // The call itself has been counted already.
-    shapesExpanded_ += output_.prototypes[hit->second].range.shapes - 1;
-    addInstance(outer, hit->second);
+    shapesExpanded_ += output_.prototypes[number].range.shapes - 1;
+    addInstance(outer, number);
     return true;
   }
   call.boundary = true;

@@ -21,6 +21,8 @@ namespace {
 
 constexpr size_t kRulesKept = 4, kShapesKept = 4, kModelsKept = 4, kModelsOfAll = 16,
                  kPagesKept = 64;
+/// Of all models together, unless one alone has more: a town has three million.
+constexpr uint64_t kLeavesKept = 8'000'000;
 constexpr double kMostSeconds = 600, kUsualSeconds = 20;
 constexpr double kMostShapes = 50e6, kUsualShapes = 5e6;
 constexpr uint64_t kTreeShapes = 400'000;
@@ -150,15 +152,15 @@ std::shared_ptr<const Rules> Session::rulesOf(const JsonValue& request) {
     }
     key += '\0' + path + '\0' + text.text();
   }
-  std::shared_ptr<const Rules> assets;
+  std::shared_ptr<const Rules> before;
   {
     const std::lock_guard lock(mutex_);
     for (const auto& [known, rules] : rules_) {
       if (known == key) return rules;
     }
-    if (!rules_.empty()) assets = rules_.front().second;
+    if (!rules_.empty()) before = rules_.front().second;
   }
-  options.assetsOf = assets.get();
+  options.before = before.get();
   auto rules = std::make_shared<const Rules>(
       Rules::parse(request["text"].text(), files_.root() + "/" + file, options));
   const std::lock_guard lock(mutex_);
@@ -250,6 +252,11 @@ Result<Model> Session::deriveFor(const JsonValue& request, const Rules& rules, W
     work.done = done;
     work.total = total;
   };
+  // What is as it was is taken over from what the page saw last.
+  const std::optional<Model> before =
+      trace == Trace::None ? lastOf(request["page"].text()) : std::nullopt;
+  settings.remember = trace == Trace::None;
+  settings.before = before ? &*before : nullptr;
   return gable::derive(rules, *shapes.value(), settings);
 }
 
@@ -277,7 +284,7 @@ Result<std::string> Session::derive(const JsonValue& request, const Cancel& canc
   if (drawn) {
     const std::lock_guard lock(mutex_);
     number = ++last_;
-    keepModel({number, model, request["page"].text()});
+    keepModel({number, model, request["page"].text(), 0});
   }
   json.key("end").value(wrong ? "wrong" : endName(model.end()));
   json.key("derivation").value(number);
@@ -317,6 +324,14 @@ std::optional<Model> Session::made(uint64_t number) const {
   return std::nullopt;
 }
 
+std::optional<Model> Session::lastOf(const std::string& page) const {
+  const std::lock_guard lock(mutex_);
+  for (const Made& m : made_) {
+    if (m.page == page) return m.model;
+  }
+  return std::nullopt;
+}
+
 Result<Model> Session::model(uint64_t derivation) const {
   std::optional<Model> model = made(derivation);
   if (!model) return Error{"derivation-gone", "this derivation is no longer kept", "derive again"};
@@ -325,17 +340,21 @@ Result<Model> Session::model(uint64_t derivation) const {
 
 uint64_t Session::adopt(Model model) {
   const std::lock_guard lock(mutex_);
-  keepModel({++last_, std::move(model), "workshop"});
+  keepModel({++last_, std::move(model), "workshop", 0});
   return last_;
 }
 
 void Session::keepModel(Made made) {
   const std::string page = made.page;
+  made.leaves = made.model.leafCount();
   made_.push_front(std::move(made));
   size_t own = 0;
+  uint64_t leaves = 0;
   for (auto at = made_.begin(); at != made_.end();) {
+    leaves += at->leaves;
+    const bool large = at != made_.begin() && leaves > kLeavesKept;
     const bool old = at->page == page && ++own > kModelsKept;
-    at = old ? made_.erase(at) : at + 1;
+    at = old || large ? made_.erase(at) : at + 1;
   }
   if (made_.size() > kModelsOfAll) made_.pop_back();
 }

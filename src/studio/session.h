@@ -55,6 +55,7 @@ class Session {
     Model model;
     /// Models of other pages, or of a page's wall of variations, do not push this one out.
     std::string page;
+    uint64_t leaves = 0;
   };
   /// With the lock held.
   void keepModel(Made made);
@@ -62,6 +63,8 @@ class Session {
   std::shared_ptr<const Rules> rulesOf(const JsonValue& request);
   Result<std::shared_ptr<const Shapes>> fileShapes(const std::string& file);
   std::optional<Model> made(uint64_t number) const;
+  /// The model that was derived last for a page.
+  std::optional<Model> lastOf(const std::string& page) const;
   std::shared_ptr<Work> begin(const JsonValue& request, const Cancel& cancel);
   Result<Model> deriveFor(const JsonValue& request, const Rules& rules, Work& work, Trace trace);
 

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Rules, functions and initialisers are the units of a program; each is hashed on its own, and the
+// hashes are folded along the graph of calls. Units that call each other in a circle are folded as
+// one: strongly connected components, found in one walk (Tarjan, "Depth-first search and linear
+// graph algorithms", 1972), which also gives them in an order where callees come first.
+
+#include "program/reach.h"
+
+#include <algorithm>
+
+#include "base/hash.h"
+
+namespace gable {
+
+namespace {
+
+struct CodeUnit {
+  uint32_t entry = 0, end = 0;
+  uint64_t own = 0;
+  /// Units that it calls or asks, and attributes that it reads.
+  std::vector<uint32_t> calls, attributes;
+};
+
+class Hash {
+ public:
+  Hash& add(uint64_t v) {
+    h_ = hashCombine(h_, v);
+    return *this;
+  }
+  Hash& add(std::string_view text) { return add(hashBytes(text)); }
+  Hash& add(double v) { return add(hashDouble(v)); }
+  uint64_t value() const { return h_; }
+
+ private:
+  uint64_t h_ = 0;
+};
+
+class Units {
+ public:
+  explicit Units(const Program& p) : p_(p) {
+    for (const RuleCode& r : p.rules) units_.push_back({r.entry, 0, 0, {}, {}});
+    for (const FunctionCode& f : p.functions) units_.push_back({f.entry, 0, 0, {}, {}});
+    for (const AttributeCode& a : p.attributes) units_.push_back({a.entry, 0, 0, {}, {}});
+    findEnds();
+    for (uint32_t u = 0; u < units_.size(); ++u) read(u);
+  }
+
+  std::vector<CodeUnit> take() { return std::move(units_); }
+
+ private:
+  uint32_t functionUnit(uint32_t f) const { return static_cast<uint32_t>(p_.rules.size()) + f; }
+  uint32_t attributeUnit(uint32_t a) const {
+    return functionUnit(static_cast<uint32_t>(p_.functions.size())) + a;
+  }
+
+  // Units lie in the code one after the other.
+  void findEnds() {
+    std::vector<uint32_t> entries;
+    for (const CodeUnit& u : units_) entries.push_back(u.entry);
+    std::sort(entries.begin(), entries.end());
+    for (CodeUnit& u : units_) {
+      const auto next = std::upper_bound(entries.begin(), entries.end(), u.entry);
+      u.end = next == entries.end() ? static_cast<uint32_t>(p_.code.size()) : *next;
+    }
+  }
+
+  void read(uint32_t number) {
+    CodeUnit& u = units_[number];
+    Hash h;
+    addHead(h, number);
+    for (uint32_t at = u.entry; at < u.end; ++at) {
+      const Instruction& i = p_.code[at];
+      h.add(uint64_t{static_cast<uint8_t>(i.code)} << 8 | i.x).add(p_.sites[at]);
+      addOperand(h, u, at);
+    }
+    u.own = h.value();
+  }
+
+  void addHead(Hash& h, uint32_t number) const {
+    if (number < p_.rules.size()) {
+      const RuleCode& r = p_.rules[number];
+      h.add(r.qualifiedName).add(p_.pool->text(r.name)).add(p_.files[r.file]);
+      h.add(r.parameters.size()).add(uint64_t{r.shared} << 1 | uint64_t{r.needsPrevious});
+      h.add(uint64_t{r.reads.effects});
+    } else if (number < attributeUnit(0)) {
+      h.add(uint64_t{p_.functions[number - functionUnit(0)].parameterCount});
+    } else {
+      const AttributeCode& a = p_.attributes[number - attributeUnit(0)];
+      h.add(a.name).add(static_cast<uint64_t>(a.type) << 1 | uint64_t{a.constant});
+    }
+  }
+
+  void addOperand(Hash& h, CodeUnit& u, uint32_t at) {
+    const Instruction& i = p_.code[at];
+    switch (i.code) {
+      case Code::Constant:
+      case Code::Leaf: h.add(p_.constants[i.a].hash()); break;
+      case Code::RuleAttribute: u.attributes.push_back(i.a); [[fallthrough]];
+      case Code::Initialise: u.calls.push_back(attributeUnit(i.a)); [[fallthrough]];
+      case Code::SetAttribute:
+      case Code::Bind: h.add(p_.attributes[i.a].name); break;
+      case Code::BuiltinAttribute:
+      case Code::SetBuiltin: h.add(std::string_view(p_.builtinAttributes[i.a]->name)); break;
+      case Code::Function: u.calls.push_back(functionUnit(i.a)); break;
+      case Code::BuiltinFunction: h.add(std::string_view(p_.builtinFunctions[i.a]->name)); break;
+      case Code::RunRule:
+      case Code::CallRule:
+        h.add(p_.rules[i.a].qualifiedName);
+        u.calls.push_back(i.a);
+        break;
+      case Code::Operation:
+      case Code::OperationConstant:
+      case Code::ComponentValues:
+        h.add(std::string_view(p_.operations[i.a]->name));
+        if (i.code == Code::OperationConstant) addConstants(h, p_.code[at + 1].a, i.x);
+        if (i.y > 0) addBlock(h, u, p_.blocks[i.y - 1u]);
+        break;
+      case Code::Jump:
+      case Code::JumpIfFalse:
+      case Code::JumpIfFalseKeep:
+      case Code::JumpIfTrueKeep:
+      case Code::BeginTurns:
+      case Code::EndTurn: h.add(uint64_t{i.a - u.entry}); break;
+      case Code::JumpTable:
+        for (const uint32_t to : p_.jumpTables[i.a]) h.add(uint64_t{to - u.entry});
+        break;
+      case Code::MakeArray:
+        for (const uint32_t count : p_.jumpTables[i.a]) h.add(uint64_t{count});
+        break;
+      case Code::Operand: break;
+      default: h.add(uint64_t{i.a} << 16 | i.y); break;
+    }
+  }
+
+  void addConstants(Hash& h, uint32_t first, uint32_t count) const {
+    for (uint32_t c = first; c < first + count; ++c) h.add(p_.constants[c].hash());
+  }
+
+  void addBlock(Hash& h, const CodeUnit& u, const BlockCode& b) const {
+    h.add(static_cast<uint64_t>(b.kind) << 33 | uint64_t{b.repeat} << 32 | b.valueCount);
+    for (const BlockItem& i : b.items) {
+      h.add(uint64_t{i.length} << 32 | uint64_t{i.selectOperator} << 2 | uint64_t{i.group} << 1 |
+            uint64_t{i.repeat});
+      h.add(uint64_t{i.firstTerm} << 32 | i.termCount).add(uint64_t{i.slot});
+    }
+    for (const BlockTerm& t : b.terms) {
+      h.add(uint64_t{t.kind} << 32 | t.word).add(uint64_t{static_cast<uint32_t>(t.value)});
+      h.add(t.number);
+    }
+    for (const uint32_t s : b.slots) h.add(uint64_t{s - u.entry});
+    for (const auto& size : b.preferredSizes) {
+      for (const double v : size) h.add(v);
+    }
+    for (const Value& v : b.constantSizes) h.add(v.hash());
+  }
+
+  const Program& p_;
+  std::vector<CodeUnit> units_;
+};
+
+// Tarjan's walk with a stack of its own: chains of calls may be long.
+class Folding {
+ public:
+  explicit Folding(const std::vector<CodeUnit>& units, size_t attributes)
+      : units_(units), words_((attributes + 63) / 64), state_(units.size()) {}
+
+  /// The hash of a unit's component with all below it, and the attributes it reads as bits.
+  struct Component {
+    uint64_t code = 0;
+    std::vector<uint64_t> attributes;
+  };
+
+  const Component& of(uint32_t unit) {
+    if (state_[unit].component == kNone) walk(unit);
+    return components_[state_[unit].component];
+  }
+
+ private:
+  static constexpr uint32_t kNone = 0xffffffff;
+  struct State {
+    uint32_t index = kNone, low = kNone, component = kNone;
+  };
+  struct Frame {
+    uint32_t unit;
+    size_t next;
+  };
+
+  void walk(uint32_t root) {
+    std::vector<Frame> frames;
+    const auto enter = [&](uint32_t unit) {
+      state_[unit].index = state_[unit].low = count_++;
+      open_.push_back(unit);
+      frames.push_back({unit, 0});
+    };
+    enter(root);
+    while (!frames.empty()) {
+      const uint32_t unit = frames.back().unit;
+      State& s = state_[unit];
+      if (frames.back().next < units_[unit].calls.size()) {
+        const uint32_t to = units_[unit].calls[frames.back().next++];
+        if (state_[to].index == kNone)
+          enter(to);
+        else if (state_[to].component == kNone)
+          s.low = std::min(s.low, state_[to].index);
+        continue;
+      }
+      if (s.low == s.index) close(unit);
+      frames.pop_back();
+      if (!frames.empty()) {
+        State& above = state_[frames.back().unit];
+        above.low = std::min(above.low, s.low);
+      }
+    }
+  }
+
+  void close(uint32_t unit) {
+    const auto number = static_cast<uint32_t>(components_.size());
+    std::vector<uint32_t> members;
+    do {
+      members.push_back(open_.back());
+      open_.pop_back();
+      state_[members.back()].component = number;
+    } while (members.back() != unit);
+    Component c;
+    c.attributes.assign(words_, 0);
+    std::vector<uint64_t> parts;
+    for (const uint32_t m : members) {
+      parts.push_back(units_[m].own);
+      for (const uint32_t a : units_[m].attributes) c.attributes[a / 64] |= uint64_t{1} << a % 64;
+      for (const uint32_t to : units_[m].calls) {
+        if (state_[to].component == number) continue;
+        const Component& below = components_[state_[to].component];
+        parts.push_back(below.code);
+        for (size_t w = 0; w < words_; ++w) c.attributes[w] |= below.attributes[w];
+      }
+    }
+    // The order of units in the program does not count.
+    std::sort(parts.begin(), parts.end());
+    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+    for (const uint64_t part : parts) c.code = hashCombine(c.code, part);
+    components_.push_back(std::move(c));
+  }
+
+  const std::vector<CodeUnit>& units_;
+  const size_t words_;
+  std::vector<State> state_;
+  std::vector<uint32_t> open_;
+  uint32_t count_ = 0;
+  std::vector<Component> components_;
+};
+
+}  // namespace
+
+std::vector<Reach> reachOf(const Program& program) {
+  const std::vector<CodeUnit> units = Units(program).take();
+  Folding folding(units, program.attributes.size());
+  std::vector<Reach> out(program.rules.size());
+  for (uint32_t r = 0; r < out.size(); ++r) {
+    const Folding::Component& c = folding.of(r);
+    out[r].code = hashCombine(c.code, units[r].own);
+    for (uint32_t a = 0; a < program.attributes.size(); ++a) {
+      if (c.attributes[a / 64] >> a % 64 & 1) out[r].attributes.push_back(a);
+    }
+  }
+  return out;
+}
+
+}  // namespace gable

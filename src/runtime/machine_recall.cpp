@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Recall in the machine: which calls are remembered, under which keys, and what they count.
+//
+// A call is a part when it works in the world, not in the frame of a shared rule (those are found
+// as prototypes), and when calls of its rule cost enough that a key is little beside them. A part
+// that warned is not remembered: the warning would be lost.
+
+#include "runtime/key_hash.h"
+#include "runtime/machine.h"
+
+namespace gable {
+
+namespace {
+
+/// Steps of a call that is worth a key.
+constexpr uint64_t kWorthwhile = 256;
+/// Every so often a rule, or an operation, whose calls were small is looked at again.
+constexpr uint64_t kBetweenSamples = 16;
+/// What an operation takes that is worth keeping with all that it made.
+constexpr std::chrono::microseconds kLong{300};
+
+}  // namespace
+
+void Machine::beginRemembering() {
+  inputs_.assign(program_.rules.size(), 0);
+  given_.assign(program_.attributes.size(), 0);
+  for (size_t a = 0; a < given_.size(); ++a) {
+    // Bound before anything is evaluated.
+    if (attributeStates_[a] == AttributeState::Known) given_[a] = attributeValues_[a].hash() | 1;
+  }
+  shapeHash_ = hashOfInitialShape();
+}
+
+// What rules can ask of the initial shape.
+uint64_t Machine::hashOfInitialShape() const {
+  KeyHash h;
+  h.add(hashBytes(info_.name));
+  h.add(hashBytes(info_.startRule));
+  h.add(info_.origin);
+  h.add(info_.seed);
+  h.add(uint64_t{info_.index});
+  h.add(info_.shape.path);
+  h.add(info_.shape.scope);
+  h.add(info_.shape.size);
+  h.add(contentHash(info_.shape.geometry));
+  return h.key().a;
+}
+
+uint64_t Machine::inputsOf(uint32_t rule) {
+  uint64_t& known = inputs_[rule];
+  if (known != 0) return known;
+  const Reach& reach = shared_.reach[rule];
+  uint64_t h = hashCombine(reach.code, shapeHash_);
+  for (const uint32_t a : reach.attributes) h = hashCombine(h, given_[a]);
+  return known = h | 1;
+}
+
+void Machine::addShape(KeyHash& h, const Shape& s) const {
+  h.add(s.path);
+  h.add(uint64_t{s.trimVertical} << 1 | uint64_t{s.trimHorizontal});
+  h.add(s.scope);
+  h.add(s.size);
+  h.add(s.pivot);
+  h.add(contentHash(s.geometry));
+  h.add(uint64_t{s.material} << 32 | s.assetMaterials);
+  h.add(uint64_t{s.attributes} << 32 | s.compSelector);
+  h.add(uint64_t{s.split.index} << 32 | s.split.total);
+  h.add(uint64_t{s.comp.index} << 32 | s.comp.total);
+  for (uint32_t at = s.locals; at != 0; at = locals_[at - 1].outer) {
+    h.add(uint64_t{locals_[at - 1].attribute});
+    h.add(locals_[at - 1].value.hash());
+  }
+  if (s.extra) h.add(*s.extra);
+}
+
+ShareKey Machine::partKey(const Activation& call) {
+  KeyHash h;
+  h.add(inputsOf(call.rule));
+  h.add(uint64_t{call.depth});
+  addShape(h, call.shape);
+  for (uint32_t p = call.parameters; p < stackTop_; ++p) h.add(stack_[p].hash());
+  if ((program_.rules[call.rule].reads.effects & kReadsPath) != 0) h.add(hashBytes(treeKey()));
+  return h.key();
+}
+
+bool Machine::worthKeeping(uint32_t rule) {
+  RuleCost& cost = costs_[rule];
+  return cost.calls++ % kBetweenSamples == 0 || cost.steps >= kWorthwhile * cost.measured;
+}
+
+Output::Mark Machine::placeInRoot() const {
+  Output::Mark m = output_.mark();
+  m.leaves -= rootMark_.leaves;
+  m.instances -= rootMark_.instances;
+  m.events -= rootMark_.events;
+  return m;
+}
+
+bool Machine::beginPart(Activation& call) {
+  if (!prototypes_.empty() || aborted_ || !worthKeeping(call.rule)) return false;
+  OpenPart open;
+  open.part.key = partKey(call);
+  if (recaller_) {
+    if (const RecallPart* known = recaller_->part(open.part.key)) {
+      costs_[call.rule].measured += 1;
+      costs_[call.rule].steps += known->steps;
+      takePart(*known);
+      return true;
+    }
+  }
+  open.part.begin = placeInRoot();
+  open.part.firstInside = static_cast<uint32_t>(parts_.size());
+  open.part.firstOperation = static_cast<uint32_t>(keptOperations_.size());
+  open.part.shapes = shapes_;
+  open.part.shapesExpanded = shapesExpanded_;
+  open.part.steps = stepsBefore_ + work_;
+  open.rule = call.rule;
+  open.warnings = warnings_;
+  openParts_.push_back(open);
+  call.kept = true;
+  return false;
+}
+
+void Machine::endPart() {
+  OpenPart& open = openParts_.back();
+  RecallPart& part = open.part;
+  part.end = placeInRoot();
+  part.endOperation = static_cast<uint32_t>(keptOperations_.size());
+  part.shapes = shapes_ - part.shapes;
+  part.shapesExpanded = shapesExpanded_ - part.shapesExpanded;
+  part.steps = stepsBefore_ + work_ - part.steps;
+  costs_[open.rule].measured += 1;
+  costs_[open.rule].steps += part.steps;
+  if (part.steps >= kWorthwhile && warnings_ == open.warnings) parts_.push_back(part);
+  openParts_.pop_back();
+}
+
+// The parts inside come along: the next derivation may know them where it does not know this one.
+void Machine::takePart(const RecallPart& known) {
+  const Output::Mark now = placeInRoot();
+  recaller_->take(known, rootMark_);
+  const std::vector<RecallPart>& all = recaller_->recall().parts;
+  const auto self = static_cast<uint32_t>(&known - all.data());
+  const uint32_t partShift = static_cast<uint32_t>(parts_.size()) - known.firstInside;
+  const uint32_t operationShift =
+      static_cast<uint32_t>(keptOperations_.size()) - known.firstOperation;
+  const auto moved = [&](const Output::Mark& m) {
+    return Output::Mark{m.leaves - known.begin.leaves + now.leaves,
+                        m.instances - known.begin.instances + now.instances,
+                        m.events - known.begin.events + now.events};
+  };
+  for (uint32_t p = known.firstInside; p <= self; ++p) {
+    RecallPart copy = all[p];
+    copy.firstInside += partShift;
+    copy.firstOperation += operationShift;
+    copy.endOperation += operationShift;
+    copy.begin = moved(copy.begin);
+    copy.end = moved(copy.end);
+    parts_.push_back(copy);
+  }
+  shapes_ += known.shapes;
+  shapesExpanded_ += known.shapesExpanded;
+  recalled_ += known.shapesExpanded;
+  for (uint32_t o = known.firstOperation; o < known.endOperation; ++o) {
+    keptOperations_.push_back(recaller_->recall().operations[o]);
+  }
+  countTaken();
+  tick(known.steps);
+}
+
+ShareKey Machine::operationKey(OpCall& call, std::span<const Value> arguments,
+                               const BlockInput* block) {
+  KeyHash h;
+  h.add(hashBytes(call.spec().name));
+  h.add(hashBytes(call.file()));
+  h.add(call.randomAddress(0));
+  h.add(shapeHash_);
+  h.add(call.previousScope());
+  h.add(call.previousSize());
+  addShape(h, call.shape());
+  for (const Value& v : arguments) h.add(v.hash());
+  if (!block) return h.key();
+  h.add(uint64_t{block->slotCount});
+  for (const SelectorItem& item : block->selectors) {
+    h.add(item.terms.size() << 8 | static_cast<uint64_t>(item.op));
+    h.add(uint64_t{item.slot});
+    for (const SelectorTerm& t : item.terms) {
+      h.add(static_cast<uint64_t>(t.kind) << 32 | t.word);
+      h.add(t.number);
+    }
+  }
+  for (const auto& size : block->preferredSizes) {
+    for (const double v : size) h.add(v);
+  }
+  return h.key();
+}
+
+namespace {
+
+RecallOperation::Kept keptShape(const Shape& from, uint32_t slot) {
+  RecallOperation::Kept out;
+  out.shape = from;
+  out.shape.extra = {};
+  out.slot = slot;
+  if (from.extra) out.extra = std::make_unique<const ShapeExtra>(*from.extra);
+  return out;
+}
+
+// Local values are counted by each machine for itself; an operation leaves them as they are.
+Shape takenShape(const RecallOperation::Kept& from, uint32_t locals) {
+  Shape out = from.shape;
+  out.locals = locals;
+  if (from.extra) out.extra = makeRef<ShapeExtra>(*from.extra);
+  return out;
+}
+
+}  // namespace
+
+Status Machine::applyRemembering(OpCall& call, const Instruction& i,
+                                 std::span<const Value> arguments, const BlockInput* block) {
+  constexpr uint32_t kTold = kReadsContext | kReadsPath | kReports;
+  OperationCost& cost = operationCosts_[pcOf(&i)];
+  const bool split = block && !block->split.items.empty();
+  const bool looked = cost.calls++ % kBetweenSamples == 0 ||
+                      cost.time >= kLong * static_cast<int64_t>(cost.measured);
+  if (split || !looked || (call.spec().effects & kTold) != 0) return call.spec().apply(call);
+  const ShareKey key = operationKey(call, arguments, block);
+  const auto begin = std::chrono::steady_clock::now();
+  if (takeOperation(key, call.shape())) {
+    // It took long, or it would not be known.
+    cost.time += kLong;
+    ++cost.measured;
+    return {};
+  }
+  const size_t firstChild = children_.size(), firstPiece = pieces_.size();
+  const uint64_t warnings = warnings_;
+  const size_t leaves = output_.openLeaves.size();
+  const Status status = call.spec().apply(call);
+  const auto took = std::chrono::steady_clock::now() - begin;
+  cost.time += took;
+  ++cost.measured;
+  const bool repeatable = status.ok() && !call.dropped() && warnings_ == warnings && !aborted_ &&
+                          pieces_.size() == firstPiece && output_.openLeaves.size() == leaves;
+  if (repeatable && took >= kLong) keepOperation(key, call.shape(), firstChild);
+  return status;
+}
+
+void Machine::keepOperation(const ShareKey& key, const Shape& shape, size_t firstChild) {
+  auto kept = std::make_shared<RecallOperation>();
+  kept->key = key;
+  kept->shape = keptShape(shape, 0);
+  for (size_t c = firstChild; c < children_.size(); ++c) {
+    kept->children.push_back(keptShape(children_[c].shape, children_[c].slot));
+  }
+  keptOperations_.push_back(std::move(kept));
+}
+
+bool Machine::takeOperation(const ShareKey& key, Shape& shape) {
+  if (!recaller_) return false;
+  std::shared_ptr<const RecallOperation> known = recaller_->operation(key);
+  if (!known) return false;
+  const uint32_t locals = shape.locals;
+  for (const RecallOperation::Kept& child : known->children) {
+    children_.push_back({takenShape(child, locals), child.slot});
+  }
+  shape = takenShape(known->shape, locals);
+  keptOperations_.push_back(std::move(known));
+  return true;
+}
+
+bool Machine::recallPrototype(const ShareKey& key, uint32_t& number) {
+  if (!recaller_ || !recaller_->takePrototype(key, number)) return false;
+  recalled_ += output_.prototypes[number].range.shapes;
+  countTaken();
+  return true;
+}
+
+void Machine::countTaken() {
+  const Recaller::Counts taken = recaller_->counts();
+  cacheHits_ += taken.shared;
+  countVertices(taken.vertices);
+}
+
+void Machine::noteEffect() {
+  if (!remembers_) return;
+  for (const FunctionFrame& f : functions_) {
+    if (f.attribute >= 0) shared_.unrepeatable.store(true, std::memory_order_relaxed);
+  }
+}
+
+}  // namespace gable

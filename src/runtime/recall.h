@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Recall: what a derivation keeps so that the next one, of nearly the same rules, derives only what
+// has changed.
+//
+// It keeps no geometry of its own: a part is the result of one costly rule call, as ranges of the
+// scene that was made, under a key of all that the call depended on: the code within reach, the
+// attributes that were given from outside, the initial shape, the shape with its address. Where the
+// next derivation comes to a call with that key it takes the ranges over. Prototypes are found
+// under the keys of sharing, and single operations that took long (the streets of a town) with the
+// shapes that they made. The scene is the same, to the byte, as one derived from nothing.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "program/program.h"
+#include "runtime/output.h"
+#include "shape/shape.h"
+
+namespace gable {
+
+struct Environment;
+struct DeriveResult;
+
+using PrototypeNumbers = std::unordered_map<ShareKey, uint32_t, ShareKeyHash>;
+
+/// A rule call's result, as ranges of the leaves, instances and events of the prototype of its
+/// initial shape.
+struct RecallPart {
+  ShareKey key;
+  /// Of the scene; of the worker's output until the outputs are merged.
+  uint32_t prototype = 0, worker = 0;
+  Output::Mark begin, end;
+  /// Parts from this one up to the part itself lie inside of it.
+  uint32_t firstInside = 0;
+  /// Operations that were kept inside of it.
+  uint32_t firstOperation = 0, endOperation = 0;
+  /// What the call counted.
+  uint64_t shapes = 0, shapesExpanded = 0, steps = 0;
+};
+
+/// What an operation that took long did to its shape. Of shapes the extra is apart, since counted
+/// pointers to it stay with a worker.
+struct RecallOperation {
+  struct Kept {
+    Shape shape;
+    std::unique_ptr<const ShapeExtra> extra;
+    /// The block slot of a child.
+    uint32_t slot = 0;
+  };
+  ShareKey key;
+  Kept shape;
+  std::vector<Kept> children;
+};
+
+struct Recall {
+  /// Keys hold ids of these tables, which must be the same objects.
+  const Environment* tables = nullptr;
+  /// Names of the program's attributes: attribute sets go by their order.
+  std::vector<std::string> attributes;
+
+  std::vector<RecallPart> parts;
+  PrototypeNumbers partNumbers;
+  PrototypeNumbers prototypeNumbers;
+  std::vector<std::shared_ptr<const RecallOperation>> operations;
+  PrototypeNumbers operationNumbers;
+
+  /// By prototype of the scene: its key, and its events in `events`.
+  struct PrototypeNotes {
+    ShareKey key;
+    uint32_t firstEvent = 0, eventCount = 0;
+    bool speaks = false;
+  };
+  std::vector<PrototypeNotes> prototypes;
+  std::vector<OutputEvent> events;
+
+  // What the numbers in the scene's leaves stand for in the tables.
+  std::vector<StringId> names;
+  /// Pairs as Output::materials has them.
+  std::vector<uint64_t> materials;
+  std::vector<uint32_t> attributeSets;
+  /// An instruction, told so that it is found again in another program.
+  struct Source {
+    std::string rule;
+    size_t parameters = 0;
+    uint32_t offset = 0;
+  };
+  std::vector<Source> sources;
+};
+
+/// Why a derivation before is of use, worked out once for all workers.
+struct RecallInput {
+  const Recall* recall = nullptr;
+  const Scene* scene = nullptr;
+  /// By source of the scene: the instruction of the program at work.
+  std::vector<uint32_t> instructions;
+};
+
+/// Empty where nothing can be taken over: there is no recall, or it is of other tables.
+RecallInput recallInput(const DeriveResult* before, const Program& program,
+                        const Environment& environment);
+
+/// Takes results of the derivation before over into the output of one worker.
+class Recaller {
+ public:
+  Recaller(const RecallInput& input, Output& output, PrototypeNumbers& cache);
+
+  /// Null when there is none.
+  const RecallPart* part(const ShareKey& key) const;
+  const Recall& recall() const { return recall_; }
+  std::shared_ptr<const RecallOperation> operation(const ShareKey& key) const;
+  /// Adds the part's content to what lies open; `base` is where the open prototype began.
+  void take(const RecallPart& part, const Output::Mark& base);
+  /// Finishes the prototype with that key, and those that it holds, in the output and the cache.
+  /// False when it is not known.
+  bool takePrototype(const ShareKey& key, uint32_t& number);
+
+  /// Since the last call of it: vertices of meshes of the leaves taken over, and instances of
+  /// prototypes that the output had already.
+  struct Counts {
+    uint64_t vertices = 0, shared = 0;
+  };
+  Counts counts();
+
+ private:
+  uint32_t prototype(uint32_t number);
+  Leaf leaf(const Leaf& from);
+  Instance instance(const Instance& from);
+
+  const RecallInput& input_;
+  const Recall& recall_;
+  const Scene& scene_;
+  Output& output_;
+  PrototypeNumbers& cache_;
+  /// By number in the scene before: that in the output.
+  std::vector<uint32_t> prototypes_, meshes_, materials_;
+  Counts counts_;
+};
+
+}  // namespace gable

@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Derivations that take parts over from the one before: the result is that of a derivation from
+// nothing, to the byte, and what has not changed is not derived again.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "gable/gable.h"
+#include "program/reach.h"
+
+#include "engine/impl.h"
+
+namespace gable {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contentOf(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+// All that a model shows: the draw list with its numbers of leaves, the file with its nodes,
+// counts, reports, messages, and the rule and line of leaves here and there.
+std::string shown(const Model& model) {
+  const fs::path file =
+      fs::path(testing::TempDir()) / ("gable-recall-" + std::to_string(getpid()) + ".glb");
+  EXPECT_TRUE(model.write(file.string(), {}).ok);
+  std::string out = contentOf(file);
+  fs::remove(file);
+  out += model.drawList();
+  std::string stats = model.statsJson({});
+  // What was taken over is no difference.
+  if (const size_t at = stats.find("\"recalled\""); at != std::string::npos) {
+    stats.erase(at, stats.find('\n', at) - at);
+  }
+  std::erase_if(stats, [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; });
+  out += stats + messagesJson(model.messages());
+  const uint64_t leaves = model.leafCount();
+  const uint64_t step = leaves / 200 + 1;
+  for (uint64_t leaf = 0; leaf < leaves; leaf += step) out += model.leafJson(leaf);
+  return out;
+}
+
+uint64_t recalled(const Model& model) { return model.impl().result.recalled; }
+uint64_t shapesOf(const Model& model) {
+  uint64_t all = 0;
+  for (const Root& r : model.impl().result.scene.roots) {
+    all += model.impl().result.scene.prototypes[r.instance.prototype].shapes;
+  }
+  return all;
+}
+
+// A text that is edited, and what the page of an editor sees of it.
+class Edited {
+ public:
+  explicit Edited(Shapes shapes, LoadOptions options = {}, std::string name = "main.cga")
+      : shapes_(std::move(shapes)), options_(std::move(options)), name_(std::move(name)) {}
+
+  DeriveSettings settings;
+
+  /// The model of a text, with what can be taken over.
+  Model next(const std::string& text) {
+    LoadOptions options = options_;
+    options.before = rules_ ? &*rules_ : nullptr;
+    Rules rules = Rules::parse(text, name_, options);
+    EXPECT_TRUE(rules.ok()) << (rules.messages().empty() ? "" : rules.messages()[0].pretty);
+    DeriveSettings s = settings;
+    s.remember = true;
+    s.before = model_ ? &*model_ : nullptr;
+    Model model = derive(rules, shapes_, s);
+    rules_ = rules;
+    model_ = model;
+    return model;
+  }
+  /// The same from nothing.
+  Model fresh(const std::string& text) const {
+    return derive(Rules::parse(text, name_, options_), shapes_, settings);
+  }
+  LoadOptions& options() { return options_; }
+
+ private:
+  Shapes shapes_;
+  LoadOptions options_;
+  std::string name_;
+  std::optional<Rules> rules_;
+  std::optional<Model> model_;
+};
+
+const char kBlocks[] = R"(
+attr height = 30
+attr other = 3
+Lot --> split(x) { ~40 : Left | ~40 : Right }
+Left --> extrude(height) comp(f) { side : Facade | top : LeftRoof. }
+Right --> extrude(20 + rand(1)) comp(f) { side : Facade | top : RightRoof. }
+Facade --> split(y) { ~3 : split(x) { ~rand(1, 2) : Tile }* }*
+Tile --> s('1, '0.9, 0.2 * other) primitiveCube()
+)";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(Recall, anEditOfOneRuleLeavesTheOthers) {
+  Edited place(Shapes::lot(80, 20));
+  const Model first = place.next(kBlocks);
+  EXPECT_EQ(recalled(first), 0u);
+  const Model again = place.next(kBlocks);
+  EXPECT_GT(recalled(again), shapesOf(again) * 9 / 10);
+  EXPECT_EQ(shown(again), shown(first));
+  const std::string edited = replaced(kBlocks, "20 + rand", "21 + rand");
+  const Model second = place.next(edited);
+  EXPECT_EQ(shown(second), shown(place.fresh(edited)));
+  EXPECT_GT(recalled(second), shapesOf(second) / 2);
+  EXPECT_LT(recalled(second), shapesOf(second) * 9 / 10);
+}
+
+TEST(Recall, aRuleThatAllReachChangesAll) {
+  Edited place(Shapes::lot(80, 20));
+  place.next(kBlocks);
+  const std::string edited = replaced(kBlocks, "'0.9", "'0.8");
+  const Model model = place.next(edited);
+  EXPECT_EQ(recalled(model), 0u);
+  EXPECT_EQ(shown(model), shown(place.fresh(edited)));
+}
+
+TEST(Recall, linesThatMoveAreToldAnew) {
+  Edited place(Shapes::lot(80, 20));
+  place.next(kBlocks);
+  const std::string edited = replaced(kBlocks, "Left -->", "// A line\n\n/* more */\nLeft -->");
+  const Model model = place.next(edited);
+  EXPECT_GT(recalled(model), shapesOf(model) * 9 / 10);
+  EXPECT_EQ(shown(model), shown(place.fresh(edited)));
+}
+
+TEST(Recall, rulesThatComeGoAndChangePlaces) {
+  Edited place(Shapes::lot(80, 20));
+  place.next(kBlocks);
+  std::string edited = replaced(kBlocks, "LeftRoof.", "LeftRoof");
+  edited = replaced(edited, "Left -->", "Before --> Facade\nLeft -->") +
+           "\nLeftRoof --> color(\"#ff0000\") Tiles.\n";
+  const Model model = place.next(edited);
+  EXPECT_EQ(shown(model), shown(place.fresh(edited)));
+  EXPECT_GT(recalled(model), shapesOf(model) / 3);
+}
+
+TEST(Recall, anAttributeChangesWhatReadsIt) {
+  Edited place(Shapes::lot(80, 20));
+  place.next(kBlocks);
+  place.settings.attributes = {{"height", "33"}};
+  const Model model = place.next(kBlocks);
+  EXPECT_EQ(shown(model), shown(place.fresh(kBlocks)));
+  EXPECT_GT(recalled(model), shapesOf(model) / 4);
+  EXPECT_LT(recalled(model), shapesOf(model) / 2);
+  place.settings.attributes = {{"height", "33"}, {"other", "2"}};
+  const Model other = place.next(kBlocks);
+  EXPECT_EQ(recalled(other), 0u);
+  EXPECT_EQ(shown(other), shown(place.fresh(kBlocks)));
+}
+
+TEST(Recall, anAttributeThatIsNewOrGoesMovesTheOthers) {
+  Edited place(Shapes::lot(80, 20));
+  place.next(kBlocks);
+  const std::string edited = std::string("attr first = 1\n") + kBlocks;
+  EXPECT_EQ(shown(place.next(edited)), shown(place.fresh(edited)));
+  EXPECT_EQ(shown(place.next(kBlocks)), shown(place.fresh(kBlocks)));
+}
+
+TEST(Recall, anotherSeedIsAnotherPlace) {
+  Edited place(Shapes::lot(80, 20));
+  place.next(kBlocks);
+  place.settings.seed = 7;
+  EXPECT_EQ(shown(place.next(kBlocks)), shown(place.fresh(kBlocks)));
+}
+
+TEST(Recall, threadsTakeOverWhatOthersMade) {
+  std::string lots = R"({"type":"FeatureCollection","features":[)";
+  for (int i = 0; i < 12; ++i) {
+    const std::string x = std::to_string(i * 30), end = std::to_string(i * 30 + 15 + i);
+    lots += std::string(i ? "," : "") + R"({"type":"Feature","properties":{"name":"lot)" +
+            std::to_string(i) + R"("},"geometry":{"type":"Polygon","coordinates":[[[)" + x +
+            ",0],[" + end + ",0],[" + end + ",20],[" + x + ",20],[" + x + ",0]]]}}";
+  }
+  lots += "]}";
+  Edited place(Shapes::parse(lots, "lots.geojson"));
+  place.settings.jobs = 2;
+  place.next(kBlocks);
+  const std::string edited = replaced(kBlocks, "attr height = 30", "attr height = 31");
+  const Model model = place.next(edited);
+  EXPECT_EQ(shown(model), shown(place.fresh(edited)));
+  EXPECT_GT(recalled(model), 0u);
+}
+
+TEST(Recall, warningsStay) {
+  const std::string text = replaced(kBlocks, "top : RightRoof.", "top : i(\"none.obj\") Roof.");
+  Edited place(Shapes::lot(80, 20));
+  const Model first = place.next(text);
+  EXPECT_FALSE(first.messages().empty());
+  EXPECT_EQ(shown(place.next(text)), shown(first));
+}
+
+TEST(Recall, whatAnAttributePrintsIsPrintedByWhoAsksFirst) {
+  const std::string text = replaced(kBlocks, "other = 3", "other = print(3)");
+  Edited place(Shapes::lot(80, 20));
+  place.next(text);
+  const std::string edited = replaced(text, "Left | ~40", "NIL | ~40");
+  EXPECT_EQ(shown(place.next(edited)), shown(place.fresh(edited)));
+}
+
+TEST(Recall, reportsAndPrintsStayInOrder) {
+  const std::string text =
+      replaced(kBlocks, "Tile -->", "Tile --> report(\"tiles\", geometry.area) print(split.index)");
+  Edited place(Shapes::lot(80, 20));
+  place.next(text);
+  const std::string edited = replaced(text, "extrude(height)", "extrude(height + 3)");
+  const Model model = place.next(edited);
+  EXPECT_GT(recalled(model), 0u);
+  EXPECT_EQ(shown(model), shown(place.fresh(edited)));
+}
+
+TEST(Recall, localValuesAndTheShapeBelowCount) {
+  const std::string text = R"(
+attr deep = 1
+Lot --> split(x) { ~20 : local(deep = 2) { Block } | ~20 : Block | ~20 : set(deep, 3) Block }
+Block --> extrude(20) comp(f) { side : Wall | all : NIL }
+Wall --> split(y) { ~2 : split(x) { ~rand(1, 2) : [ s('0.5, '0.5, deep) center(xyz) Tile ] Tile }* }*
+Tile --> primitiveCube()
+)";
+  Edited place(Shapes::lot(60, 20));
+  place.next(text);
+  for (const auto& [from, to] : {std::pair("deep = 2", "deep = 2.5"), {"deep, 3", "deep, 4"}}) {
+    const std::string edited = replaced(text, from, to);
+    const Model model = place.next(edited);
+    EXPECT_GT(recalled(model), 0u);
+    EXPECT_EQ(shown(model), shown(place.fresh(edited)));
+  }
+}
+
+TEST(Recall, questionsAboutOtherShapesAreAskedAnew) {
+  const std::string text = R"(
+Lot --> split(x) { ~10 : Left | ~10 : Right }
+Left --> extrude(12) Wall
+Right --> t(-2, 0, 0) extrude(10) Wall
+Wall --> comp(f) { side : split(y) { ~1 : split(x) { ~rand(1, 2) : Tile }* }* }
+Tile --> case inside(all) : NIL else : Tile.
+)";
+  Edited place(Shapes::lot(20, 20));
+  place.next(text);
+  const std::string edited = replaced(text, "extrude(12)", "extrude(8)");
+  EXPECT_EQ(shown(place.next(edited)), shown(place.fresh(edited)));
+}
+
+TEST(Recall, aLimitLeavesNothingToTakeOver) {
+  Edited place(Shapes::lot(80, 20));
+  place.settings.budget.shapes = 300;
+  const Model cut = place.next(kBlocks);
+  EXPECT_EQ(cut.end(), End::LimitReached);
+  place.settings.budget.shapes = 10'000'000;
+  const Model whole = place.next(kBlocks);
+  EXPECT_EQ(recalled(whole), 0u);
+  EXPECT_EQ(shown(whole), shown(place.fresh(kBlocks)));
+}
+
+TEST(Recall, aBudgetCountsWhatIsTakenOver) {
+  Edited place(Shapes::lot(80, 20));
+  place.next(kBlocks);
+  place.settings.budget.shapes = 300;
+  EXPECT_EQ(place.next(kBlocks).end(), End::LimitReached);
+}
+
+// ---- The examples, with numbers in their texts changed -----------------------------------------
+
+struct Example {
+  const char* file;
+  double width, depth;
+  /// The file that is edited, and how many of its numbers.
+  const char* edited;
+  size_t edits;
+};
+
+void PrintTo(const Example& e, std::ostream* out) { *out << e.file << ", " << e.edited; }
+
+class RecallOfExamples : public testing::TestWithParam<Example> {};
+
+// Places behind the whole numbers of a text that stand between other signs.
+std::vector<size_t> numbersIn(const std::string& text) {
+  std::vector<size_t> out;
+  for (size_t i = 1; i + 1 < text.size(); ++i) {
+    const auto digit = [&](size_t k) { return std::isdigit(static_cast<unsigned char>(text[k])); };
+    if (!digit(i) || digit(i + 1) || text[i + 1] == '.') continue;
+    size_t begin = i;
+    while (begin > 0 && digit(begin - 1)) --begin;
+    const char before = begin > 0 ? text[begin - 1] : ' ';
+    if (before == ' ' || before == '(' || before == '~' || before == '.') out.push_back(i + 1);
+  }
+  return out;
+}
+
+TEST_P(RecallOfExamples, isWhatADerivationFromNothingGives) {
+  const Example& e = GetParam();
+  const fs::path examples = fs::path(GABLE_SOURCE_DIR) / "examples";
+  const std::string main = contentOf(examples / e.file);
+  const std::string text = contentOf(examples / e.edited);
+  const bool own = std::string(e.file) == e.edited;
+  LoadOptions options;
+  options.project = examples.string();
+  Edited place(Shapes::lot(e.width, e.depth), options, (examples / e.file).string());
+  place.settings.seed = 3;
+  const auto edit = [&](const std::string& edited) {
+    place.options().overlay = {{e.edited, edited}};
+    return own ? edited : main;
+  };
+  place.next(edit(text));
+  const std::vector<size_t> numbers = numbersIn(text);
+  ASSERT_GT(numbers.size(), e.edits);
+  uint64_t taken = 0;
+  for (size_t k = 0; k < e.edits; ++k) {
+    std::string edited = text;
+    const size_t at = numbers[numbers.size() * (2 * k + 1) / (2 * e.edits)];
+    edited.insert(at, text[at - 1] == '0' ? "1" : "0");
+    LoadOptions check = options;
+    check.overlay = {{e.edited, edited}};
+    if (!Rules::parse(own ? edited : main, (examples / e.file).string(), check).ok()) continue;
+    const std::string now = edit(edited);
+    const Model model = place.next(now);
+    const Model fresh = place.fresh(now);
+    taken += recalled(model);
+    EXPECT_TRUE(shown(model) == shown(fresh)) << "the number before byte " << at;
+  }
+  EXPECT_GT(taken, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Examples, RecallOfExamples,
+    testing::Values(Example{"town/town.cga", 240, 240, "town/town.cga", 3},
+                    Example{"town/town.cga", 240, 240, "monaco/monaco.cga", 3},
+                    Example{"town/town.cga", 240, 240, "rules/trees.cga", 3},
+                    Example{"haussmann/haussmann.cga", 22, 18, "haussmann/haussmann.cga", 5},
+                    Example{"gardens/gardens.cga", 80, 60, "gardens/gardens.cga", 5},
+                    Example{"suburb/suburb.cga", 200, 120, "suburb/suburb.cga", 4},
+                    Example{"castle/castle.cga", 160, 160, "castle/castle.cga", 3}),
+    [](const testing::TestParamInfo<Example>& i) {
+      std::string name;
+      for (const char* c = i.param.edited; *c && *c != '.'; ++c) name += *c == '/' ? '_' : *c;
+      return name + std::to_string(i.index);
+    });
+
+// ---- Reach -------------------------------------------------------------------------------------
+
+uint64_t reachOfRule(const Rules& rules, const std::string& name) {
+  const Program& p = rules.impl().program;
+  return reachOf(p)[static_cast<size_t>(p.findRule(name))].code;
+}
+
+TEST(Reach, followsCallsFunctionsAndAttributes) {
+  const std::string text = R"(
+attr a = inner + 1
+attr inner = 2
+attr apart = 5
+twice(x) = 2 * x
+Lot --> A B C D
+A --> extrude(twice(2)) Round
+B --> extrude(a) Leaf.
+C --> extrude(apart) Leaf.
+D --> case scope.sy > 3 : Leaf. else : E
+E --> s('1, '2, '1) D
+Round --> Leaf.
+)";
+  const Rules before = Rules::parse(text, "a.cga");
+  const auto changed = [&](const char* from, const char* to) {
+    LoadOptions options;
+    options.before = &before;
+    const Rules after = Rules::parse(replaced(text, from, to), "a.cga", options);
+    EXPECT_TRUE(after.ok());
+    std::string out;
+    for (const char* rule : {"Lot", "A", "B", "C", "D", "E", "Round"}) {
+      if (reachOfRule(before, rule) != reachOfRule(after, rule)) out += std::string(rule) + " ";
+    }
+    return out;
+  };
+  EXPECT_EQ(changed("attr apart = 5", "attr apart =  5"), "");
+  EXPECT_EQ(changed("2 * x", "3 * x"), "Lot A ");
+  EXPECT_EQ(changed("inner = 2", "inner = 3"), "Lot B ");
+  EXPECT_EQ(changed("apart = 5", "apart = 6"), "Lot C ");
+  EXPECT_EQ(changed("'2, '1) D", "'3, '1) D"), "Lot D E ");
+  EXPECT_EQ(changed("Round --> Leaf.", "Round --> Other."), "Lot A Round ");
+  EXPECT_EQ(changed("Round\n", "set(apart, 2) Round\n"), "Lot A ");
+}
+
+}  // namespace
+}  // namespace gable
