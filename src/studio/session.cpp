@@ -300,7 +300,10 @@ Result<std::string> Session::derive(const JsonValue& request, const Cancel& canc
 Result<std::string> Session::tree(const JsonValue& request, const Cancel& cancel) {
   const std::shared_ptr<Work> work = begin(request, cancel);
   const std::shared_ptr<const Rules> rules = rulesOf(request);
-  if (!rules->ok()) return Error{"rules-wrong", "rules with errors have no derivation", ""};
+  // A page that asks while somebody types need not hear of a failure.
+  if (!rules->ok()) {
+    return joined("GBT1", R"({"count":0,"end":"wrong","names":[],"files":[]})", {});
+  }
   const bool steps = request["steps"].boolean(false);
   Result<Model> derived = deriveFor(request, *rules, *work, steps ? Trace::Steps : Trace::Tree);
   if (!derived.ok()) return derived.error();

@@ -113,8 +113,10 @@ export async function caretBehind(page, text) {
 }
 
 /** Where a rule set of one lot of its own is enough. */
-export const HOUSE = `@Group("Size") @Range(min=3, max=30) attr height = 9
-@Group("Size") @Enum("red", "blue") attr paint = "red"
+export const HOUSE = `@Group("Size") @Range(min=3, max=30)
+attr height = 9
+@Group("Size") @Enum("red", "blue")
+attr paint = "red"
 
 @StartRule
 Lot -->
@@ -122,11 +124,12 @@ Lot -->
     comp(f) { side : Wall | top : Roof }
 
 Wall -->
-    color(case paint == "red" : "#aa3322" else : "#2233aa")
+    color(case paint == "red" : "#b4674c"
+          else : "#6d8aa3")
     Face.
 
 Roof -->
-    color("#555555")
+    color("#7c8085")
     Slab.
 `;
 

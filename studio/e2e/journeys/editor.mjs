@@ -70,7 +70,7 @@ export default {
   async thePaletteRunsAndSets({ page }) {
     await ready(page);
     await palette(page, 'wal');
-    assert.match(await page.locator('.pal').innerText(), /Rules[\s\S]*Wall[\s\S]*journey\.cga:9 · 4 shapes/);
+    assert.match(await page.locator('.pal').innerText(), /Rules[\s\S]*Wall[\s\S]*journey\.cga:11 · 4 shapes/);
     await page.keyboard.press('Control+Enter');
     await page.waitForFunction(() => /Wall/.test(document.querySelector('.tr.on')?.textContent ?? ''));
     await palette(page, '=hei 14/2');
@@ -101,7 +101,7 @@ export default {
     await asText(page);
     const after = await text(page);
     assert.match(after, /extrude\(height \* 2\)\n    comp\(f\) { front : Wall \| top : Roof }/);
-    assert.match(after, /Roof -->\n    50% : color\("#555555"\)\n    Slab\. else : NIL/);
+    assert.match(after, /Roof -->\n    50% : color\("#7c8085"\)\n    Slab\. else : NIL/);
     await form(page);
   },
 

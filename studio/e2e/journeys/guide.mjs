@@ -80,7 +80,7 @@ export default {
 
   async aStopIsSetBesideTheText({ page }) {
     await ready(page);
-    await caretBehind(page, 'color("#555555")');
+    await caretBehind(page, 'color("#7c8085")');
     await page.keyboard.press('F9');
     await page.waitForSelector('.cm-stop');
     await openGuide(page);

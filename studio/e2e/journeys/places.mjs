@@ -76,9 +76,9 @@ export default {
 
   async reportsAreATableAndCharts({ page }) {
     await ready(page);
-    await caretBehind(page, 'color("#555555")');
+    await caretBehind(page, 'color("#7c8085")');
     await page.keyboard.type(' report("area.roof", geometry.area) report("use", "attic")');
-    await caretBehind(page, '"#2233aa")');
+    await caretBehind(page, '"#6d8aa3")');
     await page.keyboard.type(' report("area.wall", geometry.area) report("use", "flat")');
     await page.getByRole('tab', { name: 'Reports' }).click();
     await page.waitForSelector('.stack');

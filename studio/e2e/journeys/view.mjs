@@ -115,7 +115,7 @@ export default {
     await page.keyboard.up('Control');
     await page.waitForFunction(() => /Material/.test(document.querySelector('aside .scroll')?.textContent ?? ''));
     const said = await page.locator('aside .scroll').innerText();
-    assert.match(said, /#aa3322/);
+    assert.match(said, /#b4674c/);
     assert.match(said, /journey\.cga:\d+/);
     assert.match(await page.locator('.path').innerText(), /Lot[^]*Wall[^]*Face/);
   },

@@ -486,7 +486,7 @@ export class Studio {
     const { derivation } = this;
     try {
       const { tree, draw } = await this.client.tree(this.request(), abort.signal, steps);
-      if (abort.signal.aborted || steps !== this.guide.open) return;
+      if (abort.signal.aborted || steps !== this.guide.open || tree.end === 'wrong') return;
       const shapes = new Shapes(tree);
       this.shapes = shapes;
       this.shapesOf = derivation;

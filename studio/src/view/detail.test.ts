@@ -74,3 +74,47 @@ it('moves each instance with its number', async () => {
     expect(m.elements[12]).toBeCloseTo((leaf * 7919) % 1000, 3);
   });
 });
+
+/** One mesh of 20000 leaves, each a quad of 0.2 to 6 m, over a square kilometre. */
+function quads(): THREE.Mesh {
+  const n = 20_000;
+  const [position, leaf, index] = [new Float32Array(n * 12), new Float32Array(n * 4), new Uint32Array(n * 6)];
+  for (let i = 0; i < n; ++i) {
+    const side = 0.2 * 30 ** ((i * 0.61803) % 1);
+    const [x, z] = [(i * 7919) % 1000, (i * 104729) % 997];
+    [[0, 0], [side, 0], [side, side], [0, side]].forEach(([u, v], k) => {
+      position.set([x + u!, 1, z + v!], (i * 4 + k) * 3);
+      leaf[i * 4 + k] = i;
+    });
+    index.set([0, 1, 2, 0, 2, 3].map((k) => i * 4 + k), i * 6);
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.BufferAttribute(position, 3));
+  geometry.setAttribute('leaf', new THREE.BufferAttribute(leaf, 1));
+  geometry.setIndex(new THREE.BufferAttribute(index, 1));
+  return new THREE.Mesh(geometry, new THREE.MeshBasicMaterial());
+}
+
+it('takes whole leaves of merged meshes', async () => {
+  const mesh = quads();
+  const detail = (await Detail.of([boxes(), mesh], () => false))!;
+  const drawnLeaves = () => {
+    const { geometry } = mesh;
+    const corners = (geometry.index!.array as Uint32Array).subarray(0, geometry.drawRange.count);
+    const leaf = geometry.getAttribute('leaf').array as Float32Array;
+    const counts = new Map<number, number>();
+    for (const c of corners) counts.set(leaf[c]!, (counts.get(leaf[c]!) ?? 0) + 1);
+    return counts;
+  };
+  detail.select(camera(1200), 720, 1e9);
+  const far = drawnLeaves();
+  expect([...far.values()].every((corners) => corners === 6)).toBe(true);
+  expect(far.size).toBeGreaterThan(500);
+  expect(far.size).toBeLessThan(16_000);
+  detail.select(camera(1200), 720, 2000);
+  expect(drawnLeaves().size * 2).toBeLessThan(2000);
+  detail.select(camera(20), 720, 1e9);
+  const near = drawnLeaves();
+  expect(near.size).toBeGreaterThan(10);
+  expect(near.size).toBeLessThan(3000);
+});

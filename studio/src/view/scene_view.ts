@@ -3,17 +3,21 @@
 //
 // SceneView: a draw list on a canvas. While something changes its pictures are as fine as they can be in
 // time (Pace). Once nothing does, it draws one in full and then refines it: further passes with a moved sun
-// and moved pixels are averaged into soft shadows, light from the whole sky and smooth edges.
+// and moved pixels are averaged into soft shadows, light from the whole sky and smooth edges. A model too large
+// for that is drawn once more, with shadows softened from the one map; its edges and how its corners are
+// darker come from the leaves and depths of that picture.
 
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Batch, DrawList, Look } from '../lib/protocol';
+import { Ambient } from './ambient';
 import { emptyGroup, ghostBox, manyScopes, scopeLines, type ScopeBox } from './boxes';
-import { Detail, MOVING, STILL } from './detail';
+import { Detail, MOVING, POSED } from './detail';
+import { Framing, WIDE, type Bounds } from './framing';
 import { Navigation, type Mode } from './navigation';
 import { isSoftware, Pace } from './pace';
 import { Pictures } from './pictures';
-import { groundMaterial, heightMaterial, leafMaterial, lookMaterial, outlineMaterial, skyMaterial, steppedShadow, type Marks } from './shading';
+import { groundMaterial, heightMaterial, leafMaterial, lookMaterial, outlineMaterial, skyMaterial, softened, steppedShadow, type Marks } from './shading';
 import { Lights, spread } from './sun';
 
 export interface ViewColors {
@@ -35,11 +39,6 @@ export interface Cost {
   bytes: number;
 }
 
-export interface Bounds {
-  min: [number, number, number];
-  max: [number, number, number];
-}
-
 export interface Range {
   from: number;
   to: number;
@@ -53,11 +52,11 @@ const SHOWN_AFTER = 10;
 const FINE_EDGES = 0.22;
 const PLACE_EDGES = 0.16;
 const MOST_MATERIALS = 400;
-/** Metres from the middle to a corner of what counts as a place, not a building. */
-const WIDE = 150;
 /** So long nothing changes before a picture is drawn in full: longer than it takes from key to key. */
 const QUIET_MS = 400;
 const SLOW_PASS_MS = 400;
+/** Of a large model: its picture in full, then edges, then darker corners. */
+const PLACE_PASSES = 2;
 
 interface Batched {
   mesh: THREE.Mesh;
@@ -111,7 +110,11 @@ export class SceneView {
   private readonly ghostColor = new THREE.Color();
   private readonly groundColor = new THREE.Color();
   private readonly horizonColor = new THREE.Color();
-  private readonly leafTarget = new THREE.WebGLRenderTarget(1, 1, { minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter });
+  private readonly leafTarget = new THREE.WebGLRenderTarget(1, 1, {
+    minFilter: THREE.NearestFilter,
+    magFilter: THREE.NearestFilter,
+    depthTexture: new THREE.DepthTexture(1, 1, THREE.UnsignedIntType),
+  });
   /** The picture before it is refined. */
   private readonly picture: THREE.WebGLRenderTarget;
   private readonly passTarget = new THREE.WebGLRenderTarget(1, 1, { colorSpace: THREE.SRGBColorSpace });
@@ -133,10 +136,16 @@ export class SceneView {
   private panned = false;
   private pass = 0;
   private passes = PASSES;
+  /** How dark edges between leaves are in what is shown, and whether corners are darker in it. */
+  private edges = 0;
+  private cornered = false;
+  /** What is left of a picture that is being made. */
+  private helpings: Generator<boolean, void> | null = null;
+  private readonly ambient: Ambient;
   private drawnWith = { calls: 0, triangles: 0 };
   private quiet = 0;
   private frame = 0;
-  private framed = false;
+  private readonly framing: Framing;
   /** Counts models, so that one that was sorted too late is not shown. */
   private models = 0;
   private detail: Detail | null = null;
@@ -166,7 +175,9 @@ export class SceneView {
     this.renderer.shadowMap.autoUpdate = false;
     this.renderer.autoClear = false;
     this.renderer.info.autoReset = false;
+    this.ambient = new Ambient(this.renderer);
     this.ground = new THREE.Mesh(new THREE.PlaneGeometry(1, 1), new THREE.MeshLambertMaterial());
+    this.ground.material.onBeforeCompile = (shader) => (shader.fragmentShader = softened(shader.fragmentShader));
     this.ground.rotation.x = -Math.PI / 2;
     this.ground.receiveShadow = true;
     // All of the model is above it, so that it need not hide anything; and nothing flickers.
@@ -191,11 +202,12 @@ export class SceneView {
       this.camera.updateMatrixWorld();
       this.cameraMoved();
     });
+    this.framing = new Framing(this.camera, this.controls);
     this.navigation = new Navigation(this);
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
     this.fitGround();
-    this.frameAll();
+    this.framing.box(this.bounds, true);
   }
 
   cameraMoved(): void {
@@ -285,13 +297,11 @@ export class SceneView {
     for (const { mesh } of this.batches) this.model.add(mesh);
     this.fitWires();
     this.bounds = bounds;
+    this.framing.know(list, bounds);
     this.fitGround();
     this.fitSun();
     this.lights.forget();
-    if (!this.framed && list.leaves > 0) {
-      this.framed = true;
-      this.frameAll();
-    }
+    if (this.framing.fresh && list.leaves > 0) this.frameAll();
     this.leavesStale = true;
     this.redraw();
     return true;
@@ -382,7 +392,7 @@ export class SceneView {
     this.grid.position.y = y + r * 1e-4;
     const uniforms = this.grid.material.uniforms;
     (uniforms.centre!.value as THREE.Vector2).set(c.x, c.z);
-    uniforms.reach!.value = Math.max(30, r * 3.2);
+    uniforms.reach!.value = Math.max(30, r * 2.6);
     uniforms.cell!.value = r < 12 ? 1 : r < 250 ? 10 : 100;
     if (this.scene.fog instanceof THREE.Fog) {
       // Who stands in a place looks into the haze; who turns it does not have it between.
@@ -461,31 +471,14 @@ export class SceneView {
     this.redraw();
   }
 
-  frameAll(): void {
-    this.frameBox(this.bounds, true);
+  frameAll(reset = true): void {
+    this.framing.model(this.bounds, reset);
+    this.leavesStale = true;
+    this.redraw();
   }
 
   frameBox(bounds: Bounds, reset = false): void {
-    const box = new THREE.Box3(new THREE.Vector3(...bounds.min), new THREE.Vector3(...bounds.max));
-    const centre = box.getCenter(new THREE.Vector3());
-    const radius = Math.max(0.5, box.getSize(new THREE.Vector3()).length() / 2);
-    const direction = reset
-      ? new THREE.Vector3(0.52, 0.5, 0.82).normalize()
-      : this.camera.position.clone().sub(this.controls.target).normalize();
-    // A wide, flat place fills the picture when all corners of its box just fit; a house has air around it.
-    const upward = Math.tan((this.camera.fov * Math.PI) / 360);
-    const right = new THREE.Vector3(0, 1, 0).cross(direction).normalize();
-    const up = direction.clone().cross(right);
-    const fit = Math.atan(upward * Math.min(1, this.camera.aspect));
-    let far = radius > WIDE ? 0 : (radius * 1.02) / Math.sin(fit);
-    for (let i = 0; i < 8 && radius > WIDE; ++i) {
-      const corner = new THREE.Vector3(...[0, 1, 2].map((k) => (i & (1 << k) ? bounds.max : bounds.min)[k]!)).sub(centre);
-      const wide = Math.abs(corner.dot(right)) / (upward * this.camera.aspect);
-      far = Math.max(far, corner.dot(direction) + Math.max(wide, Math.abs(corner.dot(up)) / upward));
-    }
-    this.controls.target.copy(centre);
-    this.camera.position.copy(centre).addScaledVector(direction, radius > WIDE ? far * 1.1 : far);
-    this.controls.update();
+    this.framing.box(bounds, reset);
     this.leavesStale = true;
     this.redraw();
   }
@@ -501,26 +494,31 @@ export class SceneView {
     return bytes[0]! + bytes[1]! * 256 + bytes[2]! * 65536 - 1;
   }
 
-  private renderLeaves(target: THREE.WebGLRenderTarget): void {
-    this.renderData(target, this.camera, (b) => b.leaf);
+  private renderLeaves(target: THREE.WebGLRenderTarget, over = false): void {
+    this.renderData(target, this.camera, (b) => b.leaf, over);
   }
 
-  /** Draws the model alone, with materials that write data. */
-  private renderData(target: THREE.WebGLRenderTarget, camera: THREE.Camera, material: (b: Batched) => THREE.Material): void {
+  /** Draws the model alone, with materials that write data; `over`: over what is there. */
+  private renderData(target: THREE.WebGLRenderTarget, camera: THREE.Camera, material: (b: Batched) => THREE.Material, over = false): void {
     const background = this.scene.background;
-    const besides = [this.dome, this.ground, this.grid, this.scopes, this.manyScopes, this.ghosts];
-    const seen = besides.map((o) => o.visible);
     this.scene.background = null;
-    for (const o of besides) o.visible = false;
     for (const b of this.batches) b.mesh.material = material(b);
-    this.renderer.setRenderTarget(target);
-    this.renderer.setClearColor(0, 0);
-    this.renderer.clear();
-    this.renderer.render(this.scene, camera);
-    this.renderer.setRenderTarget(null);
+    this.without([this.dome, this.ground, this.grid, this.scopes, this.manyScopes, this.ghosts], () => {
+      this.renderer.setRenderTarget(target);
+      this.renderer.setClearColor(0, 0);
+      if (!over) this.renderer.clear();
+      this.renderer.render(this.scene, camera);
+      this.renderer.setRenderTarget(null);
+    });
     for (const b of this.batches) b.mesh.material = b.plain;
-    besides.forEach((o, i) => (o.visible = seen[i]!));
     this.scene.background = background;
+  }
+
+  private without(hidden: THREE.Object3D[], act: () => void): void {
+    const seen = hidden.map((o) => o.visible);
+    for (const o of hidden) o.visible = false;
+    act();
+    hidden.forEach((o, i) => (o.visible = seen[i]!));
   }
 
   private resize(): void {
@@ -563,9 +561,12 @@ export class SceneView {
     const share = this.fine || this.posed ? 1 : this.pace.share;
     this.dirty = this.fine = false;
     this.pass = 0;
-    this.passes = PASSES;
+    this.passes = this.detail ? PLACE_PASSES : PASSES;
     this.coarse = share < 1 || !!this.detail;
-    this.draw(share, MOVING);
+    if (this.helpings) this.leavesStale = true;
+    this.helpings = null;
+    this.lights.soften(false);
+    this.draw(share);
   }
 
   /** The canvas has this share of the pixels each way that the screen has for it; the page enlarges it. */
@@ -581,47 +582,52 @@ export class SceneView {
   }
 
   /** A picture with the light of the sun as it is set. */
-  private draw(share: number, budget: number): void {
+  private draw(share: number): void {
     this.setShare(share);
     this.lights.first(share < 1);
-    this.chooseDetail(budget);
+    this.drawShadows();
+    this.detail?.select(this.camera, this.canvas.clientHeight, this.posed ? POSED : MOVING);
     this.renderer.info.reset();
     this.renderScene(this.picture);
     this.drawnWith = { calls: this.renderer.info.render.calls, triangles: this.renderer.info.render.triangles };
     this.shown = this.picture;
+    this.edges = 0;
+    this.cornered = false;
     this.present();
   }
 
-  private renderScene(target: THREE.WebGLRenderTarget): void {
+  private renderScene(target: THREE.WebGLRenderTarget, over = false): void {
     // Each sun knows whether its shadows are stale.
     this.renderer.shadowMap.needsUpdate = true;
     this.renderer.setRenderTarget(target);
-    this.renderer.clear();
+    const { background } = this.scene;
+    // A background clears.
+    if (over) this.scene.background = null;
+    else this.renderer.clear();
     this.renderer.render(this.scene, this.camera);
+    this.scene.background = background;
     this.renderer.setRenderTarget(null);
     this.renderer.shadowMap.needsUpdate = false;
   }
 
   /** Puts the latest picture on the canvas, with outlines. */
-  private present(edges = this.shown === this.sumTarget ? FINE_EDGES : 0): void {
+  private present(): void {
     this.renderer.setRenderTarget(null);
     this.copy.material.map = this.shown.texture;
     this.copy.material.opacity = 1;
     this.renderer.clear();
     this.renderer.render(this.copy, this.flat);
+    if (this.cornered) this.ambient.draw();
     const outlined = this.selected.to > this.selected.from || this.hovered.to > this.hovered.from;
-    if (edges > 0 || outlined) this.drawOverlay(edges);
+    if (this.edges > 0 || outlined) this.drawOverlay(this.edges);
   }
 
-  /** Of a large model: its shadows, where they are to be drawn anew, and then what the camera sees. */
-  private chooseDetail(budget: number): void {
-    if (!this.detail) return;
-    if (this.lights.stale) {
-      this.detail.selectForShadow(this.lights.texel);
-      // Drawing on one pixel draws the shadow map as well.
-      this.renderScene(this.pickTarget);
-    }
-    this.detail.select(this.camera, this.canvas.clientHeight, budget);
+  /** Of a large model, the shadows of all that is large enough for them, where they are to be drawn anew. */
+  private drawShadows(): void {
+    if (!this.detail || !this.lights.stale) return;
+    this.detail.selectForShadow(this.lights.texel);
+    // Drawing on one pixel draws the shadow map as well.
+    this.renderScene(this.pickTarget);
   }
 
   private drawOverlay(edges: number): void {
@@ -640,26 +646,61 @@ export class SceneView {
   /** One more step towards the best picture, then room for whatever else the page has to do. */
   private refine(): void {
     if (this.dirty || this.pass >= this.passes || !this.canvas.isConnected) return;
+    // A model that no longer fits is framed once it stays as it is.
+    if (!this.posed && this.navigation.mode === 'orbit' && this.framing.outgrown(this.bounds)) return this.frameAll(false);
     const began = performance.now();
-    if (this.coarse) this.settle();
+    if (this.coarse && this.detail) this.addHelping();
+    else if (this.coarse) this.settle();
+    else if (this.detail) this.finishPlace();
     else this.addPass();
     this.whenDrawn(() => {
       const took = performance.now() - began;
       // Where passes are slow, fewer have to do.
-      if (took > SLOW_PASS_MS) this.passes = SHOWN_AFTER;
+      if (took > SLOW_PASS_MS) this.passes = Math.min(this.passes, SHOWN_AFTER);
       if (this.pass >= this.passes) this.refined?.();
       else this.quiet = window.setTimeout(() => this.refine(), Math.max(8, took));
     });
   }
 
-  /** The picture in full, as it was moved: of a large model more, of others all pixels. */
+  /** The picture in full, as it was moved. */
   private settle(): void {
     this.coarse = false;
-    this.draw(1, STILL);
-    if (!this.detail) return;
+    this.draw(1);
     this.leavesStale = true;
-    this.present(PLACE_EDGES);
-    this.pass = this.passes;
+  }
+
+  /** Of a large model one more helping, over those that are there. */
+  private addHelping(): void {
+    const first = !this.helpings;
+    if (!this.helpings) {
+      this.setShare(1);
+      this.lights.first(false);
+      this.lights.soften(true);
+      this.drawShadows();
+      this.helpings = this.detail!.helpings(this.camera, this.canvas.clientHeight);
+    }
+    const last = this.helpings.next().value ?? true;
+    const marks = last ? [] : [this.scopes, this.manyScopes, this.ghosts];
+    this.without(first ? marks : [...marks, this.dome, this.ground, this.grid], () => this.renderScene(this.picture, !first));
+    this.renderLeaves(this.leafTarget, !first);
+    this.leavesStale = false;
+    this.shown = this.picture;
+    if (last) {
+      this.helpings = null;
+      this.coarse = false;
+    }
+    this.present();
+  }
+
+  /** What a large model gets instead of passes; each of these is short, so that nobody waits for it. */
+  private finishPlace(): void {
+    this.pass += 1;
+    if (this.pass === 1) this.edges = PLACE_EDGES;
+    else {
+      this.ambient.read(this.leafTarget.depthTexture!, this.camera, this.size);
+      this.cornered = true;
+    }
+    this.present();
   }
 
   private addPass(): void {
@@ -678,6 +719,7 @@ export class SceneView {
     this.pass = i;
     if (i % SHOWN_AFTER !== 0) return;
     this.shown = this.sumTarget;
+    this.edges = FINE_EDGES;
     this.present();
   }
 
@@ -715,6 +757,7 @@ export class SceneView {
     clearTimeout(this.quiet);
     this.navigation.dispose();
     this.controls.dispose();
+    this.ambient.dispose();
     this.renderer.dispose();
   }
 }

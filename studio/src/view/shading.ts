@@ -20,7 +20,7 @@ const HEAD = `
 attribute vec4 tint;
 attribute float leaf;
 varying vec3 vTint;
-varying float vLeaf;
+flat varying float vLeaf;
 `;
 const LEAF = `
 float leafOfMesh = leaf;
@@ -38,6 +38,31 @@ const STEPPED = `
 vFresh = guideStep > 0.5 && abs(life.x - guideStep) < 0.5 ? 1.0 : 0.0;
 if (guideStep + 0.5 < life.x || guideStep + 0.5 > life.y) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 `;
+
+/**
+ * Three's look-up of hard shadows, with a second way for lights of a radius above zero: four by four texels
+ * below a tent, so that the edge of a shadow is soft and shows no texels.
+ */
+export function softened(fragmentShader: string): string {
+  const hard = 'shadow = texture2DCompare( shadowMap, shadowCoord.xy, shadowCoord.z );';
+  return fragmentShader.replace('#include <shadowmap_pars_fragment>', THREE.ShaderChunk.shadowmap_pars_fragment.replace(hard, `
+    if (shadowRadius < 0.01) {
+      ${hard}
+    } else {
+      vec2 place = shadowCoord.xy * shadowMapSize - 0.5;
+      vec2 part = fract(place);
+      vec2 corner = floor(place) - 0.5;
+      shadow = 0.0;
+      for (int y = 0; y < 4; ++y) {
+        for (int x = 0; x < 4; ++x) {
+          vec2 d = 2.0 - abs(vec2(float(x), float(y)) - 1.0 - part);
+          vec2 w = clamp(d * 0.5, 0.0, 1.0);
+          shadow += w.x * w.y * texture2DCompare( shadowMap, (corner + vec2(float(x), float(y))) / shadowMapSize, shadowCoord.z );
+        }
+      }
+      shadow *= 0.25;
+    }`));
+}
 
 /** Casts the shadows of what is there at a step. */
 export function steppedShadow(marks: Marks): THREE.MeshDepthMaterial {
@@ -72,8 +97,8 @@ export function lookMaterial(look: Look, marks: Marks, stepped = false): THREE.M
     }
     shader.fragmentShader =
       (stepped ? 'varying float vFresh;\n' : '') +
-      'varying vec3 vTint;\nvarying float vLeaf;\nuniform vec2 selected;\nuniform vec3 accent;\n' +
-      shader.fragmentShader.replace(
+      'varying vec3 vTint;\nflat varying float vLeaf;\nuniform vec2 selected;\nuniform vec3 accent;\n' +
+      softened(shader.fragmentShader).replace(
         '#include <map_fragment>',
         `diffuseColor.rgb *= vTint;
          ${metal > 0.4 ? 'diffuseColor.rgb *= 0.82;' : ''}
@@ -92,8 +117,9 @@ export function swapRgb(value: number): number {
 }
 
 /**
- * Draws leaf numbers, from 1, as colours, and the direction of the face in alpha, so that edges
- * within a leaf show as well. Nothing is blended: a pixel belongs to one leaf.
+ * Draws leaf numbers, from 1, as colours, and the direction of the face in alpha, so that edges within a leaf
+ * show as well. Nothing is blended: a pixel belongs to one leaf. Nor are numbers interpolated, which those
+ * of millions of leaves would not survive.
  */
 export function leafMaterial(instanced: boolean, marks: Marks, stepped = false): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
@@ -103,19 +129,20 @@ export function leafMaterial(instanced: boolean, marks: Marks, stepped = false):
     vertexShader: `
       ${stepped ? STEPPED_HEAD : ''}
       attribute float leaf;
-      varying float vLeaf;
+      flat varying float vLeaf;
       varying vec3 vWorld;
       void main() {
         vLeaf = leaf + 1.0;
         vec4 p = vec4(position, 1.0);
         ${instanced ? 'p = instanceMatrix * p;' : ''}
         p = modelMatrix * p;
-        vWorld = p.xyz;
+        // From the eye, so that far from the origin nothing is lost.
+        vWorld = p.xyz - cameraPosition;
         gl_Position = projectionMatrix * viewMatrix * p;
         ${stepped ? STEPPED : ''}
       }`,
     fragmentShader: `
-      varying float vLeaf;
+      flat varying float vLeaf;
       varying vec3 vWorld;
       void main() {
         float n = floor(vLeaf + 0.5);
@@ -269,9 +296,9 @@ export function groundMaterial(): THREE.ShaderMaterial {
         vec2 at = vWorld.xz / cell;
         vec2 width = fwidth(at);
         vec2 d = abs(fract(at - 0.5) - 0.5) / max(width, vec2(1e-5));
-        float on = (1.0 - smoothstep(0.6, 1.4, min(d.x, d.y))) * (1.0 - smoothstep(0.25, 0.6, max(width.x, width.y)));
+        float on = (1.0 - smoothstep(0.3, 1.1, min(d.x, d.y))) * (1.0 - smoothstep(0.25, 0.6, max(width.x, width.y)));
         float fade = 1.0 - smoothstep(reach * 0.45, reach, distance(vWorld.xz, centre));
-        gl_FragColor = vec4(line, on * fade * 0.6);
+        gl_FragColor = vec4(line, on * fade * 0.5);
         #include <colorspace_fragment>
       }`,
   });

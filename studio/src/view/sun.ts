@@ -36,6 +36,7 @@ export class Lights {
       sun.castShadow = true;
       sun.shadow.autoUpdate = false;
       sun.shadow.bias = -0.0004;
+      if (cheap) sun.shadow.radius = 0;
       sun.shadow.mapSize.set(cheap ? 1024 : 2048, cheap ? 1024 : 2048);
       this.group.add(sun, sun.target);
     }
@@ -87,6 +88,11 @@ export class Lights {
   /** The light of the first picture; `soon`: coarse shadows do where the fine ones are stale. */
   first(soon: boolean): void {
     this.shine(soon && this.cheap && this.still.shadow.needsUpdate ? this.coarse : this.still, 1.7);
+  }
+
+  /** Whether the edges of shadows are soft, where a processor pays for that. */
+  soften(on: boolean): void {
+    if (this.cheap) this.still.shadow.radius = on ? 1 : 0;
   }
 
   private shine(which: THREE.DirectionalLight, sky: number): void {
