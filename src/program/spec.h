@@ -17,8 +17,9 @@
 
 namespace gable {
 
-struct LightPart;    // shape/part.h
-class OpCall;        // shape/op_call.h
+struct LightPart;  // shape/part.h
+class OpCall;
+struct Gathered;     // shape/op_call.h
 class FunctionCall;  // shape/op_call.h
 
 /// The type of a parameter. A size takes the prefixes ' and ~ besides a plain number.
@@ -135,6 +136,9 @@ struct OpSpec {
   bool (*applyLight)(LightPart&, std::span<const Value>) = nullptr;
   /// What a vertex of the shape costs, in steps of the limit on work; see heavy().
   uint16_t stepsPerVertex = 1;
+  /// For operations that wait for what comes of their children (OpCall::gather): the leaves, of
+  /// which it takes those that it marks out of the result. Null for others.
+  Status (*gathered)(OpCall&, std::span<Gathered>) = nullptr;
 };
 
 constexpr OpSpec withLight(OpSpec spec, bool (*applyLight)(LightPart&, std::span<const Value>)) {

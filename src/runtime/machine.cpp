@@ -142,6 +142,7 @@ void Machine::derive(const InitialShape& input, uint32_t index) {
     if (remembers_) beginRemembering();
     beginRoot(static_cast<uint32_t>(rule));
     execute();
+    dropGathers();
     // What was open when a limit struck stays: it belongs to the initial shape.
     while (!prototypes_.empty()) closeOpenPrototype();
   } else {

@@ -77,6 +77,17 @@ struct InPlaceFrame {
   uint64_t path = 0, loopPath = 0;
 };
 
+/// An operation that waits for the leaves of its children. Meanwhile nothing becomes a prototype.
+struct OpenGather {
+  const Instruction* at = nullptr;
+  uint32_t activation = 0;
+  /// Leaves that were there before.
+  uint32_t leaves = 0;
+  uint32_t traced = 0;
+  uint32_t made = 0;
+  bool flat = false, light = false;
+};
+
 /// One rule call or block slot in progress.
 struct Activation {
   Shape shape;
@@ -284,10 +295,21 @@ class Machine final : public Services {
   bool putLeaf(const Shape& s, StringId name, uint32_t source);
   /// Hands the leaves on while they are still in the nearest cache.
   void passLeaves() {
-    if (sink_ && output_.openLeaves.size() >= kLeafBatch) {
+    if (sink_ && gathers_.empty() && output_.openLeaves.size() >= kLeafBatch) {
       (*sink_)(output_.openLeaves);
       output_.openLeaves.clear();
     }
+  }
+
+  // Gathering: operations that wait for the leaves of their children.
+  void beginGather(const Instruction& i);
+  void endGather();
+  void dropGathers();
+  OpenGather closeGather();
+  void keepLeaves(const OpenGather& g, const std::vector<bool>& gone);
+  /// Where the frames of leaves that are being made lead to.
+  const Frame& leafWorld() const {
+    return gathers_.empty() ? worlds_.back() : gatherFrames_.back();
   }
 
   // In place: do, repeat, local.
@@ -441,6 +463,9 @@ class Machine final : public Services {
   uint64_t steps_ = 0;
   std::vector<FunctionFrame> functions_;
   std::vector<Frame> worlds_;
+  std::vector<OpenGather> gathers_;
+  /// While leaves are gathered: the frames of shared rules in that of the call that gathers.
+  std::vector<Frame> gatherFrames_;
   std::vector<OpenPrototype> prototypes_;
   /// By block: the items of a split with the sizes of the last time, and its slots.
   struct SplitState {

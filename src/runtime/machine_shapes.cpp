@@ -223,6 +223,7 @@ void Machine::nextChild() {
   else
     children_.erase(children_.begin() + a.childBase, children_.end());
   a.childBase = a.childNext = a.childEnd = 0;
+  if (!gathers_.empty() && gathers_.back().activation + 1 == activationCount_) endGather();
 }
 
 void Machine::makeChild() {
@@ -418,6 +419,7 @@ void Machine::operation(const Instruction& i, const Value* constants) {
     if (vertices > options().limits.shapeVertices) shapeTooLarge(spec);
     return;
   }
+  if (call.gathers() && children_.size() > childBase) beginGather(i);
   beginChildren(i, childBase, pieceBase);
 }
 
@@ -464,7 +466,7 @@ bool Machine::putLeaf(const Shape& s, StringId name, uint32_t source) {
   if (s.geometry.kind == GeometryKind::None) return false;
   if (s.geometry.kind == GeometryKind::Mesh && s.geometry.mesh->empty()) return false;
   Leaf& leaf = output_.openLeaves.emplace_back();
-  leaf.frame = flat_ ? worlds_.back() * s.scope : s.scope;
+  leaf.frame = flat_ ? leafWorld() * s.scope : s.scope;
   leaf.scale = s.size;
   switch (s.geometry.kind) {
     case GeometryKind::Box: leaf.mesh = s.geometry.uv ? kUnitBoxUv : kUnitBox; break;

@@ -127,6 +127,7 @@ void Machine::openWorld(const Frame& frame) {
   } else {
     inner = outer * frame;
   }
+  if (!gathers_.empty()) gatherFrames_.push_back(gatherFrames_.back() * frame);
 }
 
 // True when the cache had the result and its instance has been made.
@@ -160,6 +161,7 @@ bool Machine::beginShared(const RuleCode& rule, Activation& call) {
 
 void Machine::endShared() {
   worlds_.pop_back();
+  if (!gathers_.empty()) gatherFrames_.pop_back();
   if (!flat_) closeOpenPrototype();
 }
 

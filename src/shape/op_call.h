@@ -113,6 +113,13 @@ struct CallPlace {
   uint64_t site = 0;
 };
 
+/// A leaf that came of an operation's children, in the frame of the rule call.
+struct Gathered {
+  Shape shape;
+  /// Set by the operation: it is no leaf of the result any more.
+  bool taken = false;
+};
+
 class OpCall {
  public:
   /// `block` may be null for operations without one.
@@ -181,6 +188,10 @@ class OpCall {
     if (block_->componentChild)
       (*block_->componentChild)[component] = static_cast<uint32_t>(block_->children->size() - 1);
   }
+  /// The children are derived to their leaves, and OpSpec::gathered then gets these before the rule
+  /// goes on with shape(). Where it succeeds the operation counts as one without children.
+  void gather() { gathers_ = true; }
+  bool gathers() const { return gathers_; }
   /// Deletes the shape (NIL): nothing after the operation runs.
   void drop() { dropped_ = true; }
   bool dropped() const { return dropped_; }
@@ -205,7 +216,7 @@ class OpCall {
   Services& services_;
   const CallPlace& place_;
   BlockInput* block_;
-  bool dropped_ = false;
+  bool dropped_ = false, gathers_ = false;
 };
 
 class FunctionCall {

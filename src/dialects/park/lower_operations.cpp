@@ -114,16 +114,44 @@ NodeId Lowering::plateItem(const Part& p) { return b_.item(b_.word("junction"), 
 
 void Lowering::joined(const Op& op, Nodes& out) {
   const Joined j = joinedParts(g_, op);
-  if (!j.figures.empty()) {
-    const NodeId block = elseBlock(op);
-    out.push_back(b_.apply("joined", {textNode(j.figures)}, block));
+  // Figures that other rules make are results like any other, unless there is nothing else.
+  Sequence all;
+  bool byName = false;
+  for (const Part& p : partsOf(op)) {
+    for (const Op& inner : p.body) {
+      byName = byName || (!inner.called && !figureAtHead(g_, {inner}).empty());
+      all.push_back(inner);
+    }
   }
+  if (j.figures.empty() || (byName && !j.rest.empty())) return joinedLater(op, all, out);
+  const NodeId block = elseBlock(op);
+  out.push_back(b_.apply("joined", {textNode(j.figures)}, block));
   bool open = true;
   for (const Op& inner : j.rest) open = step(inner, out);
   if (open) {
     out.push_back(colour(rule_->name));
     out.push_back(b_.leaf(rule_->name));
   }
+}
+
+// Each part gets the region, and what comes of all is one.
+void Lowering::joinedLater(const Op& op, const Sequence& parts, Nodes& out) {
+  noElse(op);
+  Nodes items;
+  for (const Op& part : parts) {
+    const NodeId body = sequence({part}, "Region");
+    b_.at(part.span);
+    items.push_back(b_.item(kNoNode, body));
+  }
+  if (items.empty()) {
+    diagnostics_.error("bad-argument", op.span, "there is nothing to join",
+                       "write joined { A B }, or joined { Rect(8, 2) Circle(3) }");
+    return;
+  }
+  b_.at(op.span);
+  out.push_back(b_.apply("joined", {}, b_.block(items)));
+  out.push_back(colour(rule_->name));
+  out.push_back(b_.leaf(rule_->name));
 }
 
 void Lowering::select(const Op& op, Nodes& out) {

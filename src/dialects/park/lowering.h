@@ -109,6 +109,7 @@ class Lowering {
 
   // The region becomes the figures in one; what else stands in the braces is done with that.
   void joined(const Op& op, Nodes& out);
+  void joinedLater(const Op& op, const Sequence& parts, Nodes& out);
 
   // Each part takes the region when its selection means an edge of it; the first that does.
   void select(const Op& op, Nodes& out);

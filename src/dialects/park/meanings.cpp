@@ -155,6 +155,7 @@ std::string figureText(const Grammar& g, const Op& op) {
   std::string out = lowered(op.name) == "rombcenter" ? "romb" : lowered(op.name);
   out += '(';
   for (size_t i = 0; i < op.arguments.size(); ++i) {
+    if (lowered(op.arguments[i].text) == "free") continue;
     double v = 0;
     const bool known = constantValue(g, op.arguments[i].text, v);
     // RombCenter(..) of the sketches; else a parameter, which is filled in when the rule runs.

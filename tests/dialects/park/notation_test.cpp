@@ -317,5 +317,22 @@ TEST(ParkNotation, LinesOfRangesAndSelections) {
   EXPECT_EQ(f.count.at("Strip"), 2);
 }
 
+TEST(ParkNotation, JoinsWhatRulesMakeLater) {
+  const std::string text =
+      "PathWidth = 2\nR -> Grid(2, 2) { joined { Lawn Bed } } { Way }\n"
+      "Lawn -> Peel(all, 1) { Edge | Inner }\nEdge -> GREEN\n"
+      "Inner -> NIL_REGION Place(CENTRE, over) { Circle(1) Round }\nRound -> BLUE\n"
+      "Bed -> Rect(12, 1, free)";
+  const Made shared = run(text, kLot, 1, "a.park", true),
+             apart = run(text, kLot, 1, "a.park", false);
+  EXPECT_EQ(shared.count, apart.count);
+  EXPECT_EQ(shared.whole, apart.whole);
+  EXPECT_EQ(shared.count.at("R"), 4);
+  EXPECT_EQ(shared.count.count("Edge"), 0u);
+  // A quarter of nine metres, and what the bar of twelve has beyond it.
+  EXPECT_NEAR(shared.area.at("R"), 4 * (81 + 3), 1e-3);
+  EXPECT_TRUE(run("R -> joined { }", kLot).has("bad-argument"));
+}
+
 }  // namespace
 }  // namespace gable

@@ -69,8 +69,77 @@ Status become(OpCall& call, const PlanFigure& figure, size_t reach) {
   return become(call, {&figure, 1}, reach);
 }
 
+// The plan of a mesh that lies flat in a plane; false for any other.
+bool planOf(const Mesh& mesh, const Frame& plane, std::vector<Ring>& rings) {
+  constexpr double kFlat = 1e-6;
+  for (const Vec3& p : mesh.positions) {
+    if (std::fabs(plane.toLocal(p).z) > kFlat) return false;
+  }
+  bool any = false;
+  for (size_t f = 0; f < mesh.faceCount(); ++f) {
+    if (mesh.normal(f) == Vec3{}) continue;
+    const PatchPlane face(mesh, f);
+    const bool turned = dot(face.frame().z, plane.z) < 0;
+    for (Ring& r : ringsOf(face.polygon())) {
+      for (Vec2& v : r) {
+        const Vec3 at = plane.toLocal(face.frame().point({v.x, v.y, 0}));
+        v = {at.x, at.y};
+      }
+      if (turned) std::reverse(r.begin(), r.end());
+      rings.push_back(std::move(r));
+    }
+    any = true;
+  }
+  return any;
+}
+
+// What came of the block: all that lies flat in the region's plane is one region, the rest stays.
+Status unite(OpCall& call, std::span<Gathered> leaves) {
+  RegionJob job(call);
+  const size_t face = job.largest();
+  const Polygon& region = job.faces()[face]->polygon();
+  const Frame& plane = job.faces()[face]->plane().frame();
+  std::vector<Ring> rings;
+  for (Gathered& leaf : leaves) {
+    Mesh mesh = meshInLocal(leaf.shape);
+    for (Vec3& p : mesh.positions) p = call.shape().scope.toLocal(p);
+    leaf.taken = planOf(mesh, plane, rings);
+  }
+  std::vector<std::vector<RegionPiece>> pieces(job.faces().size());
+  const EdgeSource sources[] = {sourceOf(region)};
+  for (const Polygon& p : repaired(rings, FillRule::NonZero)) {
+    RegionPiece piece = wholePiece(p);
+    piece.edges = originsOf(p, sources);
+    pieces[face].push_back(std::move(piece));
+  }
+  if (pieces[face].empty()) {
+    return call.fail("no-geometry", "nothing that the block makes lies flat in the region",
+                     "extrude what has been joined, not its parts");
+  }
+  job.replace(call.shape(), pieces, true);
+  return {};
+}
+
+// joined { A B }: waits for what comes of the block.
+Status joinLater(OpCall& call) {
+  RegionJob job(call);
+  if (job.empty()) return noRegion(call);
+  if (!job.flat()) return noOneRegion(call);
+  uint32_t piece = 0;
+  for (const SelectorItem& item : call.selectors()) {
+    if (item.terms.empty()) call.emit(call.shape(), item.slot, piece++);
+  }
+  if (piece == 0) {
+    return call.fail("bad-argument", "there is nothing to join",
+                     "write joined { A B }, or joined(\"romb(3) rect(8, 2)\")");
+  }
+  call.gather();
+  return {};
+}
+
 // "romb(3) rect(8, 2)": one after the other.
 Status applyJoined(OpCall& call) {
+  if (call.argCount() == 0) return joinLater(call);
   const std::string text = textOf(call, 0, "");
   std::vector<PlanFigure> figures;
   for (size_t begin = text.find_first_not_of(" ,|"); begin != std::string::npos;
@@ -125,7 +194,7 @@ constexpr ParamSpec kPolygon[] = {{"sides", ParamType::Float, "Three or more."},
 constexpr Signature kCircleSignatures[] = {{kCircle}};
 constexpr ParamSpec kJoined[] = {
     {"figures", ParamType::String, "One after the other: \"romb(3) rect(8, 2)\"."}, kReach};
-constexpr Signature kJoinedSignatures[] = {{kJoined}};
+constexpr Signature kJoinedSignatures[] = {{}, {kJoined}};
 constexpr Signature kRombSignatures[] = {{kRomb}};
 constexpr Signature kSquareSignatures[] = {{kSquare}};
 constexpr Signature kRectSignatures[] = {{kRect}};
@@ -134,8 +203,11 @@ constexpr Signature kPolygonSignatures[] = {{kPolygon}};
 constexpr OpSpec kSpecs[] = {
     {"circle", "region", "Replaces a region by a circle in its middle.", kCircleSignatures,
      applyCircle, BlockKind::Operations, kPure, "otherwise", true, true},
-    {"joined", "region", "Replaces a region by several figures in its middle, united.",
-     kJoinedSignatures, applyJoined, BlockKind::Operations, kPure, "otherwise", true, true},
+    {"joined", "region",
+     "Replaces a region by several figures in its middle, united, or by all that a block makes of "
+     "it.",
+     kJoinedSignatures, applyJoined, BlockKind::Operations, kPure, "otherwise", true, true, nullptr,
+     1, unite},
     {"rect", "region", "Replaces a region by a rectangle in its middle.", kRectSignatures,
      applyRect, BlockKind::Operations, kPure, "otherwise", true, true},
     {"regularPolygon", "region", "Replaces a region by a polygon of equal sides in its middle.",

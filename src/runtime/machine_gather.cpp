@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Operations that wait for what comes of their children: these are derived as ever, but without
+// prototypes and in the frame of the call that waits, so that sharing makes no difference; then the
+// operation sees their leaves, and those that it takes leave the result.
+#include <algorithm>
+
+#include "runtime/machine.h"
+
+namespace gable {
+
+namespace {
+
+// The leaf as the shape that it was.
+Shape shapeOf(const Leaf& leaf, const Output& output) {
+  Shape s;
+  s.scope = leaf.frame;
+  s.size = leaf.scale;
+  Geometry& g = s.geometry;
+  g.uv = leaf.mesh == kUnitBoxUv || leaf.mesh == kUnitQuadXyUv || leaf.mesh == kUnitQuadXzUv;
+  switch (leaf.mesh) {
+    case kUnitBox:
+    case kUnitBoxUv: g.kind = GeometryKind::Box; break;
+    case kUnitQuadXy:
+    case kUnitQuadXyUv: g.kind = GeometryKind::QuadXy; break;
+    case kUnitQuadXz:
+    case kUnitQuadXzUv: g.kind = GeometryKind::QuadXz; break;
+    default:
+      g.kind = GeometryKind::Mesh;
+      g.mesh = output.meshes[leaf.mesh - kFirstMesh];
+      g.refSize = {1, 1, 1};
+  }
+  return s;
+}
+
+}  // namespace
+
+void Machine::beginGather(const Instruction& i) {
+  OpenGather g;
+  g.at = &i;
+  g.activation = activationCount_ - 1;
+  g.leaves = static_cast<uint32_t>(output_.openLeaves.size());
+  g.traced = static_cast<uint32_t>(trace_.size());
+  g.made = current().made;
+  g.flat = flat_;
+  g.light = lightPartsAllowed_;
+  gathers_.push_back(g);
+  gatherFrames_.push_back(Frame{});
+  flat_ = true;
+  lightPartsAllowed_ = false;
+}
+
+OpenGather Machine::closeGather() {
+  const OpenGather g = gathers_.back();
+  gathers_.pop_back();
+  gatherFrames_.pop_back();
+  flat_ = g.flat;
+  lightPartsAllowed_ = g.light;
+  return g;
+}
+
+void Machine::endGather() {
+  const OpenGather g = closeGather();
+  Activation& a = current();
+  // What a trace shows of shapes on their way is no leaf.
+  std::vector<bool> shown(output_.openLeaves.size() - g.leaves, false);
+  for (size_t n = g.traced; n < trace_.size(); ++n) {
+    if (trace_[n].shapeIndex != TraceNode::kNone) shown[trace_[n].shapeIndex - g.leaves] = true;
+  }
+  std::vector<Gathered> leaves;
+  for (size_t k = 0; k < shown.size(); ++k) {
+    if (!shown[k]) leaves.push_back({shapeOf(output_.openLeaves[g.leaves + k], output_), false});
+  }
+  const OpSpec& spec = *program_.operations[g.at->a];
+  const CallPlace place{a.previousScope, a.previousSize,
+                        program_.files[program_.rules[a.rule].file], program_.sites[pcOf(g.at)]};
+  OpCall call(spec, a.shape, {}, *this, place);
+  instruction_ = g.at;
+  const Status status = spec.gathered(call, leaves);
+  if (status.ok()) {
+    a.made = g.made;
+  } else {
+    warn(status.code(), "'" + std::string(spec.name) + "': " + status.message(), status.hint());
+  }
+  std::vector<bool> gone(shown.size(), false);
+  for (size_t k = 0, l = 0; k < shown.size(); ++k) {
+    if (!shown[k]) gone[k] = status.ok() && leaves[l++].taken;
+  }
+  keepLeaves(g, gone);
+}
+
+// Of the leaves since the gather began those that are not gone, where they lie outside of it.
+void Machine::keepLeaves(const OpenGather& g, const std::vector<bool>& gone) {
+  std::vector<Leaf>& open = output_.openLeaves;
+  std::vector<uint32_t> number(gone.size(), TraceNode::kNone);
+  uint32_t kept = g.leaves;
+  for (size_t k = 0; k < gone.size(); ++k) {
+    if (gone[k]) continue;
+    number[k] = kept;
+    Leaf& leaf = open[kept++] = open[g.leaves + k];
+    if (flat_) leaf.frame = leafWorld() * leaf.frame;
+  }
+  open.resize(kept);
+  for (size_t n = g.traced; n < trace_.size(); ++n) {
+    for (uint32_t* index : {&trace_[n].leafIndex, &trace_[n].shapeIndex}) {
+      if (*index != TraceNode::kNone && *index >= g.leaves) *index = number[*index - g.leaves];
+    }
+  }
+}
+
+// A limit struck within: what has not been gathered goes.
+void Machine::dropGathers() {
+  while (!gathers_.empty()) {
+    const OpenGather g = closeGather();
+    keepLeaves(g, std::vector<bool>(output_.openLeaves.size() - g.leaves, true));
+  }
+}
+
+}  // namespace gable
