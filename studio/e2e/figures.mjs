@@ -10,7 +10,7 @@ import assert from 'node:assert/strict';
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { meter, told } from './processes.mjs';
-import { CHROMIUM, caretBehind, clean, drawn, hasBrowser, launch, openPage, project, ready, serve, untilDrawn } from './studio.mjs';
+import { CHROMIUM, caretBehind, clean, drawn, hasBrowser, launch, openPage, project, ready, serve, status, untilDrawn } from './studio.mjs';
 
 if (!hasBrowser()) {
   console.log(`skipped: no Chromium at ${CHROMIUM}`);
@@ -47,6 +47,23 @@ async function remember(server, main, place) {
     body: JSON.stringify({ main, places: { [main]: place } }),
   });
   assert.equal(answer.status, 200);
+}
+
+/** The time from a key to the picture of a large place, and what of it was not derived again. */
+async function edited(page, behind, key, what, idle) {
+  await caretBehind(page, behind);
+  await page.waitForTimeout(500);
+  const answer = page.waitForResponse((r) => r.url().includes('/api/derive') && r.request().postData()?.includes(behind + key));
+  const began = performance.now();
+  await page.keyboard.press(key);
+  await answer;
+  const there = performance.now() - began;
+  await page.waitForFunction(() => !document.querySelector('.working'), null, { timeout: 120_000 });
+  const seen = performance.now() - began;
+  const line = await status(page);
+  console.log(`${what}: answered after ${(there / 1000).toFixed(1)} s; ${line.replaceAll('\n', ', ')}`);
+  held(what, `${(seen / 1000).toFixed(1)} s of 5`, seen < 5000, idle);
+  assert.ok(Number(/(\d+) % kept/.exec(line)?.[1]) > 80, 'hardly anything was taken over');
 }
 
 const servers = [];
@@ -163,8 +180,9 @@ const figures = {
     if (shots) await page.screenshot({ path: join(shots, 'town-moving.png') });
     const idle = Math.min(free, share());
     held('town: pictures a second', `${(pictures / seconds).toFixed(1)} of 5`, pictures / seconds >= 5, idle);
-    // Typing goes on while a large place is drawn and derived.
     await page.keyboard.press('Control+\\');
+    await edited(page, 's(0.22, 0.8', '5', 'town: an edit of the lamps, until it is seen', idle);
+    // Typing goes on while a large place is drawn and derived.
     await caretBehind(page, 'storeys');
     const slow = await page.evaluate(() => {
       window.longest = 0;

@@ -50,6 +50,8 @@ export interface ReportTotal {
 
 export interface Stats {
   shapes: number;
+  /** Taken over from the page's model before. */
+  recalled?: number;
   leaves: number;
   faces: number;
   triangles: number;
