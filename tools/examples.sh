@@ -21,8 +21,8 @@ example_rules() {
   done
 }
 
-# words FILE: the words of a file without its comments, one a line; none where there is no file.
-words() { [ ! -f "$1" ] || sed 's/#.*//' "$1" | xargs -n 1; }
+# words FILE: the words of a file without its lines of comment, one a line; none where there is no file.
+words() { [ ! -f "$1" ] || sed 's/^#.*//' "$1" | xargs -n 1; }
 
 # derive_arguments NAME: what `gable generate` and `gable render` are told about an example.
 derive_arguments() {

@@ -50,6 +50,7 @@ struct RenderArguments {
   int samples = 48;
   std::string sun;
   std::string eye, target;
+  std::string ground;
   double fieldOfView = 0;
 };
 int runRender(const RenderArguments& arguments);

@@ -104,6 +104,8 @@ int main(int argc, char** argv) {
   renderApp->add_option("--sun", render.sun, "elevation,azimuth in degrees (azimuth from north)");
   renderApp->add_option("--eye", render.eye, "The camera's place: x,y,z in metres");
   renderApp->add_option("--target", render.target, "What it looks at: x,y,z in metres");
+  renderApp->add_option("--ground", render.ground,
+                        "Colour of the ground around the model: #rrggbb (default #77766a)");
   renderApp->add_option("--fov", render.fieldOfView, "Horizontal angle of view in degrees");
   renderApp->callback([&] { status = runRender(render); });
 

@@ -22,6 +22,16 @@ int usage(const char* option, const char* form) {
   return kExitUsage;
 }
 
+/// "#rrggbb" as shares of 1.
+bool parseColor(const std::string& text, double (&rgb)[3]) {
+  const bool digits = text.size() == 7 && text[0] == '#' &&
+                      text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+  for (size_t k = 0; digits && k < 3; ++k) {
+    rgb[k] = std::stoi(text.substr(1 + 2 * k, 2), nullptr, 16) / 255.0;
+  }
+  return digits;
+}
+
 int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
   const std::pair<const char*, gable::View> views[] = {{"iso", gable::View::Iso},
                                                        {"top", gable::View::Top},
@@ -46,6 +56,10 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
     s.ownSun = true;
     s.sunElevation = sun[0];
     s.sunAzimuth = sun[1];
+  }
+  if (!a.ground.empty()) {
+    if (!parseColor(a.ground, s.ground)) return usage("--ground", "a colour such as #77766a");
+    s.ownGround = true;
   }
   if (a.eye.empty() != a.target.empty()) return usage("--eye", "a --target as well");
   if (!a.eye.empty()) {

@@ -230,6 +230,9 @@ struct PictureSettings {
   /// Degrees; NaN-free "own value" is said by ownSun.
   bool ownSun = false;
   double sunElevation = 38, sunAzimuth = 45;
+  /// The ground around the model, sRGB in [0, 1].
+  bool ownGround = false;
+  double ground[3] = {0, 0, 0};
   /// A camera of one's own: eye and target in metres.
   bool ownCamera = false;
   double eye[3] = {0, 0, 0}, target[3] = {0, 0, 0};

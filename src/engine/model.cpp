@@ -106,6 +106,7 @@ RenderOptions renderOptions(const PictureSettings& s) {
     o.eye = Vec3{s.eye[0], s.eye[1], s.eye[2]};
     o.target = Vec3{s.target[0], s.target[1], s.target[2]};
   }
+  if (s.ownGround) o.groundColor = Vec3{s.ground[0], s.ground[1], s.ground[2]};
   if (s.fieldOfView > 0) o.fov = s.fieldOfView;
   o.threads = static_cast<unsigned>(std::max(0, s.jobs));
   o.progress = [&s](double share) {

@@ -462,6 +462,15 @@ class Project(Case):
         for name in ("m.obj", "t.obj", "u.gltf"):
             self.rules(f"A --> i(\"{name}\") X.")
 
+    def testGroundOfNoColourIsRefused(self):
+        rules = self.put("project/rules/a.cga", "A --> X.")
+        small = ("--size", "160x90", "--samples", "2", "-o", "a.png")
+        for ground in ("red", "#12", "#12345g", "#1234567", "1234567", ""):
+            wrong = ground != ""
+            said = self.run_gable("render", rules, "--ground", ground, *small, status=2 if wrong else 0)
+            self.assertEqual("#77766a" in said, wrong, said)
+        self.run_gable("render", rules, "--ground", "#7D8c52", *small)
+
     def testPictureBombsAreRefused(self):
         import zlib
 
