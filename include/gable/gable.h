@@ -283,9 +283,27 @@ struct TreeNode {
   uint32_t before = kNone, after = kNone;
 };
 
+/// What a step drew or saw, in that order.
+struct TreeNote {
+  enum class Kind : uint8_t { Choice, Draw, Attribute, Parameter } kind = Kind::Draw;
+  uint32_t node = 0;
+  /// The name of an attribute or a parameter; the text of a draw.
+  std::string name;
+  /// As JSON; "null" for a choice.
+  std::string value;
+  /// Where a draw or the alternatives of a choice stand; an index into Tree::files, and from 1.
+  uint32_t file = 0, line = 0;
+  /// Of a choice: what was drawn from 0 to 1, which alternative that is, from 0, among how many,
+  /// and how likely it was. The alternative behind the last is `else`.
+  double draw = 0, chance = 0;
+  uint32_t chosen = 0, choices = 0;
+};
+
 struct Tree {
   std::vector<TreeNode> nodes;
   std::vector<std::string> names, files;
+  /// With DeriveSettings::traceShapes.
+  std::vector<TreeNote> notes;
 };
 
 /// What a derivation made, or a model file that was read.

@@ -41,6 +41,36 @@ void setPlace(TreeNode& out, const Span& span, const Sources& sources) {
   out.endColumn = to.column;
 }
 
+std::string_view textOf(const Span& span, const Sources& sources) {
+  if (!span.valid()) return {};
+  const std::string_view text = sources.text(span.file);
+  return span.begin < span.end && span.end <= text.size()
+             ? text.substr(span.begin, span.end - span.begin)
+             : std::string_view();
+}
+
+TreeNote noteOf(const TraceNote& n, const Sources& sources) {
+  TreeNote out;
+  out.kind = static_cast<TreeNote::Kind>(n.kind);
+  out.node = n.node;
+  out.name = n.value.name;
+  if (n.kind == TraceNote::Kind::Draw) {
+    const std::string_view text = textOf(n.span, sources);
+    if (!text.empty()) out.name = text;
+  }
+  JsonWriter json(out.value);
+  writeAttribute(json, n.value);
+  if (n.span.valid()) {
+    out.file = n.span.file;
+    out.line = sources.locate(n.span.file, n.span.begin).line;
+  }
+  out.draw = n.draw;
+  out.chance = n.chance;
+  out.chosen = n.chosen;
+  out.choices = n.choices;
+  return out;
+}
+
 }  // namespace
 
 Tree treeOf(const DeriveResult& result, const Program& program, const Sources& sources) {
@@ -86,6 +116,7 @@ Tree treeOf(const DeriveResult& result, const Program& program, const Sources& s
     above.firstLeaf = none ? n.firstLeaf : std::min(above.firstLeaf, n.firstLeaf);
     above.endLeaf = none ? n.endLeaf : std::max(above.endLeaf, n.endLeaf);
   }
+  for (const TraceNote& n : result.notes) tree.notes.push_back(noteOf(n, sources));
   return tree;
 }
 

@@ -28,6 +28,7 @@ struct Pass {
   struct Range {
     uint32_t worker = 0;
     size_t traceBegin = 0, traceEnd = 0;
+    size_t noteBegin = 0, noteEnd = 0;
   };
   std::vector<Range> ranges;
 };
@@ -49,10 +50,12 @@ Pass runPass(DeriveShared& shared, const std::vector<InitialShape>& shapes) {
     if (shared.exhausted.load(std::memory_order_relaxed)) return;
     Machine& machine = *pass.machines[worker];
     const size_t traceBegin = machine.trace().size();
+    const size_t noteBegin = machine.notes().size();
     pass.roots[i] = machine.run(shapes[i], static_cast<uint32_t>(i));
     pass.derived[i] = 1;
     if (!shared.collectOccluders) pass.attributes[i] = machine.attributeValues();
-    pass.ranges[i] = {worker, traceBegin, machine.trace().size()};
+    pass.ranges[i] = {worker, traceBegin, machine.trace().size(), noteBegin,
+                      machine.notes().size()};
     const size_t count = done.fetch_add(1) + 1;
     if (shared.options.progress) shared.options.progress(count, shapes.size());
   });
@@ -71,8 +74,9 @@ std::vector<Occluder> takeOccluders(Pass& pass) {
   return all;
 }
 
-std::vector<TraceNode> takeTrace(const Pass& pass) {
-  std::vector<TraceNode> all;
+// The trace in the order of the initial shapes, and what its rules drew and saw.
+void takeTrace(Pass& pass, DeriveResult& result) {
+  std::vector<TraceNode>& all = result.trace;
   for (const Pass::Range& r : pass.ranges) {
     const auto& nodes = pass.machines[r.worker]->trace();
     const size_t shift = all.size();
@@ -83,8 +87,12 @@ std::vector<TraceNode> takeTrace(const Pass& pass) {
       }
       all.push_back(n);
     }
+    for (size_t i = r.noteBegin; i < r.noteEnd; ++i) {
+      TraceNote note = std::move(pass.machines[r.worker]->notes()[i]);
+      note.node = static_cast<uint32_t>(note.node - r.traceBegin + shift);
+      result.notes.push_back(std::move(note));
+    }
   }
-  return all;
 }
 
 // The parts of all workers, each after those inside it.
@@ -152,7 +160,7 @@ DeriveResult derive(const Program& program, const std::vector<InitialShape>& sha
     result.recalled += m->recalled();
     result.diagnostics.append(m->diagnostics());
   }
-  result.trace = takeTrace(pass);
+  takeTrace(pass, result);
   std::shared_ptr<Recall> recall;
   if (options.remember && !shared.limitReached && !shared.unrepeatable) {
     recall = std::make_shared<Recall>();

@@ -102,6 +102,22 @@ struct TraceNode {
   uint32_t shapeIndex = kNone;
 };
 
+/// What a rule drew or looked up while it was at work, in that order; with
+/// DeriveOptions::traceShapes.
+struct TraceNote {
+  enum class Kind : uint8_t { Choice, Draw, Attribute, Parameter } kind = Kind::Draw;
+  /// Index of the rule's shape among the trace.
+  uint32_t node = 0;
+  /// Of a draw, the call in the text; of a choice, the alternatives.
+  Span span;
+  /// What came of it, under the name of the attribute or parameter. Of a choice nothing.
+  AttributeValue value;
+  /// Of a choice: what was drawn from 0 to 1, the number of the alternative that this is, among how
+  /// many, and its chance. The number behind the last is `else`.
+  double draw = 0, chance = 0;
+  uint32_t chosen = 0, choices = 0;
+};
+
 struct DeriveResult;
 struct Recall;
 
@@ -136,6 +152,7 @@ struct DeriveResult {
   Diagnostics diagnostics;
   DeriveEnd end = DeriveEnd::Done;
   std::vector<TraceNode> trace;
+  std::vector<TraceNote> notes;
   /// Rule attributes of each initial shape as they were evaluated (visible ones, main file first).
   std::vector<std::vector<AttributeValue>> attributes;
   /// Derivations that the sharing cache answered.

@@ -141,6 +141,7 @@ class Machine final : public Services {
   Output& output() { return output_; }
   Diagnostics& diagnostics() { return diagnostics_; }
   std::vector<TraceNode>& trace() { return trace_; }
+  std::vector<TraceNote>& notes() { return notes_; }
   std::vector<Occluder>& occluders() { return occluders_; }
   uint64_t cacheHits() const { return cacheHits_; }
   /// With DeriveOptions::remember: the parts of all initial shapes, each after those inside it.
@@ -369,6 +370,7 @@ class Machine final : public Services {
   void makeRange(const Instruction& i);
   void choose(const Instruction& i);
   void ruleAttribute(const Instruction& i);
+  void pushAttribute(uint32_t a, const Value& v);
   void enterAttribute(uint32_t attribute, const Instruction* returnTo);
   void builtinAttribute(const Instruction& i);
   void callFunction(const Instruction& i);
@@ -386,6 +388,9 @@ class Machine final : public Services {
 
   // Tracing and occluders.
   void traceShape(Activation& a, uint32_t parentNode, const Instruction* at);
+  TraceNote* note(TraceNote::Kind kind);
+  void noteParameters(const Activation& a);
+  void noteAttribute(uint32_t a, const Value& v);
   void traceLeaf(const Activation& a, StringId name, uint32_t source);
   void addOccluder(StringId label, const Shape& s);
   Occluder asking(const Shape& s) const;
@@ -435,6 +440,7 @@ class Machine final : public Services {
   Diagnostics diagnostics_;
   std::unordered_map<uint64_t, uint32_t> warned_;
   std::vector<TraceNode> trace_;
+  std::vector<TraceNote> notes_;
   std::vector<Occluder> occluders_;
 
   // The stacks. Activations are reused, so that their shapes keep no memory busy.

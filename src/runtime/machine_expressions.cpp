@@ -137,25 +137,37 @@ void Machine::choose(const Instruction& i) {
       break;
     }
   }
+  if (TraceNote* n = options().traceShapes ? note(TraceNote::Kind::Choice) : nullptr) {
+    n->span = program_.spans[pcOf(&i)];
+    n->draw = draw;
+    n->chosen = chosen;
+    n->choices = i.y;
+    n->chance = chosen < i.y ? shares[chosen].number : 1 - sum;
+  }
   push(Value::of(static_cast<double>(chosen)));
+}
+
+void Machine::pushAttribute(uint32_t a, const Value& v) {
+  push(v);
+  if (options().traceShapes) noteAttribute(a, v);
 }
 
 void Machine::ruleAttribute(const Instruction& i) {
   const uint32_t a = i.a;
   if (seen_->locals != 0) {
     if (const Value* local = localValue(*seen_, a)) {
-      push(*local);
+      pushAttribute(a, *local);
       return;
     }
   }
   if (seen_->attributes != 0) {
     if (const Value* set = attributes().find(seen_->attributes, a)) {
-      push(*set);
+      pushAttribute(a, *set);
       return;
     }
   }
   if (attributeStates_[a] == AttributeState::Known) {
-    push(attributeValues_[a]);
+    pushAttribute(a, attributeValues_[a]);
     return;
   }
   instruction_ = &i;
@@ -208,6 +220,9 @@ void Machine::returnValue() {
   salt_ = f.salt;
   pc_ = f.returnTo;
   push(v);
+  if (f.attribute >= 0 && options().traceShapes) {
+    noteAttribute(static_cast<uint32_t>(f.attribute), v);
+  }
 }
 
 // The attributes of a dynamic import are evaluated at the call, each time.
@@ -307,7 +322,14 @@ void Machine::callBuiltin(const Instruction& i) {
   FunctionCall call({stack_ + stackTop_, i.x}, *seen_, *this);
   call.place(fileOf(i), hashCombine(salt_, program_.sites[pcOf(&i)]));
   instruction_ = &i;
-  const Value v = program_.builtinFunctions[i.a]->call(call);
+  const FunctionSpec& function = *program_.builtinFunctions[i.a];
+  const Value v = function.call(call);
+  if (options().traceShapes && function.effects & kRandom) {
+    if (TraceNote* n = note(TraceNote::Kind::Draw)) {
+      n->span = program_.spans[pcOf(&i)];
+      n->value = plainAttribute(function.name, v, pool());
+    }
+  }
   push(v);
   weigh(v);
 }

@@ -10,6 +10,12 @@
 
 namespace gable {
 
+namespace {
+
+constexpr size_t kMostNotes = 400'000;
+
+}  // namespace
+
 void Machine::traceShape(Activation& a, uint32_t parentNode, const Instruction* at) {
   TraceNode node;
   node.parent = parentNode;
@@ -29,6 +35,39 @@ void Machine::traceShape(Activation& a, uint32_t parentNode, const Instruction* 
   }
   a.traceNode = static_cast<uint32_t>(trace_.size());
   trace_.push_back(node);
+  if (options().traceShapes) noteParameters(a);
+}
+
+// Null where no rule is at work, or where there are too many for anybody to look at.
+TraceNote* Machine::note(TraceNote::Kind kind) {
+  if (activationCount_ == 0 || notes_.size() >= kMostNotes) return nullptr;
+  const uint32_t node = current().traceNode;
+  if (node == TraceNode::kNone) return nullptr;
+  TraceNote& n = notes_.emplace_back();
+  n.kind = kind;
+  n.node = node;
+  return &n;
+}
+
+void Machine::noteParameters(const Activation& a) {
+  const std::vector<ParameterInfo>& parameters = program_.rules[a.rule].parameters;
+  for (uint32_t k = 0; k < parameters.size() && notes_.size() < kMostNotes; ++k) {
+    TraceNote& n = notes_.emplace_back();
+    n.kind = TraceNote::Kind::Parameter;
+    n.node = a.traceNode;
+    n.value = plainAttribute(std::string(pool().text(parameters[k].name)), stack_[a.parameters + k],
+                             pool());
+  }
+}
+
+// A rule that reads an attribute again saw it already.
+void Machine::noteAttribute(uint32_t a, const Value& v) {
+  if (activationCount_ == 0) return;
+  const std::string& name = program_.attributes[a].name;
+  for (size_t i = notes_.size(); i-- > 0 && notes_[i].node == current().traceNode;) {
+    if (notes_[i].kind == TraceNote::Kind::Attribute && notes_[i].value.name == name) return;
+  }
+  if (TraceNote* n = note(TraceNote::Kind::Attribute)) n->value = plainAttribute(name, v, pool());
 }
 
 // A rule call that made nothing is its own leaf; a leaf of a slot or of an unknown rule is a child.

@@ -122,6 +122,23 @@ std::string treeBytes(const Tree& tree) {
   return out;
 }
 
+// Each as [node, kind, name, value, file, line], and a choice with [draw, chance, chosen, choices]
+// behind.
+void writeNotes(JsonWriter& json, const Tree& tree) {
+  json.key("notes").beginArray();
+  for (const TreeNote& n : tree.notes) {
+    json.beginArray().value(static_cast<uint64_t>(n.node));
+    json.value(static_cast<uint64_t>(n.kind)).value(n.name).raw(n.value);
+    json.value(static_cast<uint64_t>(n.file)).value(static_cast<uint64_t>(n.line));
+    if (n.kind == TreeNote::Kind::Choice) {
+      json.value(n.draw).value(n.chance);
+      json.value(static_cast<uint64_t>(n.chosen)).value(static_cast<uint64_t>(n.choices));
+    }
+    json.endArray();
+  }
+  json.endArray();
+}
+
 // What counts as the project of a rule file, as the command line finds it: the nearest folder above
 // with a folder `rules` or `assets` in it, else the whole. With a '/' at its end, or empty.
 std::string projectOf(const ProjectFiles& files, const std::string& file) {
@@ -315,7 +332,9 @@ Result<std::string> Session::tree(const JsonValue& request, const Cancel& cancel
   for (const std::string& n : tree.names) json.value(n);
   json.endArray().key("files").beginArray();
   for (const std::string& f : tree.files) json.value(f);
-  json.endArray().endObject();
+  json.endArray();
+  if (steps) writeNotes(json, tree);
+  json.endObject();
   return joined("GBT1", text, treeBytes(tree) + (steps ? derived->drawList() : std::string()));
 }
 

@@ -331,6 +331,22 @@ TEST_F(Server, stepsHoldEachShapeAsItsRuleGotIt) {
   EXPECT_NE(plain.find(R"("leaves":6)"), std::string::npos);
 }
 
+TEST_F(Server, stepsTellWhatTheyDrewAndSaw) {
+  const std::string answer =
+      ask("POST /api/tree",
+          R"({"file":"rules/a.cga","page":"p","steps":true,"shapes":{"lot":[4,2]},)"
+          R"("text":"attr h = 3\n@StartRule\nLot --> 100% : extrude(h) Box else: NIL"})");
+  EXPECT_NE(answer.find(R"("notes":[[0,0,"",null,0,3,)"), std::string::npos) << answer;
+  EXPECT_NE(answer.find(R"([0,2,"h",3,0,0])"), std::string::npos) << answer;
+}
+
+TEST_F(Server, rulesWithErrorsHaveNoTree) {
+  const std::string answer =
+      ask("POST /api/tree", R"({"file":"rules/a.cga","page":"p","text":"Lot --> extrude("})");
+  EXPECT_EQ(status(answer), 200);
+  EXPECT_NE(answer.find(R"("end":"wrong")"), std::string::npos);
+}
+
 TEST_F(Folder, importsComeFromUnsavedText) {
   put("project/rules/b.cga", "W --> extrude(1) Low\n");
   ProjectFiles files(project());

@@ -165,5 +165,45 @@ TEST(Limits, boundTheChildrenOfOneShape) {
   EXPECT_EQ(codes(model), "too-many-children ");
 }
 
+TEST(Steps, tellWhatTheyDrewAndSaw) {
+  const Rules rules = Rules::parse(
+      "attr h = 4\nLot --> extrude(h) Box(2)\nBox(n) --> 40% : A else: t(0, rand(1, 2), n) B\n"
+      "B --> extrude(h + h) C.",
+      "text.cga");
+  ASSERT_TRUE(rules.ok());
+  DeriveSettings settings;
+  settings.trace = settings.traceShapes = true;
+  settings.jobs = 2;
+  size_t chosenFirst = 0;
+  for (int seed = 0; seed < 20; ++seed) {
+    settings.seed = seed;
+    const Tree tree = derive(rules, Shapes::lot(4, 3), settings).tree();
+    const auto& notes = tree.notes;
+    ASSERT_GE(notes.size(), 3u);
+    EXPECT_EQ(notes[0].kind, TreeNote::Kind::Attribute);
+    EXPECT_EQ(notes[0].name + " " + notes[0].value, "h 4");
+    EXPECT_EQ(tree.names[tree.nodes[notes[0].node].name], "Lot");
+    EXPECT_EQ(notes[1].kind, TreeNote::Kind::Parameter);
+    EXPECT_EQ(notes[1].name + " " + notes[1].value, "n 2");
+    EXPECT_EQ(tree.names[tree.nodes[notes[1].node].name], "Box");
+    ASSERT_EQ(notes[2].kind, TreeNote::Kind::Choice);
+    EXPECT_EQ(notes[2].line, 3u);
+    const bool first = notes[2].chosen == 0;
+    EXPECT_EQ(first, notes[2].draw < 0.4);
+    EXPECT_DOUBLE_EQ(notes[2].chance, first ? 0.4 : 0.6);
+    chosenFirst += first ? 1 : 0;
+    if (first) continue;
+    ASSERT_EQ(notes.size(), 5u);
+    EXPECT_EQ(notes[3].kind, TreeNote::Kind::Draw);
+    EXPECT_EQ(notes[3].name, "rand(1, 2)");
+    EXPECT_GE(std::stod(notes[3].value), 1);
+    // Read twice, told once.
+    EXPECT_EQ(notes[4].name, "h");
+    EXPECT_EQ(tree.names[tree.nodes[notes[4].node].name], "B");
+  }
+  EXPECT_GT(chosenFirst, 2u);
+  EXPECT_LT(chosenFirst, 16u);
+}
+
 }  // namespace
 }  // namespace gable

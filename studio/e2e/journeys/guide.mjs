@@ -50,6 +50,8 @@ export default {
     assert.match(said, /Replaced in this step by 5 shapes/);
     assert.match(said, /What this step changed/);
     assert.match(said, /Wall\s+4/);
+    assert.match(said, /Lot became 5 shapes: 4 × Wall and Roof\. They are faces[^]*9 m along y instead of 0 m/);
+    assert.match(said, /Draws\s+None in this step[^]*Values seen\s+height\s+9/);
     const first = await picture(page);
     assert.ok(!whole.equals(first));
     await page.locator('.stage canvas').focus();
@@ -64,6 +66,20 @@ export default {
     await page.keyboard.press('g');
     await page.waitForSelector('.guide .lane', { state: 'detached' });
     await page.waitForSelector('.tree .tr');
+  },
+
+  async theGuideTellsWhatWasDrawn({ page }) {
+    await ready(page);
+    await caretBehind(page, 'color("#7c8085")');
+    await page.keyboard.type(' 30%: extrude(rand(1, 3)) Slab else: NIL');
+    await openGuide(page);
+    await page.getByRole('tab', { name: 'Shape' }).click();
+    await page.locator('.guide .lane').focus();
+    const said = page.locator('aside .scroll');
+    for (let step = 0; step < 6 && !/gives/.test(await said.innerText()); ++step) await page.keyboard.press('ArrowLeft');
+    assert.match(await said.innerText(), /What this step changed[^]*Draws\s+seed 0\s+0\.\d{3} gives (the alternative, 30|else, 70) %/);
+    await page.locator('.note').first().click();
+    assert.match(await page.locator('.cm-content').innerText(), /30%/);
   },
 
   async theGuidePlaysUpToAStop({ page }) {

@@ -105,11 +105,30 @@ export interface DrawList {
   batches: Batch[];
 }
 
+/** What a rule drew or looked up in a step. */
+export interface Note {
+  node: number;
+  kind: 'choice' | 'draw' | 'attribute' | 'parameter';
+  /** Of an attribute or a parameter, its name; of a draw, the call in the text. */
+  name: string;
+  value: Value;
+  file: number;
+  line: number;
+  /** What was drawn from 0 to 1. */
+  draw: number;
+  chance: number;
+  /** The alternative, from 0, among `choices`; the one behind the last is `else`. */
+  chosen: number;
+  choices: number;
+}
+
 export interface Tree {
   count: number;
   end: End;
   names: string[];
   files: string[];
+  /** Of a derivation in steps. */
+  notes: Note[];
   parent: Uint32Array;
   shape: Uint32Array;
   name: Uint32Array;
@@ -198,10 +217,17 @@ export function decodeModel(bytes: ArrayBuffer): ModelPreview {
   return { ...(json as Omit<ModelPreview, 'draw'>), draw: decodeDrawList(bytes, start) };
 }
 
+type RawNote = [number, number, string, Value, number, number, number?, number?, number?, number?];
+const NOTE_KINDS = ['choice', 'draw', 'attribute', 'parameter'] as const;
+
+function readNote([node, kind, name, value, file, line, draw = 0, chance = 0, chosen = 0, choices = 0]: RawNote): Note {
+  return { node, kind: NOTE_KINDS[kind] ?? 'draw', name, value, file, line, draw, chance, chosen, choices };
+}
+
 /** The tree, and the draw list of all steps where it was asked for. */
 export function decodeTree(bytes: ArrayBuffer): { tree: Tree; draw: DrawList | null } {
   const { json, start } = parts(bytes, 0, 'GBT1');
-  const head = json as Pick<Tree, 'count' | 'end' | 'names' | 'files'>;
+  const head = json as Pick<Tree, 'count' | 'end' | 'names' | 'files'> & { notes?: RawNote[] };
   const n = head.count;
   let at = start;
   const column = () => {
@@ -216,6 +242,7 @@ export function decodeTree(bytes: ArrayBuffer): { tree: Tree; draw: DrawList | n
   };
   const tree: Tree = {
     ...head,
+    notes: (head.notes ?? []).map(readNote),
     parent: column(),
     shape: column(),
     name: column(),

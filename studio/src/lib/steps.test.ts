@@ -20,7 +20,7 @@ function house(): Steps {
   const none = () => new Uint32Array(nodes.length);
   const size = Float32Array.from([8, 3, 8, 4, 3, 0, 4, 3, 0, 4, 3, 0, 8, 0, 8]);
   const tree: Tree = {
-    count: nodes.length, end: 'done', names, files: [],
+    count: nodes.length, end: 'done', names, files: [], notes: [],
     parent: column((n) => n[1]), shape: none(), name: column((n) => names.indexOf(n[0])), file: none(),
     line: none(), column: none(), endLine: none(), endColumn: none(), firstLeaf: none(), endLeaf: none(),
     flags: column((n) => n[2]), before: column((n) => n[3]), after: column((n) => n[4]),

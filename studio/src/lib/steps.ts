@@ -4,7 +4,7 @@
 // Steps of a derivation: each replaces one shape by what its rule makes of it, in the order of the
 // derivation. After the last step only leaves are left.
 
-import { NONE } from './protocol';
+import { NONE, type Note } from './protocol';
 import type { Shapes } from './tree';
 
 export const RULE_CALL = 4;
@@ -24,6 +24,7 @@ export class Steps {
   readonly nodes: number[] = [];
   /** The step that replaces a shape; 0 for leaves that nothing replaces. */
   readonly replacedIn: Uint32Array;
+  private readonly notes = new Map<number, Note[]>();
 
   constructor(readonly shapes: Shapes) {
     const { tree } = shapes;
@@ -33,6 +34,16 @@ export class Steps {
       this.nodes.push(i);
       this.replacedIn[i] = this.nodes.length;
     }
+    for (const note of tree.notes) {
+      const known = this.notes.get(note.node);
+      if (known) known.push(note);
+      else this.notes.set(note.node, [note]);
+    }
+  }
+
+  /** What a shape's rule drew and saw. */
+  notesOf(node: number): Note[] {
+    return this.notes.get(node) ?? [];
   }
 
   get count(): number {

@@ -11,7 +11,7 @@ function grow(text: string): Shapes {
   const names = [...new Set(lines.map((l) => l.trim()))];
   const column = () => new Uint32Array(n);
   const tree: Tree = {
-    count: n, end: 'done', names, files: ['a.cga'], parent: column().fill(NONE), shape: column(), name: column(), file: column(),
+    count: n, end: 'done', names, files: ['a.cga'], notes: [], parent: column().fill(NONE), shape: column(), name: column(), file: column(),
     line: column(), column: column(), endLine: column(), endColumn: column(), firstLeaf: column().fill(NONE), endLeaf: column().fill(NONE),
     flags: column(), before: column(), after: column(), frame: new Float32Array(n * 12), size: new Float32Array(n * 3),
   };
