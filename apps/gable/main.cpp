@@ -9,6 +9,20 @@
 
 namespace {
 
+void addPictureOptions(CLI::App* app, RenderArguments& a) {
+  app->add_option("--view", a.view, "iso, top, front or street")
+      ->check(CLI::IsMember({"iso", "top", "front", "street"}));
+  app->add_option("--size", a.size, "Pixels (default 1600x900)");
+  app->add_option("--samples", a.samples, "Paths a pixel (default 48)")
+      ->check(CLI::Range(1, 65536));
+  app->add_option("--sun", a.sun, "elevation,azimuth in degrees (azimuth from north)");
+  app->add_option("--eye", a.eye, "The camera's place: x,y,z in metres");
+  app->add_option("--target", a.target, "What it looks at: x,y,z in metres");
+  app->add_option("--ground", a.ground,
+                  "Colour of the ground around the model: #rrggbb (default #77766a)");
+  app->add_option("--fov", a.fieldOfView, "Horizontal angle of view in degrees");
+}
+
 void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
   auto* shapes = app->add_option("--shapes", a.shapes, "Footprints: .geojson .obj .gltf .glb");
   app->add_option("--lot", a.lot, "A rectangular lot in metres, such as 30x40 (default 20x20)")
@@ -96,17 +110,7 @@ int main(int argc, char** argv) {
       ->required();
   addDeriveOptions(renderApp, render.derive);
   renderApp->add_option("-o,--output", render.output, "The picture: .png")->required();
-  renderApp->add_option("--view", render.view, "iso, top, front or street")
-      ->check(CLI::IsMember({"iso", "top", "front", "street"}));
-  renderApp->add_option("--size", render.size, "Pixels (default 1600x900)");
-  renderApp->add_option("--samples", render.samples, "Paths a pixel (default 48)")
-      ->check(CLI::Range(1, 65536));
-  renderApp->add_option("--sun", render.sun, "elevation,azimuth in degrees (azimuth from north)");
-  renderApp->add_option("--eye", render.eye, "The camera's place: x,y,z in metres");
-  renderApp->add_option("--target", render.target, "What it looks at: x,y,z in metres");
-  renderApp->add_option("--ground", render.ground,
-                        "Colour of the ground around the model: #rrggbb (default #77766a)");
-  renderApp->add_option("--fov", render.fieldOfView, "Horizontal angle of view in degrees");
+  addPictureOptions(renderApp, render);
   renderApp->callback([&] { status = runRender(render); });
 
   TraceArguments trace;

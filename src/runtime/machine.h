@@ -336,6 +336,8 @@ class Machine final : public Services {
   uint32_t openInstanceCount() const;
 
   // Recall.
+  /// What is made now stays as it is, in the world.
+  bool worksInTheOpen() const { return prototypes_.empty() && gathers_.empty(); }
   /// Looks at the initial shape at work.
   void beginRemembering();
   /// True when the call's result was remembered and lies in the output.

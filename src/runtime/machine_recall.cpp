@@ -4,8 +4,9 @@
 // Recall in the machine: which calls are remembered, under which keys, and what they count.
 //
 // A call is a part when it works in the world, not in the frame of a shared rule (those are found
-// as prototypes), and when calls of its rule cost enough that a key is little beside them. A part
-// that warned is not remembered: the warning would be lost.
+// as prototypes), and where no operation waits for its leaves; and when calls of its rule cost
+// enough that a key is little beside them. A part that warned is not remembered: the warning would
+// be lost.
 
 #include "runtime/key_hash.h"
 #include "runtime/machine.h"
@@ -99,7 +100,7 @@ Output::Mark Machine::placeInRoot() const {
 }
 
 bool Machine::beginPart(Activation& call) {
-  if (!prototypes_.empty() || aborted_ || !worthKeeping(call.rule)) return false;
+  if (!worksInTheOpen() || aborted_ || !worthKeeping(call.rule)) return false;
   OpenPart open;
   open.part.key = partKey(call);
   if (recaller_) {
@@ -225,7 +226,8 @@ Status Machine::applyRemembering(OpCall& call, const Instruction& i,
   const bool split = block && !block->split.items.empty();
   const bool looked = cost.calls++ % kBetweenSamples == 0 ||
                       cost.time >= kLong * static_cast<int64_t>(cost.measured);
-  if (split || !looked || (call.spec().effects & kTold) != 0) return call.spec().apply(call);
+  const bool told = (call.spec().effects & kTold) != 0 || call.spec().gathered;
+  if (split || !looked || told) return call.spec().apply(call);
   const ShareKey key = operationKey(call, arguments, block);
   const auto begin = std::chrono::steady_clock::now();
   if (takeOperation(key, call.shape())) {

@@ -400,7 +400,7 @@ void Machine::operation(const Instruction& i, const Value* constants) {
   OpCall call(spec, a.shape, {arguments, i.x}, *this, place, block ? &input : nullptr);
   if (collectOccluders_ && occludes(spec)) addOccluder(0, a.shape);
   instruction_ = &i;
-  const Status status = remembers_ && prototypes_.empty()
+  const Status status = remembers_ && worksInTheOpen()
                             ? applyRemembering(call, i, {arguments, i.x}, block ? &input : nullptr)
                             : spec.apply(call);
   if (!status.ok()) {

@@ -249,6 +249,30 @@ Tile --> primitiveCube()
   }
 }
 
+// Leaves that an operation joins are taken back; what comes of it may be taken over.
+TEST(Recall, whatRulesMakeLaterIsJoinedAnew) {
+  const std::string text = R"(
+Lot --> split(x) { ~20 : Paths(3) | ~20 : Paths(4) | ~20 : Block }
+Paths(r) --> joined { Rows Disc(r) Block } extrude(0.3) Paved.
+Rows --> split(z) { ~1 : split(x) { ~rand(1, 2) : Stone | 1 : NIL }* | 1 : NIL }*
+Stone --> Stones
+Stones --> split(x) { 0.1 : NIL | ~1 : Flat. }
+Disc(r) --> circle(r, 24) Flat.
+Block --> s('0.5, 6, '0.5) primitiveCube() split(y) { ~0.4 : split(x) { ~rand(0.3, 0.6) : Tile }* }*
+Tile --> primitiveCube()
+)";
+  Edited place(Shapes::lot(60, 20));
+  place.next(text);
+  for (const auto& [from, to] :
+       {std::pair("Paths(4)", "Paths(5)"), {"0.3", "0.4"}, {"circle(r, 24)", "circle(r, 20)"}}) {
+    const std::string edited = replaced(text, from, to);
+    const Model model = place.next(edited);
+    EXPECT_EQ(shown(model), shown(place.fresh(edited)));
+    EXPECT_GT(recalled(model), 0u);
+    place.next(text);
+  }
+}
+
 TEST(Recall, questionsAboutOtherShapesAreAskedAnew) {
   const std::string text = R"(
 Lot --> split(x) { ~10 : Left | ~10 : Right }
