@@ -102,6 +102,8 @@ class Reference:
         text += "where an operation takes one.\n\n"
         text += table(("selector", "chooses"),
                       [(f"`{s['name']}`", s["doc"]) for s in self.catalogue["selectors"]])
+        text += "\n## Edges of regions\n\nOperations on regions choose edges by where they come from and where they lie, in "
+        text += "texts like `\"outer & !side(W)\"`:\n[all words](operations/peel.md#selections).\n"
         self.pages[f"{REFERENCE}/selectors.md"] = text
 
 

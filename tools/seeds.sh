@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The Gable authors
 #
-# tools/seeds.sh [EXAMPLE] [SEEDS]: the tests of an example that look at many seeds, on so many of them
-# (castle, 200). The suite runs a short form. Needs a build in build/dev.
+# tools/seeds.sh [castle|park] [SEEDS]: the tests of an example that look at many seeds, on so many of them
+# (castle, 200; park is the example gardens). The suite runs a short form. Needs a build in build/dev.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 example=${1:-castle} seeds=${2:-200}

@@ -198,10 +198,11 @@ TEST(ParkHostile, ManyGardensHaveNothingOnAnythingElse) {
   const Rules rules = Rules::load(folder + "gardens/gardens.cga", options);
   for (const Message& x : rules.messages()) ADD_FAILURE() << x.text;
   const Shapes plot = Shapes::load(folder + "gardens/buildings.geojson");
-  const char* all = std::getenv("GABLE_WHOLE_CORPUS");
+  const char* asked = std::getenv("GABLE_SEEDS");
+  const int many = asked && *asked ? std::atoi(asked) : 6;
   // In these a lamp stood where a bench had cut a corner off its place.
   std::vector<int> seeds = {18, 30, 53, 58};
-  for (int seed = 1; seed <= (all && *all ? 200 : 6); ++seed) seeds.push_back(seed);
+  for (int seed = 1; seed <= many; ++seed) seeds.push_back(seed);
   for (const int seed : seeds) {
     DeriveSettings settings;
     settings.seed = seed;

@@ -226,7 +226,15 @@ TEST(ParkNotation, ConvertedTextMakesTheSameModel) {
       "R -> Grid(3, 3) { A(1) } { B } { Choose { Romb(1) C, 20%: Circle(1) D } }\n"
       "A(d) -> Contract(d) else { E } Place((0.3, 0.3)) { Circle(d / 4) T }",
       "R -> Select { len > 50 : A | outer : Peel({W: 2, E: 1}) { B | C } } else { D }",
-      "R -> VoronoiRegions(6 {2}, bezier, jitter=1) { A | path: B | junction: C }"};
+      "R -> VoronoiRegions(6 {2}, bezier, jitter=1) { A | path: B | junction: C }",
+      "R -> Grid(2, 2, dominance=split) { joined { A B } } { P }\nA -> Contract(4)\nB -> Rect(12, "
+      "1)",
+      "R -> Insert(3) { A } Sweep(F(2), width=0.5, profile=(0,0)(0,1)(1,0)) { H }\n"
+      "fun F(d) -> Parametrise([0, 1] _ , facing(S)) { Contract(d) }",
+      "R -> CastRays(Points((9, 9), (30, 30)) [Square(2)], Directions(10, 100, 190), "
+      "connect=thin(1)) "
+      "{ A } { B }",
+      "R -> Circle(50, free) Square(2) else { A } Place(corners) { P }"};
   for (const char* text : grammars) {
     const Rules park = Rules::parse(text, "a.park");
     ASSERT_FALSE(hasErrors(park.messages())) << text;

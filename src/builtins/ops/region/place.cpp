@@ -115,6 +115,19 @@ Status placesOf(OpCall& call, const RegionJob& job, size_t face, std::string_vie
     out.push_back(centroid(view.polygon()));
     return {};
   }
+  if (w == "corners") {
+    // As the notation's corners(region) has it.
+    if (r.accept('(') && !(r.word() == "region" && r.accept(')'))) r.goTo(0);
+    for (uint32_t k = 0; r.atEnd() && k < view.logicalCount(); ++k) {
+      const Vec2 at = logicalCorner(view, k);
+      if (std::find(out.begin(), out.end(), at) == out.end()) out.push_back(at);
+    }
+    if (!out.empty()) return {};
+  }
+  if (std::vector<Disc> points; w == "points" && readPoints(text, points)) {
+    for (const Disc& d : points) out.push_back(d.centre + bounds(view.polygon()).min);
+    return {};
+  }
   if (w == "corner" && r.accept('(')) {
     const size_t inside = r.place();
     double i = 0;
@@ -143,7 +156,8 @@ Status placesOf(OpCall& call, const RegionJob& job, size_t face, std::string_vie
     }
   }
   return call.fail("bad-argument", "'" + std::string(text) + "' is no place of a region",
-                   "write centre, centroid, corner(0), corner(outer) or \"(0.8, 0.1)\"");
+                   "write centre, centroid, corners, corner(0), corner(outer), \"(0.8, 0.1)\" in "
+                   "shares of the sides or \"points((3, 4))\" in metres");
 }
 
 // Along the edge of the outline that is nearest to a place.
@@ -169,12 +183,17 @@ class Placer {
         figure_(figure),
         cut_(option(options, "over").empty()),
         split_(!option(options, "split").empty()),
+        warnsOfHoles_(std::string_view(call.spec().name) == "place"),
         slot_(thingSlot(call)),
         parent_(call.shape()),
         count_(count) {}
 
   void add(Vec2 at, Vec2 along) {
-    if (!contains(view_.polygon(), at)) return;
+    if (!contains(view_.polygon(), at)) {
+      // Something else has taken the place before.
+      if (figure_.shape != PlanShape::None && warnsOfHoles_ && inHole(at)) ++nested_;
+      return;
+    }
     if (figure_.shape == PlanShape::None) {
       if (slot_) call_.emit(view_.pointAt(parent_, at, along), *slot_, count_);
       ++count_;
@@ -224,6 +243,15 @@ class Placer {
       return near && area(intersect(ring, {h})) > 1e-6 * area(h);
     });
   }
+  bool inHole(Vec2 at) const {
+    size_t edge = view_.polygon().outer.size();
+    for (const Ring& hole : view_.polygon().holes) {
+      const bool placed = view_.marks()[edge].role == EdgeRole::Hole;
+      if (placed && locate(hole, at) == Where::Inside) return true;
+      edge += hole.size();
+    }
+    return false;
+  }
   // Pieces without holes, with the edges of the region that they come from.
   static std::vector<RegionPiece> apart(const std::vector<RegionPiece>& pieces) {
     std::vector<RegionPiece> out;
@@ -242,6 +270,8 @@ class Placer {
   RegionView& view_;
   PlanFigure figure_;
   bool cut_, split_;
+  // Along edges what has no room is left out without a word.
+  bool warnsOfHoles_;
   std::optional<uint32_t> slot_;
   Shape parent_;
   Region holes_;
@@ -447,9 +477,10 @@ constexpr ParamSpec kOptions = {
 constexpr ParamSpec kPlace[] = {
     {"where", ParamType::Selector,
      "centre (of a region that is not convex: the place farthest from its boundary), centroid, "
-     "corner(i) clockwise from the south-west, where logical edge i begins, corner(selection) "
-     "between selected edges, or "
-     "\"(u, v)\" in shares of the sides, also several."},
+     "corners, corner(i) clockwise from the south-west, where logical edge i begins, "
+     "corner(selection) between selected edges, \"(u, v)\" in shares of the sides, also several, "
+     "or "
+     "\"points((3, 4) (9, 4))\" in metres from the south-west."},
     kFigure,
     kOptions};
 constexpr ParamSpec kDistribute[] = {
