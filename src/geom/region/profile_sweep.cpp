@@ -18,8 +18,10 @@
 namespace gable {
 namespace {
 
-// What is thinner is taken for nothing.
+// Spans of a cross-section that are narrower stand upright.
 constexpr double kThin = 1e-9;
+// Shares of the width and of the height under which a part, a piece or a height is none.
+constexpr double kNear = 1e-3;
 constexpr int kArcParts = 8;
 
 Profile arc(double from, double top) {
@@ -44,8 +46,13 @@ Profile grounded(const Profile& profile) {
 // The line with its inner side to the left, longer by half the width where ends are square.
 Polyline prepared(const Polygon& region, Polyline line, double width, RibbonEnds ends) {
   std::vector<Vec2>& p = line.points;
-  p.erase(std::unique(p.begin(), p.end()), p.end());
-  if (line.closed && p.size() > 1 && p.front() == p.back()) p.pop_back();
+  const double least = kNear * width;
+  const Vec2 end = p.back();
+  const auto near = [&](Vec2 a, Vec2 b) { return !(length(b - a) > least); };
+  p.erase(std::unique(p.begin(), p.end(), near), p.end());
+  // The end of an open line stays where it is.
+  if (!line.closed && p.size() > 1) p.back() = end;
+  if (line.closed && p.size() > 1 && near(p.front(), p.back())) p.pop_back();
   if (p.size() < 2) return line;
   const Vec2 middle = (p[0] + p[1]) * 0.5, left = perpendicular(normalized(p[1] - p[0]));
   const double reach = width / 2;
@@ -55,9 +62,9 @@ Polyline prepared(const Polygon& region, Polyline line, double width, RibbonEnds
   }
   if (ends == RibbonEnds::Butt || line.closed) return line;
   const size_t last = p.size() - 1;
-  const Vec2 first = normalized(p[0] - p[1]), end = normalized(p[last] - p[last - 1]);
-  p[0] = p[0] + first * reach;
-  p[last] = p[last] + end * reach;
+  const Vec2 back = normalized(p[0] - p[1]), ahead = normalized(p[last] - p[last - 1]);
+  p[0] = p[0] + back * reach;
+  p[last] = p[last] + ahead * reach;
   return line;
 }
 
@@ -73,12 +80,12 @@ size_t partsOf(const Polyline& line) {
 }
 
 // No part turns round when it moves to a side.
-bool folds(const Polyline& line, const std::vector<Polyline>& sides) {
+bool folds(const Polyline& line, const std::vector<Polyline>& sides, double width) {
   const size_t n = line.points.size();
   for (const Polyline& side : sides) {
     for (size_t k = 0; k < partsOf(line); ++k) {
-      const Vec2 d = line.points[(k + 1) % n] - line.points[k];
-      if (!(dot(side.points[(k + 1) % n] - side.points[k], d) > kThin)) return true;
+      const Vec2 d = normalized(line.points[(k + 1) % n] - line.points[k]);
+      if (!(dot(side.points[(k + 1) % n] - side.points[k], d) > kNear * width)) return true;
     }
   }
   return false;
@@ -128,12 +135,12 @@ Mesh shell(const std::vector<Polyline>& sides, const Profile& profile, double he
 }
 
 // What lies between a ring of the plan and a slanted top, closed.
-void addPrism(MeshBuilder& b, const Ring& r, const auto& heightAt) {
+void addPrism(MeshBuilder& b, const Ring& r, double least, const auto& heightAt) {
   std::vector<uint32_t> top, foot;
   for (const Vec2 v : r) {
-    const double h = std::max(heightAt(v), 0.0);
+    const double h = heightAt(v);
     foot.push_back(b.addPosition({v.x, v.y, 0}));
-    top.push_back(h > kThin ? b.addPosition({v.x, v.y, h}) : foot.back());
+    top.push_back(h > least ? b.addPosition({v.x, v.y, h}) : foot.back());
   }
   for (size_t i = 0; i < r.size(); ++i) {
     const size_t k = (i + 1) % r.size();
@@ -166,7 +173,10 @@ Mesh prisms(const Polygon& region, const Polyline& line, const std::vector<Polyl
         return (low.y + (high.y - low.y) * t) * height;
       };
       for (const Polygon& p : subtract(intersect({{quad, {}}}, {region}), taken)) {
-        for (const RegionPiece& piece : withoutHoles(p)) addPrism(b, piece.polygon.outer, heightAt);
+        for (const RegionPiece& piece : withoutHoles(p)) {
+          if (!(thickness(piece.polygon) > kNear * width)) continue;
+          addPrism(b, piece.polygon.outer, kNear * height, heightAt);
+        }
       }
     }
     const Ring whole{sides.front().points[k], sides.front().points[(k + 1) % n],
@@ -200,11 +210,12 @@ bool isProfile(const Profile& p) {
 
 Mesh sweptProfile(const Polygon& region, const Polyline& given, double width, double height,
                   const Profile& profile, RibbonEnds ends) {
+  if (given.points.size() < 2) return {};
   const Polyline line = prepared(region, given, width, ends);
   if (line.points.size() < 2) return {};
   const Profile section = grounded(profile);
   const std::vector<Polyline> sides = followed(line, section, width);
-  if (!folds(line, sides) && liesWithin(region, sides, line.closed)) {
+  if (!folds(line, sides, width) && liesWithin(region, sides, line.closed)) {
     return shell(sides, section, height, line.closed);
   }
   return prisms(region, line, sides, section, width, height);
