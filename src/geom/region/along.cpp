@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geom/region/boolean.h"
+#include "geom/region/clean.h"
 #include "geom/region/grid_partition.h"
 namespace gable {
 
@@ -191,6 +193,31 @@ Polyline movedLeft(const Polyline& line, double by) {
     const double scale = dot(mid, u);
     constexpr double kSharpest = 0.125;  // A miter of four times the distance.
     out.points[i] = scale > kSharpest ? p + mid * (by / scale) : p + u * by;
+  }
+  return out;
+}
+
+std::vector<Polyline> insetLines(const Polyline& line, double by) {
+  Polyline moved = movedLeft(line, by);
+  const Ring& from = line.points;
+  if (!line.closed || by == 0 || from.size() < 3 || !isSimple(from)) return {std::move(moved)};
+  bool folds = !isSimple(moved.points);
+  for (size_t i = 0, j = from.size() - 1; i < from.size(); j = i++) {
+    folds = folds || dot(moved.points[i] - moved.points[j], from[i] - from[j]) < 0;
+  }
+  if (!folds) return {std::move(moved)};
+  const double turn = signedArea(from);
+  // To the left of a hole lies what is around it.
+  OffsetOptions options;
+  options.miterLimit = 4;
+  Polygon within{from, {}};
+  orient(within);
+  std::vector<Polyline> out;
+  for (Ring& r : ringsOf(offset({within}, turn > 0 ? -by : by, options))) {
+    if (turn < 0) std::reverse(r.begin(), r.end());
+    out.emplace_back();
+    out.back().points = std::move(r);
+    out.back().closed = true;
   }
   return out;
 }

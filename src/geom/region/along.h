@@ -63,6 +63,9 @@ std::vector<Polyline> parametrise(const Ring& outer, std::span<const uint32_t> l
 
 /// A line moved to its left, with mitered corners; folds are not resolved.
 Polyline movedLeft(const Polyline& line, double by);
+/// The same, with folds resolved where the line is closed and simple: what is left of it may be
+/// several lines, or none. `by` is not negative.
+std::vector<Polyline> insetLines(const Polyline& line, double by);
 
 enum class RibbonEnds : uint8_t { Butt, Square, Round };
 

@@ -13,6 +13,8 @@
 #include <polyclipping/clipper.hpp>
 
 #include "geom/region/clean.h"
+#include "geom/region/moved_outline.h"
+#include "geom/region/tiles.h"
 
 namespace gable {
 namespace {
@@ -28,6 +30,11 @@ constexpr double kMaxUnits = 0x1.0p52;
 // In grid units: points on the grid are moved by up to 0.71 when they get their coordinates back,
 // and weld takes what is nearer than 1.
 constexpr double kClear = 1.5;
+// Corners of both operands: from so many on it pays to leave out those that are far from the
+// result, and to work box by box.
+constexpr size_t kSome = 24, kMany = 1200;
+// What is so many units from a result has no part in it.
+constexpr double kAround = 8;
 
 bool isFinite(const Ring& r) {
   return std::all_of(r.begin(), r.end(),
@@ -251,15 +258,106 @@ Region restored(const Region& region, const Grid& grid, bool originalPoints) {
   return out;
 }
 
+Region restoredIfValid(const Region& region, const Grid& grid) {
+  Region out = restored(region, grid, true);
+  return isValid(out) ? out : restored(region, grid, false);
+}
+
 Region finish(const Paths& paths, Grid& grid) {
   grid.sortOriginals();
   Region region;
   if (grid.isFine() && nestClear(toRings(paths), kClear, region)) {
     return restored(region, grid, true);
   }
-  region = settle(paths);
-  Region out = restored(region, grid, true);
-  return isValid(out) ? out : restored(region, grid, false);
+  return restoredIfValid(settle(paths), grid);
+}
+
+size_t countOf(const Paths& paths) {
+  size_t n = 0;
+  for (const ClipperLib::Path& p : paths) n += p.size();
+  return n;
+}
+
+std::vector<Ring> gridRings(const Paths& paths) {
+  std::vector<Ring> out;
+  for (const ClipperLib::Path& path : paths) {
+    out.emplace_back();
+    for (const IntPoint& p : path) {
+      out.back().push_back({static_cast<double>(p.X), static_cast<double>(p.Y)});
+    }
+  }
+  return out;
+}
+
+Box2 boundsOf(const std::vector<Ring>& rings) {
+  Box2 out;
+  for (const Ring& r : rings) {
+    for (const Vec2 p : r) out.include(p);
+  }
+  return out;
+}
+
+// Where a result can be, and some steps around it.
+Box2 reachOf(ClipperLib::ClipType type, const Box2& a, const Box2& b) {
+  Box2 out = a;
+  if (type == ClipperLib::ctIntersection) {
+    out.min = {std::max(a.min.x, b.min.x), std::max(a.min.y, b.min.y)};
+    out.max = {std::min(a.max.x, b.max.x), std::min(a.max.y, b.max.y)};
+  } else if (type != ClipperLib::ctDifference && !b.empty()) {
+    out.include(b.min);
+    out.include(b.max);
+  }
+  const Vec2 around{kAround, kAround};
+  out.min = out.min - around;
+  out.max = out.max + around;
+  return out;
+}
+
+// The result in one box, of operands that may reach beyond it.
+std::vector<Ring> resultWithin(ClipperLib::ClipType type, ClipperLib::PolyFillType fill,
+                               const Operands& o, const Box2& box) {
+  const Vec2 low = box.min, high = box.max;
+  const Paths square = toPathsExact({{low, {high.x, low.y}, high, {low.x, high.y}}});
+  Paths out = execute(ClipperLib::ctIntersection, toPathsExact(o.a), square, fill);
+  if (!o.b.empty()) {
+    Paths b = toPathsExact(o.b);
+    if (type == ClipperLib::ctUnion || type == ClipperLib::ctXor) {
+      b = execute(ClipperLib::ctIntersection, b, square, fill);
+    }
+    out = execute(type, out, b, fill);
+  } else if (type == ClipperLib::ctIntersection) {
+    out.clear();
+  }
+  Region region;
+  return ringsOf(nestClear(toRings(out), kClear, region) ? region : settle(out));
+}
+
+// Clipper's work, on as little of the operands as the result depends on. The grid is settled.
+Region perform(ClipperLib::ClipType type, Paths a, Paths b, ClipperLib::PolyFillType fill,
+               Grid& grid) {
+  const size_t count = countOf(a) + countOf(b);
+  if (count < kSome) return finish(execute(type, a, b, fill), grid);
+  Operands o{gridRings(a), gridRings(b)};
+  const Box2 reach = reachOf(type, boundsOf(o.a), boundsOf(o.b));
+  shortenOutside(o.a, reach);
+  shortenOutside(o.b, reach);
+  a = toPathsExact(o.a);
+  b = toPathsExact(o.b);
+  if (countOf(a) + countOf(b) < kMany) return finish(execute(type, a, b, fill), grid);
+  grid.sortOriginals();
+  const auto isInput = [&](Vec2 p) {
+    Vec2 point;
+    size_t order = 0;
+    return grid.original(p, point, order);
+  };
+  const auto within = [&](const Operands& part, const Box2& box) {
+    return resultWithin(type, fill, part, box);
+  };
+  Region region;
+  if (resultInTiles(std::move(o), reach, within, isInput, region)) {
+    return restoredIfValid(region, grid);
+  }
+  return finish(execute(type, a, b, fill), grid);
 }
 
 std::vector<Ring> orientedRings(const Region& r) {
@@ -314,6 +412,20 @@ Region inflate(const Paths& paths, double distance, const OffsetOptions& options
   return finish(out, grid);
 }
 
+// Clipper's offset is one sweep over all edges; outlines of thousands are moved here, so that the
+// sweep can go box by box.
+Region inflateMany(const Paths& paths, double distance, OffsetOptions options, Grid& grid) {
+  options.miterLimit = std::max(options.miterLimit, 1.0);
+  options.roundError /= grid.unit();
+  std::vector<Ring> moved;
+  for (const Ring& r : toRings(paths)) {
+    Ring m = movedOutline(r, distance / grid.unit(), options);
+    for (Vec2& p : m) p = {std::round(p.x), std::round(p.y)};
+    moved.push_back(std::move(m));
+  }
+  return perform(ClipperLib::ctUnion, toPathsExact(moved), {}, ClipperLib::pftPositive, grid);
+}
+
 }  // namespace
 
 Region combine(BooleanOp op, const Region& a, const Region& b) {
@@ -323,7 +435,7 @@ Region combine(BooleanOp op, const Region& a, const Region& b) {
   grid.include(rb);
   grid.settle();
   const Paths pa = grid.toPaths(ra), pb = grid.toPaths(rb);
-  return finish(execute(clipType(op), pa, pb, ClipperLib::pftNonZero), grid);
+  return perform(clipType(op), pa, pb, ClipperLib::pftNonZero, grid);
 }
 
 Region repaired(const std::vector<Ring>& rings, FillRule rule) {
@@ -331,7 +443,7 @@ Region repaired(const std::vector<Ring>& rings, FillRule rule) {
   grid.include(rings);
   grid.settle();
   const Paths paths = grid.toPaths(rings);
-  return finish(execute(ClipperLib::ctUnion, paths, {}, fillType(rule)), grid);
+  return perform(ClipperLib::ctUnion, paths, {}, fillType(rule), grid);
 }
 
 Region offset(const Region& r, double distance, const OffsetOptions& options) {
@@ -347,6 +459,7 @@ Region offset(const Region& r, double distance, const OffsetOptions& options) {
   const Paths clean = nestClear(toRings(paths), kClear, clear)
                           ? toPathsExact(ringsOf(clear))
                           : execute(ClipperLib::ctUnion, paths, {}, ClipperLib::pftNonZero);
+  if (countOf(clean) >= kMany) return inflateMany(clean, distance, options, grid);
   return inflate(clean, distance, options, ClipperLib::etClosedPolygon, grid);
 }
 

@@ -272,8 +272,27 @@ std::vector<uint32_t> traceSegments(std::span<const Segment> result,
   out.reserve(result.size());
   // So few are looked at faster one by one.
   constexpr size_t kFew = 12;
-  const bool few = sources.size() <= kFew || result.size() <= 2;
-  SegmentGrid grid(few ? std::span<const Segment>() : sources);
+  // Of many sources most are far from a small result.
+  Box2 reach;
+  for (const Segment& e : result) {
+    reach.include(e.a);
+    reach.include(e.b);
+  }
+  std::vector<uint32_t> near;
+  std::vector<Segment> nearSources;
+  for (uint32_t i = 0; i < sources.size(); ++i) {
+    const Segment& s = sources[i];
+    if (std::max(s.a.x, s.b.x) < reach.min.x - tolerance ||
+        std::min(s.a.x, s.b.x) > reach.max.x + tolerance ||
+        std::max(s.a.y, s.b.y) < reach.min.y - tolerance ||
+        std::min(s.a.y, s.b.y) > reach.max.y + tolerance) {
+      continue;
+    }
+    near.push_back(i);
+    nearSources.push_back(s);
+  }
+  const bool few = near.size() <= kFew || result.size() <= 2;
+  SegmentGrid grid(few ? std::span<const Segment>() : nearSources);
   for (const Segment& e : result) {
     const Vec2 middle = (e.a + e.b) * 0.5;
     Box2 box;
@@ -281,8 +300,9 @@ std::vector<uint32_t> traceSegments(std::span<const Segment> result,
     box.include(middle + Vec2{tolerance, tolerance});
     uint32_t best = kNoEdge;
     double bestCost = 0;
-    const auto look = [&](uint32_t i) {
-      const Segment& s = sources[i];
+    const auto look = [&](uint32_t k) {
+      const uint32_t i = near[k];
+      const Segment& s = nearSources[k];
       if (std::max(s.a.x, s.b.x) < box.min.x || std::min(s.a.x, s.b.x) > box.max.x ||
           std::max(s.a.y, s.b.y) < box.min.y || std::min(s.a.y, s.b.y) > box.max.y) {
         return;
@@ -299,7 +319,7 @@ std::vector<uint32_t> traceSegments(std::span<const Segment> result,
       }
     };
     if (few) {
-      for (uint32_t i = 0; i < sources.size(); ++i) look(i);
+      for (uint32_t k = 0; k < near.size(); ++k) look(k);
     } else {
       grid.query(box, look);
     }

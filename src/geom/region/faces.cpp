@@ -139,20 +139,25 @@ class Faces {
     return true;
   }
 
-  // False when two edges run the same way, as a chord along an edge does.
+  // Edges that run opposite each other go, pair by pair: of what is thinner than the tolerance
+  // several may run either way. False when two that run the same way are left, and when a chord
+  // runs along an edge.
   bool strikeOpposites() {
     std::sort(half_.begin(), half_.end(), [](const HalfEdge& a, const HalfEdge& b) {
       return a.from != b.from ? a.from < b.from : a.to != b.to ? a.to < b.to : a.source < b.source;
     });
     std::vector<HalfEdge> kept;
     kept.reserve(half_.size());
-    for (size_t i = 0; i < half_.size(); ++i) {
-      const HalfEdge& h = half_[i];
-      if (i > 0 && half_[i - 1].from == h.from && half_[i - 1].to == h.to) return false;
-      const HalfEdge opposite{h.to, h.from, 0};
-      const auto it = std::lower_bound(half_.begin(), half_.end(), opposite, lessEnds);
-      const bool has = it != half_.end() && it->from == h.to && it->to == h.from;
-      if (!has || h.source >= chordsFrom_) kept.push_back(h);
+    for (auto first = half_.begin(); first != half_.end();) {
+      const auto last = std::upper_bound(first, half_.end(), *first, lessEnds);
+      const auto against = std::equal_range(half_.begin(), half_.end(),
+                                            HalfEdge{first->to, first->from, 0}, lessEnds);
+      const auto here = last - first, there = against.second - against.first;
+      // Sources ascend, and chords have the highest.
+      const bool chord = (last - 1)->source >= chordsFrom_;
+      if (here - there > 1 || (chord && here > 1)) return false;
+      if (here > there || chord) kept.push_back(*first);
+      first = last;
     }
     half_ = std::move(kept);
     return true;

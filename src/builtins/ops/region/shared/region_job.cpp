@@ -255,7 +255,7 @@ Status linesOf(OpCall& call, size_t argument, double inset, const RegionJob& job
     const Status status = selectedBy(call, part.empty() ? "all" : part, job, face, view, parts);
     if (!status.ok()) return status;
     for (const Polyline& line : runsOf(view.polygon(), parts, {})) {
-      out.push_back(movedLeft(line, inset));
+      for (Polyline& moved : insetLines(line, inset)) out.push_back(std::move(moved));
     }
   }
   return {};
