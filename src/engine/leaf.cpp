@@ -11,37 +11,86 @@ namespace gable {
 
 namespace {
 
-/// The leaf of that number in path order; null when there is none.
-const Leaf* leafAt(const Scene& scene, uint64_t number) {
+/// A rule's shape above a leaf, with the leaves below it.
+struct Above {
+  uint32_t name = 0;
+  uint64_t first = 0, end = 0;
+};
+
+struct FoundLeaf {
+  const Leaf* leaf = nullptr;
+  Frame world;
+  /// Those that were derived as prototypes, from the initial shape down.
+  std::vector<Above> above;
+};
+
+/// The leaf of that number in path order.
+FoundLeaf leafAt(const Scene& scene, uint64_t wanted) {
   const std::vector<uint64_t> counts = prototypeLeafCounts(scene);
+  FoundLeaf found;
+  uint64_t first = 0;
   const Prototype* p = nullptr;
+  const auto enter = [&](const Instance& instance) {
+    p = &scene.prototypes[instance.prototype];
+    found.world = found.world * instance.frame;
+    found.above.push_back({p->name, first, first + counts[instance.prototype]});
+  };
   for (const Root& r : scene.roots) {
     const uint64_t here = counts[r.instance.prototype];
-    if (number < here) {
-      p = &scene.prototypes[r.instance.prototype];
+    if (wanted < first + here) {
+      enter(r.instance);
       break;
     }
-    number -= here;
+    first += here;
   }
   while (p) {
-    const Prototype* inner = nullptr;
+    const Prototype* at = p;
     uint32_t leaf = 0;
-    for (uint32_t i = 0; i < p->instanceCount && !inner; ++i) {
-      const Instance& instance = scene.instances[p->firstInstance + i];
+    bool inner = false;
+    for (uint32_t i = 0; i < at->instanceCount && !inner; ++i) {
+      const Instance& instance = scene.instances[at->firstInstance + i];
       const uint32_t before = instance.leavesBefore - leaf;
-      if (number < before) break;
-      number -= before;
+      if (wanted < first + before) break;
+      first += before;
       leaf = instance.leavesBefore;
       const uint64_t here = counts[instance.prototype];
-      if (number < here)
-        inner = &scene.prototypes[instance.prototype];
+      inner = wanted < first + here;
+      if (inner)
+        enter(instance);
       else
-        number -= here;
+        first += here;
     }
-    if (!inner) return &scene.leaves[p->firstLeaf + leaf + number];
-    p = inner;
+    if (inner) continue;
+    found.leaf = &scene.leaves[at->firstLeaf + leaf + (wanted - first)];
+    found.world = found.world * found.leaf->frame;
+    break;
   }
-  return nullptr;
+  return found;
+}
+
+// The box of a leaf's mesh in the leaf's own frame.
+void writeScope(JsonWriter& json, const Scene& scene, const FoundLeaf& found) {
+  Box3 box;
+  for (const Vec3& v : scene.meshes[found.leaf->mesh]->positions) {
+    const Vec3& s = found.leaf->scale;
+    box.include(Vec3{v.x * s.x, v.y * s.y, v.z * s.z});
+  }
+  const Frame& w = found.world;
+  const Vec3 origin = w.origin + w.x * box.min.x + w.y * box.min.y + w.z * box.min.z;
+  json.key("frame").beginArray();
+  for (const Vec3& v : {origin, w.x, w.y, w.z}) json.value(v.x).value(v.y).value(v.z);
+  json.endArray().key("size").beginArray();
+  json.value(box.max.x - box.min.x).value(box.max.y - box.min.y).value(box.max.z - box.min.z);
+  json.endArray();
+}
+
+void writeAbove(JsonWriter& json, const Scene& scene, const std::vector<Above>& above) {
+  json.key("above").beginArray();
+  for (const Above& a : above) {
+    json.beginObject().key("name").value(scene.names[a.name]);
+    json.key("from").value(a.first).key("to").value(a.end).endObject();
+  }
+  json.endArray();
 }
 
 void writeMaterial(JsonWriter& json, const Material& m) {
@@ -89,7 +138,8 @@ void writeAttribute(JsonWriter& json, const AttributeValue& a) {
 
 std::string Model::leafJson(uint64_t number) const {
   const Scene& scene = impl_->result.scene;
-  const Leaf* leaf = leafAt(scene, number);
+  const FoundLeaf found = leafAt(scene, number);
+  const Leaf* leaf = found.leaf;
   if (!leaf) return {};
   std::string out;
   JsonWriter json(out);
@@ -111,7 +161,10 @@ std::string Model::leafJson(uint64_t number) const {
       writeAttribute(json, a);
     }
   }
-  json.endObject().endObject();
+  json.endObject();
+  writeScope(json, scene, found);
+  writeAbove(json, scene, found.above);
+  json.endObject();
   return out;
 }
 

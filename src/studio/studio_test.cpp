@@ -310,6 +310,8 @@ TEST_F(Server, derivesDrawsAndWrites) {
   EXPECT_EQ(status(leaf), 200);
   EXPECT_NE(leaf.find(R"("name":"B")"), std::string::npos);
   EXPECT_NE(leaf.find(R"("color":"#ffffff")"), std::string::npos);
+  EXPECT_NE(leaf.find(R"("size":[4,)"), std::string::npos) << leaf;
+  EXPECT_NE(leaf.find(R"("above":[{"name":"lot","from":0,"to":1})"), std::string::npos) << leaf;
   EXPECT_EQ(status(ask("GET /api/leaf?derivation=1&leaf=1")), 404);
   const std::string glb = ask("GET /api/export?derivation=1&format=glb");
   EXPECT_NE(glb.find("glTF"), std::string::npos);

@@ -119,4 +119,42 @@ export default {
     assert.match(said, /journey\.cga:\d+/);
     assert.match(await page.locator('.path').innerText(), /Lot[^]*Wall[^]*Face/);
   },
+
+  /** Corner to corner with the pointer, then with keys alone. */
+  async lengthsAreMeasured({ page }) {
+    await ready(page);
+    await untilRefined(page, 240_000);
+    const canvas = page.locator('.stage canvas');
+    const box = await canvas.boundingBox();
+    // The nearest upright edge of the house is 9 m, whatever the camera: its ends are found by their snapping.
+    await canvas.focus();
+    await page.keyboard.press('m');
+    await page.waitForSelector('.lot-help');
+    const snaps = async (y) => {
+      await page.mouse.move(box.x + box.width * 0.5, box.y + y);
+      await page.waitForTimeout(120);
+      return (await page.locator('.cursor.hit').count()) > 0;
+    };
+    const found = [];
+    for (let y = box.height * 0.1; y < box.height; y += 9) {
+      if (!(await snaps(y))) continue;
+      const at = await page.locator('.cursor.hit').evaluate((c) => [c.cx.baseVal.value, c.cy.baseVal.value]);
+      if (!found.some((f) => Math.hypot(f[0] - at[0], f[1] - at[1]) < 3)) found.push(at);
+    }
+    assert.ok(found.length >= 2, `${found.length} corners`);
+    for (const [x, y] of [found[0], found.at(-1)]) await page.mouse.click(box.x + x, box.y + y);
+    assert.match(await page.locator('.dimtag').innerText(), /^[\d.]+ m$/);
+    assert.match(await page.locator('.lot-help').innerText(), /m across, .* m (up|down), .*°/);
+    await page.keyboard.press('Escape');
+    await page.waitForSelector('.dimtag', { state: 'detached' });
+    await page.keyboard.press('ArrowDown');
+    await page.keyboard.press('Enter');
+    for (let i = 0; i < 6; ++i) await page.keyboard.press('ArrowRight');
+    await page.keyboard.press('Enter');
+    await page.waitForSelector('.dimtag');
+    // Last, the picture: an edge of the house.
+    await page.keyboard.press('Escape');
+    for (const [x, y] of [found.at(-2), found.at(-1)]) await page.mouse.click(box.x + x, box.y + y);
+    assert.match(await page.locator('.dimtag').innerText(), /^9 m$/);
+  },
 };

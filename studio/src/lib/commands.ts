@@ -41,6 +41,7 @@ export function commands(studio: Studio, layout: Layout, showKeys: () => void): 
     { title: 'New seed', keys: 'R', icon: 'dice', run: () => studio.reroll(), when: hasRules },
     { title: 'New seed for all lots', keys: 'Shift R', icon: 'dice', run: () => studio.reroll(true), when: hasRules },
     { title: 'Draw a lot', keys: 'L', icon: 'lot', run: () => void (ui.tool = ui.tool === 'lot' ? 'select' : 'lot'), when: hasRules },
+    { title: 'Measure', keys: 'M', icon: 'ruler', run: () => void (ui.tool = ui.tool === 'measure' ? 'select' : 'measure'), when: modeled },
     { title: 'Select shapes', keys: 'V', icon: 'cursor', run: () => void (ui.tool = 'select'), when: hasRules },
     { title: 'Rules', keys: 'Alt 1', icon: 'file', anywhere: true, run: go('rules'), when: hasRules },
     { title: 'Variations', keys: 'Alt 2', icon: 'grid', anywhere: true, run: go('variations'), when: hasRules },

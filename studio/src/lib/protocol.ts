@@ -273,4 +273,9 @@ export interface LeafInfo {
   vertices: number;
   material: Record<string, string | number>;
   attributes: Record<string, Value>;
+  /** Its box: origin, x, y, z; and along these. */
+  frame: number[];
+  size: number[];
+  /** Shapes above that were derived on their own, from the initial one down, with the leaves below each. */
+  above: { name: string; from: number; to: number }[];
 }

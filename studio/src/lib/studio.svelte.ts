@@ -8,6 +8,7 @@ import { EngineClient, Refusal, type DeriveRequest, type Example, type ProjectFi
 import { applied, difference, History, type Step } from './history';
 import { groupFields, valueText, type Group } from './fields';
 import type { AttributeInfo, Derived, DrawList, Message, RuleInfo, Stats, Value } from './protocol';
+import { Far } from './far';
 import { Guide } from '../guide/guide.svelte';
 import { merge } from './merge';
 import { readRegistry, type Entry } from './registry';
@@ -106,6 +107,8 @@ export class Studio {
   progress = $state.raw<{ done: number; total: number } | null>(null);
   shapes = $state.raw<Shapes | null>(null);
   selected = $state(-1);
+  /** What is selected where there are too many shapes for a tree. */
+  far = $state.raw<Far | null>(null);
   hovered = $state(-1);
   /** Pictures a second while the view moves. */
   fps = $state(0);
@@ -200,7 +203,7 @@ export class Studio {
     await this.openFile(path);
     this.main = path;
     this.place = place ?? this.places[path] ?? newPlace();
-    this.shapes = null;
+    this.shapes = this.far = null;
     this.selected = -1;
     this.address = [];
     this.page = 'rules';
@@ -461,6 +464,7 @@ export class Studio {
       if (wasGood && this.stats) this.lastGood = new Date().toLocaleTimeString('en-GB');
       return;
     }
+    this.far = null;
     this.rules = sameOr(this.rules, once(derived.rules, (r) => `${r.name} ${r.parameters}`));
     this.startRule = derived.startRule;
     this.attributes = sameOr(this.attributes, once(derived.attributes, (a) => a.name));
@@ -489,6 +493,7 @@ export class Studio {
       if (abort.signal.aborted || steps !== this.guide.open || tree.end === 'wrong') return;
       const shapes = new Shapes(tree);
       this.shapes = shapes;
+      this.far = null;
       this.shapesOf = derivation;
       this.selected = this.address.length ? shapes.find(this.address) : -1;
       this.hovered = -1;
@@ -540,7 +545,23 @@ export class Studio {
     return this.rules.find((r) => r.name === name) ?? this.rules.find((r) => r.name.endsWith(`.${name}`));
   }
 
+  /** Selects a leaf of a model with too many shapes for a tree; -1 for none. */
+  async selectFar(leaf: number): Promise<void> {
+    const { derivation } = this;
+    const info = leaf < 0 ? null : await this.client.leaf(derivation, leaf).catch(() => null);
+    if (derivation !== this.derivation) return;
+    this.goFar(info ? new Far(leaf, info) : null);
+  }
+
+  goFar(far: Far | null): void {
+    this.far = far;
+    if (!far) return;
+    const rule = far.isLeaf ? undefined : (this.rules.find((r) => r.name === far.name) ?? this.rules.find((r) => r.name.endsWith(`.${far.name}`)));
+    this.reveal?.(rule?.file ?? far.info.file ?? '', rule?.line ?? far.info.line ?? 1);
+  }
+
   selectAbove(): void {
+    if (this.far) return this.goFar(this.far.up);
     if (!this.shapes || this.selected < 0) return;
     const path = this.shapes.pathTo(this.selected);
     this.select(path.length > 1 ? path[path.length - 2]! : -1);

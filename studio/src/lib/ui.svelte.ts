@@ -3,7 +3,7 @@
 //
 // What is open on the page. Nothing here is kept.
 
-export type Tool = 'select' | 'lot';
+export type Tool = 'select' | 'lot' | 'measure';
 
 export class Ui {
   /** What the palette begins with; null while it is closed. */

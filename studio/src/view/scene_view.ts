@@ -17,7 +17,7 @@ import { Framing, WIDE, type Bounds } from './framing';
 import { Navigation, type Mode } from './navigation';
 import { isSoftware, Pace } from './pace';
 import { Pictures } from './pictures';
-import { groundMaterial, heightMaterial, leafMaterial, lookMaterial, outlineMaterial, skyMaterial, softened, steppedShadow, type Marks } from './shading';
+import { depthMaterial, groundMaterial, heightMaterial, leafMaterial, lookMaterial, outlineMaterial, skyMaterial, softened, steppedShadow, type Marks } from './shading';
 import { Lights, spread } from './sun';
 
 export interface ViewColors {
@@ -103,6 +103,7 @@ export class SceneView {
   private readonly steppedShadow = steppedShadow(this.marks);
   private readonly heightMerged = heightMaterial(false);
   private readonly heightInstanced = heightMaterial(true);
+  private readonly depth = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), depthMaterial());
   private readonly dome = new THREE.Mesh(new THREE.SphereGeometry(1, 32, 16), skyMaterial());
   private readonly scopes = new THREE.Group();
   private readonly manyScopes = new THREE.Group();
@@ -189,7 +190,7 @@ export class SceneView {
       new THREE.PlaneGeometry(2, 2),
       new THREE.MeshBasicMaterial({ transparent: true, depthTest: false, depthWrite: false, toneMapped: false }),
     );
-    for (const screen of [this.overlay, this.copy]) screen.frustumCulled = false;
+    for (const screen of [this.overlay, this.copy, this.depth]) screen.frustumCulled = false;
     this.dome.frustumCulled = false;
     this.dome.renderOrder = -10;
     this.dome.visible = false;
@@ -422,7 +423,9 @@ export class SceneView {
     if (next.from === this.selected.from && next.to === this.selected.to) return;
     this.selected = next;
     this.marks.selected.value.set(next.from, next.to);
-    this.redraw(true);
+    // The picture of a large model stays, below the outline.
+    if (this.detail && !this.dirty) this.present();
+    else this.redraw(true);
   }
 
   setHovered(range: Range | null): void {
@@ -446,6 +449,8 @@ export class SceneView {
 
   /** A box in the accent colour with its axes; null hides it. */
   setScope(box: ScopeBox | null): void {
+    // Lines into a picture of a large model would have it made anew.
+    if (this.detail) box = null;
     if (!box && !this.scopes.children.length) return;
     emptyGroup(this.scopes);
     if (box) this.scopes.add(...scopeLines(box, this.marks.accent.value));
@@ -486,12 +491,41 @@ export class SceneView {
   /** The leaf under a point of the canvas in CSS pixels; -1 for none. */
   pick(x: number, y: number): number {
     const { clientWidth: w, clientHeight: h } = this.canvas;
-    this.camera.setViewOffset(w, h, x, y, 1, 1);
-    this.renderLeaves(this.pickTarget);
-    this.camera.clearViewOffset();
+    const bytes = new Uint8Array(4);
+    if (this.detail && !this.leavesStale) {
+      const at = (v: number, of: number, pixels: number) => Math.min(pixels - 1, Math.max(0, Math.floor((v / of) * pixels)));
+      const { width, height } = this.leafTarget;
+      this.renderer.readRenderTargetPixels(this.leafTarget, at(x, w, width), at(h - y, h, height), 1, 1, bytes);
+    } else {
+      this.camera.setViewOffset(w, h, x, y, 1, 1);
+      this.renderLeaves(this.pickTarget);
+      this.camera.clearViewOffset();
+      this.renderer.readRenderTargetPixels(this.pickTarget, 0, 0, 1, 1, bytes);
+    }
+    return bytes[0]! + bytes[1]! * 256 + bytes[2]! * 65536 - 1;
+  }
+
+  /** The leaf under a point of the canvas, and where it is there; the ground where there is none. Null for the sky. */
+  surfaceAt(x: number, y: number): { point: [number, number, number]; leaf: number } | null {
+    const { clientWidth: w, clientHeight: h } = this.canvas;
+    if (this.leavesStale) {
+      this.renderLeaves(this.leafTarget);
+      this.leavesStale = false;
+    }
+    const { uniforms } = this.depth.material;
+    uniforms.depths!.value = this.leafTarget.depthTexture;
+    (uniforms.place!.value as THREE.Vector2).set(x / w, 1 - y / h);
+    this.renderer.setRenderTarget(this.pickTarget);
+    this.renderer.render(this.depth, this.flat);
+    this.renderer.setRenderTarget(null);
     const bytes = new Uint8Array(4);
     this.renderer.readRenderTargetPixels(this.pickTarget, 0, 0, 1, 1, bytes);
-    return bytes[0]! + bytes[1]! * 256 + bytes[2]! * 65536 - 1;
+    const depth = ((bytes[0]! * 256 + bytes[1]!) * 256 + bytes[2]!) / 16777216;
+    const at = new THREE.Vector3((x / w) * 2 - 1, 1 - (y / h) * 2, depth * 2 - 1).unproject(this.camera);
+    if (depth < 0.99999) return { point: at.toArray(), leaf: this.pick(x, y) };
+    const ray = new THREE.Ray(this.camera.position, at.sub(this.camera.position).normalize());
+    const ground = ray.intersectPlane(new THREE.Plane(new THREE.Vector3(0, 1, 0), -Math.min(0, this.bounds.min[1])), new THREE.Vector3());
+    return ground && ground.distanceTo(this.camera.position) < this.radius * 40 ? { point: ground.toArray(), leaf: -1 } : null;
   }
 
   private renderLeaves(target: THREE.WebGLRenderTarget, over = false): void {

@@ -303,3 +303,21 @@ export function groundMaterial(): THREE.ShaderMaterial {
       }`,
   });
 }
+
+/** Writes the depth that a depth texture has at a place, as three bytes. */
+export function depthMaterial(): THREE.ShaderMaterial {
+  return new THREE.ShaderMaterial({
+    depthTest: false,
+    depthWrite: false,
+    blending: THREE.NoBlending,
+    uniforms: { depths: { value: null }, place: { value: new THREE.Vector2() } },
+    vertexShader: 'void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }',
+    fragmentShader: `
+      uniform sampler2D depths;
+      uniform vec2 place;
+      void main() {
+        float d = clamp(texture2D(depths, place).r, 0.0, 0.9999999) * 16777216.0;
+        gl_FragColor = vec4(floor(d / 65536.0), mod(floor(d / 256.0), 256.0), mod(floor(d), 256.0), 255.0) / 255.0;
+      }`,
+  });
+}
