@@ -210,6 +210,11 @@ NodeId Lowering::item(const char* word, const Part* p, const char* otherwise) {
   return b_.item(b_.word(word), b_.sequence({colour(otherwise), b_.leaf(otherwise)}));
 }
 
+NodeId Lowering::item(const char* word, const Slots& s, size_t i, const char* otherwise) {
+  if (!s.empty[i]) return item(word, s.part[i], otherwise);
+  return b_.item(b_.word(word), b_.sequence({b_.apply("NIL")}));
+}
+
 void Lowering::addElse(const Op& op, Nodes& items) {
   if (!op.hasElse) return;
   const NodeId body = sequence(op.otherwise, "Region");

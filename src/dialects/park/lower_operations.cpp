@@ -52,18 +52,18 @@ void Lowering::grid(const Op& op, Nodes& out) {
   arguments.push_back(b_.number(s.empty[1] ? 0 : pathWidth_));
   arguments.push_back(textNode(junction));
   arguments.push_back(textNode(options));
-  Nodes items{item("region", s.part[0], "Grass")};
+  Nodes items{item("region", s, 0, "Grass")};
   if (together) {
     const NodeId both = b_.choiceOfWords("path", "junction");
     items.push_back(b_.together(both, sequence(joinedRest, "Path")));
   } else if (!s.empty[1]) {
     items.push_back(item("path", s.part[1], "Path"));
-    items.push_back(!choices.parts.empty()     ? choiceItem(choices, s.part[1])
-                    : onPlate                  ? plateItem(junctionPart)
-                    : s.part[2] && !s.empty[2] ? item("junction", s.part[2], "Path")
-                                               : item("junction", s.part[1], "Path"));
+    items.push_back(!choices.parts.empty()    ? choiceItem(choices, s.part[1])
+                    : onPlate                 ? plateItem(junctionPart)
+                    : s.part[2] || s.empty[2] ? item("junction", s, 2, "Path")
+                                              : item("junction", s.part[1], "Path"));
   }
-  items.push_back(item("remainder", s.part[0], "Grass"));
+  items.push_back(item("remainder", s, 0, "Grass"));
   addElse(op, items);
   b_.at(op.span);
   out.push_back(b_.apply("grid", arguments, b_.block(items)));
@@ -180,8 +180,8 @@ void Lowering::select(const Op& op, Nodes& out) {
 
 void Lowering::quadMap(const Op& op, Nodes& out) {
   const Slots s = slotsOf(op, {{"region"}, {"remainder", "rest"}});
-  Nodes items{item("region", s.part[0], "Grass"),
-              item("remainder", s.part[1] ? s.part[1] : s.part[0], "Grass")};
+  const size_t rest = s.part[1] || s.empty[1] ? 1 : 0;
+  Nodes items{item("region", s, 0, "Grass"), item("remainder", s, rest, "Grass")};
   addElse(op, items);
   b_.at(op.span);
   out.push_back(b_.apply("quadMap", {number(op, 0, 2), number(op, 1, 2)}, b_.block(items)));
@@ -202,10 +202,10 @@ void Lowering::voronoi(const Op& op, Nodes& out) {
     to += (to.empty() ? "" : " ") + a;
   }
   if (smooth.empty()) smooth = "average(2)";
-  Nodes items{item("region", s.part[0], "Grass")};
+  Nodes items{item("region", s, 0, "Grass")};
   if (!s.empty[1]) items.push_back(item("path", s.part[1], "Path"));
-  if (s.part[3]) items.push_back(item("junction", s.part[3], "Path"));
-  if (s.part[2]) items.push_back(item("centre", s.part[2], "Centre"));
+  if (s.part[3] || s.empty[3]) items.push_back(item("junction", s, 3, "Path"));
+  if (s.part[2] || s.empty[2]) items.push_back(item("centre", s, 2, "Centre"));
   addElse(op, items);
   b_.at(op.span);
   out.push_back(b_.apply("voronoi",
@@ -242,9 +242,9 @@ void Lowering::rays(const Op& op, Nodes& out) {
   const size_t region = swapped ? 1 : 0, path = swapped ? 2 : 1, centre = swapped ? 0 : 2;
   std::string options;
   for (size_t i = 2; i < op.arguments.size(); ++i) options += (i > 2 ? " " : "") + text(op, i);
-  Nodes items{item("region", s.part[region], "Grass")};
+  Nodes items{item("region", s, region, "Grass")};
   if (!s.empty[path]) items.push_back(item("path", s.part[path], "Path"));
-  items.push_back(item("centre", s.part[centre], "Centre"));
+  items.push_back(item("centre", s, centre, "Centre"));
   addElse(op, items);
   b_.at(op.span);
   double count = 0;
@@ -279,7 +279,7 @@ void Lowering::peel(const Op& op, Nodes& out) {
   }
   options += smooth;
   const std::string selection = op.arguments.empty() ? "outer" : text(op, 0);
-  Nodes items{item("strip", s.part[0], "Strip"), item("rest", s.part[1], "Grass")};
+  Nodes items{item("strip", s, 0, "Strip"), item("rest", s, 1, "Grass")};
   addElse(op, items);
   b_.at(op.span);
   const bool own = selection.find('{') != std::string::npos;
@@ -330,7 +330,7 @@ void Lowering::innerRect(const Op& op, Nodes& out) {
   checkWords(op, 0, {"scope", "edge"});
   noElse(op);
   const std::string along = lowered(text(op, 0)) == "edge" ? "edge" : "scope";
-  const Nodes items{item("shape", s.part[0], "Shape"), item("remainder", s.part[1], "Grass")};
+  const Nodes items{item("shape", s, 0, "Shape"), item("remainder", s, 1, "Grass")};
   out.push_back(b_.apply("innerRectangle", {b_.word(along)}, b_.block(items)));
 }
 

@@ -69,6 +69,8 @@ class Lowering {
   Slots slotsOf(const Op& op, const std::vector<std::vector<std::string>>& names);
 
   NodeId item(const char* word, const Part* p, const char* otherwise);
+  /// Nothing where the braces say so.
+  NodeId item(const char* word, const Slots& s, size_t i, const char* otherwise);
   void addElse(const Op& op, Nodes& items);
 
   // Of an operation that only has a block for what stands behind else.

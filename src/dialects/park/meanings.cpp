@@ -35,7 +35,14 @@ Lines linesOf(const Grammar& g, const std::string& argument, int depth) {
   while (!name.empty() && name.back() == ' ') name.pop_back();
   const Rule* r = g.rule(name);
   const Op* op = r ? onlyOp(*r) : nullptr;
-  if (!op || depth > kDeepest) return l;
+  if (depth > kDeepest) return l;
+  if (!r && lowered(name) == "parametrise") {
+    Op here;
+    here.name = name;
+    for (const std::string& a : argumentTexts(argument)) here.arguments.push_back({a, {}});
+    return linesOf(g, here, depth + 1);
+  }
+  if (!op) return l;
   // The function's arguments in the place of its parameters.
   std::map<std::string, std::string> words;
   const std::vector<std::string> given = argumentTexts(argument);
@@ -56,7 +63,12 @@ void addLines(const std::string& argument, std::string& ranges, std::string& sel
     size_t end = at;
     const char c = at < argument.size() ? argument[at] : '\0';
     if (c == '[' || c == '{') {
-      end = std::min(argument.find(c == '[' ? ']' : '}', at), argument.size() - 1) + 1;
+      for (int depth = 0; end < argument.size(); ++end) {
+        const char d = argument[end];
+        depth += d == '[' || d == '{' ? 1 : d == ']' || d == '}' ? -1 : 0;
+        if (depth == 0) break;
+      }
+      end = std::min(end + 1, argument.size());
     } else if (c == '_' || c == '0') {
       end = at + 1;
     }

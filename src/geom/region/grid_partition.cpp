@@ -77,7 +77,7 @@ class Dimension {
       : own_(own), sizes_(sizesOf(own, other)), whole_(whole), path_(path), seed_(seed) {}
 
   GridProblem divide(GridFit fit, Bands& out) {
-    const double n = own_.count > 0 ? own_.count : wantedCount();
+    const double n = own_.drawnCount ? drawnCount() : own_.count > 0 ? own_.count : wantedCount();
     if (!(n <= kMostCells)) return GridProblem::TooManyCells;
     const auto count = static_cast<uint32_t>(std::max(1.0, n));
     const double free = whole_ - path_ * (count - 1);
@@ -101,6 +101,12 @@ class Dimension {
   }
 
  private:
+  double drawnCount() const {
+    const double low = std::ceil(own_.drawnCount->low), high = std::floor(own_.drawnCount->high);
+    const double n =
+        low + std::floor(randomUnit(hashCombine(seed_, 0x636f756e74)) * (high - low + 1));
+    return std::clamp(n, low, std::max(low, high));
+  }
   bool sized() const {
     return std::any_of(sizes_.begin(), sizes_.end(),
                        [](const GridSize& s) { return s.size.has_value(); });

@@ -38,6 +38,8 @@ struct GridSize {
 /// cells.
 struct GridDim {
   uint32_t count = 0;
+  /// In the place of a count: whole numbers that one is drawn from.
+  std::optional<DrawnRange> drawnCount;
   std::vector<GridSize> sizes;
 };
 

@@ -261,6 +261,23 @@ TEST(ParkNotation, WordsThatNobodyKnowsAreErrors) {
   }
 }
 
+TEST(ParkNotation, EmptyBracesMakeNothing) {
+  const Made m = run("PathWidth = 2\nR -> Grid(2, 2) { } { B }", kLot);
+  EXPECT_EQ(m.count.at("B"), 5);
+  EXPECT_EQ(m.count.size(), 1u);
+  EXPECT_NEAR(run("R -> Peel(all, 1) { A | }", kLot).whole, 76, 1e-3);
+  EXPECT_NEAR(run("PathWidth = 2\nR -> Grid(2, 2) { A } { B } { }", kLot).whole, 396, 1e-3);
+  EXPECT_EQ(run("R -> CastRays(CENTRE, 3) { A } { }", kLot).count.size(), 1u);
+}
+
+TEST(ParkNotation, RangesInListsAndInPlace) {
+  EXPECT_NEAR(run("R -> Parametrise([[0.1, 0.3], [0.6, 0.9]] [0, 0.5])", kLot).length.at("Line"),
+              20, 1e-6);
+  EXPECT_NEAR(
+      run("R -> Sweep(Parametrise([0, 1] [0, 1]), width=1) { A }\nA -> GREEN", kLot).area.at("A"),
+      19.75, 0.1);
+}
+
 TEST(ParkNotation, PointsAndDirections) {
   const Made places = run("R -> Place((0.25, 0.5), (0.75, 0.5)) { A }\n", kLot);
   EXPECT_EQ(places.count.at("A"), 2);

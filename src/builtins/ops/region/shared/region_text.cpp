@@ -93,6 +93,19 @@ std::string near(std::string_view text, size_t place) {
 
 }  // namespace
 
+namespace {
+
+// The sign of an angle: a30, a [-5,5].
+bool acceptAngle(TextReader& r, std::string_view text) {
+  if (r.peek() != 'a') return false;
+  const size_t next = r.place() + 1;
+  if (next < text.size() && std::isalpha(static_cast<unsigned char>(text[next]))) return false;
+  r.goTo(next);
+  return true;
+}
+
+}  // namespace
+
 bool readDimension(std::string_view text, GridDim& out, std::string& problem) {
   TextReader r(text);
   double n = 0;
@@ -102,6 +115,24 @@ bool readDimension(std::string_view text, GridDim& out, std::string& problem) {
       return false;
     }
     out.count = static_cast<uint32_t>(std::max(1.0, n));
+  } else if (r.peek() == '[') {
+    DrawnRange counts;
+    if (!r.range(counts) || !(counts.low >= 1 && counts.high >= counts.low) ||
+        counts.high > kMostCells) {
+      problem = "these are no counts " + near(text, r.place());
+      return false;
+    }
+    out.drawnCount = counts;
+  }
+  // One angle for all lines that have none of their own.
+  DrawnRange angle;
+  bool turned = false;
+  if (acceptAngle(r, text)) {
+    if (!r.range(angle)) {
+      problem = "an angle is missing " + near(text, r.place());
+      return false;
+    }
+    turned = true;
   }
   if (r.accept('{')) {
     while (!r.accept('}')) {
@@ -109,18 +140,14 @@ bool readDimension(std::string_view text, GridDim& out, std::string& problem) {
       DrawnRange size;
       const bool sized = r.range(size);
       if (sized) s.size = size;
-      const size_t before = r.place();
-      if (r.word() == "a") {
+      if (acceptAngle(r, text)) {
         if (!r.range(s.angle)) {
           problem = "an angle is missing " + near(text, r.place());
           return false;
         }
-      } else {
-        r.goTo(before);
-        if (!sized) {
-          problem = "a size is missing " + near(text, r.place());
-          return false;
-        }
+      } else if (!sized) {
+        problem = "a size is missing " + near(text, r.place());
+        return false;
       }
       out.sizes.push_back(s);
       if (!r.accept(',') && r.peek() != '}') {
@@ -128,6 +155,10 @@ bool readDimension(std::string_view text, GridDim& out, std::string& problem) {
         return false;
       }
     }
+  }
+  if (turned && out.sizes.empty()) out.sizes.emplace_back();
+  for (GridSize& s : out.sizes) {
+    if (turned && s.angle.low == 0 && s.angle.high == 0) s.angle = angle;
   }
   if (r.atEnd()) return true;
   problem = "this is no size of a grid " + near(text, r.place());
@@ -283,6 +314,18 @@ bool readPoints(std::string_view text, std::vector<Disc>& out) {
   return r.atEnd() && !out.empty();
 }
 
+namespace {
+
+bool rangeOf(TextReader& r, uint32_t logical, std::vector<LogicalRange>& out) {
+  LogicalRange range{logical, 0, 0};
+  const bool read =
+      r.accept('[') && r.number(range.from) && r.accept(',') && r.number(range.to) && r.accept(']');
+  if (read) out.push_back(range);
+  return read;
+}
+
+}  // namespace
+
 bool readRanges(std::string_view text, std::vector<LogicalRange>& out) {
   TextReader r(text);
   uint32_t logical = 0;
@@ -292,9 +335,15 @@ bool readRanges(std::string_view text, std::vector<LogicalRange>& out) {
     if (r.accept('_')) {
       out.push_back({logical, 0, 1});
     } else if (r.peek() == '[') {
-      // Several in a row with no comma are of several edges; {[..],[..]} are of one.
+      // Several in a row with no comma are of several edges; {[..],[..]} and [[..],[..]] are of
+      // one.
       r.accept('[');
-      if (!r.accept(']')) {
+      if (r.peek() == '[') {
+        while (!r.accept(']')) {
+          if (!rangeOf(r, logical, out)) return false;
+          r.accept(',');
+        }
+      } else if (!r.accept(']')) {
         LogicalRange range{logical, 0, 0};
         if (!r.number(range.from) || !r.accept(',') || !r.number(range.to) || !r.accept(']')) {
           return false;
@@ -303,12 +352,7 @@ bool readRanges(std::string_view text, std::vector<LogicalRange>& out) {
       }
     } else if (r.accept('{')) {
       while (!r.accept('}')) {
-        LogicalRange range{logical, 0, 0};
-        if (!r.accept('[') || !r.number(range.from) || !r.accept(',') || !r.number(range.to) ||
-            !r.accept(']')) {
-          return false;
-        }
-        out.push_back(range);
+        if (!rangeOf(r, logical, out)) return false;
         r.accept(',');
       }
     } else if (!r.number(v) || v != 0) {
