@@ -58,6 +58,28 @@ TEST_F(Imports, grammarsOfOtherNotationsAreDerivedTogether) {
   EXPECT_EQ(count(dump, "Tower"), 2u) << dump;
 }
 
+// A call that looks the same each time is not, where the import draws or asks where it stands.
+TEST_F(Imports, housesOfADynamicImportThatDrawForThemselvesDiffer) {
+  for (const char* own : {"rand(1, 5)", "world.x / 10", "grown", "2 * grown"}) {
+    put("house.cga",
+        std::string("import more : \"more.cga\"\nattr grown = rand(1, 5)\nattr own = ") + own +
+            "\nLot --> extrude(own) comp(f) { front : Window }\n"
+            "Window --> s(1, '1, 0.1) primitiveCube() comp(f) { all : Wood. }\n");
+    put("more.cga", "attr other = rand(1, 2)\nMore --> extrude(other) comp(f) { all : X. }\n");
+    const Rules rules = Rules::load(put("main.cga",
+                                        "import house : \"house.cga\" ()\n"
+                                        "import more : \"more.cga\" ()\n"
+                                        "@StartRule\n"
+                                        "Lot --> split(x) { { ~5 : House }* | 2 : more().More }\n"
+                                        "House --> house().Lot\n"));
+    ASSERT_TRUE(rules.ok()) << rules.messages()[0].pretty;
+    DeriveSettings settings;
+    const Model model = derive(rules, Shapes::lot(40, 8), settings);
+    settings.sharing = false;
+    EXPECT_EQ(model.dump(), derive(rules, Shapes::lot(40, 8), settings).dump()) << own;
+  }
+}
+
 TEST_F(Imports, mistakesInThemAreReportedAtTheirPlace) {
   put("tower.grammar", "Tower -> S ( 2 3 2 ) I ( Cube 1\n");
   const Rules rules =

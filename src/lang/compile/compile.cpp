@@ -27,10 +27,11 @@ class Compiler {
   Program run() {
     ruleUses_.resize(r_.rules.size());
     functionUses_.resize(r_.functions.size());
+    initialiserUses_.resize(r_.attributes.size());
     for (const RuleInfo& rule : r_.rules) compileRule(rule);
     for (const FunctionInfo& f : r_.functions) compileFunction(f);
     for (const AttributeInfo& a : r_.attributes) compileAttribute(a);
-    closeDependence(program_, ruleUses_, functionUses_);
+    closeDependence(program_, ruleUses_, functionUses_, initialiserUses_);
     program_.startRule = r_.startRule == kNone ? -1 : static_cast<int32_t>(r_.startRule);
     return std::move(program_);
   }
@@ -90,14 +91,15 @@ class Compiler {
     code.entry = emitter_.here();
     code.annotations = listed(a.annotations);
     // A random value of an attribute must not change with the text around it, so it has a unit.
-    Uses ignored;
+    Uses& uses = initialiserUses_[a.id];
     if (a.source == ValueSource::Propagated) {
       code.propagatesFrom = static_cast<int32_t>(a.from);
+      uses.attributes.insert(a.from);
       emitter_.emit(Code::RuleAttribute, code.span, a.from);
     } else if (a.source == ValueSource::Override) {
-      unit(a.valueModule, ignored, a.qualifiedName).expression(a.valueNode);
+      unit(a.valueModule, uses, a.qualifiedName).expression(a.valueNode);
     } else {
-      UnitCompiler compiler = unit(a.module, ignored, a.qualifiedName);
+      UnitCompiler compiler = unit(a.module, uses, a.qualifiedName);
       compiler.locals(localsOf(tree, a.node));
       compiler.expression(bodyOf(tree, a.node));
     }
@@ -111,7 +113,7 @@ class Compiler {
   const OpSpec* component_;
   Program program_;
   Emitter emitter_;
-  std::vector<Uses> ruleUses_, functionUses_;
+  std::vector<Uses> ruleUses_, functionUses_, initialiserUses_;
 };
 
 std::vector<AnnotationInfo> Compiler::listed(const Annotations& a) const {

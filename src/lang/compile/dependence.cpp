@@ -20,37 +20,47 @@ bool include(Uses& to, const Uses& from) {
   return to.effects != effects || to.attributes.size() != attributes;
 }
 
-// Chaotic iteration to the least fixed point; sets only grow, so it ends.
-void closeOver(std::vector<Uses>& all, const std::vector<Uses>& functions, bool callsRules) {
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (Uses& u : all) {
-      const std::set<uint32_t> callees = u.functions;
-      for (uint32_t f : callees) {
-        if (&functions[f] != &u) changed |= include(u, functions[f]);
+// Rules, functions and initialisers of attributes, as they use each other.
+struct Units {
+  std::vector<Uses> rules, functions, initialisers;
+
+  bool includeUsed(Uses& to) const {
+    bool changed = false;
+    const auto add = [&](const std::set<uint32_t>& used, const std::vector<Uses>& from) {
+      for (const uint32_t u : used) {
+        if (&from[u] != &to) changed |= include(to, from[u]);
       }
-      if (!callsRules) continue;
-      const std::set<uint32_t> rules = u.rules;
-      for (uint32_t r : rules) {
-        if (&all[r] != &u) changed |= include(u, all[r]);
+    };
+    // What is included does not change which units are used.
+    add(to.functions, functions);
+    add(to.initialisers, initialisers);
+    add(to.rules, rules);
+    return changed;
+  }
+
+  // Chaotic iteration to the least fixed point; sets only grow, so it ends.
+  void close() {
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::vector<Uses>* all : {&functions, &initialisers, &rules}) {
+        for (Uses& u : *all) changed |= includeUsed(u);
       }
     }
   }
-}
+};
 
 }  // namespace
 
 void closeDependence(Program& program, const std::vector<Uses>& rules,
-                     const std::vector<Uses>& functions) {
-  std::vector<Uses> functionUses = functions;
-  closeOver(functionUses, functionUses, false);
-  std::vector<Uses> ruleUses = rules;
-  closeOver(ruleUses, functionUses, true);
+                     const std::vector<Uses>& functions, const std::vector<Uses>& initialisers) {
+  Units units{rules, functions, initialisers};
+  units.close();
   for (size_t i = 0; i < program.rules.size(); ++i) {
     RuleCode& code = program.rules[i];
-    code.reads.effects = ruleUses[i].effects;
-    code.reads.attributes.assign(ruleUses[i].attributes.begin(), ruleUses[i].attributes.end());
-    code.shared = rules[i].branches && (ruleUses[i].effects & kUnshareable) == 0;
+    const Uses& uses = units.rules[i];
+    code.reads.effects = uses.effects;
+    code.reads.attributes.assign(uses.attributes.begin(), uses.attributes.end());
+    code.shared = rules[i].branches && (uses.effects & kUnshareable) == 0;
   }
 }
 

@@ -14,6 +14,6 @@ namespace gable::lang {
 /// and its result depends on nothing but what a sharing key holds: no chance, no place in the
 /// world, no other shapes. O(calls x depth of the call graph).
 void closeDependence(Program& program, const std::vector<Uses>& rules,
-                     const std::vector<Uses>& functions);
+                     const std::vector<Uses>& functions, const std::vector<Uses>& initialisers);
 
 }  // namespace gable::lang

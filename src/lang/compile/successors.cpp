@@ -74,6 +74,7 @@ void UnitCompiler::enterDynamicImport(NodeId node) {
     e_.emit(Code::SetAttribute, t_.span(g.value), g.attribute);
   }
   for (AttributeId a : import->initOrder) {
+    uses_.initialisers.insert(a);
     e_.emit(Code::Initialise, t_.span(node), a);
     e_.emit(Code::SetAttribute, t_.span(node), a);
   }

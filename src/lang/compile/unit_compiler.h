@@ -17,6 +17,8 @@ namespace gable::lang {
 struct Uses {
   uint32_t effects = 0;
   std::set<uint32_t> attributes, rules, functions;
+  /// Attributes whose values are worked out anew, on the shape at hand.
+  std::set<uint32_t> initialisers;
   /// It makes shapes in several parts: a block or a rule call.
   bool branches = false;
 };
