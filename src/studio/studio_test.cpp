@@ -369,6 +369,30 @@ TEST_F(Folder, importsComeFromUnsavedText) {
             std::string::npos);
 }
 
+TEST_F(Folder, anEditTakesOverWhatItLeavesAsItWas) {
+  const ProjectFiles files(project());
+  Session session(files);
+  const auto derived = [&](const std::string& page, const std::string& height) {
+    const std::string rules =
+        "Lot --> split(x) { ~30 : extrude(20) Block | ~30 : extrude(" + height +
+        ") Block }\\n"
+        "Block --> split(y) { ~1 : split(x) { ~rand(1, 2) : Tile | 1 : Tile }* }*\\n"
+        "Tile --> primitiveCube()";
+    const auto request = parseJson(R"({"page": ")" + page + R"(", "file": "rules/a.cga", )" +
+                                   R"("shapes": {"lot": [60, 20]}, "text": ")" + rules + "\"}");
+    EXPECT_TRUE(request.ok());
+    return session.derive(request.value(), std::make_shared<std::atomic<bool>>(false)).value();
+  };
+  const auto recalled = [](const std::string& answer) {
+    return answer.find("\"recalled\"") != std::string::npos;
+  };
+  EXPECT_FALSE(recalled(derived("one", "20")));
+  EXPECT_TRUE(recalled(derived("one", "22")));
+  EXPECT_FALSE(recalled(derived("other", "22"))) << "a page has seen nothing of another";
+  session.forget();
+  EXPECT_FALSE(recalled(derived("one", "22"))) << "files may have changed";
+}
+
 TEST_F(Folder, examplesOpenAsCopies) {
   const Gallery gallery(std::string(GABLE_SOURCE_DIR) + "/examples");
   ProjectFiles files(project());
