@@ -296,7 +296,7 @@ class Machine final : public Services {
   bool putLeaf(const Shape& s, StringId name, uint32_t source);
   /// Hands the leaves on while they are still in the nearest cache.
   void passLeaves() {
-    if (sink_ && gathers_.empty() && output_.openLeaves.size() >= kLeafBatch) {
+    if (sink_ && gatherEnd_ == 0 && output_.openLeaves.size() >= kLeafBatch) {
       (*sink_)(output_.openLeaves);
       output_.openLeaves.clear();
     }
@@ -307,11 +307,10 @@ class Machine final : public Services {
   void endGather();
   void dropGathers();
   OpenGather closeGather();
+  void nowGathering();
   void keepLeaves(const OpenGather& g, const std::vector<bool>& gone);
   /// Where the frames of leaves that are being made lead to.
-  const Frame& leafWorld() const {
-    return gathers_.empty() ? worlds_.back() : gatherFrames_.back();
-  }
+  const Frame& leafWorld() const { return leafWorlds_->back(); }
 
   // In place: do, repeat, local.
   void runRule(const Instruction& i);
@@ -455,6 +454,8 @@ class Machine final : public Services {
   uint32_t stackTop_ = 0;
   std::vector<Activation> activations_;
   uint32_t activationCount_ = 0;
+  /// As many as there are when the children of the operation that gathers have ended; 0: none does.
+  uint32_t gatherEnd_ = 0;
   std::vector<BlockChild> children_;
   std::vector<SplitPiece> pieces_;
   std::vector<SavedShape> shapeStack_;
@@ -471,9 +472,8 @@ class Machine final : public Services {
   uint64_t steps_ = 0;
   std::vector<FunctionFrame> functions_;
   std::vector<Frame> worlds_;
-  std::vector<OpenGather> gathers_;
-  /// While leaves are gathered: the frames of shared rules in that of the call that gathers.
-  std::vector<Frame> gatherFrames_;
+  /// The frames that leaves are placed in: worlds_, or gatherFrames_ while leaves are gathered.
+  std::vector<Frame>* leafWorlds_ = &worlds_;
   std::vector<OpenPrototype> prototypes_;
   /// By block: the items of a split with the sizes of the last time, and its slots.
   struct SplitState {
@@ -516,6 +516,10 @@ class Machine final : public Services {
   const LeafSink* sink_ = nullptr;
   /// Nobody wants to see every shape.
   bool lightPartsAllowed_ = false;
+
+  std::vector<OpenGather> gathers_;
+  /// While leaves are gathered: the frames of shared rules in that of the call that gathers.
+  std::vector<Frame> gatherFrames_;
 
   /// Parts are remembered, and taken over where recaller_ knows them.
   bool remembers_ = false;

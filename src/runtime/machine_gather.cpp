@@ -47,14 +47,21 @@ void Machine::beginGather(const Instruction& i) {
   g.light = lightPartsAllowed_;
   gathers_.push_back(g);
   gatherFrames_.push_back(Frame{});
+  nowGathering();
   flat_ = true;
   lightPartsAllowed_ = false;
+}
+
+void Machine::nowGathering() {
+  gatherEnd_ = gathers_.empty() ? 0 : gathers_.back().activation + 1;
+  leafWorlds_ = gathers_.empty() ? &worlds_ : &gatherFrames_;
 }
 
 OpenGather Machine::closeGather() {
   const OpenGather g = gathers_.back();
   gathers_.pop_back();
   gatherFrames_.pop_back();
+  nowGathering();
   flat_ = g.flat;
   lightPartsAllowed_ = g.light;
   return g;

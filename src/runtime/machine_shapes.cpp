@@ -223,7 +223,7 @@ void Machine::nextChild() {
   else
     children_.erase(children_.begin() + a.childBase, children_.end());
   a.childBase = a.childNext = a.childEnd = 0;
-  if (!gathers_.empty() && gathers_.back().activation + 1 == activationCount_) endGather();
+  if (gatherEnd_ == activationCount_) endGather();
 }
 
 void Machine::makeChild() {
