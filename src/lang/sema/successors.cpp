@@ -350,7 +350,8 @@ void Analysis::visitBlock(NodeId block, const OpSpec& op, bool nested) {
     errorAt("wrong-operand-count", block, quote(op.name) + " takes two operands",
             "write '" + std::string(op.name) + " { A | B }'");
   }
-  const size_t most = op.block == BlockKind::Operations && op.blockWords ? 2 : 1;
+  // Besides the operations there may be those for otherwise; what gathers takes any number.
+  const size_t most = op.gathered ? count : op.blockWords ? 2 : 1;
   if (op.block == BlockKind::Operations && count > most) {
     errorAt("unexpected-separator", block, quote(op.name) + " takes operations without '|'",
             "remove the '|'");
