@@ -96,6 +96,7 @@ bool Lowering::step(const Op& op, Nodes& out) {
   if (name == "contract") return contract(op, out), true;
   if (name == "insert") return insert(op, out), true;
   if (name == "noholes") return out.push_back(b_.applyBare("cutHoles")), true;
+  if (name == "extrude") return out.push_back(b_.apply("extrude", {number(op, 0, 1)})), true;
   if (isFigure(name)) return figure(op, out), true;
   if (name == "place") return place(op, out), true;
   if (name == "distribute") return distribute(op, out), true;

@@ -133,6 +133,8 @@ const char* colourOf(std::string_view name) {
     const char* colour;
   };
   static constexpr Hint kHints[] = {
+      {"gravel", "#cfc0a0"}, {"kerb", "#a9a296"},   {"lawn", "#79a052"},   {"rose", "#c8476a"},
+      {"gold", "#d8b13c"},   {"soil", "#6a5a45"},   {"sand", "#d8c7a4"},   {"wood", "#7c5a3a"},
       {"blue", "#5f8f8f"},   {"tree", "#3f7a34"},   {"bush", "#4a7f3a"},   {"hedge", "#3f7034"},
       {"plant1", "#c86a8a"}, {"plant2", "#c9a24a"}, {"plant", "#8f7ab8"},  {"flower", "#c86a8a"},
       {"cement", "#b5b5b0"}, {"stone", "#a89f92"},  {"path", "#cbbfa6"},   {"fountain", "#8fa8b8"},

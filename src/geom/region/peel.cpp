@@ -119,7 +119,7 @@ class Peel {
   }
 
   // Between an edge and the next at a reflex corner.
-  void kite(const PeelEdge& e, std::vector<Ring>& shapes) const {
+  void kite(const PeelEdge& e, std::vector<Ring>& shapes) {
     const Segment& s = segments_[e.edge];
     const Segment& t = segments_[around_[e.edge].next];
     const Vec2 u = normalized(s.b - s.a), v = normalized(t.b - t.a);
@@ -128,10 +128,17 @@ class Peel {
     const double d = e.distance, f = whole_[around_[e.edge].next];
     const Vec2 p = s.b + perpendicular(u) * d, q = s.b + perpendicular(v) * f;
     Ring r{s.b, q, p};
+    const uint32_t next = around_[e.edge].next;
     // Where both offset lines meet.
     const double along = cross(q - p, v) / turn;
     const Vec2 tip = p + u * along;
-    if (length(tip - s.b) <= kMiterLimit * std::max(d, f) && along > 0) r = {s.b, q, tip, p};
+    if (length(tip - s.b) <= kMiterLimit * std::max(d, f) && along > 0) {
+      r = {s.b, q, tip, p};
+      inner_.push_back({{p, tip}, e.edge});
+      inner_.push_back({{tip, q}, next});
+    } else {
+      inner_.push_back({{p, q}, e.edge});
+    }
     if (signedArea(r) < 0) std::reverse(r.begin(), r.end());
     shapes.push_back(std::move(r));
   }

@@ -720,6 +720,13 @@ TEST(ParkRows, P41VolumesAreClosed) {
     ASSERT_TRUE(kerbs.count.count(name)) << name;
     EXPECT_TRUE(kerbs.closed.at(name)) << name;
   }
+  const Made built = run(example("promenade"), Shapes::lot(44, 36));
+  for (const char* name : {"Walk", "Kerbstone", "Hedge", "BedRim", "RoseRing", "Water", "Rim"}) {
+    ASSERT_TRUE(built.count.count(name)) << name;
+    EXPECT_TRUE(built.closed.at(name)) << name;
+  }
+  EXPECT_GE(built.count.at("Bench"), 16);
+  EXPECT_GE(built.count.at("Lamp"), 8);
   // In a park on a plot of the real world, all that is built on the ground is closed.
   const std::string folder = std::string(GABLE_SOURCE_DIR) + "/examples/";
   LoadOptions settings;
