@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -201,6 +203,75 @@ TEST(Worlds, theTownsBuildingsKeepToTheirLots) {
     w.buildings = facesNamed(scene, "Footprint");
     EXPECT_GT(w.buildings.size(), 60u);
     expectSound(w, 0, 0, "seed " + std::to_string(seed));
+  }
+}
+
+// How far something reaches over polygons other than one.
+double depthIn(const std::vector<Polygon>& polygons, const std::vector<Box2>& boxes, size_t except,
+               const Mesh& mesh, const Box2& box) {
+  double deepest = 0;
+  for (size_t i = 0; i < polygons.size(); ++i) {
+    if (i == except || apart(boxes[i], box, 0)) continue;
+    for (const Vec3& p : mesh.positions) {
+      deepest = std::max(deepest, signedDistance(polygons[i], {p.x, -p.z}));
+    }
+  }
+  return deepest;
+}
+
+std::vector<Box2> boundsOf(const std::vector<Polygon>& polygons) {
+  std::vector<Box2> out;
+  for (const Polygon& p : polygons) out.push_back(bounds(p));
+  return out;
+}
+
+// Where rows turn a corner, cornices of neighbours meet, and awnings reach before each other's
+// windows; walls do not meet.
+constexpr double kAwning = 0.8, kCornice = 0.4, kBand = 0.1;
+// The imports that houses come from.
+constexpr const char* kStyles[] = {"oldTown.", "apartments.", "towers.", "rows.", "family."};
+
+TEST(Worlds, theTownsHousesStayOverTheirFootprints) {
+  const std::set<std::string> walls = {"Stucco", "Brick", "Siding", "Glazing"};
+  for (const int seed : seeds({1})) {
+    Settings set = {{"planting", "false"}, {"withCastle", "false"}, {"withPark", "false"}};
+    const Model built = derived("town", 300, seed, set);
+    set.emplace_back("plan", "true");
+    const Model plan = derived("town", 300, seed, set);
+    const std::vector<Polygon> footprints = facesNamed(plan.impl().result.scene, "Footprint");
+    const std::vector<Polygon> roads = facesNamed(plan.impl().result.scene, "Asphalt");
+    const std::vector<Box2> boxes = boundsOf(footprints), roadBoxes = boundsOf(roads);
+    const Scene& scene = built.impl().result.scene;
+    std::map<std::string, double> over;
+    forEachLeaf(scene, [&](const Leaf& leaf, const Frame& world) {
+      const SourcePlace& source = scene.sources[leaf.source];
+      const auto isOf = [&](const char* style) { return source.rule.rfind(style, 0) == 0; };
+      if (std::none_of(std::begin(kStyles), std::end(kStyles), isOf)) return;
+      const Mesh mesh = transformed(*scene.meshes[leaf.mesh], leaf.scale, world);
+      Box2 box;
+      for (const Vec3& p : mesh.positions) box.include({p.x, -p.z});
+      double least = 1e300;
+      size_t own = footprints.size();
+      for (size_t i = 0; i < footprints.size(); ++i) {
+        if (apart(boxes[i], box, 2)) continue;
+        double out = 0;
+        for (const Vec3& p : mesh.positions) {
+          out = std::max(out, -signedDistance(footprints[i], {p.x, -p.z}));
+        }
+        if (out >= least) continue;
+        least = out;
+        own = i;
+      }
+      const std::string& name = scene.names[leaf.name];
+      double& most = over[source.rule + " " + name];
+      const double allowed = walls.count(name) > 0 ? kBand : name == "Canvas" ? kAwning : kCornice;
+      most = std::max(most, depthIn(footprints, boxes, own, mesh, box) - allowed);
+      // Nothing at all reaches over a roadway.
+      most = std::max(most, depthIn(roads, roadBoxes, roads.size(), mesh, box));
+      if (own == footprints.size()) most = least;
+    });
+    EXPECT_GT(over.size(), 30u);
+    for (const auto& [what, out] : over) EXPECT_LT(out, kTouch) << what << ", seed " << seed;
   }
 }
 
