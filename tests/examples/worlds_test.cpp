@@ -227,7 +227,7 @@ std::vector<Box2> boundsOf(const std::vector<Polygon>& polygons) {
 
 // Where rows turn a corner, cornices of neighbours meet, and awnings reach before each other's
 // windows; walls do not meet.
-constexpr double kAwning = 0.8, kCornice = 0.4, kBand = 0.1;
+constexpr double kAwning = 1, kCornice = 0.5, kBand = 0.1;
 // The imports that houses come from.
 constexpr const char* kStyles[] = {"oldTown.", "apartments.", "towers.", "rows.", "family."};
 

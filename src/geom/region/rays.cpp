@@ -50,9 +50,18 @@ class Rays {
     uint32_t first = 0;
     for (const Ring& r : ringsOf(p)) {
       const auto n = static_cast<uint32_t>(r.size());
-      for (uint32_t i = 0; i < n; ++i) before_.push_back(first + (i + n - 1) % n);
+      for (uint32_t i = 0; i < n; ++i) {
+        before_.push_back(first + (i + n - 1) % n);
+        after_.push_back(first + (i + 1) % n);
+      }
       first += n;
     }
+    sides_.resize(edges_.size());
+    corners_.resize(edges_.size());
+    std::iota(corners_.begin(), corners_.end(), 0u);
+    std::sort(corners_.begin(), corners_.end(), [&](uint32_t i, uint32_t k) {
+      return edges_[i].a == edges_[k].a ? i < k : lessXy(edges_[i].a, edges_[k].a);
+    });
   }
 
   RayResult run(std::span<const Vec2> centres, std::span<const RayTarget> targets) {
@@ -87,14 +96,11 @@ class Rays {
   bool firstHit(Vec2 from, Vec2 d, Vec2 except, bool hasExcept, Ray& hit, double& reach) const {
     bool found = false;
     reach = 1e300;
-    double last = 0;
+    // Most edges lie on one side of the ray; which those are is found without branches.
+    for (size_t i = 0; i < edges_.size(); ++i) sides_[i] = cross(d, edges_[i].a - from);
     for (uint32_t i = 0; i < edges_.size(); ++i) {
       const Vec2 a = edges_[i].a, b = edges_[i].b;
-      // Most edges lie on one side of the ray; neighbours in a ring share a point.
-      const double left = i > 0 && edges_[i - 1].b == a ? last : cross(d, a - from);
-      const double right = cross(d, b - from);
-      last = right;
-      if ((left > 0 && right > 0) || (left < 0 && right < 0)) continue;
+      if (sides_[i] * sides_[after_[i]] > 0) continue;
       if (hasExcept && (a == except || b == except)) continue;
       const double det = cross(d, b - a);
       if (det == 0) continue;
@@ -116,6 +122,17 @@ class Rays {
     return orientation(a, v, b) >= 0 ? right || behind : right && behind;
   }
 
+  static bool lessXy(Vec2 a, Vec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
+
+  // The first edge that starts at a place, and how many do.
+  std::pair<uint32_t, uint32_t> cornerAt(Vec2 place) const {
+    const auto first = std::lower_bound(corners_.begin(), corners_.end(), place,
+                                        [&](uint32_t i, Vec2 v) { return lessXy(edges_[i].a, v); });
+    auto last = first;
+    while (last != corners_.end() && edges_[*last].a == place) ++last;
+    return {first == last ? kNoEdge : *first, static_cast<uint32_t>(last - first)};
+  }
+
   // A ray from a centre to a target; false when it is hidden from there.
   bool rayTo(Vec2 c, const RayTarget& t, Ray& ray) const {
     double reach = 0;
@@ -125,11 +142,7 @@ class Rays {
     const Vec2 d = t.value - c;
     if (!(length(d) > 0)) return false;
     // A vertex of the region is met exactly; nothing else may lie before it.
-    uint32_t corner = kNoEdge, visits = 0;
-    for (uint32_t i = 0; i < edges_.size(); ++i) {
-      if (!(edges_[i].a == t.value)) continue;
-      if (visits++ == 0) corner = i;
-    }
+    const auto [corner, visits] = cornerAt(t.value);
     if (visits > 0) {
       Ray first;
       const bool blocked = firstHit(c, d, t.value, true, first, reach) && reach < 1 - 1e-9;
@@ -303,6 +316,7 @@ class Rays {
   // What lies to the left of a line, of an outline. It may run back along the line.
   static Ring leftOf(const Ring& r, Vec2 at, Vec2 along) {
     Ring out;
+    out.reserve(r.size() + 2);
     double last = r.empty() ? 0 : cross(along, r.back() - at);
     for (size_t i = 0, j = r.size() - 1; i < r.size(); j = i++) {
       const double here = cross(along, r[i] - at);
@@ -585,8 +599,12 @@ class Rays {
   const Polygon& p_;
   const RayOptions& o_;
   std::vector<Segment> edges_;
-  // By edge: the one before it in its ring.
-  std::vector<uint32_t> before_;
+  // By edge: the one before it in its ring, and the one after it.
+  std::vector<uint32_t> before_, after_;
+  // By edge: on which side of the ray in question it starts.
+  mutable std::vector<double> sides_;
+  // Edges by the place where they start.
+  std::vector<uint32_t> corners_;
   double scale_ = 0;
   std::vector<Vec2> centres_;
   std::vector<Ray> rays_, links_;
