@@ -23,6 +23,9 @@ constexpr double kThin = 1e-9;
 // Shares of the width and of the height under which a part, a piece or a height is none.
 constexpr double kNear = 1e-3;
 constexpr int kArcParts = 8;
+// Parts of a line times edges of the region: with more, what has to be cut gets a plain
+// cross-section.
+constexpr double kMostWork = 2e6;
 
 Profile arc(double from, double top) {
   Profile p;
@@ -154,34 +157,58 @@ void addPrism(MeshBuilder& b, const Ring& r, double least, const auto& heightAt)
   b.addPolygon(foot);
 }
 
-// Each part of each span by itself.
+bool overlap(const Box2& a, const Box2& b) {
+  return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y;
+}
+
+// Each part of each span by itself: what the region and the parts before leave of it.
 Mesh prisms(const Polygon& region, const Polyline& line, const std::vector<Polyline>& sides,
             const Profile& profile, double width, double height) {
   MeshBuilder b;
   const size_t n = line.points.size();
-  Region taken;
+  Region before;
   for (size_t k = 0; k < partsOf(line); ++k) {
     const Vec2 from = line.points[k], d = normalized(line.points[(k + 1) % n] - from);
-    for (size_t j = 0; j + 1 < profile.size(); ++j) {
+    const auto quad = [&](size_t low, size_t high) {
+      return Ring{sides[low].points[k], sides[low].points[(k + 1) % n],
+                  sides[high].points[(k + 1) % n], sides[high].points[k]};
+    };
+    const Region whole = repaired({quad(0, sides.size() - 1)}, FillRule::NonZero);
+    Region near;
+    for (const Polygon& part : whole) {
+      for (const Polygon& p : before) {
+        if (overlap(bounds(p), bounds(part))) near.push_back(p);
+      }
+    }
+    const Region free = subtract(intersect(whole, {region}), near);
+    before.insert(before.end(), whole.begin(), whole.end());
+    for (size_t j = 0; j + 1 < profile.size() && !free.empty(); ++j) {
       const Vec2 low = profile[j], high = profile[j + 1];
       if (!(high.x - low.x > kThin) || !(std::max(low.y, high.y) > 0)) continue;
-      const Ring quad{sides[j].points[k], sides[j].points[(k + 1) % n],
-                      sides[j + 1].points[(k + 1) % n], sides[j + 1].points[k]};
       const auto heightAt = [&](Vec2 v) {
         const double x = cross(d, v - from) / width + 0.5;
         const double t = std::clamp((x - low.x) / (high.x - low.x), 0.0, 1.0);
         return (low.y + (high.y - low.y) * t) * height;
       };
-      for (const Polygon& p : subtract(intersect({{quad, {}}}, {region}), taken)) {
+      for (const Polygon& p : intersect({{quad(j, j + 1), {}}}, free)) {
         for (const RegionPiece& piece : withoutHoles(p)) {
           if (!(thickness(piece.polygon) > kNear * width)) continue;
           addPrism(b, piece.polygon.outer, kNear * height, heightAt);
         }
       }
     }
-    const Ring whole{sides.front().points[k], sides.front().points[(k + 1) % n],
-                     sides.back().points[(k + 1) % n], sides.back().points[k]};
-    taken = unite(taken, repaired({whole}, FillRule::NonZero));
+  }
+  return b.take();
+}
+
+// The ribbon drawn up to the height of the cross-section.
+Mesh block(const Polygon& region, const Polyline& line, double width, double height,
+           RibbonEnds ends) {
+  MeshBuilder b;
+  for (const RegionPiece& ribbon : ribbons(region, {&line, 1}, width, {false, ends})) {
+    for (const RegionPiece& piece : withoutHoles(ribbon.polygon)) {
+      addPrism(b, piece.polygon.outer, 0, [&](Vec2) { return height; });
+    }
   }
   return b.take();
 }
@@ -217,6 +244,9 @@ Mesh sweptProfile(const Polygon& region, const Polyline& given, double width, do
   const std::vector<Polyline> sides = followed(line, section, width);
   if (!folds(line, sides, width) && liesWithin(region, sides, line.closed)) {
     return shell(sides, section, height, line.closed);
+  }
+  if (static_cast<double>(partsOf(line)) * static_cast<double>(edgeCount(region)) > kMostWork) {
+    return block(region, given, width, height, ends);
   }
   return prisms(region, line, sides, section, width, height);
 }

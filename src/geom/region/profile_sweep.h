@@ -9,6 +9,7 @@
 //      region.
 //   2. Where the ribbon lies in the region and does not fold it is one shell with mitered corners;
 //      elsewhere several shells that stand side by side.
+//      Beyond two million parts times edges these have a plain cross-section.
 //   3. x = 0 of the cross-section is the side that is nearer to the region's boundary.
 // O(points of line and cross-section), and the booleans where something is cut.
 #pragma once

@@ -132,6 +132,10 @@ TEST(ParkHostile, OtherOperationsLeaveAShapeOrAWord) {
         "distribute(all, " + metres(0.2) + ", " + metres(0.01) + ") { B }",
         "scatterCircles(5, " + metres(0.02) + ") { B }",
         "sweep(all, " + metres(0.01) + ", " + metres(0.02) + ") { B }",
+        "sweep(all, " + metres(0.02) + ", 0, \"height=1 profile=dome\") { B }",
+        "sweep(\"_ _; facing(E)\", " + metres(0.03) + ", " + metres(0.04) +
+            ", \"height=1 ends=square profile=(0,0)(0,1)(0.5,0.2)(1,0.6)\") { B }",
+        "place(corners) { B } distribute(all, " + metres(0.3) + ", 0, \"none\", \"chain\") { B }",
         "parametrise(\"_ _ _ _\") { B }",
         "cutHoles()",
         "joined(\"circle(" + metres(0.1) + ") rect(" + metres(0.3) + ", " + metres(0.1) + ")\")"};
