@@ -491,7 +491,9 @@ void Lowering::sweep(const Op& op, Nodes& out) {
     if (a.starts_with("joins") || a.starts_with("ends")) options += a + " ";
     if (a.starts_with("profile")) {
       profiled = true;
-      options += "profile=" + valueOf(constants(a)) + ' ';
+      std::string section = valueOf(constants(a));
+      std::erase(section, ' ');
+      options += "profile=" + section + ' ';
     }
   }
   // The volume of a cross-section is made at once, any other by drawing the ribbon up.

@@ -327,6 +327,8 @@ TEST(ParkNotation, HedgesHaveCrossSections) {
   EXPECT_EQ(m.count.at("Hedge"), 1);
   EXPECT_TRUE(m.closed.at("Hedge"));
   EXPECT_TRUE(run("R -> Sweep(OUTER, profile=wave) { Hedge }", kLot).has("bad-argument"));
+  EXPECT_TRUE(
+      run("R -> Sweep(OUTER, profile=(0, 0) (0, 1) (1, 0)) { Hedge }", kLot).messages.empty());
   EXPECT_TRUE(run("R -> Sweep(OUTER, width=0) { L }", kLot).count.count("L"));
 }
 
