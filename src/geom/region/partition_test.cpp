@@ -390,6 +390,34 @@ TEST(Rays, JoinCentresWithoutCrossings) {
   EXPECT_GE(castRays(p, centres, cornersOf(p), o).links, 5u);
 }
 
+// Paths to many corners, one by one: each within the region, beside the centre and its neighbours.
+TEST(Rays, PathsOfStarsAreWholeAndApart) {
+  for (uint64_t seed = 1; seed <= 40; ++seed) {
+    Polygon p;
+    const int n = 5 + static_cast<int>(seed) * 2;
+    for (int i = 0; i < n; ++i) {
+      const double a = 360.0 * i / n;
+      const double r = 30 * (1 - 0.8 * randomUnit(hashCombine(seed, static_cast<uint64_t>(i))));
+      p.outer.push_back({r * cosDeg(a) + 1000.3, r * sinDeg(a) - 77});
+    }
+    RayOptions o;
+    o.pathWidth = 0.2 + 0.1 * static_cast<double>(seed % 9);
+    o.centre = {seed % 2 == 0 ? PlanShape::Circle : PlanShape::Square, 2, 0, 24};
+    const Vec2 centre[] = {{1000.3, -77}};
+    const RayResult r = castRays(p, centre, cornersOf(p), o);
+    EXPECT_GT(r.rays, 4u);
+    expectPartition(p, r.pieces, "star " + std::to_string(seed));
+    Region paths, others;
+    double sum = 0;
+    for (const RegionPiece& piece : r.pieces) {
+      (piece.kind == PieceKind::Path ? paths : others).push_back(piece.polygon);
+      if (piece.kind == PieceKind::Path) sum += area(piece.polygon);
+    }
+    EXPECT_NEAR(area(unite(paths, {})), sum, 1e-3);
+    EXPECT_NEAR(area(subtract({p}, others)), sum, 1e-2);
+  }
+}
+
 TEST(Rays, HoldOnTheCorpus) {
   overCorpus(kStride, [](const Polygon& p, const std::string& name) {
     const Vec2 centre[] = {poleOf(p).centre};

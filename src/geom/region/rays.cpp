@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "geom/region/clean.h"
 #include "geom/region/hull.h"
 #include "geom/region/line.h"
 #include "geom/region/places.h"
@@ -22,6 +23,8 @@ namespace {
 
 // Several centres are never joined by paths of no width.
 constexpr double kLeastWidth = 0.02;
+// Regions up to so wide, in metres, have the grid of booleans throughout.
+constexpr double kFineScale = 1e5;
 // Sectors are no thinner, in metres, and no smaller, in square metres.
 constexpr double kThinSector = 0.02;
 
@@ -346,33 +349,148 @@ class Rays {
     return ring;
   }
 
-  // The outlines of `free` near a convex ring. They may run back over themselves there, but count
-  // as before within the ring.
+  // An outline cut to a convex ring, and a margin around it. It may run back over itself there, but
+  // counts as before within the ring.
+  static Ring cutTo(const Ring& r, const Ring& convex, double margin) {
+    Ring out;
+    const Ring* from = &r;
+    // Every other side first: the long ones leave the least.
+    const size_t n = convex.size();
+    for (size_t k = 0; k < n && !from->empty(); ++k) {
+      const size_t i = 2 * k < n ? 2 * k : 2 * (k - (n + 1) / 2) + 1;
+      const Vec2 a = convex[i], b = convex[(i + 1) % n];
+      const Vec2 along = normalized(b - a);
+      if (along == Vec2{}) continue;
+      out = leftOf(*from, a - perpendicular(along) * margin, along);
+      from = &out;
+    }
+    return from == &out ? std::move(out) : r;
+  }
+
+  // The outlines of `free` near a convex ring.
   static Region nearby(const Polygon& free, const Ring& convex, double margin) {
-    const auto cut = [&](Ring r) {
-      for (size_t i = 0; i < convex.size() && !r.empty(); ++i) {
-        const Vec2 a = convex[i], b = convex[(i + 1) % convex.size()];
-        const Vec2 along = normalized(b - a);
-        if (along == Vec2{}) continue;
-        r = leftOf(r, a - perpendicular(along) * margin, along);
-      }
-      return r;
-    };
-    Region out{{cut(free.outer), {}}};
+    Region out{{cutTo(free.outer, convex, margin), {}}};
     for (const Ring& h : free.holes) {
-      Ring r = cut(h);
+      Ring r = cutTo(h, convex, margin);
       if (r.size() >= 3) out[0].holes.push_back(std::move(r));
     }
     return out;
   }
 
+  // Where the way from one place to another enters a convex hole, which turns right: the edge and
+  // the place. The way ends within.
+  static bool entrance(const Ring& hole, Vec2 from, Vec2 to, size_t& edge, Vec2& at) {
+    for (size_t i = 0; i < hole.size(); ++i) {
+      const Vec2 a = hole[i], d = hole[(i + 1) % hole.size()] - a;
+      const double outside = cross(d, from - a), inside = cross(d, to - a);
+      if (!(outside > 0 && inside < 0)) continue;
+      const Vec2 q = from + (to - from) * (outside / (outside - inside));
+      const double t = dot(q - a, d) / dot(d, d);
+      if (t < 0 || t > 1) continue;
+      edge = i;
+      at = q;
+      return true;
+    }
+    return false;
+  }
+
+  // Takes a convex hole away from a ring that begins and ends in it: false where that is not so.
+  static bool takeStart(Ring& ring, const Ring& hole) {
+    const size_t n = ring.size();
+    std::vector<char> in(n);
+    size_t changes = 0, first = n;
+    for (size_t i = 0; i < n; ++i) {
+      in[i] = 1;
+      for (size_t k = 0; k < hole.size() && in[i] != 0; ++k) {
+        in[i] = cross(hole[(k + 1) % hole.size()] - hole[k], ring[i] - hole[k]) < 0;
+      }
+    }
+    for (size_t i = 0; i < n; ++i) {
+      changes += in[i] != in[(i + 1) % n] ? 1 : 0;
+      if (in[i] != 0 && in[(i + 1) % n] == 0) first = (i + 1) % n;
+    }
+    if (changes != 2 || first == n) return false;
+    Ring out;
+    size_t i = first;
+    for (; in[i % n] == 0; ++i) out.push_back(ring[i % n]);
+    size_t enter = 0, leave = 0;
+    Vec2 entered, left;
+    if (!entrance(hole, out.back(), ring[i % n], enter, entered) ||
+        !entrance(hole, out.front(), ring[(first + n - 1) % n], leave, left)) {
+      return false;
+    }
+    out.push_back(entered);
+    for (size_t k = enter, guard = 0; k != leave; k = (k + 1) % hole.size()) {
+      if (++guard > hole.size()) return false;
+      out.push_back(hole[(k + 1) % hole.size()]);
+    }
+    out.push_back(left);
+    ring = std::move(out);
+    return true;
+  }
+
+  // The section without a boolean: where it is one piece, and nothing is near anything else.
+  bool plainSection(const Ring& strip, const Polygon& free, Polygon& out) const {
+    Ring ring = cutTo(free.outer, strip, 0);
+    if (ring.size() < 3) return false;
+    // The last hole is the centre's; what else reaches into the strip is left to booleans.
+    for (size_t h = 0; h < p_.holes.size(); ++h) {
+      if (cutTo(free.holes[h], strip, scale_ * 1e-3).size() >= 3) return false;
+    }
+    if (free.holes.size() > p_.holes.size() && !takeStart(ring, free.holes.back())) return false;
+    // New points go on the grid of booleans, and the ring begins where theirs does: at the first
+    // of the input's points, else at the lowest.
+    const Ring none;
+    const Ring& centre = free.holes.size() > p_.holes.size() ? free.holes.back() : none;
+    size_t start = 0, order = kNoEdge;
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const size_t rank = rankOf(ring[i], strip, centre);
+      if (rank < strip.size()) ring[i] = strip[rank];
+      if (rank == kNoEdge) ring[i] = {onGrid(ring[i].x), onGrid(ring[i].y)};
+      if (rank < order || (rank == kNoEdge && order == kNoEdge && lessXy(ring[i], ring[start]))) {
+        start = i;
+        order = rank;
+      }
+    }
+    std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(start), ring.end());
+    gable::dropDuplicates(ring, 0);
+    Region clear;
+    if (ring.size() < 3 || !nestClear({ring}, 2 * kRegionGrid, clear)) return false;
+    out = std::move(clear[0]);
+    return true;
+  }
+
+  // The place of a point among those that a section is made of; kNoEdge where it is a new one.
+  size_t rankOf(Vec2 v, const Ring& strip, const Ring& centre) const {
+    // Corners of the strip are found again where two of its sides cut the outline.
+    for (size_t i = 0; i < strip.size(); ++i) {
+      const Vec2 off = strip[i] - v;
+      if (std::fabs(off.x) < kRegionGrid && std::fabs(off.y) < kRegionGrid) return i;
+    }
+    const uint32_t corner = cornerAt(v).first;
+    if (corner != kNoEdge) return strip.size() + corner;
+    const auto ofCentre =
+        static_cast<size_t>(std::find(centre.begin(), centre.end(), v) - centre.begin());
+    return ofCentre < centre.size() ? strip.size() + edges_.size() + ofCentre : kNoEdge;
+  }
+
+  static double onGrid(double v) { return std::round(v / kRegionGrid) * kRegionGrid; }
+
   // The part of a strip in the region that its ray runs through.
   Region section(const Ray& r, const Ring& strip, const Region& free) const {
     Region parts;
-    for (const Polygon& f : free) {
-      const Region near = nearby(f, strip, scale_ * 1e-3);
-      if (near[0].outer.size() < 3) continue;
-      for (Polygon& p : intersect({{strip, {}}}, near)) parts.push_back(std::move(p));
+    Polygon plain;
+    // With one centre that keeps clear of all else, free is the region with a hole more at most.
+    const bool simple = centres_.size() == 1 && free.size() == 1 &&
+                        free[0].holes.size() <= p_.holes.size() + 1 && scale_ < kFineScale;
+    if (simple && plainSection(strip, free[0], plain)) {
+      parts.push_back(std::move(plain));
+    } else {
+      for (const Polygon& f : free) {
+        const Region near = nearby(f, strip, scale_ * 1e-3);
+        if (near[0].outer.size() < 3) continue;
+        for (Polygon& p : intersect({{strip, {}}}, near)) parts.push_back(std::move(p));
+      }
     }
     for (const double t : {0.999, 0.75, 0.5, 0.25}) {
       const Vec2 on = r.from + (r.to - r.from) * t;
