@@ -10,7 +10,7 @@ import assert from 'node:assert/strict';
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { meter, told } from './processes.mjs';
-import { CHROMIUM, caretBehind, clean, drawn, hasBrowser, launch, openPage, project, ready, serve, status, untilDrawn } from './studio.mjs';
+import { CHROMIUM, caretBehind, clean, drawn, hasBrowser, launch, openPage, project, ready, serve, status, untilDrawn, untilRefined } from './studio.mjs';
 
 if (!hasBrowser()) {
   console.log(`skipped: no Chromium at ${CHROMIUM}`);
@@ -144,7 +144,10 @@ const figures = {
     await canvas.focus();
     await canvas.press('Shift+F');
     await page.waitForTimeout(3000);
-    if (shots) await page.screenshot({ path: join(shots, 'town.png') });
+    if (shots) {
+      await untilRefined(page, 120_000);
+      await page.screenshot({ path: join(shots, 'town.png') });
+    }
     const still = await canvas.evaluate((c) => ({ ...c.dataset, width: c.width, height: c.height }));
     console.log(`town: ${still.calls} draw calls, ${(still.bytes / 2 ** 20).toFixed(0)} MiB of buffers, ${still.triangles} triangles at ${still.width} x ${still.height}`);
     assert.ok(Number(still.calls) <= 300, `${still.calls} draw calls`);

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Whole journeys in a browser: those below, and those of journeys/*.mjs, each of which exports an
-// object of functions. `node e2e/journeys.mjs [first|STEM...]`: those below, of some files, or all. A journey gets { page, folder, server, again, context }: a page on a project with
-// HOUSE in it. Ends with 77, which counts as skipped, where there is no Chromium.
+// object of functions. `node e2e/journeys.mjs [first|STEM...]`: those below, of some files, or all. A journey gets { page, folder, server, again, context, pictured }: a page on a project with
+// HOUSE in it; its picture is taken at its end, or when it calls pictured(). Ends with 77, which counts as skipped, where there is no Chromium.
 // GABLE_SHOTS=FOLDER keeps a picture of each journey's end; GABLE_JOURNEY=NAME runs one.
 
 import assert from 'node:assert/strict';
@@ -220,19 +220,24 @@ async function travel(browser, name) {
   let server = await serve(folder);
   const again = async () => (server = await serve(folder));
   let opened;
+  let taken = false;
+  /** The picture of a journey, where its end is not what it is about. */
+  const pictured = async () => {
+    if (!shots || taken) return;
+    taken = true;
+    await untilRefined(opened.page, 30_000).catch(() => undefined);
+    await opened.page.screenshot({ path: join(shots, `${name}.png`) }).catch(() => undefined);
+  };
   try {
     opened = await openPage(browser, server.url);
     const { page, context, complaints } = opened;
-    const outcome = await chosen[name]({ page, folder, server, again, context });
+    const outcome = await chosen[name]({ page, folder, server, again, context, pictured });
     if (!outcome?.complaintsExpected) assert.deepEqual(complaints, []);
     return null;
   } catch (error) {
     return error;
   } finally {
-    if (shots && opened) {
-      await untilRefined(opened.page, 30_000).catch(() => undefined);
-      await opened.page.screenshot({ path: join(shots, `${name}.png`) }).catch(() => undefined);
-    }
+    if (opened) await pictured();
     await opened?.context.close();
     await server.stop();
     clean(folder);

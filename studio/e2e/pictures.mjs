@@ -5,7 +5,7 @@
 
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { clean, launch, openPage, project, ready, serve, untilDrawn, drawn } from './studio.mjs';
+import { clean, launch, openPage, project, ready, serve, untilDrawn, untilRefined, drawn } from './studio.mjs';
 
 const [folder, ...only] = process.argv.slice(2);
 mkdirSync(folder, { recursive: true });
@@ -21,7 +21,47 @@ async function open(page, name) {
   await page.waitForTimeout(2500);
 }
 
+const canvas = (page) => page.locator('.stage canvas');
+
+/** The middle of the view, or a share of it to the right and down. */
+async function click(page, right = 0.5, below = 0.5, options = {}) {
+  const box = await canvas(page).boundingBox();
+  await page.mouse.click(box.x + box.width * right, box.y + box.height * below, options);
+}
+
 const pictures = {
+  async rules({ page }) {
+    await open(page, 'suburb_house/suburb_house.cga');
+    await canvas(page).focus();
+    for (const key of ['+', '+', 'ArrowDown']) await page.keyboard.press(key);
+  },
+  async selection({ page }) {
+    await open(page, 'haussmann/haussmann.cga');
+    await page.getByRole('tab', { name: 'Shape' }).click();
+    for (let i = 0; i < 4; ++i) await click(page, 0.42, 0.55);
+    await canvas(page).focus();
+    for (const key of ['+', '+']) await page.keyboard.press(key);
+  },
+  async guide({ page }) {
+    await open(page, 'suburb_house/suburb_house.cga');
+    await page.getByRole('tab', { name: 'Shape' }).click();
+    await canvas(page).focus();
+    for (const key of ['+', '+', 'g']) await page.keyboard.press(key);
+    await page.waitForSelector('.guide .lane');
+    await page.waitForTimeout(1500);
+    const lane = await page.locator('.guide .lane').boundingBox();
+    await page.mouse.click(lane.x + lane.width * 0.4, lane.y + 20);
+  },
+  async walk({ page }) {
+    await open(page, 'rowhouse/rowhouse.cga');
+    await canvas(page).focus();
+    await page.keyboard.press('3');
+    for (let i = 0; i < 3; ++i) await page.keyboard.press('w', { delay: 500 });
+  },
+  async light({ page }) {
+    await open(page, 'tower/tower.cga');
+    await page.getByRole('button', { name: 'Light or dark' }).click();
+  },
   async form({ page }) {
     await open(page, 'gbbg/gbbg.gbbg');
     await page.getByRole('button', { name: 'Form', exact: true }).click();
@@ -51,12 +91,15 @@ const pictures = {
 
 const browser = await launch();
 for (const name of only.length ? only : Object.keys(pictures)) {
-  const place = project('gbbg', 'rowhouse', 'tower');
+  const place = project('gbbg', 'rowhouse', 'tower', 'suburb_house', 'haussmann');
   const server = await serve(place);
   const { page, context } = await openPage(browser, server.url, { viewport: { width: 1440, height: 810 } });
   await ready(page);
   await pictures[name]({ page });
-  await page.waitForTimeout(5000);
+  await page.waitForTimeout(500);
+  // No ring around what was used last; pages without the view are never refined.
+  await page.evaluate(() => document.activeElement?.blur());
+  await untilRefined(page, 20_000).catch(() => undefined);
   await page.screenshot({ path: join(folder, `${name}.png`) });
   await context.close();
   await server.stop();

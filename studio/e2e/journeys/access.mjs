@@ -61,6 +61,17 @@ function faults() {
   return [...new Set(out)];
 }
 
+/** The same where a dialog is over the button of themes. */
+export async function legible(page, where) {
+  const theme = await page.evaluate(() => document.documentElement.dataset.theme);
+  for (const each of ['light', 'dark']) {
+    await page.evaluate((name) => (document.documentElement.dataset.theme = name), each);
+    await page.waitForTimeout(150);
+    assert.deepEqual(await page.evaluate(faults), [], `${where}, ${each}`);
+  }
+  await page.evaluate((name) => (document.documentElement.dataset.theme = name), theme);
+}
+
 async function inBothThemes(page, where) {
   for (let i = 0; i < 2; ++i) {
     await page.waitForTimeout(150);
@@ -71,17 +82,30 @@ async function inBothThemes(page, where) {
 }
 
 export default {
-  async allTextIsLegibleInBothThemes({ page }) {
+  async allTextIsLegibleInBothThemes({ page, pictured }) {
     await ready(page);
     await inBothThemes(page, 'attributes');
     await page.locator('.tree .tr').first().click();
     await page.getByRole('tab', { name: 'Shape' }).click();
     await inBothThemes(page, 'shape');
+    await page.getByRole('button', { name: 'Light or dark' }).click();
+    await pictured();
+    await page.getByRole('button', { name: 'Light or dark' }).click();
     await page.locator('.stage canvas').focus();
     await page.keyboard.press('g');
     await page.waitForSelector('.guide .lane');
     await page.keyboard.press('Home');
     await inBothThemes(page, 'guide');
+    await page.locator('.guide .lane').focus();
+    await page.keyboard.press('ArrowRight');
+    await page.waitForSelector('.words');
+    await inBothThemes(page, 'a step');
+    await page.locator('.stage canvas').focus();
+    await page.keyboard.press('g');
+    await page.keyboard.press('m');
+    await page.waitForSelector('.lot-help');
+    await inBothThemes(page, 'measuring');
+    await page.keyboard.press('Escape');
     await page.keyboard.press('Alt+4');
     await page.waitForSelector('.gc');
     await inBothThemes(page, 'gallery');
@@ -103,7 +127,7 @@ export default {
       if (name === 'editor') await page.keyboard.press('Escape');
       reached.add(name);
     }
-    for (const name of ['Gallery', 'Rules', 'Light or dark', 'Export', 'editor', 'The model', 'Shapes', 'Wireframe', 'Seed']) {
+    for (const name of ['Gallery', 'Rules', 'Light or dark', 'Export', 'editor', 'The model', 'Measure', 'Shapes', 'Wireframe', 'Seed']) {
       assert.ok([...reached].some((r) => r.startsWith(name)), `${name} among ${[...reached].join(', ')}`);
     }
     await page.locator('[role=tree]').focus();

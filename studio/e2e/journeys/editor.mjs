@@ -4,10 +4,39 @@
 // Names, history, palette and the form of rules.
 
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { legible } from './access.mjs';
 import { asText, form, palette, text, toast } from '../hands.mjs';
 import { caretBehind, code, drawn, openPage, ready, untilDrawn } from '../studio.mjs';
 
 export default {
+  /** Two pages have changed the same line: both are shown, and one side of each difference is taken. */
+  async aConflictIsComparedLineByLine({ page, server, folder, pictured }) {
+    await ready(page);
+    const other = await openPage(page.context().browser(), server.url);
+    await ready(other.page);
+    for (const [p, more] of [[page, '.5'], [other.page, '.25']]) {
+      await caretBehind(p, 'attr height = 9');
+      await p.keyboard.type(more);
+    }
+    await caretBehind(page, 'color("#7c8085")');
+    await page.keyboard.type(' // slate');
+    await other.page.keyboard.press('Control+s');
+    await page.waitForSelector('.conflict', { timeout: 15_000 });
+    await page.getByRole('button', { name: 'Compare' }).click();
+    const dialog = page.getByRole('dialog', { name: /Compare/ });
+    assert.match(await dialog.innerText(), /2 differences[^]*height = 9\.5[^]*height = 9\.25/);
+    await dialog.getByRole('radio', { name: 'Take theirs' }).first().click();
+    assert.equal(await dialog.locator('code.taken').count(), 2);
+    await other.context.close();
+    await legible(page, 'comparing');
+    await pictured();
+    await dialog.getByRole('button', { name: 'Save these' }).click();
+    await page.waitForSelector('.crumb .dirty', { state: 'detached' });
+    assert.match(readFileSync(join(folder, 'journey.cga'), 'utf8'), /height = 9\.25[^]*\/\/ slate/);
+  },
+
   async aNameIsFoundRenamedAndUndone({ page }) {
     await ready(page);
     await caretBehind(page, 'side : Wa');

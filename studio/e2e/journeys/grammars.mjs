@@ -147,7 +147,7 @@ export default {
     await page.waitForSelector('.tr.on');
   },
 
-  async P43_aParkIsEditedAndSeen({ page, folder }) {
+  async P43_aParkIsEditedAndSeen({ page, folder, pictured }) {
     writeFileSync(join(folder, 'square.park'), readFileSync(join(root, 'examples/park/square.park')));
     await ready(page);
     await openByPalette(page, 'square.park');
@@ -160,6 +160,7 @@ export default {
     await page.waitForTimeout(1200);
     assert.ok(!before.equals(await viewPixels(page)));
     assert.match(await status(page), /Park/);
+    await pictured();
     await page.getByText('Grid', { exact: true }).first().hover();
     await page.waitForSelector('.hover-card');
     assert.match(await page.locator('.hover-card').innerText(), /Grid\(columns, rows\)[\s\S]*Done by grid/);

@@ -32,7 +32,7 @@ async function playUpTo(page, shape) {
 }
 
 export default {
-  async theGuideGoesStepByStep({ page }) {
+  async theGuideGoesStepByStep({ page, pictured }) {
     await openGuide(page);
     assert.equal(await stepOf(page), 6);
     const whole = await picture(page);
@@ -54,6 +54,7 @@ export default {
     assert.match(said, /Draws\s+None in this step[^]*Values seen\s+height\s+9/);
     const first = await picture(page);
     assert.ok(!whole.equals(first));
+    await pictured();
     await page.locator('.stage canvas').focus();
     await page.keyboard.press('.');
     await untilStep(page, 2);

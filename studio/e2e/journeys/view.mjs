@@ -70,7 +70,7 @@ export default {
   },
 
   /** Row C15: shaded and wireframe, next seed. */
-  async C15_theViewShowsWiresAndScopes({ page }) {
+  async C15_theViewShowsWiresAndScopes({ page, pictured }) {
     await ready(page);
     const canvas = page.locator('.stage canvas');
     await canvas.focus();
@@ -79,13 +79,14 @@ export default {
     await page.locator('.tree .tr').first().click();
     await canvas.focus();
     await changes(page, 'scopes below', () => page.keyboard.press('s'));
+    await pictured();
     await changes(page, 'no scopes', () => page.keyboard.press('s'));
     const seed = await page.locator('#seed').getAttribute('aria-valuenow');
     await page.keyboard.press('r');
     await page.waitForFunction((old) => document.querySelector('#seed')?.getAttribute('aria-valuenow') !== old, seed);
   },
 
-  async onePlaceIsWalkedAndFlown({ page }) {
+  async onePlaceIsWalkedAndFlown({ page, pictured }) {
     await ready(page);
     const canvas = page.locator('.stage canvas');
     await canvas.focus();
@@ -96,6 +97,7 @@ export default {
     assert.ok(up[2] > down[2] + 20, `${up} above ${down}`);
     await changes(page, 'ahead', () => page.keyboard.press('w', { delay: 300 }));
     await changes(page, 'turn', () => page.keyboard.press('ArrowLeft', { delay: 300 }));
+    await pictured();
     await changes(page, 'fly', async () => {
       await page.keyboard.press('2');
       await page.keyboard.press('e', { delay: 300 });

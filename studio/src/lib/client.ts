@@ -81,6 +81,7 @@ export class Refusal extends Error {
 }
 
 const TOKEN = 'gable.token';
+const TAB = 'gable.tab';
 
 /** From the address, and from then on from this tab's memory. */
 function takeToken(): string {
@@ -93,8 +94,16 @@ function takeToken(): string {
   return given;
 }
 
+/** A tab keeps its name when it is loaded again. */
+function nameOfTab(): string {
+  const name = sessionStorage.getItem(TAB) ?? crypto.randomUUID();
+  sessionStorage.setItem(TAB, name);
+  return name;
+}
+
 export class EngineClient {
   readonly page = crypto.randomUUID();
+  readonly tab = nameOfTab();
   private readonly token = takeToken();
 
   private async call(method: string, path: string, body?: string | Blob, signal?: AbortSignal): Promise<Response> {

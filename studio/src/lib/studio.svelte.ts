@@ -11,6 +11,7 @@ import type { AttributeInfo, Derived, DrawList, Message, RuleInfo, Stats, Value 
 import { Far } from './far';
 import { Guide } from '../guide/guide.svelte';
 import { merge } from './merge';
+import { Recovery } from './recovery';
 import { readRegistry, type Entry } from './registry';
 import { Shapes } from './tree';
 
@@ -74,6 +75,7 @@ export function newPlace(): Place {
 
 export class Studio {
   readonly client = new EngineClient();
+  private readonly recovery = new Recovery(this.client, this.client.tab);
   page = $state<Page>('rules');
   theme = $state<Theme>('dark');
   name = $state('');
@@ -222,8 +224,13 @@ export class Studio {
   /** Opens a file without going there. */
   async loadFile(path: string): Promise<void> {
     if (this.doc(path)) return;
-    const [file, kept] = await Promise.all([this.client.read(path), this.client.recovery(path)]);
-    if (!this.doc(path)) this.docs.push({ path, text: kept ?? file.text, saved: file.text, version: file.version });
+    const file = await this.client.read(path);
+    const { text, aside } = await this.recovery.recall(path, file.text);
+    if (this.doc(path)) return;
+    this.docs.push({ path, text, saved: file.text, version: file.version });
+    const other = aside[0];
+    if (other === undefined) return;
+    this.say(`Another page had other edits of ${path}`, { label: 'Take those', run: () => this.edit(path, other, 'Take the other edits') });
   }
 
   closeFile(path: string): void {
@@ -261,7 +268,7 @@ export class Studio {
     try {
       doc.version = await this.client.write(path, text, doc.version);
       doc.saved = text;
-      await this.client.dropRecovery(path);
+      await this.recovery.drop(path);
       this.say(`Saved ${path}`);
     } catch (error) {
       if (error instanceof Refusal && error.code === 'version-differs') await this.conflict(doc);
@@ -296,17 +303,18 @@ export class Studio {
     return true;
   }
 
-  /** Ends a conflict: with what the editor says, or with what the file says. */
-  async resolve(mine: boolean): Promise<void> {
+  /** Ends a conflict: with what the editor says or with a text of both, or with what the file says. */
+  async resolve(mine: boolean, text?: string): Promise<void> {
     const conflict = this.conflictOf;
     const doc = conflict && this.doc(conflict.path);
     this.conflictOf = null;
     if (!conflict || !doc) return;
     doc.version = conflict.version;
     doc.saved = conflict.theirs;
+    if (text !== undefined) this.edit(doc.path, text, 'Join both edits');
     if (mine) return this.save(doc.path);
     doc.text = conflict.theirs;
-    await this.client.dropRecovery(doc.path);
+    await this.recovery.drop(doc.path);
     this.changed();
   }
 
@@ -376,7 +384,7 @@ export class Studio {
       await this.client.keepRecovery(MEMORY, JSON.stringify(memory));
       await this.client.keepRecovery(HISTORY, this.history.keep());
       for (const doc of this.docs) {
-        if (doc.text !== doc.saved) await this.client.keepRecovery(doc.path, doc.text);
+        await this.recovery.keep(doc.path, doc.text, doc.saved);
       }
       this.connected = true;
     } catch (error) {

@@ -10,6 +10,8 @@ export class Ui {
   palette = $state<string | null>(null);
   share = $state(false);
   exporting = $state(false);
+  /** Both sides of a conflict, next to each other. */
+  comparing = $state(false);
   /** The rules as a form instead of as text. */
   form = $state(false);
   tool = $state<Tool>('select');
