@@ -484,7 +484,8 @@ export class Studio {
     if (!this.guide.open) this.show?.(draw, derived.stats);
     if (derived.stats.shapes <= MOST_TREE_SHAPES) {
       this.treeTimer = window.setTimeout(() => void this.fetchTree(), this.guide.open ? 0 : TREE_AFTER_MS);
-    } else {
+    } else if (this.guide.open) this.treeTimer = window.setTimeout(() => void this.fetchTree(), 0);
+    else {
       this.shapes = null;
       this.selected = -1;
     }
@@ -514,6 +515,11 @@ export class Studio {
     }
   }
 
+  /** Too many shapes for a tree: the guide has the first steps. */
+  get huge(): boolean {
+    return (this.stats?.shapes ?? 0) > MOST_TREE_SHAPES;
+  }
+
   /** Gives the view what it is to show, once more. */
   showAgain(): void {
     if (!this.latest) return;
@@ -524,11 +530,18 @@ export class Studio {
 
   /** Opens the guide at its last step, or goes back to the model. */
   toggleGuide(): void {
-    if (!this.latest || !this.shapes) return;
+    if (!this.latest || (!this.shapes && !this.huge)) return;
     if (this.guide.open) {
       this.guide.close();
       this.showAgain();
+      // The shapes of the first steps are not those of the model.
+      if (this.huge) {
+        this.shapes = null;
+        this.selected = -1;
+        return;
+      }
     } else this.guide.open = true;
+    this.far = null;
     void this.fetchTree();
   }
 
