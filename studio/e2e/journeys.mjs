@@ -42,7 +42,7 @@ const journeys = {
     await page.waitForFunction(() => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === '95');
   },
 
-  async aBrokenRuleIsMarkedAndTheModelStays({ page }) {
+  async aBrokenRuleIsMarkedAndTheModelStays({ page, pictured }) {
     await ready(page);
     await caretBehind(page, 'extrude(height');
     await page.keyboard.press('Delete');
@@ -51,6 +51,7 @@ const journeys = {
     assert.match(await page.locator('.banner').innerText(), /Last model that worked/);
     assert.match(await status(page), /1 error/);
     assert.ok((await page.locator('.prob').count()) >= 1);
+    await pictured();
     await page.keyboard.type(')');
     await page.waitForSelector('.banner', { state: 'detached' });
     assert.match(await status(page), /No problems/);

@@ -20,7 +20,7 @@ const AIR = 1.1;
 const PLACE_AIR = 1.08;
 const FROM = new THREE.Vector3(0.52, 0.5, 0.82).normalize();
 /** A model that has become so many times larger or smaller is framed anew; where somebody has moved the camera, that is more. */
-const OUTGROWN = 1.3;
+const OUTGROWN = 1.08;
 const OUTGROWN_AFTER_MOVES = 3;
 
 const boxOf = (b: Bounds) => new THREE.Box3(new THREE.Vector3(...b.min), new THREE.Vector3(...b.max));
