@@ -352,6 +352,7 @@ export default {
     assert.match(seen[3].join(), /replaces Wall[^]*Brick\s+2/);
     for (let i = last; i >= 1; --i) {
       assert.deepEqual(await said(), seen[i], `step ${i}`);
+      if (i === 3) await at.pictured();
       await page.keyboard.press(',');
       await becomes(step, i - 1);
     }

@@ -71,8 +71,9 @@ export default {
 
   async theGuideTellsWhatWasDrawn({ page }) {
     await ready(page);
-    await caretBehind(page, 'color("#7c8085")');
-    await page.keyboard.type(' 30%: extrude(rand(1, 3)) Slab else: NIL');
+    await caretBehind(page, 'Roof -->');
+    await page.keyboard.type(' 30% : Flat. else :');
+    await page.keyboard.press('Escape');
     await openGuide(page);
     await page.getByRole('tab', { name: 'Shape' }).click();
     await page.locator('.guide .lane').focus();

@@ -30,6 +30,7 @@ export class Framing {
   private points: THREE.Vector3[] = [];
   private framed: Bounds | null = null;
   private own = false;
+  private empty = true;
   /** Somebody has moved the camera since the page did. */
   private moved = false;
 
@@ -44,6 +45,7 @@ export class Framing {
 
   /** Hears of another model. */
   know(list: DrawList, bounds: Bounds): void {
+    this.empty = list.leaves === 0;
     this.points = boxOf(bounds).getSize(new THREE.Vector3()).length() / 2 > WIDE ? somePoints(list) : [];
   }
 
@@ -62,7 +64,7 @@ export class Framing {
 
   /** Whether a model is another size than the one that was framed, or elsewhere. */
   outgrown(bounds: Bounds): boolean {
-    if (!this.framed) return false;
+    if (!this.framed || this.empty) return false;
     const [now, then] = [bounds, this.framed].map((b) => boxOf(b).getBoundingSphere(new THREE.Sphere()));
     const room = this.moved ? OUTGROWN_AFTER_MOVES : OUTGROWN;
     const ratio = Math.max(now!.radius, 1) / Math.max(then!.radius, 1);
