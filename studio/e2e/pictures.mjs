@@ -85,7 +85,7 @@ const pictures = {
   async palette({ page }) {
     await open(page, 'tower/tower.cga');
     await page.keyboard.press('Control+k');
-    await page.getByRole('combobox', { name: 'Search or run' }).fill('floor');
+    await page.getByRole('combobox', { name: 'Search or run' }).fill('storeys');
   },
 };
 
