@@ -2,11 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The Gable authors
 #
-# tools/seeds.sh [castle|park] [SEEDS]: the tests of an example that look at many seeds, on so many of them
+# tools/seeds.sh [castle|park|suburb|town] [SEEDS]: the tests of an example that look at many seeds, on so many of them
 # (castle, 200; park is the example gardens). The suite runs a short form. Needs a build in build/dev.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-example=${1:-castle} seeds=${2:-200}
-program=build/dev/test_$example
-[ -x "$program" ] || { echo "there is no $program: run ninja -C build/dev test_$example" >&2; exit 2; }
-GABLE_SEEDS=$seeds exec "$program" --gtest_brief=1
+example=${1:-castle} seeds=${2:-200} filter='*'
+case $example in
+  castle | park) program=test_$example ;;
+  suburb | town) program=test_worlds filter="*the${example^}*" ;;
+  *) echo "there is no example '$example' with many seeds: castle, park, suburb, town" >&2 && exit 2 ;;
+esac
+[ -x "build/dev/$program" ] || { echo "there is no build/dev/$program: run ninja -C build/dev $program" >&2; exit 2; }
+GABLE_SEEDS=$seeds exec "build/dev/$program" --gtest_brief=1 --gtest_filter="$filter"
