@@ -118,6 +118,22 @@ double microseconds(const std::vector<Polygon>& polygons,
 // How many sites polygons of each size get.
 constexpr std::array<uint32_t, 3> kSites{12, 16, 30};
 
+// The cells less half a path, smoothed; they are made once, in the first of the runs.
+size_t smoothCells(const Polygon& p, const std::vector<Disc>& sites) {
+  static std::map<const Polygon*, std::vector<RegionPiece>> cells;
+  const auto [at, fresh] = cells.try_emplace(&p);
+  if (fresh) at->second = voronoiPartition(p, sites, {}).pieces;
+  Smoothing average;
+  average.kind = Smoothing::Kind::Average;
+  size_t made = 0;
+  for (const RegionPiece& cell : at->second) {
+    for (const Polygon& inner : offset({cell.polygon}, -0.5)) {
+      made += smoothed(inner, average).size();
+    }
+  }
+  return made;
+}
+
 // Each adds what it makes to `sum`, so that no work can be left out.
 std::vector<Job> allJobs(double& sum) {
   const auto use = [&sum](size_t n) { sum += static_cast<double>(n); };
@@ -162,19 +178,7 @@ std::vector<Job> allJobs(double& sum) {
        }},
       {"smoothing of cells",
        {147, 233, 1231},
-       [=, &sum](const Polygon& p, const std::vector<Disc>& sites) {
-         // The cells are made once, in the first of the runs.
-         static std::map<const Polygon*, std::vector<RegionPiece>> cells;
-         auto [at, fresh] = cells.try_emplace(&p);
-         if (fresh) at->second = voronoiPartition(p, sites, {}).pieces;
-         Smoothing average;
-         average.kind = Smoothing::Kind::Average;
-         for (const RegionPiece& cell : at->second) {
-           for (const Polygon& inner : offset({cell.polygon}, -0.5)) {
-             use(smoothed(inner, average).size());
-           }
-         }
-       }},
+       [=, &sum](const Polygon& p, const std::vector<Disc>& sites) { use(smoothCells(p, sites)); }},
       {"voronoi, smooth paths",
        // Nobody has measured this with sections and junctions of the paths.
        {},

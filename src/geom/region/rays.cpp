@@ -150,11 +150,10 @@ class Rays {
       Ray first;
       const bool blocked = firstHit(c, d, t.value, true, first, reach) && reach < 1 - 1e-9;
       // The ray must come from within: a corner may be seen through its own outside.
-      const auto outside = [&] {
-        return visits == 1 ? fromOutside(corner, c)
-                           : locate(p_, t.value - d * 1e-6) == Where::Outside;
-      };
-      if (blocked || outside()) {
+      const bool outside =
+          !blocked &&
+          (visits == 1 ? fromOutside(corner, c) : locate(p_, t.value - d * 1e-6) == Where::Outside);
+      if (blocked || outside) {
         if (!o_.stopHidden || !blocked) return false;
         ray = first;
         return true;
