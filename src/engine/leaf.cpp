@@ -72,15 +72,14 @@ FoundLeaf leafAt(const Scene& scene, uint64_t wanted) {
 void writeScope(JsonWriter& json, const Scene& scene, const FoundLeaf& found) {
   Box3 box;
   for (const Vec3& v : scene.meshes[found.leaf->mesh]->positions) {
-    const Vec3& s = found.leaf->scale;
-    box.include(Vec3{v.x * s.x, v.y * s.y, v.z * s.z});
+    box.include(scaled(v, found.leaf->scale));
   }
   const Frame& w = found.world;
-  const Vec3 origin = w.origin + w.x * box.min.x + w.y * box.min.y + w.z * box.min.z;
+  const Vec3 origin = w.point(box.min), size = box.size();
   json.key("frame").beginArray();
   for (const Vec3& v : {origin, w.x, w.y, w.z}) json.value(v.x).value(v.y).value(v.z);
   json.endArray().key("size").beginArray();
-  json.value(box.max.x - box.min.x).value(box.max.y - box.min.y).value(box.max.z - box.min.z);
+  json.value(size.x).value(size.y).value(size.z);
   json.endArray();
 }
 
