@@ -7,8 +7,8 @@ import { defineConfig } from 'vitest/config';
 export default defineConfig({
   plugins: [svelte()],
   build: { outDir: '../build/studio', emptyOutDir: true, target: 'es2022', assetsInlineLimit: 0 },
-  // Tests read examples and reference pages of the repository. By number: a bare machine may not know
-  // the name localhost.
+  // Tests read examples and reference pages of the repository. By number: a bare machine may not
+  // know the name localhost.
   server: { host: '127.0.0.1', fs: { allow: ['..'] } },
-  test: { include: ['src/**/*.test.ts'], environment: 'node', css: true },
+  test: { include: ['src/**/*.test.ts', '*.test.ts'], environment: 'node', css: true },
 });

@@ -1,16 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Figures that the studio promises, measured in a browser on a software renderer: from a keystroke to
-// the changed picture on one suburb house, and what a town of 2000 houses costs to draw. Counts always
-// hold; times are printed, and held to their promises with GABLE_HOLD=1 where nothing else has the machine.
-// `node e2e/figures.mjs [latency|town]`; GABLE_SHOTS=FOLDER keeps pictures.
+// Figures that the studio promises, measured in a browser on a software renderer: from a keystroke
+// to the changed picture on one suburb house, and what a town of 2000 houses costs to draw. Counts
+// always hold; times are printed, and held to their promises with GABLE_HOLD=1 where nothing else
+// has the machine. `node e2e/figures.mjs [latency|town]`; GABLE_SHOTS=FOLDER keeps pictures.
 
 import assert from 'node:assert/strict';
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { meter, told } from './processes.mjs';
-import { CHROMIUM, caretBehind, clean, drawn, hasBrowser, launch, openPage, project, ready, serve, status, untilDrawn, untilRefined } from './studio.mjs';
+import {
+  CHROMIUM,
+  caretBehind,
+  clean,
+  hasBrowser,
+  launch,
+  openPage,
+  project,
+  ready,
+  serve,
+  status,
+  untilRefined,
+} from './studio.mjs';
 
 if (!hasBrowser()) {
   console.log(`skipped: no Chromium at ${CHROMIUM}`);
@@ -53,7 +65,14 @@ async function remember(server, main, place) {
 async function edited(page, behind, key, what, idle) {
   await caretBehind(page, behind);
   await page.waitForTimeout(500);
-  const answer = page.waitForResponse((r) => r.url().includes('/api/derive') && r.request().postData()?.includes(behind + key));
+  const answer = page.waitForResponse(
+    (r) =>
+      r.url().includes('/api/derive') &&
+      r
+        .request()
+        .postData()
+        ?.includes(behind + key),
+  );
   const began = performance.now();
   await page.keyboard.press(key);
   await answer;
@@ -61,7 +80,9 @@ async function edited(page, behind, key, what, idle) {
   await page.waitForFunction(() => !document.querySelector('.working'), null, { timeout: 120_000 });
   const seen = performance.now() - began;
   const line = await status(page);
-  console.log(`${what}: answered after ${(there / 1000).toFixed(1)} s; ${line.replaceAll('\n', ', ')}`);
+  console.log(
+    `${what}: answered after ${(there / 1000).toFixed(1)} s; ${line.replaceAll('\n', ', ')}`,
+  );
   held(what, `${(seen / 1000).toFixed(1)} s of 5`, seen < 5000, idle);
   assert.ok(Number(/(\d+) % kept/.exec(line)?.[1]) > 80, 'hardly anything was taken over');
 }
@@ -81,7 +102,12 @@ const figures = {
   async latency(browser) {
     const folder = project('suburb_house');
     const server = await served(folder);
-    await remember(server, 'suburb_house/suburb_house.cga', { start: '', seed: 0, attributes: {}, shapes: { lot: [20, 30] } });
+    await remember(server, 'suburb_house/suburb_house.cga', {
+      start: '',
+      seed: 0,
+      attributes: {},
+      shapes: { lot: [20, 30] },
+    });
     const { page, context } = await openPage(browser, server.url);
     await ready(page);
     await caretBehind(page, 'attr pitch = 34');
@@ -93,15 +119,16 @@ const figures = {
       let began = 0;
       addEventListener('keydown', () => (began = performance.now()), true);
       // Nothing looks again and again: that would be measured as well.
-      window.nextPicture = () => (window.picture = new Promise((there) => {
-        const watch = new MutationObserver(() => {
-          watch.disconnect();
-          // Reading a pixel ends when the picture is there.
-          gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
-          there(performance.now() - began);
-        });
-        watch.observe(canvas, { attributeFilter: ['data-drawn'] });
-      })) && undefined;
+      window.nextPicture = () =>
+        (window.picture = new Promise((there) => {
+          const watch = new MutationObserver(() => {
+            watch.disconnect();
+            // Reading a pixel ends when the picture is there.
+            gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+            there(performance.now() - began);
+          });
+          watch.observe(canvas, { attributeFilter: ['data-drawn'] });
+        })) && undefined;
     });
     const free = share();
     const cost = meter(server.pid);
@@ -118,26 +145,53 @@ const figures = {
       await page.waitForTimeout(330);
       add(after, cost());
     }
-    console.log(`processor milliseconds a keystroke, up to the picture: ${told(first)}; in the 330 ms after it: ${told(after)}`);
-    // Processor time says what the clock of a busy machine does not; others in its caches double it.
+    console.log(
+      `processor milliseconds a keystroke, up to the picture: ${told(first)}; in the 330 ms after it: ${told(after)}`,
+    );
+    // Processor time says what the clock of a busy machine does not; others in its caches double
+    // it.
     assert.ok(first.all < MOST_MS_A_KEY, `${first.all} ms of processor time a keystroke`);
     times.sort((a, b) => a - b);
     const at = (part) => times[Math.min(times.length - 1, Math.floor(times.length * part))];
     if (shots) await page.screenshot({ path: join(shots, 'latency.png') });
     const idle = Math.min(free, share());
     held('keystroke to picture, median', `${at(0.5).toFixed(0)} ms of 100`, at(0.5) < 100, idle);
-    held('keystroke to picture, 95th percentile', `${at(0.95).toFixed(0)} ms of 250`, at(0.95) < 250, idle);
+    held(
+      'keystroke to picture, 95th percentile',
+      `${at(0.95).toFixed(0)} ms of 250`,
+      at(0.95) < 250,
+      idle,
+    );
     await context.close();
     await server.stop();
     clean(folder);
   },
 
   async town(browser) {
-    const folder = project('town', 'castle', 'gardens', 'monaco', 'haussmann', 'tower', 'rowhouse', 'suburb_house');
+    const folder = project(
+      'town',
+      'castle',
+      'gardens',
+      'monaco',
+      'haussmann',
+      'tower',
+      'rowhouse',
+      'suburb_house',
+    );
     const server = await served(folder);
-    await remember(server, 'town/town.cga', { start: '', seed: 1, attributes: {}, shapes: { lot: [1000, 1000] }, limits: { seconds: 400 } });
+    await remember(server, 'town/town.cga', {
+      start: '',
+      seed: 1,
+      attributes: {},
+      shapes: { lot: [1000, 1000] },
+      limits: { seconds: 400 },
+    });
     const { page, context, complaints } = await openPage(browser, server.url);
-    await page.waitForFunction(() => Number(document.querySelector('.stage canvas')?.dataset.triangles ?? 0) > 1e5, null, { timeout: 400_000 });
+    await page.waitForFunction(
+      () => Number(document.querySelector('.stage canvas')?.dataset.triangles ?? 0) > 1e5,
+      null,
+      { timeout: 400_000 },
+    );
     await page.keyboard.press('Control+\\');
     await page.waitForTimeout(500);
     const canvas = page.locator('.stage canvas');
@@ -148,8 +202,14 @@ const figures = {
       await untilRefined(page, 120_000);
       await page.screenshot({ path: join(shots, 'town.png') });
     }
-    const still = await canvas.evaluate((c) => ({ ...c.dataset, width: c.width, height: c.height }));
-    console.log(`town: ${still.calls} draw calls, ${(still.bytes / 2 ** 20).toFixed(0)} MiB of buffers, ${still.triangles} triangles at ${still.width} x ${still.height}`);
+    const still = await canvas.evaluate((c) => ({
+      ...c.dataset,
+      width: c.width,
+      height: c.height,
+    }));
+    console.log(
+      `town: ${still.calls} draw calls, ${(still.bytes / 2 ** 20).toFixed(0)} MiB of buffers, ${still.triangles} triangles at ${still.width} x ${still.height}`,
+    );
     assert.ok(Number(still.calls) <= 300, `${still.calls} draw calls`);
     assert.ok(Number(still.bytes) <= 200e6, `${still.bytes} bytes`);
     const free = share();
@@ -159,15 +219,18 @@ const figures = {
     const { seconds, first } = await page.evaluate(async (n) => {
       const c = document.querySelector('.stage canvas');
       const gl = c.getContext('webgl2');
-      const turn = () => new Promise((done) => {
-        const watch = new MutationObserver(() => {
-          watch.disconnect();
-          gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
-          done();
+      const turn = () =>
+        new Promise((done) => {
+          const watch = new MutationObserver(() => {
+            watch.disconnect();
+            gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+            done();
+          });
+          watch.observe(c, { attributeFilter: ['data-drawn'] });
+          c.dispatchEvent(
+            new KeyboardEvent('keydown', { key: 'ArrowLeft', code: 'ArrowLeft', bubbles: true }),
+          );
         });
-        watch.observe(c, { attributeFilter: ['data-drawn'] });
-        c.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft', code: 'ArrowLeft', bubbles: true }));
-      });
       // The first few find out how fine a picture can be in time.
       let began = performance.now();
       for (let i = 0; i < 4; ++i) await turn();
@@ -178,11 +241,22 @@ const figures = {
     }, pictures);
     const spent = cost();
     for (const key of Object.keys(spent)) spent[key] /= pictures + 4;
-    const moving = await canvas.evaluate((c) => ({ ...c.dataset, width: c.width, height: c.height }));
-    console.log(`town, moving: ${moving.calls} draw calls, ${moving.triangles} triangles at ${moving.width} x ${moving.height}; processor milliseconds a picture: ${told(spent)}; at first ${first.toFixed(2)} s`);
+    const moving = await canvas.evaluate((c) => ({
+      ...c.dataset,
+      width: c.width,
+      height: c.height,
+    }));
+    console.log(
+      `town, moving: ${moving.calls} draw calls, ${moving.triangles} triangles at ${moving.width} x ${moving.height}; processor milliseconds a picture: ${told(spent)}; at first ${first.toFixed(2)} s`,
+    );
     if (shots) await page.screenshot({ path: join(shots, 'town-moving.png') });
     const idle = Math.min(free, share());
-    held('town: pictures a second', `${(pictures / seconds).toFixed(1)} of 5`, pictures / seconds >= 5, idle);
+    held(
+      'town: pictures a second',
+      `${(pictures / seconds).toFixed(1)} of 5`,
+      pictures / seconds >= 5,
+      idle,
+    );
     await page.keyboard.press('Control+\\');
     await edited(page, 's(0.22, 0.8', '5', 'town: an edit of the lamps, until it is seen', idle);
     // Typing goes on while a large place is drawn and derived.
@@ -207,13 +281,29 @@ const figures = {
       await page.keyboard.press(key, { delay: 60 });
       deriving += await page.locator('.working').count();
     }
-    await page.waitForFunction((typed) => new RegExp(`storeys${typed}`, 'i').test(document.querySelector('.cm-content')?.innerText ?? ''), letters);
+    await page.waitForFunction(
+      (typed) =>
+        new RegExp(`storeys${typed}`, 'i').test(
+          document.querySelector('.cm-content')?.innerText ?? '',
+        ),
+      letters,
+    );
     const typing = cost();
     for (const key of Object.keys(typing)) typing[key] /= letters.length;
-    console.log(`town: typing, processor milliseconds a key: ${told(typing)}; under way at ${deriving} of ${letters.length} keys`);
-    assert.ok(typing.page < MOST_MS_A_KEY_IN_A_TOWN, `${typing.page} ms of the page's processor time a key`);
+    console.log(
+      `town: typing, processor milliseconds a key: ${told(typing)}; under way at ${deriving} of ${letters.length} keys`,
+    );
+    assert.ok(
+      typing.page < MOST_MS_A_KEY_IN_A_TOWN,
+      `${typing.page} ms of the page's processor time a key`,
+    );
     const longest = await page.evaluate(() => window.longest);
-    held('town: longest stop of the page while typing', `${longest.toFixed(0)} ms of 250`, longest < 250, idle);
+    held(
+      'town: longest stop of the page while typing',
+      `${longest.toFixed(0)} ms of 250`,
+      longest < 250,
+      idle,
+    );
     assert.deepEqual(complaints, []);
     await context.close();
     await server.stop();
@@ -232,7 +322,8 @@ for (const [name, measure] of Object.entries(figures)) {
     ++failed;
     console.log(error.stack ?? String(error));
     const page = browser.contexts()[0]?.pages()[0];
-    if (shots && page) await page.screenshot({ path: join(shots, `${name}-failed.png`) }).catch(() => undefined);
+    if (shots && page)
+      await page.screenshot({ path: join(shots, `${name}-failed.png`) }).catch(() => undefined);
     for (const context of browser.contexts()) await context.close();
   } finally {
     for (const server of servers.splice(0)) await server.stop();

@@ -26,7 +26,12 @@ export async function palette(page, query) {
   await page.waitForSelector('.pal-list [role=option]');
 }
 
-export const text = (page) => code(page).evaluate((n) => [...n.querySelectorAll('.cm-line')].map((l) => l.textContent.replace(/× \d+.*$/, '')).join('\n'));
+export const text = (page) =>
+  code(page).evaluate((n) =>
+    [...n.querySelectorAll('.cm-line')]
+      .map((l) => l.textContent.replace(/× \d+.*$/, ''))
+      .join('\n'),
+  );
 export const form = (page) => page.getByRole('button', { name: 'Form', exact: true }).click();
 export const asText = (page) => page.getByRole('button', { name: 'Text', exact: true }).click();
 export const toast = (page) => page.locator('.toast').innerText();

@@ -2,16 +2,32 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Whole journeys in a browser: those below, and those of journeys/*.mjs, each of which exports an
-// object of functions. `node e2e/journeys.mjs [first|STEM...]`: those below, of some files, or all. A journey gets { page, folder, server, again, context, pictured }: a page on a project with
-// HOUSE in it; its picture is taken at its end, or when it calls pictured(). Ends with 77, which counts as skipped, where there is no Chromium.
-// GABLE_SHOTS=FOLDER keeps a picture of each journey's end; GABLE_JOURNEY=NAME runs one.
+// object of functions. `node e2e/journeys.mjs [first|STEM...]`: those below, of some files, or all.
+// A journey gets { page, folder, server, again, context, pictured }: a page on a project with HOUSE
+// in it; its picture is taken at its end, or when it calls pictured(). Ends with 77, which counts
+// as skipped, where there is no Chromium. GABLE_SHOTS=FOLDER keeps a picture of each journey's end;
+// GABLE_JOURNEY=NAME runs one.
 
 import assert from 'node:assert/strict';
 import { mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import {
-  CHROMIUM, HOUSE, caretBehind, clean, code, drawn, hasBrowser, launch, openPage, project, ready, serve, status, untilDrawn,
-  untilRefined, viewPixels,
+  CHROMIUM,
+  HOUSE,
+  caretBehind,
+  clean,
+  code,
+  drawn,
+  hasBrowser,
+  launch,
+  openPage,
+  project,
+  ready,
+  serve,
+  status,
+  untilDrawn,
+  untilRefined,
+  viewPixels,
 } from './studio.mjs';
 
 if (!hasBrowser()) {
@@ -39,7 +55,9 @@ const journeys = {
     await page.keyboard.type('5');
     await untilDrawn(page, count);
     assert.ok(!before.equals(await pixels()));
-    await page.waitForFunction(() => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === '95');
+    await page.waitForFunction(
+      () => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === '95',
+    );
   },
 
   async aBrokenRuleIsMarkedAndTheModelStays({ page, pictured }) {
@@ -65,13 +83,17 @@ const journeys = {
     await page.waitForSelector('.tr.on');
     assert.match(await page.locator('.tr.on').innerText(), /Lot/);
     await page.mouse.click(...middle);
-    await page.waitForFunction(() => /Wall|Roof/.test(document.querySelector('.tr.on')?.textContent ?? ''));
+    await page.waitForFunction(() =>
+      /Wall|Roof/.test(document.querySelector('.tr.on')?.textContent ?? ''),
+    );
     await page.waitForSelector('.cm-hit');
     assert.match(await page.locator('.cm-hit').innerText(), /(Wall|Roof) -->/);
     await page.getByRole('tab', { name: 'Shape' }).click();
     assert.match(await page.locator('.who').innerText(), /journey\.cga:\d+/);
     await page.keyboard.press('Escape');
-    await page.waitForFunction(() => /Lot/.test(document.querySelector('.tr.on')?.textContent ?? ''));
+    await page.waitForFunction(() =>
+      /Lot/.test(document.querySelector('.tr.on')?.textContent ?? ''),
+    );
   },
 
   async anAttributeIsDraggedTypedAndReset({ page }) {
@@ -89,13 +111,21 @@ const journeys = {
     await field.press('Enter');
     await page.keyboard.type('3*7');
     await page.keyboard.press('Enter');
-    await page.waitForFunction(() => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === '21');
+    await page.waitForFunction(
+      () => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === '21',
+    );
     await page.getByRole('button', { name: 'Reset height' }).click();
-    await page.waitForFunction(() => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === '9');
+    await page.waitForFunction(
+      () => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === '9',
+    );
     await page.getByRole('button', { name: 'Undo', exact: true }).click();
-    await page.waitForFunction(() => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === '21');
+    await page.waitForFunction(
+      () => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === '21',
+    );
     await page.locator('#attr-paint').selectOption('blue');
-    await page.waitForFunction(() => /2 changed/.test(document.querySelector('.sec h3')?.textContent ?? ''));
+    await page.waitForFunction(() =>
+      /2 changed/.test(document.querySelector('.sec h3')?.textContent ?? ''),
+    );
   },
 
   async completionAndHoverKnowTheOperations({ page }) {
@@ -153,13 +183,24 @@ const journeys = {
     await other.page.keyboard.type('7');
     await other.page.keyboard.press('Control+s');
     await other.page.waitForSelector('.crumb .dirty', { state: 'detached' });
-    await page.waitForFunction(() => /height = 97/.test(document.querySelector('.cm-content')?.innerText ?? ''), null, { timeout: 15_000 });
+    await page.waitForFunction(
+      () => /height = 97/.test(document.querySelector('.cm-content')?.innerText ?? ''),
+      null,
+      { timeout: 15_000 },
+    );
     assert.match(await text(page), /Roof --> \/\/ flat/);
     assert.equal(await page.locator('.conflict').count(), 0);
     await page.keyboard.press('Control+s');
     await page.waitForSelector('.crumb .dirty', { state: 'detached' });
-    assert.match(readFileSync(join(folder, 'journey.cga'), 'utf8'), /height = 97[^]*Roof --> \/\/ flat/);
-    await other.page.waitForFunction(() => /flat/.test(document.querySelector('.cm-content')?.innerText ?? ''), null, { timeout: 15_000 });
+    assert.match(
+      readFileSync(join(folder, 'journey.cga'), 'utf8'),
+      /height = 97[^]*Roof --> \/\/ flat/,
+    );
+    await other.page.waitForFunction(
+      () => /flat/.test(document.querySelector('.cm-content')?.innerText ?? ''),
+      null,
+      { timeout: 15_000 },
+    );
     // Edits of one line are a question.
     await caretBehind(page, 'attr height = 97');
     await page.keyboard.type('.5');
@@ -169,15 +210,23 @@ const journeys = {
     await page.waitForSelector('.conflict', { timeout: 15_000 });
     assert.match(await text(page), /height = 97\.5/);
     await page.getByRole('button', { name: 'Take theirs' }).click();
-    await page.waitForFunction(() => /height = 97\.25/.test(document.querySelector('.cm-content')?.innerText ?? ''));
-    assert.deepEqual(other.complaints.filter((c) => !/409/.test(c)), []);
+    await page.waitForFunction(() =>
+      /height = 97\.25/.test(document.querySelector('.cm-content')?.innerText ?? ''),
+    );
+    assert.deepEqual(
+      other.complaints.filter((c) => !/409/.test(c)),
+      [],
+    );
     await other.context.close();
   },
 
   async exportsAModelThatOthersRead({ page, folder }) {
     await ready(page);
     await page.getByRole('button', { name: 'Export' }).click();
-    const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('menuitem', { name: '.glb' }).click()]);
+    const [download] = await Promise.all([
+      page.waitForEvent('download'),
+      page.getByRole('menuitem', { name: '.glb' }).click(),
+    ]);
     const file = join(folder, 'model.glb');
     await download.saveAs(file);
     const bytes = readFileSync(file);
@@ -257,7 +306,9 @@ for (const name of Object.keys(chosen)) {
     console.log(`again   ${name}: ${String(error).split('\n')[0]}`);
     error = await travel(browser, name);
   }
-  console.log(`${error ? 'failed' : 'passed'}  ${name}  ${((Date.now() - began) / 1000).toFixed(1)} s`);
+  console.log(
+    `${error ? 'failed' : 'passed'}  ${name}  ${((Date.now() - began) / 1000).toFixed(1)} s`,
+  );
   if (error) {
     ++failed;
     console.log(error.stack ?? String(error));

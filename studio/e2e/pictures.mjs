@@ -1,11 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Makes the pictures of docs/studio: `node e2e/pictures.mjs FOLDER [NAME...]`, then tools/shrink_png.py.
+// Makes the pictures of docs/studio: `node e2e/pictures.mjs FOLDER [NAME...]`, then
+// tools/shrink_png.py.
 
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { clean, launch, openPage, project, ready, serve, untilDrawn, untilRefined, drawn } from './studio.mjs';
+import {
+  clean,
+  launch,
+  openPage,
+  project,
+  ready,
+  serve,
+  untilDrawn,
+  untilRefined,
+  drawn,
+} from './studio.mjs';
 
 const [folder, ...only] = process.argv.slice(2);
 mkdirSync(folder, { recursive: true });
@@ -15,7 +26,10 @@ async function open(page, name) {
   await page.keyboard.press('Control+k');
   await page.getByRole('combobox', { name: 'Search or run' }).fill(name);
   await page.locator('.pal-list [role=option]', { hasText: name }).first().click();
-  await page.waitForFunction((n) => document.querySelector('.crumb b')?.textContent === n, name.split('/').pop());
+  await page.waitForFunction(
+    (n) => document.querySelector('.crumb b')?.textContent === n,
+    name.split('/').pop(),
+  );
   await untilDrawn(page, before);
   await ready(page);
   await page.waitForTimeout(2500);
@@ -75,7 +89,9 @@ const pictures = {
   async variations({ page }) {
     await open(page, 'tower/tower.cga');
     await page.keyboard.press('Alt+2');
-    await page.waitForFunction(() => /12 of 12 drawn/.test(document.querySelector('.wall-state')?.textContent ?? ''));
+    await page.waitForFunction(() =>
+      /12 of 12 drawn/.test(document.querySelector('.wall-state')?.textContent ?? ''),
+    );
   },
   async assets({ page }) {
     await page.keyboard.press('Alt+3');
@@ -93,7 +109,9 @@ const browser = await launch();
 for (const name of only.length ? only : Object.keys(pictures)) {
   const place = project('gbbg', 'rowhouse', 'tower', 'suburb_house', 'haussmann');
   const server = await serve(place);
-  const { page, context } = await openPage(browser, server.url, { viewport: { width: 1440, height: 810 } });
+  const { page, context } = await openPage(browser, server.url, {
+    viewport: { width: 1440, height: 810 },
+  });
   await ready(page);
   await pictures[name]({ page });
   await page.waitForTimeout(500);

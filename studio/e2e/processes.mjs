@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Processor time of a studio and of the browser on it, by what they do. It says what something costs
-// even where other programs have most of the machine and the clock says nothing.
+// Processor time of a studio and of the browser on it, by what they do. It says what something
+// costs even where other programs have most of the machine and the clock says nothing.
 
 import { readFileSync, readdirSync } from 'node:fs';
 
@@ -39,14 +39,18 @@ function kindOf(pid, server) {
 function spent(pid) {
   let out = 0;
   try {
-    for (const task of readdirSync(`/proc/${pid}/task`)) out += Number(read(`/proc/${pid}/task/${task}/schedstat`).split(' ')[0] ?? 0);
+    for (const task of readdirSync(`/proc/${pid}/task`))
+      out += Number(read(`/proc/${pid}/task/${task}/schedstat`).split(' ')[0] ?? 0);
   } catch {
     // It has ended.
   }
   return out / 1e6;
 }
 
-/** Gives a function that tells { server, page, graphics, browser, all } in milliseconds since it was last called. */
+/**
+ * Gives a function that tells { server, page, graphics, browser, all } in milliseconds since it was
+ * last called.
+ */
 export function meter(server) {
   const known = below().map((pid) => ({ pid, kind: kindOf(pid, server), before: spent(pid) }));
   return () => {
@@ -62,4 +66,6 @@ export function meter(server) {
 }
 
 export const told = (cost) =>
-  ['all', 'server', 'page', 'graphics', 'browser'].map((k) => `${k} ${cost[k].toFixed(0)}`).join(', ');
+  ['all', 'server', 'page', 'graphics', 'browser']
+    .map((k) => `${k} ${cost[k].toFixed(0)}`)
+    .join(', ');

@@ -27,7 +27,9 @@ export function project(...examples) {
 }
 
 export async function serve(folder, port = 0) {
-  const child = spawn(gable, ['studio', folder, '--port', String(port)], { stdio: ['ignore', 'pipe', 'inherit'] });
+  const child = spawn(gable, ['studio', folder, '--port', String(port)], {
+    stdio: ['ignore', 'pipe', 'inherit'],
+  });
   const url = await new Promise((resolve, reject) => {
     let text = '';
     child.stdout.on('data', (data) => {
@@ -55,8 +57,15 @@ export async function launch() {
   return chromium.launch({
     executablePath: CHROMIUM,
     args: [
-      '--no-sandbox', '--use-angle=gl-egl', '--ignore-gpu-blocklist', '--disable-quic', '--no-first-run',
-      '--disable-background-networking', '--disable-component-update', '--disable-sync', '--hide-scrollbars',
+      '--no-sandbox',
+      '--use-angle=gl-egl',
+      '--ignore-gpu-blocklist',
+      '--disable-quic',
+      '--no-first-run',
+      '--disable-background-networking',
+      '--disable-component-update',
+      '--disable-sync',
+      '--hide-scrollbars',
     ],
   });
 }
@@ -69,7 +78,8 @@ export async function openPage(browser, url, options = {}) {
   const page = await context.newPage();
   const complaints = [];
   page.on('console', (m) => {
-    if (m.type() === 'error' || (m.type() === 'warning' && !/GPU stall|GL Driver/.test(m.text()))) complaints.push(m.text());
+    if (m.type() === 'error' || (m.type() === 'warning' && !/GPU stall|GL Driver/.test(m.text())))
+      complaints.push(m.text());
   });
   page.on('pageerror', (e) => complaints.push(String(e)));
   await page.goto(url);
@@ -77,20 +87,29 @@ export async function openPage(browser, url, options = {}) {
 }
 
 /** How often the view has drawn something new. */
-export const drawn = (page) => page.locator('canvas').first().getAttribute('data-drawn').then(Number);
+export const drawn = (page) =>
+  page.locator('canvas').first().getAttribute('data-drawn').then(Number);
 
 export async function untilDrawn(page, before) {
-  await page.waitForFunction((n) => Number(document.querySelector('canvas')?.dataset.drawn ?? 0) > n, before, { timeout: 60_000 });
+  await page.waitForFunction(
+    (n) => Number(document.querySelector('canvas')?.dataset.drawn ?? 0) > n,
+    before,
+    { timeout: 60_000 },
+  );
 }
 
 export const clean = (folder) => rmSync(dirname(folder), { recursive: true, force: true });
 
 /** Waits until the view is as good as it gets, where there is one. */
 export async function untilRefined(page, timeout = 60_000) {
-  await page.waitForFunction(() => {
-    const canvas = document.querySelector('.stage canvas');
-    return !canvas || canvas.dataset.refined === canvas.dataset.drawn;
-  }, null, { timeout });
+  await page.waitForFunction(
+    () => {
+      const canvas = document.querySelector('.stage canvas');
+      return !canvas || canvas.dataset.refined === canvas.dataset.drawn;
+    },
+    null,
+    { timeout },
+  );
 }
 
 export const status = (page) => page.locator('.status').innerText();
@@ -134,8 +153,8 @@ Roof -->
 `;
 
 /**
- * A picture of the view as it is now. A locator's own screenshot waits until its element stands still,
- * which takes a busy machine longer than it should.
+ * A picture of the view as it is now. A locator's own screenshot waits until its element stands
+ * still, which takes a busy machine longer than it should.
  */
 export async function viewPixels(page, canvas = 'canvas') {
   return page.screenshot({ clip: await page.locator(canvas).first().boundingBox() });

@@ -11,12 +11,17 @@ import { asText, form, palette, text, toast } from '../hands.mjs';
 import { caretBehind, code, drawn, openPage, ready, untilDrawn } from '../studio.mjs';
 
 export default {
-  /** Two pages have changed the same line: both are shown, and one side of each difference is taken. */
+  /**
+   * Two pages have changed the same line: both are shown, and one side of each difference is taken.
+   */
   async aConflictIsComparedLineByLine({ page, server, folder, pictured }) {
     await ready(page);
     const other = await openPage(page.context().browser(), server.url);
     await ready(other.page);
-    for (const [p, more] of [[page, '.5'], [other.page, '.25']]) {
+    for (const [p, more] of [
+      [page, '.5'],
+      [other.page, '.25'],
+    ]) {
       await caretBehind(p, 'attr height = 9');
       await p.keyboard.type(more);
     }
@@ -41,7 +46,9 @@ export default {
     await ready(page);
     await caretBehind(page, 'side : Wa');
     await page.keyboard.press('F12');
-    await page.waitForFunction(() => /^Wall/.test(document.querySelector('.cm-activeLine')?.textContent ?? ''));
+    await page.waitForFunction(() =>
+      /^Wall/.test(document.querySelector('.cm-activeLine')?.textContent ?? ''),
+    );
     await page.keyboard.press('Shift+F12');
     await page.waitForSelector('.uses .prob');
     assert.equal(await page.locator('.uses .prob').count(), 2);
@@ -54,11 +61,17 @@ export default {
     await page.keyboard.press('Control+a');
     await page.keyboard.type('Facade');
     await page.keyboard.press('Enter');
-    await page.waitForFunction(() => /side : Facade/.test(document.querySelector('.cm-content')?.textContent ?? ''));
+    await page.waitForFunction(() =>
+      /side : Facade/.test(document.querySelector('.cm-content')?.textContent ?? ''),
+    );
     assert.match(await text(page), /\nFacade -->/);
-    await page.waitForFunction(() => /No problems/.test(document.querySelector('.status')?.textContent ?? ''));
+    await page.waitForFunction(() =>
+      /No problems/.test(document.querySelector('.status')?.textContent ?? ''),
+    );
     await page.keyboard.press('Control+z');
-    await page.waitForFunction(() => /side : Wall/.test(document.querySelector('.cm-content')?.textContent ?? ''));
+    await page.waitForFunction(() =>
+      /side : Wall/.test(document.querySelector('.cm-content')?.textContent ?? ''),
+    );
     assert.match(await text(page), /\nWall -->/);
   },
 
@@ -72,15 +85,21 @@ export default {
     await page.waitForFunction(() => document.querySelector('#attr-paint')?.value === 'red');
     assert.match(await toast(page), /Undid: paint/);
     await page.getByRole('button', { name: 'Undo', exact: true }).first().click();
-    await page.waitForFunction(() => /height = 9\n?@/.test(document.querySelector('.cm-content')?.textContent ?? ''));
+    await page.waitForFunction(() =>
+      /height = 9\n?@/.test(document.querySelector('.cm-content')?.textContent ?? ''),
+    );
     await page.getByRole('button', { name: 'Redo', exact: true }).click();
-    await page.waitForFunction(() => /height = 95/.test(document.querySelector('.cm-content')?.textContent ?? ''));
+    await page.waitForFunction(() =>
+      /height = 95/.test(document.querySelector('.cm-content')?.textContent ?? ''),
+    );
     await page.waitForTimeout(800);
     // Kept beside the project: another page can undo what this one did.
     const second = await openPage(page.context().browser(), server.url);
     await ready(second.page);
     await second.page.getByRole('button', { name: 'Undo', exact: true }).first().click();
-    await second.page.waitForFunction(() => /height = 9@|height = 9$/m.test(document.querySelector('.cm-content')?.textContent ?? ''));
+    await second.page.waitForFunction(() =>
+      /height = 9@|height = 9$/m.test(document.querySelector('.cm-content')?.textContent ?? ''),
+    );
     await second.context.close();
   },
 
@@ -92,19 +111,30 @@ export default {
     await page.keyboard.type('ed');
     await page.waitForSelector('.cm-lintRange');
     await page.keyboard.press('Control+.');
-    await page.waitForFunction(() => /extrude\(height\)/.test(document.querySelector('.cm-content')?.textContent ?? ''));
-    await page.waitForFunction(() => /No problems/.test(document.querySelector('.status')?.textContent ?? ''));
+    await page.waitForFunction(() =>
+      /extrude\(height\)/.test(document.querySelector('.cm-content')?.textContent ?? ''),
+    );
+    await page.waitForFunction(() =>
+      /No problems/.test(document.querySelector('.status')?.textContent ?? ''),
+    );
   },
 
   async thePaletteRunsAndSets({ page }) {
     await ready(page);
     await palette(page, 'wal');
-    assert.match(await page.locator('.pal').innerText(), /Rules[\s\S]*Wall[\s\S]*journey\.cga:11 · 4 shapes/);
+    assert.match(
+      await page.locator('.pal').innerText(),
+      /Rules[\s\S]*Wall[\s\S]*journey\.cga:11 · 4 shapes/,
+    );
     await page.keyboard.press('Control+Enter');
-    await page.waitForFunction(() => /Wall/.test(document.querySelector('.tr.on')?.textContent ?? ''));
+    await page.waitForFunction(() =>
+      /Wall/.test(document.querySelector('.tr.on')?.textContent ?? ''),
+    );
     await palette(page, '=hei 14/2');
     await page.keyboard.press('Enter');
-    await page.waitForFunction(() => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === '7');
+    await page.waitForFunction(
+      () => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === '7',
+    );
     await palette(page, '>light');
     await page.keyboard.press('Enter');
     assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), 'light');
@@ -129,8 +159,8 @@ export default {
     await page.locator('.rule-list .tr', { hasText: 'Lot' }).click();
     await asText(page);
     const after = await text(page);
-    assert.match(after, /extrude\(height \* 2\)\n    comp\(f\) { front : Wall \| top : Roof }/);
-    assert.match(after, /Roof -->\n    50% : color\("#7c8085"\)\n    Slab\. else : NIL/);
+    assert.match(after, /extrude\(height \* 2\)\n {4}comp\(f\) { front : Wall \| top : Roof }/);
+    assert.match(after, /Roof -->\n {4}50% : color\("#7c8085"\)\n {4}Slab\. else : NIL/);
     await form(page);
   },
 
@@ -141,10 +171,20 @@ export default {
     await page.keyboard.press('Enter');
     await page.locator('#attr-paint').selectOption('blue');
     await page.getByRole('button', { name: 'write to rules' }).click();
-    await page.waitForFunction(() => /attr height = 17[\s\S]*attr paint = "blue"/.test(document.querySelector('.cm-content')?.textContent ?? ''));
-    await page.waitForFunction(() => !/changed/.test(document.querySelector('.sec h3')?.textContent ?? ''));
+    await page.waitForFunction(() =>
+      /attr height = 17[\s\S]*attr paint = "blue"/.test(
+        document.querySelector('.cm-content')?.textContent ?? '',
+      ),
+    );
+    await page.waitForFunction(
+      () => !/changed/.test(document.querySelector('.sec h3')?.textContent ?? ''),
+    );
     await page.getByRole('button', { name: 'Undo', exact: true }).first().click();
-    await page.waitForFunction(() => /attr height = 9/.test(document.querySelector('.cm-content')?.textContent ?? ''));
-    await page.waitForFunction(() => /2 changed/.test(document.querySelector('.sec h3')?.textContent ?? ''));
+    await page.waitForFunction(() =>
+      /attr height = 9/.test(document.querySelector('.cm-content')?.textContent ?? ''),
+    );
+    await page.waitForFunction(() =>
+      /2 changed/.test(document.querySelector('.sec h3')?.textContent ?? ''),
+    );
   },
 };

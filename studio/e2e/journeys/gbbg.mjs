@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// GBBG by hand, as its own editor did it: each journey writes or changes a small grammar, most of it in the
-// form, and reads the shapes that come of it. Journeys are named after the rows of the acceptance table.
+// GBBG by hand, as its own editor did it: each journey writes or changes a small grammar, most of
+// it in the form, and reads the shapes that come of it. Journeys are named after the rows of the
+// acceptance table.
 
 import assert from 'node:assert/strict';
 import { mkdirSync, writeFileSync } from 'node:fs';
@@ -20,7 +21,14 @@ async function open({ page, folder }, rules) {
 async function counts(page) {
   await page.keyboard.press('Control+k');
   await page.getByRole('combobox', { name: 'Search or run' }).fill('#');
-  const lines = await page.locator('.pal-list [role=option]').evaluateAll((all) => all.map((o) => [o.querySelector('b').textContent, Number(o.querySelector('.faint').textContent.replace(/\D/g, '') || 1)]));
+  const lines = await page
+    .locator('.pal-list [role=option]')
+    .evaluateAll((all) =>
+      all.map((o) => [
+        o.querySelector('b').textContent,
+        Number(o.querySelector('.faint').textContent.replace(/\D/g, '') || 1),
+      ]),
+    );
   await page.keyboard.press('Escape');
   await page.waitForSelector('.pal', { state: 'detached' });
   return Object.fromEntries(lines);
@@ -48,17 +56,25 @@ const countOf = async (page, ...names) => {
 
 /** Selects the first shape of a name and opens what is known of it. */
 async function select(page, name) {
-  await becomes(async () => ((await countOf(page, name))[0] > 0), true, name);
+  await becomes(async () => (await countOf(page, name))[0] > 0, true, name);
   await page.keyboard.press('Control+k');
   await page.getByRole('combobox', { name: 'Search or run' }).fill(`#${name}`);
-  await page.locator('.pal-list [role=option]').filter({ has: page.locator('b', { hasText: new RegExp(`^${name}$`) }) }).first().click();
+  await page
+    .locator('.pal-list [role=option]')
+    .filter({ has: page.locator('b', { hasText: new RegExp(`^${name}$`) }) })
+    .first()
+    .click();
   await page.getByRole('tab', { name: 'Shape' }).click();
 }
 
 const triple = (page, label) =>
   page.evaluate((l) => {
-    const row = [...document.querySelectorAll('aside .fld')].find((f) => f.querySelector('.label')?.textContent === l);
-    return row ? [...row.querySelectorAll('.xyz .num')].map((n) => Number(n.textContent.replace(/\s/g, ''))) : [];
+    const row = [...document.querySelectorAll('aside .fld')].find(
+      (f) => f.querySelector('.label')?.textContent === l,
+    );
+    return row
+      ? [...row.querySelectorAll('.xyz .num')].map((n) => Number(n.textContent.replace(/\s/g, '')))
+      : [];
   }, label);
 async function size(page, name, wanted) {
   await select(page, name);
@@ -80,7 +96,9 @@ async function number(page, label, value) {
 const button = (page, name) => page.getByRole('button', { name, exact: true }).click();
 /** Opens the list of problems once there are any. */
 async function openProblems(page) {
-  await page.waitForFunction(() => /warning|error/.test(document.querySelector('.status')?.textContent ?? ''));
+  await page.waitForFunction(() =>
+    /warning|error/.test(document.querySelector('.status')?.textContent ?? ''),
+  );
   for (let i = 0; i < 5 && !(await page.locator('.prob').count()); ++i) {
     await page.keyboard.press('Control+j');
     await page.waitForTimeout(500);
@@ -91,7 +109,10 @@ const problems = (page) => page.locator('.problems').innerText();
 export default {
   async G1_scopesHaveTheirRootAtTheLeastCorner(at) {
     const { page } = at;
-    await open(at, 'axiom START at (1, 2, 3) size (4, 5, 6)\nterminal Box\nSTART -> Scope() {Box}\n');
+    await open(
+      at,
+      'axiom START at (1, 2, 3) size (4, 5, 6)\nterminal Box\nSTART -> Scope() {Box}\n',
+    );
     await size(page, 'Box', [4, 5, 6]);
     const before = await place(page);
     assert.deepEqual(before.slice(0, 2), [1, 2]);
@@ -104,26 +125,38 @@ export default {
 
   async G2_terminalsStayAndPreferTheirSize(at) {
     const { page } = at;
-    await open(at, 'axiom START size (12, 3, 3)\nterminal Wall [3, 0, 0]\nterminal Brick\nSTART -> Repeat(X) {Wall}\nWall -> Repeat(X) {Brick}\n');
+    await open(
+      at,
+      'axiom START size (12, 3, 3)\nterminal Wall [3, 0, 0]\nterminal Brick\nSTART -> Repeat(X) {Wall}\nWall -> Repeat(X) {Brick}\n',
+    );
     await becomes(() => countOf(page, 'Wall', 'Brick'), [4, 0]);
     await caretBehind(page, 'Wall [3');
     await page.keyboard.press('Backspace');
     await page.keyboard.type('2');
     await becomes(() => countOf(page, 'Wall', 'Brick'), [6, 0]);
     await openProblems(page);
-    await page.waitForFunction(() => /Wall/.test(document.querySelector('.problems')?.innerText ?? ''));
+    await page.waitForFunction(() =>
+      /Wall/.test(document.querySelector('.problems')?.innerText ?? ''),
+    );
   },
 
   async G3_chancesAreShares(at) {
     const { page } = at;
-    await open(at, 'axiom START size (300, 3, 3)\nterminal One [1, 0, 0], Two [1, 0, 0]\nSTART -> Repeat(X) {One}\n');
+    await open(
+      at,
+      'axiom START size (300, 3, 3)\nterminal One [1, 0, 0], Two [1, 0, 0]\nSTART -> Repeat(X) {One}\n',
+    );
     await becomes(() => countOf(page, 'One', 'Two'), [300, 0]);
     await inForm(page, 'START');
     await page.getByRole('button', { name: 'Add a possibility for successor' }).click();
     await page.getByLabel('Successor successor 2').fill('Two');
     await page.getByLabel('Successor successor 2').press('Enter');
     await number(page, 'Chance of Two', 2);
-    await page.waitForFunction(() => /33 %/.test(document.querySelector('.form')?.innerText ?? '') && /67 %/.test(document.querySelector('.form').innerText));
+    await page.waitForFunction(
+      () =>
+        /33 %/.test(document.querySelector('.form')?.innerText ?? '') &&
+        /67 %/.test(document.querySelector('.form').innerText),
+    );
     // Of 300 draws a third, and the same ones each time.
     await becomes(async () => {
       const [one, two] = await countOf(page, 'One', 'Two');
@@ -148,28 +181,42 @@ export default {
     await number(page, 'Resize X', 1);
     await number(page, 'Resize Z', 2);
     await becomes(() => triple(page, 'Size'), [5, 8, 8]);
-    await page.getByRole('group', { name: 'Resize: space' }).getByRole('button', { name: 'Relative' }).click();
+    await page
+      .getByRole('group', { name: 'Resize: space' })
+      .getByRole('button', { name: 'Relative' })
+      .click();
     await becomes(() => triple(page, 'Size'), [4, 15, 12]);
-    await page.getByRole('group', { name: 'Resize: add or set' }).getByRole('button', { name: 'Set' }).click();
+    await page
+      .getByRole('group', { name: 'Resize: add or set' })
+      .getByRole('button', { name: 'Set' })
+      .click();
     await number(page, 'Resize Z', -1);
     await becomes(() => triple(page, 'Size'), [1, 3, 6]);
     await page.getByRole('switch', { name: 'Turn' }).click();
     await number(page, 'Turn Y', 90);
     await asText(page);
-    await page.waitForFunction(() => /R\(0, 90, 0, Add, Local\)/.test(document.querySelector('.cm-content')?.textContent ?? ''));
+    await page.waitForFunction(() =>
+      /R\(0, 90, 0, Add, Local\)/.test(document.querySelector('.cm-content')?.textContent ?? ''),
+    );
     await becomes(() => triple(page, 'Size'), [1, 3, 6]);
   },
 
   async G5_dimensionsComeAndGoWithSizes(at) {
     const { page } = at;
-    await open(at, 'axiom START size (4, 5, 6)\nshape Flat 2D\nterminal Box\nSTART -> Scope(S(4, 5, 0, Set)) {Flat}\nFlat -> Scope(S(-1, 7, 2, Set)) {Box}\n');
+    await open(
+      at,
+      'axiom START size (4, 5, 6)\nshape Flat 2D\nterminal Box\nSTART -> Scope(S(4, 5, 0, Set)) {Flat}\nFlat -> Scope(S(-1, 7, 2, Set)) {Box}\n',
+    );
     await size(page, 'Flat', [4, 5, 0]);
     await size(page, 'Box', [4, 7, 2]);
   },
 
   async G6_splitsAreCountedFromOrToTheRoot(at) {
     const { page } = at;
-    await open(at, 'axiom START size (30, 3, 3)\nterminal A, B\nSTART -> Split(X, {7}, FromRoot) {A | B}\n');
+    await open(
+      at,
+      'axiom START size (30, 3, 3)\nterminal A, B\nSTART -> Split(X, {7}, FromRoot) {A | B}\n',
+    );
     await size(page, 'B', [23, 3, 3]);
     await size(page, 'A', [7, 3, 3]);
     const first = (await place(page))[0];
@@ -181,7 +228,10 @@ export default {
 
   async G7_whatDoesNotFitIsCutAndTold(at) {
     const { page } = at;
-    await open(at, 'axiom START size (30, 3, 3)\nterminal A, B, C\nSTART -> Split(X, {20}, FromRoot) {A | B}\n');
+    await open(
+      at,
+      'axiom START size (30, 3, 3)\nterminal A, B, C\nSTART -> Split(X, {20}, FromRoot) {A | B}\n',
+    );
     await inForm(page, 'START');
     await button(page, 'Piece');
     await number(page, 'Width 2', 20);
@@ -196,7 +246,10 @@ export default {
 
   async G8_repeatsAreEqualAndRounded(at) {
     const { page } = at;
-    await open(at, 'axiom START size (30, 3, 3)\nterminal Tile [4, 0, 0]\nSTART -> Repeat(X) {Tile}\n');
+    await open(
+      at,
+      'axiom START size (30, 3, 3)\nterminal Tile [4, 0, 0]\nSTART -> Repeat(X) {Tile}\n',
+    );
     await becomes(() => countOf(page, 'Tile'), [8]);
     await size(page, 'Tile', [3.75, 3, 3]);
     await caretBehind(page, 'size (30');
@@ -208,7 +261,10 @@ export default {
 
   async G9_gridsDivideTwoAxes(at) {
     const { page } = at;
-    await open(at, 'axiom START size (23, 3, 23)\nterminal Tile [4, 4, 4]\nSTART -> Grid(Y) {Tile}\n');
+    await open(
+      at,
+      'axiom START size (23, 3, 23)\nterminal Tile [4, 4, 4]\nSTART -> Grid(Y) {Tile}\n',
+    );
     await becomes(() => countOf(page, 'Tile'), [36]);
     await inForm(page, 'START');
     await page.getByRole('group', { name: 'Axis' }).getByRole('button', { name: 'X' }).click();
@@ -218,7 +274,10 @@ export default {
 
   async G10_marginsHaveCornersEdgesAndACentre(at) {
     const { page } = at;
-    await open(at, 'axiom START size (10, 3, 10)\nterminal Corner [3, 0, 3], Edge, Middle\nSTART -> Margin(Y, Absolute, 2, Default, Center) {Corner | Edge | Middle}\n');
+    await open(
+      at,
+      'axiom START size (10, 3, 10)\nterminal Corner [3, 0, 3], Edge, Middle\nSTART -> Margin(Y, Absolute, 2, Default, Center) {Corner | Edge | Middle}\n',
+    );
     await becomes(() => countOf(page, 'Corner', 'Edge', 'Middle'), [4, 4, 1]);
     await size(page, 'Middle', [6, 3, 6]);
     await inForm(page, 'START');
@@ -234,7 +293,10 @@ export default {
 
   async G11_edgesFaceOutward(at) {
     const { page } = at;
-    await open(at, 'axiom START size (12, 3, 10)\nterminal Corner, Edge, Piece [1, 0, 0]\nSTART -> Margin(Y, Absolute, 2, Default, NoCenter) {Corner | Side}\nSide -> Repeat(X) {Piece}\n');
+    await open(
+      at,
+      'axiom START size (12, 3, 10)\nterminal Corner, Edge, Piece [1, 0, 0]\nSTART -> Margin(Y, Absolute, 2, Default, NoCenter) {Corner | Side}\nSide -> Repeat(X) {Piece}\n',
+    );
     // Two edges of 8 m along x and two of 2 m.
     await becomes(() => countOf(page, 'Piece'), [20]);
     await inForm(page, 'START');
@@ -245,11 +307,18 @@ export default {
 
   async G12_componentsAreFacesByMode(at) {
     const { page } = at;
-    await open(at, 'axiom START size (4, 5, 6)\nterminal Side 2D, Top 2D, Bottom 2D\nSTART -> Component(Y, AllFaces) {Side | Top | Bottom}\n');
+    await open(
+      at,
+      'axiom START size (4, 5, 6)\nterminal Side 2D, Top 2D, Bottom 2D\nSTART -> Component(Y, AllFaces) {Side | Top | Bottom}\n',
+    );
     await becomes(() => countOf(page, 'Side', 'Top', 'Bottom'), [4, 1, 1]);
     await size(page, 'Top', [4, 6, 0]);
     await inForm(page, 'START');
-    for (const [mode, found] of [['Sides', [4, 0, 0]], ['SidesPlusTop', [4, 1, 0]], ['Top', [0, 1, 0]]]) {
+    for (const [mode, found] of [
+      ['Sides', [4, 0, 0]],
+      ['SidesPlusTop', [4, 1, 0]],
+      ['Top', [0, 1, 0]],
+    ]) {
       await page.locator('#gbbg-faces').selectOption(mode);
       if (mode === 'SidesPlusTop') {
         await page.getByLabel('Successor top 1').fill('Top');
@@ -265,7 +334,10 @@ export default {
 
   async G13_theFirstRuleThatFitsCounts(at) {
     const { page } = at;
-    await open(at, 'axiom START size (4, 5, 6)\nterminal A, B\nSTART -> Scope() {A}\nSTART -> Scope() {B}\n');
+    await open(
+      at,
+      'axiom START size (4, 5, 6)\nterminal A, B\nSTART -> Scope() {A}\nSTART -> Scope() {B}\n',
+    );
     await becomes(() => countOf(page, 'A', 'B'), [1, 0]);
     await caretBehind(page, 'terminal A, B');
     await page.keyboard.press('Enter');
@@ -293,7 +365,11 @@ export default {
     await caretBehind(page, '{Nobody}');
     await page.keyboard.press('Enter');
     await page.keyboard.type('Nobody -> Scope(T(1, 0, 0)) {Nobody}');
-    await page.waitForFunction(() => /limit/i.test(document.querySelector('.status')?.textContent ?? ''), null, { timeout: 120_000 });
+    await page.waitForFunction(
+      () => /limit/i.test(document.querySelector('.status')?.textContent ?? ''),
+      null,
+      { timeout: 120_000 },
+    );
     await becomes(async () => /Nobody/.test(await problems(page)), true);
   },
 
@@ -301,20 +377,39 @@ export default {
     const { page, folder } = at;
     mkdirSync(join(folder, 'assets'));
     // A pyramid of five faces over a square metre.
-    writeFileSync(join(folder, 'assets/spike.obj'), 'v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 0.5 1 0.5\nf 1 2 3 4\nf 2 1 5\nf 3 2 5\nf 4 3 5\nf 1 4 5\n');
+    writeFileSync(
+      join(folder, 'assets/spike.obj'),
+      'v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 0.5 1 0.5\nf 1 2 3 4\nf 2 1 5\nf 3 2 5\nf 4 3 5\nf 1 4 5\n',
+    );
     await open(at, 'axiom START size (4, 5, 6)\nterminal Box\nSTART -> Scope() {Box}\n');
     await size(page, 'Box', [4, 5, 6]);
-    const faces = () => page.evaluate(() => [...document.querySelectorAll('aside .fld')].find((f) => f.querySelector('.label')?.textContent === 'faces')?.querySelector('.num')?.textContent);
+    const faces = () =>
+      page.evaluate(
+        () =>
+          [...document.querySelectorAll('aside .fld')]
+            .find((f) => f.querySelector('.label')?.textContent === 'faces')
+            ?.querySelector('.num')?.textContent,
+      );
     await becomes(faces, '6');
     await form(page);
-    await page.waitForFunction(() => [...document.querySelectorAll('[aria-label="Add an asset for"] option')].some((o) => o.value === 'Box'));
+    await page.waitForFunction(() =>
+      [...document.querySelectorAll('[aria-label="Add an asset for"] option')].some(
+        (o) => o.value === 'Box',
+      ),
+    );
     await page.getByLabel('Add an asset for').selectOption('Box');
     assert.match(await page.getByLabel('Asset of Box', { exact: true }).inputValue(), /spike\.obj/);
-    await becomes(async () => { await select(page, 'Box'); return faces(); }, '5');
+    await becomes(async () => {
+      await select(page, 'Box');
+      return faces();
+    }, '5');
     assert.deepEqual(await triple(page, 'Size'), [4, 5, 6]);
     await page.getByRole('tab', { name: 'Attributes' }).click();
     await page.getByRole('switch', { name: 'postProcess' }).click();
-    await becomes(async () => { await select(page, 'Box'); return faces(); }, '6');
+    await becomes(async () => {
+      await select(page, 'Box');
+      return faces();
+    }, '6');
   },
 
   async G18_anAxiomHasSeveralShapes(at) {
@@ -328,13 +423,23 @@ export default {
 
   async G19_stepsGoForwardsAndBackwards(at) {
     const { page } = at;
-    await open(at, 'axiom START size (8, 3, 3)\nterminal Brick [2, 0, 0]\nSTART -> Split(X, {4}, FromRoot) {Wall | Wall}\nWall -> Repeat(X) {Brick}\n');
+    await open(
+      at,
+      'axiom START size (8, 3, 3)\nterminal Brick [2, 0, 0]\nSTART -> Split(X, {4}, FromRoot) {Wall | Wall}\nWall -> Repeat(X) {Brick}\n',
+    );
     await becomes(() => countOf(page, 'Wall', 'Brick'), [2, 4]);
     await page.locator('.stage canvas').focus();
     await page.keyboard.press('g');
     await page.waitForSelector('.guide .lane');
-    const step = () => page.locator('.guide .step b').innerText().then((t) => Number(t.replace(/\D/g, '')));
-    const said = async () => [await page.locator('.guide .lane').getAttribute('aria-valuetext'), await page.locator('aside .scroll').innerText()];
+    const step = () =>
+      page
+        .locator('.guide .step b')
+        .innerText()
+        .then((t) => Number(t.replace(/\D/g, '')));
+    const said = async () => [
+      await page.locator('.guide .lane').getAttribute('aria-valuetext'),
+      await page.locator('aside .scroll').innerText(),
+    ];
     await page.getByRole('tab', { name: 'Shape' }).click();
     await page.locator('.stage canvas').focus();
     await page.keyboard.press('Home');

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Grammars of other notations. Journeys that begin with the name of an acceptance row prove that row.
+// Grammars of other notations. Journeys that begin with the name of an acceptance row prove that
+// row.
 
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
@@ -53,7 +54,12 @@ export default {
     await ready(page);
     await openByPalette(page, 'small.gbbg');
     await form(page);
-    assert.deepEqual(await page.locator('.rule-list .tr .chip').allInnerTexts(), ['Split', 'Repeat', 'Component', 'Repeat']);
+    assert.deepEqual(await page.locator('.rule-list .tr .chip').allInnerTexts(), [
+      'Split',
+      'Repeat',
+      'Component',
+      'Repeat',
+    ]);
     // Search, inspect.
     await page.getByLabel('Find a rule').fill('aca');
     assert.equal(await page.locator('.rule-list .tr').count(), 1);
@@ -69,10 +75,15 @@ export default {
     await page.locator('.rule-list .tr', { hasText: 'Floors' }).click();
     await page.locator('#rule-name').fill('Storeys');
     await page.locator('#rule-name').press('Enter');
-    await page.waitForFunction(() => [...document.querySelectorAll('.rule-list .tr')].some((r) => /Storeys/.test(r.textContent)));
+    await page.waitForFunction(() =>
+      [...document.querySelectorAll('.rule-list .tr')].some((r) => /Storeys/.test(r.textContent)),
+    );
     // New rule of a type; delete with undo; a shape.
     await page.getByRole('button', { name: 'New rule' }).click();
-    await page.getByRole('group', { name: 'Type of the new rule' }).getByRole('button', { name: 'Margin' }).click();
+    await page
+      .getByRole('group', { name: 'Type of the new rule' })
+      .getByRole('button', { name: 'Margin' })
+      .click();
     assert.equal(await page.locator('#gbbg-type').inputValue(), 'Margin');
     await page.getByRole('button', { name: 'Delete', exact: true }).click();
     assert.match(await toast(page), /Deleted Rule/);
@@ -86,7 +97,10 @@ export default {
     await page.locator('.toast').getByRole('button', { name: 'Undo' }).click();
     await asText(page);
     const after = await text(page);
-    assert.match(after, /Split\(Y, \{1\}, ToRoot\) \{Slab \| Storeys\}\nStoreys -> Repeat\(Y\) \{Floor\}/);
+    assert.match(
+      after,
+      /Split\(Y, \{1\}, ToRoot\) \{Slab \| Storeys\}\nStoreys -> Repeat\(Y\) \{Floor\}/,
+    );
     assert.match(after, /Facade_2 -> Repeat\(X\) \{Wall 1, Window 2\}/);
     assert.match(after, /shape Sill 2D/);
     assert.doesNotMatch(after, /Margin/);
@@ -96,7 +110,11 @@ export default {
   },
 
   async G21_wrongGrammarsAreTold({ page, folder }) {
-    writeFileSync(join(folder, 'wrong.gbbg'), SMALL_GBBG.replace('{Wall 1, Window 2}', '{Wall 0, Window 2}') + 'Nowhere -> Repeat(X) {Wall}\n');
+    writeFileSync(
+      join(folder, 'wrong.gbbg'),
+      SMALL_GBBG.replace('{Wall 1, Window 2}', '{Wall 0, Window 2}') +
+        'Nowhere -> Repeat(X) {Wall}\n',
+    );
     await ready(page);
     await openByPalette(page, 'wrong.gbbg');
     await page.keyboard.press('Control+j');
@@ -125,7 +143,10 @@ export default {
     await page.waitForSelector('.crumb .dirty');
     await page.keyboard.press('Control+s');
     await page.waitForSelector('.crumb .dirty', { state: 'detached' });
-    assert.match(readFileSync(join(folder, 'small.gbbg'), 'utf8'), /START -> Split\(Y, \{1\}, FromRoot\)/);
+    assert.match(
+      readFileSync(join(folder, 'small.gbbg'), 'utf8'),
+      /START -> Split\(Y, \{1\}, FromRoot\)/,
+    );
     await page.getByRole('button', { name: 'Undo', exact: true }).first().click();
     await page.waitForSelector('.crumb .dirty');
     await page.keyboard.press('Control+s');
@@ -137,9 +158,17 @@ export default {
     writeFileSync(join(folder, 'test_building.gbbg'), TEST_BUILDING);
     await ready(page);
     await openByPalette(page, 'test_building.gbbg');
-    for (const [symbol, count] of [['FacadeSegment', 96], ['RoofTopSegment', 36], ['FootingEdgeSegment', 24], ['RoofEdgeSegment', 16]]) {
+    for (const [symbol, count] of [
+      ['FacadeSegment', 96],
+      ['RoofTopSegment', 36],
+      ['FootingEdgeSegment', 24],
+      ['RoofEdgeSegment', 16],
+    ]) {
       await palette(page, `#${symbol}`);
-      assert.match(await page.locator('.pal-list [role=option]').first().innerText(), new RegExp(`${symbol}\\s*${count} of them`));
+      assert.match(
+        await page.locator('.pal-list [role=option]').first().innerText(),
+        new RegExp(`${symbol}\\s*${count} of them`),
+      );
       await page.keyboard.press('Escape');
     }
     await palette(page, '#RoofEdgeSegment');
@@ -148,7 +177,10 @@ export default {
   },
 
   async P43_aParkIsEditedAndSeen({ page, folder, pictured }) {
-    writeFileSync(join(folder, 'square.park'), readFileSync(join(root, 'examples/park/square.park')));
+    writeFileSync(
+      join(folder, 'square.park'),
+      readFileSync(join(root, 'examples/park/square.park')),
+    );
     await ready(page);
     await openByPalette(page, 'square.park');
     const before = await viewPixels(page);
@@ -163,6 +195,9 @@ export default {
     await pictured();
     await page.getByText('Grid', { exact: true }).first().hover();
     await page.waitForSelector('.hover-card');
-    assert.match(await page.locator('.hover-card').innerText(), /Grid\(columns, rows\)[\s\S]*Done by grid/);
+    assert.match(
+      await page.locator('.hover-card').innerText(),
+      /Grid\(columns, rows\)[\s\S]*Done by grid/,
+    );
   },
 };

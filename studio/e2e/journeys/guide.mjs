@@ -6,9 +6,14 @@
 import assert from 'node:assert/strict';
 import { caretBehind, drawn, ready, untilDrawn, viewPixels } from '../studio.mjs';
 
-const stepOf = async (page) => Number((await page.locator('.guide .step b').innerText()).replace(/\D/g, ''));
+const stepOf = async (page) =>
+  Number((await page.locator('.guide .step b').innerText()).replace(/\D/g, ''));
 const untilStep = (page, n) =>
-  page.waitForFunction((want) => Number(document.querySelector('.guide .step b')?.textContent?.replace(/\D/g, '')) === want, n);
+  page.waitForFunction(
+    (want) =>
+      Number(document.querySelector('.guide .step b')?.textContent?.replace(/\D/g, '')) === want,
+    n,
+  );
 const picture = (page) => viewPixels(page, '.stage canvas');
 
 async function openGuide(page) {
@@ -17,7 +22,9 @@ async function openGuide(page) {
   await page.locator('.stage canvas').focus();
   await page.keyboard.press('g');
   await page.waitForSelector('.guide .lane');
-  await page.waitForFunction(() => / of 6/.test(document.querySelector('.guide .step')?.textContent ?? ''));
+  await page.waitForFunction(() =>
+    / of 6/.test(document.querySelector('.guide .step')?.textContent ?? ''),
+  );
   await untilDrawn(page, before);
 }
 
@@ -27,7 +34,10 @@ async function playUpTo(page, shape) {
   await page.locator('.stage canvas').focus();
   await page.keyboard.press('Home');
   await page.keyboard.press('Space');
-  await page.waitForFunction((name) => document.querySelector('.tr.on')?.textContent?.includes(name), shape);
+  await page.waitForFunction(
+    (name) => document.querySelector('.tr.on')?.textContent?.includes(name),
+    shape,
+  );
   await page.waitForSelector('button[aria-label=Play]');
 }
 
@@ -41,7 +51,8 @@ export default {
     await page.waitForSelector('.tr.later');
     await page.keyboard.press('.');
     await untilStep(page, 1);
-    // The lot is replaced by four walls and a roof: they show, the selection and the editor are at the lot.
+    // The lot is replaced by four walls and a roof: they show, the selection and the editor are at
+    // the lot.
     assert.match(await page.locator('.tr.on').innerText(), /Lot/);
     assert.match(await page.locator('.tag.replaced').innerText(), /replaced: Lot/);
     assert.match(await page.locator('.cm-hit').innerText(), /Lot -->/);
@@ -50,7 +61,10 @@ export default {
     assert.match(said, /Replaced in this step by 5 shapes/);
     assert.match(said, /What this step changed/);
     assert.match(said, /Wall\s+4/);
-    assert.match(said, /Lot became 5 shapes: 4 × Wall and Roof\. They are faces[^]*9 m along y instead of 0 m/);
+    assert.match(
+      said,
+      /Lot became 5 shapes: 4 × Wall and Roof\. They are faces[^]*9 m along y instead of 0 m/,
+    );
     assert.match(said, /Draws\s+None in this step[^]*Values seen\s+height\s+9/);
     const first = await picture(page);
     assert.ok(!whole.equals(first));
@@ -78,8 +92,12 @@ export default {
     await page.getByRole('tab', { name: 'Shape' }).click();
     await page.locator('.guide .lane').focus();
     const said = page.locator('aside .scroll');
-    for (let step = 0; step < 6 && !/gives/.test(await said.innerText()); ++step) await page.keyboard.press('ArrowLeft');
-    assert.match(await said.innerText(), /What this step changed[^]*Draws\s+seed 0\s+0\.\d{3} gives (the alternative, 30|else, 70) %/);
+    for (let step = 0; step < 6 && !/gives/.test(await said.innerText()); ++step)
+      await page.keyboard.press('ArrowLeft');
+    assert.match(
+      await said.innerText(),
+      /What this step changed[^]*Draws\s+seed 0\s+0\.\d{3} gives (the alternative, 30|else, 70) %/,
+    );
     await page.locator('.note').first().click();
     assert.match(await page.locator('.cm-content').innerText(), /30%/);
   },
@@ -129,7 +147,9 @@ export default {
     await caretBehind(page, '    extrude(height)');
     await page.keyboard.press('Enter');
     await page.keyboard.type('[ t(0, 20, 0) Roof ]');
-    await page.waitForFunction(() => / of 7/.test(document.querySelector('.guide .step')?.textContent ?? ''));
+    await page.waitForFunction(() =>
+      / of 7/.test(document.querySelector('.guide .step')?.textContent ?? ''),
+    );
     await untilStep(page, 4);
     assert.match(await page.locator('.tr.on').innerText(), /Wall/);
   },

@@ -12,7 +12,23 @@ const LOTS = JSON.stringify({
   type: 'FeatureCollection',
   features: ['west', 'middle', 'east'].map((id, i) => {
     const x = 7.42 + i * 0.0004;
-    return { type: 'Feature', id, properties: {}, geometry: { type: 'Polygon', coordinates: [[[x, 43.73], [x + 0.0002, 43.73], [x + 0.0002, 43.7302], [x, 43.7302], [x, 43.73]]] } };
+    return {
+      type: 'Feature',
+      id,
+      properties: {},
+      geometry: {
+        type: 'Polygon',
+        coordinates: [
+          [
+            [x, 43.73],
+            [x + 0.0002, 43.73],
+            [x + 0.0002, 43.7302],
+            [x, 43.7302],
+            [x, 43.73],
+          ],
+        ],
+      },
+    };
   }),
 });
 
@@ -20,13 +36,21 @@ export default {
   async aLotIsDrawn({ page }) {
     await ready(page);
     await page.keyboard.press('Escape');
-    await page.locator('canvas').first().click({ position: { x: 300, y: 600 } });
+    await page
+      .locator('canvas')
+      .first()
+      .click({ position: { x: 300, y: 600 } });
     await page.keyboard.press('l');
     await page.waitForSelector('.corner');
     assert.equal(await page.locator('.corner').count(), 4);
     const box = await page.locator('canvas').first().boundingBox();
     const at = (x, y) => [box.x + box.width * x, box.y + box.height * y];
-    for (const [x, y] of [[0.3, 0.75], [0.72, 0.75], [0.68, 0.45]]) await page.mouse.click(...at(x, y));
+    for (const [x, y] of [
+      [0.3, 0.75],
+      [0.72, 0.75],
+      [0.68, 0.45],
+    ])
+      await page.mouse.click(...at(x, y));
     await page.mouse.move(...at(0.35, 0.48));
     await page.waitForSelector('.dimtag');
     assert.match(await page.locator('.lot-help').innerText(), /3 corners, .* m²/);
@@ -44,24 +68,41 @@ export default {
 
   async shapesAreLoadedAndChosen({ page, folder }) {
     await ready(page);
-    await page.getByLabel('Load shapes from a file').setInputFiles({ name: 'some-lots.geojson', mimeType: 'application/json', buffer: Buffer.from(LOTS) });
-    await page.waitForFunction(() => document.querySelector('#shapes')?.value === 'some-lots.geojson');
+    await page.getByLabel('Load shapes from a file').setInputFiles({
+      name: 'some-lots.geojson',
+      mimeType: 'application/json',
+      buffer: Buffer.from(LOTS),
+    });
+    await page.waitForFunction(
+      () => document.querySelector('#shapes')?.value === 'some-lots.geojson',
+    );
     await page.waitForFunction(() => document.querySelectorAll('.tree .tr').length >= 3);
     assert.ok(existsSync(join(folder, 'some-lots.geojson')));
     await page.locator('.choose-shapes').click();
     await page.waitForSelector('.chooser polygon');
     assert.match(await page.locator('.shape-list').innerText(), /west[\s\S]*middle[\s\S]*east/);
     await page.getByLabel(/middle/).check();
-    await page.waitForFunction(() => /1 chosen/.test(document.querySelector('.choose-shapes')?.textContent ?? ''));
-    await page.waitForFunction(() => document.querySelectorAll('.tree .tr[aria-level="1"]').length === 1);
+    await page.waitForFunction(() =>
+      /1 chosen/.test(document.querySelector('.choose-shapes')?.textContent ?? ''),
+    );
+    await page.waitForFunction(
+      () => document.querySelectorAll('.tree .tr[aria-level="1"]').length === 1,
+    );
   },
 
   async aLotKeepsItsSeed({ page, folder }) {
     writeFileSync(join(folder, 'lots.geojson'), LOTS);
     await ready(page);
-    await page.waitForFunction(() => [...document.querySelectorAll('#shapes option')].some((o) => o.value === 'lots.geojson'), null, { timeout: 15_000 });
+    await page.waitForFunction(
+      () =>
+        [...document.querySelectorAll('#shapes option')].some((o) => o.value === 'lots.geojson'),
+      null,
+      { timeout: 15_000 },
+    );
     await page.locator('#shapes').selectOption('lots.geojson');
-    await page.waitForFunction(() => document.querySelectorAll('.tree .tr[aria-level="1"]').length === 3);
+    await page.waitForFunction(
+      () => document.querySelectorAll('.tree .tr[aria-level="1"]').length === 3,
+    );
     await page.locator('.tree .tr[aria-level="1"]').nth(1).click();
     await page.getByRole('button', { name: 'Pin the seed of the lot' }).click();
     await page.waitForSelector('[aria-label="Pin the seed of the lot"][aria-pressed=true]');

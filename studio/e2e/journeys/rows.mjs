@@ -6,7 +6,8 @@
 import assert from 'node:assert/strict';
 import { caretBehind, drawn, ready, status, untilDrawn, viewPixels } from '../studio.mjs';
 
-const shapesOf = async (page) => Number(/([\d\s\u2009\u202f]+) shapes/.exec(await status(page))[1].replace(/\D/g, ''));
+const shapesOf = async (page) =>
+  Number(/([\d\s\u2009\u202f]+) shapes/.exec(await status(page))[1].replace(/\D/g, ''));
 
 export default {
   /** A ProGen3d grammar: edit, run, view. */
@@ -14,7 +15,10 @@ export default {
     await ready(page);
     await page.keyboard.press('Alt+4');
     await page.waitForSelector('.gc');
-    await page.getByRole('button', { name: /Old town/ }).first().click();
+    await page
+      .getByRole('button', { name: /Old town/ })
+      .first()
+      .click();
     await page.waitForSelector('text=progen3d.grammar', { timeout: 60_000 });
     await ready(page);
     assert.match(await status(page), /ProGen3d/);
@@ -27,7 +31,9 @@ export default {
     await untilDrawn(page, count);
     await page.waitForFunction((n) => {
       const text = document.querySelector('.status')?.textContent ?? '';
-      return !/Deriving/.test(text) && Number(/([\d\s]+) shapes/.exec(text)?.[1].replace(/\D/g, '')) < n;
+      return (
+        !/Deriving/.test(text) && Number(/([\d\s]+) shapes/.exec(text)?.[1].replace(/\D/g, '')) < n
+      );
     }, before);
     assert.ok(!picture.equals(await viewPixels(page, '.stage canvas')));
   },

@@ -26,7 +26,9 @@ function colorAt(page, share) {
     copy.height = from.height;
     const g = copy.getContext('2d');
     g.drawImage(from, 0, 0);
-    return [...g.getImageData(Math.floor(from.width / 2), Math.floor((from.height - 1) * y), 1, 1).data];
+    return [
+      ...g.getImageData(Math.floor(from.width / 2), Math.floor((from.height - 1) * y), 1, 1).data,
+    ];
   }, share);
 }
 
@@ -55,7 +57,9 @@ export default {
     assert.match(await page.locator('.status').innerText(), /\d+ fps/);
   },
 
-  /** What changes is drawn at once, coarsely where that is slow; what stands still is drawn in full. */
+  /**
+   * What changes is drawn at once, coarsely where that is slow; what stands still is drawn in full.
+   */
   async aPictureIsRefinedWhenNothingMoves({ page }) {
     await ready(page);
     const canvas = page.locator('.stage canvas');
@@ -64,7 +68,12 @@ export default {
     await changes(page, 'turn', () => page.keyboard.press('ArrowLeft'));
     const first = await picture(page);
     await untilRefined(page, 240_000);
-    const pixels = await canvas.evaluate((c) => ({ width: c.width, height: c.height, wide: c.clientWidth, high: c.clientHeight }));
+    const pixels = await canvas.evaluate((c) => ({
+      width: c.width,
+      height: c.height,
+      wide: c.clientWidth,
+      high: c.clientHeight,
+    }));
     assert.ok(pixels.width >= pixels.wide && pixels.height >= pixels.high, JSON.stringify(pixels));
     assert.ok(!first.equals(await picture(page)), 'the first picture is finer later');
   },
@@ -83,7 +92,10 @@ export default {
     await changes(page, 'no scopes', () => page.keyboard.press('s'));
     const seed = await page.locator('#seed').getAttribute('aria-valuenow');
     await page.keyboard.press('r');
-    await page.waitForFunction((old) => document.querySelector('#seed')?.getAttribute('aria-valuenow') !== old, seed);
+    await page.waitForFunction(
+      (old) => document.querySelector('#seed')?.getAttribute('aria-valuenow') !== old,
+      seed,
+    );
   },
 
   async onePlaceIsWalkedAndFlown({ page, pictured }) {
@@ -91,7 +103,10 @@ export default {
     const canvas = page.locator('.stage canvas');
     await canvas.focus();
     await changes(page, 'walk', () => page.keyboard.press('3'));
-    assert.equal(await page.getByRole('radio', { name: 'walk' }).getAttribute('aria-checked'), 'true');
+    assert.equal(
+      await page.getByRole('radio', { name: 'walk' }).getAttribute('aria-checked'),
+      'true',
+    );
     // At eye height the horizon is in the middle: sky above, ground below.
     const [up, down] = [await colorAt(page, 0.1), await colorAt(page, 0.95)];
     assert.ok(up[2] > down[2] + 20, `${up} above ${down}`);
@@ -115,7 +130,9 @@ export default {
     await page.keyboard.down('Control');
     await page.mouse.click(box.x + box.width * 0.3, box.y + box.height * 0.68);
     await page.keyboard.up('Control');
-    await page.waitForFunction(() => /Material/.test(document.querySelector('aside .scroll')?.textContent ?? ''));
+    await page.waitForFunction(() =>
+      /Material/.test(document.querySelector('aside .scroll')?.textContent ?? ''),
+    );
     const said = await page.locator('aside .scroll').innerText();
     assert.match(said, /#b4674c/);
     assert.match(said, /journey\.cga:\d+/);
@@ -128,7 +145,8 @@ export default {
     await untilRefined(page, 240_000);
     const canvas = page.locator('.stage canvas');
     const box = await canvas.boundingBox();
-    // The nearest upright edge of the house is 9 m, whatever the camera: its ends are found by their snapping.
+    // The nearest upright edge of the house is 9 m, whatever the camera: its ends are found by
+    // their snapping.
     await canvas.focus();
     await page.keyboard.press('m');
     await page.waitForSelector('.lot-help');
@@ -140,7 +158,9 @@ export default {
     const found = [];
     for (let y = box.height * 0.1; y < box.height; y += 9) {
       if (!(await snaps(y))) continue;
-      const at = await page.locator('.cursor.hit').evaluate((c) => [c.cx.baseVal.value, c.cy.baseVal.value]);
+      const at = await page
+        .locator('.cursor.hit')
+        .evaluate((c) => [c.cx.baseVal.value, c.cy.baseVal.value]);
       if (!found.some((f) => Math.hypot(f[0] - at[0], f[1] - at[1]) < 3)) found.push(at);
     }
     assert.ok(found.length >= 2, `${found.length} corners`);

@@ -2,7 +2,19 @@
 // SPDX-FileCopyrightText: The Gable authors
 import { expect, it } from 'vitest';
 import type { DrawList } from '../lib/protocol';
-import { boundsOf, fitted, ninth, placed, placedList, resized, rotation, saveTrouble, snapped, type Preparation, type Triple } from './asset';
+import {
+  boundsOf,
+  fitted,
+  ninth,
+  placed,
+  placedList,
+  resized,
+  rotation,
+  saveTrouble,
+  snapped,
+  type Preparation,
+  type Triple,
+} from './asset';
 
 const plain: Preparation = { pivot: [0, 0, 0], size: [1, 1, 1], rotate: [0, 0, 0], zUp: false };
 const close = (a: Triple, b: Triple) => a.forEach((v, i) => expect(v).toBeCloseTo(b[i]!, 9));
@@ -37,7 +49,12 @@ it('turnsAsTheEngineDoes', () => {
 it('movesBatchesAndInstancesAlike', () => {
   const prep: Preparation = { ...plain, zUp: true, rotate: [0, 90, 0] };
   const merged = boundsOf(placedList(list([0, 0, 0, 1, 0, 0, 0, 0, 3]), prep));
-  const instanced = boundsOf(placedList(list([0, 0, 0, 1, 0, 0, 0, 0, 3], [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]), prep));
+  const instanced = boundsOf(
+    placedList(
+      list([0, 0, 0, 1, 0, 0, 0, 0, 3], [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]),
+      prep,
+    ),
+  );
   close(merged.max, instanced.max);
   close(merged.min, [0, 0, -1]);
   close(merged.max, [0, 3, 0]);

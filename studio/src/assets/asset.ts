@@ -28,11 +28,24 @@ const tidy = (v: number): number => Math.round(v * 1e6) / 1e6 + 0;
 /** Rows of a rotation about x, then y, then z. */
 export function rotation([x, y, z]: Triple): number[] {
   const [a, b, c] = [x, y, z].map((d) => (d * Math.PI) / 180) as Triple;
-  const [sa, ca, sb, cb, sc, cc] = [Math.sin(a), Math.cos(a), Math.sin(b), Math.cos(b), Math.sin(c), Math.cos(c)];
+  const [sa, ca, sb, cb, sc, cc] = [
+    Math.sin(a),
+    Math.cos(a),
+    Math.sin(b),
+    Math.cos(b),
+    Math.sin(c),
+    Math.cos(c),
+  ];
   return [
-    cb * cc, sa * sb * cc - ca * sc, ca * sb * cc + sa * sc,
-    cb * sc, sa * sb * sc + ca * cc, ca * sb * sc - sa * cc,
-    -sb, sa * cb, ca * cb,
+    cb * cc,
+    sa * sb * cc - ca * sc,
+    ca * sb * cc + sa * sc,
+    cb * sc,
+    sa * sb * sc + ca * cc,
+    ca * sb * sc - sa * cc,
+    -sb,
+    sa * cb,
+    ca * cb,
   ];
 }
 
@@ -62,10 +75,15 @@ export function placedList(list: DrawList, prep: Preparation): DrawList {
   return {
     ...list,
     batches: list.batches.map((b) => {
-      if (!b.matrix) return { ...b, position: turnAll(b.position, true), normal: turnAll(b.normal, false) };
+      if (!b.matrix)
+        return { ...b, position: turnAll(b.position, true), normal: turnAll(b.normal, false) };
       const matrix = new Float32Array(b.matrix.length);
       for (let k = 0; k < b.matrix.length; k += 16) {
-        const column = (c: number): Triple => [b.matrix![k + c * 4]!, b.matrix![k + c * 4 + 1]!, b.matrix![k + c * 4 + 2]!];
+        const column = (c: number): Triple => [
+          b.matrix![k + c * 4]!,
+          b.matrix![k + c * 4 + 1]!,
+          b.matrix![k + c * 4 + 2]!,
+        ];
         for (let c = 0; c < 3; ++c) {
           const v = column(c);
           matrix.set(turned(m, prep.zUp ? [v[0], v[2], -v[1]] : v), k + c * 4);
@@ -94,14 +112,22 @@ export function boundsOf(list: DrawList): Box {
       for (let i = 0; i < b.position.length; i += 3) {
         const [x, y, z] = [b.position[i]!, b.position[i + 1]!, b.position[i + 2]!];
         if (!m) add(x, y, z);
-        else add(m[0]! * x + m[4]! * y + m[8]! * z + m[12]!, m[1]! * x + m[5]! * y + m[9]! * z + m[13]!, m[2]! * x + m[6]! * y + m[10]! * z + m[14]!);
+        else
+          add(
+            m[0]! * x + m[4]! * y + m[8]! * z + m[12]!,
+            m[1]! * x + m[5]! * y + m[9]! * z + m[13]!,
+            m[2]! * x + m[6]! * y + m[10]! * z + m[14]!,
+          );
       }
     }
   }
   return box.min[0] <= box.max[0] ? box : { min: [0, 0, 0], max: [1, 1, 1] };
 }
 
-/** The size box that holds the model from the pivot on; what is flat gets a metre, as the engine does. */
+/**
+ * The size box that holds the model from the pivot on; what is flat gets a metre, as the engine
+ * does.
+ */
 export function fitted(box: Box, pivot: Triple): Triple {
   return box.max.map((v, i) => {
     const size = v - pivot[i]!;
@@ -122,11 +148,13 @@ export function resized(size: Triple, axis: number, length: number, ratio: boole
   return size.map((v, i) => (i === axis ? value : ratio ? tidy(v * factor) : v)) as Triple;
 }
 
-export const snapped = (v: number, step: number): number => (step > 0 ? tidy(Math.round(v / step) * step) : tidy(v));
+export const snapped = (v: number, step: number): number =>
+  step > 0 ? tidy(Math.round(v / step) * step) : tidy(v);
 
 /** What keeps a shape from being saved, or null. */
 export function saveTrouble(name: string, size: Triple): string | null {
   if (!name.trim()) return 'The shape needs a name.';
-  if (!/^[A-Za-z_][\w-]*$/.test(name)) return 'A name is letters, digits, - and _, and begins with no digit.';
+  if (!/^[A-Za-z_][\w-]*$/.test(name))
+    return 'A name is letters, digits, - and _, and begins with no digit.';
   return size.every((v) => v > 0 && Number.isFinite(v)) ? null : 'All three sizes are above zero.';
 }

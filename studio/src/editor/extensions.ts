@@ -3,10 +3,28 @@
 //
 // Completion, hover and marks of the editor.
 
-import { snippetCompletion, type Completion, type CompletionContext, type CompletionResult } from '@codemirror/autocomplete';
+import {
+  snippetCompletion,
+  type Completion,
+  type CompletionContext,
+  type CompletionResult,
+} from '@codemirror/autocomplete';
 import { forEachDiagnostic, type Diagnostic } from '@codemirror/lint';
-import { RangeSetBuilder, StateEffect, StateField, type EditorState, type Text } from '@codemirror/state';
-import { Decoration, EditorView, hoverTooltip, WidgetType, type DecorationSet, type Tooltip } from '@codemirror/view';
+import {
+  RangeSetBuilder,
+  StateEffect,
+  StateField,
+  type EditorState,
+  type Text,
+} from '@codemirror/state';
+import {
+  Decoration,
+  EditorView,
+  hoverTooltip,
+  WidgetType,
+  type DecorationSet,
+  type Tooltip,
+} from '@codemirror/view';
 import type { AttributeInfo, Message, RuleInfo } from '../lib/protocol';
 import type { Notation } from '../lib/notation';
 import type { Definition } from '../text/rules';
@@ -26,10 +44,21 @@ export function proposal(m: Message): string | null {
   return /did you mean '([^']+)'/i.exec(`${m.message} ${m.hint ?? ''}`)?.[1] ?? null;
 }
 
-const TYPES: Record<string, string> = { operation: 'function', function: 'method', attribute: 'property', selector: 'enum', annotation: 'keyword' };
+const TYPES: Record<string, string> = {
+  operation: 'function',
+  function: 'method',
+  attribute: 'property',
+  selector: 'enum',
+  annotation: 'keyword',
+};
 
 function wordCompletion(word: Word): Completion {
-  const base = { label: word.name, type: TYPES[word.kind] ?? 'text', detail: word.kind, info: word.text };
+  const base = {
+    label: word.name,
+    type: TYPES[word.kind] ?? 'text',
+    detail: word.kind,
+    info: word.text,
+  };
   return word.snippet ? snippetCompletion(word.snippet, base) : base;
 }
 
@@ -37,7 +66,10 @@ function wordCompletion(word: Word): Completion {
 function inQuietText(context: CompletionContext): boolean {
   const line = context.state.doc.lineAt(context.pos);
   const before = line.text.slice(0, context.pos - line.from);
-  return (before.match(/"/g)?.length ?? 0) % 2 === 1 || /\/\/|(^|\s)#/.test(before.replace(/"[^"]*"/g, ''));
+  return (
+    (before.match(/"/g)?.length ?? 0) % 2 === 1 ||
+    /\/\/|(^|\s)#/.test(before.replace(/"[^"]*"/g, ''))
+  );
 }
 
 export function completions(known: () => Known) {
@@ -48,33 +80,57 @@ export function completions(known: () => Known) {
     const { words, defined, rules, attributes } = known();
     const names = new Map<string, Completion>();
     for (const w of words) names.set(w.name, wordCompletion(w));
-    for (const a of attributes) names.set(a.name, { label: a.name, type: 'variable', detail: a.type, boost: 2 });
-    for (const r of rules) names.set(r.name, { label: r.name, type: 'class', detail: 'rule', boost: 3 });
-    for (const d of defined) names.set(d.name, { label: d.name, type: d.kind === 'rule' ? 'class' : 'variable', detail: d.kind, boost: 3 });
-    return { from: word ? word.from : context.pos, options: [...names.values()], validFor: /^@?[\w.]*$/ };
+    for (const a of attributes)
+      names.set(a.name, { label: a.name, type: 'variable', detail: a.type, boost: 2 });
+    for (const r of rules)
+      names.set(r.name, { label: r.name, type: 'class', detail: 'rule', boost: 3 });
+    for (const d of defined)
+      names.set(d.name, {
+        label: d.name,
+        type: d.kind === 'rule' ? 'class' : 'variable',
+        detail: d.kind,
+        boost: 3,
+      });
+    return {
+      from: word ? word.from : context.pos,
+      options: [...names.values()],
+      validFor: /^@?[\w.]*$/,
+    };
   };
 }
 
-function wordAt(state: EditorState, pos: number): { from: number; to: number; text: string } | null {
+function wordAt(
+  state: EditorState,
+  pos: number,
+): { from: number; to: number; text: string } | null {
   const line = state.doc.lineAt(pos);
   for (const match of line.text.matchAll(/[A-Za-z_]\w*(?:\.\w+)*/g)) {
     const from = line.from + match.index;
-    if (from <= pos && pos <= from + match[0].length) return { from, to: from + match[0].length, text: match[0] };
+    if (from <= pos && pos <= from + match[0].length)
+      return { from, to: from + match[0].length, text: match[0] };
   }
   return null;
 }
 
 export function explain(known: () => Known) {
-  return hoverTooltip((view, pos): Tooltip | null => {
-    const word = wordAt(view.state, pos);
-    if (!word) return null;
-    const { words, defined, notation } = known();
-    const own = defined.find((d) => d.name === word.text);
-    const found = own ? definitionCard(view.state, own) : undefined;
-    const builtIn = found ? undefined : findWord(words, word.text, notation);
-    if (!found && !builtIn) return null;
-    return { pos: word.from, end: word.to, above: true, create: () => ({ dom: found ?? wordCard(builtIn!) }) };
-  }, { hoverTime: 350 });
+  return hoverTooltip(
+    (view, pos): Tooltip | null => {
+      const word = wordAt(view.state, pos);
+      if (!word) return null;
+      const { words, defined, notation } = known();
+      const own = defined.find((d) => d.name === word.text);
+      const found = own ? definitionCard(view.state, own) : undefined;
+      const builtIn = found ? undefined : findWord(words, word.text, notation);
+      if (!found && !builtIn) return null;
+      return {
+        pos: word.from,
+        end: word.to,
+        above: true,
+        create: () => ({ dom: found ?? wordCard(builtIn!) }),
+      };
+    },
+    { hoverTime: 350 },
+  );
 }
 
 function element(tag: string, className: string, text = ''): HTMLElement {
@@ -100,8 +156,16 @@ function wordCard(word: Word): HTMLElement {
 function definitionCard(state: EditorState, definition: Definition): HTMLElement {
   const card = element('div', 'hover-card');
   const lines = state.sliceDoc(definition.from, definition.to).split('\n');
-  card.append(element('code', 'lines', lines.slice(0, 6).join('\n') + (lines.length > 6 ? '\n…' : '')));
-  card.append(element('p', 'param', `${definition.kind}, line ${state.doc.lineAt(Math.min(definition.from, state.doc.length)).number}`));
+  card.append(
+    element('code', 'lines', lines.slice(0, 6).join('\n') + (lines.length > 6 ? '\n…' : '')),
+  );
+  card.append(
+    element(
+      'p',
+      'param',
+      `${definition.kind}, line ${state.doc.lineAt(Math.min(definition.from, state.doc.length)).number}`,
+    ),
+  );
   return card;
 }
 
@@ -121,7 +185,17 @@ export function diagnostics(doc: Text, file: string, messages: Message[]): Diagn
         to: Math.max(from + 1, to) > doc.length ? doc.length : Math.max(from + 1, to),
         severity: m.severity === 'note' ? ('info' as const) : m.severity,
         message: m.hint ? `${m.message}. ${m.hint}` : m.message,
-        ...(proposal(m) ? { actions: [{ name: `Write ${proposal(m)}  (Ctrl .)`, apply: (view: EditorView, a: number, b: number) => replace(view, a, b, proposal(m)!) }] } : {}),
+        ...(proposal(m)
+          ? {
+              actions: [
+                {
+                  name: `Write ${proposal(m)}  (Ctrl .)`,
+                  apply: (view: EditorView, a: number, b: number) =>
+                    replace(view, a, b, proposal(m)!),
+                },
+              ],
+            }
+          : {}),
       };
     })
     .sort((a, b) => a.from - b.from);
@@ -211,7 +285,10 @@ export const lenses = StateField.define<DecorationSet>({
   provide: (field) => EditorView.decorations.from(field),
 });
 
-/** The last line of the rule that begins at a line: up to the next blank line or beginning at its left. */
+/**
+ * The last line of the rule that begins at a line: up to the next blank line or beginning at its
+ * left.
+ */
 export function endOfRule(doc: Text, line: number): number {
   let end = line;
   for (let n = line + 1; n <= doc.lines; ++n) {
@@ -225,5 +302,7 @@ export function endOfRule(doc: Text, line: number): number {
 /** Where a rule of that name is written. */
 export function ruleAt(state: EditorState, pos: number, rules: RuleInfo[]): RuleInfo | undefined {
   const word = wordAt(state, pos);
-  return word ? rules.find((r) => r.name === word.text || r.name.endsWith(`.${word.text}`)) : undefined;
+  return word
+    ? rules.find((r) => r.name === word.text || r.name.endsWith(`.${word.text}`))
+    : undefined;
 }

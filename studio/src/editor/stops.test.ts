@@ -3,7 +3,13 @@
 import { expect, test } from 'vitest';
 import { linesOf, ruleOfLine } from './stops';
 
-const rule = (name: string, file: string, line: number) => ({ name, file, line, parameters: 0, start: false });
+const rule = (name: string, file: string, line: number) => ({
+  name,
+  file,
+  line,
+  parameters: 0,
+  start: false,
+});
 const rules = [rule('Lot', 'a.cga', 4), rule('Wall', 'a.cga', 9), rule('b.Roof', 'b.cga', 6)];
 
 test('a line belongs to the rule that begins there or above, in its own file', () => {

@@ -3,7 +3,13 @@
 //
 // Stops of the derivation guide beside the text: a dot at each rule where playing stops.
 
-import { RangeSet, RangeSetBuilder, StateEffect, StateField, type Extension } from '@codemirror/state';
+import {
+  RangeSet,
+  RangeSetBuilder,
+  StateEffect,
+  StateField,
+  type Extension,
+} from '@codemirror/state';
 import { gutter, GutterMarker } from '@codemirror/view';
 import type { RuleInfo } from '../lib/protocol';
 
@@ -56,16 +62,26 @@ export function stopGutter(toggle: (line: number) => void): Extension {
   ];
 }
 
-const inFile = (rule: RuleInfo, path: string) => path === rule.file || path.endsWith(`/${rule.file}`);
+const inFile = (rule: RuleInfo, path: string) =>
+  path === rule.file || path.endsWith(`/${rule.file}`);
 
 /** The rule that a line of a file belongs to: the last one that begins there or above. */
-export function ruleOfLine(rules: readonly RuleInfo[], path: string, line: number): RuleInfo | undefined {
+export function ruleOfLine(
+  rules: readonly RuleInfo[],
+  path: string,
+  line: number,
+): RuleInfo | undefined {
   let out: RuleInfo | undefined;
-  for (const rule of rules) if (inFile(rule, path) && rule.line <= line && rule.line >= (out?.line ?? 0)) out = rule;
+  for (const rule of rules)
+    if (inFile(rule, path) && rule.line <= line && rule.line >= (out?.line ?? 0)) out = rule;
   return out;
 }
 
 /** The lines of a file at which rules of some names begin. */
-export function linesOf(rules: readonly RuleInfo[], path: string, names: ReadonlySet<string>): number[] {
+export function linesOf(
+  rules: readonly RuleInfo[],
+  path: string,
+  names: ReadonlySet<string>,
+): number[] {
   return rules.filter((r) => names.has(r.name) && inFile(r, path)).map((r) => r.line);
 }

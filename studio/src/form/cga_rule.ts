@@ -82,7 +82,11 @@ class Reader {
   }
 
   private isChance(i: number): boolean {
-    return this.tokens[i]?.kind === 'number' && this.tokens[i + 1]?.text === '%' && this.tokens[i + 2]?.text === ':';
+    return (
+      this.tokens[i]?.kind === 'number' &&
+      this.tokens[i + 1]?.text === '%' &&
+      this.tokens[i + 2]?.text === ':'
+    );
   }
 
   body(first: number, end: number): Body {
@@ -97,13 +101,19 @@ class Reader {
       }
       if (chances && this.isChance(i)) starts.push({ at: i, kind: 'chance' });
       else if (t.text === 'case') {
-        if (!chances && (starts.length === 0 ? i === first : depth === 0)) starts.push({ at: i, kind: 'case' });
-      } else if (t.text === 'else' && starts.length && depth === 0) starts.push({ at: i, kind: 'else' });
+        if (!chances && (starts.length === 0 ? i === first : depth === 0))
+          starts.push({ at: i, kind: 'case' });
+      } else if (t.text === 'else' && starts.length && depth === 0)
+        starts.push({ at: i, kind: 'else' });
       // In a list of chances a case belongs to the branch that it stands in, with its else.
       if (chances && t.text === 'case') ++depth;
       if (chances && t.text === 'else' && depth > 0) --depth;
     }
-    if (!starts.length) return { ...this.span(first, end), branches: [this.branch('plain', first, first, first, end)] };
+    if (!starts.length)
+      return {
+        ...this.span(first, end),
+        branches: [this.branch('plain', first, first, first, end)],
+      };
     const branches = starts.map(({ at, kind }, i) => {
       const stop = starts[i + 1]?.at ?? end;
       const colon = this.find(':', at, stop);
@@ -113,7 +123,13 @@ class Reader {
     return { ...this.span(first, end), branches };
   }
 
-  private branch(kind: Branch['kind'], first: number, head: number, colon: number, end: number): Branch {
+  private branch(
+    kind: Branch['kind'],
+    first: number,
+    head: number,
+    colon: number,
+    end: number,
+  ): Branch {
     const isPlain = kind === 'plain';
     const headEnd = kind === 'chance' ? colon - 1 : colon;
     const from = isPlain ? first : Math.min(colon + 1, end);
@@ -129,7 +145,7 @@ class Reader {
 
   private items(first: number, end: number): Item[] {
     const out: Item[] = [];
-    for (let i = first; i < end; ) {
+    for (let i = first; i < end;) {
       const t = this.tokens[i]!;
       if (t.kind !== 'name') {
         out.push({ kind: 'mark', text: t.text, from: t.from, to: t.to });
@@ -149,7 +165,7 @@ class Reader {
     const blocks: Block[] = [];
     if (this.tokens[next]?.text === '(' && next < end) {
       const close = Math.min(closing(this.tokens, next), end - 1);
-      for (let i = next + 1; i < close; ) {
+      for (let i = next + 1; i < close;) {
         const comma = this.find(',', i, close);
         const field = this.field(i, comma);
         if (field) args.push(field);
@@ -164,20 +180,39 @@ class Reader {
       next = close + (repeated ? 2 : 1);
     }
     const name = this.tokens[at]!;
-    return { item: { kind: 'call', ...this.span(at, next), name: { from: name.from, to: name.to, text: name.text }, args, blocks }, next };
+    return {
+      item: {
+        kind: 'call',
+        ...this.span(at, next),
+        name: { from: name.from, to: name.to, text: name.text },
+        args,
+        blocks,
+      },
+      next,
+    };
   }
 
   private block(open: number, close: number, repeated: boolean): Block {
     const slots: Slot[] = [];
-    for (let i = open + 1; i < close; ) {
+    for (let i = open + 1; i < close;) {
       const bar = this.find('|', i, close);
       if (this.tokens[i]!.text === '{') {
         const inner = Math.min(closing(this.tokens, i), bar - 1);
-        slots.push({ ...this.span(i, bar), head: null, group: this.block(i, inner, this.tokens[inner + 1]?.text === '*'), body: null });
+        slots.push({
+          ...this.span(i, bar),
+          head: null,
+          group: this.block(i, inner, this.tokens[inner + 1]?.text === '*'),
+          body: null,
+        });
       } else {
         const colon = this.find(':', i, bar);
         const has = colon < bar;
-        slots.push({ ...this.span(i, bar), head: has ? this.field(i, colon) : null, group: null, body: this.body(has ? colon + 1 : i, bar) });
+        slots.push({
+          ...this.span(i, bar),
+          head: has ? this.field(i, colon) : null,
+          group: null,
+          body: this.body(has ? colon + 1 : i, bar),
+        });
       }
       i = bar + 1;
     }
@@ -187,7 +222,9 @@ class Reader {
 
 /** The body of a rule; offsets are those of the whole text. */
 export function parseBody(text: string, body: Span): Body {
-  const tokens = tokenize(text).filter((t) => t.kind !== 'comment' && t.from >= body.from && t.to <= body.to);
+  const tokens = tokenize(text).filter(
+    (t) => t.kind !== 'comment' && t.from >= body.from && t.to <= body.to,
+  );
   return new Reader(text, tokens).body(0, tokens.length);
 }
 
@@ -205,7 +242,12 @@ export function removeItem(text: string, item: Span): Change {
 
 /** Puts text behind an item, or at the beginning of a body that has none. */
 export function insertAfter(text: string, after: Span | null, body: Span, insert: string): Change {
-  if (!after) return { from: body.from, to: body.from, insert: text[body.from - 1] === ' ' ? `${insert} ` : ` ${insert}` };
+  if (!after)
+    return {
+      from: body.from,
+      to: body.from,
+      insert: text[body.from - 1] === ' ' ? `${insert} ` : ` ${insert}`,
+    };
   const line = text.lastIndexOf('\n', after.from - 1) + 1;
   const before = text.slice(line, after.from);
   const glue = before.trim() === '' ? `\n${before}` : ' ';
@@ -229,7 +271,11 @@ export function removeSlot(block: Block, index: number): Change {
 
 /** Half of the time this, half of the time nothing: what a choice begins with. */
 export function makeChoice(text: string, body: Span): Change {
-  return { from: body.from, to: body.to, insert: `50% : ${text.slice(body.from, body.to)} else : NIL` };
+  return {
+    from: body.from,
+    to: body.to,
+    insert: `50% : ${text.slice(body.from, body.to)} else : NIL`,
+  };
 }
 
 /** A further possibility, in front of the else. */

@@ -9,7 +9,15 @@ export const OPERATORS = ['Scope', 'Split', 'Repeat', 'Grid', 'Margin', 'Compone
 export type Operator = (typeof OPERATORS)[number];
 export const AXES = ['X', 'Y', 'Z'] as const;
 export const ORIENTATIONS = ['Default', 'FacingOut', 'FacingIn'] as const;
-export const FACES = ['AllFaces', 'Sides', 'Top', 'Bottom', 'SidesPlusTop', 'SidesPlusBottom', 'TopPlusBottom'] as const;
+export const FACES = [
+  'AllFaces',
+  'Sides',
+  'Top',
+  'Bottom',
+  'SidesPlusTop',
+  'SidesPlusBottom',
+  'TopPlusBottom',
+] as const;
 
 export interface Possibility {
   symbol: string;
@@ -46,9 +54,22 @@ export interface GbbgRule {
 
 export function newRule(predecessor: string, operator: Operator): GbbgRule {
   const rule: GbbgRule = {
-    title: '', predecessor, operator, axis: operator === 'Repeat' ? 'X' : 'Y',
-    translate: null, rotate: null, scale: null, points: [1], toRoot: false,
-    margin: 1, relative: false, orientation: 'Default', center: true, faces: 'Sides', slots: [], weight: 1,
+    title: '',
+    predecessor,
+    operator,
+    axis: operator === 'Repeat' ? 'X' : 'Y',
+    translate: null,
+    rotate: null,
+    scale: null,
+    points: [1],
+    toRoot: false,
+    margin: 1,
+    relative: false,
+    orientation: 'Default',
+    center: true,
+    faces: 'Sides',
+    slots: [],
+    weight: 1,
   };
   return fitSlots(rule);
 }
@@ -118,10 +139,23 @@ class Reader {
 
 function readChange(r: Reader): Change {
   r.expect('(');
-  const value: Change['value'] = [r.number(), (r.expect(','), r.number()), (r.expect(','), r.number())];
+  const value: Change['value'] = [
+    r.number(),
+    (r.expect(','), r.number()),
+    (r.expect(','), r.number()),
+  ];
   const out: Change = { value, set: false, other: false, on: true };
   while (r.take(',')) {
-    const word = r.word(['Add', 'Set', 'Local', 'World', 'Absolute', 'Relative', 'On', 'Off'] as const);
+    const word = r.word([
+      'Add',
+      'Set',
+      'Local',
+      'World',
+      'Absolute',
+      'Relative',
+      'On',
+      'Off',
+    ] as const);
     if (!word) throw new Error('a mode is missing');
     if (word === 'Set') out.set = true;
     if (word === 'World' || word === 'Relative') out.other = true;
@@ -157,8 +191,17 @@ function readParameters(r: Reader, rule: GbbgRule): void {
   } else if (rule.operator === 'Margin') {
     rule.margin = 0;
     while (r.take(',')) {
-      const word = r.word(['Absolute', 'Relative', 'Default', 'FacingOut', 'FacingIn', 'Center', 'NoCenter'] as const);
-      if (word === 'Default' || word === 'FacingOut' || word === 'FacingIn') rule.orientation = word;
+      const word = r.word([
+        'Absolute',
+        'Relative',
+        'Default',
+        'FacingOut',
+        'FacingIn',
+        'Center',
+        'NoCenter',
+      ] as const);
+      if (word === 'Default' || word === 'FacingOut' || word === 'FacingIn')
+        rule.orientation = word;
       else if (word === 'Center' || word === 'NoCenter') rule.center = word === 'Center';
       else if (word) rule.relative = word === 'Relative';
       else rule.margin = r.number();
@@ -179,7 +222,11 @@ function readSlots(r: Reader): Possibility[][] {
     do {
       const symbol = r.symbol();
       const next = r.tokens[r.at];
-      slot.push({ symbol, chance: next?.kind === 'number' || next?.text === '-' || next?.text === '+' ? r.number() : null });
+      slot.push({
+        symbol,
+        chance:
+          next?.kind === 'number' || next?.text === '-' || next?.text === '+' ? r.number() : null,
+      });
     } while (r.take(','));
     slots.push(slot);
   } while (r.take('|'));
@@ -203,17 +250,22 @@ export function parseRule(text: string): GbbgRule | string {
     r.expect(')');
     rule.slots = readSlots(r);
     if (r.take('weight')) rule.weight = r.number();
-    return r.at === r.tokens.length ? rule : 'There is more text in this rule than the form can show.';
+    return r.at === r.tokens.length
+      ? rule
+      : 'There is more text in this rule than the form can show.';
   } catch (error) {
     return `The form needs a rule that can be read: ${(error as Error).message}.`;
   }
 }
 
-const plain = (symbol: string) => (/^[A-Za-z_\u0080-\uffff][\w\u0080-\uffff]*$/.test(symbol) ? symbol : `"${symbol}"`);
+const plain = (symbol: string) =>
+  /^[A-Za-z_\u0080-\uffff][\w\u0080-\uffff]*$/.test(symbol) ? symbol : `"${symbol}"`;
 
 function changeText(name: string, c: Change | null, words: [string, string]): string[] {
   if (!c) return [];
-  return [`${name}(${c.value.join(', ')}, ${c.set ? 'Set' : 'Add'}, ${words[c.other ? 1 : 0]}${c.on ? '' : ', Off'})`];
+  return [
+    `${name}(${c.value.join(', ')}, ${c.set ? 'Set' : 'Add'}, ${words[c.other ? 1 : 0]}${c.on ? '' : ', Off'})`,
+  ];
 }
 
 function parametersText(r: GbbgRule): string {
@@ -237,7 +289,9 @@ function parametersText(r: GbbgRule): string {
 
 export function printRule(r: GbbgRule): string {
   const head = `${r.title ? `"${r.title}" ` : ''}${plain(r.predecessor)} -> ${r.operator}(${parametersText(r)})`;
-  const slots = r.slots.map((s) => s.map((p) => plain(p.symbol) + (p.chance === null ? '' : ` ${p.chance}`)).join(', '));
+  const slots = r.slots.map((s) =>
+    s.map((p) => plain(p.symbol) + (p.chance === null ? '' : ` ${p.chance}`)).join(', '),
+  );
   const tail = `{${slots.join(' | ')}}${r.weight === 1 ? '' : ` weight ${r.weight}`}`;
   return head.length + tail.length + 1 <= 100 ? `${head} ${tail}` : `${head}\n    ${tail}`;
 }
@@ -253,14 +307,21 @@ export interface Asset {
 /** Which model takes the place of which symbol, and where a further line can be put in. */
 export function assetTable(text: string): { assets: Asset[]; end: number } | null {
   const tokens = tokenize(text).filter((t) => t.kind !== 'comment');
-  const open = tokens.findIndex((t, i) => t.text.toLowerCase() === 'postprocess' && tokens[i + 1]?.text === '{');
+  const open = tokens.findIndex(
+    (t, i) => t.text.toLowerCase() === 'postprocess' && tokens[i + 1]?.text === '{',
+  );
   if (open < 0) return null;
   const assets: Asset[] = [];
   let i = open + 2;
   for (; i < tokens.length && tokens[i]!.text !== '}'; ++i) {
     if (tokens[i + 1]?.text !== ':' || tokens[i + 2]?.kind !== 'string') continue;
     const path = tokens[i + 2]!;
-    assets.push({ symbol: tokens[i]!.text.replace(/^"|"$/g, ''), path: path.text.slice(1, -1), from: path.from + 1, to: path.to - 1 });
+    assets.push({
+      symbol: tokens[i]!.text.replace(/^"|"$/g, ''),
+      path: path.text.slice(1, -1),
+      from: path.from + 1,
+      to: path.to - 1,
+    });
     i += 2;
   }
   return { assets, end: tokens[i]?.from ?? text.length };
@@ -269,7 +330,9 @@ export function assetTable(text: string): { assets: Asset[]; end: number } | nul
 /** All symbols that a grammar names, with those that it declares first. */
 export function symbolsOf(text: string): string[] {
   const out = new Set<string>(['START', 'EMPTY']);
-  for (const match of text.matchAll(/^\s*(?:shape|terminal)\b([^\n]*(?:(?<=,[ \t]*)\n[^\n]*)*)/gim)) {
+  for (const match of text.matchAll(
+    /^\s*(?:shape|terminal)\b([^\n]*(?:(?<=,[ \t]*)\n[^\n]*)*)/gim,
+  )) {
     for (const part of match[1]!.replace(/\[[^\]]*\]/g, '').split(',')) {
       const name = part.trim().split(/\s+/)[0];
       if (name && /^\w+$/.test(name)) out.add(name);
@@ -285,10 +348,20 @@ export function symbolsOf(text: string): string[] {
   return [...out];
 }
 
-/** A line that declares a symbol, and where it goes: behind the last declaration, else at the top. */
-export function declaration(text: string, name: string, dimensions: '3D' | '2D' | 'Empty', terminal = false): { at: number; insert: string } {
+/**
+ * A line that declares a symbol, and where it goes: behind the last declaration, else at the top.
+ */
+export function declaration(
+  text: string,
+  name: string,
+  dimensions: '3D' | '2D' | 'Empty',
+  terminal = false,
+): { at: number; insert: string } {
   const line = `${terminal ? 'terminal' : 'shape'} ${name}${dimensions === '3D' ? '' : ` ${dimensions}`}\n`;
   let at = 0;
-  for (const match of text.matchAll(/^(?:shape|terminal|axiom)\b[^\n]*(?:(?<=,[ \t]*)\n[^\n]*)*\n?/gim)) at = match.index + match[0].length;
+  for (const match of text.matchAll(
+    /^(?:shape|terminal|axiom)\b[^\n]*(?:(?<=,[ \t]*)\n[^\n]*)*\n?/gim,
+  ))
+    at = match.index + match[0].length;
   return { at, insert: at > 0 && text[at - 1] !== '\n' ? `\n${line}` : line };
 }

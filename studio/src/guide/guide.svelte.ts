@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Guide: the derivation one step at a time. While it is open the view draws the shapes of all steps
-// and shows those that exist after the present one; the selection is the shape that the step replaces.
+// and shows those that exist after the present one; the selection is the shape that the step
+// replaces.
 
 import type { DrawList } from '../lib/protocol';
 import { Steps } from '../lib/steps';

@@ -9,7 +9,13 @@ import type { Steps } from '../lib/steps';
 
 const RULER = 14;
 
-export function drawLane(canvas: HTMLCanvasElement, steps: Steps, step: number, stops: ReadonlySet<string>, width: number): void {
+export function drawLane(
+  canvas: HTMLCanvasElement,
+  steps: Steps,
+  step: number,
+  stops: ReadonlySet<string>,
+  width: number,
+): void {
   const scale = window.devicePixelRatio || 1;
   const height = canvas.clientHeight || 58;
   canvas.width = Math.round(width * scale);
@@ -38,7 +44,8 @@ export function drawLane(canvas: HTMLCanvasElement, steps: Steps, step: number, 
   g.fillStyle = token('--text-3');
   g.font = `10.5px ${token('--font-ui')}`;
   const every = rulerStep(steps.count, width);
-  for (let n = every; n < steps.count; n += every) g.fillText(String(n), (n / steps.count) * width - 8, height - 2);
+  for (let n = every; n < steps.count; n += every)
+    g.fillText(String(n), (n / steps.count) * width - 8, height - 2);
 }
 
 interface Bar {
@@ -55,8 +62,14 @@ function sampled(steps: Steps, width: number): Bar[] {
     const from = Math.floor((i * steps.count) / bars) + 1;
     const to = Math.max(from, Math.floor(((i + 1) * steps.count) / bars));
     let step = from;
-    for (let s = from; s <= to; ++s) if (steps.children(s).length > steps.children(step).length) step = s;
-    out.push({ step, x: (i * width) / bars, width: width / bars, made: steps.children(step).length });
+    for (let s = from; s <= to; ++s)
+      if (steps.children(s).length > steps.children(step).length) step = s;
+    out.push({
+      step,
+      x: (i * width) / bars,
+      width: width / bars,
+      made: steps.children(step).length,
+    });
   }
   return out;
 }

@@ -3,7 +3,17 @@
 //
 // EngineClient: the one way from the page to the server.
 
-import { decodeDerived, decodeModel, decodeTree, type Derived, type DrawList, type LeafInfo, type Message, type ModelPreview, type Tree } from './protocol';
+import {
+  decodeDerived,
+  decodeModel,
+  decodeTree,
+  type Derived,
+  type DrawList,
+  type LeafInfo,
+  type Message,
+  type ModelPreview,
+  type Tree,
+} from './protocol';
 
 export interface ProjectFile {
   path: string;
@@ -28,7 +38,8 @@ export interface Example {
   arguments: string;
 }
 
-export type ShapesSpec = { lot: [number, number] } | { file: string; only?: number[] } | { polygon: [number, number][] };
+export type ShapesSpec =
+  { lot: [number, number] } | { file: string; only?: number[] } | { polygon: [number, number][] };
 
 /** An initial shape in plan: x east, y north. */
 export interface Outline {
@@ -106,7 +117,12 @@ export class EngineClient {
   readonly tab = nameOfTab();
   private readonly token = takeToken();
 
-  private async call(method: string, path: string, body?: string | Blob, signal?: AbortSignal): Promise<Response> {
+  private async call(
+    method: string,
+    path: string,
+    body?: string | Blob,
+    signal?: AbortSignal,
+  ): Promise<Response> {
     const answer = await fetch(`/api/${path}`, {
       method,
       headers: { 'X-Gable-Token': this.token },
@@ -161,20 +177,29 @@ export class EngineClient {
     await this.call('DELETE', `recovery?path=${encodeURIComponent(path)}`);
   }
 
-  async derive(request: DeriveRequest, signal: AbortSignal): Promise<{ derived: Derived; draw: DrawList | null }> {
+  async derive(
+    request: DeriveRequest,
+    signal: AbortSignal,
+  ): Promise<{ derived: Derived; draw: DrawList | null }> {
     const answer = await this.call('POST', 'derive', JSON.stringify(request), signal);
     return decodeDerived(await answer.arrayBuffer());
   }
 
   /** The derivation tree; `steps`: with a draw list of the shapes of all steps. */
-  async tree(request: DeriveRequest, signal: AbortSignal, steps = false): Promise<{ tree: Tree; draw: DrawList | null }> {
+  async tree(
+    request: DeriveRequest,
+    signal: AbortSignal,
+    steps = false,
+  ): Promise<{ tree: Tree; draw: DrawList | null }> {
     const own = { ...request, steps, page: `${request.page} tree` };
     const answer = await this.call('POST', 'tree', JSON.stringify(own), signal);
     return decodeTree(await answer.arrayBuffer());
   }
 
   async leaf(derivation: number, leaf: number): Promise<LeafInfo> {
-    return (await this.call('GET', `leaf?derivation=${derivation}&leaf=${leaf}`)).json() as Promise<LeafInfo>;
+    return (
+      await this.call('GET', `leaf?derivation=${derivation}&leaf=${leaf}`)
+    ).json() as Promise<LeafInfo>;
   }
 
   async progress(): Promise<{ done: number; total: number }> {
@@ -187,14 +212,21 @@ export class EngineClient {
     return answer.json() as Promise<{ text: string; messages: Message[] }>;
   }
 
-  /** A model as a file; `received` hears of its bytes. The extension is "obj.zip" for several files. */
+  /**
+   * A model as a file; `received` hears of its bytes. The extension is "obj.zip" for several files.
+   */
   async exported(
     derivation: number,
     format: string,
     signal: AbortSignal,
     received: (bytes: number, total: number) => void = () => undefined,
   ): Promise<{ blob: Blob; extension: string }> {
-    const answer = await this.call('GET', `export?derivation=${derivation}&format=${format}&page=${this.page}`, undefined, signal);
+    const answer = await this.call(
+      'GET',
+      `export?derivation=${derivation}&format=${format}&page=${this.page}`,
+      undefined,
+      signal,
+    );
     const total = Number(answer.headers.get('Content-Length') ?? 0);
     const chunks: Uint8Array<ArrayBuffer>[] = [];
     let bytes = 0;
@@ -207,23 +239,38 @@ export class EngineClient {
   }
 
   async exportNews(): Promise<ExportNews> {
-    return (await this.call('GET', `export-progress?page=${this.page}`)).json() as Promise<ExportNews>;
+    return (
+      await this.call('GET', `export-progress?page=${this.page}`)
+    ).json() as Promise<ExportNews>;
   }
 
   async converted(path: string, text: string): Promise<{ text: string; messages: Message[] }> {
-    return (await this.call('POST', `convert?path=${encodeURIComponent(path)}`, text)).json() as Promise<{ text: string; messages: Message[] }>;
+    return (
+      await this.call('POST', `convert?path=${encodeURIComponent(path)}`, text)
+    ).json() as Promise<{ text: string; messages: Message[] }>;
   }
 
-  async outlines(shapes: ShapesSpec): Promise<{ count: number; shapes: Outline[]; messages: Message[] }> {
-    return (await this.call('POST', 'shapes', JSON.stringify({ shapes }))).json() as Promise<{ count: number; shapes: Outline[]; messages: Message[] }>;
+  async outlines(
+    shapes: ShapesSpec,
+  ): Promise<{ count: number; shapes: Outline[]; messages: Message[] }> {
+    return (await this.call('POST', 'shapes', JSON.stringify({ shapes }))).json() as Promise<{
+      count: number;
+      shapes: Outline[];
+      messages: Message[];
+    }>;
   }
 
   async model(path: string): Promise<ModelPreview> {
-    return decodeModel(await (await this.call('GET', `model?path=${encodeURIComponent(path)}`)).arrayBuffer());
+    return decodeModel(
+      await (await this.call('GET', `model?path=${encodeURIComponent(path)}`)).arrayBuffer(),
+    );
   }
 
   async prepareAsset(request: AssetRequest): Promise<{ version: string; bounds: number[] }> {
-    return (await this.call('POST', 'asset', JSON.stringify(request))).json() as Promise<{ version: string; bounds: number[] }>;
+    return (await this.call('POST', 'asset', JSON.stringify(request))).json() as Promise<{
+      version: string;
+      bounds: number[];
+    }>;
   }
 
   async texture(derivation: number, path: string): Promise<Blob> {

@@ -7,7 +7,15 @@ import type { Layout } from './layout.svelte';
 import type { Studio } from './studio.svelte';
 
 const key = (key: string, more: Partial<KeyboardEvent> = {}) =>
-  ({ key, code: '', ctrlKey: false, metaKey: false, altKey: false, shiftKey: false, ...more }) as KeyboardEvent;
+  ({
+    key,
+    code: '',
+    ctrlKey: false,
+    metaKey: false,
+    altKey: false,
+    shiftKey: false,
+    ...more,
+  }) as KeyboardEvent;
 
 it('namesKeysAsTheListShowsThem', () => {
   expect(chordOf(key('z', { ctrlKey: true }))).toBe('Ctrl Z');

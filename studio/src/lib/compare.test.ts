@@ -15,7 +15,15 @@ it('has a region for each place where the sides differ, and takes one of them', 
 
 it('shows both sides with a few lines around', () => {
   const rows = sideBySide(compare(BASE, 'a\nb\nc\nd\nE1\nf\ng\nh', 'a\nb\nc\nd\nE2\nf\ng\nh'));
-  expect(rows.map((r) => (r.kind === 'gap' ? `(${r.skipped})` : `${r.mine}|${r.theirs}`))).toEqual(['(2)', 'c|c', 'd|d', 'E1|E2', 'f|f', 'g|g', '(1)']);
+  expect(rows.map((r) => (r.kind === 'gap' ? `(${r.skipped})` : `${r.mine}|${r.theirs}`))).toEqual([
+    '(2)',
+    'c|c',
+    'd|d',
+    'E1|E2',
+    'f|f',
+    'g|g',
+    '(1)',
+  ]);
 });
 
 it('puts regions that follow each other in order', () => {

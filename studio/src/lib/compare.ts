@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Two versions of a text side by side: what is alike, and regions of which one side or the other can be
-// taken. What only the other side has changed since both were one text is in already.
+// Two versions of a text side by side: what is alike, and regions of which one side or the other
+// can be taken. What only the other side has changed since both were one text is in already.
 
 import { changes, merge } from './merge';
 
@@ -33,7 +33,11 @@ const AROUND = 2;
 
 export function compare(base: string, mine: string, theirs: string): Compared {
   const lines = merge(base, mine, theirs).text.split('\n');
-  const regions = changes(lines, theirs.split('\n')).map((c): Region => ({ from: c.from, mine: lines.slice(c.from, c.to), theirs: c.lines }));
+  const regions = changes(lines, theirs.split('\n')).map((c): Region => ({
+    from: c.from,
+    mine: lines.slice(c.from, c.to),
+    theirs: c.lines,
+  }));
   return { lines, regions };
 }
 
@@ -52,22 +56,31 @@ export function chosen({ lines, regions }: Compared, takeTheirs: readonly boolea
 export function sideBySide({ lines, regions }: Compared): Row[] {
   const out: Row[] = [];
   const alike = (from: number, to: number) => {
-    for (let i = from; i < to; ++i) out.push({ kind: 'same', mine: lines[i]!, theirs: lines[i]!, region: -1, skipped: 0 });
+    for (let i = from; i < to; ++i)
+      out.push({ kind: 'same', mine: lines[i]!, theirs: lines[i]!, region: -1, skipped: 0 });
   };
   let at = 0;
   regions.forEach((r, region) => {
     const before = at === 0 ? 0 : Math.min(at + AROUND, r.from);
     const after = Math.max(before, r.from - AROUND);
     alike(at, before);
-    if (after > before) out.push({ kind: 'gap', mine: '', theirs: '', region: -1, skipped: after - before });
+    if (after > before)
+      out.push({ kind: 'gap', mine: '', theirs: '', region: -1, skipped: after - before });
     alike(after, r.from);
     for (let i = 0; i < Math.max(r.mine.length, r.theirs.length); ++i) {
-      out.push({ kind: 'changed', mine: r.mine[i] ?? '', theirs: r.theirs[i] ?? '', region, skipped: 0 });
+      out.push({
+        kind: 'changed',
+        mine: r.mine[i] ?? '',
+        theirs: r.theirs[i] ?? '',
+        region,
+        skipped: 0,
+      });
     }
     at = r.from + r.mine.length;
   });
   const end = Math.min(lines.length, at + AROUND);
   alike(at, end);
-  if (end < lines.length) out.push({ kind: 'gap', mine: '', theirs: '', region: -1, skipped: lines.length - end });
+  if (end < lines.length)
+    out.push({ kind: 'gap', mine: '', theirs: '', region: -1, skipped: lines.length - end });
   return out;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Far: a shape of a model that has too many shapes for a tree. What the engine knows of one leaf has the
-// shapes above it that were derived on their own, so that one can go up from it.
+// Far: a shape of a model that has too many shapes for a tree. What the engine knows of one leaf
+// has the shapes above it that were derived on their own, so that one can go up from it.
 
 import type { LeafInfo } from './protocol';
 
@@ -42,6 +42,8 @@ export class Far {
   }
 
   get box(): { frame: Float32Array; size: Float32Array } | null {
-    return this.isLeaf ? { frame: Float32Array.from(this.info.frame), size: Float32Array.from(this.info.size) } : null;
+    return this.isLeaf
+      ? { frame: Float32Array.from(this.info.frame), size: Float32Array.from(this.info.size) }
+      : null;
   }
 }

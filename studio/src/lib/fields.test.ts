@@ -4,27 +4,59 @@ import { describe, expect, it } from 'vitest';
 import { controlOf, evaluate, groupFields, shown, valueText } from './fields';
 import type { AttributeInfo } from './protocol';
 
-function attribute(name: string, type: string, annotations: [string, ...[string, string][]][] = [], hidden = false): AttributeInfo {
-  return { name, type, hidden, annotations: annotations.map(([n, ...args]) => ({ name: n, arguments: args })) };
+function attribute(
+  name: string,
+  type: string,
+  annotations: [string, ...[string, string][]][] = [],
+  hidden = false,
+): AttributeInfo {
+  return {
+    name,
+    type,
+    hidden,
+    annotations: annotations.map(([n, ...args]) => ({ name: n, arguments: args })),
+  };
 }
 
 describe('controls', () => {
   it('follow the annotations', () => {
-    expect(controlOf(attribute('h', 'float', [['Range', ['min', '3'], ['max', '9'], ['stepsize', '0.5']]]))).toEqual({ kind: 'number', unit: '', min: 3, max: 9, step: 0.5 });
-    expect(controlOf(attribute('h', 'float', [['Range', ['', '1'], ['', '2']]]))).toEqual({ kind: 'number', unit: '', min: 1, max: 2 });
+    expect(
+      controlOf(
+        attribute('h', 'float', [['Range', ['min', '3'], ['max', '9'], ['stepsize', '0.5']]]),
+      ),
+    ).toEqual({ kind: 'number', unit: '', min: 3, max: 9, step: 0.5 });
+    expect(controlOf(attribute('h', 'float', [['Range', ['', '1'], ['', '2']]]))).toEqual({
+      kind: 'number',
+      unit: '',
+      min: 1,
+      max: 2,
+    });
     expect(controlOf(attribute('a', 'float', [['Angle']]))).toMatchObject({ unit: '°' });
-    expect(controlOf(attribute('e', 'string', [['Enum', ['', 'a'], ['', 'b']]]))).toEqual({ kind: 'choice', choices: ['a', 'b'], free: false });
+    expect(controlOf(attribute('e', 'string', [['Enum', ['', 'a'], ['', 'b']]]))).toEqual({
+      kind: 'choice',
+      choices: ['a', 'b'],
+      free: false,
+    });
     expect(controlOf(attribute('c', 'string', [['Color']]))).toEqual({ kind: 'color' });
-    expect(controlOf(attribute('f', 'string', [['File', ['', 'glb']]]))).toEqual({ kind: 'file', extensions: ['glb'] });
+    expect(controlOf(attribute('f', 'string', [['File', ['', 'glb']]]))).toEqual({
+      kind: 'file',
+      extensions: ['glb'],
+    });
     expect(controlOf(attribute('b', 'bool'))).toEqual({ kind: 'bool' });
     expect(controlOf(attribute('s', 'string'))).toEqual({ kind: 'text' });
   });
   it('are grouped and ordered, hidden ones left out', () => {
     const groups = groupFields([
-      attribute('late', 'float', [['Group', ['', 'B'], ['', '2']], ['Order', ['', '2']]]),
+      attribute('late', 'float', [
+        ['Group', ['', 'B'], ['', '2']],
+        ['Order', ['', '2']],
+      ]),
       attribute('plain', 'float'),
       attribute('first', 'float', [['Group', ['', 'A'], ['', '1']]]),
-      attribute('early', 'float', [['Group', ['', 'B'], ['', '2']], ['Order', ['', '1']]]),
+      attribute('early', 'float', [
+        ['Group', ['', 'B'], ['', '2']],
+        ['Order', ['', '1']],
+      ]),
       attribute('never', 'float', [], true),
     ]);
     expect(groups.map((g) => g.name)).toEqual(['A', 'B', 'Attributes']);
@@ -39,7 +71,8 @@ describe('numbers', () => {
     expect(evaluate('(1+2)*-3')).toBe(-9);
     expect(evaluate('120 cm')).toBeCloseTo(1.2);
     expect(evaluate('10ft')).toBeCloseTo(3.048);
-    for (const wrong of ['', 'x', '1+', '(1', '1 2', '1/0', 'alert(1)']) expect(evaluate(wrong), wrong).toBeNull();
+    for (const wrong of ['', 'x', '1+', '(1', '1 2', '1/0', 'alert(1)'])
+      expect(evaluate(wrong), wrong).toBeNull();
   });
   it('are shown short', () => {
     expect(shown(1284)).toBe('1\u2009284');
@@ -49,7 +82,12 @@ describe('numbers', () => {
   it('go to the engine whole', () => {
     expect(valueText(0.1234567)).toBe('0.1234567');
     expect(valueText([1, 2])).toBe('[1,2]');
-    expect(valueText([[1, 2], [3, 4]])).toBe('[1,2;3,4]');
+    expect(
+      valueText([
+        [1, 2],
+        [3, 4],
+      ]),
+    ).toBe('[1,2;3,4]');
     expect(valueText(true)).toBe('true');
   });
 });

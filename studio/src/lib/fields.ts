@@ -28,9 +28,14 @@ export interface Group {
   fields: Field[];
 }
 
-const find = (a: AttributeInfo, name: string): Annotation | undefined => a.annotations.find((n) => n.name === name);
+const find = (a: AttributeInfo, name: string): Annotation | undefined =>
+  a.annotations.find((n) => n.name === name);
 
-function argument(annotation: Annotation | undefined, key: string, position: number): string | undefined {
+function argument(
+  annotation: Annotation | undefined,
+  key: string,
+  position: number,
+): string | undefined {
   if (!annotation) return undefined;
   const named = annotation.arguments.find(([k]) => k === key);
   return named?.[1] ?? annotation.arguments.filter(([k]) => !k)[position]?.[1];
@@ -54,14 +59,24 @@ export function controlOf(a: AttributeInfo): Control {
   const choices = find(a, 'Enum');
   if (choices && a.type === 'string') {
     const free = choices.arguments.some(([k, v]) => k === 'restricted' && v === 'false');
-    return { kind: 'choice', choices: choices.arguments.filter(([k]) => !k).map(([, v]) => v), free };
+    return {
+      kind: 'choice',
+      choices: choices.arguments.filter(([k]) => !k).map(([, v]) => v),
+      free,
+    };
   }
   if (find(a, 'Color')) return { kind: 'color' };
   const file = find(a, 'File');
-  if (file) return { kind: 'file', extensions: file.arguments.filter(([k]) => !k).map(([, v]) => v) };
+  if (file)
+    return { kind: 'file', extensions: file.arguments.filter(([k]) => !k).map(([, v]) => v) };
   if (a.type === 'bool') return { kind: 'bool' };
   if (a.type !== 'float') return { kind: 'text' };
-  if (choices) return { kind: 'choice', choices: choices.arguments.filter(([k]) => !k).map(([, v]) => v), free: true };
+  if (choices)
+    return {
+      kind: 'choice',
+      choices: choices.arguments.filter(([k]) => !k).map(([, v]) => v),
+      free: true,
+    };
   const range = find(a, 'Range');
   const min = numberOf(argument(range, 'min', 0));
   const max = numberOf(argument(range, 'max', 1));
@@ -75,7 +90,10 @@ export function controlOf(a: AttributeInfo): Control {
   };
 }
 
-/** Groups in the order of @Group, fields in that of @Order; those without stand where they are declared. */
+/**
+ * Groups in the order of @Group, fields in that of @Order; those without stand where they are
+ * declared.
+ */
 export function groupFields(attributes: AttributeInfo[]): Group[] {
   interface Placed {
     field: Field;
@@ -88,7 +106,10 @@ export function groupFields(attributes: AttributeInfo[]): Group[] {
       const group = find(a, 'Group');
       const names = (group?.arguments ?? []).filter(([k]) => !k).map(([, v]) => v);
       const last = names.length > 1 ? numberOf(names[names.length - 1]) : undefined;
-      const title = names.length === 0 ? 'Attributes' : (last === undefined ? names : names.slice(0, -1)).join(' › ');
+      const title =
+        names.length === 0
+          ? 'Attributes'
+          : (last === undefined ? names : names.slice(0, -1)).join(' › ');
       const order = numberOf(argument(find(a, 'Order'), 'order', 0));
       return {
         field: {
@@ -116,7 +137,9 @@ export function groupFields(attributes: AttributeInfo[]): Group[] {
     .sort((a, b) => (a[1].order === b[1].order ? 0 : a[1].order - b[1].order))
     .map(([name, { members }]) => ({
       name,
-      fields: members.sort((a, b) => (a.order === b.order ? 0 : a.order - b.order)).map((m) => m.field),
+      fields: members
+        .sort((a, b) => (a.order === b.order ? 0 : a.order - b.order))
+        .map((m) => m.field),
     }));
 }
 
@@ -134,11 +157,23 @@ export function shown(value: number): string {
   return fraction === undefined ? spaced : `${spaced}.${fraction}`;
 }
 
-const UNITS: Record<string, number> = { mm: 0.001, cm: 0.01, m: 1, km: 1000, ft: 0.3048, in: 0.0254 };
+const UNITS: Record<string, number> = {
+  mm: 0.001,
+  cm: 0.01,
+  m: 1,
+  km: 1000,
+  ft: 0.3048,
+  in: 0.0254,
+};
 
 /** "3.25*2", "1/3", "(2+1)*4", "120 cm": a number, or null where it is none. */
 export function evaluate(text: string): number | null {
-  const source = text.trim().replace(/(\d)\s*(mm|cm|km|ft|in|m)\b/g, (_, digit: string, unit: string) => `${digit}*${UNITS[unit]}`);
+  const source = text
+    .trim()
+    .replace(
+      /(\d)\s*(mm|cm|km|ft|in|m)\b/g,
+      (_, digit: string, unit: string) => `${digit}*${UNITS[unit]}`,
+    );
   let at = 0;
   const skip = () => {
     while (source[at] === ' ' || source[at] === '\u2009') ++at;
@@ -163,12 +198,14 @@ export function evaluate(text: string): number | null {
   };
   const product = (): number => {
     let out = factor();
-    for (skip(); source[at] === '*' || source[at] === '/'; skip()) out = source[at++] === '*' ? out * factor() : out / factor();
+    for (skip(); source[at] === '*' || source[at] === '/'; skip())
+      out = source[at++] === '*' ? out * factor() : out / factor();
     return out;
   };
   const sum = (): number => {
     let out = product();
-    for (skip(); source[at] === '+' || source[at] === '-'; skip()) out = source[at++] === '+' ? out + product() : out - product();
+    for (skip(); source[at] === '+' || source[at] === '-'; skip())
+      out = source[at++] === '+' ? out + product() : out - product();
     return out;
   };
   const value = sum();

@@ -3,7 +3,11 @@
 import { describe, expect, it } from 'vitest';
 import { applied, difference, History, inverse, type Step } from './history';
 
-const text = (before: string, after: string): Step => ({ label: 'Typing', texts: [difference('a.cga', before, after)!], place: null });
+const text = (before: string, after: string): Step => ({
+  label: 'Typing',
+  texts: [difference('a.cga', before, after)!],
+  place: null,
+});
 const place = (before: number, after: number): Step => ({
   label: 'height',
   texts: [],
@@ -14,7 +18,12 @@ describe('difference', () => {
   it('isTheSmallestChangeAndCanBeTakenBack', () => {
     expect(difference('p', 'abc', 'abc')).toBeNull();
     expect(difference('p', 'aaa', 'aa')).toEqual({ path: 'p', at: 2, removed: 'a', inserted: '' });
-    for (const [a, b] of [['', 'x'], ['one two', 'one three two'], ['aXa', 'aa'], ['tower', 'flower']] as const) {
+    for (const [a, b] of [
+      ['', 'x'],
+      ['one two', 'one three two'],
+      ['aXa', 'aa'],
+      ['tower', 'flower'],
+    ] as const) {
       const change = difference('p', a, b)!;
       expect(applied(a, change)).toBe(b);
       expect(applied(b, inverse(change))).toBe(a);

@@ -42,8 +42,14 @@ export function difference(path: string, before: string, after: string): TextCha
   let head = 0;
   while (head < most && before[head] === after[head]) ++head;
   let tail = 0;
-  while (tail < most - head && before[before.length - 1 - tail] === after[after.length - 1 - tail]) ++tail;
-  return { path, at: head, removed: before.slice(head, before.length - tail), inserted: after.slice(head, after.length - tail) };
+  while (tail < most - head && before[before.length - 1 - tail] === after[after.length - 1 - tail])
+    ++tail;
+  return {
+    path,
+    at: head,
+    removed: before.slice(head, before.length - tail),
+    inserted: after.slice(head, after.length - tail),
+  };
 }
 
 /** The text after a change, or null where the text is not the one that was changed. */
@@ -52,17 +58,27 @@ export function applied(text: string, change: TextChange): string | null {
   return text.slice(0, change.at) + change.inserted + text.slice(change.at + change.removed.length);
 }
 
-export const inverse = (c: TextChange): TextChange => ({ ...c, removed: c.inserted, inserted: c.removed });
+export const inverse = (c: TextChange): TextChange => ({
+  ...c,
+  removed: c.inserted,
+  inserted: c.removed,
+});
 
 /** Two changes that follow each other as one, where they touch. */
 function joined(first: TextChange, next: TextChange): TextChange | null {
   if (first.path !== next.path) return null;
   const end = first.at + first.inserted.length;
-  if (next.removed === '' && next.at === end) return { ...first, inserted: first.inserted + next.inserted };
+  if (next.removed === '' && next.at === end)
+    return { ...first, inserted: first.inserted + next.inserted };
   if (next.inserted === '' && next.at + next.removed.length === end) {
     const left = first.inserted.length - next.removed.length;
     if (left >= 0) return { ...first, inserted: first.inserted.slice(0, left) };
-    return { ...first, at: next.at, removed: next.removed.slice(0, -left) + first.removed, inserted: '' };
+    return {
+      ...first,
+      at: next.at,
+      removed: next.removed.slice(0, -left) + first.removed,
+      inserted: '',
+    };
   }
   return null;
 }
@@ -98,7 +114,8 @@ export class History {
         if (both) last.texts[last.texts.length - 1] = both;
         else last.texts.push(change);
       }
-      if (step.place) last.place = { ...step.place, before: last.place?.before ?? step.place.before };
+      if (step.place)
+        last.place = { ...step.place, before: last.place?.before ?? step.place.before };
       last.time = time;
       return;
     }
@@ -118,7 +135,11 @@ export class History {
     if (!step) return null;
     step.group = '';
     this.undone.push(step);
-    const place = step.place && { ...step.place, before: step.place.after, after: step.place.before };
+    const place = step.place && {
+      ...step.place,
+      before: step.place.after,
+      after: step.place.before,
+    };
     return { label: step.label, texts: [...step.texts].reverse().map(inverse), place };
   }
 
@@ -134,7 +155,10 @@ export class History {
     let bytes = 0;
     let first = this.done.length;
     while (first > 0 && bytes < MOST_KEPT_BYTES) bytes += JSON.stringify(this.done[--first]).length;
-    return JSON.stringify({ done: this.done.slice(bytes < MOST_KEPT_BYTES ? first : first + 1), undone: this.undone.slice(-50) });
+    return JSON.stringify({
+      done: this.done.slice(bytes < MOST_KEPT_BYTES ? first : first + 1),
+      undone: this.undone.slice(-50),
+    });
   }
 
   /** Takes what `keep` gave; text that is none of its own leaves the history empty. */

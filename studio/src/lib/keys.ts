@@ -29,4 +29,15 @@ export const KEYS: [string, string][] = [
 ];
 
 /** Those of the text, which the palette sends there. */
-export const EDITOR_KEYS = new Set(['F8', 'Shift F8', 'F12', 'Shift F12', 'F2', 'F9', 'Ctrl .', 'Ctrl Enter', 'Ctrl Space', 'Ctrl /']);
+export const EDITOR_KEYS = new Set([
+  'F8',
+  'Shift F8',
+  'F12',
+  'Shift F12',
+  'F2',
+  'F9',
+  'Ctrl .',
+  'Ctrl Enter',
+  'Ctrl Space',
+  'Ctrl /',
+]);

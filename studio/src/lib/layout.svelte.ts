@@ -30,7 +30,12 @@ export class Layout {
   private read(): Sizes {
     const fallback = DEFAULTS[windowClass()]!;
     try {
-      return { ...fallback, ...(JSON.parse(localStorage.getItem(`gable.sizes.${windowClass()}`) ?? '{}') as Partial<Sizes>) };
+      return {
+        ...fallback,
+        ...(JSON.parse(
+          localStorage.getItem(`gable.sizes.${windowClass()}`) ?? '{}',
+        ) as Partial<Sizes>),
+      };
     } catch {
       return fallback;
     }
@@ -48,7 +53,10 @@ export class Layout {
   resize(panel: keyof Sizes, width: number): void {
     const [least, most] = panel === 'editor' ? [300, 900] : [260, 520];
     const other = panel === 'editor' ? this.sizes.dock : this.sizes.editor;
-    this.sizes = { ...this.sizes, [panel]: Math.round(Math.max(least, Math.min(most, width, innerWidth - other - 420))) };
+    this.sizes = {
+      ...this.sizes,
+      [panel]: Math.round(Math.max(least, Math.min(most, width, innerWidth - other - 420))),
+    };
     localStorage.setItem(`gable.sizes.${windowClass()}`, JSON.stringify(this.sizes));
   }
 

@@ -4,10 +4,16 @@ import { expect, it } from 'vitest';
 import { match, parts } from './match';
 
 const best = (query: string, texts: string[]) =>
-  texts.filter((t) => match(query, t)).sort((a, b) => match(query, b)!.score - match(query, a)!.score);
+  texts
+    .filter((t) => match(query, t))
+    .sort((a, b) => match(query, b)!.score - match(query, a)!.score);
 
 it('putsWholeWordsAndBeginningsFirst', () => {
-  expect(best('floor', ['GroundFloor', 'Floor', 'floorHeight', 'Roof'])).toEqual(['Floor', 'floorHeight', 'GroundFloor']);
+  expect(best('floor', ['GroundFloor', 'Floor', 'floorHeight', 'Roof'])).toEqual([
+    'Floor',
+    'floorHeight',
+    'GroundFloor',
+  ]);
 });
 
 it('findsByTheLettersOfWords', () => {

@@ -11,7 +11,9 @@ export interface Match {
 }
 
 const startsWord = (text: string, i: number): boolean =>
-  i === 0 || /[^A-Za-z0-9]/.test(text[i - 1]!) || (/[a-z0-9]/.test(text[i - 1]!) && /[A-Z]/.test(text[i]!));
+  i === 0 ||
+  /[^A-Za-z0-9]/.test(text[i - 1]!) ||
+  (/[a-z0-9]/.test(text[i - 1]!) && /[A-Z]/.test(text[i]!));
 
 /** How well a query fits a text; null where its letters are not all there, in order. */
 export function match(query: string, text: string): Match | null {
@@ -21,7 +23,11 @@ export function match(query: string, text: string): Match | null {
   const whole = lower.indexOf(query.toLowerCase().trim());
   if (whole >= 0) {
     const letters = [...query.trim()].map((_, i) => whole + i);
-    const score = 100 + (startsWord(text, whole) ? 40 : 0) + (whole === 0 ? 30 : 0) + (lower.length === wanted.length ? 50 : 0);
+    const score =
+      100 +
+      (startsWord(text, whole) ? 40 : 0) +
+      (whole === 0 ? 30 : 0) +
+      (lower.length === wanted.length ? 50 : 0);
     return { score: score - text.length / 10, letters };
   }
   const letters: number[] = [];

@@ -18,5 +18,10 @@ export interface Lengths {
 export function lengths(from: Point3, to: Point3): Lengths {
   const [x, up, z] = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
   const across = Math.hypot(x, z);
-  return { length: Math.hypot(across, up), across, up, slope: (Math.atan2(Math.abs(up), across) * 180) / Math.PI };
+  return {
+    length: Math.hypot(across, up),
+    across,
+    up,
+    slope: (Math.atan2(Math.abs(up), across) * 180) / Math.PI,
+  };
 }

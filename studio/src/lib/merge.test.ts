@@ -5,13 +5,19 @@ import { changes, merge } from './merge';
 
 /** Numbers that look drawn, the same each time. */
 function* drawn(seed: number): Generator<number> {
-  for (let x = seed; ; ) {
+  for (let x = seed; ;) {
     x = (x * 1103515245 + 12345) % 2147483648;
     yield x / 2147483648;
   }
 }
 
-function edited(lines: string[], next: () => number, mark: string, from: number, to: number): string[] {
+function edited(
+  lines: string[],
+  next: () => number,
+  mark: string,
+  from: number,
+  to: number,
+): string[] {
   const out = [...lines];
   for (let i = 0; i < 4; ++i) {
     const at = from + Math.floor(next() * (to - from - 4));
@@ -26,8 +32,14 @@ describe('changes', () => {
     const source = drawn(7);
     const next = () => source.next().value as number;
     for (let round = 0; round < 200; ++round) {
-      const a = Array.from({ length: Math.floor(next() * 12) }, () => 'abcd'[Math.floor(next() * 4)]!);
-      const b = Array.from({ length: Math.floor(next() * 12) }, () => 'abcd'[Math.floor(next() * 4)]!);
+      const a = Array.from(
+        { length: Math.floor(next() * 12) },
+        () => 'abcd'[Math.floor(next() * 4)]!,
+      );
+      const b = Array.from(
+        { length: Math.floor(next() * 12) },
+        () => 'abcd'[Math.floor(next() * 4)]!,
+      );
       const out: string[] = [];
       let at = 0;
       for (const c of changes(a, b)) {
@@ -39,26 +51,42 @@ describe('changes', () => {
     }
   });
   it('are few where little has changed', () => {
-    expect(changes(['a', 'b', 'c', 'd'], ['a', 'x', 'c', 'd'])).toEqual([{ from: 1, to: 2, lines: ['x'] }]);
-    expect(changes(['a', 'b', 'c', 'd'], ['a', 'b', 'n', 'c', 'd'])).toEqual([{ from: 2, to: 2, lines: ['n'] }]);
+    expect(changes(['a', 'b', 'c', 'd'], ['a', 'x', 'c', 'd'])).toEqual([
+      { from: 1, to: 2, lines: ['x'] },
+    ]);
+    expect(changes(['a', 'b', 'c', 'd'], ['a', 'b', 'n', 'c', 'd'])).toEqual([
+      { from: 2, to: 2, lines: ['n'] },
+    ]);
   });
 });
 
 describe('merge', () => {
   const base = 'a\nb\nc\nd\ne';
   it('takes what only one side has changed', () => {
-    expect(merge(base, 'A\nb\nc\nd\ne', 'a\nb\nc\nd\nE')).toEqual({ text: 'A\nb\nc\nd\nE', conflicts: 0 });
+    expect(merge(base, 'A\nb\nc\nd\ne', 'a\nb\nc\nd\nE')).toEqual({
+      text: 'A\nb\nc\nd\nE',
+      conflicts: 0,
+    });
     expect(merge(base, base, 'x')).toEqual({ text: 'x', conflicts: 0 });
     expect(merge(base, 'y', base)).toEqual({ text: 'y', conflicts: 0 });
   });
   it('takes once what both have changed alike', () => {
-    expect(merge(base, 'a\nX\nc\nd\nE', 'a\nX\nc\nd\ne')).toEqual({ text: 'a\nX\nc\nd\nE', conflicts: 0 });
+    expect(merge(base, 'a\nX\nc\nd\nE', 'a\nX\nc\nd\ne')).toEqual({
+      text: 'a\nX\nc\nd\nE',
+      conflicts: 0,
+    });
   });
   it('takes lines that were put in and lines that were taken out', () => {
-    expect(merge(base, 'a\nb\nn\nc\nd\ne', 'a\nb\nc\nd')).toEqual({ text: 'a\nb\nn\nc\nd', conflicts: 0 });
+    expect(merge(base, 'a\nb\nn\nc\nd\ne', 'a\nb\nc\nd')).toEqual({
+      text: 'a\nb\nn\nc\nd',
+      conflicts: 0,
+    });
   });
   it('tells of the same line changed in two ways, and keeps mine', () => {
-    expect(merge(base, 'a\nb\nM\nd\ne', 'a\nb\nT\nd\ne')).toEqual({ text: 'a\nb\nM\nd\ne', conflicts: 1 });
+    expect(merge(base, 'a\nb\nM\nd\ne', 'a\nb\nT\nd\ne')).toEqual({
+      text: 'a\nb\nM\nd\ne',
+      conflicts: 1,
+    });
   });
   it('tells of two texts put in at one place', () => {
     expect(merge('a\nb', 'a\nm\nb', 'a\nt\nb').conflicts).toBe(1);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Merges two edits of one text, line by line: what only one side changed is taken, what both changed
-// alike is taken once, and anything else is a conflict. Lines are matched by a longest common
-// subsequence (Myers, "An O(ND) difference algorithm and its variations").
+// Merges two edits of one text, line by line: what only one side changed is taken, what both
+// changed alike is taken once, and anything else is a conflict. Lines are matched by a longest
+// common subsequence (Myers, "An O(ND) difference algorithm and its variations").
 
 export interface Merged {
   text: string;
@@ -26,10 +26,19 @@ function matches(a: string[], b: string[]): [number, number][] {
   let head = 0;
   while (head < a.length && head < b.length && a[head] === b[head]) ++head;
   let tail = 0;
-  while (tail < a.length - head && tail < b.length - head && a[a.length - 1 - tail] === b[b.length - 1 - tail]) ++tail;
+  while (
+    tail < a.length - head &&
+    tail < b.length - head &&
+    a[a.length - 1 - tail] === b[b.length - 1 - tail]
+  )
+    ++tail;
   const out: [number, number][] = [];
   for (let i = 0; i < head; ++i) out.push([i, i]);
-  out.push(...inner(a.slice(head, a.length - tail), b.slice(head, b.length - tail)).map(([i, k]): [number, number] => [i + head, k + head]));
+  out.push(
+    ...inner(a.slice(head, a.length - tail), b.slice(head, b.length - tail)).map(
+      ([i, k]): [number, number] => [i + head, k + head],
+    ),
+  );
   for (let i = tail; i > 0; --i) out.push([a.length - i, b.length - i]);
   return out;
 }
@@ -103,9 +112,12 @@ export function merge(base: string, mine: string, theirs: string): Merged {
     let to = from;
     const left: Change[] = [];
     const right: Change[] = [];
-    for (let grown = true; grown; ) {
+    for (let grown = true; grown;) {
       grown = false;
-      for (const [list, taken] of [[ours, left], [others, right]] as const) {
+      for (const [list, taken] of [
+        [ours, left],
+        [others, right],
+      ] as const) {
         while (list.length && (list[0]!.from < to || list[0]!.from === from)) {
           const change = list.shift()!;
           taken.push(change);

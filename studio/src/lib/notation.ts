@@ -27,15 +27,35 @@ interface State {
 }
 
 const KEYWORDS = new Set([
-  'attr', 'const', 'case', 'else', 'import', 'style', 'version', 'extends', 'with', 'import', 'local',
-  'inline', 'recursive', 'true', 'false', 'NIL', 'repeat', 'do', 'if', 'rule', 'start',
+  'attr',
+  'const',
+  'case',
+  'else',
+  'import',
+  'style',
+  'version',
+  'extends',
+  'with',
+  'import',
+  'local',
+  'inline',
+  'recursive',
+  'true',
+  'false',
+  'NIL',
+  'repeat',
+  'do',
+  'if',
+  'rule',
+  'start',
 ]);
 
 const ARROW = /-->|->/;
 
 function word(stream: StringStream, state: State, names: Names, notation: Notation): string {
   const text = stream.current();
-  const atStart = stream.start === stream.indentation() || /^\s*$/.test(stream.string.slice(0, stream.start));
+  const atStart =
+    stream.start === stream.indentation() || /^\s*$/.test(stream.string.slice(0, stream.start));
   if (KEYWORDS.has(text)) {
     state.declares = text === 'attr' || text === 'const';
     return 'keyword';
@@ -45,7 +65,8 @@ function word(stream: StringStream, state: State, names: Names, notation: Notati
     return 'attributeName';
   }
   const rest = stream.string.slice(stream.pos);
-  if (atStart && ARROW.test(rest.replace(/^\s*(\([^)]*\))?\s*(\d+\s*)?/, '').slice(0, 3))) return 'typeName.definition';
+  if (atStart && ARROW.test(rest.replace(/^\s*(\([^)]*\))?\s*(\d+\s*)?/, '').slice(0, 3)))
+    return 'typeName.definition';
   if (names.attributes.has(text)) return 'attributeName';
   if (names.operations.has(text) || names.operations.has(text.split('.')[0]!)) return 'operator';
   if (notation === 'ProGen3d' && /^[A-Z]$/.test(text)) return 'operator';
@@ -57,7 +78,10 @@ export function ruleLanguage(notation: Notation, names: () => Names) {
     name: notation,
     startState: () => ({ comment: false, declares: false }),
     copyState: (s) => ({ ...s }),
-    languageData: { commentTokens: { line: '//', block: { open: '/*', close: '*/' } }, closeBrackets: { brackets: ['(', '[', '{', '"'] } },
+    languageData: {
+      commentTokens: { line: '//', block: { open: '/*', close: '*/' } },
+      closeBrackets: { brackets: ['(', '[', '{', '"'] },
+    },
     token(stream, state) {
       if (state.comment) {
         if (stream.skipTo('*/')) {
@@ -78,7 +102,8 @@ export function ruleLanguage(notation: Notation, names: () => Names) {
       if (stream.match(/^"(?:[^"\\]|\\.)*"?/)) return 'string';
       if (stream.match(/^@\w+/)) return 'annotation';
       if (stream.match(/^'?~?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?%?/)) return 'number';
-      if (stream.match(/^[A-Za-z_][\w]*(?:\.[A-Za-z_]\w*)*/)) return word(stream, state, names(), notation);
+      if (stream.match(/^[A-Za-z_][\w]*(?:\.[A-Za-z_]\w*)*/))
+        return word(stream, state, names(), notation);
       if (stream.match(/^(-->|->|==|!=|<=|>=|&&|\|\|)/)) return 'punctuation';
       stream.next();
       return 'punctuation';

@@ -141,7 +141,9 @@ export interface Tree {
   endLeaf: Uint32Array;
   /** 1 leaf, 2 dropped, 4 made by a rule call, so that a step replaces it. */
   flags: Uint32Array;
-  /** In the draw list of all steps: the shape as it was made, and as it stays where it is a leaf. */
+  /**
+   * In the draw list of all steps: the shape as it was made, and as it stays where it is a leaf.
+   */
   before: Uint32Array;
   after: Uint32Array;
   /** Twelve a node: origin, x, y, z. */
@@ -220,8 +222,30 @@ export function decodeModel(bytes: ArrayBuffer): ModelPreview {
 type RawNote = [number, number, string, Value, number, number, number?, number?, number?, number?];
 const NOTE_KINDS = ['choice', 'draw', 'attribute', 'parameter'] as const;
 
-function readNote([node, kind, name, value, file, line, draw = 0, chance = 0, chosen = 0, choices = 0]: RawNote): Note {
-  return { node, kind: NOTE_KINDS[kind] ?? 'draw', name, value, file, line, draw, chance, chosen, choices };
+function readNote([
+  node,
+  kind,
+  name,
+  value,
+  file,
+  line,
+  draw = 0,
+  chance = 0,
+  chosen = 0,
+  choices = 0,
+]: RawNote): Note {
+  return {
+    node,
+    kind: NOTE_KINDS[kind] ?? 'draw',
+    name,
+    value,
+    file,
+    line,
+    draw,
+    chance,
+    chosen,
+    choices,
+  };
 }
 
 /** The tree, and the draw list of all steps where it was asked for. */
@@ -276,6 +300,9 @@ export interface LeafInfo {
   /** Its box: origin, x, y, z; and along these. */
   frame: number[];
   size: number[];
-  /** Shapes above that were derived on their own, from the initial one down, with the leaves below each. */
+  /**
+   * Shapes above that were derived on their own, from the initial one down, with the leaves below
+   * each.
+   */
   above: { name: string; from: number; to: number }[];
 }

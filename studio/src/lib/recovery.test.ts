@@ -26,7 +26,10 @@ it('joins for a new page what others had', async () => {
   const shared = store();
   await new Recovery(shared, 'one').keep('x.cga', 'A\nb\nc\nd\ne', SAVED);
   await new Recovery(shared, 'two').keep('x.cga', 'a\nb\nc\nd\nE', SAVED);
-  expect(await new Recovery(shared, 'new').recall('x.cga', SAVED)).toEqual({ text: 'A\nb\nc\nd\nE', aside: [] });
+  expect(await new Recovery(shared, 'new').recall('x.cga', SAVED)).toEqual({
+    text: 'A\nb\nc\nd\nE',
+    aside: [],
+  });
   expect((await new Recovery(shared, 'new').recall('y.cga', SAVED)).text).toBe(SAVED);
 });
 
@@ -34,7 +37,10 @@ it('puts aside what cannot be joined', async () => {
   const shared = store();
   await new Recovery(shared, 'one').keep('x.cga', 'A1\nb\nc\nd\ne', SAVED);
   await new Recovery(shared, 'two').keep('x.cga', 'A2\nb\nc\nd\ne', SAVED);
-  expect(await new Recovery(shared, 'new').recall('x.cga', SAVED)).toEqual({ text: 'A2\nb\nc\nd\ne', aside: ['A1\nb\nc\nd\ne'] });
+  expect(await new Recovery(shared, 'new').recall('x.cga', SAVED)).toEqual({
+    text: 'A2\nb\nc\nd\ne',
+    aside: ['A1\nb\nc\nd\ne'],
+  });
 });
 
 it('forgets what was saved', async () => {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Recovery: text that is in no file yet, kept on the server for each page by itself, so that two pages
-// on one file do not write over each other. A page that is loaded again finds its own; a new one finds
-// what others had, joined where they edited different lines.
+// Recovery: text that is in no file yet, kept on the server for each page by itself, so that two
+// pages on one file do not write over each other. A page that is loaded again finds its own; a new
+// one finds what others had, joined where they edited different lines.
 
 import type { EngineClient } from './client';
 import { merge } from './merge';
@@ -44,7 +44,10 @@ export class Recovery {
     if (this.kept.get(path) === text) return;
     if (!this.listed) {
       const pages = (await this.pages()).filter((p) => p !== this.page);
-      await this.store.keepRecovery(PAGES, JSON.stringify([...pages, this.page].slice(-MOST_PAGES)));
+      await this.store.keepRecovery(
+        PAGES,
+        JSON.stringify([...pages, this.page].slice(-MOST_PAGES)),
+      );
       this.listed = true;
     }
     const kept: Kept = { base, text };

@@ -35,23 +35,27 @@ interface Listing {
   selectors: { name: string; doc: string }[];
 }
 
-const call = (kind: Entry['kind']) => (c: Call): Entry => ({
-  name: c.name,
-  kind,
-  summary: c.summary,
-  signatures: c.overloads.map((o) => ({ params: o.params, variadic: o.variadic ?? false })),
-  block: c.block ?? '',
-  bare: c.bare ?? false,
-});
+const call =
+  (kind: Entry['kind']) =>
+  (c: Call): Entry => ({
+    name: c.name,
+    kind,
+    summary: c.summary,
+    signatures: c.overloads.map((o) => ({ params: o.params, variadic: o.variadic ?? false })),
+    block: c.block ?? '',
+    bare: c.bare ?? false,
+  });
 
-const plain = (kind: Entry['kind']) => (a: { name: string; doc: string }): Entry => ({
-  name: a.name,
-  kind,
-  summary: a.doc,
-  signatures: [],
-  block: '',
-  bare: true,
-});
+const plain =
+  (kind: Entry['kind']) =>
+  (a: { name: string; doc: string }): Entry => ({
+    name: a.name,
+    kind,
+    summary: a.doc,
+    signatures: [],
+    block: '',
+    bare: true,
+  });
 
 export function readRegistry(json: unknown): Entry[] {
   const listing = json as Listing;

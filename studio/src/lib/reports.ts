@@ -28,7 +28,14 @@ export interface Chart {
 }
 
 export function reportRows(reports: Record<string, ReportTotal>): ReportRow[] {
-  return Object.entries(reports).map(([name, r]) => ({ name, n: r.n, sum: r.sum ?? null, avg: r.avg ?? null, min: r.min ?? null, max: r.max ?? null }));
+  return Object.entries(reports).map(([name, r]) => ({
+    name,
+    n: r.n,
+    sum: r.sum ?? null,
+    avg: r.avg ?? null,
+    min: r.min ?? null,
+    max: r.max ?? null,
+  }));
 }
 
 export type Column = keyof ReportRow;
@@ -44,10 +51,14 @@ export function sortRows(rows: ReportRow[], by: Column, reversed: boolean): Repo
 
 const shares = (parts: [string, number][]): Share[] => {
   const whole = parts.reduce((sum, [, v]) => sum + v, 0);
-  return parts.sort((a, b) => b[1] - a[1]).map(([name, value]) => ({ name, value, share: whole > 0 ? value / whole : 0 }));
+  return parts
+    .sort((a, b) => b[1] - a[1])
+    .map(([name, value]) => ({ name, value, share: whole > 0 ? value / whole : 0 }));
 };
 
-/** "floor.area.shop" and "floor.area.flat" are parts of "floor.area"; texts have their own counts. */
+/**
+ * "floor.area.shop" and "floor.area.flat" are parts of "floor.area"; texts have their own counts.
+ */
 export function charts(reports: Record<string, ReportTotal>): Chart[] {
   const groups = new Map<string, [string, number][]>();
   const out: Chart[] = [];
@@ -62,13 +73,15 @@ export function charts(reports: Record<string, ReportTotal>): Chart[] {
     group.push([name.slice(dot + 1), r.sum]);
     groups.set(name.slice(0, dot), group);
   }
-  for (const [title, parts] of groups) if (parts.length > 1) out.push({ title, kind: 'parts', shares: shares(parts) });
+  for (const [title, parts] of groups)
+    if (parts.length > 1) out.push({ title, kind: 'parts', shares: shares(parts) });
   return out;
 }
 
 /** As a table for spreadsheets. */
 export function csv(rows: ReportRow[]): string {
-  const cell = (v: string | number | null) => (v === null ? '' : /[",\n]/.test(String(v)) ? `"${String(v).replaceAll('"', '""')}"` : String(v));
+  const cell = (v: string | number | null) =>
+    v === null ? '' : /[",\n]/.test(String(v)) ? `"${String(v).replaceAll('"', '""')}"` : String(v);
   const lines = rows.map((r) => [r.name, r.n, r.sum, r.avg, r.min, r.max].map(cell).join(','));
   return ['report,n,sum,avg,min,max', ...lines].join('\n') + '\n';
 }

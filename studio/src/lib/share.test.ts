@@ -8,7 +8,18 @@ const bundle: Bundle = {
   gable: 1,
   name: 'tower',
   main: 'rules/tower.cga',
-  place: { start: '', seed: -5, attributes: { 'a.height': '12' }, shapes: { polygon: [[0, 0], [9, 0], [0, 7.5]] } },
+  place: {
+    start: '',
+    seed: -5,
+    attributes: { 'a.height': '12' },
+    shapes: {
+      polygon: [
+        [0, 0],
+        [9, 0],
+        [0, 7.5],
+      ],
+    },
+  },
   files: { 'rules/tower.cga': 'Lot --> extrude(10) "ü"', 'lots.geojson': '{}' },
 };
 
@@ -21,8 +32,17 @@ it('comesBackFromALinkAndFromAFile', async () => {
 });
 
 it('countsPathsFromTheFolderOfAllFiles', () => {
-  const inside: Bundle = { ...bundle, main: 'a/b/t.cga', files: { 'a/b/t.cga': '', 'a/b/x/l.geojson': '' }, place: { ...bundle.place, shapes: { file: 'a/b/x/l.geojson', only: [1] } } };
-  expect(withoutFolder(inside)).toMatchObject({ main: 't.cga', files: { 't.cga': '', 'x/l.geojson': '' }, place: { shapes: { file: 'x/l.geojson', only: [1] } } });
+  const inside: Bundle = {
+    ...bundle,
+    main: 'a/b/t.cga',
+    files: { 'a/b/t.cga': '', 'a/b/x/l.geojson': '' },
+    place: { ...bundle.place, shapes: { file: 'a/b/x/l.geojson', only: [1] } },
+  };
+  expect(withoutFolder(inside)).toMatchObject({
+    main: 't.cga',
+    files: { 't.cga': '', 'x/l.geojson': '' },
+    place: { shapes: { file: 'x/l.geojson', only: [1] } },
+  });
   const apart = { ...inside, files: { ...inside.files, 'rules/w.cga': '' } };
   expect(withoutFolder(apart)).toBe(apart);
 });
@@ -32,7 +52,15 @@ it('saysWhatIsWrongWithWhatIsNone', async () => {
   expect(await decode(`#share=${(await encode(bundle)).slice(0, 40)}`)).toMatch(/not complete/);
   expect(check('{"gable":1}')).toMatch(/no shared place/);
   const wrong = (part: object) => check(JSON.stringify({ ...bundle, ...part }));
-  for (const path of ['../x.cga', '/etc/x.cga', 'a/../x.cga', '.gable/x.cga', 'x.sh', 'a\\b.cga', 'c:x.cga']) {
+  for (const path of [
+    '../x.cga',
+    '/etc/x.cga',
+    'a/../x.cga',
+    '.gable/x.cga',
+    'x.sh',
+    'a\\b.cga',
+    'c:x.cga',
+  ]) {
     expect(wrong({ main: path, files: { [path]: '' } }), path).toMatch(/must not/);
   }
   expect(wrong({ main: 'other.cga' })).toMatch(/must not/);

@@ -21,16 +21,23 @@ export interface Bundle {
 export const LONGEST_LINK = 30_000;
 const LARGEST_BUNDLE = 20_000_000;
 const MOST_FILES = 200;
-const KINDS = /\.(cga|gbbg|grammar|pg3d|park|geojson|json|obj|mtl|gltf|glb|png|jpg|jpeg|csv|txt|md)$/i;
+const KINDS =
+  /\.(cga|gbbg|grammar|pg3d|park|geojson|json|obj|mtl|gltf|glb|png|jpg|jpeg|csv|txt|md)$/i;
 
-async function through(bytes: Uint8Array<ArrayBuffer>, stream: { readable: ReadableStream; writable: WritableStream }): Promise<Uint8Array<ArrayBuffer>> {
-  const piped = new Blob([bytes]).stream().pipeThrough(stream as ReadableWritablePair<Uint8Array<ArrayBuffer>, Uint8Array<ArrayBuffer>>);
+async function through(
+  bytes: Uint8Array<ArrayBuffer>,
+  stream: { readable: ReadableStream; writable: WritableStream },
+): Promise<Uint8Array<ArrayBuffer>> {
+  const piped = new Blob([bytes])
+    .stream()
+    .pipeThrough(stream as ReadableWritablePair<Uint8Array<ArrayBuffer>, Uint8Array<ArrayBuffer>>);
   return new Uint8Array(await new Response(piped).arrayBuffer());
 }
 
 export function toBase64(bytes: Uint8Array): string {
   let text = '';
-  for (let i = 0; i < bytes.length; i += 0x8000) text += String.fromCharCode(...bytes.subarray(i, i + 0x8000));
+  for (let i = 0; i < bytes.length; i += 0x8000)
+    text += String.fromCharCode(...bytes.subarray(i, i + 0x8000));
   return btoa(text);
 }
 
@@ -43,19 +50,30 @@ export function fromBase64(text: string): Uint8Array<ArrayBuffer> {
 
 /** The part of a link behind "#share=". */
 export async function encode(bundle: Bundle): Promise<string> {
-  const bytes = await through(new TextEncoder().encode(JSON.stringify(bundle)), new CompressionStream('deflate'));
+  const bytes = await through(
+    new TextEncoder().encode(JSON.stringify(bundle)),
+    new CompressionStream('deflate'),
+  );
   return toBase64(bytes).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
 }
 
 function plain(path: string): boolean {
-  return path.length < 300 && KINDS.test(path) && path.split('/').every((part) => /^[^.\\:][^\\:]*$/.test(part));
+  return (
+    path.length < 300 &&
+    KINDS.test(path) &&
+    path.split('/').every((part) => /^[^.\\:][^\\:]*$/.test(part))
+  );
 }
 
 function isShapes(value: unknown): value is ShapesSpec {
   const s = value as { lot?: unknown; file?: unknown; polygon?: unknown };
-  const numbers = (v: unknown) => Array.isArray(v) && v.every((n) => typeof n === 'number' && Number.isFinite(n));
+  const numbers = (v: unknown) =>
+    Array.isArray(v) && v.every((n) => typeof n === 'number' && Number.isFinite(n));
   if (numbers(s.lot)) return (s.lot as number[]).length === 2;
-  if (Array.isArray(s.polygon)) return s.polygon.length >= 3 && s.polygon.every((p) => numbers(p) && (p as number[]).length === 2);
+  if (Array.isArray(s.polygon))
+    return (
+      s.polygon.length >= 3 && s.polygon.every((p) => numbers(p) && (p as number[]).length === 2)
+    );
   return typeof s.file === 'string';
 }
 
@@ -68,13 +86,30 @@ export function check(text: string): Bundle | string {
   } catch {
     return 'This is no shared place of Gable.';
   }
-  if (b?.gable !== 1 || typeof b.name !== 'string' || typeof b.main !== 'string' || typeof b.files !== 'object' || !b.files) return 'This is no shared place of Gable.';
+  if (
+    b?.gable !== 1 ||
+    typeof b.name !== 'string' ||
+    typeof b.main !== 'string' ||
+    typeof b.files !== 'object' ||
+    !b.files
+  )
+    return 'This is no shared place of Gable.';
   const paths = Object.keys(b.files);
-  if (paths.length > MOST_FILES || !paths.every(plain) || !paths.includes(b.main)) return 'This shared place names files that it must not.';
-  if (!Object.values(b.files).every((t) => typeof t === 'string')) return 'This is no shared place of Gable.';
+  if (paths.length > MOST_FILES || !paths.every(plain) || !paths.includes(b.main))
+    return 'This shared place names files that it must not.';
+  if (!Object.values(b.files).every((t) => typeof t === 'string'))
+    return 'This is no shared place of Gable.';
   const p = b.place;
-  if (!p || typeof p.seed !== 'number' || typeof p.start !== 'string' || typeof p.attributes !== 'object' || !isShapes(p.shapes)) return 'The place in it cannot be read.';
-  if (!Object.values(p.attributes).every((v) => typeof v === 'string')) return 'The place in it cannot be read.';
+  if (
+    !p ||
+    typeof p.seed !== 'number' ||
+    typeof p.start !== 'string' ||
+    typeof p.attributes !== 'object' ||
+    !isShapes(p.shapes)
+  )
+    return 'The place in it cannot be read.';
+  if (!Object.values(p.attributes).every((v) => typeof v === 'string'))
+    return 'The place in it cannot be read.';
   return b;
 }
 
@@ -82,10 +117,13 @@ export function check(text: string): Bundle | string {
 export async function decode(text: string): Promise<Bundle | string> {
   const trimmed = text.trim();
   if (trimmed.startsWith('{')) return check(trimmed);
-  const code = /#share=([\w-]+)/.exec(trimmed)?.[1] ?? (/^[\w-]{20,}$/.exec(trimmed)?.[0] ?? '');
+  const code = /#share=([\w-]+)/.exec(trimmed)?.[1] ?? /^[\w-]{20,}$/.exec(trimmed)?.[0] ?? '';
   if (!code) return 'This is no link to a shared place: one has #share= in it.';
   try {
-    const bytes = await through(fromBase64(code.replaceAll('-', '+').replaceAll('_', '/')), new DecompressionStream('deflate'));
+    const bytes = await through(
+      fromBase64(code.replaceAll('-', '+').replaceAll('_', '/')),
+      new DecompressionStream('deflate'),
+    );
     if (bytes.length > LARGEST_BUNDLE) return 'This is larger than a shared place can be.';
     return check(new TextDecoder().decode(bytes));
   } catch {

@@ -29,7 +29,9 @@ function namedFiles(studio: Studio, path: string, text: string): string[] {
   ];
   return written.flatMap((w) => {
     const plain = w.replace(/^\.?\//, '');
-    const found = [folder + plain, plain, `assets/${plain}`, `${folder}assets/${plain}`].find((p) => known.has(p));
+    const found = [folder + plain, plain, `assets/${plain}`, `${folder}assets/${plain}`].find((p) =>
+      known.has(p),
+    );
     return found ? [found] : [];
   });
 }
@@ -59,8 +61,13 @@ export function withoutFolder(bundle: Bundle): Bundle {
   return {
     ...bundle,
     main: bundle.main.slice(folder.length),
-    files: Object.fromEntries(Object.entries(bundle.files).map(([p, t]) => [p.slice(folder.length), t])),
-    place: 'file' in shapes ? { ...bundle.place, shapes: { ...shapes, file: shapes.file.slice(folder.length) } } : bundle.place,
+    files: Object.fromEntries(
+      Object.entries(bundle.files).map(([p, t]) => [p.slice(folder.length), t]),
+    ),
+    place:
+      'file' in shapes
+        ? { ...bundle.place, shapes: { ...shapes, file: shapes.file.slice(folder.length) } }
+        : bundle.place,
   };
 }
 
@@ -70,15 +77,21 @@ export async function openShared(studio: Studio, text: string): Promise<string |
   if (typeof bundle === 'string') return bundle;
   const stem = `shared-${bundle.name.replace(/[^\w-]/g, '') || 'place'}`;
   let folder = stem;
-  for (let i = 2; studio.files.some((f) => f.path.startsWith(`${folder}/`)); ++i) folder = `${stem}-${i}`;
+  for (let i = 2; studio.files.some((f) => f.path.startsWith(`${folder}/`)); ++i)
+    folder = `${stem}-${i}`;
   try {
     for (const [path, content] of Object.entries(bundle.files)) {
-      const body = content.startsWith('base64:') ? new Blob([fromBase64(content.slice(7))]) : content;
+      const body = content.startsWith('base64:')
+        ? new Blob([fromBase64(content.slice(7))])
+        : content;
       await studio.client.write(`${folder}/${path}`, body, 'none');
     }
     await studio.refreshFiles();
     const place = bundle.place;
-    const shapes = 'file' in place.shapes ? { ...place.shapes, file: `${folder}/${place.shapes.file}` } : place.shapes;
+    const shapes =
+      'file' in place.shapes
+        ? { ...place.shapes, file: `${folder}/${place.shapes.file}` }
+        : place.shapes;
     await studio.openRules(`${folder}/${bundle.main}`, { ...place, shapes });
   } catch (error) {
     return `It could not be opened: ${(error as Error).message}`;

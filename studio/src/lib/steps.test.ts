@@ -20,11 +20,26 @@ function house(): Steps {
   const none = () => new Uint32Array(nodes.length);
   const size = Float32Array.from([8, 3, 8, 4, 3, 0, 4, 3, 0, 4, 3, 0, 8, 0, 8]);
   const tree: Tree = {
-    count: nodes.length, end: 'done', names, files: [], notes: [],
-    parent: column((n) => n[1]), shape: none(), name: column((n) => names.indexOf(n[0])), file: none(),
-    line: none(), column: none(), endLine: none(), endColumn: none(), firstLeaf: none(), endLeaf: none(),
-    flags: column((n) => n[2]), before: column((n) => n[3]), after: column((n) => n[4]),
-    frame: new Float32Array(nodes.length * 12), size,
+    count: nodes.length,
+    end: 'done',
+    names,
+    files: [],
+    notes: [],
+    parent: column((n) => n[1]),
+    shape: none(),
+    name: column((n) => names.indexOf(n[0])),
+    file: none(),
+    line: none(),
+    column: none(),
+    endLine: none(),
+    endColumn: none(),
+    firstLeaf: none(),
+    endLeaf: none(),
+    flags: column((n) => n[2]),
+    before: column((n) => n[3]),
+    after: column((n) => n[4]),
+    frame: new Float32Array(nodes.length * 12),
+    size,
   };
   return new Steps(new Shapes(tree));
 }
@@ -37,8 +52,18 @@ it('has a step for each shape that a rule rewrites, in order', () => {
 
 it('knows when each shape is there', () => {
   const steps = house();
-  expect([0, 1, 2, 3].map((s) => steps.time(0, s))).toEqual(['now', 'replaced', 'replaced', 'replaced']);
-  expect([0, 1, 2, 3].map((s) => steps.time(1, s))).toEqual(['later', 'now', 'replaced', 'replaced']);
+  expect([0, 1, 2, 3].map((s) => steps.time(0, s))).toEqual([
+    'now',
+    'replaced',
+    'replaced',
+    'replaced',
+  ]);
+  expect([0, 1, 2, 3].map((s) => steps.time(1, s))).toEqual([
+    'later',
+    'now',
+    'replaced',
+    'replaced',
+  ]);
   expect([0, 1, 2, 3].map((s) => steps.time(2, s))).toEqual(['later', 'later', 'now', 'now']);
   expect([0, 1, 2, 3].map((s) => steps.time(3, s))).toEqual(['later', 'now', 'now', 'now']);
 });
@@ -55,7 +80,10 @@ it('shows each leaf from the step that makes it up to the one that replaces it',
 });
 
 it('says what a step has made', () => {
-  expect(house().made(1)).toEqual([{ name: 'Wall', count: 2, extent: 4 }, { name: 'Roof', count: 1, extent: 0 }]);
+  expect(house().made(1)).toEqual([
+    { name: 'Wall', count: 2, extent: 4 },
+    { name: 'Roof', count: 1, extent: 0 },
+  ]);
   expect(house().made(3)).toEqual([]);
 });
 

@@ -74,7 +74,11 @@ export class Steps {
       const name = this.shapes.nameOf(child);
       found.set(name, [...(found.get(name) ?? []), child]);
     }
-    return [...found].map(([name, nodes]) => ({ name, count: nodes.length, extent: this.extent(nodes) }));
+    return [...found].map(([name, nodes]) => ({
+      name,
+      count: nodes.length,
+      extent: this.extent(nodes),
+    }));
   }
 
   private extent(nodes: number[]): number {
@@ -85,7 +89,8 @@ export class Steps {
     for (let axis = 0; axis < 3; ++axis) {
       const first = of(nodes[0]!, axis);
       const cut = first < of(parent, axis) * 0.999;
-      if (cut && nodes.every((n) => Math.abs(of(n, axis) - first) < 1e-3 * Math.max(1, first))) return first;
+      if (cut && nodes.every((n) => Math.abs(of(n, axis) - first) < 1e-3 * Math.max(1, first)))
+        return first;
     }
     return 0;
   }
@@ -107,7 +112,10 @@ export class Steps {
     return out;
   }
 
-  /** The next step, forwards or backwards, that replaces a shape of a rule on which to stop; 0 for none. */
+  /**
+   * The next step, forwards or backwards, that replaces a shape of a rule on which to stop; 0 for
+   * none.
+   */
   nextStop(step: number, forwards: boolean, stops: ReadonlySet<string>): number {
     const by = forwards ? 1 : -1;
     for (let s = step + by; s >= 1 && s <= this.count; s += by) {

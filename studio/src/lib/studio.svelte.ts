@@ -4,7 +4,14 @@
 // Studio: all that the page knows. Panels read it and call its methods; none has a state of its own
 // that another panel would have to know.
 
-import { EngineClient, Refusal, type DeriveRequest, type Example, type ProjectFile, type ShapesSpec } from './client';
+import {
+  EngineClient,
+  Refusal,
+  type DeriveRequest,
+  type Example,
+  type ProjectFile,
+  type ShapesSpec,
+} from './client';
 import { applied, difference, History, type Step } from './history';
 import { groupFields, valueText, type Group } from './fields';
 import type { AttributeInfo, Derived, DrawList, Message, RuleInfo, Stats, Value } from './protocol';
@@ -63,7 +70,9 @@ function sameOr<T>(before: T, now: T): T {
   return JSON.stringify(before) === JSON.stringify(now) ? before : now;
 }
 
-/** A file that is imported with values of its own is listed once more: the first of a name counts. */
+/**
+ * A file that is imported with values of its own is listed once more: the first of a name counts.
+ */
 function once<T>(all: T[], key: (one: T) => string): T[] {
   const seen = new Set<string>();
   return all.filter((one) => seen.size !== seen.add(key(one)).size);
@@ -153,7 +162,10 @@ export class Studio {
       this.files = project.files;
       this.registry = readRegistry(ops);
       await this.recall();
-      const first = this.ruleFiles.find((f) => f.path === this.main) ?? this.ruleFiles.find((f) => !/^(.*\/)?rules\//.test(f.path)) ?? this.ruleFiles[0];
+      const first =
+        this.ruleFiles.find((f) => f.path === this.main) ??
+        this.ruleFiles.find((f) => !/^(.*\/)?rules\//.test(f.path)) ??
+        this.ruleFiles[0];
       if (first) await this.openRules(first.path);
       else this.page = 'gallery';
       this.ready = true;
@@ -178,7 +190,10 @@ export class Studio {
   }
 
   private async recall(): Promise<void> {
-    const [text, steps] = await Promise.all([this.client.recovery(MEMORY), this.client.recovery(HISTORY)]);
+    const [text, steps] = await Promise.all([
+      this.client.recovery(MEMORY),
+      this.client.recovery(HISTORY),
+    ]);
     if (steps) this.history.recall(steps);
     this.countSteps();
     if (!text) return;
@@ -230,7 +245,10 @@ export class Studio {
     this.docs.push({ path, text, saved: file.text, version: file.version });
     const other = aside[0];
     if (other === undefined) return;
-    this.say(`Another page had other edits of ${path}`, { label: 'Take those', run: () => this.edit(path, other, 'Take the other edits') });
+    this.say(`Another page had other edits of ${path}`, {
+      label: 'Take those',
+      run: () => this.edit(path, other, 'Take the other edits'),
+    });
   }
 
   closeFile(path: string): void {
@@ -298,12 +316,18 @@ export class Studio {
     doc.text = merged.text;
     doc.saved = theirs;
     doc.version = version;
-    this.say(edited ? `${doc.path} was changed elsewhere; both edits are in it now` : `${doc.path} was changed elsewhere and read again`);
+    this.say(
+      edited
+        ? `${doc.path} was changed elsewhere; both edits are in it now`
+        : `${doc.path} was changed elsewhere and read again`,
+    );
     this.changed();
     return true;
   }
 
-  /** Ends a conflict: with what the editor says or with a text of both, or with what the file says. */
+  /**
+   * Ends a conflict: with what the editor says or with a text of both, or with what the file says.
+   */
   async resolve(mine: boolean, text?: string): Promise<void> {
     const conflict = this.conflictOf;
     const doc = conflict && this.doc(conflict.path);
@@ -327,7 +351,11 @@ export class Studio {
   }
 
   /** A step of the history; steps of one name within half a second are one. */
-  change(part: Partial<Place>, label = Object.keys(part).join(' and '), group = `place ${label}`): void {
+  change(
+    part: Partial<Place>,
+    label = Object.keys(part).join(' and '),
+    group = `place ${label}`,
+  ): void {
     const before = JSON.stringify(this.place);
     this.place = { ...this.place, ...part };
     const after = JSON.stringify(this.place);
@@ -353,7 +381,8 @@ export class Studio {
 
   private async restore(step: Step | null, verb: string): Promise<void> {
     if (!step) return;
-    for (const path of new Set(step.texts.map((t) => t.path))) await this.loadFile(path).catch(() => undefined);
+    for (const path of new Set(step.texts.map((t) => t.path)))
+      await this.loadFile(path).catch(() => undefined);
     let lost = false;
     for (const change of step.texts) {
       const doc = this.doc(change.path);
@@ -363,7 +392,8 @@ export class Studio {
     }
     const place = step.place;
     if (place && place.main === this.main) this.place = JSON.parse(place.after) as Place;
-    else if (place) this.places = { ...this.places, [place.main]: JSON.parse(place.after) as Place };
+    else if (place)
+      this.places = { ...this.places, [place.main]: JSON.parse(place.after) as Place };
     this.countSteps();
     if (lost) this.say('That text was changed elsewhere; the rest was undone.');
     else if (step.label !== 'Typing') this.say(`${verb}: ${step.label}`);
@@ -399,12 +429,21 @@ export class Studio {
 
   private request(): DeriveRequest {
     const overlay: Record<string, string> = {};
-    for (const doc of this.docs) if (doc.path !== this.main && doc.text !== doc.saved) overlay[doc.path] = doc.text;
+    for (const doc of this.docs)
+      if (doc.path !== this.main && doc.text !== doc.saved) overlay[doc.path] = doc.text;
     const place = $state.snapshot(this.place);
-    return { page: this.client.page, file: this.main, text: this.doc(this.main)?.text ?? '', overlay, ...place };
+    return {
+      page: this.client.page,
+      file: this.main,
+      text: this.doc(this.main)?.text ?? '',
+      overlay,
+      ...place,
+    };
   }
 
-  /** Asks for a new model; a younger one that is under way comes first, an older one is given up. */
+  /**
+   * Asks for a new model; a younger one that is under way comes first, an older one is given up.
+   */
   derive(): void {
     if (!this.main) return;
     clearTimeout(this.treeTimer);
@@ -473,9 +512,15 @@ export class Studio {
       return;
     }
     this.far = null;
-    this.rules = sameOr(this.rules, once(derived.rules, (r) => `${r.name} ${r.parameters}`));
+    this.rules = sameOr(
+      this.rules,
+      once(derived.rules, (r) => `${r.name} ${r.parameters}`),
+    );
     this.startRule = derived.startRule;
-    this.attributes = sameOr(this.attributes, once(derived.attributes, (a) => a.name));
+    this.attributes = sameOr(
+      this.attributes,
+      once(derived.attributes, (a) => a.name),
+    );
     this.values = sameOr(this.values, derived.values ?? {});
     this.stats = derived.stats;
     this.derivation = derived.derivation ?? 0;
@@ -483,7 +528,10 @@ export class Studio {
     this.latest = { draw, stats: derived.stats };
     if (!this.guide.open) this.show?.(draw, derived.stats);
     if (derived.stats.shapes <= MOST_TREE_SHAPES) {
-      this.treeTimer = window.setTimeout(() => void this.fetchTree(), this.guide.open ? 0 : TREE_AFTER_MS);
+      this.treeTimer = window.setTimeout(
+        () => void this.fetchTree(),
+        this.guide.open ? 0 : TREE_AFTER_MS,
+      );
     } else if (this.guide.open) this.treeTimer = window.setTimeout(() => void this.fetchTree(), 0);
     else {
       this.shapes = null;
@@ -524,7 +572,8 @@ export class Studio {
   showAgain(): void {
     if (!this.latest) return;
     const { draw, steps } = this.guide;
-    if (this.guide.open && draw && steps) this.show?.(draw, this.latest.stats, steps.lives(draw.leaves));
+    if (this.guide.open && draw && steps)
+      this.show?.(draw, this.latest.stats, steps.lives(draw.leaves));
     else this.show?.(this.latest.draw, this.latest.stats);
   }
 
@@ -563,7 +612,9 @@ export class Studio {
   /** The rule that a shape is to be rewritten by: the one of its name. */
   ruleOf(node: number): RuleInfo | undefined {
     const name = this.shapes?.nameOf(node);
-    return this.rules.find((r) => r.name === name) ?? this.rules.find((r) => r.name.endsWith(`.${name}`));
+    return (
+      this.rules.find((r) => r.name === name) ?? this.rules.find((r) => r.name.endsWith(`.${name}`))
+    );
   }
 
   /** Selects a leaf of a model with too many shapes for a tree; -1 for none. */
@@ -577,7 +628,10 @@ export class Studio {
   goFar(far: Far | null): void {
     this.far = far;
     if (!far) return;
-    const rule = far.isLeaf ? undefined : (this.rules.find((r) => r.name === far.name) ?? this.rules.find((r) => r.name.endsWith(`.${far.name}`)));
+    const rule = far.isLeaf
+      ? undefined
+      : (this.rules.find((r) => r.name === far.name) ??
+        this.rules.find((r) => r.name.endsWith(`.${far.name}`)));
     this.reveal?.(rule?.file ?? far.info.file ?? '', rule?.line ?? far.info.line ?? 1);
   }
 
@@ -604,7 +658,10 @@ export class Studio {
   /** Holds the seed of a lot, or lets it go with the others again. */
   pin(lot: number): void {
     const { [lot]: held, ...rest } = this.place.seeds ?? {};
-    this.change({ seeds: held === undefined ? { ...rest, [lot]: this.place.seed } : rest }, held === undefined ? 'Pin' : 'Unpin');
+    this.change(
+      { seeds: held === undefined ? { ...rest, [lot]: this.place.seed } : rest },
+      held === undefined ? 'Pin' : 'Unpin',
+    );
   }
 
   setSeed(seed: number, lot = -1): void {
@@ -629,7 +686,8 @@ export class Studio {
     const doc = this.doc(this.active);
     if (!doc) return;
     const { text, messages } = await this.client.format(doc.path, doc.text);
-    if (messages.some((m) => m.severity === 'error')) this.say('Text with errors is not formatted.');
+    if (messages.some((m) => m.severity === 'error'))
+      this.say('Text with errors is not formatted.');
     else this.edit(doc.path, text, 'Format');
   }
 
@@ -640,7 +698,8 @@ export class Studio {
   async newRules(): Promise<void> {
     let path = 'rules.cga';
     for (let i = 2; this.files.some((f) => f.path === path); ++i) path = `rules-${i}.cga`;
-    const text = 'attr height = 12\n\n@StartRule\nLot -->\n    extrude(height)\n    color("#e6dac5")\n    Building\n';
+    const text =
+      'attr height = 12\n\n@StartRule\nLot -->\n    extrude(height)\n    color("#e6dac5")\n    Building\n';
     await this.client.write(path, text, 'none');
     this.files = (await this.client.project()).files;
     await this.openRules(path);

@@ -11,9 +11,26 @@ function grow(text: string): Shapes {
   const names = [...new Set(lines.map((l) => l.trim()))];
   const column = () => new Uint32Array(n);
   const tree: Tree = {
-    count: n, end: 'done', names, files: ['a.cga'], notes: [], parent: column().fill(NONE), shape: column(), name: column(), file: column(),
-    line: column(), column: column(), endLine: column(), endColumn: column(), firstLeaf: column().fill(NONE), endLeaf: column().fill(NONE),
-    flags: column(), before: column(), after: column(), frame: new Float32Array(n * 12), size: new Float32Array(n * 3),
+    count: n,
+    end: 'done',
+    names,
+    files: ['a.cga'],
+    notes: [],
+    parent: column().fill(NONE),
+    shape: column(),
+    name: column(),
+    file: column(),
+    line: column(),
+    column: column(),
+    endLine: column(),
+    endColumn: column(),
+    firstLeaf: column().fill(NONE),
+    endLeaf: column().fill(NONE),
+    flags: column(),
+    before: column(),
+    after: column(),
+    frame: new Float32Array(n * 12),
+    size: new Float32Array(n * 3),
   };
   const stack: number[] = [];
   let leaf = 0;
@@ -54,7 +71,12 @@ describe('shapes', () => {
     expect([...s.leaves]).toEqual([6, 5, 3, 1, 1, 1, 1, 1, 1, 1]);
   });
   it('are found by their leaf', () => {
-    expect(s.pathTo(s.ofLeaf(2)).map((n) => s.nameOf(n))).toEqual(['Lot', 'House', 'Wall', 'Pane.']);
+    expect(s.pathTo(s.ofLeaf(2)).map((n) => s.nameOf(n))).toEqual([
+      'Lot',
+      'House',
+      'Wall',
+      'Pane.',
+    ]);
     expect(named(s, s.ofLeaf(5))).toBe('Garden.');
     expect(s.ofLeaf(99)).toBe(-1);
   });
@@ -80,8 +102,18 @@ describe('the outline', () => {
   const s = grow('Lot\n Floor\n  Pane.\n Floor\n  Pane.\n Floor\n  Pane.\n Roof.\n');
   it('folds equal siblings until they are unfolded', () => {
     const rows = outline(s, new Set([0]), new Set());
-    expect(rows.map((r) => `${r.name} ${r.times} ${r.leaves}`)).toEqual(['Lot 1 4', 'Floor 3 3', 'Roof. 1 1']);
-    expect(outline(s, new Set([0]), new Set([1])).map((r) => r.name)).toEqual(['Lot', 'Floor', 'Floor', 'Floor', 'Roof.']);
+    expect(rows.map((r) => `${r.name} ${r.times} ${r.leaves}`)).toEqual([
+      'Lot 1 4',
+      'Floor 3 3',
+      'Roof. 1 1',
+    ]);
+    expect(outline(s, new Set([0]), new Set([1])).map((r) => r.name)).toEqual([
+      'Lot',
+      'Floor',
+      'Floor',
+      'Floor',
+      'Roof.',
+    ]);
   });
   it('shows what is open', () => {
     expect(outline(s, new Set(), new Set()).length).toBe(1);

@@ -66,7 +66,10 @@ export class Shapes {
   find(address: string[]): number {
     let at = -1;
     for (const step of address) {
-      const [name, ordinal] = [step.slice(0, step.lastIndexOf('#')), Number(step.slice(step.lastIndexOf('#') + 1))];
+      const [name, ordinal] = [
+        step.slice(0, step.lastIndexOf('#')),
+        Number(step.slice(step.lastIndexOf('#') + 1)),
+      ];
       const siblings = at < 0 ? this.roots : [...this.children(at)];
       const found = siblings.filter((s) => this.nameOf(s) === name)[ordinal];
       if (found === undefined) break;
@@ -124,10 +127,14 @@ export interface Row {
 }
 
 /** The rows of an outline: siblings with one name that follow each other fold to one row. */
-export function outline(shapes: Shapes, open: ReadonlySet<number>, unfolded: ReadonlySet<number>): Row[] {
+export function outline(
+  shapes: Shapes,
+  open: ReadonlySet<number>,
+  unfolded: ReadonlySet<number>,
+): Row[] {
   const rows: Row[] = [];
   const visit = (nodes: ArrayLike<number>, depth: number) => {
-    for (let i = 0; i < nodes.length; ) {
+    for (let i = 0; i < nodes.length;) {
       const node = nodes[i]!;
       const name = shapes.nameOf(node);
       let end = i + 1;
@@ -141,7 +148,15 @@ export function outline(shapes: Shapes, open: ReadonlySet<number>, unfolded: Rea
         for (let j = k; j < (folds ? end : k + 1); ++j) leaves += shapes.leaves[nodes[j]!]!;
         const isParent = shapes.children(each).length > 0;
         const isOpen = isParent && open.has(each) && !folds;
-        rows.push({ node: each, depth, name, times, leaves, open: isOpen, parent: isParent || folds });
+        rows.push({
+          node: each,
+          depth,
+          name,
+          times,
+          leaves,
+          open: isOpen,
+          parent: isParent || folds,
+        });
         if (isOpen) visit(shapes.children(each), depth + 1);
       }
       i = end;

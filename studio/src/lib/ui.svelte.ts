@@ -28,7 +28,14 @@ export function press(keys: string, target: EventTarget): void {
   const shift = parts.includes('Shift');
   const named: Record<string, string> = { Esc: 'Escape', Space: ' ' };
   const key = named[last] ?? (last.length === 1 && !shift ? last.toLowerCase() : last);
-  const codes: Record<string, number> = { F2: 113, F8: 119, F12: 123, Enter: 13, ' ': 32, '.': 190 };
+  const codes: Record<string, number> = {
+    F2: 113,
+    F8: 119,
+    F12: 123,
+    Enter: 13,
+    ' ': 32,
+    '.': 190,
+  };
   target.dispatchEvent(
     new KeyboardEvent('keydown', {
       key,

@@ -36,7 +36,10 @@ export function axisOf(field: Field, value: Value): Axis {
 export function valuesOf(axis: Axis, count: number): Value[] {
   const control = axis.field.control;
   if (control.kind === 'bool') return [false, true];
-  if (control.kind === 'choice') return control.choices.slice(0, Math.max(count, 12)).map((c) => (axis.field.type === 'float' ? Number(c) : c));
+  if (control.kind === 'choice')
+    return control.choices
+      .slice(0, Math.max(count, 12))
+      .map((c) => (axis.field.type === 'float' ? Number(c) : c));
   if (control.kind !== 'number') return [];
   const { step } = control;
   const out: number[] = [];
@@ -49,18 +52,30 @@ export function valuesOf(axis: Axis, count: number): Value[] {
   return out;
 }
 
-const shownValue = (v: Value): string => (typeof v === 'number' ? String(Math.round(v * 100) / 100) : String(v));
-const unit = (axis: Axis): string => (axis.field.control.kind === 'number' ? axis.field.control.unit : '');
-const caption = (axis: Axis, v: Value): string => `${axis.field.label} ${shownValue(v)}${unit(axis) ? ` ${unit(axis)}` : ''}`;
+const shownValue = (v: Value): string =>
+  typeof v === 'number' ? String(Math.round(v * 100) / 100) : String(v);
+const unit = (axis: Axis): string =>
+  axis.field.control.kind === 'number' ? axis.field.control.unit : '';
+const caption = (axis: Axis, v: Value): string =>
+  `${axis.field.label} ${shownValue(v)}${unit(axis) ? ` ${unit(axis)}` : ''}`;
 
 /** Seeds from one on, those of the kept ones first. */
 export function seedVariants(first: number, kept: number[], count: number): Variant[] {
   const seeds = [...kept];
-  for (let s = first; seeds.length < count; s = s >= 0x7fffffff ? 0 : s + 1) if (!seeds.includes(s)) seeds.push(s);
-  return seeds.slice(0, Math.max(count, kept.length)).map((seed) => ({ key: `seed ${seed}`, seed, attributes: {}, caption: [`seed ${seed}`] }));
+  for (let s = first; seeds.length < count; s = s >= 0x7fffffff ? 0 : s + 1)
+    if (!seeds.includes(s)) seeds.push(s);
+  return seeds
+    .slice(0, Math.max(count, kept.length))
+    .map((seed) => ({ key: `seed ${seed}`, seed, attributes: {}, caption: [`seed ${seed}`] }));
 }
 
-export function attributeVariants(seed: number, across: Axis, down: Axis | null, columns: number, rows: number): Variant[] {
+export function attributeVariants(
+  seed: number,
+  across: Axis,
+  down: Axis | null,
+  columns: number,
+  rows: number,
+): Variant[] {
   const xs = valuesOf(across, down ? columns : columns * rows);
   const ys: (Value | undefined)[] = down ? valuesOf(down, rows) : [undefined];
   return ys.flatMap((y) =>
@@ -96,6 +111,7 @@ export interface Reach {
 
 /** The box that holds both. */
 export function union(a: Reach | null, b: Reach): Reach {
-  const pick = (f: (x: number, y: number) => number, p: number[], q: number[]) => p.map((v, i) => f(v, q[i]!)) as [number, number, number];
+  const pick = (f: (x: number, y: number) => number, p: number[], q: number[]) =>
+    p.map((v, i) => f(v, q[i]!)) as [number, number, number];
   return a ? { min: pick(Math.min, a.min, b.min), max: pick(Math.max, a.max, b.max) } : b;
 }

@@ -6,7 +6,17 @@
 
 import { notationOf } from '../lib/notation';
 import type { Studio } from '../lib/studio.svelte';
-import { applyChanges, definitionOf, definitions, nameTrouble, rename, targetAt, uses, type RuleFile, type Target } from './rules';
+import {
+  applyChanges,
+  definitionOf,
+  definitions,
+  nameTrouble,
+  rename,
+  targetAt,
+  uses,
+  type RuleFile,
+  type Target,
+} from './rules';
 import { lineOf } from './tokens';
 
 export interface Found {
@@ -70,7 +80,10 @@ export class References {
     const target = targetAt(files, path, offset);
     const all = target ? uses(files, target) : [];
     if (!target || !all.length) return false;
-    this.listing = { name: target.name, found: all.map((u) => this.at(u.path, u.from, u.definition)) };
+    this.listing = {
+      name: target.name,
+      found: all.map((u) => this.at(u.path, u.from, u.definition)),
+    };
     return true;
   }
 
@@ -79,8 +92,19 @@ export class References {
     const target = targetAt(files, path, offset);
     const all = target ? uses(files, target) : [];
     // What no file of the project defines is built in, or a leaf, whose name is free to change.
-    if (!target || !all.length || this.studio.registry.some((e) => e.name === target.name && !all.some((u) => u.definition))) return false;
-    this.renaming = { target, name: target.name, uses: all.length, files: new Set(all.map((u) => u.path)).size, trouble: '' };
+    if (
+      !target ||
+      !all.length ||
+      this.studio.registry.some((e) => e.name === target.name && !all.some((u) => u.definition))
+    )
+      return false;
+    this.renaming = {
+      target,
+      name: target.name,
+      uses: all.length,
+      files: new Set(all.map((u) => u.path)).size,
+      trouble: '',
+    };
     return true;
   }
 
@@ -88,7 +112,12 @@ export class References {
     const renaming = this.renaming;
     if (!renaming || name === renaming.target.name) return '';
     const file = this.files.find((f) => f.path === renaming.target.path);
-    const taken = file ? definitions(file.text, notationOf(file.path)).flatMap((d) => [d.name, ...(renaming.target.within ? d.parameters : [])]) : [];
+    const taken = file
+      ? definitions(file.text, notationOf(file.path)).flatMap((d) => [
+          d.name,
+          ...(renaming.target.within ? d.parameters : []),
+        ])
+      : [];
     return nameTrouble(name, taken) ?? '';
   }
 
@@ -108,13 +137,22 @@ export class References {
       texts.push([path, applyChanges(this.studio.doc(path)!.text, changes)]);
     }
     this.studio.editAll(texts, `Rename ${renaming.target.name}`);
-    this.studio.say(`${renaming.target.name} is now ${name} in ${renaming.uses} places`, { label: 'Undo', run: () => this.studio.undo() });
+    this.studio.say(`${renaming.target.name} is now ${name} in ${renaming.uses} places`, {
+      label: 'Undo',
+      run: () => this.studio.undo(),
+    });
   }
 
   private at(path: string, offset: number, definition: boolean): Found {
     const text = this.files.find((f) => f.path === path)?.text ?? '';
     const from = text.lastIndexOf('\n', offset - 1) + 1;
     const end = text.indexOf('\n', offset);
-    return { path, line: lineOf(text, offset), column: offset - from + 1, text: text.slice(from, end < 0 ? text.length : end).trim(), definition };
+    return {
+      path,
+      line: lineOf(text, offset),
+      column: offset - from + 1,
+      text: text.slice(from, end < 0 ? text.length : end).trim(),
+      definition,
+    };
   }
 }

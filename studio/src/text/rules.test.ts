@@ -1,7 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 import { describe, expect, it } from 'vitest';
-import { applyChanges, definitions, duplicate, freeName, nameTrouble, removal, rename, targetAt, uses, type RuleFile } from './rules';
+import {
+  applyChanges,
+  definitions,
+  duplicate,
+  freeName,
+  nameTrouble,
+  removal,
+  rename,
+  targetAt,
+  uses,
+  type RuleFile,
+} from './rules';
 
 const CGA = `import w : "window.cga"
 @Range(min=3, max=30)
@@ -34,7 +45,12 @@ describe('definitions', () => {
   it('findsRulesAttributesConstantsAndFunctions', () => {
     const found = definitions(CGA, 'CGA');
     expect(found.map((d) => `${d.kind} ${d.name}`)).toEqual([
-      'attribute height', 'constant half', 'function area', 'rule Lot', 'rule Wall', 'rule Roof',
+      'attribute height',
+      'constant half',
+      'function area',
+      'rule Lot',
+      'rule Wall',
+      'rule Roof',
     ]);
     expect(found[4]!.parameters).toEqual(['height']);
     expect(CGA.slice(found[3]!.from, found[3]!.to)).toMatch(/^Lot -->[\s\S]*Roof }$/);
@@ -43,11 +59,21 @@ describe('definitions', () => {
   });
 
   it('findsRulesOfOtherNotations', () => {
-    const gbbg = 'axiom START size (1, 2, 3)\nterminal Wall 2D [3, 3, 0]\nSTART -> Split(Y, {1}) {A | B}\n"front" A -> Repeat(X)\n   {Wall 1}\n';
-    expect(definitions(gbbg, 'GBBG').map((d) => gbbg.slice(d.from, d.to))).toEqual(['START -> Split(Y, {1}) {A | B}', '"front" A -> Repeat(X)\n   {Wall 1}']);
-    const progen = 'X -> R* n ( 2 4 )\n   Row\nFront ; 0.4 -> Shop -> Home\nRow n -> House # here\n';
-    expect(definitions(progen, 'ProGen3d').map((d) => [d.name, d.parameters.join()])).toEqual([['X', ''], ['Front', ''], ['Row', 'n']]);
-    const park = 'size = 3\nRegion -> Grid(5 {3, 15}, 3) { CellRegion }\nCellRegion ->\n  case (w == 3): A\n  else: B\n';
+    const gbbg =
+      'axiom START size (1, 2, 3)\nterminal Wall 2D [3, 3, 0]\nSTART -> Split(Y, {1}) {A | B}\n"front" A -> Repeat(X)\n   {Wall 1}\n';
+    expect(definitions(gbbg, 'GBBG').map((d) => gbbg.slice(d.from, d.to))).toEqual([
+      'START -> Split(Y, {1}) {A | B}',
+      '"front" A -> Repeat(X)\n   {Wall 1}',
+    ]);
+    const progen =
+      'X -> R* n ( 2 4 )\n   Row\nFront ; 0.4 -> Shop -> Home\nRow n -> House # here\n';
+    expect(definitions(progen, 'ProGen3d').map((d) => [d.name, d.parameters.join()])).toEqual([
+      ['X', ''],
+      ['Front', ''],
+      ['Row', 'n'],
+    ]);
+    const park =
+      'size = 3\nRegion -> Grid(5 {3, 15}, 3) { CellRegion }\nCellRegion ->\n  case (w == 3): A\n  else: B\n';
     expect(definitions(park, 'Park').map((d) => d.name)).toEqual(['size', 'Region', 'CellRegion']);
   });
 
@@ -97,7 +123,15 @@ describe('duplicate and remove', () => {
   it('copiesUnderAFreeName', () => {
     expect(freeName('Wall', ['Wall', 'Wall_2'])).toBe('Wall_3');
     const text = applyChanges(CGA, [duplicate(CGA, found[4]!, 'Wall_2')]);
-    expect(definitions(text, 'CGA').map((d) => d.name)).toEqual(['height', 'half', 'area', 'Lot', 'Wall', 'Wall_2', 'Roof']);
+    expect(definitions(text, 'CGA').map((d) => d.name)).toEqual([
+      'height',
+      'half',
+      'area',
+      'Lot',
+      'Wall',
+      'Wall_2',
+      'Roof',
+    ]);
   });
   it('removesWithItsAnnotations', () => {
     const text = applyChanges(CGA, [removal(CGA, found[3]!)]);
@@ -105,6 +139,8 @@ describe('duplicate and remove', () => {
     expect(text).not.toContain('Where it begins');
     expect(definitions(text, 'CGA').length).toBe(5);
     const one = definitions('A -> B\nB -> C\n', 'Park');
-    expect(applyChanges('A -> B\nB -> C\n', [removal('A -> B\nB -> C\n', one[0]!)])).toBe('B -> C\n');
+    expect(applyChanges('A -> B\nB -> C\n', [removal('A -> B\nB -> C\n', one[0]!)])).toBe(
+      'B -> C\n',
+    );
   });
 });

@@ -36,7 +36,20 @@ export interface Use extends Span {
   definition: boolean;
 }
 
-const DECLARES = new Set(['attr', 'const', 'style', 'import', 'version', 'axiom', 'shape', 'terminal', 'select', 'use', 'postprocess', 'fun']);
+const DECLARES = new Set([
+  'attr',
+  'const',
+  'style',
+  'import',
+  'version',
+  'axiom',
+  'shape',
+  'terminal',
+  'select',
+  'use',
+  'postprocess',
+  'fun',
+]);
 
 interface Header {
   /** Tokens: first of the definition, its name, first of the body. */
@@ -67,9 +80,17 @@ function progenHeaders(text: string, tokens: Token[]): Header[] {
   tokens.forEach((token, i) => {
     if (token.text !== '->') return;
     let first = i;
-    while (first > 0 && !(startsLine(text, tokens[first]!) && text.lastIndexOf('\n', tokens[first]!.from) === tokens[first]!.from - 1)) --first;
+    while (
+      first > 0 &&
+      !(
+        startsLine(text, tokens[first]!) &&
+        text.lastIndexOf('\n', tokens[first]!.from) === tokens[first]!.from - 1
+      )
+    )
+      --first;
     const from = tokens[first]!;
-    if (from.kind === 'name' && !out.some((h) => h.first === first)) out.push({ first, name: first, body: i + 1, kind: 'rule' });
+    if (from.kind === 'name' && !out.some((h) => h.first === first))
+      out.push({ first, name: first, body: i + 1, kind: 'rule' });
   });
   return out;
 }
@@ -87,18 +108,37 @@ function headers(text: string, tokens: Token[], notation: Notation): Header[] {
       let first = name;
       while (first > 0 && ['inline', 'recursive'].includes(tokens[first - 1]!.text)) --first;
       // A title in front of a GBBG rule's symbol.
-      if (tokens[first - 1]?.kind === 'string' && notation === 'GBBG' && startsLine(text, tokens[first - 1]!)) --first;
+      if (
+        tokens[first - 1]?.kind === 'string' &&
+        notation === 'GBBG' &&
+        startsLine(text, tokens[first - 1]!)
+      )
+        --first;
       out.push({ first, name, body: i + 1, kind: 'rule' });
-    } else if ((token.text === 'attr' || token.text === 'const') && tokens[i + 1]?.kind === 'name') {
+    } else if (
+      (token.text === 'attr' || token.text === 'const') &&
+      tokens[i + 1]?.kind === 'name'
+    ) {
       const isConst = token.text === 'const';
       const call = tokens[i + 2]?.text === '(' ? closing(tokens, i + 2) + 1 : i + 2;
       const kind = !isConst ? 'attribute' : call > i + 2 ? 'function' : 'constant';
       if (tokens[call]?.text === '=') out.push({ first: i, name: i + 1, body: call + 1, kind });
-    } else if (token.kind === 'name' && depth === 0 && startsLine(text, token) && !DECLARES.has(token.text)) {
+    } else if (
+      token.kind === 'name' &&
+      depth === 0 &&
+      startsLine(text, token) &&
+      !DECLARES.has(token.text)
+    ) {
       const before = tokens[i - 1]?.text;
       if (before === 'attr' || before === 'const') return;
       const call = tokens[i + 1]?.text === '(' ? closing(tokens, i + 1) + 1 : i + 1;
-      if (tokens[call]?.text === '=') out.push({ first: i, name: i, body: call + 1, kind: call > i + 1 ? 'function' : 'constant' });
+      if (tokens[call]?.text === '=')
+        out.push({
+          first: i,
+          name: i,
+          body: call + 1,
+          kind: call > i + 1 ? 'function' : 'constant',
+        });
     }
   });
   return out.sort((a, b) => a.first - b.first);
@@ -107,7 +147,9 @@ function headers(text: string, tokens: Token[], notation: Notation): Header[] {
 function parametersOf(tokens: Token[], header: Header, notation: Notation): string[] {
   const names: string[] = [];
   if (notation === 'ProGen3d') {
-    for (let i = header.name + 1; i < header.body; ++i) if (tokens[i]!.kind === 'name' && !/^[A-Z]$/.test(tokens[i]!.text)) names.push(tokens[i]!.text);
+    for (let i = header.name + 1; i < header.body; ++i)
+      if (tokens[i]!.kind === 'name' && !/^[A-Z]$/.test(tokens[i]!.text))
+        names.push(tokens[i]!.text);
     return names;
   }
   if (tokens[header.name + 1]?.text !== '(') return names;
@@ -130,7 +172,12 @@ function otherStarts(text: string, tokens: Token[]): Set<number> {
   tokens.forEach((t, i) => {
     if (t.kind === 'mark' && '([{'.includes(t.text)) ++depth;
     if (t.kind === 'mark' && ')]}'.includes(t.text)) --depth;
-    if (depth === 0 && (t.kind === 'annotation' || (t.kind === 'name' && DECLARES.has(t.text))) && startsLine(text, t)) out.add(i);
+    if (
+      depth === 0 &&
+      (t.kind === 'annotation' || (t.kind === 'name' && DECLARES.has(t.text))) &&
+      startsLine(text, t)
+    )
+      out.add(i);
   });
   return out;
 }
@@ -195,7 +242,13 @@ export function imports(file: RuleFile): { id: string; path: string }[] {
   const tokens = tokenize(file.text).filter((t) => t.kind !== 'comment');
   const out: { id: string; path: string }[] = [];
   tokens.forEach((t, i) => {
-    if (t.text !== 'import' || tokens[i + 1]?.kind !== 'name' || tokens[i + 2]?.text !== ':' || tokens[i + 3]?.kind !== 'string') return;
+    if (
+      t.text !== 'import' ||
+      tokens[i + 1]?.kind !== 'name' ||
+      tokens[i + 2]?.text !== ':' ||
+      tokens[i + 3]?.kind !== 'string'
+    )
+      return;
     out.push({ id: tokens[i + 1]!.text, path: tokens[i + 3]!.text.slice(1, -1) });
   });
   return out;
@@ -240,18 +293,26 @@ export function targetAt(files: RuleFile[], path: string, offset: number): Targe
   const file = files.find((f) => f.path === path);
   if (!file) return null;
   const notation = notationOf(path);
-  const token = tokenize(file.text).find((t) => t.from <= offset && offset <= t.to && (t.kind === 'name' || (t.kind === 'string' && notation === 'GBBG')));
+  const token = tokenize(file.text).find(
+    (t) =>
+      t.from <= offset &&
+      offset <= t.to &&
+      (t.kind === 'name' || (t.kind === 'string' && notation === 'GBBG')),
+  );
   if (!token) return null;
   const word = token.kind === 'string' ? token.text.slice(1, -1) : token.text;
   const defined = definitions(file.text, notation);
   const around = defined.find((d) => d.from <= token.from && token.to <= d.to);
-  if (around?.parameters.includes(word)) return { path, name: word, within: { from: around.from, to: around.to } };
+  if (around?.parameters.includes(word))
+    return { path, name: word, within: { from: around.from, to: around.to } };
   if (!word.includes('.')) return { path, name: word, within: null };
   // "id.Name": the longest prefix that is an import.
   const [id = '', ...rest] = word.split('.');
   const imported = imports(file).find((i) => i.id === id);
   const other = imported && files.find((f) => sameFile(path, imported.path, f.path));
-  return other ? { path: other.path, name: rest.join('.'), within: null } : { path, name: word, within: null };
+  return other
+    ? { path: other.path, name: rest.join('.'), within: null }
+    : { path, name: word, within: null };
 }
 
 /** All places where a target is named, over all files. */
@@ -264,23 +325,42 @@ export function uses(files: RuleFile[], target: Target): Use[] {
     if (!words.length) continue;
     const defined = definitions(file.text, notation);
     for (const token of tokenize(file.text)) {
-      const text = token.kind === 'string' && notation === 'GBBG' ? token.text.slice(1, -1) : token.text;
-      if ((token.kind !== 'name' && !(token.kind === 'string' && notation === 'GBBG')) || !words.includes(text)) continue;
+      const text =
+        token.kind === 'string' && notation === 'GBBG' ? token.text.slice(1, -1) : token.text;
+      if (
+        (token.kind !== 'name' && !(token.kind === 'string' && notation === 'GBBG')) ||
+        !words.includes(text)
+      )
+        continue;
       const around = defined.find((d) => d.from <= token.from && token.to <= d.to);
-      if (target.within ? token.from < target.within.from || token.to > target.within.to : around?.parameters.includes(text)) continue;
+      if (
+        target.within
+          ? token.from < target.within.from || token.to > target.within.to
+          : around?.parameters.includes(text)
+      )
+        continue;
       // The name alone, without the imports in front of it.
       const from = token.kind === 'string' ? token.from + 1 : token.to - target.name.length;
       const to = token.kind === 'string' ? token.to - 1 : token.to;
-      out.push({ path: file.path, from, to, definition: defined.some((d) => d.nameSpan.from <= from && to <= d.nameSpan.to) });
+      out.push({
+        path: file.path,
+        from,
+        to,
+        definition: defined.some((d) => d.nameSpan.from <= from && to <= d.nameSpan.to),
+      });
     }
   }
   return out;
 }
 
 /** Where a target is defined. */
-export function definitionOf(files: RuleFile[], target: Target): { path: string; definition: Definition } | null {
+export function definitionOf(
+  files: RuleFile[],
+  target: Target,
+): { path: string; definition: Definition } | null {
   const file = files.find((f) => f.path === target.path);
-  const definition = file && definitions(file.text, notationOf(file.path)).find((d) => d.name === target.name);
+  const definition =
+    file && definitions(file.text, notationOf(file.path)).find((d) => d.name === target.name);
   return definition ? { path: target.path, definition } : null;
 }
 
@@ -291,13 +371,15 @@ export interface Change extends Span {
 /** Applies changes that do not overlap. */
 export function applyChanges(text: string, changes: Change[]): string {
   let out = text;
-  for (const c of [...changes].sort((a, b) => b.from - a.from)) out = out.slice(0, c.from) + c.insert + out.slice(c.to);
+  for (const c of [...changes].sort((a, b) => b.from - a.from))
+    out = out.slice(0, c.from) + c.insert + out.slice(c.to);
   return out;
 }
 
 /** A sentence where a name cannot be used, or null. */
 export function nameTrouble(name: string, taken: Iterable<string>): string | null {
-  if (!/^[A-Za-z_]\w*$/.test(name)) return 'A name is letters, digits and _, and begins with no digit.';
+  if (!/^[A-Za-z_]\w*$/.test(name))
+    return 'A name is letters, digits and _, and begins with no digit.';
   return [...taken].includes(name) ? `There is already something called ${name}.` : null;
 }
 
@@ -319,8 +401,14 @@ export function freeName(name: string, taken: Iterable<string>): string {
 
 /** A copy of a definition under another name, right behind it. */
 export function duplicate(text: string, definition: Definition, name: string): Change {
-  const copy = text.slice(definition.from, definition.nameSpan.from) + name + text.slice(definition.nameSpan.to, definition.to);
-  const gap = text.slice(definition.from, definition.to).includes('\n') || text[definition.to] !== '\n' ? '\n\n' : '\n';
+  const copy =
+    text.slice(definition.from, definition.nameSpan.from) +
+    name +
+    text.slice(definition.nameSpan.to, definition.to);
+  const gap =
+    text.slice(definition.from, definition.to).includes('\n') || text[definition.to] !== '\n'
+      ? '\n\n'
+      : '\n';
   return { from: definition.to, to: definition.to, insert: gap + copy };
 }
 

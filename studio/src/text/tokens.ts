@@ -13,8 +13,19 @@ export interface Token {
   text: string;
 }
 
-const PATTERN =
-  /(\/\/[^\n]*|#[^\n]*|\/\*[\s\S]*?(?:\*\/|$))|("(?:[^"\\\n]|\\.)*"?)|(@[A-Za-z_]\w*)|([A-Za-z_]\w*(?:\.[A-Za-z_]\w*)*)|(\d+(?:\.\d+)?(?:[eE][+-]?\d+)?|\.\d+)|(-->|->|==|!=|<=|>=|&&|\|\||[^\s])/g;
+const PATTERN = new RegExp(
+  [
+    /(\/\/[^\n]*|#[^\n]*|\/\*[\s\S]*?(?:\*\/|$))/,
+    /("(?:[^"\\\n]|\\.)*"?)/,
+    /(@[A-Za-z_]\w*)/,
+    /([A-Za-z_]\w*(?:\.[A-Za-z_]\w*)*)/,
+    /(\d+(?:\.\d+)?(?:[eE][+-]?\d+)?|\.\d+)/,
+    /(-->|->|==|!=|<=|>=|&&|\|\||[^\s])/,
+  ]
+    .map((part) => part.source)
+    .join('|'),
+  'g',
+);
 
 const KINDS: TokenKind[] = ['comment', 'string', 'annotation', 'name', 'number', 'mark'];
 
@@ -23,7 +34,12 @@ export function tokenize(text: string): Token[] {
   const out: Token[] = [];
   for (const match of text.matchAll(PATTERN)) {
     const group = match.slice(1).findIndex((g) => g !== undefined);
-    out.push({ kind: KINDS[group]!, from: match.index, to: match.index + match[0].length, text: match[0] });
+    out.push({
+      kind: KINDS[group]!,
+      from: match.index,
+      to: match.index + match[0].length,
+      text: match[0],
+    });
   }
   return out;
 }

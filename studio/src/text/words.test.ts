@@ -7,7 +7,12 @@ import { findWord, leanedOn, wordsOf } from './words';
 
 const registry = readRegistry({
   operations: [
-    { name: 'split', summary: 'Divides the shape.', block: '{ size : rules }', overloads: [{ params: [{ name: 'axis', type: 'word', doc: 'Along it.' }] }] },
+    {
+      name: 'split',
+      summary: 'Divides the shape.',
+      block: '{ size : rules }',
+      overloads: [{ params: [{ name: 'axis', type: 'word', doc: 'Along it.' }] }],
+    },
     { name: 'innerRectangle', summary: 'The largest rectangle.', overloads: [{ params: [] }] },
   ],
   functions: [],
@@ -19,13 +24,18 @@ it('explainsOwnWordsByTheOperationThatDoesThem', () => {
   const split = findWord(wordsOf('GBBG', registry), 'Split', 'GBBG')!;
   expect(split.text).toMatch(/widths.*Done by split\./);
   expect(split.snippet).toContain('Split(');
-  expect(findWord(wordsOf('Park', registry), 'innerrect', 'Park')!.text).toMatch(/largest rectangle/);
+  expect(findWord(wordsOf('Park', registry), 'innerrect', 'Park')!.text).toMatch(
+    /largest rectangle/,
+  );
   expect(findWord(wordsOf('GBBG', registry), 'split', 'GBBG')).toBeUndefined();
 });
 
 it('takesGablesOwnWordsFromTheRegistry', () => {
   const words = wordsOf('CGA', registry);
-  expect(findWord(words, 'split', 'CGA')).toMatchObject({ signatures: ['split(axis)'], snippet: 'split(${axis}) { ${} : ${} }' });
+  expect(findWord(words, 'split', 'CGA')).toMatchObject({
+    signatures: ['split(axis)'],
+    snippet: 'split(${axis}) { ${} : ${} }',
+  });
   expect(findWord(words, 'scope.sx', 'CGA')!.snippet).toBe('');
   expect(findWord(words, '@Range', 'CGA')!.kind).toBe('annotation');
 });

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Ambient: how much less light of the sky gets into corners, from the depths of a picture alone. Places too
-// large to be drawn again and again from all parts of the sky get it, once they stand still. Half the pixels
-// each way look around themselves (McGuire, Mara and Luebke, "Scalable Ambient Obscurance"); what
-// they find is smoothed within surfaces and multiplied into the picture.
+// Ambient: how much less light of the sky gets into corners, from the depths of a picture alone.
+// Places too large to be drawn again and again from all parts of the sky get it, once they stand
+// still. Half the pixels each way look around themselves (McGuire, Mara and Luebke, "Scalable
+// Ambient Obscurance"); what they find is smoothed within surfaces and multiplied into the picture.
 
 import * as THREE from 'three';
 
@@ -15,7 +15,8 @@ const LEAST_PIXELS = 9;
 const MOST_PIXELS = 40;
 const STRENGTH = 1.5;
 
-const SCREEN = 'varying vec2 vUv; void main() { vUv = uv; gl_Position = vec4(position.xy, 0.0, 1.0); }';
+const SCREEN =
+  'varying vec2 vUv; void main() { vUv = uv; gl_Position = vec4(position.xy, 0.0, 1.0); }';
 
 /** Metres in front of the camera, from what a depth buffer holds. */
 const DISTANCE = `
@@ -82,7 +83,13 @@ function lookMaterial(range: THREE.IUniform, depths: THREE.IUniform): THREE.Shad
     depthTest: false,
     depthWrite: false,
     blending: THREE.NoBlending,
-    uniforms: { range, depths, tangent: { value: new THREE.Vector2() }, texel: { value: new THREE.Vector2() }, pixel: { value: 0 } },
+    uniforms: {
+      range,
+      depths,
+      tangent: { value: new THREE.Vector2() },
+      texel: { value: new THREE.Vector2() },
+      pixel: { value: 0 },
+    },
     vertexShader: SCREEN,
     fragmentShader: `
       uniform sampler2D depths;
@@ -126,7 +133,11 @@ function lookMaterial(range: THREE.IUniform, depths: THREE.IUniform): THREE.Shad
 }
 
 /** Multiplies the openness, smoothed over four by four pixels of about the same distance. */
-function darkenMaterial(open: THREE.Texture, range: THREE.IUniform, depths: THREE.IUniform): THREE.ShaderMaterial {
+function darkenMaterial(
+  open: THREE.Texture,
+  range: THREE.IUniform,
+  depths: THREE.IUniform,
+): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     depthTest: false,
     depthWrite: false,

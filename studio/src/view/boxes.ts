@@ -29,11 +29,16 @@ export function corners(box: ScopeBox): Point[] {
 }
 
 function edges(box: ScopeBox, out: number[]): void {
-  for (let i = 0; i < 8; ++i) for (const bit of [1, 2, 4]) if (!(i & bit)) out.push(...corner(box, i), ...corner(box, i | bit));
+  for (let i = 0; i < 8; ++i)
+    for (const bit of [1, 2, 4])
+      if (!(i & bit)) out.push(...corner(box, i), ...corner(box, i | bit));
 }
 
 function lines(points: number[], material: THREE.Material): THREE.LineSegments {
-  const geometry = new THREE.BufferGeometry().setAttribute('position', new THREE.Float32BufferAttribute(points, 3));
+  const geometry = new THREE.BufferGeometry().setAttribute(
+    'position',
+    new THREE.Float32BufferAttribute(points, 3),
+  );
   const out = new THREE.LineSegments(geometry, material);
   out.frustumCulled = false;
   return out;
@@ -48,7 +53,10 @@ export function scopeLines(box: ScopeBox, accent: THREE.Color): THREE.Object3D[]
   edges(box, points);
   const { size } = box;
   const length = Math.max(size[0]!, size[1]!, size[2]!) * 0.25;
-  const axis = (x: number, y: number, z: number) => [...point(box, 0, 0, 0), ...point(box, x * length, y * length, z * length)];
+  const axis = (x: number, y: number, z: number) => [
+    ...point(box, 0, 0, 0),
+    ...point(box, x * length, y * length, z * length),
+  ];
   return [
     lines(points, over(accent)),
     lines(axis(1, 0, 0), over(0xe0564e)),
@@ -61,21 +69,50 @@ export function scopeLines(box: ScopeBox, accent: THREE.Color): THREE.Object3D[]
 export function manyScopes(boxes: ScopeBox[], color: THREE.Color): THREE.Object3D {
   const points: number[] = [];
   for (const box of boxes) edges(box, points);
-  return lines(points, new THREE.LineBasicMaterial({ color, transparent: true, opacity: 0.55, fog: false }));
+  return lines(
+    points,
+    new THREE.LineBasicMaterial({ color, transparent: true, opacity: 0.55, fog: false }),
+  );
 }
 
-const SIDES = [0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1, 2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3];
+const SIDES = [
+  0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1, 2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7,
+  1, 7, 3,
+];
 
 /** A replaced shape: a dashed box, filled a little. */
 export function ghostBox(box: ScopeBox, color: THREE.Color): THREE.Object3D[] {
   const points: number[] = [];
   edges(box, points);
   const dash = Math.max(...Array.from(box.size)) / 40;
-  const dashed = lines(points, new THREE.LineDashedMaterial({ color, dashSize: dash, gapSize: dash * 0.8, depthTest: false, transparent: true, fog: false }));
+  const dashed = lines(
+    points,
+    new THREE.LineDashedMaterial({
+      color,
+      dashSize: dash,
+      gapSize: dash * 0.8,
+      depthTest: false,
+      transparent: true,
+      fog: false,
+    }),
+  );
   dashed.computeLineDistances();
-  const geometry = new THREE.BufferGeometry().setAttribute('position', new THREE.Float32BufferAttribute(corners(box).flat(), 3));
+  const geometry = new THREE.BufferGeometry().setAttribute(
+    'position',
+    new THREE.Float32BufferAttribute(corners(box).flat(), 3),
+  );
   geometry.setIndex(SIDES);
-  const fill = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({ color, opacity: 0.1, transparent: true, depthWrite: false, side: THREE.DoubleSide, fog: false }));
+  const fill = new THREE.Mesh(
+    geometry,
+    new THREE.MeshBasicMaterial({
+      color,
+      opacity: 0.1,
+      transparent: true,
+      depthWrite: false,
+      side: THREE.DoubleSide,
+      fog: false,
+    }),
+  );
   fill.frustumCulled = false;
   return [dashed, fill];
 }

@@ -9,7 +9,10 @@ const COUNT = 60_000;
 /** Boxes of 0.1 to 10 m over a square kilometre. */
 function boxes(): THREE.InstancedMesh {
   const geometry = new THREE.BoxGeometry(1, 1, 1);
-  geometry.setAttribute('tint', new THREE.InstancedBufferAttribute(new Uint8Array(COUNT * 4), 4, true));
+  geometry.setAttribute(
+    'tint',
+    new THREE.InstancedBufferAttribute(new Uint8Array(COUNT * 4), 4, true),
+  );
   const leaf = Float32Array.from({ length: COUNT }, (_, i) => i);
   geometry.setAttribute('leaf', new THREE.InstancedBufferAttribute(leaf, 1));
   const mesh = new THREE.InstancedMesh(geometry, new THREE.MeshBasicMaterial(), COUNT);
@@ -32,7 +35,8 @@ function camera(height: number): THREE.PerspectiveCamera {
 }
 
 const leaves = (mesh: THREE.InstancedMesh) => {
-  const all = (mesh.geometry.getAttribute('leaf') as THREE.InstancedBufferAttribute).array as Float32Array;
+  const all = (mesh.geometry.getAttribute('leaf') as THREE.InstancedBufferAttribute)
+    .array as Float32Array;
   return [...all.subarray(0, mesh.count)];
 };
 
@@ -69,24 +73,38 @@ it('moves each instance with its number', async () => {
   const detail = (await Detail.of([mesh], () => false))!;
   detail.select(camera(900), 720, 1e9);
   const m = new THREE.Matrix4();
-  leaves(mesh).slice(0, 200).forEach((leaf, k) => {
-    mesh.getMatrixAt(k, m);
-    expect(m.elements[12]).toBeCloseTo((leaf * 7919) % 1000, 3);
-  });
+  leaves(mesh)
+    .slice(0, 200)
+    .forEach((leaf, k) => {
+      mesh.getMatrixAt(k, m);
+      expect(m.elements[12]).toBeCloseTo((leaf * 7919) % 1000, 3);
+    });
 });
 
 /** One mesh of 20000 leaves, each a quad of 0.2 to 6 m, over a square kilometre. */
 function quads(): THREE.Mesh {
   const n = 20_000;
-  const [position, leaf, index] = [new Float32Array(n * 12), new Float32Array(n * 4), new Uint32Array(n * 6)];
+  const [position, leaf, index] = [
+    new Float32Array(n * 12),
+    new Float32Array(n * 4),
+    new Uint32Array(n * 6),
+  ];
   for (let i = 0; i < n; ++i) {
     const side = 0.2 * 30 ** ((i * 0.61803) % 1);
     const [x, z] = [(i * 7919) % 1000, (i * 104729) % 997];
-    [[0, 0], [side, 0], [side, side], [0, side]].forEach(([u, v], k) => {
+    [
+      [0, 0],
+      [side, 0],
+      [side, side],
+      [0, side],
+    ].forEach(([u, v], k) => {
       position.set([x + u!, 1, z + v!], (i * 4 + k) * 3);
       leaf[i * 4 + k] = i;
     });
-    index.set([0, 1, 2, 0, 2, 3].map((k) => i * 4 + k), i * 6);
+    index.set(
+      [0, 1, 2, 0, 2, 3].map((k) => i * 4 + k),
+      i * 6,
+    );
   }
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.BufferAttribute(position, 3));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Detail: of a large model only what can be seen is drawn: instances, and leaves of merged meshes. They
-// are sorted once into runs by cell and size. For each picture the runs of cells in sight are copied
-// together, a few memory moves a cell; where that is still too much, the least goes up. A picture that
-// stands still is made of several such helpings, one over the other, so that it can hold millions of
-// triangles and yet nobody waits long for the next one. Of instances the graphics card holds what was
-// drawn at once at most, not all.
+// Detail: of a large model only what can be seen is drawn: instances, and leaves of merged meshes.
+// They are sorted once into runs by cell and size. For each picture the runs of cells in sight are
+// copied together, a few memory moves a cell; where that is still too much, the least goes up. A
+// picture that stands still is made of several such helpings, one over the other, so that it can
+// hold millions of triangles and yet nobody waits long for the next one. Of instances the graphics
+// card holds what was drawn at once at most, not all.
 
 import * as THREE from 'three';
 import { Merged } from './merged';
@@ -14,7 +14,10 @@ import { sortIntoRuns, worthMore, worthOf, type Least, type Runs, type Things } 
 
 /** Models with fewer triangles are drawn whole. */
 const WORTH_IT = 600_000;
-/** Triangles of a picture while things move, of a helping of one that stands still, and of all of that. */
+/**
+ * Triangles of a picture while things move, of a helping of one that stands still, and of all of
+ * that.
+ */
 export const MOVING = 300_000;
 const HELPING = 600_000;
 const STILL = 8_000_000;
@@ -34,7 +37,9 @@ const LEAST_ROOM = 64;
 /** What is drawn of one mesh. */
 export interface Part {
   readonly transparent: boolean;
-  /** Takes what is worth no less than is said for its cell, and tells how many triangles that are. */
+  /**
+   * Takes what is worth no less than is said for its cell, and tells how many triangles that are.
+   */
   take(least: Least): number;
   /** Puts together what was taken and is not in the picture yet. */
   fill(): void;
@@ -72,7 +77,9 @@ export class Detail {
     return out;
   }
 
-  /** Takes what is in sight of a camera and large enough on a canvas of so many pixels in height. */
+  /**
+   * Takes what is in sight of a camera and large enough on a canvas of so many pixels in height.
+   */
   select(camera: THREE.PerspectiveCamera, height: number, budget: number): void {
     const least = worthSeeing(camera, height);
     this.forget();
@@ -83,14 +90,14 @@ export class Detail {
   }
 
   /**
-   * Takes helping after helping of what such a camera sees, largest first; true for the last one, which has all that is
-   * transparent.
+   * Takes helping after helping of what such a camera sees, largest first; true for the last one,
+   * which has all that is transparent.
    */
   *helpings(camera: THREE.PerspectiveCamera, height: number): Generator<boolean, void> {
     const least = worthSeeing(camera, height);
     this.forget();
     let pixels = MOST_PIXELS;
-    for (let before = 0, last = false; !last; ) {
+    for (let before = 0, last = false; !last;) {
       const finer = () => Math.max(LEAST_PIXELS, pixels / FINER);
       do pixels = finer();
       while (pixels > LEAST_PIXELS && this.take(least(finer())) - before <= HELPING);
@@ -154,11 +161,17 @@ class Instances implements Part {
     this.transparent = (mesh.material as THREE.Material).transparent;
     this.triangles = (geometry.index?.count ?? 0) / 3;
     this.matrix = mesh.instanceMatrix.array as Float32Array;
-    this.tint = (geometry.getAttribute('tint') as THREE.InstancedBufferAttribute).array as Uint8Array;
-    this.leaf = (geometry.getAttribute('leaf') as THREE.InstancedBufferAttribute).array as Float32Array;
+    this.tint = (geometry.getAttribute('tint') as THREE.InstancedBufferAttribute)
+      .array as Uint8Array;
+    this.leaf = (geometry.getAttribute('leaf') as THREE.InstancedBufferAttribute)
+      .array as Float32Array;
     this.runs = sortIntoRuns(placesOf(geometry, this.matrix, n));
     // The draw list itself is put in order, so that it stays one.
-    const ordered = { matrix: new Float32Array(n * 16), tint: new Uint8Array(n * 4), leaf: new Float32Array(n) };
+    const ordered = {
+      matrix: new Float32Array(n * 16),
+      tint: new Uint8Array(n * 4),
+      leaf: new Float32Array(n),
+    };
     for (let k = 0; k < n; ++k) {
       const i = this.runs.order[k]!;
       ordered.matrix.set(this.matrix.subarray(i * 16, i * 16 + 16), k * 16);
@@ -176,7 +189,9 @@ class Instances implements Part {
 
   take(least: Least): number {
     let count = 0;
-    this.runs.cells.forEach((cell, i) => (count += this.taken[i] = worthMore(this.runs.worth, cell, least(cell))));
+    this.runs.cells.forEach(
+      (cell, i) => (count += this.taken[i] = worthMore(this.runs.worth, cell, least(cell))),
+    );
     return count * this.triangles;
   }
 
@@ -213,14 +228,26 @@ class Instances implements Part {
     }
   }
 
-  /** Room for so many instances; what there was room for stays, so that moving to and fro changes nothing. */
+  /**
+   * Room for so many instances; what there was room for stays, so that moving to and fro changes
+   * nothing.
+   */
   private makeRoom(count: number): void {
     if (count <= this.room) return;
     this.room = Math.min(this.leaf.length, Math.max(LEAST_ROOM, Math.ceil(count * 1.25)));
     const { mesh, room } = this;
-    mesh.instanceMatrix = new THREE.InstancedBufferAttribute(new Float32Array(room * 16), 16).setUsage(THREE.DynamicDrawUsage) as THREE.InstancedBufferAttribute;
-    mesh.geometry.setAttribute('tint', new THREE.InstancedBufferAttribute(new Uint8Array(room * 4), 4, true));
-    mesh.geometry.setAttribute('leaf', new THREE.InstancedBufferAttribute(new Float32Array(room), 1));
+    mesh.instanceMatrix = new THREE.InstancedBufferAttribute(
+      new Float32Array(room * 16),
+      16,
+    ).setUsage(THREE.DynamicDrawUsage) as THREE.InstancedBufferAttribute;
+    mesh.geometry.setAttribute(
+      'tint',
+      new THREE.InstancedBufferAttribute(new Uint8Array(room * 4), 4, true),
+    );
+    mesh.geometry.setAttribute(
+      'leaf',
+      new THREE.InstancedBufferAttribute(new Float32Array(room), 1),
+    );
   }
 }
 
@@ -230,15 +257,27 @@ function placesOf(geometry: THREE.BufferGeometry, from: Float32Array, n: number)
   const middle = box.getCenter(new THREE.Vector3());
   const extent = box.getSize(new THREE.Vector3());
   const triangles = (geometry.index?.count ?? 0) / 3;
-  const out: Things = { at: new Float32Array(n * 3), reach: new Float32Array(n), worth: new Float32Array(n) };
+  const out: Things = {
+    at: new Float32Array(n * 3),
+    reach: new Float32Array(n),
+    worth: new Float32Array(n),
+  };
   for (let i = 0; i < n; ++i) {
     const m = i * 16;
     const side = (k: number) => Math.hypot(from[m + k]!, from[m + k + 1]!, from[m + k + 2]!);
-    const sides: [number, number, number] = [side(0) * extent.x, side(4) * extent.y, side(8) * extent.z];
+    const sides: [number, number, number] = [
+      side(0) * extent.x,
+      side(4) * extent.y,
+      side(8) * extent.z,
+    ];
     out.reach[i] = Math.max(...sides);
     out.worth[i] = worthOf(sides, triangles);
     for (let k = 0; k < 3; ++k) {
-      out.at[i * 3 + k] = from[m + k]! * middle.x + from[m + 4 + k]! * middle.y + from[m + 8 + k]! * middle.z + from[m + 12 + k]!;
+      out.at[i * 3 + k] =
+        from[m + k]! * middle.x +
+        from[m + 4 + k]! * middle.y +
+        from[m + 8 + k]! * middle.z +
+        from[m + 12 + k]!;
     }
   }
   return out;

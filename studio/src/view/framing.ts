@@ -19,11 +19,15 @@ const POINTS_A_BATCH = 400;
 const AIR = 1.1;
 const PLACE_AIR = 1.08;
 const FROM = new THREE.Vector3(0.52, 0.5, 0.82).normalize();
-/** A model that has become so many times larger or smaller is framed anew; where somebody has moved the camera, that is more. */
+/**
+ * A model that has become so many times larger or smaller is framed anew; where somebody has moved
+ * the camera, that is more.
+ */
 const OUTGROWN = 1.08;
 const OUTGROWN_AFTER_MOVES = 3;
 
-const boxOf = (b: Bounds) => new THREE.Box3(new THREE.Vector3(...b.min), new THREE.Vector3(...b.max));
+const boxOf = (b: Bounds) =>
+  new THREE.Box3(new THREE.Vector3(...b.min), new THREE.Vector3(...b.max));
 
 export class Framing {
   /** Some of all points of a place. */
@@ -46,7 +50,8 @@ export class Framing {
   /** Hears of another model. */
   know(list: DrawList, bounds: Bounds): void {
     this.empty = list.leaves === 0;
-    this.points = boxOf(bounds).getSize(new THREE.Vector3()).length() / 2 > WIDE ? somePoints(list) : [];
+    this.points =
+      boxOf(bounds).getSize(new THREE.Vector3()).length() / 2 > WIDE ? somePoints(list) : [];
   }
 
   /** Whether no model has been framed yet. */
@@ -65,27 +70,41 @@ export class Framing {
   /** Whether a model is another size than the one that was framed, or elsewhere. */
   outgrown(bounds: Bounds): boolean {
     if (!this.framed || this.empty) return false;
-    const [now, then] = [bounds, this.framed].map((b) => boxOf(b).getBoundingSphere(new THREE.Sphere()));
+    const [now, then] = [bounds, this.framed].map((b) =>
+      boxOf(b).getBoundingSphere(new THREE.Sphere()),
+    );
     const room = this.moved ? OUTGROWN_AFTER_MOVES : OUTGROWN;
     const ratio = Math.max(now!.radius, 1) / Math.max(then!.radius, 1);
-    return ratio > room || ratio < 1 / room || now!.center.distanceTo(then!.center) > then!.radius * (room - 0.8);
+    return (
+      ratio > room ||
+      ratio < 1 / room ||
+      now!.center.distanceTo(then!.center) > then!.radius * (room - 0.8)
+    );
   }
 
   box(bounds: Bounds, reset: boolean): void {
     const box = boxOf(bounds);
     const centre = box.getCenter(new THREE.Vector3());
     const radius = Math.max(0.5, box.getSize(new THREE.Vector3()).length() / 2);
-    const direction = reset ? FROM : this.camera.position.clone().sub(this.controls.target).normalize();
-    // A wide, flat place fills the picture when all corners of its box just fit; a house has air around it.
+    const direction = reset
+      ? FROM
+      : this.camera.position.clone().sub(this.controls.target).normalize();
+    // A wide, flat place fills the picture when all corners of its box just fit; a house has air
+    // around it.
     const upward = Math.tan((this.camera.fov * Math.PI) / 360);
     const right = new THREE.Vector3(0, 1, 0).cross(direction).normalize();
     const up = direction.clone().cross(right);
     const fit = Math.atan(upward * Math.min(1, this.camera.aspect));
     let far = radius > WIDE ? 0 : (radius * AIR) / Math.sin(fit);
     for (let i = 0; i < 8 && radius > WIDE; ++i) {
-      const corner = new THREE.Vector3(...[0, 1, 2].map((k) => (i & (1 << k) ? bounds.max : bounds.min)[k]!)).sub(centre);
+      const corner = new THREE.Vector3(
+        ...[0, 1, 2].map((k) => (i & (1 << k) ? bounds.max : bounds.min)[k]!),
+      ).sub(centre);
       const wide = Math.abs(corner.dot(right)) / (upward * this.camera.aspect);
-      far = Math.max(far, corner.dot(direction) + Math.max(wide, Math.abs(corner.dot(up)) / upward));
+      far = Math.max(
+        far,
+        corner.dot(direction) + Math.max(wide, Math.abs(corner.dot(up)) / upward),
+      );
     }
     this.controls.target.copy(centre);
     this.camera.position.copy(centre).addScaledVector(direction, radius > WIDE ? far * AIR : far);
@@ -106,12 +125,18 @@ export class Framing {
       }
       const middle = seen.getCenter(new THREE.Vector2());
       const size = seen.getSize(new THREE.Vector2());
-      const half = camera.position.distanceTo(controls.target) * Math.tan((camera.fov * Math.PI) / 360);
-      const aside = axis.setFromMatrixColumn(camera.matrixWorld, 0).multiplyScalar(middle.x * half * camera.aspect).clone();
+      const half =
+        camera.position.distanceTo(controls.target) * Math.tan((camera.fov * Math.PI) / 360);
+      const aside = axis
+        .setFromMatrixColumn(camera.matrixWorld, 0)
+        .multiplyScalar(middle.x * half * camera.aspect)
+        .clone();
       aside.addScaledVector(axis.setFromMatrixColumn(camera.matrixWorld, 1), middle.y * half);
       const towards = camera.position.clone().sub(controls.target);
       controls.target.add(aside);
-      camera.position.copy(controls.target).addScaledVector(towards, (Math.max(size.x, size.y) / 2) * PLACE_AIR);
+      camera.position
+        .copy(controls.target)
+        .addScaledVector(towards, (Math.max(size.x, size.y) / 2) * PLACE_AIR);
     }
     // What it turns about is on the ground.
     const ahead = controls.target.clone().sub(camera.position).normalize();
@@ -132,7 +157,8 @@ function somePoints(list: DrawList): THREE.Vector3[] {
   for (const batch of list.batches) {
     const [from, each, first] = batch.matrix ? [batch.matrix, 16, 12] : [batch.position, 3, 0];
     const step = Math.max(1, Math.floor(from.length / each / POINTS_A_BATCH)) * each;
-    for (let i = first; i < from.length; i += step) out.push(new THREE.Vector3().fromArray(from, i));
+    for (let i = first; i < from.length; i += step)
+      out.push(new THREE.Vector3().fromArray(from, i));
   }
   return out;
 }

@@ -35,7 +35,11 @@ export class Merged implements Part {
     }
     this.taken = new Uint32Array(this.runs.cells.length);
     this.done = this.taken.slice();
-    geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(from.length), 1).setUsage(THREE.DynamicDrawUsage) as THREE.BufferAttribute);
+    geometry.setIndex(
+      new THREE.BufferAttribute(new Uint32Array(from.length), 1).setUsage(
+        THREE.DynamicDrawUsage,
+      ) as THREE.BufferAttribute,
+    );
     geometry.setDrawRange(0, 0);
   }
 
@@ -57,7 +61,10 @@ export class Merged implements Part {
     let n = 0;
     this.runs.cells.forEach((cell, i) => {
       if (this.done[i]! >= this.taken[i]!) return;
-      const part = this.all.subarray(this.corners[cell.from + this.done[i]!]!, this.corners[cell.from + this.taken[i]!]!);
+      const part = this.all.subarray(
+        this.corners[cell.from + this.done[i]!]!,
+        this.corners[cell.from + this.taken[i]!]!,
+      );
       (index.array as Uint32Array).set(part, n);
       n += part.length;
       this.done[i] = this.taken[i]!;
@@ -75,7 +82,10 @@ export class Merged implements Part {
 }
 
 /** The leaves of a mesh, and where the corners of each begin. */
-function leavesOf(geometry: THREE.BufferGeometry, corners: Uint32Array): { starts: number[]; things: Things } {
+function leavesOf(
+  geometry: THREE.BufferGeometry,
+  corners: Uint32Array,
+): { starts: number[]; things: Things } {
   const leaf = geometry.getAttribute('leaf').array;
   const position = geometry.getAttribute('position').array;
   const starts: number[] = [];
@@ -84,12 +94,17 @@ function leavesOf(geometry: THREE.BufferGeometry, corners: Uint32Array): { start
   }
   const n = starts.length;
   starts.push(corners.length);
-  const things: Things = { at: new Float32Array(n * 3), reach: new Float32Array(n), worth: new Float32Array(n) };
+  const things: Things = {
+    at: new Float32Array(n * 3),
+    reach: new Float32Array(n),
+    worth: new Float32Array(n),
+  };
   const box = new THREE.Box3();
   const point = new THREE.Vector3();
   for (let i = 0; i < n; ++i) {
     box.makeEmpty();
-    for (let c = starts[i]!; c < starts[i + 1]!; ++c) box.expandByPoint(point.fromArray(position, corners[c]! * 3));
+    for (let c = starts[i]!; c < starts[i + 1]!; ++c)
+      box.expandByPoint(point.fromArray(position, corners[c]! * 3));
     box.getCenter(point).toArray(things.at, i * 3);
     const sides = box.getSize(point).toArray();
     things.reach[i] = Math.max(...sides);

@@ -35,7 +35,18 @@ const FORWARD = ['KeyW', 'ArrowUp'];
 const BACK = ['KeyS', 'ArrowDown'];
 const LEFT = ['KeyA'];
 const RIGHT = ['KeyD'];
-const MOVES = new Set([...FORWARD, ...BACK, ...LEFT, ...RIGHT, 'KeyQ', 'KeyE', 'ArrowLeft', 'ArrowRight', 'PageUp', 'PageDown']);
+const MOVES = new Set([
+  ...FORWARD,
+  ...BACK,
+  ...LEFT,
+  ...RIGHT,
+  'KeyQ',
+  'KeyE',
+  'ArrowLeft',
+  'ArrowRight',
+  'PageUp',
+  'PageDown',
+]);
 
 export class Navigation {
   mode: Mode = 'orbit';
@@ -81,7 +92,9 @@ export class Navigation {
     this.held.clear();
     if (mode === 'orbit') {
       const ahead = camera.getWorldDirection(new THREE.Vector3());
-      controls.target.copy(camera.position).addScaledVector(ahead, Math.max(1, camera.position.distanceTo(centre)));
+      controls.target
+        .copy(camera.position)
+        .addScaledVector(ahead, Math.max(1, camera.position.distanceTo(centre)));
       controls.update();
       return;
     }
@@ -97,7 +110,8 @@ export class Navigation {
     const { camera, centre } = this.host;
     const out = new THREE.Vector3(camera.position.x - centre.x, 0, camera.position.z - centre.z);
     const far = radius * 1.6 + 10;
-    if (out.length() > far || fromOrbit) camera.position.copy(centre).add(out.setLength(Math.min(out.length(), far)));
+    if (out.length() > far || fromOrbit)
+      camera.position.copy(centre).add(out.setLength(Math.min(out.length(), far)));
     camera.position.y = centre.y + radius + KNEE;
     this.pitch = 0.02;
     this.measured.x = Infinity;
@@ -106,9 +120,14 @@ export class Navigation {
 
   private stand(): void {
     const { camera } = this.host;
-    const moved = Math.hypot(camera.position.x - this.measured.x, camera.position.z - this.measured.z);
+    const moved = Math.hypot(
+      camera.position.x - this.measured.x,
+      camera.position.z - this.measured.z,
+    );
     if (moved > 0.35) {
-      this.standsOn = this.host.heightBelow(camera.position.clone().setY(camera.position.y - EYE_HEIGHT + KNEE));
+      this.standsOn = this.host.heightBelow(
+        camera.position.clone().setY(camera.position.y - EYE_HEIGHT + KNEE),
+      );
       this.measured.copy(camera.position);
     }
     camera.position.y = this.standsOn + EYE_HEIGHT;
@@ -130,7 +149,11 @@ export class Navigation {
   private readonly onMove = (event: PointerEvent) => {
     if (!this.drag) return;
     this.yaw += (event.clientX - this.drag.x) * LOOK_PER_PIXEL;
-    this.pitch = THREE.MathUtils.clamp(this.pitch + (event.clientY - this.drag.y) * LOOK_PER_PIXEL, -STEEPEST, STEEPEST);
+    this.pitch = THREE.MathUtils.clamp(
+      this.pitch + (event.clientY - this.drag.y) * LOOK_PER_PIXEL,
+      -STEEPEST,
+      STEEPEST,
+    );
     this.drag = { x: event.clientX, y: event.clientY };
     this.apply();
   };
@@ -142,7 +165,10 @@ export class Navigation {
   private readonly onWheel = (event: WheelEvent) => {
     if (this.mode === 'orbit') return;
     event.preventDefault();
-    this.go(new THREE.Vector3(0, 0, event.deltaY > 0 ? 1 : -1), this.mode === 'walk' ? 0.6 : this.host.radius / 40);
+    this.go(
+      new THREE.Vector3(0, 0, event.deltaY > 0 ? 1 : -1),
+      this.mode === 'walk' ? 0.6 : this.host.radius / 40,
+    );
   };
 
   private readonly onKey = (event: KeyboardEvent) => {
@@ -169,12 +195,19 @@ export class Navigation {
   /** Arrows turn, with Shift they shift, plus and minus go nearer and away. */
   private orbitKey(event: KeyboardEvent): boolean {
     const { camera, controls } = this.host;
-    const turn: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    const turn: Record<string, [number, number]> = {
+      ArrowLeft: [-1, 0],
+      ArrowRight: [1, 0],
+      ArrowUp: [0, 1],
+      ArrowDown: [0, -1],
+    };
     const by = turn[event.key];
     const offset = camera.position.clone().sub(controls.target);
     if (by && event.shiftKey) {
       const side = new THREE.Vector3().setFromMatrixColumn(camera.matrix, 0).multiplyScalar(by[0]);
-      const shift = side.addScaledVector(new THREE.Vector3().setFromMatrixColumn(camera.matrix, 1), by[1]).multiplyScalar(offset.length() / 20);
+      const shift = side
+        .addScaledVector(new THREE.Vector3().setFromMatrixColumn(camera.matrix, 1), by[1])
+        .multiplyScalar(offset.length() / 20);
       controls.target.add(shift);
       camera.position.add(shift);
     } else if (by) {
@@ -183,7 +216,9 @@ export class Navigation {
       at.phi = THREE.MathUtils.clamp(at.phi - (by[1] * Math.PI) / 36, 0.02, controls.maxPolarAngle);
       camera.position.copy(controls.target).add(offset.setFromSpherical(at));
     } else if (event.key === '+' || event.key === '=' || event.key === '-') {
-      camera.position.copy(controls.target).addScaledVector(offset, event.key === '-' ? 1.15 : 1 / 1.15);
+      camera.position
+        .copy(controls.target)
+        .addScaledVector(offset, event.key === '-' ? 1.15 : 1 / 1.15);
     } else return false;
     controls.update();
     return true;
@@ -196,7 +231,11 @@ export class Navigation {
     const on = (keys: string[]) => (keys.some((k) => this.held.has(k)) ? 1 : 0);
     const fast = this.held.has('Shift') ? 3 : 1;
     const turn = on(['ArrowLeft']) - on(['ArrowRight']);
-    const along = new THREE.Vector3(on(RIGHT) - on(LEFT), on(['KeyE', 'PageUp']) - on(['KeyQ', 'PageDown']), on(BACK) - on(FORWARD));
+    const along = new THREE.Vector3(
+      on(RIGHT) - on(LEFT),
+      on(['KeyE', 'PageUp']) - on(['KeyQ', 'PageDown']),
+      on(BACK) - on(FORWARD),
+    );
     if (turn) this.yaw += turn * TURN_SPEED * seconds;
     const speed = this.mode === 'walk' ? WALK_SPEED : Math.max(4, this.host.radius / 3);
     if (turn || along.lengthSq() > 0) this.go(along, speed * fast * seconds);

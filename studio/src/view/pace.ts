@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Pace: how fine a picture is that is drawn while something changes, so that it comes at once. It is
-// a share of the canvas's pixels each way; where pictures are late it goes down, where they are early
-// it goes up. What stands still is drawn in full, later.
+// Pace: how fine a picture is that is drawn while something changes, so that it comes at once. It
+// is a share of the canvas's pixels each way; where pictures are late it goes down, where they are
+// early it goes up. What stands still is drawn in full, later.
 
 /** Shares, from coarse to fine. */
 export const SHARES = [0.4, 0.5, 0.7, 1] as const;

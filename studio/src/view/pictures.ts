@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Pictures: textures by their paths, each loaded once. Few are asked for at a time, so that a derivation
-// never waits behind them.
+// Pictures: textures by their paths, each loaded once. Few are asked for at a time, so that a
+// derivation never waits behind them.
 
 import * as THREE from 'three';
 
@@ -16,12 +16,19 @@ export class Pictures {
   private readonly waiting: (() => void)[] = [];
 
   /** A picture laid out by su, sv, tu, tv, rw; at once where it was laid out so before. */
-  placed(path: string, uv: readonly number[] = [1, 1, 0, 0, 0]): THREE.Texture | Promise<THREE.Texture | null> {
+  placed(
+    path: string,
+    uv: readonly number[] = [1, 1, 0, 0, 0],
+  ): THREE.Texture | Promise<THREE.Texture | null> {
     const key = `${path} ${uv.join(' ')}`;
     return this.laid.get(key) ?? this.lay(path, uv, key);
   }
 
-  private async lay(path: string, uv: readonly number[], key: string): Promise<THREE.Texture | null> {
+  private async lay(
+    path: string,
+    uv: readonly number[],
+    key: string,
+  ): Promise<THREE.Texture | null> {
     const picture = await this.get(path);
     if (!picture) return null;
     const texture = this.laid.get(key) ?? picture.clone();

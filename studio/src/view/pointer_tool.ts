@@ -6,7 +6,12 @@
 type Hears = (event: PointerEvent) => void;
 
 /** Hands the canvas's pointer to a tool, under a cross; gives what takes it back. */
-export function takePointer(canvas: HTMLCanvasElement, onmove: Hears, ondown: Hears, onup: Hears): () => void {
+export function takePointer(
+  canvas: HTMLCanvasElement,
+  onmove: Hears,
+  ondown: Hears,
+  onup: Hears,
+): () => void {
   canvas.addEventListener('pointermove', onmove);
   canvas.addEventListener('pointerdown', ondown);
   canvas.addEventListener('pointerup', onup);

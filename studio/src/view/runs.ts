@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Runs: things in space, sorted once by cell of a grid over the ground and then by how much a picture would
-// miss them, so that what is worth drawing in a cell is the beginning of a run.
+// Runs: things in space, sorted once by cell of a grid over the ground and then by how much a
+// picture would miss them, so that what is worth drawing in a cell is the beginning of a run.
 
 import * as THREE from 'three';
 
@@ -109,6 +109,10 @@ function cellsOver(at: Float32Array, reach: Float32Array): (i: number) => number
     z1 = Math.max(z1, at[i * 3 + 2]!);
   }
   const wide = Math.max(x1 - x0, z1 - z0) * WIDE_SHARE;
-  const place = (v: number, a: number, b: number) => Math.min(SIDE - 1, Math.floor(((v - a) / Math.max(1e-6, b - a)) * SIDE));
-  return (i) => (reach[i]! > wide ? SIDE * SIDE : place(at[i * 3]!, x0, x1) * SIDE + place(at[i * 3 + 2]!, z0, z1));
+  const place = (v: number, a: number, b: number) =>
+    Math.min(SIDE - 1, Math.floor(((v - a) / Math.max(1e-6, b - a)) * SIDE));
+  return (i) =>
+    reach[i]! > wide
+      ? SIDE * SIDE
+      : place(at[i * 3]!, x0, x1) * SIDE + place(at[i * 3 + 2]!, z0, z1);
 }

@@ -1,24 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// SceneView: a draw list on a canvas. While something changes its pictures are as fine as they can be in
-// time (Pace). Once nothing does, it draws one in full and then refines it: further passes with a moved sun
-// and moved pixels are averaged into soft shadows, light from the whole sky and smooth edges. A model too large
-// for that is drawn once more, with shadows softened from the one map; its edges and how its corners are
-// darker come from the leaves and depths of that picture.
+// SceneView: a draw list on a canvas. While something changes its pictures are as fine as they can
+// be in time (Pace). Once nothing does, it draws one in full and then refines it: further passes
+// with a moved sun and moved pixels are averaged into soft shadows, light from the whole sky and
+// smooth edges. A model too large for that is drawn once more, with shadows softened from the one
+// map; its edges and how its corners are darker come from the leaves and depths of that picture.
 
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import type { Batch, DrawList, Look } from '../lib/protocol';
+import type { DrawList } from '../lib/protocol';
 import { Ambient } from './ambient';
+import { BatchMaker, type Batched } from './batches';
 import { emptyGroup, ghostBox, manyScopes, scopeLines, type ScopeBox } from './boxes';
 import { Detail, MOVING, POSED } from './detail';
 import { Framing, WIDE, type Bounds } from './framing';
+import { Ground } from './ground';
+import { Materials } from './materials';
 import { Navigation, type Mode } from './navigation';
 import { isSoftware, Pace } from './pace';
-import { Pictures } from './pictures';
-import { depthMaterial, groundMaterial, heightMaterial, leafMaterial, lookMaterial, outlineMaterial, skyMaterial, softened, steppedShadow, type Marks } from './shading';
-import { Lights, spread } from './sun';
+import { depthMaterial, outlineMaterial, skyMaterial, type Marks } from './shading';
+import { Still } from './still';
+import { Lights } from './sun';
 
 export interface ViewColors {
   ground: string;
@@ -51,18 +54,13 @@ const SHOWN_AFTER = 10;
 /** How dark thin edges between leaves are in a refined picture, and in one of a large place. */
 const FINE_EDGES = 0.22;
 const PLACE_EDGES = 0.16;
-const MOST_MATERIALS = 400;
-/** So long nothing changes before a picture is drawn in full: longer than it takes from key to key. */
+/**
+ * So long nothing changes before a picture is drawn in full: longer than it takes from key to key.
+ */
 const QUIET_MS = 400;
 const SLOW_PASS_MS = 400;
 /** Of a large model: its picture in full, then edges, then darker corners. */
 const PLACE_PASSES = 2;
-
-interface Batched {
-  mesh: THREE.Mesh;
-  plain: THREE.Material;
-  leaf: THREE.Material;
-}
 
 export class SceneView {
   readonly renderer: THREE.WebGLRenderer;
@@ -74,10 +72,11 @@ export class SceneView {
   refined: (() => void) | null = null;
   /** Called when the camera has moved. */
   moved: (() => void) | null = null;
-  /** Called with the seconds that a picture took of a camera that moves, from the drawing of it to its end. */
+  /**
+   * Called with the seconds that a picture took of a camera that moves, from the drawing of it to
+   * its end.
+   */
   timed: ((seconds: number) => void) | null = null;
-  readonly pictures = new Pictures();
-
   readonly navigation: Navigation;
 
   private readonly scene = new THREE.Scene();
@@ -86,23 +85,21 @@ export class SceneView {
   private readonly pace: Pace;
   /** The processor draws, as on a machine without a graphics card. */
   readonly software: boolean;
-  private readonly ground: THREE.Mesh<THREE.PlaneGeometry, THREE.MeshLambertMaterial>;
-  private readonly grid: THREE.Mesh<THREE.PlaneGeometry, THREE.ShaderMaterial>;
+  private readonly ground = new Ground();
   private readonly marks: Marks = {
     selected: { value: new THREE.Vector2() },
     accent: { value: new THREE.Color() },
     guideStep: { value: 1e9 },
   };
+  private readonly materials = new Materials(this.marks, () => {
+    this.leavesStale = true;
+    this.redraw();
+  });
+  readonly pictures = this.materials.pictures;
   private readonly overlay = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), outlineMaterial());
   private readonly copy: THREE.Mesh<THREE.PlaneGeometry, THREE.MeshBasicMaterial>;
   private readonly flat = new THREE.OrthographicCamera(-1, 1, 1, -1, 0, 1);
-  private readonly leafMerged = leafMaterial(false, this.marks);
-  private readonly leafInstanced = leafMaterial(true, this.marks);
-  private readonly steppedMerged = leafMaterial(false, this.marks, true);
-  private readonly steppedInstanced = leafMaterial(true, this.marks, true);
-  private readonly steppedShadow = steppedShadow(this.marks);
-  private readonly heightMerged = heightMaterial(false);
-  private readonly heightInstanced = heightMaterial(true);
+  private readonly batchMaker = new BatchMaker(this.marks);
   private readonly depth = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), depthMaterial());
   private readonly dome = new THREE.Mesh(new THREE.SphereGeometry(1, 32, 16), skyMaterial());
   private readonly scopes = new THREE.Group();
@@ -118,8 +115,7 @@ export class SceneView {
   });
   /** The picture before it is refined. */
   private readonly picture: THREE.WebGLRenderTarget;
-  private readonly passTarget = new THREE.WebGLRenderTarget(1, 1, { colorSpace: THREE.SRGBColorSpace });
-  private readonly sumTarget = new THREE.WebGLRenderTarget(1, 1, { type: THREE.HalfFloatType });
+  private readonly still: Still;
   /** What the canvas shows below the outlines. */
   private shown: THREE.WebGLRenderTarget;
   private readonly pickTarget = new THREE.WebGLRenderTarget(1, 1);
@@ -150,7 +146,6 @@ export class SceneView {
   /** Counts models, so that one that was sorted too late is not shown. */
   private models = 0;
   private detail: Detail | null = null;
-  private readonly materials = new Map<string, THREE.MeshLambertMaterial>();
   private sky_ = false;
   private wireframe = false;
   private share = 0;
@@ -163,12 +158,19 @@ export class SceneView {
     readonly canvas: HTMLCanvasElement,
     private readonly posed = false,
   ) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: false, preserveDrawingBuffer: true });
+    this.renderer = new THREE.WebGLRenderer({
+      canvas,
+      antialias: false,
+      preserveDrawingBuffer: true,
+    });
     const software = isSoftware(this.renderer.getContext());
     this.software = software;
     this.pace = new Pace(software);
     this.lights = new Lights(software && !posed);
-    this.picture = new THREE.WebGLRenderTarget(1, 1, { colorSpace: THREE.SRGBColorSpace, samples: software && !posed ? 0 : 4 });
+    this.picture = new THREE.WebGLRenderTarget(1, 1, {
+      colorSpace: THREE.SRGBColorSpace,
+      samples: software && !posed ? 0 : 4,
+    });
     this.shown = this.picture;
     this.renderer.shadowMap.enabled = true;
     // A processor pays for each look at the shadows; refining makes them soft all the same.
@@ -177,24 +179,21 @@ export class SceneView {
     this.renderer.autoClear = false;
     this.renderer.info.autoReset = false;
     this.ambient = new Ambient(this.renderer);
-    this.ground = new THREE.Mesh(new THREE.PlaneGeometry(1, 1), new THREE.MeshLambertMaterial());
-    this.ground.material.onBeforeCompile = (shader) => (shader.fragmentShader = softened(shader.fragmentShader));
-    this.ground.rotation.x = -Math.PI / 2;
-    this.ground.receiveShadow = true;
-    // All of the model is above it, so that it need not hide anything; and nothing flickers.
-    this.ground.material.depthWrite = false;
-    this.ground.renderOrder = -5;
-    this.grid = new THREE.Mesh(new THREE.PlaneGeometry(1, 1), groundMaterial());
-    this.grid.rotation.x = -Math.PI / 2;
     this.copy = new THREE.Mesh(
       new THREE.PlaneGeometry(2, 2),
-      new THREE.MeshBasicMaterial({ transparent: true, depthTest: false, depthWrite: false, toneMapped: false }),
+      new THREE.MeshBasicMaterial({
+        transparent: true,
+        depthTest: false,
+        depthWrite: false,
+        toneMapped: false,
+      }),
     );
+    this.still = new Still(this.renderer, this.copy, this.flat);
     for (const screen of [this.overlay, this.copy, this.depth]) screen.frustumCulled = false;
     this.dome.frustumCulled = false;
     this.dome.renderOrder = -10;
     this.dome.visible = false;
-    this.scene.add(this.dome, this.model, this.lights.group, this.ground, this.grid);
+    this.scene.add(this.dome, this.model, this.lights.group, this.ground.group);
     this.scene.add(this.scopes, this.manyScopes, this.ghosts);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
@@ -227,22 +226,21 @@ export class SceneView {
   project(at: [number, number, number]): { x: number; y: number } | null {
     const p = new THREE.Vector3(...at).project(this.camera);
     if (p.z > 1) return null;
-    return { x: ((p.x + 1) / 2) * this.canvas.clientWidth, y: ((1 - p.y) / 2) * this.canvas.clientHeight };
+    return {
+      x: ((p.x + 1) / 2) * this.canvas.clientWidth,
+      y: ((1 - p.y) / 2) * this.canvas.clientHeight,
+    };
   }
 
   /** The first surface below a point. */
   heightBelow(at: THREE.Vector3): number {
-    const floor = this.ground.position.y;
+    const floor = this.ground.height;
     const reach = Math.max(1, at.y - floor) + 1;
     const down = new THREE.OrthographicCamera(-0.05, 0.05, 0.05, -0.05, 0, reach);
     down.position.copy(at);
     down.up.set(0, 0, -1);
     down.lookAt(at.x, at.y - 1, at.z);
-    for (const m of [this.heightMerged, this.heightInstanced]) {
-      m.uniforms.base!.value = floor - 1;
-      m.uniforms.range!.value = reach + 1;
-    }
-    this.renderData(this.pickTarget, down, (b) => (b.mesh instanceof THREE.InstancedMesh ? this.heightInstanced : this.heightMerged));
+    this.renderData(this.pickTarget, down, this.batchMaker.heights(floor - 1, reach + 1));
     const bytes = new Uint8Array(4);
     this.renderer.readRenderTargetPixels(this.pickTarget, 0, 0, 1, 1, bytes);
     if (bytes[3] === 0) return Math.min(0, this.bounds.min[1]);
@@ -256,8 +254,7 @@ export class SceneView {
     this.dome.material.uniforms.horizon!.value = this.horizonColor;
     (this.dome.material.uniforms.zenith!.value as THREE.Color).set(colors.zenith);
     this.setSky(this.sky_);
-    this.ground.material.color.copy(ground).multiplyScalar(1.05);
-    (this.grid.material.uniforms.line!.value as THREE.Color).set(colors.line);
+    this.ground.setColors(ground, colors.line);
     this.marks.accent.value.set(colors.accent);
     const uniforms = this.overlay.material.uniforms;
     (uniforms.accent!.value as THREE.Color).set(colors.accent);
@@ -278,15 +275,27 @@ export class SceneView {
   }
 
   /**
-   * Shows another model. `lives`: two numbers a leaf, from and up to which step of a derivation it is
-   * there; without, all leaves are. False where a later one came first.
+   * Shows another model. `lives`: two numbers a leaf, from and up to which step of a derivation it
+   * is there; without, all leaves are. False where a later one came first.
    */
-  async setModel(list: DrawList, bounds: Bounds, lives: Float32Array | null = null): Promise<boolean> {
+  async setModel(
+    list: DrawList,
+    bounds: Bounds,
+    lives: Float32Array | null = null,
+  ): Promise<boolean> {
     const number = ++this.models;
-    const materials = list.looks.map((look) => this.materialOf(look, !!lives));
-    const batches = list.batches.map((batch) => this.batched(batch, materials[batch.look]!, lives));
+    const materials = list.looks.map((look) => this.materials.of(look, !!lives));
+    const batches = list.batches.map((batch) =>
+      this.batchMaker.make(batch, materials[batch.look]!, lives),
+    );
     // Sorting a large model takes a while; the one before stays in sight until then.
-    const detail = lives || !Detail.worthIt(batches.map((b) => b.mesh)) ? null : await Detail.of(batches.map((b) => b.mesh), () => number !== this.models);
+    const detail =
+      lives || !Detail.worthIt(batches.map((b) => b.mesh))
+        ? null
+        : await Detail.of(
+            batches.map((b) => b.mesh),
+            () => number !== this.models,
+          );
     if (number !== this.models) return false;
     this.detail = detail;
     for (const { mesh } of this.batches) {
@@ -308,68 +317,9 @@ export class SceneView {
     return true;
   }
 
-  // Materials stay from one model to the next: a material that nothing uses any more takes its program
-  // along, and to build that again costs more than all else of a keystroke.
-  private materialOf(look: Look, stepped: boolean): THREE.MeshLambertMaterial {
-    const key = JSON.stringify([look, stepped]);
-    const known = this.materials.get(key);
-    if (known) return known;
-    if (this.materials.size >= MOST_MATERIALS) this.materials.clear();
-    const material = lookMaterial(look, this.marks, stepped);
-    this.materials.set(key, material);
-    if (look.map) void this.applyTexture(material, look);
-    return material;
-  }
-
-  private async applyTexture(material: THREE.MeshLambertMaterial, look: Look): Promise<void> {
-    const placed = this.pictures.placed(look.map ?? '', look.uv);
-    const texture = placed instanceof THREE.Texture ? placed : await placed;
-    if (!texture) return;
-    material.map = texture;
-    material.needsUpdate = true;
-    if (placed instanceof THREE.Texture) return;
-    this.leavesStale = true;
-    this.redraw();
-  }
-
   /** Files have changed: pictures are loaded again. */
   forgetPictures(): void {
-    this.pictures.clear();
     this.materials.clear();
-  }
-
-  private batched(batch: Batch, plain: THREE.Material, lives: Float32Array | null): Batched {
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute('position', new THREE.BufferAttribute(batch.position, 3));
-    geometry.setAttribute('normal', new THREE.BufferAttribute(batch.normal, 3));
-    if (batch.uv) geometry.setAttribute('uv', new THREE.BufferAttribute(batch.uv, 2));
-    geometry.setIndex(new THREE.BufferAttribute(batch.index, 1));
-    let mesh: THREE.Mesh;
-    if (batch.matrix) {
-      geometry.setAttribute('tint', new THREE.InstancedBufferAttribute(batch.color, 4, true));
-      geometry.setAttribute('leaf', new THREE.InstancedBufferAttribute(batch.leaf, 1));
-      const many = new THREE.InstancedMesh(geometry, plain, batch.leaf.length);
-      many.instanceMatrix = new THREE.InstancedBufferAttribute(batch.matrix, 16);
-      mesh = many;
-    } else {
-      geometry.setAttribute('tint', new THREE.BufferAttribute(batch.color, 4, true));
-      geometry.setAttribute('leaf', new THREE.BufferAttribute(batch.leaf, 1));
-      mesh = new THREE.Mesh(geometry, plain);
-    }
-    mesh.frustumCulled = false;
-    if (lives) {
-      const life = new Float32Array(batch.leaf.length * 2);
-      for (let i = 0; i < batch.leaf.length; ++i) {
-        life[i * 2] = lives[batch.leaf[i]! * 2] ?? 0;
-        life[i * 2 + 1] = lives[batch.leaf[i]! * 2 + 1] ?? 1e9;
-      }
-      geometry.setAttribute('life', batch.matrix ? new THREE.InstancedBufferAttribute(life, 2) : new THREE.BufferAttribute(life, 2));
-      mesh.customDepthMaterial = this.steppedShadow;
-    }
-    mesh.castShadow = !plain.transparent;
-    mesh.receiveShadow = true;
-    const leaf = lives ? (batch.matrix ? this.steppedInstanced : this.steppedMerged) : batch.matrix ? this.leafInstanced : this.leafMerged;
-    return { mesh, plain, leaf };
   }
 
   get centre(): THREE.Vector3 {
@@ -384,17 +334,7 @@ export class SceneView {
 
   private fitGround(): void {
     const r = this.radius;
-    const c = this.centre;
-    const y = Math.min(0, this.bounds.min[1]) - Math.max(0.02, r * 4e-4);
-    for (const plane of [this.ground, this.grid]) {
-      plane.position.set(c.x, y, c.z);
-      plane.scale.set(r * 60, r * 60, 1);
-    }
-    this.grid.position.y = y + r * 1e-4;
-    const uniforms = this.grid.material.uniforms;
-    (uniforms.centre!.value as THREE.Vector2).set(c.x, c.z);
-    uniforms.reach!.value = Math.max(30, r * 2.6);
-    uniforms.cell!.value = r < 12 ? 1 : r < 250 ? 10 : 100;
+    this.ground.fit(this.centre, r, this.bounds.min[1]);
     if (this.scene.fog instanceof THREE.Fog) {
       // Who stands in a place looks into the haze; who turns it does not have it between.
       const inside = this.sky_ && this.navigation && this.navigation.mode !== 'orbit';
@@ -402,7 +342,8 @@ export class SceneView {
       this.scene.fog.far = r * (this.sky_ ? 12 : 22);
     }
     const near = this.navigation?.mode === 'walk' ? 0.08 : 0.05;
-    this.camera.near = this.navigation?.mode === 'orbit' || !this.navigation ? Math.max(near, r / 300) : near;
+    this.camera.near =
+      this.navigation?.mode === 'orbit' || !this.navigation ? Math.max(near, r / 300) : near;
     this.camera.far = r * 60;
     this.camera.updateProjectionMatrix();
   }
@@ -444,7 +385,8 @@ export class SceneView {
   }
 
   private fitWires(): void {
-    for (const { plain } of this.batches) (plain as THREE.MeshLambertMaterial).wireframe = this.wireframe;
+    for (const { plain } of this.batches)
+      (plain as THREE.MeshLambertMaterial).wireframe = this.wireframe;
   }
 
   /** A box in the accent colour with its axes; null hides it. */
@@ -493,9 +435,17 @@ export class SceneView {
     const { clientWidth: w, clientHeight: h } = this.canvas;
     const bytes = new Uint8Array(4);
     if (this.detail && !this.leavesStale) {
-      const at = (v: number, of: number, pixels: number) => Math.min(pixels - 1, Math.max(0, Math.floor((v / of) * pixels)));
+      const at = (v: number, of: number, pixels: number) =>
+        Math.min(pixels - 1, Math.max(0, Math.floor((v / of) * pixels)));
       const { width, height } = this.leafTarget;
-      this.renderer.readRenderTargetPixels(this.leafTarget, at(x, w, width), at(h - y, h, height), 1, 1, bytes);
+      this.renderer.readRenderTargetPixels(
+        this.leafTarget,
+        at(x, w, width),
+        at(h - y, h, height),
+        1,
+        1,
+        bytes,
+      );
     } else {
       this.camera.setViewOffset(w, h, x, y, 1, 1);
       this.renderLeaves(this.pickTarget);
@@ -505,7 +455,10 @@ export class SceneView {
     return bytes[0]! + bytes[1]! * 256 + bytes[2]! * 65536 - 1;
   }
 
-  /** The leaf under a point of the canvas, and where it is there; the ground where there is none. Null for the sky. */
+  /**
+   * The leaf under a point of the canvas, and where it is there; the ground where there is none.
+   * Null for the sky.
+   */
   surfaceAt(x: number, y: number): { point: [number, number, number]; leaf: number } | null {
     const { clientWidth: w, clientHeight: h } = this.canvas;
     if (this.leavesStale) {
@@ -521,11 +474,18 @@ export class SceneView {
     const bytes = new Uint8Array(4);
     this.renderer.readRenderTargetPixels(this.pickTarget, 0, 0, 1, 1, bytes);
     const depth = ((bytes[0]! * 256 + bytes[1]!) * 256 + bytes[2]!) / 16777216;
-    const at = new THREE.Vector3((x / w) * 2 - 1, 1 - (y / h) * 2, depth * 2 - 1).unproject(this.camera);
+    const at = new THREE.Vector3((x / w) * 2 - 1, 1 - (y / h) * 2, depth * 2 - 1).unproject(
+      this.camera,
+    );
     if (depth < 0.99999) return { point: at.toArray(), leaf: this.pick(x, y) };
     const ray = new THREE.Ray(this.camera.position, at.sub(this.camera.position).normalize());
-    const ground = ray.intersectPlane(new THREE.Plane(new THREE.Vector3(0, 1, 0), -Math.min(0, this.bounds.min[1])), new THREE.Vector3());
-    return ground && ground.distanceTo(this.camera.position) < this.radius * 40 ? { point: ground.toArray(), leaf: -1 } : null;
+    const ground = ray.intersectPlane(
+      new THREE.Plane(new THREE.Vector3(0, 1, 0), -Math.min(0, this.bounds.min[1])),
+      new THREE.Vector3(),
+    );
+    return ground && ground.distanceTo(this.camera.position) < this.radius * 40
+      ? { point: ground.toArray(), leaf: -1 }
+      : null;
   }
 
   private renderLeaves(target: THREE.WebGLRenderTarget, over = false): void {
@@ -533,11 +493,16 @@ export class SceneView {
   }
 
   /** Draws the model alone, with materials that write data; `over`: over what is there. */
-  private renderData(target: THREE.WebGLRenderTarget, camera: THREE.Camera, material: (b: Batched) => THREE.Material, over = false): void {
+  private renderData(
+    target: THREE.WebGLRenderTarget,
+    camera: THREE.Camera,
+    material: (b: Batched) => THREE.Material,
+    over = false,
+  ): void {
     const background = this.scene.background;
     this.scene.background = null;
     for (const b of this.batches) b.mesh.material = material(b);
-    this.without([this.dome, this.ground, this.grid, this.scopes, this.manyScopes, this.ghosts], () => {
+    this.without([this.dome, this.ground.group, this.scopes, this.manyScopes, this.ghosts], () => {
       this.renderer.setRenderTarget(target);
       this.renderer.setClearColor(0, 0);
       if (!over) this.renderer.clear();
@@ -567,7 +532,9 @@ export class SceneView {
     this.quiet = window.setTimeout(() => this.refine(), QUIET_MS);
   }
 
-  /** Draws anew; `fine`: what changes does not move, so that the picture may take a little longer. */
+  /**
+   * Draws anew; `fine`: what changes does not move, so that the picture may take a little longer.
+   */
   redraw(fine = false): void {
     this.fine = this.dirty ? this.fine && fine : fine;
     this.dirty = true;
@@ -603,7 +570,10 @@ export class SceneView {
     this.draw(share);
   }
 
-  /** The canvas has this share of the pixels each way that the screen has for it; the page enlarges it. */
+  /**
+   * The canvas has this share of the pixels each way that the screen has for it; the page enlarges
+   * it.
+   */
   private setShare(share: number): void {
     if (share === this.share) return;
     this.share = share;
@@ -623,7 +593,10 @@ export class SceneView {
     this.detail?.select(this.camera, this.canvas.clientHeight, this.posed ? POSED : MOVING);
     this.renderer.info.reset();
     this.renderScene(this.picture);
-    this.drawnWith = { calls: this.renderer.info.render.calls, triangles: this.renderer.info.render.triangles };
+    this.drawnWith = {
+      calls: this.renderer.info.render.calls,
+      triangles: this.renderer.info.render.triangles,
+    };
     this.shown = this.picture;
     this.edges = 0;
     this.cornered = false;
@@ -656,7 +629,10 @@ export class SceneView {
     if (this.edges > 0 || outlined) this.drawOverlay(this.edges);
   }
 
-  /** Of a large model, the shadows of all that is large enough for them, where they are to be drawn anew. */
+  /**
+   * Of a large model, the shadows of all that is large enough for them, where they are to be drawn
+   * anew.
+   */
   private drawShadows(): void {
     if (!this.detail || !this.lights.stale) return;
     this.detail.selectForShadow(this.lights.texel);
@@ -681,7 +657,8 @@ export class SceneView {
   private refine(): void {
     if (this.dirty || this.pass >= this.passes || !this.canvas.isConnected) return;
     // A model that no longer fits is framed once it stays as it is.
-    if (!this.posed && this.navigation.mode === 'orbit' && this.framing.outgrown(this.bounds)) return this.frameAll(false);
+    if (!this.posed && this.navigation.mode === 'orbit' && this.framing.outgrown(this.bounds))
+      return this.frameAll(false);
     const began = performance.now();
     if (this.coarse && this.detail) this.addHelping();
     else if (this.coarse) this.settle();
@@ -715,7 +692,9 @@ export class SceneView {
     }
     const last = this.helpings.next().value ?? true;
     const marks = last ? [] : [this.scopes, this.manyScopes, this.ghosts];
-    this.without(first ? marks : [...marks, this.dome, this.ground, this.grid], () => this.renderScene(this.picture, !first));
+    this.without(first ? marks : [...marks, this.dome, this.ground.group], () =>
+      this.renderScene(this.picture, !first),
+    );
     this.renderLeaves(this.leafTarget, !first);
     this.leavesStale = false;
     this.shown = this.picture;
@@ -726,7 +705,9 @@ export class SceneView {
     this.present();
   }
 
-  /** What a large model gets instead of passes; each of these is short, so that nobody waits for it. */
+  /**
+   * What a large model gets instead of passes; each of these is short, so that nobody waits for it.
+   */
   private finishPlace(): void {
     this.pass += 1;
     if (this.pass === 1) this.edges = PLACE_EDGES;
@@ -739,20 +720,10 @@ export class SceneView {
 
   private addPass(): void {
     const i = this.pass + 1;
-    const { size } = this;
-    for (const target of [this.passTarget, this.sumTarget]) target.setSize(size.x, size.y);
-    this.lights.pass(i);
-    this.camera.setViewOffset(size.x, size.y, spread(i, 2) - 0.5, spread(i, 3) - 0.5, size.x, size.y);
-    this.renderScene(this.passTarget);
-    this.camera.clearViewOffset();
-    this.renderer.setRenderTarget(this.sumTarget);
-    if (i === 1) this.renderer.clear();
-    this.copy.material.map = this.passTarget.texture;
-    this.copy.material.opacity = 1 / i;
-    this.renderer.render(this.copy, this.flat);
+    this.still.add(i, this.size, this.camera, this.lights, (target) => this.renderScene(target));
     this.pass = i;
     if (i % SHOWN_AFTER !== 0) return;
-    this.shown = this.sumTarget;
+    this.shown = this.still.sum;
     this.edges = FINE_EDGES;
     this.present();
   }
@@ -779,7 +750,8 @@ export class SceneView {
     let bytes = 0;
     for (const { mesh } of this.batches) {
       const geometry = mesh.geometry as THREE.BufferGeometry;
-      for (const name of Object.keys(geometry.attributes)) bytes += geometry.attributes[name]!.array.byteLength;
+      for (const name of Object.keys(geometry.attributes))
+        bytes += geometry.attributes[name]!.array.byteLength;
       bytes += geometry.index?.array.byteLength ?? 0;
       if (mesh instanceof THREE.InstancedMesh) bytes += mesh.instanceMatrix.array.byteLength;
     }
@@ -792,6 +764,7 @@ export class SceneView {
     this.navigation.dispose();
     this.controls.dispose();
     this.ambient.dispose();
+    this.still.dispose();
     this.renderer.dispose();
   }
 }

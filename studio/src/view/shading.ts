@@ -40,12 +40,16 @@ if (guideStep + 0.5 < life.x || guideStep + 0.5 > life.y) gl_Position = vec4(2.0
 `;
 
 /**
- * Three's look-up of hard shadows, with a second way for lights of a radius above zero: four by four texels
- * below a tent, so that the edge of a shadow is soft and shows no texels.
+ * Three's look-up of hard shadows, with a second way for lights of a radius above zero: four by
+ * four texels below a tent, so that the edge of a shadow is soft and shows no texels.
  */
 export function softened(fragmentShader: string): string {
   const hard = 'shadow = texture2DCompare( shadowMap, shadowCoord.xy, shadowCoord.z );';
-  return fragmentShader.replace('#include <shadowmap_pars_fragment>', THREE.ShaderChunk.shadowmap_pars_fragment.replace(hard, `
+  return fragmentShader.replace(
+    '#include <shadowmap_pars_fragment>',
+    THREE.ShaderChunk.shadowmap_pars_fragment.replace(
+      hard,
+      `
     if (shadowRadius < 0.01) {
       ${hard}
     } else {
@@ -61,15 +65,25 @@ export function softened(fragmentShader: string): string {
         }
       }
       shadow *= 0.25;
-    }`));
+    }`,
+    ),
+  );
 }
 
 /** Casts the shadows of what is there at a step. */
 export function steppedShadow(marks: Marks): THREE.MeshDepthMaterial {
-  const material = new THREE.MeshDepthMaterial({ depthPacking: THREE.RGBADepthPacking, side: THREE.DoubleSide });
+  const material = new THREE.MeshDepthMaterial({
+    depthPacking: THREE.RGBADepthPacking,
+    side: THREE.DoubleSide,
+  });
   material.onBeforeCompile = (shader) => {
     shader.uniforms.guideStep = marks.guideStep;
-    shader.vertexShader = STEPPED_HEAD + shader.vertexShader.replace('#include <project_vertex>', '#include <project_vertex>' + STEPPED);
+    shader.vertexShader =
+      STEPPED_HEAD +
+      shader.vertexShader.replace(
+        '#include <project_vertex>',
+        '#include <project_vertex>' + STEPPED,
+      );
   };
   material.customProgramCacheKey = () => 'stepped shadow';
   return material;
@@ -90,10 +104,16 @@ export function lookMaterial(look: Look, marks: Marks, stepped = false): THREE.M
   material.onBeforeCompile = (shader) => {
     shader.uniforms.selected = marks.selected;
     shader.uniforms.accent = marks.accent;
-    shader.vertexShader = HEAD + shader.vertexShader.replace('#include <uv_vertex>', LEAF + '#include <uv_vertex>');
+    shader.vertexShader =
+      HEAD + shader.vertexShader.replace('#include <uv_vertex>', LEAF + '#include <uv_vertex>');
     if (stepped) {
       shader.uniforms.guideStep = marks.guideStep;
-      shader.vertexShader = STEPPED_HEAD + shader.vertexShader.replace('#include <project_vertex>', '#include <project_vertex>' + STEPPED);
+      shader.vertexShader =
+        STEPPED_HEAD +
+        shader.vertexShader.replace(
+          '#include <project_vertex>',
+          '#include <project_vertex>' + STEPPED,
+        );
     }
     shader.fragmentShader =
       (stepped ? 'varying float vFresh;\n' : '') +
@@ -117,11 +137,15 @@ export function swapRgb(value: number): number {
 }
 
 /**
- * Draws leaf numbers, from 1, as colours, and the direction of the face in alpha, so that edges within a leaf
- * show as well. Nothing is blended: a pixel belongs to one leaf. Nor are numbers interpolated, which those
- * of millions of leaves would not survive.
+ * Draws leaf numbers, from 1, as colours, and the direction of the face in alpha, so that edges
+ * within a leaf show as well. Nothing is blended: a pixel belongs to one leaf. Nor are numbers
+ * interpolated, which those of millions of leaves would not survive.
  */
-export function leafMaterial(instanced: boolean, marks: Marks, stepped = false): THREE.ShaderMaterial {
+export function leafMaterial(
+  instanced: boolean,
+  marks: Marks,
+  stepped = false,
+): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     side: THREE.DoubleSide,
     blending: THREE.NoBlending,
@@ -153,7 +177,10 @@ export function leafMaterial(instanced: boolean, marks: Marks, stepped = false):
   });
 }
 
-/** Draws heights over a base, in 65536ths of a metre up to 256 m, as three bytes; alpha tells of any. */
+/**
+ * Draws heights over a base, in 65536ths of a metre up to 256 m, as three bytes; alpha tells of
+ * any.
+ */
 export function heightMaterial(instanced: boolean): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     side: THREE.DoubleSide,
@@ -229,7 +256,8 @@ export function outlineMaterial(): THREE.ShaderMaterial {
       text: { value: new THREE.Color() },
       edges: { value: 0.0 },
     },
-    vertexShader: 'varying vec2 vUv; void main() { vUv = uv; gl_Position = vec4(position.xy, 0.0, 1.0); }',
+    vertexShader:
+      'varying vec2 vUv; void main() { vUv = uv; gl_Position = vec4(position.xy, 0.0, 1.0); }',
     fragmentShader: `
       uniform sampler2D leaves;
       uniform vec2 texel;

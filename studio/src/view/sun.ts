@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Lights: the sun and the sky of the view, as three suns of which one shines. The first is where a person
-// put it; its shadows are drawn when the model or the sun has changed, not when the camera moves. The
-// second is the same with coarse shadows, for a model that changes just now. The third goes about while a
-// still picture is refined.
+// Lights: the sun and the sky of the view, as three suns of which one shines. The first is where a
+// person put it; its shadows are drawn when the model or the sun has changed, not when the camera
+// moves. The second is the same with coarse shadows, for a model that changes just now. The third
+// goes about while a still picture is refined.
 
 import * as THREE from 'three';
 
@@ -101,12 +101,15 @@ export class Lights {
   }
 
   /**
-   * The light of the i-th pass of a still picture. Four passes in ten look from the sun, spread over its
-   * disc; the others are light of the sky.
+   * The light of the i-th pass of a still picture. Four passes in ten look from the sun, spread
+   * over its disc; the others are light of the sky.
    */
   pass(i: number): void {
     const fromSun = i % 5 < 2;
-    this.place(this.moving, fromSun ? this.direction((spread(i, 5) - 0.5) * 2.4, (spread(i, 7) - 0.5) * 2.4) : inSky(i));
+    this.place(
+      this.moving,
+      fromSun ? this.direction((spread(i, 5) - 0.5) * 2.4, (spread(i, 7) - 0.5) * 2.4) : inSky(i),
+    );
     this.shine(this.moving, 0.5);
     this.moving.color.set(fromSun ? SUNLIGHT : SKYLIGHT);
     this.moving.intensity = fromSun ? 2.9 * 2.1 : 2.9;

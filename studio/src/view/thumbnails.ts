@@ -49,7 +49,10 @@ export class Thumbnails {
     return derived.stats && derived.stats.leaves > 0 ? derived.stats.bbox : null;
   }
 
-  /** A picture of what a request derives to, seen so that `reach` fits in; null where there is nothing. One at a time. */
+  /**
+   * A picture of what a request derives to, seen so that `reach` fits in; null where there is
+   * nothing. One at a time.
+   */
   draw(request: DeriveRequest, reach: Reach | null): Promise<Thumbnail | null> {
     const next = this.queue.then(() => this.drawNow(request, reach));
     this.queue = next.catch(() => undefined);

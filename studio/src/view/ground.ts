@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Ground: the plain that a model stands on, with a grid that fades out.
+
+import * as THREE from 'three';
+import { groundMaterial, softened } from './shading';
+
+export class Ground {
+  readonly group = new THREE.Group();
+  private readonly plain = new THREE.Mesh(
+    new THREE.PlaneGeometry(1, 1),
+    new THREE.MeshLambertMaterial(),
+  );
+  private readonly grid = new THREE.Mesh(new THREE.PlaneGeometry(1, 1), groundMaterial());
+
+  constructor() {
+    const { plain, grid } = this;
+    plain.material.onBeforeCompile = (shader) =>
+      (shader.fragmentShader = softened(shader.fragmentShader));
+    plain.receiveShadow = true;
+    // All of the model is above it, so that it need not hide anything; and nothing flickers.
+    plain.material.depthWrite = false;
+    plain.renderOrder = -5;
+    for (const plane of [plain, grid]) plane.rotation.x = -Math.PI / 2;
+    this.group.add(plain, grid);
+  }
+
+  get height(): number {
+    return this.plain.position.y;
+  }
+
+  setColors(ground: THREE.Color, line: string): void {
+    this.plain.material.color.copy(ground).multiplyScalar(1.05);
+    (this.grid.material.uniforms.line!.value as THREE.Color).set(line);
+  }
+
+  /** Below a model of a radius, whose lowest point is at `lowest`. */
+  fit(centre: THREE.Vector3, radius: number, lowest: number): void {
+    const y = Math.min(0, lowest) - Math.max(0.02, radius * 4e-4);
+    for (const plane of [this.plain, this.grid]) {
+      plane.position.set(centre.x, y, centre.z);
+      plane.scale.set(radius * 60, radius * 60, 1);
+    }
+    this.grid.position.y = y + radius * 1e-4;
+    const { uniforms } = this.grid.material;
+    (uniforms.centre!.value as THREE.Vector2).set(centre.x, centre.z);
+    uniforms.reach!.value = Math.max(30, radius * 2.6);
+    uniforms.cell!.value = radius < 12 ? 1 : radius < 250 ? 10 : 100;
+  }
+}
