@@ -59,11 +59,15 @@ void Diagnostics::add(Diagnostic d) {
 }
 
 void Diagnostics::error(std::string code, Span span, std::string message, std::string hint) {
-  add({Severity::Error, std::move(code), span, std::move(message), std::move(hint), {}});
+  add({Severity::Error, std::move(code), span, std::move(message), std::move(hint), {}, {}});
 }
 
 void Diagnostics::warning(std::string code, Span span, std::string message, std::string hint) {
-  add({Severity::Warning, std::move(code), span, std::move(message), std::move(hint), {}});
+  add({Severity::Warning, std::move(code), span, std::move(message), std::move(hint), {}, {}});
+}
+
+void Diagnostics::fixLast(Span span, std::string text) {
+  if (!all_.empty()) all_.back().fix = Replacement{span, std::move(text)};
 }
 
 void Diagnostics::append(const Diagnostics& other) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,6 +52,12 @@ class Sources {
   std::vector<File> files_;
 };
 
+/// A remedy that can be carried out: `text` in place of the span.
+struct Replacement {
+  Span span;
+  std::string text;
+};
+
 enum class Severity : uint8_t { Note, Warning, Error };
 
 struct Diagnostic {
@@ -64,6 +71,8 @@ struct Diagnostic {
   std::string hint;
   /// For what happened during a derivation: the rules from the initial shape down; may be empty.
   std::string shapePath;
+  /// What the hint says, as an edit, where it is one.
+  std::optional<Replacement> fix;
 };
 
 class Diagnostics {
@@ -71,6 +80,8 @@ class Diagnostics {
   void add(Diagnostic d);
   void error(std::string code, Span span, std::string message, std::string hint = {});
   void warning(std::string code, Span span, std::string message, std::string hint = {});
+  /// The remedy of the message that was added last.
+  void fixLast(Span span, std::string text);
   bool hasErrors() const { return errors_ > 0; }
   size_t errorCount() const { return errors_; }
   const std::vector<Diagnostic>& all() const { return all_; }

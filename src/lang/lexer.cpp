@@ -138,10 +138,15 @@ class Lexer {
            text_.substr(i, 3) != "\xef\xbb\xbf" && text_.substr(i, 3) != "\xe3\x80\x80";
   }
 
-  void error(const char* code, size_t begin, size_t end, std::string message, std::string hint) {
+  void error(const char* code, size_t begin, size_t end, std::string message, std::string hint,
+             std::optional<Replacement> fix = {}) {
     if (diagnostics_.errorCount() > 200) return;
-    diagnostics_.error(code, {file_, static_cast<uint32_t>(begin), static_cast<uint32_t>(end)},
-                       std::move(message), std::move(hint));
+    diagnostics_.error(code, spanOf(begin, end), std::move(message), std::move(hint));
+    if (fix) diagnostics_.fixLast(fix->span, std::move(fix->text));
+  }
+
+  Span spanOf(size_t begin, size_t end) const {
+    return {file_, static_cast<uint32_t>(begin), static_cast<uint32_t>(end)};
   }
 
   void addComment(size_t begin, bool toLineEnd) {
@@ -181,7 +186,7 @@ class Lexer {
     at_ = close == std::string_view::npos ? text_.size() : close + 2;
     if (close == std::string_view::npos) {
       error("unterminated-comment", begin, begin + 2, "this comment is never closed",
-            "end it with '*/'");
+            "end it with '*/'", Replacement{spanOf(at_, at_), "*/"});
     }
     addComment(begin, false);
   }
@@ -263,7 +268,7 @@ class Lexer {
       end = std::min(end, text_.size());
       if (end > at_ + 1 && text_[end - 1] == '\r') --end;
       error("unterminated-string", at_, at_ + 1, "this string is never closed",
-            "end it with '\"' on the same line");
+            "end it with '\"' on the same line", Replacement{spanOf(end, end), "\""});
       push(TokenKind::String, end - at_);
     } else {
       push(TokenKind::String, end + 1 - at_);
@@ -313,7 +318,7 @@ class Lexer {
     }
     if (startsWith("->")) {
       error("bad-arrow", at_, at_ + 2, "'->' is not an arrow of this language",
-            "write '-->' after the head of a rule");
+            "write '-->' after the head of a rule", Replacement{spanOf(at_, at_ + 2), "-->"});
       return push(TokenKind::Arrow, 2);
     }
     if (const size_t length = operatorLength(at_)) {
@@ -326,7 +331,8 @@ class Lexer {
 
   void lexUnknown() {
     if (peek() == '&') {
-      error("unexpected-character", at_, at_ + 1, "'&' is no operator", "did you mean '&&'?");
+      error("unexpected-character", at_, at_ + 1, "'&' is no operator", "did you mean '&&'?",
+            Replacement{spanOf(at_, at_ + 1), "&&"});
       return push(TokenKind::And, 1);
     }
     const size_t length = std::max<size_t>(1, utf8Length(text_, at_));

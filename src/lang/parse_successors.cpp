@@ -148,6 +148,7 @@ NodeId Parser::parseCaseChoice(bool expressions) {
   } else if (!panic_) {
     error("missing-else", spanOf(first), "this 'case' has no 'else'",
           expressions ? "add 'else : value'" : "add 'else : NIL', or what else shall happen");
+    if (!expressions) fix(spanAt(endOfLast()), " else : NIL");
   }
   Node n = node(NodeKind::Choice, first.begin);
   n.op = static_cast<uint8_t>(ChoiceKind::Case);
@@ -337,6 +338,7 @@ NodeId Parser::parseBlock(bool expressions) {
       if (wantItem) {
         warning("empty-item", spanOf(current()), "there is nothing before this '|'",
                 "remove it, or write what belongs there");
+        fix(spanOf(current()), "");
       }
       advance();
       wantItem = true;
@@ -345,6 +347,7 @@ NodeId Parser::parseBlock(bool expressions) {
     if (!wantItem) {
       error("missing-separator", spanOf(current()), "'|' is missing before " + describe(current()),
             "write '|' between the parts of a block");
+      fix(spanAt(current().begin), "| ");
     }
     items.push_back(parseItem(expressions));
     wantItem = false;

@@ -91,7 +91,8 @@ void Parser::findUserWords() {
 // --- Reports ---
 
 void Parser::error(const char* code, Span span, std::string message, std::string hint) {
-  if (panic_ || at_ == lastErrorAt_) return;
+  reported_ = !panic_ && at_ != lastErrorAt_;
+  if (!reported_) return;
   lastErrorAt_ = at_;
   if (inAnnotation_) {
     diagnostics_.warning("bad-annotation", span, std::move(message), std::move(hint));
@@ -99,6 +100,7 @@ void Parser::error(const char* code, Span span, std::string message, std::string
   }
   diagnostics_.error(code, span, std::move(message), std::move(hint));
   if (++errors_ < kMaxSyntaxErrors) return;
+  reported_ = false;
   diagnostics_.error("too-many-errors", span, "the rest of the file is not read after this mistake",
                      "correct the mistakes above first");
   panic_ = true;
@@ -106,7 +108,12 @@ void Parser::error(const char* code, Span span, std::string message, std::string
 }
 
 void Parser::warning(const char* code, Span span, std::string message, std::string hint) {
-  if (!panic_) diagnostics_.warning(code, span, std::move(message), std::move(hint));
+  reported_ = !panic_;
+  if (reported_) diagnostics_.warning(code, span, std::move(message), std::move(hint));
+}
+
+void Parser::fix(Span span, std::string text) {
+  if (reported_) diagnostics_.fixLast(span, std::move(text));
 }
 
 std::string Parser::describe(const Token& t) const {
@@ -118,9 +125,11 @@ std::string Parser::describe(const Token& t) const {
 }
 
 void Parser::unexpected(const std::string& expected, std::string hint) {
-  if (hint.empty() && is(TokenKind::Semicolon)) hint = "statements need no separator; remove it";
+  const bool separator = hint.empty() && is(TokenKind::Semicolon);
+  if (separator) hint = "statements need no separator; remove it";
   error("unexpected-token", spanOf(current()),
         describe(current()) + " is unexpected here; expected " + expected, std::move(hint));
+  if (separator) fix(spanOf(current()), "");
 }
 
 void Parser::tooDeep() {
@@ -386,6 +395,7 @@ void Parser::reportAfterValue(std::string_view name) {
 
 // attr, const, function or rule: all share the head `name(params) with (locals)`.
 NodeId Parser::parseDefinition(NodeId annotations, Keyword keyword) {
+  const size_t nameIndex = at_;
   const Token name = current();
   advance();
   const NodeId params = is(TokenKind::LParen) ? parseParams() : kNoNode;
@@ -398,6 +408,7 @@ NodeId Parser::parseDefinition(NodeId annotations, Keyword keyword) {
       warning("keyword-on-rule", spanOf(name),
               "'" + std::string(textOf(name)) + "' is a rule; the keyword before it has no effect",
               "remove the keyword");
+      fix({file_, tokens_[nameIndex - 1].begin, name.begin}, "");
     }
     n.kind = NodeKind::Rule;
     if (keyword == Keyword::Start) n.flags = kFlagStart;
@@ -459,6 +470,7 @@ void Parser::parseDeclaration() {
              ahead(2).kind == TokenKind::String) {
     warning("import-without-keyword", spanOf(current()),
             "this import stands without the word 'import'", "write 'import' before each import");
+    fix(spanAt(current().begin), "import ");
     declarations_.push_back(parseImport(attached));
   } else {
     stray();

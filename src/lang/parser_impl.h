@@ -92,6 +92,9 @@ class Parser {
   Span spanOf(const Token& t) const { return {file_, t.begin, t.end}; }
   void error(const char* code, Span span, std::string message, std::string hint = {});
   void warning(const char* code, Span span, std::string message, std::string hint = {});
+  /// The remedy of the report just made, as an edit; nothing when it was left out.
+  void fix(Span span, std::string text);
+  Span spanAt(uint32_t offset) const { return {file_, offset, offset}; }
   /// At the current token: "'x' is unexpected here; expected ...".
   void unexpected(const std::string& expected, std::string hint = {});
   std::string describe(const Token& t) const;
@@ -164,6 +167,7 @@ class Parser {
   size_t at_ = 0;
   size_t lastErrorAt_ = SIZE_MAX;
   size_t errors_ = 0;
+  bool reported_ = false;
   uint32_t nesting_ = 0;
   // Set when the rest of a declaration was given up: productions return without reports.
   bool panic_ = false;

@@ -15,6 +15,17 @@ Tree::Tree(uint32_t file) : file_(file), nodes_(1), depths_(1, 0) {
   texts_.push_back(std::make_unique<std::string>());
 }
 
+Tree Tree::copy(uint32_t file) const {
+  Tree out(file);
+  out.root_ = root_;
+  out.nodes_ = nodes_;
+  out.depths_ = depths_;
+  out.children_ = children_;
+  out.texts_.reserve(texts_.size());
+  for (size_t i = 1; i < texts_.size(); ++i) out.intern(*texts_[i]);
+  return out;
+}
+
 NodeId Tree::add(Node n, std::span<const NodeId> children) {
   n.firstChild = static_cast<uint32_t>(children_.size());
   n.childCount = static_cast<uint32_t>(children.size());

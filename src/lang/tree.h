@@ -173,6 +173,8 @@ class Tree {
   Tree& operator=(Tree&&) noexcept = default;
   Tree(const Tree&) = delete;
   Tree& operator=(const Tree&) = delete;
+  /// The same tree, whose spans are of another file.
+  Tree copy(uint32_t file) const;
 
   uint32_t file() const { return file_; }
   /// The File node; kNoNode before setRoot.

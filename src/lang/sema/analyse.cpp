@@ -9,6 +9,7 @@
 #include "lang/sema/analyse.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/text.h"
 #include "lang/sema/analysis.h"
@@ -27,9 +28,12 @@ Analysis::Analysis(const Catalogue& catalogue, ValuePool& values, FileLoader* lo
 
 // Beyond kMaxMessages of a kind a reader needs no more, and memory stays bounded.
 void Analysis::error(const char* code, Span span, std::string message, std::string hint) {
+  const Meant meant = std::exchange(meant_, {});
+  reported_ = !mute_ && ++errors_ <= kMaxMessages;
   if (mute_) return;
-  if (++errors_ <= kMaxMessages) {
+  if (reported_) {
     diagnostics_.error(code, span, std::move(message), std::move(hint));
+    if (!meant.nearest.empty()) fix(placeOf(meant.name, span), meant.nearest);
   } else if (errors_ == kMaxMessages + 1) {
     diagnostics_.error("too-many-errors", span, "mistakes from here on are not shown",
                        "correct those above first");
@@ -37,8 +41,34 @@ void Analysis::error(const char* code, Span span, std::string message, std::stri
 }
 
 void Analysis::warning(const char* code, Span span, std::string message, std::string hint) {
-  if (mute_ || ++warnings_ > kMaxMessages) return;
+  const Meant meant = std::exchange(meant_, {});
+  reported_ = !mute_ && ++warnings_ <= kMaxMessages;
+  if (!reported_) return;
   diagnostics_.warning(code, span, std::move(message), std::move(hint));
+  if (!meant.nearest.empty()) fix(placeOf(meant.name, span), meant.nearest);
+}
+
+void Analysis::fix(Span span, std::string text) {
+  if (reported_ && span.valid()) diagnostics_.fixLast(span, std::move(text));
+}
+
+Span Analysis::placeOf(std::string_view name, Span span) const {
+  if (!span.valid() || name.empty()) return {};
+  const std::string_view source = sources_.text(span.file);
+  const auto writtenAt = [&](size_t at) {
+    return at <= source.size() && source.substr(at, name.size()) == name;
+  };
+  size_t at = span.begin;
+  if (!writtenAt(at)) {
+    // "imp.Name": the rest of a name with prefixes.
+    constexpr std::string_view kEnds = " \t\r\n(){}[],:|\"";
+    const size_t end = std::min(source.find_first_of(kEnds, at + 1), source.size());
+    const std::string_view word = source.substr(at, end - at);
+    at += word.size() > name.size() && word.ends_with(name) ? word.size() - name.size() : 1;
+  }
+  if (!writtenAt(at)) return {};
+  const auto begin = static_cast<uint32_t>(at);
+  return {span.file, begin, begin + static_cast<uint32_t>(name.size())};
 }
 
 // --- Definitions ---

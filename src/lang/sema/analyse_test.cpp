@@ -57,6 +57,18 @@ struct Analysed {
     for (const Diagnostic& d : diagnostics.all()) out += format(d, sources);
     return out;
   }
+  /// The main file with all remedies carried out that are edits, from its end on.
+  std::string mended() const {
+    std::string out(sources.text(0));
+    uint32_t last = static_cast<uint32_t>(out.size());
+    for (size_t i = diagnostics.all().size(); i-- > 0;) {
+      const std::optional<Replacement>& fix = diagnostics.all()[i].fix;
+      if (!fix || fix->span.file != 0 || fix->span.end > last) continue;
+      out.replace(fix->span.begin, fix->span.end - fix->span.begin, fix->text);
+      last = fix->span.begin;
+    }
+    return out;
+  }
   std::string hint(size_t index = 0) const {
     return index < diagnostics.all().size() ? diagnostics.all()[index].hint : "";
   }
@@ -228,7 +240,7 @@ TEST(Analyse, unknownSelectorsAreErrors) {
       " comp(f) { tpo : X. }");
   EXPECT_EQ(a.problems(),
             "1:13 unknown-selector\n1:32 unknown-selector\n1:56 unknown-selector\n"
-            "1:80 unknown-name\n");
+            "1:80 unknown-selector\n");
   EXPECT_EQ(a.hint(2), "did you mean 'world.up'?");
 }
 
@@ -618,6 +630,38 @@ TEST(Analyse, annotationsBecomeData) {
   EXPECT_EQ(a.rule("Lot").annotations.input, InputNote::Polygon);
   EXPECT_EQ(*a.rule("Bay").annotations.preferredSize, (std::array<double, 3>{4, 3.5, 0}));
   EXPECT_FALSE(a.rule("Bad").annotations.preferredSize);
+}
+
+TEST(Analyse, remediesAreEdits) {
+  const auto mended = [](const char* text) { return Analysed(text).mended(); };
+  // Of an operation the word alone, not its arguments and its block.
+  EXPECT_EQ(mended("A --> splitt(x) { ~1 : B. }"), "A --> split(x) { ~1 : B. }");
+  EXPECT_EQ(mended("attr height = 1\nA --> extrude(heigth) B."),
+            "attr height = 1\nA --> extrude(height) B.");
+  EXPECT_EQ(mended("A --> comp(f) { sides : B. }"), "A --> comp(f) { side : B. }");
+  EXPECT_EQ(mended("A --> comp(f) { side : B. }*"), "A --> comp(f) { side : B. }");
+  EXPECT_EQ(mended("A --> split(x) { ~1 = B. }"), "A --> split(x) { ~1 : B. }");
+  EXPECT_EQ(mended("A --> split(x) { B. }"), "A --> split(x) { ~1 : B. }");
+  EXPECT_EQ(mended("A -> B."), "A --> B.");
+  EXPECT_EQ(mended("A --> B.;"), "A --> B.");
+  EXPECT_EQ(mended("attr A --> B."), "A --> B.");
+  EXPECT_EQ(mended("A --> case true : B."), "A --> case true : B. else : NIL");
+  EXPECT_EQ(mended("A --> split(x) { 1 : B. 2 : C. }"), "A --> split(x) { 1 : B. | 2 : C. }");
+  EXPECT_EQ(mended("@Rnge(0, 1)\nattr a = 1"), "@Range(0, 1)\nattr a = 1");
+  // What has no remedy that is an edit stays as it is.
+  EXPECT_EQ(mended("A --> extrude(1, 2, 3, 4, 5) B."), "A --> extrude(1, 2, 3, 4, 5) B.");
+}
+
+TEST(Analyse, remedyOfAnImportedNameKeepsTheImport) {
+  const Analysed a("import i : \"i.cga\"\nA --> i.Walll", {{"i.cga", "Wall --> X."}});
+  EXPECT_EQ(a.mended(), "import i : \"i.cga\"\nA --> i.Wall");
+}
+
+TEST(Analyse, hintsSayWhatTheWordIs) {
+  EXPECT_EQ(Analysed("A --> if X.").hint(),
+            "conditions are written 'case condition : ... else : ...'");
+  EXPECT_EQ(Analysed("w = extrude(1)").hint(),
+            "it is an operation, and those stand in rules: 'Name --> extrude(...)'");
 }
 
 }  // namespace

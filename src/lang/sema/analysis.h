@@ -158,6 +158,7 @@ class Analysis {
                              std::span<const NodeId> arguments);
   ValueType slotType(uint32_t slot, ValueType expected);
   bool isSelectorWord(std::string_view word, const char* blockWords) const;
+  std::vector<std::string_view> selectorNames(const char* blockWords) const;
   void expectType(NodeId node, ValueType got, ValueType wanted, const char* what);
   void reportUnknownName(NodeId node);
 
@@ -220,16 +221,22 @@ class Analysis {
   }
   void error(const char* code, Span span, std::string message, std::string hint = {});
   void warning(const char* code, Span span, std::string message, std::string hint = {});
+  /// The remedy of the report just made, as an edit; nothing when it was left out.
+  void fix(Span span, std::string text);
+  /// The part of a span that writes `name`: behind a quote, an @ or the names of imports.
+  Span placeOf(std::string_view name, Span span) const;
   void errorAt(const char* code, NodeId node, std::string message, std::string hint = {}) {
     error(code, tree().span(node), std::move(message), std::move(hint));
   }
   /// "did you mean" among what `names` returns; silent rounds and long runs of mistakes skip it.
+  /// The report that follows carries the remedy as an edit.
   template <class Names>
   std::string near(std::string_view name, Names names) {
     constexpr int kMaxHints = 200;
     if (mute_ || hints_ >= kMaxHints) return {};
     ++hints_;
-    return didYouMean(name, names());
+    meant_ = {name, nearestName(name, names())};
+    return meant_.nearest.empty() ? std::string() : "did you mean '" + meant_.nearest + "'?";
   }
   std::string quote(std::string_view s) const { return "'" + std::string(s) + "'"; }
 
@@ -250,6 +257,14 @@ class Analysis {
   Body body_;
   /// Rounds before the last one say nothing.
   bool mute_ = false;
+  /// Whether the last report was taken in.
+  bool reported_ = false;
+  /// What near() found for the report to come.
+  struct Meant {
+    std::string_view name;
+    std::string nearest;
+  };
+  Meant meant_;
   bool changed_ = false;
   int hints_ = 0;
   size_t errors_ = 0;

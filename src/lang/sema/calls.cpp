@@ -122,6 +122,8 @@ void Analysis::checkPrefix(NodeId node, const std::vector<const ParamSpec*>& par
   errorAt("bad-prefix", node,
           std::string(floating ? "'~'" : "a size relative to the scope") + " is not allowed here",
           floating ? "remove the '~'" : "multiply by scope.sx, scope.sy or scope.sz instead");
+  const uint32_t sign = tree()[node].begin;
+  if (floating) fix({tree().file(), sign, sign + 1}, "");
 }
 
 // One argument, with the parameters that it may be for.

@@ -194,8 +194,13 @@ ValueType Analysis::visitCall(NodeId node) {
   }
   if (inMissingImport(body_.module, name)) return ValueType::Null;
   std::string hint = near(name, [&] { return valueNames(body_.module); });
-  if (hint.empty() && !rulesNamed(body_.module, name).rules.empty()) {
+  if (!rulesNamed(body_.module, name).rules.empty()) {
+    meant_ = {};
     hint = "it is a rule; rules have no value";
+  } else if (catalogue_.operation(name)) {
+    meant_ = {};
+    hint =
+        "it is an operation, and those stand in rules: 'Name --> " + std::string(name) + "(...)'";
   }
   errorAt("unknown-function", node, "there is no function " + quote(name), std::move(hint));
   return ValueType::Null;
@@ -270,6 +275,16 @@ ValueType Analysis::visitHead(NodeId node, const char* blockWords) {
         return typed(node, ValueType::Bool);
       }
     }
+  }
+  // What is nothing else was meant to be a selector.
+  if (t.kind(node) == NodeKind::Name && !isKnownValue(t.text(node)) &&
+      !inMissingImport(body_.module, t.text(node))) {
+    resolve(node, RefKind::Selector);
+    const std::string_view word = t.text(node);
+    std::string hint = near(word, [&] { return selectorNames(blockWords); });
+    if (hint.empty()) hint = "selectors are words such as 'front', 'side', 'top' and 'all'";
+    errorAt("unknown-selector", node, quote(word) + " is no selector", std::move(hint));
+    return typed(node, ValueType::Selector);
   }
   return visit(node);
 }

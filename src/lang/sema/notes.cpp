@@ -240,6 +240,10 @@ Annotations readAnnotations(const Tree& tree, NodeId list, GroupNote& group,
       diagnostics->warning("unknown-annotation", tree.span(id),
                            "there is no annotation '@" + std::string(name) + "'; it has no effect",
                            didYouMean(name, names));
+      const std::string nearest = nearestName(name, names);
+      const uint32_t begin = tree.span(id).begin + 1;
+      const auto end = begin + static_cast<uint32_t>(name.size());
+      if (!nearest.empty()) diagnostics->fixLast({tree.file(), begin, end}, nearest);
     }
   }
   group = out.group;

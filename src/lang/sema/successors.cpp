@@ -5,6 +5,7 @@
 // rule or a leaf; blocks are checked against the kind that the operation declares.
 
 #include <algorithm>
+#include <utility>
 
 #include "lang/sema/analysis.h"
 
@@ -67,9 +68,12 @@ void Analysis::makeLeaf(NodeId node, bool known) {
   resolve(node, RefKind::Leaf);
   if (known) return;
   for (const NodeId block : tree().children(node).subspan(1)) {
+    std::string hint = near(text(node), [&] { return ruleNames(body_.module); });
+    const std::string nearest = std::exchange(meant_, {}).nearest;
     errorAt("unexpected-block", block,
-            quote(text(node)) + " is no operation, so it cannot have a block",
-            near(text(node), [&] { return ruleNames(body_.module); }));
+            quote(text(node)) + " is no operation, so it cannot have a block", std::move(hint));
+    // The report is at the block; what is wrong is the word before it.
+    if (!nearest.empty()) fix(nameSpan(tree(), node), nearest);
   }
 }
 
@@ -90,7 +94,13 @@ void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
   std::vector<std::string_view> names;
   const std::pair<ModuleId, std::string_view> place = enter(body_.module, name);
   std::string hint = near(place.second, [&] { return ruleNames(place.first); });
-  if (hint.empty()) hint = "write " + quote(std::string(name) + ".") + " if it shall be a leaf";
+  const bool leaf = hint.empty();
+  if (name == "if" || name == "while" || name == "for") {
+    meant_ = {};
+    hint = "conditions are written 'case condition : ... else : ...'";
+  } else if (leaf) {
+    hint = "write " + quote(std::string(name) + ".") + " if it shall be a leaf";
+  }
   warning("undefined-rule", span,
           "no rule or operation is named " + quote(name) + "; it becomes a leaf", std::move(hint));
 }
@@ -344,6 +354,10 @@ void Analysis::visitBlock(NodeId block, const OpSpec& op, bool nested) {
   const Tree& t = tree();
   if (t.has(block, kFlagRepeat) && op.block != BlockKind::Split) {
     errorAt("unexpected-repeat", block, "only splits can be repeated with '*'", "remove the '*'");
+    const uint32_t end = t[block].end;
+    if (end > 0 && sources_.text(t.file()).substr(end - 1, 1) == "*") {
+      fix({t.file(), end - 1, end}, "");
+    }
   }
   const size_t count = t.children(block).size();
   if (op.block == BlockKind::Operands && !nested && count != 2 && !op.blockOptional) {
@@ -379,6 +393,8 @@ void Analysis::visitItem(NodeId item, const OpSpec& op) {
     errorAt(isSplit ? "missing-size" : "missing-selector", item,
             std::string("this part has no ") + (isSplit ? "size" : "selector"),
             isSplit ? "write 'size : operations'" : "write 'selector : operations'");
+    const uint32_t begin = t[item].begin;
+    fix({t.file(), begin, begin}, isSplit ? "~1 : " : "all : ");
   }
   // place { A | otherwise : B }: the word beside plain operations.
   const bool word = op.block == BlockKind::Operations && op.blockWords && head != kNoNode &&
@@ -402,6 +418,11 @@ void Analysis::visitItem(NodeId item, const OpSpec& op) {
     if (t.itemKind(item) != ItemKind::Each) {
       errorAt("bad-separator", item, "the parts of a split are written 'size : operations'",
               "replace '=' by ':'");
+      const size_t sign = sources_.text(t.file()).find('=', t[head].end);
+      if (sign < t[item].end) {
+        const auto at = static_cast<uint32_t>(sign);
+        fix({t.file(), at, at + 1}, ":");
+      }
     }
   }
   if (head != kNoNode && op.block == BlockKind::Selectors) {
