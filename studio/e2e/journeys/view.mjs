@@ -4,7 +4,9 @@
 // The view: ways to move, what it shows, what a picked face tells.
 
 import assert from 'node:assert/strict';
-import { drawn, ready, untilDrawn, untilRefined, viewPixels } from '../studio.mjs';
+import { writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { HOUSE, drawn, ready, untilDrawn, untilRefined, viewPixels } from '../studio.mjs';
 
 const picture = (page) => viewPixels(page, '.stage canvas');
 
@@ -30,6 +32,40 @@ function colorAt(page, share) {
       ...g.getImageData(Math.floor(from.width / 2), Math.floor((from.height - 1) * y), 1, 1).data,
     ];
   }, share);
+}
+
+/**
+ * The colours of the largest even areas of the view, how much of it each has, and which pixels are
+ * theirs; `at`: the middle colours of such pixels.
+ */
+async function colours(page, at = null) {
+  return page.locator('.stage canvas').evaluate((canvas, at) => {
+    const flat = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d');
+    flat.drawImage(canvas, 0, 0);
+    const { data, width, height } = flat.getImageData(0, 0, canvas.width, canvas.height);
+    const middle = (list) => list.sort((a, b) => a - b)[list.length >> 1];
+    if (!at) {
+      const areas = new Map();
+      const key = (p) => (data[p] << 16) | (data[p + 1] << 8) | data[p + 2];
+      for (let p = 4; p + width * 4 < data.length; p += 4) {
+        const k = key(p);
+        if (key(p - 4) !== k || key(p + 4) !== k || key(p + width * 4) !== k) continue;
+        if (!areas.has(k)) areas.set(k, []);
+        areas.get(k).push(p);
+      }
+      const place = (p) => [((p / 4) % width) / width, Math.floor(p / 4 / width) / height];
+      at = [...areas.values()].sort((a, b) => b.length - a.length).slice(0, 6);
+      at = at.map((all) => all.map(place));
+    }
+    const seen = at.map((all) => {
+      const pixels = all.map(
+        ([x, y]) => (Math.round(y * height) * width + Math.round(x * width)) * 4,
+      );
+      return [0, 1, 2].map((c) => middle(pixels.map((p) => data[p + c])));
+    });
+    const share = at.map((all) => (all.length / (width * height)).toFixed(3));
+    return { at, seen, share };
+  }, at);
 }
 
 export default {
@@ -76,6 +112,34 @@ export default {
     }));
     assert.ok(pixels.width >= pixels.wide && pixels.height >= pixels.high, JSON.stringify(pixels));
     assert.ok(!first.equals(await picture(page)), 'the first picture is finer later');
+  },
+
+  /** What lies in the sun or in even shade looks the same before and after; only corners darken. */
+  async refiningKeepsColours({ page, folder }) {
+    await ready(page);
+    const canvas = page.locator('.stage canvas');
+    // Plaster that is as bright as paper in the sun.
+    const before = await drawn(page);
+    writeFileSync(join(folder, 'journey.cga'), HOUSE.replace('#b4674c', '#efdcc0'));
+    await untilDrawn(page, before);
+    await untilRefined(page, 240_000);
+    await canvas.focus();
+    await changes(page, 'turn', () => page.keyboard.press('ArrowLeft'));
+    const first = await colours(page);
+    await untilRefined(page, 240_000);
+    const then = await colours(page, first.at);
+    const told = first.seen.map((c, i) => `${c} -> ${then.seen[i]}: ${first.share[i]}`).join('; ');
+    const sum = (c) => c[0] + c[1] + c[2];
+    let even = 0;
+    let bright = 0;
+    first.seen.forEach((was, i) => {
+      // The cast shadow is darker where the sky is hidden as well.
+      if (sum(was) < 140 || first.share[i] < 0.01) return;
+      even += 1;
+      if (was[0] > 225) bright += 1;
+      for (const c of [0, 1, 2]) assert.ok(Math.abs(was[c] - then.seen[i][c]) <= 4, told);
+    });
+    assert.ok(even >= 4 && bright >= 1, told);
   },
 
   /** Row C15: shaded and wireframe, next seed. */

@@ -6,6 +6,25 @@
 import * as THREE from 'three';
 import { groundMaterial, softened } from './shading';
 
+/** Looks for a shadow a little aside, elsewhere at each pixel: many passes have no edges in common. */
+function scattered(fragmentShader: string): string {
+  const lights = THREE.ShaderChunk.lights_fragment_begin.replaceAll(
+    'vDirectionalShadowCoord[ i ]',
+    'scattered( vDirectionalShadowCoord[ i ] )',
+  );
+  return (
+    `
+uniform float scatter;
+vec4 scattered(vec4 at) {
+  if (scatter == 0.0) return at;
+  vec2 seed = gl_FragCoord.xy + 971.0 * at.z;
+  vec2 by = vec2(dot(seed, vec2(12.9898, 78.233)), dot(seed, vec2(39.346, 11.135)));
+  return at + vec4((fract(sin(by) * 43758.5453) - 0.5) * scatter, 0.0, 0.0);
+}
+` + fragmentShader.replace('#include <lights_fragment_begin>', lights)
+  );
+}
+
 export class Ground {
   readonly group = new THREE.Group();
   private readonly plain = new THREE.Mesh(
@@ -14,10 +33,13 @@ export class Ground {
   );
   private readonly grid = new THREE.Mesh(new THREE.PlaneGeometry(1, 1), groundMaterial());
 
-  constructor() {
+  /** `scatter`: see Lights. */
+  constructor(scatter: { value: number }) {
     const { plain, grid } = this;
-    plain.material.onBeforeCompile = (shader) =>
-      (shader.fragmentShader = softened(shader.fragmentShader));
+    plain.material.onBeforeCompile = (shader) => {
+      shader.uniforms.scatter = scatter;
+      shader.fragmentShader = scattered(softened(shader.fragmentShader));
+    };
     plain.receiveShadow = true;
     // All of the model is above it, so that it need not hide anything; and nothing flickers.
     plain.material.depthWrite = false;

@@ -85,7 +85,7 @@ export class SceneView {
   private readonly pace: Pace;
   /** The processor draws, as on a machine without a graphics card. */
   readonly software: boolean;
-  private readonly ground = new Ground();
+  private readonly ground: Ground;
   private readonly marks: Marks = {
     selected: { value: new THREE.Vector2() },
     accent: { value: new THREE.Color() },
@@ -167,6 +167,7 @@ export class SceneView {
     this.software = software;
     this.pace = new Pace(software);
     this.lights = new Lights(software && !posed);
+    this.ground = new Ground(this.lights.scatter);
     this.picture = new THREE.WebGLRenderTarget(1, 1, {
       colorSpace: THREE.SRGBColorSpace,
       samples: software && !posed ? 0 : 4,

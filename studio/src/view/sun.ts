@@ -9,9 +9,21 @@
 import * as THREE from 'three';
 
 const SUNLIGHT = 0xfff1dc;
+const SKYLIGHT = 0xe4edf4;
+const GROUNDLIGHT = 0x9a948a;
+/** How bright the sun is, and the sky. */
+const SUN = 2.9;
+const SKY = 1.7;
+/** How much of the light of the sky comes from places in it once a picture is refined. */
+const FROM_PLACES = 0.7;
+/** A place in the sky stands for much of it: its shadow on the ground has no edge. */
+const SCATTER = 0.07;
+/** Passes of a still picture come in groups; in each these look from the sun. */
+const GROUP = 10;
+const SUN_PASSES = new Set([1, 4, 8]);
+const SUN_SHARE = SUN_PASSES.size / GROUP;
 /** Texels of coarse shadows each way. */
 const COARSE = 512;
-const SKYLIGHT = 0xe6eef4;
 
 /** The i-th number of the radical inverse sequence: evenly spread however many are taken. */
 export function spread(i: number, base: number): number {
@@ -22,10 +34,12 @@ export function spread(i: number, base: number): number {
 
 export class Lights {
   readonly group = new THREE.Group();
-  private readonly still = new THREE.DirectionalLight(SUNLIGHT, 2.9);
-  private readonly coarse = new THREE.DirectionalLight(SUNLIGHT, 2.9);
-  private readonly moving = new THREE.DirectionalLight(SUNLIGHT, 2.9);
-  private readonly sky = new THREE.HemisphereLight(0xe4edf4, 0x9a948a, 1.7);
+  /** How far apart, as a share of the shadows' width, the ground looks for its shadow. */
+  readonly scatter = { value: 0 };
+  private readonly still = new THREE.DirectionalLight(SUNLIGHT, SUN);
+  private readonly coarse = new THREE.DirectionalLight(SUNLIGHT, SUN);
+  private readonly moving = new THREE.DirectionalLight(SUNLIGHT, SUN);
+  private readonly sky = new THREE.HemisphereLight(SKYLIGHT, GROUNDLIGHT, SKY);
   private angles = { elevation: 44, azimuth: -28 };
   private centre = new THREE.Vector3();
   private radius = 10;
@@ -42,7 +56,7 @@ export class Lights {
     }
     this.coarse.shadow.mapSize.set(COARSE, COARSE);
     this.group.add(this.sky);
-    this.shine(this.still, 1.7);
+    this.shine(this.still);
   }
 
   /** Metres of a texel of the shadows. */
@@ -87,7 +101,7 @@ export class Lights {
 
   /** The light of the first picture; `soon`: coarse shadows do where the fine ones are stale. */
   first(soon: boolean): void {
-    this.shine(soon && this.cheap && this.still.shadow.needsUpdate ? this.coarse : this.still, 1.7);
+    this.shine(soon && this.cheap && this.still.shadow.needsUpdate ? this.coarse : this.still);
   }
 
   /** Whether the edges of shadows are soft, where a processor pays for that. */
@@ -95,24 +109,28 @@ export class Lights {
     if (this.cheap) this.still.shadow.radius = on ? 1 : 0;
   }
 
-  private shine(which: THREE.DirectionalLight, sky: number): void {
+  private shine(which: THREE.DirectionalLight): void {
     for (const sun of [this.still, this.coarse, this.moving]) sun.visible = sun === which;
-    this.sky.intensity = sky;
+    this.sky.color.set(SKYLIGHT);
+    this.scatter.value = 0;
   }
 
   /**
-   * The light of the i-th pass of a still picture. Four passes in ten look from the sun, spread
-   * over its disc; the others are light of the sky.
+   * The light of the i-th pass of a still picture, from 1. Three passes in ten look from the sun,
+   * spread over its disc, the others from a place in the sky. What no shadow falls on is as bright
+   * on their average as in the first picture.
    */
   pass(i: number): void {
-    const fromSun = i % 5 < 2;
-    this.place(
-      this.moving,
-      fromSun ? this.direction((spread(i, 5) - 0.5) * 2.4, (spread(i, 7) - 0.5) * 2.4) : inSky(i),
-    );
-    this.shine(this.moving, 0.5);
-    this.moving.color.set(fromSun ? SUNLIGHT : SKYLIGHT);
-    this.moving.intensity = fromSun ? 2.9 * 2.1 : 2.9;
+    const sun = SUN_PASSES.has((i - 1) % GROUP);
+    const to = sun
+      ? this.direction((spread(i, 5) - 0.5) * 2.4, (spread(i, 7) - 0.5) * 2.4)
+      : inSky(i - 1);
+    this.place(this.moving, to);
+    this.shine(this.moving);
+    this.moving.color.set(sun ? SUNLIGHT : SKYLIGHT);
+    this.moving.intensity = sun ? SUN / SUN_SHARE : (SKY * FROM_PLACES * 2) / (1 - SUN_SHARE);
+    this.sky.color.set(SKYLIGHT).multiplyScalar(1 - FROM_PLACES);
+    this.scatter.value = sun ? 0 : SCATTER;
   }
 
   private place(sun: THREE.DirectionalLight, to: THREE.Vector3): void {
@@ -130,9 +148,19 @@ export class Lights {
   }
 }
 
+/**
+ * A place in the sky, all of which is equally bright. The heights of each group are spread evenly,
+ * so that every group gives a level surface what the sky as a whole gives it; the first group is
+ * shown by itself.
+ */
 function inSky(i: number): THREE.Vector3 {
-  const y = Math.sqrt(0.03 + 0.95 * spread(i, 2));
-  const a = 2 * Math.PI * spread(i, 3);
+  const group = Math.floor(i / GROUP);
+  const inGroup = i % GROUP;
+  const before = [...SUN_PASSES].filter((s) => s < inGroup).length;
+  const each = GROUP - SUN_PASSES.size;
+  const moved = group ? spread(group, 2) : 0.5;
+  const y = (inGroup - before + moved) / each;
+  const a = Math.PI * (3 - Math.sqrt(5)) * (group * each + inGroup - before);
   const r = Math.sqrt(1 - y * y);
   return new THREE.Vector3(Math.sin(a) * r, y, Math.cos(a) * r);
 }
