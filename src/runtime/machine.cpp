@@ -101,6 +101,23 @@ OutputRoot Machine::run(const InitialShape& input, uint32_t index) {
 }
 
 void Machine::derive(const InitialShape& input, uint32_t index) {
+  const WorkScope scope(*this);
+  aborted_ = false;
+  instruction_ = nullptr;
+  rootMark_ = output_.mark();
+  const Status status = guarded([&] {
+    begin(input, index);
+    return Status();
+  });
+  if (!status.ok()) endByFailure(status);
+  dropGathers();
+  // What was open when a limit struck stays: it belongs to the initial shape.
+  while (!prototypes_.empty()) closeOpenPrototype();
+  shared_.shapes.fetch_add(shapes_ - shapesCounted_, std::memory_order_relaxed);
+  shapesCounted_ = shapes_;
+}
+
+void Machine::begin(const InitialShape& input, uint32_t index) {
   const uint64_t place = input.index < 0 ? index : static_cast<uint64_t>(input.index);
   const uint64_t identity =
       input.identity.empty() ? hashCombine(0, place) : hashBytes(input.identity, 1);
@@ -121,7 +138,6 @@ void Machine::derive(const InitialShape& input, uint32_t index) {
   }
   info_.shape.path = hashCombine(hashDouble(seed), identity);
   worlds_.assign(1, input.origin);
-  aborted_ = false;
   salt_ = 0;
   parameters_ = stackTop_ = activationCount_ = 0;
   children_.clear();
@@ -135,16 +151,12 @@ void Machine::derive(const InitialShape& input, uint32_t index) {
   openParts_.clear();
   bindAttributes(input);
 
-  rootMark_ = output_.mark();
   const int32_t rule = startRuleOf(input);
   if (rule >= 0) {
     info_.startRule = program_.rules[static_cast<size_t>(rule)].qualifiedName;
     if (remembers_) beginRemembering();
     beginRoot(static_cast<uint32_t>(rule));
     execute();
-    dropGathers();
-    // What was open when a limit struck stays: it belongs to the initial shape.
-    while (!prototypes_.empty()) closeOpenPrototype();
   } else {
     // Without a rule the initial shape itself is the result.
     activationCount_ = 0;
@@ -152,8 +164,6 @@ void Machine::derive(const InitialShape& input, uint32_t index) {
     a.shape = info_.shape;
     makeLeaf(a, pool().intern(input.name), 0);
   }
-  shared_.shapes.fetch_add(shapes_ - shapesCounted_, std::memory_order_relaxed);
-  shapesCounted_ = shapes_;
 }
 
 int32_t Machine::startRuleOf(const InitialShape& input) {
@@ -210,6 +220,7 @@ void Machine::bindAttributes(const InitialShape& shape) {
 }
 
 std::vector<AttributeValue> Machine::attributeValues() {
+  const WorkScope scope(*this);
   std::vector<AttributeValue> out;
   for (uint32_t a = 0; a < program_.attributes.size(); ++a) {
     const AttributeCode& code = program_.attributes[a];
@@ -217,7 +228,13 @@ std::vector<AttributeValue> Machine::attributeValues() {
     aborted_ = false;
     stackTop_ = 0;
     seen_ = &info_.shape;
-    out.push_back(plainAttribute(std::string(bareName(code.name)), evaluateAttribute(a), pool()));
+    Value value;
+    const Status status = guarded([&] {
+      value = evaluateAttribute(a);
+      return Status();
+    });
+    if (!status.ok()) functions_.clear();
+    out.push_back(plainAttribute(std::string(bareName(code.name)), value, pool()));
   }
   return out;
 }
@@ -281,6 +298,18 @@ bool Machine::overLimit(const char* code, std::string message, std::string hint)
   return false;
 }
 
+void Machine::tellFailure(const char* name, const Status& status) {
+  if (status.code() == kWorkStopped) return;
+  warn(status.code(), name ? "'" + std::string(name) + "': " + status.message() : status.message(),
+       status.hint());
+}
+
+// Something outside of operations and functions unwound: the initial shape ends.
+void Machine::endByFailure(const Status& status) {
+  if (status.code() == kWorkStopped) return;
+  overTotal(status.code(), "the derivation cannot go on: " + status.message(), status.hint());
+}
+
 bool Machine::stackFull() {
   return overLimit("recursion-too-deep", "rules and functions call each other too deeply",
                    "end the recursion with a case");
@@ -296,10 +325,17 @@ uint64_t Machine::lengthOf(const Value& v) const {
   return v.isArray() ? pool_->array(v).size() * sizeof(double) : pool_->text(v.id).size();
 }
 
+// Within an operation or a function.
+bool Machine::look(uint64_t units, uint64_t bytes) {
+  if (aborted_) return false;
+  work_ += units / kUnitsPerStep;
+  return lookAtLimits(bytes);
+}
+
 // The clock, memory, the user's wish to stop, and what all workers have made and done together.
-bool Machine::look() {
+// `bytes`: so many are about to be taken.
+bool Machine::lookAtLimits(uint64_t bytes) {
   const Limits& limits = options().limits;
-  workSinceMemory_ += work_;
   const uint64_t steps = shared_.steps.fetch_add(work_, std::memory_order_relaxed) + work_;
   stepsBefore_ += work_;
   work_ = 0;
@@ -321,15 +357,17 @@ bool Machine::look() {
                      "the derivation takes more than " + std::to_string(limits.steps) + " steps",
                      "end a recursion earlier, or raise the limit on steps");
   }
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - shared_.start;
+  const auto now = std::chrono::steady_clock::now();
+  const std::chrono::duration<double> spent = now - shared_.start;
   if (limits.seconds > 0 && spent.count() > limits.seconds) {
     return overTotal("out-of-time",
                      "the derivation takes longer than " + numberText(limits.seconds) + " seconds",
                      "raise the limit on seconds, or derive fewer shapes");
   }
-  if (limits.bytes > 0 && workSinceMemory_ >= kStepsBetweenMemory) {
-    workSinceMemory_ = 0;
-    if (residentBytes() > shared_.bytesBefore + limits.bytes) {
+  if (limits.bytes > 0 && (bytes > 0 || now - memoryLooked_ >= kBetweenMemory)) {
+    memoryLooked_ = now;
+    const uint64_t held = residentBytes(), most = shared_.bytesBefore + limits.bytes;
+    if (held > most || bytes > most - held) {
       return overTotal(
           "out-of-memory",
           "the derivation takes more than " + std::to_string(limits.bytes >> 20) + " megabytes",

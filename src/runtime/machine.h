@@ -16,6 +16,7 @@
 
 #include "base/memory.h"
 #include "base/small_buffer.h"
+#include "base/work.h"
 #include "program/program.h"
 #include "program/reach.h"
 #include "runtime/array_ops.h"
@@ -125,7 +126,7 @@ struct Activation {
   Vec3 previousSize;
 };
 
-class Machine final : public Services {
+class Machine final : public Services, private WorkMeter {
  public:
   Machine(DeriveShared& shared, uint32_t worker);
   ~Machine() override;
@@ -172,7 +173,9 @@ class Machine final : public Services {
  private:
   static constexpr uint64_t kStepsBetweenLooks = 1024;
   /// A look at memory takes microseconds.
-  static constexpr uint64_t kStepsBetweenMemory = 16384;
+  static constexpr std::chrono::milliseconds kBetweenMemory{2};
+  /// What work() counts is smaller than a step.
+  static constexpr uint64_t kUnitsPerStep = 16;
 
   struct FunctionFrame {
     const Instruction* returnTo;
@@ -259,6 +262,7 @@ class Machine final : public Services {
   const DeriveOptions& options() const { return shared_.options; }
 
   // The loop, and its parts.
+  void begin(const InitialShape& shape, uint32_t index);
   void execute();
   void beginRoot(uint32_t rule);
   void beginRule(uint32_t rule, uint32_t argumentCount, const Instruction* at, bool last);
@@ -280,6 +284,8 @@ class Machine final : public Services {
   const std::vector<LightSlot>& lightSlots(uint32_t block, uint32_t rule);
   LightSlot lightSlot(uint32_t rule, uint32_t entry) const;
   void operation(const Instruction& i, const Value* constants);
+  Status apply(OpCall& call, const Instruction& i, std::span<const Value> arguments,
+               const BlockInput* block);
   SplitBlock splitBlock(uint32_t number, const Value* values);
   void fillBlock(uint32_t number, const Value* values, PartPlan& plan, BlockInput& input);
   bool splitAsBefore(const Instruction& i, Activation& a, const Value* values);
@@ -376,6 +382,8 @@ class Machine final : public Services {
   void builtinAttribute(const Instruction& i);
   void callFunction(const Instruction& i);
   void callBuiltin(const Instruction& i);
+  Value callGuarded(FunctionCall& call, Value (*function)(FunctionCall&), const char* name,
+                    ValueType result);
   void returnValue();
   void initialise(const Instruction& i);
   void componentValues(const Instruction& i);
@@ -399,6 +407,9 @@ class Machine final : public Services {
 
   // Limits and messages.
   bool overLimit(const char* code, std::string message, std::string hint);
+  /// Tells why an operation or a function did not do what it should. A limit has told it already.
+  void tellFailure(const char* name, const Status& status);
+  void endByFailure(const Status& status);
   bool countShape() {
     ++shapes_;
     ++shapesExpanded_;
@@ -411,7 +422,9 @@ class Machine final : public Services {
     work_ += steps;
     return work_ < kStepsBetweenLooks || look();
   }
-  bool look();
+  bool look() { return lookAtLimits(0); }
+  bool look(uint64_t units, uint64_t bytes) override;
+  bool lookAtLimits(uint64_t bytes);
   bool stackFull();
   bool overTotal(const char* code, std::string message, std::string hint);
   /// Texts and arrays cost by their length; the next tick() looks at the limits.
@@ -500,9 +513,10 @@ class Machine final : public Services {
   uint64_t shapesCounted_ = 0;
   uint64_t shapesExpanded_ = 0;
   uint64_t vertices_ = 0;
-  /// Steps since the last look at the limits, and since the last look at memory.
+  /// Steps since the last look at the limits.
   uint64_t work_ = 0;
-  uint64_t workSinceMemory_ = 0;
+  /// The last look at memory.
+  std::chrono::steady_clock::time_point memoryLooked_{};
   uint64_t cacheHits_ = 0;
   /// The instruction at work, for messages.
   const Instruction* instruction_ = nullptr;

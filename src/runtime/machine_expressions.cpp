@@ -248,6 +248,17 @@ std::vector<Value> valuesByComponent(const std::vector<Value>& values,
   return out;
 }
 
+// What stands for a value that there is none of.
+Value noneOf(ValueType type, ValuePool& pool) {
+  if (type >= ValueType::FloatArray) {
+    Array none;
+    none.element = elementType(type);
+    return pool.intern(std::move(none));
+  }
+  if (type == ValueType::String) return Value::string(0);
+  return type == ValueType::Bool ? Value::of(false) : Value::of(0.0);
+}
+
 }  // namespace
 
 void Machine::componentValues(const Instruction& i) {
@@ -268,9 +279,9 @@ void Machine::componentValues(const Instruction& i) {
   const CallPlace place{scope, size, fileOf(i), program_.sites[pcOf(&i)]};
   OpCall call(*program_.operations[i.a], shape, {arguments, i.x}, *this, place, &input);
   instruction_ = &i;
-  const Status status = call.spec().apply(call);
+  const Status status = guarded([&] { return call.spec().apply(call); });
   if (!status.ok()) {
-    warn(status.code(), "'comp': " + status.message(), status.hint());
+    tellFailure("comp", status);
     parts.clear();
     partOf.clear();
   }
@@ -310,11 +321,25 @@ Value Machine::evaluateAttribute(uint32_t a) {
   return aborted_ ? Value{} : pop();
 }
 
+// The door of functions. One that unwinds has the value that stands for none.
+Value Machine::callGuarded(FunctionCall& call, Value (*function)(FunctionCall&), const char* name,
+                           ValueType result) {
+  Value v;
+  const Status status = guarded([&] {
+    v = function(call);
+    return Status();
+  });
+  if (status.ok()) return v;
+  tellFailure(name, status);
+  return noneOf(result, pool());
+}
+
 void Machine::builtinAttribute(const Instruction& i) {
   FunctionCall call({}, *seen_, *this);
   call.place(fileOf(i), 0);
   instruction_ = &i;
-  push(program_.builtinAttributes[i.a]->get(call));
+  const AttributeSpec& spec = *program_.builtinAttributes[i.a];
+  push(callGuarded(call, spec.get, spec.name, spec.type));
 }
 
 void Machine::callBuiltin(const Instruction& i) {
@@ -323,7 +348,9 @@ void Machine::callBuiltin(const Instruction& i) {
   call.place(fileOf(i), hashCombine(salt_, program_.sites[pcOf(&i)]));
   instruction_ = &i;
   const FunctionSpec& function = *program_.builtinFunctions[i.a];
-  const Value v = function.call(call);
+  const ValueType result =
+      function.signatures.empty() ? ValueType::Float : function.signatures[0].result;
+  const Value v = callGuarded(call, function.call, function.name, result);
   if (options().traceShapes && function.effects & kRandom) {
     if (TraceNote* n = note(TraceNote::Kind::Draw)) {
       n->span = program_.spans[pcOf(&i)];

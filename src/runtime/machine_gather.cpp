@@ -84,11 +84,13 @@ void Machine::endGather() {
                         program_.files[program_.rules[a.rule].file], program_.sites[pcOf(g.at)]};
   OpCall call(spec, a.shape, {}, *this, place);
   instruction_ = g.at;
-  const Status status = spec.gathered(call, leaves);
+  const Shape before = a.shape;
+  const Status status = guarded([&] { return spec.gathered(call, leaves); });
   if (status.ok()) {
     a.made = g.made;
   } else {
-    warn(status.code(), "'" + std::string(spec.name) + "': " + status.message(), status.hint());
+    a.shape = before;
+    tellFailure(spec.name, status);
   }
   std::vector<bool> gone(shown.size(), false);
   for (size_t k = 0, l = 0; k < shown.size(); ++k) {

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "runtime/door.h"
 #include "runtime/machine.h"
 
 namespace gable {
@@ -65,6 +66,7 @@ Machine::LightSlot Machine::lightSlot(uint32_t rule, uint32_t entry) const {
         if (!spec.applyLight || at->y > 0) return {};
         if (at->code == Code::Operation && at->x > 0) return {};
         const Value* args = at->x > 0 ? program_.constants.data() + at[1].a : nullptr;
+        if (!refusedNumber(spec, {args, at->x}, pool()).ok()) return {};
         slot.steps.push_back({spec.applyLight, {args, at->x}});
         if (at->code == Code::OperationConstant) ++at;
         break;

@@ -8,9 +8,11 @@
 // operation leaves its children on children_; they run one after the other before the rule goes on.
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/check.h"
+#include "runtime/door.h"
 #include "runtime/machine.h"
 #include "shape/deformation.h"
 
@@ -374,6 +376,24 @@ bool Machine::splitAsBefore(const Instruction& i, Activation& a, const Value* va
   return true;
 }
 
+// The door of operations. What unwinds out of one ends here, and the shape is as it was before. A
+// copy is kept where the operation may get so far as to take the shape apart.
+Status Machine::apply(OpCall& call, const Instruction& i, std::span<const Value> arguments,
+                      const BlockInput* block) {
+  const OpSpec& spec = call.spec();
+  if (Status refused = refusedNumber(spec, arguments, pool()); !refused.ok()) return refused;
+  std::optional<Shape> before;
+  if (spec.stepsPerVertex > 1 || call.shape().geometry.kind == GeometryKind::Mesh) {
+    before.emplace(call.shape());
+  }
+  Status status = guarded([&] {
+    return remembers_ && worksInTheOpen() ? applyRemembering(call, i, arguments, block)
+                                          : spec.apply(call);
+  });
+  if (!status.ok() && before) call.shape() = std::move(*before);
+  return status;
+}
+
 void Machine::operation(const Instruction& i, const Value* constants) {
   Activation& a = current();
   const OpSpec& spec = *program_.operations[i.a];
@@ -400,12 +420,13 @@ void Machine::operation(const Instruction& i, const Value* constants) {
   OpCall call(spec, a.shape, {arguments, i.x}, *this, place, block ? &input : nullptr);
   if (collectOccluders_ && occludes(spec)) addOccluder(0, a.shape);
   instruction_ = &i;
-  const Status status = remembers_ && worksInTheOpen()
-                            ? applyRemembering(call, i, {arguments, i.x}, block ? &input : nullptr)
-                            : spec.apply(call);
+  const Status status = apply(call, i, {arguments, i.x}, block ? &input : nullptr);
   if (!status.ok()) {
-    if (block) children_.erase(children_.begin() + childBase, children_.end());
-    warn(status.code(), "'" + std::string(spec.name) + "': " + status.message(), status.hint());
+    if (block) {
+      children_.erase(children_.begin() + childBase, children_.end());
+      pieces_.erase(pieces_.begin() + pieceBase, pieces_.end());
+    }
+    tellFailure(spec.name, status);
     // Without its parts the shape itself stays as a leaf, so that nothing is lost.
     return;
   }
@@ -525,8 +546,10 @@ void Machine::setBuiltin(const Instruction& i, const Value& v) {
                         program_.files[program_.rules[a.rule].file]};
   OpCall call(*builtinSetSpec_, a.shape, {&v, 1}, *this, place);
   instruction_ = &i;
-  const Status status = program_.builtinAttributes[i.a]->set(call, v);
-  if (!status.ok()) warn(status.code(), status.message(), status.hint());
+  const AttributeSpec& spec = *program_.builtinAttributes[i.a];
+  Status status = refusedNumber(spec.name, v, pool());
+  if (status.ok()) status = guarded([&] { return spec.set(call, v); });
+  if (!status.ok()) tellFailure(nullptr, status);
 }
 
 }  // namespace gable

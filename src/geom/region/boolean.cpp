@@ -12,6 +12,7 @@
 #include <cmath>
 #include <polyclipping/clipper.hpp>
 
+#include "base/work.h"
 #include "geom/region/clean.h"
 #include "geom/region/moved_outline.h"
 #include "geom/region/tiles.h"
@@ -27,6 +28,10 @@ using ClipperLib::Paths;
 constexpr int kMaxRounds = 6;
 // Grid coordinates stay below Clipper's limit of 2^62; beyond this extent the grid gets coarser.
 constexpr double kMaxUnits = 0x1.0p52;
+// What reaches farther, in metres, is no place: the grid would be coarser than a city.
+constexpr double kMostExtent = 1e15;
+// A round join is no finer than so much of the distance, some thousand chords a turn.
+constexpr double kFinestRound = 1e-7;
 // In grid units: points on the grid are moved by up to 0.71 when they get their coordinates back,
 // and weld takes what is nearer than 1.
 constexpr double kClear = 1.5;
@@ -64,6 +69,11 @@ class Grid {
     const Vec2 c = box_.min * 0.5 + box_.max * 0.5;
     origin_ = {std::floor(c.x), std::floor(c.y)};
     const double extent = std::max(box_.size().x, box_.size().y);
+    const double reach = std::max(std::fabs(origin_.x), std::fabs(origin_.y));
+    if (!(std::max(extent, reach) <= kMostExtent)) {
+      giveUp("beyond-range", "it would reach farther than can be worked with",
+             "give it smaller distances");
+    }
     while (extent / unit_ > kMaxUnits) unit_ *= 2;
   }
   Paths toPaths(const std::vector<Ring>& rings) {
@@ -149,16 +159,28 @@ Paths toPathsExact(const std::vector<Ring>& rings) {
   return out;
 }
 
+// Runs Clipper's code: what it throws ends here.
+template <class Body>
+Paths withClipper(Body&& body) {
+  Paths out;
+  try {
+    if (body(out)) return out;
+  } catch (const ClipperLib::clipperException&) {
+  }
+  giveUp("cannot-be-done", "its outlines are too tangled to be combined",
+         "use simpler outlines, or clean them up first");
+}
+
 Paths execute(ClipperLib::ClipType type, const Paths& a, const Paths& b,
               ClipperLib::PolyFillType fill) {
-  ClipperLib::Clipper c;
-  c.StrictlySimple(true);
-  c.PreserveCollinear(true);
-  c.AddPaths(a, ClipperLib::ptSubject, true);
-  c.AddPaths(b, ClipperLib::ptClip, true);
-  Paths out;
-  c.Execute(type, out, fill, fill);
-  return out;
+  return withClipper([&](Paths& out) {
+    ClipperLib::Clipper c;
+    c.StrictlySimple(true);
+    c.PreserveCollinear(true);
+    c.AddPaths(a, ClipperLib::ptSubject, true);
+    c.AddPaths(b, ClipperLib::ptClip, true);
+    return c.Execute(type, out, fill, fill);
+  });
 }
 
 // X and Y exchanged, and the rings turned round, so that they keep their orientation.
@@ -405,10 +427,13 @@ ClipperLib::EndType endType(OffsetJoin join) {
 
 Region inflate(const Paths& paths, double distance, const OffsetOptions& options,
                ClipperLib::EndType end, Grid& grid) {
-  ClipperLib::ClipperOffset o(std::max(options.miterLimit, 1.0), options.roundError / grid.unit());
-  o.AddPaths(paths, joinType(options.join), end);
-  Paths out;
-  o.Execute(out, distance / grid.unit());
+  const Paths out = withClipper([&](Paths& moved) {
+    ClipperLib::ClipperOffset o(std::max(options.miterLimit, 1.0),
+                                options.roundError / grid.unit());
+    o.AddPaths(paths, joinType(options.join), end);
+    o.Execute(moved, distance / grid.unit());
+    return true;
+  });
   return finish(out, grid);
 }
 
@@ -424,6 +449,11 @@ Region inflateMany(const Paths& paths, double distance, OffsetOptions options, G
     moved.push_back(std::move(m));
   }
   return perform(ClipperLib::ctUnion, toPathsExact(moved), {}, ClipperLib::pftPositive, grid);
+}
+
+OffsetOptions bounded(OffsetOptions options, double distance) {
+  options.roundError = std::max(options.roundError, std::fabs(distance) * kFinestRound);
+  return options;
 }
 
 }  // namespace
@@ -446,7 +476,8 @@ Region repaired(const std::vector<Ring>& rings, FillRule rule) {
   return perform(ClipperLib::ctUnion, paths, {}, fillType(rule), grid);
 }
 
-Region offset(const Region& r, double distance, const OffsetOptions& options) {
+Region offset(const Region& r, double distance, const OffsetOptions& given) {
+  const OffsetOptions options = bounded(given, distance);
   const std::vector<Ring> rings = orientedRings(r);
   Grid grid;
   grid.include(rings);
@@ -463,8 +494,9 @@ Region offset(const Region& r, double distance, const OffsetOptions& options) {
   return inflate(clean, distance, options, ClipperLib::etClosedPolygon, grid);
 }
 
-Region thicken(const std::vector<Vec2>& line, double distance, const OffsetOptions& options) {
+Region thicken(const std::vector<Vec2>& line, double distance, const OffsetOptions& given) {
   if (!std::isfinite(distance)) return {};
+  const OffsetOptions options = bounded(given, distance);
   Grid grid;
   grid.include({line});
   grid.widen(distance * std::max(options.miterLimit, 1.0));
