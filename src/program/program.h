@@ -210,6 +210,17 @@ struct AttributeCode {
   uint64_t site = 0;
 };
 
+/// A built-in as it is called at some places: with the signature that the analysis chose, or null
+/// where only the values decide between signatures. With a signature there is a value for each of
+/// its parameters; the defaults are among them.
+template <class Spec>
+struct Choice {
+  const Spec* spec = nullptr;
+  const Signature* form = nullptr;
+  const Spec& operator*() const { return *spec; }
+  const Spec* operator->() const { return spec; }
+};
+
 struct Program {
   std::shared_ptr<ValuePool> pool;
   std::vector<Instruction> code;
@@ -222,8 +233,8 @@ struct Program {
   std::vector<RuleCode> rules;
   std::vector<FunctionCode> functions;
   std::vector<AttributeCode> attributes;
-  std::vector<const OpSpec*> operations;
-  std::vector<const FunctionSpec*> builtinFunctions;
+  std::vector<Choice<OpSpec>> operations;
+  std::vector<Choice<FunctionSpec>> builtinFunctions;
   std::vector<const AttributeSpec*> builtinAttributes;
   /// Project paths of the rule files, by file id of the spans.
   std::vector<std::string> files;

@@ -92,6 +92,12 @@ class Units {
     }
   }
 
+  template <class Spec>
+  void addChoice(Hash& h, const Choice<Spec>& c) {
+    h.add(std::string_view(c->name));
+    h.add(c.form ? static_cast<uint64_t>(c.form - c->signatures.data()) + 1 : uint64_t{0});
+  }
+
   void addOperand(Hash& h, CodeUnit& u, uint32_t at) {
     const Instruction& i = p_.code[at];
     switch (i.code) {
@@ -104,7 +110,7 @@ class Units {
       case Code::BuiltinAttribute:
       case Code::SetBuiltin: h.add(std::string_view(p_.builtinAttributes[i.a]->name)); break;
       case Code::Function: u.calls.push_back(functionUnit(i.a)); break;
-      case Code::BuiltinFunction: h.add(std::string_view(p_.builtinFunctions[i.a]->name)); break;
+      case Code::BuiltinFunction: addChoice(h, p_.builtinFunctions[i.a]); break;
       case Code::RunRule:
       case Code::CallRule:
         h.add(p_.rules[i.a].qualifiedName);
@@ -113,7 +119,7 @@ class Units {
       case Code::Operation:
       case Code::OperationConstant:
       case Code::ComponentValues:
-        h.add(std::string_view(p_.operations[i.a]->name));
+        addChoice(h, p_.operations[i.a]);
         if (i.code == Code::OperationConstant) addConstants(h, p_.code[at + 1].a, i.x);
         if (i.y > 0) addBlock(h, u, p_.blocks[i.y - 1u]);
         break;

@@ -19,6 +19,44 @@ const T* find(std::span<const T* const> list, std::string_view name) {
 
 }  // namespace
 
+size_t Signature::requiredCount() const {
+  const auto required = static_cast<size_t>(std::count_if(
+      params.begin(), params.end(), [](const ParamSpec& p) { return p.defaultText == nullptr; }));
+  return variadic && required > 0 ? required - 1 : required;
+}
+
+const ParamSpec* Signature::paramAt(size_t index) const {
+  if (index < params.size()) return &params[index];
+  return variadic && !params.empty() ? &params.back() : nullptr;
+}
+
+bool Signature::isTyped() const {
+  return !variadic && std::all_of(params.begin(), params.end(),
+                                  [](const ParamSpec& p) { return p.store != nullptr; });
+}
+
+ValueType valueType(ParamType p) {
+  switch (p) {
+    case ParamType::Float:
+    case ParamType::Size:
+    case ParamType::FloatingSize: return ValueType::Float;
+    case ParamType::Bool: return ValueType::Bool;
+    case ParamType::String: return ValueType::String;
+    case ParamType::Selector: return ValueType::Selector;
+    case ParamType::FloatArray: return ValueType::FloatArray;
+    case ParamType::BoolArray: return ValueType::BoolArray;
+    case ParamType::StringArray: return ValueType::StringArray;
+    case ParamType::Any: break;
+  }
+  return ValueType::Null;
+}
+
+bool fits(ValueType got, ParamType wanted) {
+  const ValueType w = valueType(wanted);
+  if (got == ValueType::Null || w == ValueType::Null || got == w) return true;
+  return w == ValueType::Selector && got == ValueType::String;
+}
+
 const OpSpec* Catalogue::operation(std::string_view name) const { return find(operations, name); }
 const FunctionSpec* Catalogue::function(std::string_view name) const {
   return find(functions, name);

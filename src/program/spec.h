@@ -47,10 +47,15 @@ struct ParamSpec {
   const char* defaultText = nullptr;
   /// For selectors: the words allowed, separated by blanks ("x y z"); null when open.
   const char* words = nullptr;
+  /// Puts an argument into its field of the callee's struct of arguments; false when the value is
+  /// of another type. Made by param() of program/arguments.h.
+  bool (*store)(void* arguments, const Value& v, const ValuePool& pool) = nullptr;
+  /// Without the argument the field is empty, and defaultText is words for people.
+  bool mayBeMissing = false;
 };
 
-/// One way to call: its parameters in order. Trailing parameters with defaults may be left out, and
-/// the called function then sees fewer arguments: defaults are filled in by the callee.
+/// One way to call: its parameters in order. Those with defaults may be left out; the compiler
+/// fills them in.
 struct Signature {
   std::span<const ParamSpec> params;
   /// What a function returns; Null for operations, and for functions whose result follows the
@@ -58,7 +63,22 @@ struct Signature {
   ValueType result = ValueType::Null;
   /// The last parameter may repeat any number of times.
   bool variadic = false;
+
+  /// How many arguments it takes at least.
+  size_t requiredCount() const;
+  bool acceptsCount(size_t count) const {
+    return count >= requiredCount() && (variadic || count <= params.size());
+  }
+  /// The parameter that the argument `index` is for; null when there are too many.
+  const ParamSpec* paramAt(size_t index) const;
+  /// All parameters are bound to fields of a struct.
+  bool isTyped() const;
 };
+
+/// The type of the values that a parameter takes; Null for any.
+ValueType valueType(ParamType p);
+/// Whether a value of type `got` may stand for the parameter. A text may stand for a word.
+bool fits(ValueType got, ParamType wanted);
 
 /// What stands in the braces after an operation.
 enum class BlockKind : uint8_t {
@@ -116,6 +136,16 @@ constexpr uint32_t effectsOfCall(uint32_t effects, bool worldNamed) {
   return effects & ~(kReadsWorldByWord | (narrowed ? kReadsWorld : 0u));
 }
 
+/// An operation on light parts. Its arguments are bound once for all parts.
+struct LightOp {
+  /// Room for the struct of arguments.
+  static constexpr size_t kRoom = 64;
+  /// Makes the struct with its initialisers.
+  void (*construct)(void* arguments) = nullptr;
+  /// False when this call must be done the long way, and then the part is as it was.
+  bool (*apply)(LightPart&, const void* arguments) = nullptr;
+};
+
 struct OpSpec {
   const char* name;
   const char* family;
@@ -131,9 +161,8 @@ struct OpSpec {
   bool blockOptional = false;
   /// A name beyond the CGA reference: the author's own rule or attribute of that name wins.
   bool soft = false;
-  /// The same on a light part, for operations that can do with one; null for others. False when
-  /// this call must be done the long way, and then the part is as it was.
-  bool (*applyLight)(LightPart&, std::span<const Value>) = nullptr;
+  /// The same on a light part, for operations that can do with one.
+  LightOp light;
   /// What a vertex of the shape costs, in steps of the limit on work; see heavy().
   uint16_t stepsPerVertex = 1;
   /// For operations that wait for what comes of their children (OpCall::gather): the leaves, of
@@ -141,8 +170,8 @@ struct OpSpec {
   Status (*gathered)(OpCall&, std::span<Gathered>) = nullptr;
 };
 
-constexpr OpSpec withLight(OpSpec spec, bool (*applyLight)(LightPart&, std::span<const Value>)) {
-  spec.applyLight = applyLight;
+constexpr OpSpec withLight(OpSpec spec, LightOp light) {
+  spec.light = light;
   return spec;
 }
 

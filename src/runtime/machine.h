@@ -222,8 +222,8 @@ class Machine final : public Services, private WorkMeter {
     StringId name = 0;
     uint32_t source = 0;
     struct Step {
-      bool (*apply)(LightPart&, std::span<const Value>);
-      std::span<const Value> args;
+      bool (*apply)(LightPart&, const void* arguments);
+      alignas(std::max_align_t) std::byte arguments[LightOp::kRoom];
     };
     SmallBuffer<Step, 4> steps;
   };

@@ -276,7 +276,8 @@ void Machine::componentValues(const Instruction& i) {
   input.componentChild = &partOf;
   const Frame scope = shape.scope;
   const Vec3 size = shape.size;
-  const CallPlace place{scope, size, fileOf(i), program_.sites[pcOf(&i)]};
+  const CallPlace place{scope, size, fileOf(i), program_.sites[pcOf(&i)],
+                        program_.operations[i.a].form};
   OpCall call(*program_.operations[i.a], shape, {arguments, i.x}, *this, place, &input);
   instruction_ = &i;
   const Status status = guarded([&] { return call.spec().apply(call); });
@@ -344,13 +345,15 @@ void Machine::builtinAttribute(const Instruction& i) {
 
 void Machine::callBuiltin(const Instruction& i) {
   stackTop_ -= i.x;
-  FunctionCall call({stack_ + stackTop_, i.x}, *seen_, *this);
+  const auto& [spec, form] = program_.builtinFunctions[i.a];
+  FunctionCall call({stack_ + stackTop_, i.x}, *seen_, *this, spec, form);
   call.place(fileOf(i), hashCombine(salt_, program_.sites[pcOf(&i)]));
   instruction_ = &i;
-  const FunctionSpec& function = *program_.builtinFunctions[i.a];
-  const ValueType result =
-      function.signatures.empty() ? ValueType::Float : function.signatures[0].result;
-  const Value v = callGuarded(call, function.call, function.name, result);
+  const FunctionSpec& function = *spec;
+  const Signature* const first = function.signatures.empty() ? nullptr : &function.signatures[0];
+  const Signature* const used = form ? form : first;
+  const Value v =
+      callGuarded(call, function.call, function.name, used ? used->result : ValueType::Float);
   if (options().traceShapes && function.effects & kRandom) {
     if (TraceNote* n = note(TraceNote::Kind::Draw)) {
       n->span = program_.spans[pcOf(&i)];

@@ -63,11 +63,18 @@ Machine::LightSlot Machine::lightSlot(uint32_t rule, uint32_t entry) const {
           return slot;
         }
         const OpSpec& spec = *program_.operations[at->a];
-        if (!spec.applyLight || at->y > 0) return {};
+        if (!spec.light.apply || at->y > 0) return {};
         if (at->code == Code::Operation && at->x > 0) return {};
         const Value* args = at->x > 0 ? program_.constants.data() + at[1].a : nullptr;
         if (!refusedNumber(spec, {args, at->x}, pool()).ok()) return {};
-        slot.steps.push_back({spec.applyLight, {args, at->x}});
+        LightSlot::Step step;
+        step.apply = spec.light.apply;
+        spec.light.construct(step.arguments);
+        const ArgumentProblem problem =
+            bindArguments(spec.signatures, program_.operations[at->a].form, {args, at->x}, pool(),
+                          step.arguments);
+        if (problem.kind != ArgumentProblem::Kind::None) return {};
+        slot.steps.push_back(step);
         if (at->code == Code::OperationConstant) ++at;
         break;
       }
@@ -189,7 +196,7 @@ bool Machine::makeLightPart(const LightSource& from, const PartPlan& plan, const
     part.origin = {};
   }
   for (const LightSlot::Step& step : slot.steps) {
-    if (!step.apply(part, step.args)) return false;
+    if (!step.apply(part, step.arguments)) return false;
   }
   shapes_ += slot.shapes;
   shapesExpanded_ += slot.shapes;

@@ -414,7 +414,8 @@ void Machine::operation(const Instruction& i, const Value* constants) {
 
   if (isDeformed(a.shape) && (spec.effects & kTakesDeformed) == 0) bakeDeformation(a.shape);
   const CallPlace place{a.previousScope, a.previousSize,
-                        program_.files[program_.rules[a.rule].file], program_.sites[pcOf(&i)]};
+                        program_.files[program_.rules[a.rule].file], program_.sites[pcOf(&i)],
+                        program_.operations[i.a].form};
   BlockInput input;
   if (block) fillBlock(i.y - 1u, blockStart, a.plan, input);
   OpCall call(spec, a.shape, {arguments, i.x}, *this, place, block ? &input : nullptr);

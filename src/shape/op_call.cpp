@@ -45,6 +45,21 @@ void OpCall::emitParts(Axis axis, bool flatten, std::span<const SplitPiece> piec
   }
 }
 
+Status OpCall::bind(void* arguments) const {
+  const ArgumentProblem problem =
+      bindArguments(spec_.signatures, place_.form, args_, services_.pool(), arguments);
+  if (problem.kind == ArgumentProblem::Kind::None) return {};
+  return fail("wrong-argument", problemText(problem, spec_.name, args_), problemHint(problem));
+}
+
+bool FunctionCall::bind(void* arguments) const {
+  const ArgumentProblem problem =
+      bindArguments(spec_->signatures, form_, args_, services_.pool(), arguments);
+  if (problem.kind == ArgumentProblem::Kind::None) return true;
+  services_.warn("wrong-argument", problemText(problem, spec_->name, args_), problemHint(problem));
+  return false;
+}
+
 Value FunctionCall::result(std::string_view text) const {
   if (text.size() <= kMaxTextLength) return services_.pool().string(text);
   return fail("text-too-long", "the text would be longer than 16 megabytes", "",

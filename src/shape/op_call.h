@@ -9,13 +9,17 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <new>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "base/random.h"
 #include "base/status.h"
+#include "program/arguments.h"
 #include "program/spec.h"
 #include "program/value.h"
 #include "shape/part.h"
@@ -111,6 +115,8 @@ struct CallPlace {
   std::string_view file;
   /// Part of the address of random draws.
   uint64_t site = 0;
+  /// The signature that the analysis chose; null where the values decide.
+  const Signature* form = nullptr;
 };
 
 /// A leaf that came of an operation's children, in the frame of the rule call.
@@ -139,7 +145,10 @@ class OpCall {
   const Frame& previousScope() const { return place_.previousScope; }
   const Vec3& previousSize() const { return place_.previousSize; }
 
-  // Arguments. Types have been checked against the signature; text and defaults are the callee's.
+  /// Fills the struct of arguments; see program/arguments.h and typed below.
+  Status bind(void* arguments) const;
+
+  // Arguments of operations that are not declared with a struct.
   size_t argCount() const { return args_.size(); }
   bool has(size_t i) const { return i < args_.size(); }
   const Value& arg(size_t i) const { return args_[i]; }
@@ -221,8 +230,13 @@ class OpCall {
 
 class FunctionCall {
  public:
-  FunctionCall(std::span<const Value> args, const Shape& shape, Services& services)
-      : args_(args), shape_(shape), services_(services) {}
+  /// `spec` and `form` as with operations; both null for the getters of shape attributes.
+  FunctionCall(std::span<const Value> args, const Shape& shape, Services& services,
+               const FunctionSpec* spec = nullptr, const Signature* form = nullptr)
+      : args_(args), shape_(shape), services_(services), spec_(spec), form_(form) {}
+
+  /// Fills the struct of arguments; false when a value is of another type, which is reported.
+  bool bind(void* arguments) const;
 
   const Shape& shape() const { return shape_; }
   size_t argCount() const { return args_.size(); }
@@ -256,8 +270,57 @@ class FunctionCall {
   std::span<const Value> args_;
   const Shape& shape_;
   Services& services_;
+  const FunctionSpec* spec_ = nullptr;
+  const Signature* form_ = nullptr;
   std::string_view file_;
   uint64_t site_ = 0;
 };
+
+namespace arguments_detail {
+
+template <auto Call>
+struct Typed;
+
+template <class A, Status (*Apply)(OpCall&, const A&)>
+struct Typed<Apply> {
+  static Status call(OpCall& c) {
+    A arguments;
+    if (Status s = c.bind(&arguments); !s.ok()) return s;
+    return Apply(c, arguments);
+  }
+};
+
+template <class A, Value (*Function)(FunctionCall&, const A&)>
+struct Typed<Function> {
+  static Value call(FunctionCall& c) {
+    A arguments;
+    return c.bind(&arguments) ? Function(c, arguments) : Value{};
+  }
+};
+
+template <auto Apply>
+struct Light;
+
+template <class A, bool (*Apply)(LightPart&, const A&)>
+struct Light<Apply> {
+  static_assert(sizeof(A) <= LightOp::kRoom && alignof(A) <= alignof(std::max_align_t));
+  static_assert(std::is_trivially_copyable_v<A>);
+  static void construct(void* room) { ::new (room) A; }
+  static bool apply(LightPart& part, const void* arguments) {
+    return Apply(part, *static_cast<const A*>(arguments));
+  }
+};
+
+}  // namespace arguments_detail
+
+/// The entry of a spec for an operation or function that receives its arguments in a struct:
+///   Status applyResize(OpCall& call, const Resize& args);   ... typed<applyResize>
+template <auto Call>
+inline constexpr auto typed = &arguments_detail::Typed<Call>::call;
+
+/// The same for the short form on light parts: bool applyLight(LightPart&, const Resize&).
+template <auto Apply>
+inline constexpr LightOp typedLight{&arguments_detail::Light<Apply>::construct,
+                                    &arguments_detail::Light<Apply>::apply};
 
 }  // namespace gable

@@ -9,12 +9,17 @@
 #include <span>
 
 #include "base/small_buffer.h"
+#include "program/arguments.h"
 #include "shape/shape.h"
 
 namespace gable {
 
 /// An axis of the scope.
 enum class Axis : uint8_t { X, Y, Z };
+template <>
+struct WordsOf<Axis> {
+  static constexpr const char* text = "x y z";
+};
 
 /// Where a part of a divided length begins, how long it is, and the block slot that it goes to.
 struct SplitPiece {

@@ -61,17 +61,19 @@ Value contextCompare(FunctionCall& call) {
 
 // A position or orientation of one system in another.
 Vec3 converted(FunctionCall& call, size_t first, const Vec3& v) {
-  bool known = false;
-  const Frame from = systemNamed(call.text(first), call.shape(), call.services(), known);
-  bool toKnown = false;
-  const Frame to = systemNamed(call.text(first + 1), call.shape(), call.services(), toKnown);
-  if (!known || !toKnown) {
-    call.fail("unknown-selector",
-              "convert knows no coordinate system '" +
-                  std::string(call.text(known ? first + 1 : first)) + "'",
-              "use scope, pivot, object or world", {});
-    return v;
+  Frame systems[2];
+  for (size_t i = 0; i < 2; ++i) {
+    const std::string_view word = call.text(first + i);
+    const int system = wordIndex(WordsOf<CoordSystem>::text, word);
+    if (system < 0) {
+      call.fail("unknown-selector",
+                "convert knows no coordinate system '" + std::string(word) + "'",
+                "use scope, pivot, object or world", {});
+      return v;
+    }
+    systems[i] = frameOf(static_cast<CoordSystem>(system), call.shape(), call.services());
   }
+  const auto& [from, to] = systems;
   if (call.arg(first).id == call.arg(first + 1).id) return v;
   if (call.text(first + 2) == "orient") {
     return anglesXyz(inverse(to) * from * rotationXyz(v.x, v.y, v.z));

@@ -379,7 +379,7 @@ Value callFunction(std::string_view name, const std::vector<Arg>& args, FakeServ
   GABLE_CHECK(spec != nullptr);
   std::vector<Value> values;
   for (const Arg& a : args) values.push_back(a.value(services.pool()));
-  FunctionCall call(values, shape, services);
+  FunctionCall call(values, shape, services, spec);
   call.place("rules/test.cga", site);
   return spec->call(call);
 }

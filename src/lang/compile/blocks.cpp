@@ -184,11 +184,13 @@ void UnitCompiler::componentValues(NodeId node) {
   blockItems(t_.child(node, 1), number);
   const std::vector<PendingSlot> slots = std::move(pending_);
   pending_ = std::move(outerSlots);
-  const size_t count = pushArguments(arguments);
+  const BuiltinArguments given = builtinArguments(node, operation->signatures, arguments);
+  pushArguments(given, t_.span(node));
   pushBlockValues(number);
   blockValues_ = std::move(outer);
-  e_.emit(Code::ComponentValues, t_.span(node), e_.operation(operation),
-          static_cast<uint8_t>(count), static_cast<uint16_t>(number + 1), e_.site("comp"));
+  e_.emit(Code::ComponentValues, t_.span(node), e_.operation(operation, given.form),
+          static_cast<uint8_t>(given.list.size()), static_cast<uint16_t>(number + 1),
+          e_.site("comp"));
   // The bodies stand behind, jumped over.
   const uint32_t over = e_.jump(Code::Jump, t_.span(node));
   for (const PendingSlot& s : slots) {
@@ -218,7 +220,7 @@ void UnitCompiler::valuePerEdge(NodeId node) {
   block.slots.push_back(0);
   e_.program().blocks.push_back(std::move(block));
   e_.emit(Code::Constant, t_.span(node), e_.constant(pool.selector("fe")));
-  e_.emit(Code::ComponentValues, t_.span(node), e_.operation(componentOperation_), 1,
+  e_.emit(Code::ComponentValues, t_.span(node), e_.operation(componentOperation_, nullptr), 1,
           static_cast<uint16_t>(number + 1), e_.site("comp"));
   const uint32_t over = e_.jump(Code::Jump, t_.span(node));
   e_.program().blocks[number].slots[0] = e_.here();

@@ -46,24 +46,22 @@ uint32_t Emitter::table(std::vector<uint32_t> entries) {
   return static_cast<uint32_t>(p_.jumpTables.size() - 1);
 }
 
-namespace {
-
-template <class T>
-uint32_t numberOf(const T* spec, std::vector<const T*>& list,
-                  std::map<const void*, uint32_t>& known) {
-  const auto [at, fresh] = known.try_emplace(spec, static_cast<uint32_t>(list.size()));
-  if (fresh) list.push_back(spec);
+template <class Entry>
+uint32_t Emitter::numberOf(const void* spec, const Signature* form, Entry entry,
+                           std::vector<Entry>& list) {
+  const auto [at, fresh] = specs_.try_emplace({spec, form}, static_cast<uint32_t>(list.size()));
+  if (fresh) list.push_back(entry);
   return at->second;
 }
 
-}  // namespace
-
-uint32_t Emitter::operation(const OpSpec* spec) { return numberOf(spec, p_.operations, specs_); }
-uint32_t Emitter::function(const FunctionSpec* spec) {
-  return numberOf(spec, p_.builtinFunctions, specs_);
+uint32_t Emitter::operation(const OpSpec* spec, const Signature* form) {
+  return numberOf(spec, form, Choice<OpSpec>{spec, form}, p_.operations);
+}
+uint32_t Emitter::function(const FunctionSpec* spec, const Signature* form) {
+  return numberOf(spec, form, Choice<FunctionSpec>{spec, form}, p_.builtinFunctions);
 }
 uint32_t Emitter::attribute(const AttributeSpec* spec) {
-  return numberOf(spec, p_.builtinAttributes, specs_);
+  return numberOf(spec, nullptr, spec, p_.builtinAttributes);
 }
 
 }  // namespace gable::lang

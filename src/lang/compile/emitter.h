@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 
 #include "program/program.h"
 
@@ -34,17 +35,20 @@ class Emitter {
   /// Consecutive constants; gives the first one's number.
   uint32_t constantRun(const std::vector<Value>& values);
   uint32_t table(std::vector<uint32_t> entries);
-  uint32_t operation(const OpSpec* spec);
-  uint32_t function(const FunctionSpec* spec);
+  uint32_t operation(const OpSpec* spec, const Signature* form);
+  uint32_t function(const FunctionSpec* spec, const Signature* form);
   uint32_t attribute(const AttributeSpec* spec);
   Program& program() { return p_; }
 
  private:
+  template <class Entry>
+  uint32_t numberOf(const void* spec, const Signature* form, Entry entry, std::vector<Entry>& list);
+
   Program& p_;
   uint64_t unitHash_ = 0;
   std::map<std::string, uint32_t, std::less<>> uses_;
   std::unordered_map<uint64_t, std::vector<uint32_t>> constants_;
-  std::map<const void*, uint32_t> specs_;
+  std::map<std::pair<const void*, const Signature*>, uint32_t> specs_;
 };
 
 }  // namespace gable::lang

@@ -94,6 +94,51 @@ size_t UnitCompiler::pushArguments(NodeId arguments) {
   return list.size();
 }
 
+UnitCompiler::BuiltinArguments UnitCompiler::builtinArguments(NodeId call,
+                                                              std::span<const Signature> signatures,
+                                                              NodeId list) const {
+  BuiltinArguments out;
+  const Resolution& ref = m_.at(call);
+  const auto named = m_.namedArguments.find(call);
+  if (named != m_.namedArguments.end()) {
+    for (const NodeId n : named->second) out.list.push_back({n, {}});
+  } else {
+    for (const NodeId n : t_.children(list)) out.list.push_back({n, {}});
+  }
+  if (ref.signature >= signatures.size() || ref.open) return out;
+  const Signature& form = signatures[ref.signature];
+  if (!form.isTyped() && ref.kind == RefKind::Operation) return out;
+  out.form = &form;
+  out.list.resize(form.params.size());
+  for (size_t i = 0; i < out.list.size(); ++i) {
+    BuiltinArguments::Argument& argument = out.list[i];
+    if (argument.node == kNoNode) {
+      argument.fixed = defaultValue(form.params[i], *e_.program().pool);
+    }
+  }
+  return out;
+}
+
+bool UnitCompiler::constantsOf(const BuiltinArguments& arguments, std::vector<Value>& out) const {
+  for (const BuiltinArguments::Argument& a : arguments.list) {
+    Value v = a.fixed;
+    if (a.node != kNoNode && !constantOf(a.node, v)) return false;
+    out.push_back(v);
+  }
+  return true;
+}
+
+void UnitCompiler::push(const BuiltinArguments::Argument& argument, Span span) {
+  if (argument.node != kNoNode)
+    expression(argument.node);
+  else
+    e_.emit(Code::Constant, span, e_.constant(argument.fixed));
+}
+
+void UnitCompiler::pushArguments(const BuiltinArguments& arguments, Span span) {
+  for (const BuiltinArguments::Argument& a : arguments.list) push(a, span);
+}
+
 void UnitCompiler::call(NodeId node, NodeId arguments) {
   const Resolution& ref = m_.at(node);
   const Span span = t_.span(node);
@@ -120,9 +165,11 @@ void UnitCompiler::call(NodeId node, NodeId arguments) {
         break;
       }
       functionEffects(*ref.spec.function, arguments);
-      const size_t count = pushArguments(arguments);
-      e_.emit(Code::BuiltinFunction, span, e_.function(ref.spec.function),
-              static_cast<uint8_t>(count), 0, e_.site(ref.spec.function->name));
+      const BuiltinArguments given =
+          builtinArguments(node, ref.spec.function->signatures, arguments);
+      pushArguments(given, span);
+      e_.emit(Code::BuiltinFunction, span, e_.function(ref.spec.function, given.form),
+              static_cast<uint8_t>(given.list.size()), 0, e_.site(ref.spec.function->name));
       break;
     }
     default: e_.emit(Code::Constant, span, e_.constant(Value{})); break;

@@ -160,26 +160,25 @@ void UnitCompiler::operation(NodeId node, const OpSpec& spec, NodeId arguments) 
   if (inPlace(node, spec, arguments)) return;
   uses_.effects |= effectsOf(spec.effects, arguments);
   const Span span = t_.span(node);
-  const auto list = t_.children(arguments);
+  const BuiltinArguments given = builtinArguments(node, spec.signatures, arguments);
   const bool hasBlock = t_.children(node).size() > 1;
 
   // When nothing has to be evaluated the arguments are read where they are.
-  std::vector<Value> fixed(list.size());
-  bool allFixed = true;
-  for (size_t i = 0; i < list.size(); ++i) allFixed = allFixed && constantOf(list[i], fixed[i]);
+  std::vector<Value> fixed;
+  const bool allFixed = constantsOf(given, fixed);
   const uint32_t blockNumber = hasBlock ? newBlock(node, spec) : 0;
   const bool perEdge = std::string_view(spec.name) == "setbackPerEdge";
-  for (size_t i = 0; !allFixed && i < list.size(); ++i) {
+  for (size_t i = 0; !allFixed && i < given.list.size(); ++i) {
     if (perEdge && i == 0) {
-      valuePerEdge(list[i]);
+      valuePerEdge(given.list[i].node);
     } else {
-      expression(list[i]);
+      push(given.list[i], span);
     }
   }
   if (hasBlock) pushBlockValues(blockNumber);
   const uint64_t site = e_.site(spec.name);
   const Code code = allFixed ? Code::OperationConstant : Code::Operation;
-  e_.emit(code, span, e_.operation(&spec), static_cast<uint8_t>(list.size()),
+  e_.emit(code, span, e_.operation(&spec, given.form), static_cast<uint8_t>(given.list.size()),
           static_cast<uint16_t>(hasBlock ? blockNumber + 1 : 0), site);
   if (allFixed) e_.emit(Code::Operand, span, e_.constantRun(fixed));
 }

@@ -6,10 +6,12 @@
 
 #include <array>
 #include <set>
+#include <span>
 #include <vector>
 
 #include "lang/compile/emitter.h"
 #include "lang/sema/resolved.h"
+#include "program/arguments.h"
 
 namespace gable::lang {
 
@@ -86,6 +88,22 @@ class UnitCompiler {
   void valuePerEdge(NodeId node);
   /// The value of an expression that needs no evaluation, with its unit.
   bool constantOf(NodeId node, Value& out) const;
+  /// The arguments of a call of a built-in: one for each parameter where the signature is known.
+  struct BuiltinArguments {
+    const Signature* form = nullptr;
+    /// An expression, or kNoNode and a default.
+    struct Argument {
+      NodeId node = kNoNode;
+      Value fixed;
+    };
+    std::vector<Argument> list;
+  };
+  BuiltinArguments builtinArguments(NodeId call, std::span<const Signature> signatures,
+                                    NodeId list) const;
+  /// All values of the arguments, where none needs evaluation.
+  bool constantsOf(const BuiltinArguments& arguments, std::vector<Value>& out) const;
+  void push(const BuiltinArguments::Argument& argument, Span span);
+  void pushArguments(const BuiltinArguments& arguments, Span span);
   uint32_t effectsOf(uint32_t effects, NodeId arguments) const;
   void functionEffects(const FunctionSpec& spec, NodeId arguments);
   size_t pushArguments(NodeId arguments);

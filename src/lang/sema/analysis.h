@@ -19,6 +19,7 @@
 #include "lang/sema/analyse.h"
 #include "lang/sema/resolved.h"
 #include "lang/tree.h"
+#include "program/arguments.h"
 #include "program/spec.h"
 #include "program/value.h"
 
@@ -127,8 +128,22 @@ class Analysis {
     NodeId node;
     std::span<const Signature> signatures;
   };
-  /// Visits the arguments and chooses a signature; 0xffff when none fits, which is reported.
-  uint16_t checkBuiltinCall(const CallTarget& target, std::span<const NodeId> arguments);
+  /// The signature that a call means; none when nothing fits, which has been reported.
+  struct Chosen {
+    uint16_t signature = 0xffff;
+    bool open = false;
+  };
+  /// Visits the arguments and chooses a signature.
+  Chosen checkBuiltinCall(const CallTarget& target, std::span<const NodeId> arguments);
+  /// The signatures that the arguments fit by count and names; reports when there are none.
+  std::vector<uint16_t> signaturesByShape(const CallTarget& target,
+                                          std::span<const NodeId> arguments);
+  void reportNamedArguments(const CallTarget& target, std::span<const NodeId> arguments);
+  ValueType visitArgumentFor(const CallTarget& target, std::span<const NodeId> arguments, size_t i,
+                             std::vector<uint16_t>& left);
+  /// Which parameter an argument is for, by its name or its place; npos when there is none.
+  static constexpr size_t kNoParameter = static_cast<size_t>(-1);
+  size_t parameterOf(const Signature& s, std::span<const NodeId> arguments, size_t i) const;
   bool acceptsCount(std::span<const Signature> signatures, size_t count) const;
   ValueType visitArgument(NodeId node, const std::vector<const ParamSpec*>& params);
   void checkPrefix(NodeId node, const std::vector<const ParamSpec*>& params);

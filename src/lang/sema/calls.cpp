@@ -13,59 +13,13 @@ namespace gable::lang {
 
 namespace {
 
-ValueType valueType(ParamType p) {
-  switch (p) {
-    case ParamType::Float:
-    case ParamType::Size:
-    case ParamType::FloatingSize: return ValueType::Float;
-    case ParamType::Bool: return ValueType::Bool;
-    case ParamType::String: return ValueType::String;
-    case ParamType::Selector: return ValueType::Selector;
-    case ParamType::FloatArray: return ValueType::FloatArray;
-    case ParamType::BoolArray: return ValueType::BoolArray;
-    case ParamType::StringArray: return ValueType::StringArray;
-    case ParamType::Any: break;
-  }
-  return ValueType::Null;
-}
-
-size_t requiredCount(const Signature& s) {
-  size_t n = 0;
-  for (const ParamSpec& p : s.params) n += p.defaultText == nullptr ? 1 : 0;
-  return s.variadic && n > 0 ? n - 1 : n;
-}
-
-bool acceptsArguments(const Signature& s, size_t count) {
-  return count >= requiredCount(s) && (s.variadic || count <= s.params.size());
-}
-
-const ParamSpec* paramAt(const Signature& s, size_t index) {
-  if (index < s.params.size()) return &s.params[index];
-  return s.variadic && !s.params.empty() ? &s.params.back() : nullptr;
-}
-
-bool hasWord(const char* words, std::string_view word) {
-  std::string_view rest = words ? words : "";
-  while (!rest.empty()) {
-    const size_t end = std::min(rest.find(' '), rest.size());
-    if (rest.substr(0, end) == word) return true;
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
-  return false;
-}
-
-// A text may stand for a word: sel("x") and strings that carry one.
-bool fits(ValueType got, ParamType wanted) {
-  const ValueType w = valueType(wanted);
-  if (got == ValueType::Null || w == ValueType::Null || got == w) return true;
-  return w == ValueType::Selector && got == ValueType::String;
-}
+bool hasWord(const char* words, std::string_view word) { return wordIndex(words, word) >= 0; }
 
 std::string countText(std::span<const Signature> signatures) {
   std::vector<size_t> counts;
   bool open = false;
   for (const Signature& s : signatures) {
-    for (size_t n = requiredCount(s); n <= s.params.size(); ++n) counts.push_back(n);
+    for (size_t n = s.requiredCount(); n <= s.params.size(); ++n) counts.push_back(n);
     open = open || s.variadic;
   }
   std::sort(counts.begin(), counts.end());
@@ -94,7 +48,7 @@ std::span<const NodeId> Analysis::arguments(NodeId list) const { return tree().c
 
 bool Analysis::acceptsCount(std::span<const Signature> signatures, size_t count) const {
   return std::any_of(signatures.begin(), signatures.end(),
-                     [&](const Signature& s) { return acceptsArguments(s, count); });
+                     [&](const Signature& s) { return s.acceptsCount(count); });
 }
 
 void Analysis::checkNamedArguments(std::span<const NodeId> args) {
@@ -140,55 +94,157 @@ ValueType Analysis::visitArgument(NodeId node, const std::vector<const ParamSpec
   return visit(node, expected == ValueType::Selector ? ValueType::Null : expected);
 }
 
-uint16_t Analysis::checkBuiltinCall(const CallTarget& target, std::span<const NodeId> args) {
-  const Tree& t = tree();
-  checkNamedArguments(args);
+size_t Analysis::parameterOf(const Signature& s, std::span<const NodeId> args, size_t i) const {
+  if (tree().kind(args[i]) != NodeKind::NamedArg) return s.paramAt(i) ? i : kNoParameter;
+  for (size_t p = 0; p < s.params.size(); ++p) {
+    if (text(args[i]) == s.params[p].name) return p;
+  }
+  return kNoParameter;
+}
+
+// By count alone where no argument has a name. Else every argument needs a parameter of its own,
+// and every parameter without a default an argument.
+std::vector<uint16_t> Analysis::signaturesByShape(const CallTarget& target,
+                                                  std::span<const NodeId> args) {
+  const auto fitsShape = [&](const Signature& s) {
+    if (s.variadic) return s.acceptsCount(args.size());
+    std::vector<bool> given(s.params.size());
+    for (size_t i = 0; i < args.size(); ++i) {
+      const size_t p = parameterOf(s, args, i);
+      if (p == kNoParameter || given[p]) return false;
+      given[p] = true;
+    }
+    for (size_t p = 0; p < given.size(); ++p) {
+      if (!given[p] && s.params[p].defaultText == nullptr) return false;
+    }
+    return true;
+  };
   std::vector<uint16_t> left;
   for (size_t i = 0; i < target.signatures.size(); ++i) {
-    if (acceptsArguments(target.signatures[i], args.size()))
-      left.push_back(static_cast<uint16_t>(i));
+    if (fitsShape(target.signatures[i])) left.push_back(static_cast<uint16_t>(i));
   }
+  return left;
+}
+
+// Says which name is wrong, or else that the arguments do not go together.
+void Analysis::reportNamedArguments(const CallTarget& target, std::span<const NodeId> args) {
+  std::vector<std::string_view> names;
+  for (const Signature& s : target.signatures) {
+    for (const ParamSpec& p : s.params) names.push_back(p.name);
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  std::string list;
+  for (const std::string_view n : names) list += (list.empty() ? "" : ", ") + std::string(n);
+  bool named = false;
+  for (size_t i = 0; i < args.size(); ++i) {
+    const bool hasName = tree().kind(args[i]) == NodeKind::NamedArg;
+    if (!hasName && named) {
+      errorAt("wrong-argument", args[i], "an argument without a name stands behind one with a name",
+              "write its name before it, or put it first");
+      return;
+    }
+    named = named || hasName;
+    if (!hasName) continue;
+    if (!std::binary_search(names.begin(), names.end(), text(args[i]))) {
+      const std::string nearest = near(text(args[i]), [&] { return names; });
+      errorAt("unknown-argument", args[i],
+              quote(target.name) + " has no parameter " + quote(text(args[i])),
+              !nearest.empty() ? nearest
+              : list.empty()   ? "it takes no arguments"
+                               : "its parameters are: " + list);
+      return;
+    }
+    for (size_t j = 0; j < i; ++j) {
+      if (tree().kind(args[j]) != NodeKind::NamedArg || text(args[j]) != text(args[i])) continue;
+      errorAt("wrong-argument", args[i], quote(text(args[i])) + " is given twice", "remove one");
+      return;
+    }
+  }
+  std::string forms;
+  for (const Signature& s : target.signatures) {
+    forms += (forms.empty() ? "" : " or ") + signatureText(target.name, s);
+  }
+  errorAt("wrong-argument-count", target.node,
+          "these arguments of " + quote(target.name) + " do not go together, or one is missing",
+          "write " + forms);
+}
+
+// Visits one argument, and strikes out the signatures that its word or its type does not fit.
+ValueType Analysis::visitArgumentFor(const CallTarget& target, std::span<const NodeId> args,
+                                     size_t i, std::vector<uint16_t>& left) {
+  const bool named = tree().kind(args[i]) == NodeKind::NamedArg;
+  const NodeId value = named ? tree().child(args[i], 0) : args[i];
+  const auto paramOf = [&](uint16_t s) -> const ParamSpec& {
+    const Signature& signature = target.signatures[s];
+    return *signature.paramAt(parameterOf(signature, args, i));
+  };
+  // A word that only some signatures know decides between them.
+  if (tree().kind(value) == NodeKind::Name) {
+    const auto knows = [&](uint16_t s) {
+      const ParamSpec& p = paramOf(s);
+      return p.type == ParamType::Selector && hasWord(p.words, text(value));
+    };
+    if (std::any_of(left.begin(), left.end(), knows)) {
+      left.erase(std::remove_if(left.begin(), left.end(), [&](uint16_t s) { return !knows(s); }),
+                 left.end());
+    }
+  }
+  std::vector<const ParamSpec*> params;
+  for (const uint16_t s : left) params.push_back(&paramOf(s));
+  const ValueType type = visitArgument(value, params);
+  std::vector<uint16_t> fitting;
+  for (const uint16_t s : left) {
+    if (fits(type, paramOf(s).type)) fitting.push_back(s);
+  }
+  if (!fitting.empty()) {
+    left = std::move(fitting);
+    return type;
+  }
+  errorAt("type-mismatch", value,
+          "argument " + std::to_string(i + 1) + " of " + quote(target.name) + " is a " +
+              typeName(type) + ", not a " + typeName(valueType(params[0]->type)),
+          "the parameter is " + std::string(params[0]->name) + ": " + params[0]->doc);
+  return type;
+}
+
+Analysis::Chosen Analysis::checkBuiltinCall(const CallTarget& target,
+                                            std::span<const NodeId> args) {
+  const bool anyNamed = std::any_of(args.begin(), args.end(),
+                                    [&](NodeId a) { return tree().kind(a) == NodeKind::NamedArg; });
+  std::vector<uint16_t> left = signaturesByShape(target, args);
   if (left.empty()) {
     visitLoosely(args);
-    errorAt("wrong-argument-count", target.node,
-            quote(target.name) + " takes " + countText(target.signatures) + ", not " +
-                std::to_string(args.size()),
-            target.signatures.empty()
-                ? ""
-                : "write " + signatureText(target.name, target.signatures[0]));
-    return 0xffff;
+    if (anyNamed) {
+      reportNamedArguments(target, args);
+    } else {
+      errorAt("wrong-argument-count", target.node,
+              quote(target.name) + " takes " + countText(target.signatures) + ", not " +
+                  std::to_string(args.size()),
+              target.signatures.empty()
+                  ? ""
+                  : "write " + signatureText(target.name, target.signatures[0]));
+    }
+    return {};
   }
-
-  std::vector<ValueType> types;
+  bool unknownType = false;
   for (size_t i = 0; i < args.size(); ++i) {
-    // A word that only some signatures know decides between them.
-    if (t.kind(args[i]) == NodeKind::Name) {
-      const auto knows = [&](uint16_t s) {
-        const ParamSpec* p = paramAt(target.signatures[s], i);
-        return p->type == ParamType::Selector && hasWord(p->words, t.text(args[i]));
-      };
-      if (std::any_of(left.begin(), left.end(), knows)) {
-        left.erase(std::remove_if(left.begin(), left.end(), [&](uint16_t s) { return !knows(s); }),
-                   left.end());
-      }
-    }
-    std::vector<const ParamSpec*> params;
-    for (const uint16_t s : left) params.push_back(paramAt(target.signatures[s], i));
-    types.push_back(visitArgument(args[i], params));
-    std::vector<uint16_t> fitting;
-    for (const uint16_t s : left) {
-      if (fits(types[i], paramAt(target.signatures[s], i)->type)) fitting.push_back(s);
-    }
-    if (!fitting.empty()) {
-      left = std::move(fitting);
-      continue;
-    }
-    errorAt("type-mismatch", args[i],
-            "argument " + std::to_string(i + 1) + " of " + quote(target.name) + " is a " +
-                typeName(types[i]) + ", not a " + typeName(valueType(params[0]->type)),
-            "the parameter is " + std::string(params[0]->name) + ": " + params[0]->doc);
+    const ValueType type = visitArgumentFor(target, args, i, left);
+    // The value of a word may decide as well, where it is only known later.
+    unknownType = unknownType || type == ValueType::Null || type == ValueType::String ||
+                  type == ValueType::Selector;
   }
-  return left[0];
+  if (anyNamed) {
+    const Signature& s = target.signatures[left[0]];
+    std::vector<NodeId> order(s.params.size(), kNoNode);
+    for (size_t i = 0; i < args.size(); ++i) {
+      const bool named = tree().kind(args[i]) == NodeKind::NamedArg;
+      order[parameterOf(s, args, i)] = named ? tree().child(args[i], 0) : args[i];
+    }
+    module().namedArguments[target.node] = std::move(order);
+    return {left[0], false};
+  }
+  return {left[0], left.size() > 1 && unknownType};
 }
 
 std::vector<ValueType> Analysis::visitArguments(std::span<const NodeId> args) {

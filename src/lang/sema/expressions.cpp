@@ -131,21 +131,22 @@ ValueType Analysis::visitBuiltinCall(NodeId node, const FunctionSpec& spec,
                                      std::span<const NodeId> args) {
   // Written without brackets, a function takes what it takes by default.
   const bool bare = args.empty() && tree().kind(node) == NodeKind::Name;
-  uint16_t signature = 0xffff;
+  Chosen chosen;
   if (bare && !acceptsCount(spec.signatures, 0)) {
-    signature = spec.signatures.empty() ? 0xffff : 0;
+    chosen = {static_cast<uint16_t>(spec.signatures.empty() ? 0xffff : 0), true};
   } else if (spec.signatures.empty()) {
     visitArguments(args);
   } else {
-    signature = checkBuiltinCall({spec.name, node, spec.signatures}, args);
+    chosen = checkBuiltinCall({spec.name, node, spec.signatures}, args);
   }
   resolve(node, RefKind::BuiltinFunction);
   Resolution& r = module().resolutions[node];
   r.spec.function = &spec;
-  r.signature = signature;
-  if (signature >= spec.signatures.size()) return ValueType::Null;
+  r.signature = chosen.signature;
+  r.open = chosen.open;
+  if (chosen.signature >= spec.signatures.size()) return ValueType::Null;
   // A result that the signature leaves open follows the first argument.
-  const ValueType result = spec.signatures[signature].result;
+  const ValueType result = spec.signatures[chosen.signature].result;
   return result == ValueType::Null && !args.empty() ? module().types[args[0]] : result;
 }
 
@@ -217,9 +218,10 @@ ValueType Analysis::visitComp(NodeId node) {
   if (spec) {
     visitBuiltinCall(node, *spec, args);
   } else if (op && op->block == BlockKind::Selectors) {
-    const uint16_t signature = checkBuiltinCall({name, node, op->signatures}, args);
+    const Chosen chosen = checkBuiltinCall({name, node, op->signatures}, args);
     resolve(node, RefKind::BuiltinFunction);
-    module().resolutions[node].signature = signature;
+    module().resolutions[node].signature = chosen.signature;
+    module().resolutions[node].open = chosen.open;
   } else {
     visitLoosely(args);
     errorAt("unknown-function", node, quote(name) + " takes no block as a function",

@@ -28,6 +28,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "base/diagnostic.h"
@@ -70,6 +71,9 @@ struct Resolution {
   RefKind kind = RefKind::None;
   /// Index of the signature in the spec; 0xffff when there is none to choose.
   uint16_t signature = 0xffff;
+  /// Several signatures are left, and the types that are known do not tell them apart: the values
+  /// decide when the rules run.
+  bool open = false;
   uint32_t index = kNone;
   union {
     const OpSpec* operation;
@@ -105,6 +109,9 @@ struct Module {
   std::vector<ValueType> types;
   /// By node id: the value of a constant expression (number, bool or string); Null if it is none.
   std::vector<Value> constants;
+  /// Of calls with named arguments, by node id: for each parameter of the signature its argument;
+  /// kNoNode where the default counts.
+  std::unordered_map<NodeId, std::vector<NodeId>> namedArguments;
 
   const Resolution& at(NodeId node) const { return resolutions[node]; }
 };

@@ -222,10 +222,12 @@ void Analysis::visitOperation(NodeId node, const OpSpec& op) {
   if (name == "local") return visitLocal(node, op);
   if (name == "do") return visitDo(node, op);
   const std::span<const NodeId> args = arguments(tree().child(node, 0));
-  const uint16_t signature = checkBuiltinCall({name, node, op.signatures}, args);
+  const Chosen chosen = checkBuiltinCall({name, node, op.signatures}, args);
   resolve(node, RefKind::Operation);
-  module().resolutions[node].spec.operation = &op;
-  module().resolutions[node].signature = signature;
+  Resolution& r = module().resolutions[node];
+  r.spec.operation = &op;
+  r.signature = chosen.signature;
+  r.open = chosen.open;
   visitBlocks(node, op);
 }
 

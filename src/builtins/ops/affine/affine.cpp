@@ -16,7 +16,10 @@ namespace gable {
 
 namespace {
 
-Vec3 numbers(const OpCall& call) { return {call.number(0), call.number(1), call.number(2)}; }
+struct Numbers {
+  double x, y, z;
+  Vec3 vec() const { return {x, y, z}; }
+};
 
 // Edits both maps of a deformed shape.
 template <class Edit>
@@ -39,9 +42,9 @@ Status applyReset(OpCall& call) {
   return {};
 }
 
-Status applyScale(OpCall& call) {
+Status applyScale(OpCall& call, const Numbers& args) {
   Shape& s = call.shape();
-  const Vec3 by = numbers(call);
+  const Vec3 by = args.vec();
   if (isDeformed(s))
     editMaps(s, [&](const Affine& a) { return afterScale(a, by); });
   else
@@ -49,9 +52,9 @@ Status applyScale(OpCall& call) {
   return {};
 }
 
-Status applyMove(OpCall& call) {
+Status applyMove(OpCall& call, const Numbers& args) {
   Shape& s = call.shape();
-  const Vec3 by = numbers(call);
+  const Vec3 by = args.vec();
   if (isDeformed(s))
     editMaps(s, [&](const Affine& a) { return afterMove(a, by); });
   else
@@ -59,12 +62,17 @@ Status applyMove(OpCall& call) {
   return {};
 }
 
-size_t axisOf(const OpCall& call) {
-  if (call.arg(1).type == ValueType::Float) {
-    const double axis = std::trunc(call.number(1));
-    return axis == 0 ? 0 : axis == 1 ? 1 : 2;
-  }
-  return call.is(1, "x") ? 0 : call.is(1, "y") ? 1 : 2;
+// The axis has a name or a number.
+struct Turn {
+  double angle;
+  Axis axis;
+  std::optional<double> number;
+};
+
+size_t axisOf(const Turn& args) {
+  if (!args.number) return static_cast<size_t>(args.axis);
+  const double axis = std::trunc(*args.number);
+  return axis == 0 ? 0 : axis == 1 ? 1 : 2;
 }
 
 // The scope turned about its own axes.
@@ -95,53 +103,52 @@ bool turnScope(Shape& s, size_t axis, double degrees) {
   return true;
 }
 
-Status applyTurn(OpCall& call) {
+Status applyTurn(OpCall& call, const Turn& args) {
   Shape& s = call.shape();
-  const double degrees = call.number(0);
+  const double degrees = args.angle;
   if (!std::isfinite(degrees)) {
     return call.fail("bad-argument", "affineTurn got no number", "give an angle in degrees");
   }
-  const size_t axis = axisOf(call);
+  const size_t axis = axisOf(args);
   if (!isDeformed(s) && turnScope(s, axis, degrees)) return {};
   const Frame turn = turnAbout(axis, degrees);
   editMaps(s, [&](const Affine& a) { return afterTurn(a, turn.x, turn.y, turn.z); });
   return {};
 }
 
-Status applyTaper(OpCall& call) {
+Status applyTaper(OpCall& call, const Numbers& args) {
   Shape& s = call.shape();
   ShapeExtra extra = extraOf(s);
   extra.deformed = true;
-  extra.deformation.far = afterScale(extra.deformation.far, numbers(call));
+  extra.deformation.far = afterScale(extra.deformation.far, args.vec());
   s.extra = makeRef<ShapeExtra>(std::move(extra));
   return {};
 }
 
 template <Vec3 Deformation::*side>
-Status applySide(OpCall& call) {
+Status applySide(OpCall& call, const Numbers& args) {
   Shape& s = call.shape();
   ShapeExtra extra = extraOf(s);
   extra.deformed = true;
-  extra.deformation.*side = numbers(call);
+  extra.deformation.*side = args.vec();
   s.extra = makeRef<ShapeExtra>(std::move(extra));
   return {};
 }
 
 constexpr ParamSpec kFactors[] = {
-    {"x", ParamType::Float, "Factor along x."},
-    {"y", ParamType::Float, "Factor along y."},
-    {"z", ParamType::Float, "Factor along z."},
+    param<&Numbers::x>("x", "Factor along x."),
+    param<&Numbers::y>("y", "Factor along y."),
+    param<&Numbers::z>("z", "Factor along z."),
 };
 constexpr ParamSpec kSteps[] = {
-    {"x", ParamType::Float, "Share of the scope's width."},
-    {"y", ParamType::Float, "Share of its height."},
-    {"z", ParamType::Float, "Share of its depth."},
+    param<&Numbers::x>("x", "Share of the scope's width."),
+    param<&Numbers::y>("y", "Share of its height."),
+    param<&Numbers::z>("z", "Share of its depth."),
 };
-constexpr ParamSpec kAngle = {"angle", ParamType::Float, "In degrees, right-handed."};
-constexpr ParamSpec kTurnWord[] = {
-    kAngle, {"axis", ParamType::Selector, "The axis to turn about.", nullptr, "x y z"}};
+constexpr ParamSpec kAngle = param<&Turn::angle>("angle", "In degrees, right-handed.");
+constexpr ParamSpec kTurnWord[] = {kAngle, param<&Turn::axis>("axis", "The axis to turn about.")};
 constexpr ParamSpec kTurnNumber[] = {
-    kAngle, {"axis", ParamType::Float, "The axis as a number: 0 is x, 1 is y, all else z."}};
+    kAngle, param<&Turn::number>("axis", "The axis as a number: 0 is x, 1 is y, all else z.")};
 constexpr Signature kResetSignatures[] = {{}};
 constexpr Signature kFactorSignatures[] = {{kFactors}};
 constexpr Signature kStepSignatures[] = {{kSteps}};
@@ -153,19 +160,19 @@ constexpr OpSpec kSpecs[] = {
      kResetSignatures, applyReset, BlockKind::None,
      kTakesDeformed | kReadsWorld | kReadsInitialShape, nullptr, false, true},
     {"affineScale", "affine", "Multiplies the sizes of the scope about its origin.",
-     kFactorSignatures, applyScale, BlockKind::None, kTakesDeformed, nullptr, false, true},
+     kFactorSignatures, typed<applyScale>, BlockKind::None, kTakesDeformed, nullptr, false, true},
     {"affineMove", "affine", "Moves the scope along its own axes by shares of its size.",
-     kStepSignatures, applyMove, BlockKind::None, kTakesDeformed, nullptr, false, true},
+     kStepSignatures, typed<applyMove>, BlockKind::None, kTakesDeformed, nullptr, false, true},
     {"affineTurn", "affine", "Turns about an axis of the scope, then unequal sizes shear.",
-     kTurnSignatures, applyTurn, BlockKind::None, kTakesDeformed, nullptr, false, true},
+     kTurnSignatures, typed<applyTurn>, BlockKind::None, kTakesDeformed, nullptr, false, true},
     {"affineTaper", "affine", "Scales the far side of the bodies that follow.", kFactorSignatures,
-     applyTaper, BlockKind::None, kTakesDeformed, nullptr, false, true},
+     typed<applyTaper>, BlockKind::None, kTakesDeformed, nullptr, false, true},
     {"affineFront", "affine", "Sets the factors for the corners at the front of boxes that follow.",
-     kFactorSignatures, applySide<&Deformation::front>, BlockKind::None, kTakesDeformed, nullptr,
-     false, true},
+     kFactorSignatures, typed<applySide<&Deformation::front>>, BlockKind::None, kTakesDeformed,
+     nullptr, false, true},
     {"affineTop", "affine", "Sets the factors for the corners at the top of boxes that follow.",
-     kFactorSignatures, applySide<&Deformation::top>, BlockKind::None, kTakesDeformed, nullptr,
-     false, true},
+     kFactorSignatures, typed<applySide<&Deformation::top>>, BlockKind::None, kTakesDeformed,
+     nullptr, false, true},
 };
 
 }  // namespace

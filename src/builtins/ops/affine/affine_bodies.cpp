@@ -18,11 +18,14 @@ namespace {
 
 bool isFinitePlace(const Shape& s) { return isFinite(s.scope.origin) && isFinite(s.size); }
 
-// Texture, quarter turns and scale from the arguments that begin at `first`.
-void wearTexture(OpCall& call, size_t first) {
-  if (!call.has(first)) return;
-  wearNumberedTexture(call.shape(), call.services(), call.number(first), call.number(first + 1, 0),
-                      call.number(first + 2, 0.125));
+struct Wearing {
+  std::optional<double> texture;
+  double quarters, scale;
+};
+
+void wearTexture(OpCall& call, const Wearing& args) {
+  if (!args.texture) return;
+  wearNumberedTexture(call.shape(), call.services(), *args.texture, args.quarters, args.scale);
 }
 
 Status tooLarge(const OpCall& call) {
@@ -56,11 +59,16 @@ Mesh placedBox(const Vec3& pivot) {
   return transformed(makeBoxMesh({1, 1, 1}, true), {1, 1, 1}, Frame::moved(-pivot));
 }
 
-Status leaveBox(OpCall& call, const Vec3& pivot) {
+struct BoxArguments : Wearing {
+  double pivotX, pivotY, pivotZ;
+  Axis far;
+};
+
+Status leaveBox(OpCall& call, const Vec3& pivot, Axis far) {
   Shape& s = call.shape();
   if (isDeformed(s)) {
     DeformedSides sides;
-    sides.axis = call.is(3, "x") ? 0 : call.is(3, "y") ? 1 : 2;
+    sides.axis = static_cast<int>(far);
     sides.low = -pivot[sides.axis];
     sides.high = 1 - pivot[sides.axis];
     sides.hasTop = pivot == Vec3{0.5, 0.5, 0.5};
@@ -78,23 +86,23 @@ Status leaveBox(OpCall& call, const Vec3& pivot) {
   return {};
 }
 
-Status applyBox(OpCall& call) {
+Status applyBox(OpCall& call, const BoxArguments& args) {
   Shape& s = call.shape();
   if (!isFinitePlace(s)) return tooLarge(call);
   const MaterialId material = s.material;
-  wearTexture(call, 4);
-  Status status = leaveBox(call, {call.number(0), call.number(1), call.number(2)});
+  wearTexture(call, args);
+  Status status = leaveBox(call, {args.pivotX, args.pivotY, args.pivotZ}, args.far);
   s.material = material;
   return status;
 }
 
 constexpr uint32_t kRoundSides = 40, kRoundDivisions = 20;
 
-Status leaveRound(OpCall& call, const MeshRef& unit, double low, double high) {
+Status leaveRound(OpCall& call, const Wearing& args, const MeshRef& unit, double low, double high) {
   Shape& s = call.shape();
   if (!isFinitePlace(s)) return tooLarge(call);
   const MaterialId material = s.material;
-  wearTexture(call, 0);
+  wearTexture(call, args);
   DeformedSides sides;
   sides.low = low;
   sides.high = high;
@@ -103,30 +111,31 @@ Status leaveRound(OpCall& call, const MeshRef& unit, double low, double high) {
   return status;
 }
 
-Status applySphere(OpCall& call) {
+Status applySphere(OpCall& call, const Wearing& args) {
   static const MeshRef kUnit = makeRef<Mesh>(
       transformed(makeSphere(kRoundSides, kRoundDivisions), {0.5, 0.5, 0.5}, Frame{}));
-  return leaveRound(call, kUnit, -0.5, 0.5);
+  return leaveRound(call, args, kUnit, -0.5, 0.5);
 }
 
-Status applyCylinder(OpCall& call) {
+Status applyCylinder(OpCall& call, const Wearing& args) {
   static const MeshRef kUnit =
       makeRef<Mesh>(transformed(makeCylinder(kRoundSides), {0.5, 1, 0.5}, Frame{}));
-  return leaveRound(call, kUnit, 0, 1);
+  return leaveRound(call, args, kUnit, 0, 1);
 }
 
-constexpr ParamSpec kTexture = {
-    "texture", ParamType::Float,
-    "Number of an image in the project's textures folder, or of a built-in one.", "none"};
-constexpr ParamSpec kQuarters = {"quarters", ParamType::Float,
-                                 "Quarter turns of the texture on each face.", "0"};
-constexpr ParamSpec kScale = {"scale", ParamType::Float,
-                              "Half the share of the texture that a face shows.", "0.125"};
+constexpr ParamSpec kTexture = param<&Wearing::texture>(
+    "texture", "Number of an image in the project's textures folder, or of a built-in one.",
+    "none");
+constexpr ParamSpec kQuarters =
+    param<&Wearing::quarters>("quarters", "Quarter turns of the texture on each face.", "0");
+constexpr ParamSpec kScale =
+    param<&Wearing::scale>("scale", "Half the share of the texture that a face shows.", "0.125");
 constexpr ParamSpec kBoxParams[] = {
-    {"pivotX", ParamType::Float, "Where the scope's origin lies in the box: 0 left, 1 right."},
-    {"pivotY", ParamType::Float, "0 at the bottom, 1 at the top."},
-    {"pivotZ", ParamType::Float, "0 at the back, 1 at the front."},
-    {"far", ParamType::Selector, "The axis whose far side tapers.", nullptr, "x y z"},
+    param<&BoxArguments::pivotX>("pivotX",
+                                 "Where the scope's origin lies in the box: 0 left, 1 right."),
+    param<&BoxArguments::pivotY>("pivotY", "0 at the bottom, 1 at the top."),
+    param<&BoxArguments::pivotZ>("pivotZ", "0 at the back, 1 at the front."),
+    param<&BoxArguments::far>("far", "The axis whose far side tapers."),
     kTexture,
     kQuarters,
     kScale,
@@ -137,12 +146,12 @@ constexpr Signature kRoundSignatures[] = {{kRoundParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"affineBox", "affine", "Leaves a box of the scope's size about its origin and goes on.",
-     kBoxSignatures, applyBox, BlockKind::None, kTakesDeformed, nullptr, false, true},
+     kBoxSignatures, typed<applyBox>, BlockKind::None, kTakesDeformed, nullptr, false, true},
     {"affineSphere", "affine", "Leaves a ball of the scope's size about its origin and goes on.",
-     kRoundSignatures, applySphere, BlockKind::None, kTakesDeformed, nullptr, false, true},
+     kRoundSignatures, typed<applySphere>, BlockKind::None, kTakesDeformed, nullptr, false, true},
     {"affineCylinder", "affine",
      "Leaves an upright cylinder of the scope's size on its origin and goes on.", kRoundSignatures,
-     applyCylinder, BlockKind::None, kTakesDeformed, nullptr, false, true},
+     typed<applyCylinder>, BlockKind::None, kTakesDeformed, nullptr, false, true},
 };
 
 }  // namespace

@@ -24,18 +24,47 @@ void placeUnitCube(Shape& s, const Box3& box) {
   s.size = scaled(box.size(), unit);
 }
 
-// Makes the scope ready for a model with a bounding box, as the insert mode says.
-void placeScope(Shape& s, const Box3& box, std::string_view mode) {
-  if (mode == "keepSizeAlignPosition") {
-    centerOnGround(s, box.size());
-    return;
+enum class UpAxis : uint8_t { Y, Z };
+enum class InsertMode : uint8_t {
+  AlignSizeAndPosition,
+  KeepSizeAndPosition,
+  KeepSizeAlignPosition,
+  UnitCube,
+};
+
+}  // namespace
+
+template <>
+struct WordsOf<UpAxis> {
+  static constexpr const char* text = "yUp zUp";
+};
+template <>
+struct WordsOf<InsertMode> {
+  static constexpr const char* text =
+      "alignSizeAndPosition keepSizeAndPosition keepSizeAlignPosition unitCube";
+};
+
+namespace {
+
+struct Insert {
+  std::string_view path;
+  UpAxis up;
+  InsertMode mode;
+  Word cleanup;
+};
+
+// Makes the scope ready for a model with a bounding box.
+void placeScope(Shape& s, const Box3& box, InsertMode mode) {
+  switch (mode) {
+    case InsertMode::KeepSizeAlignPosition: centerOnGround(s, box.size()); return;
+    case InsertMode::UnitCube: placeUnitCube(s, box); return;
+    case InsertMode::KeepSizeAndPosition: s.size = {}; break;
+    case InsertMode::AlignSizeAndPosition: break;
   }
-  if (mode == "unitCube") return placeUnitCube(s, box);
-  if (mode == "keepSizeAndPosition") s.size = {};
   fillZeroSizes(s, box);
 }
 
-Status insertBuiltin(OpCall& call, std::string_view path, std::string_view mode) {
+Status insertBuiltin(OpCall& call, std::string_view path, InsertMode mode) {
   Shape& s = call.shape();
   if (path == "builtin:cube" || path == "builtin:cube:notex") {
     placeScope(s, kUnitBox, mode);
@@ -53,42 +82,42 @@ Status insertBuiltin(OpCall& call, std::string_view path, std::string_view mode)
   return {};
 }
 
-Status applyI(OpCall& call) {
-  const std::string_view path = call.text(0);
-  const std::string_view mode = call.text(2, "alignSizeAndPosition");
-  if (path.starts_with("builtin:")) return insertBuiltin(call, path, mode);
+Status applyI(OpCall& call, const Insert& args) {
+  const std::string_view path = args.path;
+  if (path.starts_with("builtin:")) return insertBuiltin(call, path, args.mode);
   std::string why;
   const Ref<AssetModel> model =
-      call.services().assets().model(path, call.file(), call.is(1, "zUp"), why);
+      call.services().assets().model(path, call.file(), args.up == UpAxis::Z, why);
   if (!model) {
     return call.fail("missing-asset", "cannot insert '" + std::string(path) + "': " + why,
                      "paths start at the assets folder or at the root of the project");
   }
   Shape& s = call.shape();
-  placeScope(s, model->bounds, mode);
+  placeScope(s, model->bounds, args.mode);
   insertMesh(s, fittedMesh(*model), model->bounds.size());
   if (!model->materials.empty()) setModelMaterials(s, model->materials, call.services());
   return {};
 }
 
 constexpr ParamSpec kParams[] = {
-    {"filePath", ParamType::String, "The model, by its path in the project."},
-    {"upAxisOfGeometry", ParamType::Selector, "The axis that is up in the file.", "yUp", "yUp zUp"},
-    {"insertMode", ParamType::Selector,
-     "Fit the model to the scope; keep its size and place; keep its size and stand it in the "
-     "middle "
-     "of the scope's ground; or fit its unit cube, beyond which a prepared model may reach.",
-     "alignSizeAndPosition",
-     "alignSizeAndPosition keepSizeAndPosition keepSizeAlignPosition unitCube"},
-    {"cleanupMode", ParamType::Selector,
-     "Whether readers may mend tiny edges; models are taken as they are in both cases.",
-     "numericalCleanup", "numericalCleanup noCleanup"},
+    param<&Insert::path>("filePath", "The model, by its path in the project."),
+    param<&Insert::up>("upAxisOfGeometry", "The axis that is up in the file.", "yUp"),
+    param<&Insert::mode>(
+        "insertMode",
+        "Fit the model to the scope; keep its size and place; keep its size and stand it in the "
+        "middle "
+        "of the scope's ground; or fit its unit cube, beyond which a prepared model may reach.",
+        "alignSizeAndPosition"),
+    param<&Insert::cleanup>(
+        "cleanupMode",
+        "Whether readers may mend tiny edges; models are taken as they are in both cases.",
+        "numericalCleanup", "numericalCleanup noCleanup"),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"i", "asset", "Replaces the geometry by a model from a file, fitted to the scope.",
-     kSignatures, applyI, BlockKind::None, kUsesTrim},
+     kSignatures, typed<applyI>, BlockKind::None, kUsesTrim},
 };
 
 }  // namespace

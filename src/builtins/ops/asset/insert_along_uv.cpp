@@ -131,27 +131,50 @@ bool addPatch(const Patch& patch, const Mesh& unit, bool mirrored, Collector& ou
   return true;
 }
 
-Status applyInsert(OpCall& call) {
+enum class HeightDirection : uint8_t { ScopeY, VertexNormal };
+enum class HeightAlignment : uint8_t { AlignPosition, KeepPosition };
+
+}  // namespace
+
+template <>
+struct WordsOf<HeightDirection> {
+  static constexpr const char* text = "scope.y vertex.normal";
+};
+template <>
+struct WordsOf<HeightAlignment> {
+  static constexpr const char* text = "alignPosition keepPosition";
+};
+
+namespace {
+
+struct InsertAlongUv {
+  double uvSet;
+  std::string_view path;
+  double height;
+  HeightDirection direction = HeightDirection::ScopeY;
+  HeightAlignment alignment = HeightAlignment::AlignPosition;
+};
+
+Status applyInsert(OpCall& call, const InsertAlongUv& args) {
   Shape& s = call.shape();
   int set = 0;
-  if (Status bad = uvSetOf(call, 0, set); !bad) return bad;
+  if (Status bad = uvSetOf(call, args.uvSet, set); !bad) return bad;
   if (!hasUvSet(s, set)) {
     return call.fail("no-uv",
                      "the shape has no texture coordinates in uv set " + std::to_string(set),
                      "project or normalise some before");
   }
   std::string why;
-  const Ref<AssetModel> model =
-      call.services().assets().model(call.text(1), call.file(), false, why);
+  const Ref<AssetModel> model = call.services().assets().model(args.path, call.file(), false, why);
   if (!model) {
-    return call.fail("missing-asset", "cannot insert '" + std::string(call.text(1)) + "': " + why,
+    return call.fail("missing-asset", "cannot insert '" + std::string(args.path) + "': " + why,
                      "paths start at the assets folder or at the root of the project");
   }
 
   // The model in (u, height, -v) space.
   const Vec3 size = model->bounds.size();
-  const double height = call.number(2);
-  const double lift = call.is(4, "keepPosition") ? model->bounds.min.y : 0;
+  const double height = args.height;
+  const double lift = args.alignment == HeightAlignment::KeepPosition ? model->bounds.min.y : 0;
   Mesh unit = *fittedMesh(*model);
   unit.normals.clear();
   for (Vec3& p : unit.positions) {
@@ -161,7 +184,8 @@ Status applyInsert(OpCall& call) {
 
   const MeshRef mesh = meshInScope(s);
   Collector out;
-  for (const Patch& patch : patchesOf(*mesh, set, call.is(3, "vertex.normal"))) {
+  for (const Patch& patch :
+       patchesOf(*mesh, set, args.direction == HeightDirection::VertexNormal)) {
     if (!addPatch(patch, unit, height < 0, out)) {
       return call.fail("too-much-geometry", "insertAlongUV would make too many copies",
                        "normalise or scale the texture coordinates before");
@@ -174,28 +198,28 @@ Status applyInsert(OpCall& call) {
   return {};
 }
 
-constexpr ParamSpec kSet = {"uvSet", ParamType::Float,
-                            "The uv set, 0 to 9, whose unit squares are filled."};
-constexpr ParamSpec kPath = {"filePath", ParamType::String,
-                             "The model: x runs along u, z against v, y is the height."};
-constexpr ParamSpec kHeight = {"height", ParamType::Float, "Height of the result, in metres."};
+constexpr ParamSpec kSet =
+    param<&InsertAlongUv::uvSet>("uvSet", "The uv set, 0 to 9, whose unit squares are filled.");
+constexpr ParamSpec kPath = param<&InsertAlongUv::path>(
+    "filePath", "The model: x runs along u, z against v, y is the height.");
+constexpr ParamSpec kHeight =
+    param<&InsertAlongUv::height>("height", "Height of the result, in metres.");
 constexpr ParamSpec kPlainParams[] = {kSet, kPath, kHeight};
 constexpr ParamSpec kFullParams[] = {
     kSet,
     kPath,
     kHeight,
-    {"heightDirection", ParamType::Selector, "Up along the scope, or along the vertex normals.",
-     nullptr, "scope.y vertex.normal"},
-    {"heightAlignment", ParamType::Selector,
-     "Stand the model on the faces, or keep its height above its own zero.", nullptr,
-     "alignPosition keepPosition"},
+    param<&InsertAlongUv::direction>("heightDirection",
+                                     "Up along the scope, or along the vertex normals."),
+    param<&InsertAlongUv::alignment>(
+        "heightAlignment", "Stand the model on the faces, or keep its height above its own zero."),
 };
 constexpr Signature kSignatures[] = {{kPlainParams}, {kFullParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"insertAlongUV", "asset",
      "Replaces triangles and quads by copies of a model, bent along the texture coordinates.",
-     kSignatures, applyInsert},
+     kSignatures, typed<applyInsert>},
 };
 
 }  // namespace

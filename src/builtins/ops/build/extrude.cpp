@@ -15,38 +15,31 @@ namespace gable {
 
 namespace {
 
-struct Wanted {
-  ExtrudeOptions options;
-  bool known = true;
+struct Extrude {
+  Word type{"face.normal"};
+  double distance;
 };
 
 // The mode and, for those with one, the direction in scope coordinates.
-Wanted wantedOf(const OpCall& call, const Shape& s) {
-  Wanted w;
-  w.options.distance = call.number(call.argCount() - 1);
-  w.options.direction = {0, 0, 1};
-  if (call.argCount() < 2 || call.is(0, "face.normal")) return w;
-  const std::string_view type = call.text(0);
+ExtrudeOptions optionsOf(const OpCall& call, const Extrude& args, const Shape& s) {
+  ExtrudeOptions options;
+  options.distance = args.distance;
+  options.direction = {0, 0, 1};
+  if (args.type == "face.normal") return options;
+  const std::string_view type = args.type.text;
   if (type == "vertex.normal") {
-    w.options.mode = ExtrudeMode::VertexNormal;
-    return w;
+    options.mode = ExtrudeMode::VertexNormal;
+    return options;
   }
-  w.options.mode = type == "world.up.flatTop" ? ExtrudeMode::FlatTop : ExtrudeMode::Along;
+  options.mode = type == "world.up.flatTop" ? ExtrudeMode::FlatTop : ExtrudeMode::Along;
   const bool world = type.starts_with("world.");
   const std::string_view axis = world ? type.substr(6) : type;
-  Vec3 d;
-  if (axis == "y" || axis == "up" || axis == "up.flatTop") {
-    d = {0, 1, 0};
-  } else if (axis == "x") {
-    d = {1, 0, 0};
-  } else if (axis == "z") {
-    d = {0, 0, 1};
-  } else {
-    w.known = false;
-  }
+  Vec3 d{0, 1, 0};
+  if (axis == "x") d = {1, 0, 0};
+  if (axis == "z") d = {0, 0, 1};
   if (world) d = s.scope.toLocalDirection(call.world().toLocalDirection(d));
-  w.options.direction = straightened(d);
-  return w;
+  options.direction = straightened(d);
+  return options;
 }
 
 const char* roleName(ExtrudeRole role) {
@@ -60,23 +53,23 @@ const char* roleName(ExtrudeRole role) {
 }
 
 // A rectangle that is extruded along its normal, upward: a box, without a mesh.
-bool extrudeToBox(Shape& s, const Wanted& w, AutoTags& tags) {
+bool extrudeToBox(Shape& s, const ExtrudeOptions& options, AutoTags& tags) {
   const bool flat = s.geometry.kind == GeometryKind::QuadXz;
   if (!flat && s.geometry.kind != GeometryKind::QuadXy) return false;
   const double depth = flat ? s.size.z : s.size.y;
   if (hasEdgeTags(s.geometry)) return false;
-  if (s.geometry.uv || s.size.x <= 0 || depth <= 0 || w.options.distance <= 0) return false;
+  if (s.geometry.uv || s.size.x <= 0 || depth <= 0 || options.distance <= 0) return false;
   if ((flat ? s.size.y : s.size.z) < 0) return false;
-  const bool along = w.options.mode == ExtrudeMode::Along || w.options.mode == ExtrudeMode::FlatTop;
+  const bool along = options.mode == ExtrudeMode::Along || options.mode == ExtrudeMode::FlatTop;
   const Vec3 normal = flat ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
-  if (along && w.options.direction != normal) return false;
+  if (along && options.direction != normal) return false;
   const uint32_t face = s.geometry.tags[flat ? kSideTop : kSideFront];
   if (!flat) {
     // The wall's upper edge becomes the back of the box.
     const Frame lying = Frame::of({0, s.size.y, 0}, {1, 0, 0}, {0, 0, 1}, {0, -1, 0});
     s.scope = s.scope * lying;
   }
-  s.size = {s.size.x, w.options.distance, depth};
+  s.size = {s.size.x, options.distance, depth};
   const uint32_t side = tags.with(0, "side.outer");
   s.geometry = primitive(GeometryKind::Box, side);
   s.geometry.order = BoxOrder::Extruded;
@@ -101,26 +94,22 @@ Vec3 upOf(const Mesh& m, const ExtrudeOptions& options) {
   return options.direction;
 }
 
-Status applyExtrude(OpCall& call) {
+Status applyExtrude(OpCall& call, const Extrude& args) {
   Shape& s = call.shape();
-  const Wanted w = wantedOf(call, s);
-  if (!w.known) {
-    return call.fail("extrude-type", "there is no such way to extrude",
-                     "use face.normal, vertex.normal, world.up or world.up.flatTop");
-  }
-  if (!std::isfinite(w.options.distance)) {
+  const ExtrudeOptions options = optionsOf(call, args, s);
+  if (!std::isfinite(options.distance)) {
     return call.fail("extrude-distance", "the distance to extrude is not a finite number",
                      "check the expression for a division by zero");
   }
   AutoTags tags(call.services(), "extrude");
-  if (extrudeToBox(s, w, tags)) return {};
+  if (extrudeToBox(s, options, tags)) return {};
   const MeshRef mesh = meshInScope(s);
   if (mesh->empty()) {
     return call.fail("no-geometry", "the shape has no geometry to extrude",
                      "insert a primitive or an asset first");
   }
-  const Vec3 up = upOf(*mesh, w.options);
-  ExtrudeResult made = extrude(*mesh, w.options);
+  const Vec3 up = upOf(*mesh, options);
+  ExtrudeResult made = extrude(*mesh, options);
   for (size_t f = 0; f < made.mesh.faceCount(); ++f) {
     const bool side =
         made.roles[f] == ExtrudeRole::SideOuter || made.roles[f] == ExtrudeRole::SideInner;
@@ -130,25 +119,28 @@ Status applyExtrude(OpCall& call) {
     const uint32_t from = side ? edgeTags : mesh->faces[made.faceSource[f]].tags;
     made.mesh.faces[f].tags = tags.with(from, roleName(made.roles[f]));
   }
-  refit(s, std::move(made.mesh), axesWithY(up, {1, 0, 0}), w.options.distance < 0);
+  refit(s, std::move(made.mesh), axesWithY(up, {1, 0, 0}), options.distance < 0);
   return {};
 }
 
 constexpr ParamSpec kDistance[] = {
-    {"distance", ParamType::Float, "How far, in metres; negative to the other side."},
+    param<&Extrude::distance>("distance", "How far, in metres; negative to the other side."),
 };
 constexpr ParamSpec kTyped[] = {
-    {"extrusionType", ParamType::Selector,
-     "The direction: the normals of faces or of vertices, straight up in the world (with a level "
-     "top if wanted), or an axis of the world or the scope.",
-     nullptr, "face.normal vertex.normal world.up world.up.flatTop world.x world.y world.z x y z"},
-    {"distance", ParamType::Float, "How far, in metres; negative to the other side."},
+    param<&Extrude::type>(
+        "extrusionType",
+        "The direction: the normals of faces or of vertices, straight up in the world (with a "
+        "level "
+        "top if wanted), or an axis of the world or the scope.",
+        nullptr,
+        "face.normal vertex.normal world.up world.up.flatTop world.x world.y world.z x y z"),
+    param<&Extrude::distance>("distance", "How far, in metres; negative to the other side."),
 };
 constexpr Signature kSignatures[] = {{kDistance}, {kTyped}};
 
 constexpr OpSpec kSpecs[] = {
     {"extrude", "build", "Makes a solid by moving each face and joining it to where it was.",
-     kSignatures, applyExtrude, BlockKind::None, kReadsWorld | kReadsWorldByWord},
+     kSignatures, typed<applyExtrude>, BlockKind::None, kReadsWorld | kReadsWorldByWord},
 };
 
 }  // namespace

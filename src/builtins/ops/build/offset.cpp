@@ -130,18 +130,34 @@ class Growth {
   std::vector<PatchFace> border_;
 };
 
-Mesh assembled(const Mesh& from, Offset& offset, std::string_view keep) {
+enum class Keep : uint8_t { All, Inside, Border };
+
+}  // namespace
+
+template <>
+struct WordsOf<Keep> {
+  static constexpr const char* text = "all inside border";
+};
+
+namespace {
+
+struct OffsetArguments {
+  double distance;
+  Keep keep;
+};
+
+Mesh assembled(const Mesh& from, Offset& offset, Keep keep) {
   std::vector<PatchFace> faces;
-  if (keep != "border") faces = std::move(offset.inside);
-  if (keep != "inside") {
+  if (keep != Keep::Border) faces = std::move(offset.inside);
+  if (keep != Keep::Inside) {
     for (PatchFace& f : offset.border) faces.push_back(std::move(f));
   }
   return meshOfPatches(from, faces);
 }
 
-Status applyOffset(OpCall& call) {
+Status applyOffset(OpCall& call, const OffsetArguments& args) {
   Shape& s = call.shape();
-  const double distance = call.number(0);
+  const double distance = args.distance;
   if (!std::isfinite(distance)) {
     return call.fail("offset-distance", "the distance to offset by is not a finite number",
                      "check the expression for a division by zero");
@@ -175,7 +191,7 @@ Status applyOffset(OpCall& call) {
     offset.inside = inward.remainders();
     offset.border = inward.stripOfEachEdge();
   }
-  Mesh result = assembled(*mesh, offset, call.text(1, "all"));
+  Mesh result = assembled(*mesh, offset, args.keep);
   if (result.faceCount() == 0) {
     call.drop();
   } else {
@@ -185,16 +201,18 @@ Status applyOffset(OpCall& call) {
 }
 
 constexpr ParamSpec kParams[] = {
-    {"distance", ParamType::Float, "How far, in metres: inward where negative, else outward."},
-    {"keepFaces", ParamType::Selector,
-     "Whether to keep the offset polygons, the border between them and the face, or both.", "all",
-     "all inside border"},
+    param<&OffsetArguments::distance>("distance",
+                                      "How far, in metres: inward where negative, else outward."),
+    param<&OffsetArguments::keep>(
+        "keepFaces",
+        "Whether to keep the offset polygons, the border between them and the face, or both.",
+        "all"),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     heavy({"offset", "build", "Moves the outline of each face inward or outward.", kSignatures,
-           applyOffset}),
+           typed<applyOffset>}),
 };
 
 }  // namespace

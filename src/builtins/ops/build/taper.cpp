@@ -67,9 +67,13 @@ Mesh tapered(const Mesh& m, size_t face, const Vec3& apexAt, bool downward, Auto
   return b.take();
 }
 
-Status applyTaper(OpCall& call) {
+struct Taper {
+  double height;
+};
+
+Status applyTaper(OpCall& call, const Taper& args) {
   Shape& s = call.shape();
-  const double height = call.number(0);
+  const double height = args.height;
   if (!std::isfinite(height)) {
     return call.fail("extrude-distance", "the height to taper is not a finite number",
                      "check the expression for a division by zero");
@@ -90,14 +94,14 @@ Status applyTaper(OpCall& call) {
 }
 
 constexpr ParamSpec kParams[] = {
-    {"height", ParamType::Float,
-     "The height of the point above the face, in metres; negative below it."},
+    param<&Taper::height>("height",
+                          "The height of the point above the face, in metres; negative below it."),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"taper", "build", "Makes a pyramid over the first face, its point above the face's centre.",
-     kSignatures, applyTaper},
+     kSignatures, typed<applyTaper>},
 };
 
 }  // namespace

@@ -10,23 +10,37 @@ namespace gable {
 
 namespace {
 
+enum class Components : uint8_t { Vertices, Edges, Faces, All };
+
+}  // namespace
+
+template <>
+struct WordsOf<Components> {
+  static constexpr const char* text = "vertices edges faces all";
+};
+
+namespace {
+
+struct Cleanup {
+  Components components;
+  double tolerance;
+};
+
 // The scope stays: cleaning is not meant to change how the shape looks.
-Status applyCleanup(OpCall& call) {
+Status applyCleanup(OpCall& call, const Cleanup& args) {
   Shape& s = call.shape();
   CleanupOptions options;
-  options.tolerance = call.number(1);
+  options.tolerance = args.tolerance;
   if (!(options.tolerance >= 0 && options.tolerance <= 1)) {
     return call.fail("cleanup-tolerance", "the tolerance of a cleanup is not within 0 and 1",
                      "0 cleans what matches exactly, 1 allows a metre and 10 degrees");
   }
-  const bool all = call.is(0, "all");
-  options.vertices = all || call.is(0, "vertices");
-  options.edges = all || call.is(0, "edges");
-  options.faces = all || call.is(0, "faces");
-  if (!options.vertices && !options.edges && !options.faces) {
-    return call.fail("cleanup-components", "there is no such kind of component to clean up",
-                     "the kinds are vertices, edges, faces and all");
-  }
+  const auto cleans = [&](Components c) {
+    return args.components == c || args.components == Components::All;
+  };
+  options.vertices = cleans(Components::Vertices);
+  options.edges = cleans(Components::Edges);
+  options.faces = cleans(Components::Faces);
   if (s.geometry.kind != GeometryKind::Mesh) return {};
   Mesh mesh = *meshInScope(s);
   cleanup(mesh, options);
@@ -40,9 +54,10 @@ Status applyTrim(OpCall& call) {
 }
 
 constexpr ParamSpec kCleanupParams[] = {
-    {"components", ParamType::Selector, "What to clean up.", nullptr, "vertices edges faces all"},
-    {"tolerance", ParamType::Float,
-     "0 cleans what matches exactly; 1 allows a metre, 10 degrees and a square metre."},
+    param<&Cleanup::components>("components", "What to clean up."),
+    param<&Cleanup::tolerance>(
+        "tolerance",
+        "0 cleans what matches exactly; 1 allows a metre, 10 degrees and a square metre."),
 };
 constexpr Signature kCleanup[] = {{kCleanupParams}};
 constexpr Signature kNone[] = {{}};
@@ -50,7 +65,7 @@ constexpr Signature kNone[] = {{}};
 constexpr OpSpec kSpecs[] = {
     heavy({"cleanupGeometry", "edit",
            "Unites vertices and coplanar faces and drops degenerate ones.", kCleanup,
-           applyCleanup}),
+           typed<applyCleanup>}),
     heavy({"trim", "edit", "Cuts the geometry by the trim planes that a component split left.",
            kNone, applyTrim, BlockKind::None, kUsesTrim}),
 };

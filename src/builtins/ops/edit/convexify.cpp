@@ -145,9 +145,13 @@ class Convexifier {
   std::vector<std::vector<uint32_t>> rings_;
 };
 
-Status applyConvexify(OpCall& call) {
+struct Convexify {
+  std::optional<double> maxLength;
+};
+
+Status applyConvexify(OpCall& call, const Convexify& args) {
   Shape& s = call.shape();
-  const double maxLength = call.number(0, std::numeric_limits<double>::infinity());
+  const double maxLength = args.maxLength.value_or(std::numeric_limits<double>::infinity());
   if (!(maxLength > 0)) {
     return call.fail("convexify-length", "the length of cuts is not positive",
                      "give a positive length, or none for cuts of any length");
@@ -177,13 +181,14 @@ Status applyConvexify(OpCall& call) {
 }
 
 constexpr ParamSpec kParams[] = {
-    {"maxLength", ParamType::Float, "Cuts longer than this are not made, in metres.", "inf"},
+    param<&Convexify::maxLength>("maxLength", "Cuts longer than this are not made, in metres.",
+                                 "of any length"),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
-    heavy(
-        {"convexify", "edit", "Cuts concave faces into convex ones.", kSignatures, applyConvexify}),
+    heavy({"convexify", "edit", "Cuts concave faces into convex ones.", kSignatures,
+           typed<applyConvexify>}),
 };
 
 }  // namespace

@@ -93,9 +93,13 @@ void rectify(Mesh& m, double angle) {
   }
 }
 
-Status applyRectify(OpCall& call) {
+struct Rectify {
+  double angle;
+};
+
+Status applyRectify(OpCall& call, const Rectify& args) {
   Shape& s = call.shape();
-  const double angle = call.number(0);
+  const double angle = args.angle;
   if (!(angle >= 0 && angle <= 45)) {
     return call.fail("rectify-angle", "the angle of rectify is not within 0 and 45 degrees",
                      "edges that deviate by less are aligned");
@@ -108,13 +112,14 @@ Status applyRectify(OpCall& call) {
 }
 
 constexpr ParamSpec kParams[] = {
-    {"angle", ParamType::Float, "Edges that deviate by at most this are aligned, 0 to 45 degrees."},
+    param<&Rectify::angle>("angle",
+                           "Edges that deviate by at most this are aligned, 0 to 45 degrees."),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"rectify", "edit", "Turns edges that run nearly along the scope's axes to run along them.",
-     kSignatures, applyRectify},
+     kSignatures, typed<applyRectify>},
 };
 
 }  // namespace

@@ -15,52 +15,68 @@ Status applyNil(OpCall& call) {
   return {};
 }
 
-Status applyLabel(OpCall& call) {
-  if (call.text(0).empty()) {
+struct Label {
+  Text label;
+};
+
+Status applyLabel(OpCall& call, const Label& args) {
+  if (args.label.text.empty()) {
     return call.fail("bad-argument", "label got an empty text", "name the shape");
   }
-  call.services().label(call.arg(0).id, call.shape());
+  call.services().label(args.label.id, call.shape());
   return {};
 }
 
-Status applyPrint(OpCall& call) {
-  call.services().print(call.services().pool().str(call.arg(0)));
+struct Print {
+  Value value;
+};
+
+Status applyPrint(OpCall& call, const Print& args) {
+  call.services().print(call.services().pool().str(args.value));
   return {};
 }
 
-Status applyReport(OpCall& call) {
-  if (call.arg(1).isArray()) {
+struct Report {
+  Text key;
+  Value value;
+};
+
+Status applyReport(OpCall& call, const Report& args) {
+  if (args.value.isArray()) {
     return call.fail("type-mismatch", "report takes no arrays", "report the elements one by one");
   }
-  call.services().report(call.arg(0).id, call.arg(1));
+  call.services().report(args.key.id, args.value);
   return {};
 }
 
 constexpr Signature kNilSignatures[] = {{}};
 
 constexpr ParamSpec kLabelParams[] = {
-    {"label", ParamType::String, "The name by which queries find the shape; not empty."},
+    param<&Label::label>("label", "The name by which queries find the shape; not empty."),
 };
 constexpr Signature kLabelSignatures[] = {{kLabelParams}};
 
-constexpr ParamSpec kPrintParams[] = {{"value", ParamType::Any, "Any value or array."}};
+constexpr ParamSpec kPrintParams[] = {param<&Print::value>("value", "Any value or array.")};
 constexpr Signature kPrintSignatures[] = {{kPrintParams}};
 
-constexpr ParamSpec kKey = {"key", ParamType::String,
-                            "The name of the collection; dots make groups."};
-constexpr ParamSpec kReportFloat[] = {kKey, {"value", ParamType::Float, "A number to sum up."}};
-constexpr ParamSpec kReportBool[] = {kKey, {"value", ParamType::Bool, "A truth value to count."}};
-constexpr ParamSpec kReportString[] = {kKey, {"value", ParamType::String, "A text to count."}};
+constexpr ParamSpec kKey =
+    param<&Report::key>("key", "The name of the collection; dots make groups.");
+constexpr ParamSpec kReportFloat[] = {
+    kKey, withType(param<&Report::value>("value", "A number to sum up."), ParamType::Float)};
+constexpr ParamSpec kReportBool[] = {
+    kKey, withType(param<&Report::value>("value", "A truth value to count."), ParamType::Bool)};
+constexpr ParamSpec kReportString[] = {
+    kKey, withType(param<&Report::value>("value", "A text to count."), ParamType::String)};
 constexpr Signature kReportSignatures[] = {{kReportFloat}, {kReportBool}, {kReportString}};
 
 constexpr OpSpec kSpecs[] = {
     {"NIL", "flow", "Deletes the shape: nothing comes of it.", kNilSignatures, applyNil},
     {"label", "flow", "Leaves a named copy of the shape for context queries.", kLabelSignatures,
-     applyLabel, BlockKind::None, kReadsPath},
-    {"print", "flow", "Writes a value to the console.", kPrintSignatures, applyPrint,
+     typed<applyLabel>, BlockKind::None, kReadsPath},
+    {"print", "flow", "Writes a value to the console.", kPrintSignatures, typed<applyPrint>,
      BlockKind::None, kReports},
     {"report", "flow", "Adds a value to a collection of statistics.", kReportSignatures,
-     applyReport, BlockKind::None, kReports},
+     typed<applyReport>, BlockKind::None, kReports},
 };
 
 }  // namespace

@@ -219,13 +219,33 @@ class Emitter {
   uint32_t piece_ = 0;
 };
 
-Status layoutOf(const OpCall& call, Layout& out) {
-  out.spacing.step = call.number(0);
-  out.offset = call.number(1, 0);
-  out.spacing.startInset = out.spacing.endInset = call.number(2, 0);
-  out.spacing.stretch = call.is(3, "stretch");
-  if (call.is(4, "inward")) out.facing = Layout::Facing::Inward;
-  if (call.is(4, "along")) out.facing = Layout::Facing::Along;
+enum class Fit : uint8_t { Centred, Stretch };
+
+}  // namespace
+
+template <>
+struct WordsOf<Fit> {
+  static constexpr const char* text = "centred stretch";
+};
+template <>
+struct WordsOf<Layout::Facing> {
+  static constexpr const char* text = "outward inward along";
+};
+
+namespace {
+
+struct Along {
+  double spacing, offset, inset;
+  Fit fit;
+  Layout::Facing facing;
+};
+
+Status layoutOf(const OpCall& call, const Along& args, Layout& out) {
+  out.spacing.step = args.spacing;
+  out.offset = args.offset;
+  out.spacing.startInset = out.spacing.endInset = args.inset;
+  out.spacing.stretch = args.fit == Fit::Stretch;
+  out.facing = args.facing;
   if (!(out.spacing.step > 0) || !std::isfinite(out.offset) || !(out.spacing.startInset >= 0)) {
     return call.fail("bad-argument",
                      "along needs a spacing larger than 0 and an inset that is not negative",
@@ -280,9 +300,9 @@ void emitAlongLines(OpCall& call, const Mesh& mesh, const Layout& layout, Emitte
   }
 }
 
-Status applyAlong(OpCall& call) {
+Status applyAlong(OpCall& call, const Along& args) {
   Layout layout;
-  if (Status bad = layoutOf(call, layout); !bad) return bad;
+  if (Status bad = layoutOf(call, args, layout); !bad) return bad;
   const MeshRef mesh = meshInScope(call.shape());
   if (mesh->faceCount() == 0) {
     return call.fail("no-geometry", "the shape has no edges to place things along",
@@ -317,25 +337,27 @@ Status applyAlong(OpCall& call) {
 }
 
 constexpr ParamSpec kParams[] = {
-    {"spacing", ParamType::Float, "From one place to the next along the edges, in metres."},
-    {"offset", ParamType::Float,
-     "How far beside the edge: outwards, inwards where negative. Of a line: to its right, to its "
-     "left where negative.",
-     "0"},
-    {"inset", ParamType::Float, "Kept free at both ends of each line of edges.", "0"},
-    {"fit", ParamType::Selector,
-     "centred shares what is left over between both ends; stretch makes the spacing a little "
-     "longer "
-     "or shorter, so that both ends are met.",
-     "centred", "centred stretch"},
-    {"facing", ParamType::Selector, "Where z points: outward across the edge, inward, or along it.",
-     "outward", "outward inward along"},
+    param<&Along::spacing>("spacing", "From one place to the next along the edges, in metres."),
+    param<&Along::offset>("offset",
+                          "How far beside the edge: outwards, inwards where negative. Of a line: "
+                          "to its right, to its "
+                          "left where negative.",
+                          "0"),
+    param<&Along::inset>("inset", "Kept free at both ends of each line of edges.", "0"),
+    param<&Along::fit>(
+        "fit",
+        "centred shares what is left over between both ends; stretch makes the spacing a little "
+        "longer "
+        "or shorter, so that both ends are met.",
+        "centred"),
+    param<&Along::facing>("facing", "Where z points: outward across the edge, inward, or along it.",
+                          "outward"),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"along", "layout", "Gives out places along the edges of the faces, at equal spacing.",
-     kSignatures, applyAlong, BlockKind::Selectors, kReadsWorld | kReadsWorldByWord,
+     kSignatures, typed<applyAlong>, BlockKind::Selectors, kReadsWorld | kReadsWorldByWord,
      "street middle sides", false, true},
 };
 

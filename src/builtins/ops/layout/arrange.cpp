@@ -59,8 +59,44 @@ double nearestEdge(const Polygon& p, Vec2 at) {
   return atan2Deg(along.y, along.x);
 }
 
+enum class TurnBy : uint8_t { Scope, Edge, Random };
+enum class Order : uint8_t { Largest, Given };
+enum class PointPattern : uint8_t { Poisson, Jittered };
+
+}  // namespace
+
+template <>
+struct WordsOf<TurnBy> {
+  static constexpr const char* text = "scope edge random";
+};
+template <>
+struct WordsOf<Order> {
+  static constexpr const char* text = "largest given";
+};
+template <>
+struct WordsOf<PointPattern> {
+  static constexpr const char* text = "poisson jittered";
+};
+
+namespace {
+
+struct Arrange {
+  Floats footprints;
+  double gap;
+  std::optional<double> edge;
+  TurnBy turn;
+  Order order;
+};
+
+struct ScatterSpaced {
+  double distance;
+  PointPattern pattern;
+  double edge, jitter;
+};
+
 // Row by row: width and depth, then perhaps where the middle is to be, then perhaps the turn.
-std::vector<Footprint> wanted(const OpCall& call, const Array& rows, const Polygon& ground) {
+std::vector<Footprint> wanted(const OpCall& call, TurnBy turn, const Array& rows,
+                              const Polygon& ground) {
   std::vector<Footprint> out;
   for (uint32_t r = 0; r < rows.rows; ++r) {
     const double* n = rows.numbers.data() + size_t{r} * rows.columns;
@@ -68,9 +104,9 @@ std::vector<Footprint> wanted(const OpCall& call, const Array& rows, const Polyg
     f.wish = rows.columns >= 4 ? Vec2{n[2], -n[3]} : drawnIn(call, ground, 2 * uint64_t{r});
     if (rows.columns >= 5) {
       f.angle = n[4];
-    } else if (call.is(3, "edge")) {
+    } else if (turn == TurnBy::Edge) {
       f.angle = nearestEdge(ground, f.wish);
-    } else if (call.is(3, "random")) {
+    } else if (turn == TurnBy::Random) {
       f.angle = randomIn(call.randomAddress(2 * uint64_t{r} + 1), 0, 360);
     }
     out.push_back(f);
@@ -138,9 +174,9 @@ Status checked(const OpCall& call, const Array& rows, double gap, double edge) {
                    "write 0 where they may touch");
 }
 
-Status applyArrange(OpCall& call) {
-  const Array rows = call.services().pool().array(call.arg(0));
-  const double gap = call.number(1, 1), edge = call.number(2, gap);
+Status applyArrange(OpCall& call, const Arrange& args) {
+  const Array& rows = *args.footprints.array;
+  const double gap = args.gap, edge = args.edge.value_or(gap);
   if (Status bad = checked(call, rows, gap, edge); !bad) return bad;
   std::vector<Ground> grounds;
   if (Status bad = groundsOf(call, grounds); !bad) return bad;
@@ -150,11 +186,12 @@ Status applyArrange(OpCall& call) {
   std::vector<bool> done(rows.rows, false);
   uint32_t rest = rows.rows, hulls = 0;
   for (const Ground& ground : grounds) {
-    std::vector<Footprint> footprints = wanted(call, rows, ground.polygon);
+    std::vector<Footprint> footprints = wanted(call, args.turn, rows, ground.polygon);
     for (size_t i = 0; i < footprints.size(); ++i) {
       if (done[i]) footprints[i].width = 0;
     }
-    const ArrangeOrder order = call.is(4, "given") ? ArrangeOrder::Given : ArrangeOrder::Largest;
+    const ArrangeOrder order =
+        args.order == Order::Given ? ArrangeOrder::Given : ArrangeOrder::Largest;
     const std::vector<ArrangedPlace> places =
         arrange(ground.polygon, footprints, gap, edge, {}, order);
     Region covered;
@@ -179,8 +216,8 @@ Status applyArrange(OpCall& call) {
   return {};
 }
 
-Status applySpaced(OpCall& call) {
-  const double distance = call.number(0), edge = call.number(2, 0), jitter = call.number(3, 0.8);
+Status applySpaced(OpCall& call, const ScatterSpaced& args) {
+  const double distance = args.distance, edge = args.edge, jitter = args.jitter;
   if (!(distance > 0) || !std::isfinite(distance) || !(edge >= 0) || !(jitter >= 0)) {
     return call.fail("bad-argument",
                      "scatterSpaced needs a distance above zero and no negative edge or jitter",
@@ -201,7 +238,7 @@ Status applySpaced(OpCall& call) {
       return call.fail("scatter-too-many", "scatterSpaced would make more than 100000 shapes",
                        "give a larger distance, or divide the shape first");
     }
-    const auto points = call.is(1, "jittered")
+    const auto points = args.pattern == PointPattern::Jittered
                             ? scatterJittered(ground.polygon, distance, jitter, edge, most, address)
                             : scatterPoisson(ground.polygon, distance, edge, most, address);
     const Vec3 x = ground.frame.x, y = ground.frame.z;
@@ -219,38 +256,44 @@ Status applySpaced(OpCall& call) {
 }
 
 constexpr ParamSpec kArrangeParams[] = {
-    {"footprints", ParamType::FloatArray,
-     "A row for each: width and depth, then perhaps x and z in the scope of where its middle is to "
-     "be, then perhaps its turn in degrees. Without a place one is drawn."},
-    {"gap", ParamType::Float, "Between any two, in metres.", "1"},
-    {"edge", ParamType::Float, "Between them and the border.", "gap"},
-    {"turn", ParamType::Selector,
-     "Without a turn of its own a footprint lies as the scope does, fronts the edge nearest to its "
-     "wish, or is turned at random.",
-     "scope", "scope edge random"},
-    {"order", ParamType::Selector,
-     "Who finds a place first: the largest, or the first row, then the second and so on.",
-     "largest", "largest given"},
+    param<&Arrange::footprints>(
+        "footprints",
+        "A row for each: width and depth, then perhaps x and z in the scope of where its middle is "
+        "to "
+        "be, then perhaps its turn in degrees. Without a place one is drawn."),
+    param<&Arrange::gap>("gap", "Between any two, in metres.", "1"),
+    param<&Arrange::edge>("edge", "Between them and the border.", "gap"),
+    param<&Arrange::turn>("turn",
+                          "Without a turn of its own a footprint lies as the scope does, fronts "
+                          "the edge nearest to its "
+                          "wish, or is turned at random.",
+                          "scope"),
+    param<&Arrange::order>(
+        "order",
+        "Who finds a place first: the largest, or the first row, then the second and so on.",
+        "largest"),
 };
 constexpr Signature kArrange[] = {{kArrangeParams}};
 constexpr ParamSpec kSpacedParams[] = {
-    {"distance", ParamType::Float, "Between points: at least, or from cell to cell."},
-    {"pattern", ParamType::Selector,
-     "poisson: as many as fit, no two nearer than the distance; jittered: one in each cell of a "
-     "grid, moved from its middle.",
-     "poisson", "poisson jittered"},
-    {"edge", ParamType::Float, "Kept free along the border, in metres.", "0"},
-    {"jitter", ParamType::Float, "jittered: how far points may be moved, as a share of the cell.",
-     "0.8"},
+    param<&ScatterSpaced::distance>("distance", "Between points: at least, or from cell to cell."),
+    param<&ScatterSpaced::pattern>(
+        "pattern",
+        "poisson: as many as fit, no two nearer than the distance; jittered: one in each cell of a "
+        "grid, moved from its middle.",
+        "poisson"),
+    param<&ScatterSpaced::edge>("edge", "Kept free along the border, in metres.", "0"),
+    param<&ScatterSpaced::jitter>(
+        "jitter", "jittered: how far points may be moved, as a share of the cell.", "0.8"),
 };
 constexpr Signature kSpaced[] = {{kSpacedParams}};
 
 constexpr OpSpec kSpecs[] = {
     heavy({"arrange", "layout",
            "Finds free places for footprints, each near to where it is wished.", kArrange,
-           applyArrange, BlockKind::Selectors, kRandom, "placed remainder hull", false, true}),
+           typed<applyArrange>, BlockKind::Selectors, kRandom, "placed remainder hull", false,
+           true}),
     {"scatterSpaced", "layout", "Gives out points that keep a distance from each other.", kSpaced,
-     applySpaced, BlockKind::Operations, kRandom, nullptr, false, true},
+     typed<applySpaced>, BlockKind::Operations, kRandom, nullptr, false, true},
 };
 
 }  // namespace

@@ -49,8 +49,12 @@ class Emitter {
   uint32_t piece_ = 0;
 };
 
-Status applyCrenellate(OpCall& call) {
-  const CrenellationOptions o{call.number(0, 1.5), call.number(1, 0.75), call.number(2, 0.5)};
+struct Crenellate {
+  double merlon, gap, thickness;
+};
+
+Status applyCrenellate(OpCall& call, const Crenellate& args) {
+  const CrenellationOptions o{args.merlon, args.gap, args.thickness};
   for (const double v : {o.merlon, o.gap, o.thickness}) {
     if (v > 0 && std::isfinite(v)) continue;
     return call.fail("bad-argument", "crenellate needs a merlon, a gap and a thickness above zero",
@@ -75,16 +79,16 @@ Status applyCrenellate(OpCall& call) {
 }
 
 constexpr ParamSpec kParams[] = {
-    {"merlon", ParamType::Float, "Width of a merlon along the outline.", "1.5"},
-    {"gap", ParamType::Float, "Width of the gap between two of them.", "0.75"},
-    {"thickness", ParamType::Float, "How far they reach inward.", "0.5"},
+    param<&Crenellate::merlon>("merlon", "Width of a merlon along the outline.", "1.5"),
+    param<&Crenellate::gap>("gap", "Width of the gap between two of them.", "0.75"),
+    param<&Crenellate::thickness>("thickness", "How far they reach inward.", "0.5"),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     heavy({"crenellate", "layout", "Divides the band along an outline into merlons and crenels.",
-           kSignatures, applyCrenellate, BlockKind::Selectors, kPure, "merlon crenel remainder",
-           false, true}),
+           kSignatures, typed<applyCrenellate>, BlockKind::Selectors, kPure,
+           "merlon crenel remainder", false, true}),
 };
 
 }  // namespace

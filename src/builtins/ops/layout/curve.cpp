@@ -35,12 +35,44 @@ std::vector<Vec2> nextLine(const Array& a, size_t& row) {
   return out;
 }
 
+enum class Kind : uint8_t { Polyline, CatmullRom, Bezier, Arc };
+enum class End : uint8_t { Open, Closed };
+enum class What : uint8_t { Instead, Beside };
+
+}  // namespace
+
+template <>
+struct WordsOf<Kind> {
+  static constexpr const char* text = "polyline catmullRom bezier arc";
+};
+template <>
+struct WordsOf<End> {
+  static constexpr const char* text = "open closed";
+};
+template <>
+struct WordsOf<What> {
+  static constexpr const char* text = "instead beside";
+};
+
+namespace {
+
+struct Curve {
+  Kind kind;
+  Floats points;
+  End end;
+  double tolerance;
+  What what;
+};
+
 Line arcOf(const Array& a, size_t row, double tolerance) {
   const double* n = a.numbers.data() + row * a.columns;
   return arc({n[0], -n[1]}, n[2], n[3], n[4], tolerance);
 }
 
-std::vector<Polyline2> curvesOf(const OpCall& call, const Array& a, bool closed, double tolerance) {
+std::vector<Polyline2> curvesOf(const Curve& args) {
+  const Array& a = *args.points.array;
+  const bool closed = args.end == End::Closed;
+  const double tolerance = args.tolerance;
   std::vector<Polyline2> out;
   const auto add = [&](Line line, bool ring) {
     if (line.size() > 2 && line.front() == line.back()) {
@@ -55,15 +87,15 @@ std::vector<Polyline2> curvesOf(const OpCall& call, const Array& a, bool closed,
   };
   const auto isLost = [](Vec2 p) { return !std::isfinite(p.x) || !std::isfinite(p.y); };
   for (size_t row = 0; row < a.rows;) {
-    if (call.is(0, "arc")) {
+    if (args.kind == Kind::Arc) {
       add(arcOf(a, row++, tolerance), false);
       continue;
     }
     std::vector<Vec2> points = nextLine(a, row);
     std::erase_if(points, isLost);
-    if (call.is(0, "catmullRom")) {
+    if (args.kind == Kind::CatmullRom) {
       add(catmullRom(points, closed, tolerance), closed);
-    } else if (call.is(0, "bezier")) {
+    } else if (args.kind == Kind::Bezier) {
       add(bezier(points, tolerance), closed);
     } else {
       add(points, closed);
@@ -72,9 +104,9 @@ std::vector<Polyline2> curvesOf(const OpCall& call, const Array& a, bool closed,
   return out;
 }
 
-Status applyCurve(OpCall& call) {
-  const Array& points = call.services().pool().array(call.arg(1));
-  const uint32_t columns = call.is(0, "arc") ? 5 : 2;
+Status applyCurve(OpCall& call, const Curve& args) {
+  const Array& points = *args.points.array;
+  const uint32_t columns = args.kind == Kind::Arc ? 5 : 2;
   if (points.numbers.size() != points.size() || points.rows == 0 || points.columns < columns) {
     return call.fail("bad-argument",
                      columns == 5 ? "an arc is a row of five: x, z, radius, from, to"
@@ -85,19 +117,18 @@ Status applyCurve(OpCall& call) {
   if (points.rows > kMostGivenPoints) {
     return call.fail("bad-argument", "a curve takes 100000 points at most", "give fewer of them");
   }
-  const double tolerance = call.number(3, 0.001);
-  if (!(tolerance > 0)) {
+  if (!(args.tolerance > 0)) {
     return call.fail("bad-argument", "the tolerance of a curve is above zero",
                      "write 0.001 or leave it out");
   }
-  const auto curves = curvesOf(call, points, call.is(2, "closed"), tolerance);
+  const auto curves = curvesOf(args);
   if (curves.empty()) {
     return call.fail("bad-argument", "the points make no line", "give at least two points");
   }
   const MeshRef before = meshInScope(call.shape());
   MeshBuilder b;
   std::vector<uint32_t> map(before->positions.size(), MeshBuilder::kNoPosition);
-  const bool beside = call.is(4, "beside");
+  const bool beside = args.what == What::Beside;
   for (size_t f = 0; beside && f < before->faceCount(); ++f) b.copyFace(*before, f, map);
   const double height = beside && !before->positions.empty() ? before->positions[0].y : 0;
   for (const Polyline2& c : curves) addPolyline(b, c.line, c.closed, height, 0);
@@ -114,8 +145,12 @@ Region bandOf(const Polyline2& line, double half) {
   return subtract(offset(filled, half, round), offset(filled, -half, round));
 }
 
-Status applyRibbon(OpCall& call) {
-  const double width = call.number(0);
+struct Ribbon {
+  double width;
+};
+
+Status applyRibbon(OpCall& call, const Ribbon& args) {
+  const double width = args.width;
   if (!(width > 0) || !std::isfinite(width)) {
     return call.fail("bad-argument", "a ribbon needs a width above zero",
                      "give the width in metres, such as ribbon(4)");
@@ -154,29 +189,32 @@ Status applyRibbon(OpCall& call) {
 }
 
 constexpr ParamSpec kCurveParams[] = {
-    {"kind", ParamType::Selector,
-     "polyline: straight from point to point; catmullRom: smoothly through all points; bezier: "
-     "cubic pieces, every third point is met; arc: of a circle.",
-     nullptr, "polyline catmullRom bezier arc"},
-    {"points", ParamType::FloatArray,
-     "A row for each point: x, z in the scope, and perhaps the number of its line. For arcs a row "
-     "for each: x, z, radius, and two angles from x towards the back, in degrees."},
-    {"end", ParamType::Selector, "closed: back to the first point.", "open", "open closed"},
-    {"tolerance", ParamType::Float, "How far straight pieces may leave the curve.", "0.001"},
-    {"what", ParamType::Selector,
-     "instead: of the geometry that was there; beside: that stays, as the area of streets.",
-     "instead", "instead beside"},
+    param<&Curve::kind>(
+        "kind",
+        "polyline: straight from point to point; catmullRom: smoothly through all points; bezier: "
+        "cubic pieces, every third point is met; arc: of a circle."),
+    param<&Curve::points>(
+        "points",
+        "A row for each point: x, z in the scope, and perhaps the number of its line. For arcs a "
+        "row "
+        "for each: x, z, radius, and two angles from x towards the back, in degrees."),
+    param<&Curve::end>("end", "closed: back to the first point.", "open"),
+    param<&Curve::tolerance>("tolerance", "How far straight pieces may leave the curve.", "0.001"),
+    param<&Curve::what>(
+        "what",
+        "instead: of the geometry that was there; beside: that stays, as the area of streets.",
+        "instead"),
 };
 constexpr Signature kCurve[] = {{kCurveParams}};
 constexpr ParamSpec kRibbonParams[] = {
-    {"width", ParamType::Float, "From side to side, in metres."}};
+    param<&Ribbon::width>("width", "From side to side, in metres.")};
 constexpr Signature kRibbon[] = {{kRibbonParams}};
 
 constexpr OpSpec kSpecs[] = {
-    {"curve", "layout", "Makes the geometry a line through given points.", kCurve, applyCurve,
-     BlockKind::None, kPure, nullptr, false, true},
-    heavy({"ribbon", "layout", "Gives lines a width.", kRibbon, applyRibbon, BlockKind::None, kPure,
-           nullptr, false, true}),
+    {"curve", "layout", "Makes the geometry a line through given points.", kCurve,
+     typed<applyCurve>, BlockKind::None, kPure, nullptr, false, true},
+    heavy({"ribbon", "layout", "Gives lines a width.", kRibbon, typed<applyRibbon>, BlockKind::None,
+           kPure, nullptr, false, true}),
 };
 
 }  // namespace

@@ -62,7 +62,11 @@ Status replaceFaces(OpCall& call, Make&& make) {
 
 // ---- hull -----------------------------------------------------------------------------------
 
-Status applyHull(OpCall& call) {
+struct Hull {
+  double shortest;
+};
+
+Status applyHull(OpCall& call, const Hull& args) {
   std::vector<Ground> grounds;
   if (Status bad = groundsOf(call, grounds); !bad) return bad;
   const MeshRef mesh = meshInScope(call.shape());
@@ -71,7 +75,7 @@ Status applyHull(OpCall& call) {
     const Vec3 local = grounds[0].frame.toLocal(p);
     points.push_back({local.x, local.y});
   }
-  const double shortest = call.number(0, 0);
+  const double shortest = args.shortest;
   if (!(shortest >= 0) || !std::isfinite(shortest)) {
     return call.fail("bad-argument", "the shortest edge of a hull is not negative",
                      "write hull() for the hull as it is");
@@ -112,13 +116,29 @@ void addSlope(MeshBuilder& b, const Ground& g, const Polygon& p, const Points& l
   }
 }
 
-Status applyRing(OpCall& call) {
-  const double from = call.number(0), to = call.number(1), drop = call.number(2, 0);
+enum class Corners : uint8_t { Miter, Round };
+
+}  // namespace
+
+template <>
+struct WordsOf<Corners> {
+  static constexpr const char* text = "miter round";
+};
+
+namespace {
+
+struct RingArguments {
+  double from, to, drop;
+  Corners corners;
+};
+
+Status applyRing(OpCall& call, const RingArguments& args) {
+  const double from = args.from, to = args.to, drop = args.drop;
   if (!std::isfinite(from) || !std::isfinite(to) || !std::isfinite(drop)) {
     return call.fail("bad-argument", "the distances of ring are not finite numbers",
                      "check the expressions for a division by zero");
   }
-  const OffsetJoin join = call.is(3, "round") ? OffsetJoin::Round : OffsetJoin::Miter;
+  const OffsetJoin join = args.corners == Corners::Round ? OffsetJoin::Round : OffsetJoin::Miter;
   if (drop == 0) {
     return replaceFaces(call,
                         [&](const Polygon& p, size_t) { return bandAround({p}, from, to, join); });
@@ -140,12 +160,35 @@ Status applyRing(OpCall& call) {
 
 // ---- smoothOutline, roughenOutline ------------------------------------------------------------
 
-Status applySmooth(OpCall& call) {
-  const double amount = call.number(1, call.is(0, "round") ? 1 : 2);
+enum class SmoothMode : uint8_t { Chaikin, Average, Round };
+
+}  // namespace
+
+template <>
+struct WordsOf<SmoothMode> {
+  static constexpr const char* text = "chaikin average round";
+};
+
+namespace {
+
+struct SmoothOutline {
+  SmoothMode mode;
+  std::optional<double> amount;
+};
+
+Smoothing::Kind kindOf(SmoothMode mode) {
+  switch (mode) {
+    case SmoothMode::Round: return Smoothing::Kind::Round;
+    case SmoothMode::Average: return Smoothing::Kind::Average;
+    case SmoothMode::Chaikin: break;
+  }
+  return Smoothing::Kind::Chaikin;
+}
+
+Status applySmooth(OpCall& call, const SmoothOutline& args) {
+  const double amount = args.amount.value_or(args.mode == SmoothMode::Round ? 1 : 2);
   Smoothing s;
-  s.kind = call.is(0, "round")     ? Smoothing::Kind::Round
-           : call.is(0, "average") ? Smoothing::Kind::Average
-                                   : Smoothing::Kind::Chaikin;
+  s.kind = kindOf(args.mode);
   s.radius = amount;
   const bool times = s.kind != Smoothing::Kind::Round;
   if (!(amount > 0) || !std::isfinite(amount) || (times && amount > kMostCuts)) {
@@ -157,8 +200,12 @@ Status applySmooth(OpCall& call) {
   return replaceFaces(call, [&](const Polygon& p, size_t) { return smoothed(p, s); });
 }
 
-Status applyRoughen(OpCall& call) {
-  const double amount = call.number(0), wavelength = call.number(1);
+struct RoughenOutline {
+  double amount, wavelength;
+};
+
+Status applyRoughen(OpCall& call, const RoughenOutline& args) {
+  const double amount = args.amount, wavelength = args.wavelength;
   if (!std::isfinite(amount) || !(wavelength > 0) || !std::isfinite(wavelength)) {
     return call.fail("bad-argument", "roughenOutline needs a wavelength above zero",
                      "such as roughenOutline(2, 15)");
@@ -177,40 +224,40 @@ Status applyRoughen(OpCall& call) {
 }
 
 constexpr ParamSpec kHullParams[] = {
-    {"shortest", ParamType::Float,
-     "Shorter edges go: their neighbours are drawn on until they meet.", "0"},
+    param<&Hull::shortest>("shortest",
+                           "Shorter edges go: their neighbours are drawn on until they meet.", "0"),
 };
 constexpr Signature kHull[] = {{kHullParams}};
 constexpr ParamSpec kRingParams[] = {
-    {"from", ParamType::Float, "Where the ring begins: metres outward, inward where negative."},
-    {"to", ParamType::Float, "Where it ends."},
-    {"drop", ParamType::Float, "How much lower its edge at `to` lies: a slope of triangles.", "0"},
-    {"corners", ParamType::Selector, "Whether corners are pointed or rounded.", "miter",
-     "miter round"},
+    param<&RingArguments::from>("from",
+                                "Where the ring begins: metres outward, inward where negative."),
+    param<&RingArguments::to>("to", "Where it ends."),
+    param<&RingArguments::drop>("drop",
+                                "How much lower its edge at `to` lies: a slope of triangles.", "0"),
+    param<&RingArguments::corners>("corners", "Whether corners are pointed or rounded.", "miter"),
 };
 constexpr Signature kRing[] = {{kRingParams}};
 constexpr ParamSpec kSmoothParams[] = {
-    {"mode", ParamType::Selector,
-     "chaikin cuts corners, average draws them in, round rounds them by a radius.", nullptr,
-     "chaikin average round"},
-    {"amount", ParamType::Float, "How often, or the radius in metres.", "2, radius 1"},
+    param<&SmoothOutline::mode>(
+        "mode", "chaikin cuts corners, average draws them in, round rounds them by a radius."),
+    param<&SmoothOutline::amount>("amount", "How often, or the radius in metres.", "2, radius 1"),
 };
 constexpr Signature kSmooth[] = {{kSmoothParams}};
 constexpr ParamSpec kRoughenParams[] = {
-    {"amount", ParamType::Float, "How far points move at most, outward and inward."},
-    {"wavelength", ParamType::Float, "Over what distance that changes."},
+    param<&RoughenOutline::amount>("amount", "How far points move at most, outward and inward."),
+    param<&RoughenOutline::wavelength>("wavelength", "Over what distance that changes."),
 };
 constexpr Signature kRoughen[] = {{kRoughenParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"hull", "layout", "Replaces the geometry by its convex hull in the plane of its first face.",
-     kHull, applyHull},
+     kHull, typed<applyHull>},
     heavy({"ring", "layout", "Replaces each face by a ring around or within it, level or sloping.",
-           kRing, applyRing}),
+           kRing, typed<applyRing>}),
     heavy({"smoothOutline", "layout", "Smooths the outlines of the faces; they stay within.",
-           kSmooth, applySmooth}),
+           kSmooth, typed<applySmooth>}),
     heavy({"roughenOutline", "layout", "Makes the outlines of the faces wander as natural ones do.",
-           kRoughen, applyRoughen, BlockKind::None, kRandom}),
+           kRoughen, typed<applyRoughen>, BlockKind::None, kRandom}),
 };
 
 }  // namespace

@@ -29,16 +29,34 @@ uint32_t frontOf(const Parcel& p) {
   return best;
 }
 
-Status optionsOf(const OpCall& call, ParcelOptions& o) {
-  o.targetArea = call.number(1);
+enum class Method : uint8_t { Box, Skeleton };
+
+}  // namespace
+
+template <>
+struct WordsOf<Method> {
+  static constexpr const char* text = "box skeleton";
+};
+
+namespace {
+
+struct Parcels {
+  Method method;
+  double area;
+  std::optional<double> minWidth, minArea;
+  double irregularity;
+};
+
+Status optionsOf(const OpCall& call, const Parcels& args, ParcelOptions& o) {
+  o.targetArea = args.area;
   if (!(o.targetArea > 0)) {
     return call.fail("bad-argument", "parcels need an area larger than 0",
                      "give the area of a lot in square metres");
   }
-  o.minWidth = call.number(2, std::sqrt(o.targetArea) / 3);
-  o.minArea = call.number(3, o.targetArea / 3);
+  o.minWidth = args.minWidth.value_or(std::sqrt(o.targetArea) / 3);
+  o.minArea = args.minArea.value_or(o.targetArea / 3);
   o.minFrontage = o.minWidth / 2;
-  o.irregularity = call.number(4, 0.1);
+  o.irregularity = args.irregularity;
   const bool sound = o.minWidth >= 0 && o.minArea >= 0 && o.irregularity >= 0;
   if (sound) return {};
   return call.fail("bad-argument", "the least sizes of parcels cannot be negative", {});
@@ -54,12 +72,12 @@ const SelectorItem* itemFor(const OpCall& call, bool corner) {
   return nullptr;
 }
 
-Status applyParcels(OpCall& call) {
+Status applyParcels(OpCall& call, const Parcels& args) {
   ParcelOptions options;
-  if (Status bad = optionsOf(call, options); !bad) return bad;
+  if (Status bad = optionsOf(call, args, options); !bad) return bad;
   std::vector<Ground> grounds;
   if (Status bad = groundsOf(call, grounds); !bad) return bad;
-  const bool bySkeleton = call.is(0, "skeleton");
+  const bool bySkeleton = args.method == Method::Skeleton;
   uint32_t number = 0;
   for (size_t g = 0; g < grounds.size(); ++g) {
     options.address = call.randomAddress(g);
@@ -77,22 +95,23 @@ Status applyParcels(OpCall& call) {
 }
 
 constexpr ParamSpec kParams[] = {
-    {"method", ParamType::Selector,
-     "box cuts halves off halves, across the longer side; skeleton lays lots in rows along the "
-     "streets.",
-     nullptr, "box skeleton"},
-    {"area", ParamType::Float, "About how large a lot is to be, in square metres."},
-    {"minWidth", ParamType::Float, "No lot is narrower; a third of the side of a square lot.",
-     "sqrt(area) / 3"},
-    {"minArea", ParamType::Float, "No lot is smaller.", "area / 3"},
-    {"irregularity", ParamType::Float,
-     "How far a border may lie from its regular place, 0 to 0.4 of the length.", "0.1"},
+    param<&Parcels::method>(
+        "method",
+        "box cuts halves off halves, across the longer side; skeleton lays lots in rows along the "
+        "streets."),
+    param<&Parcels::area>("area", "About how large a lot is to be, in square metres."),
+    param<&Parcels::minWidth>(
+        "minWidth", "No lot is narrower; a third of the side of a square lot.", "sqrt(area) / 3"),
+    param<&Parcels::minArea>("minArea", "No lot is smaller.", "area / 3"),
+    param<&Parcels::irregularity>(
+        "irregularity", "How far a border may lie from its regular place, 0 to 0.4 of the length.",
+        "0.1"),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"parcels", "layout", "Divides a block into lots, each with a side on a street.", kSignatures,
-     applyParcels, BlockKind::Selectors, kRandom, "lot corner", false, true},
+     typed<applyParcels>, BlockKind::Selectors, kRandom, "lot corner", false, true},
 };
 
 }  // namespace

@@ -30,21 +30,39 @@ Vec2 middleOf(const Polygon& p) {
   return (box.min + box.max) * 0.5;
 }
 
-std::vector<Street> grown(const OpCall& call, const Ground& ground, uint64_t address) {
+enum class Pattern : uint8_t { Grid, Radial, Field, Given };
+
+}  // namespace
+
+template <>
+struct WordsOf<Pattern> {
+  static constexpr const char* text = "grid radial field given";
+};
+
+namespace {
+
+struct Streets {
+  Pattern pattern;
+  double spacing, width, irregularity;
+  std::optional<double> crossSpacing;
+  double angle;
+};
+
+std::vector<Street> grown(const Streets& args, const Ground& ground, uint64_t address) {
   const Region area{ground.polygon};
-  const double spacing = call.number(1), width = call.number(2, 12);
-  const double irregularity = call.number(3, 0.1);
-  if (call.is(0, "grid")) {
+  const double spacing = args.spacing, width = args.width;
+  const double irregularity = args.irregularity;
+  if (args.pattern == Pattern::Grid) {
     GridStreets o;
     o.spacing = spacing;
-    o.crossSpacing = call.number(4, spacing * 1.5);
-    o.angle = call.number(5, 0);
+    o.crossSpacing = args.crossSpacing.value_or(spacing * 1.5);
+    o.angle = args.angle;
     o.irregularity = irregularity;
     o.width = width;
     o.address = address;
     return gridStreets(area, o);
   }
-  if (call.is(0, "radial")) {
+  if (args.pattern == Pattern::Radial) {
     RadialStreets o;
     o.center = middleOf(ground.polygon);
     o.spacing = spacing;
@@ -56,12 +74,12 @@ std::vector<Street> grown(const OpCall& call, const Ground& ground, uint64_t add
   const Box2 box = bounds(ground.polygon);
   const double extent = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
   DirectionField field;
-  field.addGrid(middleOf(ground.polygon), call.number(5, 0), 0);
+  field.addGrid(middleOf(ground.polygon), args.angle, 0);
   field.addRadial(middleOf(ground.polygon), extent / 4);
   field.setNoise(irregularity * 150, spacing * 2.5, hashCombine(address, 1));
   FieldStreets o;
   o.spacing = spacing;
-  o.mainSpacing = call.number(4, spacing * 3.5);
+  o.mainSpacing = args.crossSpacing.value_or(spacing * 3.5);
   o.width = width;
   o.mainWidth = width * 1.6;
   o.shortest = spacing / 2;
@@ -119,15 +137,15 @@ const SelectorItem* itemFor(const OpCall& call, std::string_view what) {
   return nullptr;
 }
 
-Status applyStreets(OpCall& call) {
-  const double spacing = call.number(1), width = call.number(2, 12);
+Status applyStreets(OpCall& call, const Streets& args) {
+  const double spacing = args.spacing, width = args.width;
   if (!(spacing > 0) || !(width > 0) || width >= spacing) {
     return call.fail("bad-argument",
                      "streets need a spacing and a width larger than 0, the width the smaller one",
                      "such as streets(grid, 80, 12)");
   }
   std::vector<Ground> grounds;
-  const bool areGiven = call.is(0, "given");
+  const bool areGiven = args.pattern == Pattern::Given;
   const std::vector<Polyline2> lines = areGiven ? givenLines(call) : std::vector<Polyline2>{};
   Status sound = groundsOf(call, grounds);
   if (areGiven && !sound) sound = groundAround(call, lines, spacing, grounds);
@@ -137,7 +155,7 @@ Status applyStreets(OpCall& call) {
     const Ground& ground = grounds[g];
     const Region area{ground.polygon};
     const std::vector<Street> streets =
-        areGiven ? given(lines, area, width) : grown(call, ground, call.randomAddress(g));
+        areGiven ? given(lines, area, width) : grown(args, ground, call.randomAddress(g));
     StreetGraphOptions joined;
     joined.area = &area;
     joined.snap = std::max(width * kSnapShare, 0.5);
@@ -184,27 +202,31 @@ Status applyStreets(OpCall& call) {
 }
 
 constexpr ParamSpec kParams[] = {
-    {"pattern", ParamType::Selector,
-     "grid: two families of straight streets; radial: rings and spokes around the middle; field: "
-     "main streets and others between them, along a field of directions that turns around the "
-     "middle; given: the lines of the shape.",
-     nullptr, "grid radial field given"},
-    {"spacing", ParamType::Float,
-     "From street to street, in metres. given: how far the ground reaches beyond them, where there "
-     "is no face."},
-    {"width", ParamType::Float, "Of a street, pavements included; main streets are wider.", "12"},
-    {"irregularity", ParamType::Float, "How far streets leave their regular places, 0 to 0.4.",
-     "0.1"},
-    {"crossSpacing", ParamType::Float,
-     "grid: between the streets across. field: between main streets.", "1.5 or 3.5 * spacing"},
-    {"angle", ParamType::Float, "grid and field: turn of the pattern in degrees.", "0"},
+    param<&Streets::pattern>(
+        "pattern",
+        "grid: two families of straight streets; radial: rings and spokes around the middle; "
+        "field: "
+        "main streets and others between them, along a field of directions that turns around the "
+        "middle; given: the lines of the shape."),
+    param<&Streets::spacing>("spacing",
+                             "From street to street, in metres. given: how far the ground reaches "
+                             "beyond them, where there "
+                             "is no face."),
+    param<&Streets::width>("width", "Of a street, pavements included; main streets are wider.",
+                           "12"),
+    param<&Streets::irregularity>("irregularity",
+                                  "How far streets leave their regular places, 0 to 0.4.", "0.1"),
+    param<&Streets::crossSpacing>("crossSpacing",
+                                  "grid: between the streets across. field: between main streets.",
+                                  "1.5 or 3.5 * spacing"),
+    param<&Streets::angle>("angle", "grid and field: turn of the pattern in degrees.", "0"),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"streets", "layout", "Lays streets over a face, and gives out the blocks between them.",
-     kSignatures, applyStreets, BlockKind::Selectors, kRandom, "block roadway junction island",
-     false, true},
+     kSignatures, typed<applyStreets>, BlockKind::Selectors, kRandom,
+     "block roadway junction island", false, true},
 };
 
 }  // namespace

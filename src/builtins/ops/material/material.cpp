@@ -11,30 +11,48 @@ namespace gable {
 
 namespace {
 
-Status applyColor(OpCall& call) {
-  if (call.argCount() >= 3) {
-    setColor(call.shape(), {call.number(0), call.number(1), call.number(2)}, call.number(3, -1),
-             call.services());
-    return {};
-  }
+constexpr double kKeepOpacity = -1;
+
+// By a text or by numbers.
+struct Color {
+  std::optional<std::string_view> hex;
+  double red, green, blue;
+  double opacity = kKeepOpacity;
+};
+
+Status applyRgb(OpCall& call, const Color& args) {
+  setColor(call.shape(), {args.red, args.green, args.blue}, args.opacity, call.services());
+  return {};
+}
+
+Status applyColor(OpCall& call, const Color& args) {
+  if (!args.hex) return applyRgb(call, args);
   Vec3 rgb;
-  double opacity = -1;
-  if (!parseColor(call.text(0), rgb, opacity)) {
-    return call.fail("bad-argument", "'" + std::string(call.text(0)) + "' is not a colour",
+  double opacity = kKeepOpacity;
+  if (!parseColor(*args.hex, rgb, opacity)) {
+    return call.fail("bad-argument", "'" + std::string(*args.hex) + "' is not a colour",
                      "write \"#rrggbb\" or \"#rrggbboo\"");
   }
   setColor(call.shape(), rgb, opacity, call.services());
   return {};
 }
 
-Status applyTexture(OpCall& call) {
-  setTexture(call.shape(), call.text(0), call.services(), call.file());
+struct Texture {
+  std::string_view path;
+};
+
+Status applyTexture(OpCall& call, const Texture& args) {
+  setTexture(call.shape(), args.path, call.services(), call.file());
   return {};
 }
 
-Status applySetMaterial(OpCall& call) {
+struct SetMaterial {
+  Strings pairs;
+};
+
+Status applySetMaterial(OpCall& call, const SetMaterial& args) {
   ValuePool& pool = call.services().pool();
-  const Array& pairs = pool.array(call.arg(0));
+  const Array& pairs = *args.pairs.array;
   if (pairs.strings.size() % 2 != 0) {
     return call.fail("bad-argument", "setMaterial got a name without a value",
                      "write names and values in turns");
@@ -56,51 +74,67 @@ Status applySetMaterial(OpCall& call) {
   return {};
 }
 
-Status applyResetMaterial(OpCall& call) {
-  const std::string_view target = call.text(0, "shape");
-  resetMaterials(call.shape(), target != "geometry", target != "shape", call.services());
+enum class ResetTarget : uint8_t { Shape, Geometry, All };
+
+}  // namespace
+
+template <>
+struct WordsOf<ResetTarget> {
+  static constexpr const char* text = "shape geometry all";
+};
+
+namespace {
+
+struct ResetMaterial {
+  ResetTarget target;
+};
+
+Status applyResetMaterial(OpCall& call, const ResetMaterial& args) {
+  resetMaterials(call.shape(), args.target != ResetTarget::Geometry,
+                 args.target != ResetTarget::Shape, call.services());
   return {};
 }
 
 constexpr ParamSpec kHexParams[] = {
-    {"hexValue", ParamType::String, "\"#rrggbb\", or \"#rrggbboo\" with opacity."},
+    param<&Color::hex>("hexValue", "\"#rrggbb\", or \"#rrggbboo\" with opacity."),
 };
-constexpr ParamSpec kRed = {"red", ParamType::Float, "Red, 0 to 1."};
-constexpr ParamSpec kGreen = {"green", ParamType::Float, "Green, 0 to 1."};
-constexpr ParamSpec kBlue = {"blue", ParamType::Float, "Blue, 0 to 1."};
+constexpr ParamSpec kRed = param<&Color::red>("red", "Red, 0 to 1.");
+constexpr ParamSpec kGreen = param<&Color::green>("green", "Green, 0 to 1.");
+constexpr ParamSpec kBlue = param<&Color::blue>("blue", "Blue, 0 to 1.");
 constexpr ParamSpec kRgbParams[] = {kRed, kGreen, kBlue};
 constexpr ParamSpec kRgboParams[] = {
-    kRed, kGreen, kBlue, {"opacity", ParamType::Float, "From 0, invisible, to 1, opaque."}};
+    kRed, kGreen, kBlue, param<&Color::opacity>("opacity", "From 0, invisible, to 1, opaque.")};
 constexpr Signature kColorSignatures[] = {{kHexParams}, {kRgbParams}, {kRgboParams}};
 
 constexpr ParamSpec kTextureParams[] = {
-    {"filePath", ParamType::String, "The image; an empty text takes the texture away."},
+    param<&Texture::path>("filePath", "The image; an empty text takes the texture away."),
 };
 constexpr Signature kTextureSignatures[] = {{kTextureParams}};
 
 constexpr ParamSpec kSetMaterialParams[] = {
-    {"material", ParamType::StringArray,
-     "Names of material attributes, without \"material.\", and their values in turns."},
+    param<&SetMaterial::pairs>(
+        "material",
+        "Names of material attributes, without \"material.\", and their values in turns."),
 };
 constexpr Signature kSetMaterialSignatures[] = {{kSetMaterialParams}};
 
 constexpr ParamSpec kResetParams[] = {
-    {"target", ParamType::Selector,
-     "What rules have set on the shape, what an inserted model brought, or both.", "shape",
-     "shape geometry all"},
+    param<&ResetMaterial::target>(
+        "target", "What rules have set on the shape, what an inserted model brought, or both.",
+        "shape"),
 };
 constexpr Signature kResetSignatures[] = {{kResetParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"color", "material", "Sets the colour of the shape's material, and its opacity if given.",
-     kColorSignatures, applyColor},
+     kColorSignatures, typed<applyColor>},
     {"texture", "material",
      "Sets the colour map, and the opacity map too when the image has an alpha channel.",
-     kTextureSignatures, applyTexture},
+     kTextureSignatures, typed<applyTexture>},
     {"setMaterial", "material", "Sets many attributes of the material at once.",
-     kSetMaterialSignatures, applySetMaterial},
+     kSetMaterialSignatures, typed<applySetMaterial>},
     {"resetMaterial", "material", "Takes changes of the material back.", kResetSignatures,
-     applyResetMaterial},
+     typed<applyResetMaterial>},
 };
 
 }  // namespace

@@ -14,8 +14,13 @@ namespace gable {
 
 namespace {
 
-Status applySet(OpCall& call) {
-  const std::string name(call.text(0));
+struct Set {
+  Word attribute;
+  Value value;
+};
+
+Status applySet(OpCall& call, const Set& args) {
+  const std::string name(args.attribute.text);
   const AttributeSpec* attribute = builtinCatalogue().attribute(name);
   if (!attribute) {
     return call.fail("unknown-attribute", "there is no shape attribute '" + name + "'",
@@ -25,24 +30,24 @@ Status applySet(OpCall& call) {
     return call.fail("read-only-attribute", "'" + name + "' can only be read",
                      "set the attributes of scope, pivot, material and trim instead");
   }
-  if (call.arg(1).type != attribute->type) {
+  if (args.value.type != attribute->type) {
     return call.fail("type-mismatch",
                      "'" + name + "' takes a " + typeName(attribute->type) + ", not a " +
-                         typeName(call.arg(1).type),
+                         typeName(args.value.type),
                      "convert the value with float(), str() or bool()");
   }
-  return attribute->set(call, call.arg(1));
+  return attribute->set(call, args.value);
 }
 
 constexpr ParamSpec kParams[] = {
-    {"attribute", ParamType::Selector, "A shape attribute that can be written, or an attr."},
-    {"value", ParamType::Any, "The new value, of the attribute's type."},
+    param<&Set::attribute>("attribute", "A shape attribute that can be written, or an attr."),
+    param<&Set::value>("value", "The new value, of the attribute's type."),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"set", "material", "Gives an attribute of the shape a new value, for it and all that follows.",
-     kSignatures, applySet, BlockKind::None, kReadsWorld | kReadsInitialShape | kReadsPivot},
+     kSignatures, typed<applySet>, BlockKind::None, kReadsWorld | kReadsInitialShape | kReadsPivot},
 };
 
 }  // namespace

@@ -141,20 +141,38 @@ void soften(Shape& s, double angle) {
     editScaled(s, [&](Mesh& m) { softenNormals(m, angle); });
 }
 
-Status applySetNormals(OpCall& call) {
+enum class NormalsMode : uint8_t { Hard, Conform, Soft, Auto };
+
+}  // namespace
+
+template <>
+struct WordsOf<NormalsMode> {
+  static constexpr const char* text = "hard conform soft auto";
+};
+
+namespace {
+
+struct SetNormals {
+  NormalsMode mode;
+};
+
+Status applySetNormals(OpCall& call, const SetNormals& args) {
   Shape& s = call.shape();
-  const std::string_view mode = call.text(0);
-  if (mode == "conform") {
+  if (args.mode == NormalsMode::Conform) {
     const Vec3 up = s.scope.toLocalDirection(worldFrame(call.services()).y);
     editScaled(s, [&](Mesh& m) { conform(m, up); });
   } else {
-    soften(s, mode == "soft" ? 180 : mode == "auto" ? 30 : 0);
+    soften(s, args.mode == NormalsMode::Soft ? 180 : args.mode == NormalsMode::Auto ? 30 : 0);
   }
   return {};
 }
 
-Status applySoften(OpCall& call) {
-  const double angle = call.number(0);
+struct SoftenNormals {
+  double angle;
+};
+
+Status applySoften(OpCall& call, const SoftenNormals& args) {
+  const double angle = args.angle;
   if (std::isnan(angle)) {
     return call.fail("bad-argument", "softenNormals got no number", "give an angle in degrees");
   }
@@ -165,26 +183,27 @@ Status applySoften(OpCall& call) {
 constexpr Signature kNoArguments[] = {{}};
 
 constexpr ParamSpec kModeParams[] = {
-    {"normalsMode", ParamType::Selector,
-     "Flat faces (hard), averages around vertices (soft), averages but for edges of 30 degrees and "
-     "more (auto), or flat faces that agree which side is out (conform).",
-     nullptr, "hard conform soft auto"},
+    param<&SetNormals::mode>("normalsMode",
+                             "Flat faces (hard), averages around vertices (soft), averages but for "
+                             "edges of 30 degrees and "
+                             "more (auto), or flat faces that agree which side is out (conform)."),
 };
 constexpr Signature kModeSignatures[] = {{kModeParams}};
 
 constexpr ParamSpec kAngleParams[] = {
-    {"angle", ParamType::Float,
-     "Edges at which normals meet at this angle (degrees) or more stay hard: 0 for all, 180 for "
-     "none."},
+    param<&SoftenNormals::angle>(
+        "angle",
+        "Edges at which normals meet at this angle (degrees) or more stay hard: 0 for all, 180 for "
+        "none."),
 };
 constexpr Signature kAngleSignatures[] = {{kAngleParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"reverseNormals", "normals", "Turns all faces round.", kNoArguments, applyReverse},
     {"setNormals", "normals", "Sets how the faces are lit, flat or smoothed.", kModeSignatures,
-     applySetNormals, BlockKind::None, kReadsWorld | kReadsWorldByWord},
+     typed<applySetNormals>, BlockKind::None, kReadsWorld | kReadsWorldByWord},
     {"softenNormals", "normals", "Smooths the light across edges that are not too sharp.",
-     kAngleSignatures, applySoften},
+     kAngleSignatures, typed<applySoften>},
 };
 
 }  // namespace

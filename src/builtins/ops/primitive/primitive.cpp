@@ -48,10 +48,15 @@ Mesh inPlane(const Mesh& m, FlatPlane plane) {
   return m;
 }
 
-Status applyCube(OpCall& call) {
+// Without sizes all three are missing.
+struct Cube {
+  std::optional<double> width, height, depth;
+};
+
+Status applyCube(OpCall& call, const Cube& args) {
   Shape& s = call.shape();
-  if (call.argCount() == 3) {
-    centerOnGround(s, {call.number(0), call.number(1), call.number(2)});
+  if (args.width) {
+    centerOnGround(s, {*args.width, *args.height, *args.depth});
   } else {
     fillZeroSizes(s, kUnitBox);
   }
@@ -59,19 +64,23 @@ Status applyCube(OpCall& call) {
   return {};
 }
 
-bool applyCubeLight(LightPart& part, std::span<const Value> args) {
+bool applyCubeLight(LightPart& part, const Cube& args) {
   const bool solid = part.size.x > 0 && part.size.y > 0 && part.size.z > 0;
-  if (!args.empty() || !solid || (part.trim && reachesTrimPlane(part))) return false;
+  if (args.width || !solid || (part.trim && reachesTrimPlane(part))) return false;
   part.kind = GeometryKind::Box;
   part.uv = true;
   return true;
 }
 
-Status applyQuad(OpCall& call) {
+struct Quad {
+  std::optional<double> width, length;
+};
+
+Status applyQuad(OpCall& call, const Quad& args) {
   Shape& s = call.shape();
   const FlatPlane plane = planeOf(s.size);
-  if (call.argCount() == 2) {
-    centerInPlane(s, plane, call.number(0), call.number(1));
+  if (args.width) {
+    centerInPlane(s, plane, *args.width, *args.length);
   } else {
     const Vec3 flat{plane == FlatPlane::Yz ? 0.0 : 1.0, plane == FlatPlane::Xz ? 0.0 : 1.0,
                     plane == FlatPlane::Xy ? 0.0 : 1.0};
@@ -88,11 +97,7 @@ Status applyQuad(OpCall& call) {
 }
 
 // How many sides an argument asks for; fails below `least` and where a mistake is plain.
-Status countOf(const OpCall& call, size_t argument, uint32_t otherwise, uint32_t least,
-               const char* what, uint32_t& count) {
-  count = otherwise;
-  if (!call.has(argument)) return {};
-  const double v = call.number(argument);
+Status countOf(const OpCall& call, double v, uint32_t least, const char* what, uint32_t& count) {
   if (!(v >= least && v <= kMaxSolidFaces)) {
     return call.fail("bad-argument",
                      std::string(call.spec().name) + " cannot have " + numberText(v) + " " + what,
@@ -102,15 +107,20 @@ Status countOf(const OpCall& call, size_t argument, uint32_t otherwise, uint32_t
   return {};
 }
 
-Status applyDisk(OpCall& call) {
+struct Disk {
+  double sides;
+  std::optional<double> radius;
+};
+
+Status applyDisk(OpCall& call, const Disk& args) {
   Shape& s = call.shape();
   uint32_t sides = 0;
-  if (Status bad = countOf(call, 0, 16, 3, "vertices", sides); !bad) return bad;
+  if (Status bad = countOf(call, args.sides, 3, "vertices", sides); !bad) return bad;
   const FlatPlane plane = planeOf(s.size);
   Mesh mesh = inPlane(makeDisk(sides), plane);
   const Box3 box = mesh.bounds();
-  if (call.argCount() == 2) {
-    const Vec3 size = box.size() * std::fabs(call.number(1));
+  if (args.radius) {
+    const Vec3 size = box.size() * std::fabs(*args.radius);
     centerInPlane(s, plane, plane == FlatPlane::Yz ? size.y : size.x,
                   plane == FlatPlane::Xy ? size.y : size.z);
   } else {
@@ -120,95 +130,107 @@ Status applyDisk(OpCall& call) {
   return {};
 }
 
-// Puts a round body into the scope: `unit` has radius 1; sizes are written when `sized`.
-void insertRound(Shape& s, Mesh unit, bool sized, double radius, double height) {
+// Puts a round body into the scope: `unit` has radius 1 and fills the scope when none is given.
+void insertRound(Shape& s, Mesh unit, const std::optional<double>& radius, double height) {
   const Box3 box = unit.bounds();
   const Vec3 size = box.size();
-  if (sized)
-    centerOnGround(s, {size.x * radius, size.y * height, size.z * radius});
+  if (radius)
+    centerOnGround(s, {size.x * *radius, size.y * height, size.z * *radius});
   else
     fillZeroSizes(s, kUnitBox);
   insertMesh(s, std::move(unit), box);
 }
 
-Status applySphere(OpCall& call) {
+struct Sphere {
+  double sides = 16, divisions = 16;
+  std::optional<double> radius;
+};
+
+Status applySphere(OpCall& call, const Sphere& args) {
   uint32_t sides = 0, divisions = 0;
-  if (Status bad = countOf(call, 0, 16, 3, "sides", sides); !bad) return bad;
-  if (Status bad = countOf(call, 1, 16, 2, "divisions", divisions); !bad) return bad;
+  if (Status bad = countOf(call, args.sides, 3, "sides", sides); !bad) return bad;
+  if (Status bad = countOf(call, args.divisions, 2, "divisions", divisions); !bad) return bad;
   if (uint64_t{sides} * divisions > kMaxSolidFaces) {
     return call.fail("bad-argument", "primitiveSphere would have too many faces",
                      "use fewer sides and divisions");
   }
-  const double radius = call.number(2, 0);
-  insertRound(call.shape(), makeSphere(sides, divisions), call.has(2), radius, std::fabs(radius));
+  insertRound(call.shape(), makeSphere(sides, divisions), args.radius,
+              std::fabs(args.radius.value_or(0)));
   return {};
 }
 
-Status applyCylinder(OpCall& call) {
+struct Round {
+  double sides;
+  std::optional<double> radius;
+  double height = 0;
+};
+
+Status applyCylinder(OpCall& call, const Round& args) {
   uint32_t sides = 0;
-  if (Status bad = countOf(call, 0, 16, 3, "sides", sides); !bad) return bad;
-  insertRound(call.shape(), makeCylinder(sides), call.argCount() == 3, call.number(1, 0),
-              call.number(2, 0));
+  if (Status bad = countOf(call, args.sides, 3, "sides", sides); !bad) return bad;
+  insertRound(call.shape(), makeCylinder(sides), args.radius, args.height);
   return {};
 }
 
-Status applyCone(OpCall& call) {
+Status applyCone(OpCall& call, const Round& args) {
   uint32_t sides = 0;
-  if (Status bad = countOf(call, 0, 16, 3, "sides", sides); !bad) return bad;
-  insertRound(call.shape(), makeCone(sides), call.argCount() == 3, call.number(1, 0),
-              call.number(2, 0));
+  if (Status bad = countOf(call, args.sides, 3, "sides", sides); !bad) return bad;
+  insertRound(call.shape(), makeCone(sides), args.radius, args.height);
   return {};
 }
 
 constexpr ParamSpec kCubeParams[] = {
-    {"width", ParamType::Float, "Size along x, in metres."},
-    {"height", ParamType::Float, "Size along y; a negative one stands below the ground."},
-    {"depth", ParamType::Float, "Size along z."},
+    param<&Cube::width>("width", "Size along x, in metres."),
+    param<&Cube::height>("height", "Size along y; a negative one stands below the ground."),
+    param<&Cube::depth>("depth", "Size along z."),
 };
 constexpr Signature kCubeSignatures[] = {{}, {kCubeParams}};
 
 constexpr ParamSpec kQuadParams[] = {
-    {"width", ParamType::Float, "Size along the first axis of the plane, in metres."},
-    {"length", ParamType::Float, "Size along its second axis."},
+    param<&Quad::width>("width", "Size along the first axis of the plane, in metres."),
+    param<&Quad::length>("length", "Size along its second axis."),
 };
 constexpr Signature kQuadSignatures[] = {{}, {kQuadParams}};
 
-constexpr ParamSpec kSides = {"sides", ParamType::Float, "Faces around the axis, 3 or more.", "16"};
-constexpr ParamSpec kRadius = {"radius", ParamType::Float, "Radius in metres."};
-constexpr ParamSpec kHeight = {"height", ParamType::Float,
-                               "Height in metres; a negative one stands below the ground."};
+constexpr const char* kSidesDoc = "Faces around the axis, 3 or more.";
+constexpr const char* kRadiusDoc = "Radius in metres.";
 
 constexpr ParamSpec kDiskParams[] = {
-    {"nVertices", ParamType::Float, "Points on the rim, 3 or more.", "16"}};
-constexpr ParamSpec kDiskRadiusParams[] = {kDiskParams[0], kRadius};
-constexpr Signature kDiskSignatures[] = {{kDiskParams}, {kDiskRadiusParams}};
+    param<&Disk::sides>("nVertices", "Points on the rim, 3 or more.", "16"),
+    param<&Disk::radius>("radius", kRadiusDoc),
+};
+constexpr Signature kDiskSignatures[] = {{std::span(kDiskParams).first(1)}, {kDiskParams}};
 
-constexpr ParamSpec kDivisions = {"divisions", ParamType::Float,
-                                  "Rings of faces from pole to pole, 2 or more."};
-constexpr ParamSpec kSphereSides = {"sides", ParamType::Float, "Faces around the axis, 3 or more."};
-constexpr ParamSpec kSphereParams[] = {kSphereSides, kDivisions};
-constexpr ParamSpec kSphereRadiusParams[] = {kSphereSides, kDivisions, kRadius};
-constexpr Signature kSphereSignatures[] = {{}, {kSphereParams}, {kSphereRadiusParams}};
+constexpr ParamSpec kSphereParams[] = {
+    param<&Sphere::sides>("sides", kSidesDoc),
+    param<&Sphere::divisions>("divisions", "Rings of faces from pole to pole, 2 or more."),
+    param<&Sphere::radius>("radius", kRadiusDoc),
+};
+constexpr Signature kSphereSignatures[] = {
+    {}, {std::span(kSphereParams).first(2)}, {kSphereParams}};
 
-constexpr ParamSpec kRoundParams[] = {kSides};
+constexpr ParamSpec kRoundParams[] = {param<&Round::sides>("sides", kSidesDoc, "16")};
 constexpr ParamSpec kRoundSizedParams[] = {
-    {"sides", ParamType::Float, "Faces around the axis, 3 or more."}, kRadius, kHeight};
+    param<&Round::sides>("sides", kSidesDoc),
+    param<&Round::radius>("radius", kRadiusDoc),
+    param<&Round::height>("height", "Height in metres; a negative one stands below the ground."),
+};
 constexpr Signature kRoundSignatures[] = {{kRoundParams}, {kRoundSizedParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"primitiveQuad", "primitive", "Replaces the geometry by a rectangle.", kQuadSignatures,
-     applyQuad, BlockKind::None, kUsesTrim},
-    {"primitiveDisk", "primitive", "Replaces the geometry by a disk.", kDiskSignatures, applyDisk,
-     BlockKind::None, kUsesTrim},
+     typed<applyQuad>, BlockKind::None, kUsesTrim},
+    {"primitiveDisk", "primitive", "Replaces the geometry by a disk.", kDiskSignatures,
+     typed<applyDisk>, BlockKind::None, kUsesTrim},
     withLight({"primitiveCube", "primitive", "Replaces the geometry by a box.", kCubeSignatures,
-               applyCube, BlockKind::None, kUsesTrim},
-              applyCubeLight),
+               typed<applyCube>, BlockKind::None, kUsesTrim},
+              typedLight<applyCubeLight>),
     {"primitiveSphere", "primitive", "Replaces the geometry by a sphere.", kSphereSignatures,
-     applySphere, BlockKind::None, kUsesTrim},
+     typed<applySphere>, BlockKind::None, kUsesTrim},
     {"primitiveCylinder", "primitive", "Replaces the geometry by an upright cylinder.",
-     kRoundSignatures, applyCylinder, BlockKind::None, kUsesTrim},
+     kRoundSignatures, typed<applyCylinder>, BlockKind::None, kUsesTrim},
     {"primitiveCone", "primitive", "Replaces the geometry by an upright cone.", kRoundSignatures,
-     applyCone, BlockKind::None, kUsesTrim},
+     typed<applyCone>, BlockKind::None, kUsesTrim},
 };
 
 }  // namespace

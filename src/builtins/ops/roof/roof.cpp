@@ -23,22 +23,25 @@ namespace gable {
 
 namespace {
 
-// The arguments that all roofs begin with; `next` is the index of the first one after them.
-struct Pitch {
-  RoofPitch pitch;
-  size_t next = 1;
+enum class By : uint8_t { Angle, Height };
+
+}  // namespace
+
+template <>
+struct WordsOf<By> {
+  static constexpr const char* text = "byAngle byHeight";
 };
 
-Pitch pitchOf(const OpCall& call) {
-  Pitch p;
-  if (call.arg(0).type == ValueType::Float) {
-    p.pitch = {RoofPitch::By::Angle, call.number(0)};
-    return p;
-  }
-  const bool byHeight = call.is(0, "byHeight");
-  p.pitch = {byHeight ? RoofPitch::By::Height : RoofPitch::By::Angle, call.number(1)};
-  p.next = 2;
-  return p;
+namespace {
+
+// What all roofs take. A plain number is an angle.
+struct Pitch {
+  By by = By::Angle;
+  double value;
+};
+
+RoofPitch pitchOf(const Pitch& args) {
+  return {args.by == By::Height ? RoofPitch::By::Height : RoofPitch::By::Angle, args.value};
 }
 
 // Turns a roof into faces of a mesh: the bottom first, as an extrusion has it.
@@ -134,54 +137,64 @@ Status badOverhang(const OpCall& call) {
                    "give zero or a positive number");
 }
 
-Status applyHip(OpCall& call) {
-  const Pitch p = pitchOf(call);
-  const double overhang = call.number(p.next, 0);
-  if (!isOverhang(overhang)) return badOverhang(call);
-  const bool even = call.truth(p.next + 1, false);
-  return roofOnEachFace(
-      call, [&](const Polygon& polygon) { return hipRoof(polygon, p.pitch, overhang, even); },
-      false);
+bool isEdgeIndex(double v) { return std::fabs(v) < 1e9; }
+
+Status badEdge(const OpCall& call) {
+  return call.fail("roof-edge", "the edge index is not a number of an edge",
+                   "edges are counted from 0");
 }
 
-Status applyGable(OpCall& call) {
-  const Pitch p = pitchOf(call);
-  GableOptions options;
-  options.overhangX = call.number(p.next, 0);
-  options.overhangY = call.number(p.next + 1, 0);
-  options.even = call.truth(p.next + 2, false);
-  if (!isOverhang(options.overhangX) || !isOverhang(options.overhangY)) return badOverhang(call);
-  if (call.has(p.next + 3)) {
-    const double edge = call.number(p.next + 3);
-    if (!(std::fabs(edge) < 1e9)) {
-      return call.fail("roof-edge", "the edge index is not a number of an edge",
-                       "edges are counted from 0");
-    }
-    options.ridgeEdge = static_cast<int64_t>(edge);
-  }
-  return roofOnEachFace(
-      call, [&](const Polygon& polygon) { return gableRoof(polygon, p.pitch, options); }, false);
-}
+struct Hip : Pitch {
+  double overhang;
+  bool even;
+};
 
-Status applyShed(OpCall& call) {
-  const Pitch p = pitchOf(call);
-  const double edge = call.number(p.next, 0);
-  if (!(std::fabs(edge) < 1e9)) {
-    return call.fail("roof-edge", "the edge index is not a number of an edge",
-                     "edges are counted from 0");
-  }
+Status applyHip(OpCall& call, const Hip& args) {
+  if (!isOverhang(args.overhang)) return badOverhang(call);
   return roofOnEachFace(
       call,
       [&](const Polygon& polygon) {
-        return shedRoof(polygon, p.pitch, static_cast<int64_t>(edge));
+        return hipRoof(polygon, pitchOf(args), args.overhang, args.even);
+      },
+      false);
+}
+
+struct Gable : Pitch {
+  double overhangX, overhangY;
+  bool even;
+  std::optional<double> index;
+};
+
+Status applyGable(OpCall& call, const Gable& args) {
+  if (!isOverhang(args.overhangX) || !isOverhang(args.overhangY)) return badOverhang(call);
+  if (args.index && !isEdgeIndex(*args.index)) return badEdge(call);
+  GableOptions options;
+  options.overhangX = args.overhangX;
+  options.overhangY = args.overhangY;
+  options.even = args.even;
+  if (args.index) options.ridgeEdge = static_cast<int64_t>(*args.index);
+  return roofOnEachFace(
+      call, [&](const Polygon& polygon) { return gableRoof(polygon, pitchOf(args), options); },
+      false);
+}
+
+struct Shed : Pitch {
+  double index;
+};
+
+Status applyShed(OpCall& call, const Shed& args) {
+  if (!isEdgeIndex(args.index)) return badEdge(call);
+  return roofOnEachFace(
+      call,
+      [&](const Polygon& polygon) {
+        return shedRoof(polygon, pitchOf(args), static_cast<int64_t>(args.index));
       },
       true);
 }
 
-Status applyPyramid(OpCall& call) {
-  const Pitch p = pitchOf(call);
+Status applyPyramid(OpCall& call, const Pitch& args) {
   return roofOnEachFace(
-      call, [&](const Polygon& polygon) { return pyramidRoof(polygon, p.pitch); }, false);
+      call, [&](const Polygon& polygon) { return pyramidRoof(polygon, pitchOf(args)); }, false);
 }
 
 // What is below a plane of a closed mesh; the face that closes it gets `tags`. Tags of other faces
@@ -236,11 +249,11 @@ Mesh ridgeRoof(const Mesh& m, size_t face, const Vec3& ridge, RoofPitch pitch, A
   return below(below(prism.mesh, rising, top, slot), falling, top, slot);
 }
 
-Status applyRidge(OpCall& call) {
+Status applyRidge(OpCall& call, const Pitch& args) {
   Shape& s = call.shape();
-  const Pitch p = pitchOf(call);
-  const bool angle = p.pitch.by == RoofPitch::By::Angle;
-  if (!(p.pitch.value > 0) || (angle && p.pitch.value >= 90) || !std::isfinite(p.pitch.value)) {
+  const RoofPitch pitch = pitchOf(args);
+  const bool angle = pitch.by == RoofPitch::By::Angle;
+  if (!(pitch.value > 0) || (angle && pitch.value >= 90) || !std::isfinite(pitch.value)) {
     return call.fail("roof-pitch",
                      "the roof's angle is not within 0 and 90 or its height not positive",
                      "give an angle between 0 and 90 degrees or a positive height");
@@ -253,62 +266,47 @@ Status applyRidge(OpCall& call) {
   for (size_t f = 0; f < mesh->faceCount(); ++f) {
     if (mesh->normal(f) == Vec3{}) continue;
     const Frame axes = axesWithY(straightened(mesh->normal(f)), {1, 0, 0});
-    append(out, ridgeRoof(*mesh, f, axes.x, p.pitch, tags));
+    append(out, ridgeRoof(*mesh, f, axes.x, pitch, tags));
   }
   for (auto& set : out.uvs) set.clear();
   refit(s, std::move(out), axesWithY(up, {1, 0, 0}));
   return {};
 }
 
-constexpr const char* kByWords = "byAngle byHeight";
 constexpr const char* kAngleDoc = "The slope of the roof planes, in degrees.";
 constexpr const char* kByDoc = "What the value means: the slope, or the height of the top.";
 constexpr const char* kValueDoc = "The slope in degrees, or the height in metres.";
 constexpr const char* kEvenDoc = "Makes ridges level; faces may then be bent.";
+constexpr const char* kEavesDoc = "How far the eaves reach out, down the slope.";
 constexpr const char* kEdgeDoc = "The edge to which the roof is turned, counted from 0.";
 
-constexpr ParamSpec kHipByAngle[] = {
-    {"angle", ParamType::Float, kAngleDoc},
-    {"overhang", ParamType::Float, "How far the eaves reach out, down the slope.", "0"},
-    {"even", ParamType::Bool, kEvenDoc, "false"},
-};
-constexpr ParamSpec kHipByValue[] = {
-    {"valueType", ParamType::Selector, kByDoc, nullptr, kByWords},
-    {"value", ParamType::Float, kValueDoc},
-    {"overhang", ParamType::Float, "How far the eaves reach out, down the slope.", "0"},
-    {"even", ParamType::Bool, kEvenDoc, "false"},
-};
-constexpr ParamSpec kGableByAngle[] = {
-    {"angle", ParamType::Float, kAngleDoc},
-    {"overhangX", ParamType::Float, "How far the eaves reach out, down the slope.", "0"},
-    {"overhangY", ParamType::Float, "How far the gable ends reach out, along the ridge.", "0"},
-    {"even", ParamType::Bool, kEvenDoc, "false"},
-    {"index", ParamType::Float, "The edge that the ridge runs along; for a single convex face.",
-     "-1"},
-};
-constexpr ParamSpec kGableByValue[] = {
-    {"valueType", ParamType::Selector, kByDoc, nullptr, kByWords},
-    {"value", ParamType::Float, kValueDoc},
-    {"overhangX", ParamType::Float, "How far the eaves reach out, down the slope.", "0"},
-    {"overhangY", ParamType::Float, "How far the gable ends reach out, along the ridge.", "0"},
-    {"even", ParamType::Bool, kEvenDoc, "false"},
-    {"index", ParamType::Float, "The edge that the ridge runs along; for a single convex face.",
-     "-1"},
-};
-constexpr ParamSpec kShedByAngle[] = {
-    {"angle", ParamType::Float, kAngleDoc},
-    {"index", ParamType::Float, kEdgeDoc, "0"},
-};
-constexpr ParamSpec kShedByValue[] = {
-    {"valueType", ParamType::Selector, kByDoc, nullptr, kByWords},
-    {"value", ParamType::Float, kValueDoc},
-    {"index", ParamType::Float, kEdgeDoc, "0"},
-};
-constexpr ParamSpec kAngle[] = {{"angle", ParamType::Float, kAngleDoc}};
+constexpr ParamSpec kAngle[] = {param<&Pitch::value>("angle", kAngleDoc)};
 constexpr ParamSpec kValue[] = {
-    {"valueType", ParamType::Selector, kByDoc, nullptr, kByWords},
-    {"value", ParamType::Float, kValueDoc},
+    param<&Pitch::by>("valueType", kByDoc),
+    param<&Pitch::value>("value", kValueDoc),
 };
+constexpr ParamSpec kOverhang = param<&Hip::overhang>("overhang", kEavesDoc, "0");
+constexpr ParamSpec kEven = param<&Hip::even>("even", kEvenDoc, "false");
+constexpr ParamSpec kHipByAngle[] = {kAngle[0], kOverhang, kEven};
+constexpr ParamSpec kHipByValue[] = {kValue[0], kValue[1], kOverhang, kEven};
+
+constexpr ParamSpec kGableRest[] = {
+    param<&Gable::overhangX>("overhangX", kEavesDoc, "0"),
+    param<&Gable::overhangY>("overhangY", "How far the gable ends reach out, along the ridge.",
+                             "0"),
+    param<&Gable::even>("even", kEvenDoc, "false"),
+    param<&Gable::index>("index", "The edge that the ridge runs along; for a single convex face.",
+                         "found"),
+};
+constexpr ParamSpec kGableByAngle[] = {kAngle[0], kGableRest[0], kGableRest[1], kGableRest[2],
+                                       kGableRest[3]};
+constexpr ParamSpec kGableByValue[] = {kValue[0],     kValue[1],     kGableRest[0],
+                                       kGableRest[1], kGableRest[2], kGableRest[3]};
+
+constexpr ParamSpec kShedIndex = param<&Shed::index>("index", kEdgeDoc, "0");
+constexpr ParamSpec kShedByAngle[] = {kAngle[0], kShedIndex};
+constexpr ParamSpec kShedByValue[] = {kValue[0], kValue[1], kShedIndex};
+
 constexpr Signature kHip[] = {{kHipByAngle}, {kHipByValue}};
 constexpr Signature kGable[] = {{kGableByAngle}, {kGableByValue}};
 constexpr Signature kShed[] = {{kShedByAngle}, {kShedByValue}};
@@ -317,17 +315,17 @@ constexpr Signature kRidge[] = {{kAngle}, {kValue}};
 
 constexpr OpSpec kSpecs[] = {
     heavy({"roofHip", "roof", "Puts a hip roof on each face: a slope rises from every edge.", kHip,
-           applyHip}),
+           typed<applyHip>}),
     heavy({"roofGable", "roof",
            "Puts a gable roof on each face: slopes at the eaves, upright ends.", kGable,
-           applyGable}),
+           typed<applyGable>}),
     heavy({"roofShed", "roof", "Puts a shed roof on each face: one slope that rises from an edge.",
-           kShed, applyShed}),
+           kShed, typed<applyShed>}),
     heavy({"roofPyramid", "roof", "Joins the edges of each face to a point above its middle.",
-           kPyramid, applyPyramid}),
+           kPyramid, typed<applyPyramid>}),
     heavy({"roofRidge", "roof",
            "Puts two slopes on each face that meet in one ridge along the scope's x.", kRidge,
-           applyRidge}),
+           typed<applyRidge>}),
 };
 
 }  // namespace

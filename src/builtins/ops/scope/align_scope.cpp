@@ -35,9 +35,13 @@ Vec3 across(const Vec3& v, const Vec3& axis, const Vec3& otherwise) {
   return length(part) > 1e-9 ? normalized(part) : otherwise;
 }
 
-Status applyToAxes(OpCall& call) {
+struct AlignToAxes {
+  Word axes;
+};
+
+Status applyToAxes(OpCall& call, const AlignToAxes& args) {
   Shape& s = call.shape();
-  std::string_view word = call.text(0, "world.xyz");
+  std::string_view word = args.axes.text;
   Frame to = worldFrame(call.services());
   if (word.starts_with("object")) to = objectFrame(call.services());
   if (const size_t dot = word.find('.'); dot != std::string_view::npos) word.remove_prefix(dot + 1);
@@ -189,10 +193,38 @@ size_t sideFace(const Mesh& m, const Vec3& up) {
   return 0;
 }
 
-// Legacy calls with two arguments: a face index, auto, or an orientation word.
-Pick pickLegacy(const OpCall& call, const Picker& picker, const Mesh& m, const Frame& scope) {
-  if (call.arg(1).type == ValueType::Float) return {wrapped(call.number(1), m.faceCount()), 0};
-  const std::string_view word = call.text(1);
+enum class UpAxis : uint8_t { Y, Z };
+enum class FaceWord : uint8_t { Lowest, Largest, Any };
+enum class EdgeWord : uint8_t { Lowest, Longest };
+
+}  // namespace
+
+template <>
+struct WordsOf<UpAxis> {
+  static constexpr const char* text = "yUp zUp";
+};
+template <>
+struct WordsOf<FaceWord> {
+  static constexpr const char* text = "world.lowest largest any";
+};
+template <>
+struct WordsOf<EdgeWord> {
+  static constexpr const char* text = "world.lowest longest";
+};
+
+namespace {
+
+// A face and an edge, each by a number or by a word. The old form has a word of its own, or the
+// number of a face without an edge.
+struct AlignToGeometry {
+  UpAxis up;
+  std::optional<double> faceIndex, edgeIndex;
+  FaceWord face;
+  std::optional<EdgeWord> edge;
+  std::optional<Word> oldFace;
+};
+
+Pick pickOldFace(std::string_view word, const Picker& picker, const Mesh& m, const Frame& scope) {
   if (word == "auto") {
     return picker.levelEdges() ? picker.longestEdge(true, 0) : picker.lowestEdge(true, 0);
   }
@@ -208,23 +240,23 @@ Pick pickLegacy(const OpCall& call, const Picker& picker, const Mesh& m, const F
   return {face, 0};
 }
 
-Pick pick(const OpCall& call, const Picker& picker, const Mesh& m, const Frame& scope) {
-  if (call.argCount() < 3) return pickLegacy(call, picker, m, scope);
-  const bool any = call.is(1, "any");
+Pick pick(const AlignToGeometry& args, const Picker& picker, const Mesh& m, const Frame& scope) {
+  if (args.oldFace) return pickOldFace(args.oldFace->text, picker, m, scope);
+  const bool any = !args.faceIndex && args.face == FaceWord::Any;
   size_t face = 0;
-  if (call.arg(1).type == ValueType::Float)
-    face = wrapped(call.number(1), m.faceCount());
-  else if (call.is(1, "largest"))
+  if (args.faceIndex)
+    face = wrapped(*args.faceIndex, m.faceCount());
+  else if (args.face == FaceWord::Largest)
     face = picker.largestFace();
   else if (!any)
     face = picker.lowestFace();
-  if (call.arg(2).type == ValueType::Float) {
-    return {face, wrapped(call.number(2), edgeCount(m, face))};
-  }
-  return call.is(2, "longest") ? picker.longestEdge(any, face) : picker.lowestEdge(any, face);
+  if (args.edgeIndex) return {face, wrapped(*args.edgeIndex, edgeCount(m, face))};
+  if (!args.edge) return {face, 0};
+  return args.edge == EdgeWord::Longest ? picker.longestEdge(any, face)
+                                        : picker.lowestEdge(any, face);
 }
 
-Status applyToGeometry(OpCall& call) {
+Status applyToGeometry(OpCall& call, const AlignToGeometry& args) {
   Shape& s = call.shape();
   if (s.geometry.kind == GeometryKind::None) {
     s.pivot = s.scope;
@@ -233,7 +265,7 @@ Status applyToGeometry(OpCall& call) {
   const Mesh mesh = meshInLocal(s);
   const Frame world = worldFrame(call.services());
   const Picker picker(mesh, world.y);
-  const Pick at = pick(call, picker, mesh, s.scope);
+  const Pick at = pick(args, picker, mesh, s.scope);
   const EdgeEnds ends = edgeOf(mesh, at.face, at.edge);
 
   // Points and edges have no normal of their own; their scope has one, which is z.
@@ -241,7 +273,7 @@ Status applyToGeometry(OpCall& call) {
   const bool flat = normal == Vec3{};
   if (flat) normal = across(s.scope.z, normalized(ends.b - ends.a), s.scope.y);
   const Vec3 x = across(ends.b - ends.a, normal, across(s.scope.x, normal, s.scope.y));
-  const bool zUp = call.is(0, "zUp");
+  const bool zUp = args.up == UpAxis::Z;
   align(s, zUp ? axesOf(x, cross(normal, x), normal) : axesOf(x, normal, cross(x, normal)));
   return {};
 }
@@ -295,13 +327,17 @@ Vec2 longSideOf(const std::vector<Vec2>& points) {
   return direction;
 }
 
-Status applyToBBox(OpCall& call) {
+struct AlignToBox {
+  Word axes;
+};
+
+Status applyToBBox(OpCall& call, const AlignToBox& args) {
   Shape& s = call.shape();
   if (s.geometry.kind == GeometryKind::None) {
     s.pivot = s.scope;
     return {};
   }
-  const std::string_view word = call.text(0);
+  const std::string_view word = args.axes.text;
   const Vec3* const axes[3] = {&s.scope.x, &s.scope.y, &s.scope.z};
   const size_t first = word.empty() ? 0 : static_cast<size_t>(word[0] - 'x');
   const size_t second = word.size() < 2 ? 2 : static_cast<size_t>(word[1] - 'x');
@@ -330,33 +366,33 @@ Status applyToBBox(OpCall& call) {
 }
 
 constexpr ParamSpec kAxesParams[] = {
-    {"alignAxes", ParamType::Selector,
-     "The axis of the world or the object that the scope takes over; xyz takes all three. A word "
-     "without a system means the world's.",
-     "world.xyz",
-     "x y z xyz world.x world.y world.z world.xyz object.x object.y object.z object.xyz"},
+    param<&AlignToAxes::axes>(
+        "alignAxes",
+        "The axis of the world or the object that the scope takes over; xyz takes all three. A "
+        "word "
+        "without a system means the world's.",
+        "world.xyz",
+        "x y z xyz world.x world.y world.z world.xyz object.x object.y object.z object.xyz"),
 };
 constexpr Signature kAxesSignatures[] = {{kAxesParams}};
 
-constexpr ParamSpec kUpAxis = {"upAxis", ParamType::Selector,
-                               "The axis of the scope that becomes the normal of the face.",
-                               nullptr, "yUp zUp"};
-constexpr ParamSpec kFaceIndex = {"faceIndex", ParamType::Float,
-                                  "The face, counted from 0; negative counts from the last."};
-constexpr ParamSpec kFaceWord = {
-    "faceSelector", ParamType::Selector,
-    "The lowest or the largest face, or any: the one of the edge that the next argument finds.",
-    nullptr, "world.lowest largest any"};
-constexpr ParamSpec kEdgeIndex = {"edgeIndex", ParamType::Float,
-                                  "The edge of the face that the x axis follows, from 0; negative "
-                                  "counts from the last."};
-constexpr ParamSpec kEdgeWord = {"edgeSelector", ParamType::Selector,
-                                 "The lowest or the longest edge.", nullptr,
-                                 "world.lowest longest"};
-constexpr ParamSpec kLegacyWord = {
-    "face", ParamType::Selector,
+constexpr ParamSpec kUpAxis = param<&AlignToGeometry::up>(
+    "upAxis", "The axis of the scope that becomes the normal of the face.");
+constexpr ParamSpec kFaceIndex = param<&AlignToGeometry::faceIndex>(
+    "faceIndex", "The face, counted from 0; negative counts from the last.");
+constexpr ParamSpec kFaceWord = param<&AlignToGeometry::face>(
+    "faceSelector",
+    "The lowest or the largest face, or any: the one of the edge that the next argument finds.");
+constexpr ParamSpec kEdgeIndex = param<&AlignToGeometry::edgeIndex>(
+    "edgeIndex",
+    "The edge of the face that the x axis follows, from 0; negative "
+    "counts from the last.");
+constexpr ParamSpec kEdgeWord =
+    param<&AlignToGeometry::edge>("edgeSelector", "The lowest or the longest edge.");
+constexpr ParamSpec kLegacyWord = param<&AlignToGeometry::oldFace>(
+    "face",
     "Old form: auto takes the lowest edge of all, any other word the first edge of such a face.",
-    nullptr, "auto side front back left right top bottom world.lowest largest"};
+    nullptr, "auto side front back left right top bottom world.lowest largest");
 constexpr ParamSpec kIndexIndex[] = {kUpAxis, kFaceIndex, kEdgeIndex};
 constexpr ParamSpec kWordIndex[] = {kUpAxis, kFaceWord, kEdgeIndex};
 constexpr ParamSpec kIndexWord[] = {kUpAxis, kFaceIndex, kEdgeWord};
@@ -368,23 +404,23 @@ constexpr Signature kGeometrySignatures[] = {{kIndexIndex},        {kWordIndex},
                                              {kLegacyIndexParams}, {kLegacyWordParams}};
 
 constexpr ParamSpec kBBoxParams[] = {
-    {"alignAxes", ParamType::Selector,
-     "The two axes that turn; the first follows the longer side of the rectangle.", nullptr,
-     "xy yx xz zx yz zy"},
+    param<&AlignToBox::axes>(
+        "alignAxes", "The two axes that turn; the first follows the longer side of the rectangle.",
+        nullptr, "xy yx xz zx yz zy"),
 };
 constexpr Signature kBBoxSignatures[] = {{kBBoxParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"alignScopeToAxes", "scope",
      "Gives the scope the directions of the world or the object and fits it around the geometry.",
-     kAxesSignatures, applyToAxes, BlockKind::None, kReadsWorld},
+     kAxesSignatures, typed<applyToAxes>, BlockKind::None, kReadsWorld},
     {"alignScopeToGeometry", "scope",
      "Gives the scope axes from the normal of a face and one of its edges, and fits it around the "
      "geometry.",
-     kGeometrySignatures, applyToGeometry, BlockKind::None, kReadsWorld | kReadsWorldByWord},
+     kGeometrySignatures, typed<applyToGeometry>, BlockKind::None, kReadsWorld | kReadsWorldByWord},
     {"alignScopeToGeometryBBox", "scope",
      "Turns two axes of the scope so that they span the smallest rectangle around the geometry.",
-     kBBoxSignatures, applyToBBox},
+     kBBoxSignatures, typed<applyToBBox>},
 };
 
 }  // namespace

@@ -11,9 +11,13 @@ namespace gable {
 
 namespace {
 
-Status applyMirrorScope(OpCall& call) {
+struct Flips {
+  bool x, y, z;
+};
+
+Status applyMirrorScope(OpCall& call, const Flips& args) {
   Shape& s = call.shape();
-  const bool flip[3] = {call.arg(0).truth(), call.arg(1).truth(), call.arg(2).truth()};
+  const bool flip[3] = {args.x, args.y, args.z};
   if (!flip[0] && !flip[1] && !flip[2]) return {};
   const Vec3 by{flip[0] ? s.size.x : 0, flip[1] ? s.size.y : 0, flip[2] ? s.size.z : 0};
   const GeometryKind kind = s.geometry.kind;
@@ -28,11 +32,12 @@ Status applyMirrorScope(OpCall& call) {
 }
 
 // Each mirrored axis is turned round within the scope; faces keep looking outward.
-Status applyMirror(OpCall& call) {
+Status applyMirror(OpCall& call, const Flips& args) {
   Shape& s = call.shape();
+  const bool flip[3] = {args.x, args.y, args.z};
   Vec3 scale{1, 1, 1}, by;
   for (size_t i = 0; i < 3; ++i) {
-    if (!call.arg(i).truth()) continue;
+    if (!flip[i]) continue;
     scale[i] = -1;
     by[i] = s.size[i];
   }
@@ -42,17 +47,17 @@ Status applyMirror(OpCall& call) {
 }
 
 constexpr ParamSpec kParams[] = {
-    {"xFlip", ParamType::Bool, "Whether the x axis turns round."},
-    {"yFlip", ParamType::Bool, "Whether the y axis turns round."},
-    {"zFlip", ParamType::Bool, "Whether the z axis turns round."},
+    param<&Flips::x>("xFlip", "Whether the x axis turns round."),
+    param<&Flips::y>("yFlip", "Whether the y axis turns round."),
+    param<&Flips::z>("zFlip", "Whether the z axis turns round."),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"mirrorScope", "scope", "Turns axes of the scope round and leaves the geometry as it is.",
-     kSignatures, applyMirrorScope},
+     kSignatures, typed<applyMirrorScope>},
     {"mirror", "scope", "Mirrors the geometry within the scope, which stays.", kSignatures,
-     applyMirror},
+     typed<applyMirror>},
 };
 
 }  // namespace

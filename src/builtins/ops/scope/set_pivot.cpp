@@ -20,9 +20,25 @@ constexpr Corner kCorners[8] = {{false, false, false}, {true, false, false}, {tr
                                 {false, false, true},  {false, true, false}, {true, true, false},
                                 {true, true, true},    {false, true, true}};
 
-Status applySetPivot(OpCall& call) {
+enum class AxisMap : uint8_t { Xyz, Yzx, Zxy };
+
+}  // namespace
+
+template <>
+struct WordsOf<AxisMap> {
+  static constexpr const char* text = "xyz yzx zxy";
+};
+
+namespace {
+
+struct SetPivot {
+  AxisMap axes;
+  double corner;
+};
+
+Status applySetPivot(OpCall& call, const SetPivot& args) {
   Shape& s = call.shape();
-  const double index = call.number(1);
+  const double index = args.corner;
   if (!(index > -1 && index < 8)) {
     return call.fail("bad-argument",
                      "setPivot has no corner " + numberText(index) + "; it stays where it is",
@@ -42,20 +58,21 @@ Status applySetPivot(OpCall& call) {
   const Vec3 a = right ? x : z, c = right ? z : x;
   const Vec3 origin = s.scope.point(at);
   Frame pivot = Frame::of(origin, a, y, c);
-  if (call.is(0, "yzx")) pivot = Frame::of(origin, c, a, y);
-  if (call.is(0, "zxy")) pivot = Frame::of(origin, y, c, a);
+  if (args.axes == AxisMap::Yzx) pivot = Frame::of(origin, c, a, y);
+  if (args.axes == AxisMap::Zxy) pivot = Frame::of(origin, y, c, a);
   realignScope(s, pivot);
   s.pivot = s.scope;
   return {};
 }
 
 constexpr ParamSpec kParams[] = {
-    {"axisMap", ParamType::Selector,
-     "Which new axis runs along the old y axis: the second (xyz), the third (yzx) or the first "
-     "(zxy).",
-     nullptr, "xyz yzx zxy"},
-    {"cornerIndex", ParamType::Float,
-     "The corner of the scope, 0 to 3 around the bottom from the origin along x, 4 to 7 above."},
+    param<&SetPivot::axes>(
+        "axisMap",
+        "Which new axis runs along the old y axis: the second (xyz), the third (yzx) or the first "
+        "(zxy)."),
+    param<&SetPivot::corner>(
+        "cornerIndex",
+        "The corner of the scope, 0 to 3 around the bottom from the origin along x, 4 to 7 above."),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
@@ -63,7 +80,7 @@ constexpr OpSpec kSpecs[] = {
     {"setPivot", "scope",
      "Puts the pivot to a corner of the scope with all axes pointing inward; the scope takes the "
      "same axes, the geometry stays.",
-     kSignatures, applySetPivot},
+     kSignatures, typed<applySetPivot>},
 };
 
 }  // namespace

@@ -31,13 +31,12 @@ inline bool hasUvSet(const Shape& s, int set) {
 }
 
 /// The number of a uv set given as an argument.
-inline Status uvSetOf(const OpCall& call, size_t argument, int& set) {
-  const double v = call.number(argument);
-  if (!(v >= 0 && v < kUvSets)) {
-    return call.fail("bad-argument", "there is no uv set " + numberText(v),
+inline Status uvSetOf(const OpCall& call, double wanted, int& set) {
+  if (!(wanted >= 0 && wanted < kUvSets)) {
+    return call.fail("bad-argument", "there is no uv set " + numberText(wanted),
                      "uv sets are numbered 0 to 9");
   }
-  set = static_cast<int>(v);
+  set = static_cast<int>(wanted);
   return {};
 }
 

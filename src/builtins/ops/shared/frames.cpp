@@ -30,14 +30,14 @@ Frame objectFrame(const Services& services) {
   return inverse(services.world()) * services.initialShape().origin;
 }
 
-Frame systemNamed(std::string_view word, const Shape& s, const Services& services, bool& known) {
-  known = true;
-  if (word == "scope") return s.scope;
-  if (word == "pivot") return s.pivot;
-  if (word == "object") return objectFrame(services);
-  if (word == "world") return worldFrame(services);
-  known = false;
-  return {};
+Frame frameOf(CoordSystem system, const Shape& s, const Services& services) {
+  switch (system) {
+    case CoordSystem::Scope: return s.scope;
+    case CoordSystem::Pivot: return s.pivot;
+    case CoordSystem::Object: return objectFrame(services);
+    case CoordSystem::World: break;
+  }
+  return worldFrame(services);
 }
 
 Frame composedAxes(const Frame& outer, const Frame& inner) {

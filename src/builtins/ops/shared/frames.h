@@ -5,15 +5,29 @@
 // shape's local frame, and moves of a scope that leave the geometry where it is.
 #pragma once
 
-#include <string_view>
+#include <cstdint>
 
+#include "program/arguments.h"
 #include "shape/services.h"
 #include "shape/shape.h"
 
 namespace gable {
 
-/// The axes and origin of a system named by a word; `known` is false for any other word.
-Frame systemNamed(std::string_view word, const Shape& s, const Services& services, bool& known);
+/// A coordinate system as operations name it, and whether they mean it absolutely or from where the
+/// shape is.
+enum class CoordSystem : uint8_t { Scope, Pivot, Object, World };
+enum class Placing : uint8_t { Abs, Rel };
+template <>
+struct WordsOf<CoordSystem> {
+  static constexpr const char* text = "scope pivot object world";
+};
+template <>
+struct WordsOf<Placing> {
+  static constexpr const char* text = "abs rel";
+};
+
+/// The axes and origin of a system.
+Frame frameOf(CoordSystem system, const Shape& s, const Services& services);
 
 /// The world and the object (the initial shape's origin) seen from the local frame.
 Frame worldFrame(const Services& services);

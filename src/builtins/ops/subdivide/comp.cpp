@@ -317,50 +317,63 @@ void splitMesh(const Context& context, ComponentKind kind) {
   }
 }
 
-struct KindWord {
-  std::string_view word;
-  ComponentKind kind;
+// The words for components, in the order of kKinds.
+enum class KindWord : uint8_t {};
+constexpr ComponentKind kKinds[] = {
+    ComponentKind::Faces,     ComponentKind::Faces,        ComponentKind::Edges,
+    ComponentKind::Edges,     ComponentKind::FaceEdges,    ComponentKind::Vertices,
+    ComponentKind::Vertices,  ComponentKind::FaceVertices, ComponentKind::Materials,
+    ComponentKind::Materials, ComponentKind::Materials,    ComponentKind::Materials,
+    ComponentKind::Holes,     ComponentKind::Holes,
 };
-constexpr KindWord kKinds[] = {
-    {"f", ComponentKind::Faces},           {"faces", ComponentKind::Faces},
-    {"e", ComponentKind::Edges},           {"edges", ComponentKind::Edges},
-    {"fe", ComponentKind::FaceEdges},      {"v", ComponentKind::Vertices},
-    {"vertices", ComponentKind::Vertices}, {"fv", ComponentKind::FaceVertices},
-    {"g", ComponentKind::Materials},       {"groups", ComponentKind::Materials},
-    {"m", ComponentKind::Materials},       {"materials", ComponentKind::Materials},
-    {"h", ComponentKind::Holes},           {"holes", ComponentKind::Holes},
+enum class Alignment : uint8_t { ZUp, NoAlign };
+
+}  // namespace
+
+template <>
+struct WordsOf<KindWord> {
+  static constexpr const char* text =
+      "f faces e edges fe v vertices fv g groups m materials h holes";
+};
+template <>
+struct WordsOf<Alignment> {
+  static constexpr const char* text = "zUp noAlign";
 };
 
-Status applyComp(OpCall& call) {
-  for (const KindWord& k : kKinds) {
-    if (!call.is(0, k.word)) continue;
-    const Context context{call, !call.is(1, "noAlign")};
-    if (k.kind == ComponentKind::Faces && context.align && hasFlatFaces(call, call.shape())) {
-      splitFlatFaces(context);
-    } else {
-      splitMesh(context, k.kind);
-    }
-    return {};
+namespace {
+
+struct Comp {
+  KindWord component;
+  Alignment alignment;
+};
+
+Status applyComp(OpCall& call, const Comp& args) {
+  const ComponentKind kind = kKinds[static_cast<size_t>(args.component)];
+  const Context context{call, args.alignment == Alignment::ZUp};
+  if (kind == ComponentKind::Faces && context.align && hasFlatFaces(call, call.shape())) {
+    splitFlatFaces(context);
+  } else {
+    splitMesh(context, kind);
   }
-  return call.fail("comp-kind", "there is no such kind of component",
-                   "the kinds are f, e, fe, v, fv, g, m and h");
+  return {};
 }
 
 constexpr ParamSpec kParams[] = {
-    {"component", ParamType::Selector,
-     "What to divide into: faces, edges, face edges, vertices, face vertices, groups, materials or "
-     "holes.",
-     nullptr, "f faces e edges fe v vertices fv g groups m materials h holes"},
-    {"scopeAlignment", ParamType::Selector,
-     "zUp gives each component axes of its own, with z along its normal; noAlign keeps the axes "
-     "and the pivot.",
-     "zUp", "zUp noAlign"},
+    param<&Comp::component>("component",
+                            "What to divide into: faces, edges, face edges, vertices, face "
+                            "vertices, groups, materials or "
+                            "holes."),
+    param<&Comp::alignment>(
+        "scopeAlignment",
+        "zUp gives each component axes of its own, with z along its normal; noAlign keeps the axes "
+        "and the pivot.",
+        "zUp"),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"comp", "subdivide", "Divides the shape into faces, edges, vertices or other components.",
-     kSignatures, applyComp, BlockKind::Selectors,
+     kSignatures, typed<applyComp>, BlockKind::Selectors,
      kReadsWorld | kReadsWorldByWord | kReadsPivotAxes},
 };
 

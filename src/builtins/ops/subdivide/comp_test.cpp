@@ -316,7 +316,7 @@ TEST(Comp, roofEdgesAreToldApart) {
 }
 
 TEST(Comp, unknownKindsAreAFailure) {
-  EXPECT_STREQ(comp(boxShape({1, 1, 1}), "q", {"all"}).status.code(), "comp-kind");
+  EXPECT_STREQ(comp(boxShape({1, 1, 1}), "q", {"all"}).status.code(), "wrong-argument");
 }
 
 TEST(Comp, facesOfHostilePolygonsKeepTheirAreaInAScopeOfTheirOwn) {

@@ -102,8 +102,8 @@ Polygon rectangleIn(const View& view, bool byEdge) {
   return {found.ring(), {}};
 }
 
-Status findParts(const OpCall& call, const Mesh& m, std::vector<View>& views, Parts& parts) {
-  const bool byEdge = call.is(0, "edge");
+Status findParts(const OpCall& call, const Mesh& m, bool byEdge, std::vector<View>& views,
+                 Parts& parts) {
   for (size_t f = 0; f < m.faceCount(); ++f) {
     if (m.normal(f) != Vec3{}) views.emplace_back(m, f);
   }
@@ -133,11 +133,15 @@ Mesh meshOfParts(const std::vector<View>& views,
   return b.take();
 }
 
-Status applyInnerRectangle(OpCall& call) {
+struct InnerRectangle {
+  Word alignment;
+};
+
+Status applyInnerRectangle(OpCall& call, const InnerRectangle& args) {
   const MeshRef mesh = meshInScope(call.shape());
   std::vector<View> views;
   Parts parts;
-  const Status status = findParts(call, *mesh, views, parts);
+  const Status status = findParts(call, *mesh, args.alignment == "edge", views, parts);
   if (!status.ok()) return status;
   uint32_t piece = 0;
   const auto emit = [&](std::span<const std::pair<size_t, Polygon>> some, uint32_t slot) {
@@ -165,16 +169,17 @@ Status applyInnerRect(OpCall& call) {
   const MeshRef mesh = meshInScope(s);
   std::vector<View> views;
   Parts parts;
-  const Status status = findParts(call, *mesh, views, parts);
+  const Status status = findParts(call, *mesh, /*byEdge=*/false, views, parts);
   if (!status.ok()) return status;
   setPartMesh(s, Shape(s), meshOfParts(views, parts.rectangles), true);
   return {};
 }
 
 constexpr ParamSpec kParams[] = {
-    {"alignment", ParamType::Selector,
-     "Whether the rectangle lies along the scope's axes or along an edge of the face.", nullptr,
-     "scope edge"},
+    param<&InnerRectangle::alignment>(
+        "alignment",
+        "Whether the rectangle lies along the scope's axes or along an edge of the face.", nullptr,
+        "scope edge"),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 constexpr Signature kNone[] = {{}};
@@ -182,7 +187,7 @@ constexpr Signature kNone[] = {{}};
 constexpr OpSpec kSpecs[] = {
     heavy({"innerRectangle", "subdivide",
            "Gives out the largest rectangle in each face, and what remains.", kSignatures,
-           applyInnerRectangle, BlockKind::Selectors, kPure, "shape remainder"}),
+           typed<applyInnerRectangle>, BlockKind::Selectors, kPure, "shape remainder"}),
     heavy({"innerRect", "subdivide",
            "Replaces each face by the largest rectangle in it along the scope.", kNone,
            applyInnerRect}),

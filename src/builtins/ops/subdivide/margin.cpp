@@ -57,10 +57,21 @@ struct Thirds {
   }
 };
 
+enum class Orientation : uint8_t { Default, Out, In };
+
+}  // namespace
+
+template <>
+struct WordsOf<Orientation> {
+  static constexpr const char* text = "default out in";
+};
+
+namespace {
+
 // How wide the margin is along an axis: at most half of it.
-double marginAlong(OpCall& call, Axis axis, double preferred, bool& cut) {
+double marginAlong(OpCall& call, const Size& width, Axis axis, double preferred, bool& cut) {
   const double whole = std::fabs(component(call.shape().size, axis));
-  double m = call.has(1) ? call.sized(1, whole) : 0;
+  const double m = width.of(whole);
   if (m == 0) return std::min(preferred, whole / 2);
   if (m > whole / 2 + 1e-9 * (1 + whole)) cut = true;
   return std::min(m, whole / 2);
@@ -84,7 +95,7 @@ class Margin {
         v_(std::fabs(component(call.shape().size, pair.v)), mv),
         cells_(call.shape(), pair.u, u_.pieces, pair.v, v_.pieces) {}
 
-  void emit(const RoleSlot (&slots)[3], std::string_view orientation) {
+  void emit(const RoleSlot (&slots)[3], Orientation orientation) {
     uint32_t piece = 0;
     for (size_t i = 0; i < u_.place.size(); ++i) {
       for (size_t j = 0; j < v_.place.size(); ++j, ++piece) {
@@ -92,7 +103,9 @@ class Margin {
         const RoleSlot& slot = slots[2 - border];
         Shape child;
         if (!slot.wanted || !cells_.take(i, j, child)) continue;
-        if (border > 0 && orientation != "default") turn(child, i, j, orientation == "in");
+        if (border > 0 && orientation != Orientation::Default) {
+          turn(child, i, j, orientation == Orientation::In);
+        }
         call_.emit(std::move(child), slot.slot, piece);
       }
     }
@@ -112,17 +125,19 @@ class Margin {
   Cells cells_;
 };
 
-Status applyMargin(OpCall& call) {
+struct MarginArguments {
   Axis axis;
-  if (!axisNamed(call.text(0), axis)) {
-    return call.fail("split-axis", "there is no such axis", "the axes are x, y and z");
-  }
+  Size width;
+  Orientation orientation;
+};
+
+Status applyMargin(OpCall& call, const MarginArguments& args) {
   AxisPair pair;
-  if (!axesAround(call.shape(), axis, pair)) {
+  if (!axesAround(call.shape(), args.axis, pair)) {
     return call.fail("split-flat", "the scope has an extent along one axis only",
                      "give the scope a size first");
   }
-  const double wanted = call.number(1, 0);
+  const double wanted = args.width.number;
   if (!(wanted >= 0) || !std::isfinite(wanted)) {
     return call.fail("bad-argument", "a margin of " + shortestText(wanted) + " is none",
                      "write a width of zero or more; zero takes the corner's preferred size");
@@ -133,35 +148,37 @@ Status applyMargin(OpCall& call) {
   }
   const Vec3 preferred = slots[0].wanted ? call.preferredSize(slots[0].slot) : Vec3{};
   bool cut = false;
-  const double mu = marginAlong(call, pair.u, component(preferred, pair.u), cut);
-  const double mv = marginAlong(call, pair.v, component(preferred, pair.v), cut);
+  const double mu = marginAlong(call, args.width, pair.u, component(preferred, pair.u), cut);
+  const double mv = marginAlong(call, args.width, pair.v, component(preferred, pair.v), cut);
   if (cut) {
     call.services().warn("margin-too-wide",
                          "'margin': the margin is wider than half of the shape and ends there",
                          "make it narrower, or write it as a share: '0.2");
   }
-  Margin(call, pair, mu, mv).emit(slots, call.text(2, "default"));
+  Margin(call, pair, mu, mv).emit(slots, args.orientation);
   return {};
 }
 
 constexpr ParamSpec kParams[] = {
-    {"axis", ParamType::Selector,
-     "The scope axis that is not divided. A flat shape is divided in its plane, whatever the axis.",
-     nullptr, "x y z"},
-    {"width", ParamType::Size,
-     "Of the margin, in metres or, with ', as a share of the size along each axis (0 to 0.5); 0 "
-     "takes the preferred size of the corner.",
-     "0"},
-    {"orientation", ParamType::Selector,
-     "Whether the pieces keep the axes of the shape, or corners and edges face out or in.",
-     "default", "default out in"},
+    param<&MarginArguments::axis>("axis",
+                                  "The scope axis that is not divided. A flat shape is divided in "
+                                  "its plane, whatever the axis."),
+    param<&MarginArguments::width>(
+        "width",
+        "Of the margin, in metres or, with ', as a share of the size along each axis (0 to 0.5); 0 "
+        "takes the preferred size of the corner.",
+        "0"),
+    param<&MarginArguments::orientation>(
+        "orientation",
+        "Whether the pieces keep the axes of the shape, or corners and edges face out or in.",
+        "default"),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"margin", "subdivide",
      "Divides the shape into four corners, four edges and a centre around an axis.", kSignatures,
-     applyMargin, BlockKind::Selectors, kPure, "corner edge center", false, true},
+     typed<applyMargin>, BlockKind::Selectors, kPure, "corner edge center", false, true},
 };
 
 }  // namespace

@@ -162,11 +162,35 @@ Point inVolume(const Surface& surface, const Box3& box, const Spread& spread, co
   return best;
 }
 
-Spread spreadOf(const OpCall& call, const Shape& s) {
+enum class Domain : uint8_t { Surface, Volume, Scope };
+enum class Distribution : uint8_t { Uniform, Gaussian };
+
+}  // namespace
+
+template <>
+struct WordsOf<Domain> {
+  static constexpr const char* text = "surface volume scope";
+};
+template <>
+struct WordsOf<Distribution> {
+  static constexpr const char* text = "uniform gaussian";
+};
+
+namespace {
+
+struct Scatter {
+  Domain domain;
+  double count;
+  Distribution distribution;
+  Word mean{"center"};
+  Size deviation;
+};
+
+Spread spreadOf(const Scatter& args, const Shape& s) {
   Spread spread;
-  spread.gaussian = call.is(2, "gaussian");
+  spread.gaussian = args.distribution == Distribution::Gaussian;
   spread.mean = s.size * 0.5;
-  const std::string_view at = call.text(3, "center");
+  const std::string_view at = args.mean.text;
   if (at == "left") spread.mean.x = 0;
   if (at == "right") spread.mean.x = s.size.x;
   if (at == "bottom") spread.mean.y = 0;
@@ -175,7 +199,7 @@ Spread spreadOf(const OpCall& call, const Shape& s) {
   if (at == "front") spread.mean.z = s.size.z;
   for (size_t a = 0; a < 3; ++a) {
     const double whole = std::fabs(s.size[a]);
-    spread.deviation[a] = std::fabs(call.has(4) ? call.sized(4, whole) : 0.16 * whole);
+    spread.deviation[a] = std::fabs(args.deviation.of(whole));
   }
   return spread;
 }
@@ -187,9 +211,9 @@ Ref<Mesh> pointMesh() {
   return makeRef<Mesh>(b.take());
 }
 
-Status applyScatter(OpCall& call) {
+Status applyScatter(OpCall& call, const Scatter& args) {
   const Shape& s = call.shape();
-  const double wanted = call.number(1);
+  const double wanted = args.count;
   if (std::isnan(wanted) || wanted > kMostPoints) {
     return call.fail("scatter-too-many", "scatter would make more than 100000 shapes",
                      "scatter fewer points, or divide the shape first");
@@ -197,13 +221,13 @@ Status applyScatter(OpCall& call) {
   const auto count = static_cast<uint32_t>(std::max(0.0, std::floor(wanted)));
   const MeshRef mesh = meshInScope(s);
   const Surface surface(*mesh);
-  const bool volume = call.is(0, "volume") && Topology(*mesh).closed();
-  const bool scope = call.is(0, "scope");
+  const bool volume = args.domain == Domain::Volume && Topology(*mesh).closed();
+  const bool scope = args.domain == Domain::Scope;
   if (!scope && surface.empty()) {
     return call.fail("no-geometry", "the shape has no surface to scatter points on",
                      "scatter in the scope, or insert a primitive first");
   }
-  const Spread spread = spreadOf(call, s);
+  const Spread spread = spreadOf(args, s);
   const Box3 box = mesh->bounds();
   const Ref<Mesh> geometry = pointMesh();
   for (uint32_t i = 0; i < count; ++i) {
@@ -227,24 +251,24 @@ Status applyScatter(OpCall& call) {
 }
 
 constexpr ParamSpec kUniform[] = {
-    {"domain", ParamType::Selector, "Where the points fall.", nullptr, "surface volume scope"},
-    {"nPoints", ParamType::Float, "How many."},
-    {"distributionType", ParamType::Selector, "How they are spread.", nullptr, "uniform gaussian"},
+    param<&Scatter::domain>("domain", "Where the points fall."),
+    param<&Scatter::count>("nPoints", "How many."),
+    param<&Scatter::distribution>("distributionType", "How they are spread."),
 };
 constexpr ParamSpec kGaussian[] = {
-    {"domain", ParamType::Selector, "Where the points fall.", nullptr, "surface volume scope"},
-    {"nPoints", ParamType::Float, "How many."},
-    {"distributionType", ParamType::Selector, "How they are spread.", nullptr, "gaussian"},
-    {"scatterMean", ParamType::Selector, "The middle of the cluster, as a place in the scope.",
-     "center", "center front back left right top bottom"},
-    {"scatterStddev", ParamType::Size,
-     "The standard deviation, in metres or as a share of the scope.", "'0.16"},
+    param<&Scatter::domain>("domain", "Where the points fall."),
+    param<&Scatter::count>("nPoints", "How many."),
+    param<&Scatter::distribution>("distributionType", "How they are spread.", nullptr, "gaussian"),
+    param<&Scatter::mean>("scatterMean", "The middle of the cluster, as a place in the scope.",
+                          "center", "center front back left right top bottom"),
+    param<&Scatter::deviation>(
+        "scatterStddev", "The standard deviation, in metres or as a share of the scope.", "'0.16"),
 };
 constexpr Signature kSignatures[] = {{kUniform}, {kGaussian}};
 
 constexpr OpSpec kSpecs[] = {
     {"scatter", "subdivide", "Gives out points at random places on or in the shape.", kSignatures,
-     applyScatter, BlockKind::Operations, kRandom},
+     typed<applyScatter>, BlockKind::Operations, kRandom},
 };
 
 }  // namespace

@@ -150,8 +150,7 @@ Status finish(OpCall& call, EdgeChoice& choice) {
   return {};
 }
 
-bool uvSetOf(const OpCall& call, size_t argument, int& set) {
-  const double wanted = call.number(argument, 0);
+bool uvSetOf(double wanted, int& set) {
   set = static_cast<int>(wanted);
   return wanted >= 0 && wanted < kUvSets;
 }
@@ -160,21 +159,27 @@ Status noUvSet(const OpCall& call) {
   return call.fail("bad-argument", "there is no uv set of that number", "uv sets are 0 to 9");
 }
 
-// A list by face edge, or one number for all.
-double listed(const OpCall& call, const Value& v, size_t index, double otherwise) {
-  if (!v.isArray()) return v.number;
-  const Array& a = call.services().pool().array(v);
-  return index < a.numbers.size() ? a.numbers[index] : otherwise;
+// From a list by face edge.
+double listed(const Array& list, size_t index, double otherwise) {
+  return index < list.numbers.size() ? list.numbers[index] : otherwise;
 }
 
-Status applySetback(OpCall& call) {
+// One distance for all edges, or one for each.
+struct Setback {
+  double distance;
+  std::optional<Floats> distances;
+  double uvSet;
+};
+
+Status applySetback(OpCall& call, const Setback& args) {
   int uvSet = 0;
-  if (!uvSetOf(call, 1, uvSet)) return noUvSet(call);
+  if (!uvSetOf(args.uvSet, uvSet)) return noUvSet(call);
   EdgeChoice choice(meshInScope(call.shape()));
   if (choice.mesh->empty()) return noFace(call);
   chooseEdges(call, call.shape(), uvSet, choice);
   for (const Component& c : choice.edges.list()) {
-    choice.distance[c.corner] = listed(call, call.arg(0), c.what.index, 0);
+    choice.distance[c.corner] =
+        args.distances ? listed(*args.distances->array, c.what.index, 0) : args.distance;
   }
   return finish(call, choice);
 }
@@ -199,16 +204,20 @@ double remainderArea(const EdgeChoice& from, const Range& range, double more,
   return faces.empty() ? 0 : meshOfPatches(*choice.mesh, faces).area();
 }
 
-Status applySetbackToArea(OpCall& call) {
-  const double wanted = call.number(0);
+struct SetbackToArea {
+  double area;
+  std::optional<Floats> least, most;
+  double uvSet;
+};
+
+Status applySetbackToArea(OpCall& call, const SetbackToArea& args) {
+  const double wanted = args.area;
   if (!(wanted > 0) || !std::isfinite(wanted)) {
     return call.fail("setback-area", "the area that is to remain is not positive",
                      "give a positive number of square metres");
   }
-  size_t lists = 0;
-  while (call.has(1 + lists) && call.arg(1 + lists).isArray()) ++lists;
   int uvSet = 0;
-  if (!uvSetOf(call, 1 + lists, uvSet)) return noUvSet(call);
+  if (!uvSetOf(args.uvSet, uvSet)) return noUvSet(call);
   EdgeChoice choice(meshInScope(call.shape()));
   if (choice.mesh->empty()) return noFace(call);
   chooseEdges(call, call.shape(), uvSet, choice);
@@ -217,8 +226,8 @@ Status applySetbackToArea(OpCall& call) {
   Range range{std::vector<double>(choice.distance.size(), 0),
               std::vector<double>(choice.distance.size(), reach)};
   for (const Component& c : choice.edges.list()) {
-    if (lists > 0) range.least[c.corner] = listed(call, call.arg(1), c.what.index, 0);
-    if (lists > 1) range.most[c.corner] = listed(call, call.arg(2), c.what.index, reach);
+    if (args.least) range.least[c.corner] = listed(*args.least->array, c.what.index, 0);
+    if (args.most) range.most[c.corner] = listed(*args.most->array, c.what.index, reach);
     if (!std::isfinite(range.least[c.corner]) || !std::isfinite(range.most[c.corner])) {
       return badDistance(call);
     }
@@ -239,21 +248,22 @@ Status applySetbackToArea(OpCall& call) {
   return finish(call, choice);
 }
 
-// shapeL, shapeU and shapeO: widths by side of the scope.
-struct Wing {
-  const char* side;
-  size_t argument;
+// shapeL, shapeU and shapeO: widths by side of the scope; sides that are not given have no wing.
+struct Wings {
+  std::optional<double> front, right, back, left;
 };
 
-Status applyWings(OpCall& call, std::span<const Wing> wings) {
+Status applyWings(OpCall& call, const Wings& args) {
+  const std::pair<const char*, const std::optional<double>&> wings[] = {
+      {"front", args.front}, {"right", args.right}, {"back", args.back}, {"left", args.left}};
   EdgeChoice choice(meshInScope(call.shape()));
   if (choice.mesh->empty()) return noFace(call);
   const Directions directions(call.services(), call.shape());
   for (const Component& c : choice.edges.list()) {
-    for (const Wing& w : wings) {
-      if (!selectsDirection(w.side, c.what.normal, directions)) continue;
+    for (const auto& [side, width] : wings) {
+      if (!width || !selectsDirection(side, c.what.normal, directions)) continue;
       choice.group[c.corner] = 0;
-      choice.distance[c.corner] = call.number(w.argument);
+      choice.distance[c.corner] = *width;
     }
     if (!std::isfinite(choice.distance[c.corner])) return badDistance(call);
   }
@@ -267,48 +277,49 @@ Status applyWings(OpCall& call, std::span<const Wing> wings) {
   return {};
 }
 
-constexpr Wing kL[] = {{"front", 0}, {"left", 1}};
-constexpr Wing kU[] = {{"front", 0}, {"right", 1}, {"left", 2}};
-constexpr Wing kO[] = {{"front", 0}, {"right", 1}, {"back", 2}, {"left", 3}};
-Status applyShapeL(OpCall& call) { return applyWings(call, kL); }
-Status applyShapeU(OpCall& call) { return applyWings(call, kU); }
-Status applyShapeO(OpCall& call) { return applyWings(call, kO); }
-
 constexpr const char* kDistanceDoc = "How far the selected edges are moved inward, in metres.";
 constexpr const char* kUvDoc = "The uv set for selectors such as uv.left.";
 constexpr ParamSpec kDistance[] = {
-    {"distance", ParamType::Float, kDistanceDoc},
-    {"uvSet", ParamType::Float, kUvDoc, "0"},
+    param<&Setback::distance>("distance", kDistanceDoc),
+    param<&Setback::uvSet>("uvSet", kUvDoc, "0"),
 };
 constexpr ParamSpec kDistances[] = {
-    {"distances", ParamType::FloatArray,
-     "A distance for each face edge, in order; 0 where missing."},
-    {"uvSet", ParamType::Float, kUvDoc, "0"},
+    param<&Setback::distances>("distances",
+                               "A distance for each face edge, in order; 0 where missing."),
+    param<&Setback::uvSet>("uvSet", kUvDoc, "0"),
 };
 constexpr Signature kSetback[] = {{kDistance}, {kDistances}};
 
+// The compiler evaluates the distance for each edge and hands over a list.
+constexpr ParamSpec kEachDistance[] = {
+    withType(param<&Setback::distances>("distance", "The distance of an edge, worked out on it."),
+             ParamType::Float),
+    kDistance[1],
+};
+constexpr Signature kPerEdge[] = {{kEachDistance}, {kDistances}};
+
 constexpr const char* kAreaDoc = "The area that shall remain, in square metres.";
 constexpr ParamSpec kArea[] = {
-    {"area", ParamType::Float, kAreaDoc},
-    {"uvSet", ParamType::Float, kUvDoc, "0"},
+    param<&SetbackToArea::area>("area", kAreaDoc),
+    param<&SetbackToArea::uvSet>("uvSet", kUvDoc, "0"),
 };
 constexpr ParamSpec kAreaLeast[] = {
-    {"area", ParamType::Float, kAreaDoc},
-    {"minDistances", ParamType::FloatArray, "The least distance of each face edge."},
-    {"uvSet", ParamType::Float, kUvDoc, "0"},
+    param<&SetbackToArea::area>("area", kAreaDoc),
+    param<&SetbackToArea::least>("minDistances", "The least distance of each face edge."),
+    param<&SetbackToArea::uvSet>("uvSet", kUvDoc, "0"),
 };
 constexpr ParamSpec kAreaRange[] = {
-    {"area", ParamType::Float, kAreaDoc},
-    {"minDistances", ParamType::FloatArray, "The least distance of each face edge."},
-    {"maxDistances", ParamType::FloatArray, "The greatest distance of each face edge."},
-    {"uvSet", ParamType::Float, kUvDoc, "0"},
+    param<&SetbackToArea::area>("area", kAreaDoc),
+    param<&SetbackToArea::least>("minDistances", "The least distance of each face edge."),
+    param<&SetbackToArea::most>("maxDistances", "The greatest distance of each face edge."),
+    param<&SetbackToArea::uvSet>("uvSet", kUvDoc, "0"),
 };
 constexpr Signature kToArea[] = {{kArea}, {kAreaLeast}, {kAreaRange}};
 
-constexpr ParamSpec kFront{"frontWidth", ParamType::Float, "The depth of the front wing."};
-constexpr ParamSpec kRight{"rightWidth", ParamType::Float, "The width of the right wing."};
-constexpr ParamSpec kBack{"backWidth", ParamType::Float, "The depth of the back wing."};
-constexpr ParamSpec kLeft{"leftWidth", ParamType::Float, "The width of the left wing."};
+constexpr ParamSpec kFront = param<&Wings::front>("frontWidth", "The depth of the front wing.");
+constexpr ParamSpec kRight = param<&Wings::right>("rightWidth", "The width of the right wing.");
+constexpr ParamSpec kBack = param<&Wings::back>("backWidth", "The depth of the back wing.");
+constexpr ParamSpec kLeft = param<&Wings::left>("leftWidth", "The width of the left wing.");
 constexpr ParamSpec kLParams[] = {kFront, kLeft};
 constexpr ParamSpec kUParams[] = {kFront, kRight, kLeft};
 constexpr ParamSpec kOParams[] = {kFront, kRight, kBack, kLeft};
@@ -320,20 +331,20 @@ constexpr uint32_t kEffects = kReadsWorld | kReadsWorldByWord;
 constexpr OpSpec kSpecs[] = {
     heavy({"setback", "subdivide",
            "Moves selected edges of each face inward and gives out the strips.", kSetback,
-           applySetback, BlockKind::Selectors, kEffects, "remainder"}),
+           typed<applySetback>, BlockKind::Selectors, kEffects, "remainder"}),
     heavy({"setbackPerEdge", "subdivide",
-           "As setback, with a distance that is worked out for each edge.", kSetback, applySetback,
-           BlockKind::Selectors, kEffects, "remainder"}),
+           "As setback, with a distance that is worked out for each edge.", kPerEdge,
+           typed<applySetback>, BlockKind::Selectors, kEffects, "remainder"}),
     heavy({"setbackToArea", "subdivide",
-           "As setback, by such a distance that a given area remains.", kToArea, applySetbackToArea,
-           BlockKind::Selectors, kEffects, "remainder"}),
+           "As setback, by such a distance that a given area remains.", kToArea,
+           typed<applySetbackToArea>, BlockKind::Selectors, kEffects, "remainder"}),
     heavy({"shapeL", "subdivide", "Gives out an L of a front and a left wing, and what remains.",
-           kLSignatures, applyShapeL, BlockKind::Selectors, kPure, "shape remainder"}),
+           kLSignatures, typed<applyWings>, BlockKind::Selectors, kPure, "shape remainder"}),
     heavy({"shapeU", "subdivide",
            "Gives out a U of a front, a right and a left wing, and what remains.", kUSignatures,
-           applyShapeU, BlockKind::Selectors, kPure, "shape remainder"}),
+           typed<applyWings>, BlockKind::Selectors, kPure, "shape remainder"}),
     heavy({"shapeO", "subdivide", "Gives out a ring of four wings, and what remains.", kOSignatures,
-           applyShapeO, BlockKind::Selectors, kPure, "shape remainder"}),
+           typed<applyWings>, BlockKind::Selectors, kPure, "shape remainder"}),
 };
 
 }  // namespace

@@ -35,7 +35,44 @@ void warnOfOverflow(const OpCall& call, double whole) {
                        "make them smaller, or the shape larger");
 }
 
-Status splitAlong(OpCall& call, Axis axis) {
+enum class Adjust : uint8_t { Adjust, NoAdjust };
+enum class Direction : uint8_t { FromRoot, ToRoot };
+enum class Coordinate : uint8_t { U, V };
+enum class UvSpace : uint8_t { UvSpace, UnitSpace };
+
+}  // namespace
+
+template <>
+struct WordsOf<Adjust> {
+  static constexpr const char* text = "adjust noAdjust";
+};
+template <>
+struct WordsOf<Direction> {
+  static constexpr const char* text = "fromRoot toRoot";
+};
+template <>
+struct WordsOf<Coordinate> {
+  static constexpr const char* text = "u v";
+};
+template <>
+struct WordsOf<UvSpace> {
+  static constexpr const char* text = "uvSpace unitSpace";
+};
+
+namespace {
+
+// Along an axis of the scope, or along a texture coordinate.
+struct Split {
+  Axis axis;
+  std::optional<Direction> direction;
+  Adjust adjust;
+  std::optional<Coordinate> coordinate;
+  UvSpace space;
+  double uvSet;
+};
+
+Status splitAlong(OpCall& call, const Split& args) {
+  const Axis axis = args.axis;
   const Shape& s = call.shape();
   const double whole = std::fabs(component(s.size, axis));
   if (!(whole > kFlat)) {
@@ -45,10 +82,10 @@ Status splitAlong(OpCall& call, Axis axis) {
   SplitPieces pieces;
   const Status status = dividePattern(call.splitBlock(), whole, pieces);
   if (!status.ok()) return status;
-  const bool toRoot = call.is(1, "toRoot"), directed = toRoot || call.is(1, "fromRoot");
-  if (toRoot) mirrorPieces(pieces, whole);
+  const bool directed = args.direction.has_value();
+  if (args.direction == Direction::ToRoot) mirrorPieces(pieces, whole);
   if (directed) warnOfOverflow(call, whole);
-  const bool adjust = !call.is(directed ? 2 : 1, "noAdjust");
+  const bool adjust = args.adjust == Adjust::Adjust;
   if (isPrimitive(s.geometry)) {
     call.emitParts(axis, adjust, {pieces.begin(), pieces.size()}, !directed);
   } else {
@@ -57,9 +94,9 @@ Status splitAlong(OpCall& call, Axis axis) {
   return {};
 }
 
-Status splitUv(OpCall& call, int coordinate) {
+Status splitUv(OpCall& call, const Split& args) {
   const Shape& s = call.shape();
-  const double wanted = call.number(2, 0);
+  const double wanted = args.uvSet;
   const int set = static_cast<int>(wanted);
   if (!(wanted >= 0 && wanted < kUvSets)) {
     return call.fail("bad-argument", "there is no uv set of that number", "uv sets are 0 to 9");
@@ -69,10 +106,10 @@ Status splitUv(OpCall& call, int coordinate) {
     return call.fail("split-no-uv", "the geometry has no texture coordinates in this uv set",
                      "make some with setupProjection and projectUV");
   }
-  const auto a = static_cast<size_t>(coordinate);
+  const auto a = static_cast<size_t>(*args.coordinate);
   const Box2 box = uvBounds(*mesh, set);
   const double range = box.max[a] - box.min[a];
-  const bool units = call.is(1, "unitSpace");
+  const bool units = args.space == UvSpace::UnitSpace;
   const double whole = units ? range * uvUnitLength(*mesh, set)[a] : range;
   if (!(whole > kFlat)) {
     return call.fail("split-flat", "the texture coordinates have no extent in this direction", {});
@@ -96,43 +133,34 @@ Status splitUv(OpCall& call, int coordinate) {
   return {};
 }
 
-Status applySplit(OpCall& call) {
-  const std::string_view axis = call.text(0);
-  if (axis == "x") return splitAlong(call, Axis::X);
-  if (axis == "y") return splitAlong(call, Axis::Y);
-  if (axis == "z") return splitAlong(call, Axis::Z);
-  if (axis == "u") return splitUv(call, 0);
-  if (axis == "v") return splitUv(call, 1);
-  return call.fail("split-axis", "there is no such direction to split along",
-                   "the directions are x, y, z, u and v");
+Status applySplit(OpCall& call, const Split& args) {
+  return args.coordinate ? splitUv(call, args) : splitAlong(call, args);
 }
 
 constexpr ParamSpec kScopeParams[] = {
-    {"axis", ParamType::Selector, "The scope axis along which to divide.", nullptr, "x y z"},
-    {"adjustMode", ParamType::Selector,
-     "Whether a part's scope is fitted to its geometry, or parts fill the scope without gaps.",
-     "adjust", "adjust noAdjust"},
+    param<&Split::axis>("axis", "The scope axis along which to divide."),
+    param<&Split::adjust>(
+        "adjustMode",
+        "Whether a part's scope is fitted to its geometry, or parts fill the scope without gaps.",
+        "adjust"),
 };
 constexpr ParamSpec kDirectionParams[] = {
     kScopeParams[0],
-    {"direction", ParamType::Selector,
-     "Whether the first part lies at the scope's origin or at its far end.", nullptr,
-     "fromRoot toRoot"},
+    param<&Split::direction>(
+        "direction", "Whether the first part lies at the scope's origin or at its far end."),
     kScopeParams[1],
 };
 constexpr ParamSpec kUvParams[] = {
-    {"direction", ParamType::Selector, "The texture coordinate along which to divide.", nullptr,
-     "u v"},
-    {"surfaceParameterization", ParamType::Selector,
-     "Whether sizes count in texture coordinates or in metres on the surface.", nullptr,
-     "uvSpace unitSpace"},
-    {"uvSet", ParamType::Float, "The uv set, 0 to 9."},
+    param<&Split::coordinate>("direction", "The texture coordinate along which to divide."),
+    param<&Split::space>("surfaceParameterization",
+                         "Whether sizes count in texture coordinates or in metres on the surface."),
+    param<&Split::uvSet>("uvSet", "The uv set, 0 to 9."),
 };
 constexpr Signature kSignatures[] = {{kScopeParams}, {kDirectionParams}, {kUvParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"split", "subdivide", "Divides the shape into parts along a direction.", kSignatures,
-     applySplit, BlockKind::Split},
+     typed<applySplit>, BlockKind::Split},
 };
 
 }  // namespace

@@ -75,14 +75,25 @@ class AreaBefore {
   double total_ = 0;
 };
 
-Status applySplitArea(OpCall& call) {
+enum class Adjust : uint8_t { Adjust, NoAdjust };
+
+}  // namespace
+
+template <>
+struct WordsOf<Adjust> {
+  static constexpr const char* text = "adjust noAdjust";
+};
+
+namespace {
+
+struct SplitArea {
+  Axis axis;
+  Adjust adjust;
+};
+
+Status applySplitArea(OpCall& call, const SplitArea& args) {
   const Shape& s = call.shape();
-  const std::string_view word = call.text(0);
-  if (word != "x" && word != "y" && word != "z") {
-    return call.fail("split-axis", "there is no such direction to split along",
-                     "the directions are x, y and z");
-  }
-  const Axis axis = word == "x" ? Axis::X : word == "y" ? Axis::Y : Axis::Z;
+  const Axis axis = args.axis;
   const auto a = static_cast<size_t>(axis);
   const double whole = std::fabs(s.size[a]);
   const MeshRef mesh = meshInScope(s);
@@ -106,21 +117,22 @@ Status applySplitArea(OpCall& call) {
     pieces.push_back({start, end - start, p.slot});
     start = end;
   }
-  emitSlabs(call, axis, pieces, !call.is(1, "noAdjust"), false);
+  emitSlabs(call, axis, pieces, args.adjust == Adjust::Adjust, false);
   return {};
 }
 
 constexpr ParamSpec kParams[] = {
-    {"axis", ParamType::Selector, "The scope axis along which to divide.", nullptr, "x y z"},
-    {"adjustMode", ParamType::Selector,
-     "Whether a part's scope is fitted to its geometry, or parts fill the scope without gaps.",
-     "adjust", "adjust noAdjust"},
+    param<&SplitArea::axis>("axis", "The scope axis along which to divide."),
+    param<&SplitArea::adjust>(
+        "adjustMode",
+        "Whether a part's scope is fitted to its geometry, or parts fill the scope without gaps.",
+        "adjust"),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     heavy({"splitArea", "subdivide", "Divides a flat shape into parts of given areas.", kSignatures,
-           applySplitArea, BlockKind::Split}),
+           typed<applySplitArea>, BlockKind::Split}),
 };
 
 }  // namespace

@@ -21,11 +21,6 @@ Status flatFailure(const OpCall& call) {
                    "split along another axis, or give the scope a size first");
 }
 
-Status axisFailure(const OpCall& call) {
-  return call.fail("split-axis", "there is no such direction to split along",
-                   "the directions are x, y and z");
-}
-
 void emitCells(OpCall& call, Cells& cells, size_t rows, size_t columns) {
   const auto total = static_cast<uint32_t>(rows * columns);
   for (uint32_t k = 0; k < total; ++k) {
@@ -36,15 +31,19 @@ void emitCells(OpCall& call, Cells& cells, size_t rows, size_t columns) {
   }
 }
 
-Status applyRepeat(OpCall& call) {
+struct SplitEvenly {
   Axis axis;
-  if (!axisNamed(call.text(0), axis)) return axisFailure(call);
+  Word rounding;
+};
+
+Status applyRepeat(OpCall& call, const SplitEvenly& args) {
+  const Axis axis = args.axis;
   const Shape& s = call.shape();
   const double whole = std::fabs(component(s.size, axis));
   if (!(whole > kFlat)) return flatFailure(call);
   SplitPieces pieces;
   const Status status =
-      equalPieces(whole, component(call.preferredSize(0), axis), call.text(1, "halfUp"), pieces);
+      equalPieces(whole, component(call.preferredSize(0), axis), args.rounding.text, pieces);
   if (!status.ok()) return status;
   const SplitPieces none;
   Cells cells(s, axis, pieces, axis, none);
@@ -52,20 +51,18 @@ Status applyRepeat(OpCall& call) {
   return {};
 }
 
-Status applyGrid(OpCall& call) {
-  Axis axis;
-  if (!axisNamed(call.text(0), axis)) return axisFailure(call);
+Status applyGrid(OpCall& call, const SplitEvenly& args) {
+  const Axis axis = args.axis;
   const Shape& s = call.shape();
   AxisPair pair;
   if (!axesAround(s, axis, pair)) return flatFailure(call);
   // The outer loop runs along x, or along z where x stays whole.
   if (pair.whole == Axis::X) std::swap(pair.u, pair.v);
   const Vec3 preferred = call.preferredSize(0);
-  const std::string_view rounding = call.text(1, "halfUp");
   SplitPieces rows, columns;
   for (const auto& [a, out] : {std::pair{pair.u, &rows}, std::pair{pair.v, &columns}}) {
     const double whole = std::fabs(component(s.size, a));
-    const Status status = equalPieces(whole, component(preferred, a), rounding, *out);
+    const Status status = equalPieces(whole, component(preferred, a), args.rounding.text, *out);
     if (!status.ok()) return status;
   }
   if (uint64_t{rows.size()} * columns.size() > kMaxSplitPieces) {
@@ -78,20 +75,20 @@ Status applyGrid(OpCall& call) {
   return {};
 }
 
-constexpr ParamSpec kRounding = {
-    "rounding", ParamType::Selector,
+constexpr ParamSpec kRounding = param<&SplitEvenly::rounding>(
+    "rounding",
     "How the number of pieces comes of length / preferred size: to the nearest number, halves up "
     "or "
     "to the even one; to the number whose pieces are nearest in size; up; or down.",
-    "halfUp", "halfUp even closest ceil floor"};
+    "halfUp", "halfUp even closest ceil floor");
 constexpr ParamSpec kRepeatParams[] = {
-    {"axis", ParamType::Selector, "The scope axis along which to divide.", nullptr, "x y z"},
+    param<&SplitEvenly::axis>("axis", "The scope axis along which to divide."),
     kRounding,
 };
 constexpr ParamSpec kGridParams[] = {
-    {"axis", ParamType::Selector,
-     "The scope axis that is not divided. A flat shape is divided in its plane, whatever the axis.",
-     nullptr, "x y z"},
+    param<&SplitEvenly::axis>("axis",
+                              "The scope axis that is not divided. A flat shape is divided in its "
+                              "plane, whatever the axis."),
     kRounding,
 };
 constexpr Signature kRepeatSignatures[] = {{kRepeatParams}};
@@ -101,11 +98,11 @@ constexpr OpSpec kSpecs[] = {
     {"splitGrid", "subdivide",
      "Divides the shape along two axes into equal parts that fit the preferred size of what they "
      "become.",
-     kGridSignatures, applyGrid, BlockKind::Operations, kPure, nullptr, false, true},
+     kGridSignatures, typed<applyGrid>, BlockKind::Operations, kPure, nullptr, false, true},
     {"splitRepeat", "subdivide",
      "Divides the shape along an axis into equal parts that fit the preferred size of what they "
      "become.",
-     kRepeatSignatures, applyRepeat, BlockKind::Operations, kPure, nullptr, false, true},
+     kRepeatSignatures, typed<applyRepeat>, BlockKind::Operations, kPure, nullptr, false, true},
 };
 
 }  // namespace

@@ -8,12 +8,16 @@ namespace gable {
 
 namespace {
 
-Status applyCenter(OpCall& call) {
+struct Center {
+  Word axes;
+};
+
+Status applyCenter(OpCall& call, const Center& args) {
   Shape& s = call.shape();
   const Frame& around = call.previousScope();
   const Vec3 off = call.previousSize() * 0.5 - around.toLocal(s.scope.point(s.size * 0.5));
   Vec3 by;
-  for (const char c : call.text(0)) {
+  for (const char c : args.axes.text) {
     if (c == 'x') by.x = off.x;
     if (c == 'y') by.y = off.y;
     if (c == 'z') by.z = off.z;
@@ -23,8 +27,8 @@ Status applyCenter(OpCall& call) {
 }
 
 constexpr ParamSpec kParams[] = {
-    {"axes", ParamType::Selector, "The axes to centre along; on the others the scope stays.",
-     nullptr, "x y z xy xz yz xyz"},
+    param<&Center::axes>("axes", "The axes to centre along; on the others the scope stays.",
+                         nullptr, "x y z xy xz yz xyz"),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
@@ -32,7 +36,7 @@ constexpr OpSpec kSpecs[] = {
     {"center", "transform",
      "Moves the scope to the middle of the scope below on the shape stack, the one that the rule "
      "or bracket began with.",
-     kSignatures, applyCenter, BlockKind::None, kReadsPrevious},
+     kSignatures, typed<applyCenter>, BlockKind::None, kReadsPrevious},
 };
 
 }  // namespace

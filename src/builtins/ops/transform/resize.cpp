@@ -15,21 +15,39 @@ namespace gable {
 
 namespace {
 
-Vec3 newSize(const OpCall& call, const Vec3& old) {
-  Vec3 size;
-  for (size_t i = 0; i < 3; ++i) {
-    double v = call.sized(1 + i, old[i]);
-    if (call.is(0, "add")) v += old[i];
-    if (call.is(0, "multiply")) v = call.number(1 + i) * old[i];
-    size[i] = std::max(0.0, v);
-  }
-  return size;
+enum class Mode : uint8_t { Add, Set, Multiply };
+enum class Anchor : uint8_t { Origin, Center, Front };
+
+}  // namespace
+
+template <>
+struct WordsOf<Mode> {
+  static constexpr const char* text = "add set multiply";
+};
+template <>
+struct WordsOf<Anchor> {
+  static constexpr const char* text = "origin center front";
+};
+
+namespace {
+
+struct Resize {
+  Mode mode;
+  Size x, y, z;
+  Anchor anchor;
+};
+
+double newLength(Mode mode, const Size& given, double old) {
+  const double v = mode == Mode::Multiply ? given.number * old
+                   : mode == Mode::Add    ? given.of(old) + old
+                                          : given.of(old);
+  return std::max(0.0, v);
 }
 
 // The place in a scope of this size that stays where it is.
-Vec3 anchorIn(const Vec3& size, std::string_view anchor) {
-  if (anchor == "center") return size * 0.5;
-  return anchor == "front" ? Vec3{0, 0, size.z} : Vec3{};
+Vec3 anchorIn(const Vec3& size, Anchor anchor) {
+  if (anchor == Anchor::Center) return size * 0.5;
+  return anchor == Anchor::Front ? Vec3{0, 0, size.z} : Vec3{};
 }
 
 bool isPrimitive(const Geometry& g) {
@@ -45,9 +63,10 @@ void flatten(Shape& s) {
   s.geometry = primitive(GeometryKind::QuadXy);
 }
 
-Status applyResize(OpCall& call) {
+Status applyResize(OpCall& call, const Resize& args) {
   Shape& s = call.shape();
-  const Vec3 size = newSize(call, s.size);
+  const Vec3 size{newLength(args.mode, args.x, s.size.x), newLength(args.mode, args.y, s.size.y),
+                  newLength(args.mode, args.z, s.size.z)};
   if (!isFinite(size)) {
     return call.fail("bad-argument", "a size is not a finite number",
                      "check the expression for a division by zero");
@@ -58,8 +77,7 @@ Status applyResize(OpCall& call) {
     return call.fail("resize-flat", "a shape needs a size along two axes at least",
                      "let two of the three sizes be more than zero");
   }
-  const std::string_view anchor = call.text(4, "origin");
-  s.scope.origin = s.scope.point(anchorIn(s.size, anchor) - anchorIn(size, anchor));
+  s.scope.origin = s.scope.point(anchorIn(s.size, args.anchor) - anchorIn(size, args.anchor));
   if (!primitive) {
     resizeScope(s, size);
     return {};
@@ -77,15 +95,16 @@ Status applyResize(OpCall& call) {
 }
 
 constexpr ParamSpec kParams[] = {
-    {"mode", ParamType::Selector, "add to the sizes, set them, or multiply them.", nullptr,
-     "add set multiply"},
-    {"x", ParamType::Size,
-     "For the scope's x axis, in metres or, with ', a share of the size; a factor with multiply."},
-    {"y", ParamType::Size, "For the y axis."},
-    {"z", ParamType::Size, "For the z axis."},
-    {"anchor", ParamType::Selector,
-     "What stays in place: the scope's origin, its centre, or the lower left corner of its front.",
-     "origin", "origin center front"},
+    param<&Resize::mode>("mode", "add to the sizes, set them, or multiply them."),
+    param<&Resize::x>("x",
+                      "For the scope's x axis, in metres or, with ', a share of the size; a factor "
+                      "with multiply."),
+    param<&Resize::y>("y", "For the y axis."),
+    param<&Resize::z>("z", "For the z axis."),
+    param<&Resize::anchor>("anchor",
+                           "What stays in place: the scope's origin, its centre, or the lower left "
+                           "corner of its front.",
+                           "origin"),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
@@ -93,7 +112,7 @@ constexpr OpSpec kSpecs[] = {
     {"resize", "transform",
      "Adds to the size of the scope, sets or multiplies it; boxes become rectangles and rectangles "
      "boxes.",
-     kSignatures, applyResize, BlockKind::None, kPure, nullptr, false, true},
+     kSignatures, typed<applyResize>, BlockKind::None, kPure, nullptr, false, true},
 };
 
 }  // namespace

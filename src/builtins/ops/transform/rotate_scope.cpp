@@ -18,12 +18,26 @@ Frame turnIn(const Frame& system, const Frame& turn) {
   return composedAxes(composedAxes(system, turn), inverse(system));
 }
 
-Status applyR(OpCall& call) {
+enum class Around : uint8_t { ScopeOrigin, ScopeCenter };
+
+}  // namespace
+
+template <>
+struct WordsOf<Around> {
+  static constexpr const char* text = "scopeOrigin scopeCenter";
+};
+
+namespace {
+
+struct Turn {
+  Around center = Around::ScopeOrigin;
+  double x, y, z;
+};
+
+Status applyR(OpCall& call, const Turn& args) {
   Shape& s = call.shape();
-  const size_t first = call.argCount() == 4 ? 1 : 0;
-  const Frame turn = turnIn(
-      s.pivot, rotationXyz(call.number(first), call.number(first + 1), call.number(first + 2)));
-  if (first == 1 && call.is(0, "scopeCenter")) {
+  const Frame turn = turnIn(s.pivot, rotationXyz(args.x, args.y, args.z));
+  if (args.center == Around::ScopeCenter) {
     const Vec3 center = s.scope.point(s.size * 0.5);
     turnAxes(s.scope, turn);
     s.scope.origin = center - s.scope.direction(s.size * 0.5);
@@ -33,17 +47,17 @@ Status applyR(OpCall& call) {
   return {};
 }
 
-Status applyRotate(OpCall& call) {
+struct Rotate {
+  Placing mode;
+  CoordSystem system;
+  double x, y, z;
+};
+
+Status applyRotate(OpCall& call, const Rotate& args) {
   Shape& s = call.shape();
-  bool known = false;
-  const Frame system = systemNamed(call.text(1), s, call.services(), known);
-  if (!known) {
-    return call.fail("unknown-selector",
-                     "rotate knows no coordinate system '" + std::string(call.text(1)) + "'",
-                     "use scope, pivot, object or world");
-  }
-  const Frame turn = rotationXyz(call.number(2), call.number(3), call.number(4));
-  if (call.is(0, "abs")) {
+  const Frame system = frameOf(args.system, s, call.services());
+  const Frame turn = rotationXyz(args.x, args.y, args.z);
+  if (args.mode == Placing::Abs) {
     const Vec3 origin = s.scope.origin;
     s.scope = composedAxes(system, turn);
     s.scope.origin = origin;
@@ -53,19 +67,17 @@ Status applyRotate(OpCall& call) {
   return {};
 }
 
-Status applyRotateScope(OpCall& call) {
+struct RotateScope {
+  CoordSystem system = CoordSystem::Pivot;
+  double x, y, z;
+};
+
+Status applyRotateScope(OpCall& call, const RotateScope& args) {
   Shape& s = call.shape();
-  const size_t first = call.argCount() == 4 ? 1 : 0;
-  bool known = true;
-  const Frame system = first == 1 ? systemNamed(call.text(0), s, call.services(), known) : s.pivot;
-  if (!known) {
-    return call.fail("unknown-selector",
-                     "rotateScope knows no coordinate system '" + std::string(call.text(0)) + "'",
-                     "use scope, pivot, object or world");
-  }
-  const Vec3 angles{call.number(first), call.number(first + 1), call.number(first + 2)};
+  const Frame system = frameOf(args.system, s, call.services());
+  const Vec3 angles{args.x, args.y, args.z};
   QuarterTurn quarter;
-  if (first == 1 && call.is(0, "scope") && quarterTurnOf(angles, quarter)) {
+  if (args.system == CoordSystem::Scope && quarterTurnOf(angles, quarter)) {
     turnScope(s, quarter);
     return {};
   }
@@ -75,53 +87,48 @@ Status applyRotateScope(OpCall& call) {
   return {};
 }
 
-constexpr ParamSpec kAngles[] = {
-    {"xAngle", ParamType::Float, "Turn about the pivot's x axis, in degrees; done first."},
-    {"yAngle", ParamType::Float, "Turn about the pivot's y axis; done second."},
-    {"zAngle", ParamType::Float, "Turn about the pivot's z axis; done last."},
-};
 constexpr ParamSpec kCenterAndAngles[] = {
-    {"center", ParamType::Selector, "The point that stays: the scope's origin or its centre.",
-     nullptr, "scopeOrigin scopeCenter"},
-    kAngles[0],
-    kAngles[1],
-    kAngles[2],
+    param<&Turn::center>("center", "The point that stays: the scope's origin or its centre."),
+    param<&Turn::x>("xAngle", "Turn about the pivot's x axis, in degrees; done first."),
+    param<&Turn::y>("yAngle", "Turn about the pivot's y axis; done second."),
+    param<&Turn::z>("zAngle", "Turn about the pivot's z axis; done last."),
 };
+constexpr std::span kAngles = std::span(kCenterAndAngles).subspan(1);
 constexpr Signature kRSignatures[] = {{kAngles}, {kCenterAndAngles}};
 
 constexpr ParamSpec kRotateParams[] = {
-    {"mode", ParamType::Selector,
-     "rel turns the scope on by the angles; abs gives it the orientation that the angles name.",
-     nullptr, "abs rel"},
-    {"coordSystem", ParamType::Selector, "The coordinate system that the angles are written in.",
-     nullptr, "scope pivot object world"},
-    {"xAngle", ParamType::Float, "About the x axis of that system, in degrees; done first."},
-    {"yAngle", ParamType::Float, "About its y axis; done second."},
-    {"zAngle", ParamType::Float, "About its z axis; done last."},
+    param<&Rotate::mode>(
+        "mode",
+        "rel turns the scope on by the angles; abs gives it the orientation that the angles name."),
+    param<&Rotate::system>("coordSystem", "The coordinate system that the angles are written in."),
+    param<&Rotate::x>("xAngle", "About the x axis of that system, in degrees; done first."),
+    param<&Rotate::y>("yAngle", "About its y axis; done second."),
+    param<&Rotate::z>("zAngle", "About its z axis; done last."),
 };
 constexpr Signature kRotateSignatures[] = {{kRotateParams}};
 constexpr ParamSpec kSystemAndAngles[] = {
-    {"coordSystem", ParamType::Selector,
-     "The coordinate system that the angles are written in; the pivot's without it.", nullptr,
-     "scope pivot object world"},
-    kRotateParams[2],
-    kRotateParams[3],
-    kRotateParams[4],
+    param<&RotateScope::system>(
+        "coordSystem",
+        "The coordinate system that the angles are written in; the pivot's without it."),
+    param<&RotateScope::x>("xAngle", "About the x axis of that system, in degrees; done first."),
+    param<&RotateScope::y>("yAngle", "About its y axis; done second."),
+    param<&RotateScope::z>("zAngle", "About its z axis; done last."),
 };
-constexpr Signature kRotateScopeSignatures[] = {{kAngles}, {kSystemAndAngles}};
+constexpr Signature kRotateScopeSignatures[] = {{std::span(kSystemAndAngles).subspan(1)},
+                                                {kSystemAndAngles}};
 
 constexpr OpSpec kSpecs[] = {
     {"r", "transform",
      "Turns the scope and its geometry about the axes of the pivot, around the scope's origin or "
      "centre.",
-     kRSignatures, applyR, BlockKind::None, kReadsPivotAxes},
+     kRSignatures, typed<applyR>, BlockKind::None, kReadsPivotAxes},
     {"rotate", "transform",
      "Turns the scope around its origin, by angles in a coordinate system of choice.",
-     kRotateSignatures, applyRotate, BlockKind::None,
+     kRotateSignatures, typed<applyRotate>, BlockKind::None,
      kReadsWorld | kReadsWorldByWord | kReadsPivotAxes},
     {"rotateScope", "transform",
      "Turns the scope alone about the axes of the pivot and fits it around the geometry again.",
-     kRotateScopeSignatures, applyRotateScope, BlockKind::None,
+     kRotateScopeSignatures, typed<applyRotateScope>, BlockKind::None,
      kReadsWorld | kReadsWorldByWord | kReadsPivotAxes},
 };
 

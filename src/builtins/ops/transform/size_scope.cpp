@@ -13,34 +13,35 @@ namespace gable {
 
 namespace {
 
-Status applyS(OpCall& call) {
+struct Sizes {
+  Size x, y, z;
+  Vec3 of(const Vec3& old) const { return {x.of(old.x), y.of(old.y), z.of(old.z)}; }
+};
+
+Status applyS(OpCall& call, const Sizes& args) {
   Shape& s = call.shape();
-  resizeScope(s, {call.sized(0, s.size.x), call.sized(1, s.size.y), call.sized(2, s.size.z)});
+  resizeScope(s, args.of(s.size));
   return {};
 }
 
-bool applySLight(LightPart& part, std::span<const Value> args) {
-  Vec3 size;
-  for (size_t i = 0; i < 3; ++i) {
-    size[i] = args[i].unit == Unit::Relative ? args[i].number * part.size[i] : args[i].number;
-    if (!(size[i] >= 0)) return false;
-  }
+bool applySLight(LightPart& part, const Sizes& args) {
+  const Vec3 size = args.of(part.size);
+  if (!(size.x >= 0 && size.y >= 0 && size.z >= 0)) return false;
   part.size = size + Vec3{};
   return true;
 }
 
 constexpr ParamSpec kParams[] = {
-    {"xSize", ParamType::Size,
-     "New size along the scope's x axis; ' takes a share of the old one."},
-    {"ySize", ParamType::Size, "New size along the y axis."},
-    {"zSize", ParamType::Size, "New size along the z axis."},
+    param<&Sizes::x>("xSize", "New size along the scope's x axis; ' takes a share of the old one."),
+    param<&Sizes::y>("ySize", "New size along the y axis."),
+    param<&Sizes::z>("zSize", "New size along the z axis."),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     withLight({"s", "transform", "Sets the size of the scope; the geometry is scaled with it.",
-               kSignatures, applyS},
-              applySLight),
+               kSignatures, typed<applyS>},
+              typedLight<applySLight>),
 };
 
 }  // namespace

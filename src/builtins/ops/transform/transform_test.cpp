@@ -132,7 +132,7 @@ TEST(Transform, translateMovesInEachSystem) {
 TEST(Transform, unknownSystemsAreReported) {
   Turned t;
   const Ran ran = Op("translate").args(word("rel"), word("moon"), 1, 2, 3).on(t.s, t.services);
-  EXPECT_STREQ(ran.status.code(), "unknown-selector");
+  EXPECT_STREQ(ran.status.code(), "wrong-argument");
   EXPECT_EQ(ran.shape.scope.origin, t.s.scope.origin);
 }
 

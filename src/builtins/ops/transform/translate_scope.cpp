@@ -9,33 +9,33 @@ namespace gable {
 
 namespace {
 
-Status applyT(OpCall& call) {
+struct Move {
+  Size x, y, z;
+  Vec3 in(const Vec3& size) const { return {x.of(size.x), y.of(size.y), z.of(size.z)}; }
+};
+
+Status applyT(OpCall& call, const Move& args) {
   Shape& s = call.shape();
-  const Vec3 by{call.sized(0, s.size.x), call.sized(1, s.size.y), call.sized(2, s.size.z)};
-  s.scope.origin = s.scope.point(by);
+  s.scope.origin = s.scope.point(args.in(s.size));
   return {};
 }
 
-bool applyTLight(LightPart& part, std::span<const Value> args) {
-  Vec3 by;
-  for (size_t i = 0; i < 3; ++i) {
-    by[i] = args[i].unit == Unit::Relative ? args[i].number * part.size[i] : args[i].number;
-  }
-  part.origin += part.parent->direction(by);
+bool applyTLight(LightPart& part, const Move& args) {
+  part.origin += part.parent->direction(args.in(part.size));
   return true;
 }
 
-Status applyTranslate(OpCall& call) {
+struct Translate {
+  Placing mode;
+  CoordSystem system;
+  double x, y, z;
+};
+
+Status applyTranslate(OpCall& call, const Translate& args) {
   Shape& s = call.shape();
-  bool known = false;
-  const Frame system = systemNamed(call.text(1), s, call.services(), known);
-  if (!known) {
-    return call.fail("unknown-selector",
-                     "translate knows no coordinate system '" + std::string(call.text(1)) + "'",
-                     "use scope, pivot, object or world");
-  }
-  const Vec3 v{call.number(2), call.number(3), call.number(4)};
-  if (call.is(0, "abs"))
+  const Frame system = frameOf(args.system, s, call.services());
+  const Vec3 v{args.x, args.y, args.z};
+  if (args.mode == Placing::Abs)
     s.scope.origin = system.point(v);
   else
     s.scope.origin += system.direction(v);
@@ -43,30 +43,31 @@ Status applyTranslate(OpCall& call) {
 }
 
 constexpr ParamSpec kTParams[] = {
-    {"tx", ParamType::Size, "Move along the scope's x axis, in metres or as a share of the size."},
-    {"ty", ParamType::Size, "Move along the scope's y axis."},
-    {"tz", ParamType::Size, "Move along the scope's z axis."},
+    param<&Move::x>("tx", "Move along the scope's x axis, in metres or as a share of the size."),
+    param<&Move::y>("ty", "Move along the scope's y axis."),
+    param<&Move::z>("tz", "Move along the scope's z axis."),
 };
 constexpr Signature kTSignatures[] = {{kTParams}};
 
 constexpr ParamSpec kTranslateParams[] = {
-    {"mode", ParamType::Selector,
-     "rel adds the vector to the position of the scope; abs puts the origin of the scope there.",
-     nullptr, "abs rel"},
-    {"coordSystem", ParamType::Selector, "The coordinate system that the vector is written in.",
-     nullptr, "scope pivot object world"},
-    {"x", ParamType::Float, "Along the x axis of that system, in metres."},
-    {"y", ParamType::Float, "Along its y axis."},
-    {"z", ParamType::Float, "Along its z axis."},
+    param<&Translate::mode>("mode",
+                            "rel adds the vector to the position of the scope; abs puts the origin "
+                            "of the scope there."),
+    param<&Translate::system>("coordSystem",
+                              "The coordinate system that the vector is written in."),
+    param<&Translate::x>("x", "Along the x axis of that system, in metres."),
+    param<&Translate::y>("y", "Along its y axis."),
+    param<&Translate::z>("z", "Along its z axis."),
 };
 constexpr Signature kTranslateSignatures[] = {{kTranslateParams}};
 
 constexpr OpSpec kSpecs[] = {
-    withLight({"t", "transform", "Moves the scope along its own axes.", kTSignatures, applyT},
-              applyTLight),
+    withLight(
+        {"t", "transform", "Moves the scope along its own axes.", kTSignatures, typed<applyT>},
+        typedLight<applyTLight>),
     {"translate", "transform",
      "Moves the scope by a vector, or to a place, in a coordinate system of choice.",
-     kTranslateSignatures, applyTranslate, BlockKind::None,
+     kTranslateSignatures, typed<applyTranslate>, BlockKind::None,
      kReadsWorld | kReadsWorldByWord | kReadsPivot},
 };
 

@@ -23,18 +23,25 @@ size_t indexOf(char name) { return static_cast<size_t>(name - 'x'); }
 
 // The size of a tile: absolute, a share of the scope, or as near to the number as makes whole
 // tiles. A scope without extent says nothing.
-double tileSize(const Value& v, double extent) {
+double tileSize(const Size& v, double extent) {
   if (v.unit == Unit::Absolute || extent == 0) return v.number;
   if (v.unit == Unit::Relative) return v.number * extent;
   const double tiles = std::max(1.0, std::round(std::fabs(extent / v.number)));
   return std::copysign(extent / tiles, v.number);
 }
 
-Status applySetup(OpCall& call) {
+struct Setup {
+  double uvSet;
+  Word axes;
+  FloatingSize width, height;
+  double offsetU = 0, offsetV = 0, uwFactor = 0;
+};
+
+Status applySetup(OpCall& call, const Setup& args) {
   Shape& s = call.shape();
   int set = 0;
-  if (Status bad = uvSetOf(call, 0, set); !bad) return bad;
-  const std::string_view axes = call.text(1);
+  if (Status bad = uvSetOf(call, args.uvSet, set); !bad) return bad;
+  const std::string_view axes = args.axes.text;
   const size_t dot = axes.find('.');
   const char u = dot + 2 < axes.size() ? axes[dot + 1] : 0;
   const char v = dot + 2 < axes.size() ? axes[dot + 2] : 0;
@@ -46,8 +53,8 @@ Status applySetup(OpCall& call) {
   const Frame system = axes.starts_with("world") ? worldFrame(call.services()) : s.scope;
   UvProjection p;
   p.set = set;
-  p.width = tileSize(call.arg(2), std::fabs(s.size[indexOf(u)]));
-  p.height = tileSize(call.arg(3), std::fabs(s.size[indexOf(v)]));
+  p.width = tileSize(args.width, std::fabs(s.size[indexOf(u)]));
+  p.height = tileSize(args.height, std::fabs(s.size[indexOf(v)]));
   if (!(std::fabs(p.width) > 0) || !(std::fabs(p.height) > 0) || !std::isfinite(p.width) ||
       !std::isfinite(p.height)) {
     return call.fail("bad-argument", "setupProjection cannot make tiles without a size",
@@ -55,11 +62,9 @@ Status applySetup(OpCall& call) {
   }
   const Vec3 x = axisOf(system, u), y = axisOf(system, v);
   p.frame = Frame::of(system.origin, x, y, cross(x, y));
-  // The old form with five arguments has the factor in the fifth place.
-  const bool old = call.argCount() == 5;
-  p.offsetU = old ? 0 : call.number(4, 0) / p.width;
-  p.offsetV = call.number(5, 0) / p.height;
-  p.uwFactor = call.number(old ? 4 : 6, 0);
+  p.offsetU = args.offsetU / p.width;
+  p.offsetV = args.offsetV / p.height;
+  p.uwFactor = args.uwFactor;
   ShapeExtra extra = extraOf(s);
   extra.setProjection(p);
   s.extra = makeRef<ShapeExtra>(std::move(extra));
@@ -99,10 +104,14 @@ bool givesPlainUv(const Shape& s, int set, const Projector& projector) {
   return true;
 }
 
-Status applyProject(OpCall& call) {
+struct Project {
+  double uvSet;
+};
+
+Status applyProject(OpCall& call, const Project& args) {
   Shape& s = call.shape();
   int set = 0;
-  if (Status bad = uvSetOf(call, 0, set); !bad) return bad;
+  if (Status bad = uvSetOf(call, args.uvSet, set); !bad) return bad;
   const size_t layer = static_cast<size_t>(set);
   const UvProjection* found = s.extra ? s.extra->projection(set) : nullptr;
   if (!found) {
@@ -132,41 +141,41 @@ Status applyProject(OpCall& call) {
   return {};
 }
 
-constexpr ParamSpec kSet = {"uvSet", ParamType::Float,
-                            "The uv set, 0 to 9, which is the texture layer that uses it."};
-constexpr ParamSpec kAxes = {
-    "axes", ParamType::Selector,
-    "Where u and v run: two axes of the scope from its origin, or of the world from its.", nullptr,
+constexpr const char* kSetDoc = "The uv set, 0 to 9, which is the texture layer that uses it.";
+constexpr ParamSpec kSet = param<&Setup::uvSet>("uvSet", kSetDoc);
+constexpr ParamSpec kAxes = param<&Setup::axes>(
+    "axes", "Where u and v run: two axes of the scope from its origin, or of the world from its.",
+    nullptr,
     "scope.xy scope.xz scope.yx scope.yz scope.zx scope.zy world.xy world.xz world.yx world.yz "
-    "world.zx world.zy"};
-constexpr ParamSpec kWidth = {
-    "textureWidth", ParamType::FloatingSize,
+    "world.zx world.zy");
+constexpr ParamSpec kWidth = param<&Setup::width>(
+    "textureWidth",
     "Width of a tile in metres; with ' as a share of the scope, with ~ about that wide so that "
-    "whole tiles fit; negative ones mirror."};
-constexpr ParamSpec kHeight = {"textureHeight", ParamType::FloatingSize,
-                               "Height of a tile, likewise."};
-constexpr ParamSpec kOffsetU = {"widthOffset", ParamType::Float, "Shift along u, in metres."};
-constexpr ParamSpec kOffsetV = {"heightOffset", ParamType::Float, "Shift along v, in metres."};
-constexpr ParamSpec kFactor = {"uwFactor", ParamType::Float,
-                               "How much depth counts as u, to bend textures around corners."};
+    "whole tiles fit; negative ones mirror.");
+constexpr ParamSpec kHeight = param<&Setup::height>("textureHeight", "Height of a tile, likewise.");
+constexpr ParamSpec kOffsetU = param<&Setup::offsetU>("widthOffset", "Shift along u, in metres.");
+constexpr ParamSpec kOffsetV = param<&Setup::offsetV>("heightOffset", "Shift along v, in metres.");
+constexpr ParamSpec kFactor = param<&Setup::uwFactor>(
+    "uwFactor", "How much depth counts as u, to bend textures around corners.");
 constexpr ParamSpec kPlainParams[] = {kSet, kAxes, kWidth, kHeight};
+// The old form has the factor in the fifth place.
 constexpr ParamSpec kOldFactorParams[] = {kSet, kAxes, kWidth, kHeight, kFactor};
 constexpr ParamSpec kOffsetParams[] = {kSet, kAxes, kWidth, kHeight, kOffsetU, kOffsetV};
 constexpr ParamSpec kFactorParams[] = {kSet, kAxes, kWidth, kHeight, kOffsetU, kOffsetV, kFactor};
 constexpr Signature kSetupSignatures[] = {
     {kPlainParams}, {kOldFactorParams}, {kOffsetParams}, {kFactorParams}};
 
-constexpr ParamSpec kProjectParams[] = {kSet};
+constexpr ParamSpec kProjectParams[] = {param<&Project::uvSet>("uvSet", kSetDoc)};
 constexpr Signature kProjectSignatures[] = {{kProjectParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"setupProjection", "uv",
      "Prepares a planar projection of a texture, which this shape and its parts keep.",
-     kSetupSignatures, applySetup, BlockKind::None, kReadsWorld | kReadsWorldByWord},
-    {"setupUV", "uv", "Old name of setupProjection.", kSetupSignatures, applySetup, BlockKind::None,
-     kReadsWorld | kReadsWorldByWord, nullptr, false, true},
+     kSetupSignatures, typed<applySetup>, BlockKind::None, kReadsWorld | kReadsWorldByWord},
+    {"setupUV", "uv", "Old name of setupProjection.", kSetupSignatures, typed<applySetup>,
+     BlockKind::None, kReadsWorld | kReadsWorldByWord, nullptr, false, true},
     {"projectUV", "uv", "Writes texture coordinates from the prepared projection.",
-     kProjectSignatures, applyProject, BlockKind::None, kReadsUvProjection},
+     kProjectSignatures, typed<applyProject>, BlockKind::None, kReadsUvProjection},
 };
 
 }  // namespace

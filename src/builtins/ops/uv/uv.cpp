@@ -20,50 +20,83 @@ namespace {
 
 using UvSet = std::vector<Vec2>;
 
-// Runs an edit on the coordinates of the set that argument 0 names; none there is nothing to do.
+// Runs an edit on the coordinates of a set; without coordinates there is nothing to do.
 template <class Edit>
-Status editSet(OpCall& call, Edit edit) {
+Status editSet(OpCall& call, double number, Edit edit) {
   int set = 0;
-  if (Status bad = uvSetOf(call, 0, set); !bad) return bad;
+  if (Status bad = uvSetOf(call, number, set); !bad) return bad;
   if (!hasUvSet(call.shape(), set)) return {};
   editMesh(call.shape(), [&](Mesh& m) { edit(m, m.uvs[static_cast<size_t>(set)]); });
   return {};
 }
 
 template <class Map>
-Status mapSet(OpCall& call, Map map) {
-  return editSet(call, [&](Mesh&, UvSet& uvs) {
+Status mapSet(OpCall& call, double number, Map map) {
+  return editSet(call, number, [&](Mesh&, UvSet& uvs) {
     for (Vec2& uv : uvs) uv = map(uv);
   });
 }
 
-Status applyScale(OpCall& call) {
-  const double u = call.number(1), v = call.number(2);
-  return mapSet(call, [&](Vec2 uv) { return Vec2{uv.x * u, uv.y * v}; });
+// A set and a number for each coordinate.
+struct PerCoordinate {
+  double uvSet;
+  double u, v;
+};
+
+Status applyScale(OpCall& call, const PerCoordinate& args) {
+  return mapSet(call, args.uvSet, [&](Vec2 uv) { return Vec2{uv.x * args.u, uv.y * args.v}; });
 }
 
-Status applyTranslate(OpCall& call) {
-  const Vec2 by{call.number(1), call.number(2)};
-  return mapSet(call, [&](Vec2 uv) { return uv + by; });
+Status applyTranslate(OpCall& call, const PerCoordinate& args) {
+  const Vec2 by{args.u, args.v};
+  return mapSet(call, args.uvSet, [&](Vec2 uv) { return uv + by; });
 }
 
-Status applyRotate(OpCall& call) {
-  const double c = cosDeg(call.number(1)), s = sinDeg(call.number(1));
-  return mapSet(call, [&](Vec2 uv) { return Vec2{uv.x * c - uv.y * s, uv.x * s + uv.y * c}; });
+struct RotateUv {
+  double uvSet, angle;
+};
+
+Status applyRotate(OpCall& call, const RotateUv& args) {
+  const double c = cosDeg(args.angle), s = sinDeg(args.angle);
+  return mapSet(call, args.uvSet, [&](Vec2 uv) {
+    return Vec2{uv.x * c - uv.y * s, uv.x * s + uv.y * c};
+  });
 }
+
+enum class NormalizeMode : uint8_t { Uv, UvUniform, U, V };
+enum class NormalizeType : uint8_t { SeparatePerFace, CollectiveAllFaces };
+
+}  // namespace
+
+template <>
+struct WordsOf<NormalizeMode> {
+  static constexpr const char* text = "uv uvUniform u v";
+};
+template <>
+struct WordsOf<NormalizeType> {
+  static constexpr const char* text = "separatePerFace collectiveAllFaces";
+};
+
+namespace {
+
+struct NormalizeUv {
+  double uvSet;
+  NormalizeMode mode;
+  NormalizeType type;
+};
 
 // Brings the coordinates of some corners into [0, 1].
-void normalize(UvSet& uvs, const std::vector<uint32_t>& corners, std::string_view mode) {
+void normalize(UvSet& uvs, const std::vector<uint32_t>& corners, NormalizeMode mode) {
   Box2 box;
   for (const uint32_t c : corners) box.include(uvs[c]);
   if (box.empty()) return;
   Vec2 by = box.min, size = box.size();
-  if (mode == "uvUniform") size = {std::max(size.x, size.y), std::max(size.x, size.y)};
+  if (mode == NormalizeMode::UvUniform) size = {std::max(size.x, size.y), std::max(size.x, size.y)};
   Vec2 factor{size.x > 0 ? 1 / size.x : 0, size.y > 0 ? 1 / size.y : 0};
-  if (mode == "u") {
+  if (mode == NormalizeMode::U) {
     by.y = 0;
     factor.y = 1;
-  } else if (mode == "v") {
+  } else if (mode == NormalizeMode::V) {
     by.x = 0;
     factor.x = 1;
   }
@@ -72,10 +105,10 @@ void normalize(UvSet& uvs, const std::vector<uint32_t>& corners, std::string_vie
   }
 }
 
-Status applyNormalize(OpCall& call) {
-  const std::string_view mode = call.text(1, "uv");
-  const bool separate = call.is(2, "separatePerFace");
-  return editSet(call, [&](Mesh& m, UvSet& uvs) {
+Status applyNormalize(OpCall& call, const NormalizeUv& args) {
+  const NormalizeMode mode = args.mode;
+  const bool separate = args.type == NormalizeType::SeparatePerFace;
+  return editSet(call, args.uvSet, [&](Mesh& m, UvSet& uvs) {
     std::vector<uint32_t> corners;
     for (size_t f = 0; f < m.faceCount(); ++f) {
       for (const MeshLoop& loop : m.loopsOf(f)) {
@@ -90,7 +123,7 @@ Status applyNormalize(OpCall& call) {
 }
 
 // The factor that makes tiles of the size asked for out of what one coordinate spans.
-double tileFactor(const Value& tile, const UvExtent& extent) {
+double tileFactor(const Size& tile, const UvExtent& extent) {
   const double range = extent.max - extent.min;
   if (tile.number == 0 || range <= 0 || extent.metres <= 0) return 1;
   double tiles = 1 / tile.number;
@@ -103,19 +136,28 @@ double tileFactor(const Value& tile, const UvExtent& extent) {
   return tiles / range;
 }
 
-Status applyTile(OpCall& call) {
+struct TileUv {
+  double uvSet;
+  FloatingSize width, height;
+};
+
+Status applyTile(OpCall& call, const TileUv& args) {
   int set = 0;
-  if (Status bad = uvSetOf(call, 0, set); !bad) return bad;
+  if (Status bad = uvSetOf(call, args.uvSet, set); !bad) return bad;
   if (!hasUvSet(call.shape(), set)) return {};
   const MeshRef measured = meshInScope(call.shape());
-  const Vec2 factor{tileFactor(call.arg(1), uvExtent(*measured, set, 0)),
-                    tileFactor(call.arg(2), uvExtent(*measured, set, 1))};
-  return mapSet(call, [&](Vec2 uv) { return Vec2{uv.x * factor.x, uv.y * factor.y}; });
+  const Vec2 factor{tileFactor(args.width, uvExtent(*measured, set, 0)),
+                    tileFactor(args.height, uvExtent(*measured, set, 1))};
+  return mapSet(call, args.uvSet, [&](Vec2 uv) { return Vec2{uv.x * factor.x, uv.y * factor.y}; });
 }
 
-Status applyDelete(OpCall& call) {
+struct DeleteUv {
+  double uvSet;
+};
+
+Status applyDelete(OpCall& call, const DeleteUv& args) {
   int set = 0;
-  if (Status bad = uvSetOf(call, 0, set); !bad) return bad;
+  if (Status bad = uvSetOf(call, args.uvSet, set); !bad) return bad;
   Geometry& g = call.shape().geometry;
   if (!hasUvSet(call.shape(), set)) return {};
   if (g.kind != GeometryKind::Mesh) {
@@ -127,80 +169,86 @@ Status applyDelete(OpCall& call) {
   return {};
 }
 
-Status applyCopy(OpCall& call) {
+struct CopyUv {
+  double from, to;
+};
+
+Status applyCopy(OpCall& call, const CopyUv& args) {
   int from = 0, to = 0;
-  if (Status bad = uvSetOf(call, 0, from); !bad) return bad;
-  if (Status bad = uvSetOf(call, 1, to); !bad) return bad;
+  if (Status bad = uvSetOf(call, args.from, from); !bad) return bad;
+  if (Status bad = uvSetOf(call, args.to, to); !bad) return bad;
   if (from == to || (!hasUvSet(call.shape(), from) && !hasUvSet(call.shape(), to))) return {};
   editMesh(call.shape(),
            [&](Mesh& m) { m.uvs[static_cast<size_t>(to)] = m.uvs[static_cast<size_t>(from)]; });
   return {};
 }
 
-constexpr ParamSpec kSet = {"uvSet", ParamType::Float, "The uv set, 0 to 9."};
+constexpr const char* kSetDoc = "The uv set, 0 to 9.";
 
 constexpr ParamSpec kScaleParams[] = {
-    kSet,
-    {"uFactor", ParamType::Float, "What u is multiplied by."},
-    {"vFactor", ParamType::Float, "What v is multiplied by."},
+    param<&PerCoordinate::uvSet>("uvSet", kSetDoc),
+    param<&PerCoordinate::u>("uFactor", "What u is multiplied by."),
+    param<&PerCoordinate::v>("vFactor", "What v is multiplied by."),
 };
 constexpr Signature kScaleSignatures[] = {{kScaleParams}};
 
 constexpr ParamSpec kTranslateParams[] = {
-    kSet,
-    {"uOffset", ParamType::Float, "What is added to u; 1 is the width of the texture."},
-    {"vOffset", ParamType::Float, "What is added to v."},
+    param<&PerCoordinate::uvSet>("uvSet", kSetDoc),
+    param<&PerCoordinate::u>("uOffset", "What is added to u; 1 is the width of the texture."),
+    param<&PerCoordinate::v>("vOffset", "What is added to v."),
 };
 constexpr Signature kTranslateSignatures[] = {{kTranslateParams}};
 
 constexpr ParamSpec kRotateParams[] = {
-    kSet,
-    {"angle", ParamType::Float, "The turn around u = v = 0, in degrees."},
+    param<&RotateUv::uvSet>("uvSet", kSetDoc),
+    param<&RotateUv::angle>("angle", "The turn around u = v = 0, in degrees."),
 };
 constexpr Signature kRotateSignatures[] = {{kRotateParams}};
 
 constexpr ParamSpec kNormalizeParams[] = {
-    kSet,
-    {"normalizeMode", ParamType::Selector,
-     "Both coordinates each by itself, both by the larger one, or only one of them.", nullptr,
-     "uv uvUniform u v"},
-    {"normalizeType", ParamType::Selector,
-     "Whether each face comes to fill [0, 1] or all faces together.", nullptr,
-     "separatePerFace collectiveAllFaces"},
+    param<&NormalizeUv::uvSet>("uvSet", kSetDoc),
+    param<&NormalizeUv::mode>(
+        "normalizeMode",
+        "Both coordinates each by itself, both by the larger one, or only one of them."),
+    param<&NormalizeUv::type>("normalizeType",
+                              "Whether each face comes to fill [0, 1] or all faces together."),
 };
 constexpr Signature kNormalizeSignatures[] = {{kNormalizeParams}};
 
 constexpr ParamSpec kTileParams[] = {
-    kSet,
-    {"textureWidth", ParamType::FloatingSize,
-     "Width of a tile in metres; with ' as a share of what there is, with ~ about that wide so "
-     "that whole tiles fit; 0 leaves u."},
-    {"textureHeight", ParamType::FloatingSize, "Height of a tile, likewise; 0 leaves v."},
+    param<&TileUv::uvSet>("uvSet", kSetDoc),
+    param<&TileUv::width>(
+        "textureWidth",
+        "Width of a tile in metres; with ' as a share of what there is, with ~ about that wide so "
+        "that whole tiles fit; 0 leaves u."),
+    param<&TileUv::height>("textureHeight", "Height of a tile, likewise; 0 leaves v."),
 };
 constexpr Signature kTileSignatures[] = {{kTileParams}};
 
-constexpr ParamSpec kDeleteParams[] = {kSet};
+constexpr ParamSpec kDeleteParams[] = {param<&DeleteUv::uvSet>("uvSet", kSetDoc)};
 constexpr Signature kDeleteSignatures[] = {{kDeleteParams}};
 
 constexpr ParamSpec kCopyParams[] = {
-    {"uvSetSource", ParamType::Float, "The uv set to copy, 0 to 9."},
-    {"uvSetDest", ParamType::Float, "The uv set to overwrite, 0 to 9."},
+    param<&CopyUv::from>("uvSetSource", "The uv set to copy, 0 to 9."),
+    param<&CopyUv::to>("uvSetDest", "The uv set to overwrite, 0 to 9."),
 };
 constexpr Signature kCopySignatures[] = {{kCopyParams}};
 
 constexpr OpSpec kSpecs[] = {
-    {"scaleUV", "uv", "Multiplies texture coordinates.", kScaleSignatures, applyScale},
-    {"translateUV", "uv", "Shifts texture coordinates.", kTranslateSignatures, applyTranslate},
-    {"offsetUV", "uv", "Old name of translateUV.", kTranslateSignatures, applyTranslate},
+    {"scaleUV", "uv", "Multiplies texture coordinates.", kScaleSignatures, typed<applyScale>},
+    {"translateUV", "uv", "Shifts texture coordinates.", kTranslateSignatures,
+     typed<applyTranslate>},
+    {"offsetUV", "uv", "Old name of translateUV.", kTranslateSignatures, typed<applyTranslate>},
     {"rotateUV", "uv", "Turns texture coordinates around their origin.", kRotateSignatures,
-     applyRotate},
+     typed<applyRotate>},
     {"normalizeUV", "uv", "Brings texture coordinates into the range from 0 to 1.",
-     kNormalizeSignatures, applyNormalize},
+     kNormalizeSignatures, typed<applyNormalize>},
     {"tileUV", "uv", "Scales texture coordinates so that a tile has a real size.", kTileSignatures,
-     applyTile},
-    {"deleteUV", "uv", "Takes the coordinates of a uv set away.", kDeleteSignatures, applyDelete},
+     typed<applyTile>},
+    {"deleteUV", "uv", "Takes the coordinates of a uv set away.", kDeleteSignatures,
+     typed<applyDelete>},
     {"copyUV", "uv", "Copies the coordinates of one uv set to another.", kCopySignatures,
-     applyCopy},
+     typed<applyCopy>},
 };
 
 }  // namespace

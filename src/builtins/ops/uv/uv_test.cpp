@@ -114,7 +114,7 @@ TEST(Projection, mistakesAreReported) {
   const auto code = [&](const Op& op) { return std::string(op.on(s, services).status.code()); };
   EXPECT_EQ(code(Op("projectUV").args(0)), "no-projection");
   EXPECT_EQ(code(Op("projectUV").args(10)), "bad-argument");
-  EXPECT_EQ(code(Op("setupProjection").args(0, word("scope.xx"), 1, 1)), "unknown-selector");
+  EXPECT_EQ(code(Op("setupProjection").args(0, word("scope.xx"), 1, 1)), "wrong-argument");
   EXPECT_EQ(code(Op("setupProjection").args(0, word("scope.xy"), 0, 1)), "bad-argument");
   EXPECT_EQ(code(Op("setupProjection").args(-1, word("scope.xy"), 1, 1)), "bad-argument");
 }

@@ -97,13 +97,6 @@ bool axesAround(const Shape& s, Axis axis, AxisPair& out) {
   return count < 2;
 }
 
-bool axisNamed(std::string_view word, Axis& out) {
-  if (word == "x") out = Axis::X;
-  if (word == "y") out = Axis::Y;
-  if (word == "z") out = Axis::Z;
-  return word == "x" || word == "y" || word == "z";
-}
-
 double roundedCount(double ratio, std::string_view rounding) {
   // Equal lengths with rounding errors in them are equal.
   const double nearest = std::nearbyint(ratio);

@@ -42,9 +42,6 @@ struct AxisPair {
 /// x and z for y, y and z for x, x and y for z. False when fewer than two axes have an extent.
 bool axesAround(const Shape& s, Axis axis, AxisPair& out);
 
-/// x, y or z; false for another word.
-bool axisNamed(std::string_view word, Axis& out);
-
 /// How a number of pieces comes of a ratio of lengths. One piece at least.
 double roundedCount(double ratio, std::string_view rounding);
 

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "program/arguments.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/number.h"
+#include "base/small_buffer.h"
+
+namespace gable {
+
+namespace {
+
+bool isNoWord(const ParamSpec& p, const Value& v, const ValuePool& pool) {
+  const bool isText = v.type == ValueType::Selector || v.type == ValueType::String;
+  return p.type == ParamType::Selector && p.words && isText &&
+         wordIndex(p.words, pool.text(v.id)) < 0;
+}
+
+bool accepts(const Signature& s, std::span<const Value> values, const ValuePool& pool) {
+  if (!s.acceptsCount(values.size())) return false;
+  for (size_t i = 0; i < values.size(); ++i) {
+    const ParamSpec& p = *s.paramAt(i);
+    if (!fits(values[i].type, p.type) || isNoWord(p, values[i], pool)) return false;
+  }
+  return true;
+}
+
+// The signature for these values; where none fits, one that takes as many, to say what is wrong.
+const Signature* choose(std::span<const Signature> signatures, std::span<const Value> values,
+                        const ValuePool& pool) {
+  const Signature* byCount = nullptr;
+  for (const Signature& s : signatures) {
+    if (accepts(s, values, pool)) return &s;
+    if (!byCount && s.acceptsCount(values.size())) byCount = &s;
+  }
+  return byCount;
+}
+
+}  // namespace
+
+int wordIndex(const char* words, std::string_view word) {
+  std::string_view rest = words ? words : "";
+  for (int place = 0; !rest.empty(); ++place) {
+    const size_t end = std::min(rest.find(' '), rest.size());
+    if (rest.substr(0, end) == word) return place;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return -1;
+}
+
+Value defaultValue(const ParamSpec& param, ValuePool& pool) {
+  if (param.mayBeMissing || param.defaultText == nullptr) return {};
+  std::string_view text = param.defaultText;
+  if (text.size() >= 2 && text.front() == '"') {
+    text.remove_prefix(1);
+    text.remove_suffix(1);
+    return pool.string(text);
+  }
+  if (text == "true" || text == "false") return Value::of(text == "true");
+  if (param.type == ParamType::Selector) return pool.selector(text);
+  if (text == "inf") return Value::of(std::numeric_limits<double>::infinity());
+  Unit unit = Unit::Absolute;
+  if (text.front() == '\'') unit = Unit::Relative;
+  if (text.front() == '~') unit = Unit::Floating;
+  if (unit != Unit::Absolute) text.remove_prefix(1);
+  Value v = Value::of(0.0);
+  parseNumber(text, v.number);
+  v.unit = unit;
+  return v;
+}
+
+ArgumentProblem bindArguments(std::span<const Signature> signatures, const Signature* form,
+                              std::span<const Value> values, ValuePool& pool, void* arguments) {
+  using Kind = ArgumentProblem::Kind;
+  SmallBuffer<Value, 16> filled;
+  if (!form) {
+    form = choose(signatures, values, pool);
+    if (!form) return {Kind::Count, 0, nullptr};
+    for (const Value& v : values) filled.push_back(v);
+    for (size_t i = values.size(); i < form->params.size(); ++i) {
+      filled.push_back(defaultValue(form->params[i], pool));
+    }
+    values = {filled.begin(), filled.size()};
+  }
+  for (size_t i = 0; i < form->params.size(); ++i) {
+    const ParamSpec& p = form->params[i];
+    if (!p.store(arguments, values[i], pool) || isNoWord(p, values[i], pool)) {
+      return {Kind::Type, i, &p};
+    }
+  }
+  return {};
+}
+
+std::string problemText(const ArgumentProblem& problem, std::string_view callee,
+                        std::span<const Value> values) {
+  const std::string name = "'" + std::string(callee) + "'";
+  if (problem.kind == ArgumentProblem::Kind::Count) {
+    return name + " cannot be called with " + std::to_string(values.size()) + " arguments";
+  }
+  const std::string which = "argument " + std::to_string(problem.index + 1) + " of " + name + ", " +
+                            problem.param->name + ", is ";
+  const ValueType wanted = valueType(problem.param->type);
+  const ValueType got =
+      problem.index < values.size() ? values[problem.index].type : ValueType::Null;
+  if (wanted == ValueType::Selector && fits(got, problem.param->type)) {
+    return which + "none of its words";
+  }
+  return which + "a " + typeName(got) + ", not a " + typeName(wanted);
+}
+
+std::string problemHint(const ArgumentProblem& problem) {
+  if (!problem.param) return "see what it takes with 'gable ops'";
+  std::string hint = problem.param->doc;
+  if (problem.param->words) hint += " One of: " + std::string(problem.param->words);
+  return hint;
+}
+
+}  // namespace gable
