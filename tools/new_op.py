@@ -26,19 +26,25 @@ namespace gable {{
 
 namespace {{
 
-Status apply(OpCall& call) {{
-  const double distance = call.number(0);
-  (void)distance;
+// A field for each parameter; its type is the type of the parameter (program/arguments.h).
+struct Arguments {{
+  double distance;
+}};
+
+Status apply(OpCall& call, const Arguments& args) {{
+  (void)call;
+  (void)args.distance;
   return {{}};
 }}
 
 constexpr ParamSpec kParams[] = {{
-    {{"distance", ParamType::Float, "What the number means, in metres."}},
+    param<&Arguments::distance>("distance", "What the number means, in metres."),
 }};
 constexpr Signature kSignatures[] = {{{{kParams}}}};
 
 constexpr OpSpec kSpecs[] = {{
-    {{"{name}", "{family}", "One sentence that says what it does to the shape.", kSignatures, apply}},
+    {{"{name}", "{family}", "One sentence that says what it does to the shape.", kSignatures,
+     typed<apply>}},
 }};
 
 }}  // namespace

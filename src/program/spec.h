@@ -162,7 +162,7 @@ struct OpSpec {
   /// A name beyond the CGA reference: the author's own rule or attribute of that name wins.
   bool soft = false;
   /// The same on a light part, for operations that can do with one.
-  LightOp light;
+  LightOp light = {};
   /// What a vertex of the shape costs, in steps of the limit on work; see heavy().
   uint16_t stepsPerVertex = 1;
   /// For operations that wait for what comes of their children (OpCall::gather): the leaves, of

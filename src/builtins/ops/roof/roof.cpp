@@ -296,7 +296,7 @@ constexpr ParamSpec kGableRest[] = {
                              "0"),
     param<&Gable::even>("even", kEvenDoc, "false"),
     param<&Gable::index>("index", "The edge that the ridge runs along; for a single convex face.",
-                         "found"),
+                         "none"),
 };
 constexpr ParamSpec kGableByAngle[] = {kAngle[0], kGableRest[0], kGableRest[1], kGableRest[2],
                                        kGableRest[3]};
