@@ -42,6 +42,8 @@ struct Dialect {
   lang::Tree (*parse)(const DialectInput& input, Diagnostics& diagnostics);
   /// The text in canonical form, or as it is when it has mistakes; null when the notation has none.
   std::string (*format)(const Sources& sources, uint32_t file, Diagnostics& diagnostics) = nullptr;
+  /// Comments may begin with '#', besides // and /* */.
+  bool hashComments = false;
 };
 
 /// All dialects, by name.

@@ -64,6 +64,7 @@ void writeOperation(JsonWriter& json, const OpSpec& op) {
   json.key("name").value(op.name).key("family").value(op.family);
   json.key("summary").value(op.summary);
   if (op.block != BlockKind::None) json.key("block").value(blockName(op));
+  if (op.blockWords) json.key("blockWords").value(op.blockWords);
   writeSignatures(json, op.signatures, false);
   json.endObject();
 }

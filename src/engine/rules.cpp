@@ -7,6 +7,7 @@
 #include "base/files.h"
 #include "builtins/catalogue.h"
 #include "dialects/dialect.h"
+#include "dialects/remarks.h"
 #include "engine/impl.h"
 #include "lang/compile/compile.h"
 #include "lang/format.h"
@@ -179,7 +180,8 @@ Converted convert(const std::string& text, const std::string& path, const LoadOp
   } else {
     ProjectLoader loader(project, options);
     const lang::Tree tree = parseAs(dialect.value(), sources, file, loader, diagnostics);
-    const uint32_t printed = sources.add("converted.cga", lang::print(tree));
+    const std::vector<lang::Remark> remarks = remarksOf(*dialect.value(), sources.text(file));
+    const uint32_t printed = sources.add("converted.cga", lang::print(tree, remarks));
     if (!diagnostics.hasErrors()) out.text = lang::format(sources, printed, diagnostics);
   }
   diagnostics.sortByPlace();

@@ -3,6 +3,11 @@
 
 #include "lang/print.h"
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
 #include "base/number.h"
 #include "lang/dump.h"
 
@@ -31,22 +36,51 @@ int precedenceOf(BinaryOp op) {
 
 class Printer {
  public:
-  explicit Printer(const Tree& tree) : t_(tree) {}
+  Printer(const Tree& tree, std::span<const Remark> remarks) : t_(tree), remarks_(remarks) {}
 
   std::string run() {
+    const auto declarations = t_.children(t_.root());
+    std::map<NodeId, std::string> remarks = remarksByOwner(declarations);
     NodeKind last = NodeKind::None;
-    for (const NodeId d : t_.children(t_.root())) {
+    for (const NodeId d : declarations) {
       const NodeKind kind = t_.kind(d);
       if (!out_.empty() && (kind != last || kind == NodeKind::Rule)) out_ += "\n";
       last = kind;
+      out_ += remarks[d];
       declaration(d);
       out_ += "\n";
     }
+    if (!remarks[kNoNode].empty()) out_ += "\n" + remarks[kNoNode];
     return std::move(out_);
   }
 
  private:
   std::string_view text(NodeId id) const { return t_.text(id); }
+
+  // --- Remarks ---
+
+  // To each declaration the remarks that stand in it, before it, or behind it on its last line;
+  // kNoNode has those at the end.
+  std::map<NodeId, std::string> remarksByOwner(std::span<const NodeId> declarations) const {
+    // Of declarations in one place the last is the author's: a rule, not what it needs.
+    std::vector<NodeId> sorted(declarations.rbegin(), declarations.rend());
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [&](NodeId a, NodeId b) { return t_.span(a).begin < t_.span(b).begin; });
+    std::map<NodeId, std::string> out;
+    size_t next = 0;
+    NodeId before = kNoNode;
+    for (const Remark& r : remarks_) {
+      for (; next < sorted.size() && t_.span(sorted[next]).end <= r.begin; ++next) {
+        const bool later = before == kNoNode || t_.span(sorted[next]).end > t_.span(before).end;
+        if (later) before = sorted[next];
+      }
+      NodeId owner = next < sorted.size() ? sorted[next] : kNoNode;
+      const bool inside = owner != kNoNode && t_.span(owner).begin < r.begin;
+      if (r.behind && !inside && before != kNoNode) owner = before;
+      out[owner] += r.text + "\n";
+    }
+    return out;
+  }
 
   // --- Declarations ---
 
@@ -250,7 +284,7 @@ class Printer {
   void bare(NodeId id) {
     const auto list = t_.children(id);
     switch (t_.kind(id)) {
-      case NodeKind::Number: out_ += shortestText(t_.number(id)); return;
+      case NodeKind::Number: return number(t_.number(id));
       case NodeKind::String: out_ += quoted(text(id)); return;
       case NodeKind::Bool: out_ += t_.number(id) != 0 ? "true" : "false"; return;
       case NodeKind::Name:
@@ -295,6 +329,14 @@ class Printer {
     }
   }
 
+  // The language has no words for what is no number, or beyond all numbers.
+  void number(double v) {
+    if (std::isfinite(v))
+      out_ += shortestText(v);
+    else
+      out_ += std::isnan(v) ? "(0 / 0)" : v > 0 ? "(1 / 0)" : "(-1 / 0)";
+  }
+
   std::string dot(NodeId id) const { return t_.has(id, kFlagElementwise) ? "." : ""; }
 
   void array(NodeId id) {
@@ -318,11 +360,14 @@ class Printer {
   }
 
   const Tree& t_;
+  std::span<const Remark> remarks_;
   std::string out_;
 };
 
 }  // namespace
 
-std::string print(const Tree& tree) { return Printer(tree).run(); }
+std::string print(const Tree& tree, std::span<const Remark> remarks) {
+  return Printer(tree, remarks).run();
+}
 
 }  // namespace gable::lang

@@ -138,6 +138,6 @@ constexpr const char* kExtensions[] = {".gbbg"};
 
 }  // namespace
 
-const Dialect kGbbgDialect = {"gbbg", "GBBG", kExtensions, parseGbbg, formatGbbg};
+const Dialect kGbbgDialect = {"gbbg", "GBBG", kExtensions, parseGbbg, formatGbbg, true};
 
 }  // namespace gable

@@ -6,6 +6,7 @@
 
 #include "dialects/gbbg/lower.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -20,6 +21,20 @@ using lang::NodeId;
 using Nodes = TreeBuilder::Nodes;
 
 const char* axisWord(Axis a) { return a == Axis::X ? "x" : a == Axis::Y ? "y" : "z"; }
+
+// What each chance comes to in percent. Those whose sum is no number count by their share of the
+// largest.
+std::vector<double> percentsOf(std::vector<double> chances) {
+  constexpr double kLarge = 1e300;
+  const double most = *std::max_element(chances.begin(), chances.end());
+  double sum = 0;
+  for (double& c : chances) {
+    if (most > kLarge) c /= most;
+    sum += c;
+  }
+  for (double& c : chances) c = 100 * c / sum;
+  return chances;
+}
 
 class Lowering {
  public:
@@ -166,15 +181,16 @@ Nodes Lowering::notesOf(const SymbolInfo& s) {
 void Lowering::ruleOf(const SymbolInfo& s) {
   t_.at(s.rules[0]->predecessor.span);
   const Nodes notes = notesOf(s);
-  double sum = 0;
   const bool weighted = vocabulary_.selection == Selection::Weighted;
-  for (const Rule* r : s.rules) sum += weighted ? r->weight : 1;
-  const size_t count = vocabulary_.selection == Selection::First || !(sum > 0) ? 1 : s.rules.size();
+  std::vector<double> weights;
+  for (const Rule* r : s.rules) weights.push_back(weighted ? r->weight : 1);
+  const bool some = *std::max_element(weights.begin(), weights.end()) > 0;
+  const size_t count = vocabulary_.selection == Selection::First || !some ? 1 : s.rules.size();
+  if (count > 1) weights = percentsOf(weights);
   std::vector<std::pair<NodeId, NodeId>> branches;
   for (size_t i = 0; i < count; ++i) {
     const Rule& r = *s.rules[i];
-    const NodeId weight =
-        i + 1 < count ? t_.number(100 * (weighted ? r.weight : 1) / sum) : lang::kNoNode;
+    const NodeId weight = i + 1 < count ? t_.number(weights[i]) : lang::kNoNode;
     branches.emplace_back(weight, bodyOf(r));
   }
   t_.at(s.rules[0]->predecessor.span);
@@ -343,18 +359,18 @@ Nodes Lowering::component(const Rule& r) {
 NodeId Lowering::slotOf(const Slot& slot, bool flat, Nodes before) {
   t_.at(slot.span);
   std::vector<const Possibility*> some;
-  double sum = 0;
+  std::vector<double> chances;
   for (const Possibility& p : slot.possibilities) {
     if (!(p.chance > 0)) continue;
     some.push_back(&p);
-    sum += p.chance;
+    chances.push_back(p.chance);
   }
   if (some.size() == 1) return possibilityOf(*some[0], flat, std::move(before));
+  const std::vector<double> percents = percentsOf(chances);
   std::vector<std::pair<NodeId, NodeId>> branches;
   for (size_t i = 0; i < some.size(); ++i) {
     t_.at(some[i]->symbol.span);
-    const NodeId weight =
-        i + 1 < some.size() ? t_.number(100 * some[i]->chance / sum) : lang::kNoNode;
+    const NodeId weight = i + 1 < some.size() ? t_.number(percents[i]) : lang::kNoNode;
     branches.emplace_back(weight, possibilityOf(*some[i], flat, {}));
   }
   t_.at(slot.span);

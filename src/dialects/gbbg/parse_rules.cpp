@@ -249,7 +249,7 @@ bool Parser::slots(Rule& out) {
 
 bool Parser::slot(Slot& out) {
   const uint32_t begin = current().begin;
-  double sum = 0;
+  double most = 0;
   do {
     Possibility p;
     if (!expectSymbol(p.symbol, "the symbol of a successor")) return false;
@@ -266,11 +266,11 @@ bool Parser::slot(Slot& out) {
       }
       advance();
     }
-    sum += p.chance;
+    most = std::max(most, p.chance);
     out.possibilities.push_back(std::move(p));
   } while (accept(','));
   out.span = {file_, begin, last().end};
-  if (sum > 0 && std::isfinite(sum)) return true;
+  if (most > 0) return true;
   return error("gbbg-chance", out.span, "these chances add up to nothing",
                "give at least one of them a chance above 0");
 }

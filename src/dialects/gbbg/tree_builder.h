@@ -73,7 +73,24 @@ class TreeBuilder {
     return named(lang::NodeKind::Rule, name, {notes, params, 0, body});
   }
 
-  NodeId sequence(const Nodes& successors) {
+  NodeId function(std::string_view name, const std::vector<std::string>& parameters, NodeId value) {
+    Nodes made;
+    for (const std::string& p : parameters) made.push_back(named(lang::NodeKind::Param, p, {}));
+    return named(lang::NodeKind::Function, name, {0, list(made), 0, value});
+  }
+  /// `case a : x case b : y else : z` of expressions; kNoNode stands for `else`.
+  NodeId valueChoice(const std::vector<std::pair<NodeId, NodeId>>& branches) {
+    Nodes made;
+    for (const auto& [head, value] : branches) {
+      made.push_back(tree_.add(node(lang::NodeKind::Branch), {head, value}));
+    }
+    return tree_.add(node(lang::NodeKind::Choice), made);
+  }
+
+  /// A choice before the last successor stands in brackets, since its last branch would go on to
+  /// the end of the sequence.
+  NodeId sequence(Nodes successors) {
+    for (size_t i = 0; i + 1 < successors.size(); ++i) bracketChoice(successors[i]);
     return tree_.add(node(lang::NodeKind::Sequence), successors);
   }
   /// An operation, or a rule where there are no arguments.
@@ -109,11 +126,16 @@ class TreeBuilder {
     n.op = static_cast<uint8_t>(head ? lang::ItemKind::Each : lang::ItemKind::Plain);
     return tree_.add(n, {head, lang::kNoNode, body});
   }
-  /// Conditions, or weights in percent, with bodies; kNoNode stands for `else`.
+  /// Conditions, or weights in percent, with bodies; kNoNode stands for `else`. In a body a choice
+  /// behind other successors stands in brackets: its branches would be read as those around it.
   NodeId choice(lang::ChoiceKind kind, const std::vector<std::pair<NodeId, NodeId>>& branches) {
     Nodes made;
     for (const auto& [head, body] : branches) {
-      made.push_back(tree_.add(node(lang::NodeKind::Branch), {head, body}));
+      const auto steps = tree_.children(body);
+      Nodes list(steps.begin(), steps.end());
+      for (size_t i = 1; i < list.size(); ++i) bracketChoice(list[i]);
+      const NodeId safe = tree_.add(node(lang::NodeKind::Sequence), list);
+      made.push_back(tree_.add(node(lang::NodeKind::Branch), {head, safe}));
     }
     lang::Node n = node(lang::NodeKind::Choice);
     n.op = static_cast<uint8_t>(kind);
@@ -129,6 +151,9 @@ class TreeBuilder {
   }
 
  private:
+  void bracketChoice(NodeId& successor) {
+    if (tree_.kind(successor) == lang::NodeKind::Choice) successor = push(sequence({successor}));
+  }
   lang::Node node(lang::NodeKind kind) const {
     lang::Node n;
     n.kind = kind;

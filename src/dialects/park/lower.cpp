@@ -23,6 +23,7 @@ lang::Tree Lowering::run(uint32_t size) {
     rules.push_back(rule(r, first));
     first = false;
   }
+  if (models_) rules.insert(rules.begin(), modelFile());
   return b_.finish(rules, size);
 }
 

@@ -306,23 +306,35 @@ void Lowering::model(const Op& op, Nodes& out) {
   std::erase_if(file, [](char c) { return c == '"'; });
   while (!file.empty() && file.front() == ' ') file.erase(0, 1);
   while (!file.empty() && file.back() == ' ') file.pop_back();
-  std::vector<std::string> tries{file};
-  if (file.find('.') == std::string::npos) tries = {file + ".obj", file + ".glb", file + ".gltf"};
-  const auto inserted = [&](const std::string& path) {
-    return b_.apply("i", {b_.text(path), b_.word("yUp"), b_.word("keepSizeAlignPosition")});
+  const bool typed = file.find('.') != std::string::npos;
+  if (!typed) models_ = true;
+  // A file without a type is the first there is of those that can be read.
+  const auto path = [&] { return typed ? b_.text(file) : b_.call(modelFile_, {b_.text(file)}); };
+  const auto inserted = [&](NodeId of) {
+    return b_.apply("i", {of, b_.word("yUp"), b_.word("keepSizeAlignPosition")});
+  };
+  const std::string name = rule_->name;
+  // Models have colours of their own. What is missing is reported, and a box stands for it.
+  const NodeId white = b_.apply("color", {b_.text("#ffffff")});
+  const NodeId found = b_.sequence({white, inserted(path()), b_.leaf(name)});
+  const NodeId missing = inserted(b_.text(typed ? file : file + ".obj"));
+  const NodeId box =
+      b_.sequence({missing, inserted(b_.text("builtin:cube")), colour(name), b_.leaf(name)});
+  const NodeId exists = b_.call("fileExists", {path()});
+  out.push_back(b_.choice(lang::ChoiceKind::Case, {{exists, found}, {kNoNode, box}}));
+}
+
+NodeId Lowering::modelFile() {
+  const auto named = [&](const char* type) {
+    return b_.binary(lang::BinaryOp::Add, b_.word("name"), b_.text(type));
   };
   std::vector<std::pair<NodeId, NodeId>> branches;
-  const std::string name = rule_->name;
-  for (const std::string& path : tries) {
-    // Models have colours of their own.
-    const NodeId white = b_.apply("color", {b_.text("#ffffff")});
-    branches.emplace_back(b_.call("fileExists", {b_.text(path)}),
-                          b_.sequence({white, inserted(path), b_.leaf(name)}));
+  for (const char* type : {".obj", ".glb"}) {
+    const NodeId exists = b_.call("fileExists", {named(type)});
+    branches.emplace_back(exists, named(type));
   }
-  // What is missing is reported, and a box stands for it.
-  branches.emplace_back(kNoNode, b_.sequence({inserted(tries[0]), inserted("builtin:cube"),
-                                              colour(name), b_.leaf(name)}));
-  out.push_back(b_.choice(lang::ChoiceKind::Case, branches));
+  branches.emplace_back(kNoNode, named(".gltf"));
+  return b_.function(modelFile_, {"name"}, b_.valueChoice(branches));
 }
 
 void Lowering::innerRect(const Op& op, Nodes& out) {
@@ -428,6 +440,7 @@ void Lowering::distribute(const Op& op, Nodes& out) {
     inset = number(by, 0, 0);
     selection.resize(colon);
   }
+  while (!selection.empty() && selection.back() == ' ') selection.pop_back();
   const NodeId block = things(op);
   checkWords(op, 2, {"cut", "over", "split", "align", "chain"});
   double spacing = 1;

@@ -29,6 +29,7 @@ class Lowering {
   Lowering(const Grammar& g, uint32_t file, Diagnostics& diagnostics)
       : g_(g), b_(file), diagnostics_(diagnostics) {
     const auto found = g.constants.find("PathWidth");
+    while (g.rule(modelFile_)) modelFile_ += '_';
     pathWidth_ = found != g.constants.end() ? found->second : kPathWidth;
   }
 
@@ -127,6 +128,8 @@ class Lowering {
   void choose(const Op& op, Nodes& out);
 
   void model(const Op& op, Nodes& out);
+  // The function that finds the file of a model by its name without a type.
+  NodeId modelFile();
 
   void innerRect(const Op& op, Nodes& out);
 
@@ -163,6 +166,9 @@ class Lowering {
   double pathWidth_ = kPathWidth;
   // Functions within functions.
   int functions_ = 0;
+  // Some model is named without the type of its file.
+  bool models_ = false;
+  std::string modelFile_ = "modelFile";
 };
 
 }  // namespace gable::park

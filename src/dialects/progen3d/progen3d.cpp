@@ -24,6 +24,6 @@ constexpr const char* kExtensions[] = {".grammar", ".pg3d"};
 
 }  // namespace
 
-const Dialect kProgen3d{"progen3d", "ProGen3d", kExtensions, parse};
+const Dialect kProgen3d{"progen3d", "ProGen3d", kExtensions, parse, nullptr, true};
 
 }  // namespace gable
