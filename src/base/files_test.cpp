@@ -3,7 +3,12 @@
 #include "base/files.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -60,11 +65,94 @@ TEST_F(Files, anUnfinishedFileLeavesTheOldOne) {
 TEST_F(Files, failuresAreToldByCode) {
   EXPECT_EQ(readFile(folder_ + "none").error().code, "file-missing");
   EXPECT_EQ(readFile(folder_).error().code, "file-unreadable");
+  ASSERT_TRUE(writeFile(folder_ + "town.cga", "").ok());
+  EXPECT_EQ(readFile(folder_ + "twon.cga").error().hint, "did you mean 'town.cga'?");
+  EXPECT_EQ(readFile(folder_ + "no/town.cga").error().hint, "there is no such folder");
   ASSERT_TRUE(writeFile(folder_ + "b", "12345").ok());
   EXPECT_EQ(readFile(folder_ + "b", 4).error().code, "file-too-large");
   EXPECT_EQ(readFile(folder_ + "b", 5).value(), "12345");
-  EXPECT_EQ(readFile("/dev/zero", 1000).error().code, "file-too-large");
   EXPECT_EQ(writeFile(folder_ + "no/such/folder", "x").error().code, "file-unwritable");
+}
+
+// Each of them would block, flood or act when it is opened.
+TEST_F(Files, onlyRegularFilesAreOpened) {
+  const std::string pipe = folder_ + "pipe", socket = folder_ + "socket", link = folder_ + "link";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  ASSERT_EQ(symlink("pipe", link.c_str()), 0);
+  const int listener = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  ASSERT_LT(socket.size(), sizeof address.sun_path);
+  socket.copy(address.sun_path, socket.size());
+  ASSERT_EQ(bind(listener, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  for (const std::string& path : {pipe, link, socket, std::string("/dev/zero")}) {
+    EXPECT_EQ(readFile(path).error().code, "file-unreadable") << path;
+    EXPECT_FALSE(fileExists(path)) << path;
+  }
+  for (const std::string& path : {pipe, link, socket, folder_}) {
+    EXPECT_EQ(writeFile(path, "x").error().code, "file-unwritable") << path;
+  }
+  close(listener);
+}
+
+TEST_F(Files, aFullDiskLosesNothing) {
+  const std::string path = folder_ + "a.txt";
+  ASSERT_TRUE(writeFile(path, "old").ok());
+  ASSERT_EQ(chmod(path.c_str(), 0640), 0);
+  // A limit on the size of files fails as a full disk does, without the signal.
+  const auto old = signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{1000, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const auto failed = writeFile(path, std::string(5000, 'x'));
+  setrlimit(RLIMIT_FSIZE, &before);
+  signal(SIGXFSZ, old);
+  ASSERT_FALSE(failed.ok());
+  EXPECT_EQ(failed.error().code, "file-unwritable");
+  EXPECT_EQ(readFile(path).value(), "old");
+  EXPECT_EQ(entries(), 1u);
+  ASSERT_TRUE(writeFile(path, "new").ok());
+  EXPECT_EQ(std::filesystem::status(path).permissions(), std::filesystem::perms(0640));
+  EXPECT_EQ(writeFile("/dev/full", "x").error().code, "file-unwritable");
+}
+
+// A child process that writes half a file and ends as `end` does.
+void leaveHalf(const std::string& path, void (*end)()) {
+  const pid_t child = fork();
+  if (child == 0) {
+    FileWriter half(path);
+    half.append(std::string(1 << 20, 'x'));
+    end();
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+}
+
+TEST_F(Files, killedProcessesLeaveNothingForLong) {
+  const std::string path = folder_ + "a.txt";
+  leaveHalf(path, [] { raise(SIGKILL); });
+  EXPECT_EQ(entries(), 1u);
+  {
+    // Another path's rest, a living writer's file and other names stay.
+    const FileWriter other(folder_ + "a");
+    EXPECT_EQ(entries(), 2u);
+    const FileWriter living(folder_ + "b");
+    ASSERT_TRUE(writeFile(folder_ + "a.txt.part12-x", "mine").ok());
+    ASSERT_TRUE(writeFile(path, "whole").ok());
+    EXPECT_EQ(entries(), 4u);
+    ASSERT_TRUE(writeFile(folder_ + "b", "whole").ok());
+    EXPECT_EQ(entries(), 5u);
+  }
+  EXPECT_EQ(entries(), 3u);
+}
+
+TEST_F(Files, aSignalHandlerRemovesWhatIsUnfinished) {
+  leaveHalf(folder_ + "a.txt", [] {
+    removeUnfinishedFiles();
+    _exit(0);
+  });
+  EXPECT_EQ(entries(), 0u);
 }
 
 TEST_F(Files, devicesAndLinksAreWrittenThrough) {

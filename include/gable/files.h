@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Files as Gable opens and writes them, for programs around it: only regular files are read, up to
+// a size; a file is written beside its place and renamed when it is complete, so that a full disk
+// or a signal leaves the old one as it was.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gable/gable.h"
+
+namespace gable {
+
+struct RuleText {
+  bool ok = false;
+  std::string text;
+  Messages messages;
+};
+/// The text of a rule file, of at most 256 MiB.
+RuleText readRuleText(const std::string& path);
+
+/// Replaces a file whole.
+WriteResult writeTextFile(const std::string& path, const std::string& text);
+
+/// The extensions of the models that Model::write makes, without dots.
+const std::vector<std::string>& modelExtensions();
+
+/// Removes what is half written. May be called by a signal handler, just before the process ends.
+void removeUnfinishedFiles();
+
+}  // namespace gable
