@@ -108,7 +108,8 @@ uint64_t contentHash(const Scene& scene) {
     h = hashCombine(h, PoolHashes::at(pools.names, root.name));
     const Prototype& p = scene.prototypes[root.instance.prototype];
     forEachLeaf(scene, p, root.instance.frame, [&](const Leaf& leaf, const Frame& world) {
-      h = hashVec(hashFrame(h, world), leaf.scale);
+      // What shows nothing stands nowhere.
+      if (!scene.meshes[leaf.mesh]->empty()) h = hashVec(hashFrame(h, world), leaf.scale);
       h = hashCombine(h, pools.meshes[leaf.mesh]);
       h = hashCombine(h, PoolHashes::at(pools.materialLists, leaf.materials));
       h = hashCombine(h, PoolHashes::at(pools.names, leaf.name));

@@ -45,28 +45,29 @@ uint32_t GltfMaterials::variant(uint32_t material, uint32_t uvMask) {
   const Material& m = material == kNoMaterial ? kDefault : scene_.materials[material];
   Variant v = make(m, uvMask);
   // Masks that differ in sets which the material does not use give the same variant.
-  for (uint32_t i = 0; i < variants_.size(); ++i) {
-    const VertexLayout &a = variants_[i].layout, &b = v.layout;
-    if (variants_[i].material == v.material && a.tangentSet == b.tangentSet &&
-        std::equal(a.uvSets, a.uvSets + a.uvCount, b.uvSets, b.uvSets + b.uvCount)) {
-      return known_[key] = i;
-    }
+  const auto [at, isNew] =
+      byLayout_.try_emplace(layoutKey(material, v.layout), static_cast<uint32_t>(variants_.size()));
+  if (isNew) {
+    numberMaterial(material, v);
+    variants_.push_back(v);
   }
-  numberMaterial(v);
-  variants_.push_back(v);
-  return known_[key] = static_cast<uint32_t>(variants_.size()) - 1;
+  return known_[key] = at->second;
 }
 
-void GltfMaterials::numberMaterial(Variant& v) {
-  for (const Variant& o : variants_) {
-    if (o.material == v.material && o.color.sameAs(v.color) &&
-        o.metallicRoughness.sameAs(v.metallicRoughness) && o.normal.sameAs(v.normal) &&
-        o.occlusion.sameAs(v.occlusion) && o.emissive.sameAs(v.emissive)) {
-      v.number = o.number;
-      return;
-    }
+std::vector<uint32_t> GltfMaterials::layoutKey(uint32_t material, const VertexLayout& layout) {
+  std::vector<uint32_t> key{material, static_cast<uint32_t>(layout.tangentSet)};
+  key.insert(key.end(), layout.uvSets, layout.uvSets + layout.uvCount);
+  return key;
+}
+
+void GltfMaterials::numberMaterial(uint32_t material, Variant& v) {
+  std::vector<uint32_t> key{material};
+  for (const Map* map : {&v.color, &v.metallicRoughness, &v.normal, &v.occlusion, &v.emissive}) {
+    key.insert(key.end(), {static_cast<uint32_t>(map->image), map->texcoord});
   }
-  v.number = materials_++;
+  const auto [at, isNew] = numbers_.try_emplace(std::move(key), materials_);
+  if (isNew) ++materials_;
+  v.number = at->second;
 }
 
 GltfMaterials::Map GltfMaterials::mapOf(const Material& m, TextureLayer layer, uint32_t uvMask,
@@ -88,9 +89,7 @@ GltfMaterials::Map GltfMaterials::mapOf(const Material& m, TextureLayer layer, u
 }
 
 void GltfMaterials::warnOnce(const std::string& text) {
-  if (std::find(warnings_.begin(), warnings_.end(), text) == warnings_.end()) {
-    warnings_.push_back(text);
-  }
+  if (warned_.insert(text).second) warnings_.push_back(text);
 }
 
 GltfMaterials::Variant GltfMaterials::make(const Material& m, uint32_t uvMask) {

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,6 @@ class GltfMaterials {
     int image = TextureSet::kNone;
     uint32_t texcoord = 0;
     TextureMap transform;
-    bool sameAs(const Map& o) const { return image == o.image && texcoord == o.texcoord; }
   };
   struct Variant {
     VertexLayout layout;
@@ -62,7 +62,8 @@ class GltfMaterials {
     Map color, metallicRoughness, normal, occlusion, emissive;
   };
   Variant make(const Material& m, uint32_t uvMask);
-  void numberMaterial(Variant& v);
+  void numberMaterial(uint32_t material, Variant& v);
+  static std::vector<uint32_t> layoutKey(uint32_t material, const VertexLayout& layout);
   Map mapOf(const Material& m, TextureLayer layer, uint32_t uvMask, int image);
   void addSets(Variant& v, uint32_t uvMask);
   void writeMaterial(JsonWriter& w, const Variant& v) const;
@@ -76,6 +77,9 @@ class GltfMaterials {
   std::vector<Variant> variants_;
   uint32_t materials_ = 0;
   std::map<uint64_t, uint32_t> known_;
+  /// By material and what tells variants, and glTF materials, of one material apart.
+  std::map<std::vector<uint32_t>, uint32_t> byLayout_, numbers_;
+  std::set<std::string> warned_;
   bool usesTransforms_ = false;
 };
 

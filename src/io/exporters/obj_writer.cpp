@@ -2,19 +2,24 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // OBJ and MTL. Coordinates are world coordinates rounded to a micrometre; numbers are formatted
-// into the buffer of the file. Boxes have a way of their own: an unturned box has six different
-// numbers and eight different indices, each of which is formatted once.
+// into the buffer of the file. MTL can scale and shift a texture but not turn it, so where a
+// material turns its colour texture the texture coordinates are written as they come out. Boxes
+// have a way of their own: an unturned box has six different numbers and eight different indices,
+// each of which is formatted once.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
 #include "base/files.h"
 #include "base/number.h"
+#include "geom/mesh/corner_normals.h"
 #include "io/exporters/surface.h"
 #include "io/exporters/textures.h"
 #include "io/exporters/triangle_cache.h"
 #include "io/exporters/write_model.h"
 #include "io/uri.h"
+#include "math/trig.h"
 #include "scene/flatten.h"
 
 namespace gable {
@@ -70,6 +75,8 @@ class ObjWriter {
   void putPolygon(const Mesh& m, const uint32_t* corners, size_t count, bool turn);
   bool hasArea(const Mesh& m, const uint32_t* corners, size_t count) const;
   void useMaterial(const Leaf& leaf, uint32_t slot);
+  bool isTurned(const Leaf& leaf, uint32_t slot) const;
+  void putUvs(const Mesh& m, const Leaf& leaf);
   void putLine(const char* word, const Vec3& v);
   std::string materialFile();
   void putMap(std::string& out, const char* statement, const Material& m, TextureLayer layer);
@@ -82,10 +89,13 @@ class ObjWriter {
   TextureSet textures_;
   // Whole lines, by Scene::names and by material (the last is the default material's).
   std::vector<std::string> groupLines_, materialNames_, materialLines_;
-  std::vector<bool> materialUsed_;
+  // By material, the default one included; turned: its texture is.
+  std::vector<bool> materialUsed_, turned_;
   uint32_t group_ = kNoMaterial, material_ = kNoMaterial;
   bool anyMaterial_ = false;
   uint64_t vertices_ = 0, uvs_ = 0, normals_ = 0;
+  // Textures that are turned in another way than their material's colour.
+  uint64_t misplacedMaps_ = 0;
   // Of the leaf at hand.
   std::vector<Vec3> placed_;
   std::vector<uint32_t> corners_;
@@ -101,11 +111,13 @@ void ObjWriter::nameMaterials() {
     std::string unique = name;
     if (times > 1) {
       unique = name + "-" + std::to_string(times);
-      while (taken.count(unique)) unique += "-";
+      while (taken.count(unique)) unique = name + "-" + std::to_string(++taken[name]);
       taken[unique] = 1;
     }
     materialNames_.push_back(unique);
     materialLines_.push_back("usemtl " + unique + "\n");
+    const TextureMap& map = m.map(TextureLayer::Color);
+    turned_.push_back(!map.path.empty() && map.rw != 0);
   };
   for (const Material& m : scene_.materials) add(m);
   add(Material{});
@@ -145,7 +157,7 @@ bool ObjWriter::addBox(const Leaf& leaf, const Frame& world) {
   const bool plain = s.x > kThin && s.y > kThin && s.z > kThin && s.x < kFar && s.y < kFar &&
                      s.z < kFar && std::fabs(o.x) < kFar && std::fabs(o.y) < kFar &&
                      std::fabs(o.z) < kFar;
-  if (!plain) return false;
+  if (!plain || (leaf.mesh == kUnitBoxUv && isTurned(leaf, 0))) return false;
   const Mesh& m = *scene_.meshes[leaf.mesh];
   useMaterial(leaf, 0);
   Piece index[8], numbers[6];
@@ -242,6 +254,37 @@ void ObjWriter::addFace(const Mesh& m, size_t face, const Leaf& leaf, bool turn)
   }
 }
 
+bool ObjWriter::isTurned(const Leaf& leaf, uint32_t slot) const {
+  const uint32_t m = materialIndexOf(scene_, leaf, slot);
+  return m < scene_.materials.size() && turned_[m];
+}
+
+// As glTF's exporter and the pictures transform them: scaled, turned about the lower left, shifted.
+void ObjWriter::putUvs(const Mesh& m, const Leaf& leaf) {
+  std::vector<Vec2> uvs = m.uvs[0];
+  for (size_t f = 0; f < m.faceCount(); ++f) {
+    const uint32_t slot = m.faces[f].materialSlot;
+    if (!isTurned(leaf, slot)) continue;
+    const TextureMap& t = materialOf(scene_, leaf, slot).map(TextureLayer::Color);
+    const double c = cosDeg(t.rw), s = sinDeg(t.rw);
+    for (const MeshLoop& loop : m.loopsOf(f)) {
+      for (uint32_t i = loop.firstCorner; i < loop.firstCorner + loop.cornerCount; ++i) {
+        const Vec2 uv{uvs[i].x * t.su, uvs[i].y * t.sv};
+        uvs[i] = {t.tu + c * uv.x - s * uv.y, t.tv + s * uv.x + c * uv.y};
+      }
+    }
+  }
+  for (const Vec2& uv : uvs) {
+    char* p = out_.reserve(kLineRoom);
+    std::memcpy(p, "vt ", 3);
+    p = writeFixed(p + 3, uv.x, kDecimals);
+    *p++ = ' ';
+    p = writeFixed(p, uv.y, kDecimals);
+    *p++ = '\n';
+    out_.advanceTo(p);
+  }
+}
+
 void ObjWriter::addMesh(const Leaf& leaf, const Frame& world) {
   const Mesh& m = *scene_.meshes[leaf.mesh];
   placed_.resize(m.positions.size());
@@ -253,17 +296,11 @@ void ObjWriter::addMesh(const Leaf& leaf, const Frame& world) {
   hasNormals_ = !m.normals.empty();
   uvBase_ = uvs_;
   normalBase_ = normals_;
-  for (size_t c = 0; hasUv_ && c < m.corners.size(); ++c) {
-    char* p = out_.reserve(kLineRoom);
-    std::memcpy(p, "vt ", 3);
-    p = writeFixed(p + 3, m.uvs[0][c].x, kDecimals);
-    *p++ = ' ';
-    p = writeFixed(p, m.uvs[0][c].y, kDecimals);
-    *p++ = '\n';
-    out_.advanceTo(p);
-  }
-  for (size_t c = 0; hasNormals_ && c < m.corners.size(); ++c) {
-    putLine("vn", world.direction(scaledNormal(m.normals[c], leaf.scale)));
+  if (hasUv_) putUvs(m, leaf);
+  if (hasNormals_) {
+    for (const Vec3& n : cornerNormals(m)) {
+      putLine("vn", world.direction(scaledNormal(n, leaf.scale)));
+    }
   }
   uvs_ += hasUv_ ? m.corners.size() : 0;
   normals_ += hasNormals_ ? m.corners.size() : 0;
@@ -280,18 +317,35 @@ void ObjWriter::add(const Leaf& leaf, const Frame& world) {
   addMesh(leaf, world);
 }
 
-void ObjWriter::putMap(std::string& out, const char* statement, const Material& m,
-                       TextureLayer layer) {
-  const TextureMap& map = m.map(layer);
-  const int texture = textures_.add(map.path);
-  if (texture == TextureSet::kNone) return;
-  out += statement;
+// MTL's options for a texture's scale and shift.
+std::string placingOf(const TextureMap& map) {
+  std::string out;
   if (map.su != 1 || map.sv != 1) {
     out += " -s " + shortestText(map.su) + " " + shortestText(map.sv) + " 1";
   }
   if (map.tu != 0 || map.tv != 0) {
     out += " -o " + shortestText(map.tu) + " " + shortestText(map.tv) + " 0";
   }
+  return out;
+}
+
+void ObjWriter::putMap(std::string& out, const char* statement, const Material& m,
+                       TextureLayer layer) {
+  const TextureMap& map = m.map(layer);
+  const int texture = textures_.add(map.path);
+  if (texture == TextureSet::kNone) return;
+  out += statement;
+  const TextureMap& color = m.map(TextureLayer::Color);
+  const bool baked = !color.path.empty() && color.rw != 0;
+  if (baked) {
+    const auto placing = [](const TextureMap& t) {
+      return std::array<double, 5>{t.su, t.sv, t.tu, t.tv, t.rw};
+    };
+    misplacedMaps_ += placing(map) == placing(color) ? 0 : 1;
+  } else {
+    misplacedMaps_ += map.rw != 0 ? 1 : 0;
+  }
+  if (!baked) out += placingOf(map);
   const ModelTexture& t = textures_.all()[static_cast<size_t>(texture)];
   out += " " + fileNameOf(stem_) + "-" + t.name + "\n";
 }
@@ -344,6 +398,11 @@ Result<WriteReport> ObjWriter::write() {
                 [&](const Leaf& leaf, const Frame& world) { add(leaf, world); });
   }
   const std::string materials = materialFile();
+  if (misplacedMaps_ > 0) {
+    report_.warnings.push_back(std::to_string(misplacedMaps_) +
+                               " textures lie as their material's colour texture does: OBJ has one "
+                               "set of texture coordinates, and MTL cannot turn");
+  }
   for (const ModelTexture& t : textures_.all()) {
     const std::string file = stem_ + "-" + t.name;
     const Result<uint64_t> bytes = writeFile(file, t.bytes);

@@ -7,6 +7,7 @@
 #include "io/exporters/plan.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gable {
 namespace {
@@ -138,8 +139,10 @@ void ScenePlan::measureContents() {
 bool ScenePlan::standsAlone(const Leaf& leaf) const {
   // Most scenes have none: leaves, which fill memory, are not even looked at.
   if (alone_.empty()) return false;
-  // A node must not flatten its mesh.
-  const bool flat = leaf.scale.x == 0 || leaf.scale.y == 0 || leaf.scale.z == 0;
+  // A node must not flatten its mesh, and its scale is written with nine digits behind the point.
+  constexpr double kThinnest = 1e-5;
+  const bool flat = std::fabs(leaf.scale.x) < kThinnest || std::fabs(leaf.scale.y) < kThinnest ||
+                    std::fabs(leaf.scale.z) < kThinnest;
   return !flat && meshBytes_[leaf.mesh] >= kAloneBytes &&
          std::binary_search(alone_.begin(), alone_.end(), aloneKey(leaf));
 }

@@ -7,24 +7,10 @@
 #include <numeric>
 
 #include "base/hash.h"
+#include "geom/mesh/corner_normals.h"
 
 namespace gable {
 namespace {
-
-// Area-weighted normals by position over the smooth faces; empty when there are none.
-std::vector<Vec3> smoothNormals(const Mesh& m) {
-  std::vector<Vec3> sums;
-  for (size_t f = 0; f < m.faces.size(); ++f) {
-    if (!m.faces[f].smooth) continue;
-    if (sums.empty()) sums.resize(m.positions.size());
-    const Vec3 n = m.areaNormal(f);
-    for (const MeshLoop& loop : m.loopsOf(f)) {
-      for (const uint32_t p : m.cornersOf(loop)) sums[p] += n;
-    }
-  }
-  for (Vec3& n : sums) n = normalized(n);
-  return sums;
-}
 
 bool sameVertex(const Mesh& m, uint32_t a, uint32_t b) {
   if (m.corners[a] != m.corners[b]) return false;
@@ -48,9 +34,9 @@ uint64_t vertexHash(const Mesh& m, uint32_t corner, const Vec3& n) {
 
 Vec3 scaledNormal(const Vec3& n, const Vec3& s) {
   const auto sign = [](double v) { return v < 0 ? -1.0 : 1.0; };
-  const Vec3 t = normalized(Vec3{n.x * sign(s.x) * std::fabs(s.y * s.z),
-                                 n.y * sign(s.y) * std::fabs(s.x * s.z),
-                                 n.z * sign(s.z) * std::fabs(s.x * s.y)});
+  const Vec3 t =
+      unitOf({n.x * sign(s.x) * std::fabs(s.y * s.z), n.y * sign(s.y) * std::fabs(s.x * s.z),
+              n.z * sign(s.z) * std::fabs(s.x * s.y)});
   return t == Vec3{} ? n : t;
 }
 
@@ -77,7 +63,7 @@ const SurfacePart* Surface::part(uint16_t slot) const {
   return p != parts.end() && p->slot == slot ? &*p : nullptr;
 }
 
-void Surface::addFace(const Mesh& m, size_t face, const std::vector<Vec3>& smooth,
+void Surface::addFace(const Mesh& m, size_t face, const std::vector<Vec3>& cornerNormals,
                       FaceTriangulator& triangulator) {
   scratch_.clear();
   triangulator.add(m, face, scratch_);
@@ -86,19 +72,10 @@ void Surface::addFace(const Mesh& m, size_t face, const std::vector<Vec3>& smoot
   SurfaceFace out;
   out.firstVertex = static_cast<uint32_t>(corners.size());
   out.firstTriangle = static_cast<uint32_t>(triangles.size());
-  const Vec3 flat = m.normal(face);
-  const bool isSmooth = m.faces[face].smooth;
   for (const MeshLoop& loop : loops) {
     for (uint32_t i = 0; i < loop.cornerCount; ++i) {
-      const uint32_t c = loop.firstCorner + i;
-      Vec3 n = flat;
-      if (!m.normals.empty() && m.normals[c] != Vec3{}) {
-        n = normalized(m.normals[c]);
-      } else if (isSmooth && smooth[m.corners[c]] != Vec3{}) {
-        n = smooth[m.corners[c]];
-      }
-      corners.push_back(c);
-      normals.push_back(n);
+      corners.push_back(loop.firstCorner + i);
+      normals.push_back(cornerNormals[loop.firstCorner + i]);
     }
   }
   const auto vertexOf = [&](uint32_t corner) {
@@ -168,7 +145,10 @@ void Surface::build(const Mesh& m, FaceTriangulator& triangulator) {
   triangles.clear();
   faces.clear();
   parts.clear();
-  const std::vector<Vec3> smooth = smoothNormals(m);
+  const std::vector<Vec3> lit = cornerNormals(m);
+  const bool mergeable =
+      !m.normals.empty() ||
+      std::any_of(m.faces.begin(), m.faces.end(), [](const MeshFace& f) { return f.smooth; });
   std::vector<uint32_t> order(m.faces.size());
   std::iota(order.begin(), order.end(), 0);
   const auto before = [&](uint32_t a, uint32_t b) {
@@ -180,11 +160,11 @@ void Surface::build(const Mesh& m, FaceTriangulator& triangulator) {
   for (size_t i = 0; i < order.size();) {
     SurfacePart part{m.faces[order[i]].materialSlot, static_cast<uint32_t>(faces.size()), 0};
     for (; i < order.size() && m.faces[order[i]].materialSlot == part.slot; ++i) {
-      addFace(m, order[i], smooth, triangulator);
+      addFace(m, order[i], lit, triangulator);
     }
     part.faceCount = static_cast<uint32_t>(faces.size()) - part.firstFace;
     if (part.faceCount == 0) continue;
-    if (!m.normals.empty() || !smooth.empty()) mergeVertices(m, part);
+    if (mergeable) mergeVertices(m, part);
     parts.push_back(part);
   }
 }

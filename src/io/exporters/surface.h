@@ -16,7 +16,8 @@ namespace gable {
 
 /// The unit normal of a surface after a scale per axis: the inverse transpose of the scale times
 /// the magnitude of its determinant, so that a flattening scale has a normal too. Points to the
-/// outer side of a mirrored surface whose faces have been turned round.
+/// outer side of a mirrored surface whose faces have been turned round. Has the length 1 when `n`
+/// has.
 Vec3 scaledNormal(const Vec3& n, const Vec3& scale);
 
 /// What a mesh has in one material slot, without its triangles: upper bounds of a SurfacePart.
@@ -43,7 +44,7 @@ class Surface {
  public:
   /// The mesh corner of each vertex: its position and uv coordinates.
   std::vector<uint32_t> corners;
-  /// Unit, in the mesh's frame: the face's own, or the corners' where the mesh is smooth.
+  /// In the mesh's frame, as cornerNormals has them.
   std::vector<Vec3> normals;
   std::vector<std::array<uint32_t, 3>> triangles;
   std::vector<SurfaceFace> faces;
@@ -57,7 +58,7 @@ class Surface {
   const SurfacePart* part(uint16_t slot) const;
 
  private:
-  void addFace(const Mesh& m, size_t face, const std::vector<Vec3>& smooth,
+  void addFace(const Mesh& m, size_t face, const std::vector<Vec3>& cornerNormals,
                FaceTriangulator& triangulator);
   void mergeVertices(const Mesh& m, SurfacePart& part);
   std::vector<std::array<uint32_t, 3>> scratch_;

@@ -56,16 +56,13 @@ Result<std::string> TextureSet::load(const std::string& path) const {
   return read_ ? read_(path) : readFile(path, kMostTextureBytes);
 }
 
-std::string TextureSet::uniqueName(const std::string& wanted) const {
-  const auto taken = [&](const std::string& name) {
-    return std::any_of(all_.begin(), all_.end(),
-                       [&](const ModelTexture& t) { return t.name == name; });
-  };
-  if (!taken(wanted)) return wanted;
+std::string TextureSet::uniqueName(const std::string& wanted) {
+  if (names_.insert(wanted).second) return wanted;
   const std::string stem = stemOf(wanted), rest = wanted.substr(stem.size());
-  for (int i = 2;; ++i) {
-    const std::string name = stem + "-" + std::to_string(i) + rest;
-    if (!taken(name)) return name;
+  // Where the last search for this name ended.
+  for (uint32_t& i = copies_.try_emplace(wanted, 2).first->second;; ++i) {
+    std::string name = stem + "-" + std::to_string(i) + rest;
+    if (names_.insert(name).second) return name;
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -51,13 +52,15 @@ class TextureSet {
   /// The picture of a path; a white one for no path.
   Result<Layer> readLayer(const std::string& path) const;
   int remember(const std::string& key, ModelTexture texture);
-  std::string uniqueName(const std::string& wanted) const;
+  std::string uniqueName(const std::string& wanted);
   int refuse(const std::string& key, const std::string& path, const std::string& why);
 
   TextureReader read_;
   std::vector<std::string>& warnings_;
   std::vector<ModelTexture> all_;
   std::map<std::string, int> known_;
+  std::set<std::string> names_;
+  std::map<std::string, uint32_t> copies_;
 };
 
 }  // namespace gable

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "geom/mesh/corner_normals.h"
+
 namespace gable {
 namespace {
 
@@ -41,7 +43,7 @@ Vec3 tangentFor(const Vec3& normal, const Vec3& u) {
     const Vec3 other = std::fabs(normal.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     t = other - normal * dot(other, normal);
   }
-  return normalized(t);
+  return unitOf(t);
 }
 
 }  // namespace

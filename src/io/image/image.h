@@ -32,12 +32,16 @@ struct Image {
   }
 };
 
+/// 8192 x 8192.
+constexpr uint64_t kMostPixels = 1ULL << 26;
+
 /// By the first bytes, whatever the file is called.
 ImageFormat imageFormat(std::string_view bytes);
 
-/// Codes: image-unknown, image-broken, image-too-large (over 2^28 pixels).
+/// Codes: image-unknown, image-broken, image-too-large: a pixel takes four bytes, whatever the file
+/// has.
 Result<ImageHeader> readImageHeader(std::string_view bytes);
-Result<Image> decodeImage(std::string_view bytes, uint64_t maxPixels = 1ULL << 28);
+Result<Image> decodeImage(std::string_view bytes, uint64_t maxPixels = kMostPixels);
 
 /// `channels`: 3 drops alpha, 4 keeps it. The same bytes for the same picture on one version of the
 /// PNG library.
