@@ -10,9 +10,8 @@
 namespace {
 
 bool setTriple(const std::string& text, const char* option, double (&out)[3]) {
-  if (parseNumbers(text, out, 3)) return true;
-  std::fprintf(stderr, "gable: %s takes three numbers, such as 8,9,8, not '%s'\n", option,
-               text.c_str());
+  if (parseNumbers(text, ',', kMetres, out, 3)) return true;
+  wrongOption(option, "three numbers, such as 8,9,8", text);
   return false;
 }
 
@@ -27,6 +26,7 @@ int runAssetPrepare(const AssetArguments& a) {
   if (s.ownPivot && !setTriple(a.pivot, "--pivot", s.pivot)) return kExitUsage;
   if (s.ownVolume && !setTriple(a.volume, "--size", s.volume)) return kExitUsage;
   if (!a.rotate.empty() && !setTriple(a.rotate, "--rotate", s.rotate)) return kExitUsage;
+  if (const int status = checkExtension(a.output, {"glb", "gltf", "obj"})) return status;
   const gable::Model model = gable::Model::load(a.model);
   printMessages(model.messages());
   if (!model.found()) return kExitFile;

@@ -6,34 +6,15 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <mutex>
 #include <random>
 
-bool parsePair(const std::string& text, double& a, double& b) {
-  char* end = nullptr;
-  a = std::strtod(text.c_str(), &end);
-  if (end == text.c_str() || (*end != 'x' && *end != 'X')) return false;
-  const char* second = end + 1;
-  b = std::strtod(second, &end);
-  return end != second && *end == '\0' && a > 0 && b > 0 && a < 1e7 && b < 1e7;
-}
-
-bool parseNumbers(const std::string& text, double* out, int count) {
-  const char* at = text.c_str();
-  for (int i = 0; i < count; ++i) {
-    char* end = nullptr;
-    out[i] = std::strtod(at, &end);
-    if (end == at || *end != (i + 1 < count ? ',' : '\0')) return false;
-    at = end + 1;
-  }
-  return true;
-}
+#include "gable/files.h"
 
 bool parseSeed(const std::string& text, double& seed) {
   if (text == "random") {
@@ -41,7 +22,24 @@ bool parseSeed(const std::string& text, double& seed) {
     std::fprintf(stderr, "seed %.0f\n", seed);
     return true;
   }
-  return parseNumbers(text, &seed, 1);
+  return parseNumber(text, {}, seed);
+}
+
+int wrongOption(const char* option, const std::string& form, const std::string& text) {
+  std::fprintf(stderr, "gable: %s takes %s, not '%s'\n", option, form.c_str(), text.c_str());
+  return kExitUsage;
+}
+
+int checkExtension(const std::string& path, const std::vector<std::string>& extensions) {
+  std::string end = path.substr(std::min(path.rfind('.'), path.size()));
+  for (char& c : end) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  std::string known;
+  for (const std::string& e : extensions) {
+    if (end == "." + e) return kExitDone;
+    known += (known.empty() ? "." : " .") + e;
+  }
+  return wrongOption("--output", "a file name with an ending that says its format (" + known + ")",
+                     path);
 }
 
 size_t printMessages(const gable::Messages& messages) {
@@ -63,11 +61,12 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
     inputs.shapes = gable::Shapes::load(arguments.shapes);
   } else {
     double width = 20, depth = 20;
-    if (!arguments.lot.empty() && !parsePair(arguments.lot, width, depth)) {
-      std::fprintf(stderr, "gable: --lot takes width x depth in metres, such as 30x40, not '%s'\n",
-                   arguments.lot.c_str());
-      return kExitUsage;
+    double sides[2] = {width, depth};
+    if (!arguments.lot.empty() &&
+        !parseNumbers(arguments.lot, 'x', {1e-300, kMetres.most}, sides, 2)) {
+      return wrongOption("--lot", "width x depth in metres, such as 30x40", arguments.lot);
     }
+    width = sides[0], depth = sides[1];
     inputs.shapes = gable::Shapes::lot(width, depth);
   }
   printMessages(inputs.shapes.messages());
@@ -77,9 +76,7 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
   gable::DeriveSettings& s = inputs.settings;
   s.startRule = arguments.start;
   if (!parseSeed(arguments.seed, s.seed)) {
-    std::fprintf(stderr, "gable: --seed takes a number or the word random, not '%s'\n",
-                 arguments.seed.c_str());
-    return kExitUsage;
+    return wrongOption("--seed", "a number or the word random", arguments.seed);
   }
   s.sharing = !arguments.noSharing;
   s.jobs = arguments.jobs;
@@ -92,8 +89,7 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
   for (const std::string& pair : arguments.set) {
     const size_t equals = pair.find('=');
     if (equals == std::string::npos || equals == 0) {
-      std::fprintf(stderr, "gable: --set takes NAME=VALUE, not '%s'\n", pair.c_str());
-      return kExitUsage;
+      return wrongOption("--set", "NAME=VALUE", pair);
     }
     s.attributes.emplace_back(pair.substr(0, equals), pair.substr(equals + 1));
   }
@@ -101,6 +97,9 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
 }
 
 int statusOf(const gable::Model& model) {
+  for (const gable::Message& m : model.messages()) {
+    if (m.code == "attribute-value") return kExitUsage;
+  }
   if (gable::hasErrors(model.messages())) return kExitWrong;
   return model.end() == gable::End::Done ? kExitDone : kExitLimit;
 }
@@ -133,36 +132,51 @@ double secondsNow() {
 }
 
 bool readText(const std::string& path, std::string& text) {
-  std::ifstream in(path, std::ios::binary);
-  if (in) {
-    text.assign((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    return true;
-  }
-  std::fprintf(stderr, "gable: '%s' could not be read\n", path.c_str());
-  return false;
+  gable::RuleText read = gable::readRuleText(path);
+  printMessages(read.messages);
+  text = std::move(read.text);
+  return read.ok;
 }
 
 int writeText(const std::string& path, const std::string& text) {
   if (path == "-") {
     std::fwrite(text.data(), 1, text.size(), stdout);
-    return std::fflush(stdout) == 0 ? kExitDone : kExitFile;
+    return kExitDone;
   }
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  const bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  const bool closed = file && std::fclose(file) == 0;
-  if (written && closed) return kExitDone;
-  std::fprintf(stderr, "gable: '%s' could not be written\n", path.c_str());
+  const gable::WriteResult written = gable::writeTextFile(path, text);
+  printMessages(written.messages);
+  return written.ok ? kExitDone : kExitFile;
+}
+
+int finishOutput(int status) {
+  const bool flushed = std::fflush(stdout) == 0;
+  if (flushed && std::ferror(stdout) == 0) return status;
+  std::fputs("gable: the output could not be written; see that there is room for it\n", stderr);
   return kExitFile;
 }
+
+namespace {
+
+[[noreturn]] void endAtOnce(int signal) {
+  gable::removeUnfinishedFiles();
+  std::_Exit(128 + signal);
+}
+
+}  // namespace
 
 std::atomic<bool>* cancelFlag() {
   static std::atomic<bool> flag{false};
   static std::once_flag once;
   std::call_once(once, [] {
-    std::signal(SIGINT, [](int) {
-      // A second Ctrl-C ends the program at once.
-      if (flag.exchange(true)) std::_Exit(130);
+    const auto handle = [](int signal, void (*handler)(int)) {
+      // What the caller has set to be ignored, as nohup does, stays so.
+      if (std::signal(signal, handler) == SIG_IGN) std::signal(signal, SIG_IGN);
+    };
+    handle(SIGINT, [](int signal) {
+      if (flag.exchange(true)) endAtOnce(signal);
     });
+    handle(SIGTERM, endAtOnce);
+    handle(SIGHUP, endAtOnce);
   });
   return &flag;
 }

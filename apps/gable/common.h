@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gable/gable.h"
+#include "numbers.h"
 
 /// The exit statuses that scripts rely on.
 enum ExitStatus : int {
@@ -46,14 +47,19 @@ struct DeriveArguments {
   uint64_t maxMegabytes = 4096;
 };
 
-/// Parses "30x40"; false when it is no pair of positive numbers.
-bool parsePair(const std::string& text, double& a, double& b);
-
-/// "x,y,z" or "x,y": `count` numbers.
-bool parseNumbers(const std::string& text, double* out, int count);
+/// Coordinates and sizes in metres.
+constexpr NumberRange kMetres{-1e7, 1e7};
+constexpr NumberRange kDegrees{-3600, 3600};
 
 /// A number; or "random", which draws a signed integer of 32 bits and says which.
 bool parseSeed(const std::string& text, double& seed);
+
+/// Says that an option takes something else than `text`; gives kExitUsage.
+int wrongOption(const char* option, const std::string& form, const std::string& text);
+
+/// kExitDone where the extension of an output is among those; else says which there are and gives
+/// kExitUsage.
+int checkExtension(const std::string& path, const std::vector<std::string>& extensions);
 
 /// Rules and shapes as the arguments name them; an exit status other than kExitDone when they are
 /// not usable (messages have been printed then).
@@ -92,5 +98,9 @@ bool readText(const std::string& path, std::string& text);
 /// Writes to a file, or to stdout for "-"; an exit status.
 int writeText(const std::string& path, const std::string& text);
 
-/// Ctrl-C cancels instead of killing: what was made is still written.
+/// `status`, or kExitFile with a message when what was printed has not arrived: a full disk.
+int finishOutput(int status);
+
+/// Ctrl-C cancels instead of killing: what was made is still written. A second one, or the signal
+/// to end, ends the program at once; what is half written is removed then.
 std::atomic<bool>* cancelFlag();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 
+#include <algorithm>
 #include <cstdio>
 
 #include "commands.h"
@@ -9,21 +10,25 @@ int runFormat(const FormatArguments& arguments) {
   int status = kExitDone;
   for (const std::string& path : arguments.files) {
     std::string text;
-    if (!readText(path, text)) return kExitFile;
+    if (!readText(path, text)) {
+      status = kExitFile;
+      continue;
+    }
     const gable::Formatted formatted = gable::format(text, path);
     if (gable::hasErrors(formatted.messages)) {
       printMessages(formatted.messages);
-      status = kExitWrong;
+      status = std::max<int>(status, kExitWrong);
       continue;
     }
     if (arguments.toStdout) {
       std::fwrite(formatted.text.data(), 1, formatted.text.size(), stdout);
     } else if (formatted.text != text) {
+      if (!arguments.check) {
+        if (const int written = writeText(path, formatted.text)) return written;
+      } else {
+        status = std::max<int>(status, kExitWrong);
+      }
       std::printf("%s%s\n", path.c_str(), arguments.check ? " would change" : "");
-      if (arguments.check)
-        status = kExitWrong;
-      else if (const int written = writeText(path, formatted.text))
-        return written;
     }
   }
   return status;

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "commands.h"
+#include "gable/files.h"
 
 namespace {
 
@@ -25,12 +26,15 @@ gable::WriteResult writeModel(const gable::Model& model, const GenerateArguments
 
 int runGenerate(const GenerateArguments& arguments) {
   const double begin = secondsNow();
+  std::vector<std::string> formats = gable::modelExtensions();
+  formats.emplace_back("png");
+  if (const int status = checkExtension(arguments.output, formats)) return status;
   Inputs inputs;
   if (const int status = readInputs(arguments.derive, inputs)) return status;
   const gable::Model model = deriveModel(inputs);
   printMessages(model.messages());
   for (const std::string& line : model.prints()) std::printf("%s\n", line.c_str());
-  if (gable::hasErrors(model.messages())) return kExitWrong;
+  if (gable::hasErrors(model.messages())) return statusOf(model);
 
   const double writeBegin = secondsNow();
   const gable::WriteResult written = writeModel(model, arguments);

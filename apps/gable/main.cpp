@@ -9,18 +9,30 @@
 
 namespace {
 
+/// A check of an option that is a number; CLI11 reads what it lets pass.
+CLI::Validator number(NumberRange range) {
+  return CLI::Validator(
+      [range](std::string& text) {
+        double value = 0;
+        if (parseNumber(text, range, value)) return std::string();
+        return "'" + text + "' is not " + rangeText(range);
+      },
+      "");
+}
+
 void addPictureOptions(CLI::App* app, RenderArguments& a) {
   app->add_option("--view", a.view, "iso, top, front or street")
       ->check(CLI::IsMember({"iso", "top", "front", "street"}));
   app->add_option("--size", a.size, "Pixels (default 1600x900)");
   app->add_option("--samples", a.samples, "Paths a pixel (default 48)")
-      ->check(CLI::Range(1, 65536));
+      ->check(number({1, 65536, true}));
   app->add_option("--sun", a.sun, "elevation,azimuth in degrees (azimuth from north)");
   app->add_option("--eye", a.eye, "The camera's place: x,y,z in metres");
   app->add_option("--target", a.target, "What it looks at: x,y,z in metres");
   app->add_option("--ground", a.ground,
                   "Colour of the ground around the model: #rrggbb (default #77766a)");
-  app->add_option("--fov", a.fieldOfView, "Horizontal angle of view in degrees");
+  app->add_option("--fov", a.fieldOfView, "Horizontal angle of view in degrees, 1 to 170")
+      ->check(number({1, 170}));
 }
 
 void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
@@ -36,25 +48,28 @@ void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
       ->take_all();
   app->add_option("--seed", a.seed, "The seed of all chance (default 0); random draws one");
   app->add_option("--project", a.project, "The folder that the rules may read from");
-  app->add_option("--jobs", a.jobs, "Threads (default: one a processor)");
+  app->add_option("--jobs", a.jobs, "Threads (default: one a processor)")
+      ->check(number({0, 4096, true}));
   app->add_flag("--no-sharing", a.noSharing, "Derive equal parts again instead of sharing them");
   app->add_option("--dialect", a.dialect, "The rules' notation, when the extension does not tell");
-  app->add_option("--max-seconds", a.maxSeconds, "Stop deriving after so long");
+  app->add_option("--max-seconds", a.maxSeconds, "Stop deriving after so long")
+      ->check(number({0, 1e9}));
   app->add_option("--max-shapes", a.maxShapes, "Stop after so many shapes")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number({0, 1e12, true}));
   app->add_option("--max-steps", a.maxSteps, "Stop after so many operations and calls")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number({0, 1e18, true}));
   app->add_option("--max-memory", a.maxMegabytes,
                   "Stop when deriving takes so many megabytes (default 4096, 0: no limit)")
-      ->check(CLI::Range(uint64_t{0}, uint64_t{1} << 40));
+      ->check(number({0, 1e9, true}));
   app->add_option("--max-depth", a.maxDepth, "Rule calls within rule calls (default 1024)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number({0, 4294967295.0, true}));
 }
 
 void addStudio(CLI::App& app, StudioArguments& a, int& status) {
   auto* studio = app.add_subcommand("studio", "Serve a page to write rules and see places");
   studio->add_option("folder", a.folder, "The project (default: this folder)");
-  studio->add_option("--port", a.port, "Default: any that is free")->check(CLI::Range(0, 65535));
+  studio->add_option("--port", a.port, "Default: any that is free")
+      ->check(number({0, 65535, true}));
   studio->callback([&a, &status] { status = runStudioCommand(a); });
 }
 
@@ -65,6 +80,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("gable ") + gable::version());
   app.require_subcommand(1);
   int status = kExitDone;
+
+  cancelFlag();
 
   GenerateArguments generate;
   auto* generateApp = app.add_subcommand("generate", "Derive rules and write a model");
@@ -148,7 +165,7 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     // Help and version are no mistakes; all else is a wrong command line.
-    return app.exit(e) == 0 ? kExitDone : kExitUsage;
+    return finishOutput(app.exit(e) == 0 ? kExitDone : kExitUsage);
   }
-  return status;
+  return finishOutput(status);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
@@ -15,11 +16,6 @@ bool endsWith(const std::string& text, const char* end) {
 
 bool isModel(const std::string& path) {
   return endsWith(path, ".glb") || endsWith(path, ".gltf") || endsWith(path, ".obj");
-}
-
-int usage(const char* option, const char* form) {
-  std::fprintf(stderr, "gable: %s takes %s\n", option, form);
-  return kExitUsage;
 }
 
 /// "#rrggbb" as shares of 1.
@@ -40,31 +36,52 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
   for (const auto& [name, view] : views) {
     if (a.view == name) s.view = view;
   }
-  double width = 0, height = 0;
-  if (!parsePair(a.size, width, height) || width > 16384 || height > 16384) {
-    return usage("--size", "width x height in pixels, such as 1600x900");
+  double size[2];
+  // A pixel takes about 60 bytes while it is drawn.
+  constexpr double kMostPixels = 50e6;
+  if (!parseNumbers(a.size, 'x', {1, 16384, true}, size, 2) || size[0] * size[1] > kMostPixels) {
+    return wrongOption(
+        "--size",
+        "width x height in pixels, such as 1600x900, each up to 16384 and 50 million "
+        "pixels in all",
+        a.size);
   }
-  s.width = static_cast<int>(width);
-  s.height = static_cast<int>(height);
+  s.width = static_cast<int>(size[0]);
+  s.height = static_cast<int>(size[1]);
   s.samples = a.samples;
   s.fieldOfView = a.fieldOfView;
   s.jobs = a.derive.jobs;
   s.cancel = cancelFlag();
   double sun[2];
   if (!a.sun.empty()) {
-    if (!parseNumbers(a.sun, sun, 2)) return usage("--sun", "elevation,azimuth in degrees");
+    if (!parseNumbers(a.sun, ',', kDegrees, sun, 2)) {
+      return wrongOption("--sun", "elevation,azimuth in degrees, such as 40,135", a.sun);
+    }
     s.ownSun = true;
     s.sunElevation = sun[0];
     s.sunAzimuth = sun[1];
   }
   if (!a.ground.empty()) {
-    if (!parseColor(a.ground, s.ground)) return usage("--ground", "a colour such as #77766a");
+    if (!parseColor(a.ground, s.ground)) {
+      return wrongOption("--ground", "a colour such as #77766a", a.ground);
+    }
     s.ownGround = true;
   }
-  if (a.eye.empty() != a.target.empty()) return usage("--eye", "a --target as well");
+  if (a.eye.empty() != a.target.empty()) {
+    std::fputs(
+        "gable: --eye and --target are given together: where the camera is, and what it "
+        "looks at\n",
+        stderr);
+    return kExitUsage;
+  }
   if (!a.eye.empty()) {
-    if (!parseNumbers(a.eye, s.eye, 3) || !parseNumbers(a.target, s.target, 3)) {
-      return usage("--eye and --target", "x,y,z in metres");
+    const char* const kForm = "x,y,z in metres, such as 10,1.7,25";
+    if (!parseNumbers(a.eye, ',', kMetres, s.eye, 3)) return wrongOption("--eye", kForm, a.eye);
+    if (!parseNumbers(a.target, ',', kMetres, s.target, 3)) {
+      return wrongOption("--target", kForm, a.target);
+    }
+    if (std::equal(s.eye, s.eye + 3, s.target)) {
+      return wrongOption("--target", "another place than --eye", a.target);
     }
     s.ownCamera = true;
   }
@@ -75,6 +92,7 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
 
 int runRender(const RenderArguments& arguments) {
   gable::PictureSettings settings;
+  if (const int status = checkExtension(arguments.output, {"png"})) return status;
   if (const int status = pictureSettings(arguments, settings)) return status;
   gable::Model model(nullptr);
   if (isModel(arguments.derive.rules)) {
@@ -86,7 +104,7 @@ int runRender(const RenderArguments& arguments) {
   }
   printMessages(model.messages());
   if (!model.found()) return kExitFile;
-  if (gable::hasErrors(model.messages())) return kExitWrong;
+  if (gable::hasErrors(model.messages())) return statusOf(model);
   ProgressLine progress("drawing");
   settings.progress = progress.callback();
   const gable::WriteResult written = model.picture(arguments.output, settings);

@@ -9,7 +9,7 @@ int runTrace(const TraceArguments& arguments) {
   inputs.settings.trace = true;
   const gable::Model model = gable::derive(inputs.rules, inputs.shapes, inputs.settings);
   printMessages(model.messages());
-  if (gable::hasErrors(model.messages())) return kExitWrong;
+  if (gable::hasErrors(model.messages())) return statusOf(model);
   if (const int status = writeText(arguments.output, model.traceJson())) return status;
   return statusOf(model);
 }

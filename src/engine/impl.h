@@ -14,7 +14,7 @@
 #include "gable/gable.h"
 #include "program/program.h"
 #include "runtime/derive.h"
-#include "scene/scene.h"
+#include "scene/sound.h"
 
 namespace gable {
 
@@ -61,7 +61,13 @@ struct Model::Impl {
   /// Holds the tables that trace names point into.
   std::shared_ptr<const Rules::Impl> rules;
   DeriveResult result;
+  /// What of result.scene can be shown and written; a later derivation goes on from the other.
+  SoundScene sound;
   double seconds = 0;
+
+  const Scene& scene() const { return sound.scene ? *sound.scene : result.scene; }
+  /// Where result.scene has been made or changed. Tells what is left out.
+  void makeSound();
 };
 
 /// Cuts footprints out of larger ones that they lie in or overlap: flat faces at one height only.
@@ -76,11 +82,13 @@ Message toMessage(const Diagnostic& d, const Sources& sources);
 Messages toMessages(const Diagnostics& diagnostics, const Sources& sources);
 Message errorMessage(const Error& e);
 
-/// Text of the command line ("3", "true", "#ff0000", "[1,2;3,4]") as a value.
-Value valueOfText(const std::string& text, ValuePool& pool);
+/// Text of the command line ("3", "true", "#ff0000", "[1,2;3,4]") as a value of an attribute, whose
+/// type it must have. Code: attribute-value.
+Result<Value> settingOf(const std::string& name, const std::string& text, ValueType type,
+                        ValuePool& pool);
 Value valueOfAttribute(const AttributeValue& a, ValuePool& pool);
 
-std::string statsOf(const DeriveResult& result, const Messages& messages,
+std::string statsOf(const DeriveResult& result, const Scene& scene, const Messages& messages,
                     const Model::Times& times);
 std::string traceOf(const DeriveResult& result, const Program& program, const Sources& sources);
 

@@ -136,7 +136,7 @@ void writeAttribute(JsonWriter& json, const AttributeValue& a) {
 }
 
 std::string Model::leafJson(uint64_t number) const {
-  const Scene& scene = impl_->result.scene;
+  const Scene& scene = impl_->scene();
   const FoundLeaf found = leafAt(scene, number);
   const Leaf* leaf = found.leaf;
   if (!leaf) return {};

@@ -7,6 +7,7 @@
 
 #include "base/files.h"
 #include "base/json.h"
+#include "base/text.h"
 #include "engine/impl.h"
 #include "io/exporters/draw_list.h"
 #include "io/exporters/write_model.h"
@@ -116,7 +117,103 @@ RenderOptions renderOptions(const PictureSettings& s) {
   return o;
 }
 
+// The nearest of the names, else the first few of them.
+std::string hintFor(const std::string& name, const std::vector<std::string_view>& names,
+                    const char* what) {
+  constexpr size_t kShown = 8;
+  std::string hint = didYouMean(name, names);
+  if (!hint.empty()) return hint;
+  if (names.empty()) return std::string("there are no ") + what;
+  hint = std::string("the ") + what + " are ";
+  for (size_t i = 0; i < names.size() && i < kShown; ++i) {
+    hint += (i ? ", " : "") + std::string(names[i]);
+  }
+  return hint + (names.size() > kShown ? ", ..." : "");
+}
+
+std::string placeOf(const Scene& scene, const Leaf& leaf) {
+  if (leaf.source >= scene.sources.size()) return {};
+  const SourcePlace& s = scene.sources[leaf.source];
+  std::string text = s.rule.empty() ? std::string() : ", made by rule '" + s.rule + "'";
+  if (!s.file.empty()) text += " (" + s.file + ":" + std::to_string(s.line) + ")";
+  return text;
+}
+
+// The attributes and the start rule that the caller names, by their numbers in the program.
+void bindSettings(const Rules::Impl& rules, const DeriveSettings& settings, DeriveOptions& options,
+                  Messages& messages) {
+  const Program& program = rules.program;
+  const auto complain = [&](Error e) { messages.push_back(errorMessage(e)); };
+  for (const auto& [name, text] : settings.attributes) {
+    const int32_t found = program.findAttribute(name);
+    if (found < 0) {
+      std::vector<std::string_view> names;
+      for (const AttributeCode& a : program.attributes) {
+        if (!a.constant) names.push_back(a.name);
+      }
+      complain({"unknown-attribute", "the rules have no attribute '" + name + "' to set",
+                hintFor(name, names, "attributes")});
+      continue;
+    }
+    Result<Value> value =
+        settingOf(name, text, program.attributes[static_cast<size_t>(found)].type, *rules.pool);
+    if (value.ok())
+      options.attributes.emplace_back(name, value.value());
+    else
+      complain(value.error());
+  }
+  std::vector<std::string_view> starts;
+  for (const RuleCode& rule : program.rules) {
+    if (rule.parameters.empty()) starts.push_back(rule.qualifiedName);
+  }
+  if (!settings.startRule.empty()) {
+    options.startRule = program.findRule(settings.startRule);
+    if (options.startRule >= 0) return;
+    complain(
+        {"unknown-start-rule",
+         "the rules have no rule '" + settings.startRule + "' without parameters to start with",
+         hintFor(settings.startRule, starts, "such rules")});
+  } else if (program.startRule < 0) {
+    const std::string file = program.files.empty() ? std::string() : program.files[0];
+    const bool blank = program.rules.empty();
+    complain({"no-start-rule", "'" + file + "' has no rule to start with",
+              blank ? "it holds no rule at all; the folder of examples has some to begin with"
+                    : "write a rule without parameters, or name another file"});
+  }
+}
+
 }  // namespace
+
+void Model::Impl::makeSound() {
+  sound = soundOf(result.scene);
+  if (!sound.scene) return;
+  std::string text;
+  if (sound.leavesLeftOut > 0) {
+    text = std::to_string(sound.leavesLeftOut) +
+           (sound.leavesLeftOut == 1 ? " leaf is" : " leaves are") +
+           " left out: the place or the size is not a number, or too large";
+    if (sound.firstLeft < result.scene.leaves.size()) {
+      const Leaf& first = result.scene.leaves[sound.firstLeft];
+      text += "; the first is '" +
+              (first.name < result.scene.names.size() ? result.scene.names[first.name] : "") + "'" +
+              placeOf(result.scene, first);
+    }
+  }
+  if (sound.valuesReplaced > 0) {
+    text += text.empty() ? "" : "; ";
+    text += std::to_string(sound.valuesReplaced) +
+            " normals, texture coordinates or numbers of materials are replaced: they are not "
+            "numbers, or too large";
+  }
+  messages.push_back(toMessage({Severity::Warning,
+                                "model-not-finite",
+                                Span{},
+                                text,
+                                "look for a division by zero, the root of a negative number, or a "
+                                "size that grows from rule to rule",
+                                {}},
+                               Sources{}));
+}
 
 Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& settings) {
   const double begin = now();
@@ -137,26 +234,7 @@ Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& set
   options.progress = settings.progress;
   options.cancel = settings.cancel;
   options.sources = &r.sources;
-  for (const auto& [name, text] : settings.attributes) {
-    if (r.program.findAttribute(name) < 0) {
-      impl->messages.push_back(errorMessage(
-          {"unknown-attribute", "the rules have no attribute '" + name + "' to set", ""}));
-    }
-    options.attributes.emplace_back(name, valueOfText(text, *r.pool));
-  }
-  if (!settings.startRule.empty()) {
-    options.startRule = r.program.findRule(settings.startRule);
-    if (options.startRule < 0) {
-      impl->messages.push_back(errorMessage(
-          {"unknown-start-rule",
-           "the rules have no rule '" + settings.startRule + "' without parameters to start with",
-           ""}));
-    }
-  } else if (r.program.startRule < 0) {
-    impl->messages.push_back(
-        errorMessage({"no-start-rule", "the rule file has no rule to start with",
-                      "name one with --start, or mark one @StartRule"}));
-  }
+  bindSettings(r, settings, options, impl->messages);
   if (hasErrors(impl->messages)) return Model(std::move(impl));
   std::vector<InitialShape> initial = initialShapes(shapes.impl(), *r.pool);
   for (const auto& [index, seed] : settings.shapeSeeds) {
@@ -166,6 +244,7 @@ Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& set
   impl->result.scene.geoOrigin = shapes.impl().geoOrigin;
   const Messages made = toMessages(impl->result.diagnostics, r.sources);
   impl->messages.insert(impl->messages.end(), made.begin(), made.end());
+  impl->makeSound();
   impl->seconds = now() - begin;
   return Model(std::move(impl));
 }
@@ -175,11 +254,11 @@ bool Model::found() const { return impl_->found; }
 const Messages& Model::messages() const { return impl_->messages; }
 double Model::deriveSeconds() const { return impl_->seconds; }
 const std::vector<std::string>& Model::prints() const { return impl_->result.scene.prints; }
-std::string Model::dump() const { return dumpText(impl_->result.scene); }
+std::string Model::dump() const { return dumpText(impl_->scene()); }
 End Model::end() const { return static_cast<End>(impl_->result.end); }
 
 std::string Model::statsJson(const Times& times) const {
-  return statsOf(impl_->result, impl_->messages, times);
+  return statsOf(impl_->result, impl_->scene(), impl_->messages, times);
 }
 
 std::string Model::traceJson() const {
@@ -206,9 +285,9 @@ Tree Model::tree() const {
                       : Tree{};
 }
 
-uint64_t Model::leafCount() const { return gable::leafCount(impl_->result.scene); }
+uint64_t Model::leafCount() const { return gable::leafCount(impl_->scene()); }
 
-std::string Model::drawList() const { return gable::drawList(impl_->result.scene); }
+std::string Model::drawList() const { return gable::drawList(impl_->scene()); }
 
 std::string Model::texture(const std::string& path) const {
   if (!impl_->project) return {};
@@ -224,7 +303,7 @@ WriteResult Model::write(const std::string& path, const WriteSettings& settings)
     if (impl_->project) return impl_->project->texture(texture);
     return Error{"texture-not-found", "there is no picture '" + texture + "'", ""};
   };
-  Result<WriteReport> report = writeModel(impl_->result.scene, path, options);
+  Result<WriteReport> report = writeModel(impl_->scene(), path, options);
   if (!report.ok()) return failedWrite(report.error());
   WriteResult out;
   out.ok = true;
@@ -265,6 +344,7 @@ Model Model::load(const std::string& path) {
   prototype.shapes = 1;
   scene.prototypes.push_back(prototype);
   scene.roots.push_back({0, {}});
+  impl->makeSound();
   return Model(std::move(impl));
 }
 
@@ -272,7 +352,7 @@ WriteResult Model::picture(const std::string& path, const PictureSettings& setti
   RenderOptions options = renderOptions(settings);
   const ProjectTextures textures(impl_->project.get());
   options.textures = &textures;
-  const Picture picture = render(impl_->result.scene, options);
+  const Picture picture = render(impl_->scene(), options);
   const Result<std::string> png =
       encodePng({picture.image.width, picture.image.height, toRgba8(picture.image)}, 3);
   if (!png.ok()) return failedWrite(png.error());

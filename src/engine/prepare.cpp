@@ -57,12 +57,13 @@ Model Model::prepared(const PrepareSettings& settings) const {
   scene.meshes[scene.leaves[0].mesh] =
       makeRef<Mesh>(transformed(mesh, {1 / volume.x, 1 / volume.y, 1 / volume.z}, Frame{}));
   if (!settings.name.empty()) scene.names[0] = settings.name;
+  impl->makeSound();
   return Model(std::move(impl));
 }
 
 std::array<double, 6> Model::bounds() const {
   Box3 box;
-  const Scene& scene = impl_->result.scene;
+  const Scene& scene = impl_->scene();
   if (readFromFile(scene)) box = scene.meshes[scene.leaves[0].mesh]->bounds();
   if (box.empty()) return {};
   return {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z};

@@ -32,6 +32,14 @@ bool climbs(std::string_view path) {
   return false;
 }
 
+// Below a root: what begins with a dot is a tool's own (.git, .env, .gable), and no asset.
+bool isHidden(std::string_view path) {
+  for (size_t i = 0; i < path.size(); ++i) {
+    if (path[i] == '.' && (i == 0 || path[i - 1] == '/')) return true;
+  }
+  return false;
+}
+
 std::string canonical(const fs::path& p) {
   std::error_code error;
   const fs::path c = fs::weakly_canonical(p, error);
@@ -56,12 +64,11 @@ std::string Project::rootFor(const std::string& ruleFile) {
 }
 
 std::string Project::inside(const std::string& candidate) const {
-  std::error_code error;
-  if (!fs::is_regular_file(candidate, error)) return {};
+  if (!fileExists(candidate)) return {};
   const std::string real = canonical(candidate);
   const bool below = real.size() > root_.size() && real.compare(0, root_.size(), root_) == 0 &&
                      (root_ == "/" || real[root_.size()] == '/');
-  return below ? real : std::string();
+  return below && !isHidden(std::string_view(real).substr(root_.size())) ? real : std::string();
 }
 
 std::string Project::locate(std::string_view path, std::string_view fromFile) const {
@@ -191,6 +198,10 @@ const std::vector<std::string>& Project::files() {
   fs::recursive_directory_iterator it(root_, fs::directory_options::skip_permission_denied, error);
   for (; !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
     if (files_.size() >= kMostFiles) break;
+    if (isHidden(it->path().filename().string())) {
+      it.disable_recursion_pending();
+      continue;
+    }
     if (it->is_regular_file(error) && !it->is_symlink(error)) {
       files_.push_back(it->path().string().substr(root_.size()));
     }

@@ -5,7 +5,8 @@
 //
 // A path that a rule writes is looked up as "/a/b" from the project's root (with or without the
 // project folder's own name in front), else in `assets/`, in the root, and beside the rule file.
-// Nothing outside of the root is ever read: no "..", no links that lead out.
+// Nothing outside of the root is ever read: no "..", no links that lead out; and nothing hidden, by
+// a name that begins with a dot.
 #pragma once
 
 #include <map>
@@ -31,7 +32,8 @@ class Project final : public Assets {
   const std::string& root() const { return root_; }
   /// The file on disk of a project path; empty when there is none inside of the project.
   std::string locate(std::string_view path, std::string_view fromFile) const;
-  /// The canonical path of a file on disk when it is a plain file below the root, else empty.
+  /// The canonical path of a file on disk when it is a plain file below the root and not hidden,
+  /// else empty.
   std::string inside(const std::string& candidate) const;
   /// "rules/town.cga" for a file below the root, else the path itself.
   std::string projectPath(const std::string& file) const;

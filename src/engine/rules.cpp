@@ -9,6 +9,7 @@
 #include "dialects/dialect.h"
 #include "dialects/remarks.h"
 #include "engine/impl.h"
+#include "gable/files.h"
 #include "lang/compile/compile.h"
 #include "lang/format.h"
 #include "lang/parser.h"
@@ -95,6 +96,18 @@ std::shared_ptr<Rules::Impl> failed(const Error& e) {
 }
 
 }  // namespace
+
+RuleText readRuleText(const std::string& path) {
+  Result<std::string> text = readFile(path, kLargestRuleFile);
+  if (!text.ok()) return {false, {}, {errorMessage(text.error())}};
+  return {true, std::move(text.value()), {}};
+}
+
+WriteResult writeTextFile(const std::string& path, const std::string& text) {
+  const Result<uint64_t> written = writeFile(path, text);
+  if (!written.ok()) return {false, 0, 0, {errorMessage(written.error())}};
+  return {true, 0, written.value(), {}};
+}
 
 Rules Rules::load(const std::string& path, const LoadOptions& options) {
   Result<std::string> text = readFile(path, kLargestRuleFile);

@@ -75,9 +75,9 @@ void writeTimes(JsonWriter& json, const Model::Times& times) {
 
 }  // namespace
 
-std::string statsOf(const DeriveResult& result, const Messages& messages,
+std::string statsOf(const DeriveResult& result, const Scene& scene, const Messages& messages,
                     const Model::Times& times) {
-  const SceneCounts c = count(result.scene);
+  const SceneCounts c = count(scene);
   std::string out;
   JsonWriter json(out, 1);
   json.beginObject();
@@ -93,9 +93,9 @@ std::string statsOf(const DeriveResult& result, const Messages& messages,
   json.key("max");
   writeVec(json, c.bounds.empty() ? none : c.bounds.max);
   json.endObject();
-  writeReports(json, result.scene);
+  writeReports(json, scene);
   json.key("prints").beginArray();
-  for (const std::string& p : result.scene.prints) json.value(p);
+  for (const std::string& p : scene.prints) json.value(p);
   json.endArray();
   json.key("diagnostics").raw(messagesJson(messages));
   writeTimes(json, times);

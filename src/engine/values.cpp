@@ -3,27 +3,26 @@
 //
 // Attribute values from text and from files, as values of a rule file's pool.
 
-#include <charconv>
-
+#include "base/number.h"
 #include "engine/impl.h"
 
 namespace gable {
 
 namespace {
 
-bool numberOf(std::string_view text, double& out) {
-  const auto r = std::from_chars(text.data(), text.data() + text.size(), out);
-  return r.ec == std::errc() && r.ptr == text.data() + text.size();
-}
-
-Value scalarOfText(std::string_view text, ValuePool& pool) {
-  double number = 0;
-  if (numberOf(text, number)) return Value::of(number);
-  if (text == "true" || text == "false") return Value::of(text == "true");
+// With or without quotes.
+Value stringOfText(std::string_view text, ValuePool& pool) {
   if (text.size() >= 2 && text.front() == '"' && text.back() == '"') {
     text = text.substr(1, text.size() - 2);
   }
   return pool.string(text);
+}
+
+Value scalarOfText(std::string_view text, ValuePool& pool) {
+  double number = 0;
+  if (parseNumber(text, number)) return Value::of(number);
+  if (text == "true" || text == "false") return Value::of(text == "true");
+  return stringOfText(text, pool);
 }
 
 std::vector<std::string_view> cut(std::string_view text, char at) {
@@ -47,8 +46,6 @@ void append(Array& a, const Value& v) {
     a.numbers.push_back(v.number);
 }
 
-}  // namespace
-
 // [1,2;3,4]: rows by semicolons; the first element decides the type.
 Value valueOfText(const std::string& text, ValuePool& pool) {
   if (text.size() < 2 || text.front() != '[' || text.back() != ']') {
@@ -71,6 +68,40 @@ Value valueOfText(const std::string& text, ValuePool& pool) {
     ++a.rows;
   }
   return pool.intern(std::move(a));
+}
+
+}  // namespace
+
+Result<Value> settingOf(const std::string& name, const std::string& text, ValueType type,
+                        ValuePool& pool) {
+  const auto refuse = [&](const char* what, const char* remedy) {
+    constexpr size_t kShown = 60;
+    const std::string shown = text.size() > kShown ? text.substr(0, kShown) + "..." : text;
+    return Error{"attribute-value", "'" + name + "' is " + what + ", and '" + shown + "' is none",
+                 remedy};
+  };
+  if (type == ValueType::String) return stringOfText(text, pool);
+  const Value v = valueOfText(text, pool);
+  switch (type) {
+    case ValueType::Float:
+      if (v.type != type) return refuse("a number", "write it as 12, -0.5 or 1e3");
+      break;
+    case ValueType::Bool:
+      if (v.type == ValueType::Float && (v.number == 0 || v.number == 1)) {
+        return Value::of(v.number == 1);
+      }
+      if (v.type != type) return refuse("true or false", "write one of the two");
+      break;
+    case ValueType::FloatArray:
+    case ValueType::BoolArray:
+    case ValueType::StringArray:
+      if (v.type != type && text != "[]") {
+        return refuse("an array", "write values of its kind as [1, 2, 3], rows as [1, 2; 3, 4]");
+      }
+      break;
+    default: break;
+  }
+  return v;
 }
 
 Value valueOfAttribute(const AttributeValue& a, ValuePool& pool) {

@@ -16,6 +16,8 @@
 #include <optional>
 #include <set>
 
+#include "base/json.h"
+
 namespace gable::studio {
 
 namespace asio = boost::asio;
@@ -52,6 +54,15 @@ bool parseTarget(const std::string& target, HttpRequest& out) {
   return true;
 }
 
+// What a handler throws would end the program, and is told instead.
+HttpResponse failure(const char* code, const char* message, const char* hint) {
+  std::string out;
+  JsonWriter json(out);
+  json.beginObject().key("code").value(code).key("message").value(message);
+  json.key("hint").value(hint).endObject();
+  return {500, "application/json", out, {}};
+}
+
 HttpResponse plain(int status, const char* text) { return {status, "text/plain", text, {}}; }
 
 }  // namespace
@@ -85,6 +96,8 @@ struct HttpServer::Impl {
   Handler handler;
   /// Before `io`, whose end ends the connections that still wait there.
   std::set<Connection*> connections;
+  /// Bytes of the bodies that are being read or answered.
+  uint64_t bodies = 0;
   asio::io_context io{1};
   tcp::acceptor acceptor;
   asio::steady_timer timer;
@@ -98,7 +111,10 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
   Connection(Impl& server, tcp::socket socket) : server_(server), stream_(std::move(socket)) {
     server_.connections.insert(this);
   }
-  ~Connection() { server_.connections.erase(this); }
+  ~Connection() {
+    releaseBody();
+    server_.connections.erase(this);
+  }
 
   void read() {
     parser_.emplace();
@@ -142,6 +158,14 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
     if (length && *length > server_.settings.maxBody) {
       return write(plain(413, "The body is too large.\n"));
     }
+    // A body in pieces does not say how long it will be.
+    const uint64_t unknown = parser_->chunked() ? server_.settings.maxBody : 0;
+    const uint64_t bytes = length ? *length : unknown;
+    if (bytes > server_.settings.maxBodies - server_.bodies) {
+      return write(plain(503, "Too many large requests at once.\n"));
+    }
+    server_.bodies += bytes;
+    body_ = bytes;
     stream_.expires_after(milliseconds(server_.settings.bodySeconds));
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](Code e, size_t) { self->onBody(e); });
@@ -151,6 +175,7 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
     if (error == http::error::body_limit) return write(plain(413, "The body is too large.\n"));
     if (error) return;
     if (server_.waiting >= server_.settings.maxWaiting) {
+      releaseBody();
       return write(plain(503, "Too many requests at once.\n"));
     }
     request_.body = std::move(parser_->get().body());
@@ -159,12 +184,15 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
     stream_.expires_never();
     watch();
     asio::post(server_.pool, [self = shared_from_this()]() mutable {
-      // What a handler throws would end the program.
-      std::shared_ptr<HttpResponse> answer;
+      const auto answer = std::make_shared<HttpResponse>();
       try {
-        answer = std::make_shared<HttpResponse>(self->server_.handler(self->request_));
+        *answer = self->server_.handler(self->request_);
+      } catch (const std::bad_alloc&) {
+        *answer = failure("out-of-memory", "there is too little memory for the answer",
+                          "derive fewer shapes at a time, or close other programs");
       } catch (const std::exception&) {
-        answer = std::make_shared<HttpResponse>(plain(500, "The answer could not be made.\n"));
+        *answer = failure("internal-error", "the answer could not be made",
+                          "what you have typed is safe; please report what led to this");
       }
       // The connection goes back whole: it must not end on this thread.
       asio::io_context& io = self->server_.io;
@@ -188,10 +216,17 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
   void onAnswer(HttpResponse answer) {
     working_ = false;
     --server_.waiting;
+    releaseBody();
     Code ignored;
     stream_.socket().cancel(ignored);
     answered_ = true;
     write(std::move(answer));
+  }
+
+  void releaseBody() {
+    request_.body = {};
+    server_.bodies -= body_;
+    body_ = 0;
   }
 
   void write(HttpResponse answer) {
@@ -225,6 +260,8 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
   HttpRequest request_;
+  /// Its share of the bytes of all bodies.
+  uint64_t body_ = 0;
   bool keep_ = false, working_ = false, answered_ = false;
 };
 

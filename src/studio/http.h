@@ -7,7 +7,8 @@
 // Promises, each with a test:
 // 1. Listens on the loopback address unless told otherwise.
 // 2. A request that `admit` refuses is answered before its body is read.
-// 3. Heads, bodies, connections, waiting requests and the time to send a request are bounded.
+// 3. Heads, bodies, connections, waiting requests and the time to send a request are bounded, and
+//    so are the bytes of the bodies of all connections together.
 // 4. When a client goes away, `cancelled` of its request becomes true.
 #pragma once
 
@@ -52,6 +53,8 @@ struct HttpSettings {
   /// 0: any that is free.
   uint16_t port = 0;
   uint64_t maxBody = 64u << 20;
+  /// Of all requests that are being read or answered.
+  uint64_t maxBodies = 160u << 20;
   uint32_t maxHead = 16u << 10;
   unsigned workers = 4;
   unsigned maxConnections = 128;

@@ -100,6 +100,60 @@ TEST_F(Impatient, aClientThatDoesNotReadIsGivenUp) {
   close(s);
 }
 
+// Many connections together hold no more than one budget of bytes; it is free again afterwards.
+TEST_F(Impatient, theBodiesOfAllConnectionsHaveOneBudget) {
+  HttpSettings settings;
+  settings.maxBody = 1000;
+  settings.maxBodies = 2500;
+  start(settings);
+  const auto begin = [&](const char* more) {
+    const int s = connectTo(port_);
+    send(s,
+         std::string("PUT /x HTTP/1.1\r\nHost: x\r\nConnection: close\r\n") + more + "\r\n\r\nx");
+    return s;
+  };
+  for (int round = 0; round < 3; ++round) {
+    const int a = begin("Content-Length: 1000"), b = begin("Transfer-Encoding: chunked");
+    // Both have their share once a small request behind them is answered.
+    EXPECT_EQ(status(ask()), 200);
+    const int c = begin("Content-Length: 600");
+    EXPECT_EQ(status(receive(c)), 503);
+    const int d = begin("Content-Length: 1");
+    EXPECT_EQ(status(receive(d)), 200);
+    send(a, std::string(999, 'x'));
+    EXPECT_EQ(status(receive(a)), 200);
+    for (const int s : {a, b, c, d}) close(s);
+    // The server learns of b's end on its own time.
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
+
+TEST(Answers, whatAHandlerThrowsIsToldAsADiagnostic) {
+  std::atomic<bool> stop{false};
+  HttpServer server(
+      {}, [](const HttpRequest&) { return HttpResponse{}; },
+      [](const HttpRequest& r) -> HttpResponse {
+        if (r.path == "/memory") throw std::bad_alloc();
+        throw std::runtime_error("x");
+      });
+  const int port = server.listen().value();
+  std::thread thread([&] { server.run(stop); });
+  for (const auto& [path, code] :
+       {std::pair{"/memory", "out-of-memory"}, {"/", "internal-error"}}) {
+    const int s = connectTo(port);
+    send(s, std::string("GET ") + path + " HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n");
+    const std::string answer = receive(s);
+    EXPECT_EQ(status(answer), 500);
+    const Result<JsonValue> told = parseJson(answer.substr(answer.find("\r\n\r\n") + 4));
+    ASSERT_TRUE(told.ok()) << answer;
+    EXPECT_EQ(told.value()["code"].text(), code);
+    EXPECT_FALSE(told.value()["hint"].text().empty());
+    close(s);
+  }
+  stop = true;
+  thread.join();
+}
+
 TEST_F(Impatient, aBodyInPiecesEndsWhereItIsTooLarge) {
   HttpSettings settings;
   settings.maxBody = 1 << 20;

@@ -283,8 +283,12 @@ ResolvedProgram Analysis::run(AnalysisInput input) {
                    [&](const StyleInfo& s) { return s.name == style; })) {
     std::vector<std::string_view> names;
     for (const StyleInfo& s : styles) names.push_back(s.name);
-    error("unknown-style", {}, "the rule file has no style " + quote(style),
-          didYouMean(style, names));
+    std::string hint = didYouMean(style, names);
+    for (size_t i = 0; hint.empty() && i < names.size(); ++i) {
+      hint = "it has the style " + quote(std::string(names[i]));
+    }
+    if (hint.empty()) hint = "it declares none; write 'style " + style + "' before its attributes";
+    error("unknown-style", {}, "the rule file has no style " + quote(style), hint);
     style = "Default";
   }
   addModule(0, "", style, kNone, kNoNode, false);

@@ -1,0 +1,236 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The Gable authors
+"""The command line as scripts meet it: cli_test.py GABLE FOLDER.
+
+What options take and refuse, what is written where there is no room, what a signal leaves behind, and that no format
+of models carries a number that is none. Files are made in FOLDER. Run from the repository's root.
+"""
+import itertools
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "written"))
+import model_check  # noqa: E402
+
+GABLE, FOLDER = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+DONE, WRONG, USAGE, FILE = 0, 1, 2, 3
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = FOLDER / type(self).__name__ / self._testMethodName
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.mkdir(parents=True)
+
+    def tearDown(self):
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def put(self, name, text):
+        (self.folder / name).write_text(text)
+        return name
+
+    def run_gable(self, *arguments, status=DONE, says="", **options):
+        options = {"stdout": subprocess.PIPE, **options}
+        done = subprocess.run([str(GABLE), *arguments], cwd=self.folder, stderr=subprocess.PIPE, text=True, timeout=120,
+                              check=False, **options)
+        told = (done.stdout or "") + done.stderr
+        self.assertEqual(done.returncode, status, f"{arguments}\n{told}")
+        self.assertIn(says, told, arguments)
+        return told
+
+
+class Options(Case):
+    def testNumbersAreReadInOneWay(self):
+        self.put("x.cga", "attr h = 9\nattr on = true\nattr word = \"x\"\nLot --> print(h) print(word) extrude(h) X.")
+        for option, values in {
+            "--set": ["h=1,5", "h=0x10", "h=nan", "h=inf", "h=", "h=1 2", "on=yes", "on=2", "h=[1]", "h", "=1"],
+            "--seed": ["nan", "0x10", "1,5", "one"],
+            "--max-seconds": ["-1", "nan", "inf", "1,5", "0x10"],
+            "--max-shapes": ["-1", "nan", "1.5", "0x10"],
+            "--max-steps": ["-1", "nan"], "--max-memory": ["-1", "nan"], "--max-depth": ["-1", "nan", "5000000000"],
+            "--jobs": ["-1", "nan", "1.5", "0x2", "1e9"],
+            "--lot": ["nanx3", "0x10", "3", "3x", "3x4x5", "-3x4", "1,5x3", "infx3"],
+        }.items():
+            for value in values:
+                told = self.run_gable("generate", "x.cga", f"{option}={value}", "-o", "a.glb", status=USAGE)
+                self.assertIn(option if option != "--set" else "'", told)
+        for arguments, says in ((["--set", "h=2.5", "--set", "word=007"], "2.5\n007"), (["--set", "h=+3e0"], "3"),
+                                (["--set", "word=1,5"], "1,5"), (["--seed", "-4"], ""), (["--lot", "30X4.5"], "")):
+            self.run_gable("generate", "x.cga", *arguments, "-o", "a.glb", says=says)
+
+    def testPicturesTakeWhatCanBeDrawn(self):
+        self.put("x.cga", "Lot --> extrude(9) X.")
+        for arguments in (["--eye", "nan,0,0", "--target", "0,0,0"], ["--eye", "0,0", "--target", "0,0,0"],
+                          ["--target", "0,0,inf", "--eye", "0,0,0"], ["--eye", "0,0,0"], ["--target=1,1,1", "--eye=1,1,1"],
+                          ["--fov", "nan"], ["--fov", "0"], ["--fov", "180"], ["--samples", "0"], ["--samples", "nan"],
+                          ["--size", "16384x16384"], ["--size", "1.5x2"], ["--size", "0x10"], ["--size", "nanx4"],
+                          ["--sun", "nan,0"], ["--ground", "red"]):
+            self.run_gable("render", "x.cga", *arguments, "-o", "a.png", status=USAGE, says=arguments[0].split("=")[0])
+        self.run_gable("render", "x.cga", "-o", "a.jpg", status=USAGE, says=".png")
+        self.run_gable("render", "x.cga", "--eye=1,2,3", "--target=4,5,6", "--fov=60", "--size=16x9", "--samples=1", "-o", "a.png")
+
+    def testTheFormatIsKnownBeforeTheWorkBegins(self):
+        self.put("x.cga", "Lot --> Lot")
+        self.run_gable("generate", "x.cga", "-o", "a.xyz", status=USAGE, says=".glb")
+        self.run_gable("generate", "x.cga", "-o", "a", status=USAGE, says=".glb")
+
+    def testUnknownNamesGetAHint(self):
+        self.put("town.cga", "attr height = 9\nLot --> extrude(height) House\nHouse --> X.\nstyle Old\nattr height = 3")
+        for arguments, status, says in ((["twon.cga"], FILE, "did you mean 'town.cga'?"),
+                                        (["town.cga", "--shapes", "town.cgo"], FILE, "did you mean 'town.cga'?"),
+                                        (["town.cga", "--style", "old"], WRONG, "did you mean 'Old'?"),
+                                        (["town.cga", "--style", "zzzzz"], WRONG, "style"),
+                                        (["town.cga", "--start", "Hose"], WRONG, "did you mean 'House'?"),
+                                        (["town.cga", "--start", "Q"], WRONG, "Lot, House"),
+                                        (["town.cga", "--set", "hight=3"], WRONG, "did you mean 'height'?"),
+                                        (["town.cga", "--set", "q=3"], WRONG, "the attributes are height")):
+            told = self.run_gable("generate", *arguments, "-o", "a.glb", status=status, says=says)
+            self.assertIn("hint: ", told)
+
+    def testAnEmptyFileIsToldByItsName(self):
+        for name, text in itertools.product(("e.cga", "e.park", "e.grammar", "e.pg3d"), ("", "\n\n")):
+            told = self.run_gable("generate", self.put(name, text), "-o", "a.glb", status=WRONG, says=name)
+            self.assertIn("hint: ", told)
+
+
+class Writing(Case):
+    def full_disk(self):
+        """Files end at 4000 bytes, as they do on a full disk."""
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (4000, 4000))
+
+    def names(self):
+        return sorted(p.name for p in self.folder.iterdir())
+
+    def testAFullDiskLosesNothing(self):
+        rules = "Lot-->split(x){1:X.}*\n" + "".join(f"R{i}-->s(1,1,1) X.\n" for i in range(500))
+        grammar = "A -> " + " ".join("I ( Cube ) T ( 1 0 0 )" for _ in range(300))
+        cases = [(["format", "x.cga"], "x.cga", rules), (["convert", "x.grammar", "-o", "c.cga"], "c.cga", "mine"),
+                 (["trace", "x.cga", "-o", "t.json", "--lot", "90x90"], "t.json", "mine"),
+                 (["generate", "x.cga", "-o", "small.glb", "--lot", "1x1", "--stats", "/dev/full"], "x.cga", rules)]
+        cases += [(["generate", "x.cga", "-o", f"m.{kind}", "--lot", "90x90"], f"m.{kind}", "mine")
+                  for kind in ("glb", "obj", "ply", "stl", "png")]
+        for command, file, before in cases:
+            for name in self.names():
+                (self.folder / name).unlink()
+            self.put("x.cga", rules)
+            self.put("x.grammar", grammar)
+            self.put(file, before)
+            told = self.run_gable(*command, status=FILE, preexec_fn=self.full_disk)
+            self.assertIn("cannot be written", told)
+            self.assertEqual((self.folder / file).read_text(), before, command)
+            self.assertFalse([n for n in self.names() if ".part" in n], command)
+
+    def testAFullOutputIsNoSuccess(self):
+        self.put("x.cga", "Lot --> print(1) X.")
+        for command in (["ops"], ["ops", "--json"], ["check", "x.cga", "--json"], ["format", "--stdout", "x.cga"],
+                        ["convert", "x.cga"], ["trace", "x.cga"], ["generate", "x.cga", "-o", "a.glb", "--stats", "-"],
+                        ["generate", "x.cga", "-o", "a.glb"], ["--help"]):
+            with open("/dev/full", "w", encoding="ascii") as full:
+                self.run_gable(*command, status=FILE, says="could not be written", stdout=full)
+
+    def testPermissionsStay(self):
+        self.put("x.cga", "Lot-->X.")
+        os.chmod(self.folder / "x.cga", 0o640)
+        self.run_gable("format", "x.cga")
+        self.assertEqual((self.folder / "x.cga").stat().st_mode & 0o777, 0o640)
+
+    def testSignalsLeaveNothingBehind(self):
+        rules = "Lot --> split(x) { 0.05 : split(z) { 0.05 : s('1, rand(1, 9), '1) X. }* }*"
+        self.put("x.cga", rules)
+        for end in (signal.SIGTERM, signal.SIGINT, signal.SIGKILL):
+            with subprocess.Popen([str(GABLE), "generate", "x.cga", "-o", "a.obj", "--lot", "30x30"], cwd=self.folder,
+                                  stderr=subprocess.DEVNULL) as run:
+                deadline = time.monotonic() + 100
+                while run.poll() is None and not any(".part" in n for n in self.names()) and time.monotonic() < deadline:
+                    time.sleep(0.001)
+                run.send_signal(end)
+                if end == signal.SIGINT:
+                    run.send_signal(end)
+                run.wait(timeout=60)
+            parts = [n for n in self.names() if ".part" in n]
+            if end == signal.SIGKILL:
+                self.run_gable("generate", "x.cga", "-o", "a.obj", "--lot", "1x1")
+                parts = [n for n in self.names() if ".part" in n]
+            self.assertEqual(parts, [], end)
+
+    def testOnlyFilesAreRead(self):
+        os.mkfifo(self.folder / "p.cga")
+        os.mkfifo(self.folder / "p.geojson")
+        self.put("x.cga", "Lot --> X.")
+        (self.folder / "zero.cga").symlink_to("/dev/zero")
+        for command in (["check", "p.cga"], ["format", "p.cga"], ["convert", "p.cga"], ["trace", "p.cga"],
+                        ["generate", "p.cga", "-o", "a.glb"], ["format", "--stdout", "zero.cga"],
+                        ["generate", "x.cga", "--shapes", "p.geojson", "-o", "a.glb"]):
+            self.run_gable(*command, status=FILE, says="not a regular file")
+        os.mkfifo(self.folder / "p.glb")
+        self.run_gable("generate", "x.cga", "-o", "p.glb", status=FILE)
+
+    def testHiddenFilesAreNoAssets(self):
+        (self.folder / ".git").mkdir()
+        (self.folder / ".git" / "note.txt").write_text("secret")
+        self.put(".note.txt", "secret")
+        (self.folder / "link.txt").symlink_to(".note.txt")
+        self.put("note.txt", "open")
+        files = ("./note.txt", ".note.txt", "/.git/note.txt", "link.txt", ".git/note.txt")
+        self.put("x.cga", "Lot --> " + " ".join(f"print(fileExists(\"{f}\"))" for f in files) + " print(fileSearch(\"*.txt\")) X.")
+        told = self.run_gable("generate", "x.cga", "-o", "a.glb")
+        self.assertEqual(told.split(), ["true", "false", "false", "false", "false", "/note.txt;"], told)
+
+
+class Models(Case):
+    """No format carries what is not finite, and what is left out is told once."""
+
+    RULES = {
+        "turn": "Lot --> extrude(5) r(0, 0, 0/0) X.", "place": "Lot --> s(2, 2, 2) [ X ] t(0/0, 0, 0) X\nX --> primitiveSphere(8, 9)",
+        "size": "Lot --> extrude(5) s(1e200, 1, 1) X.", "far": "Lot --> extrude(5) t(1e200, 0, 0) X.",
+        "thin": "Lot --> extrude(5) s('1, 1e-200, '1) X.", "flat": "Lot --> primitiveSphere(8, 9) s('1, 1e-120, 1e-80) X.",
+        "uv": "Lot --> setupProjection(0, scope.xy, 1e-320, 1) projectUV(0) texture(\"builtin:textures/02_brick.png\") X.",
+        "look": "Lot --> extrude(5) set(material.roughness, 0/0) set(material.opacity, 0/0) set(material.colormap.su, 1/0) X.",
+        "mixed": "Lot --> extrude(5) [ t(0/0, 0, 0) X. ] [ s('1, 1/0, '1) X. ] Y.",
+        "many": "Lot --> split(x) { 1 : House }*\nHouse --> extrude(9) [ r(0, 1/0, 0) Roof ] Y.\nRoof --> split(y) { 1 : Tile. }*",
+    }
+
+    def testEveryFormatIsReadBack(self):
+        for (name, rules), kind in itertools.product(self.RULES.items(), ("glb", "gltf", "obj", "ply", "stl")):
+            self.put("x.cga", rules)
+            told = self.run_gable("generate", "x.cga", "-o", f"{name}.{kind}")
+            self.assertEqual(model_check.problems(self.folder / f"{name}.{kind}"), [], f"{name}.{kind}")
+            self.assertLessEqual(told.count("[model-not-finite]"), 1)
+        self.put("x.cga", self.RULES["mixed"])
+        told = self.run_gable("generate", "x.cga", "-o", "a.glb", "--stats", "-", says="2 leaves are left out")
+        self.assertNotIn("nan", told)
+
+    def testSharedAndFlatSayTheSame(self):
+        self.put("x.cga", self.RULES["many"])
+        told = [self.run_gable("generate", "x.cga", "-o", f"{i}.stl", *more, says="leaves are left out")
+                for i, more in enumerate(([], ["--no-sharing"]))]
+        self.assertEqual(told[0].split("leaves")[0], told[1].split("leaves")[0])
+        self.assertEqual((self.folder / "0.stl").read_bytes(), (self.folder / "1.stl").read_bytes())
+
+    def testTheCheckFindsWhatIsWrong(self):
+        self.put("x.cga", "Lot --> extrude(5) X.")
+        for kind in ("glb", "obj", "ply", "stl"):
+            self.run_gable("generate", "x.cga", "-o", f"x.{kind}")
+            path = self.folder / f"x.{kind}"
+            data = bytearray(path.read_bytes())
+            if kind == "obj":
+                data = data.replace(b"v 0", b"v nan", 1)
+            else:
+                # The last numbers of the vertices, or of the triangles.
+                at = {"glb": data.find(b"BIN\0") + 4, "ply": data.find(b"end_header\n") + 11, "stl": 84}[kind]
+                data[at:at + 4] = b"\0\0\xc0\x7f"
+            path.write_bytes(data)
+            self.assertNotEqual(model_check.problems(path), [], kind)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
