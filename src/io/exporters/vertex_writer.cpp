@@ -143,7 +143,9 @@ VertexWriter::CachedSurface& VertexWriter::surfaceOf(uint32_t mesh) {
     c.tangents.clear();
   };
   if (mesh >= kFirstMesh && uses_[mesh] < 2) {
-    fill(single_);
+    // Its slots follow one another.
+    if (singleMesh_ != mesh) fill(single_);
+    singleMesh_ = mesh;
     return single_;
   }
   if (!cache_[mesh]) {

@@ -79,6 +79,7 @@ class VertexWriter {
   std::vector<uint32_t> uses_;
   std::vector<std::unique_ptr<CachedSurface>> cache_;
   CachedSurface single_;
+  uint32_t singleMesh_ = 0xffffffff;
   uint64_t cachedVertices_ = 0;
   // Of the leaf at hand.
   Frame frame_;
