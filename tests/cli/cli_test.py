@@ -117,7 +117,7 @@ class Writing(Case):
                  (["trace", "x.cga", "-o", "t.json", "--lot", "90x90"], "t.json", "mine"),
                  (["generate", "x.cga", "-o", "small.glb", "--lot", "1x1", "--stats", "/dev/full"], "x.cga", rules)]
         cases += [(["generate", "x.cga", "-o", f"m.{kind}", "--lot", "90x90"], f"m.{kind}", "mine")
-                  for kind in ("glb", "obj", "ply", "stl", "png")]
+                  for kind in ("glb", "obj", "ply", "stl")]
         for command, file, before in cases:
             for name in self.names():
                 (self.folder / name).unlink()
@@ -189,14 +189,18 @@ class Writing(Case):
 class Models(Case):
     """No format carries what is not finite, and what is left out is told once."""
 
+    # Operations refuse arguments that no model can hold; what they make in turn has no such bound.
+    GROWING = ("\nBig(n) --> case n > 0 : s('1e8, '1, '1) Big(n - 1) else : X."
+               "\nFar(n) --> case n > 0 : t('1e8, 0, 0) s('1e8, '1, '1) Far(n - 1) else : Roof"
+               "\nRoof --> comp(f) { all : Tile. }")
     RULES = {
         "turn": "Lot --> extrude(5) r(0, 0, 0/0) X.", "place": "Lot --> s(2, 2, 2) [ X ] t(0/0, 0, 0) X\nX --> primitiveSphere(8, 9)",
         "size": "Lot --> extrude(5) s(1e200, 1, 1) X.", "far": "Lot --> extrude(5) t(1e200, 0, 0) X.",
         "thin": "Lot --> extrude(5) s('1, 1e-200, '1) X.", "flat": "Lot --> primitiveSphere(8, 9) s('1, 1e-120, 1e-80) X.",
         "uv": "Lot --> setupProjection(0, scope.xy, 1e-320, 1) projectUV(0) texture(\"builtin:textures/02_brick.png\") X.",
         "look": "Lot --> extrude(5) set(material.roughness, 0/0) set(material.opacity, 0/0) set(material.colormap.su, 1/0) X.",
-        "mixed": "Lot --> extrude(5) [ t(1e300, 0, 0) X. ] [ s('1, 1e250, '1) X. ] Y.",
-        "many": "Lot --> split(x) { 1 : House }*\nHouse --> extrude(9) [ t(0, 1e200, 0) Roof ] Y.\nRoof --> split(y) { 1 : Tile. }*",
+        "mixed": "Lot --> extrude(5) [ Big(8) ] [ Far(8) ] Y." + GROWING,
+        "many": "Lot --> split(x) { 1 : House }*\nHouse --> extrude(9) [ Far(8) ] Y." + GROWING,
     }
 
     def testEveryFormatIsReadBack(self):
@@ -206,7 +210,7 @@ class Models(Case):
             self.assertEqual(model_check.problems(self.folder / f"{name}.{kind}"), [], f"{name}.{kind}")
             self.assertLessEqual(told.count("[model-not-finite]"), 1)
         self.put("x.cga", self.RULES["mixed"])
-        told = self.run_gable("generate", "x.cga", "-o", "a.glb", "--stats", "-", says="2 leaves are left out")
+        told = self.run_gable("generate", "x.cga", "-o", "a.glb", "--stats", "-", says="7 leaves are left out")
         self.assertNotIn("nan", told)
 
     def testSharedAndFlatSayTheSame(self):
