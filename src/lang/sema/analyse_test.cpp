@@ -140,10 +140,10 @@ TEST(Analyse, tellsOperationsRulesAndLeavesApart) {
   EXPECT_EQ(a.program.startRule, a.rule("Lot").id);
 }
 
-TEST(Analyse, undefinedNamesAreLeavesWithAWarning) {
+TEST(Analyse, undefinedNamesAreLeavesUnlessTheyAreSlipsOfAnOperation) {
   const Analysed a("Lot --> extrud(3) Mas\nMass --> X.\nA(x) --> X. B --> A");
   EXPECT_EQ(a.problems(),
-            "1:9 undefined-rule (warning)\n1:19 undefined-rule (warning)\n"
+            "1:9 unknown-operation\n1:19 undefined-rule (warning)\n"
             "3:19 undefined-rule (warning)\n");
   EXPECT_EQ(a.hint(0), "did you mean 'extrude'?");
   EXPECT_EQ(a.hint(1), "did you mean 'Mass'?");

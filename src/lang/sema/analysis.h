@@ -195,6 +195,10 @@ class Analysis {
                  const std::vector<ValueType>& types);
   void makeLeaf(NodeId node, bool known);
   void reportUndefinedRule(NodeId node, const RuleSet& found);
+  /// Whether the name is one of CGA that is not built; then it is reported.
+  bool reportUnbuilt(NodeId node, std::string_view name);
+  /// The operation whose name `name` is a slip of; empty when there is none.
+  std::string_view slippedOperation(std::string_view name) const;
   void checkWeights(NodeId choice);
 
   // --- analyse.cpp: definitions and rounds ---

@@ -77,6 +77,30 @@ void Analysis::makeLeaf(NodeId node, bool known) {
   }
 }
 
+bool Analysis::reportUnbuilt(NodeId node, std::string_view name) {
+  if (!catalogue_.isUnbuilt(name)) return false;
+  errorAt("not-built", node, quote(name) + " is a name of CGA that Gable does not have yet",
+          "do without it: what comes after it would work on another shape");
+  return true;
+}
+
+// Rules begin with a capital as a rule, so a lower-case name with arguments that is nearly that of
+// an operation is meant to be it; as a leaf the model would lack what the operation makes.
+std::string_view Analysis::slippedOperation(std::string_view name) const {
+  constexpr size_t kShortest = 5;
+  if (name.size() < kShortest || name[0] < 'a' || name[0] > 'z') return {};
+  const size_t most = name.size() < 8 ? 1 : 2;
+  std::string_view best;
+  size_t least = most + 1;
+  for (const OpSpec* op : catalogue_.operations) {
+    const size_t distance = editDistance(name, op->name, most);
+    if (distance >= least) continue;
+    least = distance;
+    best = op->name;
+  }
+  return best;
+}
+
 void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
   if (mute_) return;
   const std::string_view name = text(node);
@@ -91,7 +115,15 @@ void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
     return;
   }
   if (ruleInAnyStyle(body_.module, name) || inMissingImport(body_.module, name)) return;
-  std::vector<std::string_view> names;
+  const bool called = tree().kind(node) == NodeKind::Apply && tree().child(node, 0) != kNoNode;
+  if (called) {
+    if (const std::string_view meant = slippedOperation(name); !meant.empty()) {
+      std::string hint = near(name, [&] { return std::vector<std::string_view>{meant}; });
+      error("unknown-operation", span, "there is no operation or rule " + quote(name),
+            std::move(hint));
+      return;
+    }
+  }
   const std::pair<ModuleId, std::string_view> place = enter(body_.module, name);
   std::string hint = near(place.second, [&] { return ruleNames(place.first); });
   const bool leaf = hint.empty();
@@ -157,6 +189,12 @@ void Analysis::visitApply(NodeId node) {
   if (applyRule(node, found.rules, args, types)) {
     visitAllBlocks(node);
     return;
+  }
+  if (found.rules.empty() && !mute_ && !ruleInAnyStyle(body_.module, name) &&
+      !inMissingImport(body_.module, name) && (hasBlock || t.child(node, 0) != kNoNode) &&
+      reportUnbuilt(node, name)) {
+    makeLeaf(node, true);
+    return visitAllBlocks(node);
   }
   makeLeaf(node, false);
   visitAllBlocks(node);
