@@ -57,6 +57,17 @@ bool fits(ValueType got, ParamType wanted) {
   return w == ValueType::Selector && got == ValueType::String;
 }
 
+uint32_t effectsOfValues(uint32_t effects, std::span<const Value> values, const ValuePool& pool) {
+  bool worldNamed = false;
+  for (const Value& v : values) {
+    if (v.type != ValueType::Selector && v.type != ValueType::String) continue;
+    // A selection written as text may name the world anywhere in it.
+    const std::string_view text = pool.text(v.id);
+    worldNamed = worldNamed || namesWorld(text) || text.find("world.") != std::string_view::npos;
+  }
+  return effectsOfCall(effects, worldNamed) | (worldNamed ? uint32_t{kReadsWorld} : 0u);
+}
+
 const OpSpec* Catalogue::operation(std::string_view name) const { return find(operations, name); }
 const FunctionSpec* Catalogue::function(std::string_view name) const {
   return find(functions, name);

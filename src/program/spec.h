@@ -146,6 +146,9 @@ struct LightOp {
   bool (*apply)(LightPart&, const void* arguments) = nullptr;
 };
 
+/// The same for a call with these values: whether a word or a text among them names the world.
+uint32_t effectsOfValues(uint32_t effects, std::span<const Value> values, const ValuePool& pool);
+
 struct OpSpec {
   const char* name;
   const char* family;

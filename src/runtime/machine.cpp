@@ -239,12 +239,12 @@ std::vector<AttributeValue> Machine::attributeValues() {
   return out;
 }
 
-void Machine::report(StringId key, const Value& value) {
+void Machine::takeReport(StringId key, const Value& value) {
   noteEffect();
   output_.openEvents.push_back({openInstanceCount(), false, key, value});
 }
 
-void Machine::print(std::string text) {
+void Machine::takePrint(std::string text) {
   noteEffect();
   output_.openEvents.push_back({openInstanceCount(), true, pool().intern(text), {}});
 }
@@ -281,7 +281,7 @@ std::string Machine::shapePath() const {
   return out;
 }
 
-std::string Machine::treeKey() const {
+std::string Machine::treeKeyAtWork() const {
   std::string out = "0;";
   for (uint32_t i = 1; i < activationCount_; ++i) {
     if (!activations_[i].slot) out += std::to_string(activations_[i].ordinal) + ";";

@@ -156,18 +156,18 @@ class Machine final : public Services, private WorkMeter {
   std::vector<AttributeValue> attributeValues();
 
   // Services.
-  const InitialShapeInfo& initialShape() const override { return info_; }
-  const Frame& world() const override { return worlds_.back(); }
-  void report(StringId key, const Value& value) override;
-  void print(std::string text) override;
+  const InitialShapeInfo& initialShapeAtWork() const override { return info_; }
+  const Frame& worldAtWork() const override { return worlds_.back(); }
+  void takeReport(StringId key, const Value& value) override;
+  void takePrint(std::string text) override;
   void warn(const char* code, std::string message, std::string hint) override;
-  bool query(ContextTest test, ContextScope scope, StringId label, const Shape& shape) override;
-  double minimumDistance(ContextScope scope, StringId label, const Shape& shape) override;
-  double contextCount(ContextScope scope, StringId label) override;
-  double contextRank(ContextScope scope, StringId label, ContextOrder order,
+  bool answerQuery(ContextTest test, ContextScope scope, StringId label, const Shape& shape) override;
+  double answerDistance(ContextScope scope, StringId label, const Shape& shape) override;
+  double answerCount(ContextScope scope, StringId label) override;
+  double answerRank(ContextScope scope, StringId label, ContextOrder order,
                      const Shape& shape) override;
-  void label(StringId name, const Shape& shape) override;
-  std::string treeKey() const override;
+  void takeLabel(StringId name, const Shape& shape) override;
+  std::string treeKeyAtWork() const override;
   void leaf() override;
 
  private:
@@ -382,8 +382,8 @@ class Machine final : public Services, private WorkMeter {
   void builtinAttribute(const Instruction& i);
   void callFunction(const Instruction& i);
   void callBuiltin(const Instruction& i);
-  Value callGuarded(FunctionCall& call, Value (*function)(FunctionCall&), const char* name,
-                    ValueType result);
+  Value callGuarded(FunctionCall& call, Value (*function)(FunctionCall&), uint32_t effects,
+                    const char* name, ValueType result);
   void returnValue();
   void initialise(const Instruction& i);
   void componentValues(const Instruction& i);

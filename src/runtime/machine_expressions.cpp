@@ -280,7 +280,7 @@ void Machine::componentValues(const Instruction& i) {
                         program_.operations[i.a].form};
   OpCall call(*program_.operations[i.a], shape, {arguments, i.x}, *this, place, &input);
   instruction_ = &i;
-  const Status status = guarded([&] { return call.spec().apply(call); });
+  const Status status = guarded([&] { return call.run(); });
   if (!status.ok()) {
     tellFailure("comp", status);
     parts.clear();
@@ -323,11 +323,11 @@ Value Machine::evaluateAttribute(uint32_t a) {
 }
 
 // The door of functions. One that unwinds has the value that stands for none.
-Value Machine::callGuarded(FunctionCall& call, Value (*function)(FunctionCall&), const char* name,
-                           ValueType result) {
+Value Machine::callGuarded(FunctionCall& call, Value (*function)(FunctionCall&), uint32_t effects,
+                           const char* name, ValueType result) {
   Value v;
   const Status status = guarded([&] {
-    v = function(call);
+    v = call.run(function, effects);
     return Status();
   });
   if (status.ok()) return v;
@@ -340,7 +340,7 @@ void Machine::builtinAttribute(const Instruction& i) {
   call.place(fileOf(i), 0);
   instruction_ = &i;
   const AttributeSpec& spec = *program_.builtinAttributes[i.a];
-  push(callGuarded(call, spec.get, spec.name, spec.type));
+  push(callGuarded(call, spec.get, spec.effects, spec.name, spec.type));
 }
 
 void Machine::callBuiltin(const Instruction& i) {
@@ -352,8 +352,8 @@ void Machine::callBuiltin(const Instruction& i) {
   const FunctionSpec& function = *spec;
   const Signature* const first = function.signatures.empty() ? nullptr : &function.signatures[0];
   const Signature* const used = form ? form : first;
-  const Value v =
-      callGuarded(call, function.call, function.name, used ? used->result : ValueType::Float);
+  const Value v = callGuarded(call, function.call, function.effects, function.name,
+                              used ? used->result : ValueType::Float);
   if (options().traceShapes && function.effects & kRandom) {
     if (TraceNote* n = note(TraceNote::Kind::Draw)) {
       n->span = program_.spans[pcOf(&i)];

@@ -85,7 +85,7 @@ void Machine::endGather() {
   OpCall call(spec, a.shape, {}, *this, place);
   instruction_ = g.at;
   const Shape before = a.shape;
-  const Status status = guarded([&] { return spec.gathered(call, leaves); });
+  const Status status = guarded([&] { return call.runGathered(leaves); });
   if (status.ok()) {
     a.made = g.made;
   } else {

@@ -227,7 +227,7 @@ Status Machine::applyRemembering(OpCall& call, const Instruction& i,
   const bool looked = cost.calls++ % kBetweenSamples == 0 ||
                       cost.time >= kLong * static_cast<int64_t>(cost.measured);
   const bool told = (call.spec().effects & kTold) != 0 || call.spec().gathered;
-  if (split || !looked || told) return call.spec().apply(call);
+  if (split || !looked || told) return call.run();
   const ShareKey key = operationKey(call, arguments, block);
   const auto begin = std::chrono::steady_clock::now();
   if (takeOperation(key, call.shape())) {
@@ -239,7 +239,7 @@ Status Machine::applyRemembering(OpCall& call, const Instruction& i,
   const size_t firstChild = children_.size(), firstPiece = pieces_.size();
   const uint64_t warnings = warnings_;
   const size_t leaves = output_.openLeaves.size();
-  const Status status = call.spec().apply(call);
+  const Status status = call.run();
   const auto took = std::chrono::steady_clock::now() - begin;
   cost.time += took;
   ++cost.measured;

@@ -117,25 +117,25 @@ void Machine::addOccluder(StringId label, const Shape& s) {
   occluders_.push_back(std::move(o));
 }
 
-void Machine::label(StringId name, const Shape& shape) {
+void Machine::takeLabel(StringId name, const Shape& shape) {
   if (collectOccluders_) addOccluder(name, shape);
 }
 
-bool Machine::query(ContextTest test, ContextScope scope, StringId label, const Shape& shape) {
+bool Machine::answerQuery(ContextTest test, ContextScope scope, StringId label, const Shape& shape) {
   return shared_.occluders && shared_.occluders->test(test, scope, label, asking(shape));
 }
 
-double Machine::minimumDistance(ContextScope scope, StringId label, const Shape& shape) {
+double Machine::answerDistance(ContextScope scope, StringId label, const Shape& shape) {
   if (!shared_.occluders) return std::numeric_limits<double>::infinity();
   return shared_.occluders->minimumDistance(scope, label, asking(shape));
 }
 
-double Machine::contextCount(ContextScope scope, StringId label) {
+double Machine::answerCount(ContextScope scope, StringId label) {
   if (!shared_.occluders) return 0;
   return static_cast<double>(shared_.occluders->count(scope, label, asking(*seen_)));
 }
 
-double Machine::contextRank(ContextScope scope, StringId label, ContextOrder order,
+double Machine::answerRank(ContextScope scope, StringId label, ContextOrder order,
                             const Shape& shape) {
   if (!shared_.occluders) return 0;
   return static_cast<double>(shared_.occluders->rank(scope, label, order, asking(shape)));

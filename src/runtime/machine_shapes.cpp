@@ -388,7 +388,7 @@ Status Machine::apply(OpCall& call, const Instruction& i, std::span<const Value>
   }
   Status status = guarded([&] {
     return remembers_ && worksInTheOpen() ? applyRemembering(call, i, arguments, block)
-                                          : spec.apply(call);
+                                          : call.run();
   });
   if (!status.ok() && before) call.shape() = std::move(*before);
   return status;

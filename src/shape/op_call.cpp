@@ -52,6 +52,39 @@ Status OpCall::bind(void* arguments) const {
   return fail("wrong-argument", problemText(problem, spec_.name, args_), problemHint(problem));
 }
 
+uint32_t OpCall::effects() const {
+  const ValuePool& pool = services_.pool();
+  uint32_t all = effectsOfValues(spec_.effects, args_, pool);
+  for (const SelectorItem& item : selectors()) {
+    for (const SelectorTerm& term : item.terms) {
+      if (term.kind == SelectorTerm::Kind::Word && namesWorld(pool.text(term.word)))
+        all |= kReadsWorld | kReadsInitialShape;
+    }
+  }
+  return all;
+}
+
+Status OpCall::run() {
+#if GABLE_DCHECKS
+  const Services::Declared declared(services_, effects());
+#endif
+  return spec_.apply(*this);
+}
+
+Status OpCall::runGathered(std::span<Gathered> leaves) {
+#if GABLE_DCHECKS
+  const Services::Declared declared(services_, effects());
+#endif
+  return spec_.gathered(*this, leaves);
+}
+
+Value FunctionCall::run(Value (*function)(FunctionCall&), [[maybe_unused]] uint32_t effects) {
+#if GABLE_DCHECKS
+  const Services::Declared declared(services_, effectsOfValues(effects, args_, services_.pool()));
+#endif
+  return function(*this);
+}
+
 bool FunctionCall::bind(void* arguments) const {
   const ArgumentProblem problem =
       bindArguments(spec_->signatures, form_, args_, services_.pool(), arguments);

@@ -142,11 +142,23 @@ class OpCall {
   Shape& shape() { return shape_; }
   /// The scope of the shape below on the shape stack: that of the shape when its rule, its block
   /// slot or its bracket began.
-  const Frame& previousScope() const { return place_.previousScope; }
-  const Vec3& previousSize() const { return place_.previousSize; }
+  const Frame& previousScope() const {
+    GABLE_DCHECK(services_.mayAsk(kReadsPrevious));
+    return place_.previousScope;
+  }
+  const Vec3& previousSize() const {
+    GABLE_DCHECK(services_.mayAsk(kReadsPrevious));
+    return place_.previousSize;
+  }
 
   /// Fills the struct of arguments; see program/arguments.h and typed below.
   Status bind(void* arguments) const;
+  /// What this call may ask its services for: the effects of the specification, narrowed or widened
+  /// by the words among the arguments and in the block.
+  uint32_t effects() const;
+  /// Runs the operation, or its second part. Builds with checks hold it to effects().
+  Status run();
+  Status runGathered(std::span<Gathered> leaves);
 
   // Arguments of operations that are not declared with a struct.
   size_t argCount() const { return args_.size(); }
@@ -211,6 +223,7 @@ class OpCall {
   std::string_view file() const { return place_.file; }
   /// The address of the k-th draw of this call.
   uint64_t randomAddress(uint64_t k) const {
+    GABLE_DCHECK(services_.mayAsk(kRandom));
     return hashCombine(hashCombine(shape_.path, place_.site), k);
   }
 
@@ -237,6 +250,9 @@ class FunctionCall {
 
   /// Fills the struct of arguments; false when a value is of another type, which is reported.
   bool bind(void* arguments) const;
+  /// Runs a function or a getter. Builds with checks hold it to the effects of its specification,
+  /// narrowed or widened as OpCall::effects() says.
+  Value run(Value (*function)(FunctionCall&), uint32_t effects);
 
   const Shape& shape() const { return shape_; }
   size_t argCount() const { return args_.size(); }
@@ -256,6 +272,7 @@ class FunctionCall {
   Services& services() const { return services_; }
   std::string_view file() const { return file_; }
   uint64_t randomAddress(uint64_t k) const {
+    GABLE_DCHECK(services_.mayAsk(kRandom));
     return hashCombine(hashCombine(shape_.path, site_), k);
   }
   /// Reports the author's mistake at this call; the caller then gets the returned value.

@@ -8,12 +8,15 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "base/check.h"
 #include "base/ref.h"
 #include "base/status.h"
 #include "geom/mesh/mesh.h"
 #include "material/material.h"
+#include "program/spec.h"
 #include "program/value.h"
 #include "shape/shape.h"
 #include "shape/tags.h"
@@ -131,32 +134,94 @@ class Services {
   };
   TextureMemo& textureMemo() { return textureMemo_; }
 
-  virtual const InitialShapeInfo& initialShape() const = 0;
-  /// Where the local frame of the present rule call lies in the world.
-  virtual const Frame& world() const = 0;
+  /// What the call at work may ask for: the effects of its specification. A call that asks for more
+  /// would be shared or scheduled wrongly, so builds with checks stop at it.
+  class Declared {
+   public:
+    Declared(Services& services, uint32_t effects)
+        : services_(services), before_(services.declared_) {
+      services.declared_ = effects;
+    }
+    ~Declared() { services_.declared_ = before_; }
+    Declared(const Declared&) = delete;
+    Declared& operator=(const Declared&) = delete;
 
-  virtual void report(StringId key, const Value& value) = 0;
-  virtual void print(std::string text) = 0;
+   private:
+    Services& services_;
+    uint32_t before_;
+  };
+  /// Whether one of these effects has been declared.
+  bool mayAsk(uint32_t effects) const { return (declared_ & effects) != 0; }
+
+  const InitialShapeInfo& initialShape() const {
+    GABLE_DCHECK(mayAsk(kReadsInitialShape | kReadsWorld));
+    return initialShapeAtWork();
+  }
+  /// Where the local frame of the present rule call lies in the world.
+  const Frame& world() const {
+    GABLE_DCHECK(mayAsk(kReadsWorld));
+    return worldAtWork();
+  }
+
+  void report(StringId key, const Value& value) {
+    GABLE_DCHECK(mayAsk(kReports));
+    takeReport(key, value);
+  }
+  void print(std::string text) {
+    GABLE_DCHECK(mayAsk(kReports));
+    takePrint(std::move(text));
+  }
   /// A warning at the present instruction, with the shape's path.
   virtual void warn(const char* code, std::string message, std::string hint) = 0;
 
   /// Context queries; labels are by name, 0 for any occluder.
-  virtual bool query(ContextTest test, ContextScope scope, StringId label, const Shape& shape) = 0;
-  virtual double minimumDistance(ContextScope scope, StringId label, const Shape& shape) = 0;
-  virtual double contextCount(ContextScope scope, StringId label) = 0;
+  bool query(ContextTest test, ContextScope scope, StringId label, const Shape& shape) {
+    GABLE_DCHECK(mayAsk(kReadsContext));
+    return answerQuery(test, scope, label, shape);
+  }
+  double minimumDistance(ContextScope scope, StringId label, const Shape& shape) {
+    GABLE_DCHECK(mayAsk(kReadsContext));
+    return answerDistance(scope, label, shape);
+  }
+  double contextCount(ContextScope scope, StringId label) {
+    GABLE_DCHECK(mayAsk(kReadsContext));
+    return answerCount(scope, label);
+  }
   /// How many shapes with the label come before this one.
-  virtual double contextRank(ContextScope scope, StringId label, ContextOrder order,
-                             const Shape& shape) = 0;
-  virtual void label(StringId name, const Shape& shape) = 0;
+  double contextRank(ContextScope scope, StringId label, ContextOrder order, const Shape& shape) {
+    GABLE_DCHECK(mayAsk(kReadsContext));
+    return answerRank(scope, label, order, shape);
+  }
+  void label(StringId name, const Shape& shape) {
+    GABLE_DCHECK(mayAsk(kReadsPath));
+    takeLabel(name, shape);
+  }
   /// The path of the present shape in the shape tree ("0;0;1;").
-  virtual std::string treeKey() const = 0;
+  std::string treeKey() const {
+    GABLE_DCHECK(mayAsk(kReadsPath));
+    return treeKeyAtWork();
+  }
 
   /// Leaves a copy of the shape at work in the result, as a leaf named after its rule. The shape
   /// goes on, and its rule has made something.
   virtual void leaf() = 0;
 
  private:
+  virtual const InitialShapeInfo& initialShapeAtWork() const = 0;
+  virtual const Frame& worldAtWork() const = 0;
+  virtual void takeReport(StringId key, const Value& value) = 0;
+  virtual void takePrint(std::string text) = 0;
+  virtual bool answerQuery(ContextTest test, ContextScope scope, StringId label,
+                           const Shape& shape) = 0;
+  virtual double answerDistance(ContextScope scope, StringId label, const Shape& shape) = 0;
+  virtual double answerCount(ContextScope scope, StringId label) = 0;
+  virtual double answerRank(ContextScope scope, StringId label, ContextOrder order,
+                            const Shape& shape) = 0;
+  virtual void takeLabel(StringId name, const Shape& shape) = 0;
+  virtual std::string treeKeyAtWork() const = 0;
+
   TextureMemo textureMemo_;
+  uint32_t declared_ = ~uint32_t{0};
 
  protected:
   ValuePool* pool_ = nullptr;

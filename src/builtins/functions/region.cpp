@@ -58,15 +58,16 @@ Value onBorder(FunctionCall& call) {
 Value selects(FunctionCall& call) {
   const MeshRef mesh = meshInScope(call.shape());
   const Frame& scope = call.shape().scope;
-  const Frame& world = call.services().world();
   for (const size_t f : regionFaces(*mesh)) {
     const RegionView view(call.services(), *mesh, f);
-    const auto local = [&](const Vec3& d) {
-      return view.plane().frame().toLocalDirection(
-          scope.toLocalDirection(world.toLocalDirection(d)));
+    const auto world = [&] {
+      const auto local = [&](const Vec3& d) {
+        return view.plane().frame().toLocalDirection(
+            scope.toLocalDirection(call.services().world().toLocalDirection(d)));
+      };
+      return Frame::of({}, local({1, 0, 0}), local({0, 1, 0}), local({0, 0, 1}));
     };
-    const SelectionInput input{view, call.randomAddress(1000 + f),
-                               Frame::of({}, local({1, 0, 0}), local({0, 1, 0}), local({0, 0, 1}))};
+    const SelectionInput input{view, call.randomAddress(1000 + f), world};
     std::vector<EdgePart> parts;
     std::string problem;
     if (!selectEdges(call.text(0), input, parts, problem)) {

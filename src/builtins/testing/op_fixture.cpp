@@ -203,7 +203,7 @@ FakeServices::FakeServices() {
   initial.startRule = "Lot";
 }
 
-void FakeServices::report(StringId key, const Value& value) {
+void FakeServices::takeReport(StringId key, const Value& value) {
   reports.push_back({std::string(pool().text(key)), value});
 }
 
@@ -211,7 +211,7 @@ void FakeServices::warn(const char* code, std::string message, std::string) {
   warnings.push_back({code, std::move(message)});
 }
 
-void FakeServices::label(StringId name, const Shape&) { labels.emplace_back(pool().text(name)); }
+void FakeServices::takeLabel(StringId name, const Shape&) { labels.emplace_back(pool().text(name)); }
 
 Value Arg::value(ValuePool& pool) const {
   switch (type) {
@@ -368,7 +368,7 @@ Ran Op::on(const Shape& shape, FakeServices& services) const {
   const CallPlace place{hasPrevious_ ? previousScope_ : shape.scope,
                         hasPrevious_ ? previousSize_ : shape.size, "rules/test.cga"};
   OpCall call(*spec, ran.shape, values, services, place, &input);
-  ran.status = spec->apply(call);
+  ran.status = call.run();
   ran.dropped = call.dropped();
   return ran;
 }
@@ -381,7 +381,7 @@ Value callFunction(std::string_view name, const std::vector<Arg>& args, FakeServ
   for (const Arg& a : args) values.push_back(a.value(services.pool()));
   FunctionCall call(values, shape, services, spec);
   call.place("rules/test.cga", site);
-  return spec->call(call);
+  return call.run(spec->call, spec->effects);
 }
 
 std::string callText(std::string_view name, const std::vector<Arg>& args, FakeServices& services,

@@ -72,19 +72,19 @@ class FakeServices : public Services {
   /// How many leaves operations left on the way.
   size_t leaves = 0;
 
-  const InitialShapeInfo& initialShape() const override { return initial; }
-  const Frame& world() const override { return worldFrame; }
-  void report(StringId key, const Value& value) override;
-  void print(std::string text) override { prints.push_back(std::move(text)); }
+  const InitialShapeInfo& initialShapeAtWork() const override { return initial; }
+  const Frame& worldAtWork() const override { return worldFrame; }
+  void takeReport(StringId key, const Value& value) override;
+  void takePrint(std::string text) override { prints.push_back(std::move(text)); }
   void warn(const char* code, std::string message, std::string hint) override;
-  bool query(ContextTest, ContextScope, StringId, const Shape&) override { return queryAnswer; }
-  double minimumDistance(ContextScope, StringId, const Shape&) override { return distanceAnswer; }
-  double contextCount(ContextScope, StringId) override { return countAnswer; }
-  double contextRank(ContextScope, StringId, ContextOrder order, const Shape&) override {
+  bool answerQuery(ContextTest, ContextScope, StringId, const Shape&) override { return queryAnswer; }
+  double answerDistance(ContextScope, StringId, const Shape&) override { return distanceAnswer; }
+  double answerCount(ContextScope, StringId) override { return countAnswer; }
+  double answerRank(ContextScope, StringId, ContextOrder order, const Shape&) override {
     return static_cast<double>(order);
   }
-  void label(StringId name, const Shape& shape) override;
-  std::string treeKey() const override { return treeKeyAnswer; }
+  void takeLabel(StringId name, const Shape& shape) override;
+  std::string treeKeyAtWork() const override { return treeKeyAnswer; }
   void leaf() override { ++leaves; }
 
  private:

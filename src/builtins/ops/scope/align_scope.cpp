@@ -256,6 +256,13 @@ Pick pick(const AlignToGeometry& args, const Picker& picker, const Mesh& m, cons
                                         : picker.lowestEdge(any, face);
 }
 
+// Only the lowest face and the lowest edge ask which way is up.
+bool asksForUp(const AlignToGeometry& args) {
+  if (args.oldFace) return *args.oldFace == "auto" || *args.oldFace == "world.lowest";
+  const bool lowestFace = !args.faceIndex && args.face == FaceWord::Lowest;
+  return lowestFace || args.edge == EdgeWord::Lowest;
+}
+
 Status applyToGeometry(OpCall& call, const AlignToGeometry& args) {
   Shape& s = call.shape();
   if (s.geometry.kind == GeometryKind::None) {
@@ -263,8 +270,8 @@ Status applyToGeometry(OpCall& call, const AlignToGeometry& args) {
     return {};
   }
   const Mesh mesh = meshInLocal(s);
-  const Frame world = worldFrame(call.services());
-  const Picker picker(mesh, world.y);
+  const Vec3 up = asksForUp(args) ? worldFrame(call.services()).y : Vec3{};
+  const Picker picker(mesh, up);
   const Pick at = pick(args, picker, mesh, s.scope);
   const EdgeEnds ends = edgeOf(mesh, at.face, at.edge);
 

@@ -96,14 +96,16 @@ void RegionJob::replace(Shape& shape, std::span<const std::vector<RegionPiece>> 
   setPartMesh(shape, parent, std::move(mesh), true);
 }
 
-Frame RegionJob::worldIn(size_t face) const {
-  const Frame& plane = faces_[face]->plane().frame();
-  const Shape& s = call_.shape();
-  const auto local = [&](const Vec3& d) {
-    return plane.toLocalDirection(
-        s.scope.toLocalDirection(call_.services().world().toLocalDirection(d)));
+std::function<Frame()> RegionJob::worldIn(size_t face) const {
+  return [this, face] {
+    const Frame& plane = faces_[face]->plane().frame();
+    const Shape& s = call_.shape();
+    const auto local = [&](const Vec3& d) {
+      return plane.toLocalDirection(
+          s.scope.toLocalDirection(call_.services().world().toLocalDirection(d)));
+    };
+    return Frame::of({}, local({1, 0, 0}), local({0, 1, 0}), local({0, 0, 1}));
   };
-  return Frame::of({}, local({1, 0, 0}), local({0, 1, 0}), local({0, 0, 1}));
 }
 
 std::string textOf(const OpCall& call, size_t argument, std::string_view otherwise) {

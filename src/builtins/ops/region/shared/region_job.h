@@ -4,6 +4,7 @@
 // What the operations on regions share: going over the faces, giving pieces out by kind, arguments.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -41,7 +42,7 @@ class RegionJob {
                bool reindex = false);
 
   /// Of the world, in the plane of a face.
-  Frame worldIn(size_t face) const;
+  std::function<Frame()> worldIn(size_t face) const;
 
  private:
   struct Kept {

@@ -12,6 +12,7 @@
 // A text that cannot be read gives false and says in `problem` what is wrong with it.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,8 +66,8 @@ struct SelectionInput {
   const RegionView& view;
   /// For random(p).
   uint64_t seed = 0;
-  /// From the world to the plane of the region, for world.W and the like.
-  Frame world;
+  /// From the world to the plane of the region, for world.W and the like; asked only for these.
+  std::function<Frame()> world;
 };
 
 /// The parts of edges that a selection means, ascending.

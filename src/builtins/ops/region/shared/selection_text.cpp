@@ -210,7 +210,7 @@ class SelectionReader {
     const Vec2 d = kPlan[k];
     if (!world) return d;
     // North of the world is -z.
-    const Vec3 local = in_.world.direction({d.x, 0, -d.y});
+    const Vec3 local = in_.world().direction({d.x, 0, -d.y});
     return {local.x, local.y};
   }
 
