@@ -256,7 +256,7 @@ uint32_t Machine::openInstanceCount() const {
 }
 
 // The same warning at the same place is told once a worker; merging drops the repetitions.
-void Machine::warn(const char* code, std::string message, std::string hint) {
+void Machine::takeWarning(const char* code, std::string message, std::string hint) {
   const Span at = here();
   const uint64_t key = hashBytes(message, hashBytes(code, uint64_t{at.file} << 32 | at.begin));
   ++warnings_;

@@ -160,7 +160,7 @@ class Machine final : public Services, private WorkMeter {
   const Frame& worldAtWork() const override { return worlds_.back(); }
   void takeReport(StringId key, const Value& value) override;
   void takePrint(std::string text) override;
-  void warn(const char* code, std::string message, std::string hint) override;
+  void takeWarning(const char* code, std::string message, std::string hint) override;
   bool answerQuery(ContextTest test, ContextScope scope, StringId label, const Shape& shape) override;
   double answerDistance(ContextScope scope, StringId label, const Shape& shape) override;
   double answerCount(ContextScope scope, StringId label) override;
@@ -168,7 +168,7 @@ class Machine final : public Services, private WorkMeter {
                      const Shape& shape) override;
   void takeLabel(StringId name, const Shape& shape) override;
   std::string treeKeyAtWork() const override;
-  void leaf() override;
+  void leaveLeaf() override;
 
  private:
   static constexpr uint64_t kStepsBetweenLooks = 1024;

@@ -149,7 +149,7 @@ const Value* Machine::localValue(const Shape& s, uint32_t attribute) const {
   return nullptr;
 }
 
-void Machine::leaf() {
+void Machine::leaveLeaf() {
   if (!countShape()) return;
   Activation& a = current();
   if (a.made == 0) a.made = 1;

@@ -3,6 +3,8 @@
 
 #include "shape/op_call.h"
 
+#include "shape/audit.h"
+
 #include "base/work.h"
 
 namespace gable {
@@ -67,8 +69,23 @@ uint32_t OpCall::effects() const {
 Status OpCall::run() {
 #if GABLE_DCHECKS
   const Services::Declared declared(services_, effects());
-#endif
+  // What tells others of itself would tell them twice.
+  constexpr uint32_t kTells = kReports | kReadsPath | kReadsContext;
+  if ((spec_.effects & kTells) != 0 || spec_.gathered || !services_.isAuditDue(spec_)) {
+    return spec_.apply(*this);
+  }
+  const Shape before = shape_;
+  const size_t children = block_ ? block_->children->size() : 0;
+  const size_t pieces = block_ && block_->pieces ? block_->pieces->size() : 0;
+  Status status = spec_.apply(*this);
+  OpOutcome outcome{status, shape_, dropped_, {}, {}};
+  if (block_) outcome.children = std::span(*block_->children).subspan(children);
+  if (block_ && block_->pieces) outcome.pieces = std::span(*block_->pieces).subspan(pieces);
+  auditFields(spec_, before, args_, services_, place_, block_, outcome);
+  return status;
+#else
   return spec_.apply(*this);
+#endif
 }
 
 Status OpCall::runGathered(std::span<Gathered> leaves) {

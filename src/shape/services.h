@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -150,6 +151,24 @@ class Services {
     Services& services_;
     uint32_t before_;
   };
+  /// While one lives, warnings and leaves of the call at work are lost: it is run a second time.
+  class Muted {
+   public:
+    explicit Muted(Services& services) : services_(services) { services.muted_ = true; }
+    ~Muted() { services_.muted_ = false; }
+    Muted(const Muted&) = delete;
+    Muted& operator=(const Muted&) = delete;
+
+   private:
+    Services& services_;
+  };
+  /// Whether the next call of an operation is to be audited: the first ones of each, and some of
+  /// the others.
+  bool isAuditDue(const OpSpec& spec) {
+    constexpr uint32_t kFirst = 8, kBetween = 512;
+    const uint32_t calls = calls_[&spec]++;
+    return !muted_ && (calls < kFirst || calls % kBetween == 0);
+  }
   /// Whether one of these effects has been declared.
   bool mayAsk(uint32_t effects) const { return (declared_ & effects) != 0; }
 
@@ -172,7 +191,9 @@ class Services {
     takePrint(std::move(text));
   }
   /// A warning at the present instruction, with the shape's path.
-  virtual void warn(const char* code, std::string message, std::string hint) = 0;
+  void warn(const char* code, std::string message, std::string hint) {
+    if (!muted_) takeWarning(code, std::move(message), std::move(hint));
+  }
 
   /// Context queries; labels are by name, 0 for any occluder.
   bool query(ContextTest test, ContextScope scope, StringId label, const Shape& shape) {
@@ -204,7 +225,9 @@ class Services {
 
   /// Leaves a copy of the shape at work in the result, as a leaf named after its rule. The shape
   /// goes on, and its rule has made something.
-  virtual void leaf() = 0;
+  void leaf() {
+    if (!muted_) leaveLeaf();
+  }
 
  private:
   virtual const InitialShapeInfo& initialShapeAtWork() const = 0;
@@ -219,9 +242,13 @@ class Services {
                             const Shape& shape) = 0;
   virtual void takeLabel(StringId name, const Shape& shape) = 0;
   virtual std::string treeKeyAtWork() const = 0;
+  virtual void takeWarning(const char* code, std::string message, std::string hint) = 0;
+  virtual void leaveLeaf() = 0;
 
   TextureMemo textureMemo_;
   uint32_t declared_ = ~uint32_t{0};
+  bool muted_ = false;
+  std::unordered_map<const OpSpec*, uint32_t> calls_;
 
  protected:
   ValuePool* pool_ = nullptr;

@@ -207,7 +207,7 @@ void FakeServices::takeReport(StringId key, const Value& value) {
   reports.push_back({std::string(pool().text(key)), value});
 }
 
-void FakeServices::warn(const char* code, std::string message, std::string) {
+void FakeServices::takeWarning(const char* code, std::string message, std::string) {
   warnings.push_back({code, std::move(message)});
 }
 

@@ -76,7 +76,7 @@ class FakeServices : public Services {
   const Frame& worldAtWork() const override { return worldFrame; }
   void takeReport(StringId key, const Value& value) override;
   void takePrint(std::string text) override { prints.push_back(std::move(text)); }
-  void warn(const char* code, std::string message, std::string hint) override;
+  void takeWarning(const char* code, std::string message, std::string hint) override;
   bool answerQuery(ContextTest, ContextScope, StringId, const Shape&) override { return queryAnswer; }
   double answerDistance(ContextScope, StringId, const Shape&) override { return distanceAnswer; }
   double answerCount(ContextScope, StringId) override { return countAnswer; }
@@ -85,7 +85,7 @@ class FakeServices : public Services {
   }
   void takeLabel(StringId name, const Shape& shape) override;
   std::string treeKeyAtWork() const override { return treeKeyAnswer; }
-  void leaf() override { ++leaves; }
+  void leaveLeaf() override { ++leaves; }
 
  private:
   ValuePool ownPool_;

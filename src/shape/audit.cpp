@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "shape/audit.h"
+
+#include <vector>
+
+#include "base/check.h"
+#include "base/hash.h"
+#include "base/work.h"
+
+namespace gable {
+
+namespace {
+
+// What takes longer is not run twice.
+constexpr uint64_t kMostWork = 200'000;
+
+class ShortMeter final : public WorkMeter {
+ public:
+  bool look(uint64_t units, uint64_t) override {
+    done_ += units;
+    return done_ < kMostWork;
+  }
+
+ private:
+  uint64_t done_ = 0;
+};
+
+// Numbers are compared by their bits: what is no number equals itself.
+bool same(double a, double b) { return hashDouble(a) == hashDouble(b); }
+bool same(const Vec3& a, const Vec3& b) {
+  return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z);
+}
+bool same(const Frame& a, const Frame& b) {
+  return same(a.origin, b.origin) && same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z);
+}
+
+// All that the audit does not change itself.
+bool same(const Shape& a, const Shape& b) {
+  const bool deformed = a.extra && a.extra->deformed;
+  if (deformed != (b.extra && b.extra->deformed)) return false;
+  if (deformed && !(a.extra->deformation == b.extra->deformation)) return false;
+  return same(a.scope, b.scope) && same(a.size, b.size) && a.material == b.material &&
+         a.assetMaterials == b.assetMaterials && a.attributes == b.attributes &&
+         a.locals == b.locals && a.geometry.kind == b.geometry.kind &&
+         contentHash(a.geometry) == contentHash(b.geometry);
+}
+
+bool same(const OpOutcome& a, const OpOutcome& b) {
+  if (a.status.ok() != b.status.ok()) return false;
+  if (!a.status.ok()) return true;
+  if (a.dropped != b.dropped || a.children.size() != b.children.size() ||
+      a.pieces.size() != b.pieces.size() || !same(a.shape, b.shape)) {
+    return false;
+  }
+  for (size_t i = 0; i < a.children.size(); ++i) {
+    if (a.children[i].slot != b.children[i].slot) return false;
+    if (!same(a.children[i].shape, b.children[i].shape)) return false;
+  }
+  for (size_t i = 0; i < a.pieces.size(); ++i) {
+    const SplitPiece &p = a.pieces[i], &q = b.pieces[i];
+    if (!same(p.start, q.start) || !same(p.size, q.size) || p.slot != q.slot) return false;
+  }
+  return true;
+}
+
+// Other values in all fields that the effects do not allow to be looked at.
+Shape changed(const Shape& s, uint32_t effects) {
+  Shape out = s;
+  const auto hidden = [&](uint32_t effect) { return (effects & effect) == 0; };
+  if (hidden(kReadsPivot)) out.pivot.origin += Vec3{3, -5, 7};
+  if (hidden(kReadsPivot | kReadsPivotAxes)) {
+    out.pivot = Frame::of(out.pivot.origin, s.pivot.y, s.pivot.z, s.pivot.x);
+  }
+  if (hidden(kReadsSplit)) out.split = {s.split.index + 5, s.split.total + 9};
+  if (hidden(kReadsComp)) {
+    out.comp = {s.comp.index + 5, s.comp.total + 9};
+    out.compSelector = s.compSelector + 1;
+  }
+  if (hidden(kUsesTrim)) {
+    out.trimVertical = !s.trimVertical;
+    out.trimHorizontal = !s.trimHorizontal;
+  }
+  if (hidden(kRandom | kReadsPath)) out.path = hashCombine(s.path, 1);
+  if (hidden(kReadsUvProjection)) {
+    ShapeExtra extra = extraOf(s);
+    UvProjection p;
+    p.set = 9;
+    p.width = 3;
+    extra.setProjection(p);
+    out.extra = makeRef<ShapeExtra>(std::move(extra));
+  }
+  return out;
+}
+
+}  // namespace
+
+void auditFields(const OpSpec& spec, const Shape& before, std::span<const Value> args,
+                 Services& services, const CallPlace& place, const BlockInput* block,
+                 const OpOutcome& outcome) {
+  Shape shape = changed(before, spec.effects);
+  std::vector<BlockChild> children;
+  std::vector<SplitPiece> pieces;
+  PartPlan plan;
+  BlockInput again;
+  if (block) {
+    again = *block;
+    again.children = &children;
+    if (block->pieces) again.pieces = &pieces;
+    if (block->plan) again.plan = &plan;
+    // What is remembered of a division belongs to the first run.
+    again.split.memo = nullptr;
+    again.componentChild = nullptr;
+  }
+  OpCall call(spec, shape, args, services, place, block ? &again : nullptr);
+  const Services::Muted muted(services);
+  ShortMeter meter;
+  const WorkScope scope(meter);
+  const Status status = guarded([&] { return spec.apply(call); });
+  if (!status.ok() && status.code() == kWorkStopped) return;
+  const OpOutcome second{status, shape, call.dropped(), children, pieces};
+  if (same(outcome, second)) return;
+  checkFailed(__FILE__, __LINE__, spec.name, "depends on a field of the shape",
+              "that its effects do not declare");
+}
+
+}  // namespace gable
