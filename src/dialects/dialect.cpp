@@ -37,4 +37,16 @@ const Dialect* dialectOfPath(std::string_view path) {
   return nullptr;
 }
 
+Diagnostics inWordsOf(const Dialect* dialect, const Diagnostics& diagnostics) {
+  if (!dialect) return diagnostics;
+  Diagnostics out;
+  for (Diagnostic d : diagnostics.all()) {
+    for (const Remedy& r : dialect->remedies) {
+      if (r.code == d.code) d.hint = r.hint;
+    }
+    out.add(std::move(d));
+  }
+  return out;
+}
+
 }  // namespace gable

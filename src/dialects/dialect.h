@@ -32,6 +32,12 @@ struct DialectInput {
   lang::FileLoader* loader = nullptr;
 };
 
+/// What to do about a diagnostic of the derivation, in the words of a notation.
+struct Remedy {
+  std::string_view code;
+  const char* hint;
+};
+
 struct Dialect {
   /// What --dialect takes.
   const char* name;
@@ -44,6 +50,10 @@ struct Dialect {
   std::string (*format)(const Sources& sources, uint32_t file, Diagnostics& diagnostics) = nullptr;
   /// Comments may begin with '#', besides // and /* */.
   bool hashComments = false;
+  /// In place of the hints that speak Gable's own language.
+  std::span<const Remedy> remedies = {};
+  /// Seeds are signed whole numbers of 32 bits.
+  bool wholeSeeds = false;
 };
 
 /// All dialects, by name.
@@ -52,5 +62,8 @@ std::span<const Dialect* const> dialects();
 const Dialect* dialectNamed(std::string_view name);
 /// By the extension of a path, whatever its case; null for Gable's own language.
 const Dialect* dialectOfPath(std::string_view path);
+
+/// The diagnostics of a derivation with the notation's own hints; null is Gable's own language.
+Diagnostics inWordsOf(const Dialect* dialect, const Diagnostics& diagnostics);
 
 }  // namespace gable

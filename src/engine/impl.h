@@ -10,6 +10,7 @@
 
 #include "base/diagnostic.h"
 #include "base/json.h"
+#include "dialects/dialect.h"
 #include "engine/project.h"
 #include "gable/gable.h"
 #include "program/program.h"
@@ -45,6 +46,8 @@ struct Rules::Impl {
   uint32_t generation = 0;
   bool ok = false;
   double seconds = 0;
+  /// Null for Gable's own language.
+  const Dialect* dialect = nullptr;
 };
 
 struct Shapes::Impl {

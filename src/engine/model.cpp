@@ -3,6 +3,8 @@
 //
 // From rules and shapes to a model, and from a model to files and pictures.
 
+#include <cmath>
+#include <cstdint>
 #include <map>
 
 #include "base/files.h"
@@ -182,6 +184,19 @@ void bindSettings(const Rules::Impl& rules, const DeriveSettings& settings, Deri
   }
 }
 
+void checkWholeSeeds(const DeriveSettings& settings, Messages& messages) {
+  std::vector<double> seeds = {settings.seed};
+  for (const auto& [index, seed] : settings.shapeSeeds) seeds.push_back(seed);
+  for (const double seed : seeds) {
+    const bool whole = seed >= INT32_MIN && seed <= INT32_MAX && seed == std::trunc(seed);
+    if (whole) continue;
+    messages.push_back(
+        errorMessage({"bad-seed", "the seed of a GBBG grammar is a signed whole number of 32 bits",
+                      "write a whole number from -2147483648 to 2147483647"}));
+    return;
+  }
+}
+
 }  // namespace
 
 void Model::Impl::makeSound() {
@@ -235,6 +250,7 @@ Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& set
   options.cancel = settings.cancel;
   options.sources = &r.sources;
   bindSettings(r, settings, options, impl->messages);
+  if (r.dialect && r.dialect->wholeSeeds) checkWholeSeeds(settings, impl->messages);
   if (hasErrors(impl->messages)) return Model(std::move(impl));
   std::vector<InitialShape> initial = initialShapes(shapes.impl(), *r.pool);
   for (const auto& [index, seed] : settings.shapeSeeds) {
@@ -242,7 +258,7 @@ Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& set
   }
   impl->result = gable::derive(r.program, initial, *r.tables, options);
   impl->result.scene.geoOrigin = shapes.impl().geoOrigin;
-  const Messages made = toMessages(impl->result.diagnostics, r.sources);
+  const Messages made = toMessages(inWordsOf(r.dialect, impl->result.diagnostics), r.sources);
   impl->messages.insert(impl->messages.end(), made.begin(), made.end());
   impl->makeSound();
   impl->seconds = now() - begin;

@@ -52,6 +52,10 @@ class ProjectLoader final : public lang::FileLoader {
     return File{std::move(name), std::move(text.value())};
   }
 
+  bool exists(const std::string& path, const std::string& importer) override {
+    return path.starts_with("builtin:") || !project_.locate(path, importer).empty();
+  }
+
   lang::Tree parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics) override {
     return parseAs(dialectOfPath(sources.path(file)), sources, file, *this, diagnostics);
   }
@@ -122,6 +126,7 @@ Rules Rules::parse(const std::string& text, const std::string& path, const LoadO
   if (!dialect.ok()) return Rules(failed(dialect.error()));
   takeTables(*impl, options.project.empty() ? Project::rootFor(path) : options.project,
              options.before && options.before->impl_ ? &options.before->impl() : nullptr);
+  impl->dialect = dialect.value();
   Diagnostics diagnostics;
   const std::string name = impl->project->projectPath(path);
   const uint32_t file = impl->sources.add(name, text);

@@ -119,11 +119,25 @@ class Expander {
   std::set<std::string> used_;
 };
 
+void checkAssets(const DialectInput& input, const gbbg::Vocabulary& vocabulary,
+                 Diagnostics& diagnostics) {
+  if (!input.loader) return;
+  const std::string& from = input.sources.path(input.file);
+  for (const gbbg::SymbolInfo& s : vocabulary.symbols) {
+    if (!s.asset || input.loader->exists(s.asset->path, from)) continue;
+    diagnostics.warning(
+        "gbbg-missing-asset", s.asset->symbol.span,
+        "there is no file '" + s.asset->path + "' for '" + s.name + "'; its boxes stay",
+        "paths count from the assets folder, the project's folder or the grammar's own");
+  }
+}
+
 lang::Tree parseGbbg(const DialectInput& input, Diagnostics& diagnostics) {
   const std::string_view text = input.sources.text(input.file);
   Grammar grammar = gbbg::parse(text, input.file, diagnostics);
   grammar = Expander(input, diagnostics).run(std::move(grammar));
   gbbg::Vocabulary vocabulary = gbbg::checked(grammar, diagnostics);
+  checkAssets(input, vocabulary, diagnostics);
   return gbbg::lower(grammar, vocabulary, input.catalogue, input.file,
                      static_cast<uint32_t>(text.size()));
 }
@@ -136,8 +150,16 @@ std::string formatGbbg(const Sources& sources, uint32_t file, Diagnostics& diagn
 
 constexpr const char* kExtensions[] = {".gbbg"};
 
+constexpr Remedy kRemedies[] = {
+    {"recursion-too-deep", "let one of the shapes be terminal: 'terminal NAME'"},
+    {"split-too-many", "give the successor a larger preferred size: 'shape NAME [3, 3, 0]'"},
+    {"too-many-children", "give the successor a larger preferred size: 'shape NAME [3, 3, 0]'"},
+    {"too-many-shapes", "let the recursion end in a terminal shape, or raise --max-shapes"},
+};
+
 }  // namespace
 
-const Dialect kGbbgDialect = {"gbbg", "GBBG", kExtensions, parseGbbg, formatGbbg, true};
+const Dialect kGbbgDialect = {"gbbg",     "GBBG", kExtensions, parseGbbg,
+                              formatGbbg, true,   kRemedies,   true};
 
 }  // namespace gable

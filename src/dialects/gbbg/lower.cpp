@@ -10,6 +10,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/hash.h"
 #include "dialects/gbbg/names.h"
 #include "dialects/gbbg/tree_builder.h"
 
@@ -34,6 +35,24 @@ std::vector<double> percentsOf(std::vector<double> chances) {
   }
   for (double& c : chances) c = 100 * c / sum;
   return chances;
+}
+
+// A light colour for each name, so that symbols can be told apart before they have assets.
+std::string colourOf(std::string_view name) {
+  constexpr uint64_t kHues = 24, kSteps = 6;
+  const uint64_t hue = hashBytes(name) % kHues, sixth = hue / (kHues / kSteps);
+  const uint64_t rise = hue % (kHues / kSteps) * 24;
+  constexpr uint64_t kLow = 136, kHigh = 232;
+  const uint64_t up = kLow + rise, down = kHigh - rise;
+  const uint64_t wheel[kSteps][3] = {{kHigh, up, kLow},   {down, kHigh, kLow}, {kLow, kHigh, up},
+                                     {kLow, down, kHigh}, {up, kLow, kHigh},   {kHigh, kLow, down}};
+  static constexpr char kHex[] = "0123456789abcdef";
+  std::string out = "#";
+  for (const uint64_t v : wheel[sixth]) {
+    out += kHex[v / 16];
+    out += kHex[v % 16];
+  }
+  return out;
 }
 
 class Lowering {
@@ -67,7 +86,9 @@ class Lowering {
   // --- Successors ---
   NodeId slotOf(const Slot& slot, bool flat, Nodes before = {});
   NodeId possibilityOf(const Possibility& p, bool flat, Nodes body);
-  NodeId symbolOf(const SymbolInfo& s);
+  void addSymbol(const SymbolInfo& s, Nodes& out);
+  NodeId colour(const SymbolInfo& s);
+  Nodes boxOf(const SymbolInfo& s);
 
   NodeId move(NodeId z) { return t_.apply("t", {t_.number(0), t_.number(0), z}); }
   /// To the corner that is the root in GBBG, and back.
@@ -167,7 +188,10 @@ NodeId Lowering::startOf(const Start& s) {
     }
   }
   const SymbolInfo* info = vocabulary_.find(s.symbol.text);
-  body.push_back(info ? symbolOf(*info) : t_.leaf(names_.of(s.symbol.text)));
+  if (info)
+    addSymbol(*info, body);
+  else
+    body.push_back(t_.leaf(names_.of(s.symbol.text)));
   return t_.push(t_.sequence(body));
 }
 
@@ -211,9 +235,11 @@ void Lowering::terminalRule(const SymbolInfo& s) {
       arguments.push_back(t_.word("unitCube"));
     }
     const NodeId with = t_.sequence({t_.apply("i", arguments)});
-    const NodeId without = t_.sequence({t_.leaf(names_.of(s.name))});
+    const NodeId without = t_.sequence(boxOf(s));
     body.push_back(t_.choice(lang::ChoiceKind::Case,
                              {{t_.word("postProcess"), with}, {lang::kNoNode, without}}));
+  } else {
+    body.push_back(colour(s));
   }
   t_.at(s.span);
   declarations_.push_back(t_.rule(names_.of(s.name), notes, t_.sequence(body)));
@@ -389,16 +415,27 @@ NodeId Lowering::possibilityOf(const Possibility& p, bool flat, Nodes body) {
     body.push_back(t_.apply("resize", {t_.word("set"), t_.relative(1), t_.relative(1), t_.number(0),
                                        t_.word("front")}));
   }
-  body.push_back(symbolOf(*s));
+  addSymbol(*s, body);
   return t_.sequence(body);
 }
 
-NodeId Lowering::symbolOf(const SymbolInfo& s) {
-  if (s.dimensions == Dimensions::Empty) return t_.apply("NIL");
+void Lowering::addSymbol(const SymbolInfo& s, Nodes& out) {
   const std::string& name = names_.of(s.name);
-  const bool hasRule = !s.rules.empty() || s.asset || s.preferred != Triple{};
-  return hasRule ? t_.apply(name) : t_.leaf(name);
+  if (s.dimensions == Dimensions::Empty) {
+    out.push_back(t_.apply("NIL"));
+  } else if (!s.rules.empty() || s.asset || s.preferred != Triple{}) {
+    out.push_back(t_.apply(name));
+  } else {
+    for (const NodeId step : boxOf(s)) out.push_back(step);
+  }
 }
+
+NodeId Lowering::colour(const SymbolInfo& s) {
+  return t_.apply("color", {t_.text(colourOf(s.name))});
+}
+
+// The box itself, in the colour of its symbol.
+Nodes Lowering::boxOf(const SymbolInfo& s) { return {colour(s), t_.leaf(names_.of(s.name))}; }
 
 }  // namespace
 

@@ -241,7 +241,7 @@ bool Parser::slots(Rule& out) {
     hint = "a Split has one width less than successors: the last one takes the rest";
   }
   return error("gbbg-successor-count", {file_, begin, last().end},
-               "this " + op + " has " + std::to_string(wanted) +
+               "this " + op + " needs " + std::to_string(wanted) +
                    (wanted == 1 ? " successor" : " successors") + ", not " +
                    std::to_string(out.slots.size()),
                hint);

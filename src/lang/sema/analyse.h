@@ -34,6 +34,8 @@ class FileLoader {
   /// `path` as written in the import of the file `importer` (a path that load returned, or the main
   /// file's).
   virtual Result<File> load(const std::string& path, const std::string& importer) = 0;
+  /// Whether there is a file that rules can use as an asset, by the path as they write it.
+  virtual bool exists(const std::string& path, const std::string& importer);
   /// The tree of a file that load gave: its notation may be another than this language's.
   virtual Tree parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics);
 };
