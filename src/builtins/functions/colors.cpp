@@ -65,16 +65,23 @@ Vec3 hsvOf(const Vec3& rgb) {
   return {hue, high > 0 ? range / high : 0, high};
 }
 
-Value fromRgb(FunctionCall& call) {
-  std::string out = hexOf({call.number(0), call.number(1), call.number(2)});
-  if (call.has(3)) appendByte(out, call.number(3));
-  return call.result(out);
+// Three components of a colour in one of the two spaces, and perhaps its opacity.
+struct Components {
+  double a, b, c;
+  std::optional<double> opacity;
+};
+
+Value withOpacity(FunctionCall& call, std::string color, const Components& args) {
+  if (args.opacity) appendByte(color, *args.opacity);
+  return call.result(color);
 }
 
-Value fromHsv(FunctionCall& call) {
-  std::string out = hexOf(rgbOf(call.number(0), call.number(1), call.number(2)));
-  if (call.has(3)) appendByte(out, call.number(3));
-  return call.result(out);
+Value fromRgb(FunctionCall& call, const Components& args) {
+  return withOpacity(call, hexOf({args.a, args.b, args.c}), args);
+}
+
+Value fromHsv(FunctionCall& call, const Components& args) {
+  return withOpacity(call, hexOf(rgbOf(args.a, args.b, args.c)), args);
 }
 
 bool readColor(FunctionCall& call, Vec3& rgb, double& opacity) {
@@ -140,14 +147,15 @@ Value colorRamp(FunctionCall& call) {
   return call.result(hexOf(ramp->stops[i] * (1 - share) + ramp->stops[i + 1] * share));
 }
 
-constexpr ParamSpec kRed = {"red", ParamType::Float, "Red, 0 to 1."};
-constexpr ParamSpec kGreen = {"green", ParamType::Float, "Green, 0 to 1."};
-constexpr ParamSpec kBlue = {"blue", ParamType::Float, "Blue, 0 to 1."};
-constexpr ParamSpec kOpacity = {"opacity", ParamType::Float, "Opacity, 0 to 1."};
-constexpr ParamSpec kHue = {"hue", ParamType::Float, "Hue in degrees; red 0, green 120, blue 240."};
-constexpr ParamSpec kSaturation = {"saturation", ParamType::Float, "Saturation, 0 to 1."};
-constexpr ParamSpec kValue = {"value", ParamType::Float,
-                              "Value (lightness of the purest tone), 0 to 1."};
+constexpr ParamSpec kRed = param<&Components::a>("red", "Red, 0 to 1.");
+constexpr ParamSpec kGreen = param<&Components::b>("green", "Green, 0 to 1.");
+constexpr ParamSpec kBlue = param<&Components::c>("blue", "Blue, 0 to 1.");
+constexpr ParamSpec kOpacity = param<&Components::opacity>("opacity", "Opacity, 0 to 1.");
+constexpr ParamSpec kHue =
+    param<&Components::a>("hue", "Hue in degrees; red 0, green 120, blue 240.");
+constexpr ParamSpec kSaturation = param<&Components::b>("saturation", "Saturation, 0 to 1.");
+constexpr ParamSpec kValue =
+    param<&Components::c>("value", "Value (lightness of the purest tone), 0 to 1.");
 constexpr ParamSpec kRgbParams[] = {kRed, kGreen, kBlue};
 constexpr ParamSpec kRgboParams[] = {kRed, kGreen, kBlue, kOpacity};
 constexpr ParamSpec kHsvParams[] = {kHue, kSaturation, kValue};
@@ -167,11 +175,12 @@ constexpr Signature kOfRamp[] = {{kRampParams, ValueType::String}};
 
 constexpr const char* kFamily = "colors";
 constexpr FunctionSpec kFunctions[] = {
-    {"colorRGBToHex", kFamily, "A colour from red, green and blue.", kRgb, fromRgb},
-    {"colorRGBOToHex", kFamily, "A colour from red, green, blue and opacity.", kRgbo, fromRgb},
-    {"colorHSVToHex", kFamily, "A colour from hue, saturation and value.", kHsv, fromHsv},
+    {"colorRGBToHex", kFamily, "A colour from red, green and blue.", kRgb, typed<fromRgb>},
+    {"colorRGBOToHex", kFamily, "A colour from red, green, blue and opacity.", kRgbo,
+     typed<fromRgb>},
+    {"colorHSVToHex", kFamily, "A colour from hue, saturation and value.", kHsv, typed<fromHsv>},
     {"colorHSVOToHex", kFamily, "A colour from hue, saturation, value and opacity.", kHsvo,
-     fromHsv},
+     typed<fromHsv>},
     {"colorHexToR", kFamily, "The red of a colour, 0 to 1.", kOfHex, rgbComponent<0>},
     {"colorHexToG", kFamily, "The green of a colour, 0 to 1.", kOfHex, rgbComponent<1>},
     {"colorHexToB", kFamily, "The blue of a colour, 0 to 1.", kOfHex, rgbComponent<2>},

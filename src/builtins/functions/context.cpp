@@ -12,32 +12,41 @@
 
 namespace gable {
 
+namespace {}  // namespace
+
+template <>
+struct WordsOf<ContextScope> {
+  static constexpr const char* text = "intra inter all";
+};
+
 namespace {
 
-ContextScope scopeOf(const FunctionCall& call, size_t argument) {
-  const std::string_view word = call.text(argument, "all");
-  return word == "intra"   ? ContextScope::Intra
-         : word == "inter" ? ContextScope::Inter
-                           : ContextScope::All;
-}
+// Other shapes: whose, and under which label (0 for any).
+struct Others {
+  ContextScope target = ContextScope::All;
+  Text label;
+};
 
 template <ContextTest test>
-Value query(FunctionCall& call) {
-  const StringId label = call.has(1) ? call.arg(1).id : 0;
-  return Value::of(call.services().query(test, scopeOf(call, 0), label, call.shape()));
+Value query(FunctionCall& call, const Others& args) {
+  return Value::of(call.services().query(test, args.target, args.label.id, call.shape()));
 }
 
-Value minimumDistance(FunctionCall& call) {
-  if (call.text(1).empty()) return Value::of(std::numeric_limits<double>::infinity());
-  return Value::of(call.services().minimumDistance(scopeOf(call, 0), call.arg(1).id, call.shape()));
+Value minimumDistance(FunctionCall& call, const Others& args) {
+  if (args.label.text.empty()) return Value::of(std::numeric_limits<double>::infinity());
+  return Value::of(call.services().minimumDistance(args.target, args.label.id, call.shape()));
 }
 
-Value contextCount(FunctionCall& call) {
-  if (call.text(1).empty()) return Value::of(0.0);
-  return Value::of(call.services().contextCount(scopeOf(call, 0), call.arg(1).id));
+Value contextCount(FunctionCall& call, const Others& args) {
+  if (args.label.text.empty()) return Value::of(0.0);
+  return Value::of(call.services().contextCount(args.target, args.label.id));
 }
 
-Value contextCompare(FunctionCall& call) {
+struct Compare : Others {
+  Word comparison;
+};
+
+Value contextCompare(FunctionCall& call, const Compare& args) {
   static constexpr std::pair<std::string_view, ContextOrder> kOrders[] = {
       {"world.northernmost", ContextOrder::Northernmost},
       {"world.southernmost", ContextOrder::Southernmost},
@@ -48,51 +57,55 @@ Value contextCompare(FunctionCall& call) {
       {"area.largest", ContextOrder::LargestArea},
       {"area.smallest", ContextOrder::SmallestArea},
   };
-  if (call.text(1).empty()) return Value::of(0.0);
+  if (args.label.text.empty()) return Value::of(0.0);
   for (const auto& [name, order] : kOrders) {
-    if (call.text(2) != name) continue;
-    return Value::of(
-        call.services().contextRank(scopeOf(call, 0), call.arg(1).id, order, call.shape()));
+    if (args.comparison.text != name) continue;
+    return Value::of(call.services().contextRank(args.target, args.label.id, order, call.shape()));
   }
-  return call.fail("unknown-selector",
-                   "contextCompare knows no order '" + std::string(call.text(2)) + "'",
-                   "use world.highest, area.largest or another of its words", Value::of(0.0));
+  return Value::of(0.0);
 }
 
+enum class Quantity : uint8_t { Pos, Orient };
+
+}  // namespace
+
+template <>
+struct WordsOf<Quantity> {
+  static constexpr const char* text = "pos orient";
+};
+
+namespace {
+
+// One coordinate of three numbers, or all three of a list.
+struct Convert {
+  Axis coordinate;
+  CoordSystem from, to;
+  Quantity kind;
+  double x, y, z;
+  std::optional<Floats> coordinates;
+};
+
 // A position or orientation of one system in another.
-Vec3 converted(FunctionCall& call, size_t first, const Vec3& v) {
-  Frame systems[2];
-  for (size_t i = 0; i < 2; ++i) {
-    const std::string_view word = call.text(first + i);
-    const int system = wordIndex(WordsOf<CoordSystem>::text, word);
-    if (system < 0) {
-      call.fail("unknown-selector",
-                "convert knows no coordinate system '" + std::string(word) + "'",
-                "use scope, pivot, object or world", {});
-      return v;
-    }
-    systems[i] = frameOf(static_cast<CoordSystem>(system), call.shape(), call.services());
-  }
-  const auto& [from, to] = systems;
-  if (call.arg(first).id == call.arg(first + 1).id) return v;
-  if (call.text(first + 2) == "orient") {
+Vec3 converted(FunctionCall& call, const Convert& args, const Vec3& v) {
+  if (args.from == args.to) return v;
+  const Frame from = frameOf(args.from, call.shape(), call.services());
+  const Frame to = frameOf(args.to, call.shape(), call.services());
+  if (args.kind == Quantity::Orient) {
     return anglesXyz(inverse(to) * from * rotationXyz(v.x, v.y, v.z));
   }
   return to.toLocal(from.point(v));
 }
 
-Value convert(FunctionCall& call) {
-  if (call.argCount() == 7) {
-    const Vec3 v = converted(call, 1, {call.number(4), call.number(5), call.number(6)});
-    const std::string_view axis = call.text(0);
-    return Value::of(axis == "x" ? v.x : axis == "y" ? v.y : v.z);
+Value convert(FunctionCall& call, const Convert& args) {
+  if (!args.coordinates) {
+    return Value::of(component(converted(call, args, {args.x, args.y, args.z}), args.coordinate));
   }
-  const Array& in = call.array(3);
+  const Array& in = *args.coordinates->array;
   if (in.numbers.size() < 3) {
     return call.fail("bad-argument", "convert needs three coordinates", "write [x, y, z]",
-                     call.arg(3));
+                     call.services().pool().intern(in));
   }
-  const Vec3 v = converted(call, 0, {in.numbers[0], in.numbers[1], in.numbers[2]});
+  const Vec3 v = converted(call, args, {in.numbers[0], in.numbers[1], in.numbers[2]});
   Array out;
   out.rows = 1;
   out.columns = 3;
@@ -107,12 +120,11 @@ Value print(FunctionCall& call) {
   return call.arg(0);
 }
 
-constexpr ParamSpec kTarget = {"target", ParamType::Selector,
-                               "Shapes of the same initial shape, of others, or both.", nullptr,
-                               "intra inter all"};
-constexpr ParamSpec kLabel = {"label", ParamType::String,
-                              "Only shapes that were labelled so; an empty text means any."};
-constexpr ParamSpec kNeededLabel = {"label", ParamType::String, "The label of the other shapes."};
+constexpr ParamSpec kTarget =
+    param<&Others::target>("target", "Shapes of the same initial shape, of others, or both.");
+constexpr ParamSpec kLabel =
+    param<&Others::label>("label", "Only shapes that were labelled so; an empty text means any.");
+constexpr ParamSpec kNeededLabel = param<&Others::label>("label", "The label of the other shapes.");
 constexpr ParamSpec kTargetParams[] = {kTarget};
 constexpr ParamSpec kTargetLabelParams[] = {kTarget, kLabel};
 constexpr ParamSpec kLabelledParams[] = {kTarget, kNeededLabel};
@@ -121,33 +133,28 @@ constexpr Signature kQuery[] = {
 constexpr Signature kOfLabel[] = {{kLabelledParams, ValueType::Float}};
 
 constexpr ParamSpec kCompareParams[] = {
-    kTarget,
-    kNeededLabel,
-    {"comparisonType", ParamType::Selector, "What the order goes by; the first has rank 0.",
-     nullptr,
-     "world.northernmost world.southernmost world.easternmost world.westernmost world.highest "
-     "world.lowest area.largest area.smallest"}};
+    kTarget, kNeededLabel,
+    param<&Compare::comparison>(
+        "comparisonType", "What the order goes by; the first has rank 0.", nullptr,
+        "world.northernmost world.southernmost world.easternmost world.westernmost world.highest "
+        "world.lowest area.largest area.smallest")};
 constexpr Signature kCompare[] = {{kCompareParams, ValueType::Float}};
 
-constexpr const char* kSystems = "scope pivot object world";
-constexpr ParamSpec kAxis = {"coordinate", ParamType::Selector, "The coordinate to give.", nullptr,
-                             "x y z"};
-constexpr ParamSpec kFrom = {"fromSystem", ParamType::Selector,
-                             "The system that the coordinates are written in.", nullptr, kSystems};
-constexpr ParamSpec kTo = {"toSystem", ParamType::Selector, "The system to give them in.", nullptr,
-                           kSystems};
-constexpr ParamSpec kType = {"type", ParamType::Selector,
-                             "Whether they are a position, or angles in degrees.", nullptr,
-                             "pos orient"};
+constexpr ParamSpec kAxis = param<&Convert::coordinate>("coordinate", "The coordinate to give.");
+constexpr ParamSpec kFrom =
+    param<&Convert::from>("fromSystem", "The system that the coordinates are written in.");
+constexpr ParamSpec kTo = param<&Convert::to>("toSystem", "The system to give them in.");
+constexpr ParamSpec kType =
+    param<&Convert::kind>("type", "Whether they are a position, or angles in degrees.");
 constexpr ParamSpec kConvertParams[] = {kAxis,
                                         kFrom,
                                         kTo,
                                         kType,
-                                        {"x", ParamType::Float, "The first coordinate or angle."},
-                                        {"y", ParamType::Float, "The second one."},
-                                        {"z", ParamType::Float, "The third one."}};
+                                        param<&Convert::x>("x", "The first coordinate or angle."),
+                                        param<&Convert::y>("y", "The second one."),
+                                        param<&Convert::z>("z", "The third one.")};
 constexpr ParamSpec kConvertArrayParams[] = {
-    kFrom, kTo, kType, {"coordinates", ParamType::FloatArray, "The three of them."}};
+    kFrom, kTo, kType, param<&Convert::coordinates>("coordinates", "The three of them.")};
 constexpr Signature kConvert[] = {{kConvertParams, ValueType::Float},
                                   {kConvertArrayParams, ValueType::FloatArray}};
 constexpr Signature kKey[] = {{{}, ValueType::String}};
@@ -157,21 +164,21 @@ constexpr Signature kPrint[] = {{kPrintParams, ValueType::Null}};
 constexpr const char* kFamily = "context";
 constexpr FunctionSpec kFunctions[] = {
     {"inside", kFamily, "Whether the shape lies wholly inside a closed one.", kQuery,
-     query<ContextTest::Inside>, kReadsContext, true},
+     typed<query<ContextTest::Inside>>, kReadsContext, true},
     {"overlaps", kFamily, "Whether the shape lies partly or wholly inside a closed one.", kQuery,
-     query<ContextTest::Overlaps>, kReadsContext, true},
+     typed<query<ContextTest::Overlaps>>, kReadsContext, true},
     {"touches", kFamily, "Whether the shape overlaps a closed one or lies on its surface.", kQuery,
-     query<ContextTest::Touches>, kReadsContext, true},
+     typed<query<ContextTest::Touches>>, kReadsContext, true},
     {"minimumDistance", kFamily,
      "The distance of the scope to the nearest labelled one; infinite when there is none.",
-     kOfLabel, minimumDistance, kReadsContext},
-    {"contextCount", kFamily, "How many shapes were labelled so.", kOfLabel, contextCount,
+     kOfLabel, typed<minimumDistance>, kReadsContext},
+    {"contextCount", kFamily, "How many shapes were labelled so.", kOfLabel, typed<contextCount>,
      kReadsContext},
     {"contextCompare", kFamily,
      "How many labelled shapes lie further north, are higher, larger and so on than this one.",
-     kCompare, contextCompare, kReadsContext},
+     kCompare, typed<contextCompare>, kReadsContext},
     {"convert", kFamily, "A position or orientation of one coordinate system in another.", kConvert,
-     convert, kReadsWorld | kReadsWorldByWord | kReadsPivot},
+     typed<convert>, kReadsWorld | kReadsWorldByWord | kReadsPivot},
     {"getTreeKey", kFamily, "The path of the shape in the shape tree, a list of child numbers.",
      kKey, treeKey, kReadsPath, true},
     {"print", kFamily, "Writes a value to the console and gives it back.", kPrint, print, kReports},

@@ -19,21 +19,27 @@ namespace {
 constexpr uint64_t kField = 0x6e6f697365ULL;
 constexpr double kMostOctaves = 16;
 
-Value noise(FunctionCall& call) {
-  const double x = call.number(0), y = call.number(1);
-  return Value::of(call.argCount() == 3 ? gradientNoise(Vec3{x, y, call.number(2)}, kField)
-                                        : gradientNoise(Vec2{x, y}, kField));
+// Without z the noise is that of a plane.
+struct Noise {
+  double octaves;
+  double x, y;
+  std::optional<double> z;
+};
+
+Value noise(FunctionCall&, const Noise& args) {
+  return Value::of(args.z ? gradientNoise(Vec3{args.x, args.y, *args.z}, kField)
+                          : gradientNoise(Vec2{args.x, args.y}, kField));
 }
 
-Value fractal(FunctionCall& call) {
-  const double octaves = call.number(0), x = call.number(1), y = call.number(2);
+Value fractal(FunctionCall& call, const Noise& args) {
+  const double octaves = args.octaves;
   if (!(octaves >= 1 && octaves <= kMostOctaves)) {
     return call.fail("bad-argument", "fractalNoise takes 1 to 16 octaves",
                      "such as fractalNoise(4, world.x / 50, world.z / 50)", Value::of(0.0));
   }
   const int n = static_cast<int>(octaves);
-  return Value::of(call.argCount() == 4 ? fractalNoise(Vec3{x, y, call.number(3)}, n, kField)
-                                        : fractalNoise(Vec2{x, y}, n, kField));
+  return Value::of(args.z ? fractalNoise(Vec3{args.x, args.y, *args.z}, n, kField)
+                          : fractalNoise(Vec2{args.x, args.y}, n, kField));
 }
 
 template <size_t axis>
@@ -41,11 +47,11 @@ Value placeInWorld(FunctionCall& call) {
   return Value::of(call.services().world().point(call.shape().scope.origin)[axis]);
 }
 
-constexpr ParamSpec kX = {"x", ParamType::Float, "The first coordinate."};
-constexpr ParamSpec kY = {"y", ParamType::Float, "The second coordinate."};
-constexpr ParamSpec kZ = {"z", ParamType::Float, "The third one, or the number of a field."};
-constexpr ParamSpec kOctaves = {"octaves", ParamType::Float,
-                                "How many times finer noise is added, 1 to 16."};
+constexpr ParamSpec kX = param<&Noise::x>("x", "The first coordinate.");
+constexpr ParamSpec kY = param<&Noise::y>("y", "The second coordinate.");
+constexpr ParamSpec kZ = param<&Noise::z>("z", "The third one, or the number of a field.");
+constexpr ParamSpec kOctaves =
+    param<&Noise::octaves>("octaves", "How many times finer noise is added, 1 to 16.");
 constexpr ParamSpec kPlaneParams[] = {kX, kY};
 constexpr ParamSpec kSpaceParams[] = {kX, kY, kZ};
 constexpr ParamSpec kFractalPlaneParams[] = {kOctaves, kX, kY};
@@ -56,9 +62,9 @@ constexpr Signature kFractal[] = {{kFractalPlaneParams, ValueType::Float},
 
 constexpr FunctionSpec kFunctions[] = {
     {"noise", "noise", "Smooth noise, -1 to 1, that changes over a distance of about 1.", kNoise,
-     noise, kPure, false, true},
-    {"fractalNoise", "noise", "Noise with finer and finer detail, -1 to 1.", kFractal, fractal,
-     kPure, false, true},
+     typed<noise>, kPure, false, true},
+    {"fractalNoise", "noise", "Noise with finer and finer detail, -1 to 1.", kFractal,
+     typed<fractal>, kPure, false, true},
 };
 
 constexpr AttributeSpec kAttributes[] = {

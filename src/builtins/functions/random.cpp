@@ -8,30 +8,36 @@ namespace gable {
 
 namespace {
 
-Value random(FunctionCall& call) {
-  const double low = call.argCount() == 2 ? call.number(0) : 0;
-  const double high = call.argCount() == 0 ? 1 : call.number(call.argCount() - 1);
-  return Value::of(randomIn(call.randomAddress(0), low, high));
+struct Bounds {
+  double min = 0, max = 1;
+};
+
+Value random(FunctionCall& call, const Bounds& args) {
+  return Value::of(randomIn(call.randomAddress(0), args.min, args.max));
 }
 
-Value probability(FunctionCall& call) {
-  return Value::of(randomUnit(call.randomAddress(0)) < call.number(0));
+struct Probability {
+  double probability;
+};
+
+Value probability(FunctionCall& call, const Probability& args) {
+  return Value::of(randomUnit(call.randomAddress(0)) < args.probability);
 }
 
-constexpr ParamSpec kMax = {"max", ParamType::Float, "The greatest value."};
+constexpr ParamSpec kMax = param<&Bounds::max>("max", "The greatest value.");
 constexpr ParamSpec kMaxParams[] = {kMax};
-constexpr ParamSpec kMinMaxParams[] = {{"min", ParamType::Float, "The least value."}, kMax};
+constexpr ParamSpec kMinMaxParams[] = {param<&Bounds::min>("min", "The least value."), kMax};
 constexpr Signature kRand[] = {
     {{}, ValueType::Float}, {kMaxParams, ValueType::Float}, {kMinMaxParams, ValueType::Float}};
 
 constexpr ParamSpec kPParams[] = {
-    {"probability", ParamType::Float, "How often the result is true, 0 to 1."}};
+    param<&Probability::probability>("probability", "How often the result is true, 0 to 1.")};
 constexpr Signature kP[] = {{kPParams, ValueType::Bool}};
 
 constexpr FunctionSpec kFunctions[] = {
-    {"rand", "random", "A random number, from 0 to 1 unless bounds are given.", kRand, random,
-     kRandom, true},
-    {"p", "random", "True with a probability.", kP, probability, kRandom},
+    {"rand", "random", "A random number, from 0 to 1 unless bounds are given.", kRand,
+     typed<random>, kRandom, true},
+    {"p", "random", "True with a probability.", kP, typed<probability>, kRandom},
 };
 
 }  // namespace
