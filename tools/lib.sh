@@ -127,6 +127,18 @@ page_packages() {
     step "Installing what the studio's page needs" page-packages.log install_page_packages
 }
 
+# What the extension for editors and the tests of the language server need, in build/editors.
+install_editor_packages() {
+  mkdir -p "$root/build/editors"
+  cp "$root/editors/vscode/package.json" "$root/editors/vscode/package-lock.json" "$root/build/editors/"
+  (cd "$root/build/editors" && npm ci --no-audit --no-fund --loglevel=error) &&
+    cp "$root/build/editors/package-lock.json" "$root/build/editors/installed.json"
+}
+editor_packages() {
+  cmp -s "$root/editors/vscode/package-lock.json" "$root/build/editors/installed.json" ||
+    step "Installing what the language server's tests need" editor-packages.log install_editor_packages
+}
+
 # build PRESET [TARGET...]: configures where needed and builds. Ninja itself runs CMake again when a
 # file of the build description changed, so the configuration is done by hand only once.
 build() {

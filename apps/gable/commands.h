@@ -76,6 +76,8 @@ struct OpsArguments {
 };
 int runOps(const OpsArguments& arguments);
 
+int runLsp();
+
 struct StudioArguments {
   std::string folder = ".";
   int port = 0;

@@ -65,6 +65,14 @@ void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
       ->check(number({0, 4294967295.0, true}));
 }
 
+void addLsp(CLI::App& app, int& status) {
+  auto* lsp = app.add_subcommand("lsp", "Serve an editor over stdin and stdout (language server)");
+  // What editors add by themselves.
+  lsp->add_flag_callback(
+      "--stdio", [] {}, "Over stdin and stdout; there is no other way");
+  lsp->callback([&status] { status = runLsp(); });
+}
+
 void addStudio(CLI::App& app, StudioArguments& a, int& status) {
   auto* studio = app.add_subcommand("studio", "Serve a page to write rules and see places");
   studio->add_option("folder", a.folder, "The project (default: this folder)");
@@ -159,6 +167,7 @@ int main(int argc, char** argv) {
   opsApp->add_flag("--json", ops.json, "Machine-readable output");
   opsApp->callback([&] { status = runOps(ops); });
 
+  addLsp(app, status);
   StudioArguments studio;
   addStudio(app, studio, status);
   try {

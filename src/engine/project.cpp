@@ -71,7 +71,7 @@ std::string Project::inside(const std::string& candidate) const {
   return below && !isHidden(std::string_view(real).substr(root_.size())) ? real : std::string();
 }
 
-std::string Project::locate(std::string_view path, std::string_view fromFile) const {
+std::vector<std::string> Project::places(std::string_view path, std::string_view fromFile) const {
   if (path.empty() || climbs(path) || path.find('\0') != std::string_view::npos) return {};
   std::string clean(path);
   std::replace(clean.begin(), clean.end(), '\\', '/');
@@ -88,7 +88,11 @@ std::string Project::locate(std::string_view path, std::string_view fromFile) co
     const std::string folder = folderOf(std::string(fromFile));
     if (!folder.empty()) candidates.push_back(root_ + "/" + folder + "/" + clean);
   }
-  for (const std::string& c : candidates) {
+  return candidates;
+}
+
+std::string Project::locate(std::string_view path, std::string_view fromFile) const {
+  for (const std::string& c : places(path, fromFile)) {
     std::string found = inside(c);
     if (!found.empty()) return found;
   }

@@ -32,6 +32,8 @@ class Project final : public Assets {
   const std::string& root() const { return root_; }
   /// The file on disk of a project path; empty when there is none inside of the project.
   std::string locate(std::string_view path, std::string_view fromFile) const;
+  /// Where on disk that may be, in the order of looking; whether there is a file is not asked.
+  std::vector<std::string> places(std::string_view path, std::string_view fromFile) const;
   /// The canonical path of a file on disk when it is a plain file below the root and not hidden,
   /// else empty.
   std::string inside(const std::string& candidate) const;

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// What is shown beside and over the text: the meaning of each word as a colour, the names of
+// parameters before arguments, and the edits of the formatter.
+
+#include <algorithm>
+
+#include "dialects/dialect.h"
+#include "lang/format.h"
+#include "language/forms.h"
+#include "language/service.h"
+
+namespace gable::language {
+
+using lang::kNoNode;
+using lang::NodeId;
+using lang::NodeKind;
+using lang::Token;
+using lang::TokenKind;
+using lang::Tree;
+
+namespace {
+
+// Positions of offsets that grow: linear in the text for all of them together.
+class Walker {
+ public:
+  explicit Walker(const Text& text) : text_(text) {}
+  Position operator()(uint32_t offset) {
+    const uint32_t line = text_.lineOf(offset);
+    if (line != at_.line || offset < offset_) {
+      at_ = {line, 0};
+      offset_ = text_.lineStart(line);
+    }
+    // From the last place on the same line.
+    const std::string& s = text_.content();
+    while (offset_ < offset) {
+      const auto lead = static_cast<unsigned char>(s[offset_]);
+      if (lead >= 0x80) return text_.position(offset);
+      ++offset_;
+      ++at_.character;
+    }
+    return at_;
+  }
+
+ private:
+  const Text& text_;
+  Position at_;
+  uint32_t offset_ = 0;
+};
+
+using Kind = Highlight::Kind;
+
+Highlight meaning(const Name& n, const Snapshot& s) {
+  Highlight h;
+  h.declaration = n.declaration;
+  switch (n.space) {
+    case Space::Rule: {
+      h.kind = Kind::Rule;
+      if (n.unit >= s.program.units.size() || n.declaration) return h;
+      return h;
+    }
+    case Space::Value: h.kind = Kind::Attribute; return h;
+    case Space::Slot: h.kind = Kind::Parameter; return h;
+    case Space::Import:
+    case Space::Style: h.kind = Kind::Namespace; return h;
+    case Space::Path: h.kind = Kind::String; return h;
+    case Space::Operation: h.kind = Kind::Operation; break;
+    case Space::Function: h.kind = Kind::Function; break;
+    case Space::ShapeAttribute: h.kind = Kind::Attribute; break;
+    case Space::Selector: h.kind = Kind::Selector; break;
+    case Space::Annotation: h.kind = Kind::Annotation; break;
+  }
+  h.builtIn = true;
+  return h;
+}
+
+std::optional<Kind> kindOfToken(const Token& t) {
+  switch (t.kind) {
+    case TokenKind::Number: return Kind::Number;
+    case TokenKind::String: return Kind::String;
+    case TokenKind::Name:
+      if (t.keyword == lang::Keyword::None) return std::nullopt;
+      return Kind::Keyword;
+    case TokenKind::Arrow:
+    case TokenKind::Tilde:
+    case TokenKind::Quote: return Kind::Operator;
+    case TokenKind::At: return Kind::Annotation;
+    default: return std::nullopt;
+  }
+}
+
+// Declarations by word, for the modifiers of values and for leaves.
+struct Known {
+  std::vector<std::pair<std::string_view, NameKind>> words;
+  const NameKind* find(std::string_view word) const {
+    const auto at = std::lower_bound(words.begin(), words.end(), word,
+                                     [](const auto& a, std::string_view w) { return a.first < w; });
+    return at != words.end() && at->first == word ? &at->second : nullptr;
+  }
+};
+
+Known knownIn(const Tree& tree) {
+  Known out;
+  for (const Declared& d : declaredIn(tree)) out.words.emplace_back(d.word, d.kind);
+  std::sort(out.words.begin(), out.words.end());
+  return out;
+}
+
+}  // namespace
+
+std::vector<Highlight> highlightsOf(const Parsed& parsed, const Snapshot& snapshot,
+                                    const Catalogue& catalogue) {
+  std::vector<Highlight> out;
+  if (parsed.dialect) return out;
+  struct Piece {
+    uint32_t begin, end;
+    Highlight mark;
+  };
+  std::vector<Piece> pieces;
+  std::vector<Known> known;
+  for (uint32_t u = 0; u < snapshot.program.units.size(); ++u) {
+    known.push_back(knownIn(snapshot.tree(u)));
+  }
+  for (const Name& n : namesOf(snapshot, 0, catalogue)) {
+    Piece p{n.begin, n.end, meaning(n, snapshot)};
+    const NameKind* k = n.unit < known.size() ? known[n.unit].find(n.word) : nullptr;
+    if (n.space == Space::Rule && !k) p.mark.kind = Kind::Leaf;
+    if (n.space == Space::Value && k) {
+      p.mark.constant = *k == NameKind::Constant;
+      if (*k == NameKind::Function) p.mark.kind = Kind::Function;
+    }
+    pieces.push_back(p);
+  }
+  const size_t names = pieces.size();
+  const auto taken = [&](uint32_t begin) {
+    const auto at = std::lower_bound(pieces.begin(), pieces.begin() + static_cast<ptrdiff_t>(names),
+                                     begin, [](const Piece& p, uint32_t b) { return p.begin < b; });
+    return at != pieces.begin() + static_cast<ptrdiff_t>(names) && at->begin == begin;
+  };
+  for (const Token& t : parsed.tokens.tokens) {
+    const std::optional<Kind> kind = kindOfToken(t);
+    if (!kind || t.end <= t.begin || taken(t.begin)) continue;
+    Highlight h;
+    h.kind = *kind;
+    pieces.push_back({t.begin, t.end, h});
+  }
+  for (const lang::Comment& c : parsed.tokens.comments) pieces.push_back({c.begin, c.end, {}});
+  std::sort(pieces.begin(), pieces.end(),
+            [](const Piece& a, const Piece& b) { return a.begin < b.begin; });
+  Walker begins(parsed.text), ends(parsed.text);
+  uint32_t last = 0;
+  for (Piece& p : pieces) {
+    if (p.begin < last) continue;
+    last = p.end;
+    p.mark.range = {begins(p.begin), ends(p.end)};
+    out.push_back(p.mark);
+  }
+  return out;
+}
+
+// --- The names of parameters ---
+
+namespace {
+
+bool literal(const Tree& t, NodeId n) {
+  while (t.kind(n) == NodeKind::Unary || t.kind(n) == NodeKind::Relative ||
+         t.kind(n) == NodeKind::Floating) {
+    n = t.child(n, 0);
+  }
+  const NodeKind k = t.kind(n);
+  return k == NodeKind::Number || k == NodeKind::String || k == NodeKind::Bool ||
+         k == NodeKind::Array;
+}
+
+}  // namespace
+
+std::vector<InlayHint> inlayHintsOf(const Parsed& parsed, const Snapshot& snapshot, Range range,
+                                    const Catalogue& catalogue) {
+  std::vector<InlayHint> out;
+  if (parsed.dialect || snapshot.program.modules.empty()) return out;
+  const uint32_t from = parsed.text.offset(range.begin), to = parsed.text.offset(range.end);
+  const Tree& t = snapshot.tree(0);
+  const lang::Module& m = snapshot.program.modules[0];
+  for (NodeId n = 1; n < t.size(); ++n) {
+    const bool call = t.kind(n) == NodeKind::Apply || t.kind(n) == NodeKind::Call;
+    if (!call || t[n].end < from || t[n].begin > to) continue;
+    const std::span<const NodeId> args = t.children(t.child(n, 0));
+    if (args.size() < 2) continue;
+    const lang::Resolution& r = m.at(n);
+    std::vector<std::string_view> names;
+    if (r.kind == lang::RefKind::Rule || r.kind == lang::RefKind::Function) {
+      const bool rule = r.kind == lang::RefKind::Rule;
+      const lang::ModuleId owner = rule ? snapshot.program.rules[r.index].module
+                                        : snapshot.program.functions[r.index].module;
+      const NodeId node =
+          rule ? snapshot.program.rules[r.index].node : snapshot.program.functions[r.index].node;
+      const Tree& their = snapshot.program.tree(owner);
+      for (const NodeId p : their.children(paramsOf(their, node))) names.push_back(their.text(p));
+    } else if (r.kind == lang::RefKind::Operation || r.kind == lang::RefKind::BuiltinFunction) {
+      const std::optional<Callable> c =
+          callableOf(catalogue, t.text(n), r.kind == lang::RefKind::Operation);
+      if (!c || r.signature >= c->signatures.size()) continue;
+      const Signature& s = c->signatures[r.signature];
+      // Of a list that goes on, the names say nothing.
+      if (s.variadic) continue;
+      for (const ParamSpec& p : s.params) names.push_back(p.name);
+      // x, y and z in their order need no words.
+      if (names == std::vector<std::string_view>{"x", "y", "z"}) continue;
+    }
+    for (size_t i = 0; i < args.size() && i < names.size(); ++i) {
+      const uint32_t at = t[args[i]].begin;
+      if (at < from || at > to || !literal(t, args[i])) continue;
+      out.push_back({parsed.text.position(at), std::string(names[i]) + ":"});
+    }
+  }
+  std::sort(out.begin(), out.end(), [](const InlayHint& a, const InlayHint& b) {
+    return std::tie(a.at.line, a.at.character) < std::tie(b.at.line, b.at.character);
+  });
+  return out;
+}
+
+// --- Layout ---
+
+namespace {
+
+bool isSpace(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+// The layout changes white space alone, so the texts are walked side by side.
+std::optional<std::vector<Edit>> spaceEdits(const Text& text, std::string_view after) {
+  const std::string_view before = text.content();
+  std::vector<Edit> out;
+  size_t i = 0, j = 0;
+  while (i < before.size() || j < after.size()) {
+    size_t a = i, b = j;
+    while (a < before.size() && isSpace(before[a])) ++a;
+    while (b < after.size() && isSpace(after[b])) ++b;
+    if (before.substr(i, a - i) != after.substr(j, b - j)) {
+      out.push_back({text.range(static_cast<uint32_t>(i), static_cast<uint32_t>(a)),
+                     std::string(after.substr(j, b - j))});
+    }
+    i = a;
+    j = b;
+    while (i < before.size() && j < after.size() && !isSpace(before[i]) && before[i] == after[j]) {
+      ++i;
+      ++j;
+    }
+    const bool end = i >= before.size() && j >= after.size();
+    if (!end && i == a && j == b) return std::nullopt;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Edit> formatEdits(const Parsed& parsed, const std::string& path) {
+  const std::string& text = parsed.text.content();
+  Sources sources;
+  Diagnostics diagnostics;
+  const uint32_t file = sources.add(path, text);
+  std::string after = text;
+  if (!parsed.dialect) {
+    after = lang::format(sources, file, diagnostics);
+  } else if (parsed.dialect->format) {
+    after = parsed.dialect->format(sources, file, diagnostics);
+  }
+  if (diagnostics.hasErrors() || after == text) return {};
+  if (std::optional<std::vector<Edit>> edits = spaceEdits(parsed.text, after)) return *edits;
+  return {{parsed.text.range(0, static_cast<uint32_t>(text.size())), after}};
+}
+
+}  // namespace gable::language
