@@ -54,6 +54,8 @@ struct Dialect {
   std::span<const Remedy> remedies = {};
   /// Seeds are signed whole numbers of 32 bits.
   bool wholeSeeds = false;
+  /// Why values from outside have no effect on hidden attributes; null where they have.
+  const char* hiddenReason = nullptr;
 };
 
 /// All dialects, by name.

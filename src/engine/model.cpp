@@ -157,6 +157,12 @@ void bindSettings(const Rules::Impl& rules, const DeriveSettings& settings, Deri
                 hintFor(name, names, "attributes")});
       continue;
     }
+    if (rules.dialect && rules.dialect->hiddenReason &&
+        program.attributes[static_cast<size_t>(found)].hidden) {
+      complain({"not-settable", "'" + name + "' " + rules.dialect->hiddenReason,
+                "change its range in the grammar"});
+      continue;
+    }
     Result<Value> value =
         settingOf(name, text, program.attributes[static_cast<size_t>(found)].type, *rules.pool);
     if (value.ok())

@@ -161,11 +161,12 @@ class Machine final : public Services, private WorkMeter {
   void takeReport(StringId key, const Value& value) override;
   void takePrint(std::string text) override;
   void takeWarning(const char* code, std::string message, std::string hint) override;
-  bool answerQuery(ContextTest test, ContextScope scope, StringId label, const Shape& shape) override;
+  bool answerQuery(ContextTest test, ContextScope scope, StringId label,
+                   const Shape& shape) override;
   double answerDistance(ContextScope scope, StringId label, const Shape& shape) override;
   double answerCount(ContextScope scope, StringId label) override;
   double answerRank(ContextScope scope, StringId label, ContextOrder order,
-                     const Shape& shape) override;
+                    const Shape& shape) override;
   void takeLabel(StringId name, const Shape& shape) override;
   std::string treeKeyAtWork() const override;
   void leaveLeaf() override;

@@ -121,7 +121,8 @@ void Machine::takeLabel(StringId name, const Shape& shape) {
   if (collectOccluders_) addOccluder(name, shape);
 }
 
-bool Machine::answerQuery(ContextTest test, ContextScope scope, StringId label, const Shape& shape) {
+bool Machine::answerQuery(ContextTest test, ContextScope scope, StringId label,
+                          const Shape& shape) {
   return shared_.occluders && shared_.occluders->test(test, scope, label, asking(shape));
 }
 
@@ -136,7 +137,7 @@ double Machine::answerCount(ContextScope scope, StringId label) {
 }
 
 double Machine::answerRank(ContextScope scope, StringId label, ContextOrder order,
-                            const Shape& shape) {
+                           const Shape& shape) {
   if (!shared_.occluders) return 0;
   return static_cast<double>(shared_.occluders->rank(scope, label, order, asking(shape)));
 }

@@ -211,7 +211,9 @@ void FakeServices::takeWarning(const char* code, std::string message, std::strin
   warnings.push_back({code, std::move(message)});
 }
 
-void FakeServices::takeLabel(StringId name, const Shape&) { labels.emplace_back(pool().text(name)); }
+void FakeServices::takeLabel(StringId name, const Shape&) {
+  labels.emplace_back(pool().text(name));
+}
 
 Value Arg::value(ValuePool& pool) const {
   switch (type) {

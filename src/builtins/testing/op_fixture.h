@@ -77,7 +77,9 @@ class FakeServices : public Services {
   void takeReport(StringId key, const Value& value) override;
   void takePrint(std::string text) override { prints.push_back(std::move(text)); }
   void takeWarning(const char* code, std::string message, std::string hint) override;
-  bool answerQuery(ContextTest, ContextScope, StringId, const Shape&) override { return queryAnswer; }
+  bool answerQuery(ContextTest, ContextScope, StringId, const Shape&) override {
+    return queryAnswer;
+  }
   double answerDistance(ContextScope, StringId, const Shape&) override { return distanceAnswer; }
   double answerCount(ContextScope, StringId) override { return countAnswer; }
   double answerRank(ContextScope, StringId, ContextOrder order, const Shape&) override {

@@ -110,6 +110,9 @@ struct Grammar {
   std::unordered_map<std::string_view, size_t> variableIndex, ruleIndex;
 };
 
+/// The value of an expression without variables and draws; `known` becomes false for others.
+double evaluate(const Grammar& grammar, uint32_t expression, bool& known);
+
 /// Views into `text`; it must outlive the grammar. What is wrong is reported and left out.
 Grammar parseGrammar(std::string_view text, uint32_t file, Diagnostics& diagnostics);
 

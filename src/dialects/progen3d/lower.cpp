@@ -11,6 +11,7 @@
 
 #include "base/text.h"
 #include "dialects/progen3d/names.h"
+#include "dialects/progen3d/textures.h"
 #include "dialects/progen3d/uses.h"
 
 namespace gable::progen3d {
@@ -27,6 +28,8 @@ using Kind = Expression::Kind;
 
 /// A rule that leaves so many bodies is worth being derived once for all its equal calls.
 constexpr double kWorthSharing = 4;
+/// Of a body that does not say its own.
+constexpr double kTextureScale = 0.125;
 constexpr const char* kQuotient = "quotient";
 constexpr double kDegreesInRadian = 57.29577951308232;
 
@@ -110,24 +113,32 @@ class Builder {
 class Lowering {
  public:
   Lowering(const Grammar& grammar, uint32_t file, const Catalogue& catalogue,
-           Diagnostics& diagnostics)
+           const FileExists& exists, Diagnostics& diagnostics)
       : g_(grammar),
         b_(file),
         names_(grammar, catalogue),
         uses_(grammar),
+        exists_(exists),
         diagnostics_(diagnostics) {}
 
   lang::Tree run() {
-    Nodes declarations;
-    for (const Variable& v : g_.variables) declarations.push_back(variable(v));
-    Nodes rules;
+    Nodes declarations, rules;
     if (!g_.rules.empty() && needsStartRule(g_.rules[0])) rules.push_back(startRule());
-    for (const Rule& r : g_.rules) rules.push_back(rule(r));
+    for (const Rule& r : g_.rules) {
+      if (!uses_.isReachable(r.name)) {
+        diagnostics_.warning("unused-rule", r.nameSpan,
+                             "nothing that the first rule leads to runs '" + std::string(r.name) +
+                                 "', so it draws nothing",
+                             "write its name into a rule, remove it, or begin with it by --start");
+      }
+      rules.push_back(rule(r));
+    }
+    for (const Variable& v : g_.variables) declarations.push_back(variable(v));
     for (const std::string& counter : counters_) {
       const Span at = g_.rules[0].nameSpan;
-      const NodeId hidden = b_.list(at, {b_.add(NodeKind::Annotation, at, {}, "Hidden")});
-      declarations.push_back(b_.add(
-          NodeKind::Attr, at, {hidden, kNoNode, kNoNode, b_.number(0, at)}, names_.value(counter)));
+      declarations.push_back(b_.add(NodeKind::Attr, at,
+                                    {hidden(at), kNoNode, kNoNode, b_.number(0, at)},
+                                    names_.value(counter)));
     }
     if (divides_) declarations.push_back(quotient());
     declarations.insert(declarations.end(), rules.begin(), rules.end());
@@ -139,8 +150,22 @@ class Lowering {
 
   NodeId variable(const Variable& v) {
     const NodeId value = isConstant(v) ? b_.number(constantOf(v), v.span) : draw(v, v.span);
-    return b_.add(NodeKind::Attr, v.span, {kNoNode, kNoNode, kNoNode, value}, names_.value(v.name));
+    const NodeId notes = isRedrawn(v) ? hidden(v.span) : kNoNode;
+    return b_.add(NodeKind::Attr, v.span, {notes, kNoNode, kNoNode, value}, names_.value(v.name));
   }
+
+  // Each rule that has it in its head draws it, so that a value from outside would have no effect.
+  bool isRedrawn(const Variable& v) const {
+    if (isConstant(v) || unbound_.count(v.name) > 0) return false;
+    for (const Rule& r : g_.rules) {
+      for (const Rule::Draw& d : r.draws) {
+        if (d.name == v.name) return true;
+      }
+    }
+    return false;
+  }
+
+  NodeId hidden(Span at) { return b_.list(at, {b_.add(NodeKind::Annotation, at, {}, "Hidden")}); }
 
   // A whole range holds all integers between its bounds; without one, the lower bound truncated.
   static double least(const Variable& v) {
@@ -229,18 +254,19 @@ class Lowering {
   Nodes chosen(const Rule& r) {
     if (r.probability == kNone) return sections(r);
     const Expression& p = g_.expressions[r.probability];
-    if (p.kind == Kind::Number) {
-      if (p.number < 0 || p.number > 1) {
+    bool known = true;
+    const double share = evaluate(g_, r.probability, known);
+    if (known) {
+      if (share < 0 || share > 1) {
         diagnostics_.warning("bad-probability", p.span, "a probability lies between 0 and 1",
                              "write 0.5 for every second time");
       }
-      if (p.number >= 1) return sections(r);
-      if (p.number <= 0) return section(r.alternate);
+      if (share >= 1) return sections(r);
+      if (!(share > 0)) return section(r.alternate);
     }
-    const NodeId weight = p.kind == Kind::Number
-                              ? b_.number(p.number * 100, p.span)
-                              : b_.binary(BinaryOp::Multiply, expression(r.probability),
-                                          b_.number(100, p.span), p.span);
+    const NodeId weight = known ? b_.number(share * 100, p.span)
+                                : b_.binary(BinaryOp::Multiply, expression(r.probability),
+                                            b_.number(100, p.span), p.span);
     const Nodes first = sections(r);
     const NodeId choice = b_.choice(weight, first, section(r.alternate), r.span);
     return {choice};
@@ -382,9 +408,70 @@ class Lowering {
       case Body::Sphere: name = "affineSphere"; break;
       case Body::Cylinder: name = "affineCylinder"; break;
     }
+    if (!step.arguments.empty() && isTextureName(g_.expressions[step.arguments[0]])) {
+      Nodes inner = dressed(step);
+      inner.push_back(b_.apply(name, arguments, at));
+      return b_.add(NodeKind::Push, at, {b_.sequence(inner, at)});
+    }
     if (step.arguments.empty()) arguments.push_back(b_.number(0, at));
     for (const uint32_t a : step.arguments) arguments.push_back(expression(a));
     return b_.apply(name, arguments, at);
+  }
+
+  // --- Textures by name ---
+
+  bool isTextureName(const Expression& e) const {
+    return e.kind == Kind::Name && !g_.variable(e.name) && !e.name.ends_with("_count");
+  }
+
+  NodeId setMaterial(const char* attribute, NodeId value, Span at) {
+    return b_.apply("set", {b_.name(std::string("material.") + attribute, at), value}, at);
+  }
+
+  // The picture of that name in the folder of textures, else what its words say.
+  NamedTexture textureOf(const Expression& e) {
+    NamedTexture out;
+    for (const char* type : {".png", ".jpg", ".jpeg"}) {
+      out.path = "textures/" + std::string(e.name) + type;
+      if (exists_ && exists_(out.path)) return out;
+    }
+    if (const std::optional<NamedTexture> named = namedTexture(e.name)) return *named;
+    if (unknown_.insert(e.name).second) {
+      diagnostics_.warning(
+          "unknown-texture", e.span,
+          "there is no texture and no variable '" + std::string(e.name) + "'; the body is plain",
+          "write a number, words such as brick, redbrick or shinymetal, or put a picture of that "
+          "name into the folder textures");
+    }
+    out.path.clear();
+    return out;
+  }
+
+  // What stands before a body with a named texture, in the same brackets.
+  Nodes dressed(const Step& step) {
+    const Span at = step.span;
+    const NamedTexture look = textureOf(g_.expressions[step.arguments[0]]);
+    const auto string = [&](const std::string& text) {
+      return b_.add(NodeKind::String, at, {}, text);
+    };
+    Nodes out;
+    if (!look.color.empty()) out.push_back(b_.apply("color", {string(look.color)}, at));
+    if (look.opacity < 1) out.push_back(setMaterial("opacity", b_.number(look.opacity, at), at));
+    if (look.roughness >= 0) {
+      out.push_back(setMaterial("roughness", b_.number(look.roughness, at), at));
+    }
+    if (look.path.empty()) return out;
+    out.push_back(b_.apply("texture", {string(look.path)}, at));
+    const auto times = [&](size_t argument, double factor, double otherwise) {
+      if (argument >= step.arguments.size()) return b_.number(factor * otherwise, at);
+      const NodeId value = expression(step.arguments[argument]);
+      return b_.binary(BinaryOp::Multiply, b_.number(factor, at), value, at);
+    };
+    for (const char* scale : {"colormap.su", "colormap.sv"}) {
+      out.push_back(setMaterial(scale, times(2, 2, kTextureScale), at));
+    }
+    out.push_back(setMaterial("colormap.rw", times(1, 90, 0), at));
+    return out;
   }
 
   // --- Expressions ---
@@ -474,6 +561,7 @@ class Lowering {
   Builder b_;
   Names names_;
   Uses uses_;
+  const FileExists& exists_;
   Diagnostics& diagnostics_;
   const Rule* rule_ = nullptr;
   size_t middle_ = kNone;
@@ -486,8 +574,8 @@ class Lowering {
 }  // namespace
 
 lang::Tree lower(const Grammar& grammar, uint32_t file, const Catalogue& catalogue,
-                 Diagnostics& diagnostics) {
-  return Lowering(grammar, file, catalogue, diagnostics).run();
+                 const FileExists& exists, Diagnostics& diagnostics) {
+  return Lowering(grammar, file, catalogue, exists, diagnostics).run();
 }
 
 }  // namespace gable::progen3d

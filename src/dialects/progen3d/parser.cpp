@@ -222,7 +222,12 @@ class Parser {
       }
     }
     if (accept(TokenKind::Semicolon)) {
-      if (!is(TokenKind::Arrow)) rule.probability = parseExpression();
+      if (!is(TokenKind::Arrow)) {
+        rule.probability = parseExpression();
+      } else {
+        warning("bad-probability", spanOf(tokens_[at_ - 1]),
+                "a probability is missing behind this ';'", "write '; 0.5 ->', or remove the ';'");
+      }
       const uint32_t begin = current().begin;
       while (at_ < end_ && !is(TokenKind::Arrow)) ++at_;
       if (lastEnd() > begin) {
@@ -452,8 +457,21 @@ class Parser {
       return;
     }
     if (!known) return;
+    if (command.kind == Step::Kind::Turn) checkAxis(step);
     grammar_.centred |= command.kind == Step::Kind::Front || command.kind == Step::Kind::Top;
     out.push_back(std::move(step));
+  }
+
+  void checkAxis(const Step& turn) {
+    bool known = true;
+    const double axis = evaluate(grammar_, turn.arguments[1], known);
+    if (!known || axis == 0 || axis == 1 || axis == 2) return;
+    warning("bad-axis", grammar_.expressions[turn.arguments[1]].span,
+            "there is no such axis; the place turns about " +
+                std::string(std::trunc(axis) == 0   ? "x"
+                            : std::trunc(axis) == 1 ? "y"
+                                                    : "z"),
+            "0 is x, 1 is y, 2 is z");
   }
 
   bool bodyNamed(const Token& t, Body& body) {
@@ -492,6 +510,11 @@ class Parser {
     }
     v.min = constant(bounds[0], v.span);
     v.max = bounds.size() > 1 ? constant(bounds[1], v.span) : v.min;
+    if (v.min > v.max) {
+      warning("reversed-range", v.span,
+              "the range of '" + std::string(v.name) + "' begins above its end",
+              "write the least value first");
+    }
     if (const Variable* first = grammar_.variable(v.name)) {
       if (first->min != v.min || first->max != v.max || first->whole != v.whole) {
         warning(
@@ -507,28 +530,12 @@ class Parser {
 
   double constant(uint32_t id, Span place) {
     bool known = true;
-    const double v = evaluate(id, known);
+    const double v = evaluate(grammar_, id, known);
     if (!known || !std::isfinite(v)) {
       warning("not-constant", place, "a range needs numbers", "write numbers without variables");
       return 0;
     }
     return v;
-  }
-
-  double evaluate(uint32_t id, bool& known) const {
-    const Expression& e = grammar_.expressions[id];
-    switch (e.kind) {
-      case Kind::Number: return e.number;
-      case Kind::Negate: return -evaluate(e.left, known);
-      case Kind::Add: return evaluate(e.left, known) + evaluate(e.right, known);
-      case Kind::Subtract: return evaluate(e.left, known) - evaluate(e.right, known);
-      case Kind::Multiply: return evaluate(e.left, known) * evaluate(e.right, known);
-      case Kind::Divide: {
-        const double by = evaluate(e.right, known);
-        return by == 0 ? 0 : evaluate(e.left, known) / by;
-      }
-      default: known = false; return 0;
-    }
   }
 
   // --- Expressions: + - below * / below unary - below ^ ---
@@ -699,6 +706,24 @@ const Variable* Grammar::variable(std::string_view name) const {
 const Rule* Grammar::rule(std::string_view name) const {
   const auto at = ruleIndex.find(name);
   return at == ruleIndex.end() ? nullptr : &rules[at->second];
+}
+
+double evaluate(const Grammar& grammar, uint32_t id, bool& known) {
+  const Expression& e = grammar.expressions[id];
+  const auto left = [&] { return evaluate(grammar, e.left, known); };
+  const auto right = [&] { return evaluate(grammar, e.right, known); };
+  switch (e.kind) {
+    case Kind::Number: return e.number;
+    case Kind::Negate: return -left();
+    case Kind::Add: return left() + right();
+    case Kind::Subtract: return left() - right();
+    case Kind::Multiply: return left() * right();
+    case Kind::Divide: {
+      const double by = right();
+      return by == 0 ? 0 : left() / by;
+    }
+    default: known = false; return 0;
+  }
 }
 
 Grammar parseGrammar(std::string_view text, uint32_t file, Diagnostics& diagnostics) {

@@ -38,7 +38,8 @@ TEST(Row, R1_rulesStartWithTheFirstAndMissingOnesAreTold) {
   const Drawn d =
       draw("X -> A1 Nowhere\nA1 -> I ( Cube 1 )\nA1 -> I ( Cube 2 )\nZ -> I ( Cube 3 )\n");
   EXPECT_EQ(d.textures(), (std::map<int, int>{{1, 1}}));
-  EXPECT_EQ(d.codes(), (std::vector<std::string>{"unknown-rule 1:9", "rule-repeated 3:1"}));
+  EXPECT_EQ(d.codes(),
+            (std::vector<std::string>{"unknown-rule 1:9", "rule-repeated 3:1", "unused-rule 4:1"}));
   EXPECT_EQ(d.rules.startRule(), "X");
 }
 
@@ -266,7 +267,8 @@ TEST(Row, R15_bracketsSaveAndRestore) {
 TEST(Row, R15_unbalancedBracketsAreTold) {
   const Drawn d = draw("X -> ] I ( Cube 1 ) [ T ( 2 0 0 ) I ( Cube 2 )\nY -> [ [\n");
   EXPECT_EQ(d.codes(), (std::vector<std::string>{"unexpected-bracket 1:6", "unclosed-bracket 1:21",
-                                                 "unclosed-bracket 2:6", "unclosed-bracket 2:8"}));
+                                                 "unused-rule 2:1", "unclosed-bracket 2:6",
+                                                 "unclosed-bracket 2:8"}));
   EXPECT_EQ(d.bodies.size(), 2u);
 }
 
@@ -687,13 +689,62 @@ TEST(Mistakes, areToldAllInOneRun) {
       "W ; 3 -> I\n"
       "V -> R k ( 1 ) R k ( 2 3 )\n");
   const std::vector<std::string> expected = {
-      "unknown-word 1:6",      "wrong-argument-count 1:18", "unknown-primitive 1:32",
-      "unclosed-bracket 1:41", "unknown-variable 2:15",     "ignored-sign 2:25",
-      "ignored-sign 2:27",     "ignored-sign 2:29",         "too-many-sections 3:16",
-      "bad-probability 4:5",   "missing-arguments 4:10",    "wrong-argument-count 5:6",
-      "variable-repeated 5:16"};
+      "unknown-word 1:6",         "wrong-argument-count 1:18", "unknown-primitive 1:32",
+      "unclosed-bracket 1:41",    "unused-rule 2:1",           "unknown-texture 2:15",
+      "ignored-sign 2:25",        "ignored-sign 2:27",         "ignored-sign 2:29",
+      "unused-rule 3:1",          "too-many-sections 3:16",    "unused-rule 4:1",
+      "bad-probability 4:5",      "missing-arguments 4:10",    "unused-rule 5:1",
+      "wrong-argument-count 5:6", "variable-repeated 5:16"};
   EXPECT_EQ(d.codes(), expected);
   EXPECT_TRUE(d.model.ok());
+}
+
+TEST(Mistakes, thatOnceWereSilent) {
+  const auto codes = [](const char* grammar) { return draw(grammar).codes(); };
+  using Codes = std::vector<std::string>;
+  EXPECT_EQ(codes("X -> A ( 90 3 ) I ( Cube )"), Codes{"bad-axis 1:13"});
+  EXPECT_EQ(codes("X 1 h -> R h ( 5 2 ) S ( 1 h 1 ) I ( Cube )"), Codes{"reversed-range 1:10"});
+  EXPECT_EQ(codes("X ; -0.5 -> I ( Cube )"), Codes{"bad-probability 1:5"});
+  EXPECT_EQ(codes("X ; -> I ( Cube )"), Codes{"bad-probability 1:3"});
+  EXPECT_EQ(codes("X -> I ( Cube )\nY -> I ( Cube )"), Codes{"unused-rule 2:1"});
+}
+
+TEST(Mistakes, haveRemediesInTheNotation) {
+  for (const char* grammar : {"X -> [ X ]", "X -> X X", "X 200000 -> T ( 1 0 0 )"}) {
+    const Drawn d = draw(grammar);
+    ASSERT_FALSE(d.messages().empty()) << grammar;
+    const std::string hint = d.messages().at(0).hint;
+    EXPECT_NE(hint.find("rule"), hint.npos) << hint;
+    EXPECT_EQ(hint.find("case"), hint.npos) << hint;
+    EXPECT_EQ(hint.find("width"), hint.npos) << hint;
+  }
+}
+
+// A value from outside for a variable that rules draw anew would have no effect.
+TEST(Mistakes, settingWhatIsDrawnAnewIsRefused) {
+  const Rules rules = Rules::parse(
+      "X -> R h ( 2 4 ) R w ( 1 2 ) Y\nY 1 h -> S ( w h 1 ) I ( Cube )", "test.grammar");
+  const auto codeOf = [&](const char* name) {
+    DeriveSettings settings;
+    settings.attributes = {{name, "40"}};
+    const Model model = derive(rules, Shapes::lot(10, 10), settings);
+    return model.messages().empty() ? std::string() : model.messages()[0].code;
+  };
+  EXPECT_EQ(codeOf("h"), "not-settable");
+  EXPECT_EQ(codeOf("w"), "");
+  for (const AttributeInfo& a : rules.attributes()) EXPECT_EQ(a.hidden, a.name == "h") << a.name;
+}
+
+TEST(Textures, mayHaveNames) {
+  const Drawn d = draw(
+      "X -> I ( CubeY concrete 0 1 ) T ( 2 0 0 ) I ( Cube redbrick ) T ( 2 0 0 )\n"
+      "  I ( Cube roughblueshinysemitransparentmetal 1 0.5 ) I ( Cube Nonsense )\n");
+  EXPECT_EQ(d.codes(), std::vector<std::string>{"unknown-texture 2:64"});
+  EXPECT_EQ(d.textures(), (std::map<int, int>{{-1, 1}, {0, 1}, {2, 1}, {11, 1}}));
+  ASSERT_EQ(d.bodies.size(), 4u);
+  EXPECT_EQ(d.bodies[0].scale, 1);
+  EXPECT_EQ(d.bodies[2].quarters, 1);
+  EXPECT_EQ(d.bodies[2].scale, 0.5);
 }
 
 TEST(Mistakes, theWebLanguageIsRefusedByName) {
