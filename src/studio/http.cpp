@@ -10,6 +10,7 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <boost/asio/strand.hpp>
 #include <boost/asio/thread_pool.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
@@ -80,13 +81,16 @@ std::string HttpRequest::argument(const std::string& name) const {
 struct HttpServer::Impl {
   class Connection;
 
-  Impl(HttpSettings s, Admit a, Handler h)
+  Impl(HttpSettings s, Admit a, Handler h, Slow l)
       : settings(std::move(s)),
         admit(std::move(a)),
         handler(std::move(h)),
+        slow(std::move(l)),
         acceptor(io),
         timer(io),
-        pool(settings.workers) {}
+        pool(settings.workers),
+        slowPool(settings.slowWorkers),
+        arrivals(pool.get_executor()) {}
 
   void accept();
   void tick(const std::atomic<bool>& stop);
@@ -94,6 +98,7 @@ struct HttpServer::Impl {
   HttpSettings settings;
   Admit admit;
   Handler handler;
+  Slow slow;
   /// Before `io`, whose end ends the connections that still wait there.
   std::set<Connection*> connections;
   /// Bytes of the bodies that are being read or answered.
@@ -101,8 +106,10 @@ struct HttpServer::Impl {
   asio::io_context io{1};
   tcp::acceptor acceptor;
   asio::steady_timer timer;
-  asio::thread_pool pool;
-  unsigned waiting = 0;
+  asio::thread_pool pool, slowPool;
+  /// Slow requests, one after the other as they come.
+  asio::strand<asio::thread_pool::executor_type> arrivals;
+  unsigned waiting = 0, slowWaiting = 0;
 };
 
 // One client: reads a request, has it answered, writes the answer, and again.
@@ -174,30 +181,41 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
   void onBody(Code error) {
     if (error == http::error::body_limit) return write(plain(413, "The body is too large.\n"));
     if (error) return;
-    if (server_.waiting >= server_.settings.maxWaiting) {
+    slow_ = server_.slow.is && server_.slow.is(request_);
+    unsigned& waiting = slow_ ? server_.slowWaiting : server_.waiting;
+    if (waiting >= server_.settings.maxWaiting) {
       releaseBody();
       return write(plain(503, "Too many requests at once.\n"));
     }
     request_.body = std::move(parser_->get().body());
-    ++server_.waiting;
+    ++waiting;
     working_ = true;
     stream_.expires_never();
     watch();
-    asio::post(server_.pool, [self = shared_from_this()]() mutable {
-      const auto answer = std::make_shared<HttpResponse>();
-      try {
-        *answer = self->server_.handler(self->request_);
-      } catch (const std::bad_alloc&) {
-        *answer = failure("out-of-memory", "there is too little memory for the answer",
-                          "derive fewer shapes at a time, or close other programs");
-      } catch (const std::exception&) {
-        *answer = failure("internal-error", "the answer could not be made",
-                          "what you have typed is safe; please report what led to this");
-      }
-      // The connection goes back whole: it must not end on this thread.
-      asio::io_context& io = self->server_.io;
-      asio::post(io, [self = std::move(self), answer] { self->onAnswer(std::move(*answer)); });
+    auto self = shared_from_this();
+    if (!slow_) return asio::post(server_.pool, [self = std::move(self)]() mutable { make(self); });
+    asio::post(server_.arrivals, [self = std::move(self)]() mutable {
+      Impl& server = self->server_;
+      if (server.slow.arrived) server.slow.arrived(self->request_);
+      asio::post(server.slowPool, [self = std::move(self)]() mutable { make(self); });
     });
+  }
+
+  // Makes the answer, on a thread of a pool. The connection goes back whole: it must not end there.
+  static void make(std::shared_ptr<Connection>& self) {
+    // What a handler throws would end the program.
+    const auto answer = std::make_shared<HttpResponse>();
+    try {
+      *answer = self->server_.handler(self->request_);
+    } catch (const std::bad_alloc&) {
+      *answer = failure("out-of-memory", "there is too little memory for the answer",
+                        "derive fewer shapes at a time, or close other programs");
+    } catch (const std::exception&) {
+      *answer = failure("internal-error", "the answer could not be made",
+                        "what you have typed is safe; please report what led to this");
+    }
+    asio::io_context& io = self->server_.io;
+    asio::post(io, [self = std::move(self), answer] { self->onAnswer(std::move(*answer)); });
   }
 
   // While a request is at work, a readable socket without bytes is a client that has gone.
@@ -215,7 +233,7 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
 
   void onAnswer(HttpResponse answer) {
     working_ = false;
-    --server_.waiting;
+    --(slow_ ? server_.slowWaiting : server_.waiting);
     releaseBody();
     Code ignored;
     stream_.socket().cancel(ignored);
@@ -262,7 +280,7 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
   HttpRequest request_;
   /// Its share of the bytes of all bodies.
   uint64_t body_ = 0;
-  bool keep_ = false, working_ = false, answered_ = false;
+  bool keep_ = false, working_ = false, answered_ = false, slow_ = false;
 };
 
 void HttpServer::Impl::accept() {
@@ -289,12 +307,15 @@ void HttpServer::Impl::tick(const std::atomic<bool>& stop) {
   });
 }
 
-HttpServer::HttpServer(HttpSettings settings, Admit admit, Handler handler)
-    : impl_(std::make_unique<Impl>(std::move(settings), std::move(admit), std::move(handler))) {}
+HttpServer::HttpServer(HttpSettings settings, Admit admit, Handler handler, Slow slow)
+    : impl_(std::make_unique<Impl>(std::move(settings), std::move(admit), std::move(handler),
+                                   std::move(slow))) {}
 
 HttpServer::~HttpServer() {
   for (Impl::Connection* c : impl_->connections) c->cancel();
+  // The first hands on to the second.
   impl_->pool.join();
+  impl_->slowPool.join();
 }
 
 Result<uint16_t> HttpServer::listen() {

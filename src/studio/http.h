@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // A small HTTP server for one machine. Requests are read on one thread and answered on a few
-// others.
+// others; those that take long have threads of their own.
 //
 // Promises, each with a test:
 // 1. Listens on the loopback address unless told otherwise.
@@ -10,6 +10,7 @@
 // 3. Heads, bodies, connections, waiting requests and the time to send a request are bounded, and
 //    so are the bytes of the bodies of all connections together.
 // 4. When a client goes away, `cancelled` of its request becomes true.
+// 5. No request waits for one that takes long, unless it is such a one itself.
 #pragma once
 
 #include <atomic>
@@ -56,7 +57,8 @@ struct HttpSettings {
   /// Of all requests that are being read or answered.
   uint64_t maxBodies = 160u << 20;
   uint32_t maxHead = 16u << 10;
-  unsigned workers = 4;
+  /// For requests that take long, and for the others.
+  unsigned slowWorkers = 4, workers = 4;
   unsigned maxConnections = 128;
   unsigned maxWaiting = 64;
   double headSeconds = 20, bodySeconds = 30, writeSeconds = 60;
@@ -64,12 +66,18 @@ struct HttpSettings {
 
 class HttpServer {
  public:
+  /// Requests that take long.
+  struct Slow {
+    std::function<bool(const HttpRequest&)> is;
+    /// Told of each in the order of their coming, before it waits for a thread. It is quick itself.
+    std::function<void(const HttpRequest&)> arrived;
+  };
   /// The answer to a request.
   using Handler = std::function<HttpResponse(const HttpRequest&)>;
   /// Status 200: the request may go on. Sees the head only.
   using Admit = std::function<HttpResponse(const HttpRequest&)>;
 
-  HttpServer(HttpSettings settings, Admit admit, Handler handler);
+  HttpServer(HttpSettings settings, Admit admit, Handler handler, Slow slow = {});
   /// Waits for requests at work, which see themselves cancelled.
   ~HttpServer();
 

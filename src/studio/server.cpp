@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "base/files.h"
 #include "base/json.h"
@@ -70,6 +71,13 @@ const char* typeOf(const std::string& path) {
   return at == kTypes.end() ? kBytes : at->second;
 }
 
+bool takesLong(const HttpRequest& r) {
+  static const std::set<std::string> kPaths = {"/api/derive",  "/api/tree",   "/api/export",
+                                               "/api/convert", "/api/shapes", "/api/model",
+                                               "/api/asset"};
+  return kPaths.count(r.path) > 0;
+}
+
 uint64_t numberOf(const std::string& text) {
   return static_cast<uint64_t>(std::strtoull(text.c_str(), nullptr, 10));
 }
@@ -129,6 +137,13 @@ class Router {
   }
 
   bool ok() const { return files_.ok(); }
+
+  /// Of a derivation that has to wait, the one before ends at once.
+  void arrived(const HttpRequest& r) {
+    if (r.path != "/api/derive" && r.path != "/api/tree") return;
+    const Result<JsonValue> request = parseJson(r.body, {32, 1'000'000});
+    if (request.ok()) session_.announce(request.value(), r.cancelled);
+  }
 
   HttpResponse answer(const HttpRequest& r) {
     if (r.path.compare(0, 5, "/api/") != 0) return page(r);
@@ -302,7 +317,8 @@ StudioResult runStudio(const StudioSettings& settings, const std::atomic<bool>& 
   http.port = settings.port;
   HttpServer server(
       http, [&guard](const HttpRequest& r) { return guard->admit(r); },
-      [&router](const HttpRequest& r) { return router.answer(r); });
+      [&router](const HttpRequest& r) { return router.answer(r); },
+      {takesLong, [&router](const HttpRequest& r) { router.arrived(r); }});
   const Result<uint16_t> port = server.listen();
   if (!port.ok()) return refusal(port.error());
   const std::string end = ":" + std::to_string(port.value());

@@ -240,10 +240,15 @@ std::shared_ptr<Session::Work> Session::begin(const JsonValue& request, const Ca
   // Pages that are long gone do not pile up.
   if (works_.size() >= kPagesKept && !works_.count(page)) works_.erase(works_.begin());
   std::shared_ptr<Work>& before = works_[page];
+  if (before && before->cancel == cancel) return before;
+  // A later one of the page is here already.
+  if (cancel->load()) return work;
   if (before) before->cancel->store(true);
   before = work;
   return work;
 }
+
+void Session::announce(const JsonValue& request, const Cancel& cancel) { begin(request, cancel); }
 
 Result<Model> Session::deriveFor(const JsonValue& request, const Rules& rules, Work& work,
                                  Trace trace) {

@@ -29,6 +29,9 @@ class Session {
 
   explicit Session(const ProjectFiles& files) : files_(files) {}
 
+  /// A request for derive() or tree() has come, which may have to wait: the one before of the same
+  /// page ends now.
+  void announce(const JsonValue& request, const Cancel& cancel);
   /// The answer to /api/derive: "GBS1", JSON, draw list.
   Result<std::string> derive(const JsonValue& request, const Cancel& cancel);
   /// The answer to /api/tree: "GBT1", JSON, nodes; with "steps" the draw list of all steps' shapes.

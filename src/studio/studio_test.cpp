@@ -296,6 +296,55 @@ TEST_F(Server, aNewRequestOfAPageEndsTheOneBefore) {
   EXPECT_NE(first.find(R"("end":"cancelled")"), std::string::npos);
 }
 
+// One operation that takes more than half a minute.
+std::string oneLongOperation(const std::string& page) {
+  return R"({"file":"rules/e.cga","text":"@StartRule\nLot --> grid(150, 150, 0.1) { region : X. }",)"
+         R"("page":")" +
+         page + R"(","seed":0,"shapes":{"lot":[1000,1000]},"limits":{"seconds":60}})";
+}
+
+TEST_F(Server, aNewRequestOfAPageEndsTheOperationAtWork) {
+  const std::string body = oneLongOperation("p");
+  const int s = connectTo();
+  send(s, head("POST /api/derive", body.size()) + "Connection: close\r\n\r\n" + body);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const auto begin = Clock::now();
+  const int next = connectTo();
+  const std::string edited = std::string(kEndless) + "0.01}}";
+  send(next, head("POST /api/derive", edited.size()) + "Connection: close\r\n\r\n" + edited);
+  const std::string first = receive(s);
+  // A tenth of a second, and room for a machine that is busy with other things.
+  EXPECT_LT(Clock::now() - begin, std::chrono::milliseconds(2000));
+  EXPECT_NE(first.find(R"("end":"cancelled")"), std::string::npos);
+  EXPECT_EQ(status(receive(next)), 200);
+  close(s);
+  close(next);
+}
+
+TEST_F(Server, savingWaitsForNoDerivation) {
+  // More pages than there are threads for what takes long.
+  std::vector<int> pages;
+  for (int i = 0; i < 8; ++i) {
+    const std::string body = oneLongOperation("p" + std::to_string(i));
+    pages.push_back(connectTo());
+    send(pages.back(), head("POST /api/derive", body.size()) + "\r\n" + body);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const auto begin = Clock::now();
+  EXPECT_EQ(status(ask("PUT /api/file?path=rules/a.cga", "Lot --> X.")), 200);
+  EXPECT_EQ(status(ask("GET /api/progress?page=p0")), 200);
+  EXPECT_LT(Clock::now() - begin, std::chrono::seconds(5));
+  EXPECT_EQ(ProjectFiles(project()).read("rules/a.cga").value(), "Lot --> X.");
+  // An edit of a page whose derivation waits for a thread ends it as well.
+  const std::string edited = oneLongOperation("p7");
+  const int again = connectTo();
+  send(again, head("POST /api/derive", edited.size()) + "\r\n" + edited);
+  for (const int s : pages) close(s);
+  close(again);
+  studio_.stop();
+  EXPECT_LT(Clock::now() - begin, std::chrono::seconds(10));
+}
+
 TEST_F(Server, derivesDrawsAndWrites) {
   const std::string body =
       R"({"file":"rules/a.cga","text":"attr h = 3\n@StartRule\nLot --> extrude(h) B","page":"p",)"
