@@ -174,12 +174,22 @@ DeriveResult derive(const Program& program, const std::vector<InitialShape>& sha
     if (pass.derived[i]) roots.push_back(std::move(pass.roots[i]));
   }
   result.attributes = std::move(pass.attributes);
-  bool complete = true;
-  result.scene =
-      merge(outputs, roots,
-            {program, environment.materials, environment.attributes, options.sources, recall.get()},
-            complete);
-  if (!complete) {
+  MergeLoss loss;
+  MergeInput input{program, environment.materials, environment.attributes, options.sources,
+                   recall.get()};
+  if (options.limits.bytes > 0) {
+    const uint64_t most = shared.bytesBefore + options.limits.bytes, held = residentBytes();
+    input.mostAttributeBytes = most > held ? most - held : 0;
+  }
+  result.scene = merge(outputs, roots, input, loss);
+  if (loss.attributes) {
+    result.diagnostics.warning("out-of-memory", Span{},
+                               "the attributes of leaves take more memory than there may be, and "
+                               "some are left out",
+                               "raise the limit on memory, or set shorter arrays");
+    shared.limitReached = true;
+  }
+  if (loss.events) {
     result.diagnostics.warning("too-many-reports", Span{},
                                "the rules report or print more than can be kept",
                                "report sums, or report in rules that are called less often");
@@ -189,7 +199,8 @@ DeriveResult derive(const Program& program, const std::vector<InitialShape>& sha
   result.end = cancelled             ? DeriveEnd::Cancelled
                : shared.limitReached ? DeriveEnd::LimitReached
                                      : DeriveEnd::Done;
-  if (complete && result.end == DeriveEnd::Done) result.recall = std::move(recall);
+  if (!loss.events && !loss.attributes && result.end == DeriveEnd::Done)
+    result.recall = std::move(recall);
   result.diagnostics.sortByPlace();
   return result;
 }

@@ -78,7 +78,7 @@ class Merger {
   }
 
   Scene take() { return std::move(scene_); }
-  bool complete() const { return !full(); }
+  MergeLoss loss() const { return {full(), attributeBytes_ > input_.mostAttributeBytes}; }
 
  private:
   struct Worker {
@@ -222,12 +222,20 @@ class Merger {
     if (fresh) {
       std::vector<AttributeValue> values;
       for (const auto& e : input_.attributes.entries(set)) {
+        attributeBytes_ += bytesOf(e.value);
+        if (attributeBytes_ > input_.mostAttributeBytes) continue;
         values.push_back(
             plainAttribute(input_.program.attributes[e.key].name, e.value, *input_.program.pool));
       }
       scene_.attributeSets.push_back(std::move(values));
     }
     return at->second;
+  }
+
+  uint64_t bytesOf(const Value& v) const {
+    const ValuePool& pool = *input_.program.pool;
+    const uint64_t values = v.isArray() ? pool.array(v).size() : 1;
+    return sizeof(AttributeValue) + values * sizeof(PlainValue);
   }
 
   bool full() const { return events_ > input_.mostEvents || eventBytes_ > input_.mostEventBytes; }
@@ -268,7 +276,7 @@ class Merger {
   std::vector<Worker> workers_;
   /// What was asked for last, and its number.
   std::pair<uint32_t, uint32_t> lastName_{kUnset, 0}, lastSource_{kUnset, 0};
-  uint64_t events_ = 0, eventBytes_ = 0;
+  uint64_t events_ = 0, eventBytes_ = 0, attributeBytes_ = 0;
   Scene scene_;
   PrototypeNumbers byKey_;
   std::unordered_multimap<uint64_t, uint32_t> meshNumbers_;
@@ -309,10 +317,10 @@ AttributeValue plainAttribute(const std::string& name, const Value& v, const Val
 }
 
 Scene merge(std::vector<Output>& outputs, const std::vector<OutputRoot>& roots,
-            const MergeInput& input, bool& complete) {
+            const MergeInput& input, MergeLoss& loss) {
   Merger merger(outputs, input);
   for (const OutputRoot& r : roots) merger.addRoot(r);
-  complete = merger.complete();
+  loss = merger.loss();
   if (input.recall) {
     for (RecallPart& p : input.recall->parts) p.prototype = merger.numberOf(p.worker, p.prototype);
     merger.explain(*input.recall);
