@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/work.h"
+
 namespace gable {
 
 MeshEdges::MeshEdges(const Mesh& m) : mesh_(m) {
@@ -16,6 +18,7 @@ MeshEdges::MeshEdges(const Mesh& m) : mesh_(m) {
   previous_.resize(n);
   for (uint32_t f = 0; f < m.faceCount(); ++f) {
     for (const MeshLoop& loop : m.loopsOf(f)) {
+      work(4 * loop.cornerCount);
       for (uint32_t i = 0; i < loop.cornerCount; ++i) {
         const uint32_t c = loop.firstCorner + i;
         const uint32_t after = loop.firstCorner + (i + 1) % loop.cornerCount;

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/work.h"
+
 namespace gable {
 
 namespace {
@@ -196,6 +198,7 @@ bool selectsDirection(std::string_view word, const Vec3& normal, const Direction
 Selector::Selector(const SelectorItem& item, const ValuePool& pool, const Directions& directions)
     : item_(item), pool_(pool), directions_(directions) {
   for (const SelectorTerm& t : item.terms) {
+    work();
     words_.push_back(t.kind == SelectorTerm::Kind::Word ? ruleOf(pool.text(t.word)) : kNoWord);
   }
 }
@@ -245,6 +248,7 @@ bool Selector::matches(const Selectable& c, const TagSource* tags, const TagTabl
     stack[depth++] = v;
   };
   for (size_t i = 0; i < item_.terms.size(); ++i) {
+    work();
     switch (item_.terms[i].kind) {
       case SelectorTerm::Kind::Not: stack[depth - 1] ^= 1; break;
       case SelectorTerm::Kind::And:
@@ -294,6 +298,7 @@ bool selectsWord(const SelectorItem& item, std::string_view word, const ValuePoo
 std::string Selector::text() const {
   std::vector<std::string> stack;
   for (const SelectorTerm& t : item_.terms) {
+    work();
     switch (t.kind) {
       case SelectorTerm::Kind::Word: stack.emplace_back(pool_.text(t.word)); break;
       case SelectorTerm::Kind::Index: stack.push_back(numberText(t.number)); break;

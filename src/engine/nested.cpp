@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "engine/impl.h"
 #include "geom/mesh/face_plane.h"
 #include "geom/region/boolean.h"
@@ -63,29 +64,44 @@ bool apart(const Box2& a, const Box2& b) {
 
 }  // namespace
 
+namespace {
+
+// Takes what lies within a footprint out of its plan; false when there is nothing, or nothing is
+// left of it.
+bool cutOut(std::vector<Plan>& plans, size_t outer) {
+  Plan& o = plans[outer];
+  bool cut = false;
+  const Region whole = o.region;
+  for (size_t inner = 0; inner < plans.size(); ++inner) {
+    const Plan& i = plans[inner];
+    if (inner == outer || !i.flat || i.size <= 0 || i.size >= o.size) continue;
+    if (std::fabs(i.height - o.height) > kSamePlane || apart(i.box, o.box)) continue;
+    if (area(intersect(whole, i.region)) < kOverlapShare * i.size) continue;
+    o.region = subtract(o.region, i.region);
+    cut = true;
+  }
+  if (!cut) return false;
+  if (area(o.region) < kRestShare * o.size) o.region = offset(whole, -kDrawnIn);
+  return !o.region.empty();
+}
+
+}  // namespace
+
 void cutNested(std::vector<ShapeFootprint>& footprints) {
   std::vector<Plan> plans;
   for (const ShapeFootprint& f : footprints) plans.push_back(planOf(f));
   for (size_t outer = 0; outer < plans.size(); ++outer) {
-    Plan& o = plans[outer];
-    if (!o.flat) continue;
+    if (!plans[outer].flat) continue;
+    // What cannot be cut stays whole.
     bool cut = false;
-    const Region whole = o.region;
-    for (size_t inner = 0; inner < plans.size(); ++inner) {
-      const Plan& i = plans[inner];
-      if (inner == outer || !i.flat || i.size <= 0 || i.size >= o.size) continue;
-      if (std::fabs(i.height - o.height) > kSamePlane || apart(i.box, o.box)) continue;
-      if (area(intersect(whole, i.region)) < kOverlapShare * i.size) continue;
-      o.region = subtract(o.region, i.region);
-      cut = true;
-    }
-    if (!cut) continue;
-    if (area(o.region) < kRestShare * o.size) o.region = offset(whole, -kDrawnIn);
-    if (o.region.empty()) continue;
-
+    const Status status = guarded([&] {
+      cut = cutOut(plans, outer);
+      return Status();
+    });
+    if (!status.ok() || !cut) continue;
     const Frame toObject = inverse(footprints[outer].origin);
-    footprints[outer].mesh =
-        transformed(meshOf(o.region, groundFrame(o.height)), {1, 1, 1}, toObject);
+    footprints[outer].mesh = transformed(
+        meshOf(plans[outer].region, groundFrame(plans[outer].height)), {1, 1, 1}, toObject);
   }
 }
 

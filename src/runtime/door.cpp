@@ -9,29 +9,21 @@ namespace gable {
 
 namespace {
 
-bool takesNumber(ParamType t) {
-  return t != ParamType::Bool && t != ParamType::String && t != ParamType::Selector &&
-         t != ParamType::BoolArray && t != ParamType::StringArray;
-}
-
-bool takes(ParamType t, ValueType v) {
-  if (v == ValueType::Float) return takesNumber(t) && t != ParamType::FloatArray;
-  if (v == ValueType::FloatArray) return t == ParamType::FloatArray || t == ParamType::Any;
-  return !takesNumber(t) || t == ParamType::Any;
-}
-
-// The parameter that an argument is for, by the first way to call that the arguments fit.
-const char* nameOf(const OpSpec& spec, std::span<const Value> args, size_t index) {
+// The parameter that an argument is for, by the form that was chosen or the first that fits.
+const char* nameOf(const OpSpec& spec, const Signature* form, std::span<const Value> args,
+                   size_t index) {
+  const auto accepts = [&](const Signature& s) {
+    if (!s.acceptsCount(args.size())) return false;
+    for (size_t i = 0; i < args.size(); ++i) {
+      if (!fits(args[i].type, s.paramAt(i)->type)) return false;
+    }
+    return true;
+  };
   for (const Signature& s : spec.signatures) {
-    if (s.params.empty() || (args.size() > s.params.size() && !s.variadic)) continue;
-    const auto param = [&](size_t i) -> const ParamSpec& {
-      return s.params[i < s.params.size() ? i : s.params.size() - 1];
-    };
-    bool fits = true;
-    for (size_t i = 0; i < args.size() && fits; ++i) fits = takes(param(i).type, args[i].type);
-    if (fits) return param(index).name;
+    if (!form && accepts(s)) form = &s;
   }
-  return nullptr;
+  const ParamSpec* const param = form ? form->paramAt(index) : nullptr;
+  return param ? param->name : nullptr;
 }
 
 Status refused(const std::string& what, const Value& v) {
@@ -44,11 +36,12 @@ Status refused(const std::string& what, const Value& v) {
 
 }  // namespace
 
-Status refusedNumber(const OpSpec& spec, std::span<const Value> args, const ValuePool& pool) {
+Status refusedNumber(const OpSpec& spec, const Signature* form, std::span<const Value> args,
+                     const ValuePool& pool) {
   if ((spec.effects & kReports) != 0) return {};
   for (size_t i = 0; i < args.size(); ++i) {
     if (holds(args[i], pool)) continue;
-    const char* const name = nameOf(spec, args, i);
+    const char* const name = nameOf(spec, form, args, i);
     return refused(name ? "'" + std::string(name) + "'" : "argument " + std::to_string(i + 1),
                    args[i]);
   }

@@ -26,9 +26,18 @@ inline bool holds(const Value& v, const ValuePool& pool) {
   return true;
 }
 
+inline bool allHold(std::span<const Value> args, const ValuePool& pool) {
+  for (const Value& v : args) {
+    if (!holds(v, pool)) return false;
+  }
+  return true;
+}
+
 /// A failure that names the parameter, for the first of the arguments that is not finite or beyond
 /// kMostNumber. Operations that report take any number.
-Status refusedNumber(const OpSpec& spec, std::span<const Value> args, const ValuePool& pool);
+/// `form` is the signature that was chosen, or null.
+Status refusedNumber(const OpSpec& spec, const Signature* form, std::span<const Value> args,
+                     const ValuePool& pool);
 
 /// The same for what is set.
 Status refusedNumber(const char* name, const Value& v, const ValuePool& pool);

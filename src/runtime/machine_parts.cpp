@@ -66,7 +66,7 @@ Machine::LightSlot Machine::lightSlot(uint32_t rule, uint32_t entry) const {
         if (!spec.light.apply || at->y > 0) return {};
         if (at->code == Code::Operation && at->x > 0) return {};
         const Value* args = at->x > 0 ? program_.constants.data() + at[1].a : nullptr;
-        if (!refusedNumber(spec, {args, at->x}, pool()).ok()) return {};
+        if (!allHold({args, at->x}, pool())) return {};
         LightSlot::Step step;
         step.apply = spec.light.apply;
         spec.light.construct(step.arguments);

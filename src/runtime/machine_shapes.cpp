@@ -381,7 +381,10 @@ bool Machine::splitAsBefore(const Instruction& i, Activation& a, const Value* va
 Status Machine::apply(OpCall& call, const Instruction& i, std::span<const Value> arguments,
                       const BlockInput* block) {
   const OpSpec& spec = call.spec();
-  if (Status refused = refusedNumber(spec, arguments, pool()); !refused.ok()) return refused;
+  if (!allHold(arguments, pool())) {
+    Status refused = refusedNumber(spec, program_.operations[i.a].form, arguments, pool());
+    if (!refused.ok()) return refused;
+  }
   std::optional<Shape> before;
   if (spec.stepsPerVertex > 1 || call.shape().geometry.kind == GeometryKind::Mesh) {
     before.emplace(call.shape());

@@ -9,6 +9,7 @@ person reads and a control character on the terminal are failures. The files are
 of 100 megabytes have 2, and what grows is stopped sooner: the same cases in a minute. With --sanitized time is measured
 twentyfold. Run from the repository's root.
 """
+import json
 import os
 import random
 import re
@@ -219,6 +220,31 @@ class Derivations(Case):
         self.generate("A --> B(0)\nB(n) --> t(n,0,0) case n < 1000 : B(n+1) B(n+2) else : X.",
                       "--no-sharing", *limit, status=4, seconds=60)
 
+    def testSingleOperationsEndByTimeAndByMemory(self):
+        for body in ("crenellate(1e-7, 1e-7, 1e-7) { merlon : X. }", "crenellate(1e-12, 1e-12, 1e-12) { merlon : X. }",
+                     "crenellate(0.1, 0.1, 0.05) { merlon : X. }", "parcels(box, 1e-5, 1e-5, 1e-5) { lot : X. }",
+                     "parcels(box, 1e-4, 1e-4, 1e-4, 1e-4) { lot : X. }", "parcels(skeleton, 0.01, 0.01) { lot : X. }",
+                     "streets(grid, 8, 2, 1, 1e-4, 30) { block : X. }", "streets(field, 30, 11, 0.1, 1e-3) { block : X. }",
+                     "roughenOutline(0.3, 1e-5) X.", "roughenOutline(3, 0.01) X.",
+                     "s(20, '1, 20) scatterSpaced(0.07, poisson, 0.01) { X. }", "quadMap(95, 95) { region : X. }",
+                     "grid(150, 150, 0.1) { region : X. }", "scatterCircles(0, 1) { X. }", "ring(0, 1e12, 0, round) X.",
+                     "primitiveSphere(700, 700) split(x) { 0.01 : X. }*"):
+            with self.subTest(body=body):
+                self.generate(f"Lot --> {body}", "--lot", "1000x1000", "--max-seconds", "0.5", "--max-memory", "300",
+                              status=(0, 4), seconds=2, megabytes=1200)
+
+    def testNumbersBeyondAnyModelEndNothing(self):
+        for body in ("ring(1, 1e308, 1, miter) X.", "ring(-1e308, 1, 0) X.", "crenellate(1, 1, 1e308) { merlon : X. }",
+                     "curve(polyline, [0, 0; 5, 0; 5, 5]) ribbon(1e308) X.", "extrude(1e308) X.", "scatterSpaced(1e308, poisson) { X. }",
+                     "ring(1e14, 1e15, 1) X.", "s(1e20, '1, 1e20) offset(1e19) X.", "streets(grid, 1e300, 1e299) { block : X. }",
+                     "setback(1e308) { all : X. | remainder : Y. }", "roofHip(30, 1e308) X.", "arrange([1e308, 1e308], 1) { placed : X. }"):
+            with self.subTest(body=body):
+                self.generate(f"Lot --> {body}", status=(0, 1), seconds=5)
+
+    def testAttributesOfLeavesTakeBoundedMemory(self):
+        self.generate("attr a = [0:1:2]\nLot --> split(x) { 0.01 : set(a, [split.index:1:split.index+20000]) X. }*", "--lot", "10x10",
+                      "--max-memory", "400", status=4, codes=["out-of-memory"], seconds=20, megabytes=2500)
+
     def testGeometryThatGrowsEnds(self):
         for operation in ("extrude(1)", "extrude(world.up, 1)", "roofHip(30)", "roofGable(30)", "roofShed(30)",
                           "roofPyramid(30)", "offset(1)", "mirror(true, false, false)", "convexify()", "taper(1)",
@@ -393,6 +419,26 @@ class ShapeFiles(Case):
             self.shapes("a.glb", good[:cut], status=1)
         for at, value in ((4, 9), (8, 0), (8, 0xFFFFFFFF), (12, 0xFFFFFFFF), (12, 3), (16, 0)):
             self.shapes("a.glb", good[:at] + struct.pack("<I", value) + good[at + 4:], status=(0, 1))
+
+    def testHolesOnHolesAreCutOut(self):
+        def square(x, d):
+            return [[x, x], [x + d, x], [x + d, x + d], [x, x + d], [x, x]]
+
+        rings = [square(0, .001)] + [square(.0002, .0003)] * 320
+        path = self.put("holes.geojson", json.dumps({"type": "Feature", "properties": {}, "geometry":
+                                                     {"type": "Polygon", "coordinates": rings}}))
+        rules = self.put("a.cga", "Lot --> X.")
+        self.run_gable("generate", rules, "--shapes", path, "-o", "a.glb", codes=["geojson-holes"], seconds=10)
+
+    def testCentresOfRaysMayLieOverHoles(self):
+        rings = [[[7.4, 43.7], [7.4005, 43.7], [7.4005, 43.70027027], [7.4, 43.70027027], [7.4, 43.7]],
+                 [[7.400125, 43.700072072], [7.400125, 43.70018018], [7.4003125, 43.70018018],
+                  [7.4003125, 43.700072072], [7.400125, 43.700072072]],
+                 [[7.400375, 43.70009009], [7.400375, 43.700108108], [7.4004125, 43.700108108], [7.400375, 43.70009009]]]
+        path = self.put("holes.geojson", json.dumps({"type": "Feature", "properties": {"name": "hole"}, "geometry":
+                                                     {"type": "Polygon", "coordinates": rings}}))
+        rules = self.put("a.cga", 'Lot --> castRays("centre", "corners", 1, 12) { region : X. | path : P. | centre : C. }')
+        self.run_gable("generate", rules, "--shapes", path, "-o", "a.glb")
 
     def testPolygonsOfManyCrossingsAreTaken(self):
         import math

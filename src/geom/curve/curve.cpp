@@ -12,6 +12,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/work.h"
 #include "math/trig.h"
 
 namespace gable {
@@ -47,6 +48,8 @@ Vec2 pointOf(const Cubic& b, double t) {
 void append(const Cubic& b, double tolerance, Line& out) {
   const double bend = std::max(length(b[0] - b[1] * 2 + b[2]), length(b[1] - b[2] * 2 + b[3]));
   const uint32_t n = piecesFor(bend, tolerance);
+  work(n);
+  workMemory(n * sizeof(Vec2));
   for (uint32_t i = 1; i < n; ++i) out.push_back(pointOf(b, static_cast<double>(i) / n));
   out.push_back(b[3]);
 }
@@ -100,6 +103,7 @@ Line arc(Vec2 center, double radius, double fromDegrees, double toDegrees, doubl
   const double n =
       std::clamp(std::ceil(wanted), std::ceil(std::fabs(turn) / 90 + 1e-9), double{kMostPieces});
   Line out;
+  work(static_cast<size_t>(8 * n));
   for (double i = 0; i <= n; ++i) {
     const double a = fromDegrees + turn * (i / n);
     out.push_back(center + Vec2{cosDeg(a), sinDeg(a)} * radius);
@@ -116,6 +120,7 @@ Line simplified(const Line& line, double tolerance) {
   while (!open.empty()) {
     const auto [from, to] = open.back();
     open.pop_back();
+    work(1 + to - from);
     const Vec2 a = line[from], d = line[to] - a;
     double worst = tolerance;
     size_t at = from;
@@ -141,6 +146,7 @@ Line simplified(const Line& line, double tolerance) {
 
 Path::Path(std::span<const Vec2> line, bool closed)
     : points_(withoutRepeats(line, closed)), closed_(closed && points_.size() > 2) {
+  work(points_.size());
   double sum = 0;
   for (size_t i = 0; i < points_.size(); ++i) {
     if (i > 0) sum += gable::length(points_[i] - points_[i - 1]);
@@ -172,6 +178,7 @@ Path::Place Path::at(double s) const {
 }
 
 double Path::nearest(Vec2 p) const {
+  work(lengths_.size());
   double best = HUGE_VAL, where = 0;
   for (size_t i = 0; i + 1 < lengths_.size(); ++i) {
     const Vec2 a = points_[i], d = points_[(i + 1) % points_.size()] - a;
@@ -199,6 +206,7 @@ std::vector<double> stations(double length, const Spacing& spacing) {
     start += std::max(0.0, room - count * step) / 2;
   }
   count = std::min(count, static_cast<double>(kMostStations - 1));
+  work(static_cast<size_t>(count));
   for (double i = 0; i <= count; ++i) out.push_back(start + i * step);
   return out;
 }

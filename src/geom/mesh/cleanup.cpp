@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "base/hash.h"
+#include "base/work.h"
 #include "geom/mesh/rebuild.h"
 #include "math/cell.h"
 #include "math/trig.h"
@@ -31,6 +32,7 @@ std::vector<uint32_t> representatives(const std::vector<Vec3>& positions, double
   std::unordered_map<uint64_t, std::vector<uint32_t>> cells;
   std::vector<uint32_t> out(positions.size());
   for (uint32_t i = 0; i < positions.size(); ++i) {
+    work(27);
     const Vec3& p = positions[i];
     const auto x = cellIndex(p.x * inverse);
     const auto y = cellIndex(p.y * inverse);
@@ -40,6 +42,7 @@ std::vector<uint32_t> representatives(const std::vector<Vec3>& positions, double
       const auto cell = cells.find(cellKey(x + k % 3 - 1, y + k / 3 % 3 - 1, z + k / 9 - 1));
       if (cell == cells.end()) continue;
       for (const uint32_t j : cell->second) {
+        work();
         if (j < best && length(positions[j] - p) <= distance) best = j;
       }
     }
@@ -60,6 +63,7 @@ class CollinearFinder {
     removable_.assign(m.positions.size(), true);
     for (const MeshLoop& loop : m.loops) {
       for (uint32_t i = 0; i < loop.cornerCount; ++i) {
+        work();
         const uint32_t c = loop.firstCorner + i;
         if (loop.cornerCount < 3 || !straight(loop, i)) removable_[m.corners[c]] = false;
       }
@@ -117,6 +121,7 @@ FaceSources mergePositions(Mesh& m, double distance) {
   FaceSources sources;
   Rebuild r(m);
   for (uint32_t f = 0; f < m.faces.size(); ++f) {
+    work(4);
     std::vector<std::vector<uint32_t>> loops;
     bool lost = false;
     for (const MeshLoop& loop : m.loopsOf(f)) {
@@ -149,6 +154,7 @@ FaceSources removeCollinearVertices(Mesh& m, double angle) {
   for (uint32_t f = 0; f < m.faces.size(); ++f) {
     std::vector<std::vector<uint32_t>> loops;
     for (const MeshLoop& loop : m.loopsOf(f)) {
+      work();
       std::vector<uint32_t> kept, all;
       for (uint32_t c = loop.firstCorner; c < loop.firstCorner + loop.cornerCount; ++c) {
         all.push_back(c);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "base/work.h"
 #include "geom/mesh/topology.h"
 
 namespace gable {
@@ -39,6 +40,7 @@ class Extrusion {
     group_.resize(mesh_.faces.size());
     for (uint32_t f = 0; f < group_.size(); ++f) group_[f] = f;
     for (uint32_t e = 0; e < topology_.edgeCount(); ++e) {
+      work();
       const uint32_t c = topology_.usesOf(e)[0], twin = topology_.twin(c);
       if (twin == Topology::kNone) continue;
       const bool together = options_.mode != ExtrudeMode::FaceNormal ||
@@ -66,6 +68,7 @@ class Extrusion {
       double low = 0, high = 0;
       bool first = true;
       for (const uint32_t p : mesh_.corners) {
+        work();
         const double h = dot(options_.direction, mesh_.positions[p]);
         low = first ? h : std::min(low, h);
         high = first ? h : std::max(high, h);
@@ -80,6 +83,7 @@ class Extrusion {
   void addEdgeNormals() {
     if (mesh_.normals.empty()) return;
     for (uint32_t f = 0; f < mesh_.faces.size(); ++f) {
+      work(2);
       if (!isEdge(f)) continue;
       for (uint32_t c : {mesh_.loopsOf(f)[0].firstCorner, mesh_.loopsOf(f)[0].firstCorner + 1}) {
         vertexMoves_[mesh_.corners[c]] += mesh_.normals[c];
@@ -124,6 +128,7 @@ class Extrusion {
     const Vec3 normal = mesh_.normal(face);
     const MeshLoop& loop = mesh_.loopsOf(face)[0];
     for (uint32_t i = 0; i < loop.cornerCount; ++i) {
+      work();
       sum += dot(normal, moveOf(face, loop.firstCorner + i));
     }
     return sum >= 0;
@@ -137,6 +142,7 @@ class Extrusion {
       if (loop.cornerCount < 2) continue;
       const uint32_t edges = isEdge(face) ? 1 : loop.cornerCount;
       for (uint32_t i = 0; i < edges; ++i) {
+        work(4);
         addSide(face, loop.firstCorner + i, loop.firstCorner + (i + 1) % loop.cornerCount, forward,
                 outer ? ExtrudeRole::SideOuter : ExtrudeRole::SideInner);
       }
@@ -154,6 +160,7 @@ class Extrusion {
       builder_.beginLoop();
       const uint32_t n = loop.cornerCount;
       for (uint32_t i = 0; i < n; ++i) {
+        work(4);
         const uint32_t c = loop.firstCorner + (turned ? (n - i) % n : i);
         const uint32_t edge = loop.firstCorner + (turned ? n - 1 - i : i);
         const Pair p = positionsOf(face, c);

@@ -4,6 +4,8 @@
 // Projections of faces to the plane and back.
 #include "geom/mesh/face_plane.h"
 
+#include "base/work.h"
+
 namespace gable {
 
 Frame faceFrame(const Mesh& m, size_t face) {
@@ -22,6 +24,7 @@ Polygon facePolygon(const Mesh& m, size_t face, const Frame& frame) {
   Polygon p;
   bool outer = true;
   for (const MeshLoop& loop : m.loopsOf(face)) {
+    work(loop.cornerCount);
     Ring ring;
     for (const uint32_t position : m.cornersOf(loop)) {
       const Vec3 local = frame.toLocal(m.positions[position]);

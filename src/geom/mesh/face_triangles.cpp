@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "geom/region/triangulate.h"
 
 namespace gable {
@@ -42,6 +43,7 @@ bool FaceTriangulator::addFan(uint32_t firstCorner, uint32_t count,
   // Far above the rounding of the cross products; flatter triangles are left to exact arithmetic.
   const double least = 1e-10 * size;
   for (uint32_t apex = 0; apex < count; ++apex) {
+    work(count);
     bool good = true;
     for (uint32_t i = 1; good && i + 1 < count; ++i) {
       const Vec2 a = points_[apex];

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "geom/mesh/topology.h"
 #include "math/trig.h"
 
@@ -45,6 +46,7 @@ double volume(const Mesh& m) {
   double six = 0;
   for (const MeshFace& f : m.faces) {
     for (uint32_t l = f.firstLoop; l < f.firstLoop + f.loopCount; ++l) {
+      work();
       const MeshLoop& loop = m.loops[l];
       const Vec3 a = m.at(loop.firstCorner) - origin;
       for (uint32_t i = 1; i + 1 < loop.cornerCount; ++i) {
@@ -140,6 +142,7 @@ void forCorners(const Mesh& m, const Visit& visit) {
   for (size_t f = 0; f < m.faces.size(); ++f) {
     const Vec3 normal = m.normal(f);
     for (const MeshLoop& loop : m.loopsOf(f)) {
+      work(loop.cornerCount);
       for (uint32_t i = 0; i < loop.cornerCount; ++i) {
         visit(loop.firstCorner + i, normal * cornerAngle(m, loop, i, normal));
       }
@@ -166,6 +169,7 @@ void softenNormals(Mesh& m, double angle) {
     return c;
   };
   for (uint32_t e = 0; e < t.edgeCount(); ++e) {
+    work(4);
     const uint32_t a = t.usesOf(e)[0], b = t.twin(a);
     if (b == Topology::kNone) continue;
     const double sharp = std::fabs(t.dihedralAngle(e));

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "geom/mesh/cleanup.h"
 #include "geom/mesh/face_plane.h"
 #include "geom/mesh/rebuild.h"
@@ -43,6 +44,7 @@ class FaceMerger {
     // Faces without a normal seed nothing before all others have grown.
     for (const bool degenerate : {false, true}) {
       for (uint32_t f = 0; f < mesh_.faces.size(); ++f) {
+        work(2);
         if (group_[f] != kNoGroup || degenerate_[f] != degenerate) continue;
         const std::vector<uint32_t> members = grow(f);
         if (outline(members, outlines[f])) continue;
@@ -74,6 +76,7 @@ class FaceMerger {
       UvSlope slope;
       const Vec2 first = uv[mesh_.loopsOf(f)[0].firstCorner];
       for (const MeshLoop& loop : mesh_.loopsOf(f)) {
+        work();
         for (uint32_t i = 0; i < loop.cornerCount; ++i) {
           const uint32_t a = loop.firstCorner + i, b = topology_.next(a);
           const Vec2 middle = (uv[a] + uv[b]) * 0.5 - first;
@@ -142,6 +145,7 @@ class FaceMerger {
     group_[seed] = seed;
     if (degenerate_[seed]) return members;
     for (size_t k = 0; k < members.size(); ++k) {
+      work(4);
       const uint32_t member = members[k];
       forCorners(member, [&](uint32_t c) {
         const uint32_t twin = topology_.twin(c);
@@ -176,6 +180,7 @@ class FaceMerger {
   bool outline(const std::vector<uint32_t>& members, std::vector<std::vector<uint32_t>>& loops) {
     std::vector<uint32_t> stay;
     for (const uint32_t f : members) {
+      work();
       forCorners(f, [&](uint32_t c) {
         if (!goes(c)) stay.push_back(c);
       });
@@ -185,10 +190,12 @@ class FaceMerger {
     std::sort(stay.begin(), stay.end());
     std::vector<bool> used(stay.size());
     for (size_t i = 0; i < stay.size(); ++i) {
+      work();
       if (used[i]) continue;
       std::vector<uint32_t> loop;
       uint32_t c = stay[i];
       do {
+        work();
         const auto at = std::lower_bound(stay.begin(), stay.end(), c) - stay.begin();
         used[static_cast<size_t>(at)] = true;
         loop.push_back(c);
@@ -210,6 +217,7 @@ class FaceMerger {
   bool putOuterFirst(uint32_t seed, std::vector<std::vector<uint32_t>>& loops) const {
     size_t outer = loops.size();
     for (size_t i = 0; i < loops.size(); ++i) {
+      work(loops[i].size());
       Vec3 sum;
       const Vec3 origin = mesh_.at(loops[i][0]);
       for (size_t k = 1; k + 1 < loops[i].size(); ++k) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "base/hash.h"
+#include "base/work.h"
 
 namespace gable {
 namespace {
@@ -152,6 +153,7 @@ void reverseFace(Mesh& m, size_t face) {
 
 Mesh transformed(const Mesh& m, const Vec3& scale, const Frame& frame) {
   Mesh out = m;
+  work(out.positions.size() + out.corners.size());
   for (Vec3& p : out.positions) p = frame.point(scaled(p, scale));
   for (Vec3& n : out.normals) n = frame.direction(scaledNormal(n, scale));
   const bool mirrors = ((scale.x < 0) != (scale.y < 0)) != (scale.z < 0);
@@ -178,6 +180,7 @@ void append(Mesh& to, const Mesh& from, uint16_t slotOffset) {
   appendOptional(to.edgeTags, from.edgeTags);
   to.positions.insert(to.positions.end(), from.positions.begin(), from.positions.end());
   to.corners.reserve(cornerTotal);
+  work(from.corners.size());
   for (const uint32_t c : from.corners) to.corners.push_back(c + positionBase);
   for (MeshLoop l : from.loops) {
     l.firstCorner += cornerBase;

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "base/check.h"
+#include "base/work.h"
 #include "geom/mesh/mesh.h"
 
 namespace gable {
@@ -27,6 +28,7 @@ void MeshBuilder::beginLoop() {
 }
 
 uint32_t MeshBuilder::addCorner(uint32_t position, uint32_t edgeTags) {
+  work();
   const auto corner = static_cast<uint32_t>(mesh_.corners.size());
   mesh_.corners.push_back(position);
   ++mesh_.loops.back().cornerCount;

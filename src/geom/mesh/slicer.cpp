@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "base/hash.h"
+#include "base/work.h"
 
 namespace gable::slicing {
 namespace {
@@ -58,6 +59,7 @@ void Slicer::collapseShortEdges() {
   };
   bool any = false;
   for (const MeshLoop& loop : mesh_.loops) {
+    work(loop.cornerCount);
     for (uint32_t i = 0; i < loop.cornerCount && loop.cornerCount > 2; ++i) {
       const uint32_t a = mesh_.corners[loop.firstCorner + i];
       const uint32_t b = mesh_.corners[loop.firstCorner + (i + 1) % loop.cornerCount];
@@ -103,6 +105,7 @@ uint32_t Slicer::pointOn(const cut::Corner& a, const cut::Corner& b) {
   const uint64_t key = hashCombine(hashCombine(low.point, high.point), hashDouble(cut_));
   const auto [begin, end] = edgePoints_.equal_range(key);
   for (auto it = begin; it != end; ++it) {
+    work();
     const NewPoint& n = it->second;
     if (n.low == low.point && n.high == high.point && std::fabs(n.t - t) < 1e-12) return n.point;
   }
@@ -128,6 +131,7 @@ Vec3 Slicer::gradientOf(uint32_t face, const Vec3& normal) const {
   if (!(direction_ == Vec3{})) return direction_ - normal * dot(normal, direction_);
   Vec3 sum;
   for (const MeshLoop& loop : mesh_.loopsOf(face)) {
+    work(loop.cornerCount);
     for (uint32_t i = 0; i < loop.cornerCount; ++i) {
       const uint32_t a = loop.firstCorner + i, b = loop.firstCorner + (i + 1) % loop.cornerCount;
       const double middle = (values_[a] + values_[b]) / 2 - values_[loop.firstCorner];
@@ -153,6 +157,7 @@ std::span<const MeshLoop> Slicer::loopsThatCount(uint32_t face) const {
 cut::Face Slicer::faceOf(uint32_t face) const {
   cut::Face out;
   for (const MeshLoop& loop : loopsThatCount(face)) {
+    work(loop.cornerCount);
     cut::Loop l;
     for (uint32_t i = 0; i < loop.cornerCount; ++i) {
       const uint32_t c = loop.firstCorner + i;
@@ -173,7 +178,10 @@ cut::Face Slicer::faceOf(uint32_t face) const {
 
 std::vector<std::vector<Piece>> Slicer::slice(std::span<const double> cuts) {
   std::vector<std::vector<Piece>> slabs(cuts.size() + 1);
-  for (uint32_t f = 0; f < mesh_.faces.size(); ++f) sliceFace(f, cuts, slabs);
+  for (uint32_t f = 0; f < mesh_.faces.size(); ++f) {
+    work(4);
+    sliceFace(f, cuts, slabs);
+  }
   return slabs;
 }
 
@@ -211,6 +219,7 @@ void Slicer::sliceFace(uint32_t face, std::span<const double> cuts,
   setPlane(face);
   std::vector<cut::Face> rest{faceOf(face)};
   for (size_t k = firstCut; k < lastCut; ++k) {
+    work(4);
     cut_ = cuts[k];
     std::vector<cut::Face> below, above;
     for (const cut::Face& f : rest) cut::cutFace(f, *this, MeshPart::kNone, below, above);
@@ -232,6 +241,7 @@ void Slicer::sliceEdge(uint32_t face, std::span<const double> cuts, size_t first
     slabs[slab].push_back({{rising ? cut::Loop{a, b} : cut::Loop{b, a}}, face});
   };
   for (size_t k = firstCut; k < lastCut; ++k) {
+    work(2);
     cut_ = cuts[k];
     const cut::Corner at = split(from, to);
     put(k, from, at);
@@ -254,6 +264,7 @@ MeshPart Slicer::build(const std::vector<Piece>& pieces, const CutOptions& optio
     }
     part.faceSource.push_back(piece.source);
     for (const cut::Loop& loop : piece.face) {
+      work(loop.size());
       b.beginLoop();
       for (const cut::Corner& c : loop) {
         uint32_t& position = local[c.point];

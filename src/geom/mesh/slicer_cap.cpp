@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "geom/mesh/slicer.h"
 #include "geom/mesh/topology.h"
 
@@ -55,6 +56,7 @@ std::vector<Slicer::CapEdge> Slicer::openEdges(const std::vector<Piece>& pieces,
   for (const Piece& piece : pieces) {
     if (piece.source == MeshPart::kNone || !closed[piece.source]) continue;
     for (const cut::Loop& loop : piece.face) {
+      work(loop.size());
       for (size_t i = 0; i < loop.size(); ++i) {
         const cut::Corner& a = loop[i];
         const cut::Corner& b = loop[(i + 1) % loop.size()];
@@ -104,11 +106,13 @@ std::vector<cut::Loop> Slicer::linkLoops(const std::vector<CapEdge>& edges,
   };
   std::vector<cut::Loop> loops;
   for (size_t first = 0; first < sorted.size(); ++first) {
+    work();
     if (used[first]) continue;
     cut::Loop loop;
     size_t e = first;
     bool isClosed = false;
     while (e < sorted.size() && !isClosed) {
+      work();
       used[e] = true;
       loop.push_back({sorted[e].from, attributes, MeshPart::kNone});
       isClosed = sorted[e].to == sorted[first].from;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/work.h"
 #include "math/trig.h"
 
 namespace gable {
@@ -35,6 +36,7 @@ void Topology::linkCorners() {
   previous_.assign(n, kNone);
   for (uint32_t f = 0; f < mesh_.faces.size(); ++f) {
     for (const MeshLoop& loop : mesh_.loopsOf(f)) {
+      work(4 * loop.cornerCount);
       for (uint32_t i = 0; i < loop.cornerCount; ++i) {
         const uint32_t c = loop.firstCorner + i;
         const uint32_t after = loop.firstCorner + (i + 1) % loop.cornerCount;
@@ -73,6 +75,7 @@ void Topology::findEdges() {
   });
   edgeOf_.assign(mesh_.corners.size(), kNone);
   for (const auto& [begin, end] : groups) {
+    work();
     for (uint32_t k = begin; k < end; ++k) {
       edgeOf_[keys[k].corner] = static_cast<uint32_t>(edgeStarts_.size() - 1);
       uses_.push_back(keys[k].corner);
@@ -114,6 +117,7 @@ void Topology::findComponents() {
     component_.push_back(n);
   }
   for (uint32_t e = 0; e < edgeCount(); ++e) {
+    work();
     int balance = 0;
     const auto uses = usesOf(e);
     for (const uint32_t c : uses) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "math/trig.h"
 
 namespace gable {
@@ -42,6 +43,7 @@ class Normalizer {
 template <class Visit>
 void forCorners(const Mesh& m, size_t face, const Visit& visit) {
   for (const MeshLoop& loop : m.loopsOf(face)) {
+    work(loop.cornerCount);
     for (uint32_t i = 0; i < loop.cornerCount; ++i) {
       visit(loop.firstCorner + i, loop.firstCorner + (i + 1) % loop.cornerCount);
     }
@@ -68,6 +70,7 @@ void projectUv(Mesh& m, int set, const Vec3& origin, const Vec3& u, const Vec3& 
   std::vector<Vec2>& uvs = setOf(m, set);
   uvs.resize(m.corners.size());
   for (uint32_t c = 0; c < m.corners.size(); ++c) {
+    work();
     const Vec3 p = m.at(c) - origin;
     uvs[c] = {dot(p, u), dot(p, v)};
   }

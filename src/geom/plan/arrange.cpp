@@ -12,6 +12,7 @@
 #include <numeric>
 
 #include "base/random.h"
+#include "base/work.h"
 #include "geom/region/boolean.h"
 #include "geom/region/hull.h"
 #include "math/trig.h"
@@ -68,6 +69,7 @@ void addBorder(const Polygon& area, const Ring& shape, double edge, Region& out)
 }
 
 Vec2 nearestOnRing(const Ring& ring, Vec2 p, Vec2 best) {
+  work(ring.size());
   for (size_t i = 0; i < ring.size(); ++i) {
     const Vec2 a = ring[i], d = ring[(i + 1) % ring.size()] - a;
     const double t = dot(d, d) > 0 ? std::clamp(dot(p - a, d) / dot(d, d), 0.0, 1.0) : 0;
@@ -118,6 +120,7 @@ std::vector<ArrangedPlace> arrange(const Polygon& area, const std::vector<Footpr
   const Region ground = taken.empty() ? Region{area} : subtract({area}, taken);
   std::vector<Ring> placed;
   for (const size_t i : order) {
+    work(4 + placed.size());
     const Footprint& f = footprints[i];
     if (!isSound(f)) continue;
     Region blocked;
@@ -144,6 +147,7 @@ std::vector<Vec2> scatterJittered(const Polygon& area, double distance, double j
   const Vec2 first = box.center() - Vec2{columns - 1, rows - 1} * (distance / 2);
   for (double row = 0; row < rows; ++row) {
     for (double column = 0; column < columns && out.size() < most; ++column) {
+      work(8);
       const uint64_t cell =
           hashCombine(hashCombine(seed, static_cast<uint64_t>(row)), static_cast<uint64_t>(column));
       const Vec2 p = first + Vec2{column, row} * distance +

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "geom/curve/curve.h"
 #include "geom/region/boolean.h"
 #include "geom/region/clean.h"
@@ -40,7 +41,8 @@ struct Stretch {
 /// One ring by length: from its first sharp corner, if it has one.
 class Course {
  public:
-  Course(const Ring& ring, const CrenellationOptions& o) : o_(o) {
+  /// `lay`: the gaps as well, and not only how many there are.
+  Course(const Ring& ring, const CrenellationOptions& o, bool lay = true) : o_(o), lay_(lay) {
     const size_t n = ring.size();
     size_t first = 0;
     while (first < n && !sharpAt(ring, first)) ++first;
@@ -64,11 +66,13 @@ class Course {
   }
 
   const std::vector<Stretch>& gaps() const { return gaps_; }
+  double gapCount() const { return count_; }
   double whole() const { return whole_; }
 
   /// The line between two lengths; `to` may lie beyond the end of the ring.
   Line part(const Stretch& s) const {
     Line out = {at(s.from)};
+    work(2 * points_.size());
     for (int turn = 0; turn < 2; ++turn) {
       for (size_t i = 0; i < points_.size(); ++i) {
         const double l = lengths_[i] + turn * whole_;
@@ -94,7 +98,10 @@ class Course {
     const double n = std::max(0.0, std::nearbyint((l - o_.merlon) / (o_.merlon + o_.gap)));
     if (n == 0) return;
     const double stretch = l / (n * o_.gap + (n + 1) * o_.merlon);
+    count_ += n;
+    if (!lay_) return;
     for (double i = 0; i < n; ++i) {
+      work();
       const double at = from + stretch * ((i + 1) * o_.merlon + i * o_.gap);
       gaps_.push_back({at, at + stretch * o_.gap});
     }
@@ -104,16 +111,20 @@ class Course {
     if (whole_ <= o_.merlon + o_.gap) return;
     const double n = std::max(1.0, std::nearbyint(whole_ / (o_.merlon + o_.gap)));
     const double stretch = whole_ / (n * (o_.merlon + o_.gap));
+    count_ += n;
+    if (!lay_) return;
     for (double i = 0; i < n; ++i) {
+      work();
       const double at = stretch * (i * (o_.merlon + o_.gap) + o_.merlon);
       gaps_.push_back({at, at + stretch * o_.gap});
     }
   }
 
   const CrenellationOptions& o_;
+  bool lay_ = true;
   Line points_;
   std::vector<double> lengths_, corners_;
-  double whole_ = 0;
+  double whole_ = 0, count_ = 0;
   std::vector<Stretch> gaps_;
 };
 
@@ -145,6 +156,7 @@ class Merlons {
     Region before;
     for (const Polygon& p : r) {
       const Box2 box = bounds(p);
+      work(all_.size());
       for (size_t i = 0; i < all_.size(); ++i) {
         if (!apart(box, boxes_[i])) before.push_back(all_[i]);
       }
@@ -182,7 +194,7 @@ CrenellationPart partOf(Polygon p, const Polygon& whole) {
 double merlonCount(const Polygon& p, const CrenellationOptions& options) {
   double count = 0;
   for (const Ring& r : ringsOf({p})) {
-    count += static_cast<double>(std::max<size_t>(1, Course(r, options).gaps().size()));
+    count += std::max(1.0, Course(r, options, false).gapCount());
   }
   return count;
 }

@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "base/work.h"
 #include "geom/region/boolean.h"
 #include "geom/region/clean.h"
 #include "geom/region/hull.h"
@@ -68,6 +69,7 @@ bool hasStreetCorner(const Polygon& p, const std::vector<uint32_t>& street) {
   for (size_t i = 0; i < n; ++i) {
     if (street[i] == Parcel::kNoStreet) continue;
     for (size_t k = i + 1; k < i + n && street[k % n] != Parcel::kNoStreet; ++k) {
+      work(4);
       const Vec2 in = direction(i), out = direction(k);
       if (cross(in, out) > 0 && dot(in, out) < kCornerCos) return true;
     }
@@ -137,6 +139,7 @@ std::vector<Parcel> parcelsByBox(const Polygon& block, const std::vector<bool>& 
   std::vector<Parcel> out;
   std::vector<Part> open{{block, streetsOf(block, street), options.address}};
   while (!open.empty()) {
+    work(16);
     Part part = std::move(open.back());
     open.pop_back();
     std::vector<Part> parts;
@@ -230,6 +233,7 @@ bool cornerOf(const Ring& r, size_t before, size_t after, Vec2& corner) {
   const double t = cross(c - a, v) / turn;
   corner = a + u * t;
   for (size_t i = (before + 1) % n; i != after; i = (i + 1) % n) {
+    work();
     if (cross(u, r[i] - a) < 0 || cross(v, r[i] - c) < 0) return false;
   }
   return t > 1 && length(corner - r[(before + 1) % n]) < kNear && length(corner - c) < kNear;
@@ -309,6 +313,7 @@ size_t bestNeighbour(const std::vector<Parcel>& lots, size_t i, Polygon& joined)
     return sum;
   };
   for (size_t k = 0; k < lots.size(); ++k) {
+    work();
     const Box2 box = bounds(lots[k].polygon);
     if (k == i || box.min.x > near.max.x || box.max.x < near.min.x || box.min.y > near.max.y ||
         box.max.y < near.min.y) {
@@ -338,6 +343,7 @@ size_t neighbourAcrossCrack(const std::vector<Parcel>& lots, size_t i, const Pol
     const double common = k == i ? 0 : area(intersect(grown, {lots[k].polygon}));
     if (common <= best) continue;
     Region mine = grown;
+    work(lots.size());
     for (size_t m = 0; m < lots.size(); ++m) {
       if (m != i && m != k) mine = subtract(mine, {lots[m].polygon});
     }
@@ -385,6 +391,7 @@ std::vector<Parcel> parcelsBySkeleton(const Polygon& block, const std::vector<bo
   for (;;) {
     size_t worst = out.size();
     for (size_t i = 0; i < out.size(); ++i) {
+      work(16);
       const bool fit = isFit({out[i].polygon, out[i].street, 0}, options);
       if (fit || alone[i]) continue;
       if (worst == out.size() || area(out[i].polygon) < area(out[worst].polygon)) worst = i;

@@ -11,6 +11,7 @@
 #include <map>
 #include <utility>
 
+#include "base/work.h"
 #include "geom/region/hull.h"
 #include "geom/region/segment_grid.h"
 #include "math/trig.h"
@@ -30,10 +31,12 @@ class Places {
     const auto [cx, cy] = cellOf(p);
     uint32_t best = kNone;
     double least = snap_;
+    work(16);
     for (int64_t x = cx - 1; x <= cx + 1; ++x) {
       for (int64_t y = cy - 1; y <= cy + 1; ++y) {
         const auto at = cells_.find({x, y});
         if (at == cells_.end()) continue;
+        work(at->second.size());
         for (uint32_t i : at->second) {
           const double d = length(points_[i] - p);
           if (d < least) {
@@ -56,6 +59,7 @@ class Places {
     const auto high = cellOf({std::max(a.x, a.x + d.x), std::max(a.y, a.y + d.y)});
     const double reach = snap_ + std::fabs(snap_);
     for (int64_t x = low.first - 1; x <= high.first + 1; ++x) {
+      work();
       // Of a column only the cells near the line.
       const double x0 = (static_cast<double>(x) - 1) * snap_, x1 = x0 + 3 * snap_;
       double y0 = std::min(a.y, a.y + d.y), y1 = std::max(a.y, a.y + d.y);
@@ -68,8 +72,10 @@ class Places {
       }
       const int64_t r0 = cellOf({0, y0}).second - 1, r1 = cellOf({0, y1}).second + 1;
       for (int64_t y = r0; y <= r1; ++y) {
+        work(4);
         const auto at = cells_.find({x, y});
         if (at == cells_.end()) continue;
+        work(at->second.size());
         for (uint32_t i : at->second) {
           if (i == from || i == to) continue;
           const double t = dot(points_[i] - a, d) / dot(d, d);
@@ -131,6 +137,7 @@ bool addCrossings(const std::vector<Piece>& pieces, Places& places) {
     });
     std::sort(near.begin(), near.end());
     for (uint32_t k : near) {
+      work();
       const Piece &p = pieces[i], &q = pieces[k];
       if (p.from == q.from || p.from == q.to || p.to == q.from || p.to == q.to) continue;
       Vec2 at;
@@ -147,6 +154,7 @@ bool leadThrough(std::vector<Piece>& pieces, const Places& places) {
   std::vector<Piece> out;
   bool any = false;
   for (const Piece& p : pieces) {
+    work();
     uint32_t from = p.from;
     for (uint32_t through : places.along(p.from, p.to)) {
       if (through == from) continue;
@@ -164,6 +172,7 @@ bool leadThrough(std::vector<Piece>& pieces, const Places& places) {
 void dropDoubles(std::vector<Piece>& pieces, const std::vector<Street>& streets) {
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> best;
   for (uint32_t i = 0; i < pieces.size(); ++i) {
+    work(4);
     const auto key = std::minmax(pieces[i].from, pieces[i].to);
     if (key.first == key.second) continue;
     const auto [at, fresh] = best.try_emplace({key.first, key.second}, i);
@@ -219,6 +228,7 @@ class Stretches {
     e.line.push_back(places_.at(start));
     uint32_t at = start;
     for (;;) {
+      work();
       used_[piece] = true;
       at = pieces_[piece].from == at ? pieces_[piece].to : pieces_[piece].from;
       e.line.push_back(places_.at(at));
@@ -267,6 +277,7 @@ std::vector<bool> shortEnds(const StreetGraph& g, const StreetGraphOptions& opti
     if (options.area && !isWithin(*options.area, g.nodes[tip].point, options.snap)) continue;
     any = true;
     for (size_t i = 0; i + 1 < e.line.size(); ++i) {
+      work(4);
       const Vec2 middle = (e.line[i] + e.line[i + 1]) * 0.5;
       gone[{middle.x, middle.y}] = true;
     }
@@ -274,6 +285,7 @@ std::vector<bool> shortEnds(const StreetGraph& g, const StreetGraphOptions& opti
   if (!any) return {};
   std::vector<bool> out;
   for (const Piece& p : pieces) {
+    work(8);
     const Vec2 middle = (places.at(p.from) + places.at(p.to)) * 0.5;
     const Vec2 same = (places.at(p.to) + places.at(p.from)) * 0.5;
     out.push_back(gone.count({middle.x, middle.y}) > 0 || gone.count({same.x, same.y}) > 0);

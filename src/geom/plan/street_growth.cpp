@@ -14,6 +14,7 @@
 #include <map>
 
 #include "base/random.h"
+#include "base/work.h"
 #include "geom/region/segment_grid.h"
 #include "math/noise.h"
 #include "math/trig.h"
@@ -52,6 +53,7 @@ void clip(const Region& area, const Line& line, double width, std::vector<Street
   };
   for (size_t i = 0; i + 1 < line.size(); ++i) {
     const Vec2 a = line[i], d = line[i + 1] - line[i];
+    work(4);
     std::vector<double> cuts{0, 1};
     for (const Polygon& p : area) {
       for (const Segment& s : edgesOf(p)) {
@@ -104,6 +106,7 @@ std::vector<Street> gridStreets(const Region& area, const GridStreets& o) {
     const double count = std::min(std::floor((end - begin) / spacing), double{kMostGrown});
     const double start = (begin + end - count * spacing) / 2;
     for (double i = 0; i <= count; ++i) {
+      work(8);
       const double at =
           start + i * spacing +
           moved(o.irregularity, spacing, hashCombine(o.address, salt), static_cast<uint64_t>(i));
@@ -139,6 +142,7 @@ std::vector<Street> radialStreets(const Region& area, const RadialStreets& o) {
         !first && 2 * kPi * radius[ring] / static_cast<double>(count) >= 2 * o.spacing;
     if (!first && !doubled) continue;
     for (size_t k = 0; k < count; ++k) {
+      work(8);
       const double step = 360.0 / static_cast<double>(count);
       const double angle = step * (static_cast<double>(k) + (first ? 0 : 0.5)) +
                            moved(o.irregularity / 2, step, hashCombine(o.address, 2 + ring), k);
@@ -192,8 +196,10 @@ class Traces {
     const auto [cx, cy] = key(p);
     for (int64_t x = cx - n; x <= cx + n; ++x) {
       for (int64_t y = cy - n; y <= cy + n; ++y) {
+        work(4);
         const auto at = cells_.find({x, y});
         if (at == cells_.end()) continue;
+        work(at->second.size());
         for (const Vec2 q : at->second) {
           if (length(q - p) < distance) return true;
         }
@@ -237,6 +243,7 @@ class Grower {
     std::deque<Vec2> open;
     const uint64_t address = hashCombine(options_.address, rank);
     for (double i = 0; i < tries && out_.size() < kMostGrown;) {
+      work(16);
       Vec2 seed;
       if (open.empty()) {
         const uint64_t draw = hashCombine(address, static_cast<uint64_t>(i));
@@ -255,6 +262,7 @@ class Grower {
         for (const Vec2 p : line) traces[family].add(p);
         const Path path(line);
         for (double s = spacing / 2; s < path.length(); s += spacing) {
+          work(16);
           const Path::Place at = path.at(s);
           for (const double side : {1.0, -1.0}) {
             open.push_back(at.point + perpendicular(at.tangent) * (side * spacing));
@@ -278,6 +286,7 @@ class Grower {
     Vec2 p = seed, d = direction;
     double gone = 0;
     for (size_t i = 0; i < kMostSteps; ++i) {
+      work(64);
       const Vec2 k1 = heading(p, family, d);
       const Vec2 k2 = heading(p + k1 * (step_ / 2), family, k1);
       const Vec2 k3 = heading(p + k2 * (step_ / 2), family, k1);
@@ -304,6 +313,7 @@ class Grower {
     return out;
   }
   bool comesBack(const Line& line, Vec2 p, double apart) const {
+    work(line.size() / 4);
     const auto recent = static_cast<size_t>(std::ceil(3 * apart / step_));
     for (size_t i = 0; i + recent < line.size(); i += 4) {
       if (length(line[i] - p) < apart) return true;
@@ -332,6 +342,7 @@ class Grower {
         const Vec2 d = normalized(tip - line[line.size() - 2]);
         double best = reach;
         for (const Line& other : lines_) {
+          work(other.size());
           for (size_t i = 0; i + 1 < other.size(); ++i) {
             const Vec2 v = other[i + 1] - other[i], w = other[i] - tip;
             const double det = cross(d, v);

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/work.h"
 #include "geom/plan/street_graph.h"
 #include "geom/region/boolean.h"
 #include "geom/region/clean.h"
@@ -54,6 +55,7 @@ Line partOf(const Line& line, double from, double to) {
 std::vector<Leaving> leavings(const StreetGraph& g, uint32_t node) {
   std::vector<Leaving> out;
   for (size_t k = 0; k < g.nodes[node].edges.size(); ++k) {
+    work(8 + out.size());
     const uint32_t e = g.nodes[node].edges[k];
     const StreetGraph::Edge& edge = g.edges[e];
     const bool seen =
@@ -124,6 +126,7 @@ class Ground {
     Region mine = intersect(wanted, area_);
     Region taken;
     for (size_t k : near(box)) {
+      work();
       if (!apart(boxes_[k], box)) taken.insert(taken.end(), given_[k].begin(), given_[k].end());
     }
     if (!taken.empty()) mine = subtract(mine, taken);

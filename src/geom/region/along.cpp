@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "geom/region/boolean.h"
 #include "geom/region/clean.h"
 #include "geom/region/grid_partition.h"
@@ -35,6 +36,7 @@ std::vector<Vec2> opened(const Polyline& line) {
 
 Station at(const std::vector<Vec2>& points, double distance) {
   for (size_t i = 0; i + 1 < points.size(); ++i) {
+    work();
     const Vec2 d = points[i + 1] - points[i];
     const double l = length(d);
     if (distance <= l || i + 2 == points.size()) {
@@ -60,6 +62,7 @@ std::vector<Polyline> runsOf(const Polygon& p, std::span<const EdgePart> parts,
     bool open = false;
     uint32_t firstGroup = 0;
     for (const EdgePart& e : parts) {
+      work();
       if (e.edge < first || e.edge >= first + n || !(e.to > e.from)) continue;
       const Vec2 a = r[e.edge - first], b = r[(e.edge - first + 1) % n];
       const uint32_t g = e.edge < group.size() ? group[e.edge] : 0;
@@ -96,6 +99,7 @@ std::vector<Station> evenly(const Polyline& line, uint32_t count, bool start, bo
   const double whole = line.length();
   if (count == 0 || points.size() < 2) return out;
   for (uint32_t k = 0; k <= count; ++k) {
+    work();
     if (k == 0 && !start && !line.closed) continue;
     if (k == count && (!end || line.closed)) continue;
     out.push_back(at(points, whole * k / count));
@@ -116,7 +120,10 @@ std::vector<Station> spaced(const Polyline& line, double spacing) {
     return evenly(line, n, true, false);
   }
   const double margin = (whole - fits * spacing) / 2;
-  for (double k = 0; k <= fits; ++k) out.push_back(at(points, margin + k * spacing));
+  for (double k = 0; k <= fits; ++k) {
+    work(points.size());
+    out.push_back(at(points, margin + k * spacing));
+  }
   return out;
 }
 
@@ -138,6 +145,7 @@ Polyline partOf(const Polyline& line, double a, double b) {
   addPoint(out, at(points, from).at);
   double run = 0;
   for (size_t i = 0; i + 1 < points.size(); ++i) {
+    work();
     run += length(points[i + 1] - points[i]);
     if (run > from && run < to) addPoint(out, points[i + 1]);
   }
@@ -154,10 +162,12 @@ std::vector<Polyline> parametrise(const Ring& outer, std::span<const uint32_t> l
     Polyline whole;
     uint32_t begin = n;
     for (uint32_t i = 0; i < n; ++i) {
+      work();
       if (logical[i] == range.logical && logical[(i + n - 1) % n] != range.logical) begin = i;
     }
     if (begin == n) continue;
     for (uint32_t k = 0, i = begin; k < n && logical[i] == range.logical; ++k, i = (i + 1) % n) {
+      work();
       addPoint(whole, outer[i]);
       addPoint(whole, outer[(i + 1) % n]);
     }
@@ -184,6 +194,7 @@ Polyline movedLeft(const Polyline& line, double by) {
   const size_t n = line.points.size();
   if (n < 2 || by == 0) return out;
   for (size_t i = 0; i < n; ++i) {
+    work();
     const bool first = i == 0 && !line.closed, last = i + 1 == n && !line.closed;
     const Vec2 p = line.points[i];
     const Vec2 in = first ? Vec2{} : normalized(p - line.points[(i + n - 1) % n]);
@@ -242,6 +253,7 @@ Region bandOf(std::vector<Vec2> line, double half, const RibbonOptions& o) {
   const auto disc = [&](Vec2 at) { parts.push_back(ringOf({PlanShape::Circle, half, 0, 24}, at)); };
   if (o.roundJoins) {
     for (size_t i = 1; i < line.size(); ++i) {
+      work();
       for (const Polygon& p : thicken({line[i - 1], line[i]}, half, options)) {
         parts.push_back(p.outer);
       }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "math/trig.h"
 
 namespace gable {
@@ -22,6 +23,7 @@ std::vector<uint32_t> simplified(const Ring& r) {
   std::vector<uint32_t> left(r.size());
   for (uint32_t i = 0; i < r.size(); ++i) left[i] = i;
   while (left.size() > kMostCandidates) {
+    work(left.size());
     const size_t n = left.size();
     size_t least = 0;
     double leastArea = 1e300;
@@ -59,6 +61,7 @@ void southFirst(const Ring& r, std::array<uint32_t, 4>& corner, Vec2 east) {
   size_t best = 0;
   double most = -1e300;
   for (size_t turn = 0; turn < 4; ++turn) {
+    work();
     double sum = 0;
     for (size_t i = 0; i < 4; ++i) {
       const Vec2 side = r[corner[(i + turn + 1) % 4]] - r[corner[(i + turn) % 4]];
@@ -81,6 +84,7 @@ LogicalEdges between(const Ring& r, const std::array<uint32_t, 4>& corner) {
   for (uint32_t k = 0; k < 4; ++k) {
     const uint32_t end = corner[(k + 1) % 4];
     for (uint32_t i = corner[k]; i != end; i = (i + 1) % static_cast<uint32_t>(r.size())) {
+      work();
       out.of[i] = 3 - k;
     }
   }
@@ -94,6 +98,7 @@ std::array<uint32_t, 4> boxCorners(const Ring& r, const OrientedRect& box) {
   for (size_t k = 0; k < 4; ++k) {
     double least = 1e300;
     for (uint32_t i = 0; i < r.size(); ++i) {
+      work();
       const double d = length(r[i] - at[k]);
       if (d < least) {
         least = d;
@@ -115,6 +120,7 @@ LogicalEdges byFacing(const Ring& r, Vec2 east) {
   LogicalEdges out;
   out.count = 4;
   for (size_t i = 0; i < r.size(); ++i) {
+    work();
     const Vec2 n = -perpendicular(r[(i + 1) % r.size()] - r[i]);
     const double x = dot(n, east), y = dot(n, perpendicular(east));
     out.of.push_back(std::fabs(x) >= std::fabs(y) ? (x < 0 ? 0u : 2u) : (y > 0 ? 1u : 3u));
@@ -139,6 +145,7 @@ LogicalEdges betweenBends(const Ring& outer, const std::vector<size_t>& bends) {
     const size_t begin = bends[(first + k) % bends.size()];
     const size_t end = bends[(first + k + 1) % bends.size()];
     for (size_t i = begin; i != end; i = (i + 1) % n) {
+      work();
       out.of[i] = static_cast<uint32_t>(bends.size() - 1 - k);
     }
   }
@@ -176,6 +183,7 @@ BestQuad bestQuad(const Ring& outer) {
     for (size_t b = a + 1; b < n; ++b) {
       for (size_t c = b + 1; c < n; ++c) {
         for (size_t d = c + 1; d < n; ++d) {
+          work();
           const Vec2 q[4] = {outer[v[a]], outer[v[b]], outer[v[c]], outer[v[d]]};
           const double s = scoreOf(q, whole);
           if (s > best.score + 1e-12) best = {{v[a], v[b], v[c], v[d]}, s};
@@ -207,12 +215,14 @@ LogicalEdges autoindex(const Ring& outer) {
     Vec2 in, out;
     double before = 0, after = 0;
     for (size_t k = i; before < 0.5 && k + n > i; --k) {
+      work();
       const Vec2 e = outer[k % n] - outer[(k + n - 1) % n];
       in = in + e;
       before += length(e);
       if (k == 0) break;
     }
     for (size_t k = i; after < 0.5 && k < i + n; ++k) {
+      work();
       const Vec2 e = outer[(k + 1) % n] - outer[k % n];
       out = out + e;
       after += length(e);
@@ -247,6 +257,7 @@ LogicalEdges sectorOf(const Ring& outer, const std::vector<SectorSide>& side) {
   }
   if (starts.empty()) {
     for (size_t i = 0; i < n; ++i) {
+      work();
       const size_t k = (i + 1) % n;
       const Vec2 in = outer[k] - outer[i], out = outer[(k + 1) % n] - outer[k];
       const bool turns = std::fabs(turnAngle(in, out)) * 180 / kPi > 1;

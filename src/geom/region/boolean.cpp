@@ -138,6 +138,7 @@ class Grid {
 std::vector<Ring> toRings(const Paths& paths) {
   std::vector<Ring> out;
   for (const ClipperLib::Path& path : paths) {
+    work(path.size());
     Ring r;
     r.reserve(path.size());
     for (const IntPoint& p : path) {
@@ -459,6 +460,7 @@ OffsetOptions bounded(OffsetOptions options, double distance) {
 }  // namespace
 
 Region combine(BooleanOp op, const Region& a, const Region& b) {
+  work(64);
   const std::vector<Ring> ra = orientedRings(a), rb = orientedRings(b);
   Grid grid;
   grid.include(ra);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "geom/region/point_cells.h"
 #include "geom/region/segment_grid.h"
 #include "math/predicates.h"
@@ -25,6 +26,7 @@ void dropUntilStable(Ring& r, const Drop& drop) {
   bool changed = true;
   while (changed && r.size() >= 3) {
     changed = false;
+    work(r.size());
     Ring kept;
     kept.reserve(r.size());
     for (size_t i = 0; i < r.size(); ++i) {
@@ -49,6 +51,7 @@ void dropNearLines(Ring& r, double tolerance) {
     const Vec2 before = kept.empty() ? r.back() : kept.back();
     const Vec2 after = r[(i + 1) % r.size()];
     dropped.push_back(r[i]);
+    work(dropped.size());
     const bool near = std::all_of(dropped.begin(), dropped.end(), [&](Vec2 p) {
       return distanceTo({before, after}, p) <= tolerance;
     });
@@ -72,6 +75,7 @@ std::vector<Insertion> findInsertions(const std::vector<Ring>& rings,
   SegmentGrid grid(edges);
   std::vector<Insertion> out;
   for (const Vec2 p : points) {
+    work();
     Box2 box;
     box.include(p - Vec2{tolerance, tolerance});
     box.include(p + Vec2{tolerance, tolerance});
@@ -112,6 +116,7 @@ bool lessXy(Vec2 a, Vec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
 
 // Cuts one ring at its repeated points into rings without repeats, in the order of their closing.
 void splitRing(const Ring& r, std::vector<Ring>& out) {
+  work(4 * r.size());
   std::vector<uint32_t> order(r.size()), name(r.size());
   for (uint32_t i = 0; i < r.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(),
@@ -245,6 +250,7 @@ Region nest(std::vector<Ring> rings) {
     if (r.size() < 3 || signedArea(r) >= 0) continue;
     const Box2 box = bounds(r);
     size_t best = out.size();
+    work(out.size());
     for (size_t i = 0; i < out.size(); ++i) {
       const bool fits = boxes[i].min.x <= box.min.x && boxes[i].min.y <= box.min.y &&
                         boxes[i].max.x >= box.max.x && boxes[i].max.y >= box.max.y;
@@ -270,6 +276,7 @@ std::vector<uint32_t> traceSegments(std::span<const Segment> result,
                                     std::span<const Segment> sources, double tolerance) {
   std::vector<uint32_t> out;
   out.reserve(result.size());
+  work(result.size() + sources.size());
   // So few are looked at faster one by one.
   constexpr size_t kFew = 12;
   // Of many sources most are far from a small result.
@@ -319,6 +326,7 @@ std::vector<uint32_t> traceSegments(std::span<const Segment> result,
       }
     };
     if (few) {
+      work(near.size());
       for (uint32_t k = 0; k < near.size(); ++k) look(k);
     } else {
       grid.query(box, look);
@@ -331,6 +339,7 @@ std::vector<uint32_t> traceSegments(std::span<const Segment> result,
 std::vector<Ring> ringsOf(const Region& r) {
   std::vector<Ring> out;
   for (const Polygon& p : r) {
+    work(p.outer.size() + p.holes.size());
     out.push_back(p.outer);
     out.insert(out.end(), p.holes.begin(), p.holes.end());
   }

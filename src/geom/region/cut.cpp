@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "geom/region/region.h"
 
 namespace gable::cut {
@@ -62,6 +63,7 @@ class Side {
     uint32_t start = n;
     bool anyBelow = false;
     for (uint32_t i = 0; i < n; ++i) {
+      work();
       if (loop[i].side == 0 && start == n) start = i;
       anyBelow = anyBelow || isBelow(loop[i]);
     }
@@ -71,6 +73,7 @@ class Side {
       return;
     }
     for (uint32_t k = 0; k < n;) {
+      work();
       const uint32_t from = (start + k) % n;
       if (!isBelow(loop[(from + 1) % n])) {
         ++k;
@@ -103,6 +106,7 @@ class Side {
   // Edges of the input that run along the cut keep their number.
   void collectLineEdges(const std::vector<Item>& loop) {
     for (size_t i = 0; i < loop.size(); ++i) {
+      work();
       const Item& a = loop[i];
       const Item& b = loop[(i + 1) % loop.size()];
       if (a.side == 0 && b.side == 0) lineEdges_.push_back(a), lineEdges_.push_back(b);
@@ -111,6 +115,7 @@ class Side {
 
   uint32_t edgeBetween(uint32_t p, uint32_t q) const {
     for (size_t i = 0; i < lineEdges_.size(); i += 2) {
+      work();
       const uint32_t a = lineEdges_[i].corner.point, b = lineEdges_[i + 1].corner.point;
       if ((a == p && b == q) || (a == q && b == p)) return lineEdges_[i].corner.edge;
     }
@@ -126,6 +131,7 @@ class Side {
     nextChain_.assign(chains_.size(), 0);
     std::vector<uint32_t> starts, finishes;
     for (const End& e : ends_) {
+      work();
       std::vector<uint32_t>& mates = e.starts ? finishes : starts;
       if (mates.empty()) {
         (e.starts ? starts : finishes).push_back(e.chain);
@@ -144,9 +150,11 @@ class Side {
   void join() {
     std::vector<bool> used(chains_.size());
     for (uint32_t first = 0; first < chains_.size(); ++first) {
+      work();
       if (used[first]) continue;
       std::vector<Item> loop;
       for (uint32_t c = first; !used[c]; c = nextChain_[c]) {
+        work();
         used[c] = true;
         const Chain& chain = chains_[c];
         loop.insert(loop.end(), items_.begin() + chain.first,
@@ -194,6 +202,7 @@ std::vector<std::vector<Item>> withCutCorners(const Face& face, Host& host) {
     const int firstSide = host.side(loop[0]);
     int here = firstSide;
     for (size_t i = 0; i < loop.size(); ++i) {
+      work();
       const Corner& a = loop[i];
       const Corner& b = loop[i + 1 == loop.size() ? 0 : i + 1];
       const int next = i + 1 == loop.size() ? firstSide : host.side(b);
@@ -238,6 +247,7 @@ void splitAtRepeatedPoints(ItemLoop loop, std::vector<ItemLoop>& out) {
   }
   ItemLoop open;
   for (const Item& item : loop) {
+    work();
     const auto same = std::find_if(open.begin(), open.end(), [&](const Item& o) {
       return o.corner.point == item.corner.point;
     });
@@ -254,6 +264,7 @@ bool holeIn(const ItemLoop& hole, const ItemLoop& outer) {
   Ring ring;
   for (const Item& i : outer) ring.push_back(i.place);
   for (size_t i = 0; i < hole.size(); ++i) {
+    work();
     const Where at = locate(ring, hole[i].place);
     if (at != Where::Boundary) return at == Where::Inside;
   }
@@ -270,6 +281,7 @@ Loop cornersOf(const ItemLoop& loop) {
 void startNear(ItemLoop& loop, Vec2 place) {
   size_t best = 0;
   for (size_t i = 1; i < loop.size(); ++i) {
+    work();
     const Vec2 d = loop[i].place - place, e = loop[best].place - place;
     const double di = dot(d, d), db = dot(e, e);
     if (di < db || (di == db && loop[i].order < loop[best].order)) best = i;
@@ -291,6 +303,7 @@ void nestItems(std::vector<ItemLoop> loops, std::vector<Face>& out) {
   for (const ItemLoop& h : holes) {
     size_t best = outers.size();
     for (size_t i = 0; i < outers.size(); ++i) {
+      work(outers[i].size());
       if (outers.size() > 1 && !holeIn(h, outers[i])) continue;
       if (best == outers.size() || areaOf(outers[i]) < areaOf(outers[best])) best = i;
     }
@@ -303,6 +316,7 @@ void nestItems(std::vector<ItemLoop> loops, std::vector<Face>& out) {
 bool cutSimply(const ItemLoop& loop, uint32_t cutEdge, Face& below, Face* above) {
   size_t on[2] = {0, 0}, count = 0;
   for (size_t i = 0; i < loop.size(); ++i) {
+    work(loop.size());
     if (loop[i].side != 0) continue;
     if (count == 2) return false;
     on[count++] = i;
@@ -329,6 +343,7 @@ bool cutSimply(const ItemLoop& loop, uint32_t cutEdge, Face& below, Face* above)
 void cutInto(const Face& face, Host& host, uint32_t cutEdge, std::vector<Face>& below,
              std::vector<Face>* above) {
   for (const Loop& loop : face) {
+    work(loop.size());
     if (loop.empty()) return;
   }
   if (face.empty()) return;

@@ -5,6 +5,7 @@
 // through one of its vertices, which no hole escapes.
 #include "geom/region/cut_holes.h"
 
+#include "base/work.h"
 #include "geom/region/line.h"
 #include "geom/region/places.h"
 
@@ -52,6 +53,7 @@ std::vector<RegionPiece> withoutHoles(const Polygon& p) {
   std::vector<RegionPiece> open{wholePiece(p)}, done;
   // A cut takes one hole at least from its piece.
   while (!open.empty()) {
+    work(8);
     RegionPiece piece = std::move(open.back());
     open.pop_back();
     if (piece.polygon.holes.empty()) {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "geom/region/clean.h"
 #include "geom/region/point_cells.h"
 #include "math/predicates.h"
@@ -74,6 +75,7 @@ class Faces {
 
  private:
   void add(const Segment& s, uint32_t source) {
+    work();
     half_.push_back({cells_.snap(s.a), cells_.snap(s.b), source});
   }
 
@@ -149,6 +151,7 @@ class Faces {
     std::vector<HalfEdge> kept;
     kept.reserve(half_.size());
     for (auto first = half_.begin(); first != half_.end();) {
+      work();
       const auto last = std::upper_bound(first, half_.end(), *first, lessEnds);
       const auto against = std::equal_range(half_.begin(), half_.end(),
                                             HalfEdge{first->to, first->from, 0}, lessEnds);
@@ -178,6 +181,7 @@ class Faces {
         const HalfEdge& h = half_[e];
         ring.push_back(points[h.from]);
         const uint32_t lo = first[h.to], hi = first[h.to + 1];
+        work(1 + hi - lo);
         uint32_t next = hi;
         for (uint32_t k = lo; k < hi; ++k) {
           if (next == hi ||
@@ -208,6 +212,7 @@ class Faces {
 
   void nameEdges(Face& f) {
     const auto name = [&](const Ring& r) {
+      work(4 * r.size());
       for (size_t i = 0; i < r.size(); ++i) {
         const HalfEdge key{cells_.snap(r[i]), cells_.snap(r[i + 1 == r.size() ? 0 : i + 1]), 0};
         f.edges.push_back(std::lower_bound(half_.begin(), half_.end(), key, lessEnds)->source);

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "base/work.h"
 #include "geom/region/inner_rectangle.h"
 #include "geom/region/line.h"
 #include "math/trig.h"
@@ -84,6 +85,7 @@ class Dimension {
     if (!(free > 0)) return GridProblem::DoesNotFit;
     double sum = 0;
     for (uint32_t i = 0; i < count; ++i) {
+      work();
       out.sizes.push_back(sizeAt(i, free / count));
       sum += out.sizes.back();
     }
@@ -119,6 +121,7 @@ class Dimension {
   }
   double meanSize() const {
     double sum = 0, n = 0;
+    work(sizes_.size());
     for (const GridSize& s : sizes_) {
       if (!s.size) continue;
       sum += s.size->mean();
@@ -137,6 +140,7 @@ class Dimension {
     double best = 1, least = 1e300;
     for (double k = std::max(1.0, std::round(guess) - 1); k <= std::round(guess) + 1; ++k) {
       double sum = 0;
+      work(static_cast<size_t>(k));
       for (uint32_t i = 0; i < k; ++i) sum += sizeAt(i, mean);
       const double free = whole_ - path_ * (k - 1);
       if (!(free > 0) || !(sum > 0)) continue;
@@ -205,6 +209,7 @@ bool untangle(Bands& bands, double path, const Box2& box, const std::vector<Line
   };
   constexpr int kHalvings = 8;
   for (int round = 0; round <= kHalvings; ++round) {
+    work(4 * bands.turn.size());
     std::vector<bool> bad(bands.turn.size(), false);
     if (!bad.empty()) {
       bad.front() = bands.turn.front() != 0 && meetIn(first, movedLeft(lineAt(0), path / 2), box);
@@ -280,6 +285,7 @@ void cutByFamily(const RegionPiece& whole, const Family& f, uint8_t after, uint8
   for (size_t k = 0; k < f.cuts.size(); ++k) {
     std::vector<RegionPiece> beyond;
     for (const RegionPiece& p : rest) {
+      work(4);
       for (StripPiece& s : splitByLine(p.polygon, f.cuts[k].at, f.cuts[k].along)) {
         RegionPiece part = p;
         const bool first = s.strip == 0;

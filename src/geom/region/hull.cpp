@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/work.h"
 #include "geom/region/segment_grid.h"
 #include "math/predicates.h"
 
 namespace gable {
 
 Ring convexHull(std::span<const Vec2> points) {
+  work(4 * points.size());
   std::vector<Vec2> sorted(points.begin(), points.end());
   std::sort(sorted.begin(), sorted.end(),
             [](Vec2 a, Vec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/work.h"
 #include "geom/region/segment_grid.h"
 
 namespace gable {
@@ -102,6 +103,7 @@ class Search {
     size_t next = 0;
     slabStarts_.push_back(0);
     for (size_t k = 0; k + 1 < lines.size(); ++k) {
+      work(active.size());
       const double middle = (lines[k] + lines[k + 1]) / 2;
       while (next < rising.size() && rising[next].a.x < middle) active.push_back(rising[next++]);
       std::erase_if(active, [&](const Segment& s) { return s.b.x <= middle; });
@@ -134,6 +136,7 @@ class Search {
         Trapezoid& t = trapezoids_[a];
         t.firstGate = static_cast<uint32_t>(gates_.size());
         for (uint32_t b = slabStarts_[k + 1]; b < slabStarts_[k + 2]; ++b) {
+          work();
           const Trapezoid& u = trapezoids_[b];
           const double low = std::max(t.bottomAt(t.x1), u.bottom.y);
           const double high = std::min(t.topAt(t.x1), u.top.y);
@@ -145,6 +148,7 @@ class Search {
     for (size_t a = trapezoids_.size(); a-- > 0;) {
       Trapezoid& t = trapezoids_[a];
       for (uint32_t g = t.firstGate; g < t.firstGate + t.gateCount; ++g) {
+        work();
         t.reach = std::max(t.reach, trapezoids_[gates_[g].to].reach);
       }
     }
@@ -156,6 +160,7 @@ class Search {
     for (uint32_t a = 0; a < trapezoids_.size(); ++a) {
       stack.push_back({a, a, -kInfinity, kInfinity, 0});
       while (!stack.empty()) {
+        work();
         Chain c = stack.back();
         stack.pop_back();
         const Trapezoid& from = trapezoids_[c.from];
@@ -165,6 +170,7 @@ class Search {
         c.bound = (to.x1 - from.x0) * (high - low);
         if (c.bound > needed()) visit(c);
         for (uint32_t g = to.firstGate; g < to.firstGate + to.gateCount; ++g) {
+          work();
           const double top = std::min(std::min(c.high, gates_[g].high), from.highest());
           const double bottom = std::max(std::max(c.low, gates_[g].low), from.lowest());
           // Narrower than this, no chain onward can win.
@@ -209,6 +215,7 @@ class Search {
     double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
     double fa = f(a), fb = f(b);
     for (int i = 0; i < kSteps; ++i) {
+      work();
       if (fa >= fb) {
         high = b;
         b = a;
@@ -287,6 +294,7 @@ std::vector<EdgeDirection> edgeDirections(const Polygon& p) {
     double longest = 0;
     for (const Segment& s : edges) longest = std::max(longest, length(s.b - s.a));
     for (const Segment& s : edges) {
+      work();
       const double l = length(s.b - s.a);
       if (!(l > longest / 4)) continue;
       Vec2 d = normalized(s.b - s.a);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "geom/region/cut.h"
 
 namespace gable {
@@ -32,6 +33,7 @@ class LineCutter : public cut::Host {
     std::vector<cut::Face> rest{face_};
     for (uint32_t k = 0; k < offsets.size(); ++k) {
       offset_ = offsets[k];
+      work();
       std::vector<cut::Face> below, above;
       for (cut::Face& f : rest) {
         if (!crosses(f)) {
@@ -95,6 +97,7 @@ class LineCutter : public cut::Host {
   bool crosses(const cut::Face& f) const {
     bool below = false, above = false;
     for (const cut::Loop& loop : f) {
+      work(loop.size());
       for (const cut::Corner& c : loop) {
         const int s = side(c);
         below = below || s < 0;
@@ -112,6 +115,7 @@ class LineCutter : public cut::Host {
     StripPiece piece;
     piece.strip = strip;
     for (size_t l = 0; l < f.size(); ++l) {
+      work(f[l].size());
       Ring ring;
       for (const cut::Corner& c : f[l]) {
         ring.push_back(points_[c.point]);

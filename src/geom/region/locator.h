@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/work.h"
 #include "geom/region/crossing.h"
 #include "geom/region/region.h"
 #include "geom/region/segment_grid.h"
@@ -30,7 +31,9 @@ class Locator {
     starts_.assign(rows_ + 1, 0);
     const auto forRows = [&](const Segment& s, const auto& put) {
       const size_t last = row(std::max(s.a.y, s.b.y));
-      for (size_t y = row(std::min(s.a.y, s.b.y)); y <= last; ++y) put(y);
+      const size_t first = row(std::min(s.a.y, s.b.y));
+      work(1 + last - first);
+      for (size_t y = first; y <= last; ++y) put(y);
     };
     for (const Segment& s : edges) forRows(s, [&](size_t y) { ++starts_[y + 1]; });
     for (size_t y = 0; y < rows_; ++y) starts_[y + 1] += starts_[y];
@@ -46,6 +49,7 @@ class Locator {
       return true;
     }
     const size_t y = row(p.y);
+    work(1 + starts_[y + 1] - starts_[y]);
     if (row(lo.y) != y || row(hi.y) != y) return false;
     bool outside = true;
     for (uint32_t k = starts_[y]; k < starts_[y + 1]; ++k) {
@@ -70,6 +74,7 @@ class Locator {
     }
     bool inside = false;
     const size_t y = row(p.y);
+    work(1 + starts_[y + 1] - starts_[y]);
     for (uint32_t k = starts_[y]; k < starts_[y + 1]; ++k) {
       const Crossing crossing = crossingOf(edges_[k].a, edges_[k].b, p);
       if (crossing == Crossing::Touches) return Where::Boundary;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "math/trig.h"
 
 namespace gable {
@@ -61,6 +62,7 @@ class Corner {
     const int steps = std::max(1, static_cast<int>(std::ceil(angle / std::max(step, 0.5))));
     const double turn = (d_ < 0 ? -angle : angle) / steps;
     for (int i = 0; i < steps; ++i) {
+      work();
       const double a = turn * i;
       add(in_ * cosDeg(a) + perpendicular(in_) * sinDeg(a));
     }
@@ -81,6 +83,7 @@ Ring movedOutline(const Ring& r, double distance, const OffsetOptions& options) 
   const auto normal = [&](size_t i) { return -perpendicular(normalized(r[(i + 1) % n] - r[i])); };
   Vec2 in = normal(n - 1);
   for (size_t i = 0; i < n; ++i) {
+    work(4);
     const Vec2 on = normal(i);
     Corner(out, r[i], in, on, distance).join(options);
     in = on;

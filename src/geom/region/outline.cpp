@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "geom/region/clean.h"
 #include "math/noise.h"
 
@@ -25,7 +26,11 @@ Ring divided(const Ring& r, double step) {
   for (size_t i = 0; i < r.size(); ++i) {
     const Vec2 a = r[i], b = r[(i + 1) % r.size()];
     const double n = piecesOf(a, b, step);
-    for (double k = 0; k < n; ++k) out.push_back(a + (b - a) * (k / n));
+    workMemory(static_cast<uint64_t>(std::min(n, 1e15)) * sizeof(Vec2));
+    for (double k = 0; k < n; ++k) {
+      work();
+      out.push_back(a + (b - a) * (k / n));
+    }
   }
   return out;
 }
@@ -35,6 +40,7 @@ Ring moved(const Ring& r, double amount, double wavelength, uint64_t address) {
   Ring out;
   const size_t n = r.size();
   for (size_t i = 0; i < n; ++i) {
+    work(8);
     const Vec2 along = normalized(r[(i + 1) % n] - r[i]) + normalized(r[i] - r[(i + n - 1) % n]);
     const Vec2 outward = normalized(Vec2{along.y, -along.x});
     out.push_back(r[i] + outward * (amount * fractalNoise(r[i] * (1 / wavelength), 2, address)));
@@ -62,6 +68,7 @@ Ring withoutShortEdges(Ring convex, double shortest) {
     size_t edge = convex.size();
     Vec2 corner;
     for (size_t i = 0; i < convex.size(); ++i) {
+      work();
       const double l = length(convex[(i + 1) % convex.size()] - convex[i]);
       Vec2 p;
       if (l >= least || !meetingBeyond(convex, i, shortest, p)) continue;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "geom/region/segment_grid.h"
 
 namespace gable {
@@ -44,6 +45,7 @@ class Peel {
         around_(neighbours(rings_)),
         whole_(segments_.size(), 0) {
     for (const PeelEdge& e : edges) {
+      work();
       if (e.edge >= segments_.size() || !(e.distance > 0) || !std::isfinite(e.distance)) continue;
       if (!(e.to > e.from) || segments_[e.edge].a == segments_[e.edge].b) continue;
       jobs_.push_back(e);
@@ -180,6 +182,7 @@ Ring withSmoothRuns(const Ring& r, std::span<const EdgeOrigin> edges, const Smoo
   }
   Ring out;
   for (size_t k = 0; k < n;) {
+    work();
     const size_t i = start + k;
     if (!inner(i)) {
       out.push_back(r[i % n]);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "geom/region/faces.h"
 #include "geom/region/segment_grid.h"
 
@@ -32,6 +33,7 @@ std::vector<Segment> edgesWithin(const Polygon& p, const Box2& box) {
   std::vector<Segment> out;
   const auto add = [&](const Ring& r) {
     for (size_t i = 0, j = r.size() - 1; i < r.size(); j = i++) {
+      work();
       const Vec2 a = r[j], b = r[i];
       if (std::max(a.x, b.x) < box.min.x || std::min(a.x, b.x) > box.max.x ||
           std::max(a.y, b.y) < box.min.y || std::min(a.y, b.y) > box.max.y) {
@@ -132,6 +134,7 @@ std::vector<EdgeOrigin> originsOfRings(const std::vector<Ring>& rings,
   for (const EdgeSource& s : sources) {
     const std::vector<uint32_t> traced = traceEdges(rings, s.rings, kTrace);
     for (size_t i = 0; i < out.size(); ++i) {
+      work();
       if (known[i] || traced[i] == kNoEdge) continue;
       out[i] = s.origins[traced[i]];
       known[i] = true;
@@ -199,6 +202,7 @@ std::vector<RegionPiece> leftBeside(const RegionPiece& whole, const Region& part
   for (const Ring& r : beside.rings) {
     // Turned round, and from the first point on, so that results start where booleans' do.
     for (size_t k = r.size(); k-- > 0;) {
+      work();
       edges.push_back({r[k + 1 == r.size() ? 0 : k + 1], r[k]});
       origins.push_back(beside.origins[first + k]);
     }
@@ -241,6 +245,7 @@ size_t absorbSliver(std::vector<RegionPiece>& pieces, const RegionPiece& sliver)
   };
   std::vector<Neighbour> found;
   for (size_t k = 0; k < pieces.size(); ++k) {
+    work();
     if (&pieces[k] == &sliver || !overlap(box, bounds(pieces[k].polygon))) continue;
     const double border = commonBorder(sliver.polygon, box, pieces[k].polygon);
     if (border > kTrace) found.push_back({k, border, pieces[k].kind == PieceKind::Path});
@@ -261,6 +266,7 @@ void mergeSlivers(std::vector<RegionPiece>& pieces, double sliver, double minAre
   std::vector<char> small;
   for (const RegionPiece& p : pieces) small.push_back(isSmall(p));
   for (size_t i = 0; i < pieces.size();) {
+    work();
     const size_t into = small[i] ? absorbSliver(pieces, pieces[i]) : pieces.size();
     if (into == pieces.size()) {
       ++i;

@@ -9,6 +9,7 @@
 #include <queue>
 
 #include "base/random.h"
+#include "base/work.h"
 #include "geom/region/clean.h"
 #include "geom/region/hull.h"
 #include "geom/region/locator.h"
@@ -70,6 +71,7 @@ Disc poleOf(const Polygon& p) {
   const double step = std::max(side, std::max(size.x, size.y) / 32);
   for (double x = box.min.x; x < box.max.x; x += step) {
     for (double y = box.min.y; y < box.max.y; y += step) {
+      work(4);
       open.push(squareAt({x + step / 2, y + step / 2}, step / 2));
     }
   }
@@ -96,6 +98,7 @@ std::vector<Disc> scatterDiscs(const Polygon& p, const ScatterOptions& o) {
   };
   std::vector<Drawn> wanted;
   for (uint32_t i = 0; i < o.count; ++i) {
+    work();
     wanted.push_back({randomIn(hashCombine(hashCombine(o.seed, 1), i), o.least, o.most), i});
   }
   std::stable_sort(wanted.begin(), wanted.end(),
@@ -110,6 +113,7 @@ std::vector<Disc> scatterDiscs(const Polygon& p, const ScatterOptions& o) {
     for (int shrink = 0; shrink <= kShrinks && !found; ++shrink) {
       const double r = w.radius + (o.least - w.radius) * shrink / kShrinks;
       for (uint32_t t = 0; t < tries && !found; ++t) {
+        work(1 + placed.size());
         const uint64_t at = hashCombine(hashCombine(o.seed, 2), dart++);
         const Vec2 c{randomIn(hashCombine(at, 0), box.min.x, box.max.x),
                      randomIn(hashCombine(at, 1), box.min.y, box.max.y)};
@@ -176,6 +180,7 @@ class SparsePoints {
     ny_ = static_cast<int>(box.size().y * inverse_) + 1;
     stride_ = static_cast<size_t>(nx_) + 4;
     const size_t count = stride_ * (static_cast<size_t>(ny_) + 4);
+    workMemory(count * (sizeof(Vec2) + sizeof(uint32_t)));
     constexpr size_t kFirst = 256;
     points_.reserve(kFirst);
     next_.reserve(kFirst);
@@ -189,6 +194,7 @@ class SparsePoints {
     for (size_t row = 0; row < 5; ++row) {
       for (size_t i = 0; i < 5; ++i) {
         for (uint32_t q = first_[corner + row * stride_ + i]; q != kNone; q = next_[q]) {
+          work();
           if (length(points_[q] - c) < distance_) return false;
         }
       }
@@ -283,6 +289,7 @@ std::vector<Vec2> scatterPoisson(const Polygon& p, double distance, double edge,
     const Vec2 c = box.min + Vec2{u * box.size().x, v * box.size().y};
     if (isFree(c)) add(c);
     while (!active.empty() && points.points().size() < most) {
+      work(kAround);
       const auto pick = static_cast<size_t>(unit() * static_cast<double>(active.size()));
       const Vec2 from = points.points()[active[pick]];
       bool found = false;

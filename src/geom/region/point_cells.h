@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/hash.h"
+#include "base/work.h"
 #include "math/cell.h"
 #include "math/vec.h"
 
@@ -31,13 +32,16 @@ class PointCells {
     const int64_t y0 = cellIndex((p.y - tolerance_) * inverse_);
     const int64_t y1 = cellIndex((p.y + tolerance_) * inverse_);
     uint32_t best = kNone;
+    size_t looks = 1;
     for (int64_t y = y0; y <= y1; ++y) {
       for (int64_t x = x0; x <= x1; ++x) {
         for (uint32_t i = heads_[slot(x, y)]; i != kNone; i = next_[i]) {
+          ++looks;
           if (i < best && length(points_[i] - p) <= tolerance_) best = i;
         }
       }
     }
+    work(looks);
     if (best != kNone) return best;
     const auto index = static_cast<uint32_t>(points_.size());
     uint32_t& head = heads_[slot(cellIndex(p.x * inverse_), cellIndex(p.y * inverse_))];

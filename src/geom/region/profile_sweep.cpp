@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "geom/region/boolean.h"
 #include "geom/region/cut_holes.h"
 #include "geom/region/hull.h"
@@ -86,6 +87,7 @@ size_t partsOf(const Polyline& line) {
 bool folds(const Polyline& line, const std::vector<Polyline>& sides, double width) {
   const size_t n = line.points.size();
   for (const Polyline& side : sides) {
+    work();
     for (size_t k = 0; k < partsOf(line); ++k) {
       const Vec2 d = normalized(line.points[(k + 1) % n] - line.points[k]);
       if (!(dot(side.points[(k + 1) % n] - side.points[k], d) > kNear * width)) return true;
@@ -112,6 +114,7 @@ Mesh shell(const std::vector<Polyline>& sides, const Profile& profile, double he
   std::vector<uint32_t> at(n * m);
   for (size_t k = 0; k < n; ++k) {
     for (size_t j = 0; j < m; ++j) {
+      work();
       const Vec2 p = sides[j].points[k];
       at[k * m + j] = b.addPosition({p.x, p.y, profile[j].y * height});
     }
@@ -119,6 +122,7 @@ Mesh shell(const std::vector<Polyline>& sides, const Profile& profile, double he
   const auto corner = [&](size_t k, size_t j) { return at[(k % n) * m + j]; };
   for (size_t k = 0; k < parts; ++k) {
     for (size_t j = 0; j + 1 < m; ++j) {
+      work();
       const uint32_t f[] = {corner(k, j), corner(k + 1, j), corner(k + 1, j + 1), corner(k, j + 1)};
       b.addPolygon(f);
     }
@@ -168,6 +172,7 @@ Mesh prisms(const Polygon& region, const Polyline& line, const std::vector<Polyl
   const size_t n = line.points.size();
   Region before;
   for (size_t k = 0; k < partsOf(line); ++k) {
+    work();
     const Vec2 from = line.points[k], d = normalized(line.points[(k + 1) % n] - from);
     const auto quad = [&](size_t low, size_t high) {
       return Ring{sides[low].points[k], sides[low].points[(k + 1) % n],
@@ -177,6 +182,7 @@ Mesh prisms(const Polygon& region, const Polyline& line, const std::vector<Polyl
     Region near;
     for (const Polygon& part : whole) {
       for (const Polygon& p : before) {
+        work();
         if (overlap(bounds(p), bounds(part))) near.push_back(p);
       }
     }

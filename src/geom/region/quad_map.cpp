@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/work.h"
 #include "geom/region/along.h"
 #include "geom/region/autoindex.h"
 
@@ -87,6 +88,7 @@ class Patch {
   bool folds() const {
     for (int i = 0; i < kLattice; ++i) {
       for (int k = 0; k < kLattice; ++k) {
+        work();
         const double u = static_cast<double>(i) / kLattice, v = static_cast<double>(k) / kLattice;
         const double s = 1.0 / kLattice;
         const Vec2 a = at(u, v), b = at(u + s, v), c = at(u + s, v + s), d = at(u, v + s);
@@ -109,6 +111,7 @@ std::vector<double> placesOn(uint32_t line, uint32_t lines, uint32_t cells, cons
                              const Side& last) {
   std::vector<double> out;
   for (uint32_t k = 0; k <= cells * kPartsPerCell; ++k) {
+    work();
     out.push_back(static_cast<double>(k) / (cells * kPartsPerCell));
   }
   const Side* own = line == 0 ? &first : line == lines ? &last : nullptr;
@@ -151,6 +154,7 @@ class Cells {
   static void add(CellRing& out, uint8_t side, const std::vector<double>& places, double from,
                   double to, At&& at) {
     for (const double t : places) {
+      work();
       if (t < from || t >= to) continue;
       out.ring.push_back(at(t));
       out.origins.push_back({kNoEdge, EdgeRole::Cut, side});
@@ -160,6 +164,7 @@ class Cells {
   static void addBack(CellRing& out, uint8_t side, const std::vector<double>& places, double from,
                       double to, At&& at) {
     for (auto t = places.rbegin(); t != places.rend(); ++t) {
+      work();
       if (*t <= from || *t > to) continue;
       out.ring.push_back(at(*t));
       out.origins.push_back({kNoEdge, EdgeRole::Cut, side});

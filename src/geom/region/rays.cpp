@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/work.h"
 #include "geom/region/clean.h"
 #include "geom/region/hull.h"
 #include "geom/region/line.h"
@@ -70,6 +71,7 @@ class Rays {
   RayResult run(std::span<const Vec2> centres, std::span<const RayTarget> targets) {
     RayResult out;
     for (const Vec2 c : centres) {
+      work();
       if (locate(p_, c) == Where::Inside) {
         centres_.push_back(c);
       } else {
@@ -99,6 +101,7 @@ class Rays {
   bool firstHit(Vec2 from, Vec2 d, Vec2 except, bool hasExcept, Ray& hit, double& reach) const {
     bool found = false;
     reach = 1e300;
+    work(edges_.size());
     // Most edges lie on one side of the ray; which those are is found without branches.
     for (size_t i = 0; i < edges_.size(); ++i) sides_[i] = cross(d, edges_[i].a - from);
     for (uint32_t i = 0; i < edges_.size(); ++i) {
@@ -133,6 +136,7 @@ class Rays {
                                         [&](uint32_t i, Vec2 v) { return lessXy(edges_[i].a, v); });
     auto last = first;
     while (last != corners_.end() && edges_[*last].a == place) ++last;
+    work(static_cast<size_t>(last - first));
     return {first == last ? kNoEdge : *first, static_cast<uint32_t>(last - first)};
   }
 
@@ -169,6 +173,7 @@ class Rays {
     bool found = false;
     Ray best;
     for (const Vec2 c : centres_) {
+      work(edges_.size());
       Ray r;
       if (!rayTo(c, t, r)) continue;
       if (found && length(r.to - r.from) >= length(best.to - best.from)) continue;
@@ -182,6 +187,7 @@ class Rays {
     std::vector<Ray> kept;
     PointCells ends(std::max(o_.pathWidth, 1e-9 * scale_), rays_.size());
     for (const Ray& r : rays_) {
+      work();
       if (ends.snap(r.to) == kept.size()) kept.push_back(r);
     }
     rays_ = std::move(kept);
@@ -193,6 +199,7 @@ class Rays {
   }
 
   bool crossesAny(Vec2 a, Vec2 b) const {
+    work(links_.size());
     const auto meets = [&](const Ray& r) {
       if (r.from == a || r.from == b || r.to == a || r.to == b) return false;
       return meet(a, b, r.from, r.to);
@@ -221,6 +228,7 @@ class Rays {
     std::erase_if(rays_, [&](const Ray& r) { return crossesAny(r.from, r.to); });
     std::vector<Ray> kept;
     for (const Ray& r : rays_) {
+      work(kept.size());
       const bool crosses = std::any_of(kept.begin(), kept.end(), [&](const Ray& k) {
         return !(k.from == r.from) && meet(k.from, k.to, r.from, r.to);
       });
@@ -263,7 +271,9 @@ class Rays {
     };
     std::vector<Link> all;
     for (size_t a = 0; a < centres_.size(); ++a) {
+      work();
       for (size_t b = a + 1; b < centres_.size(); ++b) {
+        work(edges_.size());
         if (sees(centres_[a], centres_[b]))
           all.push_back({a, b, length(centres_[b] - centres_[a])});
       }
@@ -274,6 +284,7 @@ class Rays {
     std::iota(group.begin(), group.end(), size_t{0});
     std::vector<Link> others;
     for (const Link& l : all) {
+      work(group.size());
       const size_t from = group[l.a], to = group[l.b];
       if (from == to) {
         others.push_back(l);
@@ -308,6 +319,7 @@ class Rays {
       size_t last = first + 1;
       while (last < order.size() && rays_[order[last]].from == rays_[order[first]].from) ++last;
       for (size_t k = first; k < last; ++k) {
+        work();
         next[order[k]] = order[k + 1 < last ? k + 1 : first];
       }
       first = last;
@@ -319,6 +331,7 @@ class Rays {
   static Ring leftOf(const Ring& r, Vec2 at, Vec2 along) {
     Ring out;
     out.reserve(r.size() + 2);
+    work(r.size());
     double last = r.empty() ? 0 : cross(along, r.back() - at);
     for (size_t i = 0, j = r.size() - 1; i < r.size(); j = i++) {
       const double here = cross(along, r[i] - at);
@@ -399,6 +412,7 @@ class Rays {
     std::vector<char> in(n);
     size_t changes = 0, first = n;
     for (size_t i = 0; i < n; ++i) {
+      work(hole.size());
       in[i] = 1;
       for (size_t k = 0; k < hole.size() && in[i] != 0; ++k) {
         in[i] = cross(hole[(k + 1) % hole.size()] - hole[k], ring[i] - hole[k]) < 0;
@@ -433,7 +447,9 @@ class Rays {
     Ring ring = cutTo(free.outer, strip, 0);
     if (ring.size() < 3) return false;
     // The last hole is the centre's; what else reaches into the strip is left to booleans.
-    for (size_t h = 0; h < p_.holes.size(); ++h) {
+    // A centre over a hole leaves fewer of them.
+    const size_t others = std::min(free.holes.size(), p_.holes.size());
+    for (size_t h = 0; h < others; ++h) {
       if (cutTo(free.holes[h], strip, scale_ * 1e-3).size() >= 3) return false;
     }
     if (free.holes.size() > p_.holes.size() && !takeStart(ring, free.holes.back())) return false;
@@ -461,6 +477,7 @@ class Rays {
 
   // The place of a point among those that a section is made of; kNoEdge where it is a new one.
   size_t rankOf(Vec2 v, const Ring& strip, const Ring& centre) const {
+    work(strip.size() + centre.size());
     // Corners of the strip are found again where two of its sides cut the outline.
     for (size_t i = 0; i < strip.size(); ++i) {
       const Vec2 off = strip[i] - v;
@@ -546,6 +563,7 @@ class Rays {
       for (Polygon& p : section(r, strip, free)) {
         const Box2 box = bounds(p);
         Region taken;
+        work(before);
         for (size_t k = 0; k < before; ++k) {
           const Section& s = out[k];
           const bool meets = s.box.min.x <= box.max.x && box.min.x <= s.box.max.x &&

@@ -7,11 +7,13 @@
 
 #include <algorithm>
 
+#include "base/work.h"
 #include "geom/region/crossing.h"
 
 namespace gable {
 
 Where locate(const Ring& r, Vec2 p) {
+  work(r.size());
   bool inside = false;
   for (size_t i = 0, j = r.size() - 1; i < r.size(); j = i++) {
     const Crossing crossing = crossingOf(r[j], r[i], p);
@@ -36,6 +38,7 @@ Where locate(const Polygon& p, Vec2 point) {
 
 double signedArea(const Ring& r) {
   if (r.size() < 3) return 0;
+  work(r.size());
   double twice = 0;
   for (size_t i = 1; i + 1 < r.size(); ++i) twice += cross(r[i] - r[0], r[i + 1] - r[0]);
   return twice / 2;
@@ -54,6 +57,7 @@ double area(const Region& r) {
 }
 
 Box2 bounds(const Ring& r) {
+  work(r.size());
   Box2 b;
   for (const Vec2 p : r) b.include(p);
   return b;
@@ -62,6 +66,7 @@ Box2 bounds(const Ring& r) {
 Box2 bounds(const Polygon& p) { return bounds(p.outer); }
 
 double perimeter(const Ring& r) {
+  work(r.size());
   double l = 0;
   for (size_t i = 0, j = r.size() - 1; i < r.size(); j = i++) l += length(r[i] - r[j]);
   return l;

@@ -8,10 +8,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
+
 namespace gable {
 namespace {
 
 void appendEdges(const Ring& r, std::vector<Segment>& out) {
+  work(r.size());
   for (size_t i = 0; i < r.size(); ++i) out.push_back({r[i], r[i + 1 == r.size() ? 0 : i + 1]});
 }
 
@@ -80,6 +83,7 @@ void SegmentGrid::rasterize(const Segment& s, Put&& put) const {
   // A segment that is almost level has no stable crossing with a row; it takes its whole width.
   const bool steep = y0 != y1 && rise > 1e-6 * std::fabs(up.b.x - up.a.x);
   for (int y = y0; y <= y1; ++y) {
+    work(2);
     double lo = std::min(up.a.x, up.b.x), hi = std::max(up.a.x, up.b.x);
     if (steep) {
       const double bottom = std::max(up.a.y, origin_.y + y / inverse_.y);
@@ -89,6 +93,7 @@ void SegmentGrid::rasterize(const Segment& s, Put&& put) const {
       hi = std::min(hi, std::max(xb, xt) + hair);
     }
     const int x1 = column(hi);
+    work(static_cast<size_t>(std::max(x1 - column(lo), 0)));
     for (int x = column(lo); x <= x1; ++x) put(cell(x, y));
   }
 }

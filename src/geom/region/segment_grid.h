@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "base/work.h"
 #include "geom/region/region.h"
 #include "math/box.h"
 #include "math/vec.h"
@@ -41,6 +42,7 @@ class SegmentGrid {
     for (int y = y0; y <= y1; ++y) {
       for (int x = x0; x <= x1; ++x) {
         const size_t c = cell(x, y);
+        work(1 + starts_[c + 1] - starts_[c]);
         for (uint32_t k = starts_[c]; k < starts_[c + 1]; ++k) {
           const uint32_t i = items_[k];
           if (seen_[i] == stamp_) continue;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "geom/region/boolean.h"
 #include "geom/region/clean.h"
 #include "geom/region/piece.h"
@@ -26,6 +27,7 @@ std::vector<Vec2> averaged(const std::vector<Vec2>& r, double weight, bool close
   const double side = (1 - weight) / 2;
   const size_t n = r.size();
   for (size_t i = 0; i < n; ++i) {
+    work();
     const bool end = !closed && (i == 0 || i + 1 == n);
     out.push_back(end ? r[i] : (r[(i + n - 1) % n] + r[(i + 1) % n]) * side + r[i] * weight);
   }
@@ -37,6 +39,7 @@ std::vector<Vec2> cornersCut(const std::vector<Vec2>& r, bool closed) {
   const size_t n = r.size(), edges = closed ? n : n - 1;
   if (!closed) out.push_back(r[0]);
   for (size_t i = 0; i < edges; ++i) {
+    work();
     const Vec2 a = r[i], b = r[(i + 1) % n];
     if (closed || i > 0) out.push_back(a * 0.75 + b * 0.25);
     if (closed || i + 1 < edges) out.push_back(a * 0.25 + b * 0.75);
@@ -50,8 +53,10 @@ std::vector<Vec2> arcs(const std::vector<Vec2>& r, bool closed) {
   const size_t n = r.size();
   if (!closed) out.push_back(r[0]);
   for (size_t i = closed ? 0 : 1; i < (closed ? n : n - 1); ++i) {
+    work();
     const Vec2 c = r[i], a = (r[(i + n - 1) % n] + c) * 0.5, b = (c + r[(i + 1) % n]) * 0.5;
     for (int k = 0; k <= kArcParts; ++k) {
+      work();
       const double t = static_cast<double>(k) / kArcParts, u = 1 - t;
       if (k < kArcParts || !closed) out.push_back(a * (u * u) + c * (2 * u * t) + b * (t * t));
     }
@@ -84,7 +89,11 @@ Ring subdivided(const Ring& r, double most, bool closed) {
   for (size_t i = 0; i < edges; ++i) {
     const Vec2 a = r[i], b = r[(i + 1) % r.size()];
     const double n = std::clamp(std::ceil(length(b - a) / most), 1.0, kMostParts);
-    for (double k = 0; k < n; ++k) out.push_back(a + (b - a) * (k / n));
+    reserveWork(out, n);
+    for (double k = 0; k < n; ++k) {
+      work();
+      out.push_back(a + (b - a) * (k / n));
+    }
   }
   if (!closed) out.push_back(r.back());
   return out;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "geom/region/clean.h"
 #include "geom/region/faces.h"
 
@@ -24,6 +25,9 @@ constexpr size_t kFew = 96;
 constexpr double kNoGain = 1.6;
 constexpr size_t kBearable = 600;
 constexpr int kMostIdle = 8;
+// Outlines that lie on each other gain nothing wherever they are cut. All such cuts together add so
+// many times the edges at most.
+constexpr size_t kIdleShare = 8;
 // Borders are moved so many times until they keep so many units from all corners.
 constexpr int kTries = 64;
 constexpr double kClearance = 4;
@@ -83,10 +87,11 @@ size_t countOf(const std::vector<Ring>& rings) {
 
 class Tiles {
  public:
-  explicit Tiles(const WithinBox& within) : within_(within) {}
+  Tiles(const WithinBox& within, size_t edges) : within_(within), spare_(kIdleShare * edges) {}
 
   // `idle`: so many cuts before this box gained nothing.
   void divide(Operands o, const Box2& box, int idle) {
+    work(64);
     shortenOutside(o.a, box);
     shortenOutside(o.b, box);
     const size_t count = countOf(o.a) + countOf(o.b);
@@ -99,10 +104,12 @@ class Tiles {
       }
     }
     const bool gains = static_cast<double>(best.count) < kNoGain * static_cast<double>(count);
-    if (best.count == 0 || (!gains && count <= kBearable)) {
+    const size_t more = best.count > count ? best.count - count : 0;
+    if (best.count == 0 || (!gains && (count <= kBearable || more > spare_))) {
       for (Ring& r : within_(o, box)) rings_.push_back(std::move(r));
       return;
     }
+    if (!gains) spare_ -= more;
     (best.alongX ? atX_ : atY_).push_back(best.alongX ? best.low.max.x : best.low.max.y);
     o = {};
     divide(std::move(best.inLow), best.low, gains ? 0 : idle + 1);
@@ -211,6 +218,8 @@ class Tiles {
   }
 
   const WithinBox& within_;
+  // Edges that idle cuts may still add.
+  size_t spare_;
   std::vector<Ring> rings_;
   std::vector<double> atX_, atY_;
 };
@@ -220,6 +229,7 @@ class Tiles {
 void shortenOutside(std::vector<Ring>& rings, const Box2& box) {
   for (Ring& r : rings) {
     const size_t n = r.size();
+    work(2 * n);
     Ring out;
     for (size_t i = 0; i < n; ++i) {
       const Vec2 before = out.empty() ? r[n - 1] : out.back();
@@ -235,7 +245,7 @@ void shortenOutside(std::vector<Ring>& rings, const Box2& box) {
 
 bool resultInTiles(Operands operands, const Box2& box, const WithinBox& within,
                    const IsInput& isInput, Region& out) {
-  Tiles tiles(within);
+  Tiles tiles(within, countOf(operands.a) + countOf(operands.b));
   tiles.divide(std::move(operands), box, 0);
   return tiles.together(isInput, out);
 }

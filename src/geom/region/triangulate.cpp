@@ -11,6 +11,7 @@
 
 #include <algorithm>
 
+#include "base/work.h"
 #include "geom/region/segment_grid.h"
 #include "math/predicates.h"
 
@@ -143,6 +144,7 @@ class Clipping {
       double twice = 0;
       uint32_t n = first;
       do {
+        work();
         seen[n] = true;
         twice += cross(at(n) - at(first), at(nodes_[n].next) - at(first));
         n = nodes_[n].next;
@@ -180,6 +182,7 @@ class Clipping {
     for (const uint32_t outer : outers_) {
       uint32_t n = outer;
       do {
+        work();
         const Vec2 d = at(n) - at(tip);
         if (d.x >= 0) heap.push_back({dot(d, d), n});
         n = nodes_[n].next;
@@ -189,6 +192,7 @@ class Clipping {
     std::make_heap(heap.begin(), heap.end());
     uint32_t chosen = heap.front().node;
     while (!heap.empty()) {
+      work(1 + bridges_.size());
       const uint32_t candidate = heap.front().node;
       if (sees(tip, candidate, edges, grid)) {
         chosen = candidate;
@@ -288,6 +292,7 @@ class Clipping {
         const size_t cell =
             static_cast<size_t>(y) * static_cast<size_t>(side_) + static_cast<size_t>(x);
         for (uint32_t k = starts_[cell]; k < starts_[cell + 1]; ++k) {
+          work();
           const uint32_t r = items_[k];
           if (!nodes_[r].blocks || r == p || r == n || r == q) continue;
           if (blocksEar(r, a, b, c, box)) return false;
@@ -331,6 +336,7 @@ class Clipping {
       n = nodes_[n].next;
     } while (n != start);
     while (remaining_ > 3) {
+      work();
       const uint32_t next = nodes_[n].next;
       if (isEar(n)) {
         emit(n);
@@ -354,6 +360,7 @@ class Clipping {
   uint32_t force(uint32_t n) {
     uint32_t convex = n;
     for (uint32_t i = 0, k = n; i < remaining_; ++i, k = nodes_[k].next) {
+      work();
       const int t = turn(k);
       if (t == 0) {
         convex = k;

@@ -11,6 +11,7 @@
 #include <map>
 #include <utility>
 
+#include "base/work.h"
 #include "geom/region/clean.h"
 #include "geom/region/triangulate.h"
 
@@ -36,6 +37,7 @@ class Flips {
   std::vector<Triangle> run() {
     size_t left = kFlipsEach * triangles_.size();
     while (!open_.empty() && left > 0) {
+      work(8);
       const Edge e = open_.back();
       open_.pop_back();
       if (flip(e)) --left;

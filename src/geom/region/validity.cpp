@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "geom/region/clean.h"
 #include "geom/region/segment_grid.h"
 #include "math/predicates.h"
@@ -56,6 +57,7 @@ std::vector<EdgePlace> placesOf(const std::vector<Ring>& rings) {
   std::vector<EdgePlace> places;
   for (uint32_t r = 0; r < rings.size(); ++r) {
     const auto n = static_cast<uint32_t>(rings[r].size());
+    work(n);
     for (uint32_t i = 0; i < n; ++i) places.push_back({r, i, n});
   }
   return places;
@@ -100,6 +102,7 @@ void forNearPairs(const std::vector<Segment>& edges, double margin, Visit&& visi
   for (size_t i = 0; i < order.size(); ++i) {
     const Extent& e = order[i];
     for (size_t k = i + 1; k < order.size() && order[k].left <= e.right; ++k) {
+      work();
       if (order[k].bottom > e.top || e.bottom > order[k].top) continue;
       if (!visit(std::min(e.edge, order[k].edge), std::max(e.edge, order[k].edge))) return;
     }
@@ -187,6 +190,7 @@ bool allClear(const std::vector<Ring>& rings, double distance) {
   for (const Ring& r : rings) {
     const size_t n = r.size();
     if (n < 3) return false;
+    work(n);
     for (size_t i = 0, j = n - 1; i < n; j = i++) {
       const double l = length(r[i] - r[j]);
       if (!(l > 1.0001 * distance) || !std::isfinite(l)) return false;
@@ -217,6 +221,7 @@ bool forMeetingPairs(const std::vector<Box2>& boxes, Visit&& visit) {
   });
   for (size_t i = 0; i < order.size(); ++i) {
     for (size_t k = i + 1; k < order.size(); ++k) {
+      work();
       if (boxes[order[k]].min.x > boxes[order[i]].max.x) break;
       if (!boxesMeet(boxes[order[i]], boxes[order[k]])) continue;
       if (!visit(std::max(order[i], order[k]), std::min(order[i], order[k]))) return false;
@@ -285,6 +290,7 @@ bool nestedProperly(const std::vector<Ring>& rings, const std::vector<Box2>& box
     if (signedArea(rings[i]) >= 0) return false;
     if (!liesOn(rings[i], rings[first], Where::Inside, contacts.touch(i, first))) return false;
     for (uint32_t j = first + 1; j < i; ++j) {
+      work();
       if (!boxesMeet(boxes[i], boxes[j])) continue;
       if (!liesOn(rings[i], rings[j], Where::Outside, contacts.touch(i, j))) return false;
       if (!liesOn(rings[j], rings[i], Where::Outside, contacts.touch(i, j))) return false;
@@ -313,6 +319,7 @@ bool allApart(const Region& r, const std::vector<Box2>& boxes, const std::vector
               const Contacts& contacts) {
   const auto touch = [&](uint32_t i, uint32_t j) {
     for (uint32_t a = 0; a <= r[i].holes.size(); ++a) {
+      work(1 + r[j].holes.size());
       for (uint32_t b = 0; b <= r[j].holes.size(); ++b) {
         if (contacts.touch(first[i] + a, first[j] + b)) return true;
       }

@@ -14,6 +14,7 @@
 #include <set>
 
 #include "base/random.h"
+#include "base/work.h"
 #include "geom/region/autoindex.h"
 #include "geom/region/faces.h"
 #include "geom/region/grid_partition.h"
@@ -59,6 +60,7 @@ class Buckets {
     for (int y = std::max(0, cy - ring); y <= std::min(ny_ - 1, cy + ring); ++y) {
       const bool whole = y == cy - ring || y == cy + ring;
       for (int x = cx - ring; x <= cx + ring; x += whole || ring == 0 ? 1 : 2 * ring) {
+        work();
         if (x < 0 || x >= nx_) continue;
         const std::vector<size_t>& here = of_[index(x, y)];
         out.insert(out.end(), here.begin(), here.end());
@@ -105,6 +107,7 @@ std::vector<size_t> neighboursOf(size_t i, std::span<const Disc> sites, const Bu
     const double limit = dot(normal, own + sites[k].centre) / 2;
     std::vector<Corner> next;
     for (size_t c = 0; c < cell.size(); ++c) {
+      work();
       const Corner& a = cell[c];
       const Corner& b = cell[(c + 1) % cell.size()];
       const double da = dot(normal, a.at) - limit, db = dot(normal, b.at) - limit;
@@ -125,6 +128,7 @@ std::vector<size_t> neighboursOf(size_t i, std::span<const Disc> sites, const Bu
       return da != db ? da < db : a < b;
     });
     for (const size_t k : order) {
+      work();
       if (away(k) > 2 * reach()) break;
       halve(k);
     }
@@ -228,6 +232,7 @@ class Voronoi {
     std::vector<bool> same(sites.size(), false);
     for (size_t a = 0; a < byX.size(); ++a) {
       for (size_t b = a + 1; b < byX.size() && byX[b].first - byX[a].first < kSameSite; ++b) {
+        work();
         const size_t i = byX[a].second, k = byX[b].second;
         if (length(sites[i].centre - sites[k].centre) < kSameSite) same[std::max(i, k)] = true;
       }
@@ -488,6 +493,7 @@ class Voronoi {
     std::vector<bool> clear(meetings.size(), true);
     for (size_t i = 0; i < order.size(); ++i) {
       for (size_t k = i + 1; k < order.size(); ++k) {
+        work();
         const size_t a = order[i], b = order[k];
         if (boxes[b].min.x > boxes[a].max.x) break;
         if (convexOverlap(meetings[a].hull, meetings[b].hull)) clear[a] = clear[b] = false;
@@ -613,6 +619,7 @@ class Voronoi {
       std::set<uint32_t> sites;
       bool boundary = false;
       for (size_t k = i; k < corners.size() && corners[k].at.x - corners[i].at.x <= near; ++k) {
+        work();
         if (used[k] || length(corners[k].at - corners[i].at) > near) continue;
         used[k] = true;
         sites.insert(corners[k].cell);

@@ -11,6 +11,8 @@
 #include <map>
 #include <numeric>
 
+#include "base/work.h"
+
 namespace gable::skeleton {
 
 namespace {
@@ -139,6 +141,7 @@ void Assembly::contractShortArcs() {
 void Assembly::simplify(Loop& loop) const {
   bool changed = true;
   while (changed && loop.size() > 2) {
+    work(loop.size());
     changed = false;
     Loop kept;
     for (const uint32_t v : loop) {
@@ -170,6 +173,7 @@ bool Assembly::linkGroup(uint32_t group, std::vector<Half>& list) {
   size_t usedCount = 0, seek = 0;
   uint32_t begin = first;
   while (usedCount < list.size()) {
+    work();
     Loop loop;
     uint32_t v = begin;
     do {
@@ -250,6 +254,7 @@ size_t Assembly::cornerFacingUp(const Loop& loop, uint32_t v, const FaceView& vi
   const size_t n = loop.size();
   const Vec2 up{0, 1};
   for (size_t i = 0; i < n; ++i) {
+    work();
     if (loop[i] != v) continue;
     const Vec2 out = view(vertices_[loop[(i + 1) % n]]),
                in = view(vertices_[loop[(i + n - 1) % n]]);
@@ -266,6 +271,7 @@ Assembly::Above Assembly::findAbove(const Loop& loop, size_t s, const FaceView& 
   Above above;
   const size_t n = loop.size();
   for (size_t i = 0; i < n; ++i) {
+    work();
     const Vec2 p = view(vertices_[loop[i]]), q = view(vertices_[loop[(i + 1) % n]]);
     if (i != s && std::abs(p.x) <= slack) {
       const bool beside = i == (s + 1) % n || (i + 1) % n == s;
@@ -285,6 +291,7 @@ Assembly::Above Assembly::findAbove(const Loop& loop, size_t s, const FaceView& 
 void Assembly::insertAcross(uint32_t a, uint32_t b, uint32_t fresh) {
   for (Loop& l : loops_) {
     for (size_t i = 0; i < l.size(); ++i) {
+      work();
       if (l[i] != b || l[(i + 1) % l.size()] != a) continue;
       l.insert(l.begin() + static_cast<std::ptrdiff_t>(i + 1), fresh);
       return;
@@ -312,6 +319,7 @@ bool Assembly::cutAt(const Trace::Merge& merge) {
   uint32_t which = kNone;
   size_t s = 0;
   for (const uint32_t piece : loopsOfGroup_[group]) {
+    work();
     s = cornerFacingUp(loops_[piece], start, view);
     if (s == loops_[piece].size()) continue;
     which = piece;
@@ -366,6 +374,7 @@ void Assembly::replaceLoop(uint32_t which, Loop one, Loop two, uint32_t group) {
   for (uint32_t k = 0; k < loopOf_.size(); ++k) {
     if (loopOf_[k] != which) continue;
     for (size_t i = 0; i < l.size(); ++i) {
+      work();
       if (l[i] == in_.edges[k].from && l[(i + 1) % l.size()] == in_.edges[k].to) loopOf_[k] = added;
     }
   }

@@ -12,6 +12,7 @@
 #include <map>
 #include <numeric>
 
+#include "base/work.h"
 #include "geom/skeleton/roof.h"
 #include "geom/skeleton/roof_pieces.h"
 #include "math/trig.h"
@@ -53,6 +54,7 @@ bool isUpright(double weight) { return weight <= 0; }
 void addSkeleton(const Skeleton& s, const Plan& plan, RoofPieces& roof) {
   for (size_t v = s.inputCount; v < s.vertices.size(); ++v) roof.addVertex(s.vertices[v]);
   for (const SkeletonFace& f : s.faces) {
+    work(8);
     if (f.loop.size() < 3) continue;
     const uint32_t e = roof.edgeNumber(f.ring, f.edge);
     if (f.step || isUpright(plan.weights[f.ring][f.edge])) {
@@ -128,6 +130,7 @@ class GableStrip {
 uint32_t GableStrip::slopeAt(uint32_t from, uint32_t to) const {
   for (const SkeletonFace& f : inside_.faces) {
     for (size_t i = 0; i < f.loop.size(); ++i) {
+      work();
       if (f.loop[i] == from && f.loop[(i + 1) % f.loop.size()] == to) {
         return roof_.edgeNumber(f.ring, f.edge);
       }
@@ -147,6 +150,7 @@ bool GableStrip::cut(std::vector<uint32_t>& strip, uint32_t vertex, Vec2 directi
   double nearest = std::numeric_limits<double>::infinity(), share = 0;
   size_t hit = n;
   for (size_t i = 0; i < n; ++i) {
+    work();
     const size_t j = (i + 1) % n;
     if (i == s || j == s) continue;
     const Vec2 p = roof_.vertex(strip[i]).xy - origin, q = roof_.vertex(strip[j]).xy - origin;
@@ -185,6 +189,7 @@ bool GableStrip::add(uint32_t edge, const std::vector<uint32_t>& upright,
   top.push_back(upright[0]);
   std::vector<uint32_t> slopes;
   for (size_t i = 0; i + 1 < top.size(); ++i) {
+    work();
     slopes.push_back(slopeAt(top[i + 1], top[i]));
     if (slopes.back() == roof_.edgeCount()) return false;
   }
@@ -192,6 +197,7 @@ bool GableStrip::add(uint32_t edge, const std::vector<uint32_t>& upright,
   strip.insert(strip.begin() + 1, top.begin() + 1, top.end() - 1);
   const Vec2 outwards = slopeOf(roof_, plan_, edge).normal * -1.0;
   for (size_t i = 0; i + 1 < slopes.size(); ++i) {
+    work();
     const SlopePlane a = slopeOf(roof_, plan_, slopes[i]), b = slopeOf(roof_, plan_, slopes[i + 1]);
     Vec2 ridge = normalized(perpendicular(a.normal * a.rise - b.normal * b.rise));
     if (dot(ridge, outwards) < 0) ridge = -ridge;
@@ -223,6 +229,7 @@ Outside outsideOf(const RoofPieces& roof, const Plan& plan, uint32_t r) {
   std::vector<double> reach(n);
   double farthest = 0;
   for (size_t i = 0; i < n; ++i) {
+    work();
     back[i] = ring[n - 1 - i];
     reach[i] = plan.reach[r][(2 * n - 2 - i) % n];
     farthest = std::max(farthest, reach[i]);
@@ -258,10 +265,12 @@ Status addOverhangs(RoofPieces& roof, const Plan& plan, const Skeleton& inside) 
     const uint32_t first = roof.edgeNumber(r, 0);
     std::vector<uint32_t> number(s.vertices.size());
     for (uint32_t v = 0; v < s.vertices.size(); ++v) {
+      work();
       const bool corner = v >= frame && v < frame + n;
       number[v] = corner ? first + n - 1 - (v - frame) : outsideVertices.add(s.vertices[v].xy);
     }
     for (const SkeletonFace& f : s.faces) {
+      work(8);
       if (f.step || f.loop.size() < 3 || (r == 0 && f.ring == 0)) continue;
       const uint32_t k = (2 * n - 2 - f.edge) % n;
       if (plan.reach[r][k] <= 0) continue;
@@ -270,6 +279,7 @@ Status addOverhangs(RoofPieces& roof, const Plan& plan, const Skeleton& inside) 
       if (isUpright(plan.weights[r][k])) {
         const uint32_t e = first + k;
         for (const SkeletonFace& g : inside.faces) {
+          work(4);
           if (!g.step && roof.edgeNumber(g.ring, g.edge) == e && g.loop.size() > 2) {
             gables.add(e, g.loop, loop);
           }
@@ -353,6 +363,7 @@ Roof hipRoof(const Polygon& given, std::span<const std::vector<double>> angles, 
   for (size_t r = 0; r < plan.weights.size(); ++r) {
     const size_t n = plan.weights[r].size();
     for (size_t k = 0; k < n; ++k) {
+      work();
       const size_t source = reversed[r] ? n - 1 - k : k;
       const double angle = r < angles.size() && source < angles[r].size() ? angles[r][source] : 0;
       if (!(angle > 0 && angle <= 90)) return failedRoof(pitchStatus({RoofPitch::By::Angle, 0}));

@@ -12,6 +12,8 @@
 #include <set>
 #include <utility>
 
+#include "base/work.h"
+
 namespace gable::skeleton {
 
 namespace {
@@ -35,6 +37,7 @@ Vec3 loopNormal(const std::vector<SkeletonVertex>& vertices, const std::vector<u
   Vec3 n;
   const Vec3 origin = spaceOf(vertices[loop[0]]);
   for (size_t i = 1; i + 1 < loop.size(); ++i) {
+    work();
     n += cross(spaceOf(vertices[loop[i]]) - origin, spaceOf(vertices[loop[i + 1]]) - origin);
   }
   return normalized(n);
@@ -113,6 +116,7 @@ bool RoofPieces::join(uint32_t edgeNumber, std::vector<std::vector<uint32_t>>& l
   std::multiset<HalfEdge> edges;
   for (const auto& piece : pieces) {
     for (size_t i = 0; i < piece.size(); ++i) {
+      work(4);
       const HalfEdge h{piece[i], piece[(i + 1) % piece.size()]};
       const auto back = edges.find({h.second, h.first});
       if (back != edges.end())
@@ -122,6 +126,7 @@ bool RoofPieces::join(uint32_t edgeNumber, std::vector<std::vector<uint32_t>>& l
     }
   }
   while (!edges.empty()) {
+    work();
     std::vector<uint32_t> loop;
     const uint32_t first = edges.begin()->first;
     uint32_t v = first;
@@ -153,6 +158,7 @@ void RoofPieces::assignRoles(Roof& roof) const {
     const Vec3 normal = loopNormal(roof.vertices, roof.faces[f].loops[0].vertices);
     for (const RoofLoop& l : roof.faces[f].loops) {
       for (size_t i = 0; i < l.vertices.size(); ++i) {
+        work();
         faceAt[{l.vertices[i], l.vertices[(i + 1) % l.vertices.size()]}] = {f, normal};
       }
     }
@@ -205,6 +211,7 @@ void RoofPieces::evenRidges(Roof& roof) const {
   for (const RoofFace& f : roof.faces) {
     for (const RoofLoop& l : f.loops) {
       for (size_t i = 0; i < l.vertices.size(); ++i) {
+        work();
         if (l.edges[i] != RoofEdgeRole::Ridge) continue;
         const uint32_t a = l.vertices[i], b = l.vertices[(i + 1) % l.vertices.size()];
         onRidge[a] = onRidge[b] = 1;
@@ -241,6 +248,7 @@ void RoofPieces::dropStraightVertices(Roof& roof) {
     for (const RoofLoop& l : f.loops) {
       const size_t n = l.vertices.size();
       for (size_t i = 0; i < n; ++i) {
+        work();
         const Vec3 p = positionOf(l.vertices[(i + n - 1) % n]);
         const Vec3 q = positionOf(l.vertices[i]);
         const Vec3 r = positionOf(l.vertices[(i + 1) % n]);
@@ -280,6 +288,7 @@ void RoofPieces::rememberDropped(const Roof& roof, const std::vector<uint32_t>& 
                                  const std::vector<char>& bent) {
   const size_t n = loop.size();
   for (size_t i = 0; i < n; ++i) {
+    work();
     if (bent[loop[i]]) continue;
     size_t before = i, after = i;
     do before = (before + n - 1) % n;
@@ -300,6 +309,7 @@ void RoofPieces::startAtEaves(Roof& roof) const {
     size_t best = 0;
     double longest = 0;
     for (size_t i = 0; i < l.vertices.size(); ++i) {
+      work();
       if (l.edges[i] != RoofEdgeRole::Eave) continue;
       const uint32_t a = l.vertices[i], b = l.vertices[(i + 1) % l.vertices.size()];
       const double d = length(roof.vertices[b].xy - roof.vertices[a].xy);

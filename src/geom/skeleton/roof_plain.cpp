@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/work.h"
 #include "geom/skeleton/roof.h"
 #include "geom/skeleton/roof_pieces.h"
 #include "math/trig.h"
@@ -120,6 +121,7 @@ void markEaves(const Roof& roof, double tolerance, RoofLoop& loop) {
   const size_t n = loop.vertices.size();
   std::optional<size_t> first;
   for (size_t i = 0; i < n; ++i) {
+    work();
     const double a = roof.vertices[loop.vertices[i]].height;
     const double b = roof.vertices[loop.vertices[(i + 1) % n]].height;
     if (loop.edges[i] != RoofEdgeRole::Border || a > tolerance || b > tolerance) continue;
@@ -322,6 +324,7 @@ void RidgeCut::joinAcross() {
     return false;
   };
   for (size_t i = 0; i + 1 < onLine_.size(); ++i) {
+    work();
     const uint32_t a = onLine_[i], b = onLine_[i + 1];
     if (bordered(a, b) || !contains(polygon_, (at(a) + at(b)) * 0.5)) continue;
     borders_[0].push_back({a, b, -1});
@@ -337,6 +340,7 @@ size_t RidgeCut::sharpestLeft(const std::vector<SideBorder>& borders, const std:
   double least = 0;
   const Vec2 back = cut.at(borders[last].from) - cut.at(borders[last].to);
   for (size_t i = 0; i < borders.size(); ++i) {
+    work();
     if (used[i] || borders[i].from != borders[last].to) continue;
     const Vec2 out = cut.at(borders[i].to) - cut.at(borders[i].from);
     double inside = atan2Deg(cross(out, back), dot(out, back));
@@ -358,6 +362,7 @@ void RidgeCut::addSlopes(const std::vector<SideBorder>& borders) {
   std::vector<Part> outer, inner;
   std::vector<char> used(borders.size(), 0);
   for (size_t i = 0; i < borders.size(); ++i) {
+    work();
     if (used[i]) continue;
     Part part;
     for (size_t k = i; k < borders.size(); k = sharpestLeft(borders, used, k, *this)) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/work.h"
 #include "geom/skeleton/faces.h"
 #include "geom/skeleton/planes.h"
 #include "geom/skeleton/wavefront.h"
@@ -118,6 +119,7 @@ void dropDegenerate(Input& in, std::vector<InputEdge>& ring) {
     changed = false;
     std::vector<InputEdge> kept;
     for (const InputEdge& e : ring) {
+      work();
       if (in.points[e.from] == in.points[e.to]) {
         changed = true;
         if (!kept.empty()) kept.back().to = e.to;
@@ -192,6 +194,7 @@ std::vector<PlaneId> assignPlanes(const Input& in, const std::vector<const Input
   std::vector<Line> lines;
   std::vector<size_t> lineOf(edges.size());
   for (const size_t i : order) {
+    work();
     const InputEdge& e = *edges[i];
     const auto known = std::find_if(lines.begin(), lines.end(), [&](const Line& l) {
       return liesOn(in, l, *edges[l.edge], e, slack);
@@ -302,6 +305,7 @@ bool loosenContacts(Input& in, double reach) {
       bool touches = false;
       for (const auto& ring : in.rings) {
         for (const InputEdge& e : ring) {
+          work(2);
           if (e.from == p || e.to == p) continue;
           touches = touches || distanceTo(at(p), at(e.from), at(e.to)) <= reach;
         }

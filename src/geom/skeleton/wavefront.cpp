@@ -17,6 +17,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
+
 namespace gable::skeleton {
 
 namespace {
@@ -368,6 +370,7 @@ uint32_t Simulation::struckEdge(uint32_t v, PlaneId plane) const {
   const uint32_t p = vertices_[v].left, q = vertices_[v].right;
   const PlaneId P = planeOf(p), Q = planeOf(q);
   for (const uint32_t e : fragments_[plane]) {
+    work();
     if (e == p || e == q || e == nextId(q) || e == prevId(p)) continue;
     const PlaneId before = planeOf(prevId(e)), after = planeOf(nextId(e));
     if (planes_.side(P, Q, plane, after) * planes_.turn(plane, after) < 0) continue;
@@ -406,6 +409,7 @@ void Simulation::findCandidates(uint32_t v, const EventTime* after) {
                                            : 0;
   candidates_.clear();
   for (const PlaneId E : livePlanes_) {
+    work();
     if (E == P || E == Q) continue;
     const Plane& e = planes_[E];
     const double den = pq * e.ns + denA * e.na + denB * e.nb;
@@ -476,6 +480,7 @@ void Simulation::scheduleSplits(uint32_t v, const EventTime* after) {
     if (std::abs(mark.time.value) < 0x1p-40) mark.time.value = -0x1p-40;
     // Equal lows belong to the batch, since the next one starts strictly after the mark.
     for (size_t i = take; i < known; ++i) {
+      work();
       if (candidates_[i].low <= mark.time.value) std::swap(candidates_[i], candidates_[take++]);
     }
     batch *= 2;
@@ -510,6 +515,7 @@ WaveEnd Simulation::run() {
   const size_t corners = vertices_.size();
   // Equal and parallel neighbours first, while every corner still stands where it was put in.
   for (uint32_t v = 0; v < corners; ++v) {
+    work();
     if (!vertices_[v].alive) continue;
     const PlaneId P = planeOf(vertices_[v].left), Q = planeOf(vertices_[v].right);
     if (P == Q && nextId(vertices_[v].right) != vertices_[v].left) mergeAcross(v);
@@ -534,6 +540,7 @@ WaveEnd Simulation::run() {
   // pair of a corner and a plane; this is beyond any run that goes right.
   const size_t limit = 4096 + 64 * corners + corners * corners * 4;
   while (!stuck_ && aliveEdges_ > 0 && !heap_.empty()) {
+    work(16);
     if (++steps_ > limit) return WaveEnd::Stuck;
     const uint32_t id = pop();
     if (top_ != kNone && compareEvents(events_[id], level) > 0) break;

@@ -10,6 +10,7 @@
 
 #include "base/json.h"
 #include "base/number.h"
+#include "base/work.h"
 #include "geom/region/boolean.h"
 #include "geom/region/clean.h"
 #include "geom/region/region.h"
@@ -268,7 +269,17 @@ void GeoJsonReader::addPolygon(const JsonValue& rings) {
   Region holes;
   for (const Ring& h : p.holes) holes.push_back({h, {}});
   for (Polygon& h : holes) orient(h);
-  const Region left = subtract({{p.outer, {}}}, holes);
+  Region left;
+  const Status cut = guarded([&] {
+    left = subtract({{p.outer, {}}}, holes);
+    return Status();
+  });
+  if (!cut.ok()) {
+    complain(Severity::Error, "geojson-crossing",
+             "the holes of a polygon cannot be cut out: " + cut.message(),
+             "mend the polygon in a map editor");
+    return;
+  }
   complain(Severity::Warning, "geojson-holes",
            "holes of a polygon touch or cross each other or its outline and are merged",
            "mend the polygon in a map editor");

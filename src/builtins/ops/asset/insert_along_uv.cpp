@@ -11,6 +11,7 @@
 #include <string>
 #include <tuple>
 
+#include "base/work.h"
 #include "builtins/lists.h"
 #include "builtins/ops/shared/edit_mesh.h"
 #include "builtins/shared/materials.h"
@@ -53,6 +54,7 @@ class Collector {
     for (Vec3& p : placed.positions) p = patch.place(p);
     for (size_t i = 0; i < map.size(); ++i) map[i] = positionOf(placed.positions[i]);
     for (size_t f = 0; f < placed.faceCount(); ++f) {
+      work(4);
       if (placed.area(f) > 0) builder_.copyFace(placed, f, map, reversed);
     }
   }
@@ -80,6 +82,7 @@ std::vector<Patch> patchesOf(const Mesh& m, int set, bool alongNormals) {
   const std::vector<Vec3> normals = alongNormals ? vertexNormals(m) : std::vector<Vec3>();
   std::vector<Patch> patches;
   for (size_t f = 0; f < m.faceCount(); ++f) {
+    work();
     const MeshLoop& loop = m.loopsOf(f)[0];
     if (m.faces[f].loopCount != 1 || loop.cornerCount < 3 || loop.cornerCount > 4) continue;
     for (uint32_t i = 1; i + 1 < loop.cornerCount; ++i) {
@@ -123,6 +126,7 @@ bool addPatch(const Patch& patch, const Mesh& unit, bool mirrored, Collector& ou
   const bool reversed = (patch.det < 0) != mirrored;
   for (double u = u0; u < u1; ++u) {
     for (double v = v0; v < v1; ++v) {
+      work(16);
       Mesh copy = unit;
       for (Vec3& p : copy.positions) p = p + Vec3{u, 0, -(v + 1)};
       out.add(clipped(std::move(copy), patch), patch, reversed);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/work.h"
 #include "builtins/lists.h"
 #include "builtins/ops/shared/patchwork.h"
 #include "geom/mesh/topology.h"
@@ -35,6 +36,7 @@ class Convexifier {
       const Ring& ring = r == 0 ? p.outer : p.holes[r - 1];
       const auto n = static_cast<uint32_t>(ring.size());
       for (uint32_t i = 0; i < n; ++i) {
+        work();
         plane_.points.push_back(ring[i]);
         const uint32_t corner = plane_.cornerOf(r, i);
         const uint32_t tags = m.edgeTags.empty() ? 0 : m.edgeTags[corner];
@@ -51,6 +53,7 @@ class Convexifier {
     for (uint32_t t = 0; t < group_.size(); ++t) group_[t] = t;
     for (const Triangle& t : triangles_) rings_.push_back({t[0], t[1], t[2]});
     for (const Diagonal& d : diagonals_) {
+      work();
       const uint32_t a = find(d.left), b = find(d.right);
       if (a == b) continue;
       std::vector<uint32_t> ring = united(rings_[a], rings_[b], d);
@@ -74,6 +77,7 @@ class Convexifier {
   void findDiagonals() {
     std::vector<std::array<uint32_t, 3>> edges;
     for (uint32_t t = 0; t < triangles_.size(); ++t) {
+      work();
       for (size_t i = 0; i < 3; ++i) {
         edges.push_back({triangles_[t][i], triangles_[t][(i + 1) % 3], t});
       }
@@ -107,6 +111,7 @@ class Convexifier {
   bool isConvex(const std::vector<uint32_t>& ring) const {
     const size_t n = ring.size();
     for (size_t i = 0; i < n; ++i) {
+      work();
       const Vec2 a = plane_.points[ring[i]], b = plane_.points[ring[(i + 1) % n]],
                  c = plane_.points[ring[(i + 2) % n]];
       if (orientation(a, b, c) < 0) return false;
@@ -118,6 +123,7 @@ class Convexifier {
   void addGroup(uint32_t group, std::vector<PatchFace>& out) {
     std::vector<PatchEdge> edges;
     for (uint32_t t = 0; t < triangles_.size(); ++t) {
+      work();
       if (find(t) != group) continue;
       for (size_t i = 0; i < 3; ++i) {
         edges.push_back(edgeOf(triangles_[t][i], triangles_[t][(i + 1) % 3]));

@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/work.h"
 #include "builtins/lists.h"
 #include "builtins/ops/layout/shared/polylines.h"
 #include "builtins/ops/shared/face_plan.h"
@@ -51,6 +52,7 @@ std::vector<bool> streetEdges(const OpCall& call, const Mesh& m) {
   std::vector<bool> out(m.corners.size(), false);
   bool any = false;
   for (size_t c = 0; c < m.edgeTags.size(); ++c) {
+    work();
     out[c] = call.services().tags().has(m.edgeTags[c], kStreetTag);
     any = any || out[c];
   }
@@ -70,6 +72,7 @@ std::vector<uint32_t> itemsOfEdges(OpCall& call, const Mesh& m, const std::vecto
     const bool streets = isWord(call, item, "street");
     const Selector selector(item, call.services().pool(), directions);
     for (const Component& c : edges.list()) {
+      work();
       if (out[c.corner] != kNoItem) continue;
       const bool taken = streets ? street[c.corner]
                                  : selector.matches(c.what, &edges, call.services().tags(), count);
@@ -98,6 +101,7 @@ void addChains(const Ring& ring, const std::vector<bool>& chosen, std::vector<Ch
     return;
   }
   for (size_t k = 0; k < n; ++k) {
+    work();
     const size_t i = (first + k) % n;
     if (!chosen[i]) continue;
     if (!goesOn(i)) out.push_back({{ring[i]}, false});
@@ -129,6 +133,7 @@ std::vector<Chain> chainsOf(const Mesh& m, size_t face, const Frame& frame, Chos
     Ring ring;
     std::vector<bool> mine;
     for (uint32_t i = 0; i < loop.cornerCount; ++i) {
+      work();
       const uint32_t corner = loop.firstCorner + i;
       const Vec3 p = frame.toLocal(m.positions[m.corners[corner]]);
       ring.push_back({p.x, p.y});
@@ -163,6 +168,7 @@ std::vector<Path::Place> middlePlaces(const std::vector<Chain>& chains, const Sp
     double best = std::numeric_limits<double>::infinity();
     Vec2 facing = place.point;
     for (size_t i = 0; i < paths.size(); ++i) {
+      work(4);
       if (i == longest) continue;
       const Vec2 p = paths[i].at(paths[i].nearest(place.point)).point;
       if (length(p - place.point) >= best) continue;
@@ -260,6 +266,7 @@ bool tooMany(const Mesh& m, const Spacing& spacing, size_t items) {
   for (size_t f = 0; f < m.faceCount(); ++f) {
     for (const MeshLoop& loop : m.loopsOf(f)) {
       for (uint32_t i = 0; i < loop.cornerCount; ++i) {
+        work();
         const uint32_t next = loop.firstCorner + (i + 1) % loop.cornerCount;
         whole +=
             length(m.positions[m.corners[next]] - m.positions[m.corners[loop.firstCorner + i]]);
@@ -289,9 +296,11 @@ void emitAlongLines(OpCall& call, const Mesh& mesh, const Layout& layout, Emitte
       for (const Chain& chain : chains) {
         const std::vector<Path::Place> places = placesOn(chain, layout.spacing);
         for (size_t i = 0; i < places.size(); ++i) {
+          work(8);
           emitter.emit(plane, places[i], item.slot, i, places.size(), true);
         }
         for (size_t i = 0; sides && i < places.size(); ++i) {
+          work(8);
           const Path::Place back{places[i].point, places[i].tangent * -1.0};
           emitter.emit(plane, back, item.slot, i, places.size(), true);
         }

@@ -4,6 +4,7 @@
 // Footprints find their places on the faces of a shape: what finds none on the first face tries the
 // next. A wish that is not given is drawn on the face.
 #include "geom/plan/arrange.h"
+#include "base/work.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,6 +47,7 @@ double nearestEdge(const Polygon& p, Vec2 at) {
   Vec2 along{1, 0};
   const auto look = [&](const Ring& ring) {
     for (size_t i = 0; i < ring.size(); ++i) {
+      work();
       const Vec2 a = ring[i], d = ring[(i + 1) % ring.size()] - a;
       const double t = dot(d, d) > 0 ? std::clamp(dot(at - a, d) / dot(d, d), 0.0, 1.0) : 0;
       const double distance = length(at - (a + d * t));
@@ -99,6 +101,7 @@ std::vector<Footprint> wanted(const OpCall& call, TurnBy turn, const Array& rows
                               const Polygon& ground) {
   std::vector<Footprint> out;
   for (uint32_t r = 0; r < rows.rows; ++r) {
+    work(4);
     const double* n = rows.numbers.data() + size_t{r} * rows.columns;
     Footprint f{n[0], n[1], {}, 0};
     f.wish = rows.columns >= 4 ? Vec2{n[2], -n[3]} : drawnIn(call, ground, 2 * uint64_t{r});
@@ -144,6 +147,7 @@ std::vector<bool> streetOf(const Ground& ground, const Polygon& part) {
   size_t edge = 0;
   const auto collect = [&](const Ring& ring) {
     for (size_t i = 0; i < ring.size(); ++i, ++edge) {
+      work();
       if (ground.street[edge]) streets.emplace_back(ring[i], ring[(i + 1) % ring.size()]);
     }
   };
@@ -151,6 +155,7 @@ std::vector<bool> streetOf(const Ground& ground, const Polygon& part) {
   for (const Ring& hole : ground.polygon.holes) collect(hole);
   const auto mark = [&](const Ring& ring) {
     for (size_t i = 0; i < ring.size(); ++i) {
+      work(streets.size());
       const Vec2 at = (ring[i] + ring[(i + 1) % ring.size()]) * 0.5;
       out.push_back(std::any_of(streets.begin(), streets.end(), [&](const auto& s) {
         const Vec2 d = s.second - s.first;
@@ -243,6 +248,7 @@ Status applySpaced(OpCall& call, const ScatterSpaced& args) {
                             : scatterPoisson(ground.polygon, distance, edge, most, address);
     const Vec3 x = ground.frame.x, y = ground.frame.z;
     for (const Vec2 at : points) {
+      work(4);
       Shape child = call.shape();
       child.scope =
           call.shape().scope * Frame::of(ground.frame.point({at.x, at.y, 0}), x, y, cross(x, y));

@@ -4,6 +4,7 @@
 // Lines as geometry, and ribbons along them. A ribbon is the ground within half of its width, with
 // butt ends; its edges that run along the line are kerbs, as those of a roadway of `streets`.
 #include "geom/curve/curve.h"
+#include "base/work.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +29,7 @@ std::vector<Vec2> nextLine(const Array& a, size_t& row) {
   std::vector<Vec2> out;
   const size_t first = row;
   for (; row < a.rows; ++row) {
+    work();
     if (a.columns > 2 && !(at(row, 2) == at(first, 2))) break;
     out.push_back({at(row, 0), -at(row, 1)});
   }

@@ -4,6 +4,7 @@
 // Outlines from outlines. Each works face by face, in the face's plane; the hull alone takes all
 // points of the shape, in the plane of its first face.
 #include "geom/region/outline.h"
+#include "base/work.h"
 
 #include <algorithm>
 #include <cmath>
@@ -105,11 +106,13 @@ void addSlope(MeshBuilder& b, const Ground& g, const Polygon& p, const Points& l
   std::vector<uint32_t> position;
   for (const Ring& ring : ringsOf({p})) {
     for (const Vec2 at : ring) {
+      work();
       const bool isLow = std::binary_search(low.begin(), low.end(), std::make_pair(at.x, at.y));
       position.push_back(b.addPosition(fromPlanFrame(g.frame, at, isLow ? -drop : 0)));
     }
   }
   for (const Triangle& t : triangulateEvenly(p)) {
+    work();
     b.beginFace(g.materialSlot, g.tags, true);
     b.beginLoop();
     for (const uint32_t corner : t) b.addCorner(position[corner]);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/work.h"
 #include "builtins/lists.h"
 #include "builtins/ops/shared/edit_mesh.h"
 #include "builtins/ops/shared/frames.h"
@@ -75,6 +76,7 @@ std::vector<bool> turnsToAgree(const Mesh& m, const Topology& t, std::vector<uin
   uint32_t parts = 0;
   std::vector<uint32_t> open;
   for (uint32_t start = 0; start < m.faceCount(); ++start) {
+    work();
     if (part[start] != Topology::kNone) continue;
     part[start] = parts++;
     open.assign(1, start);
@@ -82,6 +84,7 @@ std::vector<bool> turnsToAgree(const Mesh& m, const Topology& t, std::vector<uin
       const uint32_t face = open.back();
       open.pop_back();
       for (const MeshLoop& loop : m.loopsOf(face)) {
+        work(loop.cornerCount);
         for (uint32_t i = 0; i < loop.cornerCount; ++i) {
           const uint32_t corner = loop.firstCorner + i;
           const auto uses = t.usesOf(t.edgeOf(corner));
@@ -121,6 +124,7 @@ void conform(Mesh& m, const Vec3& up) {
       upward[part[f]] += sign * dot(n, up);
       volume[part[f]] += sign * dot(n, m.at(m.loopsOf(f)[0].firstCorner) - origin);
       for (const MeshLoop& loop : m.loopsOf(f)) {
+        work(loop.cornerCount);
         for (uint32_t i = 0; i < loop.cornerCount; ++i) {
           if (t.usesOf(t.edgeOf(loop.firstCorner + i)).size() != 2) closed[part[f]] = false;
         }

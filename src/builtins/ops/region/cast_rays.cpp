@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Paths from centres to the boundary; the kernel is geom/region/rays.
+#include "base/work.h"
 #include "geom/region/rays.h"
 
 #include <algorithm>
@@ -96,6 +97,7 @@ Status targetsOf(OpCall& call, const RegionView& view, std::vector<RayTarget>& o
                      "(10, 4)\"");
   }
   for (double k = 0; k < n; ++k) {
+    work(8);
     const double a = 360 * k / n;
     out.push_back({RayTarget::Kind::Direction, {cosDeg(a), sinDeg(a)}});
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/number.h"
+#include "base/work.h"
 #include "builtins/lists.h"
 #include "builtins/ops/region/shared/region_job.h"
 #include "geom/region/autoindex.h"
@@ -51,8 +52,10 @@ Vec2 logicalCorner(const RegionView& view, uint32_t k) {
   const size_t n = r.size();
   const uint32_t count = std::max(1u, view.logicalCount());
   for (uint32_t step = 0; step < count; ++step) {
+    work();
     const uint32_t wanted = (k + step) % count;
     for (size_t i = 0; i < n; ++i) {
+      work(4);
       const size_t next = (i + 1) % n;
       if (view.marks()[i].logical == wanted && view.marks()[next].logical != wanted) return r[next];
     }
@@ -80,6 +83,7 @@ Status cornersBetween(OpCall& call, const RegionJob& job, size_t face, std::stri
   }
   constexpr double kLeastTurn = 15;
   for (size_t i = 0; i < r.size(); ++i) {
+    work();
     const size_t before = (i + r.size() - 1) % r.size();
     const Vec2 in = r[i] - r[before], out1 = r[(i + 1) % r.size()] - r[i];
     const double turn = std::fabs(atan2Deg(cross(in, out1), dot(in, out1)));
@@ -390,6 +394,7 @@ Status stationsOnChain(const OpCall& call, std::string_view text, std::span<cons
   std::vector<Station> flat;
   const Status status = stationsOf(call, text, straight, flat);
   for (const Station& s : flat) {
+    work(1 + lines.size());
     double along = s.at.x;
     size_t k = 0;
     while (k + 1 < lines.size() && along > lines[k].length()) along -= lines[k++].length();
@@ -403,6 +408,7 @@ Status stationsOnChain(const OpCall& call, std::string_view text, std::span<cons
 void mergeNear(std::vector<Station>& stations, double distance) {
   std::vector<Station> out;
   for (const Station& s : stations) {
+    work(1 + out.size());
     const auto near = std::find_if(
         out.begin(), out.end(), [&](const Station& o) { return length(o.at - s.at) < distance; });
     if (near == out.end()) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "base/work.h"
 #include "builtins/ops/shared/face_plan.h"
 #include "geom/mesh/face_plane.h"
 
@@ -24,6 +25,7 @@ std::vector<PatchEdge> withoutOpposites(std::vector<PatchEdge> edges) {
   std::stable_sort(edges.begin(), edges.end(), before);
   std::vector<bool> gone(edges.size(), false);
   for (size_t i = 0; i < edges.size(); ++i) {
+    work();
     if (gone[i]) continue;
     const PatchEdge twin{edges[i].to, edges[i].from};
     auto at = std::lower_bound(edges.begin(), edges.end(), twin, before);
@@ -36,6 +38,7 @@ std::vector<PatchEdge> withoutOpposites(std::vector<PatchEdge> edges) {
   }
   std::vector<PatchEdge> kept;
   for (size_t i = 0; i < edges.size(); ++i) {
+    work();
     if (!gone[i]) kept.push_back(edges[i]);
   }
   return kept;
@@ -57,6 +60,7 @@ std::vector<PatchLoop> chained(const std::vector<PatchEdge>& edges, std::span<co
     size_t best = edges.size();
     double bestTurn = 0;
     for (; at != edges.end() && at->from == edges[i].to; ++at) {
+      work();
       const auto k = static_cast<size_t>(at - edges.begin());
       if (used[k]) continue;
       const double turn = turnOf(in, points[at->to] - points[at->from]);
@@ -68,10 +72,12 @@ std::vector<PatchLoop> chained(const std::vector<PatchEdge>& edges, std::span<co
   };
   std::vector<PatchLoop> loops;
   for (size_t first = 0; first < edges.size(); ++first) {
+    work();
     if (used[first]) continue;
     PatchLoop loop;
     size_t i = first;
     while (i < edges.size()) {
+      work();
       used[i] = true;
       loop.push_back(edges[i]);
       if (edges[i].to == edges[first].from) break;
@@ -124,6 +130,7 @@ std::vector<Patch> patchesOf(std::vector<PatchEdge> edges, std::span<const Vec2>
     size_t owner = patches.size();
     double least = 0;
     for (size_t p = 0; p < outers.size(); ++p) {
+      work();
       const double area = signedArea(outers[p]);
       if (owner < patches.size() && area >= least) continue;
       if (!liesIn(outers[p], ring)) continue;
@@ -155,6 +162,7 @@ void PatchPlane::fit(int set) {
   const auto& uvs = mesh_.uvs[static_cast<size_t>(set)];
   double best = 0;
   for (size_t i = 1; i + 1 < r.size(); ++i) {
+    work();
     const Vec2 a = r[i] - r[0], b = r[i + 1] - r[0];
     const double det = cross(a, b);
     if (std::fabs(det) <= best) continue;
@@ -190,6 +198,7 @@ Mesh meshOfPatches(const Mesh& from, std::span<const PatchFace> faces) {
       b.beginLoop();
       const size_t n = loop.size();
       for (size_t i = 0; i < n; ++i) {
+        work();
         const PatchEdge& edge = loop[face.turned ? (n - i) % n : i];
         const PatchEdge& tagged = loop[face.turned ? n - 1 - i : i];
         uint32_t& position = number[edge.from];

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "geom/skeleton/skeleton.h"
 
 namespace gable {
@@ -34,6 +35,7 @@ Status SetBack::addFace(size_t face, std::span<const double> distance,
     const Ring& ring = r == 0 ? polygon.outer : polygon.holes[r - 1];
     weights.emplace_back();
     for (size_t i = 0; i < ring.size(); ++i) {
+      work();
       const uint32_t corner = w.plane->cornerOf(r, i);
       const bool moved = group[corner] != kNoGroup && distance[corner] > 0;
       weights[r].push_back(moved ? distance[corner] : 0);
@@ -51,6 +53,7 @@ Status SetBack::addFace(size_t face, std::span<const double> distance,
     }
     for (const SkeletonVertex& v : skeleton.vertices) w.height.push_back(v.height);
     for (const SkeletonFace& f : skeleton.faces) {
+      work(4);
       if (f.loop.empty()) continue;
       Strip s;
       s.corner = w.plane->cornerOf(f.ring, f.edge);
@@ -70,6 +73,7 @@ void SetBack::addEdges(const Work& w, const Strip& s, const std::vector<uint32_t
                        std::vector<PatchEdge>& out) {
   const size_t n = loop.size();
   for (size_t i = 0; i < n; ++i) {
+    work();
     PatchEdge e{loop[i], loop[(i + 1) % n], 0, 4 * s.corner};
     const bool low = w.height[e.from] == 0 && w.height[e.to] == 0;
     const bool high = w.height[e.from] >= kTop && w.height[e.to] >= kTop;
@@ -110,6 +114,7 @@ std::vector<PatchEdge> SetBack::faceOutline(const Work& w) {
     const auto n =
         static_cast<uint32_t>(r == 0 ? polygon.outer.size() : polygon.holes[r - 1].size());
     for (uint32_t i = 0; i < n; ++i) {
+      work();
       const uint32_t corner = w.corner[first + i];
       edges.push_back({first + i, first + (i + 1) % n, tagged(corner, "remainder"), 4 * corner});
     }

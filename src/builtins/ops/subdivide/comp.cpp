@@ -6,6 +6,7 @@
 // into axes of its own, where a rectangle becomes a primitive again.
 #include <cmath>
 
+#include "base/work.h"
 #include "builtins/lists.h"
 #include "builtins/ops/subdivide/shared/components.h"
 #include "builtins/ops/subdivide/shared/parts.h"
@@ -128,6 +129,7 @@ class FlatTags : public TagSource {
     // All faces of a box but the one opposite are beyond an edge, and beyond a vertex.
     const auto opposite = static_cast<BoxSide>(faces_[c.index].side ^ 1);
     for (size_t f = 0; f < count_; ++f) {
+      work();
       if (faces_[f].side != opposite) out.push_back(faces_[f].tags);
     }
   }
@@ -193,6 +195,7 @@ void splitFlatFaces(const Context& context) {
     std::array<uint32_t, 6> chosen{};
     size_t total = 0;
     for (uint32_t f = 0; f < count; ++f) {
+      work();
       Selectable what;
       what.normal = faces[f].normal;
       what.index = f;
@@ -203,6 +206,7 @@ void splitFlatFaces(const Context& context) {
     }
     const StringId name = context.nameOf(item, selector);
     for (size_t i = 0; i < total; ++i) {
+      work();
       Shape child = context.child(name, i, total);
       call.emit(flatChild(context, std::move(child), faces[chosen[i]], count), item.slot,
                 chosen[i]);
@@ -230,6 +234,7 @@ void addFaceTrimPlanes(Shape& s, const Shape& parent, const Mesh& mesh, const Co
   for (size_t i = 0; i < 3; ++i) extent = std::max(extent, std::fabs(s.size[i]));
   const MeshLoop& outer = mesh.loopsOf(c.face)[0];
   for (uint32_t i = 0; i < outer.cornerCount; ++i) {
+    work();
     const uint32_t corner = outer.firstCorner + i;
     const MeshEdge& e = edges.edges()[edges.edgeOf(corner)];
     if (e.uses != 2) continue;
@@ -242,6 +247,7 @@ void addFaceTrimPlanes(Shape& s, const Shape& parent, const Mesh& mesh, const Co
     if (extra.trim.size() == before) continue;
     const TrimPlane& plane = extra.trim.back();
     for (uint32_t k = 0; k < outer.cornerCount; ++k) {
+      work();
       const Vec3 p = parent.scope.point(mesh.at(outer.firstCorner + k));
       if (dot(plane.normal, p) <= plane.distance + 1e-6 * (1 + extent)) continue;
       extra.trim.pop_back();
@@ -296,6 +302,7 @@ void splitMesh(const Context& context, ComponentKind kind) {
     const Selector selector(item, call.services().pool(), directions);
     std::vector<uint32_t> chosen;
     for (uint32_t i = 0; i < all.list().size(); ++i) {
+      work();
       const Component& c = all.list()[i];
       if (taken[i] || isDegenerate(c, kind)) continue;
       if (!selector.matches(c.what, &all, call.services().tags())) continue;
@@ -311,6 +318,7 @@ void splitMesh(const Context& context, ComponentKind kind) {
     }
     const StringId name = context.nameOf(item, selector);
     for (size_t i = 0; i < sets.size(); ++i) {
+      work();
       emitComponents(context, *mesh, all, kind, sets[i], context.child(name, i, sets.size()),
                      item.slot, item.op == SelectOperator::Each);
     }

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/number.h"
+#include "base/work.h"
 #include "builtins/lists.h"
 #include "builtins/ops/shared/quarter_turn.h"
 #include "builtins/ops/subdivide/shared/cells.h"
@@ -99,6 +100,7 @@ class Margin {
     uint32_t piece = 0;
     for (size_t i = 0; i < u_.place.size(); ++i) {
       for (size_t j = 0; j < v_.place.size(); ++j, ++piece) {
+        work(4);
         const int border = (u_.place[i] != 0) + (v_.place[j] != 0);
         const RoleSlot& slot = slots[2 - border];
         Shape child;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "builtins/lists.h"
 #include "builtins/ops/shared/refit.h"
 #include "builtins/ops/subdivide/shared/parts.h"
@@ -68,10 +69,12 @@ class Surface {
   explicit Surface(const Mesh& m) : mesh_(m) {
     FaceTriangulator triangulator;
     for (size_t f = 0; f < m.faceCount(); ++f) {
+      work();
       triangulator.add(m, f, triangles_);
       faceOf_.resize(triangles_.size(), f);
     }
     for (const auto& t : triangles_) {
+      work();
       total_ += length(cross(m.at(t[1]) - m.at(t[0]), m.at(t[2]) - m.at(t[0])));
       upTo_.push_back(total_);
     }
@@ -92,6 +95,7 @@ class Surface {
   bool contains(const Vec3& p) const {
     bool inside = false;
     for (const auto& t : triangles_) {
+      work();
       const Vec3 a = mesh_.at(t[0]) - p, b = mesh_.at(t[1]) - p, c = mesh_.at(t[2]) - p;
       const double ab = a.x * b.z - a.z * b.x, bc = b.x * c.z - b.z * c.x,
                    ca = c.x * a.z - c.z * a.x;
@@ -122,6 +126,7 @@ Point inScope(const Shape& s, const Spread& spread, const Draws& draws) {
   Vec3 p;
   for (uint32_t a = 0; a < 3; ++a) {
     for (uint32_t attempt = 0; attempt < kTries; ++attempt) {
+      work(4);
       p[a] = spread.mean[a] + spread.deviation[a] * draws.normal(attempt, a);
       if (within(p[a], s.size[a])) break;
     }
@@ -134,6 +139,7 @@ Point onSurface(const Surface& surface, const Spread& spread, const Draws& draws
   Point best;
   double most = -1;
   for (uint32_t attempt = 0; attempt < kTries; ++attempt) {
+    work(4);
     const Point p =
         surface.at(draws.unit(attempt, 0), draws.unit(attempt, 1), draws.unit(attempt, 2));
     const double d = density(spread, p.at);
@@ -150,6 +156,7 @@ Point inVolume(const Surface& surface, const Box3& box, const Spread& spread, co
   Point best{box.center()};
   double most = -1;
   for (uint32_t attempt = 0; attempt < kTries; ++attempt) {
+    work(4);
     const Vec3 p = box.min + inBox(box.size(), draws, attempt);
     if (!surface.contains(p)) continue;
     const double d = density(spread, p);
@@ -231,6 +238,7 @@ Status applyScatter(OpCall& call, const Scatter& args) {
   const Box3 box = mesh->bounds();
   const Ref<Mesh> geometry = pointMesh();
   for (uint32_t i = 0; i < count; ++i) {
+    work(16);
     const Draws draws(call, i);
     const Point p = scope    ? inScope(s, spread, draws)
                     : volume ? inVolume(surface, box, spread, draws)

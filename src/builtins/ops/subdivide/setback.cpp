@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/work.h"
 #include "builtins/lists.h"
 #include "builtins/ops/shared/set_back.h"
 #include "builtins/ops/subdivide/shared/components.h"
@@ -30,6 +31,7 @@ std::vector<uint8_t> uvSidesOf(const Mesh& m, const Components& edges, int set) 
   for (size_t f = 0; f < m.faceCount(); ++f) {
     const PatchPlane plane(m, f);
     for (; at < edges.list().size() && edges.list()[at].face == f; ++at) {
+      work();
       const Component& c = edges.list()[at];
       const Vec3 out = plane.frame().toLocalDirection(c.z);
       const Vec2 d = plane.uvAlong(set, {out.x, out.y});
@@ -78,6 +80,7 @@ void chooseEdges(const OpCall& call, const Shape& s, int uvSet, EdgeChoice& choi
     if (isRemainder(call, item)) continue;
     const Selector selector(item, call.services().pool(), directions);
     for (const Component& c : choice.edges.list()) {
+      work();
       if (choice.group[c.corner] != kNoGroup) continue;
       Selectable what = c.what;
       what.uvSides = uvSides[c.corner];
@@ -117,6 +120,7 @@ class Emitter {
 
 Status setBackFaces(EdgeChoice& choice, SetBack& job) {
   for (size_t f = 0; f < choice.mesh->faceCount(); ++f) {
+    work();
     if (choice.mesh->normal(f) == Vec3{}) continue;
     const Status status = job.addFace(f, choice.distance, choice.group);
     if (!status.ok()) return status;

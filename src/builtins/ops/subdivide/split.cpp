@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/number.h"
+#include "base/work.h"
 #include "builtins/lists.h"
 #include "builtins/ops/subdivide/shared/parts.h"
 #include "builtins/ops/subdivide/shared/slabs.h"
@@ -123,6 +124,7 @@ Status splitUv(OpCall& call, const Split& args) {
   for (const Vec2 uv : mesh->uvs[static_cast<size_t>(set)]) field.push_back(uv[a]);
   std::vector<MeshPart> parts = sliceField(*mesh, field, cuts.at);
   for (size_t i = 0; i < pieces.size(); ++i) {
+    work(4);
     Mesh& part = parts[cuts.slab[i]].mesh;
     if (part.empty()) continue;
     Shape child = s;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "builtins/lists.h"
 #include "builtins/ops/subdivide/shared/slabs.h"
 #include "builtins/ops/subdivide/shared/split_sizes.h"
@@ -27,6 +28,7 @@ class AreaBefore {
   double at(double s) const {
     double sum = 0;
     for (const Edge& e : edges_) {
+      work();
       const double from = std::min(e.a.x, s), to = std::min(e.b.x, s);
       if (from == to) continue;
       const double slope = (e.b.y - e.a.y) / (e.b.x - e.a.x);
@@ -63,6 +65,7 @@ class AreaBefore {
     total_ += m.area(f);
     for (const MeshLoop& loop : m.loopsOf(f)) {
       for (uint32_t i = 0; i < loop.cornerCount; ++i) {
+        work();
         const Vec3 a = m.at(loop.firstCorner + i);
         const Vec3 b = m.at(loop.firstCorner + (i + 1) % loop.cornerCount);
         edges_.push_back(

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "base/work.h"
 #include "builtins/lists.h"
 #include "builtins/ops/subdivide/shared/cells.h"
 #include "shape/op_call.h"
@@ -24,6 +25,7 @@ Status flatFailure(const OpCall& call) {
 void emitCells(OpCall& call, Cells& cells, size_t rows, size_t columns) {
   const auto total = static_cast<uint32_t>(rows * columns);
   for (uint32_t k = 0; k < total; ++k) {
+    work();
     Shape child;
     if (!cells.take(k / columns, k % columns, child)) continue;
     child.split = {k, total};

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/work.h"
 #include "builtins/lists.h"
 #include "builtins/ops/shared/edit_mesh.h"
 #include "builtins/ops/subdivide/shared/uv_extent.h"
@@ -101,6 +102,7 @@ void normalize(UvSet& uvs, const std::vector<uint32_t>& corners, NormalizeMode m
     factor.x = 1;
   }
   for (const uint32_t c : corners) {
+    work();
     uvs[c] = {(uvs[c].x - by.x) * factor.x, (uvs[c].y - by.y) * factor.y};
   }
 }
@@ -112,6 +114,7 @@ Status applyNormalize(OpCall& call, const NormalizeUv& args) {
     std::vector<uint32_t> corners;
     for (size_t f = 0; f < m.faceCount(); ++f) {
       for (const MeshLoop& loop : m.loopsOf(f)) {
+        work(loop.cornerCount);
         for (uint32_t i = 0; i < loop.cornerCount; ++i) corners.push_back(loop.firstCorner + i);
       }
       if (!separate) continue;
