@@ -8,7 +8,6 @@
 // operation leaves its children on children_; they run one after the other before the rule goes on.
 
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "base/check.h"
@@ -376,7 +375,19 @@ bool Machine::splitAsBefore(const Instruction& i, Activation& a, const Value* va
   return true;
 }
 
-// The door of operations. What unwinds out of one ends here, and the shape is as it was before. A
+namespace {
+
+template <class Run>
+Status guardedKeeping(Shape& shape, const Run& run) {
+  Shape before = shape;
+  Status status = guarded(run);
+  if (!status.ok()) shape = std::move(before);
+  return status;
+}
+
+}  // namespace
+
+// The door of operations. What unwinds out of one ends here, and the shape is as it was before: a
 // copy is kept where the operation may get so far as to take the shape apart.
 Status Machine::apply(OpCall& call, const Instruction& i, std::span<const Value> arguments,
                       const BlockInput* block) {
@@ -385,16 +396,12 @@ Status Machine::apply(OpCall& call, const Instruction& i, std::span<const Value>
     Status refused = refusedNumber(spec, program_.operations[i.a].form, arguments, pool());
     if (!refused.ok()) return refused;
   }
-  std::optional<Shape> before;
-  if (spec.stepsPerVertex > 1 || call.shape().geometry.kind == GeometryKind::Mesh) {
-    before.emplace(call.shape());
-  }
-  Status status = guarded([&] {
+  const auto run = [&] {
     return remembers_ && worksInTheOpen() ? applyRemembering(call, i, arguments, block)
                                           : call.run();
-  });
-  if (!status.ok() && before) call.shape() = std::move(*before);
-  return status;
+  };
+  const bool whole = spec.stepsPerVertex == 1 && call.shape().geometry.kind != GeometryKind::Mesh;
+  return whole ? guarded(run) : guardedKeeping(call.shape(), run);
 }
 
 void Machine::operation(const Instruction& i, const Value* constants) {

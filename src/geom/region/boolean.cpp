@@ -56,9 +56,10 @@ class Grid {
     }
   }
   // Leaves room for what is moved outward so far.
-  void widen(double distance) {
-    if (box_.empty() || !std::isfinite(distance)) return;
-    const Vec2 d{std::fabs(distance), std::fabs(distance)};
+  void widen(double distance, double miterLimit) {
+    if (box_.empty()) return;
+    const double reach = std::min(std::fabs(distance) * std::max(miterLimit, 1.0), 1e300);
+    const Vec2 d{reach, reach};
     const Vec2 low = box_.min - d, high = box_.max + d;
     box_.include(low);
     box_.include(high);
@@ -479,14 +480,16 @@ Region repaired(const std::vector<Ring>& rings, FillRule rule) {
 }
 
 Region offset(const Region& r, double distance, const OffsetOptions& given) {
+  if (!std::isfinite(distance)) return {};
   const OffsetOptions options = bounded(given, distance);
   const std::vector<Ring> rings = orientedRings(r);
+  // No place of a region is farther from its boundary.
+  if (distance < 0 && -distance > length(boundsOf(rings).size())) return {};
   Grid grid;
   grid.include(rings);
-  grid.widen(distance * std::max(options.miterLimit, 1.0));
+  grid.widen(distance, options.miterLimit);
   grid.settle();
   const Paths paths = grid.toPaths(rings);
-  if (!std::isfinite(distance)) return {};
   // Clipper's offset wants clean input; what the caller has may touch or cross.
   Region clear;
   const Paths clean = nestClear(toRings(paths), kClear, clear)
@@ -501,7 +504,7 @@ Region thicken(const std::vector<Vec2>& line, double distance, const OffsetOptio
   const OffsetOptions options = bounded(given, distance);
   Grid grid;
   grid.include({line});
-  grid.widen(distance * std::max(options.miterLimit, 1.0));
+  grid.widen(distance, options.miterLimit);
   grid.settle();
   const Paths paths = grid.toPaths({line});
   return inflate(paths, std::fabs(distance), options, endType(options.join), grid);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/random.h"
+#include "base/work.h"
 #include "geom/region/clean.h"
 #include "geom/region/corpus.h"
 
@@ -146,6 +148,62 @@ TEST(Boolean, corpusOffsetsAreValidAndNest) {
     }
   }
   EXPECT_EQ(broken, 0u) << "of " << 2 * cases.size();
+}
+
+// Says stop after so many units.
+class Allowance : public WorkMeter {
+ public:
+  explicit Allowance(uint64_t units) : left_(units) {}
+  bool look(uint64_t units, uint64_t) override {
+    if (units > left_) return false;
+    left_ -= units;
+    return true;
+  }
+
+ private:
+  uint64_t left_;
+};
+
+Ring randomRing(uint64_t seed, uint64_t corners) {
+  Ring r;
+  for (uint64_t i = 0; i < corners; ++i) {
+    r.push_back({randomIn(hashCombine(seed, 2 * i), 0, 100),
+                 randomIn(hashCombine(seed, 2 * i + 1), 0, 100)});
+  }
+  return r;
+}
+
+// Under the address sanitizer: what a sweep had made when it was stopped is freed.
+TEST(Boolean, mayBeStoppedAnywhere) {
+  const Region a{{randomRing(1, 150), {}}}, b{{randomRing(2, 150), {}}};
+  const Region whole = unite(a, b);
+  size_t stopped = 0;
+  for (uint64_t allowance = 0; allowance < 200; ++allowance) {
+    Allowance meter(allowance * 4096);
+    const WorkScope scope(meter);
+    Region result;
+    const Status status = guarded([&] {
+      result = unite(a, b);
+      result = offset(result, 0.5);
+      return Status();
+    });
+    stopped += status.ok() ? 0 : 1;
+  }
+  EXPECT_GT(stopped, 20u);
+  EXPECT_EQ(area(unite(a, b)), area(whole));
+}
+
+TEST(Boolean, whatReachesTooFarIsGivenUp) {
+  const Region square{{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {}}};
+  for (const double distance : {1e16, 1e300, 1e308}) {
+    const Status status = guarded([&] {
+      const Region moved = offset(square, distance);
+      return Status();
+    });
+    EXPECT_STREQ(status.code(), "beyond-range") << distance;
+  }
+  EXPECT_TRUE(offset(square, -1e308).empty());
+  EXPECT_EQ(offset(square, 1e12).size(), 1u);
 }
 
 }  // namespace
