@@ -166,7 +166,7 @@ Program compileText(const char* text, const std::shared_ptr<ValuePool>& pool) {
       lang::analyse(std::move(input), builtinCatalogue(), *pool, nullptr, sources, diagnostics);
   for (const Diagnostic& d : diagnostics.all()) std::fputs(format(d, sources).c_str(), stderr);
   GABLE_CHECK(!diagnostics.hasErrors());
-  return lang::compile(resolved, builtinCatalogue(), pool, sources);
+  return lang::compile(resolved, builtinCatalogue(), pool, sources, diagnostics);
 }
 
 // Of the processor, on this thread: other programs do not count.

@@ -16,6 +16,7 @@
 #include "io/image/image.h"
 #include "io/importers/asset.h"
 #include "render/render.h"
+#include "runtime/output.h"
 #include "scene/dump.h"
 #include "scene/flatten.h"
 
@@ -262,7 +263,17 @@ Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& set
   for (const auto& [index, seed] : settings.shapeSeeds) {
     if (index < initial.size()) initial[index].seed = seed;
   }
-  impl->result = gable::derive(r.program, initial, *r.tables, options);
+  const bool wasFull = r.tables->full;
+  if (!wasFull) impl->result = gable::derive(r.program, initial, *r.tables, options);
+  if (r.tables->full) {
+    // Tables grow with each derivation; now this one has its own. Nothing can be taken over from
+    // it.
+    impl->result = {};
+    Environment own(r.pool, *r.project);
+    options.remember = false;
+    options.before = nullptr;
+    impl->result = gable::derive(r.program, initial, own, options);
+  }
   impl->result.scene.geoOrigin = shapes.impl().geoOrigin;
   const Messages made = toMessages(inWordsOf(r.dialect, impl->result.diagnostics), r.sources);
   impl->messages.insert(impl->messages.end(), made.begin(), made.end());
@@ -293,9 +304,10 @@ std::string Model::attributesJson(size_t shape) const {
   JsonWriter json(out);
   json.beginObject();
   if (shape < impl_->result.attributes.size()) {
-    for (const AttributeValue& a : impl_->result.attributes[shape]) {
-      json.key(a.name);
-      writeAttribute(json, a);
+    for (const EvaluatedAttribute& a : impl_->result.attributes[shape]) {
+      const std::string& name = impl_->rules->program.attributes[a.attribute].name;
+      json.key(name);
+      writeAttribute(json, plainAttribute(name, a.value, *impl_->rules->pool));
     }
   }
   json.endObject();

@@ -81,7 +81,7 @@ void takeTables(Rules::Impl& to, const std::string& root, const Rules::Impl* bef
   to.project = std::make_shared<Project>(root);
   if (before && before->project && before->project->root() == to.project->root()) {
     to.project = before->project;
-    if (before->generation < kGenerations) {
+    if (before->generation < kGenerations && !before->tables->full) {
       to.pool = before->pool;
       to.tables = before->tables;
       to.generation = before->generation + 1;
@@ -136,8 +136,9 @@ Rules Rules::parse(const std::string& text, const std::string& path, const LoadO
   const lang::ResolvedProgram resolved = lang::analyse(
       std::move(input), builtinCatalogue(), *impl->pool, &loader, impl->sources, diagnostics);
   if (!diagnostics.hasErrors()) {
-    impl->program = lang::compile(resolved, builtinCatalogue(), impl->pool, impl->sources);
-    impl->ok = true;
+    impl->program =
+        lang::compile(resolved, builtinCatalogue(), impl->pool, impl->sources, diagnostics);
+    impl->ok = !diagnostics.hasErrors();
   }
   diagnostics.sortByPlace();
   impl->messages = toMessages(diagnostics, impl->sources);

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "base/check.h"
 #include "base/hash.h"
+#include "base/interned.h"
 
 namespace gable {
 
@@ -44,17 +44,13 @@ uint64_t contentHash(const Material& m) {
   return h;
 }
 
-// Entries lie in blocks that never move, so that get() needs no lock.
 struct MaterialTable::Impl {
-  static constexpr uint32_t kBlock = 256, kBlocks = 1u << 14;
   struct Entry {
     Material material;
     uint64_t hash = 0;
+    bool operator==(const Entry& o) const { return material == o.material; }
   };
-  std::mutex mutex;
-  uint32_t count = 0;
-  std::unordered_multimap<uint64_t, MaterialId> index;
-  std::vector<std::unique_ptr<std::array<Entry, kBlock>>> blocks{kBlocks};
+  Interned<Entry> entries;
 
   struct EditHash {
     size_t operator()(const MaterialEdit& e) const {
@@ -63,10 +59,9 @@ struct MaterialTable::Impl {
       return h;
     }
   };
+  std::mutex mutex;
   // Looked up, never walked through.
   std::unordered_map<MaterialEdit, MaterialId, EditHash> edits;
-
-  Entry& at(MaterialId id) { return (*blocks[id / kBlock])[id % kBlock]; }
 };
 
 MaterialTable::MaterialTable() : impl_(std::make_unique<Impl>()) { intern(Material{}); }
@@ -74,22 +69,11 @@ MaterialTable::~MaterialTable() = default;
 
 MaterialId MaterialTable::intern(const Material& m) {
   const uint64_t hash = contentHash(m);
-  std::lock_guard lock(impl_->mutex);
-  auto [first, last] = impl_->index.equal_range(hash);
-  for (; first != last; ++first) {
-    if (impl_->at(first->second).material == m) return first->second;
-  }
-  const MaterialId id = impl_->count++;
-  GABLE_CHECK_LT(id / Impl::kBlock, Impl::kBlocks);
-  auto& block = impl_->blocks[id / Impl::kBlock];
-  if (!block) block = std::make_unique<std::array<Impl::Entry, Impl::kBlock>>();
-  impl_->at(id) = {m, hash};
-  impl_->index.emplace(hash, id);
-  return id;
+  return impl_->entries.intern(hash, {m, hash});
 }
 
-const Material& MaterialTable::get(MaterialId id) const { return impl_->at(id).material; }
-uint64_t MaterialTable::hashOf(MaterialId id) const { return impl_->at(id).hash; }
+const Material& MaterialTable::get(MaterialId id) const { return impl_->entries.get(id).material; }
+uint64_t MaterialTable::hashOf(MaterialId id) const { return impl_->entries.get(id).hash; }
 
 bool MaterialTable::findEdit(const MaterialEdit& edit, MaterialId& id) const {
   std::lock_guard lock(impl_->mutex);
@@ -101,7 +85,7 @@ bool MaterialTable::findEdit(const MaterialEdit& edit, MaterialId& id) const {
 
 void MaterialTable::rememberEdit(const MaterialEdit& edit, MaterialId id) {
   std::lock_guard lock(impl_->mutex);
-  impl_->edits.emplace(edit, id);
+  if (impl_->edits.size() < impl_->entries.capacity()) impl_->edits.emplace(edit, id);
 }
 
 bool parseColor(std::string_view text, Vec3& rgb, double& opacity) {

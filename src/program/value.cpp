@@ -11,7 +11,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "base/check.h"
+#include "base/interned.h"
 
 namespace gable {
 
@@ -71,9 +71,9 @@ class ValuePool::Table {
     for (; first != last; ++first) {
       if (shard.at(first->second) == key) return id(hash % kShards, first->second);
     }
+    if (shard.count >= capacity_) tableIsFull();
     const uint32_t index = shard.count++;
     const uint32_t block = index / kBlock;
-    GABLE_CHECK_LT(block, kBlocks);
     if (!shard.blocks[block]) shard.blocks[block] = std::make_unique<std::array<T, kBlock>>();
     (*shard.blocks[block])[index % kBlock] = T(std::forward<Key>(key));
     shard.index.emplace(hash, index);
@@ -95,6 +95,8 @@ class ValuePool::Table {
     return index * kShards + static_cast<uint32_t>(shard);
   }
   std::array<Shard, kShards> shards_;
+  /// Of each shard.
+  const uint32_t capacity_ = std::min(kBlock * kBlocks, TableCapacityScope::most());
 };
 
 namespace {

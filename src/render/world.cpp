@@ -9,6 +9,7 @@
 
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include "math/trig.h"
 #include "render/triangles.h"
@@ -82,7 +83,7 @@ class Builder {
     world_.parts.emplace_back();
     findOrigin();
     const Frame centred = Frame::moved(-world_.origin);
-    for (const Root& root : scene_.roots) place(root.instance, centred, 0);
+    for (const Root& root : scene_.roots) place(root.instance, centred);
     finish();
   }
 
@@ -101,31 +102,59 @@ class Builder {
     }
   }
 
-  /// Puts an instance into `part`; only part 0 may hold placements.
-  void place(const Instance& instance, const Frame& outer, uint32_t part) {
+  /// A prototype whose instances are being put into a part.
+  struct Level {
+    const Prototype* prototype;
+    Frame at;
+    uint32_t part;
+    uint32_t next = 0;
+    /// The part is finished with it, and stands here.
+    std::optional<Frame> placement = {};
+  };
+
+  /// Puts a root into part 0. Instances nest as deep as rules do, so the levels are a list.
+  void place(const Instance& root, const Frame& outer) {
+    open(root, outer, 0);
+    while (!levels_.empty()) {
+      Level& level = levels_.back();
+      if (level.next < level.prototype->instanceCount) {
+        const Instance& next = scene_.instances[level.prototype->firstInstance + level.next++];
+        open(next, Frame(level.at), level.part);
+        continue;
+      }
+      const Level done = level;
+      levels_.pop_back();
+      if (done.placement) addPlacement(done.part, *done.placement);
+    }
+  }
+
+  /// Begins with an instance in `part`; only part 0 may hold placements.
+  void open(const Instance& instance, const Frame& outer, uint32_t part) {
     const Frame at = outer * instance.frame;
+    const Prototype& prototype = scene_.prototypes[instance.prototype];
     if (part != 0 || !placed_[instance.prototype]) {
-      merge(scene_.prototypes[instance.prototype], at, part);
+      levels_.push_back({&prototype, at, part});
+      addLeaves(levels_.back());
       return;
     }
     uint32_t& index = partOf_[instance.prototype];
-    if (index == kNone) {
-      index = static_cast<uint32_t>(world_.parts.size());
-      world_.parts.emplace_back();
-      merge(scene_.prototypes[instance.prototype], Frame(), index);
-    }
-    if (world_.parts[index].triangles() == 0 || !usable(at.origin)) return;
-    world_.placements.push_back(
-        {index, toVec3f(at.x), toVec3f(at.y), toVec3f(at.z), toVec3f(at.origin)});
+    if (index != kNone) return addPlacement(index, at);
+    index = static_cast<uint32_t>(world_.parts.size());
+    world_.parts.emplace_back();
+    levels_.push_back({&prototype, Frame(), index, 0, at});
+    addLeaves(levels_.back());
   }
 
-  void merge(const Prototype& prototype, const Frame& at, uint32_t part) {
-    for (uint32_t i = 0; i < prototype.leafCount; ++i) {
-      const Leaf& leaf = scene_.leaves[prototype.firstLeaf + i];
-      addLeaf(leaf, at * leaf.frame, part);
-    }
-    for (uint32_t i = 0; i < prototype.instanceCount; ++i) {
-      place(scene_.instances[prototype.firstInstance + i], at, part);
+  void addPlacement(uint32_t part, const Frame& at) {
+    if (world_.parts[part].triangles() == 0 || !usable(at.origin)) return;
+    world_.placements.push_back(
+        {part, toVec3f(at.x), toVec3f(at.y), toVec3f(at.z), toVec3f(at.origin)});
+  }
+
+  void addLeaves(const Level& level) {
+    for (uint32_t i = 0; i < level.prototype->leafCount; ++i) {
+      const Leaf& leaf = scene_.leaves[level.prototype->firstLeaf + i];
+      addLeaf(leaf, level.at * leaf.frame, level.part);
     }
   }
 
@@ -299,6 +328,7 @@ class Builder {
   std::vector<MeshTriangles> meshes_;
   std::vector<bool> placed_;
   std::vector<uint32_t> partOf_;
+  std::vector<Level> levels_;
   std::vector<Vec3> points_;
   std::vector<std::pair<double, double>> feet_;
 };

@@ -4,12 +4,19 @@
 // One machine a worker takes initial shapes in turn; the outputs are merged in the order of the
 // shapes. When rules ask about other shapes (inside, touches, ...) there are two passes: the first
 // collects occluders and is thrown away, the second asks them.
+//
+// Where several workers together reach a limit on counts, what they made depends on which was
+// faster. Then all is thrown away, and one worker alone goes as far as it may: whatever the number
+// of workers, the result and the messages are those of one. Several never count less than one, so
+// what they make within the limits one makes too.
 
 #include "runtime/derive.h"
 
 #include <algorithm>
 #include <memory>
+#include <unordered_set>
 
+#include "base/hash.h"
 #include "base/parallel.h"
 #include "program/reach.h"
 #include "runtime/machine.h"
@@ -23,7 +30,8 @@ struct Pass {
   std::vector<std::unique_ptr<Machine>> machines;
   std::vector<OutputRoot> roots;
   std::vector<uint8_t> derived;
-  std::vector<std::vector<AttributeValue>> attributes;
+  std::vector<std::vector<EvaluatedAttribute>> attributes;
+  std::vector<Diagnostics> messages;
   /// By initial shape: where its trace nodes and occluders lie in its worker's lists.
   struct Range {
     uint32_t worker = 0;
@@ -33,33 +41,47 @@ struct Pass {
   std::vector<Range> ranges;
 };
 
-Pass runPass(DeriveShared& shared, const std::vector<InitialShape>& shapes) {
+Pass runPass(DeriveShared& shared, const std::vector<InitialShape>& shapes, unsigned jobs) {
   Pass pass;
-  const unsigned jobs =
-      shared.options.jobs > 0 ? static_cast<unsigned>(shared.options.jobs) : defaultJobs();
   for (unsigned w = 0; w < jobs; ++w) {
     pass.machines.push_back(std::make_unique<Machine>(shared, w));
   }
   pass.roots.resize(shapes.size());
   pass.derived.assign(shapes.size(), 0);
   pass.attributes.resize(shapes.size());
+  pass.messages.resize(shapes.size());
   pass.ranges.resize(shapes.size());
   std::atomic<size_t> done{0};
   parallelFor(shapes.size(), jobs, [&](size_t i, unsigned worker) {
-    if (shared.options.cancel && shared.options.cancel->load(std::memory_order_relaxed)) return;
-    if (shared.exhausted.load(std::memory_order_relaxed)) return;
+    if (shared.usage.cancelled() || shared.usage.exhausted()) return;
     Machine& machine = *pass.machines[worker];
     const size_t traceBegin = machine.trace().size();
     const size_t noteBegin = machine.notes().size();
     pass.roots[i] = machine.run(shapes[i], static_cast<uint32_t>(i));
     pass.derived[i] = 1;
     if (!shared.collectOccluders) pass.attributes[i] = machine.attributeValues();
+    pass.messages[i] = machine.takeMessages();
     pass.ranges[i] = {worker, traceBegin, machine.trace().size(), noteBegin,
                       machine.notes().size()};
     const size_t count = done.fetch_add(1) + 1;
     if (shared.options.progress) shared.options.progress(count, shapes.size());
   });
+  for (auto& m : pass.machines) m->tellUse();
   return pass;
+}
+
+// The first messages in the order of the initial shapes, each once: what several workers tell of
+// one prototype, one worker would have told of the first shape with it.
+void takeMessages(const Pass& pass, Diagnostics& out) {
+  std::unordered_set<uint64_t> told;
+  size_t warnings = 0, errors = 0;
+  for (const Diagnostics& messages : pass.messages) {
+    for (const Diagnostic& d : messages.all()) {
+      const uint64_t place = uint64_t{d.span.file} << 32 | d.span.begin;
+      if (!told.insert(hashBytes(d.message, hashBytes(d.code, place))).second) continue;
+      if (++(d.severity == Severity::Error ? errors : warnings) <= kMostMessages) out.add(d);
+    }
+  }
 }
 
 // Occluders in the order of the initial shapes, whatever worker found them.
@@ -128,15 +150,22 @@ bool asksContext(const Program& program, const std::vector<InitialShape>& shapes
          });
 }
 
-}  // namespace
+// The attributes of leaves may take a fourth of the memory, as they are no part of what is counted.
+MergeInput mergeInput(const DeriveShared& shared, Recall* recall) {
+  const Environment& e = shared.environment;
+  MergeInput input{shared.program, e.materials, e.attributes, shared.options.sources, recall};
+  if (const uint64_t bytes = shared.options.limits.bytes; bytes > 0) {
+    input.mostAttributeBytes = bytes / 4;
+  }
+  return input;
+}
 
-DeriveResult derive(const Program& program, const std::vector<InitialShape>& shapes,
-                    Environment& environment, const DeriveOptions& given) {
-  DeriveOptions options = given;
-  if (options.startRule < 0) options.startRule = program.startRule;
-  const bool asks = asksContext(program, shapes, options.startRule);
-  if (asks || options.trace || !options.sharing) options.remember = false;
-  DeriveShared shared(program, options, environment);
+// What the workers made together; null where they reached a limit that one alone might not.
+std::unique_ptr<DeriveResult> deriveWith(unsigned jobs, const Program& program,
+                                         const std::vector<InitialShape>& shapes,
+                                         Environment& environment, const DeriveOptions& options,
+                                         Usage& usage, bool asks) {
+  DeriveShared shared(program, options, environment, usage);
   if (options.remember) {
     shared.reach = reachOf(program);
     shared.before = recallInput(options.before, program, environment);
@@ -144,22 +173,24 @@ DeriveResult derive(const Program& program, const std::vector<InitialShape>& sha
   std::unique_ptr<OccluderIndex> occluders;
   if (asks) {
     shared.collectOccluders = true;
-    Pass first = runPass(shared, shapes);
+    Pass first = runPass(shared, shapes, jobs);
+    if (jobs > 1 && usage.exhaustedByCount()) return nullptr;
     occluders = std::make_unique<OccluderIndex>(takeOccluders(first));
     shared.occluders = occluders.get();
     shared.collectOccluders = false;
-    shared.shapes = 0;
-    shared.steps = 0;
+    usage.startAgain();
   }
-  Pass pass = runPass(shared, shapes);
+  Pass pass = runPass(shared, shapes, jobs);
+  if (jobs > 1 && usage.exhaustedByCount()) return nullptr;
 
-  DeriveResult result;
+  auto made = std::make_unique<DeriveResult>();
+  DeriveResult& result = *made;
   std::vector<Output> outputs;
   for (auto& m : pass.machines) {
     result.shared += m->cacheHits();
     result.recalled += m->recalled();
-    result.diagnostics.append(m->diagnostics());
   }
+  takeMessages(pass, result.diagnostics);
   takeTrace(pass, result);
   std::shared_ptr<Recall> recall;
   if (options.remember && !shared.limitReached && !shared.unrepeatable) {
@@ -174,47 +205,61 @@ DeriveResult derive(const Program& program, const std::vector<InitialShape>& sha
     if (pass.derived[i]) roots.push_back(std::move(pass.roots[i]));
   }
   result.attributes = std::move(pass.attributes);
-  MergeLoss loss;
-  MergeInput input{program, environment.materials, environment.attributes, options.sources,
-                   recall.get()};
-  if (options.limits.bytes > 0) {
-    const uint64_t most = shared.bytesBefore + options.limits.bytes, held = residentBytes();
-    input.mostAttributeBytes = most > held ? most - held : 0;
+  Merged merged = merge(outputs, roots, mergeInput(shared, recall.get()));
+  result.scene = std::move(merged.scene);
+  if (!merged.allEvents) {
+    result.diagnostics.warning("too-many-reports", Span{},
+                               "the rules report or print more than can be kept",
+                               "report sums, or report in rules that are called less often");
+    shared.limitReached = true;
   }
-  result.scene = merge(outputs, roots, input, loss);
-  if (loss.attributes) {
+  if (!merged.allAttributes) {
     result.diagnostics.warning("out-of-memory", Span{},
                                "the attributes of leaves take more memory than there may be, and "
                                "some are left out",
                                "raise the limit on memory, or set shorter arrays");
     shared.limitReached = true;
   }
-  if (loss.events) {
-    result.diagnostics.warning("too-many-reports", Span{},
-                               "the rules report or print more than can be kept",
-                               "report sums, or report in rules that are called less often");
-    shared.limitReached = true;
-  }
-  const bool cancelled = options.cancel && options.cancel->load(std::memory_order_relaxed);
-  result.end = cancelled             ? DeriveEnd::Cancelled
+  result.end = usage.cancelled()     ? DeriveEnd::Cancelled
                : shared.limitReached ? DeriveEnd::LimitReached
                                      : DeriveEnd::Done;
-  if (!loss.events && !loss.attributes && result.end == DeriveEnd::Done)
-    result.recall = std::move(recall);
+  if (result.end == DeriveEnd::Done) result.recall = std::move(recall);
   result.diagnostics.sortByPlace();
-  return result;
+  return made;
+}
+
+}  // namespace
+
+DeriveResult derive(const Program& program, const std::vector<InitialShape>& shapes,
+                    Environment& environment, const DeriveOptions& given) {
+  DeriveOptions options = given;
+  if (options.startRule < 0) options.startRule = program.startRule;
+  const bool asks = asksContext(program, shapes, options.startRule);
+  if (asks || options.trace || !options.sharing) options.remember = false;
+  const unsigned jobs = options.jobs > 0 ? static_cast<unsigned>(options.jobs) : defaultJobs();
+  Usage usage(options.limits, options.cancel);
+  auto made = deriveWith(jobs, program, shapes, environment, options, usage, asks);
+  if (!made) {
+    usage.startAgain();
+    made = deriveWith(1, program, shapes, environment, options, usage, asks);
+  }
+  return std::move(*made);
 }
 
 struct LeafStream::Impl {
   Impl(const Program& program, Environment& environment, const DeriveOptions& given)
-      : options(given), shared(program, options, environment) {
+      : options(given),
+        usage(options.limits, options.cancel),
+        shared(program, options, environment, usage) {
     options.sharing = false;
     options.trace = false;
     if (options.startRule < 0) options.startRule = program.startRule;
     machine = std::make_unique<Machine>(shared, 0);
   }
   DeriveOptions options;
+  Usage usage;
   DeriveShared shared;
+  Diagnostics messages;
   std::unique_ptr<Machine> machine;
 };
 
@@ -232,6 +277,7 @@ void LeafStream::run(const std::vector<InitialShape>& shapes,
     impl_->machine->derive(shapes[i], i);
     if (!output.openLeaves.empty()) take(output.openLeaves);
     output.drop();
+    impl_->messages.append(impl_->machine->takeMessages());
   }
   impl_->machine->setSink(nullptr);
 }
@@ -240,6 +286,6 @@ const Mesh& LeafStream::mesh(const Leaf& leaf) const {
   return *impl_->machine->output().meshes[leaf.mesh - kFirstMesh];
 }
 
-const Diagnostics& LeafStream::diagnostics() const { return impl_->machine->diagnostics(); }
+const Diagnostics& LeafStream::diagnostics() const { return impl_->messages; }
 
 }  // namespace gable

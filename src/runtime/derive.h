@@ -49,6 +49,9 @@ struct Limits {
   double seconds = 0;
 };
 
+/// Of the warnings of a derivation so many are kept, the first in path order, and as many errors.
+inline constexpr size_t kMostMessages = 1000;
+
 struct InitialShape {
   std::string name;
   /// The footprint in its object frame: x, y, z as the world's, origin near the shape.
@@ -79,6 +82,9 @@ struct Environment {
   AttributePool attributes;
   TagTable tags;
   Assets& assets;
+
+  /// A table has no room any more: a derivation ended for it.
+  std::atomic<bool> full{false};
 };
 
 /// A node of the derivation tree, in path order: a shape made by a rule, or an unnamed leaf.
@@ -118,6 +124,13 @@ struct TraceNote {
   uint32_t chosen = 0, choices = 0;
 };
 
+/// The value of an attribute for an initial shape, in the pool of the derivation.
+struct EvaluatedAttribute {
+  /// Index into Program::attributes.
+  uint32_t attribute = 0;
+  Value value;
+};
+
 struct DeriveResult;
 struct Recall;
 
@@ -153,8 +166,8 @@ struct DeriveResult {
   DeriveEnd end = DeriveEnd::Done;
   std::vector<TraceNode> trace;
   std::vector<TraceNote> notes;
-  /// Rule attributes of each initial shape as they were evaluated (visible ones, main file first).
-  std::vector<std::vector<AttributeValue>> attributes;
+  /// Rule attributes of each initial shape as they were evaluated: visible ones of the main file.
+  std::vector<std::vector<EvaluatedAttribute>> attributes;
   /// Derivations that the sharing cache answered.
   uint64_t shared = 0;
   /// Shapes that were taken over from the derivation before, instances expanded.

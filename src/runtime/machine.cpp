@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/interned.h"
 #include "runtime/array_ops.h"
 
 namespace gable {
@@ -48,11 +49,6 @@ bool convert(const Value& v, ValueType wanted, const ValuePool& pool, Value& out
   return false;
 }
 
-std::string_view bareName(std::string_view name) {
-  const size_t dot = name.rfind('.');
-  return dot == std::string_view::npos ? name : name.substr(dot + 1);
-}
-
 }  // namespace
 
 Machine::Machine(DeriveShared& shared, uint32_t worker)
@@ -91,8 +87,7 @@ OutputRoot Machine::run(const InitialShape& input, uint32_t index) {
   root.worker = worker_;
   root.frame = flat_ ? Frame{} : input.origin;
   root.name = input.name;
-  root.prototype = output_.close(rootMark_, pool().intern(input.name),
-                                 shapesExpanded_ - shapesBefore, ShareKey{});
+  root.prototype = output_.close(rootMark_, nameId_, shapesExpanded_ - shapesBefore, ShareKey{});
   for (size_t p = partsBefore; p < parts_.size(); ++p) {
     parts_[p].prototype = root.prototype;
     parts_[p].worker = worker_;
@@ -113,11 +108,11 @@ void Machine::derive(const InitialShape& input, uint32_t index) {
   dropGathers();
   // What was open when a limit struck stays: it belongs to the initial shape.
   while (!prototypes_.empty()) closeOpenPrototype();
-  shared_.shapes.fetch_add(shapes_ - shapesCounted_, std::memory_order_relaxed);
-  shapesCounted_ = shapes_;
 }
 
 void Machine::begin(const InitialShape& input, uint32_t index) {
+  nameId_ = 0;
+  nameId_ = pool().intern(input.name);
   const uint64_t place = input.index < 0 ? index : static_cast<uint64_t>(input.index);
   const uint64_t identity =
       input.identity.empty() ? hashCombine(0, place) : hashBytes(input.identity, 1);
@@ -162,7 +157,7 @@ void Machine::begin(const InitialShape& input, uint32_t index) {
     activationCount_ = 0;
     Activation& a = pushActivation();
     a.shape = info_.shape;
-    makeLeaf(a, pool().intern(input.name), 0);
+    makeLeaf(a, nameId_, 0);
   }
 }
 
@@ -219,22 +214,25 @@ void Machine::bindAttributes(const InitialShape& shape) {
   for (const auto& [name, value] : options().attributes) bind(name, value);
 }
 
-std::vector<AttributeValue> Machine::attributeValues() {
+std::vector<EvaluatedAttribute> Machine::attributeValues() {
   const WorkScope scope(*this);
-  std::vector<AttributeValue> out;
+  std::vector<EvaluatedAttribute> out;
   for (uint32_t a = 0; a < program_.attributes.size(); ++a) {
     const AttributeCode& code = program_.attributes[a];
     if (code.constant || code.hidden || code.name.find('.') != std::string::npos) continue;
     aborted_ = false;
     stackTop_ = 0;
     seen_ = &info_.shape;
+    functions_.clear();
+    // A limit may have struck while it was evaluated.
+    if (attributeStates_[a] == AttributeState::Busy) attributeStates_[a] = AttributeState::Unset;
     Value value;
     const Status status = guarded([&] {
       value = evaluateAttribute(a);
       return Status();
     });
     if (!status.ok()) functions_.clear();
-    out.push_back(plainAttribute(std::string(bareName(code.name)), value, pool()));
+    out.push_back({a, value});
   }
   return out;
 }
@@ -255,13 +253,14 @@ uint32_t Machine::openInstanceCount() const {
   return static_cast<uint32_t>(output_.openInstances.size()) - base;
 }
 
-// The same warning at the same place is told once a worker; merging drops the repetitions.
+// The same warning at the same place is told once, and of one initial shape no more than anybody is
+// shown of all.
 void Machine::takeWarning(const char* code, std::string message, std::string hint) {
   const Span at = here();
   const uint64_t key = hashBytes(message, hashBytes(code, uint64_t{at.file} << 32 | at.begin));
   ++warnings_;
   noteEffect();
-  if (warned_[key]++ > 0) return;
+  if (diagnostics_.all().size() >= kMostMessages || !warned_.insert(key).second) return;
   Diagnostic d{Severity::Warning, code, at, std::move(message), std::move(hint), shapePath()};
   diagnostics_.add(std::move(d));
 }
@@ -298,16 +297,24 @@ bool Machine::overLimit(const char* code, std::string message, std::string hint)
   return false;
 }
 
+bool Machine::endsByFullTable(const Status& status) {
+  if (status.code() != kTableFull) return false;
+  shared_.environment.full = true;
+  over(shared_.usage.tablesAreFull());
+  return true;
+}
+
 void Machine::tellFailure(const char* name, const Status& status) {
-  if (status.code() == kWorkStopped) return;
+  if (status.code() == kWorkStopped || endsByFullTable(status)) return;
   warn(status.code(), name ? "'" + std::string(name) + "': " + status.message() : status.message(),
        status.hint());
 }
 
 // Something outside of operations and functions unwound: the initial shape ends.
 void Machine::endByFailure(const Status& status) {
-  if (status.code() == kWorkStopped) return;
-  overTotal(status.code(), "the derivation cannot go on: " + status.message(), status.hint());
+  if (status.code() == kWorkStopped || endsByFullTable(status)) return;
+  shared_.usage.exhaust();
+  overLimit(status.code(), "the derivation cannot go on: " + status.message(), status.hint());
 }
 
 bool Machine::stackFull() {
@@ -315,10 +322,10 @@ bool Machine::stackFull() {
                    "end the recursion with a case");
 }
 
-// A limit on all initial shapes together.
-bool Machine::overTotal(const char* code, std::string message, std::string hint) {
-  shared_.exhausted.store(true, std::memory_order_relaxed);
-  return overLimit(code, std::move(message), std::move(hint));
+// A limit on all initial shapes together: false when one has been reached.
+bool Machine::over(std::optional<Usage::Excess> excess) {
+  if (!excess) return true;
+  return overLimit(excess->code, std::move(excess->message), std::move(excess->hint));
 }
 
 uint64_t Machine::lengthOf(const Value& v) const {
@@ -335,55 +342,21 @@ bool Machine::look(uint64_t units, uint64_t bytes) {
 // The clock, memory, the user's wish to stop, and what all workers have made and done together.
 // `bytes`: so many are about to be taken.
 bool Machine::lookAtLimits(uint64_t bytes) {
-  const Limits& limits = options().limits;
-  const uint64_t steps = shared_.steps.fetch_add(work_, std::memory_order_relaxed) + work_;
   stepsBefore_ += work_;
-  work_ = 0;
-  if (options().cancel && options().cancel->load(std::memory_order_relaxed)) {
+  use_.steps = std::exchange(work_, 0);
+  if (shared_.usage.cancelled()) {
     aborted_ = true;
     return false;
   }
-  const uint64_t total =
-      shared_.shapes.fetch_add(shapes_ - shapesCounted_, std::memory_order_relaxed) + shapes_ -
-      shapesCounted_;
-  shapesCounted_ = shapes_;
-  if (total > limits.shapes) {
-    return overTotal("too-many-shapes",
-                     "the rules make more than " + std::to_string(limits.shapes) + " shapes",
-                     "end a recursion earlier, or raise the limit on shapes");
-  }
-  if (steps > limits.steps) {
-    return overTotal("too-many-steps",
-                     "the derivation takes more than " + std::to_string(limits.steps) + " steps",
-                     "end a recursion earlier, or raise the limit on steps");
-  }
-  const auto now = std::chrono::steady_clock::now();
-  const std::chrono::duration<double> spent = now - shared_.start;
-  if (limits.seconds > 0 && spent.count() > limits.seconds) {
-    return overTotal("out-of-time",
-                     "the derivation takes longer than " + numberText(limits.seconds) + " seconds",
-                     "raise the limit on seconds, or derive fewer shapes");
-  }
-  if (limits.bytes > 0 && (bytes > 0 || now - memoryLooked_ >= kBetweenMemory)) {
-    memoryLooked_ = now;
-    const uint64_t held = residentBytes(), most = shared_.bytesBefore + limits.bytes;
-    if (held > most || bytes > most - held) {
-      return overTotal(
-          "out-of-memory",
-          "the derivation takes more than " + std::to_string(limits.bytes >> 20) + " megabytes",
-          "raise the limit on memory, or derive fewer shapes");
-    }
-  }
-  return true;
+  if (!tellUse()) return false;
+  if (bytes == 0 && std::chrono::steady_clock::now() - memoryLooked_ < kBetweenMemory) return true;
+  memoryLooked_ = std::chrono::steady_clock::now();
+  return over(shared_.usage.lookAtMemory(bytes));
 }
 
-bool Machine::countVertices(size_t count) {
-  vertices_ += count;
-  if (vertices_ <= options().limits.vertices) return true;
-  return overLimit(
-      "too-many-vertices",
-      "the leaves have more than " + std::to_string(options().limits.vertices) + " vertices",
-      "insert simpler models, or raise the limit on vertices");
+bool Machine::tellUse() {
+  use_.shapes = shapes_ - std::exchange(shapesCounted_, shapes_);
+  return over(shared_.usage.spend(std::exchange(use_, {})));
 }
 
 std::string_view Machine::fileOf(const Instruction& i) const {

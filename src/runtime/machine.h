@@ -9,21 +9,25 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
+#include <utility>
 #include <vector>
 
-#include "base/memory.h"
 #include "base/small_buffer.h"
 #include "base/work.h"
 #include "program/program.h"
 #include "program/reach.h"
+#include "program/stack.h"
 #include "runtime/array_ops.h"
 #include "runtime/context.h"
 #include "runtime/derive.h"
 #include "runtime/output.h"
 #include "runtime/recall.h"
+#include "runtime/usage.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -32,16 +36,12 @@ class KeyHash;
 
 /// What all workers of one derivation share.
 struct DeriveShared {
-  DeriveShared(const Program& p, const DeriveOptions& o, Environment& e)
-      : program(p), options(o), environment(e), start(std::chrono::steady_clock::now()) {}
+  DeriveShared(const Program& p, const DeriveOptions& o, Environment& e, Usage& b)
+      : program(p), options(o), environment(e), usage(b) {}
   const Program& program;
   const DeriveOptions& options;
   Environment& environment;
-  std::chrono::steady_clock::time_point start;
-  std::atomic<uint64_t> shapes{0};
-  std::atomic<uint64_t> steps{0};
-  /// What the process held before.
-  const uint64_t bytesBefore = residentBytes();
+  Usage& usage;
   /// The occluders of the first pass; null while it runs and when no rule asks.
   const OccluderIndex* occluders = nullptr;
   /// The first pass of a derivation whose rules ask about other shapes.
@@ -53,8 +53,6 @@ struct DeriveShared {
   /// comes first, so no part can stand for itself.
   std::atomic<bool> unrepeatable{false};
   std::atomic<bool> limitReached{false};
-  /// A limit on all initial shapes together has been reached: none begins any more.
-  std::atomic<bool> exhausted{false};
 };
 
 /// What an activation does to its shape in passing: a rule run in place, the turns of a repeat, or
@@ -140,7 +138,9 @@ class Machine final : public Services, private WorkMeter {
   using LeafSink = std::function<void(std::span<const Leaf>)>;
   void setSink(const LeafSink* sink) { sink_ = sink; }
   Output& output() { return output_; }
-  Diagnostics& diagnostics() { return diagnostics_; }
+  /// What was told since the last time it was asked for. What this worker told before is not told
+  /// again.
+  Diagnostics takeMessages() { return std::exchange(diagnostics_, {}); }
   std::vector<TraceNode>& trace() { return trace_; }
   std::vector<TraceNote>& notes() { return notes_; }
   std::vector<Occluder>& occluders() { return occluders_; }
@@ -152,8 +152,10 @@ class Machine final : public Services, private WorkMeter {
   }
   /// Shapes taken over from the derivation before, instances expanded.
   uint64_t recalled() const { return recalled_; }
+  /// Tells the usage what it has not been told yet; false when a limit is reached.
+  bool tellUse();
   /// The visible rule attributes of the shape derived last, as evaluated.
-  std::vector<AttributeValue> attributeValues();
+  std::vector<EvaluatedAttribute> attributeValues();
 
   // Services.
   const InitialShapeInfo& initialShapeAtWork() const override { return info_; }
@@ -191,6 +193,8 @@ class Machine final : public Services, private WorkMeter {
     SavedShape() = default;
     explicit SavedShape(const Shape& s) : shape(s) {}
     Shape shape;
+    /// What was at work in place when the bracket opened.
+    uint32_t frames = 0;
     /// Kept where the rule needs them.
     Frame previousScope;
     Vec3 previousSize;
@@ -216,6 +220,8 @@ class Machine final : public Services, private WorkMeter {
     /// What a part counts as: each call is a shape, and so is a leaf or an end that belongs to
     /// none.
     uint32_t shapes = 0;
+    /// And what it counts as work, so that the way in which it is made does not tell.
+    uint32_t work = 0;
     uint32_t rule = 0;
     /// The block of the split at the end, plus 1; 0 for a leaf.
     uint32_t block = 0;
@@ -255,7 +261,7 @@ class Machine final : public Services, private WorkMeter {
   };
   struct LightMark {
     size_t leaves;
-    uint64_t shapes, shapesExpanded;
+    uint64_t shapes, shapesExpanded, work;
     uint32_t childCount;
   };
   enum class AttributeState : uint8_t { Unset, Busy, Known };
@@ -299,6 +305,7 @@ class Machine final : public Services, private WorkMeter {
   void dropShape();
   void leaveBracket();
   void shapeTooLarge(const OpSpec& spec);
+  bool madeFinite(const Shape& s, size_t firstChild, size_t firstPiece) const;
   void makeLeaf(Activation& a, StringId name, uint32_t source);
   bool putLeaf(const Shape& s, StringId name, uint32_t source);
   /// Hands the leaves on while they are still in the nearest cache.
@@ -327,6 +334,8 @@ class Machine final : public Services, private WorkMeter {
   void bind(uint32_t attribute, const Value& v);
   void endLocals();
   void endInPlace();
+  void endTurns();
+  void closeFrame();
   InPlaceFrame& openFrame(InPlaceFrame::Kind kind);
   bool countStep();
   const Value* localValue(const Shape& s, uint32_t attribute) const;
@@ -411,12 +420,13 @@ class Machine final : public Services, private WorkMeter {
   /// Tells why an operation or a function did not do what it should. A limit has told it already.
   void tellFailure(const char* name, const Status& status);
   void endByFailure(const Status& status);
+  bool endsByFullTable(const Status& status);
   bool countShape() {
     ++shapes_;
     ++shapesExpanded_;
     return tick();
   }
-  bool countVertices(size_t count);
+  void countVertices(size_t count) { use_.vertices += count; }
   /// Counts work. Every so often it looks at the limits; false when one ends the initial shape.
   bool tick(uint64_t steps = 1) {
     if (stackNearlyFull()) return stackFull();
@@ -427,7 +437,7 @@ class Machine final : public Services, private WorkMeter {
   bool look(uint64_t units, uint64_t bytes) override;
   bool lookAtLimits(uint64_t bytes);
   bool stackFull();
-  bool overTotal(const char* code, std::string message, std::string hint);
+  bool over(std::optional<Usage::Excess> excess);
   /// Texts and arrays cost by their length; the next tick() looks at the limits.
   void weigh(const Value& v) {
     if (v.type >= ValueType::String) work_ += lengthOf(v) / 16;
@@ -453,15 +463,15 @@ class Machine final : public Services, private WorkMeter {
   uint32_t worker_;
   Output output_;
   Diagnostics diagnostics_;
-  std::unordered_map<uint64_t, uint32_t> warned_;
+  std::unordered_set<uint64_t> warned_;
   std::vector<TraceNode> trace_;
   std::vector<TraceNote> notes_;
   std::vector<Occluder> occluders_;
 
   // The stacks. Activations are reused, so that their shapes keep no memory busy.
   static constexpr uint32_t kStackSize = 1u << 18;
-  /// Room that a single rule or function may need; the compiler refuses larger expressions.
-  static constexpr uint32_t kStackReserve = 1u << 17;
+  /// Room that a single rule or function may need.
+  static constexpr uint32_t kStackReserve = kMostOnStack;
   /// Untouched until it is used: clearing it would cost more than a small derivation.
   std::unique_ptr<std::byte[]> stackMemory_;
   Value* const stack_;
@@ -483,7 +493,6 @@ class Machine final : public Services, private WorkMeter {
   std::vector<LocalValue> locals_;
   /// For rules run in place that look at the shape below.
   std::vector<std::pair<Frame, Vec3>> previous_;
-  uint64_t steps_ = 0;
   std::vector<FunctionFrame> functions_;
   std::vector<Frame> worlds_;
   /// The frames that leaves are placed in: worlds_, or gatherFrames_ while leaves are gathered.
@@ -501,6 +510,7 @@ class Machine final : public Services, private WorkMeter {
 
   // The initial shape at work.
   InitialShapeInfo info_;
+  StringId nameId_ = 0;
   std::vector<Value> attributeValues_;
   std::vector<AttributeState> attributeStates_;
   const Instruction* pc_ = nullptr;
@@ -513,7 +523,8 @@ class Machine final : public Services, private WorkMeter {
   uint64_t shapes_ = 0;
   uint64_t shapesCounted_ = 0;
   uint64_t shapesExpanded_ = 0;
-  uint64_t vertices_ = 0;
+  /// Vertices and turns since the last look at the limits.
+  Usage::Use use_;
   /// Steps since the last look at the limits.
   uint64_t work_ = 0;
   /// The last look at memory.

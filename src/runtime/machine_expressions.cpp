@@ -177,6 +177,11 @@ void Machine::ruleAttribute(const Instruction& i) {
 // Begins the evaluation of an attribute; execution goes on at `returnTo` with its value on the
 // stack.
 void Machine::enterAttribute(uint32_t a, const Instruction* returnTo) {
+  if (stackNearlyFull()) {
+    stackFull();
+    push(Value::of(0.0));
+    return;
+  }
   if (attributeStates_[a] == AttributeState::Busy) {
     warn("cyclic-attribute", "the value of '" + program_.attributes[a].name + "' needs itself",
          "break the circle with a constant");
@@ -227,6 +232,10 @@ void Machine::returnValue() {
 
 // The attributes of a dynamic import are evaluated at the call, each time.
 void Machine::initialise(const Instruction& i) {
+  if (stackNearlyFull()) {
+    stackFull();
+    return;
+  }
   functions_.push_back({pc_, parameters_, stackTop_, -1, seen_, salt_});
   parameters_ = stackTop_;
   salt_ = hashCombine(salt_, program_.sites[pcOf(&i)]);
@@ -237,12 +246,17 @@ void Machine::initialise(const Instruction& i) {
 // again; each block body is evaluated on its component.
 namespace {
 
-// The values of parts in the order of components; those in no part have the type's default.
+// The values of parts in the order of components; those in no part have the type's default,
+// which for arrays is one without columns.
 std::vector<Value> valuesByComponent(const std::vector<Value>& values,
-                                     const std::vector<uint32_t>& partOf) {
+                                     const std::vector<uint32_t>& partOf, ValuePool& pool) {
   Value none = values.empty() ? Value::of(0.0) : values[0];
   none.id = 0;
   none.number = 0;
+  if (none.isArray()) {
+    const Array& first = pool.array(values[0]);
+    none = pool.intern(Array{first.element, first.rows, 0, {}, {}});
+  }
   std::vector<Value> out;
   for (const uint32_t part : partOf) out.push_back(part < values.size() ? values[part] : none);
   return out;
@@ -291,17 +305,19 @@ void Machine::componentValues(const Instruction& i) {
   std::vector<Value> values;
   for (const BlockChild& part : parts) {
     if (aborted_ || functions_.size() >= options().limits.functionDepth) break;
+    if (stackNearlyFull() && !stackFull()) break;
     const size_t depth = functions_.size();
     functions_.push_back({resumeAt, parameters_, stackTop_, -1, outer, salt_});
     seen_ = &part.shape;
     pc_ = program_.code.data() + block.slots[part.slot];
     runUntil(depth);
+    if (aborted_) break;
     values.push_back(pop());
   }
   pc_ = resumeAt;
   seen_ = outer;
   const auto count = static_cast<uint32_t>(partOf.size());
-  put(buildArray(valuesByComponent(values, partOf), {&count, 1}, pool()), i);
+  put(buildArray(valuesByComponent(values, partOf, pool()), {&count, 1}, pool()), i);
 }
 
 // The loop for expressions that C++ asks for; ends when the functions begun since have returned.

@@ -31,12 +31,8 @@ InPlaceFrame& Machine::openFrame(InPlaceFrame::Kind kind) {
 
 // Rules in place and turns make no shapes, so that they need a limit of their own.
 bool Machine::countStep() {
-  if (!tick()) return false;
-  if (++steps_ <= options().limits.shapes) return true;
-  return overLimit("too-many-turns",
-                   "the rules run more than " + std::to_string(options().limits.shapes) +
-                       " rules and turns in place",
-                   "repeat less often, or raise the limit on shapes");
+  ++use_.turns;
+  return tick();
 }
 
 void Machine::runRule(const Instruction& i) {
@@ -107,9 +103,7 @@ void Machine::endTurn(const Instruction& i) {
   InPlaceFrame& f = frames_.back();
   Shape& s = current().shape;
   if (++f.turn == f.turns) {
-    s.split = f.split;
-    s.path = f.path;
-    frames_.pop_back();
+    endTurns();
     return;
   }
   if (f.turn >= options().limits.width) {
@@ -121,6 +115,23 @@ void Machine::endTurn(const Instruction& i) {
   s.split = {f.turn, f.turns};
   s.path = hashCombine(f.loopPath, f.turn);
   pc_ = program_.code.data() + i.a;
+}
+
+void Machine::endTurns() {
+  const InPlaceFrame& f = frames_.back();
+  Shape& s = current().shape;
+  s.split = f.split;
+  s.path = f.path;
+  frames_.pop_back();
+}
+
+// Ends what is at work in place before its end. After a rule the code goes on behind its call.
+void Machine::closeFrame() {
+  switch (frames_.back().kind) {
+    case InPlaceFrame::Kind::Rule: endInPlace(); break;
+    case InPlaceFrame::Kind::Turns: endTurns(); break;
+    case InPlaceFrame::Kind::Locals: endLocals(); break;
+  }
 }
 
 void Machine::beginLocals() {

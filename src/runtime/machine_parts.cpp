@@ -115,6 +115,7 @@ const std::vector<Machine::LightSlot>& Machine::lightSlots(uint32_t block, uint3
       LightSlot slot = lightSlot(rule, entry);
       const uint32_t own = slot.named ? 1 : 0;
       slot.shapes = slot.block > 0 ? slot.calls : std::max<uint32_t>(slot.calls + own, 1);
+      slot.work = slot.shapes + static_cast<uint32_t>(slot.steps.size()) + (slot.block > 0 ? 1 : 0);
       slots.push_back(std::move(slot));
     }
   }
@@ -156,16 +157,18 @@ void Machine::makeLightParts(Activation& a) {
     const SplitPiece& piece = pieces_[a.childNext];
     const LightSlot& slot = slots[piece.slot];
     if (!slot.light) return;
-    const LightMark mark{output_.openLeaves.size(), shapes_, shapesExpanded_, *source.childCount};
+    const LightMark mark{output_.openLeaves.size(), shapes_, shapesExpanded_, work_,
+                         *source.childCount};
     if (!makeLightPart(source, a.plan, piece, slot, a.depth, 0)) {
       output_.openLeaves.resize(mark.leaves);
       shapes_ = mark.shapes;
       shapesExpanded_ = mark.shapesExpanded;
+      work_ = mark.work;
       *source.childCount = mark.childCount;
       return;
     }
     ++a.childNext;
-    if (!tick()) return;
+    if (!tick(0)) return;
     passLeaves();
   }
 }
@@ -200,6 +203,7 @@ bool Machine::makeLightPart(const LightSource& from, const PartPlan& plan, const
   }
   shapes_ += slot.shapes;
   shapesExpanded_ += slot.shapes;
+  work_ += slot.work;
   if (slot.drop) return true;
   if (slot.block > 0) return splitLightPart(from, place, part, slot, depth, nested);
   // Completed where it stays: a copy of what was just written would wait for its stores.

@@ -12,6 +12,7 @@
 
 #include "base/check.h"
 #include "runtime/door.h"
+#include "runtime/finite.h"
 #include "runtime/machine.h"
 #include "shape/deformation.h"
 
@@ -281,8 +282,9 @@ void Machine::dropShape() {
 }
 
 // Goes on behind the ']' of the innermost open bracket: brackets are nested in the code as they are
-// in the text.
+// in the text. What began in place within the bracket ends with it.
 void Machine::leaveBracket() {
+  while (frames_.size() > shapeStack_.back().frames) closeFrame();
   for (size_t open = 1; open > 0; ++pc_) {
     if (pc_->code == Code::PushShape) ++open;
     if (pc_->code == Code::PopShape) --open;
@@ -387,8 +389,9 @@ Status guardedKeeping(Shape& shape, const Run& run) {
 
 }  // namespace
 
-// The door of operations. What unwinds out of one ends here, and the shape is as it was before: a
-// copy is kept where the operation may get so far as to take the shape apart.
+// The door of operations. What unwinds out of one ends here, and the shape is as it was before; so
+// does what comes out with numbers that are not finite. A copy is kept where the operation may get
+// so far as to take the shape apart, and where numbers are so large that they may overflow.
 Status Machine::apply(OpCall& call, const Instruction& i, std::span<const Value> arguments,
                       const BlockInput* block) {
   const OpSpec& spec = call.spec();
@@ -396,12 +399,32 @@ Status Machine::apply(OpCall& call, const Instruction& i, std::span<const Value>
     Status refused = refusedNumber(spec, program_.operations[i.a].form, arguments, pool());
     if (!refused.ok()) return refused;
   }
+  const size_t firstChild = children_.size(), firstPiece = pieces_.size();
   const auto run = [&] {
-    return remembers_ && worksInTheOpen() ? applyRemembering(call, i, arguments, block)
-                                          : call.run();
+    Status status = remembers_ && worksInTheOpen() ? applyRemembering(call, i, arguments, block)
+                                                   : call.run();
+    if (!status.ok() || madeFinite(call.shape(), firstChild, firstPiece)) return status;
+    return call.fail("not-finite", "the result has sizes or places that are no finite numbers",
+                     "look for a division by zero, or for sizes that grow with each turn");
   };
-  const bool whole = spec.stepsPerVertex == 1 && call.shape().geometry.kind != GeometryKind::Mesh;
-  return whole ? guarded(run) : guardedKeeping(call.shape(), run);
+  const bool whole = spec.stepsPerVertex == 1 && isModerate(call.shape()) &&
+                     call.shape().geometry.kind != GeometryKind::Mesh;
+  if (!whole) return guardedKeeping(call.shape(), run);
+  Status status = guarded(run);
+  // Without a copy there is nothing to go back to.
+  if (!status.ok() && !hasFiniteScope(call.shape())) call.shape() = Shape{};
+  return status;
+}
+
+bool Machine::madeFinite(const Shape& s, size_t firstChild, size_t firstPiece) const {
+  bool finite = hasFiniteScope(s);
+  for (size_t c = firstChild; c < children_.size(); ++c) {
+    finite = finite && hasFiniteScope(children_[c].shape);
+  }
+  for (size_t p = firstPiece; p < pieces_.size(); ++p) {
+    finite = finite && isFinite(Vec3{pieces_[p].start, pieces_[p].size, 0});
+  }
+  return finite;
 }
 
 void Machine::operation(const Instruction& i, const Value* constants) {
@@ -521,6 +544,7 @@ bool Machine::putLeaf(const Shape& s, StringId name, uint32_t source) {
 void Machine::pushShape() {
   Activation& a = current();
   SavedShape& saved = shapeStack_.emplace_back(a.shape);
+  saved.frames = static_cast<uint32_t>(frames_.size());
   if (!program_.rules[a.rule].needsPrevious) return;
   saved.previousScope = a.previousScope;
   saved.previousSize = a.previousSize;
@@ -552,11 +576,11 @@ void Machine::setAttribute(const Instruction& i) {
 
 void Machine::setBuiltin(const Instruction& i, const Value& v) {
   Activation& a = current();
+  instruction_ = &i;
   if (isDeformed(a.shape)) bakeDeformation(a.shape);
   const CallPlace place{a.previousScope, a.previousSize,
                         program_.files[program_.rules[a.rule].file]};
   OpCall call(*builtinSetSpec_, a.shape, {&v, 1}, *this, place);
-  instruction_ = &i;
   const AttributeSpec& spec = *program_.builtinAttributes[i.a];
   Status status = refusedNumber(spec.name, v, pool());
   if (status.ok()) status = guarded([&] { return spec.set(call, v); });

@@ -77,8 +77,7 @@ class Merger {
     recall.prototypeNumbers = std::move(byKey_);
   }
 
-  Scene take() { return std::move(scene_); }
-  MergeLoss loss() const { return {full(), attributeBytes_ > input_.mostAttributeBytes}; }
+  Merged take() { return {std::move(scene_), !full(), !attributesFull()}; }
 
  private:
   struct Worker {
@@ -99,25 +98,52 @@ class Merger {
                          output.events.begin() + p.firstEvent + p.eventCount);
   }
 
-  // The scene's number of a worker's prototype. Recursion is as deep as shared calls nest, which
-  // the limit on depth bounds.
-  uint32_t import(uint32_t worker, uint32_t prototype) {
+  static bool isShared(const OutputPrototype& p) { return p.key.a != 0 || p.key.b != 0; }
+
+  // True where the scene has a worker's prototype, or an equal one.
+  bool imported(uint32_t worker, uint32_t prototype) {
     uint32_t& known = workers_[worker].prototypes[prototype];
-    if (known != kUnset) return known;
+    if (known != kUnset) return true;
     const OutputPrototype& from = outputs_[worker].prototypes[prototype];
-    const bool shared = from.key.a != 0 || from.key.b != 0;
-    if (shared) {
-      const auto at = byKey_.find(from.key);
-      if (at != byKey_.end()) return known = at->second;
+    if (!isShared(from)) return false;
+    const auto at = byKey_.find(from.key);
+    if (at != byKey_.end()) known = at->second;
+    return at != byKey_.end();
+  }
+
+  // The scene's number of a worker's prototype, which comes after those that it holds. Shared calls
+  // nest as deep as rules do, so the prototypes at work are a list.
+  uint32_t import(uint32_t worker, uint32_t prototype) {
+    struct Open {
+      uint32_t prototype, next;
+    };
+    std::vector<Open> open;
+    if (!imported(worker, prototype)) open.push_back({prototype, 0});
+    while (!open.empty()) {
+      Open& top = open.back();
+      const Prototype& range = outputs_[worker].prototypes[top.prototype].range;
+      if (top.next < range.instanceCount) {
+        const uint32_t inner =
+            outputs_[worker].instances[range.firstInstance + top.next++].prototype;
+        if (!imported(worker, inner)) open.push_back({inner, 0});
+        continue;
+      }
+      takeOver(worker, top.prototype);
+      open.pop_back();
     }
-    std::vector<Instance> instances(
-        outputs_[worker].instances.begin() + from.range.firstInstance,
-        outputs_[worker].instances.begin() + from.range.firstInstance + from.range.instanceCount);
-    for (Instance& i : instances) i.prototype = import(worker, i.prototype);
+    return workers_[worker].prototypes[prototype];
+  }
+
+  void takeOver(uint32_t worker, uint32_t prototype) {
+    const OutputPrototype& from = outputs_[worker].prototypes[prototype];
     Prototype to = from.range;
     to.name = nameNumber(from.range.name);
     to.firstInstance = static_cast<uint32_t>(scene_.instances.size());
-    scene_.instances.insert(scene_.instances.end(), instances.begin(), instances.end());
+    for (uint32_t i = 0; i < from.range.instanceCount; ++i) {
+      Instance& copy =
+          scene_.instances.emplace_back(outputs_[worker].instances[from.range.firstInstance + i]);
+      copy.prototype = workers_[worker].prototypes[copy.prototype];
+    }
     if (outputs_.size() == 1) {
       Leaf* leaves = scene_.leaves.data() + from.range.firstLeaf;
       for (uint32_t i = 0; i < from.range.leafCount; ++i) renumber(leaves[i], worker);
@@ -132,8 +158,7 @@ class Merger {
     if (input_.recall) remember(outputs_[worker], from);
     const auto number = static_cast<uint32_t>(scene_.prototypes.size() - 1);
     workers_[worker].prototypes[prototype] = number;
-    if (shared) byKey_.emplace(from.key, number);
-    return number;
+    if (isShared(from)) byKey_.emplace(from.key, number);
   }
 
   void renumber(Leaf& leaf, uint32_t worker) {
@@ -219,41 +244,54 @@ class Merger {
   uint32_t attributesNumber(uint32_t set) {
     const auto [at, fresh] =
         attributeNumbers_.try_emplace(set, static_cast<uint32_t>(scene_.attributeSets.size()));
-    if (fresh) {
-      std::vector<AttributeValue> values;
-      for (const auto& e : input_.attributes.entries(set)) {
-        attributeBytes_ += bytesOf(e.value);
-        if (attributeBytes_ > input_.mostAttributeBytes) continue;
-        values.push_back(
-            plainAttribute(input_.program.attributes[e.key].name, e.value, *input_.program.pool));
-      }
-      scene_.attributeSets.push_back(std::move(values));
+    if (!fresh) return at->second;
+    for (const auto& e : input_.attributes.entries(set)) attributeBytes_ += bytesOf(e.value);
+    std::vector<AttributeValue> values;
+    for (const auto& e : input_.attributes.entries(set)) {
+      if (attributesFull()) break;
+      values.push_back(
+          plainAttribute(input_.program.attributes[e.key].name, e.value, *input_.program.pool));
     }
+    scene_.attributeSets.push_back(std::move(values));
     return at->second;
   }
 
+  // What a value takes in the scene.
   uint64_t bytesOf(const Value& v) const {
     const ValuePool& pool = *input_.program.pool;
-    const uint64_t values = v.isArray() ? pool.array(v).size() : 1;
-    return sizeof(AttributeValue) + values * sizeof(PlainValue);
+    if (v.type == ValueType::String) return sizeof(AttributeValue) + pool.text(v.id).size();
+    if (!v.isArray()) return sizeof(AttributeValue);
+    uint64_t bytes = sizeof(AttributeValue) + pool.array(v).size() * sizeof(PlainValue);
+    for (const StringId s : pool.array(v).strings) bytes += pool.text(s).size();
+    return bytes;
   }
+
+  bool attributesFull() const { return attributeBytes_ > input_.mostAttributeBytes; }
 
   bool full() const { return events_ > input_.mostEvents || eventBytes_ > input_.mostEventBytes; }
 
   // Instances multiply: a few nested calls can stand for more prints than memory holds.
   void replay(uint32_t worker, uint32_t prototype) {
+    struct Open {
+      const OutputPrototype* prototype;
+      uint32_t event, instance;
+    };
     const Output& out = outputs_[worker];
-    const OutputPrototype& p = out.prototypes[prototype];
-    if (!p.speaks || full()) return;
-    uint32_t event = 0;
-    for (uint32_t i = 0; i <= p.range.instanceCount; ++i) {
-      for (; event < p.eventCount && out.events[p.firstEvent + event].instancesBefore == i;
-           ++event) {
-        speak(out.events[p.firstEvent + event]);
+    std::vector<Open> open{{&out.prototypes[prototype], 0, 0}};
+    while (!open.empty() && !full()) {
+      Open& top = open.back();
+      const OutputPrototype& p = *top.prototype;
+      for (; top.event < p.eventCount; ++top.event) {
+        const OutputEvent& e = out.events[p.firstEvent + top.event];
+        if (e.instancesBefore != top.instance) break;
+        speak(e);
       }
-      if (i < p.range.instanceCount) {
-        replay(worker, out.instances[p.range.firstInstance + i].prototype);
+      if (!p.speaks || top.instance == p.range.instanceCount) {
+        open.pop_back();
+        continue;
       }
+      const Instance& next = out.instances[p.range.firstInstance + top.instance++];
+      open.push_back({&out.prototypes[next.prototype], 0, 0});
     }
   }
 
@@ -316,18 +354,16 @@ AttributeValue plainAttribute(const std::string& name, const Value& v, const Val
   return out;
 }
 
-Scene merge(std::vector<Output>& outputs, const std::vector<OutputRoot>& roots,
-            const MergeInput& input, MergeLoss& loss) {
+Merged merge(std::vector<Output>& outputs, const std::vector<OutputRoot>& roots,
+             const MergeInput& input) {
   Merger merger(outputs, input);
   for (const OutputRoot& r : roots) merger.addRoot(r);
-  loss = merger.loss();
   if (input.recall) {
     for (RecallPart& p : input.recall->parts) p.prototype = merger.numberOf(p.worker, p.prototype);
     merger.explain(*input.recall);
   }
-  Scene scene = merger.take();
   outputs.clear();
-  return scene;
+  return merger.take();
 }
 
 }  // namespace gable

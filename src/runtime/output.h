@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <unordered_map>
 #include <vector>
 
@@ -96,20 +95,23 @@ struct MergeInput {
   /// Reports and prints, instances expanded, and the bytes of their texts.
   uint64_t mostEvents = 20'000'000;
   uint64_t mostEventBytes = uint64_t{1} << 30;
-  /// What the attributes of all leaves may take, equal ones counted once.
-  uint64_t mostAttributeBytes = std::numeric_limits<uint64_t>::max();
+  /// The values of the attributes of leaves, each set once.
+  uint64_t mostAttributeBytes = uint64_t{1} << 30;
 };
 
-/// What of a scene was left out because there is too much of it.
-struct MergeLoss {
-  bool events = false, attributes = false;
+struct Merged {
+  Scene scene;
+  /// False when there were more reports and prints than allowed.
+  bool allEvents = true;
+  /// False when leaves are without attributes, for which there was no room.
+  bool allAttributes = true;
 };
 
 PlainValue plainValue(const Value& v, const ValuePool& pool);
 AttributeValue plainAttribute(const std::string& name, const Value& v, const ValuePool& pool);
 
 /// Empties the outputs.
-Scene merge(std::vector<Output>& outputs, const std::vector<OutputRoot>& roots,
-            const MergeInput& input, MergeLoss& loss);
+Merged merge(std::vector<Output>& outputs, const std::vector<OutputRoot>& roots,
+             const MergeInput& input);
 
 }  // namespace gable

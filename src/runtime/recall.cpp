@@ -91,12 +91,19 @@ Leaf Recaller::leaf(const Leaf& from) {
   return to;
 }
 
+// True where the output has the prototype already.
+bool Recaller::isTaken(uint32_t number) {
+  uint32_t& known = prototypes_[number];
+  if (known != kUnset) return true;
+  const auto at = cache_.find(recall_.prototypes[number].key);
+  if (at != cache_.end()) known = at->second;
+  return at != cache_.end();
+}
+
 Instance Recaller::instance(const Instance& from) {
   Instance to = from;
-  const bool known = prototypes_[from.prototype] != kUnset ||
-                     cache_.contains(recall_.prototypes[from.prototype].key);
+  if (isTaken(from.prototype)) ++counts_.shared;
   to.prototype = prototype(from.prototype);
-  if (known) ++counts_.shared;
   return to;
 }
 
@@ -129,26 +136,45 @@ bool Recaller::takePrototype(const ShareKey& key, uint32_t& number) {
   return true;
 }
 
-// As deep as shared calls nest, which the limit on depth bounds. Prototypes are finished in the
-// order in which deriving them would have done it: those that one holds before itself.
+// Prototypes are finished in the order in which deriving them would have done it: those that one
+// holds before itself. Shared calls nest as deep as rules do, so those at work are a list.
 uint32_t Recaller::prototype(uint32_t number) {
-  uint32_t& known = prototypes_[number];
-  if (known != kUnset) return known;
-  const Recall::PrototypeNotes& notes = recall_.prototypes[number];
-  if (const auto at = cache_.find(notes.key); at != cache_.end()) return known = at->second;
-  const Prototype& from = scene_.prototypes[number];
-  std::vector<Instance> instances;
-  instances.reserve(from.instanceCount);
-  for (uint32_t i = 0; i < from.instanceCount; ++i) {
-    instances.push_back(instance(scene_.instances[from.firstInstance + i]));
+  struct Open {
+    uint32_t number, next;
+  };
+  std::vector<Open> open;
+  if (!isTaken(number)) open.push_back({number, 0});
+  while (!open.empty()) {
+    Open& top = open.back();
+    const Prototype& from = scene_.prototypes[top.number];
+    if (top.next < from.instanceCount) {
+      const uint32_t inner = scene_.instances[from.firstInstance + top.next++].prototype;
+      if (isTaken(inner))
+        ++counts_.shared;
+      else
+        open.push_back({inner, 0});
+      continue;
+    }
+    finish(top.number);
+    open.pop_back();
   }
+  return prototypes_[number];
+}
+
+// Takes a prototype over whose instances have been.
+void Recaller::finish(uint32_t number) {
+  const Recall::PrototypeNotes& notes = recall_.prototypes[number];
+  const Prototype& from = scene_.prototypes[number];
   OutputPrototype to;
   to.range = from;
   to.range.name = recall_.names[from.name];
   to.key = notes.key;
   to.speaks = notes.speaks;
   to.range.firstInstance = static_cast<uint32_t>(output_.instances.size());
-  output_.instances.insert(output_.instances.end(), instances.begin(), instances.end());
+  for (uint32_t i = 0; i < from.instanceCount; ++i) {
+    Instance& copy = output_.instances.emplace_back(scene_.instances[from.firstInstance + i]);
+    copy.prototype = prototypes_[copy.prototype];
+  }
   to.range.firstLeaf = static_cast<uint32_t>(output_.leaves.size());
   for (uint32_t l = 0; l < from.leafCount; ++l) {
     output_.leaves.push_back(leaf(scene_.leaves[from.firstLeaf + l]));
@@ -158,9 +184,8 @@ uint32_t Recaller::prototype(uint32_t number) {
   output_.events.insert(output_.events.end(), recall_.events.begin() + notes.firstEvent,
                         recall_.events.begin() + notes.firstEvent + notes.eventCount);
   output_.prototypes.push_back(to);
-  known = static_cast<uint32_t>(output_.prototypes.size() - 1);
-  cache_.emplace(notes.key, known);
-  return known;
+  prototypes_[number] = static_cast<uint32_t>(output_.prototypes.size() - 1);
+  cache_.emplace(notes.key, prototypes_[number]);
 }
 
 }  // namespace gable

@@ -128,7 +128,9 @@ class Recaller {
   Counts counts();
 
  private:
+  bool isTaken(uint32_t number);
   uint32_t prototype(uint32_t number);
+  void finish(uint32_t number);
   Leaf leaf(const Leaf& from);
   Instance instance(const Instance& from);
 

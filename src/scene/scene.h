@@ -131,6 +131,22 @@ struct Scene {
   Scene();
 };
 
+/// A prototype on the way from a root to a leaf.
+struct WalkLevel {
+  const Prototype* prototype = nullptr;
+  Frame world;
+  /// Those that come next.
+  uint32_t instance = 0, leaf = 0;
+};
+
+/// Goes through a prototype placed at `world` in path order, on a stack of its own: instances nest
+/// as deep as rules do. Calls `visit(leaf, world, level)` with the index of each leaf and the frame
+/// of its prototype, and `enter(instance, world, level)` before an instance, which it goes into
+/// where that is true. The level counts from 0 for the prototype itself.
+template <class Visit, class Enter>
+void walk(const Scene& scene, const Prototype& prototype, const Frame& world, Visit&& visit,
+          Enter&& enter);
+
 /// Calls `visit(leaf, world)` for every leaf in path order, instances expanded.
 template <class Visit>
 void forEachLeaf(const Scene& scene, Visit&& visit);
@@ -148,22 +164,34 @@ SceneCounts count(const Scene& scene);
 
 // ---------------------------------------------------------------------------------------------
 
+template <class Visit, class Enter>
+void walk(const Scene& scene, const Prototype& prototype, const Frame& world, Visit&& visit,
+          Enter&& enter) {
+  std::vector<WalkLevel> levels{{&prototype, world}};
+  while (!levels.empty()) {
+    WalkLevel& at = levels.back();
+    const Prototype& p = *at.prototype;
+    const Instance* next =
+        at.instance < p.instanceCount ? &scene.instances[p.firstInstance + at.instance++] : nullptr;
+    for (const uint32_t end = next ? next->leavesBefore : p.leafCount; at.leaf < end; ++at.leaf) {
+      visit(p.firstLeaf + at.leaf, at.world, levels.size() - 1);
+    }
+    if (!next) {
+      levels.pop_back();
+    } else if (const Frame inner = at.world * next->frame; enter(*next, inner, levels.size())) {
+      levels.push_back({&scene.prototypes[next->prototype], inner});
+    }
+  }
+}
+
 template <class Visit>
 void forEachLeaf(const Scene& scene, const Prototype& prototype, const Frame& world,
                  Visit&& visit) {
-  uint32_t leaf = 0;
-  for (uint32_t i = 0; i < prototype.instanceCount; ++i) {
-    const Instance& instance = scene.instances[prototype.firstInstance + i];
-    for (; leaf < instance.leavesBefore; ++leaf) {
-      const Leaf& l = scene.leaves[prototype.firstLeaf + leaf];
-      visit(l, world * l.frame);
-    }
-    forEachLeaf(scene, scene.prototypes[instance.prototype], world * instance.frame, visit);
-  }
-  for (; leaf < prototype.leafCount; ++leaf) {
-    const Leaf& l = scene.leaves[prototype.firstLeaf + leaf];
-    visit(l, world * l.frame);
-  }
+  const auto leafOf = [&](uint32_t leaf, const Frame& at, size_t) {
+    const Leaf& l = scene.leaves[leaf];
+    visit(l, at * l.frame);
+  };
+  walk(scene, prototype, world, leafOf, [](const Instance&, const Frame&, size_t) { return true; });
 }
 
 template <class Visit>

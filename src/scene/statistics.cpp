@@ -96,18 +96,21 @@ class Bounds {
   }
 
   void grow(uint32_t prototype, const Frame& world) {
+    const auto leaf = [&](uint32_t l, const Frame& around, size_t) {
+      grow(scene_.leaves[l], around);
+    };
+    const auto enter = [&](const Instance& in, const Frame& at, size_t) {
+      return couldGrow(in.prototype, at);
+    };
+    if (couldGrow(prototype, world)) walk(scene_, scene_.prototypes[prototype], world, leaf, enter);
+  }
+
+  bool couldGrow(uint32_t prototype, const Frame& world) {
     const Box3 box = widened(placed(prototypes_[prototype], {1, 1, 1}, world));
-    if (within(box, found_)) return;
-    if (visits_++ >= kMaxVisits) {
-      found_.include(box);
-      return;
-    }
-    const Prototype& p = scene_.prototypes[prototype];
-    for (uint32_t i = 0; i < p.leafCount; ++i) grow(scene_.leaves[p.firstLeaf + i], world);
-    for (uint32_t i = 0; i < p.instanceCount; ++i) {
-      const Instance& in = scene_.instances[p.firstInstance + i];
-      grow(in.prototype, world * in.frame);
-    }
+    if (within(box, found_)) return false;
+    if (visits_++ < kMaxVisits) return true;
+    found_.include(box);
+    return false;
   }
 
   void grow(const Leaf& leaf, const Frame& around) {

@@ -105,20 +105,15 @@ class Builder {
  private:
   // As forEachLeaf, but it ends: instances of instances can stand for more than time allows.
   void addPrototype(const Prototype& p, const Frame& world) {
-    uint32_t leaf = 0;
-    const auto addUpTo = [&](uint32_t end) {
-      for (; leaf < end && made_ < kMostLeaves; ++leaf) {
-        const Leaf& l = scene_.leaves[p.firstLeaf + leaf];
-        add(l, world * l.frame, made_++);
-      }
+    const auto addLeaf = [&](uint32_t leaf, const Frame& at, size_t) {
+      if (made_ >= kMostLeaves) return;
+      const Leaf& l = scene_.leaves[leaf];
+      add(l, at * l.frame, made_++);
     };
-    for (uint32_t i = 0; i < p.instanceCount && made_ < kMostLeaves; ++i) {
-      const Instance& instance = scene_.instances[p.firstInstance + i];
-      if (!drawn_[instance.prototype]) continue;
-      addUpTo(instance.leavesBefore);
-      addPrototype(scene_.prototypes[instance.prototype], world * instance.frame);
-    }
-    addUpTo(p.leafCount);
+    const auto enter = [&](const Instance& instance, const Frame&, size_t) {
+      return made_ < kMostLeaves && drawn_[instance.prototype];
+    };
+    walk(scene_, p, world, addLeaf, enter);
   }
 
   // Of prototypes without leaves there can be as many instances as of others.

@@ -142,9 +142,8 @@ void GltfDocument::writeExtras(JsonWriter& w, const Leaf& leaf) const {
   w.key("extras").beginObject().field("rule", s.rule).field("line", s.line).endObject();
 }
 
-void GltfDocument::writeNode(JsonWriter& w, uint32_t unit, const NodePlace& place, uint64_t index) {
-  const auto groups = groupsOf(plan_, unit, instanced_);
-  const std::vector<PlannedChild>& children = plan_.units()[unit].children;
+void GltfDocument::writeNode(JsonWriter& w, const OpenUnit& open, const NodePlace& place) const {
+  const uint32_t unit = open.unit;
   w.beginObject();
   if (!place.name->empty()) w.field("name", *place.name);
   if (meshNumbers_[unit] >= 0) w.field("mesh", meshNumbers_[unit]);
@@ -156,9 +155,9 @@ void GltfDocument::writeNode(JsonWriter& w, uint32_t unit, const NodePlace& plac
     w.endArray();
   }
   if (place.scale != Vec3{1, 1, 1}) writeVec(w, "scale", place.scale, 9);
-  uint64_t next = index + 1;
+  uint64_t next = open.next;
   bool any = false;
-  for (const Group& g : groups) {
+  for (const Group& g : open.groups) {
     const uint64_t nodes = nodesFor(g);
     if (nodes == 0) continue;
     if (!any) w.key("children").beginArray();
@@ -169,25 +168,43 @@ void GltfDocument::writeNode(JsonWriter& w, uint32_t unit, const NodePlace& plac
   if (any) w.endArray();
   if (place.leaf != PlannedChild::kNone) writeExtras(w, scene_.leaves[place.leaf]);
   w.endObject();
+}
 
-  next = index + 1;
-  uint32_t accessor = instanceBase_[unit];
-  for (const Group& g : groups) {
+// A node that shows all children of a group.
+void GltfDocument::writeGroup(JsonWriter& w, const Group& g, uint32_t accessor) const {
+  w.beginObject().field("name", nameOf(g.unit)).field("mesh", meshNumbers_[g.unit]);
+  w.key("extensions").beginObject().key("EXT_mesh_gpu_instancing").beginObject();
+  w.key("attributes").beginObject().field("TRANSLATION", accessor);
+  w.field("ROTATION", accessor + 1).field("SCALE", accessor + 2).endObject();
+  w.endObject().endObject().endObject();
+}
+
+// A unit's node, then those below it, each before its own. Units nest as deep as rules do, so those
+// at work are a list.
+void GltfDocument::writeTree(JsonWriter& w, uint32_t unit, const NodePlace& place, uint64_t index) {
+  std::vector<OpenUnit> open;
+  const auto begin = [&](uint32_t u, const NodePlace& at, uint64_t number) {
+    open.push_back({u, number + 1, instanceBase_[u], 0, groupsOf(plan_, u, instanced_)});
+    writeNode(w, open.back(), at);
+  };
+  begin(unit, place, index);
+  while (!open.empty()) {
+    OpenUnit& top = open.back();
+    if (top.group == top.groups.size()) {
+      open.pop_back();
+      continue;
+    }
+    const Group& g = top.groups[top.group++];
     const uint64_t nodes = nodeCount(g.unit);
+    const uint64_t number = top.next;
     if (g.children.size() > 1) {
-      if (nodes > 0) {
-        w.beginObject().field("name", nameOf(g.unit)).field("mesh", meshNumbers_[g.unit]);
-        w.key("extensions").beginObject().key("EXT_mesh_gpu_instancing").beginObject();
-        w.key("attributes").beginObject().field("TRANSLATION", accessor);
-        w.field("ROTATION", accessor + 1).field("SCALE", accessor + 2).endObject();
-        w.endObject().endObject().endObject();
-        ++next;
-      }
-      accessor += 3;
+      if (nodes > 0) writeGroup(w, g, top.accessor);
+      top.next += nodes > 0 ? 1 : 0;
+      top.accessor += 3;
     } else if (nodes > 0) {
-      const PlannedChild& c = children[g.children[0]];
-      writeNode(w, c.unit, {&c.frame, c.scale, &nameOf(c.unit), c.leaf}, next);
-      next += nodes;
+      const PlannedChild& c = plan_.units()[top.unit].children[g.children[0]];
+      top.next += nodes;
+      begin(c.unit, {&c.frame, c.scale, &nameOf(c.unit), c.leaf}, number);
     }
   }
 }
@@ -205,7 +222,7 @@ void GltfDocument::writeNodes() {
     const uint32_t unit = plan_.rootUnits()[r];
     if (nodeCount(unit) == 0) continue;
     const std::string& name = root.name < scene_.names.size() ? scene_.names[root.name] : kNoName;
-    writeNode(nodes, unit, {&root.instance.frame, {1, 1, 1}, &name, PlannedChild::kNone}, index);
+    writeTree(nodes, unit, {&root.instance.frame, {1, 1, 1}, &name, PlannedChild::kNone}, index);
     roots.value(index);
     index += nodeCount(unit);
   }

@@ -79,7 +79,18 @@ class GltfDocument {
   uint64_t nodesFor(const Group& g) const;
   uint64_t nodeCount(uint32_t unit) const { return nodeCounts_[unit]; }
   void countNodes();
-  void writeNode(JsonWriter& w, uint32_t unit, const NodePlace& place, uint64_t index);
+  /// A unit whose nodes are being written.
+  struct OpenUnit {
+    uint32_t unit = 0;
+    /// Of the next child: its node's number, and its accessors where it is a group.
+    uint64_t next = 0;
+    uint32_t accessor = 0;
+    size_t group = 0;
+    std::vector<Group> groups;
+  };
+  void writeTree(JsonWriter& w, uint32_t unit, const NodePlace& place, uint64_t index);
+  void writeNode(JsonWriter& w, const OpenUnit& open, const NodePlace& place) const;
+  void writeGroup(JsonWriter& w, const Group& g, uint32_t accessor) const;
   void writeExtras(JsonWriter& w, const Leaf& leaf) const;
   const std::string& nameOf(uint32_t unit) const;
   void writeMeshes(JsonWriter& w, const GltfContent& content) const;

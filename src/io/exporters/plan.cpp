@@ -169,34 +169,34 @@ uint32_t ScenePlan::unitOfLeaf(uint32_t leaf) {
 
 void ScenePlan::walk(uint32_t index, const Frame& frame, bool solid, UnitContent* content,
                      std::vector<PlannedChild>* children) const {
-  const Prototype& p = scene_.prototypes[index];
-  uint32_t placement = 0;
-  if (content) {
-    placement = static_cast<uint32_t>(content->placements.size());
-    content->placements.push_back(frame);
-  }
-  const auto addLeaf = [&](uint32_t i) {
-    const uint32_t leaf = p.firstLeaf + i;
+  // By level of the walk.
+  std::vector<uint32_t> placement;
+  const auto open = [&](const Frame& at, size_t level) {
+    placement.resize(level + 1);
+    if (!content) return;
+    placement[level] = static_cast<uint32_t>(content->placements.size());
+    content->placements.push_back(at);
+  };
+  const auto addLeaf = [&](uint32_t leaf, const Frame& at, size_t level) {
     const Leaf& l = scene_.leaves[leaf];
     if (!solid && standsAlone(l)) {
-      if (children) children->push_back({kNone, frame * l.frame, l.scale, leaf});
+      if (children) children->push_back({kNone, at * l.frame, l.scale, leaf});
     } else if (content) {
-      content->leaves.push_back({leaf, placement});
+      content->leaves.push_back({leaf, placement[level]});
     }
   };
-  uint32_t leaf = 0;
-  for (uint32_t i = 0; i < p.instanceCount; ++i) {
-    const Instance& in = scene_.instances[p.firstInstance + i];
-    for (; leaf < in.leavesBefore && leaf < p.leafCount; ++leaf) addLeaf(leaf);
+  const auto enter = [&](const Instance& in, const Frame& at, size_t level) {
     // What shows nothing is passed over, however often it stands here.
-    if (bytes_[in.prototype] == 0) continue;
+    if (bytes_[in.prototype] == 0) return false;
     if (solid || use_[in.prototype] == Use::Merged) {
-      walk(in.prototype, frame * in.frame, solid, content, children);
-    } else if (children) {
-      children->push_back({in.prototype, frame * in.frame, {1, 1, 1}, PlannedChild::kNone});
+      open(at, level);
+      return true;
     }
-  }
-  for (; leaf < p.leafCount; ++leaf) addLeaf(leaf);
+    if (children) children->push_back({in.prototype, at, {1, 1, 1}, PlannedChild::kNone});
+    return false;
+  };
+  open(frame, 0);
+  gable::walk(scene_, scene_.prototypes[index], frame, addLeaf, enter);
 }
 
 double ScenePlan::contentSize(uint32_t unit) const {

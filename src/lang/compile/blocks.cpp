@@ -189,14 +189,15 @@ void UnitCompiler::componentValues(NodeId node) {
   pushBlockValues(number);
   blockValues_ = std::move(outer);
   e_.emit(Code::ComponentValues, t_.span(node), e_.operation(operation, given.form),
-          static_cast<uint8_t>(given.list.size()), static_cast<uint16_t>(number + 1),
-          e_.site("comp"));
+          given.list.size(), number + size_t{1}, e_.site("comp"));
   // The bodies stand behind, jumped over.
   const uint32_t over = e_.jump(Code::Jump, t_.span(node));
   for (const PendingSlot& s : slots) {
     e_.program().blocks[number].slots[s.slot] = e_.here();
+    const size_t depth = e_.depth();
     expression(s.sequence);
     e_.emit(Code::Return, t_.span(s.sequence));
+    e_.settle(depth);
   }
   e_.land(over);
 }
@@ -221,7 +222,7 @@ void UnitCompiler::valuePerEdge(NodeId node) {
   e_.program().blocks.push_back(std::move(block));
   e_.emit(Code::Constant, t_.span(node), e_.constant(pool.selector("fe")));
   e_.emit(Code::ComponentValues, t_.span(node), e_.operation(componentOperation_, nullptr), 1,
-          static_cast<uint16_t>(number + 1), e_.site("comp"));
+          number + size_t{1}, e_.site("comp"));
   const uint32_t over = e_.jump(Code::Jump, t_.span(node));
   e_.program().blocks[number].slots[0] = e_.here();
   expression(node);

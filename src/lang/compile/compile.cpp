@@ -18,8 +18,8 @@ namespace {
 class Compiler {
  public:
   Compiler(const ResolvedProgram& resolved, const Catalogue& catalogue,
-           std::shared_ptr<ValuePool> pool, const Sources& sources)
-      : r_(resolved), component_(catalogue.operation("comp")), emitter_(program_) {
+           std::shared_ptr<ValuePool> pool, const Sources& sources, Diagnostics& diagnostics)
+      : r_(resolved), component_(catalogue.operation("comp")), emitter_(program_, diagnostics) {
     program_.pool = std::move(pool);
     for (uint32_t f = 0; f < sources.size(); ++f) program_.files.push_back(sources.path(f));
   }
@@ -171,8 +171,8 @@ std::vector<AnnotationInfo> Compiler::listed(const Annotations& a) const {
 }  // namespace
 
 Program compile(const ResolvedProgram& resolved, const Catalogue& catalogue,
-                std::shared_ptr<ValuePool> pool, const Sources& sources) {
-  return Compiler(resolved, catalogue, std::move(pool), sources).run();
+                std::shared_ptr<ValuePool> pool, const Sources& sources, Diagnostics& diagnostics) {
+  return Compiler(resolved, catalogue, std::move(pool), sources, diagnostics).run();
 }
 
 }  // namespace gable::lang

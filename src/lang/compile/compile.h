@@ -13,7 +13,8 @@
 
 namespace gable::lang {
 
+/// Rules that are too large for the machine are told; the program is then not for use.
 Program compile(const ResolvedProgram& resolved, const Catalogue& catalogue,
-                std::shared_ptr<ValuePool> pool, const Sources& sources);
+                std::shared_ptr<ValuePool> pool, const Sources& sources, Diagnostics& diagnostics);
 
 }  // namespace gable::lang

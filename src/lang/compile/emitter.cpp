@@ -4,19 +4,44 @@
 #include "lang/compile/emitter.h"
 
 #include "base/hash.h"
+#include "program/stack.h"
 
 namespace gable::lang {
 
-uint32_t Emitter::emit(Code code, Span span, uint32_t a, uint8_t x, uint16_t y, uint64_t site) {
-  p_.code.push_back({code, x, y, a});
+uint32_t Emitter::emit(Code code, Span span, uint32_t a, size_t x, size_t y, uint64_t site) {
+  const auto narrowX = static_cast<uint8_t>(x);
+  const auto narrowY = static_cast<uint16_t>(y);
+  if (narrowX != x || narrowY != y || ++depth_ > kMostOnStack) tooLarge(code, span, x);
+  p_.code.push_back({code, narrowX, narrowY, a});
   p_.spans.push_back(span);
   p_.sites.push_back(site);
   return here() - 1;
 }
 
+// One such mistake tends to bring thousands more.
+void Emitter::tooLarge(Code code, Span span, size_t x) {
+  if (told_) return;
+  told_ = true;
+  if (depth_ > kMostOnStack) {
+    diagnostics_.error("code-too-large", span,
+                       "more than " + std::to_string(kMostOnStack) + " values are needed at once",
+                       "read long lists from a file, or put them into attributes of their own");
+  } else if (x > UINT8_MAX) {
+    diagnostics_.error("code-too-large", span, "more than 255 values are given in one call",
+                       "give a list in place of single values");
+  } else if (code == Code::Choose) {
+    diagnostics_.error("code-too-large", span, "a choice has more than 65535 alternatives",
+                       "choose among groups first, and then within the group");
+  } else {
+    diagnostics_.error("code-too-large", span, "the rules have more than 65534 blocks in all",
+                       "use rules in place of blocks that are written again and again");
+  }
+}
+
 void Emitter::beginUnit(std::string_view qualifiedName) {
   unitHash_ = hashBytes(qualifiedName);
   uses_.clear();
+  depth_ = 0;
 }
 
 uint64_t Emitter::site(std::string_view what) {

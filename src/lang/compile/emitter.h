@@ -3,6 +3,9 @@
 //
 // Emitter: appends instructions to a program with their places and random addresses, and keeps the
 // tables that instructions name without repetition.
+//
+// What has no room in an instruction, or on the stack of the machine, is the author's mistake: a
+// diagnostic says so once, and the code is not for use.
 #pragma once
 
 #include <map>
@@ -17,14 +20,19 @@ namespace gable::lang {
 
 class Emitter {
  public:
-  explicit Emitter(Program& program) : p_(program) {}
+  Emitter(Program& program, Diagnostics& diagnostics) : p_(program), diagnostics_(diagnostics) {}
 
   uint32_t here() const { return static_cast<uint32_t>(p_.code.size()); }
-  uint32_t emit(Code code, Span span, uint32_t a = 0, uint8_t x = 0, uint16_t y = 0,
+  uint32_t emit(Code code, Span span, uint32_t a = 0, size_t x = 0, size_t y = 0,
                 uint64_t site = 0);
   /// A jump whose target is set later by land().
   uint32_t jump(Code code, Span span) { return emit(code, span); }
   void land(uint32_t jump) { p_.code[jump].a = here(); }
+
+  /// How many values the code so far may have on the stack, at most; what an expression or a part
+  /// of a successor leaves there is told by settle().
+  size_t depth() const { return depth_; }
+  void settle(size_t depth) { depth_ = depth; }
 
   /// Begins a rule, function or initialiser: sites are counted anew.
   void beginUnit(std::string_view qualifiedName);
@@ -41,10 +49,14 @@ class Emitter {
   Program& program() { return p_; }
 
  private:
+  void tooLarge(Code code, Span span, size_t x);
   template <class Entry>
   uint32_t numberOf(const void* spec, const Signature* form, Entry entry, std::vector<Entry>& list);
 
   Program& p_;
+  Diagnostics& diagnostics_;
+  size_t depth_ = 0;
+  bool told_ = false;
   uint64_t unitHash_ = 0;
   std::map<std::string, uint32_t, std::less<>> uses_;
   std::unordered_map<uint64_t, std::vector<uint32_t>> constants_;

@@ -54,6 +54,12 @@ bool UnitCompiler::constantOf(NodeId node, Value& out) const {
 }
 
 void UnitCompiler::expression(NodeId node) {
+  const size_t depth = e_.depth();
+  value(node);
+  e_.settle(depth + 1);
+}
+
+void UnitCompiler::value(NodeId node) {
   const Span span = t_.span(node);
   Value fixed;
   if (constantOf(node, fixed)) {
@@ -79,7 +85,7 @@ void UnitCompiler::expression(NodeId node) {
       expression(t_.child(node, 0));
       const ::gable::Unit unit =
           t_.kind(node) == NodeKind::Relative ? ::gable::Unit::Relative : ::gable::Unit::Floating;
-      e_.emit(Code::WithUnit, span, 0, static_cast<uint8_t>(unit));
+      e_.emit(Code::WithUnit, span, 0, static_cast<size_t>(unit));
       break;
     }
     default: e_.emit(Code::Constant, span, e_.constant(Value{})); break;
@@ -155,7 +161,7 @@ void UnitCompiler::call(NodeId node, NodeId arguments) {
     case RefKind::Function: {
       const size_t count = pushArguments(arguments);
       uses_.functions.insert(ref.index);
-      e_.emit(Code::Function, span, ref.index, static_cast<uint8_t>(count), 0,
+      e_.emit(Code::Function, span, ref.index, count, 0,
               e_.site(r_.functions[ref.index].qualifiedName));
       break;
     }
@@ -169,7 +175,7 @@ void UnitCompiler::call(NodeId node, NodeId arguments) {
           builtinArguments(node, ref.spec.function->signatures, arguments);
       pushArguments(given, span);
       e_.emit(Code::BuiltinFunction, span, e_.function(ref.spec.function, given.form),
-              static_cast<uint8_t>(given.list.size()), 0, e_.site(ref.spec.function->name));
+              given.list.size(), 0, e_.site(ref.spec.function->name));
       break;
     }
     default: e_.emit(Code::Constant, span, e_.constant(Value{})); break;
@@ -223,7 +229,7 @@ void UnitCompiler::binary(NodeId node) {
   }
   expression(t_.child(node, 1));
   const BinaryOperator code = each ? eachOperator(op) : plainOperator(op);
-  e_.emit(Code::Binary, span, 0, static_cast<uint8_t>(code));
+  e_.emit(Code::Binary, span, 0, static_cast<size_t>(code));
 }
 
 void UnitCompiler::array(NodeId node) {
@@ -236,13 +242,13 @@ void UnitCompiler::array(NodeId node) {
 }
 
 void UnitCompiler::index(NodeId node) {
-  uint8_t count = 0;
+  size_t count = 0;
   for (NodeId part : t_.children(node)) {
     if (part == kNoNode) continue;
     expression(part);
     ++count;
   }
-  e_.emit(Code::Index, t_.span(node), 0, static_cast<uint8_t>(count - 1));
+  e_.emit(Code::Index, t_.span(node), 0, count - 1);
 }
 
 void UnitCompiler::range(NodeId node) {

@@ -22,7 +22,11 @@ void UnitCompiler::body(NodeId node, Span end) {
 }
 
 void UnitCompiler::sequence(NodeId node) {
-  for (NodeId part : t_.children(node)) successor(part);
+  for (NodeId part : t_.children(node)) {
+    const size_t depth = e_.depth();
+    successor(part);
+    e_.settle(depth);
+  }
 }
 
 void UnitCompiler::successor(NodeId node) {
@@ -84,7 +88,7 @@ void UnitCompiler::callRule(NodeId node, uint32_t rule, NodeId arguments) {
   const size_t count = pushArguments(arguments);
   uses_.rules.insert(rule);
   uses_.branches = true;
-  e_.emit(Code::CallRule, nameSpan(t_, node), rule, static_cast<uint8_t>(count), 0,
+  e_.emit(Code::CallRule, nameSpan(t_, node), rule, count, 0,
           e_.site(r_.rules[rule].qualifiedName));
 }
 
@@ -127,8 +131,7 @@ bool UnitCompiler::inPlace(NodeId node, const OpSpec& spec, NodeId arguments) {
         pushArguments(t_.kind(call) == NodeKind::Call ? t_.child(call, 0) : kNoNode);
     uses_.rules.insert(rule.index);
     uses_.branches = true;
-    e_.emit(Code::RunRule, span, rule.index, static_cast<uint8_t>(count), 0,
-            e_.site(r_.rules[rule.index].qualifiedName));
+    e_.emit(Code::RunRule, span, rule.index, count, 0, e_.site(r_.rules[rule.index].qualifiedName));
     return true;
   }
   if (name == "repeat") {
@@ -178,8 +181,8 @@ void UnitCompiler::operation(NodeId node, const OpSpec& spec, NodeId arguments) 
   if (hasBlock) pushBlockValues(blockNumber);
   const uint64_t site = e_.site(spec.name);
   const Code code = allFixed ? Code::OperationConstant : Code::Operation;
-  e_.emit(code, span, e_.operation(&spec, given.form), static_cast<uint8_t>(given.list.size()),
-          static_cast<uint16_t>(hasBlock ? blockNumber + 1 : 0), site);
+  e_.emit(code, span, e_.operation(&spec, given.form), given.list.size(),
+          hasBlock ? blockNumber + size_t{1} : 0, site);
   if (allFixed) e_.emit(Code::Operand, span, e_.constantRun(fixed));
 }
 
@@ -190,20 +193,25 @@ void UnitCompiler::choice(NodeId node, bool inExpression) {
     caseChoice(node, inExpression);
 }
 
+// Of all branches one runs.
 void UnitCompiler::branchBody(NodeId branch, bool inExpression) {
   const NodeId inner = t_.child(branch, 1);
+  const size_t depth = e_.depth();
   if (inExpression)
     expression(inner);
   else
     successor(inner);
+  e_.settle(depth);
 }
 
 void UnitCompiler::caseChoice(NodeId node, bool inExpression) {
   std::vector<uint32_t> ends;
   bool complete = false;
+  const size_t depth = e_.depth();
   for (NodeId branch : t_.children(node)) {
     const NodeId condition = t_.child(branch, 0);
     const Span span = t_.span(branch);
+    e_.settle(depth);
     if (condition == kNoNode) {
       branchBody(branch, inExpression);
       complete = true;
@@ -223,23 +231,26 @@ void UnitCompiler::caseChoice(NodeId node, bool inExpression) {
 
 void UnitCompiler::percentChoice(NodeId node, bool inExpression) {
   const Span span = t_.span(node);
-  uint16_t weighted = 0;
+  size_t weighted = 0;
+  const size_t depth = e_.depth();
   for (NodeId branch : t_.children(node)) {
     const NodeId weight = t_.child(branch, 0);
     if (weight == kNoNode) continue;
+    e_.settle(depth + weighted);
     expression(weight);
     e_.emit(Code::Constant, t_.span(weight), e_.constant(Value::of(100.0)));
-    e_.emit(Code::Binary, t_.span(weight), 0, static_cast<uint8_t>(BinaryOperator::Divide));
+    e_.emit(Code::Binary, t_.span(weight), 0, static_cast<size_t>(BinaryOperator::Divide));
     ++weighted;
   }
   uses_.effects |= kRandom;
   e_.emit(Code::Choose, span, 0, 0, weighted, e_.site("%"));
-  const uint32_t table = e_.table(std::vector<uint32_t>(weighted + 1u));
+  const uint32_t table = e_.table(std::vector<uint32_t>(weighted + 1));
   e_.emit(Code::JumpTable, span, table);
   std::vector<uint32_t> ends;
-  uint16_t way = 0;
+  size_t way = 0;
   bool complete = false;
   for (NodeId branch : t_.children(node)) {
+    e_.settle(depth);
     const bool last = t_.child(branch, 0) == kNoNode;
     e_.program().jumpTables[table][last ? weighted : way++] = e_.here();
     complete = complete || last;

@@ -77,6 +77,7 @@ class UnitCompiler {
   NodeId likeliestBranch(NodeId choice) const;
 
   // Expressions.
+  void value(NodeId node);
   void name(NodeId node);
   void call(NodeId node, NodeId arguments);
   void unary(NodeId node);

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// What rules may ask for beyond all measure: it ends in a diagnostic, and in the same one with any
+// number of threads.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+
+#include "base/interned.h"
+#include "engine/impl.h"
+#include "gable/gable.h"
+
+namespace gable {
+namespace {
+
+namespace fs = std::filesystem;
+
+Rules rulesOf(const std::string& text) {
+  Rules rules = Rules::parse(text, "limits.cga");
+  EXPECT_TRUE(rules.ok()) << (rules.messages().empty() ? "" : rules.messages()[0].pretty);
+  return rules;
+}
+
+Shapes lots(int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) {
+    const std::string x = std::to_string(i * 20), end = std::to_string(i * 20 + 10);
+    text += "o lot" + std::to_string(i) + "\nv " + x + " 0 0\nv " + end + " 0 0\nv " + end +
+            " 0 -20\nv " + x + " 0 -20\nf -4 -3 -2 -1\n";
+  }
+  return Shapes::parse(text, "lots.obj");
+}
+
+bool tells(const Messages& messages, const std::string& code) {
+  for (const Message& m : messages) {
+    if (m.code == code) return true;
+  }
+  return false;
+}
+
+std::string textOf(const Model& model) {
+  std::string out = std::to_string(static_cast<int>(model.end())) + "\n";
+  for (const Message& m : model.messages()) out += m.pretty + "\n";
+  return out + model.dump();
+}
+
+// Calls of shared rules, so that prototypes nest as deep as the rules do.
+TEST(Limits, deepRecursionEndsOnlyByDepth) {
+  const Rules rules = rulesOf(R"(
+Lot --> extrude(4) R
+R --> [ s('0.5, '0.5, '0.5) X. ] report("n", 1) t(1, 0, 0) R
+)");
+  constexpr uint32_t kDepth = 30'000;
+  DeriveSettings settings;
+  settings.budget.depth = kDepth;
+  const Model model = derive(rules, Shapes::lot(4, 4), settings);
+  EXPECT_TRUE(tells(model.messages(), "recursion-too-deep"));
+  const Scene& scene = model.impl().result.scene;
+  EXPECT_EQ(scene.prototypes.size(), kDepth + 1);
+  EXPECT_EQ(model.leafCount(), kDepth);
+  EXPECT_EQ(scene.reports.size(), kDepth);
+  for (const char* kind : {"glb", "obj", "ply", "stl"}) {
+    const fs::path file =
+        fs::path(testing::TempDir()) / ("deep-" + std::to_string(getpid()) + "." + kind);
+    EXPECT_TRUE(model.write(file.string(), {}).ok) << kind;
+    EXPECT_GT(fs::file_size(file), 1'000'000u) << kind;
+    fs::remove(file);
+  }
+  EXPECT_GT(model.drawList().size(), 1'000'000u);
+  EXPECT_NE(model.statsJson({}).find("\"leaves\": 30000"), std::string::npos);
+  PictureSettings small;
+  small.width = small.height = 8;
+  small.samples = 1;
+  const fs::path picture =
+      fs::path(testing::TempDir()) / ("deep-" + std::to_string(getpid()) + ".png");
+  EXPECT_TRUE(model.picture(picture.string(), small).ok);
+  fs::remove(picture);
+}
+
+TEST(Limits, deepPrototypesAreRecalled) {
+  const std::string text = R"(
+Lot --> split(x) { ~1 : R(0) | ~1 : Other }
+Other --> primitiveCube() color("#ff0000")
+R(n) --> case n == 20000 : Y. else : [ primitiveCube() X. ] R(n + 1)
+)";
+  DeriveSettings settings;
+  settings.budget.depth = 30'000;
+  settings.remember = true;
+  const Rules rules = rulesOf(text);
+  const Model first = derive(rules, Shapes::lot(4, 4), settings);
+  EXPECT_EQ(first.end(), End::Done);
+  LoadOptions options;
+  options.before = &rules;
+  std::string edited = text;
+  edited.replace(edited.find("ff0000"), 6, "00ff00");
+  settings.before = &first;
+  const Model second =
+      derive(Rules::parse(edited, "limits.cga", options), Shapes::lot(4, 4), settings);
+  EXPECT_GT(second.impl().result.recalled, 20'000u);
+  EXPECT_EQ(second.leafCount(), first.leafCount());
+}
+
+// The third shape is the first to tell of the second part: with any number of threads.
+const char kTelling[] = R"(
+attr index = 0
+Lot --> extrude(rand(1, 3)) comp(f) { side : Facade | top : offset(-20, inside) Roof }
+Facade --> split(x) { ~1 : split(y) { ~rand(0.5, 1) : Tile }* }*
+Tile --> case p(0.1) : i("none-" + floor(rand(20))) X. else : set(index, rand(0, 1)) projectUV(3) Y.
+Roof --> print([1, 2] + "x") taper(-2) roofHip(100) Z.
+)";
+
+TEST(Limits, messagesAreThoseOfOneThread) {
+  const Rules rules = rulesOf(kTelling);
+  const Shapes shapes = lots(40);
+  DeriveSettings settings;
+  settings.jobs = 1;
+  const std::string one = textOf(derive(rules, shapes, settings));
+  EXPECT_NE(one.find("warning"), std::string::npos);
+  for (const int jobs : {2, 3, 4}) {
+    for (int again = 0; again < 3; ++again) {
+      settings.jobs = jobs;
+      EXPECT_EQ(textOf(derive(rules, shapes, settings)), one) << jobs;
+    }
+  }
+}
+
+TEST(Limits, onCountsEndAtTheSamePlaceWithAnyNumberOfThreads) {
+  const Rules rules = rulesOf(kTelling);
+  const Shapes shapes = lots(40);
+  const auto with = [&](auto set) {
+    DeriveSettings settings;
+    set(settings.budget);
+    settings.jobs = 1;
+    const Model one = derive(rules, shapes, settings);
+    EXPECT_EQ(one.end(), End::LimitReached);
+    for (const int jobs : {2, 4}) {
+      settings.jobs = jobs;
+      EXPECT_EQ(textOf(derive(rules, shapes, settings)), textOf(one));
+    }
+  };
+  with([](Budget& b) { b.shapes = 2000; });
+  with([](Budget& b) { b.steps = 4000; });
+  with([](Budget& b) { b.depth = 1; });
+  with([](Budget& b) { b.width = 3; });
+}
+
+TEST(Limits, noMoreMessagesAreKeptThanAnybodyReads) {
+  const Rules rules = rulesOf("Lot --> split(x) { 0.001 : i(\"no-\" + split.index) X. }*\n");
+  DeriveSettings settings;
+  settings.jobs = 1;
+  const Model model = derive(rules, lots(3), settings);
+  EXPECT_EQ(model.messages().size(), 1000u);
+  settings.jobs = 2;
+  EXPECT_EQ(textOf(derive(rules, lots(3), settings)), textOf(model));
+}
+
+// Tables of their true size would take minutes to fill.
+TEST(Limits, tablesThatAreFullEndADerivation) {
+  for (const char* text : {
+           "attr a = 0\nLot --> split(x) { 0.01 : set(a, split.index) X. }*",
+           "Lot --> split(x) { 0.01 : color(split.index / 1000, 0, 0) X. }*",
+           "Lot --> split(x) { 0.01 : print(\"t\" + split.index) X. }*",
+           "Lot --> split(x) { 0.01 : print(size([0, split.index])) X. }*",
+       }) {
+    const TableCapacityScope small(40);
+    const Rules rules = rulesOf(text);
+    DeriveSettings settings;
+    settings.jobs = 2;
+    const Model model = derive(rules, lots(4), settings);
+    EXPECT_EQ(model.end(), End::LimitReached) << text;
+    EXPECT_TRUE(tells(model.messages(), "too-many-values")) << text;
+  }
+}
+
+TEST(Limits, tablesThatOtherDerivationsFilledAreChanged) {
+  const TableCapacityScope small(700);
+  const Rules rules =
+      rulesOf("attr a = 0\nattr b = 0\nLot --> split(x) { 0.02 : set(a, split.index + b) X. }*");
+  for (int i = 0; i < 6; ++i) {
+    DeriveSettings settings;
+    settings.attributes = {{"b", std::to_string(i * 1000)}};
+    const Model model = derive(rules, lots(1), settings);
+    EXPECT_EQ(model.end(), End::Done) << i;
+    EXPECT_EQ(model.leafCount(), 500u);
+  }
+}
+
+TEST(Limits, attributesOfLeavesTakeABoundedPartOfTheMemory) {
+  const Rules rules = rulesOf(R"(
+attr a = [0:1:2]
+Lot --> split(x) { 0.01 : set(a, [split.index:1:split.index+20000]) X. }*
+)");
+  DeriveSettings settings;
+  settings.budget.bytes = 100 << 20;
+  const Model model = derive(rules, Shapes::lot(1000, 10), settings);
+  EXPECT_EQ(model.end(), End::LimitReached);
+  uint64_t values = 0;
+  for (const auto& set : model.impl().result.scene.attributeSets) {
+    for (const AttributeValue& a : set) values += a.values.size();
+  }
+  EXPECT_GT(values, 0u);
+  EXPECT_LT(values * sizeof(PlainValue), uint64_t{30} << 20);
+}
+
+TEST(Limits, codeThatHasNoRoomInInstructionsIsRefused) {
+  const auto repeated = [](const std::string& piece, int times, const char* between) {
+    std::string out;
+    for (int i = 0; i < times; ++i) out += (i ? between : "") + piece;
+    return out;
+  };
+  const auto refused = [](const std::string& text) {
+    const Rules rules = Rules::parse(text, "large.cga");
+    return !rules.ok() && tells(rules.messages(), "code-too-large");
+  };
+  const auto parameters = [&](int count) {
+    std::string names, values;
+    for (int i = 0; i < count; ++i) {
+      names += (i ? ", a" : "a") + std::to_string(i);
+      values += (i ? ", " : "") + std::to_string(i) + " + scope.sx";
+    }
+    return "Lot --> R(" + values + ")\nR(" + names + ") --> print(a0) print(a" +
+           std::to_string(count - 1) + ")";
+  };
+  EXPECT_FALSE(refused(parameters(255)));
+  EXPECT_TRUE(refused(parameters(256)));
+  EXPECT_TRUE(refused("Lot --> " + repeated("0.001% : X.", 65536, " ") + " else : Y."));
+  EXPECT_TRUE(refused("Lot --> " + repeated("[ split(x) { 1 : X. } ]", 65536, " ")));
+  EXPECT_TRUE(refused("Lot --> print(size([" + repeated("rand()", 140'000, ",") + "]))"));
+  EXPECT_TRUE(refused("Lot --> split(x) { " + repeated("rand() : X.", 140'000, "|") + " }"));
+  // As many one after the other, or to choose from, need room for one.
+  EXPECT_FALSE(refused("Lot --> " + repeated("t(rand(), 0, 0)", 70'000, " ")));
+  EXPECT_FALSE(refused("Lot --> " + repeated("case p(0.5) : X.", 50'000, " ") + " else : Y."));
+}
+
+}  // namespace
+}  // namespace gable
