@@ -38,6 +38,19 @@ struct Remedy {
   const char* hint;
 };
 
+/// A word of a notation, for editors.
+struct DialectWord {
+  const char* name;
+  /// How it is written.
+  const char* call;
+  /// The operation that carries it out; null for none.
+  const char* operation;
+  /// One sentence; empty where the operation's own says it.
+  const char* text;
+  /// To write in its place, with places to fill in: ${1:X}; empty: the name.
+  const char* snippet;
+};
+
 struct Dialect {
   /// What --dialect takes.
   const char* name;
@@ -54,6 +67,8 @@ struct Dialect {
   std::span<const Remedy> remedies = {};
   /// Seeds are signed whole numbers of 32 bits.
   bool wholeSeeds = false;
+  /// What can be written, besides the author's own names; null where that is not told.
+  std::span<const DialectWord> (*words)() = nullptr;
   /// Why values from outside have no effect on hidden attributes; null where they have.
   const char* hiddenReason = nullptr;
 };

@@ -449,41 +449,82 @@ class Completer {
   Completions out_;
 };
 
-// Another notation: the names that the text declares, and nothing in comments and strings.
-Completions dialectCompletions(const Parsed& parsed, uint32_t offset) {
-  Completions out;
-  const std::string_view text = parsed.text.content();
-  uint32_t begin = offset;
-  for (const Word& w : wordsOf(text)) {
-    if (w.begin >= offset) break;
-    if (offset > w.end) continue;
-    if (w.kind == WordKind::Comment || w.kind == WordKind::Number) return out;
-    if (w.kind == WordKind::String && offset < w.end) return out;
-    if (w.kind == WordKind::Name) begin = w.begin;
+// Another notation: its words and the names that the text declares; nothing in comments, strings
+// and numbers.
+class DialectCompleter {
+ public:
+  DialectCompleter(const Parsed& parsed, uint32_t offset, const Catalogue& catalogue)
+      : parsed_(parsed), catalogue_(catalogue), text_(parsed.text.content()), begin_(offset) {
+    for (const Word& w : wordsOf(text_, parsed.dialect->hashComments)) {
+      if (w.begin >= offset) break;
+      if (offset > w.end) continue;
+      const bool inString = w.kind == WordKind::String && offset < w.end;
+      quiet_ = quiet_ || w.kind == WordKind::Comment || w.kind == WordKind::Number || inString;
+      if (w.kind == WordKind::Name) begin_ = w.begin;
+    }
+    typed_ = text_.substr(begin_, offset - begin_);
+    range_ = parsed.text.range(begin_, offset);
   }
-  const std::string_view typed = text.substr(begin, offset - begin);
-  if (typed.empty()) return out;
-  std::set<std::string_view> seen;
-  for (const Declared& d : declaredIn(parsed.tree)) {
-    const bool written = text.substr(parsed.tree[d.node].begin).find(d.word) <= 1;
-    if (!written || d.word == typed || !beginsWith(d.word, typed)) continue;
-    if (!seen.insert(d.word).second) continue;
+
+  Completions run() {
+    if (quiet_ || typed_.empty()) return {};
+    for (const Declared& d : declaredIn(parsed_.tree)) {
+      // What the parser has made up is not written.
+      const std::string_view there =
+          text_.substr(std::min<size_t>(parsed_.tree[d.node].begin, text_.size()));
+      if (there.substr(0, d.word.size() + 1).find(d.word) == std::string_view::npos) continue;
+      if (d.word != typed_) add(d.word, d.kind);
+    }
+    if (parsed_.dialect->words) {
+      for (const DialectWord& w : parsed_.dialect->words()) word(w);
+    }
+    if (out_.items.empty()) return std::move(out_);
+    const bool exact = std::any_of(out_.items.begin(), out_.items.end(),
+                                   [&](const Completion& c) { return c.label == typed_; });
+    if (!exact) {
+      Completion own;
+      own.label = own.text = typed_;
+      own.kind = NameKind::Leaf;
+      own.detail = "as it is written";
+      own.preselect = true;
+      own.range = range_;
+      out_.items.insert(out_.items.begin(), std::move(own));
+    }
+    return std::move(out_);
+  }
+
+ private:
+  Completion* add(std::string_view label, NameKind kind) {
+    if (!beginsWith(label, typed_) || !seen_.insert(label).second) return nullptr;
     Completion c;
-    c.label = c.text = d.word;
-    c.kind = d.kind;
-    c.range = parsed.text.range(begin, offset);
-    out.items.push_back(std::move(c));
+    c.label = c.text = label;
+    c.kind = kind;
+    c.order = kind == NameKind::Operation ? 20 : 10;
+    c.range = range_;
+    out_.items.push_back(std::move(c));
+    return &out_.items.back();
   }
-  if (out.items.empty()) return out;
-  Completion own;
-  own.label = own.text = typed;
-  own.kind = NameKind::Leaf;
-  own.detail = "as it is written";
-  own.preselect = true;
-  own.range = parsed.text.range(begin, offset);
-  out.items.insert(out.items.begin(), std::move(own));
-  return out;
-}
+
+  void word(const DialectWord& w) {
+    Completion* c = add(w.name, NameKind::Operation);
+    if (!c) return;
+    c->detail = w.call;
+    c->summary = wordText(w, catalogue_);
+    if (w.snippet[0] != '\0') {
+      c->text = w.snippet;
+      c->snippet = true;
+    }
+  }
+
+  const Parsed& parsed_;
+  const Catalogue& catalogue_;
+  std::string_view text_, typed_;
+  uint32_t begin_;
+  bool quiet_ = false;
+  Range range_;
+  std::set<std::string_view> seen_;
+  Completions out_;
+};
 
 }  // namespace
 
@@ -491,7 +532,8 @@ Completions completionsAt(Library& library, const std::string& path, const Lexed
                           uint32_t offset) {
   if (!lexed.dialect) return Completer(library, path, lexed, offset).run();
   const std::shared_ptr<const Parsed> parsed = library.parsed(path);
-  return parsed ? dialectCompletions(*parsed, offset) : Completions();
+  if (!parsed) return {};
+  return DialectCompleter(*parsed, offset, library.catalogue()).run();
 }
 
 }  // namespace gable::language

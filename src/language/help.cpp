@@ -160,12 +160,74 @@ void ownSignatures(const Snapshot& s, uint32_t unit, std::string_view word, Sign
   }
 }
 
+// The word of another notation under a name; parks do not mind capitals.
+const DialectWord* dialectWord(const Dialect& dialect, std::string_view name) {
+  if (!dialect.words) return nullptr;
+  const auto same = [](std::string_view a, std::string_view b) {
+    return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) {
+             const auto lower = [](char c) {
+               return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+             };
+             return lower(x) == lower(y);
+           });
+  };
+  const DialectWord* near = nullptr;
+  for (const DialectWord& w : dialect.words()) {
+    if (name == w.name) return &w;
+    if (!near && same(name, w.name)) near = &w;
+  }
+  return near;
+}
+
+SignatureHelp dialectSignature(const Lexed& lexed, uint32_t offset, const Catalogue& catalogue) {
+  const std::string_view text = lexed.text.content();
+  // Behind each bracket that is open, the word before it.
+  std::vector<std::string_view> open;
+  std::string_view last;
+  for (const Word& w : wordsOf(text, lexed.dialect->hashComments)) {
+    if (w.begin >= offset) break;
+    const std::string_view word = text.substr(w.begin, w.end - w.begin);
+    if (word == "(") open.push_back(last);
+    if (word == ")" && !open.empty()) open.pop_back();
+    last = w.kind == WordKind::Name ? word : std::string_view();
+  }
+  SignatureHelp out;
+  for (auto at = open.rbegin(); at != open.rend() && out.signatures.empty(); ++at) {
+    const DialectWord* w = at->empty() ? nullptr : dialectWord(*lexed.dialect, *at);
+    if (w) out.signatures.push_back({w->call, wordText(*w, catalogue), {}});
+  }
+  return out;
+}
+
+std::optional<Hover> dialectHover(const Parsed& parsed, uint32_t offset,
+                                  const Catalogue& catalogue) {
+  const std::string_view text = parsed.text.content();
+  for (const Word& w : wordsOf(text, parsed.dialect->hashComments)) {
+    if (w.begin > offset) break;
+    if (w.kind != WordKind::Name || offset > w.end) continue;
+    const DialectWord* word = dialectWord(*parsed.dialect, text.substr(w.begin, w.end - w.begin));
+    if (!word) continue;
+    const std::string card =
+        "```text\n" + std::string(word->call) + "\n```\n" + wordText(*word, catalogue);
+    return Hover{parsed.text.range(w.begin, w.end), card};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
+
+std::string wordText(const DialectWord& word, const Catalogue& catalogue) {
+  std::string out = word.text;
+  const OpSpec* op = word.operation ? catalogue.operation(word.operation) : nullptr;
+  if (!op) return out;
+  if (out.empty()) out = op->summary;
+  return out + " Done by " + op->name + ".";
+}
 
 SignatureHelp signatureHelpAt(Library& library, const std::string& path, const Lexed& lexed,
                               uint32_t offset) {
   SignatureHelp out;
-  if (lexed.dialect) return out;
+  if (lexed.dialect) return dialectSignature(lexed, offset, library.catalogue());
   const Cursor cursor = cursorAt(lexed, offset, library.catalogue());
   if (!cursor.inCall) return out;
   const Call& call = cursor.call;
@@ -212,6 +274,7 @@ std::optional<Hover> hoverAt(Library& library, const std::string& path, const Pa
   if (!s) return std::nullopt;
   const std::vector<Name> names = namesOf(*s, 0, library.catalogue());
   const Name* n = nameAt(names, offset);
+  if (!n && parsed.dialect) return dialectHover(parsed, offset, library.catalogue());
   if (!n || n->space == Space::Path) return std::nullopt;
   std::string text;
   if (const auto declared = declarationOfName(*s, *n)) {

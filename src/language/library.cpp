@@ -14,7 +14,7 @@ namespace gable::language {
 namespace {
 
 /// Analyses kept: those of open texts and of what a search over the project has looked at.
-constexpr size_t kSnapshotsKept = 96;
+constexpr size_t kSnapshotsKept = 48;
 constexpr size_t kTreesKept = 1024;
 /// Revisions of open texts are told from stamps of files by this bit.
 constexpr uint64_t kOpen = uint64_t{1} << 63;
@@ -34,7 +34,7 @@ class Library::Loader final : public lang::FileLoader {
   Result<File> load(const std::string& written, const std::string& importer) override {
     const std::string path = library_.locate(written, importer);
     if (path.empty()) {
-      snapshot_.missing.push_back({written, importer});
+      snapshot_.looked.push_back({written, importer, false, false});
       return Error{"import-not-found", "there is no rule file '" + written + "' in the project",
                    "paths count from the project's folder, or from the importing file's"};
     }
@@ -44,6 +44,12 @@ class Library::Loader final : public lang::FileLoader {
     Result<std::string> text = library_.files_->read(path);
     if (!text.ok()) return text.error();
     return File{path, std::move(text.value())};
+  }
+
+  bool exists(const std::string& written, const std::string& importer) override {
+    const bool found = library_.hasAsset(written, importer);
+    snapshot_.looked.push_back({written, importer, true, found});
+    return found;
   }
 
   lang::Tree parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics) override {
@@ -122,6 +128,13 @@ std::string Library::locate(const std::string& written, const std::string& impor
   return {};
 }
 
+bool Library::hasAsset(const std::string& written, const std::string& importer) {
+  if (written.starts_with("builtin:")) return true;
+  const std::vector<std::string> places = files_->places(written, importer);
+  return std::any_of(places.begin(), places.end(),
+                     [&](const std::string& place) { return files_->readable(place, importer); });
+}
+
 // --- Trees ---
 
 // The entry of a text as it is, with its tokens.
@@ -176,9 +189,10 @@ std::list<Library::Kept>::iterator Library::find(const std::string& path) {
 bool Library::holds(const Snapshot& snapshot) {
   return std::all_of(snapshot.inputs.begin(), snapshot.inputs.end(),
                      [&](const Snapshot::Input& i) { return state(i.path) == i.state; }) &&
-         std::all_of(
-             snapshot.missing.begin(), snapshot.missing.end(),
-             [&](const Snapshot::Missing& m) { return locate(m.written, m.importer).empty(); });
+         std::all_of(snapshot.looked.begin(), snapshot.looked.end(), [&](const auto& l) {
+           return l.found == (l.asset ? hasAsset(l.written, l.importer)
+                                      : !locate(l.written, l.importer).empty());
+         });
 }
 
 std::shared_ptr<const Snapshot> Library::analyse(const std::string& path) {

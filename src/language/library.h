@@ -55,11 +55,13 @@ struct Snapshot {
     std::string path;
     uint64_t state;
   };
-  struct Missing {
+  /// A file that was looked for, whose text was not read.
+  struct Looked {
     std::string written, importer;
+    bool asset = false, found = false;
   };
   std::vector<Input> inputs;
-  std::vector<Missing> missing;
+  std::vector<Looked> looked;
 
   const std::string& path(uint32_t unit) const { return program.units[unit].path; }
   std::string_view text(uint32_t unit) const { return sources.text(program.units[unit].file); }
@@ -92,6 +94,8 @@ class Library {
   std::shared_ptr<const Snapshot> latest(const std::string& path);
   /// The file that an import means; empty when there is none.
   std::string locate(const std::string& written, const std::string& importer);
+  /// Whether there is a model, a picture or the like by the path as rules write it.
+  bool hasAsset(const std::string& written, const std::string& importer);
 
  private:
   class Loader;

@@ -320,7 +320,7 @@ class Collector {
 };
 
 // Another notation: what the tree declares by a word of the text, and that word wherever it stands.
-std::vector<Name> namesOfDialect(const Snapshot& snapshot, uint32_t unit) {
+std::vector<Name> namesOfDialect(const Snapshot& snapshot, uint32_t unit, const Dialect& dialect) {
   const Tree& t = snapshot.tree(unit);
   const std::string_view text = snapshot.text(unit);
   std::map<std::string_view, std::set<uint32_t>> declared;
@@ -333,7 +333,7 @@ std::vector<Name> namesOfDialect(const Snapshot& snapshot, uint32_t unit) {
     if (text.substr(begin + quote, word.size()) == word) declared[word].insert(begin + quote);
   }
   std::vector<Name> out;
-  for (const Word& w : wordsOf(text)) {
+  for (const Word& w : wordsOf(text, dialect.hashComments)) {
     if (w.kind != WordKind::Name && w.kind != WordKind::String) continue;
     const uint32_t quote = w.kind == WordKind::String ? 1 : 0;
     if (w.end - w.begin <= 2 * quote) continue;
@@ -350,7 +350,9 @@ std::vector<Name> namesOfDialect(const Snapshot& snapshot, uint32_t unit) {
 }  // namespace
 
 std::vector<Name> namesOf(const Snapshot& snapshot, uint32_t unit, const Catalogue& catalogue) {
-  if (dialectOfPath(snapshot.path(unit))) return namesOfDialect(snapshot, unit);
+  if (const Dialect* d = dialectOfPath(snapshot.path(unit))) {
+    return namesOfDialect(snapshot, unit, *d);
+  }
   return Collector(snapshot, unit, catalogue).run();
 }
 

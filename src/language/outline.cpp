@@ -140,7 +140,7 @@ std::vector<Symbol> symbolsOf(const Parsed& parsed, const std::string& path) {
 std::vector<Color> colorsOf(const Parsed& parsed) {
   const std::string_view text = parsed.text.content();
   std::vector<Color> out;
-  for (const Word& w : wordsOf(text)) {
+  for (const Word& w : wordsOf(text, !parsed.dialect || parsed.dialect->hashComments)) {
     if (w.kind != WordKind::String || w.end - w.begin < 9) continue;
     std::optional<Color> c = hexColor(text.substr(w.begin + 1, w.end - w.begin - 2));
     if (!c) continue;
@@ -193,7 +193,7 @@ std::vector<Fold> foldsOf(const Parsed& parsed) {
     if (run) put(commentBegin, commentEnd, Fold::Kind::Comment);
     run = false;
   };
-  for (const Word& w : wordsOf(text)) {
+  for (const Word& w : wordsOf(text, !parsed.dialect || parsed.dialect->hashComments)) {
     if (w.kind == WordKind::Comment) {
       const uint32_t line = parsed.text.lineOf(w.begin);
       const bool alone =

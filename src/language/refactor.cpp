@@ -69,13 +69,16 @@ bool means(const Snapshot& s, uint32_t unit, const Name& n, const Target& t) {
 std::set<Use> usesOf(Library& library, const std::string& path, const Target& t,
                      const std::vector<std::string>& files) {
   std::set<Use> out;
-  // Only a text that has the word can use it.
+  // Only a text that has the word, and that imports something, can use it.
   std::set<std::string> candidates(t.owners.begin(), t.owners.end());
   candidates.insert(path);
   if (!t.slotBegin) {
     for (const std::string& f : files) {
       const std::shared_ptr<const Parsed> p = library.parsed(f);
-      if (p && p->text.content().find(t.word) != std::string::npos) candidates.insert(f);
+      if (!p || p->text.content().find(t.word) == std::string::npos) continue;
+      const auto imports = [&](lang::NodeId d) { return p->tree.kind(d) == NodeKind::Import; };
+      const std::span<const NodeId> all = p->tree.children(p->tree.root());
+      if (std::any_of(all.begin(), all.end(), imports)) candidates.insert(f);
     }
   }
   for (const std::string& f : candidates) {

@@ -57,6 +57,9 @@ struct Declared {
 };
 std::vector<Declared> declaredIn(const lang::Tree& tree);
 
+/// What a word of another notation does, in a sentence.
+std::string wordText(const DialectWord& word, const Catalogue& catalogue);
+
 /// The texts of the pages of the reference, by name of what is built in.
 std::string pageOf(std::string_view name);
 

@@ -409,5 +409,30 @@ TEST(Dialects, haveFindingsOutlinesAndNames) {
   EXPECT_EQ(w.references("/nowhere/a.grammar", {1, 1}, true).size(), 2u);
 }
 
+TEST(Dialects, explainTheirWords) {
+  // The sentence of a word is its own, or that of an operation which there is.
+  for (const char* path : {"/nowhere/a.gbbg", "/nowhere/a.park", "/nowhere/a.grammar"}) {
+    size_t words = 0;
+    for (char letter = 'A'; letter <= 'Z'; ++letter) {
+      Workspace w;
+      w.open(path, std::string(1, letter));
+      for (const Completion& c : w.complete(path, {0, 1}).items) {
+        if (c.kind != NameKind::Operation) continue;
+        ++words;
+        EXPECT_NE(c.summary, "") << path << " " << c.label;
+        w.open(path, c.label + " ");
+        EXPECT_TRUE(w.hover(path, {0, 1})) << path << " " << c.label;
+        w.open(path, std::string(1, letter));
+      }
+    }
+    EXPECT_GT(words, 8u) << path;
+  }
+  Workspace w;
+  w.open("/nowhere/a.gbbg", "A -> Split(X, ");
+  EXPECT_EQ(w.signatureHelp("/nowhere/a.gbbg", {0, 14}).signatures.size(), 1u);
+  w.open("/nowhere/a.gbbg", "# Sp");
+  EXPECT_TRUE(w.complete("/nowhere/a.gbbg", {0, 4}).items.empty());
+}
+
 }  // namespace
 }  // namespace gable::language

@@ -159,7 +159,7 @@ constexpr Remedy kRemedies[] = {
 
 }  // namespace
 
-const Dialect kGbbgDialect = {"gbbg",     "GBBG", kExtensions, parseGbbg,
-                              formatGbbg, true,   kRemedies,   true};
+const Dialect kGbbgDialect = {"gbbg", "GBBG",    kExtensions, parseGbbg,  formatGbbg,
+                              true,   kRemedies, true,        gbbg::words};
 
 }  // namespace gable

@@ -6,6 +6,13 @@
 
 #include "dialects/dialect.h"
 
+namespace gable::gbbg {
+
+/// What can be written in the notation.
+std::span<const DialectWord> words();
+
+}  // namespace gable::gbbg
+
 namespace gable {
 
 extern const Dialect kGbbgDialect;

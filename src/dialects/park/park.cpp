@@ -24,6 +24,7 @@ constexpr const char* kExtensions[] = {".park"};
 
 }  // namespace
 
-const Dialect kParkDialect{"park", "Park grammar", kExtensions, parse};
+const Dialect kParkDialect{"park", "Park grammar", kExtensions, parse, nullptr, false,
+                           {},     false,          park::words};
 
 }  // namespace gable

@@ -7,6 +7,13 @@
 
 #include "dialects/dialect.h"
 
+namespace gable::park {
+
+/// What can be written in the notation.
+std::span<const DialectWord> words();
+
+}  // namespace gable::park
+
 namespace gable {
 
 extern const Dialect kParkDialect;

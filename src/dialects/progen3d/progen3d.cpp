@@ -38,8 +38,10 @@ constexpr const char* kExtensions[] = {".grammar", ".pg3d"};
 }  // namespace
 
 const Dialect kProgen3d{
-    "progen3d", "ProGen3d", kExtensions,
-    parse,      nullptr,    true,
-    kRemedies,  false,      "is drawn anew by each rule that has it in its head, or counts turns"};
+    "progen3d",      "ProGen3d",
+    kExtensions,     parse,
+    nullptr,         true,
+    kRemedies,       false,
+    progen3d::words, "is drawn anew by each rule that has it in its head, or counts turns"};
 
 }  // namespace gable

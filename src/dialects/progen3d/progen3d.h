@@ -6,6 +6,13 @@
 
 #include "dialects/dialect.h"
 
+namespace gable::progen3d {
+
+/// What can be written in the notation.
+std::span<const DialectWord> words();
+
+}  // namespace gable::progen3d
+
 namespace gable {
 
 extern const Dialect kProgen3d;
