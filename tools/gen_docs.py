@@ -103,7 +103,7 @@ class Reference:
         text += table(("selector", "chooses"),
                       [(f"`{s['name']}`", s["doc"]) for s in self.catalogue["selectors"]])
         text += "\n## Edges of regions\n\nOperations on regions choose edges by where they come from and where they lie, in "
-        text += "texts like `\"outer & !side(W)\"`:\n[all words](operations/peel.md#selections).\n"
+        text += "selections like\n`outer && !side(west)`: [all words](operations/peel.md#selections).\n"
         self.pages[f"{REFERENCE}/selectors.md"] = text
 
 
@@ -150,6 +150,10 @@ def entry_text(entry, heading):
                 continue
             seen.add(key)
             words = f" One of `{'`, `'.join(p['words'].split())}`." if p.get("words") else ""
+            terms = [t["name"] + ("(" + ", ".join(a["name"] for a in t["params"]) + ")" if t["params"] else "")
+                     for t in p.get("terms", [])]
+            if 0 < len(terms) <= 10:
+                words = f" Terms: `{'`, `'.join(terms)}`."
             rows.append((f"`{p['name']}`", p["type"],
                          f"`{p['default']}`" if "default" in p else "", p["doc"] + words))
     if rows:

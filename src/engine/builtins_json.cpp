@@ -22,6 +22,9 @@ const char* paramTypeName(ParamType t) {
     case ParamType::StringArray: return "string[]";
     case ParamType::Size: return "size";
     case ParamType::FloatingSize: return "floating size";
+    case ParamType::Drawn: return "drawn";
+    case ParamType::DrawnList: return "drawn[]";
+    case ParamType::Selection: return "selection";
     case ParamType::Any: break;
   }
   return "any";
@@ -39,6 +42,27 @@ const char* blockName(const OpSpec& op) {
   return "{ A | B }";
 }
 
+// What a selection is made of.
+void writeTerms(JsonWriter& json, const ParamSpec& param) {
+  json.key("terms").beginArray();
+  for (const TermSpec& t : param.terms) {
+    json.beginObject().key("name").value(t.name).key("doc").value(t.doc);
+    json.key("params").beginArray();
+    for (size_t i = 0; i < t.paramCount; ++i) {
+      const ParamSpec& p = t.params[i];
+      json.beginObject().key("name").value(p.name).key("type").value(paramTypeName(p.type));
+      json.key("doc").value(p.doc);
+      if (p.defaultText) json.key("default").value(p.defaultText);
+      if (p.words) json.key("words").value(p.words);
+      if (!p.terms.empty() && p.terms.data() != param.terms.data()) writeTerms(json, p);
+      json.endObject();
+    }
+    json.endArray().endObject();
+  }
+  json.endArray();
+  if (param.single) json.key("single").value(true);
+}
+
 void writeSignatures(JsonWriter& json, std::span<const Signature> signatures, bool results) {
   json.key("overloads").beginArray();
   for (const Signature& s : signatures) {
@@ -49,6 +73,7 @@ void writeSignatures(JsonWriter& json, std::span<const Signature> signatures, bo
       json.key("doc").value(p.doc);
       if (p.defaultText) json.key("default").value(p.defaultText);
       if (p.words) json.key("words").value(p.words);
+      if (!p.terms.empty()) writeTerms(json, p);
       json.endObject();
     }
     json.endArray();

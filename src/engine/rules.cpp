@@ -12,6 +12,7 @@
 #include "gable/files.h"
 #include "lang/compile/compile.h"
 #include "lang/format.h"
+#include "lang/old_regions.h"
 #include "lang/parser.h"
 #include "lang/print.h"
 #include "lang/sema/analyse.h"
@@ -209,6 +210,20 @@ Converted convert(const std::string& text, const std::string& path, const LoadOp
   return out;
 }
 
+namespace {
+
+// The file, or its text with operations on regions as they are written today.
+uint32_t modernised(Sources& sources, uint32_t file) {
+  Diagnostics unheard;
+  const lang::Tree tree = lang::parse(sources, file, unheard);
+  if (unheard.hasErrors()) return file;
+  const std::string text(sources.text(file));
+  const std::string now = lang::withModernRegions(tree, text);
+  return now == text ? file : sources.add(std::string(sources.path(file)), now);
+}
+
+}  // namespace
+
 Formatted format(const std::string& text, const std::string& path) {
   Sources sources;
   Diagnostics diagnostics;
@@ -216,7 +231,8 @@ Formatted format(const std::string& text, const std::string& path) {
   Formatted out;
   const Dialect* dialect = dialectOfPath(path);
   const auto layout = dialect ? dialect->format : lang::format;
-  out.text = layout ? layout(sources, file, diagnostics) : text;
+  out.text =
+      layout ? layout(sources, dialect ? file : modernised(sources, file), diagnostics) : text;
   diagnostics.sortByPlace();
   out.messages = toMessages(diagnostics, sources);
   if (diagnostics.hasErrors()) out.text = text;

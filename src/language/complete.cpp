@@ -331,6 +331,7 @@ class Completer {
       for (const std::string_view w : listed(p->words)) {
         add(w, NameKind::Selector, p->name, p->doc, 1);
       }
+      for (const TermSpec& t : p->terms) add(t.name, NameKind::Selector, p->name, t.doc, 1);
       if (p->type == ParamType::Selector && !p->words) selectorWords(2);
     }
     if (!cursor_.call.named.empty()) return;

@@ -86,6 +86,9 @@ const char* typeText(ParamType type) {
     case ParamType::StringArray: return "string[]";
     case ParamType::Size: return "size";
     case ParamType::FloatingSize: return "floating size";
+    case ParamType::Drawn: return "drawn";
+    case ParamType::DrawnList: return "drawn[]";
+    case ParamType::Selection: return "selection";
     case ParamType::Any: break;
   }
   return "any";

@@ -61,6 +61,9 @@ Value defaultValue(const ParamSpec& param, ValuePool& pool) {
   }
   if (text == "true" || text == "false") return Value::of(text == "true");
   if (param.type == ParamType::Selector) return pool.selector(text);
+  if (double plain = 0; param.type == ParamType::Selection && !parseNumber(text, plain)) {
+    return pool.selector(text);
+  }
   if (text == "inf") return Value::of(std::numeric_limits<double>::infinity());
   Unit unit = Unit::Absolute;
   if (text.front() == '\'') unit = Unit::Relative;

@@ -65,6 +65,17 @@ struct Strings {
   const Array* array = nullptr;
 };
 
+/// Arguments that the operation works out itself, each time it needs them; see shape/argument.h.
+struct Drawn {
+  Value value = Value::of(0.0);
+};
+struct DrawnList {
+  Value value = Value::of(0.0);
+};
+struct Selection {
+  Value value;
+};
+
 /// The words of an enumeration in the order of its values, separated by blanks: specialise it for
 /// an enumeration that is used as the type of a field.
 template <class E>
@@ -160,6 +171,25 @@ struct FieldType<Value> {
   }
 };
 
+template <class T, ParamType kParam>
+struct CodeField {
+  static constexpr ParamType type = kParam;
+  static constexpr const char* words = nullptr;
+  static bool read(T& to, const Value& v, const ValuePool&) {
+    to.value = v;
+    const bool word = v.type == ValueType::Selector || v.isArray();
+    return v.type == ValueType::Float || v.type == ValueType::Code ||
+           (kParam == ParamType::Selection && word) ||
+           (kParam == ParamType::DrawnList && v.type == ValueType::FloatArray);
+  }
+};
+template <>
+struct FieldType<Drawn> : CodeField<Drawn, ParamType::Drawn> {};
+template <>
+struct FieldType<DrawnList> : CodeField<DrawnList, ParamType::DrawnList> {};
+template <>
+struct FieldType<Selection> : CodeField<Selection, ParamType::Selection> {};
+
 template <class T, ParamType kParam, ValueType kValue>
 struct ArrayField {
   static constexpr ParamType type = kParam;
@@ -215,8 +245,9 @@ S structOf(T S::*);
 template <class S, class T>
 T fieldOf(T S::*);
 
+// Internal: compilers give instances for members of structs without linkage one name in all files.
 template <auto Member>
-bool store(void* arguments, const Value& v, const ValuePool& pool) {
+static bool store(void* arguments, const Value& v, const ValuePool& pool) {
   using S = decltype(structOf(Member));
   using T = decltype(fieldOf(Member));
   return FieldType<T>::read(static_cast<S*>(arguments)->*Member, v, pool);
@@ -241,6 +272,16 @@ constexpr ParamSpec param(const char* name, const char* doc, const char* default
 /// A parameter whose field takes any value, where only some types fit.
 constexpr ParamSpec withType(ParamSpec p, ParamType type) {
   p.type = type;
+  return p;
+}
+
+/// The same for a Selection, with the terms that it is made of. `single` when one stands alone.
+template <auto Member>
+constexpr ParamSpec selection(const char* name, const char* doc, std::span<const TermSpec> terms,
+                              const char* defaultText = nullptr, bool single = false) {
+  ParamSpec p = param<Member>(name, doc, defaultText);
+  p.terms = terms;
+  p.single = single;
   return p;
 }
 

@@ -132,6 +132,48 @@ struct BlockTerm {
   double number = 0;
 };
 
+/// A number or another value that an operation works out when it needs it: a constant, or code that
+/// ends with Return and works on the parameters of the rule around.
+struct ValueCode {
+  static constexpr uint32_t kConstant = 0xffffffff;
+  Value constant;
+  uint32_t entry = kConstant;
+  bool isConstant() const { return entry == kConstant; }
+};
+
+/// A part of an argument. Selections stand in postfix order.
+struct ArgumentTerm {
+  enum class Kind : uint8_t { Value, Range, Term, Not, And, Or, Minus } kind = Kind::Value;
+  /// Of a Value or Range.
+  Unit unit = Unit::Absolute;
+  /// Term: the selections among its arguments, which stand before it.
+  uint32_t operands = 0;
+  const TermSpec* spec = nullptr;
+  /// Value: one. Range: from and to. Term: its other arguments, defaults filled in.
+  std::vector<ValueCode> values;
+};
+
+/// An argument that the operation evaluates itself; its Value has the type Code.
+struct ArgumentCode {
+  /// Written as a list.
+  bool list = false;
+  std::vector<ArgumentTerm> terms;
+};
+
+/// What a block begins with: a figure, or a choice among figures. The children are numbers of
+/// Program::figures.
+struct FigureCode {
+  enum class Kind : uint8_t { None, Figure, Case, Percent } kind = Kind::None;
+  const OpSpec* spec = nullptr;
+  const Signature* form = nullptr;
+  /// Figure: its arguments. Case and Percent: a condition or weight for each child but one that
+  /// stands under else.
+  std::vector<ValueCode> values;
+  std::vector<uint32_t> children;
+  /// The figures of a block are counted from 1, and so is what stands where there is none.
+  uint32_t ordinal = 0;
+};
+
 struct BlockCode {
   BlockKind kind = BlockKind::None;
   bool repeat = false;
@@ -146,6 +188,8 @@ struct BlockCode {
   std::vector<std::array<double, 3>> preferredSizes;
   /// All sizes are constants: they are here, with their units, one a non-group item.
   std::vector<Value> constantSizes;
+  /// By slot: the number of its figure in Program::figures, plus 1; 0 for none. May be shorter.
+  std::vector<uint32_t> figures;
 };
 
 struct ParameterInfo {
@@ -229,6 +273,9 @@ struct Program {
   std::vector<uint64_t> sites;
   std::vector<Value> constants;
   std::vector<BlockCode> blocks;
+  /// By the ids of values of the type Code.
+  std::vector<ArgumentCode> arguments;
+  std::vector<FigureCode> figures;
   std::vector<std::vector<uint32_t>> jumpTables;
   std::vector<RuleCode> rules;
   std::vector<FunctionCode> functions;

@@ -93,7 +93,7 @@ class Units {
   }
 
   template <class Spec>
-  void addChoice(Hash& h, const Choice<Spec>& c) {
+  void addChoice(Hash& h, const Choice<Spec>& c) const {
     h.add(std::string_view(c->name));
     h.add(c.form ? static_cast<uint64_t>(c.form - c->signatures.data()) + 1 : uint64_t{0});
   }
@@ -102,7 +102,7 @@ class Units {
     const Instruction& i = p_.code[at];
     switch (i.code) {
       case Code::Constant:
-      case Code::Leaf: h.add(p_.constants[i.a].hash()); break;
+      case Code::Leaf: addValue(h, u, p_.constants[i.a]); break;
       case Code::RuleAttribute: u.attributes.push_back(i.a); [[fallthrough]];
       case Code::Initialise: u.calls.push_back(attributeUnit(i.a)); [[fallthrough]];
       case Code::SetAttribute:
@@ -120,7 +120,7 @@ class Units {
       case Code::OperationConstant:
       case Code::ComponentValues:
         addChoice(h, p_.operations[i.a]);
-        if (i.code == Code::OperationConstant) addConstants(h, p_.code[at + 1].a, i.x);
+        if (i.code == Code::OperationConstant) addConstants(h, u, p_.code[at + 1].a, i.x);
         if (i.y > 0) addBlock(h, u, p_.blocks[i.y - 1u]);
         break;
       case Code::Jump:
@@ -140,8 +140,39 @@ class Units {
     }
   }
 
-  void addConstants(Hash& h, uint32_t first, uint32_t count) const {
-    for (uint32_t c = first; c < first + count; ++c) h.add(p_.constants[c].hash());
+  void addConstants(Hash& h, const CodeUnit& u, uint32_t first, uint32_t count) const {
+    for (uint32_t c = first; c < first + count; ++c) addValue(h, u, p_.constants[c]);
+  }
+
+  // The code of an argument lies in the unit; here is where it begins.
+  void addCode(Hash& h, const CodeUnit& u, const ValueCode& v) const {
+    if (v.isConstant()) {
+      h.add(v.constant.hash());
+    } else {
+      h.add(uint64_t{v.entry - u.entry} << 1 | 1);
+    }
+  }
+  void addValue(Hash& h, const CodeUnit& u, const Value& v) const {
+    if (v.type != ValueType::Code) {
+      h.add(v.hash());
+      return;
+    }
+    const ArgumentCode& argument = p_.arguments[v.id];
+    h.add(argument.terms.size() << 1 | uint64_t{argument.list});
+    for (const ArgumentTerm& t : argument.terms) {
+      h.add(static_cast<uint64_t>(t.kind) << 40 | static_cast<uint64_t>(t.unit) << 32 | t.operands);
+      h.add(std::string_view(t.spec ? t.spec->name : ""));
+      for (const ValueCode& c : t.values) addCode(h, u, c);
+    }
+  }
+  void addFigure(Hash& h, const CodeUnit& u, uint32_t number) const {
+    // Figures of a block are numbered after each other; their order says how they hang together.
+    const FigureCode& f = p_.figures[number];
+    h.add(static_cast<uint64_t>(f.kind) << 32 | f.ordinal);
+    h.add(f.children.size());
+    if (f.spec) addChoice(h, Choice<OpSpec>{f.spec, f.form});
+    for (const ValueCode& v : f.values) addCode(h, u, v);
+    for (const uint32_t c : f.children) addFigure(h, u, c);
   }
 
   void addBlock(Hash& h, const CodeUnit& u, const BlockCode& b) const {
@@ -160,6 +191,10 @@ class Units {
       for (const double v : size) h.add(v);
     }
     for (const Value& v : b.constantSizes) h.add(v.hash());
+    for (const uint32_t f : b.figures) {
+      h.add(uint64_t{f != 0});
+      if (f != 0) addFigure(h, u, f - 1);
+    }
   }
 
   const Program& p_;

@@ -46,7 +46,10 @@ ValueType valueType(ParamType p) {
     case ParamType::FloatArray: return ValueType::FloatArray;
     case ParamType::BoolArray: return ValueType::BoolArray;
     case ParamType::StringArray: return ValueType::StringArray;
-    case ParamType::Any: break;
+    case ParamType::Drawn: return ValueType::Float;
+    case ParamType::Any:
+    case ParamType::DrawnList:
+    case ParamType::Selection: break;
   }
   return ValueType::Null;
 }

@@ -17,6 +17,7 @@
 
 namespace gable {
 
+struct AttributeSpec;
 struct LightPart;  // shape/part.h
 class OpCall;
 struct Gathered;     // shape/op_call.h
@@ -37,6 +38,29 @@ enum class ParamType : uint8_t {
   FloatingSize,
   /// Any single value or array.
   Any,
+  /// A number that the operation works out anew for each piece: an expression with an address of
+  /// its own (OpCall::draw). rand(a, b) is drawn evenly from the address itself.
+  Drawn,
+  /// One of them or a list of them; those in a list may be shares of the rest: [2, ~1].
+  DrawnList,
+  /// What the terms of the parameter say: words and calls, with && || ! - and brackets between
+  /// them. A number or a list that no term stands for is taken as it is.
+  Selection,
+};
+
+struct ParamSpec;
+
+/// A word or a call in a selection: outer, side(west), edge(2, 0.5, 1).
+struct TermSpec {
+  const char* name;
+  const char* doc;
+  const ParamSpec* params = nullptr;
+  size_t paramCount = 0;
+
+  template <size_t N>
+  static constexpr TermSpec call(const char* name, const char* doc, const ParamSpec (&params)[N]) {
+    return {name, doc, params, N};
+  }
 };
 
 struct ParamSpec {
@@ -52,6 +76,10 @@ struct ParamSpec {
   bool (*store)(void* arguments, const Value& v, const ValuePool& pool) = nullptr;
   /// Without the argument the field is empty, and defaultText is words for people.
   bool mayBeMissing = false;
+  /// Of a Selection: what it is made of.
+  std::span<const TermSpec> terms = {};
+  /// Of a Selection: one term stands alone, there is nothing to combine.
+  bool single = false;
 };
 
 /// One way to call: its parameters in order. Those with defaults may be left out; the compiler
@@ -171,7 +199,25 @@ struct OpSpec {
   /// For operations that wait for what comes of their children (OpCall::gather): the leaves, of
   /// which it takes those that it marks out of the result. Null for others.
   Status (*gathered)(OpCall&, std::span<Gathered>) = nullptr;
+  /// A figure: what a block begins with may be one, and then it is the operation's to make.
+  bool figure = false;
+  /// Words of the block whose operations may begin with a figure; "" for the plain operations of a
+  /// block, null for none. Where there are several figures to choose from, the attribute says on
+  /// what comes out which one it is, from 1.
+  const char* figureWords = nullptr;
+  const AttributeSpec* figureChoice = nullptr;
 };
+
+constexpr OpSpec asFigure(OpSpec spec) {
+  spec.figure = true;
+  return spec;
+}
+
+constexpr OpSpec withFigures(OpSpec spec, const char* words, const AttributeSpec& choice) {
+  spec.figureWords = words;
+  spec.figureChoice = &choice;
+  return spec;
+}
 
 constexpr OpSpec withLight(OpSpec spec, LightOp light) {
   spec.light = light;

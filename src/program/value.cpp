@@ -43,6 +43,7 @@ const char* typeName(ValueType t) {
     case ValueType::FloatArray: return "float[]";
     case ValueType::BoolArray: return "bool[]";
     case ValueType::StringArray: return "string[]";
+    case ValueType::Code: return "selection";
   }
   return "?";
 }

@@ -31,6 +31,8 @@ enum class ValueType : uint8_t {
   FloatArray,
   BoolArray,
   StringArray,
+  /// An argument that the operation evaluates itself; see ArgumentCode in program/program.h.
+  Code,
 };
 
 /// The prefix that a size was written with: none, ' (times the scope) or ~ (share of the rest).
@@ -51,7 +53,9 @@ struct Value {
   static Value array(ValueType type, uint32_t id) { return {type, Unit::Absolute, id, 0}; }
 
   bool truth() const { return number != 0; }
-  bool isArray() const { return type >= ValueType::FloatArray; }
+  static Value code(uint32_t id) { return {ValueType::Code, Unit::Absolute, id, 0}; }
+
+  bool isArray() const { return type >= ValueType::FloatArray && type <= ValueType::StringArray; }
   friend bool operator==(const Value& a, const Value& b) {
     return a.type == b.type && a.id == b.id && a.number == b.number;
   }

@@ -158,6 +158,8 @@ class Machine final : public Services, private WorkMeter {
   std::vector<EvaluatedAttribute> attributeValues();
 
   // Services.
+  const Program* program() const override { return &program_; }
+  Value evaluate(uint32_t entry, uint64_t address, const Shape* as) override;
   const InitialShapeInfo& initialShapeAtWork() const override { return info_; }
   const Frame& worldAtWork() const override { return worlds_.back(); }
   void takeReport(StringId key, const Value& value) override;
@@ -400,6 +402,8 @@ class Machine final : public Services, private WorkMeter {
   void runUntil(size_t depth);
   /// An attribute's value now, for a key or a list; nests one level of the loop.
   Value evaluateAttribute(uint32_t attribute);
+  /// Adds what an argument says to a key; false when that takes code to know.
+  bool addArgument(KeyHash& h, const Value& v) const;
 
   // Initial shapes.
   void bindAttributes(const InitialShape& shape);
@@ -476,6 +480,8 @@ class Machine final : public Services, private WorkMeter {
   std::unique_ptr<std::byte[]> stackMemory_;
   Value* const stack_;
   uint32_t stackTop_ = 0;
+  /// Values above the top that the call at work still reads.
+  uint32_t reserved_ = 0;
   std::vector<Activation> activations_;
   uint32_t activationCount_ = 0;
   /// As many as there are when the children of the operation that gathers have ended; 0: none does.

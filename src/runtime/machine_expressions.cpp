@@ -351,6 +351,34 @@ Value Machine::callGuarded(FunctionCall& call, Value (*function)(FunctionCall&),
   return noneOf(result, pool());
 }
 
+// The values that the operation or function was given lie above the top and stay as they are.
+Value Machine::evaluate(uint32_t entry, uint64_t address, const Shape* as) {
+  if (aborted_ || functions_.size() >= options().limits.functionDepth || stackNearlyFull()) {
+    return {};
+  }
+  if (!tick()) return {};
+  const Instruction* resumeAt = pc_;
+  const Instruction* caller = instruction_;
+  const Shape* outer = seen_;
+  const uint32_t reserved = reserved_;
+  Shape at = as ? *as : *seen_;
+  at.path = address;
+  stackTop_ += reserved;
+  reserved_ = 0;
+  const size_t depth = functions_.size();
+  functions_.push_back({resumeAt, parameters_, stackTop_, -1, outer, salt_});
+  seen_ = &at;
+  pc_ = program_.code.data() + entry;
+  runUntil(depth);
+  const Value v = aborted_ ? Value{} : pop();
+  pc_ = resumeAt;
+  instruction_ = caller;
+  seen_ = outer;
+  reserved_ = reserved;
+  stackTop_ -= reserved;
+  return v;
+}
+
 void Machine::builtinAttribute(const Instruction& i) {
   FunctionCall call({}, *seen_, *this);
   call.place(fileOf(i), 0);
@@ -366,10 +394,12 @@ void Machine::callBuiltin(const Instruction& i) {
   call.place(fileOf(i), hashCombine(salt_, program_.sites[pcOf(&i)]));
   instruction_ = &i;
   const FunctionSpec& function = *spec;
+  reserved_ = i.x;
   const Signature* const first = function.signatures.empty() ? nullptr : &function.signatures[0];
   const Signature* const used = form ? form : first;
   const Value v = callGuarded(call, function.call, function.effects, function.name,
                               used ? used->result : ValueType::Float);
+  reserved_ = 0;
   if (options().traceShapes && function.effects & kRandom) {
     if (TraceNote* n = note(TraceNote::Kind::Draw)) {
       n->span = program_.spans[pcOf(&i)];

@@ -171,6 +171,24 @@ void Machine::takePart(const RecallPart& known) {
   tick(known.steps);
 }
 
+bool Machine::addArgument(KeyHash& h, const Value& v) const {
+  if (v.type != ValueType::Code) {
+    h.add(v.hash());
+    return true;
+  }
+  const ArgumentCode& argument = program_.arguments[v.id];
+  h.add(argument.terms.size() << 1 | uint64_t{argument.list});
+  for (const ArgumentTerm& t : argument.terms) {
+    h.add(static_cast<uint64_t>(t.kind) << 40 | static_cast<uint64_t>(t.unit) << 32 | t.operands);
+    h.add(hashBytes(t.spec ? t.spec->name : ""));
+    for (const ValueCode& c : t.values) {
+      if (!c.isConstant()) return false;
+      h.add(c.constant.hash());
+    }
+  }
+  return true;
+}
+
 ShareKey Machine::operationKey(OpCall& call, std::span<const Value> arguments,
                                const BlockInput* block) {
   KeyHash h;
@@ -181,8 +199,20 @@ ShareKey Machine::operationKey(OpCall& call, std::span<const Value> arguments,
   h.add(call.previousScope());
   h.add(call.previousSize());
   addShape(h, call.shape());
-  for (const Value& v : arguments) h.add(v.hash());
+  for (const Value& v : arguments) {
+    if (!addArgument(h, v)) return {};
+  }
   if (!block) return h.key();
+  for (const uint32_t f : block->figures) {
+    if (f == 0) continue;
+    const FigureCode& figure = program_.figures[f - 1];
+    if (figure.kind != FigureCode::Kind::Figure) return {};
+    h.add(hashBytes(figure.spec->name));
+    for (const ValueCode& v : figure.values) {
+      if (!v.isConstant()) return {};
+      h.add(v.constant.hash());
+    }
+  }
   h.add(uint64_t{block->slotCount});
   for (const SelectorItem& item : block->selectors) {
     h.add(item.terms.size() << 8 | static_cast<uint64_t>(item.op));
@@ -229,6 +259,8 @@ Status Machine::applyRemembering(OpCall& call, const Instruction& i,
   const bool told = (call.spec().effects & kTold) != 0 || call.spec().gathered;
   if (split || !looked || told) return call.run();
   const ShareKey key = operationKey(call, arguments, block);
+  // What its arguments say is known only when it asks for it.
+  if (key == ShareKey{}) return call.spec().apply(call);
   const auto begin = std::chrono::steady_clock::now();
   if (takeOperation(key, call.shape())) {
     // It took long, or it would not be known.

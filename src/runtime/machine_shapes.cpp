@@ -354,6 +354,7 @@ void Machine::fillBlock(uint32_t number, const Value* values, PartPlan& plan, Bl
   input.plan = &plan;
   input.slotCount = static_cast<uint32_t>(block.slots.size());
   input.preferredSizes = block.preferredSizes;
+  input.figures = block.figures;
   if (block.kind == BlockKind::Split) {
     input.split = splitBlock(number, values);
   } else if (block.kind == BlockKind::Selectors || block.kind == BlockKind::Operations) {
@@ -401,8 +402,8 @@ Status Machine::apply(OpCall& call, const Instruction& i, std::span<const Value>
   }
   const size_t firstChild = children_.size(), firstPiece = pieces_.size();
   const auto run = [&] {
-    Status status = remembers_ && worksInTheOpen() ? applyRemembering(call, i, arguments, block)
-                                                   : call.run();
+    Status status =
+        remembers_ && worksInTheOpen() ? applyRemembering(call, i, arguments, block) : call.run();
     if (!status.ok() || madeFinite(call.shape(), firstChild, firstPiece)) return status;
     return call.fail("not-finite", "the result has sizes or places that are no finite numbers",
                      "look for a division by zero, or for sizes that grow with each turn");
@@ -454,7 +455,9 @@ void Machine::operation(const Instruction& i, const Value* constants) {
   OpCall call(spec, a.shape, {arguments, i.x}, *this, place, block ? &input : nullptr);
   if (collectOccluders_ && occludes(spec)) addOccluder(0, a.shape);
   instruction_ = &i;
+  reserved_ = blockValues + argumentsOnStack;
   const Status status = apply(call, i, {arguments, i.x}, block ? &input : nullptr);
+  reserved_ = 0;
   if (!status.ok()) {
     if (block) {
       children_.erase(children_.begin() + childBase, children_.end());

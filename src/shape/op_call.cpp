@@ -3,11 +3,51 @@
 
 #include "shape/op_call.h"
 
-#include "shape/audit.h"
+#include <algorithm>
 
 #include "base/work.h"
+#include "program/program.h"
+#include "shape/audit.h"
 
 namespace gable {
+
+namespace {
+
+const ArgumentCode* argumentOf(const Value& v, const Services& services) {
+  return v.type == ValueType::Code ? &services.program()->arguments[v.id] : nullptr;
+}
+
+// Selections name the world in their terms: facing(world.west).
+bool namesWorldIn(std::span<const Value> values, const Services& services) {
+  return std::any_of(values.begin(), values.end(), [&](const Value& v) {
+    const ArgumentCode* const code = argumentOf(v, services);
+    return code && std::any_of(code->terms.begin(), code->terms.end(), [](const ArgumentTerm& t) {
+             return t.spec && namesWorld(t.spec->name);
+           });
+  });
+}
+
+// What is worked out while the operation is at work sees the shape as it is then: a second run
+// would not see what the first one saw.
+[[maybe_unused]] bool hasCode(std::span<const Value> values, const BlockInput* block,
+                              const Services& services) {
+  if (block && std::any_of(block->figures.begin(), block->figures.end(),
+                           [](uint32_t f) { return f != 0; })) {
+    return true;
+  }
+  return std::any_of(values.begin(), values.end(), [&](const Value& v) {
+    const ArgumentCode* const code = argumentOf(v, services);
+    if (!code) return false;
+    for (const ArgumentTerm& t : code->terms) {
+      for (const ValueCode& value : t.values) {
+        if (!value.isConstant()) return true;
+      }
+    }
+    return false;
+  });
+}
+
+}  // namespace
 
 double component(const Vec3& v, Axis a) { return v[static_cast<size_t>(a)]; }
 
@@ -57,6 +97,7 @@ Status OpCall::bind(void* arguments) const {
 uint32_t OpCall::effects() const {
   const ValuePool& pool = services_.pool();
   uint32_t all = effectsOfValues(spec_.effects, args_, pool);
+  if (namesWorldIn(args_, services_)) all |= effectsOfCall(spec_.effects, true) | kReadsWorld;
   for (const SelectorItem& item : selectors()) {
     for (const SelectorTerm& term : item.terms) {
       if (term.kind == SelectorTerm::Kind::Word && namesWorld(pool.text(term.word)))
@@ -71,7 +112,8 @@ Status OpCall::run() {
   const Services::Declared declared(services_, effects());
   // What tells others of itself would tell them twice.
   constexpr uint32_t kTells = kReports | kReadsPath | kReadsContext;
-  if ((spec_.effects & kTells) != 0 || spec_.gathered || !services_.isAuditDue(spec_)) {
+  if ((spec_.effects & kTells) != 0 || spec_.gathered || hasCode(args_, block_, services_) ||
+      !services_.isAuditDue(spec_)) {
     return spec_.apply(*this);
   }
   const Shape before = shape_;
@@ -97,7 +139,9 @@ Status OpCall::runGathered(std::span<Gathered> leaves) {
 
 Value FunctionCall::run(Value (*function)(FunctionCall&), [[maybe_unused]] uint32_t effects) {
 #if GABLE_DCHECKS
-  const Services::Declared declared(services_, effectsOfValues(effects, args_, services_.pool()));
+  uint32_t all = effectsOfValues(effects, args_, services_.pool());
+  if (namesWorldIn(args_, services_)) all |= effectsOfCall(effects, true) | kReadsWorld;
+  const Services::Declared declared(services_, all);
 #endif
   return function(*this);
 }

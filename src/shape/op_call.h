@@ -94,6 +94,8 @@ struct BlockInput {
   std::span<const SelectorItem> selectors;
   /// Of a block of operations or operands.
   uint32_t slotCount = 0;
+  /// By slot; see OpCall::figureCode. May be shorter.
+  std::span<const uint32_t> figures;
   /// By slot; see OpCall::preferredSize. May be shorter.
   std::span<const std::array<double, 3>> preferredSizes;
   std::vector<BlockChild>* children = nullptr;
@@ -190,6 +192,12 @@ class OpCall {
     if (!block_ || slot >= block_->preferredSizes.size()) return {};
     const std::array<double, 3>& p = block_->preferredSizes[slot];
     return {p[0], p[1], p[2]};
+  }
+
+  /// The figure that the operations of a slot begin with, as a number of Program::figures plus 1;
+  /// 0 for none. See drawFigure in shape/argument.h.
+  uint32_t figureCode(uint32_t slot) const {
+    return block_ && slot < block_->figures.size() ? block_->figures[slot] : 0;
   }
 
   /// Gives out a child for a block slot. Its address for randomness is derived from shape().path,

@@ -24,6 +24,8 @@
 
 namespace gable {
 
+struct Program;  // program/program.h
+
 /// A model that i() inserts: one mesh, its slots' materials (slot k uses materials[k]).
 struct AssetModel : RefCounted {
   MeshRef mesh;
@@ -134,6 +136,15 @@ class Services {
     double number = 0, quarters = 0, scale = 0;
   };
   TextureMemo& textureMemo() { return textureMemo_; }
+
+  /// What is derived; null where values are all there is.
+  virtual const Program* program() const { return nullptr; }
+  /// Runs the code of an argument (ValueCode) on the shape at work, or on another, with an address
+  /// of its own for randomness.
+  virtual Value evaluate(uint32_t entry, uint64_t address, const Shape* as) {
+    (void)entry, (void)address, (void)as;
+    return {};
+  }
 
   /// What the call at work may ask for: the effects of its specification. A call that asks for more
   /// would be shared or scheduled wrongly, so builds with checks stop at it.

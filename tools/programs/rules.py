@@ -12,7 +12,7 @@ HOSTILE = ["0", "-1", "-3", "-90", "1e308", "-1e308", "1e39", "1e19", "1e15", "1
            "(-1/0)", "89.9999999", "180", "360", "100000", "16777217", "2147483648", "-2147483649", "4294967296"]
 TEXTS = ["", "a", "W", "wall", "house.obj", "missing.obj", "tex.png", "missing.png", "#aabbcc", "#zz", "0.5", "1e308",
          "nan", "a;b;c", "*", "/", "..", "\u00e9\U0001f4a5", "x y", "outer", "x" * 400]
-# What operations on regions take as texts and as expressions.
+# What operations on regions took as texts, and what they refuse.
 FIGURES = ['"none"', '"circle(2)"', '"rect(3, 1)"', '"romb(0)"', '"outer"', '"inner"', '"all"', '"average(2)"',
            '"bezier"', '"(3, 4) (9, 4)"', '"0.2, 0.5"', '"[start : 2]"', '"{0.5, 2}"']
 ARRAYS = {"float": ["[1, 2, 3]", "floatArray", "[6, 4; 3, 2; 1, 1]", "[0, 0, 9, 0, 9, 9]", "[1e308, -1, (0/0)]"],
@@ -130,7 +130,8 @@ class Rules:
             if self.chance(0.1):
                 word = f"{word} || {self.random.choice(self.selectors)}"
             sign = self.random.choice([":", ":", ":", "="])
-            items.append(Node([f" {word} {sign}", self.body(depth - 1) if depth > 0 else " X."]))
+            figure = f" circle({self.random.choice(USUAL)})" if word in ("junction", "centre") else ""
+            items.append(Node([f" {word} {sign}{figure}", self.body(depth - 1) if depth > 0 else " X."]))
         return Node([" {", joined(items, " |"), " }"])
 
     def sizes(self, depth):
@@ -160,11 +161,38 @@ class Rules:
             return Node([self.random.choice(["", "", "'"]), self.number()], ("1",))
         if kind == "floating size":
             return Node([self.random.choice(["", "~", "'"]), self.number()], ("1",))
+        if kind == "drawn":
+            return self.drawn()
+        if kind == "drawn[]":
+            items = [Node([self.random.choice(["", "", "~"]), self.drawn()], ("1",))
+                     for _ in range(self.random.randint(1, 3))]
+            return self.drawn() if self.chance(0.5) else Node(["[", joined(items, ", "), "]"], ("2",))
+        if kind == "selection":
+            return self.selection(param, 2)
         if kind == "any":
             return self.random.choice([self.value("float", 1), self.random.choice(FIGURES), "true", "[1, 2]"])
         if kind == "string" and self.chance(0.5):
             return self.random.choice(FIGURES)
         return self.value(kind, 2)
+
+    def drawn(self):
+        if self.chance(0.4):
+            return Node(["rand(", self.number(), ", ", self.number(), ")"], ("1",))
+        return self.calculation(1)
+
+    def selection(self, param, depth):
+        """Terms with && || ! - and brackets between them."""
+        if depth > 0 and "single" not in param and self.chance(0.35):
+            if self.chance(0.3):
+                return Node(["!(", self.selection(param, depth - 1), ")"], ("all",))
+            sign = self.random.choice([" && ", " || ", " - "])
+            return Node(["(", self.selection(param, depth - 1), sign, self.selection(param, depth - 1), ")"])
+        if self.chance(0.15):
+            return self.random.choice([self.number(), "[5, -5, 15, -5]", "[0, 0; 0, 1; 1, 0]"])
+        term = self.random.choice(param["terms"])
+        arguments = [self.selection({"terms": p.get("terms", param["terms"])}, 0) if p["type"] == "selection"
+                     else self.argument(p) for p in term["params"]]
+        return Node([term["name"], "(", joined(arguments, ", "), ")"] if arguments else [term["name"]])
 
     def value(self, kind, depth):
         if depth > 0 and kind in self.by_result and self.chance(0.3):

@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "builtins/lists.h"
-#include "builtins/ops/region/shared/region_shape.h"
-#include "builtins/ops/region/shared/region_text.h"
-#include "shape/op_call.h"
+#include "builtins/ops/region/shared/region_attributes.h"
+#include "builtins/ops/region/shared/selection.h"
+#include "shape/argument.h"
 
 namespace gable {
 
@@ -27,10 +27,6 @@ Value ny(FunctionCall& call) { return counted(cellOf(call).ny); }
 Value bx(FunctionCall& call) { return counted(cellOf(call).bx()); }
 Value by(FunctionCall& call) { return counted(cellOf(call).by()); }
 Value part(FunctionCall& call) { return counted(cellOf(call).part); }
-Value choice(FunctionCall& call) {
-  const CellMark c = cellOf(call);
-  return counted(c.free ? 0 : c.choice);
-}
 Value orphan(FunctionCall& call) {
   const CellMark c = cellOf(call);
   return Value::of(c.free && c.choice == 1);
@@ -54,8 +50,13 @@ Value onBorder(FunctionCall& call) {
   return Value::of(false);
 }
 
+struct Selects {
+  Selection selection;
+};
+
 // Whether a selection means any part of the outline.
-Value selects(FunctionCall& call) {
+Value selects(FunctionCall& call, const Selects& args) {
+  const std::vector<Term> terms = termsOf(args.selection, call.services(), call.randomAddress(900));
   const MeshRef mesh = meshInScope(call.shape());
   const Frame& scope = call.shape().scope;
   for (const size_t f : regionFaces(*mesh)) {
@@ -67,25 +68,19 @@ Value selects(FunctionCall& call) {
       };
       return Frame::of({}, local({1, 0, 0}), local({0, 1, 0}), local({0, 0, 1}));
     };
-    const SelectionInput input{view, call.randomAddress(1000 + f), world};
-    std::vector<EdgePart> parts;
-    std::string problem;
-    if (!selectEdges(call.text(0), input, parts, problem)) {
-      return call.fail("bad-selection", "the selection cannot be read: " + problem,
-                       "write words like outer, inner, side(W), longest, with & | - !",
-                       Value::of(false));
-    }
+    const SelectionInput input{view, call.randomAddress(1000 + f), world, call.services().pool()};
+    const std::vector<EdgePart> parts = selectEdges(terms, input);
     if (!parts.empty()) return Value::of(true);
   }
   return Value::of(false);
 }
 
 constexpr ParamSpec kSelection[] = {
-    {"selection", ParamType::String, "Edges of the outline; words as in peel."}};
+    selection<&Selects::selection>("selection", "Edges of the outline, as in peel.", kEdgeTerms)};
 constexpr Signature kSelects[] = {{kSelection, ValueType::Bool}};
 constexpr FunctionSpec kFunctions[] = {
     {"region.selects", "region", "Whether a selection means any edge of the region.", kSelects,
-     selects, kRandom | kReadsWorld | kReadsWorldByWord, false, true},
+     typed<selects>, kRandom | kReadsWorld | kReadsWorldByWord, false, true},
 };
 
 constexpr ValueType kFloat = ValueType::Float;
@@ -104,8 +99,7 @@ constexpr AttributeSpec kAttributes[] = {
     {"region.by", kFloat, "Rows between the cell and the nearer end of its column.", by},
     {"region.piece", kFloat, "Which part of its cell the region is, when the cell fell apart.",
      part},
-    {"region.choice", kFloat,
-     "Which of several figures a junction of a grid is, from 1; 0 is a plain crossing.", choice},
+    {"region.choice", kFloat, kRegionChoice.doc, kRegionChoice.get},
     {"region.orphan", kBool,
      "Whether the region is a part of a Voronoi cell that its site is not in, kept by orphans=own.",
      orphan},

@@ -21,6 +21,8 @@ class TreeBuilder {
   explicit TreeBuilder(uint32_t file) : tree_(file) {}
 
   void at(Span span) { span_ = span; }
+  Span span() const { return span_; }
+  lang::Tree& tree() { return tree_; }
 
   NodeId number(double v) {
     if (v < 0) {
@@ -56,6 +58,11 @@ class TreeBuilder {
   }
   NodeId call(std::string_view function, const Nodes& arguments) {
     return named(lang::NodeKind::Call, function, {list(arguments), lang::kNoNode});
+  }
+
+  /// name = value
+  NodeId argument(std::string_view name, NodeId value) {
+    return named(lang::NodeKind::NamedArg, name, {value});
   }
 
   NodeId annotation(std::string_view name, const Nodes& arguments) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -101,9 +102,21 @@ class Reader {
     return left;
   }
 
+  // Counts of cells are exact.
+  bool isWhole(NodeId node) {
+    static constexpr std::string_view kCounts[] = {"region.ix",    "region.iy",   "region.nx",
+                                                   "region.ny",    "region.bx",   "region.by",
+                                                   "region.piece", "region.depth"};
+    const lang::Tree& t = b_.tree();
+    if (t.kind(node) == lang::NodeKind::Number) return t.number(node) == std::floor(t.number(node));
+    return t.kind(node) == lang::NodeKind::Name &&
+           std::find(std::begin(kCounts), std::end(kCounts), t.text(node)) != std::end(kCounts);
+  }
+
   // Sizes are what a grid made of lengths: equal means to the tenth of a millimetre.
   NodeId compared(BinaryOp op, NodeId left, NodeId right) {
-    if (op != BinaryOp::Equal && op != BinaryOp::NotEqual) return b_.binary(op, left, right);
+    const bool equality = op == BinaryOp::Equal || op == BinaryOp::NotEqual;
+    if (!equality || (isWhole(left) && isWhole(right))) return b_.binary(op, left, right);
     const NodeId away = b_.call("abs", {b_.binary(BinaryOp::Subtract, left, right)});
     return b_.binary(op == BinaryOp::Equal ? BinaryOp::Less : BinaryOp::GreaterEqual, away,
                      b_.number(1e-4));
@@ -136,8 +149,7 @@ class Reader {
     if (std::find(parameters_.begin(), parameters_.end(), name) != parameters_.end()) {
       return b_.word(name);
     }
-    if (const auto c = g_.constants.find(name); c != g_.constants.end())
-      return b_.number(c->second);
+    if (g_.constants.count(name) != 0) return b_.word(name);
     if (name == "area") return b_.call("geometry.area", {});
     for (const Known& k : kKnown) {
       if (k.name == name) return b_.word(k.attribute);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// What a park grammar says: rules of operations with braces. Arguments stay text, since the
-// operations on regions read the same small texts; see builtins/ops/region.
+// What a park grammar says: rules of operations with braces. Arguments stay text here; the lowering
+// makes expressions of them (lang/region_texts.h).
 #pragma once
 
 #include <cstdint>
@@ -66,6 +66,12 @@ struct Rule {
 struct Grammar {
   /// Values of constants, by name.
   std::map<std::string, double> constants;
+  /// The same in the order of the text, as they are written.
+  struct Constant {
+    std::string name, text;
+    Span span;
+  };
+  std::vector<Constant> written;
   std::vector<Rule> rules;
 
   const Rule* rule(std::string_view name) const;
@@ -76,9 +82,6 @@ Grammar parseGrammar(std::string_view text, uint32_t file, Diagnostics& diagnost
 
 /// A number, a constant, or what + - * / and brackets make of them; false for other texts.
 bool constantValue(const Grammar& g, std::string_view text, double& value);
-
-/// The text with constants in the place of their names.
-std::string withConstants(const Grammar& g, std::string_view text);
 
 /// The text with other texts in the place of some of its names.
 std::string withWords(std::string_view text, const std::map<std::string, std::string>& words);

@@ -8,23 +8,91 @@
 #include "dialects/park/lower.h"
 
 #include <algorithm>
+#include <cctype>
+#include <set>
 
 #include "base/number.h"
+#include "base/text.h"
 #include "dialects/park/expression.h"
 #include "dialects/park/lowering.h"
+#include "lang/graft.h"
 
 namespace gable::park {
 
 lang::Tree Lowering::run(uint32_t size) {
   Nodes rules;
+  static const Rule kNone;
+  rule_ = &kNone;
+  for (const Grammar::Constant& c : g_.written) {
+    b_.at(c.span);
+    const NodeId value = expressionOf(c.text, c.span);
+    b_.at(c.span);
+    rules.push_back(b_.attribute(c.name, value));
+  }
   bool first = true;
   for (const Rule& r : g_.rules) {
     if (r.function || isPointSet(r)) continue;
     rules.push_back(rule(r, first));
     first = false;
   }
+  warnOfUnused();
   if (models_) rules.insert(rules.begin(), modelFile());
   return b_.finish(rules, size);
+}
+
+namespace {
+
+// The words of a text that may be names.
+void addWords(std::string_view text, std::set<std::string>& out) {
+  for (size_t i = 0; i < text.size();) {
+    const auto part = [&](size_t k) {
+      return std::isalnum(static_cast<unsigned char>(text[k])) != 0 || text[k] == '_';
+    };
+    size_t end = i;
+    while (end < text.size() && part(end)) ++end;
+    if (end > i) out.emplace(text.substr(i, end - i));
+    i = std::max(end, i + 1);
+  }
+}
+
+void addWords(const Sequence& s, std::set<std::string>& out) {
+  for (const Op& op : s) {
+    out.insert(op.name);
+    addWords(op.size, out);
+    for (const Argument& a : op.arguments) addWords(a.text, out);
+    for (const Block& b : op.blocks) {
+      for (const Part& p : b.parts) {
+        addWords(p.label, out);
+        addWords(p.body, out);
+      }
+    }
+    addWords(op.otherwise, out);
+  }
+}
+
+}  // namespace
+
+void Lowering::warnOfUnused() {
+  std::set<std::string> named;
+  for (const Rule& r : g_.rules) {
+    for (const Branch& b : r.branches) {
+      addWords(b.condition, named);
+      addWords(b.body, named);
+    }
+  }
+  for (const Grammar::Constant& c : g_.written) addWords(c.text, named);
+  for (size_t i = 1; i < g_.rules.size(); ++i) {
+    if (named.count(g_.rules[i].name) != 0) continue;
+    diagnostics_.warning("unused-rule", g_.rules[i].nameSpan,
+                         "nothing names the rule '" + g_.rules[i].name + "'",
+                         "name it where it is meant, or take it out");
+  }
+  for (const Grammar::Constant& c : g_.written) {
+    if (c.name == "PathWidth" || named.count(c.name) != 0) continue;
+    const std::string hint = didYouMean(c.name, {"PathWidth"});
+    diagnostics_.warning("unused-rule", c.span, "nothing names the constant '" + c.name + "'",
+                         hint.empty() ? "name it where it is meant, or take it out" : hint);
+  }
 }
 
 NodeId Lowering::rule(const Rule& r, bool start) {
@@ -75,6 +143,47 @@ bool Lowering::coloured(const Sequence& ops) {
   });
 }
 
+namespace {
+
+// In lower case, as they are compared.
+const std::vector<std::string_view>& operationNames() {
+  static const std::vector<std::string_view> all{"grid",
+                                                 "voronoiregions",
+                                                 "voronoismoothed",
+                                                 "ffregions",
+                                                 "cells",
+                                                 "castrays",
+                                                 "rays",
+                                                 "peel",
+                                                 "choose",
+                                                 "joined",
+                                                 "color",
+                                                 "texture",
+                                                 "select",
+                                                 "loadmodel",
+                                                 "innerrect",
+                                                 "quadmap",
+                                                 "contract",
+                                                 "insert",
+                                                 "noholes",
+                                                 "extrude",
+                                                 "romb",
+                                                 "circle",
+                                                 "square",
+                                                 "rect",
+                                                 "polygon",
+                                                 "place",
+                                                 "distribute",
+                                                 "scatter",
+                                                 "scattercircles",
+                                                 "sweep",
+                                                 "distributesmooth",
+                                                 "parametrise"};
+  return all;
+}
+
+}  // namespace
+
 bool Lowering::step(const Op& op, Nodes& out) {
   b_.at(op.span);
   const std::string name = lowered(op.name);
@@ -97,6 +206,12 @@ bool Lowering::step(const Op& op, Nodes& out) {
   if (name == "contract") return contract(op, out), true;
   if (name == "insert") return insert(op, out), true;
   if (name == "noholes") return out.push_back(b_.applyBare("cutHoles")), true;
+  if (name == "color" || name == "colour" || name == "texture") {
+    std::string value = text(op, 0);
+    std::erase(value, '"');
+    const char* const made = name == "texture" ? "texture" : "color";
+    return out.push_back(b_.apply(made, {b_.text(value)})), true;
+  }
   if (name == "extrude") return out.push_back(b_.apply("extrude", {number(op, 0, 1)})), true;
   if (isFigure(name)) return figure(op, out), true;
   if (name == "place") return place(op, out), true;
@@ -111,14 +226,16 @@ bool Lowering::step(const Op& op, Nodes& out) {
     call(*r, op, out);
     return false;
   }
-  if (op.blocks.empty()) {
+  const std::string nearest = nearestName(name, operationNames());
+  if (op.blocks.empty() && nearest.empty()) {
     // ParkPath(..): a name with arguments that nothing is made of.
     out.push_back(colour(op.name));
     out.push_back(b_.leaf(op.name));
     return false;
   }
   diagnostics_.error("unknown-operation", op.span, "there is no operation '" + op.name + "'",
-                     "see the notation's table of operations");
+                     nearest.empty() ? "the guide to park grammars lists the operations"
+                                     : "did you mean '" + nearest + "'?");
   return true;
 }
 
@@ -135,9 +252,23 @@ bool Lowering::symbol(const Op& op, Nodes& out) {
     out.push_back(colour(op.name));
     return true;
   }
+  warnOfSlip(op);
   out.push_back(colour(op.name));
   out.push_back(b_.leaf(op.name));
   return false;
+}
+
+// A name without a rule is a leaf, but one close to a rule's was probably meant to be that.
+void Lowering::warnOfSlip(const Op& op) {
+  std::vector<std::string_view> names;
+  for (const Rule& r : g_.rules) names.push_back(r.name);
+  const std::string nearest = nearestName(op.name, names);
+  const std::string hint = nearest.empty() ? nearest : "did you mean '" + nearest + "'?";
+  // Plant1 beside Plant2, Hedge beside Hedges.
+  const bool counted = isdigit(static_cast<unsigned char>(op.name.back())) != 0;
+  if (hint.empty() || counted || nearest == op.name + "s" || op.name == nearest + "s") return;
+  diagnostics_.warning("undefined-rule", op.span,
+                       "no rule is named '" + op.name + "'; it becomes a leaf", hint);
 }
 
 void Lowering::call(const Rule& r, const Op& op, Nodes& out) {
@@ -161,6 +292,13 @@ bool Lowering::inlined(const Rule& r, const Op& op, Nodes& out) {
                        "make it a rule: leave out 'fun'");
     return true;
   }
+  if (op.called && r.parameters.size() != op.arguments.size()) {
+    diagnostics_.error("wrong-argument-count", op.span,
+                       "'" + op.name + "' takes " + std::to_string(r.parameters.size()) +
+                           " arguments, not " + std::to_string(op.arguments.size()),
+                       "give a value for each of its parameters");
+    return true;
+  }
   std::map<std::string, std::string> words;
   for (size_t i = 0; i < r.parameters.size() && i < op.arguments.size(); ++i) {
     words[r.parameters[i]] = op.arguments[i].text;
@@ -172,6 +310,15 @@ bool Lowering::inlined(const Rule& r, const Op& op, Nodes& out) {
   b_.at(op.span);
   return open;
 }
+
+namespace {
+
+// No size, share or constant.
+bool isName(const std::string& label) {
+  return std::all_of(label.begin(), label.end(), [](char c) { return c >= 'a' && c <= 'z'; });
+}
+
+}  // namespace
 
 Lowering::Slots Lowering::slotsOf(const Op& op,
                                   const std::vector<std::vector<std::string>>& names) {
@@ -189,6 +336,19 @@ Lowering::Slots Lowering::slotsOf(const Op& op,
       size_t place = names.size();
       for (size_t i = 0; i < names.size(); ++i) {
         if (std::find(names[i].begin(), names[i].end(), label) != names[i].end()) place = i;
+      }
+      const bool value = g_.constants.count(p.label) != 0 || isParameter(p.label);
+      if (place == names.size() && !label.empty() && isName(label) && !value) {
+        std::vector<std::string_view> words;
+        for (const auto& same : names) words.insert(words.end(), same.begin(), same.end());
+        std::string hint = didYouMean(label, words);
+        if (hint.empty()) {
+          for (const std::string_view w : words) {
+            hint += (hint.empty() ? "it knows " : ", ") + std::string(w);
+          }
+        }
+        diagnostics_.error("unknown-selector", p.span,
+                           "'" + op.name + "' has no part called '" + p.label + "'", hint);
       }
       if (place == names.size()) place = at++;
       if (place < names.size()) {
@@ -253,15 +413,11 @@ void Lowering::checkWords(const Op& op, size_t first,
 }
 
 std::string Lowering::text(const Op& op, size_t i) const {
-  return i < op.arguments.size() ? constants(op.arguments[i].text) : std::string();
+  return i < op.arguments.size() ? op.arguments[i].text : std::string();
 }
 
-std::string Lowering::constants(const std::string& text) const {
-  if (rule_->parameters.empty()) return withConstants(g_, text);
-  Grammar rest;
-  rest.constants = g_.constants;
-  for (const std::string& p : rule_->parameters) rest.constants.erase(p);
-  return withConstants(rest, text);
+Span Lowering::spanOf(const Op& op, size_t i) const {
+  return i < op.arguments.size() && op.arguments[i].span.valid() ? op.arguments[i].span : op.span;
 }
 
 NodeId Lowering::expressionOf(std::string_view text, Span span) {
@@ -280,39 +436,48 @@ bool Lowering::isParameter(const std::string& word) const {
   return std::find(all.begin(), all.end(), word) != all.end();
 }
 
-NodeId Lowering::textNode(const std::string& text) {
-  NodeId sum = kNoNode;
-  std::string plain;
-  const auto add = [&](NodeId next) {
-    sum = sum == kNoNode ? next : b_.binary(lang::BinaryOp::Add, sum, next);
-  };
-  for (size_t i = 0; i < text.size();) {
-    const auto letter = [&](size_t k) {
-      return std::isalnum(static_cast<unsigned char>(text[k])) || text[k] == '_';
-    };
-    size_t end = i;
-    while (end < text.size() && letter(end)) ++end;
-    const std::string word = text.substr(i, end - i);
-    if (end > i && isParameter(word)) {
-      if (sum == kNoNode || !plain.empty()) add(b_.text(plain));
-      plain.clear();
-      add(b_.word(word));
-    } else {
-      plain += end > i ? word : text.substr(i, 1);
-    }
-    i = std::max(end, i + 1);
-  }
-  if (sum == kNoNode) return b_.text(plain);
-  if (!plain.empty()) add(b_.text(plain));
-  return sum;
+std::string Lowering::number(std::string_view written) const {
+  static const std::map<std::string, std::string> kRegion = {
+      {"w", "region.w"},   {"h", "region.h"},   {"ix", "region.ix"},
+      {"iy", "region.iy"}, {"nx", "region.nx"}, {"ny", "region.ny"},
+      {"bx", "region.bx"}, {"by", "region.by"}, {"area", "geometry.area"}};
+  std::map<std::string, std::string> words = kRegion;
+  for (const std::string& p : rule_->parameters) words.erase(p);
+  for (const auto& [name, value] : g_.constants) words.erase(name);
+  return withWords(written, words);
 }
 
-NodeId Lowering::number(const Op& op, size_t i, double otherwise) {
-  if (i >= op.arguments.size()) return b_.number(otherwise);
-  std::string t = op.arguments[i].text;
+NodeId Lowering::node(const std::string& expression, std::string_view written, Span span) {
+  const Span before = b_.span();
+  const NodeId made = lang::graft(b_.tree(), expression, span);
+  b_.at(before);
+  if (made != kNoNode) return made;
+  unreadable(written, span);
+  return b_.number(0);
+}
+
+void Lowering::unreadable(std::string_view written, Span span) {
+  diagnostics_.error("bad-argument", span, "'" + std::string(written) + "' cannot be read",
+                     "see the notation's table in the guide to park grammars");
+}
+
+NodeId Lowering::formed(Form form, std::string_view written, Span span) {
+  lang::RegionTexts texts([this](std::string_view n) { return number(n); });
+  const std::string made = (texts.*form)(written);
+  if (!made.empty()) return node(made, written, span);
+  std::string hint = didYouMean(texts.word(), lang::RegionTexts::words());
+  if (hint.empty()) hint = "see the selections in the guide to park grammars";
+  diagnostics_.error("bad-selection", span,
+                     "'" + std::string(written) + "' cannot be read: " + texts.problem(), hint);
+  return b_.number(0);
+}
+
+NodeId Lowering::numberOf(std::string t, Span span) {
   if (const size_t name = t.find('='); name != std::string::npos && t.find("==") == t.npos) {
     t = t.substr(name + 1);
   }
+  while (!t.empty() && t.front() == ' ') t.erase(0, 1);
+  while (!t.empty() && t.back() == ' ') t.pop_back();
   double v = 0;
   if (isParameter(t)) return b_.word(t);
   if (!t.empty() && (t.front() == '\'' || t.back() == '%')) {
@@ -320,8 +485,19 @@ NodeId Lowering::number(const Op& op, size_t i, double otherwise) {
     const std::string bare = percent ? t.substr(0, t.size() - 1) : t.substr(1);
     if (known(bare, v)) return b_.relative(percent ? v / 100 : v);
   }
-  if (known(t, v)) return b_.number(v);
-  return expressionOf(t, op.arguments[i].span);
+  if (parseNumber(t, v)) return b_.number(v);
+  return expressionOf(t, span);
+}
+
+NodeId Lowering::number(const Op& op, size_t i, double otherwise) {
+  if (i >= op.arguments.size()) return b_.number(otherwise);
+  return numberOf(op.arguments[i].text, spanOf(op, i));
+}
+
+NodeId Lowering::pathWidth() {
+  const auto found = g_.constants.find("PathWidth");
+  if (found == g_.constants.end()) return b_.number(kPathWidth);
+  return isParameter("PathWidth") ? b_.number(found->second) : b_.word("PathWidth");
 }
 
 lang::Tree lower(const Grammar& grammar, uint32_t file, uint32_t size, Diagnostics& diagnostics) {

@@ -1,131 +1,316 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Each operation of the notation as operations on regions.
+// Each operation of the notation as operations on regions: partitions, peels and choices. What puts
+// things into a region is in lower_things.cpp.
+#include <set>
+
 #include "base/number.h"
+#include "base/text.h"
 #include "dialects/park/lowering.h"
 
 namespace gable::park {
 
 namespace {
 
-// Of what is swept without saying how wide: a box hedge.
-constexpr double kHedgeWidth = 0.6, kHedgeHeight = 1;
+using lang::RegionTexts;
+
+std::string trimmed(std::string s) {
+  while (!s.empty() && s.front() == ' ') s.erase(0, 1);
+  while (!s.empty() && s.back() == ' ') s.pop_back();
+  return s;
+}
 
 }  // namespace
 
+// --- Options ---
+
+void Lowering::options(const Op& op, size_t first, std::initializer_list<Option> known,
+                       Nodes& arguments) {
+  for (size_t i = first; i < op.arguments.size(); ++i) {
+    const Span span = spanOf(op, i);
+    for (const auto& [name, value] : RegionTexts::options(op.arguments[i].text)) {
+      const auto* option =
+          std::find_if(known.begin(), known.end(), [&](const Option& o) { return o.name == name; });
+      if (option == known.end()) {
+        std::vector<std::string_view> names;
+        std::string list;
+        for (const Option& o : known) {
+          names.push_back(o.name);
+          list += (list.empty() ? "it knows " : ", ") + std::string(o.name);
+        }
+        const std::string hint = didYouMean(name, names);
+        diagnostics_.error("bad-argument", span,
+                           "'" + name + "' is nothing that '" + op.name + "' knows",
+                           hint.empty() ? list : hint);
+        continue;
+      }
+      const std::string word = lowered(value);
+      const Span before = b_.span();
+      b_.at(span);
+      NodeId made = kNoNode;
+      switch (option->takes) {
+        case Option::Takes::Number: made = numberOf(value, span); break;
+        case Option::Takes::Word: made = b_.word(value); break;
+        case Option::Takes::Lowered: made = b_.word(word == "miter" ? "mitre" : word); break;
+        case Option::Takes::Flag: made = b_.boolean(word != "none" && word != "false"); break;
+      }
+      arguments.push_back(b_.argument(option->argument, made));
+      b_.at(before);
+    }
+  }
+}
+
+void Lowering::flags(const Op& op, size_t first, std::initializer_list<std::string_view> known,
+                     Nodes& arguments) {
+  checkWords(op, first, known);
+  for (size_t i = first; i < op.arguments.size(); ++i) {
+    const std::string word = lowered(op.arguments[i].text);
+    const bool isKnown = std::find(known.begin(), known.end(), word) != known.end();
+    // What is cut out is cut out by default, and x of what stands along edges runs along them.
+    const bool plain = word == "cut" || (word == "align" && known.size() == 5);
+    if (isKnown && !plain) arguments.push_back(b_.argument(word, b_.boolean(true)));
+  }
+}
+
+// --- Figures ---
+
+NodeId Lowering::figureNode(const Op& op) {
+  const Span before = b_.span();
+  b_.at(op.span);
+  const std::string name = lowered(op.name);
+  Nodes arguments;
+  for (size_t i = 0; i < op.arguments.size(); ++i) {
+    const std::string& written = op.arguments[i].text;
+    if (lowered(written) == "free") {
+      arguments.push_back(b_.argument("reach", b_.word("free")));
+    } else if (written.find_first_not_of(". ") == std::string::npos) {
+      // RombCenter(..) of the sketches.
+      arguments.push_back(b_.number(3));
+    } else {
+      arguments.push_back(number(op, i, 1));
+    }
+  }
+  if (arguments.empty()) arguments.push_back(b_.number(1));
+  const NodeId made = b_.apply(name == "rombcenter" ? "romb"
+                               : name == "polygon"  ? "regularPolygon"
+                                                    : name,
+                               arguments);
+  b_.at(before);
+  return made;
+}
+
+// A rule takes the place of its name, unless it stands in itself or this goes on and on.
+bool Lowering::mayInline(const Rule& r) const {
+  constexpr int kMostInlined = 2;
+  return &r != rule_ && inlined_ < kMostInlined;
+}
+
+// A sequence that begins with a figure: the figure, then what is done with it.
+NodeId Lowering::figureBody(const Sequence& body, std::string_view owner, bool ground) {
+  const FigureHead head = figureHead(g_, body);
+  if (!head.figure) return sequence(body, owner);
+  const Rule* const outer = rule_;
+  if (head.rule && !mayInline(*head.rule)) {
+    return b_.sequence(flattened({figureNode(*head.figure), sequence(body, owner)}));
+  }
+  inlined_ += head.rule ? 1 : 0;
+  if (head.rule) {
+    rule_ = head.rule;
+    owner = head.rule->name;
+  } else if (ground) {
+    owner = "Centre";
+  }
+  const Sequence rest(head.body->begin() + 1, head.body->end());
+  Nodes steps{figureNode(*head.figure)};
+  if (ground && !rest.empty() && endingOf(g_, rest) == Ending::Nothing) {
+    b_.at(head.figure->span);
+    steps.push_back(b_.push(b_.sequence({colour("Centre"), b_.leaf("Centre")})));
+    steps.push_back(sequence(rest, ""));
+  } else {
+    bool open = true;
+    for (const Op& op : rest) open = step(op, steps);
+    if (open) {
+      if (!coloured(rest)) steps.push_back(colour(owner));
+      steps.push_back(b_.leaf(owner));
+    }
+  }
+  rule_ = outer;
+  inlined_ -= head.rule ? 1 : 0;
+  return b_.sequence(flattened(steps));
+}
+
+// A sequence within a sequence is its steps.
+Nodes Lowering::flattened(const Nodes& steps) {
+  Nodes out;
+  for (const NodeId n : steps) {
+    if (b_.tree().kind(n) != lang::NodeKind::Sequence) {
+      out.push_back(n);
+      continue;
+    }
+    const auto inner = b_.tree().children(n);
+    out.insert(out.end(), inner.begin(), inner.end());
+  }
+  return out;
+}
+
+NodeId Lowering::choiceBody(const JunctionChoices& choices) {
+  const Rule* const outer = rule_;
+  std::vector<std::pair<NodeId, NodeId>> branches;
+  const bool byCase = choices.shares.empty();
+  inlined_ += choices.rule ? 1 : 0;
+  bool complete = false;
+  for (size_t i = 0; i < choices.parts.size() && !complete; ++i) {
+    const Part& part = choices.parts[i];
+    if (choices.rule) rule_ = choices.rule;
+    const NodeId body = figureBody(part.body, "Region", true);
+    b_.at(part.span);
+    NodeId head = kNoNode;
+    if (byCase && !choices.conditions[i].empty()) {
+      head = expressionOf(choices.conditions[i], part.span);
+    } else if (!byCase && i + 1 < choices.parts.size()) {
+      head = b_.number(choices.shares[i]);
+    }
+    complete = head == kNoNode;
+    branches.emplace_back(head, body);
+  }
+  rule_ = outer;
+  inlined_ -= choices.rule ? 1 : 0;
+  if (!complete) branches.emplace_back(kNoNode, b_.sequence({colour("Path"), b_.leaf("Path")}));
+  if (branches.size() == 1) return branches[0].second;
+  return b_.sequence(
+      {b_.choice(byCase ? lang::ChoiceKind::Case : lang::ChoiceKind::Percent, branches)});
+}
+
+NodeId Lowering::figureItem(NodeId head, const Part& p, bool together) {
+  const JunctionChoices choices = junctionChoices(g_, p);
+  const bool plain = choices.parts.empty() || (choices.rule && !mayInline(*choices.rule));
+  const NodeId body = plain ? figureBody(p.body, "Region", true) : choiceBody(choices);
+  return together ? b_.together(head, body) : b_.item(head, body);
+}
+
+// --- Partitions ---
+
+void Lowering::dimension(const Op& op, size_t i, const char* count, const char* sizes,
+                         const char* angles, Nodes& arguments) {
+  const std::string written = text(op, i);
+  const Span span = spanOf(op, i);
+  if (written.empty()) {
+    if (op.arguments.empty()) arguments.push_back(b_.argument(count, b_.number(2)));
+    return;
+  }
+  RegionTexts texts([this](std::string_view n) { return number(n); });
+  const RegionTexts::Dimension d = texts.dimension(written);
+  if (!d.read) {
+    diagnostics_.error("bad-argument", span,
+                       "'" + written + "' is no size of a grid: " + texts.problem(),
+                       "write a count, 3 {2, 6, 2} or {[1.5, 4]}");
+    return;
+  }
+  if (!d.count.empty()) arguments.push_back(b_.argument(count, node(d.count, written, span)));
+  if (!d.sizes.empty()) arguments.push_back(b_.argument(sizes, node(d.sizes, written, span)));
+  if (!d.angles.empty()) arguments.push_back(b_.argument(angles, node(d.angles, written, span)));
+}
+
+void Lowering::gridOptions(const Op& op, Nodes& arguments) {
+  using Takes = Option::Takes;
+  Op spelt = op;
+  for (Argument& a : spelt.arguments) {
+    const std::string low = lowered(a.text);
+    if (low == "fit=centre") a.text = "fit=center";
+    if (low == "pattern=center") a.text = "pattern=centre";
+    if (low == "pattern=extendl") a.text = "pattern=extendL";
+    if (low == "pattern=extendr") a.text = "pattern=extendR";
+  }
+  options(spelt, 2,
+          {{"fit", "fit", Takes::Lowered},
+           {"template", "template", Takes::Lowered},
+           {"pattern", "pattern", Takes::Word},
+           {"dominance", "dominance", Takes::Lowered},
+           {"symxy", "symmetric", Takes::Flag},
+           {"lines", "lines", Takes::Flag},
+           {"sliver", "sliver", Takes::Number},
+           {"minarea", "minArea", Takes::Number}},
+          arguments);
+}
+
+// Parts with blocks in them are written once for all that they are for: twice at every level would
+// be more than anybody has room for.
+bool Lowering::isDeep(const Slots& s, size_t i) {
+  if (!s.part[i] || s.empty[i]) return false;
+  return std::any_of(s.part[i]->body.begin(), s.part[i]->body.end(),
+                     [](const Op& op) { return !op.blocks.empty(); });
+}
+
 void Lowering::grid(const Op& op, Nodes& out) {
   Slots s = slotsOf(op, {{"region"}, {"path", "section"}, {"centre", "center", "junction"}});
-  std::string junction = "none";
-  JunctionChoices choices;
-  Part junctionPart;
-  bool onPlate = false;
-  if (s.part[2] && !s.empty[2]) {
-    choices = junctionChoices(g_, *s.part[2]);
-    junctionPart = *s.part[2];
-    if (!choices.parts.empty()) {
-      junction = choices.figures;
-    } else if (const std::string figure = headOf(junctionPart, onPlate); !figure.empty()) {
-      junction = figure;
-    }
-    s.part[2] = &junctionPart;
-  }
+  Nodes arguments;
+  dimension(op, 0, "columns", "widths", "columnAngles", arguments);
+  dimension(op, 1, "rows", "heights", "rowAngles", arguments);
+  arguments.push_back(b_.argument("path", s.empty[1] ? b_.number(0) : pathWidth()));
+  gridOptions(op, arguments);
+  // "Min area, otherwise fail".
+  constexpr double kLeastArea = 0.25;
+  if (op.hasElse) arguments.push_back(b_.argument("least", b_.number(kLeastArea)));
   const Op* together = joinedOp(g_, s.part[1]);
-  Sequence joinedRest;
+  const bool figures =
+      s.part[2] && !s.empty[2] &&
+      (figureHead(g_, s.part[2]->body).figure || !junctionChoices(g_, *s.part[2]).parts.empty());
+  const bool shared = isDeep(s, 0);
+  Nodes items{
+      shared ? b_.item(b_.choiceOfWords("region", "remainder"), sequence(s.part[0]->body, "Region"))
+             : item("region", s, 0, "Grass")};
   if (together) {
     const Joined joined = joinedParts(g_, *together);
-    if (!joined.figures.empty()) junction = joined.figures;
-    joinedRest = joined.rest;
-  }
-  std::string options;
-  for (size_t i = 2; i < op.arguments.size(); ++i) options += (i > 2 ? " " : "") + text(op, i);
-  Nodes arguments;
-  for (size_t i = 0; i < 2; ++i) {
-    const std::string dim = text(op, i);
-    double v = 0;
-    if (known(dim, v)) {
-      arguments.push_back(b_.number(v));
-    } else {
-      arguments.push_back(textNode(dim.empty() && op.arguments.empty() ? "2" : dim));
-    }
-  }
-  arguments.push_back(b_.number(s.empty[1] ? 0 : pathWidth_));
-  arguments.push_back(textNode(junction));
-  arguments.push_back(textNode(options));
-  Nodes items{item("region", s, 0, "Grass")};
-  if (together) {
+    Part all;
+    all.body = joined.rest;
+    all.span = together->span;
+    if (!joined.figures.empty()) all.body.insert(all.body.begin(), joined.figures[0]);
     const NodeId both = b_.choiceOfWords("path", "junction");
-    items.push_back(b_.together(both, sequence(joinedRest, "Path")));
+    if (all.body.empty()) {
+      items.push_back(b_.together(both, b_.sequence({colour("Path"), b_.leaf("Path")})));
+    } else if (joined.figures.empty()) {
+      items.push_back(b_.together(both, sequence(all.body, "Path")));
+    } else {
+      Nodes steps{figureNode(joined.figures[0]), sequence(joined.rest, "Path")};
+      items.push_back(b_.together(both, b_.sequence(flattened(steps))));
+    }
+  } else if (!s.empty[1] && !s.part[2] && !s.empty[2] && isDeep(s, 1)) {
+    items.push_back(
+        b_.item(b_.choiceOfWords("path", "junction"), sequence(s.part[1]->body, "Region")));
   } else if (!s.empty[1]) {
     items.push_back(item("path", s.part[1], "Path"));
-    items.push_back(!choices.parts.empty()    ? choiceItem(choices, s.part[1])
-                    : onPlate                 ? plateItem(junctionPart)
+    items.push_back(figures                   ? figureItem(b_.word("junction"), *s.part[2], false)
                     : s.part[2] || s.empty[2] ? item("junction", s, 2, "Path")
                                               : item("junction", s.part[1], "Path"));
   }
-  items.push_back(item("remainder", s, 0, "Grass"));
+  if (!shared) items.push_back(item("remainder", s, 0, "Grass"));
   addElse(op, items);
   b_.at(op.span);
   out.push_back(b_.apply("grid", arguments, b_.block(items)));
 }
 
-std::string Lowering::headOf(Part& part, bool& onPlate) {
-  bool own = false;
-  const std::string figure = figureAtHead(g_, part.body, &own);
-  if (own) {
-    Op plate;
-    plate.name = "Centre";
-    plate.span = part.body[0].span;
-    part.body[0] = plate;
-  }
-  onPlate = own && part.body.size() > 1;
-  return figure;
-}
-
-NodeId Lowering::choiceItem(const JunctionChoices& choices, const Part* path) {
-  std::vector<std::pair<NodeId, NodeId>> branches;
-  for (size_t i = 0; i < choices.parts.size(); ++i) {
-    Part part = choices.parts[i];
-    bool onPlate = false;
-    const std::string figure = headOf(part, onPlate);
-    const NodeId body = onPlate ? plateBody(part) : sequence(part.body, "Region");
-    b_.at(part.span);
-    const NodeId is = b_.binary(lang::BinaryOp::Equal, b_.word("region.choice"),
-                                b_.number(figure.empty() ? 0 : static_cast<double>(i + 1)));
-    branches.emplace_back(is, body);
-  }
-  const NodeId plain = path && !path->body.empty() ? sequence(path->body, "Path")
-                                                   : b_.sequence({colour("Path"), b_.leaf("Path")});
-  branches.emplace_back(kNoNode, plain);
-  const NodeId which = b_.choice(lang::ChoiceKind::Case, branches);
-  return b_.item(b_.word("junction"), b_.sequence({which}));
-}
-
-NodeId Lowering::plateBody(const Part& p) {
-  const Sequence rest(p.body.begin() + 1, p.body.end());
-  b_.at(p.span);
-  const NodeId plate = b_.push(b_.sequence({colour("Centre"), b_.leaf("Centre")}));
-  const NodeId above = b_.push(sequence(rest, ""));
-  b_.at(p.span);
-  return b_.sequence({plate, above});
-}
-
-NodeId Lowering::plateItem(const Part& p) { return b_.item(b_.word("junction"), plateBody(p)); }
-
 void Lowering::joined(const Op& op, Nodes& out) {
-  const Joined j = joinedParts(g_, op);
-  // Figures that other rules make are results like any other, unless there is nothing else.
+  // Everything in the braces gets the region, and what comes of all is one.
   Sequence all;
+  const Joined j = joinedParts(g_, op);
   bool byName = false;
   for (const Part& p : partsOf(op)) {
     for (const Op& inner : p.body) {
-      byName = byName || (!inner.called && !figureAtHead(g_, {inner}).empty());
+      byName = byName || (!inner.called && figureHead(g_, {inner}).figure);
       all.push_back(inner);
     }
   }
   if (j.figures.empty() || (byName && !j.rest.empty())) return joinedLater(op, all, out);
-  const NodeId block = elseBlock(op);
-  out.push_back(b_.apply("joined", {textNode(j.figures)}, block));
+  Nodes items;
+  for (const Op& f : j.figures) {
+    b_.at(f.span);
+    items.push_back(
+        b_.item(kNoNode, b_.sequence({figureNode(f), colour(rule_->name), b_.leaf(rule_->name)})));
+  }
+  addElse(op, items);
+  b_.at(op.span);
+  out.push_back(b_.apply("joined", {}, b_.block(items)));
   bool open = true;
   for (const Op& inner : j.rest) open = step(inner, out);
   if (open) {
@@ -164,7 +349,8 @@ void Lowering::select(const Op& op, Nodes& out) {
     }
     const NodeId body = sequence(p.body, rule_->name);
     b_.at(p.span);
-    const NodeId condition = b_.call("region.selects", {textNode(constants(p.label))});
+    const NodeId condition =
+        b_.call("region.selects", {formed(&RegionTexts::selection, p.label, p.span)});
     branches.emplace_back(condition, body);
   }
   const NodeId rest = op.hasElse ? sequence(op.otherwise, rule_->name)
@@ -181,7 +367,14 @@ void Lowering::select(const Op& op, Nodes& out) {
 void Lowering::quadMap(const Op& op, Nodes& out) {
   const Slots s = slotsOf(op, {{"region"}, {"remainder", "rest"}});
   const size_t rest = s.part[1] || s.empty[1] ? 1 : 0;
-  Nodes items{item("region", s, 0, "Grass"), item("remainder", s, rest, "Grass")};
+  const bool shared = rest == 0 && isDeep(s, 0);
+  Nodes items;
+  if (shared) {
+    items.push_back(
+        b_.item(b_.choiceOfWords("region", "remainder"), sequence(s.part[0]->body, "Region")));
+  } else {
+    items = {item("region", s, 0, "Grass"), item("remainder", s, rest, "Grass")};
+  }
   addElse(op, items);
   b_.at(op.span);
   out.push_back(b_.apply("quadMap", {number(op, 0, 2), number(op, 1, 2)}, b_.block(items)));
@@ -190,28 +383,68 @@ void Lowering::quadMap(const Op& op, Nodes& out) {
 void Lowering::voronoi(const Op& op, Nodes& out) {
   const Slots s =
       slotsOf(op, {{"region"}, {"path", "section"}, {"centre", "center"}, {"junction"}});
-  const std::string sites = op.arguments.empty() ? "5 {3}" : discs(g_, op.arguments[0].text);
-  std::string smooth, options;
+  const std::string written = op.arguments.empty() ? "5 {3}" : discs(g_, op.arguments[0].text);
+  const Span span = spanOf(op, 0);
+  RegionTexts texts([this](std::string_view n) { return number(n); });
+  const RegionTexts::Sites sites = texts.sites(written);
+  if (sites.sites.empty()) unreadable(written, span);
+  Nodes arguments{node(sites.sites.empty() ? "1" : sites.sites, written, span),
+                  b_.argument("path", s.empty[1] ? b_.number(0) : pathWidth())};
+  Op rest = op;
+  rest.arguments.clear();
   for (size_t i = 1; i < op.arguments.size(); ++i) {
-    std::string a = text(op, i);
-    if (lowered(a).starts_with("jitter(") && a.back() == ')') {
-      a = "jitter=" + a.substr(7, a.size() - 8);
+    Argument a = op.arguments[i];
+    const std::string low = lowered(a.text);
+    if (low.starts_with("jitter(") && a.text.back() == ')') {
+      a.text = "jitter=" + a.text.substr(7, a.text.size() - 8);
     }
-    if (lowered(a).starts_with("smooth=")) a = a.substr(7);
-    std::string& to = a.find('=') != std::string::npos ? options : smooth;
-    to += (to.empty() ? "" : " ") + a;
+    if (low.starts_with("smooth=")) a.text = trimmed(a.text.substr(7));
+    if (a.text.find('=') == std::string::npos) {
+      arguments.push_back(
+          b_.argument("smooth", formed(&RegionTexts::smoothing, a.text, spanOf(op, i))));
+    } else {
+      rest.arguments.push_back(a);
+    }
   }
-  if (smooth.empty()) smooth = "average(2)";
+  if (!sites.radius.empty()) {
+    arguments.push_back(b_.argument("radius", node(sites.radius, written, span)));
+  }
+  using Takes = Option::Takes;
+  options(rest, 0,
+          {{"borderpath", "borderPath", Takes::Flag},
+           {"orphans", "orphans", Takes::Lowered},
+           {"jitter", "jitter", Takes::Number}},
+          arguments);
   Nodes items{item("region", s, 0, "Grass")};
   if (!s.empty[1]) items.push_back(item("path", s.part[1], "Path"));
-  if (s.part[3] || s.empty[3]) items.push_back(item("junction", s, 3, "Path"));
+  if (s.part[3] && !s.empty[3] && figureHead(g_, s.part[3]->body).figure) {
+    items.push_back(figureItem(b_.word("junction"), *s.part[3], false));
+  } else if (s.part[3] || s.empty[3]) {
+    items.push_back(item("junction", s, 3, "Path"));
+  }
   if (s.part[2] || s.empty[2]) items.push_back(item("centre", s, 2, "Centre"));
   addElse(op, items);
   b_.at(op.span);
-  out.push_back(b_.apply("voronoi",
-                         {textNode(sites), b_.number(s.empty[1] ? 0 : pathWidth_), textNode(smooth),
-                          textNode(options)},
-                         b_.block(items)));
+  out.push_back(b_.apply("voronoi", arguments, b_.block(items)));
+}
+
+void Lowering::rayOptions(const Op& op, Nodes& arguments) {
+  using Takes = Option::Takes;
+  Op spelt = op;
+  for (size_t i = 2; i < spelt.arguments.size(); ++i) {
+    std::string& a = spelt.arguments[i].text;
+    // connect=thin(0.5)
+    const size_t thin = lowered(a).find("thin(");
+    if (thin != std::string::npos && a.back() == ')') {
+      const std::string share = a.substr(thin + 5, a.size() - thin - 6);
+      a = a.substr(0, thin + 4) + " share=" + share;
+    }
+  }
+  options(spelt, 2,
+          {{"hidden", "hidden", Takes::Lowered},
+           {"connect", "connect", Takes::Lowered},
+           {"share", "share", Takes::Number}},
+          arguments);
 }
 
 void Lowering::rays(const Op& op, Nodes& out) {
@@ -219,73 +452,143 @@ void Lowering::rays(const Op& op, Nodes& out) {
   std::string source = op.arguments.empty() ? "centre" : op.arguments[0].text, size = "0";
   const size_t bracket = source.find('[');
   if (bracket != std::string::npos && bracket > 0 && source.back() == ']') {
-    size = constants(source.substr(bracket + 1, source.size() - bracket - 2));
+    size = source.substr(bracket + 1, source.size() - bracket - 2);
     source = source.substr(0, source.find_last_not_of(' ', bracket - 1) + 1);
   }
   double v = 0;
   const bool sized = !known(size, v) || v > 0;
   const bool middle = lowered(source) == "centre" || lowered(source) == "center";
+  const Span first = spanOf(op, 0), second = spanOf(op, 1);
+  Nodes arguments;
+  std::string radius;
+  const std::string written = discs(g_, source);
+  if (middle) {
+    arguments.push_back(b_.word("centre"));
+  } else {
+    RegionTexts texts([this](std::string_view n) { return number(n); });
+    const RegionTexts::Sites sites = texts.sites(written);
+    if (sites.sites.empty()) unreadable(written, first);
+    arguments.push_back(node(sites.sites.empty() ? "1" : sites.sites, written, first));
+    radius = sites.radius;
+  }
   std::string targets = op.arguments.size() > 1 ? op.arguments[1].text : "corners";
   if (const Op* t = onlyOp(g_, targets)) {
     targets = lowered(t->name) + "(";
     for (const Argument& a : t->arguments) targets += a.text + ' ';
     targets += ')';
   }
-  targets = constants(targets);
-  if (lowered(targets).starts_with("corners")) targets = "corners";
-  if (lowered(targets).starts_with("entrances")) targets = lowered(targets);
+  arguments.push_back(formed(&RegionTexts::targets, targets, second));
   // With a sized centre and two blocks these are { centre } { region }.
   const bool swapped = sized && op.blocks.size() == 2 && op.blocks[0].parts.size() == 1 &&
                        op.blocks[0].parts[0].label.empty();
   const Slots s = swapped ? slotsOf(op, {{"centre", "center"}, {"region"}, {"path", "section"}})
                           : slotsOf(op, {{"region"}, {"path", "section"}, {"centre", "center"}});
   const size_t region = swapped ? 1 : 0, path = swapped ? 2 : 1, centre = swapped ? 0 : 2;
-  std::string options;
-  for (size_t i = 2; i < op.arguments.size(); ++i) options += (i > 2 ? " " : "") + text(op, i);
+  arguments.push_back(b_.argument("path", s.empty[path] ? b_.number(0) : pathWidth()));
+  if (!radius.empty()) {
+    arguments.push_back(b_.argument("radius", node(radius, written, first)));
+  }
+  rayOptions(op, arguments);
   Nodes items{item("region", s, region, "Grass")};
   if (!s.empty[path]) items.push_back(item("path", s.part[path], "Path"));
-  items.push_back(item("centre", s, centre, "Centre"));
+  items.push_back(centreItem(s, centre, sized ? size : std::string(), first));
   addElse(op, items);
   b_.at(op.span);
-  double count = 0;
-  const bool counted = known(targets, count);
-  out.push_back(b_.apply(
-      "castRays",
-      {textNode(middle ? "centre" : discs(g_, source)),
-       counted ? b_.number(count) : textNode(targets), b_.number(s.empty[path] ? 0 : pathWidth_),
-       textNode(sized ? size : "0"), textNode(options)},
-      b_.block(items)));
+  out.push_back(b_.apply("castRays", arguments, b_.block(items)));
+}
+
+// A size in brackets is a radius, or a figure.
+NodeId Lowering::centreItem(const Slots& s, size_t i, const std::string& size, Span span) {
+  if (size.empty()) {
+    const bool figure = s.part[i] && !s.empty[i] && figureHead(g_, s.part[i]->body).figure;
+    return figure ? figureItem(b_.word("centre"), *s.part[i], false)
+                  : item("centre", s, i, "Centre");
+  }
+  const Span before = b_.span();
+  b_.at(span);
+  Op figure;
+  figure.span = span;
+  figure.called = true;
+  figure.name = trimmed(size.substr(0, size.find('(')));
+  if (isFigure(lowered(figure.name)) && size.back() == ')') {
+    for (const std::string& a : argumentTexts(size)) figure.arguments.push_back({a, span});
+  } else {
+    figure.name = "circle";
+    figure.arguments.push_back({size, span});
+  }
+  Nodes steps{figureNode(figure)};
+  b_.at(before);
+  if (s.empty[i]) {
+    steps.push_back(b_.apply("NIL"));
+  } else if (s.part[i] && !s.part[i]->body.empty()) {
+    steps.push_back(sequence(s.part[i]->body, "Region"));
+  } else {
+    steps.push_back(colour("Centre"));
+    steps.push_back(b_.leaf("Centre"));
+  }
+  return b_.item(b_.word("centre"), b_.sequence(flattened(steps)));
+}
+
+// {W: 2, N & outer: 4}
+NodeId Lowering::ownWidths(const std::string& written, Span span) {
+  NodeId all = kNoNode;
+  size_t begin = written.find('{') + 1, depth = 0;
+  const size_t close = written.rfind('}');
+  for (size_t i = begin; close != std::string::npos && i <= close; ++i) {
+    const char c = i < close ? written[i] : ',';
+    if (c == '(' || c == '[') ++depth;
+    if ((c == ')' || c == ']') && depth > 0) --depth;
+    if (c != ',' || (depth > 0 && i < close)) continue;
+    const std::string item = written.substr(begin, i - begin);
+    begin = i + 1;
+    const size_t colon = item.rfind(':');
+    if (colon == std::string::npos) {
+      unreadable(written, span);
+      return b_.number(0);
+    }
+    const NodeId edges = formed(&RegionTexts::selection, item.substr(0, colon), span);
+    const NodeId one = b_.call("wide", {edges, numberOf(item.substr(colon + 1), span)});
+    all = all == kNoNode ? one : b_.binary(lang::BinaryOp::Or, all, one);
+  }
+  if (all != kNoNode) return all;
+  unreadable(written, span);
+  return b_.number(0);
 }
 
 void Lowering::peel(const Op& op, Nodes& out) {
   const Slots s = slotsOf(op, {{"strip", "shape"}, {"rest", "remainder"}});
-  Op sized = op;
-  size_t flags = 1;
+  const std::string written = op.arguments.empty() ? "outer" : text(op, 0);
+  const bool own = written.find('{') != std::string::npos;
+  Nodes arguments{own ? ownWidths(written, spanOf(op, 0))
+                      : formed(&RegionTexts::selection, written, spanOf(op, 0))};
   // The size stands in the block, or behind the selection.
-  if (s.part[0] && !s.part[0]->label.empty() && lowered(s.part[0]->label) != "strip") {
-    sized.arguments.resize(2);
-    sized.arguments[1] = {s.part[0]->label, s.part[0]->span};
-  } else {
-    flags = 2;
-  }
-  std::string options;
-  for (size_t i = flags; i < op.arguments.size(); ++i) {
-    if (lowered(op.arguments[i].text) == "cornersorthogonal") options = "orthogonal ";
+  const bool inBlock = s.part[0] && !s.part[0]->label.empty() &&
+                       lowered(s.part[0]->label) != "strip" && lowered(s.part[0]->label) != "shape";
+  const size_t flags = inBlock ? 1 : 2;
+  if (inBlock) {
+    arguments.push_back(numberOf(s.part[0]->label, s.part[0]->span));
+  } else if (op.arguments.size() > 1) {
+    if (!own) arguments.push_back(number(op, 1, 1));
+  } else if (!own) {
+    diagnostics_.error(
+        "wrong-argument-count", op.span, "'" + op.name + "' does not say how wide",
+        "write Peel(" + written + ", 1) { A | B }, or Peel(" + written + ") { 1 : A | B }");
+    arguments.push_back(b_.number(1));
   }
   checkWords(op, flags, {"cornersorthogonal", "cornersfollow", "smooth="});
-  std::string smooth;
-  for (const Argument& a : op.arguments) {
-    if (lowered(a.text).starts_with("smooth=")) smooth = constants(a.text);
+  for (size_t i = flags; i < op.arguments.size(); ++i) {
+    const std::string a = lowered(op.arguments[i].text);
+    if (a == "cornersorthogonal") {
+      arguments.push_back(b_.argument("orthogonal", b_.boolean(true)));
+    } else if (a.starts_with("smooth=")) {
+      arguments.push_back(
+          b_.argument("smooth", formed(&RegionTexts::smoothing, a.substr(7), spanOf(op, i))));
+    }
   }
-  options += smooth;
-  const std::string selection = op.arguments.empty() ? "outer" : text(op, 0);
   Nodes items{item("strip", s, 0, "Strip"), item("rest", s, 1, "Grass")};
   addElse(op, items);
   b_.at(op.span);
-  const bool own = selection.find('{') != std::string::npos;
-  out.push_back(b_.apply(
-      "peel", {textNode(selection), own ? b_.number(0) : number(sized, 1, 1), textNode(options)},
-      b_.block(items)));
+  out.push_back(b_.apply("peel", arguments, b_.block(items)));
 }
 
 void Lowering::choose(const Op& op, Nodes& out) {
@@ -347,6 +650,7 @@ void Lowering::innerRect(const Op& op, Nodes& out) {
 }
 
 void Lowering::contract(const Op& op, Nodes& out) {
+  checkWords(op, 1, {"centre", "center"});
   const std::string towards = lowered(text(op, 1));
   const bool centre = towards == "centre" || towards == "center";
   double v = 0;
@@ -355,210 +659,6 @@ void Lowering::contract(const Op& op, Nodes& out) {
   if (centre && !share) arguments.push_back(b_.word("centre"));
   const NodeId block = elseBlock(op);
   out.push_back(b_.apply("contract", arguments, block));
-}
-
-void Lowering::insert(const Op& op, Nodes& out) {
-  const std::string radius = op.arguments.empty() ? "1" : text(op, 0);
-  const std::vector<Part> parts = partsOf(op);
-  const bool nothing = parts.empty() || parts[0].body.empty();
-  const NodeId body = nothing ? b_.sequence({b_.apply("NIL")}) : sequence(parts[0].body, "Thing");
-  Nodes items{b_.item(kNoNode, body)};
-  addElse(op, items);
-  b_.at(op.span);
-  out.push_back(b_.apply("place", {b_.text("corner(outer)"), textNode("circle(" + radius + ")")},
-                         b_.block(items)));
-}
-
-void Lowering::figure(const Op& op, Nodes& out) {
-  const std::string name = lowered(op.name);
-  Nodes arguments;
-  bool free = false;
-  for (size_t i = 0; i < op.arguments.size(); ++i) {
-    if (lowered(op.arguments[i].text) == "free") {
-      free = true;
-    } else {
-      arguments.push_back(number(op, i, 1));
-    }
-  }
-  if (arguments.empty()) arguments.push_back(b_.number(1));
-  if (free && name == "circle" && arguments.size() == 1) arguments.push_back(b_.number(24));
-  if (free) arguments.push_back(b_.word("free"));
-  const NodeId block = elseBlock(op);
-  out.push_back(b_.apply(name == "rombcenter" ? "romb"
-                         : name == "polygon"  ? "regularPolygon"
-                                              : name,
-                         arguments, block));
-}
-
-NodeId Lowering::things(const Op& op) {
-  NodeId body = kNoNode;
-  for (const Block& b : op.blocks) {
-    for (const Part& p : b.parts) body = sequence(p.body, "Thing");
-  }
-  b_.at(op.span);
-  Nodes items{b_.item(kNoNode, body != kNoNode ? body : b_.sequence({}))};
-  addElse(op, items);
-  b_.at(op.span);
-  return b_.block(items);
-}
-
-std::string Lowering::flagsOf(const Op& op) {
-  std::string out;
-  for (const Argument& a : op.arguments) {
-    const std::string word = lowered(a.text);
-    if (word == "over" || word == "split" || word == "align" || word == "chain") {
-      out += (out.empty() ? "" : " ") + word;
-    }
-  }
-  return out;
-}
-
-void Lowering::place(const Op& op, Nodes& out) {
-  std::string where = op.arguments.empty() ? "centre" : text(op, 0);
-  if (where.find(':') != std::string::npos && where.find('(') != 0) return distribute(op, out);
-  if (lowered(where) == "centre" || lowered(where) == "center") where = "centre";
-  // Several places, with commas between or in brackets.
-  size_t flags = 1;
-  for (; flags < op.arguments.size() && op.arguments[flags].text[0] == '('; ++flags) {
-    where += ' ' + text(op, flags);
-  }
-  if (where.size() > 2 && where.front() == '[' && where.back() == ']') {
-    where = where.substr(1, where.size() - 2);
-  }
-  checkWords(op, flags, {"cut", "over", "split", "align"});
-  const NodeId block = things(op);
-  out.push_back(b_.apply(
-      "place", {textNode(where), textNode(figureOfBlock(g_, op)), b_.text(flagsOf(op))}, block));
-}
-
-void Lowering::distribute(const Op& op, Nodes& out) {
-  std::string selection = op.arguments.empty() ? "all" : text(op, 0);
-  NodeId inset = b_.number(0);
-  if (const size_t colon = selection.find(':'); colon != std::string::npos) {
-    Op by = op;
-    by.arguments[0].text = selection.substr(colon + 1);
-    inset = number(by, 0, 0);
-    selection.resize(colon);
-  }
-  while (!selection.empty() && selection.back() == ' ') selection.pop_back();
-  const NodeId block = things(op);
-  checkWords(op, 2, {"cut", "over", "split", "align", "chain"});
-  double spacing = 1;
-  const std::string positions = text(op, 1);
-  const bool spaced = positions.empty() || known(positions, spacing);
-  out.push_back(b_.apply("distribute",
-                         {textNode(selection), spaced ? b_.number(spacing) : textNode(positions),
-                          inset, textNode(figureOfBlock(g_, op)), b_.text(flagsOf(op))},
-                         block));
-}
-
-void Lowering::scatter(const Op& op, Nodes& out) {
-  const std::string what = op.arguments.empty() ? "1 {1}" : text(op, 0);
-  std::string count = what, radius = "1";
-  if (const size_t brace = what.find('{'); brace != std::string::npos) {
-    count = what.substr(0, brace);
-    radius = what.substr(brace + 1, what.find('}') - brace - 1);
-  }
-  double n = 0;
-  if (count.find_first_not_of(' ') != std::string::npos && !known(count, n)) {
-    diagnostics_.error("bad-argument", op.span, "'" + what + "' is no count with a radius",
-                       "write 5 {[2,4]}");
-  }
-  std::string options;
-  for (size_t i = 1; i < op.arguments.size(); ++i) {
-    std::string o = text(op, i);
-    if (lowered(o).starts_with("min")) o = "gap" + o.substr(3);
-    options += (i > 1 ? " " : "") + o;
-  }
-  const NodeId block = things(op);
-  out.push_back(
-      b_.apply("scatterCircles", {b_.number(n), textNode(radius), textNode(options)}, block));
-}
-
-std::string Lowering::valueOf(const std::string& text) {
-  const size_t equals = text.find('=');
-  const size_t begin = equals == text.npos ? text.npos : text.find_first_not_of(' ', equals + 1);
-  return begin == text.npos ? std::string() : text.substr(begin);
-}
-
-NodeId Lowering::insetOf(const Lines& l, const Op& op) {
-  Op by = op;
-  by.arguments.assign(1, {l.inset.empty() ? "0" : l.inset, op.span});
-  return number(by, 0, 0);
-}
-
-void Lowering::sweep(const Op& op, Nodes& out) {
-  const Lines l = linesOf(g_, op.arguments.empty() ? std::string("all") : op.arguments[0].text);
-  checkWords(op, 1, {"width=", "height=", "profile=", "joins=", "ends=", "round"});
-  NodeId width = kNoNode, height = kNoNode;
-  std::string options, tall;
-  bool profiled = false;
-  for (size_t i = 1; i < op.arguments.size(); ++i) {
-    const std::string a = lowered(op.arguments[i].text);
-    if (a.starts_with("width")) width = number(op, i, 0);
-    if (a.starts_with("height")) {
-      height = number(op, i, 0);
-      tall = valueOf(text(op, i));
-    }
-    if (a == "round") options += "round ";
-    if (a.starts_with("joins") || a.starts_with("ends")) options += a + " ";
-    if (a.starts_with("profile")) {
-      profiled = true;
-      std::string section = valueOf(constants(a));
-      std::erase(section, ' ');
-      options += "profile=" + section + ' ';
-    }
-  }
-  // The volume of a cross-section is made at once, any other by drawing the ribbon up.
-  if (profiled) {
-    options += "height=" + (tall.empty() ? shortestText(kHedgeHeight) : tall) + ' ';
-    height = kNoNode;
-  }
-  b_.at(op.span);
-  if (width == kNoNode) width = b_.number(kHedgeWidth);
-  // What has no rule is a hedge.
-  Nodes body;
-  for (const Block& b : op.blocks) {
-    for (const Part& p : b.parts) {
-      const bool bare = p.body.size() == 1 && !p.body[0].called && !g_.rule(p.body[0].name);
-      if (!profiled && (bare || height != kNoNode)) {
-        b_.at(p.span);
-        body.push_back(b_.apply("extrude", {height != kNoNode ? height : b_.number(kHedgeHeight)}));
-      }
-      body.push_back(b_.push(sequence(p.body, "Hedge")));
-    }
-  }
-  b_.at(op.span);
-  Nodes items{b_.item(kNoNode, b_.sequence(body))};
-  addElse(op, items);
-  b_.at(op.span);
-  out.push_back(b_.apply("sweep", {textNode(l.ranges), width, insetOf(l, op), textNode(options)},
-                         b_.block(items)));
-}
-
-void Lowering::lines(const Op& op, Nodes& out) {
-  const Lines l = linesOf(g_, op);
-  if (!l.figure.empty()) {
-    Op shape;
-    shape.name = l.figure.substr(0, l.figure.find('('));
-    shape.span = op.span;
-    for (const std::string& a : argumentTexts(l.figure)) shape.arguments.push_back({a, op.span});
-    figure(shape, out);
-  }
-  // A Contract alone in the braces says where the lines run.
-  const std::vector<Part> parts = partsOf(op);
-  const bool moved = !l.inset.empty() && parts.size() == 1 && parts[0].body.size() == 1;
-  NodeId block = kNoNode;
-  if (op.blocks.empty() || moved) {
-    Nodes items{b_.item(kNoNode, b_.sequence({b_.leaf("Line")}))};
-    addElse(op, items);
-    b_.at(op.span);
-    block = b_.block(items);
-  } else {
-    block = things(op);
-  }
-  const NodeId inset = moved ? insetOf(l, op) : b_.number(0);
-  out.push_back(b_.apply("parametrise", {textNode(l.ranges), inset}, block));
 }
 
 }  // namespace gable::park

@@ -14,6 +14,7 @@
 
 #include "dialects/gbbg/tree_builder.h"
 #include "dialects/park/meanings.h"
+#include "lang/region_texts.h"
 #include "lang/tree.h"
 
 namespace gable::park {
@@ -28,9 +29,7 @@ class Lowering {
  public:
   Lowering(const Grammar& g, uint32_t file, Diagnostics& diagnostics)
       : g_(g), b_(file), diagnostics_(diagnostics) {
-    const auto found = g.constants.find("PathWidth");
-    while (g.rule(modelFile_)) modelFile_ += '_';
-    pathWidth_ = found != g.constants.end() ? found->second : kPathWidth;
+    while (g.rule(modelFile_) || g.constants.count(modelFile_) != 0) modelFile_ += '_';
   }
 
   lang::Tree run(uint32_t size);
@@ -54,6 +53,7 @@ class Lowering {
   bool symbol(const Op& op, Nodes& out);
 
   void call(const Rule& r, const Op& op, Nodes& out);
+  void warnOfSlip(const Op& op);
 
   // The steps of a function, with the arguments in the place of its parameters.
   bool inlined(const Rule& r, const Op& op, Nodes& out);
@@ -85,30 +85,50 @@ class Lowering {
   void checkWords(const Op& op, size_t first, std::initializer_list<std::string_view> words);
 
   std::string text(const Op& op, size_t i) const;
-  // With constants in the place of their names; a parameter of the rule hides a constant.
-  std::string constants(const std::string& text) const;
+  Span spanOf(const Op& op, size_t i) const;
   NodeId expressionOf(std::string_view text, Span span);
   // A number that is known before the rule runs.
   bool known(std::string_view text, double& value) const;
   bool isParameter(const std::string& word) const;
-  // A text in which parameters of the rule stand is put together when the rule runs.
-  NodeId textNode(const std::string& text);
+  // An expression of the language, as it stands there; w and the like are those of the region.
+  NodeId node(const std::string& expression, std::string_view written, Span span);
+  std::string number(std::string_view written) const;
   NodeId number(const Op& op, size_t i, double otherwise);
+  NodeId numberOf(std::string written, Span span);
+  NodeId pathWidth();
+
+  // Short forms that the operations on regions take; see lang/region_texts.h.
+  using Form = std::string (lang::RegionTexts::*)(std::string_view);
+  NodeId formed(Form form, std::string_view written, Span span);
+  void unreadable(std::string_view written, Span span);
+  void dimension(const Op& op, size_t i, const char* count, const char* sizes, const char* angles,
+                 Nodes& arguments);
+
+  // name=value arguments from `first` on, by the names that the language has for them.
+  struct Option {
+    std::string_view name;
+    const char* argument;
+    enum class Takes { Number, Word, Flag, Lowered } takes;
+  };
+  void options(const Op& op, size_t first, std::initializer_list<Option> known, Nodes& arguments);
+  void flags(const Op& op, size_t first, std::initializer_list<std::string_view> known,
+             Nodes& arguments);
 
   // --- Operations ---
 
   void grid(const Op& op, Nodes& out);
+  void gridOptions(const Op& op, Nodes& arguments);
+  static bool isDeep(const Slots& s, size_t i);
 
-  // The figure at the head of a part. The figure itself is what the grid cuts out; what follows it
-  // stands on it.
-  std::string headOf(Part& part, bool& onPlate);
-
-  // What stands at a junction depends on which of several figures it is.
-  NodeId choiceItem(const JunctionChoices& choices, const Part* path);
-
-  // The figure as a leaf of its own, and what stands there.
-  NodeId plateBody(const Part& p);
-  NodeId plateItem(const Part& p);
+  // What stands at a junction or in a centre: a figure, or a choice among figures. Where the block
+  // leaves no flat ground the figure itself is a leaf of its own.
+  NodeId figureItem(NodeId head, const Part& p, bool together);
+  NodeId figureBody(const Sequence& body, std::string_view owner, bool ground);
+  NodeId choiceBody(const JunctionChoices& choices);
+  NodeId centreItem(const Slots& s, size_t i, const std::string& size, Span span);
+  Nodes flattened(const Nodes& steps);
+  NodeId figureNode(const Op& op);
+  bool mayInline(const Rule& r) const;
 
   // The region becomes the figures in one; what else stands in the braces is done with that.
   void joined(const Op& op, Nodes& out);
@@ -122,8 +142,10 @@ class Lowering {
   void voronoi(const Op& op, Nodes& out);
 
   void rays(const Op& op, Nodes& out);
+  void rayOptions(const Op& op, Nodes& arguments);
 
   void peel(const Op& op, Nodes& out);
+  NodeId ownWidths(const std::string& written, Span span);
 
   void choose(const Op& op, Nodes& out);
 
@@ -142,30 +164,33 @@ class Lowering {
   void figure(const Op& op, Nodes& out);
 
   NodeId things(const Op& op);
-  static std::string flagsOf(const Op& op);
+  /// Flat things are cut out of their ground.
+  bool endsFlat(const Op& op) const;
 
   void place(const Op& op, Nodes& out);
 
   // sel : inset, positions
   void distribute(const Op& op, Nodes& out);
+  void positions(const std::string& written, Span span, Nodes& arguments);
 
   void scatter(const Op& op, Nodes& out);
 
   // What stands behind the equals sign.
   static std::string valueOf(const std::string& text);
-  NodeId insetOf(const Lines& l, const Op& op);
 
   void sweep(const Op& op, Nodes& out);
 
   void lines(const Op& op, Nodes& out);
+  NodeId onFigure(const std::string& figure, Span span, NodeId operation);
+  // Rules and constants that nothing names.
+  void warnOfUnused();
 
   const Grammar& g_;
   gbbg::TreeBuilder b_;
   Diagnostics& diagnostics_;
   const Rule* rule_ = nullptr;
-  double pathWidth_ = kPathWidth;
-  // Functions within functions.
-  int functions_ = 0;
+  // Functions within functions, and rules in the place of their names.
+  int functions_ = 0, inlined_ = 0;
   // Some model is named without the type of its file.
   bool models_ = false;
   std::string modelFile_ = "modelFile";

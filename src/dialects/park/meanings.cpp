@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 
 #include "base/number.h"
 
@@ -15,22 +16,11 @@ namespace {
 // Rules that name each other in a ring are followed so far.
 constexpr int kDeepest = 20;
 
-std::string figureAtHead(const Grammar& g, const Sequence& s, bool* own, int depth) {
-  if (s.empty() || depth > kDeepest) return {};
-  if (isFigure(lowered(s[0].name)) && s[0].called) {
-    if (own) *own = depth == 0;
-    return figureText(g, s[0]);
-  }
-  const Rule* r = s[0].called ? nullptr : g.rule(s[0].name);
-  if (s.size() != 1 || !r || r->branches.size() != 1) return {};
-  return figureAtHead(g, r->branches[0].body, own, depth + 1);
-}
-
 Lines linesOf(const Grammar& g, const Op& op, int depth);
 
 Lines linesOf(const Grammar& g, const std::string& argument, int depth) {
   Lines l;
-  l.ranges = withConstants(g, argument);
+  l.ranges = argument;
   std::string name = argument.substr(0, argument.find('('));
   while (!name.empty() && name.back() == ' ') name.pop_back();
   const Rule* r = g.rule(name);
@@ -99,16 +89,16 @@ Lines linesOf(const Grammar& g, const Op& op, int depth) {
   for (const Argument& a : op.arguments) {
     const std::string word = lowered(a.text.substr(0, a.text.find('(')));
     if (isFigure(word) && a.text.back() == ')') {
-      l.figure = withConstants(g, a.text);
+      l.figure = a.text;
     } else if (lowered(a.text) != "perimeter") {
-      addLines(withConstants(g, a.text), l.ranges, selections);
+      addLines(a.text, l.ranges, selections);
     }
   }
   l.ranges += (l.ranges.empty() || selections.empty() ? "" : "; ") + selections;
   for (const Part& p : partsOf(op)) {
     for (const Op& inner : p.body) {
       if (lowered(inner.name) == "contract" && !inner.arguments.empty()) {
-        l.inset = withConstants(g, inner.arguments[0].text);
+        l.inset = inner.arguments[0].text;
       }
     }
   }
@@ -144,6 +134,19 @@ const char* colourOf(std::string_view name) {
   for (const Hint& h : kHints) {
     if (low.find(h.part) != std::string::npos) return h.colour;
   }
+  // Colours stand as words of their own: RED, not Scattered.
+  static constexpr Hint kColours[] = {
+      {"red", "#b8433f"},    {"yellow", "#e0c045"}, {"white", "#f2f0ea"}, {"pink", "#e08fa8"},
+      {"orange", "#d98a3c"}, {"black", "#2f2f2f"},  {"brown", "#7a5a3c"}, {"purple", "#8a5a9a"},
+      {"grey", "#8f8f8a"},   {"gray", "#8f8f8a"}};
+  for (const Hint& h : kColours) {
+    const std::string_view word = h.part;
+    const size_t at = low.find(word);
+    if (at == std::string::npos) continue;
+    const size_t end = at + word.size();
+    const bool begins = at == 0 || low[at - 1] == '_';
+    if (begins && (end == low.size() || low[end] == '_')) return h.colour;
+  }
   return "#9a9a92";
 }
 
@@ -165,31 +168,66 @@ bool isPointSet(const Rule& r) {
          name == "entrances" || name == "directions" || name == "points";
 }
 
-std::string figureText(const Grammar& g, const Op& op) {
-  std::string out = lowered(op.name) == "rombcenter" ? "romb" : lowered(op.name);
-  out += '(';
-  for (size_t i = 0; i < op.arguments.size(); ++i) {
-    if (lowered(op.arguments[i].text) == "free") continue;
-    double v = 0;
-    const bool known = constantValue(g, op.arguments[i].text, v);
-    // RombCenter(..) of the sketches; else a parameter, which is filled in when the rule runs.
-    const std::string& text = op.arguments[i].text;
-    const bool sketch = text.find_first_not_of(". ") == std::string::npos;
-    out += (i > 0 ? ", " : "") + (known ? shortestText(v) : sketch ? std::string("3") : text);
+FigureHead figureHead(const Grammar& g, const Sequence& s) {
+  FigureHead out;
+  const Sequence* at = &s;
+  for (int depth = 0; depth < kDeepest && !at->empty(); ++depth) {
+    const Op& first = at->front();
+    if (isFigure(lowered(first.name)) && first.called) {
+      out.figure = &first;
+      out.body = at;
+      return out;
+    }
+    const Rule* r = first.called || !first.blocks.empty() ? nullptr : g.rule(first.name);
+    if (at->size() != 1 || !r || r->function || r->branches.size() != 1) break;
+    out.rule = r;
+    at = &r->branches[0].body;
   }
-  return out + ')';
+  return {};
 }
 
-std::string figureAtHead(const Grammar& g, const Sequence& s, bool* own) {
-  return figureAtHead(g, s, own, 0);
+namespace {
+
+// Rules are looked at once: one that leads to itself says nothing more the second time.
+Ending endingOf(const Grammar& g, const Sequence& s, std::set<const Rule*>& seen) {
+  static constexpr std::string_view kGiveAway[] = {"grid",      "voronoiregions", "voronoismoothed",
+                                                   "ffregions", "cells",          "castrays",
+                                                   "raycast",   "beam",           "rays",
+                                                   "peel",      "innerrect",      "quadmap"};
+  const auto any = [&](const std::vector<Part>& parts, const Sequence* otherwise) {
+    Ending best = Ending::Nothing;
+    for (const Part& p : parts) best = std::max(best, endingOf(g, p.body, seen));
+    if (otherwise) best = std::max(best, endingOf(g, *otherwise, seen));
+    return best;
+  };
+  for (const Op& op : s) {
+    const std::string name = lowered(op.name);
+    if (name == "loadmodel") return Ending::Nothing;
+    if (name == "extrude") return Ending::Raised;
+    if (name == "choose" || name == "select") {
+      return any(partsOf(op), op.hasElse ? &op.otherwise : nullptr);
+    }
+    if (std::find(std::begin(kGiveAway), std::end(kGiveAway), name) != std::end(kGiveAway)) {
+      return Ending::Flat;
+    }
+    const Rule* r = g.rule(op.name);
+    if (!r) {
+      if (op.called || !op.blocks.empty() || isMaterialWord(op.name)) continue;
+      return Ending::Flat;
+    }
+    if (!seen.insert(r).second) return Ending::Nothing;
+    Ending best = Ending::Nothing;
+    for (const Branch& b : r->branches) best = std::max(best, endingOf(g, b.body, seen));
+    if (!r->function) return best;
+  }
+  return Ending::Flat;
 }
 
-std::string figureOfBlock(const Grammar& g, const Op& op) {
-  for (const Part& p : partsOf(op)) {
-    const std::string f = figureAtHead(g, p.body);
-    if (!f.empty()) return f;
-  }
-  return "none";
+}  // namespace
+
+Ending endingOf(const Grammar& g, const Sequence& s) {
+  std::set<const Rule*> seen;
+  return endingOf(g, s, seen);
 }
 
 const Op* joinedOp(const Grammar& g, const Part* part) {
@@ -203,11 +241,12 @@ Joined joinedParts(const Grammar& g, const Op& op) {
   Joined out;
   for (const Part& p : partsOf(op)) {
     for (const Op& inner : p.body) {
-      const std::string figure = figureAtHead(g, {inner});
-      if (figure.empty()) {
-        out.rest.push_back(inner);
+      const Sequence alone{inner};
+      const FigureHead head = figureHead(g, alone);
+      if (head.figure) {
+        out.figures.push_back(*head.figure);
       } else {
-        out.figures += (out.figures.empty() ? "" : " ") + figure;
+        out.rest.push_back(inner);
       }
     }
   }
@@ -217,18 +256,18 @@ Joined joinedParts(const Grammar& g, const Op& op) {
 std::string discs(const Grammar& g, const std::string& argument) {
   if (const Op* op = onlyOp(g, argument)) {
     if (op->arguments.empty()) return "1";
-    std::string all = withConstants(g, op->arguments[0].text);
+    std::string all = op->arguments[0].text;
     const bool places = lowered(op->name) == "points";
     for (size_t i = 1; places && i < op->arguments.size(); ++i) {
-      all += ' ' + withConstants(g, op->arguments[i].text);
+      all += ' ' + op->arguments[i].text;
     }
     return all;
   }
   const size_t bracket = argument.find('(');
   if (bracket != std::string::npos && argument.back() == ')') {
-    return withConstants(g, argument.substr(bracket + 1, argument.size() - bracket - 2));
+    return argument.substr(bracket + 1, argument.size() - bracket - 2);
   }
-  return withConstants(g, argument);
+  return argument;
 }
 
 Lines linesOf(const Grammar& g, const std::string& argument) { return linesOf(g, argument, 0); }
@@ -261,26 +300,14 @@ JunctionChoices junctionChoices(const Grammar& g, const Part& part) {
   JunctionChoices out;
   const Op* op = part.body.size() == 1 ? &part.body[0] : nullptr;
   const Rule* r = op && !op->called && op->blocks.empty() ? g.rule(op->name) : nullptr;
+  out.rule = r;
   if (r && r->branches.size() == 1 && r->branches[0].body.size() == 1) op = onlyOp(*r);
   if (op && lowered(op->name) == "choose") {
     out.parts = partsOf(*op);
-    const std::vector<double> shares = sharesOf(g, out.parts);
-    for (size_t i = 0; i < out.parts.size(); ++i) {
-      const std::string figure = figureAtHead(g, out.parts[i].body);
-      out.figures += (i > 0 ? " | " : "") + shortestText(shares[i]) + "%: ";
-      out.figures += figure.empty() ? "none" : figure;
-    }
+    out.shares = sharesOf(g, out.parts);
   } else if (r && r->branches.size() > 1) {
     for (const Branch& b : r->branches) {
-      std::string condition = withConstants(g, b.condition);
-      if (!condition.empty() && condition.front() == '(' && condition.back() == ')' &&
-          condition.find(')') == condition.size() - 1) {
-        condition = condition.substr(1, condition.size() - 2);
-      }
-      const std::string figure = figureAtHead(g, b.body);
-      if (!out.figures.empty()) out.figures += " | ";
-      if (!condition.empty()) out.figures += "case " + condition + ": ";
-      out.figures += figure.empty() ? "none" : figure;
+      out.conditions.push_back(b.condition);
       out.parts.push_back({"", b.body, b.span});
     }
   }

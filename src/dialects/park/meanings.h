@@ -24,17 +24,25 @@ const Op* onlyOp(const Grammar& g, std::string_view rule);
 /// Rules of one point set, which stand for it in arguments and make no shapes.
 bool isPointSet(const Rule& r);
 
-/// "romb(3)"
-std::string figureText(const Grammar& g, const Op& op);
-/// A figure at the head of a sequence, or of the rule that it names alone; empty when there is
-/// none. `own` says whether it stands in the sequence itself.
-std::string figureAtHead(const Grammar& g, const Sequence& s, bool* own = nullptr);
-/// The figure at the head of an operation's parts; "none" when there is none.
-std::string figureOfBlock(const Grammar& g, const Op& op);
+/// The figure that a sequence begins with, or that of the rule that it names alone.
+struct FigureHead {
+  /// Null for none.
+  const Op* figure = nullptr;
+  /// The sequence that it stands in, the first of it.
+  const Sequence* body = nullptr;
+  /// The rule of that sequence; null for the sequence itself.
+  const Rule* rule = nullptr;
+};
+FigureHead figureHead(const Grammar& g, const Sequence& s);
+
+/// What operations leave of the ground that they get: nothing, something that stands on it and
+/// covers it, or flat ground. Of several ways the one that leaves most.
+enum class Ending { Nothing, Raised, Flat };
+Ending endingOf(const Grammar& g, const Sequence& s);
 
 /// joined { Romb(3) ParkPath }: the figures in it and what is left to do, once they are one.
 struct Joined {
-  std::string figures;
+  std::vector<Op> figures;
   Sequence rest;
 };
 /// Of a part that is one joined, or the name of a rule of one; null for others.
@@ -57,9 +65,12 @@ Lines linesOf(const Grammar& g, const Op& op);
 /// What may stand at the crossings of a grid: figures with shares or conditions, and for each what
 /// is done with it. Empty for a part that is no choice.
 struct JunctionChoices {
-  /// "30%: romb(3) | circle(2)"
-  std::string figures;
+  /// Shares in percent, or conditions (none: else); one of both.
+  std::vector<double> shares;
+  std::vector<std::string> conditions;
   std::vector<Part> parts;
+  /// Where they stand, when that is a rule.
+  const Rule* rule = nullptr;
 };
 JunctionChoices junctionChoices(const Grammar& g, const Part& part);
 

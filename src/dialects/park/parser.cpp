@@ -225,7 +225,16 @@ class Parser {
     while (at_ < text_.size() && text_[at_] != '\n') ++at_;
     double v = 0;
     if (constantValue(grammar_, std::string_view(text_).substr(start, at_ - start), v)) {
+      if (grammar_.constants.count(what) != 0) {
+        error("bad-constant", where, "the constant '" + what + "' stands here a second time",
+              "give one of them another name");
+        return;
+      }
       grammar_.constants[what] = v;
+      std::string text = text_.substr(start, at_ - start);
+      const size_t comment = std::min(text.find("//"), text.find("/*"));
+      if (comment != std::string::npos) text.resize(comment);
+      grammar_.written.push_back({what, std::move(text), where});
     } else {
       error("bad-constant", where, "the constant '" + what + "' is no number",
             "write a number, or + - * / of numbers and constants above");
@@ -479,12 +488,6 @@ std::string withWords(std::string_view text, const std::map<std::string, std::st
     i = end;
   }
   return out;
-}
-
-std::string withConstants(const Grammar& g, std::string_view text) {
-  std::map<std::string, std::string> words;
-  for (const auto& [name, value] : g.constants) words[name] = shortestText(value);
-  return withWords(text, words);
 }
 
 Sequence withArguments(const Sequence& body, const std::map<std::string, std::string>& words) {

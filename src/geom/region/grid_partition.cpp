@@ -18,6 +18,7 @@
 namespace gable {
 
 double DrawnRange::drawn(uint64_t address) const {
+  if (other) return other(address);
   return low == high ? low : randomIn(address, low, high);
 }
 
@@ -89,6 +90,7 @@ class Dimension {
       out.sizes.push_back(sizeAt(i, free / count));
       sum += out.sizes.back();
     }
+    sum = sharedOut(out.sizes, sum, free);
     if (!std::isfinite(sum)) return GridProblem::NotFinite;
     if (!(sum > 0)) return GridProblem::DoesNotFit;
     const bool exact = std::fabs(sum - free) <= 1e-9 * whole_;
@@ -108,6 +110,20 @@ class Dimension {
     const double n =
         low + std::floor(randomUnit(hashCombine(seed_, 0x636f756e74)) * (high - low + 1));
     return std::clamp(n, low, std::max(low, high));
+  }
+  // Shares get what the other sizes leave; the new sum.
+  double sharedOut(std::vector<double>& sizes, double sum, double free) const {
+    double shares = 0;
+    const auto isShare = [&](size_t i) {
+      return !sizes_.empty() && sizes_[i % sizes_.size()].share;
+    };
+    for (size_t i = 0; i < sizes.size(); ++i) shares += isShare(i) ? sizes[i] : 0;
+    if (!(shares > 0)) return sum;
+    const double rest = std::max(0.0, free - (sum - shares));
+    for (size_t i = 0; i < sizes.size(); ++i) {
+      if (isShare(i)) sizes[i] *= rest / shares;
+    }
+    return sum - shares + rest;
   }
   bool sized() const {
     return std::any_of(sizes_.begin(), sizes_.end(),
@@ -361,23 +377,6 @@ struct Junction {
   uint32_t ix = 0, iy = 0, choice = 0;
 };
 
-// Which of the choices a crossing takes; the number of choices when none.
-size_t chosen(const std::vector<JunctionChoice>& choices, uint32_t ix, uint32_t iy, uint32_t nx,
-              uint32_t ny, uint64_t seed) {
-  double sum = 0;
-  for (size_t i = 0; i < choices.size(); ++i) {
-    if (choices[i].where && choices[i].where(ix, iy, nx, ny)) return i;
-    if (!choices[i].where) sum += std::max(0.0, choices[i].weight);
-  }
-  double draw = randomUnit(hashCombine(hashCombine(seed, ix), iy)) * sum;
-  for (size_t i = 0; i < choices.size(); ++i) {
-    if (choices[i].where) continue;
-    draw -= std::max(0.0, choices[i].weight);
-    if (draw < 0) return i;
-  }
-  return choices.size();
-}
-
 // The shapes of crossings, as large as they may be.
 std::vector<Junction> junctionRings(const Family& fx, const Family& fy, const GridOptions& o,
                                     bool& clamped) {
@@ -398,21 +397,25 @@ std::vector<Junction> junctionRings(const Family& fx, const Family& fy, const Gr
   const auto ny = static_cast<uint32_t>(fy.paths.size());
   std::vector<Junction> out;
   for (size_t i = 0; i < at.size(); ++i) {
-    const size_t c =
-        chosen(o.junctions, at[i].ix, at[i].iy, nx, ny, hashCombine(o.seed, 0x6a756e63));
-    if (c == o.junctions.size() || o.junctions[c].figure.shape == PlanShape::None) continue;
+    const uint64_t address =
+        hashCombine(hashCombine(hashCombine(o.seed, 0x6a756e63), at[i].ix), at[i].iy);
+    const JunctionPick pick = o.junctionAt(at[i].ix, at[i].iy, nx, ny, address);
+    if (pick.figure.shape == PlanShape::None) {
+      out.push_back({{}, at[i].ix, at[i].iy, pick.choice});
+      continue;
+    }
     double nearest = 1e300;
     for (size_t k = 0; k < at.size(); ++k) {
       if (k != i) nearest = std::min(nearest, length(at[k].at - at[i].at));
     }
-    PlanFigure f = o.junctions[c].figure;
+    PlanFigure f = pick.figure;
     const double reach = f.reach();
     if (reach > 0.49 * nearest) {
       f.a *= 0.49 * nearest / reach;
       f.b *= 0.49 * nearest / reach;
       clamped = true;
     }
-    out.push_back({ringOf(f, at[i].at, at[i].x), at[i].ix, at[i].iy, static_cast<uint32_t>(c)});
+    out.push_back({ringOf(f, at[i].at, at[i].x), at[i].ix, at[i].iy, pick.choice});
   }
   return out;
 }
@@ -421,11 +424,22 @@ bool boxesMeet(const Box2& a, const Box2& b) {
   return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y;
 }
 
-// Cuts the shapes out of all pieces, and adds what of them lies in the region.
-void placeJunctions(const Polygon& whole, const std::vector<Junction>& junctions, bool everywhere,
+uint32_t plainChoice(const std::vector<Junction>& junctions, uint32_t ix, uint32_t iy) {
+  for (const Junction& j : junctions) {
+    if (j.ring.empty() && j.ix == ix && j.iy == iy) return j.choice;
+  }
+  return 0;
+}
+
+// Cuts the shapes out of all pieces, and adds what of them lies in the region. Those without a ring
+// are plain crossings.
+void placeJunctions(const Polygon& whole, const std::vector<Junction>& junctions, size_t crossings,
                     std::vector<RegionPiece>& pieces) {
   std::vector<Ring> rings;
-  for (const Junction& j : junctions) rings.push_back(j.ring);
+  for (const Junction& j : junctions) {
+    if (!j.ring.empty()) rings.push_back(j.ring);
+  }
+  const bool everywhere = rings.size() == crossings;
   std::vector<RegionPiece> out;
   for (RegionPiece& p : pieces) {
     Region holes;
@@ -435,6 +449,7 @@ void placeJunctions(const Polygon& whole, const std::vector<Junction>& junctions
     }
     // What a figure leaves of its crossing is path.
     if (p.kind == PieceKind::Junction && (everywhere || !holes.empty())) p.kind = PieceKind::Path;
+    if (p.kind == PieceKind::Junction) p.choice = plainChoice(junctions, p.ix, p.iy);
     if (holes.empty()) {
       out.push_back(std::move(p));
       continue;
@@ -446,11 +461,12 @@ void placeJunctions(const Polygon& whole, const std::vector<Junction>& junctions
   }
   for (const Junction& j : junctions) {
     const Ring& r = j.ring;
+    if (r.empty()) continue;
     RegionPiece p = wholePiece(whole);
     p.kind = PieceKind::Junction;
     p.ix = j.ix;
     p.iy = j.iy;
-    p.choice = j.choice + 1;
+    p.choice = j.choice;
     const EdgeOrigin made{kNoEdge, EdgeRole::Path, EdgeOrigin::kNoSide};
     for (RegionPiece& cut : combineTraced(BooleanOp::Intersection, p, {{r, {}}}, made)) {
       const Box2 b = bounds(r);
@@ -536,15 +552,14 @@ class Grid {
     }
     std::vector<RegionPiece> pieces;
     for (const RegionPiece& p : inside) cut(p, base, pieces);
-    if (!inside.empty() && !o_.junctions.empty() && !fx_.paths.empty() && !fy_.paths.empty()) {
+    if (!inside.empty() && o_.junctionAt && !fx_.paths.empty() && !fy_.paths.empty()) {
       const std::vector<Junction> junctions = junctionRings(fx_, fy_, o_, result.junctionClamped);
-      placeJunctions(inside[0].polygon, junctions,
-                     junctions.size() == fx_.paths.size() * fy_.paths.size(), pieces);
+      placeJunctions(inside[0].polygon, junctions, fx_.paths.size() * fy_.paths.size(), pieces);
     }
     pieces.insert(pieces.end(), remainder.begin(), remainder.end());
     const double mean = area(p_) / (static_cast<double>(result.nx) * result.ny);
     mergeSlivers(pieces, std::min(o_.sliver, std::sqrt(mean) / 50),
-                 std::min(o_.minArea, mean / 50));
+                 o_.minAreaHolds ? o_.minArea : std::min(o_.minArea, mean / 50));
     std::stable_sort(pieces.begin(), pieces.end(), [](const RegionPiece& a, const RegionPiece& b) {
       return a.kind != b.kind ? a.kind < b.kind : a.iy != b.iy ? a.iy < b.iy : a.ix < b.ix;
     });

@@ -23,8 +23,10 @@
 
 namespace gable {
 
+/// Drawn evenly, or by what `other` says; low and high then tell about it.
 struct DrawnRange {
   double low = 0, high = 0;
+  std::function<double(uint64_t address)> other = {};
   double drawn(uint64_t address) const;
   double mean() const { return (low + high) / 2; }
 };
@@ -32,6 +34,8 @@ struct DrawnRange {
 struct GridSize {
   std::optional<DrawnRange> size;
   DrawnRange angle;
+  /// The size is a share of what the others leave.
+  bool share = false;
 };
 
 /// Sizes are used in turn. Without a count as many cells as the sizes fill; without both, two equal
@@ -67,13 +71,10 @@ struct PlanFigure {
 /// Counter-clockwise; x is the figure's first axis.
 Ring ringOf(const PlanFigure& figure, Vec2 middle, Vec2 x = {1, 0});
 
-/// A figure for some crossings: those that `where` (may be empty) takes, drawn by weight. A shape
-/// of None leaves the plain crossing.
-struct JunctionChoice {
+/// What stands at a crossing: a figure, or the plain crossing, and the number that its piece gets.
+struct JunctionPick {
   PlanFigure figure;
-  double weight = 1;
-  /// Columns and rows count the crossings, from 0.
-  std::function<bool(uint32_t ix, uint32_t iy, uint32_t nx, uint32_t ny)> where;
+  uint32_t choice = 0;
 };
 
 struct GridOptions {
@@ -82,13 +83,15 @@ struct GridOptions {
   double pathWidth = 0;
   GridFit fit = GridFit::Stretch;
   GridTemplate base = GridTemplate::Auto;
-  /// In the place of plain crossings. The first choice whose `where` takes a crossing stands there;
-  /// choices without one are drawn from by weight, when no other took it.
-  std::vector<JunctionChoice> junctions;
+  /// In the place of plain crossings; may be empty. Columns and rows count the crossings, from 0.
+  std::function<JunctionPick(uint32_t ix, uint32_t iy, uint32_t nx, uint32_t ny, uint64_t address)>
+      junctionAt;
   uint64_t seed = 0;
   /// Beneath these a piece goes to a neighbour; the area counts at most as two hundredths of the
   /// mean cell.
   double sliver = 0.02, minArea = 0.25;
+  /// The area holds however small the cells are.
+  bool minAreaHolds = false;
 };
 
 enum class GridProblem : uint8_t { None, NoArea, TooManyCells, DoesNotFit, NotFinite };

@@ -99,7 +99,9 @@ GridOptions gridOf(uint32_t nx, uint32_t ny, double path) {
 
 TEST(GridPartition, DividesASquareWithARombInTheMiddle) {
   GridOptions o = gridOf(2, 2, 2);
-  o.junctions = {{{PlanShape::Romb, 3, 0, 24}, 1, {}}};
+  o.junctionAt = [](uint32_t, uint32_t, uint32_t, uint32_t, uint64_t) {
+    return JunctionPick{{PlanShape::Romb, 3, 0, 24}, 1};
+  };
   const GridResult g = gridPartition(rect(20, 20), o);
   ASSERT_EQ(g.problem, GridProblem::None);
   EXPECT_EQ(countOf(g.pieces, PieceKind::Cell), 4u);
@@ -195,13 +197,17 @@ TEST(GridPartition, ClampsJunctionsThatAreTooLarge) {
   for (const PlanShape shape : {PlanShape::Romb, PlanShape::Circle, PlanShape::Square,
                                 PlanShape::Rect, PlanShape::Polygon}) {
     GridOptions o = gridOf(3, 3, 1);
-    o.junctions = {{{shape, 30, 30, 6}, 1, {}}};
+    o.junctionAt = [shape](uint32_t, uint32_t, uint32_t, uint32_t, uint64_t) {
+      return JunctionPick{{shape, 30, 30, 6}, 1};
+    };
     const Polygon p = rect(30, 30);
     const GridResult g = gridPartition(p, o);
     EXPECT_TRUE(g.junctionClamped);
     EXPECT_EQ(countOf(g.pieces, PieceKind::Junction), 4u);
     expectPartition(p, g.pieces, "clamped");
-    o.junctions = {{{shape, 1, 1, 6}, 1, {}}};
+    o.junctionAt = [shape](uint32_t, uint32_t, uint32_t, uint32_t, uint64_t) {
+      return JunctionPick{{shape, 1, 1, 6}, 1};
+    };
     const GridResult small = gridPartition(p, o);
     EXPECT_FALSE(small.junctionClamped);
     expectPartition(p, small.pieces, "small");
@@ -211,7 +217,10 @@ TEST(GridPartition, ClampsJunctionsThatAreTooLarge) {
 TEST(GridPartition, HoldsOnTheCorpus) {
   overCorpus(kStride, [](const Polygon& p, const std::string& name) {
     GridOptions o = gridOf(3, 3, std::sqrt(area(p)) / 20);
-    o.junctions = {{{PlanShape::Romb, std::sqrt(area(p)) / 15, 0, 24}, 1, {}}};
+    const PlanFigure figure{PlanShape::Romb, std::sqrt(area(p)) / 15, 0, 24};
+    o.junctionAt = [figure](uint32_t, uint32_t, uint32_t, uint32_t, uint64_t) {
+      return JunctionPick{figure, 1};
+    };
     const GridResult g = gridPartition(p, o);
     ASSERT_EQ(g.problem, GridProblem::None) << name;
     expectPartition(p, g.pieces, name);

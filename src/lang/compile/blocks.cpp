@@ -4,6 +4,8 @@
 // Blocks: the braces after an operation, flattened into items. Each item has a slot of code; sizes
 // and index expressions are pushed after the operation's arguments, in order of writing.
 
+#include <utility>
+
 #include "lang/compile/unit_compiler.h"
 
 namespace gable::lang {
@@ -14,6 +16,7 @@ uint32_t UnitCompiler::newBlock(NodeId node, const OpSpec& spec) {
   e_.program().blocks[number].kind = spec.block;
   uses_.branches = true;
   blockValues_.clear();
+  blockSpec_ = &spec;
   const auto parts = t_.children(node);
   for (size_t i = 1; i < parts.size(); ++i) {
     e_.program().blocks[number].repeat |= t_.has(parts[i], kFlagRepeat);
@@ -55,8 +58,32 @@ void UnitCompiler::blockItems(NodeId node, uint32_t number) {
       code.preferredSizes.resize(code.slots.size());
       code.preferredSizes.back() = *preferred;
     }
-    pending_.push_back({number, item.slot, t_.child(part, 2)});
+    const AttributeSpec* choice = figureOfItem(part, number, item.slot);
+    pending_.push_back({number, item.slot, t_.child(part, 2), choice});
   }
+}
+
+// Whether a head is one of the words, or has it among others: path || junction.
+bool UnitCompiler::names(NodeId head, const char* words) const {
+  if (t_.kind(head) == NodeKind::Name) return wordIndex(words, t_.text(head)) >= 0;
+  return t_.kind(head) == NodeKind::Binary && t_.binaryOp(head) == BinaryOp::Or &&
+         (names(t_.child(head, 0), words) || names(t_.child(head, 1), words));
+}
+
+// Notes the figure that an item begins with where the operation makes figures.
+const AttributeSpec* UnitCompiler::figureOfItem(NodeId item, uint32_t number, uint32_t slot) {
+  if (!blockSpec_ || !blockSpec_->figureWords) return nullptr;
+  const NodeId head = t_.child(item, 0), sequence = t_.child(item, 2);
+  const char* const words = blockSpec_->figureWords;
+  const bool takes = head == kNoNode ? *words == 0 : names(head, words);
+  if (!takes || figureHead(sequence) == kNoNode) return nullptr;
+  const AttributeSpec* choice = blockSpec_->figureChoice;
+  uint32_t ordinals = 0;
+  const uint32_t made = figure(figureHead(sequence), ordinals);
+  std::vector<uint32_t>& figures = e_.program().blocks[number].figures;
+  figures.resize(slot + 1);
+  figures[slot] = made + 1;
+  return choice;
 }
 
 // The branch with the largest weight that is a number; the first of equals, and of unknown ones.
@@ -179,11 +206,13 @@ void UnitCompiler::componentValues(NodeId node) {
   e_.program().blocks[number].kind = BlockKind::Selectors;
   std::vector<NodeId> outer = std::move(blockValues_);
   std::vector<PendingSlot> outerSlots = std::move(pending_);
+  const OpSpec* outerSpec = std::exchange(blockSpec_, nullptr);
   blockValues_.clear();
   pending_.clear();
   blockItems(t_.child(node, 1), number);
   const std::vector<PendingSlot> slots = std::move(pending_);
   pending_ = std::move(outerSlots);
+  blockSpec_ = outerSpec;
   const BuiltinArguments given = builtinArguments(node, operation->signatures, arguments);
   pushArguments(given, t_.span(node));
   pushBlockValues(number);

@@ -102,7 +102,7 @@ size_t UnitCompiler::pushArguments(NodeId arguments) {
 
 UnitCompiler::BuiltinArguments UnitCompiler::builtinArguments(NodeId call,
                                                               std::span<const Signature> signatures,
-                                                              NodeId list) const {
+                                                              NodeId list) {
   BuiltinArguments out;
   const Resolution& ref = m_.at(call);
   const auto named = m_.namedArguments.find(call);
@@ -120,6 +120,9 @@ UnitCompiler::BuiltinArguments UnitCompiler::builtinArguments(NodeId call,
     BuiltinArguments::Argument& argument = out.list[i];
     if (argument.node == kNoNode) {
       argument.fixed = defaultValue(form.params[i], *e_.program().pool);
+    } else if (isCode(form.params[i])) {
+      argument.fixed = codeOf(argument.node, form.params[i]);
+      argument.node = kNoNode;
     }
   }
   return out;
@@ -190,8 +193,11 @@ void UnitCompiler::functionEffects(const FunctionSpec& spec, NodeId arguments) {
 uint32_t UnitCompiler::effectsOf(uint32_t effects, NodeId arguments) const {
   bool worldNamed = false;
   for (NodeId argument : t_.children(arguments)) {
+    if (t_.kind(argument) == NodeKind::NamedArg) argument = t_.child(argument, 0);
     Value v;
-    if (constantOf(argument, v)) {
+    if (m_.types[argument] == ValueType::Code) {
+      worldNamed |= namesWorldIn(argument);
+    } else if (constantOf(argument, v)) {
       const std::string_view text = v.type == ValueType::Selector || v.type == ValueType::String
                                         ? e_.program().pool->text(v.id)
                                         : std::string_view();

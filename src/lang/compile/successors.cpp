@@ -15,7 +15,11 @@ void UnitCompiler::body(NodeId node, Span end) {
   for (size_t i = 0; i < pending_.size(); ++i) {
     const PendingSlot slot = pending_[i];
     e_.program().blocks[slot.block].slots[slot.slot] = e_.here();
-    sequence(slot.sequence);
+    uint32_t ordinals = 0;
+    if (slot.figureChoice)
+      behindFigure(slot.sequence, *slot.figureChoice, ordinals);
+    else
+      sequence(slot.sequence);
     e_.emit(Code::End, t_.span(slot.sequence));
   }
   pending_.clear();

@@ -47,6 +47,8 @@ class UnitCompiler {
     uint32_t block;
     uint32_t slot;
     NodeId sequence;
+    /// The operations behind the figure that they begin with; null where there is none.
+    const AttributeSpec* figureChoice = nullptr;
   };
 
   // Successors.
@@ -100,11 +102,34 @@ class UnitCompiler {
     std::vector<Argument> list;
   };
   BuiltinArguments builtinArguments(NodeId call, std::span<const Signature> signatures,
-                                    NodeId list) const;
+                                    NodeId list);
   /// All values of the arguments, where none needs evaluation.
   bool constantsOf(const BuiltinArguments& arguments, std::vector<Value>& out) const;
   void push(const BuiltinArguments::Argument& argument, Span span);
   void pushArguments(const BuiltinArguments& arguments, Span span);
+
+  // Arguments that the operation works out itself (arguments.cpp).
+  bool isCode(const ParamSpec& param) const;
+  Value codeOf(NodeId node, const ParamSpec& param);
+  ValueCode valueCode(NodeId node);
+  void drawn(NodeId node, std::vector<ArgumentTerm>& out);
+  void selection(NodeId node, const ParamSpec& param, std::vector<ArgumentTerm>& out);
+  void term(NodeId node, const TermSpec& spec, const ParamSpec& param,
+            std::vector<ArgumentTerm>& out);
+  bool namesWorldIn(NodeId node) const;
+
+  // Figures that a block begins with (figures.cpp).
+  /// What a sequence begins with, if it is a figure or a choice among figures; kNoNode else.
+  NodeId figureHead(NodeId sequence) const;
+  bool isFigure(NodeId successor) const;
+  bool hasFigure(NodeId successor) const;
+  uint32_t figure(NodeId successor, uint32_t& ordinals);
+  uint32_t figureOfBranch(NodeId sequence, uint32_t& ordinals);
+  const AttributeSpec* figureOfItem(NodeId item, uint32_t block, uint32_t slot);
+  bool names(NodeId head, const char* words) const;
+  uint32_t figuresIn(NodeId sequence) const;
+  void behindFigure(NodeId sequence, const AttributeSpec& choice, uint32_t& ordinals);
+  void figureChoice(NodeId choiceNode, const AttributeSpec& choice, uint32_t& ordinals);
   uint32_t effectsOf(uint32_t effects, NodeId arguments) const;
   void functionEffects(const FunctionSpec& spec, NodeId arguments);
   size_t pushArguments(NodeId arguments);
@@ -117,6 +142,8 @@ class UnitCompiler {
   std::vector<PendingSlot> pending_;
   /// The sizes and indices of the block at hand.
   std::vector<NodeId> blockValues_;
+  /// Of that block.
+  const OpSpec* blockSpec_ = nullptr;
   /// What the function form of comp runs.
   const OpSpec* componentOperation_;
 };

@@ -156,6 +156,18 @@ class Analysis {
   std::span<const NodeId> arguments(NodeId list) const;
   void checkNamedArguments(std::span<const NodeId> arguments);
 
+  // --- selections.cpp: arguments that the operation works out itself ---
+  void visitSelection(NodeId node, const ParamSpec& param);
+  void visitTerm(NodeId node, const TermSpec& term, const ParamSpec& param);
+  void visitTermArgument(NodeId node, const TermSpec& term, const ParamSpec& wanted,
+                         const ParamSpec& param);
+  void visitSelectionValue(NodeId node, const ParamSpec& param);
+  void visitDrawnList(NodeId node);
+  bool isSelection(NodeId node, const ParamSpec& param) const;
+  const TermSpec* termNamed(const ParamSpec& param, std::string_view name) const;
+  void reportTerm(NodeId node, const ParamSpec& param);
+  bool reportOldCall(NodeId node, std::span<const NodeId> arguments);
+
   // --- expressions.cpp ---
   ValueType visit(NodeId node, ValueType expected = ValueType::Null);
   ValueType visitName(NodeId node, ValueType expected);

@@ -82,6 +82,13 @@ void Analysis::checkPrefix(NodeId node, const std::vector<const ParamSpec*>& par
 
 // One argument, with the parameters that it may be for.
 ValueType Analysis::visitArgument(NodeId node, const std::vector<const ParamSpec*>& params) {
+  for (const ParamSpec* p : params) {
+    switch (p->type) {
+      case ParamType::Selection: visitSelection(node, *p); return ValueType::Null;
+      case ParamType::DrawnList: visitDrawnList(node); return ValueType::Null;
+      default: break;
+    }
+  }
   checkPrefix(node, params);
   const bool wantsWord = std::any_of(params.begin(), params.end(), [](const ParamSpec* p) {
     return p->type == ParamType::Selector;

@@ -129,6 +129,7 @@ void Analysis::reportUnknownName(NodeId node) {
 
 ValueType Analysis::visitBuiltinCall(NodeId node, const FunctionSpec& spec,
                                      std::span<const NodeId> args) {
+  if (!args.empty() && reportOldCall(node, args)) return ValueType::Null;
   // Written without brackets, a function takes what it takes by default.
   const bool bare = args.empty() && tree().kind(node) == NodeKind::Name;
   Chosen chosen;

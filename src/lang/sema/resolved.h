@@ -79,6 +79,8 @@ struct Resolution {
     const OpSpec* operation;
     const FunctionSpec* function;
     const AttributeSpec* attribute;
+    /// Of a Selector in a selection.
+    const TermSpec* term;
   } spec = {nullptr};
 };
 
@@ -109,8 +111,8 @@ struct Module {
   std::vector<ValueType> types;
   /// By node id: the value of a constant expression (number, bool or string); Null if it is none.
   std::vector<Value> constants;
-  /// Of calls with named arguments, by node id: for each parameter of the signature its argument;
-  /// kNoNode where the default counts.
+  /// Of calls with named arguments and of the terms of selections, by node id: for each parameter
+  /// of the signature its argument; kNoNode where the default counts.
   std::unordered_map<NodeId, std::vector<NodeId>> namedArguments;
 
   const Resolution& at(NodeId node) const { return resolutions[node]; }

@@ -260,7 +260,8 @@ void Analysis::visitOperation(NodeId node, const OpSpec& op) {
   if (name == "local") return visitLocal(node, op);
   if (name == "do") return visitDo(node, op);
   const std::span<const NodeId> args = arguments(tree().child(node, 0));
-  const Chosen chosen = checkBuiltinCall({name, node, op.signatures}, args);
+  const bool old = reportOldCall(node, args);
+  const Chosen chosen = old ? Chosen{} : checkBuiltinCall({name, node, op.signatures}, args);
   resolve(node, RefKind::Operation);
   Resolution& r = module().resolutions[node];
   r.spec.operation = &op;

@@ -101,14 +101,15 @@ TEST(ParkHostile, PartitionsEndWithAllAreaOrAWord) {
   const auto operations = [](const Metres& metres) -> std::vector<std::string> {
     return {
         "grid(3, 3, " + metres(0.05) + ") { all : A }",
-        "grid(2, 2, 0, \"circle(" + metres(0.1) + ")\", \"template=inner\") { all : A }",
-        "voronoi(\"6 {" + metres(0.01) + "}\", " + metres(0.03) + ") { all : A }",
-        "voronoi(6, 0, \"none\", \"jitter=" + metres(0.02) + "\") { all : A }",
-        "castRays(\"centre\", \"corners\", " + metres(0.01) + ", " + metres(0.05) + ") { all : A }",
-        "castRays(\"centre\", 7, 0) { all : A }",
+        "grid(2, 2, 0, template = inner) { all : A | junction : circle(" + metres(0.1) + ") A }",
+        "voronoi(6, " + metres(0.03) + ", radius = " + metres(0.01) + ") { all : A }",
+        "voronoi(6, 0, none, jitter = " + metres(0.02) + ") { all : A }",
+        "castRays(centre, corners, " + metres(0.01) + ") { region || path : A | centre : circle(" +
+            metres(0.05) + ") A }",
+        "castRays(centre, 7, 0) { all : A }",
         "peel(all, " + metres(0.02) + ") { all : A }",
-        "peel(\"longest\", '0.3, \"orthogonal\") { all : A }",
-        "peel(\"facing(W)\", " + metres(0.05) + ", \"smooth=average(2)\") { all : A }",
+        "peel(longest, '0.3, orthogonal = true) { all : A }",
+        "peel(facing(west), " + metres(0.05) + ", smooth = average(2)) { all : A }",
         "quadMap(3, 3) { all : A }"};
   };
   forEachHard(operations, [](const Hard& h, double size, const std::string& op) {
@@ -124,21 +125,21 @@ TEST(ParkHostile, PartitionsEndWithAllAreaOrAWord) {
 
 TEST(ParkHostile, OtherOperationsLeaveAShapeOrAWord) {
   const auto operations = [](const Metres& metres) -> std::vector<std::string> {
-    return {
-        "contract(" + metres(0.05) + ")",
-        "contract('0.5)",
-        "place(centre, \"circle(" + metres(0.05) + ")\") { B }",
-        "place(\"corner(all)\", \"square(" + metres(0.02) + ")\") { B }",
-        "distribute(all, " + metres(0.2) + ", " + metres(0.01) + ") { B }",
-        "scatterCircles(5, " + metres(0.02) + ") { B }",
-        "sweep(all, " + metres(0.01) + ", " + metres(0.02) + ") { B }",
-        "sweep(all, " + metres(0.02) + ", 0, \"height=1 profile=dome\") { B }",
-        "sweep(\"_ _; facing(E)\", " + metres(0.03) + ", " + metres(0.04) +
-            ", \"height=1 ends=square profile=(0,0)(0,1)(0.5,0.2)(1,0.6)\") { B }",
-        "place(corners) { B } distribute(all, " + metres(0.3) + ", 0, \"none\", \"chain\") { B }",
-        "parametrise(\"_ _ _ _\") { B }",
-        "cutHoles()",
-        "joined(\"circle(" + metres(0.1) + ") rect(" + metres(0.3) + ", " + metres(0.1) + ")\")"};
+    return {"contract(" + metres(0.05) + ")",
+            "contract('0.5)",
+            "place(centre) { circle(" + metres(0.05) + ") B }",
+            "place(corner(all)) { square(" + metres(0.02) + ") B }",
+            "distribute(all, " + metres(0.2) + ", " + metres(0.01) + ") { B }",
+            "scatterCircles(5, " + metres(0.02) + ") { B }",
+            "sweep(all, " + metres(0.01) + ", " + metres(0.02) + ") { B }",
+            "sweep(all, " + metres(0.02) + ", height = 1, profile = dome) { B }",
+            "sweep(edge(0) || edge(1) || facing(east), " + metres(0.03) + ", " + metres(0.04) +
+                ", ends = square, height = 1, profile = [0, 0; 0, 1; 0.5, 0.2; 1, 0.6]) { B }",
+            "place(corners) { B } distribute(all, " + metres(0.3) + ", chain = true) { B }",
+            "parametrise(edge(0) || edge(1) || edge(2) || edge(3)) { B }",
+            "cutHoles()",
+            "joined { circle(" + metres(0.1) + ") B. | rect(" + metres(0.3) + ", " + metres(0.1) +
+                ") B. }"};
   };
   forEachHard(operations, [](const Hard& h, double, const std::string& op) {
     const Made m = rules("Lot --> " + op + " A.", h.shapes);
@@ -166,8 +167,8 @@ TEST(ParkHostile, RulesKeepTheAreaOfTheCorpus) {
       const std::string path = std::to_string(size / 30);
       for (const std::string& op :
            {"grid(3, 2, " + path + ") { all : A }",
-            "voronoi(\"5 {0}\", " + path + ") { all : A | otherwise : A }",
-            "castRays(\"centre\", \"corners\", " + path + ") { all : A | otherwise : A }",
+            "voronoi(5, " + path + ") { all : A | otherwise : A }",
+            "castRays(centre, corners, " + path + ") { all : A | otherwise : A }",
             "peel(all, " + path + ") { all : A }", std::string("quadMap(3, 2) { all : A }")}) {
         const double made = rules("Lot --> " + op, shapes).whole;
         EXPECT_NEAR(made, whole, 1e-5 * whole + 1e-4 * size) << "polygon " << i << ": " << op;

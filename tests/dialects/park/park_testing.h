@@ -19,6 +19,7 @@
 #include "gable/gable.h"
 #include "geom/mesh/topology.h"
 #include "geom/region/corpus.h"
+#include "lang/region_texts.h"
 #include "math/trig.h"
 #include "scene/scene.h"
 
@@ -90,11 +91,13 @@ inline Shapes cShape() {
       {{0, 0}, {30, 0}, {30, 8}, {10, 8}, {10, 22}, {30, 22}, {30, 30}, {0, 30}});
 }
 
-// The length of the edges that a selection means, on the region that comes of a lot by `before`.
+// The length of the edges that a selection of the notation means, on the region that comes of a lot
+// by `before`.
 inline double selectedLength(const std::string& selection, const Shapes& shapes,
                              const std::string& before = "R") {
-  const Made m = rules(
-      "Lot --> " + before + "\nR --> parametrise(\"" + selection + "\") { Line. } X.", shapes);
+  const Made m = rules("Lot --> " + before + "\nR --> parametrise(" +
+                           lang::RegionTexts().lines(selection) + ") { Line. } X.",
+                       shapes);
   for (const Message& x : m.messages) ADD_FAILURE() << selection << ": " << x.text;
   return m.length.count("Line") ? m.length.at("Line") : 0;
 }

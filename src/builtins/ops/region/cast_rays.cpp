@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/number.h"
 #include "builtins/lists.h"
+#include "builtins/ops/region/shared/region_attributes.h"
 #include "builtins/ops/region/shared/region_job.h"
 #include "geom/region/along.h"
 #include "geom/region/places.h"
@@ -17,21 +17,38 @@
 
 namespace gable {
 
+enum class Hidden : uint8_t { Drop, Stop };
+
+template <>
+struct WordsOf<Hidden> {
+  static constexpr const char* text = "drop stop";
+};
+template <>
+struct WordsOf<CentreLinks> {
+  static constexpr const char* text = "none loop tree pairs opposite thin";
+};
+
 namespace {
 
-bool isMiddle(std::string_view text) {
-  TextReader r(text);
-  const std::string w = r.word();
-  return (w == "centre" || w == "center") && r.atEnd();
-}
+struct CastRays {
+  Selection centres, targets;
+  double path = 3;
+  Drawn radius;
+  CentreLinks connect = CentreLinks::Tree;
+  double share = 0;
+  Hidden hidden = Hidden::Drop;
+};
 
-Status centresOf(OpCall& call, const RegionView& view, uint64_t seed, std::vector<Vec2>& out) {
-  if (isMiddle(textOf(call, 0, ""))) {
+Status centresOf(OpCall& call, const CastRays& args, const RegionView& view, uint64_t seed,
+                 std::vector<Vec2>& out) {
+  const std::vector<Term> terms = termsOf(args.centres, call.services(), call.randomAddress(900));
+  if (terms.size() == 1 && (terms[0].is("centre") || terms[0].is("center"))) {
     out.push_back(middleOf(view.polygon()));
     return {};
   }
   std::vector<Disc> discs;
-  const Status status = discsOf(call, 0, view, seed, discs);
+  const DrawnNumber radius = numberOf(args.radius, call.services(), call.randomAddress(902));
+  const Status status = discsOf(call, terms, radius, view, seed, discs);
   for (const Disc& d : discs) out.push_back(d.centre);
   return status;
 }
@@ -47,111 +64,77 @@ Vec2 entranceAt(const RegionView& view, double at) {
   return stationAt(lines[0], turn - std::floor(turn)).at;
 }
 
-Status targetsOf(OpCall& call, const RegionView& view, std::vector<RayTarget>& out) {
-  const Value& v = call.arg(1);
-  if (v.type == ValueType::FloatArray) {
-    const Vec3 o = view.plane().frame().toLocal({});
-    const Array& a = call.services().pool().array(v);
-    for (size_t i = 0; i + 1 < a.numbers.size(); i += 2) {
-      out.push_back({RayTarget::Kind::Point, {a.numbers[i] + o.x, a.numbers[i + 1] + o.y}});
-    }
-    return {};
+void addCoordinates(const OpCall& call, const RegionView& view, const Value& v,
+                    std::vector<RayTarget>& out) {
+  const Vec3 o = view.plane().frame().toLocal({});
+  const Array& a = call.services().pool().array(v);
+  for (size_t i = 0; i + 1 < a.numbers.size(); i += 2) {
+    out.push_back({RayTarget::Kind::Point, {a.numbers[i] + o.x, a.numbers[i + 1] + o.y}});
   }
-  double n = v.number;
-  if (v.type == ValueType::String || v.type == ValueType::Selector) {
-    TextReader r(call.text(1));
-    const std::string w = r.word();
-    if (w == "corners") {
+}
+
+// Each term adds its targets; || stands between them.
+Status targetsOf(OpCall& call, const CastRays& args, const RegionView& view,
+                 std::vector<RayTarget>& out) {
+  const Status bad = call.fail("bad-argument", "these are no targets for rays",
+                               "write corners, a count, or direction(0) || entrance(1.5) || "
+                               "point(3, 4)");
+  for (const Term& t : termsOf(args.targets, call.services(), call.randomAddress(901))) {
+    if (t.kind == ArgumentTerm::Kind::Or) continue;
+    if (t.is("corners")) {
       for (const Vec2 p : view.polygon().outer) out.push_back({RayTarget::Kind::Point, p});
-      return {};
-    }
-    if (w == "directions" && r.accept('(')) {
-      double a = 0;
-      while (r.number(a)) {
+    } else if (t.is("direction")) {
+      const double a = t.number(0);
+      out.push_back({RayTarget::Kind::Direction, {cosDeg(a), sinDeg(a)}});
+    } else if (t.is("entrance")) {
+      if (!std::isfinite(t.number(0))) return bad;
+      out.push_back({RayTarget::Kind::Point, entranceAt(view, t.number(0))});
+    } else if (t.is("point")) {
+      out.push_back(
+          {RayTarget::Kind::Point, Vec2{t.number(0), t.number(1)} + bounds(view.polygon()).min});
+    } else if (t.kind != ArgumentTerm::Kind::Value) {
+      return bad;
+    } else if (t.values[0].type == ValueType::FloatArray) {
+      addCoordinates(call, view, t.values[0], out);
+    } else {
+      const double n = t.number(0);
+      if (!(n >= 0 && n <= 1000)) return bad;
+      for (double k = 0; k < n; ++k) {
+        work(8);
+        const double a = 360 * k / n;
         out.push_back({RayTarget::Kind::Direction, {cosDeg(a), sinDeg(a)}});
-        r.accept(',');
       }
-      if (r.accept(')')) return {};
     }
-    if (w == "entrances" && r.accept('(')) {
-      const bool bracket = r.accept('[');
-      double at = 0;
-      while (r.number(at)) {
-        out.push_back({RayTarget::Kind::Point, entranceAt(view, at)});
-        r.accept(',');
-      }
-      if ((!bracket || r.accept(']')) && r.accept(')')) return {};
-    }
-    std::vector<Disc> places;
-    if (readPoints(call.text(1), places)) {
-      const Vec2 corner = bounds(view.polygon()).min;
-      for (const Disc& d : places) out.push_back({RayTarget::Kind::Point, d.centre + corner});
-      return {};
-    }
-    n = -1;
-  }
-  if (!(n >= 0 && n <= 1000)) {
-    return call.fail("bad-argument", "these are no targets for rays",
-                     "write corners, a count, \"directions(0, 90)\", \"entrances(0.5, 2.5)\" or "
-                     "places, \"(3, 4) "
-                     "(10, 4)\"");
-  }
-  for (double k = 0; k < n; ++k) {
-    work(8);
-    const double a = 360 * k / n;
-    out.push_back({RayTarget::Kind::Direction, {cosDeg(a), sinDeg(a)}});
   }
   return {};
 }
 
-// How several centres are joined, and whether rays end at what hides their target.
-Status linksOf(const OpCall& call, RayOptions& o) {
-  const Status status = optionsAre(call, 4, "hidden=drop|stop connect=* share=#");
-  if (!status.ok()) return status;
-  const std::string options = textOf(call, 4, ""), links = option(options, "connect");
-  o.stopHidden = option(options, "hidden") == "stop";
-  parseNumber(option(options, "share"), o.thin);
-  TextReader r(links);
-  const std::string word = r.word();
-  constexpr std::pair<std::string_view, CentreLinks> kKnown[] = {
-      {"tree", CentreLinks::Tree},         {"none", CentreLinks::None},
-      {"loop", CentreLinks::Loop},         {"pairs", CentreLinks::Pairs},
-      {"opposite", CentreLinks::Opposite}, {"thin", CentreLinks::Thin}};
-  const auto* found = std::find_if(std::begin(kKnown), std::end(kKnown),
-                                   [&](const auto& k) { return k.first == word; });
-  bool read = links.empty() || found != std::end(kKnown);
-  if (!links.empty() && read) o.links = found->second;
-  if (word == "thin" && r.accept('(')) read = r.number(o.thin) && r.accept(')');
-  if (read && r.atEnd() && o.thin >= 0 && o.thin <= 1) return {};
-  return call.fail(
-      "bad-argument", "centres cannot be joined so",
-      "write connect=tree, none, loop, pairs, opposite or thin(0.5), a share of 0 to 1");
-}
-
-Status applyCastRays(OpCall& call) {
+Status applyCastRays(OpCall& call, const CastRays& args) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
   RayOptions o;
-  o.pathWidth = call.number(2, 3);
-  if (!(o.pathWidth >= 0) || !std::isfinite(o.pathWidth)) {
-    return call.fail("bad-argument", "a path cannot be " + shortestText(o.pathWidth) + " wide",
-                     "write a width of zero or more");
+  o.pathWidth = args.path;
+  if (const Status status = checkPath(call, args.path); !status.ok()) return status;
+  if (!(args.share >= 0 && args.share <= 1)) {
+    return call.fail("bad-argument", "a share of the links lies between 0 and 1",
+                     "write share = 0.5");
   }
-  const std::string figure = textOf(call, 3, "");
-  std::string problem;
-  double radius = 0;
-  if (parseNumber(figure, radius)) {
-    if (radius > 0) o.centre = {PlanShape::Circle, radius, 0, 24};
-  } else if (!figure.empty() && figure != "none" && !readFigure(figure, o.centre, problem)) {
-    return call.fail("bad-argument", problem, "write a radius, circle(r), square(a) or romb(r)");
+  o.links = args.connect;
+  o.thin = args.share;
+  o.stopHidden = args.hidden == Hidden::Stop;
+  const std::optional<uint32_t> centreSlot = slotOf(call, "centre");
+  uint32_t choice = 0;
+  if (centreSlot) {
+    const DrawnFigure figure = drawFigure(call, *centreSlot, call.randomAddress(600), call.shape());
+    if (!planFigureOf(figure, o.centre)) return badFigure(call);
+    choice = figure.ordinal;
   }
-  if (const Status status = linksOf(call, o); !status.ok()) return status;
   for (size_t f = 0; f < job.faces().size(); ++f) {
     RegionView& view = *job.faces()[f];
     std::vector<Vec2> centres;
     std::vector<RayTarget> targets;
-    Status status = centresOf(call, view, call.randomAddress(f), centres);
-    if (status.ok()) status = targetsOf(call, view, targets);
+    Status status = centresOf(call, args, view, call.randomAddress(f), centres);
+    if (status.ok()) status = targetsOf(call, args, view, targets);
     if (!status.ok()) return status;
     RayResult r = castRays(view.polygon(), centres, targets, o);
     if (r.rays + 2 * r.links < 2) {
@@ -182,6 +165,9 @@ Status applyCastRays(OpCall& call) {
         const Vec2 size = bounds(p.polygon).size();
         cell = CellMark{p.ix, 0, cells, 1, size.x, size.y, CellPattern::Local, p.part};
         cell->free = true;
+      } else if (choice > 0 && word == "centre") {
+        cell = CellMark{};
+        cell->choice = choice;
       }
       job.keep(f, word, std::move(p), std::move(marks), cell);
     }
@@ -190,23 +176,50 @@ Status applyCastRays(OpCall& call) {
   return {};
 }
 
+constexpr ParamSpec kDegrees[] = {{"angle", ParamType::Float, "In degrees, from x to the left."}};
+constexpr ParamSpec kAt[] = {
+    {"at", ParamType::Float, "1.25 is a quarter along logical edge 1, clockwise."}};
+constexpr TermSpec kCentreTerms[] = {{"centre", "The middle of the region."},
+                                     {.name = "center", .doc = "The middle of the region."},
+                                     site_terms::kSites[0]};
+constexpr TermSpec kTargetTerms[] = {
+    {"corners", "Every corner of the outline."},
+    TermSpec::call("direction", "As far as the boundary in that direction.", kDegrees),
+    TermSpec::call("entrance", "A place along the outline.", kAt),
+    site_terms::kSites[0]};
+
 constexpr ParamSpec kParams[] = {
-    {"centres", ParamType::Any,
-     "\"centre\", a text \"1 {15}\" (places scattered so far from the boundary and each other), "
-     "places \"(3, 4) (10, 4)\", or a list of coordinates."},
-    {"targets", ParamType::Any,
-     "\"corners\", a count of equal angles, \"directions(0, 90)\", \"entrances(0.5, 2.5)\" (places "
-     "along logical edges: here the middles of 0 and 2), places, or a list of coordinates."},
-    {"pathWidth", ParamType::Float, "Of the paths along rays; 0 for none.", "3"},
-    {"centre", ParamType::Any, "Around each centre: a radius, or a figure as \"square(4)\".", "0"},
-    {"options", ParamType::String,
-     "hidden=drop|stop, connect=tree|none|loop|pairs|opposite|thin(0.5).", "\"\""},
+    selection<&CastRays::centres>(
+        "centres",
+        "Where rays come from: centre, so many scattered places, places, point(3, 4) || point(10, "
+        "4), or a list of coordinates from the scope's origin.",
+        kCentreTerms),
+    selection<&CastRays::targets>(
+        "targets",
+        "Where they go: corners, a count of equal angles, or direction(0), entrance(1.5) and "
+        "point(3, 4) with || between; or a list of coordinates.",
+        kTargetTerms),
+    param<&CastRays::path>("path", "Width of the paths along rays; 0 for none.", "3"),
+    param<&CastRays::radius>(
+        "radius", "Scattered centres keep so far from the boundary, and twice from each other.",
+        "0"),
+    param<&CastRays::connect>(
+        "connect",
+        "How several centres are joined: not at all, in a round, by the shortest tree, two and "
+        "two, "
+        "each with the one across, or by the tree and a share of the shortest links besides.",
+        "tree"),
+    param<&CastRays::share>("share", "Of connect = thin: the share of further links.", "0"),
+    param<&CastRays::hidden>(
+        "hidden", "A target that something hides: no ray, or one that stops there.", "drop"),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
-    {"castRays", "region", "Divides a region by paths from centres to its boundary.", kSignatures,
-     applyCastRays, BlockKind::Selectors, kRandom, "region path centre otherwise", false, true},
+    withFigures({"castRays", "region", "Divides a region by paths from centres to its boundary.",
+                 kSignatures, typed<applyCastRays>, BlockKind::Selectors, kRandom,
+                 "region path centre otherwise", false, true},
+                "centre", kRegionChoice),
 };
 
 }  // namespace

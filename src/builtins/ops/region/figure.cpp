@@ -11,6 +11,13 @@
 
 namespace gable {
 
+enum class Reach : uint8_t { Inside, Free };
+
+template <>
+struct WordsOf<Reach> {
+  static constexpr const char* text = "inside free";
+};
+
 namespace {
 
 bool isFigure(const PlanFigure& f) { return f.a > 0 && f.b > 0 && std::isfinite(f.a + f.b); }
@@ -28,16 +35,10 @@ void setFigures(Shape& s, const Region& figures) {
 
 // The shape becomes the figures around its middle, as far as they lie in it unless they are free.
 // Of a region of several pieces it is the middle of the largest.
-Status become(OpCall& call, std::span<const PlanFigure> figures, size_t reach) {
-  if (!std::all_of(figures.begin(), figures.end(), isFigure)) {
-    return call.fail("bad-argument", "a figure needs lengths above zero", "write 1 or more");
-  }
+Status become(OpCall& call, const PlanFigure& figure, Reach reach) {
+  if (!isFigure(figure)) return badFigure(call);
   RegionJob job(call);
-  const auto around = [&](Vec2 middle) {
-    std::vector<Ring> rings;
-    for (const PlanFigure& f : figures) rings.push_back(ringOf(f, middle));
-    return rings.size() == 1 ? Region{{rings[0], {}}} : repaired(rings, FillRule::NonZero);
-  };
+  const auto around = [&](Vec2 middle) { return Region{{ringOf(figure, middle), {}}}; };
   if (job.empty()) {
     setFigures(call.shape(), around({0, 0}));
     return {};
@@ -48,7 +49,7 @@ Status become(OpCall& call, std::span<const PlanFigure> figures, size_t reach) {
   const Region together = around(middleOf(region));
   const EdgeOrigin made{kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide};
   std::vector<std::vector<RegionPiece>> pieces(job.faces().size());
-  if (call.is(reach, "free")) {
+  if (reach == Reach::Free) {
     const EdgeSource sources[] = {sourceOf(region)};
     for (const Polygon& p : together) {
       RegionPiece piece = wholePiece(p);
@@ -64,9 +65,6 @@ Status become(OpCall& call, std::span<const PlanFigure> figures, size_t reach) {
   }
   job.replace(call.shape(), pieces, true);
   return {};
-}
-Status become(OpCall& call, const PlanFigure& figure, size_t reach) {
-  return become(call, {&figure, 1}, reach);
 }
 
 // The plan of a mesh that lies flat in a plane; false for any other.
@@ -131,84 +129,62 @@ Status joinLater(OpCall& call) {
   }
   if (piece == 0) {
     return call.fail("bad-argument", "there is nothing to join",
-                     "write joined { A B }, or joined(\"romb(3) rect(8, 2)\")");
+                     "write joined { romb(3) A. | rect(8, 2) B. }");
   }
   call.gather();
   return {};
 }
 
-// "romb(3) rect(8, 2)": one after the other.
-Status applyJoined(OpCall& call) {
-  if (call.argCount() == 0) return joinLater(call);
-  const std::string text = textOf(call, 0, "");
-  std::vector<PlanFigure> figures;
-  for (size_t begin = text.find_first_not_of(" ,|"); begin != std::string::npos;
-       begin = text.find_first_not_of(" ,|", begin)) {
-    const size_t close = text.find(')', begin);
-    const size_t end = close == std::string::npos ? text.size() : close + 1;
-    PlanFigure f;
-    std::string problem;
-    if (!readFigure(std::string_view(text).substr(begin, end - begin), f, problem)) {
-      return call.fail("bad-argument", problem, "write joined(\"romb(3) rect(8, 2)\")");
-    }
-    figures.push_back(f);
-    begin = end;
-  }
-  if (figures.empty()) {
-    return call.fail("bad-argument", "there are no figures to join",
-                     "write joined(\"romb(3) rect(8, 2)\")");
-  }
-  return become(call, figures, 1);
+struct Figure {
+  double size = 0, height = 0, sides = 24;
+  Reach reach = Reach::Inside;
+};
+
+uint32_t sidesOf(double n) { return static_cast<uint32_t>(std::clamp(n, 3.0, 1000.0)); }
+
+Status applyCircle(OpCall& call, const Figure& f) {
+  return become(call, {PlanShape::Circle, f.size, 1, sidesOf(f.sides)}, f.reach);
+}
+Status applyRomb(OpCall& call, const Figure& f) {
+  return become(call, {PlanShape::Romb, f.size, 1, 4}, f.reach);
+}
+Status applySquare(OpCall& call, const Figure& f) {
+  return become(call, {PlanShape::Square, f.size, 1, 4}, f.reach);
+}
+Status applyRect(OpCall& call, const Figure& f) {
+  return become(call, {PlanShape::Rect, f.size, f.height, 4}, f.reach);
+}
+Status applyPolygon(OpCall& call, const Figure& f) {
+  return become(call, {PlanShape::Polygon, f.size, 1, sidesOf(f.sides)}, f.reach);
 }
 
-Status applyCircle(OpCall& call) {
-  const double n = std::clamp(call.number(1, 24), 3.0, 1000.0);
-  return become(call, {PlanShape::Circle, call.number(0), 1, static_cast<uint32_t>(n)}, 2);
-}
-Status applyRomb(OpCall& call) { return become(call, {PlanShape::Romb, call.number(0), 1, 4}, 1); }
-Status applySquare(OpCall& call) {
-  return become(call, {PlanShape::Square, call.number(0), 1, 4}, 1);
-}
-Status applyRect(OpCall& call) {
-  return become(call, {PlanShape::Rect, call.number(0), call.number(1), 4}, 2);
-}
-Status applyPolygon(OpCall& call) {
-  const double n = std::clamp(call.number(0), 3.0, 1000.0);
-  return become(call, {PlanShape::Polygon, call.number(1), 1, static_cast<uint32_t>(n)}, 2);
-}
-
-constexpr ParamSpec kReach = {
-    "reach", ParamType::Selector,
-    "inside: only as far as the figure lies in the region; free: all of it.", "inside",
-    "inside free"};
-constexpr ParamSpec kRadius = {"radius", ParamType::Float, "From the middle to a corner."};
+constexpr ParamSpec kReach = param<&Figure::reach>(
+    "reach", "inside: only as far as the figure lies in the region; free: all of it.", "inside");
+constexpr ParamSpec kRadius = param<&Figure::size>("radius", "From the middle to a corner.");
 constexpr ParamSpec kCircle[] = {
-    {"radius", ParamType::Float, "In metres."},
-    {"segments", ParamType::Float, "How many sides stand for the circle.", "24"},
-    kReach};
+    param<&Figure::size>("radius", "In metres."),
+    param<&Figure::sides>("segments", "How many sides stand for the circle.", "24"), kReach};
 constexpr ParamSpec kRomb[] = {kRadius, kReach};
-constexpr ParamSpec kSquare[] = {{"side", ParamType::Float, "In metres."}, kReach};
-constexpr ParamSpec kRect[] = {
-    {"width", ParamType::Float, "Along x."}, {"height", ParamType::Float, "Across."}, kReach};
-constexpr ParamSpec kPolygon[] = {{"sides", ParamType::Float, "Three or more."}, kRadius, kReach};
+constexpr ParamSpec kSquare[] = {param<&Figure::size>("side", "In metres."), kReach};
+constexpr ParamSpec kRect[] = {param<&Figure::size>("width", "Along x."),
+                               param<&Figure::height>("height", "Across."), kReach};
+constexpr ParamSpec kPolygon[] = {param<&Figure::sides>("sides", "Three or more."), kRadius,
+                                  kReach};
 constexpr Signature kCircleSignatures[] = {{kCircle}};
-constexpr ParamSpec kJoined[] = {
-    {"figures", ParamType::String, "One after the other: \"romb(3) rect(8, 2)\"."}, kReach};
-constexpr Signature kJoinedSignatures[] = {{}, {kJoined}};
+constexpr Signature kJoinedSignatures[] = {{}};
 constexpr Signature kRombSignatures[] = {{kRomb}};
 constexpr Signature kSquareSignatures[] = {{kSquare}};
 constexpr Signature kRectSignatures[] = {{kRect}};
 constexpr Signature kPolygonSignatures[] = {{kPolygon}};
 
 constexpr OpSpec kSpecs[] = {
-    {"circle", "region", "Replaces a region by a circle in its middle.", kCircleSignatures,
-     applyCircle, BlockKind::Operations, kPure, "otherwise", true, true},
+    asFigure({"circle", "region", "Replaces a region by a circle in its middle.", kCircleSignatures,
+              typed<applyCircle>, BlockKind::Operations, kPure, "otherwise", true, true}),
     {"joined",
      "region",
-     "Replaces a region by several figures in its middle, united, or by all that a block makes of "
-     "it.",
+     "Replaces a region by all that a block makes of it, united.",
      kJoinedSignatures,
-     applyJoined,
+     joinLater,
      BlockKind::Operations,
      kPure,
      "otherwise",
@@ -217,14 +193,16 @@ constexpr OpSpec kSpecs[] = {
      {},
      1,
      unite},
-    {"rect", "region", "Replaces a region by a rectangle in its middle.", kRectSignatures,
-     applyRect, BlockKind::Operations, kPure, "otherwise", true, true},
-    {"regularPolygon", "region", "Replaces a region by a polygon of equal sides in its middle.",
-     kPolygonSignatures, applyPolygon, BlockKind::Operations, kPure, "otherwise", true, true},
-    {"romb", "region", "Replaces a region by a square on its corner in its middle.",
-     kRombSignatures, applyRomb, BlockKind::Operations, kPure, "otherwise", true, true},
-    {"square", "region", "Replaces a region by a square in its middle.", kSquareSignatures,
-     applySquare, BlockKind::Operations, kPure, "otherwise", true, true},
+    asFigure({"rect", "region", "Replaces a region by a rectangle in its middle.", kRectSignatures,
+              typed<applyRect>, BlockKind::Operations, kPure, "otherwise", true, true}),
+    asFigure({"regularPolygon", "region",
+              "Replaces a region by a polygon of equal sides in its middle.", kPolygonSignatures,
+              typed<applyPolygon>, BlockKind::Operations, kPure, "otherwise", true, true}),
+    asFigure({"romb", "region", "Replaces a region by a square on its corner in its middle.",
+              kRombSignatures, typed<applyRomb>, BlockKind::Operations, kPure, "otherwise", true,
+              true}),
+    asFigure({"square", "region", "Replaces a region by a square in its middle.", kSquareSignatures,
+              typed<applySquare>, BlockKind::Operations, kPure, "otherwise", true, true}),
 };
 
 }  // namespace

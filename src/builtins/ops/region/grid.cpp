@@ -2,86 +2,147 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // A grid of cells with paths and junctions between; the kernel is geom/region/grid_partition.
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
-#include "base/number.h"
 #include "builtins/lists.h"
-#include "builtins/ops/region/shared/plan_text.h"
+#include "builtins/ops/region/shared/region_attributes.h"
 #include "builtins/ops/region/shared/region_job.h"
 #include "geom/region/quad_map.h"
 
 namespace gable {
 
+enum class Dominance : uint8_t { X, Y, Split };
+
+template <>
+struct WordsOf<GridFit> {
+  static constexpr const char* text = "stretch center fail";
+};
+template <>
+struct WordsOf<GridTemplate> {
+  static constexpr const char* text = "auto corners obb aabb inner";
+};
+template <>
+struct WordsOf<CellPattern> {
+  static constexpr const char* text = "auto centre pair mirror extend extendL extendR local radial";
+};
+template <>
+struct WordsOf<Dominance> {
+  static constexpr const char* text = "x y split";
+};
+
 namespace {
 
-constexpr double kPathWidth = 3;
+struct GridArguments {
+  std::optional<DrawnList> columns, rows;
+  double path = 3;
+  std::optional<DrawnList> widths, heights, columnAngles, rowAngles;
+  GridFit fit = GridFit::Stretch;
+  GridTemplate base = GridTemplate::Auto;
+  CellPattern pattern = CellPattern::Auto;
+  Dominance dominance = Dominance::X;
+  bool symmetric = false, lines = false;
+  double sliver = 0;
+  std::optional<double> minArea;
+  double least = 0;
+};
 
-// A count, a list of sizes, or a text.
-Status dimensionOf(const OpCall& call, size_t argument, GridDim& out) {
-  if (!call.has(argument)) return {};
-  const Value& v = call.arg(argument);
-  if (v.type == ValueType::FloatArray) {
-    for (const double s : call.services().pool().array(v).numbers) {
-      out.sizes.push_back({DrawnRange{s, s}, {}});
+DrawnRange rangeOf(const DrawnNumber& n) {
+  DrawnRange r{n.low(), n.high()};
+  if (n.code()) r.other = [n](uint64_t address) { return n.at(address); };
+  return r;
+}
+
+std::vector<DrawnNumber> numbersOf(const OpCall& call, const std::optional<DrawnList>& list,
+                                   uint64_t which, bool* isList = nullptr) {
+  if (!list) return {};
+  constexpr uint64_t kArguments = 900;
+  return gable::numbersOf(list->value, call.services(), call.randomAddress(kArguments + which),
+                          isList);
+}
+
+// Sizes and angles are used in turn, each in its own.
+void addSizes(std::vector<DrawnNumber> sizes, const std::vector<DrawnNumber>& angles,
+              GridDim& out) {
+  constexpr size_t kMost = 10000;
+  const size_t n = std::max<size_t>(1, sizes.size()), m = std::max<size_t>(1, angles.size());
+  if (sizes.empty() && angles.empty()) return;
+  const size_t all = std::min(kMost, n * m / std::gcd(n, m));
+  for (size_t i = 0; i < all; ++i) {
+    GridSize s;
+    if (!sizes.empty()) {
+      s.size = rangeOf(sizes[i % n]);
+      s.share = sizes[i % n].unit() == Unit::Floating;
     }
-    out.count = static_cast<uint32_t>(out.sizes.size());
-    return {};
+    if (!angles.empty()) s.angle = rangeOf(angles[i % m]);
+    out.sizes.push_back(std::move(s));
   }
-  std::string problem;
-  if (readDimension(textOf(call, argument, ""), out, problem)) return {};
-  return call.fail("bad-argument", problem, "write a count, a list of sizes or \"3 {2, 6, 2}\"");
 }
 
-// Of 0 cells there is one, but no line.
-bool countsNone(const OpCall& call, size_t argument) {
-  const std::string text = textOf(call, argument, "");
-  TextReader r(text);
-  double n = 1;
-  return r.number(n) && n < 1;
-}
-
-constexpr std::string_view kOptions =
-    "fit=stretch|center|centre|fail template=auto|corners|obb|aabb|inner "
-    "pattern=auto|centre|center|pair|mirror|extend|extendl|extendr|local|radial "
-    "dominance=x|y|split "
-    "symxy lines sliver=# minarea=#";
-
-Status optionsOf(const OpCall& call, GridOptions& o) {
-  Status status = dimensionOf(call, 0, o.x);
-  if (status.ok()) status = dimensionOf(call, 1, o.y);
-  if (!status.ok()) return status;
-  o.pathWidth = call.number(2, kPathWidth);
-  if (!(o.pathWidth >= 0) || !std::isfinite(o.pathWidth)) {
-    return call.fail("bad-argument", "a path cannot be " + shortestText(o.pathWidth) + " wide",
-                     "write a width of zero or more");
+// A count, or a list of sizes of which each is a cell.
+Status dimensionOf(const OpCall& call, const std::optional<DrawnList>& count,
+                   const std::optional<DrawnList>& sizes, const std::optional<DrawnList>& angles,
+                   uint64_t which, bool lines, GridDim& out) {
+  bool isList = false;
+  const std::vector<DrawnNumber> counts = numbersOf(call, count, which, &isList);
+  std::vector<DrawnNumber> own = numbersOf(call, sizes, which + 1);
+  if (isList) {
+    own = counts;
+    out.count = static_cast<uint32_t>(own.size());
+  } else if (!counts.empty()) {
+    const DrawnNumber& n = counts[0];
+    const double low = n.low(), high = n.high();
+    const bool drawn = !n.isConstant();
+    if (!(low >= (drawn ? 1 : 0) && high >= low && high <= kMostCells)) {
+      return call.fail("bad-argument", "a grid cannot have that many cells along one side",
+                       "write 1 to 100000, or rand(2, 4)");
+    }
+    if (drawn) {
+      out.drawnCount = DrawnRange{low, high};
+    } else {
+      out.count = static_cast<uint32_t>(std::max(1.0, low));
+      // The other way to count: lines instead of cells. No line is one cell.
+      if (lines && low >= 1) ++out.count;
+    }
   }
-  const std::string figure = textOf(call, 3, "");
-  std::string problem;
-  if (!figure.empty() && figure != "none" && !readJunctions(figure, o.junctions, problem)) {
-    return call.fail("bad-argument", problem,
-                     "write romb(r), circle(r), square(a), rect(a, b) or polygon(n, r), or several "
-                     "of them with | between");
-  }
-  status = optionsAre(call, 4, kOptions);
-  if (!status.ok()) return status;
-  const std::string options = textOf(call, 4, "");
-  const std::string fit = option(options, "fit"), base = option(options, "template");
-  o.fit = fit == "fail"                        ? GridFit::Fail
-          : fit == "center" || fit == "centre" ? GridFit::Center
-                                               : GridFit::Stretch;
-  o.base = base == "corners" ? GridTemplate::Corners
-           : base == "obb"   ? GridTemplate::Oriented
-           : base == "aabb"  ? GridTemplate::Axes
-           : base == "inner" ? GridTemplate::Inner
-                             : GridTemplate::Auto;
-  parseNumber(option(options, "sliver"), o.sliver);
-  parseNumber(option(options, "minarea"), o.minArea);
-  // The other way to count: lines instead of cells.
-  if (!option(options, "lines").empty()) {
-    if (o.x.count > 0 && !countsNone(call, 0)) ++o.x.count;
-    if (o.y.count > 0 && !countsNone(call, 1)) ++o.y.count;
-  }
+  const bool shares = std::any_of(own.begin(), own.end(),
+                                  [](const DrawnNumber& n) { return n.unit() == Unit::Floating; });
+  if (shares && out.count == 0 && !out.drawnCount) out.count = static_cast<uint32_t>(own.size());
+  addSizes(std::move(own), numbersOf(call, angles, which + 2), out);
   return {};
+}
+
+// Figures at crossings: conditions ask for the crossing's place, shares are drawn for each.
+auto junctionsOf(OpCall& call, const RegionView& view, uint32_t slot, bool& bad) {
+  return [&call, &view, slot, &bad](uint32_t ix, uint32_t iy, uint32_t nx, uint32_t ny,
+                                    uint64_t address) {
+    const CellMark mark{ix, iy, std::max(1u, nx), std::max(1u, ny)};
+    const DrawnFigure figure = drawFigure(call, slot, address, view.markedAs(call.shape(), mark));
+    JunctionPick pick;
+    if (!planFigureOf(figure, pick.figure)) {
+      bad = true;
+      pick.figure = {};
+    }
+    pick.choice = figure.ordinal > 0 ? figure.ordinal : figure.spec ? 1 : 0;
+    return pick;
+  };
+}
+
+Status optionsOf(const OpCall& call, const GridArguments& args, GridOptions& o) {
+  Status status =
+      dimensionOf(call, args.columns, args.widths, args.columnAngles, 0, args.lines, o.x);
+  if (status.ok()) {
+    status = dimensionOf(call, args.rows, args.heights, args.rowAngles, 10, args.lines, o.y);
+  }
+  if (status.ok()) status = checkPath(call, args.path);
+  o.pathWidth = args.path;
+  o.fit = args.fit;
+  o.base = args.base;
+  o.sliver = args.sliver;
+  o.minArea = args.minArea.value_or(o.minArea);
+  o.minAreaHolds = args.minArea.has_value();
+  return status;
 }
 
 Status problemOf(OpCall& call, GridProblem problem) {
@@ -91,7 +152,7 @@ Status problemOf(OpCall& call, GridProblem problem) {
                         "write larger sizes or smaller counts");
     case GridProblem::DoesNotFit:
       return failOrElse(call, "grid-does-not-fit", "the cells do not fit into the region",
-                        "write smaller sizes, or fit=stretch");
+                        "write smaller sizes, or fit = stretch");
     default:
       return failOrElse(call, "no-geometry", "the region has no area to divide",
                         "divide a larger region");
@@ -134,20 +195,29 @@ void divideDiagonals(RegionPiece& p) {
   p.edges = std::move(edges);
 }
 
-Status applyGrid(OpCall& call) {
+Status applyGrid(OpCall& call, const GridArguments& args) {
   GridOptions options;
-  Status status = optionsOf(call, options);
+  Status status = optionsOf(call, args, options);
   if (!status.ok()) return status;
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
-  const std::string text = textOf(call, 4, ""), dominance = option(text, "dominance");
-  const EdgeIndex sides = dominance == "y"       ? EdgeIndex::GridByY
-                          : dominance == "split" ? EdgeIndex::GridSplit
-                                                 : EdgeIndex::Grid;
+  const EdgeIndex sides = args.dominance == Dominance::Y       ? EdgeIndex::GridByY
+                          : args.dominance == Dominance::Split ? EdgeIndex::GridSplit
+                                                               : EdgeIndex::Grid;
+  const std::optional<uint32_t> junction = slotOf(call, "junction");
   for (size_t f = 0; f < job.faces().size(); ++f) {
     RegionView& view = *job.faces()[f];
     options.seed = call.randomAddress(f);
+    if (area(view.polygon()) < args.least) {
+      return failOrElse(call, "no-geometry", "the region is too small to be divided",
+                        "divide a larger region, or lower 'least'");
+    }
+    bool bad = false;
+    if (junction && call.figureCode(*junction) != 0) {
+      options.junctionAt = junctionsOf(call, view, *junction, bad);
+    }
     GridResult g = gridPartition(view.polygon(), options);
+    if (bad) return badFigure(call);
     if (g.problem != GridProblem::None) return problemOf(call, g.problem);
     if (g.junctionClamped) {
       call.services().warn("junction-clamped",
@@ -155,7 +225,7 @@ Status applyGrid(OpCall& call) {
                            "make them smaller, or the cells larger");
     }
     for (RegionPiece& p : g.pieces) {
-      if (dominance == "split" && p.kind == PieceKind::Cell) divideDiagonals(p);
+      if (args.dominance == Dominance::Split && p.kind == PieceKind::Cell) divideDiagonals(p);
       std::vector<EdgeMark> marks =
           view.marksOf(p, p.kind == PieceKind::Remainder ? EdgeIndex::Inherited : sides);
       std::optional<CellMark> cell;
@@ -167,10 +237,10 @@ Status applyGrid(OpCall& call) {
                         std::max(1u, g.ny - (crossing ? 1 : 0)),
                         p.width,
                         p.height,
-                        patternNamed(option(text, "pattern")),
+                        args.pattern,
                         p.part,
                         p.choice};
-        cell->symmetric = !option(text, "symxy").empty();
+        cell->symmetric = args.symmetric;
       }
       const std::string_view word = wordOf(p.kind);
       job.keep(f, word, std::move(p), std::move(marks), cell);
@@ -180,10 +250,14 @@ Status applyGrid(OpCall& call) {
   return {};
 }
 
-Status applyQuadMap(OpCall& call) {
+struct QuadMap {
+  double columns = 0, rows = 0;
+};
+
+Status applyQuadMap(OpCall& call, const QuadMap& args) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
-  const double nx = call.number(0), ny = call.number(1);
+  const double nx = args.columns, ny = args.rows;
   constexpr double kMost = 100;
   if (!(nx >= 1 && nx <= kMost && ny >= 1 && ny <= kMost)) {
     return failOrElse(call, "bad-argument", "a map has 1 to 100 columns and rows",
@@ -207,40 +281,65 @@ Status applyQuadMap(OpCall& call) {
   return {};
 }
 
-constexpr ParamSpec kMapParams[] = {{"columns", ParamType::Float, "From west to east."},
-                                    {"rows", ParamType::Float, "From south to north."}};
+constexpr ParamSpec kMapParams[] = {param<&QuadMap::columns>("columns", "From west to east."),
+                                    param<&QuadMap::rows>("rows", "From south to north.")};
 constexpr Signature kMapSignatures[] = {{kMapParams}};
 
+constexpr const char* kFill = "as many as the sizes fill, else 2";
+constexpr const char* kEqual = "equal cells";
+constexpr const char* kStraight = "straight";
 constexpr ParamSpec kParams[] = {
-    {"columns", ParamType::Any,
-     "A count, a list of sizes in metres, or a text like \"3 {2, [4,6] a[-5,5]}\": a count, and "
-     "sizes in turn, with ranges that are drawn and angles in degrees."},
-    {"rows", ParamType::Any, "The same from south to north."},
-    {"pathWidth", ParamType::Float, "Of the paths between cells; 0 for none.", "3"},
-    {"junction", ParamType::Any,
-     "What stands at crossings: \"none\", or \"romb(r)\", \"circle(r)\", \"square(a)\", "
-     "\"rect(a, b)\", \"polygon(n, r)\". Several with | between are drawn from, with shares "
-     "(\"30%: romb(3) | circle(2)\") or by place (\"case ix == 0: romb(3) | circle(2)\"); "
-     "region.choice says which it is.",
-     "\"none\""},
-    {"options", ParamType::String,
-     "fit=stretch|center|fail, template=auto|corners|obb|aabb|inner, "
-     "pattern=auto|centre|pair|mirror|extend|local|radial, dominance=x|y|split (which side an edge "
-     "at 45 degrees belongs to; split: half to each), symxy (region.bx is never above region.by, "
-     "so "
-     "that cells on both sides of a diagonal are alike), lines (counts are of paths), sliver=0.02 "
-     "and minarea=0.25: what is thinner or smaller goes to a neighbour.",
-     "\"\""},
+    param<&GridArguments::columns>(
+        "columns", "How many from west to east, or a list with the width of each: [3, ~1, 3].",
+        kFill),
+    param<&GridArguments::rows>("rows", "The same from south to north.", kFill),
+    param<&GridArguments::path>("path", "Width of the paths between cells; 0 for none.", "3"),
+    param<&GridArguments::widths>(
+        "widths",
+        "Widths of columns, used in turn: numbers, draws such as rand(2, 4), shares of the rest "
+        "such as ~1.",
+        kEqual),
+    param<&GridArguments::heights>("heights", "Heights of rows, in the same way.", kEqual),
+    param<&GridArguments::columnAngles>(
+        "columnAngles", "Degrees by which the lines between columns are turned, used in turn.",
+        kStraight),
+    param<&GridArguments::rowAngles>("rowAngles", "The same between rows.", kStraight),
+    param<&GridArguments::fit>(
+        "fit",
+        "What becomes of a length that the sizes do not fill: cells are scaled, margins "
+        "become path, or the grid is not made.",
+        "stretch"),
+    param<&GridArguments::base>(
+        "template",
+        "Where the lines are laid: between the region's corners, in its smallest box, "
+        "in the box along the axes, in its largest rectangle.",
+        "auto"),
+    param<&GridArguments::pattern>("pattern", "How cells are mirrored.", "auto"),
+    param<&GridArguments::dominance>(
+        "dominance", "Which side an edge at 45 degrees belongs to; split: half to each.", "x"),
+    param<&GridArguments::symmetric>(
+        "symmetric",
+        "region.bx is never above region.by: cells on both sides of a diagonal are "
+        "alike.",
+        "false"),
+    param<&GridArguments::lines>("lines", "Counts are of paths.", "false"),
+    param<&GridArguments::sliver>("sliver", "What is thinner goes to a neighbour, in metres.",
+                                  "0.02"),
+    param<&GridArguments::minArea>("minArea",
+                                   "What is smaller goes to a neighbour, in square metres.",
+                                   "0.25, or a fiftieth of the mean cell"),
+    param<&GridArguments::least>("least", "A region with a smaller area is not divided.", "0"),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
-    {"grid", "region", "Divides a region into rows and columns with paths between.", kSignatures,
-     applyGrid, BlockKind::Selectors, kRandom, "region path junction remainder otherwise", false,
-     true},
+    withFigures({"grid", "region", "Divides a region into rows and columns with paths between.",
+                 kSignatures, typed<applyGrid>, BlockKind::Selectors, kRandom,
+                 "region path junction remainder otherwise", false, true},
+                "junction", kRegionChoice),
     {"quadMap", "region", "Divides a region into rows and columns that follow its four sides.",
-     kMapSignatures, applyQuadMap, BlockKind::Selectors, kPure, "region remainder otherwise", false,
-     true},
+     kMapSignatures, typed<applyQuadMap>, BlockKind::Selectors, kPure, "region remainder otherwise",
+     false, true},
 };
 
 }  // namespace

@@ -8,110 +8,72 @@
 #include <cmath>
 
 #include "builtins/lists.h"
-#include "builtins/ops/region/shared/plan_text.h"
 #include "builtins/ops/region/shared/region_job.h"
 #include "geom/region/cut_holes.h"
 #include "geom/region/places.h"
 
 namespace gable {
 
-namespace {
+enum class Towards : uint8_t { Boundary, Centre, Center };
 
-// "{W: 2, N & outer: 4}": selections with distances of their own. Later ones win.
-struct OwnDistance {
-  std::string selection;
-  double metres = 0;
+template <>
+struct WordsOf<Towards> {
+  static constexpr const char* text = "boundary centre center";
 };
 
-bool readDistances(std::string_view text, std::vector<OwnDistance>& out) {
-  size_t begin = 0, depth = 0;
-  for (size_t i = 0; i <= text.size(); ++i) {
-    const char c = i < text.size() ? text[i] : ',';
-    if (c == '(' || c == '[') ++depth;
-    if ((c == ')' || c == ']') && depth > 0) --depth;
-    if (c != ',' || (depth > 0 && i < text.size())) continue;
-    const std::string_view item = text.substr(begin, i - begin);
-    begin = i + 1;
-    const size_t colon = item.rfind(':');
-    if (colon == std::string_view::npos) return false;
-    TextReader r(item.substr(colon + 1));
-    OwnDistance d{std::string(item.substr(0, colon)), 0};
-    if (!r.number(d.metres) || !r.atEnd() || !std::isfinite(d.metres)) return false;
-    out.push_back(std::move(d));
-  }
-  return true;
-}
+namespace {
 
-// The edges to move, with their distances.
-Status edgesOf(OpCall& call, const RegionJob& job, size_t f, double distance,
-               std::vector<PeelEdge>& edges) {
-  const RegionView& view = *job.faces()[f];
-  const std::string text = textOf(call, 0, "outer");
-  TextReader r(text);
-  std::vector<EdgePart> parts;
-  if (!r.accept('{')) {
-    const Status status = selected(call, 0, "outer", job, f, view, parts);
-    for (const EdgePart& p : parts) edges.push_back({p.edge, p.from, p.to, distance});
-    return status;
+struct Peel {
+  Selection selection;
+  std::optional<Size> width;
+  bool orthogonal = false;
+  Selection smooth;
+};
+
+// The edges to move, with their distances: the one for all, or their own where they have one.
+std::vector<PeelEdge> edgesOf(const OpCall& call, const Peel& args, const RegionJob& job, size_t f,
+                              double distance) {
+  std::vector<OwnWidth> widths;
+  std::vector<PeelEdge> edges;
+  for (const EdgePart& p : selected(call, args.selection, job, f, &widths)) {
+    edges.push_back({p.edge, p.from, p.to, distance});
   }
-  std::vector<OwnDistance> own;
-  const size_t close = text.rfind('}');
-  const bool read = close != std::string::npos && close >= r.place() &&
-                    readDistances(std::string_view(text).substr(r.place(), close - r.place()), own);
-  if (!read) {
-    return call.fail("bad-selection", "these are no selections with distances",
-                     "write \"{side(W): 2, side(N): 4}\"");
-  }
-  for (const OwnDistance& d : own) {
-    std::string problem;
-    parts.clear();
-    const SelectionInput input{view, call.randomAddress(1000 + f), job.worldIn(f)};
-    if (!selectEdges(d.selection, input, parts, problem)) {
-      return call.fail("bad-selection", "the selection cannot be read: " + problem,
-                       "write words like outer, inner, side(W), longest, with & | - !");
-    }
-    for (const EdgePart& p : parts) {
+  for (const OwnWidth& own : widths) {
+    for (const EdgePart& p : own.parts) {
       std::erase_if(edges, [&](const PeelEdge& e) { return e.edge == p.edge; });
-      edges.push_back({p.edge, p.from, p.to, d.metres});
+      edges.push_back({p.edge, p.from, p.to, own.metres});
     }
   }
   std::sort(edges.begin(), edges.end(), [](const PeelEdge& a, const PeelEdge& b) {
     return a.edge != b.edge ? a.edge < b.edge : a.from < b.from;
   });
-  return {};
+  return edges;
 }
 
-Status applyPeel(OpCall& call) {
+Status applyPeel(OpCall& call, const Peel& args) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
-  if (const Status status = optionsAre(call, 2, "orthogonal smooth=*"); !status.ok()) {
-    return status;
-  }
-  const std::string options = textOf(call, 2, "");
-  const PeelEnds ends =
-      option(options, "orthogonal").empty() ? PeelEnds::Follow : PeelEnds::Orthogonal;
-  Smoothing smoothing;
-  if (!readSmoothing(option(options, "smooth"), smoothing)) {
-    return call.fail("bad-argument", "there is no such smoothing",
-                     "write smooth=average(2), chaikin(2) or bezier");
-  }
+  const PeelEnds ends = args.orthogonal ? PeelEnds::Orthogonal : PeelEnds::Follow;
+  const Smoothing smoothing =
+      smoothingOf(termsOf(args.smooth, call.services(), call.randomAddress(901)));
   for (size_t f = 0; f < job.faces().size(); ++f) {
     RegionView& view = *job.faces()[f];
     // Shares are of the largest distance that there is.
-    const Value& v = call.arg(1);
-    double distance = v.number;
-    if (v.unit == Unit::Relative) distance *= poleOf(view.polygon()).radius;
-    const bool own = textOf(call, 0, "outer").find('{') != std::string::npos;
-    if ((!own && !(distance > 0)) || !std::isfinite(distance)) {
-      return failOrElse(call, "bad-argument", "a strip needs a width above zero",
-                        "write metres, or a share of the region's inner radius: '0.5");
+    double distance = args.width ? args.width->number : 0;
+    if (args.width && args.width->unit == Unit::Relative) {
+      distance *= poleOf(view.polygon()).radius;
     }
-    std::vector<PeelEdge> edges;
-    const Status status = edgesOf(call, job, f, distance, edges);
-    if (!status.ok()) return status;
+    const std::vector<PeelEdge> edges = edgesOf(call, args, job, f, distance);
     if (edges.empty()) {
       return failOrElse(call, "empty-selection", "the selection means no edge of this region",
                         "select others, or write what else shall happen: otherwise : ...");
+    }
+    const bool wide = std::all_of(edges.begin(), edges.end(), [](const PeelEdge& e) {
+      return e.distance > 0 && std::isfinite(e.distance);
+    });
+    if (!wide) {
+      return failOrElse(call, "bad-argument", "a strip needs a width above zero",
+                        "write metres, or a share of the region's inner radius: '0.5");
     }
     PeelResult r = peel(view.polygon(), edges, ends, smoothing);
     for (RegionPiece& p : r.strips) {
@@ -127,8 +89,13 @@ Status applyPeel(OpCall& call) {
   return {};
 }
 
+struct Contract {
+  Size size;
+  Towards towards = Towards::Boundary;
+};
+
 // Of a face: moved inward by a distance and, towards a centre, drawn together besides.
-std::vector<RegionPiece> contracted(const Polygon& p, const Value& size, bool towards) {
+std::vector<RegionPiece> contracted(const Polygon& p, const Size& size, bool towards) {
   if (size.unit == Unit::Relative) return contractTowards(p, size.number, middleOf(p));
   std::vector<RegionPiece> pieces = contract(p, size.number);
   if (!towards || pieces.empty()) return pieces;
@@ -146,19 +113,18 @@ std::vector<RegionPiece> contracted(const Polygon& p, const Value& size, bool to
   return both;
 }
 
-Status applyContract(OpCall& call) {
+Status applyContract(OpCall& call, const Contract& args) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
   if (!job.flat()) return noOneRegion(call);
-  const Value& v = call.arg(0);
-  if (!std::isfinite(v.number) || v.number < 0) {
+  if (!std::isfinite(args.size.number) || args.size.number < 0) {
     return call.fail("bad-argument", "a region is contracted by zero or more",
                      "write metres, or a share: '0.2");
   }
   std::vector<std::vector<RegionPiece>> pieces;
   bool any = false;
   for (const auto& view : job.faces()) {
-    pieces.push_back(contracted(view->polygon(), v, call.has(1)));
+    pieces.push_back(contracted(view->polygon(), args.size, args.towards != Towards::Boundary));
     any = any || !pieces.back().empty();
   }
   if (!any) {
@@ -183,34 +149,39 @@ Status applyCutHoles(OpCall& call) {
 }
 
 constexpr ParamSpec kPeel[] = {
-    {"selection", ParamType::Selector,
-     "The edges that are moved: outer, \"outer & !side(W)\"; or selections with distances of their "
-     "own, \"{side(W): 2, side(N): 4}\", which then hold in the place of the size."},
-    {"size", ParamType::Size,
-     "How far, in metres or, with ', as a share of the radius of the largest disc inside."},
-    {"options", ParamType::String,
-     "orthogonal: strips end square to their edge; smooth=average(2) (or chaikin(2), bezier): the "
-     "border "
-     "between strip and rest is smoothed.",
-     "\"\""},
+    selection<&Peel::selection>(
+        "selection",
+        "The edges that are moved: outer && !side(west). Those under wide() "
+        "have a width of their own.",
+        kEdgeTerms),
+    param<&Peel::width>("width",
+                        "How far, in metres or, with ', as a share of the radius of the largest "
+                        "disc inside.",
+                        "what wide() says"),
+    param<&Peel::orthogonal>("orthogonal", "Strips end square to their edge.", "false"),
+    selection<&Peel::smooth>("smooth",
+                             "How the border between strip and rest is smoothed: none, average(2), "
+                             "chaikin(2), bezier, round(1), or how many averages.",
+                             site_terms::kSmoothing, "none", true),
 };
 constexpr ParamSpec kContract[] = {
-    {"size", ParamType::Size,
-     "How far, in metres; with ' every vertex goes this share of its way to the centre."},
-    {"towards", ParamType::Selector, "Also draw the region together towards its centre.", nullptr,
-     "centre center"},
+    param<&Contract::size>(
+        "size",
+        "How far, in metres; with ' every vertex goes this share of its way to the centre."),
+    param<&Contract::towards>(
+        "towards", "boundary: only inward; centre: drawn together towards the centre besides.",
+        "boundary"),
 };
-constexpr ParamSpec kContractPlain[] = {kContract[0]};
 constexpr Signature kCutHolesSignatures[] = {{}};
 constexpr Signature kPeelSignatures[] = {{kPeel}};
-constexpr Signature kContractSignatures[] = {{kContractPlain}, {kContract}};
+constexpr Signature kContractSignatures[] = {{kContract}};
 
 constexpr OpSpec kSpecs[] = {
-    {"peel", "region", "Takes strips off the boundary of a region.", kPeelSignatures, applyPeel,
-     BlockKind::Selectors, kRandom | kReadsWorld | kReadsWorldByWord, "strip rest otherwise", false,
-     true},
+    {"peel", "region", "Takes strips off the boundary of a region.", kPeelSignatures,
+     typed<applyPeel>, BlockKind::Selectors, kRandom | kReadsWorld | kReadsWorldByWord,
+     "strip rest otherwise", false, true},
     {"contract", "region", "Moves the boundary of a region inward.", kContractSignatures,
-     applyContract, BlockKind::Operations, kPure, "otherwise", true, true},
+     typed<applyContract>, BlockKind::Operations, kPure, "otherwise", true, true},
     {"cutHoles", "region", "Cuts a region apart so that no part of it has a hole.",
      kCutHolesSignatures, applyCutHoles, BlockKind::None, kPure, nullptr, false, true},
 };

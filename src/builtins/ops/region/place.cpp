@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/number.h"
 #include "base/work.h"
 #include "builtins/lists.h"
+#include "builtins/ops/region/shared/region_attributes.h"
 #include "builtins/ops/region/shared/region_job.h"
 #include "geom/region/autoindex.h"
 #include "geom/region/cut_holes.h"
@@ -18,6 +18,21 @@
 namespace gable {
 
 namespace {
+
+struct Place {
+  Selection where;
+  bool over = false, split = false, align = false;
+};
+
+struct Distribute {
+  Selection selection;
+  std::optional<double> spacing;
+  double inset = 0;
+  std::optional<Floats> at;
+  std::optional<double> intervals, interval;
+  bool start = false, end = false;
+  bool over = false, split = false, chain = false;
+};
 
 // South-west, south-east, north-east, north-west.
 Quad cornersOf(const RegionView& view) {
@@ -64,19 +79,14 @@ Vec2 logicalCorner(const RegionView& view, uint32_t k) {
 }
 
 // The corners of the outline between two edges that a selection means.
-Status cornersBetween(OpCall& call, const RegionJob& job, size_t face, std::string_view selection,
-                      std::vector<Vec2>& out) {
+void cornersBetween(const OpCall& call, const RegionJob& job, size_t face,
+                    std::span<const Term> selection, std::vector<Vec2>& out) {
   const RegionView& view = *job.faces()[face];
   const Ring& r = view.polygon().outer;
-  std::vector<EdgePart> parts;
-  std::string problem;
-  const SelectionInput input{view, call.randomAddress(1000 + face), job.worldIn(face)};
-  if (!selectEdges(selection, input, parts, problem)) {
-    return call.fail("bad-selection", "the selection cannot be read: " + problem,
-                     "write corner(0) or corner(outer)");
-  }
+  const SelectionInput input{view, call.randomAddress(1000 + face), job.worldIn(face),
+                             call.services().pool()};
   std::vector<bool> begins(r.size(), false), ends(r.size(), false);
-  for (const EdgePart& e : parts) {
+  for (const EdgePart& e : selectEdges(selection, input)) {
     if (e.edge >= r.size()) continue;
     begins[e.edge] = begins[e.edge] || e.from <= 0;
     ends[e.edge] = ends[e.edge] || e.to >= 1;
@@ -89,79 +99,89 @@ Status cornersBetween(OpCall& call, const RegionJob& job, size_t face, std::stri
     const double turn = std::fabs(atan2Deg(cross(in, out1), dot(in, out1)));
     if (begins[i] && ends[before] && turn > kLeastTurn) out.push_back(r[i]);
   }
-  return {};
 }
 
-// Where a text says; nothing when the pattern of the cell places nothing here.
-Status placesOf(OpCall& call, const RegionJob& job, size_t face, std::string_view text,
+Vec2 cornerNumbered(const RegionView& view, double i) {
+  const double count = std::max(1u, view.logicalCount());
+  const auto k = static_cast<uint32_t>(
+      std::fmod(std::fmod(std::clamp(std::floor(i), -1e6, 1e6), count) + count, count));
+  if (!hasFourSides(view)) return logicalCorner(view, k);
+  // Clockwise from the south-west.
+  static constexpr size_t kOrder[] = {0, 3, 2, 1};
+  // Corner k begins side k; of a mirrored cell it ends the image of side k.
+  uint32_t corner = k;
+  if (view.cell()) {
+    const uint32_t side = view.cell()->side(k), next = view.cell()->side((k + 1) % 4);
+    corner = next == (side + 1) % 4 ? side : (side + 1) % 4;
+  }
+  return cornersOf(view)[kOrder[corner]];
+}
+
+void addAddress(const RegionView& view, double u, double v, std::vector<Vec2>& out) {
+  if (view.cell() && !view.cell()->address(u, v)) return;
+  const Quad q = cornersOf(view);
+  const Vec2 low = q[0] + (q[1] - q[0]) * u, high = q[3] + (q[2] - q[3]) * u;
+  out.push_back(low + (high - low) * v);
+}
+
+void addCorners(const RegionView& view, std::vector<Vec2>& out) {
+  std::vector<Vec2> all;
+  for (uint32_t k = 0; k < view.logicalCount(); ++k) {
+    const Vec2 at = logicalCorner(view, k);
+    if (std::find(all.begin(), all.end(), at) == all.end()) all.push_back(at);
+  }
+  out.insert(out.end(), all.begin(), all.end());
+}
+
+// Whether `corners` stands for the places and not, within corner( .. ), for edges.
+bool isPlace(std::span<const Term> terms, size_t i) {
+  for (size_t k = i + 1; k < terms.size(); ++k) {
+    if (terms[k].is("corner")) return false;
+    const bool place = terms[k].is("centre") || terms[k].is("center") || terms[k].is("at") ||
+                       terms[k].is("point") || terms[k].is("centroid") || terms[k].is("corners");
+    if (place) return true;
+  }
+  return true;
+}
+
+// Each term adds its places; nothing where the pattern of the cell places nothing here.
+Status placesOf(OpCall& call, const Selection& where, const RegionJob& job, size_t face,
                 std::vector<Vec2>& out) {
   const RegionView& view = *job.faces()[face];
-  TextReader r(text);
-  if (r.peek() == '(') {
-    const Quad q = cornersOf(view);
-    bool read = true;
-    while (read && r.accept('(')) {
-      double u = 0, v = 0;
-      read = r.number(u) && r.accept(',') && r.number(v) && r.accept(')');
-      r.accept(',');
-      if (!read || (view.cell() && !view.cell()->address(u, v))) continue;
-      const Vec2 low = q[0] + (q[1] - q[0]) * u, high = q[3] + (q[2] - q[3]) * u;
-      out.push_back(low + (high - low) * v);
-    }
-    if (read && r.atEnd()) return {};
-  }
-  const std::string w = r.word();
-  if ((w == "centre" || w == "center") && r.atEnd()) {
-    out.push_back(middleOf(view.polygon()));
-    return {};
-  }
-  if (w == "centroid" && r.atEnd()) {
-    out.push_back(centroid(view.polygon()));
-    return {};
-  }
-  if (w == "corners") {
-    // As the notation's corners(region) has it.
-    if (r.accept('(') && !(r.word() == "region" && r.accept(')'))) r.goTo(0);
-    for (uint32_t k = 0; r.atEnd() && k < view.logicalCount(); ++k) {
-      const Vec2 at = logicalCorner(view, k);
-      if (std::find(out.begin(), out.end(), at) == out.end()) out.push_back(at);
-    }
-    if (!out.empty()) return {};
-  }
-  if (std::vector<Disc> points; w == "points" && readPoints(text, points)) {
-    for (const Disc& d : points) out.push_back(d.centre + bounds(view.polygon()).min);
-    return {};
-  }
-  if (w == "corner" && r.accept('(')) {
-    const size_t inside = r.place();
-    double i = 0;
-    if (r.number(i) && r.accept(')') && r.atEnd()) {
-      const double count = std::max(1u, view.logicalCount());
-      const auto k = static_cast<uint32_t>(
-          std::fmod(std::fmod(std::clamp(std::floor(i), -1e6, 1e6), count) + count, count));
-      if (!hasFourSides(view)) {
-        out.push_back(logicalCorner(view, k));
-        return {};
+  const std::vector<Term> terms = termsOf(where, call.services(), call.randomAddress(900));
+  // What stands within corner( .. ) is a selection of edges, and comes before it.
+  size_t begin = 0;
+  for (size_t i = 0; i < terms.size(); ++i) {
+    const Term& t = terms[i];
+    if (t.is("centre") || t.is("center")) {
+      out.push_back(middleOf(view.polygon()));
+    } else if (t.is("centroid")) {
+      out.push_back(centroid(view.polygon()));
+    } else if (t.is("at")) {
+      addAddress(view, t.number(0), t.number(1), out);
+    } else if (t.is("point")) {
+      out.push_back(Vec2{t.number(0), t.number(1)} + bounds(view.polygon()).min);
+    } else if (t.is("corner")) {
+      const std::span<const Term> inside{terms.data() + begin, i - begin};
+      if (inside.size() == 1 && inside[0].kind == ArgumentTerm::Kind::Value) {
+        out.push_back(cornerNumbered(view, inside[0].number(0)));
+      } else {
+        cornersBetween(call, job, face, inside, out);
       }
-      // Clockwise from the south-west.
-      static constexpr size_t kOrder[] = {0, 3, 2, 1};
-      // Corner k begins side k; of a mirrored cell it ends the image of side k.
-      uint32_t corner = k;
-      if (view.cell()) {
-        const uint32_t side = view.cell()->side(k), next = view.cell()->side((k + 1) % 4);
-        corner = next == (side + 1) % 4 ? side : (side + 1) % 4;
-      }
-      out.push_back(cornersOf(view)[kOrder[corner]]);
-      return {};
+    } else if (t.is("corners") && isPlace(terms, i)) {
+      addCorners(view, out);
+    } else {
+      if (t.kind == ArgumentTerm::Kind::Or && begin == i) begin = i + 1;
+      continue;
     }
-    const size_t close = text.rfind(')');
-    if (close != std::string_view::npos && close > inside) {
-      return cornersBetween(call, job, face, text.substr(inside, close - inside), out);
-    }
+    begin = i + 1;
   }
-  return call.fail("bad-argument", "'" + std::string(text) + "' is no place of a region",
-                   "write centre, centroid, corners, corner(0), corner(outer), \"(0.8, 0.1)\" in "
-                   "shares of the sides or \"points((3, 4))\" in metres");
+  if (out.empty() && begin == 0) {
+    return call.fail("bad-argument", "this is no place of a region",
+                     "write centre, corners, corner(0), corner(outer), at(0.8, 0.1) in shares of "
+                     "the sides or point(3, 4) in metres");
+  }
+  return {};
 }
 
 // Along the edge of the outline that is nearest to a place.
@@ -180,19 +200,23 @@ Vec2 alongNearest(const Polygon& p, Vec2 at) {
 // Gives out a point, or a figure there, which is cut out of the region.
 class Placer {
  public:
-  Placer(OpCall& call, RegionView& view, PlanFigure figure, const std::string& options,
-         uint32_t count = 0)
+  Placer(OpCall& call, RegionView& view, bool over, bool split, uint32_t count, uint32_t places)
       : call_(call),
         view_(view),
-        figure_(figure),
-        cut_(option(options, "over").empty()),
-        split_(!option(options, "split").empty()),
+        cut_(!over),
+        split_(split),
         warnsOfHoles_(std::string_view(call.spec().name) == "place"),
         slot_(thingSlot(call)),
         parent_(call.shape()),
-        count_(count) {}
+        count_(count),
+        places_(places) {}
 
   void add(Vec2 at, Vec2 along) {
+    // What the block begins with, for this place.
+    DrawnFigure drawn;
+    if (slot_) drawn = drawFigure(call_, *slot_, call_.randomAddress(2000 + places_++), parent_);
+    bad_ = bad_ || !planFigureOf(drawn, figure_);
+    if (bad_) return;
     if (!contains(view_.polygon(), at)) {
       // Something else has taken the place before.
       if (figure_.shape != PlanShape::None && warnsOfHoles_ && inHole(at)) ++nested_;
@@ -213,8 +237,10 @@ class Placer {
          combineTraced(BooleanOp::Intersection, wholePiece(view_.polygon()), ring, made)) {
       p.axis = along;
       if (slot_) {
-        call_.emit(view_.shapeOf(parent_, p, view_.marksOf(p, EdgeIndex::Outline), std::nullopt),
-                   *slot_, count_);
+        std::optional<CellMark> cell;
+        if (drawn.ordinal > 0) cell.emplace().choice = drawn.ordinal;
+        call_.emit(view_.shapeOf(parent_, p, view_.marksOf(p, EdgeIndex::Outline), cell), *slot_,
+                   count_);
       }
       ++count_;
     }
@@ -224,6 +250,9 @@ class Placer {
   /// How many were given out on this face and those before it, and how many found no place.
   uint32_t count() const { return count_; }
   uint32_t nested() const { return nested_; }
+  /// Places that were asked for, and whether one of their figures had no size.
+  uint32_t places() const { return places_; }
+  bool bad() const { return bad_; }
   bool cuts() const { return cut_ && !holes_.empty(); }
 
   /// What the figures leave of the face; nothing when they took all of it.
@@ -279,7 +308,8 @@ class Placer {
   std::optional<uint32_t> slot_;
   Shape parent_;
   Region holes_;
-  uint32_t count_ = 0, nested_ = 0;
+  uint32_t count_ = 0, nested_ = 0, places_ = 0;
+  bool bad_ = false;
 };
 
 // The shape becomes what the figures leave of it.
@@ -303,96 +333,63 @@ void finish(OpCall& call, RegionJob& job, std::span<const Placer> placers) {
   job.replace(call.shape(), left);
 }
 
-Status figureOf(OpCall& call, size_t argument, PlanFigure& figure) {
-  const std::string text = textOf(call, argument, "");
-  std::string problem;
-  if (text.empty() || text == "none" || readFigure(text, figure, problem)) return {};
-  return call.fail("bad-argument", problem,
-                   "write romb(r), circle(r), square(a), rect(a, b) or polygon(n, r)");
-}
-
-constexpr std::string_view kFlags = "over split align chain";
-
-Status applyPlace(OpCall& call) {
+Status applyPlace(OpCall& call, const Place& args) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
   if (!job.flat()) return noOneRegion(call);
-  PlanFigure figure;
-  Status status = figureOf(call, 1, figure);
-  if (status.ok()) status = optionsAre(call, 2, "over split align");
-  if (!status.ok()) return status;
   // Of several pieces the largest is meant.
-  const size_t largest = job.largest();
   std::vector<Vec2> places;
-  status = placesOf(call, job, largest, textOf(call, 0, "centre"), places);
+  const Status status = placesOf(call, args.where, job, job.largest(), places);
   if (!status.ok()) return status;
-  const std::string options = textOf(call, 2, "");
-  const bool align = !option(options, "align").empty();
   std::vector<Placer> placers;
   for (const auto& view : job.faces()) {
-    placers.emplace_back(call, *view, figure, options,
-                         placers.empty() ? 0 : placers.back().count());
+    placers.emplace_back(call, *view, args.over, args.split,
+                         placers.empty() ? 0 : placers.back().count(), 0);
     for (const Vec2 at : places) {
-      placers.back().add(at, align ? alongNearest(view->polygon(), at) : Vec2{1, 0});
+      placers.back().add(at, args.align ? alongNearest(view->polygon(), at) : Vec2{1, 0});
     }
+    if (placers.back().bad()) return badFigure(call);
   }
   finish(call, job, placers);
   return {};
 }
 
-// Positions on a line: "[0.1, 0.5]", "[3]", "[start : 2.5 : end]", or a spacing.
-Status stationsOf(const OpCall& call, std::string_view text, const Polyline& line,
+// Positions on a line: shares of it, intervals, or a spacing. Lines run counter-clockwise, and
+// positions are told clockwise, but for mirrored cells.
+Status stationsOf(const OpCall& call, const Distribute& args, bool clockwise, const Polyline& line,
                   std::vector<Station>& out) {
-  double spacing = 0;
-  if (parseNumber(text, spacing)) {
-    for (const Station& s : spaced(line, spacing)) out.push_back(s);
-    return {};
-  }
-  const Status bad = call.fail("bad-argument", "these are no positions along an edge",
-                               "write a spacing, \"[0.2, 0.8]\" or \"[start : 2.5 : end]\"");
-  TextReader r(text);
-  if (!r.accept('[')) return bad;
-  const size_t begin = r.place();
-  const bool start = r.word() == "start";
-  if (!start) r.goTo(begin);
-  const bool colon = r.accept(':');
-  const size_t itemAt = r.place();
-  double item = 0;
-  if (!r.number(item)) return bad;
-  if (!start && !colon && r.peek() != ']') {
-    std::vector<double> shares{item};
-    while (r.accept(',')) {
-      if (!r.number(item)) return bad;
-      shares.push_back(item);
-    }
-    if (!r.accept(']')) return bad;
-    for (const double s : shares) {
-      if (s >= 0 && s <= 1) out.push_back(stationAt(line, s));
+  if (args.at) {
+    for (const double s : args.at->array->numbers) {
+      if (s >= 0 && s <= 1) out.push_back(stationAt(line, clockwise ? 1 - s : s));
     }
     return {};
   }
-  const std::string_view written = text.substr(itemAt, r.place() - itemAt);
-  bool end = false;
-  if (r.accept(':')) end = r.word() == "end";
-  if (!r.accept(']')) return bad;
-  const bool real = written.find('.') != std::string_view::npos;
-  double count = real ? std::round(line.length() / item) : item;
-  if (!(count <= 100000)) return bad;
-  for (const Station& s : evenly(line, static_cast<uint32_t>(std::max(1.0, count)), start, end)) {
-    out.push_back(s);
+  if (args.intervals || args.interval) {
+    const double count =
+        args.intervals ? *args.intervals : std::round(line.length() / *args.interval);
+    if (!(count <= 100000)) {
+      return call.fail("bad-argument", "there can be 1 to 100000 intervals", "write fewer");
+    }
+    for (const Station& s :
+         evenly(line, static_cast<uint32_t>(std::max(1.0, count)),
+                clockwise ? args.end : args.start, clockwise ? args.start : args.end)) {
+      out.push_back(s);
+    }
+    return {};
   }
+  for (const Station& s : spaced(line, args.spacing.value_or(1))) out.push_back(s);
   return {};
 }
 
 // The same on lines that count as one, whose lengths follow each other.
-Status stationsOnChain(const OpCall& call, std::string_view text, std::span<const Polyline> lines,
-                       std::vector<Station>& out) {
+Status stationsOnChain(const OpCall& call, const Distribute& args, bool clockwise,
+                       std::span<const Polyline> lines, std::vector<Station>& out) {
   // A straight line of the whole length has the stations, and each lies on one of the lines.
   Polyline straight{{{0, 0}, {0, 0}}, false};
   for (const Polyline& line : lines) straight.points[1].x += line.length();
   if (!(straight.points[1].x > 0)) return {};
   std::vector<Station> flat;
-  const Status status = stationsOf(call, text, straight, flat);
+  const Status status = stationsOf(call, args, clockwise, straight, flat);
   for (const Station& s : flat) {
     work(1 + lines.size());
     double along = s.at.x;
@@ -421,91 +418,113 @@ void mergeNear(std::vector<Station>& stations, double distance) {
 }
 
 // Stations along the selected edges of a face, `inset` inside of them.
-Status stationsAlong(OpCall& call, const RegionJob& job, size_t face, double inset, bool chain,
+Status stationsAlong(OpCall& call, const Distribute& args, const RegionJob& job, size_t face,
                      std::vector<Station>& out) {
   const RegionView& view = *job.faces()[face];
-  std::vector<EdgePart> parts;
-  Status status = selected(call, 0, "all", job, face, view, parts);
-  if (!status.ok()) return status;
+  const std::vector<EdgePart> parts = selected(call, args.selection, job, face);
   std::vector<uint32_t> group;
   for (const EdgeMark& m : view.marks()) group.push_back(m.logical);
   std::vector<Polyline> lines =
-      runsOf(view.polygon(), parts, chain ? std::vector<uint32_t>{} : group);
-  const std::string positions = textOf(call, 1, "1");
-  if (chain) {
-    status = stationsOnChain(call, positions, lines, out);
+      runsOf(view.polygon(), parts, args.chain ? std::vector<uint32_t>{} : group);
+  const bool mirrored = view.cell() && view.logicalCount() == 4 &&
+                        view.cell()->mirroredX() != view.cell()->mirroredY();
+  Status status;
+  if (args.chain) {
+    status = stationsOnChain(call, args, !mirrored, lines, out);
   } else {
     for (const Polyline& line : lines) {
-      if (status.ok()) status = stationsOf(call, positions, line, out);
+      if (status.ok()) status = stationsOf(call, args, !mirrored, line, out);
     }
   }
-  for (Station& s : out) s.at = s.at + perpendicular(s.along) * inset;
+  for (Station& s : out) s.at = s.at + perpendicular(s.along) * args.inset;
   return status;
 }
 
-Status applyDistribute(OpCall& call) {
+Status applyDistribute(OpCall& call, const Distribute& args) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
   if (!job.flat()) return noOneRegion(call);
-  PlanFigure figure;
-  Status status = figureOf(call, 3, figure);
-  if (status.ok()) status = optionsAre(call, 4, kFlags);
-  if (!status.ok()) return status;
-  const double inset = call.number(2, 0);
-  const std::string options = textOf(call, 4, "");
-  double spacing = 0;
-  if (!parseNumber(textOf(call, 1, "1"), spacing)) spacing = 0;
+  const int ways = (args.spacing ? 1 : 0) + (args.at ? 1 : 0) + (args.intervals ? 1 : 0) +
+                   (args.interval ? 1 : 0);
+  if (ways > 1) {
+    return call.fail("bad-argument", "places are given in more than one way",
+                     "write one of spacing, at, intervals and interval");
+  }
+  const bool exact = !args.at && !args.intervals && !args.interval;
+  const double spacing = exact ? args.spacing.value_or(1) : 0;
   std::vector<Placer> placers;
   for (size_t f = 0; f < job.faces().size(); ++f) {
-    placers.emplace_back(call, *job.faces()[f], figure, options,
-                         placers.empty() ? 0 : placers.back().count());
+    placers.emplace_back(call, *job.faces()[f], args.over, args.split,
+                         placers.empty() ? 0 : placers.back().count(),
+                         placers.empty() ? 0 : placers.back().places());
     std::vector<Station> stations;
-    status = stationsAlong(call, job, f, inset, !option(options, "chain").empty(), stations);
+    const Status status = stationsAlong(call, args, job, f, stations);
     if (!status.ok()) return status;
     mergeNear(stations, std::max(1e-6, spacing / 4));
     for (const Station& s : stations) placers.back().add(s.at, s.along);
+    if (placers.back().bad()) return badFigure(call);
   }
   finish(call, job, placers);
   return {};
 }
 
-constexpr ParamSpec kFigure = {
-    "figure", ParamType::Any,
-    "A figure that is cut out of the region and given out, as \"circle(1)\"; without one a point "
-    "is given out.",
-    "\"none\""};
-constexpr ParamSpec kOptions = {
-    "options", ParamType::String,
-    "over: the figure is not cut out of the region; split: the region is cut apart "
-    "so that it gets no holes; align: x runs along the nearest edge; chain (of distribute): the "
-    "selected edges count as one, so that positions are shares of their length together.",
-    "\"\""};
+constexpr ParamSpec kCornerOf[] = {
+    {"edges", ParamType::Selection,
+     "A number, clockwise from the south-west, where logical edge i begins; or the edges that the "
+     "corners lie between: corner(outer)."}};
+constexpr ParamSpec kAddress[] = {
+    {"u", ParamType::Float, "From 0 in the west to 1 in the east."},
+    {"v", ParamType::Float, "From 0 in the south to 1 in the north."}};
+constexpr ParamSpec kCorner[] = {[] {
+  ParamSpec p = kCornerOf[0];
+  p.terms = kEdgeTerms;
+  return p;
+}()};
+constexpr TermSpec kPlaces[] = {
+    {"centre", "The middle; of a region that is not convex, the place farthest from its boundary."},
+    {.name = "center", .doc = "The middle."},
+    {"centroid", "The centre of mass, which may lie outside."},
+    {"corners", "All corners."},
+    TermSpec::call("corner", "A corner, or those between edges.", kCorner),
+    TermSpec::call("at", "In shares of the sides; mirrored with the cell.", kAddress),
+    TermSpec::call("point", "In metres from the south-west.", site_terms::kPoint),
+};
+
+constexpr const char* kOver = "The figure is not cut out of the region.";
+constexpr const char* kSplit = "The region is cut apart, so that it gets no holes.";
+constexpr const char* kAlign = "x runs along the nearest edge.";
 constexpr ParamSpec kPlace[] = {
-    {"where", ParamType::Selector,
-     "centre (of a region that is not convex: the place farthest from its boundary), centroid, "
-     "corners, corner(i) clockwise from the south-west, where logical edge i begins, "
-     "corner(selection) between selected edges, \"(u, v)\" in shares of the sides, also several, "
-     "or "
-     "\"points((3, 4) (9, 4))\" in metres from the south-west."},
-    kFigure,
-    kOptions};
+    selection<&Place::where>("where", "Places, with || between several.", kPlaces, "centre"),
+    param<&Place::over>("over", kOver, "false"), param<&Place::split>("split", kSplit, "false"),
+    param<&Place::align>("align", kAlign, "false")};
 constexpr ParamSpec kDistribute[] = {
-    {"selection", ParamType::Selector, "The edges; words as in peel."},
-    {"positions", ParamType::Any,
-     "A spacing in metres, kept exactly, or a text: \"[0.2, 0.8]\" shares of the edge, \"[3]\" "
-     "intervals, \"[start : 2.5 : end]\" intervals of about that length with the ends."},
-    {"inset", ParamType::Float, "How far inside the edge.", "0"},
-    kFigure,
-    kOptions};
+    selection<&Distribute::selection>("selection", "The edges, as in peel.", kEdgeTerms, "all"),
+    param<&Distribute::spacing>("spacing", "Metres between them, kept exactly.", "1"),
+    param<&Distribute::inset>("inset", "How far inside the edge.", "0"),
+    param<&Distribute::at>("at", "Shares of the edge's length, clockwise: [0.2, 0.8].", "none"),
+    param<&Distribute::intervals>("intervals", "How many equal parts; one at each joint.", "none"),
+    param<&Distribute::interval>("interval", "About how long these parts are.", "none"),
+    param<&Distribute::start>("start", "One where the edge begins as well.", "false"),
+    param<&Distribute::end>("end", "One where the edge ends as well.", "false"),
+    param<&Distribute::over>("over", kOver, "false"),
+    param<&Distribute::split>("split", kSplit, "false"),
+    param<&Distribute::chain>("chain", "The selected edges count as one.", "false")};
 constexpr Signature kPlaceSignatures[] = {{kPlace}};
 constexpr Signature kDistributeSignatures[] = {{kDistribute}};
 
 constexpr OpSpec kSpecs[] = {
-    {"place", "region", "Puts something at a place of a region.", kPlaceSignatures, applyPlace,
-     BlockKind::Operations, kRandom | kReadsWorld | kReadsWorldByWord, "otherwise", false, true},
-    {"distribute", "region", "Puts things along edges of a region.", kDistributeSignatures,
-     applyDistribute, BlockKind::Operations, kRandom | kReadsWorld | kReadsWorldByWord, "otherwise",
-     false, true},
+    withFigures({"place", "region",
+                 "Puts something at a place of a region, and cuts out the figure that it begins "
+                 "with.",
+                 kPlaceSignatures, typed<applyPlace>, BlockKind::Operations,
+                 kRandom | kReadsWorld | kReadsWorldByWord, "otherwise", false, true},
+                "", kRegionChoice),
+    withFigures({"distribute", "region",
+                 "Puts things along edges of a region, and cuts out the figures that they begin "
+                 "with.",
+                 kDistributeSignatures, typed<applyDistribute>, BlockKind::Operations,
+                 kRandom | kReadsWorld | kReadsWorldByWord, "otherwise", false, true},
+                "", kRegionChoice),
 };
 
 }  // namespace

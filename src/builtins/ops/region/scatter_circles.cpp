@@ -4,7 +4,6 @@
 // Discs scattered in a region.
 #include <cmath>
 
-#include "base/number.h"
 #include "builtins/lists.h"
 #include "builtins/ops/region/shared/region_job.h"
 
@@ -15,77 +14,92 @@ namespace {
 constexpr double kMostDiscs = 5000;
 constexpr size_t kMostPoints = 100000;
 
-Status applyScatterCircles(OpCall& call) {
+struct ScatterCircles {
+  double count = 0;
+  Drawn radius;
+  double gap = 0, edge = 0;
+  bool cut = false;
+};
+
+std::vector<Disc> discsIn(OpCall& call, const ScatterCircles& args, const DrawnNumber& radius,
+                          const Polygon& p, uint64_t seed) {
+  const double least = std::min(radius.low(), radius.high());
+  const double most = std::max(radius.low(), radius.high());
+  std::vector<Disc> discs;
+  if (args.count == 0) {
+    for (const Vec2 at :
+         scatterPoisson(p, 2 * most + args.gap, most + args.edge, kMostPoints, seed)) {
+      discs.push_back({at, most});
+    }
+    return discs;
+  }
+  ScatterOptions o;
+  o.count = static_cast<uint32_t>(args.count);
+  o.least = least;
+  o.most = most;
+  o.gap = args.gap;
+  o.edge = args.edge;
+  o.seed = seed;
+  discs = scatterDiscs(p, o);
+  if (discs.size() < o.count) {
+    call.services().warn("scatter-full", "'scatterCircles': fewer discs fit than were wanted",
+                         "scatter fewer or smaller ones");
+  }
+  return discs;
+}
+
+Status applyScatterCircles(OpCall& call, const ScatterCircles& args) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
-  DrawnRange radius;
-  const std::string written = textOf(call, 1, "1");
-  TextReader r(written);
-  const double n = call.number(0);
-  if (!r.range(radius) || !r.atEnd() || !(radius.low > 0) || !(radius.high > 0) ||
-      !(n >= 0 && n <= kMostDiscs)) {
+  const DrawnNumber radius = numberOf(args.radius, call.services(), call.randomAddress(902));
+  if (!(radius.low() > 0) || !(radius.high() > 0) || !std::isfinite(radius.high()) ||
+      !(args.count >= 0 && args.count <= kMostDiscs) || !(args.gap >= 0) || !(args.edge >= 0)) {
     return call.fail("bad-argument", "there can be 0 to 5000 discs of radii above zero",
-                     "write a count and a radius: scatterCircles(5, \"[2,4]\")");
+                     "write a count and a radius: scatterCircles(5, rand(2, 4))");
   }
-  if (const Status status = optionsAre(call, 2, "gap=# edge=#"); !status.ok()) return status;
-  const std::string options = textOf(call, 2, "");
-  const auto metres = [&](std::string_view name) {
-    double v = 0;
-    parseNumber(option(options, name), v);
-    return v;
-  };
+  if (args.cut && !job.flat()) return noOneRegion(call);
   uint32_t piece = 0;
   const std::optional<uint32_t> slot = thingSlot(call);
+  std::vector<std::vector<RegionPiece>> left;
   for (size_t f = 0; f < job.faces().size(); ++f) {
     RegionView& view = *job.faces()[f];
-    std::vector<Disc> discs;
-    if (n == 0) {
-      const double r0 = std::max(radius.low, radius.high);
-      for (const Vec2 at :
-           scatterPoisson(view.polygon(), 2 * r0 + metres("gap"), r0 + metres("edge"), kMostPoints,
-                          call.randomAddress(f))) {
-        discs.push_back({at, r0});
-      }
-    } else {
-      ScatterOptions o;
-      o.count = static_cast<uint32_t>(n);
-      o.least = std::min(radius.low, radius.high);
-      o.most = std::max(radius.low, radius.high);
-      o.gap = metres("gap");
-      o.edge = metres("edge");
-      o.seed = call.randomAddress(f);
-      discs = scatterDiscs(view.polygon(), o);
-      if (discs.size() < o.count) {
-        call.services().warn("scatter-full", "'scatterCircles': fewer discs fit than were wanted",
-                             "scatter fewer or smaller ones");
-      }
-    }
-    for (const Disc& d : discs) {
+    Region taken;
+    for (const Disc& d : discsIn(call, args, radius, view.polygon(), call.randomAddress(f))) {
       RegionPiece p;
       p.polygon.outer = ringOf({PlanShape::Circle, d.radius, 0, 24}, d.centre);
       p.edges.assign(24, {kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide});
+      taken.push_back(p.polygon);
       if (slot) {
         call.emit(view.shapeOf(call.shape(), p, view.marksOf(p, EdgeIndex::Outline), std::nullopt),
                   *slot, piece);
       }
       ++piece;
     }
+    if (!args.cut) continue;
+    const EdgeOrigin made{kNoEdge, EdgeRole::Hole, EdgeOrigin::kNoSide};
+    left.push_back(combineTraced(BooleanOp::Difference, wholePiece(view.polygon()), taken, made));
   }
-  if (piece == 0) giveToOtherwise(call);
+  if (piece == 0) {
+    giveToOtherwise(call);
+  } else if (args.cut) {
+    job.replace(call.shape(), left);
+  }
   return {};
 }
 
 constexpr ParamSpec kParams[] = {
-    {"count", ParamType::Float, "How many; 0 for as many as fit."},
-    {"radius", ParamType::Any, "In metres, or a range that is drawn from: \"[2,4]\"."},
-    {"options", ParamType::String, "gap=1: metres between discs; edge=2: metres to the boundary.",
-     "\"\""},
+    param<&ScatterCircles::count>("count", "How many; 0 for as many as fit."),
+    param<&ScatterCircles::radius>("radius", "In metres, or drawn for each: rand(2, 4).", "1"),
+    param<&ScatterCircles::gap>("gap", "Metres between discs.", "0"),
+    param<&ScatterCircles::edge>("edge", "Metres to the boundary.", "0"),
+    param<&ScatterCircles::cut>("cut", "The discs are cut out of the region.", "false"),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"scatterCircles", "region", "Scatters discs that touch neither each other nor the boundary.",
-     kSignatures, applyScatterCircles, BlockKind::Operations, kRandom, "otherwise", false, true},
+     kSignatures, typed<applyScatterCircles>, BlockKind::Operations, kRandom, "otherwise", false,
+     true},
 };
 
 }  // namespace

@@ -7,118 +7,146 @@
 #include "base/number.h"
 #include "builtins/lists.h"
 #include "builtins/ops/region/shared/region_job.h"
+#include "geom/region/boolean.h"
 #include "geom/region/profile_sweep.h"
 
 namespace gable {
 
+enum class Joins : uint8_t { Mitre, Round };
+
+template <>
+struct WordsOf<Joins> {
+  static constexpr const char* text = "mitre round";
+};
+template <>
+struct WordsOf<RibbonEnds> {
+  static constexpr const char* text = "butt square round";
+};
+
 namespace {
+
+struct Sweep {
+  Selection lines;
+  double width = 0, inset = 0;
+  Joins joins = Joins::Mitre;
+  RibbonEnds ends = RibbonEnds::Butt;
+  double height = 0;
+  Selection profile;
+  bool cut = false;
+};
 
 Status checked(const OpCall& call, double inset) {
   if (std::isfinite(inset) && inset >= 0) return {};
   return call.fail("bad-argument", "an inset is zero or more metres", "write 0 or leave it out");
 }
 
-struct SweepOptions {
-  double width = 0, height = 0;
-  RibbonOptions ribbon;
+// The cross-section and the height of a volume; none for flat ribbons and bare lines.
+struct Section {
   std::optional<Profile> profile;
+  double height = 0;
 };
 
-// A name, or points in shares: "(0,0)(0,1)(1,0.6)(1,0)".
-bool readProfile(std::string_view text, std::optional<Profile>& out) {
-  out = profileNamed(text);
-  if (out) return true;
-  std::vector<Disc> points;
-  if (!readPoints(text, points)) return false;
-  out.emplace();
-  for (const Disc& d : points) out->push_back(d.centre);
-  return isProfile(*out);
-}
-
-Status optionsOf(const OpCall& call, SweepOptions& o) {
-  o.width = call.number(1);
-  if (!(o.width >= 0) || !std::isfinite(o.width)) {
-    return call.fail("bad-argument", "a ribbon cannot be " + shortestText(o.width) + " wide",
-                     "write a width above zero, or 0 for bare lines");
+Status sectionOf(const OpCall& call, const Sweep& args, Section& out) {
+  out.height = args.height;
+  const std::vector<Term> terms = termsOf(args.profile, call.services(), call.randomAddress(901));
+  const Term* t = terms.size() == 1 ? &terms[0] : nullptr;
+  const bool none = !t || t->is("none");
+  if (none) {
+    if (out.height > 0) out.profile = profileNamed("box");
+  } else if (t->kind == ArgumentTerm::Kind::Term) {
+    out.profile = profileNamed(t->name);
+  } else if (t->values[0].type == ValueType::FloatArray) {
+    const Array& points = call.services().pool().array(t->values[0]);
+    out.profile.emplace();
+    for (size_t i = 0; points.columns == 2 && i + 1 < points.numbers.size(); i += 2) {
+      out.profile->push_back({points.numbers[i], points.numbers[i + 1]});
+    }
   }
-  const Status status = optionsAre(
-      call, 3, "round joins=mitre|miter|round ends=butt|square|round height=# profile=*");
-  if (!status.ok()) return status;
-  const std::string options = textOf(call, 3, "");
-  if (!option(options, "round").empty()) o.ribbon = {true, RibbonEnds::Round};
-  if (option(options, "joins") == "round") o.ribbon.roundJoins = true;
-  const std::string ends = option(options, "ends"), profile = option(options, "profile");
-  if (ends == "round") o.ribbon.ends = RibbonEnds::Round;
-  if (ends == "square") o.ribbon.ends = RibbonEnds::Square;
-  parseNumber(option(options, "height"), o.height);
-  if (profile.empty()) {
-    if (o.height > 0) o.profile = profileNamed("box");
-  } else if (!readProfile(profile, o.profile)) {
-    return call.fail("bad-argument", "'" + profile + "' is no cross-section",
-                     "write box, batter, gable, round, dome, kerb, or points from x = 0 to 1 "
-                     "without blanks: profile=(0,0)(0,1)(1,0.6)(1,0)");
-  } else if (!(o.height > 0)) {
-    o.height = o.width;
+  if (!none && (!out.profile || !isProfile(*out.profile))) {
+    return call.fail("bad-argument", "this is no cross-section",
+                     "write box, batter, gable, round, dome, kerb, or points from x = 0 to 1: "
+                     "[0, 0; 0, 1; 1, 0.6; 1, 0]");
   }
-  if (o.profile && !(o.width > 0)) {
+  if (!none && !(out.height > 0)) out.height = args.width;
+  if (out.profile && !(args.width > 0)) {
     return call.fail("bad-argument", "a cross-section needs a width above zero",
                      "write how wide the volume is");
   }
   return {};
 }
 
-Status applySweep(OpCall& call) {
+Status applySweep(OpCall& call, const Sweep& args) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
-  SweepOptions o;
-  const double inset = call.number(2, 0);
-  Status status = checked(call, inset);
-  if (status.ok()) status = optionsOf(call, o);
+  if (!(args.width >= 0) || !std::isfinite(args.width)) {
+    return call.fail("bad-argument", "a ribbon cannot be " + shortestText(args.width) + " wide",
+                     "write a width above zero, or 0 for bare lines");
+  }
+  Section section;
+  Status status = checked(call, args.inset);
+  if (status.ok()) status = sectionOf(call, args, section);
   if (!status.ok()) return status;
+  const bool flat = args.width > 0 && !section.profile;
+  if (flat && args.cut && !job.flat()) return noOneRegion(call);
   uint32_t piece = 0;
   const std::optional<uint32_t> slot = thingSlot(call);
   const auto give = [&](Shape child) {
     if (slot) call.emit(std::move(child), *slot, piece);
     ++piece;
   };
+  std::vector<std::vector<RegionPiece>> left;
   for (size_t f = 0; f < job.faces().size(); ++f) {
     RegionView& view = *job.faces()[f];
     std::vector<Polyline> lines;
-    status = linesOf(call, 0, inset, job, f, view, lines);
+    status = linesOf(call, args.lines, args.inset, job, f, lines);
     if (!status.ok()) return status;
-    if (!(o.width > 0) || o.profile) {
+    if (!flat) {
       for (const Polyline& line : lines) {
         if (line.points.size() < 2) continue;
-        if (!o.profile) {
+        if (!section.profile) {
           give(view.lineOf(call.shape(), line.points, line.closed));
           continue;
         }
-        Mesh mesh =
-            sweptProfile(view.polygon(), line, o.width, o.height, *o.profile, o.ribbon.ends);
+        Mesh mesh = sweptProfile(view.polygon(), line, args.width, section.height, *section.profile,
+                                 args.ends);
         if (mesh.faceCount() == 0) continue;
         give(view.solidOf(call.shape(), std::move(mesh), line.points[1] - line.points[0]));
       }
       continue;
     }
-    for (const RegionPiece& p : ribbons(view.polygon(), lines, o.width, o.ribbon)) {
+    const RibbonOptions ribbon{args.joins == Joins::Round, args.ends};
+    Region taken;
+    for (const RegionPiece& p : ribbons(view.polygon(), lines, args.width, ribbon)) {
+      taken.push_back(p.polygon);
       give(view.shapeOf(call.shape(), p, view.marksOf(p, EdgeIndex::Outline), std::nullopt));
     }
+    if (!args.cut) continue;
+    const EdgeOrigin made{kNoEdge, EdgeRole::Hole, EdgeOrigin::kNoSide};
+    left.push_back(combineTraced(BooleanOp::Difference, wholePiece(view.polygon()), taken, made));
   }
-  if (piece == 0) giveToOtherwise(call);
+  if (piece == 0) {
+    giveToOtherwise(call);
+  } else if (flat && args.cut) {
+    job.replace(call.shape(), left);
+  }
   return {};
 }
 
-Status applyParametrise(OpCall& call) {
+struct Parametrise {
+  Selection lines;
+  double inset = 0;
+};
+
+Status applyParametrise(OpCall& call, const Parametrise& args) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
-  const double inset = call.number(1, 0);
   uint32_t piece = 0;
   const std::optional<uint32_t> slot = thingSlot(call);
   for (size_t f = 0; f < job.faces().size(); ++f) {
     const RegionView& view = *job.faces()[f];
     std::vector<Polyline> lines;
-    Status status = checked(call, inset);
-    if (status.ok()) status = linesOf(call, 0, inset, job, f, view, lines);
+    Status status = checked(call, args.inset);
+    if (status.ok()) status = linesOf(call, args.lines, args.inset, job, f, lines);
     if (!status.ok()) return status;
     for (const Polyline& line : lines) {
       const size_t n = line.points.size();
@@ -135,31 +163,43 @@ Status applyParametrise(OpCall& call) {
   return {};
 }
 
-constexpr ParamSpec kLines = {
-    "lines", ParamType::Selector,
-    "A selection of edges as in peel, or ranges along the logical edges from 0 on: "
-    "\"[0.02,1] [0,1] [0,0.15]\", [] for none, _ for a whole edge; several of both with ; "
-    "between."};
-constexpr ParamSpec kInset = {"inset", ParamType::Float, "How far inside the boundary.", "0"};
+constexpr const char* kLinesDoc =
+    "Edges, as in peel. Parts of logical edges, edge(0, 0.02, 1) || edge(1), or range(0.02, 2), "
+    "run "
+    "clockwise, backwards where the end comes first, and are one line where they meet.";
+constexpr const char* kInsetDoc = "How far inside the boundary.";
+constexpr TermSpec kProfiles[] = {{"none", "Flat, or a box where there is a height."},
+                                  {"box", "Upright sides."},
+                                  {"batter", "Sides that lean inward."},
+                                  {"gable", "A ridge in the middle."},
+                                  {"round", "Half a circle."},
+                                  {"dome", "Upright sides under a round top."},
+                                  {"kerb", "One edge cut off."}};
 constexpr ParamSpec kSweep[] = {
-    kLines,
-    {"width", ParamType::Float, "Of the ribbon, in metres; 0 for bare lines."},
-    kInset,
-    {"options", ParamType::String,
-     "joins=mitre|round, ends=butt|square|round; round: both. height=1.2 makes volumes of that "
-     "height, profile=box|batter|gable|round|dome|kerb gives them a cross-section, or points in "
-     "shares of width and height: profile=(0,0)(0,1)(1,0.6)(1,0).",
-     "\"\""}};
-constexpr ParamSpec kParametrise[] = {kLines, kInset};
+    selection<&Sweep::lines>("lines", kLinesDoc, kEdgeTerms),
+    param<&Sweep::width>("width", "Of the ribbon, in metres; 0 for bare lines."),
+    param<&Sweep::inset>("inset", kInsetDoc, "0"),
+    param<&Sweep::joins>("joins", "What corners look like.", "mitre"),
+    param<&Sweep::ends>("ends", "What the ends look like.", "butt"),
+    param<&Sweep::height>("height", "Above 0: volumes of that height.", "0"),
+    selection<&Sweep::profile>(
+        "profile",
+        "Cross-section of volumes: box, batter, gable, round, dome, kerb, or points in shares of "
+        "width and height, [0, 0; 0, 1; 1, 0.6; 1, 0].",
+        kProfiles, "none", true),
+    param<&Sweep::cut>("cut", "Flat ribbons are cut out of the region.", "false")};
+constexpr ParamSpec kParametrise[] = {
+    selection<&Parametrise::lines>("lines", kLinesDoc, kEdgeTerms),
+    param<&Parametrise::inset>("inset", kInsetDoc, "0")};
 constexpr Signature kSweepSignatures[] = {{kSweep}};
 constexpr Signature kParametriseSignatures[] = {{kParametrise}};
 
 constexpr OpSpec kSpecs[] = {
     {"sweep", "region", "Makes ribbons of a width along the boundary of a region.",
-     kSweepSignatures, applySweep, BlockKind::Operations, kRandom | kReadsWorld | kReadsWorldByWord,
-     "otherwise", false, true},
+     kSweepSignatures, typed<applySweep>, BlockKind::Operations,
+     kRandom | kReadsWorld | kReadsWorldByWord, "otherwise", false, true},
     {"parametrise", "region", "Gives out parts of the boundary as straight lines.",
-     kParametriseSignatures, applyParametrise, BlockKind::Operations,
+     kParametriseSignatures, typed<applyParametrise>, BlockKind::Operations,
      kRandom | kReadsWorld | kReadsWorldByWord, "otherwise", false, true},
 };
 

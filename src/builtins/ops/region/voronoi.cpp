@@ -5,15 +5,29 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/number.h"
 #include "builtins/lists.h"
-#include "builtins/ops/region/shared/plan_text.h"
+#include "builtins/ops/region/shared/region_attributes.h"
 #include "builtins/ops/region/shared/region_job.h"
 #include "geom/region/voronoi.h"
 
 namespace gable {
 
+template <>
+struct WordsOf<Orphans> {
+  static constexpr const char* text = "merge own path";
+};
+
 namespace {
+
+struct Voronoi {
+  Selection sites;
+  double path = 3;
+  Selection smooth;
+  Drawn radius;
+  bool borderPath = true;
+  Orphans orphans = Orphans::Merge;
+  double jitter = 0;
+};
 
 // A piece that its site is not in, of a cell that has another which it is in.
 bool isOrphan(const RegionPiece& p, const VoronoiResult& v) {
@@ -24,29 +38,72 @@ bool isOrphan(const RegionPiece& p, const VoronoiResult& v) {
          });
 }
 
-Status applyVoronoi(OpCall& call) {
+// The figures that stand at junctions are cut out of everything else; what they leave of their
+// junction is path.
+Status placeFigures(OpCall& call, uint32_t slot, const RegionView& view, uint64_t seed,
+                    std::vector<RegionPiece>& pieces) {
+  struct Placed {
+    Region ring;
+    uint32_t choice;
+  };
+  std::vector<Placed> figures;
+  for (RegionPiece& p : pieces) {
+    if (p.kind != PieceKind::Junction) continue;
+    const uint64_t address = hashCombine(seed, figures.size());
+    const DrawnFigure drawn = drawFigure(call, slot, address, call.shape());
+    PlanFigure figure;
+    if (!planFigureOf(drawn, figure)) return badFigure(call);
+    p.choice = drawn.ordinal;
+    if (figure.shape == PlanShape::None) continue;
+    p.kind = PieceKind::Path;
+    figures.push_back({{{ringOf(figure, middleOf(p.polygon)), {}}}, drawn.ordinal});
+  }
+  const EdgeOrigin hole{kNoEdge, EdgeRole::Centre, EdgeOrigin::kNoSide};
+  const EdgeOrigin made{kNoEdge, EdgeRole::Path, EdgeOrigin::kNoSide};
+  Region taken;
+  std::vector<RegionPiece> centres;
+  for (const Placed& f : figures) {
+    RegionPiece whole = wholePiece(view.polygon());
+    whole.kind = PieceKind::Junction;
+    whole.choice = f.choice;
+    for (RegionPiece& p : combineTraced(BooleanOp::Intersection, whole, f.ring, made)) {
+      // Where figures meet, the first has the place.
+      std::vector<RegionPiece> own{std::move(p)};
+      if (!taken.empty()) own = combineTraced(BooleanOp::Difference, own[0], taken, made);
+      centres.insert(centres.end(), own.begin(), own.end());
+    }
+    taken.push_back(f.ring[0]);
+  }
+  if (taken.empty()) return {};
+  const Region together = taken.size() > 1 ? repaired(ringsOf(taken), FillRule::NonZero) : taken;
+  std::vector<RegionPiece> out;
+  for (const RegionPiece& p : pieces) {
+    for (RegionPiece& left : combineTraced(BooleanOp::Difference, p, together, hole)) {
+      out.push_back(std::move(left));
+    }
+  }
+  out.insert(out.end(), centres.begin(), centres.end());
+  pieces = std::move(out);
+  return {};
+}
+
+Status applyVoronoi(OpCall& call, const Voronoi& args) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
   VoronoiOptions o;
-  o.pathWidth = call.number(1, 3);
-  if (!(o.pathWidth >= 0) || !std::isfinite(o.pathWidth)) {
-    return call.fail("bad-argument", "a path cannot be " + shortestText(o.pathWidth) + " wide",
-                     "write a width of zero or more");
+  o.pathWidth = args.path;
+  if (const Status status = checkPath(call, args.path); !status.ok()) return status;
+  if (!(args.jitter >= 0) || !std::isfinite(args.jitter)) {
+    return call.fail("bad-argument", "borders are bent by zero or more metres", "write 1");
   }
-  if (!readSmoothing(textOf(call, 2, "average(2)"), o.smoothing)) {
-    return call.fail("bad-argument", "there is no such smoothing",
-                     "write none, average(2), chaikin(2), bezier or round(1)");
-  }
-  if (const Status status =
-          optionsAre(call, 3, "borderpath=half|none orphans=merge|own|path jitter=#");
-      !status.ok()) {
-    return status;
-  }
-  const std::string options = textOf(call, 3, "");
-  o.borderPath = option(options, "borderpath") != "none";
-  const std::string orphans = option(options, "orphans");
-  o.orphans = orphans == "own" ? Orphans::Own : orphans == "path" ? Orphans::Path : Orphans::Merge;
-  parseNumber(option(options, "jitter"), o.jitter);
+  const Services& services = call.services();
+  o.smoothing = smoothingOf(termsOf(args.smooth, services, call.randomAddress(901)));
+  o.borderPath = args.borderPath;
+  o.orphans = args.orphans;
+  o.jitter = args.jitter;
+  const std::vector<Term> terms = termsOf(args.sites, services, call.randomAddress(900));
+  const DrawnNumber radius = numberOf(args.radius, services, call.randomAddress(902));
+  const std::optional<uint32_t> figures = slotOf(call, "junction");
   bool junctions = false;
   for (const SelectorItem& item : call.selectors()) {
     junctions = junctions || selectsWord(item, "junction", call.services().pool());
@@ -55,13 +112,18 @@ Status applyVoronoi(OpCall& call) {
   for (size_t f = 0; f < job.faces().size(); ++f) {
     RegionView& view = *job.faces()[f];
     std::vector<Disc> sites;
-    const Status status = discsOf(call, 0, view, call.randomAddress(f), sites);
+    const Status status = discsOf(call, terms, radius, view, call.randomAddress(f), sites);
     if (!status.ok()) return status;
     o.seed = call.randomAddress(500 + f);
     VoronoiResult v = voronoiPartition(view.polygon(), sites, o);
     if (v.pieces.empty()) {
       return failOrElse(call, "no-sites", "no site lies in the region",
                         "write smaller radii or other coordinates");
+    }
+    if (figures && call.figureCode(*figures) != 0) {
+      const Status placed =
+          placeFigures(call, *figures, view, call.randomAddress(700 + f), v.pieces);
+      if (!placed.ok()) return placed;
     }
     for (RegionPiece& p : v.pieces) {
       std::vector<EdgeMark> marks =
@@ -84,6 +146,9 @@ Status applyVoronoi(OpCall& call) {
                         p.part};
         cell->free = true;
         cell->choice = isOrphan(p, v) ? 1 : 0;
+      } else if (p.kind == PieceKind::Junction && p.choice > 0) {
+        cell = CellMark{};
+        cell->choice = p.choice;
       }
       job.keep(f, word, std::move(p), std::move(marks), cell);
     }
@@ -93,23 +158,35 @@ Status applyVoronoi(OpCall& call) {
 }
 
 constexpr ParamSpec kParams[] = {
-    {"sites", ParamType::Any,
-     "A count, a text \"5 {[5,10]}\" (discs of a drawn radius that are scattered), places \"(3, 4) "
-     "(10, 4, 2)\", with a radius or without, or a list of coordinates in the region."},
-    {"pathWidth", ParamType::Float, "Of the paths between cells; 0 for none.", "3"},
-    {"smooth", ParamType::Any,
-     "\"none\", \"average(times, weight)\", \"chaikin(times)\", \"bezier\" or \"round(radius)\".",
-     "\"average(2)\""},
-    {"options", ParamType::String,
-     "borderpath=half|none, orphans=merge|own|path, jitter=0.5 (metres by which borders are bent).",
-     "\"\""},
+    selection<&Voronoi::sites>(
+        "sites",
+        "How many, scattered; places, point(3, 4) || point(10, 4, 2), with a radius or without; or "
+        "a list of coordinates from the scope's origin.",
+        site_terms::kSites),
+    param<&Voronoi::path>("path", "Width of the paths between cells; 0 for none.", "3"),
+    selection<&Voronoi::smooth>("smooth",
+                                "How the outlines of cells are smoothed: none, average(2), "
+                                "chaikin(2), bezier, round(1), or "
+                                "how many averages.",
+                                site_terms::kSmoothing, "2", true),
+    param<&Voronoi::radius>(
+        "radius",
+        "Scattered sites are middles of discs of this radius, which keep apart: rand(4, 9).", "0"),
+    param<&Voronoi::borderPath>("borderPath", "Half a path along the region's boundary as well.",
+                                "true"),
+    param<&Voronoi::orphans>("orphans",
+                             "Parts of a cell that its site is not in go to a neighbour, are cells "
+                             "of their own, or path.",
+                             "merge"),
+    param<&Voronoi::jitter>("jitter", "Metres by which borders are bent.", "0"),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
-    {"voronoi", "region", "Divides a region into cells around scattered places.", kSignatures,
-     applyVoronoi, BlockKind::Selectors, kRandom, "region path junction centre otherwise", false,
-     true},
+    withFigures({"voronoi", "region", "Divides a region into cells around scattered places.",
+                 kSignatures, typed<applyVoronoi>, BlockKind::Selectors, kRandom,
+                 "region path junction centre otherwise", false, true},
+                "junction", kRegionChoice),
 };
 
 }  // namespace

@@ -108,24 +108,6 @@ std::function<Frame()> RegionJob::worldIn(size_t face) const {
   };
 }
 
-std::string textOf(const OpCall& call, size_t argument, std::string_view otherwise) {
-  if (!call.has(argument)) return std::string(otherwise);
-  const Value& v = call.arg(argument);
-  if (v.type == ValueType::Float) return shortestText(v.number);
-  if (v.type == ValueType::String || v.type == ValueType::Selector) {
-    return std::string(call.text(argument));
-  }
-  return std::string(otherwise);
-}
-
-Status optionsAre(const OpCall& call, size_t argument, std::string_view known) {
-  std::string problem;
-  if (checkOptions(textOf(call, argument, ""), known, problem)) return {};
-  std::string hint;
-  for (const char c : known) hint += c == ' ' ? std::string(", ") : std::string(1, c);
-  return call.fail("bad-argument", problem, "options are " + hint);
-}
-
 Status noOneRegion(OpCall& call) {
   return failOrElse(call, "no-geometry", "the faces of the shape do not lie in one plane",
                     "take it apart first: comp(f) { all : ... }");
@@ -141,61 +123,131 @@ Status noRegion(OpCall& call) {
                     "begin with a lot or a face");
 }
 
-Status selected(OpCall& call, size_t argument, std::string_view otherwise, const RegionJob& job,
-                size_t face, const RegionView& view, std::vector<EdgePart>& out) {
-  return selectedBy(call, textOf(call, argument, otherwise), job, face, view, out);
+std::vector<EdgePart> selected(const OpCall& call, const Selection& selection, const RegionJob& job,
+                               size_t face, std::vector<OwnWidth>* widths) {
+  constexpr uint64_t kArguments = 900;
+  const std::vector<Term> terms =
+      termsOf(selection, call.services(), call.randomAddress(kArguments));
+  const SelectionInput input{*job.faces()[face], call.randomAddress(1000 + face), job.worldIn(face),
+                             call.services().pool()};
+  return selectEdges(terms, input, widths);
 }
 
-Status selectedBy(OpCall& call, std::string_view selection, const RegionJob& job, size_t face,
-                  const RegionView& view, std::vector<EdgePart>& out) {
-  std::string problem;
-  const SelectionInput input{view, call.randomAddress(1000 + face), job.worldIn(face)};
-  if (selectEdges(selection, input, out, problem)) return {};
-  return call.fail("bad-selection", "the selection cannot be read: " + problem,
-                   "write words like outer, inner, side(W), longest, with & | - !");
+namespace {
+
+// Places with || between: all terms are places.
+bool placesOnly(std::span<const Term> terms) {
+  return !terms.empty() && std::all_of(terms.begin(), terms.end(), [](const Term& t) {
+    return t.is("point") || t.kind == ArgumentTerm::Kind::Or;
+  });
 }
 
-Status discsOf(OpCall& call, size_t argument, const RegionView& view, uint64_t seed,
-               std::vector<Disc>& out) {
-  const Value& v = call.arg(argument);
-  const Vec3 origin = view.plane().frame().toLocal({});
-  const Vec2 o{origin.x, origin.y};
+}  // namespace
+
+Status discsOf(OpCall& call, std::span<const Term> sites, const DrawnNumber& radius,
+               const RegionView& view, uint64_t seed, std::vector<Disc>& out) {
+  if (placesOnly(sites)) {
+    const Vec2 corner = bounds(view.polygon()).min;
+    for (const Term& t : sites) {
+      if (t.is("point")) {
+        out.push_back({Vec2{t.number(0), t.number(1)} + corner, std::max(0.0, t.number(2))});
+      }
+    }
+    return {};
+  }
+  if (sites.size() != 1 || sites[0].kind != ArgumentTerm::Kind::Value) {
+    return call.fail("bad-argument", "these are no sites",
+                     "write a number, or places: point(3, 4) || point(10, 4)");
+  }
+  const Value& v = sites[0].values[0];
   if (v.type == ValueType::FloatArray) {
+    const Vec3 origin = view.plane().frame().toLocal({});
     const Array& a = call.services().pool().array(v);
     for (size_t i = 0; i + 1 < a.numbers.size(); i += 2) {
-      out.push_back({Vec2{a.numbers[i], a.numbers[i + 1]} + o, 0});
+      out.push_back({Vec2{a.numbers[i], a.numbers[i + 1]} + Vec2{origin.x, origin.y}, 0});
     }
     return {};
-  }
-  if (v.type == ValueType::String && readPoints(call.text(argument), out)) {
-    for (Disc& d : out) d.centre = d.centre + bounds(view.polygon()).min;
-    return {};
-  }
-  out.clear();
-  ScatterOptions options;
-  options.seed = seed;
-  TextReader r(call.services().pool().text(v.id));
-  double n = v.number;
-  DrawnRange radius;
-  if (v.type == ValueType::String) {
-    bool ok = r.number(n);
-    if (ok && r.accept('{')) ok = r.range(radius) && r.accept('}');
-    if (!ok || !r.atEnd()) {
-      return call.fail(
-          "bad-argument", "these are no discs to scatter",
-          "write a number and a radius, \"5 {[5,10]}\", or places, \"(3, 4) (10, 4)\"");
-    }
   }
   constexpr double kMostDiscs = 5000;
-  if (!(n >= 0 && n <= kMostDiscs) || !(radius.low >= 0) || !std::isfinite(radius.high)) {
+  if (!(v.number >= 0 && v.number <= kMostDiscs) || !(radius.low() >= 0) ||
+      !std::isfinite(radius.high())) {
     return call.fail("bad-argument", "there can be 0 to 5000 discs of radii above zero",
                      "scatter fewer");
   }
-  options.count = static_cast<uint32_t>(n);
-  options.least = std::min(radius.low, radius.high);
-  options.most = std::max(radius.low, radius.high);
+  ScatterOptions options;
+  options.seed = seed;
+  options.count = static_cast<uint32_t>(v.number);
+  options.least = std::min(radius.low(), radius.high());
+  options.most = std::max(radius.low(), radius.high());
   out = scatterDiscs(view.polygon(), options);
   return {};
+}
+
+Status checkPath(const OpCall& call, double width) {
+  if (width >= 0 && std::isfinite(width)) return {};
+  return call.fail("bad-argument", "a path cannot be " + shortestText(width) + " wide",
+                   "write a width of zero or more");
+}
+
+std::optional<uint32_t> slotOf(const OpCall& call, std::string_view word) {
+  for (const SelectorItem& item : call.selectors()) {
+    if (selectsWord(item, word, call.services().pool())) return item.slot;
+  }
+  return std::nullopt;
+}
+
+bool planFigureOf(const DrawnFigure& figure, PlanFigure& out) {
+  out = {};
+  if (!figure.spec) return true;
+  struct Known {
+    std::string_view name;
+    PlanShape shape;
+  };
+  static constexpr Known kKnown[] = {{"circle", PlanShape::Circle},
+                                     {"rect", PlanShape::Rect},
+                                     {"regularPolygon", PlanShape::Polygon},
+                                     {"romb", PlanShape::Romb},
+                                     {"square", PlanShape::Square}};
+  for (const Known& k : kKnown) {
+    if (k.name == figure.spec->name) out.shape = k.shape;
+  }
+  const auto number = [&](size_t i) {
+    return i < figure.values.size() ? figure.values[i].number : 0;
+  };
+  const auto sides = [](double n) { return static_cast<uint32_t>(std::clamp(n, 3.0, 1000.0)); };
+  out.a = out.b = number(0);
+  if (out.shape == PlanShape::Rect) out.b = number(1);
+  if (out.shape == PlanShape::Circle) out.segments = sides(number(1));
+  if (out.shape == PlanShape::Polygon) {
+    out.segments = sides(number(0));
+    out.a = out.b = number(1);
+  }
+  return out.a > 0 && out.b > 0 && std::isfinite(out.a + out.b);
+}
+
+Status badFigure(const OpCall& call) {
+  return call.fail("bad-argument", "a figure needs lengths above zero", "write 1 or more");
+}
+
+Smoothing smoothingOf(std::span<const Term> terms) {
+  Smoothing s;
+  if (terms.size() != 1) return s;
+  const Term& t = terms[0];
+  const auto times = [](double n) { return static_cast<uint32_t>(std::clamp(n, 0.0, 6.0)); };
+  if (t.kind == ArgumentTerm::Kind::Value || t.is("average")) {
+    s.kind = Smoothing::Kind::Average;
+    s.times = times(t.number(0));
+    if (t.is("average")) s.weight = std::clamp(t.number(1), 0.0, 1.0);
+  } else if (t.is("chaikin")) {
+    s.kind = Smoothing::Kind::Chaikin;
+    s.times = times(t.number(0));
+  } else if (t.is("bezier")) {
+    s.kind = Smoothing::Kind::Bezier;
+  } else if (t.is("round")) {
+    s.kind = Smoothing::Kind::Round;
+    s.radius = std::isfinite(t.number(0)) ? std::max(0.0, t.number(0)) : 1;
+  }
+  return s;
 }
 
 namespace {
@@ -238,27 +290,69 @@ void linesOfRanges(OpCall& call, std::vector<LogicalRange> ranges, double inset,
 
 }  // namespace
 
-Status linesOf(OpCall& call, size_t argument, double inset, const RegionJob& job, size_t face,
-               const RegionView& view, std::vector<Polyline>& out) {
-  const std::string text = textOf(call, argument, "");
-  for (size_t begin = 0; begin <= text.size();) {
-    size_t end = begin;
-    for (int depth = 0; end < text.size() && (depth > 0 || text[end] != ';'); ++end) {
-      depth += text[end] == '(' ? 1 : text[end] == ')' ? -1 : 0;
+namespace {
+
+// Takes the parts of logical edges out of what is joined by ||; the other selections stay.
+void divideTerms(std::span<const Term> terms, std::vector<LogicalRange>& ranges,
+                 std::vector<Term>& others) {
+  using Kind = ArgumentTerm::Kind;
+  // Where the expression that ends at each term begins.
+  std::vector<size_t> begins;
+  for (size_t i = 0; i < terms.size(); ++i) {
+    size_t operands = terms[i].kind == Kind::Not    ? 1
+                      : terms[i].kind == Kind::Term ? terms[i].operands
+                      : terms[i].kind >= Kind::And  ? 2
+                                                    : 0;
+    size_t begin = i;
+    for (; operands > 0; --operands) begin = begins[begin - 1];
+    begins.push_back(begin);
+  }
+  std::vector<size_t> open;
+  if (!terms.empty()) open.push_back(terms.size() - 1);
+  while (!open.empty()) {
+    const size_t end = open.back();
+    open.pop_back();
+    const Term& t = terms[end];
+    if (t.kind == Kind::Or) {
+      open.push_back(end - 1);
+      open.push_back(begins[end - 1] - 1);
+    } else if (t.is("edge")) {
+      const double k = std::clamp(std::trunc(t.number(0)), 0.0, 1e6);
+      ranges.push_back({static_cast<uint32_t>(k), t.number(1), t.number(2, 1)});
+    } else if (t.is("range")) {
+      const double a = t.number(0), b = t.number(1);
+      for (double k = std::floor(a); k < b && k >= 0 && k < a + 1000; ++k) {
+        ranges.push_back({static_cast<uint32_t>(k), std::max(a - k, 0.0), std::min(b - k, 1.0)});
+      }
+    } else {
+      others.insert(others.end(), terms.begin() + static_cast<std::ptrdiff_t>(begins[end]),
+                    terms.begin() + static_cast<std::ptrdiff_t>(end) + 1);
+      if (others.size() > end - begins[end] + 1) {
+        Term join;
+        join.kind = Kind::Or;
+        others.push_back(join);
+      }
     }
-    const std::string part = text.substr(begin, end - begin);
-    begin = end + 1;
-    std::vector<LogicalRange> ranges;
-    if (readRanges(part, ranges)) {
-      linesOfRanges(call, std::move(ranges), inset, view, out);
-      continue;
-    }
-    std::vector<EdgePart> parts;
-    const Status status = selectedBy(call, part.empty() ? "all" : part, job, face, view, parts);
-    if (!status.ok()) return status;
-    for (const Polyline& line : runsOf(view.polygon(), parts, {})) {
-      for (Polyline& moved : insetLines(line, inset)) out.push_back(std::move(moved));
-    }
+  }
+}
+
+}  // namespace
+
+Status linesOf(OpCall& call, const Selection& selection, double inset, const RegionJob& job,
+               size_t face, std::vector<Polyline>& out) {
+  constexpr uint64_t kArguments = 900;
+  const RegionView& view = *job.faces()[face];
+  const std::vector<Term> terms =
+      termsOf(selection, call.services(), call.randomAddress(kArguments));
+  std::vector<LogicalRange> ranges;
+  std::vector<Term> others;
+  divideTerms(terms, ranges, others);
+  if (!ranges.empty()) linesOfRanges(call, std::move(ranges), inset, view, out);
+  if (others.empty() && !terms.empty()) return {};
+  const SelectionInput input{view, call.randomAddress(1000 + face), job.worldIn(face),
+                             call.services().pool()};
+  for (const Polyline& line : runsOf(view.polygon(), selectEdges(others, input), {})) {
+    for (Polyline& moved : insetLines(line, inset)) out.push_back(std::move(moved));
   }
   return {};
 }

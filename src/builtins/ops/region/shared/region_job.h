@@ -11,8 +11,9 @@
 #include <vector>
 
 #include "builtins/ops/region/shared/region_shape.h"
-#include "builtins/ops/region/shared/region_text.h"
+#include "builtins/ops/region/shared/selection.h"
 #include "geom/region/places.h"
+#include "geom/region/smooth.h"
 
 namespace gable {
 
@@ -58,13 +59,6 @@ class RegionJob {
   std::vector<Kept> kept_;
 };
 
-/// An argument that is a number or a text: what it says as text.
-std::string textOf(const OpCall& call, size_t argument, std::string_view otherwise);
-
-/// A failure that names what is wrong when an argument has other options than `known` (see
-/// checkOptions).
-Status optionsAre(const OpCall& call, size_t argument, std::string_view known);
-
 /// The failure of a shape whose faces are no region: they do not lie in one plane.
 Status noOneRegion(OpCall& call);
 
@@ -72,20 +66,52 @@ Status noOneRegion(OpCall& call);
 Status noRegion(OpCall& call);
 
 /// Edges by an argument that is a selection.
-Status selected(OpCall& call, size_t argument, std::string_view otherwise, const RegionJob& job,
-                size_t face, const RegionView& view, std::vector<EdgePart>& out);
+std::vector<EdgePart> selected(const OpCall& call, const Selection& selection, const RegionJob& job,
+                               size_t face, std::vector<OwnWidth>* widths = nullptr);
 
-Status selectedBy(OpCall& call, std::string_view selection, const RegionJob& job, size_t face,
-                  const RegionView& view, std::vector<EdgePart>& out);
+/// Discs: so many of a drawn radius, scattered; places with a radius or without; or a list of
+/// coordinates x, y, x, y from the scope's origin, in the plane.
+Status discsOf(OpCall& call, std::span<const Term> sites, const DrawnNumber& radius,
+               const RegionView& view, uint64_t seed, std::vector<Disc>& out);
 
-/// Discs by a text "5 {[5-10]}" or a list of coordinates x, y, x, y (from the scope's origin, in
-/// the plane).
-Status discsOf(OpCall& call, size_t argument, const RegionView& view, uint64_t seed,
-               std::vector<Disc>& out);
+/// The lines that a selection means: parts of logical edges run clockwise and are one line where
+/// they meet, all other edges are runs of the outline. With an inset they lie on the region
+/// contracted by it.
+Status linesOf(OpCall& call, const Selection& selection, double inset, const RegionJob& job,
+               size_t face, std::vector<Polyline>& out);
 
-/// The lines that a text means: ranges along logical edges, or a selection, or several of both with
-/// ; between. With an inset they lie on the region contracted by it.
-Status linesOf(OpCall& call, size_t argument, double inset, const RegionJob& job, size_t face,
-               const RegionView& view, std::vector<Polyline>& out);
+/// A width of a path, or what is wrong with it.
+Status checkPath(const OpCall& call, double width);
+
+/// The slot of the block's item with that word; none where there is none.
+std::optional<uint32_t> slotOf(const OpCall& call, std::string_view word);
+
+/// A figure as the kernel takes it; None for none. False when its lengths are not above zero.
+bool planFigureOf(const DrawnFigure& figure, PlanFigure& out);
+Status badFigure(const OpCall& call);
+
+// Terms that several operations share.
+namespace site_terms {
+constexpr ParamSpec kPoint[] = {
+    {"x", ParamType::Float, "Metres east of the south-west corner of the region's box."},
+    {"y", ParamType::Float, "Metres north of it."},
+    {"radius", ParamType::Float, "Of a disc there.", "0"}};
+constexpr TermSpec kSites[] = {TermSpec::call("point", "A place in metres.", kPoint)};
+
+constexpr ParamSpec kAverage[] = {
+    {"times", ParamType::Float, "How often, up to 6.", "2"},
+    {"weight", ParamType::Float, "What a vertex keeps of itself.", "0.3333333333333333"}};
+constexpr ParamSpec kTimes[] = {{"times", ParamType::Float, "How often, up to 6.", "2"}};
+constexpr ParamSpec kRadius[] = {{"radius", ParamType::Float, "In metres.", "1"}};
+constexpr TermSpec kSmoothing[] = {
+    {"none", "Borders stay as they are."},
+    TermSpec::call("average", "Vertices move towards their neighbours.", kAverage),
+    TermSpec::call("chaikin", "Corners are cut, again and again.", kTimes),
+    {"bezier", "Arcs from the middle of each edge to the next."},
+    TermSpec::call("round", "Corners get a radius.", kRadius)};
+}  // namespace site_terms
+
+/// none, average(2), chaikin(2), bezier, round(1); a number is that many averages.
+Smoothing smoothingOf(std::span<const Term> terms);
 
 }  // namespace gable

@@ -388,6 +388,12 @@ Shape RegionView::shapeOf(const Shape& parent, std::span<const RegionPiece> piec
   return child;
 }
 
+Shape RegionView::markedAs(const Shape& parent, const CellMark& cell) const {
+  Shape s = parent;
+  s.geometry = primitive(GeometryKind::QuadXz, faceTags(depth_ + 1, cell));
+  return s;
+}
+
 Mesh RegionView::replaced(std::span<const RegionPiece> pieces, bool reindex) {
   std::vector<std::vector<EdgeMark>> marks;
   for (const RegionPiece& p : pieces) {

@@ -136,6 +136,8 @@ class RegionView {
   /// The mesh that `replace` gives the shape.
   Mesh replaced(std::span<const RegionPiece> pieces, bool reindex = false);
 
+  /// The parent as a cell with that mark would be, for conditions that are asked beforehand.
+  Shape markedAs(const Shape& parent, const CellMark& cell) const;
   /// A point with x along a direction of the plane and the normal up (or forward).
   Shape pointAt(const Shape& parent, Vec2 at, Vec2 along) const;
   /// A mesh in coordinates of the plane, with the scope along a direction of it.

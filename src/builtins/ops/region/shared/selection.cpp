@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Selections of edges: sets of parts of edges, and the words that mean them.
+// Selections of edges: sets of parts of edges, and what each term means.
+#include "builtins/ops/region/shared/selection.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "base/number.h"
 #include "base/random.h"
-#include "builtins/ops/region/shared/region_text.h"
 #include "geom/region/autoindex.h"
 #include "geom/region/places.h"
 #include "math/trig.h"
@@ -16,10 +16,6 @@
 namespace gable {
 
 namespace {
-
-std::string near(std::string_view text, size_t place) {
-  return place < text.size() ? "at '" + std::string(text.substr(place, 12)) + "'" : "at its end";
-}
 
 // A set of parts of edges: by edge the intervals, ascending and apart.
 class EdgeSet {
@@ -85,10 +81,25 @@ class EdgeSet {
   std::vector<std::vector<Interval>> of_;
 };
 
-class SelectionReader {
+// What stands on the stack: a set, and the terms that it was made of where they are joined by || or
+// stand alone.
+struct Operand {
+  EdgeSet set;
+  std::vector<Term> leaves;
+};
+
+int sideOf(std::string_view w) {
+  if (w == "W" || w == "west") return 0;
+  if (w == "N" || w == "north") return 1;
+  if (w == "E" || w == "east") return 2;
+  if (w == "S" || w == "south") return 3;
+  return -1;
+}
+
+class EdgeSelector {
  public:
-  SelectionReader(std::string_view text, const SelectionInput& in)
-      : text_(text), r_(text), in_(in), view_(in.view), n_(in.view.marks().size()) {
+  explicit EdgeSelector(const SelectionInput& in)
+      : in_(in), view_(in.view), n_(in.view.marks().size()) {
     for (const Ring& r : ringsOf(view_.polygon())) {
       for (size_t i = 0; i < r.size(); ++i) {
         from_.push_back(r[i]);
@@ -98,52 +109,49 @@ class SelectionReader {
     outer_ = view_.polygon().outer.size();
   }
 
-  bool run(std::vector<EdgePart>& out, std::string& problem) {
-    EdgeSet s = either();
-    if (problem_.empty() && !r_.atEnd()) fail("this was not expected");
-    problem = problem_;
-    out = s.parts();
-    return problem_.empty();
+  EdgeSet run(std::span<const Term> terms, std::vector<OwnWidth>* widths) {
+    using Kind = ArgumentTerm::Kind;
+    widths_ = widths;
+    std::vector<Operand> stack;
+    const auto pop = [&] {
+      Operand o = std::move(stack.back());
+      stack.pop_back();
+      return o;
+    };
+    for (const Term& t : terms) {
+      const size_t needed = t.kind == Kind::Not    ? 1
+                            : t.kind == Kind::Term ? t.operands
+                            : t.kind >= Kind::And  ? 2
+                                                   : 0;
+      if (stack.size() < needed) return EdgeSet(n_);
+      switch (t.kind) {
+        case Kind::Value: stack.push_back({logical(t.number(0)), {t}}); break;
+        case Kind::Term: {
+          std::vector<Operand> operands(t.operands, Operand{EdgeSet(n_), {}});
+          for (size_t k = t.operands; k-- > 0;) operands[k] = pop();
+          stack.push_back({meaning(t, operands), {t}});
+          break;
+        }
+        case Kind::Not: {
+          const Operand a = pop();
+          stack.push_back({a.set.complement(), {}});
+          break;
+        }
+        default: {
+          Operand b = pop(), a = pop();
+          if (t.kind == Kind::Or) {
+            a.leaves.insert(a.leaves.end(), b.leaves.begin(), b.leaves.end());
+            stack.push_back({a.set.united(b.set), std::move(a.leaves)});
+          } else {
+            stack.push_back({a.set.common(t.kind == Kind::And ? b.set : b.set.complement()), {}});
+          }
+        }
+      }
+    }
+    return stack.empty() ? EdgeSet::all(n_) : stack.back().set;
   }
 
  private:
-  void fail(std::string what) {
-    if (problem_.empty()) problem_ = std::move(what) + " " + near(text_, r_.place());
-  }
-
-  EdgeSet either() {
-    EdgeSet s = minus();
-    while (r_.accept("||") || r_.accept('|')) s = s.united(minus());
-    return s;
-  }
-  EdgeSet minus() {
-    EdgeSet s = both();
-    while (r_.accept('-')) s = s.common(both().complement());
-    return s;
-  }
-  EdgeSet both() {
-    EdgeSet s = unary();
-    while (r_.accept("&&") || r_.accept('&')) s = s.common(unary());
-    return s;
-  }
-  EdgeSet unary() {
-    if (++depth_ > 200) {
-      fail("too many brackets");
-      return EdgeSet(n_);
-    }
-    EdgeSet s(n_);
-    if (r_.accept('!')) {
-      s = unary().complement();
-    } else if (r_.accept('(')) {
-      s = either();
-      if (!r_.accept(')')) fail("')' is missing");
-    } else {
-      s = atom();
-    }
-    --depth_;
-    return s;
-  }
-
   template <class Test>
   EdgeSet where(Test&& test) const {
     EdgeSet s(n_);
@@ -151,36 +159,6 @@ class SelectionReader {
       if (test(i)) s.add(i);
     }
     return s;
-  }
-
-  bool argument(double& v) {
-    if (!r_.number(v)) {
-      fail("a number is missing");
-      return false;
-    }
-    return true;
-  }
-  void open() {
-    if (!r_.accept('(')) fail("'(' is missing");
-  }
-  void close() {
-    if (!r_.accept(')')) fail("')' is missing");
-  }
-  int optionalArgument(int otherwise) {
-    double v = otherwise;
-    if (r_.accept('(')) {
-      argument(v);
-      close();
-    }
-    return static_cast<int>(std::clamp(v, -1e6, 1e6));
-  }
-
-  static int sideOf(std::string_view w) {
-    if (w == "w" || w == "west") return 0;
-    if (w == "n" || w == "north") return 1;
-    if (w == "e" || w == "east") return 2;
-    if (w == "s" || w == "south") return 3;
-    return -1;
   }
 
   // Sides are mirrored with the cell.
@@ -214,23 +192,96 @@ class SelectionReader {
     return {local.x, local.y};
   }
 
-  bool direction(Vec2& d) {
-    std::string w = r_.word();
-    const bool world = w == "world";
-    if (world && r_.accept('.')) w = r_.word();
-    const int k = sideOf(w);
-    if (k < 0) {
-      double angle = 0;
-      if (w.empty() && r_.number(angle)) {
-        d = {cosDeg(angle), sinDeg(angle)};
-        return true;
-      }
-      fail("a direction is missing: W, N, E or S");
-      return false;
+  // A direction of the plane: a word, of the world perhaps, or an angle.
+  bool direction(const Term& t, Vec2& d) const {
+    if (t.kind == ArgumentTerm::Kind::Value) {
+      d = {cosDeg(t.number(0)), sinDeg(t.number(0))};
+      return true;
     }
-    d = directionOf(k, world);
-    return true;
+    constexpr std::string_view kWorld = "world.";
+    const bool world = t.name.starts_with(kWorld);
+    const int k = sideOf(world ? t.name.substr(kWorld.size()) : t.name);
+    if (k >= 0) d = directionOf(k, world);
+    return k >= 0;
   }
+  std::vector<Vec2> directions(const Operand& o) const {
+    std::vector<Vec2> out;
+    for (const Term& t : o.leaves) {
+      if (Vec2 d; direction(t, d)) out.push_back(d);
+    }
+    return out;
+  }
+
+  EdgeSet ofRole(EdgeRole wanted) const {
+    return where([&](size_t i) { return view_.marks()[i].role == wanted; });
+  }
+
+  EdgeSet meaning(const Term& t, const std::vector<Operand>& operands) {
+    const std::string_view w = t.name;
+    const double a = t.number(0), b = t.number(1);
+    if (w == "all") return EdgeSet::all(n_);
+    if (w == "outer") return outerOf(t.values.empty() ? -1 : wholeOf(a));
+    if (w == "strictOuter") return strictOuter();
+    if (w == "inner") return outerOf(-1).complement();
+    if (w == "border") return outerOf(0);
+    if (w == "pathSide") return ofRole(EdgeRole::Path);
+    if (w == "centreSide") return ofRole(EdgeRole::Centre);
+    if (w == "holeSide") return ofRole(EdgeRole::Hole);
+    if (w == "cut") return ofRole(EdgeRole::Cut);
+    if (w == "peeledBase") return peeled(EdgeRole::Base, false, wholeOf(a));
+    if (w == "peeledInner") return peeled(EdgeRole::Inner, false, wholeOf(a));
+    if (w == "peeledSegment") return peeled(EdgeRole::Inner, true, wholeOf(a));
+    if (w == "corners") return atCorners();
+    if (w == "touches") return touching(operands[0].set);
+    if (w == "longest") return byLength(true);
+    if (w == "shortest") return byLength(false);
+    if (w == "longer") return where([&](size_t i) { return length(to_[i] - from_[i]) > a; });
+    if (w == "shorter") return where([&](size_t i) { return length(to_[i] - from_[i]) < a; });
+    if (w == "side") return side(std::max(0, sideOf(t.word(0, in_.pool))));
+    if (w == "edge") return edgeWord(t);
+    if (w == "range") return parameters(a, b);
+    if (w == "angle") return angle(a, b);
+    if (w == "sector") return sector(a, b, t.word(2, in_.pool) == "whole");
+    return function(t, operands);
+  }
+
+  EdgeSet edgeWord(const Term& t) const {
+    const double from = t.number(1), to = t.number(2, 1);
+    if (from == 0 && to == 1) return logical(t.number(0));
+    const double k = std::trunc(t.number(0));
+    return parametersOf(k, std::min(from, to), std::max(from, to));
+  }
+
+  EdgeSet function(const Term& t, const std::vector<Operand>& operands) {
+    const std::string_view w = t.name;
+    const double a = t.number(0), b = t.number(1);
+    if (w == "facing") {
+      const std::vector<Vec2> d = directions(operands[0]);
+      return d.empty() ? EdgeSet(n_) : facing(d[0]);
+    }
+    if (w == "grow") {
+      std::vector<Vec2> d = directions(operands[0]);
+      if (d.empty()) return EdgeSet(n_);
+      if (d.size() == 1) addCardinals(d);
+      return grow(d, a);
+    }
+    if (w == "wide") {
+      if (widths_) widths_->push_back({operands[0].set.parts(), a});
+      return operands[0].set;
+    }
+    const auto i = static_cast<size_t>(std::clamp(a, 0.0, 1e9));
+    const auto o = static_cast<size_t>(std::clamp(b, 0.0, 1e9));
+    if (w == "index") return where([&](size_t k) { return k == i % std::max<size_t>(1, n_); });
+    if (w == "nth") {
+      return where([&](size_t k) { return i > 0 && k >= o && (k - o) % i == 0; });
+    }
+    if (w == "random") {
+      return where([&](size_t k) { return randomUnit(hashCombine(in_.seed, k)) < a; });
+    }
+    return EdgeSet(n_);
+  }
+
+  static int wholeOf(double v) { return static_cast<int>(std::clamp(v, -1e6, 1e6)); }
 
   EdgeSet facing(Vec2 d) const {
     return where([&](size_t i) {
@@ -466,15 +517,19 @@ class SelectionReader {
   // The ranges of parameters along logical edges: [0.4, 2.9].
   EdgeSet parameters(double a, double b) const {
     EdgeSet s(n_);
+    for (double k = std::floor(a); k < b && k < a + 1000; ++k) {
+      s = s.united(parametersOf(k, std::max(a - k, 0.0), std::min(b - k, 1.0)));
+    }
+    return s;
+  }
+  EdgeSet parametersOf(double k, double from, double to) const {
+    EdgeSet s(n_);
     const bool turned = view_.cell() && view_.cell()->mirroredX() != view_.cell()->mirroredY() &&
                         view_.logicalCount() == 4;
-    for (double k = std::floor(a); k < b && k < a + 1000; ++k) {
-      const double from = std::max(a - k, 0.0), to = std::min(b - k, 1.0);
-      const double count = std::max(1u, view_.logicalCount());
-      const uint32_t wanted =
-          seen(static_cast<uint32_t>(std::fmod(std::fmod(k, count) + count, count)));
-      addAlong(wanted, turned ? from : 1 - to, turned ? to : 1 - from, s);
-    }
+    const double count = std::max(1u, view_.logicalCount());
+    const uint32_t wanted =
+        seen(static_cast<uint32_t>(std::fmod(std::fmod(k, count) + count, count)));
+    addAlong(wanted, turned ? from : 1 - to, turned ? to : 1 - from, s);
     return s;
   }
   // A part of a logical edge, counter-clockwise.
@@ -499,22 +554,6 @@ class SelectionReader {
     }
   }
 
-  EdgeSet bracket() {
-    EdgeSet s(n_);
-    do {
-      double a = 0, b = 0;
-      if (!argument(a)) return s;
-      if (r_.accept(',')) {
-        if (!argument(b)) return s;
-        s = s.united(parameters(a, b));
-      } else {
-        s = s.united(logical(a));
-      }
-      if (!r_.accept(']')) fail("']' is missing");
-    } while (problem_.empty() && r_.accept('['));
-    return s;
-  }
-
   EdgeSet byLength(bool longest) const {
     double best = longest ? -1 : 1e300;
     for (size_t i = 0; i < n_; ++i) {
@@ -525,145 +564,24 @@ class SelectionReader {
         [&](size_t i) { return std::fabs(length(to_[i] - from_[i]) - best) <= 1e-9 * best; });
   }
 
-  EdgeSet atom() {
-    if (r_.accept('[')) return bracket();
-    const size_t start = r_.place();
-    double number = 0;
-    if (r_.number(number)) return logical(number);
-    const std::string w = r_.word();
-    const auto role = [&](EdgeRole wanted) {
-      return where([&](size_t i) { return view_.marks()[i].role == wanted; });
-    };
-    if (const int k = sideOf(w); k >= 0) return side(k);
-    if (w == "all") return EdgeSet::all(n_);
-    if (w == "outer" || w == "outer_edge" || w == "outeredgesselection") {
-      const size_t before = r_.place();
-      if (r_.accept('(') && r_.word() == "strict") {
-        close();
-        return strictOuter();
-      }
-      r_.goTo(before);
-      return r_.peek() == '(' ? outerOf(optionalArgument(0)) : outerOf(-1);
-    }
-    if (w == "inner") return outerOf(-1).complement();
-    if (w == "border") return outerOf(0);
-    if (w == "pathside") return role(EdgeRole::Path);
-    if (w == "centreside" || w == "centerside") return role(EdgeRole::Centre);
-    if (w == "holeside") return role(EdgeRole::Hole);
-    if (w == "cut") return role(EdgeRole::Cut);
-    if (w == "peeled_base" || w == "pb") return peeled(EdgeRole::Base, false, optionalArgument(0));
-    if (w == "peeled_inner" || w == "pi")
-      return peeled(EdgeRole::Inner, false, optionalArgument(0));
-    if (w == "peeled_segment" || w == "ps") {
-      return peeled(EdgeRole::Inner, true, optionalArgument(0));
-    }
-    if (w == "corners") return atCorners();
-    if (w == "touches") {
-      open();
-      const EdgeSet inside = either();
-      close();
-      return touching(inside);
-    }
-    if (w == "longest") return byLength(true);
-    if (w == "shortest") return byLength(false);
-    if (w == "len") return lengthTest();
-    if (w == "side") {
-      open();
-      const int k = sideOf(r_.word());
-      if (k < 0) fail("side takes W, N, E or S");
-      close();
-      return k < 0 ? EdgeSet(n_) : side(k);
-    }
-    return function(w, start);
-  }
-
-  EdgeSet lengthTest() {
-    const bool more = r_.accept('>');
-    if (!more && !r_.accept('<')) fail("write len > 2 or len < 2");
-    double v = 0;
-    argument(v);
-    return where([&](size_t i) {
-      const double l = length(to_[i] - from_[i]);
-      return more ? l > v : l < v;
-    });
-  }
-
-  EdgeSet function(const std::string& w, size_t start) {
-    EdgeSet none(n_);
-    double a = 0, b = 0;
-    if (w == "facing") {
-      open();
-      Vec2 d;
-      if (!direction(d)) return none;
-      close();
-      return facing(d);
-    }
-    if (w == "angle" || w == "sector") {
-      open();
-      if (!argument(a) || !r_.accept(',') || !argument(b)) {
-        fail("two angles are missing");
-        return none;
-      }
-      const bool whole = w == "sector" && r_.accept(',') && r_.word() == "whole";
-      close();
-      return w == "angle" ? angle(a, b) : sector(a, b, whole);
-    }
-    if (w == "grow") {
-      open();
-      std::vector<Vec2> directions;
-      do {
-        Vec2 d;
-        if (!direction(d)) return none;
-        directions.push_back(d);
-      } while (r_.accept(','));
-      double threshold = 1e9;
-      if (r_.accept(';')) argument(threshold);
-      close();
-      if (directions.size() == 1) addCardinals(directions);
-      return grow(directions, threshold);
-    }
-    if (w == "index" || w == "nth") {
-      open();
-      if (!argument(a)) return none;
-      if (w == "nth" && r_.accept(',')) argument(b);
-      close();
-      const auto i = static_cast<size_t>(std::clamp(a, 0.0, 1e9));
-      const auto o = static_cast<size_t>(std::clamp(b, 0.0, 1e9));
-      if (w == "index") return where([&](size_t k) { return k == i % std::max<size_t>(1, n_); });
-      return where([&](size_t k) { return i > 0 && k >= o && (k - o) % i == 0; });
-    }
-    if (w == "random") {
-      open();
-      if (!argument(a)) return none;
-      close();
-      return where([&](size_t k) { return randomUnit(hashCombine(in_.seed, k)) < a; });
-    }
-    r_.goTo(start);
-    fail("no edges are called so");
-    return none;
-  }
-
   static void addCardinals(std::vector<Vec2>& directions) {
     for (const Vec2 d : {Vec2{-1, 0}, Vec2{0, 1}, Vec2{1, 0}, Vec2{0, -1}}) {
       if (dot(d, directions[0]) < 1 - 1e-9) directions.push_back(d);
     }
   }
 
-  std::string_view text_;
-  TextReader r_;
   const SelectionInput& in_;
   const RegionView& view_;
   size_t n_, outer_ = 0;
   std::vector<Vec2> from_, to_;
-  std::string problem_;
-  int depth_ = 0;
+  std::vector<OwnWidth>* widths_ = nullptr;
 };
 
 }  // namespace
 
-bool selectEdges(std::string_view text, const SelectionInput& input, std::vector<EdgePart>& out,
-                 std::string& problem) {
-  return SelectionReader(text, input).run(out, problem);
+std::vector<EdgePart> selectEdges(std::span<const Term> terms, const SelectionInput& input,
+                                  std::vector<OwnWidth>* widths) {
+  return EdgeSelector(input).run(terms, widths).parts();
 }
 
 }  // namespace gable

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Calls of operations on regions as they were written when selections, figures and options were
+// texts: what to write in their place.
+//
+//   peel("outer & !W", 1)                          peel(outer && !side(west), 1)
+//   place(centre, "circle(2)") { Bed }             place(centre) { circle(2) Bed }
+//   grid(2, 2, 2, "romb(3)", "fit=fail") { .. }    grid(2, 2, 2, fit = fail) { junction : romb(3)
+//   ..
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lang/tree.h"
+
+namespace gable::lang {
+
+struct TextEdit {
+  uint32_t begin = 0, end = 0;
+  std::string text;
+};
+
+/// Whether a call of an operation on regions, or of region.selects, has texts among its arguments.
+bool isOldRegionCall(const Tree& tree, NodeId call);
+
+/// What to change, in the order of the text; empty when it cannot be said exactly.
+std::vector<TextEdit> modernRegionCall(const Tree& tree, NodeId call, std::string_view source);
+
+/// The text with all such calls rewritten; those that cannot be stay.
+std::string withModernRegions(const Tree& tree, std::string_view source);
+
+}  // namespace gable::lang
