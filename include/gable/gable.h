@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +26,13 @@
 namespace gable {
 
 enum class Level : uint8_t { Note, Warning, Error };
+
+/// A remedy that can be carried out: `text` in place of what stands there.
+struct Fix {
+  std::string file;
+  uint32_t line = 0, column = 0, endLine = 0, endColumn = 0;
+  std::string text;
+};
 
 struct Message {
   Level level = Level::Error;
@@ -35,6 +43,8 @@ struct Message {
   uint32_t line = 0, column = 0, endLine = 0, endColumn = 0;
   std::string text;
   std::string hint;
+  /// What the hint says, as an edit, where it is one.
+  std::optional<Fix> fix;
   /// The rules from the initial shape down to where it happened; empty before a derivation.
   std::string shapePath;
   /// The message with its place, the line of text and a caret, as a terminal shows it.

@@ -22,9 +22,9 @@ struct StudioSettings {
   std::string examples;
   /// Loopback, unless others are meant to come in.
   std::string address = "127.0.0.1";
-  /// 0: any that is free.
+  /// 0: that of this project's last studio where it is free, else any.
   uint16_t port = 0;
-  /// What a page must show; empty: drawn anew.
+  /// What a page must show; empty: that of this project's last studio, else drawn.
   std::string token;
 };
 

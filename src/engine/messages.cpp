@@ -36,6 +36,12 @@ Message toMessage(const Diagnostic& d, const Sources& sources) {
     m.endLine = to.line;
     m.endColumn = to.column;
   }
+  if (d.fix && d.fix->span.valid() && d.fix->span.file < sources.size()) {
+    const LineColumn from = sources.locate(d.fix->span.file, d.fix->span.begin);
+    const LineColumn to = sources.locate(d.fix->span.file, d.fix->span.end);
+    m.fix = Fix{
+        sources.path(d.fix->span.file), from.line, from.column, to.line, to.column, d.fix->text};
+  }
   return m;
 }
 
@@ -63,6 +69,12 @@ std::string messagesJson(const Messages& messages) {
     }
     json.key("message").value(m.text);
     if (!m.hint.empty()) json.key("hint").value(m.hint);
+    if (m.fix) {
+      json.key("fix").beginObject().key("file").value(m.fix->file);
+      json.key("line").value(m.fix->line).key("column").value(m.fix->column);
+      json.key("endLine").value(m.fix->endLine).key("endColumn").value(m.fix->endColumn);
+      json.key("text").value(m.fix->text).endObject();
+    }
     if (!m.shapePath.empty()) json.key("shapePath").value(m.shapePath);
     json.endObject();
   }

@@ -9,10 +9,12 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <utility>
 #include <vector>
 
 #include "base/files.h"
+#include "base/json.h"
 #include "studio/zip.h"
 
 namespace gable::studio {
@@ -23,6 +25,8 @@ namespace {
 
 constexpr const char* kFormats[] = {"glb", "gltf", "obj", "ply", "stl", "png"};
 constexpr uint64_t kMostLeavesWritten = 20'000'000;
+/// Somebody at a page waits for the picture.
+constexpr int kPageSamples = 32;
 constexpr uint64_t kLargestArchive = 2ull << 30;
 
 /// A folder that goes with everything in it.
@@ -77,10 +81,52 @@ Result<Exported> collected(const std::string& folder, const std::string& format)
   return Exported{zipped(contents), format + ".zip"};
 }
 
+// The numbers of a JSON array, if there are `count` and all lie within the bounds.
+bool readNumbers(const std::string& text, size_t count, double least, double most,
+                 std::vector<double>& out) {
+  const Result<JsonValue> json = parseJson(text, {2, 20});
+  if (!json.ok() || json.value().size() != count) return false;
+  for (const JsonValue& each : json.value().items()) {
+    const double value = each.number(std::numeric_limits<double>::quiet_NaN());
+    if (!(value >= least && value <= most)) return false;
+    out.push_back(value);
+  }
+  return true;
+}
+
 }  // namespace
 
+Result<PictureSettings> pictureOf(const std::string& camera, const std::string& size) {
+  PictureSettings out;
+  std::vector<double> numbers;
+  if (!size.empty()) {
+    if (!readNumbers(size, 2, 16, 4096, numbers)) {
+      return Error{"request-wrong", "'size' is [width, height], 16 to 4096 each", ""};
+    }
+    out.width = static_cast<int>(numbers[0]);
+    out.height = static_cast<int>(numbers[1]);
+  }
+  if (camera.empty()) return out;
+  std::vector<double> at;
+  const bool read = readNumbers(camera, 7, -1e7, 1e7, at);
+  const bool apart = read && (at[0] != at[3] || at[1] != at[4] || at[2] != at[5]);
+  if (!apart || !(at[6] >= 1 && at[6] <= 170)) {
+    return Error{"request-wrong", "'camera' is [eye, target, angle]: seven numbers of a camera",
+                 ""};
+  }
+  out.ownCamera = true;
+  for (size_t i = 0; i < 3; ++i) {
+    out.eye[i] = at[i];
+    out.target[i] = at[i + 3];
+  }
+  out.fieldOfView = at[6];
+  out.samples = kPageSamples;
+  return out;
+}
+
 Result<Exported> Exports::write(const Model& model, const std::string& format,
-                                const std::string& page, const Session::Cancel& cancel) {
+                                const std::string& page, const Session::Cancel& cancel,
+                                const PictureSettings& picture) {
   if (std::none_of(std::begin(kFormats), std::end(kFormats),
                    [&](const char* f) { return format == f; })) {
     return Error{"format-unknown", "models are not written as '" + format + "' here",
@@ -101,7 +147,7 @@ Result<Exported> Exports::write(const Model& model, const std::string& format,
   WriteResult written;
   const std::string file = folder.path + "/model." + format;
   if (format == "png") {
-    PictureSettings settings;
+    PictureSettings settings = picture;
     settings.cancel = cancel.get();
     settings.progress = [&work](size_t done, size_t total) {
       work->done = done;

@@ -24,12 +24,16 @@ struct Exported {
   std::string extension;
 };
 
+/// What a page says of a picture: `camera` as "[eye x, y, z, target x, y, z, horizontal angle]" and
+/// `size` as "[width, height]"; the usual ones where they are empty. Code: request-wrong.
+Result<PictureSettings> pictureOf(const std::string& camera, const std::string& size);
+
 class Exports {
  public:
   /// `format` is an extension. Codes: format-unknown, model-too-large, file-unwritable, cancelled,
-  /// and those of the writers.
+  /// and those of the writers. `picture`: how a picture is taken.
   Result<Exported> write(const Model& model, const std::string& format, const std::string& page,
-                         const Session::Cancel& cancel);
+                         const Session::Cancel& cancel, const PictureSettings& picture = {});
   /// Of the page's export under way: `done` of `total`, or `bytes` written where no total is known.
   std::string progressJson(const std::string& page) const;
 

@@ -48,6 +48,11 @@ std::vector<std::string> foldersImported(const std::string& rules) {
   return out;
 }
 
+// Pages, pictures' arguments and scripts tell of an example; its copy is what rules need.
+bool belongs(const std::string& path) {
+  return ProjectFiles::writes(path) && extensionOf(path) != "md";
+}
+
 }  // namespace
 
 Gallery::Gallery(const std::string& folder)
@@ -110,16 +115,17 @@ Result<std::string> Gallery::copyTo(ProjectFiles& files, const std::string& name
     if (!fs::exists(place.value())) break;
     target = name + "-" + std::to_string(i);
   }
+  // All of it is read before the first file is written: a copy is whole or not there.
+  std::vector<std::pair<std::string, std::string>> copied;
   for (const ProjectFile& f : folder_.list()) {
     if (f.path.compare(0, name.size() + 1, name + "/") != 0) continue;
     const std::string inner = f.path.substr(name.size() + 1);
-    // Pictures and pages of an example describe it; rules do not need them.
-    if (extensionOf(inner) == "args" || extensionOf(inner) == "md") continue;
+    if (!belongs(inner)) continue;
+    // Pictures of an example describe it; rules do not need them.
     if (inner.find('/') == std::string::npos && extensionOf(inner) == "png") continue;
-    const auto content = folder_.read(f.path);
+    auto content = folder_.read(f.path);
     if (!content.ok()) return content.error();
-    const auto written = files.write(target + "/" + inner, content.value(), "none");
-    if (!written.ok()) return written.error();
+    copied.emplace_back(target + "/" + inner, std::move(content.value()));
   }
   // What examples import together, and the examples that this one imports.
   std::vector<std::string> folders = {"rules"};
@@ -128,20 +134,24 @@ Result<std::string> Gallery::copyTo(ProjectFiles& files, const std::string& name
     if (f != name && !rulesOf(f).empty()) folders.push_back(std::move(f));
   }
   for (const std::string& folder : folders) {
-    const Result<bool> copied = copyMissing(files, folder + "/");
-    if (!copied.ok()) return copied.error();
+    const Result<bool> added = addMissing(files, folder + "/", copied);
+    if (!added.ok()) return added.error();
   }
+  const Result<uint64_t> written = files.create(copied);
+  if (!written.ok()) return written.error();
   return target;
 }
 
-Result<bool> Gallery::copyMissing(ProjectFiles& files, const std::string& folder) const {
+Result<bool> Gallery::addMissing(const ProjectFiles& files, const std::string& folder,
+                                 std::vector<std::pair<std::string, std::string>>& to) const {
   for (const ProjectFile& f : folder_.list()) {
-    const std::string kind = extensionOf(f.path);
-    if (f.path.compare(0, folder.size(), folder) != 0 || kind == "args" || kind == "md") continue;
-    const auto content = folder_.read(f.path);
+    if (f.path.compare(0, folder.size(), folder) != 0 || !belongs(f.path)) continue;
+    const Result<std::string> place = files.place(f.path);
+    if (!place.ok()) return place.error();
+    if (fs::exists(place.value())) continue;
+    auto content = folder_.read(f.path);
     if (!content.ok()) return content.error();
-    const auto written = files.write(f.path, content.value(), "none");
-    if (!written.ok() && written.error().code != "version-differs") return written.error();
+    to.emplace_back(f.path, std::move(content.value()));
   }
   return true;
 }

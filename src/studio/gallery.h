@@ -5,6 +5,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/result.h"
 #include "studio/project_files.h"
@@ -20,11 +22,12 @@ class Gallery {
   Result<std::string> picture(const std::string& name) const;
   /// Copies an example into a folder of its name, or of the name and a number where there is one;
   /// gives that folder's path in the project. Rules that it imports come along; files that are
-  /// there stay.
+  /// there stay. All of it is copied, or nothing.
   Result<std::string> copyTo(ProjectFiles& files, const std::string& name) const;
 
  private:
-  Result<bool> copyMissing(ProjectFiles& files, const std::string& folder) const;
+  Result<bool> addMissing(const ProjectFiles& files, const std::string& folder,
+                          std::vector<std::pair<std::string, std::string>>& to) const;
   std::string rulesOf(const std::string& name) const;
   ProjectFiles folder_;
   bool present_;

@@ -48,6 +48,10 @@ HttpResponse Guard::admit(const HttpRequest& r) const {
   return {};
 }
 
+bool isToken(const std::string& text) {
+  return text.size() == 32 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
 std::string drawToken() {
   std::random_device source;
   std::string out;

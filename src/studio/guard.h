@@ -28,5 +28,7 @@ class Guard {
 
 /// 32 hexadecimal digits from the system's source of chance.
 std::string drawToken();
+/// Whether a text looks like one.
+bool isToken(const std::string& text);
 
 }  // namespace gable::studio

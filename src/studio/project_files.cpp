@@ -31,12 +31,6 @@ Error outside(const std::string& path) {
           "paths count from the project's folder and stay in it"};
 }
 
-bool isWritable(const std::string& path) {
-  const std::string extension = extensionOf(path);
-  return std::any_of(std::begin(kWritable), std::end(kWritable),
-                     [&](const char* each) { return extension == each; });
-}
-
 bool startsWith(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
          folder.end();
@@ -46,6 +40,26 @@ Result<uint64_t> writeWithFolders(const std::string& file, const std::string& co
   std::error_code error;
   fs::create_directories(fs::path(file).parent_path(), error);
   return writeFile(file, content);
+}
+
+Error refusedKind(const std::string& path) {
+  return {"kind-refused", "files like '" + path + "' are not written", ""};
+}
+
+Error changedMeanwhile(const std::string& path) {
+  return {"version-differs", "'" + path + "' has changed meanwhile", ""};
+}
+
+// Removes files, and the folders that held nothing else, up to `root`.
+void removeWithFolders(const std::vector<std::string>& files, const fs::path& root) {
+  std::error_code ignored;
+  for (const std::string& file : files) {
+    fs::remove(file, ignored);
+    fs::path folder = fs::path(file).parent_path();
+    while (folder != root && fs::is_empty(folder, ignored) && fs::remove(folder, ignored)) {
+      folder = folder.parent_path();
+    }
+  }
 }
 
 // Files are compared and replaced in one step.
@@ -85,7 +99,8 @@ Result<std::string> ProjectFiles::place(const std::string& path) const {
 Result<std::string> ProjectFiles::own(const char* folder, const std::string& path) const {
   if (!plainPath(path)) return outside(path);
   std::error_code error;
-  const fs::path base = fs::path(root_) / kOwnFolder / folder;
+  fs::path base = fs::path(root_) / kOwnFolder;
+  if (*folder) base /= folder;
   const fs::path real = fs::weakly_canonical(base / path, error);
   if (error || !startsWith(real, base)) return outside(path);
   return real.string();
@@ -139,14 +154,12 @@ Result<std::string> ProjectFiles::write(const std::string& path, const std::stri
                                         const std::string& expected) {
   const Result<std::string> file = place(path);
   if (!file.ok()) return file.error();
-  if (!isWritable(path)) {
-    return Error{"kind-refused", "files like '" + path + "' are not written", ""};
-  }
+  if (!writes(path)) return refusedKind(path);
   const std::lock_guard lock(writing());
   const Result<std::string> before = read(path);
   const std::string found = before.ok() ? versionOf(before.value()) : "none";
   if (!expected.empty() && expected != found) {
-    return Error{"version-differs", "'" + path + "' has changed meanwhile", ""};
+    return changedMeanwhile(path);
   }
   const std::string version = versionOf(content);
   if (found == version) return version;
@@ -159,6 +172,39 @@ Result<std::string> ProjectFiles::write(const std::string& path, const std::stri
   const Result<uint64_t> written = writeWithFolders(file.value(), content);
   if (!written.ok()) return written.error();
   return version;
+}
+
+bool ProjectFiles::writes(const std::string& path) {
+  const std::string extension = extensionOf(path);
+  return std::any_of(std::begin(kWritable), std::end(kWritable),
+                     [&](const char* each) { return extension == each; });
+}
+
+Result<uint64_t> ProjectFiles::create(
+    const std::vector<std::pair<std::string, std::string>>& files) {
+  const std::lock_guard lock(writing());
+  // Nothing is written before all of it may be.
+  std::vector<std::string> places;
+  for (const auto& [path, content] : files) {
+    const Result<std::string> file = place(path);
+    if (!file.ok()) return file.error();
+    if (!writes(path)) return refusedKind(path);
+    std::error_code error;
+    if (fs::exists(file.value(), error)) return changedMeanwhile(path);
+    places.push_back(file.value());
+  }
+  uint64_t bytes = 0;
+  std::vector<std::string> made;
+  for (size_t i = 0; i < files.size(); ++i) {
+    made.push_back(places[i]);
+    const Result<uint64_t> written = writeWithFolders(places[i], files[i].second);
+    if (!written.ok()) {
+      removeWithFolders(made, root_);
+      return written.error();
+    }
+    bytes += written.value();
+  }
+  return bytes;
 }
 
 Result<std::string> ProjectFiles::previous(const std::string& path) const {

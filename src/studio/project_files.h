@@ -8,11 +8,13 @@
 // 2. Names that begin with a dot cannot be named; the folder `.gable` is the studio's own.
 // 3. Only kinds of files that a project is made of are written.
 // 4. A file is replaced whole or not at all, and the version before is kept in .gable/previous.
-// 5. Who writes says which version was read; where the file is another by now, nothing is written.
+// 5. Files that belong together are made all or none.
+// 6. Who writes says which version was read; where the file is another by now, nothing is written.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/result.h"
@@ -46,6 +48,11 @@ class ProjectFiles {
   /// Codes: path-outside, kind-refused, version-differs, file-unwritable.
   Result<std::string> write(const std::string& path, const std::string& content,
                             const std::string& expected);
+  /// Makes files that are not there yet, by path and content: all of them, or none.
+  /// Codes: path-outside, kind-refused, version-differs, file-unwritable.
+  Result<uint64_t> create(const std::vector<std::pair<std::string, std::string>>& files);
+  /// Whether files like this one are written at all.
+  static bool writes(const std::string& path);
   /// What a file said before it was last written.
   Result<std::string> previous(const std::string& path) const;
 
@@ -54,6 +61,8 @@ class ProjectFiles {
   Result<uint64_t> keepRecovery(const std::string& path, const std::string& content);
   void dropRecovery(const std::string& path);
 
+  /// The path on disk of a file that the studio keeps for itself.
+  Result<std::string> ownPlace(const std::string& name) const { return own("", name); }
   /// The path on disk of a project path that is inside; it need not exist.
   Result<std::string> place(const std::string& path) const;
 

@@ -3,14 +3,17 @@
 //
 // What each address of the studio answers. docs/dev/studio-protocol.md has the table.
 
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <optional>
 #include <set>
+#include <thread>
 
 #include "base/files.h"
 #include "base/json.h"
 #include "gable/studio.h"
+#include "studio/address.h"
 #include "studio/export.h"
 #include "studio/gallery.h"
 #include "studio/guard.h"
@@ -93,6 +96,7 @@ class Router {
     routes_["GET /api/ops"] = [](const HttpRequest&) { return jsonOf(builtinsJson()); };
     routes_["GET /api/file"] = [this](const HttpRequest& r) { return file(r); };
     routes_["PUT /api/file"] = [this](const HttpRequest& r) { return save(r); };
+    routes_["POST /api/files"] = [this](const HttpRequest& r) { return create(r); };
     routes_["GET /api/previous"] = [this](const HttpRequest& r) {
       return bytesOf(files_.previous(r.argument("path")));
     };
@@ -197,6 +201,27 @@ class Router {
     return jsonOf(out);
   }
 
+  // A line of JSON, [[path, bytes], ...], and behind it the contents one after the other.
+  HttpResponse create(const HttpRequest& r) {
+    const size_t line = std::min(r.body.find('\n'), r.body.size());
+    const Result<JsonValue> list = parseJson(r.body.substr(0, line), {4, 100'000});
+    if (!list.ok()) return failed(list.error());
+    std::vector<std::pair<std::string, std::string>> files;
+    size_t at = line + 1;
+    for (const JsonValue& each : list.value().items()) {
+      const double bytes = each.at(1).number(-1);
+      if (!(bytes >= 0) || at > r.body.size() || bytes > static_cast<double>(r.body.size() - at)) {
+        return failed({"request-wrong", "the body ends before its files do", ""});
+      }
+      files.emplace_back(each.at(0).text(), r.body.substr(at, static_cast<size_t>(bytes)));
+      at += static_cast<size_t>(bytes);
+    }
+    const Result<uint64_t> made = files_.create(files);
+    if (!made.ok()) return failed(made.error());
+    session_.forget();
+    return jsonOf("{}");
+  }
+
   HttpResponse keepRecovery(const HttpRequest& r) {
     const auto kept = files_.keepRecovery(r.argument("path"), r.body);
     return kept.ok() ? jsonOf("{}") : failed(kept.error());
@@ -235,8 +260,10 @@ class Router {
   HttpResponse exported(const HttpRequest& r) {
     const Result<Model> model = session_.model(numberOf(r.argument("derivation")));
     if (!model.ok()) return failed(model.error());
-    Result<Exported> made =
-        exports_.write(model.value(), r.argument("format"), r.argument("page"), r.cancelled);
+    const Result<PictureSettings> picture = pictureOf(r.argument("camera"), r.argument("size"));
+    if (!picture.ok()) return failed(picture.error());
+    Result<Exported> made = exports_.write(model.value(), r.argument("format"), r.argument("page"),
+                                           r.cancelled, picture.value());
     if (!made.ok()) return failed(made.error());
     return {200,
             kBytes,
@@ -310,22 +337,49 @@ StudioResult runStudio(const StudioSettings& settings, const std::atomic<bool>& 
     return refusal({"folder-missing", "there is no folder '" + settings.project + "'",
                     "name the folder of your rules, or make it first"});
   }
-  const std::string token = settings.token.empty() ? drawToken() : settings.token;
+  const ProjectFiles files(settings.project);
+  const Address before = settings.token.empty() ? addressBefore(files) : Address{};
   std::optional<Guard> guard;
+  const HttpServer::Admit admit = [&guard](const HttpRequest& r) { return guard->admit(r); };
+  const HttpServer::Handler answer = [&router](const HttpRequest& r) { return router.answer(r); };
+  const HttpServer::Slow slow = {takesLong, [&router](const HttpRequest& r) { router.arrived(r); }};
   HttpSettings http;
   http.address = settings.address;
-  http.port = settings.port;
-  HttpServer server(
-      http, [&guard](const HttpRequest& r) { return guard->admit(r); },
-      [&router](const HttpRequest& r) { return router.answer(r); },
-      {takesLong, [&router](const HttpRequest& r) { router.arrived(r); }});
-  const Result<uint16_t> port = server.listen();
+  // Pages that are still open look for the studio where it was.
+  const uint16_t wished = settings.port ? settings.port : before.port;
+  std::optional<HttpServer> server;
+  Result<uint16_t> port = uint16_t{0};
+  for (const uint16_t tried : {wished, uint16_t{0}}) {
+    http.port = tried;
+    server.emplace(http, admit, answer, slow);
+    port = server->listen();
+    if (port.ok() || settings.port) break;
+  }
   if (!port.ok()) return refusal(port.error());
-  const std::string end = ":" + std::to_string(port.value());
-  guard.emplace(token, std::vector<std::string>{"127.0.0.1" + end, "localhost" + end, "[::1]" + end,
-                                                settings.address + end});
-  ready("http://" + settings.address + end + "/?token=" + token);
-  server.run(stop);
+  std::optional<HttpServer> old;
+  if (before.port && before.port != port.value()) {
+    http.port = before.port;
+    old.emplace(http, admit, answer, slow);
+    if (!old->listen().ok()) old.reset();
+  }
+  std::string token = settings.token.empty() ? before.token : settings.token;
+  if (token.empty()) token = drawToken();
+  if (settings.token.empty()) keepAddress(files, {port.value(), token});
+  std::vector<std::string> hosts;
+  for (const uint16_t known : {port.value(), old ? before.port : port.value()}) {
+    const std::string end = ":" + std::to_string(known);
+    for (const std::string& name : {std::string("127.0.0.1"), std::string("localhost"),
+                                    std::string("[::1]"), settings.address}) {
+      hosts.push_back(name + end);
+    }
+  }
+  guard.emplace(token, hosts);
+  ready("http://" + settings.address + ":" + std::to_string(port.value()) + "/?token=" + token);
+  std::thread beside([&] {
+    if (old) old->run(stop);
+  });
+  server->run(stop);
+  beside.join();
   return {true, {}};
 }
 

@@ -10,7 +10,9 @@
 #include <fstream>
 #include <thread>
 
+#include "base/json.h"
 #include "gable/studio.h"
+#include "studio/export.h"
 #include "studio/gallery.h"
 #include "studio/guard.h"
 #include "studio/project_files.h"
@@ -456,10 +458,105 @@ TEST_F(Folder, examplesOpenAsCopies) {
   // The town imports the castle.
   EXPECT_EQ(gallery.copyTo(files, "town").value(), "town");
   EXPECT_TRUE(fs::exists(project() + "/castle/castle.cga"));
+  // Each is copied whole: rules, models and pictures, and nothing that a project does not take.
+  const Result<JsonValue> all = parseJson(gallery.list(), {8, 10'000});
+  ASSERT_TRUE(all.ok());
+  EXPECT_GE(all.value().items().size(), 10u);
+  for (const JsonValue& each : all.value().items()) {
+    EXPECT_TRUE(gallery.copyTo(files, each["name"].text()).ok()) << each["name"].text();
+  }
+  EXPECT_TRUE(fs::exists(project() + "/gbbg/assets/Window.glb"));
+  EXPECT_FALSE(fs::exists(project() + "/gbbg/make_assets.sh"));
   for (const char* name : {"..", "../src", "", "nothing", "haussmann/"}) {
     EXPECT_FALSE(gallery.copyTo(files, name).ok()) << name;
     EXPECT_FALSE(gallery.picture(name).ok()) << name;
   }
+}
+
+TEST_F(Folder, aCopyThatFailsLeavesNothing) {
+  const Gallery gallery(std::string(GABLE_SOURCE_DIR) + "/examples");
+  ProjectFiles files(project());
+  fs::remove_all(project() + "/rules");
+  put("project/rules", "no folder");
+  EXPECT_FALSE(gallery.copyTo(files, "haussmann").ok());
+  EXPECT_FALSE(fs::exists(project() + "/haussmann"));
+}
+
+TEST_F(Files, filesThatBelongTogetherAreMadeAllOrNone) {
+  ProjectFiles files(project());
+  EXPECT_TRUE(files.create({{"new/a.cga", "a"}, {"new/in/b.json", "{}"}}).ok());
+  EXPECT_EQ(files.read("new/in/b.json").value(), "{}");
+  put("project/plain", "no folder");
+  for (const char* bad : {"../b.cga", "b.sh", "new/a.cga", "plain/b.cga"}) {
+    EXPECT_FALSE(files.create({{"other/in/a.cga", "a"}, {bad, "b"}}).ok()) << bad;
+    EXPECT_FALSE(fs::exists(project() + "/other")) << bad;
+  }
+  EXPECT_EQ(files.read("new/a.cga").value(), "a");
+}
+
+TEST(StudioExport, picturesAreTakenFromTheViewsCamera) {
+  Result<PictureSettings> own = pictureOf("[1, 2, 3, 0, 0, 0.5, 40]", "[640, 480]");
+  ASSERT_TRUE(own.ok());
+  EXPECT_TRUE(own->ownCamera);
+  EXPECT_EQ(own->eye[2], 3);
+  EXPECT_EQ(own->target[2], 0.5);
+  EXPECT_EQ(own->fieldOfView, 40);
+  EXPECT_EQ(own->width, 640);
+  EXPECT_FALSE(pictureOf("", "").value().ownCamera);
+  for (const char* wrong : {"[1, 2, 3, 1, 2, 3, 40]", "[1, 2, 3, 0, 0, 0, 0]", "[1]", "nan", "{}",
+                            "[1e99, 2, 3, 0, 0, 0, 40]", "[1, 2, 3, 0, 0, null, 40]"}) {
+    EXPECT_FALSE(pictureOf(wrong, "").ok()) << wrong;
+  }
+  for (const char* wrong : {"[1, 2]", "[640]", "[1e9, 480]", "x"}) {
+    EXPECT_FALSE(pictureOf("", wrong).ok()) << wrong;
+  }
+}
+
+TEST_F(Server, remediesComeAsEdits) {
+  const std::string answer =
+      ask("POST /api/derive",
+          R"({"page":"p","file":"rules/a.cga","text":"@StartRule\nLot --> extrud(3) Body.\n"})");
+  EXPECT_NE(answer.find(R"("fix":{"file":"rules/a.cga","line":2,"column":9,"endLine":2,)"
+                        R"("endColumn":15,"text":"extrude"})"),
+            std::string::npos)
+      << answer;
+}
+
+TEST_F(Server, aBundleIsWrittenWhole) {
+  const std::string head = "[[\"s/a.cga\", 3], [\"s/b.txt\", 4]]\n";
+  EXPECT_EQ(status(ask("POST /api/files", head + "abcdefg")), 200);
+  ProjectFiles files(project());
+  EXPECT_EQ(files.read("s/b.txt").value(), "defg");
+  EXPECT_EQ(status(ask("POST /api/files", "[[\"t/a.cga\", 9]]\nabc")), 422);
+  EXPECT_EQ(status(ask("POST /api/files", "[[\"t/a.cga\", 1], [\"../b.cga\", 1]]\nab")), 403);
+  EXPECT_EQ(status(ask("POST /api/files", "[[\"t/a.cga\", -1]]\nab")), 422);
+  EXPECT_FALSE(fs::exists(project() + "/t"));
+}
+
+TEST_F(Folder, aStudioThatIsStartedAgainIsFoundWhereItWas) {
+  StudioSettings settings;
+  settings.project = project();
+  const auto start = [&](uint16_t port, std::string& url) {
+    settings.port = port;
+    std::atomic<bool> stop{true};
+    EXPECT_TRUE(runStudio(settings, stop, [&](const std::string& u) { url = u; }).ok);
+  };
+  std::string first, second, third;
+  start(0, first);
+  start(0, second);
+  EXPECT_EQ(first, second) << "the same port and token";
+  // Another port may be asked for; the token stays.
+  start(static_cast<uint16_t>(std::stoi(first.substr(first.find(':', 7) + 1)) + 1), third);
+  EXPECT_NE(first, third);
+  EXPECT_EQ(first.substr(first.find("token=")), third.substr(third.find("token=")));
+  const ProjectFiles files(project());
+  const std::string kept = project() + "/.gable/address.json";
+  EXPECT_EQ(fs::status(kept).permissions() & fs::perms(077), fs::perms::none);
+  // What others could have read is not taken up.
+  fs::permissions(kept, fs::perms(0644));
+  std::string fourth;
+  start(0, fourth);
+  EXPECT_NE(fourth.substr(fourth.find("token=")), first.substr(first.find("token=")));
 }
 
 }  // namespace
