@@ -10,5 +10,10 @@ export default defineConfig({
   // Tests read examples and reference pages of the repository. By number: a bare machine may not
   // know the name localhost.
   server: { host: '127.0.0.1', fs: { allow: ['..'] } },
-  test: { include: ['src/**/*.test.ts', '*.test.ts'], environment: 'node', css: true },
+  test: {
+    include: ['src/**/*.test.ts', '*.test.ts'],
+    environment: 'node',
+    css: true,
+    testTimeout: 30_000,
+  },
 });

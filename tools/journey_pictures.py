@@ -54,8 +54,12 @@ def main():
     (TARGET / "journeys").mkdir(exist_ok=True)
     listed = []
     for title, file in files:
-        names = [n for n in journeys(file.read_text(encoding="utf-8")) if (shots / f"{n}.png").exists()]
+        # Journeys that were not run keep the picture that they have.
+        names = [n for n in journeys(file.read_text(encoding="utf-8"))
+                 if (shots / f"{n}.png").exists() or (TARGET / f"journeys/{n}.png").exists()]
         for name in names:
+            if not (shots / f"{name}.png").exists():
+                continue
             subprocess.run([sys.executable, "-B", str(ROOT / "tools/shrink_png.py"), str(shots / f"{name}.png"),
                             str(TARGET / f"journeys/{name}.png"), str(LIMIT)], check=True)
         if names:

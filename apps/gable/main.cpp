@@ -76,7 +76,7 @@ void addLsp(CLI::App& app, int& status) {
 void addStudio(CLI::App& app, StudioArguments& a, int& status) {
   auto* studio = app.add_subcommand("studio", "Serve a page to write rules and see places");
   studio->add_option("folder", a.folder, "The project (default: this folder)");
-  studio->add_option("--port", a.port, "Default: any that is free")
+  studio->add_option("--port", a.port, "Default: that of the time before, else any that is free")
       ->check(number({0, 65535, true}));
   studio->callback([&a, &status] { status = runStudioCommand(a); });
 }

@@ -272,11 +272,11 @@ async function travel(browser, name) {
   let opened;
   let taken = false;
   /** The picture of a journey, where its end is not what it is about. */
-  const pictured = async () => {
+  const pictured = async (page = opened.page) => {
     if (!shots || taken) return;
     taken = true;
-    await untilRefined(opened.page, 30_000).catch(() => undefined);
-    await opened.page.screenshot({ path: join(shots, `${name}.png`) }).catch(() => undefined);
+    await untilRefined(page, 30_000).catch(() => undefined);
+    await page.screenshot({ path: join(shots, `${name}.png`) }).catch(() => undefined);
   };
   try {
     opened = await openPage(browser, server.url);

@@ -44,9 +44,15 @@ export async function serve(folder, port = 0) {
     port: Number(at.port),
     pid: child.pid,
     token: at.searchParams.get('token'),
+    /** Ends it without a chance to put anything away. */
+    kill: () =>
+      new Promise((resolve) => {
+        child.on('exit', resolve);
+        child.kill('SIGKILL');
+      }),
     stop: () =>
       new Promise((resolve) => {
-        if (child.exitCode !== null) return resolve();
+        if (child.exitCode !== null || child.signalCode !== null) return resolve();
         child.on('exit', resolve);
         child.kill('SIGINT');
       }),

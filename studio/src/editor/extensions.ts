@@ -9,7 +9,8 @@ import {
   type CompletionContext,
   type CompletionResult,
 } from '@codemirror/autocomplete';
-import { forEachDiagnostic, type Diagnostic } from '@codemirror/lint';
+import { syntaxTree } from '@codemirror/language';
+import { forEachDiagnostic, type Action, type Diagnostic } from '@codemirror/lint';
 import {
   RangeSetBuilder,
   StateEffect,
@@ -25,7 +26,7 @@ import {
   type DecorationSet,
   type Tooltip,
 } from '@codemirror/view';
-import type { AttributeInfo, Message, RuleInfo } from '../lib/protocol';
+import type { AttributeInfo, Fix, Message, RuleInfo } from '../lib/protocol';
 import type { Notation } from '../lib/notation';
 import type { Definition } from '../text/rules';
 import { findWord, type Word } from '../text/words';
@@ -37,11 +38,6 @@ export interface Known {
   defined: Definition[];
   rules: RuleInfo[];
   attributes: AttributeInfo[];
-}
-
-/** What a message's hint says to write instead: "did you mean 'x'". */
-export function proposal(m: Message): string | null {
-  return /did you mean '([^']+)'/i.exec(`${m.message} ${m.hint ?? ''}`)?.[1] ?? null;
 }
 
 const TYPES: Record<string, string> = {
@@ -64,12 +60,22 @@ function wordCompletion(word: Word): Completion {
 
 /** Inside of a string or a comment nothing is completed. */
 function inQuietText(context: CompletionContext): boolean {
-  const line = context.state.doc.lineAt(context.pos);
-  const before = line.text.slice(0, context.pos - line.from);
-  return (
-    (before.match(/"/g)?.length ?? 0) % 2 === 1 ||
-    /\/\/|(^|\s)#/.test(before.replace(/"[^"]*"/g, ''))
-  );
+  const node = syntaxTree(context.state).resolveInner(context.pos, -1);
+  return /comment|string/i.test(node.name) && node.from < context.pos;
+}
+
+/**
+ * Whether a word begins with what is written, or its parts begin with the parts of it: "rG" and
+ * "gable" find "roofGable". Letters from anywhere would offer something for every new name.
+ */
+export function offers(label: string, written: string): boolean {
+  const low = label.toLowerCase();
+  const typed = written.toLowerCase();
+  if (low.startsWith(typed)) return true;
+  const starts = [...label.matchAll(/(?<=[a-z\d])[A-Z]|(?<=[._])\w/g)].map((m) => m.index);
+  if (starts.some((at) => low.startsWith(typed, at))) return true;
+  const humps = label[0]! + starts.map((at) => label[at]).join('');
+  return written.length > 1 && humps.toLowerCase().startsWith(typed);
 }
 
 export function completions(known: () => Known) {
@@ -91,11 +97,14 @@ export function completions(known: () => Known) {
         detail: d.kind,
         boost: 3,
       });
-    return {
-      from: word ? word.from : context.pos,
-      options: [...names.values()],
-      validFor: /^@?[\w.]*$/,
-    };
+    const written = word?.text ?? '';
+    const options = [...names.values()].filter((o) => offers(o.label, written));
+    // What is written already needs no completion.
+    if (!options.length || options.every((o) => o.label === written)) return null;
+    const rank = (o: Completion) =>
+      (o.label.startsWith(written) ? 0 : 2) - (o.boost ?? 0) / 10 + o.label.length / 1000;
+    options.sort((a, b) => rank(a) - rank(b) || (a.label < b.label ? -1 : 1));
+    return { from: word ? word.from : context.pos, options, filter: false };
   };
 }
 
@@ -174,48 +183,84 @@ function offset(doc: Text, line: number, column: number): number {
   return Math.min(at.to, at.from + Math.max(0, column - 1));
 }
 
+/** The messages of a file as marks of its text. */
 export function diagnostics(doc: Text, file: string, messages: Message[]): Diagnostic[] {
   return messages
-    .filter((m) => m.line && (m.file === file || file.endsWith(`/${m.file}`)))
-    .map((m) => {
+    .filter((m) => m.line && isFile(file, m.file))
+    .map((m): Diagnostic => {
       const from = offset(doc, m.line!, m.column ?? 1);
       const to = offset(doc, m.endLine ?? m.line!, m.endColumn ?? (m.column ?? 1) + 1);
+      const edit = m.fix && isFile(file, m.fix.file) ? editOf(doc, m.fix) : null;
       return {
         from: Math.min(from, to),
-        to: Math.max(from + 1, to) > doc.length ? doc.length : Math.max(from + 1, to),
+        to: Math.min(doc.length, Math.max(from + 1, to)),
         severity: m.severity === 'note' ? ('info' as const) : m.severity,
         message: m.hint ? `${m.message}. ${m.hint}` : m.message,
-        ...(proposal(m)
-          ? {
-              actions: [
-                {
-                  name: `Write ${proposal(m)}  (Ctrl .)`,
-                  apply: (view: EditorView, a: number, b: number) =>
-                    replace(view, a, b, proposal(m)!),
-                },
-              ],
-            }
-          : {}),
+        ...(edit ? { actions: [fixAction(edit)] } : {}),
       };
     })
     .sort((a, b) => a.from - b.from);
 }
 
-function replace(view: EditorView, from: number, to: number, insert: string): void {
-  view.dispatch({ changes: { from, to, insert }, userEvent: 'input.fix' });
+const isFile = (path: string, told: string | undefined) =>
+  !!told && (told === path || path.endsWith(`/${told}`));
+
+interface Edit {
+  from: number;
+  to: number;
+  insert: string;
+  /** What stands there; the edit is for that text alone. */
+  was: string;
 }
 
-/** Writes what the message at the caret proposes. */
+function editOf(doc: Text, fix: Fix): Edit | null {
+  if (fix.line > doc.lines || fix.endLine > doc.lines) return null;
+  const from = offset(doc, fix.line, fix.column);
+  const to = offset(doc, fix.endLine, fix.endColumn);
+  return from <= to ? { from, to, insert: fix.text, was: doc.sliceString(from, to) } : null;
+}
+
+/**
+ * Carries out the remedy of a message. It moves with the message while somebody writes, and does
+ * nothing where the text is no longer the one that the message is about.
+ */
+function fixAction(edit: Edit): Action {
+  return {
+    name: `${edit.insert ? `Write ${edit.insert}` : 'Remove it'}  (Ctrl .)`,
+    apply(view, from) {
+      const found = foundAgain(view.state.doc, edit, from);
+      if (!found) return;
+      const changes = { ...found, insert: edit.insert };
+      view.dispatch({ changes, userEvent: 'input.fix' });
+    },
+  };
+}
+
+/** Where the text of an edit is now: where it was, else where its message has moved to. */
+function foundAgain(doc: Text, edit: Edit, at: number): { from: number; to: number } | null {
+  const size = edit.was.length;
+  for (const from of [edit.from, at]) {
+    if (from + size <= doc.length && doc.sliceString(from, from + size) === edit.was)
+      return { from, to: from + size };
+  }
+  return null;
+}
+
+/** Carries out the remedy on the caret's line that is nearest to the caret. */
 export function fixAt(view: EditorView): boolean {
   const head = view.state.selection.main.head;
   const line = view.state.doc.lineAt(head);
-  let done = false;
+  let best: { act: () => void; distance: number } | null = null;
   forEachDiagnostic(view.state, (d, from, to) => {
-    if (done || to < line.from || from > line.to || !d.actions?.length) return;
-    done = true;
-    d.actions[0]!.apply(view, from, to);
+    const action = d.actions?.[0];
+    if (!action || to < line.from || from > line.to) return;
+    const distance = head < from ? from - head : head > to ? head - to : 0;
+    if (!best || distance < best.distance)
+      best = { act: () => action.apply(view, from, to), distance };
   });
-  return done;
+  const before = view.state.doc;
+  (best as { act: () => void } | null)?.act();
+  return !view.state.doc.eq(before);
 }
 
 /** The lines of a selected shape: its rule, and the line that made it. */

@@ -13,8 +13,8 @@ export const SPEEDS = [1, 2, 5, 20, 100] as const;
 
 /** What the guide needs of the page around it. */
 export interface GuideHost {
-  select(node: number, reveal?: boolean): void;
-  readonly shapes: Shapes | null;
+  readonly selection: { select(node: number, reveal?: boolean): void };
+  readonly model: { readonly shapes: Shapes | null };
 }
 
 export class Guide {
@@ -70,7 +70,7 @@ export class Guide {
 
   go(step: number, reveal = true): void {
     this.step = Math.max(0, Math.min(this.count, Math.round(step)));
-    if (this.node >= 0) this.host.select(this.node, reveal);
+    if (this.node >= 0) this.host.selection.select(this.node, reveal);
   }
 
   /** One step on or back. */

@@ -80,6 +80,16 @@ export interface DeriveRequest {
   limits?: { seconds?: number; shapes?: number };
 }
 
+/** What a picture is taken of: as the view shows it. */
+export interface PictureView {
+  eye: readonly number[];
+  target: readonly number[];
+  /** The horizontal angle of view, in degrees. */
+  angle: number;
+  width: number;
+  height: number;
+}
+
 /** What the server refused, with its code. */
 export class Refusal extends Error {
   constructor(
@@ -94,12 +104,11 @@ export class Refusal extends Error {
 const TOKEN = 'gable.token';
 const TAB = 'gable.tab';
 
-/** From the address, and from then on from this tab's memory. */
-function takeToken(): string {
+/** The token of the address, which then no longer shows it. */
+function tokenGiven(): string {
   const url = new URL(location.href);
-  const given = url.searchParams.get('token');
-  if (!given) return sessionStorage.getItem(TOKEN) ?? '';
-  sessionStorage.setItem(TOKEN, given);
+  const given = url.searchParams.get('token') ?? '';
+  if (!given) return '';
   url.searchParams.delete('token');
   history.replaceState(null, '', url);
   return given;
@@ -115,7 +124,25 @@ function nameOfTab(): string {
 export class EngineClient {
   readonly page = crypto.randomUUID();
   readonly tab = nameOfTab();
-  private readonly token = takeToken();
+  /** Called when another page of this address has handed over the token of a new server. */
+  handedOver: (() => void) | null = null;
+  private token: string;
+  private readonly channel = new BroadcastChannel('gable.token');
+
+  constructor() {
+    this.channel.onmessage = (event: MessageEvent<unknown>) => {
+      if (typeof event.data !== 'string' || event.data === this.token) return;
+      this.token = event.data;
+      sessionStorage.setItem(TOKEN, event.data);
+      this.handedOver?.();
+    };
+    const fresh = tokenGiven();
+    this.token = fresh || (sessionStorage.getItem(TOKEN) ?? '');
+    if (!fresh) return;
+    sessionStorage.setItem(TOKEN, fresh);
+    // Pages that were left by a server before go on with this one.
+    this.channel.postMessage(fresh);
+  }
 
   private async call(
     method: string,
@@ -162,6 +189,13 @@ export class EngineClient {
     const query = `file?path=${encodeURIComponent(path)}&expected=${expected}`;
     const answer = (await (await this.call('PUT', query, content)).json()) as { version: string };
     return answer.version;
+  }
+
+  /** Makes files that are not there yet: all of them, or none. */
+  async create(files: [string, string | Blob][]): Promise<void> {
+    const blobs = files.map(([path, content]): [string, Blob] => [path, new Blob([content])]);
+    const list = JSON.stringify(blobs.map(([path, blob]) => [path, blob.size]));
+    await this.call('POST', 'files', new Blob([`${list}\n`, ...blobs.map(([, blob]) => blob)]));
   }
 
   async recovery(path: string): Promise<string | null> {
@@ -220,10 +254,15 @@ export class EngineClient {
     format: string,
     signal: AbortSignal,
     received: (bytes: number, total: number) => void = () => undefined,
+    picture: PictureView | null = null,
   ): Promise<{ blob: Blob; extension: string }> {
+    const camera = picture
+      ? `&camera=${JSON.stringify([...picture.eye, ...picture.target, picture.angle])}` +
+        `&size=${JSON.stringify([picture.width, picture.height])}`
+      : '';
     const answer = await this.call(
       'GET',
-      `export?derivation=${derivation}&format=${format}&page=${this.page}`,
+      `export?derivation=${derivation}&format=${format}&page=${this.page}${camera}`,
       undefined,
       signal,
     );

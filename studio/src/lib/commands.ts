@@ -22,7 +22,7 @@ export interface Command {
 
 export function commands(studio: Studio, layout: Layout, showKeys: () => void): Command[] {
   const hasRules = () => !!studio.main;
-  const modeled = () => !!studio.derivation;
+  const modeled = () => !!studio.model.derivation;
   const go = (page: Studio['page']) => () => void (studio.page = page);
   return [
     {
@@ -37,14 +37,14 @@ export function commands(studio: Studio, layout: Layout, showKeys: () => void): 
       keys: 'Ctrl S',
       icon: 'file',
       anywhere: true,
-      run: () => void studio.save(),
+      run: () => void studio.documents.save(),
     },
     {
       title: 'Save all files',
       keys: 'Ctrl Shift S',
       icon: 'file',
       anywhere: true,
-      run: () => void studio.saveAll(),
+      run: () => void studio.documents.saveAll(),
     },
     {
       title: 'Undo',

@@ -45,6 +45,14 @@ describe('controls', () => {
     expect(controlOf(attribute('b', 'bool'))).toEqual({ kind: 'bool' });
     expect(controlOf(attribute('s', 'string'))).toEqual({ kind: 'text' });
   });
+  it('have the unit that their description names', () => {
+    const unit = (text: string) =>
+      controlOf(attribute('a', 'float', [['Description', ['', text]]]));
+    expect(unit('Lot aimed at, in square metres')).toMatchObject({ unit: 'm²' });
+    expect(unit('Water in cubic metres')).toMatchObject({ unit: 'm³' });
+    expect(unit('Height of a floor in metres')).toMatchObject({ unit: 'm' });
+    expect(unit('Parameters')).toMatchObject({ unit: '' });
+  });
   it('are grouped and ordered, hidden ones left out', () => {
     const groups = groupFields([
       attribute('late', 'float', [

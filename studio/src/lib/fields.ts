@@ -52,7 +52,8 @@ function unitOf(a: AttributeInfo): string {
   if (find(a, 'Distance')) return 'm';
   const doc = argument(find(a, 'Description'), 'text', 0) ?? '';
   if (/degrees/i.test(doc)) return '°';
-  return /\bmetres?\b/i.test(doc) ? 'm' : '';
+  const metres = /\b(?:(square|cubic) )?met(?:re|er)s?\b/i.exec(doc);
+  return metres ? ({ square: 'm²', cubic: 'm³' }[metres[1]?.toLowerCase() ?? ''] ?? 'm') : '';
 }
 
 export function controlOf(a: AttributeInfo): Control {

@@ -94,3 +94,23 @@ describe('History', () => {
     expect(next.redoSteps).toBe(2);
   });
 });
+
+it('makes one step of a gesture, however long it takes, and takes it back whole', () => {
+  let now = 0;
+  const history = new History(() => now);
+  const drag = (before: string, after: string, gesture: number) => {
+    now += 900;
+    history.record({ label: 'h', texts: [], place: { main: 'a', before, after } }, 'h', gesture);
+  };
+  drag('1', '2', 1);
+  drag('2', '3', 1);
+  drag('3', '4', 2);
+  expect(history.undoSteps).toBe(2);
+  expect(history.takeBack(1)).toBeNull();
+  expect(history.takeBack(2)?.place).toMatchObject({ before: '4', after: '3' });
+  expect([history.undoSteps, history.redoSteps]).toEqual([1, 0]);
+  // Dragged there and back again: nothing has happened.
+  drag('3', '5', 3);
+  drag('5', '3', 3);
+  expect(history.undoSteps).toBe(1);
+});

@@ -29,6 +29,8 @@ interface Kept extends Step {
   /** Steps with the same key that follow each other soon are one. */
   group: string;
   time: number;
+  /** The gesture that made it, where it was one. */
+  gesture?: number;
 }
 
 const GROUP_MS = 500;
@@ -83,6 +85,9 @@ function joined(first: TextChange, next: TextChange): TextChange | null {
   return null;
 }
 
+const changesNothing = (step: Step) =>
+  !step.texts.length && !!step.place && step.place.before === step.place.after;
+
 export class History {
   private done: Kept[] = [];
   private undone: Kept[] = [];
@@ -102,13 +107,17 @@ export class History {
     return this.undone.length;
   }
 
-  /** Adds a step, or makes the last one longer when both are of one group and close in time. */
-  record(step: Step, group: string): void {
+  /**
+   * Adds a step, or makes the last one longer when both are of one group and close in time. Steps
+   * of one gesture are one however much time lies between them.
+   */
+  record(step: Step, group: string, gesture = 0): void {
     if (!step.texts.length && !step.place) return;
     this.undone = [];
     const last = this.done.at(-1);
     const time = this.now();
-    if (last && group && last.group === group && time - last.time < GROUP_MS) {
+    const ofOne = last && group && last.group === group && (last.gesture ?? 0) === gesture;
+    if (ofOne && (gesture > 0 || time - last.time < GROUP_MS)) {
       for (const change of step.texts) {
         const both = last.texts.length ? joined(last.texts.at(-1)!, change) : null;
         if (both) last.texts[last.texts.length - 1] = both;
@@ -117,10 +126,20 @@ export class History {
       if (step.place)
         last.place = { ...step.place, before: last.place?.before ?? step.place.before };
       last.time = time;
+      if (changesNothing(last)) this.done.pop();
       return;
     }
-    this.done.push({ ...step, texts: [...step.texts], group, time });
+    const held = gesture ? { gesture } : {};
+    this.done.push({ ...step, texts: [...step.texts], group, time, ...held });
     if (this.done.length > MOST_STEPS) this.done.shift();
+  }
+
+  /** What takes a gesture back that was given up; null where it changed nothing. */
+  takeBack(gesture: number): Step | null {
+    if (!gesture || this.done.at(-1)?.gesture !== gesture) return null;
+    const step = this.undo();
+    this.undone.pop();
+    return step;
   }
 
   /** The next edit begins a step of its own. */
@@ -167,7 +186,8 @@ export class History {
       const kept = JSON.parse(text) as { done: Kept[]; undone: Kept[] };
       const valid = (s: Kept) => typeof s.label === 'string' && Array.isArray(s.texts);
       if (!kept.done.every(valid) || !kept.undone.every(valid)) return;
-      this.done = kept.done.map((s) => ({ ...s, group: '' }));
+      // Gestures are counted anew.
+      this.done = kept.done.map((s) => ({ ...s, group: '', gesture: 0 }));
       this.undone = kept.undone;
     } catch {
       // A history that cannot be read is none.

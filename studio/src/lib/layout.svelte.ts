@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Which panels are open and how wide they are: kept in the browser, per window class.
+// Which panels are open and how wide they are: kept in the browser, per window class. The view
+// keeps its least width: panels give way to it, and in small windows they lie over it.
+
+import { fitted, LEAST, MOST, windowClass, type Sizes } from './sizes';
 
 type Panel = 'editor' | 'dock' | 'problems';
-
-interface Sizes {
-  editor: number;
-  dock: number;
-}
 
 const DEFAULTS: Record<string, Sizes> = {
   small: { editor: 392, dock: 292 },
@@ -16,51 +14,75 @@ const DEFAULTS: Record<string, Sizes> = {
   large: { editor: 560, dock: 372 },
 };
 
-const windowClass = () => (innerWidth < 1440 ? 'small' : innerWidth < 1800 ? 'middle' : 'large');
-
 export class Layout {
-  editor = $state(true);
-  dock = $state(true);
+  private width = $state(innerWidth);
+  private open = $state({ editor: true, dock: true });
+  /** Panels that lie over the view are opened for a while only. */
+  private above = $state({ editor: false, dock: false });
+  private wished = $state<Sizes>(this.read());
   problems = $state(false);
-  sizes = $state<Sizes>(this.read());
+  readonly over = $derived({ editor: this.width < 900, dock: this.width < 1280 });
+  readonly editor = $derived(this.over.editor ? this.above.editor : this.open.editor);
+  readonly dock = $derived(this.over.dock ? this.above.dock : this.open.dock);
+  /** Widths as they are now. */
+  readonly sizes = $derived(
+    fitted(this.wished, this.width, {
+      editor: this.editor && !this.over.editor,
+      dock: this.dock && !this.over.dock,
+    }),
+  );
   readonly columns = $derived(
-    `grid-template-columns: ${this.editor ? `${this.sizes.editor}px ` : ''}minmax(0, 1fr)${this.dock ? ` ${this.sizes.dock}px` : ''}`,
+    `grid-template-columns: ${this.column('editor')} minmax(0, 1fr) ${this.column('dock')}`,
   );
 
-  private read(): Sizes {
-    const fallback = DEFAULTS[windowClass()]!;
-    try {
-      return {
-        ...fallback,
-        ...(JSON.parse(
-          localStorage.getItem(`gable.sizes.${windowClass()}`) ?? '{}',
-        ) as Partial<Sizes>),
-      };
-    } catch {
-      return fallback;
-    }
+  constructor() {
+    addEventListener('resize', () => this.fit());
   }
 
   toggle(panel: Panel): void {
-    this[panel] = !this[panel];
+    if (panel === 'problems') this.problems = !this.problems;
+    else if (this.over[panel]) this.above[panel] = !this.above[panel];
+    else this.open[panel] = !this.open[panel];
   }
 
+  /** The view alone, or all panels that have room beside it. */
   alone(): void {
     const open = this.editor || this.dock;
-    this.editor = this.dock = !open;
+    this.open = { editor: !open, dock: !open };
+    this.above = { editor: false, dock: false };
   }
 
   resize(panel: keyof Sizes, width: number): void {
-    const [least, most] = panel === 'editor' ? [300, 900] : [260, 520];
-    const other = panel === 'editor' ? this.sizes.dock : this.sizes.editor;
-    this.sizes = {
-      ...this.sizes,
-      [panel]: Math.round(Math.max(least, Math.min(most, width, innerWidth - other - 420))),
-    };
-    localStorage.setItem(`gable.sizes.${windowClass()}`, JSON.stringify(this.sizes));
+    const other = panel === 'editor' ? 'dock' : 'editor';
+    const beside = this[other] && !this.over[other] ? this.sizes[other] : 0;
+    const room = this.over[panel] ? this.width - 40 : this.width - beside - LEAST.view;
+    const size = Math.max(LEAST[panel], Math.min(MOST[panel], width, room));
+    this.wished = { ...this.wished, [panel]: Math.round(size) };
+    localStorage.setItem(`gable.sizes.${windowClass(this.width)}`, JSON.stringify(this.wished));
   }
 
   reset(panel: keyof Sizes): void {
-    this.resize(panel, DEFAULTS[windowClass()]![panel]);
+    this.resize(panel, DEFAULTS[windowClass(this.width)]![panel]);
+  }
+
+  private fit(): void {
+    const before = windowClass(this.width);
+    this.width = innerWidth;
+    if (windowClass(this.width) !== before) this.wished = this.read();
+  }
+
+  private column(panel: keyof Sizes): string {
+    return this[panel] && !this.over[panel] ? `${this.sizes[panel]}px` : '0';
+  }
+
+  private read(): Sizes {
+    const name = windowClass(innerWidth);
+    const fallback = DEFAULTS[name]!;
+    try {
+      const kept = localStorage.getItem(`gable.sizes.${name}`) ?? '{}';
+      return { ...fallback, ...(JSON.parse(kept) as Partial<Sizes>) };
+    } catch {
+      return fallback;
+    }
   }
 }

@@ -91,7 +91,8 @@ export function ruleLanguage(notation: Notation, names: () => Names) {
         return 'comment';
       }
       if (stream.eatSpace()) return null;
-      if (stream.match('//') || (notation !== 'ProGen3d' && stream.match('#!'))) {
+      // All notations know both kinds of comments.
+      if (stream.match('//') || stream.match('#')) {
         stream.skipToEnd();
         return 'comment';
       }

@@ -4,6 +4,16 @@
 // What the server says, as types, and the decoding of its binary answers. The fields are described
 // in docs/dev/studio-protocol.md.
 
+/** A remedy as an edit: the text in place of what stands there. */
+export interface Fix {
+  file: string;
+  line: number;
+  column: number;
+  endLine: number;
+  endColumn: number;
+  text: string;
+}
+
 export interface Message {
   severity: 'error' | 'warning' | 'note';
   code: string;
@@ -15,6 +25,7 @@ export interface Message {
   endLine?: number;
   endColumn?: number;
   shapePath?: string;
+  fix?: Fix;
 }
 
 export interface Annotation {

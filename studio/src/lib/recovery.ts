@@ -7,6 +7,7 @@
 
 import type { EngineClient } from './client';
 import { merge } from './merge';
+import type { Kept, Unsent } from './unsent';
 
 /** What is kept of the server's store; a tab keeps its name when it is loaded again. */
 export type Store = Pick<EngineClient, 'recovery' | 'keepRecovery' | 'dropRecovery'>;
@@ -14,12 +15,6 @@ export type Store = Pick<EngineClient, 'recovery' | 'keepRecovery' | 'dropRecove
 const PAGES = 'pages.json';
 /** Pages that are long gone are forgotten. */
 const MOST_PAGES = 12;
-
-/** A text, and what the file said that it was made from. */
-interface Kept {
-  base: string;
-  text: string;
-}
 
 export interface Recovered {
   text: string;
@@ -29,6 +24,8 @@ export interface Recovered {
 
 export class Recovery {
   private listed = false;
+  /** Files whose text here has in it what other pages never sent. */
+  private readonly opened = new Set<string>();
   private readonly kept = new Map<string, string>();
   /** Pages whose edits a file was opened with: they go with the next saving. */
   private readonly joined = new Map<string, string[]>();
@@ -36,10 +33,12 @@ export class Recovery {
   constructor(
     private readonly store: Store,
     private readonly page: string,
+    private readonly unsent: Unsent,
   ) {}
 
   /** Keeps a text that is not what the file says; one that is again needs no keeping. */
   async keep(path: string, text: string, base: string): Promise<void> {
+    if (text === base) this.unsent.drop(path);
     if (text === base) return this.kept.has(path) ? this.drop(path) : undefined;
     if (this.kept.get(path) === text) return;
     if (!this.listed) {
@@ -53,11 +52,24 @@ export class Recovery {
     const kept: Kept = { base, text };
     await this.store.keepRecovery(own(this.page, path), JSON.stringify(kept));
     this.kept.set(path, text);
+    this.unsent.drop(path, this.opened.has(path));
+  }
+
+  /** Keeps a text in the browser that the server cannot take now. */
+  keepHere(path: string, text: string, base: string): void {
+    if (text !== base && this.kept.get(path) !== text) this.unsent.put(path, { base, text });
+  }
+
+  /** What was kept may be gone: all of it is kept anew. */
+  forget(): void {
+    this.kept.clear();
+    this.listed = false;
   }
 
   /** The file says so by now. */
   async drop(path: string): Promise<void> {
     this.kept.delete(path);
+    this.unsent.drop(path, true);
     const pages = [this.page, ...(this.joined.get(path) ?? [])];
     this.joined.delete(path);
     for (const page of pages) await this.store.dropRecovery(own(page, path));
@@ -65,23 +77,26 @@ export class Recovery {
 
   /** What a file that says `saved` is to be opened with. */
   async recall(path: string, saved: string): Promise<Recovered> {
-    const mine = await this.read(this.page, path);
+    // What never reached a server is the latest there is.
+    const unsent = this.unsent.get(path);
+    const mine = unsent.get(this.page) ?? (await this.read(this.page, path));
     if (mine) {
       // Meanwhile others may have saved.
       const now = merge(mine.base, mine.text, saved);
       return { text: now.text, aside: now.conflicts ? [saved] : [] };
     }
     const out: Recovered = { text: saved, aside: [] };
-    // The latest page first: where lines differ, it counts.
-    for (const page of (await this.pages()).reverse()) {
-      const other = await this.read(page, path);
-      if (!other) continue;
+    const take = (other: Kept) => {
       const now = merge(other.base, out.text, other.text);
       if (now.conflicts) out.aside.push(other.text);
-      else {
-        out.text = now.text;
-        this.joined.set(path, [...(this.joined.get(path) ?? []), page]);
-      }
+      else out.text = now.text;
+      return !now.conflicts;
+    };
+    for (const other of unsent.values()) if (take(other)) this.opened.add(path);
+    // The latest page first: where lines differ, it counts.
+    for (const page of (await this.pages()).reverse()) {
+      const other = unsent.has(page) ? null : await this.read(page, path);
+      if (other && take(other)) this.joined.set(path, [...(this.joined.get(path) ?? []), page]);
     }
     return out;
   }

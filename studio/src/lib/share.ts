@@ -6,7 +6,7 @@
 // here, and again by the server.
 
 import type { ShapesSpec } from './client';
-import type { Place } from './studio.svelte';
+import type { Place } from './place';
 
 export interface Bundle {
   gable: 1;

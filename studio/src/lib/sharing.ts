@@ -3,50 +3,36 @@
 //
 // Puts a place of the project into a bundle, and a bundle into the project.
 
-import { notationOf } from './notation';
+import { referredBy, resolved } from './references';
 import { decode, fromBase64, toBase64, type Bundle } from './share';
 import type { Studio } from './studio.svelte';
-import { imports } from '../text/rules';
-import { assetTable } from '../form/gbbg_rule';
 
-const TEXTS = /\.(cga|gbbg|grammar|pg3d|park|geojson|json|obj|mtl|csv|txt|md)$/i;
+const TEXTS = /\.(cga|gbbg|grammar|pg3d|park|geojson|json|obj|mtl|gltf|csv|txt|md)$/i;
 
-async function contentOf(studio: Studio, path: string): Promise<string> {
-  const doc = studio.doc(path);
+async function contentOf(studio: Studio, path: string): Promise<string | Uint8Array> {
+  const doc = studio.documents.doc(path);
   if (doc) return doc.text;
   if (TEXTS.test(path)) return (await studio.client.read(path)).text;
-  return `base64:${toBase64(new Uint8Array(await studio.client.readBytes(path)))}`;
+  return new Uint8Array(await studio.client.readBytes(path));
 }
 
-/** Names in quotes that are files of the project: imports, assets, textures. */
-function namedFiles(studio: Studio, path: string, text: string): string[] {
-  const folder = path.includes('/') ? path.slice(0, path.lastIndexOf('/') + 1) : '';
-  const known = new Set(studio.files.map((f) => f.path));
-  const written = [
-    ...imports({ path, text }).map((i) => i.path),
-    ...(notationOf(path) === 'GBBG' ? (assetTable(text)?.assets.map((a) => a.path) ?? []) : []),
-    ...[...text.matchAll(/"([^"\n]+\.\w{2,4})"/g)].map((m) => m[1]!),
-  ];
-  return written.flatMap((w) => {
-    const plain = w.replace(/^\.?\//, '');
-    const found = [folder + plain, plain, `assets/${plain}`, `${folder}assets/${plain}`].find((p) =>
-      known.has(p),
-    );
-    return found ? [found] : [];
-  });
-}
-
-/** The place that is open, with all rule files, shapes and assets that it names. */
+/** The place that is open, with all files that its rules, its values and its models name. */
 export async function bundleOf(studio: Studio): Promise<Bundle> {
+  await studio.refreshFiles();
+  const known = new Set(studio.files.map((f) => f.path));
+  const folder = studio.main.slice(0, studio.main.lastIndexOf('/') + 1);
   const files: Record<string, string> = {};
   const queue = [studio.main];
-  const { shapes } = studio.place;
+  const { shapes, attributes } = studio.place;
   if ('file' in shapes) queue.push(shapes.file);
+  for (const value of Object.values(attributes)) {
+    queue.push(...resolved(value.replace(/^"|"$/g, ''), folder, known));
+  }
   for (let path = queue.pop(); path !== undefined; path = queue.pop()) {
     if (files[path] !== undefined) continue;
-    const text = await contentOf(studio, path);
-    files[path] = text;
-    if (/\.(cga|gbbg|grammar|pg3d|park)$/.test(path)) queue.push(...namedFiles(studio, path, text));
+    const content = await contentOf(studio, path);
+    files[path] = typeof content === 'string' ? content : `base64:${toBase64(content)}`;
+    queue.push(...referredBy(path, content, known));
   }
   const name = studio.main.slice(studio.main.lastIndexOf('/') + 1).replace(/\.\w+$/, '');
   const place = JSON.parse(JSON.stringify(studio.place)) as Bundle['place'];
@@ -80,12 +66,12 @@ export async function openShared(studio: Studio, text: string): Promise<string |
   for (let i = 2; studio.files.some((f) => f.path.startsWith(`${folder}/`)); ++i)
     folder = `${stem}-${i}`;
   try {
-    for (const [path, content] of Object.entries(bundle.files)) {
-      const body = content.startsWith('base64:')
-        ? new Blob([fromBase64(content.slice(7))])
-        : content;
-      await studio.client.write(`${folder}/${path}`, body, 'none');
-    }
+    await studio.client.create(
+      Object.entries(bundle.files).map(([path, content]) => [
+        `${folder}/${path}`,
+        content.startsWith('base64:') ? new Blob([fromBase64(content.slice(7))]) : content,
+      ]),
+    );
     await studio.refreshFiles();
     const place = bundle.place;
     const shapes =

@@ -3,9 +3,26 @@
 //
 // What is open on the page. Nothing here is kept.
 
+import type { Mode } from '../view/navigation';
+import type { Standpoint } from '../view/framing';
+
 export type Tool = 'select' | 'lot' | 'measure';
 
+/** How the view looks at a place. */
+export class Look {
+  wire = $state(false);
+  /** Scopes as boxes: none, that of the selection, or those of all below it, too. */
+  scopes = $state<'none' | 'selection' | 'below'>('selection');
+  mode = $state<Mode>('orbit');
+  sky = $state(false);
+  sunOpen = $state(false);
+  sun = $state({ elevation: 44, azimuth: -28 });
+  /** Where the camera stood when the view was last closed, and over which rules. */
+  camera: ({ of: string } & Standpoint) | null = null;
+}
+
 export class Ui {
+  readonly look = new Look();
   /** What the palette begins with; null while it is closed. */
   palette = $state<string | null>(null);
   share = $state(false);

@@ -54,7 +54,7 @@ export class References {
     const { studio } = this;
     this.files = await Promise.all(
       studio.ruleFiles.map(async (f): Promise<RuleFile> => {
-        const doc = studio.doc(f.path);
+        const doc = studio.documents.doc(f.path);
         if (doc) return { path: f.path, text: doc.text };
         const known = this.read.get(f.path);
         if (known?.stamp === f.stamp) return { path: f.path, text: known.text };
@@ -133,8 +133,8 @@ export class References {
     if (name === renaming.target.name) return;
     const texts: [string, string][] = [];
     for (const [path, changes] of rename(await this.load(), renaming.target, name)) {
-      await this.studio.loadFile(path);
-      texts.push([path, applyChanges(this.studio.doc(path)!.text, changes)]);
+      await this.studio.documents.load(path);
+      texts.push([path, applyChanges(this.studio.documents.doc(path)!.text, changes)]);
     }
     this.studio.editAll(texts, `Rename ${renaming.target.name}`);
     this.studio.say(`${renaming.target.name} is now ${name} in ${renaming.uses} places`, {

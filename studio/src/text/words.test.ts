@@ -34,7 +34,7 @@ it('takesGablesOwnWordsFromTheRegistry', () => {
   const words = wordsOf('CGA', registry);
   expect(findWord(words, 'split', 'CGA')).toMatchObject({
     signatures: ['split(axis)'],
-    snippet: 'split(${axis}) { ${} : ${} }',
+    snippet: 'split(${1:1}) { ${2:~1} : ${3:A} }',
   });
   expect(findWord(words, 'scope.sx', 'CGA')!.snippet).toBe('');
   expect(findWord(words, '@Range', 'CGA')!.kind).toBe('annotation');
@@ -42,4 +42,29 @@ it('takesGablesOwnWordsFromTheRegistry', () => {
 
 it('leansOnOperationsThatExist', () => {
   for (const name of leanedOn()) expect(page).toContain(`[\`${name}\`]`);
+});
+
+it('insertsCallsThatAreNoMistake', () => {
+  const roof = readRegistry({
+    operations: [
+      {
+        name: 'roofGable',
+        summary: 'A roof.',
+        overloads: [
+          {
+            params: [
+              { name: 'angle', type: 'float', doc: '' },
+              { name: 'path', type: 'string', doc: '' },
+              { name: 'axis', type: 'selector', doc: '', words: 'x y z' },
+              { name: 'even', type: 'bool', doc: '', default: 'false' },
+            ],
+          },
+        ],
+      },
+    ],
+    functions: [],
+    attributes: [],
+    selectors: [],
+  });
+  expect(wordsOf('CGA', roof)[0]!.snippet).toBe('roofGable(${1:30}, ${2:""}, ${3:x})');
 });

@@ -6,7 +6,7 @@
 // of the registry, that operation explains it.
 
 import type { Notation } from '../lib/notation';
-import { signatureText, type Entry } from '../lib/registry';
+import { signatureText, type Entry, type Param } from '../lib/registry';
 
 export interface Word {
   name: string;
@@ -309,18 +309,28 @@ const ANNOTATIONS: Own[] = [
   { name: '@Percent', call: '@Percent', text: 'A share.' },
 ];
 
+/** Something that may stand for a parameter, so that what is inserted is no mistake. */
+function sample(p: Param): string {
+  if (p.type.endsWith('[]')) return '[]';
+  if (p.type === 'string') return '""';
+  if (p.type === 'bool') return 'true';
+  const word = p.words?.split(' ')[0];
+  if (word) return word;
+  if (/angle/i.test(p.name)) return '30';
+  return /sides|count|divisions/i.test(p.name) ? '4' : '1';
+}
+
 function fromEntry(entry: Entry): Word {
   const signatures = entry.signatures.length
     ? entry.signatures.map((_, i) => signatureText(entry, i))
     : [entry.name];
   const required = entry.signatures[0]?.params.filter((p) => p.default === undefined) ?? [];
-  const inside = required.map((p) => `\${${p.name}}`).join(', ');
-  const block =
-    entry.block.startsWith('{ size') || entry.block.startsWith('{ selector')
-      ? ' { ${} : ${} }'
-      : entry.block
-        ? ' { ${} }'
-        : '';
+  const inside = required.map((p, i) => `\${${i + 1}:${sample(p)}}`).join(', ');
+  const next = required.length + 1;
+  const divides = /^\{ (size|selector)/.exec(entry.block)?.[1];
+  const first = divides === 'size' ? '~1' : 'all';
+  let block = entry.block ? ` { \${${next}:A} }` : '';
+  if (divides) block = ` { \${${next}:${first}} : \${${next + 1}:A} }`;
   return {
     name: entry.name,
     kind: entry.kind,

@@ -12,6 +12,12 @@ export interface Bounds {
   max: [number, number, number];
 }
 
+/** Where a camera stands and what it turns about. */
+export interface Standpoint {
+  position: [number, number, number];
+  target: [number, number, number];
+}
+
 /** Metres from the middle to a corner of what counts as a place, not a building. */
 export const WIDE = 150;
 const POINTS_A_BATCH = 400;
@@ -52,6 +58,19 @@ export class Framing {
     this.empty = list.leaves === 0;
     this.points =
       boxOf(bounds).getSize(new THREE.Vector3()).length() / 2 > WIDE ? somePoints(list) : [];
+  }
+
+  standpoint(): Standpoint {
+    return { position: this.camera.position.toArray(), target: this.controls.target.toArray() };
+  }
+
+  /** Goes where somebody stood before; what is shown counts as framed. */
+  lookFrom(from: Standpoint, bounds: Bounds): void {
+    this.camera.position.set(...from.position);
+    this.controls.target.set(...from.target);
+    this.controls.update();
+    this.framed = bounds;
+    this.moved = true;
   }
 
   /** Whether no model has been framed yet. */

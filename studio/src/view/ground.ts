@@ -6,7 +6,7 @@
 import * as THREE from 'three';
 import { groundMaterial, softened } from './shading';
 
-/** Looks for a shadow a little aside, elsewhere at each pixel: many passes have no edges in common. */
+/** Looks for a shadow a little aside, elsewhere at each pixel: passes have no edges in common. */
 function scattered(fragmentShader: string): string {
   const lights = THREE.ShaderChunk.lights_fragment_begin.replaceAll(
     'vDirectionalShadowCoord[ i ]',

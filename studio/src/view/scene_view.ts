@@ -9,12 +9,13 @@
 
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import type { PictureView } from '../lib/client';
 import type { DrawList } from '../lib/protocol';
 import { Ambient } from './ambient';
 import { BatchMaker, type Batched } from './batches';
 import { emptyGroup, ghostBox, manyScopes, scopeLines, type ScopeBox } from './boxes';
 import { Detail, MOVING, POSED } from './detail';
-import { Framing, WIDE, type Bounds } from './framing';
+import { Framing, WIDE, type Bounds, type Standpoint } from './framing';
 import { Ground } from './ground';
 import { Materials } from './materials';
 import { Navigation, type Mode } from './navigation';
@@ -416,6 +417,25 @@ export class SceneView {
     if (ghost) this.ghosts.add(...ghostBox(ghost, this.ghostColor));
     this.leavesStale = true;
     this.lights.forget();
+    this.redraw();
+  }
+
+  standpoint(): Standpoint {
+    return this.framing.standpoint();
+  }
+
+  /** What a picture shows that is taken from here. */
+  pictureView(): PictureView {
+    const { position, target } = this.framing.standpoint();
+    const half = Math.tan((this.camera.fov * Math.PI) / 360) * this.camera.aspect;
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    return { eye: position, target, angle: (Math.atan(half) * 360) / Math.PI, width, height };
+  }
+
+  /** Stands where somebody stood before, over the model that comes next. */
+  lookFrom(from: Standpoint): void {
+    this.framing.lookFrom(from, this.bounds);
+    this.leavesStale = true;
     this.redraw();
   }
 

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Place: what a model depends on besides the rules.
+
+import type { Example, ShapesSpec } from './client';
+
+/** What makes a place besides the rules. Values are texts as the engine takes them. */
+export interface Place {
+  start: string;
+  seed: number;
+  attributes: Record<string, string>;
+  shapes: ShapesSpec;
+  /** Where the usual ones are not enough. */
+  limits?: { seconds?: number; shapes?: number };
+  /** Seeds of single shapes, which a new seed leaves alone; by index. */
+  seeds?: Record<string, number>;
+}
+
+export function newPlace(): Place {
+  return { start: '', seed: 0, attributes: {}, shapes: { lot: [20, 30] } };
+}
+
+/** The place of an example that was copied to a folder, as its own arguments have it. */
+export function placeOf(example: Example, folder: string): Place {
+  const place = newPlace();
+  const words = example.arguments.split(/\s+/);
+  const after = (word: string) =>
+    words.includes(word) ? words[words.indexOf(word) + 1] : undefined;
+  const lot = /^(\d+(?:\.\d+)?)x(\d+(?:\.\d+)?)$/.exec(after('--lot') ?? '');
+  if (lot) place.shapes = { lot: [Number(lot[1]), Number(lot[2])] };
+  place.seed = Number(after('--seed') ?? 0) || 0;
+  if (example.shapes) place.shapes = { file: `${folder}/buildings.geojson` };
+  return place;
+}
