@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 import check
-from checks import diagnostics, layers, links, ops, pictures, sizes, words
+from checks import diagnostics, layers, libm, links, ops, pictures, sizes, words
 from checks.tree import Tree, code_of, comments_of
 
 HEAD = "// SPDX-License-Identifier: Apache-2.0\n// SPDX-FileCopyrightText: The Gable authors\n"
@@ -195,6 +195,19 @@ class TokensTest(unittest.TestCase):
         self.assertEqual([c for _, c in comments_of(text)], ["// one {", "/* two */"])
         self.assertNotIn("{", code_of(text))
         self.assertEqual(len(code_of(text)), len(text))
+
+
+class LibmTest(CheckCase):
+    def testRejectsFunctionsThatRoundAsTheyLike(self):
+        self.write("src/geom/a.cpp", "double f(double x) { return std::sin(x) + pow (x, 2); }\n")
+        self.assertEqual(len(self.messages(libm)), 2)
+        self.write("src/render/a.cpp", "float f(float x) { return std::sin(x); }\n")
+        self.assertEqual(len(self.messages(libm)), 2)
+
+    def testAcceptsWhatIsExactAndWhatIsOurs(self):
+        self.write("src/geom/a.cpp", "// sin(x) of a comment\ndouble log(int line);\n"
+                   "double f(double x) { return std::sqrt(x) + std::fmod(x, 2) + m.exp(x) + sinDeg(x); }\n")
+        self.assertEqual(self.messages(libm), [])
 
 
 if __name__ == "__main__":

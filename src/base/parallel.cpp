@@ -7,8 +7,11 @@
 #include "base/parallel.h"
 
 #include <condition_variable>
+#include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace gable {
@@ -25,6 +28,7 @@ struct TaskPool::Impl {
   uint64_t generation = 0;
   unsigned working = 0;
   bool stop = false;
+  std::exception_ptr thrown;
 
   size_t count = 0, grain = 1;
   Body body = nullptr;
@@ -32,11 +36,18 @@ struct TaskPool::Impl {
   // A line of its own: every worker writes it.
   alignas(64) std::atomic<size_t> next{0};
 
-  void work(unsigned worker) {
-    for (;;) {
-      const size_t begin = next.fetch_add(grain, std::memory_order_relaxed);
-      if (begin >= count) return;
-      body(context, begin, begin + grain < count ? begin + grain : count, worker);
+  void work(unsigned worker) noexcept {
+    try {
+      for (;;) {
+        const size_t begin = next.fetch_add(grain, std::memory_order_relaxed);
+        if (begin >= count) return;
+        body(context, begin, begin + grain < count ? begin + grain : count, worker);
+      }
+    } catch (...) {
+      // The others find nothing more to do.
+      next.store(count, std::memory_order_relaxed);
+      const std::lock_guard lock(mutex);
+      if (!thrown) thrown = std::current_exception();
     }
   }
 
@@ -58,8 +69,13 @@ struct TaskPool::Impl {
 
 TaskPool::TaskPool(unsigned jobs) : impl_(std::make_unique<Impl>()) {
   const unsigned wanted = jobs ? jobs : defaultJobs();
-  for (unsigned w = 1; w < wanted; ++w) {
-    impl_->threads.emplace_back([impl = impl_.get(), w] { impl->threadMain(w); });
+  impl_->threads.reserve(wanted);
+  try {
+    for (unsigned w = 1; w < wanted; ++w) {
+      impl_->threads.emplace_back([impl = impl_.get(), w] { impl->threadMain(w); });
+    }
+  } catch (const std::system_error&) {
+    // The machine gives no more threads: those that there are do the work.
   }
 }
 
@@ -93,6 +109,9 @@ void TaskPool::runErased(size_t count, size_t grain, Body body, void* context) {
   impl_->work(0);
   std::unique_lock lock(impl_->mutex);
   impl_->done.wait(lock, [&] { return impl_->working == 0; });
+  if (std::exception_ptr thrown = std::exchange(impl_->thrown, nullptr)) {
+    std::rethrow_exception(thrown);
+  }
 }
 
 }  // namespace gable

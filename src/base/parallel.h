@@ -28,7 +28,8 @@ class TaskPool {
 
   /// Calls task(index, worker) once for every index under `count`, worker under jobs(), and returns
   /// when all are done. Indices are handed out in ascending order, `grain` at a time. The writes of
-  /// tasks are visible after the call. Tasks do not throw.
+  /// tasks are visible after the call. What a task throws ends the call, once all workers stand; of
+  /// several exceptions one is thrown on.
   template <class Task>
   void run(size_t count, Task&& task, size_t grain = 1) {
     using Plain = std::remove_reference_t<Task>;

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <new>
 #include <numeric>
 #include <vector>
 
@@ -48,6 +50,20 @@ TEST(Parallel, oneJobRunsInOrderOnTheCaller) {
     order.push_back(i);
   });
   for (size_t i = 0; i < 50; ++i) EXPECT_EQ(order[i], i);
+}
+
+TEST(TaskPool, throwsOnWhatATaskThrowsAndWorksOn) {
+  TaskPool pool(3);
+  for (int round = 0; round < 20; ++round) {
+    EXPECT_THROW(pool.run(1000,
+                          [](size_t i, unsigned) {
+                            if (i == 500) throw std::bad_alloc();
+                          }),
+                 std::bad_alloc);
+    std::atomic<size_t> done{0};
+    pool.run(1000, [&](size_t, unsigned) { ++done; });
+    EXPECT_EQ(done.load(), 1000u);
+  }
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "base/elementary.h"
+
 namespace gable {
 
 // Coefficients of P. J. Acklam, "An algorithm for computing the inverse normal cumulative
@@ -27,8 +29,8 @@ double randomNormal(uint64_t address) {
     return (((((c[0] * q + c[1]) * q + c[2]) * q + c[3]) * q + c[4]) * q + c[5]) /
            ((((d[0] * q + d[1]) * q + d[2]) * q + d[3]) * q + 1);
   };
-  if (p < 0.02425) return tail(std::sqrt(-2 * std::log(p)));
-  if (p > 1 - 0.02425) return -tail(std::sqrt(-2 * std::log(1 - p)));
+  if (p < 0.02425) return tail(std::sqrt(-2 * logOf(p)));
+  if (p > 1 - 0.02425) return -tail(std::sqrt(-2 * logOf(1 - p)));
   const double q = p - 0.5, r = q * q;
   return (((((a[0] * r + a[1]) * r + a[2]) * r + a[3]) * r + a[4]) * r + a[5]) * q /
          (((((b[0] * r + b[1]) * r + b[2]) * r + b[3]) * r + b[4]) * r + 1);

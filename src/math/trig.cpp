@@ -12,9 +12,9 @@ namespace {
 // Sine and cosine of 0..45 degrees; 30 and 45 are exact or alike, so that sin 30 and tan 45 are.
 double sinOctant(double d) {
   if (d == 45) return 0x1.6a09e667f3bcdp-1;
-  return d == 30 ? 0.5 : std::sin(toRadians(d));
+  return d == 30 ? 0.5 : sinSmall(toRadians(d));
 }
-double cosOctant(double d) { return d == 45 ? 0x1.6a09e667f3bcdp-1 : std::cos(toRadians(d)); }
+double cosOctant(double d) { return d == 45 ? 0x1.6a09e667f3bcdp-1 : cosSmall(toRadians(d)); }
 
 // Sine of any angle in [0, 90].
 double sinQuadrant(double d) {
@@ -42,13 +42,9 @@ double cosDeg(double degrees) {
 }
 
 double tanDeg(double degrees) { return sinDeg(degrees) / cosDeg(degrees); }
-double asinDeg(double v) { return toDegrees(std::asin(v)); }
-double acosDeg(double v) { return toDegrees(std::acos(v)); }
-double atanDeg(double v) { return toDegrees(std::atan(v)); }
-double atan2Deg(double y, double x) { return toDegrees(std::atan2(y, x)); }
-double expOf(double v) { return std::exp(v); }
-double logOf(double v) { return std::log(v); }
-double log10Of(double v) { return std::log10(v); }
-double powOf(double base, double exponent) { return std::pow(base, exponent); }
+double asinDeg(double v) { return toDegrees(asinOf(v)); }
+double acosDeg(double v) { return toDegrees(acosOf(v)); }
+double atanDeg(double v) { return toDegrees(atan2Of(v, 1)); }
+double atan2Deg(double y, double x) { return toDegrees(atan2Of(y, x)); }
 
 }  // namespace gable

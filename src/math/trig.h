@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Elementary functions that give the same bits with every compiler and optimisation level: the
-// arguments are reduced exactly in degrees, quarter turns are exact, and no call is folded at
-// compile time (the file is built without built-ins).
+// Trigonometry in degrees that gives the same bits everywhere (base/elementary.h): arguments are
+// reduced exactly in degrees, and quarter turns are exact.
 #pragma once
 
+#include "base/elementary.h"
 #include "math/vec.h"
 
 namespace gable {
@@ -17,10 +17,6 @@ double asinDeg(double v);
 double acosDeg(double v);
 double atanDeg(double v);
 double atan2Deg(double y, double x);
-double expOf(double v);
-double logOf(double v);
-double log10Of(double v);
-double powOf(double base, double exponent);
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double toRadians(double degrees) { return degrees * (kPi / 180); }

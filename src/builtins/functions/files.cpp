@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/elementary.h"
 #include "builtins/lists.h"
 #include "builtins/shared/arrays.h"
 #include "builtins/shared/text_files.h"
@@ -154,7 +155,7 @@ double axisOf(const Vec3& v, char axis) {
 }
 
 double ratioMisfit(double a, double b, double wantA, double wantB) {
-  return std::fabs(std::log((a / b) / (wantA / wantB)));
+  return std::fabs(logOf((a / b) / (wantA / wantB)));
 }
 
 double assetRatio(const FunctionCall& call, const std::string& path, std::string_view axes) {
