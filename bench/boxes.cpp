@@ -164,7 +164,8 @@ Program compileText(const char* text, const std::shared_ptr<ValuePool>& pool) {
   lang::AnalysisInput input{lang::parse(sources, file, diagnostics), "bench.cga", ""};
   const auto resolved =
       lang::analyse(std::move(input), builtinCatalogue(), *pool, nullptr, sources, diagnostics);
-  for (const Diagnostic& d : diagnostics.all()) std::fputs(format(d, sources).c_str(), stderr);
+  for (const Diagnostics::Entry& d : diagnostics.all())
+    std::fputs(format(d, sources).c_str(), stderr);
   GABLE_CHECK(!diagnostics.hasErrors());
   return lang::compile(resolved, builtinCatalogue(), pool, sources, diagnostics);
 }

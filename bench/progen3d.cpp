@@ -28,13 +28,6 @@ double peakBytes() {
   return static_cast<double>(usage.ru_maxrss) * 1024;
 }
 
-// The number behind a key of the statistics.
-double statistic(const std::string& json, const char* key) {
-  const size_t at = json.find(std::string("\"") + key + "\"");
-  if (at == std::string::npos) return 0;
-  return std::atof(json.c_str() + json.find(':', at) + 1);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -51,7 +44,7 @@ int main(int argc, char** argv) {
       path = argv[i];
   }
   const gable::Rules rules = gable::Rules::load(path);
-  for (const gable::Message& m : rules.messages()) std::fputs(m.pretty.c_str(), stderr);
+  for (const gable::Diagnostic& m : rules.diagnostics()) std::fputs(m.rendered.c_str(), stderr);
   if (!rules.ok()) return 1;
   const gable::Shapes lot = gable::Shapes::lot(20, 20);
   const double before = peakBytes();
@@ -62,7 +55,7 @@ int main(int argc, char** argv) {
     const gable::Model model = gable::derive(rules, lot, settings);
     seconds.push_back(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
     if (run == 0) bytes = peakBytes() - before;
-    boxes = statistic(model.statsJson({}), "leaves");
+    boxes = static_cast<double>(model.statistics().leaves);
     if (!model.ok()) return 1;
   }
   std::sort(seconds.begin(), seconds.end());

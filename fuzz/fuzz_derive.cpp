@@ -12,6 +12,7 @@
 #include "base/check.h"
 #include "base/hash.h"
 #include "gable/gable.h"
+#include "json/answers.h"
 
 namespace {
 
@@ -22,13 +23,13 @@ gable::Model derived(const gable::Rules& rules, bool sharing, const gable::Model
   settings.remember = remember;
   settings.jobs = 1;
   settings.sharing = sharing;
-  settings.budget.depth = 64;
-  settings.budget.width = 1000;
-  settings.budget.shapes = 2000;
-  settings.budget.vertices = 100000;
-  settings.budget.steps = 100000;
+  settings.limits.depth = 64;
+  settings.limits.width = 1000;
+  settings.limits.shapes = 2000;
+  settings.limits.vertices = 100000;
+  settings.limits.steps = 100000;
   // Some operations take long for a step; checks and sanitizers add to it.
-  settings.budget.seconds = 2;
+  settings.limits.seconds = 2;
   return gable::derive(rules, gable::Shapes::lot(9, 7), settings);
 }
 
@@ -45,7 +46,7 @@ std::string edited(const std::string& text) {
 
 void checkRecall(const gable::Rules& rules, const std::string& text) {
   const gable::Model before = derived(rules, true, nullptr, true);
-  gable::LoadOptions options;
+  gable::LoadSettings options;
   options.before = &rules;
   const gable::Rules after = gable::Rules::parse(edited(text), "fuzz.cga", options);
   if (!after.ok() || !done(before)) return;
@@ -54,7 +55,8 @@ void checkRecall(const gable::Rules& rules, const std::string& text) {
   if (!done(taken) || !done(fresh)) return;
   GABLE_CHECK_EQ(taken.dump(), fresh.dump());
   GABLE_CHECK(taken.drawList() == fresh.drawList());
-  GABLE_CHECK_EQ(gable::messagesJson(taken.messages()), gable::messagesJson(fresh.messages()));
+  GABLE_CHECK_EQ(gable::diagnosticsJson(taken.diagnostics()),
+                 gable::diagnosticsJson(fresh.diagnostics()));
 }
 
 }  // namespace
@@ -62,8 +64,8 @@ void checkRecall(const gable::Rules& rules, const std::string& text) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   const gable::Rules rules = gable::Rules::parse(text, "fuzz.cga");
-  for (const gable::Message& m : rules.messages()) {
-    GABLE_CHECK(!m.code.empty() && !m.text.empty());
+  for (const gable::Diagnostic& m : rules.diagnostics()) {
+    GABLE_CHECK(!m.code.empty() && !m.message.empty());
   }
   if (!rules.ok()) return 0;
   const gable::Model shared = derived(rules, true);

@@ -15,16 +15,16 @@
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   const gable::Formatted once = gable::format(text, "fuzz.gbbg");
-  if (!gable::hasErrors(once.messages)) {
+  if (!gable::hasErrors(once.diagnostics)) {
     const gable::Formatted twice = gable::format(once.text, "fuzz.gbbg");
-    GABLE_CHECK(!gable::hasErrors(twice.messages));
+    GABLE_CHECK(!gable::hasErrors(twice.diagnostics));
     GABLE_CHECK_EQ(once.text, twice.text);
   }
-  gable::LoadOptions options;
+  gable::LoadSettings options;
   options.project = "/nonexistent";
   const gable::Rules rules = gable::Rules::parse(text, "fuzz.gbbg", options);
-  for (const gable::Message& m : rules.messages()) {
-    GABLE_CHECK(!m.code.empty() && !m.text.empty());
+  for (const gable::Diagnostic& m : rules.diagnostics()) {
+    GABLE_CHECK(!m.code.empty() && !m.message.empty());
   }
   if (!rules.ok()) return 0;
   gable::DeriveSettings settings = smallSettings(2000, 100000);

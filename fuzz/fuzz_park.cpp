@@ -15,17 +15,17 @@
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   const gable::Converted converted = gable::convert(text, "fuzz.park");
-  gable::LoadOptions options;
+  gable::LoadSettings options;
   options.project = "/nonexistent";
   const gable::Rules rules = gable::Rules::parse(text, "fuzz.park", options);
-  for (const gable::Message& m : rules.messages()) {
-    GABLE_CHECK(!m.code.empty() && !m.text.empty());
+  for (const gable::Diagnostic& m : rules.diagnostics()) {
+    GABLE_CHECK(!m.code.empty() && !m.message.empty());
   }
   if (!rules.ok()) return 0;
   // What is lowered without a mistake can be read again.
-  GABLE_CHECK(!gable::hasErrors(converted.messages));
+  GABLE_CHECK(!gable::hasErrors(converted.diagnostics));
   const gable::Rules again = gable::Rules::parse(converted.text, "fuzz.cga", options);
-  for (const gable::Message& m : again.messages()) {
+  for (const gable::Diagnostic& m : again.diagnostics()) {
     GABLE_CHECK(m.code.find("unexpected") == std::string::npos);
   }
   gable::DeriveSettings settings = smallSettings(1000, 50000);

@@ -25,10 +25,10 @@ using namespace gable;
 Model derived(const Rules& rules) {
   DeriveSettings settings;
   settings.jobs = 1;
-  settings.budget.depth = 64;
-  settings.budget.width = 200;
-  settings.budget.shapes = 300;
-  settings.budget.vertices = 20000;
+  settings.limits.depth = 64;
+  settings.limits.width = 200;
+  settings.limits.shapes = 300;
+  settings.limits.vertices = 20000;
   return derive(rules, Shapes::lot(9, 7), settings);
 }
 
@@ -37,7 +37,7 @@ void checkTree(const std::string& text) {
   Diagnostics diagnostics;
   const uint32_t file = sources.add("fuzz.grammar", text);
   lang::Tree tree = kProgen3d.parse({sources, file, builtinCatalogue()}, diagnostics);
-  for (const Diagnostic& d : diagnostics.all()) {
+  for (const Diagnostics::Entry& d : diagnostics.all()) {
     GABLE_CHECK(!d.code.empty() && !d.message.empty());
     GABLE_CHECK(d.span.begin <= d.span.end && d.span.end <= text.size());
     (void)format(d, sources);
@@ -59,7 +59,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   checkTree(text);
   // Images are looked for in all folders of the project: here it has none.
-  LoadOptions options;
+  LoadSettings options;
   options.project = "/nonexistent";
   const Rules rules = Rules::parse(text, "fuzz.grammar", options);
   const Converted converted = convert(text, "fuzz.grammar");

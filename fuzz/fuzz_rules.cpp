@@ -54,7 +54,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const uint32_t file = sources.add("fuzz.cga", text);
   lang::Tree tree = lang::parse(sources, file, diagnostics);
   (void)lang::dump(tree);
-  for (const Diagnostic& d : diagnostics.all()) {
+  for (const Diagnostics::Entry& d : diagnostics.all()) {
     GABLE_CHECK(!d.code.empty() && !d.message.empty());
     if (!d.span.valid()) continue;
     GABLE_CHECK(d.span.begin <= d.span.end && d.span.end <= text.size());
@@ -65,6 +65,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   SelfLoader loader(text);
   lang::AnalysisInput input{std::move(tree), "fuzz.cga", ""};
   (void)lang::analyse(std::move(input), builtinCatalogue(), values, &loader, sources, diagnostics);
-  for (const Diagnostic& d : diagnostics.all()) (void)format(d, sources);
+  for (const Diagnostics::Entry& d : diagnostics.all()) (void)format(d, sources);
   return 0;
 }

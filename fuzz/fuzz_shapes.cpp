@@ -18,14 +18,14 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size == 0) return 0;
   const std::string content(reinterpret_cast<const char*>(data + 1), size - 1);
   const gable::Shapes shapes = gable::Shapes::parse(content, kNames[data[0] % 4]);
-  for (const gable::Message& m : shapes.messages()) {
-    GABLE_CHECK(!m.code.empty() && !m.text.empty());
+  for (const gable::Diagnostic& m : shapes.diagnostics()) {
+    GABLE_CHECK(!m.code.empty() && !m.message.empty());
   }
   if (!shapes.ok() || shapes.size() > 20) return 0;
   gable::DeriveSettings settings;
   settings.jobs = 1;
-  settings.budget.shapes = 1000;
-  settings.budget.vertices = 100000;
+  settings.limits.shapes = 1000;
+  settings.limits.vertices = 100000;
   (void)gable::derive(rules, shapes, settings).dump();
   return 0;
 }

@@ -11,9 +11,9 @@
 inline gable::DeriveSettings smallSettings(uint64_t shapes, uint64_t vertices) {
   gable::DeriveSettings settings;
   settings.jobs = 1;
-  settings.budget.depth = 64;
-  settings.budget.width = 1000;
-  settings.budget.shapes = shapes;
-  settings.budget.vertices = vertices;
+  settings.limits.depth = 64;
+  settings.limits.width = 1000;
+  settings.limits.shapes = shapes;
+  settings.limits.vertices = vertices;
   return settings;
 }

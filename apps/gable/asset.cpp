@@ -9,8 +9,8 @@
 
 namespace {
 
-bool setTriple(const std::string& text, const char* option, double (&out)[3]) {
-  if (parseNumbers(text, ',', kMetres, out, 3)) return true;
+bool setTriple(const std::string& text, const char* option, gable::Triple& out) {
+  if (parseNumbers(text, ',', kMetres, out.data(), 3)) return true;
   wrongOption(option, "three numbers, such as 8,9,8", text);
   return false;
 }
@@ -19,27 +19,25 @@ bool setTriple(const std::string& text, const char* option, double (&out)[3]) {
 
 int runAssetPrepare(const AssetArguments& a) {
   gable::PrepareSettings s;
-  s.ownPivot = !a.pivot.empty();
-  s.ownVolume = !a.volume.empty();
   s.zUp = a.zUp;
   s.name = a.name;
-  if (s.ownPivot && !setTriple(a.pivot, "--pivot", s.pivot)) return kExitUsage;
-  if (s.ownVolume && !setTriple(a.volume, "--size", s.volume)) return kExitUsage;
+  if (!a.pivot.empty() && !setTriple(a.pivot, "--pivot", s.pivot.emplace())) return kExitUsage;
+  if (!a.volume.empty() && !setTriple(a.volume, "--size", s.volume.emplace())) return kExitUsage;
   if (!a.rotate.empty() && !setTriple(a.rotate, "--rotate", s.rotate)) return kExitUsage;
   if (const int status = checkExtension(a.output, {"glb", "gltf", "obj"})) return status;
   const gable::Model model = gable::Model::load(a.model);
-  printMessages(model.messages());
+  print(model.diagnostics());
   if (!model.found()) return kExitFile;
   const gable::Model ready = model.prepared(s);
-  if (gable::hasErrors(ready.messages())) {
-    printMessages(ready.messages());
+  if (gable::hasErrors(ready.diagnostics())) {
+    print(ready.diagnostics());
     return kExitWrong;
   }
   const gable::WriteResult written = ready.write(a.output, {});
-  printMessages(written.messages);
+  print(written.diagnostics);
   if (!written.ok) return kExitFile;
-  const std::array<double, 6> box = ready.bounds();
+  const auto [low, high] = ready.bounds().value_or(gable::BoundingBox{});
   std::printf("%s: the model covers %.3g..%.3g, %.3g..%.3g, %.3g..%.3g of the volume\n",
-              a.output.c_str(), box[0], box[3], box[1], box[4], box[2], box[5]);
+              a.output.c_str(), low[0], high[0], low[1], high[1], low[2], high[2]);
   return kExitDone;
 }

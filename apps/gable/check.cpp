@@ -1,24 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 
+#include <algorithm>
 #include <cstdio>
 
 #include "commands.h"
+#include "json/answers.h"
 
 int runCheck(const CheckArguments& arguments) {
-  gable::Messages all;
+  gable::DiagnosticList all;
   bool missing = false;
   for (const std::string& path : arguments.rules) {
     const gable::Rules rules = gable::Rules::load(path, {arguments.project, arguments.dialect});
     missing = missing || !rules.found();
-    all.insert(all.end(), rules.messages().begin(), rules.messages().end());
+    if (arguments.disassemble) std::fputs(rules.disassembly().c_str(), stdout);
+    all.insert(all.end(), rules.diagnostics().begin(), rules.diagnostics().end());
   }
-  size_t errors = 0;
-  for (const gable::Message& m : all) errors += m.level == gable::Level::Error ? 1 : 0;
+  const auto errors = static_cast<size_t>(
+      std::count_if(all.begin(), all.end(), [](const auto& d) { return d.isError(); }));
   if (arguments.json) {
-    std::printf("%s\n", gable::messagesJson(all).c_str());
+    std::printf("%s\n", gable::diagnosticsJson(all).c_str());
   } else {
-    for (const gable::Message& m : all) std::fputs(m.pretty.c_str(), stdout);
+    std::fputs(gable::render(all).c_str(), stdout);
     if (!all.empty()) {
       std::printf("%zu error%s, %zu warning%s\n", errors, errors == 1 ? "" : "s",
                   all.size() - errors, all.size() - errors == 1 ? "" : "s");

@@ -19,9 +19,10 @@ int runGenerate(const GenerateArguments& arguments);
 
 struct CheckArguments {
   std::vector<std::string> rules;
-  std::string project;
-  std::string dialect;
+  std::optional<std::string> project, dialect;
   bool json = false;
+  /// Print what the rules are compiled to as well.
+  bool disassemble = false;
 };
 int runCheck(const CheckArguments& arguments);
 
@@ -36,8 +37,7 @@ int runFormat(const FormatArguments& arguments);
 
 struct ConvertArguments {
   std::string rules;
-  std::string project;
-  std::string dialect;
+  std::optional<std::string> project, dialect;
   std::string output = "-";
 };
 int runConvert(const ConvertArguments& arguments);
@@ -51,7 +51,7 @@ struct RenderArguments {
   std::string sun;
   std::string eye, target;
   std::string ground;
-  double fieldOfView = 0;
+  std::optional<double> fieldOfView;
 };
 int runRender(const RenderArguments& arguments);
 
@@ -65,7 +65,7 @@ struct AssetArguments {
   std::string model;
   std::string output;
   std::string pivot, rotate, volume;
-  std::string name;
+  std::optional<std::string> name;
   bool zUp = false;
 };
 int runAssetPrepare(const AssetArguments& arguments);

@@ -42,19 +42,14 @@ int checkExtension(const std::string& path, const std::vector<std::string>& exte
                      path);
 }
 
-size_t printMessages(const gable::Messages& messages) {
-  size_t errors = 0;
-  for (const gable::Message& m : messages) {
-    if (m.level == gable::Level::Error) ++errors;
-    std::fputs(m.pretty.c_str(), stderr);
-  }
-  return errors;
+void print(const gable::DiagnosticList& diagnostics) {
+  for (const gable::Diagnostic& d : diagnostics) std::fputs(d.rendered.c_str(), stderr);
 }
 
 int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
   inputs.rules =
       gable::Rules::load(arguments.rules, {arguments.project, arguments.dialect, arguments.style});
-  printMessages(inputs.rules.messages());
+  print(inputs.rules.diagnostics());
   if (!inputs.rules.found()) return kExitFile;
   if (!inputs.rules.ok()) return kExitWrong;
   if (!arguments.shapes.empty()) {
@@ -69,7 +64,7 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
     width = sides[0], depth = sides[1];
     inputs.shapes = gable::Shapes::lot(width, depth);
   }
-  printMessages(inputs.shapes.messages());
+  print(inputs.shapes.diagnostics());
   if (arguments.cutNested) inputs.shapes = inputs.shapes.withNestedCut();
   if (!inputs.shapes.found()) return kExitFile;
   if (!inputs.shapes.ok() && inputs.shapes.size() == 0) return kExitWrong;
@@ -80,11 +75,12 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
   }
   s.sharing = !arguments.noSharing;
   s.jobs = arguments.jobs;
-  s.budget.seconds = arguments.maxSeconds;
-  s.budget.shapes = arguments.maxShapes;
-  s.budget.depth = arguments.maxDepth;
-  s.budget.steps = arguments.maxSteps;
-  s.budget.bytes = arguments.maxMegabytes << 20;
+  if (arguments.maxSeconds > 0) s.limits.seconds = arguments.maxSeconds;
+  s.limits.shapes = arguments.maxShapes;
+  s.limits.depth = arguments.maxDepth;
+  s.limits.steps = arguments.maxSteps;
+  s.limits.bytes.reset();
+  if (arguments.maxMegabytes > 0) s.limits.bytes = arguments.maxMegabytes << 20;
   s.cancel = cancelFlag();
   for (const std::string& pair : arguments.set) {
     const size_t equals = pair.find('=');
@@ -97,10 +93,10 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
 }
 
 int statusOf(const gable::Model& model) {
-  for (const gable::Message& m : model.messages()) {
+  for (const gable::Diagnostic& m : model.diagnostics()) {
     if (m.code == "attribute-value") return kExitUsage;
   }
-  if (gable::hasErrors(model.messages())) return kExitWrong;
+  if (gable::hasErrors(model.diagnostics())) return kExitWrong;
   return model.end() == gable::End::Done ? kExitDone : kExitLimit;
 }
 
@@ -133,7 +129,7 @@ double secondsNow() {
 
 bool readText(const std::string& path, std::string& text) {
   gable::RuleText read = gable::readRuleText(path);
-  printMessages(read.messages);
+  print(read.diagnostics);
   text = std::move(read.text);
   return read.ok;
 }
@@ -144,7 +140,7 @@ int writeText(const std::string& path, const std::string& text) {
     return kExitDone;
   }
   const gable::WriteResult written = gable::writeTextFile(path, text);
-  printMessages(written.messages);
+  print(written.diagnostics);
   return written.ok ? kExitDone : kExitFile;
 }
 

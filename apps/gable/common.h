@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// What the commands share: exit statuses, options that several take, messages and progress.
+// What the commands share: exit statuses, options that several take, diagnostics and progress.
 #pragma once
 
+#include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,19 +33,19 @@ struct DeriveArguments {
   std::string shapes;
   std::string lot;
   bool cutNested = false;
-  std::string start;
+  std::optional<std::string> start;
   std::vector<std::string> set;
   /// A number, or "random".
   std::string seed = "0";
-  std::string project;
-  std::string dialect;
-  std::string style;
-  int jobs = 0;
+  std::optional<std::string> project, dialect, style;
+  std::optional<int> jobs;
   bool noSharing = false;
+  /// 0: no limit.
   double maxSeconds = 0;
   uint64_t maxShapes = 50'000'000;
   uint32_t maxDepth = 1024;
   uint64_t maxSteps = 4'000'000'000;
+  /// 0: no limit.
   uint64_t maxMegabytes = 4096;
 };
 
@@ -62,7 +64,7 @@ int wrongOption(const char* option, const std::string& form, const std::string& 
 int checkExtension(const std::string& path, const std::vector<std::string>& extensions);
 
 /// Rules and shapes as the arguments name them; an exit status other than kExitDone when they are
-/// not usable (messages have been printed then).
+/// not usable (the reason has been printed then).
 struct Inputs {
   gable::Rules rules = gable::Rules(nullptr);
   gable::Shapes shapes = gable::Shapes(nullptr);
@@ -70,8 +72,8 @@ struct Inputs {
 };
 int readInputs(const DeriveArguments& arguments, Inputs& inputs);
 
-/// Prints messages to stderr, the worst kind last in the summary; returns the number of errors.
-size_t printMessages(const gable::Messages& messages);
+/// Prints diagnostics to stderr.
+void print(const gable::DiagnosticList& diagnostics);
 
 /// The exit status that a derivation asks for.
 int statusOf(const gable::Model& model);

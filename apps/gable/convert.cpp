@@ -10,7 +10,7 @@ int runConvert(const ConvertArguments& arguments) {
   if (!readText(arguments.rules, text)) return kExitFile;
   const gable::Converted converted =
       gable::convert(text, arguments.rules, {arguments.project, arguments.dialect});
-  printMessages(converted.messages);
-  if (gable::hasErrors(converted.messages)) return kExitWrong;
+  print(converted.diagnostics);
+  if (gable::hasErrors(converted.diagnostics)) return kExitWrong;
   return writeText(arguments.output, converted.text);
 }

@@ -15,8 +15,8 @@ int runFormat(const FormatArguments& arguments) {
       continue;
     }
     const gable::Formatted formatted = gable::format(text, path);
-    if (gable::hasErrors(formatted.messages)) {
-      printMessages(formatted.messages);
+    if (gable::hasErrors(formatted.diagnostics)) {
+      print(formatted.diagnostics);
       status = std::max<int>(status, kExitWrong);
       continue;
     }

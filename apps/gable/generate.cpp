@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "gable/files.h"
+#include "json/answers.h"
 
 namespace {
 
@@ -32,24 +33,25 @@ int runGenerate(const GenerateArguments& arguments) {
   Inputs inputs;
   if (const int status = readInputs(arguments.derive, inputs)) return status;
   const gable::Model model = deriveModel(inputs);
-  printMessages(model.messages());
+  print(model.diagnostics());
   for (const std::string& line : model.prints()) std::printf("%s\n", line.c_str());
-  if (gable::hasErrors(model.messages())) return statusOf(model);
+  if (gable::hasErrors(model.diagnostics())) return statusOf(model);
 
   const double writeBegin = secondsNow();
   const gable::WriteResult written = writeModel(model, arguments);
-  printMessages(written.messages);
+  print(written.diagnostics);
   if (!written.ok) return kExitFile;
 
   if (!arguments.stats.empty()) {
-    gable::Model::Times times;
-    times.parse = inputs.rules.parseSeconds();
-    times.derive = model.deriveSeconds();
-    times.write = secondsNow() - writeBegin;
-    times.total = secondsNow() - begin;
-    times.peakBytes = peakBytes();
-    times.triangles = written.triangles;
-    if (const int status = writeText(arguments.stats, model.statsJson(times))) return status;
+    gable::RunFigures figures;
+    figures.parseSeconds = inputs.rules.parseSeconds();
+    figures.deriveSeconds = model.deriveSeconds();
+    figures.writeSeconds = secondsNow() - writeBegin;
+    figures.totalSeconds = secondsNow() - begin;
+    figures.peakBytes = peakBytes();
+    if (written.triangles > 0) figures.triangles = written.triangles;
+    const std::string text = gable::statisticsJson(model, figures);
+    if (const int status = writeText(arguments.stats, text)) return status;
   }
   return statusOf(model);
 }

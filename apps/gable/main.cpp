@@ -110,6 +110,7 @@ int main(int argc, char** argv) {
   checkApp->add_option("--project", check.project, "The folder that the rules may read from");
   checkApp->add_option("--dialect", check.dialect, "The rules' notation");
   checkApp->add_flag("--json", check.json, "Machine-readable output");
+  checkApp->add_flag("--disassemble", check.disassemble, "List the compiled program as well");
   checkApp->callback([&] { status = runCheck(check); });
 
   FormatArguments format;

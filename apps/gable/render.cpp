@@ -19,7 +19,7 @@ bool isModel(const std::string& path) {
 }
 
 /// "#rrggbb" as shares of 1.
-bool parseColor(const std::string& text, double (&rgb)[3]) {
+bool parseColor(const std::string& text, gable::Triple& rgb) {
   const bool digits = text.size() == 7 && text[0] == '#' &&
                       text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
   for (size_t k = 0; digits && k < 3; ++k) {
@@ -57,15 +57,12 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
     if (!parseNumbers(a.sun, ',', kDegrees, sun, 2)) {
       return wrongOption("--sun", "elevation,azimuth in degrees, such as 40,135", a.sun);
     }
-    s.ownSun = true;
-    s.sunElevation = sun[0];
-    s.sunAzimuth = sun[1];
+    s.sun = {sun[0], sun[1]};
   }
   if (!a.ground.empty()) {
-    if (!parseColor(a.ground, s.ground)) {
+    if (!parseColor(a.ground, s.ground.emplace())) {
       return wrongOption("--ground", "a colour such as #77766a", a.ground);
     }
-    s.ownGround = true;
   }
   if (a.eye.empty() != a.target.empty()) {
     std::fputs(
@@ -76,14 +73,14 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
   }
   if (!a.eye.empty()) {
     const char* const kForm = "x,y,z in metres, such as 10,1.7,25";
-    if (!parseNumbers(a.eye, ',', kMetres, s.eye, 3)) return wrongOption("--eye", kForm, a.eye);
-    if (!parseNumbers(a.target, ',', kMetres, s.target, 3)) {
+    auto& [eye, target] = s.camera.emplace();
+    if (!parseNumbers(a.eye, ',', kMetres, eye.data(), 3)) {
+      return wrongOption("--eye", kForm, a.eye);
+    }
+    if (!parseNumbers(a.target, ',', kMetres, target.data(), 3)) {
       return wrongOption("--target", kForm, a.target);
     }
-    if (std::equal(s.eye, s.eye + 3, s.target)) {
-      return wrongOption("--target", "another place than --eye", a.target);
-    }
-    s.ownCamera = true;
+    if (eye == target) return wrongOption("--target", "another place than --eye", a.target);
   }
   return kExitDone;
 }
@@ -102,13 +99,13 @@ int runRender(const RenderArguments& arguments) {
     if (const int status = readInputs(arguments.derive, inputs)) return status;
     model = gable::derive(inputs.rules, inputs.shapes, inputs.settings);
   }
-  printMessages(model.messages());
+  print(model.diagnostics());
   if (!model.found()) return kExitFile;
-  if (gable::hasErrors(model.messages())) return statusOf(model);
+  if (gable::hasErrors(model.diagnostics())) return statusOf(model);
   ProgressLine progress("drawing");
   settings.progress = progress.callback();
   const gable::WriteResult written = model.picture(arguments.output, settings);
-  printMessages(written.messages);
-  if (gable::hasErrors(written.messages)) return kExitFile;
+  print(written.diagnostics);
+  if (gable::hasErrors(written.diagnostics)) return kExitFile;
   return written.ok ? statusOf(model) : kExitLimit;
 }

@@ -42,6 +42,6 @@ int runStudioCommand(const StudioArguments& arguments) {
         std::printf("%s\n", url.c_str());
         std::fflush(stdout);
       });
-  printMessages(result.messages);
+  print(result.diagnostics);
   return result.ok ? kExitDone : kExitFile;
 }

@@ -16,7 +16,7 @@ namespace gable {
 struct RuleText {
   bool ok = false;
   std::string text;
-  Messages messages;
+  DiagnosticList diagnostics;
 };
 /// The text of a rule file, of at most 256 MiB.
 RuleText readRuleText(const std::string& path);

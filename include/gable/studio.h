@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "gable/gable.h"
@@ -18,19 +19,19 @@ struct StudioSettings {
   std::string project = ".";
   /// Holds the built page: index.html and what it names.
   std::string page;
-  /// Holds examples, a folder each; may be empty.
-  std::string examples;
+  /// Holds examples, a folder each.
+  std::optional<std::string> examples;
   /// Loopback, unless others are meant to come in.
   std::string address = "127.0.0.1";
   /// 0: that of this project's last studio where it is free, else any.
   uint16_t port = 0;
-  /// What a page must show; empty: that of this project's last studio, else drawn.
-  std::string token;
+  /// What a page must show; absent: that of this project's last studio, else drawn.
+  std::optional<std::string> token;
 };
 
 struct StudioResult {
   bool ok = false;
-  Messages messages;
+  DiagnosticList diagnostics;
 };
 
 /// Serves until `stop` is true. `ready` gets the address of the page, token and all, once it can be

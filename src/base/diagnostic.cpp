@@ -50,7 +50,7 @@ void shorten(std::string& text) {
 
 }  // namespace
 
-void Diagnostics::add(Diagnostic d) {
+void Diagnostics::add(Entry d) {
   shorten(d.message);
   shorten(d.hint);
   shorten(d.shapePath);
@@ -71,20 +71,23 @@ void Diagnostics::fixLast(Span span, std::string text) {
 }
 
 void Diagnostics::append(const Diagnostics& other) {
-  for (const Diagnostic& d : other.all_) add(d);
+  for (const Diagnostics::Entry& d : other.all_) add(d);
 }
 
 void Diagnostics::sortByPlace() {
-  std::stable_sort(all_.begin(), all_.end(), [](const Diagnostic& a, const Diagnostic& b) {
-    return std::tie(a.span.file, a.span.begin) < std::tie(b.span.file, b.span.begin);
-  });
-  const auto same = [](const Diagnostic& a, const Diagnostic& b) {
+  std::stable_sort(
+      all_.begin(), all_.end(), [](const Diagnostics::Entry& a, const Diagnostics::Entry& b) {
+        return std::tie(a.span.file, a.span.begin) < std::tie(b.span.file, b.span.begin);
+      });
+  const auto same = [](const Diagnostics::Entry& a, const Diagnostics::Entry& b) {
     return a.code == b.code && a.span.file == b.span.file && a.span.begin == b.span.begin &&
            a.message == b.message && a.shapePath == b.shapePath;
   };
   all_.erase(std::unique(all_.begin(), all_.end(), same), all_.end());
-  errors_ = static_cast<size_t>(std::count_if(
-      all_.begin(), all_.end(), [](const Diagnostic& d) { return d.severity == Severity::Error; }));
+  errors_ =
+      static_cast<size_t>(std::count_if(all_.begin(), all_.end(), [](const Diagnostics::Entry& d) {
+        return d.severity == Severity::Error;
+      }));
 }
 
 const char* severityName(Severity s) {
@@ -128,7 +131,7 @@ void disarm(std::string& text) {
 
 }  // namespace
 
-std::string format(const Diagnostic& d, const Sources& sources) {
+std::string format(const Diagnostics::Entry& d, const Sources& sources) {
   std::string out;
   LineColumn at;
   if (d.span.valid()) {

@@ -60,42 +60,43 @@ struct Replacement {
 
 enum class Severity : uint8_t { Note, Warning, Error };
 
-struct Diagnostic {
-  Severity severity = Severity::Error;
-  /// Stable, kebab-case; every code has a line in docs/reference/diagnostics.md.
-  std::string code;
-  Span span;
-  /// One sentence that names the thing: "'extrud' is not an operation".
-  std::string message;
-  /// The remedy: "did you mean 'extrude'?"; may be empty.
-  std::string hint;
-  /// For what happened during a derivation: the rules from the initial shape down; may be empty.
-  std::string shapePath;
-  /// What the hint says, as an edit, where it is one.
-  std::optional<Replacement> fix;
-};
-
 class Diagnostics {
  public:
-  void add(Diagnostic d);
+  /// A diagnostic whose place is a span of sources at hand.
+  struct Entry {
+    Severity severity = Severity::Error;
+    /// Stable, kebab-case; every code has a line in docs/reference/diagnostics.md.
+    std::string code;
+    Span span;
+    /// One sentence that names the thing: "'extrud' is not an operation".
+    std::string message;
+    /// The remedy: "did you mean 'extrude'?"; may be empty.
+    std::string hint;
+    /// For what happened during a derivation: the rules from the initial shape down; may be empty.
+    std::string shapePath;
+    /// What the hint says, as an edit, where it is one.
+    std::optional<Replacement> fix;
+  };
+
+  void add(Entry d);
   void error(std::string code, Span span, std::string message, std::string hint = {});
   void warning(std::string code, Span span, std::string message, std::string hint = {});
   /// The remedy of the message that was added last.
   void fixLast(Span span, std::string text);
   bool hasErrors() const { return errors_ > 0; }
   size_t errorCount() const { return errors_; }
-  const std::vector<Diagnostic>& all() const { return all_; }
+  const std::vector<Entry>& all() const { return all_; }
   void append(const Diagnostics& other);
   /// Sorts by file and place, keeping the order of equals; drops exact repetitions.
   void sortByPlace();
 
  private:
-  std::vector<Diagnostic> all_;
+  std::vector<Entry> all_;
   size_t errors_ = 0;
 };
 
 /// "file:line:column: error: message [code]", the source line, a caret line and the hint.
-std::string format(const Diagnostic& d, const Sources& sources);
+std::string format(const Diagnostics::Entry& d, const Sources& sources);
 
 const char* severityName(Severity s);
 

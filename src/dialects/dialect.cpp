@@ -40,7 +40,7 @@ const Dialect* dialectOfPath(std::string_view path) {
 Diagnostics inWordsOf(const Dialect* dialect, const Diagnostics& diagnostics) {
   if (!dialect) return diagnostics;
   Diagnostics out;
-  for (Diagnostic d : diagnostics.all()) {
+  for (Diagnostics::Entry d : diagnostics.all()) {
     for (const Remedy& r : dialect->remedies) {
       if (r.code == d.code) d.hint = r.hint;
     }

@@ -5,11 +5,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/diagnostic.h"
-#include "base/json.h"
 #include "dialects/dialect.h"
 #include "engine/project.h"
 #include "gable/gable.h"
@@ -34,7 +34,7 @@ struct ShapeFootprint {
 
 struct Rules::Impl {
   bool found = true;
-  Messages messages;
+  DiagnosticList diagnostics;
   std::shared_ptr<ValuePool> pool;
   Sources sources;
   Program program;
@@ -52,14 +52,14 @@ struct Rules::Impl {
 
 struct Shapes::Impl {
   bool found = true;
-  Messages messages;
+  DiagnosticList diagnostics;
   std::vector<ShapeFootprint> footprints;
   GeoOrigin geoOrigin;
 };
 
 struct Model::Impl {
   bool found = true;
-  Messages messages;
+  DiagnosticList diagnostics;
   std::shared_ptr<Project> project;
   /// Holds the tables that trace names point into.
   std::shared_ptr<const Rules::Impl> rules;
@@ -81,9 +81,9 @@ void cutNested(std::vector<ShapeFootprint>& footprints);
 /// Seconds of a steady clock.
 double now();
 
-Message toMessage(const Diagnostic& d, const Sources& sources);
-Messages toMessages(const Diagnostics& diagnostics, const Sources& sources);
-Message errorMessage(const Error& e);
+Diagnostic diagnosticOf(const Diagnostics::Entry& e, const Sources& sources);
+Diagnostic diagnosticOf(const Error& e);
+DiagnosticList listOf(const Diagnostics& diagnostics, const Sources& sources);
 
 /// Text of the command line ("3", "true", "#ff0000", "[1,2;3,4]") as a value of an attribute, whose
 /// type it must have. Code: attribute-value.
@@ -91,13 +91,20 @@ Result<Value> settingOf(const std::string& name, const std::string& text, ValueT
                         ValuePool& pool);
 Value valueOfAttribute(const AttributeValue& a, ValuePool& pool);
 
-std::string statsOf(const DeriveResult& result, const Scene& scene, const Messages& messages,
-                    const Model::Times& times);
-std::string traceOf(const DeriveResult& result, const Program& program, const Sources& sources);
+RuleValue ruleValueOf(const AttributeValue& a);
+std::vector<NamedValue> namedValuesOf(const std::vector<AttributeValue>& attributes);
+MaterialInfo materialInfoOf(const Material& m);
+BoundingBox boundingBoxOf(const Box3& box);
 
-/// A number, a text, a bool, or an array of them.
-void writeAttribute(JsonWriter& json, const AttributeValue& a);
-
-Tree treeOf(const DeriveResult& result, const Program& program, const Sources& sources);
+Statistics statisticsOf(const Scene& scene);
+std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
+                                     const DeriveSettings& settings);
+DerivationTrace traceOf(const DeriveResult& result, const Program& program, const Sources& sources);
+/// Absent when there is no leaf of that number.
+std::optional<LeafInfo> leafOf(const Scene& scene, uint64_t number);
+ModelGeometry geometryOf(const Scene& scene, uint64_t mostLeaves);
+/// The same as a settled asset; see Model::prepared.
+std::shared_ptr<const Model::Impl> preparedOf(const Model::Impl& from,
+                                              const PrepareSettings& settings);
 
 }  // namespace gable

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // What is known of one leaf. It is found by the counts of prototypes, so that no instance is
-// expanded for it.
+// expanded for it. Values and materials in their public form.
 
 #include "engine/impl.h"
 #include "scene/flatten.h"
@@ -69,101 +69,78 @@ FoundLeaf leafAt(const Scene& scene, uint64_t wanted) {
 }
 
 // The box of a leaf's mesh in the leaf's own frame.
-void writeScope(JsonWriter& json, const Scene& scene, const FoundLeaf& found) {
+void setScope(LeafInfo& out, const Scene& scene, const FoundLeaf& found) {
   Box3 box;
   for (const Vec3& v : scene.meshes[found.leaf->mesh]->positions) {
     box.include(scaled(v, found.leaf->scale));
   }
   const Frame& w = found.world;
-  const Vec3 origin = w.point(box.min), size = box.size();
-  json.key("frame").beginArray();
-  for (const Vec3& v : {origin, w.x, w.y, w.z}) json.value(v.x).value(v.y).value(v.z);
-  json.endArray().key("size").beginArray();
-  json.value(size.x).value(size.y).value(size.z);
-  json.endArray();
+  size_t i = 0;
+  for (const Vec3& v : {w.point(box.min), w.x, w.y, w.z}) {
+    for (const double d : {v.x, v.y, v.z}) out.frame[i++] = d;
+  }
+  const Vec3 size = box.size();
+  out.size = {size.x, size.y, size.z};
 }
 
-void writeAbove(JsonWriter& json, const Scene& scene, const std::vector<Above>& above) {
-  json.key("above").beginArray();
-  for (const Above& a : above) {
-    json.beginObject().key("name").value(scene.names[a.name]);
-    json.key("from").value(a.first).key("to").value(a.end).endObject();
-  }
-  json.endArray();
-}
-
-void writeMaterial(JsonWriter& json, const Material& m) {
-  json.beginObject();
-  if (!m.name.empty()) json.key("name").value(m.name);
-  json.key("color").value(colorText(m.color)).key("opacity").value(m.opacity);
-  json.key("roughness").value(m.roughness).key("metallic").value(m.metallic);
-  if (m.emissive.x + m.emissive.y + m.emissive.z > 0) {
-    json.key("emissive").value(colorText(m.emissive));
-  }
-  for (size_t layer = 0; layer < kTextureLayers; ++layer) {
-    if (!m.maps[layer].path.empty()) {
-      json.key(kTextureLayerNames[layer]).value(m.maps[layer].path);
-    }
-  }
-  json.endObject();
-}
-
-void writePlain(JsonWriter& json, const PlainValue& v) {
+RuleValue::Scalar scalarOf(const PlainValue& v) {
   switch (v.kind) {
-    case PlainValue::Kind::Number: json.value(v.number); break;
-    case PlainValue::Kind::Bool: json.value(v.number != 0); break;
-    case PlainValue::Kind::Text: json.value(v.text); break;
+    case PlainValue::Kind::Number: return v.number;
+    case PlainValue::Kind::Bool: return v.number != 0;
+    case PlainValue::Kind::Text: break;
   }
+  return v.text;
 }
 
 }  // namespace
 
-void writeAttribute(JsonWriter& json, const AttributeValue& a) {
-  if (a.rows == 0) {
-    if (a.values.empty())
-      json.null();
-    else
-      writePlain(json, a.values[0]);
-    return;
-  }
-  json.beginArray();
-  for (uint32_t r = 0; r < a.rows; ++r) {
-    if (a.rows > 1) json.beginArray();
-    for (uint32_t c = 0; c < a.columns; ++c) writePlain(json, a.values[r * a.columns + c]);
-    if (a.rows > 1) json.endArray();
-  }
-  json.endArray();
+RuleValue ruleValueOf(const AttributeValue& a) {
+  RuleValue out;
+  if (a.rows > 0) out.array = RuleValue::Size{a.rows, a.columns};
+  for (const PlainValue& v : a.values) out.items.push_back(scalarOf(v));
+  return out;
 }
 
-std::string Model::leafJson(uint64_t number) const {
-  const Scene& scene = impl_->scene();
+std::vector<NamedValue> namedValuesOf(const std::vector<AttributeValue>& attributes) {
+  std::vector<NamedValue> out;
+  for (const AttributeValue& a : attributes) out.push_back({a.name, ruleValueOf(a)});
+  return out;
+}
+
+MaterialInfo materialInfoOf(const Material& m) {
+  MaterialInfo out;
+  out.name = m.name;
+  out.color = colorText(m.color);
+  out.opacity = m.opacity;
+  out.roughness = m.roughness;
+  out.metallic = m.metallic;
+  if (m.emissive.x + m.emissive.y + m.emissive.z > 0) out.emissive = colorText(m.emissive);
+  for (size_t layer = 0; layer < kTextureLayers; ++layer) {
+    if (m.maps[layer].path.empty()) continue;
+    out.textures.emplace_back(kTextureLayerNames[layer], m.maps[layer].path);
+  }
+  return out;
+}
+
+std::optional<LeafInfo> leafOf(const Scene& scene, uint64_t number) {
   const FoundLeaf found = leafAt(scene, number);
   const Leaf* leaf = found.leaf;
-  if (!leaf) return {};
-  std::string out;
-  JsonWriter json(out);
-  json.beginObject().key("name").value(scene.names[leaf->name]);
+  if (!leaf) return std::nullopt;
+  LeafInfo out;
+  out.name = scene.names[leaf->name];
   if (leaf->source < scene.sources.size()) {
     const SourcePlace& s = scene.sources[leaf->source];
-    json.key("rule").value(s.rule).key("file").value(s.file);
-    json.key("line").value(s.line).key("column").value(s.column);
+    out.source = LeafInfo::Source{s.rule, s.file, s.line, s.column};
   }
   const Mesh& mesh = *scene.meshes[leaf->mesh];
-  json.key("faces").value(static_cast<uint64_t>(mesh.faceCount()));
-  json.key("vertices").value(static_cast<uint64_t>(mesh.positions.size()));
-  json.key("material");
-  writeMaterial(json, materialOf(scene, *leaf, 0));
-  json.key("attributes").beginObject();
+  out.faces = mesh.faceCount();
+  out.vertices = mesh.positions.size();
+  out.material = materialInfoOf(materialOf(scene, *leaf, 0));
   if (leaf->attributes < scene.attributeSets.size()) {
-    for (const AttributeValue& a : scene.attributeSets[leaf->attributes]) {
-      json.key(a.name);
-      writeAttribute(json, a);
-    }
+    out.attributes = namedValuesOf(scene.attributeSets[leaf->attributes]);
   }
-  json.endObject();
-  writeScope(json, scene, found);
-  writeAbove(json, scene, found.above);
-  json.endObject();
+  setScope(out, scene, found);
+  for (const Above& a : found.above) out.parts.push_back({scene.names[a.name], a.first, a.end});
   return out;
 }
 

@@ -19,30 +19,33 @@ bool readFromFile(const Scene& scene) {
          scene.leaves[0].mesh < scene.meshes.size();
 }
 
-Vec3 vec(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
+Vec3 vec(const Triple& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
-Model Model::prepared(const PrepareSettings& settings) const {
-  auto impl = std::make_shared<Impl>(*impl_);
+std::shared_ptr<const Model::Impl> preparedOf(const Model::Impl& from,
+                                              const PrepareSettings& settings) {
+  auto impl = std::make_shared<Model::Impl>(from);
   Scene& scene = impl->result.scene;
   const auto fail = [&](const char* text, const char* hint) {
-    impl->messages.push_back(errorMessage(Error{"asset-volume", text, hint}));
-    return Model(impl);
+    impl->diagnostics.push_back(diagnosticOf(Error{"asset-volume", text, hint}));
+    return impl;
   };
-  if (!ok()) return Model(impl);
+  if (hasErrors(impl->diagnostics)) return impl;
   if (!readFromFile(scene)) {
     return fail("only a model that was read from a file can be prepared", "load one first");
   }
   Mesh mesh = *scene.meshes[scene.leaves[0].mesh];
   if (settings.zUp) mesh = transformed(mesh, {1, 1, 1}, rotationXyz(-90, 0, 0));
   const Box3 own = mesh.bounds();
-  const Vec3 pivot = settings.ownPivot ? vec(settings.pivot) : own.min;
+  const Vec3 pivot = settings.pivot ? vec(*settings.pivot) : own.min;
   Frame turn = rotationXyz(settings.rotate[0], settings.rotate[1], settings.rotate[2]);
   turn.origin = -turn.direction(pivot);
   mesh = transformed(mesh, {1, 1, 1}, turn);
-  Vec3 volume = vec(settings.volume);
-  if (!settings.ownVolume) {
+  Vec3 volume;
+  if (settings.volume) {
+    volume = vec(*settings.volume);
+  } else {
     // All that lies on the positive side of the pivot; a flat model keeps a metre.
     volume = mesh.bounds().max;
     for (size_t i = 0; i < 3; ++i) {
@@ -56,17 +59,17 @@ Model Model::prepared(const PrepareSettings& settings) const {
   }
   scene.meshes[scene.leaves[0].mesh] =
       makeRef<Mesh>(transformed(mesh, {1 / volume.x, 1 / volume.y, 1 / volume.z}, Frame{}));
-  if (!settings.name.empty()) scene.names[0] = settings.name;
+  if (settings.name) scene.names[0] = *settings.name;
   impl->makeSound();
-  return Model(std::move(impl));
+  return impl;
 }
 
-std::array<double, 6> Model::bounds() const {
+std::optional<BoundingBox> Model::bounds() const {
   Box3 box;
   const Scene& scene = impl_->scene();
   if (readFromFile(scene)) box = scene.meshes[scene.leaves[0].mesh]->bounds();
-  if (box.empty()) return {};
-  return {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z};
+  if (box.empty()) return std::nullopt;
+  return boundingBoxOf(box);
 }
 
 }  // namespace gable

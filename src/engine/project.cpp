@@ -250,7 +250,7 @@ std::string Project::resolve(std::string_view path, std::string_view fromFile) {
   return file.empty() ? std::string(path) : file.substr(root_.size());
 }
 
-// Greedy matching with one step back a wildcard: O(pattern x path) at worst.
+// Keeps the set of places in the path that the pattern so far can end at: O(pattern x path).
 bool matchesPattern(std::string_view pattern, std::string_view path) {
   std::vector<char> reachable(path.size() + 1, 0), next;
   reachable[0] = 1;

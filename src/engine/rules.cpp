@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Text to program: parse, analyse, compile. Each stage adds its messages; a program exists only
+// Text to program: parse, analyse, compile. Each stage adds its diagnostics; a program exists only
 // when no stage found an error.
 
 #include "base/files.h"
 #include "builtins/catalogue.h"
 #include "dialects/dialect.h"
 #include "dialects/remarks.h"
+#include "engine/guard.h"
 #include "engine/impl.h"
 #include "gable/files.h"
 #include "lang/compile/compile.h"
@@ -34,8 +35,8 @@ lang::Tree parseAs(const Dialect* dialect, const Sources& sources, uint32_t file
 
 class ProjectLoader final : public lang::FileLoader {
  public:
-  ProjectLoader(const Project& project, const LoadOptions& options)
-      : project_(project), options_(options) {}
+  ProjectLoader(const Project& project, const LoadSettings& settings)
+      : project_(project), settings_(settings) {}
 
   Result<File> load(const std::string& path, const std::string& importer) override {
     std::string file = project_.locate(path, importer);
@@ -45,7 +46,7 @@ class ProjectLoader final : public lang::FileLoader {
                    "paths count from the project's folder, or from the importing file's"};
     }
     std::string name = project_.projectPath(file);
-    for (const auto& [edited, content] : options_.overlay) {
+    for (const auto& [edited, content] : settings_.overlay) {
       if (edited == name) return File{std::move(name), content};
     }
     Result<std::string> text = readFile(file, kLargestRuleFile);
@@ -63,17 +64,17 @@ class ProjectLoader final : public lang::FileLoader {
 
  private:
   const Project& project_;
-  const LoadOptions& options_;
+  const LoadSettings& settings_;
 };
 
 /// The notation of a file: null for Gable's own language. Error when there is none of that name.
-Result<const Dialect*> dialectFor(const std::string& name, const std::string& path) {
-  if (name.empty()) return dialectOfPath(path);
-  if (name == "cga") return static_cast<const Dialect*>(nullptr);
-  if (const Dialect* d = dialectNamed(name)) return d;
+Result<const Dialect*> dialectFor(const std::optional<std::string>& name, const std::string& path) {
+  if (!name) return dialectOfPath(path);
+  if (*name == "cga") return static_cast<const Dialect*>(nullptr);
+  if (const Dialect* d = dialectNamed(*name)) return d;
   std::string names = "cga";
   for (const Dialect* d : dialects()) names += std::string(", ") + d->name;
-  return Error{"unknown-dialect", "there is no notation '" + name + "'",
+  return Error{"unknown-dialect", "there is no notation '" + *name + "'",
                "the notations are " + names};
 }
 
@@ -96,44 +97,25 @@ void takeTables(Rules::Impl& to, const std::string& root, const Rules::Impl* bef
 std::shared_ptr<Rules::Impl> failed(const Error& e) {
   auto impl = std::make_shared<Rules::Impl>();
   impl->found = false;
-  impl->messages.push_back(errorMessage(e));
+  impl->diagnostics.push_back(diagnosticOf(e));
   return impl;
 }
 
-}  // namespace
-
-RuleText readRuleText(const std::string& path) {
-  Result<std::string> text = readFile(path, kLargestRuleFile);
-  if (!text.ok()) return {false, {}, {errorMessage(text.error())}};
-  return {true, std::move(text.value()), {}};
-}
-
-WriteResult writeTextFile(const std::string& path, const std::string& text) {
-  const Result<uint64_t> written = writeFile(path, text);
-  if (!written.ok()) return {false, 0, 0, {errorMessage(written.error())}};
-  return {true, 0, written.value(), {}};
-}
-
-Rules Rules::load(const std::string& path, const LoadOptions& options) {
-  Result<std::string> text = readFile(path, kLargestRuleFile);
-  if (!text.ok()) return Rules(failed(text.error()));
-  return parse(text.value(), path, options);
-}
-
-Rules Rules::parse(const std::string& text, const std::string& path, const LoadOptions& options) {
+std::shared_ptr<const Rules::Impl> parsed(const std::string& text, const std::string& path,
+                                          const LoadSettings& settings) {
   const double begin = now();
-  auto impl = std::make_shared<Impl>();
-  const Result<const Dialect*> dialect = dialectFor(options.dialect, path);
-  if (!dialect.ok()) return Rules(failed(dialect.error()));
-  takeTables(*impl, options.project.empty() ? Project::rootFor(path) : options.project,
-             options.before && options.before->impl_ ? &options.before->impl() : nullptr);
+  auto impl = std::make_shared<Rules::Impl>();
+  const Result<const Dialect*> dialect = dialectFor(settings.dialect, path);
+  if (!dialect.ok()) return failed(dialect.error());
+  takeTables(*impl, settings.project ? *settings.project : Project::rootFor(path),
+             settings.before ? settings.before->shared().get() : nullptr);
   impl->dialect = dialect.value();
   Diagnostics diagnostics;
   const std::string name = impl->project->projectPath(path);
   const uint32_t file = impl->sources.add(name, text);
-  ProjectLoader loader(*impl->project, options);
+  ProjectLoader loader(*impl->project, settings);
   lang::AnalysisInput input{parseAs(dialect.value(), impl->sources, file, loader, diagnostics),
-                            name, options.style};
+                            name, settings.style.value_or(std::string())};
   const lang::ResolvedProgram resolved = lang::analyse(
       std::move(input), builtinCatalogue(), *impl->pool, &loader, impl->sources, diagnostics);
   if (!diagnostics.hasErrors()) {
@@ -142,72 +124,114 @@ Rules Rules::parse(const std::string& text, const std::string& path, const LoadO
     impl->ok = !diagnostics.hasErrors();
   }
   diagnostics.sortByPlace();
-  impl->messages = toMessages(diagnostics, impl->sources);
+  impl->diagnostics = listOf(diagnostics, impl->sources);
   impl->seconds = now() - begin;
-  return Rules(std::move(impl));
+  return impl;
+}
+
+}  // namespace
+
+RuleText readRuleText(const std::string& path) {
+  return guardedResult<RuleText>([&]() -> RuleText {
+    Result<std::string> text = readFile(path, kLargestRuleFile);
+    if (!text.ok()) return {false, {}, {diagnosticOf(text.error())}};
+    return {true, std::move(text.value()), {}};
+  });
+}
+
+WriteResult writeTextFile(const std::string& path, const std::string& text) {
+  return guardedResult<WriteResult>([&]() -> WriteResult {
+    const Result<uint64_t> written = writeFile(path, text);
+    if (!written.ok()) return {false, 0, 0, {diagnosticOf(written.error())}};
+    return {true, 0, written.value(), {}};
+  });
+}
+
+Rules Rules::load(const std::string& path, const LoadSettings& settings) {
+  return Rules(guarded<Impl>([&]() -> std::shared_ptr<const Impl> {
+    Result<std::string> text = readFile(path, kLargestRuleFile);
+    if (!text.ok()) return failed(text.error());
+    return parsed(text.value(), path, settings);
+  }));
+}
+
+Rules Rules::parse(const std::string& text, const std::string& path, const LoadSettings& settings) {
+  return Rules(guarded<Impl>([&] { return parsed(text, path, settings); }));
 }
 
 bool Rules::ok() const { return impl_->ok; }
 bool Rules::found() const { return impl_->found; }
-const Messages& Rules::messages() const { return impl_->messages; }
+const DiagnosticList& Rules::diagnostics() const { return impl_->diagnostics; }
 double Rules::parseSeconds() const { return impl_->seconds; }
-std::string Rules::disassembly() const { return disassemble(impl_->program); }
+
+std::string Rules::disassembly() const {
+  return guardedValue<std::string>(
+      [&] { return impl_->ok ? disassemble(impl_->program) : std::string(); });
+}
 
 std::vector<AttributeInfo> Rules::attributes() const {
-  std::vector<AttributeInfo> out;
-  for (const AttributeCode& a : impl_->program.attributes) {
-    if (a.constant || a.propagatesFrom >= 0) continue;
-    AttributeInfo info{a.name, typeName(a.type), a.hidden, {}};
-    for (const AnnotationInfo& n : a.annotations) {
-      AttributeInfo::Annotation annotation{n.name, {}};
-      for (const auto& argument : n.arguments) {
-        annotation.arguments.emplace_back(argument.key, impl_->pool->str(argument.value));
+  return guardedValue<std::vector<AttributeInfo>>([&] {
+    std::vector<AttributeInfo> out;
+    for (const AttributeCode& a : impl_->program.attributes) {
+      if (a.constant || a.propagatesFrom >= 0) continue;
+      AttributeInfo info{a.name, typeName(a.type), a.hidden, {}};
+      for (const AnnotationInfo& n : a.annotations) {
+        AttributeInfo::Annotation annotation{n.name, {}};
+        for (const auto& argument : n.arguments) {
+          annotation.arguments.emplace_back(argument.key, impl_->pool->str(argument.value));
+        }
+        info.annotations.push_back(std::move(annotation));
       }
-      info.annotations.push_back(std::move(annotation));
+      out.push_back(std::move(info));
     }
-    out.push_back(std::move(info));
-  }
-  return out;
+    return out;
+  });
 }
 
 std::vector<RuleInfo> Rules::rules() const {
-  std::vector<RuleInfo> out;
-  for (const RuleCode& r : impl_->program.rules) {
-    out.push_back({r.qualifiedName, r.parameters.size(), r.startRule, impl_->program.files[r.file],
-                   impl_->sources.locate(r.span.file, r.span.begin).line});
-  }
-  return out;
-}
-
-std::string Rules::startRule() const {
-  const int32_t rule = impl_->program.startRule;
-  return rule < 0 ? std::string() : impl_->program.rules[static_cast<size_t>(rule)].qualifiedName;
-}
-
-Converted convert(const std::string& text, const std::string& path, const LoadOptions& options) {
-  Converted out;
-  const Result<const Dialect*> dialect = dialectFor(options.dialect, path);
-  if (!dialect.ok()) {
-    out.messages.push_back(errorMessage(dialect.error()));
+  return guardedValue<std::vector<RuleInfo>>([&] {
+    std::vector<RuleInfo> out;
+    for (const RuleCode& r : impl_->program.rules) {
+      out.push_back({r.qualifiedName, r.parameters.size(), r.startRule,
+                     impl_->program.files[r.file],
+                     impl_->sources.locate(r.span.file, r.span.begin).line});
+    }
     return out;
-  }
-  Sources sources;
-  Diagnostics diagnostics;
-  const Project project(options.project.empty() ? Project::rootFor(path) : options.project);
-  const uint32_t file = sources.add(project.projectPath(path), text);
-  if (!dialect.value()) {
-    out.text = lang::format(sources, file, diagnostics);
-  } else {
-    ProjectLoader loader(project, options);
-    const lang::Tree tree = parseAs(dialect.value(), sources, file, loader, diagnostics);
-    const std::vector<lang::Remark> remarks = remarksOf(*dialect.value(), sources.text(file));
-    const uint32_t printed = sources.add("converted.cga", lang::print(tree, remarks));
-    if (!diagnostics.hasErrors()) out.text = lang::format(sources, printed, diagnostics);
-  }
-  diagnostics.sortByPlace();
-  out.messages = toMessages(diagnostics, sources);
-  if (diagnostics.hasErrors()) out.text.clear();
-  return out;
+  });
+}
+
+std::optional<std::string> Rules::startRule() const {
+  const int32_t rule = impl_->program.startRule;
+  if (rule < 0) return std::nullopt;
+  return impl_->program.rules[static_cast<size_t>(rule)].qualifiedName;
+}
+
+Converted convert(const std::string& text, const std::string& path, const LoadSettings& settings) {
+  return guardedResult<Converted>([&] {
+    Converted out;
+    const Result<const Dialect*> dialect = dialectFor(settings.dialect, path);
+    if (!dialect.ok()) {
+      out.diagnostics.push_back(diagnosticOf(dialect.error()));
+      return out;
+    }
+    Sources sources;
+    Diagnostics diagnostics;
+    const Project project(settings.project ? *settings.project : Project::rootFor(path));
+    const uint32_t file = sources.add(project.projectPath(path), text);
+    if (!dialect.value()) {
+      out.text = lang::format(sources, file, diagnostics);
+    } else {
+      ProjectLoader loader(project, settings);
+      const lang::Tree tree = parseAs(dialect.value(), sources, file, loader, diagnostics);
+      const std::vector<lang::Remark> remarks = remarksOf(*dialect.value(), sources.text(file));
+      const uint32_t printed = sources.add("converted.cga", lang::print(tree, remarks));
+      if (!diagnostics.hasErrors()) out.text = lang::format(sources, printed, diagnostics);
+    }
+    diagnostics.sortByPlace();
+    out.diagnostics = listOf(diagnostics, sources);
+    if (diagnostics.hasErrors()) out.text.clear();
+    return out;
+  });
 }
 
 namespace {
@@ -225,18 +249,20 @@ uint32_t modernised(Sources& sources, uint32_t file) {
 }  // namespace
 
 Formatted format(const std::string& text, const std::string& path) {
-  Sources sources;
-  Diagnostics diagnostics;
-  const uint32_t file = sources.add(path, text);
-  Formatted out;
-  const Dialect* dialect = dialectOfPath(path);
-  const auto layout = dialect ? dialect->format : lang::format;
-  out.text =
-      layout ? layout(sources, dialect ? file : modernised(sources, file), diagnostics) : text;
-  diagnostics.sortByPlace();
-  out.messages = toMessages(diagnostics, sources);
-  if (diagnostics.hasErrors()) out.text = text;
-  return out;
+  return guardedResult<Formatted>([&] {
+    Sources sources;
+    Diagnostics diagnostics;
+    const uint32_t file = sources.add(path, text);
+    Formatted out;
+    const Dialect* dialect = dialectOfPath(path);
+    const auto layout = dialect ? dialect->format : lang::format;
+    const uint32_t layoutOf = dialect ? file : modernised(sources, file);
+    out.text = layout ? layout(sources, layoutOf, diagnostics) : text;
+    diagnostics.sortByPlace();
+    out.diagnostics = listOf(diagnostics, sources);
+    if (diagnostics.hasErrors()) out.text = text;
+    return out;
+  });
 }
 
 }  // namespace gable

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/files.h"
+#include "engine/guard.h"
 #include "engine/impl.h"
 #include "geom/mesh/face_plane.h"
 #include "geom/region/region.h"
@@ -38,7 +39,31 @@ ShapeFootprint footprint(ShapeInput input) {
   return f;
 }
 
-Shapes ofPolygon(const Polygon& p, const std::string& name) {
+/// Where a lot or a polygon of the caller's may lie: far beyond every map in metres.
+constexpr double kMostCoordinate = 1e9;
+
+bool usable(double v) { return std::fabs(v) <= kMostCoordinate; }
+
+std::shared_ptr<Shapes::Impl> refused(const Error& e) {
+  auto impl = std::make_shared<Shapes::Impl>();
+  impl->diagnostics.push_back(diagnosticOf(e));
+  return impl;
+}
+
+Error tooFar() {
+  return {"shape-mesh", "a point of the polygon lies too far out",
+          "coordinates are metres, at most 1e9 from the origin"};
+}
+
+std::shared_ptr<Shapes::Impl> ofPolygon(const Polygon& p, const std::string& name) {
+  for (const auto& ring : p.holes) {
+    for (const Vec2& v : ring) {
+      if (!usable(v.x) || !usable(v.y)) return refused(tooFar());
+    }
+  }
+  for (const Vec2& v : p.outer) {
+    if (!usable(v.x) || !usable(v.y)) return refused(tooFar());
+  }
   auto impl = std::make_shared<Shapes::Impl>();
   MeshBuilder b;
   // Plan coordinates to the ground: x east, y north is -z.
@@ -47,36 +72,22 @@ Shapes ofPolygon(const Polygon& p, const std::string& name) {
   input.name = name;
   input.mesh = b.take();
   impl->footprints.push_back(footprint(std::move(input)));
-  return Shapes(std::move(impl));
+  return impl;
 }
-
-}  // namespace
-
-Shapes Shapes::lot(double width, double depth) {
-  return ofPolygon({{{0, 0}, {width, 0}, {width, depth}, {0, depth}}, {}}, "lot");
-}
-
-Shapes Shapes::polygon(const Ring& outer, const std::vector<Ring>& holes) {
-  const auto ring = [](const Ring& r) {
-    gable::Ring out;
-    for (const auto& [x, y] : r) out.push_back({x, y});
-    return out;
-  };
-  Polygon p{ring(outer), {}};
-  for (const Ring& h : holes) p.holes.push_back(ring(h));
-  orient(p);
-  return ofPolygon(p, "polygon");
-}
-
-namespace {
 
 // What is wrong with faces and holes given as numbers; empty when nothing is.
-std::string meshMistake(size_t vertexCount, const std::vector<std::vector<uint32_t>>& faces,
+std::string meshMistake(const std::vector<std::array<double, 3>>& vertices,
+                        const std::vector<std::vector<uint32_t>>& faces,
                         const std::vector<std::vector<uint32_t>>& holes) {
+  for (size_t v = 0; v < vertices.size(); ++v) {
+    for (const double d : vertices[v]) {
+      if (!usable(d)) return "vertex " + std::to_string(v) + " lies too far out";
+    }
+  }
   for (size_t f = 0; f < faces.size(); ++f) {
     if (faces[f].size() < 3) return "face " + std::to_string(f) + " has fewer than three vertices";
     for (uint32_t v : faces[f]) {
-      if (v >= vertexCount) {
+      if (v >= vertices.size()) {
         return "face " + std::to_string(f) + " names vertex " + std::to_string(v) +
                ", which does not exist";
       }
@@ -98,17 +109,11 @@ void addLoop(MeshBuilder& b, const std::vector<uint32_t>& ring) {
   for (uint32_t v : ring) b.addCorner(v);
 }
 
-}  // namespace
-
-Shapes Shapes::mesh(const std::vector<std::array<double, 3>>& vertices,
-                    const std::vector<std::vector<uint32_t>>& faces,
-                    const std::vector<std::vector<uint32_t>>& holes) {
-  auto impl = std::make_shared<Impl>();
-  const std::string mistake = meshMistake(vertices.size(), faces, holes);
-  if (!mistake.empty()) {
-    impl->messages.push_back(errorMessage({"shape-mesh", mistake, "mend the lists of faces"}));
-    return Shapes(std::move(impl));
-  }
+std::shared_ptr<Shapes::Impl> ofMesh(const std::vector<std::array<double, 3>>& vertices,
+                                     const std::vector<std::vector<uint32_t>>& faces,
+                                     const std::vector<std::vector<uint32_t>>& holes) {
+  const std::string mistake = meshMistake(vertices, faces, holes);
+  if (!mistake.empty()) return refused({"shape-mesh", mistake, "mend the lists of the mesh"});
   MeshBuilder b;
   std::vector<std::vector<uint32_t>> rings = faces;
   for (const auto& v : vertices) b.addPosition({v[0], v[1], v[2]});
@@ -140,72 +145,16 @@ Shapes Shapes::mesh(const std::vector<std::array<double, 3>>& vertices,
     if (!holesOf[f]) continue;
     for (size_t k = 1; k < holesOf[f]->size(); ++k) addLoop(b, rings[(*holesOf[f])[k]]);
   }
+  auto impl = std::make_shared<Shapes::Impl>();
   ShapeInput input;
   input.name = "mesh";
   input.mesh = b.take();
   impl->footprints.push_back(footprint(std::move(input)));
-  return Shapes(std::move(impl));
+  return impl;
 }
 
-Shapes Shapes::load(const std::string& path) {
-  Result<std::string> content = readFile(path, kLargestShapeFile);
-  if (content.ok()) return parse(content.value(), path);
-  auto impl = std::make_shared<Impl>();
-  impl->found = false;
-  impl->messages.push_back(errorMessage(content.error()));
-  return Shapes(std::move(impl));
-}
-
-Shapes Shapes::parse(const std::string& content, const std::string& name) {
-  auto impl = std::make_shared<Impl>();
-  AssetOptions options;
-  options.path = name;
-  // Buffers are read from the file's own folder and below, nowhere else.
-  options.readFile = [&name](const std::string& path) -> Result<std::string> {
-    const std::string found = Project(folderOf(name)).inside(path);
-    if (found.empty()) return Error{"file-missing", "there is no such file in the folder", {}};
-    return readFile(found, kLargestShapeFile);
-  };
-  Result<ShapeFile> file = readShapes(content, options);
-  if (!file.ok()) {
-    impl->messages.push_back(errorMessage(file.error()));
-    return Shapes(std::move(impl));
-  }
-  impl->geoOrigin = file->geoOrigin;
-  for (ShapeInput& s : file->shapes) impl->footprints.push_back(footprint(std::move(s)));
-  Diagnostics diagnostics = file->diagnostics;
-  if (impl->footprints.empty() && !diagnostics.hasErrors()) {
-    diagnostics.error("no-shapes", Span{}, "'" + name + "' holds no shape to derive",
-                      "polygons, or faces of a model, become initial shapes");
-  }
-  impl->messages = toMessages(diagnostics, Sources{});
-  return Shapes(std::move(impl));
-}
-
-Shapes Shapes::withNestedCut() const {
-  auto impl = std::make_shared<Impl>(*impl_);
-  cutNested(impl->footprints);
-  return Shapes(std::move(impl));
-}
-
-Shapes Shapes::only(const std::vector<size_t>& indices) const {
-  auto impl = std::make_shared<Impl>();
-  impl->found = impl_->found;
-  impl->messages = impl_->messages;
-  impl->geoOrigin = impl_->geoOrigin;
-  for (const size_t i : indices) {
-    if (i >= impl_->footprints.size()) continue;
-    ShapeFootprint f = impl_->footprints[i];
-    if (f.index < 0) f.index = static_cast<int64_t>(i);
-    impl->footprints.push_back(std::move(f));
-  }
-  return Shapes(std::move(impl));
-}
-
-Shapes::Outline Shapes::outline(size_t shape) const {
-  Outline out;
-  if (shape >= impl_->footprints.size()) return out;
-  const ShapeFootprint& f = impl_->footprints[shape];
+Shapes::Outline outlineOf(const ShapeFootprint& f) {
+  Shapes::Outline out;
   out.name = f.id.empty() ? f.name : f.id;
   double largest = -1;
   for (size_t face = 0; face < f.mesh.faceCount(); ++face) {
@@ -222,9 +171,104 @@ Shapes::Outline Shapes::outline(size_t shape) const {
   return out;
 }
 
+std::shared_ptr<Shapes::Impl> parsed(const std::string& content, const std::string& name) {
+  AssetOptions options;
+  options.path = name;
+  // Buffers are read from the file's own folder and below, nowhere else.
+  options.readFile = [&name](const std::string& path) -> Result<std::string> {
+    const std::string found = Project(folderOf(name)).inside(path);
+    if (found.empty()) return Error{"file-missing", "there is no such file in the folder", {}};
+    return readFile(found, kLargestShapeFile);
+  };
+  Result<ShapeFile> file = readShapes(content, options);
+  if (!file.ok()) return refused(file.error());
+  auto impl = std::make_shared<Shapes::Impl>();
+  impl->geoOrigin = file->geoOrigin;
+  for (ShapeInput& s : file->shapes) impl->footprints.push_back(footprint(std::move(s)));
+  Diagnostics diagnostics = file->diagnostics;
+  if (impl->footprints.empty() && !diagnostics.hasErrors()) {
+    diagnostics.error("no-shapes", Span{}, "'" + name + "' holds no shape to derive",
+                      "polygons, or faces of a model, become initial shapes");
+  }
+  impl->diagnostics = listOf(diagnostics, Sources{});
+  return impl;
+}
+
+}  // namespace
+
+Shapes Shapes::lot(double width, double depth) {
+  return Shapes(guarded<Impl>([&] {
+    return ofPolygon({{{0, 0}, {width, 0}, {width, depth}, {0, depth}}, {}}, "lot");
+  }));
+}
+
+Shapes Shapes::polygon(const Ring& outer, const std::vector<Ring>& holes) {
+  return Shapes(guarded<Impl>([&] {
+    const auto ring = [](const Ring& r) {
+      gable::Ring out;
+      for (const auto& [x, y] : r) out.push_back({x, y});
+      return out;
+    };
+    Polygon p{ring(outer), {}};
+    for (const Ring& h : holes) p.holes.push_back(ring(h));
+    orient(p);
+    return ofPolygon(p, "polygon");
+  }));
+}
+
+Shapes Shapes::mesh(const std::vector<std::array<double, 3>>& vertices,
+                    const std::vector<std::vector<uint32_t>>& faces,
+                    const std::vector<std::vector<uint32_t>>& holes) {
+  return Shapes(guarded<Impl>([&] { return ofMesh(vertices, faces, holes); }));
+}
+
+Shapes Shapes::load(const std::string& path) {
+  return Shapes(guarded<Impl>([&] {
+    Result<std::string> content = readFile(path, kLargestShapeFile);
+    if (content.ok()) return parsed(content.value(), path);
+    auto impl = refused(content.error());
+    impl->found = false;
+    return impl;
+  }));
+}
+
+Shapes Shapes::parse(const std::string& content, const std::string& name) {
+  return Shapes(guarded<Impl>([&] { return parsed(content, name); }));
+}
+
+Shapes Shapes::withNestedCut() const {
+  return Shapes(guarded<Impl>([&] {
+    auto impl = std::make_shared<Impl>(*impl_);
+    cutNested(impl->footprints);
+    return impl;
+  }));
+}
+
+Shapes Shapes::only(const std::vector<size_t>& indices) const {
+  return Shapes(guarded<Impl>([&] {
+    auto impl = std::make_shared<Impl>();
+    impl->found = impl_->found;
+    impl->diagnostics = impl_->diagnostics;
+    impl->geoOrigin = impl_->geoOrigin;
+    for (const size_t i : indices) {
+      if (i >= impl_->footprints.size()) continue;
+      ShapeFootprint f = impl_->footprints[i];
+      if (f.index < 0) f.index = static_cast<int64_t>(i);
+      impl->footprints.push_back(std::move(f));
+    }
+    return impl;
+  }));
+}
+
+Shapes::Outline Shapes::outline(size_t shape) const {
+  return guardedValue<Outline>([&] {
+    return shape < impl_->footprints.size() ? outlineOf(impl_->footprints[shape]) : Outline{};
+  });
+}
+
 size_t Shapes::size() const { return impl_->footprints.size(); }
-bool Shapes::ok() const { return !hasErrors(impl_->messages); }
+bool Shapes::ok() const { return !hasErrors(impl_->diagnostics); }
 bool Shapes::found() const { return impl_->found; }
-const Messages& Shapes::messages() const { return impl_->messages; }
+const DiagnosticList& Shapes::diagnostics() const { return impl_->diagnostics; }
 
 }  // namespace gable

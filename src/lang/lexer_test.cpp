@@ -27,7 +27,7 @@ std::string codes(std::string_view text) {
   Diagnostics diagnostics;
   tokenize(text, 0, diagnostics);
   std::string out;
-  for (const Diagnostic& d : diagnostics.all()) out += d.code + "\n";
+  for (const Diagnostics::Entry& d : diagnostics.all()) out += d.code + "\n";
   return out;
 }
 

@@ -212,7 +212,7 @@ TEST(ParserErrors, mutatedTextsNeverCrash) {
     Parsed p(text);
     // The dump walks all nodes, and each place must lie within the text.
     EXPECT_FALSE(dump(p.tree).empty());
-    for (const Diagnostic& d : p.diagnostics.all()) {
+    for (const Diagnostics::Entry& d : p.diagnostics.all()) {
       ASSERT_LE(d.span.begin, text.size());
       ASSERT_FALSE(d.message.empty());
     }

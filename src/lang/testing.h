@@ -27,7 +27,7 @@ struct Parsed {
   std::string problems() {
     diagnostics.sortByPlace();
     std::string out;
-    for (const Diagnostic& d : diagnostics.all()) {
+    for (const Diagnostics::Entry& d : diagnostics.all()) {
       const LineColumn at = sources.locate(d.span.file, d.span.begin);
       out += std::to_string(at.line) + ":" + std::to_string(at.column) + " " + d.code;
       if (d.severity == Severity::Warning) out += " (warning)";
@@ -38,7 +38,7 @@ struct Parsed {
 
   std::string messages() const {
     std::string out;
-    for (const Diagnostic& d : diagnostics.all()) out += format(d, sources);
+    for (const Diagnostics::Entry& d : diagnostics.all()) out += format(d, sources);
     return out;
   }
 };

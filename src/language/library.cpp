@@ -61,8 +61,8 @@ class Library::Loader final : public lang::FileLoader {
     if (!known || known->text.content() != sources.text(file)) {
       return lang::parse(sources, file, diagnostics);
     }
-    for (const Diagnostic& d : known->diagnostics.all()) {
-      Diagnostic copy = d;
+    for (const Diagnostics::Entry& d : known->diagnostics.all()) {
+      Diagnostics::Entry copy = d;
       copy.span = moved(copy.span, file);
       if (copy.fix) copy.fix->span = moved(copy.fix->span, file);
       diagnostics.add(std::move(copy));

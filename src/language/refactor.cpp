@@ -142,7 +142,7 @@ std::vector<std::string> meaningsOf(const Snapshot& s, const Catalogue& catalogu
     out.push_back(std::to_string(static_cast<int>(n.space)) + " " + word + " " + owner + " " +
                   std::to_string(slot) + (n.declaration ? " d" : ""));
   }
-  for (const Diagnostic& d : s.diagnostics.all()) out.push_back(d.code);
+  for (const Diagnostics::Entry& d : s.diagnostics.all()) out.push_back(d.code);
   return out;
 }
 
@@ -282,7 +282,7 @@ std::vector<Action> actionsOf(const Snapshot& s, const Text& text, uint32_t begi
   if (s.program.units.empty()) return out;
   const uint32_t file = s.program.units[0].file;
   const std::string& path = s.path(0);
-  for (const Diagnostic& d : s.diagnostics.all()) {
+  for (const Diagnostics::Entry& d : s.diagnostics.all()) {
     if (d.span.file != file || d.span.end < begin || d.span.begin > end) continue;
     const Range range = text.range(d.span.begin, d.span.end);
     const auto offer = [&](std::string title, uint32_t from, uint32_t to, std::string with,

@@ -41,7 +41,7 @@ Level levelOf(Severity s) {
   return Level::Error;
 }
 
-Finding findingOf(const Diagnostic& d, const Text& text, bool placed) {
+Finding findingOf(const Diagnostics::Entry& d, const Text& text, bool placed) {
   Finding f{levelOf(d.severity), d.code, {}, d.message, d.hint};
   if (placed) f.range = text.range(d.span.begin, d.span.end);
   return f;
@@ -131,7 +131,7 @@ std::vector<FileFindings> Workspace::findings(const std::string& path) {
   const uint32_t main = s->program.units[0].file;
   std::shared_ptr<const Parsed> parsed;
   uint32_t file = Span::kNoFile;
-  for (const Diagnostic& d : s->diagnostics.all()) {
+  for (const Diagnostics::Entry& d : s->diagnostics.all()) {
     const bool placed = d.span.valid();
     const uint32_t wanted = placed ? d.span.file : main;
     if (wanted != file) {

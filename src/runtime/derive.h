@@ -18,36 +18,13 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "gable/limits.h"
 #include "program/program.h"
 #include "scene/scene.h"
 #include "shape/services.h"
 #include "shape/shape.h"
 
 namespace gable {
-
-/// What a derivation may use up. Exceeding one ends the initial shape that did it with a
-/// diagnostic, and where the limit is on all initial shapes together those that wait as well; what
-/// was made until then is kept.
-struct Limits {
-  uint32_t depth = 1024;
-  uint32_t functionDepth = 1024;
-  /// Children of one shape.
-  uint32_t width = 100000;
-  uint32_t arraySize = 100000;
-  /// Shapes made, instances not expanded, all initial shapes together.
-  uint64_t shapes = 50'000'000;
-  /// Positions in meshes of leaves, instances not expanded.
-  uint64_t vertices = 200'000'000;
-  /// Positions of the mesh of one shape.
-  uint64_t shapeVertices = 4'000'000;
-  /// Operations and calls, each weighed by the size of what it works on; all initial shapes
-  /// together.
-  uint64_t steps = 4'000'000'000;
-  /// By how many bytes the process may grow; 0 for no limit.
-  uint64_t bytes = uint64_t{4} << 30;
-  /// Wall-clock seconds; 0 for no limit.
-  double seconds = 0;
-};
 
 /// Of the warnings of a derivation so many are kept, the first in path order, and as many errors.
 inline constexpr size_t kMostMessages = 1000;
@@ -158,12 +135,10 @@ struct DeriveOptions {
   const Sources* sources = nullptr;
 };
 
-enum class DeriveEnd : uint8_t { Done, LimitReached, Cancelled };
-
 struct DeriveResult {
   Scene scene;
   Diagnostics diagnostics;
-  DeriveEnd end = DeriveEnd::Done;
+  End end = End::Done;
   std::vector<TraceNode> trace;
   std::vector<TraceNote> notes;
   /// Rule attributes of each initial shape as they were evaluated: visible ones of the main file.
@@ -172,9 +147,6 @@ struct DeriveResult {
   uint64_t shared = 0;
   /// Shapes that were taken over from the derivation before, instances expanded.
   uint64_t recalled = 0;
-  /// How many parts of initial shapes workers took from each other. It depends on their speed, and
-  /// nothing else in the result does.
-  uint64_t portions = 0;
   /// With DeriveOptions::remember, of a derivation that came to its end.
   std::shared_ptr<const Recall> recall;
 };

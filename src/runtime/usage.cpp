@@ -61,21 +61,21 @@ std::optional<Usage::Excess> Usage::spend(const Use& use) {
                        "end a recursion earlier, or raise the limit on steps");
   }
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
-  if (limits_.seconds > 0 && spent.count() > limits_.seconds) {
+  if (limits_.seconds && spent.count() > *limits_.seconds) {
     return exceed("out-of-time",
-                  "the derivation takes longer than " + numberText(limits_.seconds) + " seconds",
+                  "the derivation takes longer than " + numberText(*limits_.seconds) + " seconds",
                   "raise the limit on seconds, or derive fewer shapes");
   }
   return {};
 }
 
 std::optional<Usage::Excess> Usage::lookAtMemory(uint64_t bytes) {
-  if (limits_.bytes == 0) return {};
-  const uint64_t held = residentBytes(), most = bytesBefore_ + limits_.bytes;
+  if (!limits_.bytes) return {};
+  const uint64_t held = residentBytes(), most = bytesBefore_ + *limits_.bytes;
   if (held <= most && bytes <= most - held) return {};
   return exceed(
       "out-of-memory",
-      "the derivation takes more than " + std::to_string(limits_.bytes >> 20) + " megabytes",
+      "the derivation takes more than " + std::to_string(*limits_.bytes >> 20) + " megabytes",
       "raise the limit on memory, or derive fewer shapes");
 }
 

@@ -114,11 +114,7 @@ Result<PictureSettings> pictureOf(const std::string& camera, const std::string& 
     return Error{"request-wrong", "'camera' is [eye, target, angle]: seven numbers of a camera",
                  ""};
   }
-  out.ownCamera = true;
-  for (size_t i = 0; i < 3; ++i) {
-    out.eye[i] = at[i];
-    out.target[i] = at[i + 3];
-  }
+  out.camera = PictureSettings::Camera{{at[0], at[1], at[2]}, {at[3], at[4], at[5]}};
   out.fieldOfView = at[6];
   out.samples = kPageSamples;
   return out;
@@ -163,8 +159,9 @@ Result<Exported> Exports::write(const Model& model, const std::string& format,
   }
   if (cancel && cancel->load()) return Error{"cancelled", "the export was stopped", ""};
   if (!written.ok) {
-    if (written.messages.empty()) return Error{"file-unwritable", "nothing was written", ""};
-    return Error{written.messages[0].code, written.messages[0].text, written.messages[0].hint};
+    if (written.diagnostics.empty()) return Error{"file-unwritable", "nothing was written", ""};
+    const Diagnostic& why = written.diagnostics[0];
+    return Error{why.code, why.message, why.hint};
   }
   return collected(folder.path, format);
 }

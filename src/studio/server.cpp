@@ -13,6 +13,7 @@
 #include "base/files.h"
 #include "base/json.h"
 #include "gable/studio.h"
+#include "json/answers.h"
 #include "studio/address.h"
 #include "studio/export.h"
 #include "studio/gallery.h"
@@ -90,10 +91,10 @@ class Router {
   explicit Router(const StudioSettings& settings)
       : files_(settings.project),
         page_(settings.page),
-        gallery_(settings.examples),
+        gallery_(settings.examples.value_or(std::string())),
         session_(files_) {
     routes_["GET /api/project"] = [this](const HttpRequest&) { return project(); };
-    routes_["GET /api/ops"] = [](const HttpRequest&) { return jsonOf(builtinsJson()); };
+    routes_["GET /api/ops"] = [](const HttpRequest&) { return jsonOf(builtinsJson(builtins())); };
     routes_["GET /api/file"] = [this](const HttpRequest& r) { return file(r); };
     routes_["PUT /api/file"] = [this](const HttpRequest& r) { return save(r); };
     routes_["POST /api/files"] = [this](const HttpRequest& r) { return create(r); };
@@ -244,7 +245,7 @@ class Router {
     std::string out;
     JsonWriter json(out);
     json.beginObject().key("text").value(text.text);
-    json.key("messages").raw(messagesJson(text.messages)).endObject();
+    json.key("messages").raw(diagnosticsJson(text.diagnostics)).endObject();
     return jsonOf(out);
   }
 
@@ -274,13 +275,13 @@ class Router {
   HttpResponse converted(const HttpRequest& r) const {
     const std::string path = r.argument("path");
     if (!plainPath(path)) return failed({"path-outside", "'path' names no file", ""});
-    LoadOptions options;
+    LoadSettings options;
     options.project = files_.root();
     const Converted text = convert(r.body, files_.root() + "/" + path, options);
     std::string out;
     JsonWriter json(out);
     json.beginObject().key("text").value(text.text);
-    json.key("messages").raw(messagesJson(text.messages)).endObject();
+    json.key("messages").raw(diagnosticsJson(text.diagnostics)).endObject();
     return jsonOf(out);
   }
 
@@ -318,12 +319,12 @@ class Router {
 };
 
 StudioResult refusal(const Error& e) {
-  Message m;
-  m.code = e.code;
-  m.text = e.message;
-  m.hint = e.hint;
-  m.pretty = "error: " + e.message + (e.hint.empty() ? "" : "\n  " + e.hint) + "\n";
-  return {false, {m}};
+  Diagnostic d;
+  d.code = e.code;
+  d.message = e.message;
+  d.hint = e.hint;
+  d.rendered = "error: " + e.message + (e.hint.empty() ? "" : "\n  " + e.hint) + "\n";
+  return {false, {d}};
 }
 
 }  // namespace
@@ -338,7 +339,7 @@ StudioResult runStudio(const StudioSettings& settings, const std::atomic<bool>& 
                     "name the folder of your rules, or make it first"});
   }
   const ProjectFiles files(settings.project);
-  const Address before = settings.token.empty() ? addressBefore(files) : Address{};
+  const Address before = settings.token ? Address{} : addressBefore(files);
   std::optional<Guard> guard;
   const HttpServer::Admit admit = [&guard](const HttpRequest& r) { return guard->admit(r); };
   const HttpServer::Handler answer = [&router](const HttpRequest& r) { return router.answer(r); };
@@ -362,9 +363,9 @@ StudioResult runStudio(const StudioSettings& settings, const std::atomic<bool>& 
     old.emplace(http, admit, answer, slow);
     if (!old->listen().ok()) old.reset();
   }
-  std::string token = settings.token.empty() ? before.token : settings.token;
+  std::string token = settings.token.value_or(before.token);
   if (token.empty()) token = drawToken();
-  if (settings.token.empty()) keepAddress(files, {port.value(), token});
+  if (!settings.token) keepAddress(files, {port.value(), token});
   std::vector<std::string> hosts;
   for (const uint16_t known : {port.value(), old ? before.port : port.value()}) {
     const std::string end = ":" + std::to_string(known);

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "base/files.h"
+#include "json/answers.h"
 
 namespace gable::studio {
 
@@ -45,7 +46,7 @@ std::string joined(const char* mark, std::string json, const std::string& rest) 
 
 DeriveSettings settingsOf(const JsonValue& request) {
   DeriveSettings s;
-  s.startRule = request["start"].text();
+  if (!request["start"].text().empty()) s.startRule = request["start"].text();
   s.seed = request["seed"].number(0);
   for (const auto& [name, value] : request["attributes"].members()) {
     s.attributes.emplace_back(name, value.text());
@@ -54,15 +55,15 @@ DeriveSettings settingsOf(const JsonValue& request) {
     s.shapeSeeds.emplace_back(std::strtoull(index.c_str(), nullptr, 10), seed.number(0));
   }
   const JsonValue& limits = request["limits"];
-  s.budget.seconds = std::clamp(limits["seconds"].number(kUsualSeconds), 0.01, kMostSeconds);
-  s.budget.shapes =
+  s.limits.seconds = std::clamp(limits["seconds"].number(kUsualSeconds), 0.01, kMostSeconds);
+  s.limits.shapes =
       static_cast<uint64_t>(std::clamp(limits["shapes"].number(kUsualShapes), 1.0, kMostShapes));
-  s.budget.vertices = 50'000'000;
+  s.limits.vertices = 50'000'000;
   return s;
 }
 
 void writeRules(JsonWriter& json, const Rules& rules) {
-  json.key("startRule").value(rules.startRule()).key("rules").beginArray();
+  json.key("startRule").value(rules.startRule().value_or(std::string())).key("rules").beginArray();
   for (const RuleInfo& r : rules.rules()) {
     json.beginObject().key("name").value(r.name);
     json.key("parameters").value(static_cast<uint64_t>(r.parameters)).key("start").value(r.start);
@@ -98,25 +99,35 @@ void put(std::string& out, const T& value) {
   out.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
+/// Stands for a number that is not there.
+constexpr uint32_t kNone = 0xffffffff;
+
 // Column by column, so that a page reads each as one array.
-std::string treeBytes(const Tree& tree) {
+std::string traceBytes(const DerivationTrace& trace) {
+  using Node = DerivationTrace::Node;
+  using Place = DerivationTrace::Place;
   std::string out;
-  const auto column = [&](auto member) {
-    for (const TreeNode& n : tree.nodes) put(out, static_cast<uint32_t>(n.*member));
+  const auto column = [&](auto&& valueOf) {
+    for (const Node& n : trace.nodes) put(out, valueOf(n));
   };
-  for (auto member : {&TreeNode::parent, &TreeNode::shape, &TreeNode::name, &TreeNode::file,
-                      &TreeNode::line, &TreeNode::column, &TreeNode::endLine, &TreeNode::endColumn,
-                      &TreeNode::firstLeaf, &TreeNode::endLeaf}) {
-    column(member);
+  column([](const Node& n) { return n.parent.value_or(kNone); });
+  column([](const Node& n) { return n.shape; });
+  column([](const Node& n) { return n.name; });
+  for (auto member :
+       {&Place::file, &Place::line, &Place::column, &Place::endLine, &Place::endColumn}) {
+    column([&](const Node& n) { return n.place ? (*n.place).*member : 0u; });
   }
-  for (const TreeNode& n : tree.nodes)
-    put(out, uint32_t{n.leaf} | uint32_t{n.dropped} << 1 | uint32_t{n.ruleCall} << 2);
-  column(&TreeNode::before);
-  column(&TreeNode::after);
-  for (const TreeNode& n : tree.nodes) {
+  column([](const Node& n) { return n.leaves ? n.leaves->first : kNone; });
+  column([](const Node& n) { return n.leaves ? n.leaves->end : kNone; });
+  column([](const Node& n) {
+    return uint32_t{n.leaf} | uint32_t{n.dropped} << 1 | uint32_t{n.ruleCall} << 2;
+  });
+  column([](const Node& n) { return n.before.value_or(kNone); });
+  column([](const Node& n) { return n.after.value_or(kNone); });
+  for (const Node& n : trace.nodes) {
     for (const double v : n.frame) put(out, static_cast<float>(v));
   }
-  for (const TreeNode& n : tree.nodes) {
+  for (const Node& n : trace.nodes) {
     for (const double v : n.size) put(out, static_cast<float>(v));
   }
   return out;
@@ -124,15 +135,17 @@ std::string treeBytes(const Tree& tree) {
 
 // Each as [node, kind, name, value, file, line], and a choice with [draw, chance, chosen, choices]
 // behind.
-void writeNotes(JsonWriter& json, const Tree& tree) {
+void writeNotes(JsonWriter& json, const DerivationTrace& trace) {
   json.key("notes").beginArray();
-  for (const TreeNote& n : tree.notes) {
+  for (const DerivationTrace::Note& n : trace.notes) {
+    const DerivationTrace::Place place = n.place.value_or(DerivationTrace::Place{});
     json.beginArray().value(static_cast<uint64_t>(n.node));
-    json.value(static_cast<uint64_t>(n.kind)).value(n.name).raw(n.value);
-    json.value(static_cast<uint64_t>(n.file)).value(static_cast<uint64_t>(n.line));
-    if (n.kind == TreeNote::Kind::Choice) {
-      json.value(n.draw).value(n.chance);
-      json.value(static_cast<uint64_t>(n.chosen)).value(static_cast<uint64_t>(n.choices));
+    json.value(static_cast<uint64_t>(n.kind)).value(n.name);
+    writeValue(json, n.value);
+    json.value(place.file).value(place.line);
+    if (n.choice) {
+      json.value(n.choice->draw).value(n.choice->chance);
+      json.value(n.choice->chosen).value(n.choice->choices);
     }
     json.endArray();
   }
@@ -158,11 +171,12 @@ std::string projectOf(const ProjectFiles& files, const std::string& file) {
 
 std::shared_ptr<const Rules> Session::rulesOf(const JsonValue& request) {
   const std::string& file = request["file"].text();
-  LoadOptions options;
+  LoadSettings options;
   const std::string inner = projectOf(files_, file);
   options.project = files_.root() + "/" + inner;
-  options.style = request["style"].text();
-  std::string key = file + '\0' + options.style + '\0' + request["text"].text();
+  const std::string& style = request["style"].text();
+  if (!style.empty()) options.style = style;
+  std::string key = file + '\0' + style + '\0' + request["text"].text();
   for (const auto& [path, text] : request["overlay"].members()) {
     if (path.compare(0, inner.size(), inner) == 0) {
       options.overlay.emplace_back(path.substr(inner.size()), text.text());
@@ -255,14 +269,14 @@ Result<Model> Session::deriveFor(const JsonValue& request, const Rules& rules, W
   const Result<std::shared_ptr<const Shapes>> shapes = shapesOf(request);
   if (!shapes.ok()) return shapes.error();
   if (shapes.value()->size() == 0) {
-    const Messages& why = shapes.value()->messages();
-    return Error{"no-shapes", why.empty() ? "there is no shape to derive" : why[0].text, ""};
+    const DiagnosticList& why = shapes.value()->diagnostics();
+    return Error{"no-shapes", why.empty() ? "there is no shape to derive" : why[0].message, ""};
   }
   DeriveSettings settings = settingsOf(request);
   settings.trace = trace != Trace::None;
   settings.traceShapes = trace == Trace::Steps;
-  if (trace == Trace::Tree) settings.budget.shapes = std::min(settings.budget.shapes, kTreeShapes);
-  if (trace == Trace::Steps) settings.budget.shapes = std::min(settings.budget.shapes, kStepShapes);
+  if (trace == Trace::Tree) settings.limits.shapes = std::min(settings.limits.shapes, kTreeShapes);
+  if (trace == Trace::Steps) settings.limits.shapes = std::min(settings.limits.shapes, kStepShapes);
   // A value may outlive its attribute while the rules are being written.
   const std::vector<AttributeInfo> known = rules.attributes();
   std::erase_if(settings.attributes, [&](const auto& value) {
@@ -289,17 +303,17 @@ Result<std::string> Session::derive(const JsonValue& request, const Cancel& canc
   JsonWriter json(text);
   json.beginObject();
   writeRules(json, *rules);
-  Messages messages = rules->messages();
+  DiagnosticList diagnostics = rules->diagnostics();
   if (!rules->ok() || request["only"].text() == "check") {
     json.key("end").value(rules->ok() ? "checked" : "wrong");
-    json.key("messages").raw(messagesJson(messages)).endObject();
+    json.key("messages").raw(diagnosticsJson(diagnostics)).endObject();
     return joined("GBS1", text, {});
   }
   const Result<Model> derived = deriveFor(request, *rules, *work, Trace::None);
   if (!derived.ok()) return derived.error();
   const Model& model = derived.value();
-  const Messages& more = model.messages();
-  messages.insert(messages.end(), more.begin(), more.end());
+  const DiagnosticList& more = model.diagnostics();
+  diagnostics.insert(diagnostics.end(), more.begin(), more.end());
   const bool wrong = hasErrors(more) && model.end() == End::Done;
   const bool drawn = !wrong && model.end() != End::Cancelled;
   uint64_t number = 0;
@@ -310,12 +324,12 @@ Result<std::string> Session::derive(const JsonValue& request, const Cancel& canc
   }
   json.key("end").value(wrong ? "wrong" : endName(model.end()));
   json.key("derivation").value(number);
-  json.key("messages").raw(messagesJson(messages));
-  json.key("values").raw(model.attributesJson(0));
-  Model::Times times;
-  times.parse = rules->parseSeconds();
-  times.derive = model.deriveSeconds();
-  json.key("stats").raw(model.statsJson(times)).endObject();
+  json.key("messages").raw(diagnosticsJson(diagnostics));
+  json.key("values").raw(valuesJson(model.attributes(0)));
+  RunFigures figures;
+  figures.parseSeconds = rules->parseSeconds();
+  figures.deriveSeconds = model.deriveSeconds();
+  json.key("stats").raw(statisticsJson(model, figures)).endObject();
   return joined("GBS1", text, drawn ? model.drawList() : std::string());
 }
 
@@ -329,18 +343,18 @@ Result<std::string> Session::tree(const JsonValue& request, const Cancel& cancel
   const bool steps = request["steps"].boolean(false);
   Result<Model> derived = deriveFor(request, *rules, *work, steps ? Trace::Steps : Trace::Tree);
   if (!derived.ok()) return derived.error();
-  const Tree tree = derived->tree();
+  const DerivationTrace trace = derived->trace();
   std::string text;
   JsonWriter json(text);
-  json.beginObject().key("count").value(static_cast<uint64_t>(tree.nodes.size()));
+  json.beginObject().key("count").value(static_cast<uint64_t>(trace.nodes.size()));
   json.key("end").value(endName(derived->end())).key("names").beginArray();
-  for (const std::string& n : tree.names) json.value(n);
+  for (const std::string& n : trace.names) json.value(n);
   json.endArray().key("files").beginArray();
-  for (const std::string& f : tree.files) json.value(f);
+  for (const std::string& f : trace.files) json.value(f);
   json.endArray();
-  if (steps) writeNotes(json, tree);
+  if (steps) writeNotes(json, trace);
   json.endObject();
-  return joined("GBT1", text, treeBytes(tree) + (steps ? derived->drawList() : std::string()));
+  return joined("GBT1", text, traceBytes(trace) + (steps ? derived->drawList() : std::string()));
 }
 
 std::optional<Model> Session::made(uint64_t number) const {
@@ -389,18 +403,16 @@ void Session::keepModel(Made made) {
 Result<std::string> Session::leaf(uint64_t derivation, uint64_t number) const {
   const std::optional<Model> model = made(derivation);
   if (!model) return Error{"derivation-gone", "this derivation is no longer kept", "derive again"};
-  std::string json = model->leafJson(number);
-  if (json.empty()) {
-    return Error{"leaf-missing", "there is no leaf " + std::to_string(number), ""};
-  }
-  return json;
+  const std::optional<LeafInfo> leaf = model->leaf(number);
+  if (!leaf) return Error{"leaf-missing", "there is no leaf " + std::to_string(number), ""};
+  return leafJson(*leaf);
 }
 
 Result<std::string> Session::texture(uint64_t derivation, const std::string& path) const {
   const std::optional<Model> model = made(derivation);
-  std::string bytes = model ? model->texture(path) : std::string();
-  if (bytes.empty()) return Error{"texture-not-found", "there is no picture '" + path + "'", ""};
-  return bytes;
+  std::optional<std::string> bytes = model ? model->texture(path) : std::nullopt;
+  if (!bytes) return Error{"texture-not-found", "there is no picture '" + path + "'", ""};
+  return std::move(*bytes);
 }
 
 std::pair<size_t, size_t> Session::progress(const std::string& page) const {

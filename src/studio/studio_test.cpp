@@ -497,12 +497,12 @@ TEST_F(Files, filesThatBelongTogetherAreMadeAllOrNone) {
 TEST(StudioExport, picturesAreTakenFromTheViewsCamera) {
   Result<PictureSettings> own = pictureOf("[1, 2, 3, 0, 0, 0.5, 40]", "[640, 480]");
   ASSERT_TRUE(own.ok());
-  EXPECT_TRUE(own->ownCamera);
-  EXPECT_EQ(own->eye[2], 3);
-  EXPECT_EQ(own->target[2], 0.5);
+  ASSERT_TRUE(own->camera.has_value());
+  EXPECT_EQ(own->camera->eye[2], 3);
+  EXPECT_EQ(own->camera->target[2], 0.5);
   EXPECT_EQ(own->fieldOfView, 40);
   EXPECT_EQ(own->width, 640);
-  EXPECT_FALSE(pictureOf("", "").value().ownCamera);
+  EXPECT_FALSE(pictureOf("", "").value().camera.has_value());
   for (const char* wrong : {"[1, 2, 3, 1, 2, 3, 40]", "[1, 2, 3, 0, 0, 0, 0]", "[1]", "nan", "{}",
                             "[1e99, 2, 3, 0, 0, 0, 40]", "[1, 2, 3, 0, 0, null, 40]"}) {
     EXPECT_FALSE(pictureOf(wrong, "").ok()) << wrong;

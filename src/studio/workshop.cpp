@@ -9,16 +9,16 @@
 #include <filesystem>
 
 #include "base/files.h"
+#include "json/answers.h"
 
 namespace gable::studio {
 
 namespace {
 
-// A request's three numbers; false where they are not there.
-bool tripleOf(const JsonValue& v, double (&out)[3]) {
-  if (v.size() != 3) return false;
-  for (size_t i = 0; i < 3; ++i) out[i] = v.at(i).number(0);
-  return true;
+// A request's three numbers.
+std::optional<Triple> tripleOf(const JsonValue& v) {
+  if (v.size() != 3) return std::nullopt;
+  return Triple{v.at(0).number(0), v.at(1).number(0), v.at(2).number(0)};
 }
 
 Result<Model> loaded(const ProjectFiles& files, const std::string& path) {
@@ -26,14 +26,17 @@ Result<Model> loaded(const ProjectFiles& files, const std::string& path) {
   if (!place.ok()) return place.error();
   Model model = Model::load(place.value());
   if (model.found() && model.ok()) return model;
-  const Messages& why = model.messages();
+  const DiagnosticList& why = model.diagnostics();
   if (why.empty()) return Error{"model-unreadable", "'" + path + "' could not be read", ""};
-  return Error{"model-unreadable", why[0].text, why[0].hint};
+  return Error{"model-unreadable", why[0].message, why[0].hint};
 }
 
 void writeBounds(JsonWriter& json, const Model& model) {
   json.key("bounds").beginArray();
-  for (const double v : model.bounds()) json.value(v);
+  const BoundingBox box = model.bounds().value_or(BoundingBox{});
+  for (const Triple& corner : {box.min, box.max}) {
+    for (const double v : corner) json.value(v);
+  }
   json.endArray();
 }
 
@@ -47,7 +50,7 @@ Result<std::string> modelPreview(const ProjectFiles& files, Session& session,
   JsonWriter json(text);
   json.beginObject().key("derivation").value(session.adopt(model.value()));
   writeBounds(json, model.value());
-  json.key("stats").raw(model.value().statsJson({})).endObject();
+  json.key("stats").raw(statisticsJson(model.value())).endObject();
   text.append((4 - text.size() % 4) % 4, ' ');
   const auto size = static_cast<uint32_t>(text.size());
   std::string out = "GBM1";
@@ -63,15 +66,15 @@ Result<std::string> prepareAsset(ProjectFiles& files, const JsonValue& request) 
   const Result<Model> model = loaded(files, request["path"].text());
   if (!model.ok()) return model.error();
   PrepareSettings s;
-  s.ownPivot = tripleOf(request["pivot"], s.pivot);
-  s.ownVolume = tripleOf(request["size"], s.volume);
-  tripleOf(request["rotate"], s.rotate);
+  s.pivot = tripleOf(request["pivot"]);
+  s.volume = tripleOf(request["size"]);
+  s.rotate = tripleOf(request["rotate"]).value_or(Triple{});
   s.zUp = request["zUp"].boolean(false);
-  s.name = request["name"].text();
+  if (!request["name"].text().empty()) s.name = request["name"].text();
   const Model ready = model.value().prepared(s);
   if (!ready.ok()) {
-    const Message& why = ready.messages().back();
-    return Error{why.code, why.text, why.hint};
+    const Diagnostic& why = ready.diagnostics().back();
+    return Error{why.code, why.message, why.hint};
   }
   std::string folder = (std::filesystem::temp_directory_path() / "gable-XXXXXX").string();
   if (!mkdtemp(folder.data())) return Error{"file-unwritable", "there is no room for files", ""};
@@ -79,8 +82,9 @@ Result<std::string> prepareAsset(ProjectFiles& files, const JsonValue& request) 
   const Result<std::string> bytes = readFile(folder + "/asset.glb");
   std::error_code ignored;
   std::filesystem::remove_all(folder, ignored);
-  if (!written.ok && !written.messages.empty()) {
-    return Error{written.messages[0].code, written.messages[0].text, written.messages[0].hint};
+  if (!written.ok && !written.diagnostics.empty()) {
+    const Diagnostic& why = written.diagnostics[0];
+    return Error{why.code, why.message, why.hint};
   }
   if (!bytes.ok()) return bytes.error();
   const Result<std::string> version = files.write(to, bytes.value(), request["expected"].text());
@@ -105,7 +109,7 @@ std::string outlinesJson(const Shapes& shapes) {
     for (const auto& [x, y] : outline.ring) json.beginArray().value(x).value(y).endArray();
     json.endArray().endObject();
   }
-  json.endArray().key("messages").raw(messagesJson(shapes.messages())).endObject();
+  json.endArray().key("messages").raw(diagnosticsJson(shapes.diagnostics())).endObject();
   return out;
 }
 

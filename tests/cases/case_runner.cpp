@@ -50,7 +50,7 @@ class FileRun {
   void runCase(const Case& c);
   std::optional<Shapes> shapesOf(const Case& c);
   bool readSettings(const Case& c, DeriveSettings& settings);
-  bool readLimit(const Statement& s, Budget& budget);
+  bool readLimit(const Statement& s, Limits& limits);
   void checkValues(const Case& c, const std::vector<std::string>& prints);
   void noteUpdates(const std::vector<Statement>& expected, const std::string& dump);
   void writeUpdates(const std::string& text);
@@ -251,21 +251,21 @@ std::optional<Shapes> FileRun::shapesOf(const Case& c) {
   return std::nullopt;
 }
 
-bool FileRun::readLimit(const Statement& s, Budget& budget) {
+bool FileRun::readLimit(const Statement& s, Limits& limits) {
   if (s.words.size() != 2) return false;
   const double n = std::strtod(s.words[1].c_str(), nullptr);
   if (s.words[0] == "depth")
-    budget.depth = static_cast<uint32_t>(n);
+    limits.depth = static_cast<uint32_t>(n);
   else if (s.words[0] == "width")
-    budget.width = static_cast<uint32_t>(n);
+    limits.width = static_cast<uint32_t>(n);
   else if (s.words[0] == "shapes")
-    budget.shapes = static_cast<uint64_t>(n);
+    limits.shapes = static_cast<uint64_t>(n);
   else if (s.words[0] == "vertices")
-    budget.vertices = static_cast<uint64_t>(n);
+    limits.vertices = static_cast<uint64_t>(n);
   else if (s.words[0] == "steps")
-    budget.steps = static_cast<uint64_t>(n);
+    limits.steps = static_cast<uint64_t>(n);
   else if (s.words[0] == "seconds")
-    budget.seconds = n;
+    limits.seconds = n;
   else
     return false;
   return true;
@@ -274,8 +274,9 @@ bool FileRun::readLimit(const Statement& s, Budget& budget) {
 bool FileRun::readSettings(const Case& c, DeriveSettings& settings) {
   settings.jobs = 1;
   settings.seed = std::strtod(std::string(c.textOf("seed")).c_str(), nullptr);
-  settings.startRule = trimmed(
-      linesOf(c.textOf("start")).empty() ? std::string_view() : linesOf(c.textOf("start")).front());
+  const auto start = linesOf(c.textOf("start"));
+  if (!start.empty() && !trimmed(start.front()).empty())
+    settings.startRule = trimmed(start.front());
   if (c.find("values")) settings.startRule = kValuesRule;
   for (std::string_view line : linesOf(c.textOf("set"))) {
     const size_t at = line.find('=');
@@ -288,7 +289,7 @@ bool FileRun::readSettings(const Case& c, DeriveSettings& settings) {
   }
   if (const Section* limits = c.find("limits")) {
     for (const Statement& s : statements(*limits)) {
-      if (readLimit(s, settings.budget)) continue;
+      if (readLimit(s, settings.limits)) continue;
       fail(s.line, c.name, "the limit is not understood");
       return false;
     }
@@ -312,7 +313,9 @@ std::string makeProject(const Case& c, const std::string& file) {
   return (folder / "case.cga").string();
 }
 
-void add(Messages& all, const Messages& more) { all.insert(all.end(), more.begin(), more.end()); }
+void add(DiagnosticList& all, const DiagnosticList& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
 
 void FileRun::runCase(const Case& c) {
   if ((!c.find("rule") || !c.find("expect")) && !c.find("values")) {
@@ -323,17 +326,16 @@ void FileRun::runCase(const Case& c) {
   DeriveSettings settings;
   if (!shapes || !readSettings(c, settings)) return;
   const std::string ruleFile = makeProject(c, path_);
-  const Rules rules =
-      Rules::load(ruleFile, {fs::path(ruleFile).parent_path().string(), std::string()});
+  const Rules rules = Rules::load(ruleFile, {fs::path(ruleFile).parent_path().string()});
   Outcome outcome;
-  outcome.messages = rules.messages();
-  add(outcome.messages, shapes->messages());
+  outcome.diagnostics = rules.diagnostics();
+  add(outcome.diagnostics, shapes->diagnostics());
   std::optional<Model> model;
   const Scene nothing;
   outcome.scene = &nothing;
   if (rules.ok() && shapes->ok()) {
     model = derive(rules, *shapes, settings);
-    add(outcome.messages, model->messages());
+    add(outcome.diagnostics, model->diagnostics());
     outcome.scene = &model->impl().result.scene;
     outcome.dump = dumpText(*outcome.scene);
     settings.sharing = false;

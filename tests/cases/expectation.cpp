@@ -229,36 +229,36 @@ std::string checkCount(const Facts& facts, const Words& words) {
   return compare(static_cast<double>(counts.at(words[0])), words, 1);
 }
 
-const char* levelName(Level level) {
-  switch (level) {
-    case Level::Error: return "error";
-    case Level::Warning: return "warning";
-    case Level::Note: break;
+const char* severityName(Diagnostic::Severity severity) {
+  switch (severity) {
+    case Diagnostic::Severity::Error: return "error";
+    case Diagnostic::Severity::Warning: return "warning";
+    case Diagnostic::Severity::Note: break;
   }
   return "note";
 }
 
 /// "line:column" of a message, empty where it has no place.
-std::string placeOf(const Message& m) {
-  return m.line == 0 ? "" : std::to_string(m.line) + ":" + std::to_string(m.column);
+std::string placeOf(const Diagnostic& m) {
+  return m.range ? std::to_string(m.range->line) + ":" + std::to_string(m.range->column) : "";
 }
 
 std::string describe(const Outcome& outcome) {
   std::string text = "found";
-  for (const Message& m : outcome.messages) {
-    text += std::string(" ") + levelName(m.level) + " " + m.code + " " + placeOf(m) + ",";
+  for (const Diagnostic& m : outcome.diagnostics) {
+    text += std::string(" ") + severityName(m.severity) + " " + m.code + " " + placeOf(m) + ",";
   }
-  return outcome.messages.empty() ? "there is no diagnostic" : text;
+  return outcome.diagnostics.empty() ? "there is no diagnostic" : text;
 }
 
-bool matches(const Message& m, const Words& words) {
-  return words.size() >= 2 && levelName(m.level) == words[0] && m.code == words[1] &&
+bool matches(const Diagnostic& m, const Words& words) {
+  return words.size() >= 2 && severityName(m.severity) == words[0] && m.code == words[1] &&
          (words.size() < 3 || placeOf(m) == words[2]);
 }
 
 std::string checkDiagnostic(const Facts& facts, const Words& words) {
   if (words.size() < 2 || words.size() > 3) return kNotUnderstood;
-  for (const Message& m : facts.outcome->messages) {
+  for (const Diagnostic& m : facts.outcome->diagnostics) {
     if (matches(m, words)) return "";
   }
   return describe(*facts.outcome);
@@ -267,7 +267,7 @@ std::string checkDiagnostic(const Facts& facts, const Words& words) {
 std::string checkDiagnostics(const Facts& facts, const Words& words) {
   if (words.size() < 2) return kNotUnderstood;
   Words found{"diagnostics"};
-  for (const Message& m : facts.outcome->messages) found.push_back(m.code);
+  for (const Diagnostic& m : facts.outcome->diagnostics) found.push_back(m.code);
   if (found.size() == 1) found.emplace_back("none");
   return found == words ? "" : describe(*facts.outcome);
 }
@@ -365,11 +365,11 @@ std::vector<Failure> failures(const std::vector<Statement>& expected, const Outc
     failed.push_back({s.line, statement + ": " + complaint});
   }
   checkPrints(expected, outcome, failed);
-  for (const Message& m : outcome.messages) {
+  for (const Diagnostic& m : outcome.diagnostics) {
     const bool named = std::any_of(expected.begin(), expected.end(),
                                    [&](const Statement& s) { return matches(m, s.words); });
-    if (m.level == Level::Error && !named && !allDiagnosticsNamed) {
-      failed.push_back({0, "an error that no statement expects: " + m.pretty});
+    if (m.isError() && !named && !allDiagnosticsNamed) {
+      failed.push_back({0, "an error that no statement expects: " + m.rendered});
     }
   }
   return failed;

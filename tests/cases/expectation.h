@@ -17,7 +17,7 @@ namespace gable::cases {
 struct Outcome {
   const Scene* scene = nullptr;
   /// Of all stages, in the order in which they came.
-  Messages messages;
+  DiagnosticList diagnostics;
   std::string dump;
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 struct Made {
   Scene scene;
-  Messages messages;
+  DiagnosticList diagnostics;
 
   Made() {
     scene.names = {"Lot", "Tower", "Roof"};
@@ -44,12 +44,11 @@ struct Made {
                      {"Area", {PlainValue::Kind::Number, 4, ""}},
                      {"Kind", {PlainValue::Kind::Text, 0, "a"}}};
     scene.prints = {"two words"};
-    Message undefined;
-    undefined.level = Level::Warning;
+    Diagnostic undefined;
+    undefined.severity = Diagnostic::Severity::Warning;
     undefined.code = "undefined-rule";
-    undefined.line = 2;
-    undefined.column = 3;
-    messages = {undefined};
+    undefined.range = TextRange{"rules.cga", 2, 3, 2, 4};
+    diagnostics = {undefined};
   }
 
   std::string complaints(const std::string& text) const {
@@ -57,7 +56,7 @@ struct Made {
     section.text = text + "\n";
     section.textLine = 1;
     std::string all;
-    for (const Failure& f : failures(statements(section), {&scene, messages, dumpText(scene)})) {
+    for (const Failure& f : failures(statements(section), {&scene, diagnostics, dumpText(scene)})) {
       all += std::to_string(f.line) + ": " + f.message + "\n";
     }
     return all;
@@ -143,9 +142,9 @@ TEST(Expectation, rejectsWhatDoesNotHold) {
 
 TEST(Expectation, reportsAnErrorThatNobodyExpects) {
   Made made;
-  Message unknown;
+  Diagnostic unknown;
   unknown.code = "unknown-operation";
-  made.messages.push_back(unknown);
+  made.diagnostics.push_back(unknown);
   EXPECT_NE(made.complaints("leaves 2"), "");
   EXPECT_EQ(made.complaints("leaves 2\nerror unknown-operation"), "");
 }

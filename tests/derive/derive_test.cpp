@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gable/gable.h"
+#include "json/answers.h"
 
 namespace gable {
 namespace {
@@ -88,7 +89,7 @@ TEST_P(Derivation, isTheSameStepByStep) {
   const Model steps = derive(rules, Shapes::lot(9.5, 7), settings);
   EXPECT_FALSE(quick.dump().empty());
   EXPECT_EQ(quick.dump(), steps.dump());
-  EXPECT_EQ(quick.statsJson({}), steps.statsJson({}));
+  EXPECT_EQ(statisticsJson(quick), statisticsJson(steps));
 }
 
 TEST_P(Derivation, isTheSameWithSharing) {
@@ -129,16 +130,23 @@ INSTANTIATE_TEST_SUITE_P(All, Derivation, testing::ValuesIn(kTexts), [](const au
 
 std::string codes(const Model& model) {
   std::string out;
-  for (const Message& m : model.messages()) out += m.code + ' ';
+  for (const Diagnostic& m : model.diagnostics()) out += m.code + ' ';
   return out;
 }
 
-Model limited(const char* text, const Budget& budget) {
+std::string jsonOf(const RuleValue& value) {
+  std::string out;
+  JsonWriter json(out);
+  writeValue(json, value);
+  return out;
+}
+
+Model limited(const char* text, const Limits& limits) {
   const Rules rules = Rules::parse(text, "text.cga");
   EXPECT_TRUE(rules.ok());
   DeriveSettings settings;
   settings.jobs = 1;
-  settings.budget = budget;
+  settings.limits = limits;
   return derive(rules, Shapes::lot(10, 10), settings);
 }
 
@@ -150,17 +158,17 @@ TEST(Limits, endRecursionAndKeepWhatWasMade) {
 }
 
 TEST(Limits, countPartsThatAreNeverMadeAsShapes) {
-  Budget budget;
-  budget.shapes = 5000;
-  const Model model = limited("Lot --> split(x) { ~0.001 : Slice. }*", budget);
+  Limits limits;
+  limits.shapes = 5000;
+  const Model model = limited("Lot --> split(x) { ~0.001 : Slice. }*", limits);
   EXPECT_EQ(model.end(), End::LimitReached);
   EXPECT_EQ(codes(model), "too-many-shapes ");
 }
 
 TEST(Limits, boundTheChildrenOfOneShape) {
-  Budget budget;
-  budget.width = 100;
-  const Model model = limited("Lot --> split(x) { ~0.01 : Slice. }*", budget);
+  Limits limits;
+  limits.width = 100;
+  const Model model = limited("Lot --> split(x) { ~0.01 : Slice. }*", limits);
   EXPECT_EQ(model.end(), End::LimitReached);
   EXPECT_EQ(codes(model), "too-many-children ");
 }
@@ -177,26 +185,26 @@ TEST(Steps, tellWhatTheyDrewAndSaw) {
   size_t chosenFirst = 0;
   for (int seed = 0; seed < 20; ++seed) {
     settings.seed = seed;
-    const Tree tree = derive(rules, Shapes::lot(4, 3), settings).tree();
+    const DerivationTrace tree = derive(rules, Shapes::lot(4, 3), settings).trace();
     const auto& notes = tree.notes;
     ASSERT_GE(notes.size(), 3u);
-    EXPECT_EQ(notes[0].kind, TreeNote::Kind::Attribute);
-    EXPECT_EQ(notes[0].name + " " + notes[0].value, "h 4");
+    EXPECT_EQ(notes[0].kind, DerivationTrace::Note::Kind::Attribute);
+    EXPECT_EQ(notes[0].name + " " + jsonOf(notes[0].value), "h 4");
     EXPECT_EQ(tree.names[tree.nodes[notes[0].node].name], "Lot");
-    EXPECT_EQ(notes[1].kind, TreeNote::Kind::Parameter);
-    EXPECT_EQ(notes[1].name + " " + notes[1].value, "n 2");
+    EXPECT_EQ(notes[1].kind, DerivationTrace::Note::Kind::Parameter);
+    EXPECT_EQ(notes[1].name + " " + jsonOf(notes[1].value), "n 2");
     EXPECT_EQ(tree.names[tree.nodes[notes[1].node].name], "Box");
-    ASSERT_EQ(notes[2].kind, TreeNote::Kind::Choice);
-    EXPECT_EQ(notes[2].line, 3u);
-    const bool first = notes[2].chosen == 0;
-    EXPECT_EQ(first, notes[2].draw < 0.4);
-    EXPECT_DOUBLE_EQ(notes[2].chance, first ? 0.4 : 0.6);
+    ASSERT_EQ(notes[2].kind, DerivationTrace::Note::Kind::Choice);
+    EXPECT_EQ(notes[2].place->line, 3u);
+    const bool first = notes[2].choice->chosen == 0;
+    EXPECT_EQ(first, notes[2].choice->draw < 0.4);
+    EXPECT_DOUBLE_EQ(notes[2].choice->chance, first ? 0.4 : 0.6);
     chosenFirst += first ? 1 : 0;
     if (first) continue;
     ASSERT_EQ(notes.size(), 5u);
-    EXPECT_EQ(notes[3].kind, TreeNote::Kind::Draw);
+    EXPECT_EQ(notes[3].kind, DerivationTrace::Note::Kind::Draw);
     EXPECT_EQ(notes[3].name, "rand(1, 2)");
-    EXPECT_GE(std::stod(notes[3].value), 1);
+    EXPECT_GE(std::get<double>(notes[3].value.items[0]), 1);
     // Read twice, told once.
     EXPECT_EQ(notes[4].name, "h");
     EXPECT_EQ(tree.names[tree.nodes[notes[4].node].name], "B");

@@ -50,7 +50,7 @@ TEST_F(Imports, grammarsOfOtherNotationsAreDerivedTogether) {
                       "import wall : \"wall.gbbg\"\n"
                       "@StartRule\n"
                       "Lot --> extrude(2) split(x) { 4 : tower.Tower | ~1 : wall.START }\n"));
-  ASSERT_TRUE(rules.ok()) << (rules.messages().empty() ? "" : rules.messages()[0].text);
+  ASSERT_TRUE(rules.ok()) << (rules.diagnostics().empty() ? "" : rules.diagnostics()[0].message);
   const Model model = derive(rules, Shapes::lot(8, 4), {});
   ASSERT_TRUE(model.ok());
   const std::string dump = model.dump();
@@ -72,7 +72,7 @@ TEST_F(Imports, housesOfADynamicImportThatDrawForThemselvesDiffer) {
                                         "@StartRule\n"
                                         "Lot --> split(x) { { ~5 : House }* | 2 : more().More }\n"
                                         "House --> house().Lot\n"));
-    ASSERT_TRUE(rules.ok()) << rules.messages()[0].pretty;
+    ASSERT_TRUE(rules.ok()) << rules.diagnostics()[0].rendered;
     DeriveSettings settings;
     const Model model = derive(rules, Shapes::lot(40, 8), settings);
     settings.sharing = false;
@@ -84,10 +84,10 @@ TEST_F(Imports, mistakesInThemAreReportedAtTheirPlace) {
   put("tower.grammar", "Tower -> S ( 2 3 2 ) I ( Cube 1\n");
   const Rules rules =
       Rules::load(put("main.cga", "import t : \"tower.grammar\"\nLot --> t.Tower\n"));
-  ASSERT_FALSE(rules.messages().empty());
+  ASSERT_FALSE(rules.diagnostics().empty());
   bool told = false;
-  for (const Message& m : rules.messages())
-    told |= m.file.find("tower.grammar") != std::string::npos;
+  for (const Diagnostic& m : rules.diagnostics())
+    told |= m.range->file.find("tower.grammar") != std::string::npos;
   EXPECT_TRUE(told);
 }
 

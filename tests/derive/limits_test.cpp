@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 Rules rulesOf(const std::string& text) {
   Rules rules = Rules::parse(text, "limits.cga");
-  EXPECT_TRUE(rules.ok()) << (rules.messages().empty() ? "" : rules.messages()[0].pretty);
+  EXPECT_TRUE(rules.ok()) << (rules.diagnostics().empty() ? "" : rules.diagnostics()[0].rendered);
   return rules;
 }
 
@@ -35,8 +35,8 @@ Shapes lots(int count) {
   return Shapes::parse(text, "lots.obj");
 }
 
-bool tells(const Messages& messages, const std::string& code) {
-  for (const Message& m : messages) {
+bool tells(const DiagnosticList& messages, const std::string& code) {
+  for (const Diagnostic& m : messages) {
     if (m.code == code) return true;
   }
   return false;
@@ -44,7 +44,7 @@ bool tells(const Messages& messages, const std::string& code) {
 
 std::string textOf(const Model& model) {
   std::string out = std::to_string(static_cast<int>(model.end())) + "\n";
-  for (const Message& m : model.messages()) out += m.pretty + "\n";
+  for (const Diagnostic& m : model.diagnostics()) out += m.rendered + "\n";
   return out + model.dump();
 }
 
@@ -56,9 +56,9 @@ R --> [ s('0.5, '0.5, '0.5) X. ] report("n", 1) t(1, 0, 0) R
 )");
   constexpr uint32_t kDepth = 30'000;
   DeriveSettings settings;
-  settings.budget.depth = kDepth;
+  settings.limits.depth = kDepth;
   const Model model = derive(rules, Shapes::lot(4, 4), settings);
-  EXPECT_TRUE(tells(model.messages(), "recursion-too-deep"));
+  EXPECT_TRUE(tells(model.diagnostics(), "recursion-too-deep"));
   const Scene& scene = model.impl().result.scene;
   EXPECT_EQ(scene.prototypes.size(), kDepth + 1);
   EXPECT_EQ(model.leafCount(), kDepth);
@@ -71,7 +71,7 @@ R --> [ s('0.5, '0.5, '0.5) X. ] report("n", 1) t(1, 0, 0) R
     fs::remove(file);
   }
   EXPECT_GT(model.drawList().size(), 1'000'000u);
-  EXPECT_NE(model.statsJson({}).find("\"leaves\": 30000"), std::string::npos);
+  EXPECT_EQ(model.statistics().leaves, 30000u);
   PictureSettings small;
   small.width = small.height = 8;
   small.samples = 1;
@@ -88,12 +88,12 @@ Other --> primitiveCube() color("#ff0000")
 R(n) --> case n == 20000 : Y. else : [ primitiveCube() X. ] R(n + 1)
 )";
   DeriveSettings settings;
-  settings.budget.depth = 30'000;
+  settings.limits.depth = 30'000;
   settings.remember = true;
   const Rules rules = rulesOf(text);
   const Model first = derive(rules, Shapes::lot(4, 4), settings);
   EXPECT_EQ(first.end(), End::Done);
-  LoadOptions options;
+  LoadSettings options;
   options.before = &rules;
   std::string edited = text;
   edited.replace(edited.find("ff0000"), 6, "00ff00");
@@ -133,7 +133,7 @@ TEST(Limits, onCountsEndAtTheSamePlaceWithAnyNumberOfThreads) {
   const Shapes shapes = lots(40);
   const auto with = [&](auto set) {
     DeriveSettings settings;
-    set(settings.budget);
+    set(settings.limits);
     settings.jobs = 1;
     const Model one = derive(rules, shapes, settings);
     EXPECT_EQ(one.end(), End::LimitReached);
@@ -142,10 +142,10 @@ TEST(Limits, onCountsEndAtTheSamePlaceWithAnyNumberOfThreads) {
       EXPECT_EQ(textOf(derive(rules, shapes, settings)), textOf(one));
     }
   };
-  with([](Budget& b) { b.shapes = 2000; });
-  with([](Budget& b) { b.steps = 4000; });
-  with([](Budget& b) { b.depth = 1; });
-  with([](Budget& b) { b.width = 3; });
+  with([](Limits& b) { b.shapes = 2000; });
+  with([](Limits& b) { b.steps = 4000; });
+  with([](Limits& b) { b.depth = 1; });
+  with([](Limits& b) { b.width = 3; });
 }
 
 TEST(Limits, noMoreMessagesAreKeptThanAnybodyReads) {
@@ -153,7 +153,7 @@ TEST(Limits, noMoreMessagesAreKeptThanAnybodyReads) {
   DeriveSettings settings;
   settings.jobs = 1;
   const Model model = derive(rules, lots(3), settings);
-  EXPECT_EQ(model.messages().size(), 1000u);
+  EXPECT_EQ(model.diagnostics().size(), 1000u);
   settings.jobs = 2;
   EXPECT_EQ(textOf(derive(rules, lots(3), settings)), textOf(model));
 }
@@ -172,7 +172,7 @@ TEST(Limits, tablesThatAreFullEndADerivation) {
     settings.jobs = 2;
     const Model model = derive(rules, lots(4), settings);
     EXPECT_EQ(model.end(), End::LimitReached) << text;
-    EXPECT_TRUE(tells(model.messages(), "too-many-values")) << text;
+    EXPECT_TRUE(tells(model.diagnostics(), "too-many-values")) << text;
   }
 }
 
@@ -195,7 +195,7 @@ attr a = [0:1:2]
 Lot --> split(x) { 0.01 : set(a, [split.index:1:split.index+20000]) X. }*
 )");
   DeriveSettings settings;
-  settings.budget.bytes = 100 << 20;
+  settings.limits.bytes = 100 << 20;
   const Model model = derive(rules, Shapes::lot(1000, 10), settings);
   EXPECT_EQ(model.end(), End::LimitReached);
   uint64_t values = 0;
@@ -214,7 +214,7 @@ TEST(Limits, codeThatHasNoRoomInInstructionsIsRefused) {
   };
   const auto refused = [](const std::string& text) {
     const Rules rules = Rules::parse(text, "large.cga");
-    return !rules.ok() && tells(rules.messages(), "code-too-large");
+    return !rules.ok() && tells(rules.diagnostics(), "code-too-large");
   };
   const auto parameters = [&](int count) {
     std::string names, values;

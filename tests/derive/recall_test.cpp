@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "gable/gable.h"
+#include "json/answers.h"
 #include "program/reach.h"
 
 #include "engine/impl.h"
@@ -40,16 +41,18 @@ std::string shown(const Model& model) {
   std::string out = contentOf(file);
   fs::remove(file);
   out += model.drawList();
-  std::string stats = model.statsJson({});
+  std::string stats = statisticsJson(model);
   // What was taken over is no difference.
   if (const size_t at = stats.find("\"recalled\""); at != std::string::npos) {
     stats.erase(at, stats.find('\n', at) - at);
   }
   std::erase_if(stats, [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; });
-  out += stats + messagesJson(model.messages());
+  out += stats + diagnosticsJson(model.diagnostics());
   const uint64_t leaves = model.leafCount();
   const uint64_t step = leaves / 200 + 1;
-  for (uint64_t leaf = 0; leaf < leaves; leaf += step) out += model.leafJson(leaf);
+  for (uint64_t leaf = 0; leaf < leaves; leaf += step) {
+    out += leafJson(model.leaf(leaf).value());
+  }
   return out;
 }
 
@@ -65,17 +68,17 @@ uint64_t shapesOf(const Model& model) {
 // A text that is edited, and what the page of an editor sees of it.
 class Edited {
  public:
-  explicit Edited(Shapes shapes, LoadOptions options = {}, std::string name = "main.cga")
+  explicit Edited(Shapes shapes, LoadSettings options = {}, std::string name = "main.cga")
       : shapes_(std::move(shapes)), options_(std::move(options)), name_(std::move(name)) {}
 
   DeriveSettings settings;
 
   /// The model of a text, with what can be taken over.
   Model next(const std::string& text) {
-    LoadOptions options = options_;
+    LoadSettings options = options_;
     options.before = rules_ ? &*rules_ : nullptr;
     Rules rules = Rules::parse(text, name_, options);
-    EXPECT_TRUE(rules.ok()) << (rules.messages().empty() ? "" : rules.messages()[0].pretty);
+    EXPECT_TRUE(rules.ok()) << (rules.diagnostics().empty() ? "" : rules.diagnostics()[0].rendered);
     DeriveSettings s = settings;
     s.remember = true;
     s.before = model_ ? &*model_ : nullptr;
@@ -88,11 +91,11 @@ class Edited {
   Model fresh(const std::string& text) const {
     return derive(Rules::parse(text, name_, options_), shapes_, settings);
   }
-  LoadOptions& options() { return options_; }
+  LoadSettings& options() { return options_; }
 
  private:
   Shapes shapes_;
-  LoadOptions options_;
+  LoadSettings options_;
   std::string name_;
   std::optional<Rules> rules_;
   std::optional<Model> model_;
@@ -208,7 +211,7 @@ TEST(Recall, warningsStay) {
   const std::string text = replaced(kBlocks, "top : RightRoof.", "top : i(\"none.obj\") Roof.");
   Edited place(Shapes::lot(80, 20));
   const Model first = place.next(text);
-  EXPECT_FALSE(first.messages().empty());
+  EXPECT_FALSE(first.diagnostics().empty());
   EXPECT_EQ(shown(place.next(text)), shown(first));
 }
 
@@ -289,10 +292,10 @@ Tile --> case inside(all) : NIL else : Tile.
 
 TEST(Recall, aLimitLeavesNothingToTakeOver) {
   Edited place(Shapes::lot(80, 20));
-  place.settings.budget.shapes = 300;
+  place.settings.limits.shapes = 300;
   const Model cut = place.next(kBlocks);
   EXPECT_EQ(cut.end(), End::LimitReached);
-  place.settings.budget.shapes = 10'000'000;
+  place.settings.limits.shapes = 10'000'000;
   const Model whole = place.next(kBlocks);
   EXPECT_EQ(recalled(whole), 0u);
   EXPECT_EQ(shown(whole), shown(place.fresh(kBlocks)));
@@ -301,7 +304,7 @@ TEST(Recall, aLimitLeavesNothingToTakeOver) {
 TEST(Recall, aBudgetCountsWhatIsTakenOver) {
   Edited place(Shapes::lot(80, 20));
   place.next(kBlocks);
-  place.settings.budget.shapes = 300;
+  place.settings.limits.shapes = 300;
   EXPECT_EQ(place.next(kBlocks).end(), End::LimitReached);
 }
 
@@ -339,7 +342,7 @@ TEST_P(RecallOfExamples, isWhatADerivationFromNothingGives) {
   const std::string main = contentOf(examples / e.file);
   const std::string text = contentOf(examples / e.edited);
   const bool own = std::string(e.file) == e.edited;
-  LoadOptions options;
+  LoadSettings options;
   options.project = examples.string();
   Edited place(Shapes::lot(e.width, e.depth), options, (examples / e.file).string());
   place.settings.seed = 3;
@@ -355,7 +358,7 @@ TEST_P(RecallOfExamples, isWhatADerivationFromNothingGives) {
     std::string edited = text;
     const size_t at = numbers[numbers.size() * (2 * k + 1) / (2 * e.edits)];
     edited.insert(at, text[at - 1] == '0' ? "1" : "0");
-    LoadOptions check = options;
+    LoadSettings check = options;
     check.overlay = {{e.edited, edited}};
     if (!Rules::parse(own ? edited : main, (examples / e.file).string(), check).ok()) continue;
     const std::string now = edit(edited);
@@ -405,7 +408,7 @@ Round --> Leaf.
 )";
   const Rules before = Rules::parse(text, "a.cga");
   const auto changed = [&](const char* from, const char* to) {
-    LoadOptions options;
+    LoadSettings options;
     options.before = &before;
     const Rules after = Rules::parse(replaced(text, from, to), "a.cga", options);
     EXPECT_TRUE(after.ok());

@@ -15,13 +15,13 @@ namespace {
 
 std::string converted(const std::string& text, const std::string& path) {
   const Converted c = convert(text, path);
-  EXPECT_FALSE(hasErrors(c.messages)) << messagesJson(c.messages);
+  EXPECT_FALSE(hasErrors(c.diagnostics)) << render(c.diagnostics);
   return c.text;
 }
 
 std::string modelOf(const std::string& text, const std::string& path) {
   const Rules rules = Rules::parse(text, path);
-  EXPECT_TRUE(rules.ok()) << messagesJson(rules.messages()) << text;
+  EXPECT_TRUE(rules.ok()) << render(rules.diagnostics()) << text;
   DeriveSettings settings;
   settings.jobs = 1;
   return derive(rules, Shapes::lot(20, 20), settings).dump();

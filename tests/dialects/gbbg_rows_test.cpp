@@ -22,8 +22,8 @@ std::string testBuilding() {
 }
 
 std::array<Vec3, 2> boundsOf(const Model& model) {
-  const JsonValue stats = parseJson(model.statsJson({})).value();
-  return {vecOf(stats["bbox"]["min"]), vecOf(stats["bbox"]["max"])};
+  const BoundingBox box = model.statistics().bounds.value_or(BoundingBox{});
+  return {Vec3{box.min[0], box.min[1], box.min[2]}, Vec3{box.max[0], box.max[1], box.max[2]}};
 }
 
 TEST(Gbbg, G1ScopesHaveTheirRootAtTheLeastCorner) {
@@ -251,10 +251,11 @@ TEST(Gbbg, G14RecursionEndsAtTheLimit) {
   // Not traced: no reader of JSON likes a thousand levels.
   const Rules rules = Rules::parse("axiom A size (4, 4, 4)\nA -> Scope() {A}", "test.gbbg");
   const Model model = derive(rules, Shapes::lot(20, 20), {});
-  ASSERT_EQ(model.messages().size(), 1u);
-  EXPECT_EQ(model.messages()[0].code, "recursion-too-deep");
+  ASSERT_EQ(model.diagnostics().size(), 1u);
+  EXPECT_EQ(model.diagnostics()[0].code, "recursion-too-deep");
   EXPECT_EQ(model.end(), End::LimitReached);
-  EXPECT_NE(model.messages()[0].text.find("'A'"), std::string::npos) << model.messages()[0].text;
+  EXPECT_NE(model.diagnostics()[0].message.find("'A'"), std::string::npos)
+      << model.diagnostics()[0].message;
 }
 
 // A box of a size as a model, with a mark that reaches beyond it where `overhang` says.
@@ -278,10 +279,7 @@ fs::path preparedCorner(double overhang = 0) {
   const fs::path folder = assetFolder();
   EXPECT_TRUE(writeFile((folder / "model.obj").string(), boxObj(8, 9, 8, overhang)).ok());
   PrepareSettings s;
-  s.ownVolume = true;
-  s.volume[0] = 8;
-  s.volume[1] = 9;
-  s.volume[2] = 8;
+  s.volume = {8, 9, 8};
   s.name = "RoofCorner";
   const Model asset = Model::load((folder / "model.obj").string()).prepared(s);
   EXPECT_TRUE(asset.ok());
@@ -312,7 +310,7 @@ TEST(Gbbg, G15AssetsFillTheirScopes) {
   const Derivation without =
       derived("axiom C size (7, 7, 7)\n" + table, off, Shapes::lot(20, 20), path);
   EXPECT_EQ(without.leaves("C").size(), 1u);
-  EXPECT_EQ(parseJson(without.model.statsJson({})).value()["faces"].number(0), 6);
+  EXPECT_EQ(without.model.statistics().faces, 6u);
   fs::remove_all(folder);
 }
 
@@ -335,20 +333,20 @@ TEST(Gbbg, G16APreparedModelFillsAScopeExactly) {
   const Model model = Model::load((folder / "model.obj").string());
   PrepareSettings s;
   // Turned so that 8 by 9 by 8 stands on the pivot.
-  s.ownPivot = true;
-  s.pivot[1] = 8;
+  s.pivot = {0, 8, 0};
   s.rotate[2] = 90;
-  s.ownVolume = true;
-  s.volume[0] = 8;
-  s.volume[1] = 9;
-  s.volume[2] = 8;
-  const std::array<double, 6> box = model.prepared(s).bounds();
-  const std::array<double, 6> unit{0, 0, 0, 1, 1, 1};
-  for (size_t i = 0; i < 6; ++i) EXPECT_NEAR(box[i], unit[i], 1e-9);
+  s.volume = {8, 9, 8};
+  const auto isUnitCube = [](const std::optional<BoundingBox>& box) {
+    ASSERT_TRUE(box.has_value());
+    for (size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(box->min[i], 0, 1e-9);
+      EXPECT_NEAR(box->max[i], 1, 1e-9);
+    }
+  };
+  isUnitCube(model.prepared(s).bounds());
   // Without a volume it is the model's own; a flat one has a metre.
-  const std::array<double, 6> own = model.prepared({}).bounds();
-  for (size_t i = 0; i < 6; ++i) EXPECT_NEAR(own[i], unit[i], 1e-9);
-  s.volume[1] = 0;
+  isUnitCube(model.prepared({}).bounds());
+  s.volume = {8, 0, 8};
   EXPECT_FALSE(model.prepared(s).ok());
   fs::remove_all(folder);
 }
@@ -431,11 +429,11 @@ TEST(Gbbg, G22RulesAreSharedBetweenGrammars) {
   ASSERT_TRUE(writeFile((folder / "bad.gbbg").string(), "A -> Grid(Y) {B\n").ok());
   const Rules bad = Rules::parse("use \"bad.gbbg\"\nuse \"none.gbbg\"\naxiom B size (1, 1, 1)\n",
                                  (folder / "main.gbbg").string(), {folder.string(), {}, {}});
-  ASSERT_GE(bad.messages().size(), 2u);
-  EXPECT_EQ(bad.messages()[0].line, 1u);
-  EXPECT_NE(bad.messages()[0].text.find("bad.gbbg:2:1"), std::string::npos);
-  EXPECT_EQ(bad.messages()[1].code, "gbbg-use");
-  EXPECT_EQ(bad.messages()[1].line, 2u);
+  ASSERT_GE(bad.diagnostics().size(), 2u);
+  EXPECT_EQ(bad.diagnostics()[0].range->line, 1u);
+  EXPECT_NE(bad.diagnostics()[0].message.find("bad.gbbg:2:1"), std::string::npos);
+  EXPECT_EQ(bad.diagnostics()[1].code, "gbbg-use");
+  EXPECT_EQ(bad.diagnostics()[1].range->line, 2u);
   fs::remove_all(folder);
 }
 
@@ -486,12 +484,12 @@ TEST(Gbbg, G23WithTheEmptyOptionFloorsAreDrawn) {
 // Converted to Gable's own language a grammar gives the same model, draw by draw.
 void expectSameConverted(const std::string& grammar, const std::string& project = {}) {
   const std::string path = (project.empty() ? "" : project + "/") + "test.gbbg";
-  const LoadOptions options{project, {}, {}};
+  const LoadSettings options{project, {}, {}};
   const Converted converted = convert(grammar, path, options);
-  ASSERT_FALSE(hasErrors(converted.messages));
+  ASSERT_FALSE(hasErrors(converted.diagnostics));
   const Rules before = Rules::parse(grammar, path, options);
   const Rules after = Rules::parse(converted.text, path + ".cga", options);
-  for (const Message& m : after.messages()) ADD_FAILURE() << m.pretty;
+  for (const Diagnostic& m : after.diagnostics()) ADD_FAILURE() << m.rendered;
   for (const double seed : {0.0, 7.0}) {
     DeriveSettings settings;
     settings.seed = seed;

@@ -15,6 +15,7 @@
 #include "engine/impl.h"
 #include "gable/gable.h"
 #include "gbbg_world.h"
+#include "json/answers.h"
 
 namespace gable {
 
@@ -63,8 +64,8 @@ struct Derivation {
   }
   std::string codes() const {
     std::string out;
-    for (const Messages* list : {&rules.messages(), &model.messages()}) {
-      for (const Message& m : *list) out += (out.empty() ? "" : " ") + m.code;
+    for (const DiagnosticList* list : {&rules.diagnostics(), &model.diagnostics()}) {
+      for (const Diagnostic& m : *list) out += (out.empty() ? "" : " ") + m.code;
     }
     return out;
   }
@@ -73,19 +74,19 @@ struct Derivation {
 inline Derivation derived(const std::string& grammar, const DeriveSettings& given = {},
                           const Shapes& shapes = Shapes::lot(20, 20),
                           const std::string& path = "test.gbbg") {
-  LoadOptions options;
+  LoadSettings options;
   const size_t slash = path.rfind('/');
   if (slash != std::string::npos) options.project = path.substr(0, slash);
   const Rules rules = Rules::parse(grammar, path, options);
-  for (const Message& m : rules.messages()) {
-    if (m.level == Level::Error) ADD_FAILURE() << m.pretty;
+  for (const Diagnostic& m : rules.diagnostics()) {
+    if (m.isError()) ADD_FAILURE() << m.rendered;
   }
   DeriveSettings settings = given;
   settings.trace = true;
   settings.jobs = 1;
   Model model = derive(rules, shapes, settings);
   Derivation run{rules, model, {}};
-  const Result<JsonValue> trace = parseJson(model.traceJson());
+  const Result<JsonValue> trace = parseJson(traceJson(model.trace()));
   EXPECT_TRUE(trace.ok());
   if (trace.ok()) {
     for (const JsonValue& root : trace.value().items()) flattenTrace(root, 0, run.shapes);

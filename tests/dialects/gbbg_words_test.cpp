@@ -18,9 +18,9 @@ constexpr const char* kBoxes =
 
 Rules read(const std::string& text) { return Rules::parse(text, "test.gbbg"); }
 
-std::string codes(const Messages& messages) {
+std::string codes(const DiagnosticList& messages) {
   std::string out;
-  for (const Message& m : messages) out += m.code + " ";
+  for (const Diagnostic& m : messages) out += m.code + " ";
   return out;
 }
 
@@ -33,8 +33,8 @@ Model derivedWith(const Rules& rules, double seed) {
 
 TEST(GbbgWords, assetsThatAreMissingAreFoundByTheCheck) {
   const Rules rules = read(std::string(kBoxes) + "postprocess {\n  A : \"nowhere.glb\"\n}\n");
-  EXPECT_EQ(codes(rules.messages()), "gbbg-missing-asset ");
-  EXPECT_EQ(rules.messages()[0].line, 5u);
+  EXPECT_EQ(codes(rules.diagnostics()), "gbbg-missing-asset ");
+  EXPECT_EQ(rules.diagnostics()[0].range->line, 5u);
 }
 
 TEST(GbbgWords, seedsAreSignedWholeNumbers) {
@@ -43,7 +43,7 @@ TEST(GbbgWords, seedsAreSignedWholeNumbers) {
     EXPECT_TRUE(derivedWith(rules, right).ok()) << right;
   }
   for (const double wrong : {2147483648.0, 1.5, 999999999.5e20, -2147483649.0}) {
-    EXPECT_EQ(codes(derivedWith(rules, wrong).messages()), "bad-seed ") << wrong;
+    EXPECT_EQ(codes(derivedWith(rules, wrong).diagnostics()), "bad-seed ") << wrong;
   }
   EXPECT_TRUE(derivedWith(Rules::parse("Lot --> X.", "a.cga"), 1.5).ok());
 }
@@ -51,15 +51,15 @@ TEST(GbbgWords, seedsAreSignedWholeNumbers) {
 TEST(GbbgWords, aRuleSaysWhatItNeeds) {
   const Rules rules =
       read("axiom START size (4, 4, 4)\nSTART -> Split(X, {1, 2}, ToRoot) {A | B}\nterminal A, B");
-  ASSERT_FALSE(rules.messages().empty());
-  EXPECT_EQ(rules.messages()[0].text, "this Split needs 3 successors, not 2");
+  ASSERT_FALSE(rules.diagnostics().empty());
+  EXPECT_EQ(rules.diagnostics()[0].message, "this Split needs 3 successors, not 2");
 }
 
 TEST(GbbgWords, recursionIsMendedInTheNotation) {
   const Rules rules = read("axiom START size (4, 4, 4)\nSTART -> Repeat(X) {START}");
   const Model model = derivedWith(rules, 0);
-  ASSERT_EQ(codes(model.messages()), "recursion-too-deep ");
-  EXPECT_EQ(model.messages()[0].hint, "let one of the shapes be terminal: 'terminal NAME'");
+  ASSERT_EQ(codes(model.diagnostics()), "recursion-too-deep ");
+  EXPECT_EQ(model.diagnostics()[0].hint, "let one of the shapes be terminal: 'terminal NAME'");
 }
 
 TEST(GbbgWords, symbolsWithoutAssetsHaveColoursOfTheirOwn) {

@@ -58,7 +58,7 @@ Model derived(const Rules& rules, const Shapes& shapes, double seed, Attributes 
   settings.jobs = 1;
   settings.attributes = std::move(attributes);
   Model model = derive(rules, shapes, settings);
-  EXPECT_FALSE(hasErrors(model.messages())) << messagesJson(model.messages());
+  EXPECT_FALSE(hasErrors(model.diagnostics())) << render(model.diagnostics());
   return model;
 }
 
@@ -520,7 +520,7 @@ std::string bytesOf(const std::string& path) {
 TEST_F(Written, C16_objComesBackWithItsTrianglesAndMaterials) {
   const Model m = castleOf(5, {{"planting", "false"}});
   const Model back = Model::load(write(m, "castle.obj"));
-  ASSERT_TRUE(back.ok()) << messagesJson(back.messages());
+  ASSERT_TRUE(back.ok()) << render(back.diagnostics());
   EXPECT_EQ(count(sceneOf(back)).triangles, count(sceneOf(m)).triangles);
   const std::string mtl = bytesOf((folder_ / "castle.mtl").string());
   size_t materials = 0;

@@ -60,12 +60,12 @@ class Example : public testing::TestWithParam<std::string> {};
 
 TEST_P(Example, standsOnAnyFootprint) {
   const Rules rules = Rules::load(rulesOf(GetParam()));
-  ASSERT_TRUE(rules.ok()) << messagesJson(rules.messages());
+  ASSERT_TRUE(rules.ok()) << render(rules.diagnostics());
   for (const Footprint& footprint : footprints()) {
     DeriveSettings settings;
     settings.jobs = 1;
     const Model model = derive(rules, footprint.shapes, settings);
-    EXPECT_FALSE(hasErrors(model.messages())) << footprint.name << messagesJson(model.messages());
+    EXPECT_FALSE(hasErrors(model.diagnostics())) << footprint.name << render(model.diagnostics());
     const Scene& scene = model.impl().result.scene;
     EXPECT_GT(count(scene).leaves, 5u) << footprint.name;
     EXPECT_EQ(joined(faults(scene)), "") << footprint.name;

@@ -120,7 +120,7 @@ double distanceTo(const Ring& ring, Vec2 p) {
 TEST_F(Monaco, derivesEveryFootprint) {
   ASSERT_TRUE(town().rules.ok() && town().shapes.ok());
   ASSERT_EQ(town().shapes.size(), 1218u);
-  EXPECT_FALSE(hasErrors(town().model.messages())) << messagesJson(town().model.messages());
+  EXPECT_FALSE(hasErrors(town().model.diagnostics())) << render(town().model.diagnostics());
   ASSERT_EQ(scene().roots.size(), 1218u);
   for (size_t i = 0; i < town().buildings.size(); ++i) {
     EXPECT_FALSE(town().buildings[i].parts.empty()) << "footprint " << i;

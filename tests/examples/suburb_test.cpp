@@ -37,13 +37,13 @@ constexpr double kUnit = 2, kSide = 320;
 const std::string kFolder = std::string(GABLE_SOURCE_DIR) + "/examples/suburb/";
 
 Model derivedFrom(const Rules& rules, double width, double depth, double seed, Settings set) {
-  EXPECT_FALSE(hasErrors(rules.messages())) << messagesJson(rules.messages());
+  EXPECT_FALSE(hasErrors(rules.diagnostics())) << render(rules.diagnostics());
   DeriveSettings settings;
   settings.seed = seed;
   settings.jobs = 2;
   settings.attributes = std::move(set);
   Model model = derive(rules, Shapes::lot(width, depth), settings);
-  EXPECT_FALSE(hasErrors(model.messages())) << messagesJson(model.messages());
+  EXPECT_FALSE(hasErrors(model.diagnostics())) << render(model.diagnostics());
   return model;
 }
 

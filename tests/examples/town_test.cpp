@@ -15,6 +15,7 @@
 #include "geom/mesh/face_plane.h"
 #include "geom/region/boolean.h"
 #include "io/exporters/draw_list.h"
+#include "json/answers.h"
 #include "scene/flatten.h"
 #include "scene_faults.h"
 
@@ -86,9 +87,9 @@ TEST(TownExample, hasTwoThousandBuildingsOfAllStylesAParkAndACastle) {
   // The studio draws so many.
   EXPECT_LT(prototypeLeafCounts(town.scene())[town.scene().roots.at(0).instance.prototype],
             kMostLeaves);
-  EXPECT_FALSE(hasErrors(town.model.messages())) << messagesJson(town.model.messages());
+  EXPECT_FALSE(hasErrors(town.model.diagnostics())) << render(town.model.diagnostics());
   EXPECT_EQ(joined(faults(town.scene())), "");
-  const std::string stats = town.model.statsJson({});
+  const std::string stats = statisticsJson(town.model);
   const size_t at = stats.find("\"buildings\"");
   ASSERT_NE(at, std::string::npos);
   const size_t sum = stats.find("\"sum\":", at);

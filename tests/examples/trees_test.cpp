@@ -15,6 +15,7 @@
 
 #include "engine/impl.h"
 #include "gable/gable.h"
+#include "json/answers.h"
 #include "math/trig.h"
 
 namespace gable {
@@ -122,7 +123,7 @@ class BranchingTree : public testing::Test {
  protected:
   void SetUp() override {
     model_ = derivedFrom(grove(), Shapes::lot(10, 10), "OneTree", 0);
-    ASSERT_FALSE(hasErrors(model_->messages())) << messagesJson(model_->messages());
+    ASSERT_FALSE(hasErrors(model_->diagnostics())) << render(model_->diagnostics());
     for (const Part& p : partsOf(*model_)) {
       if (isWood(p)) wood_.push_back(p);
       if (isSpray(p)) sprays_.push_back(p);
@@ -150,7 +151,7 @@ TEST_F(BranchingTree, C1_forksThreeToSixTimesAndShrinksBySixTenths) {
     const int level = wanted_.branches[i].level;
     EXPECT_NEAR(wood_[i].size.y, 2 * std::pow(0.6, 3 - level), 1e-9);
   }
-  const std::string stats = model_->statsJson({});
+  const std::string stats = statisticsJson(*model_);
   EXPECT_NE(stats.find("\"forks\""), std::string::npos);
 }
 
@@ -159,7 +160,7 @@ TEST_F(BranchingTree, C1_depthAndChildCountAreParameters) {
     const Rules rules =
         withTrees("Lot --> s(0, 0, 0) trees.Branch(2, " + std::to_string(depth) + ", 2, 2, 9)");
     const Model model = derivedFrom(rules, Shapes::lot(10, 10), "Lot", 0);
-    ASSERT_FALSE(hasErrors(model.messages())) << messagesJson(model.messages());
+    ASSERT_FALSE(hasErrors(model.diagnostics())) << render(model.diagnostics());
     const std::vector<Part> parts = partsOf(model);
     EXPECT_EQ(std::count_if(parts.begin(), parts.end(), isWood), (1 << depth) - 1);
     EXPECT_EQ(std::count_if(parts.begin(), parts.end(), isSpray), 1 << depth);
@@ -213,7 +214,7 @@ Look lookOf(const std::string& kind, double height, int number) {
   const Rules rules = withTrees("Lot --> s(0, 0, 0) trees.Tree(\"" + kind + "\", " +
                                 std::to_string(height) + ", " + std::to_string(number) + ")");
   const Model model = derivedFrom(rules, Shapes::lot(10, 10), "Lot", 0);
-  EXPECT_FALSE(hasErrors(model.messages())) << messagesJson(model.messages());
+  EXPECT_FALSE(hasErrors(model.diagnostics())) << render(model.diagnostics());
   const Scene& scene = model.impl().result.scene;
   Look look;
   look.triangles = count(scene).triangles;
@@ -257,7 +258,7 @@ TEST(Trees, ofOneNumberAndHeightAreOnePrototype) {
       "Any(i) --> case i % 2 == 0: trees.Pine else: trees.Birch");
   const auto stored = [&](double side) {
     const Model model = derivedFrom(rules, Shapes::lot(side, side), "Lot", 3);
-    EXPECT_FALSE(hasErrors(model.messages())) << messagesJson(model.messages());
+    EXPECT_FALSE(hasErrors(model.diagnostics())) << render(model.diagnostics());
     const Scene& scene = model.impl().result.scene;
     return std::make_pair(scene.leaves.size(), static_cast<size_t>(count(scene).leaves));
   };
@@ -269,14 +270,14 @@ TEST(Trees, ofOneNumberAndHeightAreOnePrototype) {
 
 TEST(Trees, haveLessLeavesWhenTold) {
   const Rules rules = Rules::load(std::string(GABLE_SOURCE_DIR) + "/examples/rules/trees.cga");
-  ASSERT_TRUE(rules.ok()) << messagesJson(rules.messages());
+  ASSERT_TRUE(rules.ok()) << render(rules.diagnostics());
   const auto triangles = [&](const char* leafage) {
     DeriveSettings settings;
     settings.startRule = "Lime";
     settings.jobs = 1;
     settings.attributes = {{"leafage", leafage}};
     const Model model = derive(rules, Shapes::lot(10, 10), settings);
-    EXPECT_FALSE(hasErrors(model.messages())) << messagesJson(model.messages());
+    EXPECT_FALSE(hasErrors(model.diagnostics())) << render(model.diagnostics());
     return count(model.impl().result.scene).triangles;
   };
   EXPECT_LT(triangles("0.4"), 0.75 * static_cast<double>(triangles("1")));

@@ -180,7 +180,7 @@ TEST(Worlds, theSuburbKeepsItsGaps) {
   for (const int seed : seeds({0, 1, 2})) {
     const Model m = derived("suburb", 320, seed,
                             {{"detail", "false"}, {"planting", "false"}, {"outskirts", "false"}});
-    ASSERT_FALSE(hasErrors(m.messages())) << messagesJson(m.messages());
+    ASSERT_FALSE(hasErrors(m.diagnostics())) << render(m.diagnostics());
     const Scene& scene = m.impl().result.scene;
     World w{facesNamed(scene, "Asphalt"), {}, {}};
     w.ways = w.roads;
@@ -193,7 +193,7 @@ TEST(Worlds, theSuburbKeepsItsGaps) {
 TEST(Worlds, theTownsBuildingsKeepToTheirLots) {
   for (const int seed : seeds({0, 1, 2})) {
     const Model m = derived("town", 300, seed, {{"planting", "false"}, {"plan", "true"}});
-    ASSERT_FALSE(hasErrors(m.messages())) << messagesJson(m.messages());
+    ASSERT_FALSE(hasErrors(m.diagnostics())) << render(m.diagnostics());
     const Scene& scene = m.impl().result.scene;
     EXPECT_EQ(joined(faults(scene)), "") << "seed " << seed;
     World w{facesNamed(scene, "Asphalt"), {}, {}};

@@ -91,9 +91,9 @@ void run(const std::string& rules, const std::string& name) {
   if (!parsed.ok()) return;
   DeriveSettings settings;
   settings.jobs = 1;
-  settings.budget.seconds = kSeconds;
-  settings.budget.bytes = kBytes;
-  settings.budget.shapes = 20'000;
+  settings.limits.seconds = kSeconds;
+  settings.limits.bytes = kBytes;
+  settings.limits.shapes = 20'000;
   const double before = processorSeconds();
   derive(parsed, Shapes::lot(60, 40), settings);
   const double took = processorSeconds() - before;

@@ -82,29 +82,30 @@ gable::DeriveSettings settingsOf(int jobs, bool sharing) {
   gable::DeriveSettings s;
   s.jobs = jobs;
   s.sharing = sharing;
-  s.budget.depth = 100;
-  s.budget.width = 3000;
-  s.budget.shapes = 2000;
-  s.budget.vertices = 50'000;
-  s.budget.steps = 100'000;
-  s.budget.bytes = uint64_t{1200} << 20;
-  s.budget.seconds = kSeconds;
+  s.limits.depth = 100;
+  s.limits.width = 3000;
+  s.limits.shapes = 2000;
+  s.limits.vertices = 50'000;
+  s.limits.steps = 100'000;
+  s.limits.bytes = uint64_t{1200} << 20;
+  s.limits.seconds = kSeconds;
   return s;
 }
 
 /// Where such a limit ends the work depends on the machine.
 bool endedByMachine(const Model& model) {
-  return std::any_of(model.messages().begin(), model.messages().end(), [](const auto& m) {
+  return std::any_of(model.diagnostics().begin(), model.diagnostics().end(), [](const auto& m) {
     return m.code == "out-of-time" || m.code == "out-of-memory";
   });
 }
 
 /// Texts, places and order of messages.
-std::string textOf(const gable::Messages& messages) {
+std::string textOf(const gable::DiagnosticList& messages) {
   std::string out;
-  for (const gable::Message& m : messages) {
-    out += m.code + " " + std::to_string(m.line) + ":" + std::to_string(m.column) + " " + m.text +
-           " | " + m.hint + " | " + m.shapePath + "\n";
+  for (const gable::Diagnostic& m : messages) {
+    const gable::TextRange at = m.range.value_or(gable::TextRange{});
+    out += m.code + " " + std::to_string(at.line) + ":" + std::to_string(at.column) + " " +
+           m.message + " | " + m.hint + " | " + m.shapePath + "\n";
   }
   return out;
 }
@@ -146,8 +147,8 @@ class Trial {
 
  private:
   static std::string refused(const Rules& rules) {
-    for (const gable::Message& m : rules.messages()) {
-      if (m.level == gable::Level::Error) return "refused " + m.code + " " + m.text;
+    for (const gable::Diagnostic& m : rules.diagnostics()) {
+      if (m.isError()) return "refused " + m.code + " " + m.message;
     }
     return "failed refused without an error";
   }
@@ -197,7 +198,7 @@ class Trial {
       formatted(dump);
       converted(dump);
     }
-    threads(rules, dump, textOf(one.messages()));
+    threads(rules, dump, textOf(one.diagnostics()));
   }
 
   void threads(const Rules& rules, const std::string& dump, const std::string& messages) {
@@ -205,7 +206,7 @@ class Trial {
       const Model more = derived(rules, jobs, true);
       if (endedByMachine(more)) return void(limited_ = true);
       if (more.dump() != dump) fail("threads model" + difference(dump, more.dump()));
-      const std::string said = textOf(more.messages());
+      const std::string said = textOf(more.diagnostics());
       if (said != messages) fail("threads messages" + difference(messages, said));
       if (written(more, "a.glb") != glb_) fail("threads file");
     }
@@ -227,7 +228,7 @@ class Trial {
   void formatted(const std::string& dump) {
     beginStep("formatting");
     const gable::Formatted f = gable::format(text_, path_);
-    if (gable::hasErrors(f.messages)) return fail("format: errors");
+    if (gable::hasErrors(f.diagnostics)) return fail("format: errors");
     const std::string again = gable::format(f.text, path_).text;
     if (again != f.text) return fail("format: unstable" + difference(f.text, again));
     if (f.text != text_) derivedFrom(f.text, path_, dump, "format");
@@ -237,7 +238,7 @@ class Trial {
     if (path_.ends_with(".cga")) return;
     beginStep("converting");
     const gable::Converted c = gable::convert(text_, path_);
-    if (gable::hasErrors(c.messages)) return fail("convert: errors");
+    if (gable::hasErrors(c.diagnostics)) return fail("convert: errors");
     derivedFrom(c.text, path_ + ".cga", dump, "convert");
   }
 

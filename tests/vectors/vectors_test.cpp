@@ -15,6 +15,7 @@
 #include "base/json.h"
 #include "engine/impl.h"
 #include "geom/mesh/face_triangles.h"
+#include "json/answers.h"
 #include "scene/flatten.h"
 
 namespace gable {
@@ -83,7 +84,7 @@ class Vector : public testing::Test {
 
   Model run(const JsonValue& v, const std::string& style = "") {
     const Rules rules = Rules::load(dataPath(v["rule"].text()), {"", "", style});
-    EXPECT_TRUE(rules.ok()) << messagesJson(rules.messages());
+    EXPECT_TRUE(rules.ok()) << render(rules.diagnostics());
     shapes_ = std::make_unique<Shapes>(shapesOf(v["shape"]));
     DeriveSettings settings;
     settings.startRule = v["start"].text();
@@ -92,7 +93,7 @@ class Vector : public testing::Test {
       settings.attributes.emplace_back(name, textOf(value));
     }
     Model model = derive(rules, *shapes_, settings);
-    EXPECT_TRUE(model.ok()) << messagesJson(model.messages());
+    EXPECT_TRUE(model.ok()) << render(model.diagnostics());
     return model;
   }
 
@@ -149,7 +150,7 @@ TEST_F(Vector, attributesAsEvaluated) {
   for (const char* id :
        {"extrusion-default-attributes", "array-default-attrs", "array2d-default-attrs"}) {
     const JsonValue& v = vector(id);
-    Result<JsonValue> made = parseJson(run(v).attributesJson(0));
+    Result<JsonValue> made = parseJson(valuesJson(run(v).attributes(0)));
     ASSERT_TRUE(made.ok());
     const auto& expected = v["expect"]["attributes"].members();
     EXPECT_EQ(made->members().size(), expected.size()) << id;
@@ -172,7 +173,7 @@ TEST_F(Vector, printsOfHolesAndArrays) {
 TEST_F(Vector, aHoleNamedTwiceIsOneError) {
   const Shapes shapes = shapesOf(vector("holes-invalid")["shape"]);
   size_t errors = 0;
-  for (const Message& m : shapes.messages()) errors += m.level == Level::Error ? 1 : 0;
+  for (const Diagnostic& m : shapes.diagnostics()) errors += m.isError() ? 1 : 0;
   EXPECT_EQ(errors, 1u);
 }
 
@@ -253,7 +254,7 @@ class Reference : public testing::Test {
   }
   static Model run(const std::string& rules, double lot = 10) {
     const Rules r = Rules::parse(rules, "vector.cga");
-    EXPECT_TRUE(r.ok()) << messagesJson(r.messages()) << rules;
+    EXPECT_TRUE(r.ok()) << render(r.diagnostics()) << rules;
     return derive(r, Shapes::lot(lot, lot), {});
   }
   JsonValue doc_;

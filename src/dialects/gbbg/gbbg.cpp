@@ -86,7 +86,7 @@ class Expander {
     const uint32_t number = sources.add(file->path, file->text);
     Diagnostics inner;
     out = gbbg::parse(sources.text(number), number, inner);
-    for (const Diagnostic& d : inner.all()) {
+    for (const Diagnostics::Entry& d : inner.all()) {
       const LineColumn at = sources.locate(number, d.span.begin);
       diagnostics_.add({d.severity,
                         d.code,

@@ -29,7 +29,7 @@ struct Read {
   std::string problems() {
     diagnostics.sortByPlace();
     std::string out;
-    for (const Diagnostic& d : diagnostics.all()) {
+    for (const Diagnostics::Entry& d : diagnostics.all()) {
       if (d.span.valid()) {
         const LineColumn at = sources.locate(d.span.file, d.span.begin);
         out += std::to_string(at.line) + ":" + std::to_string(at.column) + " ";

@@ -171,7 +171,7 @@ std::vector<RegionPiece> cellOf(const RegionPiece& whole, size_t i, std::span<co
   return cell;
 }
 
-// A tenth of the outline, or 6 metres: between two bends of a border.
+// Between two bends of a border: 6 m or a twentieth of the outline, at least twice their reach.
 double bendLength(const Polygon& p, double jitter) {
   return std::max(2 * jitter, std::min(6.0, 0.05 * perimeter(p)));
 }

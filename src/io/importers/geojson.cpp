@@ -107,7 +107,7 @@ void GeoJsonReader::complain(Severity severity, const char* code, const std::str
                              const std::string& hint) {
   // A file that is wrong throughout is told so once, not a million times.
   if (++messages_ > kMostMessages) return;
-  Diagnostic d;
+  Diagnostics::Entry d;
   d.severity = severity;
   d.code = code;
   d.message = place() + " of '" + path_ + "': " + what;
@@ -435,7 +435,7 @@ Result<ShapeFile> GeoJsonReader::read(std::string_view text) {
                                  " more messages of this kind");
   }
   if (otherGeometries_ > 0) {
-    Diagnostic d;
+    Diagnostics::Entry d;
     d.severity = Severity::Note;
     d.code = "geojson-no-polygon";
     d.message = std::to_string(otherGeometries_) + " geometries of '" + path_ +

@@ -42,7 +42,7 @@ struct Analysed {
 
   std::string problems() const {
     std::string out;
-    for (const Diagnostic& d : diagnostics.all()) {
+    for (const Diagnostics::Entry& d : diagnostics.all()) {
       if (d.span.valid()) {
         const LineColumn at = sources.locate(d.span.file, d.span.begin);
         if (d.span.file > 0) out += sources.path(d.span.file) + ":";
@@ -54,7 +54,7 @@ struct Analysed {
   }
   std::string messages() const {
     std::string out;
-    for (const Diagnostic& d : diagnostics.all()) out += format(d, sources);
+    for (const Diagnostics::Entry& d : diagnostics.all()) out += format(d, sources);
     return out;
   }
   /// The main file with all remedies carried out that are edits, from its end on.

@@ -118,7 +118,7 @@ TEST(ParkHostile, PartitionsEndWithAllAreaOrAWord) {
       EXPECT_NEAR(m.whole, h.area, 1e-5 * h.area + 1e-4 * size + stepAlong(h))
           << h.name << ": " << op;
     } else {
-      EXPECT_TRUE(m.whole > 0 || !m.messages.empty()) << h.name << ": " << op;
+      EXPECT_TRUE(m.whole > 0 || !m.diagnostics.empty()) << h.name << ": " << op;
     }
   });
 }
@@ -143,7 +143,7 @@ TEST(ParkHostile, OtherOperationsLeaveAShapeOrAWord) {
   };
   forEachHard(operations, [](const Hard& h, double, const std::string& op) {
     const Made m = rules("Lot --> " + op + " A.", h.shapes);
-    EXPECT_TRUE(m.count.count("A") || !m.messages.empty()) << h.name << ": " << op;
+    EXPECT_TRUE(m.count.count("A") || !m.diagnostics.empty()) << h.name << ": " << op;
     const auto left = m.area.find("A");
     if (left != m.area.end() && h.area > 0) {
       EXPECT_LE(left->second, h.area * (1 + 1e-6) + 1e-6 + stepAlong(h)) << h.name << ": " << op;
@@ -199,10 +199,10 @@ bool overlap(const Ring& a, const Ring& b) {
 // The plan of the garden: the grounds make up the plot, and no thing stands on another.
 TEST(ParkHostile, ManyGardensHaveNothingOnAnythingElse) {
   const std::string folder = std::string(GABLE_SOURCE_DIR) + "/examples/";
-  LoadOptions options;
+  LoadSettings options;
   options.project = folder;
   const Rules rules = Rules::load(folder + "gardens/gardens.cga", options);
-  for (const Message& x : rules.messages()) ADD_FAILURE() << x.text;
+  for (const Diagnostic& x : rules.diagnostics()) ADD_FAILURE() << x.message;
   const Shapes plot = Shapes::load(folder + "gardens/buildings.geojson");
   const char* asked = std::getenv("GABLE_SEEDS");
   const int many = asked && *asked ? std::atoi(asked) : 6;

@@ -315,9 +315,9 @@ TEST(ParkNotation, ConvertedTextMakesTheSameModel) {
       "R -> Circle(50, free) Square(2) else { A } Place(corners) { P }"};
   for (const char* text : grammars) {
     const Rules park = Rules::parse(text, "a.park");
-    ASSERT_FALSE(hasErrors(park.messages())) << text;
+    ASSERT_FALSE(hasErrors(park.diagnostics())) << text;
     const Rules cga = Rules::parse(convert(text, "a.park").text, "a.cga");
-    ASSERT_FALSE(hasErrors(cga.messages())) << convert(text, "a.park").text;
+    ASSERT_FALSE(hasErrors(cga.diagnostics())) << convert(text, "a.park").text;
     const Shapes lot = Shapes::lot(40, 40);
     EXPECT_EQ(derive(park, lot, {}).dump(), derive(cga, lot, {}).dump()) << text;
   }
@@ -401,12 +401,12 @@ TEST(ParkNotation, HedgesHaveCrossSections) {
       "R -> Hedges(0.5) Lawn\nHedges(w) -> Sweep(Around(w * 2), width=w, height=1.2, profile=dome) "
       "{ Hedge }\nfun Around(d) -> Parametrise(_ _ [0, 0.5]) { Contract(d) }",
       kLot);
-  for (const Message& x : m.messages) ADD_FAILURE() << x.text;
+  for (const Diagnostic& x : m.diagnostics) ADD_FAILURE() << x.message;
   EXPECT_EQ(m.count.at("Hedge"), 1);
   EXPECT_TRUE(m.closed.at("Hedge"));
   EXPECT_TRUE(run("R -> Sweep(OUTER, profile=wave) { Hedge }", kLot).has("unknown-selector"));
   EXPECT_TRUE(
-      run("R -> Sweep(OUTER, profile=(0, 0) (0, 1) (1, 0)) { Hedge }", kLot).messages.empty());
+      run("R -> Sweep(OUTER, profile=(0, 0) (0, 1) (1, 0)) { Hedge }", kLot).diagnostics.empty());
   EXPECT_TRUE(run("R -> Sweep(OUTER, width=0) { L }", kLot).count.count("L"));
 }
 
@@ -417,7 +417,7 @@ TEST(ParkNotation, LinesOfRangesAndSelections) {
       run("R -> Sweep(Sides(outer & W, 2), width=1) { Strip }\nStrip -> GREEN\n"
           "fun Sides(sel, d) -> Parametrise([] [0.25, 0.75], sel) { Contract(d) }",
           kLot);
-  for (const Message& x : f.messages) ADD_FAILURE() << x.text;
+  for (const Diagnostic& x : f.diagnostics) ADD_FAILURE() << x.message;
   EXPECT_NEAR(f.area.at("Strip"), 8 + 20, 1);
   EXPECT_EQ(f.count.at("Strip"), 2);
 }

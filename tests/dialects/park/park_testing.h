@@ -30,13 +30,13 @@ struct Made {
   std::map<std::string, double> area;
   std::map<std::string, std::vector<Vec3>> places;
   std::map<std::string, bool> closed;
-  Messages messages;
+  DiagnosticList diagnostics;
   /// Of the boxes' diagonals: the length of straight lines.
   std::map<std::string, double> length;
   double whole = 0;
 
   bool has(const std::string& code) const {
-    for (const Message& m : messages) {
+    for (const Diagnostic& m : diagnostics) {
       if (m.code == code) return true;
     }
     return false;
@@ -45,8 +45,9 @@ struct Made {
 
 inline Made collect(const Rules& rules, const Model& model) {
   Made out;
-  out.messages = rules.messages();
-  out.messages.insert(out.messages.end(), model.messages().begin(), model.messages().end());
+  out.diagnostics = rules.diagnostics();
+  out.diagnostics.insert(out.diagnostics.end(), model.diagnostics().begin(),
+                         model.diagnostics().end());
   const Scene& scene = model.impl().result.scene;
   forEachLeaf(scene, [&](const Leaf& leaf, const Frame& world) {
     const std::string symbol = scene.names[leaf.name];
@@ -98,7 +99,7 @@ inline double selectedLength(const std::string& selection, const Shapes& shapes,
   const Made m = rules("Lot --> " + before + "\nR --> parametrise(" +
                            lang::RegionTexts().lines(selection) + ") { Line. } X.",
                        shapes);
-  for (const Message& x : m.messages) ADD_FAILURE() << selection << ": " << x.text;
+  for (const Diagnostic& x : m.diagnostics) ADD_FAILURE() << selection << ": " << x.message;
   return m.length.count("Line") ? m.length.at("Line") : 0;
 }
 

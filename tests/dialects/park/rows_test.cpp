@@ -325,11 +325,11 @@ TEST(ParkRows, P20ModelsAreLoaded) {
   write("models.park",
         "R -> Place((0.25, 0.5)) { Tree } Place((0.75, 0.5)) { Lamp }\n"
         "Tree -> loadModel(\"tree\")\nLamp -> loadModel(\"lamp\")\n");
-  LoadOptions settings;
+  LoadSettings settings;
   settings.project = folder;
   const Rules rules = Rules::load(folder + "models.park", settings);
   const Made loaded = collect(rules, derive(rules, kLot, {}));
-  for (const Message& x : loaded.messages) ADD_FAILURE() << x.text;
+  for (const Diagnostic& x : loaded.diagnostics) ADD_FAILURE() << x.message;
   EXPECT_NEAR(loaded.area.at("Tree"), 0.5, 1e-6);
   EXPECT_NEAR(loaded.area.at("Lamp"), 2, 1e-6);
   EXPECT_NEAR(loaded.places.at("Lamp")[0].z, -10, 1e-6);
@@ -735,7 +735,7 @@ TEST(ParkRows, P41VolumesAreClosed) {
   EXPECT_GE(built.count.at("Lamp"), 8);
   // In a park on a plot of the real world, all that is built on the ground is closed.
   const std::string folder = std::string(GABLE_SOURCE_DIR) + "/examples/";
-  LoadOptions settings;
+  LoadSettings settings;
   settings.project = folder;
   const Rules rules = Rules::load(folder + "gardens/gardens.cga", settings);
   const Made park =
@@ -757,9 +757,9 @@ TEST(ParkRows, P42ConvertedTextMakesTheSameModel) {
   texts.push_back("Park -> grid(2, 1) { SubPark1 }\nSubPark1 -> grid(3,2) { ParkRegion1 }");
   for (const std::string& text : texts) {
     const Rules park = Rules::parse(text, "a.park");
-    ASSERT_FALSE(hasErrors(park.messages())) << text;
+    ASSERT_FALSE(hasErrors(park.diagnostics())) << text;
     const Rules cga = Rules::parse(convert(text, "a.park").text, "a.cga");
-    ASSERT_FALSE(hasErrors(cga.messages())) << text;
+    ASSERT_FALSE(hasErrors(cga.diagnostics())) << text;
     const Shapes lot = Shapes::lot(60, 50);
     EXPECT_EQ(derive(park, lot, {}).dump(), derive(cga, lot, {}).dump()) << text;
   }

@@ -27,7 +27,7 @@ Drawn drawn(Rules rules, const DrawOptions& options) {
   DeriveSettings settings;
   settings.seed = options.seed;
   settings.sharing = options.sharing;
-  settings.budget = options.budget;
+  settings.limits = options.limits;
   settings.jobs = 1;
   Drawn out{derive(rules, Shapes::lot(20, 20), settings), rules, {}, {}};
   const Scene& scene = out.model.impl().result.scene;
@@ -56,22 +56,23 @@ Drawn drawn(Rules rules, const DrawOptions& options) {
 
 }  // namespace
 
-Messages Drawn::messages() const {
-  Messages all = rules.messages();
-  all.insert(all.end(), model.messages().begin(), model.messages().end());
+DiagnosticList Drawn::messages() const {
+  DiagnosticList all = rules.diagnostics();
+  all.insert(all.end(), model.diagnostics().begin(), model.diagnostics().end());
   return all;
 }
 
 std::vector<std::string> Drawn::codes() const {
   std::vector<std::string> out;
-  for (const Message& m : messages()) {
-    out.push_back(m.code + " " + std::to_string(m.line) + ":" + std::to_string(m.column));
+  for (const Diagnostic& m : messages()) {
+    const TextRange at = m.range.value_or(TextRange{});
+    out.push_back(m.code + " " + std::to_string(at.line) + ":" + std::to_string(at.column));
   }
   return out;
 }
 
 bool Drawn::has(const std::string& code) const {
-  for (const Message& m : messages()) {
+  for (const Diagnostic& m : messages()) {
     if (m.code == code) return true;
   }
   return false;

@@ -38,7 +38,7 @@ struct Drawn {
   Box3 bounds;
 
   /// All messages of reading and deriving.
-  Messages messages() const;
+  DiagnosticList messages() const;
   /// "code line:column", in order.
   std::vector<std::string> codes() const;
   bool has(const std::string& code) const;
@@ -49,7 +49,7 @@ struct Drawn {
 struct DrawOptions {
   double seed = 1;
   bool sharing = true;
-  Budget budget;
+  Limits limits;
   /// For the surfaces of each body: slower.
   bool surfaces = false;
 };

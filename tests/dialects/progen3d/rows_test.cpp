@@ -551,7 +551,7 @@ TEST(Row, R24_endlessRulesEndAndKeepWhatIsDrawn) {
   }
   doubling += "A1000 -> T ( 1 0 0 )\n";
   DrawOptions small;
-  small.budget.shapes = 100000;
+  small.limits.shapes = 100000;
   EXPECT_TRUE(draw(doubling, small).has("too-many-turns"));
   const Drawn turns = draw("X 2000000000 -> I ( Cube 1 ) T ( 1 0 0 )\n", small);
   EXPECT_TRUE(turns.has("too-many-shapes") || turns.has("too-many-turns"));
@@ -564,11 +564,11 @@ TEST(Row, R24_endlessRulesEndAndKeepWhatIsDrawn) {
 TEST(Row, R24_placesOfMessagesAreTold) {
   const Drawn d = draw("X ->\n  I ( Cube ) X\n");
   bool found = false;
-  for (const Message& m : d.messages()) {
+  for (const Diagnostic& m : d.messages()) {
     if (m.code != "recursion-too-deep") continue;
     found = true;
-    EXPECT_EQ(m.line, 2u);
-    EXPECT_EQ(m.column, 14u);
+    EXPECT_EQ(m.range->line, 2u);
+    EXPECT_EQ(m.range->column, 14u);
   }
   EXPECT_TRUE(found);
 }
@@ -591,8 +591,8 @@ void expectSameBodies(const std::string& grammar, const std::string& name) {
   const Formatted formatted = format(converted.text, "converted.cga");
   EXPECT_EQ(formatted.text, converted.text) << name;
   const Rules rules = Rules::parse(converted.text, "converted.cga");
-  for (const Message& m : rules.messages()) {
-    ADD_FAILURE() << name << ": " << m.pretty;
+  for (const Diagnostic& m : rules.diagnostics()) {
+    ADD_FAILURE() << name << ": " << m.rendered;
   }
 }
 
@@ -728,7 +728,7 @@ TEST(Mistakes, settingWhatIsDrawnAnewIsRefused) {
     DeriveSettings settings;
     settings.attributes = {{name, "40"}};
     const Model model = derive(rules, Shapes::lot(10, 10), settings);
-    return model.messages().empty() ? std::string() : model.messages()[0].code;
+    return model.diagnostics().empty() ? std::string() : model.diagnostics()[0].code;
   };
   EXPECT_EQ(codeOf("h"), "not-settable");
   EXPECT_EQ(codeOf("w"), "");
@@ -755,7 +755,7 @@ TEST(Mistakes, theWebLanguageIsRefusedByName) {
     const Drawn d = draw(text);
     ASSERT_FALSE(d.rules.ok()) << text;
     EXPECT_EQ(d.messages()[0].code, "web-language");
-    EXPECT_NE(d.messages()[0].text.find("web language"), std::string::npos);
+    EXPECT_NE(d.messages()[0].message.find("web language"), std::string::npos);
   }
 }
 

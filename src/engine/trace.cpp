@@ -22,7 +22,7 @@ std::vector<uint64_t> firstLeafOfRoots(const Scene& scene) {
   return first;
 }
 
-void setFrame(TreeNode& out, const TraceNode& n) {
+void setFrame(DerivationTrace::Node& out, const TraceNode& n) {
   size_t i = 0;
   for (const Vec3& v : {n.scope.origin, n.scope.x, n.scope.y, n.scope.z}) {
     for (const double d : {v.x, v.y, v.z}) out.frame[i++] = d;
@@ -30,15 +30,11 @@ void setFrame(TreeNode& out, const TraceNode& n) {
   out.size = {n.size.x, n.size.y, n.size.z};
 }
 
-void setPlace(TreeNode& out, const Span& span, const Sources& sources) {
-  if (!span.valid()) return;
+std::optional<DerivationTrace::Place> placeOf(const Span& span, const Sources& sources) {
+  if (!span.valid()) return std::nullopt;
   const LineColumn from = sources.locate(span.file, span.begin);
   const LineColumn to = sources.locate(span.file, span.end);
-  out.file = span.file;
-  out.line = from.line;
-  out.column = from.column;
-  out.endLine = to.line;
-  out.endColumn = to.column;
+  return DerivationTrace::Place{span.file, from.line, from.column, to.line, to.column};
 }
 
 std::string_view textOf(const Span& span, const Sources& sources) {
@@ -49,32 +45,28 @@ std::string_view textOf(const Span& span, const Sources& sources) {
              : std::string_view();
 }
 
-TreeNote noteOf(const TraceNote& n, const Sources& sources) {
-  TreeNote out;
-  out.kind = static_cast<TreeNote::Kind>(n.kind);
+DerivationTrace::Note noteOf(const TraceNote& n, const Sources& sources) {
+  DerivationTrace::Note out;
+  out.kind = static_cast<DerivationTrace::Note::Kind>(n.kind);
   out.node = n.node;
   out.name = n.value.name;
   if (n.kind == TraceNote::Kind::Draw) {
     const std::string_view text = textOf(n.span, sources);
     if (!text.empty()) out.name = text;
   }
-  JsonWriter json(out.value);
-  writeAttribute(json, n.value);
-  if (n.span.valid()) {
-    out.file = n.span.file;
-    out.line = sources.locate(n.span.file, n.span.begin).line;
+  out.value = ruleValueOf(n.value);
+  out.place = placeOf(n.span, sources);
+  if (n.kind == TraceNote::Kind::Choice) {
+    out.choice = DerivationTrace::Note::Choice{n.draw, n.chance, n.chosen, n.choices};
   }
-  out.draw = n.draw;
-  out.chance = n.chance;
-  out.chosen = n.chosen;
-  out.choices = n.choices;
   return out;
 }
 
 }  // namespace
 
-Tree treeOf(const DeriveResult& result, const Program& program, const Sources& sources) {
-  Tree tree;
+DerivationTrace traceOf(const DeriveResult& result, const Program& program,
+                        const Sources& sources) {
+  DerivationTrace tree;
   for (uint32_t f = 0; f < sources.size(); ++f) tree.files.emplace_back(sources.path(f));
   const std::vector<uint64_t> first = firstLeafOfRoots(result.scene);
   std::vector<std::pair<StringId, uint32_t>> named;
@@ -83,38 +75,41 @@ Tree treeOf(const DeriveResult& result, const Program& program, const Sources& s
   named.erase(std::unique(named.begin(), named.end()), named.end());
   for (const auto& [id, unused] : named) tree.names.emplace_back(program.pool->text(id));
   for (const TraceNode& n : result.trace) {
-    TreeNode out;
-    out.parent = n.parent;
+    DerivationTrace::Node out;
+    if (n.parent != TraceNode::kNone) out.parent = n.parent;
     out.shape = n.initialShape;
     const auto at = std::lower_bound(named.begin(), named.end(), std::pair{n.name, 0u});
     out.name = static_cast<uint32_t>(at - named.begin());
-    setPlace(out, n.span, sources);
+    out.place = placeOf(n.span, sources);
     setFrame(out, n);
     out.leaf = n.leaf;
     out.dropped = n.dropped;
     out.ruleCall = n.ruleCall;
-    out.firstLeaf = out.endLeaf = TreeNode::kNone;
-    const auto numberOf = [&](uint32_t index) {
+    const auto numberOf = [&](uint32_t index) -> std::optional<uint32_t> {
       const bool known = index != TraceNode::kNone && n.initialShape + 1 < first.size();
-      return known ? static_cast<uint32_t>(first[n.initialShape] + index) : TreeNode::kNone;
+      if (!known) return std::nullopt;
+      return static_cast<uint32_t>(first[n.initialShape] + index);
     };
     out.before = numberOf(n.shapeIndex);
     out.after = numberOf(n.leafIndex);
-    for (const uint32_t own : {out.before, out.after}) {
-      if (own == TreeNode::kNone) continue;
-      if (out.firstLeaf == TreeNode::kNone) out.firstLeaf = own;
-      out.endLeaf = own + 1;
+    for (const std::optional<uint32_t>& own : {out.before, out.after}) {
+      if (!own) continue;
+      if (!out.leaves) out.leaves = DerivationTrace::Leaves{*own, *own + 1};
+      out.leaves->end = *own + 1;
     }
     tree.nodes.push_back(out);
   }
   // Children stand behind their parents, so one pass from the end joins all ranges.
   for (size_t i = tree.nodes.size(); i-- > 0;) {
-    const TreeNode& n = tree.nodes[i];
-    if (n.parent == TreeNode::kNone || n.firstLeaf == TreeNode::kNone) continue;
-    TreeNode& above = tree.nodes[n.parent];
-    const bool none = above.firstLeaf == TreeNode::kNone;
-    above.firstLeaf = none ? n.firstLeaf : std::min(above.firstLeaf, n.firstLeaf);
-    above.endLeaf = none ? n.endLeaf : std::max(above.endLeaf, n.endLeaf);
+    const DerivationTrace::Node& n = tree.nodes[i];
+    if (!n.parent || !n.leaves) continue;
+    std::optional<DerivationTrace::Leaves>& above = tree.nodes[*n.parent].leaves;
+    if (!above) {
+      above = n.leaves;
+    } else {
+      above->first = std::min(above->first, n.leaves->first);
+      above->end = std::max(above->end, n.leaves->end);
+    }
   }
   for (const TraceNote& n : result.notes) tree.notes.push_back(noteOf(n, sources));
   return tree;

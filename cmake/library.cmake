@@ -1,0 +1,58 @@
+# The library that other programs link, and what `cmake --install` puts in place. The layers are static
+# libraries of their own for tests; libgable.so and libgable.a are made of their objects.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(objects $<TARGET_OBJECTS:gable_polyclipping>)
+foreach(layer ${GABLE_LAYERS})
+  get_target_property(type gable_${layer} TYPE)
+  if(type STREQUAL "STATIC_LIBRARY")
+    list(APPEND objects $<TARGET_OBJECTS:gable_${layer}>)
+  endif()
+endforeach()
+
+# What the layers stand on. A package that links libgable.a has to name them again.
+find_package(PNG REQUIRED)
+find_package(JPEG REQUIRED)
+set(foreign PNG::PNG JPEG::JPEG Threads::Threads)
+set(foreign_flags "-lpng -ljpeg -pthread")
+if(EMBREE_LIBRARY)
+  list(APPEND foreign $<BUILD_INTERFACE:${EMBREE_LIBRARY}> $<INSTALL_INTERFACE:embree3>)
+  string(PREPEND foreign_flags "-lembree3 ")
+endif()
+
+foreach(kind shared static)
+  string(TOUPPER ${kind} upper)
+  add_library(gable_${kind} ${upper} ${objects})
+  target_link_libraries(gable_${kind} PRIVATE ${foreign})
+  target_include_directories(gable_${kind} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(gable_${kind} INTERFACE cxx_std_20)
+  set_target_properties(gable_${kind} PROPERTIES OUTPUT_NAME gable EXPORT_NAME ${kind} LINKER_LANGUAGE CXX)
+endforeach()
+# Before version 1 any release may change the interface.
+set_target_properties(gable_shared PROPERTIES VERSION ${PROJECT_VERSION}
+                      SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+# Nothing but the public interface can be seen from outside.
+set(exports ${PROJECT_SOURCE_DIR}/cmake/exports.map)
+target_link_options(gable_shared PRIVATE LINKER:--version-script=${exports} LINKER:--no-undefined)
+set_target_properties(gable_shared PROPERTIES LINK_DEPENDS ${exports})
+
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/gable)
+install(TARGETS gable_shared gable_static EXPORT gableTargets)
+install(EXPORT gableTargets NAMESPACE gable:: DESTINATION ${package})
+configure_package_config_file(cmake/gableConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/gableConfig.cmake
+                              INSTALL_DESTINATION ${package})
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/gableConfigVersion.cmake
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/gableConfig.cmake
+              ${CMAKE_CURRENT_BINARY_DIR}/gableConfigVersion.cmake DESTINATION ${package})
+file(RELATIVE_PATH pc_to_prefix /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
+configure_file(cmake/gable.pc.in ${CMAKE_CURRENT_BINARY_DIR}/gable.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/gable.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/gable DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+
+# The program looks for its page and its examples in ../share/gable, seen from where it lies.
+install(TARGETS gable)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/studio DESTINATION share/gable OPTIONAL)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION share/gable)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/doc/gable)

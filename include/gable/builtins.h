@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// What is built into the language: operations, functions, shape attributes and selectors with their
+// documentation.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gable {
+
+struct BuiltinTerm;
+
+struct BuiltinParameter {
+  std::string name, type, doc;
+  /// Absent: the argument has to be given.
+  std::optional<std::string> defaultText;
+  /// The words that it takes, "a|b|c"; absent: any value of the type.
+  std::optional<std::string> words;
+  /// What a selection is made of; empty for other types. The terms of a term's own parameter are
+  /// left out where they are the same again.
+  std::vector<BuiltinTerm> terms;
+  /// One term alone, without && and ||.
+  bool single = false;
+};
+
+/// A term of a selection: outer, range(from, to).
+struct BuiltinTerm {
+  std::string name, doc;
+  std::vector<BuiltinParameter> parameters;
+};
+
+struct BuiltinSignature {
+  std::vector<BuiltinParameter> parameters;
+  /// The last parameter may be given any number of times.
+  bool variadic = false;
+  /// The type of a function's value; empty for operations.
+  std::string result;
+};
+
+struct BuiltinCall {
+  std::string name, family, summary;
+  /// How an operation's block is written; empty when it has none.
+  std::string block;
+  /// The words that lines of its block may begin with in place of sizes or selectors; empty: none.
+  std::string blockWords;
+  /// A function that is written without brackets.
+  bool bare = false;
+  std::vector<BuiltinSignature> signatures;
+};
+
+struct BuiltinAttribute {
+  std::string name, type, doc;
+  bool writable = false;
+};
+
+struct BuiltinSelector {
+  std::string name, doc;
+};
+
+struct Builtins {
+  std::vector<BuiltinCall> operations, functions;
+  std::vector<BuiltinAttribute> attributes;
+  std::vector<BuiltinSelector> selectors;
+};
+
+Builtins builtins();
+
+}  // namespace gable

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// What a derivation made, or a model file that was read: counts, leaves, meshes, files, pictures.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gable/diagnostic.h"
+#include "gable/limits.h"
+#include "gable/trace.h"
+#include "gable/value.h"
+
+namespace gable {
+
+using Triple = std::array<double, 3>;
+
+struct WriteSettings {
+  /// glTF: instances as EXT_mesh_gpu_instancing instead of nodes.
+  bool gpuInstancing = false;
+};
+
+struct WriteResult {
+  bool ok = false;
+  uint64_t triangles = 0;
+  uint64_t bytes = 0;
+  DiagnosticList diagnostics;
+};
+
+/// A model file in memory.
+struct EncodeResult {
+  bool ok = false;
+  std::string bytes;
+  DiagnosticList diagnostics;
+};
+
+enum class View : uint8_t { Iso, Top, Front, Street };
+
+struct PictureSettings {
+  View view = View::Iso;
+  int width = 1600, height = 900;
+  int samples = 48;
+  /// Degrees: the elevation above the horizon, the azimuth clockwise from north.
+  struct Sun {
+    double elevation = 38, azimuth = 45;
+  };
+  /// Absent: the view's own.
+  std::optional<Sun> sun;
+  /// The colour of the ground around the model, sRGB from 0 to 1.
+  std::optional<Triple> ground;
+  /// Metres.
+  struct Camera {
+    Triple eye{}, target{};
+  };
+  /// Absent: the view's own.
+  std::optional<Camera> camera;
+  /// Horizontal angle of view in degrees; absent: the view's own.
+  std::optional<double> fieldOfView;
+  /// Threads; absent: one a processor.
+  std::optional<int> jobs;
+  /// Called from any thread.
+  std::function<void(size_t done, size_t total)> progress;
+  std::atomic<bool>* cancel = nullptr;
+};
+
+/// How a model becomes an asset that fills scopes: its volume is mapped to the unit cube.
+struct PrepareSettings {
+  /// The point of the model that becomes the origin; absent: the lower corner of its box.
+  std::optional<Triple> pivot;
+  /// Degrees about x, then y, then z, around the pivot.
+  Triple rotate{};
+  /// What fills a scope, from the pivot to +x, +y and +z; absent: the model's box.
+  std::optional<Triple> volume;
+  /// The file's up axis is z.
+  bool zUp = false;
+  /// The name of the model in the file; absent: as it is.
+  std::optional<std::string> name;
+};
+
+struct BoundingBox {
+  Triple min{}, max{};
+};
+
+/// All values that rules reported under one key.
+struct ReportSummary {
+  std::string key;
+  uint64_t count = 0;
+  struct Numbers {
+    double sum = 0, min = 0, max = 0;
+  };
+  /// Present when all values are numbers.
+  std::optional<Numbers> numbers;
+  /// Else texts and bools with how often each was reported, sorted by text.
+  std::vector<std::pair<std::string, uint64_t>> values;
+};
+
+/// Counts with instances expanded.
+struct Statistics {
+  uint64_t shapes = 0, leaves = 0, faces = 0, vertices = 0, triangles = 0;
+  uint64_t instances = 0, prototypes = 0, materials = 0;
+  /// Shapes that were taken over from DeriveSettings::before.
+  uint64_t recalled = 0;
+  /// Absent when there is no leaf.
+  std::optional<BoundingBox> bounds;
+  /// Sorted by key.
+  std::vector<ReportSummary> reports;
+};
+
+struct MaterialInfo {
+  std::string name;
+  /// "#rrggbb", sRGB.
+  std::string color;
+  double opacity = 1, roughness = 1, metallic = 0;
+  /// Absent: gives no light.
+  std::optional<std::string> emissive;
+  /// Layer ("colormap", "normalmap", ...) and path of each texture.
+  std::vector<std::pair<std::string, std::string>> textures;
+};
+
+struct LeafInfo {
+  std::string name;
+  struct Source {
+    std::string rule, file;
+    uint32_t line = 0, column = 0;
+  };
+  std::optional<Source> source;
+  uint64_t faces = 0, vertices = 0;
+  /// Of its first surface.
+  MaterialInfo material;
+  std::vector<NamedValue> attributes;
+  /// The box of its mesh in the world: an origin, three unit axes, a size.
+  std::array<double, 12> frame{};
+  Triple size{};
+  /// The shared parts that it stands in, from the initial shape down, with their leaves.
+  struct Part {
+    std::string name;
+    uint64_t firstLeaf = 0, endLeaf = 0;
+  };
+  std::vector<Part> parts;
+};
+
+/// Triangles for a renderer, in the mesh's own frame. Leaves that share a mesh differ in their
+/// place alone.
+struct TriangleMesh {
+  /// Three numbers a vertex; uvs two, or none at all.
+  std::vector<double> positions;
+  std::vector<float> normals, uvs;
+  /// Three vertices a triangle, counter-clockwise from outside.
+  std::vector<uint32_t> triangles;
+  /// Triangles of one material slot lie together.
+  struct Part {
+    uint32_t slot = 0;
+    uint32_t firstTriangle = 0, triangleCount = 0;
+  };
+  std::vector<Part> parts;
+};
+
+/// A leaf in the world: where its mesh stands and what it is made of.
+struct PlacedMesh {
+  /// Index into ModelGeometry::meshes, ModelGeometry::names.
+  uint32_t mesh = 0, name = 0;
+  /// A point p of the mesh lies at origin + x p.x + y p.y + z p.z: twelve numbers, origin, x, y, z.
+  /// A transform may mirror.
+  std::array<double, 12> transform{};
+  /// Indices into ModelGeometry::materials by slot; a slot beyond the end has the first.
+  std::vector<uint32_t> materials;
+};
+
+struct ModelGeometry {
+  std::vector<TriangleMesh> meshes;
+  std::vector<MaterialInfo> materials;
+  std::vector<std::string> names;
+  /// In path order, instances expanded.
+  std::vector<PlacedMesh> leaves;
+};
+
+class Model {
+ public:
+  /// Reads .obj, .gltf or .glb as it is, for pictures.
+  static Model load(const std::string& path);
+  /// Of a model that was read: the same as an asset, for i(.., unitCube) and post-process tables.
+  Model prepared(const PrepareSettings& settings) const;
+  /// Of a model that was read; absent when it is empty.
+  std::optional<BoundingBox> bounds() const;
+
+  bool ok() const;
+  /// False when a model file could not be read.
+  bool found() const;
+  End end() const;
+  const DiagnosticList& diagnostics() const;
+  double deriveSeconds() const;
+  Statistics statistics() const;
+  /// The evaluated attributes of an initial shape.
+  std::vector<NamedValue> attributes(size_t shape) const;
+  const std::vector<std::string>& prints() const;
+  /// A readable list of the leaves, the same for any number of jobs.
+  std::string dump() const;
+  /// The derivation tree; empty unless it was asked for.
+  DerivationTrace trace() const;
+  /// Leaves, instances expanded; the largest number when there are more.
+  uint64_t leafCount() const;
+  /// A leaf by its number in path order.
+  std::optional<LeafInfo> leaf(uint64_t number) const;
+  /// Meshes, materials and the places of the first leaves, at most `mostLeaves`.
+  ModelGeometry geometry(uint64_t mostLeaves = 1u << 24) const;
+  /// The model for a graphics card: batches of instances and of merged triangles; the bytes are
+  /// described in docs/dev/studio-protocol.md.
+  std::string drawList() const;
+  /// The bytes of a texture by the path that a material names.
+  std::optional<std::string> texture(const std::string& path) const;
+  /// By extension: .glb .gltf .obj .ply .stl, and .png for a picture with default settings.
+  WriteResult write(const std::string& path, const WriteSettings& settings = {}) const;
+  /// The bytes of a format of one file: "glb", "ply", "stl" or "png".
+  EncodeResult encode(const std::string& format, const WriteSettings& settings = {}) const;
+  WriteResult picture(const std::string& path, const PictureSettings& settings = {}) const;
+
+  struct Impl;
+  explicit Model(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+  const Impl& impl() const { return *impl_; }
+
+ private:
+  std::shared_ptr<const Impl> impl_;
+};
+
+}  // namespace gable

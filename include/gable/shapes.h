@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The initial shapes of a derivation: lots, footprints.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gable/diagnostic.h"
+
+namespace gable {
+
+class Shapes {
+ public:
+  /// A rectangle: a corner at the origin, `width` along +x, `depth` along -z, facing up.
+  static Shapes lot(double width, double depth);
+  using Ring = std::vector<std::pair<double, double>>;
+  /// A polygon in plan coordinates (x east, y north), counter-clockwise, with holes.
+  static Shapes polygon(const Ring& outer, const std::vector<Ring>& holes = {});
+  /// Faces over vertices in metres (y up). `holes` names holes by lists of face numbers: the first
+  /// is the face that has them, the others are its holes.
+  static Shapes mesh(const std::vector<std::array<double, 3>>& vertices,
+                     const std::vector<std::vector<uint32_t>>& faces,
+                     const std::vector<std::vector<uint32_t>>& holes = {});
+  /// .obj .gltf .glb .geojson .json, by extension.
+  static Shapes load(const std::string& path);
+  /// The same for a file's content in memory; `name` gives the extension.
+  static Shapes parse(const std::string& content, const std::string& name);
+
+  /// The same with footprints cut out of larger ones that they lie in or overlap, so that buildings
+  /// in courts do not stand in their neighbours.
+  Shapes withNestedCut() const;
+
+  /// Some of the shapes, by index; their draws stay those that they have among all. Numbers that
+  /// name no shape are left out.
+  Shapes only(const std::vector<size_t>& indices) const;
+
+  /// A shape in plan: the outer ring of its largest face, its name, the area of its faces.
+  struct Outline {
+    std::string name;
+    Ring ring;
+    double area = 0;
+  };
+  Outline outline(size_t shape) const;
+
+  size_t size() const;
+  bool ok() const;
+  /// False when the file itself could not be read.
+  bool found() const;
+  const DiagnosticList& diagnostics() const;
+
+  struct Impl;
+  explicit Shapes(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+  const Impl& impl() const { return *impl_; }
+
+ private:
+  std::shared_ptr<const Impl> impl_;
+};
+
+}  // namespace gable

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The catalogue as plain data.
+
+#include "builtins/catalogue.h"
+#include "engine/guard.h"
+#include "gable/gable.h"
+
+namespace gable {
+
+namespace {
+
+const char* paramTypeName(ParamType t) {
+  switch (t) {
+    case ParamType::Float: return "float";
+    case ParamType::Bool: return "bool";
+    case ParamType::String: return "string";
+    case ParamType::Selector: return "selector";
+    case ParamType::FloatArray: return "float[]";
+    case ParamType::BoolArray: return "bool[]";
+    case ParamType::StringArray: return "string[]";
+    case ParamType::Size: return "size";
+    case ParamType::FloatingSize: return "floating size";
+    case ParamType::Drawn: return "drawn";
+    case ParamType::DrawnList: return "drawn[]";
+    case ParamType::Selection: return "selection";
+    case ParamType::Any: break;
+  }
+  return "any";
+}
+
+const char* blockName(const OpSpec& op) {
+  switch (op.block) {
+    case BlockKind::None: return "";
+    case BlockKind::Split: return "{ size : operations | ... }";
+    case BlockKind::Selectors: return "{ selector : operations | ... }";
+    case BlockKind::Operations:
+      return op.blockWords ? "{ operations | otherwise : operations }" : "{ operations }";
+    case BlockKind::Operands: break;
+  }
+  return "{ A | B }";
+}
+
+BuiltinParameter parameterOf(const ParamSpec& p) {
+  BuiltinParameter out;
+  out.name = p.name;
+  out.type = paramTypeName(p.type);
+  out.doc = p.doc;
+  if (p.defaultText) out.defaultText = p.defaultText;
+  if (p.words) out.words = p.words;
+  return out;
+}
+
+void addTerms(BuiltinParameter& out, const ParamSpec& param) {
+  out.single = !param.terms.empty() && param.single;
+  for (const TermSpec& t : param.terms) {
+    BuiltinTerm term{t.name, t.doc, {}};
+    for (size_t i = 0; i < t.paramCount; ++i) {
+      const ParamSpec& p = t.params[i];
+      BuiltinParameter inner = parameterOf(p);
+      if (p.terms.data() != param.terms.data()) addTerms(inner, p);
+      term.parameters.push_back(std::move(inner));
+    }
+    out.terms.push_back(std::move(term));
+  }
+}
+
+std::vector<BuiltinSignature> signaturesOf(std::span<const Signature> signatures, bool results) {
+  std::vector<BuiltinSignature> out;
+  for (const Signature& s : signatures) {
+    BuiltinSignature signature;
+    for (const ParamSpec& p : s.params) {
+      BuiltinParameter parameter = parameterOf(p);
+      addTerms(parameter, p);
+      signature.parameters.push_back(std::move(parameter));
+    }
+    signature.variadic = s.variadic;
+    if (results) signature.result = typeName(s.result);
+    out.push_back(std::move(signature));
+  }
+  return out;
+}
+
+Builtins allBuiltins() {
+  const Catalogue& c = builtinCatalogue();
+  Builtins out;
+  for (const OpSpec* op : c.operations) {
+    BuiltinCall call{op->name, op->family, op->summary, blockName(*op), {}, false, {}};
+    if (op->blockWords) call.blockWords = op->blockWords;
+    call.signatures = signaturesOf(op->signatures, false);
+    out.operations.push_back(std::move(call));
+  }
+  for (const FunctionSpec* f : c.functions) {
+    out.functions.push_back(
+        {f->name, f->family, f->summary, {}, {}, f->bare, signaturesOf(f->signatures, true)});
+  }
+  for (const AttributeSpec* a : c.attributes) {
+    out.attributes.push_back({a->name, typeName(a->type), a->doc, a->set != nullptr});
+  }
+  for (const SelectorSpec& s : c.selectors) out.selectors.push_back({s.name, s.doc});
+  return out;
+}
+
+}  // namespace
+
+Builtins builtins() { return guardedValue<Builtins>(allBuiltins); }
+
+}  // namespace gable

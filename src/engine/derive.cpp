@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// From rules and shapes to a model.
+
+#include <cmath>
+#include <cstdint>
+
+#include "base/text.h"
+#include "engine/impl.h"
+
+namespace gable {
+
+namespace {
+
+// Names of properties as rules can write them: "building:levels" is building_levels.
+std::string identifier(std::string name) {
+  for (char& c : name) {
+    const bool fits = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                      c == '_' || c == '.';
+    if (!fits) c = '_';
+  }
+  return name;
+}
+
+std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, ValuePool& pool) {
+  std::vector<InitialShape> out;
+  out.reserve(shapes.footprints.size());
+  for (const ShapeFootprint& f : shapes.footprints) {
+    InitialShape s;
+    s.name = f.name;
+    s.mesh = f.mesh;
+    s.origin = f.origin;
+    s.identity = f.id;
+    s.faceTags = f.faceTags;
+    s.index = f.index;
+    for (const AttributeValue& a : f.attributes) {
+      s.attributes.emplace_back(identifier(a.name), valueOfAttribute(a, pool));
+    }
+    out.push_back(std::move(s));
+  }
+  return out;
+}
+
+// The nearest of the names, else the first few of them.
+std::string hintFor(const std::string& name, const std::vector<std::string_view>& names,
+                    const char* what) {
+  constexpr size_t kShown = 8;
+  std::string hint = didYouMean(name, names);
+  if (!hint.empty()) return hint;
+  if (names.empty()) return std::string("there are no ") + what;
+  hint = std::string("the ") + what + " are ";
+  for (size_t i = 0; i < names.size() && i < kShown; ++i) {
+    hint += (i ? ", " : "") + std::string(names[i]);
+  }
+  return hint + (names.size() > kShown ? ", ..." : "");
+}
+
+std::string placeOf(const Scene& scene, const Leaf& leaf) {
+  if (leaf.source >= scene.sources.size()) return {};
+  const SourcePlace& s = scene.sources[leaf.source];
+  std::string text = s.rule.empty() ? std::string() : ", made by rule '" + s.rule + "'";
+  if (!s.file.empty()) text += " (" + s.file + ":" + std::to_string(s.line) + ")";
+  return text;
+}
+
+// The attributes and the start rule that the caller names, by their numbers in the program.
+void bindSettings(const Rules::Impl& rules, const DeriveSettings& settings, DeriveOptions& options,
+                  DiagnosticList& wrong) {
+  const Program& program = rules.program;
+  const auto complain = [&](Error e) { wrong.push_back(diagnosticOf(e)); };
+  for (const auto& [name, text] : settings.attributes) {
+    const int32_t found = program.findAttribute(name);
+    if (found < 0) {
+      std::vector<std::string_view> names;
+      for (const AttributeCode& a : program.attributes) {
+        if (!a.constant) names.push_back(a.name);
+      }
+      complain({"unknown-attribute", "the rules have no attribute '" + name + "' to set",
+                hintFor(name, names, "attributes")});
+      continue;
+    }
+    if (rules.dialect && rules.dialect->hiddenReason &&
+        program.attributes[static_cast<size_t>(found)].hidden) {
+      complain({"not-settable", "'" + name + "' " + rules.dialect->hiddenReason,
+                "change its range in the grammar"});
+      continue;
+    }
+    Result<Value> value =
+        settingOf(name, text, program.attributes[static_cast<size_t>(found)].type, *rules.pool);
+    if (value.ok())
+      options.attributes.emplace_back(name, value.value());
+    else
+      complain(value.error());
+  }
+  std::vector<std::string_view> starts;
+  for (const RuleCode& rule : program.rules) {
+    if (rule.parameters.empty()) starts.push_back(rule.qualifiedName);
+  }
+  if (settings.startRule) {
+    options.startRule = program.findRule(*settings.startRule);
+    if (options.startRule >= 0) return;
+    complain(
+        {"unknown-start-rule",
+         "the rules have no rule '" + *settings.startRule + "' without parameters to start with",
+         hintFor(*settings.startRule, starts, "such rules")});
+  } else if (program.startRule < 0) {
+    const std::string file = program.files.empty() ? std::string() : program.files[0];
+    const bool blank = program.rules.empty();
+    complain({"no-start-rule", "'" + file + "' has no rule to start with",
+              blank ? "it holds no rule at all; the folder of examples has some to begin with"
+                    : "write a rule without parameters, or name another file"});
+  }
+}
+
+void checkWholeSeeds(const DeriveSettings& settings, DiagnosticList& wrong) {
+  std::vector<double> seeds = {settings.seed};
+  for (const auto& [index, seed] : settings.shapeSeeds) seeds.push_back(seed);
+  for (const double seed : seeds) {
+    const bool whole = seed >= INT32_MIN && seed <= INT32_MAX && seed == std::trunc(seed);
+    if (whole) continue;
+    wrong.push_back(diagnosticOf(
+        Error{"bad-seed", "the seed of a GBBG grammar is a signed whole number of 32 bits",
+              "write a whole number from -2147483648 to 2147483647"}));
+    return;
+  }
+}
+
+DeriveOptions optionsOf(const DeriveSettings& settings, const Rules::Impl& rules,
+                        DiagnosticList& wrong) {
+  DeriveOptions options;
+  options.remember = settings.remember || settings.before;
+  if (settings.before) options.before = &settings.before->impl().result;
+  options.seed = settings.seed;
+  options.sharing = settings.sharing;
+  options.trace = settings.trace;
+  options.traceShapes = settings.trace && settings.traceShapes;
+  options.jobs = settings.jobs.value_or(0);
+  options.limits = settings.limits;
+  options.progress = settings.progress;
+  options.cancel = settings.cancel;
+  options.sources = &rules.sources;
+  bindSettings(rules, settings, options, wrong);
+  if (rules.dialect && rules.dialect->wholeSeeds) checkWholeSeeds(settings, wrong);
+  return options;
+}
+
+}  // namespace
+
+void Model::Impl::makeSound() {
+  sound = soundOf(result.scene);
+  if (!sound.scene) return;
+  std::string text;
+  if (sound.leavesLeftOut > 0) {
+    text = std::to_string(sound.leavesLeftOut) +
+           (sound.leavesLeftOut == 1 ? " leaf is" : " leaves are") +
+           " left out: the place or the size is not a number, or too large";
+    if (sound.firstLeft < result.scene.leaves.size()) {
+      const Leaf& first = result.scene.leaves[sound.firstLeft];
+      text += "; the first is '" +
+              (first.name < result.scene.names.size() ? result.scene.names[first.name] : "") + "'" +
+              placeOf(result.scene, first);
+    }
+  }
+  if (sound.valuesReplaced > 0) {
+    text += text.empty() ? "" : "; ";
+    text += std::to_string(sound.valuesReplaced) +
+            " normals, texture coordinates or numbers of materials are replaced: they are not "
+            "numbers, or too large";
+  }
+  diagnostics.push_back(
+      diagnosticOf({Severity::Warning,
+                    "model-not-finite",
+                    Span{},
+                    text,
+                    "look for a division by zero, the root of a negative number, or a "
+                    "size that grows from rule to rule",
+                    {},
+                    {}},
+                   Sources{}));
+}
+
+std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
+                                     const DeriveSettings& settings) {
+  const double begin = now();
+  auto impl = std::make_shared<Model::Impl>();
+  const Rules::Impl& r = rules.impl();
+  if (!r.ok) return impl;
+  impl->project = r.project;
+  impl->rules = rules.shared();
+  DeriveOptions options = optionsOf(settings, r, impl->diagnostics);
+  if (hasErrors(impl->diagnostics)) return impl;
+  std::vector<InitialShape> initial = initialShapes(shapes.impl(), *r.pool);
+  for (const auto& [index, seed] : settings.shapeSeeds) {
+    if (index < initial.size()) initial[index].seed = seed;
+  }
+  if (!r.tables->full) impl->result = gable::derive(r.program, initial, *r.tables, options);
+  if (r.tables->full) {
+    // Tables grow with each derivation; now this one has its own. Nothing can be taken over from
+    // it.
+    impl->result = {};
+    Environment own(r.pool, *r.project);
+    options.remember = false;
+    options.before = nullptr;
+    impl->result = gable::derive(r.program, initial, own, options);
+  }
+  impl->result.scene.geoOrigin = shapes.impl().geoOrigin;
+  const DiagnosticList made = listOf(inWordsOf(r.dialect, impl->result.diagnostics), r.sources);
+  impl->diagnostics.insert(impl->diagnostics.end(), made.begin(), made.end());
+  impl->makeSound();
+  impl->seconds = now() - begin;
+  return impl;
+}
+
+}  // namespace gable

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include <algorithm>
+#include <chrono>
+#include <new>
+#include <stdexcept>
+
+#include "engine/guard.h"
+#include "engine/impl.h"
+
+namespace gable {
+
+namespace {
+
+std::optional<TextRange> rangeOf(const Span& span, const Sources& sources) {
+  if (!span.valid() || span.file >= sources.size()) return std::nullopt;
+  const LineColumn from = sources.locate(span.file, span.begin);
+  const LineColumn to = sources.locate(span.file, span.end);
+  return TextRange{sources.path(span.file), from.line, from.column, to.line, to.column};
+}
+
+}  // namespace
+
+double now() {
+  using Clock = std::chrono::steady_clock;
+  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+}
+
+bool hasErrors(const DiagnosticList& diagnostics) {
+  return std::any_of(diagnostics.begin(), diagnostics.end(),
+                     [](const Diagnostic& d) { return d.isError(); });
+}
+
+std::string render(const DiagnosticList& diagnostics) {
+  return guardedValue<std::string>([&] {
+    std::string out;
+    for (const Diagnostic& d : diagnostics) out += d.rendered;
+    return out;
+  });
+}
+
+Diagnostic diagnosticOf(const Diagnostics::Entry& e, const Sources& sources) {
+  Diagnostic d;
+  d.severity = static_cast<Diagnostic::Severity>(e.severity);
+  d.code = e.code;
+  d.message = e.message;
+  d.hint = e.hint;
+  d.shapePath = e.shapePath;
+  d.rendered = format(e, sources);
+  d.range = rangeOf(e.span, sources);
+  if (e.fix) {
+    if (auto range = rangeOf(e.fix->span, sources)) d.fix = TextEdit{*range, e.fix->text};
+  }
+  return d;
+}
+
+DiagnosticList listOf(const Diagnostics& diagnostics, const Sources& sources) {
+  DiagnosticList out;
+  for (const Diagnostics::Entry& e : diagnostics.all()) out.push_back(diagnosticOf(e, sources));
+  return out;
+}
+
+Diagnostic diagnosticOf(const Error& e) {
+  return diagnosticOf({Severity::Error, e.code, Span{}, e.message, e.hint, {}}, Sources{});
+}
+
+Diagnostic diagnosticOfException() {
+  const char* memory = "there is not enough memory for this";
+  const char* smaller = "derive fewer or smaller shapes at a time, or set a limit on memory";
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return diagnosticOf(Error{"out-of-memory", memory, smaller});
+  } catch (const std::length_error&) {
+    return diagnosticOf(Error{"out-of-memory", memory, smaller});
+  } catch (const std::exception& e) {
+    return diagnosticOf(Error{"internal-error", std::string("the library failed: ") + e.what(),
+                              "this is a mistake of the library; please report it"});
+  } catch (...) {
+    return diagnosticOf(Error{"internal-error", "the library failed",
+                              "this is a mistake of the library; please report it"});
+  }
+}
+
+}  // namespace gable

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The public types as JSON, for the command line and for servers. The forms are promises to
+// scripts: docs/reference and docs/dev/studio-protocol.md describe them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/json.h"
+#include "gable/gable.h"
+
+namespace gable {
+
+/// An array of objects.
+std::string diagnosticsJson(const DiagnosticList& diagnostics);
+
+/// What a run measured; what is absent is left out.
+struct RunFigures {
+  std::optional<double> parseSeconds, deriveSeconds, writeSeconds, totalSeconds;
+  std::optional<int64_t> peakBytes;
+  /// Of the file that was written, in place of the model's own count.
+  std::optional<uint64_t> triangles;
+};
+/// Counts, bounds, reports, prints, diagnostics and figures as one object.
+std::string statisticsJson(const Model& model, const RunFigures& figures = {});
+
+/// The trees of all initial shapes, nested.
+std::string traceJson(const DerivationTrace& trace);
+
+/// A number, a text, a bool, null, or an array of them.
+void writeValue(JsonWriter& json, const RuleValue& value);
+/// An object of name and value.
+std::string valuesJson(const std::vector<NamedValue>& values);
+
+std::string leafJson(const LeafInfo& leaf);
+
+/// All that is built in.
+std::string builtinsJson(const Builtins& builtins);
+/// The entry of one name; absent when there is none.
+std::optional<std::string> builtinJson(const Builtins& builtins, const std::string& name);
+
+}  // namespace gable

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "json/answers.h"
+
+namespace gable {
+
+namespace {
+
+void writeParameter(JsonWriter& json, const BuiltinParameter& p);
+
+void writeTerms(JsonWriter& json, const BuiltinParameter& p) {
+  json.key("terms").beginArray();
+  for (const BuiltinTerm& t : p.terms) {
+    json.beginObject().key("name").value(t.name).key("doc").value(t.doc);
+    json.key("params").beginArray();
+    for (const BuiltinParameter& inner : t.parameters) writeParameter(json, inner);
+    json.endArray().endObject();
+  }
+  json.endArray();
+  if (p.single) json.key("single").value(true);
+}
+
+void writeParameter(JsonWriter& json, const BuiltinParameter& p) {
+  json.beginObject();
+  json.key("name").value(p.name).key("type").value(p.type);
+  json.key("doc").value(p.doc);
+  if (p.defaultText) json.key("default").value(*p.defaultText);
+  if (p.words) json.key("words").value(*p.words);
+  if (!p.terms.empty()) writeTerms(json, p);
+  json.endObject();
+}
+
+void writeSignatures(JsonWriter& json, const std::vector<BuiltinSignature>& signatures) {
+  json.key("overloads").beginArray();
+  for (const BuiltinSignature& s : signatures) {
+    json.beginObject().key("params").beginArray();
+    for (const BuiltinParameter& p : s.parameters) writeParameter(json, p);
+    json.endArray();
+    if (s.variadic) json.key("variadic").value(true);
+    if (!s.result.empty()) json.key("result").value(s.result);
+    json.endObject();
+  }
+  json.endArray();
+}
+
+void write(JsonWriter& json, const BuiltinCall& c) {
+  json.beginObject();
+  json.key("name").value(c.name).key("family").value(c.family);
+  json.key("summary").value(c.summary);
+  if (!c.block.empty()) json.key("block").value(c.block);
+  if (!c.blockWords.empty()) json.key("blockWords").value(c.blockWords);
+  if (c.bare) json.key("bare").value(true);
+  writeSignatures(json, c.signatures);
+  json.endObject();
+}
+
+void write(JsonWriter& json, const BuiltinAttribute& a) {
+  json.beginObject();
+  json.key("name").value(a.name).key("type").value(a.type);
+  json.key("doc").value(a.doc).key("writable").value(a.writable);
+  json.endObject();
+}
+
+void write(JsonWriter& json, const BuiltinSelector& s) {
+  json.beginObject().key("name").value(s.name).key("doc").value(s.doc).endObject();
+}
+
+template <class Entry>
+void writeList(JsonWriter& json, const char* key, const std::vector<Entry>& entries) {
+  json.key(key).beginArray();
+  for (const Entry& e : entries) write(json, e);
+  json.endArray();
+}
+
+}  // namespace
+
+std::string builtinsJson(const Builtins& builtins) {
+  std::string out;
+  JsonWriter json(out, 1);
+  json.beginObject();
+  writeList(json, "operations", builtins.operations);
+  writeList(json, "functions", builtins.functions);
+  writeList(json, "attributes", builtins.attributes);
+  writeList(json, "selectors", builtins.selectors);
+  json.endObject();
+  return out + "\n";
+}
+
+std::optional<std::string> builtinJson(const Builtins& builtins, const std::string& name) {
+  std::string out;
+  JsonWriter json(out, 1);
+  const auto found = [&](const auto& entries) {
+    for (const auto& e : entries) {
+      if (e.name != name) continue;
+      write(json, e);
+      return true;
+    }
+    return false;
+  };
+  if (found(builtins.operations) || found(builtins.functions) || found(builtins.attributes)) {
+    return out;
+  }
+  return std::nullopt;
+}
+
+}  // namespace gable

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "json/answers.h"
+
+namespace gable {
+
+namespace {
+
+void writeTriple(JsonWriter& json, const Triple& v) {
+  json.beginArray().value(v[0]).value(v[1]).value(v[2]).endArray();
+}
+
+void writeReports(JsonWriter& json, const std::vector<ReportSummary>& reports) {
+  json.key("reports").beginObject();
+  for (const ReportSummary& r : reports) {
+    json.key(r.key).beginObject().key("n").value(r.count);
+    if (r.numbers) {
+      json.key("sum").value(r.numbers->sum);
+      json.key("avg").value(r.numbers->sum / static_cast<double>(r.count));
+      json.key("min").value(r.numbers->min).key("max").value(r.numbers->max);
+    } else {
+      json.key("values").beginObject();
+      for (const auto& [value, n] : r.values) json.key(value).value(n);
+      json.endObject();
+    }
+    json.endObject();
+  }
+  json.endObject();
+}
+
+void writeFigures(JsonWriter& json, const RunFigures& f) {
+  json.key("seconds").beginObject();
+  const std::pair<const char*, std::optional<double>> parts[] = {{"parse", f.parseSeconds},
+                                                                 {"derive", f.deriveSeconds},
+                                                                 {"write", f.writeSeconds},
+                                                                 {"total", f.totalSeconds}};
+  for (const auto& [name, seconds] : parts) {
+    if (seconds) json.key(name).value(*seconds);
+  }
+  json.endObject();
+  if (f.peakBytes) json.key("peakBytes").value(*f.peakBytes);
+}
+
+void openNode(JsonWriter& json, const DerivationTrace& trace, const DerivationTrace::Node& n) {
+  json.beginObject().key("shape").value(trace.names[n.name]);
+  if (n.place) {
+    json.key("source").beginObject().key("file").value(trace.files[n.place->file]);
+    json.key("line").value(n.place->line).key("column").value(n.place->column).endObject();
+  }
+  json.key("scope").beginObject();
+  const char* names[] = {"origin", "x", "y", "z"};
+  for (size_t i = 0; i < 4; ++i) {
+    json.key(names[i]);
+    writeTriple(json, {n.frame[3 * i], n.frame[3 * i + 1], n.frame[3 * i + 2]});
+  }
+  json.key("size");
+  writeTriple(json, n.size);
+  json.endObject();
+  if (n.leaf) json.key("leaf").value(true);
+  if (n.dropped) json.key("dropped").value(true);
+  json.key("children").beginArray();
+}
+
+}  // namespace
+
+std::string statisticsJson(const Model& model, const RunFigures& figures) {
+  const Statistics s = model.statistics();
+  std::string out;
+  JsonWriter json(out, 1);
+  json.beginObject();
+  json.key("shapes").value(s.shapes).key("leaves").value(s.leaves).key("faces").value(s.faces);
+  json.key("vertices").value(s.vertices);
+  json.key("triangles").value(figures.triangles.value_or(s.triangles));
+  json.key("instances").value(s.instances).key("prototypes").value(s.prototypes);
+  json.key("materials").value(s.materials);
+  if (s.recalled > 0) json.key("recalled").value(s.recalled);
+  const BoundingBox box = s.bounds.value_or(BoundingBox{});
+  json.key("bbox").beginObject().key("min");
+  writeTriple(json, box.min);
+  json.key("max");
+  writeTriple(json, box.max);
+  json.endObject();
+  writeReports(json, s.reports);
+  json.key("prints").beginArray();
+  for (const std::string& p : model.prints()) json.value(p);
+  json.endArray();
+  json.key("diagnostics").raw(diagnosticsJson(model.diagnostics()));
+  writeFigures(json, figures);
+  json.endObject();
+  return out + "\n";
+}
+
+std::string traceJson(const DerivationTrace& trace) {
+  std::vector<std::vector<uint32_t>> children(trace.nodes.size());
+  std::vector<uint32_t> roots;
+  for (uint32_t i = 0; i < trace.nodes.size(); ++i) {
+    if (const auto parent = trace.nodes[i].parent)
+      children[*parent].push_back(i);
+    else
+      roots.push_back(i);
+  }
+  std::string out;
+  JsonWriter json(out);
+  // Depth first on a stack of (node, next child): trees are as deep as rules recurse.
+  json.beginArray();
+  for (const uint32_t root : roots) {
+    std::vector<std::pair<uint32_t, size_t>> stack{{root, 0}};
+    openNode(json, trace, trace.nodes[root]);
+    while (!stack.empty()) {
+      auto& [node, next] = stack.back();
+      if (next < children[node].size()) {
+        const uint32_t child = children[node][next++];
+        openNode(json, trace, trace.nodes[child]);
+        stack.emplace_back(child, 0);
+      } else {
+        json.endArray().endObject();
+        stack.pop_back();
+      }
+    }
+  }
+  json.endArray();
+  return out + "\n";
+}
+
+}  // namespace gable
