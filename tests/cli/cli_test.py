@@ -182,7 +182,7 @@ class Writing(Case):
         self.put("note.txt", "open")
         files = ("./note.txt", ".note.txt", "/.git/note.txt", "link.txt", ".git/note.txt")
         self.put("x.cga", "Lot --> " + " ".join(f"print(fileExists(\"{f}\"))" for f in files) + " print(fileSearch(\"*.txt\")) X.")
-        told = self.run_gable("generate", "x.cga", "-o", "a.glb")
+        told = self.run_gable("generate", "x.cga", "--project", ".", "-o", "a.glb")
         self.assertEqual(told.split(), ["true", "false", "false", "false", "false", "/note.txt;"], told)
 
 

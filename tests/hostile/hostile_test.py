@@ -437,7 +437,7 @@ class ShapeFiles(Case):
                  [[7.400375, 43.70009009], [7.400375, 43.700108108], [7.4004125, 43.700108108], [7.400375, 43.70009009]]]
         path = self.put("holes.geojson", json.dumps({"type": "Feature", "properties": {"name": "hole"}, "geometry":
                                                      {"type": "Polygon", "coordinates": rings}}))
-        rules = self.put("a.cga", 'Lot --> castRays("centre", "corners", 1, 12) { region : X. | path : P. | centre : C. }')
+        rules = self.put("a.cga", 'Lot --> castRays(centre, corners, 1) { region : X. | path : P. | centre : circle(12) C. }')
         self.run_gable("generate", rules, "--shapes", path, "-o", "a.glb")
 
     def testPolygonsOfManyCrossingsAreTaken(self):
