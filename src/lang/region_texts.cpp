@@ -547,6 +547,8 @@ std::string RegionTexts::figure(std::string_view text) {
 std::string RegionTexts::smoothing(std::string_view text) {
   problem_.clear();
   RegionReader r(*this, text);
+  // So many averages.
+  if (isDigit(r.peek())) return r.finish(r.number(";"));
   const std::string name = r.word();
   const bool known = name == "none" || name == "average" || name == "chaikin" || name == "bezier" ||
                      name == "round";

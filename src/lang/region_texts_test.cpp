@@ -47,6 +47,8 @@ TEST(RegionTexts, LinesPlacesAndSites) {
   EXPECT_EQ(t.sites("5 {[5-10]}").sites, "5");
   EXPECT_EQ(t.sites("(3, 4) (10, 4, 2)").sites, "point(3, 4) || point(10, 4, 2)");
   EXPECT_EQ(t.targets("entrances([0.5, 1.5])"), "entrance(0.5) || entrance(1.5)");
+  EXPECT_EQ(t.smoothing("average(2, 0.5)"), "average(2, 0.5)");
+  EXPECT_EQ(t.smoothing("2"), "2");
   EXPECT_EQ(t.profile("(0,0)(0,1)(1,0)"), "[0, 0; 0, 1; 1, 0]");
 }
 

@@ -466,7 +466,14 @@ NodeId Lowering::formed(Form form, std::string_view written, Span span) {
   const std::string made = (texts.*form)(written);
   if (!made.empty()) return node(made, written, span);
   std::string hint = didYouMean(texts.word(), lang::RegionTexts::words());
-  if (hint.empty()) hint = "see the selections in the guide to park grammars";
+  if (hint.empty() && form == &lang::RegionTexts::places) {
+    hint =
+        "write CENTRE, CENTROID, Corners, CORNER(0), CORNER(OUTER), (0.8, 0.1) or Points((3, 4))";
+  } else if (hint.empty() && form == &lang::RegionTexts::smoothing) {
+    hint = "write none, average(2), chaikin(2), bezier or round(1)";
+  } else if (hint.empty()) {
+    hint = "see the selections in the guide to park grammars";
+  }
   diagnostics_.error("bad-selection", span,
                      "'" + std::string(written) + "' cannot be read: " + texts.problem(), hint);
   return b_.number(0);
