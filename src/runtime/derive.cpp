@@ -28,10 +28,11 @@ namespace {
 
 struct Pass {
   std::vector<std::unique_ptr<Machine>> machines;
-  std::vector<OutputRoot> roots;
+  /// Of the initial shapes, and of portions of them.
+  std::vector<OutputUnit> units;
+  std::unique_ptr<PortionQueue> portions;
   std::vector<uint8_t> derived;
   std::vector<std::vector<EvaluatedAttribute>> attributes;
-  std::vector<Diagnostics> messages;
   /// By initial shape: where its trace nodes and occluders lie in its worker's lists.
   struct Range {
     uint32_t worker = 0;
@@ -41,46 +42,87 @@ struct Pass {
   std::vector<Range> ranges;
 };
 
-Pass runPass(DeriveShared& shared, const std::vector<InitialShape>& shapes, unsigned jobs) {
+void deriveShape(Pass& pass, Machine& machine, unsigned worker, const InitialShape& shape,
+                 size_t i) {
+  const size_t traceBegin = machine.trace().size();
+  const size_t noteBegin = machine.notes().size();
+  pass.units[i] = machine.run(shape, static_cast<uint32_t>(i));
+  pass.derived[i] = 1;
+  if (!machine.collectsOccluders()) {
+    pass.attributes[i] = machine.attributeValues();
+    pass.units[i].messages.append(machine.takeMessages());
+  }
+  pass.ranges[i] = {worker, traceBegin, machine.trace().size(), noteBegin, machine.notes().size()};
+}
+
+// Each worker takes initial shapes as long as there are any, and then portions of those that others
+// are at.
+Pass runPass(DeriveShared& shared, const std::vector<InitialShape>& shapes, unsigned jobs,
+             bool divides) {
   Pass pass;
   for (unsigned w = 0; w < jobs; ++w) {
     pass.machines.push_back(std::make_unique<Machine>(shared, w));
   }
-  pass.roots.resize(shapes.size());
+  pass.units.resize(shapes.size());
   pass.derived.assign(shapes.size(), 0);
   pass.attributes.resize(shapes.size());
-  pass.messages.resize(shapes.size());
   pass.ranges.resize(shapes.size());
-  std::atomic<size_t> done{0};
-  parallelFor(shapes.size(), jobs, [&](size_t i, unsigned worker) {
-    if (shared.usage.cancelled() || shared.usage.exhausted()) return;
+  pass.portions = std::make_unique<PortionQueue>(shapes.size());
+  shared.portions = divides && jobs > 1 ? pass.portions.get() : nullptr;
+  std::atomic<size_t> next{0}, done{0};
+  const auto work = [&](size_t worker, unsigned) {
     Machine& machine = *pass.machines[worker];
-    const size_t traceBegin = machine.trace().size();
-    const size_t noteBegin = machine.notes().size();
-    pass.roots[i] = machine.run(shapes[i], static_cast<uint32_t>(i));
-    pass.derived[i] = 1;
-    if (!shared.collectOccluders) pass.attributes[i] = machine.attributeValues();
-    pass.messages[i] = machine.takeMessages();
-    pass.ranges[i] = {worker, traceBegin, machine.trace().size(), noteBegin,
-                      machine.notes().size()};
-    const size_t count = done.fetch_add(1) + 1;
-    if (shared.options.progress) shared.options.progress(count, shapes.size());
-  });
+    for (size_t i; (i = next.fetch_add(1)) < shapes.size();) {
+      if (!shared.usage.cancelled() && !shared.usage.exhausted()) {
+        deriveShape(pass, machine, static_cast<unsigned>(worker), shapes[i], i);
+        const size_t count = done.fetch_add(1) + 1;
+        if (shared.options.progress) shared.options.progress(count, shapes.size());
+      }
+      pass.portions->done();
+    }
+    if (!shared.portions) return;
+    while (const std::unique_ptr<Portion> portion = pass.portions->take()) {
+      machine.run(*portion);
+      pass.portions->done();
+    }
+  };
+  // Without portions there is no work for more of them than there are shapes.
+  const size_t workers = shared.portions ? jobs : std::min<size_t>(jobs, shapes.size());
+  parallelFor(workers, jobs, work);
+  shared.portions = nullptr;
   for (auto& m : pass.machines) m->tellUse();
   return pass;
 }
 
 // The first messages in the order of the initial shapes, each once: what several workers tell of
 // one prototype, one worker would have told of the first shape with it.
-void takeMessages(const Pass& pass, Diagnostics& out) {
-  std::unordered_set<uint64_t> told;
-  size_t warnings = 0, errors = 0;
-  for (const Diagnostics& messages : pass.messages) {
-    for (const Diagnostics::Entry& d : messages.all()) {
+class MessageList {
+ public:
+  explicit MessageList(Diagnostics& out) : out_(out) {}
+
+  void add(const Diagnostics& messages, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const Diagnostics::Entry& d = messages.all()[i];
       const uint64_t place = uint64_t{d.span.file} << 32 | d.span.begin;
-      if (!told.insert(hashBytes(d.message, hashBytes(d.code, place))).second) continue;
-      if (++(d.severity == Severity::Error ? errors : warnings) <= kMostMessages) out.add(d);
+      if (!told_.insert(hashBytes(d.message, hashBytes(d.code, place))).second) continue;
+      size_t& count = d.severity == Severity::Error ? errors_ : warnings_;
+      if (++count <= kMostMessages) out_.add(d);
     }
+  }
+
+ private:
+  Diagnostics& out_;
+  std::unordered_set<uint64_t> told_;
+  size_t warnings_ = 0, errors_ = 0;
+};
+
+void takeMessages(const Pass& pass, Diagnostics& out) {
+  MessageList list(out);
+  for (const OutputUnit& unit : pass.units) {
+    forEachSegment(unit, pass.portions->units(), [&](const OutputUnit& u, size_t hole) {
+      list.add(u.messages, hole > 0 ? u.holes[hole - 1].messages : 0,
+               hole < u.holes.size() ? u.holes[hole].messages : u.messages.all().size());
+    });
   }
 }
 
@@ -140,10 +182,11 @@ void gatherParts(const Pass& pass, Recall& recall) {
   }
 }
 
-bool asksContext(const Program& program, const std::vector<InitialShape>& shapes, int32_t start) {
+// Whether a rule that shapes start with, or one that it reaches, has one of the effects.
+bool anyHas(uint32_t effects, const Program& program, const std::vector<InitialShape>& shapes,
+            int32_t start) {
   const auto asks = [&](int32_t rule) {
-    return rule >= 0 &&
-           (program.rules[static_cast<size_t>(rule)].reads.effects & kReadsContext) != 0;
+    return rule >= 0 && (program.rules[static_cast<size_t>(rule)].reads.effects & effects) != 0;
   };
   return asks(start) || std::any_of(shapes.begin(), shapes.end(), [&](const InitialShape& s) {
            return !s.startRule.empty() && asks(program.findRule(s.startRule));
@@ -158,28 +201,38 @@ MergeInput mergeInput(const DeriveShared& shared, Recall* recall) {
   return input;
 }
 
-// What the workers made together; null where they reached a limit that one alone might not.
-std::unique_ptr<DeriveResult> deriveWith(unsigned jobs, const Program& program,
-                                         const std::vector<InitialShape>& shapes,
-                                         Environment& environment, const DeriveOptions& options,
-                                         Usage& usage, bool asks) {
+struct Way {
+  unsigned jobs = 1;
+  /// Initial shapes are divided among workers.
+  bool divides = false;
+  /// Rules ask about other shapes.
+  bool asks = false;
+};
+
+// What the workers made together; null where it is not what one alone would have made.
+std::unique_ptr<DeriveResult> deriveIn(Way way, const Program& program,
+                                       const std::vector<InitialShape>& shapes,
+                                       Environment& environment, const DeriveOptions& options,
+                                       Usage& usage) {
   DeriveShared shared(program, options, environment, usage);
   if (options.remember) {
     shared.reach = reachOf(program);
     shared.before = recallInput(options.before, program, environment);
   }
   std::unique_ptr<OccluderIndex> occluders;
-  if (asks) {
+  if (way.asks) {
     shared.collectOccluders = true;
-    Pass first = runPass(shared, shapes, jobs);
-    if (jobs > 1 && usage.exhaustedByCount()) return nullptr;
+    Pass first = runPass(shared, shapes, way.jobs, false);
+    if (way.jobs > 1 && usage.exhaustedByCount()) return nullptr;
     occluders = std::make_unique<OccluderIndex>(takeOccluders(first));
     shared.occluders = occluders.get();
     shared.collectOccluders = false;
     usage.startAgain();
   }
-  Pass pass = runPass(shared, shapes, jobs);
-  if (jobs > 1 && usage.exhaustedByCount()) return nullptr;
+  Pass pass = runPass(shared, shapes, way.jobs, way.divides);
+  if (way.jobs > 1 && usage.exhaustedByCount()) return nullptr;
+  // What is over by the clock, by memory or by the user's wish is told as it is.
+  if (shared.indivisible && !usage.exhausted() && !usage.cancelled()) return nullptr;
 
   auto made = std::make_unique<DeriveResult>();
   DeriveResult& result = *made;
@@ -188,6 +241,7 @@ std::unique_ptr<DeriveResult> deriveWith(unsigned jobs, const Program& program,
     result.shared += m->cacheHits();
     result.recalled += m->recalled();
   }
+  result.portions = pass.portions->units().size();
   takeMessages(pass, result.diagnostics);
   takeTrace(pass, result);
   std::shared_ptr<Recall> recall;
@@ -198,12 +252,12 @@ std::unique_ptr<DeriveResult> deriveWith(unsigned jobs, const Program& program,
     gatherParts(pass, *recall);
   }
   for (auto& m : pass.machines) outputs.push_back(std::move(m->output()));
-  std::vector<OutputRoot> roots;
+  std::vector<const OutputUnit*> roots;
   for (size_t i = 0; i < shapes.size(); ++i) {
-    if (pass.derived[i]) roots.push_back(std::move(pass.roots[i]));
+    if (pass.derived[i]) roots.push_back(&pass.units[i]);
   }
   result.attributes = std::move(pass.attributes);
-  Merged merged = merge(outputs, roots, mergeInput(shared, recall.get()));
+  Merged merged = merge(outputs, roots, pass.portions->units(), mergeInput(shared, recall.get()));
   result.scene = std::move(merged.scene);
   if (!merged.allEvents) {
     result.diagnostics.warning("too-many-reports", Span{},
@@ -232,14 +286,23 @@ DeriveResult derive(const Program& program, const std::vector<InitialShape>& sha
                     Environment& environment, const DeriveOptions& given) {
   DeriveOptions options = given;
   if (options.startRule < 0) options.startRule = program.startRule;
-  const bool asks = asksContext(program, shapes, options.startRule);
-  if (asks || options.trace || !options.sharing) options.remember = false;
-  const unsigned jobs = options.jobs > 0 ? static_cast<unsigned>(options.jobs) : defaultJobs();
+  Way way;
+  way.jobs = options.jobs > 0 ? static_cast<unsigned>(options.jobs) : defaultJobs();
+  way.asks = anyHas(kReadsContext, program, shapes, options.startRule);
+  // Children are counted for the paths of shapes.
+  way.divides = way.jobs > 1 && !way.asks && !options.trace &&
+                !anyHas(kReadsPath, program, shapes, options.startRule);
+  if (way.asks || options.trace || !options.sharing) options.remember = false;
   Usage usage(options.limits, options.cancel);
-  auto made = deriveWith(jobs, program, shapes, environment, options, usage, asks);
+  auto made = deriveIn(way, program, shapes, environment, options, usage);
+  if (!made && !usage.exhaustedByCount()) {
+    usage.startAgain();
+    way.divides = false;
+    made = deriveIn(way, program, shapes, environment, options, usage);
+  }
   if (!made) {
     usage.startAgain();
-    made = deriveWith(1, program, shapes, environment, options, usage, asks);
+    made = deriveIn(Way{1, false, way.asks}, program, shapes, environment, options, usage);
   }
   return std::move(*made);
 }

@@ -147,6 +147,9 @@ struct DeriveResult {
   uint64_t shared = 0;
   /// Shapes that were taken over from the derivation before, instances expanded.
   uint64_t recalled = 0;
+  /// How many parts of initial shapes workers took from each other. It depends on their speed, and
+  /// nothing else in the result does.
+  uint64_t portions = 0;
   /// With DeriveOptions::remember, of a derivation that came to its end.
   std::shared_ptr<const Recall> recall;
 };

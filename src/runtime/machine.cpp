@@ -79,35 +79,68 @@ Machine::Machine(DeriveShared& shared, uint32_t worker)
 
 Machine::~Machine() = default;
 
-OutputRoot Machine::run(const InitialShape& input, uint32_t index) {
+OutputUnit Machine::run(const InitialShape& input, uint32_t index) {
   const uint64_t shapesBefore = shapesExpanded_;
   const size_t partsBefore = parts_.size();
   derive(input, index);
-  OutputRoot root;
-  root.worker = worker_;
-  root.frame = flat_ ? Frame{} : input.origin;
-  root.name = input.name;
-  root.prototype = output_.close(rootMark_, nameId_, shapesExpanded_ - shapesBefore, ShareKey{});
+  OutputUnit unit;
+  unit.frame = flat_ ? Frame{} : input.origin;
+  unit.name = input.name;
+  closeUnit(unit, nameId_, shapesBefore, partsBefore);
+  return unit;
+}
+
+void Machine::closeUnit(OutputUnit& unit, StringId name, uint64_t shapesBefore,
+                        size_t partsBefore) {
+  unit.worker = worker_;
+  unit.prototype = output_.close(rootMark_, name, shapesExpanded_ - shapesBefore, ShareKey{});
   for (size_t p = partsBefore; p < parts_.size(); ++p) {
-    parts_[p].prototype = root.prototype;
+    parts_[p].prototype = unit.prototype;
     parts_[p].worker = worker_;
   }
-  return root;
+  unit.holes = std::exchange(holes_, {});
+  unit.messages = std::exchange(diagnostics_, {});
 }
 
 void Machine::derive(const InitialShape& input, uint32_t index) {
   const WorkScope scope(*this);
-  aborted_ = false;
-  instruction_ = nullptr;
-  rootMark_ = output_.mark();
-  const Status status = guarded([&] {
+  beginUnit();
+  endUnit(guarded([&] {
     begin(input, index);
     return Status();
-  });
+  }));
+}
+
+void Machine::beginUnit() {
+  aborted_ = false;
+  instruction_ = nullptr;
+  portion_ = nullptr;
+  portionBase_ = nullptr;
+  ++unit_;
+  holes_.clear();
+  pendingHoles_.clear();
+  rootMark_ = output_.mark();
+}
+
+void Machine::endUnit(const Status& status) {
   if (!status.ok()) endByFailure(status);
   dropGathers();
   // What was open when a limit struck stays: it belongs to the initial shape.
   while (!prototypes_.empty()) closeOpenPrototype();
+}
+
+void Machine::clearStacks() {
+  salt_ = 0;
+  parameters_ = stackTop_ = activationCount_ = 0;
+  children_.clear();
+  pieces_.clear();
+  shapeStack_.clear();
+  frames_.clear();
+  locals_.clear();
+  previous_.clear();
+  functions_.clear();
+  prototypes_.clear();
+  openParts_.clear();
 }
 
 void Machine::begin(const InitialShape& input, uint32_t index) {
@@ -133,17 +166,7 @@ void Machine::begin(const InitialShape& input, uint32_t index) {
   }
   info_.shape.path = hashCombine(hashDouble(seed), identity);
   worlds_.assign(1, input.origin);
-  salt_ = 0;
-  parameters_ = stackTop_ = activationCount_ = 0;
-  children_.clear();
-  pieces_.clear();
-  shapeStack_.clear();
-  frames_.clear();
-  locals_.clear();
-  previous_.clear();
-  functions_.clear();
-  prototypes_.clear();
-  openParts_.clear();
+  clearStacks();
   bindAttributes(input);
 
   const int32_t rule = startRuleOf(input);
@@ -237,14 +260,19 @@ std::vector<EvaluatedAttribute> Machine::attributeValues() {
   return out;
 }
 
-void Machine::takeReport(StringId key, const Value& value) {
+// An attribute that reports or prints does it once an initial shape.
+void Machine::speak(const OutputEvent& event) {
   noteEffect();
-  output_.openEvents.push_back({openInstanceCount(), false, key, value});
+  if (isDivided() && evaluatesAttribute()) shared_.indivisible = true;
+  output_.openEvents.push_back(event);
+}
+
+void Machine::takeReport(StringId key, const Value& value) {
+  speak({openInstanceCount(), false, key, value});
 }
 
 void Machine::takePrint(std::string text) {
-  noteEffect();
-  output_.openEvents.push_back({openInstanceCount(), true, pool().intern(text), {}});
+  speak({openInstanceCount(), true, pool().intern(text), {}});
 }
 
 uint32_t Machine::openInstanceCount() const {
@@ -253,14 +281,17 @@ uint32_t Machine::openInstanceCount() const {
   return static_cast<uint32_t>(output_.openInstances.size()) - base;
 }
 
-// The same warning at the same place is told once, and of one initial shape no more than anybody is
-// shown of all.
+// The same warning at the same place is told once: not again where this worker told it of an
+// initial shape before, or in the same go. Of one go no more are told than anybody is shown of all.
 void Machine::takeWarning(const char* code, std::string message, std::string hint) {
   const Span at = here();
   const uint64_t key = hashBytes(message, hashBytes(code, uint64_t{at.file} << 32 | at.begin));
   ++warnings_;
   noteEffect();
-  if (diagnostics_.all().size() >= kMostMessages || !warned_.insert(key).second) return;
+  if (diagnostics_.all().size() >= kMostMessages) return;
+  const auto [told, fresh] = warned_.try_emplace(key, info_.index, unit_);
+  if (!fresh && (told->second.first < info_.index || told->second.second == unit_)) return;
+  told->second = {info_.index, unit_};
   Diagnostics::Entry d{Severity::Warning, code,       at, std::move(message),
                        std::move(hint),   shapePath()};
   diagnostics_.add(std::move(d));
@@ -269,14 +300,22 @@ void Machine::takeWarning(const char* code, std::string message, std::string hin
 Span Machine::here() const { return instruction_ ? program_.spans[pcOf(instruction_)] : Span{}; }
 
 std::string Machine::shapePath() const {
-  std::string out = info_.name.empty() ? "shape " + std::to_string(info_.index) : info_.name;
-  uint32_t shown = 0;
-  for (uint32_t i = 0; i < activationCount_; ++i) {
+  uint32_t length = 0;
+  return shapePath(activationCount_, length);
+}
+
+// The path to the activation before `end`, and how many rules it has. Endless recursion has a long
+// path: its beginning says enough.
+std::string Machine::shapePath(uint32_t end, uint32_t& length) const {
+  constexpr uint32_t kMost = 8;
+  std::string out = portion_             ? portion_->path
+                    : info_.name.empty() ? "shape " + std::to_string(info_.index)
+                                         : info_.name;
+  length = portion_ ? portion_->pathLength : 0;
+  for (uint32_t i = portion_ ? 1 : 0; i < end && length <= kMost; ++i) {
     const Activation& a = activations_[i];
     if (a.slot) continue;
-    // Endless recursion has a long path: its beginning says enough.
-    if (++shown > 8) return out + " > ...";
-    out += " > " + program_.rules[a.rule].qualifiedName;
+    out += ++length > kMost ? " > ..." : " > " + program_.rules[a.rule].qualifiedName;
   }
   return out;
 }
@@ -294,6 +333,8 @@ bool Machine::overLimit(const char* code, std::string message, std::string hint)
   instruction_ = pc_ && pc_ != program_.code.data() ? pc_ - 1 : nullptr;
   warn(code, std::move(message), std::move(hint));
   aborted_ = true;
+  // What comes after in path order goes, and may be with another worker.
+  if (portion_ || !pendingHoles_.empty()) shared_.indivisible = true;
   shared_.limitReached.store(true, std::memory_order_relaxed);
   return false;
 }
@@ -350,6 +391,7 @@ bool Machine::lookAtLimits(uint64_t bytes) {
     return false;
   }
   if (!tellUse()) return false;
+  if (shared_.portions && shared_.portions->isHungry()) offerPortion();
   if (bytes == 0 && std::chrono::steady_clock::now() - memoryLooked_ < kBetweenMemory) return true;
   memoryLooked_ = std::chrono::steady_clock::now();
   return over(shared_.usage.lookAtMemory(bytes));

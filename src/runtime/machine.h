@@ -13,7 +13,6 @@
 #include <span>
 #include <string>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -26,6 +25,7 @@
 #include "runtime/context.h"
 #include "runtime/derive.h"
 #include "runtime/output.h"
+#include "runtime/portion.h"
 #include "runtime/recall.h"
 #include "runtime/usage.h"
 #include "shape/op_call.h"
@@ -53,6 +53,10 @@ struct DeriveShared {
   /// comes first, so no part can stand for itself.
   std::atomic<bool> unrepeatable{false};
   std::atomic<bool> limitReached{false};
+  /// Null where no initial shape is divided among workers.
+  PortionQueue* portions = nullptr;
+  /// Something came of portions that does not come of a whole: all has to be done without them.
+  std::atomic<bool> indivisible{false};
 };
 
 /// What an activation does to its shape in passing: a rule run in place, the turns of a repeat, or
@@ -129,8 +133,10 @@ class Machine final : public Services, private WorkMeter {
   Machine(DeriveShared& shared, uint32_t worker);
   ~Machine() override;
 
-  /// Derives one initial shape; its place in the output comes back as a root.
-  OutputRoot run(const InitialShape& shape, uint32_t index);
+  /// Derives one initial shape.
+  OutputUnit run(const InitialShape& shape, uint32_t index);
+  /// Derives what another worker offered, into the portion's unit.
+  void run(const Portion& portion);
   /// The same, but leaves everything open in the output.
   void derive(const InitialShape& shape, uint32_t index);
   /// Takes the leaves of the derivations that follow, a batch whenever there are enough; what is
@@ -144,6 +150,7 @@ class Machine final : public Services, private WorkMeter {
   std::vector<TraceNode>& trace() { return trace_; }
   std::vector<TraceNote>& notes() { return notes_; }
   std::vector<Occluder>& occluders() { return occluders_; }
+  bool collectsOccluders() const { return collectOccluders_; }
   uint64_t cacheHits() const { return cacheHits_; }
   /// With DeriveOptions::remember: the parts of all initial shapes, each after those inside it.
   const std::vector<RecallPart>& parts() const { return parts_; }
@@ -272,6 +279,10 @@ class Machine final : public Services, private WorkMeter {
 
   // The loop, and its parts.
   void begin(const InitialShape& shape, uint32_t index);
+  void beginUnit();
+  void clearStacks();
+  void endUnit(const Status& status);
+  void closeUnit(OutputUnit& unit, StringId name, uint64_t shapesBefore, size_t partsBefore);
   void execute();
   void beginRoot(uint32_t rule);
   void beginRule(uint32_t rule, uint32_t argumentCount, const Instruction* at, bool last);
@@ -351,6 +362,7 @@ class Machine final : public Services, private WorkMeter {
   void closeOpenPrototype();
   void addInstance(const Frame& frame, uint32_t prototype);
   uint32_t openInstanceCount() const;
+  void speak(const OutputEvent& event);
 
   // Recall.
   /// What is made now stays as it is, in the world.
@@ -375,8 +387,17 @@ class Machine final : public Services, private WorkMeter {
   uint64_t inputsOf(uint32_t rule);
   uint64_t hashOfInitialShape() const;
   Output::Mark placeInRoot() const;
+  bool evaluatesAttribute() const;
   /// Reports, prints and warnings in an attribute's initialiser come with its first use.
   void noteEffect();
+
+  // Portions.
+  void offerPortion();
+  void offerChildren(uint32_t activation, const Frame& world);
+  void beginPortion(const Portion& portion);
+  void fillHoles();
+  /// Whether a part of the initial shape is, or was, with another worker.
+  bool isDivided() const { return portion_ || !pendingHoles_.empty() || !holes_.empty(); }
 
   // Expressions.
   /// Runs an instruction of an expression; false when the instruction is none.
@@ -450,6 +471,7 @@ class Machine final : public Services, private WorkMeter {
   bool stackNearlyFull() const { return stackTop_ + kStackReserve > kStackSize; }
   Span here() const;
   std::string shapePath() const;
+  std::string shapePath(uint32_t end, uint32_t& length) const;
   std::string_view fileOf(const Instruction& i) const;
 
   const Value& top() const { return stack_[stackTop_ - 1]; }
@@ -467,7 +489,8 @@ class Machine final : public Services, private WorkMeter {
   uint32_t worker_;
   Output output_;
   Diagnostics diagnostics_;
-  std::unordered_set<uint64_t> warned_;
+  /// By warning: the initial shape and the unit in which it was told.
+  std::unordered_map<uint64_t, std::pair<uint32_t, uint64_t>> warned_;
   std::vector<TraceNode> trace_;
   std::vector<TraceNote> notes_;
   std::vector<Occluder> occluders_;
@@ -490,12 +513,6 @@ class Machine final : public Services, private WorkMeter {
   std::vector<SplitPiece> pieces_;
   std::vector<SavedShape> shapeStack_;
   std::vector<InPlaceFrame> frames_;
-  struct LocalValue {
-    /// The value bound before it, as Shape::locals has it.
-    uint32_t outer;
-    uint32_t attribute;
-    Value value;
-  };
   std::vector<LocalValue> locals_;
   /// For rules run in place that look at the shape below.
   std::vector<std::pair<Frame, Vec3>> previous_;
@@ -548,6 +565,17 @@ class Machine final : public Services, private WorkMeter {
   const LeafSink* sink_ = nullptr;
   /// Nobody wants to see every shape.
   bool lightPartsAllowed_ = false;
+
+  /// The portion at work; null for a whole initial shape.
+  const Portion* portion_ = nullptr;
+  /// Of the initial shape at work, for its portions.
+  std::shared_ptr<const PortionBase> portionBase_;
+  /// Counts what is derived in one go.
+  uint64_t unit_ = 0;
+  std::vector<OutputHole> holes_;
+  /// Portions whose place has not been reached, by the activation whose children they are. Of one
+  /// activation the last comes first.
+  std::vector<std::pair<uint32_t, uint32_t>> pendingHoles_;
 
   std::vector<OpenGather> gathers_;
   /// While leaves are gathered: the frames of shared rules in that of the call that gathers.

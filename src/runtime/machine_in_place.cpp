@@ -22,7 +22,8 @@ constexpr size_t kManyLeaves = 1u << 14;
 }  // namespace
 
 InPlaceFrame& Machine::openFrame(InPlaceFrame::Kind kind) {
-  const uint32_t calls = frames_.empty() ? 0 : frames_.back().calls;
+  const uint32_t before = portion_ ? portion_->inPlace : 0;
+  const uint32_t calls = frames_.empty() ? before : frames_.back().calls;
   InPlaceFrame& f = frames_.emplace_back();
   f.kind = kind;
   f.calls = calls;

@@ -8,6 +8,8 @@
 // enough that a key is little beside them. A part that warned is not remembered: the warning would
 // be lost.
 
+#include <algorithm>
+
 #include "runtime/key_hash.h"
 #include "runtime/machine.h"
 
@@ -112,6 +114,7 @@ bool Machine::beginPart(Activation& call) {
     }
   }
   open.part.begin = placeInRoot();
+  open.part.holes = static_cast<uint32_t>(holes_.size());
   open.part.firstInside = static_cast<uint32_t>(parts_.size());
   open.part.firstOperation = static_cast<uint32_t>(keptOperations_.size());
   open.part.shapes = shapes_;
@@ -134,7 +137,9 @@ void Machine::endPart() {
   part.steps = stepsBefore_ + work_ - part.steps;
   costs_[open.rule].measured += 1;
   costs_[open.rule].steps += part.steps;
-  if (part.steps >= kWorthwhile && warnings_ == open.warnings) parts_.push_back(part);
+  // What a portion made lies elsewhere.
+  const bool whole = part.holes == holes_.size();
+  if (part.steps >= kWorthwhile && warnings_ == open.warnings && whole) parts_.push_back(part);
   openParts_.pop_back();
 }
 
@@ -159,6 +164,7 @@ void Machine::takePart(const RecallPart& known) {
     copy.endOperation += operationShift;
     copy.begin = moved(copy.begin);
     copy.end = moved(copy.end);
+    copy.holes = static_cast<uint32_t>(holes_.size());
     parts_.push_back(copy);
   }
   shapes_ += known.shapes;
@@ -228,27 +234,6 @@ ShareKey Machine::operationKey(OpCall& call, std::span<const Value> arguments,
   return h.key();
 }
 
-namespace {
-
-RecallOperation::Kept keptShape(const Shape& from, uint32_t slot) {
-  RecallOperation::Kept out;
-  out.shape = from;
-  out.shape.extra = {};
-  out.slot = slot;
-  if (from.extra) out.extra = std::make_unique<const ShapeExtra>(*from.extra);
-  return out;
-}
-
-// Local values are counted by each machine for itself; an operation leaves them as they are.
-Shape takenShape(const RecallOperation::Kept& from, uint32_t locals) {
-  Shape out = from.shape;
-  out.locals = locals;
-  if (from.extra) out.extra = makeRef<ShapeExtra>(*from.extra);
-  return out;
-}
-
-}  // namespace
-
 Status Machine::applyRemembering(OpCall& call, const Instruction& i,
                                  std::span<const Value> arguments, const BlockInput* block) {
   constexpr uint32_t kTold = kReadsContext | kReadsPath | kReports;
@@ -296,7 +281,7 @@ bool Machine::takeOperation(const ShareKey& key, Shape& shape) {
   std::shared_ptr<const RecallOperation> known = recaller_->operation(key);
   if (!known) return false;
   const uint32_t locals = shape.locals;
-  for (const RecallOperation::Kept& child : known->children) {
+  for (const KeptShape& child : known->children) {
     children_.push_back({takenShape(child, locals), child.slot});
   }
   shape = takenShape(known->shape, locals);
@@ -317,10 +302,14 @@ void Machine::countTaken() {
   countVertices(taken.vertices);
 }
 
+bool Machine::evaluatesAttribute() const {
+  return std::any_of(functions_.begin(), functions_.end(),
+                     [](const FunctionFrame& f) { return f.attribute >= 0; });
+}
+
 void Machine::noteEffect() {
-  if (!remembers_) return;
-  for (const FunctionFrame& f : functions_) {
-    if (f.attribute >= 0) shared_.unrepeatable.store(true, std::memory_order_relaxed);
+  if (remembers_ && evaluatesAttribute()) {
+    shared_.unrepeatable.store(true, std::memory_order_relaxed);
   }
 }
 

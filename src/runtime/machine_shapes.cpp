@@ -225,6 +225,11 @@ void Machine::nextChild() {
   else
     children_.erase(children_.begin() + a.childBase, children_.end());
   a.childBase = a.childNext = a.childEnd = 0;
+  if (!pendingHoles_.empty()) fillHoles();
+  if (portion_ && activationCount_ == 1) {
+    activationCount_ = 0;
+    return;
+  }
   if (gatherEnd_ == activationCount_) endGather();
 }
 
@@ -413,7 +418,11 @@ Status Machine::apply(OpCall& call, const Instruction& i, std::span<const Value>
   if (!whole) return guardedKeeping(call.shape(), run);
   Status status = guarded(run);
   // Without a copy there is nothing to go back to.
-  if (!status.ok() && !hasFiniteScope(call.shape())) call.shape() = Shape{};
+  if (!status.ok() && !hasFiniteScope(call.shape())) {
+    call.shape().scope = Frame{};
+    call.shape().size = {};
+    call.shape().geometry = Geometry{};
+  }
   return status;
 }
 

@@ -33,8 +33,9 @@ bool sameMesh(const Mesh& a, const Mesh& b) {
 
 class Merger {
  public:
-  Merger(std::vector<Output>& outputs, const MergeInput& input)
-      : outputs_(outputs), input_(input), workers_(outputs.size()) {
+  Merger(std::vector<Output>& outputs, const std::deque<OutputUnit>& portions,
+         const MergeInput& input)
+      : outputs_(outputs), portions_(portions), input_(input), workers_(outputs.size()) {
     for (size_t w = 0; w < outputs.size(); ++w) {
       workers_[w].prototypes.assign(outputs[w].prototypes.size(), kUnset);
       workers_[w].meshes.assign(outputs[w].meshes.size(), kUnset);
@@ -46,19 +47,29 @@ class Merger {
     if (outputs.size() == 1) scene_.leaves = std::move(outputs[0].leaves);
   }
 
-  void addRoot(const OutputRoot& r) {
-    const uint32_t prototype = import(r.worker, r.prototype);
+  void addRoot(const OutputUnit& r) {
+    const std::vector<Segment> segments = segmentsOf(r);
+    const uint32_t prototype =
+        segments.size() == 1 ? import(r.worker, r.prototype) : join(segments);
     Root root;
     root.name = static_cast<uint32_t>(scene_.names.size());
     scene_.names.push_back(r.name);
     root.instance = {r.frame, prototype, 0};
     scene_.roots.push_back(root);
-    replay(r.worker, r.prototype);
+    for (const Segment& s : segments) replay(s.worker, s.content, s.from.instances);
   }
 
-  /// The number in the scene of a worker's finished prototype.
-  uint32_t numberOf(uint32_t worker, uint32_t prototype) const {
-    return workers_[worker].prototypes[prototype];
+  /// Puts a part to where its unit came to lie in the scene.
+  void place(RecallPart& part) const {
+    const Worker& w = workers_[part.worker];
+    const auto at = w.segments.find(uint64_t{part.prototype} << 32 | part.holes);
+    part.prototype = w.prototypes[part.prototype];
+    if (at == w.segments.end()) return;
+    for (Output::Mark* mark : {&part.begin, &part.end}) {
+      mark->leaves += at->second.leaves;
+      mark->instances += at->second.instances;
+      mark->events += at->second.events;
+    }
   }
 
   /// What the scene's numbers stand for.
@@ -82,7 +93,97 @@ class Merger {
  private:
   struct Worker {
     std::vector<uint32_t> prototypes, meshes, materials;
+    /// By prototype and hole of units that were put together: how far what lies behind the hole
+    /// before has been moved. Unsigned differences wrap around, and back again.
+    std::unordered_map<uint64_t, Output::Mark> segments;
   };
+
+  /// What lies in a unit between two holes: part of a prototype, and where it begins there.
+  struct Segment {
+    uint32_t worker = 0, prototype = 0, hole = 0;
+    Output::Mark from;
+    OutputPrototype content;
+  };
+
+  std::vector<Segment> segmentsOf(const OutputUnit& unit) const {
+    std::vector<Segment> out;
+    forEachSegment(unit, portions_, [&](const OutputUnit& u, size_t hole) {
+      const OutputPrototype& whole = outputs_[u.worker].prototypes[u.prototype];
+      Segment s{u.worker, u.prototype, static_cast<uint32_t>(hole), {}, whole};
+      if (hole > 0) s.from = u.holes[hole - 1].at;
+      const Output::Mark end =
+          hole < u.holes.size()
+              ? u.holes[hole].at
+              : Output::Mark{whole.range.leafCount, whole.range.instanceCount, whole.eventCount};
+      s.content.range.firstLeaf += s.from.leaves;
+      s.content.range.leafCount = end.leaves - s.from.leaves;
+      s.content.range.firstInstance += s.from.instances;
+      s.content.range.instanceCount = end.instances - s.from.instances;
+      s.content.firstEvent += s.from.events;
+      s.content.eventCount = end.events - s.from.events;
+      // Each unit counts its shapes once.
+      if (hole > 0) s.content.range.shapes = 0;
+      out.push_back(s);
+    });
+    return out;
+  }
+
+  // One prototype of the scene, of several units.
+  uint32_t join(const std::vector<Segment>& segments) {
+    for (const Segment& s : segments) {
+      const Prototype& range = s.content.range;
+      for (uint32_t i = 0; i < range.instanceCount; ++i) {
+        import(s.worker, outputs_[s.worker].instances[range.firstInstance + i].prototype);
+      }
+    }
+    Prototype to;
+    to.name = nameNumber(segments[0].content.range.name);
+    to.firstInstance = static_cast<uint32_t>(scene_.instances.size());
+    to.firstLeaf = static_cast<uint32_t>(scene_.leaves.size());
+    Recall::PrototypeNotes notes;
+    if (input_.recall) notes.firstEvent = static_cast<uint32_t>(input_.recall->events.size());
+    const auto number = static_cast<uint32_t>(scene_.prototypes.size());
+    for (const Segment& s : segments) {
+      Worker& w = workers_[s.worker];
+      const Output::Mark shift{to.leafCount - s.from.leaves, to.instanceCount - s.from.instances,
+                               notes.eventCount - s.from.events};
+      w.prototypes[s.prototype] = number;
+      w.segments.emplace(uint64_t{s.prototype} << 32 | s.hole, shift);
+      append(s, shift, to);
+      if (input_.recall) remember(s, shift, notes);
+      to.shapes += s.content.range.shapes;
+    }
+    scene_.prototypes.push_back(to);
+    if (input_.recall) input_.recall->prototypes.push_back(notes);
+    return number;
+  }
+
+  void append(const Segment& s, const Output::Mark& shift, Prototype& to) {
+    const Output& from = outputs_[s.worker];
+    const Prototype& range = s.content.range;
+    for (uint32_t i = 0; i < range.instanceCount; ++i) {
+      Instance& copy = scene_.instances.emplace_back(from.instances[range.firstInstance + i]);
+      copy.prototype = workers_[s.worker].prototypes[copy.prototype];
+      copy.leavesBefore += shift.leaves;
+    }
+    for (uint32_t i = 0; i < range.leafCount; ++i) {
+      scene_.leaves.push_back(from.leaves[range.firstLeaf + i]);
+      renumber(scene_.leaves.back(), s.worker);
+    }
+    to.instanceCount += range.instanceCount;
+    to.leafCount += range.leafCount;
+  }
+
+  void remember(const Segment& s, const Output::Mark& shift, Recall::PrototypeNotes& notes) {
+    const Output& from = outputs_[s.worker];
+    for (uint32_t e = 0; e < s.content.eventCount; ++e) {
+      OutputEvent copy = from.events[s.content.firstEvent + e];
+      copy.instancesBefore += shift.instances;
+      input_.recall->events.push_back(copy);
+    }
+    notes.eventCount += s.content.eventCount;
+    notes.speaks = notes.speaks || s.content.speaks;
+  }
 
   template <class Numbers, class T>
   static void inverse(const Numbers& numbers, std::vector<T>& out, size_t count) {
@@ -271,19 +372,20 @@ class Merger {
   bool full() const { return events_ > input_.mostEvents || eventBytes_ > input_.mostEventBytes; }
 
   // Instances multiply: a few nested calls can stand for more prints than memory holds.
-  void replay(uint32_t worker, uint32_t prototype) {
+  // `before`: instances of the prototype that lie before `content`.
+  void replay(uint32_t worker, const OutputPrototype& content, uint32_t before) {
     struct Open {
       const OutputPrototype* prototype;
-      uint32_t event, instance;
+      uint32_t before, event, instance;
     };
     const Output& out = outputs_[worker];
-    std::vector<Open> open{{&out.prototypes[prototype], 0, 0}};
+    std::vector<Open> open{{&content, before, 0, 0}};
     while (!open.empty() && !full()) {
       Open& top = open.back();
       const OutputPrototype& p = *top.prototype;
       for (; top.event < p.eventCount; ++top.event) {
         const OutputEvent& e = out.events[p.firstEvent + top.event];
-        if (e.instancesBefore != top.instance) break;
+        if (e.instancesBefore != top.before + top.instance) break;
         speak(e);
       }
       if (!p.speaks || top.instance == p.range.instanceCount) {
@@ -291,7 +393,7 @@ class Merger {
         continue;
       }
       const Instance& next = out.instances[p.range.firstInstance + top.instance++];
-      open.push_back({&out.prototypes[next.prototype], 0, 0});
+      open.push_back({&out.prototypes[next.prototype], 0, 0, 0});
     }
   }
 
@@ -310,6 +412,7 @@ class Merger {
   }
 
   std::vector<Output>& outputs_;
+  const std::deque<OutputUnit>& portions_;
   const MergeInput& input_;
   std::vector<Worker> workers_;
   /// What was asked for last, and its number.
@@ -354,12 +457,12 @@ AttributeValue plainAttribute(const std::string& name, const Value& v, const Val
   return out;
 }
 
-Merged merge(std::vector<Output>& outputs, const std::vector<OutputRoot>& roots,
-             const MergeInput& input) {
-  Merger merger(outputs, input);
-  for (const OutputRoot& r : roots) merger.addRoot(r);
+Merged merge(std::vector<Output>& outputs, const std::vector<const OutputUnit*>& roots,
+             const std::deque<OutputUnit>& portions, const MergeInput& input) {
+  Merger merger(outputs, portions, input);
+  for (const OutputUnit* r : roots) merger.addRoot(*r);
   if (input.recall) {
-    for (RecallPart& p : input.recall->parts) p.prototype = merger.numberOf(p.worker, p.prototype);
+    for (RecallPart& p : input.recall->parts) merger.place(p);
     merger.explain(*input.recall);
   }
   outputs.clear();

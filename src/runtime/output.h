@@ -6,9 +6,12 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "base/diagnostic.h"
 #include "program/program.h"
 #include "scene/scene.h"
 #include "shape/services.h"
@@ -77,10 +80,25 @@ struct Output {
   uint32_t lastMaterialNumber_ = 0;
 };
 
-/// Where an initial shape's prototype was made.
-struct OutputRoot {
+/// A place in a unit where what a portion of it made belongs.
+struct OutputHole {
+  /// The number of the portion's unit.
+  uint32_t unit = 0;
+  /// Counted from the beginning of the unit.
+  Output::Mark at;
+  size_t messages = 0;
+};
+
+/// What a worker made in one go: an initial shape, or a portion of one (runtime/portion.h). Its
+/// content is a prototype in the worker's output.
+struct OutputUnit {
+  uint32_t number = 0;
   uint32_t worker = 0;
   uint32_t prototype = 0;
+  /// In path order.
+  std::vector<OutputHole> holes;
+  Diagnostics messages;
+  // Of an initial shape.
   Frame frame;
   std::string name;
 };
@@ -110,8 +128,29 @@ struct Merged {
 PlainValue plainValue(const Value& v, const ValuePool& pool);
 AttributeValue plainAttribute(const std::string& name, const Value& v, const ValuePool& pool);
 
-/// Empties the outputs.
-Merged merge(std::vector<Output>& outputs, const std::vector<OutputRoot>& roots,
-             const MergeInput& input);
+/// Empties the outputs. `portions`: by number the units that fill the holes of others.
+Merged merge(std::vector<Output>& outputs, const std::vector<const OutputUnit*>& roots,
+             const std::deque<OutputUnit>& portions, const MergeInput& input);
+
+/// Calls visit(unit, hole) for a unit and those that fill its holes, in path order: for each, the
+/// content that lies before its hole of that number, or behind the last hole.
+template <class Visit>
+void forEachSegment(const OutputUnit& unit, const std::deque<OutputUnit>& portions, Visit&& visit) {
+  struct Open {
+    const OutputUnit* unit;
+    size_t hole;
+  };
+  std::vector<Open> open{{&unit, 0}};
+  while (!open.empty()) {
+    const Open at = open.back();
+    visit(*at.unit, at.hole);
+    if (at.hole == at.unit->holes.size()) {
+      open.pop_back();
+    } else {
+      ++open.back().hole;
+      open.push_back({&portions[at.unit->holes[at.hole].unit], 0});
+    }
+  }
+}
 
 }  // namespace gable

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "program/program.h"
+#include "runtime/kept_shape.h"
 #include "runtime/output.h"
 #include "shape/shape.h"
 
@@ -35,6 +36,8 @@ struct RecallPart {
   ShareKey key;
   /// Of the scene; of the worker's output until the outputs are merged.
   uint32_t prototype = 0, worker = 0;
+  /// Until then: how many holes of the unit lie before it. There is none within.
+  uint32_t holes = 0;
   Output::Mark begin, end;
   /// Parts from this one up to the part itself lie inside of it.
   uint32_t firstInside = 0;
@@ -44,18 +47,11 @@ struct RecallPart {
   uint64_t shapes = 0, shapesExpanded = 0, steps = 0;
 };
 
-/// What an operation that took long did to its shape. Of shapes the extra is apart, since counted
-/// pointers to it stay with a worker.
+/// What an operation that took long did to its shape.
 struct RecallOperation {
-  struct Kept {
-    Shape shape;
-    std::unique_ptr<const ShapeExtra> extra;
-    /// The block slot of a child.
-    uint32_t slot = 0;
-  };
   ShareKey key;
-  Kept shape;
-  std::vector<Kept> children;
+  KeptShape shape;
+  std::vector<KeptShape> children;
 };
 
 struct Recall {

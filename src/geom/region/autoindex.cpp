@@ -182,8 +182,8 @@ BestQuad bestQuad(const Ring& outer) {
   for (size_t a = 0; a < n; ++a) {
     for (size_t b = a + 1; b < n; ++b) {
       for (size_t c = b + 1; c < n; ++c) {
+        work(n);
         for (size_t d = c + 1; d < n; ++d) {
-          work();
           const Vec2 q[4] = {outer[v[a]], outer[v[b]], outer[v[c]], outer[v[d]]};
           const double s = scoreOf(q, whole);
           if (s > best.score + 1e-12) best = {{v[a], v[b], v[c], v[d]}, s};

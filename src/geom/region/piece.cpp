@@ -236,7 +236,11 @@ double thickness(const Polygon& p) {
   return round > 0 ? 2 * area(p) / round : 0;
 }
 
-size_t absorbSliver(std::vector<RegionPiece>& pieces, const RegionPiece& sliver) {
+namespace {
+
+// `boxes`: those of the pieces, empty for pieces that are gone.
+size_t absorbAmong(std::vector<RegionPiece>& pieces, const std::vector<Box2>& boxes,
+                   const RegionPiece& sliver) {
   const Box2 box = grown(bounds(sliver.polygon), kTrace);
   struct Neighbour {
     size_t index;
@@ -244,9 +248,9 @@ size_t absorbSliver(std::vector<RegionPiece>& pieces, const RegionPiece& sliver)
     bool path;
   };
   std::vector<Neighbour> found;
+  work(pieces.size());
   for (size_t k = 0; k < pieces.size(); ++k) {
-    work();
-    if (&pieces[k] == &sliver || !overlap(box, bounds(pieces[k].polygon))) continue;
+    if (!overlap(box, boxes[k]) || &pieces[k] == &sliver) continue;
     const double border = commonBorder(sliver.polygon, box, pieces[k].polygon);
     if (border > kTrace) found.push_back({k, border, pieces[k].kind == PieceKind::Path});
   }
@@ -259,24 +263,47 @@ size_t absorbSliver(std::vector<RegionPiece>& pieces, const RegionPiece& sliver)
   return pieces.size();
 }
 
+std::vector<Box2> boxesOf(const std::vector<RegionPiece>& pieces) {
+  std::vector<Box2> out;
+  for (const RegionPiece& p : pieces) out.push_back(bounds(p.polygon));
+  return out;
+}
+
+}  // namespace
+
+size_t absorbSliver(std::vector<RegionPiece>& pieces, const RegionPiece& sliver) {
+  return absorbAmong(pieces, boxesOf(pieces), sliver);
+}
+
 void mergeSlivers(std::vector<RegionPiece>& pieces, double sliver, double minArea) {
   const auto isSmall = [&](const RegionPiece& p) {
     return area(p.polygon) < minArea || thickness(p.polygon) < sliver;
   };
-  std::vector<char> small;
+  std::vector<char> small, gone(pieces.size(), 0);
   for (const RegionPiece& p : pieces) small.push_back(isSmall(p));
+  std::vector<Box2> boxes = boxesOf(pieces);
   for (size_t i = 0; i < pieces.size();) {
     work();
-    const size_t into = small[i] ? absorbSliver(pieces, pieces[i]) : pieces.size();
+    const bool merges = small[i] && !gone[i];
+    const size_t into = merges ? absorbAmong(pieces, boxes, pieces[i]) : pieces.size();
     if (into == pieces.size()) {
       ++i;
       continue;
     }
     small[into] = isSmall(pieces[into]);
-    pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(i));
-    small.erase(small.begin() + static_cast<std::ptrdiff_t>(i));
-    i = std::min(i, into);
+    boxes[into] = bounds(pieces[into].polygon);
+    gone[i] = 1;
+    boxes[i] = {};
+    // What has grown may have become another sliver's neighbour.
+    i = std::min(i + 1, into);
   }
+  size_t kept = 0;
+  for (size_t i = 0; i < pieces.size(); ++i) {
+    if (gone[i]) continue;
+    if (kept != i) pieces[kept] = std::move(pieces[i]);
+    ++kept;
+  }
+  pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(kept), pieces.end());
 }
 
 }  // namespace gable

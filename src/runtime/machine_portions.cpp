@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Portions in the machine: handing over children of a block, and deriving those of another one.
+
+#include "runtime/machine.h"
+
+namespace gable {
+
+// The outermost block with children left that works in the open: its shapes belong to no prototype
+// and no operation waits for them. What is outermost is largest, as a rule.
+void Machine::offerPortion() {
+  const bool flat = gathers_.empty() ? flat_ : gathers_.front().flat;
+  const uint32_t end = gathers_.empty() ? activationCount_ : gathers_.front().activation;
+  size_t world = 0;
+  for (uint32_t k = 0; k < end; ++k) {
+    const Activation& a = activations_[k];
+    if (a.boundary && !flat) return;
+    if (a.boundary) ++world;
+    if (a.childNext < a.childEnd) return offerChildren(k, worlds_[world]);
+  }
+}
+
+void Machine::offerChildren(uint32_t index, const Frame& world) {
+  Activation& a = activations_[index];
+  const bool innermost = index + 1 == activationCount_;
+  const Activation* inner = innermost ? nullptr : &activations_[index + 1];
+  const uint32_t locals = inner ? inner->localBase : static_cast<uint32_t>(locals_.size());
+  const uint32_t frames = inner ? inner->frameBase : static_cast<uint32_t>(frames_.size());
+  const uint32_t stack = inner ? inner->stackBase : stackTop_;
+  if (!portionBase_) {
+    portionBase_ =
+        portion_
+            ? portion_->base
+            : std::make_shared<const PortionBase>(PortionBase{info_, nameId_, shapeHash_, given_});
+  }
+  auto p = std::make_unique<Portion>();
+  p->base = portionBase_;
+  p->attributeValues = attributeValues_;
+  for (const AttributeState s : attributeStates_) {
+    p->attributesKnown.push_back(s == AttributeState::Known);
+  }
+  p->parent = keptShape(a.shape, 0);
+  p->rule = a.rule;
+  p->block = a.block;
+  p->depth = a.depth;
+  p->parameters.assign(stack_ + a.parameters, stack_ + stack);
+  p->locals.assign(locals_.begin(), locals_.begin() + locals);
+  p->inPlace = frames > 0 ? frames_[frames - 1].calls : portion_ ? portion_->inPlace : 0;
+  p->world = world;
+  p->path = shapePath(index + 1, p->pathLength);
+  const uint32_t first = a.childEnd - (a.childEnd - a.childNext + 1) / 2;
+  if (a.inPieces) {
+    p->plan = a.plan;
+    p->plan.first += first - a.childBase;
+    p->pieces.assign(pieces_.begin() + first, pieces_.begin() + a.childEnd);
+  } else {
+    for (uint32_t c = first; c < a.childEnd; ++c) {
+      p->children.push_back(keptShape(children_[c].shape, children_[c].slot));
+      children_[c].shape = Shape{};
+    }
+  }
+  a.childEnd = first;
+  pendingHoles_.emplace_back(index, shared_.portions->push(std::move(p)));
+}
+
+// The children of the activation at work are done: what others do of them comes here.
+void Machine::fillHoles() {
+  while (!pendingHoles_.empty() && pendingHoles_.back().first + 1 == activationCount_) {
+    holes_.push_back({pendingHoles_.back().second, placeInRoot(), diagnostics_.all().size()});
+    pendingHoles_.pop_back();
+  }
+}
+
+void Machine::run(const Portion& portion) {
+  const WorkScope scope(*this);
+  const uint64_t shapesBefore = shapesExpanded_;
+  const size_t partsBefore = parts_.size();
+  beginUnit();
+  portion_ = &portion;
+  endUnit(guarded([&] {
+    beginPortion(portion);
+    return Status();
+  }));
+  closeUnit(*portion.unit, portion.base->name, shapesBefore, partsBefore);
+  portion_ = nullptr;
+}
+
+void Machine::beginPortion(const Portion& p) {
+  info_ = p.base->info;
+  clearStacks();
+  worlds_.assign(1, p.world);
+  attributeValues_ = p.attributeValues;
+  attributeStates_.assign(p.attributesKnown.size(), AttributeState::Unset);
+  for (size_t a = 0; a < p.attributesKnown.size(); ++a) {
+    if (p.attributesKnown[a]) attributeStates_[a] = AttributeState::Known;
+  }
+  if (remembers_) {
+    inputs_.assign(program_.rules.size(), 0);
+    given_ = p.base->given;
+    shapeHash_ = p.base->shapeHash;
+  }
+  locals_ = p.locals;
+  for (const Value& v : p.parameters) push(v);
+  pieces_ = p.pieces;
+  for (const KeptShape& c : p.children) {
+    children_.push_back({takenShape(c, c.shape.locals), c.slot});
+  }
+  // It stands for the one that was divided: nothing of it but its children is done here.
+  Activation& a = pushActivation();
+  a = Activation{};
+  a.shape = takenShape(p.parent, p.parent.shape.locals);
+  a.rule = p.rule;
+  a.block = p.block;
+  a.depth = p.depth;
+  a.plan = p.plan;
+  a.slot = true;
+  a.stackBase = stackTop_;
+  a.inPieces = !pieces_.empty();
+  a.childEnd = static_cast<uint32_t>(a.inPieces ? pieces_.size() : children_.size());
+  resume();
+  execute();
+}
+
+}  // namespace gable
