@@ -183,10 +183,10 @@ Value materials(FunctionCall& call) {
   const Services& services = call.services();
   std::vector<uint16_t> slots;
   if (s.geometry.kind == GeometryKind::Mesh) {
+    std::vector<bool> seen(size_t{1} << 16);
     for (const MeshFace& f : s.geometry.mesh->faces) {
-      if (std::find(slots.begin(), slots.end(), f.materialSlot) == slots.end()) {
-        slots.push_back(f.materialSlot);
-      }
+      if (!seen[f.materialSlot]) slots.push_back(f.materialSlot);
+      seen[f.materialSlot] = true;
     }
   } else if (s.geometry.kind != GeometryKind::None) {
     slots.push_back(0);

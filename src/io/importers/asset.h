@@ -49,7 +49,11 @@ struct AssetOptions {
   bool zUp = false;
 };
 
-/// By the content and, for OBJ, the extension. Codes: asset-broken, asset-empty, asset-unknown.
+/// Slots are numbers of 16 bits, and a shape's own material takes one more.
+constexpr size_t kMostMaterials = 65534;
+
+/// By the content and, for OBJ, the extension. Codes: asset-broken, asset-empty, asset-unknown,
+/// asset-too-large.
 Result<Asset> readAsset(std::string_view bytes, const AssetOptions& options);
 Result<Asset> readObjAsset(std::string_view text, const AssetOptions& options);
 Result<Asset> readGltfAsset(std::string_view bytes, const AssetOptions& options);

@@ -50,6 +50,11 @@ uint32_t FaceFilter::position(uint32_t index) {
   return number;
 }
 
+Error tooManyOf(const char* what, size_t most, const AssetOptions& options, const char* hint) {
+  return {"asset-too-large",
+          "'" + options.path + "' has more than " + std::to_string(most) + " " + what, hint};
+}
+
 Result<Asset> finishAsset(Mesh mesh, Asset asset, const AssetOptions& options) {
   if (mesh.empty()) {
     return Error{"asset-empty", "'" + options.path + "' has no faces", {}};

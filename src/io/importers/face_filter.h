@@ -38,6 +38,9 @@ class FaceFilter {
   uint64_t dropped_ = 0;
 };
 
+/// Of an asset that needs more of what a table of ours can hold.
+Error tooManyOf(const char* what, size_t most, const AssetOptions& options, const char* hint);
+
 /// Checks the mesh and fills in what the asset still lacks.
 Result<Asset> finishAsset(Mesh mesh, Asset asset, const AssetOptions& options);
 

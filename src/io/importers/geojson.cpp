@@ -25,6 +25,8 @@ namespace {
 constexpr double kTolerance = 1e-3;
 // Beyond, a plane is no picture of the Earth.
 constexpr double kWidestDegrees = 10;
+// No lot or building is so wide: 20 kilometres. Such numbers are metres.
+constexpr double kWidestPolygon = 0.2;
 // More than once around the Earth.
 constexpr double kFarthest = 1e8;
 constexpr int kDeepestCollection = 16;
@@ -56,6 +58,7 @@ class GeoJsonReader {
  private:
   void collect(const JsonValue& v);
   void chooseProjection(const JsonValue& root);
+  bool tellsMetres();
   void measure(const JsonValue& geometry, bool lines, int depth);
   void addFeature(const Feature& f);
   void addGeometry(const JsonValue& geometry, int depth);
@@ -84,6 +87,8 @@ class GeoJsonReader {
   double west_ = -1e300;
   Vec2 shift_;
   std::optional<TransverseMercator> projection_;
+  // Of the polygons, as they are written.
+  std::vector<double> widths_;
   // Of the feature at hand.
   const Feature* feature_ = nullptr;
   std::string name_;
@@ -151,6 +156,13 @@ void GeoJsonReader::measure(const JsonValue& geometry, bool lines, int depth) {
   };
   const auto polygon = [&](const JsonValue& rings) {
     for (const JsonValue& ring : rings.items()) line(ring);
+    if (type == "MultiLineString") return;
+    Box2 own;
+    for (const JsonValue& p : rings.at(0).items()) {
+      Vec2 at;
+      if (pointOf(p, at)) own.include(at);
+    }
+    if (!own.empty()) widths_.push_back(std::max(own.size().x, own.size().y));
   };
   const JsonValue& coordinates = geometry["coordinates"];
   if (type == "Polygon" || (lines && type == "MultiLineString")) polygon(coordinates);
@@ -191,6 +203,7 @@ void GeoJsonReader::chooseProjection(const JsonValue& root) {
     if (std::fabs(c.x) > 1e5 || std::fabs(c.y) > 1e5) shift_ = {std::floor(c.x), std::floor(c.y)};
     return;
   }
+  if (tellsMetres()) return;
   Box2 box = extent_;
   if (box.size().x > 180 && eastward_.size().x < box.size().x) {
     box = eastward_;
@@ -205,6 +218,22 @@ void GeoJsonReader::chooseProjection(const JsonValue& root) {
                                  " degrees: lengths are distorted",
                              "read a part of it at a time");
   }
+}
+
+// Half of the polygons are wider than any lot is in degrees.
+bool GeoJsonReader::tellsMetres() {
+  if (widths_.empty()) return false;
+  const auto middle = widths_.begin() + static_cast<std::ptrdiff_t>(widths_.size() / 2);
+  std::nth_element(widths_.begin(), middle, widths_.end());
+  if (*middle <= kWidestPolygon) return false;
+  out_.diagnostics.error(
+      "geojson-metres", {},
+      "'" + path_ + "' has polygons " + shortestText(std::round(*middle * 100) / 100) +
+          " degrees wide, " + shortestText(std::round(*middle * 111)) +
+          " kilometres: its numbers must be metres",
+      "say so in the file: \"crs\": {\"type\": \"name\", \"properties\": {\"name\": "
+      "\"EPSG:3857\"}}, or give longitude and latitude");
+  return true;
 }
 
 bool GeoJsonReader::readPoints(const JsonValue& coordinates, std::vector<Vec2>& out) {
@@ -243,6 +272,23 @@ void GeoJsonReader::addFace(const Polygon& p) {
   ++faces_;
 }
 
+// Two by two, and the results again: where hundreds lie over each other, all at once would meet at
+// as many points as there are pairs.
+Region united(const std::vector<Ring>& rings) {
+  std::vector<Region> parts;
+  for (const Ring& r : rings) {
+    Polygon p{r, {}};
+    orient(p);
+    parts.push_back({std::move(p)});
+  }
+  while (parts.size() > 1) {
+    const size_t half = (parts.size() + 1) / 2;
+    for (size_t i = 0; i + half < parts.size(); ++i) parts[i] = unite(parts[i], parts[i + half]);
+    parts.resize(half);
+  }
+  return parts.empty() ? Region{} : std::move(parts[0]);
+}
+
 void GeoJsonReader::addPolygon(const JsonValue& rings) {
   Polygon p;
   if (!readRing(rings.at(0), p.outer)) return;
@@ -266,12 +312,9 @@ void GeoJsonReader::addPolygon(const JsonValue& rings) {
     return;
   }
   // Holes side by side, or across the outline: what they leave of the area.
-  Region holes;
-  for (const Ring& h : p.holes) holes.push_back({h, {}});
-  for (Polygon& h : holes) orient(h);
   Region left;
   const Status cut = guarded([&] {
-    left = subtract({{p.outer, {}}}, holes);
+    left = subtract({{p.outer, {}}}, united(p.holes));
     return Status();
   });
   if (!cut.ok()) {
@@ -427,6 +470,7 @@ Result<ShapeFile> GeoJsonReader::read(std::string_view text) {
   }
   collect(root.value());
   chooseProjection(root.value());
+  if (out_.diagnostics.hasErrors()) return std::move(out_);
   for (const Feature& f : features_) addFeature(f);
   addAllLines();
   if (messages_ > kMostMessages) {

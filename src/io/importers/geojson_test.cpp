@@ -67,6 +67,35 @@ TEST(GeoJson, ringDirectionsDoNotMatterAndHolesStay) {
   }
 }
 
+// Without a word in the file, numbers within the degrees of the Earth are degrees; lots of metres
+// would be countries then.
+TEST(GeoJson, metresThatLookLikeDegreesAreRefused) {
+  const std::string lot = polygon("[[0,0],[30,0],[30,40],[0,40],[0,0]]");
+  auto r = readGeoJsonShapes(feature(lot), "a.geojson");
+  ASSERT_TRUE(r.ok());
+  ASSERT_TRUE(r->diagnostics.hasErrors());
+  EXPECT_EQ(r->diagnostics.all()[0].code, "geojson-metres");
+  EXPECT_TRUE(r->shapes.empty());
+  const std::string crs =
+      R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:3857"}},"features":[)";
+  r = readGeoJsonShapes(crs + feature(lot) + "]}", "a.geojson");
+  ASSERT_TRUE(r.ok());
+  EXPECT_NEAR(r->shapes[0].mesh.area(), 1200, 1e-6);
+}
+
+// Hundreds of holes in one place meet each other at more points than time allows.
+TEST(GeoJson, holesOverEachOtherAreMerged) {
+  std::string rings = kRing;
+  for (int i = 0; i < 400; ++i) {
+    rings +=
+        ",[[7.4202,43.7302],[7.4208,43.7302],[7.4208,43.7308],[7.4202,43.7308],[7.4202,43.7302]]";
+  }
+  auto r = readGeoJsonShapes(feature(polygon(rings)), "a.geojson");
+  ASSERT_TRUE(r.ok());
+  ASSERT_EQ(r->shapes.size(), 1u);
+  EXPECT_NEAR(r->shapes[0].mesh.area(), 80.5 * 111.1 * (1 - 0.36), 20);
+}
+
 TEST(GeoJson, metresAreKept) {
   const std::string crs =
       R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::25832"}},"features":[)" +

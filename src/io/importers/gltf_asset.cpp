@@ -109,7 +109,10 @@ uint16_t GltfMeshes::slotOf(size_t material) {
   if (slots_.empty()) slots_.assign(materials_.size() + 1, 0);
   uint32_t& slot = slots_[known];
   if (slot == 0) {
-    if (asset_.materials.size() >= 65535) return 0;
+    if (asset_.materials.size() == kMostMaterials) {
+      tooManyMaterials_ = true;
+      return 0;
+    }
     asset_.materials.push_back(known < materials_.size() ? materials_[known].material : Material{});
     slot = static_cast<uint32_t>(asset_.materials.size());
   }
@@ -180,6 +183,9 @@ Result<Asset> readGltfAsset(std::string_view bytes, const AssetOptions& options)
       return Error{
           "asset-broken", "'" + options.path + "' shows more triangles than can be read", {}};
     }
+  }
+  if (meshes.tooManyMaterials()) {
+    return tooManyOf("materials", kMostMaterials, options, "join those that look alike");
   }
   if (meshes.dropped() > 0) {
     asset.warnings.push_back(std::to_string(meshes.dropped()) +

@@ -31,6 +31,8 @@ class GltfMeshes {
   static constexpr uint64_t kMostWork = 200'000'000;
   /// Primitives that are no triangles or whose data is wrong.
   uint64_t broken() const { return broken_; }
+  /// More than a mesh has slots for.
+  bool tooManyMaterials() const { return tooManyMaterials_; }
 
  private:
   struct PositionHash {
@@ -51,6 +53,7 @@ class GltfMeshes {
   std::unordered_map<std::array<double, 3>, uint32_t, PositionHash> known_;
   std::vector<uint32_t> slots_;
   uint64_t work_ = 0, broken_ = 0;
+  bool tooManyMaterials_ = false;
   // Of the primitive at hand.
   std::vector<double> positions_, normals_;
   std::vector<std::vector<double>> uvs_;

@@ -11,7 +11,7 @@ namespace gable {
 namespace {
 
 constexpr uint32_t kNone = ObjCorner::kNone;
-constexpr size_t kMostSlots = 65535;
+constexpr size_t kMostMaterialFiles = 1000;
 
 // Material names of the faces become slots in the order of their first use.
 class ObjSlots {
@@ -25,12 +25,16 @@ class ObjSlots {
   uint16_t of(uint32_t material) {
     uint32_t& slot = slots_[std::min<size_t>(material, file_.materials.size())];
     if (slot == 0) {
-      if (out_.materials.size() == kMostSlots) return 0;
+      if (out_.materials.size() == kMostMaterials) {
+        overflows_ = true;
+        return 0;
+      }
       out_.materials.push_back(find(material));
       slot = static_cast<uint32_t>(out_.materials.size());
     }
     return static_cast<uint16_t>(slot - 1);
   }
+  bool overflows() const { return overflows_; }
 
  private:
   Material find(uint32_t material) {
@@ -47,6 +51,7 @@ class ObjSlots {
   Asset& out_;
   // One more than the slot, 0 for none yet.
   std::vector<uint32_t> slots_;
+  bool overflows_ = false;
 };
 
 std::map<std::string, Material> materialsOf(const ObjFile& file, const AssetOptions& options,
@@ -72,6 +77,9 @@ std::map<std::string, Material> materialsOf(const ObjFile& file, const AssetOpti
 
 Result<Asset> readObjAsset(std::string_view text, const AssetOptions& options) {
   const ObjFile file = parseObj(text);
+  if (file.materialFiles.size() > kMostMaterialFiles) {
+    return tooManyOf("material files", kMostMaterialFiles, options, "join them into one");
+  }
   Asset out;
   ObjSlots slots(file, materialsOf(file, options, out.warnings), out);
   const bool anyUv = std::any_of(file.corners.begin(), file.corners.end(),
@@ -104,6 +112,9 @@ Result<Asset> readObjAsset(std::string_view text, const AssetOptions& options) {
       out.groups.push_back(f.group == kNone ? "" : file.groups[f.group]);
     }
     out.faceGroups.push_back(group);
+  }
+  if (slots.overflows()) {
+    return tooManyOf("materials", kMostMaterials, options, "join those that look alike");
   }
   if (filter.dropped() > 0) {
     out.warnings.push_back(std::to_string(filter.dropped()) + " faces without area are left out");

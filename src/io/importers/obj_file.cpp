@@ -30,7 +30,11 @@ class NameTable {
 class ObjParser {
  public:
   explicit ObjParser(ObjFile& out)
-      : out_(out), materials_(out.materials), objects_(out.objects), groups_(out.groups) {}
+      : out_(out),
+        materials_(out.materials),
+        objects_(out.objects),
+        groups_(out.groups),
+        materialFiles_(out.materialFiles) {}
 
   void line(LineWords words) {
     const std::string_view head = words.word();
@@ -57,7 +61,7 @@ class ObjParser {
       const std::string_view how = words.word();
       state_.smooth = how != "off" && how != "0" && !how.empty();
     } else if (head == "mtllib") {
-      out_.materialFiles.emplace_back(words.rest());
+      materialFiles_.of(words.rest());
     }
     // Other statements (points, lines, free-form curves) are none of ours.
     if (!ok) ++out_.badLines;
@@ -122,7 +126,7 @@ class ObjParser {
   }
 
   ObjFile& out_;
-  NameTable materials_, objects_, groups_;
+  NameTable materials_, objects_, groups_, materialFiles_;
   ObjFace state_;
 };
 

@@ -36,8 +36,7 @@ struct ObjFile {
   std::vector<ObjCorner> corners;
   std::vector<ObjFace> faces;
   /// In the order of first mention, each once.
-  std::vector<std::string> materials, objects, groups;
-  std::vector<std::string> materialFiles;
+  std::vector<std::string> materials, objects, groups, materialFiles;
   uint64_t badLines = 0;
 };
 

@@ -138,6 +138,32 @@ TEST(ObjAsset, garbageNeverHurts) {
   }
 }
 
+TEST(ObjAsset, moreMaterialsThanSlotsAreRefused) {
+  std::string text = kSquare;
+  for (int i = 0; i < 65534; ++i) text += "usemtl m" + std::to_string(i) + "\nf 1 2 3\n";
+  const auto most = read(text, "");
+  ASSERT_TRUE(most.ok());
+  EXPECT_EQ(most.value().materials.size(), 65534u);
+  EXPECT_EQ(most.value().mesh->faces.back().materialSlot, 65533);
+  EXPECT_EQ(read(text + "usemtl one-more\nf 1 2 3\n", "").error().code, "asset-too-large");
+}
+
+TEST(ObjAsset, materialFilesAreReadOnce) {
+  std::string text = kSquare;
+  for (int i = 0; i < 50'000; ++i) text += "mtllib a.mtl\n";
+  size_t times = 0;
+  AssetOptions options;
+  options.path = "a.obj";
+  options.readFile = [&](const std::string&) -> Result<std::string> {
+    ++times;
+    return std::string("newmtl m\n");
+  };
+  EXPECT_TRUE(readObjAsset(text + "f 1 2 3\n", options).ok());
+  EXPECT_EQ(times, 1u);
+  for (int i = 0; i < 2000; ++i) text += "mtllib b" + std::to_string(i) + ".mtl\n";
+  EXPECT_EQ(readObjAsset(text + "f 1 2 3\n", options).error().code, "asset-too-large");
+}
+
 TEST(ObjShapes, objectsOrGroupsAreShapes) {
   const std::string text =
       std::string(kSquare) + "o A\nf 1 2 3\no B\nf 1 3 4\nf 2 3 4\no A\nf 2 3 4\n";

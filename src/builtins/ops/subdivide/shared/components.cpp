@@ -220,14 +220,25 @@ void Components::addFaceVertices() {
   }
 }
 
+std::span<const uint32_t> Components::facesOfSlot(uint32_t slot) const {
+  const auto first = std::partition_point(bySlot_.begin(), bySlot_.end(), [&](uint32_t f) {
+    return mesh_.faces[f].materialSlot < slot;
+  });
+  const auto end = std::partition_point(
+      first, bySlot_.end(), [&](uint32_t f) { return mesh_.faces[f].materialSlot == slot; });
+  return {first, end};
+}
+
 void Components::addMaterials() {
-  std::vector<uint16_t> slots;
-  for (const MeshFace& f : mesh_.faces) slots.push_back(f.materialSlot);
-  std::sort(slots.begin(), slots.end());
-  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
-  for (const uint16_t slot : slots) {
-    uint32_t f = 0;
-    while (mesh_.faces[f].materialSlot != slot) ++f;
+  bySlot_.resize(mesh_.faceCount());
+  std::iota(bySlot_.begin(), bySlot_.end(), 0);
+  std::stable_sort(bySlot_.begin(), bySlot_.end(), [&](uint32_t a, uint32_t b) {
+    return mesh_.faces[a].materialSlot < mesh_.faces[b].materialSlot;
+  });
+  for (size_t i = 0; i < bySlot_.size(); ++i) {
+    const uint32_t f = bySlot_[i];
+    const uint16_t slot = mesh_.faces[f].materialSlot;
+    if (i > 0 && mesh_.faces[bySlot_[i - 1]].materialSlot == slot) continue;
     Component c;
     c.face = slot;
     c.corner = mesh_.loopsOf(f)[0].firstCorner;
@@ -318,9 +329,7 @@ Mesh Components::meshOf(const std::vector<uint32_t>& which) const {
       case ComponentKind::Vertices:
       case ComponentKind::FaceVertices: out.vertex(c); break;
       case ComponentKind::Materials:
-        for (uint32_t f = 0; f < mesh_.faceCount(); ++f) {
-          if (mesh_.faces[f].materialSlot == c.face) out.face(f);
-        }
+        for (const uint32_t f : facesOfSlot(c.face)) out.face(f);
         break;
       case ComponentKind::Holes:
         for (const MeshLoop& loop : mesh_.loopsOf(c.face)) {
@@ -409,9 +418,7 @@ void Components::tagsOf(const Selectable& what, Of of, std::vector<uint32_t>& ou
     case ComponentKind::Faces:
     case ComponentKind::Holes: return faceTags(c.face, of, out);
     case ComponentKind::Materials:
-      for (uint32_t f = 0; f < mesh_.faceCount(); ++f) {
-        if (mesh_.faces[f].materialSlot == c.face) faceTags(f, of, out);
-      }
+      for (const uint32_t f : facesOfSlot(c.face)) faceTags(f, of, out);
       return;
     case ComponentKind::Edges:
     case ComponentKind::FaceEdges:

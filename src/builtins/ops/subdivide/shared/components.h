@@ -6,6 +6,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "builtins/mesh_edges.h"
@@ -58,6 +59,7 @@ class Components : public TagSource {
   void addVertices();
   void addFaceVertices();
   void addMaterials();
+  std::span<const uint32_t> facesOfSlot(uint32_t slot) const;
   void addHoles();
   void classifyRoofEdges();
   bool facesBorder(uint32_t face) const;
@@ -71,6 +73,8 @@ class Components : public TagSource {
   std::unique_ptr<MeshEdges> edges_;
   std::vector<Vec3> normals_;
   std::vector<Component> list_;
+  /// Of components by material: the faces, those of one slot together.
+  std::vector<uint32_t> bySlot_;
 };
 
 }  // namespace gable
