@@ -5,6 +5,9 @@
 # shapes of examples/NAME/buildings.geojson where there is such a file. generate.args and picture.args beside them hold further arguments of
 # `gable generate` and `gable render`; # starts a comment in them. Sourced from the repository's root.
 
+# The park grammars share a folder: examples/park/NAME.park is the example park/NAME.
+
+# Those with a folder of their own.
 example_names() {
   local folder name
   for folder in examples/*/; do
@@ -13,9 +16,29 @@ example_names() {
   done
 }
 
+park_names() {
+  local file
+  for file in examples/park/*.park; do echo "park/$(basename "$file" .park)"; done
+}
+
+# park_arguments NAME: the lot, and the seed, that a park grammar is shown on.
+park_arguments() {
+  case $1 in
+    park/circular) echo --lot 40x40 --seed 4 ;;
+    park/freeform) echo --lot 60x60 --seed 2 ;;
+    park/recursive) echo --lot 40x30 ;;
+    park/irregular) echo --lot 40x40 --seed 3 ;;
+    park/cells) echo --lot 51x27 ;;
+    park/metric) echo --lot 40x40 --seed 1 ;;
+    park/promenade) echo --lot 44x36 ;;
+    park/*) echo --lot 20x20 ;;
+  esac
+}
+
 # example_rules NAME: its rule file; nothing when there is no such example.
 example_rules() {
   local extension
+  case $1 in park/*) [ ! -f "examples/$1.park" ] || echo "examples/$1.park" && return ;; esac
   for extension in cga gbbg grammar pg3d park; do
     [ ! -f "examples/$1/$1.$extension" ] || { echo "examples/$1/$1.$extension" && return; }
   done
@@ -27,6 +50,7 @@ words() { [ ! -f "$1" ] || sed 's/^#.*//' "$1" | xargs -n 1; }
 # derive_arguments NAME: what `gable generate` and `gable render` are told about an example.
 derive_arguments() {
   example_rules "$1"
+  park_arguments "$1" | xargs -r -n 1
   words "examples/$1/generate.args"
   [ ! -f "examples/$1/buildings.geojson" ] || printf '%s\n' --shapes "examples/$1/buildings.geojson"
 }

@@ -123,7 +123,8 @@ int main(int argc, char** argv) {
   ConvertArguments convert;
   auto* convertApp =
       app.add_subcommand("convert", "Rewrite a grammar of another notation in Gable's language");
-  convertApp->add_option("rules", convert.rules, "The grammar: .grammar, .pg3d")->required();
+  convertApp->add_option("rules", convert.rules, "The grammar: .grammar .pg3d .gbbg .park")
+      ->required();
   convertApp->add_option("--project", convert.project, "The folder that the rules may read from");
   convertApp->add_option("--dialect", convert.dialect,
                          "Its notation, when the extension does not tell");

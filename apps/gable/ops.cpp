@@ -61,6 +61,44 @@ std::optional<std::string> textOf(const gable::Builtins& all, const std::string&
   return std::nullopt;
 }
 
+bool equalFolded(const std::string& a, const std::string& b) {
+  const auto folded = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](char x, char y) { return folded(x) == folded(y); });
+}
+
+// The built-in name that differs in case at most; else the name itself.
+std::string knownName(const gable::Builtins& all, const std::string& name) {
+  std::string found = name;
+  const auto look = [&](const std::string& other) {
+    if (found != name || !equalFolded(other, name)) return;
+    found = other;
+  };
+  if (textOf(all, name)) return name;
+  for (const gable::BuiltinCall& c : all.operations) look(c.name);
+  for (const gable::BuiltinCall& c : all.functions) look(c.name);
+  for (const gable::BuiltinAttribute& a : all.attributes) look(a.name);
+  return found;
+}
+
+// What the word means in other notations, a paragraph each.
+std::string notationsOf(const std::string& name) {
+  std::string out;
+  for (const gable::NotationWord& w : gable::notationWords()) {
+    if (!equalFolded(w.word, name)) continue;
+    out += "In " + w.notation + ", " + w.extension + " (" + w.guide + "): " + w.call + "\n";
+    if (!w.text.empty()) out += "      " + w.text + "\n";
+  }
+  return out;
+}
+
+std::optional<std::string> pageOf(const gable::Builtins& all, const std::string& name) {
+  const std::optional<std::string> own = textOf(all, knownName(all, name));
+  const std::string others = notationsOf(name);
+  if (others.empty()) return own;
+  return own ? *own + "\n" + others : others;
+}
+
 }  // namespace
 
 int runOps(const OpsArguments& arguments) {
@@ -69,7 +107,8 @@ int runOps(const OpsArguments& arguments) {
   if (arguments.name.empty())
     text = arguments.json ? gable::builtinsJson(all) : textOfAll(all);
   else
-    text = arguments.json ? gable::builtinJson(all, arguments.name) : textOf(all, arguments.name);
+    text = arguments.json ? gable::builtinJson(all, knownName(all, arguments.name))
+                          : pageOf(all, arguments.name);
   if (!text) {
     std::fprintf(stderr, "gable: nothing built in is called '%s'; 'gable ops' lists all\n",
                  arguments.name.c_str());

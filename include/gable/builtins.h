@@ -68,4 +68,15 @@ struct Builtins {
 
 Builtins builtins();
 
+/// A word of another notation than Gable's own.
+struct NotationWord {
+  std::string word;
+  /// As its users call the notation, the extension of its files, and the page that explains it.
+  std::string notation, extension, guide;
+  /// How the word is written, and one sentence; the sentence may be empty.
+  std::string call, text;
+};
+
+std::vector<NotationWord> notationWords();
+
 }  // namespace gable

@@ -4,6 +4,7 @@
 // The catalogue as plain data.
 
 #include "builtins/catalogue.h"
+#include "dialects/dialect.h"
 #include "engine/guard.h"
 #include "gable/gable.h"
 
@@ -103,6 +104,20 @@ Builtins allBuiltins() {
 }
 
 }  // namespace
+
+std::vector<NotationWord> notationWords() {
+  return guardedValue<std::vector<NotationWord>>([] {
+    std::vector<NotationWord> out;
+    for (const Dialect* d : dialects()) {
+      if (!d->words) continue;
+      const std::string guide = std::string("docs/guide/") + d->name + ".md";
+      for (const DialectWord& w : d->words()) {
+        out.push_back({w.name, d->title, d->extensions[0], guide, w.call, w.text});
+      }
+    }
+    return out;
+  });
+}
 
 Builtins builtins() { return guardedValue<Builtins>(allBuiltins); }
 

@@ -43,11 +43,16 @@ class ProjectTextures final : public TextureSource {
     if (!bytes.ok()) return;
     auto image = decodeImage(bytes.value());
     if (!image.ok()) return;
+    // Small files can be large pictures; beyond this, surfaces have their colour.
+    constexpr uint64_t kMostBytes = 2ull << 30;
+    held_ += image->rgba.size();
+    if (held_ > kMostBytes) return;
     out = {image.value().width, image.value().height, std::move(image.value().rgba)};
   }
 
   Project* project_;
   mutable std::map<std::string, TextureImage> images_;
+  mutable uint64_t held_ = 0;
 };
 
 /// A folder of its own that goes with it; the path is empty where none can be made.
@@ -134,6 +139,19 @@ std::shared_ptr<Model::Impl> loaded(const std::string& path) {
   return impl;
 }
 
+// What the model will ask for; formats without textures ask for none.
+std::vector<std::string> texturesOf(const Scene& scene, const std::string& path) {
+  std::vector<std::string> paths;
+  const std::string format = extensionOf(path);
+  if (format == "ply" || format == "stl") return paths;
+  for (const Material& m : scene.materials) {
+    for (const TextureMap& map : m.maps) {
+      if (!map.path.empty()) paths.push_back(map.path);
+    }
+  }
+  return paths;
+}
+
 WriteResult written(const Model::Impl& impl, const std::string& path,
                     const WriteSettings& settings) {
   WriteOptions options;
@@ -142,6 +160,7 @@ WriteResult written(const Model::Impl& impl, const std::string& path,
     if (impl.project) return impl.project->texture(texture);
     return Error{"texture-not-found", "there is no picture '" + texture + "'", ""};
   };
+  if (impl.project) impl.project->drawBuiltins(texturesOf(impl.scene(), path));
   Result<WriteReport> report = writeModel(impl.scene(), path, options);
   if (!report.ok()) return failedWrite(report.error());
   WriteResult out;

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/files.h"
+#include "base/parallel.h"
 #include "io/image/image.h"
 #include "io/image/patterns.h"
 #include "io/importers/asset.h"
@@ -38,6 +39,16 @@ bool isHidden(std::string_view path) {
     if (path[i] == '.' && (i == 0 || path[i - 1] == '/')) return true;
   }
   return false;
+}
+
+/// Beyond the last for another path.
+size_t numberOfBuiltin(std::string_view path) {
+  if (path.substr(0, kBuiltinTexturePrefix.size()) != kBuiltinTexturePrefix) {
+    return kBuiltinTextures.size();
+  }
+  size_t i = 0;
+  while (i < kBuiltinTextures.size() && path != builtinTexturePath(i)) ++i;
+  return i;
 }
 
 std::string canonical(const fs::path& p) {
@@ -133,14 +144,36 @@ Result<Asset> Project::load(std::string_view path) {
   return asset;
 }
 
+void Project::drawBuiltins(const std::vector<std::string>& paths) {
+  std::vector<std::pair<std::string, std::string>> made;
+  {
+    std::lock_guard lock(mutex_);
+    for (const std::string& path : paths) {
+      const bool wanted = numberOfBuiltin(path) < kBuiltinTextures.size();
+      if (wanted && builtins_.count(path) == 0) made.emplace_back(path, "");
+    }
+  }
+  std::sort(made.begin(), made.end());
+  made.erase(std::unique(made.begin(), made.end()), made.end());
+  // Noise does not get smaller at higher levels, only slower.
+  constexpr int kLevel = 3;
+  parallelFor(made.size(), 0, [&](size_t i, unsigned) {
+    made[i].second = encodePng(drawPattern(numberOfBuiltin(made[i].first)), 3, kLevel).value();
+  });
+  std::lock_guard lock(mutex_);
+  for (auto& [path, bytes] : made) builtins_[path] = std::move(bytes);
+}
+
 Result<std::string> Project::texture(const std::string& path) {
   {
     std::lock_guard lock(mutex_);
     const auto at = embedded_.find(path);
     if (at != embedded_.end()) return at->second;
   }
-  for (size_t i = 0; i < kBuiltinTextures.size(); ++i) {
-    if (path == builtinTexturePath(i)) return encodePng(drawPattern(i), 3);
+  if (numberOfBuiltin(path) < kBuiltinTextures.size()) {
+    drawBuiltins({path});
+    std::lock_guard lock(mutex_);
+    return builtins_[path];
   }
   const std::string file = locate(path, "");
   if (file.empty()) {

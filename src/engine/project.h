@@ -43,6 +43,9 @@ class Project final : public Assets {
   Result<Asset> load(std::string_view path);
   /// The bytes of a texture by the path that a material names, those inside of models included.
   Result<std::string> texture(const std::string& path);
+  /// Draws those of the paths that name built-in textures, on several threads; texture() has them
+  /// then.
+  void drawBuiltins(const std::vector<std::string>& paths);
 
   Ref<AssetModel> model(std::string_view path, std::string_view fromFile, bool zUp,
                         std::string& why) override;
@@ -66,6 +69,8 @@ class Project final : public Assets {
   std::map<std::string, ModelEntry> models_;
   std::map<std::string, ImageInfo> images_;
   std::map<std::string, std::string> embedded_;
+  /// Built-in textures that have been asked for, as PNG.
+  std::map<std::string, std::string> builtins_;
   std::vector<std::string> files_;
   bool listed_ = false;
 };

@@ -101,6 +101,19 @@ class Options(Case):
             self.assertIn("hint: ", told)
 
 
+class Words(Case):
+    def testNamesAreFoundWhateverTheirCase(self):
+        for name, says in (("Grid", "grid - "), ("Grid", "docs/guide/park.md"), ("grid", "docs/guide/gbbg.md"),
+                           ("CubeX", "docs/guide/progen3d.md"), ("EXTRUDE", "extrude - ")):
+            self.run_gable("ops", name, says=says)
+        self.run_gable("ops", "nothing", status=USAGE, says="nothing built in")
+        self.run_gable("ops", "Grid", "--json", says="\"name\": \"grid\"")
+
+    def testHelpNamesEveryNotation(self):
+        for ending in (".grammar", ".pg3d", ".gbbg", ".park"):
+            self.run_gable("convert", "--help", says=ending)
+
+
 class Writing(Case):
     def full_disk(self):
         """Files end at 4000 bytes, as they do on a full disk."""

@@ -361,6 +361,35 @@ class ShapeFiles(Case):
         self.shapes("a.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nf" + " 1 2 3" * (HUGE // 60), status=(0, 1, 4), megabytes=4000)
         self.shapes("a.obj", "x" * HUGE, status=1)
 
+    def testManyMaterialsAndFilesEndSoon(self):
+        count = 20_000 if SHORT else 100_000
+        triangle = "v 0 0 0\nv 1 0 0\nv 1 0 1\n"
+        self.put("a.mtl", "newmtl m\nKd 1 0 0\n" * 1000)
+        uses = triangle + "".join(f"usemtl m{i}\nf 1 2 3\n" for i in range(count))
+        for text in (uses, triangle + "mtllib a.mtl\n" * count + "f 1 2 3\n",
+                     triangle + "".join(f"mtllib {i}.mtl\n" for i in range(count)) + "f 1 2 3\n",
+                     triangle + "".join(f"g g{i}\no o{i}\nf 1 2 3\n" for i in range(count))):
+            self.put("a.obj", text)
+            self.generate("Lot --> i(\"a.obj\") print(len(str(geometry.materials))) comp(m) { all : X. }", seconds=10)
+            self.shapes("b.obj", text, seconds=10)
+        self.put("a.obj", "".join(uses.splitlines(keepends=True)[:3 + 2 * 65_534]))
+        self.generate("Lot --> i(\"a.obj\") comp(m) { all : X. }", seconds=10)
+
+    def testManyHolesAndFeaturesEndSoon(self):
+        def square(x, y, d):
+            return f"[[{x},{y}],[{x + d},{y}],[{x + d},{y + d}],[{x},{y + d}],[{x},{y}]]"
+        same = ",".join([square(0, 0, .001)] + [square(.0002, .0003, .0003)] * 400)
+        self.shapes("a.geojson", POLYGON % ("{}", f"[{same}]"), codes=["geojson-holes"], seconds=30)
+        apart = ",".join([square(0, 0, .04)] + [square(i % 60 * 5e-4 + 1e-4, i // 60 * 5e-4 + 1e-4, 2e-4)
+                                                for i in range(3000)])
+        self.shapes("a.geojson", POLYGON % ("{}", f"[{apart}]"), seconds=30)
+        wide = ",".join(f"\"a{i}\":{i}" for i in range(100_000))
+        self.shapes("a.geojson", POLYGON % ("{" + wide + "}", f"[{square(0, 0, .001)}]"), seconds=30)
+
+    def testMetresAreNotTakenForDegrees(self):
+        self.shapes("a.geojson", POLYGON % ("{}", "[[[0,0],[30,0],[30,40],[0,40],[0,0]]]"), status=1,
+                    codes=["geojson-metres"])
+
     def testCoordinatesWithoutMeaningAreReported(self):
         for c in ("1e308", "-1e400", "1e17", "null", "\"1\"", "[]", "91"):
             self.shapes("a.geojson", POLYGON % ("{}", f"[[[0,0],[{c},0],[0,{c}],[0,0]]]"), status=(0, 1))

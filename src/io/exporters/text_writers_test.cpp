@@ -94,6 +94,33 @@ TEST_F(TextWriters, objShowsTheSceneToAMicrometre) {
   EXPECT_NE(text("street.obj").find("\no house_0\ng Core\nusemtl wall\n"), std::string::npos);
 }
 
+// MTL has no turn of a texture: the coordinates are turned, and other materials keep theirs.
+TEST_F(TextWriters, objTurnsTextureCoordinates) {
+  testing::SceneBuilder b;
+  Material turned = testing::colored("turned", {1, 1, 1});
+  turned.map(TextureLayer::Color) = {"a.png", 2, 3, 0.5, 0.25, 90};
+  Material plain = testing::colored("plain", {1, 1, 1});
+  plain.map(TextureLayer::Color) = {"a.png", 2, 3, 0.5, 0.25, 0};
+  b.leaf(kUnitQuadXyUv, Frame{}, {1, 1, 1}, b.material(turned));
+  b.leaf(kUnitBoxUv, Frame::moved({5, 0, 0}), {1, 1, 1}, b.material(turned));
+  b.leaf(kUnitBoxUv, Frame::moved({9, 0, 0}), {1, 1, 1}, b.material(plain));
+  b.root("r", b.prototype("p"), Frame{});
+  WriteOptions options;
+  options.readTexture = [](const std::string&) -> Result<std::string> {
+    return testing::picture(4, false);
+  };
+  ASSERT_TRUE(writeModel(b.scene, folder_ + "t.obj", options).ok());
+  const std::string obj = text("t.obj"), mtl = text("t.mtl");
+  // (u, v) becomes (0.5 - 3 v, 0.25 + 2 u): six faces of the box and the quad.
+  size_t count = 0;
+  for (size_t at = 0; (at = obj.find("vt -2.5 2.25\n", at)) != std::string::npos; ++at) ++count;
+  EXPECT_EQ(count, 7u);
+  const size_t first = mtl.find("newmtl turned"), last = mtl.find("newmtl plain");
+  ASSERT_LT(first, last);
+  EXPECT_EQ(mtl.substr(first, last - first).find("-s 2"), std::string::npos);
+  EXPECT_NE(mtl.find("map_Kd -s 2 3 1 -o 0.5 0.25 0 ", last), std::string::npos);
+}
+
 TEST_F(TextWriters, closedModelsKeepTheirVolume) {
   double volume = 0;
   const Scene s = boxes(&volume);

@@ -43,8 +43,8 @@ ImageFormat imageFormat(std::string_view bytes);
 Result<ImageHeader> readImageHeader(std::string_view bytes);
 Result<Image> decodeImage(std::string_view bytes, uint64_t maxPixels = kMostPixels);
 
-/// `channels`: 3 drops alpha, 4 keeps it. The same bytes for the same picture on one version of the
-/// PNG library.
-Result<std::string> encodePng(const Image& image, int channels = 4);
+/// `channels`: 3 drops alpha, 4 keeps it. `level`: zlib's, 1 fast to 9 small. The same bytes for
+/// the same picture on one version of the PNG library.
+Result<std::string> encodePng(const Image& image, int channels = 4, int level = 6);
 
 }  // namespace gable

@@ -36,13 +36,19 @@ Vec3 rgb(int hex) {
   return {(hex >> 16 & 255) / 255.0, (hex >> 8 & 255) / 255.0, (hex & 255) / 255.0};
 }
 
+// Almost all numbers are in the period or next to it: a division takes longer than all the rest.
+uint64_t wrapped(int v, int period) {
+  if (v < 0) v += period;
+  if (v >= period) v -= period;
+  if (v < 0 || v >= period) v = (v % period + period) % period;
+  return static_cast<uint64_t>(v);
+}
+
+double share(uint64_t hash) { return static_cast<double>(mix64(hash) >> 11) * 0x1.0p-53; }
+
 /// In [0, 1), by whole numbers that wrap at `period`.
 double chance(int x, int y, int periodX, int periodY, uint64_t seed) {
-  const auto wrap = [](int v, int period) {
-    return static_cast<uint64_t>((v % period + period) % period);
-  };
-  const uint64_t h = hashCombine(hashCombine(seed, wrap(x, periodX)), wrap(y, periodY));
-  return static_cast<double>(mix64(h) >> 11) * 0x1.0p-53;
+  return share(hashCombine(hashCombine(seed, wrapped(x, periodX)), wrapped(y, periodY)));
 }
 
 /// Smooth noise in [0, 1) with so many lattice cells along u and v.
@@ -50,9 +56,13 @@ double noise(double u, double v, int cellsU, int cellsV, uint64_t seed) {
   const double x = u * cellsU, y = v * cellsV;
   const int ix = static_cast<int>(std::floor(x)), iy = static_cast<int>(std::floor(y));
   const double tx = smooth(x - ix), ty = smooth(y - iy);
-  const auto at = [&](int i, int j) { return chance(ix + i, iy + j, cellsU, cellsV, seed); };
-  const double low = at(0, 0) * (1 - tx) + at(1, 0) * tx;
-  const double high = at(0, 1) * (1 - tx) + at(1, 1) * tx;
+  // As chance() has them, the common parts once.
+  const uint64_t left = hashCombine(seed, wrapped(ix, cellsU));
+  const uint64_t right = hashCombine(seed, wrapped(ix + 1, cellsU));
+  const uint64_t below = wrapped(iy, cellsV), above = wrapped(iy + 1, cellsV);
+  const auto at = [](uint64_t column, uint64_t row) { return share(hashCombine(column, row)); };
+  const double low = at(left, below) * (1 - tx) + at(right, below) * tx;
+  const double high = at(left, above) * (1 - tx) + at(right, above) * tx;
   return low * (1 - ty) + high * ty;
 }
 

@@ -111,7 +111,7 @@ struct PngWriting {
   png_structp png = nullptr;
   png_infop info = nullptr;
   const Image* image = nullptr;
-  int channels = 4;
+  int channels = 4, level = 6;
 };
 
 [[noreturn]] void onWriteError(png_structp png, png_const_charp message) {
@@ -132,6 +132,7 @@ bool writePixels(PngWriting& w) {
   png_set_IHDR(w.png, w.info, w.image->width, w.image->height, 8,
                w.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_compression_level(w.png, w.level);
   png_set_sRGB_gAMA_and_cHRM(w.png, w.info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_write_info(w.png, w.info);
   if (w.channels == 3) png_set_filler(w.png, 0, PNG_FILLER_AFTER);
@@ -158,7 +159,7 @@ Result<Image> decodePng(std::string_view bytes, uint64_t maxPixels) {
   return std::move(r.image);
 }
 
-Result<std::string> encodePng(const Image& image, int channels) {
+Result<std::string> encodePng(const Image& image, int channels, int level) {
   if (image.width == 0 || image.height == 0 ||
       image.rgba.size() != static_cast<size_t>(image.width) * image.height * 4) {
     return Error{"image-broken", "a picture without pixels cannot be written", {}};
@@ -166,6 +167,7 @@ Result<std::string> encodePng(const Image& image, int channels) {
   PngWriting w;
   w.image = &image;
   w.channels = channels;
+  w.level = level;
   w.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &w, onWriteError, onWarning);
   if (!w.png) return Error{"image-broken", w.why, {}};
   w.info = png_create_info_struct(w.png);
