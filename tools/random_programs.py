@@ -45,6 +45,8 @@ SHRINK_RUNS, MOST_SHRUNK = 300, 5
 MEMORY = 6 << 30
 # A generator whose programs are mostly refused finds nothing.
 LEAST_DERIVED = 0.5
+# After so many programs for each operation some must have been derived.
+OFTEN = 5
 HERE = Path(__file__).resolve().parent
 
 
@@ -108,13 +110,16 @@ class Session:
         self.counts = {}
         self.refusals = {}
         self.failures = []
+        # How many programs derive, by the operation that they are there for.
+        self.subjects = {}
 
     def made(self, number):
-        """The generator of a program and its tree."""
+        """The tree of a program, what it is derived on, its extension, and the operation that it is there for."""
         chosen = random.Random(f"{self.notation} {self.options.seed} {number}")
         maker = NOTATIONS[self.notation](self.options.catalogue, chosen)
         shapes = maker.shapes()
-        return maker.program(number), shapes, maker.extension
+        subject = maker.subject(number) if self.notation == "rules" else None
+        return maker.program(number), shapes, maker.extension, subject
 
     def answer(self, text, shapes, extension):
         path = Path(self.folder) / f"program{extension}"
@@ -122,9 +127,12 @@ class Session:
         return self.runner.run(path.name, shapes)
 
     def run(self, number):
-        tree, shapes, extension = self.made(number)
+        tree, shapes, extension, subject = self.made(number)
         answer = self.answer(tree.text(), shapes, extension)
         kind, _, more = answer.partition(" ")
+        if subject:
+            self.subjects.setdefault(subject, 0)
+            self.subjects[subject] += kind != "refused"
         self.counts[kind] = self.counts.get(kind, 0) + 1
         if kind == "refused":
             code = more.split(" ")[0]
@@ -156,6 +164,11 @@ class Session:
         derived = total - self.counts.get("refused", 0)
         if total >= 50 and derived < LEAST_DERIVED * total:
             print(f"{self.notation}: too few programs derive; the generator does not know the language any more")
+            return False
+        never = [name for name, count in self.subjects.items() if count == 0]
+        if never and total >= OFTEN * len(self.subjects):
+            names = ", ".join(never)
+            print(f"{self.notation}: no program with {names} derives")
             return False
         return not self.failures
 
@@ -200,7 +213,7 @@ def main():
         for notation in options.notation or sorted(NOTATIONS):
             session = Session(options, notation, folder)
             if options.show is not None:
-                tree, shapes, _ = session.made(options.show)
+                tree, shapes, *_ = session.made(options.show)
                 print(f"{tree.text()}// on {shapes}")
                 continue
             for number in range(options.first, options.first + options.count):

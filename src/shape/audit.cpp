@@ -36,11 +36,19 @@ bool same(const Frame& a, const Frame& b) {
   return same(a.origin, b.origin) && same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z);
 }
 
+bool same(const Affine& a, const Affine& b) {
+  return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z) && same(a.origin, b.origin);
+}
+bool same(const Deformation& a, const Deformation& b) {
+  return same(a.near, b.near) && same(a.far, b.far) && same(a.front, b.front) &&
+         same(a.top, b.top);
+}
+
 // All that the audit does not change itself.
 bool same(const Shape& a, const Shape& b) {
   const bool deformed = a.extra && a.extra->deformed;
   if (deformed != (b.extra && b.extra->deformed)) return false;
-  if (deformed && !(a.extra->deformation == b.extra->deformation)) return false;
+  if (deformed && !same(a.extra->deformation, b.extra->deformation)) return false;
   return same(a.scope, b.scope) && same(a.size, b.size) && a.material == b.material &&
          a.assetMaterials == b.assetMaterials && a.attributes == b.attributes &&
          a.locals == b.locals && a.geometry.kind == b.geometry.kind &&

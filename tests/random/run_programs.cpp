@@ -25,10 +25,11 @@
 #include <cstring>
 #include <ctime>
 #include <fstream>
+#include <initializer_list>
 #include <iostream>
-#include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 #include "finite_files.h"
 #include "gable/gable.h"
@@ -92,11 +93,15 @@ gable::DeriveSettings settingsOf(int jobs, bool sharing) {
   return s;
 }
 
+bool hasAny(const Model& model, std::initializer_list<std::string_view> codes) {
+  return std::any_of(model.diagnostics().begin(), model.diagnostics().end(), [&](const auto& m) {
+    return std::find(codes.begin(), codes.end(), m.code) != codes.end();
+  });
+}
+
 /// Where such a limit ends the work depends on the machine.
 bool endedByMachine(const Model& model) {
-  return std::any_of(model.diagnostics().begin(), model.diagnostics().end(), [](const auto& m) {
-    return m.code == "out-of-time" || m.code == "out-of-memory";
-  });
+  return hasAny(model, {"out-of-time", "out-of-memory", "too-many-values"});
 }
 
 /// Texts, places and order of messages.

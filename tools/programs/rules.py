@@ -49,6 +49,10 @@ class Rules:
             rules.append(Node([f"{name} -->", self.body(2), "\n"], (f"{name} --> X.\n", "")))
         return Node(rules)
 
+    def subject(self, number):
+        """The operation that the program of a number is there for."""
+        return self.catalogue["operations"][number % len(self.catalogue["operations"])]["name"]
+
     def shapes(self):
         return self.random.choice(LOTS[:3] * 3 + LOTS + ["shapes.geojson"] * 6 + ["solid.obj"])
 
@@ -108,7 +112,12 @@ class Rules:
             return [f"h = {self.random.choice(USUAL)}"]
         needed = sum("default" not in p for p in params)
         count = self.random.randint(needed, len(params))
-        return [self.argument(p) for p in params[:count]]
+        given = [self.argument(p) for p in params[:count]]
+        # Those that are left out between may be named.
+        for param in params[count:]:
+            if self.chance(0.1):
+                given.append(Node([f"{param['name']} = ", self.argument(param)]))
+        return given
 
     def block(self, operation, depth):
         kind = operation["block"]

@@ -32,7 +32,8 @@ class TreeBuilder {
       return tree_.add(n, {inner});
     }
     lang::Node n = node(lang::NodeKind::Number);
-    n.number = v;
+    // Text has no zero with a sign.
+    n.number = v == 0 ? 0 : v;
     return tree_.add(n);
   }
   NodeId relative(double v) { return tree_.add(node(lang::NodeKind::Relative), {number(v)}); }
