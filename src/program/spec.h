@@ -155,7 +155,7 @@ enum Effect : uint32_t {
 /// conform of setNormals.
 inline bool namesWorld(std::string_view word) {
   return word.starts_with("world") || word.starts_with("object") || word.starts_with("street") ||
-         word == "auto" || word == "conform";
+         word == "auto" || word == "conform" || word == "noStreetSide";
 }
 
 /// The effects of a call, once it is known whether one of its selectors namesWorld().
