@@ -40,8 +40,7 @@ bool same(const Affine& a, const Affine& b) {
   return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z) && same(a.origin, b.origin);
 }
 bool same(const Deformation& a, const Deformation& b) {
-  return same(a.near, b.near) && same(a.far, b.far) && same(a.front, b.front) &&
-         same(a.top, b.top);
+  return same(a.near, b.near) && same(a.far, b.far) && same(a.front, b.front) && same(a.top, b.top);
 }
 
 // All that the audit does not change itself.
