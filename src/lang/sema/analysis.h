@@ -139,6 +139,8 @@ class Analysis {
   std::vector<uint16_t> signaturesByShape(const CallTarget& target,
                                           std::span<const NodeId> arguments);
   void reportNamedArguments(const CallTarget& target, std::span<const NodeId> arguments);
+  bool reportMissingArgument(const CallTarget& target, std::span<const NodeId> arguments);
+  void checkWrittenWord(NodeId node, const std::vector<const ParamSpec*>& params);
   ValueType visitArgumentFor(const CallTarget& target, std::span<const NodeId> arguments, size_t i,
                              std::vector<uint16_t>& left);
   /// Which parameter an argument is for, by its name or its place; npos when there is none.

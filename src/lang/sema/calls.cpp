@@ -34,10 +34,13 @@ std::string countText(std::span<const Signature> signatures) {
   return out + (counts == std::vector<size_t>{1} ? " argument" : " arguments");
 }
 
+// What may be left out stands in brackets.
 std::string signatureText(std::string_view name, const Signature& s) {
   std::string out = std::string(name) + "(";
   for (size_t i = 0; i < s.params.size(); ++i) {
-    out += (i ? ", " : "") + std::string(s.params[i].name);
+    const bool optional = s.params[i].defaultText != nullptr;
+    out += std::string(i ? ", " : "") + (optional ? "[" : "") + s.params[i].name +
+           (optional ? "]" : "");
   }
   return out + (s.variadic ? ", ...)" : ")");
 }
@@ -94,11 +97,24 @@ ValueType Analysis::visitArgument(NodeId node, const std::vector<const ParamSpec
     return p->type == ParamType::Selector;
   });
   if (wantsWord && tree().kind(node) == NodeKind::Name) return visitSelectorWord(node, params);
+  if (tree().kind(node) == NodeKind::String) checkWrittenWord(node, params);
   ValueType expected = params.empty() ? ValueType::Null : valueType(params[0]->type);
   for (const ParamSpec* p : params) {
     if (valueType(p->type) != expected) expected = ValueType::Null;
   }
   return visit(node, expected == ValueType::Selector ? ValueType::Null : expected);
+}
+
+// A text may stand for a word; one that is written out must be one of them.
+void Analysis::checkWrittenWord(NodeId node, const std::vector<const ParamSpec*>& params) {
+  std::string list;
+  for (const ParamSpec* p : params) {
+    if (p->type != ParamType::Selector || !p->words || hasWord(p->words, text(node))) return;
+    list += (list.empty() ? "" : " ") + std::string(p->words);
+  }
+  if (!list.empty()) {
+    errorAt("unknown-selector", node, quote(text(node)) + " is not known here", "one of: " + list);
+  }
 }
 
 size_t Analysis::parameterOf(const Signature& s, std::span<const NodeId> args, size_t i) const {
@@ -131,6 +147,31 @@ std::vector<uint16_t> Analysis::signaturesByShape(const CallTarget& target,
     if (fitsShape(target.signatures[i])) left.push_back(static_cast<uint16_t>(i));
   }
   return left;
+}
+
+// Of a call with one form: a parameter that got two arguments, or none and has no default.
+bool Analysis::reportMissingArgument(const CallTarget& target, std::span<const NodeId> args) {
+  const Signature& s = target.signatures[0];
+  std::vector<bool> given(s.params.size());
+  for (size_t i = 0; i < args.size(); ++i) {
+    const size_t p = parameterOf(s, args, i);
+    if (p == kNoParameter) return false;
+    if (given[p]) {
+      errorAt("wrong-argument", args[i],
+              quote(s.params[p].name) + " is given twice, by its place and by its name",
+              "remove one of them");
+      return true;
+    }
+    given[p] = true;
+  }
+  for (size_t p = 0; p < given.size(); ++p) {
+    if (given[p] || s.params[p].defaultText != nullptr) continue;
+    errorAt("wrong-argument-count", target.node,
+            quote(target.name) + " needs " + quote(s.params[p].name) + " as well",
+            "write " + signatureText(target.name, s));
+    return true;
+  }
+  return false;
 }
 
 // Says which name is wrong, or else that the arguments do not go together.
@@ -168,6 +209,7 @@ void Analysis::reportNamedArguments(const CallTarget& target, std::span<const No
       return;
     }
   }
+  if (target.signatures.size() == 1 && reportMissingArgument(target, args)) return;
   std::string forms;
   for (const Signature& s : target.signatures) {
     forms += (forms.empty() ? "" : " or ") + signatureText(target.name, s);
