@@ -83,11 +83,13 @@ class Vector : public testing::Test {
   }
 
   Model run(const JsonValue& v, const std::string& style = "") {
-    const Rules rules = Rules::load(dataPath(v["rule"].text()), {"", "", style});
+    LoadSettings load;
+    if (!style.empty()) load.style = style;
+    const Rules rules = Rules::load(dataPath(v["rule"].text()), load);
     EXPECT_TRUE(rules.ok()) << render(rules.diagnostics());
     shapes_ = std::make_unique<Shapes>(shapesOf(v["shape"]));
     DeriveSettings settings;
-    settings.startRule = v["start"].text();
+    if (const std::string start = v["start"].text(); !start.empty()) settings.startRule = start;
     settings.seed = v["seed"].number(0);
     for (const auto& [name, value] : v["attrs"].members()) {
       settings.attributes.emplace_back(name, textOf(value));
