@@ -32,6 +32,11 @@ std::string sample(const ParamSpec& p, int place) {
   }
   switch (p.type) {
     case ParamType::Bool: return "${" + n + ":true}";
+    case ParamType::Selection:
+      for (const TermSpec& t : p.terms) {
+        if (t.paramCount == 0) return "${" + n + ":" + t.name + "}";
+      }
+      break;
     case ParamType::String: return "\"${" + n + "}\"";
     case ParamType::Selector: return "${" + n + ":all}";
     case ParamType::FloatArray: return "${" + n + ":[1, 2]}";
@@ -149,6 +154,10 @@ uint32_t signatureFor(const Callable& callable, const Call& call) {
 }
 
 std::string example(const Callable& callable) {
+  // Their first argument is no value, but the name of an attribute or of a rule.
+  const std::string_view name = callable.name;
+  if (name == "set") return "set(${1:material.color.r}, ${2:1})";
+  if (name == "do") return "do(${1:Rule})";
   std::string out = callable.name;
   int place = 1;
   if (!callable.signatures.empty()) {

@@ -74,9 +74,10 @@ std::string withoutPlaces(const std::string& text) {
     const size_t end = text.find('}', i);
     if (end == std::string::npos) break;
     std::string inner = text.substr(i + 2, end - i - 2);
-    const size_t colon = inner.find_first_of(":|");
-    inner.erase(0, colon == std::string::npos ? inner.size() : colon + 1);
-    out += inner.substr(0, inner.find_first_of(",|"));
+    const size_t sign = inner.find_first_of(":|");
+    const bool choice = sign != std::string::npos && inner[sign] == '|';
+    inner.erase(0, sign == std::string::npos ? inner.size() : sign + 1);
+    out += choice ? inner.substr(0, inner.find_first_of(",|")) : inner;
     i = end;
   }
   return out;

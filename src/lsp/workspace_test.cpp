@@ -161,6 +161,44 @@ TEST(Completion, insertsCallsThatAreRight) {
   EXPECT_EQ(item->range, (Range{{0, 8}, {0, 14}}));
 }
 
+// "${1:x}" and "${1|x,y|}" as an editor fills them in: x.
+std::string filledIn(const std::string& text) {
+  std::string out;
+  for (size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '$') {
+      out += text[i];
+      continue;
+    }
+    const size_t end = text.find('}', i);
+    const std::string place = text.substr(i + 2, end - i - 2);
+    const size_t from = place.find_first_of(":|");
+    if (from != std::string::npos) {
+      const size_t to = place[from] == '|' ? place.find_first_of(",|", from + 1) : place.size();
+      out += place.substr(from + 1, to - from - 1);
+    }
+    i = end;
+  }
+  return out;
+}
+
+TEST(Completion, allOperationsAreRightAtOnce) {
+  size_t operations = 0;
+  for (char letter = 'a'; letter <= 'z'; ++letter) {
+    Desk d(std::string("Lot --> ") + letter + "^");
+    for (const Completion& c : d.workspace.complete(kMain, d.at).items) {
+      if (c.kind != NameKind::Operation || !c.filter.empty()) continue;
+      ++operations;
+      Desk tried("attr height = 1\nLot --> " + filledIn(c.text) + " X.");
+      for (const FileFindings& f : tried.workspace.findings(kMain)) {
+        for (const Finding& x : f.findings) {
+          EXPECT_NE(x.level, Level::Error) << filledIn(c.text) << ": " << x.text;
+        }
+      }
+    }
+  }
+  EXPECT_GT(operations, 100u);
+}
+
 TEST(Completion, entersImports) {
   Desk d("import w : \"windows.cga\"\nLot --> w.^",
          {{"windows.cga", "Window(a) --> X.\nattr sill = 1"}});
