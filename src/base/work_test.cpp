@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The Gable authors
 
 #include "base/work.h"
+#include "base/work_count.h"
 
 #include <gtest/gtest.h>
 
@@ -83,6 +84,34 @@ TEST(Work, ScopesNest) {
     EXPECT_FALSE(workFor(2 * kWorkBetweenLooks).ok());
   }
   EXPECT_TRUE(workFor(2 * kWorkBetweenLooks).ok());
+}
+
+TEST(Work, CountsToTheUnit) {
+  Allowance meter(uint64_t{1} << 40);
+  const WorkScope scope(meter);
+  work(1000);
+  for (const uint64_t units : {uint64_t{0}, uint64_t{1}, uint64_t{5000}, uint64_t{123'457}}) {
+    const WorkCount count;
+    EXPECT_TRUE(workFor(units).ok());
+    EXPECT_EQ(count.units(), units);
+  }
+  // The meter around has been told all but what comes before its next look.
+  work(kWorkBetweenLooks);
+  EXPECT_GE(meter.done, 1000 + 5001 + 123'457u);
+}
+
+TEST(Work, WhatIsCountedStopsWithTheMeterAround) {
+  Allowance meter(100'000);
+  const WorkScope scope(meter);
+  const WorkCount count;
+  EXPECT_EQ(workFor(1'000'000).code(), kWorkStopped);
+  EXPECT_LE(count.units(), 100'000u + 2 * kWorkBetweenLooks);
+}
+
+TEST(Work, CountsWithoutAMeter) {
+  const WorkCount count;
+  EXPECT_TRUE(workFor(20'000).ok());
+  EXPECT_EQ(count.units(), 20'000u);
 }
 
 TEST(Work, TheDoorTakesWhateverComes) {

@@ -16,7 +16,8 @@ namespace gable {
 namespace {
 
 Status unusedApply(OpCall&) { return {}; }
-constexpr OpSpec kSetSpec{"set", "flow", "", {}, unusedApply};
+// What the setters of shape attributes are called as.
+constexpr OpSpec kSetSpec{"", "", "", {}, unusedApply};
 
 // What the attribute of a shape may be, when a rule attribute of type `wanted` takes it.
 bool convert(const Value& v, ValueType wanted, const ValuePool& pool, Value& out) {

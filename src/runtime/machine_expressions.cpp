@@ -296,7 +296,7 @@ void Machine::componentValues(const Instruction& i) {
   instruction_ = &i;
   const Status status = guarded([&] { return call.run(); });
   if (!status.ok()) {
-    tellFailure("comp", status);
+    tellFailure(program_.operations[i.a]->name, status);
     parts.clear();
     partOf.clear();
   }

@@ -109,7 +109,7 @@ void Machine::endTurn(const Instruction& i) {
   }
   if (f.turn >= options().limits.width) {
     overLimit("too-many-turns",
-              "'repeat' takes more than " + std::to_string(options().limits.width) + " turns",
+              "a loop takes more than " + std::to_string(options().limits.width) + " turns",
               "repeat less often, or raise the limit on width");
     return;
   }
