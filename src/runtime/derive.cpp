@@ -44,15 +44,16 @@ struct Pass {
 
 void deriveShape(Pass& pass, Machine& machine, unsigned worker, const InitialShape& shape,
                  size_t i) {
-  const size_t traceBegin = machine.trace().size();
-  const size_t noteBegin = machine.notes().size();
+  Tracer& tracer = machine.tracer();
+  const size_t traceBegin = tracer.size();
+  const size_t noteBegin = tracer.notes().size();
   pass.units[i] = machine.run(shape, static_cast<uint32_t>(i));
   pass.derived[i] = 1;
   if (!machine.collectsOccluders()) {
     pass.attributes[i] = machine.attributeValues();
     pass.units[i].messages.append(machine.takeMessages());
   }
-  pass.ranges[i] = {worker, traceBegin, machine.trace().size(), noteBegin, machine.notes().size()};
+  pass.ranges[i] = {worker, traceBegin, tracer.size(), noteBegin, tracer.notes().size()};
 }
 
 // Each worker takes initial shapes as long as there are any, and then portions of those that others
@@ -142,7 +143,8 @@ std::vector<Occluder> takeOccluders(Pass& pass) {
 void takeTrace(Pass& pass, DeriveResult& result) {
   std::vector<TraceNode>& all = result.trace;
   for (const Pass::Range& r : pass.ranges) {
-    const auto& nodes = pass.machines[r.worker]->trace();
+    Tracer& tracer = pass.machines[r.worker]->tracer();
+    const std::vector<TraceNode>& nodes = tracer.nodes();
     const size_t shift = all.size();
     for (size_t i = r.traceBegin; i < r.traceEnd; ++i) {
       TraceNode n = nodes[i];
@@ -152,7 +154,7 @@ void takeTrace(Pass& pass, DeriveResult& result) {
       all.push_back(n);
     }
     for (size_t i = r.noteBegin; i < r.noteEnd; ++i) {
-      TraceNote note = std::move(pass.machines[r.worker]->notes()[i]);
+      TraceNote note = std::move(tracer.notes()[i]);
       note.node = static_cast<uint32_t>(note.node - r.traceBegin + shift);
       result.notes.push_back(std::move(note));
     }

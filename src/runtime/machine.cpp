@@ -5,7 +5,6 @@
 
 #include "runtime/machine.h"
 
-#include <charconv>
 #include <cmath>
 
 #include "base/interned.h"
@@ -19,43 +18,14 @@ Status unusedApply(OpCall&) { return {}; }
 // What the setters of shape attributes are called as.
 constexpr OpSpec kSetSpec{"", "", "", {}, unusedApply};
 
-// What the attribute of a shape may be, when a rule attribute of type `wanted` takes it.
-bool convert(const Value& v, ValueType wanted, const ValuePool& pool, Value& out) {
-  if (wanted == ValueType::Null || v.type == wanted) {
-    out = v;
-    return true;
-  }
-  if (wanted == ValueType::Float && v.type == ValueType::String) {
-    const std::string_view text = pool.text(v.id);
-    double number = 0;
-    const auto r = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (r.ec != std::errc() || text.empty()) return false;
-    out = Value::of(number);
-    return true;
-  }
-  if (wanted == ValueType::Float && v.type == ValueType::Bool) {
-    out = Value::of(v.number);
-    return true;
-  }
-  if (wanted == ValueType::Bool && v.type == ValueType::Float) {
-    out = Value::of(v.number != 0);
-    return true;
-  }
-  if (wanted == ValueType::Bool && v.type == ValueType::String) {
-    const std::string_view text = pool.text(v.id);
-    if (text != "true" && text != "false") return false;
-    out = Value::of(text == "true");
-    return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 Machine::Machine(DeriveShared& shared, uint32_t worker)
     : shared_(shared),
       program_(shared.program),
       worker_(worker),
+      tally_(shared.usage),
+      tracer_(shared.program, shared.options),
       stackMemory_(new std::byte[kStackSize * sizeof(Value)]),
       stack_(reinterpret_cast<Value*>(stackMemory_.get())),
       splits_(shared.program.blocks.size()) {
@@ -81,7 +51,7 @@ Machine::Machine(DeriveShared& shared, uint32_t worker)
 Machine::~Machine() = default;
 
 OutputUnit Machine::run(const InitialShape& input, uint32_t index) {
-  const uint64_t shapesBefore = shapesExpanded_;
+  const uint64_t shapesBefore = tally_.expanded();
   const size_t partsBefore = parts_.size();
   derive(input, index);
   OutputUnit unit;
@@ -94,13 +64,13 @@ OutputUnit Machine::run(const InitialShape& input, uint32_t index) {
 void Machine::closeUnit(OutputUnit& unit, StringId name, uint64_t shapesBefore,
                         size_t partsBefore) {
   unit.worker = worker_;
-  unit.prototype = output_.close(rootMark_, name, shapesExpanded_ - shapesBefore, ShareKey{});
+  unit.prototype = output_.close(rootMark_, name, tally_.expanded() - shapesBefore, ShareKey{});
   for (size_t p = partsBefore; p < parts_.size(); ++p) {
     parts_[p].prototype = unit.prototype;
     parts_[p].worker = worker_;
   }
   unit.holes = std::exchange(holes_, {});
-  unit.messages = std::exchange(diagnostics_, {});
+  unit.messages = log_.take();
 }
 
 void Machine::derive(const InitialShape& input, uint32_t index) {
@@ -117,7 +87,7 @@ void Machine::beginUnit() {
   instruction_ = nullptr;
   portion_ = nullptr;
   portionBase_ = nullptr;
-  ++unit_;
+  log_.beginUnit();
   holes_.clear();
   pendingHoles_.clear();
   rootMark_ = output_.mark();
@@ -137,7 +107,7 @@ void Machine::clearStacks() {
   pieces_.clear();
   shapeStack_.clear();
   frames_.clear();
-  locals_.clear();
+  locals_.cut(0);
   previous_.clear();
   functions_.clear();
   prototypes_.clear();
@@ -189,7 +159,7 @@ int32_t Machine::startRuleOf(const InitialShape& input) {
   if (input.startRule.empty()) return options().startRule;
   const int32_t rule = program_.findRule(input.startRule);
   if (rule < 0) {
-    diagnostics_.error("unknown-start-rule", Span{},
+    log_.input().error("unknown-start-rule", Span{},
                        "shape '" + input.name + "' names the start rule '" + input.startRule +
                            "', which the rules do not have",
                        "use one of the rules without parameters, or leave the shape's rule empty");
@@ -218,24 +188,9 @@ void Machine::beginRoot(uint32_t rule) {
 
 // Attributes are bound by name: options over the shape's own, both over the initialiser.
 void Machine::bindAttributes(const InitialShape& shape) {
-  attributeValues_.assign(program_.attributes.size(), Value{});
-  attributeStates_.assign(program_.attributes.size(), AttributeState::Unset);
-  const auto bind = [&](const std::string& name, const Value& value) {
-    for (size_t a = 0; a < program_.attributes.size(); ++a) {
-      const AttributeCode& attribute = program_.attributes[a];
-      if (attribute.constant || attribute.propagatesFrom >= 0 || attribute.name != name) continue;
-      if (convert(value, attribute.type, pool(), attributeValues_[a])) {
-        attributeStates_[a] = AttributeState::Known;
-      } else {
-        diagnostics_.warning("attribute-type", attribute.span,
-                             "the value '" + pool().str(value) + "' given for '" + name +
-                                 "' is no " + typeName(attribute.type),
-                             "the value of the rule file is used instead");
-      }
-    }
-  };
-  for (const auto& [name, value] : shape.attributes) bind(name, value);
-  for (const auto& [name, value] : options().attributes) bind(name, value);
+  attributeValues_.begin(program_.attributes.size());
+  attributeValues_.give(shape.attributes, program_, pool(), log_.input());
+  attributeValues_.give(options().attributes, program_, pool(), log_.input());
 }
 
 std::vector<EvaluatedAttribute> Machine::attributeValues() {
@@ -248,8 +203,7 @@ std::vector<EvaluatedAttribute> Machine::attributeValues() {
     stackTop_ = 0;
     seen_ = &info_.shape;
     functions_.clear();
-    // A limit may have struck while it was evaluated.
-    if (attributeStates_[a] == AttributeState::Busy) attributeStates_[a] = AttributeState::Unset;
+    attributeValues_.giveUpEvaluation(a);
     Value value;
     const Status status = guarded([&] {
       value = evaluateAttribute(a);
@@ -282,20 +236,10 @@ uint32_t Machine::openInstanceCount() const {
   return static_cast<uint32_t>(output_.openInstances.size()) - base;
 }
 
-// The same warning at the same place is told once: not again where this worker told it of an
-// initial shape before, or in the same go. Of one go no more are told than anybody is shown of all.
 void Machine::takeWarning(const char* code, std::string message, std::string hint) {
-  const Span at = here();
-  const uint64_t key = hashBytes(message, hashBytes(code, uint64_t{at.file} << 32 | at.begin));
-  ++warnings_;
   noteEffect();
-  if (diagnostics_.all().size() >= kMostMessages) return;
-  const auto [told, fresh] = warned_.try_emplace(key, info_.index, unit_);
-  if (!fresh && (told->second.first < info_.index || told->second.second == unit_)) return;
-  told->second = {info_.index, unit_};
-  Diagnostics::Entry d{Severity::Warning, code,       at, std::move(message),
-                       std::move(hint),   shapePath()};
-  diagnostics_.add(std::move(d));
+  log_.warn(code, here(), std::move(message), std::move(hint), info_.index,
+            [&] { return shapePath(); });
 }
 
 Span Machine::here() const { return instruction_ ? program_.spans[pcOf(instruction_)] : Span{}; }
@@ -378,30 +322,23 @@ uint64_t Machine::lengthOf(const Value& v) const {
 // Within an operation or a function.
 bool Machine::look(uint64_t units, uint64_t bytes) {
   if (aborted_) return false;
-  work_ += units / kUnitsPerStep;
+  tally_.countWork(units);
   return lookAtLimits(bytes);
 }
 
 // The clock, memory, the user's wish to stop, and what all workers have made and done together.
 // `bytes`: so many are about to be taken.
 bool Machine::lookAtLimits(uint64_t bytes) {
-  stepsBefore_ += work_;
-  use_.steps = std::exchange(work_, 0);
   if (shared_.usage.cancelled()) {
     aborted_ = true;
     return false;
   }
-  if (!tellUse()) return false;
+  if (!over(tally_.look(bytes))) return false;
   if (shared_.portions && shared_.portions->isHungry()) offerPortion();
-  if (bytes == 0 && std::chrono::steady_clock::now() - memoryLooked_ < kBetweenMemory) return true;
-  memoryLooked_ = std::chrono::steady_clock::now();
-  return over(shared_.usage.lookAtMemory(bytes));
+  return true;
 }
 
-bool Machine::tellUse() {
-  use_.shapes = shapes_ - std::exchange(shapesCounted_, shapes_);
-  return over(shared_.usage.spend(std::exchange(use_, {})));
-}
+bool Machine::tellUse() { return over(tally_.tell()); }
 
 std::string_view Machine::fileOf(const Instruction& i) const {
   const Span& at = program_.spans[pcOf(&i)];

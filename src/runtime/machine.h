@@ -5,7 +5,6 @@
 // on stacks of its own: rule calls, block slots and function calls never recurse in C++.
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -22,12 +21,16 @@
 #include "program/reach.h"
 #include "program/stack.h"
 #include "runtime/array_ops.h"
+#include "runtime/attribute_values.h"
 #include "runtime/context.h"
 #include "runtime/derive.h"
+#include "runtime/local_values.h"
+#include "runtime/message_log.h"
 #include "runtime/output.h"
 #include "runtime/portion.h"
 #include "runtime/recall.h"
-#include "runtime/usage.h"
+#include "runtime/tally.h"
+#include "runtime/tracer.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -146,9 +149,8 @@ class Machine final : public Services, private WorkMeter {
   Output& output() { return output_; }
   /// What was told since the last time it was asked for. What this worker told before is not told
   /// again.
-  Diagnostics takeMessages() { return std::exchange(diagnostics_, {}); }
-  std::vector<TraceNode>& trace() { return trace_; }
-  std::vector<TraceNote>& notes() { return notes_; }
+  Diagnostics takeMessages() { return log_.take(); }
+  Tracer& tracer() { return tracer_; }
   std::vector<Occluder>& occluders() { return occluders_; }
   bool collectsOccluders() const { return collectOccluders_; }
   uint64_t cacheHits() const { return cacheHits_; }
@@ -183,12 +185,6 @@ class Machine final : public Services, private WorkMeter {
   void leaveLeaf() override;
 
  private:
-  static constexpr uint64_t kStepsBetweenLooks = 1024;
-  /// A look at memory takes microseconds.
-  static constexpr std::chrono::milliseconds kBetweenMemory{2};
-  /// What work() counts is smaller than a step.
-  static constexpr uint64_t kUnitsPerStep = 16;
-
   struct FunctionFrame {
     const Instruction* returnTo;
     uint32_t parameters;
@@ -270,10 +266,9 @@ class Machine final : public Services, private WorkMeter {
   };
   struct LightMark {
     size_t leaves;
-    uint64_t shapes, shapesExpanded, work;
+    Tally::Mark tally;
     uint32_t childCount;
   };
-  enum class AttributeState : uint8_t { Unset, Busy, Known };
 
   const DeriveOptions& options() const { return shared_.options; }
 
@@ -351,7 +346,6 @@ class Machine final : public Services, private WorkMeter {
   void closeFrame();
   InPlaceFrame& openFrame(InPlaceFrame::Kind kind);
   bool countStep();
-  const Value* localValue(const Shape& s, uint32_t attribute) const;
 
   // Sharing.
   bool beginShared(const RuleCode& rule, Activation& call);
@@ -432,9 +426,11 @@ class Machine final : public Services, private WorkMeter {
 
   // Tracing and occluders.
   void traceShape(Activation& a, uint32_t parentNode, const Instruction* at);
-  TraceNote* note(TraceNote::Kind kind);
-  void noteParameters(const Activation& a);
-  void noteAttribute(uint32_t a, const Value& v);
+  Tracer::Made traced(const Shape& s, uint32_t parent, StringId name, const Span& span) const;
+  /// The node of the rule at work; kNone where there is none.
+  uint32_t traceNode() const {
+    return activationCount_ > 0 ? current().traceNode : TraceNode::kNone;
+  }
   void traceLeaf(const Activation& a, StringId name, uint32_t source);
   void addOccluder(StringId label, const Shape& s);
   Occluder asking(const Shape& s) const;
@@ -447,16 +443,14 @@ class Machine final : public Services, private WorkMeter {
   void endByFailure(const Status& status);
   bool endsByFullTable(const Status& status);
   bool countShape() {
-    ++shapes_;
-    ++shapesExpanded_;
+    tally_.countShape();
     return tick();
   }
-  void countVertices(size_t count) { use_.vertices += count; }
   /// Counts work. Every so often it looks at the limits; false when one ends the initial shape.
   bool tick(uint64_t steps = 1) {
     if (stackNearlyFull()) return stackFull();
-    work_ += steps;
-    return work_ < kStepsBetweenLooks || look();
+    tally_.countSteps(steps);
+    return !tally_.isLookDue() || look();
   }
   bool look() { return lookAtLimits(0); }
   bool look(uint64_t units, uint64_t bytes) override;
@@ -465,7 +459,7 @@ class Machine final : public Services, private WorkMeter {
   bool over(std::optional<Usage::Excess> excess);
   /// Texts and arrays cost by their length; the next tick() looks at the limits.
   void weigh(const Value& v) {
-    if (v.type >= ValueType::String) work_ += lengthOf(v) / 16;
+    if (v.type >= ValueType::String) tally_.countSteps(lengthOf(v) / 16);
   }
   uint64_t lengthOf(const Value& v) const;
   bool stackNearlyFull() const { return stackTop_ + kStackReserve > kStackSize; }
@@ -488,11 +482,9 @@ class Machine final : public Services, private WorkMeter {
   const Program& program_;
   uint32_t worker_;
   Output output_;
-  Diagnostics diagnostics_;
-  /// By warning: the initial shape and the unit in which it was told.
-  std::unordered_map<uint64_t, std::pair<uint32_t, uint64_t>> warned_;
-  std::vector<TraceNode> trace_;
-  std::vector<TraceNote> notes_;
+  Tally tally_;
+  MessageLog log_;
+  Tracer tracer_;
   std::vector<Occluder> occluders_;
 
   // The stacks. Activations are reused, so that their shapes keep no memory busy.
@@ -513,7 +505,7 @@ class Machine final : public Services, private WorkMeter {
   std::vector<SplitPiece> pieces_;
   std::vector<SavedShape> shapeStack_;
   std::vector<InPlaceFrame> frames_;
-  std::vector<LocalValue> locals_;
+  LocalValues locals_;
   /// For rules run in place that look at the shape below.
   std::vector<std::pair<Frame, Vec3>> previous_;
   std::vector<FunctionFrame> functions_;
@@ -534,8 +526,7 @@ class Machine final : public Services, private WorkMeter {
   // The initial shape at work.
   InitialShapeInfo info_;
   StringId nameId_ = 0;
-  std::vector<Value> attributeValues_;
-  std::vector<AttributeState> attributeStates_;
+  AttributeValues attributeValues_;
   const Instruction* pc_ = nullptr;
   uint32_t parameters_ = 0;
   /// The shape that expressions see: the current one, or the initial one in an attribute.
@@ -543,15 +534,6 @@ class Machine final : public Services, private WorkMeter {
   /// The calling sites of the functions in progress, folded.
   uint64_t salt_ = 0;
   bool aborted_ = false;
-  uint64_t shapes_ = 0;
-  uint64_t shapesCounted_ = 0;
-  uint64_t shapesExpanded_ = 0;
-  /// Vertices and turns since the last look at the limits.
-  Usage::Use use_;
-  /// Steps since the last look at the limits.
-  uint64_t work_ = 0;
-  /// The last look at memory.
-  std::chrono::steady_clock::time_point memoryLooked_{};
   uint64_t cacheHits_ = 0;
   /// The instruction at work, for messages.
   const Instruction* instruction_ = nullptr;
@@ -570,8 +552,6 @@ class Machine final : public Services, private WorkMeter {
   const Portion* portion_ = nullptr;
   /// Of the initial shape at work, for its portions.
   std::shared_ptr<const PortionBase> portionBase_;
-  /// Counts what is derived in one go.
-  uint64_t unit_ = 0;
   std::vector<OutputHole> holes_;
   /// Portions whose place has not been reached, by the activation whose children they are. Of one
   /// activation the last comes first.
@@ -598,18 +578,16 @@ class Machine final : public Services, private WorkMeter {
   };
   std::vector<RuleCost> costs_;
   std::vector<std::shared_ptr<const RecallOperation>> keptOperations_;
-  /// By instruction: how often the operation ran, and what it took where it was looked at.
+  /// By instruction: how often the operation ran, and the work where it was looked at.
   struct OperationCost {
     uint64_t calls = 0, measured = 0;
-    std::chrono::steady_clock::duration time{};
+    uint64_t units = 0;
   };
   std::vector<OperationCost> operationCosts_;
   /// Of the initial shape at work: itself, by attribute the value given from outside (0: none), and
   /// by rule what inputsOf() gives (0: not known).
   uint64_t shapeHash_ = 0;
   std::vector<uint64_t> given_, inputs_;
-  /// Warnings, repetitions counted, and steps done before the last look at the limits.
-  uint64_t warnings_ = 0, stepsBefore_ = 0;
   uint64_t recalled_ = 0;
 };
 

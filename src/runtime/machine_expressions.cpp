@@ -137,25 +137,22 @@ void Machine::choose(const Instruction& i) {
       break;
     }
   }
-  if (TraceNote* n = options().traceShapes ? note(TraceNote::Kind::Choice) : nullptr) {
-    n->span = program_.spans[pcOf(&i)];
-    n->draw = draw;
-    n->chosen = chosen;
-    n->choices = i.y;
-    n->chance = chosen < i.y ? shares[chosen].number : 1 - sum;
+  if (tracer_.tracesShapes()) {
+    const double chance = chosen < i.y ? shares[chosen].number : 1 - sum;
+    tracer_.noteChoice(traceNode(), program_.spans[pcOf(&i)], {draw, chance, chosen, i.y});
   }
   push(Value::of(static_cast<double>(chosen)));
 }
 
 void Machine::pushAttribute(uint32_t a, const Value& v) {
   push(v);
-  if (options().traceShapes) noteAttribute(a, v);
+  if (tracer_.tracesShapes()) tracer_.noteAttribute(traceNode(), a, v);
 }
 
 void Machine::ruleAttribute(const Instruction& i) {
   const uint32_t a = i.a;
   if (seen_->locals != 0) {
-    if (const Value* local = localValue(*seen_, a)) {
+    if (const Value* local = locals_.find(seen_->locals, a)) {
       pushAttribute(a, *local);
       return;
     }
@@ -166,8 +163,8 @@ void Machine::ruleAttribute(const Instruction& i) {
       return;
     }
   }
-  if (attributeStates_[a] == AttributeState::Known) {
-    pushAttribute(a, attributeValues_[a]);
+  if (attributeValues_.isKnown(a)) {
+    pushAttribute(a, attributeValues_.value(a));
     return;
   }
   instruction_ = &i;
@@ -182,13 +179,13 @@ void Machine::enterAttribute(uint32_t a, const Instruction* returnTo) {
     push(Value::of(0.0));
     return;
   }
-  if (attributeStates_[a] == AttributeState::Busy) {
+  if (attributeValues_.isBusy(a)) {
     warn("cyclic-attribute", "the value of '" + program_.attributes[a].name + "' needs itself",
          "break the circle with a constant");
     push(Value::of(0.0));
     return;
   }
-  attributeStates_[a] = AttributeState::Busy;
+  attributeValues_.beginEvaluation(a);
   functions_.push_back({returnTo, parameters_, stackTop_, static_cast<int32_t>(a), seen_, salt_});
   parameters_ = stackTop_;
   seen_ = &info_.shape;
@@ -215,18 +212,15 @@ void Machine::returnValue() {
   const Value v = pop();
   const FunctionFrame f = functions_.back();
   functions_.pop_back();
-  if (f.attribute >= 0) {
-    attributeValues_[static_cast<size_t>(f.attribute)] = v;
-    attributeStates_[static_cast<size_t>(f.attribute)] = AttributeState::Known;
-  }
+  if (f.attribute >= 0) attributeValues_.set(static_cast<uint32_t>(f.attribute), v);
   stackTop_ = f.stackBase;
   parameters_ = f.parameters;
   seen_ = f.shape;
   salt_ = f.salt;
   pc_ = f.returnTo;
   push(v);
-  if (f.attribute >= 0 && options().traceShapes) {
-    noteAttribute(static_cast<uint32_t>(f.attribute), v);
+  if (f.attribute >= 0 && tracer_.tracesShapes()) {
+    tracer_.noteAttribute(traceNode(), static_cast<uint32_t>(f.attribute), v);
   }
 }
 
@@ -329,7 +323,7 @@ void Machine::runUntil(size_t depth) {
 }
 
 Value Machine::evaluateAttribute(uint32_t a) {
-  if (attributeStates_[a] == AttributeState::Known) return attributeValues_[a];
+  if (attributeValues_.isKnown(a)) return attributeValues_.value(a);
   const Instruction* resumeAt = pc_;
   const size_t depth = functions_.size();
   enterAttribute(a, pc_);
@@ -400,11 +394,8 @@ void Machine::callBuiltin(const Instruction& i) {
   const Value v = callGuarded(call, function.call, function.effects, function.name,
                               used ? used->result : ValueType::Float);
   reserved_ = 0;
-  if (options().traceShapes && function.effects & kRandom) {
-    if (TraceNote* n = note(TraceNote::Kind::Draw)) {
-      n->span = program_.spans[pcOf(&i)];
-      n->value = plainAttribute(function.name, v, pool());
-    }
+  if (tracer_.tracesShapes() && function.effects & kRandom) {
+    tracer_.noteDraw(traceNode(), program_.spans[pcOf(&i)], function.name, v);
   }
   push(v);
   weigh(v);

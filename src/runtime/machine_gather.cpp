@@ -41,7 +41,7 @@ void Machine::beginGather(const Instruction& i) {
   g.at = &i;
   g.activation = activationCount_ - 1;
   g.leaves = static_cast<uint32_t>(output_.openLeaves.size());
-  g.traced = static_cast<uint32_t>(trace_.size());
+  g.traced = static_cast<uint32_t>(tracer_.size());
   g.made = current().made;
   g.flat = flat_;
   g.light = lightPartsAllowed_;
@@ -71,10 +71,8 @@ void Machine::endGather() {
   const OpenGather g = closeGather();
   Activation& a = current();
   // What a trace shows of shapes on their way is no leaf.
-  std::vector<bool> shown(output_.openLeaves.size() - g.leaves, false);
-  for (size_t n = g.traced; n < trace_.size(); ++n) {
-    if (trace_[n].shapeIndex != TraceNode::kNone) shown[trace_[n].shapeIndex - g.leaves] = true;
-  }
+  const std::vector<bool> shown =
+      tracer_.shownShapes(g.traced, g.leaves, output_.openLeaves.size() - g.leaves);
   std::vector<Gathered> leaves;
   for (size_t k = 0; k < shown.size(); ++k) {
     if (!shown[k]) leaves.push_back({shapeOf(output_.openLeaves[g.leaves + k], output_), false});
@@ -111,11 +109,7 @@ void Machine::keepLeaves(const OpenGather& g, const std::vector<bool>& gone) {
     if (flat_) leaf.frame = leafWorld() * leaf.frame;
   }
   open.resize(kept);
-  for (size_t n = g.traced; n < trace_.size(); ++n) {
-    for (uint32_t* index : {&trace_[n].leafIndex, &trace_[n].shapeIndex}) {
-      if (*index != TraceNode::kNone && *index >= g.leaves) *index = number[*index - g.leaves];
-    }
-  }
+  tracer_.renumberLeaves(g.traced, g.leaves, number);
 }
 
 // A limit struck within: what has not been gathered goes.

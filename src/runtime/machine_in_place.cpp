@@ -5,9 +5,7 @@
 // (repeat) and attribute values for a while (local). Each is a frame on a stack of its own; an
 // activation that ends early (NIL) drops the frames that it opened.
 //
-// A rule run in place and every turn have an address of their own for chance. Local values form a
-// chain from the innermost outwards that shapes point into: they are no part of the shape's
-// attributes, cost no interning, and end with their block.
+// A rule run in place and every turn have an address of their own for chance.
 
 #include <algorithm>
 
@@ -32,7 +30,7 @@ InPlaceFrame& Machine::openFrame(InPlaceFrame::Kind kind) {
 
 // Rules in place and turns make no shapes, so that they need a limit of their own.
 bool Machine::countStep() {
-  ++use_.turns;
+  tally_.countTurn();
   return tick();
 }
 
@@ -143,22 +141,14 @@ void Machine::beginLocals() {
 
 void Machine::bind(uint32_t attribute, const Value& v) {
   Shape& s = current().shape;
-  locals_.push_back({s.locals, attribute, v});
-  s.locals = static_cast<uint32_t>(locals_.size());
+  s.locals = locals_.bind(s.locals, attribute, v);
 }
 
 void Machine::endLocals() {
   const InPlaceFrame& f = frames_.back();
   current().shape.locals = f.locals;
-  locals_.resize(f.localCount);
+  locals_.cut(f.localCount);
   frames_.pop_back();
-}
-
-const Value* Machine::localValue(const Shape& s, uint32_t attribute) const {
-  for (uint32_t at = s.locals; at != 0; at = locals_[at - 1].outer) {
-    if (locals_[at - 1].attribute == attribute) return &locals_[at - 1].value;
-  }
-  return nullptr;
 }
 
 void Machine::leaveLeaf() {

@@ -157,13 +157,10 @@ void Machine::makeLightParts(Activation& a) {
     const SplitPiece& piece = pieces_[a.childNext];
     const LightSlot& slot = slots[piece.slot];
     if (!slot.light) return;
-    const LightMark mark{output_.openLeaves.size(), shapes_, shapesExpanded_, work_,
-                         *source.childCount};
+    const LightMark mark{output_.openLeaves.size(), tally_.mark(), *source.childCount};
     if (!makeLightPart(source, a.plan, piece, slot, a.depth, 0)) {
       output_.openLeaves.resize(mark.leaves);
-      shapes_ = mark.shapes;
-      shapesExpanded_ = mark.shapesExpanded;
-      work_ = mark.work;
+      tally_.goBack(mark.tally);
       *source.childCount = mark.childCount;
       return;
     }
@@ -201,9 +198,8 @@ bool Machine::makeLightPart(const LightSource& from, const PartPlan& plan, const
   for (const LightSlot::Step& step : slot.steps) {
     if (!step.apply(part, step.arguments)) return false;
   }
-  shapes_ += slot.shapes;
-  shapesExpanded_ += slot.shapes;
-  work_ += slot.work;
+  tally_.countShapes(slot.shapes);
+  tally_.countSteps(slot.work);
   if (slot.drop) return true;
   if (slot.block > 0) return splitLightPart(from, place, part, slot, depth, nested);
   // Completed where it stays: a copy of what was just written would wait for its stores.

@@ -36,16 +36,13 @@ void Machine::offerChildren(uint32_t index, const Frame& world) {
   }
   auto p = std::make_unique<Portion>();
   p->base = portionBase_;
-  p->attributeValues = attributeValues_;
-  for (const AttributeState s : attributeStates_) {
-    p->attributesKnown.push_back(s == AttributeState::Known);
-  }
+  p->attributeValues = attributeValues_.known();
   p->parent = keptShape(a.shape, 0);
   p->rule = a.rule;
   p->block = a.block;
   p->depth = a.depth;
   p->parameters.assign(stack_ + a.parameters, stack_ + stack);
-  p->locals.assign(locals_.begin(), locals_.begin() + locals);
+  p->locals = locals_.first(locals);
   p->inPlace = frames > 0 ? frames_[frames - 1].calls : portion_ ? portion_->inPlace : 0;
   p->world = world;
   p->path = shapePath(index + 1, p->pathLength);
@@ -67,14 +64,14 @@ void Machine::offerChildren(uint32_t index, const Frame& world) {
 // The children of the activation at work are done: what others do of them comes here.
 void Machine::fillHoles() {
   while (!pendingHoles_.empty() && pendingHoles_.back().first + 1 == activationCount_) {
-    holes_.push_back({pendingHoles_.back().second, placeInRoot(), diagnostics_.all().size()});
+    holes_.push_back({pendingHoles_.back().second, placeInRoot(), log_.count()});
     pendingHoles_.pop_back();
   }
 }
 
 void Machine::run(const Portion& portion) {
   const WorkScope scope(*this);
-  const uint64_t shapesBefore = shapesExpanded_;
+  const uint64_t shapesBefore = tally_.expanded();
   const size_t partsBefore = parts_.size();
   beginUnit();
   portion_ = &portion;
@@ -91,10 +88,6 @@ void Machine::beginPortion(const Portion& p) {
   clearStacks();
   worlds_.assign(1, p.world);
   attributeValues_ = p.attributeValues;
-  attributeStates_.assign(p.attributesKnown.size(), AttributeState::Unset);
-  for (size_t a = 0; a < p.attributesKnown.size(); ++a) {
-    if (p.attributesKnown[a]) attributeStates_[a] = AttributeState::Known;
-  }
   if (remembers_) {
     inputs_.assign(program_.rules.size(), 0);
     given_ = p.base->given;

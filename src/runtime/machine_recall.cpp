@@ -10,6 +10,7 @@
 
 #include <algorithm>
 
+#include "base/work_count.h"
 #include "runtime/key_hash.h"
 #include "runtime/machine.h"
 
@@ -21,18 +22,16 @@ namespace {
 constexpr uint64_t kWorthwhile = 256;
 /// Every so often a rule, or an operation, whose calls were small is looked at again.
 constexpr uint64_t kBetweenSamples = 16;
-/// What an operation takes that is worth keeping with all that it made.
-constexpr std::chrono::microseconds kLong{300};
+/// The work() of an operation that is worth keeping with all that it made: some tenths of a
+/// millisecond, where a key takes microseconds.
+constexpr uint64_t kMuchWork = 4096;
 
 }  // namespace
 
 void Machine::beginRemembering() {
   inputs_.assign(program_.rules.size(), 0);
-  given_.assign(program_.attributes.size(), 0);
-  for (size_t a = 0; a < given_.size(); ++a) {
-    // Bound before anything is evaluated.
-    if (attributeStates_[a] == AttributeState::Known) given_[a] = attributeValues_[a].hash() | 1;
-  }
+  // Nothing has been evaluated yet.
+  given_ = attributeValues_.hashes();
   shapeHash_ = hashOfInitialShape();
 }
 
@@ -71,10 +70,10 @@ void Machine::addShape(KeyHash& h, const Shape& s) const {
   h.add(uint64_t{s.attributes} << 32 | s.compSelector);
   h.add(uint64_t{s.split.index} << 32 | s.split.total);
   h.add(uint64_t{s.comp.index} << 32 | s.comp.total);
-  for (uint32_t at = s.locals; at != 0; at = locals_[at - 1].outer) {
-    h.add(uint64_t{locals_[at - 1].attribute});
-    h.add(locals_[at - 1].value.hash());
-  }
+  locals_.forEach(s.locals, [&](uint32_t attribute, const Value& v) {
+    h.add(uint64_t{attribute});
+    h.add(v.hash());
+  });
   if (s.extra) h.add(*s.extra);
 }
 
@@ -117,11 +116,11 @@ bool Machine::beginPart(Activation& call) {
   open.part.holes = static_cast<uint32_t>(holes_.size());
   open.part.firstInside = static_cast<uint32_t>(parts_.size());
   open.part.firstOperation = static_cast<uint32_t>(keptOperations_.size());
-  open.part.shapes = shapes_;
-  open.part.shapesExpanded = shapesExpanded_;
-  open.part.steps = stepsBefore_ + work_;
+  open.part.shapes = tally_.made();
+  open.part.shapesExpanded = tally_.expanded();
+  open.part.steps = tally_.steps();
   open.rule = call.rule;
-  open.warnings = warnings_;
+  open.warnings = log_.warnings();
   openParts_.push_back(open);
   call.kept = true;
   return false;
@@ -132,14 +131,15 @@ void Machine::endPart() {
   RecallPart& part = open.part;
   part.end = placeInRoot();
   part.endOperation = static_cast<uint32_t>(keptOperations_.size());
-  part.shapes = shapes_ - part.shapes;
-  part.shapesExpanded = shapesExpanded_ - part.shapesExpanded;
-  part.steps = stepsBefore_ + work_ - part.steps;
+  part.shapes = tally_.made() - part.shapes;
+  part.shapesExpanded = tally_.expanded() - part.shapesExpanded;
+  part.steps = tally_.steps() - part.steps;
   costs_[open.rule].measured += 1;
   costs_[open.rule].steps += part.steps;
   // What a portion made lies elsewhere.
   const bool whole = part.holes == holes_.size();
-  if (part.steps >= kWorthwhile && warnings_ == open.warnings && whole) parts_.push_back(part);
+  if (part.steps >= kWorthwhile && log_.warnings() == open.warnings && whole)
+    parts_.push_back(part);
   openParts_.pop_back();
 }
 
@@ -167,8 +167,7 @@ void Machine::takePart(const RecallPart& known) {
     copy.holes = static_cast<uint32_t>(holes_.size());
     parts_.push_back(copy);
   }
-  shapes_ += known.shapes;
-  shapesExpanded_ += known.shapesExpanded;
+  tally_.countTaken(known.shapes, known.shapesExpanded);
   recalled_ += known.shapesExpanded;
   for (uint32_t o = known.firstOperation; o < known.endOperation; ++o) {
     keptOperations_.push_back(recaller_->recall().operations[o]);
@@ -239,30 +238,31 @@ Status Machine::applyRemembering(OpCall& call, const Instruction& i,
   constexpr uint32_t kTold = kReadsContext | kReadsPath | kReports;
   OperationCost& cost = operationCosts_[pcOf(&i)];
   const bool split = block && !block->split.items.empty();
-  const bool looked = cost.calls++ % kBetweenSamples == 0 ||
-                      cost.time >= kLong * static_cast<int64_t>(cost.measured);
+  const bool looked =
+      cost.calls++ % kBetweenSamples == 0 || cost.units >= kMuchWork * cost.measured;
   const bool told = (call.spec().effects & kTold) != 0 || call.spec().gathered;
   if (split || !looked || told) return call.run();
   const ShareKey key = operationKey(call, arguments, block);
   // What its arguments say is known only when it asks for it.
   if (key == ShareKey{}) return call.spec().apply(call);
-  const auto begin = std::chrono::steady_clock::now();
   if (takeOperation(key, call.shape())) {
-    // It took long, or it would not be known.
-    cost.time += kLong;
+    // It was much work, or it would not be known.
+    cost.units += kMuchWork;
     ++cost.measured;
     return {};
   }
   const size_t firstChild = children_.size(), firstPiece = pieces_.size();
-  const uint64_t warnings = warnings_;
+  const uint64_t warnings = log_.warnings();
   const size_t leaves = output_.openLeaves.size();
+  const WorkCount count;
   const Status status = call.run();
-  const auto took = std::chrono::steady_clock::now() - begin;
-  cost.time += took;
+  const uint64_t units = count.units();
+  cost.units += units;
   ++cost.measured;
-  const bool repeatable = status.ok() && !call.dropped() && warnings_ == warnings && !aborted_ &&
-                          pieces_.size() == firstPiece && output_.openLeaves.size() == leaves;
-  if (repeatable && took >= kLong) keepOperation(key, call.shape(), firstChild);
+  const bool repeatable = status.ok() && !call.dropped() && log_.warnings() == warnings &&
+                          !aborted_ && pieces_.size() == firstPiece &&
+                          output_.openLeaves.size() == leaves;
+  if (repeatable && units >= kMuchWork) keepOperation(key, call.shape(), firstChild);
   return status;
 }
 
@@ -299,7 +299,7 @@ bool Machine::recallPrototype(const ShareKey& key, uint32_t& number) {
 void Machine::countTaken() {
   const Recaller::Counts taken = recaller_->counts();
   cacheHits_ += taken.shared;
-  countVertices(taken.vertices);
+  tally_.countVertices(taken.vertices);
 }
 
 bool Machine::evaluatesAttribute() const {

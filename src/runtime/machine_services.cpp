@@ -10,64 +10,21 @@
 
 namespace gable {
 
-namespace {
-
-constexpr size_t kMostNotes = 400'000;
-
-}  // namespace
+Tracer::Made Machine::traced(const Shape& s, uint32_t parent, StringId name,
+                             const Span& span) const {
+  return {parent, info_.index, name, span, worlds_.back() * s.scope, s.size};
+}
 
 void Machine::traceShape(Activation& a, uint32_t parentNode, const Instruction* at) {
-  TraceNode node;
-  node.parent = parentNode;
-  node.initialShape = info_.index;
-  node.name = program_.rules[a.rule].name;
-  node.span = at ? program_.spans[pcOf(at)] : program_.rules[a.rule].span;
-  node.scope = worlds_.back() * a.shape.scope;
-  node.size = a.shape.size;
-  node.ruleCall = true;
-  if (options().traceShapes) {
-    Shape asMade = a.shape;
-    if (isDeformed(asMade)) bakeDeformation(asMade);
-    const auto index = static_cast<uint32_t>(output_.openLeaves.size());
-    if (putLeaf(asMade, node.name, at ? pcOf(at) : program_.rules[a.rule].entry)) {
-      node.shapeIndex = index;
-    }
-  }
-  a.traceNode = static_cast<uint32_t>(trace_.size());
-  trace_.push_back(node);
-  if (options().traceShapes) noteParameters(a);
-}
-
-// Null where no rule is at work, or where there are too many for anybody to look at.
-TraceNote* Machine::note(TraceNote::Kind kind) {
-  if (activationCount_ == 0 || notes_.size() >= kMostNotes) return nullptr;
-  const uint32_t node = current().traceNode;
-  if (node == TraceNode::kNone) return nullptr;
-  TraceNote& n = notes_.emplace_back();
-  n.kind = kind;
-  n.node = node;
-  return &n;
-}
-
-void Machine::noteParameters(const Activation& a) {
-  const std::vector<ParameterInfo>& parameters = program_.rules[a.rule].parameters;
-  for (uint32_t k = 0; k < parameters.size() && notes_.size() < kMostNotes; ++k) {
-    TraceNote& n = notes_.emplace_back();
-    n.kind = TraceNote::Kind::Parameter;
-    n.node = a.traceNode;
-    n.value = plainAttribute(std::string(pool().text(parameters[k].name)), stack_[a.parameters + k],
-                             pool());
-  }
-}
-
-// A rule that reads an attribute again saw it already.
-void Machine::noteAttribute(uint32_t a, const Value& v) {
-  if (activationCount_ == 0) return;
-  const std::string& name = program_.attributes[a].name;
-  for (size_t i = notes_.size(); i-- > 0 && notes_[i].node == current().traceNode;) {
-    if (notes_[i].kind == TraceNote::Kind::Attribute && notes_[i].value.name == name) return;
-  }
-  if (TraceNote* n = note(TraceNote::Kind::Attribute)) n->value = plainAttribute(name, v, pool());
+  const RuleCode& rule = program_.rules[a.rule];
+  const Span& span = at ? program_.spans[pcOf(at)] : rule.span;
+  a.traceNode = tracer_.addCall(traced(a.shape, parentNode, rule.name, span));
+  if (!tracer_.tracesShapes()) return;
+  Shape asMade = a.shape;
+  if (isDeformed(asMade)) bakeDeformation(asMade);
+  const auto index = static_cast<uint32_t>(output_.openLeaves.size());
+  if (putLeaf(asMade, rule.name, at ? pcOf(at) : rule.entry)) tracer_.showShape(a.traceNode, index);
+  tracer_.noteParameters(a.traceNode, rule, stack_ + a.parameters);
 }
 
 // A rule call that made nothing is its own leaf; a leaf of a slot or of an unknown rule is a child.
@@ -76,20 +33,10 @@ void Machine::traceLeaf(const Activation& a, StringId name, uint32_t source) {
                                  ? TraceNode::kNone
                                  : static_cast<uint32_t>(output_.openLeaves.size());
   if (a.made == 0 && !a.slot && a.traceNode != TraceNode::kNone) {
-    trace_[a.traceNode].leaf = true;
-    trace_[a.traceNode].leafIndex = leafIndex;
-    return;
+    tracer_.endAsLeaf(a.traceNode, leafIndex);
+  } else {
+    tracer_.addLeaf(traced(a.shape, a.traceNode, name, program_.spans[source]), leafIndex);
   }
-  TraceNode node;
-  node.parent = a.traceNode;
-  node.initialShape = info_.index;
-  node.name = name;
-  node.span = program_.spans[source];
-  node.scope = worlds_.back() * a.shape.scope;
-  node.size = a.shape.size;
-  node.leaf = true;
-  node.leafIndex = leafIndex;
-  trace_.push_back(node);
 }
 
 std::vector<uint32_t> Machine::treePath() const {

@@ -202,7 +202,7 @@ void Machine::endActivation() {
   stackTop_ = a.stackBase;
   if (shapeStack_.size() > a.shapeStackBase) shapeStack_.resize(a.shapeStackBase);
   if (frames_.size() > a.frameBase) frames_.resize(a.frameBase);
-  if (locals_.size() > a.localBase) locals_.resize(a.localBase);
+  locals_.cut(a.localBase);
   --activationCount_;
   if (activationCount_ > 0) resume();
 }
@@ -275,9 +275,7 @@ void Machine::makeChild() {
 void Machine::dropShape() {
   Activation& a = current();
   if (a.slot && a.made == 0) countShape();
-  if (options().trace && a.made == 0 && a.traceNode != TraceNode::kNone && !a.slot) {
-    trace_[a.traceNode].dropped = true;
-  }
+  if (a.made == 0 && a.traceNode != TraceNode::kNone && !a.slot) tracer_.drop(a.traceNode);
   ++a.made;
   if (shapeStack_.size() > a.shapeStackBase) {
     leaveBracket();
@@ -482,7 +480,7 @@ void Machine::operation(const Instruction& i, const Value* constants) {
   }
   if (!block) {
     const uint64_t vertices = verticesOf(a.shape);
-    work_ += vertices;
+    tally_.countSteps(vertices);
     if (vertices > options().limits.shapeVertices) shapeTooLarge(spec);
     return;
   }
@@ -543,7 +541,7 @@ bool Machine::putLeaf(const Shape& s, StringId name, uint32_t source) {
       leaf.mesh = kFirstMesh + output_.meshNumber(s.geometry.mesh);
       const Vec3& ref = s.geometry.refSize;
       for (size_t k = 0; k < 3; ++k) leaf.scale[k] = ref[k] != 0 ? s.size[k] / ref[k] : 1;
-      countVertices(s.geometry.mesh->positions.size());
+      tally_.countVertices(s.geometry.mesh->positions.size());
     }
   }
   leaf.materials = output_.materialNumber(s.material, s.assetMaterials);
@@ -580,7 +578,7 @@ void Machine::popShape() {
 void Machine::setAttribute(const Instruction& i) {
   const Value v = pop();
   Shape& s = current().shape;
-  if (s.locals != 0 && localValue(s, i.a))
+  if (locals_.find(s.locals, i.a))
     bind(i.a, v);
   else
     s.attributes = attributes().with(s.attributes, i.a, v);

@@ -20,8 +20,10 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "runtime/attribute_values.h"
 #include "runtime/derive.h"
 #include "runtime/kept_shape.h"
+#include "runtime/local_values.h"
 #include "runtime/output.h"
 #include "shape/part.h"
 #include "shape/services.h"
@@ -37,13 +39,6 @@ struct PortionBase {
   std::vector<uint64_t> given;
 };
 
-/// A value that `local` gave to an attribute, and the one bound before it.
-struct LocalValue {
-  uint32_t outer;
-  uint32_t attribute;
-  Value value;
-};
-
 /// Children of a block, and all that they can see.
 struct Portion {
   std::shared_ptr<const PortionBase> base;
@@ -51,13 +46,12 @@ struct Portion {
   OutputUnit* unit = nullptr;
 
   // The values of attributes that are known by now.
-  std::vector<Value> attributeValues;
-  std::vector<bool> attributesKnown;
+  AttributeValues attributeValues;
   // The shape that was divided, its rule, and what the rule is called with.
   KeptShape parent;
   uint32_t rule = 0, block = 0, depth = 0;
   std::vector<Value> parameters;
-  std::vector<LocalValue> locals;
+  LocalValues locals;
   /// Rules that are run in place.
   uint32_t inPlace = 0;
   /// Where the frame of the rule call lies.

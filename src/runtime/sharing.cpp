@@ -86,7 +86,7 @@ ShareKey Machine::keyOf(uint32_t rule, const Activation& call) {
   if (geometry.kind != GeometryKind::Mesh) geometry.refSize = {};
   h.add(contentHash(geometry));
   for (uint32_t a : code.reads.attributes) {
-    const Value* set = s.locals ? localValue(s, a) : nullptr;
+    const Value* set = locals_.find(s.locals, a);
     if (!set && s.attributes) set = attributes().find(s.attributes, a);
     h.add((set ? *set : evaluateAttribute(a)).hash());
   }
@@ -149,13 +149,13 @@ bool Machine::beginShared(const RuleCode& rule, Activation& call) {
   }
   if (hit != cache_.end() || recallPrototype(key, number)) {
     // The call itself has been counted already.
-    shapesExpanded_ += output_.prototypes[number].range.shapes - 1;
+    tally_.countExpanded(output_.prototypes[number].range.shapes - 1);
     addInstance(outer, number);
     return true;
   }
   call.boundary = true;
   openWorld(outer);
-  prototypes_.push_back({output_.mark(), key, shapesExpanded_ - 1, outer, call.rule});
+  prototypes_.push_back({output_.mark(), key, tally_.expanded() - 1, outer, call.rule});
   return false;
 }
 
@@ -170,7 +170,7 @@ void Machine::closeOpenPrototype() {
   const OpenPrototype open = prototypes_.back();
   prototypes_.pop_back();
   const StringId name = program_.rules[open.rule].name;
-  const uint32_t number = output_.close(open.mark, name, shapesExpanded_ - open.shapesBefore,
+  const uint32_t number = output_.close(open.mark, name, tally_.expanded() - open.shapesBefore,
                                         aborted_ ? ShareKey{} : open.key);
   if (!aborted_) cache_.emplace(open.key, number);
   addInstance(open.frame, number);

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "runtime/attribute_values.h"
+
+#include <charconv>
+
+namespace gable {
+
+namespace {
+
+// What the attribute of a shape may be, when a rule attribute of type `wanted` takes it.
+bool convert(const Value& v, ValueType wanted, const ValuePool& pool, Value& out) {
+  if (wanted == ValueType::Null || v.type == wanted) {
+    out = v;
+    return true;
+  }
+  if (wanted == ValueType::Float && v.type == ValueType::String) {
+    const std::string_view text = pool.text(v.id);
+    double number = 0;
+    const auto r = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (r.ec != std::errc() || text.empty()) return false;
+    out = Value::of(number);
+    return true;
+  }
+  if (wanted == ValueType::Float && v.type == ValueType::Bool) {
+    out = Value::of(v.number);
+    return true;
+  }
+  if (wanted == ValueType::Bool && v.type == ValueType::Float) {
+    out = Value::of(v.number != 0);
+    return true;
+  }
+  if (wanted == ValueType::Bool && v.type == ValueType::String) {
+    const std::string_view text = pool.text(v.id);
+    if (text != "true" && text != "false") return false;
+    out = Value::of(text == "true");
+    return true;
+  }
+  return false;
+}
+
+bool takesValues(const AttributeCode& a) { return !a.constant && a.propagatesFrom < 0; }
+
+}  // namespace
+
+void AttributeValues::begin(size_t count) {
+  values_.assign(count, Value{});
+  states_.assign(count, State::Unset);
+}
+
+void AttributeValues::give(const Given& values, const Program& program, ValuePool& pool,
+                           Diagnostics& told) {
+  for (const auto& [name, value] : values) {
+    for (uint32_t a = 0; a < program.attributes.size(); ++a) {
+      const AttributeCode& attribute = program.attributes[a];
+      if (!takesValues(attribute) || attribute.name != name) continue;
+      Value taken;
+      if (convert(value, attribute.type, pool, taken)) {
+        set(a, taken);
+        continue;
+      }
+      told.warning("attribute-type", attribute.span,
+                   "the value '" + pool.str(value) + "' given for '" + name + "' is no " +
+                       typeName(attribute.type),
+                   "the value of the rule file is used instead");
+    }
+  }
+}
+
+AttributeValues AttributeValues::known() const {
+  AttributeValues out = *this;
+  for (uint32_t a = 0; a < out.states_.size(); ++a) out.giveUpEvaluation(a);
+  return out;
+}
+
+std::vector<uint64_t> AttributeValues::hashes() const {
+  std::vector<uint64_t> out(values_.size(), 0);
+  for (uint32_t a = 0; a < out.size(); ++a) {
+    if (isKnown(a)) out[a] = values_[a].hash() | 1;
+  }
+  return out;
+}
+
+}  // namespace gable

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// AttributeValues: the rule attributes of the initial shape at work. Each is given from outside, or
+// evaluated once on that shape at its first use.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/diagnostic.h"
+#include "program/program.h"
+
+namespace gable {
+
+class AttributeValues {
+ public:
+  using Given = std::vector<std::pair<std::string, Value>>;
+
+  /// Forgets all values.
+  void begin(size_t count);
+  /// Takes values by name for the program's attributes. What is of no use for an attribute's type
+  /// is told, and the attribute keeps its initialiser.
+  void give(const Given& values, const Program& program, ValuePool& pool, Diagnostics& told);
+
+  bool isKnown(uint32_t a) const { return states_[a] == State::Known; }
+  /// Its initialiser is at work.
+  bool isBusy(uint32_t a) const { return states_[a] == State::Busy; }
+  const Value& value(uint32_t a) const { return values_[a]; }
+  void beginEvaluation(uint32_t a) { states_[a] = State::Busy; }
+  void set(uint32_t a, const Value& v) {
+    values_[a] = v;
+    states_[a] = State::Known;
+  }
+  /// A limit may have struck while it was evaluated.
+  void giveUpEvaluation(uint32_t a) {
+    if (isBusy(a)) states_[a] = State::Unset;
+  }
+  /// The values that are known by now, for another worker.
+  AttributeValues known() const;
+  /// By attribute, a hash of the value; 0 where there is none.
+  std::vector<uint64_t> hashes() const;
+
+ private:
+  enum class State : uint8_t { Unset, Busy, Known };
+
+  std::vector<Value> values_;
+  std::vector<State> states_;
+};
+
+}  // namespace gable
