@@ -17,6 +17,7 @@
 #include "gable/gable.h"
 #include "json/answers.h"
 #include "program/reach.h"
+#include "runtime/recall.h"
 
 #include "engine/impl.h"
 
@@ -101,6 +102,12 @@ class Edited {
   std::optional<Model> model_;
 };
 
+// What several jobs divide among them is not kept as a whole, and how much that is nobody knows.
+class OneJob : public Edited {
+ public:
+  explicit OneJob(Shapes shapes) : Edited(std::move(shapes)) { settings.jobs = 1; }
+};
+
 const char kBlocks[] = R"(
 attr height = 30
 attr other = 3
@@ -118,7 +125,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 TEST(Recall, anEditOfOneRuleLeavesTheOthers) {
-  Edited place(Shapes::lot(80, 20));
+  OneJob place(Shapes::lot(80, 20));
   const Model first = place.next(kBlocks);
   EXPECT_EQ(recalled(first), 0u);
   const Model again = place.next(kBlocks);
@@ -131,8 +138,23 @@ TEST(Recall, anEditOfOneRuleLeavesTheOthers) {
   EXPECT_LT(recalled(second), shapesOf(second) * 9 / 10);
 }
 
+// What is kept follows from the rules alone, and from no clock.
+TEST(Recall, theSameIsKeptEachTime) {
+  const auto kept = [](const std::string& rules) {
+    OneJob place(Shapes::lot(60, 60));
+    const Model model = place.next(rules);
+    const Recall& recall = *model.impl().result.recall;
+    return std::pair(recall.parts.size(), recall.operations.size());
+  };
+  const std::string rules = "Lot --> scatterSpaced(2, poisson, 0) { Tree. }\n";
+  EXPECT_EQ(kept(rules).second, 1u);
+  EXPECT_EQ(kept("Lot --> offset(-2, inside) Flat.\n").second, 0u);
+  EXPECT_GT(kept(kBlocks).first, 0u);
+  for (const std::string& each : {rules, std::string(kBlocks)}) EXPECT_EQ(kept(each), kept(each));
+}
+
 TEST(Recall, aRuleThatAllReachChangesAll) {
-  Edited place(Shapes::lot(80, 20));
+  OneJob place(Shapes::lot(80, 20));
   place.next(kBlocks);
   const std::string edited = replaced(kBlocks, "'0.9", "'0.8");
   const Model model = place.next(edited);
@@ -141,7 +163,7 @@ TEST(Recall, aRuleThatAllReachChangesAll) {
 }
 
 TEST(Recall, linesThatMoveAreToldAnew) {
-  Edited place(Shapes::lot(80, 20));
+  OneJob place(Shapes::lot(80, 20));
   place.next(kBlocks);
   const std::string edited = replaced(kBlocks, "Left -->", "// A line\n\n/* more */\nLeft -->");
   const Model model = place.next(edited);
@@ -150,7 +172,7 @@ TEST(Recall, linesThatMoveAreToldAnew) {
 }
 
 TEST(Recall, rulesThatComeGoAndChangePlaces) {
-  Edited place(Shapes::lot(80, 20));
+  OneJob place(Shapes::lot(80, 20));
   place.next(kBlocks);
   std::string edited = replaced(kBlocks, "LeftRoof.", "LeftRoof");
   edited = replaced(edited, "Left -->", "Before --> Facade\nLeft -->") +
@@ -161,7 +183,7 @@ TEST(Recall, rulesThatComeGoAndChangePlaces) {
 }
 
 TEST(Recall, anAttributeChangesWhatReadsIt) {
-  Edited place(Shapes::lot(80, 20));
+  OneJob place(Shapes::lot(80, 20));
   place.next(kBlocks);
   place.settings.attributes = {{"height", "33"}};
   const Model model = place.next(kBlocks);
@@ -175,7 +197,7 @@ TEST(Recall, anAttributeChangesWhatReadsIt) {
 }
 
 TEST(Recall, anAttributeThatIsNewOrGoesMovesTheOthers) {
-  Edited place(Shapes::lot(80, 20));
+  OneJob place(Shapes::lot(80, 20));
   place.next(kBlocks);
   const std::string edited = std::string("attr first = 1\n") + kBlocks;
   EXPECT_EQ(shown(place.next(edited)), shown(place.fresh(edited)));
@@ -183,7 +205,7 @@ TEST(Recall, anAttributeThatIsNewOrGoesMovesTheOthers) {
 }
 
 TEST(Recall, anotherSeedIsAnotherPlace) {
-  Edited place(Shapes::lot(80, 20));
+  OneJob place(Shapes::lot(80, 20));
   place.next(kBlocks);
   place.settings.seed = 7;
   EXPECT_EQ(shown(place.next(kBlocks)), shown(place.fresh(kBlocks)));
@@ -209,7 +231,7 @@ TEST(Recall, threadsTakeOverWhatOthersMade) {
 
 TEST(Recall, warningsStay) {
   const std::string text = replaced(kBlocks, "top : RightRoof.", "top : i(\"none.obj\") Roof.");
-  Edited place(Shapes::lot(80, 20));
+  OneJob place(Shapes::lot(80, 20));
   const Model first = place.next(text);
   EXPECT_FALSE(first.diagnostics().empty());
   EXPECT_EQ(shown(place.next(text)), shown(first));
@@ -217,7 +239,7 @@ TEST(Recall, warningsStay) {
 
 TEST(Recall, whatAnAttributePrintsIsPrintedByWhoAsksFirst) {
   const std::string text = replaced(kBlocks, "other = 3", "other = print(3)");
-  Edited place(Shapes::lot(80, 20));
+  OneJob place(Shapes::lot(80, 20));
   place.next(text);
   const std::string edited = replaced(text, "Left | ~40", "NIL | ~40");
   EXPECT_EQ(shown(place.next(edited)), shown(place.fresh(edited)));
@@ -226,7 +248,7 @@ TEST(Recall, whatAnAttributePrintsIsPrintedByWhoAsksFirst) {
 TEST(Recall, reportsAndPrintsStayInOrder) {
   const std::string text =
       replaced(kBlocks, "Tile -->", "Tile --> report(\"tiles\", geometry.area) print(split.index)");
-  Edited place(Shapes::lot(80, 20));
+  OneJob place(Shapes::lot(80, 20));
   place.next(text);
   const std::string edited = replaced(text, "extrude(height)", "extrude(height + 3)");
   const Model model = place.next(edited);
@@ -242,7 +264,7 @@ Block --> extrude(20) comp(f) { side : Wall | all : NIL }
 Wall --> split(y) { ~2 : split(x) { ~rand(1, 2) : [ s('0.5, '0.5, deep) center(xyz) Tile ] Tile }* }*
 Tile --> primitiveCube()
 )";
-  Edited place(Shapes::lot(60, 20));
+  OneJob place(Shapes::lot(60, 20));
   place.next(text);
   for (const auto& [from, to] : {std::pair("deep = 2", "deep = 2.5"), {"deep, 3", "deep, 4"}}) {
     const std::string edited = replaced(text, from, to);
@@ -264,7 +286,7 @@ Disc(r) --> circle(r, 24) Flat.
 Block --> s('0.5, 6, '0.5) primitiveCube() split(y) { ~0.4 : split(x) { ~rand(0.3, 0.6) : Tile }* }*
 Tile --> primitiveCube()
 )";
-  Edited place(Shapes::lot(60, 20));
+  OneJob place(Shapes::lot(60, 20));
   place.next(text);
   for (const auto& [from, to] :
        {std::pair("Paths(4)", "Paths(5)"), {"0.3", "0.4"}, {"circle(r, 24)", "circle(r, 20)"}}) {
