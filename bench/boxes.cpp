@@ -10,7 +10,7 @@
 //
 // Runs are interleaved; the medians and their ratio are printed. With `--runs N` N runs (default
 // 9). `--rules NAME` runs the rules of one workload alone until `--boxes N` are made (20 000 000),
-// for a profiler.
+// for a profiler; `--shared NAME` derives to a scene instead.
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@
 #include "lang/compile/compile.h"
 #include "lang/parser.h"
 #include "lang/sema/analyse.h"
-#include "runtime/derive.h"
+#include "runtime/leaf_stream.h"
 #include "scene/vertex_buffer.h"
 
 using namespace gable;
@@ -224,7 +224,7 @@ class Subject {
         environment_(pool_, assets_),
         stream_(program_, environment_, oneJob()) {}
 
-  // To a flattened mesh, without sharing.
+  // To a flattened mesh.
   void derive(VertexBuffer& out) {
     out.clear();
     stream_.run(workload_.shapes, [&](std::span<const Leaf> leaves) {
@@ -285,12 +285,12 @@ bool run(const Workload& w, int runs) {
 }
 
 // The rules alone, for so many boxes.
-void profile(const Workload& w, size_t limit) {
+void profile(const Workload& w, size_t limit, bool shared) {
   Subject subject(w);
   VertexBuffer out;
   size_t boxes = 0;
   const double seconds = secondsOf([&] {
-    for (; boxes < limit; boxes += w.boxes) subject.derive(out);
+    for (; boxes < limit; boxes += w.boxes) shared ? subject.deriveShared() : subject.derive(out);
   });
   std::printf("%-6s rules %6.2f M boxes/s\n", w.name, static_cast<double>(boxes) / seconds * 1e-6);
 }
@@ -299,16 +299,17 @@ void profile(const Workload& w, size_t limit) {
 
 int main(int argc, char** argv) {
   int runs = 9;
-  const char* only = nullptr;
+  const char *only = nullptr, *shared = nullptr;
   size_t boxes = 20000000;
   for (int i = 1; i + 1 < argc; ++i) {
     if (std::strcmp(argv[i], "--runs") == 0) runs = std::max(1, std::atoi(argv[i + 1]));
     if (std::strcmp(argv[i], "--rules") == 0) only = argv[i + 1];
+    if (std::strcmp(argv[i], "--shared") == 0) shared = only = argv[i + 1];
     if (std::strcmp(argv[i], "--boxes") == 0) boxes = std::strtoull(argv[i + 1], nullptr, 10);
   }
   if (only) {
     for (const Workload& w : workloads()) {
-      if (std::strcmp(w.name, only) == 0) profile(w, boxes);
+      if (std::strcmp(w.name, only) == 0) profile(w, boxes, shared != nullptr);
     }
     return 0;
   }

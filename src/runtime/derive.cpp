@@ -309,46 +309,4 @@ DeriveResult derive(const Program& program, const std::vector<InitialShape>& sha
   return std::move(*made);
 }
 
-struct LeafStream::Impl {
-  Impl(const Program& program, Environment& environment, const DeriveOptions& given)
-      : options(given),
-        usage(options.limits, options.cancel),
-        shared(program, options, environment, usage) {
-    options.sharing = false;
-    options.trace = false;
-    if (options.startRule < 0) options.startRule = program.startRule;
-    machine = std::make_unique<Machine>(shared, 0);
-  }
-  DeriveOptions options;
-  Usage usage;
-  DeriveShared shared;
-  Diagnostics messages;
-  std::unique_ptr<Machine> machine;
-};
-
-LeafStream::LeafStream(const Program& program, Environment& environment,
-                       const DeriveOptions& options)
-    : impl_(std::make_unique<Impl>(program, environment, options)) {}
-
-LeafStream::~LeafStream() = default;
-
-void LeafStream::run(const std::vector<InitialShape>& shapes,
-                     const std::function<void(std::span<const Leaf>)>& take) {
-  Output& output = impl_->machine->output();
-  impl_->machine->setSink(&take);
-  for (uint32_t i = 0; i < shapes.size(); ++i) {
-    impl_->machine->derive(shapes[i], i);
-    if (!output.openLeaves.empty()) take(output.openLeaves);
-    output.drop();
-    impl_->messages.append(impl_->machine->takeMessages());
-  }
-  impl_->machine->setSink(nullptr);
-}
-
-const Mesh& LeafStream::mesh(const Leaf& leaf) const {
-  return *impl_->machine->output().meshes[leaf.mesh - kFirstMesh];
-}
-
-const Diagnostics& LeafStream::diagnostics() const { return impl_->messages; }
-
 }  // namespace gable

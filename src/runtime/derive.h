@@ -157,25 +157,4 @@ struct DeriveResult {
 DeriveResult derive(const Program& program, const std::vector<InitialShape>& shapes,
                     Environment& environment, const DeriveOptions& options);
 
-/// Derives without building a scene, on the calling thread and with sharing off: for consumers that
-/// turn leaves into something of their own at once. Keeps its memory between runs.
-class LeafStream {
- public:
-  /// All must outlive the stream.
-  LeafStream(const Program& program, Environment& environment, const DeriveOptions& options);
-  ~LeafStream();
-  /// Calls `take` with the leaves of one initial shape after the other, placed in the world, in
-  /// path order, some at a time while they are still at hand. Leaf::mesh is valid for the unit
-  /// primitives (below kFirstMesh); other meshes are given by mesh(). The span is good until `take`
-  /// returns.
-  void run(const std::vector<InitialShape>& shapes,
-           const std::function<void(std::span<const Leaf>)>& take);
-  const Mesh& mesh(const Leaf& leaf) const;
-  const Diagnostics& diagnostics() const;
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-};
-
 }  // namespace gable

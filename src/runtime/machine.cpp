@@ -50,6 +50,11 @@ Machine::Machine(DeriveShared& shared, uint32_t worker)
 
 Machine::~Machine() = default;
 
+void Machine::forget() {
+  output_.drop();
+  cache_.clear();
+}
+
 OutputUnit Machine::run(const InitialShape& input, uint32_t index) {
   const uint64_t shapesBefore = tally_.expanded();
   const size_t partsBefore = parts_.size();

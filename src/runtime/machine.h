@@ -142,10 +142,8 @@ class Machine final : public Services, private WorkMeter {
   void run(const Portion& portion);
   /// The same, but leaves everything open in the output.
   void derive(const InitialShape& shape, uint32_t index);
-  /// Takes the leaves of the derivations that follow, a batch whenever there are enough; what is
-  /// left at the end of a derivation stays in the output. For sharing off only.
-  using LeafSink = std::function<void(std::span<const Leaf>)>;
-  void setSink(const LeafSink* sink) { sink_ = sink; }
+  /// Drops the output and what is known of it.
+  void forget();
   Output& output() { return output_; }
   /// What was told since the last time it was asked for. What this worker told before is not told
   /// again.
@@ -316,13 +314,6 @@ class Machine final : public Services, private WorkMeter {
   bool madeFinite(const Shape& s, size_t firstChild, size_t firstPiece) const;
   void makeLeaf(Activation& a, StringId name, uint32_t source);
   bool putLeaf(const Shape& s, StringId name, uint32_t source);
-  /// Hands the leaves on while they are still in the nearest cache.
-  void passLeaves() {
-    if (sink_ && gatherEnd_ == 0 && output_.openLeaves.size() >= kLeafBatch) {
-      (*sink_)(output_.openLeaves);
-      output_.openLeaves.clear();
-    }
-  }
 
   // Gathering: operations that wait for the leaves of their children.
   void beginGather(const Instruction& i);
@@ -541,10 +532,8 @@ class Machine final : public Services, private WorkMeter {
   /// Leaves are placed in the world at once: sharing is off.
   bool flat_ = false;
   Output::Mark rootMark_;
-  PrototypeNumbers cache_;
+  KeyNumbers cache_;
   bool collectOccluders_ = false;
-  static constexpr size_t kLeafBatch = 64;
-  const LeafSink* sink_ = nullptr;
   /// Nobody wants to see every shape.
   bool lightPartsAllowed_ = false;
 

@@ -166,7 +166,6 @@ void Machine::makeLightParts(Activation& a) {
     }
     ++a.childNext;
     if (!tick(0)) return;
-    passLeaves();
   }
 }
 

@@ -523,7 +523,6 @@ void Machine::makeLeaf(Activation& a, StringId name, uint32_t source) {
   if (options().trace) traceLeaf(a, name, source);
   if (!putLeaf(a.shape, name, source)) return;
   if (collectOccluders_) addOccluder(0, a.shape);
-  passLeaves();
 }
 
 // False for a shape without geometry.

@@ -207,9 +207,9 @@ class Merger {
     if (known != kUnset) return true;
     const OutputPrototype& from = outputs_[worker].prototypes[prototype];
     if (!isShared(from)) return false;
-    const auto at = byKey_.find(from.key);
-    if (at != byKey_.end()) known = at->second;
-    return at != byKey_.end();
+    const uint32_t* const inScene = byKey_.find(from.key);
+    if (inScene) known = *inScene;
+    return inScene != nullptr;
   }
 
   // The scene's number of a worker's prototype, which comes after those that it holds. Shared calls
@@ -419,7 +419,7 @@ class Merger {
   std::pair<uint32_t, uint32_t> lastName_{kUnset, 0}, lastSource_{kUnset, 0};
   uint64_t events_ = 0, eventBytes_ = 0, attributeBytes_ = 0;
   Scene scene_;
-  PrototypeNumbers byKey_;
+  KeyNumbers byKey_;
   std::unordered_multimap<uint64_t, uint32_t> meshNumbers_;
   std::unordered_map<uint64_t, uint32_t> listNumbers_;
   std::unordered_map<uint32_t, uint32_t> materialNumbers_, nameNumbers_, sourceNumbers_,

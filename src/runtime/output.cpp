@@ -27,11 +27,18 @@ Output::Mark Output::mark() const {
 }
 
 void Output::drop() {
+  prototypes.clear();
+  leaves.clear();
+  instances.clear();
+  events.clear();
   openLeaves.clear();
   openInstances.clear();
   openEvents.clear();
   meshes.clear();
   meshIndex.clear();
+  materials.clear();
+  materialIndex.clear();
+  lastMaterial_ = ~uint64_t{0};
 }
 
 namespace {

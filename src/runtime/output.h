@@ -13,19 +13,11 @@
 
 #include "base/diagnostic.h"
 #include "program/program.h"
+#include "runtime/key_numbers.h"
 #include "scene/scene.h"
 #include "shape/services.h"
 
 namespace gable {
-
-/// The inputs of a shared rule call, hashed; equal keys mean equal results.
-struct ShareKey {
-  uint64_t a = 0, b = 0;
-  bool operator==(const ShareKey&) const = default;
-};
-struct ShareKeyHash {
-  size_t operator()(const ShareKey& k) const { return k.a; }
-};
 
 /// A report or a print, placed between the instances of its prototype.
 struct OutputEvent {
@@ -70,7 +62,7 @@ struct Output {
     uint32_t leaves = 0, instances = 0, events = 0;
   };
   Mark mark() const;
-  /// Forgets what is open, with the numbering of meshes and materials.
+  /// Forgets all, with the numbering of meshes and materials. Keeps its memory.
   void drop();
   /// Moves what lies open beyond the marks into a finished prototype and gives its number.
   uint32_t close(const Mark& from, StringId name, uint64_t shapes, const ShareKey& key);

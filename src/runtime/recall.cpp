@@ -47,7 +47,7 @@ RecallInput recallInput(const DeriveResult* before, const Program& program,
   return {&recall, &before->scene, instructionsOf(recall.sources, program)};
 }
 
-Recaller::Recaller(const RecallInput& input, Output& output, PrototypeNumbers& cache)
+Recaller::Recaller(const RecallInput& input, Output& output, KeyNumbers& cache)
     : input_(input),
       recall_(*input.recall),
       scene_(*input.scene),
@@ -58,13 +58,13 @@ Recaller::Recaller(const RecallInput& input, Output& output, PrototypeNumbers& c
       materials_(recall_.materials.size(), kUnset) {}
 
 const RecallPart* Recaller::part(const ShareKey& key) const {
-  const auto at = recall_.partNumbers.find(key);
-  return at == recall_.partNumbers.end() ? nullptr : &recall_.parts[at->second];
+  const uint32_t* const number = recall_.partNumbers.find(key);
+  return number ? &recall_.parts[*number] : nullptr;
 }
 
 std::shared_ptr<const RecallOperation> Recaller::operation(const ShareKey& key) const {
-  const auto at = recall_.operationNumbers.find(key);
-  return at == recall_.operationNumbers.end() ? nullptr : recall_.operations[at->second];
+  const uint32_t* const number = recall_.operationNumbers.find(key);
+  return number ? recall_.operations[*number] : nullptr;
 }
 
 Recaller::Counts Recaller::counts() { return std::exchange(counts_, Counts{}); }
@@ -95,9 +95,9 @@ Leaf Recaller::leaf(const Leaf& from) {
 bool Recaller::isTaken(uint32_t number) {
   uint32_t& known = prototypes_[number];
   if (known != kUnset) return true;
-  const auto at = cache_.find(recall_.prototypes[number].key);
-  if (at != cache_.end()) known = at->second;
-  return at != cache_.end();
+  const uint32_t* const inOutput = cache_.find(recall_.prototypes[number].key);
+  if (inOutput) known = *inOutput;
+  return inOutput != nullptr;
 }
 
 Instance Recaller::instance(const Instance& from) {
@@ -130,9 +130,9 @@ void Recaller::take(const RecallPart& part, const Output::Mark& base) {
 }
 
 bool Recaller::takePrototype(const ShareKey& key, uint32_t& number) {
-  const auto at = recall_.prototypeNumbers.find(key);
-  if (at == recall_.prototypeNumbers.end()) return false;
-  number = prototype(at->second);
+  const uint32_t* const before = recall_.prototypeNumbers.find(key);
+  if (!before) return false;
+  number = prototype(*before);
   return true;
 }
 

@@ -15,7 +15,6 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "program/program.h"
@@ -27,8 +26,6 @@ namespace gable {
 
 struct Environment;
 struct DeriveResult;
-
-using PrototypeNumbers = std::unordered_map<ShareKey, uint32_t, ShareKeyHash>;
 
 /// A rule call's result, as ranges of the leaves, instances and events of the prototype of its
 /// initial shape.
@@ -61,10 +58,10 @@ struct Recall {
   std::vector<std::string> attributes;
 
   std::vector<RecallPart> parts;
-  PrototypeNumbers partNumbers;
-  PrototypeNumbers prototypeNumbers;
+  KeyNumbers partNumbers;
+  KeyNumbers prototypeNumbers;
   std::vector<std::shared_ptr<const RecallOperation>> operations;
-  PrototypeNumbers operationNumbers;
+  KeyNumbers operationNumbers;
 
   /// By prototype of the scene: its key, and its events in `events`.
   struct PrototypeNotes {
@@ -104,7 +101,7 @@ RecallInput recallInput(const DeriveResult* before, const Program& program,
 /// Takes results of the derivation before over into the output of one worker.
 class Recaller {
  public:
-  Recaller(const RecallInput& input, Output& output, PrototypeNumbers& cache);
+  Recaller(const RecallInput& input, Output& output, KeyNumbers& cache);
 
   /// Null when there is none.
   const RecallPart* part(const ShareKey& key) const;
@@ -134,7 +131,7 @@ class Recaller {
   const Recall& recall_;
   const Scene& scene_;
   Output& output_;
-  PrototypeNumbers& cache_;
+  KeyNumbers& cache_;
   /// By number in the scene before: that in the output.
   std::vector<uint32_t> prototypes_, meshes_, materials_;
   Counts counts_;

@@ -81,10 +81,7 @@ ShareKey Machine::keyOf(uint32_t rule, const Activation& call) {
   h.add(uint64_t{s.material} << 32 | s.assetMaterials);
   h.add(uint64_t{s.attributes});
   for (uint32_t p = call.parameters; p < stackTop_; ++p) h.add(stack_[p].hash());
-  Geometry geometry = s.geometry;
-  // A primitive fills the scope whatever the scope was when it was made.
-  if (geometry.kind != GeometryKind::Mesh) geometry.refSize = {};
-  h.add(contentHash(geometry));
+  h.add(contentHash(s.geometry));
   for (uint32_t a : code.reads.attributes) {
     const Value* set = locals_.find(s.locals, a);
     if (!set && s.attributes) set = attributes().find(s.attributes, a);
@@ -141,13 +138,13 @@ bool Machine::beginShared(const RuleCode& rule, Activation& call) {
   }
   const ShareKey key = keyOf(call.rule, call);
   if (aborted_) return false;
-  const auto hit = cache_.find(key);
+  const uint32_t* const hit = cache_.find(key);
   uint32_t number = 0;
-  if (hit != cache_.end()) {
+  if (hit) {
     ++cacheHits_;
-    number = hit->second;
+    number = *hit;
   }
-  if (hit != cache_.end() || recallPrototype(key, number)) {
+  if (hit || recallPrototype(key, number)) {
     // The call itself has been counted already.
     tally_.countExpanded(output_.prototypes[number].range.shapes - 1);
     addInstance(outer, number);

@@ -178,9 +178,13 @@ uint64_t contentHash(const Geometry& g) {
   uint64_t h =
       hashCombine(static_cast<uint64_t>(g.kind) << 16 | static_cast<uint64_t>(g.order) << 8,
                   (g.uv ? 1u : 0u) | (g.instanced ? 2u : 0u));
+  for (size_t i = 0; i < g.tags.size(); i += 2) {
+    h = hashCombine(h, uint64_t{g.tags[i]} << 32 | g.tags[i + 1]);
+  }
+  // A primitive fills the scope whatever the scope was when it was made.
+  if (g.kind != GeometryKind::Mesh) return h;
   for (size_t i = 0; i < 3; ++i) h = hashCombine(h, hashDouble(g.refSize[i]));
-  for (const uint32_t t : g.tags) h = hashCombine(h, t);
-  return g.mesh ? hashCombine(h, g.mesh->sharedHash()) : h;
+  return hashCombine(h, g.mesh->sharedHash());
 }
 
 Geometry primitive(GeometryKind kind, uint32_t tags) {
