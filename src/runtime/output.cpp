@@ -3,12 +3,18 @@
 
 #include "runtime/output.h"
 
+#include "base/hash.h"
+
 namespace gable {
 
 uint32_t Output::meshNumber(const MeshRef& m) {
-  const auto [at, fresh] = meshIndex.try_emplace(m.get(), static_cast<uint32_t>(meshes.size()));
-  if (fresh) meshes.push_back(m);
-  return at->second;
+  const auto address = static_cast<uint64_t>(reinterpret_cast<uintptr_t>(m.get()));
+  const ShareKey key{mix64(address), address};
+  if (const uint32_t* const known = meshIndex.find(key)) return *known;
+  const auto number = static_cast<uint32_t>(meshes.size());
+  meshes.push_back(m);
+  meshIndex.emplace(key, number);
+  return number;
 }
 
 uint32_t Output::materialNumber(MaterialId material, uint32_t assetMaterials) {

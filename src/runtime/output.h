@@ -51,7 +51,8 @@ struct Output {
   std::vector<OutputEvent> openEvents;
 
   std::vector<MeshRef> meshes;
-  std::unordered_map<const Mesh*, uint32_t> meshIndex;
+  /// By the address of the mesh.
+  KeyNumbers meshIndex;
   /// (material, asset material list) pairs.
   std::vector<uint64_t> materials;
   std::unordered_map<uint64_t, uint32_t> materialIndex;
