@@ -41,17 +41,25 @@ std::vector<uint32_t> simplified(const Ring& r) {
 
 double turnAngle(Vec2 in, Vec2 out) { return toRadians(atan2Deg(cross(in, out), dot(in, out))); }
 
-double scoreOf(const Vec2 (&q)[4], double whole) {
-  double bent = 0;
-  for (size_t i = 0; i < 4; ++i) {
-    const Vec2 in = q[i] - q[(i + 3) % 4], out = q[(i + 1) % 4] - q[i];
-    const double turn = turnAngle(in, out);
-    if (!(turn > 0)) return -1e9;
-    bent += (turn - kPi / 2) * (turn - kPi / 2);
-  }
+// How much four corners make of a region of that area: the share that they cover, less for corners
+// that are not right angles. kWorse where it cannot be more than `least`.
+constexpr double kWorse = -1e9;
+double scoreOf(const Vec2 (&q)[4], double whole, double least) {
   const double a = signedArea({q[0], q[1], q[2], q[3]});
-  if (!(a > 0)) return -1e9;
-  return std::min(a, whole) / std::max(a, whole) - kAngleWeight * bent;
+  if (!(a > 0)) return kWorse;
+  const double share = std::min(a, whole) / std::max(a, whole);
+  double bent = 0, score = share;
+  for (size_t i = 0; i < 4; ++i) {
+    // Each corner only takes away, and angles are dear.
+    if (!(score > least)) return kWorse;
+    const Vec2 in = q[i] - q[(i + 3) % 4], out = q[(i + 1) % 4] - q[i];
+    if (cross(in, out) < 0) return kWorse;
+    const double turn = turnAngle(in, out);
+    if (!(turn > 0)) return kWorse;
+    bent += (turn - kPi / 2) * (turn - kPi / 2);
+    score = share - kAngleWeight * bent;
+  }
+  return score;
 }
 
 // Turns four places so that the first side looks south in the frame.
@@ -185,8 +193,9 @@ BestQuad bestQuad(const Ring& outer) {
         work(n);
         for (size_t d = c + 1; d < n; ++d) {
           const Vec2 q[4] = {outer[v[a]], outer[v[b]], outer[v[c]], outer[v[d]]};
-          const double s = scoreOf(q, whole);
-          if (s > best.score + 1e-12) best = {{v[a], v[b], v[c], v[d]}, s};
+          const double least = best.score + 1e-12;
+          const double s = scoreOf(q, whole, least);
+          if (s > least) best = {{v[a], v[b], v[c], v[d]}, s};
         }
       }
     }
