@@ -44,10 +44,7 @@ bool takesValues(const AttributeCode& a) { return !a.constant && a.propagatesFro
 
 }  // namespace
 
-void AttributeValues::begin(size_t count) {
-  values_.assign(count, Value{});
-  states_.assign(count, State::Unset);
-}
+void AttributeValues::begin() { slots_.assign(slots_.size(), Slot{}); }
 
 void AttributeValues::give(const Given& values, const Program& program, ValuePool& pool,
                            Diagnostics& told) {
@@ -70,14 +67,14 @@ void AttributeValues::give(const Given& values, const Program& program, ValuePoo
 
 AttributeValues AttributeValues::known() const {
   AttributeValues out = *this;
-  for (uint32_t a = 0; a < out.states_.size(); ++a) out.giveUpEvaluation(a);
+  for (uint32_t a = 0; a < out.slots_.size(); ++a) out.giveUpEvaluation(a);
   return out;
 }
 
 std::vector<uint64_t> AttributeValues::hashes() const {
-  std::vector<uint64_t> out(values_.size(), 0);
+  std::vector<uint64_t> out(slots_.size(), 0);
   for (uint32_t a = 0; a < out.size(); ++a) {
-    if (isKnown(a)) out[a] = values_[a].hash() | 1;
+    if (isKnown(a)) out[a] = value(a).hash() | 1;
   }
   return out;
 }

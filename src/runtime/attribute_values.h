@@ -19,24 +19,23 @@ class AttributeValues {
  public:
   using Given = std::vector<std::pair<std::string, Value>>;
 
+  explicit AttributeValues(size_t count = 0) : slots_(count) {}
+
   /// Forgets all values.
-  void begin(size_t count);
+  void begin();
   /// Takes values by name for the program's attributes. What is of no use for an attribute's type
   /// is told, and the attribute keeps its initialiser.
   void give(const Given& values, const Program& program, ValuePool& pool, Diagnostics& told);
 
-  bool isKnown(uint32_t a) const { return states_[a] == State::Known; }
+  bool isKnown(uint32_t a) const { return slots_[a].state == State::Known; }
   /// Its initialiser is at work.
-  bool isBusy(uint32_t a) const { return states_[a] == State::Busy; }
-  const Value& value(uint32_t a) const { return values_[a]; }
-  void beginEvaluation(uint32_t a) { states_[a] = State::Busy; }
-  void set(uint32_t a, const Value& v) {
-    values_[a] = v;
-    states_[a] = State::Known;
-  }
+  bool isBusy(uint32_t a) const { return slots_[a].state == State::Busy; }
+  const Value& value(uint32_t a) const { return slots_[a].value; }
+  void beginEvaluation(uint32_t a) { slots_[a].state = State::Busy; }
+  void set(uint32_t a, const Value& v) { slots_[a] = {v, State::Known}; }
   /// A limit may have struck while it was evaluated.
   void giveUpEvaluation(uint32_t a) {
-    if (isBusy(a)) states_[a] = State::Unset;
+    if (isBusy(a)) slots_[a].state = State::Unset;
   }
   /// The values that are known by now, for another worker.
   AttributeValues known() const;
@@ -46,8 +45,11 @@ class AttributeValues {
  private:
   enum class State : uint8_t { Unset, Busy, Known };
 
-  std::vector<Value> values_;
-  std::vector<State> states_;
+  struct Slot {
+    Value value;
+    State state = State::Unset;
+  };
+  std::vector<Slot> slots_;
 };
 
 }  // namespace gable

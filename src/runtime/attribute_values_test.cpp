@@ -17,7 +17,7 @@ class AttributeValuesTest : public testing::Test {
     return static_cast<uint32_t>(program.attributes.size() - 1);
   }
   void give(const AttributeValues::Given& given) {
-    values.begin(program.attributes.size());
+    values = AttributeValues(program.attributes.size());
     values.give(given, program, pool, told);
   }
 
@@ -86,6 +86,13 @@ TEST_F(AttributeValuesTest, AnotherWorkerGetsWhatIsKnown) {
   EXPECT_TRUE(copy.isKnown(known));
   EXPECT_FALSE(copy.isBusy(busy));
   EXPECT_FALSE(copy.isKnown(busy));
+}
+
+TEST_F(AttributeValuesTest, OfOneShapeAreForgottenForTheNext) {
+  const uint32_t height = declare("height", ValueType::Float);
+  give({{"height", Value::of(7.0)}});
+  values.begin();
+  EXPECT_FALSE(values.isKnown(height));
 }
 
 TEST_F(AttributeValuesTest, HashesTellValuesApart) {

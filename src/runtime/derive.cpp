@@ -14,10 +14,12 @@
 
 #include <algorithm>
 #include <memory>
+#include <mutex>
 #include <unordered_set>
 
 #include "base/hash.h"
 #include "base/parallel.h"
+#include "base/work.h"
 #include "program/reach.h"
 #include "runtime/machine.h"
 #include "runtime/recall.h"
@@ -40,6 +42,20 @@ struct Pass {
     size_t noteBegin = 0, noteEnd = 0;
   };
   std::vector<Range> ranges;
+  /// Memory was refused where nothing could be kept: what the workers made is of no use.
+  Status failure;
+};
+
+// A unit of work is done, however it ends: others wait for that.
+class UnitOfWork {
+ public:
+  explicit UnitOfWork(PortionQueue& queue) : queue_(queue) {}
+  ~UnitOfWork() { queue_.done(); }
+  UnitOfWork(const UnitOfWork&) = delete;
+  UnitOfWork& operator=(const UnitOfWork&) = delete;
+
+ private:
+  PortionQueue& queue_;
 };
 
 void deriveShape(Pass& pass, Machine& machine, unsigned worker, const InitialShape& shape,
@@ -71,27 +87,37 @@ Pass runPass(DeriveShared& shared, const std::vector<InitialShape>& shapes, unsi
   pass.portions = std::make_unique<PortionQueue>(shapes.size());
   shared.portions = divides && jobs > 1 ? pass.portions.get() : nullptr;
   std::atomic<size_t> next{0}, done{0};
+  std::mutex failing;
+  const auto attempt = [&](const auto& body) {
+    const Status status = guarded([&] {
+      body();
+      return Status();
+    });
+    if (status.ok()) return;
+    shared.usage.exhaust();
+    const std::lock_guard lock(failing);
+    if (pass.failure.ok()) pass.failure = status;
+  };
   const auto work = [&](size_t worker, unsigned) {
     Machine& machine = *pass.machines[worker];
     for (size_t i; (i = next.fetch_add(1)) < shapes.size();) {
-      if (!shared.usage.cancelled() && !shared.usage.exhausted()) {
-        deriveShape(pass, machine, static_cast<unsigned>(worker), shapes[i], i);
-        const size_t count = done.fetch_add(1) + 1;
-        if (shared.options.progress) shared.options.progress(count, shapes.size());
-      }
-      pass.portions->done();
+      const UnitOfWork unit(*pass.portions);
+      if (shared.usage.cancelled() || shared.usage.exhausted()) continue;
+      attempt([&] { deriveShape(pass, machine, static_cast<unsigned>(worker), shapes[i], i); });
+      const size_t count = done.fetch_add(1) + 1;
+      if (shared.options.progress) shared.options.progress(count, shapes.size());
     }
     if (!shared.portions) return;
     while (const std::unique_ptr<Portion> portion = pass.portions->take()) {
-      machine.run(*portion);
-      pass.portions->done();
+      const UnitOfWork unit(*pass.portions);
+      attempt([&] { machine.run(*portion); });
     }
   };
   // Without portions there is no work for more of them than there are shapes.
   const size_t workers = shared.portions ? jobs : std::min<size_t>(jobs, shapes.size());
   parallelFor(workers, jobs, work);
   shared.portions = nullptr;
-  for (auto& m : pass.machines) m->tellUse();
+  for (auto& m : pass.machines) attempt([&] { m->tellUse(); });
   return pass;
 }
 
@@ -203,6 +229,102 @@ MergeInput mergeInput(const DeriveShared& shared, Recall* recall) {
   return input;
 }
 
+// The scene of all that the workers made, the messages and the trace.
+void assemble(Pass& pass, DeriveShared& shared, const std::vector<InitialShape>& shapes,
+              DeriveResult& result) {
+  for (auto& m : pass.machines) {
+    result.shared += m->cacheHits();
+    result.recalled += m->recalled();
+  }
+  result.portions = pass.portions->units().size();
+  takeMessages(pass, result.diagnostics);
+  takeTrace(pass, result);
+  std::shared_ptr<Recall> recall;
+  if (shared.options.remember && !shared.limitReached && !shared.unrepeatable) {
+    recall = std::make_shared<Recall>();
+    recall->tables = &shared.environment;
+    for (const AttributeCode& a : shared.program.attributes) recall->attributes.push_back(a.name);
+    gatherParts(pass, *recall);
+  }
+  std::vector<Output> outputs;
+  for (auto& m : pass.machines) outputs.push_back(std::move(m->output()));
+  std::vector<const OutputUnit*> roots;
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    if (pass.derived[i]) roots.push_back(&pass.units[i]);
+  }
+  result.attributes = std::move(pass.attributes);
+  Merged merged = merge(outputs, roots, pass.portions->units(), mergeInput(shared, recall.get()));
+  result.scene = std::move(merged.scene);
+  if (!merged.allEvents) {
+    result.diagnostics.warning("too-many-reports", Span{},
+                               "the rules report or print more than can be kept",
+                               "report sums, or report in rules that are called less often");
+    shared.limitReached = true;
+  }
+  if (!merged.allAttributes) {
+    result.diagnostics.warning("out-of-memory", Span{},
+                               "the attributes of leaves take more memory than there may be, and "
+                               "some are left out",
+                               "raise the limit on memory, or set shorter arrays");
+    shared.limitReached = true;
+  }
+  result.end = shared.usage.cancelled() ? End::Cancelled
+               : shared.limitReached    ? End::LimitReached
+                                        : End::Done;
+  if (result.end == End::Done) result.recall = std::move(recall);
+  result.diagnostics.sortByPlace();
+}
+
+// Holds what comes after the derivation against the limits, where none has been reached before:
+// what was made until then is put together however long that takes. It always looks at the wish to
+// stop.
+class AfterwardsMeter final : public WorkMeter {
+ public:
+  explicit AfterwardsMeter(Usage& usage)
+      : usage_(usage), tally_(usage), limited_(!usage.exhausted()) {}
+  bool look(uint64_t, uint64_t bytes) override {
+    if (usage_.cancelled()) return false;
+    if (limited_ && !excess_) excess_ = tally_.look(bytes);
+    return !excess_;
+  }
+  const std::optional<Usage::Excess>& excess() const { return excess_; }
+
+ private:
+  Usage& usage_;
+  Tally tally_;
+  bool limited_;
+  std::optional<Usage::Excess> excess_;
+};
+
+// A derivation that ends without a model.
+std::unique_ptr<DeriveResult> failed(const Status& why) {
+  auto result = std::make_unique<DeriveResult>();
+  result->end = End::LimitReached;
+  result->diagnostics.error(why.code(), Span{}, "the derivation cannot go on: " + why.message(),
+                            why.hint());
+  return result;
+}
+
+std::unique_ptr<DeriveResult> assembled(Pass& pass, DeriveShared& shared,
+                                        const std::vector<InitialShape>& shapes) {
+  AfterwardsMeter meter(shared.usage);
+  auto result = std::make_unique<DeriveResult>();
+  const Status status = guarded([&] {
+    const WorkScope scope(meter);
+    assemble(pass, shared, shapes, *result);
+    return Status();
+  });
+  if (status.ok()) return result;
+  if (meter.excess()) {
+    const Usage::Excess& e = *meter.excess();
+    return failed(Status::failure(e.code, e.message, e.hint));
+  }
+  if (status.code() != kWorkStopped) return failed(status);
+  result = std::make_unique<DeriveResult>();
+  result->end = End::Cancelled;
+  return result;
+}
+
 struct Way {
   unsigned jobs = 1;
   /// Initial shapes are divided among workers.
@@ -226,6 +348,7 @@ std::unique_ptr<DeriveResult> deriveIn(Way way, const Program& program,
     shared.collectOccluders = true;
     Pass first = runPass(shared, shapes, way.jobs, false);
     if (way.jobs > 1 && usage.exhaustedByCount()) return nullptr;
+    if (!first.failure.ok()) return failed(first.failure);
     occluders = std::make_unique<OccluderIndex>(takeOccluders(first));
     shared.occluders = occluders.get();
     shared.collectOccluders = false;
@@ -236,50 +359,8 @@ std::unique_ptr<DeriveResult> deriveIn(Way way, const Program& program,
   // What is over by the clock, by memory or by the user's wish is told as it is.
   if (shared.indivisible && !usage.exhausted() && !usage.cancelled()) return nullptr;
 
-  auto made = std::make_unique<DeriveResult>();
-  DeriveResult& result = *made;
-  std::vector<Output> outputs;
-  for (auto& m : pass.machines) {
-    result.shared += m->cacheHits();
-    result.recalled += m->recalled();
-  }
-  result.portions = pass.portions->units().size();
-  takeMessages(pass, result.diagnostics);
-  takeTrace(pass, result);
-  std::shared_ptr<Recall> recall;
-  if (options.remember && !shared.limitReached && !shared.unrepeatable) {
-    recall = std::make_shared<Recall>();
-    recall->tables = &environment;
-    for (const AttributeCode& a : program.attributes) recall->attributes.push_back(a.name);
-    gatherParts(pass, *recall);
-  }
-  for (auto& m : pass.machines) outputs.push_back(std::move(m->output()));
-  std::vector<const OutputUnit*> roots;
-  for (size_t i = 0; i < shapes.size(); ++i) {
-    if (pass.derived[i]) roots.push_back(&pass.units[i]);
-  }
-  result.attributes = std::move(pass.attributes);
-  Merged merged = merge(outputs, roots, pass.portions->units(), mergeInput(shared, recall.get()));
-  result.scene = std::move(merged.scene);
-  if (!merged.allEvents) {
-    result.diagnostics.warning("too-many-reports", Span{},
-                               "the rules report or print more than can be kept",
-                               "report sums, or report in rules that are called less often");
-    shared.limitReached = true;
-  }
-  if (!merged.allAttributes) {
-    result.diagnostics.warning("out-of-memory", Span{},
-                               "the attributes of leaves take more memory than there may be, and "
-                               "some are left out",
-                               "raise the limit on memory, or set shorter arrays");
-    shared.limitReached = true;
-  }
-  result.end = usage.cancelled()     ? End::Cancelled
-               : shared.limitReached ? End::LimitReached
-                                     : End::Done;
-  if (result.end == End::Done) result.recall = std::move(recall);
-  result.diagnostics.sortByPlace();
-  return made;
+  if (!pass.failure.ok()) return failed(pass.failure);
+  return assembled(pass, shared, shapes);
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ Machine::Machine(DeriveShared& shared, uint32_t worker)
       worker_(worker),
       tally_(shared.usage),
       tracer_(shared.program, shared.options),
+      attributeValues_(shared.program.attributes.size()),
       stackMemory_(new std::byte[kStackSize * sizeof(Value)]),
       stack_(reinterpret_cast<Value*>(stackMemory_.get())),
       splits_(shared.program.blocks.size()) {
@@ -120,6 +121,7 @@ void Machine::clearStacks() {
 }
 
 void Machine::begin(const InitialShape& input, uint32_t index) {
+  attributeValues_.begin();
   nameId_ = 0;
   nameId_ = pool().intern(input.name);
   const uint64_t place = input.index < 0 ? index : static_cast<uint64_t>(input.index);
@@ -193,7 +195,6 @@ void Machine::beginRoot(uint32_t rule) {
 
 // Attributes are bound by name: options over the shape's own, both over the initialiser.
 void Machine::bindAttributes(const InitialShape& shape) {
-  attributeValues_.begin(program_.attributes.size());
   attributeValues_.give(shape.attributes, program_, pool(), log_.input());
   attributeValues_.give(options().attributes, program_, pool(), log_.input());
 }

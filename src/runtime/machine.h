@@ -476,6 +476,8 @@ class Machine final : public Services, private WorkMeter {
   Tally tally_;
   MessageLog log_;
   Tracer tracer_;
+  /// Of the initial shape at work.
+  AttributeValues attributeValues_;
   std::vector<Occluder> occluders_;
 
   // The stacks. Activations are reused, so that their shapes keep no memory busy.
@@ -517,7 +519,6 @@ class Machine final : public Services, private WorkMeter {
   // The initial shape at work.
   InitialShapeInfo info_;
   StringId nameId_ = 0;
-  AttributeValues attributeValues_;
   const Instruction* pc_ = nullptr;
   uint32_t parameters_ = 0;
   /// The shape that expressions see: the current one, or the initial one in an attribute.

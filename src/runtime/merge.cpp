@@ -4,11 +4,13 @@
 // Merging walks the initial shapes in their order and takes over each prototype after the ones that
 // it holds. That is the order in which a single worker finishes them, so one worker or many give
 // the same scene. Names, materials, sources and meshes are numbered as this walk first meets them.
+// Scenes have millions of leaves, so the walk calls work() and can be left at any time.
 
 #include <algorithm>
 #include <unordered_map>
 
 #include "base/check.h"
+#include "base/work.h"
 #include "runtime/recall.h"
 
 namespace gable {
@@ -162,6 +164,7 @@ class Merger {
     const Output& from = outputs_[s.worker];
     const Prototype& range = s.content.range;
     for (uint32_t i = 0; i < range.instanceCount; ++i) {
+      work();
       Instance& copy = scene_.instances.emplace_back(from.instances[range.firstInstance + i]);
       copy.prototype = workers_[s.worker].prototypes[copy.prototype];
       copy.leavesBefore += shift.leaves;
@@ -221,6 +224,7 @@ class Merger {
     std::vector<Open> open;
     if (!imported(worker, prototype)) open.push_back({prototype, 0});
     while (!open.empty()) {
+      work();
       Open& top = open.back();
       const Prototype& range = outputs_[worker].prototypes[top.prototype].range;
       if (top.next < range.instanceCount) {
@@ -241,6 +245,7 @@ class Merger {
     to.name = nameNumber(from.range.name);
     to.firstInstance = static_cast<uint32_t>(scene_.instances.size());
     for (uint32_t i = 0; i < from.range.instanceCount; ++i) {
+      work();
       Instance& copy =
           scene_.instances.emplace_back(outputs_[worker].instances[from.range.firstInstance + i]);
       copy.prototype = workers_[worker].prototypes[copy.prototype];
@@ -263,6 +268,7 @@ class Merger {
   }
 
   void renumber(Leaf& leaf, uint32_t worker) {
+    work();
     if (leaf.mesh >= kFirstMesh) leaf.mesh = meshNumber(worker, leaf.mesh - kFirstMesh);
     leaf.materials = materialsNumber(worker, leaf.materials);
     // Neighbours often agree, which spares the look-ups.
@@ -277,6 +283,7 @@ class Merger {
     uint32_t& known = workers_[worker].meshes[mesh];
     if (known != kUnset) return known;
     const MeshRef& m = outputs_[worker].meshes[mesh];
+    work(m->positions.size());
     const uint64_t hash = m->sharedHash();
     auto [first, last] = meshNumbers_.equal_range(hash);
     for (; first != last; ++first) {
@@ -381,6 +388,7 @@ class Merger {
     const Output& out = outputs_[worker];
     std::vector<Open> open{{&content, before, 0, 0}};
     while (!open.empty() && !full()) {
+      work();
       Open& top = open.back();
       const OutputPrototype& p = *top.prototype;
       for (; top.event < p.eventCount; ++top.event) {
@@ -398,6 +406,7 @@ class Merger {
   }
 
   void speak(const OutputEvent& e) {
+    work();
     const ValuePool& pool = *input_.program.pool;
     const std::string_view text = pool.text(e.text);
     ++events_;

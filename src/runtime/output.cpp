@@ -7,6 +7,7 @@
 
 namespace gable {
 
+// Listed before they are numbered: where memory is refused, no number of nothing stays behind.
 uint32_t Output::meshNumber(const MeshRef& m) {
   const auto address = static_cast<uint64_t>(reinterpret_cast<uintptr_t>(m.get()));
   const ShareKey key{mix64(address), address};
@@ -20,11 +21,15 @@ uint32_t Output::meshNumber(const MeshRef& m) {
 uint32_t Output::materialNumber(MaterialId material, uint32_t assetMaterials) {
   const uint64_t pair = uint64_t{material} << 32 | assetMaterials;
   if (pair == lastMaterial_) return lastMaterialNumber_;
-  const auto [at, fresh] = materialIndex.try_emplace(pair, static_cast<uint32_t>(materials.size()));
-  if (fresh) materials.push_back(pair);
+  auto known = materialIndex.find(pair);
+  if (known == materialIndex.end()) {
+    const auto number = static_cast<uint32_t>(materials.size());
+    materials.push_back(pair);
+    known = materialIndex.emplace(pair, number).first;
+  }
   lastMaterial_ = pair;
-  lastMaterialNumber_ = at->second;
-  return at->second;
+  lastMaterialNumber_ = known->second;
+  return lastMaterialNumber_;
 }
 
 Output::Mark Output::mark() const {

@@ -101,6 +101,8 @@ Shape changed(const Shape& s, uint32_t effects) {
   return out;
 }
 
+bool isOutOfMemory(const Status& s) { return std::string_view(s.code()) == "out-of-memory"; }
+
 }  // namespace
 
 void auditFields(const OpSpec& spec, const Shape& before, std::span<const Value> args,
@@ -125,7 +127,8 @@ void auditFields(const OpSpec& spec, const Shape& before, std::span<const Value>
   ShortMeter meter;
   const WorkScope scope(meter);
   const Status status = guarded([&] { return spec.apply(call); });
-  if (!status.ok() && status.code() == kWorkStopped) return;
+  // A run that was cut short says nothing.
+  if (!status.ok() && (status.code() == kWorkStopped || isOutOfMemory(status))) return;
   const OpOutcome second{status, shape, call.dropped(), children, pieces};
   if (same(outcome, second)) return;
   checkFailed(__FILE__, __LINE__, spec.name, "depends on a field of the shape",

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <filesystem>
 #include <string>
 
@@ -204,6 +205,22 @@ Lot --> split(x) { 0.01 : set(a, [split.index:1:split.index+20000]) X. }*
   }
   EXPECT_GT(values, 0u);
   EXPECT_LT(values * sizeof(PlainValue), uint64_t{30} << 20);
+}
+
+// The wish to stop comes when the last shape is done: what is left is to put the scene together.
+TEST(Limits, cancellingReachesTheMerge) {
+  const Rules rules = rulesOf("Lot --> split(x) { ~0.01 : Tile. }*\n");
+  for (const int jobs : {1, 2}) {
+    std::atomic<bool> cancel{false};
+    DeriveSettings settings;
+    settings.jobs = jobs;
+    settings.cancel = &cancel;
+    EXPECT_GT(derive(rules, lots(8), settings).leafCount(), 7'000u);
+    settings.progress = [&](size_t done, size_t total) { cancel = done == total; };
+    const Model model = derive(rules, lots(8), settings);
+    EXPECT_EQ(model.end(), End::Cancelled) << jobs;
+    EXPECT_EQ(model.leafCount(), 0u) << jobs;
+  }
 }
 
 TEST(Limits, codeThatHasNoRoomInInstructionsIsRefused) {
