@@ -36,14 +36,14 @@ PlaneId Planes::add(GridPoint from, GridPoint to, double weight) {
 
   // s = length * weight * 2^103, plus a hair of its own.
   const WideInt square = WideInt(static_cast<Int128>(p.a) * p.a + static_cast<Int128>(p.b) * p.b);
-  const WideInt len = squareRoot(square.shiftedLeft(100));
+  const WideInt len = sqrt(WideInt(square << 100));
   const double w = std::max(weight, kStandStill);
   const uint64_t hair = mix64(planes_.size() + 1) >> 4;
   if (w < 0x1p-40) {
     int exponent = 0;
     const double m = std::frexp(w, &exponent);
     const auto scaled = static_cast<int64_t>(std::ldexp(m, 53));
-    p.s = (len * WideInt(scaled)).shiftedRight(-exponent);
+    p.s = (len * scaled) >> -exponent;
   } else {
     p.s = len * WideInt(static_cast<Int128>(std::ldexp(w, 53)));
   }
@@ -55,7 +55,7 @@ PlaneId Planes::add(GridPoint from, GridPoint to, double weight) {
   p.nb = static_cast<double>(p.b) / length;
   p.nc = static_cast<double>(p.c) / length;
   // From s itself: where the weight is next to nothing, the hair is a part that counts.
-  p.ns = quotient(p.s, len.shiftedLeft(53));
+  p.ns = quotient(p.s, len << 53);
   planes_.push_back(p);
   return static_cast<PlaneId>(planes_.size() - 1);
 }
@@ -64,7 +64,7 @@ PlaneId Planes::addLevel(double time) {
   // c / s is the time: s = 2^103 in the same scale, c = time, both times 2^20 for its fraction.
   Plane p;
   p.c = static_cast<Int128>(std::ldexp(time, 20));
-  p.s = WideInt(1).shiftedLeft(kTimeBits + 20);
+  p.s = WideInt(1) << (kTimeBits + 20);
   p.nc = time;
   p.ns = 1;
   planes_.push_back(p);
@@ -122,7 +122,7 @@ std::optional<EventTime> Planes::meeting(PlaneId p, PlaneId q, PlaneId r) const 
     return t;
   }
   const WideInt exactDen = detSpeeds(p, q, r);
-  if (exactDen.isZero()) return std::nullopt;
+  if (exactDen.is_zero()) return std::nullopt;
   const WideInt exactNum = detOffsets(p, q, r);
   t.value = std::ldexp(quotient(exactNum, exactDen), kTimeBits);
   t.error = std::abs(t.value) * 0x1p-50;
@@ -143,7 +143,7 @@ int Planes::compareTimes(const EventTime& a, const EventTime& b) const {
   if (a.value + a.error < b.value - b.error) return -1;
   if (a.value - a.error > b.value + b.error) return 1;
   const ExactTime x = exact(a), y = exact(b);
-  return compare(x.num * y.den, y.num * x.den);
+  return WideInt(x.num * y.den).compare(y.num * x.den);
 }
 
 WideInt Planes::detFour(PlaneId p, PlaneId q, PlaneId r, PlaneId l) const {
@@ -168,7 +168,7 @@ int Planes::side(PlaneId p, PlaneId q, PlaneId r, PlaneId l) const {
 
 Planes::Point Planes::point(PlaneId p, PlaneId q, PlaneId r) const {
   const WideInt den = detSpeeds(p, q, r);
-  if (den.isZero()) return {};
+  if (den.is_zero()) return {};
   const WideInt qr = lift(q, r), pr = lift(p, r), pq = lift(p, q);
   const auto wide = [](int64_t v) { return WideInt(static_cast<Int128>(v)); };
   const Plane &a = planes_[p], &b = planes_[q], &c = planes_[r];

@@ -142,8 +142,8 @@ ExactTime Simulation::exactLevel(double value) const {
   const double m = std::frexp(value, &exponent);
   const WideInt mantissa(static_cast<Int128>(std::ldexp(m, 53)));
   const int power = 53 - exponent + Planes::kTimeBits;
-  if (power >= 0) return {mantissa, WideInt(1).shiftedLeft(power)};
-  return {mantissa.shiftedLeft(-power), WideInt(1)};
+  if (power >= 0) return {mantissa, WideInt(1) << power};
+  return {mantissa << -power, WideInt(1)};
 }
 
 int Simulation::compareEvents(Event& a, Event& b) {
@@ -152,7 +152,7 @@ int Simulation::compareEvents(Event& a, Event& b) {
   exactOf(a);
   exactOf(b);
   const ExactTime &x = memo_[a.memo], &y = memo_[b.memo];
-  return compare(x.num * y.den, y.num * x.den);
+  return WideInt(x.num * y.den).compare(y.num * x.den);
 }
 
 bool Simulation::later(uint32_t a, uint32_t b) {
@@ -186,7 +186,7 @@ bool Simulation::isPast(const EventTime& t) {
   if (t.value + t.error < now_.time.value - now_.time.error) return true;
   const ExactTime x = planes_.exact(t);
   const ExactTime& y = exactOf(now_);
-  return compare(x.num * y.den, y.num * x.den) <= 0;
+  return WideInt(x.num * y.den).compare(y.num * x.den) <= 0;
 }
 
 // Parts of the wavefront.
