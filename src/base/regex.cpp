@@ -14,6 +14,8 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/work.h"
+
 namespace gable {
 
 namespace {
@@ -377,6 +379,7 @@ struct Regex::Program::Run {
       while (true) {
         if (work == 0) return false;
         --work;
+        gable::work();
         if (!seen.insert(uint64_t{pc} << 40 | at).second) break;
         const Instruction& in = program.code[pc];
         if (in.code == Code::Match) {
