@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "builtins/lists.h"
 #include "builtins/shared/arrays.h"
@@ -54,10 +55,9 @@ Value transpose(FunctionCall& call) {
 }
 
 // Places that an index argument names; negative ones are left out but keep their turn as -1.
-std::vector<double> placesOf(const FunctionCall& call, size_t argument) {
-  const Value& v = call.arg(argument);
+std::vector<double> placesOf(const Value& v, const ValuePool& pool) {
   if (!v.isArray()) return {std::trunc(v.number)};
-  const Array& a = call.array(argument);
+  const Array& a = pool.array(v);
   std::vector<double> places;
   for (size_t i = 0; i < a.numbers.size(); ++i) {
     if (a.element != ValueType::Bool)
@@ -103,22 +103,30 @@ struct Source {
   }
 };
 
-Value tooLarge(const FunctionCall& call) {
+struct SetElems {
+  Value array;
+  /// Counted row by row in a list; in a table the rows, with the columns beside them.
+  Value places;
+  std::optional<Value> columns;
+  Value values;
+};
+
+Value tooLarge(const FunctionCall& call, const SetElems& args) {
   return call.fail("array-too-large", "setElems would make the array too large",
-                   "arrays have up to 100000 elements", call.arg(0));
+                   "arrays have up to 100000 elements", args.array);
 }
 
-Value sizesDiffer(const FunctionCall& call) {
+Value sizesDiffer(const FunctionCall& call, const SetElems& args) {
   return call.fail("bad-argument", "setElems got more or fewer values than places",
-                   "give one value, or one for each place", call.arg(0));
+                   "give one value, or one for each place", args.array);
 }
 
-Value setLinear(FunctionCall& call, Array a, const Source& source) {
-  const std::vector<double> places = placesOf(call, 1);
-  if (source.array && source.array->size() != places.size()) return sizesDiffer(call);
+Value setLinear(FunctionCall& call, const SetElems& args, Array a, const Source& source) {
+  const std::vector<double> places = placesOf(args.places, call.services().pool());
+  if (source.array && source.array->size() != places.size()) return sizesDiffer(call, args);
   double last = -1;
   for (const double p : places) last = std::max(last, p);
-  if (last >= static_cast<double>(kMaxArraySize)) return tooLarge(call);
+  if (last >= static_cast<double>(kMaxArraySize)) return tooLarge(call, args);
   if (last >= static_cast<double>(a.size())) {
     // A list grows at its end, a table by rows.
     const auto need = static_cast<uint32_t>(last) + 1;
@@ -126,7 +134,7 @@ Value setLinear(FunctionCall& call, Array a, const Source& source) {
       grow(a, 1, need);
     else
       grow(a, (need + a.columns - 1) / a.columns, a.columns);
-    if (a.size() > kMaxArraySize) return tooLarge(call);
+    if (a.size() > kMaxArraySize) return tooLarge(call, args);
   }
   for (size_t i = 0; i < places.size(); ++i) {
     if (places[i] >= 0) source.put(a, static_cast<size_t>(places[i]), i);
@@ -134,11 +142,13 @@ Value setLinear(FunctionCall& call, Array a, const Source& source) {
   return call.result(std::move(a));
 }
 
-Value setTable(FunctionCall& call, Array a, const Source& source) {
-  const std::vector<double> rows = placesOf(call, 1), columns = placesOf(call, 2);
+Value setTable(FunctionCall& call, const SetElems& args, Array a, const Source& source) {
+  const ValuePool& pool = call.services().pool();
+  const std::vector<double> rows = placesOf(args.places, pool);
+  const std::vector<double> columns = placesOf(*args.columns, pool);
   if (source.array &&
       (source.array->rows != rows.size() || source.array->columns != columns.size())) {
-    return sizesDiffer(call);
+    return sizesDiffer(call, args);
   }
   const auto needed = [](const std::vector<double>& places, uint32_t had) {
     double last = -1;
@@ -146,7 +156,7 @@ Value setTable(FunctionCall& call, Array a, const Source& source) {
     return std::max(last + 1, double{1} * had);
   };
   const double height = needed(rows, a.rows), width = needed(columns, a.columns);
-  if (!(height * width <= static_cast<double>(kMaxArraySize))) return tooLarge(call);
+  if (!(height * width <= static_cast<double>(kMaxArraySize))) return tooLarge(call, args);
   grow(a, static_cast<uint32_t>(height), static_cast<uint32_t>(width));
   for (size_t r = 0; r < rows.size(); ++r) {
     for (size_t c = 0; c < columns.size(); ++c) {
@@ -158,17 +168,17 @@ Value setTable(FunctionCall& call, Array a, const Source& source) {
   return call.result(std::move(a));
 }
 
-Value setElems(FunctionCall& call) {
-  const size_t last = call.argCount() - 1;
-  const Value& values = call.arg(last);
-  const Source source{values, values.isArray() ? &call.array(last) : nullptr};
+Value setElems(FunctionCall& call, const SetElems& args) {
+  const ValuePool& pool = call.services().pool();
+  const Value& values = args.values;
+  const Source source{values, values.isArray() ? &pool.array(values) : nullptr};
   const ValueType element = values.isArray() ? elementType(values.type) : values.type;
-  const Array& a = call.array(0);
+  const Array& a = pool.array(args.array);
   if (element != a.element) {
     return call.fail("type-mismatch", "setElems got values of another type than the array's",
-                     "convert them before", call.arg(0));
+                     "convert them before", args.array);
   }
-  return call.argCount() == 3 ? setLinear(call, a, source) : setTable(call, a, source);
+  return args.columns ? setTable(call, args, a, source) : setLinear(call, args, a, source);
 }
 
 // Order of elements; NaN comes last, so that there is an order at all.
@@ -234,19 +244,24 @@ constexpr Signature kSame[] = {{kFloatsParams, ValueType::FloatArray},
 constexpr Signature kOrder[] = {{kFloatsParams, ValueType::FloatArray},
                                 {kStringsParams, ValueType::FloatArray}};
 
-constexpr ParamSpec kIndices = {"indices", ParamType::Any,
-                                "Places counted row by row from 0: a number, numbers, or truth "
-                                "values."};
-constexpr ParamSpec kRows = {"rowIndices", ParamType::Any, "Rows, likewise."};
-constexpr ParamSpec kColumns = {"colIndices", ParamType::Any, "Columns, likewise."};
-constexpr ParamSpec kValues = {"values", ParamType::Any,
-                               "One value for all places, or an array with one for each."};
-constexpr ParamSpec kSetFloats[] = {kFloats, kIndices, kValues};
-constexpr ParamSpec kSetBools[] = {kBools, kIndices, kValues};
-constexpr ParamSpec kSetStrings[] = {kStrings, kIndices, kValues};
-constexpr ParamSpec kSetFloatTable[] = {kFloats, kRows, kColumns, kValues};
-constexpr ParamSpec kSetBoolTable[] = {kBools, kRows, kColumns, kValues};
-constexpr ParamSpec kSetStringTable[] = {kStrings, kRows, kColumns, kValues};
+constexpr ParamSpec kSetFloat =
+    withType(param<&SetElems::array>("array", kFloats.doc), ParamType::FloatArray);
+constexpr ParamSpec kSetBool =
+    withType(param<&SetElems::array>("array", kBools.doc), ParamType::BoolArray);
+constexpr ParamSpec kSetString =
+    withType(param<&SetElems::array>("array", kStrings.doc), ParamType::StringArray);
+constexpr ParamSpec kIndices = param<&SetElems::places>(
+    "indices", "Places counted row by row from 0: a number, numbers, or truth values.");
+constexpr ParamSpec kRows = param<&SetElems::places>("rowIndices", "Rows, likewise.");
+constexpr ParamSpec kColumns = param<&SetElems::columns>("colIndices", "Columns, likewise.");
+constexpr ParamSpec kValues =
+    param<&SetElems::values>("values", "One value for all places, or an array with one for each.");
+constexpr ParamSpec kSetFloats[] = {kSetFloat, kIndices, kValues};
+constexpr ParamSpec kSetBools[] = {kSetBool, kIndices, kValues};
+constexpr ParamSpec kSetStrings[] = {kSetString, kIndices, kValues};
+constexpr ParamSpec kSetFloatTable[] = {kSetFloat, kRows, kColumns, kValues};
+constexpr ParamSpec kSetBoolTable[] = {kSetBool, kRows, kColumns, kValues};
+constexpr ParamSpec kSetStringTable[] = {kSetString, kRows, kColumns, kValues};
 constexpr Signature kSet[] = {
     {kSetFloats, ValueType::FloatArray},   {kSetBools, ValueType::BoolArray},
     {kSetStrings, ValueType::StringArray}, {kSetFloatTable, ValueType::FloatArray},
@@ -263,7 +278,7 @@ constexpr FunctionSpec kFunctions[] = {
     {"transpose", kFamily, "The array with rows and columns exchanged.", kSame, transpose},
     {"setElems", kFamily,
      "The array with some elements set anew; places beyond its end make it larger.", kSet,
-     setElems},
+     typed<setElems>},
     {"sortIndices", kFamily, "The places of the elements of each row in ascending order.", kOrder,
      sortIndices},
     {"sortRowIndices", kFamily, "The numbers of the rows in ascending order.", kOrder,

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "builtins/lists.h"
 #include "builtins/ops/shared/edit_mesh.h"
@@ -24,8 +25,12 @@ namespace {
 
 Value number(size_t v) { return Value::of(static_cast<double>(v)); }
 
-bool selects(FunctionCall& call, size_t argument, const Vec3& normal, const Directions& d) {
-  const std::string_view word = call.text(argument);
+// The way that faces look; empty where all of them are meant.
+struct Orientation {
+  Word word;
+};
+
+bool selects(std::string_view word, const Vec3& normal, const Directions& d) {
   return word == "all" || word == "surface" || selectsDirection(word, normal, d);
 }
 
@@ -41,23 +46,23 @@ double plainArea(const Shape& s) {
   return meshInScope(s)->area();
 }
 
-Value area(FunctionCall& call) {
+Value area(FunctionCall& call, const Orientation& args) {
   const Shape& s = call.shape();
-  if (!call.has(0)) return Value::of(plainArea(s));
+  if (args.word.text.empty()) return Value::of(plainArea(s));
   const Directions directions(call.services(), s);
   const MeshRef m = meshInScope(s);
   double sum = 0;
   for (size_t f = 0; f < m->faceCount(); ++f) {
-    if (selects(call, 0, m->areaNormal(f), directions)) sum += m->area(f);
+    if (selects(args.word.text, m->areaNormal(f), directions)) sum += m->area(f);
   }
   return Value::of(sum);
 }
 
-Value isOriented(FunctionCall& call) {
+Value isOriented(FunctionCall& call, const Orientation& args) {
   const Directions directions(call.services(), call.shape());
   const MeshRef m = meshInScope(call.shape());
   for (size_t f = 0; f < m->faceCount(); ++f) {
-    if (selects(call, 0, m->areaNormal(f), directions)) return Value::of(true);
+    if (selects(args.word.text, m->areaNormal(f), directions)) return Value::of(true);
   }
   return Value::of(false);
 }
@@ -78,12 +83,16 @@ Vec3 worldNormal(FunctionCall& call) {
   return normalized(call.services().world().direction(s.scope.direction(sum)));
 }
 
-Value angle(FunctionCall& call) {
+struct Angle {
+  Word type;
+};
+
+Value angle(FunctionCall& call, const Angle& args) {
   const Vec3 n = worldNormal(call);
   const double across = std::sqrt(n.x * n.x + n.z * n.z);
   const double slope = atan2Deg(across, std::fabs(n.y));
-  if (call.text(0) == "maxSlope") return Value::of(slope);
-  if (call.text(0) == "zenith") return Value::of(90 - slope);
+  if (args.type == "maxSlope") return Value::of(slope);
+  if (args.type == "zenith") return Value::of(90 - slope);
   // Downhill is where the upper side of the surface leans to; north is -z.
   if (across <= 1e-12) return Value::of(0.0);
   const double side = n.y < 0 ? -1 : 1;
@@ -131,46 +140,55 @@ Value isConcaveOf(FunctionCall& call) {
   return Value::of(isConcave(*meshInScope(call.shape())));
 }
 
-Value isPlanarOf(FunctionCall& call) {
+struct Tolerance {
+  double degrees = 0;
+};
+
+Value isPlanarOf(FunctionCall& call, const Tolerance& args) {
   const GeometryKind kind = call.shape().geometry.kind;
   if (kind != GeometryKind::Mesh) return Value::of(kind != GeometryKind::None);
-  return Value::of(isPlanar(*meshInScope(call.shape()), call.number(0, 0.25)));
+  return Value::of(isPlanar(*meshInScope(call.shape()), args.degrees));
 }
 
-Value isRectangularOf(FunctionCall& call) {
+Value isRectangularOf(FunctionCall& call, const Tolerance& args) {
   const GeometryKind kind = call.shape().geometry.kind;
   if (kind != GeometryKind::Mesh) return Value::of(kind != GeometryKind::None);
-  return Value::of(isRectangular(*meshInScope(call.shape()), call.number(0, 0.25)));
+  return Value::of(isRectangular(*meshInScope(call.shape()), args.degrees));
 }
 
 Value isInstanced(FunctionCall& call) { return Value::of(call.shape().geometry.instanced); }
 
+struct UvSet {
+  std::optional<double> number;
+  Word units;
+};
+
 // The uv set of an argument, 0 without one; false when the shape has no such coordinates.
-bool uvSet(FunctionCall& call, int& set) {
-  const double v = call.number(0, 0);
+bool uvSet(const Shape& shape, const UvSet& args, int& set) {
+  const double v = args.number.value_or(0);
   set = v >= 0 && v < kUvSets ? static_cast<int>(v) : -1;
-  return set >= 0 && hasUvSet(call.shape(), set);
+  return set >= 0 && hasUvSet(shape, set);
 }
 
 template <int coordinate>
-Value uvRange(FunctionCall& call) {
+Value uvRange(FunctionCall& call, const UvSet& args) {
   int set = 0;
-  if (!uvSet(call, set)) return Value::of(0.0);
+  if (!uvSet(call.shape(), args, set)) return Value::of(0.0);
   const UvExtent e = uvExtent(*meshInScope(call.shape()), set, coordinate);
-  return Value::of(call.text(1) == "unitSpace" ? e.metres : e.max - e.min);
+  return Value::of(args.units == "unitSpace" ? e.metres : e.max - e.min);
 }
 
 template <int coordinate, bool upper>
-Value uvBound(FunctionCall& call) {
+Value uvBound(FunctionCall& call, const UvSet& args) {
   int set = 0;
-  if (!uvSet(call, set)) return Value::of(0.0);
+  if (!uvSet(call.shape(), args, set)) return Value::of(0.0);
   const UvExtent e = uvExtent(*meshInScope(call.shape()), set, coordinate);
   return Value::of(upper ? e.max : e.min);
 }
 
-Value hasUvs(FunctionCall& call) {
+Value hasUvs(FunctionCall& call, const UvSet& args) {
   int set = 0;
-  if (call.has(0)) return Value::of(uvSet(call, set));
+  if (args.number) return Value::of(uvSet(call.shape(), args, set));
   for (set = 0; set < kUvSets; ++set) {
     if (hasUvSet(call.shape(), set)) return Value::of(true);
   }
@@ -203,16 +221,24 @@ Value materials(FunctionCall& call) {
 // Models are read as one mesh, without groups.
 Value groups(FunctionCall& call) { return stringArray({}, call.services().pool()); }
 
+struct TagQuery {
+  std::string_view query;
+  Word of{"all"};
+  Word subcomponent;
+};
+
 // All tags of the faces or edges that a query means, sorted, each once.
-std::vector<std::string> tagNames(FunctionCall& call, std::string_view of) {
+std::vector<std::string> tagNames(FunctionCall& call, const TagQuery& args) {
   const Services& services = call.services();
-  const std::string_view query = call.text(0, "");
+  const std::string_view query = args.query;
   const MeshRef m = meshInScope(call.shape());
   std::vector<TagSetId> sets;
-  if (of == "all" || of == "faces") {
+  if (args.of == "all" || args.of == "faces") {
     for (const MeshFace& f : m->faces) sets.push_back(f.tags);
   }
-  if (of == "all" || of == "edges") sets.insert(sets.end(), m->edgeTags.begin(), m->edgeTags.end());
+  if (args.of == "all" || args.of == "edges") {
+    sets.insert(sets.end(), m->edgeTags.begin(), m->edgeTags.end());
+  }
   std::sort(sets.begin(), sets.end());
   sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
   std::vector<std::string> names;
@@ -227,14 +253,14 @@ std::vector<std::string> tagNames(FunctionCall& call, std::string_view of) {
   return names;
 }
 
-Value tags(FunctionCall& call) {
-  return stringArray(tagNames(call, call.text(1, "all")), call.services().pool());
+Value tags(FunctionCall& call, const TagQuery& args) {
+  return stringArray(tagNames(call, args), call.services().pool());
 }
-Value hasTags(FunctionCall& call) {
-  return Value::of(!tagNames(call, call.text(1, "all")).empty());
+// isTagged() within a selector is not asked here: the component split itself asks the components;
+// see selection.h.
+Value hasTags(FunctionCall& call, const TagQuery& args) {
+  return Value::of(!tagNames(call, args).empty());
 }
-// Within a selector the component split itself asks the components; see selection.h.
-Value isTagged(FunctionCall& call) { return Value::of(!tagNames(call, "all").empty()); }
 
 constexpr ValueType kFloat = ValueType::Float, kBool = ValueType::Bool;
 constexpr const char* kOrientations =
@@ -246,46 +272,42 @@ constexpr const char* kOrientations =
 constexpr Signature kNumber[] = {{{}, kFloat}};
 constexpr Signature kTruth[] = {{{}, kBool}};
 constexpr Signature kNames[] = {{{}, ValueType::StringArray}};
-constexpr ParamSpec kAreaParams[] = {{"faceOrientation", ParamType::Selector,
-                                      "Which faces count, by the way they look.", nullptr,
-                                      kOrientations}};
+constexpr ParamSpec kAreaParams[] = {param<&Orientation::word>(
+    "faceOrientation", "Which faces count, by the way they look.", nullptr, kOrientations)};
 constexpr Signature kArea[] = {{{}, kFloat}, {kAreaParams, kFloat}};
-constexpr ParamSpec kOrientedParams[] = {{"orientation", ParamType::Selector,
-                                          "The way that a face has to look.", nullptr,
-                                          kOrientations}};
+constexpr ParamSpec kOrientedParams[] = {param<&Orientation::word>(
+    "orientation", "The way that a face has to look.", nullptr, kOrientations)};
 constexpr Signature kOriented[] = {{kOrientedParams, kBool}};
-constexpr ParamSpec kAngleParams[] = {
-    {"angleType", ParamType::Selector,
-     "The slope against the ground, the direction of downhill clockwise from north, or what the "
-     "slope lacks to 90.",
-     nullptr, "maxSlope azimuth zenith"}};
+constexpr ParamSpec kAngleParams[] = {param<&Angle::type>(
+    "angleType",
+    "The slope against the ground, the direction of downhill clockwise from north, or what the "
+    "slope lacks to 90.",
+    nullptr, "maxSlope azimuth zenith")};
 constexpr Signature kAngle[] = {{kAngleParams, kFloat}};
 constexpr ParamSpec kToleranceParams[] = {
-    {"tolerance", ParamType::Float, "How far angles may be off, in degrees.", "0.25"}};
+    param<&Tolerance::degrees>("tolerance", "How far angles may be off, in degrees.", "0.25")};
 constexpr Signature kTolerance[] = {{kToleranceParams, kBool}};
-constexpr ParamSpec kUvSet = {"uvSet", ParamType::Float, "The uv set, 0 to 9."};
+constexpr ParamSpec kUvSet = param<&UvSet::number>("uvSet", "The uv set, 0 to 9.");
 constexpr ParamSpec kUvParams[] = {kUvSet};
 constexpr Signature kUvBound[] = {{{}, kFloat}, {kUvParams, kFloat}};
 constexpr Signature kHasUv[] = {{{}, kBool}, {kUvParams, kBool}};
 constexpr ParamSpec kRangeParams[] = {
-    kUvSet,
-    {"surfaceParameterization", ParamType::Selector,
-     "In the units of the coordinates, or in metres along the surface.", nullptr,
-     "uvSpace unitSpace"}};
+    kUvSet, param<&UvSet::units>("surfaceParameterization",
+                                 "In the units of the coordinates, or in metres along the surface.",
+                                 nullptr, "uvSpace unitSpace")};
 constexpr Signature kRange[] = {{kRangeParams, kFloat}};
-constexpr ParamSpec kQuery = {"tagQuery", ParamType::String,
-                              "Tags to count: a name or its beginning by dots; ? stands for one "
-                              "part, * for some."};
-constexpr ParamSpec kOf = {"components", ParamType::Selector, "Whose tags count.", nullptr,
-                           "all faces edges vertices"};
+constexpr ParamSpec kQuery = param<&TagQuery::query>(
+    "tagQuery",
+    "Tags to count: a name or its beginning by dots; ? stands for one part, * for some.");
+constexpr ParamSpec kOf =
+    param<&TagQuery::of>("components", "Whose tags count.", nullptr, "all faces edges vertices");
 constexpr ParamSpec kQueryParams[] = {kQuery};
 constexpr ParamSpec kQueryOfParams[] = {kQuery, kOf};
 constexpr Signature kTags[] = {{{}, ValueType::StringArray},
                                {kQueryParams, ValueType::StringArray},
                                {kQueryOfParams, ValueType::StringArray}};
-constexpr ParamSpec kSubcomponent = {"subcomponent", ParamType::Selector,
-                                     "Puts the query to the edges or the vertices of a component.",
-                                     nullptr, "e v"};
+constexpr ParamSpec kSubcomponent = param<&TagQuery::subcomponent>(
+    "subcomponent", "Puts the query to the edges or the vertices of a component.", nullptr, "e v");
 constexpr ParamSpec kTaggedParams[] = {kQuery, kSubcomponent};
 constexpr Signature kIsTagged[] = {{kQueryParams, kBool}, {kTaggedParams, kBool}};
 constexpr Signature kHasTags[] = {{{}, kBool}, {kQueryParams, kBool}, {kQueryOfParams, kBool}};
@@ -294,19 +316,19 @@ constexpr const char* kFamily = "geometry";
 constexpr uint32_t kByWord = kReadsWorld | kReadsWorldByWord;
 constexpr FunctionSpec kFunctions[] = {
     {"geometry.area", kFamily, "The area of all faces, or of those that look a certain way.", kArea,
-     area, kByWord, true},
+     typed<area>, kByWord, true},
     {"geometry.angle", kFamily, "How steep the surface is, and where it slopes to, in degrees.",
-     kAngle, angle, kReadsWorld},
+     kAngle, typed<angle>, kReadsWorld},
     {"geometry.boundaryLength", kFamily, "The length of all edges with only one face.", kNumber,
      boundary, kPure, true},
-    {"geometry.du", kFamily, "The range of u of a uv set.", kRange, uvRange<0>},
-    {"geometry.dv", kFamily, "The range of v of a uv set.", kRange, uvRange<1>},
+    {"geometry.du", kFamily, "The range of u of a uv set.", kRange, typed<uvRange<0>>},
+    {"geometry.dv", kFamily, "The range of v of a uv set.", kRange, typed<uvRange<1>>},
     {"geometry.groups", kFamily, "The names of the groups of the geometry.", kNames, groups, kPure,
      true},
     {"geometry.hasTags", kFamily, "Whether any component has a tag, or a certain tag.", kHasTags,
-     hasTags, kPure, true},
+     typed<hasTags>, kPure, true},
     {"geometry.hasUVs", kFamily, "Whether there are texture coordinates, in any or a certain set.",
-     kHasUv, hasUvs, kPure, true},
+     kHasUv, typed<hasUvs>, kPure, true},
     {"geometry.height", kFamily, "The height of the geometry in the world.", kNumber, height,
      kReadsWorld, true},
     {"geometry.isClosedSurface", kFamily, "Whether every edge belongs to exactly two faces.",
@@ -316,12 +338,12 @@ constexpr FunctionSpec kFunctions[] = {
     {"geometry.isInstanced", kFamily,
      "Whether the geometry is an asset or primitive as it was inserted.", kTruth, isInstanced,
      kReadsPath, true},
-    {"geometry.isOriented", kFamily, "Whether any face looks a certain way.", kOriented, isOriented,
-     kByWord},
-    {"geometry.isPlanar", kFamily, "Whether every face is flat.", kTolerance, isPlanarOf, kPure,
-     true},
+    {"geometry.isOriented", kFamily, "Whether any face looks a certain way.", kOriented,
+     typed<isOriented>, kByWord},
+    {"geometry.isPlanar", kFamily, "Whether every face is flat.", kTolerance, typed<isPlanarOf>,
+     kPure, true},
     {"geometry.isRectangular", kFamily, "Whether every face is a rectangle.", kTolerance,
-     isRectangularOf, kPure, true},
+     typed<isRectangularOf>, kPure, true},
     {"geometry.materials", kFamily, "The names of the materials in the order of their first faces.",
      kNames, materials, kPure, true},
     {"geometry.nEdges", kFamily, "The number of edges.", kNumber, nEdges, kPure, true},
@@ -329,16 +351,17 @@ constexpr FunctionSpec kFunctions[] = {
     {"geometry.nHoles", kFamily, "The number of holes in faces.", kNumber, nHoles, kPure, true},
     {"geometry.nVertices", kFamily, "The number of vertices.", kNumber, nVertices, kPure, true},
     {"isTagged", kFamily, "Selects components by their tags; elsewhere, whether any has the tag.",
-     kIsTagged, isTagged},
-    {"geometry.tags", kFamily, "The tags of the components, sorted.", kTags, tags, kPure, true},
+     kIsTagged, typed<hasTags>},
+    {"geometry.tags", kFamily, "The tags of the components, sorted.", kTags, typed<tags>, kPure,
+     true},
     {"geometry.uMin", kFamily, "The least u of a uv set, of set 0 without argument.", kUvBound,
-     uvBound<0, false>, kPure, true},
-    {"geometry.uMax", kFamily, "The greatest u of a uv set.", kUvBound, uvBound<0, true>, kPure,
-     true},
-    {"geometry.vMin", kFamily, "The least v of a uv set.", kUvBound, uvBound<1, false>, kPure,
-     true},
-    {"geometry.vMax", kFamily, "The greatest v of a uv set.", kUvBound, uvBound<1, true>, kPure,
-     true},
+     typed<uvBound<0, false>>, kPure, true},
+    {"geometry.uMax", kFamily, "The greatest u of a uv set.", kUvBound, typed<uvBound<0, true>>,
+     kPure, true},
+    {"geometry.vMin", kFamily, "The least v of a uv set.", kUvBound, typed<uvBound<1, false>>,
+     kPure, true},
+    {"geometry.vMax", kFamily, "The greatest v of a uv set.", kUvBound, typed<uvBound<1, true>>,
+     kPure, true},
     {"geometry.volume", kFamily, "The volume that the faces enclose.", kNumber, volumeOf, kPure,
      true},
 };

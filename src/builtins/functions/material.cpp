@@ -56,29 +56,32 @@ Value tableOf(const Material& m, bool changedOnly, ValuePool& pool) {
   return pool.intern(std::move(out));
 }
 
-Value getMaterial(FunctionCall& call) {
+struct GetMaterial {
+  Word source, mode;
+};
+
+Value getMaterial(FunctionCall& call, const GetMaterial& args) {
   const Services& services = call.services();
-  const std::string_view source = call.text(0, "used");
-  const MaterialId id = source == "shape"      ? call.shape().material
-                        : source == "geometry" ? geometryMaterial(call.shape(), services)
-                                               : usedMaterial(call.shape(), services);
-  return tableOf(services.materials().get(id), call.text(1, "changed") == "changed",
-                 services.pool());
+  const MaterialId id = args.source == "shape"      ? call.shape().material
+                        : args.source == "geometry" ? geometryMaterial(call.shape(), services)
+                                                    : usedMaterial(call.shape(), services);
+  return tableOf(services.materials().get(id), args.mode == "changed", services.pool());
 }
 
 constexpr ParamSpec kGetMaterialParams[] = {
-    {"source", ParamType::Selector,
-     "The material in use, the shape's own changes, or the one that an inserted model brought.",
-     nullptr, "used shape geometry"},
-    {"mode", ParamType::Selector, "Only what differs from the default material, or everything.",
-     nullptr, "changed all"},
+    param<&GetMaterial::source>(
+        "source",
+        "The material in use, the shape's own changes, or the one that an inserted model brought.",
+        nullptr, "used shape geometry"),
+    param<&GetMaterial::mode>("mode", "Only what differs from the default material, or everything.",
+                              nullptr, "changed all"),
 };
 constexpr Signature kGetMaterialSignatures[] = {{kGetMaterialParams, ValueType::StringArray}};
 
 constexpr FunctionSpec kFunctions[] = {
     {"getMaterial", "material",
      "A material as a table of two columns, names and values, that setMaterial understands.",
-     kGetMaterialSignatures, getMaterial},
+     kGetMaterialSignatures, typed<getMaterial>},
 };
 
 }  // namespace

@@ -132,15 +132,22 @@ Value splitString(FunctionCall& call) {
   return stringArray(parts, pool);
 }
 
-Value findFirst(FunctionCall& call) {
-  const Value& in = call.arg(0);
-  if (!in.isArray()) return position(call.text(0), findNth(call.text(0), call.text(1), 0));
-  const Array& a = call.array(0);
-  const double epsilon = call.number(2, 0);
+struct FindFirst {
+  Value in, value;
+  double epsilon = 0;
+};
+
+Value findFirst(FunctionCall& call, const FindFirst& args) {
+  const ValuePool& pool = call.services().pool();
+  if (!args.in.isArray()) {
+    const std::string_view text = pool.text(args.in.id);
+    return position(text, findNth(text, pool.text(args.value.id), 0));
+  }
+  const Array& a = pool.array(args.in);
   for (size_t i = 0; i < a.size(); ++i) {
     const bool equal = a.element == ValueType::String
-                           ? a.strings[i] == call.arg(1).id
-                           : std::fabs(a.numbers[i] - call.number(1)) <= epsilon;
+                           ? a.strings[i] == args.value.id
+                           : std::fabs(a.numbers[i] - args.value.number) <= args.epsilon;
     if (equal) return Value::of(static_cast<double>(i));
   }
   return Value::of(-1.0);
@@ -222,17 +229,26 @@ constexpr ParamSpec kNewBool[] = {
     kInput, kOld, {"newString", ParamType::Bool, "A truth value to put there."}};
 constexpr Signature kReplace[] = {{kNewText, kString}, {kNewFloat, kString}, {kNewBool, kString}};
 
+constexpr ParamSpec firstIn(const char* name, const char* doc, ParamType type) {
+  return withType(param<&FindFirst::in>(name, doc), type);
+}
+constexpr ParamSpec firstValue(const char* name, const char* doc, ParamType type) {
+  return withType(param<&FindFirst::value>(name, doc), type);
+}
+constexpr ParamSpec kFirstText[] = {firstIn(kInput.name, kInput.doc, ParamType::String),
+                                    firstValue(kMatch.name, kMatch.doc, ParamType::String)};
 constexpr ParamSpec kFirstFloat[] = {
-    {"array", ParamType::FloatArray, "Numbers to look through."},
-    {"value", ParamType::Float, "The number to look for."},
-    {"epsilon", ParamType::Float, "How far a number may be off and still be taken."}};
-constexpr ParamSpec kFirstString[] = {{"array", ParamType::StringArray, "Texts to look through."},
-                                      {"value", ParamType::String, "The text to look for."}};
+    firstIn("array", "Numbers to look through.", ParamType::FloatArray),
+    firstValue("value", "The number to look for.", ParamType::Float),
+    param<&FindFirst::epsilon>("epsilon", "How far a number may be off and still be taken.")};
+constexpr ParamSpec kFirstString[] = {
+    firstIn("array", "Texts to look through.", ParamType::StringArray),
+    firstValue("value", "The text to look for.", ParamType::String)};
 constexpr ParamSpec kFirstBool[] = {
-    {"array", ParamType::BoolArray, "Truth values to look through."},
-    {"value", ParamType::Bool, "The value to look for."}};
+    firstIn("array", "Truth values to look through.", ParamType::BoolArray),
+    firstValue("value", "The value to look for.", ParamType::Bool)};
 constexpr Signature kFirst[] = {
-    {kMatchParams, kFloat}, {kFirstFloat, kFloat}, {kFirstString, kFloat}, {kFirstBool, kFloat}};
+    {kFirstText, kFloat}, {kFirstFloat, kFloat}, {kFirstString, kFloat}, {kFirstBool, kFloat}};
 
 constexpr const char* kFamily = "strings";
 constexpr FunctionSpec kFunctions[] = {
@@ -245,7 +261,7 @@ constexpr FunctionSpec kFunctions[] = {
     {"splitString", kFamily, "The parts of a text between separators.", kSplit, splitString},
     {"findFirst", kFamily,
      "The position of the first occurrence in a text or an array; -1 when there is none.", kFirst,
-     findFirst},
+     typed<findFirst>},
     {"findLast", kFamily, "The position of the last occurrence of a text; -1 when there is none.",
      kNumberOfMatch, findLast},
     {"getPrefix", kFamily, "What comes before the first occurrence of a text.", kTextOfMatch,
