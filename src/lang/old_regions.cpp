@@ -319,6 +319,10 @@ class Rewriter {
 
 }  // namespace
 
+std::string_view modernOperation(std::string_view name) {
+  return name == "romb" ? "rhombus" : std::string_view();
+}
+
 bool isOldRegionCall(const Tree& tree, NodeId call) {
   const bool known = std::find(std::begin(kOperations), std::end(kOperations), tree.text(call)) !=
                      std::end(kOperations);
@@ -348,6 +352,11 @@ std::string withModernRegions(const Tree& tree, std::string_view source) {
   for (NodeId n = 1; n < tree.size(); ++n) {
     if (own.count(tree.text(n)) != 0) continue;
     if (tree.kind(n) != NodeKind::Apply && tree.kind(n) != NodeKind::Call) continue;
+    if (const std::string_view now = modernOperation(tree.text(n));
+        !now.empty() && tree.kind(n) == NodeKind::Apply && tree.child(n, 0) != kNoNode) {
+      const Span name = nameSpan(tree, n);
+      edits.push_back({name.begin, name.end, std::string(now)});
+    }
     if (!isOldRegionCall(tree, n)) continue;
     const std::vector<TextEdit> made = modernRegionCall(tree, n, source);
     edits.insert(edits.end(), made.begin(), made.end());

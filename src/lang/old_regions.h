@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Calls of operations on regions as they were written when selections, figures and options were
-// texts: what to write in their place.
+// texts, and operations under former names: what to write in their place.
 //
 //   peel("outer & !W", 1)                          peel(outer && !side(west), 1)
 //   place(centre, "circle(2)") { Bed }             place(centre) { circle(2) Bed }
-//   grid(2, 2, 2, "romb(3)", "fit=fail") { .. }    grid(2, 2, 2, fit = fail) { junction : romb(3)
-//   ..
+//   grid(2, 2, 2, "romb(3)") { .. }                grid(2, 2, 2) { junction : rhombus(3) .. }
+//   romb(3) Plaza                                  rhombus(3) Plaza
 #pragma once
 
 #include <string>
@@ -23,13 +23,16 @@ struct TextEdit {
   std::string text;
 };
 
+/// The name that the operation `name` has now; empty where it is no former name.
+std::string_view modernOperation(std::string_view name);
+
 /// Whether a call of an operation on regions, or of region.selects, has texts among its arguments.
 bool isOldRegionCall(const Tree& tree, NodeId call);
 
 /// What to change, in the order of the text; empty when it cannot be said exactly.
 std::vector<TextEdit> modernRegionCall(const Tree& tree, NodeId call, std::string_view source);
 
-/// The text with all such calls rewritten; those that cannot be stay.
+/// The text with all such calls and names rewritten; those that cannot be stay.
 std::string withModernRegions(const Tree& tree, std::string_view source);
 
 }  // namespace gable::lang

@@ -526,7 +526,7 @@ std::string RegionTexts::figure(std::string_view text) {
   problem_.clear();
   RegionReader r(*this, text);
   const std::string name = r.word();
-  const char* now = name == "rombcenter" || name == "romb"          ? "romb"
+  const char* now = name == "rombcenter" || name == "romb"          ? "rhombus"
                     : name == "polygon" || name == "regularpolygon" ? "regularPolygon"
                     : name == "circle"                              ? "circle"
                     : name == "square"                              ? "square"

@@ -3,7 +3,7 @@
 //
 // The short forms in which park grammars, and rule files before selections were expressions, say
 // what an operation on regions takes: "outer & !W", "3 {[2,4] a[-5,5]}", "[0.02,1] [0,1]",
-// "romb(3)". Each is rewritten as an expression of the language:
+// "circle(3)". Each is rewritten as an expression of the language:
 //
 //   outer & !W               outer && !side(west)
 //   3 {[2,4] a[-5,5]}        3, sizes [rand(2, 4)], angles [rand(-5, 5)]

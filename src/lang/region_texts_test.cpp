@@ -82,7 +82,7 @@ TEST(OldRegions, CallsAreRewritten) {
             "A --> peel(outer && !side(west), 1, orthogonal = true, smooth = average(2)) "
             "{ strip : B }");
   EXPECT_EQ(modern("A --> grid(2, \"2 {6}\", 1, \"romb(3)\", \"fit=centre\") { junction : B }"),
-            "A --> grid(2, 2, 1, heights = 6, fit = center) { junction : romb(3) B }");
+            "A --> grid(2, 2, 1, heights = 6, fit = center) { junction : rhombus(3) B }");
   EXPECT_EQ(modern("A --> place(centre, \"circle(\" + r + \", 48)\") { B | otherwise : C }"),
             "A --> place(centre) { circle(r, 48) B | otherwise : C }");
   EXPECT_EQ(
@@ -91,9 +91,12 @@ TEST(OldRegions, CallsAreRewritten) {
   EXPECT_EQ(modern("A --> distribute(\"PI\", \"[start : 3 : end]\", 0.5) { B }"),
             "A --> distribute(peeledInner, intervals = 3, start = true, end = true, inset = 0.5) "
             "{ B }");
+  EXPECT_EQ(modern("A --> [ romb(r) B ] place(centre) { romb(2) C } romb"),
+            "A --> [ rhombus(r) B ] place(centre) { rhombus(2) C } romb");
   // What cannot be said exactly stays, and so do calls of the author's own rules.
   const char* const left[] = {"A --> peel(\"nonsense\", 1) { strip : B }",
                               "A --> peel(\"outer\")\npeel(x) --> B",
+                              "A --> romb(3) B\nromb(r) --> C",
                               "A --> grid(2, 2, 1, \"30%: romb(3) | circle(2)\") { junction : B }"};
   for (const char* text : left) EXPECT_EQ(modern(text), text);
 }

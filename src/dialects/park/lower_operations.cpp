@@ -92,9 +92,9 @@ NodeId Lowering::figureNode(const Op& op) {
     }
   }
   if (arguments.empty()) arguments.push_back(b_.number(1));
-  const NodeId made = b_.apply(name == "rombcenter" ? "romb"
-                               : name == "polygon"  ? "regularPolygon"
-                                                    : name,
+  const NodeId made = b_.apply(name == "romb" || name == "rombcenter" ? "rhombus"
+                               : name == "polygon"                    ? "regularPolygon"
+                                                                      : name,
                                arguments);
   b_.at(before);
   return made;

@@ -33,7 +33,7 @@ std::span<const DialectWord> words() {
       {"joined", "joined { Romb(r) P }", nullptr, "Paths and their junctions as one shape.", ""},
       {"loadModel", "loadModel(\"tree\")", "i", "A model of the project, fitted to the place.", ""},
       {"Circle", "Circle(radius)", "circle", "", ""},
-      {"Romb", "Romb(radius)", "romb", "", ""},
+      {"Romb", "Romb(radius)", "rhombus", "", ""},
       {"Square", "Square(side)", "square", "", ""},
       {"Rect", "Rect(width, height)", "rect", "", ""},
       {"Polygon", "Polygon(radius, sides)", "regularPolygon", "", ""},

@@ -34,7 +34,7 @@ Ring ringOf(const PlanFigure& f, Vec2 m, Vec2 x) {
   const Vec2 y = perpendicular(x);
   switch (f.shape) {
     case PlanShape::None: return {};
-    case PlanShape::Romb: return {m - y * f.a, m + x * f.a, m + y * f.a, m - x * f.a};
+    case PlanShape::Rhombus: return {m - y * f.a, m + x * f.a, m + y * f.a, m - x * f.a};
     case PlanShape::Square:
     case PlanShape::Rect: {
       const Vec2 u = x * (f.a / 2), v = y * ((f.shape == PlanShape::Square ? f.a : f.b) / 2);

@@ -56,10 +56,10 @@ enum class GridFit : uint8_t { Stretch, Center, Fail };
 /// that suits.
 enum class GridTemplate : uint8_t { Auto, Corners, Oriented, Axes, Inner };
 
-enum class PlanShape : uint8_t { None, Romb, Circle, Square, Rect, Polygon };
+enum class PlanShape : uint8_t { None, Rhombus, Circle, Square, Rect, Polygon };
 
-/// A shape around a place: of a romb `a` is half the diagonals, of circles and polygons the radius,
-/// of squares the side, of rectangles width and height.
+/// A shape around a place: of a rhombus `a` is half the diagonals, of circles and polygons the
+/// radius, of squares the side, of rectangles width and height.
 struct PlanFigure {
   PlanShape shape = PlanShape::None;
   double a = 0, b = 0;

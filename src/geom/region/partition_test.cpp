@@ -97,10 +97,10 @@ GridOptions gridOf(uint32_t nx, uint32_t ny, double path) {
   return o;
 }
 
-TEST(GridPartition, DividesASquareWithARombInTheMiddle) {
+TEST(GridPartition, DividesASquareWithARhombusInTheMiddle) {
   GridOptions o = gridOf(2, 2, 2);
   o.junctionAt = [](uint32_t, uint32_t, uint32_t, uint32_t, uint64_t) {
-    return JunctionPick{{PlanShape::Romb, 3, 0, 24}, 1};
+    return JunctionPick{{PlanShape::Rhombus, 3, 0, 24}, 1};
   };
   const GridResult g = gridPartition(rect(20, 20), o);
   ASSERT_EQ(g.problem, GridProblem::None);
@@ -194,7 +194,7 @@ TEST(GridPartition, NeighboursWithoutPathShareTheirPoints) {
 }
 
 TEST(GridPartition, ClampsJunctionsThatAreTooLarge) {
-  for (const PlanShape shape : {PlanShape::Romb, PlanShape::Circle, PlanShape::Square,
+  for (const PlanShape shape : {PlanShape::Rhombus, PlanShape::Circle, PlanShape::Square,
                                 PlanShape::Rect, PlanShape::Polygon}) {
     GridOptions o = gridOf(3, 3, 1);
     o.junctionAt = [shape](uint32_t, uint32_t, uint32_t, uint32_t, uint64_t) {
@@ -217,7 +217,7 @@ TEST(GridPartition, ClampsJunctionsThatAreTooLarge) {
 TEST(GridPartition, HoldsOnTheCorpus) {
   overCorpus(kStride, [](const Polygon& p, const std::string& name) {
     GridOptions o = gridOf(3, 3, std::sqrt(area(p)) / 20);
-    const PlanFigure figure{PlanShape::Romb, std::sqrt(area(p)) / 15, 0, 24};
+    const PlanFigure figure{PlanShape::Rhombus, std::sqrt(area(p)) / 15, 0, 24};
     o.junctionAt = [figure](uint32_t, uint32_t, uint32_t, uint32_t, uint64_t) {
       return JunctionPick{figure, 1};
     };

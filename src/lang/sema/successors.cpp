@@ -7,9 +7,18 @@
 #include <algorithm>
 #include <utility>
 
+#include "lang/old_regions.h"
 #include "lang/sema/analysis.h"
 
 namespace gable::lang {
+
+namespace {
+
+std::string hintOfNewName(std::string_view name) {
+  return "write '" + std::string(name) + "', or let 'gable format' rewrite the file";
+}
+
+}  // namespace
 
 void Analysis::visitSequence(NodeId node) {
   if (node == kNoNode) return;
@@ -68,8 +77,10 @@ void Analysis::makeLeaf(NodeId node, bool known) {
   resolve(node, RefKind::Leaf);
   if (known) return;
   for (const NodeId block : tree().children(node).subspan(1)) {
-    std::string hint = near(text(node), [&] { return ruleNames(body_.module); });
-    const std::string nearest = std::exchange(meant_, {}).nearest;
+    const std::string_view now = modernOperation(text(node));
+    std::string hint = now.empty() ? near(text(node), [&] { return ruleNames(body_.module); })
+                                   : hintOfNewName(now);
+    const std::string nearest = now.empty() ? std::exchange(meant_, {}).nearest : std::string(now);
     errorAt("unexpected-block", block,
             quote(text(node)) + " is no operation, so it cannot have a block", std::move(hint));
     // The report is at the block; what is wrong is the word before it.
@@ -117,6 +128,12 @@ void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
   if (ruleInAnyStyle(body_.module, name) || inMissingImport(body_.module, name)) return;
   const bool called = tree().kind(node) == NodeKind::Apply && tree().child(node, 0) != kNoNode;
   if (called) {
+    if (const std::string_view now = modernOperation(name); !now.empty()) {
+      error("unknown-operation", span, "there is no operation or rule " + quote(name),
+            hintOfNewName(now));
+      fix(span, std::string(now));
+      return;
+    }
     if (const std::string_view meant = slippedOperation(name); !meant.empty()) {
       std::string hint = near(name, [&] { return std::vector<std::string_view>{meant}; });
       error("unknown-operation", span, "there is no operation or rule " + quote(name),

@@ -451,7 +451,7 @@ TEST(ParkRows, P30Filters) {
 TEST(ParkRows, P31Roles) {
   const std::string quarter =
       "grid(2, 2, 2) { region : case region.ix == 0 && region.iy == 0 : R else : NIL "
-      "| junction : romb(3) NIL }";
+      "| junction : rhombus(3) NIL }";
   EXPECT_NEAR(selectedLength("centreside", kLot, quarter), std::sqrt(2.0), 1e-3);
   EXPECT_NEAR(selectedLength("pathside", kLot, quarter), 16, 1e-3);
   EXPECT_NEAR(selectedLength("border", kLot, quarter), 18, 1e-3);
@@ -598,7 +598,7 @@ TEST(ParkRows, P36PatternsOfAddresses) {
 TEST(ParkRows, P37ChoppedCornersBelongToOneSideEverywhere) {
   const Made m = rules(
       "Lot --> grid(2, 2, 2) { region : peel(side(east), 1) { strip : A | rest : B } | junction : "
-      "romb(3) NIL }",
+      "rhombus(3) NIL }",
       kLot);
   ASSERT_EQ(m.count.at("A"), 4);
   // Mirror images have their centres mirrored.

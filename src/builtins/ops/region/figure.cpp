@@ -129,7 +129,7 @@ Status joinLater(OpCall& call) {
   }
   if (piece == 0) {
     return call.fail("bad-argument", "there is nothing to join",
-                     "write joined { romb(3) A. | rect(8, 2) B. }");
+                     "write joined { rhombus(3) A. | rect(8, 2) B. }");
   }
   call.gather();
   return {};
@@ -145,8 +145,8 @@ uint32_t sidesOf(double n) { return static_cast<uint32_t>(std::clamp(n, 3.0, 100
 Status applyCircle(OpCall& call, const Figure& f) {
   return become(call, {PlanShape::Circle, f.size, 1, sidesOf(f.sides)}, f.reach);
 }
-Status applyRomb(OpCall& call, const Figure& f) {
-  return become(call, {PlanShape::Romb, f.size, 1, 4}, f.reach);
+Status applyRhombus(OpCall& call, const Figure& f) {
+  return become(call, {PlanShape::Rhombus, f.size, 1, 4}, f.reach);
 }
 Status applySquare(OpCall& call, const Figure& f) {
   return become(call, {PlanShape::Square, f.size, 1, 4}, f.reach);
@@ -164,7 +164,7 @@ constexpr ParamSpec kRadius = param<&Figure::size>("radius", "From the middle to
 constexpr ParamSpec kCircle[] = {
     param<&Figure::size>("radius", "In metres."),
     param<&Figure::sides>("segments", "How many sides stand for the circle.", "24"), kReach};
-constexpr ParamSpec kRomb[] = {kRadius, kReach};
+constexpr ParamSpec kRhombus[] = {kRadius, kReach};
 constexpr ParamSpec kSquare[] = {param<&Figure::size>("side", "In metres."), kReach};
 constexpr ParamSpec kRect[] = {param<&Figure::size>("width", "Along x."),
                                param<&Figure::height>("height", "Across."), kReach};
@@ -172,7 +172,7 @@ constexpr ParamSpec kPolygon[] = {param<&Figure::sides>("sides", "Three or more.
                                   kReach};
 constexpr Signature kCircleSignatures[] = {{kCircle}};
 constexpr Signature kJoinedSignatures[] = {{}};
-constexpr Signature kRombSignatures[] = {{kRomb}};
+constexpr Signature kRhombusSignatures[] = {{kRhombus}};
 constexpr Signature kSquareSignatures[] = {{kSquare}};
 constexpr Signature kRectSignatures[] = {{kRect}};
 constexpr Signature kPolygonSignatures[] = {{kPolygon}};
@@ -198,9 +198,9 @@ constexpr OpSpec kSpecs[] = {
     asFigure({"regularPolygon", "region",
               "Replaces a region by a polygon of equal sides in its middle.", kPolygonSignatures,
               typed<applyPolygon>, BlockKind::Operations, kPure, "otherwise", true, true}),
-    asFigure({"romb", "region", "Replaces a region by a square on its corner in its middle.",
-              kRombSignatures, typed<applyRomb>, BlockKind::Operations, kPure, "otherwise", true,
-              true}),
+    asFigure({"rhombus", "region", "Replaces a region by a square on its corner in its middle.",
+              kRhombusSignatures, typed<applyRhombus>, BlockKind::Operations, kPure, "otherwise",
+              true, true}),
     asFigure({"square", "region", "Replaces a region by a square in its middle.", kSquareSignatures,
               typed<applySquare>, BlockKind::Operations, kPure, "otherwise", true, true}),
 };

@@ -206,7 +206,7 @@ bool planFigureOf(const DrawnFigure& figure, PlanFigure& out) {
   static constexpr Known kKnown[] = {{"circle", PlanShape::Circle},
                                      {"rect", PlanShape::Rect},
                                      {"regularPolygon", PlanShape::Polygon},
-                                     {"romb", PlanShape::Romb},
+                                     {"rhombus", PlanShape::Rhombus},
                                      {"square", PlanShape::Square}};
   for (const Known& k : kKnown) {
     if (k.name == figure.spec->name) out.shape = k.shape;
