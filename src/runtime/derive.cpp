@@ -192,13 +192,14 @@ void gatherParts(const Pass& pass, Recall& recall) {
   for (const auto& m : pass.machines) {
     const auto shift = static_cast<uint32_t>(recall.parts.size());
     const auto operationShift = static_cast<uint32_t>(recall.operations.size());
-    for (RecallPart p : m->parts()) {
+    const IncrementalCache& cache = *m->incremental();
+    for (RecallPart p : cache.parts()) {
       p.firstInside += shift;
       p.firstOperation += operationShift;
       p.endOperation += operationShift;
       recall.parts.push_back(p);
     }
-    const auto& operations = m->keptOperations();
+    const auto& operations = cache.operations();
     recall.operations.insert(recall.operations.end(), operations.begin(), operations.end());
   }
   recall.partNumbers.reserve(recall.parts.size());
@@ -234,7 +235,7 @@ void assemble(Pass& pass, DeriveShared& shared, const std::vector<InitialShape>&
               DeriveResult& result) {
   for (auto& m : pass.machines) {
     result.shared += m->cacheHits();
-    result.recalled += m->recalled();
+    if (const IncrementalCache* cache = m->incremental()) result.recalled += cache->taken();
   }
   result.portions = pass.portions->units().size();
   takeMessages(pass, result.diagnostics);

@@ -39,42 +39,31 @@ Machine::Machine(DeriveShared& shared, uint32_t worker)
   flat_ = !shared.options.sharing || shared.options.trace;
   collectOccluders_ = shared.collectOccluders;
   lightPartsAllowed_ = !collectOccluders_ && !shared.options.trace;
-  remembers_ = shared.options.remember;
-  if (remembers_) {
-    costs_.resize(program_.rules.size());
-    operationCosts_.resize(program_.code.size());
-  }
-  if (shared.before.recall) {
-    recaller_ = std::make_unique<Recaller>(shared.before, output_, cache_);
+  if (shared.options.remember) {
+    incremental_ = std::make_unique<IncrementalCache>(
+        IncrementalCache::Tables{program_, shared.reach, shared.before}, output_, prototypes_,
+        tally_);
   }
 }
 
 Machine::~Machine() = default;
 
-void Machine::forget() {
-  output_.drop();
-  cache_.clear();
-}
+void Machine::forget() { prototypes_.forget(); }
 
 OutputUnit Machine::run(const InitialShape& input, uint32_t index) {
   const uint64_t shapesBefore = tally_.expanded();
-  const size_t partsBefore = parts_.size();
   derive(input, index);
   OutputUnit unit;
   unit.frame = flat_ ? Frame{} : input.origin;
   unit.name = input.name;
-  closeUnit(unit, nameId_, shapesBefore, partsBefore);
+  closeUnit(unit, nameId_, shapesBefore);
   return unit;
 }
 
-void Machine::closeUnit(OutputUnit& unit, StringId name, uint64_t shapesBefore,
-                        size_t partsBefore) {
+void Machine::closeUnit(OutputUnit& unit, StringId name, uint64_t shapesBefore) {
   unit.worker = worker_;
-  unit.prototype = output_.close(rootMark_, name, tally_.expanded() - shapesBefore, ShareKey{});
-  for (size_t p = partsBefore; p < parts_.size(); ++p) {
-    parts_[p].prototype = unit.prototype;
-    parts_[p].worker = worker_;
-  }
+  unit.prototype = prototypes_.endUnit(name, tally_.expanded() - shapesBefore);
+  if (incremental_) incremental_->endUnit(worker_, unit.prototype);
   unit.holes = std::exchange(holes_, {});
   unit.messages = log_.take();
 }
@@ -96,14 +85,14 @@ void Machine::beginUnit() {
   log_.beginUnit();
   holes_.clear();
   pendingHoles_.clear();
-  rootMark_ = output_.mark();
+  prototypes_.beginUnit();
 }
 
 void Machine::endUnit(const Status& status) {
   if (!status.ok()) endByFailure(status);
   dropGathers();
   // What was open when a limit struck stays: it belongs to the initial shape.
-  while (!prototypes_.empty()) closeOpenPrototype();
+  while (prototypes_.anyOpen()) prototypes_.end(tally_.expanded(), !aborted_);
 }
 
 void Machine::clearStacks() {
@@ -116,8 +105,6 @@ void Machine::clearStacks() {
   locals_.cut(0);
   previous_.clear();
   functions_.clear();
-  prototypes_.clear();
-  openParts_.clear();
 }
 
 void Machine::begin(const InitialShape& input, uint32_t index) {
@@ -143,14 +130,17 @@ void Machine::begin(const InitialShape& input, uint32_t index) {
     setInitialGeometry(info_.shape, input.mesh);
   }
   info_.shape.path = hashCombine(hashDouble(seed), identity);
-  worlds_.assign(1, input.origin);
+  worlds_.begin(input.origin);
   clearStacks();
   bindAttributes(input);
 
   const int32_t rule = startRuleOf(input);
   if (rule >= 0) {
     info_.startRule = program_.rules[static_cast<size_t>(rule)].qualifiedName;
-    if (remembers_) beginRemembering();
+    // Nothing has been evaluated yet.
+    if (incremental_) {
+      incremental_->begin(IncrementalCache::inputsOf(info_, attributeValues_.hashes()));
+    }
     beginRoot(static_cast<uint32_t>(rule));
     execute();
   } else {
@@ -190,7 +180,7 @@ void Machine::beginRoot(uint32_t rule) {
   seen_ = &a.shape;
   parameters_ = 0;
   pc_ = program_.code.data() + code.entry;
-  if (remembers_ && beginPart(a)) activationCount_ = 0;
+  if (incremental_ && beginPart(a)) activationCount_ = 0;
 }
 
 // Attributes are bound by name: options over the shape's own, both over the initialiser.
@@ -229,17 +219,11 @@ void Machine::speak(const OutputEvent& event) {
 }
 
 void Machine::takeReport(StringId key, const Value& value) {
-  speak({openInstanceCount(), false, key, value});
+  speak({prototypes_.instancesAround(), false, key, value});
 }
 
 void Machine::takePrint(std::string text) {
-  speak({openInstanceCount(), true, pool().intern(text), {}});
-}
-
-uint32_t Machine::openInstanceCount() const {
-  const uint32_t base =
-      prototypes_.empty() ? rootMark_.instances : prototypes_.back().mark.instances;
-  return static_cast<uint32_t>(output_.openInstances.size()) - base;
+  speak({prototypes_.instancesAround(), true, pool().intern(text), {}});
 }
 
 void Machine::takeWarning(const char* code, std::string message, std::string hint) {

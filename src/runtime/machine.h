@@ -24,18 +24,19 @@
 #include "runtime/attribute_values.h"
 #include "runtime/context.h"
 #include "runtime/derive.h"
+#include "runtime/incremental_cache.h"
 #include "runtime/local_values.h"
 #include "runtime/message_log.h"
 #include "runtime/output.h"
 #include "runtime/portion.h"
+#include "runtime/prototypes.h"
 #include "runtime/recall.h"
 #include "runtime/tally.h"
 #include "runtime/tracer.h"
+#include "runtime/worlds.h"
 #include "shape/op_call.h"
 
 namespace gable {
-
-class KeyHash;
 
 /// What all workers of one derivation share.
 struct DeriveShared {
@@ -151,14 +152,9 @@ class Machine final : public Services, private WorkMeter {
   Tracer& tracer() { return tracer_; }
   std::vector<Occluder>& occluders() { return occluders_; }
   bool collectsOccluders() const { return collectOccluders_; }
-  uint64_t cacheHits() const { return cacheHits_; }
-  /// With DeriveOptions::remember: the parts of all initial shapes, each after those inside it.
-  const std::vector<RecallPart>& parts() const { return parts_; }
-  const std::vector<std::shared_ptr<const RecallOperation>>& keptOperations() const {
-    return keptOperations_;
-  }
-  /// Shapes taken over from the derivation before, instances expanded.
-  uint64_t recalled() const { return recalled_; }
+  uint64_t cacheHits() const { return cacheHits_ + (incremental_ ? incremental_->shared() : 0); }
+  /// Null without DeriveOptions::remember.
+  const IncrementalCache* incremental() const { return incremental_.get(); }
   /// Tells the usage what it has not been told yet; false when a limit is reached.
   bool tellUse();
   /// The visible rule attributes of the shape derived last, as evaluated.
@@ -168,7 +164,7 @@ class Machine final : public Services, private WorkMeter {
   const Program* program() const override { return &program_; }
   Value evaluate(uint32_t entry, uint64_t address, const Shape* as) override;
   const InitialShapeInfo& initialShapeAtWork() const override { return info_; }
-  const Frame& worldAtWork() const override { return worlds_.back(); }
+  const Frame& worldAtWork() const override { return worlds_.present(); }
   void takeReport(StringId key, const Value& value) override;
   void takePrint(std::string text) override;
   void takeWarning(const char* code, std::string message, std::string hint) override;
@@ -201,13 +197,6 @@ class Machine final : public Services, private WorkMeter {
     /// Kept where the rule needs them.
     Frame previousScope;
     Vec3 previousSize;
-  };
-  struct OpenPrototype {
-    Output::Mark mark;
-    ShareKey key;
-    uint64_t shapesBefore;
-    Frame frame;
-    uint32_t rule;
   };
   /// A slot whose parts become leaves in a few plain steps, or go, or are divided once more.
   struct LightSlot {
@@ -275,7 +264,7 @@ class Machine final : public Services, private WorkMeter {
   void beginUnit();
   void clearStacks();
   void endUnit(const Status& status);
-  void closeUnit(OutputUnit& unit, StringId name, uint64_t shapesBefore, size_t partsBefore);
+  void closeUnit(OutputUnit& unit, StringId name, uint64_t shapesBefore);
   void execute();
   void beginRoot(uint32_t rule);
   void beginRule(uint32_t rule, uint32_t argumentCount, const Instruction* at, bool last);
@@ -322,8 +311,6 @@ class Machine final : public Services, private WorkMeter {
   OpenGather closeGather();
   void nowGathering();
   void keepLeaves(const OpenGather& g, const std::vector<bool>& gone);
-  /// Where the frames of leaves that are being made lead to.
-  const Frame& leafWorld() const { return leafWorlds_->back(); }
 
   // In place: do, repeat, local.
   void runRule(const Instruction& i);
@@ -341,37 +328,17 @@ class Machine final : public Services, private WorkMeter {
   // Sharing.
   bool beginShared(const RuleCode& rule, Activation& call);
   void endShared();
-  ShareKey keyOf(uint32_t rule, const Activation& call);
-  void localise(Shape& shape, const RuleCode& rule, const Frame& outer) const;
-  void openWorld(const Frame& frame);
-  void closeOpenPrototype();
-  void addInstance(const Frame& frame, uint32_t prototype);
-  uint32_t openInstanceCount() const;
+  ShareKey keyOf(const Activation& call);
   void speak(const OutputEvent& event);
 
   // Recall.
   /// What is made now stays as it is, in the world.
-  bool worksInTheOpen() const { return prototypes_.empty() && gathers_.empty(); }
-  /// Looks at the initial shape at work.
-  void beginRemembering();
-  /// True when the call's result was remembered and lies in the output.
+  bool worksInTheOpen() const { return !prototypes_.anyOpen() && gathers_.empty(); }
+  IncrementalCache::Moment moment() const;
+  /// True when the call's result was known and lies in the output.
   bool beginPart(Activation& call);
-  void endPart();
-  void takePart(const RecallPart& part);
-  bool recallPrototype(const ShareKey& key, uint32_t& number);
-  void countTaken();
-  bool worthKeeping(uint32_t rule);
-  /// Runs the operation at `i`, or takes what it did the time before.
   Status applyRemembering(OpCall& call, const Instruction& i, std::span<const Value> arguments,
                           const BlockInput* block);
-  bool takeOperation(const ShareKey& key, Shape& shape);
-  void keepOperation(const ShareKey& key, const Shape& shape, size_t firstChild);
-  ShareKey operationKey(OpCall& call, std::span<const Value> arguments, const BlockInput* block);
-  void addShape(KeyHash& h, const Shape& s) const;
-  ShareKey partKey(const Activation& call);
-  uint64_t inputsOf(uint32_t rule);
-  uint64_t hashOfInitialShape() const;
-  Output::Mark placeInRoot() const;
   bool evaluatesAttribute() const;
   /// Reports, prints and warnings in an attribute's initialiser come with its first use.
   void noteEffect();
@@ -408,8 +375,6 @@ class Machine final : public Services, private WorkMeter {
   void runUntil(size_t depth);
   /// An attribute's value now, for a key or a list; nests one level of the loop.
   Value evaluateAttribute(uint32_t attribute);
-  /// Adds what an argument says to a key; false when that takes code to know.
-  bool addArgument(KeyHash& h, const Value& v) const;
 
   // Initial shapes.
   void bindAttributes(const InitialShape& shape);
@@ -473,6 +438,7 @@ class Machine final : public Services, private WorkMeter {
   const Program& program_;
   uint32_t worker_;
   Output output_;
+  Prototypes prototypes_{output_};
   Tally tally_;
   MessageLog log_;
   Tracer tracer_;
@@ -502,10 +468,7 @@ class Machine final : public Services, private WorkMeter {
   /// For rules run in place that look at the shape below.
   std::vector<std::pair<Frame, Vec3>> previous_;
   std::vector<FunctionFrame> functions_;
-  std::vector<Frame> worlds_;
-  /// The frames that leaves are placed in: worlds_, or gatherFrames_ while leaves are gathered.
-  std::vector<Frame>* leafWorlds_ = &worlds_;
-  std::vector<OpenPrototype> prototypes_;
+  Worlds worlds_;
   /// By block: the items of a split with the sizes of the last time, and its slots.
   struct SplitState {
     std::vector<SplitItem> items;
@@ -532,8 +495,6 @@ class Machine final : public Services, private WorkMeter {
   const OpSpec* builtinSetSpec_ = nullptr;
   /// Leaves are placed in the world at once: sharing is off.
   bool flat_ = false;
-  Output::Mark rootMark_;
-  KeyNumbers cache_;
   bool collectOccluders_ = false;
   /// Nobody wants to see every shape.
   bool lightPartsAllowed_ = false;
@@ -548,37 +509,9 @@ class Machine final : public Services, private WorkMeter {
   std::vector<std::pair<uint32_t, uint32_t>> pendingHoles_;
 
   std::vector<OpenGather> gathers_;
-  /// While leaves are gathered: the frames of shared rules in that of the call that gathers.
-  std::vector<Frame> gatherFrames_;
 
-  /// Parts are remembered, and taken over where recaller_ knows them.
-  bool remembers_ = false;
-  std::unique_ptr<Recaller> recaller_;
-  std::vector<RecallPart> parts_;
-  /// Those at work, with the counts at their beginning.
-  struct OpenPart {
-    RecallPart part;
-    uint32_t rule = 0;
-    uint64_t warnings = 0;
-  };
-  std::vector<OpenPart> openParts_;
-  /// By rule: how many calls came, and what those that were kept took.
-  struct RuleCost {
-    uint64_t calls = 0, measured = 0, steps = 0;
-  };
-  std::vector<RuleCost> costs_;
-  std::vector<std::shared_ptr<const RecallOperation>> keptOperations_;
-  /// By instruction: how often the operation ran, and the work where it was looked at.
-  struct OperationCost {
-    uint64_t calls = 0, measured = 0;
-    uint64_t units = 0;
-  };
-  std::vector<OperationCost> operationCosts_;
-  /// Of the initial shape at work: itself, by attribute the value given from outside (0: none), and
-  /// by rule what inputsOf() gives (0: not known).
-  uint64_t shapeHash_ = 0;
-  std::vector<uint64_t> given_, inputs_;
-  uint64_t recalled_ = 0;
+  /// With DeriveOptions::remember; null without.
+  std::unique_ptr<IncrementalCache> incremental_;
 };
 
 }  // namespace gable

@@ -46,21 +46,18 @@ void Machine::beginGather(const Instruction& i) {
   g.flat = flat_;
   g.light = lightPartsAllowed_;
   gathers_.push_back(g);
-  gatherFrames_.push_back(Frame{});
+  worlds_.beginGather();
   nowGathering();
   flat_ = true;
   lightPartsAllowed_ = false;
 }
 
-void Machine::nowGathering() {
-  gatherEnd_ = gathers_.empty() ? 0 : gathers_.back().activation + 1;
-  leafWorlds_ = gathers_.empty() ? &worlds_ : &gatherFrames_;
-}
+void Machine::nowGathering() { gatherEnd_ = gathers_.empty() ? 0 : gathers_.back().activation + 1; }
 
 OpenGather Machine::closeGather() {
   const OpenGather g = gathers_.back();
   gathers_.pop_back();
-  gatherFrames_.pop_back();
+  worlds_.endGather();
   nowGathering();
   flat_ = g.flat;
   lightPartsAllowed_ = g.light;
@@ -106,7 +103,7 @@ void Machine::keepLeaves(const OpenGather& g, const std::vector<bool>& gone) {
     if (gone[k]) continue;
     number[k] = kept;
     Leaf& leaf = open[kept++] = open[g.leaves + k];
-    if (flat_) leaf.frame = leafWorld() * leaf.frame;
+    if (flat_) leaf.frame = worlds_.ofLeaves() * leaf.frame;
   }
   open.resize(kept);
   tracer_.renumberLeaves(g.traced, g.leaves, number);

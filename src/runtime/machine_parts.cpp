@@ -131,7 +131,7 @@ void Machine::makeLightParts(Activation& a) {
   const std::vector<LightSlot>& slots = lightSlots(a.block, a.rule);
   // Only a part that is light needs to know where the parent lies.
   if (!slots[pieces_[a.childNext].slot].light) return;
-  const Frame& world = flat_ ? leafWorld() : kOwnFrame;
+  const Frame& world = flat_ ? worlds_.ofLeaves() : kOwnFrame;
   Leaf worldLeaf;
   worldLeaf.frame = world;
   worldLeaf.materials = output_.materialNumber(s.material, 0);

@@ -17,7 +17,7 @@ void Machine::offerPortion() {
     const Activation& a = activations_[k];
     if (a.boundary && !flat) return;
     if (a.boundary) ++world;
-    if (a.childNext < a.childEnd) return offerChildren(k, worlds_[world]);
+    if (a.childNext < a.childEnd) return offerChildren(k, worlds_.after(world));
   }
 }
 
@@ -29,10 +29,11 @@ void Machine::offerChildren(uint32_t index, const Frame& world) {
   const uint32_t frames = inner ? inner->frameBase : static_cast<uint32_t>(frames_.size());
   const uint32_t stack = inner ? inner->stackBase : stackTop_;
   if (!portionBase_) {
+    auto inputs = incremental_ ? incremental_->inputs() : IncrementalCache::Inputs{};
     portionBase_ =
         portion_
             ? portion_->base
-            : std::make_shared<const PortionBase>(PortionBase{info_, nameId_, shapeHash_, given_});
+            : std::make_shared<const PortionBase>(PortionBase{info_, nameId_, std::move(inputs)});
   }
   auto p = std::make_unique<Portion>();
   p->base = portionBase_;
@@ -64,7 +65,7 @@ void Machine::offerChildren(uint32_t index, const Frame& world) {
 // The children of the activation at work are done: what others do of them comes here.
 void Machine::fillHoles() {
   while (!pendingHoles_.empty() && pendingHoles_.back().first + 1 == activationCount_) {
-    holes_.push_back({pendingHoles_.back().second, placeInRoot(), log_.count()});
+    holes_.push_back({pendingHoles_.back().second, prototypes_.placeInUnit(), log_.count()});
     pendingHoles_.pop_back();
   }
 }
@@ -72,27 +73,22 @@ void Machine::fillHoles() {
 void Machine::run(const Portion& portion) {
   const WorkScope scope(*this);
   const uint64_t shapesBefore = tally_.expanded();
-  const size_t partsBefore = parts_.size();
   beginUnit();
   portion_ = &portion;
   endUnit(guarded([&] {
     beginPortion(portion);
     return Status();
   }));
-  closeUnit(*portion.unit, portion.base->name, shapesBefore, partsBefore);
+  closeUnit(*portion.unit, portion.base->name, shapesBefore);
   portion_ = nullptr;
 }
 
 void Machine::beginPortion(const Portion& p) {
   info_ = p.base->info;
   clearStacks();
-  worlds_.assign(1, p.world);
+  worlds_.begin(p.world);
   attributeValues_ = p.attributeValues;
-  if (remembers_) {
-    inputs_.assign(program_.rules.size(), 0);
-    given_ = p.base->given;
-    shapeHash_ = p.base->shapeHash;
-  }
+  if (incremental_) incremental_->begin(p.base->inputs);
   locals_ = p.locals;
   for (const Value& v : p.parameters) push(v);
   pieces_ = p.pieces;

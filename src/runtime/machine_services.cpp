@@ -12,7 +12,7 @@ namespace gable {
 
 Tracer::Made Machine::traced(const Shape& s, uint32_t parent, StringId name,
                              const Span& span) const {
-  return {parent, info_.index, name, span, worlds_.back() * s.scope, s.size};
+  return {parent, info_.index, name, span, worlds_.present() * s.scope, s.size};
 }
 
 void Machine::traceShape(Activation& a, uint32_t parentNode, const Instruction* at) {
@@ -51,8 +51,8 @@ Occluder Machine::asking(const Shape& s) const {
   Occluder o;
   o.initialShape = info_.index;
   o.path = treePath();
-  o.mesh = transformed(meshInLocal(s), {1, 1, 1}, worlds_.back());
-  o.scope = worlds_.back() * s.scope;
+  o.mesh = transformed(meshInLocal(s), {1, 1, 1}, worlds_.present());
+  o.scope = worlds_.present() * s.scope;
   o.size = s.size;
   return o;
 }

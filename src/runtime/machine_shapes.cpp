@@ -148,7 +148,7 @@ bool Machine::enterRule(Activation& a, uint32_t callerDepth, uint32_t callerTrac
   if (options().trace) traceShape(a, callerTrace, at);
   a.kept = false;
   if (code.shared && beginShared(code, a)) return false;
-  if (remembers_ && beginPart(a)) return false;
+  if (incremental_ && beginPart(a)) return false;
   if (code.needsPrevious) {
     a.previousScope = a.shape.scope;
     a.previousSize = a.shape.size;
@@ -197,7 +197,7 @@ void Machine::endActivation() {
     if (a.slot) countShape();
     makeLeaf(a, program_.rules[a.rule].name, program_.rules[a.rule].entry);
   }
-  if (a.kept) endPart();
+  if (a.kept) incremental_->endPart(moment());
   if (a.boundary) endShared();
   stackTop_ = a.stackBase;
   if (shapeStack_.size() > a.shapeStackBase) shapeStack_.resize(a.shapeStackBase);
@@ -406,7 +406,7 @@ Status Machine::apply(OpCall& call, const Instruction& i, std::span<const Value>
   const size_t firstChild = children_.size(), firstPiece = pieces_.size();
   const auto run = [&] {
     Status status =
-        remembers_ && worksInTheOpen() ? applyRemembering(call, i, arguments, block) : call.run();
+        incremental_ && worksInTheOpen() ? applyRemembering(call, i, arguments, block) : call.run();
     if (!status.ok() || madeFinite(call.shape(), firstChild, firstPiece)) return status;
     return call.fail("not-finite", "the result has sizes or places that are no finite numbers",
                      "look for a division by zero, or for sizes that grow with each turn");
@@ -530,7 +530,7 @@ bool Machine::putLeaf(const Shape& s, StringId name, uint32_t source) {
   if (s.geometry.kind == GeometryKind::None) return false;
   if (s.geometry.kind == GeometryKind::Mesh && s.geometry.mesh->empty()) return false;
   Leaf& leaf = output_.openLeaves.emplace_back();
-  leaf.frame = flat_ ? leafWorld() * s.scope : s.scope;
+  leaf.frame = flat_ ? worlds_.ofLeaves() * s.scope : s.scope;
   leaf.scale = s.size;
   switch (s.geometry.kind) {
     case GeometryKind::Box: leaf.mesh = s.geometry.uv ? kUnitBoxUv : kUnitBox; break;

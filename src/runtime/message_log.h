@@ -26,7 +26,8 @@ class MessageLog {
   void warn(const char* code, const Span& at, std::string message, std::string hint,
             uint32_t initialShape, ShapePath&& shapePath) {
     if (!isNews(code, at, message, initialShape)) return;
-    messages_.add({Severity::Warning, code, at, std::move(message), std::move(hint), shapePath()});
+    messages_.add(
+        {Severity::Warning, code, at, std::move(message), std::move(hint), shapePath(), {}});
   }
   /// Messages about the input, which no rule has made.
   Diagnostics& input() { return messages_; }

@@ -22,6 +22,7 @@
 #include "base/diagnostic.h"
 #include "runtime/attribute_values.h"
 #include "runtime/derive.h"
+#include "runtime/incremental_cache.h"
 #include "runtime/kept_shape.h"
 #include "runtime/local_values.h"
 #include "runtime/output.h"
@@ -34,9 +35,8 @@ namespace gable {
 struct PortionBase {
   InitialShapeInfo info;
   StringId name = 0;
-  /// For keys of what is remembered: of the shape, and by attribute of the value from outside.
-  uint64_t shapeHash = 0;
-  std::vector<uint64_t> given;
+  /// For keys of the incremental cache.
+  IncrementalCache::Inputs inputs;
 };
 
 /// Children of a block, and all that they can see.

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "runtime/prototypes.h"
+
+namespace gable {
+
+void Prototypes::beginUnit() {
+  open_.clear();
+  unit_ = output_.mark();
+}
+
+uint32_t Prototypes::endUnit(StringId name, uint64_t shapes) {
+  return output_.close(unit_, name, shapes, ShareKey{});
+}
+
+Output::Mark Prototypes::placeInUnit() const {
+  Output::Mark m = output_.mark();
+  m.leaves -= unit_.leaves;
+  m.instances -= unit_.instances;
+  m.events -= unit_.events;
+  return m;
+}
+
+void Prototypes::begin(const ShareKey& key, StringId name, const Frame& frame,
+                       uint64_t shapesBefore) {
+  open_.push_back({output_.mark(), key, name, frame, shapesBefore});
+}
+
+void Prototypes::end(uint64_t shapesNow, bool whole) {
+  const Open open = open_.back();
+  open_.pop_back();
+  const uint32_t number = output_.close(open.mark, open.name, shapesNow - open.shapesBefore,
+                                        whole ? open.key : ShareKey{});
+  if (whole) numbers_.emplace(open.key, number);
+  place(number, open.frame);
+}
+
+void Prototypes::place(uint32_t prototype, const Frame& frame) {
+  Instance i;
+  i.frame = frame;
+  i.prototype = prototype;
+  i.leavesBefore = static_cast<uint32_t>(output_.openLeaves.size()) - around().leaves;
+  output_.openInstances.push_back(i);
+}
+
+uint32_t Prototypes::instancesAround() const {
+  return static_cast<uint32_t>(output_.openInstances.size()) - around().instances;
+}
+
+}  // namespace gable

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Sharing: what makes two calls of a rule equal.
+//
+// A call of a shared rule works in a frame of its own, the scope of the shape it was called on; so
+// its result depends on nothing but the inputs that sharedKey() hashes, and equal keys have equal
+// results. With sharing on a result becomes a prototype (runtime/prototypes.h) and each call an
+// instance; with sharing off the frames are composed in the same order while deriving, which gives
+// the same numbers.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "program/program.h"
+#include "runtime/output.h"
+#include "shape/shape.h"
+
+namespace gable {
+
+struct SharedCall {
+  /// Stands for the rule's code.
+  uint64_t code = 0;
+  /// What the rule depends on; see Effect.
+  uint32_t effects = 0;
+  /// In its own frame.
+  const Shape& shape;
+  std::span<const Value> arguments;
+  /// The values of the attributes that the rule reads, in their order.
+  std::span<const Value> attributes;
+};
+
+ShareKey sharedKey(const SharedCall& call);
+
+/// Puts a shape into `outer`, the frame of its own scope, and drops what a rule with these effects
+/// cannot see.
+void putIntoOwnFrame(Shape& shape, uint32_t effects, const Frame& outer);
+
+}  // namespace gable
