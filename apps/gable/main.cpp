@@ -24,7 +24,7 @@ void addPictureOptions(CLI::App* app, RenderArguments& a) {
   app->add_option("--view", a.view, "iso, top, front or street")
       ->check(CLI::IsMember({"iso", "top", "front", "street"}));
   app->add_option("--size", a.size, "Pixels (default 1600x900)");
-  app->add_option("--samples", a.samples, "Paths a pixel (default 48)")
+  app->add_option("--samples", a.samples, "Paths per pixel (default 48)")
       ->check(number({1, 65536, true}));
   app->add_option("--sun", a.sun, "elevation,azimuth in degrees (azimuth from north)");
   app->add_option("--eye", a.eye, "The camera's place: x,y,z in metres");
@@ -46,37 +46,39 @@ void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
       ->type_size(1)
       ->expected(1)
       ->take_all();
-  app->add_option("--seed", a.seed, "The seed of all chance (default 0); random draws one");
+  app->add_option("--seed", a.seed, "The seed of all random numbers (default 0); random draws one");
   app->add_option("--project", a.project, "The folder that the rules may read from");
-  app->add_option("--jobs", a.jobs, "Threads (default: one a processor)")
+  app->add_option("--jobs", a.jobs, "Threads (default: one per processor)")
       ->check(number({0, 4096, true}));
   app->add_flag("--no-sharing", a.noSharing, "Derive equal parts again instead of sharing them");
   app->add_option("--dialect", a.dialect, "The rules' notation, when the extension does not tell");
-  app->add_option("--max-seconds", a.maxSeconds, "Stop deriving after so long")
+  app->add_option("--max-seconds", a.maxSeconds, "Stop the derivation after so many seconds")
       ->check(number({0, 1e9}));
   app->add_option("--max-shapes", a.maxShapes, "Stop after so many shapes")
       ->check(number({0, 1e12, true}));
   app->add_option("--max-steps", a.maxSteps, "Stop after so many operations and calls")
       ->check(number({0, 1e18, true}));
   app->add_option("--max-memory", a.maxMegabytes,
-                  "Stop when deriving takes so many megabytes (default 4096, 0: no limit)")
+                  "Stop when the derivation uses so many megabytes (default 4096, 0: no limit)")
       ->check(number({0, 1e9, true}));
   app->add_option("--max-depth", a.maxDepth, "Rule calls within rule calls (default 1024)")
       ->check(number({0, 4294967295.0, true}));
 }
 
 void addLsp(CLI::App& app, int& status) {
-  auto* lsp = app.add_subcommand("lsp", "Serve an editor over stdin and stdout (language server)");
+  auto* lsp = app.add_subcommand("lsp", "Run the language server for editors, on stdin and stdout");
   // What editors add by themselves.
   lsp->add_flag_callback(
-      "--stdio", [] {}, "Over stdin and stdout; there is no other way");
+      "--stdio", [] {}, "Use stdin and stdout, which is the only way");
   lsp->callback([&status] { status = runLsp(); });
 }
 
 void addStudio(CLI::App& app, StudioArguments& a, int& status) {
-  auto* studio = app.add_subcommand("studio", "Serve a page to write rules and see places");
+  auto* studio = app.add_subcommand(
+      "studio", "Start the studio: write rules in the browser and see the model");
   studio->add_option("folder", a.folder, "The project (default: this folder)");
-  studio->add_option("--port", a.port, "Default: that of the time before, else any that is free")
+  studio
+      ->add_option("--port", a.port, "The port (default: that of the last start, or any free one)")
       ->check(number({0, 65535, true}));
   studio->callback([&a, &status] { status = runStudioCommand(a); });
 }
@@ -114,7 +116,7 @@ int main(int argc, char** argv) {
   checkApp->callback([&] { status = runCheck(check); });
 
   FormatArguments format;
-  auto* formatApp = app.add_subcommand("format", "Put rule files into canonical form");
+  auto* formatApp = app.add_subcommand("format", "Format rule files");
   formatApp->add_option("files", format.files, "Rule files")->required();
   formatApp->add_flag("--check", format.check, "Change nothing; fail if a file would change");
   formatApp->add_flag("--stdout", format.toStdout, "Print instead of writing back");
@@ -132,7 +134,7 @@ int main(int argc, char** argv) {
   convertApp->callback([&] { status = runConvert(convert); });
 
   RenderArguments render;
-  auto* renderApp = app.add_subcommand("render", "Draw rules or a model as a picture");
+  auto* renderApp = app.add_subcommand("render", "Render rules or a model as a picture");
   renderApp->add_option("input", render.derive.rules, "A rule file or a model (.glb .gltf .obj)")
       ->required();
   addDeriveOptions(renderApp, render.derive);
@@ -148,7 +150,7 @@ int main(int argc, char** argv) {
   traceApp->callback([&] { status = runTrace(trace); });
 
   AssetArguments asset;
-  auto* assetApp = app.add_subcommand("asset", "Make models ready for use");
+  auto* assetApp = app.add_subcommand("asset", "Prepare models for use as assets");
   assetApp->require_subcommand(1);
   auto* prepareApp =
       assetApp->add_subcommand("prepare", "Map the volume of a model to the unit cube");
@@ -164,7 +166,8 @@ int main(int argc, char** argv) {
   prepareApp->callback([&] { status = runAssetPrepare(asset); });
 
   OpsArguments ops;
-  auto* opsApp = app.add_subcommand("ops", "List what is built in, or explain one name");
+  auto* opsApp =
+      app.add_subcommand("ops", "List the operations, functions and attributes, or explain one");
   opsApp->add_option("name", ops.name, "An operation, function or attribute");
   opsApp->add_flag("--json", ops.json, "Machine-readable output");
   opsApp->callback([&] { status = runOps(ops); });

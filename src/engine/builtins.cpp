@@ -7,29 +7,11 @@
 #include "dialects/dialect.h"
 #include "engine/guard.h"
 #include "gable/gable.h"
+#include "language/forms.h"
 
 namespace gable {
 
 namespace {
-
-const char* paramTypeName(ParamType t) {
-  switch (t) {
-    case ParamType::Float: return "float";
-    case ParamType::Bool: return "bool";
-    case ParamType::String: return "string";
-    case ParamType::Selector: return "selector";
-    case ParamType::FloatArray: return "float[]";
-    case ParamType::BoolArray: return "bool[]";
-    case ParamType::StringArray: return "string[]";
-    case ParamType::Size: return "size";
-    case ParamType::FloatingSize: return "floating size";
-    case ParamType::Drawn: return "drawn";
-    case ParamType::DrawnList: return "drawn[]";
-    case ParamType::Selection: return "selection";
-    case ParamType::Any: break;
-  }
-  return "any";
-}
 
 const char* blockName(const OpSpec& op) {
   switch (op.block) {
@@ -46,7 +28,7 @@ const char* blockName(const OpSpec& op) {
 BuiltinParameter parameterOf(const ParamSpec& p) {
   BuiltinParameter out;
   out.name = p.name;
-  out.type = paramTypeName(p.type);
+  out.type = language::typeText(p.type);
   out.doc = p.doc;
   if (p.defaultText) out.defaultText = p.defaultText;
   if (p.words) out.words = p.words;
