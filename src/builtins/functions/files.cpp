@@ -260,8 +260,8 @@ Value assetFitSize(FunctionCall& call) {
 
 constexpr ValueType kString = ValueType::String, kFloat = ValueType::Float;
 constexpr ParamSpec kQuery = {"searchQuery", ParamType::String,
-                              "The files, by a path in which * and ? are wild cards, or by a "
-                              "regular expression after a leading $."};
+                              "The files, by a path in which * stands for any characters and $ "
+                              "for any characters within a folder."};
 constexpr ParamSpec kPath = {"filePath", ParamType::String,
                              "The file, by its path in the project."};
 constexpr ParamSpec kQueryParams[] = {kQuery};
