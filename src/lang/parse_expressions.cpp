@@ -5,7 +5,9 @@
 // A '%' directly before ':' is no modulo but the end of a weight; ':' is an operator in brackets
 // only, where it makes a range.
 
+#include <algorithm>
 #include <limits>
+#include <string>
 
 #include "base/number.h"
 #include "lang/lexer.h"
@@ -60,11 +62,40 @@ NodeId Parser::parseExpression() {
   return value;
 }
 
+// `and` and `or` between two values: reported, and read as the operators that are meant.
+TokenKind Parser::operatorHere() {
+  const Token& t = current();
+  const bool isAnd = textOf(t) == "and";
+  if (!isName(t) || (!isAnd && textOf(t) != "or") || declarationHere()) return t.kind;
+  const char* const sign = isAnd ? "&&" : "||";
+  error("unexpected-token", spanOf(t), describe(t) + " is no operator",
+        std::string("write '") + sign + "'");
+  fix(spanOf(t), sign);
+  return isAnd ? TokenKind::And : TokenKind::Or;
+}
+
+// A unit right behind a number: 1.2m.
+void Parser::skipUnit() {
+  constexpr std::string_view kUnits[] = {"m", "cm", "mm", "km", "ft", "deg"};
+  const Token& t = current();
+  const bool adjacent = at_ > 0 && tokens_[at_ - 1].end == t.begin;
+  const std::string_view unit = textOf(t);
+  if (!adjacent || !isName(t) || declarationHere() ||
+      std::find(std::begin(kUnits), std::end(kUnits), unit) == std::end(kUnits)) {
+    return;
+  }
+  error("unexpected-token", spanOf(t), "numbers have no unit, but " + describe(t) + " stands here",
+        unit == "m" || unit == "deg" ? "remove it: lengths are in metres, angles in degrees"
+                                     : "lengths are in metres: write the number of metres alone");
+  if (unit == "m" || unit == "deg") fix(spanOf(t), "");
+  advance();
+}
+
 NodeId Parser::parseBinary(int minPrecedence) {
   const uint32_t begin = current().begin;
   NodeId left = parseUnary();
   while (!panic_) {
-    const Operator op = operatorOf(current().kind);
+    const Operator op = operatorOf(operatorHere());
     if (op.precedence == 0 || op.precedence < minPrecedence) break;
     if (is(TokenKind::Percent) && ahead(1).kind == TokenKind::Colon) break;
     const bool elementwise = current().elementwise;
@@ -123,6 +154,7 @@ NodeId Parser::parsePrimary() {
       n.number = small ? 0 : std::numeric_limits<double>::infinity();
     }
     advance();
+    skipUnit();
     n.end = t.end;
     return tree_.add(n);
   }

@@ -146,6 +146,8 @@ class Parser {
 
   // --- Expressions (parse_expressions.cpp) ---
   NodeId parseExpression();
+  TokenKind operatorHere();
+  void skipUnit();
   NodeId parseBinary(int minPrecedence);
   NodeId parseUnary();
   NodeId parsePostfix();
