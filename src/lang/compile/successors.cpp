@@ -172,9 +172,11 @@ void UnitCompiler::operation(NodeId node, const OpSpec& spec, NodeId arguments) 
 
   // When nothing has to be evaluated the arguments are read where they are.
   std::vector<Value> fixed;
-  const bool allFixed = constantsOf(given, fixed);
+  // A distance of setbackPerEdge is worked out for each edge, a constant one as well.
+  const bool perEdge = std::string_view(spec.name) == "setbackPerEdge" &&
+                       !(given.form && given.form->params[0].type == ParamType::FloatArray);
+  const bool allFixed = !perEdge && constantsOf(given, fixed);
   const uint32_t blockNumber = hasBlock ? newBlock(node, spec) : 0;
-  const bool perEdge = std::string_view(spec.name) == "setbackPerEdge";
   for (size_t i = 0; !allFixed && i < given.list.size(); ++i) {
     if (perEdge && i == 0) {
       valuePerEdge(given.list[i].node);
