@@ -42,7 +42,9 @@ std::vector<Disc> discsIn(OpCall& call, const ScatterCircles& args, const DrawnN
   o.seed = seed;
   discs = scatterDiscs(p, o);
   if (discs.size() < o.count) {
-    call.services().warn("scatter-full", "'scatterCircles': fewer discs fit than were wanted",
+    call.services().warn("scatter-full",
+                         "'scatterCircles': " + std::to_string(discs.size()) + " of " +
+                             std::to_string(o.count) + " discs found a place",
                          "scatter fewer or smaller ones");
   }
   return discs;

@@ -87,6 +87,13 @@ Status placeFigures(OpCall& call, uint32_t slot, const RegionView& view, uint64_
   return {};
 }
 
+// How many sites a number asks for; places are as many as they are.
+size_t sitesWanted(std::span<const Term> terms) {
+  const bool counted = terms.size() == 1 && terms[0].kind == ArgumentTerm::Kind::Value &&
+                       terms[0].values[0].type == ValueType::Float;
+  return counted ? static_cast<size_t>(std::max(0.0, terms[0].number(0))) : 0;
+}
+
 Status applyVoronoi(OpCall& call, const Voronoi& args) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
@@ -103,6 +110,7 @@ Status applyVoronoi(OpCall& call, const Voronoi& args) {
   o.jitter = args.jitter;
   const std::vector<Term> terms = termsOf(args.sites, services, call.randomAddress(900));
   const DrawnNumber radius = numberOf(args.radius, services, call.randomAddress(902));
+  const size_t wanted = sitesWanted(terms);
   const std::optional<uint32_t> figures = slotOf(call, "junction");
   bool junctions = false;
   for (const SelectorItem& item : call.selectors()) {
@@ -116,6 +124,12 @@ Status applyVoronoi(OpCall& call, const Voronoi& args) {
     if (!status.ok()) return status;
     o.seed = call.randomAddress(500 + f);
     VoronoiResult v = voronoiPartition(view.polygon(), sites, o);
+    if (sites.size() < wanted) {
+      call.services().warn("scatter-full",
+                           "'voronoi': " + std::to_string(sites.size()) + " of " +
+                               std::to_string(wanted) + " sites found a place",
+                           "write fewer sites, or a smaller radius");
+    }
     if (v.pieces.empty()) {
       return failOrElse(call, "no-sites", "no site lies in the region",
                         "write smaller radii or other coordinates");
