@@ -3,6 +3,7 @@
 
 #include "lang/graft.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -13,21 +14,45 @@ namespace gable::lang {
 
 namespace {
 
-// No deeper than the parser lets expressions nest.
-NodeId copied(Tree& to, const Tree& from, NodeId node, Span span) {
-  if (node == kNoNode) return kNoNode;
-  std::vector<NodeId> children;
-  for (const NodeId c : from.children(node)) children.push_back(copied(to, from, c, span));
-  Node n = from[node];
-  n.begin = span.begin;
-  n.end = span.end;
-  n.text = to.intern(from.text(node));
-  return to.add(n, children);
-}
+struct Graft {
+  Tree& to;
+  const Tree& from;
+  std::string_view text;
+  Span span;
+  const std::function<Span(std::string_view)>& place;
+
+  bool isWhole(Span s) const { return s.begin == span.begin && s.end == span.end; }
+
+  // No deeper than the parser lets expressions nest. A node covers what is known of its parts.
+  NodeId copied(NodeId node) {
+    if (node == kNoNode) return kNoNode;
+    Node n = from[node];
+    const NodeKind kind = from.kind(node);
+    const bool word = kind == NodeKind::Name || kind == NodeKind::Call;
+    const bool number = kind == NodeKind::Number;
+    Span at = span;
+    if (word) at = place(from.text(node));
+    if (number) at = place(text.substr(n.begin, n.end - n.begin));
+    std::vector<NodeId> children;
+    for (const NodeId c : from.children(node)) {
+      children.push_back(copied(c));
+      if (children.back() == kNoNode || word) continue;
+      const Span part = to.span(children.back());
+      if (isWhole(part)) continue;
+      at = isWhole(at) ? part
+                       : Span{at.file, std::min(at.begin, part.begin), std::max(at.end, part.end)};
+    }
+    n.begin = at.begin;
+    n.end = at.end;
+    n.text = to.intern(from.text(node));
+    return to.add(n, children);
+  }
+};
 
 }  // namespace
 
-NodeId graft(Tree& to, std::string_view expression, Span span) {
+NodeId graft(Tree& to, std::string_view expression, Span span,
+             const std::function<Span(std::string_view)>& place) {
   // The one argument of a call in a rule.
   const std::string text = "R --> o(" + std::string(expression) + ")";
   Diagnostics diagnostics;
@@ -40,7 +65,7 @@ NodeId graft(Tree& to, std::string_view expression, Span span) {
   if (successors.size() != 1 || tree.kind(successors[0]) != NodeKind::Apply) return kNoNode;
   const auto arguments = tree.children(tree.child(successors[0], 0));
   if (arguments.size() != 1) return kNoNode;
-  return copied(to, tree, arguments[0], span);
+  return Graft{to, tree, text, span, place}.copied(arguments[0]);
 }
 
 }  // namespace gable::lang

@@ -286,6 +286,7 @@ class RegionReader {
     if (w == "side") {
       const std::string name = word();
       const char* side = sideNamed(name);
+      if (!side && ok()) o_.word_ = name;
       if (!side) fail("side takes W, N, E or S");
       out = std::string("side(") + (side ? side : "west");
     } else if (w == "touches") {

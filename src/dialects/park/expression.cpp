@@ -57,8 +57,13 @@ class Reader {
         diagnostics_(diagnostics) {}
 
   NodeId run() {
+    const Span before = b_.span();
     const NodeId e = level(0, 0);
-    if (ok_ && !atEnd()) fail("this does not belong to the expression");
+    if (ok_ && !atEnd()) {
+      word_ = at_;
+      fail("this does not belong to the expression");
+    }
+    b_.at(before);
     return e;
   }
 
@@ -72,9 +77,16 @@ class Reader {
     at_ += sign.size();
     return true;
   }
+  // The word or sign that is read, where the span is that of the text.
+  Span here() const {
+    if (span_.end - span_.begin != text_.size() || word_ >= text_.size()) return span_;
+    const size_t end = std::min(std::max(at_, word_ + 1), text_.size());
+    return {span_.file, span_.begin + static_cast<uint32_t>(word_),
+            span_.begin + static_cast<uint32_t>(end)};
+  }
   NodeId fail(const std::string& message) {
     if (ok_) {
-      diagnostics_.error("bad-expression", span_, "'" + std::string(text_) + "': " + message,
+      diagnostics_.error("bad-expression", here(), "'" + std::string(text_) + "': " + message,
                          "write numbers, constants, w, h, area, ix, iy, nx, ny, bx, by, border");
     }
     ok_ = false;
@@ -130,12 +142,15 @@ class Reader {
       if (ok_ && !accept(")")) return fail("')' is missing");
       return inner;
     }
-    if (atEnd()) return fail("something is missing at its end");
+    const bool ends = atEnd();
+    word_ = at_;
+    if (ends) return fail("something is missing at its end");
     double v = 0;
     const char* begin = text_.data() + at_;
     const char* after = readNumber(begin, text_.data() + text_.size(), v);
     if (after != begin) {
       at_ += static_cast<size_t>(after - begin);
+      b_.at(here());
       return b_.number(v);
     }
     size_t end = at_;
@@ -146,6 +161,7 @@ class Reader {
     const std::string name(text_.substr(at_, end - at_));
     if (name.empty()) return fail("this was not expected");
     at_ = end;
+    b_.at(here());
     if (std::find(parameters_.begin(), parameters_.end(), name) != parameters_.end()) {
       return b_.word(name);
     }
@@ -163,7 +179,7 @@ class Reader {
   Span span_;
   gbbg::TreeBuilder& b_;
   Diagnostics& diagnostics_;
-  size_t at_ = 0;
+  size_t at_ = 0, word_ = 0;
   int nodes_ = 0;
   bool ok_ = true;
 };

@@ -15,11 +15,13 @@
 #include "base/text.h"
 #include "dialects/park/expression.h"
 #include "dialects/park/lowering.h"
+#include "dialects/park/operations.h"
+#include "dialects/park/places.h"
 #include "lang/graft.h"
 
 namespace gable::park {
 
-lang::Tree Lowering::run(uint32_t size) {
+lang::Tree Lowering::run() {
   Nodes rules;
   static const Rule kNone;
   rule_ = &kNone;
@@ -37,7 +39,7 @@ lang::Tree Lowering::run(uint32_t size) {
   }
   warnOfUnused();
   if (models_) rules.insert(rules.begin(), modelFile());
-  return b_.finish(rules, size);
+  return b_.finish(rules, static_cast<uint32_t>(source_.size()));
 }
 
 namespace {
@@ -143,100 +145,58 @@ bool Lowering::coloured(const Sequence& ops) {
   });
 }
 
-namespace {
-
-// In lower case, as they are compared.
-const std::vector<std::string_view>& operationNames() {
-  static const std::vector<std::string_view> all{"grid",
-                                                 "voronoiregions",
-                                                 "voronoismoothed",
-                                                 "ffregions",
-                                                 "cells",
-                                                 "castrays",
-                                                 "rays",
-                                                 "peel",
-                                                 "choose",
-                                                 "joined",
-                                                 "color",
-                                                 "texture",
-                                                 "select",
-                                                 "loadmodel",
-                                                 "innerrect",
-                                                 "quadmap",
-                                                 "contract",
-                                                 "insert",
-                                                 "noholes",
-                                                 "extrude",
-                                                 "romb",
-                                                 "circle",
-                                                 "square",
-                                                 "rect",
-                                                 "polygon",
-                                                 "place",
-                                                 "distribute",
-                                                 "scatter",
-                                                 "scattercircles",
-                                                 "sweep",
-                                                 "distributesmooth",
-                                                 "parametrise"};
-  return all;
-}
-
-}  // namespace
-
 bool Lowering::step(const Op& op, Nodes& out) {
   b_.at(op.span);
-  const std::string name = lowered(op.name);
   if (!op.called && op.blocks.empty()) return symbol(op, out);
-  if (name == "grid") return grid(op, out), false;
-  if (name == "voronoiregions" || name == "voronoismoothed" || name == "ffregions" ||
-      name == "cells") {
-    return voronoi(op, out), false;
+  switch (operationNamed(op.name)) {
+    case Operation::Grid: return grid(op, out), false;
+    case Operation::Voronoi: return voronoi(op, out), false;
+    case Operation::Rays: return rays(op, out), false;
+    case Operation::Peel: return peel(op, out), false;
+    case Operation::Choose: return choose(op, out), false;
+    case Operation::Joined: return joined(op, out), false;
+    case Operation::Model: return model(op, out), false;
+    case Operation::InnerRect: return innerRect(op, out), false;
+    case Operation::Select: return select(op, out), false;
+    case Operation::QuadMap: return quadMap(op, out), false;
+    case Operation::Contract: return contract(op, out), true;
+    case Operation::Insert: return insert(op, out), true;
+    case Operation::NoHoles: return out.push_back(b_.applyBare("cutHoles")), true;
+    case Operation::Colour: return look(op, out), true;
+    case Operation::Extrude: return out.push_back(b_.apply("extrude", {number(op, 0, 1)})), true;
+    case Operation::Figure: return figure(op, out), true;
+    case Operation::Place: return place(op, out), true;
+    case Operation::Distribute: return distribute(op, out), true;
+    case Operation::Scatter: return scatter(op, out), true;
+    case Operation::Sweep: return sweep(op, out), true;
+    case Operation::Parametrise: return lines(op, out), true;
+    case Operation::None: break;
   }
-  if (name == "castrays" || name == "raycast" || name == "beam" || name == "rays") {
-    return rays(op, out), false;
-  }
-  if (name == "peel") return peel(op, out), false;
-  if (name == "choose") return choose(op, out), false;
-  if (name == "joined") return joined(op, out), false;
-  if (name == "loadmodel") return model(op, out), false;
-  if (name == "innerrect") return innerRect(op, out), false;
-  if (name == "select") return select(op, out), false;
-  if (name == "quadmap") return quadMap(op, out), false;
-  if (name == "contract") return contract(op, out), true;
-  if (name == "insert") return insert(op, out), true;
-  if (name == "noholes") return out.push_back(b_.applyBare("cutHoles")), true;
-  if (name == "color" || name == "colour" || name == "texture") {
-    std::string value = text(op, 0);
-    std::erase(value, '"');
-    const char* const made = name == "texture" ? "texture" : "color";
-    return out.push_back(b_.apply(made, {b_.text(value)})), true;
-  }
-  if (name == "extrude") return out.push_back(b_.apply("extrude", {number(op, 0, 1)})), true;
-  if (isFigure(name)) return figure(op, out), true;
-  if (name == "place") return place(op, out), true;
-  if (name == "distribute") return distribute(op, out), true;
-  if (name == "scatter" || name == "scattercircles") return scatter(op, out), true;
-  if (name == "sweep" || name == "distributesmooth" || name == "smoothdistribute") {
-    return sweep(op, out), true;
-  }
-  if (name == "parametrise") return lines(op, out), true;
   if (const Rule* r = g_.rule(op.name)) {
     if (r->function) return inlined(*r, op, out);
     call(*r, op, out);
     return false;
   }
-  const std::string nearest = nearestName(name, operationNames());
+  const std::string nearest = nearestOperation(op.name);
   if (op.blocks.empty() && nearest.empty()) {
     // ParkPath(..): a name with arguments that nothing is made of.
     out.push_back(colour(op.name));
     out.push_back(b_.leaf(op.name));
     return false;
   }
-  diagnostics_.error("unknown-operation", op.span, "there is no operation '" + op.name + "'",
-                     nearest.empty() ? "the guide to park grammars lists the operations"
+  diagnostics_.error("unknown-operation", placeOf(source_, op.span, op.name),
+                     "there is no operation '" + op.name + "'",
+                     nearest.empty() ? "docs/guide/park.md lists the operations"
                                      : "did you mean '" + nearest + "'?");
   return true;
+}
+
+// Color("#ff0000") and Texture("gravel.jpg").
+void Lowering::look(const Op& op, Nodes& out) {
+  std::string value = text(op, 0);
+  std::erase(value, '"');
+  const char* const made = lowered(op.name) == "texture" ? "texture" : "color";
+  out.push_back(b_.apply(made, {b_.text(value)}));
 }
 
 bool Lowering::symbol(const Op& op, Nodes& out) {
@@ -421,7 +381,7 @@ Span Lowering::spanOf(const Op& op, size_t i) const {
 }
 
 NodeId Lowering::expressionOf(std::string_view text, Span span) {
-  return expression(g_, rule_->parameters, text, span, b_, diagnostics_);
+  return expression(g_, rule_->parameters, text, placeOf(source_, span, text), b_, diagnostics_);
 }
 
 bool Lowering::known(std::string_view text, double& value) const {
@@ -449,7 +409,9 @@ std::string Lowering::number(std::string_view written) const {
 
 NodeId Lowering::node(const std::string& expression, std::string_view written, Span span) {
   const Span before = b_.span();
-  const NodeId made = lang::graft(b_.tree(), expression, span);
+  const NodeId made = lang::graft(b_.tree(), expression, span, [&](std::string_view word) {
+    return placeOf(source_, span, word);
+  });
   b_.at(before);
   if (made != kNoNode) return made;
   unreadable(written, span);
@@ -474,7 +436,7 @@ NodeId Lowering::formed(Form form, std::string_view written, Span span) {
   } else if (hint.empty()) {
     hint = "see the selections in the guide to park grammars";
   }
-  diagnostics_.error("bad-selection", span,
+  diagnostics_.error("bad-selection", placeOf(source_, span, texts.word()),
                      "'" + std::string(written) + "' cannot be read: " + texts.problem(), hint);
   return b_.number(0);
 }
@@ -507,8 +469,9 @@ NodeId Lowering::pathWidth() {
   return isParameter("PathWidth") ? b_.number(found->second) : b_.word("PathWidth");
 }
 
-lang::Tree lower(const Grammar& grammar, uint32_t file, uint32_t size, Diagnostics& diagnostics) {
-  return Lowering(grammar, file, diagnostics).run(size);
+lang::Tree lower(const Grammar& grammar, uint32_t file, std::string_view source,
+                 Diagnostics& diagnostics) {
+  return Lowering(grammar, file, source, diagnostics).run();
 }
 
 }  // namespace gable::park

@@ -9,6 +9,8 @@
 
 namespace gable::park {
 
-lang::Tree lower(const Grammar& grammar, uint32_t file, uint32_t size, Diagnostics& diagnostics);
+/// `source` is the text of the grammar, for the places of what is wrong.
+lang::Tree lower(const Grammar& grammar, uint32_t file, std::string_view source,
+                 Diagnostics& diagnostics);
 
 }  // namespace gable::park

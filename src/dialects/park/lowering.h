@@ -27,12 +27,12 @@ constexpr double kPathWidth = 3;
 
 class Lowering {
  public:
-  Lowering(const Grammar& g, uint32_t file, Diagnostics& diagnostics)
-      : g_(g), b_(file), diagnostics_(diagnostics) {
+  Lowering(const Grammar& g, uint32_t file, std::string_view source, Diagnostics& diagnostics)
+      : g_(g), source_(source), b_(file), diagnostics_(diagnostics) {
     while (g.rule(modelFile_) || g.constants.count(modelFile_) != 0) modelFile_ += '_';
   }
 
-  lang::Tree run(uint32_t size);
+  lang::Tree run();
 
  private:
   // --- Rules ---
@@ -148,6 +148,7 @@ class Lowering {
   NodeId ownWidths(const std::string& written, Span span);
 
   void choose(const Op& op, Nodes& out);
+  void look(const Op& op, Nodes& out);
 
   void model(const Op& op, Nodes& out);
   // The function that finds the file of a model by its name without a type.
@@ -186,6 +187,7 @@ class Lowering {
   void warnOfUnused();
 
   const Grammar& g_;
+  std::string_view source_;
   gbbg::TreeBuilder b_;
   Diagnostics& diagnostics_;
   const Rule* rule_ = nullptr;

@@ -17,7 +17,7 @@ lang::Tree parse(const DialectInput& input, Diagnostics& diagnostics) {
     diagnostics.error("no-rules", {input.file, 0, 0}, "this grammar has no rule",
                       "write 'Region -> Grid(2, 2) { Quarter }'");
   }
-  return park::lower(grammar, input.file, static_cast<uint32_t>(text.size()), diagnostics);
+  return park::lower(grammar, input.file, text, diagnostics);
 }
 
 constexpr const char* kExtensions[] = {".park"};

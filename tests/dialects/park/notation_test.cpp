@@ -4,6 +4,11 @@
 // The park notation beyond the rows: parameters, functions, other blocks, and what single
 // operations can be told.
 
+#include <tuple>
+
+#include "dialects/dialect.h"
+#include "dialects/park/operations.h"
+#include "dialects/park/park.h"
 #include "park_testing.h"
 
 namespace gable {
@@ -45,6 +50,50 @@ TEST(ParkNotation, SlipsAreFound) {
       {"R -> VoronoiRegions(3 {2}, averag) { A }", "bad-selection"},
       {"R -> A\nB -> C", "unused-rule"}};
   for (const auto& [text, code] : slips) EXPECT_TRUE(run(text, kLot).has(code)) << text;
+}
+
+// line:column of the first message with that code.
+std::string placeOf(const Made& made, const std::string& code) {
+  for (const Diagnostic& m : made.diagnostics) {
+    if (m.code != code || !m.range) continue;
+    return std::to_string(m.range->line) + ":" + std::to_string(m.range->column);
+  }
+  return "none";
+}
+
+TEST(ParkNotation, MistakesAreToldWhereTheyStand) {
+  const std::tuple<const char*, const char*, const char*> mistakes[] = {
+      {"R -> Peel(outer & Outr, 1) { A | B }", "bad-selection", "1:19"},
+      {"R -> Grid(2, x + 1) { A }", "unknown-name", "1:14"},
+      {"R -> Contract(1 + nothing) A", "bad-expression", "1:19"},
+      {"R -> case (w == 2 && hh > 3) : A else : B", "bad-expression", "1:22"},
+      {"R -> Distribute(outer & side(Q), 2) { A }", "bad-selection", "1:30"},
+      {"R -> A Contrct(2)", "unknown-operation", "1:8"}};
+  for (const auto& [text, code, place] : mistakes) {
+    EXPECT_EQ(placeOf(run(text, kLot), code), place) << text;
+  }
+}
+
+TEST(ParkNotation, HintsSpellAsTheNotationDoes) {
+  for (const Diagnostic& m : run("R -> Voronoii(5) { A } { B }", kLot).diagnostics) {
+    if (m.code == "unknown-operation") EXPECT_EQ(m.hint, "did you mean 'Voronoi'?");
+  }
+  EXPECT_TRUE(run("R -> Voronoii(5) { A } { B }", kLot).has("unknown-operation"));
+  EXPECT_FALSE(run("R -> Voronoi(5) { A } { B }", kLot).has("unknown-operation"));
+}
+
+TEST(ParkNotation, TheGuideAndEditorsKnowAllOperations) {
+  const std::string guide = readFile(std::string(GABLE_SOURCE_DIR) + "/docs/guide/park.md").value();
+  std::set<park::Operation> proposed;
+  for (const DialectWord& w : park::words()) proposed.insert(park::operationNamed(w.name));
+  for (const park::OperationName& n : park::operationNames()) {
+    const std::string written = "`" + std::string(n.name);
+    const bool named = guide.find(written + "(") != std::string::npos ||
+                       guide.find(written + " ") != std::string::npos ||
+                       guide.find(written + "`") != std::string::npos;
+    EXPECT_TRUE(named) << n.name << " is missing in docs/guide/park.md";
+    EXPECT_TRUE(proposed.count(n.operation)) << n.name << " is missing in words.cpp";
+  }
 }
 
 // Partitions and placements never change the area.

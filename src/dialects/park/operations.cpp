@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "dialects/park/operations.h"
+
+#include <vector>
+
+#include "base/text.h"
+#include "dialects/park/grammar.h"
+
+namespace gable::park {
+
+std::span<const OperationName> operationNames() {
+  using O = Operation;
+  static constexpr OperationName kNames[] = {
+      {"Grid", O::Grid},
+      {"QuadMap", O::QuadMap},
+      {"VoronoiRegions", O::Voronoi},
+      {"VoronoiSmoothed", O::Voronoi},
+      {"Voronoi", O::Voronoi},
+      {"FFRegions", O::Voronoi},
+      {"Cells", O::Voronoi},
+      {"CastRays", O::Rays},
+      {"RayCast", O::Rays},
+      {"Beam", O::Rays},
+      {"Rays", O::Rays},
+      {"Peel", O::Peel},
+      {"Contract", O::Contract},
+      {"InnerRect", O::InnerRect},
+      {"NoHoles", O::NoHoles},
+      {"Insert", O::Insert},
+      {"Place", O::Place},
+      {"Distribute", O::Distribute},
+      {"Scatter", O::Scatter},
+      {"ScatterCircles", O::Scatter},
+      {"Sweep", O::Sweep},
+      {"DistributeSmooth", O::Sweep},
+      {"SmoothDistribute", O::Sweep},
+      {"Parametrise", O::Parametrise},
+      {"Circle", O::Figure},
+      {"Romb", O::Figure},
+      {"RombCenter", O::Figure},
+      {"Square", O::Figure},
+      {"Rect", O::Figure},
+      {"Polygon", O::Figure},
+      {"joined", O::Joined},
+      {"Choose", O::Choose},
+      {"Select", O::Select},
+      {"Extrude", O::Extrude},
+      {"Color", O::Colour},
+      {"Colour", O::Colour},
+      {"Texture", O::Colour},
+      {"loadModel", O::Model},
+  };
+  return kNames;
+}
+
+Operation operationNamed(std::string_view name) {
+  const std::string low = lowered(name);
+  for (const OperationName& n : operationNames()) {
+    if (lowered(n.name) == low) return n.operation;
+  }
+  return Operation::None;
+}
+
+std::string nearestOperation(std::string_view name) {
+  std::vector<std::string> all;
+  for (const OperationName& n : operationNames()) all.push_back(lowered(n.name));
+  const std::string nearest =
+      nearestName(lowered(name), std::vector<std::string_view>(all.begin(), all.end()));
+  for (const OperationName& n : operationNames()) {
+    if (lowered(n.name) == nearest) return n.name;
+  }
+  return {};
+}
+
+}  // namespace gable::park
