@@ -147,10 +147,13 @@ class Analysis {
   static constexpr size_t kNoParameter = static_cast<size_t>(-1);
   size_t parameterOf(const Signature& s, std::span<const NodeId> arguments, size_t i) const;
   bool acceptsCount(std::span<const Signature> signatures, size_t count) const;
+  static std::string signatureText(std::string_view name, const Signature& s);
   ValueType visitArgument(NodeId node, const std::vector<const ParamSpec*>& params);
   void checkPrefix(NodeId node, const std::vector<const ParamSpec*>& params);
   std::vector<ValueType> visitArguments(std::span<const NodeId> arguments);
   void visitLoosely(std::span<const NodeId> arguments);
+  void visitMisfits(const CallTarget& target, std::span<const NodeId> arguments);
+  std::string mismatchHint(NodeId node, const ParamSpec& param, ValueType type) const;
   bool isKnownValue(std::string_view name) const;
   template <class Info>
   uint32_t chooseOverload(const std::vector<uint32_t>& candidates, const std::vector<Info>& infos,
@@ -181,13 +184,13 @@ class Analysis {
   ValueType visitArray(NodeId node);
   ValueType visitChoice(NodeId node, ValueType expected);
   ValueType visitSelectorWord(NodeId node, const std::vector<const ParamSpec*>& params);
-  ValueType visitHead(NodeId node, const char* blockWords);
+  ValueType visitHead(NodeId node, const OpSpec* op);
   ValueType visitComp(NodeId node);
   ValueType visitBuiltinCall(NodeId node, const FunctionSpec& spec,
                              std::span<const NodeId> arguments);
   ValueType slotType(uint32_t slot, ValueType expected);
-  bool isSelectorWord(std::string_view word, const char* blockWords) const;
-  std::vector<std::string_view> selectorNames(const char* blockWords) const;
+  /// A word of the general selectors, or the name of a part of the operation.
+  bool isSelectorWord(std::string_view word, const OpSpec* op) const;
   void expectType(NodeId node, ValueType got, ValueType wanted, const char* what);
   void reportUnknownName(NodeId node);
 
@@ -214,6 +217,13 @@ class Analysis {
   /// The operation whose name `name` is a slip of; empty when there is none.
   std::string_view slippedOperation(std::string_view name) const;
   void checkWeights(NodeId choice);
+
+  // --- parts.cpp: named parts of blocks, and the figures that they begin with ---
+  void reportSelector(NodeId node, const OpSpec* op);
+  std::string partsText(const OpSpec& op) const;
+  std::string partOwners(std::string_view word) const;
+  void checkFigure(NodeId item, const OpSpec& op);
+  const OpSpec* figureOf(ModuleId module, NodeId sequence, int depth) const;
 
   // --- analyse.cpp: definitions and rounds ---
   void walkRule(RuleId id);

@@ -15,6 +15,17 @@ namespace {
 
 bool hasWord(const char* words, std::string_view word) { return wordIndex(words, word) >= 0; }
 
+// The words of a list with blanks between.
+std::vector<std::string_view> listed(std::string_view words) {
+  std::vector<std::string_view> out;
+  while (!words.empty()) {
+    const size_t end = std::min(words.find(' '), words.size());
+    out.push_back(words.substr(0, end));
+    words.remove_prefix(std::min(end + 1, words.size()));
+  }
+  return out;
+}
+
 std::string countText(std::span<const Signature> signatures) {
   std::vector<size_t> counts;
   bool open = false;
@@ -34,8 +45,10 @@ std::string countText(std::span<const Signature> signatures) {
   return out + (counts == std::vector<size_t>{1} ? " argument" : " arguments");
 }
 
+}  // namespace
+
 // What may be left out stands in brackets.
-std::string signatureText(std::string_view name, const Signature& s) {
+std::string Analysis::signatureText(std::string_view name, const Signature& s) {
   std::string out = std::string(name) + "(";
   for (size_t i = 0; i < s.params.size(); ++i) {
     const bool optional = s.params[i].defaultText != nullptr;
@@ -44,8 +57,6 @@ std::string signatureText(std::string_view name, const Signature& s) {
   }
   return out + (s.variadic ? ", ...)" : ")");
 }
-
-}  // namespace
 
 std::span<const NodeId> Analysis::arguments(NodeId list) const { return tree().children(list); }
 
@@ -109,11 +120,14 @@ ValueType Analysis::visitArgument(NodeId node, const std::vector<const ParamSpec
 void Analysis::checkWrittenWord(NodeId node, const std::vector<const ParamSpec*>& params) {
   std::string list;
   for (const ParamSpec* p : params) {
-    if (p->type != ParamType::Selector || !p->words || hasWord(p->words, text(node))) return;
+    const bool word = p->type == ParamType::Selector || p->type == ParamType::String;
+    if (!word || !p->words || hasWord(p->words, text(node))) return;
     list += (list.empty() ? "" : " ") + std::string(p->words);
   }
   if (!list.empty()) {
-    errorAt("unknown-selector", node, quote(text(node)) + " is not known here", "one of: " + list);
+    const std::string nearest = near(text(node), [&] { return listed(list); });
+    errorAt("unknown-selector", node, quote(text(node)) + " is not known here",
+            nearest.empty() ? "one of: " + list : nearest);
   }
 }
 
@@ -219,6 +233,23 @@ void Analysis::reportNamedArguments(const CallTarget& target, std::span<const No
           "write " + forms);
 }
 
+// What to write in the place of a value of the wrong type.
+std::string Analysis::mismatchHint(NodeId node, const ParamSpec& param, ValueType type) const {
+  const bool drawn = param.type == ParamType::Drawn && type == ValueType::FloatArray;
+  if (drawn && tree().kind(node) == NodeKind::Array && tree().children(node).size() == 1) {
+    const std::span<const NodeId> row = tree().children(tree().children(node)[0]);
+    const auto written = [&](NodeId n) {
+      const Span span = tree().span(n);
+      return std::string(sources_.text(span.file).substr(span.begin, span.end - span.begin));
+    };
+    if (row.size() == 2) {
+      return "write rand(" + written(row[0]) + ", " + written(row[1]) +
+             ") for a number between the two";
+    }
+  }
+  return std::string("it is: ") + param.doc;
+}
+
 // Visits one argument, and strikes out the signatures that its word or its type does not fit.
 ValueType Analysis::visitArgumentFor(const CallTarget& target, std::span<const NodeId> args,
                                      size_t i, std::vector<uint16_t>& left) {
@@ -251,9 +282,9 @@ ValueType Analysis::visitArgumentFor(const CallTarget& target, std::span<const N
     return type;
   }
   errorAt("type-mismatch", value,
-          "argument " + std::to_string(i + 1) + " of " + quote(target.name) + " is a " +
-              typeName(type) + ", not a " + typeName(valueType(params[0]->type)),
-          "the parameter is " + std::string(params[0]->name) + ": " + params[0]->doc);
+          quote(params[0]->name) + " of " + quote(target.name) + " is a " + typeName(type) +
+              ", not a " + typeName(valueType(params[0]->type)),
+          mismatchHint(value, *params[0], type));
   return type;
 }
 
@@ -263,7 +294,7 @@ Analysis::Chosen Analysis::checkBuiltinCall(const CallTarget& target,
                                     [&](NodeId a) { return tree().kind(a) == NodeKind::NamedArg; });
   std::vector<uint16_t> left = signaturesByShape(target, args);
   if (left.empty()) {
-    visitLoosely(args);
+    visitMisfits(target, args);
     if (anyNamed) {
       reportNamedArguments(target, args);
     } else {
@@ -304,6 +335,19 @@ std::vector<ValueType> Analysis::visitArguments(std::span<const NodeId> args) {
     types.push_back(visit(a));
   }
   return types;
+}
+
+// Arguments that fit no signature: what only its parameter could understand is left alone.
+void Analysis::visitMisfits(const CallTarget& target, std::span<const NodeId> args) {
+  for (size_t i = 0; i < args.size(); ++i) {
+    const bool understood =
+        std::any_of(target.signatures.begin(), target.signatures.end(), [&](const Signature& s) {
+          const size_t p = parameterOf(s, args, i);
+          const ParamType type = p == kNoParameter ? ParamType::Any : s.paramAt(p)->type;
+          return type == ParamType::Selection || type == ParamType::DrawnList;
+        });
+    if (!understood) visitLoosely(args.subspan(i, 1));
+  }
 }
 
 // Arguments of something unknown: a word that nothing else is may be one of its selectors.
@@ -348,10 +392,6 @@ template uint32_t Analysis::chooseOverload(const std::vector<uint32_t>&,
                                            const std::vector<FunctionInfo>&,
                                            std::span<const NodeId>, const std::vector<ValueType>&);
 
-bool Analysis::isSelectorWord(std::string_view word, const char* blockWords) const {
-  return selectors_.count(word) != 0 || hasWord(blockWords, word);
-}
-
 // A name where a word may stand.
 ValueType Analysis::visitSelectorWord(NodeId node, const std::vector<const ParamSpec*>& params) {
   const std::string_view word = text(node);
@@ -368,12 +408,8 @@ ValueType Analysis::visitSelectorWord(NodeId node, const std::vector<const Param
       resolve(node, RefKind::Selector);
       return typed(node, ValueType::Selector);
     }
-    std::string_view rest = p->words ? p->words : "";
-    while (!rest.empty()) {
-      const size_t end = std::min(rest.find(' '), rest.size());
-      known.push_back(rest.substr(0, end));
-      rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
+    if (!p->words) continue;
+    for (const std::string_view w : listed(p->words)) known.push_back(w);
   }
   const bool isSlot = std::find(body_.slots.begin(), body_.slots.end(), word) != body_.slots.end();
   const bool isOwn = isSlot || attributeNamed(body_.module, word) != kNone ||

@@ -250,32 +250,32 @@ ValueType Analysis::visitComp(NodeId node) {
 }
 
 // The head of an item: words are selectors here, alone and below logical operators.
-ValueType Analysis::visitHead(NodeId node, const char* blockWords) {
+ValueType Analysis::visitHead(NodeId node, const OpSpec* op) {
   const Tree& t = tree();
-  if (t.kind(node) == NodeKind::Name && isSelectorWord(t.text(node), blockWords)) {
+  if (t.kind(node) == NodeKind::Name && isSelectorWord(t.text(node), op)) {
     resolve(node, RefKind::Selector);
     return typed(node, ValueType::Selector);
   }
   if (t.kind(node) == NodeKind::Unary && t.unaryOp(node) == UnaryOp::Not) {
-    visitHead(t.child(node, 0), blockWords);
+    visitHead(t.child(node, 0), op);
     return typed(node, ValueType::Bool);
   }
   if (t.kind(node) == NodeKind::Binary) {
-    const BinaryOp op = t.binaryOp(node);
-    if (op == BinaryOp::And || op == BinaryOp::Or) {
-      visitHead(t.child(node, 0), blockWords);
-      visitHead(t.child(node, 1), blockWords);
+    const BinaryOp sign = t.binaryOp(node);
+    if (sign == BinaryOp::And || sign == BinaryOp::Or) {
+      visitHead(t.child(node, 0), op);
+      visitHead(t.child(node, 1), op);
       return typed(node, ValueType::Bool);
     }
     // A selection without another: `border - front`.
-    if (op == BinaryOp::Subtract) {
+    if (sign == BinaryOp::Subtract) {
       const auto startsWithWord = [&](NodeId n) {
         while (t.kind(n) == NodeKind::Binary) n = t.child(n, 0);
-        return t.kind(n) == NodeKind::Name && isSelectorWord(t.text(n), blockWords);
+        return t.kind(n) == NodeKind::Name && isSelectorWord(t.text(n), op);
       };
       if (startsWithWord(t.child(node, 0)) || startsWithWord(t.child(node, 1))) {
-        visitHead(t.child(node, 0), blockWords);
-        visitHead(t.child(node, 1), blockWords);
+        visitHead(t.child(node, 0), op);
+        visitHead(t.child(node, 1), op);
         return typed(node, ValueType::Bool);
       }
     }
@@ -284,10 +284,7 @@ ValueType Analysis::visitHead(NodeId node, const char* blockWords) {
   if (t.kind(node) == NodeKind::Name && !isKnownValue(t.text(node)) &&
       !inMissingImport(body_.module, t.text(node))) {
     resolve(node, RefKind::Selector);
-    const std::string_view word = t.text(node);
-    std::string hint = near(word, [&] { return selectorNames(blockWords); });
-    if (hint.empty()) hint = "selectors are words such as 'front', 'side', 'top' and 'all'";
-    errorAt("unknown-selector", node, quote(word) + " is no selector", std::move(hint));
+    reportSelector(node, op);
     return typed(node, ValueType::Selector);
   }
   return visit(node);

@@ -89,18 +89,6 @@ std::vector<std::string_view> Analysis::ruleNames(ModuleId module) const {
   return names;
 }
 
-std::vector<std::string_view> Analysis::selectorNames(const char* blockWords) const {
-  std::vector<std::string_view> names;
-  for (const SelectorSpec& s : catalogue_.selectors) names.push_back(s.name);
-  std::string_view rest = blockWords ? blockWords : "";
-  while (!rest.empty()) {
-    const size_t end = std::min(rest.find(' '), rest.size());
-    names.push_back(rest.substr(0, end));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
-  return names;
-}
-
 std::vector<std::string_view> Analysis::valueNames(ModuleId module) const {
   std::vector<std::string_view> names = body_.slots;
   for (const auto& [name, ids] : scopes_[module].functions) names.push_back(name);

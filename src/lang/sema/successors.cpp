@@ -147,6 +147,9 @@ void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
   if (name == "if" || name == "while" || name == "for") {
     meant_ = {};
     hint = "conditions are written 'case condition : ... else : ...'";
+  } else if (const OpSpec* op = catalogue_.operation(name); op && op->soft) {
+    meant_ = {};
+    hint = "the operation is written with its brackets: " + signatureText(name, op->signatures[0]);
   } else if (leaf) {
     hint = "write " + quote(std::string(name) + ".") + " if it shall be a leaf";
   }
@@ -455,11 +458,15 @@ void Analysis::visitItem(NodeId item, const OpSpec& op) {
     fix({t.file(), begin, begin}, isSplit ? "~1 : " : "all : ");
   }
   // place { A | otherwise : B }: the word beside plain operations.
-  const bool word = op.block == BlockKind::Operations && op.blockWords && head != kNoNode &&
-                    t.kind(head) == NodeKind::Name && isSelectorWord(t.text(head), op.blockWords);
+  const bool word = op.block == BlockKind::Operations && head != kNoNode &&
+                    t.kind(head) == NodeKind::Name && isSelectorWord(t.text(head), &op) &&
+                    op.blockWords;
   if (word) {
     resolve(head, RefKind::Selector);
     typed(head, ValueType::Selector);
+  } else if (head != kNoNode && !wantsHead && op.blockWords && t.kind(head) == NodeKind::Name &&
+             !isKnownValue(t.text(head))) {
+    reportSelector(head, &op);
   } else if (head != kNoNode && !wantsHead) {
     visit(head);
     errorAt("unexpected-head", head, quote(op.name) + " takes operations only here",
@@ -467,7 +474,7 @@ void Analysis::visitItem(NodeId item, const OpSpec& op) {
   }
   if (head != kNoNode && op.block == BlockKind::Split) {
     // { remainder : ... } of the perimeter is a word.
-    if (t.kind(head) == NodeKind::Name && isSelectorWord(t.text(head), op.blockWords)) {
+    if (t.kind(head) == NodeKind::Name && isSelectorWord(t.text(head), &op)) {
       resolve(head, RefKind::Selector);
       typed(head, ValueType::Selector);
     } else {
@@ -484,7 +491,7 @@ void Analysis::visitItem(NodeId item, const OpSpec& op) {
     }
   }
   if (head != kNoNode && op.block == BlockKind::Selectors) {
-    const ValueType type = visitHead(head, op.blockWords);
+    const ValueType type = visitHead(head, &op);
     if (type == ValueType::String || type >= ValueType::FloatArray) {
       errorAt("type-mismatch", head,
               std::string("a selector is a word, a condition or an index, not a ") + typeName(type),
@@ -499,6 +506,7 @@ void Analysis::visitItem(NodeId item, const OpSpec& op) {
     }
   }
   visitSequence(t.child(item, 2));
+  checkFigure(item, op);
 }
 
 }  // namespace gable::lang

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Blocks whose parts have names, `peel(..) { strip : A | rest : B }`, and the figures that such
+// parts begin with.
+
+#include <algorithm>
+
+#include "lang/sema/analysis.h"
+
+namespace gable::lang {
+
+namespace {
+
+// The names of an operation's parts.
+std::vector<std::string_view> partsOf(const OpSpec* op) {
+  std::vector<std::string_view> out;
+  std::string_view rest = op && op->blockWords ? op->blockWords : "";
+  while (!rest.empty()) {
+    const size_t end = std::min(rest.find(' '), rest.size());
+    out.push_back(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return out;
+}
+
+}  // namespace
+
+bool Analysis::isSelectorWord(std::string_view word, const OpSpec* op) const {
+  return selectors_.count(word) != 0 || (op && wordIndex(op->blockWords, word) >= 0);
+}
+
+// "its parts are: strip, rest, otherwise".
+std::string Analysis::partsText(const OpSpec& op) const {
+  std::string out;
+  for (const std::string_view p : partsOf(&op)) {
+    out += (out.empty() ? "its parts are: " : ", ") + std::string(p);
+  }
+  return out;
+}
+
+// "'strip' is a part of peel"; empty for what is a part of no operation.
+std::string Analysis::partOwners(std::string_view word) const {
+  std::string owners;
+  for (const OpSpec* op : catalogue_.operations) {
+    if (wordIndex(op->blockWords, word) < 0) continue;
+    owners += (owners.empty() ? "" : ", ") + std::string(op->name);
+  }
+  return owners.empty() ? owners : quote(word) + " is a part of " + owners;
+}
+
+// A word in the head of an item that neither names a part nor selects anything.
+void Analysis::reportSelector(NodeId node, const OpSpec* op) {
+  const std::string_view word = text(node);
+  const bool hasParts = op && op->blockWords;
+  std::string hint = near(word, [&] {
+    std::vector<std::string_view> names = partsOf(op);
+    for (const SelectorSpec& s : catalogue_.selectors) names.push_back(s.name);
+    return names;
+  });
+  if (hint.empty()) hint = hasParts ? partsText(*op) : partOwners(word);
+  if (hint.empty()) hint = "selectors are words such as 'front', 'side', 'top' and 'all'";
+  errorAt("unknown-selector", node,
+          hasParts ? quote(word) + " is no part of " + quote(op->name)
+                   : quote(word) + " is no selector",
+          std::move(hint));
+}
+
+// The figure that operations begin with, where a rule of that name has it in its own body.
+const OpSpec* Analysis::figureOf(ModuleId module, NodeId sequence, int depth) const {
+  const Tree& t = program_.tree(module);
+  if (depth == 0 || t.kind(sequence) != NodeKind::Sequence || t.children(sequence).empty()) {
+    return nullptr;
+  }
+  const NodeId first = t.children(sequence)[0];
+  if (t.kind(first) == NodeKind::Choice) {
+    for (const NodeId branch : t.children(first)) {
+      if (const OpSpec* f = figureOf(module, t.child(branch, 1), depth - 1)) return f;
+    }
+    return nullptr;
+  }
+  const Resolution& r = program_.modules[module].at(first);
+  if (r.kind == RefKind::Operation && r.spec.operation->figure) return r.spec.operation;
+  if (r.kind != RefKind::Rule) return nullptr;
+  const RuleInfo& rule = program_.rules[r.index];
+  return figureOf(rule.module, bodyOf(program_.tree(rule.module), rule.node), depth - 1);
+}
+
+// junction : Plaza, with Plaza --> circle(3) ..: the operation sees no figure here, and makes none.
+void Analysis::checkFigure(NodeId item, const OpSpec& op) {
+  if (mute_ || !op.figureWords) return;
+  const Tree& t = tree();
+  const NodeId head = t.child(item, 0), body = t.child(item, 2);
+  const std::string_view word = head == kNoNode ? "" : t.text(head);
+  const bool plain = std::string_view(op.figureWords).empty();
+  if (plain ? head != kNoNode : wordIndex(op.figureWords, word) < 0) return;
+  if (t.kind(body) != NodeKind::Sequence || t.children(body).empty()) return;
+  const NodeId first = t.children(body)[0];
+  const Resolution& r = module().at(first);
+  constexpr int kDeepest = 8;
+  if (t.kind(first) != NodeKind::Apply || r.kind != RefKind::Rule) return;
+  const OpSpec* figure = figureOf(body_.module, body, kDeepest);
+  if (!figure) return;
+  const std::string name(t.text(first));
+  warning("figure-in-rule", nameSpan(t, first),
+          quote(op.name) + " makes no figure here: the " + quote(figure->name) +
+              " stands in the rule " + quote(name),
+          "begin the block with it, '" + (plain ? std::string() : std::string(word) + " : ") +
+              figure->name + "(..) " + name + "', and take it out of the rule");
+}
+
+}  // namespace gable::lang
