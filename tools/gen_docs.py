@@ -158,6 +158,8 @@ def entry_text(entry, heading):
                          f"`{p['default']}`" if "default" in p else "", p["doc"] + words))
     if rows:
         text += "\n" + table(("parameter", "type", "default", "meaning"), rows)
+    if entry.get("blockWords"):
+        text += f"\nParts that its block may name: `{'`, `'.join(entry['blockWords'].split())}`.\n"
     return text
 
 

@@ -27,6 +27,8 @@ std::string callText(const gable::BuiltinCall& call) {
              (p.defaultText ? " Default: " + *p.defaultText + "." : "") + "\n";
     }
   }
+  if (!call.blockWords.empty())
+    out += "\n  Parts that its block may name: " + call.blockWords + "\n";
   return out;
 }
 
@@ -46,6 +48,8 @@ std::string textOfAll(const gable::Builtins& all) {
   std::string out = listText("Operations", all.operations) + listText("Functions", all.functions);
   out += "Attributes of the shape\n";
   for (const gable::BuiltinAttribute& a : all.attributes) out += line(a.name, a.doc);
+  out += "\nSelectors of faces and edges\n";
+  for (const gable::BuiltinSelector& s : all.selectors) out += line(s.name, s.doc);
   return out;
 }
 

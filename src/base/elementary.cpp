@@ -135,10 +135,10 @@ Wide alternating(const Wide& square, size_t first) {
 Wide sinWide(double x) { return alternating(twoProduct(x, x), 1) * x; }
 Wide cosWide(double x) { return alternating(twoProduct(x, x), 0); }
 
-/// Most results can be had for a quarter of the work: with the first terms of a series as a Wide and
-/// the small rest as a double. `error` bounds what that leaves out. True where it cannot change how
-/// the sum is rounded (A. Ziv, "Fast evaluation of elementary mathematical functions with correctly
-/// rounded last bit", 1991).
+/// Most results can be had for a quarter of the work: with the first terms of a series as a Wide
+/// and the small rest as a double. `error` bounds what that leaves out. True where it cannot change
+/// how the sum is rounded (A. Ziv, "Fast evaluation of elementary mathematical functions with
+/// correctly rounded last bit", 1991).
 bool isRounded(const Wide& sum, double error) {
   return sum.hi + (sum.lo + error) == sum.hi && sum.hi + (sum.lo - error) == sum.hi;
 }
