@@ -17,26 +17,19 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "gable/language_places.h"
+#include "gable/rule_forms.h"
+
 namespace gable::language {
 
 enum class Level : uint8_t { Note, Warning, Error };
-
-/// As editors count: lines from 0, characters from 0 in units of UTF-16.
-struct Position {
-  uint32_t line = 0, character = 0;
-  bool operator==(const Position&) const = default;
-};
-
-struct Range {
-  Position begin, end;
-  bool operator==(const Range&) const = default;
-};
 
 struct Place {
   std::string path;
@@ -164,6 +157,8 @@ struct Fold {
 struct InlayHint {
   Position at;
   std::string label;
+  /// The value of an attribute, behind what is written; else the name of a parameter, before it.
+  bool value = false;
 };
 
 /// What a word is, for colouring it. Words of the text in its order.
@@ -216,7 +211,9 @@ struct Entry {
 
 class Workspace {
  public:
-  explicit Workspace(std::vector<std::string> folders = {});
+  /// `project`: the folder that texts and what they name are read in, and nothing outside of it;
+  /// empty: of each text the folder that looks like its project.
+  explicit Workspace(std::vector<std::string> folders = {}, const std::string& project = {});
   ~Workspace();
   Workspace(Workspace&&) noexcept;
   Workspace& operator=(Workspace&&) noexcept;
@@ -245,6 +242,9 @@ class Workspace {
   std::vector<std::string> colorTexts(const std::string& path, const Color& color);
   std::vector<Fold> folds(const std::string& path);
   std::vector<InlayHint> inlayHints(const std::string& path, const Range& range);
+  /// What the attributes that a text declares are in the shape that was derived last; hints show
+  /// it.
+  void setValues(const std::string& path, std::map<std::string, std::string> values);
   /// Edits that put a text into canonical form; nothing for one with mistakes.
   std::vector<Edit> format(const std::string& path);
 
@@ -255,12 +255,23 @@ class Workspace {
   std::optional<Hover> hover(const std::string& path, Position at);
   std::vector<Place> definition(const std::string& path, Position at);
   std::vector<Place> references(const std::string& path, Position at, bool withDeclaration);
+  /// What is written as the value of an attribute, by the name that it has seen from a text:
+  /// "window.sill" for one of an import; none where it has no value.
+  std::optional<Place> attributeValue(const std::string& path, const std::string& name);
   /// Where in the same text the name at a place stands.
   std::vector<Range> occurrences(const std::string& path, Position at);
   /// The name that can be changed there; none: it cannot.
   std::optional<Place> renamable(const std::string& path, Position at);
   Renaming rename(const std::string& path, Position at, const std::string& name);
   std::vector<Action> actions(const std::string& path, const Range& range);
+
+  // --- Rules as forms ---
+  /// `rule`: the name of the one that is looked at; empty: the first.
+  TextForm form(const std::string& path, const std::string& rule);
+  /// Edits that make a rule of GBBG say what a form says, word by word; none when there is no such
+  /// rule, or it cannot be read.
+  std::optional<std::vector<Edit>> formEdits(const std::string& path, const std::string& rule,
+                                             const BoxRule& box);
 
   // --- The project ---
   /// Rules, attributes and functions of all rule files whose names have the letters of `query`.
@@ -270,6 +281,9 @@ class Workspace {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// A rule of GBBG as it is written, with as many successors as it needs.
+std::string boxRuleText(const BoxRule& box);
 
 /// The reference page of something built in, as Markdown; empty when there is none of that name.
 std::string referencePage(const std::string& name);

@@ -22,8 +22,9 @@ namespace gable {
 
 class LanguageServer {
  public:
-  /// `clock` gives seconds; empty: a steady clock.
-  explicit LanguageServer(std::function<double()> clock = {});
+  /// `clock` gives seconds; empty: a steady clock. `project`: the folder outside of which nothing
+  /// is read; empty: any that the client names.
+  explicit LanguageServer(std::function<double()> clock = {}, const std::string& project = {});
   ~LanguageServer();
   LanguageServer(LanguageServer&&) noexcept;
   LanguageServer& operator=(LanguageServer&&) noexcept;

@@ -46,6 +46,11 @@ bool isAsset(const std::string& path) {
 
 class ProjectFiles final : public Files {
  public:
+  /// `within`: the one project, outside of which nothing is read; empty: that of each text.
+  explicit ProjectFiles(const std::string& within) {
+    if (!within.empty()) only_ = std::make_unique<Project>(within);
+  }
+
   std::string canonical(const std::string& path) override {
     if (path.empty() || path[0] != '/') return path;
     std::error_code error;
@@ -77,6 +82,7 @@ class ProjectFiles final : public Files {
   uint64_t stamp(const std::string& path) override {
     struct stat s {};
     if (path.empty() || path[0] != '/' || ::stat(path.c_str(), &s) != 0) return 0;
+    if (only_ && only_->inside(path).empty()) return 0;
     if (!S_ISREG(s.st_mode) || static_cast<uint64_t>(s.st_size) > kLargestRuleFile) return 0;
     uint64_t h = hashCombine(static_cast<uint64_t>(s.st_mtim.tv_sec),
                              static_cast<uint64_t>(s.st_mtim.tv_nsec));
@@ -91,6 +97,7 @@ class ProjectFiles final : public Files {
   }
 
   std::vector<std::string> ruleFiles(const std::string& folder) override {
+    if (only_ && folder != only_->root()) return {};
     const auto known = ruleFiles_.find(folder);
     if (known != ruleFiles_.end()) return known->second;
     std::vector<std::string> out;
@@ -123,6 +130,7 @@ class ProjectFiles final : public Files {
  private:
   const Project* projectOf(const std::string& path) {
     if (path.empty() || path[0] != '/') return nullptr;
+    if (only_) return path.starts_with(only_->root() + "/") ? only_.get() : nullptr;
     const std::string folder = path.substr(0, path.rfind('/'));
     std::unique_ptr<Project>& known = projects_[folder];
     if (!known) known = std::make_unique<Project>(Project::rootFor(path));
@@ -157,14 +165,15 @@ class ProjectFiles final : public Files {
     return at->second;
   }
 
+  std::unique_ptr<Project> only_;
   std::map<std::string, std::unique_ptr<Project>> projects_;
   std::map<std::string, std::vector<std::string>> listings_, ruleFiles_;
 };
 
 }  // namespace
 
-Workspace::Workspace(std::vector<std::string> folders)
-    : impl_(std::make_unique<Impl>(builtinCatalogue(), std::make_unique<ProjectFiles>(),
+Workspace::Workspace(std::vector<std::string> folders, const std::string& project)
+    : impl_(std::make_unique<Impl>(builtinCatalogue(), std::make_unique<ProjectFiles>(project),
                                    std::vector<std::string>())) {
   setFolders(std::move(folders));
 }

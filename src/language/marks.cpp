@@ -10,6 +10,7 @@
 #include "lang/format.h"
 #include "language/forms.h"
 #include "language/service.h"
+#include "language/words.h"
 
 namespace gable::language {
 
@@ -107,12 +108,115 @@ Known knownIn(const Tree& tree) {
   return out;
 }
 
+Kind kindOfName(NameKind k) {
+  switch (k) {
+    case NameKind::Attribute:
+    case NameKind::Constant: return Kind::Attribute;
+    case NameKind::Function: return Kind::Function;
+    case NameKind::Import:
+    case NameKind::Style: return Kind::Namespace;
+    default: return Kind::Rule;
+  }
+}
+
+// "S ( x y z )" and "Split(axis)" are called, "FromRoot" stands alone, "axiom SYMBOL" begins.
+Kind kindOfWord(const DialectWord& w) {
+  const std::string_view call = w.call, name = w.name;
+  if (w.operation) return Kind::Operation;
+  if (!call.starts_with(name) || call.size() == name.size()) return Kind::Selector;
+  const size_t next = call.find_first_not_of(' ', name.size());
+  return next != std::string_view::npos && call[next] == '(' ? Kind::Operation : Kind::Keyword;
+}
+
+// Words of another notation: its own, those that the text declares, and names of leaves.
+class DialectMarks {
+ public:
+  explicit DialectMarks(const Parsed& parsed)
+      : parsed_(parsed), text_(parsed.text.content()), known_(knownIn(parsed.tree)) {
+    const Tree& t = parsed.tree;
+    for (const Declared& d : declaredIn(t)) {
+      const uint32_t quote = t[d.node].begin < text_.size() && text_[t[d.node].begin] == '"';
+      begins_.push_back(t[d.node].begin + quote);
+      for (const NodeId p : t.children(paramsOf(t, d.node))) {
+        parameters_.push_back({t.text(p), t[d.node].begin, t[d.node].end});
+      }
+    }
+    std::sort(begins_.begin(), begins_.end());
+  }
+
+  std::optional<Highlight> operator()(const Word& w) const {
+    Highlight h;
+    switch (w.kind) {
+      case WordKind::Comment: return h;
+      case WordKind::Number: h.kind = Kind::Number; return h;
+      case WordKind::Mark: return std::nullopt;
+      case WordKind::String:
+        // Symbols may stand in quotes.
+        if (w.end - w.begin > 2 && declared(w.begin + 1, w.end - 1, h)) return h;
+        h.kind = Kind::String;
+        return h;
+      case WordKind::Name: break;
+    }
+    if (declared(w.begin, w.end, h)) return h;
+    const std::string_view word = text_.substr(w.begin, w.end - w.begin);
+    if (parsed_.dialect->words) {
+      for (const DialectWord& known : parsed_.dialect->words()) {
+        if (word != known.name) continue;
+        h.kind = kindOfWord(known);
+        h.builtIn = true;
+        return h;
+      }
+    }
+    h.kind = Kind::Leaf;
+    return h;
+  }
+
+ private:
+  struct Parameter {
+    std::string_view word;
+    uint32_t begin, end;
+  };
+
+  bool declared(uint32_t begin, uint32_t end, Highlight& h) const {
+    const std::string_view word = text_.substr(begin, end - begin);
+    for (const Parameter& p : parameters_) {
+      if (p.word != word || begin < p.begin || end > p.end) continue;
+      h.kind = Kind::Parameter;
+      return true;
+    }
+    const NameKind* kind = known_.find(word);
+    if (!kind) return false;
+    h.kind = kindOfName(*kind);
+    h.declaration = std::binary_search(begins_.begin(), begins_.end(), begin);
+    return true;
+  }
+
+  const Parsed& parsed_;
+  std::string_view text_;
+  Known known_;
+  std::vector<uint32_t> begins_;
+  std::vector<Parameter> parameters_;
+};
+
+std::vector<Highlight> dialectMarks(const Parsed& parsed) {
+  std::vector<Highlight> out;
+  const DialectMarks marks(parsed);
+  Walker begins(parsed.text), ends(parsed.text);
+  for (const Word& w : wordsOf(parsed.text.content(), parsed.dialect->hashComments)) {
+    std::optional<Highlight> h = marks(w);
+    if (!h) continue;
+    h->range = {begins(w.begin), ends(w.end)};
+    out.push_back(*h);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<Highlight> highlightsOf(const Parsed& parsed, const Snapshot& snapshot,
                                     const Catalogue& catalogue) {
+  if (parsed.dialect) return dialectMarks(parsed);
   std::vector<Highlight> out;
-  if (parsed.dialect) return out;
   struct Piece {
     uint32_t begin, end;
     Highlight mark;
@@ -217,6 +321,28 @@ std::vector<InlayHint> inlayHintsOf(const Parsed& parsed, const Snapshot& snapsh
   std::sort(out.begin(), out.end(), [](const InlayHint& a, const InlayHint& b) {
     return std::tie(a.at.line, a.at.character) < std::tie(b.at.line, b.at.character);
   });
+  return out;
+}
+
+std::vector<InlayHint> valueHintsOf(const Parsed& parsed, const Range& range,
+                                    const std::map<std::string, std::string>& values) {
+  std::vector<InlayHint> out;
+  const std::string& text = parsed.text.content();
+  const Tree& t = parsed.tree;
+  for (const Declared& d : declaredIn(t)) {
+    const auto known = values.find(std::string(d.word));
+    if (d.kind != NameKind::Attribute || known == values.end()) continue;
+    const NodeId value = t.child(d.node, 3);
+    if (value == kNoNode || t[value].end > text.size()) continue;
+    const uint32_t begin = t[value].begin, end = t[value].end;
+    // What is written there already needs no hint.
+    const std::string written = text.substr(begin, end - begin);
+    if (written == known->second || written == '"' + known->second + '"') continue;
+    if (t.kind(value) == NodeKind::Number && numberText(t.number(value)) == known->second) continue;
+    const Position at = parsed.text.position(end);
+    if (at.line < range.begin.line || at.line > range.end.line) continue;
+    out.push_back({at, "= " + known->second, true});
+  }
   return out;
 }
 

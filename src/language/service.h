@@ -5,6 +5,7 @@
 // canonical here; gable/language.h says what the answers mean.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,6 +26,9 @@ std::vector<std::string> colorTextsOf(const Parsed& parsed, const Color& color);
 std::vector<Fold> foldsOf(const Parsed& parsed);
 std::vector<InlayHint> inlayHintsOf(const Parsed& parsed, const Snapshot& snapshot, Range range,
                                     const Catalogue& catalogue);
+/// What attributes have been set to, where it is not what is written.
+std::vector<InlayHint> valueHintsOf(const Parsed& parsed, const Range& range,
+                                    const std::map<std::string, std::string>& values);
 std::vector<Highlight> highlightsOf(const Parsed& parsed, const Snapshot& snapshot,
                                     const Catalogue& catalogue);
 std::vector<Edit> formatEdits(const Parsed& parsed, const std::string& path);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <set>
 
+#include "language/rule_form.h"
 #include "language/service.h"
 
 namespace gable::language {
@@ -92,6 +93,7 @@ bool Workspace::change(const std::string& path, const std::vector<Change>& chang
 void Workspace::close(const std::string& path) {
   const std::string key = impl_->key(path);
   impl_->library.close(key);
+  impl_->values.erase(key);
   impl_->keys.erase(path);
   impl_->names.erase(key);
 }
@@ -157,8 +159,7 @@ std::vector<Symbol> Workspace::symbols(const std::string& path) {
 std::vector<Highlight> Workspace::highlights(const std::string& path) {
   const std::string key = impl_->key(path);
   const auto parsed = impl_->library.parsed(key);
-  if (!parsed || parsed->dialect) return {};
-  const auto s = impl_->library.fresh(key);
+  const auto s = parsed ? impl_->library.fresh(key) : nullptr;
   return s ? highlightsOf(*parsed, *s, impl_->library.catalogue()) : std::vector<Highlight>();
 }
 
@@ -181,10 +182,18 @@ std::vector<Fold> Workspace::folds(const std::string& path) {
 std::vector<InlayHint> Workspace::inlayHints(const std::string& path, const Range& range) {
   const std::string key = impl_->key(path);
   const auto parsed = impl_->library.parsed(key);
-  if (!parsed || parsed->dialect) return {};
-  const auto s = impl_->library.fresh(key);
+  const auto s = parsed ? impl_->library.fresh(key) : nullptr;
   if (!s) return {};
-  return inlayHintsOf(*parsed, *s, range, impl_->library.catalogue());
+  std::vector<InlayHint> out = inlayHintsOf(*parsed, *s, range, impl_->library.catalogue());
+  const auto known = impl_->values.find(key);
+  if (known == impl_->values.end()) return out;
+  std::vector<InlayHint> values = valueHintsOf(*parsed, range, known->second);
+  out.insert(out.end(), values.begin(), values.end());
+  return out;
+}
+
+void Workspace::setValues(const std::string& path, std::map<std::string, std::string> values) {
+  impl_->values[impl_->key(path)] = std::move(values);
 }
 
 std::vector<Edit> Workspace::format(const std::string& path) {
@@ -235,6 +244,28 @@ std::vector<Place> Workspace::references(const std::string& path, Position at,
   return out;
 }
 
+std::optional<Place> Workspace::attributeValue(const std::string& path, const std::string& name) {
+  const auto s = impl_->library.fresh(impl_->key(path));
+  if (!s) return std::nullopt;
+  uint32_t unit = 0;
+  std::string_view rest = name;
+  for (size_t dot = rest.find('.'); dot != std::string_view::npos; dot = rest.find('.')) {
+    unit = importedUnit(*s, unit, rest.substr(0, dot));
+    if (unit == lang::kNone) return std::nullopt;
+    rest.remove_prefix(dot + 1);
+  }
+  const auto parsed = impl_->library.parsed(s->path(unit));
+  if (!parsed) return std::nullopt;
+  const lang::Tree& t = parsed->tree;
+  for (const Declared& d : declaredIn(t)) {
+    if (d.kind != NameKind::Attribute || d.word != rest) continue;
+    const lang::NodeId value = lang::bodyOf(t, d.node);
+    if (value == lang::kNoNode || t.kind(value) == lang::NodeKind::Missing) continue;
+    return Place{impl_->shown(s->path(unit)), parsed->text.range(t[value].begin, t[value].end)};
+  }
+  return std::nullopt;
+}
+
 std::vector<Range> Workspace::occurrences(const std::string& path, Position at) {
   const std::string key = impl_->key(path);
   const auto parsed = impl_->library.parsed(key);
@@ -265,6 +296,19 @@ Renaming Workspace::rename(const std::string& path, Position at, const std::stri
   Renaming out = renameAt(impl_->library, key, parsed->text.offset(at), name, impl_->filesFor(key));
   for (FileEdits& e : out.edits) e.path = impl_->shown(e.path);
   return out;
+}
+
+// --- Rules as forms ---
+
+TextForm Workspace::form(const std::string& path, const std::string& rule) {
+  const auto parsed = impl_->library.parsed(impl_->key(path));
+  return parsed ? formOf(*parsed, rule) : TextForm();
+}
+
+std::optional<std::vector<Edit>> Workspace::formEdits(const std::string& path,
+                                                      const std::string& rule, const BoxRule& box) {
+  const auto parsed = impl_->library.parsed(impl_->key(path));
+  return parsed ? boxEdits(parsed->text, rule, box) : std::nullopt;
 }
 
 std::vector<Action> Workspace::actions(const std::string& path, const Range& range) {

@@ -30,6 +30,8 @@ struct Workspace::Impl {
   std::vector<std::string> folders;
   /// Of open texts: as they were opened, to their one name, and back.
   std::map<std::string, std::string> keys, names;
+  /// By text: what its attributes are in the shape that was derived last.
+  std::map<std::string, std::map<std::string, std::string>> values;
 };
 
 /// Everything built in whose name, summary or everyday words fit, the best first.

@@ -372,8 +372,8 @@ void LanguageServer::Impl::inlayHint(const JsonValue& params, JsonWriter& json) 
        workspace_.inlayHints(pathOf(params["textDocument"]), lsp::rangeOf(params["range"]))) {
     json.beginObject().key("position");
     lsp::write(json, h.at);
-    json.key("label").value(h.label).key("kind").value(2);
-    json.key("paddingRight").value(true).endObject();
+    json.key("label").value(h.label).key("kind").value(h.value ? 1 : 2);
+    json.key(h.value ? "paddingLeft" : "paddingRight").value(true).endObject();
   }
   json.endArray();
 }
@@ -388,6 +388,24 @@ void LanguageServer::Impl::semanticTokensRange(const JsonValue& params, JsonWrit
 }
 
 // --- Beyond the protocol ---
+
+void LanguageServer::Impl::setValues(const JsonValue& params) {
+  std::map<std::string, std::string> values;
+  for (const auto& [name, value] : params["values"].members()) values[name] = value.text();
+  workspace_.setValues(pathOf(params["textDocument"]), std::move(values));
+}
+
+void LanguageServer::Impl::attribute(const JsonValue& params, JsonWriter& json) {
+  const auto place =
+      workspace_.attributeValue(pathOf(params["textDocument"]), params["name"].text());
+  if (!place) {
+    json.null();
+    return;
+  }
+  json.beginObject().key("uri").value(uriOf(place->path)).key("range");
+  lsp::write(json, place->range);
+  json.endObject();
+}
 
 void LanguageServer::Impl::search(const JsonValue& params, JsonWriter& json) {
   json.beginArray();

@@ -107,8 +107,8 @@ void copy(JsonWriter& json, const JsonValue& v) {
 
 }  // namespace lsp
 
-LanguageServer::Impl::Impl(std::function<double()> clock)
-    : clock_(clock ? std::move(clock) : steadySeconds) {}
+LanguageServer::Impl::Impl(std::function<double()> clock, const std::string& project)
+    : clock_(clock ? std::move(clock) : steadySeconds), workspace_({}, project) {}
 
 // --- Messages ---
 
@@ -184,6 +184,7 @@ void LanguageServer::Impl::notify(const std::string& method, const JsonValue& pa
     return allDue(clock_());
   }
   if (method == "workspace/didChangeWorkspaceFolders") return changeFolders(params);
+  if (method == "gable/values") return setValues(params);
   // Others need no answer.
 }
 
@@ -212,6 +213,10 @@ const std::map<std::string_view, LanguageServer::Impl::Handler>& LanguageServer:
       {"textDocument/codeAction", &I::codeAction},
       {"textDocument/semanticTokens/full", &I::semanticTokens},
       {"textDocument/semanticTokens/range", &I::semanticTokensRange},
+      {"gable/attribute", &I::attribute},
+      {"gable/form", &I::form},
+      {"gable/formEdits", &I::formEdits},
+      {"gable/ruleText", &I::ruleText},
       {"gable/search", &I::search},
       {"gable/reference", &I::referencePage},
   };
@@ -475,8 +480,8 @@ void LanguageServer::Impl::publish(const std::string& path, const std::vector<Fi
 
 // --- The public class ---
 
-LanguageServer::LanguageServer(std::function<double()> clock)
-    : impl_(std::make_unique<Impl>(std::move(clock))) {}
+LanguageServer::LanguageServer(std::function<double()> clock, const std::string& project)
+    : impl_(std::make_unique<Impl>(std::move(clock), project)) {}
 LanguageServer::~LanguageServer() = default;
 LanguageServer::LanguageServer(LanguageServer&&) noexcept = default;
 LanguageServer& LanguageServer::operator=(LanguageServer&&) noexcept = default;

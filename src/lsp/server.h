@@ -23,7 +23,7 @@ namespace gable {
 
 class LanguageServer::Impl {
  public:
-  explicit Impl(std::function<double()> clock);
+  Impl(std::function<double()> clock, const std::string& project);
 
   void receive(std::string_view message);
   void receiveBroken(const std::string& why);
@@ -78,6 +78,7 @@ class LanguageServer::Impl {
   void didChange(const JsonValue& params);
   void didClose(const JsonValue& params);
   void changeFolders(const JsonValue& params);
+  void setValues(const JsonValue& params);
   void allDue(double at);
   /// The name of a text in the workspace.
   std::string pathOf(const JsonValue& textDocument) const;
@@ -88,7 +89,7 @@ class LanguageServer::Impl {
   void publishDue();
   void publish(const std::string& path, const std::vector<language::Finding>& findings);
 
-  // --- Answers (answers.cpp) ---
+  // --- Answers (answers.cpp; those about forms: forms.cpp) ---
   void completion(const JsonValue& params, JsonWriter& json);
   void completionResolve(const JsonValue& params, JsonWriter& json);
   void signatureHelp(const JsonValue& params, JsonWriter& json);
@@ -109,6 +110,10 @@ class LanguageServer::Impl {
   void codeAction(const JsonValue& params, JsonWriter& json);
   void semanticTokens(const JsonValue& params, JsonWriter& json);
   void semanticTokensRange(const JsonValue& params, JsonWriter& json);
+  void attribute(const JsonValue& params, JsonWriter& json);
+  void form(const JsonValue& params, JsonWriter& json);
+  void formEdits(const JsonValue& params, JsonWriter& json);
+  void ruleText(const JsonValue& params, JsonWriter& json);
   void search(const JsonValue& params, JsonWriter& json);
   void referencePage(const JsonValue& params, JsonWriter& json);
   void writePlaces(JsonWriter& json, const std::vector<language::Place>& places);
