@@ -21,6 +21,16 @@ bool sameText(const std::string& a, const std::string& b) {
   return difference == 0;
 }
 
+// A page cannot give a WebSocket headers of its own: its token is the last of the protocols that it
+// asks for.
+std::string tokenOf(const HttpRequest& r) {
+  const std::string given = r.header("x-gable-token");
+  if (!given.empty() || r.header("upgrade").empty()) return given;
+  const std::string asked = r.header("sec-websocket-protocol");
+  const size_t comma = asked.find_last_of(", ");
+  return comma == std::string::npos ? std::string() : asked.substr(comma + 1);
+}
+
 }  // namespace
 
 bool Guard::knownHost(const std::string& host) const {
@@ -39,7 +49,7 @@ HttpResponse Guard::admit(const HttpRequest& r) const {
   if (r.path.compare(0, 5, "/api/") != 0) {
     return reads ? HttpResponse{} : refuse(405, "Pages are read only.\n");
   }
-  if (!sameText(r.header("x-gable-token"), token_)) {
+  if (!sameText(tokenOf(r), token_)) {
     return refuse(401, "Open the address that gable studio printed.\n");
   }
   if (!reads && r.method != "POST" && r.method != "PUT" && r.method != "DELETE") {

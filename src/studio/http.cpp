@@ -18,6 +18,7 @@
 #include <set>
 
 #include "base/json.h"
+#include "studio/socket.h"
 
 namespace gable::studio {
 
@@ -81,15 +82,17 @@ std::string HttpRequest::argument(const std::string& name) const {
 struct HttpServer::Impl {
   class Connection;
 
-  Impl(HttpSettings s, Admit a, Handler h, Slow l)
+  Impl(HttpSettings s, Admit a, Handler h, Slow l, Talks t)
       : settings(std::move(s)),
         admit(std::move(a)),
         handler(std::move(h)),
         slow(std::move(l)),
+        talks(std::move(t)),
         acceptor(io),
         timer(io),
         pool(settings.workers),
         slowPool(settings.slowWorkers),
+        talkPool(settings.talkWorkers),
         arrivals(pool.get_executor()) {}
 
   void accept();
@@ -99,14 +102,16 @@ struct HttpServer::Impl {
   Admit admit;
   Handler handler;
   Slow slow;
+  Talks talks;
   /// Before `io`, whose end ends the connections that still wait there.
   std::set<Connection*> connections;
+  std::set<Socket*> sockets;
   /// Bytes of the bodies that are being read or answered.
   uint64_t bodies = 0;
   asio::io_context io{1};
   tcp::acceptor acceptor;
   asio::steady_timer timer;
-  asio::thread_pool pool, slowPool;
+  asio::thread_pool pool, slowPool, talkPool;
   /// Slow requests, one after the other as they come.
   asio::strand<asio::thread_pool::executor_type> arrivals;
   unsigned waiting = 0, slowWaiting = 0;
@@ -161,6 +166,7 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
     }
     HttpResponse admitted = server_.admit(request_);
     if (admitted.status != 200) return write(std::move(admitted));
+    if (beast::websocket::is_upgrade(head)) return talk();
     const auto length = parser_->content_length();
     if (length && *length > server_.settings.maxBody) {
       return write(plain(413, "The body is too large.\n"));
@@ -176,6 +182,20 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
     stream_.expires_after(milliseconds(server_.settings.bodySeconds));
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](Code e, size_t) { self->onBody(e); });
+  }
+
+  // The connection becomes a conversation.
+  void talk() {
+    std::unique_ptr<Conversation> conversation;
+    if (server_.talks.begin) conversation = server_.talks.begin(request_);
+    if (!conversation) return write(plain(404, "There is nothing to talk with here.\n"));
+    Impl& server = server_;
+    const auto socket = std::make_shared<Socket>(
+        std::move(stream_), server.io, server.talkPool, std::move(conversation),
+        Socket::Limits{server.settings.maxMessage, server.settings.maxMessages},
+        [&server](Socket* s) { server.sockets.erase(s); });
+    server.sockets.insert(socket.get());
+    socket->open(parser_->get(), server.talks.protocol);
   }
 
   void onBody(Code error) {
@@ -287,7 +307,7 @@ void HttpServer::Impl::accept() {
   acceptor.async_accept([this](Code error, tcp::socket socket) {
     if (error == asio::error::operation_aborted) return;
     // Above the limit the connection is closed at once.
-    if (!error && connections.size() < settings.maxConnections) {
+    if (!error && connections.size() + sockets.size() < settings.maxConnections) {
       Code ignored;
       socket.set_option(tcp::no_delay(true), ignored);
       std::make_shared<Connection>(*this, std::move(socket))->read();
@@ -307,15 +327,17 @@ void HttpServer::Impl::tick(const std::atomic<bool>& stop) {
   });
 }
 
-HttpServer::HttpServer(HttpSettings settings, Admit admit, Handler handler, Slow slow)
+HttpServer::HttpServer(HttpSettings settings, Admit admit, Handler handler, Slow slow, Talks talks)
     : impl_(std::make_unique<Impl>(std::move(settings), std::move(admit), std::move(handler),
-                                   std::move(slow))) {}
+                                   std::move(slow), std::move(talks))) {}
 
 HttpServer::~HttpServer() {
   for (Impl::Connection* c : impl_->connections) c->cancel();
+  for (Socket* s : impl_->sockets) s->close();
   // The first hands on to the second.
   impl_->pool.join();
   impl_->slowPool.join();
+  impl_->talkPool.join();
 }
 
 Result<uint16_t> HttpServer::listen() {

@@ -11,6 +11,7 @@
 //    so are the bytes of the bodies of all connections together.
 // 4. When a client goes away, `cancelled` of its request becomes true.
 // 5. No request waits for one that takes long, unless it is such a one itself.
+// 6. Conversations over WebSockets (socket.h) have threads of their own, and count as connections.
 #pragma once
 
 #include <atomic>
@@ -18,7 +19,9 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -49,6 +52,19 @@ struct HttpResponse {
   std::vector<std::pair<std::string, std::string>> headers;
 };
 
+/// The server's end of a connection that stays. One thread at a time uses it.
+class Conversation {
+ public:
+  virtual ~Conversation() = default;
+  virtual void receive(std::string_view message) = 0;
+  /// Does a piece of what there is to do; false when there is nothing now.
+  virtual bool step() = 0;
+  /// What is to be sent, in order.
+  virtual std::vector<std::string> take() = 0;
+  /// Seconds until step() has something to do by itself; none: only when a message comes.
+  virtual std::optional<double> wait() const = 0;
+};
+
 struct HttpSettings {
   std::string address = "127.0.0.1";
   /// 0: any that is free.
@@ -58,9 +74,11 @@ struct HttpSettings {
   uint64_t maxBodies = 160u << 20;
   uint32_t maxHead = 16u << 10;
   /// For requests that take long, and for the others.
-  unsigned slowWorkers = 4, workers = 4;
+  unsigned slowWorkers = 4, workers = 4, talkWorkers = 2;
   unsigned maxConnections = 128;
   unsigned maxWaiting = 64;
+  /// Of a conversation: bytes of a message, and of all that it has not had yet.
+  uint64_t maxMessage = 32u << 20, maxMessages = 64u << 20;
   double headSeconds = 20, bodySeconds = 30, writeSeconds = 60;
 };
 
@@ -72,12 +90,18 @@ class HttpServer {
     /// Told of each in the order of their coming, before it waits for a thread. It is quick itself.
     std::function<void(const HttpRequest&)> arrived;
   };
+  /// A conversation for a request to begin one; null where there is none to be had.
+  struct Talks {
+    std::function<std::unique_ptr<Conversation>(const HttpRequest&)> begin;
+    /// The name of what is spoken, one of the request's own.
+    std::string protocol;
+  };
   /// The answer to a request.
   using Handler = std::function<HttpResponse(const HttpRequest&)>;
   /// Status 200: the request may go on. Sees the head only.
   using Admit = std::function<HttpResponse(const HttpRequest&)>;
 
-  HttpServer(HttpSettings settings, Admit admit, Handler handler, Slow slow = {});
+  HttpServer(HttpSettings settings, Admit admit, Handler handler, Slow slow = {}, Talks talks = {});
   /// Waits for requests at work, which see themselves cancelled.
   ~HttpServer();
 

@@ -12,6 +12,7 @@
 
 #include "base/files.h"
 #include "base/json.h"
+#include "gable/lsp.h"
 #include "gable/studio.h"
 #include "json/answers.h"
 #include "studio/address.h"
@@ -86,6 +87,19 @@ uint64_t numberOf(const std::string& text) {
   return static_cast<uint64_t>(std::strtoull(text.c_str(), nullptr, 10));
 }
 
+// The language server for a page, over the files of its project.
+class LanguageTalk final : public Conversation {
+ public:
+  explicit LanguageTalk(const std::string& project) : server_({}, project) {}
+  void receive(std::string_view message) override { server_.receive(message); }
+  bool step() override { return server_.step(); }
+  std::vector<std::string> take() override { return server_.take(); }
+  std::optional<double> wait() const override { return server_.wait(); }
+
+ private:
+  LanguageServer server_;
+};
+
 class Router {
  public:
   explicit Router(const StudioSettings& settings)
@@ -114,7 +128,6 @@ class Router {
     };
     routes_["POST /api/derive"] = [this](const HttpRequest& r) { return derived(r, false); };
     routes_["POST /api/tree"] = [this](const HttpRequest& r) { return derived(r, true); };
-    routes_["POST /api/format"] = [this](const HttpRequest& r) { return formatted(r); };
     routes_["GET /api/progress"] = [this](const HttpRequest& r) { return progress(r); };
     routes_["GET /api/export"] = [this](const HttpRequest& r) { return exported(r); };
     routes_["GET /api/export-progress"] = [this](const HttpRequest& r) {
@@ -154,6 +167,11 @@ class Router {
     if (r.path.compare(0, 5, "/api/") != 0) return page(r);
     const auto at = routes_.find(r.method + " " + r.path);
     return at == routes_.end() ? missing() : at->second(r);
+  }
+
+  std::unique_ptr<Conversation> talk(const HttpRequest& r) const {
+    if (r.path != "/api/language") return nullptr;
+    return std::make_unique<LanguageTalk>(files_.root());
   }
 
  private:
@@ -236,17 +254,6 @@ class Router {
     }
     return bytesOf(tree ? session_.tree(request.value(), r.cancelled)
                         : session_.derive(request.value(), r.cancelled));
-  }
-
-  HttpResponse formatted(const HttpRequest& r) const {
-    const std::string path = r.argument("path");
-    if (!plainPath(path)) return failed({"path-outside", "'path' names no file", ""});
-    const Formatted text = format(r.body, path);
-    std::string out;
-    JsonWriter json(out);
-    json.beginObject().key("text").value(text.text);
-    json.key("messages").raw(diagnosticsJson(text.diagnostics)).endObject();
-    return jsonOf(out);
   }
 
   HttpResponse progress(const HttpRequest& r) const {
@@ -344,6 +351,8 @@ StudioResult runStudio(const StudioSettings& settings, const std::atomic<bool>& 
   const HttpServer::Admit admit = [&guard](const HttpRequest& r) { return guard->admit(r); };
   const HttpServer::Handler answer = [&router](const HttpRequest& r) { return router.answer(r); };
   const HttpServer::Slow slow = {takesLong, [&router](const HttpRequest& r) { router.arrived(r); }};
+  const HttpServer::Talks talks = {[&router](const HttpRequest& r) { return router.talk(r); },
+                                   "gable-language"};
   HttpSettings http;
   http.address = settings.address;
   // Pages that are still open look for the studio where it was.
@@ -352,7 +361,7 @@ StudioResult runStudio(const StudioSettings& settings, const std::atomic<bool>& 
   Result<uint16_t> port = uint16_t{0};
   for (const uint16_t tried : {wished, uint16_t{0}}) {
     http.port = tried;
-    server.emplace(http, admit, answer, slow);
+    server.emplace(http, admit, answer, slow, talks);
     port = server->listen();
     if (port.ok() || settings.port) break;
   }
@@ -360,7 +369,7 @@ StudioResult runStudio(const StudioSettings& settings, const std::atomic<bool>& 
   std::optional<HttpServer> old;
   if (before.port && before.port != port.value()) {
     http.port = before.port;
-    old.emplace(http, admit, answer, slow);
+    old.emplace(http, admit, answer, slow, talks);
     if (!old->listen().ok()) old.reset();
   }
   std::string token = settings.token.value_or(before.token);

@@ -241,7 +241,7 @@ TEST_F(Stranger, noAddressLeadsOutOfTheProject) {
     for (const char* address :
          {"GET /api/file?path=", "GET /api/previous?path=", "GET /api/model?path=",
           "GET /api/recovery?path=", "PUT /api/file?path=", "PUT /api/recovery?path=",
-          "POST /api/format?path=", "POST /api/convert?path=", "GET /api/example-picture?name=",
+          "POST /api/convert?path=", "GET /api/example-picture?name=",
           "POST /api/example-copy?name=", "GET /api/texture?derivation=1&path="}) {
       const std::string answer = ask(address + path, "x");
       EXPECT_GE(status(answer), 400) << address << path;

@@ -57,7 +57,7 @@ export default {
     await page.keyboard.press('F2');
     await page.waitForSelector('.rename input');
     await page.keyboard.type('Roof');
-    assert.match(await page.locator('.rename').innerText(), /already something called Roof/);
+    await page.waitForSelector('.rename >> text=already something called Roof');
     await page.keyboard.press('Control+a');
     await page.keyboard.type('Facade');
     await page.keyboard.press('Enter');

@@ -320,6 +320,9 @@ export default {
       ['Top', [0, 1, 0]],
     ]) {
       await page.locator('#gbbg-faces').selectOption(mode);
+      // The form is read again, with as many successors as the faces take.
+      const fields = page.locator('input[aria-label^=Successor]');
+      await becomes(() => fields.count(), found.filter((n) => n > 0).length, mode);
       if (mode === 'SidesPlusTop') {
         await page.getByLabel('Successor top 1').fill('Top');
         await page.getByLabel('Successor top 1').press('Enter');

@@ -7,7 +7,7 @@
 import assert from 'node:assert/strict';
 import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { caretBehind, code, openPage, ready, serve } from '../studio.mjs';
+import { caretBehind, code, openPage, ready, serve, status } from '../studio.mjs';
 
 const away = (page) => page.waitForSelector('text=Not connected', { timeout: 30_000 });
 const back = (page) =>
@@ -15,6 +15,17 @@ const back = (page) =>
     timeout: 30_000,
   });
 const kill = (server) => server.kill();
+
+/** All texts that the studio keeps for pages. */
+function recovered(folder) {
+  const pages = join(folder, '.gable/recovery/pages');
+  if (!existsSync(pages)) return '';
+  const files = readdirSync(pages, { recursive: true, withFileTypes: true });
+  return files
+    .filter((f) => f.isFile())
+    .map((f) => readFileSync(join(f.parentPath ?? f.path, f.name), 'utf8'))
+    .join('\n');
+}
 
 export default {
   /** The studio is killed and started again where it was: the page goes on by itself. */
@@ -28,9 +39,47 @@ export default {
     try {
       await back(page);
       assert.match(await code(page).innerText(), /height = 9\.75/);
+      await page.waitForFunction(
+        () => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === '9.75',
+      );
+      assert.match(await status(page), /No problems/);
+      await page.waitForTimeout(600);
+      assert.match(recovered(folder), /height = 9\.75/);
       await page.keyboard.press('Control+s');
       await page.waitForSelector('.crumb .dirty', { state: 'detached' });
       assert.match(readFileSync(join(folder, 'journey.cga'), 'utf8'), /height = 9\.75/);
+    } finally {
+      await next.stop();
+    }
+    return { complaintsExpected: true };
+  },
+
+  /** The server is found by what keeps the text, before the page looks for it. */
+  async aPageDerivesWhateverFindsTheServer({ page, folder, server }) {
+    await ready(page);
+    await caretBehind(page, 'attr height = 9');
+    let up = false;
+    let kept = false;
+    await page.route('**/api/recovery**', async (route) => {
+      while (!up) await new Promise((resolve) => setTimeout(resolve, 50));
+      await route.continue();
+      kept = true;
+    });
+    await page.route('**/api/project', (route) => (kept ? route.continue() : route.abort()));
+    await kill(server);
+    await page.keyboard.type('.75');
+    await away(page);
+    // Now the text is on its way.
+    await page.waitForTimeout(600);
+    const next = await serve(folder, server.port);
+    up = true;
+    try {
+      await back(page);
+      await page.waitForFunction(
+        () => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === '9.75',
+      );
+      await page.waitForTimeout(600);
+      assert.match(recovered(folder), /height = 9\.75/);
     } finally {
       await next.stop();
     }

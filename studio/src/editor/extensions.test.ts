@@ -3,28 +3,39 @@
 import { Text } from '@codemirror/state';
 import type { EditorView } from '@codemirror/view';
 import { expect, it } from 'vitest';
+import type { Mistake } from '../language/language.svelte';
 import type { Message } from '../lib/protocol';
-import { diagnostics, offers } from './extensions';
+import { diagnostics } from './extensions';
 
 const RULES = 'Lot --> spilt(x) { ~1 : A. }';
-const message: Message = {
-  severity: 'error',
+const URI = 'file:///p/a.cga';
+const at = (start: number, end: number, line = 0) => ({
+  start: { line, character: start },
+  end: { line, character: end },
+});
+const action = {
+  title: "Write 'split'",
+  isPreferred: true,
+  diagnostics: [],
+  edit: { changes: { [URI]: [{ range: at(8, 13), newText: 'split' }] } },
+};
+const mistake: Mistake = {
+  severity: 1,
   code: 'unknown-operation',
   message: "'spilt' is not an operation",
-  hint: "did you mean 'split'?",
-  file: 'a.cga',
-  line: 1,
   // The mark may be wider than what is to be replaced.
-  column: 9,
-  endColumn: 28,
-  fix: { file: 'a.cga', line: 1, column: 9, endLine: 1, endColumn: 14, text: 'split' },
+  range: at(8, 27),
+  actions: [action],
 };
 
+const marks = (doc: Text, mistakes: Mistake[], messages: Message[] = []) =>
+  diagnostics(doc, 'a.cga', URI, mistakes, messages);
+
 /** The text after the remedy of a mark was carried out on a text. */
-function mended(before: string, after: string, m: Message = message): string {
+function mended(before: string, after: string, word: string, m: Mistake = mistake): string {
   const doc = Text.of(before.split('\n'));
   const now = Text.of(after.split('\n'));
-  const mark = diagnostics(doc, 'a.cga', [m])[0]!;
+  const mark = marks(doc, [m])[0]!;
   let out = after;
   const view = {
     state: { doc: now },
@@ -32,36 +43,52 @@ function mended(before: string, after: string, m: Message = message): string {
       out = after.slice(0, changes.from) + changes.insert + after.slice(changes.to);
     },
   };
-  const moved = after.indexOf('spilt');
+  const moved = after.indexOf(word);
   mark.actions?.[0]?.apply(view as unknown as EditorView, moved < 0 ? mark.from : moved, mark.to);
   return out;
 }
 
 it('replaces what the remedy is about and nothing else', () => {
-  expect(mended(RULES, RULES)).toBe('Lot --> split(x) { ~1 : A. }');
+  expect(mended(RULES, RULES, 'spilt')).toBe('Lot --> split(x) { ~1 : A. }');
 });
 
 it('follows the text while somebody writes, and leaves alone what is another by now', () => {
-  expect(mended(RULES, `// new\n${RULES}`)).toBe('// new\nLot --> split(x) { ~1 : A. }');
-  expect(mended(RULES, 'Lot --> slit(x) { ~1 : A. }')).toBe('Lot --> slit(x) { ~1 : A. }');
+  expect(mended(RULES, `// new\n${RULES}`, 'spilt')).toBe('// new\nLot --> split(x) { ~1 : A. }');
+  const other = 'Lot --> slit(x) { ~1 : A. }';
+  expect(mended(RULES, other, 'spilt')).toBe(other);
 });
 
-it('offers no remedy that is words only, or of another file', () => {
+it('adds where its message has gone', () => {
+  const open = 'Lot --> extrude(3';
+  const edit = { changes: { [URI]: [{ range: at(17, 17), newText: ')' }] } };
+  const adds = { ...mistake, range: at(8, 17), actions: [{ ...action, edit }] };
+  expect(mended(open, `// new\n${open}`, 'extrude', adds)).toBe('// new\nLot --> extrude(3)');
+});
+
+it('offers no remedy of another file, or where the text has ended', () => {
   const doc = Text.of([RULES]);
-  const words: Message = { ...message };
-  delete words.fix;
-  expect(diagnostics(doc, 'a.cga', [words])[0]!.actions).toBeUndefined();
-  const elsewhere = { ...message, fix: { ...message.fix!, file: 'b.cga' } };
-  expect(diagnostics(doc, 'a.cga', [elsewhere])[0]!.actions).toBeUndefined();
-  const gone = { ...message, fix: { ...message.fix!, line: 9, endLine: 9 } };
-  expect(diagnostics(doc, 'a.cga', [gone])[0]!.actions).toBeUndefined();
+  const elsewhere = { changes: { 'file:///p/b.cga': [{ range: at(8, 13), newText: 'split' }] } };
+  const gone = { changes: { [URI]: [{ range: at(8, 13, 9), newText: 'split' }] } };
+  for (const edit of [elsewhere, gone]) {
+    const actions = [{ ...action, edit }];
+    expect(marks(doc, [{ ...mistake, actions }])[0]!.actions).toBeUndefined();
+  }
 });
 
-it('offers what begins with what is written, as a whole or in its parts', () => {
-  expect(offers('roofGable', 'roof')).toBe(true);
-  expect(offers('roofGable', 'gab')).toBe(true);
-  expect(offers('roofGable', 'rG')).toBe(true);
-  expect(offers('geometry.area', 'area')).toBe(true);
-  expect(offers('geometry.boundaryLength', 'Round')).toBe(false);
-  expect(offers('extrude', 'trude')).toBe(false);
+it('marks what a shape has met as well, and what rules have wrong once', () => {
+  const doc = Text.of([RULES]);
+  const told: Message = {
+    severity: 'warning',
+    code: 'size-zero',
+    message: 'there is no room',
+    file: 'a.cga',
+    line: 1,
+    column: 1,
+    shapePath: '0.1',
+  };
+  const analysed: Message = { severity: 'error', code: 'x', message: 'x', file: 'a.cga', line: 1 };
+  expect(marks(doc, [mistake], [told, analysed]).map((d) => d.message)).toEqual([
+    'there is no room',
+    "'spilt' is not an operation",
+  ]);
 });

@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Completion, hover and marks of the editor.
+// Marks of the editor: mistakes with their remedies, the lines of a selected shape, counts.
 
-import {
-  snippetCompletion,
-  type Completion,
-  type CompletionContext,
-  type CompletionResult,
-} from '@codemirror/autocomplete';
-import { syntaxTree } from '@codemirror/language';
 import { forEachDiagnostic, type Action, type Diagnostic } from '@codemirror/lint';
 import {
   RangeSetBuilder,
@@ -18,94 +11,16 @@ import {
   type EditorState,
   type Text,
 } from '@codemirror/state';
-import {
-  Decoration,
-  EditorView,
-  hoverTooltip,
-  WidgetType,
-  type DecorationSet,
-  type Tooltip,
-} from '@codemirror/view';
-import type { AttributeInfo, Fix, Message, RuleInfo } from '../lib/protocol';
-import type { Notation } from '../lib/notation';
-import type { Definition } from '../text/rules';
-import { findWord, type Word } from '../text/words';
+import { Decoration, EditorView, WidgetType, type DecorationSet } from '@codemirror/view';
+import type { Mistake } from '../language/language.svelte';
+import { offsetOf, type CodeAction } from '../language/protocol';
+import type { Message, RuleInfo } from '../lib/protocol';
 
-export interface Known {
-  notation: Notation;
-  words: Word[];
-  /** What the text itself defines. */
-  defined: Definition[];
-  rules: RuleInfo[];
-  attributes: AttributeInfo[];
-}
-
-const TYPES: Record<string, string> = {
-  operation: 'function',
-  function: 'method',
-  attribute: 'property',
-  selector: 'enum',
-  annotation: 'keyword',
-};
-
-function wordCompletion(word: Word): Completion {
-  const base = {
-    label: word.name,
-    type: TYPES[word.kind] ?? 'text',
-    detail: word.kind,
-    info: word.text,
-  };
-  return word.snippet ? snippetCompletion(word.snippet, base) : base;
-}
-
-/** Inside of a string or a comment nothing is completed. */
-function inQuietText(context: CompletionContext): boolean {
-  const node = syntaxTree(context.state).resolveInner(context.pos, -1);
-  return /comment|string/i.test(node.name) && node.from < context.pos;
-}
-
-/**
- * Whether a word begins with what is written, or its parts begin with the parts of it: "rG" and
- * "gable" find "roofGable". Letters from anywhere would offer something for every new name.
- */
-export function offers(label: string, written: string): boolean {
-  const low = label.toLowerCase();
-  const typed = written.toLowerCase();
-  if (low.startsWith(typed)) return true;
-  const starts = [...label.matchAll(/(?<=[a-z\d])[A-Z]|(?<=[._])\w/g)].map((m) => m.index);
-  if (starts.some((at) => low.startsWith(typed, at))) return true;
-  const humps = label[0]! + starts.map((at) => label[at]).join('');
-  return written.length > 1 && humps.toLowerCase().startsWith(typed);
-}
-
-export function completions(known: () => Known) {
-  return (context: CompletionContext): CompletionResult | null => {
-    const word = context.matchBefore(/@?[A-Za-z_][\w.]*|@/);
-    if ((!word || word.from === word.to) && !context.explicit) return null;
-    if (inQuietText(context)) return null;
-    const { words, defined, rules, attributes } = known();
-    const names = new Map<string, Completion>();
-    for (const w of words) names.set(w.name, wordCompletion(w));
-    for (const a of attributes)
-      names.set(a.name, { label: a.name, type: 'variable', detail: a.type, boost: 2 });
-    for (const r of rules)
-      names.set(r.name, { label: r.name, type: 'class', detail: 'rule', boost: 3 });
-    for (const d of defined)
-      names.set(d.name, {
-        label: d.name,
-        type: d.kind === 'rule' ? 'class' : 'variable',
-        detail: d.kind,
-        boost: 3,
-      });
-    const written = word?.text ?? '';
-    const options = [...names.values()].filter((o) => offers(o.label, written));
-    // What is written already needs no completion.
-    if (!options.length || options.every((o) => o.label === written)) return null;
-    const rank = (o: Completion) =>
-      (o.label.startsWith(written) ? 0 : 2) - (o.boost ?? 0) / 10 + o.label.length / 1000;
-    options.sort((a, b) => rank(a) - rank(b) || (a.label < b.label ? -1 : 1));
-    return { from: word ? word.from : context.pos, options, filter: false };
-  };
+function element(tag: string, className: string, text = ''): HTMLElement {
+  const out = document.createElement(tag);
+  out.className = className;
+  out.textContent = text;
+  return out;
 }
 
 function wordAt(
@@ -121,85 +36,48 @@ function wordAt(
   return null;
 }
 
-export function explain(known: () => Known) {
-  return hoverTooltip(
-    (view, pos): Tooltip | null => {
-      const word = wordAt(view.state, pos);
-      if (!word) return null;
-      const { words, defined, notation } = known();
-      const own = defined.find((d) => d.name === word.text);
-      const found = own ? definitionCard(view.state, own) : undefined;
-      const builtIn = found ? undefined : findWord(words, word.text, notation);
-      if (!found && !builtIn) return null;
-      return {
-        pos: word.from,
-        end: word.to,
-        above: true,
-        create: () => ({ dom: found ?? wordCard(builtIn!) }),
-      };
-    },
-    { hoverTime: 350 },
-  );
-}
-
-function element(tag: string, className: string, text = ''): HTMLElement {
-  const out = document.createElement(tag);
-  out.className = className;
-  out.textContent = text;
-  return out;
-}
-
-function wordCard(word: Word): HTMLElement {
-  const card = element('div', 'hover-card');
-  for (const signature of word.signatures.slice(0, 3)) card.append(element('code', '', signature));
-  card.append(element('p', '', word.text));
-  for (const p of word.params) {
-    const row = element('p', 'param');
-    row.append(element('b', '', p.name), ` ${p.text}`);
-    card.append(row);
-  }
-  return card;
-}
-
-/** What a name of the file stands for: its first lines. */
-function definitionCard(state: EditorState, definition: Definition): HTMLElement {
-  const card = element('div', 'hover-card');
-  const lines = state.sliceDoc(definition.from, definition.to).split('\n');
-  card.append(
-    element('code', 'lines', lines.slice(0, 6).join('\n') + (lines.length > 6 ? '\n…' : '')),
-  );
-  card.append(
-    element(
-      'p',
-      'param',
-      `${definition.kind}, line ${state.doc.lineAt(Math.min(definition.from, state.doc.length)).number}`,
-    ),
-  );
-  return card;
-}
-
 function offset(doc: Text, line: number, column: number): number {
   const at = doc.line(Math.min(Math.max(1, line), doc.lines));
   return Math.min(at.to, at.from + Math.max(0, column - 1));
 }
 
-/** The messages of a file as marks of its text. */
-export function diagnostics(doc: Text, file: string, messages: Message[]): Diagnostic[] {
-  return messages
-    .filter((m) => m.line && isFile(file, m.file))
+const SEVERITIES = ['error', 'error', 'warning', 'info'] as const;
+
+/**
+ * The marks of a text: what the language server finds wrong, and what the derivation has to say
+ * that is none of it.
+ */
+export function diagnostics(
+  doc: Text,
+  file: string,
+  uri: string,
+  mistakes: readonly Mistake[],
+  messages: readonly Message[],
+): Diagnostic[] {
+  const found = mistakes.map((m): Diagnostic => {
+    const from = offsetOf(doc, m.range.start);
+    const actions = m.actions.flatMap((a) => actionOf(doc, uri, a, from) ?? []);
+    return {
+      from: Math.min(from, doc.length),
+      to: Math.min(doc.length, Math.max(from + 1, offsetOf(doc, m.range.end))),
+      severity: SEVERITIES[m.severity] ?? 'info',
+      message: m.message,
+      ...(actions.length ? { actions } : {}),
+    };
+  });
+  const derived = messages
+    .filter((m) => m.line && m.shapePath && isFile(file, m.file))
     .map((m): Diagnostic => {
       const from = offset(doc, m.line!, m.column ?? 1);
       const to = offset(doc, m.endLine ?? m.line!, m.endColumn ?? (m.column ?? 1) + 1);
-      const edit = m.fix && isFile(file, m.fix.file) ? editOf(doc, m.fix) : null;
       return {
         from: Math.min(from, to),
         to: Math.min(doc.length, Math.max(from + 1, to)),
-        severity: m.severity === 'note' ? ('info' as const) : m.severity,
+        severity: m.severity === 'note' ? 'info' : m.severity,
         message: m.hint ? `${m.message}. ${m.hint}` : m.message,
-        ...(edit ? { actions: [fixAction(edit)] } : {}),
       };
-    })
-    .sort((a, b) => a.from - b.from);
+    });
+  return [...found, ...derived].sort((a, b) => a.from - b.from);
 }
 
 const isFile = (path: string, told: string | undefined) =>
@@ -211,22 +89,30 @@ interface Edit {
   insert: string;
   /** What stands there; the edit is for that text alone. */
   was: string;
+  /** From the beginning of its message. */
+  ahead: number;
 }
 
-function editOf(doc: Text, fix: Fix): Edit | null {
-  if (fix.line > doc.lines || fix.endLine > doc.lines) return null;
-  const from = offset(doc, fix.line, fix.column);
-  const to = offset(doc, fix.endLine, fix.endColumn);
-  return from <= to ? { from, to, insert: fix.text, was: doc.sliceString(from, to) } : null;
+/** A remedy that is one edit of this text; others are carried out elsewhere. */
+function actionOf(doc: Text, uri: string, action: CodeAction, marked: number): Action | null {
+  const edits = Object.entries(action.edit.changes);
+  const only = edits.length === 1 && edits[0]![0] === uri ? edits[0]![1] : [];
+  const [edit] = only;
+  if (!edit || only.length !== 1 || edit.range.end.line >= doc.lines) return null;
+  const from = offsetOf(doc, edit.range.start);
+  const to = offsetOf(doc, edit.range.end);
+  const was = doc.sliceString(from, to);
+  const found = { from, to, insert: edit.newText, was, ahead: from - marked };
+  return fixAction(action.title + (action.isPreferred ? '  (Ctrl .)' : ''), found);
 }
 
 /**
  * Carries out the remedy of a message. It moves with the message while somebody writes, and does
  * nothing where the text is no longer the one that the message is about.
  */
-function fixAction(edit: Edit): Action {
+function fixAction(name: string, edit: Edit): Action {
   return {
-    name: `${edit.insert ? `Write ${edit.insert}` : 'Remove it'}  (Ctrl .)`,
+    name,
     apply(view, from) {
       const found = foundAgain(view.state.doc, edit, from);
       if (!found) return;
@@ -239,8 +125,10 @@ function fixAction(edit: Edit): Action {
 /** Where the text of an edit is now: where it was, else where its message has moved to. */
 function foundAgain(doc: Text, edit: Edit, at: number): { from: number; to: number } | null {
   const size = edit.was.length;
-  for (const from of [edit.from, at]) {
-    if (from + size <= doc.length && doc.sliceString(from, from + size) === edit.was)
+  const moved = at + edit.ahead;
+  // What only adds something goes with its message.
+  for (const from of size ? [edit.from, moved] : [moved]) {
+    if (from >= 0 && from + size <= doc.length && doc.sliceString(from, from + size) === edit.was)
       return { from, to: from + size };
   }
   return null;

@@ -167,6 +167,15 @@ export class EngineClient {
     }
   }
 
+  /** A connection to the language server. Its token goes among the protocols: it has no headers. */
+  languageWire(): WebSocket {
+    const scheme = location.protocol === 'https:' ? 'wss:' : 'ws:';
+    return new WebSocket(`${scheme}//${location.host}/api/language`, [
+      'gable-language',
+      this.token,
+    ]);
+  }
+
   async project(): Promise<ProjectInfo> {
     return (await this.call('GET', 'project')).json() as Promise<ProjectInfo>;
   }
@@ -239,11 +248,6 @@ export class EngineClient {
   async progress(): Promise<{ done: number; total: number }> {
     const answer = await this.call('GET', `progress?page=${encodeURIComponent(this.page)}`);
     return answer.json() as Promise<{ done: number; total: number }>;
-  }
-
-  async format(path: string, text: string): Promise<{ text: string; messages: Message[] }> {
-    const answer = await this.call('POST', `format?path=${encodeURIComponent(path)}`, text);
-    return answer.json() as Promise<{ text: string; messages: Message[] }>;
   }
 
   /**

@@ -24,6 +24,9 @@ import { Selection, type Reveal } from './selection.svelte';
 import type { Shapes } from './tree';
 import { Unsent } from './unsent';
 import { Guide } from '../guide/guide.svelte';
+import type { Wire } from '../language/connection';
+import { Language } from '../language/language.svelte';
+import { edited, type TextEdit } from '../language/protocol';
 
 export type Page = 'rules' | 'variations' | 'assets' | 'gallery';
 export type Theme = 'dark' | 'light';
@@ -82,11 +85,12 @@ export class Studio {
   readonly model = new Model(this);
   readonly selection = new Selection(this);
   readonly guide = new Guide(this);
+  readonly language = new Language(this);
 
   readonly ruleFiles = $derived(this.files.filter((f) => RULES.test(f.path)));
   readonly shapeFiles = $derived(this.files.filter((f) => SHAPES.test(f.path)));
 
-  private root = '';
+  root = '';
   private latest: { draw: DrawList; stats: Stats } | null = null;
   private places: Record<string, Place> = {};
   private keepTimer = 0;
@@ -104,6 +108,7 @@ export class Studio {
       this.root = project.root;
       this.files = project.files;
       this.registry = readRegistry(ops);
+      this.language.connect();
       await this.recall();
       await this.openFirst();
       this.ready = true;
@@ -259,8 +264,17 @@ export class Studio {
     this.changed();
   }
 
+  texts(): { path: string; text: string }[] {
+    return this.documents.open;
+  }
+
+  wire(): Wire {
+    return this.client.languageWire();
+  }
+
   /** Something that the model depends on is another by now. */
   changed(): void {
+    this.language.touched();
     clearTimeout(this.keepTimer);
     this.keepTimer = window.setTimeout(() => void this.keep(), 250);
     this.model.derive();
@@ -281,8 +295,9 @@ export class Studio {
     }
   }
 
+  /** A server has answered: whether it is this page's, a look tells, which takes up the work. */
   found(): void {
-    this.connected = true;
+    if (!this.connected) void this.lookNow();
   }
 
   lost(): void {
@@ -404,10 +419,11 @@ export class Studio {
   async format(): Promise<void> {
     const doc = this.documents.doc(this.documents.active);
     if (!doc) return;
-    const { text, messages } = await this.client.format(doc.path, doc.text);
-    if (messages.some((m) => m.severity === 'error'))
-      this.say('Text with errors is not formatted.');
-    else this.edit(doc.path, text, 'Format');
+    if (this.language.mistakes.get(doc.path)?.some((m) => m.severity === 1))
+      return this.say('Text with errors is not formatted.');
+    const { text } = doc;
+    const edits = await this.language.tell<TextEdit[]>('textDocument/formatting', doc.path);
+    if (edits && doc.text === text) this.edit(doc.path, edited(text, edits), 'Format');
   }
 
   async refreshFiles(): Promise<void> {
@@ -457,6 +473,7 @@ export class Studio {
 
   /** Sees files that others change, and whether the server is there. */
   private poll(): void {
+    clearTimeout(this.pollTimer);
     this.pollTimer = window.setTimeout(() => void this.lookNow(), this.pollDelay);
   }
 
@@ -481,6 +498,7 @@ export class Studio {
         void this.keep();
         this.model.derive();
       }
+      this.language.connect();
       this.pollDelay = LOOK_MS;
       for (const f of files) {
         const known = before.get(f.path);

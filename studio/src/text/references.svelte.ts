@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Names over all rule files of the project: where they are defined and used, and renaming them as
-// one step of the history.
+// Names over all rule files of the project, as the language server knows them: where they are
+// defined and used, and renaming them as one step of the history.
 
-import { notationOf } from '../lib/notation';
-import type { Studio } from '../lib/studio.svelte';
+import { Away } from '../language/connection';
 import {
-  applyChanges,
-  definitionOf,
-  definitions,
-  nameTrouble,
-  rename,
-  targetAt,
-  uses,
-  type RuleFile,
-  type Target,
-} from './rules';
-import { lineOf } from './tokens';
+  edited,
+  offsetIn,
+  type Location,
+  type Position,
+  type Range,
+  type WorkspaceEdit,
+} from '../language/protocol';
+import type { Studio } from '../lib/studio.svelte';
 
 export interface Found {
   path: string;
@@ -33,126 +29,164 @@ export interface Listing {
 }
 
 export interface Renaming {
-  target: Target;
+  path: string;
+  at: Position;
   name: string;
   uses: number;
   files: number;
+  /** Why the name that is being written cannot be used. */
   trouble: string;
 }
+
+const CHECK_MS = 120;
 
 export class References {
   listing = $state.raw<Listing | null>(null);
   renaming = $state<Renaming | null>(null);
 
-  private readonly read = new Map<string, { stamp: string; text: string }>();
-  private files: RuleFile[] = [];
+  private timer = 0;
 
   constructor(private readonly studio: Studio) {}
 
-  /** The rule files as they are being written: texts of the editor before those on disk. */
-  async load(): Promise<RuleFile[]> {
-    const { studio } = this;
-    this.files = await Promise.all(
-      studio.ruleFiles.map(async (f): Promise<RuleFile> => {
-        const doc = studio.documents.doc(f.path);
-        if (doc) return { path: f.path, text: doc.text };
-        const known = this.read.get(f.path);
-        if (known?.stamp === f.stamp) return { path: f.path, text: known.text };
-        const { text } = await studio.client.read(f.path);
-        this.read.set(f.path, { stamp: f.stamp, text });
-        return { path: f.path, text };
-      }),
-    );
-    return this.files;
+  /** Where the name at a place is defined. */
+  async definition(path: string, at: Position): Promise<Found | null> {
+    const places = await this.places('textDocument/definition', path, at);
+    const first = places[0];
+    return first ? this.found(first, true) : null;
   }
 
-  /** Where the name at an offset is defined. */
-  async definition(path: string, offset: number): Promise<Found | null> {
-    const files = await this.load();
-    const target = targetAt(files, path, offset);
-    const found = target && definitionOf(files, target);
-    if (!found) return null;
-    return this.at(found.path, found.definition.nameSpan.from, true);
-  }
-
-  async list(path: string, offset: number): Promise<boolean> {
-    const files = await this.load();
-    const target = targetAt(files, path, offset);
-    const all = target ? uses(files, target) : [];
-    if (!target || !all.length) return false;
-    this.listing = {
-      name: target.name,
-      found: all.map((u) => this.at(u.path, u.from, u.definition)),
-    };
+  async list(path: string, at: Position): Promise<boolean> {
+    const [all, defined] = await this.uses(path, at);
+    if (!all.length) return false;
+    const found = await Promise.all(all.map((l) => this.found(l, has(defined, l))));
+    const first = all[0]!;
+    const text = (await this.text(this.studio.language.path(first.uri) ?? path)) ?? '';
+    this.listing = { name: slice(text, first.range), found };
     return true;
   }
 
-  async beginRename(path: string, offset: number): Promise<boolean> {
-    const files = await this.load();
-    const target = targetAt(files, path, offset);
-    const all = target ? uses(files, target) : [];
-    // What no file of the project defines is built in, or a leaf, whose name is free to change.
-    if (
-      !target ||
-      !all.length ||
-      this.studio.registry.some((e) => e.name === target.name && !all.some((u) => u.definition))
-    )
-      return false;
+  async beginRename(path: string, at: Position): Promise<boolean> {
+    const { language } = this.studio;
+    const range = await language.at<Range>('textDocument/prepareRename', path, at);
+    if (!range) return false;
+    const [all] = await this.uses(path, at);
+    const text = (await this.text(path)) ?? '';
     this.renaming = {
-      target,
-      name: target.name,
+      path,
+      at,
+      name: slice(text, range),
       uses: all.length,
-      files: new Set(all.map((u) => u.path)).size,
+      files: new Set(all.map((l) => l.uri)).size,
       trouble: '',
     };
     return true;
   }
 
-  check(name: string): string {
-    const renaming = this.renaming;
-    if (!renaming || name === renaming.target.name) return '';
-    const file = this.files.find((f) => f.path === renaming.target.path);
-    const taken = file
-      ? definitions(file.text, notationOf(file.path)).flatMap((d) => [
-          d.name,
-          ...(renaming.target.within ? d.parameters : []),
-        ])
-      : [];
-    return nameTrouble(name, taken) ?? '';
+  /** Finds out, a little later, whether the name that is being written can be used. */
+  check(name: string): void {
+    clearTimeout(this.timer);
+    this.timer = window.setTimeout(() => {
+      void this.edits(name).then((edits) => {
+        if (this.renaming) this.renaming.trouble = typeof edits === 'string' ? edits : '';
+      });
+    }, CHECK_MS);
   }
 
-  async rename(name: string): Promise<void> {
-    const renaming = this.renaming;
-    if (!renaming) return;
-    const trouble = this.check(name);
-    if (trouble) {
-      renaming.trouble = trouble;
-      return;
+  /** False where the name cannot be used. */
+  async rename(name: string): Promise<boolean> {
+    clearTimeout(this.timer);
+    const { renaming, studio } = this;
+    if (!renaming) return false;
+    const edits = await this.edits(name);
+    if (typeof edits === 'string') {
+      renaming.trouble = edits;
+      return false;
     }
     this.renaming = null;
-    if (name === renaming.target.name) return;
-    const texts: [string, string][] = [];
-    for (const [path, changes] of rename(await this.load(), renaming.target, name)) {
-      await this.studio.documents.load(path);
-      texts.push([path, applyChanges(this.studio.documents.doc(path)!.text, changes)]);
-    }
-    this.studio.editAll(texts, `Rename ${renaming.target.name}`);
-    this.studio.say(`${renaming.target.name} is now ${name} in ${renaming.uses} places`, {
+    if (name === renaming.name) return true;
+    await applyEdits(studio, edits, `Rename ${renaming.name}`);
+    studio.say(`${renaming.name} is now ${name} in ${renaming.uses} places`, {
       label: 'Undo',
-      run: () => this.studio.undo(),
+      run: () => studio.undo(),
     });
+    return true;
   }
 
-  private at(path: string, offset: number, definition: boolean): Found {
-    const text = this.files.find((f) => f.path === path)?.text ?? '';
-    const from = text.lastIndexOf('\n', offset - 1) + 1;
-    const end = text.indexOf('\n', offset);
+  /** What the new name changes, or why it cannot be. */
+  private async edits(newName: string): Promise<WorkspaceEdit | string> {
+    const { renaming } = this;
+    if (!renaming || newName === renaming.name) return { changes: {} };
+    try {
+      return await this.studio.language.ask('textDocument/rename', renaming.path, {
+        position: renaming.at,
+        newName,
+      });
+    } catch (error) {
+      return error instanceof Away ? 'There is no server now.' : (error as Error).message;
+    }
+  }
+
+  private async places(
+    method: string,
+    path: string,
+    position: Position,
+    more: object = {},
+  ): Promise<Location[]> {
+    return ((await this.studio.language.at<Location[]>(method, path, position, more)) ?? []).filter(
+      (l) => this.studio.language.path(l.uri) !== null,
+    );
+  }
+
+  private uses(path: string, at: Position): Promise<[Location[], Location[]]> {
+    return Promise.all([
+      this.places('textDocument/references', path, at, { context: { includeDeclaration: true } }),
+      this.places('textDocument/definition', path, at),
+    ]);
+  }
+
+  private async text(path: string): Promise<string | null> {
+    const { documents, client } = this.studio;
+    const doc = documents.doc(path);
+    if (doc) return doc.text;
+    return client.read(path).then(
+      (file) => file.text,
+      () => null,
+    );
+  }
+
+  private async found(place: Location, definition: boolean): Promise<Found> {
+    const path = this.studio.language.path(place.uri)!;
+    const lines = ((await this.text(path)) ?? '').split('\n');
+    const { line, character } = place.range.start;
     return {
       path,
-      line: lineOf(text, offset),
-      column: offset - from + 1,
-      text: text.slice(from, end < 0 ? text.length : end).trim(),
+      line: line + 1,
+      column: character + 1,
+      text: (lines[line] ?? '').trim(),
       definition,
     };
   }
+}
+
+const has = (all: Location[], one: Location) =>
+  all.some((l) => l.uri === one.uri && JSON.stringify(l.range) === JSON.stringify(one.range));
+
+const slice = (text: string, range: Range) =>
+  text.slice(offsetIn(text, range.start), offsetIn(text, range.end));
+
+/** Carries out edits of the server over all files that they concern, as one step. */
+export async function applyEdits(
+  studio: Studio,
+  edit: WorkspaceEdit,
+  label: string,
+  group = '',
+): Promise<void> {
+  const texts: [string, string][] = [];
+  for (const [uri, edits] of Object.entries(edit.changes)) {
+    const path = studio.language.path(uri);
+    if (path === null) continue;
+    await studio.documents.load(path);
+    texts.push([path, edited(studio.documents.doc(path)!.text, edits)]);
+  }
+  studio.editAll(texts, label, group);
 }

@@ -5,7 +5,7 @@
 // camera, so that they can be compared.
 
 import type { DeriveRequest, EngineClient } from '../lib/client';
-import type { Stats } from '../lib/protocol';
+import type { DrawList, ModelPreview, Stats } from '../lib/protocol';
 import type { Reach } from '../lib/variations';
 import { SceneView } from './scene_view';
 import { themeColors } from './theme';
@@ -59,17 +59,36 @@ export class Thumbnails {
     return next;
   }
 
+  /** A picture of a model as it is in its file. */
+  drawModel(model: ModelPreview): Promise<ImageBitmap> {
+    const next = this.queue.then(() =>
+      this.picture(model.draw, model.stats, model.derivation, model.stats.bbox),
+    );
+    this.queue = next.catch(() => undefined);
+    return next;
+  }
+
   private async drawNow(request: DeriveRequest, reach: Reach | null): Promise<Thumbnail | null> {
     const { derived, draw } = await this.client.derive(request, this.abort.signal);
     if (!draw || !derived.stats) return null;
-    this.derivation = derived.derivation ?? 0;
+    const { stats } = derived;
+    return { picture: await this.picture(draw, stats, derived.derivation ?? 0, reach), stats };
+  }
+
+  private async picture(
+    draw: DrawList,
+    stats: Stats,
+    derivation: number,
+    reach: Reach | null,
+  ): Promise<ImageBitmap> {
+    this.derivation = derivation;
     const first = this.untilDrawn();
-    await this.view.setModel(draw, derived.stats.bbox);
+    await this.view.setModel(draw, stats.bbox);
     if (reach) this.view.frameBox(reach, true);
     await first;
     const deadline = performance.now() + TEXTURES_MS;
     while (this.pending > 0 && performance.now() < deadline) await this.untilDrawn(200);
-    return { picture: await createImageBitmap(this.canvas), stats: derived.stats };
+    return createImageBitmap(this.canvas);
   }
 
   private untilDrawn(most = LONGEST_WAIT_MS): Promise<void> {
