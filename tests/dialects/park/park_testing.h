@@ -103,10 +103,16 @@ inline double selectedLength(const std::string& selection, const Shapes& shapes,
   return m.length.count("Line") ? m.length.at("Line") : 0;
 }
 
-inline std::string example(const std::string& name) {
-  const Result<std::string> text =
-      readFile(std::string(GABLE_SOURCE_DIR) + "/examples/park/" + name + ".park");
+inline std::string grammarOf(const std::string& path) {
+  const Result<std::string> text = readFile(std::string(GABLE_SOURCE_DIR) + path);
   return text.ok() ? text.value() : std::string();
+}
+/// A grammar as the notation's author wrote it down.
+inline std::string documented(const std::string& name) {
+  return grammarOf("/tests/dialects/park/documents/" + name + ".park");
+}
+inline std::string example(const std::string& name) {
+  return grammarOf("/examples/park/" + name + ".park");
 }
 
 inline const Shapes kLot = Shapes::lot(20, 20);
