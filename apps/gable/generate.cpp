@@ -34,7 +34,9 @@ int runGenerate(const GenerateArguments& arguments) {
   if (const int status = readInputs(arguments.derive, inputs)) return status;
   const gable::Model model = deriveModel(inputs);
   print(model.diagnostics());
-  for (const std::string& line : model.prints()) std::printf("%s\n", line.c_str());
+  // Statistics on the standard output are JSON and nothing else; what was printed is part of them.
+  std::FILE* const prints = arguments.stats == "-" ? stderr : stdout;
+  for (const std::string& line : model.prints()) std::fprintf(prints, "%s\n", line.c_str());
   if (gable::hasErrors(model.diagnostics())) return statusOf(model);
 
   const double writeBegin = secondsNow();

@@ -7,6 +7,7 @@ What options take and refuse, what is written where there is no room, what a sig
 of models carries a number that is none. Files are made in FOLDER. Run from the repository's root.
 """
 import itertools
+import json
 import os
 import resource
 import shutil
@@ -217,6 +218,13 @@ class Models(Case):
         "mixed": "Lot --> extrude(5) [ Big(8) ] [ Far(8) ] Y." + GROWING,
         "many": "Lot --> split(x) { 1 : House }*\nHouse --> extrude(9) [ Far(8) ] Y." + GROWING,
     }
+
+    def testStatisticsOnStdoutAreJsonAndNothingElse(self):
+        self.put("x.cga", 'Lot --> print("a line") extrude(2)\n')
+        done = subprocess.run([str(GABLE), "generate", "x.cga", "-o", "a.glb", "--lot", "2x2", "--stats", "-"],
+                              cwd=self.folder, capture_output=True, text=True, timeout=120, check=True)
+        self.assertEqual(json.loads(done.stdout)["prints"], ["a line"])
+        self.assertIn("a line", done.stderr)
 
     def testEveryFormatIsReadBack(self):
         for (name, rules), kind in itertools.product(self.RULES.items(), ("glb", "gltf", "obj", "ply", "stl")):

@@ -83,10 +83,13 @@ void Lowering::warnOfUnused() {
     }
   }
   for (const Grammar::Constant& c : g_.written) addWords(c.text, named);
-  for (size_t i = 1; i < g_.rules.size(); ++i) {
-    if (named.count(g_.rules[i].name) != 0) continue;
-    diagnostics_.warning("unused-rule", g_.rules[i].nameSpan,
-                         "nothing names the rule '" + g_.rules[i].name + "'",
+  bool started = false;
+  for (const Rule& r : g_.rules) {
+    // Derivation begins with the first rule that is no function.
+    const bool start = !started && !r.function;
+    started = started || start;
+    if (start || named.count(r.name) != 0) continue;
+    diagnostics_.warning("unused-rule", r.nameSpan, "nothing names the rule '" + r.name + "'",
                          "name it where it is meant, or take it out");
   }
   for (const Grammar::Constant& c : g_.written) {
@@ -244,29 +247,47 @@ void Lowering::call(const Rule& r, const Op& op, Nodes& out) {
   out.push_back(b_.apply(op.name, arguments));
 }
 
-bool Lowering::inlined(const Rule& r, const Op& op, Nodes& out) {
-  constexpr int kDeepest = 20;
-  if (functions_ >= kDeepest || r.branches.size() != 1) {
-    diagnostics_.error("nesting-too-deep", op.span,
-                       "the function '" + op.name + "' calls itself, or has cases",
-                       "make it a rule: leave out 'fun'");
-    return true;
+bool Lowering::canInline(const Rule& r, const Op& op) {
+  constexpr size_t kMostCalls = 50000, kLongestArgument = 4096;
+  const auto refuse = [&](const char* code, const std::string& what, const char* hint) {
+    diagnostics_.error(code, op.span, "the function '" + op.name + "' " + what, hint);
+    return false;
+  };
+  if (r.branches.size() != 1) {
+    return refuse("nesting-too-deep", "has cases", "make it a rule: leave out 'fun'");
+  }
+  if (std::find(functions_.begin(), functions_.end(), &r) != functions_.end()) {
+    return refuse("nesting-too-deep", "calls itself", "make it a rule: leave out 'fun'");
+  }
+  if (functionCalls_ == kMostCalls) {
+    return refuse("nesting-too-deep", "stands for more than can be written out",
+                  "call functions within functions less often");
   }
   if (op.called && r.parameters.size() != op.arguments.size()) {
-    diagnostics_.error("wrong-argument-count", op.span,
-                       "'" + op.name + "' takes " + std::to_string(r.parameters.size()) +
-                           " arguments, not " + std::to_string(op.arguments.size()),
-                       "give a value for each of its parameters");
-    return true;
+    return refuse("wrong-argument-count",
+                  "takes " + std::to_string(r.parameters.size()) + " arguments, not " +
+                      std::to_string(op.arguments.size()),
+                  "give a value for each of its parameters");
   }
+  for (const auto& argument : op.arguments) {
+    if (argument.text.size() <= kLongestArgument) continue;
+    return refuse("nesting-too-deep", "has an argument that is too long",
+                  "name a part of it as a constant");
+  }
+  ++functionCalls_;
+  return true;
+}
+
+bool Lowering::inlined(const Rule& r, const Op& op, Nodes& out) {
+  if (!canInline(r, op)) return true;
   std::map<std::string, std::string> words;
   for (size_t i = 0; i < r.parameters.size() && i < op.arguments.size(); ++i) {
     words[r.parameters[i]] = op.arguments[i].text;
   }
-  ++functions_;
+  functions_.push_back(&r);
   bool open = true;
   for (const Op& inner : withArguments(r.branches[0].body, words)) open = step(inner, out);
-  --functions_;
+  functions_.pop_back();
   b_.at(op.span);
   return open;
 }

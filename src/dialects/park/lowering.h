@@ -56,6 +56,8 @@ class Lowering {
   void warnOfSlip(const Op& op);
 
   // The steps of a function, with the arguments in the place of its parameters.
+  // Tells why a function cannot stand in the place of its call; false then.
+  bool canInline(const Rule& r, const Op& op);
   bool inlined(const Rule& r, const Op& op, Nodes& out);
 
   // --- Blocks ---
@@ -191,8 +193,11 @@ class Lowering {
   gbbg::TreeBuilder b_;
   Diagnostics& diagnostics_;
   const Rule* rule_ = nullptr;
-  // Functions within functions, and rules in the place of their names.
-  int functions_ = 0, inlined_ = 0;
+  // Functions within functions, from the outermost, and how many calls of them there were.
+  std::vector<const Rule*> functions_;
+  size_t functionCalls_ = 0;
+  // Rules in the place of their names.
+  int inlined_ = 0;
   // Some model is named without the type of its file.
   bool models_ = false;
   std::string modelFile_ = "modelFile";

@@ -26,7 +26,23 @@ TEST(ParkNotation, ReportsWhatItCannotRead) {
   EXPECT_TRUE(run("R -> Grid(2,2) {A}{B}{C}{D}", kLot).has("too-many-blocks"));
   EXPECT_TRUE(run("R -> A(1)\nA(x, y) -> B", kLot).has("wrong-argument-count"));
   EXPECT_TRUE(run("R -> F\nfun F -> F", kLot).has("nesting-too-deep"));
+  EXPECT_TRUE(run("R -> F(1)\nfun F(x) -> F(x+x) F(x+x) F(x+x)", kLot).has("nesting-too-deep"));
+  // What doubles with each function: calls, and the text of an argument.
+  std::string calls = "R -> F0(1)\n", texts = calls;
+  for (int i = 0; i < 30; ++i) {
+    const std::string f = "fun F" + std::to_string(i) + "(x) -> F" + std::to_string(i + 1);
+    calls += f + "(x) F" + std::to_string(i + 1) + "(x)\n";
+    texts += f + "(x+x)\n";
+  }
+  EXPECT_TRUE(run(calls + "fun F30(x) -> Extrude(x)", kLot).has("nesting-too-deep"));
+  EXPECT_TRUE(run(texts + "fun F30(x) -> Extrude(x)", kLot).has("nesting-too-deep"));
   EXPECT_TRUE(run("R -> Select { A }", kLot).has("bad-argument"));
+}
+
+TEST(ParkNotation, BeginsWithTheFirstRuleThatIsNoFunction) {
+  const auto made = run("fun Box(d) -> Circle(d) Extrude(1)\nRegion -> Box(2)", kLot);
+  EXPECT_FALSE(made.has("unused-rule"));
+  EXPECT_TRUE(run("R -> A\nfun Box(d) -> Circle(d)", kLot).has("unused-rule"));
 }
 
 TEST(ParkNotation, SlipsAreFound) {
