@@ -129,7 +129,14 @@ export default {
     await page.keyboard.type('texture("br');
     await page.waitForSelector('.cm-tooltip-autocomplete');
     await page.keyboard.press('ArrowDown');
-    await page.waitForSelector('.cm-completionInfo .preview img');
+    // It is not only there: it is what stands at its place on the screen.
+    await page.waitForFunction(() => {
+      const picture = document.querySelector('.cm-completionInfo .preview img');
+      const box = picture?.getBoundingClientRect();
+      return (
+        box && document.elementFromPoint(box.x + box.width / 2, box.y + box.height / 2) === picture
+      );
+    });
     await pictured();
     await page.keyboard.press('Tab');
     await page.waitForFunction(() =>
