@@ -168,11 +168,14 @@ ValueOrError applyBinary(BinaryOperator op, const Value& a, const Value& b, Valu
     return {Value::of(compares(op, orderOfValues(a, b, pool)))};
   }
   if (op == BinaryOperator::Add && (isText(a) || isText(b))) {
-    const std::string joined = pool.str(a) + pool.str(b);
-    if (joined.size() > kMaxTextLength) {
+    // Looked at where it is: a text that is too long is too long to be copied for each call.
+    const auto lengthOf = [&](const Value& v) {
+      return isText(v) ? pool.text(v.id).size() : pool.str(v).size();
+    };
+    if (lengthOf(a) + lengthOf(b) > kMaxTextLength) {
       return {a, "the text would be longer than 16 megabytes", "text-too-long"};
     }
-    return {pool.string(joined)};
+    return {pool.string(pool.str(a) + pool.str(b))};
   }
   if (a.type != ValueType::Float || b.type != ValueType::Float) {
     return {Value::of(0.0), "arithmetic takes numbers"};

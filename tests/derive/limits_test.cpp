@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <ctime>
 #include <string>
 
 #include "base/interned.h"
@@ -80,6 +81,16 @@ R --> [ s('0.5, '0.5, '0.5) X. ] report("n", 1) t(1, 0, 0) R
       fs::path(testing::TempDir()) / ("deep-" + std::to_string(getpid()) + ".png");
   EXPECT_TRUE(model.picture(picture.string(), small).ok);
   fs::remove(picture);
+}
+
+// A thousand texts of 16 megabytes would take half a minute to write.
+TEST(Limits, textsThatAreTooLongAreNotWrittenFirst) {
+  const Rules rules = rulesOf("Lot --> A(\"x\")\nA(s) --> A(s + s)\n");
+  const std::clock_t begin = std::clock();
+  const Model model = derive(rules, Shapes::lot(4, 4), DeriveSettings{});
+  EXPECT_TRUE(tells(model.diagnostics(), "text-too-long"));
+  EXPECT_TRUE(tells(model.diagnostics(), "recursion-too-deep"));
+  EXPECT_LT(std::clock() - begin, 5 * CLOCKS_PER_SEC);
 }
 
 TEST(Limits, deepPrototypesAreRecalled) {
