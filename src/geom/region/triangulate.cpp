@@ -2,16 +2,19 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Holes are joined to what is around them by bridges (Eberly, "Triangulation by ear clipping"),
-// from the rightmost hole on; but a bridge goes to the nearest vertex that is seen, which exact
-// tests against all edges decide, so that touching and collinear rings need no special ray. The one
-// weakly simple ring that results loses its ears in turn. Only vertices that are not convex can lie
-// in an ear; a static grid finds them, and none is ever added to them. Exact signs let a collinear
-// vertex block an ear whose edge it lies on, so that it never ends in a flat triangle.
+// from the rightmost hole on; but a bridge goes to the nearest vertex that is seen, which a k-d
+// tree of the vertices and grids of edges and bridges find in about O(n log n) in all, and which
+// exact tests against all edges decide, so that touching and collinear rings need no special ray.
+// The one weakly simple ring that results loses its ears in turn. Only vertices that are not convex
+// can lie in an ear; a static grid finds them, and none is ever added to them. Exact signs let a
+// collinear vertex block an ear whose edge it lies on, so that it never ends in a flat triangle.
 #include "geom/region/triangulate.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "base/work.h"
+#include "geom/region/bridge_search.h"
 #include "geom/region/segment_grid.h"
 #include "math/predicates.h"
 
@@ -165,54 +168,55 @@ class Clipping {
       if (at(a).x != at(b).x) return at(a).x > at(b).x;
       return at(a).y != at(b).y ? at(a).y < at(b).y : a < b;
     });
-    for (const uint32_t tip : tips) bridge(tip, edges, grid);
+    NearestNames joined(points());
+    for (const uint32_t outer : outers_) join(outer, joined);
+    for (const uint32_t tip : tips) bridge(tip, edges, grid, joined);
+  }
+
+  std::vector<Vec2> points() const {
+    std::vector<Vec2> out;
+    out.reserve(nodes_.size());
+    for (const Node& n : nodes_) out.push_back(n.at);
+    return out;
+  }
+
+  // The nodes of a ring can be bridged to from now on.
+  void join(uint32_t ring, NearestNames& joined) const {
+    uint32_t n = ring;
+    do {
+      work();
+      joined.add(n);
+      n = nodes_[n].next;
+    } while (n != ring);
   }
 
   // Nearest joined vertex that the hole's tip sees; one that it only touches along the way as a
   // last resort, which valid input never needs.
-  void bridge(uint32_t tip, const std::vector<Segment>& edges, SegmentGrid& grid) {
-    struct Candidate {
-      double distance;
-      uint32_t node;
-      bool operator<(const Candidate& o) const {
-        return distance != o.distance ? distance > o.distance : node > o.node;
-      }
-    };
-    std::vector<Candidate> heap;
-    for (const uint32_t outer : outers_) {
-      uint32_t n = outer;
-      do {
-        work();
-        const Vec2 d = at(n) - at(tip);
-        if (d.x >= 0) heap.push_back({dot(d, d), n});
-        n = nodes_[n].next;
-      } while (n != outer);
-    }
-    if (heap.empty()) heap.push_back({0, outers_[0]});
-    std::make_heap(heap.begin(), heap.end());
-    uint32_t chosen = heap.front().node;
-    while (!heap.empty()) {
-      work(1 + bridges_.size());
-      const uint32_t candidate = heap.front().node;
-      if (sees(tip, candidate, edges, grid)) {
-        chosen = candidate;
-        break;
-      }
-      std::pop_heap(heap.begin(), heap.end());
-      heap.pop_back();
-    }
+  void bridge(uint32_t tip, const std::vector<Segment>& edges, SegmentGrid& grid,
+              NearestNames& joined) {
+    std::optional<uint32_t> first, seen;
+    joined.visitFrom(at(tip), [&](uint32_t candidate) {
+      if (!first) first = candidate;
+      if (sees(tip, candidate, edges, grid)) seen = candidate;
+      return seen.has_value();
+    });
+    const uint32_t chosen = seen ? *seen : first.value_or(outers_[0]);
+    join(tip, joined);
+    const auto copies = static_cast<uint32_t>(nodes_.size());
     splice(chosen, tip);
+    joined.addCopy(copies, tip);
+    joined.addCopy(copies + 1, chosen);
   }
 
-  bool sees(uint32_t tip, uint32_t v, const std::vector<Segment>& edges, SegmentGrid& grid) const {
+  bool sees(uint32_t tip, uint32_t v, const std::vector<Segment>& edges, SegmentGrid& grid) {
     const Vec2 m = at(tip), q = at(v);
     if (m == q || !inCone(v, m) || !inCone(tip, q)) return false;
     bool blocked = false;
     const auto test = [&](const Segment& e) { blocked = blocked || obstructs(m, q, e); };
-    for (const Segment& b : bridges_) test(b);
     Box2 box;
     box.include(m);
     box.include(q);
+    bridges_.query(box, test);
     if (!blocked) grid.query(box, [&](uint32_t i) { test(edges[i]); });
     return !blocked;
   }
@@ -239,7 +243,7 @@ class Clipping {
     nodes_[nodes_[v].next].prev = vCopy;
     nodes_[v].next = tip;
     nodes_[tip].prev = v;
-    bridges_.push_back({at(v), at(tip)});
+    bridges_.add({at(v), at(tip)});
   }
 
   int turn(uint32_t n) const { return orientation(at(nodes_[n].prev), at(n), at(nodes_[n].next)); }
@@ -378,7 +382,7 @@ class Clipping {
   std::vector<Node> nodes_;
   std::vector<uint32_t> rings_;   // One node of each ring: outer ones first, then holes.
   std::vector<uint32_t> outers_;  // One node of each ring whose ears are to be clipped.
-  std::vector<Segment> bridges_;
+  GrowingSegments bridges_;
   Box2 box_;
   Vec2 inverse_;
   int side_ = 1;

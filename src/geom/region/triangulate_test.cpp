@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "base/work.h"
 #include "geom/region/corpus.h"
 #include "math/predicates.h"
 #include "math/trig.h"
@@ -118,6 +119,32 @@ TEST(Triangulate, holesInARowShareTheirHeight) {
     p.holes.push_back({{x, 2.5}, {x, 3}, {x + 1, 3}, {x + 1, 2.5}});
   }
   expectExact(p, "a facade");
+}
+
+// The work of joining holes in a grid.
+uint64_t workForHoles(int side) {
+  class Count final : public WorkMeter {
+   public:
+    bool look(uint64_t units, uint64_t) override {
+      done += units;
+      return true;
+    }
+    uint64_t done = 0;
+  };
+  const double size = side * 10;
+  Polygon p{{{0, 0}, {size, 0}, {size, size}, {0, size}}, {}};
+  for (int i = 0; i < side * side; ++i) {
+    const double x = 10.0 * (i % side) + 2 + 0.001 * (i / side), y = 10.0 * (i / side) + 3;
+    p.holes.push_back({{x, y}, {x, y + 4}, {x + 4, y + 4}, {x + 4, y}});
+  }
+  Count meter;
+  const WorkScope scope(meter);
+  EXPECT_NEAR(triangleArea(p, triangulate(p)), area(p), 1e-6 * area(p));
+  return meter.done;
+}
+
+TEST(Triangulate, joiningHolesTakesLittleMoreThanTheirNumber) {
+  EXPECT_LT(workForHoles(48), 8 * workForHoles(24));
 }
 
 TEST(Triangulate, hopelessInputEnds) {
