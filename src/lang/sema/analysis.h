@@ -6,6 +6,7 @@
 // (the walk over bodies), order.cpp (initialisation), fold.cpp (constants). Not included elsewhere.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -52,11 +53,30 @@ struct Declaration {
   Annotations annotations;
 };
 
+/// How near to a module's own style another is: 0 for itself, 1 for the one that it extends, ...
+class StyleRanks {
+ public:
+  explicit StyleRanks(const std::vector<std::string_view>& chain) : none_(chain.size()) {
+    for (size_t i = 0; i < chain.size(); ++i) ranks_.emplace(chain[i], i);
+  }
+  /// none() where the module does not see it.
+  size_t of(std::string_view style) const {
+    const auto at = ranks_.find(style);
+    return at != ranks_.end() ? at->second : none_;
+  }
+  size_t none() const { return none_; }
+
+ private:
+  size_t none_;
+  std::unordered_map<std::string_view, size_t> ranks_;
+};
+
 /// The declarations of a unit, sorted out once.
 struct UnitIndex {
   std::vector<Declaration> rules, functions, attributes, imports;
-  /// name -> base, in the order of the file.
+  /// name -> base, in the order of the file; and by name the number.
   std::vector<StyleInfo> styles;
+  std::map<std::string, size_t, std::less<>> styleNumbers;
   std::unordered_set<std::string_view> importNames;
   std::string description;
 };
@@ -92,9 +112,9 @@ class Analysis {
                      NodeId importNode, bool dynamic);
   std::vector<std::string_view> styleChain(uint32_t unit, std::string_view style) const;
   void declareAll(ModuleId module);
-  void declareRules(ModuleId module, const std::vector<std::string_view>& chain);
-  void declareFunctions(ModuleId module, const std::vector<std::string_view>& chain);
-  void declareAttributes(ModuleId module, const std::vector<std::string_view>& chain);
+  void declareRules(ModuleId module, const StyleRanks& ranks);
+  void declareFunctions(ModuleId module, const StyleRanks& ranks);
+  void declareAttributes(ModuleId module, const StyleRanks& ranks);
   void addImports(ModuleId module);
   void bindOverrides(ModuleId module, NodeId overrides, bool dynamic);
   void bindRuleOverride(ModuleId module, NodeId rule, ModuleId owner);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 
+#include "base/work.h"
 #include "lang/parser.h"
 #include "lang/sema/analysis.h"
 
@@ -18,10 +19,6 @@ namespace gable::lang {
 namespace {
 
 constexpr std::string_view kDefaultStyle = "Default";
-
-size_t rankOf(const std::vector<std::string_view>& chain, std::string_view style) {
-  return static_cast<size_t>(std::find(chain.begin(), chain.end(), style) - chain.begin());
-}
 
 std::string joinPath(const std::string& path, std::string_view name) {
   return path.empty() ? std::string(name) : path + "." + std::string(name);
@@ -36,7 +33,11 @@ std::string prefixOf(std::string_view name) { return std::string(name.substr(0, 
 void Analysis::indexUnit(uint32_t unit) {
   const Tree& t = program_.units[unit].tree;
   UnitIndex& index = units_[unit];
-  index.styles.push_back({std::string(kDefaultStyle), "", ""});
+  const auto addStyle = [&](StyleInfo style) {
+    index.styleNumbers.emplace(style.name, index.styles.size());
+    index.styles.push_back(std::move(style));
+  };
+  addStyle({std::string(kDefaultStyle), "", ""});
   std::string_view style = kDefaultStyle;
   GroupNote group;
   const auto description = [&](NodeId note) {
@@ -53,17 +54,14 @@ void Analysis::indexUnit(uint32_t unit) {
     switch (t.kind(id)) {
       case NodeKind::Style: {
         style = t.text(id);
-        const auto known = std::find_if(index.styles.begin(), index.styles.end(),
-                                        [&](const StyleInfo& s) { return s.name == style; });
-        if (known != index.styles.end()) {
+        if (index.styleNumbers.find(style) != index.styleNumbers.end()) {
           error("duplicate-style", nameSpan(t, id),
                 "the style " + quote(style) + " is there already", "give it another name");
           break;
         }
         const NodeId base = t.child(id, 1);
-        index.styles.push_back({std::string(style),
-                                std::string(base == kNoNode ? kDefaultStyle : t.text(base)),
-                                notes.description});
+        addStyle({std::string(style), std::string(base == kNoNode ? kDefaultStyle : t.text(base)),
+                  notes.description});
         break;
       }
       case NodeKind::Import:
@@ -85,11 +83,14 @@ void Analysis::indexUnit(uint32_t unit) {
   for (const NodeId id : t.children(t.root())) {
     const NodeId base = t.kind(id) == NodeKind::Style ? t.child(id, 1) : kNoNode;
     if (base == kNoNode) continue;
-    std::vector<std::string_view> names;
-    for (const StyleInfo& s : index.styles) names.push_back(s.name);
-    if (std::find(names.begin(), names.end(), t.text(base)) == names.end()) {
+    const auto names = [&] {
+      std::vector<std::string_view> all;
+      for (const StyleInfo& s : index.styles) all.push_back(s.name);
+      return all;
+    };
+    if (index.styleNumbers.find(t.text(base)) == index.styleNumbers.end()) {
       error("unknown-style", t.span(base), "there is no style " + quote(t.text(base)),
-            near(t.text(base), [&] { return names; }));
+            near(t.text(base), names));
     } else if (styleChain(unit, t.text(id)).back() != kDefaultStyle) {
       error("style-cycle", t.span(base), "the style " + quote(t.text(id)) + " extends itself",
             "extend another style");
@@ -101,11 +102,11 @@ std::vector<std::string_view> Analysis::styleChain(uint32_t unit, std::string_vi
   const std::vector<StyleInfo>& styles = units_[unit].styles;
   std::vector<std::string_view> chain;
   while (!style.empty() && chain.size() <= styles.size()) {
-    const auto at = std::find_if(styles.begin(), styles.end(),
-                                 [&](const StyleInfo& s) { return s.name == style; });
-    if (at == styles.end()) break;
-    chain.push_back(at->name);
-    style = at->base;
+    work();
+    const auto at = units_[unit].styleNumbers.find(style);
+    if (at == units_[unit].styleNumbers.end()) break;
+    chain.push_back(styles[at->second].name);
+    style = styles[at->second].base;
   }
   // A style that extends itself, or an unknown one, still sees the default.
   if (chain.empty()) chain.push_back(styles[0].name);
@@ -190,11 +191,12 @@ ModuleId Analysis::addModule(uint32_t unit, std::string path, std::string style,
 }
 
 void Analysis::declareAll(ModuleId module) {
+  work();
   const Module& m = program_.modules[module];
-  const std::vector<std::string_view> chain = styleChain(m.unit, m.style);
-  declareAttributes(module, chain);
-  declareFunctions(module, chain);
-  declareRules(module, chain);
+  const StyleRanks ranks(styleChain(m.unit, m.style));
+  declareAttributes(module, ranks);
+  declareFunctions(module, ranks);
+  declareRules(module, ranks);
 }
 
 RuleId Analysis::addRule(ModuleId owner, NodeId node, std::string name, const Annotations& notes) {
@@ -215,7 +217,7 @@ RuleId Analysis::addRule(ModuleId owner, NodeId node, std::string name, const An
   return program_.rules.back().id;
 }
 
-void Analysis::declareRules(ModuleId module, const std::vector<std::string_view>& chain) {
+void Analysis::declareRules(ModuleId module, const StyleRanks& ranks) {
   const uint32_t unit = program_.modules[module].unit;
   const Tree& t = program_.units[unit].tree;
   std::map<std::pair<std::string_view, size_t>, size_t> best;
@@ -223,13 +225,13 @@ void Analysis::declareRules(ModuleId module, const std::vector<std::string_view>
     return std::pair(t.text(d.node), t.children(paramsOf(t, d.node)).size());
   };
   for (const Declaration& d : units_[unit].rules) {
-    const auto [at, isNew] = best.emplace(keyOf(d), rankOf(chain, d.style));
-    if (!isNew) at->second = std::min(at->second, rankOf(chain, d.style));
+    const auto [at, isNew] = best.emplace(keyOf(d), ranks.of(d.style));
+    if (!isNew) at->second = std::min(at->second, ranks.of(d.style));
   }
   Scope& scope = scopes_[module];
   for (const Declaration& d : units_[unit].rules) {
     const std::string_view name = t.text(d.node);
-    const size_t rank = rankOf(chain, d.style);
+    const size_t rank = ranks.of(d.style);
     const bool inDefault = d.style == kDefaultStyle;
     if (!inDefault && (t.has(d.node, kFlagStart) || t.has(d.node, kFlagExtension))) {
       error("keyword-in-style", nameSpan(t, d.node),
@@ -244,7 +246,7 @@ void Analysis::declareRules(ModuleId module, const std::vector<std::string_view>
         continue;
       }
     }
-    if (rank == chain.size() || rank > best[keyOf(d)]) continue;
+    if (rank == ranks.none() || rank > best[keyOf(d)]) continue;
     const RuleId id = addRule(module, d.node, std::string(name), d.annotations);
     scope.rules[name].push_back(id);
     if (t.has(d.node, kFlagStart)) scope.startRules.push_back(id);
@@ -257,7 +259,7 @@ void Analysis::declareRules(ModuleId module, const std::vector<std::string_view>
   }
 }
 
-void Analysis::declareFunctions(ModuleId module, const std::vector<std::string_view>& chain) {
+void Analysis::declareFunctions(ModuleId module, const StyleRanks& ranks) {
   const uint32_t unit = program_.modules[module].unit;
   const Tree& t = program_.units[unit].tree;
   std::map<std::pair<std::string_view, size_t>, size_t> best;
@@ -265,13 +267,13 @@ void Analysis::declareFunctions(ModuleId module, const std::vector<std::string_v
     return std::pair(t.text(d.node), t.children(paramsOf(t, d.node)).size());
   };
   for (const Declaration& d : units_[unit].functions) {
-    const auto [at, isNew] = best.emplace(keyOf(d), rankOf(chain, d.style));
-    if (!isNew) at->second = std::min(at->second, rankOf(chain, d.style));
+    const auto [at, isNew] = best.emplace(keyOf(d), ranks.of(d.style));
+    if (!isNew) at->second = std::min(at->second, ranks.of(d.style));
   }
   Scope& scope = scopes_[module];
   for (const Declaration& d : units_[unit].functions) {
-    const size_t rank = rankOf(chain, d.style);
-    if (rank == chain.size() || rank > best[keyOf(d)]) continue;
+    const size_t rank = ranks.of(d.style);
+    if (rank == ranks.none() || rank > best[keyOf(d)]) continue;
     const std::string_view name = t.text(d.node);
     FunctionInfo f;
     f.id = static_cast<FunctionId>(program_.functions.size());
@@ -291,19 +293,19 @@ void Analysis::declareFunctions(ModuleId module, const std::vector<std::string_v
   }
 }
 
-void Analysis::declareAttributes(ModuleId module, const std::vector<std::string_view>& chain) {
+void Analysis::declareAttributes(ModuleId module, const StyleRanks& ranks) {
   const uint32_t unit = program_.modules[module].unit;
   const Tree& t = program_.units[unit].tree;
   std::unordered_map<std::string_view, size_t> best;
   for (const Declaration& d : units_[unit].attributes) {
-    const auto [at, isNew] = best.emplace(t.text(d.node), rankOf(chain, d.style));
-    if (!isNew) at->second = std::min(at->second, rankOf(chain, d.style));
+    const auto [at, isNew] = best.emplace(t.text(d.node), ranks.of(d.style));
+    if (!isNew) at->second = std::min(at->second, ranks.of(d.style));
   }
   Scope& scope = scopes_[module];
   for (const Declaration& d : units_[unit].attributes) {
     const std::string_view name = t.text(d.node);
-    const size_t rank = rankOf(chain, d.style);
-    if (rank == chain.size() || rank > best[name]) continue;
+    const size_t rank = ranks.of(d.style);
+    if (rank == ranks.none() || rank > best[name]) continue;
     if (scope.attributes.count(name) != 0) {
       error("duplicate-name", nameSpan(t, d.node), quote(name) + " is declared already",
             "rename one of the two");
