@@ -53,6 +53,8 @@ double component(const Vec3& v, Axis a) { return v[static_cast<size_t>(a)]; }
 
 void OpCall::emit(Shape child, uint32_t slot, uint32_t piece) {
   work();
+  // Empty braces take nothing.
+  if (slot >= block_->slotCount) return;
   child.path = hashCombine(hashCombine(shape_.path, place_.site), uint64_t{slot} << 32 | piece);
   // More than any limit on width allows: the runtime will refuse them all.
   constexpr size_t kMost = 1'000'000;
