@@ -176,6 +176,15 @@ class DiagnosticsTest(CheckCase):
             "src/base/a.cpp:1: 'no-page' has no line in docs/reference/diagnostics.md",
             "docs/reference/diagnostics.md: no source has the code 'old-one'"])
 
+    def testHintsNameOptionsThatThereAre(self):
+        self.write("apps/gable/main.cpp", 'app->add_option("--max-depth", depth, "Deep");\n')
+        self.write("src/base/a.cpp", 'x("end it, or "\n  "raise the limit on depth (--max-depth)", "raise the roof");\n')
+        self.assertEqual(self.messages(diagnostics), [])
+        self.write("src/base/b.cpp", 'x("raise the limit on width"); y("raise --max-height");\n')
+        self.assertEqual(self.messages(diagnostics), [
+            "src/base/b.cpp: 'raise the limit on width' names no option of the command line",
+            "src/base/b.cpp: 'raise --max-height' names no option of the command line"])
+
 
 class ExceptionsTest(CheckCase):
     def testOverlooksWhatIsNamedAndReportsWhatIsStale(self):

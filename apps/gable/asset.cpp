@@ -25,17 +25,17 @@ int runAssetPrepare(const AssetArguments& a) {
   if (!a.volume.empty() && !setTriple(a.volume, "--size", s.volume.emplace())) return kExitUsage;
   if (!a.rotate.empty() && !setTriple(a.rotate, "--rotate", s.rotate)) return kExitUsage;
   if (const int status = checkExtension(a.output, {"glb", "gltf", "obj"})) return status;
-  const gable::Model model = gable::Model::load(a.model);
+  const gable::Model model = gable::Model::load(a.model, fileLimits(a.limits));
   print(model.diagnostics());
-  if (!model.found()) return kExitFile;
+  if (!model.found()) return statusOf(model.diagnostics(), kExitFile);
   const gable::Model ready = model.prepared(s);
   if (gable::hasErrors(ready.diagnostics())) {
     print(ready.diagnostics());
-    return kExitWrong;
+    return statusOf(ready.diagnostics(), kExitWrong);
   }
-  const gable::WriteResult written = ready.write(a.output, {});
+  const gable::WriteResult written = ready.write(a.output, {false, fileLimits(a.limits)});
   print(written.diagnostics);
-  if (!written.ok) return kExitFile;
+  if (!written.ok) return statusOf(written.diagnostics, kExitFile);
   const auto [low, high] = ready.bounds().value_or(gable::BoundingBox{});
   std::printf("%s: the model covers %.3g..%.3g, %.3g..%.3g, %.3g..%.3g of the volume\n",
               a.output.c_str(), low[0], high[0], low[1], high[1], low[2], high[2]);

@@ -11,7 +11,9 @@ int runCheck(const CheckArguments& arguments) {
   gable::DiagnosticList all;
   bool missing = false;
   for (const std::string& path : arguments.rules) {
-    const gable::Rules rules = gable::Rules::load(path, {arguments.project, arguments.dialect});
+    gable::LoadSettings settings{arguments.project, arguments.dialect};
+    settings.limits = fileLimits(arguments.limits);
+    const gable::Rules rules = gable::Rules::load(path, settings);
     missing = missing || !rules.found();
     if (arguments.disassemble) std::fputs(rules.disassembly().c_str(), stdout);
     all.insert(all.end(), rules.diagnostics().begin(), rules.diagnostics().end());
@@ -28,5 +30,5 @@ int runCheck(const CheckArguments& arguments) {
     }
   }
   if (missing) return kExitFile;
-  return errors > 0 ? kExitWrong : kExitDone;
+  return statusOf(all, errors > 0 ? kExitWrong : kExitDone);
 }

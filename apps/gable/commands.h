@@ -23,6 +23,7 @@ struct CheckArguments {
   bool json = false;
   /// Print what the rules are compiled to as well.
   bool disassemble = false;
+  LimitArguments limits;
 };
 int runCheck(const CheckArguments& arguments);
 
@@ -32,6 +33,7 @@ struct FormatArguments {
   bool check = false;
   /// Print to stdout instead of writing back.
   bool toStdout = false;
+  LimitArguments limits;
 };
 int runFormat(const FormatArguments& arguments);
 
@@ -39,6 +41,7 @@ struct ConvertArguments {
   std::string rules;
   std::optional<std::string> project, dialect;
   std::string output = "-";
+  LimitArguments limits;
 };
 int runConvert(const ConvertArguments& arguments);
 
@@ -57,6 +60,10 @@ int runRender(const RenderArguments& arguments);
 
 struct TraceArguments {
   DeriveArguments derive;
+  std::optional<std::string> rule;
+  /// Names of rules with '/' between them.
+  std::string path;
+  std::optional<uint32_t> depth;
   std::string output = "-";
 };
 int runTrace(const TraceArguments& arguments);
@@ -67,6 +74,7 @@ struct AssetArguments {
   std::string pivot, rotate, volume;
   std::optional<std::string> name;
   bool zUp = false;
+  LimitArguments limits;
 };
 int runAssetPrepare(const AssetArguments& arguments);
 

@@ -46,14 +46,26 @@ void print(const gable::DiagnosticList& diagnostics) {
   for (const gable::Diagnostic& d : diagnostics) std::fputs(d.rendered.c_str(), stderr);
 }
 
+gable::FileLimits fileLimits(const LimitArguments& arguments) {
+  gable::FileLimits limits;
+  if (arguments.maxSeconds) limits.seconds = arguments.maxSeconds;
+  if (arguments.maxSeconds == 0.0) limits.seconds.reset();
+  limits.bytes.reset();
+  if (arguments.maxMegabytes > 0) limits.bytes = arguments.maxMegabytes << 20;
+  limits.cancel = cancelFlag();
+  return limits;
+}
+
 int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
-  inputs.rules =
-      gable::Rules::load(arguments.rules, {arguments.project, arguments.dialect, arguments.style});
+  const gable::FileLimits limits = fileLimits(arguments.limits);
+  gable::LoadSettings load{arguments.project, arguments.dialect, arguments.style};
+  load.limits = limits;
+  inputs.rules = gable::Rules::load(arguments.rules, load);
   print(inputs.rules.diagnostics());
   if (!inputs.rules.found()) return kExitFile;
-  if (!inputs.rules.ok()) return kExitWrong;
+  if (!inputs.rules.ok()) return statusOf(inputs.rules.diagnostics(), kExitWrong);
   if (!arguments.shapes.empty()) {
-    inputs.shapes = gable::Shapes::load(arguments.shapes);
+    inputs.shapes = gable::Shapes::load(arguments.shapes, limits);
   } else {
     double width = 20, depth = 20;
     double sides[2] = {width, depth};
@@ -65,9 +77,14 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
     inputs.shapes = gable::Shapes::lot(width, depth);
   }
   print(inputs.shapes.diagnostics());
-  if (arguments.cutNested) inputs.shapes = inputs.shapes.withNestedCut();
+  if (arguments.cutNested && inputs.shapes.size() > 0) {
+    inputs.shapes = inputs.shapes.withNestedCut(limits);
+    if (inputs.shapes.size() == 0) print(inputs.shapes.diagnostics());
+  }
   if (!inputs.shapes.found()) return kExitFile;
-  if (!inputs.shapes.ok() && inputs.shapes.size() == 0) return kExitWrong;
+  if (!inputs.shapes.ok() && inputs.shapes.size() == 0) {
+    return statusOf(inputs.shapes.diagnostics(), kExitWrong);
+  }
   gable::DeriveSettings& s = inputs.settings;
   s.startRule = arguments.start;
   if (!parseSeed(arguments.seed, s.seed)) {
@@ -75,12 +92,13 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
   }
   s.sharing = !arguments.noSharing;
   s.jobs = arguments.jobs;
-  if (arguments.maxSeconds > 0) s.limits.seconds = arguments.maxSeconds;
+  if (arguments.limits.maxSeconds > 0.0) s.limits.seconds = arguments.limits.maxSeconds;
   s.limits.shapes = arguments.maxShapes;
+  s.limits.vertices = arguments.maxVertices;
+  s.limits.width = arguments.maxWidth;
   s.limits.depth = arguments.maxDepth;
   s.limits.steps = arguments.maxSteps;
-  s.limits.bytes.reset();
-  if (arguments.maxMegabytes > 0) s.limits.bytes = arguments.maxMegabytes << 20;
+  s.limits.bytes = limits.bytes;
   s.cancel = cancelFlag();
   for (const std::string& pair : arguments.set) {
     const size_t equals = pair.find('=');
@@ -98,6 +116,13 @@ int statusOf(const gable::Model& model) {
   }
   if (gable::hasErrors(model.diagnostics())) return kExitWrong;
   return model.end() == gable::End::Done ? kExitDone : kExitLimit;
+}
+
+int statusOf(const gable::DiagnosticList& diagnostics, int otherwise) {
+  const bool limited = std::any_of(diagnostics.begin(), diagnostics.end(), [](const auto& d) {
+    return d.code == "out-of-time" || d.code == "out-of-memory" || d.code == "was-cancelled";
+  });
+  return limited ? static_cast<int>(kExitLimit) : otherwise;
 }
 
 ProgressLine::ProgressLine(const char* what) : what_(what), terminal_(isatty(STDERR_FILENO) != 0) {}

@@ -27,6 +27,17 @@ enum ExitStatus : int {
   kExitLimit = 4,
 };
 
+/// The options of commands that work on files of others.
+struct LimitArguments {
+  /// Absent: what the library thinks right for files, and no limit for what a derivation or a
+  /// picture takes. 0: no limit.
+  std::optional<double> maxSeconds;
+  /// 0: no limit.
+  uint64_t maxMegabytes = 4096;
+};
+/// Those for reading, analysing, converting and writing. Ctrl-C cancels.
+gable::FileLimits fileLimits(const LimitArguments& arguments);
+
 /// The options of commands that derive rules.
 struct DeriveArguments {
   std::string rules;
@@ -40,13 +51,12 @@ struct DeriveArguments {
   std::optional<std::string> project, dialect, style;
   std::optional<int> jobs;
   bool noSharing = false;
-  /// 0: no limit.
-  double maxSeconds = 0;
+  LimitArguments limits;
   uint64_t maxShapes = 50'000'000;
+  uint64_t maxVertices = 200'000'000;
+  uint32_t maxWidth = 100'000;
   uint32_t maxDepth = 1024;
   uint64_t maxSteps = 4'000'000'000;
-  /// 0: no limit.
-  uint64_t maxMegabytes = 4096;
 };
 
 /// Coordinates and sizes in metres.
@@ -77,6 +87,8 @@ void print(const gable::DiagnosticList& diagnostics);
 
 /// The exit status that a derivation asks for.
 int statusOf(const gable::Model& model);
+/// kExitLimit where a limit or a cancel ended what has these diagnostics, else `otherwise`.
+int statusOf(const gable::DiagnosticList& diagnostics, int otherwise);
 
 /// A line of progress on a terminal; silent in a pipe. Erased when it goes out of scope.
 class ProgressLine {

@@ -8,9 +8,12 @@
 int runConvert(const ConvertArguments& arguments) {
   std::string text;
   if (!readText(arguments.rules, text)) return kExitFile;
-  const gable::Converted converted =
-      gable::convert(text, arguments.rules, {arguments.project, arguments.dialect});
+  gable::LoadSettings settings{arguments.project, arguments.dialect};
+  settings.limits = fileLimits(arguments.limits);
+  const gable::Converted converted = gable::convert(text, arguments.rules, settings);
   print(converted.diagnostics);
-  if (gable::hasErrors(converted.diagnostics)) return kExitWrong;
+  if (gable::hasErrors(converted.diagnostics)) {
+    return statusOf(converted.diagnostics, kExitWrong);
+  }
   return writeText(arguments.output, converted.text);
 }

@@ -14,10 +14,10 @@ int runFormat(const FormatArguments& arguments) {
       status = kExitFile;
       continue;
     }
-    const gable::Formatted formatted = gable::format(text, path);
+    const gable::Formatted formatted = gable::format(text, path, fileLimits(arguments.limits));
+    print(formatted.diagnostics);
     if (gable::hasErrors(formatted.diagnostics)) {
-      print(formatted.diagnostics);
-      status = std::max<int>(status, kExitWrong);
+      status = std::max<int>(status, statusOf(formatted.diagnostics, kExitWrong));
       continue;
     }
     if (arguments.toStdout) {

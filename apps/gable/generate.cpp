@@ -20,7 +20,8 @@ gable::Model deriveModel(Inputs& inputs) {
 
 gable::WriteResult writeModel(const gable::Model& model, const GenerateArguments& arguments) {
   const ProgressLine progress("writing");
-  return model.write(arguments.output, {arguments.gpuInstancing});
+  return model.write(arguments.output,
+                     {arguments.gpuInstancing, fileLimits(arguments.derive.limits)});
 }
 
 }  // namespace
@@ -42,7 +43,7 @@ int runGenerate(const GenerateArguments& arguments) {
   const double writeBegin = secondsNow();
   const gable::WriteResult written = writeModel(model, arguments);
   print(written.diagnostics);
-  if (!written.ok) return kExitFile;
+  if (!written.ok) return statusOf(written.diagnostics, kExitFile);
 
   if (!arguments.stats.empty()) {
     gable::RunFigures figures;

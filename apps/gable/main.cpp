@@ -4,6 +4,8 @@
 // The command line: options to arguments, one command each.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
 
 #include "commands.h"
 
@@ -35,6 +37,16 @@ void addPictureOptions(CLI::App* app, RenderArguments& a) {
       ->check(number({1, 170}));
 }
 
+void addLimits(CLI::App* app, LimitArguments& a, const char* seconds) {
+  app->add_option("--max-seconds", a.maxSeconds, seconds)->check(number({0, 1e9}));
+  app->add_option("--max-memory", a.maxMegabytes,
+                  "Stop when it takes so many megabytes (default 4096, 0: no limit)")
+      ->check(number({0, 1e9, true}));
+}
+
+/// How long commands may take that derive nothing.
+constexpr const char* kFileSeconds = "Stop after so many seconds a file (default 600, 0: no limit)";
+
 void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
   auto* shapes = app->add_option("--shapes", a.shapes, "Footprints: .geojson .obj .gltf .glb");
   app->add_option("--lot", a.lot, "A rectangular lot in metres, such as 30x40 (default 20x20)")
@@ -52,17 +64,34 @@ void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
       ->check(number({0, 4096, true}));
   app->add_flag("--no-sharing", a.noSharing, "Derive equal parts again instead of sharing them");
   app->add_option("--dialect", a.dialect, "The rules' notation, when the extension does not tell");
-  app->add_option("--max-seconds", a.maxSeconds, "Stop the derivation after so many seconds")
-      ->check(number({0, 1e9}));
+  addLimits(app, a.limits,
+            "Stop reading, deriving, writing and drawing after so many seconds each (default: 600 "
+            "for files, no limit else)");
   app->add_option("--max-shapes", a.maxShapes, "Stop after so many shapes")
       ->check(number({0, 1e12, true}));
   app->add_option("--max-steps", a.maxSteps, "Stop after so many operations and calls")
       ->check(number({0, 1e18, true}));
-  app->add_option("--max-memory", a.maxMegabytes,
-                  "Stop when the derivation uses so many megabytes (default 4096, 0: no limit)")
-      ->check(number({0, 1e9, true}));
+  app->add_option("--max-vertices", a.maxVertices,
+                  "Stop when leaves have so many vertices (default 200000000)")
+      ->check(number({0, 1e12, true}));
+  app->add_option("--max-width", a.maxWidth, "Parts or turns of one shape (default 100000)")
+      ->check(number({0, 1e6, true}));
   app->add_option("--max-depth", a.maxDepth, "Rule calls within rule calls (default 1024)")
       ->check(number({0, 4294967295.0, true}));
+}
+
+// What to say where the first word is no command; else nothing.
+std::string unknownCommand(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return {};
+  const std::string word = argv[1];
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), word) != names.end()) return {};
+  std::string hint = gable::suggestion(word, names);
+  if (hint.empty()) {
+    for (const std::string& name : names) hint += (hint.empty() ? "there are " : ", ") + name;
+  }
+  return "gable: there is no command '" + word + "'; " + hint + "\n";
 }
 
 void addLsp(CLI::App& app, int& status) {
@@ -71,6 +100,35 @@ void addLsp(CLI::App& app, int& status) {
   lsp->add_flag_callback(
       "--stdio", [] {}, "Use stdin and stdout, which is the only way");
   lsp->callback([&status] { status = runLsp(); });
+}
+
+void addCheck(CLI::App& app, CheckArguments& a, int& status) {
+  auto* check = app.add_subcommand("check", "Report all mistakes of rule files");
+  check->add_option("rules", a.rules, "Rule files")->required();
+  check->add_option("--project", a.project, "The folder that the rules may read from");
+  check->add_option("--dialect", a.dialect, "The rules' notation");
+  check->add_flag("--json", a.json, "Machine-readable output");
+  check->add_flag("--disassemble", a.disassemble, "List the compiled program as well");
+  addLimits(check, a.limits, kFileSeconds);
+  check->callback([&a, &status] { status = runCheck(a); });
+}
+
+void addFormat(CLI::App& app, FormatArguments& a, int& status) {
+  auto* format = app.add_subcommand("format", "Format rule files");
+  format->add_option("files", a.files, "Rule files")->required();
+  format->add_flag("--check", a.check, "Change nothing; fail if a file would change");
+  format->add_flag("--stdout", a.toStdout, "Print instead of writing back");
+  addLimits(format, a.limits, kFileSeconds);
+  format->callback([&a, &status] { status = runFormat(a); });
+}
+
+void addTraceFilter(CLI::App* app, TraceArguments& a) {
+  app->add_option("--rule", a.rule, "Only the shapes of this rule, with what comes of them");
+  app->add_option("--path", a.path,
+                  "Only what these rules make one after the other, from the start rule down: "
+                  "Lot/House/Roof");
+  app->add_option("--depth", a.depth, "Only so many levels below the topmost shapes shown")
+      ->check(number({0, 4294967295.0, true}));
 }
 
 void addStudio(CLI::App& app, StudioArguments& a, int& status) {
@@ -107,20 +165,9 @@ int main(int argc, char** argv) {
   generateApp->callback([&] { status = runGenerate(generate); });
 
   CheckArguments check;
-  auto* checkApp = app.add_subcommand("check", "Report all mistakes of rule files");
-  checkApp->add_option("rules", check.rules, "Rule files")->required();
-  checkApp->add_option("--project", check.project, "The folder that the rules may read from");
-  checkApp->add_option("--dialect", check.dialect, "The rules' notation");
-  checkApp->add_flag("--json", check.json, "Machine-readable output");
-  checkApp->add_flag("--disassemble", check.disassemble, "List the compiled program as well");
-  checkApp->callback([&] { status = runCheck(check); });
-
+  addCheck(app, check, status);
   FormatArguments format;
-  auto* formatApp = app.add_subcommand("format", "Format rule files");
-  formatApp->add_option("files", format.files, "Rule files")->required();
-  formatApp->add_flag("--check", format.check, "Change nothing; fail if a file would change");
-  formatApp->add_flag("--stdout", format.toStdout, "Print instead of writing back");
-  formatApp->callback([&] { status = runFormat(format); });
+  addFormat(app, format, status);
 
   ConvertArguments convert;
   auto* convertApp =
@@ -131,6 +178,7 @@ int main(int argc, char** argv) {
   convertApp->add_option("--dialect", convert.dialect,
                          "Its notation, when the extension does not tell");
   convertApp->add_option("-o,--output", convert.output, "A file, or - for stdout (default)");
+  addLimits(convertApp, convert.limits, kFileSeconds);
   convertApp->callback([&] { status = runConvert(convert); });
 
   RenderArguments render;
@@ -147,6 +195,7 @@ int main(int argc, char** argv) {
   traceApp->add_option("rules", trace.derive.rules, "The rule file")->required();
   addDeriveOptions(traceApp, trace.derive);
   traceApp->add_option("-o,--output", trace.output, "A file, or - for stdout (default)");
+  addTraceFilter(traceApp, trace);
   traceApp->callback([&] { status = runTrace(trace); });
 
   AssetArguments asset;
@@ -163,6 +212,7 @@ int main(int argc, char** argv) {
   prepareApp->add_option("--name", asset.name, "The name of the model in the file");
   prepareApp->add_flag("--z-up", asset.zUp, "The up axis of the file is z");
   prepareApp->add_option("-o,--output", asset.output, "The asset: .glb .gltf .obj")->required();
+  addLimits(prepareApp, asset.limits, kFileSeconds);
   prepareApp->callback([&] { status = runAssetPrepare(asset); });
 
   OpsArguments ops;
@@ -178,6 +228,10 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
+    if (const std::string unknown = unknownCommand(app, argc, argv); !unknown.empty()) {
+      std::fputs(unknown.c_str(), stderr);
+      return kExitUsage;
+    }
     // Help and version are no mistakes; all else is a wrong command line.
     return finishOutput(app.exit(e) == 0 ? kExitDone : kExitUsage);
   }

@@ -85,6 +85,16 @@ std::string knownName(const gable::Builtins& all, const std::string& name) {
   return found;
 }
 
+// All that can be asked for.
+std::vector<std::string> namesOf(const gable::Builtins& all) {
+  std::vector<std::string> names;
+  for (const gable::BuiltinCall& c : all.operations) names.push_back(c.name);
+  for (const gable::BuiltinCall& c : all.functions) names.push_back(c.name);
+  for (const gable::BuiltinAttribute& a : all.attributes) names.push_back(a.name);
+  for (const gable::NotationWord& w : gable::notationWords()) names.push_back(w.word);
+  return names;
+}
+
 // What the word means in other notations, a paragraph each.
 std::string notationsOf(const std::string& name) {
   std::string out;
@@ -114,8 +124,9 @@ int runOps(const OpsArguments& arguments) {
     text = arguments.json ? gable::builtinJson(all, knownName(all, arguments.name))
                           : pageOf(all, arguments.name);
   if (!text) {
-    std::fprintf(stderr, "gable: nothing built in is called '%s'; 'gable ops' lists all\n",
-                 arguments.name.c_str());
+    const std::string near = gable::suggestion(arguments.name, namesOf(all));
+    std::fprintf(stderr, "gable: nothing built in is called '%s'; %s%s'gable ops' lists all\n",
+                 arguments.name.c_str(), near.c_str(), near.empty() ? "" : " ");
     return kExitUsage;
   }
   std::fputs(text->c_str(), stdout);

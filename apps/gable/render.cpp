@@ -51,6 +51,8 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
   s.samples = a.samples;
   s.fieldOfView = a.fieldOfView;
   s.jobs = a.derive.jobs;
+  s.limits = fileLimits(a.derive.limits);
+  if (!a.derive.limits.maxSeconds) s.limits.seconds.reset();
   s.cancel = cancelFlag();
   double sun[2];
   if (!a.sun.empty()) {
@@ -93,19 +95,23 @@ int runRender(const RenderArguments& arguments) {
   if (const int status = pictureSettings(arguments, settings)) return status;
   gable::Model model(nullptr);
   if (isModel(arguments.derive.rules)) {
-    model = gable::Model::load(arguments.derive.rules);
+    model = gable::Model::load(arguments.derive.rules, fileLimits(arguments.derive.limits));
   } else {
     Inputs inputs;
     if (const int status = readInputs(arguments.derive, inputs)) return status;
     model = gable::derive(inputs.rules, inputs.shapes, inputs.settings);
   }
   print(model.diagnostics());
-  if (!model.found()) return kExitFile;
-  if (gable::hasErrors(model.diagnostics())) return statusOf(model);
+  if (!model.found()) return statusOf(model.diagnostics(), kExitFile);
+  if (gable::hasErrors(model.diagnostics())) {
+    return statusOf(model.diagnostics(), statusOf(model));
+  }
   ProgressLine progress("drawing");
   settings.progress = progress.callback();
   const gable::WriteResult written = model.picture(arguments.output, settings);
   print(written.diagnostics);
-  if (gable::hasErrors(written.diagnostics)) return kExitFile;
+  if (gable::hasErrors(written.diagnostics)) {
+    return statusOf(written.diagnostics, kExitFile);
+  }
   return written.ok ? statusOf(model) : kExitLimit;
 }

@@ -79,4 +79,7 @@ struct NotationWord {
 
 std::vector<NotationWord> notationWords();
 
+/// What to say of a name that is none of those known: "did you mean 'grid'?", or nothing.
+std::string suggestion(const std::string& name, const std::vector<std::string>& known);
+
 }  // namespace gable

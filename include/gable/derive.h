@@ -15,6 +15,7 @@
 #include "gable/model.h"
 #include "gable/rules.h"
 #include "gable/shapes.h"
+#include "gable/trace.h"
 
 namespace gable {
 
@@ -30,6 +31,8 @@ struct DeriveSettings {
   bool sharing = true;
   /// Keep the derivation tree (turns sharing off).
   bool trace = false;
+  /// With `trace`: what of it is kept.
+  TraceFilter traceFilter;
   /// With `trace`: the model also has the shapes that rules replace, each as they got it, so that a
   /// derivation can be shown step by step.
   bool traceShapes = false;

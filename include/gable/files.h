@@ -6,7 +6,9 @@
 // or a signal leaves the old one as it was.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gable/gable.h"
@@ -23,6 +25,10 @@ RuleText readRuleText(const std::string& path);
 
 /// Replaces a file whole.
 WriteResult writeTextFile(const std::string& path, const std::string& text);
+/// The same with a text that is made piece by piece: `write` hands the pieces to the sink.
+using TextSink = std::function<void(std::string_view)>;
+WriteResult writeTextFile(const std::string& path,
+                          const std::function<void(const TextSink& sink)>& write);
 
 /// The extensions of the models that Model::write makes, without dots.
 const std::vector<std::string>& modelExtensions();

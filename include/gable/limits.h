@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// What a derivation may use up, and how it came to its end.
+// What a derivation, and what is done with files, may use up; how a derivation came to its end.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <optional>
 
@@ -31,6 +32,17 @@ struct Limits {
   std::optional<uint64_t> bytes = uint64_t{4} << 30;
   /// Seconds of wall-clock time.
   std::optional<double> seconds;
+};
+
+/// What may be used up by reading, analysing, converting, writing or drawing a file. Exceeding it
+/// ends that with a diagnostic that names the file, and there is no result.
+struct FileLimits {
+  /// Seconds of wall-clock time.
+  std::optional<double> seconds = 600;
+  /// By how many bytes the process may grow meanwhile.
+  std::optional<uint64_t> bytes = uint64_t{4} << 30;
+  /// Ends the work soon after it becomes true. May be null.
+  const std::atomic<bool>* cancel = nullptr;
 };
 
 enum class End : uint8_t { Done, LimitReached, Cancelled };

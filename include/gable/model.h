@@ -26,6 +26,7 @@ using Triple = std::array<double, 3>;
 struct WriteSettings {
   /// glTF: instances as EXT_mesh_gpu_instancing instead of nodes.
   bool gpuInstancing = false;
+  FileLimits limits;
 };
 
 struct WriteResult {
@@ -69,6 +70,8 @@ struct PictureSettings {
   /// Called from any thread.
   std::function<void(size_t done, size_t total)> progress;
   std::atomic<bool>* cancel = nullptr;
+  /// By default it may take as long as its samples take.
+  FileLimits limits{std::nullopt};
 };
 
 /// How a model becomes an asset that fills scopes: its volume is mapped to the unit cube.
@@ -185,7 +188,7 @@ struct ModelGeometry {
 class Model {
  public:
   /// Reads .obj, .gltf or .glb as it is, for pictures.
-  static Model load(const std::string& path);
+  static Model load(const std::string& path, const FileLimits& limits = {});
   /// Of a model that was read: the same as an asset, for i(.., unitCube) and post-process tables.
   Model prepared(const PrepareSettings& settings) const;
   /// Of a model that was read; absent when it is empty.
@@ -212,8 +215,8 @@ class Model {
   /// Meshes, materials and the places of the first leaves, at most `mostLeaves`.
   ModelGeometry geometry(uint64_t mostLeaves = 1u << 24) const;
   /// The model for a graphics card: batches of instances and of merged triangles; the bytes are
-  /// described in docs/dev/studio-protocol.md.
-  std::string drawList() const;
+  /// described in docs/dev/studio-protocol.md. Empty where a limit ends it.
+  std::string drawList(const FileLimits& limits = {}) const;
   /// The bytes of a texture by the path that a material names.
   std::optional<std::string> texture(const std::string& path) const;
   /// By extension: .glb .gltf .obj .ply .stl, and .png for a picture with default settings.

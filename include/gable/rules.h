@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "gable/diagnostic.h"
+#include "gable/limits.h"
 
 namespace gable {
 
@@ -30,6 +31,7 @@ struct LoadSettings {
   /// nor are changes of their files seen, and models made by them are of use to
   /// DeriveSettings::before. May be null.
   const class Rules* before = nullptr;
+  FileLimits limits;
 };
 
 struct AttributeInfo {
@@ -90,7 +92,7 @@ struct Formatted {
   std::string text;
   DiagnosticList diagnostics;
 };
-Formatted format(const std::string& text, const std::string& path);
+Formatted format(const std::string& text, const std::string& path, const FileLimits& limits = {});
 
 /// Rule text of another notation as text of Gable's own language. Both derive to the same model.
 /// Text of Gable's own language comes back formatted; with mistakes the text is empty.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "gable/diagnostic.h"
+#include "gable/limits.h"
 
 namespace gable {
 
@@ -28,13 +29,14 @@ class Shapes {
                      const std::vector<std::vector<uint32_t>>& faces,
                      const std::vector<std::vector<uint32_t>>& holes = {});
   /// .obj .gltf .glb .geojson .json, by extension.
-  static Shapes load(const std::string& path);
+  static Shapes load(const std::string& path, const FileLimits& limits = {});
   /// The same for a file's content in memory; `name` gives the extension.
-  static Shapes parse(const std::string& content, const std::string& name);
+  static Shapes parse(const std::string& content, const std::string& name,
+                      const FileLimits& limits = {});
 
   /// The same with footprints cut out of larger ones that they lie in or overlap, so that buildings
   /// in courts do not stand in their neighbours.
-  Shapes withNestedCut() const;
+  Shapes withNestedCut(const FileLimits& limits = {}) const;
 
   /// Some of the shapes, by index; their draws stay those that they have among all. Numbers that
   /// name no shape are left out.

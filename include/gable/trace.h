@@ -14,6 +14,17 @@
 
 namespace gable {
 
+/// Which shapes a trace shows. What is left out takes no memory.
+struct TraceFilter {
+  /// The shapes of this rule, with what comes of them; absent: all shapes.
+  std::optional<std::string> rule;
+  /// The shapes that these rules made one out of the other, from the start rule down, with what
+  /// comes of them; empty: all shapes.
+  std::vector<std::string> path;
+  /// So many levels below the topmost shapes that are shown; absent: all.
+  std::optional<uint32_t> depth;
+};
+
 /// Nodes are in the order of the derivation, a parent before its children, so the index of a node
 /// is its step.
 struct DerivationTrace {
@@ -28,7 +39,7 @@ struct DerivationTrace {
 
   /// A shape of the derivation tree.
   struct Node {
-    /// Absent: an initial shape.
+    /// Absent: an initial shape, or the topmost one that a filter shows.
     std::optional<uint32_t> parent;
     /// The initial shape that it belongs to.
     uint32_t shape = 0;

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/number.h"
+#include "base/work.h"
 
 namespace gable {
 
@@ -35,6 +36,7 @@ const JsonValue& JsonValue::at(size_t i) const {
 
 const JsonValue* JsonValue::find(std::string_view name) const {
   const std::vector<Member>& all = members();
+  work(all.size());
   for (auto m = all.rbegin(); m != all.rend(); ++m) {
     if (m->first == name) return &m->second;
   }
@@ -65,6 +67,7 @@ struct JsonBuilder {
   // Puts a value into the open container; nullptr when there are too many.
   template <class T>
   JsonValue* place(T content) {
+    work();
     if (++values > limits.values) {
       error = {"json-limit", "the JSON text has more values than allowed", {}};
       return nullptr;

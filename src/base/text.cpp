@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "base/work.h"
+
 namespace gable {
 
 namespace {
@@ -52,6 +54,7 @@ std::string nearestName(std::string_view name, const std::vector<std::string_vie
   size_t bestDistance = std::max<size_t>(1, (name.size() + 1) / 3) + 1;
   std::string_view best;
   for (const std::string_view candidate : candidates) {
+    work(name.size());
     if (candidate == name || candidate.size() > kLongest) continue;
     const size_t distance =
         lower(candidate) == folded ? 0 : editDistance(name, candidate, bestDistance - 1);

@@ -3,6 +3,7 @@
 //
 // The catalogue as plain data.
 
+#include "base/text.h"
 #include "builtins/catalogue.h"
 #include "dialects/dialect.h"
 #include "engine/guard.h"
@@ -102,5 +103,9 @@ std::vector<NotationWord> notationWords() {
 }
 
 Builtins builtins() { return guardedValue<Builtins>(allBuiltins); }
+
+std::string suggestion(const std::string& name, const std::vector<std::string>& known) {
+  return didYouMean(name, {known.begin(), known.end()});
+}
 
 }  // namespace gable

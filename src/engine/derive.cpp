@@ -3,6 +3,7 @@
 //
 // From rules and shapes to a model.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -64,6 +65,19 @@ std::string placeOf(const Scene& scene, const Leaf& leaf) {
   return text;
 }
 
+void checkTraceFilter(const Program& program, const TraceFilter& filter, DiagnosticList& wrong) {
+  std::vector<std::string> asked = filter.path;
+  if (filter.rule) asked.push_back(*filter.rule);
+  std::vector<std::string_view> names;
+  for (const RuleCode& rule : program.rules) names.push_back(rule.qualifiedName);
+  for (const std::string& name : asked) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    wrong.push_back(
+        diagnosticOf(Error{"unknown-traced-rule", "the rules have no rule '" + name + "' to trace",
+                           hintFor(name, names, "rules")}));
+  }
+}
+
 // The attributes and the start rule that the caller names, by their numbers in the program.
 void bindSettings(const Rules::Impl& rules, const DeriveSettings& settings, DeriveOptions& options,
                   DiagnosticList& wrong) {
@@ -93,6 +107,7 @@ void bindSettings(const Rules::Impl& rules, const DeriveSettings& settings, Deri
     else
       complain(value.error());
   }
+  checkTraceFilter(program, settings.traceFilter, wrong);
   std::vector<std::string_view> starts;
   for (const RuleCode& rule : program.rules) {
     if (rule.parameters.empty()) starts.push_back(rule.qualifiedName);
@@ -134,6 +149,7 @@ DeriveOptions optionsOf(const DeriveSettings& settings, const Rules::Impl& rules
   options.seed = settings.seed;
   options.sharing = settings.sharing;
   options.trace = settings.trace;
+  options.traceFilter = settings.traceFilter;
   options.traceShapes = settings.trace && settings.traceShapes;
   options.jobs = settings.jobs.value_or(0);
   options.limits = settings.limits;

@@ -83,4 +83,25 @@ Diagnostic diagnosticOfException() {
   }
 }
 
+Task::Task(std::string what, const FileLimits& limits)
+    : what_(std::move(what)), allowance_({limits.seconds, limits.bytes, limits.cancel}) {}
+
+Diagnostic Task::warning() const {
+  const Error e = allowance_.reason(what_);
+  return diagnosticOf({Severity::Warning, e.code, Span{}, e.message, e.hint, {}, {}}, Sources{});
+}
+
+Diagnostic Task::diagnosticOfException() const {
+  if (allowance_.reached()) return diagnosticOf(allowance_.reason(what_));
+  try {
+    throw;
+  } catch (const Unwinding& u) {
+    return diagnosticOf(
+        Error{u.why().code(), what_ + " cannot be done: " + u.why().message(), u.why().hint()});
+  } catch (...) {
+    const Diagnostic d = gable::diagnosticOfException();
+    return diagnosticOf(Error{d.code, what_ + ": " + d.message, d.hint});
+  }
+}
+
 }  // namespace gable

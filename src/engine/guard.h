@@ -3,15 +3,45 @@
 //
 // The wall between exceptions and callers: no exception leaves the public interface. What the
 // standard library throws inside, above all for want of memory, becomes a diagnostic of a result
-// without content.
+// without content. What reads, analyses, writes or draws is a Task besides, with a meter.
 #pragma once
 
 #include <memory>
+#include <string>
+#include <type_traits>
 #include <utility>
 
+#include "base/allowance.h"
 #include "gable/diagnostic.h"
+#include "gable/limits.h"
 
 namespace gable {
+
+/// Something done with a file, within limits. `what` is how diagnostics call it: "reading 'a.glb'".
+class Task {
+ public:
+  Task(std::string what, const FileLimits& limits);
+
+  Allowance& allowance() { return allowance_; }
+  /// The diagnostic for the exception that is being handled.
+  Diagnostic diagnosticOfException() const;
+  /// The warning for a limit that has ended a part of it.
+  Diagnostic warning() const;
+
+ private:
+  std::string what_;
+  Allowance allowance_;
+};
+
+/// What is done may ask for its task.
+template <class Work>
+auto runIn([[maybe_unused]] Task& task, Work&& work) {
+  if constexpr (std::is_invocable_v<Work, Task&>) {
+    return work(task);
+  } else {
+    return work();
+  }
+}
 
 /// The diagnostic for the exception that is being handled. Code: out-of-memory or internal-error.
 Diagnostic diagnosticOfException();
@@ -29,6 +59,18 @@ std::shared_ptr<const Impl> guarded(Work&& work) {
   }
 }
 
+template <class Impl, class Work>
+std::shared_ptr<const Impl> guarded(Task&& task, Work&& work) {
+  try {
+    const WorkScope scope(task.allowance());
+    return runIn(task, work);
+  } catch (...) {
+    auto impl = std::make_shared<Impl>();
+    impl->diagnostics.push_back(task.diagnosticOfException());
+    return impl;
+  }
+}
+
 /// The result of `work`, or an empty result with the reason among its diagnostics.
 template <class Result, class Work>
 Result guardedResult(Work&& work) {
@@ -37,6 +79,18 @@ Result guardedResult(Work&& work) {
   } catch (...) {
     Result out;
     out.diagnostics.push_back(diagnosticOfException());
+    return out;
+  }
+}
+
+template <class Result, class Work>
+Result guardedResult(Task&& task, Work&& work) {
+  try {
+    const WorkScope scope(task.allowance());
+    return runIn(task, work);
+  } catch (...) {
+    Result out;
+    out.diagnostics.push_back(task.diagnosticOfException());
     return out;
   }
 }

@@ -83,7 +83,7 @@ WriteResult failedWrite(const Error& e) {
 
 Vec3 vec(const Triple& t) { return {t[0], t[1], t[2]}; }
 
-RenderOptions renderOptions(const PictureSettings& s) {
+RenderOptions renderOptions(const PictureSettings& s, Allowance& allowance) {
   RenderOptions o;
   o.view = static_cast<PictureView>(s.view);
   o.width = static_cast<uint32_t>(s.width);
@@ -100,9 +100,9 @@ RenderOptions renderOptions(const PictureSettings& s) {
   if (s.ground) o.groundColor = vec(*s.ground);
   if (s.fieldOfView) o.fov = *s.fieldOfView;
   o.threads = static_cast<unsigned>(std::max(0, s.jobs.value_or(0)));
-  o.progress = [&s](double share) {
+  o.progress = [&s, &allowance](double share) {
     if (s.progress) s.progress(static_cast<size_t>(share * 1000), 1000);
-    return !(s.cancel && s.cancel->load(std::memory_order_relaxed));
+    return allowance.look(0, 0);
   };
   return o;
 }
@@ -174,15 +174,17 @@ WriteResult written(const Model::Impl& impl, const std::string& path,
   return out;
 }
 
-WriteResult drawn(const Model::Impl& impl, const std::string& path,
-                  const PictureSettings& settings) {
+// The door to pictures. Where a limit ends the tracing, what was made is written, as when it is
+// cancelled; where one ends what comes before, there is no picture.
+WriteResult drawn(const Model::Impl& impl, const std::string& path, const PictureSettings& settings,
+                  Task& task) {
   const int most = 1 << 15;
   if (settings.width < 1 || settings.height < 1 || settings.width > most ||
       settings.height > most || settings.samples < 1) {
     return failedWrite({"picture-size", "a picture has 1 to 32768 pixels a side and a sample",
                         "correct the size or the samples"});
   }
-  RenderOptions options = renderOptions(settings);
+  RenderOptions options = renderOptions(settings, task.allowance());
   const ProjectTextures textures(impl.project.get());
   options.textures = &textures;
   const Picture picture = render(impl.scene(), options);
@@ -193,6 +195,7 @@ WriteResult drawn(const Model::Impl& impl, const std::string& path,
   if (!bytes.ok()) return failedWrite(bytes.error());
   WriteResult out;
   out.ok = !picture.cancelled;
+  if (picture.cancelled) out.diagnostics.push_back(task.warning());
   out.triangles = picture.stats.triangles;
   out.bytes = bytes.value();
   return out;
@@ -200,7 +203,7 @@ WriteResult drawn(const Model::Impl& impl, const std::string& path,
 
 // Writers write files, so a file is made and read back.
 EncodeResult encoded(const Model::Impl& impl, const std::string& format,
-                     const WriteSettings& settings) {
+                     const WriteSettings& settings, Task& task) {
   EncodeResult out;
   const auto fail = [&](const Error& e) {
     out.diagnostics.push_back(diagnosticOf(e));
@@ -214,7 +217,7 @@ EncodeResult encoded(const Model::Impl& impl, const std::string& format,
   const TemporaryFolder folder;
   if (folder.path().empty()) return fail({"file-unwritable", "there is no room for files", ""});
   const std::string file = folder.path() + "/model." + format;
-  WriteResult made = format == "png" ? drawn(impl, file, {}) : written(impl, file, settings);
+  WriteResult made = format == "png" ? drawn(impl, file, {}, task) : written(impl, file, settings);
   out.diagnostics = std::move(made.diagnostics);
   if (!made.ok) return out;
   Result<std::string> bytes = readFile(file);
@@ -230,8 +233,8 @@ Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& set
   return Model(guarded<Model::Impl>([&] { return derived(rules, shapes, settings); }));
 }
 
-Model Model::load(const std::string& path) {
-  return Model(guarded<Impl>([&] { return loaded(path); }));
+Model Model::load(const std::string& path, const FileLimits& limits) {
+  return Model(guarded<Impl>(Task("reading '" + path + "'", limits), [&] { return loaded(path); }));
 }
 
 Model Model::prepared(const PrepareSettings& settings) const {
@@ -286,8 +289,12 @@ ModelGeometry Model::geometry(uint64_t mostLeaves) const {
   return guardedValue<ModelGeometry>([&] { return geometryOf(impl_->scene(), mostLeaves); });
 }
 
-std::string Model::drawList() const {
-  return guardedValue<std::string>([&] { return gable::drawList(impl_->scene()); });
+std::string Model::drawList(const FileLimits& limits) const {
+  return guardedValue<std::string>([&] {
+    Task task("showing the model", limits);
+    const WorkScope scope(task.allowance());
+    return gable::drawList(impl_->scene());
+  });
 }
 
 std::optional<std::string> Model::texture(const std::string& path) const {
@@ -300,17 +307,25 @@ std::optional<std::string> Model::texture(const std::string& path) const {
 }
 
 WriteResult Model::write(const std::string& path, const WriteSettings& settings) const {
-  return guardedResult<WriteResult>([&] {
-    return extensionOf(path) == "png" ? drawn(*impl_, path, {}) : written(*impl_, path, settings);
-  });
+  return guardedResult<WriteResult>(
+      Task("writing '" + path + "'", settings.limits), [&](Task& task) {
+        return extensionOf(path) == "png" ? drawn(*impl_, path, {}, task)
+                                          : written(*impl_, path, settings);
+      });
 }
 
 EncodeResult Model::encode(const std::string& format, const WriteSettings& settings) const {
-  return guardedResult<EncodeResult>([&] { return encoded(*impl_, format, settings); });
+  return guardedResult<EncodeResult>(Task("writing ." + format, settings.limits), [&](Task& task) {
+    return encoded(*impl_, format, settings, task);
+  });
 }
 
 WriteResult Model::picture(const std::string& path, const PictureSettings& settings) const {
-  return guardedResult<WriteResult>([&] { return drawn(*impl_, path, settings); });
+  FileLimits limits = settings.limits;
+  if (settings.cancel) limits.cancel = settings.cancel;
+  return guardedResult<WriteResult>(Task("drawing '" + path + "'", limits), [&](Task& task) {
+    return drawn(*impl_, path, settings, task);
+  });
 }
 
 const char* version() { return GABLE_VERSION; }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/allowance.h"
 #include "base/work.h"
 #include "engine/impl.h"
 #include "geom/mesh/face_plane.h"
@@ -73,6 +74,7 @@ bool cutOut(std::vector<Plan>& plans, size_t outer) {
   bool cut = false;
   const Region whole = o.region;
   for (size_t inner = 0; inner < plans.size(); ++inner) {
+    work();
     const Plan& i = plans[inner];
     if (inner == outer || !i.flat || i.size <= 0 || i.size >= o.size) continue;
     if (std::fabs(i.height - o.height) > kSamePlane || apart(i.box, o.box)) continue;
@@ -98,6 +100,7 @@ void cutNested(std::vector<ShapeFootprint>& footprints) {
       cut = cutOut(plans, outer);
       return Status();
     });
+    unwindIfStopped(status);
     if (!status.ok() || !cut) continue;
     const Frame toObject = inverse(footprints[outer].origin);
     footprints[outer].mesh = transformed(

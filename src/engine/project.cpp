@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/allowance.h"
 #include "base/files.h"
 #include "base/parallel.h"
 #include "io/image/image.h"
@@ -120,6 +121,8 @@ std::string Project::projectPath(const std::string& file) const {
 
 // Files that the asset names are read through the project, so that none lies outside.
 Result<Asset> Project::read(const std::string& file, bool zUp) const {
+  // Whichever shape asks first, the derivation that does so takes as many steps.
+  const UncountedWork uncounted;
   Result<std::string> bytes = readFile(file, kLargestAsset);
   if (!bytes.ok()) return bytes.error();
   AssetOptions options;
@@ -191,9 +194,12 @@ Ref<AssetModel> Project::model(std::string_view path, std::string_view fromFile,
     return {};
   }
   std::lock_guard lock(mutex_);
-  const auto [at, fresh] = models_.try_emplace(file + (zUp ? "|z" : "|y"));
-  if (fresh) {
+  const std::string key = file + (zUp ? "|z" : "|y");
+  auto at = models_.find(key);
+  if (at == models_.end()) {
+    // Known only when it is read to the end: a limit may stop it.
     Result<Asset> asset = read(file, zUp);
+    at = models_.emplace(key, ModelEntry{}).first;
     if (asset.ok()) {
       auto* m = new AssetModel;
       m->mesh = asset->mesh;

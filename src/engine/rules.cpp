@@ -129,6 +129,10 @@ std::shared_ptr<const Rules::Impl> parsed(const std::string& text, const std::st
   return impl;
 }
 
+Task readingRules(const std::string& path, const LoadSettings& settings) {
+  return Task("analysing '" + path + "'", settings.limits);
+}
+
 }  // namespace
 
 RuleText readRuleText(const std::string& path) {
@@ -147,8 +151,19 @@ WriteResult writeTextFile(const std::string& path, const std::string& text) {
   });
 }
 
+WriteResult writeTextFile(const std::string& path,
+                          const std::function<void(const TextSink& sink)>& write) {
+  return guardedResult<WriteResult>([&]() -> WriteResult {
+    FileWriter file(path);
+    write([&](std::string_view text) { file.append(text); });
+    const Result<uint64_t> written = file.finish();
+    if (!written.ok()) return {false, 0, 0, {diagnosticOf(written.error())}};
+    return {true, 0, written.value(), {}};
+  });
+}
+
 Rules Rules::load(const std::string& path, const LoadSettings& settings) {
-  return Rules(guarded<Impl>([&]() -> std::shared_ptr<const Impl> {
+  return Rules(guarded<Impl>(readingRules(path, settings), [&]() -> std::shared_ptr<const Impl> {
     Result<std::string> text = readFile(path, kLargestRuleFile);
     if (!text.ok()) return failed(text.error());
     return parsed(text.value(), path, settings);
@@ -156,7 +171,8 @@ Rules Rules::load(const std::string& path, const LoadSettings& settings) {
 }
 
 Rules Rules::parse(const std::string& text, const std::string& path, const LoadSettings& settings) {
-  return Rules(guarded<Impl>([&] { return parsed(text, path, settings); }));
+  return Rules(
+      guarded<Impl>(readingRules(path, settings), [&] { return parsed(text, path, settings); }));
 }
 
 bool Rules::ok() const { return impl_->ok; }
@@ -207,7 +223,7 @@ std::optional<std::string> Rules::startRule() const {
 }
 
 Converted convert(const std::string& text, const std::string& path, const LoadSettings& settings) {
-  return guardedResult<Converted>([&] {
+  return guardedResult<Converted>(Task("converting '" + path + "'", settings.limits), [&] {
     Converted out;
     const Result<const Dialect*> dialect = dialectFor(settings.dialect, path);
     if (!dialect.ok()) {
@@ -237,26 +253,44 @@ Converted convert(const std::string& text, const std::string& path, const LoadSe
 namespace {
 
 // The file, or its text with operations on regions as they are written today.
-uint32_t modernised(Sources& sources, uint32_t file) {
+uint32_t modernised(Sources& sources, uint32_t file, Diagnostics& diagnostics) {
   Diagnostics unheard;
   const lang::Tree tree = lang::parse(sources, file, unheard);
   if (unheard.hasErrors()) return file;
   const std::string text(sources.text(file));
-  const std::string now = lang::withModernRegions(tree, text);
-  return now == text ? file : sources.add(std::string(sources.path(file)), now);
+  const lang::ModernText now = lang::withModernRegions(tree, text);
+  for (const lang::NodeId call : now.left) {
+    diagnostics.warning("text-selection", tree.span(call),
+                        "this call of '" + std::string(tree.text(call)) +
+                            "' takes texts, and is left as it is: they cannot be rewritten here",
+                        "write selections, figures and options as expressions by hand");
+  }
+  return now.text == text ? file : sources.add(std::string(sources.path(file)), now.text);
+}
+
+void noteThatNothingIsDone(const Dialect& dialect, const std::string& path,
+                           Diagnostics& diagnostics) {
+  Diagnostics::Entry d;
+  d.severity = Severity::Note;
+  d.code = "no-canonical-form";
+  d.message =
+      std::string(dialect.title) + " has no canonical form: '" + path + "' is left as it is";
+  d.hint = "'gable convert' writes it in Gable's own language";
+  diagnostics.add(std::move(d));
 }
 
 }  // namespace
 
-Formatted format(const std::string& text, const std::string& path) {
-  return guardedResult<Formatted>([&] {
+Formatted format(const std::string& text, const std::string& path, const FileLimits& limits) {
+  return guardedResult<Formatted>(Task("formatting '" + path + "'", limits), [&] {
     Sources sources;
     Diagnostics diagnostics;
     const uint32_t file = sources.add(path, text);
     Formatted out;
     const Dialect* dialect = dialectOfPath(path);
     const auto layout = dialect ? dialect->format : lang::format;
-    const uint32_t layoutOf = dialect ? file : modernised(sources, file);
+    const uint32_t layoutOf = dialect ? file : modernised(sources, file, diagnostics);
+    if (!layout) noteThatNothingIsDone(*dialect, path, diagnostics);
     out.text = layout ? layout(sources, layoutOf, diagnostics) : text;
     diagnostics.sortByPlace();
     out.diagnostics = listOf(diagnostics, sources);

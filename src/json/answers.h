@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/json.h"
+#include "gable/files.h"
 #include "gable/gable.h"
 
 namespace gable {
@@ -28,8 +29,9 @@ struct RunFigures {
 /// Counts, bounds, reports, prints, diagnostics and figures as one object.
 std::string statisticsJson(const Model& model, const RunFigures& figures = {});
 
-/// The trees of all initial shapes, nested.
-std::string traceJson(const DerivationTrace& trace);
+/// The trees of all initial shapes, nested; of a filtered trace, those of the topmost shapes shown.
+/// Piece by piece: a town's tree has gigabytes.
+void writeTrace(const DerivationTrace& trace, const TextSink& sink);
 
 /// A number, a text, a bool, null, or an array of them.
 void writeValue(JsonWriter& json, const RuleValue& value);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 
+#include <utility>
+
 #include "json/answers.h"
 
 namespace gable {
@@ -91,36 +93,44 @@ std::string statisticsJson(const Model& model, const RunFigures& figures) {
   return out + "\n";
 }
 
-std::string traceJson(const DerivationTrace& trace) {
-  std::vector<std::vector<uint32_t>> children(trace.nodes.size());
-  std::vector<uint32_t> roots;
-  for (uint32_t i = 0; i < trace.nodes.size(); ++i) {
-    if (const auto parent = trace.nodes[i].parent)
-      children[*parent].push_back(i);
-    else
-      roots.push_back(i);
+void writeTrace(const DerivationTrace& trace, const TextSink& sink) {
+  constexpr uint32_t kNone = 0xffffffff;
+  // Each node's first child, and the next child of its parent or the next root.
+  std::vector<uint32_t> first(trace.nodes.size(), kNone), next(trace.nodes.size(), kNone);
+  uint32_t root = kNone;
+  for (auto i = static_cast<uint32_t>(trace.nodes.size()); i-- > 0;) {
+    const std::optional<uint32_t> parent = trace.nodes[i].parent;
+    next[i] = std::exchange(parent ? first[*parent] : root, i);
   }
+  constexpr size_t kAtOnce = size_t{1} << 16;
   std::string out;
   JsonWriter json(out);
-  // Depth first on a stack of (node, next child): trees are as deep as rules recurse.
+  const auto enter = [&](uint32_t node) {
+    if (out.size() >= kAtOnce) {
+      sink(out);
+      out.clear();
+    }
+    openNode(json, trace, trace.nodes[node]);
+  };
+  // Depth first on a stack of next children: trees are as deep as rules recurse.
   json.beginArray();
-  for (const uint32_t root : roots) {
-    std::vector<std::pair<uint32_t, size_t>> stack{{root, 0}};
-    openNode(json, trace, trace.nodes[root]);
-    while (!stack.empty()) {
-      auto& [node, next] = stack.back();
-      if (next < children[node].size()) {
-        const uint32_t child = children[node][next++];
-        openNode(json, trace, trace.nodes[child]);
-        stack.emplace_back(child, 0);
+  for (; root != kNone; root = next[root]) {
+    std::vector<uint32_t> children{first[root]};
+    enter(root);
+    while (!children.empty()) {
+      const uint32_t child = children.back();
+      if (child != kNone) {
+        children.back() = next[child];
+        enter(child);
+        children.push_back(first[child]);
       } else {
         json.endArray().endObject();
-        stack.pop_back();
+        children.pop_back();
       }
     }
   }
   json.endArray();
-  return out + "\n";
+  sink(out + "\n");
 }
 
 }  // namespace gable

@@ -340,8 +340,9 @@ std::vector<TextEdit> modernRegionCall(const Tree& tree, NodeId call, std::strin
   return Rewriter(tree, call, source).run();
 }
 
-std::string withModernRegions(const Tree& tree, std::string_view source) {
+ModernText withModernRegions(const Tree& tree, std::string_view source) {
   std::vector<TextEdit> edits;
+  std::vector<NodeId> calls, left;
   // The author's own rule or function of that name is none of ours.
   std::set<std::string_view> own;
   for (NodeId n = 1; n < tree.size(); ++n) {
@@ -360,6 +361,8 @@ std::string withModernRegions(const Tree& tree, std::string_view source) {
     if (!isOldRegionCall(tree, n)) continue;
     const std::vector<TextEdit> made = modernRegionCall(tree, n, source);
     edits.insert(edits.end(), made.begin(), made.end());
+    calls.push_back(n);
+    if (made.empty()) left.push_back(n);
   }
   std::stable_sort(edits.begin(), edits.end(),
                    [](const TextEdit& a, const TextEdit& b) { return a.begin < b.begin; });
@@ -367,11 +370,11 @@ std::string withModernRegions(const Tree& tree, std::string_view source) {
   uint32_t at = 0;
   for (const TextEdit& e : edits) {
     // Calls within the texts of others.
-    if (e.begin < at) return std::string(source);
+    if (e.begin < at) return {std::string(source), std::move(calls)};
     out += std::string(source.substr(at, e.begin - at)) + e.text;
     at = e.end;
   }
-  return out + std::string(source.substr(at));
+  return {out + std::string(source.substr(at)), std::move(left)};
 }
 
 }  // namespace gable::lang

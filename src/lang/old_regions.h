@@ -32,7 +32,11 @@ bool isOldRegionCall(const Tree& tree, NodeId call);
 /// What to change, in the order of the text; empty when it cannot be said exactly.
 std::vector<TextEdit> modernRegionCall(const Tree& tree, NodeId call, std::string_view source);
 
-/// The text with all such calls and names rewritten; those that cannot be stay.
-std::string withModernRegions(const Tree& tree, std::string_view source);
+/// The text with all such calls and names rewritten; those that cannot be stay, and are listed.
+struct ModernText {
+  std::string text;
+  std::vector<NodeId> left;
+};
+ModernText withModernRegions(const Tree& tree, std::string_view source);
 
 }  // namespace gable::lang

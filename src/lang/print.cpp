@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/number.h"
+#include "base/work.h"
 #include "lang/dump.h"
 
 namespace gable::lang {
@@ -155,6 +156,7 @@ class Printer {
   }
 
   void successor(NodeId id) {
+    work();
     switch (t_.kind(id)) {
       case NodeKind::Apply: return apply(id);
       case NodeKind::Push:
@@ -275,6 +277,7 @@ class Printer {
   }
 
   void expression(NodeId id, int least = kLoose) {
+    work();
     const bool brackets = tightnessOf(id) < least;
     if (brackets) out_ += "(";
     bare(id);

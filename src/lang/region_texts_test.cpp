@@ -74,7 +74,7 @@ std::string modern(const std::string& text) {
   const Tokens tokens = tokenize(text, 0, diagnostics);
   const Tree tree = parse(text, 0, tokens, diagnostics);
   EXPECT_FALSE(diagnostics.hasErrors()) << text;
-  return withModernRegions(tree, text);
+  return withModernRegions(tree, text).text;
 }
 
 TEST(OldRegions, CallsAreRewritten) {

@@ -9,6 +9,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/work.h"
+
 namespace gable::lang {
 
 Tree::Tree(uint32_t file) : file_(file), nodes_(1), depths_(1, 0) {
@@ -27,6 +29,7 @@ Tree Tree::copy(uint32_t file) const {
 }
 
 NodeId Tree::add(Node n, std::span<const NodeId> children) {
+  work(1 + children.size());
   n.firstChild = static_cast<uint32_t>(children_.size());
   n.childCount = static_cast<uint32_t>(children.size());
   uint32_t below = 0;
@@ -39,6 +42,7 @@ NodeId Tree::add(Node n, std::span<const NodeId> children) {
 
 uint32_t Tree::intern(std::string_view text) {
   if (text.empty()) return 0;
+  work();
   const auto found = textIds_.find(text);
   if (found != textIds_.end()) return found->second;
   texts_.push_back(std::make_unique<std::string>(text));

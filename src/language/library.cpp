@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/allowance.h"
 #include "lang/lexer.h"
 #include "lang/parser.h"
 #include "lang/sema/analyse.h"
@@ -18,6 +19,25 @@ constexpr size_t kSnapshotsKept = 48;
 constexpr size_t kTreesKept = 1024;
 /// Revisions of open texts are told from stamps of files by this bit.
 constexpr uint64_t kOpen = uint64_t{1} << 63;
+
+/// Nobody who types waits longer; what is usual takes milliseconds.
+constexpr double kMostSeconds = 10;
+constexpr uint64_t kMostBytes = uint64_t{1} << 30;
+
+/// Why the work on a text came to no end; none when it did.
+template <class Body>
+std::optional<Error> endsOf(const std::string& path, Body&& body) {
+  Allowance allowance({kMostSeconds, kMostBytes});
+  const WorkScope scope(allowance);
+  const Status status = guarded([&] {
+    body();
+    return Status();
+  });
+  if (status.ok()) return std::nullopt;
+  if (allowance.reached()) return allowance.reason("analysing '" + path + "'");
+  return Error{status.code(), "'" + path + "' cannot be analysed: " + status.message(),
+               status.hint()};
+}
 
 Span moved(Span span, uint32_t file) {
   if (span.valid()) span.file = file;
@@ -166,15 +186,18 @@ std::shared_ptr<const Parsed> Library::parsed(const std::string& path) {
   if (entry->parsed) return entry->parsed;
   auto out = std::make_shared<Parsed>();
   static_cast<Lexed&>(*out) = *entry->lexed;
-  if (out->dialect) {
-    Sources sources;
-    const uint32_t file = sources.add(path, out->text.content());
-    Snapshot reads;
-    Loader loader(*this, reads);
-    out->tree = out->dialect->parse({sources, file, catalogue_, &loader}, out->diagnostics);
-  } else {
-    out->tree = lang::parse(out->text.content(), 0, out->tokens, out->diagnostics);
-  }
+  const std::optional<Error> end = endsOf(path, [&] {
+    if (out->dialect) {
+      Sources sources;
+      const uint32_t file = sources.add(path, out->text.content());
+      Snapshot reads;
+      Loader loader(*this, reads);
+      out->tree = out->dialect->parse({sources, file, catalogue_, &loader}, out->diagnostics);
+    } else {
+      out->tree = lang::parse(out->text.content(), 0, out->tokens, out->diagnostics);
+    }
+  });
+  if (end) out->diagnostics.error(end->code.c_str(), {0, 0, 0}, end->message, end->hint);
   entry->parsed = out;
   return out;
 }
@@ -197,15 +220,24 @@ bool Library::holds(const Snapshot& snapshot) {
 
 std::shared_ptr<const Snapshot> Library::analyse(const std::string& path) {
   std::optional<std::string> text = content(path);
+  // What came to no end does not come to one a second time.
+  const uint64_t now = state(path);
+  if (trouble_ && troublePath_ == path && troubleState_ == now) return nullptr;
+  trouble_.reset();
   if (!text) return nullptr;
+  troublePath_ = path;
+  troubleState_ = now;
   auto out = std::make_shared<Snapshot>();
   out->inputs.push_back({path, state(path)});
   out->dialect = dialectOfPath(path);
   const uint32_t file = out->sources.add(path, std::move(*text));
   Loader loader(*this, *out);
-  lang::AnalysisInput input{loader.parse(out->sources, file, out->diagnostics), path, {}};
-  out->program = lang::analyse(std::move(input), catalogue_, out->values, &loader, out->sources,
-                               out->diagnostics);
+  trouble_ = endsOf(path, [&] {
+    lang::AnalysisInput input{loader.parse(out->sources, file, out->diagnostics), path, {}};
+    out->program = lang::analyse(std::move(input), catalogue_, out->values, &loader, out->sources,
+                                 out->diagnostics);
+  });
+  if (trouble_) return nullptr;
   out->diagnostics.sortByPlace();
   return out;
 }

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "base/result.h"
 #include "dialects/dialect.h"
 #include "lang/sema/resolved.h"
 #include "lang/token.h"
@@ -88,10 +89,13 @@ class Library {
   std::shared_ptr<const Lexed> lexed(const std::string& path);
   /// Null when there is no such text.
   std::shared_ptr<const Parsed> parsed(const std::string& path);
-  /// The analysis of the texts as they are; null when there is no such text.
+  /// The analysis of the texts as they are; null when there is no such text, and when the analysis
+  /// would take too long or too much memory: trouble() then says so.
   std::shared_ptr<const Snapshot> fresh(const std::string& path);
   /// The last analysis whatever has changed since, where there is one; else a fresh one.
   std::shared_ptr<const Snapshot> latest(const std::string& path);
+  /// Why the last analysis came to no end; none when it did.
+  const std::optional<Error>& trouble() const { return trouble_; }
   /// The file that an import means; empty when there is none.
   std::string locate(const std::string& written, const std::string& importer);
   /// Whether there is a model, a picture or the like by the path as rules write it.
@@ -124,6 +128,10 @@ class Library {
   std::unique_ptr<Files> files_;
   std::map<std::string, Open> open_;
   uint64_t revision_ = 0;
+  /// Of the last analysis, and of what text it was.
+  std::optional<Error> trouble_;
+  std::string troublePath_;
+  uint64_t troubleState_ = 0;
   std::list<Kept> snapshots_;  // the last used first
   std::map<std::string, KeptTree> trees_;
 };

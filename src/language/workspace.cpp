@@ -129,7 +129,12 @@ std::vector<FileFindings> Workspace::findings(const std::string& path) {
   Library& library = impl_->library;
   const std::string key = impl_->key(path);
   const std::shared_ptr<const Snapshot> s = library.fresh(key);
-  if (!s) return out;
+  if (!s) {
+    if (const std::optional<Error>& why = library.trouble()) {
+      out[0].findings.push_back({Level::Error, why->code, {}, why->message, why->hint});
+    }
+    return out;
+  }
   const uint32_t main = s->program.units[0].file;
   std::shared_ptr<const Parsed> parsed;
   uint32_t file = Span::kNoFile;

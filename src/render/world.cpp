@@ -11,6 +11,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/work.h"
 #include "math/trig.h"
 #include "render/triangles.h"
 
@@ -116,6 +117,7 @@ class Builder {
   void place(const Instance& root, const Frame& outer) {
     open(root, outer, 0);
     while (!levels_.empty()) {
+      work();
       Level& level = levels_.back();
       if (level.next < level.prototype->instanceCount) {
         const Instance& next = scene_.instances[level.prototype->firstInstance + level.next++];
@@ -162,6 +164,7 @@ class Builder {
     Part& part = world_.parts[partIndex];
     const Mesh& mesh = *scene_.meshes[leaf.mesh];
     const MeshTriangles& triangles = meshes_[leaf.mesh];
+    work(1 + triangles.corners.size());
     if (triangles.corners.empty()) return;
 
     points_.clear();

@@ -266,7 +266,7 @@ void assemble(Pass& pass, DeriveShared& shared, const std::vector<InitialShape>&
     result.diagnostics.warning("out-of-memory", Span{},
                                "the attributes of leaves take more memory than there may be, and "
                                "some are left out",
-                               "raise the limit on memory, or set shorter arrays");
+                               "raise the limit on memory (--max-memory), or set shorter arrays");
     shared.limitReached = true;
   }
   result.end = shared.usage.cancelled() ? End::Cancelled

@@ -19,6 +19,7 @@
 
 #include "base/diagnostic.h"
 #include "gable/limits.h"
+#include "gable/trace.h"
 #include "program/program.h"
 #include "scene/scene.h"
 #include "shape/services.h"
@@ -67,6 +68,8 @@ struct Environment {
 /// A node of the derivation tree, in path order: a shape made by a rule, or an unnamed leaf.
 struct TraceNode {
   static constexpr uint32_t kNone = 0xffffffff;
+  /// Stands for a shape that lies below what a filter shows.
+  static constexpr uint32_t kCut = kNone - 1;
   uint32_t parent = kNone;
   uint32_t initialShape = 0;
   StringId name = 0;
@@ -118,6 +121,8 @@ struct DeriveOptions {
   bool trace = false;
   /// With `trace`: shapes that rules replace are leaves of the scene as well.
   bool traceShapes = false;
+  /// With `trace`: what of it is kept.
+  TraceFilter traceFilter;
   int jobs = 1;
   Limits limits;
   /// Attribute values for all initial shapes, over those of the shapes.

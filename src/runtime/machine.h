@@ -381,6 +381,9 @@ class Machine final : public Services, private WorkMeter {
   int32_t startRuleOf(const InitialShape& shape);
 
   // Tracing and occluders.
+  /// Whether a filter shows what is made below the node. `rule`: the one that makes it; null for a
+  /// leaf, which is never a topmost one.
+  bool isTraced(uint32_t parentNode, const Activation* rule) const;
   void traceShape(Activation& a, uint32_t parentNode, const Instruction* at);
   Tracer::Made traced(const Shape& s, uint32_t parent, StringId name, const Span& span) const;
   /// The node of the rule at work; kNone where there is none.

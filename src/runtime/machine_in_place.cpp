@@ -43,7 +43,7 @@ void Machine::runRule(const Instruction& i) {
     overLimit("recursion-too-deep",
               "rules call each other more than " + std::to_string(options().limits.depth) +
                   " levels deep",
-              "end the recursion with a case, or raise the limit on depth");
+              "end the recursion with a case, or raise the limit on depth (--max-depth)");
     return;
   }
   f.back = pc_;
@@ -108,7 +108,7 @@ void Machine::endTurn(const Instruction& i) {
   if (f.turn >= options().limits.width) {
     overLimit("too-many-turns",
               "a loop takes more than " + std::to_string(options().limits.width) + " turns",
-              "repeat less often, or raise the limit on width");
+              "repeat less often, or raise the limit on width (--max-width)");
     return;
   }
   s.split = {f.turn, f.turns};

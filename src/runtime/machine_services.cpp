@@ -15,7 +15,23 @@ Tracer::Made Machine::traced(const Shape& s, uint32_t parent, StringId name,
   return {parent, info_.index, name, span, worlds_.present() * s.scope, s.size};
 }
 
+bool Machine::isTraced(uint32_t parentNode, const Activation* rule) const {
+  if (parentNode != TraceNode::kNone) return tracer_.reachesBelow(parentNode);
+  if (!tracer_.choosesTops()) return true;
+  if (!rule) return false;
+  std::vector<const std::string*> path;
+  for (uint32_t i = 0; i < activationCount_; ++i) {
+    const Activation& a = activations_[i];
+    if (!a.slot) path.push_back(&program_.rules[a.rule].qualifiedName);
+  }
+  return tracer_.isTop(path);
+}
+
 void Machine::traceShape(Activation& a, uint32_t parentNode, const Instruction* at) {
+  if (!isTraced(parentNode, &a)) {
+    a.traceNode = parentNode == TraceNode::kNone ? TraceNode::kNone : TraceNode::kCut;
+    return;
+  }
   const RuleCode& rule = program_.rules[a.rule];
   const Span& span = at ? program_.spans[pcOf(at)] : rule.span;
   a.traceNode = tracer_.addCall(traced(a.shape, parentNode, rule.name, span));
@@ -32,9 +48,9 @@ void Machine::traceLeaf(const Activation& a, StringId name, uint32_t source) {
   const uint32_t leafIndex = a.shape.geometry.kind == GeometryKind::None
                                  ? TraceNode::kNone
                                  : static_cast<uint32_t>(output_.openLeaves.size());
-  if (a.made == 0 && !a.slot && a.traceNode != TraceNode::kNone) {
+  if (a.made == 0 && !a.slot && a.traceNode < TraceNode::kCut) {
     tracer_.endAsLeaf(a.traceNode, leafIndex);
-  } else {
+  } else if (isTraced(a.traceNode, nullptr)) {
     tracer_.addLeaf(traced(a.shape, a.traceNode, name, program_.spans[source]), leafIndex);
   }
 }

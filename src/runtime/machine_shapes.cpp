@@ -89,7 +89,7 @@ void Machine::beginRule(uint32_t rule, uint32_t argumentCount, const Instruction
     overLimit("too-many-children",
               "a shape of rule '" + program_.rules[caller.rule].qualifiedName + "' has more than " +
                   std::to_string(options().limits.width) + " children",
-              "split into fewer parts, or raise the limit on width");
+              "split into fewer parts, or raise the limit on width (--max-width)");
     return;
   }
   caller.pc = pc_;
@@ -142,7 +142,7 @@ bool Machine::enterRule(Activation& a, uint32_t callerDepth, uint32_t callerTrac
     overLimit("recursion-too-deep",
               "rules call each other more than " + std::to_string(options().limits.depth) +
                   " levels deep, at last '" + code.qualifiedName + "'",
-              "end the recursion with a case, or raise the limit on depth");
+              "end the recursion with a case, or raise the limit on depth (--max-depth)");
     return true;
   }
   if (options().trace) traceShape(a, callerTrace, at);
@@ -275,7 +275,7 @@ void Machine::makeChild() {
 void Machine::dropShape() {
   Activation& a = current();
   if (a.slot && a.made == 0) countShape();
-  if (a.made == 0 && a.traceNode != TraceNode::kNone && !a.slot) tracer_.drop(a.traceNode);
+  if (a.made == 0 && a.traceNode < TraceNode::kCut && !a.slot) tracer_.drop(a.traceNode);
   ++a.made;
   if (shapeStack_.size() > a.shapeStackBase) {
     leaveBracket();
@@ -500,7 +500,7 @@ void Machine::beginChildren(const Instruction& i, uint32_t childBase, uint32_t p
     overLimit("too-many-children",
               "'" + std::string(program_.operations[i.a]->name) + "' makes " +
                   std::to_string(count) + " shapes of one",
-              "use larger sizes, or raise the limit on width");
+              "use larger sizes, or raise the limit on width (--max-width)");
     return;
   }
   if (count == 0) return;

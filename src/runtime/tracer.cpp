@@ -3,11 +3,27 @@
 
 #include "runtime/tracer.h"
 
+#include <algorithm>
+
 #include "runtime/output.h"
 
 namespace gable {
 
+bool Tracer::isTop(const std::vector<const std::string*>& path) const {
+  if (filter_.rule && *path.back() != *filter_.rule) return false;
+  return filter_.path.empty() ||
+         std::equal(path.begin(), path.end(), filter_.path.begin(), filter_.path.end(),
+                    [](const std::string* a, const std::string& b) { return *a == b; });
+}
+
+bool Tracer::reachesBelow(uint32_t node) const {
+  if (node == TraceNode::kCut) return false;
+  return !filter_.depth || node == TraceNode::kNone || levels_[node] < *filter_.depth;
+}
+
 TraceNode& Tracer::add(const Made& made) {
+  if (filter_.depth)
+    levels_.push_back(made.parent == TraceNode::kNone ? 0 : levels_[made.parent] + 1);
   TraceNode& node = nodes_.emplace_back();
   node.parent = made.parent;
   node.initialShape = made.initialShape;
@@ -37,7 +53,7 @@ void Tracer::endAsLeaf(uint32_t node, uint32_t leafIndex) {
 void Tracer::drop(uint32_t node) { nodes_[node].dropped = true; }
 
 TraceNote* Tracer::note(uint32_t node, TraceNote::Kind kind) {
-  if (node == TraceNode::kNone || notes_.size() >= kMostNotes) return nullptr;
+  if (node >= TraceNode::kCut || notes_.size() >= kMostNotes) return nullptr;
   TraceNote& n = notes_.emplace_back();
   n.kind = kind;
   n.node = node;

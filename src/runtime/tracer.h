@@ -18,11 +18,24 @@ class Tracer {
  public:
   /// Both must outlive the tracer.
   Tracer(const Program& program, const DeriveOptions& options)
-      : program_(program), traces_(options.trace), tracesShapes_(options.traceShapes) {}
+      : program_(program),
+        filter_(options.traceFilter),
+        traces_(options.trace),
+        tracesShapes_(options.traceShapes) {}
 
   bool traces() const { return traces_; }
   /// Shapes that rules replace are kept as leaves, and notes are taken.
   bool tracesShapes() const { return tracesShapes_; }
+
+  // A filter shows some shapes with what comes of them. The node of others is kNone where what
+  // comes of them may be shown, and kCut where nothing of it is.
+
+  /// Whether a filter chooses the topmost shapes.
+  bool choosesTops() const { return filter_.rule || !filter_.path.empty(); }
+  /// Whether the rules that made a shape one out of the other make it a topmost one.
+  bool isTop(const std::vector<const std::string*>& path) const;
+  /// Whether so many levels are shown that one below the node is.
+  bool reachesBelow(uint32_t node) const;
 
   /// A shape where it was made.
   struct Made {
@@ -72,7 +85,10 @@ class Tracer {
   TraceNote* note(uint32_t node, TraceNote::Kind kind);
 
   const Program& program_;
+  const TraceFilter& filter_;
   const bool traces_, tracesShapes_;
+  /// By node its level below the topmost shown, where a filter counts them.
+  std::vector<uint32_t> levels_;
   std::vector<TraceNode> nodes_;
   std::vector<TraceNote> notes_;
 };

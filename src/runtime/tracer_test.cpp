@@ -105,5 +105,31 @@ TEST_F(TracerTest, FollowsLeavesThatAreGathered) {
   EXPECT_EQ(tracer.nodes()[from + 2].leafIndex, 11u);
 }
 
+TEST_F(TracerTest, FiltersByRuleAndPath) {
+  const std::string lot = "Lot", house = "House", roof = "Roof";
+  EXPECT_FALSE(tracer.choosesTops());
+  options.traceFilter.rule = house;
+  EXPECT_TRUE(tracer.choosesTops());
+  EXPECT_TRUE(tracer.isTop({&lot, &house}));
+  EXPECT_FALSE(tracer.isTop({&lot, &house, &roof}));
+  options.traceFilter = {{}, {lot, house}, {}};
+  EXPECT_TRUE(tracer.isTop({&lot, &house}));
+  EXPECT_FALSE(tracer.isTop({&lot}));
+  EXPECT_FALSE(tracer.isTop({&house}));
+  EXPECT_FALSE(tracer.isTop({&lot, &house, &roof}));
+}
+
+TEST_F(TracerTest, FiltersByLevel) {
+  options.traceFilter.depth = 1;
+  const uint32_t lot = tracer.addCall(made(kNone, 1));
+  ASSERT_TRUE(tracer.reachesBelow(kNone));
+  ASSERT_TRUE(tracer.reachesBelow(lot));
+  const uint32_t wall = tracer.addCall(made(lot, 2));
+  EXPECT_FALSE(tracer.reachesBelow(wall));
+  EXPECT_FALSE(tracer.reachesBelow(TraceNode::kCut));
+  tracer.noteDraw(TraceNode::kCut, {}, "rand", Value::of(1.0));
+  EXPECT_TRUE(tracer.notes().empty());
+}
+
 }  // namespace
 }  // namespace gable

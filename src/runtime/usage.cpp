@@ -41,30 +41,30 @@ std::optional<Usage::Excess> Usage::spend(const Use& use) {
   if (shapes > limits_.shapes) {
     return exceedCount("too-many-shapes",
                        "the rules make more than " + std::to_string(limits_.shapes) + " shapes",
-                       "end a recursion earlier, or raise the limit on shapes");
+                       "end a recursion earlier, or raise the limit on shapes (--max-shapes)");
   }
   if (turns > limits_.shapes) {
     return exceedCount(
         "too-many-turns",
         "the rules run more than " + std::to_string(limits_.shapes) + " rules and turns in place",
-        "repeat less often, or raise the limit on shapes");
+        "repeat less often, or raise the limit on shapes (--max-shapes)");
   }
   if (vertices > limits_.vertices) {
     return exceedCount(
         "too-many-vertices",
         "the leaves have more than " + std::to_string(limits_.vertices) + " vertices",
-        "insert simpler models, or raise the limit on vertices");
+        "insert simpler models, or raise the limit on vertices (--max-vertices)");
   }
   if (steps > limits_.steps) {
     return exceedCount("too-many-steps",
                        "the derivation takes more than " + std::to_string(limits_.steps) + " steps",
-                       "end a recursion earlier, or raise the limit on steps");
+                       "end a recursion earlier, or raise the limit on steps (--max-steps)");
   }
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
   if (limits_.seconds && spent.count() > *limits_.seconds) {
     return exceed("out-of-time",
                   "the derivation takes longer than " + numberText(*limits_.seconds) + " seconds",
-                  "raise the limit on seconds, or derive fewer shapes");
+                  "raise the limit on seconds (--max-seconds), or derive fewer shapes");
   }
   return {};
 }
@@ -76,7 +76,7 @@ std::optional<Usage::Excess> Usage::lookAtMemory(uint64_t bytes) {
   return exceed(
       "out-of-memory",
       "the derivation takes more than " + std::to_string(*limits_.bytes >> 20) + " megabytes",
-      "raise the limit on memory, or derive fewer shapes");
+      "raise the limit on memory (--max-memory), or derive fewer shapes");
 }
 
 Usage::Excess Usage::tablesAreFull() {

@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/work.h"
 #include "geom/mesh/mesh.h"
 #include "material/material.h"
 #include "math/box.h"
@@ -142,7 +143,8 @@ struct WalkLevel {
 /// Goes through a prototype placed at `world` in path order, on a stack of its own: instances nest
 /// as deep as rules do. Calls `visit(leaf, world, level)` with the index of each leaf and the frame
 /// of its prototype, and `enter(instance, world, level)` before an instance, which it goes into
-/// where that is true. The level counts from 0 for the prototype itself.
+/// where that is true. The level counts from 0 for the prototype itself. Instances of instances can
+/// stand for more than anyone can wait for: it calls work().
 template <class Visit, class Enter>
 void walk(const Scene& scene, const Prototype& prototype, const Frame& world, Visit&& visit,
           Enter&& enter);
@@ -174,8 +176,10 @@ void walk(const Scene& scene, const Prototype& prototype, const Frame& world, Vi
     const Instance* next =
         at.instance < p.instanceCount ? &scene.instances[p.firstInstance + at.instance++] : nullptr;
     for (const uint32_t end = next ? next->leavesBefore : p.leafCount; at.leaf < end; ++at.leaf) {
+      work();
       visit(p.firstLeaf + at.leaf, at.world, levels.size() - 1);
     }
+    work();
     if (!next) {
       levels.pop_back();
     } else if (const Frame inner = at.world * next->frame; enter(*next, inner, levels.size())) {

@@ -151,7 +151,9 @@ Result<Exported> Exports::write(const Model& model, const std::string& format,
     };
     written = model.picture(file, settings);
   } else {
-    written = model.write(file, {});
+    WriteSettings settings;
+    settings.limits.cancel = cancel.get();
+    written = model.write(file, settings);
   }
   {
     const std::lock_guard lock(mutex_);

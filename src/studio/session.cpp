@@ -25,6 +25,8 @@ constexpr size_t kRulesKept = 4, kShapesKept = 4, kModelsKept = 4, kModelsOfAll 
 /// Of all models together, unless one alone has more: a town has three million.
 constexpr uint64_t kLeavesKept = 8'000'000;
 constexpr double kMostSeconds = 600, kUsualSeconds = 20;
+/// Of reading and analysing files, which nobody waits for longer.
+const FileLimits kFileLimits{20.0, uint64_t{2} << 30};
 constexpr double kMostShapes = 50e6, kUsualShapes = 5e6;
 constexpr uint64_t kTreeShapes = 400'000;
 /// A person looks at each step, and each has geometry of its own.
@@ -192,6 +194,7 @@ std::shared_ptr<const Rules> Session::rulesOf(const JsonValue& request) {
     if (!rules_.empty()) before = rules_.front().second;
   }
   options.before = before.get();
+  options.limits = kFileLimits;
   auto rules = std::make_shared<const Rules>(
       Rules::parse(request["text"].text(), files_.root() + "/" + file, options));
   const std::lock_guard lock(mutex_);
@@ -239,8 +242,11 @@ Result<std::shared_ptr<const Shapes>> Session::fileShapes(const std::string& fil
       if (known == key) return shapes;
     }
   }
-  auto shapes = std::make_shared<const Shapes>(Shapes::parse(content.value(), place.value()));
+  auto shapes =
+      std::make_shared<const Shapes>(Shapes::parse(content.value(), place.value(), kFileLimits));
   const std::lock_guard lock(mutex_);
+  // What a limit ended may come to its end another time.
+  if (!shapes->ok()) return shapes;
   keep(shapes_, {key, shapes}, kShapesKept);
   return shapes;
 }

@@ -97,7 +97,7 @@ class Options(Case):
             self.assertIn("hint: ", told)
 
     def testAnEmptyFileIsToldByItsName(self):
-        for name, text in itertools.product(("e.cga", "e.park", "e.grammar", "e.pg3d"), ("", "\n\n")):
+        for name, text in itertools.product(("e.cga", "e.park", "e.grammar", "e.pg3d", "e.gbbg"), ("", "\n\n")):
             told = self.run_gable("generate", self.put(name, text), "-o", "a.glb", status=WRONG, says=name)
             self.assertIn("hint: ", told)
 
@@ -110,11 +110,64 @@ class Words(Case):
         self.run_gable("ops", "peel", says="Parts that its block may name: strip rest otherwise")
         self.run_gable("ops", says="world.south")
         self.run_gable("ops", "nothing", status=USAGE, says="nothing built in")
+        for near, name in (("Grd", "Grid"), ("CubbeX", "CubeX"), ("extrud", "extrude")):
+            self.run_gable("ops", near, status=USAGE, says=f"did you mean '{name}'?")
         self.run_gable("ops", "Grid", "--json", says="\"name\": \"grid\"")
+
+    def testUnknownCommandsAreNamed(self):
+        self.run_gable("genrate", "a.cga", status=USAGE, says="there is no command 'genrate'; did you mean 'generate'?")
+        self.run_gable("xyz", status=USAGE, says="'xyz'; there are generate, check")
+        self.run_gable(status=USAGE, says="subcommand")
+
+    def testFormatSaysWhatItLeaves(self):
+        for name, text in (("a.park", "A -> Grid(2, 2) { LAWN } {} {}"), ("a.cga", 'Lot --> sweep("nonsense text", x) { all : X. }\n')):
+            for mode in ((), ("--check",), ("--stdout",)):
+                self.run_gable("format", *mode, self.put(name, text), says="is left as it is")
+            self.assertEqual((self.folder / name).read_text(), text)
 
     def testHelpNamesEveryNotation(self):
         for ending in (".grammar", ".pg3d", ".gbbg", ".park"):
             self.run_gable("convert", "--help", says=ending)
+
+
+class Trace(Case):
+    RULES = ("Lot --> extrude(9) comp(f) { side : Wall | top : Roof }\nWall --> split(x) { ~2 : Bay }*\n"
+             "Bay --> split(y) { 3 : Floor }*\nFloor --> X.\nRoof --> Y.\n")
+
+    def trace(self, *arguments):
+        self.run_gable("trace", self.put("a.cga", self.RULES), *arguments, "-o", "t.json")
+        return json.loads((self.folder / "t.json").read_text())
+
+    def names(self, nodes, level=0):
+        for node in nodes:
+            yield level, node["shape"]
+            yield from self.names(node["children"], level + 1)
+
+    def testStdoutAndFileAreTheSame(self):
+        self.trace()
+        done = subprocess.run([str(GABLE), "trace", "a.cga"], cwd=self.folder, capture_output=True, text=True, check=True)
+        self.assertEqual(done.stdout, (self.folder / "t.json").read_text())
+
+    def testFiltersShowTheSubtreesOfTheWhole(self):
+        def below(nodes, rule):
+            for node in nodes:
+                yield from [node] if node["shape"] == rule else below(node["children"], rule)
+        whole = self.trace()
+        self.assertEqual([n for _, n in self.names(whole)][:2], ["Lot", "Wall"])
+        self.assertEqual(self.trace("--rule", "Bay"), list(below(whole, "Bay")))
+        self.assertEqual(self.trace("--path", "Lot/Wall/Bay"), list(below(whole, "Bay")))
+        self.assertEqual(self.trace("--path", "Lot/Bay"), [])
+        self.assertEqual(self.trace("--path", "Lot"), whole)
+
+    def testDepthCutsBelow(self):
+        self.assertEqual(list(self.names(self.trace("--depth", "1"))),
+                         [(0, "Lot")] + [(1, "Wall")] * 4 + [(1, "Roof")])
+        shallow = list(self.names(self.trace("--rule", "Wall", "--depth", "0")))
+        self.assertEqual(shallow, [(0, "Wall")] * 4)
+
+    def testUnknownRulesAreReported(self):
+        for option in ("--rule", "--path"):
+            self.run_gable("trace", self.put("a.cga", self.RULES), option, "Wal", status=WRONG, says="did you mean 'Wall'?")
 
 
 class Writing(Case):

@@ -482,6 +482,98 @@ class ShapeFiles(Case):
             self.run_gable("generate", rules, "--shapes", path, "-o", "a.glb", seconds=120, megabytes=4000)
 
 
+class FileLimits(Case):
+    """What is read, analysed, written or drawn ends at the limits of the command, and its file is named."""
+
+    def ends(self, *arguments, name, code="out-of-time", limits=("--max-seconds", "0.01"), **expected):
+        said = self.run_gable(*arguments, *limits, status=4, codes=[code], **expected)
+        self.assertIn(f"'{name}'" if name else "takes", said.replace(str(self.folder) + "/", ""))
+        self.assertIn(limits[0], said)
+
+    def files(self):
+        """Large ones of each kind, and one that a small file makes large."""
+        many = 300_000
+        triangle = "v 0 0 0\nv 1 0 0\nv 1 0 1\n"
+        square = "[[%f,0],[%f,0],[%f,0.0001],[%f,0.0001]]"
+        feature = '{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[%s]}}'
+        features = ",".join(feature % (square % (i * 1e-5, i * 1e-5 + 1e-6, i * 1e-5 + 1e-6, i * 1e-5)) for i in range(20_000))
+        yield "a.obj", triangle + "f 1 2 3\n" * many
+        yield "m.obj", triangle + "usemtl a\nf 1 2 3\nusemtl b\n" * (many // 3)
+        yield "a.geojson", '{"type":"FeatureCollection","features":[' + features + "]}"
+        yield "j.geojson", "[" + "0," * many + "0]"
+        yield "a.gltf", gltf(nodes=[{"mesh": 0}] * 100_000, scenes=[{"nodes": list(range(100_000))}])
+        yield "k.gltf", gltf(**{f"x{i}": 0 for i in range(10_000)}, nodes=[{"mesh": 0}] * 20_000,
+                             scenes=[{"nodes": list(range(20_000))}])
+
+    def testReadingShapes(self):
+        rules = self.put("rules.cga", "Lot --> X.")
+        for name, content in self.files():
+            self.ends("generate", rules, "--shapes", self.put(name, content), "-o", "a.glb", name=name)
+
+    def testReadingModels(self):
+        for name, content in self.files():
+            if not name.endswith(".geojson"):
+                self.ends("render", self.put(name, content), "-o", "a.png", name=name)
+                self.ends("asset", "prepare", self.folder / name, "-o", "b.glb", name=name)
+
+    def testAssetsOfADerivation(self):
+        for name, content in self.files():
+            if not name.endswith(".geojson"):
+                self.put(name, content)
+                self.run_gable("generate", self.put("a.cga", f'Lot --> i("{name}") X.'), "-o", "a.glb", "--max-seconds", "0.01",
+                               status=4, codes=["out-of-time"])
+
+    def testAnalysingRules(self):
+        park = "A -> Grid(2, 2) { LAWN } {} {}\n" + "".join(f"B{i} -> Grid(2, 2) {{ LAWN }} {{}} {{}}\n" for i in range(20_000))
+        for name, content in (("a.cga", "A --> s(1, 1, 1) X.\n" + "".join(f"R{i} --> s(1, 1, 1) t(1, 1, 1) X.\n" for i in range(50_000))),
+                              ("s.cga", "attr a = 1\nstyle S0\nattr a = 0\n" + "".join(
+                                  f"style S{i + 1} extends S{i}\nattr a = {i}\n" for i in range(3000)) + "Lot --> X."),
+                              ("n.cga", "Lot --> " + " ".join(f"Uknown{i}" for i in range(3000)) + "\n" + "".join(
+                                  f"Unknown{i} --> X.\n" for i in range(3000))), ("a.park", park)):
+            path = self.put(name, content)
+            self.ends("check", path, name=name)
+            self.ends("generate", path, "-o", "a.glb", name=name)
+            if name == "a.park":
+                self.ends("convert", path, name=name)
+
+    def testWritingModels(self):
+        # Few prototypes stand for millions of leaves, which formats without instances write one by one.
+        rules = self.put("a.cga", "Lot --> s(4096, 0, 4096) A\nA --> split(x) { '0.125 : B }*\nB --> split(z) { '0.125 : C }*\n"
+                         "C --> split(x) { '0.125 : D }*\nD --> split(z) { '0.125 : E }*\nE --> split(x) { '0.125 : F }*\n"
+                         "F --> split(z) { '0.125 : G }*\nG --> split(x) { '0.125 : H }*\nH --> split(z) { '0.125 : X. }*\n")
+        for out in ("a.obj", "a.ply", "a.stl"):
+            self.ends("generate", rules, "-o", out, name=out, limits=("--max-seconds", "0.5"))
+            self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["a.cga"])
+
+    def testDrawing(self):
+        rules = self.put("a.cga", "Lot --> extrude(3) X.")
+        said = self.run_gable("render", rules, "-o", "a.png", "--size", "640x360", "--samples", "2000", "--max-seconds", "0.5",
+                              status=4, codes=["out-of-time"], seconds=60)
+        self.assertIn("'a.png'", said)
+        # As far as it came.
+        self.assertTrue((self.folder / "a.png").exists())
+
+    def testPicturesOfPixels(self):
+        import zlib
+
+        def chunk(kind, data):
+            return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        n = 8_000
+        packer = zlib.compressobj(9)
+        data = b"".join(packer.compress(bytes(1 + 4 * n)) for _ in range(n)) + packer.flush()
+        self.put("assets/bomb.png", b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", n, n, 8, 6, 0, 0, 0))
+                 + chunk(b"IDAT", data) + chunk(b"IEND", b""))
+        rules = self.put("rules/a.cga", "A --> setupProjection(0, scope.xz, 1, 1) projectUV(0) texture(\"bomb.png\") X.")
+        self.ends("render", rules, "-o", "a.png", "--size", "160x90", "--samples", "2", name="a.png", code="out-of-memory",
+                  limits=("--max-memory", "200"))
+
+    def testManyHolesAreTriangulatedSoon(self):
+        def square(x, y, d):
+            return f"[[{x},{y}],[{x + d},{y}],[{x + d},{y + d}],[{x},{y + d}],[{x},{y}]]"
+        rings = ",".join([square(0, 0, .08)] + [square(i % 75 * 1e-3 + 1e-4, i // 75 * 1e-3 + 1e-4, 4e-4) for i in range(5000)])
+        self.shapes("a.geojson", POLYGON % ("{}", f"[{rings}]"), seconds=10)
+
+
 class Project(Case):
     def setUp(self):
         super().setUp()

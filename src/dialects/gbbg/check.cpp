@@ -113,7 +113,8 @@ class Checker {
 
   void checkStart() {
     if (broken_ || !out_.starts.empty() || out_.find(kStart)) return;
-    diagnostics_.error("gbbg-no-start", {}, "the grammar has no shape to begin with",
+    diagnostics_.error("gbbg-no-start", {grammar_.file, 0, 0},
+                       "the grammar has no shape to begin with",
                        "add 'axiom NAME size (30, 30, 30)', or a rule for START");
   }
 

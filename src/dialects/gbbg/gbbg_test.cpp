@@ -161,9 +161,9 @@ TEST(GbbgNotation, allMistakesAreReportedInOneRun) {
 
 TEST(GbbgNotation, aGrammarNeedsAStart) {
   EXPECT_EQ(Read("A -> Grid(Y) {B}\nterminal B").problems(),
-            "1:1 gbbg-unknown-predecessor (warning)\ngbbg-no-start\n");
+            "1:1 gbbg-no-start\n1:1 gbbg-unknown-predecessor (warning)\n");
   EXPECT_EQ(Read("START -> Grid(Y) {B}\nterminal B").problems(), "");
-  EXPECT_EQ(Read("").problems(), "gbbg-no-start\n");
+  EXPECT_EQ(Read("").problems(), "1:1 gbbg-no-start\n");
 }
 
 TEST(GbbgNotation, G22FormattingTwiceGivesTheSameBytes) {

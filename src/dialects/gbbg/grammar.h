@@ -132,6 +132,7 @@ struct Statement {
 };
 
 struct Grammar {
+  uint32_t file = 0;
   std::vector<Statement> statements;
   /// Comments at the end of the file.
   std::vector<std::string> lastComments;

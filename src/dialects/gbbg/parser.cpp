@@ -334,7 +334,9 @@ bool Parser::assetLine(AssetLine& out) {
 }
 
 Grammar parse(std::string_view text, uint32_t file, Diagnostics& diagnostics) {
-  return Parser(text, file, diagnostics).run();
+  Grammar grammar = Parser(text, file, diagnostics).run();
+  grammar.file = file;
+  return grammar;
 }
 
 }  // namespace gable::gbbg

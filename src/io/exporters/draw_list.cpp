@@ -13,6 +13,7 @@
 #include <tuple>
 
 #include "base/json.h"
+#include "base/work.h"
 #include "io/exporters/surface.h"
 #include "scene/flatten.h"
 
@@ -181,6 +182,7 @@ class Builder {
     const bool often = leaf.mesh < kFirstMesh || often_[leaf.mesh];
     const bool mirrored = leaf.scale.x * leaf.scale.y * leaf.scale.z < 0;
     const Surface& surface = surfaceOf(leaf.mesh);
+    if (!often) work(surface.corners.size());
     for (const SurfacePart& part : surface.parts) {
       const uint32_t material = materialIndexOf(scene_, leaf, part.slot);
       const Material& m = materialOf(scene_, leaf, part.slot);

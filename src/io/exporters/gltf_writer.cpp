@@ -16,6 +16,7 @@
 
 #include "base/files.h"
 #include "base/hash.h"
+#include "base/work.h"
 #include "io/exporters/gltf_document.h"
 #include "io/exporters/quaternion.h"
 #include "io/exporters/vertex_writer.h"
@@ -278,6 +279,7 @@ void GltfWriter::writeUnit(FileWriter& out, VertexWriter& vertices, uint32_t uni
     p.vertexOffset = out.offset() - bufferStart_;
     for (; draw < ends[i]; ++draw) {
       const Draw& d = draws_[draw];
+      work(d.corners);
       const Leaf& leaf = scene_.leaves[d.leaf];
       const bool own = d.placement == ScenePlan::kNone;
       vertices.add(leaf.mesh, d.slot, own ? Frame{} : unit_.placements[d.placement] * leaf.frame,

@@ -13,6 +13,7 @@
 
 #include "base/files.h"
 #include "base/number.h"
+#include "base/work.h"
 #include "geom/mesh/corner_normals.h"
 #include "io/exporters/surface.h"
 #include "io/exporters/textures.h"
@@ -287,6 +288,7 @@ void ObjWriter::putUvs(const Mesh& m, const Leaf& leaf) {
 
 void ObjWriter::addMesh(const Leaf& leaf, const Frame& world) {
   const Mesh& m = *scene_.meshes[leaf.mesh];
+  work(m.corners.size());
   placed_.resize(m.positions.size());
   for (size_t i = 0; i < placed_.size(); ++i) {
     placed_[i] = world.point(scaled(m.positions[i], leaf.scale));

@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "base/files.h"
+#include "base/work.h"
 #include "io/exporters/triangle_cache.h"
 #include "io/exporters/write_model.h"
 #include "scene/flatten.h"
@@ -72,6 +73,7 @@ bool PlyWriter::manySlots(const Mesh& m) {
 
 void PlyWriter::place(const Leaf& leaf, const Frame& world) {
   const Mesh& m = *scene_.meshes[leaf.mesh];
+  work(m.corners.size());
   placed_.resize(m.positions.size());
   for (size_t i = 0; i < placed_.size(); ++i) {
     Vec3 p = world.point(scaled(m.positions[i], leaf.scale));

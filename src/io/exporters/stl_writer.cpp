@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "base/files.h"
+#include "base/work.h"
 #include "io/exporters/triangle_cache.h"
 #include "io/exporters/write_model.h"
 
@@ -38,6 +39,7 @@ class StlWriter {
   void add(const Leaf& leaf, const Frame& world) {
     const Mesh& m = *scene_.meshes[leaf.mesh];
     const MeshTriangles& t = triangles_.of(leaf.mesh);
+    work(m.corners.size());
     placed_.resize(m.positions.size());
     for (size_t i = 0; i < placed_.size(); ++i) {
       placed_[i] = world.point(scaled(m.positions[i], leaf.scale));

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/files.h"
+#include "base/work.h"
 #include "io/image/image.h"
 
 namespace gable {
@@ -40,9 +41,11 @@ Image mixed(const Image& a, const Image& b, Mix mix) {
   Image out;
   out.width = std::max(a.width, b.width);
   out.height = std::max(a.height, b.height);
+  reserveWork(out.rgba, 4.0 * out.width * out.height);
   out.rgba.resize(static_cast<size_t>(out.width) * out.height * 4);
   uint8_t* p = out.rgba.data();
   for (uint32_t y = 0; y < out.height; ++y) {
+    work(out.width);
     for (uint32_t x = 0; x < out.width; ++x, p += 4) {
       mix(sample(a, x, y, out.width, out.height), sample(b, x, y, out.width, out.height), p);
     }

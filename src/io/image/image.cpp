@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The Gable authors
 #include "io/image/image.h"
 
+#include "base/work.h"
 #include "io/image/jpeg.h"
 #include "io/image/png.h"
 
@@ -31,6 +32,11 @@ Result<ImageHeader> readImageHeader(std::string_view bytes) {
 }
 
 Result<Image> decodeImage(std::string_view bytes, uint64_t maxPixels) {
+  // Asked for here, as nothing may unwind through the libraries.
+  if (const Result<ImageHeader> header = readImageHeader(bytes); header.ok()) {
+    const uint64_t pixels = uint64_t{header.value().width} * header.value().height;
+    if (pixels <= maxPixels) workMemory(4 * pixels);
+  }
   switch (imageFormat(bytes)) {
     case ImageFormat::Png: return decodePng(bytes, maxPixels);
     case ImageFormat::Jpeg: return decodeJpeg(bytes, maxPixels);

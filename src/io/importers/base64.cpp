@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "base/work.h"
+
 namespace gable {
 namespace {
 
@@ -25,8 +27,9 @@ bool readDataUri(std::string_view uri, std::string& mime, std::string& bytes) {
   mime = uri.substr(kHead.size(), mark - kHead.size());
   std::string_view text = uri.substr(mark + kMark.size());
   while (!text.empty() && text.back() == '=') text.remove_suffix(1);
+  work(text.size());
   bytes.clear();
-  bytes.reserve(text.size() / 4 * 3 + 3);
+  reserveWork(bytes, static_cast<double>(text.size() / 4 * 3 + 3));
   uint32_t bits = 0;
   int count = 0;
   for (const char c : text) {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/work.h"
+
 namespace gable {
 namespace {
 
@@ -17,6 +19,7 @@ bool usable(const Vec3& p) {
 }  // namespace
 
 bool FaceFilter::accept(const std::vector<uint32_t>& corners) {
+  work(1 + corners.size());
   kept_.clear();
   ++dropped_;
   for (uint32_t i = 0; i < corners.size(); ++i) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/allowance.h"
 #include "base/json.h"
 #include "base/number.h"
 #include "base/work.h"
@@ -239,6 +240,7 @@ bool GeoJsonReader::tellsMetres() {
 bool GeoJsonReader::readPoints(const JsonValue& coordinates, std::vector<Vec2>& out) {
   out.clear();
   for (const JsonValue& v : coordinates.items()) {
+    work();
     Vec2 p;
     if (!pointOf(v, p)) {
       complain(Severity::Error, "geojson-coordinates", "a position is not two numbers");
@@ -317,6 +319,7 @@ void GeoJsonReader::addPolygon(const JsonValue& rings) {
     left = subtract({{p.outer, {}}}, united(p.holes));
     return Status();
   });
+  unwindIfStopped(cut);
   if (!cut.ok()) {
     complain(Severity::Error, "geojson-crossing",
              "the holes of a polygon cannot be cut out: " + cut.message(),

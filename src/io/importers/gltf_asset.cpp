@@ -4,6 +4,7 @@
 // Triangles of all meshes that the scene shows, in one mesh. Vertices that files repeat for the
 // sake of normals and uv coordinates are one position again where their coordinates are equal to
 // the bit.
+#include "base/work.h"
 #include "io/importers/gltf_meshes.h"
 
 #include <algorithm>
@@ -75,6 +76,7 @@ void GltfMeshes::place(const Affine& world) {
   const size_t count = positions_.size() / 3;
   numbers_.resize(count);
   for (size_t v = 0; v < count; ++v) {
+    gable::work();
     const Vec3 p = world.point({positions_[3 * v], positions_[3 * v + 1], positions_[3 * v + 2]});
     if (!isFinite(p)) {
       // Equal to nothing; faces with such a point are dropped.

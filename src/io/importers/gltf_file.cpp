@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/work.h"
 #include "io/importers/base64.h"
 #include "io/uri.h"
 
@@ -148,6 +149,7 @@ Result<GltfFile> GltfFile::open(std::string_view bytes, const AssetOptions& opti
 void GltfFile::loadBuffers(std::string_view chunk, const AssetOptions& options) {
   uint64_t held = 0;
   for (const JsonValue& b : json_["buffers"].items()) {
+    work();
     buffers_.emplace_back();
     // Many buffers may name one large file.
     if (held > kMostBytes) continue;
@@ -223,6 +225,7 @@ bool GltfFile::applySparse(const JsonValue& accessor, const Elements& e,
     return false;
   }
   for (size_t i = 0; i < count; ++i) {
+    work();
     const auto element = static_cast<size_t>(componentAt(at.data() + i * size, type, false));
     if (element >= e.count) return false;
     for (size_t c = 0; c < width; ++c) {
@@ -238,8 +241,10 @@ bool GltfFile::read(const JsonValue& accessor, int components, std::vector<doubl
   if (!describe(accessor, e) || e.components != components) return false;
   const auto width = static_cast<size_t>(components);
   const auto size = static_cast<size_t>(bytesOf(e.component));
+  reserveWork(out, static_cast<double>(e.count * width));
   out.assign(e.count * width, 0);
   for (size_t i = 0; e.data && i < e.count; ++i) {
+    work();
     for (size_t c = 0; c < width; ++c) {
       out[i * width + c] = componentAt(e.data + i * e.stride + c * size, e.component, e.normalized);
     }
@@ -261,6 +266,7 @@ bool GltfFile::readIndices(const JsonValue& primitive, size_t vertexCount,
     return false;
   }
   for (size_t i = 0; e.data && i < e.count; ++i) {
+    work();
     const double v = componentAt(e.data + i * e.stride, e.component, false);
     if (!(v >= 0 && v < static_cast<double>(vertexCount))) return false;
     out.push_back(static_cast<uint32_t>(v));
@@ -322,6 +328,7 @@ std::vector<GltfPlacement> GltfFile::placements() const {
   std::vector<bool> seen(nodes.size());
   std::vector<GltfPlacement> out;
   while (!stack.empty()) {
+    work();
     const Visit visit = stack.back();
     stack.pop_back();
     if (visit.node >= nodes.size() || seen[visit.node]) continue;
@@ -334,6 +341,7 @@ std::vector<GltfPlacement> GltfFile::placements() const {
       out.push_back({mesh, world, name.empty() ? json_["meshes"].at(mesh)["name"].text() : name});
     }
     const auto& children = n["children"].items();
+    work(children.size());
     for (auto c = children.rbegin(); c != children.rend(); ++c) stack.push_back({index(*c), world});
   }
   return out;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "io/image/image.h"
 #include "io/importers/base64.h"
 #include "io/uri.h"
@@ -34,6 +35,7 @@ class Reader {
   }
 
   GltfMaterial read(const JsonValue& m) {
+    work();
     GltfMaterial out;
     out.texcoords.fill(-1);
     Material& to = out.material;
@@ -66,6 +68,7 @@ class Reader {
  private:
   // Where the picture lies: a project path, or a name of ours for one inside the file.
   std::string pathOfImage(size_t i) {
+    work();
     const JsonValue& image = file_.json()["images"].at(i);
     const JsonValue* uri = image.find("uri");
     std::string mime, bytes;

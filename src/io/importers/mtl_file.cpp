@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "io/importers/asset.h"
 #include "io/importers/text_lines.h"
 
@@ -116,6 +117,7 @@ std::map<std::string, Material> parseMtl(std::string_view text, const std::strin
   std::map<std::string, Material> all;
   Material* m = nullptr;
   forEachLine(text, [&](LineWords words) {
+    work();
     const std::string head = lowered(words.word());
     if (head == "newmtl") {
       const std::string name(words.rest());

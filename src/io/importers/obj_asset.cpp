@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The Gable authors
 #include <algorithm>
 
+#include "base/work.h"
 #include "io/importers/asset.h"
 #include "io/importers/face_filter.h"
 #include "io/importers/mtl_file.h"
@@ -68,7 +69,10 @@ std::map<std::string, Material> materialsOf(const ObjFile& file, const AssetOpti
       warnings.push_back("the material file '" + path + "' is left out: " + text.error().message);
       continue;
     }
-    for (auto& [key, material] : parseMtl(text.value(), path)) all[key] = material;
+    for (auto& [key, material] : parseMtl(text.value(), path)) {
+      work();
+      all[key] = material;
+    }
   }
   return all;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "base/work.h"
 #include "io/importers/text_lines.h"
 
 namespace gable {
@@ -37,6 +38,7 @@ class ObjParser {
         materialFiles_(out.materialFiles) {}
 
   void line(LineWords words) {
+    work();
     const std::string_view head = words.word();
     bool ok = true;
     if (head == "v") {
@@ -107,6 +109,7 @@ class ObjParser {
     ObjFace f = state_;
     f.firstCorner = static_cast<uint32_t>(out_.corners.size());
     while (!words.atEnd()) {
+      work();
       ObjCorner c;
       if (!corner(words.word(), c)) {
         out_.corners.resize(f.firstCorner);

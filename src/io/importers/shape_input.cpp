@@ -6,6 +6,7 @@
 
 #include "base/files.h"
 #include "base/number.h"
+#include "base/work.h"
 #include "geom/mesh/cleanup.h"
 #include "io/importers/face_filter.h"
 #include "io/importers/gltf_meshes.h"
@@ -62,6 +63,7 @@ Result<ShapeFile> readObjShapes(std::string_view text, const std::string& path) 
   uint64_t dropped = 0;
   std::vector<uint32_t> positions;
   for (size_t part = 0; part < faces.size(); ++part) {
+    work(1 + faces[part].size());
     // Numbers of its own, so that many parts of one long list of positions stay linear.
     std::vector<uint32_t> used;
     for (const uint32_t f : faces[part]) {
@@ -105,13 +107,13 @@ Result<ShapeFile> readGltfShapes(std::string_view bytes, const AssetOptions& opt
   ShapeFile out;
   uint64_t dropped = 0;
   const std::vector<GltfMaterial> noMaterials;
-  uint64_t work = 0;
+  uint64_t read = 0;
   for (const GltfPlacement& p : file->placements()) {
     Asset scratch;
     GltfMeshes meshes(*file, noMaterials, scratch, options.zUp);
     const bool fits = meshes.add(p, 0);
-    work += meshes.work();
-    if (!fits || work > GltfMeshes::kMostWork) {
+    read += meshes.work();
+    if (!fits || read > GltfMeshes::kMostWork) {
       return Error{
           "shapes-broken", "'" + options.path + "' shows more triangles than can be read", {}};
     }

@@ -4,11 +4,13 @@
 #include "lang/compile/emitter.h"
 
 #include "base/hash.h"
+#include "base/work.h"
 #include "program/stack.h"
 
 namespace gable::lang {
 
 uint32_t Emitter::emit(Code code, Span span, uint32_t a, size_t x, size_t y, uint64_t site) {
+  work();
   const auto narrowX = static_cast<uint8_t>(x);
   const auto narrowY = static_cast<uint16_t>(y);
   if (narrowX != x || narrowY != y || ++depth_ > kMostOnStack) tooLarge(code, span, x);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "base/work.h"
 #include "lang/sema/analysis.h"
 
 namespace gable::lang {
@@ -39,6 +40,7 @@ ValueType Analysis::slotType(uint32_t slot, ValueType expected) {
 }
 
 ValueType Analysis::visit(NodeId node, ValueType expected) {
+  work();
   const Tree& t = tree();
   switch (t.kind(node)) {
     case NodeKind::Number: return typed(node, ValueType::Float);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/work.h"
 #include "lang/old_regions.h"
 #include "lang/sema/analysis.h"
 
@@ -26,6 +27,7 @@ void Analysis::visitSequence(NodeId node) {
 }
 
 void Analysis::visitSuccessor(NodeId node) {
+  work();
   switch (tree().kind(node)) {
     case NodeKind::Apply: return visitApply(node);
     case NodeKind::ImportApply: return visitImportCall(node, true);
