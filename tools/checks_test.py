@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 import check
-from checks import diagnostics, layers, libm, links, ops, pictures, sizes, words
+from checks import diagnostics, layers, libm, links, op_names, ops, pictures, sizes, words
 from checks.tree import Tree, code_of, comments_of
 
 HEAD = "// SPDX-License-Identifier: Apache-2.0\n// SPDX-FileCopyrightText: The Gable authors\n"
@@ -217,6 +217,27 @@ class LibmTest(CheckCase):
         self.write("src/geom/a.cpp", "// sin(x) of a comment\ndouble log(int line);\n"
                    "double f(double x) { return std::sqrt(x) + std::fmod(x, 2) + m.exp(x) + sinDeg(x); }\n")
         self.assertEqual(self.messages(libm), [])
+
+
+class OpNamesTest(CheckCase):
+    def setUp(self):
+        super().setUp()
+        self.write("src/builtins/ops/subdivide/comp.cpp",
+                   'constexpr OpSpec kSpecs[] = {\n    {"comp", "subdivide", "Divides the shape.", kS, apply}};\n')
+        self.write("src/builtins/functions/numbers.cpp",
+                   'constexpr FunctionSpec kSpecs[] = {{"sqrt", kFamily,\n    "The square root.", kS}};\n')
+
+    def testRejectsNamesInTheRuntime(self):
+        self.write("src/runtime/a.cpp", 'bool b = name == "comp";\nbool c = name == "sqrt";\n')
+        self.assertEqual(len(self.messages(op_names)), 2)
+        self.write("src/runtime/a.cpp", "auto m = \"'comp' makes too many\";\n")
+        self.assertEqual(len(self.messages(op_names)), 1)
+
+    def testAcceptsNamesElsewhereAndInWords(self):
+        self.write("src/runtime/a.cpp", '// "comp" of a comment\nauto m = "compare and decompose";\n')
+        self.write("src/runtime/a_test.cpp", 'bool b = name == "comp";\n')
+        self.write("src/shape/a.cpp", 'bool b = name == "comp";\n')
+        self.assertEqual(self.messages(op_names), [])
 
 
 if __name__ == "__main__":

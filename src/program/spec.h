@@ -148,6 +148,9 @@ enum Effect : uint32_t {
   /// The operation understands a deformed shape; for all others the deformation goes into the
   /// geometry first.
   kTakesDeformed = 1u << 13,
+  /// Questions about other shapes are answered with the shape as it was before the operation, and
+  /// not with its leaves alone: comp, offset.
+  kLeavesOccluder = 1u << 14,
 };
 
 /// Whether a selector asks for a direction or place outside the shape: world.up, object,

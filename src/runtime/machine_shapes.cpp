@@ -20,12 +20,6 @@ namespace gable {
 
 namespace {
 
-// Shapes are occluders as they were before these operations.
-bool occludes(const OpSpec& spec) {
-  const std::string_view name = spec.name;
-  return name == "comp" || name == "offset";
-}
-
 uint64_t verticesOf(const Shape& s) {
   return s.geometry.kind == GeometryKind::Mesh ? s.geometry.mesh->positions.size() : 0;
 }
@@ -460,7 +454,7 @@ void Machine::operation(const Instruction& i, const Value* constants) {
   BlockInput input;
   if (block) fillBlock(i.y - 1u, blockStart, a.plan, input);
   OpCall call(spec, a.shape, {arguments, i.x}, *this, place, block ? &input : nullptr);
-  if (collectOccluders_ && occludes(spec)) addOccluder(0, a.shape);
+  if (collectOccluders_ && (spec.effects & kLeavesOccluder) != 0) addOccluder(0, a.shape);
   instruction_ = &i;
   reserved_ = blockValues + argumentsOnStack;
   const Status status = apply(call, i, {arguments, i.x}, block ? &input : nullptr);

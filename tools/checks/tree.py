@@ -99,5 +99,12 @@ def comments_of(text):
             yield text.count("\n", 0, match.start()) + 1, match.group("comment")
 
 
+def strings_of(text):
+    """(offset, inside) of each string literal."""
+    for match in _TOKEN.finditer(text):
+        if match.group("string"):
+            yield match.start(), match.group("string")[1:-1]
+
+
 def line_at(text, offset):
     return text.count("\n", 0, offset) + 1

@@ -212,7 +212,7 @@ constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     heavy({"offset", "build", "Moves the outline of each face inward or outward.", kSignatures,
-           typed<applyOffset>}),
+           typed<applyOffset>, BlockKind::None, kLeavesOccluder}),
 };
 
 }  // namespace

@@ -382,7 +382,7 @@ constexpr Signature kSignatures[] = {{kParams}};
 constexpr OpSpec kSpecs[] = {
     {"comp", "subdivide", "Divides the shape into faces, edges, vertices or other components.",
      kSignatures, typed<applyComp>, BlockKind::Selectors,
-     kReadsWorld | kReadsWorldByWord | kReadsPivotAxes},
+     kReadsWorld | kReadsWorldByWord | kReadsPivotAxes | kLeavesOccluder},
 };
 
 }  // namespace
