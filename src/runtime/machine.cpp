@@ -29,14 +29,15 @@ Machine::Machine(DeriveShared& shared, uint32_t worker)
       attributeValues_(shared.program.attributes.size()),
       stackMemory_(new std::byte[kStackSize * sizeof(Value)]),
       stack_(reinterpret_cast<Value*>(stackMemory_.get())),
-      splits_(shared.program.blocks.size()) {
+      splits_(shared.program),
+      flat_(!shared.options.sharing || shared.options.trace),
+      lightParts_({shared.program, shared.options.limits, splits_, flat_}, output_, tally_) {
   pool_ = shared.environment.pool.get();
   materials_ = &shared.environment.materials;
   attributes_ = &shared.environment.attributes;
   tags_ = &shared.environment.tags;
   assets_ = &shared.environment.assets;
   builtinSetSpec_ = &kSetSpec;
-  flat_ = !shared.options.sharing || shared.options.trace;
   collectOccluders_ = shared.collectOccluders;
   lightPartsAllowed_ = !collectOccluders_ && !shared.options.trace;
   if (shared.options.remember) {

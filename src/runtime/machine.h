@@ -15,7 +15,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/small_buffer.h"
 #include "base/work.h"
 #include "program/program.h"
 #include "program/reach.h"
@@ -25,12 +24,14 @@
 #include "runtime/context.h"
 #include "runtime/derive.h"
 #include "runtime/incremental_cache.h"
+#include "runtime/light_parts.h"
 #include "runtime/local_values.h"
 #include "runtime/message_log.h"
 #include "runtime/output.h"
 #include "runtime/portion.h"
 #include "runtime/prototypes.h"
 #include "runtime/recall.h"
+#include "runtime/split_cache.h"
 #include "runtime/tally.h"
 #include "runtime/tracer.h"
 #include "runtime/worlds.h"
@@ -198,65 +199,6 @@ class Machine final : public Services, private WorkMeter {
     Frame previousScope;
     Vec3 previousSize;
   };
-  /// A slot whose parts become leaves in a few plain steps, or go, or are divided once more.
-  struct LightSlot {
-    bool light = false;
-    /// NIL: the parts go.
-    bool drop = false;
-    /// The last rule called works in a frame of its own, and so do the steps.
-    bool boundary = false;
-    /// The leaf has a name without a rule.
-    bool named = false;
-    /// Rules called on the way, and the one whose code comes last.
-    uint8_t calls = 0;
-    /// What a part counts as: each call is a shape, and so is a leaf or an end that belongs to
-    /// none.
-    uint32_t shapes = 0;
-    /// And what it counts as work, so that the way in which it is made does not tell.
-    uint32_t work = 0;
-    uint32_t rule = 0;
-    /// The block of the split at the end, plus 1; 0 for a leaf.
-    uint32_t block = 0;
-    /// Of the leaf.
-    StringId name = 0;
-    uint32_t source = 0;
-    struct Step {
-      bool (*apply)(LightPart&, const void* arguments);
-      alignas(std::max_align_t) std::byte arguments[LightOp::kRoom];
-    };
-    SmallBuffer<Step, 4> steps;
-  };
-  /// What light parts are cut from.
-  struct LightSource {
-    /// Where the local frame lies in the frame of the leaves: the axes of `world`, at `place`.
-    const Frame& world;
-    Vec3 place;
-    /// The scope in the local frame: the axes of `axes`, at `origin`.
-    const Frame& axes;
-    Vec3 origin;
-    /// What the leaves have in common: attributes, materials, and the axes of the scope, or of the
-    /// world below a rule that works in a frame of its own.
-    const Leaf *leaf, *worldLeaf;
-    /// The scope's axis that it is divided along.
-    Vec3 along;
-    Vec3 size;
-    GeometryKind kind;
-    const LightTrim* trim;
-    /// Of the rule call that the parts belong to; null when it is light itself.
-    uint32_t* childCount;
-  };
-  /// Where the local frame of a light part lies in the frame of the leaves, and what its leaf is
-  /// like.
-  struct LightPlace {
-    Vec3 origin;
-    const Leaf* leaf;
-  };
-  struct LightMark {
-    size_t leaves;
-    Tally::Mark tally;
-    uint32_t childCount;
-  };
-
   const DeriveOptions& options() const { return shared_.options; }
 
   // The loop, and its parts.
@@ -278,17 +220,9 @@ class Machine final : public Services, private WorkMeter {
   void nextChild();
   void makeChild();
   void makeLightParts(Activation& a);
-  bool makeLightPart(const LightSource& from, const PartPlan& plan, const SplitPiece& piece,
-                     const LightSlot& slot, uint32_t depth, uint32_t nested);
-  bool splitLightPart(const LightSource& from, const LightPlace& place, const LightPart& part,
-                      const LightSlot& slot, uint32_t depth, uint32_t nested);
-  bool isPlainSplit(const Instruction& at) const;
-  const std::vector<LightSlot>& lightSlots(uint32_t block, uint32_t rule);
-  LightSlot lightSlot(uint32_t rule, uint32_t entry) const;
   void operation(const Instruction& i, const Value* constants);
   Status apply(OpCall& call, const Instruction& i, std::span<const Value> arguments,
                const BlockInput* block);
-  SplitBlock splitBlock(uint32_t number, const Value* values);
   void fillBlock(uint32_t number, const Value* values, PartPlan& plan, BlockInput& input);
   bool splitAsBefore(const Instruction& i, Activation& a, const Value* values);
   void beginChildren(const Instruction& i, uint32_t childBase, uint32_t pieceBase);
@@ -472,13 +406,7 @@ class Machine final : public Services, private WorkMeter {
   std::vector<std::pair<Frame, Vec3>> previous_;
   std::vector<FunctionFrame> functions_;
   Worlds worlds_;
-  /// By block: the items of a split with the sizes of the last time, and its slots.
-  struct SplitState {
-    std::vector<SplitItem> items;
-    SplitMemo memo;
-    std::vector<LightSlot> slots;
-  };
-  std::vector<SplitState> splits_;
+  SplitCache splits_;
   std::vector<SelectorItem> selectorItems_;
   std::vector<SelectorTerm> selectorTerms_;
 
@@ -499,6 +427,7 @@ class Machine final : public Services, private WorkMeter {
   /// Leaves are placed in the world at once: sharing is off.
   bool flat_ = false;
   bool collectOccluders_ = false;
+  LightParts lightParts_;
   /// Nobody wants to see every shape.
   bool lightPartsAllowed_ = false;
 

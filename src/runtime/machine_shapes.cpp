@@ -289,37 +289,6 @@ void Machine::leaveBracket() {
   popShape();
 }
 
-// The items of a block are kept from one time to the next; what was divided by the same sizes is
-// known as long as they stay the same.
-SplitBlock Machine::splitBlock(uint32_t number, const Value* values) {
-  const BlockCode& block = program_.blocks[number];
-  SplitState& state = splits_[number];
-  const bool fixed = !block.constantSizes.empty();
-  const bool fresh = state.items.empty();
-  if (fresh) {
-    for (const BlockItem& item : block.items) {
-      SplitItem s;
-      s.group = item.group;
-      s.repeat = item.repeat;
-      s.length = item.length;
-      s.slot = item.slot;
-      state.items.push_back(s);
-    }
-  }
-  if (fresh || !fixed) {
-    const Value* v = fixed ? block.constantSizes.data() : values;
-    for (SplitItem& s : state.items) {
-      if (s.group) continue;
-      // Written so that what is no number counts as changed.
-      if (!(s.size == v->number) || s.unit != v->unit) state.memo.known = false;
-      s.size = v->number;
-      s.unit = v->unit;
-      ++v;
-    }
-  }
-  return {state.items, block.repeat, &state.memo};
-}
-
 void Machine::fillSelectors(const BlockCode& block, const Value* values) {
   selectorTerms_.clear();
   selectorItems_.clear();
@@ -353,7 +322,7 @@ void Machine::fillBlock(uint32_t number, const Value* values, PartPlan& plan, Bl
   input.preferredSizes = block.preferredSizes;
   input.figures = block.figures;
   if (block.kind == BlockKind::Split) {
-    input.split = splitBlock(number, values);
+    input.split = splits_.at(number, values);
   } else if (block.kind == BlockKind::Selectors || block.kind == BlockKind::Operations) {
     fillSelectors(block, values);
     input.selectors = selectorItems_;
@@ -362,7 +331,7 @@ void Machine::fillBlock(uint32_t number, const Value* values, PartPlan& plan, Bl
 
 // A box or a rectangle that is divided like the one before needs no call: the parts are known.
 bool Machine::splitAsBefore(const Instruction& i, Activation& a, const Value* values) {
-  const SplitMemo& memo = *splitBlock(i.y - 1u, values).memo;
+  const SplitMemo& memo = *splits_.at(i.y - 1u, values).memo;
   const Geometry& g = a.shape.geometry;
   if (!memo.known || memo.givenOutOf != g.kind || g.kind == GeometryKind::None || g.uv ||
       isDeformed(a.shape) ||
