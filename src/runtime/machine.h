@@ -94,6 +94,8 @@ struct OpenGather {
   uint32_t traced = 0;
   uint32_t made = 0;
   bool flat = false, light = false;
+  /// Of the call, for its second part.
+  std::vector<Value> arguments;
 };
 
 /// One rule call or block slot in progress.
@@ -239,7 +241,7 @@ class Machine final : public Services, private WorkMeter {
   bool putLeaf(const Shape& s, StringId name, uint32_t source);
 
   // Gathering: operations that wait for the leaves of their children.
-  void beginGather(const Instruction& i);
+  void beginGather(const Instruction& i, std::span<const Value> arguments);
   void endGather();
   void dropGathers();
   OpenGather closeGather();

@@ -12,6 +12,16 @@ namespace gable {
 
 namespace {
 
+// The leaf with the geometry and the place of the shape; what else it is stays.
+void placeAs(Leaf& leaf, const Shape& s, Output& output) {
+  leaf.frame = s.scope;
+  leaf.scale = s.size;
+  if (s.geometry.kind != GeometryKind::Mesh) return;
+  leaf.mesh = kFirstMesh + output.meshNumber(s.geometry.mesh);
+  const Vec3& ref = s.geometry.refSize;
+  for (size_t k = 0; k < 3; ++k) leaf.scale[k] = ref[k] != 0 ? s.size[k] / ref[k] : 1;
+}
+
 // The leaf as the shape that it was.
 Shape shapeOf(const Leaf& leaf, const Output& output) {
   Shape s;
@@ -36,7 +46,7 @@ Shape shapeOf(const Leaf& leaf, const Output& output) {
 
 }  // namespace
 
-void Machine::beginGather(const Instruction& i) {
+void Machine::beginGather(const Instruction& i, std::span<const Value> arguments) {
   OpenGather g;
   g.at = &i;
   g.activation = activationCount_ - 1;
@@ -45,7 +55,8 @@ void Machine::beginGather(const Instruction& i) {
   g.made = current().made;
   g.flat = flat_;
   g.light = lightPartsAllowed_;
-  gathers_.push_back(g);
+  g.arguments.assign(arguments.begin(), arguments.end());
+  gathers_.push_back(std::move(g));
   worlds_.beginGather();
   nowGathering();
   flat_ = true;
@@ -55,7 +66,7 @@ void Machine::beginGather(const Instruction& i) {
 void Machine::nowGathering() { gatherEnd_ = gathers_.empty() ? 0 : gathers_.back().activation + 1; }
 
 OpenGather Machine::closeGather() {
-  const OpenGather g = gathers_.back();
+  OpenGather g = std::move(gathers_.back());
   gathers_.pop_back();
   worlds_.endGather();
   nowGathering();
@@ -74,10 +85,13 @@ void Machine::endGather() {
   for (size_t k = 0; k < shown.size(); ++k) {
     if (!shown[k]) leaves.push_back({shapeOf(output_.openLeaves[g.leaves + k], output_), false});
   }
+  // A leaf that the operation gives another mesh stays, with that and its place.
+  std::vector<MeshRef> was;
+  for (const Gathered& leaf : leaves) was.push_back(leaf.shape.geometry.mesh);
   const OpSpec& spec = *program_.operations[g.at->a];
   const CallPlace place{a.previousScope, a.previousSize,
                         program_.files[program_.rules[a.rule].file], program_.sites[pcOf(g.at)]};
-  OpCall call(spec, a.shape, {}, *this, place);
+  OpCall call(spec, a.shape, g.arguments, *this, place);
   instruction_ = g.at;
   const Shape before = a.shape;
   const Status status = guarded([&] { return call.runGathered(leaves); });
@@ -89,7 +103,12 @@ void Machine::endGather() {
   }
   std::vector<bool> gone(shown.size(), false);
   for (size_t k = 0, l = 0; k < shown.size(); ++k) {
-    if (!shown[k]) gone[k] = status.ok() && leaves[l++].taken;
+    if (shown[k]) continue;
+    const Gathered& leaf = leaves[l++];
+    gone[k] = status.ok() && leaf.taken;
+    if (status.ok() && leaf.shape.geometry.mesh != was[l - 1]) {
+      placeAs(output_.openLeaves[g.leaves + k], leaf.shape, output_);
+    }
   }
   keepLeaves(g, gone);
 }

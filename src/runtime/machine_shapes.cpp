@@ -447,7 +447,7 @@ void Machine::operation(const Instruction& i, const Value* constants) {
     if (vertices > options().limits.shapeVertices) shapeTooLarge(spec);
     return;
   }
-  if (call.gathers() && children_.size() > childBase) beginGather(i);
+  if (call.gathers() && children_.size() > childBase) beginGather(i, {arguments, i.x});
   beginChildren(i, childBase, pieceBase);
 }
 
@@ -549,11 +549,11 @@ void Machine::setAttribute(const Instruction& i) {
 void Machine::setBuiltin(const Instruction& i, const Value& v) {
   Activation& a = current();
   instruction_ = &i;
-  if (isDeformed(a.shape)) bakeDeformation(a.shape);
+  const AttributeSpec& spec = *program_.builtinAttributes[i.a];
+  if (isDeformed(a.shape) && (spec.effects & kTakesDeformed) == 0) bakeDeformation(a.shape);
   const CallPlace place{a.previousScope, a.previousSize,
                         program_.files[program_.rules[a.rule].file]};
   OpCall call(*builtinSetSpec_, a.shape, {&v, 1}, *this, place);
-  const AttributeSpec& spec = *program_.builtinAttributes[i.a];
   Status status = refusedNumber(spec.name, v, pool());
   if (status.ok()) status = guarded([&] { return spec.set(call, v); });
   if (!status.ok()) tellFailure(nullptr, status);

@@ -82,15 +82,19 @@ bool mirrors(const Deformation& d, const Vec3& size) {
 
 }  // namespace
 
+Mesh flatFaces(const Mesh& m) {
+  Rebuilder rebuilt(m);
+  for (size_t f = 0; f < m.faceCount(); ++f) rebuilt.addFace(f);
+  return rebuilt.take();
+}
+
 Mesh deformedMesh(const Shape& s, const Mesh& unit, const DeformedSides& sides) {
   const Deformation& d = s.extra->deformation;
   Mesh m = unit;
   // The normals of curved faces would have to be made anew.
   m.normals.clear();
   for (Vec3& p : m.positions) p = scaled(between(d, p, sides), s.size);
-  Rebuilder rebuilt(m);
-  for (size_t f = 0; f < m.faceCount(); ++f) rebuilt.addFace(f);
-  Mesh out = rebuilt.take();
+  Mesh out = flatFaces(m);
   if (mirrors(d, s.size)) {
     for (size_t f = 0; f < out.faceCount(); ++f) reverseFace(out, f);
   }

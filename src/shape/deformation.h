@@ -29,6 +29,9 @@ struct DeformedSides {
 /// triangles, those that collapse are left out. O(size of the mesh).
 Mesh deformedMesh(const Shape& s, const Mesh& unit, const DeformedSides& sides);
 
+/// The mesh with faces that are no longer flat as triangles, and without those that collapse.
+Mesh flatFaces(const Mesh& m);
+
 /// Ends the deformation: the geometry takes it up (its far side being that of y), and the scope
 /// becomes the box of the new geometry along its present axes. A shape without geometry gets the
 /// scope that comes nearest to the near map.

@@ -30,7 +30,8 @@ Status setField(OpCall& call, const Value& v) {
 template <size_t... index>
 std::array<AttributeSpec, sizeof...(index)> makeAttributes(std::index_sequence<index...>) {
   return {AttributeSpec{materialFields()[index].name, materialFields()[index].type,
-                        materialFields()[index].doc, getField<index>, setField<index>}...};
+                        materialFields()[index].doc, getField<index>, setField<index>,
+                        kTakesDeformed}...};
 }
 
 // How many fields there are; a test compares it with the table.

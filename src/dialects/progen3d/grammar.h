@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "dialects/progen3d/lexer.h"
 
 namespace gable::progen3d {
 
@@ -99,8 +100,6 @@ struct Grammar {
   std::vector<Rule> rules;
   /// It uses DS or DT, and with them the pivots of that version.
   bool centred = false;
-  /// A grammar of the other language that shares the name.
-  bool isWebLanguage = false;
 
   /// Null when there is none.
   const Variable* variable(std::string_view name) const;
@@ -114,6 +113,7 @@ struct Grammar {
 double evaluate(const Grammar& grammar, uint32_t expression, bool& known);
 
 /// Views into `text`; it must outlive the grammar. What is wrong is reported and left out.
-Grammar parseGrammar(std::string_view text, uint32_t file, Diagnostics& diagnostics);
+Grammar parseGrammar(std::string_view text, uint32_t file, std::vector<Token> tokens,
+                     Diagnostics& diagnostics);
 
 }  // namespace gable::progen3d

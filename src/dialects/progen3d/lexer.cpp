@@ -99,8 +99,19 @@ class Lexer {
       case '^': return add(TokenKind::Caret, 1);
       case '&': return add(TokenKind::Ampersand, 1);
       case '?': return add(TokenKind::Question, 1);
+      case ':': return add(TokenKind::Colon, 1);
+      case '<': return compare(TokenKind::Less, TokenKind::LessEqual);
+      case '>': return compare(TokenKind::Greater, TokenKind::GreaterEqual);
+      case '=': return compare(TokenKind::Other, TokenKind::Equal);
+      case '!': return compare(TokenKind::Other, TokenKind::NotEqual);
       default: return add(TokenKind::Other, 1);
     }
+  }
+
+  // A sign alone, or with a '=' behind it.
+  void compare(TokenKind alone, TokenKind withEqual) {
+    const bool equal = peek(1) == '=';
+    add(equal ? withEqual : alone, equal ? 2 : 1);
   }
 
   // Digits that run on into letters are a name ("2Floors"), but for an exponent.

@@ -35,6 +35,13 @@ enum class TokenKind : uint8_t {
   Caret,
   Ampersand,
   Question,
+  Colon,
+  Less,
+  LessEqual,
+  Greater,
+  GreaterEqual,
+  Equal,     // ==
+  NotEqual,  // !=
   Other,
 };
 

@@ -10,20 +10,15 @@
 #include <string>
 
 #include "base/text.h"
+#include "dialects/progen3d/dresser.h"
 #include "dialects/progen3d/names.h"
-#include "dialects/progen3d/textures.h"
+#include "dialects/progen3d/nodes.h"
 #include "dialects/progen3d/uses.h"
 
 namespace gable::progen3d {
 
 namespace {
 
-using lang::BinaryOp;
-using lang::kNoNode;
-using lang::Node;
-using lang::NodeId;
-using lang::NodeKind;
-using Nodes = std::vector<NodeId>;
 using Kind = Expression::Kind;
 
 /// A rule that leaves so many bodies is worth being derived once for all its equal calls.
@@ -31,84 +26,6 @@ constexpr double kWorthSharing = 4;
 /// Of a body that does not say its own.
 constexpr double kTextureScale = 0.125;
 constexpr const char* kQuotient = "quotient";
-constexpr double kDegreesInRadian = 57.29577951308232;
-
-// --- The tree, node by node ---
-
-class Builder {
- public:
-  explicit Builder(uint32_t file) : tree_(file) {}
-
-  NodeId add(NodeKind kind, Span at, const Nodes& children = {}, std::string_view text = {}) {
-    Node n;
-    n.kind = kind;
-    n.begin = at.begin;
-    n.end = at.end;
-    if (!text.empty()) n.text = tree_.intern(text);
-    return tree_.add(n, children);
-  }
-  NodeId list(Span at, const Nodes& items) { return add(NodeKind::List, at, items); }
-  NodeId name(std::string_view text, Span at) { return add(NodeKind::Name, at, {}, text); }
-  NodeId number(double v, Span at) {
-    Node n;
-    n.kind = NodeKind::Number;
-    n.begin = at.begin;
-    n.end = at.end;
-    n.number = std::fabs(v);
-    const NodeId id = tree_.add(n);
-    return v < 0 ? unary(lang::UnaryOp::Minus, id, at) : id;
-  }
-  NodeId unary(lang::UnaryOp op, NodeId operand, Span at) {
-    Node n;
-    n.kind = NodeKind::Unary;
-    n.op = static_cast<uint8_t>(op);
-    n.begin = at.begin;
-    n.end = at.end;
-    return tree_.add(n, {operand});
-  }
-  NodeId binary(BinaryOp op, NodeId left, NodeId right, Span at) {
-    Node n;
-    n.kind = NodeKind::Binary;
-    n.op = static_cast<uint8_t>(op);
-    n.begin = at.begin;
-    n.end = at.end;
-    return tree_.add(n, {left, right});
-  }
-  NodeId call(std::string_view function, const Nodes& arguments, Span at) {
-    return add(NodeKind::Call, at, {list(at, arguments), kNoNode}, function);
-  }
-  NodeId apply(std::string_view operation, const Nodes& arguments, Span at) {
-    return add(NodeKind::Apply, at, {list(at, arguments)}, operation);
-  }
-  NodeId sequence(const Nodes& parts, Span at) { return add(NodeKind::Sequence, at, parts); }
-  /// operation(arguments) { parts }
-  NodeId block(std::string_view operation, const Nodes& arguments, const Nodes& parts, Span at) {
-    Nodes items;
-    if (!parts.empty()) {
-      items.push_back(add(NodeKind::Item, at, {kNoNode, kNoNode, sequence(parts, at)}));
-    }
-    const NodeId body = add(NodeKind::Block, at, items);
-    return add(NodeKind::Apply, at, {list(at, arguments), body}, operation);
-  }
-  /// weight% : first else : second
-  NodeId choice(NodeId weight, const Nodes& first, const Nodes& second, Span at) {
-    const NodeId a = add(NodeKind::Branch, at, {weight, sequence(first, at)});
-    const NodeId b = add(NodeKind::Branch, at, {kNoNode, sequence(second, at)});
-    Node n;
-    n.kind = NodeKind::Choice;
-    n.op = static_cast<uint8_t>(lang::ChoiceKind::Percent);
-    n.begin = at.begin;
-    n.end = at.end;
-    return tree_.add(n, {a, b});
-  }
-  lang::Tree finish(const Nodes& declarations) {
-    tree_.setRoot(add(NodeKind::File, {tree_.file(), 0, 0}, declarations));
-    return std::move(tree_);
-  }
-
- private:
-  lang::Tree tree_;
-};
 
 class Lowering {
  public:
@@ -118,7 +35,9 @@ class Lowering {
         b_(file),
         names_(grammar, catalogue),
         uses_(grammar),
-        exists_(exists),
+        dresser_(b_, exists, diagnostics,
+                 "write a number, words such as brick, redbrick or shinymetal, or put a picture of "
+                 "that name into the folder textures"),
         diagnostics_(diagnostics) {}
 
   lang::Tree run() {
@@ -165,7 +84,7 @@ class Lowering {
     return false;
   }
 
-  NodeId hidden(Span at) { return b_.list(at, {b_.add(NodeKind::Annotation, at, {}, "Hidden")}); }
+  NodeId hidden(Span at) { return b_.note("Hidden", at); }
 
   // A whole range holds all integers between its bounds; without one, the lower bound truncated.
   static double least(const Variable& v) {
@@ -187,23 +106,9 @@ class Lowering {
     return b_.call("floor", {any}, at);
   }
 
-  // quotient(a, b) = case b == 0 : 0 else : a / b
-  NodeId quotient() {
-    const Span at = g_.rules[0].nameSpan;
-    const auto param = [&](const char* name) { return b_.add(NodeKind::Param, at, {}, name); };
-    const NodeId params = b_.list(at, {param("a"), param("b")});
-    const NodeId isZero = b_.binary(BinaryOp::Equal, b_.name("b", at), b_.number(0, at), at);
-    const NodeId zero = b_.add(NodeKind::Branch, at, {isZero, b_.number(0, at)});
-    const NodeId ratio = b_.binary(BinaryOp::Divide, b_.name("a", at), b_.name("b", at), at);
-    const NodeId other = b_.add(NodeKind::Branch, at, {kNoNode, ratio});
-    const NodeId value = b_.add(NodeKind::Choice, at, {zero, other});
-    return b_.add(NodeKind::Function, at, {kNoNode, params, kNoNode, value},
-                  names_.function(kQuotient));
-  }
+  NodeId quotient() { return b_.quotient(names_.function(kQuotient), g_.rules[0].nameSpan); }
 
-  NodeId startAnnotation(Span at) {
-    return b_.list(at, {b_.add(NodeKind::Annotation, at, {}, "StartRule")});
-  }
+  NodeId startAnnotation(Span at) { return b_.note("StartRule", at); }
 
   // A start rule that others call must not begin anew with each call; and a choice stands first.
   bool needsStartRule(const Rule& r) const {
@@ -424,54 +329,18 @@ class Lowering {
     return e.kind == Kind::Name && !g_.variable(e.name) && !e.name.ends_with("_count");
   }
 
-  NodeId setMaterial(const char* attribute, NodeId value, Span at) {
-    return b_.apply("set", {b_.name(std::string("material.") + attribute, at), value}, at);
-  }
-
-  // The picture of that name in the folder of textures, else what its words say.
-  NamedTexture textureOf(const Expression& e) {
-    NamedTexture out;
-    for (const char* type : {".png", ".jpg", ".jpeg"}) {
-      out.path = "textures/" + std::string(e.name) + type;
-      if (exists_ && exists_(out.path)) return out;
-    }
-    if (const std::optional<NamedTexture> named = namedTexture(e.name)) return *named;
-    if (unknown_.insert(e.name).second) {
-      diagnostics_.warning(
-          "unknown-texture", e.span,
-          "there is no texture and no variable '" + std::string(e.name) + "'; the body is plain",
-          "write a number, words such as brick, redbrick or shinymetal, or put a picture of that "
-          "name into the folder textures");
-    }
-    out.path.clear();
-    return out;
-  }
-
   // What stands before a body with a named texture, in the same brackets.
   Nodes dressed(const Step& step) {
     const Span at = step.span;
-    const NamedTexture look = textureOf(g_.expressions[step.arguments[0]]);
-    const auto string = [&](const std::string& text) {
-      return b_.add(NodeKind::String, at, {}, text);
-    };
-    Nodes out;
-    if (!look.color.empty()) out.push_back(b_.apply("color", {string(look.color)}, at));
-    if (look.opacity < 1) out.push_back(setMaterial("opacity", b_.number(look.opacity, at), at));
-    if (look.roughness >= 0) {
-      out.push_back(setMaterial("roughness", b_.number(look.roughness, at), at));
-    }
-    if (look.path.empty()) return out;
-    out.push_back(b_.apply("texture", {string(look.path)}, at));
+    const Expression& texture = g_.expressions[step.arguments[0]];
     const auto times = [&](size_t argument, double factor, double otherwise) {
       if (argument >= step.arguments.size()) return b_.number(factor * otherwise, at);
       const NodeId value = expression(step.arguments[argument]);
       return b_.binary(BinaryOp::Multiply, b_.number(factor, at), value, at);
     };
-    for (const char* scale : {"colormap.su", "colormap.sv"}) {
-      out.push_back(setMaterial(scale, times(2, 2, kTextureScale), at));
-    }
-    out.push_back(setMaterial("colormap.rw", times(1, 90, 0), at));
-    return out;
+    return dresser_.operations({texture.name, texture.span, at,
+                                [&] { return times(2, 2, kTextureScale); },
+                                [&] { return times(1, 90, 0); }});
   }
 
   // --- Expressions ---
@@ -527,9 +396,7 @@ class Lowering {
 
   // The trigonometric functions of the notation take radians.
   NodeId trigonometric(const char* function, const Expression& e) {
-    const NodeId degrees = b_.binary(BinaryOp::Multiply, expression(e.left),
-                                     b_.number(kDegreesInRadian, e.span), e.span);
-    return b_.call(function, {degrees}, e.span);
+    return b_.ofRadians(function, expression(e.left), e.span);
   }
 
   NodeId expression(uint32_t id) {
@@ -561,7 +428,7 @@ class Lowering {
   Builder b_;
   Names names_;
   Uses uses_;
-  const FileExists& exists_;
+  Dresser dresser_;
   Diagnostics& diagnostics_;
   const Rule* rule_ = nullptr;
   size_t middle_ = kNone;

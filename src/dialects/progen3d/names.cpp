@@ -43,26 +43,46 @@ std::string fresh(std::string name, Taken taken) {
 
 }  // namespace
 
-Names::Names(const Grammar& grammar, const Catalogue& catalogue) {
-  for (const Rule& r : grammar.rules) {
-    const std::string name = fresh(identifier(r.name), [&](const std::string& n) {
+Names::Names(const std::vector<std::string>& rules, const std::vector<std::string>& values,
+             const Catalogue& catalogue) {
+  for (const std::string& written : rules) {
+    const std::string name = fresh(identifier(written), [&](const std::string& n) {
       return isKeyword(n) || catalogue.operation(n) || ruleNames_.count(n) > 0;
     });
     ruleNames_.insert(name);
-    rules_.emplace(r.name, name);
+    rules_.emplace(written, name);
   }
-  const auto addValue = [&](const std::string& written) {
-    if (values_.count(written) > 0) return;
+  for (const std::string& written : values) {
+    if (values_.count(written) > 0) continue;
     const std::string name = fresh(identifier(written), [&](const std::string& n) {
       return isKeyword(n) || catalogue.isSelector(n) || n == "x" || n == "y" || n == "z" ||
              n == "a" || n == "b" || catalogue.function(n) || valueNames_.count(n) > 0;
     });
     valueNames_.insert(name);
     values_.emplace(written, name);
-  };
-  for (const Variable& v : grammar.variables) addValue(std::string(v.name));
-  for (const Rule& r : grammar.rules) addValue(std::string(r.name) + "_count");
+  }
 }
+
+namespace {
+
+std::vector<std::string> rulesOf(const Grammar& grammar) {
+  std::vector<std::string> out;
+  for (const Rule& r : grammar.rules) out.emplace_back(r.name);
+  return out;
+}
+
+// Variables, and the counts of the rules' turns.
+std::vector<std::string> valuesOf(const Grammar& grammar) {
+  std::vector<std::string> out;
+  for (const Variable& v : grammar.variables) out.emplace_back(v.name);
+  for (const Rule& r : grammar.rules) out.push_back(std::string(r.name) + "_count");
+  return out;
+}
+
+}  // namespace
+
+Names::Names(const Grammar& grammar, const Catalogue& catalogue)
+    : Names(rulesOf(grammar), valuesOf(grammar), catalogue) {}
 
 std::string Names::function(std::string_view name) const {
   return fresh(std::string(name), [&](const std::string& n) { return valueNames_.count(n) > 0; });

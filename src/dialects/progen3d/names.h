@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "dialects/progen3d/grammar.h"
 #include "program/spec.h"
@@ -19,6 +20,8 @@ namespace gable::progen3d {
 class Names {
  public:
   Names(const Grammar& grammar, const Catalogue& catalogue);
+  Names(const std::vector<std::string>& rules, const std::vector<std::string>& values,
+        const Catalogue& catalogue);
 
   std::string rule(std::string_view name) const { return rules_.at(std::string(name)); }
   /// Of a variable, or of the count of a rule's turns.

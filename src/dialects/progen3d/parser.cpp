@@ -13,7 +13,6 @@
 #include "base/number.h"
 #include "base/text.h"
 #include "dialects/progen3d/grammar.h"
-#include "dialects/progen3d/lexer.h"
 
 namespace gable::progen3d {
 
@@ -52,27 +51,12 @@ const CommandWord* commandOf(std::string_view word) {
   return nullptr;
 }
 
-bool isWebCommand(std::string_view word) {
-  static constexpr std::string_view kWords[] = {"DSX",  "DSY",  "DSZ",  "DTX",  "DTY",  "DTZ",
-                                                "GDSX", "GDSY", "GDSZ", "GDTX", "GDTY", "GDTZ"};
-  return std::find(std::begin(kWords), std::end(kWords), word) != std::end(kWords);
-}
-
 class Parser {
  public:
-  Parser(std::string_view text, uint32_t file, Diagnostics& diagnostics)
-      : text_(text), file_(file), diagnostics_(diagnostics) {
-    tokens_ = tokenize(text, file, diagnostics);
-  }
+  Parser(std::string_view text, uint32_t file, std::vector<Token> tokens, Diagnostics& diagnostics)
+      : text_(text), file_(file), diagnostics_(diagnostics), tokens_(std::move(tokens)) {}
 
   Grammar run() {
-    if (const Token* sign = webSign()) {
-      grammar_.isWebLanguage = true;
-      diagnostics_.error("web-language", spanOf(*sign),
-                         "this is a grammar of ProGen3d's web language, which is another language",
-                         "grammars of the desktop program run here");
-      return std::move(grammar_);
-    }
     const std::vector<size_t> begins = ruleBegins();
     const size_t first = begins.empty() ? tokens_.size() - 1 : begins[0];
     if (first > 0) {
@@ -114,38 +98,7 @@ class Parser {
     endToken_ = {place, place, TokenKind::End, true, true};
   }
 
-  // --- Which language, which rules ---
-
-  // A token that only the web language has; null when there is none.
-  const Token* webSign() const {
-    for (size_t i = 0; i + 1 < tokens_.size(); ++i) {
-      const Token& t = tokens_[i];
-      const Token& next = tokens_[i + 1];
-      if (t.kind == TokenKind::Question && next.kind == TokenKind::Open) return &t;
-      if (t.kind != TokenKind::Name) continue;
-      if (next.kind == TokenKind::Open && isWebCommand(textOf(t))) return &t;
-      if (textOf(t) == "CubeZ") return &t;
-      if (t.firstOfLine && next.kind == TokenKind::Open && parametersAt(i + 1)) return &t;
-    }
-    return nullptr;
-  }
-
-  // "( a b ) ... ->": two names or more between brackets behind the name of a rule.
-  bool parametersAt(size_t open) const {
-    size_t names = 0, i = open + 1;
-    for (; i < tokens_.size(); ++i) {
-      if (tokens_[i].kind == TokenKind::Name)
-        ++names;
-      else if (tokens_[i].kind != TokenKind::Comma)
-        break;
-    }
-    if (names < 2 || tokens_[i].kind != TokenKind::Close) return false;
-    for (++i; i < tokens_.size() && !tokens_[i].firstOfLine; ++i) {
-      if (tokens_[i].kind == TokenKind::Arrow) return true;
-      if (tokens_[i].kind == TokenKind::Push || tokens_[i].kind == TokenKind::Pipe) return false;
-    }
-    return false;
-  }
+  // --- Rules: where they begin ---
 
   bool beginsRule(size_t i) const {
     if (!tokens_[i].firstOfLine || tokens_[i].kind != TokenKind::Name) return false;
@@ -726,8 +679,9 @@ double evaluate(const Grammar& grammar, uint32_t id, bool& known) {
   }
 }
 
-Grammar parseGrammar(std::string_view text, uint32_t file, Diagnostics& diagnostics) {
-  return Parser(text, file, diagnostics).run();
+Grammar parseGrammar(std::string_view text, uint32_t file, std::vector<Token> tokens,
+                     Diagnostics& diagnostics) {
+  return Parser(text, file, std::move(tokens), diagnostics).run();
 }
 
 }  // namespace gable::progen3d

@@ -4,7 +4,9 @@
 #include "dialects/progen3d/progen3d.h"
 
 #include "dialects/progen3d/grammar.h"
+#include "dialects/progen3d/lexer.h"
 #include "dialects/progen3d/lower.h"
+#include "dialects/progen3d/web_lower.h"
 
 namespace gable {
 
@@ -12,15 +14,24 @@ namespace {
 
 lang::Tree parse(const DialectInput& input, Diagnostics& diagnostics) {
   const std::string_view text = input.sources.text(input.file);
-  const progen3d::Grammar grammar = progen3d::parseGrammar(text, input.file, diagnostics);
-  if (grammar.rules.empty() && !grammar.isWebLanguage) {
-    diagnostics.error("no-rules", {input.file, 0, 0}, "this grammar has no rule",
-                      "write 'X -> I ( Cube )'");
-  }
   const std::string& from = input.sources.path(input.file);
-  const auto exists = [&](const std::string& path) {
+  const progen3d::FileExists exists = [&](const std::string& path) {
     return input.loader && input.loader->exists(path, from);
   };
+  std::vector<progen3d::Token> tokens = progen3d::tokenize(text, input.file, diagnostics);
+  const auto tellOfNone = [&](bool none) {
+    if (!none) return;
+    diagnostics.error("no-rules", {input.file, 0, 0}, "this grammar has no rule",
+                      "write 'X -> I ( Cube )'");
+  };
+  if (progen3d::web::isWebLanguage(text, tokens)) {
+    const auto grammar =
+        progen3d::web::parseGrammar(text, input.file, std::move(tokens), diagnostics);
+    tellOfNone(grammar.rules.empty());
+    return progen3d::web::lower(grammar, input.file, input.catalogue, exists, diagnostics);
+  }
+  const auto grammar = progen3d::parseGrammar(text, input.file, std::move(tokens), diagnostics);
+  tellOfNone(grammar.rules.empty());
   return progen3d::lower(grammar, input.file, input.catalogue, exists, diagnostics);
 }
 

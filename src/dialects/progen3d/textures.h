@@ -20,6 +20,7 @@ struct NamedTexture {
   double opacity = 1;
   /// Below 0: as it is.
   double roughness = -1;
+  double metallic = 0;
 };
 
 /// None where some part of the name is no word for any of these.

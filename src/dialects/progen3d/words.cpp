@@ -44,8 +44,25 @@ std::span<const DialectWord> words() {
        "What I draws. Cube stands on the middle of its base, CubeX on the middle of its left lower "
        "edge, CubeY reaches forward.",
        ""},
-      {"sin", "sin(degrees)", nullptr, "Of an angle.", ""},
-      {"cos", "cos(degrees)", nullptr, "Of an angle.", ""},
+      {"CubeZ", "CubeZ", nullptr,
+       "What I draws in the web language: a box that reaches forward; the place moves to its end.",
+       ""},
+      {"DSX", "DSX ( x y z )", nullptr,
+       "Scales the far side of x of the boxes that follow (web language); DSY and DSZ likewise.",
+       "DSX ( ${1:1} 1 1 )"},
+      {"DTX", "DTX ( x y z )", nullptr,
+       "Moves the far side of x of the boxes that follow (web language); DTY and DTZ likewise.",
+       "DTX ( ${1:0} 0 0 )"},
+      {"GDSX", "GDSX ( x y z )", nullptr,
+       "Scales the far side of x of all that follows in the bracket, as one body (web language).",
+       "GDSX ( ${1:1} 1 1 )"},
+      {"GDTX", "GDTX ( x y z )", nullptr,
+       "Moves the far side of x of all that follows in the bracket, as one body (web language).",
+       "GDTX ( ${1:0} 0 0 )"},
+      {"rand", "rand(min max)", nullptr, "A number between two others (web language).",
+       "rand(${1:0} ${2:1})"},
+      {"sin", "sin(radians)", nullptr, "Of an angle.", ""},
+      {"cos", "cos(radians)", nullptr, "Of an angle.", ""},
   };
   return kWords;
 }

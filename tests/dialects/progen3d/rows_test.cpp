@@ -747,16 +747,13 @@ TEST(Textures, mayHaveNames) {
   EXPECT_EQ(d.bodies[2].scale, 0.5);
 }
 
-TEST(Mistakes, theWebLanguageIsRefusedByName) {
-  const char* all[] = {"Start -> Tower( 3 4 )\nTower( w h ) -> I ( Cube brick 1 )\n",
-                       "Main -> ?( a > 2 ) B : C\n", "Main -> DSX( 0.5 ) I ( Cube wood 1 )\n",
-                       "Main -> I ( CubeZ steel 1 )\n"};
-  for (const char* text : all) {
-    const Drawn d = draw(text);
-    ASSERT_FALSE(d.rules.ok()) << text;
-    EXPECT_EQ(d.messages()[0].code, "web-language");
-    EXPECT_NE(d.messages()[0].message.find("web language"), std::string::npos);
-  }
+// The material stands before the body, and leaves the taper alone.
+TEST(Bodies, namedTexturesLeaveATaper) {
+  DrawOptions options;
+  options.surfaces = true;
+  const Drawn d = draw("X -> D ( 0.5 1 0.5 ) I ( Cube redbrick )\n", options);
+  ASSERT_EQ(d.bodies.size(), 1u);
+  EXPECT_NEAR(d.bodies[0].volume, 0.5833333, 1e-6);
 }
 
 TEST(Mistakes, aFileWithoutRulesIsNone) {

@@ -8,6 +8,7 @@
 
 #include "builtins/lists.h"
 #include "builtins/ops/shared/numbered_texture.h"
+#include "geom/mesh/topology.h"
 #include "geom/primitive/solids.h"
 #include "shape/deformation.h"
 #include "shape/op_call.h"
@@ -96,6 +97,45 @@ Status applyBox(OpCall& call, const BoxArguments& args) {
   return status;
 }
 
+// A box whose corners on the far side of x, then of y, then of z are scaled and moved.
+struct SidedBoxArguments {
+  double pivotX, pivotY, pivotZ;
+  Floats scaleX, moveX, scaleY, moveY, scaleZ, moveZ;
+};
+
+Status applySidedBox(OpCall& call, const SidedBoxArguments& args) {
+  if (!isFinitePlace(call.shape())) return tooLarge(call);
+  const Floats* lists[] = {&args.scaleX, &args.moveX,  &args.scaleY,
+                           &args.moveY,  &args.scaleZ, &args.moveZ};
+  Vec3 sides[6];
+  for (size_t k = 0; k < 6; ++k) {
+    const std::vector<double>& n = lists[k]->array->numbers;
+    if (n.size() != 3) {
+      return call.fail("bad-argument", "affineSidedBox takes three numbers for each side",
+                       "write [1, 1, 1] for factors that change nothing, [0, 0, 0] for moves");
+    }
+    sides[k] = {n[0], n[1], n[2]};
+  }
+  const Vec3 pivot{args.pivotX, args.pivotY, args.pivotZ};
+  Mesh box = placedBox(pivot);
+  for (Vec3& p : box.positions) {
+    const Vec3 corner = p;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      if (corner[axis] <= 0.5 - pivot[axis]) continue;
+      p = scaled(p, sides[2 * axis]) + sides[2 * axis + 1];
+    }
+  }
+  Mesh flat = flatFaces(box);
+  if (!flat.valid()) return tooLarge(call);
+  if (volume(flat) < 0) {
+    for (size_t f = 0; f < flat.faceCount(); ++f) reverseFace(flat, f);
+  }
+  DeformedSides sidesOfTaper;
+  sidesOfTaper.low = -pivot.y;
+  sidesOfTaper.high = 1 - pivot.y;
+  return leaveMesh(call, makeRef<Mesh>(std::move(flat)), sidesOfTaper);
+}
+
 constexpr uint32_t kRoundSides = 40, kRoundDivisions = 20;
 
 Status leaveRound(OpCall& call, const Wearing& args, const MeshRef& unit, double low, double high) {
@@ -140,13 +180,28 @@ constexpr ParamSpec kBoxParams[] = {
     kQuarters,
     kScale,
 };
+constexpr ParamSpec kSidedParams[] = {
+    param<&SidedBoxArguments::pivotX>("pivotX", "As in affineBox."),
+    param<&SidedBoxArguments::pivotY>("pivotY", "As in affineBox."),
+    param<&SidedBoxArguments::pivotZ>("pivotZ", "As in affineBox."),
+    param<&SidedBoxArguments::scaleX>("scaleX", "Factors of the corners on the far side of x."),
+    param<&SidedBoxArguments::moveX>("moveX", "Their moves, in shares of the size."),
+    param<&SidedBoxArguments::scaleY>("scaleY", "The same for the far side of y."),
+    param<&SidedBoxArguments::moveY>("moveY", "Their moves."),
+    param<&SidedBoxArguments::scaleZ>("scaleZ", "The same for the far side of z."),
+    param<&SidedBoxArguments::moveZ>("moveZ", "Their moves."),
+};
 constexpr ParamSpec kRoundParams[] = {kTexture, kQuarters, kScale};
 constexpr Signature kBoxSignatures[] = {{kBoxParams}};
+constexpr Signature kSidedSignatures[] = {{kSidedParams}};
 constexpr Signature kRoundSignatures[] = {{kRoundParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"affineBox", "affine", "Leaves a box of the scope's size about its origin and goes on.",
      kBoxSignatures, typed<applyBox>, BlockKind::None, kTakesDeformed, nullptr, false, true},
+    {"affineSidedBox", "affine",
+     "Leaves a box whose corners on the far sides of its axes are scaled and moved, and goes on.",
+     kSidedSignatures, typed<applySidedBox>, BlockKind::None, kTakesDeformed, nullptr, false, true},
     {"affineSphere", "affine", "Leaves a ball of the scope's size about its origin and goes on.",
      kRoundSignatures, typed<applySphere>, BlockKind::None, kTakesDeformed, nullptr, false, true},
     {"affineCylinder", "affine",

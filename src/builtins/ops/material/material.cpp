@@ -127,14 +127,14 @@ constexpr Signature kResetSignatures[] = {{kResetParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"color", "material", "Sets the colour of the shape's material, and its opacity if given.",
-     kColorSignatures, typed<applyColor>},
+     kColorSignatures, typed<applyColor>, BlockKind::None, kTakesDeformed},
     {"texture", "material",
      "Sets the colour map, and the opacity map too when the image has an alpha channel.",
-     kTextureSignatures, typed<applyTexture>},
+     kTextureSignatures, typed<applyTexture>, BlockKind::None, kTakesDeformed},
     {"setMaterial", "material", "Sets many attributes of the material at once.",
-     kSetMaterialSignatures, typed<applySetMaterial>},
+     kSetMaterialSignatures, typed<applySetMaterial>, BlockKind::None, kTakesDeformed},
     {"resetMaterial", "material", "Takes changes of the material back.", kResetSignatures,
-     typed<applyResetMaterial>},
+     typed<applyResetMaterial>, BlockKind::None, kTakesDeformed},
 };
 
 }  // namespace
