@@ -86,7 +86,12 @@ inline Derivation derived(const std::string& grammar, const DeriveSettings& give
   settings.jobs = 1;
   Model model = derive(rules, shapes, settings);
   Derivation run{rules, model, {}};
-  const Result<JsonValue> trace = parseJson(traceJson(model.trace()));
+  std::string told;
+  writeTrace(model.trace(), [&](std::string_view text) {
+    told += text;
+    return true;
+  });
+  const Result<JsonValue> trace = parseJson(told);
   EXPECT_TRUE(trace.ok());
   if (trace.ok()) {
     for (const JsonValue& root : trace.value().items()) flattenTrace(root, 0, run.shapes);
