@@ -83,24 +83,28 @@ Diagnostic diagnosticOfException() {
   }
 }
 
-Task::Task(std::string what, const FileLimits& limits)
-    : what_(std::move(what)), allowance_({limits.seconds, limits.bytes, limits.cancel}) {}
+Task::Task(const char* doing, std::string_view object, const FileLimits& limits)
+    : doing_(doing), object_(object), allowance_({limits.seconds, limits.bytes, limits.cancel}) {}
+
+std::string Task::what() const {
+  return object_.empty() ? doing_ : doing_ + (" '" + std::string(object_) + "'");
+}
 
 Diagnostic Task::warning() const {
-  const Error e = allowance_.reason(what_);
+  const Error e = allowance_.reason(what());
   return diagnosticOf({Severity::Warning, e.code, Span{}, e.message, e.hint, {}, {}}, Sources{});
 }
 
 Diagnostic Task::diagnosticOfException() const {
-  if (allowance_.reached()) return diagnosticOf(allowance_.reason(what_));
+  if (allowance_.reached()) return diagnosticOf(allowance_.reason(what()));
   try {
     throw;
   } catch (const Unwinding& u) {
     return diagnosticOf(
-        Error{u.why().code(), what_ + " cannot be done: " + u.why().message(), u.why().hint()});
+        Error{u.why().code(), what() + " cannot be done: " + u.why().message(), u.why().hint()});
   } catch (...) {
     const Diagnostic d = gable::diagnosticOfException();
-    return diagnosticOf(Error{d.code, what_ + ": " + d.message, d.hint});
+    return diagnosticOf(Error{d.code, what() + ": " + d.message, d.hint});
   }
 }
 

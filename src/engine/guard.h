@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -17,10 +18,12 @@
 
 namespace gable {
 
-/// Something done with a file, within limits. `what` is how diagnostics call it: "reading 'a.glb'".
+/// Something done with a file, within limits. Diagnostics call it by both words: "reading 'a.glb'".
+/// Making one needs no memory, of which there may be none.
 class Task {
  public:
-  Task(std::string what, const FileLimits& limits);
+  /// `object` may be empty; it must outlive the task.
+  Task(const char* doing, std::string_view object, const FileLimits& limits);
 
   Allowance& allowance() { return allowance_; }
   /// The diagnostic for the exception that is being handled.
@@ -29,7 +32,10 @@ class Task {
   Diagnostic warning() const;
 
  private:
-  std::string what_;
+  std::string what() const;
+
+  const char* doing_;
+  std::string_view object_;
   Allowance allowance_;
 };
 

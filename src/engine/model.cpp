@@ -234,7 +234,7 @@ Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& set
 }
 
 Model Model::load(const std::string& path, const FileLimits& limits) {
-  return Model(guarded<Impl>(Task("reading '" + path + "'", limits), [&] { return loaded(path); }));
+  return Model(guarded<Impl>(Task("reading", path, limits), [&] { return loaded(path); }));
 }
 
 Model Model::prepared(const PrepareSettings& settings) const {
@@ -291,7 +291,7 @@ ModelGeometry Model::geometry(uint64_t mostLeaves) const {
 
 std::string Model::drawList(const FileLimits& limits) const {
   return guardedValue<std::string>([&] {
-    Task task("showing the model", limits);
+    Task task("showing the model", {}, limits);
     const WorkScope scope(task.allowance());
     return gable::drawList(impl_->scene());
   });
@@ -307,15 +307,14 @@ std::optional<std::string> Model::texture(const std::string& path) const {
 }
 
 WriteResult Model::write(const std::string& path, const WriteSettings& settings) const {
-  return guardedResult<WriteResult>(
-      Task("writing '" + path + "'", settings.limits), [&](Task& task) {
-        return extensionOf(path) == "png" ? drawn(*impl_, path, {}, task)
-                                          : written(*impl_, path, settings);
-      });
+  return guardedResult<WriteResult>(Task("writing", path, settings.limits), [&](Task& task) {
+    return extensionOf(path) == "png" ? drawn(*impl_, path, {}, task)
+                                      : written(*impl_, path, settings);
+  });
 }
 
 EncodeResult Model::encode(const std::string& format, const WriteSettings& settings) const {
-  return guardedResult<EncodeResult>(Task("writing ." + format, settings.limits), [&](Task& task) {
+  return guardedResult<EncodeResult>(Task("writing", format, settings.limits), [&](Task& task) {
     return encoded(*impl_, format, settings, task);
   });
 }
@@ -323,7 +322,7 @@ EncodeResult Model::encode(const std::string& format, const WriteSettings& setti
 WriteResult Model::picture(const std::string& path, const PictureSettings& settings) const {
   FileLimits limits = settings.limits;
   if (settings.cancel) limits.cancel = settings.cancel;
-  return guardedResult<WriteResult>(Task("drawing '" + path + "'", limits), [&](Task& task) {
+  return guardedResult<WriteResult>(Task("drawing", path, limits), [&](Task& task) {
     return drawn(*impl_, path, settings, task);
   });
 }

@@ -130,7 +130,7 @@ std::shared_ptr<const Rules::Impl> parsed(const std::string& text, const std::st
 }
 
 Task readingRules(const std::string& path, const LoadSettings& settings) {
-  return Task("analysing '" + path + "'", settings.limits);
+  return Task("analysing", path, settings.limits);
 }
 
 }  // namespace
@@ -223,7 +223,7 @@ std::optional<std::string> Rules::startRule() const {
 }
 
 Converted convert(const std::string& text, const std::string& path, const LoadSettings& settings) {
-  return guardedResult<Converted>(Task("converting '" + path + "'", settings.limits), [&] {
+  return guardedResult<Converted>(Task("converting", path, settings.limits), [&] {
     Converted out;
     const Result<const Dialect*> dialect = dialectFor(settings.dialect, path);
     if (!dialect.ok()) {
@@ -282,7 +282,7 @@ void noteThatNothingIsDone(const Dialect& dialect, const std::string& path,
 }  // namespace
 
 Formatted format(const std::string& text, const std::string& path, const FileLimits& limits) {
-  return guardedResult<Formatted>(Task("formatting '" + path + "'", limits), [&] {
+  return guardedResult<Formatted>(Task("formatting", path, limits), [&] {
     Sources sources;
     Diagnostics diagnostics;
     const uint32_t file = sources.add(path, text);

@@ -203,7 +203,7 @@ Shapes Shapes::lot(double width, double depth) {
 }
 
 Shapes Shapes::polygon(const Ring& outer, const std::vector<Ring>& holes) {
-  return Shapes(guarded<Impl>(Task("making a polygon", {}), [&] {
+  return Shapes(guarded<Impl>(Task("making a polygon", {}, {}), [&] {
     const auto ring = [](const Ring& r) {
       gable::Ring out;
       for (const auto& [x, y] : r) out.push_back({x, y});
@@ -220,11 +220,11 @@ Shapes Shapes::mesh(const std::vector<std::array<double, 3>>& vertices,
                     const std::vector<std::vector<uint32_t>>& faces,
                     const std::vector<std::vector<uint32_t>>& holes) {
   return Shapes(
-      guarded<Impl>(Task("making a mesh", {}), [&] { return ofMesh(vertices, faces, holes); }));
+      guarded<Impl>(Task("making a mesh", {}, {}), [&] { return ofMesh(vertices, faces, holes); }));
 }
 
 Shapes Shapes::load(const std::string& path, const FileLimits& limits) {
-  return Shapes(guarded<Impl>(Task("reading '" + path + "'", limits), [&] {
+  return Shapes(guarded<Impl>(Task("reading", path, limits), [&] {
     Result<std::string> content = readFile(path, kLargestShapeFile);
     if (content.ok()) return parsed(content.value(), path);
     auto impl = refused(content.error());
@@ -236,11 +236,11 @@ Shapes Shapes::load(const std::string& path, const FileLimits& limits) {
 Shapes Shapes::parse(const std::string& content, const std::string& name,
                      const FileLimits& limits) {
   return Shapes(
-      guarded<Impl>(Task("reading '" + name + "'", limits), [&] { return parsed(content, name); }));
+      guarded<Impl>(Task("reading", name, limits), [&] { return parsed(content, name); }));
 }
 
 Shapes Shapes::withNestedCut(const FileLimits& limits) const {
-  return Shapes(guarded<Impl>(Task("cutting nested footprints", limits), [&] {
+  return Shapes(guarded<Impl>(Task("cutting nested footprints", {}, limits), [&] {
     auto impl = std::make_shared<Impl>(*impl_);
     cutNested(impl->footprints);
     return impl;

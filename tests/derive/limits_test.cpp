@@ -8,8 +8,8 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <filesystem>
 #include <ctime>
+#include <filesystem>
 #include <string>
 
 #include "base/interned.h"

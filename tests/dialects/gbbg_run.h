@@ -87,10 +87,7 @@ inline Derivation derived(const std::string& grammar, const DeriveSettings& give
   Model model = derive(rules, shapes, settings);
   Derivation run{rules, model, {}};
   std::string told;
-  writeTrace(model.trace(), [&](std::string_view text) {
-    told += text;
-    return true;
-  });
+  writeTrace(model.trace(), [&](std::string_view text) { told += text; });
   const Result<JsonValue> trace = parseJson(told);
   EXPECT_TRUE(trace.ok());
   if (trace.ok()) {

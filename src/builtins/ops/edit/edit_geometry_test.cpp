@@ -111,7 +111,8 @@ TEST(Rectify, nearlyRightAnglesBecomeRight) {
 TEST(Scatter, pointsLieInTheirDomain) {
   FakeServices services;
   const Shape l = polygonShape(kL);
-  const Ran surface = Op("scatter").args(word("surface"), 300, word("uniform")).on(l, services);
+  const Ran surface =
+      Op("scatter").slots(1).args(word("surface"), 300, word("uniform")).on(l, services);
   ASSERT_EQ(surface.children.size(), 300u);
   size_t lower = 0;
   for (const BlockChild& c : surface.children) {
@@ -124,7 +125,8 @@ TEST(Scatter, pointsLieInTheirDomain) {
   }
   EXPECT_NEAR(static_cast<double>(lower) / 300, 2. / 3, 0.1);
   Shape roof = Op("roofHip").args(45).on(l, services).shape;
-  const Ran volume = Op("scatter").args(word("volume"), 100, word("uniform")).on(roof, services);
+  const Ran volume =
+      Op("scatter").slots(1).args(word("volume"), 100, word("uniform")).on(roof, services);
   for (const BlockChild& c : volume.children) {
     const Vec3 p = c.shape.scope.origin;
     EXPECT_TRUE(p.y >= 0 && p.y <= std::min({p.x, -p.z, 8 - p.x, 8 + p.z}) + 1e-9);
@@ -134,6 +136,7 @@ TEST(Scatter, pointsLieInTheirDomain) {
 TEST(Scatter, gaussianClustersAboutItsMean) {
   FakeServices services;
   const Ran ran = Op("scatter")
+                      .slots(1)
                       .args(word("scope"), 400, word("gaussian"), word("left"), relative(0.1))
                       .on(boxShape({10, 10, 10}), services);
   ASSERT_EQ(ran.children.size(), 400u);
@@ -151,15 +154,18 @@ TEST(Scatter, drawsDependOnTheAddressAlone) {
   FakeServices services;
   Shape s = boxShape({1, 1, 1});
   const auto first = [&] {
-    return Op("scatter").args(word("scope"), 3, word("uniform")).on(s, services).children;
+    return Op("scatter").slots(1).args(word("scope"), 3, word("uniform")).on(s, services).children;
   };
   const auto a = first(), b = first();
   EXPECT_EQ(a[2].shape.scope.origin, b[2].shape.scope.origin);
   s.path = 77;
   EXPECT_NE(a[2].shape.scope.origin, first()[2].shape.scope.origin);
-  EXPECT_STREQ(
-      Op("scatter").args(word("scope"), 1e9, word("uniform")).on(s, services).status.code(),
-      "scatter-too-many");
+  EXPECT_STREQ(Op("scatter")
+                   .slots(1)
+                   .args(word("scope"), 1e9, word("uniform"))
+                   .on(s, services)
+                   .status.code(),
+               "scatter-too-many");
 }
 
 TEST(SplitArea, partsHaveTheirAreas) {
