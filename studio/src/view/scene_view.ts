@@ -17,10 +17,11 @@ import { emptyGroup, ghostBox, manyScopes, scopeLines, type ScopeBox } from './b
 import { Detail, MOVING, POSED } from './detail';
 import { Framing, WIDE, type Bounds, type Standpoint } from './framing';
 import { Ground } from './ground';
+import { LeafPicture, without } from './leaf_picture';
 import { Materials } from './materials';
 import { Navigation, type Mode } from './navigation';
 import { isSoftware, Pace } from './pace';
-import { depthMaterial, outlineMaterial, skyMaterial, type Marks } from './shading';
+import { outlineMaterial, skyMaterial, type Marks } from './shading';
 import { Still } from './still';
 import { Lights } from './sun';
 
@@ -93,7 +94,7 @@ export class SceneView {
     guideStep: { value: 1e9 },
   };
   private readonly materials = new Materials(this.marks, () => {
-    this.leavesStale = true;
+    this.leaves.forget();
     this.redraw();
   });
   readonly pictures = this.materials.pictures;
@@ -101,7 +102,6 @@ export class SceneView {
   private readonly copy: THREE.Mesh<THREE.PlaneGeometry, THREE.MeshBasicMaterial>;
   private readonly flat = new THREE.OrthographicCamera(-1, 1, 1, -1, 0, 1);
   private readonly batchMaker = new BatchMaker(this.marks);
-  private readonly depth = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), depthMaterial());
   private readonly dome = new THREE.Mesh(new THREE.SphereGeometry(1, 32, 16), skyMaterial());
   private readonly scopes = new THREE.Group();
   private readonly manyScopes = new THREE.Group();
@@ -109,17 +109,13 @@ export class SceneView {
   private readonly ghostColor = new THREE.Color();
   private readonly groundColor = new THREE.Color();
   private readonly horizonColor = new THREE.Color();
-  private readonly leafTarget = new THREE.WebGLRenderTarget(1, 1, {
-    minFilter: THREE.NearestFilter,
-    magFilter: THREE.NearestFilter,
-    depthTexture: new THREE.DepthTexture(1, 1, THREE.UnsignedIntType),
-  });
+  private readonly leaves: LeafPicture;
   /** The picture before it is refined. */
   private readonly picture: THREE.WebGLRenderTarget;
   private readonly still: Still;
   /** What the canvas shows below the outlines. */
   private shown: THREE.WebGLRenderTarget;
-  private readonly pickTarget = new THREE.WebGLRenderTarget(1, 1);
+  private readonly onePixel = new THREE.WebGLRenderTarget(1, 1);
   private batches: Batched[] = [];
   private bounds: Bounds = { min: [0, 0, 0], max: [20, 0, 20] };
   private selected = NOTHING;
@@ -129,7 +125,6 @@ export class SceneView {
   private fine = false;
   /** The picture that is shown is less than the canvas could show. */
   private coarse = false;
-  private leavesStale = true;
   /** The camera has moved since the latest picture. */
   private panned = false;
   private pass = 0;
@@ -191,12 +186,14 @@ export class SceneView {
       }),
     );
     this.still = new Still(this.renderer, this.copy, this.flat);
-    for (const screen of [this.overlay, this.copy, this.depth]) screen.frustumCulled = false;
+    for (const screen of [this.overlay, this.copy]) screen.frustumCulled = false;
     this.dome.frustumCulled = false;
     this.dome.renderOrder = -10;
     this.dome.visible = false;
     this.scene.add(this.dome, this.model, this.lights.group, this.ground.group);
     this.scene.add(this.scopes, this.manyScopes, this.ghosts);
+    const beside = [this.dome, this.ground.group, this.scopes, this.manyScopes, this.ghosts];
+    this.leaves = new LeafPicture(this.renderer, this.scene, this.flat, beside);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.maxPolarAngle = Math.PI * 0.495;
@@ -213,7 +210,8 @@ export class SceneView {
   }
 
   cameraMoved(): void {
-    this.leavesStale = this.panned = true;
+    this.leaves.forget();
+    this.panned = true;
     this.moved?.();
     this.redraw();
   }
@@ -236,17 +234,10 @@ export class SceneView {
 
   /** The first surface below a point. */
   heightBelow(at: THREE.Vector3): number {
-    const floor = this.ground.height;
-    const reach = Math.max(1, at.y - floor) + 1;
-    const down = new THREE.OrthographicCamera(-0.05, 0.05, 0.05, -0.05, 0, reach);
-    down.position.copy(at);
-    down.up.set(0, 0, -1);
-    down.lookAt(at.x, at.y - 1, at.z);
-    this.renderData(this.pickTarget, down, this.batchMaker.heights(floor - 1, reach + 1));
-    const bytes = new Uint8Array(4);
-    this.renderer.readRenderTargetPixels(this.pickTarget, 0, 0, 1, 1, bytes);
-    if (bytes[3] === 0) return Math.min(0, this.bounds.min[1]);
-    return floor - 1 + (((bytes[0]! * 256 + bytes[1]!) * 256 + bytes[2]!) / 16777216) * (reach + 1);
+    const height = this.leaves.heightBelow(at, this.ground.height, (base, range) =>
+      this.batchMaker.heights(base, range),
+    );
+    return height ?? Math.min(0, this.bounds.min[1]);
   }
 
   setColors(colors: ViewColors): void {
@@ -305,7 +296,7 @@ export class SceneView {
       if (mesh instanceof THREE.InstancedMesh) mesh.dispose();
     }
     this.model.clear();
-    this.batches = batches;
+    this.batches = this.leaves.batches = batches;
     for (const { mesh } of this.batches) this.model.add(mesh);
     this.fitWires();
     this.bounds = bounds;
@@ -314,7 +305,7 @@ export class SceneView {
     this.fitSun();
     this.lights.forget();
     if (this.framing.fresh && list.leaves > 0) this.frameAll();
-    this.leavesStale = true;
+    this.leaves.forget();
     this.redraw();
     return true;
   }
@@ -415,7 +406,7 @@ export class SceneView {
     this.marks.guideStep.value = step;
     emptyGroup(this.ghosts);
     if (ghost) this.ghosts.add(...ghostBox(ghost, this.ghostColor));
-    this.leavesStale = true;
+    this.leaves.forget();
     this.lights.forget();
     this.redraw();
   }
@@ -435,45 +426,26 @@ export class SceneView {
   /** Stands where somebody stood before, over the model that comes next. */
   lookFrom(from: Standpoint): void {
     this.framing.lookFrom(from, this.bounds);
-    this.leavesStale = true;
+    this.leaves.forget();
     this.redraw();
   }
 
   frameAll(reset = true): void {
     this.framing.model(this.bounds, reset);
-    this.leavesStale = true;
+    this.leaves.forget();
     this.redraw();
   }
 
   frameBox(bounds: Bounds, reset = false): void {
     this.framing.box(bounds, reset);
-    this.leavesStale = true;
+    this.leaves.forget();
     this.redraw();
   }
 
   /** The leaf under a point of the canvas in CSS pixels; -1 for none. */
   pick(x: number, y: number): number {
-    const { clientWidth: w, clientHeight: h } = this.canvas;
-    const bytes = new Uint8Array(4);
-    if (this.detail && !this.leavesStale) {
-      const at = (v: number, of: number, pixels: number) =>
-        Math.min(pixels - 1, Math.max(0, Math.floor((v / of) * pixels)));
-      const { width, height } = this.leafTarget;
-      this.renderer.readRenderTargetPixels(
-        this.leafTarget,
-        at(x, w, width),
-        at(h - y, h, height),
-        1,
-        1,
-        bytes,
-      );
-    } else {
-      this.camera.setViewOffset(w, h, x, y, 1, 1);
-      this.renderLeaves(this.pickTarget);
-      this.camera.clearViewOffset();
-      this.renderer.readRenderTargetPixels(this.pickTarget, 0, 0, 1, 1, bytes);
-    }
-    return bytes[0]! + bytes[1]! * 256 + bytes[2]! * 65536 - 1;
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    return this.leaves.leafAt({ x, y }, { width, height }, this.camera, !!this.detail);
   }
 
   /**
@@ -482,19 +454,7 @@ export class SceneView {
    */
   surfaceAt(x: number, y: number): { point: [number, number, number]; leaf: number } | null {
     const { clientWidth: w, clientHeight: h } = this.canvas;
-    if (this.leavesStale) {
-      this.renderLeaves(this.leafTarget);
-      this.leavesStale = false;
-    }
-    const { uniforms } = this.depth.material;
-    uniforms.depths!.value = this.leafTarget.depthTexture;
-    (uniforms.place!.value as THREE.Vector2).set(x / w, 1 - y / h);
-    this.renderer.setRenderTarget(this.pickTarget);
-    this.renderer.render(this.depth, this.flat);
-    this.renderer.setRenderTarget(null);
-    const bytes = new Uint8Array(4);
-    this.renderer.readRenderTargetPixels(this.pickTarget, 0, 0, 1, 1, bytes);
-    const depth = ((bytes[0]! * 256 + bytes[1]!) * 256 + bytes[2]!) / 16777216;
+    const depth = this.leaves.depthAt(x / w, 1 - y / h, this.camera);
     const at = new THREE.Vector3((x / w) * 2 - 1, 1 - (y / h) * 2, depth * 2 - 1).unproject(
       this.camera,
     );
@@ -509,45 +469,13 @@ export class SceneView {
       : null;
   }
 
-  private renderLeaves(target: THREE.WebGLRenderTarget, over = false): void {
-    this.renderData(target, this.camera, (b) => b.leaf, over);
-  }
-
-  /** Draws the model alone, with materials that write data; `over`: over what is there. */
-  private renderData(
-    target: THREE.WebGLRenderTarget,
-    camera: THREE.Camera,
-    material: (b: Batched) => THREE.Material,
-    over = false,
-  ): void {
-    const background = this.scene.background;
-    this.scene.background = null;
-    for (const b of this.batches) b.mesh.material = material(b);
-    this.without([this.dome, this.ground.group, this.scopes, this.manyScopes, this.ghosts], () => {
-      this.renderer.setRenderTarget(target);
-      this.renderer.setClearColor(0, 0);
-      if (!over) this.renderer.clear();
-      this.renderer.render(this.scene, camera);
-      this.renderer.setRenderTarget(null);
-    });
-    for (const b of this.batches) b.mesh.material = b.plain;
-    this.scene.background = background;
-  }
-
-  private without(hidden: THREE.Object3D[], act: () => void): void {
-    const seen = hidden.map((o) => o.visible);
-    for (const o of hidden) o.visible = false;
-    act();
-    hidden.forEach((o, i) => (o.visible = seen[i]!));
-  }
-
   private resize(): void {
     const { clientWidth: w, clientHeight: h } = this.canvas;
     if (!w || !h) return;
     this.share = 0;
     this.camera.aspect = w / h;
     this.camera.updateProjectionMatrix();
-    this.leavesStale = true;
+    this.leaves.forget();
     this.render();
     clearTimeout(this.quiet);
     this.quiet = window.setTimeout(() => this.refine(), QUIET_MS);
@@ -585,7 +513,7 @@ export class SceneView {
     this.pass = 0;
     this.passes = this.detail ? PLACE_PASSES : PASSES;
     this.coarse = share < 1 || !!this.detail;
-    if (this.helpings) this.leavesStale = true;
+    if (this.helpings) this.leaves.forget();
     this.helpings = null;
     this.lights.soften(false);
     this.draw(share);
@@ -601,9 +529,9 @@ export class SceneView {
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio) * share);
     this.renderer.setSize(this.canvas.clientWidth, this.canvas.clientHeight, false);
     const size = this.renderer.getDrawingBufferSize(this.size);
-    for (const target of [this.picture, this.leafTarget]) target.setSize(size.x, size.y);
+    this.picture.setSize(size.x, size.y);
+    this.leaves.setSize(size.x, size.y);
     (this.overlay.material.uniforms.texel!.value as THREE.Vector2).set(1 / size.x, 1 / size.y);
-    this.leavesStale = true;
   }
 
   /** A picture with the light of the sun as it is set. */
@@ -658,16 +586,13 @@ export class SceneView {
     if (!this.detail || !this.lights.stale) return;
     this.detail.selectForShadow(this.lights.texel);
     // Drawing on one pixel draws the shadow map as well.
-    this.renderScene(this.pickTarget);
+    this.renderScene(this.onePixel);
   }
 
   private drawOverlay(edges: number): void {
-    if (this.leavesStale) {
-      this.renderLeaves(this.leafTarget);
-      this.leavesStale = false;
-    }
+    this.leaves.update(this.camera);
     const uniforms = this.overlay.material.uniforms;
-    uniforms.leaves!.value = this.leafTarget.texture;
+    uniforms.leaves!.value = this.leaves.target.texture;
     (uniforms.selected!.value as THREE.Vector2).set(this.selected.from, this.selected.to);
     (uniforms.hovered!.value as THREE.Vector2).set(this.hovered.from, this.hovered.to);
     uniforms.edges!.value = edges;
@@ -698,7 +623,7 @@ export class SceneView {
   private settle(): void {
     this.coarse = false;
     this.draw(1);
-    this.leavesStale = true;
+    this.leaves.forget();
   }
 
   /** Of a large model one more helping, over those that are there. */
@@ -713,11 +638,10 @@ export class SceneView {
     }
     const last = this.helpings.next().value ?? true;
     const marks = last ? [] : [this.scopes, this.manyScopes, this.ghosts];
-    this.without(first ? marks : [...marks, this.dome, this.ground.group], () =>
+    without(first ? marks : [...marks, this.dome, this.ground.group], () =>
       this.renderScene(this.picture, !first),
     );
-    this.renderLeaves(this.leafTarget, !first);
-    this.leavesStale = false;
+    this.leaves.draw(this.camera, !first);
     this.shown = this.picture;
     if (last) {
       this.helpings = null;
@@ -733,7 +657,7 @@ export class SceneView {
     this.pass += 1;
     if (this.pass === 1) this.edges = PLACE_EDGES;
     else {
-      this.ambient.read(this.leafTarget.depthTexture!, this.camera, this.size);
+      this.ambient.read(this.leaves.target.depthTexture!, this.camera, this.size);
       this.cornered = true;
     }
     this.present();
@@ -786,6 +710,8 @@ export class SceneView {
     this.controls.dispose();
     this.ambient.dispose();
     this.still.dispose();
+    this.leaves.dispose();
+    this.onePixel.dispose();
     this.renderer.dispose();
   }
 }
