@@ -20,8 +20,9 @@ REFERENCE = "docs/reference"
 NOTE = "<!-- Made by tools/gen_docs.py; change the source beside {source} instead. -->\n"
 # What only the source tells: which file declares a name. Every declaration is a row {"name", "...", ...}.
 ROW = r'\{{\s*"{name}",'
-# Names that the source makes from a table of another file, by how they begin.
-FAMILIES = {"material.": BUILTINS / "functions/material.cpp"}
+# Names that the source makes otherwise, by how they begin.
+FAMILIES = {"material.": BUILTINS / "functions/material.cpp",
+            "region.": BUILTINS / "functions/region.cpp"}
 
 
 class Reference:
@@ -136,6 +137,11 @@ def signature(entry, overload):
     return text
 
 
+def taken(parameter):
+    """The numbers that a parameter takes, as a sentence."""
+    return f" Takes {parameter['range']}." if parameter.get("range") else ""
+
+
 def entry_text(entry, heading):
     """Signatures, summary and a table of the parameters; one of a name stands for all overloads."""
     text = f"## {entry['name']}\n\n" if heading else ""
@@ -155,11 +161,14 @@ def entry_text(entry, heading):
             if 0 < len(terms) <= 10:
                 words = f" Terms: `{'`, `'.join(terms)}`."
             rows.append((f"`{p['name']}`", p["type"],
-                         f"`{p['default']}`" if "default" in p else "", p["doc"] + words))
+                         f"`{p['default']}`" if "default" in p else "", p["doc"] + taken(p) + words))
     if rows:
         text += "\n" + table(("parameter", "type", "default", "meaning"), rows)
-    if entry.get("blockWords"):
-        text += f"\nParts that its block may name: `{'`, `'.join(entry['blockWords'].split())}`.\n"
+    if entry.get("parts"):
+        named = [(f"`{p['name']}`", p["doc"]) for p in entry["parts"]]
+        if entry.get("selectors"):
+            named.append(("any [selector](../selectors.md)", "Faces or edges."))
+        text += "\n" + table(("part of the block", "what it is"), named)
     return text
 
 

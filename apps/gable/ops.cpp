@@ -23,12 +23,16 @@ std::string callText(const gable::BuiltinCall& call) {
   for (const gable::BuiltinSignature& s : call.signatures) {
     out += "  " + signatureText(call.name, s) + (call.block.empty() ? "" : " ") + call.block + "\n";
     for (const gable::BuiltinParameter& p : s.parameters) {
-      out += "      " + p.name + " (" + p.type + (p.words ? ": " + *p.words : "") + ")  " + p.doc +
-             (p.defaultText ? " Default: " + *p.defaultText + "." : "") + "\n";
+      const std::string takes = p.words ? *p.words : p.range;
+      out += "      " + p.name + " (" + p.type + (takes.empty() ? "" : ": " + takes) + ")  " +
+             p.doc + (p.defaultText ? " Default: " + *p.defaultText + "." : "") + "\n";
     }
   }
-  if (!call.blockWords.empty())
-    out += "\n  Parts that its block may name: " + call.blockWords + "\n";
+  if (!call.parts.empty()) out += "\n  Parts of its block\n";
+  for (const gable::BuiltinPart& p : call.parts) out += "      " + p.name + "  " + p.doc + "\n";
+  if (call.selectors && !call.parts.empty()) {
+    out += "      and the selectors of faces and edges; 'gable ops' lists them\n";
+  }
   return out;
 }
 

@@ -5,6 +5,7 @@
 // documentation.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,10 @@ struct BuiltinParameter {
   std::optional<std::string> defaultText;
   /// The words that it takes, "a|b|c"; absent: any value of the type.
   std::optional<std::string> words;
+  /// The numbers that it takes, "0 or more"; empty for all. `least` and `most` are bounds of it.
+  std::string range;
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
   /// What a selection is made of; empty for other types. The terms of a term's own parameter are
   /// left out where they are the same again.
   std::vector<BuiltinTerm> terms;
@@ -30,6 +35,11 @@ struct BuiltinParameter {
 struct BuiltinTerm {
   std::string name, doc;
   std::vector<BuiltinParameter> parameters;
+};
+
+/// A named part of a block: { strip : .. | rest : .. }.
+struct BuiltinPart {
+  std::string name, doc;
 };
 
 struct BuiltinSignature {
@@ -44,8 +54,10 @@ struct BuiltinCall {
   std::string name, family, summary;
   /// How an operation's block is written; empty when it has none.
   std::string block;
-  /// The words that lines of its block may begin with in place of sizes or selectors; empty: none.
-  std::string blockWords;
+  /// The parts that its block may name.
+  std::vector<BuiltinPart> parts;
+  /// Beside or without such parts the block takes the general selectors: front, world.up.
+  bool selectors = false;
   /// A function that is written without brackets.
   bool bare = false;
   std::vector<BuiltinSignature> signatures;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "builtins/catalogue.h"
 #include "builtins/testing/op_fixture.h"
 
 namespace gable {
@@ -46,6 +47,20 @@ TEST(Audit, whatIsDeclaredMayBeLookedAt) {
   EXPECT_TRUE(runs(movesByWorld, kReadsWorld).ok());
   EXPECT_TRUE(runs(movesByChance, kRandom).ok());
   EXPECT_TRUE(runs(turnsBySplitIndex, kReadsSplit).ok());
+}
+
+// A getter that looks at more than it declares would end the program.
+TEST(Audit, everyAttributeOfShapesDeclaresWhatItReads) {
+  FakeServices services;
+  for (const Shape& shape :
+       {boxShape({1, 2, 3}), quadShape(4, 5), polygonShape({{{0, 0}, {3, 0}, {0, 4}}})}) {
+    for (const AttributeSpec* attribute : builtinCatalogue().attributes) {
+      if (!attribute->get) continue;
+      FunctionCall call({}, shape, services);
+      EXPECT_EQ(call.run(attribute->get, attribute->effects).type, attribute->type)
+          << attribute->name;
+    }
+  }
 }
 
 #if GABLE_DCHECKS && GTEST_HAS_DEATH_TEST

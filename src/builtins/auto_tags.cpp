@@ -20,7 +20,7 @@ TagSetId AutoTags::without(TagSetId set) {
   }
   std::vector<StringId> names = services_.tags().names(set);
   std::erase_if(names, [&](StringId n) { return tagMatches(family_, services_.pool().text(n)); });
-  const TagSetId result = services_.tags().intern(std::move(names));
+  const TagSetId result = services_.tags().withNames(set, std::move(names));
   known_.emplace_back(set, result);
   return result;
 }
@@ -35,10 +35,7 @@ TagSetId AutoTags::with(TagSetId set, std::string_view name) {
 TagSetId AutoTags::merged(TagSetId a, TagSetId b) const {
   if (a == 0 || a == b) return b;
   if (b == 0) return a;
-  std::vector<StringId> names = services_.tags().names(a);
-  const std::vector<StringId>& more = services_.tags().names(b);
-  names.insert(names.end(), more.begin(), more.end());
-  return services_.tags().intern(std::move(names));
+  return services_.tags().merged(a, b);
 }
 
 }  // namespace gable

@@ -265,36 +265,6 @@ bool Selector::matches(const Selectable& c, const TagSource* tags, const TagTabl
   return depth > 0 && stack[0];
 }
 
-// The terms are in postfix order; indices and tags select nothing here.
-bool selectsWord(const SelectorItem& item, std::string_view word, const ValuePool& pool) {
-  std::vector<bool> stack;
-  const auto pop = [&] {
-    if (stack.empty()) return false;
-    const bool top = stack.back();
-    stack.pop_back();
-    return top;
-  };
-  for (const SelectorTerm& t : item.terms) {
-    switch (t.kind) {
-      case SelectorTerm::Kind::Word: {
-        const std::string_view own = pool.text(t.word);
-        stack.push_back(own == word || (own == "all" && word != "otherwise"));
-        break;
-      }
-      case SelectorTerm::Kind::Boolean: stack.push_back(t.number != 0); break;
-      case SelectorTerm::Kind::Not: stack.push_back(!pop()); break;
-      case SelectorTerm::Kind::And:
-      case SelectorTerm::Kind::Or: {
-        const bool b = pop(), a = pop();
-        stack.push_back(t.kind == SelectorTerm::Kind::And ? a && b : a || b);
-        break;
-      }
-      default: stack.push_back(false);
-    }
-  }
-  return pop();
-}
-
 std::string Selector::text() const {
   std::vector<std::string> stack;
   for (const SelectorTerm& t : item_.terms) {

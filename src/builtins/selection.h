@@ -80,10 +80,6 @@ class Directions {
 /// Word by word, as comp and geometry.area take it. False for words that are no selector.
 bool selectsDirection(std::string_view word, const Vec3& normal, const Directions& directions);
 
-/// Whether a block's selector takes in the part of that name, where parts have names and nothing
-/// else: by its word or by `all`, which leaves `otherwise` out.
-bool selectsWord(const SelectorItem& item, std::string_view word, const ValuePool& pool);
-
 /// A block's selector made ready for many components.
 class Selector {
  public:

@@ -20,7 +20,7 @@ const char* blockName(const OpSpec& op) {
     case BlockKind::Split: return "{ size : operations | ... }";
     case BlockKind::Selectors: return "{ selector : operations | ... }";
     case BlockKind::Operations:
-      return op.blockWords ? "{ operations | otherwise : operations }" : "{ operations }";
+      return !op.parts.empty() ? "{ operations | otherwise : operations }" : "{ operations }";
     case BlockKind::Operands: break;
   }
   return "{ A | B }";
@@ -33,6 +33,11 @@ BuiltinParameter parameterOf(const ParamSpec& p) {
   out.doc = p.doc;
   if (p.defaultText) out.defaultText = p.defaultText;
   if (p.words) out.words = p.words;
+  if (!p.range.any()) {
+    out.range = rangeText(p.range);
+    out.least = p.range.least;
+    out.most = p.range.most;
+  }
   return out;
 }
 
@@ -70,14 +75,24 @@ Builtins allBuiltins() {
   const Catalogue& c = builtinCatalogue();
   Builtins out;
   for (const OpSpec* op : c.operations) {
-    BuiltinCall call{op->name, op->family, op->summary, blockName(*op), {}, false, {}};
-    if (op->blockWords) call.blockWords = op->blockWords;
+    BuiltinCall call;
+    call.name = op->name;
+    call.family = op->family;
+    call.summary = op->summary;
+    call.block = blockName(*op);
+    for (const PartSpec& p : op->parts) call.parts.push_back({p.name, p.doc});
+    call.selectors = op->block == BlockKind::Selectors && !op->isOnlyParts();
     call.signatures = signaturesOf(op->signatures, false);
     out.operations.push_back(std::move(call));
   }
   for (const FunctionSpec* f : c.functions) {
-    out.functions.push_back(
-        {f->name, f->family, f->summary, {}, {}, f->bare, signaturesOf(f->signatures, true)});
+    BuiltinCall call;
+    call.name = f->name;
+    call.family = f->family;
+    call.summary = f->summary;
+    call.bare = f->bare;
+    call.signatures = signaturesOf(f->signatures, true);
+    out.functions.push_back(std::move(call));
   }
   for (const AttributeSpec* a : c.attributes) {
     out.attributes.push_back({a->name, typeName(a->type), a->doc, a->set != nullptr});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 
+#include <cmath>
+
 #include "json/answers.h"
 
 namespace gable {
@@ -27,6 +29,11 @@ void writeParameter(JsonWriter& json, const BuiltinParameter& p) {
   json.key("doc").value(p.doc);
   if (p.defaultText) json.key("default").value(*p.defaultText);
   if (p.words) json.key("words").value(*p.words);
+  if (!p.range.empty()) {
+    json.key("range").value(p.range);
+    if (std::isfinite(p.least)) json.key("least").value(p.least);
+    if (std::isfinite(p.most)) json.key("most").value(p.most);
+  }
   if (!p.terms.empty()) writeTerms(json, p);
   json.endObject();
 }
@@ -49,7 +56,14 @@ void write(JsonWriter& json, const BuiltinCall& c) {
   json.key("name").value(c.name).key("family").value(c.family);
   json.key("summary").value(c.summary);
   if (!c.block.empty()) json.key("block").value(c.block);
-  if (!c.blockWords.empty()) json.key("blockWords").value(c.blockWords);
+  if (!c.parts.empty()) {
+    json.key("parts").beginArray();
+    for (const BuiltinPart& p : c.parts) {
+      json.beginObject().key("name").value(p.name).key("doc").value(p.doc).endObject();
+    }
+    json.endArray();
+  }
+  if (c.selectors) json.key("selectors").value(true);
   if (c.bare) json.key("bare").value(true);
   writeSignatures(json, c.signatures);
   json.endObject();

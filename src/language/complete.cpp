@@ -338,8 +338,8 @@ class Completer {
     for (const Signature& s : c->signatures) {
       for (size_t i = cursor_.call.argument; i < s.params.size(); ++i) {
         const std::string name = s.params[i].name;
-        Completion* item =
-            add(name + " =", NameKind::Parameter, typeText(s.params[i].type), s.params[i].doc, 7);
+        Completion* item = add(name + " =", NameKind::Parameter, typeText(s.params[i].type),
+                               docText(s.params[i]), 7);
         if (item) item->text = name + " = ";
       }
     }
@@ -353,9 +353,8 @@ class Completer {
 
   void selectors() {
     if (const OpSpec* op = catalogue_.operation(cursor_.blockOf)) {
-      for (const std::string_view w : listed(op->blockWords)) {
-        add(w, NameKind::Selector, op->name, "", 1);
-      }
+      for (const PartSpec& p : op->parts) add(p.name, NameKind::Selector, op->name, p.doc, 1);
+      if (op->isOnlyParts()) return;
     }
     selectorWords(5);
     for (const char* name : {"isTagged"}) {
@@ -367,9 +366,7 @@ class Completer {
 
   void sizes() {
     if (const OpSpec* op = catalogue_.operation(cursor_.blockOf)) {
-      for (const std::string_view w : listed(op->blockWords)) {
-        add(w, NameKind::Selector, op->name, "", 1);
-      }
+      for (const PartSpec& p : op->parts) add(p.name, NameKind::Selector, op->name, p.doc, 1);
     }
     expression();
   }

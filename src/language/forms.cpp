@@ -56,8 +56,7 @@ std::string blockSample(const Callable& c, int place) {
     case BlockKind::None: return "";
     case BlockKind::Split: return " { " + at(0, "~1") + " : " + at(1, "NIL") + " }";
     case BlockKind::Selectors: {
-      const std::vector<std::string_view> own = listed(c.blockWords);
-      const std::string word = own.empty() ? "all" : std::string(own[0]);
+      const std::string word = c.parts.empty() ? "all" : c.parts[0].name;
       return " { " + at(0, word.c_str()) + " : " + at(1, "NIL") + " }";
     }
     case BlockKind::Operations: return " { " + at(0, "NIL") + " }";
@@ -73,10 +72,9 @@ std::optional<Callable> callableOf(const Catalogue& catalogue, std::string_view 
   const OpSpec* op = catalogue.operation(name);
   const FunctionSpec* f = catalogue.function(name);
   if (op && (successor || !f)) {
-    return Callable{op->name,  op->summary,       op->signatures,
-                    op->block, op->blockOptional, op->blockWords};
+    return Callable{op->name, op->summary, op->signatures, op->block, op->blockOptional, op->parts};
   }
-  if (f) return Callable{f->name, f->summary, f->signatures, BlockKind::None, false, nullptr};
+  if (f) return Callable{f->name, f->summary, f->signatures, BlockKind::None, false, {}};
   return std::nullopt;
 }
 
@@ -109,7 +107,7 @@ std::string label(std::string_view name, const Signature& signature,
     const auto begin = static_cast<uint32_t>(out.size());
     out += p.name;
     if (parameters) {
-      std::string doc = p.doc;
+      std::string doc = docText(p);
       if (p.words) doc += " One of: " + std::string(p.words) + ".";
       if (p.defaultText) doc += " Default: " + std::string(p.defaultText) + ".";
       parameters->push_back(

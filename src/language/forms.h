@@ -23,7 +23,7 @@ struct Callable {
   std::span<const Signature> signatures;
   BlockKind block = BlockKind::None;
   bool blockOptional = false;
-  const char* blockWords = nullptr;
+  std::span<const PartSpec> parts = {};
 };
 
 std::optional<Callable> callableOf(const Catalogue& catalogue, std::string_view name,

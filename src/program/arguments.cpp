@@ -93,18 +93,60 @@ ArgumentProblem bindArguments(std::span<const Signature> signatures, const Signa
     if (!p.store(arguments, values[i], pool) || isNoWord(p, values[i], pool)) {
       return {Kind::Type, i, &p};
     }
+    if (!isTaken(p, values[i], pool)) return {Kind::Value, i, &p};
   }
   return {};
 }
 
+bool isTaken(const ParamSpec& param, const Value& v, const ValuePool& pool) {
+  switch (v.type) {
+    case ValueType::Float: return param.range.holds(v.number);
+    case ValueType::FloatArray: {
+      if (param.range.any()) return true;
+      const std::vector<double>& all = pool.array(v).numbers;
+      return std::all_of(all.begin(), all.end(), [&](double x) { return param.range.holds(x); });
+    }
+    case ValueType::String: return !param.form || param.form->holds(pool.text(v.id));
+    default: return true;
+  }
+}
+
+std::string refusalText(const ParamSpec& param, std::string_view callee, const Value& v,
+                        const ValuePool& pool) {
+  const std::string which = "'" + std::string(param.name) + "' of '" + std::string(callee) + "'";
+  if (v.type == ValueType::String) {
+    const std::string_view text = pool.text(v.id);
+    constexpr size_t kMost = 40;
+    const std::string shown(text.substr(0, kMost));
+    return which + " is " + param.form->name + ", and '" + shown +
+           (text.size() > kMost ? "...'" : "'") + " is none";
+  }
+  double number = v.number;
+  if (v.type == ValueType::FloatArray) {
+    for (const double x : pool.array(v).numbers) {
+      if (!param.range.holds(x)) number = x;
+    }
+    return which + " cannot hold " + shortestText(number);
+  }
+  const char* const prefix = v.unit == Unit::Relative ? "'" : v.unit == Unit::Floating ? "~" : "";
+  return which + " cannot be " + prefix + shortestText(number);
+}
+
+std::string refusalHint(const ParamSpec& param) {
+  return param.form ? param.form->hint : "write " + rangeText(param.range) + ": " + param.doc;
+}
+
 std::string problemText(const ArgumentProblem& problem, std::string_view callee,
-                        std::span<const Value> values) {
+                        std::span<const Value> values, const ValuePool& pool) {
   const std::string name = "'" + std::string(callee) + "'";
+  if (problem.kind == ArgumentProblem::Kind::Value) {
+    const Value v = problem.index < values.size() ? values[problem.index] : Value();
+    return refusalText(*problem.param, callee, v, pool);
+  }
   if (problem.kind == ArgumentProblem::Kind::Count) {
     return name + " cannot be called with " + std::to_string(values.size()) + " arguments";
   }
-  const std::string which = "argument " + std::to_string(problem.index + 1) + " of " + name + ", " +
-                            problem.param->name + ", is ";
+  const std::string which = "'" + std::string(problem.param->name) + "' of " + name + " is ";
   const ValueType wanted = valueType(problem.param->type);
   const ValueType got =
       problem.index < values.size() ? values[problem.index].type : ValueType::Null;
@@ -116,6 +158,7 @@ std::string problemText(const ArgumentProblem& problem, std::string_view callee,
 
 std::string problemHint(const ArgumentProblem& problem) {
   if (!problem.param) return "see what it takes with 'gable ops'";
+  if (problem.kind == ArgumentProblem::Kind::Value) return refusalHint(*problem.param);
   std::string hint = problem.param->doc;
   if (problem.param->words) hint += " One of: " + std::string(problem.param->words);
   return hint;

@@ -14,6 +14,10 @@
 //       param<&Resize::anchor>("anchor", "What stays in place.", "origin"),
 //   };
 //
+// What a number or a text must be beyond its type is declared as well, and only here:
+// param<&Grid::path>("path", "Width of the paths.", "3").atLeast(0). `gable check` tells a value
+// that is written out, bindArguments() any other; the operation gets no value that is not taken.
+//
 // The analysis chooses the signature, the compiler fills in the defaults, and bindArguments() fills
 // the struct. A field that no parameter of the chosen signature names keeps its initialiser: so one
 // struct serves all signatures of an operation, and tells them apart.
@@ -287,8 +291,8 @@ constexpr ParamSpec selection(const char* name, const char* doc, std::span<const
 
 /// What is wrong with a call when it is run, if anything.
 struct ArgumentProblem {
-  enum class Kind : uint8_t { None, Count, Type } kind = Kind::None;
-  /// Type: which argument, and the parameter that it is for.
+  enum class Kind : uint8_t { None, Count, Type, Value } kind = Kind::None;
+  /// Type, Value: which argument, and the parameter that it is for.
   size_t index = 0;
   const ParamSpec* param = nullptr;
 };
@@ -302,10 +306,18 @@ ArgumentProblem bindArguments(std::span<const Signature> signatures, const Signa
 /// The default of a parameter as a value; Null where there is none to fill in.
 Value defaultValue(const ParamSpec& param, ValuePool& pool);
 
-/// A sentence on a problem: "argument 2 of 'roofHip', overhang, is a string, not a float".
+/// A sentence on a problem: "'overhang' of 'roofHip' is a string, not a float".
 std::string problemText(const ArgumentProblem& problem, std::string_view callee,
-                        std::span<const Value> values);
+                        std::span<const Value> values, const ValuePool& pool);
 /// What to do about it: the words, or what the parameter is.
 std::string problemHint(const ArgumentProblem& problem);
+
+/// Whether a value lies in the range of a parameter and has its form. Arguments that the operation
+/// works out itself are known only then, and are taken here.
+bool isTaken(const ParamSpec& param, const Value& v, const ValuePool& pool);
+/// "'path' of 'grid' cannot be -1", for a value that is not taken, and what to do about it.
+std::string refusalText(const ParamSpec& param, std::string_view callee, const Value& v,
+                        const ValuePool& pool);
+std::string refusalHint(const ParamSpec& param);
 
 }  // namespace gable

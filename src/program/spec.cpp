@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "base/number.h"
+
 namespace gable {
 
 namespace {
@@ -33,6 +35,27 @@ const ParamSpec* Signature::paramAt(size_t index) const {
 bool Signature::isTyped() const {
   return !variadic && std::all_of(params.begin(), params.end(),
                                   [](const ParamSpec& p) { return p.store != nullptr; });
+}
+
+std::string rangeText(const NumberRange& r) {
+  if (r.any()) return {};
+  const std::string least = shortestText(r.least), most = shortestText(r.most);
+  if (r.most == NumberRange::kInfinite) return r.above ? "more than " + least : least + " or more";
+  if (r.least == -NumberRange::kInfinite) return r.below ? "less than " + most : most + " or less";
+  if (!r.above && !r.below) return least + " to " + most;
+  return (r.above ? "more than " : "at least ") + least +
+         (r.below ? " and less than " : " and at most ") + most;
+}
+
+std::string docText(const ParamSpec& param) {
+  const std::string range = rangeText(param.range);
+  return range.empty() ? param.doc : std::string(param.doc) + " Takes " + range + ".";
+}
+
+const PartSpec* OpSpec::part(std::string_view word) const {
+  const auto at =
+      std::find_if(parts.begin(), parts.end(), [&](const PartSpec& p) { return p.name == word; });
+  return at == parts.end() ? nullptr : &*at;
 }
 
 ValueType valueType(ParamType p) {

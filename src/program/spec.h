@@ -9,7 +9,9 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "base/status.h"
@@ -48,6 +50,28 @@ enum class ParamType : uint8_t {
   Selection,
 };
 
+/// The numbers that a parameter takes.
+struct NumberRange {
+  static constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  double least = -kInfinite, most = kInfinite;
+  /// `least` or `most` itself is not taken.
+  bool above = false, below = false;
+
+  bool any() const { return least == -kInfinite && most == kInfinite; }
+  /// What is no number is in no range but that of all.
+  bool holds(double v) const {
+    return any() || ((above ? v > least : v >= least) && (below ? v < most : v <= most));
+  }
+};
+
+/// What the texts of a parameter must be.
+struct TextForm {
+  /// Behind "is not": "a colour".
+  const char* name;
+  bool (*holds)(std::string_view text);
+  const char* hint;
+};
+
 struct ParamSpec;
 
 /// A word or a call in a selection: outer, side(west), edge(2, 0.5, 1).
@@ -69,7 +93,7 @@ struct ParamSpec {
   const char* doc;
   /// The default as it is written in CGA; null when the argument is required.
   const char* defaultText = nullptr;
-  /// For selectors: the words allowed, separated by blanks ("x y z"); null when open.
+  /// For selectors and texts: the words allowed, separated by blanks ("x y z"); null when open.
   const char* words = nullptr;
   /// Puts an argument into its field of the callee's struct of arguments; false when the value is
   /// of another type. Made by param() of program/arguments.h.
@@ -80,7 +104,52 @@ struct ParamSpec {
   std::span<const TermSpec> terms = {};
   /// Of a Selection: one term stands alone, there is nothing to combine.
   bool single = false;
+  /// What it takes of all numbers, and of all texts (null for any). Of a list, each in it. What is
+  /// written out is checked with the rule file, all else when it comes to the call.
+  NumberRange range = {};
+  const TextForm* form = nullptr;
+  /// It may be left out only where a selection of the call has the term of that name.
+  const char* unlessTerm = nullptr;
+
+  constexpr ParamSpec atLeast(double v) const {
+    ParamSpec p = *this;
+    p.range.least = v;
+    return p;
+  }
+  constexpr ParamSpec above(double v) const {
+    ParamSpec p = atLeast(v);
+    p.range.above = true;
+    return p;
+  }
+  constexpr ParamSpec atMost(double v) const {
+    ParamSpec p = *this;
+    p.range.most = v;
+    return p;
+  }
+  constexpr ParamSpec below(double v) const {
+    ParamSpec p = atMost(v);
+    p.range.below = true;
+    return p;
+  }
+  constexpr ParamSpec between(double least, double most) const {
+    return atLeast(least).atMost(most);
+  }
+  constexpr ParamSpec unless(const char* term) const {
+    ParamSpec p = *this;
+    p.unlessTerm = term;
+    return p;
+  }
+  constexpr ParamSpec of(const TextForm& f) const {
+    ParamSpec p = *this;
+    p.form = &f;
+    return p;
+  }
 };
+
+/// "above 0", "zero or more", "1 to 16"; empty where the range is that of all numbers.
+std::string rangeText(const NumberRange& range);
+/// What the parameter is: its doc, with its range.
+std::string docText(const ParamSpec& param);
 
 /// One way to call: its parameters in order. Those with defaults may be left out; the compiler
 /// fills them in.
@@ -143,6 +212,9 @@ enum Effect : uint32_t {
   kReadsComp = 1u << 8,
   kReadsInitialShape = 1u << 9,
   kReadsUvProjection = 1u << 10,
+  /// Where a region and its edges come from (shape/provenance.h). It lies in the geometry, which
+  /// sharing compares anyhow.
+  kReadsRegion = 1u << 15,
   /// The scope of the shape below on the shape stack: center.
   kReadsPrevious = 1u << 11,
   /// The operation understands a deformed shape; for all others the deformation goes into the
@@ -180,6 +252,15 @@ struct LightOp {
 /// The same for a call with these values: whether a word or a text among them names the world.
 uint32_t effectsOfValues(uint32_t effects, std::span<const Value> values, const ValuePool& pool);
 
+/// A named part of an operation's block: { strip : .. | rest : .. }.
+struct PartSpec {
+  const char* name;
+  /// A line on what it is.
+  const char* doc;
+};
+
+inline constexpr std::span<const PartSpec> kNoParts;
+
 struct OpSpec {
   const char* name;
   const char* family;
@@ -189,8 +270,8 @@ struct OpSpec {
   Status (*apply)(OpCall&);
   BlockKind block = BlockKind::None;
   uint32_t effects = kPure;
-  /// Words of the block's own selectors besides the general ones ("shape remainder").
-  const char* blockWords = nullptr;
+  /// The parts that the block may name.
+  std::span<const PartSpec> parts = {};
   /// The block may be left out (union Rule, inline).
   bool blockOptional = false;
   /// A name beyond the CGA reference: the author's own rule or attribute of that name wins.
@@ -209,6 +290,15 @@ struct OpSpec {
   /// what comes out which one it is, from 1.
   const char* figureWords = nullptr;
   const AttributeSpec* figureChoice = nullptr;
+  /// Beside its parts the block takes the general selectors: front, world.up. Operations without
+  /// parts of their own always do.
+  bool selectsFaces = false;
+
+  const PartSpec* part(std::string_view word) const;
+  /// Whether the parts are all that the block takes.
+  bool isOnlyParts() const {
+    return block == BlockKind::Selectors && !parts.empty() && !selectsFaces;
+  }
 };
 
 constexpr OpSpec asFigure(OpSpec spec) {
@@ -219,6 +309,11 @@ constexpr OpSpec asFigure(OpSpec spec) {
 constexpr OpSpec withFigures(OpSpec spec, const char* words, const AttributeSpec& choice) {
   spec.figureWords = words;
   spec.figureChoice = &choice;
+  return spec;
+}
+
+constexpr OpSpec withFaces(OpSpec spec) {
+  spec.selectsFaces = true;
   return spec;
 }
 

@@ -47,7 +47,41 @@ bool namesWorldIn(std::span<const Value> values, const Services& services) {
   });
 }
 
+const char* codeOf(const ArgumentProblem& problem) {
+  return problem.kind == ArgumentProblem::Kind::Value ? "bad-argument" : "wrong-argument";
+}
+
 }  // namespace
+
+// The terms are in postfix order; indices and tags select nothing here.
+bool selectsWord(const SelectorItem& item, std::string_view word, const ValuePool& pool) {
+  std::vector<bool> stack;
+  const auto pop = [&] {
+    if (stack.empty()) return false;
+    const bool top = stack.back();
+    stack.pop_back();
+    return top;
+  };
+  for (const SelectorTerm& t : item.terms) {
+    switch (t.kind) {
+      case SelectorTerm::Kind::Word: {
+        const std::string_view own = pool.text(t.word);
+        stack.push_back(own == word || (own == "all" && word != "otherwise"));
+        break;
+      }
+      case SelectorTerm::Kind::Boolean: stack.push_back(t.number != 0); break;
+      case SelectorTerm::Kind::Not: stack.push_back(!pop()); break;
+      case SelectorTerm::Kind::And:
+      case SelectorTerm::Kind::Or: {
+        const bool b = pop(), a = pop();
+        stack.push_back(t.kind == SelectorTerm::Kind::And ? a && b : a || b);
+        break;
+      }
+      default: stack.push_back(false);
+    }
+  }
+  return pop();
+}
 
 double component(const Vec3& v, Axis a) { return v[static_cast<size_t>(a)]; }
 
@@ -93,8 +127,23 @@ Status OpCall::bind(void* arguments) const {
   const ArgumentProblem problem =
       bindArguments(spec_.signatures, place_.form, args_, services_.pool(), arguments);
   if (problem.kind == ArgumentProblem::Kind::None) return {};
-  return fail("wrong-argument", problemText(problem, spec_.name, args_), problemHint(problem));
+  return fail(codeOf(problem), problemText(problem, spec_.name, args_, services_.pool()),
+              problemHint(problem));
 }
+
+bool OpCall::giveToOtherwise() {
+  if (!spec_.part("otherwise")) return false;
+  for (const SelectorItem& item : selectors()) {
+    if (!selectsWord(item, "otherwise", services_.pool())) continue;
+    emit(shape_, item.slot, 0);
+    // After an operation with plain parts the shape goes on.
+    if (spec_.block == BlockKind::Operations) shape_.geometry = Geometry{};
+    return true;
+  }
+  return false;
+}
+
+Status OpCall::orElse(Status failure) { return giveToOtherwise() ? Status() : std::move(failure); }
 
 uint32_t OpCall::effects() const {
   const ValuePool& pool = services_.pool();
@@ -148,11 +197,21 @@ Value FunctionCall::run(Value (*function)(FunctionCall&), [[maybe_unused]] uint3
   return function(*this);
 }
 
+Value FunctionCall::zero() const {
+  switch (form_ ? form_->result : spec_->signatures[0].result) {
+    case ValueType::Float: return Value::of(0.0);
+    case ValueType::Bool: return Value::of(false);
+    case ValueType::String: return services_.pool().string("");
+    default: return {};
+  }
+}
+
 bool FunctionCall::bind(void* arguments) const {
   const ArgumentProblem problem =
       bindArguments(spec_->signatures, form_, args_, services_.pool(), arguments);
   if (problem.kind == ArgumentProblem::Kind::None) return true;
-  services_.warn("wrong-argument", problemText(problem, spec_->name, args_), problemHint(problem));
+  services_.warn(codeOf(problem), problemText(problem, spec_->name, args_, services_.pool()),
+                 problemHint(problem));
   return false;
 }
 

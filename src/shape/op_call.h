@@ -80,6 +80,10 @@ struct SelectorItem {
   uint32_t slot = 0;
 };
 
+/// Whether a block's selector takes in the part of that name, where parts have names and nothing
+/// else: by its word or by `all`, which leaves `otherwise` out.
+bool selectsWord(const SelectorItem& item, std::string_view word, const ValuePool& pool);
+
 double component(const Vec3& v, Axis a);
 
 /// A child shape and the block slot that works on it.
@@ -238,6 +242,12 @@ class OpCall {
   Status fail(const char* code, std::string message, std::string hint = {}) const {
     return Status::failure(code, std::move(message), std::move(hint));
   }
+  /// For what could not be done: the block's part `otherwise` gets the shape, and all is well; the
+  /// failure where there is none.
+  Status orElse(Status failure);
+  /// For operations after which the shape goes on: where nothing could be done, `otherwise` gets
+  /// the shape, which then ends here. False without such a part.
+  bool giveToOtherwise();
 
  private:
   const OpSpec& spec_;
@@ -256,8 +266,10 @@ class FunctionCall {
                const FunctionSpec* spec = nullptr, const Signature* form = nullptr)
       : args_(args), shape_(shape), services_(services), spec_(spec), form_(form) {}
 
-  /// Fills the struct of arguments; false when a value is of another type, which is reported.
+  /// Fills the struct of arguments; false when a value does not fit, which is reported.
   bool bind(void* arguments) const;
+  /// What a call gives that cannot be done: 0, false or an empty text, by what it would give.
+  Value zero() const;
   /// Runs a function or a getter. Builds with checks hold it to the effects of its specification,
   /// narrowed or widened as OpCall::effects() says.
   Value run(Value (*function)(FunctionCall&), uint32_t effects);
@@ -310,7 +322,7 @@ template <class A, Status (*Apply)(OpCall&, const A&)>
 struct Typed<Apply> {
   static Status call(OpCall& c) {
     A arguments;
-    if (Status s = c.bind(&arguments); !s.ok()) return s;
+    if (Status s = c.bind(&arguments); !s.ok()) return c.orElse(std::move(s));
     return Apply(c, arguments);
   }
 };
@@ -319,7 +331,7 @@ template <class A, Value (*Function)(FunctionCall&, const A&)>
 struct Typed<Function> {
   static Value call(FunctionCall& c) {
     A arguments;
-    return c.bind(&arguments) ? Function(c, arguments) : Value{};
+    return c.bind(&arguments) ? Function(c, arguments) : c.zero();
   }
 };
 

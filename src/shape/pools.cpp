@@ -29,31 +29,88 @@ MeshRef fittedMesh(const AssetModel& model) {
   return made.fitted;
 }
 
-struct TagTable::Impl {
-  ValuePool& pool;
-  Interned<std::vector<StringId>> sets;
+// A face has a region, an edge an edge.
+struct TagTable::Set {
+  std::vector<StringId> names;
+  std::optional<RegionProvenance> region;
+  std::optional<EdgeProvenance> edge;
+  bool operator==(const Set&) const = default;
 };
 
-TagTable::TagTable(ValuePool& pool) : impl_(new Impl{pool, {}}) { intern({}); }
+struct TagTable::Impl {
+  ValuePool& pool;
+  Interned<Set> sets;
+};
+
+TagTable::TagTable(ValuePool& pool) : impl_(new Impl{pool, {}}) { intern(Set{}); }
 TagTable::~TagTable() = default;
 
-const std::vector<StringId>& TagTable::names(TagSetId set) const { return impl_->sets.get(set); }
+const std::vector<StringId>& TagTable::names(TagSetId set) const {
+  return impl_->sets.get(set).names;
+}
 
-TagSetId TagTable::intern(std::vector<StringId> names) {
+TagSetId TagTable::intern(Set set) {
+  std::vector<StringId>& names = set.names;
   std::sort(names.begin(), names.end(),
             [&](StringId a, StringId b) { return impl_->pool.text(a) < impl_->pool.text(b); });
   names.erase(std::unique(names.begin(), names.end()), names.end());
   uint64_t hash = names.size();
   for (StringId s : names) hash = hashCombine(hash, s);
-  return impl_->sets.intern(hash, names);
+  if (set.region) hash = hashCombine(hash, set.region->hash());
+  if (set.edge) hash = hashCombine(hash, set.edge->hash());
+  return impl_->sets.intern(hash, set);
 }
 
-TagSetId TagTable::of(std::string_view name) { return intern({impl_->pool.intern(name)}); }
+TagSetId TagTable::intern(std::vector<StringId> names) {
+  return intern(Set{std::move(names), {}, {}});
+}
+
+TagSetId TagTable::of(std::string_view name) {
+  return intern(std::vector<StringId>{impl_->pool.intern(name)});
+}
 
 TagSetId TagTable::with(TagSetId set, std::string_view name) {
   std::vector<StringId> all = names(set);
   all.push_back(impl_->pool.intern(name));
-  return intern(std::move(all));
+  return withNames(set, std::move(all));
+}
+
+TagSetId TagTable::withNames(TagSetId set, std::vector<StringId> names) {
+  Set out = impl_->sets.get(set);
+  out.names = std::move(names);
+  return intern(std::move(out));
+}
+
+TagSetId TagTable::merged(TagSetId a, TagSetId b) {
+  Set out = impl_->sets.get(a);
+  const Set& more = impl_->sets.get(b);
+  out.names.insert(out.names.end(), more.names.begin(), more.names.end());
+  if (more.region) out.region = more.region;
+  if (more.edge) out.edge = more.edge;
+  return intern(std::move(out));
+}
+
+TagSetId TagTable::marked(TagSetId set, const RegionProvenance& region) {
+  return intern(Set{names(set), region, {}});
+}
+
+TagSetId TagTable::marked(TagSetId set, const EdgeProvenance& edge) {
+  return intern(Set{names(set), {}, edge});
+}
+
+TagSetId TagTable::plain(TagSetId set) {
+  const Set& own = impl_->sets.get(set);
+  return own.region || own.edge ? intern(Set{own.names, {}, {}}) : set;
+}
+
+const RegionProvenance* TagTable::region(TagSetId set) const {
+  const Set& own = impl_->sets.get(set);
+  return own.region ? &*own.region : nullptr;
+}
+
+const EdgeProvenance* TagTable::edge(TagSetId set) const {
+  const Set& own = impl_->sets.get(set);
+  return own.edge ? &*own.edge : nullptr;
 }
 
 bool TagTable::has(TagSetId set, std::string_view name) const {

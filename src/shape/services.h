@@ -193,6 +193,16 @@ class Services {
     return worldAtWork();
   }
 
+  /// Where a face or an edge of a region comes from, by its tags; null for others.
+  const RegionProvenance* regionAt(TagSetId set) const {
+    GABLE_DCHECK(mayAsk(kReadsRegion));
+    return tags_->region(set);
+  }
+  const EdgeProvenance* edgeAt(TagSetId set) const {
+    GABLE_DCHECK(mayAsk(kReadsRegion));
+    return tags_->edge(set);
+  }
+
   void report(StringId key, const Value& value) {
     GABLE_DCHECK(mayAsk(kReports));
     takeReport(key, value);

@@ -107,7 +107,7 @@ class Words(Case):
         for name, says in (("Grid", "grid - "), ("Grid", "docs/guide/park.md"), ("grid", "docs/guide/gbbg.md"),
                            ("CubeX", "docs/guide/progen3d.md"), ("EXTRUDE", "extrude - ")):
             self.run_gable("ops", name, says=says)
-        self.run_gable("ops", "peel", says="Parts that its block may name: strip rest otherwise")
+        self.run_gable("ops", "peel", says="strip  A strip along an edge")
         self.run_gable("ops", says="world.south")
         self.run_gable("ops", "nothing", status=USAGE, says="nothing built in")
         for near, name in (("Grd", "Grid"), ("CubbeX", "CubeX"), ("extrud", "extrude")):

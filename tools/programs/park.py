@@ -4,7 +4,8 @@
 from programs.tree import Node, joined, optional
 
 NUMBERS = ["1", "2", "3", "1.5", "0.25", "4", "W2", "8", "0.5"]
-HOSTILE = ["0", "-1", "1e308", "1e-9", "1000000", "(W2 / 0)", "-0.5"]
+# W2 is 3, and can be set, so these are not known before the rules run.
+HOSTILE = ["(W2 - 3)", "(W2 - 4)", "1e308", "1e-9", "1000000", "(W2 / 0)", "(W2 - 3.5)"]
 SELECTIONS = ["outer", "inner", "OUTER", "W", "N & outer", "side(E)", "longest", "len > 3", "nth(2)", "random(0.5)",
               "!side(S)", "outer(strict)", "0", "[0.4, 2.9]", "PEELED_BASE", "facing(world.N)", "grow(W, E; 30)"]
 PLACES = ["CENTRE", "CORNER(OUTER)", "(0.2, 0.5), (0.8, 0.5)", "Points((3, 4), (9, 4))"]

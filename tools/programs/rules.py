@@ -123,21 +123,22 @@ class Rules:
         kind = operation["block"]
         if "size" in kind:
             return self.sizes(depth)
-        words = operation.get("blockWords", "").split()
+        words = [p["name"] for p in operation.get("parts", [])]
         if "selector" in kind:
-            return self.parts(depth, words)
+            return self.parts(depth, words, operation.get("selectors", False))
         if "A | B" in kind:
             return Node([" { ", joined(["R1", "R2"], " | "), " }"])
         otherwise = [" |", " otherwise :", self.body(depth - 1)] if "otherwise" in kind and self.chance(0.3) else []
         inner = self.body(depth - 1) if depth > 0 else Node([" X."])
         return Node([" {", inner, optional(*otherwise), " }"])
 
-    def parts(self, depth, words):
+    def parts(self, depth, words, selects):
+        others = self.selectors if selects else [*words, "all"]
         items = []
         for _ in range(self.random.randint(1, 3)):
-            word = self.random.choice(words) if words and self.chance(0.7) else self.random.choice(self.selectors)
+            word = self.random.choice(words) if words and self.chance(0.7) else self.random.choice(others)
             if self.chance(0.1):
-                word = f"{word} || {self.random.choice(self.selectors)}"
+                word = f"{word} || {self.random.choice(others)}"
             sign = self.random.choice([":", ":", ":", "="])
             figure = f" circle({self.random.choice(USUAL)})" if word in ("junction", "centre") else ""
             items.append(Node([f" {word} {sign}{figure}", self.body(depth - 1) if depth > 0 else " X."]))
@@ -161,6 +162,14 @@ class Rules:
 
     def argument(self, param):
         kind = param["type"]
+        # What is written out and out of range is a mistake that ends the run; a sum is not known
+        # before.
+        if "range" in param and kind != "selection" and not kind.endswith("[]"):
+            return Node(["(", self.number(), " + 0 * h)"], ("(1 + 0 * h)",))
+        if param["name"] in ("hexValue", "label") and kind == "string":
+            return '"#aabbcc"'
+        if "words" in param and kind == "string":
+            return f'"{self.random.choice(param["words"].split())}"'
         if "words" in param:
             words = param["words"].split()
             return self.random.choice(words)

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "builtins/lists.h"
+#include "builtins/shared/text_forms.h"
 #include "material/material.h"
 #include "shape/op_call.h"
 
@@ -161,10 +162,11 @@ constexpr ParamSpec kRgboParams[] = {kRed, kGreen, kBlue, kOpacity};
 constexpr ParamSpec kHsvParams[] = {kHue, kSaturation, kValue};
 constexpr ParamSpec kHsvoParams[] = {kHue, kSaturation, kValue, kOpacity};
 constexpr ParamSpec kHexParams[] = {
-    {"hexValue", ParamType::String, "A colour as \"#rrggbb\" or \"#rrggbboo\"."}};
+    ParamSpec{"hexValue", ParamType::String, "A colour as \"#rrggbb\" or \"#rrggbboo\"."}.of(
+        kColourText)};
 constexpr ParamSpec kRampParams[] = {
-    {"gradient", ParamType::String,
-     "whiteToBlack, greenToRed, yellowToRed, redToBlue, orangeToBlue, brownToBlue or spectrum."},
+    {"gradient", ParamType::String, "The name of the ramp.", nullptr,
+     "whiteToBlack greenToRed yellowToRed redToBlue orangeToBlue brownToBlue spectrum"},
     {"value", ParamType::Float, "The place on the ramp, 0 to 1."}};
 constexpr Signature kRgb[] = {{kRgbParams, ValueType::String}};
 constexpr Signature kRgbo[] = {{kRgboParams, ValueType::String}};

@@ -31,13 +31,8 @@ Value noise(FunctionCall&, const Noise& args) {
                           : gradientNoise(Vec2{args.x, args.y}, kField));
 }
 
-Value fractal(FunctionCall& call, const Noise& args) {
-  const double octaves = args.octaves;
-  if (!(octaves >= 1 && octaves <= kMostOctaves)) {
-    return call.fail("bad-argument", "fractalNoise takes 1 to 16 octaves",
-                     "such as fractalNoise(4, world.x / 50, world.z / 50)", Value::of(0.0));
-  }
-  const int n = static_cast<int>(octaves);
+Value fractal(FunctionCall&, const Noise& args) {
+  const int n = static_cast<int>(args.octaves);
   return Value::of(args.z ? fractalNoise(Vec3{args.x, args.y, *args.z}, n, kField)
                           : fractalNoise(Vec2{args.x, args.y}, n, kField));
 }
@@ -51,7 +46,8 @@ constexpr ParamSpec kX = param<&Noise::x>("x", "The first coordinate.");
 constexpr ParamSpec kY = param<&Noise::y>("y", "The second coordinate.");
 constexpr ParamSpec kZ = param<&Noise::z>("z", "The third one, or the number of a field.");
 constexpr ParamSpec kOctaves =
-    param<&Noise::octaves>("octaves", "How many times finer noise is added, 1 to 16.");
+    param<&Noise::octaves>("octaves", "How many times finer noise is added.")
+        .between(1, kMostOctaves);
 constexpr ParamSpec kPlaneParams[] = {kX, kY};
 constexpr ParamSpec kSpaceParams[] = {kX, kY, kZ};
 constexpr ParamSpec kFractalPlaneParams[] = {kOctaves, kX, kY};

@@ -15,7 +15,7 @@ namespace gable {
 namespace {
 
 CellMark cellOf(const FunctionCall& call) {
-  return regionFactsOf(call.services(), call.shape()).cell.value_or(CellMark{});
+  return provenanceOf(call.services(), call.shape()).cell.value_or(CellMark{});
 }
 
 Value counted(uint32_t v) { return Value::of(static_cast<double>(v)); }
@@ -36,7 +36,7 @@ Value mirroredY(FunctionCall& call) { return Value::of(cellOf(call).mirroredY())
 Value cellWidth(FunctionCall& call) { return Value::of(cellOf(call).w); }
 Value cellHeight(FunctionCall& call) { return Value::of(cellOf(call).h); }
 Value depth(FunctionCall& call) {
-  return counted(regionFactsOf(call.services(), call.shape()).depth);
+  return counted(provenanceOf(call.services(), call.shape()).depth);
 }
 
 Value onBorder(FunctionCall& call) {
@@ -80,37 +80,44 @@ constexpr ParamSpec kSelection[] = {
 constexpr Signature kSelects[] = {{kSelection, ValueType::Bool}};
 constexpr FunctionSpec kFunctions[] = {
     {"region.selects", "region", "Whether a selection means any edge of the region.", kSelects,
-     typed<selects>, kRandom | kReadsWorld | kReadsWorldByWord, false, true},
+     typed<selects>, kReadsRegion | kRandom | kReadsWorld | kReadsWorldByWord, false, true},
 };
 
 constexpr ValueType kFloat = ValueType::Float;
 constexpr ValueType kBool = ValueType::Bool;
 
+constexpr AttributeSpec ofRegion(const char* name, ValueType type, const char* doc,
+                                 Value (*get)(FunctionCall&)) {
+  return {name, type, doc, get, nullptr, kReadsRegion};
+}
+
 constexpr AttributeSpec kAttributes[] = {
-    {"region.ix", kFloat, "Column of the grid's cell that the region is or was cut from.", ix},
-    {"region.iy", kFloat, "Row of the cell, from the south.", iy},
-    {"region.nx", kFloat, "How many columns the grid has; 1 outside of grids.", nx},
-    {"region.ny", kFloat, "How many rows the grid has.", ny},
-    {"region.bx", kFloat,
-     "Columns between the cell and the nearer end of its row; outside of grids the cells between "
-     "it "
-     "and the boundary.",
-     bx},
-    {"region.by", kFloat, "Rows between the cell and the nearer end of its column.", by},
-    {"region.piece", kFloat, "Which part of its cell the region is, when the cell fell apart.",
-     part},
-    {"region.choice", kFloat, kRegionChoice.doc, kRegionChoice.get},
-    {"region.orphan", kBool,
-     "Whether the region is a part of a Voronoi cell that its site is not in, kept by orphans=own.",
-     orphan},
-    {"region.mx", kBool, "Whether the cell is mirrored in x; see grid.", mirroredX},
-    {"region.my", kBool, "Whether the cell is mirrored in y.", mirroredY},
-    {"region.w", kFloat, "Width that the cell was laid out with, before it was cut to the region.",
-     cellWidth},
-    {"region.h", kFloat, "Height that the cell was laid out with.", cellHeight},
-    {"region.depth", kFloat, "How many partitions lie behind the region.", depth},
-    {"region.border", kBool, "Whether a part of the region's outline is that of the initial one.",
-     onBorder},
+    ofRegion("region.ix", kFloat, "Column of the grid's cell that the region is or was cut from.",
+             ix),
+    ofRegion("region.iy", kFloat, "Row of the cell, from the south.", iy),
+    ofRegion("region.nx", kFloat, "How many columns the grid has; 1 outside of grids.", nx),
+    ofRegion("region.ny", kFloat, "How many rows the grid has.", ny),
+    ofRegion("region.bx", kFloat,
+             "Columns between the cell and the nearer end of its row; outside of grids the cells "
+             "between "
+             "it and the boundary.",
+             bx),
+    ofRegion("region.by", kFloat, "Rows between the cell and the nearer end of its column.", by),
+    ofRegion("region.piece", kFloat,
+             "Which part of its cell the region is, when the cell fell apart.", part),
+    kRegionChoice,
+    ofRegion("region.orphan", kBool,
+             "Whether the region is a part of a Voronoi cell that its site is not in, kept by "
+             "orphans=own.",
+             orphan),
+    ofRegion("region.mx", kBool, "Whether the cell is mirrored in x; see grid.", mirroredX),
+    ofRegion("region.my", kBool, "Whether the cell is mirrored in y.", mirroredY),
+    ofRegion("region.w", kFloat,
+             "Width that the cell was laid out with, before it was cut to the region.", cellWidth),
+    ofRegion("region.h", kFloat, "Height that the cell was laid out with.", cellHeight),
+    ofRegion("region.depth", kFloat, "How many partitions lie behind the region.", depth),
+    ofRegion("region.border", kBool,
+             "Whether a part of the region's outline is that of the initial one.", onBorder),
 };
 
 }  // namespace

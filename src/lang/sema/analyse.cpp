@@ -252,6 +252,7 @@ void Analysis::checkOtherStyles() {
     addImports(main);
     infer();
     reportDuplicates(main);
+    checkWrittenValues(main);
     program_.modules.resize(modules);
     scopes_.resize(modules);
     program_.rules.resize(rules);
@@ -296,9 +297,9 @@ ResolvedProgram Analysis::run(AnalysisInput input) {
   infer();
   reportDuplicates(0);
   reportOverrideTypes();
-  checkOtherStyles();
   orderAttributes();
-  foldConstants();
+  checkWrittenValues(0);
+  checkOtherStyles();
   chooseStartRule();
   program_.styles = units_[0].styles;
   program_.description = units_[0].description;

@@ -245,6 +245,13 @@ class Analysis {
   void checkFigure(NodeId item, const OpSpec& op);
   const OpSpec* figureOf(ModuleId module, NodeId sequence, int depth) const;
 
+  // --- written_values.cpp: values that parameters do not take ---
+  void checkWrittenValues(ModuleId firstModule);
+  void checkWrittenValue(NodeId node, const ParamSpec& param, std::string_view callee);
+  void checkWrittenCall(NodeId node, std::string_view callee, const Signature& signature,
+                        std::span<const NodeId> arguments);
+  bool hasTerm(NodeId node, std::string_view name) const;
+
   // --- analyse.cpp: definitions and rounds ---
   void walkRule(RuleId id);
   void walkFunction(FunctionId id);

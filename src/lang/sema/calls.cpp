@@ -247,7 +247,7 @@ std::string Analysis::mismatchHint(NodeId node, const ParamSpec& param, ValueTyp
              ") for a number between the two";
     }
   }
-  return std::string("it is: ") + param.doc;
+  return "it is: " + docText(param);
 }
 
 // Visits one argument, and strikes out the signatures that its word or its type does not fit.

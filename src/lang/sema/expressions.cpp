@@ -255,6 +255,8 @@ ValueType Analysis::visitComp(NodeId node) {
 ValueType Analysis::visitHead(NodeId node, const OpSpec* op) {
   const Tree& t = tree();
   if (t.kind(node) == NodeKind::Name && isSelectorWord(t.text(node), op)) {
+    const bool foreign = op && op->isOnlyParts() && !op->part(t.text(node));
+    if (foreign && t.text(node) != "all") reportSelector(node, op);
     resolve(node, RefKind::Selector);
     return typed(node, ValueType::Selector);
   }

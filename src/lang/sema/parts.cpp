@@ -10,32 +10,15 @@
 
 namespace gable::lang {
 
-namespace {
-
-// The names of an operation's parts.
-std::vector<std::string_view> partsOf(const OpSpec* op) {
-  std::vector<std::string_view> out;
-  std::string_view rest = op && op->blockWords ? op->blockWords : "";
-  while (!rest.empty()) {
-    const size_t end = std::min(rest.find(' '), rest.size());
-    out.push_back(rest.substr(0, end));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
-  return out;
-}
-
-}  // namespace
-
 bool Analysis::isSelectorWord(std::string_view word, const OpSpec* op) const {
-  return selectors_.count(word) != 0 || (op && wordIndex(op->blockWords, word) >= 0);
+  return selectors_.count(word) != 0 || (op && op->part(word));
 }
 
 // "its parts are: strip, rest, otherwise".
 std::string Analysis::partsText(const OpSpec& op) const {
   std::string out;
-  for (const std::string_view p : partsOf(&op)) {
-    out += (out.empty() ? "its parts are: " : ", ") + std::string(p);
-  }
+  for (const PartSpec& p : op.parts)
+    out += (out.empty() ? "its parts are: " : ", ") + std::string(p.name);
   return out;
 }
 
@@ -43,8 +26,7 @@ std::string Analysis::partsText(const OpSpec& op) const {
 std::string Analysis::partOwners(std::string_view word) const {
   std::string owners;
   for (const OpSpec* op : catalogue_.operations) {
-    if (wordIndex(op->blockWords, word) < 0) continue;
-    owners += (owners.empty() ? "" : ", ") + std::string(op->name);
+    if (op->part(word)) owners += (owners.empty() ? "" : ", ") + std::string(op->name);
   }
   return owners.empty() ? owners : quote(word) + " is a part of " + owners;
 }
@@ -52,17 +34,24 @@ std::string Analysis::partOwners(std::string_view word) const {
 // A word in the head of an item that neither names a part nor selects anything.
 void Analysis::reportSelector(NodeId node, const OpSpec* op) {
   const std::string_view word = text(node);
-  const bool hasParts = op && op->blockWords;
+  const bool hasParts = op && !op->parts.empty();
+  const bool onlyParts = hasParts && (op->isOnlyParts() || op->block == BlockKind::Operations);
   std::string hint = near(word, [&] {
-    std::vector<std::string_view> names = partsOf(op);
-    for (const SelectorSpec& s : catalogue_.selectors) names.push_back(s.name);
+    std::vector<std::string_view> names;
+    for (const PartSpec& p : hasParts ? op->parts : std::span<const PartSpec>()) {
+      names.push_back(p.name);
+    }
+    for (const SelectorSpec& s : catalogue_.selectors) {
+      if (!onlyParts) names.push_back(s.name);
+    }
     return names;
   });
   if (hint.empty()) hint = hasParts ? partsText(*op) : partOwners(word);
   if (hint.empty()) hint = "selectors are words such as 'front', 'side', 'top' and 'all'";
+  if (hasParts && !onlyParts && hint.starts_with("its parts")) hint += ", and all selectors";
   errorAt("unknown-selector", node,
-          hasParts ? quote(word) + " is no part of " + quote(op->name)
-                   : quote(word) + " is no selector",
+          onlyParts ? quote(word) + " is no part of " + quote(op->name)
+                    : quote(word) + " is no selector",
           std::move(hint));
 }
 

@@ -428,7 +428,7 @@ void Analysis::visitBlock(NodeId block, const OpSpec& op, bool nested) {
             "write '" + std::string(op.name) + " { A | B }'");
   }
   // Besides the operations there may be those for otherwise; what gathers takes any number.
-  const size_t most = op.gathered ? count : op.blockWords ? 2 : 1;
+  const size_t most = op.gathered ? count : !op.parts.empty() ? 2 : 1;
   if (op.block == BlockKind::Operations && count > most) {
     errorAt("unexpected-separator", block, quote(op.name) + " takes operations without '|'",
             "remove the '|'");
@@ -461,12 +461,11 @@ void Analysis::visitItem(NodeId item, const OpSpec& op) {
   }
   // place { A | otherwise : B }: the word beside plain operations.
   const bool word = op.block == BlockKind::Operations && head != kNoNode &&
-                    t.kind(head) == NodeKind::Name && isSelectorWord(t.text(head), &op) &&
-                    op.blockWords;
+                    t.kind(head) == NodeKind::Name && op.part(t.text(head));
   if (word) {
     resolve(head, RefKind::Selector);
     typed(head, ValueType::Selector);
-  } else if (head != kNoNode && !wantsHead && op.blockWords && t.kind(head) == NodeKind::Name &&
+  } else if (head != kNoNode && !wantsHead && !op.parts.empty() && t.kind(head) == NodeKind::Name &&
              !isKnownValue(t.text(head))) {
     reportSelector(head, &op);
   } else if (head != kNoNode && !wantsHead) {
@@ -498,6 +497,9 @@ void Analysis::visitItem(NodeId item, const OpSpec& op) {
       errorAt("type-mismatch", head,
               std::string("a selector is a word, a condition or an index, not a ") + typeName(type),
               "");
+    } else if (type == ValueType::Float && op.isOnlyParts()) {
+      errorAt("unknown-selector", head, quote(op.name) + " has named parts, not numbered ones",
+              partsText(op));
     }
   }
   if (second != kNoNode) {

@@ -52,22 +52,24 @@ inline constexpr ParamSpec kGridParams[] = {{"columns", P::Float, ""}, {"rows", 
 inline constexpr Signature kGrid[] = {{kGridParams}};
 
 inline constexpr BlockKind kSel = BlockKind::Selectors;
+inline constexpr PartSpec kGridParts[] = {{"region", "A cell."}, {"path", "A path."}};
+inline constexpr PartSpec kRemainder[] = {{"remainder", "What is left."}};
 inline constexpr OpSpec kOps[] = {
     {"NIL", "", "", kNothing, nullptr},
     {"color", "", "", kColor, nullptr},
     {"comp", "", "", kComp, nullptr, kSel},
-    {"do", "", "", kPrint, nullptr, BlockKind::None, kPure, nullptr, false, true},
+    {"do", "", "", kPrint, nullptr, BlockKind::None, kPure, kNoParts, false, true},
     {"extrude", "", "", kExtrude, nullptr},
-    {"grid", "", "", kGrid, nullptr, kSel, kPure, "region path", false, true},
+    {"grid", "", "", kGrid, nullptr, kSel, kPure, kGridParts, false, true},
     {"i", "", "", kInsert, nullptr},
     {"inline", "", "", kInline, nullptr, BlockKind::Operations},
-    {"local", "", "", kPrint, nullptr, BlockKind::Operations, kPure, nullptr, false, true},
+    {"local", "", "", kPrint, nullptr, BlockKind::Operations, kPure, kNoParts, false, true},
     {"print", "", "", kPrint, nullptr},
-    {"repeat", "", "", kRepeat, nullptr, BlockKind::Operations, kPure, nullptr, false, true},
+    {"repeat", "", "", kRepeat, nullptr, BlockKind::Operations, kPure, kNoParts, false, true},
     {"s", "", "", kSizes, nullptr},
     {"scatter", "", "", kScatter, nullptr, BlockKind::Operations},
     {"set", "", "", kSetSignature, nullptr},
-    {"setback", "", "", kSetback, nullptr, kSel, kPure, "remainder"},
+    withFaces({"setback", "", "", kSetback, nullptr, kSel, kPure, kRemainder}),
     {"split", "", "", kSplit, nullptr, BlockKind::Split},
     {"t", "", "", kSizes, nullptr},
     {"union", "", "", kNothing, nullptr, BlockKind::Operands},

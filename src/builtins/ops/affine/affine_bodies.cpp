@@ -198,15 +198,16 @@ constexpr Signature kRoundSignatures[] = {{kRoundParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"affineBox", "affine", "Leaves a box of the scope's size about its origin and goes on.",
-     kBoxSignatures, typed<applyBox>, BlockKind::None, kTakesDeformed, nullptr, false, true},
+     kBoxSignatures, typed<applyBox>, BlockKind::None, kTakesDeformed, kNoParts, false, true},
     {"affineSidedBox", "affine",
      "Leaves a box whose corners on the far sides of its axes are scaled and moved, and goes on.",
-     kSidedSignatures, typed<applySidedBox>, BlockKind::None, kTakesDeformed, nullptr, false, true},
+     kSidedSignatures, typed<applySidedBox>, BlockKind::None, kTakesDeformed, kNoParts, false,
+     true},
     {"affineSphere", "affine", "Leaves a ball of the scope's size about its origin and goes on.",
-     kRoundSignatures, typed<applySphere>, BlockKind::None, kTakesDeformed, nullptr, false, true},
+     kRoundSignatures, typed<applySphere>, BlockKind::None, kTakesDeformed, kNoParts, false, true},
     {"affineCylinder", "affine",
      "Leaves an upright cylinder of the scope's size on its origin and goes on.", kRoundSignatures,
-     typed<applyCylinder>, BlockKind::None, kTakesDeformed, nullptr, false, true},
+     typed<applyCylinder>, BlockKind::None, kTakesDeformed, kNoParts, false, true},
 };
 
 }  // namespace

@@ -109,7 +109,7 @@ constexpr OpSpec kSpecs[] = {
      typed<beginTogether>,
      BlockKind::Operations,
      kTakesDeformed | kReadsWorld | kReadsInitialShape,
-     nullptr,
+     kNoParts,
      false,
      true,
      {},

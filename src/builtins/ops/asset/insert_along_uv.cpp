@@ -161,8 +161,7 @@ struct InsertAlongUv {
 
 Status applyInsert(OpCall& call, const InsertAlongUv& args) {
   Shape& s = call.shape();
-  int set = 0;
-  if (Status bad = uvSetOf(call, args.uvSet, set); !bad) return bad;
+  const auto set = static_cast<int>(args.uvSet);
   if (!hasUvSet(s, set)) {
     return call.fail("no-uv",
                      "the shape has no texture coordinates in uv set " + std::to_string(set),
@@ -203,7 +202,8 @@ Status applyInsert(OpCall& call, const InsertAlongUv& args) {
 }
 
 constexpr ParamSpec kSet =
-    param<&InsertAlongUv::uvSet>("uvSet", "The uv set, 0 to 9, whose unit squares are filled.");
+    param<&InsertAlongUv::uvSet>("uvSet", "The uv set, 0 to 9, whose unit squares are filled.")
+        .between(0, kUvSets - 1);
 constexpr ParamSpec kPath = param<&InsertAlongUv::path>(
     "filePath", "The model: x runs along u, z against v, y is the height.");
 constexpr ParamSpec kHeight =

@@ -31,10 +31,6 @@ Status applyCleanup(OpCall& call, const Cleanup& args) {
   Shape& s = call.shape();
   CleanupOptions options;
   options.tolerance = args.tolerance;
-  if (!(options.tolerance >= 0 && options.tolerance <= 1)) {
-    return call.fail("cleanup-tolerance", "the tolerance of a cleanup is not within 0 and 1",
-                     "0 cleans what matches exactly, 1 allows a metre and 10 degrees");
-  }
   const auto cleans = [&](Components c) {
     return args.components == c || args.components == Components::All;
   };
@@ -57,7 +53,8 @@ constexpr ParamSpec kCleanupParams[] = {
     param<&Cleanup::components>("components", "What to clean up."),
     param<&Cleanup::tolerance>(
         "tolerance",
-        "0 cleans what matches exactly; 1 allows a metre, 10 degrees and a square metre."),
+        "0 cleans what matches exactly; 1 allows a metre, 10 degrees and a square metre.")
+        .between(0, 1),
 };
 constexpr Signature kCleanup[] = {{kCleanupParams}};
 constexpr Signature kNone[] = {{}};

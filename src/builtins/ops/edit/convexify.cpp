@@ -158,10 +158,6 @@ struct Convexify {
 Status applyConvexify(OpCall& call, const Convexify& args) {
   Shape& s = call.shape();
   const double maxLength = args.maxLength.value_or(std::numeric_limits<double>::infinity());
-  if (!(maxLength > 0)) {
-    return call.fail("convexify-length", "the length of cuts is not positive",
-                     "give a positive length, or none for cuts of any length");
-  }
   if (s.geometry.kind != GeometryKind::Mesh) return {};
   const MeshRef mesh = meshInScope(s);
   if (!isConcave(*mesh)) return {};
@@ -188,7 +184,8 @@ Status applyConvexify(OpCall& call, const Convexify& args) {
 
 constexpr ParamSpec kParams[] = {
     param<&Convexify::maxLength>("maxLength", "Cuts longer than this are not made, in metres.",
-                                 "of any length"),
+                                 "of any length")
+        .above(0),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 

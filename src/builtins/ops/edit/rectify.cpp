@@ -100,10 +100,6 @@ struct Rectify {
 Status applyRectify(OpCall& call, const Rectify& args) {
   Shape& s = call.shape();
   const double angle = args.angle;
-  if (!(angle >= 0 && angle <= 45)) {
-    return call.fail("rectify-angle", "the angle of rectify is not within 0 and 45 degrees",
-                     "edges that deviate by less are aligned");
-  }
   if (s.geometry.kind != GeometryKind::Mesh) return {};
   Mesh mesh = *meshInScope(s);
   rectify(mesh, angle);
@@ -112,8 +108,8 @@ Status applyRectify(OpCall& call, const Rectify& args) {
 }
 
 constexpr ParamSpec kParams[] = {
-    param<&Rectify::angle>("angle",
-                           "Edges that deviate by at most this are aligned, 0 to 45 degrees."),
+    param<&Rectify::angle>("angle", "Edges that deviate by at most so many degrees are aligned.")
+        .between(0, 45),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 

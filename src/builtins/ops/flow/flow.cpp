@@ -4,6 +4,7 @@
 #include <string>
 
 #include "builtins/lists.h"
+#include "builtins/shared/text_forms.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -20,9 +21,6 @@ struct Label {
 };
 
 Status applyLabel(OpCall& call, const Label& args) {
-  if (args.label.text.empty()) {
-    return call.fail("bad-argument", "label got an empty text", "name the shape");
-  }
   call.services().label(args.label.id, call.shape());
   return {};
 }
@@ -52,7 +50,8 @@ Status applyReport(OpCall& call, const Report& args) {
 constexpr Signature kNilSignatures[] = {{}};
 
 constexpr ParamSpec kLabelParams[] = {
-    param<&Label::label>("label", "The name by which queries find the shape; not empty."),
+    param<&Label::label>("label", "The name by which queries find the shape; not empty.")
+        .of(kNotEmptyText),
 };
 constexpr Signature kLabelSignatures[] = {{kLabelParams}};
 

@@ -27,12 +27,12 @@ constexpr Signature kLocalSignatures[] = {{kLocalParams, ValueType::Null, true}}
 
 constexpr OpSpec kSpecs[] = {
     {"do", "flow", "Runs a rule on the present shape; what it changes stays.", kDoSignatures,
-     compiledAway, BlockKind::None, kPure, nullptr, false, true},
+     compiledAway, BlockKind::None, kPure, kNoParts, false, true},
     {"repeat", "flow", "Runs operations several times on the present shape, one after the other.",
-     kRepeatSignatures, compiledAway, BlockKind::Operations, kPure, nullptr, false, true},
+     kRepeatSignatures, compiledAway, BlockKind::Operations, kPure, kNoParts, false, true},
     {"local", "flow",
      "Gives attributes other values within a block, for all rules that are called from it.",
-     kLocalSignatures, compiledAway, BlockKind::Operations, kPure, nullptr, false, true},
+     kLocalSignatures, compiledAway, BlockKind::Operations, kPure, kNoParts, false, true},
 };
 
 }  // namespace

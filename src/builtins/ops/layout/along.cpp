@@ -246,18 +246,14 @@ struct Along {
   Layout::Facing facing;
 };
 
-Status layoutOf(const OpCall& call, const Along& args, Layout& out) {
+Layout layoutOf(const Along& args) {
+  Layout out;
   out.spacing.step = args.spacing;
   out.offset = args.offset;
   out.spacing.startInset = out.spacing.endInset = args.inset;
   out.spacing.stretch = args.fit == Fit::Stretch;
   out.facing = args.facing;
-  if (!(out.spacing.step > 0) || !std::isfinite(out.offset) || !(out.spacing.startInset >= 0)) {
-    return call.fail("bad-argument",
-                     "along needs a spacing larger than 0 and an inset that is not negative",
-                     "such as along(8, 0, 4)");
-  }
-  return {};
+  return out;
 }
 
 // What would be made at most; a little more where lines begin and end.
@@ -310,8 +306,7 @@ void emitAlongLines(OpCall& call, const Mesh& mesh, const Layout& layout, Emitte
 }
 
 Status applyAlong(OpCall& call, const Along& args) {
-  Layout layout;
-  if (Status bad = layoutOf(call, args, layout); !bad) return bad;
+  const Layout layout = layoutOf(args);
   const MeshRef mesh = meshInScope(call.shape());
   if (mesh->faceCount() == 0) {
     return call.fail("no-geometry", "the shape has no edges to place things along",
@@ -346,13 +341,14 @@ Status applyAlong(OpCall& call, const Along& args) {
 }
 
 constexpr ParamSpec kParams[] = {
-    param<&Along::spacing>("spacing", "From one place to the next along the edges, in metres."),
+    param<&Along::spacing>("spacing", "From one place to the next along the edges, in metres.")
+        .above(0),
     param<&Along::offset>("offset",
                           "How far beside the edge: outwards, inwards where negative. Of a line: "
                           "to its right, to its "
                           "left where negative.",
                           "0"),
-    param<&Along::inset>("inset", "Kept free at both ends of each line of edges.", "0"),
+    param<&Along::inset>("inset", "Kept free at both ends of each line of edges.", "0").atLeast(0),
     param<&Along::fit>(
         "fit",
         "centred shares what is left over between both ends; stretch makes the spacing a little "
@@ -364,10 +360,15 @@ constexpr ParamSpec kParams[] = {
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
+constexpr PartSpec kParts[] = {
+    {"street", "Edges along a street."},
+    {"middle", "Half-way between two edges along streets: the middle of a roadway."},
+    {"sides", "Both sides of a line."}};
 constexpr OpSpec kSpecs[] = {
-    {"along", "layout", "Gives out places along the edges of the faces, at equal spacing.",
-     kSignatures, typed<applyAlong>, BlockKind::Selectors, kReadsWorld | kReadsWorldByWord,
-     "street middle sides", false, true},
+    withFaces({"along", "layout",
+               "Gives out places along the edges of the faces, at equal spacing.", kSignatures,
+               typed<applyAlong>, BlockKind::Selectors, kReadsWorld | kReadsWorldByWord, kParts,
+               false, true}),
 };
 
 }  // namespace

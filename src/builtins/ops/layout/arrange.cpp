@@ -169,20 +169,18 @@ std::vector<bool> streetOf(const Ground& ground, const Polygon& part) {
   return out;
 }
 
-Status checked(const OpCall& call, const Array& rows, double gap, double edge) {
+Status checked(const OpCall& call, const Array& rows) {
   if (rows.numbers.size() != rows.size() || rows.columns < 2 || rows.rows > kMostFootprints) {
     return call.fail("bad-argument", "footprints are up to 2000 rows of two: width, depth",
                      "such as arrange([12, 9; 6, 5], 2)");
   }
-  if (gap >= 0 && edge >= 0 && std::isfinite(gap) && std::isfinite(edge)) return {};
-  return call.fail("bad-argument", "the gaps between footprints and to the border are not negative",
-                   "write 0 where they may touch");
+  return {};
 }
 
 Status applyArrange(OpCall& call, const Arrange& args) {
   const Array& rows = *args.footprints.array;
   const double gap = args.gap, edge = args.edge.value_or(gap);
-  if (Status bad = checked(call, rows, gap, edge); !bad) return bad;
+  if (Status bad = checked(call, rows); !bad) return bad;
   std::vector<Ground> grounds;
   if (Status bad = groundsOf(call, grounds); !bad) return bad;
   const SelectorItem* placed = itemFor(call, "placed");
@@ -223,11 +221,6 @@ Status applyArrange(OpCall& call, const Arrange& args) {
 
 Status applySpaced(OpCall& call, const ScatterSpaced& args) {
   const double distance = args.distance, edge = args.edge, jitter = args.jitter;
-  if (!(distance > 0) || !std::isfinite(distance) || !(edge >= 0) || !(jitter >= 0)) {
-    return call.fail("bad-argument",
-                     "scatterSpaced needs a distance above zero and no negative edge or jitter",
-                     "such as scatterSpaced(6, poisson, 2)");
-  }
   std::vector<Ground> grounds;
   if (Status bad = groundsOf(call, grounds); !bad) return bad;
   MeshBuilder b;
@@ -267,8 +260,8 @@ constexpr ParamSpec kArrangeParams[] = {
         "A row for each: width and depth, then perhaps x and z in the scope of where its middle is "
         "to "
         "be, then perhaps its turn in degrees. Without a place one is drawn."),
-    param<&Arrange::gap>("gap", "Between any two, in metres.", "1"),
-    param<&Arrange::edge>("edge", "Between them and the border.", "gap"),
+    param<&Arrange::gap>("gap", "Between any two, in metres.", "1").atLeast(0),
+    param<&Arrange::edge>("edge", "Between them and the border.", "gap").atLeast(0),
     param<&Arrange::turn>("turn",
                           "Without a turn of its own a footprint lies as the scope does, fronts "
                           "the edge nearest to its "
@@ -281,25 +274,29 @@ constexpr ParamSpec kArrangeParams[] = {
 };
 constexpr Signature kArrange[] = {{kArrangeParams}};
 constexpr ParamSpec kSpacedParams[] = {
-    param<&ScatterSpaced::distance>("distance", "Between points: at least, or from cell to cell."),
+    param<&ScatterSpaced::distance>("distance", "Between points: at least, or from cell to cell.")
+        .above(0),
     param<&ScatterSpaced::pattern>(
         "pattern",
         "poisson: as many as fit, no two nearer than the distance; jittered: one in each cell of a "
         "grid, moved from its middle.",
         "poisson"),
-    param<&ScatterSpaced::edge>("edge", "Kept free along the border, in metres.", "0"),
+    param<&ScatterSpaced::edge>("edge", "Kept free along the border, in metres.", "0").atLeast(0),
     param<&ScatterSpaced::jitter>(
-        "jitter", "jittered: how far points may be moved, as a share of the cell.", "0.8"),
+        "jitter", "jittered: how far points may be moved, as a share of the cell.", "0.8")
+        .atLeast(0),
 };
 constexpr Signature kSpaced[] = {{kSpacedParams}};
 
+constexpr PartSpec kParts[] = {{"placed", "A footprint where it found its place."},
+                               {"remainder", "The face without the footprints."},
+                               {"hull", "The convex hull of all footprints."}};
 constexpr OpSpec kSpecs[] = {
     heavy({"arrange", "layout",
            "Finds free places for footprints, each near to where it is wished.", kArrange,
-           typed<applyArrange>, BlockKind::Selectors, kRandom, "placed remainder hull", false,
-           true}),
+           typed<applyArrange>, BlockKind::Selectors, kRandom, kParts, false, true}),
     {"scatterSpaced", "layout", "Gives out points that keep a distance from each other.", kSpaced,
-     typed<applySpaced>, BlockKind::Operations, kRandom, nullptr, false, true},
+     typed<applySpaced>, BlockKind::Operations, kRandom, kNoParts, false, true},
 };
 
 }  // namespace

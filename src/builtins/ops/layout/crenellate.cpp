@@ -55,11 +55,6 @@ struct Crenellate {
 
 Status applyCrenellate(OpCall& call, const Crenellate& args) {
   const CrenellationOptions o{args.merlon, args.gap, args.thickness};
-  for (const double v : {o.merlon, o.gap, o.thickness}) {
-    if (v > 0 && std::isfinite(v)) continue;
-    return call.fail("bad-argument", "crenellate needs a merlon, a gap and a thickness above zero",
-                     "such as crenellate(1.5, 0.75, 0.5)");
-  }
   std::vector<Ground> grounds;
   if (Status bad = groundsOf(call, grounds); !bad) return bad;
   double count = 0;
@@ -79,16 +74,18 @@ Status applyCrenellate(OpCall& call, const Crenellate& args) {
 }
 
 constexpr ParamSpec kParams[] = {
-    param<&Crenellate::merlon>("merlon", "Width of a merlon along the outline.", "1.5"),
-    param<&Crenellate::gap>("gap", "Width of the gap between two of them.", "0.75"),
-    param<&Crenellate::thickness>("thickness", "How far they reach inward.", "0.5"),
+    param<&Crenellate::merlon>("merlon", "Width of a merlon along the outline.", "1.5").above(0),
+    param<&Crenellate::gap>("gap", "Width of the gap between two of them.", "0.75").above(0),
+    param<&Crenellate::thickness>("thickness", "How far they reach inward.", "0.5").above(0),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
+constexpr PartSpec kParts[] = {{"merlon", "Where a merlon stands."},
+                               {"crenel", "The gap between two of them."},
+                               {"remainder", "The face within."}};
 constexpr OpSpec kSpecs[] = {
     heavy({"crenellate", "layout", "Divides the band along an outline into merlons and crenels.",
-           kSignatures, typed<applyCrenellate>, BlockKind::Selectors, kPure,
-           "merlon crenel remainder", false, true}),
+           kSignatures, typed<applyCrenellate>, BlockKind::Selectors, kPure, kParts, false, true}),
 };
 
 }  // namespace

@@ -119,10 +119,6 @@ Status applyCurve(OpCall& call, const Curve& args) {
   if (points.rows > kMostGivenPoints) {
     return call.fail("bad-argument", "a curve takes 100000 points at most", "give fewer of them");
   }
-  if (!(args.tolerance > 0)) {
-    return call.fail("bad-argument", "the tolerance of a curve is above zero",
-                     "write 0.001 or leave it out");
-  }
   const auto curves = curvesOf(args);
   if (curves.empty()) {
     return call.fail("bad-argument", "the points make no line", "give at least two points");
@@ -153,10 +149,6 @@ struct Ribbon {
 
 Status applyRibbon(OpCall& call, const Ribbon& args) {
   const double width = args.width;
-  if (!(width > 0) || !std::isfinite(width)) {
-    return call.fail("bad-argument", "a ribbon needs a width above zero",
-                     "give the width in metres, such as ribbon(4)");
-  }
   const MeshRef mesh = meshInScope(call.shape());
   const auto lines = polylinesOf(*mesh, call.services().tags(), call.services().pool());
   if (lines.empty()) {
@@ -201,7 +193,8 @@ constexpr ParamSpec kCurveParams[] = {
         "row "
         "for each: x, z, radius, and two angles from x towards the back, in degrees."),
     param<&Curve::end>("end", "closed: back to the first point.", "open"),
-    param<&Curve::tolerance>("tolerance", "How far straight pieces may leave the curve.", "0.001"),
+    param<&Curve::tolerance>("tolerance", "How far straight pieces may leave the curve.", "0.001")
+        .above(0),
     param<&Curve::what>(
         "what",
         "instead: of the geometry that was there; beside: that stays, as the area of streets.",
@@ -209,14 +202,14 @@ constexpr ParamSpec kCurveParams[] = {
 };
 constexpr Signature kCurve[] = {{kCurveParams}};
 constexpr ParamSpec kRibbonParams[] = {
-    param<&Ribbon::width>("width", "From side to side, in metres.")};
+    param<&Ribbon::width>("width", "From side to side, in metres.").above(0)};
 constexpr Signature kRibbon[] = {{kRibbonParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"curve", "layout", "Makes the geometry a line through given points.", kCurve,
-     typed<applyCurve>, BlockKind::None, kPure, nullptr, false, true},
+     typed<applyCurve>, BlockKind::None, kPure, kNoParts, false, true},
     heavy({"ribbon", "layout", "Gives lines a width.", kRibbon, typed<applyRibbon>, BlockKind::None,
-           kPure, nullptr, false, true}),
+           kPure, kNoParts, false, true}),
 };
 
 }  // namespace

@@ -77,10 +77,6 @@ Status applyHull(OpCall& call, const Hull& args) {
     points.push_back({local.x, local.y});
   }
   const double shortest = args.shortest;
-  if (!(shortest >= 0) || !std::isfinite(shortest)) {
-    return call.fail("bad-argument", "the shortest edge of a hull is not negative",
-                     "write hull() for the hull as it is");
-  }
   Ring hull = withoutShortEdges(convexHull(points), shortest);
   MeshBuilder b;
   addFaces(b, grounds[0], {Polygon{std::move(hull), {}}});
@@ -194,9 +190,8 @@ Status applySmooth(OpCall& call, const SmoothOutline& args) {
   s.kind = kindOf(args.mode);
   s.radius = amount;
   const bool times = s.kind != Smoothing::Kind::Round;
-  if (!(amount > 0) || !std::isfinite(amount) || (times && amount > kMostCuts)) {
-    return call.fail("bad-argument",
-                     "smoothOutline cuts corners 1 to 6 times, or rounds them by a radius above 0",
+  if (times && amount > kMostCuts) {
+    return call.fail("bad-argument", "smoothOutline cuts corners 1 to 6 times",
                      "such as smoothOutline(chaikin, 3)");
   }
   s.times = times ? static_cast<uint32_t>(std::max(1.0, std::nearbyint(amount))) : 1;
@@ -209,10 +204,6 @@ struct RoughenOutline {
 
 Status applyRoughen(OpCall& call, const RoughenOutline& args) {
   const double amount = args.amount, wavelength = args.wavelength;
-  if (!std::isfinite(amount) || !(wavelength > 0) || !std::isfinite(wavelength)) {
-    return call.fail("bad-argument", "roughenOutline needs a wavelength above zero",
-                     "such as roughenOutline(2, 15)");
-  }
   std::vector<Ground> grounds;
   if (Status bad = groundsOf(call, grounds); !bad) return bad;
   double size = 0;
@@ -228,7 +219,8 @@ Status applyRoughen(OpCall& call, const RoughenOutline& args) {
 
 constexpr ParamSpec kHullParams[] = {
     param<&Hull::shortest>("shortest",
-                           "Shorter edges go: their neighbours are drawn on until they meet.", "0"),
+                           "Shorter edges go: their neighbours are drawn on until they meet.", "0")
+        .atLeast(0),
 };
 constexpr Signature kHull[] = {{kHullParams}};
 constexpr ParamSpec kRingParams[] = {
@@ -243,12 +235,13 @@ constexpr Signature kRing[] = {{kRingParams}};
 constexpr ParamSpec kSmoothParams[] = {
     param<&SmoothOutline::mode>(
         "mode", "chaikin cuts corners, average draws them in, round rounds them by a radius."),
-    param<&SmoothOutline::amount>("amount", "How often, or the radius in metres.", "2, radius 1"),
+    param<&SmoothOutline::amount>("amount", "How often, or the radius in metres.", "2, radius 1")
+        .above(0),
 };
 constexpr Signature kSmooth[] = {{kSmoothParams}};
 constexpr ParamSpec kRoughenParams[] = {
     param<&RoughenOutline::amount>("amount", "How far points move at most, outward and inward."),
-    param<&RoughenOutline::wavelength>("wavelength", "Over what distance that changes."),
+    param<&RoughenOutline::wavelength>("wavelength", "Over what distance that changes.").above(0),
 };
 constexpr Signature kRoughen[] = {{kRoughenParams}};
 

@@ -47,19 +47,14 @@ struct Parcels {
   double irregularity;
 };
 
-Status optionsOf(const OpCall& call, const Parcels& args, ParcelOptions& o) {
+ParcelOptions optionsOf(const Parcels& args) {
+  ParcelOptions o;
   o.targetArea = args.area;
-  if (!(o.targetArea > 0)) {
-    return call.fail("bad-argument", "parcels need an area larger than 0",
-                     "give the area of a lot in square metres");
-  }
   o.minWidth = args.minWidth.value_or(std::sqrt(o.targetArea) / 3);
   o.minArea = args.minArea.value_or(o.targetArea / 3);
   o.minFrontage = o.minWidth / 2;
   o.irregularity = args.irregularity;
-  const bool sound = o.minWidth >= 0 && o.minArea >= 0 && o.irregularity >= 0;
-  if (sound) return {};
-  return call.fail("bad-argument", "the least sizes of parcels cannot be negative", {});
+  return o;
 }
 
 // The first item that takes the parcel; corner takes those at a corner of two streets.
@@ -73,8 +68,7 @@ const SelectorItem* itemFor(const OpCall& call, bool corner) {
 }
 
 Status applyParcels(OpCall& call, const Parcels& args) {
-  ParcelOptions options;
-  if (Status bad = optionsOf(call, args, options); !bad) return bad;
+  ParcelOptions options = optionsOf(args);
   std::vector<Ground> grounds;
   if (Status bad = groundsOf(call, grounds); !bad) return bad;
   const bool bySkeleton = args.method == Method::Skeleton;
@@ -99,19 +93,23 @@ constexpr ParamSpec kParams[] = {
         "method",
         "box cuts halves off halves, across the longer side; skeleton lays lots in rows along the "
         "streets."),
-    param<&Parcels::area>("area", "About how large a lot is to be, in square metres."),
+    param<&Parcels::area>("area", "About how large a lot is to be, in square metres.").above(0),
     param<&Parcels::minWidth>(
-        "minWidth", "No lot is narrower; a third of the side of a square lot.", "sqrt(area) / 3"),
-    param<&Parcels::minArea>("minArea", "No lot is smaller.", "area / 3"),
+        "minWidth", "No lot is narrower; a third of the side of a square lot.", "sqrt(area) / 3")
+        .atLeast(0),
+    param<&Parcels::minArea>("minArea", "No lot is smaller.", "area / 3").atLeast(0),
     param<&Parcels::irregularity>(
         "irregularity", "How far a border may lie from its regular place, 0 to 0.4 of the length.",
-        "0.1"),
+        "0.1")
+        .atLeast(0),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
+constexpr PartSpec kParts[] = {{"lot", "A lot with one street, or none."},
+                               {"corner", "A lot at a corner: streets on two sides or more."}};
 constexpr OpSpec kSpecs[] = {
     {"parcels", "layout", "Divides a block into lots, each with a side on a street.", kSignatures,
-     typed<applyParcels>, BlockKind::Selectors, kRandom, "lot corner", false, true},
+     typed<applyParcels>, BlockKind::Selectors, kRandom, kParts, false, true},
 };
 
 }  // namespace

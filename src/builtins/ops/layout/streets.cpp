@@ -139,9 +139,8 @@ const SelectorItem* itemFor(const OpCall& call, std::string_view what) {
 
 Status applyStreets(OpCall& call, const Streets& args) {
   const double spacing = args.spacing, width = args.width;
-  if (!(spacing > 0) || !(width > 0) || width >= spacing) {
-    return call.fail("bad-argument",
-                     "streets need a spacing and a width larger than 0, the width the smaller one",
+  if (width >= spacing) {
+    return call.fail("bad-argument", "the width of streets is not smaller than their spacing",
                      "such as streets(grid, 80, 12)");
   }
   std::vector<Ground> grounds;
@@ -211,9 +210,11 @@ constexpr ParamSpec kParams[] = {
     param<&Streets::spacing>("spacing",
                              "From street to street, in metres. given: how far the ground reaches "
                              "beyond them, where there "
-                             "is no face."),
+                             "is no face.")
+        .above(0),
     param<&Streets::width>("width", "Of a street, pavements included; main streets are wider.",
-                           "12"),
+                           "12")
+        .above(0),
     param<&Streets::irregularity>("irregularity",
                                   "How far streets leave their regular places, 0 to 0.4.", "0.1"),
     param<&Streets::crossSpacing>("crossSpacing",
@@ -223,10 +224,14 @@ constexpr ParamSpec kParams[] = {
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
+constexpr PartSpec kParts[] = {
+    {"block", "Ground between streets."},
+    {"roadway", "A street from one junction to the next."},
+    {"junction", "Where streets meet."},
+    {"island", "Ground that a roundabout or a square leaves in the middle of streets."}};
 constexpr OpSpec kSpecs[] = {
     {"streets", "layout", "Lays streets over a face, and gives out the blocks between them.",
-     kSignatures, typed<applyStreets>, BlockKind::Selectors, kRandom,
-     "block roadway junction island", false, true},
+     kSignatures, typed<applyStreets>, BlockKind::Selectors, kRandom, kParts, false, true},
 };
 
 }  // namespace

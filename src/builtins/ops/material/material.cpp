@@ -5,6 +5,7 @@
 
 #include "builtins/lists.h"
 #include "builtins/shared/materials.h"
+#include "builtins/shared/text_forms.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -29,10 +30,7 @@ Status applyColor(OpCall& call, const Color& args) {
   if (!args.hex) return applyRgb(call, args);
   Vec3 rgb;
   double opacity = kKeepOpacity;
-  if (!parseColor(*args.hex, rgb, opacity)) {
-    return call.fail("bad-argument", "'" + std::string(*args.hex) + "' is not a colour",
-                     "write \"#rrggbb\" or \"#rrggbboo\"");
-  }
+  parseColor(*args.hex, rgb, opacity);
   setColor(call.shape(), rgb, opacity, call.services());
   return {};
 }
@@ -96,7 +94,7 @@ Status applyResetMaterial(OpCall& call, const ResetMaterial& args) {
 }
 
 constexpr ParamSpec kHexParams[] = {
-    param<&Color::hex>("hexValue", "\"#rrggbb\", or \"#rrggbboo\" with opacity."),
+    param<&Color::hex>("hexValue", "\"#rrggbb\", or \"#rrggbboo\" with opacity.").of(kColourText),
 };
 constexpr ParamSpec kRed = param<&Color::red>("red", "Red, 0 to 1.");
 constexpr ParamSpec kGreen = param<&Color::green>("green", "Green, 0 to 1.");

@@ -96,17 +96,6 @@ Status applyQuad(OpCall& call, const Quad& args) {
   return {};
 }
 
-// How many sides an argument asks for; fails below `least` and where a mistake is plain.
-Status countOf(const OpCall& call, double v, uint32_t least, const char* what, uint32_t& count) {
-  if (!(v >= least && v <= kMaxSolidFaces)) {
-    return call.fail("bad-argument",
-                     std::string(call.spec().name) + " cannot have " + numberText(v) + " " + what,
-                     "use " + std::to_string(least) + " or more");
-  }
-  count = static_cast<uint32_t>(v);
-  return {};
-}
-
 struct Disk {
   double sides;
   std::optional<double> radius;
@@ -114,8 +103,7 @@ struct Disk {
 
 Status applyDisk(OpCall& call, const Disk& args) {
   Shape& s = call.shape();
-  uint32_t sides = 0;
-  if (Status bad = countOf(call, args.sides, 3, "vertices", sides); !bad) return bad;
+  const auto sides = static_cast<uint32_t>(args.sides);
   const FlatPlane plane = planeOf(s.size);
   Mesh mesh = inPlane(makeDisk(sides), plane);
   const Box3 box = mesh.bounds();
@@ -147,9 +135,8 @@ struct Sphere {
 };
 
 Status applySphere(OpCall& call, const Sphere& args) {
-  uint32_t sides = 0, divisions = 0;
-  if (Status bad = countOf(call, args.sides, 3, "sides", sides); !bad) return bad;
-  if (Status bad = countOf(call, args.divisions, 2, "divisions", divisions); !bad) return bad;
+  const auto sides = static_cast<uint32_t>(args.sides);
+  const auto divisions = static_cast<uint32_t>(args.divisions);
   if (uint64_t{sides} * divisions > kMaxSolidFaces) {
     return call.fail("bad-argument", "primitiveSphere would have too many faces",
                      "use fewer sides and divisions");
@@ -166,15 +153,13 @@ struct Round {
 };
 
 Status applyCylinder(OpCall& call, const Round& args) {
-  uint32_t sides = 0;
-  if (Status bad = countOf(call, args.sides, 3, "sides", sides); !bad) return bad;
+  const auto sides = static_cast<uint32_t>(args.sides);
   insertRound(call.shape(), makeCylinder(sides), args.radius, args.height);
   return {};
 }
 
 Status applyCone(OpCall& call, const Round& args) {
-  uint32_t sides = 0;
-  if (Status bad = countOf(call, args.sides, 3, "sides", sides); !bad) return bad;
+  const auto sides = static_cast<uint32_t>(args.sides);
   insertRound(call.shape(), makeCone(sides), args.radius, args.height);
   return {};
 }
@@ -192,26 +177,28 @@ constexpr ParamSpec kQuadParams[] = {
 };
 constexpr Signature kQuadSignatures[] = {{}, {kQuadParams}};
 
-constexpr const char* kSidesDoc = "Faces around the axis, 3 or more.";
+constexpr const char* kSidesDoc = "Faces around the axis.";
 constexpr const char* kRadiusDoc = "Radius in metres.";
 
 constexpr ParamSpec kDiskParams[] = {
-    param<&Disk::sides>("nVertices", "Points on the rim, 3 or more.", "16"),
+    param<&Disk::sides>("nVertices", "Points on the rim.", "16").between(3, kMaxSolidFaces),
     param<&Disk::radius>("radius", kRadiusDoc),
 };
 constexpr Signature kDiskSignatures[] = {{std::span(kDiskParams).first(1)}, {kDiskParams}};
 
 constexpr ParamSpec kSphereParams[] = {
-    param<&Sphere::sides>("sides", kSidesDoc),
-    param<&Sphere::divisions>("divisions", "Rings of faces from pole to pole, 2 or more."),
+    param<&Sphere::sides>("sides", kSidesDoc).between(3, kMaxSolidFaces),
+    param<&Sphere::divisions>("divisions", "Rings of faces from pole to pole.")
+        .between(2, kMaxSolidFaces),
     param<&Sphere::radius>("radius", kRadiusDoc),
 };
 constexpr Signature kSphereSignatures[] = {
     {}, {std::span(kSphereParams).first(2)}, {kSphereParams}};
 
-constexpr ParamSpec kRoundParams[] = {param<&Round::sides>("sides", kSidesDoc, "16")};
+constexpr ParamSpec kRoundParams[] = {
+    param<&Round::sides>("sides", kSidesDoc, "16").between(3, kMaxSolidFaces)};
 constexpr ParamSpec kRoundSizedParams[] = {
-    param<&Round::sides>("sides", kSidesDoc),
+    param<&Round::sides>("sides", kSidesDoc).between(3, kMaxSolidFaces),
     param<&Round::radius>("radius", kRadiusDoc),
     param<&Round::height>("height", "Height in metres; a negative one stands below the ground."),
 };

@@ -30,6 +30,8 @@ struct WordsOf<CentreLinks> {
 
 namespace {
 
+constexpr double kMostTargets = 1000;
+
 struct CastRays {
   Selection centres, targets;
   double path = 3;
@@ -98,7 +100,7 @@ Status targetsOf(OpCall& call, const CastRays& args, const RegionView& view,
       addCoordinates(call, view, t.values[0], out);
     } else {
       const double n = t.number(0);
-      if (!(n >= 0 && n <= 1000)) return bad;
+      if (!(n >= 0 && n <= kMostTargets)) return bad;
       for (double k = 0; k < n; ++k) {
         work(8);
         const double a = 360 * k / n;
@@ -114,11 +116,6 @@ Status applyCastRays(OpCall& call, const CastRays& args) {
   if (job.empty()) return noRegion(call);
   RayOptions o;
   o.pathWidth = args.path;
-  if (const Status status = checkPath(call, args.path); !status.ok()) return status;
-  if (!(args.share >= 0 && args.share <= 1)) {
-    return call.fail("bad-argument", "a share of the links lies between 0 and 1",
-                     "write share = 0.5");
-  }
   o.links = args.connect;
   o.thin = args.share;
   o.stopHidden = args.hidden == Hidden::Stop;
@@ -138,8 +135,8 @@ Status applyCastRays(OpCall& call, const CastRays& args) {
     if (!status.ok()) return status;
     RayResult r = castRays(view.polygon(), centres, targets, o);
     if (r.rays + 2 * r.links < 2) {
-      return failOrElse(call, "no-rays", "fewer than two rays reach the boundary",
-                        "give more targets, or a centre that sees them");
+      return call.orElse(call.fail("no-rays", "fewer than two rays reach the boundary",
+                                   "give more targets, or a centre that sees them"));
     }
     if (r.moved) {
       const bool any = std::any_of(centres.begin(), centres.end(), [&](Vec2 c) {
@@ -193,32 +190,40 @@ constexpr ParamSpec kParams[] = {
         "centres",
         "Where rays come from: centre, so many scattered places, places, point(3, 4) || point(10, "
         "4), or a list of coordinates from the scope's origin.",
-        kCentreTerms),
+        kCentreTerms)
+        .between(0, kMostDiscs),
     selection<&CastRays::targets>(
         "targets",
         "Where they go: corners, a count of equal angles, or direction(0), entrance(1.5) and "
         "point(3, 4) with || between; or a list of coordinates.",
-        kTargetTerms),
-    param<&CastRays::path>("path", "Width of the paths along rays; 0 for none.", "3"),
+        kTargetTerms)
+        .between(0, kMostTargets),
+    param<&CastRays::path>("path", "Width of the paths along rays; 0 for none.", "3").atLeast(0),
     param<&CastRays::radius>(
         "radius", "Scattered centres keep so far from the boundary, and twice from each other.",
-        "0"),
+        "0")
+        .atLeast(0),
     param<&CastRays::connect>(
         "connect",
         "How several centres are joined: not at all, in a round, by the shortest tree, two and "
         "two, "
         "each with the one across, or by the tree and a share of the shortest links besides.",
         "tree"),
-    param<&CastRays::share>("share", "Of connect = thin: the share of further links.", "0"),
+    param<&CastRays::share>("share", "Of connect = thin: the share of further links.", "0")
+        .between(0, 1),
     param<&CastRays::hidden>(
         "hidden", "A target that something hides: no ray, or one that stops there.", "drop"),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
+constexpr PartSpec kParts[] = {{"region", "Ground between rays."},
+                               {"path", "A path along a ray or between centres."},
+                               {"centre", "Where rays come from; may begin with a figure."},
+                               kOtherwise};
 constexpr OpSpec kSpecs[] = {
     withFigures({"castRays", "region", "Divides a region by paths from centres to its boundary.",
-                 kSignatures, typed<applyCastRays>, BlockKind::Selectors, kRandom,
-                 "region path centre otherwise", false, true},
+                 kSignatures, typed<applyCastRays>, BlockKind::Selectors, kReadsRegion | kRandom,
+                 kParts, false, true},
                 "centre", kRegionChoice),
 };
 

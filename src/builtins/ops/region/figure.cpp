@@ -60,8 +60,8 @@ Status become(OpCall& call, const PlanFigure& figure, Reach reach) {
     pieces[face] = combineTraced(BooleanOp::Intersection, wholePiece(region), together, made);
   }
   if (pieces[face].empty()) {
-    return failOrElse(call, "region-vanished", "nothing of the figure lies in the region",
-                      "make it larger, or free");
+    return call.orElse(call.fail("region-vanished", "nothing of the figure lies in the region",
+                                 "make it larger, or free"));
   }
   job.replace(call.shape(), pieces, true);
   return {};
@@ -160,14 +160,15 @@ Status applyPolygon(OpCall& call, const Figure& f) {
 
 constexpr ParamSpec kReach = param<&Figure::reach>(
     "reach", "inside: only as far as the figure lies in the region; free: all of it.", "inside");
-constexpr ParamSpec kRadius = param<&Figure::size>("radius", "From the middle to a corner.");
+constexpr ParamSpec kRadius =
+    param<&Figure::size>("radius", "From the middle to a corner.").above(0);
 constexpr ParamSpec kCircle[] = {
-    param<&Figure::size>("radius", "In metres."),
+    param<&Figure::size>("radius", "In metres.").above(0),
     param<&Figure::sides>("segments", "How many sides stand for the circle.", "24"), kReach};
 constexpr ParamSpec kRhombus[] = {kRadius, kReach};
-constexpr ParamSpec kSquare[] = {param<&Figure::size>("side", "In metres."), kReach};
-constexpr ParamSpec kRect[] = {param<&Figure::size>("width", "Along x."),
-                               param<&Figure::height>("height", "Across."), kReach};
+constexpr ParamSpec kSquare[] = {param<&Figure::size>("side", "In metres.").above(0), kReach};
+constexpr ParamSpec kRect[] = {param<&Figure::size>("width", "Along x.").above(0),
+                               param<&Figure::height>("height", "Across.").above(0), kReach};
 constexpr ParamSpec kPolygon[] = {param<&Figure::sides>("sides", "Three or more."), kRadius,
                                   kReach};
 constexpr Signature kCircleSignatures[] = {{kCircle}};
@@ -179,30 +180,31 @@ constexpr Signature kPolygonSignatures[] = {{kPolygon}};
 
 constexpr OpSpec kSpecs[] = {
     asFigure({"circle", "region", "Replaces a region by a circle in its middle.", kCircleSignatures,
-              typed<applyCircle>, BlockKind::Operations, kPure, "otherwise", true, true}),
+              typed<applyCircle>, BlockKind::Operations, kReadsRegion, kOtherwiseOnly, true, true}),
     {"joined",
      "region",
      "Replaces a region by all that a block makes of it, united.",
      kJoinedSignatures,
      joinLater,
      BlockKind::Operations,
-     kPure,
-     "otherwise",
+     kReadsRegion,
+     kOtherwiseOnly,
      true,
      true,
      {},
      1,
      unite},
     asFigure({"rect", "region", "Replaces a region by a rectangle in its middle.", kRectSignatures,
-              typed<applyRect>, BlockKind::Operations, kPure, "otherwise", true, true}),
+              typed<applyRect>, BlockKind::Operations, kReadsRegion, kOtherwiseOnly, true, true}),
     asFigure({"regularPolygon", "region",
               "Replaces a region by a polygon of equal sides in its middle.", kPolygonSignatures,
-              typed<applyPolygon>, BlockKind::Operations, kPure, "otherwise", true, true}),
+              typed<applyPolygon>, BlockKind::Operations, kReadsRegion, kOtherwiseOnly, true,
+              true}),
     asFigure({"rhombus", "region", "Replaces a region by a square on its corner in its middle.",
-              kRhombusSignatures, typed<applyRhombus>, BlockKind::Operations, kPure, "otherwise",
-              true, true}),
+              kRhombusSignatures, typed<applyRhombus>, BlockKind::Operations, kReadsRegion,
+              kOtherwiseOnly, true, true}),
     asFigure({"square", "region", "Replaces a region by a square in its middle.", kSquareSignatures,
-              typed<applySquare>, BlockKind::Operations, kPure, "otherwise", true, true}),
+              typed<applySquare>, BlockKind::Operations, kReadsRegion, kOtherwiseOnly, true, true}),
 };
 
 }  // namespace

@@ -135,7 +135,6 @@ Status optionsOf(const OpCall& call, const GridArguments& args, GridOptions& o) 
   if (status.ok()) {
     status = dimensionOf(call, args.rows, args.heights, args.rowAngles, 10, args.lines, o.y);
   }
-  if (status.ok()) status = checkPath(call, args.path);
   o.pathWidth = args.path;
   o.fit = args.fit;
   o.base = args.base;
@@ -148,14 +147,14 @@ Status optionsOf(const OpCall& call, const GridArguments& args, GridOptions& o) 
 Status problemOf(OpCall& call, GridProblem problem) {
   switch (problem) {
     case GridProblem::TooManyCells:
-      return failOrElse(call, "grid-too-many", "the grid would have more than 100000 cells",
-                        "write larger sizes or smaller counts");
+      return call.orElse(call.fail("grid-too-many", "the grid would have more than 100000 cells",
+                                   "write larger sizes or smaller counts"));
     case GridProblem::DoesNotFit:
-      return failOrElse(call, "grid-does-not-fit", "the cells do not fit into the region",
-                        "write smaller sizes, or fit = stretch");
+      return call.orElse(call.fail("grid-does-not-fit", "the cells do not fit into the region",
+                                   "write smaller sizes, or fit = stretch"));
     default:
-      return failOrElse(call, "no-geometry", "the region has no area to divide",
-                        "divide a larger region");
+      return call.orElse(
+          call.fail("no-geometry", "the region has no area to divide", "divide a larger region"));
   }
 }
 
@@ -209,8 +208,8 @@ Status applyGrid(OpCall& call, const GridArguments& args) {
     RegionView& view = *job.faces()[f];
     options.seed = call.randomAddress(f);
     if (area(view.polygon()) < args.least) {
-      return failOrElse(call, "no-geometry", "the region is too small to be divided",
-                        "divide a larger region, or lower 'least'");
+      return call.orElse(call.fail("no-geometry", "the region is too small to be divided",
+                                   "divide a larger region, or lower 'least'"));
     }
     bool bad = false;
     if (junction && call.figureCode(*junction) != 0) {
@@ -250,6 +249,8 @@ Status applyGrid(OpCall& call, const GridArguments& args) {
   return {};
 }
 
+constexpr double kMostMapped = 100;
+
 struct QuadMap {
   double columns = 0, rows = 0;
 };
@@ -258,11 +259,6 @@ Status applyQuadMap(OpCall& call, const QuadMap& args) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
   const double nx = args.columns, ny = args.rows;
-  constexpr double kMost = 100;
-  if (!(nx >= 1 && nx <= kMost && ny >= 1 && ny <= kMost)) {
-    return failOrElse(call, "bad-argument", "a map has 1 to 100 columns and rows",
-                      "write quadMap(4, 3)");
-  }
   for (size_t f = 0; f < job.faces().size(); ++f) {
     RegionView& view = *job.faces()[f];
     QuadMapResult q = quadMap(view.polygon(), static_cast<uint32_t>(nx), static_cast<uint32_t>(ny));
@@ -281,8 +277,9 @@ Status applyQuadMap(OpCall& call, const QuadMap& args) {
   return {};
 }
 
-constexpr ParamSpec kMapParams[] = {param<&QuadMap::columns>("columns", "From west to east."),
-                                    param<&QuadMap::rows>("rows", "From south to north.")};
+constexpr ParamSpec kMapParams[] = {
+    param<&QuadMap::columns>("columns", "From west to east.").between(1, kMostMapped),
+    param<&QuadMap::rows>("rows", "From south to north.").between(1, kMostMapped)};
 constexpr Signature kMapSignatures[] = {{kMapParams}};
 
 constexpr const char* kFill = "as many as the sizes fill, else 2";
@@ -291,9 +288,12 @@ constexpr const char* kStraight = "straight";
 constexpr ParamSpec kParams[] = {
     param<&GridArguments::columns>(
         "columns", "How many from west to east, or a list with the width of each: [3, ~1, 3].",
-        kFill),
-    param<&GridArguments::rows>("rows", "The same from south to north.", kFill),
-    param<&GridArguments::path>("path", "Width of the paths between cells; 0 for none.", "3"),
+        kFill)
+        .between(0, kMostCells),
+    param<&GridArguments::rows>("rows", "The same from south to north.", kFill)
+        .between(0, kMostCells),
+    param<&GridArguments::path>("path", "Width of the paths between cells; 0 for none.", "3")
+        .atLeast(0),
     param<&GridArguments::widths>(
         "widths",
         "Widths of columns, used in turn: numbers, draws such as rand(2, 4), shares of the rest "
@@ -332,14 +332,21 @@ constexpr ParamSpec kParams[] = {
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
+constexpr PartSpec kGridParts[] = {{"region", "A cell."},
+                                   {"path", "A path between two cells, from crossing to crossing."},
+                                   {"junction", "Where paths cross; may begin with a figure."},
+                                   {"remainder", "Of the region, what no cell and no path covers."},
+                                   kOtherwise};
+constexpr PartSpec kMapParts[] = {
+    {"region", "A cell."}, {"remainder", "Of the region, what no cell covers."}, kOtherwise};
 constexpr OpSpec kSpecs[] = {
     withFigures({"grid", "region", "Divides a region into rows and columns with paths between.",
-                 kSignatures, typed<applyGrid>, BlockKind::Selectors, kRandom,
-                 "region path junction remainder otherwise", false, true},
+                 kSignatures, typed<applyGrid>, BlockKind::Selectors, kReadsRegion | kRandom,
+                 kGridParts, false, true},
                 "junction", kRegionChoice),
     {"quadMap", "region", "Divides a region into rows and columns that follow its four sides.",
-     kMapSignatures, typed<applyQuadMap>, BlockKind::Selectors, kPure, "region remainder otherwise",
-     false, true},
+     kMapSignatures, typed<applyQuadMap>, BlockKind::Selectors, kReadsRegion, kMapParts, false,
+     true},
 };
 
 }  // namespace

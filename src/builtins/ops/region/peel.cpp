@@ -65,15 +65,16 @@ Status applyPeel(OpCall& call, const Peel& args) {
     }
     const std::vector<PeelEdge> edges = edgesOf(call, args, job, f, distance);
     if (edges.empty()) {
-      return failOrElse(call, "empty-selection", "the selection means no edge of this region",
-                        "select others, or write what else shall happen: otherwise : ...");
+      return call.orElse(
+          call.fail("empty-selection", "the selection means no edge of this region",
+                    "select others, or write what else shall happen: otherwise : ..."));
     }
     const bool wide = std::all_of(edges.begin(), edges.end(), [](const PeelEdge& e) {
       return e.distance > 0 && std::isfinite(e.distance);
     });
     if (!wide) {
-      return failOrElse(call, "bad-argument", "a strip needs a width above zero",
-                        "write metres, or a share of the region's inner radius: '0.5");
+      return call.orElse(call.fail("bad-argument", "a strip needs a width above zero",
+                                   "write metres, or a share of the region's inner radius: '0.5"));
     }
     PeelResult r = peel(view.polygon(), edges, ends, smoothing);
     for (RegionPiece& p : r.strips) {
@@ -117,10 +118,6 @@ Status applyContract(OpCall& call, const Contract& args) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
   if (!job.flat()) return noOneRegion(call);
-  if (!std::isfinite(args.size.number) || args.size.number < 0) {
-    return call.fail("bad-argument", "a region is contracted by zero or more",
-                     "write metres, or a share: '0.2");
-  }
   std::vector<std::vector<RegionPiece>> pieces;
   bool any = false;
   for (const auto& view : job.faces()) {
@@ -128,8 +125,8 @@ Status applyContract(OpCall& call, const Contract& args) {
     any = any || !pieces.back().empty();
   }
   if (!any) {
-    return failOrElse(call, "region-vanished", "nothing of the region is left",
-                      "contract by less; half of its width is the most");
+    return call.orElse(call.fail("region-vanished", "nothing of the region is left",
+                                 "contract by less; half of its width is the most"));
   }
   job.replace(call.shape(), pieces);
   return {};
@@ -157,7 +154,9 @@ constexpr ParamSpec kPeel[] = {
     param<&Peel::width>("width",
                         "How far, in metres or, with ', as a share of the radius of the largest "
                         "disc inside.",
-                        "what wide() says"),
+                        "what wide() says")
+        .above(0)
+        .unless("wide"),
     param<&Peel::orthogonal>("orthogonal", "Strips end square to their edge.", "false"),
     selection<&Peel::smooth>("smooth",
                              "How the border between strip and rest is smoothed: none, average(2), "
@@ -166,8 +165,8 @@ constexpr ParamSpec kPeel[] = {
 };
 constexpr ParamSpec kContract[] = {
     param<&Contract::size>(
-        "size",
-        "How far, in metres; with ' every vertex goes this share of its way to the centre."),
+        "size", "How far, in metres; with ' every vertex goes this share of its way to the centre.")
+        .atLeast(0),
     param<&Contract::towards>(
         "towards", "boundary: only inward; centre: drawn together towards the centre besides.",
         "boundary"),
@@ -176,14 +175,17 @@ constexpr Signature kCutHolesSignatures[] = {{}};
 constexpr Signature kPeelSignatures[] = {{kPeel}};
 constexpr Signature kContractSignatures[] = {{kContract}};
 
+constexpr PartSpec kPeelParts[] = {{"strip", "A strip along an edge, or along several that meet."},
+                                   {"rest", "What the strips leave of the region."},
+                                   kOtherwise};
 constexpr OpSpec kSpecs[] = {
     {"peel", "region", "Takes strips off the boundary of a region.", kPeelSignatures,
-     typed<applyPeel>, BlockKind::Selectors, kRandom | kReadsWorld | kReadsWorldByWord,
-     "strip rest otherwise", false, true},
+     typed<applyPeel>, BlockKind::Selectors,
+     kReadsRegion | kRandom | kReadsWorld | kReadsWorldByWord, kPeelParts, false, true},
     {"contract", "region", "Moves the boundary of a region inward.", kContractSignatures,
-     typed<applyContract>, BlockKind::Operations, kPure, "otherwise", true, true},
+     typed<applyContract>, BlockKind::Operations, kReadsRegion, kOtherwiseOnly, true, true},
     {"cutHoles", "region", "Cuts a region apart so that no part of it has a hole.",
-     kCutHolesSignatures, applyCutHoles, BlockKind::None, kPure, nullptr, false, true},
+     kCutHolesSignatures, applyCutHoles, BlockKind::None, kReadsRegion, kNoParts, false, true},
 };
 
 }  // namespace

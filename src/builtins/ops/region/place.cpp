@@ -34,6 +34,8 @@ struct Distribute {
   bool over = false, split = false, chain = false;
 };
 
+constexpr double kMostIntervals = 100000;
+
 // South-west, south-east, north-east, north-west.
 Quad cornersOf(const RegionView& view) {
   const Ring& r = view.polygon().outer;
@@ -326,7 +328,7 @@ void finish(OpCall& call, RegionJob& job, std::span<const Placer> placers) {
                              " figures were left out, because others stand there",
                          "place them farther apart, or make them smaller");
   }
-  if (placers.empty() || placers.back().count() == 0) giveToOtherwise(call);
+  if (placers.empty() || placers.back().count() == 0) call.giveToOtherwise();
   if (!cuts) return;
   std::vector<std::vector<RegionPiece>> left;
   for (const Placer& p : placers) left.push_back(p.left());
@@ -367,8 +369,8 @@ Status stationsOf(const OpCall& call, const Distribute& args, bool clockwise, co
   if (args.intervals || args.interval) {
     const double count =
         args.intervals ? *args.intervals : std::round(line.length() / *args.interval);
-    if (!(count <= 100000)) {
-      return call.fail("bad-argument", "there can be 1 to 100000 intervals", "write fewer");
+    if (!(count <= kMostIntervals)) {
+      return call.fail("bad-argument", "there can be 1 to 100000 intervals", "write longer ones");
     }
     for (const Station& s :
          evenly(line, static_cast<uint32_t>(std::max(1.0, count)),
@@ -502,7 +504,8 @@ constexpr ParamSpec kDistribute[] = {
     param<&Distribute::spacing>("spacing", "Metres between them, kept exactly.", "1"),
     param<&Distribute::inset>("inset", "How far inside the edge.", "0"),
     param<&Distribute::at>("at", "Shares of the edge's length, clockwise: [0.2, 0.8].", "none"),
-    param<&Distribute::intervals>("intervals", "How many equal parts; one at each joint.", "none"),
+    param<&Distribute::intervals>("intervals", "How many equal parts; one at each joint.", "none")
+        .atMost(kMostIntervals),
     param<&Distribute::interval>("interval", "About how long these parts are.", "none"),
     param<&Distribute::start>("start", "One where the edge begins as well.", "false"),
     param<&Distribute::end>("end", "One where the edge ends as well.", "false"),
@@ -513,18 +516,20 @@ constexpr Signature kPlaceSignatures[] = {{kPlace}};
 constexpr Signature kDistributeSignatures[] = {{kDistribute}};
 
 constexpr OpSpec kSpecs[] = {
-    withFigures({"place", "region",
-                 "Puts something at a place of a region, and cuts out the figure that it begins "
-                 "with.",
-                 kPlaceSignatures, typed<applyPlace>, BlockKind::Operations,
-                 kRandom | kReadsWorld | kReadsWorldByWord, "otherwise", false, true},
-                "", kRegionChoice),
-    withFigures({"distribute", "region",
-                 "Puts things along edges of a region, and cuts out the figures that they begin "
-                 "with.",
-                 kDistributeSignatures, typed<applyDistribute>, BlockKind::Operations,
-                 kRandom | kReadsWorld | kReadsWorldByWord, "otherwise", false, true},
-                "", kRegionChoice),
+    withFigures(
+        {"place", "region",
+         "Puts something at a place of a region, and cuts out the figure that it begins "
+         "with.",
+         kPlaceSignatures, typed<applyPlace>, BlockKind::Operations,
+         kReadsRegion | kRandom | kReadsWorld | kReadsWorldByWord, kOtherwiseOnly, false, true},
+        "", kRegionChoice),
+    withFigures(
+        {"distribute", "region",
+         "Puts things along edges of a region, and cuts out the figures that they begin "
+         "with.",
+         kDistributeSignatures, typed<applyDistribute>, BlockKind::Operations,
+         kReadsRegion | kRandom | kReadsWorld | kReadsWorldByWord, kOtherwiseOnly, false, true},
+        "", kRegionChoice),
 };
 
 }  // namespace

@@ -11,7 +11,6 @@ namespace gable {
 
 namespace {
 
-constexpr double kMostDiscs = 5000;
 constexpr size_t kMostPoints = 100000;
 
 struct ScatterCircles {
@@ -54,10 +53,9 @@ Status applyScatterCircles(OpCall& call, const ScatterCircles& args) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
   const DrawnNumber radius = numberOf(args.radius, call.services(), call.randomAddress(902));
-  if (!(radius.low() > 0) || !(radius.high() > 0) || !std::isfinite(radius.high()) ||
-      !(args.count >= 0 && args.count <= kMostDiscs) || !(args.gap >= 0) || !(args.edge >= 0)) {
-    return call.fail("bad-argument", "there can be 0 to 5000 discs of radii above zero",
-                     "write a count and a radius: scatterCircles(5, rand(2, 4))");
+  if (!(radius.low() > 0) || !(radius.high() > 0) || !std::isfinite(radius.high())) {
+    return call.fail("bad-argument", "discs need a radius above zero",
+                     "write metres, or draw them: scatterCircles(5, rand(2, 4))");
   }
   if (args.cut && !job.flat()) return noOneRegion(call);
   uint32_t piece = 0;
@@ -82,7 +80,7 @@ Status applyScatterCircles(OpCall& call, const ScatterCircles& args) {
     left.push_back(combineTraced(BooleanOp::Difference, wholePiece(view.polygon()), taken, made));
   }
   if (piece == 0) {
-    giveToOtherwise(call);
+    call.giveToOtherwise();
   } else if (args.cut) {
     job.replace(call.shape(), left);
   }
@@ -90,18 +88,20 @@ Status applyScatterCircles(OpCall& call, const ScatterCircles& args) {
 }
 
 constexpr ParamSpec kParams[] = {
-    param<&ScatterCircles::count>("count", "How many; 0 for as many as fit."),
-    param<&ScatterCircles::radius>("radius", "In metres, or drawn for each: rand(2, 4).", "1"),
-    param<&ScatterCircles::gap>("gap", "Metres between discs.", "0"),
-    param<&ScatterCircles::edge>("edge", "Metres to the boundary.", "0"),
+    param<&ScatterCircles::count>("count", "How many; 0 for as many as fit.")
+        .between(0, kMostDiscs),
+    param<&ScatterCircles::radius>("radius", "In metres, or drawn for each: rand(2, 4).", "1")
+        .above(0),
+    param<&ScatterCircles::gap>("gap", "Metres between discs.", "0").atLeast(0),
+    param<&ScatterCircles::edge>("edge", "Metres to the boundary.", "0").atLeast(0),
     param<&ScatterCircles::cut>("cut", "The discs are cut out of the region.", "false"),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"scatterCircles", "region", "Scatters discs that touch neither each other nor the boundary.",
-     kSignatures, typed<applyScatterCircles>, BlockKind::Operations, kRandom, "otherwise", false,
-     true},
+     kSignatures, typed<applyScatterCircles>, BlockKind::Operations, kReadsRegion | kRandom,
+     kOtherwiseOnly, false, true},
 };
 
 }  // namespace

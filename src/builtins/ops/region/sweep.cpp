@@ -35,11 +35,6 @@ struct Sweep {
   bool cut = false;
 };
 
-Status checked(const OpCall& call, double inset) {
-  if (std::isfinite(inset) && inset >= 0) return {};
-  return call.fail("bad-argument", "an inset is zero or more metres", "write 0 or leave it out");
-}
-
 // The cross-section and the height of a volume; none for flat ribbons and bare lines.
 struct Section {
   std::optional<Profile> profile;
@@ -78,13 +73,8 @@ Status sectionOf(const OpCall& call, const Sweep& args, Section& out) {
 Status applySweep(OpCall& call, const Sweep& args) {
   RegionJob job(call);
   if (job.empty()) return noRegion(call);
-  if (!(args.width >= 0) || !std::isfinite(args.width)) {
-    return call.fail("bad-argument", "a ribbon cannot be " + shortestText(args.width) + " wide",
-                     "write a width above zero, or 0 for bare lines");
-  }
   Section section;
-  Status status = checked(call, args.inset);
-  if (status.ok()) status = sectionOf(call, args, section);
+  Status status = sectionOf(call, args, section);
   if (!status.ok()) return status;
   const bool flat = args.width > 0 && !section.profile;
   if (flat && args.cut && !job.flat()) return noOneRegion(call);
@@ -125,7 +115,7 @@ Status applySweep(OpCall& call, const Sweep& args) {
     left.push_back(combineTraced(BooleanOp::Difference, wholePiece(view.polygon()), taken, made));
   }
   if (piece == 0) {
-    giveToOtherwise(call);
+    call.giveToOtherwise();
   } else if (flat && args.cut) {
     job.replace(call.shape(), left);
   }
@@ -145,8 +135,7 @@ Status applyParametrise(OpCall& call, const Parametrise& args) {
   for (size_t f = 0; f < job.faces().size(); ++f) {
     const RegionView& view = *job.faces()[f];
     std::vector<Polyline> lines;
-    Status status = checked(call, args.inset);
-    if (status.ok()) status = linesOf(call, args.lines, args.inset, job, f, lines);
+    const Status status = linesOf(call, args.lines, args.inset, job, f, lines);
     if (!status.ok()) return status;
     for (const Polyline& line : lines) {
       const size_t n = line.points.size();
@@ -159,7 +148,7 @@ Status applyParametrise(OpCall& call, const Parametrise& args) {
       }
     }
   }
-  if (piece == 0) giveToOtherwise(call);
+  if (piece == 0) call.giveToOtherwise();
   return {};
 }
 
@@ -177,8 +166,8 @@ constexpr TermSpec kProfiles[] = {{"none", "Flat, or a box where there is a heig
                                   {"kerb", "One edge cut off."}};
 constexpr ParamSpec kSweep[] = {
     selection<&Sweep::lines>("lines", kLinesDoc, kEdgeTerms),
-    param<&Sweep::width>("width", "Of the ribbon, in metres; 0 for bare lines."),
-    param<&Sweep::inset>("inset", kInsetDoc, "0"),
+    param<&Sweep::width>("width", "Of the ribbon, in metres; 0 for bare lines.").atLeast(0),
+    param<&Sweep::inset>("inset", kInsetDoc, "0").atLeast(0),
     param<&Sweep::joins>("joins", "What corners look like.", "mitre"),
     param<&Sweep::ends>("ends", "What the ends look like.", "butt"),
     param<&Sweep::height>("height", "Above 0: volumes of that height.", "0"),
@@ -190,17 +179,17 @@ constexpr ParamSpec kSweep[] = {
     param<&Sweep::cut>("cut", "Flat ribbons are cut out of the region.", "false")};
 constexpr ParamSpec kParametrise[] = {
     selection<&Parametrise::lines>("lines", kLinesDoc, kEdgeTerms),
-    param<&Parametrise::inset>("inset", kInsetDoc, "0")};
+    param<&Parametrise::inset>("inset", kInsetDoc, "0").atLeast(0)};
 constexpr Signature kSweepSignatures[] = {{kSweep}};
 constexpr Signature kParametriseSignatures[] = {{kParametrise}};
 
 constexpr OpSpec kSpecs[] = {
     {"sweep", "region", "Makes ribbons of a width along the boundary of a region.",
      kSweepSignatures, typed<applySweep>, BlockKind::Operations,
-     kRandom | kReadsWorld | kReadsWorldByWord, "otherwise", false, true},
+     kReadsRegion | kRandom | kReadsWorld | kReadsWorldByWord, kOtherwiseOnly, false, true},
     {"parametrise", "region", "Gives out parts of the boundary as straight lines.",
      kParametriseSignatures, typed<applyParametrise>, BlockKind::Operations,
-     kRandom | kReadsWorld | kReadsWorldByWord, "otherwise", false, true},
+     kReadsRegion | kRandom | kReadsWorld | kReadsWorldByWord, kOtherwiseOnly, false, true},
 };
 
 }  // namespace

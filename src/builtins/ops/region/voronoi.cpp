@@ -99,10 +99,6 @@ Status applyVoronoi(OpCall& call, const Voronoi& args) {
   if (job.empty()) return noRegion(call);
   VoronoiOptions o;
   o.pathWidth = args.path;
-  if (const Status status = checkPath(call, args.path); !status.ok()) return status;
-  if (!(args.jitter >= 0) || !std::isfinite(args.jitter)) {
-    return call.fail("bad-argument", "borders are bent by zero or more metres", "write 1");
-  }
   const Services& services = call.services();
   o.smoothing = smoothingOf(termsOf(args.smooth, services, call.randomAddress(901)));
   o.borderPath = args.borderPath;
@@ -131,8 +127,8 @@ Status applyVoronoi(OpCall& call, const Voronoi& args) {
                            "write fewer sites, or a smaller radius");
     }
     if (v.pieces.empty()) {
-      return failOrElse(call, "no-sites", "no site lies in the region",
-                        "write smaller radii or other coordinates");
+      return call.orElse(call.fail("no-sites", "no site lies in the region",
+                                   "write smaller radii or other coordinates"));
     }
     if (figures && call.figureCode(*figures) != 0) {
       const Status placed =
@@ -176,8 +172,9 @@ constexpr ParamSpec kParams[] = {
         "sites",
         "How many, scattered; places, point(3, 4) || point(10, 4, 2), with a radius or without; or "
         "a list of coordinates from the scope's origin.",
-        site_terms::kSites),
-    param<&Voronoi::path>("path", "Width of the paths between cells; 0 for none.", "3"),
+        site_terms::kSites)
+        .between(0, kMostDiscs),
+    param<&Voronoi::path>("path", "Width of the paths between cells; 0 for none.", "3").atLeast(0),
     selection<&Voronoi::smooth>("smooth",
                                 "How the outlines of cells are smoothed: none, average(2), "
                                 "chaikin(2), bezier, round(1), or "
@@ -185,22 +182,29 @@ constexpr ParamSpec kParams[] = {
                                 site_terms::kSmoothing, "2", true),
     param<&Voronoi::radius>(
         "radius",
-        "Scattered sites are middles of discs of this radius, which keep apart: rand(4, 9).", "0"),
+        "Scattered sites are middles of discs of this radius, which keep apart: rand(4, 9).", "0")
+        .atLeast(0),
     param<&Voronoi::borderPath>("borderPath", "Half a path along the region's boundary as well.",
                                 "true"),
     param<&Voronoi::orphans>("orphans",
                              "Parts of a cell that its site is not in go to a neighbour, are cells "
                              "of their own, or path.",
                              "merge"),
-    param<&Voronoi::jitter>("jitter", "Metres by which borders are bent.", "0"),
+    param<&Voronoi::jitter>("jitter", "Metres by which borders are bent.", "0").atLeast(0),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
+constexpr PartSpec kParts[] = {
+    {"region", "A cell around a site."},
+    {"path", "Between two cells, and between cells and the boundary."},
+    {"junction", "Where three cells meet, else path; may begin with a figure."},
+    {"centre", "The disc of a site with a radius."},
+    kOtherwise};
 constexpr OpSpec kSpecs[] = {
-    withFigures({"voronoi", "region", "Divides a region into cells around scattered places.",
-                 kSignatures, typed<applyVoronoi>, BlockKind::Selectors, kRandom,
-                 "region path junction centre otherwise", false, true},
-                "junction", kRegionChoice),
+    withFigures(
+        {"voronoi", "region", "Divides a region into cells around scattered places.", kSignatures,
+         typed<applyVoronoi>, BlockKind::Selectors, kReadsRegion | kRandom, kParts, false, true},
+        "junction", kRegionChoice),
 };
 
 }  // namespace

@@ -129,14 +129,6 @@ Status roofOnEachFace(OpCall& call, const MakeRoof& make, bool tellsSides) {
   return {};
 }
 
-// Eaves and gable ends reach out, never in.
-bool isOverhang(double v) { return v >= 0 && std::isfinite(v); }
-
-Status badOverhang(const OpCall& call) {
-  return call.fail("roof-overhang", "the overhang of the roof is not a distance",
-                   "give zero or a positive number");
-}
-
 bool isEdgeIndex(double v) { return std::fabs(v) < 1e9; }
 
 Status badEdge(const OpCall& call) {
@@ -150,7 +142,6 @@ struct Hip : Pitch {
 };
 
 Status applyHip(OpCall& call, const Hip& args) {
-  if (!isOverhang(args.overhang)) return badOverhang(call);
   return roofOnEachFace(
       call,
       [&](const Polygon& polygon) {
@@ -166,7 +157,6 @@ struct Gable : Pitch {
 };
 
 Status applyGable(OpCall& call, const Gable& args) {
-  if (!isOverhang(args.overhangX) || !isOverhang(args.overhangY)) return badOverhang(call);
   if (args.index && !isEdgeIndex(*args.index)) return badEdge(call);
   GableOptions options;
   options.overhangX = args.overhangX;
@@ -252,11 +242,9 @@ Mesh ridgeRoof(const Mesh& m, size_t face, const Vec3& ridge, RoofPitch pitch, A
 Status applyRidge(OpCall& call, const Pitch& args) {
   Shape& s = call.shape();
   const RoofPitch pitch = pitchOf(args);
-  const bool angle = pitch.by == RoofPitch::By::Angle;
-  if (!(pitch.value > 0) || (angle && pitch.value >= 90) || !std::isfinite(pitch.value)) {
-    return call.fail("roof-pitch",
-                     "the roof's angle is not within 0 and 90 or its height not positive",
-                     "give an angle between 0 and 90 degrees or a positive height");
+  if (pitch.by == RoofPitch::By::Angle && pitch.value >= 90) {
+    return call.fail("roof-pitch", "the angle of a roof is less than 90 degrees",
+                     "give an angle between 0 and 90 degrees, or a height");
   }
   const MeshRef mesh = meshInScope(s);
   const Vec3 up = firstNormal(*mesh);
@@ -280,20 +268,20 @@ constexpr const char* kEvenDoc = "Makes ridges level; faces may then be bent.";
 constexpr const char* kEavesDoc = "How far the eaves reach out, down the slope.";
 constexpr const char* kEdgeDoc = "The edge to which the roof is turned, counted from 0.";
 
-constexpr ParamSpec kAngle[] = {param<&Pitch::value>("angle", kAngleDoc)};
+constexpr ParamSpec kAngle[] = {param<&Pitch::value>("angle", kAngleDoc).above(0).below(90)};
 constexpr ParamSpec kValue[] = {
     param<&Pitch::by>("valueType", kByDoc),
-    param<&Pitch::value>("value", kValueDoc),
+    param<&Pitch::value>("value", kValueDoc).above(0),
 };
-constexpr ParamSpec kOverhang = param<&Hip::overhang>("overhang", kEavesDoc, "0");
+constexpr ParamSpec kOverhang = param<&Hip::overhang>("overhang", kEavesDoc, "0").atLeast(0);
 constexpr ParamSpec kEven = param<&Hip::even>("even", kEvenDoc, "false");
 constexpr ParamSpec kHipByAngle[] = {kAngle[0], kOverhang, kEven};
 constexpr ParamSpec kHipByValue[] = {kValue[0], kValue[1], kOverhang, kEven};
 
 constexpr ParamSpec kGableRest[] = {
-    param<&Gable::overhangX>("overhangX", kEavesDoc, "0"),
-    param<&Gable::overhangY>("overhangY", "How far the gable ends reach out, along the ridge.",
-                             "0"),
+    param<&Gable::overhangX>("overhangX", kEavesDoc, "0").atLeast(0),
+    param<&Gable::overhangY>("overhangY", "How far the gable ends reach out, along the ridge.", "0")
+        .atLeast(0),
     param<&Gable::even>("even", kEvenDoc, "false"),
     param<&Gable::index>("index", "The edge that the ridge runs along; for a single convex face.",
                          "none"),

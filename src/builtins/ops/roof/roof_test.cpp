@@ -155,13 +155,16 @@ TEST(Roofs, wrongNumbersLeaveTheShapeAsItWas) {
   for (const char* name : {"roofHip", "roofGable", "roofShed", "roofPyramid", "roofRidge"}) {
     for (const double angle : {0., 90., -30., double(NAN)}) {
       const Ran ran = Op(name).args(angle).on(s, services);
-      EXPECT_STREQ(ran.status.code(), "roof-pitch") << name << " " << angle;
+      EXPECT_STREQ(ran.status.code(), "bad-argument") << name << " " << angle;
       EXPECT_EQ(ran.shape.geometry, s.geometry);
     }
     EXPECT_STREQ(Op(name).args(30).on(emptyShape({1, 1, 1}), services).status.code(),
                  "no-geometry");
   }
-  EXPECT_STREQ(Op("roofHip").args(30, -1).on(s, services).status.code(), "roof-overhang");
+  EXPECT_STREQ(
+      Op("roofRidge").args(word("byAngle"), 90).on(quadShape(8, 4), services).status.code(),
+      "roof-pitch");
+  EXPECT_STREQ(Op("roofHip").args(30, -1).on(s, services).status.code(), "bad-argument");
 }
 
 TEST(Roofs, hostilePolygonsGetClosedRoofs) {

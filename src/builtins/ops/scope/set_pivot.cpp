@@ -38,13 +38,7 @@ struct SetPivot {
 
 Status applySetPivot(OpCall& call, const SetPivot& args) {
   Shape& s = call.shape();
-  const double index = args.corner;
-  if (!(index > -1 && index < 8)) {
-    return call.fail("bad-argument",
-                     "setPivot has no corner " + numberText(index) + "; it stays where it is",
-                     "corners are numbered 0 to 7");
-  }
-  const Corner& corner = kCorners[static_cast<size_t>(index < 0 ? 0 : index)];
+  const Corner& corner = kCorners[static_cast<size_t>(args.corner)];
   const Vec3 at{corner.x ? s.size.x : 0, corner.y ? s.size.y : 0, corner.z ? s.size.z : 0};
   const auto inward = [](const Vec3& axis, bool far, double size) {
     return far != (size < 0) ? -axis : axis;
@@ -72,7 +66,8 @@ constexpr ParamSpec kParams[] = {
         "(zxy)."),
     param<&SetPivot::corner>(
         "cornerIndex",
-        "The corner of the scope, 0 to 3 around the bottom from the origin along x, 4 to 7 above."),
+        "The corner of the scope, 0 to 3 around the bottom from the origin along x, 4 to 7 above.")
+        .between(0, 7),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 

@@ -30,14 +30,4 @@ inline bool hasUvSet(const Shape& s, int set) {
   return s.geometry.mesh->hasUv(set);
 }
 
-/// The number of a uv set given as an argument.
-inline Status uvSetOf(const OpCall& call, double wanted, int& set) {
-  if (!(wanted >= 0 && wanted < kUvSets)) {
-    return call.fail("bad-argument", "there is no uv set " + numberText(wanted),
-                     "uv sets are numbered 0 to 9");
-  }
-  set = static_cast<int>(wanted);
-  return {};
-}
-
 }  // namespace gable

@@ -184,10 +184,12 @@ constexpr ParamSpec kParams[] = {
 constexpr Signature kSignatures[] = {{kParams}};
 constexpr Signature kNone[] = {{}};
 
+constexpr PartSpec kParts[] = {{"shape", "The largest rectangle inside."},
+                               {"remainder", "What it leaves of the face."}};
 constexpr OpSpec kSpecs[] = {
     heavy({"innerRectangle", "subdivide",
            "Gives out the largest rectangle in each face, and what remains.", kSignatures,
-           typed<applyInnerRectangle>, BlockKind::Selectors, kPure, "shape remainder"}),
+           typed<applyInnerRectangle>, BlockKind::Selectors, kPure, kParts}),
     heavy({"innerRect", "subdivide",
            "Replaces each face by the largest rectangle in it along the scope.", kNone,
            applyInnerRect}),

@@ -169,7 +169,8 @@ constexpr ParamSpec kParams[] = {
         "width",
         "Of the margin, in metres or, with ', as a share of the size along each axis (0 to 0.5); 0 "
         "takes the preferred size of the corner.",
-        "0"),
+        "0")
+        .atLeast(0),
     param<&MarginArguments::orientation>(
         "orientation",
         "Whether the pieces keep the axes of the shape, or corners and edges face out or in.",
@@ -177,10 +178,13 @@ constexpr ParamSpec kParams[] = {
 };
 constexpr Signature kSignatures[] = {{kParams}};
 
+constexpr PartSpec kParts[] = {{"corner", "A piece at a corner."},
+                               {"edge", "A strip between two corners."},
+                               {"center", "What the margin leaves."}};
 constexpr OpSpec kSpecs[] = {
     {"margin", "subdivide",
      "Divides the shape into four corners, four edges and a centre around an axis.", kSignatures,
-     typed<applyMargin>, BlockKind::Selectors, kPure, "corner edge center", false, true},
+     typed<applyMargin>, BlockKind::Selectors, kPure, kParts, false, true},
 };
 
 }  // namespace

@@ -220,12 +220,7 @@ Ref<Mesh> pointMesh() {
 
 Status applyScatter(OpCall& call, const Scatter& args) {
   const Shape& s = call.shape();
-  const double wanted = args.count;
-  if (std::isnan(wanted) || wanted > kMostPoints) {
-    return call.fail("scatter-too-many", "scatter would make more than 100000 shapes",
-                     "scatter fewer points, or divide the shape first");
-  }
-  const auto count = static_cast<uint32_t>(std::max(0.0, std::floor(wanted)));
+  const auto count = static_cast<uint32_t>(std::max(0.0, std::floor(args.count)));
   const MeshRef mesh = meshInScope(s);
   const Surface surface(*mesh);
   const bool volume = args.domain == Domain::Volume && Topology(*mesh).closed();
@@ -260,12 +255,12 @@ Status applyScatter(OpCall& call, const Scatter& args) {
 
 constexpr ParamSpec kUniform[] = {
     param<&Scatter::domain>("domain", "Where the points fall."),
-    param<&Scatter::count>("nPoints", "How many."),
+    param<&Scatter::count>("nPoints", "How many.").atMost(kMostPoints),
     param<&Scatter::distribution>("distributionType", "How they are spread."),
 };
 constexpr ParamSpec kGaussian[] = {
     param<&Scatter::domain>("domain", "Where the points fall."),
-    param<&Scatter::count>("nPoints", "How many."),
+    param<&Scatter::count>("nPoints", "How many.").atMost(kMostPoints),
     param<&Scatter::distribution>("distributionType", "How they are spread.", nullptr, "gaussian"),
     param<&Scatter::mean>("scatterMean", "The middle of the cluster, as a place in the scope.",
                           "center", "center front back left right top bottom"),

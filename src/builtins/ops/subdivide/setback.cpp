@@ -154,15 +154,6 @@ Status finish(OpCall& call, EdgeChoice& choice) {
   return {};
 }
 
-bool uvSetOf(double wanted, int& set) {
-  set = static_cast<int>(wanted);
-  return wanted >= 0 && wanted < kUvSets;
-}
-
-Status noUvSet(const OpCall& call) {
-  return call.fail("bad-argument", "there is no uv set of that number", "uv sets are 0 to 9");
-}
-
 // From a list by face edge.
 double listed(const Array& list, size_t index, double otherwise) {
   return index < list.numbers.size() ? list.numbers[index] : otherwise;
@@ -176,8 +167,7 @@ struct Setback {
 };
 
 Status applySetback(OpCall& call, const Setback& args) {
-  int uvSet = 0;
-  if (!uvSetOf(args.uvSet, uvSet)) return noUvSet(call);
+  const auto uvSet = static_cast<int>(args.uvSet);
   EdgeChoice choice(meshInScope(call.shape()));
   if (choice.mesh->empty()) return noFace(call);
   chooseEdges(call, call.shape(), uvSet, choice);
@@ -216,12 +206,7 @@ struct SetbackToArea {
 
 Status applySetbackToArea(OpCall& call, const SetbackToArea& args) {
   const double wanted = args.area;
-  if (!(wanted > 0) || !std::isfinite(wanted)) {
-    return call.fail("setback-area", "the area that is to remain is not positive",
-                     "give a positive number of square metres");
-  }
-  int uvSet = 0;
-  if (!uvSetOf(args.uvSet, uvSet)) return noUvSet(call);
+  const auto uvSet = static_cast<int>(args.uvSet);
   EdgeChoice choice(meshInScope(call.shape()));
   if (choice.mesh->empty()) return noFace(call);
   chooseEdges(call, call.shape(), uvSet, choice);
@@ -285,12 +270,12 @@ constexpr const char* kDistanceDoc = "How far the selected edges are moved inwar
 constexpr const char* kUvDoc = "The uv set for selectors such as uv.left.";
 constexpr ParamSpec kDistance[] = {
     param<&Setback::distance>("distance", kDistanceDoc),
-    param<&Setback::uvSet>("uvSet", kUvDoc, "0"),
+    param<&Setback::uvSet>("uvSet", kUvDoc, "0").between(0, kUvSets - 1),
 };
 constexpr ParamSpec kDistances[] = {
     param<&Setback::distances>("distances",
                                "A distance for each face edge, in order; 0 where missing."),
-    param<&Setback::uvSet>("uvSet", kUvDoc, "0"),
+    param<&Setback::uvSet>("uvSet", kUvDoc, "0").between(0, kUvSets - 1),
 };
 constexpr Signature kSetback[] = {{kDistance}, {kDistances}};
 
@@ -304,19 +289,19 @@ constexpr Signature kPerEdge[] = {{kEachDistance}, {kDistances}};
 
 constexpr const char* kAreaDoc = "The area that shall remain, in square metres.";
 constexpr ParamSpec kArea[] = {
-    param<&SetbackToArea::area>("area", kAreaDoc),
-    param<&SetbackToArea::uvSet>("uvSet", kUvDoc, "0"),
+    param<&SetbackToArea::area>("area", kAreaDoc).above(0),
+    param<&SetbackToArea::uvSet>("uvSet", kUvDoc, "0").between(0, kUvSets - 1),
 };
 constexpr ParamSpec kAreaLeast[] = {
-    param<&SetbackToArea::area>("area", kAreaDoc),
+    param<&SetbackToArea::area>("area", kAreaDoc).above(0),
     param<&SetbackToArea::least>("minDistances", "The least distance of each face edge."),
-    param<&SetbackToArea::uvSet>("uvSet", kUvDoc, "0"),
+    param<&SetbackToArea::uvSet>("uvSet", kUvDoc, "0").between(0, kUvSets - 1),
 };
 constexpr ParamSpec kAreaRange[] = {
-    param<&SetbackToArea::area>("area", kAreaDoc),
+    param<&SetbackToArea::area>("area", kAreaDoc).above(0),
     param<&SetbackToArea::least>("minDistances", "The least distance of each face edge."),
     param<&SetbackToArea::most>("maxDistances", "The greatest distance of each face edge."),
-    param<&SetbackToArea::uvSet>("uvSet", kUvDoc, "0"),
+    param<&SetbackToArea::uvSet>("uvSet", kUvDoc, "0").between(0, kUvSets - 1),
 };
 constexpr Signature kToArea[] = {{kArea}, {kAreaLeast}, {kAreaRange}};
 
@@ -332,23 +317,26 @@ constexpr Signature kUSignatures[] = {{kUParams}};
 constexpr Signature kOSignatures[] = {{kOParams}};
 
 constexpr uint32_t kEffects = kReadsWorld | kReadsWorldByWord;
+constexpr PartSpec kRemainder[] = {{"remainder", "What the strips leave of the face."}};
+constexpr PartSpec kWingParts[] = {{"shape", "The wings."},
+                                   {"remainder", "What they leave of the face."}};
 constexpr OpSpec kSpecs[] = {
-    heavy({"setback", "subdivide",
-           "Moves selected edges of each face inward and gives out the strips.", kSetback,
-           typed<applySetback>, BlockKind::Selectors, kEffects, "remainder"}),
-    heavy({"setbackPerEdge", "subdivide",
-           "As setback, with a distance that is worked out for each edge.", kPerEdge,
-           typed<applySetback>, BlockKind::Selectors, kEffects, "remainder"}),
-    heavy({"setbackToArea", "subdivide",
-           "As setback, by such a distance that a given area remains.", kToArea,
-           typed<applySetbackToArea>, BlockKind::Selectors, kEffects, "remainder"}),
+    withFaces(heavy({"setback", "subdivide",
+                     "Moves selected edges of each face inward and gives out the strips.", kSetback,
+                     typed<applySetback>, BlockKind::Selectors, kEffects, kRemainder})),
+    withFaces(heavy({"setbackPerEdge", "subdivide",
+                     "As setback, with a distance that is worked out for each edge.", kPerEdge,
+                     typed<applySetback>, BlockKind::Selectors, kEffects, kRemainder})),
+    withFaces(heavy({"setbackToArea", "subdivide",
+                     "As setback, by such a distance that a given area remains.", kToArea,
+                     typed<applySetbackToArea>, BlockKind::Selectors, kEffects, kRemainder})),
     heavy({"shapeL", "subdivide", "Gives out an L of a front and a left wing, and what remains.",
-           kLSignatures, typed<applyWings>, BlockKind::Selectors, kPure, "shape remainder"}),
+           kLSignatures, typed<applyWings>, BlockKind::Selectors, kPure, kWingParts}),
     heavy({"shapeU", "subdivide",
            "Gives out a U of a front, a right and a left wing, and what remains.", kUSignatures,
-           typed<applyWings>, BlockKind::Selectors, kPure, "shape remainder"}),
+           typed<applyWings>, BlockKind::Selectors, kPure, kWingParts}),
     heavy({"shapeO", "subdivide", "Gives out a ring of four wings, and what remains.", kOSignatures,
-           typed<applyWings>, BlockKind::Selectors, kPure, "shape remainder"}),
+           typed<applyWings>, BlockKind::Selectors, kPure, kWingParts}),
 };
 
 }  // namespace

@@ -97,11 +97,7 @@ Status splitAlong(OpCall& call, const Split& args) {
 
 Status splitUv(OpCall& call, const Split& args) {
   const Shape& s = call.shape();
-  const double wanted = args.uvSet;
-  const int set = static_cast<int>(wanted);
-  if (!(wanted >= 0 && wanted < kUvSets)) {
-    return call.fail("bad-argument", "there is no uv set of that number", "uv sets are 0 to 9");
-  }
+  const auto set = static_cast<int>(args.uvSet);
   const MeshRef mesh = meshInScope(s);
   if (!mesh->hasUv(set)) {
     return call.fail("split-no-uv", "the geometry has no texture coordinates in this uv set",
@@ -156,7 +152,7 @@ constexpr ParamSpec kUvParams[] = {
     param<&Split::coordinate>("direction", "The texture coordinate along which to divide."),
     param<&Split::space>("surfaceParameterization",
                          "Whether sizes count in texture coordinates or in metres on the surface."),
-    param<&Split::uvSet>("uvSet", "The uv set, 0 to 9."),
+    param<&Split::uvSet>("uvSet", "The uv set, 0 to 9.").between(0, kUvSets - 1),
 };
 constexpr Signature kSignatures[] = {{kScopeParams}, {kDirectionParams}, {kUvParams}};
 

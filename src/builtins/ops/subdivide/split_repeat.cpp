@@ -100,11 +100,11 @@ constexpr OpSpec kSpecs[] = {
     {"splitGrid", "subdivide",
      "Divides the shape along two axes into equal parts that fit the preferred size of what they "
      "become.",
-     kGridSignatures, typed<applyGrid>, BlockKind::Operations, kPure, nullptr, false, true},
+     kGridSignatures, typed<applyGrid>, BlockKind::Operations, kPure, kNoParts, false, true},
     {"splitRepeat", "subdivide",
      "Divides the shape along an axis into equal parts that fit the preferred size of what they "
      "become.",
-     kRepeatSignatures, typed<applyRepeat>, BlockKind::Operations, kPure, nullptr, false, true},
+     kRepeatSignatures, typed<applyRepeat>, BlockKind::Operations, kPure, kNoParts, false, true},
 };
 
 }  // namespace

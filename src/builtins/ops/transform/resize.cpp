@@ -112,7 +112,7 @@ constexpr OpSpec kSpecs[] = {
     {"resize", "transform",
      "Adds to the size of the scope, sets or multiplies it; boxes become rectangles and rectangles "
      "boxes.",
-     kSignatures, typed<applyResize>, BlockKind::None, kPure, nullptr, false, true},
+     kSignatures, typed<applyResize>, BlockKind::None, kPure, kNoParts, false, true},
 };
 
 }  // namespace

@@ -39,8 +39,7 @@ struct Setup {
 
 Status applySetup(OpCall& call, const Setup& args) {
   Shape& s = call.shape();
-  int set = 0;
-  if (Status bad = uvSetOf(call, args.uvSet, set); !bad) return bad;
+  const auto set = static_cast<int>(args.uvSet);
   const std::string_view axes = args.axes.text;
   const size_t dot = axes.find('.');
   const char u = dot + 2 < axes.size() ? axes[dot + 1] : 0;
@@ -110,8 +109,7 @@ struct Project {
 
 Status applyProject(OpCall& call, const Project& args) {
   Shape& s = call.shape();
-  int set = 0;
-  if (Status bad = uvSetOf(call, args.uvSet, set); !bad) return bad;
+  const auto set = static_cast<int>(args.uvSet);
   const size_t layer = static_cast<size_t>(set);
   const UvProjection* found = s.extra ? s.extra->projection(set) : nullptr;
   if (!found) {
@@ -142,7 +140,7 @@ Status applyProject(OpCall& call, const Project& args) {
 }
 
 constexpr const char* kSetDoc = "The uv set, 0 to 9, which is the texture layer that uses it.";
-constexpr ParamSpec kSet = param<&Setup::uvSet>("uvSet", kSetDoc);
+constexpr ParamSpec kSet = param<&Setup::uvSet>("uvSet", kSetDoc).between(0, kUvSets - 1);
 constexpr ParamSpec kAxes = param<&Setup::axes>(
     "axes", "Where u and v run: two axes of the scope from its origin, or of the world from its.",
     nullptr,
@@ -165,7 +163,8 @@ constexpr ParamSpec kFactorParams[] = {kSet, kAxes, kWidth, kHeight, kOffsetU, k
 constexpr Signature kSetupSignatures[] = {
     {kPlainParams}, {kOldFactorParams}, {kOffsetParams}, {kFactorParams}};
 
-constexpr ParamSpec kProjectParams[] = {param<&Project::uvSet>("uvSet", kSetDoc)};
+constexpr ParamSpec kProjectParams[] = {
+    param<&Project::uvSet>("uvSet", kSetDoc).between(0, kUvSets - 1)};
 constexpr Signature kProjectSignatures[] = {{kProjectParams}};
 
 constexpr OpSpec kSpecs[] = {
@@ -173,7 +172,7 @@ constexpr OpSpec kSpecs[] = {
      "Prepares a planar projection of a texture, which this shape and its parts keep.",
      kSetupSignatures, typed<applySetup>, BlockKind::None, kReadsWorld | kReadsWorldByWord},
     {"setupUV", "uv", "Old name of setupProjection.", kSetupSignatures, typed<applySetup>,
-     BlockKind::None, kReadsWorld | kReadsWorldByWord, nullptr, false, true},
+     BlockKind::None, kReadsWorld | kReadsWorldByWord, kNoParts, false, true},
     {"projectUV", "uv", "Writes texture coordinates from the prepared projection.",
      kProjectSignatures, typed<applyProject>, BlockKind::None, kReadsUvProjection},
 };

@@ -24,8 +24,7 @@ using UvSet = std::vector<Vec2>;
 // Runs an edit on the coordinates of a set; without coordinates there is nothing to do.
 template <class Edit>
 Status editSet(OpCall& call, double number, Edit edit) {
-  int set = 0;
-  if (Status bad = uvSetOf(call, number, set); !bad) return bad;
+  const auto set = static_cast<int>(number);
   if (!hasUvSet(call.shape(), set)) return {};
   editMesh(call.shape(), [&](Mesh& m) { edit(m, m.uvs[static_cast<size_t>(set)]); });
   return {};
@@ -145,8 +144,7 @@ struct TileUv {
 };
 
 Status applyTile(OpCall& call, const TileUv& args) {
-  int set = 0;
-  if (Status bad = uvSetOf(call, args.uvSet, set); !bad) return bad;
+  const auto set = static_cast<int>(args.uvSet);
   if (!hasUvSet(call.shape(), set)) return {};
   const MeshRef measured = meshInScope(call.shape());
   const Vec2 factor{tileFactor(args.width, uvExtent(*measured, set, 0)),
@@ -159,8 +157,7 @@ struct DeleteUv {
 };
 
 Status applyDelete(OpCall& call, const DeleteUv& args) {
-  int set = 0;
-  if (Status bad = uvSetOf(call, args.uvSet, set); !bad) return bad;
+  const auto set = static_cast<int>(args.uvSet);
   Geometry& g = call.shape().geometry;
   if (!hasUvSet(call.shape(), set)) return {};
   if (g.kind != GeometryKind::Mesh) {
@@ -177,9 +174,7 @@ struct CopyUv {
 };
 
 Status applyCopy(OpCall& call, const CopyUv& args) {
-  int from = 0, to = 0;
-  if (Status bad = uvSetOf(call, args.from, from); !bad) return bad;
-  if (Status bad = uvSetOf(call, args.to, to); !bad) return bad;
+  const auto from = static_cast<int>(args.from), to = static_cast<int>(args.to);
   if (from == to || (!hasUvSet(call.shape(), from) && !hasUvSet(call.shape(), to))) return {};
   editMesh(call.shape(),
            [&](Mesh& m) { m.uvs[static_cast<size_t>(to)] = m.uvs[static_cast<size_t>(from)]; });
@@ -189,27 +184,27 @@ Status applyCopy(OpCall& call, const CopyUv& args) {
 constexpr const char* kSetDoc = "The uv set, 0 to 9.";
 
 constexpr ParamSpec kScaleParams[] = {
-    param<&PerCoordinate::uvSet>("uvSet", kSetDoc),
+    param<&PerCoordinate::uvSet>("uvSet", kSetDoc).between(0, kUvSets - 1),
     param<&PerCoordinate::u>("uFactor", "What u is multiplied by."),
     param<&PerCoordinate::v>("vFactor", "What v is multiplied by."),
 };
 constexpr Signature kScaleSignatures[] = {{kScaleParams}};
 
 constexpr ParamSpec kTranslateParams[] = {
-    param<&PerCoordinate::uvSet>("uvSet", kSetDoc),
+    param<&PerCoordinate::uvSet>("uvSet", kSetDoc).between(0, kUvSets - 1),
     param<&PerCoordinate::u>("uOffset", "What is added to u; 1 is the width of the texture."),
     param<&PerCoordinate::v>("vOffset", "What is added to v."),
 };
 constexpr Signature kTranslateSignatures[] = {{kTranslateParams}};
 
 constexpr ParamSpec kRotateParams[] = {
-    param<&RotateUv::uvSet>("uvSet", kSetDoc),
+    param<&RotateUv::uvSet>("uvSet", kSetDoc).between(0, kUvSets - 1),
     param<&RotateUv::angle>("angle", "The turn around u = v = 0, in degrees."),
 };
 constexpr Signature kRotateSignatures[] = {{kRotateParams}};
 
 constexpr ParamSpec kNormalizeParams[] = {
-    param<&NormalizeUv::uvSet>("uvSet", kSetDoc),
+    param<&NormalizeUv::uvSet>("uvSet", kSetDoc).between(0, kUvSets - 1),
     param<&NormalizeUv::mode>(
         "normalizeMode",
         "Both coordinates each by itself, both by the larger one, or only one of them."),
@@ -219,7 +214,7 @@ constexpr ParamSpec kNormalizeParams[] = {
 constexpr Signature kNormalizeSignatures[] = {{kNormalizeParams}};
 
 constexpr ParamSpec kTileParams[] = {
-    param<&TileUv::uvSet>("uvSet", kSetDoc),
+    param<&TileUv::uvSet>("uvSet", kSetDoc).between(0, kUvSets - 1),
     param<&TileUv::width>(
         "textureWidth",
         "Width of a tile in metres; with ' as a share of what there is, with ~ about that wide so "
@@ -228,12 +223,13 @@ constexpr ParamSpec kTileParams[] = {
 };
 constexpr Signature kTileSignatures[] = {{kTileParams}};
 
-constexpr ParamSpec kDeleteParams[] = {param<&DeleteUv::uvSet>("uvSet", kSetDoc)};
+constexpr ParamSpec kDeleteParams[] = {
+    param<&DeleteUv::uvSet>("uvSet", kSetDoc).between(0, kUvSets - 1)};
 constexpr Signature kDeleteSignatures[] = {{kDeleteParams}};
 
 constexpr ParamSpec kCopyParams[] = {
-    param<&CopyUv::from>("uvSetSource", "The uv set to copy, 0 to 9."),
-    param<&CopyUv::to>("uvSetDest", "The uv set to overwrite, 0 to 9."),
+    param<&CopyUv::from>("uvSetSource", "The uv set to copy, 0 to 9.").between(0, kUvSets - 1),
+    param<&CopyUv::to>("uvSetDest", "The uv set to overwrite, 0 to 9.").between(0, kUvSets - 1),
 };
 constexpr Signature kCopySignatures[] = {{kCopyParams}};
 

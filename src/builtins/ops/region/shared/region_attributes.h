@@ -11,14 +11,17 @@
 namespace gable {
 
 inline Value regionChoiceOf(FunctionCall& call) {
-  const CellMark cell = regionFactsOf(call.services(), call.shape()).cell.value_or(CellMark{});
+  const CellMark cell = provenanceOf(call.services(), call.shape()).cell.value_or(CellMark{});
   return Value::of(cell.free ? 0 : static_cast<double>(cell.choice));
 }
 
 inline constexpr AttributeSpec kRegionChoice = {
-    "region.choice", ValueType::Float,
+    "region.choice",
+    ValueType::Float,
     "Which of several figures a junction or a placed region is, from 1; 0 where there is no "
     "choice.",
-    regionChoiceOf};
+    regionChoiceOf,
+    nullptr,
+    kReadsRegion};
 
 }  // namespace gable

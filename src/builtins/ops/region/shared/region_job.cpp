@@ -109,8 +109,8 @@ std::function<Frame()> RegionJob::worldIn(size_t face) const {
 }
 
 Status noOneRegion(OpCall& call) {
-  return failOrElse(call, "no-geometry", "the faces of the shape do not lie in one plane",
-                    "take it apart first: comp(f) { all : ... }");
+  return call.orElse(call.fail("no-geometry", "the faces of the shape do not lie in one plane",
+                               "take it apart first: comp(f) { all : ... }"));
 }
 
 Status noRegion(OpCall& call) {
@@ -119,8 +119,8 @@ Status noRegion(OpCall& call) {
       call.spec().block == BlockKind::Operations) {
     return {};
   }
-  return failOrElse(call, "no-geometry", "the shape has no face that could be divided",
-                    "begin with a lot or a face");
+  return call.orElse(call.fail("no-geometry", "the shape has no face that could be divided",
+                               "begin with a lot or a face"));
 }
 
 std::vector<EdgePart> selected(const OpCall& call, const Selection& selection, const RegionJob& job,
@@ -168,7 +168,6 @@ Status discsOf(OpCall& call, std::span<const Term> sites, const DrawnNumber& rad
     }
     return {};
   }
-  constexpr double kMostDiscs = 5000;
   if (!(v.number >= 0 && v.number <= kMostDiscs) || !(radius.low() >= 0) ||
       !std::isfinite(radius.high())) {
     return call.fail("bad-argument", "there can be 0 to 5000 discs of radii above zero",
@@ -181,12 +180,6 @@ Status discsOf(OpCall& call, std::span<const Term> sites, const DrawnNumber& rad
   options.most = std::max(radius.low(), radius.high());
   out = scatterDiscs(view.polygon(), options);
   return {};
-}
-
-Status checkPath(const OpCall& call, double width) {
-  if (width >= 0 && std::isfinite(width)) return {};
-  return call.fail("bad-argument", "a path cannot be " + shortestText(width) + " wide",
-                   "write a width of zero or more");
 }
 
 std::optional<uint32_t> slotOf(const OpCall& call, std::string_view word) {

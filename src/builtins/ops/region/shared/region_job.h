@@ -69,6 +69,9 @@ Status noRegion(OpCall& call);
 std::vector<EdgePart> selected(const OpCall& call, const Selection& selection, const RegionJob& job,
                                size_t face, std::vector<OwnWidth>* widths = nullptr);
 
+/// What is scattered at most.
+constexpr double kMostDiscs = 5000;
+
 /// Discs: so many of a drawn radius, scattered; places with a radius or without; or a list of
 /// coordinates x, y, x, y from the scope's origin, in the plane.
 Status discsOf(OpCall& call, std::span<const Term> sites, const DrawnNumber& radius,
@@ -79,9 +82,6 @@ Status discsOf(OpCall& call, std::span<const Term> sites, const DrawnNumber& rad
 /// contracted by it.
 Status linesOf(OpCall& call, const Selection& selection, double inset, const RegionJob& job,
                size_t face, std::vector<Polyline>& out);
-
-/// A width of a path, or what is wrong with it.
-Status checkPath(const OpCall& call, double width);
 
 /// The slot of the block's item with that word; none where there is none.
 std::optional<uint32_t> slotOf(const OpCall& call, std::string_view word);

@@ -4,10 +4,8 @@
 #include "builtins/ops/region/shared/region_shape.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
-#include "base/number.h"
 #include "builtins/ops/shared/refit.h"
 #include "builtins/ops/subdivide/shared/parts.h"
 #include "geom/region/autoindex.h"
@@ -15,109 +13,6 @@
 namespace gable {
 
 namespace {
-
-constexpr std::string_view kEdgePrefix = "region.edge.";
-constexpr std::string_view kRolePrefix = "region.role.";
-constexpr std::string_view kPeelPrefix = "region.peel.";
-constexpr std::string_view kDepthPrefix = "region.depth.";
-constexpr std::string_view kCellPrefix = "region.cell ";
-
-constexpr std::string_view kRoles[] = {"kept", "path", "centre", "hole",
-                                       "cut",  "base", "inner",  "cap"};
-
-constexpr std::string_view kPatterns[] = {"auto",    "centre",  "pair",  "mirror", "extend",
-                                          "extendL", "extendR", "local", "radial"};
-
-EdgeRole roleNamed(std::string_view name) {
-  for (size_t i = 0; i < std::size(kRoles); ++i) {
-    if (kRoles[i] == name) return static_cast<EdgeRole>(i);
-  }
-  return EdgeRole::Kept;
-}
-
-// The parts of a text between separators.
-std::vector<std::string_view> partsOf(std::string_view text, char separator) {
-  std::vector<std::string_view> out;
-  while (!text.empty()) {
-    const size_t end = text.find(separator);
-    out.push_back(text.substr(0, end));
-    text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
-  }
-  return out;
-}
-
-uint32_t wholeNumber(std::string_view text, uint32_t otherwise) {
-  uint32_t v = otherwise;
-  const auto r = std::from_chars(text.data(), text.data() + text.size(), v);
-  return r.ec == std::errc() ? v : otherwise;
-}
-
-double numberOf(std::string_view text) {
-  double v = 0;
-  parseNumber(text, v);
-  return v;
-}
-
-bool readCell(std::string_view tag, CellMark& c) {
-  const std::vector<std::string_view> p = partsOf(tag.substr(kCellPrefix.size()), ' ');
-  if (p.size() != 10) return false;
-  c.ix = wholeNumber(p[0], 0);
-  c.iy = wholeNumber(p[1], 0);
-  c.nx = std::max(1u, wholeNumber(p[2], 1));
-  c.ny = std::max(1u, wholeNumber(p[3], 1));
-  c.w = numberOf(p[4]);
-  c.h = numberOf(p[5]);
-  c.pattern = patternNamed(p[6]);
-  c.part = wholeNumber(p[7], 0);
-  c.choice = wholeNumber(p[8], 0);
-  c.free = p[9] == "free";
-  c.symmetric = p[9] == "symxy";
-  return true;
-}
-
-// Reads the tags of a face; false when they say nothing of regions.
-bool readFace(const Services& services, uint32_t set, RegionFacts& facts, uint32_t& others) {
-  bool known = false;
-  std::vector<StringId> rest;
-  for (const StringId id : services.tags().names(set)) {
-    const std::string_view tag = services.pool().text(id);
-    CellMark c;
-    if (tag.starts_with(kDepthPrefix)) {
-      facts.depth = wholeNumber(tag.substr(kDepthPrefix.size()), 0);
-      known = true;
-    } else if (tag.starts_with(kCellPrefix) && readCell(tag, c)) {
-      facts.cell = c;
-    } else {
-      rest.push_back(id);
-    }
-  }
-  others = services.tags().intern(std::move(rest));
-  return known;
-}
-
-EdgeMark readEdge(const Services& services, uint32_t set) {
-  EdgeMark m;
-  std::vector<StringId> rest;
-  for (const StringId id : services.tags().names(set)) {
-    const std::string_view tag = services.pool().text(id);
-    if (tag.starts_with(kEdgePrefix)) {
-      const auto p = partsOf(tag.substr(kEdgePrefix.size()), '.');
-      if (p.size() == 2) {
-        m.level = wholeNumber(p[0], 0);
-        m.logical = wholeNumber(p[1], EdgeMark::kNoLogical);
-      }
-    } else if (tag.starts_with(kRolePrefix)) {
-      m.role = roleNamed(tag.substr(kRolePrefix.size()));
-    } else if (tag.starts_with(kPeelPrefix)) {
-      const auto p = partsOf(tag.substr(kPeelPrefix.size()), '.');
-      if (p.size() == 2) m.peels.push_back({wholeNumber(p[0], 0), roleNamed(p[1])});
-    } else {
-      rest.push_back(id);
-    }
-  }
-  m.others = services.tags().intern(std::move(rest));
-  return m;
-}
 
 // Rings begin at their vertex nearest to the south-west, as rectangles do.
 size_t southWest(const Ring& r, Vec2 x) {
@@ -131,86 +26,22 @@ size_t southWest(const Ring& r, Vec2 x) {
 
 }  // namespace
 
-CellPattern patternNamed(std::string_view name) {
-  for (size_t i = 0; i < std::size(kPatterns); ++i) {
-    if (kPatterns[i] == name) return static_cast<CellPattern>(i);
-  }
-  if (name == "center") return CellPattern::Centre;
-  if (name == "extendl") return CellPattern::ExtendL;
-  if (name == "extendr") return CellPattern::ExtendR;
-  return CellPattern::Auto;
-}
-
-uint32_t CellMark::turns() const {
-  if (pattern != CellPattern::Radial || free) return 0;
-  return iy % 2 == 0 ? ix % 2 : 3 - ix % 2;
-}
-
-uint32_t CellMark::side(uint32_t k) const {
-  if (mirroredX() && k % 2 == 0) k = 2 - k;
-  if (mirroredY() && k % 2 == 1) k = 4 - k;
-  return (k + 4 - turns()) % 4;
-}
-
-bool CellMark::address(double& u, double& v) const {
-  if (free) return true;
-  if (!along(false, u) || !along(true, v)) return false;
-  for (uint32_t t = turns(); t > 0; --t) {
-    const double before = u;
-    u = 1 - v;
-    v = before;
-  }
-  return true;
-}
-
-bool CellMark::mirrored(uint32_t i, uint32_t n) const {
-  if (free) return false;
-  switch (pattern) {
-    case CellPattern::Local:
-    case CellPattern::Radial: return false;
-    case CellPattern::Pair: return i % 2 == 1;
-    case CellPattern::Auto:
-      if (n % 2 == 0) return i % 2 == 1;
-      break;
-    default: break;
-  }
-  return 2 * i >= n && !(n % 2 == 1 && i == n / 2);
-}
-
-bool CellMark::along(bool y, double& u) const {
-  const uint32_t i = y ? iy : ix, n = y ? ny : nx;
-  const bool middle = n % 2 == 1 && i == n / 2 && n > 1;
-  const bool extend = pattern == CellPattern::Extend || pattern == CellPattern::ExtendL ||
-                      pattern == CellPattern::ExtendR;
-  if (extend) {
-    // The address runs on over cells from the border.
-    const uint32_t fromLow = i, fromHigh = n - 1 - i;
-    const bool high =
-        pattern == CellPattern::ExtendR || (pattern == CellPattern::Extend && fromHigh < fromLow);
-    u -= high ? fromHigh : fromLow;
-    if (u < 0 || u > 1) return false;
-    if (high) u = 1 - u;
-    return true;
-  }
-  if (middle && pattern != CellPattern::Local && pattern != CellPattern::Radial) {
-    u = 0.5;
-    return true;
-  }
-  if (mirrored(i, n)) u = 1 - u;
-  return true;
-}
-
 RegionView::RegionView(const Services& services, const Mesh& mesh, size_t face)
     : services_(services), mesh_(mesh), plane_(mesh, face) {
-  RegionFacts facts;
-  const bool known = readFace(services, mesh.faces[face].tags, facts, otherFaceTags_);
-  depth_ = facts.depth;
-  cell_ = facts.cell;
+  const TagSetId own = mesh.faces[face].tags;
+  const RegionProvenance* const known = services.regionAt(own);
+  faceTags_ = services.tags().plain(own);
+  if (known) {
+    depth_ = known->depth;
+    cell_ = known->cell;
+  }
   const std::vector<Ring> rings = ringsOf(polygon());
   for (size_t r = 0; r < rings.size(); ++r) {
     for (size_t i = 0; i < rings[r].size(); ++i) {
       const uint32_t corner = plane_.cornerOf(r, i);
-      marks_.push_back(readEdge(services, mesh.edgeTags.empty() ? 0 : mesh.edgeTags[corner]));
+      const TagSetId set = mesh.edgeTags.empty() ? 0 : mesh.edgeTags[corner];
+      const EdgeProvenance* const edge = services.edgeAt(set);
+      marks_.push_back({edge ? *edge : EdgeProvenance(), services.tags().plain(set)});
     }
   }
   if (!known) {
@@ -274,7 +105,7 @@ std::vector<EdgeMark> RegionView::marksOf(const RegionPiece& piece, EdgeIndex in
       if (o.role != EdgeRole::Kept && o.role != EdgeRole::Base) {
         m.level = depth_ + 1;
         m.role = o.role;
-        if (o.role != EdgeRole::Inner) m.others = 0;
+        if (o.role != EdgeRole::Inner) m.tags = 0;
         // A moved edge is no longer what earlier peels made.
         m.peels.clear();
       }
@@ -305,38 +136,10 @@ std::vector<EdgeMark> RegionView::marksOf(const RegionPiece& piece, EdgeIndex in
   return out;
 }
 
-uint32_t RegionView::tagsOf(const EdgeMark& m) const {
-  ValuePool& pool = services_.pool();
-  std::vector<StringId> names = services_.tags().names(m.others);
-  const std::string logical = m.logical == EdgeMark::kNoLogical ? "n" : std::to_string(m.logical);
-  names.push_back(pool.intern(std::string(kEdgePrefix) + std::to_string(m.level) + '.' + logical));
-  if (m.role != EdgeRole::Kept) {
-    names.push_back(
-        pool.intern(std::string(kRolePrefix) + std::string(kRoles[static_cast<size_t>(m.role)])));
-  }
-  for (const PeelMark& p : m.peels) {
-    names.push_back(pool.intern(std::string(kPeelPrefix) + std::to_string(p.depth) + '.' +
-                                std::string(kRoles[static_cast<size_t>(p.role)])));
-  }
-  return services_.tags().intern(std::move(names));
-}
+TagSetId RegionView::tagsOf(const EdgeMark& m) const { return services_.tags().marked(m.tags, m); }
 
-uint32_t RegionView::faceTags(uint32_t depth, const std::optional<CellMark>& cell) const {
-  ValuePool& pool = services_.pool();
-  std::vector<StringId> names = services_.tags().names(otherFaceTags_);
-  names.push_back(pool.intern(std::string(kDepthPrefix) + std::to_string(depth)));
-  if (cell) {
-    std::string text(kCellPrefix);
-    for (const uint32_t v : {cell->ix, cell->iy, cell->nx, cell->ny}) {
-      text += std::to_string(v) + ' ';
-    }
-    text += shortestText(cell->w) + ' ' + shortestText(cell->h) + ' ';
-    text += kPatterns[static_cast<size_t>(cell->pattern)];
-    text += ' ' + std::to_string(cell->part) + ' ' + std::to_string(cell->choice);
-    text += cell->free ? " free" : cell->symmetric ? " symxy" : " grid";
-    names.push_back(pool.intern(text));
-  }
-  return services_.tags().intern(std::move(names));
+TagSetId RegionView::faceTags(uint32_t depth, const std::optional<CellMark>& cell) const {
+  return services_.tags().marked(faceTags_, RegionProvenance{depth, cell});
 }
 
 Mesh RegionView::meshOf(std::span<const RegionPiece> pieces,
@@ -466,34 +269,17 @@ Shape RegionView::lineOf(const Shape& parent, std::span<const Vec2> points, bool
   return solidOf(parent, b.take(), points[1] - points[0]);
 }
 
-RegionFacts regionFactsOf(const Services& services, const Shape& shape) {
-  RegionFacts facts;
-  if (shape.geometry.kind == GeometryKind::None || shape.geometry.kind == GeometryKind::Box) {
-    return facts;
-  }
-  uint32_t tags = 0, others = 0;
+RegionProvenance provenanceOf(const Services& services, const Shape& shape) {
+  TagSetId tags = 0;
   switch (shape.geometry.kind) {
+    case GeometryKind::None:
+    case GeometryKind::Box: return {};
     case GeometryKind::QuadXy: tags = shape.geometry.tags[kSideFront]; break;
     case GeometryKind::QuadXz: tags = shape.geometry.tags[kSideTop]; break;
-    default: tags = shape.geometry.mesh->faces[0].tags;
+    case GeometryKind::Mesh: tags = shape.geometry.mesh->faces[0].tags; break;
   }
-  readFace(services, tags, facts, others);
-  return facts;
-}
-
-Status failOrElse(OpCall& call, const char* code, const std::string& message,
-                  const std::string& hint) {
-  // After operations with plain parts the shape goes on.
-  if (call.spec().block == BlockKind::Operations) {
-    if (giveToOtherwise(call)) return {};
-    return call.fail(code, message, hint);
-  }
-  for (const SelectorItem& item : call.selectors()) {
-    if (!selectsWord(item, "otherwise", call.services().pool())) continue;
-    call.emit(call.shape(), item.slot, 0);
-    return {};
-  }
-  return call.fail(code, message, hint);
+  const RegionProvenance* const known = services.regionAt(tags);
+  return known ? *known : RegionProvenance();
 }
 
 std::optional<uint32_t> thingSlot(OpCall& call) {
@@ -502,16 +288,6 @@ std::optional<uint32_t> thingSlot(OpCall& call) {
     if (item.terms.empty()) return item.slot;
   }
   return std::nullopt;
-}
-
-bool giveToOtherwise(OpCall& call) {
-  for (const SelectorItem& item : call.selectors()) {
-    if (!selectsWord(item, "otherwise", call.services().pool())) continue;
-    call.emit(call.shape(), item.slot, 0);
-    call.shape().geometry = Geometry{};
-    return true;
-  }
-  return false;
 }
 
 std::vector<size_t> regionFaces(const Mesh& mesh) {

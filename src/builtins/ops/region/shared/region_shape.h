@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// A face of a shape as a region: its polygon, and what its tags say of where it comes from.
+// A face of a shape as a region: its polygon, and where it and its edges come from.
 //
-// Provenance lives in tags, so it goes wherever a face and its edges go:
-//
-//   face   region.depth.D                       so many partitions lie behind it
-//          region.cell IX IY NX NY W H PATTERN PART CHOICE KIND
-//                                               the cell that it is, or was cut from
-//   edge   region.edge.L.S                      made by partition L (0: the initial outline), of
-//   the
-//                                               logical edge S (n: of none)
-//          region.role.R                        path, centre, hole, cut, base, inner or cap
-//          region.peel.D.R                      base, inner or cap of the peel that made depth D
+// Where it comes from lies beside the tags of its face and its edges (shape/provenance.h), so it
+// goes wherever these go.
 //
 // Plan coordinates are those of the face's plane, which for faces square to a scope axis are the
 // scope's: (x, -z) seen from above, (x, y) seen from the front.
@@ -30,68 +22,18 @@
 #include "geom/region/grid_partition.h"
 #include "geom/region/piece.h"
 #include "shape/op_call.h"
+#include "shape/provenance.h"
 
 namespace gable {
 
-struct PeelMark {
-  uint32_t depth = 0;
-  EdgeRole role = EdgeRole::Base;
-  bool operator==(const PeelMark&) const = default;
-};
+/// Of operations on regions: the part for what they could not divide.
+inline constexpr PartSpec kOtherwise{"otherwise",
+                                     "Gets the region where the operation can do nothing."};
+inline constexpr PartSpec kOtherwiseOnly[] = {kOtherwise};
 
-struct EdgeMark {
-  static constexpr uint32_t kNoLogical = 0xffffffff;
-  uint32_t level = 0;
-  uint32_t logical = kNoLogical;
-  EdgeRole role = EdgeRole::Kept;
-  std::vector<PeelMark> peels;
-  /// Tags of other families.
-  uint32_t others = 0;
-};
-
-/// How a grid of more than two cells is mirrored; see the page of grid.
-enum class CellPattern : uint8_t {
-  Auto,
-  Centre,
-  Pair,
-  Mirror,
-  Extend,
-  ExtendL,
-  ExtendR,
-  Local,
-  Radial
-};
-
-struct CellMark {
-  uint32_t ix = 0, iy = 0, nx = 1, ny = 1;
-  double w = 0, h = 0;
-  CellPattern pattern = CellPattern::Auto;
-  /// Parts of one cell are numbered; of junctions `choice` is the figure, from 1.
-  uint32_t part = 0, choice = 0;
-  /// Not of a grid: ix counts the cells, and iy how many lie between it and the boundary.
-  bool free = false;
-  /// The distances from the border are told smaller one first.
-  bool symmetric = false;
-
-  /// How many cells lie between this one and the border.
-  uint32_t bx() const { return free ? iy : symmetric ? std::min(byX(), byY()) : byX(); }
-  uint32_t by() const { return free ? 0 : symmetric ? std::max(byX(), byY()) : byY(); }
-
-  bool mirroredX() const { return mirrored(ix, nx); }
-  bool mirroredY() const { return mirrored(iy, ny); }
-  /// Quarter turns to the left of a radial pattern.
-  uint32_t turns() const;
-  /// The side (0 west, 1 north, 2 east, 3 south) that a side of the first cell is here.
-  uint32_t side(uint32_t k) const;
-  /// An address with 0 at the border side, as the cell sees it; false when the pattern places
-  /// nothing here.
-  bool address(double& u, double& v) const;
-
- private:
-  uint32_t byX() const { return std::min(ix, nx - 1 - ix); }
-  uint32_t byY() const { return std::min(iy, ny - 1 - iy); }
-  bool along(bool y, double& u) const;
-  bool mirrored(uint32_t i, uint32_t n) const;
+/// What is known of an edge of the outline, with its tags.
+struct EdgeMark : EdgeProvenance {
+  TagSetId tags = 0;
 };
 
 /// What the logical edges of a piece are: those that its edges inherit; the sides of a grid's cell,
@@ -148,8 +90,8 @@ class RegionView {
   Shape segmentAt(const Shape& parent, Vec2 a, Vec2 b) const;
 
  private:
-  uint32_t tagsOf(const EdgeMark& m) const;
-  uint32_t faceTags(uint32_t depth, const std::optional<CellMark>& cell) const;
+  TagSetId tagsOf(const EdgeMark& m) const;
+  TagSetId faceTags(uint32_t depth, const std::optional<CellMark>& cell) const;
   Frame axesAlong(const Shape& parent, Vec2 along) const;
   Mesh meshOf(std::span<const RegionPiece> pieces, std::span<const std::vector<EdgeMark>> marks,
               uint32_t tags);
@@ -159,31 +101,16 @@ class RegionView {
   PatchPlane plane_;
   std::vector<EdgeMark> marks_;
   uint32_t depth_ = 0;
-  uint32_t otherFaceTags_ = 0;
+  TagSetId faceTags_ = 0;
   uint32_t logicalCount_ = 0;
   std::optional<CellMark> cell_;
 };
 
-/// What the face tags of a shape say, for attributes of rules.
-struct RegionFacts {
-  uint32_t depth = 0;
-  std::optional<CellMark> cell;
-};
-RegionFacts regionFactsOf(const Services& services, const Shape& shape);
-
-/// The pattern of that name; Auto for others.
-CellPattern patternNamed(std::string_view name);
-
-/// An operation that could not be done: the block's `otherwise` gets the shape, or the call fails.
-Status failOrElse(OpCall& call, const char* code, const std::string& message,
-                  const std::string& hint);
+/// Where the first face of a shape comes from; of one that is no region all is zero.
+RegionProvenance provenanceOf(const Services& services, const Shape& shape);
 
 /// Of a block { A | otherwise : B }: the slot of A; none where only otherwise is there.
 std::optional<uint32_t> thingSlot(OpCall& call);
-
-/// For operations after which the shape goes on: where nothing could be done, `otherwise` gets the
-/// shape, which then ends here. False without such a part.
-bool giveToOtherwise(OpCall& call);
 
 /// The faces of a shape that have an area.
 std::vector<size_t> regionFaces(const Mesh& mesh);

@@ -95,7 +95,7 @@ constexpr ParamSpec kGrow[] = {
     direction("Where it begins; several with || between share the outline."),
     {"most", ParamType::Float, "Degrees by which an edge may turn from the others.", "1e9"}};
 constexpr ParamSpec kWide[] = {within("Edges with a width of their own."),
-                               {"width", ParamType::Float, "In metres."}};
+                               ParamSpec{"width", ParamType::Float, "In metres."}.above(0)};
 constexpr ParamSpec kIndex[] = {{"number", ParamType::Float, "From 0, through all rings."}};
 constexpr ParamSpec kNth[] = {{"step", ParamType::Float, "Every so many edges."},
                               {"first", ParamType::Float, "The first of them.", "0"}};

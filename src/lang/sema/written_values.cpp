@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Values that are written out and that their parameter does not take: path = -1, color("blue").
+// They are known once constants are folded, so this is a pass of its own over the resolved calls.
+
+#include <algorithm>
+
+#include "lang/sema/analysis.h"
+
+namespace gable::lang {
+
+// The value of an argument, or each of a list, where it is constant.
+void Analysis::checkWrittenValue(NodeId node, const ParamSpec& param, std::string_view callee) {
+  const Tree& t = tree();
+  if (param.range.any() && !param.form) return;
+  if (t.kind(node) == NodeKind::Array) {
+    // Of a selection a list gives coordinates.
+    if (param.type == ParamType::Selection) return;
+    for (const NodeId row : t.children(node)) {
+      for (const NodeId item : t.children(row)) checkWrittenValue(item, param, callee);
+    }
+    return;
+  }
+  const NodeKind kind = t.kind(node);
+  const bool prefixed = kind == NodeKind::Relative || kind == NodeKind::Floating;
+  Value v = module().constants[prefixed ? t.child(node, 0) : node];
+  if (prefixed) v.unit = kind == NodeKind::Relative ? gable::Unit::Relative : gable::Unit::Floating;
+  if (v.type == ValueType::Null || isTaken(param, v, values_)) return;
+  errorAt("bad-argument", node, refusalText(param, callee, v, values_), refusalHint(param));
+}
+
+bool Analysis::hasTerm(NodeId node, std::string_view name) const {
+  if (node == kNoNode) return false;
+  const Resolution& r = program_.modules[body_.module].at(node);
+  if (r.kind == RefKind::Selector && r.spec.term && r.spec.term->name == name) return true;
+  const std::span<const NodeId> inside = tree().children(node);
+  return std::any_of(inside.begin(), inside.end(), [&](NodeId n) { return hasTerm(n, name); });
+}
+
+void Analysis::checkWrittenCall(NodeId node, std::string_view callee, const Signature& signature,
+                                std::span<const NodeId> args) {
+  const auto named = module().namedArguments.find(node);
+  const bool byName = named != module().namedArguments.end();
+  const std::vector<NodeId> order =
+      byName ? named->second : std::vector<NodeId>(args.begin(), args.end());
+  for (size_t i = 0; i < order.size(); ++i) {
+    if (order[i] != kNoNode) checkWrittenValue(order[i], *signature.paramAt(i), callee);
+  }
+  for (size_t p = 0; p < signature.params.size(); ++p) {
+    const ParamSpec& param = signature.params[p];
+    const bool given = p < order.size() && order[p] != kNoNode;
+    if (!param.unlessTerm || given) continue;
+    const bool excused = std::any_of(order.begin(), order.end(),
+                                     [&](NodeId n) { return hasTerm(n, param.unlessTerm); });
+    if (excused) continue;
+    errorAt("wrong-argument-count", node,
+            quote(callee) + " needs " + quote(param.name) + " as well",
+            "write " + std::string(param.name) + " = 1, or " + param.unlessTerm +
+                "() in the selection: " + docText(param));
+  }
+}
+
+void Analysis::checkWrittenValues(ModuleId firstModule) {
+  foldConstants();
+  for (ModuleId m = firstModule; m < program_.modules.size(); ++m) {
+    body_ = {};
+    body_.module = m;
+    for (NodeId node = 1; node < tree().size(); ++node) {
+      const Resolution& r = module().at(node);
+      if (r.kind == RefKind::Selector && r.spec.term) {
+        const auto order = module().namedArguments.find(node);
+        for (size_t i = 0; order != module().namedArguments.end() && i < order->second.size();
+             ++i) {
+          if (order->second[i] == kNoNode) continue;
+          checkWrittenValue(order->second[i], r.spec.term->params[i], r.spec.term->name);
+        }
+        continue;
+      }
+      if (r.signature == 0xffff || r.open) continue;
+      const std::span<const NodeId> args = arguments(tree().child(node, 0));
+      if (r.kind == RefKind::Operation && r.spec.operation->name != std::string_view("set")) {
+        const OpSpec& op = *r.spec.operation;
+        checkWrittenCall(node, op.name, op.signatures[r.signature], args);
+      } else if (r.kind == RefKind::BuiltinFunction && r.spec.function) {
+        const FunctionSpec& f = *r.spec.function;
+        checkWrittenCall(node, f.name, f.signatures[r.signature], args);
+      }
+    }
+  }
+}
+
+}  // namespace gable::lang
