@@ -14,6 +14,19 @@ namespace gable {
 
 namespace {
 
+// placed = world * inner, written once: a copy of what was just written would wait for its stores.
+void place(const Frame& world, const Frame& inner, Frame& placed) {
+  if (!world.turned) {
+    placed = inner;
+    placed.origin = world.origin + inner.origin;
+  } else if (!inner.turned) {
+    placed = world;
+    placed.origin = world.point(inner.origin);
+  } else {
+    placed = world * inner;
+  }
+}
+
 // More leaves in prototypes than this and they are forgotten.
 constexpr size_t kMostKept = size_t{1} << 12;
 
@@ -23,10 +36,10 @@ class Placer {
   Placer(const Output& from, const Take& take) : from_(from), take_(take) {}
 
   void place(const Prototype& p, const Frame& world) {
-    levels_.clear();
-    levels_.push_back({&p, world});
-    while (!levels_.empty()) {
-      Level& at = levels_.back();
+    depth_ = 0;
+    open(p).world = world;
+    while (depth_ > 0) {
+      Level& at = levels_[depth_ - 1];
       const Prototype& prototype = *at.prototype;
       const bool more = at.instance < prototype.instanceCount;
       const Instance* const next =
@@ -34,10 +47,12 @@ class Placer {
       const uint32_t end = more ? next->leavesBefore : prototype.leafCount;
       const Leaf* const leaves = from_.leaves.data() + prototype.firstLeaf;
       for (; at.leaf < end; ++at.leaf) put(leaves[at.leaf], at.world);
-      if (more)
-        levels_.push_back({&from_.prototypes[next->prototype].range, at.world * next->frame});
-      else
-        levels_.pop_back();
+      if (more) {
+        Level& inner = open(from_.prototypes[next->prototype].range);
+        gable::place(levels_[depth_ - 2].world, next->frame, inner.world);
+      } else {
+        --depth_;
+      }
     }
     pass();
   }
@@ -46,13 +61,25 @@ class Placer {
   struct Level {
     const Prototype* prototype;
     Frame world;
-    uint32_t leaf = 0, instance = 0;
+    uint32_t leaf, instance;
   };
 
+  Level& open(const Prototype& p) {
+    if (depth_ == levels_.size()) levels_.emplace_back();
+    Level& level = levels_[depth_++];
+    level.prototype = &p;
+    level.leaf = level.instance = 0;
+    return level;
+  }
   void put(const Leaf& leaf, const Frame& world) {
     Leaf& placed = batch_[count_++];
-    placed = leaf;
-    placed.frame = world * leaf.frame;
+    gable::place(world, leaf.frame, placed.frame);
+    placed.scale = leaf.scale;
+    placed.mesh = leaf.mesh;
+    placed.materials = leaf.materials;
+    placed.name = leaf.name;
+    placed.source = leaf.source;
+    placed.attributes = leaf.attributes;
     if (count_ == batch_.size()) pass();
   }
   void pass() {
@@ -62,7 +89,9 @@ class Placer {
 
   const Output& from_;
   const Take& take_;
+  /// Used again and again: those in use come first.
   std::vector<Level> levels_;
+  size_t depth_ = 0;
   std::array<Leaf, 64> batch_;
   size_t count_ = 0;
 };
