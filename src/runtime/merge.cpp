@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "base/check.h"
+#include "base/parallel.h"
 #include "base/work.h"
 #include "runtime/recall.h"
 
@@ -46,7 +47,13 @@ class Merger {
     scene_.attributeSets.emplace_back();
     attributeNumbers_.emplace(0, 0);
     // A single worker finishes prototypes in the order of the walk, so its leaves stay in place.
-    if (outputs.size() == 1) scene_.leaves = std::move(outputs[0].leaves);
+    if (outputs.size() == 1)
+      scene_.leaves = std::move(outputs[0].leaves);
+    else
+      scene_.leaves.reserve(total(&Output::leaves));
+    scene_.instances.reserve(total(&Output::instances));
+    scene_.prototypes.reserve(total(&Output::prototypes));
+    byKey_.reserve(total(&Output::prototypes));
   }
 
   void addRoot(const OutputUnit& r) {
@@ -99,6 +106,14 @@ class Merger {
     /// before has been moved. Unsigned differences wrap around, and back again.
     std::unordered_map<uint64_t, Output::Mark> segments;
   };
+
+  // In all outputs.
+  template <class T>
+  size_t total(std::vector<T> Output::*list) const {
+    size_t sum = 0;
+    for (const Output& o : outputs_) sum += (o.*list).size();
+    return sum;
+  }
 
   /// What lies in a unit between two holes: part of a prototype, and where it begins there.
   struct Segment {
@@ -474,6 +489,9 @@ Merged merge(std::vector<Output>& outputs, const std::vector<const OutputUnit*>&
     for (RecallPart& p : input.recall->parts) merger.place(p);
     merger.explain(*input.recall);
   }
+  // Millions of small blocks: each in a worker of its own.
+  const auto workers = static_cast<unsigned>(outputs.size());
+  parallelFor(workers, workers, [&](size_t w, unsigned) { outputs[w] = {}; });
   outputs.clear();
   return merger.take();
 }

@@ -7,12 +7,14 @@
 
 namespace gable {
 
-// Listed before they are numbered: where memory is refused, no number of nothing stays behind.
+// Listed before they are numbered: where memory is refused, no number of nothing stays behind. The
+// mesh remembers its hash, which merge() asks for when one worker is left.
 uint32_t Output::meshNumber(const MeshRef& m) {
   const auto address = static_cast<uint64_t>(reinterpret_cast<uintptr_t>(m.get()));
   const ShareKey key{mix64(address), address};
   if (const uint32_t* const known = meshIndex.find(key)) return *known;
   const auto number = static_cast<uint32_t>(meshes.size());
+  m->sharedHash();
   meshes.push_back(m);
   meshIndex.emplace(key, number);
   return number;
