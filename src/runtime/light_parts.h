@@ -58,6 +58,9 @@ class LightParts {
   /// Makes parts from the first on as long as they are light and no look at the limits is due. Says
   /// how many it made.
   size_t make(const Parent& parent, std::span<const SplitPiece> pieces);
+  const LightSlot& slot(uint32_t block, uint32_t rule, uint32_t number) {
+    return slots_.of(block, rule)[number];
+  }
 
  private:
   /// What parts are cut from.

@@ -57,6 +57,22 @@ TEST_F(LightSlotsTest, StepsAndANameMakeALeaf) {
   EXPECT_EQ(made.work, 3u);
 }
 
+TEST_F(LightSlotsTest, PartsForASharedRuleAreAlikeUnlessItTellsThemApart) {
+  program.code = {at(Code::CallRule, 1), at(Code::End), at(Code::Operation, 0), at(Code::End)};
+  program.rules[1].entry = 2;
+  EXPECT_FALSE(slot(false).alike);
+  program.rules[1].shared = true;
+  EXPECT_TRUE(slot(false).alike);
+  for (const uint32_t effect : {kReadsSplit, kReadsPivot}) {
+    program.rules[1].reads.effects = effect;
+    EXPECT_FALSE(slot(false).alike);
+  }
+  program.rules[1].reads.effects = kUsesTrim;
+  EXPECT_TRUE(slot(false).alike);
+  program.code[0].x = 1;
+  EXPECT_FALSE(slot(false).alike);
+}
+
 TEST_F(LightSlotsTest, CallsAreFollowed) {
   program.code = {at(Code::CallRule, 1), at(Code::End), at(Code::Operation, 0), at(Code::End)};
   program.rules[1].entry = 2;

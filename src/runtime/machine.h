@@ -221,6 +221,7 @@ class Machine final : public Services, private WorkMeter {
   void resume();
   void nextChild();
   void makeChild();
+  void placeEqualParts(Activation& a);
   void makeLightParts(Activation& a);
   void operation(const Instruction& i, const Value* constants);
   Status apply(OpCall& call, const Instruction& i, std::span<const Value> arguments,

@@ -212,7 +212,10 @@ void Machine::resume() {
 // Goes on with the children of a block, or with the rule when there are none left.
 void Machine::nextChild() {
   Activation& a = current();
-  if (a.inPieces) makeLightParts(a);
+  if (a.inPieces) {
+    placeEqualParts(a);
+    makeLightParts(a);
+  }
   if (a.childNext < a.childEnd) return makeChild();
   if (a.inPieces)
     pieces_.resize(a.childBase);

@@ -44,6 +44,13 @@ void Prototypes::place(uint32_t prototype, const Frame& frame) {
   output_.openInstances.push_back(i);
 }
 
+uint32_t Prototypes::placeAgain(const Vec3& origin) {
+  Instance again = output_.openInstances.back();
+  again.frame.origin = origin;
+  output_.openInstances.push_back(again);
+  return again.prototype;
+}
+
 uint32_t Prototypes::instancesAround() const {
   return static_cast<uint32_t>(output_.openInstances.size()) - around().instances;
 }

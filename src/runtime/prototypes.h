@@ -43,6 +43,8 @@ class Prototypes {
 
   /// An instance in the innermost open prototype, or in the unit.
   void place(uint32_t prototype, const Frame& frame);
+  /// The instance placed last, once more with its axes at another place. Gives its prototype.
+  uint32_t placeAgain(const Vec3& origin);
   /// How many instances that has by now.
   uint32_t instancesAround() const;
 

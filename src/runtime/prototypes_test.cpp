@@ -39,6 +39,16 @@ TEST_F(PrototypesTest, AreFoundByTheirKeys) {
   EXPECT_EQ(output.openInstances[0].frame.origin.x, 1);
 }
 
+TEST_F(PrototypesTest, ArePlacedAgainWithTheSameAxes) {
+  prototypes.beginUnit();
+  const Frame turned = Frame::of({1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, 0, 1});
+  prototypes.begin(kWindow, 7, turned, 10);
+  prototypes.end(14, true);
+  EXPECT_EQ(prototypes.placeAgain({2, 3, 4}), *prototypes.find(kWindow));
+  ASSERT_EQ(output.openInstances.size(), 2u);
+  EXPECT_EQ(output.openInstances[1].frame, Frame::of({2, 3, 4}, turned.x, turned.y, turned.z));
+}
+
 TEST_F(PrototypesTest, LieInThoseAround) {
   prototypes.beginUnit();
   makeLeaves(1);

@@ -3,9 +3,11 @@
 
 #include "runtime/sharing.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "runtime/key_hash.h"
+#include "shape/part_place.h"
 
 namespace gable {
 
@@ -30,10 +32,14 @@ Frame withoutNoise(Frame f) {
   return straight(f.x, 0) && straight(f.y, 1) && straight(f.z, 2) ? Frame::moved(f.origin) : f;
 }
 
+double localDistance(const TrimPlane& plane, const Frame& outer) {
+  return onGrid(plane.distance - dot(plane.normal, outer.origin), kPlaceGrid);
+}
+
 ShapeExtra localExtra(const ShapeExtra& extra, const Frame& outer) {
   ShapeExtra out = extra;
   for (TrimPlane& t : out.trim) {
-    t.distance = onGrid(t.distance - dot(t.normal, outer.origin), kPlaceGrid);
+    t.distance = localDistance(t, outer);
     t.normal = onGrid(outer.toLocalDirection(t.normal), kDirectionGrid);
   }
   const Frame inward = inverse(outer);
@@ -65,6 +71,23 @@ ShareKey sharedKey(const SharedCall& call) {
   if (call.effects & (kReadsPivot | kReadsPivotAxes)) h.add(s.pivot);
   if (s.extra) h.add(*s.extra);
   return h.key();
+}
+
+bool areAlike(const Shape& parent, const PartPlan& plan, const SplitPiece& a, const SplitPiece& b) {
+  if (a.size != b.size || !keepEqualTags(parent, plan, a, b)) return false;
+  if (!parent.extra) return true;
+  if (parent.extra->deformed || !parent.extra->projections.empty()) return false;
+  const auto axis = static_cast<size_t>(plan.axis);
+  Frame ofA = parent.scope, ofB = parent.scope;
+  ofA.origin = originOfPart(parent, plan, a);
+  ofB.origin = originOfPart(parent, plan, b);
+  Vec3 size = parent.size;
+  size[axis] = plan.flat ? 0 : std::copysign(a.size, size[axis]);
+  return std::ranges::all_of(parent.extra->trim, [&](const TrimPlane& t) {
+    const bool far = isFarFrom(t, ofA, size);
+    return far == isFarFrom(t, ofB, size) &&
+           (far || localDistance(t, ofA) == localDistance(t, ofB));
+  });
 }
 
 void putIntoOwnFrame(Shape& shape, uint32_t effects, const Frame& outer) {

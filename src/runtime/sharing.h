@@ -15,6 +15,7 @@
 
 #include "program/program.h"
 #include "runtime/output.h"
+#include "shape/part.h"
 #include "shape/shape.h"
 
 namespace gable {
@@ -36,5 +37,9 @@ ShareKey sharedKey(const SharedCall& call);
 /// Puts a shape into `outer`, the frame of its own scope, and drops what a rule with these effects
 /// cannot see.
 void putIntoOwnFrame(Shape& shape, uint32_t effects, const Frame& outer);
+
+/// Whether two parts of a shape have the same key, for a rule that sees neither their number nor
+/// their place: they are equally large, and have the same tags and trim planes.
+bool areAlike(const Shape& parent, const PartPlan& plan, const SplitPiece& a, const SplitPiece& b);
 
 }  // namespace gable

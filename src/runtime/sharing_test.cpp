@@ -79,6 +79,31 @@ TEST(Sharing, TheOwnFrameHidesThePlace) {
   EXPECT_EQ(moved(0, kReadsPivotAxes).pivot.origin.x, 0);
 }
 
+TEST(Sharing, EqualPartsAreAlikeUnlessTheyHaveOtherTagsOrPlanes) {
+  Shape s = boxShape();
+  s.size = {100, 4, 5};
+  const PartPlan alongX{Axis::X, false, 5, 0, 0}, alongY{Axis::Y, false, 4, 0, 0};
+  const SplitPiece parts[] = {{0, 1, 0}, {1, 1, 0}, {2, 1, 0}, {50, 1, 0}};
+  EXPECT_TRUE(areAlike(s, alongX, parts[0], parts[1]));
+  EXPECT_FALSE(areAlike(s, alongX, parts[0], {1, 2, 0}));
+  s.geometry.tags[kSideLeft] = 7;
+  EXPECT_FALSE(areAlike(s, alongX, parts[0], parts[1]));
+  EXPECT_TRUE(areAlike(s, alongX, parts[1], parts[2]));
+  EXPECT_TRUE(areAlike(s, alongY, parts[0], parts[1]));
+  s.geometry.tags[kSideLeft] = 0;
+  ShapeExtra extra;
+  extra.trim.push_back({{-1, 0, 0}, 0, false});
+  s.extra = makeRef<ShapeExtra>(extra);
+  // The first one lies at the plane, the last one so far from it that it forgets it.
+  EXPECT_FALSE(areAlike(s, alongX, parts[0], parts[3]));
+  EXPECT_FALSE(areAlike(s, alongX, parts[0], parts[1]));
+  EXPECT_TRUE(areAlike(s, alongX, parts[2], parts[3]));
+  EXPECT_TRUE(areAlike(s, alongY, parts[0], parts[2]));
+  extra.projections.emplace_back();
+  s.extra = makeRef<ShapeExtra>(extra);
+  EXPECT_FALSE(areAlike(s, alongY, parts[0], parts[2]));
+}
+
 TEST(Sharing, TrimPlanesComeAlongWhereTheyAreSeen) {
   Shape s = boxShape();
   s.scope = Frame::moved({10, 0, 0});

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/hash.h"
+#include "shape/part_place.h"
 
 namespace gable {
 
@@ -38,30 +39,43 @@ struct GrownBox {
   }
 };
 
-void dropInnerTags(Geometry& g, Axis axis, bool first, bool last) {
+// Of the sides, or edges, that the cuts around a part made. `whole`: the length that is divided.
+void dropInnerTags(Geometry& g, Axis axis, const SplitPiece& piece, double whole) {
   if (g.kind == GeometryKind::QuadXy && axis == Axis::Z) return;
   if (g.kind == GeometryKind::QuadXz && axis == Axis::Y) return;
   constexpr std::array<std::array<BoxSide, 2>, 3> kEnds{
       {{kSideLeft, kSideRight}, {kSideBottom, kSideTop}, {kSideBack, kSideFront}}};
   const auto& ends = kEnds[static_cast<size_t>(axis)];
-  if (!first) g.tags[ends[0]] = 0;
-  if (!last) g.tags[ends[1]] = 0;
+  if (piece.start != 0) g.tags[ends[0]] = 0;
+  if (piece.start + piece.size < whole * (1 - 1e-12)) g.tags[ends[1]] = 0;
 }
 
 }  // namespace
+
+Vec3 originOfPart(const Shape& parent, const PartPlan& plan, const SplitPiece& piece) {
+  const double sign = parent.size[static_cast<size_t>(plan.axis)] < 0 ? -1 : 1;
+  return parent.scope.origin + directionOf(parent.scope, plan.axis) * (sign * piece.start);
+}
+
+bool keepEqualTags(const Shape& parent, const PartPlan& plan, const SplitPiece& a,
+                   const SplitPiece& b) {
+  const double whole = std::fabs(parent.size[static_cast<size_t>(plan.axis)]);
+  Geometry ofA = parent.geometry, ofB = parent.geometry;
+  dropInnerTags(ofA, plan.axis, a, whole);
+  dropInnerTags(ofB, plan.axis, b, whole);
+  return ofA.tags == ofB.tags;
+}
 
 void makePart(const Shape& parent, const PartPlan& plan, const SplitPiece& piece, uint32_t index,
               Shape& part) {
   part = parent;
   const auto a = static_cast<size_t>(plan.axis);
   const double whole = std::fabs(parent.size[a]), sign = parent.size[a] < 0 ? -1 : 1;
-  part.scope.origin =
-      parent.scope.origin + directionOf(parent.scope, plan.axis) * (sign * piece.start);
+  part.scope.origin = originOfPart(parent, plan, piece);
   part.size[a] = plan.flat ? 0 : sign * piece.size;
   part.split = {index, plan.total};
   part.path = hashCombine(plan.path, uint64_t{piece.slot} << 32 | index);
-  const double end = piece.start + piece.size;
-  dropInnerTags(part.geometry, plan.axis, piece.start == 0, end >= whole * (1 - 1e-12));
+  dropInnerTags(part.geometry, plan.axis, piece, whole);
   if (part.extra) forgetFarTrimPlanes(part);
 }
 
@@ -87,6 +101,10 @@ bool isFarFromTrim(const LightPart& part) {
     if (reach + kRounding >= p.distance) return false;
   }
   return true;
+}
+
+bool isFarFrom(const TrimPlane& plane, const Frame& scope, const Vec3& size) {
+  return GrownBox(scope, scope.origin, size).liesBehind(plane);
 }
 
 void forgetFarTrimPlanes(Shape& s) {

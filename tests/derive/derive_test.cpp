@@ -63,6 +63,14 @@ Slice(n) --> split(x) { 1 : Piece | ~1 : Other(n) }
 Piece --> s('1, '1, depth)
 Other(n) --> case n % 2 == 0 : s('1, n + 1, '1) else : split(y) { 1 : Low. | ~2 : NIL }
 )"},
+    {"equal parts, and some that only look so", R"(
+Lot --> extrude(9) split(y) { ~3 : Floor }*
+Floor --> split(x) { { 1 : Bay | 1 : Bay | ~1 : Numbered | ~1 : Numbered }* | 1 : Bay | 1 : Wall. | 1 : Bay }
+Bay --> split(z) { ~2 : Box | ~2 : Box | ~2 : Tagged }*
+Box --> [ s('1, 1, '1) A ] B
+Numbered --> s('1, 1 + split.index, '1) split(z) { ~1 : C. }*
+Tagged --> comp(f) { isTagged("extrude.top") : Top. | isTagged("extrude.side") : Side. | all : Rest. }
+)"},
     {"repeated with changing sizes", R"(
 Lot --> extrude(rand(3, 9)) split(y) { 2 : Floor | { ~(scope.sy / 5) : Floor }* | 0.5 : Floor }
 Floor --> split(x) { ~rand(0.5, 2) : Box | 1 : Box }*
