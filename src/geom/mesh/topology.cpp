@@ -7,20 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "base/disjoint_sets.h"
 #include "base/work.h"
 #include "math/trig.h"
 
 namespace gable {
-namespace {
-
-uint32_t rootOf(std::vector<uint32_t>& parents, uint32_t i) {
-  while (parents[i] != i) i = parents[i] = parents[parents[i]];
-  return i;
-}
-
-}  // namespace
 
 Topology::Topology(const Mesh& m) : mesh_(m) {
   linkCorners();
@@ -100,16 +92,14 @@ void Topology::findTwins() {
 }
 
 void Topology::findComponents() {
-  std::vector<uint32_t> parents(mesh_.positions.size());
-  std::iota(parents.begin(), parents.end(), 0u);
+  DisjointSets sets(mesh_.positions.size());
   const auto firstOf = [&](uint32_t f) { return mesh_.corners[mesh_.loopsOf(f)[0].firstCorner]; };
   for (uint32_t c = 0; c < mesh_.corners.size(); ++c) {
-    if (faceOf_[c] == kNone) continue;
-    parents[rootOf(parents, mesh_.corners[c])] = rootOf(parents, firstOf(faceOf_[c]));
+    if (faceOf_[c] != kNone) sets.join(mesh_.corners[c], firstOf(faceOf_[c]));
   }
   std::vector<uint32_t> number(mesh_.positions.size(), kNone);
   for (uint32_t f = 0; f < mesh_.faces.size(); ++f) {
-    uint32_t& n = number[rootOf(parents, firstOf(f))];
+    uint32_t& n = number[sets.find(firstOf(f))];
     if (n == kNone) {
       n = static_cast<uint32_t>(componentClosed_.size());
       componentClosed_.push_back(true);

@@ -8,9 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <numeric>
 
+#include "base/disjoint_sets.h"
 #include "base/work.h"
 
 namespace gable::skeleton {
@@ -20,25 +21,6 @@ namespace {
 // Arcs shorter than this part of the extent are one point: well over the rounding of the
 // coordinates, and under anything one builds.
 constexpr double kMergeDistance = 1e-9;
-
-class UnionFind {
- public:
-  explicit UnionFind(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  uint32_t find(uint32_t a) {
-    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
-    return a;
-  }
-  void addOne() { parent_.push_back(static_cast<uint32_t>(parent_.size())); }
-  /// The smaller one leads.
-  void join(uint32_t a, uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<uint32_t> parent_;
-};
 
 using Loop = std::vector<uint32_t>;
 
@@ -92,8 +74,8 @@ class Assembly {
   const FaceInput& in_;
   const Trace& trace_;
   Skeleton& out_;
-  UnionFind groups_;
-  UnionFind points_;
+  DisjointSets groups_;
+  DisjointSets points_;
   std::vector<SkeletonVertex> vertices_;
   uint32_t inputCount_ = 0;
   double tolerance_ = 0;
@@ -125,7 +107,7 @@ void Assembly::placeVertices() {
 }
 
 void Assembly::contractShortArcs() {
-  points_ = UnionFind(trace_.nodes.size());
+  points_ = DisjointSets(trace_.nodes.size());
   for (const Trace::Arc& a : trace_.arcs) {
     const uint32_t p = points_.find(a.from), q = points_.find(a.to);
     if (p == q || (p < inputCount_ && q < inputCount_)) continue;
@@ -388,7 +370,7 @@ bool Assembly::cutLoops() {
     const double own = length(at(in_.edges[e].to) - at(in_.edges[e].from));
     if (own > 0) slack = std::min(slack, own / 8);
   }
-  UnionFind joined(in_.edges.size());
+  DisjointSets joined(in_.edges.size());
   for (const Trace::Merge& m : trace_.merges) {
     // An edge that met itself again behind an island stays whole.
     if (joined.find(m.left) == joined.find(m.right)) continue;

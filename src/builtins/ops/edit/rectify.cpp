@@ -5,8 +5,8 @@
 // middles, weighted by length. Chains of such edges share it, so corners between an edge along one
 // axis and an edge along the other become right angles.
 #include <cmath>
-#include <numeric>
 
+#include "base/disjoint_sets.h"
 #include "builtins/lists.h"
 #include "builtins/ops/shared/face_plan.h"
 #include "builtins/ops/subdivide/shared/parts.h"
@@ -20,15 +20,13 @@ namespace {
 // Points that shall have the same coordinate.
 class Levels {
  public:
-  explicit Levels(size_t n) : parent_(n), sum_(n, 0), weight_(n, 0) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
+  explicit Levels(size_t n) : sets_(n), sum_(n, 0), weight_(n, 0) {}
   void join(uint32_t a, uint32_t b, double level, double weight) {
-    a = find(a);
-    b = find(b);
+    a = sets_.find(a);
+    b = sets_.find(b);
     if (a > b) std::swap(a, b);
     if (a != b) {
-      parent_[b] = a;
+      sets_.join(a, b);
       sum_[a] += sum_[b];
       weight_[a] += weight_[b];
     }
@@ -36,16 +34,12 @@ class Levels {
     weight_[a] += weight;
   }
   double of(uint32_t i, double otherwise) {
-    i = find(i);
+    i = sets_.find(i);
     return weight_[i] > 0 ? sum_[i] / weight_[i] : otherwise;
   }
 
  private:
-  uint32_t find(uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  std::vector<uint32_t> parent_;
+  DisjointSets sets_;
   std::vector<double> sum_, weight_;
 };
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/disjoint_sets.h"
+
 namespace gable {
 
 namespace {
@@ -15,23 +17,6 @@ constexpr uint32_t kNone = MeshEdge::kNone;
 
 // Any direction square to z, for components that prefer none.
 Vec3 someX(const Vec3& z) { return frameFromZ({}, z, {1, 0, 0}).x; }
-
-class DisjointSets {
- public:
-  explicit DisjointSets(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  uint32_t find(uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(uint32_t a, uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<uint32_t> parent_;
-};
 
 }  // namespace
 
