@@ -210,6 +210,8 @@ bool FunctionCall::bind(void* arguments) const {
   const ArgumentProblem problem =
       bindArguments(spec_->signatures, form_, args_, services_.pool(), arguments);
   if (problem.kind == ArgumentProblem::Kind::None) return true;
+  // Nothing comes of what failed before, and was told there.
+  if (problem.index < args_.size() && args_[problem.index].type == ValueType::Null) return false;
   services_.warn(codeOf(problem), problemText(problem, spec_->name, args_, services_.pool()),
                  problemHint(problem));
   return false;

@@ -11,18 +11,31 @@
 
 #include "builtins/lists.h"
 #include "builtins/shared/arrays.h"
+#include "program/typed_param.h"
 #include "shape/op_call.h"
 
 namespace gable {
 
 namespace {
 
-Value size(FunctionCall& call) { return Value::of(static_cast<double>(call.array(0).size())); }
-Value nRows(FunctionCall& call) { return Value::of(double{1} * call.array(0).rows); }
-Value nColumns(FunctionCall& call) { return Value::of(double{1} * call.array(0).columns); }
+// An array of any type.
+struct Given {
+  Value array;
+  const Array& in(const FunctionCall& call) const { return call.services().pool().array(array); }
+};
 
-Value sum(FunctionCall& call) {
-  const Array& a = call.array(0);
+Value size(FunctionCall& call, const Given& args) {
+  return Value::of(static_cast<double>(args.in(call).size()));
+}
+Value nRows(FunctionCall& call, const Given& args) {
+  return Value::of(double{1} * args.in(call).rows);
+}
+Value nColumns(FunctionCall& call, const Given& args) {
+  return Value::of(double{1} * args.in(call).columns);
+}
+
+Value sum(FunctionCall& call, const Given& args) {
+  const Array& a = args.in(call);
   if (a.element != ValueType::String) {
     return Value::of(std::accumulate(a.numbers.begin(), a.numbers.end(), 0.0));
   }
@@ -42,8 +55,8 @@ void push(Array& out, const Array& from, size_t at) {
     out.numbers.push_back(from.numbers[at]);
 }
 
-Value transpose(FunctionCall& call) {
-  const Array& a = call.array(0);
+Value transpose(FunctionCall& call, const Given& args) {
+  const Array& a = args.in(call);
   Array out;
   out.element = a.element;
   out.rows = a.columns;
@@ -103,8 +116,7 @@ struct Source {
   }
 };
 
-struct SetElems {
-  Value array;
+struct SetElems : Given {
   /// Counted row by row in a list; in a table the rows, with the columns beside them.
   Value places;
   std::optional<Value> columns;
@@ -189,8 +201,8 @@ bool before(const Array& a, size_t i, size_t j, const ValuePool& pool) {
   return x < y;
 }
 
-Value sortIndices(FunctionCall& call) {
-  const Array& a = call.array(0);
+Value sortIndices(FunctionCall& call, const Given& args) {
+  const Array& a = args.in(call);
   const ValuePool& pool = call.services().pool();
   Array out;
   out.rows = a.rows;
@@ -205,8 +217,8 @@ Value sortIndices(FunctionCall& call) {
   return call.result(std::move(out));
 }
 
-Value sortRowIndices(FunctionCall& call) {
-  const Array& a = call.array(0);
+Value sortRowIndices(FunctionCall& call, const Given& args) {
+  const Array& a = args.in(call);
   const ValuePool& pool = call.services().pool();
   std::vector<size_t> order(a.rows);
   std::iota(order.begin(), order.end(), size_t{0});
@@ -225,9 +237,12 @@ Value sortRowIndices(FunctionCall& call) {
   return call.result(std::move(out));
 }
 
-constexpr ParamSpec kFloats = {"array", ParamType::FloatArray, "An array of numbers."};
-constexpr ParamSpec kBools = {"array", ParamType::BoolArray, "An array of truth values."};
-constexpr ParamSpec kStrings = {"array", ParamType::StringArray, "An array of texts."};
+constexpr ParamSpec kFloats =
+    param<&Given::array, ParamType::FloatArray>("array", "An array of numbers.");
+constexpr ParamSpec kBools =
+    param<&Given::array, ParamType::BoolArray>("array", "An array of truth values.");
+constexpr ParamSpec kStrings =
+    param<&Given::array, ParamType::StringArray>("array", "An array of texts.");
 constexpr ParamSpec kFloatsParams[] = {kFloats};
 constexpr ParamSpec kBoolsParams[] = {kBools};
 constexpr ParamSpec kStringsParams[] = {kStrings};
@@ -244,24 +259,18 @@ constexpr Signature kSame[] = {{kFloatsParams, ValueType::FloatArray},
 constexpr Signature kOrder[] = {{kFloatsParams, ValueType::FloatArray},
                                 {kStringsParams, ValueType::FloatArray}};
 
-constexpr ParamSpec kSetFloat =
-    withType(param<&SetElems::array>("array", kFloats.doc), ParamType::FloatArray);
-constexpr ParamSpec kSetBool =
-    withType(param<&SetElems::array>("array", kBools.doc), ParamType::BoolArray);
-constexpr ParamSpec kSetString =
-    withType(param<&SetElems::array>("array", kStrings.doc), ParamType::StringArray);
 constexpr ParamSpec kIndices = param<&SetElems::places>(
     "indices", "Places counted row by row from 0: a number, numbers, or truth values.");
 constexpr ParamSpec kRows = param<&SetElems::places>("rowIndices", "Rows, likewise.");
 constexpr ParamSpec kColumns = param<&SetElems::columns>("colIndices", "Columns, likewise.");
 constexpr ParamSpec kValues =
     param<&SetElems::values>("values", "One value for all places, or an array with one for each.");
-constexpr ParamSpec kSetFloats[] = {kSetFloat, kIndices, kValues};
-constexpr ParamSpec kSetBools[] = {kSetBool, kIndices, kValues};
-constexpr ParamSpec kSetStrings[] = {kSetString, kIndices, kValues};
-constexpr ParamSpec kSetFloatTable[] = {kSetFloat, kRows, kColumns, kValues};
-constexpr ParamSpec kSetBoolTable[] = {kSetBool, kRows, kColumns, kValues};
-constexpr ParamSpec kSetStringTable[] = {kSetString, kRows, kColumns, kValues};
+constexpr ParamSpec kSetFloats[] = {kFloats, kIndices, kValues};
+constexpr ParamSpec kSetBools[] = {kBools, kIndices, kValues};
+constexpr ParamSpec kSetStrings[] = {kStrings, kIndices, kValues};
+constexpr ParamSpec kSetFloatTable[] = {kFloats, kRows, kColumns, kValues};
+constexpr ParamSpec kSetBoolTable[] = {kBools, kRows, kColumns, kValues};
+constexpr ParamSpec kSetStringTable[] = {kStrings, kRows, kColumns, kValues};
 constexpr Signature kSet[] = {
     {kSetFloats, ValueType::FloatArray},   {kSetBools, ValueType::BoolArray},
     {kSetStrings, ValueType::StringArray}, {kSetFloatTable, ValueType::FloatArray},
@@ -270,19 +279,19 @@ constexpr Signature kSet[] = {
 
 constexpr const char* kFamily = "arrays";
 constexpr FunctionSpec kFunctions[] = {
-    {"size", kFamily, "The number of elements of an array.", kNumber, size},
-    {"nRows", kFamily, "The number of rows of an array.", kNumber, nRows},
-    {"nColumns", kFamily, "The number of columns of an array.", kNumber, nColumns},
+    {"size", kFamily, "The number of elements of an array.", kNumber, typed<size>},
+    {"nRows", kFamily, "The number of rows of an array.", kNumber, typed<nRows>},
+    {"nColumns", kFamily, "The number of columns of an array.", kNumber, typed<nColumns>},
     {"sum", kFamily, "The sum of numbers, the count of true values, or all texts in one.", kSum,
-     sum},
-    {"transpose", kFamily, "The array with rows and columns exchanged.", kSame, transpose},
+     typed<sum>},
+    {"transpose", kFamily, "The array with rows and columns exchanged.", kSame, typed<transpose>},
     {"setElems", kFamily,
      "The array with some elements set anew; places beyond its end make it larger.", kSet,
      typed<setElems>},
     {"sortIndices", kFamily, "The places of the elements of each row in ascending order.", kOrder,
-     sortIndices},
+     typed<sortIndices>},
     {"sortRowIndices", kFamily, "The numbers of the rows in ascending order.", kOrder,
-     sortRowIndices},
+     typed<sortRowIndices>},
 };
 
 }  // namespace

@@ -85,32 +85,28 @@ Value fromHsv(FunctionCall& call, const Components& args) {
   return withOpacity(call, hexOf(rgbOf(args.a, args.b, args.c)), args);
 }
 
-bool readColor(FunctionCall& call, Vec3& rgb, double& opacity) {
-  if (parseColor(call.text(0), rgb, opacity)) return true;
-  call.fail("bad-argument", "'" + std::string(call.text(0)) + "' is not a colour",
-            "write \"#rrggbb\" or \"#rrggbboo\"", {});
-  return false;
+struct Color {
+  std::string_view hex;
+};
+
+// Red, green, blue and the opacity.
+std::pair<Vec3, double> componentsOf(const Color& color) {
+  std::pair<Vec3, double> out;
+  parseColor(color.hex, out.first, out.second);
+  return out;
 }
 
 template <size_t component>
-Value rgbComponent(FunctionCall& call) {
-  Vec3 rgb;
-  double opacity = 0;
-  return Value::of(readColor(call, rgb, opacity) ? rgb[component] : 0.0);
+Value rgbComponent(FunctionCall&, const Color& args) {
+  return Value::of(componentsOf(args).first[component]);
 }
 
 template <size_t component>
-Value hsvComponent(FunctionCall& call) {
-  Vec3 rgb;
-  double opacity = 0;
-  return Value::of(readColor(call, rgb, opacity) ? hsvOf(rgb)[component] : 0.0);
+Value hsvComponent(FunctionCall&, const Color& args) {
+  return Value::of(hsvOf(componentsOf(args).first)[component]);
 }
 
-Value opacityOf(FunctionCall& call) {
-  Vec3 rgb;
-  double opacity = 0;
-  return Value::of(readColor(call, rgb, opacity) ? opacity : 0.0);
-}
+Value opacityOf(FunctionCall&, const Color& args) { return Value::of(componentsOf(args).second); }
 
 // Ramps as evenly spaced colours, in our own choice of tones.
 struct Ramp {
@@ -130,18 +126,22 @@ constexpr Ramp kRamps[] = {
     {"spectrum", kSpectrum},
 };
 
-Value colorRamp(FunctionCall& call) {
-  const std::string_view name = call.text(0);
+struct PlaceOnRamp {
+  std::string_view name;
+  double place;
+};
+
+Value colorRamp(FunctionCall& call, const PlaceOnRamp& args) {
   const auto ramp = std::find_if(std::begin(kRamps), std::end(kRamps),
-                                 [&](const Ramp& r) { return r.name == name; });
+                                 [&](const Ramp& r) { return r.name == args.name; });
   if (ramp == std::end(kRamps)) {
-    return call.fail("bad-argument", "there is no colour ramp '" + std::string(name) + "'",
+    return call.fail("bad-argument", "there is no colour ramp '" + std::string(args.name) + "'",
                      "use whiteToBlack, greenToRed, yellowToRed, redToBlue, orangeToBlue, "
                      "brownToBlue or spectrum",
                      call.result("#FFFFFF"));
   }
   const double last = static_cast<double>(ramp->stops.size() - 1);
-  const double v = call.number(1);
+  const double v = args.place;
   const double at = v > 0 ? std::min(v, 1.0) * last : 0;
   const auto i = static_cast<size_t>(std::min(at, last - 1));
   const double share = at - static_cast<double>(i);
@@ -162,12 +162,12 @@ constexpr ParamSpec kRgboParams[] = {kRed, kGreen, kBlue, kOpacity};
 constexpr ParamSpec kHsvParams[] = {kHue, kSaturation, kValue};
 constexpr ParamSpec kHsvoParams[] = {kHue, kSaturation, kValue, kOpacity};
 constexpr ParamSpec kHexParams[] = {
-    ParamSpec{"hexValue", ParamType::String, "A colour as \"#rrggbb\" or \"#rrggbboo\"."}.of(
-        kColourText)};
+    param<&Color::hex>("hexValue", "A colour as \"#rrggbb\" or \"#rrggbboo\".").of(kColourText)};
 constexpr ParamSpec kRampParams[] = {
-    {"gradient", ParamType::String, "The name of the ramp.", nullptr,
-     "whiteToBlack greenToRed yellowToRed redToBlue orangeToBlue brownToBlue spectrum"},
-    {"value", ParamType::Float, "The place on the ramp, 0 to 1."}};
+    param<&PlaceOnRamp::name>(
+        "gradient", "The name of the ramp.", nullptr,
+        "whiteToBlack greenToRed yellowToRed redToBlue orangeToBlue brownToBlue spectrum"),
+    param<&PlaceOnRamp::place>("value", "The place on the ramp, 0 to 1.")};
 constexpr Signature kRgb[] = {{kRgbParams, ValueType::String}};
 constexpr Signature kRgbo[] = {{kRgboParams, ValueType::String}};
 constexpr Signature kHsv[] = {{kHsvParams, ValueType::String}};
@@ -183,15 +183,15 @@ constexpr FunctionSpec kFunctions[] = {
     {"colorHSVToHex", kFamily, "A colour from hue, saturation and value.", kHsv, typed<fromHsv>},
     {"colorHSVOToHex", kFamily, "A colour from hue, saturation, value and opacity.", kHsvo,
      typed<fromHsv>},
-    {"colorHexToR", kFamily, "The red of a colour, 0 to 1.", kOfHex, rgbComponent<0>},
-    {"colorHexToG", kFamily, "The green of a colour, 0 to 1.", kOfHex, rgbComponent<1>},
-    {"colorHexToB", kFamily, "The blue of a colour, 0 to 1.", kOfHex, rgbComponent<2>},
+    {"colorHexToR", kFamily, "The red of a colour, 0 to 1.", kOfHex, typed<rgbComponent<0>>},
+    {"colorHexToG", kFamily, "The green of a colour, 0 to 1.", kOfHex, typed<rgbComponent<1>>},
+    {"colorHexToB", kFamily, "The blue of a colour, 0 to 1.", kOfHex, typed<rgbComponent<2>>},
     {"colorHexToO", kFamily, "The opacity of a colour, 0 to 1; 0 when it has none.", kOfHex,
-     opacityOf},
-    {"colorHexToH", kFamily, "The hue of a colour in degrees.", kOfHex, hsvComponent<0>},
-    {"colorHexToS", kFamily, "The saturation of a colour, 0 to 1.", kOfHex, hsvComponent<1>},
-    {"colorHexToV", kFamily, "The value of a colour, 0 to 1.", kOfHex, hsvComponent<2>},
-    {"colorRamp", kFamily, "The colour at a place of a ramp.", kOfRamp, colorRamp},
+     typed<opacityOf>},
+    {"colorHexToH", kFamily, "The hue of a colour in degrees.", kOfHex, typed<hsvComponent<0>>},
+    {"colorHexToS", kFamily, "The saturation of a colour, 0 to 1.", kOfHex, typed<hsvComponent<1>>},
+    {"colorHexToV", kFamily, "The value of a colour, 0 to 1.", kOfHex, typed<hsvComponent<2>>},
+    {"colorRamp", kFamily, "The colour at a place of a ramp.", kOfRamp, typed<colorRamp>},
 };
 
 }  // namespace

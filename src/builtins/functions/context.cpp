@@ -12,8 +12,6 @@
 
 namespace gable {
 
-namespace {}  // namespace
-
 template <>
 struct WordsOf<ContextScope> {
   static constexpr const char* text = "intra inter all";
@@ -115,9 +113,13 @@ Value convert(FunctionCall& call, const Convert& args) {
 
 Value treeKey(FunctionCall& call) { return call.result(call.services().treeKey()); }
 
-Value print(FunctionCall& call) {
-  call.services().print(call.services().pool().str(call.arg(0)));
-  return call.arg(0);
+struct Print {
+  Value value;
+};
+
+Value print(FunctionCall& call, const Print& args) {
+  call.services().print(call.services().pool().str(args.value));
+  return args.value;
 }
 
 constexpr ParamSpec kTarget =
@@ -158,7 +160,7 @@ constexpr ParamSpec kConvertArrayParams[] = {
 constexpr Signature kConvert[] = {{kConvertParams, ValueType::Float},
                                   {kConvertArrayParams, ValueType::FloatArray}};
 constexpr Signature kKey[] = {{{}, ValueType::String}};
-constexpr ParamSpec kPrintParams[] = {{"value", ParamType::Any, "Any value or array."}};
+constexpr ParamSpec kPrintParams[] = {param<&Print::value>("value", "Any value or array.")};
 constexpr Signature kPrint[] = {{kPrintParams, ValueType::Null}};
 
 constexpr const char* kFamily = "context";
@@ -181,7 +183,8 @@ constexpr FunctionSpec kFunctions[] = {
      typed<convert>, kReadsWorld | kReadsWorldByWord | kReadsPivot},
     {"getTreeKey", kFamily, "The path of the shape in the shape tree, a list of child numbers.",
      kKey, treeKey, kReadsPath, true},
-    {"print", kFamily, "Writes a value to the console and gives it back.", kPrint, print, kReports},
+    {"print", kFamily, "Writes a value to the console and gives it back.", kPrint, typed<print>,
+     kReports},
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "builtins/lists.h"
 #include "builtins/shared/arrays.h"
+#include "program/typed_param.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -14,34 +15,36 @@ namespace {
 // The text that stands for a missing value, U+E000.
 constexpr std::string_view kNullText = "\xee\x80\x80";
 
-Value toFloat(FunctionCall& call) {
-  const Value& v = call.arg(0);
-  return Value::of(v.type == ValueType::String ? numberOf(call.text(0)) : v.number);
+struct Converted {
+  Value value;
+};
+
+Value toFloat(FunctionCall& call, const Converted& args) {
+  const Value& v = args.value;
+  const ValuePool& pool = call.services().pool();
+  return Value::of(v.type == ValueType::String ? numberOf(pool.text(v.id)) : v.number);
 }
 
-Value toBool(FunctionCall& call) {
-  const Value& v = call.arg(0);
-  return Value::of(v.type == ValueType::String ? truthOf(call.text(0)) : v.truth());
+Value toBool(FunctionCall& call, const Converted& args) {
+  const Value& v = args.value;
+  const ValuePool& pool = call.services().pool();
+  return Value::of(v.type == ValueType::String ? truthOf(pool.text(v.id)) : v.truth());
 }
 
-Value toText(FunctionCall& call) {
-  ValuePool& pool = call.services().pool();
-  return call.result(pool.str(call.arg(0)));
+Value toText(FunctionCall& call, const Converted& args) {
+  return call.result(call.services().pool().str(args.value));
 }
 
-Value toSelector(FunctionCall& call) { return Value::selector(call.arg(0).id); }
+Value toSelector(FunctionCall&, const Converted& args) { return Value::selector(args.value.id); }
 
 // An array of another element type, element by element; empty without argument.
 template <ValueType element>
-Value toArray(FunctionCall& call) {
+Value toArray(FunctionCall& call, const Converted& args) {
   Array out;
-  if (!call.has(0)) {
-    out.element = element;
-    return call.result(std::move(out));
-  }
-  const Array& from = call.array(0);
-  ValuePool& pool = call.services().pool();
   out.element = element;
+  if (!args.value.isArray()) return call.result(std::move(out));
+  ValuePool& pool = call.services().pool();
+  const Array& from = pool.array(args.value);
   out.rows = from.rows;
   out.columns = from.columns;
   for (size_t i = 0; i < from.size(); ++i) {
@@ -60,12 +63,12 @@ Value toArray(FunctionCall& call) {
   return call.result(std::move(out));
 }
 
-Value isNull(FunctionCall& call) {
-  const Value& v = call.arg(0);
+Value isNull(FunctionCall& call, const Converted& args) {
+  const Value& v = args.value;
   const ValuePool& pool = call.services().pool();
   if (v.type == ValueType::Float) return Value::of(std::isnan(v.number));
-  if (v.type == ValueType::String) return Value::of(call.text(0) == kNullText);
-  const Array& from = call.array(0);
+  if (v.type == ValueType::String) return Value::of(pool.text(v.id) == kNullText);
+  const Array& from = pool.array(v);
   Array out;
   out.element = ValueType::Bool;
   out.rows = from.rows;
@@ -75,13 +78,21 @@ Value isNull(FunctionCall& call) {
   return call.result(std::move(out));
 }
 
-constexpr ParamSpec kFloat[] = {{"value", ParamType::Float, "A number."}};
-constexpr ParamSpec kBool[] = {{"value", ParamType::Bool, "A truth value."}};
-constexpr ParamSpec kString[] = {{"value", ParamType::String, "A text."}};
-constexpr ParamSpec kAny[] = {{"value", ParamType::Any, "Any value or array."}};
-constexpr ParamSpec kFloats[] = {{"values", ParamType::FloatArray, "Numbers."}};
-constexpr ParamSpec kBools[] = {{"values", ParamType::BoolArray, "Truth values."}};
-constexpr ParamSpec kStrings[] = {{"values", ParamType::StringArray, "Texts."}};
+template <ParamType type>
+constexpr ParamSpec single(const char* doc) {
+  return param<&Converted::value, type>("value", doc);
+}
+template <ParamType type>
+constexpr ParamSpec array(const char* doc) {
+  return param<&Converted::value, type>("values", doc);
+}
+constexpr ParamSpec kFloat[] = {single<ParamType::Float>("A number.")};
+constexpr ParamSpec kBool[] = {single<ParamType::Bool>("A truth value.")};
+constexpr ParamSpec kString[] = {single<ParamType::String>("A text.")};
+constexpr ParamSpec kAny[] = {single<ParamType::Any>("Any value or array.")};
+constexpr ParamSpec kFloats[] = {array<ParamType::FloatArray>("Numbers.")};
+constexpr ParamSpec kBools[] = {array<ParamType::BoolArray>("Truth values.")};
+constexpr ParamSpec kStrings[] = {array<ParamType::StringArray>("Texts.")};
 
 template <ValueType result>
 constexpr Signature kSingle[] = {{kFloat, result}, {kBool, result}, {kString, result}};
@@ -89,7 +100,8 @@ template <ValueType result>
 constexpr Signature kArray[] = {
     {{}, result}, {kFloats, result}, {kBools, result}, {kStrings, result}};
 constexpr Signature kText[] = {{kAny, ValueType::String}};
-constexpr ParamSpec kWord[] = {{"selString", ParamType::String, "The word."}};
+constexpr ParamSpec kWord[] = {
+    param<&Converted::value, ParamType::String>("selString", "The word.")};
 constexpr Signature kSel[] = {{kWord, ValueType::Selector}};
 constexpr Signature kNull[] = {{kFloat, ValueType::Bool},
                                {kString, ValueType::Bool},
@@ -99,18 +111,19 @@ constexpr Signature kNull[] = {{kFloat, ValueType::Bool},
 constexpr const char* kFamily = "conversion";
 constexpr FunctionSpec kFunctions[] = {
     {"float", kFamily, "A number from a text or a truth value; NaN from a text that is none.",
-     kSingle<ValueType::Float>, toFloat},
+     kSingle<ValueType::Float>, typed<toFloat>},
     {"bool", kFamily, "False from 0, \"false\", \"f\", \"0\" and their kin, else true.",
-     kSingle<ValueType::Bool>, toBool},
-    {"str", kFamily, "A value as text.", kText, toText},
+     kSingle<ValueType::Bool>, typed<toBool>},
+    {"str", kFamily, "A value as text.", kText, typed<toText>},
     {"floatArray", kFamily, "An array of numbers from another array; empty without one.",
-     kArray<ValueType::FloatArray>, toArray<ValueType::Float>, kPure, true},
+     kArray<ValueType::FloatArray>, typed<toArray<ValueType::Float>>, kPure, true},
     {"boolArray", kFamily, "An array of truth values from another array; empty without one.",
-     kArray<ValueType::BoolArray>, toArray<ValueType::Bool>, kPure, true},
+     kArray<ValueType::BoolArray>, typed<toArray<ValueType::Bool>>, kPure, true},
     {"stringArray", kFamily, "An array of texts from another array; empty without one.",
-     kArray<ValueType::StringArray>, toArray<ValueType::String>, kPure, true},
-    {"sel", kFamily, "A selector word from a text.", kSel, toSelector},
-    {"isNull", kFamily, "Whether a value is missing: NaN, or the text of U+E000.", kNull, isNull},
+     kArray<ValueType::StringArray>, typed<toArray<ValueType::String>>, kPure, true},
+    {"sel", kFamily, "A selector word from a text.", kSel, typed<toSelector>},
+    {"isNull", kFamily, "Whether a value is missing: NaN, or the text of U+E000.", kNull,
+     typed<isNull>},
 };
 
 }  // namespace

@@ -13,22 +13,55 @@
 #include "builtins/lists.h"
 #include "builtins/shared/arrays.h"
 #include "builtins/shared/text_files.h"
+#include "program/typed_param.h"
 #include "shape/op_call.h"
 
 namespace gable {
 
 namespace {
 
+enum class ModelMeasure : uint8_t { SizeX, SizeY, SizeZ, PlaceX, PlaceY, PlaceZ };
+enum class ImageMeasure : uint8_t { Width, Height };
+enum class Named : uint8_t { Groups, Materials };
+
+}  // namespace
+
+template <>
+struct WordsOf<ModelMeasure> {
+  static constexpr const char* text = "sx sy sz tx ty tz";
+};
+template <>
+struct WordsOf<ImageMeasure> {
+  static constexpr const char* text = "sx sy";
+};
+template <>
+struct WordsOf<Named> {
+  static constexpr const char* text = "g m";
+};
+
+namespace {
+
 using Paths = std::vector<std::string>;
 
-Paths search(const FunctionCall& call) {
-  return call.services().assets().search(call.text(0), call.file());
-}
+struct Query {
+  std::string_view query;
+  Paths search(const FunctionCall& call) const {
+    return call.services().assets().search(query, call.file());
+  }
+};
 
-Value fileSearch(FunctionCall& call) { return call.result(listOf(search(call))); }
-Value filesSearch(FunctionCall& call) { return stringArray(search(call), call.services().pool()); }
-Value fileExists(FunctionCall& call) {
-  return Value::of(call.services().assets().exists(call.text(0), call.file()));
+struct Path {
+  std::string_view path;
+};
+
+Value fileSearch(FunctionCall& call, const Query& args) {
+  return call.result(listOf(args.search(call)));
+}
+Value filesSearch(FunctionCall& call, const Query& args) {
+  return stringArray(args.search(call), call.services().pool());
+}
+Value fileExists(FunctionCall& call, const Path& args) {
+  return Value::of(call.services().assets().exists(args.path, call.file()));
 }
 
 const std::string& drawn(const FunctionCall& call, const Paths& paths, size_t among) {
@@ -37,8 +70,8 @@ const std::string& drawn(const FunctionCall& call, const Paths& paths, size_t am
   return paths[std::min(i, paths.size() - 1)];
 }
 
-Value fileRandom(FunctionCall& call) {
-  const Paths paths = search(call);
+Value fileRandom(FunctionCall& call, const Query& args) {
+  const Paths paths = args.search(call);
   return call.result(paths.empty() ? "" : drawn(call, paths, paths.size()));
 }
 
@@ -47,47 +80,42 @@ std::string_view nameOf(std::string_view path) {
   return slash == std::string_view::npos ? path : path.substr(slash + 1);
 }
 
-Value fileName(FunctionCall& call) { return call.result(nameOf(call.text(0))); }
-Value fileBasename(FunctionCall& call) {
-  const std::string_view name = nameOf(call.text(0));
+Value fileName(FunctionCall& call, const Path& args) { return call.result(nameOf(args.path)); }
+Value fileBasename(FunctionCall& call, const Path& args) {
+  const std::string_view name = nameOf(args.path);
   return call.result(name.substr(0, name.rfind('.')));
 }
-Value fileDirectory(FunctionCall& call) {
-  const std::string_view path = call.text(0);
-  return call.result(path.substr(0, path.size() - nameOf(path).size()));
+Value fileDirectory(FunctionCall& call, const Path& args) {
+  return call.result(args.path.substr(0, args.path.size() - nameOf(args.path).size()));
 }
-Value fileExtension(FunctionCall& call) {
-  const std::string_view name = nameOf(call.text(0));
+Value fileExtension(FunctionCall& call, const Path& args) {
+  const std::string_view name = nameOf(args.path);
   const size_t dot = name.rfind('.');
   return call.result(dot == std::string_view::npos ? std::string_view() : name.substr(dot + 1));
 }
 
-bool readText(const FunctionCall& call, std::string& text) {
+constexpr const char* kWhereFiles =
+    "paths start at the assets folder or at the root of the project";
+
+// Empty, with a warning, when there is no such file.
+std::string readText(const FunctionCall& call, const Path& args) {
   std::string bytes;
-  if (!call.services().assets().text(call.text(0), call.file(), bytes)) {
-    call.fail("missing-file", "there is no file '" + std::string(call.text(0)) + "'",
-              "paths start at the assets folder or at the root of the project", {});
-    return false;
-  }
-  text = decodedText(bytes);
-  return true;
+  if (call.services().assets().text(args.path, call.file(), bytes)) return decodedText(bytes);
+  call.fail("missing-file", "there is no file '" + std::string(args.path) + "'", kWhereFiles, {});
+  return {};
 }
 
-Value readTextFile(FunctionCall& call) {
-  std::string text;
-  readText(call, text);
-  return call.result(text);
+Value readTextFile(FunctionCall& call, const Path& args) {
+  return call.result(readText(call, args));
 }
 
 template <ValueType element>
-Value readTable(FunctionCall& call) {
-  std::string text;
-  readText(call, text);
-  const TextTable table = parseTable(text);
+Value readTable(FunctionCall& call, const Path& args) {
+  const TextTable table = parseTable(readText(call, args));
   Array out;
   out.element = element;
   if (table.cells.size() > kMaxArraySize) {
-    return call.fail("array-too-large", "'" + std::string(call.text(0)) + "' has too many cells",
+    return call.fail("array-too-large", "'" + std::string(args.path) + "' has too many cells",
                      "arrays have up to 100000 elements", call.result(std::move(out)));
   }
   out.rows = static_cast<uint32_t>(table.rows);
@@ -106,45 +134,60 @@ Ref<AssetModel> modelAt(const FunctionCall& call, std::string_view path) {
   return call.services().assets().model(path, call.file(), false, why);
 }
 
-Value assetInfo(FunctionCall& call) {
-  const Ref<AssetModel> model = modelAt(call, call.text(0));
+struct AssetInfo : Path {
+  ModelMeasure measure;
+};
+
+Value assetInfo(FunctionCall& call, const AssetInfo& args) {
+  const Ref<AssetModel> model = modelAt(call, args.path);
   if (!model) {
-    return call.fail("missing-asset", "there is no model '" + std::string(call.text(0)) + "'",
-                     "paths start at the assets folder or at the root of the project",
-                     Value::of(0.0));
+    return call.fail("missing-asset", "there is no model '" + std::string(args.path) + "'",
+                     kWhereFiles, Value::of(0.0));
   }
-  const std::string_view what = call.text(1);
-  const size_t axis =
-      what.size() == 2 && what[1] >= 'x' && what[1] <= 'z' ? static_cast<size_t>(what[1] - 'x') : 0;
-  const Vec3 v = what.starts_with('t') ? model->bounds.min : model->bounds.size();
-  return Value::of(v[axis]);
+  const auto measure = static_cast<size_t>(args.measure);
+  return Value::of(measure < 3 ? model->bounds.size()[measure] : model->bounds.min[measure - 3]);
 }
 
+struct NamingInfo : Path {
+  Named named;
+};
+
 // Groups are not kept by readers; materials are.
-Paths namesIn(const FunctionCall& call) {
+Paths namesIn(const FunctionCall& call, const NamingInfo& args) {
   Paths names;
-  const Ref<AssetModel> model = modelAt(call, call.text(0));
-  if (model && call.text(1) == "m") {
+  const Ref<AssetModel> model = modelAt(call, args.path);
+  if (model && args.named == Named::Materials) {
     for (const Material& m : model->materials) names.push_back(m.name);
   }
   return names;
 }
-Value assetNamingInfo(FunctionCall& call) { return call.result(listOf(namesIn(call))); }
-Value assetNamingInfos(FunctionCall& call) {
-  return stringArray(namesIn(call), call.services().pool());
+Value assetNamingInfo(FunctionCall& call, const NamingInfo& args) {
+  return call.result(listOf(namesIn(call, args)));
+}
+Value assetNamingInfos(FunctionCall& call, const NamingInfo& args) {
+  return stringArray(namesIn(call, args), call.services().pool());
 }
 
-// Readers keep no metadata, so there is none of any key.
-Value assetMetadata(FunctionCall& call) { return call.arg(2); }
+struct Metadata : Path {
+  std::string_view key;
+  Value otherwise;
+};
 
-Value imageInfo(FunctionCall& call) {
-  const ImageInfo image = call.services().assets().image(call.text(0), call.file());
+// Readers keep no metadata, so there is none of any key.
+Value assetMetadata(FunctionCall&, const Metadata& args) { return args.otherwise; }
+
+struct ImageMeasureOf : Path {
+  ImageMeasure measure;
+};
+
+Value imageInfo(FunctionCall& call, const ImageMeasureOf& args) {
+  const ImageInfo image = call.services().assets().image(args.path, call.file());
   if (!image.found) {
-    return call.fail("missing-texture", "there is no image '" + std::string(call.text(0)) + "'",
-                     "paths start at the assets folder or at the root of the project",
-                     Value::of(0.0));
+    return call.fail("missing-texture", "there is no image '" + std::string(args.path) + "'",
+                     kWhereFiles, Value::of(0.0));
   }
-  return Value::of(double{1} * (call.text(1) == "sy" ? image.height : image.width));
+  const bool height = args.measure == ImageMeasure::Height;
+  return Value::of(double{1} * (height ? image.height : image.width));
 }
 
 // How badly a file fits; NaN when it cannot be read.
@@ -208,27 +251,48 @@ std::vector<Ranked> ranked(const FunctionCall& call, const Paths& paths, std::st
   return all;
 }
 
-// The sort functions: a list gives a list, an array an array.
-template <Misfit misfit>
-Value sorted(FunctionCall& call) {
-  const bool array = call.arg(0).isArray();
-  ValuePool& pool = call.services().pool();
-  const std::vector<std::string_view> items =
-      array ? std::vector<std::string_view>() : itemsOf(call.text(0));
-  const Paths given = array ? stringsOf(call.array(0), pool) : Paths(items.begin(), items.end());
-  const double limit = call.number(2, 0);
-  Paths out;
-  for (Ranked& r : ranked(call, given, call.text(1), misfit)) {
+// The paths of those that fit within a limit; 0 allows all.
+Paths within(double limit, std::vector<Ranked> all) {
+  Paths paths;
+  for (Ranked& r : all) {
     if (limit > 0 && !(r.misfit <= limit)) continue;
-    out.push_back(std::move(r.path));
+    paths.push_back(std::move(r.path));
   }
+  return paths;
+}
+
+// The sort functions: a list gives a list, an array an array.
+struct Sorted {
+  std::string_view list;
+  Strings array;
+  Word axes;
+  double maxError = 0;
+};
+
+template <Misfit misfit>
+Value sorted(FunctionCall& call, const Sorted& args) {
+  const Array* const array = args.array.array;
+  ValuePool& pool = call.services().pool();
+  const std::vector<std::string_view> items = itemsOf(args.list);
+  const Paths given = array ? stringsOf(*array, pool) : Paths(items.begin(), items.end());
+  const Paths out = within(args.maxError, ranked(call, given, args.axes.text, misfit));
   return array ? stringArray(out, pool) : call.result(listOf(out));
 }
 
+// Files that a search finds, by how well they fit along some axes.
+struct Fitting : Query {
+  std::string_view axes;
+  double among = 1, maxError = 0;
+
+  std::vector<Ranked> rankedBy(Misfit misfit, const FunctionCall& call) const {
+    return ranked(call, search(call), axes, misfit);
+  }
+};
+
 // The best file of a search, one of equals at random.
 template <Misfit misfit>
-Value best(FunctionCall& call) {
-  const std::vector<Ranked> all = ranked(call, search(call), call.text(1), misfit);
+Value best(FunctionCall& call, const Fitting& args) {
+  const std::vector<Ranked> all = args.rankedBy(misfit, call);
   Paths equal;
   for (const Ranked& r : all) {
     if (r.misfit == all[0].misfit) equal.push_back(r.path);
@@ -238,32 +302,24 @@ Value best(FunctionCall& call) {
 
 // One of the best n files of a search.
 template <Misfit misfit>
-Value approximate(FunctionCall& call) {
-  Paths paths;
-  for (Ranked& r : ranked(call, search(call), call.text(1), misfit)) {
-    paths.push_back(std::move(r.path));
-  }
-  const double n = call.number(2);
+Value approximate(FunctionCall& call, const Fitting& args) {
+  const Paths paths = within(0, args.rankedBy(misfit, call));
+  const double n = args.among;
   const size_t among = n >= 1 ? static_cast<size_t>(std::min(n, 1e9)) : 1;
   return call.result(paths.empty() ? "" : drawn(call, paths, among));
 }
 
-Value assetFitSize(FunctionCall& call) {
-  const double limit = call.number(2);
-  Paths paths;
-  for (Ranked& r : ranked(call, search(call), call.text(1), assetSize)) {
-    if (limit > 0 && !(r.misfit <= limit)) continue;
-    paths.push_back(std::move(r.path));
-  }
+Value assetFitSize(FunctionCall& call, const Fitting& args) {
+  const Paths paths = within(args.maxError, args.rankedBy(assetSize, call));
   return call.result(paths.empty() ? "" : drawn(call, paths, paths.size()));
 }
 
 constexpr ValueType kString = ValueType::String, kFloat = ValueType::Float;
-constexpr ParamSpec kQuery = {"searchQuery", ParamType::String,
-                              "The files, by a path in which * stands for any characters and $ "
-                              "for any characters within a folder."};
-constexpr ParamSpec kPath = {"filePath", ParamType::String,
-                             "The file, by its path in the project."};
+constexpr ParamSpec kQuery = param<&Query::query>(
+    "searchQuery",
+    "The files, by a path in which * stands for any characters and $ for any characters within a "
+    "folder.");
+constexpr ParamSpec kPath = param<&Path::path>("filePath", "The file, by its path in the project.");
 constexpr ParamSpec kQueryParams[] = {kQuery};
 constexpr ParamSpec kPathParams[] = {kPath};
 constexpr Signature kTextOfQuery[] = {{kQueryParams, kString}};
@@ -274,22 +330,21 @@ constexpr Signature kStringTable[] = {{kPathParams, ValueType::StringArray}};
 constexpr Signature kFloatTable[] = {{kPathParams, ValueType::FloatArray}};
 
 constexpr ParamSpec kAssetInfoParams[] = {
-    kPath,
-    {"attribute", ParamType::Selector, "Size or place of the model's bounding box.", nullptr,
-     "sx sy sz tx ty tz"}};
+    kPath, param<&AssetInfo::measure>("attribute", "Size or place of the model's bounding box.")};
 constexpr Signature kAssetInfo[] = {{kAssetInfoParams, kFloat}};
 constexpr ParamSpec kImageInfoParams[] = {
-    kPath, {"attribute", ParamType::Selector, "Width or height in pixels.", nullptr, "sx sy"}};
+    kPath, param<&ImageMeasureOf::measure>("attribute", "Width or height in pixels.")};
 constexpr Signature kImageInfo[] = {{kImageInfoParams, kFloat}};
 constexpr ParamSpec kNamingParams[] = {
-    kPath, {"namingAttribute", ParamType::Selector, "Groups or materials.", nullptr, "g m"}};
+    kPath, param<&NamingInfo::named>("namingAttribute", "Groups or materials.")};
 constexpr Signature kNamingInfo[] = {{kNamingParams, kString}};
 constexpr Signature kNamingInfos[] = {{kNamingParams, ValueType::StringArray}};
 
-constexpr ParamSpec kKey = {"key", ParamType::String, "The name of the property."};
-constexpr const char* kDefaultDoc = "What to give when there is no such property.";
 template <ParamType type>
-constexpr ParamSpec kMetadataParams[] = {kPath, kKey, {"defaultValue", type, kDefaultDoc}};
+constexpr ParamSpec kMetadataParams[] = {
+    kPath, param<&Metadata::key>("key", "The name of the property."),
+    param<&Metadata::otherwise, type>("defaultValue",
+                                      "What to give when there is no such property.")};
 constexpr Signature kMetadata[] = {
     {kMetadataParams<ParamType::Float>, kFloat},
     {kMetadataParams<ParamType::Bool>, ValueType::Bool},
@@ -298,20 +353,19 @@ constexpr Signature kMetadata[] = {
     {kMetadataParams<ParamType::BoolArray>, ValueType::BoolArray},
     {kMetadataParams<ParamType::StringArray>, ValueType::StringArray}};
 
-constexpr ParamSpec kFileList = {"filePathList", ParamType::String,
-                                 "Files, each ended by a semicolon."};
-constexpr ParamSpec kFileArray = {"filePaths", ParamType::StringArray, "Files."};
+constexpr ParamSpec kFileList =
+    param<&Sorted::list>("filePathList", "Files, each ended by a semicolon.");
+constexpr ParamSpec kFileArray = param<&Sorted::array>("filePaths", "Files.");
 constexpr const char* kRatioDoc = "The axes of the scope whose ratio counts.";
-constexpr ParamSpec kRatioAxes = {"axesRatio", ParamType::Selector, kRatioDoc, nullptr,
-                                  "xy xz yz xyz"};
-constexpr ParamSpec kImageAxes = {"axesRatio", ParamType::Selector, kRatioDoc, nullptr,
-                                  "xy xz yx yz zx zy"};
-constexpr ParamSpec kSizeAxes = {"axisSize", ParamType::Selector,
-                                 "The axes of the scope whose sizes count.", nullptr,
-                                 "x y z xy xz yz xyz"};
-constexpr ParamSpec kMaxError = {"maxScaleError", ParamType::Float,
-                                 "Files that need more scaling are left out: 0.1 allows 10 percent "
-                                 "up or down, 0 allows all."};
+constexpr ParamSpec kRatioAxes =
+    param<&Sorted::axes>("axesRatio", kRatioDoc, nullptr, "xy xz yz xyz");
+constexpr ParamSpec kImageAxes =
+    param<&Sorted::axes>("axesRatio", kRatioDoc, nullptr, "xy xz yx yz zx zy");
+constexpr ParamSpec kSizeAxes = param<&Sorted::axes>(
+    "axisSize", "The axes of the scope whose sizes count.", nullptr, "x y z xy xz yz xyz");
+constexpr ParamSpec kMaxError = param<&Sorted::maxError>(
+    "maxScaleError",
+    "Files that need more scaling are left out: 0.1 allows 10 percent up or down, 0 allows all.");
 constexpr ParamSpec kRatioList[] = {kFileList, kRatioAxes};
 constexpr ParamSpec kRatioArray[] = {kFileArray, kRatioAxes};
 constexpr ParamSpec kImageList[] = {kFileList, kImageAxes};
@@ -323,16 +377,17 @@ constexpr Signature kSortImage[] = {{kImageList, kString}, {kImageArray, ValueTy
 constexpr Signature kSortSize[] = {{kSizeList, kString}, {kSizeArray, ValueType::StringArray}};
 
 // The finding functions take their axes as text.
-constexpr ParamSpec kRatioText = {"axesRatio", ParamType::String,
-                                  "The axes of the scope whose ratio counts, such as \"xz\"."};
-constexpr ParamSpec kSizeText = {"axisSize", ParamType::String,
-                                 "The axes of the scope whose sizes count, such as \"xz\"."};
-constexpr ParamSpec kAmong = {"n", ParamType::Float, "How many of the best to draw from."};
+constexpr ParamSpec kRatioText =
+    param<&Fitting::axes>("axesRatio", "The axes of the scope whose ratio counts, such as \"xz\".");
+constexpr ParamSpec kSizeText =
+    param<&Fitting::axes>("axisSize", "The axes of the scope whose sizes count, such as \"xz\".");
+constexpr ParamSpec kAmong = param<&Fitting::among>("n", "How many of the best to draw from.");
+constexpr ParamSpec kMostError = param<&Fitting::maxError>(kMaxError.name, kMaxError.doc);
 constexpr ParamSpec kBestRatioParams[] = {kQuery, kRatioText};
 constexpr ParamSpec kBestSizeParams[] = {kQuery, kSizeText};
 constexpr ParamSpec kApproxRatioParams[] = {kQuery, kRatioText, kAmong};
 constexpr ParamSpec kApproxSizeParams[] = {kQuery, kSizeText, kAmong};
-constexpr ParamSpec kFitSizeParams[] = {kQuery, kSizeText, kMaxError};
+constexpr ParamSpec kFitSizeParams[] = {kQuery, kSizeText, kMostError};
 constexpr Signature kBestRatio[] = {{kBestRatioParams, kString}};
 constexpr Signature kBestSize[] = {{kBestSizeParams, kString}};
 constexpr Signature kApproxRatio[] = {{kApproxRatioParams, kString}};
@@ -342,51 +397,52 @@ constexpr Signature kFitSize[] = {{kFitSizeParams, kString}};
 constexpr const char* kFamily = "files";
 constexpr FunctionSpec kFunctions[] = {
     {"fileSearch", kFamily, "All files that match, sorted, as a string list.", kTextOfQuery,
-     fileSearch},
+     typed<fileSearch>},
     {"filesSearch", kFamily, "All files that match, sorted, as an array.", kArrayOfQuery,
-     filesSearch},
-    {"fileExists", kFamily, "Whether there is such a file.", kTruthOfPath, fileExists},
-    {"fileRandom", kFamily, "A random one of the files that match.", kTextOfQuery, fileRandom,
-     kRandom},
-    {"fileName", kFamily, "A path without its folders.", kTextOfPath, fileName},
+     typed<filesSearch>},
+    {"fileExists", kFamily, "Whether there is such a file.", kTruthOfPath, typed<fileExists>},
+    {"fileRandom", kFamily, "A random one of the files that match.", kTextOfQuery,
+     typed<fileRandom>, kRandom},
+    {"fileName", kFamily, "A path without its folders.", kTextOfPath, typed<fileName>},
     {"fileBasename", kFamily, "A path without its folders and its extension.", kTextOfPath,
-     fileBasename},
+     typed<fileBasename>},
     {"fileDirectory", kFamily, "The folders of a path, with a slash at the end.", kTextOfPath,
-     fileDirectory},
+     typed<fileDirectory>},
     {"fileExtension", kFamily, "The extension of a path, without the dot.", kTextOfPath,
-     fileExtension},
-    {"readTextFile", kFamily, "The content of a text file.", kTextOfPath, readTextFile},
+     typed<fileExtension>},
+    {"readTextFile", kFamily, "The content of a text file.", kTextOfPath, typed<readTextFile>},
     {"readStringTable", kFamily, "The cells of a CSV file as texts.", kStringTable,
-     readTable<ValueType::String>},
+     typed<readTable<ValueType::String>>},
     {"readFloatTable", kFamily, "The cells of a CSV file as numbers; NaN where there is none.",
-     kFloatTable, readTable<ValueType::Float>},
-    {"assetInfo", kFamily, "A size or place of a model.", kAssetInfo, assetInfo},
+     kFloatTable, typed<readTable<ValueType::Float>>},
+    {"assetInfo", kFamily, "A size or place of a model.", kAssetInfo, typed<assetInfo>},
     {"assetNamingInfo", kFamily, "The names of a model's materials as a string list.", kNamingInfo,
-     assetNamingInfo},
+     typed<assetNamingInfo>},
     {"assetNamingInfos", kFamily, "The names of a model's materials as an array.", kNamingInfos,
-     assetNamingInfos},
-    {"assetMetadata", kFamily, "A property that a model's file carries.", kMetadata, assetMetadata},
-    {"imageInfo", kFamily, "Width or height of an image in pixels.", kImageInfo, imageInfo},
+     typed<assetNamingInfos>},
+    {"assetMetadata", kFamily, "A property that a model's file carries.", kMetadata,
+     typed<assetMetadata>},
+    {"imageInfo", kFamily, "Width or height of an image in pixels.", kImageInfo, typed<imageInfo>},
     {"assetsSortRatio", kFamily, "Models sorted by how near their proportions are to the scope's.",
-     kSortRatio, sorted<assetRatio>},
+     kSortRatio, typed<sorted<assetRatio>>},
     {"assetsSortSize", kFamily, "Models sorted by how little they must be scaled to fit the scope.",
-     kSortSize, sorted<assetSize>},
+     kSortSize, typed<sorted<assetSize>>},
     {"imagesSortRatio", kFamily, "Images sorted by how near their proportions are to the scope's.",
-     kSortImage, sorted<imageRatio>},
+     kSortImage, typed<sorted<imageRatio>>},
     {"assetBestRatio", kFamily, "The model with the proportions nearest to the scope's.",
-     kBestRatio, best<assetRatio>, kRandom},
+     kBestRatio, typed<best<assetRatio>>, kRandom},
     {"assetApproxRatio", kFamily, "One of the models with the proportions nearest to the scope's.",
-     kApproxRatio, approximate<assetRatio>, kRandom},
+     kApproxRatio, typed<approximate<assetRatio>>, kRandom},
     {"assetBestSize", kFamily, "The model that must be scaled least to fit the scope.", kBestSize,
-     best<assetSize>, kRandom},
+     typed<best<assetSize>>, kRandom},
     {"assetApproxSize", kFamily, "One of the models that must be scaled least to fit the scope.",
-     kApproxSize, approximate<assetSize>, kRandom},
+     kApproxSize, typed<approximate<assetSize>>, kRandom},
     {"assetFitSize", kFamily, "One of the models that fit the scope within a share of scaling.",
-     kFitSize, assetFitSize, kRandom},
+     kFitSize, typed<assetFitSize>, kRandom},
     {"imageBestRatio", kFamily, "The image with the proportions nearest to the scope's.",
-     kBestRatio, best<imageRatio>, kRandom},
+     kBestRatio, typed<best<imageRatio>>, kRandom},
     {"imageApproxRatio", kFamily, "One of the images with the proportions nearest to the scope's.",
-     kApproxRatio, approximate<imageRatio>, kRandom},
+     kApproxRatio, typed<approximate<imageRatio>>, kRandom},
 };
 
 }  // namespace

@@ -9,24 +9,31 @@
 #include "builtins/lists.h"
 #include "builtins/shared/arrays.h"
 #include "math/trig.h"
+#include "program/typed_param.h"
 #include "shape/op_call.h"
 
 namespace gable {
 
 namespace {
 
+// A number, or an array of them in its place.
+struct Numbers {
+  double one = 0;
+  Floats many;
+};
+
 template <double (*f)(double)>
-Value map(FunctionCall& call) {
-  if (!call.arg(0).isArray()) return Value::of(f(call.number(0)));
-  Array a = call.array(0);
+Value map(FunctionCall& call, const Numbers& args) {
+  if (!args.many.array) return Value::of(f(args.one));
+  Array a = *args.many.array;
   for (double& v : a.numbers) v = f(v);
   return call.result(std::move(a));
 }
 
 template <bool (*f)(double)>
-Value test(FunctionCall& call) {
-  if (!call.arg(0).isArray()) return Value::of(f(call.number(0)));
-  Array a = call.array(0);
+Value test(FunctionCall& call, const Numbers& args) {
+  if (!args.many.array) return Value::of(f(args.one));
+  Array a = *args.many.array;
   a.element = ValueType::Bool;
   for (double& v : a.numbers) v = f(v) ? 1 : 0;
   return call.result(std::move(a));
@@ -40,8 +47,8 @@ double nearest(double v) { return std::nearbyint(v) + 0.0; }
 bool isInfinite(double v) { return std::isinf(v); }
 bool isNotANumber(double v) { return std::isnan(v); }
 
-Value squareRoot(FunctionCall& call) {
-  const double v = call.number(0);
+Value squareRoot(FunctionCall& call, const Numbers& args) {
+  const double v = args.one;
   if (v < 0) {
     return call.fail("not-a-number", "sqrt has no value for " + numberText(v),
                      "test the sign before", Value::of(std::nan("")));
@@ -49,103 +56,109 @@ Value squareRoot(FunctionCall& call) {
   return Value::of(std::sqrt(v));
 }
 
-Value power(FunctionCall& call) { return Value::of(powOf(call.number(0), call.number(1))); }
-Value arcTangent2(FunctionCall& call) {
-  return Value::of(atan2Deg(call.number(0), call.number(1)));
+struct Pair {
+  double a, b;
+};
+
+template <double (*f)(double, double)>
+Value map2(FunctionCall&, const Pair& args) {
+  return Value::of(f(args.a, args.b));
 }
 
-Value least(FunctionCall& call) {
-  const ValuePool& pool = call.services().pool();
-  return orderOf(call.arg(1), call.arg(0), pool) < 0 ? call.arg(1) : call.arg(0);
+// Values of one type.
+struct Compared {
+  Value a, b;
+};
+
+Value least(FunctionCall& call, const Compared& args) {
+  return orderOf(args.b, args.a, call.services().pool()) < 0 ? args.b : args.a;
 }
-Value greatest(FunctionCall& call) {
-  const ValuePool& pool = call.services().pool();
-  return orderOf(call.arg(1), call.arg(0), pool) > 0 ? call.arg(1) : call.arg(0);
-}
-Value clamped(FunctionCall& call) {
-  const ValuePool& pool = call.services().pool();
-  if (orderOf(call.arg(0), call.arg(1), pool) < 0) return call.arg(1);
-  return orderOf(call.arg(0), call.arg(2), pool) > 0 ? call.arg(2) : call.arg(0);
+Value greatest(FunctionCall& call, const Compared& args) {
+  return orderOf(args.b, args.a, call.services().pool()) > 0 ? args.b : args.a;
 }
 
-constexpr ParamSpec kX[] = {{"x", ParamType::Float, "A number."}};
-constexpr ParamSpec kXs[] = {
-    {"x", ParamType::FloatArray, "Numbers; each gives one of the result."}};
+struct Clamped {
+  Value x, min, max;
+};
+
+Value clamped(FunctionCall& call, const Clamped& args) {
+  const ValuePool& pool = call.services().pool();
+  if (orderOf(args.x, args.min, pool) < 0) return args.min;
+  return orderOf(args.x, args.max, pool) > 0 ? args.max : args.x;
+}
+
+constexpr ParamSpec kX[] = {param<&Numbers::one>("x", "A number.")};
+constexpr ParamSpec kXs[] = {param<&Numbers::many>("x", "Numbers; each gives one of the result.")};
+constexpr ParamSpec kAngle[] = {param<&Numbers::one>("angle", "An angle in degrees.")};
 constexpr ValueType kFloat = ValueType::Float;
 constexpr Signature kOne[] = {{kX, kFloat}};
+constexpr Signature kOfAngle[] = {{kAngle, kFloat}};
 constexpr Signature kOneOrMany[] = {{kX, kFloat}, {kXs, ValueType::FloatArray}};
 constexpr Signature kTest[] = {{kX, ValueType::Bool}, {kXs, ValueType::BoolArray}};
 
-constexpr ParamSpec kSine[] = {{"angle", ParamType::Float, "An angle in degrees."}};
-constexpr Signature kOfAngle[] = {{kSine, kFloat}};
-
-constexpr ParamSpec kPowParams[] = {{"base", ParamType::Float, "The number to raise."},
-                                    {"exponent", ParamType::Float, "The power to raise it to."}};
+constexpr ParamSpec kPowParams[] = {param<&Pair::a>("base", "The number to raise."),
+                                    param<&Pair::b>("exponent", "The power to raise it to.")};
 constexpr Signature kPow[] = {{kPowParams, kFloat}};
-
-constexpr ParamSpec kAtan2Params[] = {{"y", ParamType::Float, "The opposite side."},
-                                      {"x", ParamType::Float, "The adjacent side."}};
+constexpr ParamSpec kAtan2Params[] = {param<&Pair::a>("y", "The opposite side."),
+                                      param<&Pair::b>("x", "The adjacent side.")};
 constexpr Signature kAtan2[] = {{kAtan2Params, kFloat}};
 
-constexpr const char* kSame = "Another of the same type.";
-constexpr ParamSpec kFloats2[] = {{"a", ParamType::Float, "A number."},
-                                  {"b", ParamType::Float, kSame}};
-constexpr ParamSpec kStrings2[] = {{"a", ParamType::String, "A text."},
-                                   {"b", ParamType::String, kSame}};
-constexpr ParamSpec kFloatArrays2[] = {{"a", ParamType::FloatArray, "Numbers."},
-                                       {"b", ParamType::FloatArray, kSame}};
-constexpr ParamSpec kStringArrays2[] = {{"a", ParamType::StringArray, "Texts."},
-                                        {"b", ParamType::StringArray, kSame}};
-constexpr Signature kTwo[] = {{kFloats2, kFloat},
-                              {kStrings2, ValueType::String},
-                              {kFloatArrays2, ValueType::FloatArray},
-                              {kStringArrays2, ValueType::StringArray}};
+constexpr const char* docOf(ParamType type) {
+  switch (type) {
+    case ParamType::Float: return "A number.";
+    case ParamType::String: return "A text.";
+    case ParamType::FloatArray: return "Numbers.";
+    default: return "Texts.";
+  }
+}
 
-constexpr const char* kLow = "The least result.";
-constexpr const char* kHigh = "The greatest result.";
-constexpr ParamSpec kFloats3[] = {{"x", ParamType::Float, "A number."},
-                                  {"min", ParamType::Float, kLow},
-                                  {"max", ParamType::Float, kHigh}};
-constexpr ParamSpec kStrings3[] = {{"x", ParamType::String, "A text."},
-                                   {"min", ParamType::String, kLow},
-                                   {"max", ParamType::String, kHigh}};
-constexpr ParamSpec kFloatArrays3[] = {{"x", ParamType::FloatArray, "Numbers."},
-                                       {"min", ParamType::FloatArray, kLow},
-                                       {"max", ParamType::FloatArray, kHigh}};
-constexpr ParamSpec kStringArrays3[] = {{"x", ParamType::StringArray, "Texts."},
-                                        {"min", ParamType::StringArray, kLow},
-                                        {"max", ParamType::StringArray, kHigh}};
-constexpr Signature kThree[] = {{kFloats3, kFloat},
-                                {kStrings3, ValueType::String},
-                                {kFloatArrays3, ValueType::FloatArray},
-                                {kStringArrays3, ValueType::StringArray}};
+template <ParamType type>
+constexpr ParamSpec kComparedOf[] = {param<&Compared::a, type>("a", docOf(type)),
+                                     param<&Compared::b, type>("b", "Another of the same type.")};
+constexpr Signature kTwo[] = {{kComparedOf<ParamType::Float>, kFloat},
+                              {kComparedOf<ParamType::String>, ValueType::String},
+                              {kComparedOf<ParamType::FloatArray>, ValueType::FloatArray},
+                              {kComparedOf<ParamType::StringArray>, ValueType::StringArray}};
+
+template <ParamType type>
+constexpr ParamSpec kClampedOf[] = {param<&Clamped::x, type>("x", docOf(type)),
+                                    param<&Clamped::min, type>("min", "The least result."),
+                                    param<&Clamped::max, type>("max", "The greatest result.")};
+constexpr Signature kThree[] = {{kClampedOf<ParamType::Float>, kFloat},
+                                {kClampedOf<ParamType::String>, ValueType::String},
+                                {kClampedOf<ParamType::FloatArray>, ValueType::FloatArray},
+                                {kClampedOf<ParamType::StringArray>, ValueType::StringArray}};
 
 constexpr const char* kFamily = "numbers";
 constexpr FunctionSpec kFunctions[] = {
-    {"abs", kFamily, "The number without its sign.", kOneOrMany, map<absolute>},
-    {"ceil", kFamily, "The next integer upwards.", kOneOrMany, map<ceiling>},
-    {"floor", kFamily, "The next integer downwards.", kOneOrMany, map<floorOf>},
-    {"rint", kFamily, "The nearest integer; halves go to the even one.", kOneOrMany, map<nearest>},
+    {"abs", kFamily, "The number without its sign.", kOneOrMany, typed<map<absolute>>},
+    {"ceil", kFamily, "The next integer upwards.", kOneOrMany, typed<map<ceiling>>},
+    {"floor", kFamily, "The next integer downwards.", kOneOrMany, typed<map<floorOf>>},
+    {"rint", kFamily, "The nearest integer; halves go to the even one.", kOneOrMany,
+     typed<map<nearest>>},
     {"sqrt", kFamily, "The square root; NaN, with a warning, of a negative number.", kOne,
-     squareRoot},
-    {"pow", kFamily, "A number raised to a power.", kPow, power},
-    {"exp", kFamily, "Euler's number raised to a power.", kOne, map<expOf>},
-    {"ln", kFamily, "The natural logarithm; NaN of a negative number.", kOne, map<logOf>},
-    {"log10", kFamily, "The logarithm to base ten.", kOne, map<log10Of>},
-    {"sin", kFamily, "The sine of an angle in degrees.", kOfAngle, map<sinDeg>},
-    {"cos", kFamily, "The cosine of an angle in degrees.", kOfAngle, map<cosDeg>},
-    {"tan", kFamily, "The tangent of an angle in degrees.", kOfAngle, map<tanDeg>},
-    {"asin", kFamily, "The angle in degrees, -90 to 90, with this sine.", kOne, map<asinDeg>},
-    {"acos", kFamily, "The angle in degrees, 0 to 180, with this cosine.", kOne, map<acosDeg>},
-    {"atan", kFamily, "The angle in degrees, -90 to 90, with this tangent.", kOne, map<atanDeg>},
+     typed<squareRoot>},
+    {"pow", kFamily, "A number raised to a power.", kPow, typed<map2<powOf>>},
+    {"exp", kFamily, "Euler's number raised to a power.", kOne, typed<map<expOf>>},
+    {"ln", kFamily, "The natural logarithm; NaN of a negative number.", kOne, typed<map<logOf>>},
+    {"log10", kFamily, "The logarithm to base ten.", kOne, typed<map<log10Of>>},
+    {"sin", kFamily, "The sine of an angle in degrees.", kOfAngle, typed<map<sinDeg>>},
+    {"cos", kFamily, "The cosine of an angle in degrees.", kOfAngle, typed<map<cosDeg>>},
+    {"tan", kFamily, "The tangent of an angle in degrees.", kOfAngle, typed<map<tanDeg>>},
+    {"asin", kFamily, "The angle in degrees, -90 to 90, with this sine.", kOne,
+     typed<map<asinDeg>>},
+    {"acos", kFamily, "The angle in degrees, 0 to 180, with this cosine.", kOne,
+     typed<map<acosDeg>>},
+    {"atan", kFamily, "The angle in degrees, -90 to 90, with this tangent.", kOne,
+     typed<map<atanDeg>>},
     {"atan2", kFamily, "The angle in degrees, -180 to 180, of the direction (x, y).", kAtan2,
-     arcTangent2},
-    {"isinf", kFamily, "Whether a number is infinite.", kTest, test<isInfinite>},
-    {"isnan", kFamily, "Whether a value is not a number.", kTest, test<isNotANumber>},
-    {"min", kFamily, "The lesser of two values.", kTwo, least},
-    {"max", kFamily, "The greater of two values.", kTwo, greatest},
+     typed<map2<atan2Deg>>},
+    {"isinf", kFamily, "Whether a number is infinite.", kTest, typed<test<isInfinite>>},
+    {"isnan", kFamily, "Whether a value is not a number.", kTest, typed<test<isNotANumber>>},
+    {"min", kFamily, "The lesser of two values.", kTwo, typed<least>},
+    {"max", kFamily, "The greater of two values.", kTwo, typed<greatest>},
     {"clamp", kFamily, "The value itself within two bounds, else the nearer bound.", kThree,
-     clamped},
+     typed<clamped>},
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "builtins/lists.h"
 #include "builtins/shared/arrays.h"
+#include "program/typed_param.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -16,7 +17,24 @@ namespace {
 
 using Items = std::vector<std::string_view>;
 
-Items items(const FunctionCall& call) { return itemsOf(call.text(0)); }
+struct List {
+  Text list;
+  Items items() const { return itemsOf(list.text); }
+};
+
+// An item or a pattern beside the list.
+struct ListAndItem : List {
+  std::string_view item;
+};
+
+struct ListAndIndex : List {
+  double index;
+};
+
+struct Range : List {
+  double left, right;
+};
+
 Value list(const FunctionCall& call, const Items& all) { return call.result(listOf(all)); }
 
 // A * at the beginning or the end of the pattern stands for anything.
@@ -31,96 +49,102 @@ bool matches(std::string_view item, std::string_view pattern) {
   return item == pattern;
 }
 
-Value listItem(FunctionCall& call) {
-  const Items all = items(call);
-  const double index = std::trunc(call.number(1));
+Value listItem(FunctionCall& call, const ListAndIndex& args) {
+  const Items all = args.items();
+  const double index = std::trunc(args.index);
   const bool inside = index >= 0 && index < static_cast<double>(all.size());
   return call.result(inside ? std::string_view(all[static_cast<size_t>(index)]) : "");
 }
 
-Value listFirst(FunctionCall& call) {
-  const Items all = items(call);
+Value listFirst(FunctionCall& call, const List& args) {
+  const Items all = args.items();
   return call.result(all.empty() ? "" : all.front());
 }
 
-Value listLast(FunctionCall& call) {
-  const Items all = items(call);
+Value listLast(FunctionCall& call, const List& args) {
+  const Items all = args.items();
   return call.result(all.empty() ? "" : all.back());
 }
 
-Value listSize(FunctionCall& call) { return Value::of(static_cast<double>(items(call).size())); }
+Value listSize(FunctionCall&, const List& args) {
+  return Value::of(static_cast<double>(args.items().size()));
+}
 
-Value listIndex(FunctionCall& call) {
-  const Items all = items(call);
+Value listIndex(FunctionCall&, const ListAndItem& args) {
+  const Items all = args.items();
   const auto at =
-      std::find_if(all.begin(), all.end(), [&](const auto& i) { return matches(i, call.text(1)); });
+      std::find_if(all.begin(), all.end(), [&](const auto& i) { return matches(i, args.item); });
   return Value::of(at == all.end() ? -1.0 : static_cast<double>(at - all.begin()));
 }
 
-Value listCount(FunctionCall& call) {
-  const Items all = items(call);
-  return Value::of(static_cast<double>(std::count_if(
-      all.begin(), all.end(), [&](const auto& i) { return matches(i, call.text(1)); })));
+Value listCount(FunctionCall&, const ListAndItem& args) {
+  const Items all = args.items();
+  return Value::of(static_cast<double>(
+      std::count_if(all.begin(), all.end(), [&](const auto& i) { return matches(i, args.item); })));
 }
 
-Value listRandom(FunctionCall& call) {
-  const Items all = items(call);
+Value listRandom(FunctionCall& call, const List& args) {
+  const Items all = args.items();
   if (all.empty()) return call.result("");
   const double draw = randomIn(call.randomAddress(0), 0, static_cast<double>(all.size()));
   return call.result(all[std::min(static_cast<size_t>(draw), all.size() - 1)]);
 }
 
-Value listRange(FunctionCall& call) {
-  const Items all = items(call);
+Value listRange(FunctionCall& call, const Range& args) {
+  const Items all = args.items();
   const double size = static_cast<double>(all.size());
-  const auto bound = [&](size_t argument) {
-    const double v = std::trunc(call.number(argument));
+  const auto bound = [&](double index) {
+    const double v = std::trunc(index);
     return v > 0 ? static_cast<ptrdiff_t>(std::min(v, size)) : ptrdiff_t{0};
   };
-  const ptrdiff_t from = bound(1), to = bound(2);
+  const ptrdiff_t from = bound(args.left), to = bound(args.right);
   if (from >= to) return call.result("");
   return list(call, Items(all.begin() + from, all.begin() + to));
 }
 
-Value listAdd(FunctionCall& call) {
-  Items all = items(call);
-  const Items more = itemsOf(call.text(1));
+Value listAdd(FunctionCall& call, const ListAndItem& args) {
+  Items all = args.items();
+  const Items more = itemsOf(args.item);
   all.insert(all.end(), more.begin(), more.end());
   return list(call, all);
 }
 
-Value listRemove(FunctionCall& call) {
-  Items all = items(call);
+Value listRemove(FunctionCall& call, const ListAndItem& args) {
+  Items all = args.items();
   const auto at =
-      std::find_if(all.begin(), all.end(), [&](const auto& i) { return matches(i, call.text(1)); });
+      std::find_if(all.begin(), all.end(), [&](const auto& i) { return matches(i, args.item); });
   if (at != all.end()) all.erase(at);
   return list(call, all);
 }
 
 template <bool keepMatching>
-Value filtered(FunctionCall& call) {
+Value filtered(FunctionCall& call, const ListAndItem& args) {
   Items kept;
-  for (const std::string_view item : items(call)) {
-    if (matches(item, call.text(1)) == keepMatching) kept.push_back(item);
+  for (const std::string_view item : args.items()) {
+    if (matches(item, args.item) == keepMatching) kept.push_back(item);
   }
   return list(call, kept);
 }
 
-Value listClean(FunctionCall& call) {
-  Items all = items(call);
+Value listClean(FunctionCall& call, const List& args) {
+  Items all = args.items();
   all.erase(std::remove(all.begin(), all.end(), std::string_view()), all.end());
   return list(call, all);
 }
 
-Value listTerminate(FunctionCall& call) {
-  const std::string_view text = call.text(0);
-  if (text.empty() || text.back() == ';') return call.arg(0);
+Value listTerminate(FunctionCall& call, const List& args) {
+  const std::string_view text = args.list.text;
+  if (text.empty() || text.back() == ';') return Value::string(args.list.id);
   return call.result(std::string(text) + ";");
 }
 
-Value listFromArray(FunctionCall& call) {
-  const Array& a = call.array(0);
+struct Elements {
+  Value array;
+};
+
+Value listFromArray(FunctionCall& call, const Elements& args) {
   const ValuePool& pool = call.services().pool();
+  const Array& a = pool.array(args.array);
   std::vector<std::string> all;
   size_t length = 0;
   for (size_t i = 0; i < a.size() && length <= kMaxTextLength; ++i) {
@@ -132,8 +156,8 @@ Value listFromArray(FunctionCall& call) {
   return call.result(listOf(all));
 }
 
-Value listToArray(FunctionCall& call) {
-  const Items all = items(call);
+Value listToArray(FunctionCall& call, const List& args) {
+  const Items all = args.items();
   if (all.size() <= kMaxArraySize) {
     return stringArray({all.begin(), all.end()}, call.services().pool());
   }
@@ -141,10 +165,9 @@ Value listToArray(FunctionCall& call) {
                    "arrays have up to 100000 elements", stringArray({}, call.services().pool()));
 }
 
-constexpr ParamSpec kList = {"stringList", ParamType::String, "Items, each ended by a semicolon."};
-constexpr ParamSpec kSearch = {"searchString", ParamType::String,
-                               "The item to look for; * at its beginning or end stands for any "
-                               "characters."};
+constexpr ParamSpec kList = param<&List::list>("stringList", "Items, each ended by a semicolon.");
+constexpr ParamSpec kSearch = param<&ListAndItem::item>(
+    "searchString", "The item to look for; * at its beginning or end stands for any characters.");
 constexpr ValueType kFloat = ValueType::Float, kString = ValueType::String;
 
 constexpr ParamSpec kListParams[] = {kList};
@@ -152,45 +175,53 @@ constexpr Signature kTextOfList[] = {{kListParams, kString}};
 constexpr Signature kNumberOfList[] = {{kListParams, kFloat}};
 constexpr Signature kArrayOfList[] = {{kListParams, ValueType::StringArray}};
 constexpr ParamSpec kItemParams[] = {
-    kList, {"index", ParamType::Float, "The number of the item, counted from 0."}};
+    kList, param<&ListAndIndex::index>("index", "The number of the item, counted from 0.")};
 constexpr Signature kItem[] = {{kItemParams, kString}};
 constexpr ParamSpec kSearchParams[] = {kList, kSearch};
 constexpr Signature kNumberOfSearch[] = {{kSearchParams, kFloat}};
 constexpr Signature kTextOfSearch[] = {{kSearchParams, kString}};
 constexpr ParamSpec kRangeParams[] = {
-    kList,
-    {"leftIndex", ParamType::Float, "The first item to take, counted from 0."},
-    {"rightIndex", ParamType::Float, "The first item not to take any more."}};
+    kList, param<&Range::left>("leftIndex", "The first item to take, counted from 0."),
+    param<&Range::right>("rightIndex", "The first item not to take any more.")};
 constexpr Signature kRange[] = {{kRangeParams, kString}};
-constexpr ParamSpec kAddParams[] = {kList, {"item", ParamType::String, "The item to append."}};
+constexpr ParamSpec kAddParams[] = {kList,
+                                    param<&ListAndItem::item>("item", "The item to append.")};
 constexpr Signature kAdd[] = {{kAddParams, kString}};
-constexpr ParamSpec kFloats[] = {{"array", ParamType::FloatArray, "Numbers."}};
-constexpr ParamSpec kBools[] = {{"array", ParamType::BoolArray, "Truth values."}};
-constexpr ParamSpec kStrings[] = {{"array", ParamType::StringArray, "Texts."}};
+constexpr ParamSpec kFloats[] = {
+    param<&Elements::array, ParamType::FloatArray>("array", "Numbers.")};
+constexpr ParamSpec kBools[] = {
+    param<&Elements::array, ParamType::BoolArray>("array", "Truth values.")};
+constexpr ParamSpec kStrings[] = {
+    param<&Elements::array, ParamType::StringArray>("array", "Texts.")};
 constexpr Signature kFromArray[] = {{kFloats, kString}, {kBools, kString}, {kStrings, kString}};
 
 constexpr const char* kFamily = "string lists";
 constexpr FunctionSpec kFunctions[] = {
-    {"listItem", kFamily, "An item of a list; an empty text outside of it.", kItem, listItem},
-    {"listFirst", kFamily, "The first item of a list.", kTextOfList, listFirst},
-    {"listLast", kFamily, "The last item of a list.", kTextOfList, listLast},
-    {"listSize", kFamily, "The number of items of a list.", kNumberOfList, listSize},
+    {"listItem", kFamily, "An item of a list; an empty text outside of it.", kItem,
+     typed<listItem>},
+    {"listFirst", kFamily, "The first item of a list.", kTextOfList, typed<listFirst>},
+    {"listLast", kFamily, "The last item of a list.", kTextOfList, typed<listLast>},
+    {"listSize", kFamily, "The number of items of a list.", kNumberOfList, typed<listSize>},
     {"listIndex", kFamily, "The number of the first matching item; -1 when there is none.",
-     kNumberOfSearch, listIndex},
-    {"listCount", kFamily, "How many items of a list match.", kNumberOfSearch, listCount},
-    {"listRandom", kFamily, "A random item of a list.", kTextOfList, listRandom, kRandom},
+     kNumberOfSearch, typed<listIndex>},
+    {"listCount", kFamily, "How many items of a list match.", kNumberOfSearch, typed<listCount>},
+    {"listRandom", kFamily, "A random item of a list.", kTextOfList, typed<listRandom>, kRandom},
     {"listRange", kFamily, "The items of a list from one number to before another.", kRange,
-     listRange},
-    {"listAdd", kFamily, "A list with an item appended.", kAdd, listAdd},
-    {"listRemove", kFamily, "A list without the first matching item.", kTextOfSearch, listRemove},
+     typed<listRange>},
+    {"listAdd", kFamily, "A list with an item appended.", kAdd, typed<listAdd>},
+    {"listRemove", kFamily, "A list without the first matching item.", kTextOfSearch,
+     typed<listRemove>},
     {"listRemoveAll", kFamily, "A list without all matching items.", kTextOfSearch,
-     filtered<false>},
-    {"listRetainAll", kFamily, "The matching items of a list.", kTextOfSearch, filtered<true>},
+     typed<filtered<false>>},
+    {"listRetainAll", kFamily, "The matching items of a list.", kTextOfSearch,
+     typed<filtered<true>>},
     {"listClean", kFamily, "A list without empty items, each item ended by a semicolon.",
-     kTextOfList, listClean},
-    {"listTerminate", kFamily, "A list with a semicolon at its end.", kTextOfList, listTerminate},
-    {"listFromArray", kFamily, "The elements of an array as a list.", kFromArray, listFromArray},
-    {"listToArray", kFamily, "The items of a list as an array.", kArrayOfList, listToArray},
+     kTextOfList, typed<listClean>},
+    {"listTerminate", kFamily, "A list with a semicolon at its end.", kTextOfList,
+     typed<listTerminate>},
+    {"listFromArray", kFamily, "The elements of an array as a list.", kFromArray,
+     typed<listFromArray>},
+    {"listToArray", kFamily, "The items of a list as an array.", kArrayOfList, typed<listToArray>},
 };
 
 }  // namespace

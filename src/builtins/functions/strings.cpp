@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "builtins/lists.h"
 #include "builtins/shared/arrays.h"
+#include "program/typed_param.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -39,7 +40,13 @@ Value position(std::string_view text, size_t byte) {
   return Value::of(byte == kNone ? -1.0 : static_cast<double>(lengthOf(text.substr(0, byte))));
 }
 
-Value length(FunctionCall& call) { return Value::of(static_cast<double>(lengthOf(call.text(0)))); }
+struct Input {
+  Text text;
+};
+
+Value length(FunctionCall&, const Input& args) {
+  return Value::of(static_cast<double>(lengthOf(args.text.text)));
+}
 
 // The byte of the n-th match, counted from 0 without overlaps.
 size_t findNth(std::string_view text, std::string_view match, double n) {
@@ -49,13 +56,22 @@ size_t findNth(std::string_view text, std::string_view match, double n) {
   return at;
 }
 
-Value find(FunctionCall& call) {
-  return position(call.text(0), findNth(call.text(0), call.text(1), call.number(2)));
+// Looks for one text in another.
+struct Search : Input {
+  std::string_view match;
+};
+
+struct FindNth : Search {
+  double n;
+};
+
+Value find(FunctionCall&, const FindNth& args) {
+  return position(args.text.text, findNth(args.text.text, args.match, args.n));
 }
 
-Value count(FunctionCall& call) {
+Value count(FunctionCall&, const Search& args) {
   double n = 0;
-  const std::string_view text = call.text(0), match = call.text(1);
+  const std::string_view text = args.text.text, match = args.match;
   for (size_t at = match.empty() ? kNone : text.find(match); at != kNone;
        at = text.find(match, at + match.size())) {
     ++n;
@@ -63,9 +79,13 @@ Value count(FunctionCall& call) {
   return Value::of(n);
 }
 
-Value substring(FunctionCall& call) {
-  const std::string_view text = call.text(0);
-  const size_t begin = byteOf(text, call.number(1)), end = byteOf(text, call.number(2));
+struct Substring : Input {
+  double start, end;
+};
+
+Value substring(FunctionCall& call, const Substring& args) {
+  const std::string_view text = args.text.text;
+  const size_t begin = byteOf(text, args.start), end = byteOf(text, args.end);
   return call.result(begin < end ? text.substr(begin, end - begin) : std::string_view());
 }
 
@@ -109,9 +129,9 @@ std::vector<std::string> splitAtRegex(std::string_view text, const Regex& regex)
   return parts;
 }
 
-Value splitString(FunctionCall& call) {
+Value splitString(FunctionCall& call, const Search& args) {
   ValuePool& pool = call.services().pool();
-  const std::string_view text = call.text(0), delimiter = call.text(1);
+  const std::string_view text = args.text.text, delimiter = args.match;
   std::vector<std::string> parts;
   if (delimiter.size() > 1 && delimiter[0] == '$') {
     const Regex regex(delimiter.substr(1));
@@ -153,35 +173,44 @@ Value findFirst(FunctionCall& call, const FindFirst& args) {
   return Value::of(-1.0);
 }
 
-Value findLast(FunctionCall& call) {
-  const std::string_view text = call.text(0), match = call.text(1);
-  return position(text, match.empty() ? kNone : text.rfind(match));
+Value findLast(FunctionCall&, const Search& args) {
+  const std::string_view text = args.text.text;
+  return position(text, args.match.empty() ? kNone : text.rfind(args.match));
 }
 
-Value getPrefix(FunctionCall& call) {
-  const std::string_view text = call.text(0);
-  const size_t at = findNth(text, call.text(1), 0);
+Value getPrefix(FunctionCall& call, const Search& args) {
+  const std::string_view text = args.text.text;
+  const size_t at = findNth(text, args.match, 0);
   return call.result(at == kNone ? std::string_view() : text.substr(0, at));
 }
 
-Value getSuffix(FunctionCall& call) {
-  const std::string_view text = call.text(0), match = call.text(1);
+Value getSuffix(FunctionCall& call, const Search& args) {
+  const std::string_view text = args.text.text, match = args.match;
   const size_t at = match.empty() ? kNone : text.rfind(match);
   return call.result(at == kNone ? std::string_view() : text.substr(at + match.size()));
 }
 
-Value getRange(FunctionCall& call) {
-  const std::string_view text = call.text(0), left = call.text(1), right = call.text(2);
-  const size_t from = findNth(text, left, 0);
-  const size_t to = right.empty() ? kNone : text.rfind(right);
-  if (from == kNone || to == kNone || to < from + left.size()) return call.result("");
-  return call.result(text.substr(from + left.size(), to - from - left.size()));
+struct Between : Input {
+  std::string_view left, right;
+};
+
+Value getRange(FunctionCall& call, const Between& args) {
+  const std::string_view text = args.text.text;
+  const size_t from = findNth(text, args.left, 0);
+  const size_t to = args.right.empty() ? kNone : text.rfind(args.right);
+  if (from == kNone || to == kNone || to < from + args.left.size()) return call.result("");
+  return call.result(text.substr(from + args.left.size(), to - from - args.left.size()));
 }
 
-Value replace(FunctionCall& call) {
-  const std::string_view text = call.text(0), old = call.text(1);
-  if (old.empty()) return call.arg(0);
-  const std::string by = call.services().pool().str(call.arg(2));
+struct Replace : Input {
+  std::string_view old;
+  Value by;
+};
+
+Value replace(FunctionCall& call, const Replace& args) {
+  const std::string_view text = args.text.text, old = args.old;
+  if (old.empty()) return Value::string(args.text.id);
+  const std::string by = call.services().pool().str(args.by);
   std::string out;
   size_t from = 0;
   for (size_t at = text.find(old); at != kNone; at = text.find(old, from)) {
@@ -192,84 +221,89 @@ Value replace(FunctionCall& call) {
   return call.result(out.append(text.substr(from)));
 }
 
-constexpr ParamSpec kInput = {"inputString", ParamType::String, "The text to look at."};
-constexpr ParamSpec kMatch = {"matchString", ParamType::String, "The text to look for."};
+constexpr ParamSpec kInput = param<&Input::text>("inputString", "The text to look at.");
+constexpr ParamSpec kMatch = param<&Search::match>("matchString", "The text to look for.");
 constexpr ValueType kFloat = ValueType::Float, kString = ValueType::String;
 
 constexpr ParamSpec kOneParams[] = {kInput};
 constexpr Signature kLen[] = {{kOneParams, kFloat}};
-constexpr ParamSpec kFindParams[] = {
-    kInput, kMatch, {"n", ParamType::Float, "Which occurrence, counted from 0."}};
+constexpr ParamSpec kFindParams[] = {kInput, kMatch,
+                                     param<&FindNth::n>("n", "Which occurrence, counted from 0.")};
 constexpr Signature kFind[] = {{kFindParams, kFloat}};
 constexpr ParamSpec kMatchParams[] = {kInput, kMatch};
 constexpr Signature kNumberOfMatch[] = {{kMatchParams, kFloat}};
 constexpr Signature kTextOfMatch[] = {{kMatchParams, kString}};
 constexpr ParamSpec kSubstringParams[] = {
-    kInput,
-    {"startPos", ParamType::Float, "The first character to take, counted from 0."},
-    {"endPos", ParamType::Float, "The first character not to take any more."}};
+    kInput, param<&Substring::start>("startPos", "The first character to take, counted from 0."),
+    param<&Substring::end>("endPos", "The first character not to take any more.")};
 constexpr Signature kSubstring[] = {{kSubstringParams, kString}};
 constexpr ParamSpec kSplitParams[] = {
-    kInput,
-    {"delimiter", ParamType::String,
-     "What separates the parts; a regular expression after a leading $."}};
+    kInput, param<&Search::match>(
+                "delimiter", "What separates the parts; a regular expression after a leading $.")};
 constexpr Signature kSplit[] = {{kSplitParams, ValueType::StringArray}};
 constexpr ParamSpec kRangeParams[] = {
     kInput,
-    {"leftMatchString", ParamType::String, "The text whose first occurrence comes before."},
-    {"rightMatchString", ParamType::String, "The text whose last occurrence comes after."}};
+    param<&Between::left>("leftMatchString", "The text whose first occurrence comes before."),
+    param<&Between::right>("rightMatchString", "The text whose last occurrence comes after.")};
 constexpr Signature kRange[] = {{kRangeParams, kString}};
 
-constexpr ParamSpec kOld = {"oldString", ParamType::String, "The text to replace everywhere."};
-constexpr ParamSpec kNewText[] = {
-    kInput, kOld, {"newString", ParamType::String, "The text to put there."}};
-constexpr ParamSpec kNewFloat[] = {
-    kInput, kOld, {"newString", ParamType::Float, "A number to put there."}};
-constexpr ParamSpec kNewBool[] = {
-    kInput, kOld, {"newString", ParamType::Bool, "A truth value to put there."}};
+constexpr ParamSpec kOld = param<&Replace::old>("oldString", "The text to replace everywhere.");
+template <ParamType type>
+constexpr ParamSpec newString(const char* doc) {
+  return param<&Replace::by, type>("newString", doc);
+}
+constexpr ParamSpec kNewText[] = {kInput, kOld,
+                                  newString<ParamType::String>("The text to put there.")};
+constexpr ParamSpec kNewFloat[] = {kInput, kOld,
+                                   newString<ParamType::Float>("A number to put there.")};
+constexpr ParamSpec kNewBool[] = {kInput, kOld,
+                                  newString<ParamType::Bool>("A truth value to put there.")};
 constexpr Signature kReplace[] = {{kNewText, kString}, {kNewFloat, kString}, {kNewBool, kString}};
 
-constexpr ParamSpec firstIn(const char* name, const char* doc, ParamType type) {
-  return withType(param<&FindFirst::in>(name, doc), type);
+template <ParamType type>
+constexpr ParamSpec firstIn(const char* name, const char* doc) {
+  return param<&FindFirst::in, type>(name, doc);
 }
-constexpr ParamSpec firstValue(const char* name, const char* doc, ParamType type) {
-  return withType(param<&FindFirst::value>(name, doc), type);
+template <ParamType type>
+constexpr ParamSpec firstValue(const char* name, const char* doc) {
+  return param<&FindFirst::value, type>(name, doc);
 }
-constexpr ParamSpec kFirstText[] = {firstIn(kInput.name, kInput.doc, ParamType::String),
-                                    firstValue(kMatch.name, kMatch.doc, ParamType::String)};
+constexpr ParamSpec kFirstText[] = {firstIn<ParamType::String>(kInput.name, kInput.doc),
+                                    firstValue<ParamType::String>(kMatch.name, kMatch.doc)};
 constexpr ParamSpec kFirstFloat[] = {
-    firstIn("array", "Numbers to look through.", ParamType::FloatArray),
-    firstValue("value", "The number to look for.", ParamType::Float),
+    firstIn<ParamType::FloatArray>("array", "Numbers to look through."),
+    firstValue<ParamType::Float>("value", "The number to look for."),
     param<&FindFirst::epsilon>("epsilon", "How far a number may be off and still be taken.")};
 constexpr ParamSpec kFirstString[] = {
-    firstIn("array", "Texts to look through.", ParamType::StringArray),
-    firstValue("value", "The text to look for.", ParamType::String)};
+    firstIn<ParamType::StringArray>("array", "Texts to look through."),
+    firstValue<ParamType::String>("value", "The text to look for.")};
 constexpr ParamSpec kFirstBool[] = {
-    firstIn("array", "Truth values to look through.", ParamType::BoolArray),
-    firstValue("value", "The value to look for.", ParamType::Bool)};
+    firstIn<ParamType::BoolArray>("array", "Truth values to look through."),
+    firstValue<ParamType::Bool>("value", "The value to look for.")};
 constexpr Signature kFirst[] = {
     {kFirstText, kFloat}, {kFirstFloat, kFloat}, {kFirstString, kFloat}, {kFirstBool, kFloat}};
 
 constexpr const char* kFamily = "strings";
 constexpr FunctionSpec kFunctions[] = {
-    {"len", kFamily, "The number of characters of a text.", kLen, length},
+    {"len", kFamily, "The number of characters of a text.", kLen, typed<length>},
     {"find", kFamily, "The position of the n-th occurrence of a text; -1 when there is none.",
-     kFind, find},
-    {"count", kFamily, "How often a text occurs in another.", kNumberOfMatch, count},
+     kFind, typed<find>},
+    {"count", kFamily, "How often a text occurs in another.", kNumberOfMatch, typed<count>},
     {"substring", kFamily, "The characters of a text from one position to before another.",
-     kSubstring, substring},
-    {"splitString", kFamily, "The parts of a text between separators.", kSplit, splitString},
+     kSubstring, typed<substring>},
+    {"splitString", kFamily, "The parts of a text between separators.", kSplit, typed<splitString>},
     {"findFirst", kFamily,
      "The position of the first occurrence in a text or an array; -1 when there is none.", kFirst,
      typed<findFirst>},
     {"findLast", kFamily, "The position of the last occurrence of a text; -1 when there is none.",
-     kNumberOfMatch, findLast},
+     kNumberOfMatch, typed<findLast>},
     {"getPrefix", kFamily, "What comes before the first occurrence of a text.", kTextOfMatch,
-     getPrefix},
+     typed<getPrefix>},
     {"getSuffix", kFamily, "What comes after the last occurrence of a text.", kTextOfMatch,
-     getSuffix},
-    {"getRange", kFamily, "What stands between two texts.", kRange, getRange},
-    {"replace", kFamily, "A text with all occurrences of another one replaced.", kReplace, replace},
+     typed<getSuffix>},
+    {"getRange", kFamily, "What stands between two texts.", kRange, typed<getRange>},
+    {"replace", kFamily, "A text with all occurrences of another one replaced.", kReplace,
+     typed<replace>},
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "builtins/lists.h"
 #include "builtins/shared/text_forms.h"
+#include "program/typed_param.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -40,9 +41,6 @@ struct Report {
 };
 
 Status applyReport(OpCall& call, const Report& args) {
-  if (args.value.isArray()) {
-    return call.fail("type-mismatch", "report takes no arrays", "report the elements one by one");
-  }
   call.services().report(args.key.id, args.value);
   return {};
 }
@@ -61,11 +59,11 @@ constexpr Signature kPrintSignatures[] = {{kPrintParams}};
 constexpr ParamSpec kKey =
     param<&Report::key>("key", "The name of the collection; dots make groups.");
 constexpr ParamSpec kReportFloat[] = {
-    kKey, withType(param<&Report::value>("value", "A number to sum up."), ParamType::Float)};
+    kKey, param<&Report::value, ParamType::Float>("value", "A number to sum up.")};
 constexpr ParamSpec kReportBool[] = {
-    kKey, withType(param<&Report::value>("value", "A truth value to count."), ParamType::Bool)};
+    kKey, param<&Report::value, ParamType::Bool>("value", "A truth value to count.")};
 constexpr ParamSpec kReportString[] = {
-    kKey, withType(param<&Report::value>("value", "A text to count."), ParamType::String)};
+    kKey, param<&Report::value, ParamType::String>("value", "A text to count.")};
 constexpr Signature kReportSignatures[] = {{kReportFloat}, {kReportBool}, {kReportString}};
 
 constexpr OpSpec kSpecs[] = {
