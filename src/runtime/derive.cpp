@@ -65,7 +65,7 @@ void deriveShape(Pass& pass, Machine& machine, unsigned worker, const InitialSha
   const size_t noteBegin = tracer.notes().size();
   pass.units[i] = machine.run(shape, static_cast<uint32_t>(i));
   pass.derived[i] = 1;
-  if (!machine.collectsOccluders()) {
+  if (!machine.context().collects()) {
     pass.attributes[i] = machine.attributeValues();
     pass.units[i].messages.append(machine.takeMessages());
   }
@@ -157,7 +157,7 @@ void takeMessages(const Pass& pass, Diagnostics& out) {
 std::vector<Occluder> takeOccluders(Pass& pass) {
   std::vector<Occluder> all;
   for (auto& m : pass.machines) {
-    for (Occluder& o : m->occluders()) all.push_back(std::move(o));
+    for (Occluder& o : m->context().occluders()) all.push_back(std::move(o));
   }
   std::stable_sort(all.begin(), all.end(), [](const Occluder& a, const Occluder& b) {
     return a.initialShape < b.initialShape;

@@ -27,8 +27,7 @@ Machine::Machine(DeriveShared& shared, uint32_t worker)
       tally_(shared.usage),
       tracer_(shared.program, shared.options),
       attributeValues_(shared.program.attributes.size()),
-      stackMemory_(new std::byte[kStackSize * sizeof(Value)]),
-      stack_(reinterpret_cast<Value*>(stackMemory_.get())),
+      context_(shared.collectOccluders, shared.occluders),
       splits_(shared.program),
       flat_(!shared.options.sharing || shared.options.trace),
       lightParts_({shared.program, shared.options.limits, splits_, flat_}, output_, tally_) {
@@ -38,8 +37,7 @@ Machine::Machine(DeriveShared& shared, uint32_t worker)
   tags_ = &shared.environment.tags;
   assets_ = &shared.environment.assets;
   builtinSetSpec_ = &kSetSpec;
-  collectOccluders_ = shared.collectOccluders;
-  lightPartsAllowed_ = !collectOccluders_ && !shared.options.trace;
+  lightPartsAllowed_ = !context_.collects() && !shared.options.trace;
   if (shared.options.remember) {
     incremental_ = std::make_unique<IncrementalCache>(
         IncrementalCache::Tables{program_, shared.reach, shared.before}, output_, prototypes_,
@@ -65,7 +63,7 @@ void Machine::closeUnit(OutputUnit& unit, StringId name, uint64_t shapesBefore) 
   unit.worker = worker_;
   unit.prototype = prototypes_.endUnit(name, tally_.expanded() - shapesBefore);
   if (incremental_) incremental_->endUnit(worker_, unit.prototype);
-  unit.holes = std::exchange(holes_, {});
+  unit.holes = holes_.take();
   unit.messages = log_.take();
 }
 
@@ -84,8 +82,7 @@ void Machine::beginUnit() {
   portion_ = nullptr;
   portionBase_ = nullptr;
   log_.beginUnit();
-  holes_.clear();
-  pendingHoles_.clear();
+  holes_.begin();
   prototypes_.beginUnit();
 }
 
@@ -98,13 +95,13 @@ void Machine::endUnit(const Status& status) {
 
 void Machine::clearStacks() {
   salt_ = 0;
-  parameters_ = stackTop_ = activationCount_ = 0;
+  parameters_ = activationCount_ = 0;
+  stack_.cut(0);
   children_.clear();
   pieces_.clear();
   shapeStack_.clear();
-  frames_.clear();
+  inPlace_.begin(portion_ ? portion_->inPlace : 0);
   locals_.cut(0);
-  previous_.clear();
   functions_.clear();
 }
 
@@ -174,10 +171,7 @@ void Machine::beginRoot(uint32_t rule) {
   a.rule = rule;
   countShape();
   if (options().trace) traceShape(a, TraceNode::kNone, nullptr);
-  if (code.needsPrevious) {
-    a.previousScope = a.shape.scope;
-    a.previousSize = a.shape.size;
-  }
+  if (code.needsPrevious) a.keepScope();
   seen_ = &a.shape;
   parameters_ = 0;
   pc_ = program_.code.data() + code.entry;
@@ -197,7 +191,7 @@ std::vector<EvaluatedAttribute> Machine::attributeValues() {
     const AttributeCode& code = program_.attributes[a];
     if (code.constant || code.hidden || code.name.find('.') != std::string::npos) continue;
     aborted_ = false;
-    stackTop_ = 0;
+    stack_.cut(0);
     seen_ = &info_.shape;
     functions_.clear();
     attributeValues_.giveUpEvaluation(a);
@@ -270,7 +264,7 @@ bool Machine::overLimit(const char* code, std::string message, std::string hint)
   warn(code, std::move(message), std::move(hint));
   aborted_ = true;
   // What comes after in path order goes, and may be with another worker.
-  if (portion_ || !pendingHoles_.empty()) shared_.indivisible = true;
+  if (portion_ || holes_.anyPending()) shared_.indivisible = true;
   shared_.limitReached.store(true, std::memory_order_relaxed);
   return false;
 }

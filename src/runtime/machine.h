@@ -18,11 +18,15 @@
 #include "base/work.h"
 #include "program/program.h"
 #include "program/reach.h"
-#include "program/stack.h"
+#include "runtime/activation.h"
 #include "runtime/array_ops.h"
 #include "runtime/attribute_values.h"
-#include "runtime/context.h"
+#include "runtime/block_selectors.h"
+#include "runtime/context_queries.h"
 #include "runtime/derive.h"
+#include "runtime/gathers.h"
+#include "runtime/holes.h"
+#include "runtime/in_place.h"
 #include "runtime/incremental_cache.h"
 #include "runtime/light_parts.h"
 #include "runtime/local_values.h"
@@ -34,6 +38,7 @@
 #include "runtime/split_cache.h"
 #include "runtime/tally.h"
 #include "runtime/tracer.h"
+#include "runtime/value_stack.h"
 #include "runtime/worlds.h"
 #include "shape/op_call.h"
 
@@ -64,77 +69,6 @@ struct DeriveShared {
   std::atomic<bool> indivisible{false};
 };
 
-/// What an activation does to its shape in passing: a rule run in place, the turns of a repeat, or
-/// a block of local attribute values.
-struct InPlaceFrame {
-  enum class Kind : uint8_t { Rule, Turns, Locals } kind = Kind::Rule;
-  /// The scope below on the shape stack is kept in previous_, at this place.
-  bool keepsPrevious = false;
-  uint32_t previous = 0;
-  /// Rules run in place now, this one included.
-  uint32_t calls = 0;
-  // Rule: what goes on behind it.
-  const Instruction* back = nullptr;
-  uint32_t parameters = 0, stackBase = 0, rule = 0;
-  // Turns: the one at work.
-  uint32_t turn = 0, turns = 0;
-  IndexInfo split;
-  // Locals: the values of the block around.
-  uint32_t locals = 0, localCount = 0;
-  /// Rule and Turns: the address of the shape before. Turns: that of the loop.
-  uint64_t path = 0, loopPath = 0;
-};
-
-/// An operation that waits for the leaves of its children. Meanwhile nothing becomes a prototype.
-struct OpenGather {
-  const Instruction* at = nullptr;
-  uint32_t activation = 0;
-  /// Leaves that were there before.
-  uint32_t leaves = 0;
-  uint32_t traced = 0;
-  uint32_t made = 0;
-  bool flat = false, light = false;
-  /// Of the call, for its second part.
-  std::vector<Value> arguments;
-};
-
-/// One rule call or block slot in progress.
-struct Activation {
-  Shape shape;
-  const Instruction* pc = nullptr;
-  uint32_t rule = 0;
-  /// Parameters begin here on the value stack; slots use those of their rule.
-  uint32_t parameters = 0;
-  /// The value stack is cut to this when the activation ends.
-  uint32_t stackBase = 0;
-  uint32_t shapeStackBase = 0;
-  /// What the activation does in place, and the local values that it binds, begin here.
-  uint32_t frameBase = 0, localBase = 0;
-  /// Children of a block that wait for their turn: in pieces_, to be made by the plan, or in
-  /// children_.
-  uint32_t childBase = 0, childNext = 0, childEnd = 0;
-  uint32_t block = 0;
-  bool inPieces = false;
-  PartPlan plan;
-  /// The activation of the rule call that a slot belongs to (itself for a rule call), and the
-  /// number of the call among its parent's children.
-  uint32_t owner = 0, ordinal = 0;
-  /// In a rule call: children made by it and its slots.
-  uint32_t childCount = 0;
-  /// Children made so far; none at the end makes the shape a leaf.
-  uint32_t made = 0;
-  uint32_t depth = 0;
-  uint32_t traceNode = TraceNode::kNone;
-  bool slot = false;
-  /// The call opened a frame of its own (a shared rule), and with sharing a prototype.
-  bool boundary = false;
-  /// The result is to be remembered.
-  bool kept = false;
-  /// The scope below on the shape stack; kept up only where a rule needs it.
-  Frame previousScope;
-  Vec3 previousSize;
-};
-
 class Machine final : public Services, private WorkMeter {
  public:
   Machine(DeriveShared& shared, uint32_t worker);
@@ -153,8 +87,7 @@ class Machine final : public Services, private WorkMeter {
   /// again.
   Diagnostics takeMessages() { return log_.take(); }
   Tracer& tracer() { return tracer_; }
-  std::vector<Occluder>& occluders() { return occluders_; }
-  bool collectsOccluders() const { return collectOccluders_; }
+  ContextQueries& context() { return context_; }
   uint64_t cacheHits() const { return cacheHits_ + (incremental_ ? incremental_->shared() : 0); }
   /// Null without DeriveOptions::remember.
   const IncrementalCache* incremental() const { return incremental_.get(); }
@@ -196,10 +129,9 @@ class Machine final : public Services, private WorkMeter {
     explicit SavedShape(const Shape& s) : shape(s) {}
     Shape shape;
     /// What was at work in place when the bracket opened.
-    uint32_t frames = 0;
-    /// Kept where the rule needs them.
-    Frame previousScope;
-    Vec3 previousSize;
+    uint32_t inPlace = 0;
+    /// Kept where the rule needs it.
+    PreviousScope previous;
   };
   const DeriveOptions& options() const { return shared_.options; }
 
@@ -229,7 +161,6 @@ class Machine final : public Services, private WorkMeter {
   void fillBlock(uint32_t number, const Value* values, PartPlan& plan, BlockInput& input);
   bool splitAsBefore(const Instruction& i, Activation& a, const Value* values);
   void beginChildren(const Instruction& i, uint32_t childBase, uint32_t pieceBase);
-  void fillSelectors(const BlockCode& block, const Value* values);
   void setBuiltin(const Instruction& i, const Value& v);
   void setAttribute(const Instruction& i);
   void pushShape();
@@ -245,21 +176,15 @@ class Machine final : public Services, private WorkMeter {
   void beginGather(const Instruction& i, std::span<const Value> arguments);
   void endGather();
   void dropGathers();
-  OpenGather closeGather();
-  void nowGathering();
-  void keepLeaves(const OpenGather& g, const std::vector<bool>& gone);
+  void leaveGather(const Gathers::Call& call);
 
   // In place: do, repeat, local.
   void runRule(const Instruction& i);
+  void endRunRule();
   void beginTurns(const Instruction& i);
   void endTurn(const Instruction& i);
-  void beginLocals();
-  void bind(uint32_t attribute, const Value& v);
-  void endLocals();
   void endInPlace();
-  void endTurns();
-  void closeFrame();
-  InPlaceFrame& openFrame(InPlaceFrame::Kind kind);
+  void bind(uint32_t attribute, const Value& v);
   bool countStep();
 
   // Sharing.
@@ -270,7 +195,7 @@ class Machine final : public Services, private WorkMeter {
 
   // Recall.
   /// What is made now stays as it is, in the world.
-  bool worksInTheOpen() const { return !prototypes_.anyOpen() && gathers_.empty(); }
+  bool worksInTheOpen() const { return !prototypes_.anyOpen() && !gathers_.anyOpen(); }
   IncrementalCache::Moment moment() const;
   /// True when the call's result was known and lies in the output.
   bool beginPart(Activation& call);
@@ -284,9 +209,8 @@ class Machine final : public Services, private WorkMeter {
   void offerPortion();
   void offerChildren(uint32_t activation, const Frame& world);
   void beginPortion(const Portion& portion);
-  void fillHoles();
   /// Whether a part of the initial shape is, or was, with another worker.
-  bool isDivided() const { return portion_ || !pendingHoles_.empty() || !holes_.empty(); }
+  bool isDivided() const { return portion_ || holes_.any(); }
 
   // Expressions.
   /// Runs an instruction of an expression; false when the instruction is none.
@@ -328,9 +252,7 @@ class Machine final : public Services, private WorkMeter {
     return activationCount_ > 0 ? current().traceNode : TraceNode::kNone;
   }
   void traceLeaf(const Activation& a, StringId name, uint32_t source);
-  void addOccluder(StringId label, const Shape& s);
-  Occluder asking(const Shape& s) const;
-  std::vector<uint32_t> treePath() const;
+  ContextQueries::Place placeAtWork() const;
 
   // Limits and messages.
   bool overLimit(const char* code, std::string message, std::string hint);
@@ -344,7 +266,7 @@ class Machine final : public Services, private WorkMeter {
   }
   /// Counts work. Every so often it looks at the limits; false when one ends the initial shape.
   bool tick(uint64_t steps = 1) {
-    if (stackNearlyFull()) return stackFull();
+    if (stack_.isNearlyFull()) return stackFull();
     tally_.countSteps(steps);
     return !tally_.isLookDue() || look();
   }
@@ -358,15 +280,13 @@ class Machine final : public Services, private WorkMeter {
     if (v.type >= ValueType::String) tally_.countSteps(lengthOf(v) / 16);
   }
   uint64_t lengthOf(const Value& v) const;
-  bool stackNearlyFull() const { return stackTop_ + kStackReserve > kStackSize; }
   Span here() const;
   std::string shapePath() const;
   std::string shapePath(uint32_t end, uint32_t& length) const;
   std::string_view fileOf(const Instruction& i) const;
 
-  const Value& top() const { return stack_[stackTop_ - 1]; }
-  void push(const Value& v) { stack_[stackTop_++] = v; }
-  Value pop() { return stack_[--stackTop_]; }
+  void push(const Value& v) { stack_.push(v); }
+  Value pop() { return stack_.pop(); }
   Activation& current() { return activations_[activationCount_ - 1]; }
   const Activation& current() const { return activations_[activationCount_ - 1]; }
   Activation& pushActivation();
@@ -384,34 +304,23 @@ class Machine final : public Services, private WorkMeter {
   Tracer tracer_;
   /// Of the initial shape at work.
   AttributeValues attributeValues_;
-  std::vector<Occluder> occluders_;
+  ContextQueries context_;
 
-  // The stacks. Activations are reused, so that their shapes keep no memory busy.
-  static constexpr uint32_t kStackSize = 1u << 18;
-  /// Room that a single rule or function may need.
-  static constexpr uint32_t kStackReserve = kMostOnStack;
-  /// Untouched until it is used: clearing it would cost more than a small derivation.
-  std::unique_ptr<std::byte[]> stackMemory_;
-  Value* const stack_;
-  uint32_t stackTop_ = 0;
-  /// Values above the top that the call at work still reads.
-  uint32_t reserved_ = 0;
+  // The stacks.
+  ValueStack stack_;
+  /// Reused, so that their shapes keep no memory busy.
   std::vector<Activation> activations_;
   uint32_t activationCount_ = 0;
-  /// As many as there are when the children of the operation that gathers have ended; 0: none does.
-  uint32_t gatherEnd_ = 0;
   std::vector<BlockChild> children_;
   std::vector<SplitPiece> pieces_;
   std::vector<SavedShape> shapeStack_;
-  std::vector<InPlaceFrame> frames_;
   LocalValues locals_;
-  /// For rules run in place that look at the shape below.
-  std::vector<std::pair<Frame, Vec3>> previous_;
+  InPlace inPlace_{locals_};
   std::vector<FunctionFrame> functions_;
   Worlds worlds_;
+  Gathers gathers_{output_, tracer_, worlds_};
   SplitCache splits_;
-  std::vector<SelectorItem> selectorItems_;
-  std::vector<SelectorTerm> selectorTerms_;
+  BlockSelectors selectors_;
 
   // The initial shape at work.
   InitialShapeInfo info_;
@@ -429,7 +338,6 @@ class Machine final : public Services, private WorkMeter {
   const OpSpec* builtinSetSpec_ = nullptr;
   /// Leaves are placed in the world at once: sharing is off.
   bool flat_ = false;
-  bool collectOccluders_ = false;
   LightParts lightParts_;
   /// Nobody wants to see every shape.
   bool lightPartsAllowed_ = false;
@@ -438,12 +346,7 @@ class Machine final : public Services, private WorkMeter {
   const Portion* portion_ = nullptr;
   /// Of the initial shape at work, for its portions.
   std::shared_ptr<const PortionBase> portionBase_;
-  std::vector<OutputHole> holes_;
-  /// Portions whose place has not been reached, by the activation whose children they are. Of one
-  /// activation the last comes first.
-  std::vector<std::pair<uint32_t, uint32_t>> pendingHoles_;
-
-  std::vector<OpenGather> gathers_;
+  Holes holes_;
 
   /// With DeriveOptions::remember; null without.
   std::unique_ptr<IncrementalCache> incremental_;

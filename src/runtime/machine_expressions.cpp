@@ -16,7 +16,7 @@ namespace gable {
 bool Machine::evaluate(const Instruction& i) {
   switch (i.code) {
     case Code::Constant: push(program_.constants[i.a]); return true;
-    case Code::Parameter: push(stack_[parameters_ + i.a]); return true;
+    case Code::Parameter: push(*stack_.at(parameters_ + i.a)); return true;
     case Code::RuleAttribute: ruleAttribute(i); return true;
     case Code::BuiltinAttribute: builtinAttribute(i); return true;
     case Code::Function: callFunction(i); return true;
@@ -27,23 +27,23 @@ bool Machine::evaluate(const Instruction& i) {
     case Code::MakeArray: makeArray(i); return true;
     case Code::MakeRange: makeRange(i); return true;
     case Code::Index: index(i); return true;
-    case Code::WithUnit: stack_[stackTop_ - 1].unit = static_cast<Unit>(i.x); return true;
-    case Code::ToBool: stack_[stackTop_ - 1] = Value::of(top().truth()); return true;
+    case Code::WithUnit: stack_.top().unit = static_cast<Unit>(i.x); return true;
+    case Code::ToBool: stack_.top() = Value::of(stack_.top().truth()); return true;
     case Code::Jump: pc_ = program_.code.data() + i.a; return true;
     case Code::JumpIfFalse:
       if (!pop().truth()) pc_ = program_.code.data() + i.a;
       return true;
     case Code::JumpIfFalseKeep:
-      if (!top().truth())
+      if (!stack_.top().truth())
         pc_ = program_.code.data() + i.a;
       else
-        --stackTop_;
+        pop();
       return true;
     case Code::JumpIfTrueKeep:
-      if (top().truth())
+      if (stack_.top().truth())
         pc_ = program_.code.data() + i.a;
       else
-        --stackTop_;
+        pop();
       return true;
     case Code::Choose: choose(i); return true;
     case Code::JumpTable: {
@@ -105,8 +105,7 @@ void Machine::makeArray(const Instruction& i) {
   const auto& counts = program_.jumpTables[i.a];
   uint32_t total = 0;
   for (uint32_t c : counts) total += c;
-  stackTop_ -= total;
-  put(buildArray({stack_ + stackTop_, total}, counts, pool()), i);
+  put(buildArray({stack_.take(total), total}, counts, pool()), i);
 }
 
 void Machine::makeRange(const Instruction& i) {
@@ -117,15 +116,13 @@ void Machine::makeRange(const Instruction& i) {
 }
 
 void Machine::index(const Instruction& i) {
-  stackTop_ -= i.x + 1u;
-  const Value* at = stack_ + stackTop_;
+  const Value* at = stack_.take(i.x + 1u);
   put(indexArray(at[0], {at + 1, i.x}, pool()), i);
 }
 
 // Shares are of 1; without an `else` (the last way) the rest does nothing.
 void Machine::choose(const Instruction& i) {
-  stackTop_ -= i.y;
-  const Value* shares = stack_ + stackTop_;
+  const Value* shares = stack_.take(i.y);
   const uint64_t site = hashCombine(salt_, program_.sites[pcOf(&i)]);
   const double draw = randomUnit(hashCombine(seen_->path, site));
   double sum = 0;
@@ -174,7 +171,7 @@ void Machine::ruleAttribute(const Instruction& i) {
 // Begins the evaluation of an attribute; execution goes on at `returnTo` with its value on the
 // stack.
 void Machine::enterAttribute(uint32_t a, const Instruction* returnTo) {
-  if (stackNearlyFull()) {
+  if (stack_.isNearlyFull()) {
     stackFull();
     push(Value::of(0.0));
     return;
@@ -186,15 +183,16 @@ void Machine::enterAttribute(uint32_t a, const Instruction* returnTo) {
     return;
   }
   attributeValues_.beginEvaluation(a);
-  functions_.push_back({returnTo, parameters_, stackTop_, static_cast<int32_t>(a), seen_, salt_});
-  parameters_ = stackTop_;
+  functions_.push_back(
+      {returnTo, parameters_, stack_.size(), static_cast<int32_t>(a), seen_, salt_});
+  parameters_ = stack_.size();
   seen_ = &info_.shape;
   salt_ = 0;
   pc_ = program_.code.data() + program_.attributes[a].entry;
 }
 
 void Machine::callFunction(const Instruction& i) {
-  if (functions_.size() >= options().limits.functionDepth || stackNearlyFull()) {
+  if (functions_.size() >= options().limits.functionDepth || stack_.isNearlyFull()) {
     overLimit("function-too-deep",
               "functions call each other more than " +
                   std::to_string(options().limits.functionDepth) + " levels deep",
@@ -202,8 +200,8 @@ void Machine::callFunction(const Instruction& i) {
     return;
   }
   if (!tick()) return;
-  functions_.push_back({pc_, parameters_, stackTop_ - i.x, -1, seen_, salt_});
-  parameters_ = stackTop_ - i.x;
+  functions_.push_back({pc_, parameters_, stack_.size() - i.x, -1, seen_, salt_});
+  parameters_ = stack_.size() - i.x;
   salt_ = hashCombine(salt_, program_.sites[pcOf(&i)]);
   pc_ = program_.code.data() + program_.functions[i.a].entry;
 }
@@ -213,7 +211,7 @@ void Machine::returnValue() {
   const FunctionFrame f = functions_.back();
   functions_.pop_back();
   if (f.attribute >= 0) attributeValues_.set(static_cast<uint32_t>(f.attribute), v);
-  stackTop_ = f.stackBase;
+  stack_.cut(f.stackBase);
   parameters_ = f.parameters;
   seen_ = f.shape;
   salt_ = f.salt;
@@ -226,12 +224,12 @@ void Machine::returnValue() {
 
 // The attributes of a dynamic import are evaluated at the call, each time.
 void Machine::initialise(const Instruction& i) {
-  if (stackNearlyFull()) {
+  if (stack_.isNearlyFull()) {
     stackFull();
     return;
   }
-  functions_.push_back({pc_, parameters_, stackTop_, -1, seen_, salt_});
-  parameters_ = stackTop_;
+  functions_.push_back({pc_, parameters_, stack_.size(), -1, seen_, salt_});
+  parameters_ = stack_.size();
   salt_ = hashCombine(salt_, program_.sites[pcOf(&i)]);
   pc_ = program_.code.data() + program_.attributes[i.a].entry;
 }
@@ -271,14 +269,12 @@ Value noneOf(ValueType type, ValuePool& pool) {
 
 void Machine::componentValues(const Instruction& i) {
   const BlockCode& block = program_.blocks[i.y - 1u];
-  stackTop_ -= block.valueCount + i.x;
-  const Value* arguments = stack_ + stackTop_;
+  const Value* arguments = stack_.take(block.valueCount + i.x);
   Shape shape = *seen_;
   std::vector<BlockChild> parts;
   std::vector<uint32_t> partOf;
-  fillSelectors(block, arguments + i.x);
   BlockInput input;
-  input.selectors = selectorItems_;
+  input.selectors = selectors_.of(block, arguments + i.x);
   input.slotCount = static_cast<uint32_t>(block.slots.size());
   input.children = &parts;
   input.componentChild = &partOf;
@@ -299,9 +295,9 @@ void Machine::componentValues(const Instruction& i) {
   std::vector<Value> values;
   for (const BlockChild& part : parts) {
     if (aborted_ || functions_.size() >= options().limits.functionDepth) break;
-    if (stackNearlyFull() && !stackFull()) break;
+    if (stack_.isNearlyFull() && !stackFull()) break;
     const size_t depth = functions_.size();
-    functions_.push_back({resumeAt, parameters_, stackTop_, -1, outer, salt_});
+    functions_.push_back({resumeAt, parameters_, stack_.size(), -1, outer, salt_});
     seen_ = &part.shape;
     pc_ = program_.code.data() + block.slots[part.slot];
     runUntil(depth);
@@ -347,20 +343,18 @@ Value Machine::callGuarded(FunctionCall& call, Value (*function)(FunctionCall&),
 
 // The values that the operation or function was given lie above the top and stay as they are.
 Value Machine::evaluate(uint32_t entry, uint64_t address, const Shape* as) {
-  if (aborted_ || functions_.size() >= options().limits.functionDepth || stackNearlyFull()) {
+  if (aborted_ || functions_.size() >= options().limits.functionDepth || stack_.isNearlyFull()) {
     return {};
   }
   if (!tick()) return {};
   const Instruction* resumeAt = pc_;
   const Instruction* caller = instruction_;
   const Shape* outer = seen_;
-  const uint32_t reserved = reserved_;
   Shape at = as ? *as : *seen_;
   at.path = address;
-  stackTop_ += reserved;
-  reserved_ = 0;
+  const uint32_t covered = stack_.cover();
   const size_t depth = functions_.size();
-  functions_.push_back({resumeAt, parameters_, stackTop_, -1, outer, salt_});
+  functions_.push_back({resumeAt, parameters_, stack_.size(), -1, outer, salt_});
   seen_ = &at;
   pc_ = program_.code.data() + entry;
   runUntil(depth);
@@ -368,8 +362,7 @@ Value Machine::evaluate(uint32_t entry, uint64_t address, const Shape* as) {
   pc_ = resumeAt;
   instruction_ = caller;
   seen_ = outer;
-  reserved_ = reserved;
-  stackTop_ -= reserved;
+  stack_.uncover(covered);
   return v;
 }
 
@@ -382,18 +375,18 @@ void Machine::builtinAttribute(const Instruction& i) {
 }
 
 void Machine::callBuiltin(const Instruction& i) {
-  stackTop_ -= i.x;
+  const Value* arguments = stack_.take(i.x);
   const auto& [spec, form] = program_.builtinFunctions[i.a];
-  FunctionCall call({stack_ + stackTop_, i.x}, *seen_, *this, spec, form);
+  FunctionCall call({arguments, i.x}, *seen_, *this, spec, form);
   call.place(fileOf(i), hashCombine(salt_, program_.sites[pcOf(&i)]));
   instruction_ = &i;
   const FunctionSpec& function = *spec;
-  reserved_ = i.x;
+  stack_.hold(i.x);
   const Signature* const first = function.signatures.empty() ? nullptr : &function.signatures[0];
   const Signature* const used = form ? form : first;
   const Value v = callGuarded(call, function.call, function.effects, function.name,
                               used ? used->result : ValueType::Float);
-  reserved_ = 0;
+  stack_.hold(0);
   if (tracer_.tracesShapes() && function.effects & kRandom) {
     tracer_.noteDraw(traceNode(), program_.spans[pcOf(&i)], function.name, v);
   }

@@ -10,8 +10,9 @@ namespace gable {
 // The outermost block with children left that works in the open: its shapes belong to no prototype
 // and no operation waits for them. What is outermost is largest, as a rule.
 void Machine::offerPortion() {
-  const bool flat = gathers_.empty() ? flat_ : gathers_.front().flat;
-  const uint32_t end = gathers_.empty() ? activationCount_ : gathers_.front().activation;
+  const Gathers::Call* const gather = gathers_.anyOpen() ? &gathers_.outermost() : nullptr;
+  const bool flat = gather ? gather->flat : flat_;
+  const uint32_t end = gather ? gather->activation : activationCount_;
   size_t world = 0;
   for (uint32_t k = 0; k < end; ++k) {
     const Activation& a = activations_[k];
@@ -26,8 +27,9 @@ void Machine::offerChildren(uint32_t index, const Frame& world) {
   const bool innermost = index + 1 == activationCount_;
   const Activation* inner = innermost ? nullptr : &activations_[index + 1];
   const uint32_t locals = inner ? inner->localBase : static_cast<uint32_t>(locals_.size());
-  const uint32_t frames = inner ? inner->frameBase : static_cast<uint32_t>(frames_.size());
-  const uint32_t stack = inner ? inner->stackBase : stackTop_;
+  const uint32_t frames = inner ? inner->inPlaceBase : inPlace_.size();
+  const std::span<const Value> parameters =
+      stack_.range(a.parameters, inner ? inner->stackBase : stack_.size());
   if (!portionBase_) {
     auto inputs = incremental_ ? incremental_->inputs() : IncrementalCache::Inputs{};
     portionBase_ =
@@ -42,9 +44,9 @@ void Machine::offerChildren(uint32_t index, const Frame& world) {
   p->rule = a.rule;
   p->block = a.block;
   p->depth = a.depth;
-  p->parameters.assign(stack_ + a.parameters, stack_ + stack);
+  p->parameters.assign(parameters.begin(), parameters.end());
   p->locals = locals_.first(locals);
-  p->inPlace = frames > 0 ? frames_[frames - 1].calls : portion_ ? portion_->inPlace : 0;
+  p->inPlace = inPlace_.rulesIn(frames);
   p->world = world;
   p->path = shapePath(index + 1, p->pathLength);
   const uint32_t first = a.childEnd - (a.childEnd - a.childNext + 1) / 2;
@@ -59,15 +61,7 @@ void Machine::offerChildren(uint32_t index, const Frame& world) {
     }
   }
   a.childEnd = first;
-  pendingHoles_.emplace_back(index, shared_.portions->push(std::move(p)));
-}
-
-// The children of the activation at work are done: what others do of them comes here.
-void Machine::fillHoles() {
-  while (!pendingHoles_.empty() && pendingHoles_.back().first + 1 == activationCount_) {
-    holes_.push_back({pendingHoles_.back().second, prototypes_.placeInUnit(), log_.count()});
-    pendingHoles_.pop_back();
-  }
+  holes_.leave(index, shared_.portions->push(std::move(p)));
 }
 
 void Machine::run(const Portion& portion) {
@@ -104,7 +98,7 @@ void Machine::beginPortion(const Portion& p) {
   a.depth = p.depth;
   a.plan = p.plan;
   a.slot = true;
-  a.stackBase = stackTop_;
+  a.stackBase = stack_.size();
   a.inPieces = !pieces_.empty();
   a.childEnd = static_cast<uint32_t>(a.inPieces ? pieces_.size() : children_.size());
   resume();

@@ -12,17 +12,14 @@
 
 namespace gable {
 
-IncrementalCache::Moment Machine::moment() const { return {log_.warnings(), holes_.size()}; }
+IncrementalCache::Moment Machine::moment() const { return {log_.warnings(), holes_.placed()}; }
 
 bool Machine::beginPart(Activation& call) {
   if (!worksInTheOpen() || aborted_ || !incremental_->isRuleDue(call.rule)) return false;
   const bool asksForPath = (program_.rules[call.rule].reads.effects & kReadsPath) != 0;
-  const ShareKey key = incremental_->keyOf({call.rule,
-                                            call.depth,
-                                            call.shape,
-                                            {stack_ + call.parameters, stack_ + stackTop_},
-                                            locals_,
-                                            asksForPath ? hashBytes(treeKey()) | 1 : 0});
+  const ShareKey key =
+      incremental_->keyOf({call.rule, call.depth, call.shape, stack_.from(call.parameters), locals_,
+                           asksForPath ? hashBytes(treeKey()) | 1 : 0});
   if (incremental_->beginPart(key, call.rule, moment())) {
     tick(0);
     return true;

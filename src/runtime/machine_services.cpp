@@ -3,8 +3,6 @@
 //
 // Tracing, and the questions about other shapes.
 
-#include <limits>
-
 #include "runtime/machine.h"
 #include "shape/deformation.h"
 
@@ -40,7 +38,7 @@ void Machine::traceShape(Activation& a, uint32_t parentNode, const Instruction* 
   if (isDeformed(asMade)) bakeDeformation(asMade);
   const auto index = static_cast<uint32_t>(output_.openLeaves.size());
   if (putLeaf(asMade, rule.name, at ? pcOf(at) : rule.entry)) tracer_.showShape(a.traceNode, index);
-  tracer_.noteParameters(a.traceNode, rule, stack_ + a.parameters);
+  tracer_.noteParameters(a.traceNode, rule, stack_.at(a.parameters));
 }
 
 // A rule call that made nothing is its own leaf; a leaf of a slot or of an unknown rule is a child.
@@ -55,54 +53,34 @@ void Machine::traceLeaf(const Activation& a, StringId name, uint32_t source) {
   }
 }
 
-std::vector<uint32_t> Machine::treePath() const {
-  std::vector<uint32_t> path;
+ContextQueries::Place Machine::placeAtWork() const {
+  ContextQueries::Place at{info_.index, {}, worlds_.present()};
   for (uint32_t i = 1; i < activationCount_; ++i) {
-    if (!activations_[i].slot) path.push_back(activations_[i].ordinal);
+    if (!activations_[i].slot) at.path.push_back(activations_[i].ordinal);
   }
-  return path;
-}
-
-Occluder Machine::asking(const Shape& s) const {
-  Occluder o;
-  o.initialShape = info_.index;
-  o.path = treePath();
-  o.mesh = transformed(meshInLocal(s), {1, 1, 1}, worlds_.present());
-  o.scope = worlds_.present() * s.scope;
-  o.size = s.size;
-  return o;
-}
-
-void Machine::addOccluder(StringId label, const Shape& s) {
-  if (s.geometry.kind == GeometryKind::None) return;
-  Occluder o = asking(s);
-  o.label = label;
-  occluders_.push_back(std::move(o));
+  return at;
 }
 
 void Machine::takeLabel(StringId name, const Shape& shape) {
-  if (collectOccluders_) addOccluder(name, shape);
+  if (context_.collects()) context_.add(name, shape, placeAtWork());
 }
 
 bool Machine::answerQuery(ContextTest test, ContextScope scope, StringId label,
                           const Shape& shape) {
-  return shared_.occluders && shared_.occluders->test(test, scope, label, asking(shape));
+  return context_.test(test, scope, label, shape, placeAtWork());
 }
 
 double Machine::answerDistance(ContextScope scope, StringId label, const Shape& shape) {
-  if (!shared_.occluders) return std::numeric_limits<double>::infinity();
-  return shared_.occluders->minimumDistance(scope, label, asking(shape));
+  return context_.distance(scope, label, shape, placeAtWork());
 }
 
 double Machine::answerCount(ContextScope scope, StringId label) {
-  if (!shared_.occluders) return 0;
-  return static_cast<double>(shared_.occluders->count(scope, label, asking(*seen_)));
+  return context_.count(scope, label, *seen_, placeAtWork());
 }
 
 double Machine::answerRank(ContextScope scope, StringId label, ContextOrder order,
                            const Shape& shape) {
-  if (!shared_.occluders) return 0;
-  return static_cast<double>(shared_.occluders->rank(scope, label, order, asking(shape)));
+  return context_.rank(scope, label, order, shape, placeAtWork());
 }
 
 }  // namespace gable

@@ -13,12 +13,15 @@
 #include "base/check.h"
 #include "runtime/door.h"
 #include "runtime/finite.h"
+#include "runtime/leaf_shape.h"
 #include "runtime/machine.h"
 #include "shape/deformation.h"
 
 namespace gable {
 
 namespace {
+
+constexpr size_t kManyLeaves = 1u << 14;
 
 uint64_t verticesOf(const Shape& s) {
   return s.geometry.kind == GeometryKind::Mesh ? s.geometry.mesh->positions.size() : 0;
@@ -53,12 +56,12 @@ void Machine::execute() {
       case Code::RunRule: runRule(i); break;
       case Code::BeginTurns: beginTurns(i); break;
       case Code::EndTurn: endTurn(i); break;
-      case Code::BeginLocals: beginLocals(); break;
+      case Code::BeginLocals: inPlace_.beginLocals(current().shape); break;
       case Code::Bind: bind(i.a, pop()); break;
-      case Code::EndLocals: endLocals(); break;
+      case Code::EndLocals: inPlace_.endLocals(current().shape); break;
       case Code::End:
-        if (frames_.size() > current().frameBase)
-          endInPlace();
+        if (inPlace_.size() > current().inPlaceBase)
+          endRunRule();
         else
           endActivation();
         break;
@@ -78,7 +81,7 @@ void Machine::beginRule(uint32_t rule, uint32_t argumentCount, const Instruction
   Activation& a = pushActivation();
   Activation& caller = activations_[callerIndex];
   // Turns and rules run in place have limits of their own.
-  if (++caller.made > options().limits.width && frames_.size() == caller.frameBase) {
+  if (++caller.made > options().limits.width && inPlace_.size() == caller.inPlaceBase) {
     --activationCount_;
     overLimit("too-many-children",
               "a shape of rule '" + program_.rules[caller.rule].qualifiedName + "' has more than " +
@@ -93,15 +96,15 @@ void Machine::beginRule(uint32_t rule, uint32_t argumentCount, const Instruction
   else
     a.shape = caller.shape;
   a.rule = rule;
-  a.stackBase = stackTop_ - argumentCount;
+  a.stackBase = stack_.size() - argumentCount;
   a.parameters = a.stackBase;
   a.shapeStackBase = static_cast<uint32_t>(shapeStack_.size());
-  a.frameBase = static_cast<uint32_t>(frames_.size());
+  a.inPlaceBase = inPlace_.size();
   a.localBase = static_cast<uint32_t>(locals_.size());
   a.childBase = a.childNext = a.childEnd = 0;
   a.ordinal = activations_[caller.owner].childCount++;
   if (enterRule(a, caller.depth, caller.traceNode, at)) return;
-  stackTop_ = a.stackBase;
+  stack_.cut(a.stackBase);
   --activationCount_;
 }
 
@@ -111,10 +114,10 @@ void Machine::becomeRule(const Instruction& i) {
   if (!countShape()) return;
   Activation& a = current();
   a.rule = i.a;
-  a.parameters = stackTop_ - i.x;
+  a.parameters = stack_.size() - i.x;
   a.ordinal = activations_[a.owner].childCount++;
   if (enterRule(a, a.depth, a.traceNode, &i)) return;
-  stackTop_ = a.stackBase;
+  stack_.cut(a.stackBase);
   --activationCount_;
   resume();
 }
@@ -143,10 +146,7 @@ bool Machine::enterRule(Activation& a, uint32_t callerDepth, uint32_t callerTrac
   a.kept = false;
   if (code.shared && beginShared(code, a)) return false;
   if (incremental_ && beginPart(a)) return false;
-  if (code.needsPrevious) {
-    a.previousScope = a.shape.scope;
-    a.previousSize = a.shape.size;
-  }
+  if (code.needsPrevious) a.keepScope();
   seen_ = &a.shape;
   parameters_ = a.parameters;
   pc_ = program_.code.data() + code.entry;
@@ -156,7 +156,7 @@ bool Machine::enterRule(Activation& a, uint32_t callerDepth, uint32_t callerTrac
 void Machine::callRule(const Instruction& i) {
   const Activation& a = current();
   const bool last = pc_->code == Code::End && shapeStack_.size() == a.shapeStackBase &&
-                    frames_.size() == a.frameBase;
+                    inPlace_.size() == a.inPlaceBase;
   if (last && a.slot)
     becomeRule(i);
   else
@@ -193,9 +193,9 @@ void Machine::endActivation() {
   }
   if (a.kept) incremental_->endPart(moment());
   if (a.boundary) endShared();
-  stackTop_ = a.stackBase;
+  stack_.cut(a.stackBase);
   if (shapeStack_.size() > a.shapeStackBase) shapeStack_.resize(a.shapeStackBase);
-  if (frames_.size() > a.frameBase) frames_.resize(a.frameBase);
+  inPlace_.cut(a.inPlaceBase);
   locals_.cut(a.localBase);
   --activationCount_;
   if (activationCount_ > 0) resume();
@@ -222,12 +222,14 @@ void Machine::nextChild() {
   else
     children_.erase(children_.begin() + a.childBase, children_.end());
   a.childBase = a.childNext = a.childEnd = 0;
-  if (!pendingHoles_.empty()) fillHoles();
+  if (holes_.isPendingAt(activationCount_ - 1)) {
+    holes_.place(activationCount_ - 1, prototypes_.placeInUnit(), log_.count());
+  }
   if (portion_ && activationCount_ == 1) {
     activationCount_ = 0;
     return;
   }
-  if (gatherEnd_ == activationCount_) endGather();
+  if (gathers_.isDue(activationCount_)) endGather();
 }
 
 void Machine::makeChild() {
@@ -246,10 +248,10 @@ void Machine::makeChild() {
     a.shape = std::move(children_[number].shape);
   }
   a.rule = parent.rule;
-  a.stackBase = stackTop_;
+  a.stackBase = stack_.size();
   a.parameters = parent.parameters;
   a.shapeStackBase = static_cast<uint32_t>(shapeStack_.size());
-  a.frameBase = static_cast<uint32_t>(frames_.size());
+  a.inPlaceBase = inPlace_.size();
   a.localBase = static_cast<uint32_t>(locals_.size());
   a.childBase = a.childNext = a.childEnd = 0;
   a.made = 0;
@@ -259,10 +261,7 @@ void Machine::makeChild() {
   a.slot = true;
   a.boundary = false;
   a.kept = false;
-  if (program_.rules[a.rule].needsPrevious) {
-    a.previousScope = a.shape.scope;
-    a.previousSize = a.shape.size;
-  }
+  if (program_.rules[a.rule].needsPrevious) a.keepScope();
   seen_ = &a.shape;
   parameters_ = a.parameters;
   pc_ = program_.code.data() + program_.blocks[parent.block].slots[slot];
@@ -284,36 +283,12 @@ void Machine::dropShape() {
 // Goes on behind the ']' of the innermost open bracket: brackets are nested in the code as they are
 // in the text. What began in place within the bracket ends with it.
 void Machine::leaveBracket() {
-  while (frames_.size() > shapeStack_.back().frames) closeFrame();
+  while (inPlace_.size() > shapeStack_.back().inPlace) endInPlace();
   for (size_t open = 1; open > 0; ++pc_) {
     if (pc_->code == Code::PushShape) ++open;
     if (pc_->code == Code::PopShape) --open;
   }
   popShape();
-}
-
-void Machine::fillSelectors(const BlockCode& block, const Value* values) {
-  selectorTerms_.clear();
-  selectorItems_.clear();
-  for (const BlockTerm& t : block.terms) {
-    SelectorTerm term;
-    term.kind = static_cast<SelectorTerm::Kind>(t.kind);
-    term.word = t.word;
-    term.number = t.value >= 0 ? values[t.value].number : t.number;
-    if (t.value >= 0) {
-      const Value& v = values[t.value];
-      if (v.type == ValueType::Bool) term.kind = SelectorTerm::Kind::Boolean;
-      if (v.type == ValueType::Selector || v.type == ValueType::String) term.word = v.id;
-    }
-    selectorTerms_.push_back(term);
-  }
-  for (const BlockItem& item : block.items) {
-    SelectorItem s;
-    s.terms = std::span(selectorTerms_).subspan(item.firstTerm, item.termCount);
-    s.op = static_cast<SelectOperator>(item.selectOperator);
-    s.slot = item.slot;
-    selectorItems_.push_back(s);
-  }
 }
 
 void Machine::fillBlock(uint32_t number, const Value* values, PartPlan& plan, BlockInput& input) {
@@ -327,8 +302,7 @@ void Machine::fillBlock(uint32_t number, const Value* values, PartPlan& plan, Bl
   if (block.kind == BlockKind::Split) {
     input.split = splits_.at(number, values);
   } else if (block.kind == BlockKind::Selectors || block.kind == BlockKind::Operations) {
-    fillSelectors(block, values);
-    input.selectors = selectorItems_;
+    input.selectors = selectors_.of(block, values);
   }
 }
 
@@ -408,8 +382,7 @@ void Machine::operation(const Instruction& i, const Value* constants) {
   const BlockCode* block = i.y > 0 ? &program_.blocks[i.y - 1] : nullptr;
   const uint32_t blockValues = block ? block->valueCount : 0;
   const uint32_t argumentsOnStack = constants ? 0 : i.x;
-  stackTop_ -= blockValues + argumentsOnStack;
-  const Value* stack = stack_ + stackTop_;
+  const Value* stack = stack_.take(blockValues + argumentsOnStack);
   const Value* arguments = constants ? constants : stack;
   const Value* blockStart = stack + argumentsOnStack;
   const auto childBase = static_cast<uint32_t>(block ? children_.size() : 0);
@@ -420,17 +393,19 @@ void Machine::operation(const Instruction& i, const Value* constants) {
   }
 
   if (isDeformed(a.shape) && (spec.effects & kTakesDeformed) == 0) bakeDeformation(a.shape);
-  const CallPlace place{a.previousScope, a.previousSize,
+  const CallPlace place{a.previous.frame, a.previous.size,
                         program_.files[program_.rules[a.rule].file], program_.sites[pcOf(&i)],
                         program_.operations[i.a].form};
   BlockInput input;
   if (block) fillBlock(i.y - 1u, blockStart, a.plan, input);
   OpCall call(spec, a.shape, {arguments, i.x}, *this, place, block ? &input : nullptr);
-  if (collectOccluders_ && (spec.effects & kLeavesOccluder) != 0) addOccluder(0, a.shape);
+  if (context_.collects() && (spec.effects & kLeavesOccluder) != 0) {
+    context_.add(0, a.shape, placeAtWork());
+  }
   instruction_ = &i;
-  reserved_ = blockValues + argumentsOnStack;
+  stack_.hold(blockValues + argumentsOnStack);
   const Status status = apply(call, i, {arguments, i.x}, block ? &input : nullptr);
-  reserved_ = 0;
+  stack_.hold(0);
   if (!status.ok()) {
     if (block) {
       children_.erase(children_.begin() + childBase, children_.end());
@@ -488,7 +463,19 @@ void Machine::makeLeaf(Activation& a, StringId name, uint32_t source) {
   if (isDeformed(a.shape) && a.shape.geometry.kind != GeometryKind::None) bakeDeformation(a.shape);
   if (options().trace) traceLeaf(a, name, source);
   if (!putLeaf(a.shape, name, source)) return;
-  if (collectOccluders_) addOccluder(0, a.shape);
+  if (context_.collects()) context_.add(0, a.shape, placeAtWork());
+}
+
+// For operations that leave their shape where it is, and go on.
+void Machine::leaveLeaf() {
+  if (!countShape()) return;
+  Activation& a = current();
+  if (a.made == 0) a.made = 1;
+  // Growing fourfold touches less memory than doubling does; what is never touched costs nothing.
+  std::vector<Leaf>& open = output_.openLeaves;
+  if (open.size() == open.capacity() && open.size() >= kManyLeaves) open.reserve(open.size() * 4);
+  makeLeaf(a, program_.rules[a.rule].name, pcOf(instruction_));
+  ++activations_[a.owner].childCount;
 }
 
 // False for a shape without geometry.
@@ -496,18 +483,10 @@ bool Machine::putLeaf(const Shape& s, StringId name, uint32_t source) {
   if (s.geometry.kind == GeometryKind::None) return false;
   if (s.geometry.kind == GeometryKind::Mesh && s.geometry.mesh->empty()) return false;
   Leaf& leaf = output_.openLeaves.emplace_back();
-  leaf.frame = flat_ ? worlds_.ofLeaves() * s.scope : s.scope;
-  leaf.scale = s.size;
-  switch (s.geometry.kind) {
-    case GeometryKind::Box: leaf.mesh = s.geometry.uv ? kUnitBoxUv : kUnitBox; break;
-    case GeometryKind::QuadXy: leaf.mesh = s.geometry.uv ? kUnitQuadXyUv : kUnitQuadXy; break;
-    case GeometryKind::QuadXz: leaf.mesh = s.geometry.uv ? kUnitQuadXzUv : kUnitQuadXz; break;
-    default: {
-      leaf.mesh = kFirstMesh + output_.meshNumber(s.geometry.mesh);
-      const Vec3& ref = s.geometry.refSize;
-      for (size_t k = 0; k < 3; ++k) leaf.scale[k] = ref[k] != 0 ? s.size[k] / ref[k] : 1;
-      tally_.countVertices(s.geometry.mesh->positions.size());
-    }
+  setShape(leaf, s, output_);
+  if (flat_) leaf.frame = worlds_.ofLeaves() * s.scope;
+  if (s.geometry.kind == GeometryKind::Mesh) {
+    tally_.countVertices(s.geometry.mesh->positions.size());
   }
   leaf.materials = output_.materialNumber(s.material, s.assetMaterials);
   leaf.name = name;
@@ -519,12 +498,10 @@ bool Machine::putLeaf(const Shape& s, StringId name, uint32_t source) {
 void Machine::pushShape() {
   Activation& a = current();
   SavedShape& saved = shapeStack_.emplace_back(a.shape);
-  saved.frames = static_cast<uint32_t>(frames_.size());
+  saved.inPlace = inPlace_.size();
   if (!program_.rules[a.rule].needsPrevious) return;
-  saved.previousScope = a.previousScope;
-  saved.previousSize = a.previousSize;
-  a.previousScope = a.shape.scope;
-  a.previousSize = a.shape.size;
+  saved.previous = a.previous;
+  a.keepScope();
 }
 
 void Machine::popShape() {
@@ -532,10 +509,7 @@ void Machine::popShape() {
   if (shapeStack_.size() == a.shapeStackBase) return;
   SavedShape& saved = shapeStack_.back();
   a.shape = std::move(saved.shape);
-  if (program_.rules[a.rule].needsPrevious) {
-    a.previousScope = saved.previousScope;
-    a.previousSize = saved.previousSize;
-  }
+  if (program_.rules[a.rule].needsPrevious) a.previous = saved.previous;
   shapeStack_.pop_back();
 }
 
@@ -554,7 +528,7 @@ void Machine::setBuiltin(const Instruction& i, const Value& v) {
   instruction_ = &i;
   const AttributeSpec& spec = *program_.builtinAttributes[i.a];
   if (isDeformed(a.shape) && (spec.effects & kTakesDeformed) == 0) bakeDeformation(a.shape);
-  const CallPlace place{a.previousScope, a.previousSize,
+  const CallPlace place{a.previous.frame, a.previous.size,
                         program_.files[program_.rules[a.rule].file]};
   OpCall call(*builtinSetSpec_, a.shape, {&v, 1}, *this, place);
   Status status = refusedNumber(spec.name, v, pool());

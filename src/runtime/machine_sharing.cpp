@@ -20,11 +20,8 @@ ShareKey Machine::keyOf(const Activation& call) {
     read.push_back(set ? *set : evaluateAttribute(a));
   }
   const uint64_t code = incremental_ ? shared_.reach[call.rule].code : uint64_t{call.rule};
-  return sharedKey({code,
-                    reads.effects,
-                    s,
-                    {stack_ + call.parameters, stack_ + stackTop_},
-                    {read.begin(), read.size()}});
+  return sharedKey(
+      {code, reads.effects, s, stack_.from(call.parameters), {read.begin(), read.size()}});
 }
 
 // True when the result is known already and its instance has been made.
