@@ -147,6 +147,14 @@ class LinksTest(CheckCase):
         self.assertEqual(self.messages(links), ["b.md:1: no heading #three in a.md",
                                                 "b.md:2: no file c.md", "b.md:3: no file ../a.md"])
 
+    def testKeepsUsersOutOfTheSource(self):
+        self.write("src/a.png", "")
+        self.write("src/a.md", "")
+        self.write("docs/dev/page.md", "[x](../../src/a.md)\n")
+        self.write("docs/guide/page.md", "![p](../../src/a.png)\n[x](../../src/a.md)\n")
+        self.assertEqual(self.messages(links),
+                         ["docs/guide/page.md:2: src/a.md is no page for users"])
+
 
 class PicturesAndOpsTest(CheckCase):
     def testWeighsPictures(self):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The Gable authors
-"""Links and pictures in Markdown files point to what is there."""
+"""Links and pictures in Markdown files point to what is there, and pages for users stay out of the source."""
 import posixpath
 import re
 from urllib.parse import unquote
@@ -9,6 +9,8 @@ from .tree import Finding, line_at
 
 LINK = re.compile(r"\[(?:[^\[\]]|\[[^\]]*\])*\]\(\s*<?([^()\s<>]+)>?(?:\s+\"[^\"]*\")?\s*\)"
                   r"|<img[^>]*\bsrc=\"([^\"]+)\"|^\[[^\]]+\]:\s*(\S+)", re.M)
+# Pages for users, which show pictures from the source but do not send anybody there.
+USER = re.compile(r"docs/(guide|reference)/|examples/|README\.md$")
 CODE = re.compile(r"^(```|~~~).*?^\1[ \t]*$|`[^`\n]+`", re.M | re.S)
 
 
@@ -51,6 +53,8 @@ def check(tree):
                 full = path
             if full.startswith("..") or not tree.exists(full):
                 findings.append(Finding(path, line, f"no file {link}", path))
+            elif USER.match(path) and full.startswith("src/") and not full.endswith(".png"):
+                findings.append(Finding(path, line, f"{full} is no page for users", path))
             elif anchor and full.endswith(".md") and anchor not in anchors(tree.text(full)):
                 findings.append(Finding(path, line, f"no heading #{anchor} in {full}", path))
     return findings

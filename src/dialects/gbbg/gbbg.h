@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// The GBBG notation (.gbbg) as one of Gable's dialects; README.md has its EBNF.
+// The GBBG notation (.gbbg) as one of Gable's dialects; docs/reference/notations/gbbg.md has its
+// EBNF.
 #pragma once
 
 #include "dialects/dialect.h"

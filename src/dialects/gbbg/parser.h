@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Text to grammar, by the EBNF of README.md. Any text gives a grammar: mistakes are reported, all
-// of them in one run, and what is right beside them is kept. Linear in the text; no recursion.
+// Text to grammar, by the EBNF of the page of the notation. Any text gives a grammar: mistakes are
+// reported, all of them in one run, and what is right beside them is kept. Linear in the text; no
+// recursion.
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // The park notation: regions of a park divided by grids, cells and rays, as its author wrote it
-// down; see README.md for the grammar and what is carried over.
+// down; see docs/reference/notations/park.md for the grammar and what is carried over.
 #pragma once
 
 #include "dialects/dialect.h"

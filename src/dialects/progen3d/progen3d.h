@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// ProGen3d grammars (.grammar, .pg3d) as a dialect; see README.md.
+// ProGen3d grammars (.grammar, .pg3d) as a dialect; see
+// docs/reference/notations/progen3d.md.
 #pragma once
 
 #include "dialects/dialect.h"

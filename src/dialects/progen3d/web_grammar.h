@@ -3,8 +3,8 @@
 //
 // A grammar of ProGen3d's web language as it is written: rules with parameters and variants, of
 // sequences of statements. It shares the name, the signs and the bodies with the notation of the
-// desktop program (grammar.h), and little else; the README has a table of what differs.
-// Expressions lie in a vector and name each other by index (kNone for a missing one).
+// desktop program (grammar.h), and little else; the page of the notation has a table of what
+// differs. Expressions lie in a vector and name each other by index (kNone for a missing one).
 #pragma once
 
 #include <cstdint>
