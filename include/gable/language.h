@@ -6,10 +6,10 @@
 //
 //   gable::language::Workspace workspace({"/town"});
 //   workspace.open("/town/rules/house.cga", text);
-//   for (const auto& file : workspace.findings("/town/rules/house.cga")) ...
+//   for (const auto& file : workspace.diagnostics("/town/rules/house.cga")) ...
 //
-// All notations have findings, symbols, colours and folds; what a notation cannot offer is empty.
-// Files are named by absolute paths; a text that is in no file has any other name, such as
+// All notations have diagnostics, symbols, colours and folds; what a notation cannot offer is
+// empty. Files are named by absolute paths; a text that is in no file has any other name, such as
 // "untitled:1.cga". Open texts stand for the files of their names. Nothing is ever written,
 // nothing throws. One thread at a time may use a workspace.
 //
@@ -24,12 +24,11 @@
 #include <utility>
 #include <vector>
 
+#include "gable/diagnostic.h"
 #include "gable/language_places.h"
 #include "gable/rule_forms.h"
 
 namespace gable::language {
-
-enum class Level : uint8_t { Note, Warning, Error };
 
 struct Place {
   std::string path;
@@ -53,17 +52,18 @@ struct Change {
   std::string text;
 };
 
-struct Finding {
-  Level level = Level::Error;
+/// A gable::Diagnostic with its place as editors count.
+struct Diagnostic {
+  gable::Diagnostic::Severity severity = gable::Diagnostic::Severity::Error;
   std::string code;
   Range range;
-  std::string text, hint;
-  bool operator==(const Finding&) const = default;
+  std::string message, hint;
+  bool operator==(const Diagnostic&) const = default;
 };
 
-struct FileFindings {
+struct FileDiagnostics {
   std::string path;
-  std::vector<Finding> findings;
+  std::vector<Diagnostic> diagnostics;
 };
 
 enum class NameKind : uint8_t {
@@ -232,9 +232,10 @@ class Workspace {
   /// Files may have changed on disk: lists of files are made anew.
   void refresh();
 
-  // --- The whole text; all but findings and rename are answered for a text with mistakes too ---
+  // --- The whole text; all but diagnostics and rename are answered for a text with mistakes too
+  // ---
   /// The mistakes of an open text and of the files that it imports.
-  std::vector<FileFindings> findings(const std::string& path);
+  std::vector<FileDiagnostics> diagnostics(const std::string& path);
   std::vector<Symbol> symbols(const std::string& path);
   std::vector<Highlight> highlights(const std::string& path);
   std::vector<Color> colors(const std::string& path);

@@ -33,19 +33,19 @@ bool hasLetters(std::string_view name, std::string_view query) {
   return at == query.size();
 }
 
-Level levelOf(Severity s) {
+gable::Diagnostic::Severity severityOf(Severity s) {
   switch (s) {
-    case Severity::Note: return Level::Note;
-    case Severity::Warning: return Level::Warning;
+    case Severity::Note: return gable::Diagnostic::Severity::Note;
+    case Severity::Warning: return gable::Diagnostic::Severity::Warning;
     case Severity::Error: break;
   }
-  return Level::Error;
+  return gable::Diagnostic::Severity::Error;
 }
 
-Finding findingOf(const Diagnostics::Entry& d, const Text& text, bool placed) {
-  Finding f{levelOf(d.severity), d.code, {}, d.message, d.hint};
-  if (placed) f.range = text.range(d.span.begin, d.span.end);
-  return f;
+Diagnostic diagnosticOf(const Diagnostics::Entry& d, const Text& text, bool placed) {
+  Diagnostic out{severityOf(d.severity), d.code, {}, d.message, d.hint};
+  if (placed) out.range = text.range(d.span.begin, d.span.end);
+  return out;
 }
 
 }  // namespace
@@ -124,14 +124,15 @@ void Workspace::refresh() { impl_->library.files().refresh(); }
 
 // --- The whole text ---
 
-std::vector<FileFindings> Workspace::findings(const std::string& path) {
-  std::vector<FileFindings> out{{path, {}}};
+std::vector<FileDiagnostics> Workspace::diagnostics(const std::string& path) {
+  std::vector<FileDiagnostics> out{{path, {}}};
   Library& library = impl_->library;
   const std::string key = impl_->key(path);
   const std::shared_ptr<const Snapshot> s = library.fresh(key);
   if (!s) {
     if (const std::optional<Error>& why = library.trouble()) {
-      out[0].findings.push_back({Level::Error, why->code, {}, why->message, why->hint});
+      out[0].diagnostics.push_back(
+          {gable::Diagnostic::Severity::Error, why->code, {}, why->message, why->hint});
     }
     return out;
   }
@@ -148,10 +149,10 @@ std::vector<FileFindings> Workspace::findings(const std::string& path) {
     // A dialect may bring files that are no units; their places are not known here.
     if (!parsed || parsed->text.content() != s->sources.text(file)) continue;
     const std::string name = file == main ? path : impl_->shown(s->sources.path(file));
-    auto at =
-        std::find_if(out.begin(), out.end(), [&](const FileFindings& f) { return f.path == name; });
+    auto at = std::find_if(out.begin(), out.end(),
+                           [&](const FileDiagnostics& f) { return f.path == name; });
     if (at == out.end()) at = out.insert(out.end(), {name, {}});
-    at->findings.push_back(findingOf(d, parsed->text, placed));
+    at->diagnostics.push_back(diagnosticOf(d, parsed->text, placed));
   }
   return out;
 }

@@ -78,9 +78,10 @@ std::ostream& operator<<(std::ostream& out, const Range& r) { return out << r.be
 // All that a workspace says of a text, as a text.
 std::string told(Workspace& w, const std::string& path, Position at) {
   std::ostringstream out;
-  for (const FileFindings& f : w.findings(path)) {
+  for (const FileDiagnostics& f : w.diagnostics(path)) {
     out << f.path << "\n";
-    for (const Finding& x : f.findings) out << x.code << " " << x.range << x.text << x.hint << "\n";
+    for (const Diagnostic& x : f.diagnostics)
+      out << x.code << " " << x.range << x.message << x.hint << "\n";
   }
   for (const Symbol& s : w.symbols(path)) out << s.name << s.detail << s.range << s.nameRange;
   for (const Highlight& h : w.highlights(path)) out << h.range << static_cast<int>(h.kind);

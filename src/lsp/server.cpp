@@ -17,7 +17,6 @@
 
 namespace gable {
 
-using language::Finding;
 using language::Position;
 using language::Range;
 
@@ -49,11 +48,12 @@ std::string idOf(const JsonValue& v) {
   return out;
 }
 
-int severityOf(language::Level level) {
-  switch (level) {
-    case language::Level::Error: return 1;
-    case language::Level::Warning: return 2;
-    case language::Level::Note: break;
+// As the protocol numbers them.
+int numberOf(Diagnostic::Severity severity) {
+  switch (severity) {
+    case Diagnostic::Severity::Error: return 1;
+    case Diagnostic::Severity::Warning: return 2;
+    case Diagnostic::Severity::Note: break;
   }
   return 3;
 }
@@ -417,13 +417,13 @@ bool LanguageServer::Impl::publishNext() {
   if (at == due_.end()) return false;
   const std::string path = at->first;
   due_.erase(at);
-  std::map<std::string, std::vector<Finding>>& others = imported_[path];
+  std::map<std::string, std::vector<language::Diagnostic>>& others = imported_[path];
   others.clear();
-  for (language::FileFindings& f : workspace_.findings(path)) {
+  for (language::FileDiagnostics& f : workspace_.diagnostics(path)) {
     if (f.path == path) {
-      publish(path, f.findings);
+      publish(path, f.diagnostics);
     } else {
-      others[f.path] = std::move(f.findings);
+      others[f.path] = std::move(f.diagnostics);
     }
   }
   if (due_.empty()) publishDue();
@@ -432,32 +432,33 @@ bool LanguageServer::Impl::publishNext() {
 
 // Files that are not open: what the open texts that import them say of them.
 void LanguageServer::Impl::publishDue() {
-  std::map<std::string, std::vector<Finding>> all;
+  std::map<std::string, std::vector<language::Diagnostic>> all;
   for (const auto& [main, files] : imported_) {
-    for (const auto& [path, findings] : files) {
+    for (const auto& [path, diagnostics] : files) {
       if (open_.count(path) != 0) continue;
-      std::vector<Finding>& list = all[path];
-      for (const Finding& f : findings) {
-        if (std::find(list.begin(), list.end(), f) == list.end()) list.push_back(f);
+      std::vector<language::Diagnostic>& list = all[path];
+      for (const language::Diagnostic& d : diagnostics) {
+        if (std::find(list.begin(), list.end(), d) == list.end()) list.push_back(d);
       }
     }
   }
   std::vector<std::string> gone;
-  for (const auto& [path, findings] : published_) {
+  for (const auto& [path, list] : published_) {
     if (open_.count(path) == 0 && all.count(path) == 0) gone.push_back(path);
   }
   for (const std::string& path : gone) {
     publish(path, {});
     published_.erase(path);
   }
-  for (const auto& [path, findings] : all) {
+  for (const auto& [path, list] : all) {
     const auto known = published_.find(path);
-    if (known == published_.end() || known->second != findings) publish(path, findings);
+    if (known == published_.end() || known->second != list) publish(path, list);
   }
 }
 
-void LanguageServer::Impl::publish(const std::string& path, const std::vector<Finding>& findings) {
-  published_[path] = findings;
+void LanguageServer::Impl::publish(const std::string& path,
+                                   const std::vector<language::Diagnostic>& list) {
+  published_[path] = list;
   std::string text;
   JsonWriter json(text);
   json.beginObject().key("jsonrpc").value("2.0");
@@ -466,12 +467,12 @@ void LanguageServer::Impl::publish(const std::string& path, const std::vector<Fi
   const auto at = open_.find(path);
   if (at != open_.end() && at->second.version) json.key("version").value(*at->second.version);
   json.key("diagnostics").beginArray();
-  for (const Finding& f : findings) {
+  for (const language::Diagnostic& d : list) {
     json.beginObject().key("range");
-    lsp::write(json, f.range);
-    json.key("severity").value(severityOf(f.level)).key("code").value(f.code);
+    lsp::write(json, d.range);
+    json.key("severity").value(numberOf(d.severity)).key("code").value(d.code);
     json.key("source").value("gable");
-    json.key("message").value(f.hint.empty() ? f.text : f.text + "\n" + f.hint);
+    json.key("message").value(d.hint.empty() ? d.message : d.message + "\n" + d.hint);
     json.endObject();
   }
   json.endArray().endObject().endObject();

@@ -87,7 +87,7 @@ class LanguageServer::Impl {
   // --- Mistakes (server.cpp) ---
   bool publishNext();
   void publishDue();
-  void publish(const std::string& path, const std::vector<language::Finding>& findings);
+  void publish(const std::string& path, const std::vector<language::Diagnostic>& list);
 
   // --- Answers (answers.cpp; those about forms: forms.cpp) ---
   void completion(const JsonValue& params, JsonWriter& json);
@@ -134,8 +134,8 @@ class LanguageServer::Impl {
   /// Texts that are to be looked at again, and when.
   std::map<std::string, double> due_;
   /// What each open text says of the files that it imports, and what was last published of a file.
-  std::map<std::string, std::map<std::string, std::vector<language::Finding>>> imported_;
-  std::map<std::string, std::vector<language::Finding>> published_;
+  std::map<std::string, std::map<std::string, std::vector<language::Diagnostic>>> imported_;
+  std::map<std::string, std::vector<language::Diagnostic>> published_;
 };
 
 namespace lsp {

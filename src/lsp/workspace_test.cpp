@@ -46,9 +46,9 @@ class Desk {
   }
   std::string codes() {
     std::string out;
-    for (const FileFindings& f : workspace.findings(kMain)) {
-      if (f.path != kMain && !f.findings.empty()) out += f.path + ": ";
-      for (const Finding& x : f.findings) out += x.code + " ";
+    for (const FileDiagnostics& f : workspace.diagnostics(kMain)) {
+      if (f.path != kMain && !f.diagnostics.empty()) out += f.path + ": ";
+      for (const Diagnostic& x : f.diagnostics) out += x.code + " ";
     }
     return out;
   }
@@ -189,9 +189,10 @@ TEST(Completion, allOperationsAreRightAtOnce) {
       if (c.kind != NameKind::Operation || !c.filter.empty()) continue;
       ++operations;
       Desk tried("attr height = 1\nLot --> " + filledIn(c.text) + " X.");
-      for (const FileFindings& f : tried.workspace.findings(kMain)) {
-        for (const Finding& x : f.findings) {
-          EXPECT_NE(x.level, Level::Error) << filledIn(c.text) << ": " << x.text;
+      for (const FileDiagnostics& f : tried.workspace.diagnostics(kMain)) {
+        for (const Diagnostic& x : f.diagnostics) {
+          EXPECT_NE(x.severity, gable::Diagnostic::Severity::Error)
+              << filledIn(c.text) << ": " << x.message;
         }
       }
     }
@@ -394,9 +395,9 @@ TEST(Rename, takesLeavesAndImports) {
   EXPECT_EQ(d.renamed("v")["main.cga"], "import v : \"w.cga\"\nLot --> v.Window extrude(v.a) X.");
 }
 
-// --- Findings ---
+// --- Diagnostics ---
 
-TEST(Findings, tellOfImportsToo) {
+TEST(DiagnosticsOfTexts, tellOfImportsToo) {
   Desk d("import w : \"w.cga\"\nLot --> w.Window", {{"w.cga", "Window --> extrude() X."}});
   EXPECT_EQ(d.codes(), "/nowhere/w.cga: wrong-argument-count ");
   d.workspace.change("/nowhere/w.cga", {{Range{{0, 19}, {0, 19}}, "3"}});
@@ -434,7 +435,7 @@ TEST(Dialects, haveFindingsOutlinesAndNames) {
     EXPECT_FALSE(w.symbols(path).empty()) << path;
     w.open(path, text + "\n-> ((( oops");
     size_t errors = 0;
-    for (const FileFindings& f : w.findings(path)) errors += f.findings.size();
+    for (const FileDiagnostics& f : w.diagnostics(path)) errors += f.diagnostics.size();
     EXPECT_GT(errors, 0u) << path;
     w.complete(path, {0, 3});
     w.hover(path, {0, 3});

@@ -288,7 +288,7 @@ class Router {
     std::string out;
     JsonWriter json(out);
     json.beginObject().key("text").value(text.text);
-    json.key("messages").raw(diagnosticsJson(text.diagnostics)).endObject();
+    json.key("diagnostics").raw(diagnosticsJson(text.diagnostics)).endObject();
     return jsonOf(out);
   }
 

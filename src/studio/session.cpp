@@ -312,7 +312,7 @@ Result<std::string> Session::derive(const JsonValue& request, const Cancel& canc
   DiagnosticList diagnostics = rules->diagnostics();
   if (!rules->ok() || request["only"].text() == "check") {
     json.key("end").value(rules->ok() ? "checked" : "wrong");
-    json.key("messages").raw(diagnosticsJson(diagnostics)).endObject();
+    json.key("diagnostics").raw(diagnosticsJson(diagnostics)).endObject();
     return joined("GBS1", text, {});
   }
   const Result<Model> derived = deriveFor(request, *rules, *work, Trace::None);
@@ -330,7 +330,7 @@ Result<std::string> Session::derive(const JsonValue& request, const Cancel& canc
   }
   json.key("end").value(wrong ? "wrong" : endName(model.end()));
   json.key("derivation").value(number);
-  json.key("messages").raw(diagnosticsJson(diagnostics));
+  json.key("diagnostics").raw(diagnosticsJson(diagnostics));
   json.key("values").raw(valuesJson(model.attributes(0)));
   RunFigures figures;
   figures.parseSeconds = rules->parseSeconds();

@@ -109,7 +109,7 @@ std::string outlinesJson(const Shapes& shapes) {
     for (const auto& [x, y] : outline.ring) json.beginArray().value(x).value(y).endArray();
     json.endArray().endObject();
   }
-  json.endArray().key("messages").raw(diagnosticsJson(shapes.diagnostics())).endObject();
+  json.endArray().key("diagnostics").raw(diagnosticsJson(shapes.diagnostics())).endObject();
   return out;
 }
 

@@ -4,7 +4,7 @@ import { Text } from '@codemirror/state';
 import type { EditorView } from '@codemirror/view';
 import { expect, it } from 'vitest';
 import type { Mistake } from '../language/language.svelte';
-import type { Message } from '../lib/protocol';
+import type { Diagnostic } from '../lib/protocol';
 import { diagnostics } from './extensions';
 
 const RULES = 'Lot --> spilt(x) { ~1 : A. }';
@@ -28,8 +28,8 @@ const mistake: Mistake = {
   actions: [action],
 };
 
-const marks = (doc: Text, mistakes: Mistake[], messages: Message[] = []) =>
-  diagnostics(doc, 'a.cga', URI, mistakes, messages);
+const marks = (doc: Text, mistakes: Mistake[], told: Diagnostic[] = []) =>
+  diagnostics(doc, 'a.cga', URI, mistakes, told);
 
 /** The text after the remedy of a mark was carried out on a text. */
 function mended(before: string, after: string, word: string, m: Mistake = mistake): string {
@@ -77,7 +77,7 @@ it('offers no remedy of another file, or where the text has ended', () => {
 
 it('marks what a shape has met as well, and what rules have wrong once', () => {
   const doc = Text.of([RULES]);
-  const told: Message = {
+  const told: Diagnostic = {
     severity: 'warning',
     code: 'size-zero',
     message: 'there is no room',
@@ -86,7 +86,13 @@ it('marks what a shape has met as well, and what rules have wrong once', () => {
     column: 1,
     shapePath: '0.1',
   };
-  const analysed: Message = { severity: 'error', code: 'x', message: 'x', file: 'a.cga', line: 1 };
+  const analysed: Diagnostic = {
+    severity: 'error',
+    code: 'x',
+    message: 'x',
+    file: 'a.cga',
+    line: 1,
+  };
   expect(marks(doc, [mistake], [told, analysed]).map((d) => d.message)).toEqual([
     'there is no room',
     "'spilt' is not an operation",

@@ -14,7 +14,7 @@ import {
 import { Decoration, EditorView, WidgetType, type DecorationSet } from '@codemirror/view';
 import type { Mistake } from '../language/language.svelte';
 import { offsetOf, type CodeAction } from '../language/protocol';
-import type { Message, RuleInfo } from '../lib/protocol';
+import type { Diagnostic as EngineDiagnostic, RuleInfo } from '../lib/protocol';
 
 function element(tag: string, className: string, text = ''): HTMLElement {
   const out = document.createElement(tag);
@@ -52,7 +52,7 @@ export function diagnostics(
   file: string,
   uri: string,
   mistakes: readonly Mistake[],
-  messages: readonly Message[],
+  told: readonly EngineDiagnostic[],
 ): Diagnostic[] {
   const found = mistakes.map((m): Diagnostic => {
     const from = offsetOf(doc, m.range.start);
@@ -65,7 +65,7 @@ export function diagnostics(
       ...(actions.length ? { actions } : {}),
     };
   });
-  const derived = messages
+  const derived = told
     .filter((m) => m.line && m.shapePath && isFile(file, m.file))
     .map((m): Diagnostic => {
       const from = offset(doc, m.line!, m.column ?? 1);

@@ -14,7 +14,7 @@ import {
   positionIn,
   uriOf,
   type CodeAction,
-  type Finding,
+  type Diagnostic,
   type Position,
   type Range,
 } from './protocol';
@@ -34,7 +34,7 @@ interface Sent {
 }
 
 /** A mistake with what mends it. */
-export interface Mistake extends Finding {
+export interface Mistake extends Diagnostic {
   actions: CodeAction[];
 }
 
@@ -200,20 +200,20 @@ export class Language {
     if (method !== 'textDocument/publishDiagnostics') return;
     const { uri, diagnostics, version } = params as {
       uri: string;
-      diagnostics: Finding[];
+      diagnostics: Diagnostic[];
       version?: number;
     };
     const path = this.path(uri);
     if (path !== null) void this.found(path, diagnostics, version);
   }
 
-  private async found(path: string, findings: Finding[], version?: number): Promise<void> {
+  private async found(path: string, diagnostics: Diagnostic[], version?: number): Promise<void> {
     // What is said of a text that is another by now is said anew.
     if (version !== undefined && version !== this.sent.get(path)?.version) return;
     let actions: CodeAction[] = [];
-    if (findings.length && this.sent.has(path) && this.connection) {
+    if (diagnostics.length && this.sent.has(path) && this.connection) {
       const range = { start: { line: 0, character: 0 }, end: { line: 1e9, character: 0 } };
-      const context = { diagnostics: findings };
+      const context = { diagnostics };
       const textDocument = { uri: this.uri(path) };
       const asked = { textDocument, range, context };
       actions = await this.connection
@@ -221,13 +221,13 @@ export class Language {
         .catch(() => []);
       if (version !== undefined && version !== this.sent.get(path)?.version) return;
     }
-    const same = (a: Finding, b: Finding) =>
+    const same = (a: Diagnostic, b: Diagnostic) =>
       a.code === b.code && JSON.stringify(a.range) === JSON.stringify(b.range);
     const next = new Map(this.mistakes);
     next.delete(path);
-    const list = findings.map((f) => ({
-      ...f,
-      actions: actions.filter((a) => a.diagnostics.some((d) => same(d, f))),
+    const list = diagnostics.map((d) => ({
+      ...d,
+      actions: actions.filter((a) => a.diagnostics.some((other) => same(other, d))),
     }));
     if (list.length) next.set(path, list);
     this.mistakes = next;

@@ -32,7 +32,7 @@ export interface WorkspaceEdit {
 }
 
 /** A mistake; severities are 1 error, 2 warning, 3 note. */
-export interface Finding {
+export interface Diagnostic {
   range: Range;
   severity: number;
   code: string;
@@ -74,7 +74,7 @@ export interface Hover {
 export interface CodeAction {
   title: string;
   isPreferred?: boolean;
-  diagnostics: Finding[];
+  diagnostics: Diagnostic[];
   edit: WorkspaceEdit;
 }
 

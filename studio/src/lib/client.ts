@@ -10,7 +10,7 @@ import {
   type Derived,
   type DrawList,
   type LeafInfo,
-  type Message,
+  type Diagnostic,
   type ModelPreview,
   type Tree,
 } from './protocol';
@@ -287,19 +287,22 @@ export class EngineClient {
     ).json() as Promise<ExportNews>;
   }
 
-  async converted(path: string, text: string): Promise<{ text: string; messages: Message[] }> {
+  async converted(
+    path: string,
+    text: string,
+  ): Promise<{ text: string; diagnostics: Diagnostic[] }> {
     return (
       await this.call('POST', `convert?path=${encodeURIComponent(path)}`, text)
-    ).json() as Promise<{ text: string; messages: Message[] }>;
+    ).json() as Promise<{ text: string; diagnostics: Diagnostic[] }>;
   }
 
   async outlines(
     shapes: ShapesSpec,
-  ): Promise<{ count: number; shapes: Outline[]; messages: Message[] }> {
+  ): Promise<{ count: number; shapes: Outline[]; diagnostics: Diagnostic[] }> {
     return (await this.call('POST', 'shapes', JSON.stringify({ shapes }))).json() as Promise<{
       count: number;
       shapes: Outline[];
-      messages: Message[];
+      diagnostics: Diagnostic[];
     }>;
   }
 

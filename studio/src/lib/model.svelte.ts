@@ -10,7 +10,7 @@ import type {
   AttributeInfo,
   Derived,
   DrawList,
-  Message,
+  Diagnostic,
   RuleInfo,
   Stats,
   Tree,
@@ -65,7 +65,7 @@ export class Model {
   startRule = $state('');
   attributes = $state.raw<AttributeInfo[]>([]);
   values = $state.raw<Record<string, Value>>({});
-  messages = $state.raw<Message[]>([]);
+  diagnostics = $state.raw<Diagnostic[]>([]);
   stats = $state.raw<Stats | null>(null);
   derivation = $state(0);
   end = $state<Derived['end'] | ''>('');
@@ -79,8 +79,8 @@ export class Model {
   shapesOf = $state(0);
 
   readonly groups = $derived<Group[]>(groupFields(this.attributes));
-  readonly errors = $derived(this.messages.filter((m) => m.severity === 'error').length);
-  readonly warnings = $derived(this.messages.filter((m) => m.severity === 'warning').length);
+  readonly errors = $derived(this.diagnostics.filter((m) => m.severity === 'error').length);
+  readonly warnings = $derived(this.diagnostics.filter((m) => m.severity === 'warning').length);
   /** Too many shapes for a tree: the guide has the first steps. */
   readonly huge = $derived((this.stats?.shapes ?? 0) > MOST_TREE_SHAPES);
 
@@ -186,7 +186,7 @@ export class Model {
   }
 
   private refused(error: Refusal): void {
-    this.messages = [{ severity: 'error', code: error.code, message: error.message }];
+    this.diagnostics = [{ severity: 'error', code: error.code, message: error.message }];
     this.failed();
   }
 
@@ -220,7 +220,8 @@ export class Model {
 
   private take(derived: Derived, draw: DrawList | null): void {
     if (derived.end === 'cancelled') return;
-    if (derived.messages.length || this.messages.length) this.messages = derived.messages;
+    if (derived.diagnostics.length || this.diagnostics.length)
+      this.diagnostics = derived.diagnostics;
     if (derived.end === 'wrong' || !draw || !derived.stats) return this.failed();
     // Rules that reach a limit before they have made anything are no reason to empty the view.
     if (derived.end === 'limit' && draw.leaves === 0) {

@@ -44,7 +44,7 @@ it('reads a derivation with its draw list', () => {
 
 it('reads wrong rules without one', () => {
   const { derived, draw } = decodeDerived(
-    message('GBS1', { end: 'wrong', messages: [] }).buffer as ArrayBuffer,
+    message('GBS1', { end: 'wrong', diagnostics: [] }).buffer as ArrayBuffer,
   );
   expect(derived.end).toBe('wrong');
   expect(draw).toBeNull();

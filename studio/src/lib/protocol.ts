@@ -14,7 +14,7 @@ export interface Fix {
   text: string;
 }
 
-export interface Message {
+export interface Diagnostic {
   severity: 'error' | 'warning' | 'note';
   code: string;
   message: string;
@@ -81,7 +81,7 @@ export interface Derived {
   startRule: string;
   rules: RuleInfo[];
   attributes: AttributeInfo[];
-  messages: Message[];
+  diagnostics: Diagnostic[];
   values?: Record<string, Value>;
   stats?: Stats;
 }
