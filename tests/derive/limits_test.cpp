@@ -122,7 +122,7 @@ attr index = 0
 Lot --> extrude(rand(1, 3)) comp(f) { side : Facade | top : offset(-20, inside) Roof }
 Facade --> split(x) { ~1 : split(y) { ~rand(0.5, 1) : Tile }* }*
 Tile --> case p(0.1) : i("none-" + floor(rand(20))) X. else : set(index, rand(0, 1)) projectUV(3) Y.
-Roof --> print([1, 2] + "x") taper(-2) roofHip(100) Z.
+Roof --> print([1, 2] + "x") taper(-2) roofHip(100 + index) Z.
 )";
 
 TEST(Limits, messagesAreThoseOfOneThread) {
