@@ -20,6 +20,14 @@ const char* blockText(const Callable& c) {
   return " { A | B }";
 }
 
+// The text that stands in a place to fill in, with its colon; nothing where any text will do.
+std::string sampleText(const ParamSpec& p) {
+  for (const char* text : {"", "text", "#ffffff"}) {
+    if (!p.form || p.form->holds(text)) return *text ? std::string(":") + text : std::string();
+  }
+  return "";
+}
+
 // A value that the parameter takes, so that the call is no mistake while it is being filled in.
 std::string sample(const ParamSpec& p, int place) {
   const std::string n = std::to_string(place);
@@ -37,7 +45,7 @@ std::string sample(const ParamSpec& p, int place) {
         if (t.paramCount == 0) return "${" + n + ":" + t.name + "}";
       }
       break;
-    case ParamType::String: return "\"${" + n + "}\"";
+    case ParamType::String: return "\"${" + n + sampleText(p) + "}\"";
     case ParamType::Selector: return "${" + n + ":all}";
     case ParamType::FloatArray: return "${" + n + ":[1, 2]}";
     case ParamType::BoolArray: return "${" + n + ":[true, false]}";
@@ -165,8 +173,14 @@ std::string example(const Callable& callable) {
                                              return a.requiredCount() < b.requiredCount();
                                            });
     out += "(";
-    for (size_t i = 0; i < s.requiredCount(); ++i) {
+    const size_t required = s.requiredCount();
+    for (size_t i = 0; i < required; ++i) {
       out += (i > 0 ? ", " : "") + sample(s.params[i], place++);
+    }
+    // Needed where the selection before has not the one term that makes up for it.
+    for (size_t i = required; i < s.params.size(); ++i) {
+      const ParamSpec& p = s.params[i];
+      if (p.unlessTerm) out += std::string(", ") + p.name + " = " + sample(p, place++);
     }
     out += ")";
   }
