@@ -8,7 +8,6 @@
 #include "dialects/dialect.h"
 #include "engine/guard.h"
 #include "gable/gable.h"
-#include "language/forms.h"
 
 namespace gable {
 
@@ -29,7 +28,7 @@ const char* blockName(const OpSpec& op) {
 BuiltinParameter parameterOf(const ParamSpec& p) {
   BuiltinParameter out;
   out.name = p.name;
-  out.type = language::typeText(p.type);
+  out.type = typeText(p.type);
   out.doc = p.doc;
   if (p.defaultText) out.defaultText = p.defaultText;
   if (p.words) out.words = p.words;

@@ -86,25 +86,6 @@ std::optional<Callable> callableOf(const Catalogue& catalogue, std::string_view 
   return std::nullopt;
 }
 
-const char* typeText(ParamType type) {
-  switch (type) {
-    case ParamType::Float: return "float";
-    case ParamType::Bool: return "bool";
-    case ParamType::String: return "string";
-    case ParamType::Selector: return "selector";
-    case ParamType::FloatArray: return "float[]";
-    case ParamType::BoolArray: return "bool[]";
-    case ParamType::StringArray: return "string[]";
-    case ParamType::Size: return "size";
-    case ParamType::FloatingSize: return "floating size";
-    case ParamType::Drawn: return "drawn";
-    case ParamType::DrawnList: return "drawn[]";
-    case ParamType::Selection: return "selection";
-    case ParamType::Any: break;
-  }
-  return "any";
-}
-
 std::string label(std::string_view name, const Signature& signature,
                   std::vector<SignatureHelp::Parameter>* parameters) {
   std::string out = std::string(name) + "(";

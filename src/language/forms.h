@@ -29,8 +29,6 @@ struct Callable {
 std::optional<Callable> callableOf(const Catalogue& catalogue, std::string_view name,
                                    bool successor);
 
-/// "float", "size", "selector", ...
-const char* typeText(ParamType type);
 /// "extrude(type, distance)"; with `parameters` the place of each in it.
 std::string label(std::string_view name, const Signature& signature,
                   std::vector<SignatureHelp::Parameter>* parameters = nullptr);

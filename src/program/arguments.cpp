@@ -28,6 +28,22 @@ bool accepts(const Signature& s, std::span<const Value> values, const ValuePool&
   return true;
 }
 
+// Puts a value for each parameter into the struct, until one is not taken.
+ArgumentProblem storeAll(const Signature& form, const Value* values, const ValuePool& pool,
+                         void* arguments) {
+  using Kind = ArgumentProblem::Kind;
+  for (size_t i = 0; i < form.params.size(); ++i) {
+    const ParamSpec& p = form.params[i];
+    const Value& v = values[i];
+    if (!p.store(arguments, v, pool) || (p.words && isNoWord(p, v, pool))) {
+      return {Kind::Type, i, &p};
+    }
+    const bool taken = v.type == ValueType::Float ? p.range.holds(v.number) : isTaken(p, v, pool);
+    if (!taken) return {Kind::Value, i, &p};
+  }
+  return {};
+}
+
 // The signature for these values; where none fits, one that takes as many, to say what is wrong.
 const Signature* choose(std::span<const Signature> signatures, std::span<const Value> values,
                         const ValuePool& pool) {
@@ -77,25 +93,15 @@ Value defaultValue(const ParamSpec& param, ValuePool& pool) {
 
 ArgumentProblem bindArguments(std::span<const Signature> signatures, const Signature* form,
                               std::span<const Value> values, ValuePool& pool, void* arguments) {
-  using Kind = ArgumentProblem::Kind;
+  if (form) return storeAll(*form, values.data(), pool, arguments);
+  form = choose(signatures, values, pool);
+  if (!form) return {ArgumentProblem::Kind::Count, 0, nullptr};
   SmallBuffer<Value, 16> filled;
-  if (!form) {
-    form = choose(signatures, values, pool);
-    if (!form) return {Kind::Count, 0, nullptr};
-    for (const Value& v : values) filled.push_back(v);
-    for (size_t i = values.size(); i < form->params.size(); ++i) {
-      filled.push_back(defaultValue(form->params[i], pool));
-    }
-    values = {filled.begin(), filled.size()};
+  for (const Value& v : values) filled.push_back(v);
+  for (size_t i = values.size(); i < form->params.size(); ++i) {
+    filled.push_back(defaultValue(form->params[i], pool));
   }
-  for (size_t i = 0; i < form->params.size(); ++i) {
-    const ParamSpec& p = form->params[i];
-    if (!p.store(arguments, values[i], pool) || isNoWord(p, values[i], pool)) {
-      return {Kind::Type, i, &p};
-    }
-    if (!isTaken(p, values[i], pool)) return {Kind::Value, i, &p};
-  }
-  return {};
+  return storeAll(*form, filled.begin(), pool, arguments);
 }
 
 bool isTaken(const ParamSpec& param, const Value& v, const ValuePool& pool) {

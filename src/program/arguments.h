@@ -248,12 +248,19 @@ template <class S, class T>
 S structOf(T S::*);
 template <class S, class T>
 T fieldOf(T S::*);
+template <auto Member>
+inline constexpr ParamType typeOf = FieldType<decltype(fieldOf(Member))>::type;
 
 // Internal: compilers give instances for members of structs without linkage one name in all files.
-template <auto Member>
+template <auto Member, ParamType kType>
 static bool store(void* arguments, const Value& v, const ValuePool& pool) {
   using S = decltype(structOf(Member));
   using T = decltype(fieldOf(Member));
+  // A field for any value does not know what the parameter takes.
+  if constexpr (FieldType<T>::type == ParamType::Any && kType != ParamType::Any) {
+    const bool missing = IsOptional<T>::value && v.type == ValueType::Null;
+    if (v.type != valueType(kType) && !missing) return false;
+  }
   return FieldType<T>::read(static_cast<S*>(arguments)->*Member, v, pool);
 }
 
@@ -261,21 +268,16 @@ static bool store(void* arguments, const Value& v, const ValuePool& pool) {
 
 /// Declares a parameter. `defaultText` is the default as it is written in a rule; a std::optional
 /// field has none, and the text then says in words what happens without it. `words` are those that
-/// a Word takes; an enumeration has its own.
-template <auto Member>
+/// a Word takes; an enumeration has its own. `kType` is for fields that take more than the
+/// parameter does, such as a Value that is a number in one signature and a text in another.
+template <auto Member, ParamType kType = arguments_detail::typeOf<Member>>
 constexpr ParamSpec param(const char* name, const char* doc, const char* defaultText = nullptr,
                           const char* words = nullptr) {
   using T = decltype(arguments_detail::fieldOf(Member));
   using Field = arguments_detail::FieldType<T>;
-  ParamSpec p{name, Field::type, doc, defaultText, words ? words : Field::words};
-  p.store = &arguments_detail::store<Member>;
+  ParamSpec p{name, kType, doc, defaultText, words ? words : Field::words};
+  p.store = &arguments_detail::store<Member, kType>;
   p.mayBeMissing = arguments_detail::IsOptional<T>::value;
-  return p;
-}
-
-/// A parameter whose field takes any value, where only some types fit.
-constexpr ParamSpec withType(ParamSpec p, ParamType type) {
-  p.type = type;
   return p;
 }
 

@@ -32,11 +32,6 @@ const ParamSpec* Signature::paramAt(size_t index) const {
   return variadic && !params.empty() ? &params.back() : nullptr;
 }
 
-bool Signature::isTyped() const {
-  return !variadic && std::all_of(params.begin(), params.end(),
-                                  [](const ParamSpec& p) { return p.store != nullptr; });
-}
-
 std::string rangeText(const NumberRange& r) {
   if (r.any()) return {};
   const std::string least = shortestText(r.least), most = shortestText(r.most);
@@ -58,23 +53,23 @@ const PartSpec* OpSpec::part(std::string_view word) const {
   return at == parts.end() ? nullptr : &*at;
 }
 
-ValueType valueType(ParamType p) {
-  switch (p) {
-    case ParamType::Float:
-    case ParamType::Size:
-    case ParamType::FloatingSize: return ValueType::Float;
-    case ParamType::Bool: return ValueType::Bool;
-    case ParamType::String: return ValueType::String;
-    case ParamType::Selector: return ValueType::Selector;
-    case ParamType::FloatArray: return ValueType::FloatArray;
-    case ParamType::BoolArray: return ValueType::BoolArray;
-    case ParamType::StringArray: return ValueType::StringArray;
-    case ParamType::Drawn: return ValueType::Float;
-    case ParamType::Any:
-    case ParamType::DrawnList:
-    case ParamType::Selection: break;
+const char* typeText(ParamType type) {
+  switch (type) {
+    case ParamType::Float: return "float";
+    case ParamType::Bool: return "bool";
+    case ParamType::String: return "string";
+    case ParamType::Selector: return "selector";
+    case ParamType::FloatArray: return "float[]";
+    case ParamType::BoolArray: return "bool[]";
+    case ParamType::StringArray: return "string[]";
+    case ParamType::Size: return "size";
+    case ParamType::FloatingSize: return "floating size";
+    case ParamType::Drawn: return "drawn";
+    case ParamType::DrawnList: return "drawn[]";
+    case ParamType::Selection: return "selection";
+    case ParamType::Any: break;
   }
-  return ValueType::Null;
+  return "any";
 }
 
 bool fits(ValueType got, ParamType wanted) {

@@ -168,12 +168,29 @@ struct Signature {
   }
   /// The parameter that the argument `index` is for; null when there are too many.
   const ParamSpec* paramAt(size_t index) const;
-  /// All parameters are bound to fields of a struct.
-  bool isTyped() const;
 };
 
 /// The type of the values that a parameter takes; Null for any.
-ValueType valueType(ParamType p);
+constexpr ValueType valueType(ParamType p) {
+  switch (p) {
+    case ParamType::Float:
+    case ParamType::Size:
+    case ParamType::FloatingSize: return ValueType::Float;
+    case ParamType::Bool: return ValueType::Bool;
+    case ParamType::String: return ValueType::String;
+    case ParamType::Selector: return ValueType::Selector;
+    case ParamType::FloatArray: return ValueType::FloatArray;
+    case ParamType::BoolArray: return ValueType::BoolArray;
+    case ParamType::StringArray: return ValueType::StringArray;
+    case ParamType::Drawn: return ValueType::Float;
+    case ParamType::Any:
+    case ParamType::DrawnList:
+    case ParamType::Selection: break;
+  }
+  return ValueType::Null;
+}
+/// The type as the reference and editors show it: "float", "size", "selector".
+const char* typeText(ParamType type);
 /// Whether a value of type `got` may stand for the parameter. A text may stand for a word.
 bool fits(ValueType got, ParamType wanted);
 

@@ -166,23 +166,6 @@ class OpCall {
   Status run();
   Status runGathered(std::span<Gathered> leaves);
 
-  // Arguments of operations that are not declared with a struct.
-  size_t argCount() const { return args_.size(); }
-  bool has(size_t i) const { return i < args_.size(); }
-  const Value& arg(size_t i) const { return args_[i]; }
-  double number(size_t i) const { return args_[i].number; }
-  double number(size_t i, double otherwise) const { return has(i) ? args_[i].number : otherwise; }
-  /// A number, times `whole` when it was written with '.
-  double sized(size_t i, double whole) const {
-    return args_[i].unit == Unit::Relative ? args_[i].number * whole : args_[i].number;
-  }
-  std::string_view text(size_t i) const { return services_.pool().text(args_[i].id); }
-  std::string_view text(size_t i, std::string_view otherwise) const {
-    return has(i) ? text(i) : otherwise;
-  }
-  bool is(size_t i, std::string_view word) const { return has(i) && text(i) == word; }
-  bool truth(size_t i, bool otherwise) const { return has(i) ? args_[i].truth() : otherwise; }
-
   // The block.
   SplitBlock splitBlock() const { return block_ ? block_->split : SplitBlock{}; }
   std::span<const SelectorItem> selectors() const {
@@ -275,16 +258,6 @@ class FunctionCall {
   Value run(Value (*function)(FunctionCall&), uint32_t effects);
 
   const Shape& shape() const { return shape_; }
-  size_t argCount() const { return args_.size(); }
-  bool has(size_t i) const { return i < args_.size(); }
-  const Value& arg(size_t i) const { return args_[i]; }
-  double number(size_t i) const { return args_[i].number; }
-  double number(size_t i, double otherwise) const { return has(i) ? args_[i].number : otherwise; }
-  std::string_view text(size_t i) const { return services_.pool().text(args_[i].id); }
-  std::string_view text(size_t i, std::string_view otherwise) const {
-    return has(i) ? text(i) : otherwise;
-  }
-  const Array& array(size_t i) const { return services_.pool().array(args_[i]); }
   /// A text or an array; one that is longer than allowed is reported, and empty.
   Value result(std::string_view text) const;
   Value result(Array a) const;

@@ -13,7 +13,6 @@
 #include "builtins/lists.h"
 #include "builtins/shared/arrays.h"
 #include "builtins/shared/text_files.h"
-#include "program/typed_param.h"
 #include "shape/op_call.h"
 
 namespace gable {

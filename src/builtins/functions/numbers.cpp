@@ -9,7 +9,6 @@
 #include "builtins/lists.h"
 #include "builtins/shared/arrays.h"
 #include "math/trig.h"
-#include "program/typed_param.h"
 #include "shape/op_call.h"
 
 namespace gable {

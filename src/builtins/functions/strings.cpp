@@ -10,7 +10,6 @@
 #include "base/text.h"
 #include "builtins/lists.h"
 #include "builtins/shared/arrays.h"
-#include "program/typed_param.h"
 #include "shape/op_call.h"
 
 namespace gable {

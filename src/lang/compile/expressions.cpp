@@ -113,7 +113,6 @@ UnitCompiler::BuiltinArguments UnitCompiler::builtinArguments(NodeId call,
   }
   if (ref.signature >= signatures.size() || ref.open) return out;
   const Signature& form = signatures[ref.signature];
-  if (!form.isTyped() && ref.kind == RefKind::Operation) return out;
   out.form = &form;
   out.list.resize(form.params.size());
   for (size_t i = 0; i < out.list.size(); ++i) {

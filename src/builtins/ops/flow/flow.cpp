@@ -5,7 +5,6 @@
 
 #include "builtins/lists.h"
 #include "builtins/shared/text_forms.h"
-#include "program/typed_param.h"
 #include "shape/op_call.h"
 
 namespace gable {

@@ -281,8 +281,8 @@ constexpr Signature kSetback[] = {{kDistance}, {kDistances}};
 
 // The compiler evaluates the distance for each edge and hands over a list.
 constexpr ParamSpec kEachDistance[] = {
-    withType(param<&Setback::distances>("distance", "The distance of an edge, worked out on it."),
-             ParamType::Float),
+    param<&Setback::distances, ParamType::Float>("distance",
+                                                 "The distance of an edge, worked out on it."),
     kDistance[1],
 };
 constexpr Signature kPerEdge[] = {{kEachDistance}, {kDistances}};
