@@ -98,7 +98,7 @@ class Machine final : public Services, private WorkMeter {
 
   // Services.
   const Program* program() const override { return &program_; }
-  Value evaluate(uint32_t entry, uint64_t address, const Shape* as) override;
+  Value evaluateAtWork(uint32_t entry, uint64_t address, const Shape* as) override;
   const InitialShapeInfo& initialShapeAtWork() const override { return info_; }
   const Frame& worldAtWork() const override { return worlds_.present(); }
   void takeReport(StringId key, const Value& value) override;

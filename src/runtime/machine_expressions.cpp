@@ -342,7 +342,7 @@ Value Machine::callGuarded(FunctionCall& call, Value (*function)(FunctionCall&),
 }
 
 // The values that the operation or function was given lie above the top and stay as they are.
-Value Machine::evaluate(uint32_t entry, uint64_t address, const Shape* as) {
+Value Machine::evaluateAtWork(uint32_t entry, uint64_t address, const Shape* as) {
   if (aborted_ || functions_.size() >= options().limits.functionDepth || stack_.isNearlyFull()) {
     return {};
   }

@@ -3,6 +3,7 @@
 
 #include "shape/audit.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "base/check.h"
@@ -72,8 +73,31 @@ bool same(const OpOutcome& a, const OpOutcome& b) {
   return true;
 }
 
-// Other values in all fields that the effects do not allow to be looked at.
-Shape changed(const Shape& s, uint32_t effects) {
+// An array that holds what is no number has another id each time.
+bool same(const Value& a, const Value& b, const ValuePool& pool) {
+  if (a.type != b.type || a.unit != b.unit || !same(a.number, b.number)) return false;
+  if (a.id == b.id || !a.isArray()) return a.id == b.id;
+  const Array &x = pool.array(a), &y = pool.array(b);
+  return x.rows == y.rows && x.columns == y.columns && x.strings == y.strings &&
+         std::equal(x.numbers.begin(), x.numbers.end(), y.numbers.begin(), y.numbers.end(),
+                    [](double p, double q) { return same(p, q); });
+}
+
+bool isOutOfMemory(const Status& s) { return std::string_view(s.code()) == "out-of-memory"; }
+
+// A run that was cut short says nothing.
+bool wasCutShort(const Status& s) {
+  return !s.ok() && (s.code() == kWorkStopped || isOutOfMemory(s));
+}
+
+[[noreturn]] void stop(const char* name) {
+  checkFailed(__FILE__, __LINE__, name, "depends on a field of the shape",
+              "that its effects do not declare");
+}
+
+}  // namespace
+
+Shape changedFields(const Shape& s, uint32_t effects) {
   Shape out = s;
   const auto hidden = [&](uint32_t effect) { return (effects & effect) == 0; };
   if (hidden(kReadsPivot)) out.pivot.origin += Vec3{3, -5, 7};
@@ -101,14 +125,10 @@ Shape changed(const Shape& s, uint32_t effects) {
   return out;
 }
 
-bool isOutOfMemory(const Status& s) { return std::string_view(s.code()) == "out-of-memory"; }
-
-}  // namespace
-
 void auditFields(const OpSpec& spec, const Shape& before, std::span<const Value> args,
                  Services& services, const CallPlace& place, const BlockInput* block,
-                 const OpOutcome& outcome) {
-  Shape shape = changed(before, spec.effects);
+                 const OpOutcome& outcome, Evaluations& evaluations) {
+  Shape shape = changedFields(before, spec.effects);
   std::vector<BlockChild> children;
   std::vector<SplitPiece> pieces;
   PartPlan plan;
@@ -124,15 +144,30 @@ void auditFields(const OpSpec& spec, const Shape& before, std::span<const Value>
   }
   OpCall call(spec, shape, args, services, place, block ? &again : nullptr);
   const Services::Muted muted(services);
+  evaluations.again = true;
+  const Services::Recording recording(services, &evaluations);
   ShortMeter meter;
   const WorkScope scope(meter);
   const Status status = guarded([&] { return spec.apply(call); });
-  // A run that was cut short says nothing.
-  if (!status.ok() && (status.code() == kWorkStopped || isOutOfMemory(status))) return;
+  if (wasCutShort(status)) return;
   const OpOutcome second{status, shape, call.dropped(), children, pieces};
-  if (same(outcome, second)) return;
-  checkFailed(__FILE__, __LINE__, spec.name, "depends on a field of the shape",
-              "that its effects do not declare");
+  if (evaluations.strayed || !same(outcome, second)) stop(spec.name);
+}
+
+void auditFunction(const char* name, Value (*function)(FunctionCall&), FunctionCall& again,
+                   const Value& first, Evaluations& evaluations) {
+  const Services::Muted muted(again.services());
+  evaluations.again = true;
+  const Services::Recording recording(again.services(), &evaluations);
+  ShortMeter meter;
+  const WorkScope scope(meter);
+  Value second;
+  const Status status = guarded([&] {
+    second = function(again);
+    return Status();
+  });
+  if (!status.ok()) return;
+  if (evaluations.strayed || !same(first, second, again.services().pool())) stop(name);
 }
 
 }  // namespace gable

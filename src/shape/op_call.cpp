@@ -27,29 +27,12 @@ bool namesWorldIn(std::span<const Value> values, const Services& services) {
   });
 }
 
-// What is worked out while the operation is at work sees the shape as it is then: a second run
-// would not see what the first one saw.
-[[maybe_unused]] bool hasCode(std::span<const Value> values, const BlockInput* block,
-                              const Services& services) {
-  if (block && std::any_of(block->figures.begin(), block->figures.end(),
-                           [](uint32_t f) { return f != 0; })) {
-    return true;
-  }
-  return std::any_of(values.begin(), values.end(), [&](const Value& v) {
-    const ArgumentCode* const code = argumentOf(v, services);
-    if (!code) return false;
-    for (const ArgumentTerm& t : code->terms) {
-      for (const ValueCode& value : t.values) {
-        if (!value.isConstant()) return true;
-      }
-    }
-    return false;
-  });
-}
-
 const char* codeOf(const ArgumentProblem& problem) {
   return problem.kind == ArgumentProblem::Kind::Value ? "bad-argument" : "wrong-argument";
 }
+
+// What tells others of itself would tell them twice.
+[[maybe_unused]] constexpr uint32_t kTells = kReports | kReadsPath | kReadsContext;
 
 }  // namespace
 
@@ -161,20 +144,23 @@ uint32_t OpCall::effects() const {
 Status OpCall::run() {
 #if GABLE_DCHECKS
   const Services::Declared declared(services_, effects());
-  // What tells others of itself would tell them twice.
-  constexpr uint32_t kTells = kReports | kReadsPath | kReadsContext;
-  if ((spec_.effects & kTells) != 0 || spec_.gathered || hasCode(args_, block_, services_) ||
-      !services_.isAuditDue(spec_)) {
+  if ((spec_.effects & kTells) != 0 || spec_.gathered ||
+      !services_.isAuditDue(reinterpret_cast<uintptr_t>(&spec_))) {
     return spec_.apply(*this);
   }
   const Shape before = shape_;
   const size_t children = block_ ? block_->children->size() : 0;
   const size_t pieces = block_ && block_->pieces ? block_->pieces->size() : 0;
-  Status status = spec_.apply(*this);
+  Evaluations evaluations;
+  Status status;
+  {
+    const Services::Recording recording(services_, &evaluations);
+    status = spec_.apply(*this);
+  }
   OpOutcome outcome{status, shape_, dropped_, {}, {}};
   if (block_) outcome.children = std::span(*block_->children).subspan(children);
   if (block_ && block_->pieces) outcome.pieces = std::span(*block_->pieces).subspan(pieces);
-  auditFields(spec_, before, args_, services_, place_, block_, outcome);
+  auditFields(spec_, before, args_, services_, place_, block_, outcome, evaluations);
   return status;
 #else
   return spec_.apply(*this);
@@ -193,8 +179,23 @@ Value FunctionCall::run(Value (*function)(FunctionCall&), [[maybe_unused]] uint3
   uint32_t all = effectsOfValues(effects, args_, services_.pool());
   if (namesWorldIn(args_, services_)) all |= effectsOfCall(effects, true) | kReadsWorld;
   const Services::Declared declared(services_, all);
-#endif
+  if ((effects & kTells) != 0 || !services_.isAuditDue(reinterpret_cast<uintptr_t>(function))) {
+    return function(*this);
+  }
+  Evaluations evaluations;
+  Value first;
+  {
+    const Services::Recording recording(services_, &evaluations);
+    first = function(*this);
+  }
+  const Shape other = changedFields(shape_, effects);
+  FunctionCall again(args_, other, services_, spec_, form_);
+  again.place(file_, site_);
+  auditFunction(spec_ ? spec_->name : "an attribute", function, again, first, evaluations);
+  return first;
+#else
   return function(*this);
+#endif
 }
 
 Value FunctionCall::zero() const {

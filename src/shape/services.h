@@ -119,6 +119,21 @@ enum class ContextOrder : uint8_t {
   SmallestArea,
 };
 
+/// What the code of arguments gave while a call was at work, in order. The second run of the call
+/// for the audit gets the same again: the code would see the shape as the first run left it.
+struct Evaluations {
+  struct One {
+    uint32_t entry = 0;
+    uint64_t address = 0;
+    Value value;
+  };
+  std::vector<One> all;
+  size_t next = 0;
+  bool again = false;
+  /// The second run asked for something else.
+  bool strayed = false;
+};
+
 class Services {
  public:
   virtual ~Services() = default;
@@ -141,9 +156,20 @@ class Services {
   virtual const Program* program() const { return nullptr; }
   /// Runs the code of an argument (ValueCode) on the shape at work, or on another, with an address
   /// of its own for randomness.
-  virtual Value evaluate(uint32_t entry, uint64_t address, const Shape* as) {
-    (void)entry, (void)address, (void)as;
-    return {};
+  Value evaluate(uint32_t entry, uint64_t address, const Shape* as) {
+    if (!evaluations_) return evaluateAtWork(entry, address, as);
+    Evaluations& e = *evaluations_;
+    if (e.again) {
+      const bool known =
+          e.next < e.all.size() && e.all[e.next].entry == entry && e.all[e.next].address == address;
+      e.strayed = e.strayed || !known;
+      return known ? e.all[e.next++].value : Value{};
+    }
+    // What the code itself works out is part of what it gives.
+    const Recording pause(*this, nullptr);
+    const Value v = evaluateAtWork(entry, address, as);
+    e.all.push_back({entry, address, v});
+    return v;
   }
 
   /// What the call at work may ask for: the effects of its specification. A call that asks for more
@@ -173,11 +199,26 @@ class Services {
    private:
     Services& services_;
   };
-  /// Whether the next call of an operation is to be audited: the first ones of each, and some of
-  /// the others.
-  bool isAuditDue(const OpSpec& spec) {
+  /// While one lives, what evaluate() gives is kept, or taken from what was kept.
+  class Recording {
+   public:
+    Recording(Services& services, Evaluations* evaluations)
+        : services_(services), before_(services.evaluations_) {
+      services.evaluations_ = evaluations;
+    }
+    ~Recording() { services_.evaluations_ = before_; }
+    Recording(const Recording&) = delete;
+    Recording& operator=(const Recording&) = delete;
+
+   private:
+    Services& services_;
+    Evaluations* before_;
+  };
+  /// Whether the next call of an operation or a function, by its address, is to be audited: the
+  /// first ones of each, and some of the others.
+  bool isAuditDue(uintptr_t callee) {
     constexpr uint32_t kFirst = 8, kBetween = 512;
-    const uint32_t calls = calls_[&spec]++;
+    const uint32_t calls = calls_[callee]++;
     return !muted_ && (calls < kFirst || calls % kBetween == 0);
   }
   /// Whether one of these effects has been declared.
@@ -265,11 +306,13 @@ class Services {
   virtual std::string treeKeyAtWork() const = 0;
   virtual void takeWarning(const char* code, std::string message, std::string hint) = 0;
   virtual void leaveLeaf() = 0;
+  virtual Value evaluateAtWork(uint32_t, uint64_t, const Shape*) { return {}; }
 
   TextureMemo textureMemo_;
   uint32_t declared_ = ~uint32_t{0};
   bool muted_ = false;
-  std::unordered_map<const OpSpec*, uint32_t> calls_;
+  Evaluations* evaluations_ = nullptr;
+  std::unordered_map<uintptr_t, uint32_t> calls_;
 
  protected:
   ValuePool* pool_ = nullptr;
