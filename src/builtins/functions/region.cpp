@@ -20,10 +20,24 @@ CellMark cellOf(const FunctionCall& call) {
 
 Value counted(uint32_t v) { return Value::of(static_cast<double>(v)); }
 
-Value ix(FunctionCall& call) { return counted(cellOf(call).ix); }
-Value iy(FunctionCall& call) { return counted(cellOf(call).iy); }
-Value nx(FunctionCall& call) { return counted(cellOf(call).nx); }
-Value ny(FunctionCall& call) { return counted(cellOf(call).ny); }
+// Columns and rows are those of a grid; other cells have a number alone.
+CellMark gridCellOf(const FunctionCall& call) {
+  const CellMark cell = cellOf(call);
+  return cell.free ? CellMark{} : cell;
+}
+
+Value ix(FunctionCall& call) { return counted(gridCellOf(call).ix); }
+Value iy(FunctionCall& call) { return counted(gridCellOf(call).iy); }
+Value nx(FunctionCall& call) { return counted(gridCellOf(call).nx); }
+Value ny(FunctionCall& call) { return counted(gridCellOf(call).ny); }
+Value index(FunctionCall& call) {
+  const CellMark c = cellOf(call);
+  return counted(c.free ? c.ix : c.iy * c.nx + c.ix);
+}
+Value cells(FunctionCall& call) {
+  const CellMark c = cellOf(call);
+  return counted(c.free ? c.nx : c.nx * c.ny);
+}
 Value bx(FunctionCall& call) { return counted(cellOf(call).bx()); }
 Value by(FunctionCall& call) { return counted(cellOf(call).by()); }
 Value part(FunctionCall& call) { return counted(cellOf(call).part); }
@@ -92,13 +106,23 @@ constexpr AttributeSpec ofRegion(const char* name, ValueType type, const char* d
 }
 
 constexpr AttributeSpec kAttributes[] = {
-    ofRegion("region.ix", kFloat, "Column of the grid's cell that the region is or was cut from.",
-             ix),
-    ofRegion("region.iy", kFloat, "Row of the cell, from the south.", iy),
+    ofRegion(
+        "region.index", kFloat,
+        "Number of the cell that the region is or was cut from, from 0: of a grid row by row, of "
+        "voronoi and castRays in the order of the sites or rays.",
+        index),
+    ofRegion("region.cells", kFloat, "How many cells the operation made; 1 outside of cells.",
+             cells),
+    ofRegion(
+        "region.ix", kFloat,
+        "Column of the grid cell that the region is or was cut from, from the west; 0 outside of "
+        "grids.",
+        ix),
+    ofRegion("region.iy", kFloat, "Row of the grid cell, from the south; 0 outside of grids.", iy),
     ofRegion("region.nx", kFloat, "How many columns the grid has; 1 outside of grids.", nx),
-    ofRegion("region.ny", kFloat, "How many rows the grid has.", ny),
+    ofRegion("region.ny", kFloat, "How many rows the grid has; 1 outside of grids.", ny),
     ofRegion("region.bx", kFloat,
-             "Columns between the cell and the nearer end of its row; outside of grids the cells "
+             "Columns between the cell and the nearer end of its row; of a Voronoi cell, the cells "
              "between "
              "it and the boundary.",
              bx),
