@@ -158,6 +158,7 @@ class Analysis {
   /// The signatures that the arguments fit by count and names; reports when there are none.
   std::vector<uint16_t> signaturesByShape(const CallTarget& target,
                                           std::span<const NodeId> arguments);
+  bool areNamesLast(std::span<const NodeId> arguments) const;
   void reportNamedArguments(const CallTarget& target, std::span<const NodeId> arguments);
   bool reportMissingArgument(const CallTarget& target, std::span<const NodeId> arguments);
   void checkWrittenWord(NodeId node, const std::vector<const ParamSpec*>& params);
@@ -247,6 +248,8 @@ class Analysis {
 
   // --- written_values.cpp: values that parameters do not take ---
   void checkWrittenValues(ModuleId firstModule);
+  Value writtenValue(NodeId node);
+  void checkWrittenSizes(NodeId block, const OpSpec& op);
   void checkWrittenValue(NodeId node, const ParamSpec& param, std::string_view callee);
   void checkWrittenCall(NodeId node, std::string_view callee, const Signature& signature,
                         std::span<const NodeId> arguments);

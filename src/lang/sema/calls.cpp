@@ -139,6 +139,11 @@ size_t Analysis::parameterOf(const Signature& s, std::span<const NodeId> args, s
   return kNoParameter;
 }
 
+bool Analysis::areNamesLast(std::span<const NodeId> args) const {
+  return std::is_partitioned(args.begin(), args.end(),
+                             [&](NodeId a) { return tree().kind(a) != NodeKind::NamedArg; });
+}
+
 // By count alone where no argument has a name. Else every argument needs a parameter of its own,
 // and every parameter without a default an argument.
 std::vector<uint16_t> Analysis::signaturesByShape(const CallTarget& target,
@@ -157,6 +162,7 @@ std::vector<uint16_t> Analysis::signaturesByShape(const CallTarget& target,
     return true;
   };
   std::vector<uint16_t> left;
+  if (!areNamesLast(args)) return left;
   for (size_t i = 0; i < target.signatures.size(); ++i) {
     if (fitsShape(target.signatures[i])) left.push_back(static_cast<uint16_t>(i));
   }

@@ -138,7 +138,7 @@ void Analysis::visitTerm(NodeId node, const TermSpec& term, const ParamSpec& par
   std::string form = std::string(term.name) + "(";
   for (const ParamSpec& p : wanted) form += (&p == wanted.data() ? "" : ", ") + std::string(p.name);
   form += ")";
-  bool right = true;
+  bool right = areNamesLast(args);
   for (size_t i = 0; i < args.size(); ++i) {
     const bool named = t.kind(args[i]) == NodeKind::NamedArg;
     size_t place = named ? 0 : i;

@@ -6,9 +6,19 @@
 
 #include <algorithm>
 
+#include "base/number.h"
 #include "lang/sema/analysis.h"
 
 namespace gable::lang {
+
+// What is written, with its prefix; null where it is not constant.
+Value Analysis::writtenValue(NodeId node) {
+  const NodeKind kind = tree().kind(node);
+  const bool prefixed = kind == NodeKind::Relative || kind == NodeKind::Floating;
+  Value v = module().constants[prefixed ? tree().child(node, 0) : node];
+  if (prefixed) v.unit = kind == NodeKind::Relative ? gable::Unit::Relative : gable::Unit::Floating;
+  return v;
+}
 
 // The value of an argument, or each of a list, where it is constant.
 void Analysis::checkWrittenValue(NodeId node, const ParamSpec& param, std::string_view callee) {
@@ -22,12 +32,25 @@ void Analysis::checkWrittenValue(NodeId node, const ParamSpec& param, std::strin
     }
     return;
   }
-  const NodeKind kind = t.kind(node);
-  const bool prefixed = kind == NodeKind::Relative || kind == NodeKind::Floating;
-  Value v = module().constants[prefixed ? t.child(node, 0) : node];
-  if (prefixed) v.unit = kind == NodeKind::Relative ? gable::Unit::Relative : gable::Unit::Floating;
+  const Value v = writtenValue(node);
   if (v.type == ValueType::Null || isTaken(param, v, values_)) return;
   errorAt("bad-argument", node, refusalText(param, callee, v, values_), refusalHint(param));
+}
+
+// A size below nothing makes no part: computed ones do so where there is no room.
+void Analysis::checkWrittenSizes(NodeId block, const OpSpec& op) {
+  for (const NodeId item : tree().children(block)) {
+    if (tree().kind(item) == NodeKind::Block) {
+      checkWrittenSizes(item, op);
+    } else if (tree().kind(item) == NodeKind::Item && tree().child(item, 0) != kNoNode) {
+      const NodeId size = tree().child(item, 0);
+      const Value v = writtenValue(size);
+      if (v.type != ValueType::Float || !(v.number < 0)) continue;
+      errorAt("bad-argument", size,
+              "a size of " + quote(op.name) + " cannot be " + shortestText(v.number),
+              "write 0 or more, or leave the part out");
+    }
+  }
 }
 
 bool Analysis::hasTerm(NodeId node, std::string_view name) const {
@@ -82,6 +105,8 @@ void Analysis::checkWrittenValues(ModuleId firstModule) {
       if (r.kind == RefKind::Operation && r.spec.operation->name != std::string_view("set")) {
         const OpSpec& op = *r.spec.operation;
         checkWrittenCall(node, op.name, op.signatures[r.signature], args);
+        if (op.block != BlockKind::Split) continue;
+        for (const NodeId block : tree().children(node).subspan(1)) checkWrittenSizes(block, op);
       } else if (r.kind == RefKind::BuiltinFunction && r.spec.function) {
         const FunctionSpec& f = *r.spec.function;
         checkWrittenCall(node, f.name, f.signatures[r.signature], args);

@@ -40,6 +40,8 @@ struct WordsOf<Method> {
 
 namespace {
 
+constexpr double kMostParcels = 100000;
+
 struct Parcels {
   Method method;
   double area;
@@ -71,6 +73,13 @@ Status applyParcels(OpCall& call, const Parcels& args) {
   ParcelOptions options = optionsOf(args);
   std::vector<Ground> grounds;
   if (Status bad = groundsOf(call, grounds); !bad) return bad;
+  const double lot = std::max(options.targetArea, options.minArea);
+  double lots = 0;
+  for (const Ground& g : grounds) lots += area(g.polygon) / lot;
+  if (lots > kMostParcels) {
+    return call.fail("parcels-too-many", "parcels would make more than 100000 lots",
+                     "write a larger area, or divide a smaller block");
+  }
   const bool bySkeleton = args.method == Method::Skeleton;
   uint32_t number = 0;
   for (size_t g = 0; g < grounds.size(); ++g) {

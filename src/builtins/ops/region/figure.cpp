@@ -140,7 +140,9 @@ struct Figure {
   Reach reach = Reach::Inside;
 };
 
-uint32_t sidesOf(double n) { return static_cast<uint32_t>(std::clamp(n, 3.0, 1000.0)); }
+constexpr double kLeastSides = 3, kMostSides = 1000;
+
+uint32_t sidesOf(double n) { return static_cast<uint32_t>(n); }
 
 Status applyCircle(OpCall& call, const Figure& f) {
   return become(call, {PlanShape::Circle, f.size, 1, sidesOf(f.sides)}, f.reach);
@@ -164,13 +166,16 @@ constexpr ParamSpec kRadius =
     param<&Figure::size>("radius", "From the middle to a corner.").above(0);
 constexpr ParamSpec kCircle[] = {
     param<&Figure::size>("radius", "In metres.").above(0),
-    param<&Figure::sides>("segments", "How many sides stand for the circle.", "24"), kReach};
+    param<&Figure::sides>("segments", "How many sides stand for the circle.", "24")
+        .between(kLeastSides, kMostSides),
+    kReach};
 constexpr ParamSpec kRhombus[] = {kRadius, kReach};
 constexpr ParamSpec kSquare[] = {param<&Figure::size>("side", "In metres.").above(0), kReach};
 constexpr ParamSpec kRect[] = {param<&Figure::size>("width", "Along x.").above(0),
                                param<&Figure::height>("height", "Across.").above(0), kReach};
-constexpr ParamSpec kPolygon[] = {param<&Figure::sides>("sides", "Three or more."), kRadius,
-                                  kReach};
+constexpr ParamSpec kPolygon[] = {
+    param<&Figure::sides>("sides", "How many sides.").between(kLeastSides, kMostSides), kRadius,
+    kReach};
 constexpr Signature kCircleSignatures[] = {{kCircle}};
 constexpr Signature kJoinedSignatures[] = {{}};
 constexpr Signature kRhombusSignatures[] = {{kRhombus}};

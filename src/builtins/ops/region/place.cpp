@@ -501,12 +501,12 @@ constexpr ParamSpec kPlace[] = {
     param<&Place::align>("align", kAlign, "false")};
 constexpr ParamSpec kDistribute[] = {
     selection<&Distribute::selection>("selection", "The edges, as in peel.", kEdgeTerms, "all"),
-    param<&Distribute::spacing>("spacing", "Metres between them, kept exactly.", "1"),
+    param<&Distribute::spacing>("spacing", "Metres between them, kept exactly.", "1").above(0),
     param<&Distribute::inset>("inset", "How far inside the edge.", "0"),
     param<&Distribute::at>("at", "Shares of the edge's length, clockwise: [0.2, 0.8].", "none"),
     param<&Distribute::intervals>("intervals", "How many equal parts; one at each joint.", "none")
-        .atMost(kMostIntervals),
-    param<&Distribute::interval>("interval", "About how long these parts are.", "none"),
+        .between(1, kMostIntervals),
+    param<&Distribute::interval>("interval", "About how long these parts are.", "none").above(0),
     param<&Distribute::start>("start", "One where the edge begins as well.", "false"),
     param<&Distribute::end>("end", "One where the edge ends as well.", "false"),
     param<&Distribute::over>("over", kOver, "false"),
