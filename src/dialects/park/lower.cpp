@@ -212,6 +212,7 @@ bool Lowering::symbol(const Op& op, Nodes& out) {
   if (lowered(op.name) == "grid") return grid(op, out), false;
   if (lowered(op.name) == "noholes") return out.push_back(b_.applyBare("cutHoles")), true;
   if (isMaterialWord(op.name)) {
+    warnOfColour(op);
     out.push_back(colour(op.name));
     return true;
   }
@@ -219,6 +220,16 @@ bool Lowering::symbol(const Op& op, Nodes& out) {
   out.push_back(colour(op.name));
   out.push_back(b_.leaf(op.name));
   return false;
+}
+
+// MARBLE is grey, which may be meant, but YELOW is not.
+void Lowering::warnOfColour(const Op& op) {
+  if (knownColourOf(op.name)) return;
+  const std::string nearest = nearestColour(op.name);
+  if (nearest.empty()) return;
+  diagnostics_.warning("unknown-colour", op.span,
+                       "'" + op.name + "' is no colour or material; it becomes grey",
+                       "did you mean '" + nearest + "'?");
 }
 
 // A name without a rule is a leaf, but one close to a rule's was probably meant to be that.

@@ -91,6 +91,10 @@ NodeId Lowering::figureNode(const Op& op) {
       arguments.push_back(number(op, i, 1));
     }
   }
+  if (op.arguments.empty()) {
+    diagnostics_.error("wrong-argument-count", op.span, "'" + op.name + "' needs its size",
+                       "write " + op.name + "(2)");
+  }
   if (arguments.empty()) arguments.push_back(b_.number(1));
   const NodeId made = b_.apply(name == "romb" || name == "rombcenter" ? "rhombus"
                                : name == "polygon"                    ? "regularPolygon"

@@ -54,6 +54,7 @@ class Lowering {
 
   void call(const Rule& r, const Op& op, Nodes& out);
   void warnOfSlip(const Op& op);
+  void warnOfColour(const Op& op);
 
   // The steps of a function, with the arguments in the place of its parameters.
   // Tells why a function cannot stand in the place of its call; false then.

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/number.h"
+#include "base/text.h"
 
 namespace gable::park {
 
@@ -117,29 +118,36 @@ bool isMaterialWord(std::string_view name) {
          std::none_of(name.begin(), name.end(), [](char c) { return c >= 'a' && c <= 'z'; });
 }
 
-const char* colourOf(std::string_view name) {
-  struct Hint {
-    const char* part;
-    const char* colour;
-  };
-  static constexpr Hint kHints[] = {
-      {"gravel", "#cfc0a0"}, {"kerb", "#a9a296"},   {"lawn", "#79a052"},   {"rose", "#c8476a"},
-      {"gold", "#d8b13c"},   {"soil", "#6a5a45"},   {"sand", "#d8c7a4"},   {"wood", "#7c5a3a"},
-      {"blue", "#5f8f8f"},   {"tree", "#3f7a34"},   {"bush", "#4a7f3a"},   {"hedge", "#3f7034"},
-      {"plant1", "#c86a8a"}, {"plant2", "#c9a24a"}, {"plant", "#8f7ab8"},  {"flower", "#c86a8a"},
-      {"cement", "#b5b5b0"}, {"stone", "#a89f92"},  {"path", "#cbbfa6"},   {"fountain", "#8fa8b8"},
-      {"water", "#6f9fc0"},  {"centre", "#b8b0a4"}, {"center", "#b8b0a4"}, {"grass", "#6fa854"},
-      {"green", "#5f9f4a"},  {"region", "#7fb25f"}, {"park", "#7fb25f"},   {"smooth", "#7fb25f"}};
+namespace {
+
+struct ColourHint {
+  const char* part;
+  const char* colour;
+};
+
+constexpr ColourHint kHints[] = {
+    {"gravel", "#cfc0a0"}, {"kerb", "#a9a296"},   {"lawn", "#79a052"},   {"rose", "#c8476a"},
+    {"gold", "#d8b13c"},   {"soil", "#6a5a45"},   {"sand", "#d8c7a4"},   {"wood", "#7c5a3a"},
+    {"blue", "#5f8f8f"},   {"tree", "#3f7a34"},   {"bush", "#4a7f3a"},   {"hedge", "#3f7034"},
+    {"plant1", "#c86a8a"}, {"plant2", "#c9a24a"}, {"plant", "#8f7ab8"},  {"flower", "#c86a8a"},
+    {"cement", "#b5b5b0"}, {"stone", "#a89f92"},  {"path", "#cbbfa6"},   {"fountain", "#8fa8b8"},
+    {"water", "#6f9fc0"},  {"centre", "#b8b0a4"}, {"center", "#b8b0a4"}, {"grass", "#6fa854"},
+    {"green", "#5f9f4a"},  {"region", "#7fb25f"}, {"park", "#7fb25f"},   {"smooth", "#7fb25f"}};
+
+// Colours stand as words of their own: RED, not Scattered.
+constexpr ColourHint kColours[] = {
+    {"red", "#b8433f"},    {"yellow", "#e0c045"}, {"white", "#f2f0ea"}, {"pink", "#e08fa8"},
+    {"orange", "#d98a3c"}, {"black", "#2f2f2f"},  {"brown", "#7a5a3c"}, {"purple", "#8a5a9a"},
+    {"grey", "#8f8f8a"},   {"gray", "#8f8f8a"}};
+
+}  // namespace
+
+const char* knownColourOf(std::string_view name) {
   const std::string low = lowered(name);
-  for (const Hint& h : kHints) {
+  for (const ColourHint& h : kHints) {
     if (low.find(h.part) != std::string::npos) return h.colour;
   }
-  // Colours stand as words of their own: RED, not Scattered.
-  static constexpr Hint kColours[] = {
-      {"red", "#b8433f"},    {"yellow", "#e0c045"}, {"white", "#f2f0ea"}, {"pink", "#e08fa8"},
-      {"orange", "#d98a3c"}, {"black", "#2f2f2f"},  {"brown", "#7a5a3c"}, {"purple", "#8a5a9a"},
-      {"grey", "#8f8f8a"},   {"gray", "#8f8f8a"}};
-  for (const Hint& h : kColours) {
+  for (const ColourHint& h : kColours) {
     const std::string_view word = h.part;
     const size_t at = low.find(word);
     if (at == std::string::npos) continue;
@@ -147,7 +155,21 @@ const char* colourOf(std::string_view name) {
     const bool begins = at == 0 || low[at - 1] == '_';
     if (begins && (end == low.size() || low[end] == '_')) return h.colour;
   }
-  return "#9a9a92";
+  return nullptr;
+}
+
+const char* colourOf(std::string_view name) {
+  const char* const known = knownColourOf(name);
+  return known ? known : "#9a9a92";
+}
+
+std::string nearestColour(std::string_view name) {
+  std::vector<std::string_view> words;
+  for (const ColourHint& h : kHints) words.push_back(h.part);
+  for (const ColourHint& h : kColours) words.push_back(h.part);
+  std::string nearest = nearestName(lowered(name), words);
+  for (char& c : nearest) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  return nearest;
 }
 
 const Op* onlyOp(const Rule& r) {

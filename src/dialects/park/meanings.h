@@ -15,8 +15,12 @@ namespace gable::park {
 
 bool isFigure(std::string_view lowerCaseName);
 bool isMaterialWord(std::string_view name);
-/// What a name looks like.
+/// What a name looks like; grey where it tells nothing.
 const char* colourOf(std::string_view name);
+/// The colour that a name tells; null for none.
+const char* knownColourOf(std::string_view name);
+/// The colour or material that was probably meant; empty where none is near.
+std::string nearestColour(std::string_view name);
 
 /// The only operation of a rule without cases; else null.
 const Op* onlyOp(const Rule& r);

@@ -49,6 +49,9 @@ TEST(ParkNotation, SlipsAreFound) {
   const std::pair<const char*, const char*> slips[] = {
       {"R -> Contrct(2) A", "unknown-operation"},
       {"R -> Extrud(2)", "unknown-operation"},
+      {"R -> YELOW A", "unknown-colour"},
+      {"R -> Circle() A", "wrong-argument-count"},
+      {"R -> Place(CENTRE) { Square() A }", "wrong-argument-count"},
       {"R -> Quartr\nQuarter -> A", "undefined-rule"},
       {"PathWidht = 2\nR -> Grid(2, 2) { A }", "unused-rule"},
       {"R -> Grid(2, 2) { regoin: A }", "unknown-selector"},
