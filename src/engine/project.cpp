@@ -234,7 +234,7 @@ bool Project::exists(std::string_view path, std::string_view fromFile) {
   return !locate(path, fromFile).empty();
 }
 
-const std::vector<std::string>& Project::files() {
+const std::vector<std::string>& Project::files() const {
   if (listed_) return files_;
   listed_ = true;
   std::error_code error;
@@ -251,6 +251,16 @@ const std::vector<std::string>& Project::files() {
   }
   std::sort(files_.begin(), files_.end());
   return files_;
+}
+
+std::vector<std::string> Project::assets() const {
+  constexpr std::string_view kFolder = "/assets/";
+  std::lock_guard lock(mutex_);
+  std::vector<std::string> out;
+  for (const std::string& f : files()) {
+    out.push_back(f.substr(f.starts_with(kFolder) ? kFolder.size() : 1));
+  }
+  return out;
 }
 
 // Relative patterns are matched below assets/ and below the root; results are paths from the root.

@@ -37,6 +37,8 @@ class Project final : public Assets {
   /// The canonical path of a file on disk when it is a plain file below the root and not hidden,
   /// else empty.
   std::string inside(const std::string& candidate) const;
+  /// All files below the root, as rules write them: without the folder `assets`.
+  std::vector<std::string> assets() const;
   /// "rules/town.cga" for a file below the root, else the path itself.
   std::string projectPath(const std::string& file) const;
   /// A model file by its project path, with the textures in it known to texture() from then on.
@@ -61,18 +63,18 @@ class Project final : public Assets {
     std::string why;
   };
   Result<Asset> read(const std::string& file, bool zUp) const;
-  const std::vector<std::string>& files();
+  const std::vector<std::string>& files() const;
 
   std::string root_;
   std::string rootName_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::map<std::string, ModelEntry> models_;
   std::map<std::string, ImageInfo> images_;
   std::map<std::string, std::string> embedded_;
   /// Built-in textures that have been asked for, as PNG.
   std::map<std::string, std::string> builtins_;
-  std::vector<std::string> files_;
-  bool listed_ = false;
+  mutable std::vector<std::string> files_;
+  mutable bool listed_ = false;
 };
 
 /// Whether a project path matches a pattern: $ is any run of characters but '/', * is any run.

@@ -58,6 +58,8 @@ class ProjectLoader final : public lang::FileLoader {
     return path.starts_with("builtin:") || !project_.locate(path, importer).empty();
   }
 
+  std::vector<std::string> assets(const std::string&) override { return project_.assets(); }
+
   lang::Tree parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics) override {
     return parseAs(dialectOfPath(sources.path(file)), sources, file, *this, diagnostics);
   }

@@ -213,6 +213,7 @@ class Lexer {
     if (isLetter(at_)) return lexName();
     if (isDigit(c)) return lexNumber();
     if (c == '"') return lexString();
+    if (c == '\'' && quotedLength() > 0) return lexQuoted();
     if (c == '.') return lexDot();
     lexSign();
   }
@@ -273,6 +274,33 @@ class Lexer {
     } else {
       push(TokenKind::String, end + 1 - at_);
     }
+  }
+
+  // The length of 'text' in single quotes; 0 where the quote is the prefix of a relative size. Two
+  // prefixes of one line have an operator, a bracket or a separator between them.
+  size_t quotedLength() const {
+    size_t end = at_ + 1;
+    while (end < text_.size() && text_[end] != '\'') {
+      if (std::string_view("\n\r\"(){}[]|,:;").find(text_[end]) != std::string_view::npos) return 0;
+      ++end;
+    }
+    if (end >= text_.size() || end == at_ + 1) return 0;
+    const std::string_view space = " \t\r\n";
+    const char last = text_[end - 1];
+    if (std::string_view(" \t+-*/%<>=!&").find(last) != std::string_view::npos) return 0;
+    const char next = end + 1 < text_.size() ? text_[end + 1] : '\n';
+    const bool closes = (space.find(next) != std::string_view::npos) ||
+                        std::string_view("),]}|:;").find(next) != std::string_view::npos;
+    return closes ? end + 1 - at_ : 0;
+  }
+
+  void lexQuoted() {
+    const size_t length = quotedLength();
+    const std::string_view inner = text_.substr(at_ + 1, length - 2);
+    error("unexpected-character", at_, at_ + length, "a text stands in double quotes",
+          "write \"" + std::string(inner) + "\"",
+          Replacement{spanOf(at_, at_ + length), "\"" + std::string(inner) + "\""});
+    push(TokenKind::String, length);
   }
 
   // A dot right after a name ends a terminal symbol, even before a digit.
@@ -386,12 +414,13 @@ Tokens tokenize(std::string_view text, uint32_t file, Diagnostics& diagnostics) 
 }
 
 std::string stringValue(std::string_view s) {
-  if (!s.empty() && s.front() == '"') s.remove_prefix(1);
+  const char quote = !s.empty() && s.front() == '\'' ? '\'' : '"';
+  if (!s.empty() && s.front() == quote) s.remove_prefix(1);
   // The last quote closes the string unless a backslash takes it.
   std::string out;
   out.reserve(s.size());
   for (size_t i = 0; i < s.size(); ++i) {
-    if (s[i] == '"') break;
+    if (s[i] == quote) break;
     if (s[i] != '\\' || i + 1 >= s.size()) {
       out += s[i];
       continue;

@@ -62,8 +62,16 @@ NodeId Parser::parseExpression() {
   return value;
 }
 
-// `and` and `or` between two values: reported, and read as the operators that are meant.
+// `=` in a condition: reported, and read as the comparison that is meant.
 TokenKind Parser::operatorHere() {
+  if (!place_.comparing || !is(TokenKind::Equal)) return wordOperatorHere();
+  error("unexpected-token", spanOf(current()), "'=' does not compare", "write '=='");
+  fix(spanOf(current()), "==");
+  return TokenKind::EqualEqual;
+}
+
+// `and` and `or` between two values, in the same way.
+TokenKind Parser::wordOperatorHere() {
   const Token& t = current();
   const bool isAnd = textOf(t) == "and";
   if (!isName(t) || (!isAnd && textOf(t) != "or") || declarationHere()) return t.kind;
@@ -185,7 +193,7 @@ NodeId Parser::parsePrimary() {
     return tree_.add(n);
   }
   if (isName(t) && !declarationHere()) return parseNameExpression();
-  unexpected("a value");
+  if (!reportBareColour()) unexpected("a value");
   return missing();
 }
 
@@ -272,6 +280,8 @@ NodeId Parser::parseArguments() {
       unexpected("',' or ')' after an argument");
       if (open.match >= at_) at_ = open.match;
       accept(TokenKind::RParen);
+    } else if (reportBareColour()) {
+      items.push_back(missing());
     } else {
       error("unclosed-bracket", spanOf(open), "this '(' is never closed",
             "add ')' before " + describe(current()));

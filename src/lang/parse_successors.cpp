@@ -6,6 +6,8 @@
 // case, else or weight begins. All three are decided by looking ahead over whole brackets, at most
 // once for each token of a level, so that parsing stays linear.
 
+#include <algorithm>
+#include <optional>
 #include <string>
 
 #include "lang/parser_impl.h"
@@ -131,17 +133,62 @@ NodeId Parser::parseElse(bool expressions) {
   return make(n, {kNoNode, body});
 }
 
+// Whether there is a '=' between here and the ':' of the condition. Brackets of calls are passed
+// over: names of arguments have one.
+bool Parser::comparesWithEqual() const {
+  bool found = false;
+  for (size_t i = at_; i < tokens_.size(); ++i) {
+    const Token& t = tokens_[i];
+    switch (t.kind) {
+      case TokenKind::Colon: return found;
+      case TokenKind::Equal:
+        if (found || i == at_) return false;
+        found = true;
+        break;
+      case TokenKind::LParen:
+        if (i > at_ && tokens_[i - 1].kind == TokenKind::Name)
+          i = skipBrackets(i) - (t.match ? 1 : 0);
+        break;
+      case TokenKind::LBrace:
+      case TokenKind::RBrace:
+      case TokenKind::Pipe:
+      case TokenKind::Arrow:
+      case TokenKind::Assign:
+      case TokenKind::At:
+      case TokenKind::End: return false;
+      default:
+        if (t.keyword == Keyword::Case || t.keyword == Keyword::Else ||
+            t.keyword == Keyword::Attr || t.keyword == Keyword::Const) {
+          return false;
+        }
+    }
+  }
+  return false;
+}
+
 NodeId Parser::parseCaseChoice(bool expressions) {
   const Token first = current();
   Nodes branches;
   while (!panic_ && is(Keyword::Case)) {
     Node n = node(NodeKind::Branch, current().begin);
     advance();
-    const NodeId condition = parseBinary(0);
+    NodeId condition;
+    {
+      Place inner = place_;
+      inner.comparing = comparesWithEqual();
+      const Enter enter(*this, inner);
+      condition = parseBinary(0);
+    }
     expect(TokenKind::Colon, "after the condition of 'case'");
     const NodeId body = parseBranchBody(expressions);
     n.end = endOfLast();
     branches.push_back(make(n, {condition, body}));
+  }
+  if (is(TokenKind::Pipe) && ahead(1).keyword == Keyword::Else) {
+    error("unexpected-token", spanOf(current()), "'|' parts the branches of 'case' here",
+          "remove it; or write 'else : NIL' before it, and another word than 'else' behind it");
+    fix(spanOf(current()), "");
+    advance();
   }
   if (const NodeId otherwise = parseElse(expressions); otherwise != kNoNode) {
     branches.push_back(otherwise);
@@ -245,6 +292,7 @@ NodeId Parser::parseApply() {
     n.flags |= kFlagOperand;
     children.push_back(parseOperand());
   } else {
+    if (bracketedBlockHere()) children.push_back(parseBracketedBlock());
     while (!panic_ && is(TokenKind::LBrace)) children.push_back(parseBlock(false));
   }
   n.end = endOfLast();
@@ -253,16 +301,17 @@ NodeId Parser::parseApply() {
 
 // Looks from the start of an item for the ':' or '=' that ends its head. Two operands in a row are
 // successors, so the search ends there.
-bool Parser::headHere() const {
-  if (is(TokenKind::Tilde) || is(TokenKind::Quote)) return true;
-  if (is(Keyword::Case)) return false;
+bool Parser::headAfter(size_t first) const {
+  const Token& begin = token(first);
+  if (begin.kind == TokenKind::Tilde || begin.kind == TokenKind::Quote) return true;
+  if (begin.keyword == Keyword::Case) return false;
   bool afterOperand = false;
-  for (size_t i = at_; i < tokens_.size(); ++i) {
+  for (size_t i = first; i < tokens_.size(); ++i) {
     const Token& t = tokens_[i];
     switch (t.kind) {
       case TokenKind::Colon:
       case TokenKind::Equal:
-      case TokenKind::Connect: return i > at_ && tokens_[i - 1].kind != TokenKind::Percent;
+      case TokenKind::Connect: return i > first && tokens_[i - 1].kind != TokenKind::Percent;
       case TokenKind::LParen:
       case TokenKind::LBracket:
       case TokenKind::LBrace:
@@ -302,7 +351,13 @@ NodeId Parser::parseItem(bool expressions) {
   NodeId head = kNoNode;
   NodeId second = kNoNode;
   if (headHere()) {
-    head = parseExpression();
+    // `else :` is a word that no block has; the analysis says what to write for it.
+    if (is(Keyword::Else)) {
+      head = named(NodeKind::Name, current());
+      advance();
+    } else {
+      head = parseExpression();
+    }
     if (accept(TokenKind::Equal)) {
       n.op = static_cast<uint8_t>(ItemKind::Combine);
     } else if (accept(TokenKind::Connect)) {
@@ -321,17 +376,69 @@ NodeId Parser::parseItem(bool expressions) {
   return make(n, {head, second, body});
 }
 
+// split(y) [ 3 : A | ~1 : B ]: what a block holds, in brackets of another kind.
+bool Parser::bracketedBlockHere() const {
+  const bool other = is(TokenKind::LBracket) || is(TokenKind::LParen);
+  if (!other || current().match == Token::kNoMatch || at_ == 0) return false;
+  return tokens_[at_ - 1].kind == TokenKind::RParen && headAfter(at_ + 1);
+}
+
+NodeId Parser::parseBracketedBlock() {
+  const Token open = current();
+  const Token& close = tokens_[open.match];
+  error("unexpected-token", spanOf(open), "the parts of a block stand in braces",
+        "write '{' and '}' for " + describe(open) + " and " + describe(close));
+  const std::string_view inner = text_.substr(open.end, close.begin - open.end);
+  fix({file_, open.begin, close.end}, "{" + std::string(inner) + "}");
+  return parseBlock(false);
+}
+
+// How far the line of a place is indented; none when the line begins too far away.
+std::optional<size_t> Parser::indentOf(uint32_t at) const {
+  constexpr uint32_t kFurthest = 1000;
+  uint32_t begin = at;
+  while (begin > 0 && text_[begin - 1] != '\n') {
+    if (at - --begin > kFurthest) return std::nullopt;
+  }
+  return std::min(text_.find_first_not_of(" \t", begin), static_cast<size_t>(at)) - begin;
+}
+
+// Remembers a closer that begins its line, and stands further left than the line of its opener.
+void Parser::noteDentedCloser(const Token& open) {
+  if (dented_ || open.match == Token::kNoMatch) return;
+  const Token& close = tokens_[open.match];
+  uint32_t lineBegin = close.begin;
+  while (lineBegin > 0 && (text_[lineBegin - 1] == ' ' || text_[lineBegin - 1] == '\t'))
+    --lineBegin;
+  if (lineBegin == 0 || text_[lineBegin - 1] != '\n') return;
+  const std::optional<size_t> indent = indentOf(open.begin);
+  if (indent && close.begin - lineBegin < *indent) dented_ = &tokens_[close.match];
+}
+
+// Tells the brace that is missing its partner: by the indentation where that says more.
+void Parser::reportUnclosed(const Token& open) {
+  const bool inner = dented_ && dented_->begin > open.begin;
+  const Token& place = inner ? *dented_ : open;
+  error("unclosed-block", spanOf(place), "this '{' is never closed",
+        "add '}' before " +
+            (inner ? "the '}' that begins a line further left" : describe(current())));
+}
+
 NodeId Parser::parseBlock(bool expressions) {
   const Nest nest(*this);
   if (!nest.ok()) return missing();
   const Token open = current();
+  const TokenKind closer = open.kind == TokenKind::LBrace   ? TokenKind::RBrace
+                           : open.kind == TokenKind::LParen ? TokenKind::RParen
+                                                            : TokenKind::RBracket;
   advance();
   Place inner;
   inner.blocks = place_.blocks + 1;
+  inner.open = open.match == Token::kNoMatch;
   const Enter enter(*this, inner);
   Nodes items;
   bool wantItem = true;
-  while (!panic_ && !is(TokenKind::RBrace)) {
+  while (!panic_ && !is(closer)) {
     if (atEnd() || declarationHere()) break;
     const size_t before = at_;
     if (is(TokenKind::Pipe)) {
@@ -356,14 +463,12 @@ NodeId Parser::parseBlock(bool expressions) {
       advance();
     }
   }
-  if (wantItem && !items.empty() && is(TokenKind::RBrace)) {
+  if (wantItem && !items.empty() && is(closer)) {
     warning("empty-item", spanOf(current()), "there is nothing between the last '|' and '}'",
             "remove the '|'");
   }
-  if (!accept(TokenKind::RBrace)) {
-    error("unclosed-block", spanOf(open), "this '{' is never closed",
-          "add '}' before " + describe(current()));
-  }
+  if (is(closer)) noteDentedCloser(open);
+  if (!accept(closer)) reportUnclosed(open);
   Node n = node(NodeKind::Block, open.begin);
   if (!expressions && accept(TokenKind::Star)) n.flags |= kFlagRepeat;
   n.end = endOfLast();

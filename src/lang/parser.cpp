@@ -77,6 +77,15 @@ bool Parser::declarationAt(size_t index, bool insideBlock) const {
   return head == Head::Rule || (head == Head::Function && !insideBlock);
 }
 
+// Inside blocks `name =` is a selector; but not at the beginning of a line when the brace of the
+// block is never closed.
+bool Parser::declarationHere() const {
+  if (place_.comparing) return declarationAt(at_, true);
+  if (place_.blocks == 0 || !place_.open) return declarationAt(at_, place_.blocks > 0);
+  const uint32_t begin = current().begin;
+  return declarationAt(at_, begin > 0 && text_[begin - 1] != '\n');
+}
+
 void Parser::skipToDeclaration() {
   while (!atEnd() && !declarationAt(at_, false)) advance();
 }
@@ -130,6 +139,23 @@ void Parser::unexpected(const std::string& expected, std::string hint) {
   error("unexpected-token", spanOf(current()),
         describe(current()) + " is unexpected here; expected " + expected, std::move(hint));
   if (separator) fix(spanOf(current()), "");
+}
+
+bool Parser::reportBareColour() {
+  const uint32_t from = endOfLast();
+  const std::string_view gap = text_.substr(from, current().begin - from);
+  const size_t sign = gap.find_first_not_of(" \t\r\n");
+  if (sign == std::string_view::npos || gap[sign] != '#') return false;
+  const std::string_view rest = gap.substr(sign + 1);
+  const size_t digits = std::min(rest.find_first_not_of("0123456789abcdefABCDEF"), rest.size());
+  if (digits != 3 && digits != 6 && digits != 8) return false;
+  const std::string colour(gap.substr(sign, digits + 1));
+  const auto begin = static_cast<uint32_t>(from + sign);
+  const Span span = {file_, begin, begin + static_cast<uint32_t>(colour.size())};
+  error("unexpected-token", span, "a value is missing: '" + colour + "' begins a comment here",
+        "write the colour in quotes: \"" + colour + "\"");
+  fix(span, "\"" + colour + "\"");
+  return true;
 }
 
 void Parser::tooDeep() {
@@ -235,7 +261,13 @@ NodeId Parser::parseAnnotation() {
       if (!accept(TokenKind::Comma)) break;
     }
     if (!is(TokenKind::RParen)) {
-      unexpected("',' or ')' in the arguments of '@" + name + "'");
+      if (open.match == Token::kNoMatch) {
+        error("unclosed-bracket", spanOf(open), "this '(' of '@" + name + "' is never closed",
+              "add ')' behind its arguments");
+        fix(spanAt(endOfLast()), ")");
+      } else {
+        unexpected("',' or ')' in the arguments of '@" + name + "'");
+      }
       if (open.match != Token::kNoMatch && open.match >= at_) at_ = open.match;
     }
     accept(TokenKind::RParen);
@@ -436,6 +468,7 @@ NodeId Parser::parseDefinition(NodeId annotations, Keyword keyword) {
 
 void Parser::parseDeclaration() {
   panic_ = errors_ >= kMaxSyntaxErrors;
+  dented_ = nullptr;
   inAnnotation_ = false;
   const uint32_t begin = current().begin;
   Nodes annotations;

@@ -6,6 +6,7 @@
 // from anywhere else.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,6 +48,8 @@ class Parser {
     uint32_t blocks = 0;    // open braces and push brackets within the rule
     bool inChoice = false;  // directly in a branch
     bool inOverrides = false;
+    bool comparing = false;  // in a condition that compares with '='
+    bool open = false;       // in a brace that nothing closes
   };
   class Enter {
    public:
@@ -83,7 +86,7 @@ class Parser {
   Head headAt(size_t index) const;
   /// True where a declaration begins. Inside blocks `name =` is a selector, so it does not count.
   bool declarationAt(size_t index, bool insideBlock) const;
-  bool declarationHere() const { return declarationAt(at_, place_.blocks > 0); }
+  bool declarationHere() const;
   /// Goes on to the next declaration.
   void skipToDeclaration();
   void findUserWords();
@@ -97,6 +100,8 @@ class Parser {
   Span spanAt(uint32_t offset) const { return {file_, offset, offset}; }
   /// At the current token: "'x' is unexpected here; expected ...".
   void unexpected(const std::string& expected, std::string hint = {});
+  /// Where a value is missing: reports a colour without quotes before it, which is a comment.
+  bool reportBareColour();
   std::string describe(const Token& t) const;
   void tooDeep();
 
@@ -141,12 +146,20 @@ class Parser {
   NodeId parsePush();
   NodeId parseBlock(bool expressions);
   NodeId parseItem(bool expressions);
-  bool headHere() const;
+  bool headHere() const { return headAfter(at_); }
+  bool headAfter(size_t first) const;
+  bool bracketedBlockHere() const;
+  NodeId parseBracketedBlock();
+  void reportUnclosed(const Token& open);
+  std::optional<size_t> indentOf(uint32_t at) const;
+  void noteDentedCloser(const Token& open);
+  bool comparesWithEqual() const;
   bool skipBadSuccessor();
 
   // --- Expressions (parse_expressions.cpp) ---
   NodeId parseExpression();
   TokenKind operatorHere();
+  TokenKind wordOperatorHere();
   void skipUnit();
   NodeId parseBinary(int minPrecedence);
   NodeId parseUnary();
@@ -171,6 +184,9 @@ class Parser {
   size_t errors_ = 0;
   bool reported_ = false;
   uint32_t nesting_ = 0;
+  // The first brace of the declaration whose closer stands further left than its own line begins:
+  // that closer was meant for a brace further out.
+  const Token* dented_ = nullptr;
   // Set when the rest of a declaration was given up: productions return without reports.
   bool panic_ = false;
   // Annotations never fail a file: their mistakes are warnings.

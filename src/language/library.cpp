@@ -72,6 +72,10 @@ class Library::Loader final : public lang::FileLoader {
     return found;
   }
 
+  std::vector<std::string> assets(const std::string& importer) override {
+    return library_.files_->assets(importer);
+  }
+
   lang::Tree parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics) override {
     const std::string& path = sources.path(file);
     if (const Dialect* dialect = dialectOfPath(path)) {

@@ -321,10 +321,14 @@ constexpr ParamSpec kQuery = param<&Query::query>(
 constexpr ParamSpec kPath = param<&Path::path>("filePath", "The file, by its path in the project.");
 constexpr ParamSpec kQueryParams[] = {kQuery};
 constexpr ParamSpec kPathParams[] = {kPath};
+// A path alone: whether there is such a file does not matter.
+constexpr ParamSpec kAnyPathParams[] = {
+    param<&Path::path>("path", "The path of a file in the project.")};
 constexpr Signature kTextOfQuery[] = {{kQueryParams, kString}};
 constexpr Signature kArrayOfQuery[] = {{kQueryParams, ValueType::StringArray}};
-constexpr Signature kTruthOfPath[] = {{kPathParams, ValueType::Bool}};
-constexpr Signature kTextOfPath[] = {{kPathParams, kString}};
+constexpr Signature kTruthOfPath[] = {{kAnyPathParams, ValueType::Bool}};
+constexpr Signature kTextOfPath[] = {{kAnyPathParams, kString}};
+constexpr Signature kTextOfFile[] = {{kPathParams, kString}};
 constexpr Signature kStringTable[] = {{kPathParams, ValueType::StringArray}};
 constexpr Signature kFloatTable[] = {{kPathParams, ValueType::FloatArray}};
 
@@ -409,7 +413,7 @@ constexpr FunctionSpec kFunctions[] = {
      typed<fileDirectory>},
     {"fileExtension", kFamily, "The extension of a path, without the dot.", kTextOfPath,
      typed<fileExtension>},
-    {"readTextFile", kFamily, "The content of a text file.", kTextOfPath, typed<readTextFile>},
+    {"readTextFile", kFamily, "The content of a text file.", kTextOfFile, typed<readTextFile>},
     {"readStringTable", kFamily, "The cells of a CSV file as texts.", kStringTable,
      typed<readTable<ValueType::String>>},
     {"readFloatTable", kFamily, "The cells of a CSV file as numbers; NaN where there is none.",

@@ -36,6 +36,8 @@ class FileLoader {
   virtual Result<File> load(const std::string& path, const std::string& importer) = 0;
   /// Whether there is a file that rules can use as an asset, by the path as they write it.
   virtual bool exists(const std::string& path, const std::string& importer);
+  /// The files that rules can use as assets, as the rules would write them.
+  virtual std::vector<std::string> assets(const std::string& importer);
   /// The tree of a file that load gave: its notation may be another than this language's.
   virtual Tree parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics);
 };

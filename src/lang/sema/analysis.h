@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -182,6 +183,13 @@ class Analysis {
   std::span<const NodeId> arguments(NodeId list) const;
   void checkNamedArguments(std::span<const NodeId> arguments);
 
+  // --- assets.cpp: files that rules name ---
+  static constexpr int kMaxFileHints = 50;
+  void checkFiles(const Signature& s, std::span<const NodeId> arguments);
+  void checkFile(NodeId node);
+  NodeId writtenText(NodeId node) const;
+  bool asksForFile(NodeId argument, std::string_view path);
+
   // --- selections.cpp: arguments that the operation works out itself ---
   void visitSelection(NodeId node, const ParamSpec& param);
   void visitTerm(NodeId node, const TermSpec& term, const ParamSpec& param);
@@ -202,6 +210,7 @@ class Analysis {
   ValueType visitBinary(NodeId node);
   ValueType visitElementwise(NodeId node);
   ValueType visitIndex(NodeId node);
+  void checkIndex(NodeId node);
   ValueType visitArray(NodeId node);
   ValueType visitChoice(NodeId node, ValueType expected);
   ValueType visitSelectorWord(NodeId node, const std::vector<const ParamSpec*>& params);
@@ -236,13 +245,15 @@ class Analysis {
   /// Whether the name is one of CGA that is not built; then it is reported.
   bool reportUnbuilt(NodeId node, std::string_view name);
   /// The operation whose name `name` is a slip of; empty when there is none.
-  std::string_view slippedOperation(std::string_view name) const;
+  std::string_view slippedOperation(std::string_view name, size_t arguments) const;
   void checkWeights(NodeId choice);
 
   // --- parts.cpp: named parts of blocks, and the figures that they begin with ---
   void reportSelector(NodeId node, const OpSpec* op);
   std::string partsText(const OpSpec& op) const;
   std::string partOwners(std::string_view word) const;
+  std::string elseHint(const OpSpec* op);
+  void visitSizeHead(NodeId head, const OpSpec& op);
   void checkFigure(NodeId item, const OpSpec& op);
   const OpSpec* figureOf(ModuleId module, NodeId sequence, int depth) const;
 
@@ -342,6 +353,11 @@ class Analysis {
   int hints_ = 0;
   size_t errors_ = 0;
   size_t warnings_ = 0;
+  /// By unit: texts and names that it asks fileExists about.
+  std::map<uint32_t, std::unordered_set<std::string_view>> askedFiles_;
+  /// Listed when the first file is missed.
+  std::optional<std::vector<std::string>> projectFiles_;
+  int filesMissed_ = 0;
   /// Nodes of all modules together.
   size_t nodes_ = 0;
   /// Body::open of rules and functions, between rounds.

@@ -320,6 +320,7 @@ Analysis::Chosen Analysis::checkBuiltinCall(const CallTarget& target,
     unknownType = unknownType || type == ValueType::Null || type == ValueType::String ||
                   type == ValueType::Selector;
   }
+  checkFiles(target.signatures[left[0]], args);
   if (anyNamed) {
     const Signature& s = target.signatures[left[0]];
     std::vector<NodeId> order(s.params.size(), kNoNode);
@@ -343,16 +344,19 @@ std::vector<ValueType> Analysis::visitArguments(std::span<const NodeId> args) {
   return types;
 }
 
-// Arguments that fit no signature: what only its parameter could understand is left alone.
+// Arguments that fit no signature. What only its parameter could understand is left alone; so a
+// slip in the name of one argument says nothing about the words of the others.
 void Analysis::visitMisfits(const CallTarget& target, std::span<const NodeId> args) {
   for (size_t i = 0; i < args.size(); ++i) {
+    const bool named = tree().kind(args[i]) == NodeKind::NamedArg;
+    const NodeId value = named ? tree().child(args[i], 0) : args[i];
     const bool understood =
         std::any_of(target.signatures.begin(), target.signatures.end(), [&](const Signature& s) {
           const size_t p = parameterOf(s, args, i);
           const ParamType type = p == kNoParameter ? ParamType::Any : s.paramAt(p)->type;
           return type == ParamType::Selection || type == ParamType::DrawnList;
         });
-    if (!understood) visitLoosely(args.subspan(i, 1));
+    if (!understood) visitLoosely({&value, 1});
   }
 }
 

@@ -394,7 +394,49 @@ ValueType Analysis::visitIndex(NodeId node) {
     return ValueType::Null;
   }
   if (!known) return ValueType::Null;
+  checkIndex(node);
   return single ? elementType(array) : array;
+}
+
+// An array that is written out, alone or as a constant, and a number as its index.
+void Analysis::checkIndex(NodeId node) {
+  const Tree& t = tree();
+  NodeId array = t.child(node, 0);
+  const Resolution& r = module().at(array);
+  if (t.kind(array) == NodeKind::Name && r.kind == RefKind::Attribute) {
+    const AttributeInfo& a = program_.attributes[r.index];
+    if (!a.constant || a.source != ValueSource::Own || a.valueModule != body_.module) return;
+    array = a.valueNode;
+  }
+  if (mute_ || t.kind(array) != NodeKind::Array) return;
+  const std::span<const NodeId> rows = t.children(array);
+  size_t values = 0;
+  for (const NodeId row : rows) {
+    for (const NodeId value : t.children(row)) {
+      const NodeKind kind = t.kind(value);
+      if (kind != NodeKind::Number && kind != NodeKind::String && kind != NodeKind::Bool) return;
+      ++values;
+    }
+  }
+  const bool inRows = t.child(node, 2) != kNoNode;
+  for (size_t i = 1; i <= 2; ++i) {
+    NodeId index = t.child(node, i);
+    const bool negative =
+        index != kNoNode && t.kind(index) == NodeKind::Unary && t.unaryOp(index) == UnaryOp::Minus;
+    const NodeId number = negative ? t.child(index, 0) : index;
+    if (number == kNoNode || t.kind(number) != NodeKind::Number) continue;
+    const size_t count = !inRows ? values : i == 1 ? rows.size() : t.children(rows[0]).size();
+    const double at = negative ? -t.number(number) : t.number(number);
+    if (at >= 0 && at < static_cast<double>(count)) continue;
+    warning("index-out-of-range", t.span(index),
+            std::string("there is no ") +
+                (!inRows  ? "element"
+                 : i == 1 ? "row"
+                          : "column") +
+                " of this number: the array has " + std::to_string(count),
+            count == 1 ? "the only one is 0"
+                       : "they are counted from 0 to " + std::to_string(count - 1));
+  }
 }
 
 ValueType Analysis::visitArray(NodeId node) {

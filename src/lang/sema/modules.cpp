@@ -115,6 +115,8 @@ std::vector<std::string_view> Analysis::styleChain(uint32_t unit, std::string_vi
 
 bool FileLoader::exists(const std::string&, const std::string&) { return true; }
 
+std::vector<std::string> FileLoader::assets(const std::string&) { return {}; }
+
 Tree FileLoader::parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics) {
   return lang::parse(sources, file, diagnostics);
 }

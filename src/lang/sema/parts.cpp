@@ -24,11 +24,51 @@ std::string Analysis::partsText(const OpSpec& op) const {
 
 // "'strip' is a part of peel"; empty for what is a part of no operation.
 std::string Analysis::partOwners(std::string_view word) const {
+  constexpr int kMost = 6;
   std::string owners;
+  int count = 0;
   for (const OpSpec* op : catalogue_.operations) {
-    if (op->part(word)) owners += (owners.empty() ? "" : ", ") + std::string(op->name);
+    if (!op->part(word) || ++count > kMost) continue;
+    owners += (owners.empty() ? "" : ", ") + std::string(op->name);
   }
+  if (count > kMost) owners += " and others";
   return owners.empty() ? owners : quote(word) + " is a part of " + owners;
+}
+
+// What to write for `else :` in a block.
+std::string Analysis::elseHint(const OpSpec* op) {
+  if (op && op->block == BlockKind::Split) return "a part that takes the rest is '~1 : ...'";
+  const bool otherwise = op && op->part("otherwise");
+  meant_ = {"else", otherwise ? "otherwise" : "all"};
+  if (!otherwise) return "write 'all' for every part that is not selected before";
+  return "write 'otherwise' for a shape that " + quote(op->name) + " cannot do; " + partsText(*op);
+}
+
+// The size that a part of a split begins with, or a word of the split's own.
+void Analysis::visitSizeHead(NodeId head, const OpSpec& op) {
+  const bool isName = tree().kind(head) == NodeKind::Name;
+  const std::string_view word = isName ? text(head) : std::string_view();
+  if (isName && op.part(word)) {
+    // { remainder : ... } of the perimeter is a word.
+    resolve(head, RefKind::Selector);
+    typed(head, ValueType::Selector);
+    return;
+  }
+  std::string owners = isName && !isKnownValue(word) ? partOwners(word) : std::string();
+  if (!isName ||
+      (owners.empty() && word != "else" && (isKnownValue(word) || !selectors_.count(word)))) {
+    expectType(head, visit(head, ValueType::Float), ValueType::Float, "a size");
+    return;
+  }
+  resolve(head, RefKind::Selector);
+  typed(head, ValueType::Selector);
+  if (word == "else") {
+    errorAt("unknown-selector", head, "'else' is no part of " + quote(op.name), elseHint(&op));
+    return;
+  }
+  errorAt("unknown-selector", head, quote(word) + " is no size",
+          "a part of " + quote(op.name) + " begins with its size, such as '~1 : ...'" +
+              (owners.empty() ? "" : "; " + owners));
 }
 
 // A word in the head of an item that neither names a part nor selects anything.
@@ -36,7 +76,7 @@ void Analysis::reportSelector(NodeId node, const OpSpec* op) {
   const std::string_view word = text(node);
   const bool hasParts = op && !op->parts.empty();
   const bool onlyParts = hasParts && (op->isOnlyParts() || op->block == BlockKind::Operations);
-  std::string hint = near(word, [&] {
+  std::string hint = word == "else" ? elseHint(op) : near(word, [&] {
     std::vector<std::string_view> names;
     for (const PartSpec& p : hasParts ? op->parts : std::span<const PartSpec>()) {
       names.push_back(p.name);

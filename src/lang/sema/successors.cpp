@@ -19,6 +19,14 @@ std::string hintOfNewName(std::string_view name) {
   return "write '" + std::string(name) + "', or let 'gable format' rewrite the file";
 }
 
+bool equalButForCase(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](char x, char y) { return lower(x) == lower(y); });
+}
+
 }  // namespace
 
 void Analysis::visitSequence(NodeId node) {
@@ -97,11 +105,23 @@ bool Analysis::reportUnbuilt(NodeId node, std::string_view name) {
   return true;
 }
 
-// Rules begin with a capital as a rule, so a lower-case name with arguments that is nearly that of
-// an operation is meant to be it; as a leaf the model would lack what the operation makes.
-std::string_view Analysis::slippedOperation(std::string_view name) const {
+// A name with arguments that is nearly that of an operation is meant to be it; as a leaf the model
+// would lack what the operation makes. Rules begin with a capital, and a file may call rules that
+// it does not define: so a name with a capital must be that of an operation but for the case, and
+// have arguments that the operation takes.
+std::string_view Analysis::slippedOperation(std::string_view name, size_t arguments) const {
   constexpr size_t kShortest = 5;
-  if (name.size() < kShortest || name[0] < 'a' || name[0] > 'z') return {};
+  if (name.empty()) return {};
+  if (name[0] < 'a' || name[0] > 'z') {
+    for (const OpSpec* op : catalogue_.operations) {
+      if (name.size() > 1 && equalButForCase(name, op->name) &&
+          acceptsCount(op->signatures, arguments)) {
+        return op->name;
+      }
+    }
+    return {};
+  }
+  if (name.size() < kShortest) return {};
   const size_t most = name.size() < 8 ? 1 : 2;
   std::string_view best;
   size_t least = most + 1;
@@ -136,7 +156,8 @@ void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
       fix(span, std::string(now));
       return;
     }
-    if (const std::string_view meant = slippedOperation(name); !meant.empty()) {
+    const size_t given = arguments(tree().child(node, 0)).size();
+    if (const std::string_view meant = slippedOperation(name, given); !meant.empty()) {
       std::string hint = near(name, [&] { return std::vector<std::string_view>{meant}; });
       error("unknown-operation", span, "there is no operation or rule " + quote(name),
             std::move(hint));
@@ -340,6 +361,9 @@ void Analysis::visitSet(NodeId node, const OpSpec& op) {
             }));
   }
   expectType(args[1], visit(args[1], wanted), wanted, "the value");
+  // material.colormap and the like hold a picture.
+  const bool ofShape = module().at(place).kind == RefKind::ShapeAttribute;
+  if (ofShape && wanted == ValueType::String && name.ends_with("map")) checkFile(args[1]);
   visitBlocks(node, op);
 }
 
@@ -474,13 +498,7 @@ void Analysis::visitItem(NodeId item, const OpSpec& op) {
             "remove what stands before the ':'");
   }
   if (head != kNoNode && op.block == BlockKind::Split) {
-    // { remainder : ... } of the perimeter is a word.
-    if (t.kind(head) == NodeKind::Name && isSelectorWord(t.text(head), &op)) {
-      resolve(head, RefKind::Selector);
-      typed(head, ValueType::Selector);
-    } else {
-      expectType(head, visit(head, ValueType::Float), ValueType::Float, "a size");
-    }
+    visitSizeHead(head, op);
     if (t.itemKind(item) != ItemKind::Each) {
       errorAt("bad-separator", item, "the parts of a split are written 'size : operations'",
               "replace '=' by ':'");
@@ -504,7 +522,8 @@ void Analysis::visitItem(NodeId item, const OpSpec& op) {
   }
   if (second != kNoNode) {
     expectType(second, visit(second, ValueType::Float), ValueType::Float, "a depth");
-    if (op.name != std::string_view("splitAndSetbackPerimeter")) {
+    const bool written = t.kind(second) != NodeKind::Missing;
+    if (written && op.name != std::string_view("splitAndSetbackPerimeter")) {
       errorAt("unexpected-head", second, "only splitAndSetbackPerimeter takes a second size",
               "remove one of the two");
     }
