@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 
 #include "commands.h"
@@ -67,9 +68,11 @@ void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
   addLimits(app, a.limits,
             "Stop reading, deriving, writing and drawing after so many seconds each (default: 600 "
             "for files, no limit else)");
-  app->add_option("--max-shapes", a.maxShapes, "Stop after so many shapes")
+  app->add_option("--max-shapes", a.maxShapes, "Stop after so many shapes (default 50000000)")
       ->check(number({0, 1e12, true}));
-  app->add_option("--max-steps", a.maxSteps, "Stop after so many operations and calls")
+  app->add_option("--max-steps", a.maxSteps,
+                  "Stop after so many operations and calls, each weighed\n"
+                  "by what it works on (default 4000000000)")
       ->check(number({0, 1e18, true}));
   app->add_option("--max-vertices", a.maxVertices,
                   "Stop when leaves have so many vertices (default 200000000)")
@@ -150,6 +153,8 @@ int main(int argc, char** argv) {
   int status = kExitDone;
 
   cancelFlag();
+  // A file that becomes too large is an error of writing, which is told and leaves nothing behind.
+  std::signal(SIGXFSZ, SIG_IGN);
 
   GenerateArguments generate;
   auto* generateApp = app.add_subcommand("generate", "Derive rules and write a model");

@@ -57,6 +57,28 @@ std::string textOfAll(const gable::Builtins& all) {
   return out;
 }
 
+// Words that the notation itself has.
+struct Keyword {
+  const char* name;
+  const char* text;
+};
+constexpr Keyword kKeywords[] = {
+    {"attr", "attr height = 12: a value that can be set from outside"},
+    {"const", "const pi2 = 6.28: a value that cannot be set"},
+    {"import", "import roofs : \"roofs.cga\": the rules of another file, called as roofs.Name"},
+    {"style", "style Old: declarations up to the next style replace those of the default style"},
+    {"extends", "style Newer extends Old: a style on top of another"},
+    {"version", "version \"2025.0\": the version of CGA that the file is written for"},
+    {"case", "case height > 9 : A case height > 3 : B else : C: the first condition that holds"},
+    {"else", "what happens where no condition holds, or no weight is drawn: 30% : A else : B"},
+    {"with", "Wall(h) with (n := floor(h / 3)) --> ...: variables of a rule"},
+    {"start", "start Lot --> ...: the rule that is meant to begin with"},
+    {"extension", "extension Wall --> ...: a rule that an importing file may replace"},
+    {"true", "a truth value"},
+    {"false", "a truth value"},
+    {"NIL", "nothing: the shape is left out"},
+};
+
 std::optional<std::string> textOf(const gable::Builtins& all, const std::string& name) {
   for (const auto* calls : {&all.operations, &all.functions}) {
     for (const gable::BuiltinCall& c : *calls) {
@@ -65,6 +87,12 @@ std::optional<std::string> textOf(const gable::Builtins& all, const std::string&
   }
   for (const gable::BuiltinAttribute& a : all.attributes) {
     if (a.name == name) return a.name + " (" + a.type + ") - " + a.doc + "\n";
+  }
+  for (const gable::BuiltinSelector& s : all.selectors) {
+    if (s.name == name) return s.name + " (selector of faces and edges) - " + s.doc + "\n";
+  }
+  for (const Keyword& k : kKeywords) {
+    if (k.name == name) return std::string(k.name) + " (word of the notation) - " + k.text + "\n";
   }
   return std::nullopt;
 }
@@ -86,6 +114,8 @@ std::string knownName(const gable::Builtins& all, const std::string& name) {
   for (const gable::BuiltinCall& c : all.operations) look(c.name);
   for (const gable::BuiltinCall& c : all.functions) look(c.name);
   for (const gable::BuiltinAttribute& a : all.attributes) look(a.name);
+  for (const gable::BuiltinSelector& s : all.selectors) look(s.name);
+  for (const Keyword& k : kKeywords) look(k.name);
   return found;
 }
 
@@ -95,6 +125,8 @@ std::vector<std::string> namesOf(const gable::Builtins& all) {
   for (const gable::BuiltinCall& c : all.operations) names.push_back(c.name);
   for (const gable::BuiltinCall& c : all.functions) names.push_back(c.name);
   for (const gable::BuiltinAttribute& a : all.attributes) names.push_back(a.name);
+  for (const gable::BuiltinSelector& s : all.selectors) names.push_back(s.name);
+  for (const Keyword& k : kKeywords) names.emplace_back(k.name);
   for (const gable::NotationWord& w : gable::notationWords()) names.push_back(w.word);
   return names;
 }

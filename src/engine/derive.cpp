@@ -102,10 +102,14 @@ void bindSettings(const Rules::Impl& rules, const DeriveSettings& settings, Deri
     }
     Result<Value> value =
         settingOf(name, text, program.attributes[static_cast<size_t>(found)].type, *rules.pool);
-    if (value.ok())
-      options.attributes.emplace_back(name, value.value());
-    else
+    if (!value.ok()) {
       complain(value.error());
+      continue;
+    }
+    const auto outside =
+        outsideOf(program.attributes[static_cast<size_t>(found)], value.value(), *rules.pool);
+    if (outside) wrong.push_back(diagnosticOf(*outside, Sources{}));
+    options.attributes.emplace_back(name, value.value());
   }
   checkTraceFilter(program, settings.traceFilter, wrong);
   std::vector<std::string_view> starts;

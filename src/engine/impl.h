@@ -89,6 +89,10 @@ DiagnosticList listOf(const Diagnostics& diagnostics, const Sources& sources);
 /// type it must have. Code: attribute-value.
 Result<Value> settingOf(const std::string& name, const std::string& text, ValueType type,
                         ValuePool& pool);
+/// What is wrong with a value that the annotations of its attribute do not allow. A word that
+/// @Enum does not have is an error, all else a warning: attribute-outside.
+std::optional<Diagnostics::Entry> outsideOf(const AttributeCode& a, const Value& v,
+                                            const ValuePool& pool);
 Value valueOfAttribute(const AttributeValue& a, ValuePool& pool);
 
 RuleValue ruleValueOf(const AttributeValue& a);

@@ -3,7 +3,10 @@
 //
 // Attribute values from text and from files, as values of a rule file's pool.
 
+#include <algorithm>
+
 #include "base/number.h"
+#include "base/text.h"
 #include "engine/impl.h"
 
 namespace gable {
@@ -102,6 +105,51 @@ Result<Value> settingOf(const std::string& name, const std::string& text, ValueT
     default: break;
   }
   return v;
+}
+
+// An error where the words that are allowed are all there are, a warning else: as forms offer them.
+std::optional<Diagnostics::Entry> outsideOf(const AttributeCode& a, const Value& v,
+                                            const ValuePool& pool) {
+  const auto written = [&](const Value& x) {
+    return x.type == ValueType::String ? std::string(pool.text(x.id)) : shortestText(x.number);
+  };
+  const auto entry = [&](Severity severity, std::string what, std::string hint) {
+    Diagnostics::Entry e;
+    e.severity = severity;
+    e.code = severity == Severity::Error ? "attribute-value" : "attribute-outside";
+    e.message = "'" + a.name + "' is " + what + ", not " + written(v);
+    e.hint = std::move(hint);
+    return e;
+  };
+  if (v.type != ValueType::String && v.type != ValueType::Float) return std::nullopt;
+  for (const AnnotationInfo& note : a.annotations) {
+    const auto named = [&](std::string_view key) {
+      const auto at = std::find_if(note.arguments.begin(), note.arguments.end(),
+                                   [&](const auto& x) { return x.key == key; });
+      return at == note.arguments.end() ? Value{} : at->value;
+    };
+    if (const Value r = named("restricted"); r.type == ValueType::Bool && !r.truth()) continue;
+    if (note.name == "Range" && v.type == ValueType::Float) {
+      const Value least = named("min"), most = named("max");
+      if (!(least.number < most.number)) continue;
+      if (v.number >= least.number && v.number <= most.number) continue;
+      return entry(Severity::Warning, "meant to be from " + written(least) + " to " + written(most),
+                   "the rules take it as it is; what they make of it may be of no use");
+    }
+    if (note.name != "Enum" || named("valuesAttr").type == ValueType::String) continue;
+    std::string allowed;
+    std::vector<std::string> words;
+    for (const AnnotationInfo::Argument& x : note.arguments) {
+      if (x.key.empty() && x.value.type == v.type) words.push_back(written(x.value));
+    }
+    if (words.empty() || std::find(words.begin(), words.end(), written(v)) != words.end()) continue;
+    for (const std::string& w : words) allowed += (allowed.empty() ? "" : ", ") + w;
+    const std::vector<std::string_view> views(words.begin(), words.end());
+    const std::string near = didYouMean(written(v), views);
+    return entry(v.type == ValueType::String ? Severity::Error : Severity::Warning,
+                 "one of: " + allowed, near);
+  }
+  return std::nullopt;
 }
 
 Value valueOfAttribute(const AttributeValue& a, ValuePool& pool) {

@@ -112,10 +112,9 @@ std::optional<std::string> builtinJson(const Builtins& builtins, const std::stri
     }
     return false;
   };
-  if (found(builtins.operations) || found(builtins.functions) || found(builtins.attributes)) {
-    return out;
-  }
-  return std::nullopt;
+  const bool any = found(builtins.operations) || found(builtins.functions) ||
+                   found(builtins.attributes) || found(builtins.selectors);
+  return any ? std::optional<std::string>(out) : std::nullopt;
 }
 
 }  // namespace gable

@@ -96,6 +96,19 @@ class Options(Case):
             told = self.run_gable("generate", *arguments, "-o", "a.glb", status=status, says=says)
             self.assertIn("hint: ", told)
 
+    def testAnnotationsHoldForSetAsForForms(self):
+        self.put("house.cga", '@Enum("flat", "hip") attr roof = "flat"\n@Range(3, 10) attr height = 5\n'
+                 '@Enum("a", "b", restricted=false) attr free = "a"\n@Range(min=0, max=1, restricted=false) attr loose = 0\n'
+                 "@Enum(1, 2) attr n = 1\nLot --> extrude(height + loose + n) set(roof, free) A.")
+        told = self.run_gable("generate", "house.cga", "--set", "roof=hipp", "-o", "a.glb", status=USAGE,
+                              says="'roof' is one of: flat, hip, not hipp")
+        self.assertIn("did you mean 'hip'?", told)
+        for pair, says in (("height=99", "'height' is meant to be from 3 to 10, not 99"), ("n=7", "'n' is one of: 1, 2, not 7")):
+            self.run_gable("generate", "house.cga", "--set", pair, "-o", "a.glb", says=says)
+        for pair in ("roof=hip", "height=10", "free=c", "loose=9", "n=2"):
+            told = self.run_gable("generate", "house.cga", "--set", pair, "-o", "a.glb")
+            self.assertNotIn("attribute-", told)
+
     def testAnEmptyFileIsToldByItsName(self):
         for name, text in itertools.product(("e.cga", "e.park", "e.grammar", "e.pg3d", "e.gbbg"), ("", "\n\n")):
             told = self.run_gable("generate", self.put(name, text), "-o", "a.glb", status=WRONG, says=name)
@@ -112,6 +125,11 @@ class Words(Case):
         self.run_gable("ops", "nothing", status=USAGE, says="nothing built in")
         for near, name in (("Grd", "Grid"), ("CubbeX", "CubeX"), ("extrud", "extrude")):
             self.run_gable("ops", near, status=USAGE, says=f"did you mean '{name}'?")
+        for name, says in (("street.front", "street.front (selector"), ("attr", "attr (word of the notation)"),
+                           ("Else", "else (word"), ("NIL", "NIL")):
+            self.run_gable("ops", name, says=says)
+        self.run_gable("ops", "street.frnt", status=USAGE, says="did you mean 'street.front'?")
+        self.run_gable("ops", "front", "--json", says="\"name\": \"front\"")
         self.run_gable("ops", "Grid", "--json", says="\"name\": \"grid\"")
 
     def testUnknownCommandsAreNamed(self):
@@ -172,8 +190,8 @@ class Trace(Case):
 
 class Writing(Case):
     def full_disk(self):
-        """Files end at 4000 bytes, as they do on a full disk."""
-        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        """Files end at 4000 bytes, as under `ulimit -f`; the program is the one to ignore the signal."""
+        signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
         resource.setrlimit(resource.RLIMIT_FSIZE, (4000, 4000))
 
     def names(self):

@@ -40,6 +40,7 @@ class ObjParser {
   void line(LineWords words) {
     work();
     const std::string_view head = words.word();
+    why_.clear();
     bool ok = true;
     if (head == "v") {
       ok = position(words);
@@ -66,7 +67,10 @@ class ObjParser {
       materialFiles_.of(words.rest());
     }
     // Other statements (points, lines, free-form curves) are none of ours.
-    if (!ok) ++out_.badLines;
+    out_.lines += head == "l" ? 1 : 0;
+    if (ok || out_.badLines++ > 0) return;
+    out_.firstBadLine = words.line;
+    out_.firstBadReason = why_.empty() ? "'" + std::string(head) + "' needs numbers" : why_;
   }
 
  private:
@@ -111,7 +115,11 @@ class ObjParser {
     while (!words.atEnd()) {
       work();
       ObjCorner c;
-      if (!corner(words.word(), c)) {
+      const std::string_view word = words.word();
+      if (!corner(word, c)) {
+        constexpr size_t kShown = 40;
+        why_ = "the corner '" + std::string(word.substr(0, kShown)) + "' names no vertex of the " +
+               std::to_string(out_.positions.size()) + " before it";
         out_.corners.resize(f.firstCorner);
         return false;
       }
@@ -121,6 +129,7 @@ class ObjParser {
     // Triangles of a concave face take quadratic time.
     constexpr uint32_t kMostCorners = 100'000;
     if (f.cornerCount < 3 || f.cornerCount > kMostCorners) {
+      why_ = "a face has 3 to 100000 corners, not " + std::to_string(f.cornerCount);
       out_.corners.resize(f.firstCorner);
       return false;
     }
@@ -131,6 +140,8 @@ class ObjParser {
   ObjFile& out_;
   NameTable materials_, objects_, groups_, materialFiles_;
   ObjFace state_;
+  // Why the line at hand cannot be read, where more is known than its statement.
+  std::string why_;
 };
 
 }  // namespace

@@ -38,6 +38,11 @@ struct ObjFile {
   /// In the order of first mention, each once.
   std::vector<std::string> materials, objects, groups, materialFiles;
   uint64_t badLines = 0;
+  /// The first of them, from 1, and what is wrong with it.
+  uint64_t firstBadLine = 0;
+  std::string firstBadReason;
+  /// Statements `l`: edges without a face.
+  uint64_t lines = 0;
 };
 
 /// Linear in the text. Relative indices, line continuations, comments and either line end.

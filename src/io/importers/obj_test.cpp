@@ -179,6 +179,39 @@ TEST(ObjShapes, objectsOrGroupsAreShapes) {
   EXPECT_FALSE(readObjShapes("v 0 0 0\n", "a.obj").ok());
 }
 
+TEST(ObjShapes, footprintsThatFaceTheGroundAreTurned) {
+  const std::string vertices = "v 0 0 0\nv 4 0 0\nv 4 0 3\nv 0 0 3\nv 0 2 0\n";
+  const Result<ShapeFile> down = readObjShapes(vertices + "f 1 2 3 4\n", "lot.obj");
+  ASSERT_TRUE(down.ok());
+  EXPECT_NEAR(down->shapes[0].mesh.normal(0).y, 1, 1e-12);
+  ASSERT_EQ(down->diagnostics.all().size(), 1u);
+  EXPECT_EQ(down->diagnostics.all()[0].code, "shape-turned");
+  const Result<ShapeFile> up = readObjShapes(vertices + "f 4 3 2 1\n", "lot.obj");
+  ASSERT_TRUE(up.ok());
+  EXPECT_TRUE(up->diagnostics.all().empty());
+  // What has other faces is a body, and stays as it is.
+  const Result<ShapeFile> body = readObjShapes(vertices + "f 1 2 3 4\nf 1 5 2\n", "body.obj");
+  ASSERT_TRUE(body.ok());
+  EXPECT_NEAR(body->shapes[0].mesh.normal(0).y, -1, 1e-12);
+}
+
+TEST(ObjShapes, filesWithoutAPolygonSayWhy) {
+  const auto message = [](const std::string& text) {
+    const Result<ShapeFile> file = readObjShapes(text, "lot.obj");
+    EXPECT_FALSE(file.ok());
+    return file.ok() ? std::string() : file.error().message;
+  };
+  const std::string vertices = "v 0 0 0\nv 4 0 0\n\n# a comment\nv 8 0 0\n";
+  EXPECT_NE(
+      message(vertices + "f 1 2 \\\n9\n").find("line 7: the corner '9' names no vertex of the 3"),
+      std::string::npos);
+  EXPECT_NE(message(vertices + "f 1 2\n").find("line 6: a face has 3 to 100000 corners, not 2"),
+            std::string::npos);
+  EXPECT_NE(message(vertices + "f 1 2 3\n").find("no area"), std::string::npos);
+  EXPECT_NE(message(vertices + "l 1 2 3\n").find("it has lines"), std::string::npos);
+  EXPECT_NE(message(vertices).find("3 vertices and no faces"), std::string::npos);
+}
+
 TEST(RelativePaths, stayInOneForm) {
   EXPECT_EQ(relativeTo("a/b.obj", "c.png"), "a/c.png");
   EXPECT_EQ(relativeTo("a/b.obj", "../t/./c.png"), "t/c.png");

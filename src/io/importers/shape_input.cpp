@@ -29,15 +29,70 @@ Error empty(const std::string& path) {
   return {"shapes-empty", "'" + path + "' has no polygon that could be an initial shape", {}};
 }
 
-void noteDropped(ShapeFile& out, uint64_t faces, uint64_t lines) {
-  if (faces > 0) {
-    out.diagnostics.warning("shape-face-dropped", {},
-                            std::to_string(faces) + " faces without area are left out");
+void noteDropped(ShapeFile& out, uint64_t faces) {
+  if (faces == 0) return;
+  out.diagnostics.warning("shape-face-dropped", {},
+                          std::to_string(faces) + " faces without area are left out");
+}
+
+std::string firstBadLine(const ObjFile& file) {
+  return "line " + std::to_string(file.firstBadLine) + ": " + file.firstBadReason;
+}
+
+void noteBadLines(ShapeFile& out, const ObjFile& file) {
+  if (file.badLines == 0) return;
+  out.diagnostics.warning("shape-line-broken", {},
+                          std::to_string(file.badLines) +
+                              " lines of the file cannot be read; the first is " +
+                              firstBadLine(file));
+}
+
+// An OBJ file without a face: which line is to blame, or what it has in the place of faces.
+Error withoutFaces(const ObjFile& file, const std::string& path, uint64_t dropped) {
+  Error error = empty(path);
+  if (file.badLines > 0) {
+    error.message += "; " + firstBadLine(file);
+    error.hint = "mend the line; a polygon is written 'f 1 2 3', with vertices 'v x y z' before it";
+  } else if (dropped > 0) {
+    error.message += ": its " + std::to_string(dropped) + " faces have no area";
+    error.hint = "give them corners that do not lie on one line";
+  } else if (file.lines > 0) {
+    error.message += ": it has lines ('l') and no faces ('f')";
+    error.hint = "close the outline and save it as a polygon";
+  } else {
+    error.message +=
+        ": it has " + std::to_string(file.positions.size()) + " vertices and no faces ('f')";
+    error.hint = "a polygon is written 'f 1 2 3', with vertices 'v x y z' before it";
   }
-  if (lines > 0) {
-    out.diagnostics.warning("shape-line-broken", {},
-                            std::to_string(lines) + " lines of the file cannot be read");
+  return error;
+}
+
+// A footprint that faces the ground would be built downward. Its outer ring is clockwise as seen
+// from above, which says nothing about what was meant; GeoJSON's rings are turned as well.
+void turnFootprintsUp(ShapeFile& out) {
+  constexpr double kLevel = 0.99;
+  size_t turned = 0;
+  for (ShapeInput& shape : out.shapes) {
+    bool down = shape.mesh.faceCount() > 0;
+    for (size_t f = 0; down && f < shape.mesh.faceCount(); ++f) {
+      down = shape.mesh.normal(f).y < -kLevel;
+    }
+    if (!down) continue;
+    MeshBuilder builder;
+    std::vector<uint32_t> map(shape.mesh.positions.size(), MeshBuilder::kNoPosition);
+    for (size_t f = 0; f < shape.mesh.faceCount(); ++f) {
+      work();
+      builder.copyFace(shape.mesh, f, map, true);
+    }
+    shape.mesh = builder.take();
+    ++turned;
   }
+  if (turned == 0) return;
+  out.diagnostics.warning("shape-turned", {},
+                          std::to_string(turned) +
+                              (turned == 1 ? " footprint faces" : " footprints face") +
+                              " the ground and " + (turned == 1 ? "is" : "are") + " turned over",
+                          "write the corners counter-clockwise as seen from above");
 }
 
 }  // namespace
@@ -96,8 +151,10 @@ Result<ShapeFile> readObjShapes(std::string_view text, const std::string& path) 
     shape.mesh = filter.builder().take();
     if (!shape.mesh.empty()) out.shapes.push_back(std::move(shape));
   }
-  noteDropped(out, dropped, file.badLines);
-  if (out.shapes.empty()) return empty(path);
+  noteDropped(out, dropped);
+  noteBadLines(out, file);
+  if (out.shapes.empty()) return withoutFaces(file, path, dropped);
+  turnFootprintsUp(out);
   return out;
 }
 
@@ -131,8 +188,9 @@ Result<ShapeFile> readGltfShapes(std::string_view bytes, const AssetOptions& opt
     shape.name = p.name.empty() ? stemOf(options.path) : p.name;
     out.shapes.push_back(std::move(shape));
   }
-  noteDropped(out, dropped, 0);
+  noteDropped(out, dropped);
   if (out.shapes.empty()) return empty(options.path);
+  turnFootprintsUp(out);
   return out;
 }
 

@@ -15,6 +15,8 @@ namespace gable {
 struct LineWords {
   const char* p = nullptr;
   const char* end = nullptr;
+  /// Which line of the text it is, from 1; of a line that goes on, the last.
+  uint64_t line = 0;
 
   static bool isSpace(char c) { return c == ' ' || c == '\t' || c == '\r'; }
   void skip() {
@@ -58,7 +60,9 @@ void forEachLine(std::string_view text, Visit&& visit) {
   const char* p = text.data();
   const char* const end = p + text.size();
   std::string joined;
+  uint64_t number = 0;
   while (p < end) {
+    ++number;
     const char* stop = p;
     while (stop < end && *stop != '\n') ++stop;
     const char* last = stop;
@@ -68,10 +72,10 @@ void forEachLine(std::string_view text, Visit&& visit) {
       joined.append(p, static_cast<size_t>(last - p) - (goesOn ? 1 : 0));
       joined += ' ';
     }
-    LineWords line{p, last};
+    LineWords line{p, last, number};
     p = stop < end ? stop + 1 : end;
     if (goesOn && p < end) continue;
-    if (!joined.empty()) line = {joined.data(), joined.data() + joined.size()};
+    if (!joined.empty()) line = {joined.data(), joined.data() + joined.size(), number};
     if (!line.atEnd() && *line.p != '#') visit(line);
     joined.clear();
   }
