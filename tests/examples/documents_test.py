@@ -4,14 +4,16 @@
 """The rules shown in the documents run: documents_test.py GABLE FOLDER.
 
 Every block marked ```cga in a Markdown file is derived on a lot of 30 x 20 metres, or checked where it has no
-rule; none may have an error. Files that a block names are not there, which is a warning. Run from the repository's root.
+rule; none may have an error. Files that a block names are not there, which is a warning. A block of shapes (```obj,
+```geojson, ```gltf) is what the rules before it are derived on, without a warning about it. Run from the repository's root.
 """
 import re
 import subprocess
 import sys
 from pathlib import Path
 
-FENCE = re.compile(r"^```cga\n(.*?)^```$", re.M | re.S)
+FENCE = re.compile(r"^```(cga|obj|geojson|gltf)\n(.*?)^```$", re.M | re.S)
+SHAPES = re.compile(r"\[(?:shape|geojson|gltf|no-shapes)[a-z-]*\]")
 
 
 def documents():
@@ -28,17 +30,23 @@ def main():
     count = failures = 0
     for document in documents():
         text = Path(document).read_text(encoding="utf-8")
+        rules = None
         for match in FENCE.finditer(text):
             count += 1
+            kind, content = match.groups()
             line = text.count("\n", 0, match.start()) + 2
-            rules = folder / f"{document.replace('/', '-')}-{line}.cga"
-            rules.write_text(match.group(1), encoding="utf-8")
+            file = folder / f"{document.replace('/', '-')}-{line}.{kind}"
+            file.write_text(content, encoding="utf-8")
+            ground = ["--lot", "30x20"]
+            if kind == "cga":
+                rules = file
+            else:
+                ground = ["--shapes", str(file)]
             command = [gable, "check", str(rules)]
-            if "-->" in match.group(1):
-                command = [gable, "generate", str(rules), "--lot", "30x20", "-o",
-                           str(rules.with_suffix(".glb"))]
+            if kind != "cga" or "-->" in content:
+                command = [gable, "generate", str(rules), *ground, "-o", str(file.with_suffix(".glb"))]
             done = subprocess.run(command, capture_output=True, text=True, check=False)
-            if done.returncode != 0:
+            if done.returncode != 0 or (kind != "cga" and SHAPES.search(done.stderr)):
                 failures += 1
                 print(f"{document}:{line}: exit status {done.returncode}\n{done.stderr[-2000:]}")
     print(f"{count} examples, {failures} failures")
