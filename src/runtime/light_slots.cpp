@@ -60,11 +60,11 @@ bool LightSlots::addCall(LightSlot& slot, const Instruction& at) const {
   return true;
 }
 
-bool LightSlots::givesAlike(const Instruction& at) const {
-  if (at.code != Code::CallRule || at.x > 0 || (&at)[1].code != Code::End) return false;
+const RuleCode* LightSlots::takerAt(const Instruction& at) const {
+  if (at.code != Code::CallRule || at.x > 0 || (&at)[1].code != Code::End) return nullptr;
   const RuleCode& called = program_.rules[at.a];
-  constexpr uint32_t kTellsApart = kReadsSplit | kReadsPivot;
-  return called.shared && (called.reads.effects & kTellsApart) == 0;
+  const bool blind = (called.reads.effects & (kReadsSplit | kReadsPivot)) == 0;
+  return called.shared && blind ? &called : nullptr;
 }
 
 LightSlot LightSlots::slotAt(uint32_t rule, uint32_t entry) const {
@@ -108,7 +108,7 @@ void LightSlots::fill(std::vector<LightSlot>& slots, uint32_t block, uint32_t ru
   std::vector<LightSlot> all;
   for (const uint32_t entry : program_.blocks[block].slots) {
     LightSlot slot = slotAt(rule, entry);
-    slot.alike = givesAlike(program_.code[entry]);
+    slot.taker = takerAt(program_.code[entry]);
     const uint32_t own = slot.named ? 1 : 0;
     slot.shapes = slot.block > 0 ? slot.calls : std::max<uint32_t>(slot.calls + own, 1);
     slot.work = slot.shapes + static_cast<uint32_t>(slot.steps.size()) + (slot.block > 0 ? 1 : 0);

@@ -16,8 +16,9 @@ namespace gable {
 
 struct LightSlot {
   bool light = false;
-  /// A shared rule takes the parts as they are, and sees neither their number nor their place.
-  bool alike = false;
+  /// The shared rule that takes the parts as they are, if it sees neither their number nor their
+  /// place; null else.
+  const RuleCode* taker = nullptr;
   /// NIL: the parts go.
   bool drop = false;
   /// The last rule called works in a frame of its own, and so do the steps.
@@ -59,7 +60,7 @@ class LightSlots {
  private:
   void fill(std::vector<LightSlot>& slots, uint32_t block, uint32_t rule) const;
   LightSlot slotAt(uint32_t rule, uint32_t entry) const;
-  bool givesAlike(const Instruction& at) const;
+  const RuleCode* takerAt(const Instruction& at) const;
   bool isPlainSplit(const Instruction& at) const;
   bool addStep(LightSlot& slot, const Instruction& at) const;
   bool addCall(LightSlot& slot, const Instruction& at) const;

@@ -60,17 +60,17 @@ TEST_F(LightSlotsTest, StepsAndANameMakeALeaf) {
 TEST_F(LightSlotsTest, PartsForASharedRuleAreAlikeUnlessItTellsThemApart) {
   program.code = {at(Code::CallRule, 1), at(Code::End), at(Code::Operation, 0), at(Code::End)};
   program.rules[1].entry = 2;
-  EXPECT_FALSE(slot(false).alike);
+  EXPECT_FALSE(slot(false).taker);
   program.rules[1].shared = true;
-  EXPECT_TRUE(slot(false).alike);
+  EXPECT_EQ(slot(false).taker, &program.rules[1]);
   for (const uint32_t effect : {kReadsSplit, kReadsPivot}) {
     program.rules[1].reads.effects = effect;
-    EXPECT_FALSE(slot(false).alike);
+    EXPECT_FALSE(slot(false).taker);
   }
   program.rules[1].reads.effects = kUsesTrim;
-  EXPECT_TRUE(slot(false).alike);
+  EXPECT_EQ(slot(false).taker, &program.rules[1]);
   program.code[0].x = 1;
-  EXPECT_FALSE(slot(false).alike);
+  EXPECT_FALSE(slot(false).taker);
 }
 
 TEST_F(LightSlotsTest, CallsAreFollowed) {

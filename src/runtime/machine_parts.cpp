@@ -12,10 +12,12 @@ namespace gable {
 void Machine::placeEqualParts(Activation& a) {
   if (flat_ || !lightPartsAllowed_ || a.childNext == a.childBase) return;
   const SplitPiece& before = pieces_[a.childNext - 1];
-  if (!lightParts_.slot(a.block, a.rule, before.slot).alike) return;
+  const RuleCode* taker = lightParts_.slot(a.block, a.rule, before.slot).taker;
+  if (!taker) return;
   while (a.childNext < a.childEnd) {
     const SplitPiece& piece = pieces_[a.childNext];
-    if (piece.slot != before.slot || !areAlike(a.shape, a.plan, before, piece)) return;
+    if (piece.slot != before.slot) return;
+    if (!areAlike(a.shape, taker->reads.effects, a.plan, before, piece)) return;
     ++a.childNext;
     if (!countShape()) return;
     ++activations_[a.owner].childCount;

@@ -5,6 +5,7 @@
 // where sharing is on.
 
 #include "base/small_buffer.h"
+#include "program/tag_effects.h"
 #include "runtime/machine.h"
 #include "runtime/sharing.h"
 
@@ -27,7 +28,9 @@ ShareKey Machine::keyOf(const Activation& call) {
 // True when the result is known already and its instance has been made.
 bool Machine::beginShared(const RuleCode& rule, Activation& call) {
   const Frame outer = call.shape.scope;
-  putIntoOwnFrame(call.shape, rule.reads.effects, outer);
+  // The operation that gathers what comes of the call may read the tags that the rule does not.
+  const uint32_t gathered = gathers_.anyOpen() ? kReadsTags : 0u;
+  putIntoOwnFrame(call.shape, rule.reads.effects | gathered, outer);
   if (flat_) {
     call.boundary = true;
     worlds_.open(outer);

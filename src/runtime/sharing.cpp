@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "program/tag_effects.h"
 #include "runtime/key_hash.h"
 #include "shape/part_place.h"
 
@@ -73,8 +74,10 @@ ShareKey sharedKey(const SharedCall& call) {
   return h.key();
 }
 
-bool areAlike(const Shape& parent, const PartPlan& plan, const SplitPiece& a, const SplitPiece& b) {
-  if (a.size != b.size || !keepEqualTags(parent, plan, a, b)) return false;
+bool areAlike(const Shape& parent, uint32_t effects, const PartPlan& plan, const SplitPiece& a,
+              const SplitPiece& b) {
+  if (a.size != b.size) return false;
+  if (seesTags(effects) && !keepEqualTags(parent, plan, a, b)) return false;
   if (!parent.extra) return true;
   if (parent.extra->deformed || !parent.extra->projections.empty()) return false;
   const auto axis = static_cast<size_t>(plan.axis);
@@ -97,6 +100,8 @@ void putIntoOwnFrame(Shape& shape, uint32_t effects, const Frame& outer) {
   } else {
     shape.pivot = Frame{};
   }
+  // A mesh keeps its tags: a copy of it would cost more than it saves.
+  if (!seesTags(effects)) shape.geometry.tags.fill(0);
   if (shape.extra) {
     // A deformation is told in the scope's own terms, so it comes along as it is.
     const bool seen = shape.extra->deformed || (effects & (kUsesTrim | kReadsUvProjection)) != 0;

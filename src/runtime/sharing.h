@@ -38,8 +38,10 @@ ShareKey sharedKey(const SharedCall& call);
 /// cannot see.
 void putIntoOwnFrame(Shape& shape, uint32_t effects, const Frame& outer);
 
-/// Whether two parts of a shape have the same key, for a rule that sees neither their number nor
-/// their place: they are equally large, and have the same tags and trim planes.
-bool areAlike(const Shape& parent, const PartPlan& plan, const SplitPiece& a, const SplitPiece& b);
+/// Whether two parts of a shape have the same key, for a rule with these effects that sees neither
+/// their number nor their place: they are equally large, and have the same trim planes and, where
+/// the rule reads them, tags.
+bool areAlike(const Shape& parent, uint32_t effects, const PartPlan& plan, const SplitPiece& a,
+              const SplitPiece& b);
 
 }  // namespace gable

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The Gable authors
 
 #include "runtime/sharing.h"
+#include "program/tag_effects.h"
 
 #include <gtest/gtest.h>
 
@@ -84,24 +85,36 @@ TEST(Sharing, EqualPartsAreAlikeUnlessTheyHaveOtherTagsOrPlanes) {
   s.size = {100, 4, 5};
   const PartPlan alongX{Axis::X, false, 5, 0, 0}, alongY{Axis::Y, false, 4, 0, 0};
   const SplitPiece parts[] = {{0, 1, 0}, {1, 1, 0}, {2, 1, 0}, {50, 1, 0}};
-  EXPECT_TRUE(areAlike(s, alongX, parts[0], parts[1]));
-  EXPECT_FALSE(areAlike(s, alongX, parts[0], {1, 2, 0}));
+  EXPECT_TRUE(areAlike(s, kReadsTags, alongX, parts[0], parts[1]));
+  EXPECT_FALSE(areAlike(s, kReadsTags, alongX, parts[0], {1, 2, 0}));
   s.geometry.tags[kSideLeft] = 7;
-  EXPECT_FALSE(areAlike(s, alongX, parts[0], parts[1]));
-  EXPECT_TRUE(areAlike(s, alongX, parts[1], parts[2]));
-  EXPECT_TRUE(areAlike(s, alongY, parts[0], parts[1]));
+  EXPECT_FALSE(areAlike(s, kReadsTags, alongX, parts[0], parts[1]));
+  EXPECT_TRUE(areAlike(s, kPure, alongX, parts[0], parts[1]));
+  EXPECT_TRUE(areAlike(s, kReadsTags, alongX, parts[1], parts[2]));
+  EXPECT_TRUE(areAlike(s, kReadsTags, alongY, parts[0], parts[1]));
   s.geometry.tags[kSideLeft] = 0;
   ShapeExtra extra;
   extra.trim.push_back({{-1, 0, 0}, 0, false});
   s.extra = makeRef<ShapeExtra>(extra);
   // The first one lies at the plane, the last one so far from it that it forgets it.
-  EXPECT_FALSE(areAlike(s, alongX, parts[0], parts[3]));
-  EXPECT_FALSE(areAlike(s, alongX, parts[0], parts[1]));
-  EXPECT_TRUE(areAlike(s, alongX, parts[2], parts[3]));
-  EXPECT_TRUE(areAlike(s, alongY, parts[0], parts[2]));
+  EXPECT_FALSE(areAlike(s, kReadsTags, alongX, parts[0], parts[3]));
+  EXPECT_FALSE(areAlike(s, kReadsTags, alongX, parts[0], parts[1]));
+  EXPECT_TRUE(areAlike(s, kReadsTags, alongX, parts[2], parts[3]));
+  EXPECT_TRUE(areAlike(s, kReadsTags, alongY, parts[0], parts[2]));
   extra.projections.emplace_back();
   s.extra = makeRef<ShapeExtra>(extra);
-  EXPECT_FALSE(areAlike(s, alongY, parts[0], parts[2]));
+  EXPECT_FALSE(areAlike(s, kReadsTags, alongY, parts[0], parts[2]));
+}
+
+TEST(Sharing, TagsComeAlongWhereTheyAreRead) {
+  const auto tagged = [](uint32_t tags, uint32_t effects) {
+    Shape s = boxShape();
+    s.geometry = primitive(GeometryKind::Box, tags);
+    putIntoOwnFrame(s, effects, Frame(s.scope));
+    return s.geometry;
+  };
+  EXPECT_EQ(tagged(1, kPure), tagged(2, kPure));
+  EXPECT_FALSE(tagged(1, kReadsTags) == tagged(2, kReadsTags));
 }
 
 TEST(Sharing, TrimPlanesComeAlongWhereTheyAreSeen) {

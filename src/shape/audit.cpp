@@ -9,6 +9,7 @@
 #include "base/check.h"
 #include "base/hash.h"
 #include "base/work.h"
+#include "program/tag_effects.h"
 
 namespace gable {
 
@@ -44,27 +45,42 @@ bool same(const Deformation& a, const Deformation& b) {
   return same(a.near, b.near) && same(a.far, b.far) && same(a.front, b.front) && same(a.top, b.top);
 }
 
+Geometry withoutTags(Geometry g) {
+  g.tags.fill(0);
+  if (g.kind != GeometryKind::Mesh) return g;
+  Mesh mesh = *g.mesh;
+  for (MeshFace& f : mesh.faces) f.tags = 0;
+  mesh.edgeTags.clear();
+  g.mesh = makeRef<Mesh>(std::move(mesh));
+  return g;
+}
+
+bool same(const Geometry& a, const Geometry& b, uint32_t effects) {
+  if ((effects & kIgnoresTags) == 0) return contentHash(a) == contentHash(b);
+  return contentHash(withoutTags(a)) == contentHash(withoutTags(b));
+}
+
 // All that the audit does not change itself.
-bool same(const Shape& a, const Shape& b) {
+bool same(const Shape& a, const Shape& b, uint32_t effects) {
   const bool deformed = a.extra && a.extra->deformed;
   if (deformed != (b.extra && b.extra->deformed)) return false;
   if (deformed && !same(a.extra->deformation, b.extra->deformation)) return false;
   return same(a.scope, b.scope) && same(a.size, b.size) && a.material == b.material &&
          a.assetMaterials == b.assetMaterials && a.attributes == b.attributes &&
          a.locals == b.locals && a.geometry.kind == b.geometry.kind &&
-         contentHash(a.geometry) == contentHash(b.geometry);
+         same(a.geometry, b.geometry, effects);
 }
 
-bool same(const OpOutcome& a, const OpOutcome& b) {
+bool same(const OpOutcome& a, const OpOutcome& b, uint32_t effects) {
   if (a.status.ok() != b.status.ok()) return false;
   if (!a.status.ok()) return true;
   if (a.dropped != b.dropped || a.children.size() != b.children.size() ||
-      a.pieces.size() != b.pieces.size() || !same(a.shape, b.shape)) {
+      a.pieces.size() != b.pieces.size() || !same(a.shape, b.shape, effects)) {
     return false;
   }
   for (size_t i = 0; i < a.children.size(); ++i) {
     if (a.children[i].slot != b.children[i].slot) return false;
-    if (!same(a.children[i].shape, b.children[i].shape)) return false;
+    if (!same(a.children[i].shape, b.children[i].shape, effects)) return false;
   }
   for (size_t i = 0; i < a.pieces.size(); ++i) {
     const SplitPiece &p = a.pieces[i], &q = b.pieces[i];
@@ -90,6 +106,14 @@ bool wasCutShort(const Status& s) {
   return !s.ok() && (s.code() == kWorkStopped || isOutOfMemory(s));
 }
 
+bool selectsByTag(const BlockInput* block) {
+  return block && std::ranges::any_of(block->selectors, [](const SelectorItem& item) {
+           return std::ranges::any_of(item.terms, [](const SelectorTerm& t) {
+             return t.kind == SelectorTerm::Kind::Tagged;
+           });
+         });
+}
+
 [[noreturn]] void stop(const char* name) {
   checkFailed(__FILE__, __LINE__, name, "depends on a field of the shape",
               "that its effects do not declare");
@@ -113,6 +137,10 @@ Shape changedFields(const Shape& s, uint32_t effects) {
     out.trimVertical = !s.trimVertical;
     out.trimHorizontal = !s.trimHorizontal;
   }
+  // A box whose edges have tags stays a mesh.
+  const Geometry& g = s.geometry;
+  const bool tagged = g.kind == GeometryKind::Mesh && !g.mesh->edgeTags.empty();
+  if ((effects & kIgnoresTags) != 0 && !tagged) out.geometry = withoutTags(g);
   if (hidden(kRandom | kReadsPath)) out.path = hashCombine(s.path, 1);
   if (hidden(kReadsUvProjection)) {
     ShapeExtra extra = extraOf(s);
@@ -128,7 +156,9 @@ Shape changedFields(const Shape& s, uint32_t effects) {
 void auditFields(const OpSpec& spec, const Shape& before, std::span<const Value> args,
                  Services& services, const CallPlace& place, const BlockInput* block,
                  const OpOutcome& outcome, Evaluations& evaluations) {
-  Shape shape = changedFields(before, spec.effects);
+  uint32_t effects = spec.effects;
+  if (selectsByTag(block)) effects &= ~kIgnoresTags;
+  Shape shape = changedFields(before, effects);
   std::vector<BlockChild> children;
   std::vector<SplitPiece> pieces;
   PartPlan plan;
@@ -151,7 +181,7 @@ void auditFields(const OpSpec& spec, const Shape& before, std::span<const Value>
   const Status status = guarded([&] { return spec.apply(call); });
   if (wasCutShort(status)) return;
   const OpOutcome second{status, shape, call.dropped(), children, pieces};
-  if (evaluations.strayed || !same(outcome, second)) stop(spec.name);
+  if (evaluations.strayed || !same(outcome, second, effects)) stop(spec.name);
 }
 
 void auditFunction(const char* name, Value (*function)(FunctionCall&), FunctionCall& again,

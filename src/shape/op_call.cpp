@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/work.h"
+#include "program/tag_effects.h"
 #include "program/program.h"
 #include "shape/audit.h"
 
@@ -188,7 +189,7 @@ Value FunctionCall::run(Value (*function)(FunctionCall&), [[maybe_unused]] uint3
     const Services::Recording recording(services_, &evaluations);
     first = function(*this);
   }
-  const Shape other = changedFields(shape_, effects);
+  const Shape other = changedFields(shape_, effectsOfFunction(effects));
   FunctionCall again(args_, other, services_, spec_, form_);
   again.place(file_, site_);
   auditFunction(spec_ ? spec_->name : "an attribute", function, again, first, evaluations);

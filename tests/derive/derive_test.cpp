@@ -136,6 +136,29 @@ INSTANTIATE_TEST_SUITE_P(All, Derivation, testing::ValuesIn(kTexts), [](const au
   return name;
 });
 
+// Of a tower of floors of bays. The parts of a box differ in the tags of their sides.
+uint64_t prototypesWithBays(const std::string& bay) {
+  const Rules rules = Rules::parse(
+      "Lot --> extrude(15) split(y) { ~3 : Floor }*\n"
+      "Floor --> split(x) { ~2 : Bay }*\nBay --> " +
+          bay,
+      "text.cga");
+  EXPECT_TRUE(rules.ok());
+  DeriveSettings settings;
+  settings.jobs = 1;
+  return derive(rules, Shapes::lot(10, 7), settings).statistics().prototypes;
+}
+
+TEST(Sharing, seesTagsOnlyWhereARuleReadsThem) {
+  EXPECT_EQ(prototypesWithBays("split(z) { ~1 : Box. }*"), 3u);
+  // At the lower, the upper and no end of two directions.
+  EXPECT_EQ(prototypesWithBays("split(z) { ~1 : comp(f) { isTagged(\"extrude.top\") : Top. } }*"),
+            13u);
+  EXPECT_EQ(prototypesWithBays("split(z) { ~1 : case isTagged(\"extrude.top\") : Top. else: B. }*"),
+            13u);
+  EXPECT_EQ(prototypesWithBays("split(z) { ~1 : cleanupGeometry(all, 0.1) Box. }*"), 13u);
+}
+
 std::string codes(const Model& model) {
   std::string out;
   for (const Diagnostic& m : model.diagnostics()) out += m.code + ' ';

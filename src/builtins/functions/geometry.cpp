@@ -17,6 +17,7 @@
 #include "builtins/shared/materials.h"
 #include "geom/mesh/topology.h"
 #include "math/trig.h"
+#include "program/tag_effects.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -351,9 +352,9 @@ constexpr FunctionSpec kFunctions[] = {
     {"geometry.nHoles", kFamily, "The number of holes in faces.", kNumber, nHoles, kPure, true},
     {"geometry.nVertices", kFamily, "The number of vertices.", kNumber, nVertices, kPure, true},
     {"isTagged", kFamily, "Selects components by their tags; elsewhere, whether any has the tag.",
-     kIsTagged, typed<hasTags>},
-    {"geometry.tags", kFamily, "The tags of the components, sorted.", kTags, typed<tags>, kPure,
-     true},
+     kIsTagged, typed<hasTags>, kReadsTags},
+    {"geometry.tags", kFamily, "The tags of the components, sorted.", kTags, typed<tags>,
+     kReadsTags, true},
     {"geometry.uMin", kFamily, "The least u of a uv set, of set 0 without argument.", kUvBound,
      typed<uvBound<0, false>>, kPure, true},
     {"geometry.uMax", kFamily, "The greatest u of a uv set.", kUvBound, typed<uvBound<0, true>>,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lang/compile/unit_compiler.h"
+#include "program/tag_effects.h"
 
 namespace gable::lang {
 
@@ -162,6 +163,7 @@ void UnitCompiler::selectorTerms(NodeId node, uint32_t number) {
 
 // isTagged("query" [, e | v]).
 void UnitCompiler::taggedTerm(NodeId node, BlockCode& code) {
+  uses_.effects |= kReadsTags;
   const NodeId arguments = t_.child(node, 0);
   BlockTerm term;
   term.kind = static_cast<uint8_t>(SelectTermKind::Tagged);
@@ -200,7 +202,7 @@ void UnitCompiler::componentValues(NodeId node) {
   const OpSpec* operation = componentOperation_;
   if (!operation) return;
   const NodeId arguments = t_.child(node, 0);
-  uses_.effects |= effectsOf(operation->effects, arguments);
+  operationEffects(*operation, arguments);
   const auto number = static_cast<uint32_t>(e_.program().blocks.size());
   e_.program().blocks.emplace_back();
   e_.program().blocks[number].kind = BlockKind::Selectors;

@@ -4,6 +4,7 @@
 // Expressions: each leaves one value on the stack. Parts that the analysis folded are constants.
 
 #include "lang/compile/unit_compiler.h"
+#include "program/tag_effects.h"
 
 namespace gable::lang {
 
@@ -182,6 +183,10 @@ void UnitCompiler::call(NodeId node, NodeId arguments) {
     }
     default: e_.emit(Code::Constant, span, e_.constant(Value{})); break;
   }
+}
+
+void UnitCompiler::operationEffects(const OpSpec& spec, NodeId arguments) {
+  uses_.effects |= effectsOf(effectsOfOperation(spec.effects), arguments);
 }
 
 void UnitCompiler::functionEffects(const FunctionSpec& spec, NodeId arguments) {

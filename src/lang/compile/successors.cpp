@@ -165,7 +165,7 @@ bool UnitCompiler::inPlace(NodeId node, const OpSpec& spec, NodeId arguments) {
 void UnitCompiler::operation(NodeId node, const OpSpec& spec, NodeId arguments) {
   if (std::string_view(spec.name) == "set" && setStatement(arguments)) return;
   if (inPlace(node, spec, arguments)) return;
-  uses_.effects |= effectsOf(spec.effects, arguments);
+  operationEffects(spec, arguments);
   const Span span = t_.span(node);
   const BuiltinArguments given = builtinArguments(node, spec.signatures, arguments);
   const bool hasBlock = t_.children(node).size() > 1;

@@ -131,6 +131,7 @@ class UnitCompiler {
   void behindFigure(NodeId sequence, const AttributeSpec& choice, uint32_t& ordinals);
   void figureChoice(NodeId choiceNode, const AttributeSpec& choice, uint32_t& ordinals);
   uint32_t effectsOf(uint32_t effects, NodeId arguments) const;
+  void operationEffects(const OpSpec& spec, NodeId arguments);
   void functionEffects(const FunctionSpec& spec, NodeId arguments);
   size_t pushArguments(NodeId arguments);
 

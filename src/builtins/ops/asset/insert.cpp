@@ -6,6 +6,7 @@
 #include "builtins/lists.h"
 #include "builtins/ops/shared/insert.h"
 #include "builtins/shared/materials.h"
+#include "program/tag_effects.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -117,7 +118,7 @@ constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"i", "asset", "Replaces the geometry by a model from a file, fitted to the scope.",
-     kSignatures, typed<applyI>, BlockKind::None, kUsesTrim},
+     kSignatures, typed<applyI>, BlockKind::None, kUsesTrim | kIgnoresTags},
 };
 
 }  // namespace

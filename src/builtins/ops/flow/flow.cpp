@@ -5,6 +5,7 @@
 
 #include "builtins/lists.h"
 #include "builtins/shared/text_forms.h"
+#include "program/tag_effects.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -66,13 +67,14 @@ constexpr ParamSpec kReportString[] = {
 constexpr Signature kReportSignatures[] = {{kReportFloat}, {kReportBool}, {kReportString}};
 
 constexpr OpSpec kSpecs[] = {
-    {"NIL", "flow", "Deletes the shape: nothing comes of it.", kNilSignatures, applyNil},
+    {"NIL", "flow", "Deletes the shape: nothing comes of it.", kNilSignatures, applyNil,
+     BlockKind::None, kIgnoresTags},
     {"label", "flow", "Leaves a named copy of the shape for context queries.", kLabelSignatures,
      typed<applyLabel>, BlockKind::None, kReadsPath},
     {"print", "flow", "Writes a value to the console.", kPrintSignatures, typed<applyPrint>,
-     BlockKind::None, kReports},
+     BlockKind::None, kReports | kIgnoresTags},
     {"report", "flow", "Adds a value to a collection of statistics.", kReportSignatures,
-     typed<applyReport>, BlockKind::None, kReports},
+     typed<applyReport>, BlockKind::None, kReports | kIgnoresTags},
 };
 
 }  // namespace

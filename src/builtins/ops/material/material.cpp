@@ -6,6 +6,7 @@
 #include "builtins/lists.h"
 #include "builtins/shared/materials.h"
 #include "builtins/shared/text_forms.h"
+#include "program/tag_effects.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -133,14 +134,15 @@ constexpr Signature kResetSignatures[] = {{kResetParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"color", "material", "Sets the colour of the shape's material, and its opacity if given.",
-     kColorSignatures, typed<applyColor>, BlockKind::None, kTakesDeformed},
+     kColorSignatures, typed<applyColor>, BlockKind::None, kTakesDeformed | kIgnoresTags},
     {"texture", "material",
      "Sets the colour map, and the opacity map too when the image has an alpha channel.",
-     kTextureSignatures, typed<applyTexture>, BlockKind::None, kTakesDeformed},
+     kTextureSignatures, typed<applyTexture>, BlockKind::None, kTakesDeformed | kIgnoresTags},
     {"setMaterial", "material", "Sets many attributes of the material at once.",
-     kSetMaterialSignatures, typed<applySetMaterial>, BlockKind::None, kTakesDeformed},
+     kSetMaterialSignatures, typed<applySetMaterial>, BlockKind::None,
+     kTakesDeformed | kIgnoresTags},
     {"resetMaterial", "material", "Takes changes of the material back.", kResetSignatures,
-     typed<applyResetMaterial>, BlockKind::None, kTakesDeformed},
+     typed<applyResetMaterial>, BlockKind::None, kTakesDeformed | kIgnoresTags},
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "builtins/catalogue.h"
 #include "builtins/lists.h"
+#include "program/tag_effects.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -47,7 +48,8 @@ constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"set", "material", "Gives an attribute of the shape a new value, for it and all that follows.",
-     kSignatures, typed<applySet>, BlockKind::None, kReadsWorld | kReadsInitialShape | kReadsPivot},
+     kSignatures, typed<applySet>, BlockKind::None,
+     kReadsWorld | kReadsInitialShape | kReadsPivot | kIgnoresTags},
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "builtins/ops/shared/insert.h"
 #include "builtins/ops/shared/trim.h"
 #include "geom/primitive/solids.h"
+#include "program/tag_effects.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -206,18 +207,18 @@ constexpr Signature kRoundSignatures[] = {{kRoundParams}, {kRoundSizedParams}};
 
 constexpr OpSpec kSpecs[] = {
     {"primitiveQuad", "primitive", "Replaces the geometry by a rectangle.", kQuadSignatures,
-     typed<applyQuad>, BlockKind::None, kUsesTrim},
+     typed<applyQuad>, BlockKind::None, kUsesTrim | kIgnoresTags},
     {"primitiveDisk", "primitive", "Replaces the geometry by a disk.", kDiskSignatures,
-     typed<applyDisk>, BlockKind::None, kUsesTrim},
+     typed<applyDisk>, BlockKind::None, kUsesTrim | kIgnoresTags},
     withLight({"primitiveCube", "primitive", "Replaces the geometry by a box.", kCubeSignatures,
-               typed<applyCube>, BlockKind::None, kUsesTrim},
+               typed<applyCube>, BlockKind::None, kUsesTrim | kIgnoresTags},
               typedLight<applyCubeLight>),
     {"primitiveSphere", "primitive", "Replaces the geometry by a sphere.", kSphereSignatures,
-     typed<applySphere>, BlockKind::None, kUsesTrim},
+     typed<applySphere>, BlockKind::None, kUsesTrim | kIgnoresTags},
     {"primitiveCylinder", "primitive", "Replaces the geometry by an upright cylinder.",
-     kRoundSignatures, typed<applyCylinder>, BlockKind::None, kUsesTrim},
+     kRoundSignatures, typed<applyCylinder>, BlockKind::None, kUsesTrim | kIgnoresTags},
     {"primitiveCone", "primitive", "Replaces the geometry by an upright cone.", kRoundSignatures,
-     typed<applyCone>, BlockKind::None, kUsesTrim},
+     typed<applyCone>, BlockKind::None, kUsesTrim | kIgnoresTags},
 };
 
 }  // namespace

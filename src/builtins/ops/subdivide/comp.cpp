@@ -11,6 +11,7 @@
 #include "builtins/ops/subdivide/shared/components.h"
 #include "builtins/ops/subdivide/shared/parts.h"
 #include "builtins/selection.h"
+#include "program/tag_effects.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -382,7 +383,7 @@ constexpr Signature kSignatures[] = {{kParams}};
 constexpr OpSpec kSpecs[] = {
     {"comp", "subdivide", "Divides the shape into faces, edges, vertices or other components.",
      kSignatures, typed<applyComp>, BlockKind::Selectors,
-     kReadsWorld | kReadsWorldByWord | kReadsPivotAxes | kLeavesOccluder},
+     kReadsWorld | kReadsWorldByWord | kReadsPivotAxes | kLeavesOccluder | kIgnoresTags},
 };
 
 }  // namespace

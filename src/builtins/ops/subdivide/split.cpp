@@ -14,6 +14,7 @@
 #include "builtins/ops/subdivide/shared/split_sizes.h"
 #include "geom/mesh/clip.h"
 #include "geom/mesh/uv.h"
+#include "program/tag_effects.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -158,7 +159,7 @@ constexpr Signature kSignatures[] = {{kScopeParams}, {kDirectionParams}, {kUvPar
 
 constexpr OpSpec kSpecs[] = {
     {"split", "subdivide", "Divides the shape into parts along a direction.", kSignatures,
-     typed<applySplit>, BlockKind::Split},
+     typed<applySplit>, BlockKind::Split, kIgnoresTags},
 };
 
 }  // namespace

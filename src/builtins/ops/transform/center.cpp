@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The Gable authors
 
 #include "builtins/lists.h"
+#include "program/tag_effects.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -36,7 +37,7 @@ constexpr OpSpec kSpecs[] = {
     {"center", "transform",
      "Moves the scope to the middle of the scope below on the shape stack, the one that the rule "
      "or bracket began with.",
-     kSignatures, typed<applyCenter>, BlockKind::None, kReadsPrevious},
+     kSignatures, typed<applyCenter>, BlockKind::None, kReadsPrevious | kIgnoresTags},
 };
 
 }  // namespace

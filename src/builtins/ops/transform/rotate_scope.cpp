@@ -7,6 +7,7 @@
 #include "builtins/lists.h"
 #include "builtins/ops/shared/frames.h"
 #include "builtins/ops/shared/quarter_turn.h"
+#include "program/tag_effects.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -121,11 +122,11 @@ constexpr OpSpec kSpecs[] = {
     {"r", "transform",
      "Turns the scope and its geometry about the axes of the pivot, around the scope's origin or "
      "centre.",
-     kRSignatures, typed<applyR>, BlockKind::None, kReadsPivotAxes},
+     kRSignatures, typed<applyR>, BlockKind::None, kReadsPivotAxes | kIgnoresTags},
     {"rotate", "transform",
      "Turns the scope around its origin, by angles in a coordinate system of choice.",
      kRotateSignatures, typed<applyRotate>, BlockKind::None,
-     kReadsWorld | kReadsWorldByWord | kReadsPivotAxes},
+     kReadsWorld | kReadsWorldByWord | kReadsPivotAxes | kIgnoresTags},
     {"rotateScope", "transform",
      "Turns the scope alone about the axes of the pivot and fits it around the geometry again.",
      kRotateScopeSignatures, typed<applyRotateScope>, BlockKind::None,

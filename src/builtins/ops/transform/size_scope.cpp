@@ -7,6 +7,7 @@
 
 #include "builtins/lists.h"
 #include "builtins/ops/shared/frames.h"
+#include "program/tag_effects.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -40,7 +41,7 @@ constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     withLight({"s", "transform", "Sets the size of the scope; the geometry is scaled with it.",
-               kSignatures, typed<applyS>},
+               kSignatures, typed<applyS>, BlockKind::None, kIgnoresTags},
               typedLight<applySLight>),
 };
 

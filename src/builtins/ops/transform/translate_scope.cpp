@@ -3,6 +3,7 @@
 
 #include "builtins/lists.h"
 #include "builtins/ops/shared/frames.h"
+#include "program/tag_effects.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -62,13 +63,13 @@ constexpr ParamSpec kTranslateParams[] = {
 constexpr Signature kTranslateSignatures[] = {{kTranslateParams}};
 
 constexpr OpSpec kSpecs[] = {
-    withLight(
-        {"t", "transform", "Moves the scope along its own axes.", kTSignatures, typed<applyT>},
-        typedLight<applyTLight>),
+    withLight({"t", "transform", "Moves the scope along its own axes.", kTSignatures, typed<applyT>,
+               BlockKind::None, kIgnoresTags},
+              typedLight<applyTLight>),
     {"translate", "transform",
      "Moves the scope by a vector, or to a place, in a coordinate system of choice.",
      kTranslateSignatures, typed<applyTranslate>, BlockKind::None,
-     kReadsWorld | kReadsWorldByWord | kReadsPivot},
+     kReadsWorld | kReadsWorldByWord | kReadsPivot | kIgnoresTags},
 };
 
 }  // namespace

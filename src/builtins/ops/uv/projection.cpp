@@ -11,6 +11,7 @@
 #include "builtins/lists.h"
 #include "builtins/ops/shared/edit_mesh.h"
 #include "builtins/ops/shared/frames.h"
+#include "program/tag_effects.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -170,11 +171,12 @@ constexpr Signature kProjectSignatures[] = {{kProjectParams}};
 constexpr OpSpec kSpecs[] = {
     {"setupProjection", "uv",
      "Prepares a planar projection of a texture, which this shape and its parts keep.",
-     kSetupSignatures, typed<applySetup>, BlockKind::None, kReadsWorld | kReadsWorldByWord},
+     kSetupSignatures, typed<applySetup>, BlockKind::None,
+     kReadsWorld | kReadsWorldByWord | kIgnoresTags},
     {"setupUV", "uv", "Old name of setupProjection.", kSetupSignatures, typed<applySetup>,
-     BlockKind::None, kReadsWorld | kReadsWorldByWord, kNoParts, false, true},
+     BlockKind::None, kReadsWorld | kReadsWorldByWord | kIgnoresTags, kNoParts, false, true},
     {"projectUV", "uv", "Writes texture coordinates from the prepared projection.",
-     kProjectSignatures, typed<applyProject>, BlockKind::None, kReadsUvProjection},
+     kProjectSignatures, typed<applyProject>, BlockKind::None, kReadsUvProjection | kIgnoresTags},
 };
 
 }  // namespace
