@@ -20,11 +20,11 @@ constexpr uint32_t effectsOfOperation(uint32_t effects) {
   return (effects & kIgnoresTags) != 0 ? effects : effects | kReadsTags;
 }
 
-constexpr uint32_t effectsOfFunction(uint32_t effects) {
-  return (effects & kReadsTags) != 0 ? effects : effects | kIgnoresTags;
-}
-
 /// Of a rule and all that it reaches: whether it may see that tags differ.
 constexpr bool seesTags(uint32_t effects) { return (effects & (kReadsTags | kReadsRegion)) != 0; }
+
+constexpr uint32_t effectsOfFunction(uint32_t effects) {
+  return seesTags(effects) ? effects : effects | kIgnoresTags;
+}
 
 }  // namespace gable

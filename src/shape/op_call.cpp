@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "base/work.h"
-#include "program/tag_effects.h"
 #include "program/program.h"
+#include "program/tag_effects.h"
 #include "shape/audit.h"
 
 namespace gable {
