@@ -259,9 +259,8 @@ void addFaceTrimPlanes(Shape& s, const Shape& parent, const Mesh& mesh, const Co
   forgetFarTrimPlanes(s);
 }
 
-void emitComponents(const Context& context, const Mesh& mesh, const Components& all,
-                    ComponentKind kind, const std::vector<uint32_t>& which, Shape child,
-                    uint32_t slot, bool each) {
+void emitComponents(const Context& context, const Mesh& mesh, Components& all, ComponentKind kind,
+                    const std::vector<uint32_t>& which, Shape child, uint32_t slot, bool each) {
   OpCall& call = context.call;
   const Shape& parent = call.shape();
   const Component& first = all.list()[which[0]];
@@ -295,7 +294,7 @@ bool isDegenerate(const Component& c, ComponentKind kind) {
 void splitMesh(const Context& context, ComponentKind kind) {
   OpCall& call = context.call;
   const MeshRef mesh = meshInScope(call.shape());
-  const Components all(*mesh, kind);
+  Components all(*mesh, kind);
   const Directions directions(call.services(), call.shape());
   std::vector<bool> taken(all.list().size(), false);
   call.countComponents(all.list().size());

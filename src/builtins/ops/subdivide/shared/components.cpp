@@ -256,9 +256,16 @@ namespace {
 // Copies parts of a mesh with all that belongs to them.
 class Extractor {
  public:
-  explicit Extractor(const Mesh& from) : from_(from) {}
+  // `map` has no position, and has none again when the mesh was taken: a map of its own for each
+  // component of a large mesh would take quadratic time.
+  Extractor(const Mesh& from, std::vector<uint32_t>& map) : from_(from), map_(map) {
+    map_.resize(from_.positions.size(), MeshBuilder::kNoPosition);
+  }
 
-  void face(size_t f) { builder_.copyFace(from_, f, map_); }
+  void face(size_t f) {
+    builder_.copyFace(from_, f, map_);
+    faces_.push_back(f);
+  }
   void hole(const MeshLoop& loop) {
     builder_.beginFace();
     builder_.beginLoop();
@@ -280,13 +287,25 @@ class Extractor {
     builder_.beginLoop();
     builder_.setNormal(corner(c.corner, c.from, 0), c.z);
   }
-  Mesh take() { return builder_.take(); }
+  Mesh take() {
+    for (const size_t f : faces_) {
+      for (const MeshLoop& loop : from_.loopsOf(f)) {
+        for (uint32_t i = 0; i < loop.cornerCount; ++i) forget(from_.corners[loop.firstCorner + i]);
+      }
+    }
+    for (const uint32_t position : positions_) forget(position);
+    return builder_.take();
+  }
 
  private:
+  void forget(uint32_t position) { map_[position] = MeshBuilder::kNoPosition; }
+
   uint32_t corner(uint32_t like, uint32_t position, uint32_t tags) {
-    map_.resize(from_.positions.size(), MeshBuilder::kNoPosition);
     uint32_t& to = map_[position];
-    if (to == MeshBuilder::kNoPosition) to = builder_.addPosition(from_.positions[position]);
+    if (to == MeshBuilder::kNoPosition) {
+      to = builder_.addPosition(from_.positions[position]);
+      positions_.push_back(position);
+    }
     const uint32_t made = builder_.addCorner(to, tags);
     for (int set = 0; set < kUvSets; ++set) {
       if (from_.hasUv(set)) builder_.setUv(made, set, from_.uvs[static_cast<size_t>(set)][like]);
@@ -296,13 +315,15 @@ class Extractor {
 
   const Mesh& from_;
   MeshBuilder builder_;
-  std::vector<uint32_t> map_;
+  std::vector<uint32_t>& map_;
+  std::vector<size_t> faces_;
+  std::vector<uint32_t> positions_;
 };
 
 }  // namespace
 
-Mesh Components::meshOf(const std::vector<uint32_t>& which) const {
-  Extractor out(mesh_);
+Mesh Components::meshOf(const std::vector<uint32_t>& which) {
+  Extractor out(mesh_, positionMap_);
   for (const uint32_t i : which) {
     const Component& c = list_[i];
     switch (kind_) {

@@ -45,8 +45,8 @@ class Components : public TagSource {
   const std::vector<Component>& list() const { return list_; }
   const MeshEdges& edges() const { return *edges_; }
 
-  /// The geometry of some components (by number) in scope coordinates.
-  Mesh meshOf(const std::vector<uint32_t>& which) const;
+  /// The geometry of some components (by number) in scope coordinates. Takes time by what it makes.
+  Mesh meshOf(const std::vector<uint32_t>& which);
   /// The components as connected sets, in the order of their first members.
   std::vector<std::vector<uint32_t>> connected(const std::vector<uint32_t>& which) const;
 
@@ -75,6 +75,8 @@ class Components : public TagSource {
   std::vector<Component> list_;
   /// Of components by material: the faces, those of one slot together.
   std::vector<uint32_t> bySlot_;
+  /// Where meshOf puts positions; empty of them between its calls.
+  std::vector<uint32_t> positionMap_;
 };
 
 }  // namespace gable
