@@ -181,16 +181,16 @@ TEST(ObjShapes, objectsOrGroupsAreShapes) {
 
 TEST(ObjShapes, footprintsThatFaceTheGroundAreTurned) {
   const std::string vertices = "v 0 0 0\nv 4 0 0\nv 4 0 3\nv 0 0 3\nv 0 2 0\n";
-  const Result<ShapeFile> down = readObjShapes(vertices + "f 1 2 3 4\n", "lot.obj");
+  Result<ShapeFile> down = readObjShapes(vertices + "f 1 2 3 4\n", "lot.obj");
   ASSERT_TRUE(down.ok());
   EXPECT_NEAR(down->shapes[0].mesh.normal(0).y, 1, 1e-12);
   ASSERT_EQ(down->diagnostics.all().size(), 1u);
   EXPECT_EQ(down->diagnostics.all()[0].code, "shape-turned");
-  const Result<ShapeFile> up = readObjShapes(vertices + "f 4 3 2 1\n", "lot.obj");
+  Result<ShapeFile> up = readObjShapes(vertices + "f 4 3 2 1\n", "lot.obj");
   ASSERT_TRUE(up.ok());
   EXPECT_TRUE(up->diagnostics.all().empty());
   // What has other faces is a body, and stays as it is.
-  const Result<ShapeFile> body = readObjShapes(vertices + "f 1 2 3 4\nf 1 5 2\n", "body.obj");
+  Result<ShapeFile> body = readObjShapes(vertices + "f 1 2 3 4\nf 1 5 2\n", "body.obj");
   ASSERT_TRUE(body.ok());
   EXPECT_NEAR(body->shapes[0].mesh.normal(0).y, -1, 1e-12);
 }
