@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "program/value.h"
+
 namespace gable::language {
 
 namespace {
@@ -52,8 +54,10 @@ std::string sample(const ParamSpec& p, int place) {
     case ParamType::StringArray: return "${" + n + ":[\"a\", \"b\"]}";
     default: break;
   }
-  const std::string_view name = p.name;
-  return "${" + n + (name.find("ngle") != std::string_view::npos ? ":30}" : ":1}");
+  const bool isAngle = std::string_view(p.name).find("ngle") != std::string_view::npos;
+  // As few as there may be, of what has a least number.
+  const double value = isAngle ? 30.0 : p.range.holds(1) ? 1.0 : p.range.least;
+  return "${" + n + ":" + numberText(value) + "}";
 }
 
 std::string blockSample(const Callable& c, int place) {
