@@ -33,7 +33,7 @@ Model derivedWith(const Rules& rules, double seed) {
 
 TEST(GbbgWords, assetsThatAreMissingAreFoundByTheCheck) {
   const Rules rules = read(std::string(kBoxes) + "postprocess {\n  A : \"nowhere.glb\"\n}\n");
-  EXPECT_EQ(codes(rules.diagnostics()), "gbbg-missing-asset ");
+  EXPECT_EQ(codes(rules.diagnostics()), "missing-file ");
   EXPECT_EQ(rules.diagnostics()[0].range->line, 5u);
 }
 

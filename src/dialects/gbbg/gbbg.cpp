@@ -119,25 +119,11 @@ class Expander {
   std::set<std::string> used_;
 };
 
-void checkAssets(const DialectInput& input, const gbbg::Vocabulary& vocabulary,
-                 Diagnostics& diagnostics) {
-  if (!input.loader) return;
-  const std::string& from = input.sources.path(input.file);
-  for (const gbbg::SymbolInfo& s : vocabulary.symbols) {
-    if (!s.asset || input.loader->exists(s.asset->path, from)) continue;
-    diagnostics.warning(
-        "gbbg-missing-asset", s.asset->symbol.span,
-        "there is no file '" + s.asset->path + "' for '" + s.name + "'; its boxes stay",
-        "paths count from the assets folder, the project's folder or the grammar's own");
-  }
-}
-
 lang::Tree parseGbbg(const DialectInput& input, Diagnostics& diagnostics) {
   const std::string_view text = input.sources.text(input.file);
   Grammar grammar = gbbg::parse(text, input.file, diagnostics);
   grammar = Expander(input, diagnostics).run(std::move(grammar));
   gbbg::Vocabulary vocabulary = gbbg::checked(grammar, diagnostics);
-  checkAssets(input, vocabulary, diagnostics);
   return gbbg::lower(grammar, vocabulary, input.catalogue, input.file,
                      static_cast<uint32_t>(text.size()));
 }
