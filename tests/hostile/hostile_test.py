@@ -183,7 +183,7 @@ class Derivations(Case):
 
     def testSplitsByNothingAreReported(self):
         for sizes, code in (("0 : B.", "split-endless"), ("0 : B. | 0 : C.", "split-endless"),
-                            ("-1 : B.", "split-endless"), ("{ 0 : B. }* | 1 : C.", "split-endless"),
+                            ("0-1 : B.", "split-endless"), ("{ 0 : B. }* | 1 : C.", "split-endless"),
                             ("0/0 : B.", "split-size-number"), ("~(0/0) : B.", "split-size-number"),
                             ("1/0 : B.", "split-size-number"), ("'(-1/0) : B.", "split-size-number"),
                             ("1e-300 : B.", "split-too-many"), ("0.00002 : B.", "split-too-many")):
@@ -191,7 +191,8 @@ class Derivations(Case):
                 uv = "setupProjection(0, scope.xz, 1, 1) projectUV(0) " if axis == "u" else ""
                 unit = ", unitSpace, 0" if axis == "u" else ""
                 self.generate(f"A --> {uv}split({axis}{unit}) {{ {sizes} }}*", codes=[code])
-        self.generate("A --> split(x) { -5 : B. | 3 : C. | -1 : D. | 1e300 : E. }")
+        self.generate("A --> split(x) { 0-5 : B. | 3 : C. | 0-1 : D. | 1e300 : E. }")
+        self.generate("A --> split(x) { -1 : B. }", status=1, codes=["bad-argument"])
         self.generate("A --> split(y) { 1 : B. }", codes=["split-flat"])
 
     def testAMillionPiecesAreMade(self):
