@@ -46,8 +46,8 @@ void Analysis::checkWrittenSizes(NodeId block, const OpSpec& op) {
       const NodeId size = tree().child(item, 0);
       const Value v = writtenValue(size);
       if (v.type != ValueType::Float || !(v.number < 0)) continue;
-      errorAt("bad-argument", size,
-              "a size of " + quote(op.name) + " cannot be " + shortestText(v.number),
+      warning("bad-argument", tree().span(size),
+              "a size of " + quote(op.name) + " below 0 makes no part: " + shortestText(v.number),
               "write 0 or more, or leave the part out");
     }
   }

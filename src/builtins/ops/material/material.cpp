@@ -97,20 +97,17 @@ Status applyResetMaterial(OpCall& call, const ResetMaterial& args) {
 constexpr ParamSpec kHexParams[] = {
     param<&Color::hex>("hexValue", "\"#rrggbb\", or \"#rrggbboo\" with opacity.").of(kColourText),
 };
-// Many programs count colours to 255.
+// Values beyond 0 and 1 are taken as these, as rules of CityEngine expect. Many programs count
+// colours to 255.
 constexpr ParamSpec kRed =
-    param<&Color::red>("red", "Red. Of 255 parts, divide by 255, or write \"#rrggbb\".")
-        .between(0, 1);
-constexpr ParamSpec kGreen =
-    param<&Color::green>("green", "Green. Of 255 parts, divide by 255, or write \"#rrggbb\".")
-        .between(0, 1);
+    param<&Color::red>("red", "Red, 0 to 1. Of 255 parts, divide by 255, or write \"#rrggbb\".");
+constexpr ParamSpec kGreen = param<&Color::green>(
+    "green", "Green, 0 to 1. Of 255 parts, divide by 255, or write \"#rrggbb\".");
 constexpr ParamSpec kBlue =
-    param<&Color::blue>("blue", "Blue. Of 255 parts, divide by 255, or write \"#rrggbb\".")
-        .between(0, 1);
+    param<&Color::blue>("blue", "Blue, 0 to 1. Of 255 parts, divide by 255, or write \"#rrggbb\".");
 constexpr ParamSpec kRgbParams[] = {kRed, kGreen, kBlue};
 constexpr ParamSpec kRgboParams[] = {
-    kRed, kGreen, kBlue,
-    param<&Color::opacity>("opacity", "From 0, invisible, to 1, opaque.").between(0, 1)};
+    kRed, kGreen, kBlue, param<&Color::opacity>("opacity", "From 0, invisible, to 1, opaque.")};
 constexpr Signature kColorSignatures[] = {{kHexParams}, {kRgbParams}, {kRgboParams}};
 
 constexpr ParamSpec kTextureParams[] = {
