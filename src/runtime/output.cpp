@@ -3,6 +3,8 @@
 
 #include "runtime/output.h"
 
+#include <algorithm>
+
 #include "base/hash.h"
 
 namespace gable {
@@ -56,6 +58,19 @@ void Output::drop() {
 
 namespace {
 
+// Before anything is moved: where memory is refused, all stays as it was.
+template <class T>
+void makeRoom(std::vector<T>& to, size_t more) {
+  if (to.capacity() - to.size() < more) {
+    to.reserve(std::max(2 * to.capacity(), to.size() + more));
+  }
+}
+
+template <class T>
+void makeRoomForTail(const std::vector<T>& from, uint32_t begin, std::vector<T>& to) {
+  if (begin != 0 || !to.empty()) makeRoom(to, from.size() - begin);
+}
+
 template <class T>
 uint32_t moveTail(std::vector<T>& from, uint32_t begin, std::vector<T>& to, uint32_t& count) {
   const auto first = static_cast<uint32_t>(to.size());
@@ -73,6 +88,10 @@ uint32_t moveTail(std::vector<T>& from, uint32_t begin, std::vector<T>& to, uint
 }  // namespace
 
 uint32_t Output::close(const Mark& from, StringId name, uint64_t shapes, const ShareKey& key) {
+  makeRoomForTail(openLeaves, from.leaves, leaves);
+  makeRoomForTail(openInstances, from.instances, instances);
+  makeRoomForTail(openEvents, from.events, events);
+  makeRoom(prototypes, 1);
   OutputPrototype p;
   p.range.name = name;
   p.range.shapes = shapes;

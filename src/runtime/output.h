@@ -65,7 +65,8 @@ struct Output {
   Mark mark() const;
   /// Forgets all, with the numbering of meshes and materials. Keeps its memory.
   void drop();
-  /// Moves what lies open beyond the marks into a finished prototype and gives its number.
+  /// Moves what lies open beyond the marks into a finished prototype and gives its number. Where
+  /// memory is refused (std::bad_alloc), all stays as it was.
   uint32_t close(const Mark& from, StringId name, uint64_t shapes, const ShareKey& key);
 
  private:

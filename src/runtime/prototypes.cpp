@@ -29,11 +29,12 @@ void Prototypes::begin(const ShareKey& key, StringId name, const Frame& frame,
 
 void Prototypes::end(uint64_t shapesNow, bool whole) {
   const Open open = open_.back();
-  open_.pop_back();
+  // Where memory is refused it stays open, and its unit ends it.
   const uint32_t number = output_.close(open.mark, open.name, shapesNow - open.shapesBefore,
                                         whole ? open.key : ShareKey{});
-  if (whole) numbers_.emplace(open.key, number);
+  open_.pop_back();
   place(number, open.frame);
+  if (whole) numbers_.emplace(open.key, number);
 }
 
 void Prototypes::place(uint32_t prototype, const Frame& frame) {
