@@ -33,9 +33,10 @@ double tileSize(const Size& v, double extent) {
 
 struct Setup {
   double uvSet;
-  Word axes;
+  Word axes{"scope.xy"};
   FloatingSize width, height;
-  double offsetU = 0, offsetV = 0, uwFactor = 0;
+  Size offsetU, offsetV;
+  double uwFactor = 0;
 };
 
 Status applySetup(OpCall& call, const Setup& args) {
@@ -53,8 +54,9 @@ Status applySetup(OpCall& call, const Setup& args) {
   const Frame system = axes.starts_with("world") ? worldFrame(call.services()) : s.scope;
   UvProjection p;
   p.set = set;
-  p.width = tileSize(args.width, std::fabs(s.size[indexOf(u)]));
-  p.height = tileSize(args.height, std::fabs(s.size[indexOf(v)]));
+  const double wide = std::fabs(s.size[indexOf(u)]), high = std::fabs(s.size[indexOf(v)]);
+  p.width = tileSize(args.width, wide);
+  p.height = tileSize(args.height, high);
   if (!(std::fabs(p.width) > 0) || !(std::fabs(p.height) > 0) || !std::isfinite(p.width) ||
       !std::isfinite(p.height)) {
     return call.fail("bad-argument", "setupProjection cannot make tiles without a size",
@@ -62,8 +64,8 @@ Status applySetup(OpCall& call, const Setup& args) {
   }
   const Vec3 x = axisOf(system, u), y = axisOf(system, v);
   p.frame = Frame::of(system.origin, x, y, cross(x, y));
-  p.offsetU = args.offsetU / p.width;
-  p.offsetV = args.offsetV / p.height;
+  p.offsetU = args.offsetU.of(wide) / p.width;
+  p.offsetV = args.offsetV.of(high) / p.height;
   p.uwFactor = args.uwFactor;
   ShapeExtra extra = extraOf(s);
   extra.setProjection(p);
@@ -152,8 +154,9 @@ constexpr ParamSpec kWidth = param<&Setup::width>(
     "Width of a tile in metres; with ' as a share of the scope, with ~ about that wide so that "
     "whole tiles fit; negative ones mirror.");
 constexpr ParamSpec kHeight = param<&Setup::height>("textureHeight", "Height of a tile, likewise.");
-constexpr ParamSpec kOffsetU = param<&Setup::offsetU>("widthOffset", "Shift along u, in metres.");
-constexpr ParamSpec kOffsetV = param<&Setup::offsetV>("heightOffset", "Shift along v, in metres.");
+constexpr ParamSpec kOffsetU = param<&Setup::offsetU>(
+    "widthOffset", "Shift along u, in metres; with ' as a share of the scope.");
+constexpr ParamSpec kOffsetV = param<&Setup::offsetV>("heightOffset", "Shift along v, likewise.");
 constexpr ParamSpec kFactor = param<&Setup::uwFactor>(
     "uwFactor", "How much depth counts as u, to bend textures around corners.");
 constexpr ParamSpec kPlainParams[] = {kSet, kAxes, kWidth, kHeight};
@@ -163,6 +166,12 @@ constexpr ParamSpec kOffsetParams[] = {kSet, kAxes, kWidth, kHeight, kOffsetU, k
 constexpr ParamSpec kFactorParams[] = {kSet, kAxes, kWidth, kHeight, kOffsetU, kOffsetV, kFactor};
 constexpr Signature kSetupSignatures[] = {
     {kPlainParams}, {kOldFactorParams}, {kOffsetParams}, {kFactorParams}};
+// setupUV had no choice of axes at first.
+constexpr ParamSpec kNoAxesParams[] = {kSet, kWidth, kHeight};
+constexpr ParamSpec kNoAxesFactorParams[] = {kSet, kWidth, kHeight, kFactor};
+constexpr Signature kOldSetupSignatures[] = {{kPlainParams},  {kOldFactorParams},
+                                             {kOffsetParams}, {kFactorParams},
+                                             {kNoAxesParams}, {kNoAxesFactorParams}};
 
 constexpr ParamSpec kProjectParams[] = {
     param<&Project::uvSet>("uvSet", kSetDoc).between(0, kUvSets - 1)};
@@ -173,7 +182,7 @@ constexpr OpSpec kSpecs[] = {
      "Prepares a planar projection of a texture, which this shape and its parts keep.",
      kSetupSignatures, typed<applySetup>, BlockKind::None,
      kReadsWorld | kReadsWorldByWord | kIgnoresTags},
-    {"setupUV", "uv", "Old name of setupProjection.", kSetupSignatures, typed<applySetup>,
+    {"setupUV", "uv", "Old name of setupProjection.", kOldSetupSignatures, typed<applySetup>,
      BlockKind::None, kReadsWorld | kReadsWorldByWord | kIgnoresTags, kNoParts, false, true},
     {"projectUV", "uv", "Writes texture coordinates from the prepared projection.",
      kProjectSignatures, typed<applyProject>, BlockKind::None, kReadsUvProjection | kIgnoresTags},
