@@ -6,6 +6,7 @@
 
 #include "runtime/leaf_stream.h"
 
+#include <algorithm>
 #include <array>
 
 #include "runtime/machine.h"
@@ -14,30 +15,27 @@ namespace gable {
 
 namespace {
 
-// placed = world * inner, written once: a copy of what was just written would wait for its stores.
-void place(const Frame& world, const Frame& inner, Frame& placed) {
-  if (!world.turned) {
-    placed = inner;
-    placed.origin = world.origin + inner.origin;
-  } else if (!inner.turned) {
-    placed = world;
-    placed.origin = world.point(inner.origin);
-  } else {
-    placed = world * inner;
-  }
-}
-
 // More leaves in prototypes than this and they are forgotten.
 constexpr size_t kMostKept = size_t{1} << 12;
 
+// So many initial shapes are derived one after the other, and then placed: the consumer may write
+// so much for each that little of the machine would be left in the caches for the next.
+constexpr size_t kMostUnits = 64;
+
+// Most leaves below one turned frame have its axes, and so have most that lay in the same place of
+// the batch before: axes are numbered, and written only where other ones lie.
 class Placer {
  public:
   using Take = std::function<void(std::span<const Leaf>)>;
-  Placer(const Output& from, const Take& take) : from_(from), take_(take) {}
+  Placer(const Output& from, const Take& take) : from_(from), take_(take) {
+    axesOf_.fill(kUpright);
+  }
 
   void place(const Prototype& p, const Frame& world) {
     depth_ = 0;
-    open(p).world = world;
+    Level& root = open(p);
+    root.world = world;
+    root.axes = world.turned ? ++lastAxes_ : kUpright;
     while (depth_ > 0) {
       Level& at = levels_[depth_ - 1];
       const Prototype& prototype = *at.prototype;
@@ -45,11 +43,10 @@ class Placer {
       const Instance* const next =
           more ? &from_.instances[prototype.firstInstance + at.instance++] : nullptr;
       const uint32_t end = more ? next->leavesBefore : prototype.leafCount;
-      const Leaf* const leaves = from_.leaves.data() + prototype.firstLeaf;
-      for (; at.leaf < end; ++at.leaf) put(leaves[at.leaf], at.world);
+      put(std::span(from_.leaves).subspan(prototype.firstLeaf + at.leaf, end - at.leaf), at);
+      at.leaf = end;
       if (more) {
-        Level& inner = open(from_.prototypes[next->prototype].range);
-        gable::place(levels_[depth_ - 2].world, next->frame, inner.world);
+        enter(*next);
       } else {
         --depth_;
       }
@@ -58,9 +55,13 @@ class Placer {
   }
 
  private:
+  using AxesNumber = uint64_t;
+  static constexpr AxesNumber kUpright = 0;
+
   struct Level {
     const Prototype* prototype;
     Frame world;
+    AxesNumber axes;
     uint32_t leaf, instance;
   };
 
@@ -71,16 +72,46 @@ class Placer {
     level.leaf = level.instance = 0;
     return level;
   }
-  void put(const Leaf& leaf, const Frame& world) {
-    Leaf& placed = batch_[count_++];
-    gable::place(world, leaf.frame, placed.frame);
+  void enter(const Instance& instance) {
+    Level& level = open(from_.prototypes[instance.prototype].range);
+    const Level& around = levels_[depth_ - 2];
+    level.axes = instance.frame.turned ? ++lastAxes_ : around.axes;
+    // Written once: a copy of what was just written would wait for its stores.
+    if (instance.frame.turned) {
+      level.world = around.world * instance.frame;
+    } else {
+      level.world = around.world;
+      level.world.origin = around.world.point(instance.frame.origin);
+    }
+  }
+  void put(std::span<const Leaf> leaves, const Level& level) {
+    while (!leaves.empty()) {
+      const size_t count = std::min(leaves.size(), batch_.size() - count_);
+      Leaf* placed = batch_.data() + count_;
+      AxesNumber* axes = axesOf_.data() + count_;
+      for (const Leaf& leaf : leaves.first(count)) placeLeaf(leaf, level, *placed++, *axes++);
+      leaves = leaves.subspan(count);
+      count_ += count;
+      if (count_ == batch_.size()) pass();
+    }
+  }
+  void placeLeaf(const Leaf& leaf, const Level& level, Leaf& placed, AxesNumber& axes) {
+    if (leaf.frame.turned) {
+      axes = ++lastAxes_;
+      placed.frame = level.world * leaf.frame;
+    } else {
+      if (axes != level.axes) {
+        axes = level.axes;
+        placed.frame = level.world;
+      }
+      placed.frame.origin = level.world.point(leaf.frame.origin);
+    }
     placed.scale = leaf.scale;
     placed.mesh = leaf.mesh;
     placed.materials = leaf.materials;
     placed.name = leaf.name;
     placed.source = leaf.source;
     placed.attributes = leaf.attributes;
-    if (count_ == batch_.size()) pass();
   }
   void pass() {
     if (count_ > 0) take_({batch_.data(), count_});
@@ -93,6 +124,9 @@ class Placer {
   std::vector<Level> levels_;
   size_t depth_ = 0;
   std::array<Leaf, 64> batch_;
+  /// Of the leaves of the batch.
+  std::array<AxesNumber, 64> axesOf_;
+  AxesNumber lastAxes_ = kUpright;
   size_t count_ = 0;
 };
 
@@ -130,11 +164,17 @@ void LeafStream::run(const std::vector<InitialShape>& shapes,
   Output& output = machine.output();
   Placer placer(output, take);
   machine.forget();
+  std::vector<OutputUnit> units;
   for (uint32_t i = 0; i < shapes.size(); ++i) {
+    units.push_back(machine.run(shapes[i], i));
+    const bool enough = units.size() == kMostUnits || output.leaves.size() > kMostKept;
+    if (!enough && i + 1 < shapes.size()) continue;
+    for (OutputUnit& unit : units) {
+      placer.place(output.prototypes[unit.prototype].range, unit.frame);
+      impl_->messages.append(std::move(unit.messages));
+    }
+    units.clear();
     if (output.leaves.size() > kMostKept) machine.forget();
-    OutputUnit unit = machine.run(shapes[i], i);
-    placer.place(output.prototypes[unit.prototype].range, unit.frame);
-    impl_->messages.append(std::move(unit.messages));
   }
 }
 
