@@ -2,6 +2,10 @@
 // SPDX-FileCopyrightText: The Gable authors
 
 #include <algorithm>
+#include <array>
+#include <mutex>
+#include <optional>
+#include <string>
 
 #include "base/hash.h"
 #include "base/interned.h"
@@ -37,12 +41,44 @@ struct TagTable::Set {
   bool operator==(const Set&) const = default;
 };
 
+namespace {
+
+// What with() gave of late: operations put the same few names on face after face.
+class KnownUnions {
+ public:
+  std::optional<TagSetId> find(TagSetId set, std::string_view name, uint64_t hash) {
+    const std::lock_guard lock(mutex_);
+    const Entry& e = entries_[hash % entries_.size()];
+    if (e.name.empty() || e.set != set || e.name != name) return {};
+    return e.result;
+  }
+  void keep(TagSetId set, std::string_view name, uint64_t hash, TagSetId result) {
+    std::string copy(name);
+    const std::lock_guard lock(mutex_);
+    Entry& e = entries_[hash % entries_.size()];
+    e.name.swap(copy);
+    e.set = set;
+    e.result = result;
+  }
+
+ private:
+  struct Entry {
+    TagSetId set = 0, result = 0;
+    std::string name;
+  };
+  std::mutex mutex_;
+  std::array<Entry, 64> entries_;
+};
+
+}  // namespace
+
 struct TagTable::Impl {
   ValuePool& pool;
   Interned<Set> sets;
+  KnownUnions unions;
 };
 
-TagTable::TagTable(ValuePool& pool) : impl_(new Impl{pool, {}}) { intern(Set{}); }
+TagTable::TagTable(ValuePool& pool) : impl_(new Impl{pool, {}, {}}) { intern(Set{}); }
 TagTable::~TagTable() = default;
 
 const std::vector<StringId>& TagTable::names(TagSetId set) const {
@@ -70,9 +106,13 @@ TagSetId TagTable::of(std::string_view name) {
 }
 
 TagSetId TagTable::with(TagSetId set, std::string_view name) {
+  const uint64_t hash = hashBytes(name, set);
+  if (const auto known = impl_->unions.find(set, name, hash)) return *known;
   std::vector<StringId> all = names(set);
   all.push_back(impl_->pool.intern(name));
-  return withNames(set, std::move(all));
+  const TagSetId result = withNames(set, std::move(all));
+  impl_->unions.keep(set, name, hash, result);
+  return result;
 }
 
 TagSetId TagTable::withNames(TagSetId set, std::vector<StringId> names) {
