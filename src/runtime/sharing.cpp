@@ -37,6 +37,12 @@ double localDistance(const TrimPlane& plane, const Frame& outer) {
   return onGrid(plane.distance - dot(plane.normal, outer.origin), kPlaceGrid);
 }
 
+// Exactly, by components of 0: a place that moves along one direction keeps its distance, to the
+// bit, from planes of the other.
+bool isSquare(const Vec3& a, const Vec3& b) {
+  return (a.x == 0 || b.x == 0) && (a.y == 0 || b.y == 0) && (a.z == 0 || b.z == 0);
+}
+
 ShapeExtra localExtra(const ShapeExtra& extra, const Frame& outer) {
   ShapeExtra out = extra;
   for (TrimPlane& t : out.trim) {
@@ -86,7 +92,9 @@ bool areAlike(const Shape& parent, uint32_t effects, const PartPlan& plan, const
   ofB.origin = originOfPart(parent, plan, b);
   Vec3 size = parent.size;
   size[axis] = plan.flat ? 0 : std::copysign(a.size, size[axis]);
+  const Vec3& along = directionOf(parent.scope, plan.axis);
   return std::ranges::all_of(parent.extra->trim, [&](const TrimPlane& t) {
+    if (isSquare(t.normal, along)) return true;
     const bool far = isFarFrom(t, ofA, size);
     return far == isFarFrom(t, ofB, size) &&
            (far || localDistance(t, ofA) == localDistance(t, ofB));
