@@ -123,6 +123,15 @@ class Divider {
     double fewest = 0;
   };
   Plan planOf(Range r, double length);
+  // The same, made once for repetitions of one length.
+  const Plan& planAsBefore(Range r, double length) {
+    if (r.begin != planned_.begin || r.end != planned_.end || length != plannedLength_) {
+      plan_ = planOf(r, length);
+      planned_ = r;
+      plannedLength_ = length;
+    }
+    return plan_;
+  }
 
   std::span<const SplitItem> items_;
   double whole_;
@@ -130,6 +139,10 @@ class Divider {
   SplitPieces& out_;
   uint32_t steps_ = 0;
   Status status_;
+  // What was planned last; no range is empty at the end of none.
+  Plan plan_;
+  Range planned_{1, 0};
+  double plannedLength_ = 0;
 };
 
 // The badness of a stretch: 1 is best, and halving is as bad as doubling.
@@ -201,7 +214,7 @@ Divider::Plan Divider::planOf(Range r, double length) {
 void Divider::sequence(Range r, double start, double length) {
   count();
   if (!(length > tolerance_) || !status_.ok()) return;
-  const Plan plan = planOf(r, length);
+  const Plan plan = planAsBefore(r, length);
   const double limit = start + length;
   double at = start;
   walk(
