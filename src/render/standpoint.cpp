@@ -13,7 +13,6 @@ namespace gable::rt {
 
 namespace {
 
-constexpr double kEyeHeight = 1.62;
 /// The camera is shifted up: the horizon lies at this share of the height.
 constexpr double kHorizon = 0.31;
 constexpr int kPlaces = 640, kDirections = 24;

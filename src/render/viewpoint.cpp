@@ -131,6 +131,13 @@ void keepAboveGround(Camera& camera, const Subject& subject) {
   camera.eye.y = std::max(camera.eye.y, subject.groundHeight + 1);
 }
 
+/// A building that stands higher than half its plan is wide: seen from near, it would be cut.
+bool isTower(const Subject& subject) {
+  const Vec3 size = subject.world.bounds.size();
+  const double tall = subject.world.bounds.max.y - subject.groundHeight;
+  return std::max(size.x, size.z) < 2 * tall;
+}
+
 Camera standardCamera(const Subject& subject, const RenderOptions& options, const Light& light,
                       double aspect) {
   const double given = options.fov ? tanDeg(std::clamp(*options.fov, 1.0, 150.0) / 2) : 0;
@@ -155,11 +162,12 @@ Camera standardCamera(const Subject& subject, const RenderOptions& options, cons
     }
     case PictureView::Street: {
       Camera camera;
-      const double halfWidth = given > 0 ? given : lens(tall > 60 ? 20 : 26);
-      if (findStandpoint(subject, light, halfWidth, aspect, camera)) return camera;
+      const bool tower = isTower(subject);
+      const double halfWidth = given > 0 ? given : lens(tall > 60 && !tower ? 20 : 26);
+      if (!tower && findStandpoint(subject, light, halfWidth, aspect, camera)) return camera;
       camera = cameraTowards(toFront - 30, 0);
       camera.halfWidth = halfWidth;
-      frameLevel(camera, subject, aspect, subject.groundHeight + 1.62);
+      frameLevel(camera, subject, aspect, subject.groundHeight + kEyeHeight);
       return camera;
     }
     case PictureView::Iso: break;

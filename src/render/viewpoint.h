@@ -30,6 +30,9 @@ Camera cameraTowards(double azimuth, double pitch);
 /// `light` for the sunny side.
 Camera chooseCamera(const Subject& subject, const RenderOptions& options, const Light& light);
 
+/// Of somebody who stands in the street, in metres above it.
+constexpr double kEyeHeight = 1.62;
+
 /// The best place for a street view; false when no place outside things was found.
 bool findStandpoint(const Subject& subject, const Light& light, double halfWidth, double aspect,
                     Camera& camera);

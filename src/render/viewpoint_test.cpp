@@ -82,6 +82,24 @@ TEST(Viewpoint, frontAndStreetKeepVerticalsUpright) {
   }
 }
 
+TEST(Viewpoint, streetHoldsAllOfATower) {
+  for (const Vec3& size : {Vec3{20, 60, 20}, Vec3{40, 200, 30}, Vec3{12, 9, 10}}) {
+    const Set s(boxScene(size));
+    RenderOptions o;
+    o.view = PictureView::Street;
+    for (const uint32_t height : {500u, 900u, 2000u}) {
+      o.height = height;
+      const Camera c = chooseCamera(s.subject, o, Light(o, 38, 225));
+      EXPECT_NEAR(c.eye.y, s.subject.groundHeight + kEyeHeight, 1e-9);
+      const Reach r = reachOf(c, s.subject.points, 1600.0 / height);
+      EXPECT_GE(r.left, 0.03);
+      EXPECT_LE(r.right, 0.97);
+      EXPECT_GE(r.low, 0.03);
+      EXPECT_LE(r.high, 0.97);
+    }
+  }
+}
+
 TEST(Viewpoint, streetEyeStandsOnOpenGround) {
   const Set s(streetScene());
   RenderOptions o;
