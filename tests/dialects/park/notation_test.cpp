@@ -16,6 +16,39 @@ namespace {
 
 using namespace park_testing;
 
+TEST(ParkNotation, OperationsAndPointsAreNoLeaves) {
+  EXPECT_TRUE(run("R -> Circle", kLot).has("wrong-argument-count"));
+  EXPECT_TRUE(run("R -> Peel(OUTER, 1) { A | romb }", kLot).has("wrong-argument-count"));
+  EXPECT_TRUE(run("R -> Corner(Region)", kLot).has("unknown-operation"));
+  EXPECT_TRUE(run("R -> Peel(OUTER, 1) { A | Corners(Region) }", kLot).has("unknown-operation"));
+  EXPECT_FALSE(run("R -> Circle\nCircle -> A", kLot).has("wrong-argument-count"));
+}
+
+TEST(ParkNotation, LaterThingsKeepClearOfEarlierOnes) {
+  // The pond reaches two of the beds.
+  Made m =
+      run("R -> Place((0.3, 0.5)) { Circle(4) Pond } "
+          "Place((0.12, 0.5), (0.5, 0.5), (0.8, 0.2)) { Circle(2) Bed }",
+          kLot);
+  EXPECT_EQ(m.count["Pond"], 1);
+  EXPECT_EQ(m.count["Bed"], 1);
+  EXPECT_TRUE(m.has("place-occupied"));
+  EXPECT_NEAR(m.whole, 400, 1e-6);
+  // What only touches the other, or the border of the plot, stays.
+  m =
+      run("R -> Place((0.5, 0.5)) { Square(4) Pond } "
+          "Place((0.3, 0.5), (0.7, 0.5), (0.05, 0.1)) { Square(4) Bed }",
+          kLot);
+  EXPECT_EQ(m.count["Bed"], 3);
+  EXPECT_NEAR(m.area["Bed"], 16 + 16 + 12, 1e-6);
+  // The pond reaches the border, and cuts the region instead of making a hole in it.
+  m =
+      run("R -> Place((0.1, 0.5)) { Circle(4) Pond } "
+          "Place((0.35, 0.5), (0.6, 0.5)) { Square(4) Bed }",
+          kLot);
+  EXPECT_EQ(m.count["Bed"], 1);
+}
+
 TEST(ParkNotation, ReportsWhatItCannotRead) {
   EXPECT_TRUE(run("", kLot).has("no-rules"));
   EXPECT_TRUE(run("R -> Grid(2, 2) { A } )", kLot).has("unexpected-text"));

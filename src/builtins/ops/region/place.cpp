@@ -235,8 +235,13 @@ class Placer {
       return;
     }
     const EdgeOrigin made{kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide};
-    for (RegionPiece& p :
-         combineTraced(BooleanOp::Intersection, wholePiece(view_.polygon()), ring, made)) {
+    std::vector<RegionPiece> pieces =
+        combineTraced(BooleanOp::Intersection, wholePiece(view_.polygon()), ring, made);
+    if (meetsHole(pieces, area(ring[0]))) {
+      ++nested_;
+      return;
+    }
+    for (RegionPiece& p : pieces) {
       p.axis = along;
       if (slot_) {
         std::optional<CellMark> cell;
@@ -278,6 +283,18 @@ class Placer {
       return near && area(intersect(ring, {h})) > 1e-6 * area(h);
     });
   }
+  // Whether something that was placed before takes a part of a figure, of which `pieces` are left.
+  bool meetsHole(const std::vector<RegionPiece>& pieces, double whole) const {
+    double left = 0;
+    bool beside = false;
+    for (const RegionPiece& p : pieces) {
+      left += area(p.polygon);
+      beside = beside || std::any_of(p.edges.begin(), p.edges.end(), [&](const EdgeOrigin& e) {
+                 return e.source != kNoEdge && view_.marks()[e.source].role == EdgeRole::Hole;
+               });
+    }
+    return beside && left < whole * (1 - 1e-6);
+  }
   bool inHole(Vec2 at) const {
     size_t edge = view_.polygon().outer.size();
     for (const Ring& hole : view_.polygon().holes) {
@@ -305,7 +322,7 @@ class Placer {
   RegionView& view_;
   PlanFigure figure_;
   bool cut_, split_;
-  // Along edges what has no room is left out without a word.
+  // Along edges what has no room is left out without a warning.
   bool warnsOfHoles_;
   std::optional<uint32_t> slot_;
   Shape parent_;
