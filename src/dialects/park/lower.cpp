@@ -180,6 +180,12 @@ bool Lowering::step(const Op& op, Nodes& out) {
     call(*r, op, out);
     return false;
   }
+  if (isPointSetName(op.name)) {
+    diagnostics_.error("unknown-operation", placeOf(source_, op.span, op.name),
+                       "'" + op.name + "' stands for points and makes nothing by itself",
+                       "give it to another operation, as in CastRays(CENTRE, Corners(Region))");
+    return true;
+  }
   const std::string nearest = nearestOperation(op.name);
   if (op.blocks.empty() && nearest.empty()) {
     // ParkPath(..): a name with arguments that nothing is made of.
@@ -214,6 +220,12 @@ bool Lowering::symbol(const Op& op, Nodes& out) {
   if (isMaterialWord(op.name)) {
     warnOfColour(op);
     out.push_back(colour(op.name));
+    return true;
+  }
+  if (operationNamed(op.name) != Operation::None) {
+    diagnostics_.error("wrong-argument-count", op.span,
+                       "the operation '" + op.name + "' needs arguments or a block",
+                       "write " + op.name + "(..), or give the leaf another name");
     return true;
   }
   warnOfSlip(op);

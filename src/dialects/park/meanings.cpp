@@ -182,12 +182,18 @@ const Op* onlyOp(const Grammar& g, std::string_view rule) {
   return r ? onlyOp(*r) : nullptr;
 }
 
+bool isPointSetName(std::string_view name) {
+  const std::string low = lowered(name);
+  return low == "corner" || low == "corners" || low == "entrances" || low == "directions" ||
+         low == "points";
+}
+
 bool isPointSet(const Rule& r) {
   const Op* op = onlyOp(r);
   if (!op || !op->blocks.empty() || !op->called) return false;
   const std::string name = lowered(op->name);
-  return name == "scattercircles" || name == "scatter" || name == "corners" ||
-         name == "entrances" || name == "directions" || name == "points";
+  return name == "scattercircles" || name == "scatter" ||
+         (name != "corner" && isPointSetName(name));
 }
 
 FigureHead figureHead(const Grammar& g, const Sequence& s) {

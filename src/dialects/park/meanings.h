@@ -25,6 +25,8 @@ std::string nearestColour(std::string_view name);
 /// The only operation of a rule without cases; else null.
 const Op* onlyOp(const Rule& r);
 const Op* onlyOp(const Grammar& g, std::string_view rule);
+/// Corners, Entrances, Directions and Points, which other operations take as arguments.
+bool isPointSetName(std::string_view name);
 /// Rules of one point set, which stand for it in arguments and make no shapes.
 bool isPointSet(const Rule& r);
 
