@@ -11,7 +11,7 @@ int runCheck(const CheckArguments& arguments) {
   gable::DiagnosticList all;
   bool missing = false;
   for (const std::string& path : arguments.rules) {
-    gable::LoadSettings settings{arguments.project, arguments.dialect};
+    gable::LoadSettings settings{arguments.project, arguments.dialect, {}, arguments.search};
     settings.limits = fileLimits(arguments.limits);
     const gable::Rules rules = gable::Rules::load(path, settings);
     missing = missing || !rules.found();

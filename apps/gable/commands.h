@@ -20,6 +20,7 @@ int runGenerate(const GenerateArguments& arguments);
 struct CheckArguments {
   std::vector<std::string> rules;
   std::optional<std::string> project, dialect;
+  gable::SearchSettings search;
   bool json = false;
   /// Print what the rules are compiled to as well.
   bool disassemble = false;
@@ -40,6 +41,7 @@ int runFormat(const FormatArguments& arguments);
 struct ConvertArguments {
   std::string rules;
   std::optional<std::string> project, dialect;
+  gable::SearchSettings search;
   std::string output = "-";
   LimitArguments limits;
 };
@@ -84,10 +86,14 @@ struct OpsArguments {
 };
 int runOps(const OpsArguments& arguments);
 
-int runLsp();
+struct LspArguments {
+  gable::SearchSettings search;
+};
+int runLsp(const LspArguments& arguments);
 
 struct StudioArguments {
   std::string folder = ".";
+  gable::SearchSettings search;
   int port = 0;
 };
 int runStudioCommand(const StudioArguments& arguments);

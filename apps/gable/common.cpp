@@ -58,7 +58,7 @@ gable::FileLimits fileLimits(const LimitArguments& arguments) {
 
 int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
   const gable::FileLimits limits = fileLimits(arguments.limits);
-  gable::LoadSettings load{arguments.project, arguments.dialect, arguments.style};
+  gable::LoadSettings load{arguments.project, arguments.dialect, arguments.style, arguments.search};
   load.limits = limits;
   inputs.rules = gable::Rules::load(arguments.rules, load);
   print(inputs.rules.diagnostics());

@@ -49,6 +49,7 @@ struct DeriveArguments {
   /// A number, or "random".
   std::string seed = "0";
   std::optional<std::string> project, dialect, style;
+  gable::SearchSettings search;
   std::optional<int> jobs;
   bool noSharing = false;
   LimitArguments limits;

@@ -8,7 +8,7 @@
 int runConvert(const ConvertArguments& arguments) {
   std::string text;
   if (!readText(arguments.rules, text)) return kExitFile;
-  gable::LoadSettings settings{arguments.project, arguments.dialect};
+  gable::LoadSettings settings{arguments.project, arguments.dialect, {}, arguments.search};
   settings.limits = fileLimits(arguments.limits);
   const gable::Converted converted = gable::convert(text, arguments.rules, settings);
   print(converted.diagnostics);

@@ -11,8 +11,8 @@
 
 #include "commands.h"
 
-int runLsp() {
+int runLsp(const LspArguments& arguments) {
   // An editor that has gone is told by the write that fails.
   std::signal(SIGPIPE, SIG_IGN);
-  return gable::runLanguageServer(STDIN_FILENO, STDOUT_FILENO);
+  return gable::runLanguageServer(STDIN_FILENO, STDOUT_FILENO, arguments.search);
 }

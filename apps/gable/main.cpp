@@ -48,6 +48,19 @@ void addLimits(CLI::App* app, LimitArguments& a, const char* seconds) {
 /// How long commands may take that derive nothing.
 constexpr const char* kFileSeconds = "Stop after so many seconds a file (default 600, 0: no limit)";
 
+void addSearch(CLI::App* app, gable::SearchSettings& search) {
+  app->add_option("--workspace", search.workspace,
+                  "A folder of projects: rules may name files of others as /Project/rules/x.cga");
+  app->add_option("--lib", search.libraries,
+                  "A further project that the rules may read from: a folder or NAME=FOLDER; may be "
+                  "repeated")
+      ->type_size(1)
+      ->expected(1)
+      ->take_all();
+  app->add_flag("--find-by-name", search.byName,
+                "Look for what is not under its path by its file name alone");
+}
+
 void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
   auto* shapes = app->add_option("--shapes", a.shapes, "Footprints: .geojson .obj .gltf .glb");
   app->add_option("--lot", a.lot, "A rectangular lot in metres, such as 30x40 (default 20x20)")
@@ -61,6 +74,7 @@ void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
       ->take_all();
   app->add_option("--seed", a.seed, "The seed of all random numbers (default 0); random draws one");
   app->add_option("--project", a.project, "The folder that the rules may read from");
+  addSearch(app, a.search);
   app->add_option("--jobs", a.jobs, "Threads (default: one per processor)")
       ->check(number({0, 4096, true}));
   app->add_flag("--no-sharing", a.noSharing, "Derive equal parts again instead of sharing them");
@@ -97,18 +111,20 @@ std::string unknownCommand(const CLI::App& app, int argc, char** argv) {
   return "gable: there is no command '" + word + "'; " + hint + "\n";
 }
 
-void addLsp(CLI::App& app, int& status) {
+void addLsp(CLI::App& app, LspArguments& a, int& status) {
   auto* lsp = app.add_subcommand("lsp", "Run the language server for editors, on stdin and stdout");
   // What editors add by themselves.
   lsp->add_flag_callback(
       "--stdio", [] {}, "Use stdin and stdout, which is the only way");
-  lsp->callback([&status] { status = runLsp(); });
+  addSearch(lsp, a.search);
+  lsp->callback([&a, &status] { status = runLsp(a); });
 }
 
 void addCheck(CLI::App& app, CheckArguments& a, int& status) {
   auto* check = app.add_subcommand("check", "Report all mistakes of rule files");
   check->add_option("rules", a.rules, "Rule files")->required();
   check->add_option("--project", a.project, "The folder that the rules may read from");
+  addSearch(check, a.search);
   check->add_option("--dialect", a.dialect, "The rules' notation");
   check->add_flag("--json", a.json, "Machine-readable output");
   check->add_flag("--disassemble", a.disassemble, "List the compiled program as well");
@@ -138,6 +154,7 @@ void addStudio(CLI::App& app, StudioArguments& a, int& status) {
   auto* studio = app.add_subcommand(
       "studio", "Start the studio: write rules in the browser and see the model");
   studio->add_option("folder", a.folder, "The project (default: this folder)");
+  addSearch(studio, a.search);
   studio
       ->add_option("--port", a.port, "The port (default: that of the last start, or any free one)")
       ->check(number({0, 65535, true}));
@@ -180,6 +197,7 @@ int main(int argc, char** argv) {
   convertApp->add_option("rules", convert.rules, "The grammar: .grammar .pg3d .gbbg .park")
       ->required();
   convertApp->add_option("--project", convert.project, "The folder that the rules may read from");
+  addSearch(convertApp, convert.search);
   convertApp->add_option("--dialect", convert.dialect,
                          "Its notation, when the extension does not tell");
   convertApp->add_option("-o,--output", convert.output, "A file, or - for stdout (default)");
@@ -227,7 +245,8 @@ int main(int argc, char** argv) {
   opsApp->add_flag("--json", ops.json, "Machine-readable output");
   opsApp->callback([&] { status = runOps(ops); });
 
-  addLsp(app, status);
+  LspArguments lsp;
+  addLsp(app, lsp, status);
   StudioArguments studio;
   addStudio(app, studio, status);
   try {

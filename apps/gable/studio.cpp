@@ -30,6 +30,7 @@ std::string folderWith(const char* file, const std::initializer_list<const char*
 int runStudioCommand(const StudioArguments& arguments) {
   gable::StudioSettings settings;
   settings.project = arguments.folder;
+  settings.search = arguments.search;
   settings.port = static_cast<uint16_t>(arguments.port);
   settings.page = folderWith("index.html", {"../studio", "../share/gable/studio"});
   settings.examples = folderWith("README.md", {"../../examples", "../share/gable/examples"});

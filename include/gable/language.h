@@ -27,6 +27,7 @@
 #include "gable/diagnostic.h"
 #include "gable/language_places.h"
 #include "gable/rule_forms.h"
+#include "gable/search.h"
 
 namespace gable::language {
 
@@ -212,8 +213,9 @@ struct Entry {
 class Workspace {
  public:
   /// `project`: the folder that texts and what they name are read in, and nothing outside of it;
-  /// empty: of each text the folder that looks like its project.
-  explicit Workspace(std::vector<std::string> folders = {}, const std::string& project = {});
+  /// empty: of each text the folder that looks like its project. `search`: where else.
+  explicit Workspace(std::vector<std::string> folders = {}, const std::string& project = {},
+                     const SearchSettings& search = {});
   ~Workspace();
   Workspace(Workspace&&) noexcept;
   Workspace& operator=(Workspace&&) noexcept;

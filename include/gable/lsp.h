@@ -18,13 +18,16 @@
 #include <string_view>
 #include <vector>
 
+#include "gable/search.h"
+
 namespace gable {
 
 class LanguageServer {
  public:
   /// `clock` gives seconds; empty: a steady clock. `project`: the folder outside of which nothing
-  /// is read; empty: any that the client names.
-  explicit LanguageServer(std::function<double()> clock = {}, const std::string& project = {});
+  /// is read; empty: any that the client names. `search`: where else rules may read from.
+  explicit LanguageServer(std::function<double()> clock = {}, const std::string& project = {},
+                          const SearchSettings& search = {});
   ~LanguageServer();
   LanguageServer(LanguageServer&&) noexcept;
   LanguageServer& operator=(LanguageServer&&) noexcept;
@@ -52,6 +55,6 @@ class LanguageServer {
 
 /// Serves one client over two file descriptors until it says `exit` or the input ends; the exit
 /// status of the process.
-int runLanguageServer(int in, int out);
+int runLanguageServer(int in, int out, const SearchSettings& search = {});
 
 }  // namespace gable

@@ -13,6 +13,7 @@
 
 #include "gable/diagnostic.h"
 #include "gable/limits.h"
+#include "gable/search.h"
 
 namespace gable {
 
@@ -24,6 +25,7 @@ struct LoadSettings {
   std::optional<std::string> dialect;
   /// A style that the rule file declares.
   std::optional<std::string> style;
+  SearchSettings search;
   /// Texts that stand for files of the project while they are being edited, by project path
   /// ("rules/windows.cga").
   std::vector<std::pair<std::string, std::string>> overlay;

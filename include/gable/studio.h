@@ -15,8 +15,9 @@
 namespace gable {
 
 struct StudioSettings {
-  /// The only folder that can be read and written.
+  /// The only folder that can be written, and read but for what rules find elsewhere.
   std::string project = ".";
+  SearchSettings search;
   /// Holds the built page: index.html and what it names.
   std::string page;
   /// Holds examples, a folder each.

@@ -16,7 +16,7 @@
 #include "base/hash.h"
 #include "builtins/catalogue.h"
 #include "dialects/dialect.h"
-#include "engine/project.h"
+#include "engine/file_search.h"
 #include "language/workspace.h"
 
 namespace gable::language {
@@ -47,8 +47,8 @@ bool isAsset(const std::string& path) {
 class ProjectFiles final : public Files {
  public:
   /// `within`: the one project, outside of which nothing is read; empty: that of each text.
-  explicit ProjectFiles(const std::string& within) {
-    if (!within.empty()) only_ = std::make_unique<Project>(within);
+  ProjectFiles(const std::string& within, const SearchSettings& search) : search_(search) {
+    if (!within.empty()) only_ = std::make_unique<FileSearch>(within, search);
   }
 
   std::string canonical(const std::string& path) override {
@@ -60,16 +60,17 @@ class ProjectFiles final : public Files {
 
   std::vector<std::string> places(const std::string& written,
                                   const std::string& importer) override {
-    const Project* project = projectOf(importer);
+    const FileSearch* project = projectOf(importer);
     if (!project) return {};
     const std::string from = project->projectPath(importer);
     std::vector<std::string> out = project->places(written, from);
     for (std::string& p : project->places("rules/" + written, from)) out.push_back(std::move(p));
+    if (search_.byName) out.push_back(project->locate(written, from));
     return out;
   }
 
   bool readable(const std::string& path, const std::string& importer) override {
-    const Project* project = projectOf(importer);
+    const FileSearch* project = projectOf(importer);
     return project && !project->inside(path).empty();
   }
 
@@ -92,7 +93,7 @@ class ProjectFiles final : public Files {
   }
 
   std::string root(const std::string& path) override {
-    const Project* project = projectOf(path);
+    const FileSearch* project = projectOf(path);
     return project ? project->root() : std::string();
   }
 
@@ -128,12 +129,12 @@ class ProjectFiles final : public Files {
   }
 
  private:
-  const Project* projectOf(const std::string& path) {
+  const FileSearch* projectOf(const std::string& path) {
     if (path.empty() || path[0] != '/') return nullptr;
-    if (only_) return path.starts_with(only_->root() + "/") ? only_.get() : nullptr;
+    if (only_) return only_->covers(path) ? only_.get() : nullptr;
     const std::string folder = path.substr(0, path.rfind('/'));
-    std::unique_ptr<Project>& known = projects_[folder];
-    if (!known) known = std::make_unique<Project>(Project::rootFor(path));
+    std::unique_ptr<FileSearch>& known = projects_[folder];
+    if (!known) known = std::make_unique<FileSearch>(FileSearch::rootFor(path, search_), search_);
     return known.get();
   }
 
@@ -165,15 +166,18 @@ class ProjectFiles final : public Files {
     return at->second;
   }
 
-  std::unique_ptr<Project> only_;
-  std::map<std::string, std::unique_ptr<Project>> projects_;
+  SearchSettings search_;
+  std::unique_ptr<FileSearch> only_;
+  std::map<std::string, std::unique_ptr<FileSearch>> projects_;
   std::map<std::string, std::vector<std::string>> listings_, ruleFiles_;
 };
 
 }  // namespace
 
-Workspace::Workspace(std::vector<std::string> folders, const std::string& project)
-    : impl_(std::make_unique<Impl>(builtinCatalogue(), std::make_unique<ProjectFiles>(project),
+Workspace::Workspace(std::vector<std::string> folders, const std::string& project,
+                     const SearchSettings& search)
+    : impl_(std::make_unique<Impl>(builtinCatalogue(),
+                                   std::make_unique<ProjectFiles>(project, search),
                                    std::vector<std::string>())) {
   setFolders(std::move(folders));
 }

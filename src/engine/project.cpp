@@ -4,7 +4,6 @@
 #include "engine/project.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "base/allowance.h"
 #include "base/files.h"
@@ -16,31 +15,9 @@
 
 namespace gable {
 
-namespace fs = std::filesystem;
-
 namespace {
 
-/// A project of more files than this is no project; listing stops there.
-constexpr size_t kMostFiles = 200000;
 constexpr uint64_t kLargestAsset = 1ull << 30;
-
-bool climbs(std::string_view path) {
-  size_t from = 0;
-  while (from <= path.size()) {
-    const size_t to = std::min(path.find_first_of("/\\", from), path.size());
-    if (path.substr(from, to - from) == "..") return true;
-    from = to + 1;
-  }
-  return false;
-}
-
-// Below a root: what begins with a dot is a tool's own (.git, .env, .gable), and no asset.
-bool isHidden(std::string_view path) {
-  for (size_t i = 0; i < path.size(); ++i) {
-    if (path[i] == '.' && (i == 0 || path[i - 1] == '/')) return true;
-  }
-  return false;
-}
 
 /// Beyond the last for another path.
 size_t numberOfBuiltin(std::string_view path) {
@@ -52,72 +29,10 @@ size_t numberOfBuiltin(std::string_view path) {
   return i;
 }
 
-std::string canonical(const fs::path& p) {
-  std::error_code error;
-  const fs::path c = fs::weakly_canonical(p, error);
-  return error ? std::string() : c.string();
-}
-
 }  // namespace
 
-Project::Project(std::string root) : root_(canonical(root.empty() ? "." : root)) {
-  rootName_ = fs::path(root_).filename().string();
-}
-
-std::string Project::rootFor(const std::string& ruleFile) {
-  const fs::path folder = fs::path(canonical(ruleFile)).parent_path();
-  std::error_code error;
-  for (fs::path at = folder; at.has_relative_path(); at = at.parent_path()) {
-    if (fs::is_directory(at / "rules", error) || fs::is_directory(at / "assets", error)) {
-      return at.string();
-    }
-  }
-  return folder.string();
-}
-
-std::string Project::inside(const std::string& candidate) const {
-  if (!fileExists(candidate)) return {};
-  const std::string real = canonical(candidate);
-  const bool below = real.size() > root_.size() && real.compare(0, root_.size(), root_) == 0 &&
-                     (root_ == "/" || real[root_.size()] == '/');
-  return below && !isHidden(std::string_view(real).substr(root_.size())) ? real : std::string();
-}
-
-std::vector<std::string> Project::places(std::string_view path, std::string_view fromFile) const {
-  if (path.empty() || climbs(path) || path.find('\0') != std::string_view::npos) return {};
-  std::string clean(path);
-  std::replace(clean.begin(), clean.end(), '\\', '/');
-  std::vector<std::string> candidates;
-  if (clean[0] == '/') {
-    candidates.push_back(root_ + clean);
-    const size_t second = clean.find('/', 1);
-    if (second != std::string::npos && clean.substr(1, second - 1) == rootName_) {
-      candidates.push_back(root_ + clean.substr(second));
-    }
-  } else {
-    candidates.push_back(root_ + "/assets/" + clean);
-    candidates.push_back(root_ + "/" + clean);
-    const std::string folder = folderOf(std::string(fromFile));
-    if (!folder.empty()) candidates.push_back(root_ + "/" + folder + "/" + clean);
-  }
-  return candidates;
-}
-
-std::string Project::locate(std::string_view path, std::string_view fromFile) const {
-  for (const std::string& c : places(path, fromFile)) {
-    std::string found = inside(c);
-    if (!found.empty()) return found;
-  }
-  return {};
-}
-
-std::string Project::projectPath(const std::string& file) const {
-  const std::string real = canonical(file);
-  if (real.compare(0, root_.size(), root_) == 0 && real.size() > root_.size()) {
-    return real.substr(root_.size() + (root_ == "/" ? 0 : 1));
-  }
-  return file;
-}
+Project::Project(const std::string& root, const SearchSettings& settings)
+    : where_(root, settings) {}
 
 // Files that the asset names are read through the project, so that none lies outside.
 Result<Asset> Project::read(const std::string& file, bool zUp) const {
@@ -234,55 +149,17 @@ bool Project::exists(std::string_view path, std::string_view fromFile) {
   return !locate(path, fromFile).empty();
 }
 
-const std::vector<std::string>& Project::files() const {
-  if (listed_) return files_;
-  listed_ = true;
-  std::error_code error;
-  fs::recursive_directory_iterator it(root_, fs::directory_options::skip_permission_denied, error);
-  for (; !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
-    if (files_.size() >= kMostFiles) break;
-    if (isHidden(it->path().filename().string())) {
-      it.disable_recursion_pending();
-      continue;
-    }
-    if (it->is_regular_file(error) && !it->is_symlink(error)) {
-      files_.push_back(it->path().string().substr(root_.size()));
-    }
-  }
-  std::sort(files_.begin(), files_.end());
-  return files_;
-}
-
 std::vector<std::string> Project::assets() const {
   constexpr std::string_view kFolder = "/assets/";
-  std::lock_guard lock(mutex_);
   std::vector<std::string> out;
-  for (const std::string& f : files()) {
+  for (const std::string& f : where_.files()) {
     out.push_back(f.substr(f.starts_with(kFolder) ? kFolder.size() : 1));
   }
   return out;
 }
 
-// Relative patterns are matched below assets/ and below the root; results are paths from the root.
-std::vector<std::string> Project::search(std::string_view pattern, std::string_view) {
-  std::vector<std::string> patterns;
-  if (!pattern.empty() && pattern[0] == '/') {
-    patterns.emplace_back(pattern);
-    const std::string prefix = "/" + rootName_ + "/";
-    if (pattern.compare(0, prefix.size(), prefix) == 0) {
-      patterns.emplace_back(pattern.substr(prefix.size() - 1));
-    }
-  } else {
-    patterns.push_back("/assets/" + std::string(pattern));
-    patterns.push_back("/" + std::string(pattern));
-  }
-  std::lock_guard lock(mutex_);
-  std::vector<std::string> out;
-  for (const std::string& file : files()) {
-    const auto fits = [&](const std::string& p) { return matchesPattern(p, file); };
-    if (std::any_of(patterns.begin(), patterns.end(), fits)) out.push_back(file);
-  }
-  return out;
+std::vector<std::string> Project::search(std::string_view pattern, std::string_view fromFile) {
+  return where_.search(pattern, fromFile);
 }
 
 bool Project::text(std::string_view path, std::string_view fromFile, std::string& out) {
@@ -296,28 +173,9 @@ bool Project::text(std::string_view path, std::string_view fromFile, std::string
 
 std::string Project::resolve(std::string_view path, std::string_view fromFile) {
   const std::string file = locate(path, fromFile);
-  return file.empty() ? std::string(path) : file.substr(root_.size());
-}
-
-// Keeps the set of places in the path that the pattern so far can end at: O(pattern x path).
-bool matchesPattern(std::string_view pattern, std::string_view path) {
-  std::vector<char> reachable(path.size() + 1, 0), next;
-  reachable[0] = 1;
-  for (char c : pattern) {
-    next.assign(path.size() + 1, 0);
-    if (c == '*' || c == '$') {
-      bool running = false;
-      for (size_t i = 0; i <= path.size(); ++i) {
-        running = running || reachable[i];
-        next[i] = running;
-        if (c == '$' && i < path.size() && path[i] == '/') running = false;
-      }
-    } else {
-      for (size_t i = 0; i < path.size(); ++i) next[i + 1] = reachable[i] && path[i] == c;
-    }
-    reachable.swap(next);
-  }
-  return reachable[path.size()];
+  if (file.empty()) return std::string(path);
+  std::string name = projectPath(file);
+  return name.starts_with("/") ? name : "/" + name;
 }
 
 }  // namespace gable

@@ -42,8 +42,7 @@ class ProjectLoader final : public lang::FileLoader {
     std::string file = project_.locate(path, importer);
     if (file.empty()) file = project_.locate("rules/" + path, importer);
     if (file.empty()) {
-      return Error{"import-not-found", "there is no rule file '" + path + "' in the project",
-                   "paths count from the project's folder, or from the importing file's"};
+      return lang::missingImport(path);
     }
     std::string name = project_.projectPath(file);
     for (const auto& [edited, content] : settings_.overlay) {
@@ -80,10 +79,16 @@ Result<const Dialect*> dialectFor(const std::optional<std::string>& name, const 
                "the notations are " + names};
 }
 
+std::string rootOf(const LoadSettings& settings, const std::string& path) {
+  return settings.project ? *settings.project : FileSearch::rootFor(path, settings.search);
+}
+
 // The project and its tables: those of the rules before where they are of the same project.
-void takeTables(Rules::Impl& to, const std::string& root, const Rules::Impl* before) {
-  to.project = std::make_shared<Project>(root);
-  if (before && before->project && before->project->root() == to.project->root()) {
+void takeTables(Rules::Impl& to, const std::string& root, const SearchSettings& search,
+                const Rules::Impl* before) {
+  to.project = std::make_shared<Project>(root, search);
+  if (before && before->project && before->project->root() == to.project->root() &&
+      before->project->where().settings() == search) {
     to.project = before->project;
     if (before->generation < kGenerations && !before->tables->full) {
       to.pool = before->pool;
@@ -109,7 +114,8 @@ std::shared_ptr<const Rules::Impl> parsed(const std::string& text, const std::st
   auto impl = std::make_shared<Rules::Impl>();
   const Result<const Dialect*> dialect = dialectFor(settings.dialect, path);
   if (!dialect.ok()) return failed(dialect.error());
-  takeTables(*impl, settings.project ? *settings.project : Project::rootFor(path),
+  if (const auto missing = FileSearch::missingFolder(settings.search)) return failed(*missing);
+  takeTables(*impl, rootOf(settings, path), settings.search,
              settings.before ? settings.before->shared().get() : nullptr);
   impl->dialect = dialect.value();
   Diagnostics diagnostics;
@@ -234,7 +240,7 @@ Converted convert(const std::string& text, const std::string& path, const LoadSe
     }
     Sources sources;
     Diagnostics diagnostics;
-    const Project project(settings.project ? *settings.project : Project::rootFor(path));
+    const Project project(rootOf(settings, path), settings.search);
     const uint32_t file = sources.add(project.projectPath(path), text);
     if (!dialect.value()) {
       out.text = lang::format(sources, file, diagnostics);

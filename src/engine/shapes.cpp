@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/files.h"
+#include "engine/file_search.h"
 #include "engine/guard.h"
 #include "engine/impl.h"
 #include "geom/mesh/face_plane.h"
@@ -176,7 +177,7 @@ std::shared_ptr<Shapes::Impl> parsed(const std::string& content, const std::stri
   options.path = name;
   // Buffers are read from the file's own folder and below, nowhere else.
   options.readFile = [&name](const std::string& path) -> Result<std::string> {
-    const std::string found = Project(folderOf(name)).inside(path);
+    const std::string found = FileSearch(folderOf(name), {}).inside(path);
     if (found.empty()) return Error{"file-missing", "there is no such file in the folder", {}};
     return readFile(found, kLargestShapeFile);
   };

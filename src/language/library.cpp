@@ -55,8 +55,7 @@ class Library::Loader final : public lang::FileLoader {
     const std::string path = library_.locate(written, importer);
     if (path.empty()) {
       snapshot_.looked.push_back({written, importer, false, false});
-      return Error{"import-not-found", "there is no rule file '" + written + "' in the project",
-                   "paths count from the project's folder, or from the importing file's"};
+      return lang::missingImport(written);
     }
     snapshot_.inputs.push_back({path, library_.state(path)});
     const auto at = library_.open_.find(path);

@@ -107,8 +107,9 @@ void copy(JsonWriter& json, const JsonValue& v) {
 
 }  // namespace lsp
 
-LanguageServer::Impl::Impl(std::function<double()> clock, const std::string& project)
-    : clock_(clock ? std::move(clock) : steadySeconds), workspace_({}, project) {}
+LanguageServer::Impl::Impl(std::function<double()> clock, const std::string& project,
+                           const SearchSettings& search)
+    : clock_(clock ? std::move(clock) : steadySeconds), workspace_({}, project, search) {}
 
 // --- Messages ---
 
@@ -481,8 +482,9 @@ void LanguageServer::Impl::publish(const std::string& path,
 
 // --- The public class ---
 
-LanguageServer::LanguageServer(std::function<double()> clock, const std::string& project)
-    : impl_(std::make_unique<Impl>(std::move(clock), project)) {}
+LanguageServer::LanguageServer(std::function<double()> clock, const std::string& project,
+                               const SearchSettings& search)
+    : impl_(std::make_unique<Impl>(std::move(clock), project, search)) {}
 LanguageServer::~LanguageServer() = default;
 LanguageServer::LanguageServer(LanguageServer&&) noexcept = default;
 LanguageServer& LanguageServer::operator=(LanguageServer&&) noexcept = default;

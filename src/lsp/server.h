@@ -23,7 +23,7 @@ namespace gable {
 
 class LanguageServer::Impl {
  public:
-  Impl(std::function<double()> clock, const std::string& project);
+  Impl(std::function<double()> clock, const std::string& project, const SearchSettings& search);
 
   void receive(std::string_view message);
   void receiveBroken(const std::string& why);

@@ -45,8 +45,8 @@ bool readSome(int in, int milliseconds, lsp::Framing& framing) {
 
 }  // namespace
 
-int runLanguageServer(int in, int out) {
-  LanguageServer server;
+int runLanguageServer(int in, int out, const SearchSettings& search) {
+  LanguageServer server({}, {}, search);
   lsp::Framing framing;
   bool open = true;
   while (!server.ended()) {

@@ -35,7 +35,9 @@ ArgumentProblem storeAll(const Signature& form, const Value* values, const Value
   for (size_t i = 0; i < form.params.size(); ++i) {
     const ParamSpec& p = form.params[i];
     const Value& v = values[i];
-    if (!p.store(arguments, v, pool) || (p.words && isNoWord(p, v, pool))) {
+    // A field that other signatures leave out is asked for in this one.
+    const bool missing = v.type == ValueType::Null && p.mayBeMissing && !p.defaultText;
+    if (missing || !p.store(arguments, v, pool) || (p.words && isNoWord(p, v, pool))) {
       return {Kind::Type, i, &p};
     }
     const bool taken = v.type == ValueType::Float ? p.range.holds(v.number) : isTaken(p, v, pool);

@@ -90,7 +90,8 @@ uint64_t numberOf(const std::string& text) {
 // The language server for a page, over the files of its project.
 class LanguageTalk final : public Conversation {
  public:
-  explicit LanguageTalk(const std::string& project) : server_({}, project) {}
+  LanguageTalk(const std::string& project, const SearchSettings& search)
+      : server_({}, project, search) {}
   void receive(std::string_view message) override { server_.receive(message); }
   bool step() override { return server_.step(); }
   std::vector<std::string> take() override { return server_.take(); }
@@ -106,7 +107,8 @@ class Router {
       : files_(settings.project),
         page_(settings.page),
         gallery_(settings.examples.value_or(std::string())),
-        session_(files_) {
+        search_(settings.search),
+        session_(files_, settings.search) {
     routes_["GET /api/project"] = [this](const HttpRequest&) { return project(); };
     routes_["GET /api/ops"] = [](const HttpRequest&) { return jsonOf(builtinsJson(builtins())); };
     routes_["GET /api/file"] = [this](const HttpRequest& r) { return file(r); };
@@ -171,7 +173,7 @@ class Router {
 
   std::unique_ptr<Conversation> talk(const HttpRequest& r) const {
     if (r.path != "/api/language") return nullptr;
-    return std::make_unique<LanguageTalk>(files_.root());
+    return std::make_unique<LanguageTalk>(files_.root(), search_);
   }
 
  private:
@@ -284,6 +286,7 @@ class Router {
     if (!plainPath(path)) return failed({"path-outside", "'path' names no file", ""});
     LoadSettings options;
     options.project = files_.root();
+    options.search = search_;
     const Converted text = convert(r.body, files_.root() + "/" + path, options);
     std::string out;
     JsonWriter json(out);
@@ -320,6 +323,7 @@ class Router {
   ProjectFiles files_;
   ProjectFiles page_;
   Gallery gallery_;
+  const SearchSettings search_;
   Session session_;
   Exports exports_;
   std::map<std::string, HttpServer::Handler> routes_;

@@ -176,6 +176,9 @@ std::shared_ptr<const Rules> Session::rulesOf(const JsonValue& request) {
   LoadSettings options;
   const std::string inner = projectOf(files_, file);
   options.project = files_.root() + "/" + inner;
+  options.search = search_;
+  // A folder of projects is a workspace.
+  if (!inner.empty() && !search_.workspace) options.search.workspace = files_.root();
   const std::string& style = request["style"].text();
   if (!style.empty()) options.style = style;
   std::string key = file + '\0' + style + '\0' + request["text"].text();

@@ -27,7 +27,8 @@ class Session {
  public:
   using Cancel = std::shared_ptr<std::atomic<bool>>;
 
-  explicit Session(const ProjectFiles& files) : files_(files) {}
+  explicit Session(const ProjectFiles& files, const SearchSettings& search = {})
+      : files_(files), search_(search) {}
 
   /// A request for derive() or tree() has come, which may have to wait: the one before of the same
   /// page ends now.
@@ -72,6 +73,7 @@ class Session {
   Result<Model> deriveFor(const JsonValue& request, const Rules& rules, Work& work, Trace trace);
 
   const ProjectFiles& files_;
+  const SearchSettings search_;
   mutable std::mutex mutex_;
   std::deque<std::pair<std::string, std::shared_ptr<const Rules>>> rules_;
   std::deque<std::pair<std::string, std::shared_ptr<const Shapes>>> shapes_;

@@ -104,6 +104,7 @@ void Analysis::walkRule(RuleId id) {
   const RuleInfo& r = program_.rules[id];
   const NodeId node = r.node;
   openFrame(r.module, node, r.paramTypes, openRules_[id]);
+  body_.rule = id;
   walkLocals(node);
   visitSequence(bodyOf(tree(), node));
   openRules_[id] = body_.open;

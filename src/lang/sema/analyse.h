@@ -22,6 +22,10 @@
 
 namespace gable::lang {
 
+/// That there is no file of an imported path; the analysis goes on without it. Code:
+/// import-not-found.
+Error missingImport(const std::string& path);
+
 /// Brings the texts of imported files; decides what a path means and what may be read.
 class FileLoader {
  public:

@@ -19,7 +19,7 @@ class MapLoader : public FileLoader {
   std::map<std::string, std::string> files;
   Result<File> load(const std::string& path, const std::string&) override {
     const auto at = files.find(path);
-    if (at == files.end()) return Error{"import-missing", "there is no file '" + path + "'", ""};
+    if (at == files.end()) return missingImport(path);
     return File{path, at->second};
   }
 };
@@ -207,7 +207,7 @@ TEST(Analyse, oneMistakeGivesOneMessage) {
       "import i : \"gone.cga\"\nA --> scater(surface, '2, 3) { A } s(1, unitSpace) f(word, ~3)"
       " set(i.x, 1) extrude(i.y + i.f(1)) i.R extrude(g(uv, 0))");
   EXPECT_EQ(a.problems(),
-            "1:12 import-missing\n2:30 unexpected-block\n2:36 wrong-argument-count\n"
+            "1:12 import-not-found (warning)\n2:30 unexpected-block\n2:36 wrong-argument-count\n"
             "2:52 undefined-rule (warning)\n2:110 unknown-function\n");
   EXPECT_EQ(a.hint(1), "did you mean 'scatter'?");
 }
@@ -462,10 +462,43 @@ TEST(Analyse, mistakesInImportsAreReported) {
       "import c (nostyle) : \"b.cga\" Lot --> d(h = 1).Lot a.Lot",
       {{"b.cga", "attr y = 2 A --> extrude(\"a\")"}});
   EXPECT_EQ(a.problems(),
-            "1:12 import-missing\n1:43 unknown-attribute\n1:53 duplicate-override\n"
+            "1:12 import-not-found (warning)\n1:43 unknown-attribute\n1:53 duplicate-override\n"
             "1:67 duplicate-import\n2:11 unknown-style\n2:38 unknown-import\n"
             "b.cga:1:26 type-mismatch\n")
       << a.messages();
+}
+
+TEST(Analyse, goesOnWithoutMissingImports) {
+  const Analysed a(
+      "import a : \"gone.cga\" import b : \"gone.cga\" (h = 1) import c : \"c.cga\"\n"
+      "attr x = a.h + 1\n"
+      "Lot --> extrude(x) comp(f) { top : a.Roof | side : b.Wall(a.f(2)) } a.x.Y set(a.h, 2) c.Lot",
+      {{"c.cga", "import a : \"gone.cga\" Lot --> a.Lot"}});
+  EXPECT_EQ(a.problems(), "1:12 import-not-found (warning)\n");
+  EXPECT_EQ(a.diagnostics.errorCount(), 0u);
+}
+
+TEST(Analyse, filesOfTheVisualEditorAreNamed) {
+  const Analysed a("import a : \"design.vcga\" Lot --> a.Lot");
+  EXPECT_EQ(a.problems(), "1:12 visual-cga (warning)\n");
+}
+
+TEST(Analyse, extensionsFallBackToWhatTheyReplace) {
+  const Analysed a(
+      "import i : \"i.cga\" (Roof --> Mine) extension Mine --> i.Roof Lot --> i.Lot i.Roof",
+      {{"i.cga", "extension Roof --> X. Lot --> Roof"}});
+  EXPECT_CLEAN(a);
+  std::vector<std::string> called;
+  for (const lang::Module& m : a.program.modules) {
+    const Tree& t = a.program.tree(m.id);
+    for (NodeId id = 1; id < t.size(); ++id) {
+      if (m.at(id).kind != RefKind::Rule || t.text(id).find("Roof") == std::string::npos) continue;
+      const RuleInfo& r = a.program.rules[m.at(id).index];
+      called.push_back(std::to_string(m.id) + " " + std::to_string(r.module));
+    }
+  }
+  // `i.Roof` of Mine, `i.Roof` of Lot and `Roof` of the import.
+  EXPECT_EQ(called, (std::vector<std::string>{"0 1", "0 0", "1 0"}));
 }
 
 TEST(Analyse, cyclesOfImportsEnd) {

@@ -102,11 +102,14 @@ class Analysis {
     size_t paramCount = 0;
     /// Set while the value of an attribute is walked.
     AttributeId attribute = kNone;
+    /// Set while a rule is walked.
+    RuleId rule = kNone;
   };
 
   // --- modules.cpp: files, styles, imports, declarations ---
   uint32_t loadUnit(const std::string& path, Span from, uint32_t importerUnit,
                     std::vector<uint32_t>& open);
+  void reportImport(const Error& why, const std::string& path, Span from);
   void indexUnit(uint32_t unit);
   void loadImports(uint32_t unit, std::vector<uint32_t>& open);
   ModuleId addModule(uint32_t unit, std::string path, std::string style, ModuleId importer,
@@ -132,6 +135,7 @@ class Analysis {
     bool imported = false;
   };
   RuleSet rulesNamed(ModuleId module, std::string_view name) const;
+  bool forwards(ModuleId owner, std::string_view name) const;
   std::vector<FunctionId> functionsNamed(ModuleId module, std::string_view name) const;
   AttributeId attributeNamed(ModuleId module, std::string_view name) const;
   /// The module and the rest of a name with prefixes of imports.
@@ -333,6 +337,8 @@ class Analysis {
   std::vector<UnitIndex> units_;
   std::vector<Scope> scopes_;
   std::map<std::string, uint32_t> unitByPath_;
+  /// Paths of imports that have been told of.
+  std::unordered_set<std::string> missingImports_;
   /// By (unit, import node): the unit imported; missing when it could not be loaded.
   std::map<std::pair<uint32_t, NodeId>, uint32_t> importedUnit_;
   std::map<std::pair<ModuleId, NodeId>, ModuleId> dynamicModules_;

@@ -121,15 +121,44 @@ Tree FileLoader::parse(const Sources& sources, uint32_t file, Diagnostics& diagn
   return lang::parse(sources, file, diagnostics);
 }
 
+namespace {
+constexpr const char* kNotFound = "import-not-found";
+}
+
+Error missingImport(const std::string& path) {
+  return {kNotFound, "there is no rule file '" + path + "'",
+          "paths count from the project's folder or the importing file's; files of other projects "
+          "are found with a workspace or a library"};
+}
+
+// Rules often name files of libraries that are not there. What they want of these is left out.
+void Analysis::reportImport(const Error& why, const std::string& path, Span from) {
+  if (why.code != kNotFound) return error(why.code.c_str(), from, why.message, why.hint);
+  if (!missingImports_.insert(path).second) return;
+  warning(kNotFound, from,
+          why.message + ": its rules become leaves, its attributes and functions have no value",
+          why.hint);
+}
+
 uint32_t Analysis::loadUnit(const std::string& path, Span from, uint32_t importerUnit,
                             std::vector<uint32_t>& open) {
   if (!loader_) {
     error("import-missing", from, "imports cannot be read here", "");
     return kNone;
   }
+  if (path.ends_with(".vcga")) {
+    if (missingImports_.insert(path).second) {
+      warning("visual-cga", from,
+              quote(path) +
+                  " is a file of the visual editor, which cannot be read: its rules "
+                  "become leaves, its attributes have no value",
+              "export it as CGA from the editor that wrote it, and import that file");
+    }
+    return kNone;
+  }
   Result<FileLoader::File> file = loader_->load(path, program_.units[importerUnit].path);
   if (!file) {
-    error(file.error().code.c_str(), from, file.error().message, file.error().hint);
+    reportImport(file.error(), path, from);
     return kNone;
   }
   const auto known = unitByPath_.find(file->path);

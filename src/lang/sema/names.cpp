@@ -36,6 +36,40 @@ std::pair<ModuleId, std::string_view> Analysis::enter(ModuleId module,
   }
 }
 
+namespace {
+
+bool applies(const Tree& t, NodeId body, std::string_view rule) {
+  std::vector<NodeId> open{body};
+  while (!open.empty()) {
+    const NodeId node = open.back();
+    open.pop_back();
+    if (node == kNoNode) continue;
+    if (t.kind(node) == NodeKind::Apply && t.text(node) == rule) return true;
+    for (const NodeId child : t.children(node)) open.push_back(child);
+  }
+  return false;
+}
+
+}  // namespace
+
+// What stands in the place of an extension rule may apply that rule: `Ext --> MyExt` in the import
+// and `extension MyExt --> imp.Ext`. There the name means the rule as the imported file has it.
+bool Analysis::forwards(ModuleId owner, std::string_view name) const {
+  const auto own = scopes_[owner].rules.find(name);
+  const auto put = scopes_[owner].replaced.find(name);
+  if (body_.rule == kNone || own == scopes_[owner].rules.end() ||
+      put == scopes_[owner].replaced.end() || !program_.rules[own->second[0]].extension) {
+    return false;
+  }
+  const RuleInfo& here = program_.rules[body_.rule];
+  return std::any_of(put->second.begin(), put->second.end(), [&](RuleId id) {
+    const RuleInfo& r = program_.rules[id];
+    if (r.module != here.module) return false;
+    const Tree& t = program_.tree(r.module);
+    return id == body_.rule || (here.extension && applies(t, bodyOf(t, r.node), here.name));
+  });
+}
+
 Analysis::RuleSet Analysis::rulesNamed(ModuleId module, std::string_view name) const {
   RuleSet set;
   const auto append = [&](const std::unordered_map<std::string_view, std::vector<RuleId>>& map,
@@ -46,7 +80,7 @@ Analysis::RuleSet Analysis::rulesNamed(ModuleId module, std::string_view name) c
   set.imported = isImport(module, name);
   append(scopes_[module].rules, set.imported ? name : std::string_view());
   const auto [owner, rest] = enter(module, name);
-  append(scopes_[owner].replaced, rest);
+  if (!forwards(owner, rest)) append(scopes_[owner].replaced, rest);
   append(scopes_[owner].rules, rest);
   if (rest == "start" && set.rules.empty()) set.rules = scopes_[owner].startRules;
   return set;

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "engine/file_search.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/files.h"
+
+namespace gable {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A project of more files than this is no project; listing stops there.
+constexpr size_t kMostFiles = 200000;
+
+bool climbs(std::string_view path) {
+  size_t from = 0;
+  while (from <= path.size()) {
+    const size_t to = std::min(path.find_first_of("/\\", from), path.size());
+    if (path.substr(from, to - from) == "..") return true;
+    from = to + 1;
+  }
+  return false;
+}
+
+// Below a root: what begins with a dot is a tool's own (.git, .env, .gable), and no asset.
+bool isHidden(std::string_view path) {
+  for (size_t i = 0; i < path.size(); ++i) {
+    if (path[i] == '.' && (i == 0 || path[i - 1] == '/')) return true;
+  }
+  return false;
+}
+
+std::string canonical(const fs::path& p) {
+  std::error_code error;
+  const fs::path c = fs::weakly_canonical(p, error);
+  return error ? std::string() : c.string();
+}
+
+bool isFolder(const std::string& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+/// What follows the folder in the path of a file below it, with its slash; else empty.
+std::string_view below(std::string_view folder, std::string_view path) {
+  if (folder.empty() || path.size() <= folder.size() || !path.starts_with(folder)) return {};
+  if (folder == "/") return path;
+  return path[folder.size()] == '/' ? path.substr(folder.size()) : std::string_view();
+}
+
+/// "Name" of "/Name/rest"; empty for a path of another form.
+std::string_view firstFolder(std::string_view path) {
+  if (path.empty() || path[0] != '/') return {};
+  const size_t second = path.find('/', 1);
+  return second == std::string_view::npos ? std::string_view() : path.substr(1, second - 1);
+}
+
+struct NamedFolder {
+  std::string name;
+  std::string folder;
+};
+
+// "NAME=FOLDER", unless there is a folder of that whole name.
+NamedFolder libraryOf(const std::string& written) {
+  const size_t equals = written.find('=');
+  const bool named = equals != std::string::npos && equals > 0 && !isFolder(written);
+  if (named) return {written.substr(0, equals), written.substr(equals + 1)};
+  return {fileNameOf(canonical(written)), written};
+}
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
+
+bool sameName(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return lower(x) == lower(y); });
+}
+
+/// How many names, from the last one on, two paths have in common; letters of another case count
+/// less than the same.
+size_t alike(std::string_view a, std::string_view b) {
+  size_t points = 0;
+  for (;;) {
+    const size_t i = a.rfind('/'), j = b.rfind('/');
+    const std::string_view x = a.substr(i + 1), y = b.substr(j + 1);
+    if (!sameName(x, y)) return points;
+    points += x == y ? 3 : 2;
+    if (i == std::string_view::npos || j == std::string_view::npos) return points;
+    a = a.substr(0, i), b = b.substr(0, j);
+  }
+}
+
+}  // namespace
+
+FileSearch::FileSearch(const std::string& root, const SearchSettings& settings)
+    : root_(canonical(root.empty() ? "." : root)), settings_(settings) {
+  rootName_ = fileNameOf(root_);
+  if (settings.workspace) workspace_ = canonical(*settings.workspace);
+  for (const std::string& written : settings.libraries) {
+    const NamedFolder library = libraryOf(written);
+    libraries_.push_back({library.name, canonical(library.folder)});
+  }
+}
+
+std::string FileSearch::rootFor(const std::string& ruleFile, const SearchSettings& settings) {
+  const std::string file = canonical(ruleFile);
+  if (settings.workspace) {
+    const std::string workspace = canonical(*settings.workspace);
+    const std::string_view project = firstFolder(below(workspace, file));
+    if (!project.empty()) return workspace + (workspace == "/" ? "" : "/") + std::string(project);
+  }
+  const fs::path folder = fs::path(file).parent_path();
+  for (fs::path at = folder; at.has_relative_path(); at = at.parent_path()) {
+    if (isFolder(at / "rules") || isFolder(at / "assets")) return at.string();
+  }
+  return folder.string();
+}
+
+std::optional<Error> FileSearch::missingFolder(const SearchSettings& settings) {
+  const auto missing = [](const std::string& folder, const char* what, const char* hint) {
+    return Error{"folder-missing", std::string("there is no ") + what + " '" + folder + "'", hint};
+  };
+  if (settings.workspace && !isFolder(*settings.workspace)) {
+    return missing(*settings.workspace, "workspace",
+                   "name the folder that holds the projects, one folder each");
+  }
+  for (const std::string& written : settings.libraries) {
+    const NamedFolder library = libraryOf(written);
+    if (!isFolder(library.folder)) {
+      return missing(library.folder, "library", "name a folder of rules, or NAME=FOLDER");
+    }
+  }
+  return std::nullopt;
+}
+
+bool FileSearch::covers(const std::string& path) const {
+  return !below(root_, path).empty() || !below(workspace_, path).empty() ||
+         std::any_of(libraries_.begin(), libraries_.end(),
+                     [&](const Library& l) { return !below(l.path, path).empty(); });
+}
+
+std::string FileSearch::inside(const std::string& candidate) const {
+  if (!fileExists(candidate)) return {};
+  const std::string real = canonical(candidate);
+  const auto open = [&](const std::string& folder) {
+    const std::string_view rest = below(folder, real);
+    return !rest.empty() && !isHidden(rest);
+  };
+  const bool allowed = open(root_) || open(workspace_) ||
+                       std::any_of(libraries_.begin(), libraries_.end(),
+                                   [&](const Library& l) { return open(l.path); });
+  return allowed ? real : std::string();
+}
+
+const FileSearch::Library* FileSearch::libraryNamed(std::string_view name) const {
+  const auto at = std::find_if(libraries_.begin(), libraries_.end(),
+                               [&](const Library& l) { return l.name == name; });
+  return at == libraries_.end() ? nullptr : &*at;
+}
+
+// The root of the project that a file lies in, by what the file is called.
+std::string FileSearch::baseOf(std::string_view fromFile) const {
+  const std::string_view name = firstFolder(fromFile);
+  if (name.empty()) return root_;
+  if (const Library* library = libraryNamed(name)) return library->path;
+  const std::string other = workspace_ + "/" + std::string(name);
+  return !workspace_.empty() && isFolder(other) ? other : root_;
+}
+
+std::vector<std::string> FileSearch::places(std::string_view path,
+                                            std::string_view fromFile) const {
+  if (path.empty() || climbs(path) || path.find('\0') != std::string_view::npos) return {};
+  std::string clean(path);
+  std::replace(clean.begin(), clean.end(), '\\', '/');
+  const std::string base = baseOf(fromFile);
+  std::vector<std::string> candidates;
+  if (clean[0] == '/') {
+    candidates.push_back(root_ + clean);
+    const std::string name(firstFolder(clean));
+    const std::string rest = name.empty() ? std::string() : clean.substr(name.size() + 1);
+    if (!name.empty() && name == rootName_) candidates.push_back(root_ + rest);
+    if (const Library* library = libraryNamed(name)) candidates.push_back(library->path + rest);
+    if (!workspace_.empty()) candidates.push_back(workspace_ + clean);
+    if (base != root_) candidates.push_back(base + clean);
+    for (const Library& l : libraries_) candidates.push_back(l.path + clean);
+    return candidates;
+  }
+  candidates.push_back(base + "/assets/" + clean);
+  candidates.push_back(base + "/" + clean);
+  const std::string folder = folderOf(std::string(fromFile));
+  const std::string_view inBase =
+      base == root_ ? std::string_view(folder)
+                    : std::string_view(folder).substr(firstFolder(fromFile).size() + 2);
+  if (!inBase.empty()) candidates.push_back(base + "/" + std::string(inBase) + "/" + clean);
+  for (const Library& l : libraries_) {
+    for (const char* within : {"/assets/", "/rules/", "/"}) {
+      candidates.push_back(l.path + within + clean);
+    }
+  }
+  return candidates;
+}
+
+std::string FileSearch::locate(std::string_view path, std::string_view fromFile) const {
+  for (const std::string& c : places(path, fromFile)) {
+    std::string found = inside(c);
+    if (!found.empty()) return found;
+  }
+  return settings_.byName && !climbs(path) ? byName(path) : std::string();
+}
+
+std::string FileSearch::byName(std::string_view path) const {
+  std::string clean(path);
+  std::replace(clean.begin(), clean.end(), '\\', '/');
+  std::string best;
+  size_t most = 0;
+  const auto look = [&](const std::string& folder) {
+    for (const std::string& file : listed(folder)) {
+      const size_t points = alike(file, clean);
+      if (points > most) most = points, best = folder + file;
+    }
+  };
+  look(root_);
+  for (const Library& l : libraries_) look(l.path);
+  if (!workspace_.empty()) look(workspace_);
+  return best.empty() ? best : inside(best);
+}
+
+std::string FileSearch::projectPath(const std::string& file) const {
+  const std::string real = canonical(file);
+  if (const std::string_view rest = below(root_, real); !rest.empty()) {
+    return std::string(rest.substr(1));
+  }
+  for (const Library& l : libraries_) {
+    const std::string_view rest = below(l.path, real);
+    if (!rest.empty()) return "/" + l.name + std::string(rest);
+  }
+  const std::string_view rest = below(workspace_, real);
+  return rest.empty() ? file : std::string(rest);
+}
+
+const std::vector<std::string>& FileSearch::listed(const std::string& folder) const {
+  const std::lock_guard lock(mutex_);
+  const auto [at, fresh] = listings_.try_emplace(folder);
+  std::vector<std::string>& files = at->second;
+  if (!fresh) return files;
+  std::error_code error;
+  fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, error);
+  for (; !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
+    if (files.size() >= kMostFiles) break;
+    if (isHidden(it->path().filename().string())) {
+      it.disable_recursion_pending();
+      continue;
+    }
+    if (it->is_regular_file(error) && !it->is_symlink(error)) {
+      files.emplace_back(below(folder, it->path().string()));
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// Relative patterns are matched below assets/ and below the root of the file's project.
+std::vector<std::string> FileSearch::search(std::string_view pattern,
+                                            std::string_view fromFile) const {
+  std::vector<std::string> out;
+  const auto look = [&](const std::string& folder, const std::string& prefix,
+                        const std::vector<std::string>& patterns) {
+    for (const std::string& file : listed(folder)) {
+      const auto fits = [&](const std::string& p) { return matchesPattern(p, file); };
+      if (std::any_of(patterns.begin(), patterns.end(), fits)) out.push_back(prefix + file);
+    }
+  };
+  const std::string base = baseOf(fromFile);
+  const std::string text(pattern);
+  if (pattern.empty() || pattern[0] != '/') {
+    const std::string prefix =
+        base == root_ ? std::string() : "/" + std::string(firstFolder(fromFile));
+    look(base, prefix, {"/assets/" + text, "/" + text});
+    return out;
+  }
+  const std::string name(firstFolder(pattern));
+  const std::string rest = text.substr(name.empty() ? 0 : name.size() + 1);
+  std::vector<std::string> own{text};
+  if (!name.empty() && name == rootName_) own.push_back(rest);
+  look(root_, "", own);
+  if (name.empty() || name == rootName_) return out;
+  if (const Library* library = libraryNamed(name)) {
+    look(library->path, "/" + name, {rest});
+  } else if (!workspace_.empty() && isFolder(workspace_ + "/" + name)) {
+    look(workspace_ + "/" + name, "/" + name, {rest});
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+// Keeps the set of places in the path that the pattern so far can end at: O(pattern x path).
+bool matchesPattern(std::string_view pattern, std::string_view path) {
+  std::vector<char> reachable(path.size() + 1, 0), next;
+  reachable[0] = 1;
+  for (char c : pattern) {
+    next.assign(path.size() + 1, 0);
+    if (c == '*' || c == '$') {
+      bool running = false;
+      for (size_t i = 0; i <= path.size(); ++i) {
+        running = running || reachable[i];
+        next[i] = running;
+        if (c == '$' && i < path.size() && path[i] == '/') running = false;
+      }
+    } else {
+      for (size_t i = 0; i < path.size(); ++i) next[i + 1] = reachable[i] && path[i] == c;
+    }
+    reachable.swap(next);
+  }
+  return reachable.back() != 0;
+}
+
+}  // namespace gable

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// FileSearch: which file a path means that a rule writes, and which files may be read at all.
+//
+// A path "/a/b" counts from the project's root, then names a file of another project: `a` is the
+// project's own folder, a library or a folder of the workspace. Other paths are looked up in
+// `assets/`, in the root and beside the file that names them, all in the project of that file; then
+// in the libraries. Nothing else is ever read: no "..", no links that lead out; and nothing hidden,
+// by a name that begins with a dot.
+//
+// Files of the own project are called by their path from its root, "rules/town.cga"; those of
+// others by a path that begins with a slash, "/ESRI.lib/rules/x.cga".
+//
+// Any thread may call.
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "gable/search.h"
+
+namespace gable {
+
+class FileSearch {
+ public:
+  FileSearch(const std::string& root, const SearchSettings& settings);
+
+  /// The project root for a rule file that names none: in a workspace the folder of the project,
+  /// else the nearest folder above that holds a `rules` or an `assets` folder, else the file's own.
+  static std::string rootFor(const std::string& ruleFile, const SearchSettings& settings);
+  /// What is wrong where a folder of the settings is not there; code: folder-missing.
+  static std::optional<Error> missingFolder(const SearchSettings& settings);
+
+  const std::string& root() const { return root_; }
+  const SearchSettings& settings() const { return settings_; }
+  /// The file on disk of a path; empty when there is none that may be read.
+  std::string locate(std::string_view path, std::string_view fromFile) const;
+  /// Where on disk that may be, in the order of looking; whether there is a file is not asked.
+  std::vector<std::string> places(std::string_view path, std::string_view fromFile) const;
+  /// The canonical path of a file on disk when it is a plain file that may be read, else empty.
+  std::string inside(const std::string& candidate) const;
+  /// Whether a path on disk lies in one of the folders.
+  bool covers(const std::string& path) const;
+  /// What a file on disk is called; the path itself for one that lies in none of the folders.
+  std::string projectPath(const std::string& file) const;
+  /// All files of the own project as paths from its root, with a slash before them; sorted.
+  const std::vector<std::string>& files() const { return listed(root_); }
+  /// What the files are called, with a slash before them, that match a pattern; sorted.
+  std::vector<std::string> search(std::string_view pattern, std::string_view fromFile) const;
+
+ private:
+  struct Library {
+    std::string name;
+    std::string path;
+  };
+  std::string baseOf(std::string_view fromFile) const;
+  const Library* libraryNamed(std::string_view name) const;
+  const std::vector<std::string>& listed(const std::string& folder) const;
+  std::string byName(std::string_view path) const;
+
+  std::string root_;
+  std::string rootName_;
+  SearchSettings settings_;
+  /// Empty without one.
+  std::string workspace_;
+  std::vector<Library> libraries_;
+  mutable std::mutex mutex_;
+  mutable std::map<std::string, std::vector<std::string>> listings_;
+};
+
+/// Whether a project path matches a pattern: $ is any run of characters but '/', * is any run.
+bool matchesPattern(std::string_view pattern, std::string_view path);
+
+}  // namespace gable

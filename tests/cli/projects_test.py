@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The Gable authors
+"""Rules of several projects: projects_test.py GABLE FOLDER.
+
+What `--workspace`, `--lib` and `--find-by-name` find, what nothing finds, and what happens then. Files are made in
+FOLDER. Run from the repository's root.
+"""
+import json
+import shutil
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+GABLE, FOLDER = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+DONE, WRONG, USAGE, FILE = 0, 1, 2, 3
+
+CUBE = "\n".join(["v 0 0 0", "v 1 0 0", "v 1 1 0", "v 0 1 0", "v 0 0 1", "v 1 0 1", "v 1 1 1", "v 0 1 1",
+                  "f 4 3 2 1", "f 5 6 7 8", "f 1 2 6 5", "f 2 3 7 6", "f 3 4 8 7", "f 4 1 5 8", ""])
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = FOLDER / type(self).__name__ / self._testMethodName
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.mkdir(parents=True)
+
+    def tearDown(self):
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def put(self, name, text):
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if isinstance(text, bytes):
+            path.write_bytes(text)
+        else:
+            path.write_text(text)
+        return name
+
+    def gable(self, *arguments, status=DONE):
+        done = subprocess.run([str(GABLE), *arguments], cwd=self.folder, capture_output=True, text=True, timeout=120,
+                              check=False)
+        self.assertEqual(done.returncode, status, f"{arguments}\n{done.stdout}{done.stderr}")
+        return done.stdout + done.stderr
+
+    def codes(self, *arguments, status=DONE):
+        told = self.gable("check", "--json", *arguments, status=status)
+        return [d["code"] for d in json.loads(told)]
+
+    def reports(self, *arguments):
+        self.gable("generate", *arguments, "-o", "out.glb", "--stats", "stats.json")
+        stats = json.loads((self.folder / "stats.json").read_text())
+        return {key: value["sum"] for key, value in stats["reports"].items()}
+
+
+MAIN = 'import w : "/Other/rules/w.cga"\nLot --> extrude(3) comp(f) { side : w.Wall | top : X. }\n'
+WALL = 'Wall --> i("panel.obj") report("walls", 1) report("faces", geometry.nVertices) X.\n'
+
+
+class Projects(Case):
+    def project(self):
+        self.put("town/Mine/rules/main.cga", MAIN)
+        self.put("town/Other/rules/w.cga", WALL)
+        self.put("town/Other/assets/panel.obj", CUBE)
+        return "town/Mine/rules/main.cga"
+
+    def testFilesOfOtherProjectsAreFoundInAWorkspace(self):
+        main = self.project()
+        self.assertEqual(self.codes(main, "--workspace", "town"), [])
+        self.assertEqual(self.reports(main, "--workspace", "town"), {"walls": 4, "faces": 32})
+
+    def testLibrariesAreFoundByTheirFolderOrTheirName(self):
+        main = self.project()
+        self.assertEqual(self.codes(main, "--lib", "town/Other"), [])
+        (self.folder / "town/Other").rename(self.folder / "elsewhere")
+        self.assertEqual(self.codes(main, "--lib", "elsewhere"), ["import-not-found"])
+        self.assertEqual(self.reports(main, "--lib", "Other=elsewhere"), {"walls": 4, "faces": 32})
+
+    def testRelativePathsAreLookedForInLibrariesLast(self):
+        self.put("p/rules/main.cga", 'import w : "w.cga"\nLot --> w.Wall\n')
+        self.put("lib/rules/w.cga", 'Wall --> report("lib", 1) X.\n')
+        self.assertEqual(self.reports("p/rules/main.cga", "--lib", "lib"), {"lib": 1})
+        self.put("p/rules/w.cga", 'Wall --> report("own", 1) X.\n')
+        self.assertEqual(self.reports("p/rules/main.cga", "--lib", "lib"), {"own": 1})
+
+    def testPatternsReachOtherProjects(self):
+        main = self.project()
+        self.put(main, 'Lot --> report("n", listSize(fileSearch("/Other/assets/*.obj"))) X.\n')
+        self.assertEqual(self.reports(main, "--workspace", "town"), {"n": 1})
+        self.assertEqual(self.reports(main), {"n": 0})
+
+    def testFilesAreFoundByNameWhereThatIsAskedFor(self):
+        self.put("p/rules/main.cga", 'import w : "/Gone/rules/Walls.cga"\nLot --> w.Wall i("x/Panel.obj") X.\n')
+        self.put("p/rules/old/walls.cga", 'Wall --> report("old", 1) X.\n')
+        self.put("p/rules/z/rules/walls.cga", 'Wall --> report("near", 1) X.\n')
+        self.put("p/assets/deep/panel.obj", CUBE)
+        main = "p/rules/main.cga"
+        self.assertEqual(self.codes(main), ["import-not-found", "missing-file"])
+        self.assertEqual(self.codes(main, "--find-by-name"), [])
+        # Of two files that have the name, the one whose folders are those of the path.
+        self.assertEqual(self.reports(main, "--find-by-name"), {"near": 1})
+
+    def testTheRestIsDerivedWithoutWhatIsMissing(self):
+        main = self.put("main.cga", 'import a : "/ESRI.lib/rules/a.cga"\nimport b : "/ESRI.lib/rules/a.cga" (h = 2)\n'
+                        'attr h = a.h\nattr k = case a.on : 1 else : 2\n'
+                        'Lot --> a.Trees extrude(3) report("k", k) comp(f) { top : b.Roof(a.f(1)) | side : Wall }\n'
+                        'Wall --> set(a.h, 2) extrude(h) color(a.tint) report("walls", 1) X.\n')
+        told = self.gable("check", main)
+        self.assertEqual(told.count("import-not-found"), 1, told)
+        self.assertNotIn("error[", told)
+        self.assertEqual(self.reports(main)["walls"], 4)
+
+    def testFoldersThatAreNotThereAreTold(self):
+        main = self.project()
+        self.assertEqual(self.codes(main, "--workspace", "nowhere", status=FILE), ["folder-missing"])
+        self.assertEqual(self.codes(main, "--lib", "nowhere", status=FILE), ["folder-missing"])
+        self.assertEqual(self.codes(main, "--lib", "X=" + main, status=FILE), ["folder-missing"])
+
+    def testNothingElseIsRead(self):
+        main = self.project()
+        secret = self.put("secret.cga", "Wall --> X.\n")
+        (self.folder / "town/Other/rules/link.cga").symlink_to(self.folder / secret)
+        self.put("town/.hidden/rules/h.cga", "Wall --> X.\n")
+        for path in ["/Other/../../secret.cga", "/Other/rules/link.cga", "/.hidden/rules/h.cga",
+                     str(self.folder / secret), "..\\\\..\\\\..\\\\secret.cga"]:
+            self.put(main, f'import w : "{path}"\nLot --> w.Wall\n')
+            for options in [["--workspace", "town"], ["--lib", "town/Other"], ["--lib", "town/Other", "--find-by-name"]]:
+                self.assertEqual(self.codes(main, *options), ["import-not-found"], path)
+
+    def testCyclesAcrossProjectsAreTold(self):
+        main = self.project()
+        self.put("town/Other/rules/w.cga", 'import m : "/Mine/rules/main.cga"\nWall --> m.Lot\n')
+        self.assertEqual(self.codes(main, "--workspace", "town", status=WRONG), ["import-cycle"])
+
+    def testTheVisualEditorsFilesAreNamed(self):
+        main = self.put("main.cga", 'import a : "design.vcga"\nLot --> a.Lot\n')
+        self.put("design.vcga", "{}")
+        self.assertEqual(self.codes(main), ["visual-cga"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], "-v", *sys.argv[3:]])
