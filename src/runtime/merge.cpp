@@ -170,25 +170,9 @@ class Merger {
       if (input_.recall) remember(s, shift, notes);
       to.shapes += s.content.range.shapes;
     }
-    dropIfEmpty(to, notes.speaks);
     scene_.prototypes.push_back(to);
     if (input_.recall) input_.recall->prototypes.push_back(notes);
     return number;
-  }
-
-  // Takes the instances out of a prototype, the last so far, in which there is no leaf: rules that
-  // make nothing may stand for more instances than can be walked through. The incremental cache
-  // finds reports by the instances around them.
-  void dropIfEmpty(Prototype& p, bool speaks) {
-    const Instance* const begin = scene_.instances.data() + p.firstInstance;
-    const bool empty =
-        p.leafCount == 0 && std::all_of(begin, begin + p.instanceCount, [&](const Instance& i) {
-          const Prototype& inner = scene_.prototypes[i.prototype];
-          return inner.leafCount == 0 && inner.instanceCount == 0;
-        });
-    if (!empty || (speaks && input_.recall)) return;
-    p.instanceCount = 0;
-    scene_.instances.resize(p.firstInstance);
   }
 
   void append(const Segment& s, const Output::Mark& shift, Prototype& to) {
@@ -291,7 +275,6 @@ class Merger {
         renumber(scene_.leaves.back(), worker);
       }
     }
-    dropIfEmpty(to, from.speaks);
     scene_.prototypes.push_back(to);
     if (input_.recall) remember(outputs_[worker], from);
     const auto number = static_cast<uint32_t>(scene_.prototypes.size() - 1);
