@@ -58,7 +58,9 @@ struct RoofPitch {
 };
 
 /// A slope at every edge. Eaves reach out by `overhang`, measured down the slopes; the bottom
-/// stays. `even` sets each connected group of ridges to its mean height, and faces may bend.
+/// stays. Below zero the slopes keep their planes and end as far above the edges; a slope that is
+/// shorter is left out. `even` sets each connected group of ridges to its mean height, and faces
+/// may bend.
 Roof hipRoof(const Polygon& polygon, RoofPitch pitch, double overhang = 0, bool even = false);
 
 /// The same with an angle per ring and edge, in (0, 90]; at 90 the wall goes up as an upright side.
@@ -66,9 +68,9 @@ Roof hipRoof(const Polygon& polygon, std::span<const std::vector<double>> angles
              double overhang = 0);
 
 struct GableOptions {
-  /// Of the eaves, down the slope.
+  /// Of the eaves, down the slope; below zero as for hip roofs.
   double overhangX = 0;
-  /// Of the gable ends, along the ridges.
+  /// Of the gable ends, along the ridges; below zero the slopes end before the upright face.
   double overhangY = 0;
   bool even = false;
   /// The outer edge that the ridge shall be parallel to, modulo their number; for convex polygons.

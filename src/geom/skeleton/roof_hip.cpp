@@ -29,7 +29,7 @@ using Weights = std::vector<std::vector<double>>;
 struct Plan {
   /// The cotangent of the slope; 0 where upright.
   Weights weights;
-  /// How far the roof reaches out beyond each edge, level.
+  /// How far the roof reaches out beyond each edge, level; below zero it stays behind the edge.
   Weights reach;
 };
 
@@ -231,7 +231,7 @@ Outside outsideOf(const RoofPieces& roof, const Plan& plan, uint32_t r) {
   for (size_t i = 0; i < n; ++i) {
     work();
     back[i] = ring[n - 1 - i];
-    reach[i] = plan.reach[r][(2 * n - 2 - i) % n];
+    reach[i] = std::max(0.0, plan.reach[r][(2 * n - 2 - i) % n]);
     farthest = std::max(farthest, reach[i]);
   }
   Outside out;
@@ -331,12 +331,29 @@ void applyPitch(RoofPitch pitch, Skeleton& s, Plan& plan) {
 /// The level part of a length measured down a slope of cotangent w.
 double levelPart(double lengthDown, double w) { return lengthDown * w / std::sqrt(1 + w * w); }
 
+/// The part of the plan that is below zero.
+RoofRetreat retreatOf(const RoofPieces& roof, const Plan& plan) {
+  RoofRetreat retreat;
+  for (uint32_t r = 0; r < roof.ringCount(); ++r) {
+    for (uint32_t k = 0; k < plan.reach[r].size(); ++k) {
+      const double reach = plan.reach[r][k], weight = plan.weights[r][k];
+      if (reach >= 0) continue;
+      if (isUpright(weight)) {
+        retreat.ends[roof.edgeNumber(r, k)] = -reach;
+      } else {
+        retreat.eaves = std::max(retreat.eaves, -reach / weight);
+      }
+    }
+  }
+  return retreat;
+}
+
 Roof finishRoof(const Polygon& given, const Polygon& polygon, const std::vector<bool>& reversed,
                 const Skeleton& s, const Plan& plan, bool even) {
   RoofPieces pieces(polygon);
   addSkeleton(s, plan, pieces);
   if (Status status = addOverhangs(pieces, plan, s); !status.ok()) return failedRoof(status);
-  Roof roof = pieces.finish(even);
+  Roof roof = pieces.finish(even, retreatOf(pieces, plan));
   restoreEdgeNumbers(roof, given, reversed);
   return roof;
 }
@@ -351,7 +368,7 @@ Roof hipRoof(const Polygon& given, RoofPitch pitch, double overhang, bool even) 
   if (!s.status.ok()) return failedRoof(s.status);
   Plan plan{uniform(polygon, 1), uniform(polygon, 0)};
   applyPitch(pitch, s, plan);
-  if (overhang > 0) plan.reach = uniform(polygon, levelPart(overhang, plan.weights[0][0]));
+  if (overhang != 0) plan.reach = uniform(polygon, levelPart(overhang, plan.weights[0][0]));
   return finishRoof(given, polygon, reversed, s, plan, even);
 }
 
@@ -487,9 +504,8 @@ Roof gableRoof(const Polygon& given, RoofPitch pitch, const GableOptions& option
   applyPitch(pitch, s, plan);
   for (size_t r = 0; r < ends.size(); ++r) {
     for (size_t k = 0; k < ends[r].size(); ++k) {
-      plan.reach[r][k] = ends[r][k]
-                             ? std::max(0.0, options.overhangY)
-                             : levelPart(std::max(0.0, options.overhangX), plan.weights[r][k]);
+      plan.reach[r][k] =
+          ends[r][k] ? options.overhangY : levelPart(options.overhangX, plan.weights[r][k]);
     }
   }
   return finishRoof(given, polygon, reversed, s, plan, even);

@@ -346,7 +346,7 @@ void RoofPieces::addSidesAndBottom(Roof& roof) const {
   roof.faces.push_back(std::move(bottom));
 }
 
-Roof RoofPieces::finish(bool even) {
+Roof RoofPieces::finish(bool even, const RoofRetreat& retreat) {
   Roof roof;
   roof.vertices = vertices_;
   for (uint32_t e = 0; e < edgeCount_; ++e) {
@@ -359,6 +359,7 @@ Roof RoofPieces::finish(bool even) {
     for (auto& l : loops) f.loops.push_back({std::move(l), {}});
     roof.faces.push_back(std::move(f));
   }
+  cutBack(roof, retreat);
   // Only an overhang leaves such vertices: a face has a piece inside and one outside then.
   if (std::any_of(slopes_.begin(), slopes_.end(), [](const auto& p) { return p.size() > 1; })) {
     dropStraightVertices(roof);

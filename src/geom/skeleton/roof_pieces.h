@@ -5,11 +5,20 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "geom/skeleton/roof.h"
 
 namespace gable::skeleton {
+
+/// How far slopes end short of their edges: what overhangs below zero ask for.
+struct RoofRetreat {
+  /// Slopes begin at this height.
+  double eaves = 0;
+  /// For upright edges (counted through all rings): how far in plan the slopes over them stay away.
+  std::map<uint32_t, double> ends;
+};
 
 class RoofPieces {
  public:
@@ -37,8 +46,9 @@ class RoofPieces {
   void addSlopePiece(uint32_t edgeNumber, std::vector<uint32_t> loop);
   void addSide(uint32_t edgeNumber, std::vector<uint32_t> loop);
 
-  /// Joins, gives the edges their roles, evens the ridges out and adds the bottom.
-  Roof finish(bool even);
+  /// Joins, cuts the slopes back, gives the edges their roles, evens the ridges out and adds the
+  /// bottom.
+  Roof finish(bool even, const RoofRetreat& retreat = {});
 
  private:
   struct Side {
@@ -51,6 +61,8 @@ class RoofPieces {
     double share = 0;
   };
   bool join(uint32_t edgeNumber, std::vector<std::vector<uint32_t>>& loops) const;
+  /// Cuts back the slopes of `roof`, which has no other faces yet.
+  void cutBack(Roof& roof, const RoofRetreat& retreat) const;
   void assignRoles(Roof& roof) const;
   void evenRidges(Roof& roof) const;
   void dropStraightVertices(Roof& roof);

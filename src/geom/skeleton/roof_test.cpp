@@ -10,6 +10,7 @@
 
 #include "geom/region/corpus.h"
 #include "geom/skeleton/roof_pieces.h"
+#include "math/trig.h"
 
 namespace gable {
 namespace {
@@ -107,6 +108,27 @@ TEST(Roof, pitchByHeightSetsTheTop) {
   EXPECT_NEAR(top(gableRoof(kEll, byHeight(4))), 4, 1e-12);
   EXPECT_NEAR(top(shedRoof(kEll, byHeight(4))), 4, 1e-12);
   EXPECT_NEAR(top(pyramidRoof(kEll, byHeight(4))), 4, 1e-12);
+}
+
+TEST(Roof, overhangsBelowZeroCutTheSlopesOfAnyPolygon) {
+  for (const double degrees : {30.0, 60.0}) {
+    for (const Polygon& p : {kRectangle, kEll}) {
+      const Roof whole = hipRoof(p, angle(degrees)), cut = hipRoof(p, angle(degrees), -1);
+      ASSERT_TRUE(cut.status.ok());
+      EXPECT_EQ(count(cut, RoofRole::Slope), count(whole, RoofRole::Slope));
+      EXPECT_EQ(countEdges(cut, RoofEdgeRole::Ridge), countEdges(whole, RoofEdgeRole::Ridge));
+      EXPECT_NEAR(top(cut), top(whole), 1e-12);
+      EXPECT_LT(bend(cut), 1e-9);
+      for (const RoofFace& f : cut.faces) {
+        if (f.role != RoofRole::Slope) continue;
+        double lowest = 1e9;
+        for (const uint32_t v : f.loops[0].vertices) {
+          lowest = std::min(lowest, cut.vertices[v].height);
+        }
+        EXPECT_NEAR(lowest, sinDeg(degrees), 1e-9);
+      }
+    }
+  }
 }
 
 TEST(Roof, hipOverhangGoesDownTheSlope) {

@@ -265,7 +265,10 @@ constexpr const char* kAngleDoc = "The slope of the roof planes, in degrees.";
 constexpr const char* kByDoc = "What the value means: the slope, or the height of the top.";
 constexpr const char* kValueDoc = "The slope in degrees, or the height in metres.";
 constexpr const char* kEvenDoc = "Makes ridges level; faces may then be bent.";
-constexpr const char* kEavesDoc = "How far the eaves reach out, down the slope.";
+constexpr const char* kEavesDoc =
+    "How far the eaves reach out, down the slope; below 0, how far above the edge the slope ends.";
+constexpr const char* kVergesDoc =
+    "How far the slopes reach out over the gable ends, along the ridge; below 0, how far behind.";
 constexpr const char* kEdgeDoc = "The edge to which the roof is turned, counted from 0.";
 
 constexpr ParamSpec kAngle[] = {param<&Pitch::value>("angle", kAngleDoc).above(0).below(90)};
@@ -273,15 +276,14 @@ constexpr ParamSpec kValue[] = {
     param<&Pitch::by>("valueType", kByDoc),
     param<&Pitch::value>("value", kValueDoc).above(0),
 };
-constexpr ParamSpec kOverhang = param<&Hip::overhang>("overhang", kEavesDoc, "0").atLeast(0);
+constexpr ParamSpec kOverhang = param<&Hip::overhang>("overhang", kEavesDoc, "0");
 constexpr ParamSpec kEven = param<&Hip::even>("even", kEvenDoc, "false");
 constexpr ParamSpec kHipByAngle[] = {kAngle[0], kOverhang, kEven};
 constexpr ParamSpec kHipByValue[] = {kValue[0], kValue[1], kOverhang, kEven};
 
 constexpr ParamSpec kGableRest[] = {
-    param<&Gable::overhangX>("overhangX", kEavesDoc, "0").atLeast(0),
-    param<&Gable::overhangY>("overhangY", "How far the gable ends reach out, along the ridge.", "0")
-        .atLeast(0),
+    param<&Gable::overhangX>("overhangX", kEavesDoc, "0"),
+    param<&Gable::overhangY>("overhangY", kVergesDoc, "0"),
     param<&Gable::even>("even", kEvenDoc, "false"),
     param<&Gable::index>("index", "The edge that the ridge runs along; for a single convex face.",
                          "none"),
