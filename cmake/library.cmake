@@ -14,8 +14,10 @@ endforeach()
 # What the layers stand on. A package that links libgable.a has to name them again.
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
-set(foreign PNG::PNG JPEG::JPEG Threads::Threads)
-set(foreign_flags "-lpng -ljpeg -pthread")
+find_package(TIFF REQUIRED)
+set(foreign PNG::PNG JPEG::JPEG TIFF::TIFF Threads::Threads
+    $<BUILD_INTERFACE:${WEBP_LIBRARY}> $<INSTALL_INTERFACE:webp>)
+set(foreign_flags "-lpng -ljpeg -ltiff -lwebp -pthread")
 if(EMBREE_LIBRARY)
   list(APPEND foreign $<BUILD_INTERFACE:${EMBREE_LIBRARY}> $<INSTALL_INTERFACE:embree3>)
   string(PREPEND foreign_flags "-lembree3 ")

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Any bytes as PNG or JPEG: reading ends in a status, or in as many pixels as the header says.
+// Any bytes as a picture: reading ends in a status, or in as many pixels as the header says.
 
 #include <cstddef>
 #include <cstdint>

@@ -88,7 +88,15 @@ int TextureSet::add(const std::string& path) {
   if (!bytes.ok()) return refuse(path, path, bytes.error().message);
   const Result<ImageHeader> header = readImageHeader(*bytes);
   if (!header.ok()) return refuse(path, path, header.error().message);
-  const bool png = header.value().format == ImageFormat::Png;
+  const bool jpeg = header.value().format == ImageFormat::Jpeg;
+  const bool png = !jpeg;
+  if (png && header.value().format != ImageFormat::Png) {
+    // Viewers read PNG and JPEG.
+    Result<Image> image = decodeImage(*bytes);
+    if (!image.ok()) return refuse(path, path, image.error().message);
+    bytes = encodePng(*image, header.value().hasAlpha ? 4 : 3);
+    if (!bytes.ok()) return refuse(path, path, bytes.error().message);
+  }
   // The name's extension is made to tell the truth.
   std::string name = plainName(path);
   const std::string extension = extensionOf(name);

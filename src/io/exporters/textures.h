@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // The textures that a written model carries: read once, in the order of first use, checked to be
-// pictures that every viewer reads (PNG and JPEG), and combined where a format wants two maps in
-// one file.
+// pictures that every viewer reads (others than PNG and JPEG become PNG), and combined where a
+// format wants two maps in one file.
 #pragma once
 
 #include <cstdint>

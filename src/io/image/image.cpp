@@ -4,28 +4,62 @@
 
 #include "base/work.h"
 #include "io/image/jpeg.h"
+#include "io/image/old_formats.h"
 #include "io/image/png.h"
+#include "io/image/tiff.h"
+#include "io/image/webp.h"
 
 namespace gable {
 namespace {
 
 Error unknown() {
-  return {"image-unknown", "the file is neither a PNG nor a JPEG picture",
-          "convert it to PNG or JPEG"};
+  return {"image-unknown", "the file is no picture that can be read",
+          "convert it to PNG or JPEG; TIFF, BMP, GIF, TGA and WebP are read, too"};
 }
 
 }  // namespace
 
+const char* extensionOf(ImageFormat format) {
+  switch (format) {
+    case ImageFormat::Png: return ".png";
+    case ImageFormat::Jpeg: return ".jpg";
+    case ImageFormat::Tiff: return ".tif";
+    case ImageFormat::Bmp: return ".bmp";
+    case ImageFormat::Gif: return ".gif";
+    case ImageFormat::Tga: return ".tga";
+    case ImageFormat::WebP: return ".webp";
+    case ImageFormat::Unknown: break;
+  }
+  return "";
+}
+
 ImageFormat imageFormat(std::string_view bytes) {
   if (bytes.substr(0, 8) == "\x89PNG\r\n\x1a\n") return ImageFormat::Png;
   if (bytes.substr(0, 3) == "\xff\xd8\xff") return ImageFormat::Jpeg;
+  const std::string_view four = bytes.substr(0, 4);
+  for (const std::string_view mark : {std::string_view("II*\0", 4), std::string_view("MM\0*", 4),
+                                      std::string_view("II+\0", 4), std::string_view("MM\0+", 4)}) {
+    if (four == mark) return ImageFormat::Tiff;
+  }
+  if (bytes.substr(0, 6) == "GIF87a" || bytes.substr(0, 6) == "GIF89a") return ImageFormat::Gif;
+  if (four == "RIFF" && bytes.size() >= 12 && bytes.substr(8, 4) == "WEBP") {
+    return ImageFormat::WebP;
+  }
+  if (bytes.substr(0, 2) == "BM" && bytes.size() > 26) return ImageFormat::Bmp;
+  if (looksLikeTga(bytes)) return ImageFormat::Tga;
   return ImageFormat::Unknown;
 }
 
 Result<ImageHeader> readImageHeader(std::string_view bytes) {
-  switch (imageFormat(bytes)) {
+  const ImageFormat format = imageFormat(bytes);
+  switch (format) {
     case ImageFormat::Png: return readPngHeader(bytes);
     case ImageFormat::Jpeg: return readJpegHeader(bytes);
+    case ImageFormat::Tiff: return readTiffHeader(bytes);
+    case ImageFormat::Bmp:
+    case ImageFormat::Gif:
+    case ImageFormat::Tga: return readOldHeader(bytes, format);
+    case ImageFormat::WebP: return readWebpHeader(bytes);
     case ImageFormat::Unknown: break;
   }
   return unknown();
@@ -35,11 +69,17 @@ Result<Image> decodeImage(std::string_view bytes, uint64_t maxPixels) {
   // Asked for here, as nothing may unwind through the libraries.
   if (const Result<ImageHeader> header = readImageHeader(bytes); header.ok()) {
     const uint64_t pixels = uint64_t{header.value().width} * header.value().height;
-    if (pixels <= maxPixels) workMemory(4 * pixels);
+    if (pixels <= maxPixels) workMemory(8 * pixels);
   }
-  switch (imageFormat(bytes)) {
+  const ImageFormat format = imageFormat(bytes);
+  switch (format) {
     case ImageFormat::Png: return decodePng(bytes, maxPixels);
     case ImageFormat::Jpeg: return decodeJpeg(bytes, maxPixels);
+    case ImageFormat::Tiff: return decodeTiff(bytes, maxPixels);
+    case ImageFormat::Bmp:
+    case ImageFormat::Gif:
+    case ImageFormat::Tga: return decodeOld(bytes, format, maxPixels);
+    case ImageFormat::WebP: return decodeWebp(bytes, maxPixels);
     case ImageFormat::Unknown: break;
   }
   return unknown();

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Pictures: PNG and JPEG, to eight bits of red, green, blue and alpha (sRGB, straight alpha), rows
-// from the top. Broken input ends in an Error, in bounded time and memory.
+// Pictures: PNG, JPEG, TIFF, BMP, GIF, TGA and WebP, to eight bits of red, green, blue and alpha
+// (sRGB, straight alpha), rows from the top. Broken input ends in an Error, in bounded time and
+// memory.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,10 @@
 
 namespace gable {
 
-enum class ImageFormat : uint8_t { Unknown, Png, Jpeg };
+enum class ImageFormat : uint8_t { Unknown, Png, Jpeg, Tiff, Bmp, Gif, Tga, WebP };
+
+/// ".png", ".tif": what names of such files end in.
+const char* extensionOf(ImageFormat format);
 
 struct ImageHeader {
   ImageFormat format = ImageFormat::Unknown;

@@ -78,7 +78,8 @@ class Reader {
     if (!uri) bytes = file_.view(GltfFile::index(image["bufferView"]));
     const ImageFormat format = imageFormat(bytes);
     if (format == ImageFormat::Unknown) {
-      asset_.warnings.push_back("picture " + std::to_string(i) + " is neither PNG nor JPEG");
+      asset_.warnings.push_back("picture " + std::to_string(i) +
+                                " is of no format that can be read");
       return {};
     }
     held_ += bytes.size();
@@ -87,15 +88,17 @@ class Reader {
                                 " is left out: there are too many");
       return {};
     }
-    const std::string name =
-        options_.path + "#" + std::to_string(i) + (format == ImageFormat::Png ? ".png" : ".jpg");
+    const std::string name = options_.path + "#" + std::to_string(i) + extensionOf(format);
     asset_.textures[name] = std::move(bytes);
     return name;
   }
 
   void map(GltfMaterial& out, TextureLayer layer, const JsonValue& info) {
     const size_t texture = GltfFile::index(info["index"]);
-    const size_t image = GltfFile::index(file_.json()["textures"].at(texture)["source"]);
+    const JsonValue& entry = file_.json()["textures"].at(texture);
+    size_t image = GltfFile::index(entry["source"]);
+    const JsonValue& webp = entry["extensions"]["EXT_texture_webp"];
+    if (image >= images_.size()) image = GltfFile::index(webp["source"]);
     if (image >= images_.size() || images_[image].empty()) return;
     TextureMap& t = out.material.map(layer);
     t.path = images_[image];
