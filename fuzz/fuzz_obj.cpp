@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       GABLE_CHECK_LT(size_t{f.materialSlot}, asset.value().materials.size());
     }
   }
-  const Result<ShapeFile> shapes = readObjShapes(text, options.path);
+  const Result<ShapeFile> shapes = readObjShapes(text, options);
   if (shapes.ok()) {
     for (const ShapeInput& s : shapes.value().shapes) GABLE_CHECK(s.mesh.valid());
   }

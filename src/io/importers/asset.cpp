@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/files.h"
+#include "io/importers/converted.h"
 
 namespace gable {
 
@@ -42,6 +43,10 @@ Result<Asset> readAsset(std::string_view bytes, const AssetOptions& options) {
     return readGltfAsset(bytes, options);
   }
   if (extension == "obj") return readObjAsset(bytes, options);
+  if (isConvertible(options.path)) {
+    Result<ConvertedModel> model = convertModel(bytes, options);
+    return model.ok() ? readObjAsset(model->obj, model->options) : model.error();
+  }
   return Error{"asset-unknown", "'" + options.path + "' is no model that can be read",
                "convert it to glTF or OBJ"};
 }

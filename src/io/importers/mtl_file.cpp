@@ -34,20 +34,31 @@ std::string lowered(std::string_view s) {
 
 double unit(double v) { return std::min(std::max(v, 0.0), 1.0); }
 
-// Leaves `out` as it is where the numbers are wrong. One number is a grey.
+// CIE XYZ under D65 to linear sRGB.
+Vec3 fromXyz(const Vec3& c) {
+  return {3.2406 * c.x - 1.5372 * c.y - 0.4986 * c.z, -0.9689 * c.x + 1.8758 * c.y + 0.0415 * c.z,
+          0.0557 * c.x - 0.204 * c.y + 1.057 * c.z};
+}
+
+// Leaves `out` as it is where the numbers are wrong, and where a file of spectra is named. One
+// number is a grey.
 void readColor(LineWords& words, Vec3& out) {
   Vec3 c;
+  const LineWords before = words;
+  const bool xyz = words.word() == "xyz";
+  if (!xyz) words = before;
   if (!words.number(c.x)) return;
   if (words.atEnd()) {
     c.y = c.z = c.x;
   } else if (!words.number(c.y) || !words.number(c.z)) {
     return;
   }
+  if (xyz) c = fromXyz(c);
   out = {unit(c.x), unit(c.y), unit(c.z)};
 }
 
 // One option of a map statement; false when the word is none, so that it begins the file's name.
-bool readOption(LineWords& words, TextureMap& t) {
+bool readOption(LineWords& words, TextureMap& t, double& bump) {
   words.skip();
   if (words.p >= words.end || *words.p != '-') return false;
   const LineWords before = words;
@@ -61,7 +72,9 @@ bool readOption(LineWords& words, TextureMap& t) {
   } else if (option == "-mm") {
     words.number(v[0]);
     words.number(v[1]);
-  } else if (option == "-bm" || option == "-boost" || option == "-texres") {
+  } else if (option == "-bm") {
+    words.number(bump);
+  } else if (option == "-boost" || option == "-texres") {
     words.number(v[0]);
   } else if (option == "-blendu" || option == "-blendv" || option == "-clamp" || option == "-cc" ||
              option == "-imfchan" || option == "-type") {
@@ -74,14 +87,16 @@ bool readOption(LineWords& words, TextureMap& t) {
 }
 
 // "-s 2 2 1 -o 0.5 0 0 -clamp on brick wall.png": options first, then the file's name.
-void readMap(LineWords& words, TextureMap& out, const std::string& path) {
+void readMap(LineWords& words, TextureMap& out, double& bump, const std::string& path) {
   TextureMap t;
-  while (readOption(words, t)) {
+  double factor = bump;
+  while (readOption(words, t, factor)) {
   }
   const std::string_view name = words.rest();
   if (name.empty()) return;
   t.path = relativeTo(path, name);
   out = t;
+  bump = factor;
 }
 
 void readStatement(const std::string& head, LineWords& words, Material& m,
@@ -98,6 +113,9 @@ void readStatement(const std::string& head, LineWords& words, Material& m,
   } else if (head == "ns") {
     if (words.number(v)) m.shininess = std::max(v, 0.0);
   } else if (head == "d") {
+    // The opacity at the middle of a body that is clearer at its border.
+    const LineWords before = words;
+    if (words.word() != "-halo") words = before;
     if (words.number(v)) m.opacity = unit(v);
   } else if (head == "tr") {
     if (words.number(v)) m.opacity = unit(1 - v);
@@ -107,7 +125,9 @@ void readStatement(const std::string& head, LineWords& words, Material& m,
     if (words.number(v)) m.metallic = unit(v);
   }
   for (const MapStatement& s : kMaps) {
-    if (head == s.name) readMap(words, m.map(s.layer), path);
+    double none = 0;
+    double& bump = s.layer == TextureLayer::Bump ? m.bumpValue : none;
+    if (head == s.name) readMap(words, m.map(s.layer), bump, path);
   }
 }
 

@@ -167,37 +167,65 @@ TEST(ObjAsset, materialFilesAreReadOnce) {
 TEST(ObjShapes, objectsOrGroupsAreShapes) {
   const std::string text =
       std::string(kSquare) + "o A\nf 1 2 3\no B\nf 1 3 4\nf 2 3 4\no A\nf 2 3 4\n";
-  auto r = readObjShapes(text, "x/lots.obj");
+  auto r = readObjShapes(text, {"x/lots.obj", {}, false});
   ASSERT_TRUE(r.ok());
   ASSERT_EQ(r->shapes.size(), 2u);
   EXPECT_EQ(r->shapes[0].name, "A");
   EXPECT_EQ(r->shapes[0].mesh.faceCount(), 2u);
   EXPECT_EQ(r->shapes[1].mesh.positions.size(), 4u);
-  auto plain = readObjShapes(std::string(kSquare) + "f 1 2 3\n", "x/lots.obj");
+  auto plain = readObjShapes(std::string(kSquare) + "f 1 2 3\n", {"x/lots.obj", {}, false});
   ASSERT_TRUE(plain.ok());
   EXPECT_EQ(plain->shapes[0].name, "lots");
-  EXPECT_FALSE(readObjShapes("v 0 0 0\n", "a.obj").ok());
+  EXPECT_FALSE(readObjShapes("v 0 0 0\n", {"a.obj", {}, false}).ok());
+}
+
+TEST(ObjShapes, bringTextureCoordinates) {
+  const std::string text = std::string(kSquare) +
+                           "vt 0 0\nvt 4 0\nvt 4 1\nvt 0 1\no Street\nusemtl road\n"
+                           "f 1/1 2/2 3/3 4/4\nusemtl kerb\nf 1 3 4\no Plain\nf 1 2 3\n";
+  Result<ShapeFile> r = readObjShapes(text, {"street.obj", {}, false});
+  ASSERT_TRUE(r.ok()) << r.error().message;
+  ASSERT_EQ(r->shapes.size(), 2u);
+  const Mesh& street = r->shapes[0].mesh;
+  EXPECT_EQ(street.faceCount(), 2u);
+  ASSERT_TRUE(street.hasUv(0));
+  EXPECT_EQ(street.uvs[0][2], (Vec2{4, 1}));
+  EXPECT_EQ(street.faces[1].materialSlot, 0);
+  // Without any a shape is as plain as it can be.
+  EXPECT_FALSE(r->shapes[1].mesh.hasUv(0));
+}
+
+TEST(Mtl, takesBumpFactorsXyzAndHalos) {
+  const auto all = parseMtl(
+      "newmtl a\nKd xyz 0.9505 1 1.089\nmap_Bump -bm 0.4 bump.png\nd -halo 0.25\n", "m/a.mtl");
+  const Material& m = all.at("a");
+  EXPECT_NEAR(m.color.x, 1, 1e-3);
+  EXPECT_NEAR(m.color.y, 1, 1e-3);
+  EXPECT_EQ(m.map(TextureLayer::Bump).path, "m/bump.png");
+  EXPECT_EQ(m.bumpValue, 0.4);
+  EXPECT_EQ(m.opacity, 0.25);
 }
 
 TEST(ObjShapes, footprintsThatFaceTheGroundAreTurned) {
   const std::string vertices = "v 0 0 0\nv 4 0 0\nv 4 0 3\nv 0 0 3\nv 0 2 0\n";
-  Result<ShapeFile> down = readObjShapes(vertices + "f 1 2 3 4\n", "lot.obj");
+  Result<ShapeFile> down = readObjShapes(vertices + "f 1 2 3 4\n", {"lot.obj", {}, false});
   ASSERT_TRUE(down.ok());
   EXPECT_NEAR(down->shapes[0].mesh.normal(0).y, 1, 1e-12);
   ASSERT_EQ(down->diagnostics.all().size(), 1u);
   EXPECT_EQ(down->diagnostics.all()[0].code, "shape-turned");
-  Result<ShapeFile> up = readObjShapes(vertices + "f 4 3 2 1\n", "lot.obj");
+  Result<ShapeFile> up = readObjShapes(vertices + "f 4 3 2 1\n", {"lot.obj", {}, false});
   ASSERT_TRUE(up.ok());
   EXPECT_TRUE(up->diagnostics.all().empty());
   // What has other faces is a body, and stays as it is.
-  Result<ShapeFile> body = readObjShapes(vertices + "f 1 2 3 4\nf 1 5 2\n", "body.obj");
+  Result<ShapeFile> body =
+      readObjShapes(vertices + "f 1 2 3 4\nf 1 5 2\n", {"body.obj", {}, false});
   ASSERT_TRUE(body.ok());
   EXPECT_NEAR(body->shapes[0].mesh.normal(0).y, -1, 1e-12);
 }
 
 TEST(ObjShapes, filesWithoutAPolygonSayWhy) {
   const auto message = [](const std::string& text) {
-    const Result<ShapeFile> file = readObjShapes(text, "lot.obj");
+    const Result<ShapeFile> file = readObjShapes(text, {"lot.obj", {}, false});
     EXPECT_FALSE(file.ok());
     return file.ok() ? std::string() : file.error().message;
   };

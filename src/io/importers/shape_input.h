@@ -9,6 +9,9 @@
 //   OBJ      a shape an object (o), or a group (g) where there are no objects, or the whole file
 //   glTF     a shape a node with a mesh
 //
+// OBJ and glTF bring their texture coordinates; triangles of glTF that lie in one plane, with one
+// mapping, are one polygon.
+//
 // Promises: coordinates are local metres with y up; every face has an area, but for lines; equal
 // input gives equal shapes. What is wrong with one shape is a Diagnostic that names it, and the
 // others are read.
@@ -46,7 +49,7 @@ struct ShapeFile {
 /// shapes-empty, and those of assets.
 Result<ShapeFile> readShapes(std::string_view bytes, const AssetOptions& options);
 Result<ShapeFile> readGeoJsonShapes(std::string_view text, const std::string& path);
-Result<ShapeFile> readObjShapes(std::string_view text, const std::string& path);
+Result<ShapeFile> readObjShapes(std::string_view text, const AssetOptions& options);
 Result<ShapeFile> readGltfShapes(std::string_view bytes, const AssetOptions& options);
 
 /// A rectangular lot: a corner at the origin, `width` along +x, `depth` to the north (-z), facing

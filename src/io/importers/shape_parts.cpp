@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+#include "io/importers/shape_parts.h"
+
+#include "base/files.h"
+#include "base/work.h"
+
+namespace gable {
+
+std::string stemOf(const std::string& path) {
+  const std::string name = fileNameOf(path);
+  return name.substr(0,
+                     name.size() - (extensionOf(name).empty() ? 0 : extensionOf(name).size() + 1));
+}
+
+Error emptyShapes(const std::string& path) {
+  return {"shapes-empty", "'" + path + "' has no polygon that could be an initial shape", {}};
+}
+
+void noteDropped(ShapeFile& out, uint64_t faces) {
+  if (faces == 0) return;
+  out.diagnostics.warning("shape-face-dropped", {},
+                          std::to_string(faces) + " faces without area are left out");
+}
+
+void turnFootprintsUp(ShapeFile& out) {
+  constexpr double kLevel = 0.99;
+  size_t turned = 0;
+  for (ShapeInput& shape : out.shapes) {
+    bool down = shape.mesh.faceCount() > 0;
+    for (size_t f = 0; down && f < shape.mesh.faceCount(); ++f) {
+      down = shape.mesh.normal(f).y < -kLevel;
+    }
+    if (!down) continue;
+    MeshBuilder builder;
+    std::vector<uint32_t> map(shape.mesh.positions.size(), MeshBuilder::kNoPosition);
+    for (size_t f = 0; f < shape.mesh.faceCount(); ++f) {
+      work();
+      builder.copyFace(shape.mesh, f, map, true);
+    }
+    shape.mesh = builder.take();
+    ++turned;
+  }
+  if (turned == 0) return;
+  out.diagnostics.warning("shape-turned", {},
+                          std::to_string(turned) +
+                              (turned == 1 ? " footprint faces" : " footprints face") +
+                              " the ground and " + (turned == 1 ? "is" : "are") + " turned over",
+                          "write the corners counter-clockwise as seen from above");
+}
+
+}  // namespace gable
