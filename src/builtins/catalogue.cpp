@@ -31,7 +31,6 @@ constexpr std::string_view kUnbuilt[] = {
     "edgeAttr.getFloat",
     "edgeAttr.getString",
     "getGeoCoord",
-    "inline",
     "intersect",
     "modify",
     "readMaterial",

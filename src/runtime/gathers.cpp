@@ -3,6 +3,7 @@
 
 #include "runtime/gathers.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "runtime/leaf_shape.h"
@@ -16,6 +17,10 @@ void Gathers::begin(Call call) {
   g.firstNode = static_cast<uint32_t>(tracer_.size());
   due_ = g.call.activation + 1;
   worlds_.beginGather();
+}
+
+bool Gathers::anyTagged() const {
+  return std::any_of(open_.begin(), open_.end(), [](const Open& g) { return g.call.tagged; });
 }
 
 Gathers::Open Gathers::close() {

@@ -35,9 +35,12 @@ class Gathers {
     /// Plain parts took the fast path.
     bool light = false;
     std::vector<Value> arguments;
+    /// The operation wants the tags of its leaves.
+    bool tagged = false;
   };
   void begin(Call call);
   bool anyOpen() const { return !open_.empty(); }
+  bool anyTagged() const;
   /// There must be one.
   const Call& outermost() const { return open_.front().call; }
   /// Whether the innermost call waits for the children of the activation at work, the last of so

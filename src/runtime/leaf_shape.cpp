@@ -24,6 +24,11 @@ Shape shapeOf(const Leaf& leaf, const Output& output) {
   Shape s;
   s.scope = leaf.frame;
   s.size = leaf.scale;
+  s.attributes = leaf.attributes;
+  if (leaf.materials < output.materials.size()) {
+    s.material = static_cast<MaterialId>(output.materials[leaf.materials] >> 32);
+    s.assetMaterials = static_cast<uint32_t>(output.materials[leaf.materials]);
+  }
   Geometry& g = s.geometry;
   g.uv = leaf.mesh == kUnitBoxUv || leaf.mesh == kUnitQuadXyUv || leaf.mesh == kUnitQuadXzUv;
   switch (leaf.mesh) {

@@ -12,7 +12,7 @@ namespace gable {
 /// Gives the leaf the geometry, frame and size of a shape that has geometry. What else it is stays.
 void setShape(Leaf& leaf, const Shape& s, Output& output);
 
-/// A shape with the geometry, frame and size of the leaf, and nothing else.
+/// A shape with the geometry, frame, size, materials and attributes of the leaf, and nothing else.
 Shape shapeOf(const Leaf& leaf, const Output& output);
 
 /// Null for a box or a rectangle.

@@ -3,17 +3,20 @@
 //
 // Operations that wait for the leaves of their children, in the machine.
 
+#include "program/tag_effects.h"
 #include "runtime/machine.h"
 
 namespace gable {
 
+// An operation that declares kReadsTags gets the tags of its leaves.
 void Machine::beginGather(const Instruction& i, std::span<const Value> arguments) {
   gathers_.begin({&i,
                   activationCount_ - 1,
                   current().made,
                   flat_,
                   lightPartsAllowed_,
-                  {arguments.begin(), arguments.end()}});
+                  {arguments.begin(), arguments.end()},
+                  (program_.operations[i.a]->effects & kReadsTags) != 0});
   flat_ = true;
   lightPartsAllowed_ = false;
 }

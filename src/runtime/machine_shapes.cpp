@@ -482,6 +482,14 @@ void Machine::leaveLeaf() {
 bool Machine::putLeaf(const Shape& s, StringId name, uint32_t source) {
   if (s.geometry.kind == GeometryKind::None) return false;
   if (s.geometry.kind == GeometryKind::Mesh && s.geometry.mesh->empty()) return false;
+  // Leaves that are boxes or rectangles have no tags, so what is gathered with them is a mesh.
+  if (s.geometry.kind != GeometryKind::Mesh && gathers_.anyTagged() &&
+      s.geometry.tags != decltype(s.geometry.tags){}) {
+    Shape tagged = s;
+    tagged.geometry = {GeometryKind::Mesh, false, {1, 1, 1}, meshInScope(s)};
+    tagged.geometry.refSize = s.size;
+    return putLeaf(tagged, name, source);
+  }
   Leaf& leaf = output_.openLeaves.emplace_back();
   setShape(leaf, s, output_);
   if (flat_) leaf.frame = worlds_.ofLeaves() * s.scope;
