@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/files.h"
+#include "shape/file_query.h"
 
 namespace gable {
 
@@ -263,59 +264,37 @@ const std::vector<std::string>& FileSearch::listed(const std::string& folder) co
   return files;
 }
 
-// Relative patterns are matched below assets/ and below the root of the file's project.
-std::vector<std::string> FileSearch::search(std::string_view pattern,
+std::vector<std::string> FileSearch::search(std::string_view query,
                                             std::string_view fromFile) const {
+  Result<FileQuery> parsed = FileQuery::parse(query);
+  if (!parsed.ok()) return {};
   std::vector<std::string> out;
   const auto look = [&](const std::string& folder, const std::string& prefix,
-                        const std::vector<std::string>& patterns) {
+                        const std::string& name, bool own) {
     for (const std::string& file : listed(folder)) {
-      const auto fits = [&](const std::string& p) { return matchesPattern(p, file); };
-      if (std::any_of(patterns.begin(), patterns.end(), fits)) out.push_back(prefix + file);
+      if (parsed->matches(file, name, own)) out.push_back(prefix + file);
     }
   };
   const std::string base = baseOf(fromFile);
-  const std::string text(pattern);
-  if (pattern.empty() || pattern[0] != '/') {
-    const std::string prefix =
-        base == root_ ? std::string() : "/" + std::string(firstFolder(fromFile));
-    look(base, prefix, {"/assets/" + text, "/" + text});
-    return out;
-  }
-  const std::string name(firstFolder(pattern));
-  const std::string rest = text.substr(name.empty() ? 0 : name.size() + 1);
-  std::vector<std::string> own{text};
-  if (!name.empty() && name == rootName_) own.push_back(rest);
-  look(root_, "", own);
-  if (name.empty() || name == rootName_) return out;
-  if (const Library* library = libraryNamed(name)) {
-    look(library->path, "/" + name, {rest});
-  } else if (!workspace_.empty() && isFolder(workspace_ + "/" + name)) {
-    look(workspace_ + "/" + name, "/" + name, {rest});
+  const std::string name(base == root_ ? rootName_ : firstFolder(fromFile));
+  look(base, base == root_ ? "" : "/" + name, name, true);
+  if (parsed->leavesTheProject()) {
+    if (base != root_) look(root_, "", rootName_, false);
+    for (const Library& l : libraries_) {
+      if (l.path != base) look(l.path, "/" + l.name, l.name, false);
+    }
+    if (!workspace_.empty()) {
+      for (const std::string& file : listed(workspace_)) {
+        const std::string_view project = firstFolder(file);
+        const std::string folder = workspace_ + "/" + std::string(project);
+        if (project.empty() || folder == base || folder == root_) continue;
+        if (parsed->matches(file.substr(project.size() + 1), project, false)) out.push_back(file);
+      }
+    }
   }
   std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
-}
-
-// Keeps the set of places in the path that the pattern so far can end at: O(pattern x path).
-bool matchesPattern(std::string_view pattern, std::string_view path) {
-  std::vector<char> reachable(path.size() + 1, 0), next;
-  reachable[0] = 1;
-  for (char c : pattern) {
-    next.assign(path.size() + 1, 0);
-    if (c == '*' || c == '$') {
-      bool running = false;
-      for (size_t i = 0; i <= path.size(); ++i) {
-        running = running || reachable[i];
-        next[i] = running;
-        if (c == '$' && i < path.size() && path[i] == '/') running = false;
-      }
-    } else {
-      for (size_t i = 0; i < path.size(); ++i) next[i + 1] = reachable[i] && path[i] == c;
-    }
-    reachable.swap(next);
-  }
-  return reachable.back() != 0;
 }
 
 }  // namespace gable

@@ -51,8 +51,9 @@ class FileSearch {
   std::string projectPath(const std::string& file) const;
   /// All files of the own project as paths from its root, with a slash before them; sorted.
   const std::vector<std::string>& files() const { return listed(root_); }
-  /// What the files are called, with a slash before them, that match a pattern; sorted.
-  std::vector<std::string> search(std::string_view pattern, std::string_view fromFile) const;
+  /// What the files are called, with a slash before them, that a query means (shape/file_query.h):
+  /// those of the project of `fromFile`, and of others where the query can reach them; sorted.
+  std::vector<std::string> search(std::string_view query, std::string_view fromFile) const;
 
  private:
   struct Library {
@@ -73,8 +74,5 @@ class FileSearch {
   mutable std::mutex mutex_;
   mutable std::map<std::string, std::vector<std::string>> listings_;
 };
-
-/// Whether a project path matches a pattern: $ is any run of characters but '/', * is any run.
-bool matchesPattern(std::string_view pattern, std::string_view path);
 
 }  // namespace gable

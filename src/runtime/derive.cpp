@@ -130,7 +130,9 @@ class MessageList {
   void add(const Diagnostics& messages, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const Diagnostics::Entry& d = messages.all()[i];
-      const uint64_t place = uint64_t{d.span.file} << 32 | d.span.begin;
+      // A file that is missing is missing wherever it is named.
+      const bool aboutFile = d.code == "missing-asset" || d.code == "missing-texture";
+      const uint64_t place = aboutFile ? 0 : uint64_t{d.span.file} << 32 | d.span.begin;
       if (!told_.insert(hashBytes(d.message, hashBytes(d.code, place))).second) continue;
       size_t& count = d.severity == Severity::Error ? errors_ : warnings_;
       if (++count <= kMostMessages) out_.add(d);

@@ -13,6 +13,7 @@
 #include "builtins/lists.h"
 #include "builtins/shared/arrays.h"
 #include "builtins/shared/text_files.h"
+#include "shape/file_query.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -45,6 +46,10 @@ using Paths = std::vector<std::string>;
 struct Query {
   std::string_view query;
   Paths search(const FunctionCall& call) const {
+    if (const Result<FileQuery> parsed = FileQuery::parse(query); !parsed.ok()) {
+      call.fail("bad-query", parsed.error().message, parsed.error().hint, {});
+      return {};
+    }
     return call.services().assets().search(query, call.file());
   }
 };
@@ -316,8 +321,9 @@ Value assetFitSize(FunctionCall& call, const Fitting& args) {
 constexpr ValueType kString = ValueType::String, kFloat = ValueType::Float;
 constexpr ParamSpec kQuery = param<&Query::query>(
     "searchQuery",
-    "The files, by a path in which * stands for any characters and $ for any characters within a "
-    "folder.");
+    "The files: a path in which * stands for any characters and ? for any one, or, after a $, a "
+    "regular expression; or a property of theirs as in Name=door*. Blanks join what must all "
+    "hold.");
 constexpr ParamSpec kPath = param<&Path::path>("filePath", "The file, by its path in the project.");
 constexpr ParamSpec kQueryParams[] = {kQuery};
 constexpr ParamSpec kPathParams[] = {kPath};

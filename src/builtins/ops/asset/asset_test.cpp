@@ -97,12 +97,21 @@ TEST(Insert, mirroredScopesShowTheInside) {
   EXPECT_NEAR(enclosedVolume(meshInLocal(s)), -1, 1e-9);
 }
 
-TEST(Insert, missingModelsLeaveTheShape) {
+TEST(Insert, missingModelsAreTheirScope) {
   WithModel t;
-  const Ran ran = Op("i").args("none.obj").on(boxShape({1, 2, 3}), t.services);
-  EXPECT_STREQ(ran.status.code(), "missing-asset");
-  EXPECT_NE(ran.status.message().find("none.obj"), std::string::npos);
+  const Ran ran = Op("i").args("none.obj").on(emptyShape({1, 2, 3}), t.services);
+  EXPECT_TRUE(ran.status.ok());
+  ASSERT_EQ(t.services.warnings.size(), 1u);
+  EXPECT_EQ(t.services.warnings[0].code, "missing-asset");
+  EXPECT_NE(t.services.warnings[0].message.find("none.obj"), std::string::npos);
   EXPECT_EQ(ran.shape.geometry.kind, GeometryKind::Box);
+  EXPECT_EQ(ran.shape.size, (Vec3{1, 2, 3}));
+  const auto kindOf = [&](const Vec3& size) {
+    return Op("i").args("none.obj").on(emptyShape(size), t.services).shape.geometry.kind;
+  };
+  EXPECT_EQ(kindOf({1, 2, 0}), GeometryKind::QuadXy);
+  EXPECT_EQ(kindOf({1, 0, 2}), GeometryKind::QuadXz);
+  EXPECT_EQ(kindOf({1, 0, 0}), GeometryKind::None);
 }
 
 TEST(Insert, builtinModelsAreOneMetreLarge) {

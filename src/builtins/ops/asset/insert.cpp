@@ -83,6 +83,15 @@ Status insertBuiltin(OpCall& call, std::string_view path, InsertMode mode) {
   return {};
 }
 
+// What stands for a model that cannot be had: the scope as a box, or as the rectangle that it is. A
+// scope of less than two sizes has no box, and the shape stays as it was.
+void insertPlaceholder(Shape& s) {
+  const int flat = (s.size.x == 0) + (s.size.y == 0) + (s.size.z == 0);
+  if (flat == 0) return insertBox(s, false);
+  if (flat == 1 && s.size.z == 0) insertPrimitive(s, GeometryKind::QuadXy, false);
+  if (flat == 1 && s.size.y == 0) insertPrimitive(s, GeometryKind::QuadXz, false);
+}
+
 Status applyI(OpCall& call, const Insert& args) {
   const std::string_view path = args.path;
   if (path.starts_with("builtin:")) return insertBuiltin(call, path, args.mode);
@@ -90,8 +99,12 @@ Status applyI(OpCall& call, const Insert& args) {
   const Ref<AssetModel> model =
       call.services().assets().model(path, call.file(), args.up == UpAxis::Z, why);
   if (!model) {
-    return call.fail("missing-asset", "cannot insert '" + std::string(path) + "': " + why,
-                     "paths start at the assets folder or at the root of the project");
+    call.services().warn(
+        "missing-asset",
+        "cannot insert '" + std::string(path) + "': " + why + "; its scope stands in its place",
+        "paths start at the assets folder or at the root of the project");
+    insertPlaceholder(call.shape());
+    return {};
   }
   Shape& s = call.shape();
   placeScope(s, model->bounds, args.mode);
