@@ -327,7 +327,7 @@ constexpr FunctionSpec kFunctions[] = {
     {"geometry.groups", kFamily, "The names of the groups of the geometry.", kNames, groups, kPure,
      true},
     {"geometry.hasTags", kFamily, "Whether any component has a tag, or a certain tag.", kHasTags,
-     typed<hasTags>, kPure, true},
+     typed<hasTags>, kReadsTags, true},
     {"geometry.hasUVs", kFamily, "Whether there are texture coordinates, in any or a certain set.",
      kHasUv, typed<hasUvs>, kPure, true},
     {"geometry.height", kFamily, "The height of the geometry in the world.", kNumber, height,
