@@ -114,7 +114,7 @@ NodeId Lowering::rule(const Rule& r, bool start) {
       break;
     }
     b_.at(br.span);
-    const NodeId condition = br.condition.empty() ? kNoNode : expressionOf(br.condition, br.span);
+    const NodeId condition = br.condition.empty() ? kNoNode : conditionOf(br.condition, br.span);
     branches.emplace_back(condition, steps);
   }
   b_.at(r.nameSpan);
@@ -426,6 +426,12 @@ Span Lowering::spanOf(const Op& op, size_t i) const {
 
 NodeId Lowering::expressionOf(std::string_view text, Span span) {
   return expression(g_, rule_->parameters, text, placeOf(source_, span, text), b_, diagnostics_);
+}
+
+NodeId Lowering::conditionOf(std::string_view text, Span span) {
+  const size_t before = diagnostics_.errorCount();
+  const NodeId read = expressionOf(text, span);
+  return diagnostics_.errorCount() == before ? read : b_.boolean(true);
 }
 
 bool Lowering::known(std::string_view text, double& value) const {

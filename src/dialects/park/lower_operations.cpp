@@ -171,7 +171,7 @@ NodeId Lowering::choiceBody(const JunctionChoices& choices) {
     b_.at(part.span);
     NodeId head = kNoNode;
     if (byCase && !choices.conditions[i].empty()) {
-      head = expressionOf(choices.conditions[i], part.span);
+      head = conditionOf(choices.conditions[i], part.span);
     } else if (!byCase && i + 1 < choices.parts.size()) {
       head = b_.number(choices.shares[i]);
     }

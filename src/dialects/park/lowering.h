@@ -90,6 +90,8 @@ class Lowering {
   std::string text(const Op& op, size_t i) const;
   Span spanOf(const Op& op, size_t i) const;
   NodeId expressionOf(std::string_view text, Span span);
+  // The same of a truth; what cannot be read is reported once.
+  NodeId conditionOf(std::string_view text, Span span);
   // A number that is known before the rule runs.
   bool known(std::string_view text, double& value) const;
   bool isParameter(const std::string& word) const;

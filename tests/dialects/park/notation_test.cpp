@@ -16,6 +16,12 @@ namespace {
 
 using namespace park_testing;
 
+TEST(ParkNotation, MistakesInConditionsAreReportedOnce) {
+  const Made m = run("R -> case w + foo > 3 : A else : B", kLot);
+  EXPECT_TRUE(m.has("bad-expression"));
+  EXPECT_FALSE(m.has("type-mismatch"));
+}
+
 TEST(ParkNotation, OperationsAndPointsAreNoLeaves) {
   EXPECT_TRUE(run("R -> Circle", kLot).has("wrong-argument-count"));
   EXPECT_TRUE(run("R -> Peel(OUTER, 1) { A | romb }", kLot).has("wrong-argument-count"));
