@@ -90,6 +90,22 @@ struct LspArguments {
   gable::SearchSettings search;
 };
 int runLsp(const LspArguments& arguments);
+struct TestArguments {
+  /// Test files, and folders with such files below them.
+  std::vector<std::string> paths{"."};
+  std::string filter;
+  /// "text", "tap" or "junit".
+  std::string format = "text";
+  std::string output = "-";
+  std::optional<std::string> project;
+  std::optional<int> jobs;
+  bool update = false;
+  /// Run again whenever a file of the folders changes, until Ctrl-C.
+  bool watch = false;
+  LimitArguments limits;
+};
+int runTest(const TestArguments& arguments);
+
 
 struct StudioArguments {
   std::string folder = ".";

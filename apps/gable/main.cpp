@@ -150,6 +150,23 @@ void addTraceFilter(CLI::App* app, TraceArguments& a) {
       ->check(number({0, 4294967295.0, true}));
 }
 
+void addTest(CLI::App& app, TestArguments& a, int& status) {
+  auto* test = app.add_subcommand("test", "Run rule tests: the cases of .test files");
+  test->add_option("paths", a.paths, "Test files, and folders to search (default: this folder)");
+  test->add_option("--filter", a.filter, "Only cases with this text in their name");
+  test->add_option("--format", a.format, "text (default), tap or junit")
+      ->check(CLI::IsMember({"text", "tap", "junit"}));
+  test->add_option("-o,--output", a.output, "Where the results go (default: -, stdout)");
+  test->add_flag("--update", a.update, "Write dumps, scenes and pictures that differ anew")
+      ->envname("GABLE_UPDATE");
+  test->add_flag("--watch", a.watch, "Run again whenever a file changes, until Ctrl-C");
+  test->add_option("--project", a.project, "The folder that the rules may read from");
+  test->add_option("--jobs", a.jobs, "Threads (default: one per processor)")
+      ->check(number({0, 4096, true}));
+  addLimits(test, a.limits, "Stop a derivation after so many seconds (default 600, 0: no limit)");
+  test->callback([&a, &status] { status = runTest(a); });
+}
+
 void addStudio(CLI::App& app, StudioArguments& a, int& status) {
   auto* studio = app.add_subcommand(
       "studio", "Start the studio: write rules in the browser and see the model");
@@ -247,6 +264,8 @@ int main(int argc, char** argv) {
 
   LspArguments lsp;
   addLsp(app, lsp, status);
+  TestArguments test;
+  addTest(app, test, status);
   StudioArguments studio;
   addStudio(app, studio, status);
   try {

@@ -21,8 +21,8 @@
 #include <string>
 #include <vector>
 
-#include "../cases/case_file.h"
 #include "base/hash.h"
+#include "cases/case_file.h"
 #include "gable/gable.h"
 
 namespace gable {

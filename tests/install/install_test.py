@@ -22,7 +22,8 @@ TREE = FOLDER / "moved"
 PAGE = ROOT / "docs/guide/embedding.md"
 PUBLIC = re.compile(r"gable::(Rules|Shapes|Model|LanguageServer|language::Workspace)::(?!Impl)|"
                     r"gable::language::(referencePage|search)(\[abi:cxx11\])?\(|gable::(derive|convert|format|hasErrors|render|version|builtins|"
-                    r"readRuleText|writeTextFile|modelExtensions|removeUnfinishedFiles|runLanguageServer|runStudio)"
+                    r"readRuleText|writeTextFile|modelExtensions|removeUnfinishedFiles|runLanguageServer|runStudio|"
+                    r"runCases|caseFiles|tapText|junitText)"
                     r"(\[abi:cxx11\])?\(|gable_\w+$")
 CONSUMER = """cmake_minimum_required(VERSION 3.25)
 project(consumer C CXX)

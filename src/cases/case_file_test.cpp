@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 
-#include "case_file.h"
+#include "cases/case_file.h"
 
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ TEST(CaseFile, splitsStatements) {
 }
 
 TEST(CaseFile, rejectsWhatItDoesNotKnow) {
-  for (const char* text : {"", "rule:\n  A --> B\n", "== a\nrules:\n  A --> B\n", "== a\n  text\n",
+  for (const char* text : {"", "rule:\n  A --> B\n", "== a\nrulez:\n  A --> B\n", "== a\n  text\n",
                            "== a\nrule: A\n== a\nrule: B\n", "== a\nrule: A\nrule: B\n"}) {
     const CaseFile file = parseCases(text);
     EXPECT_FALSE(file.errors.empty()) << text;

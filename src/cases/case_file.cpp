@@ -4,7 +4,7 @@
 // Line by line: `==` opens a case, an unindented `name:` a section, anything indented is text of
 // the section that is open.
 
-#include "case_file.h"
+#include "cases/case_file.h"
 
 #include <algorithm>
 #include <array>
@@ -13,14 +13,9 @@ namespace gable::cases {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> kSections = {"rule",  "file",   "shape",  "set",   "seed",
-                                                       "start", "limits", "values", "expect"};
-
-std::string_view trimmed(std::string_view s) {
-  const size_t first = s.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return s.substr(first, s.find_last_not_of(" \t\r") - first + 1);
-}
+constexpr std::array<std::string_view, 11> kSections = {"rule",   "rules",  "style", "file",
+                                                        "shape",  "set",    "seed",  "start",
+                                                        "limits", "values", "expect"};
 
 size_t indentOf(std::string_view line) {
   const size_t first = line.find_first_not_of(' ');
@@ -56,7 +51,7 @@ class Reader {
 
  private:
   void error(const std::string& what) {
-    file_.errors.push_back("line " + std::to_string(number_) + ": " + what);
+    file_.errors.push_back({static_cast<uint32_t>(number_), what});
   }
 
   void take(std::string_view line) {
@@ -148,6 +143,12 @@ const Section* Case::find(std::string_view section) const {
 std::string_view Case::textOf(std::string_view section) const {
   const Section* s = find(section);
   return s ? std::string_view(s->text) : std::string_view();
+}
+
+std::string_view trimmed(std::string_view s) {
+  const size_t first = s.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return s.substr(first, s.find_last_not_of(" \t\r") - first + 1);
 }
 
 CaseFile parseCases(std::string_view text) { return Reader().read(text); }

@@ -4,7 +4,7 @@
 // A scene made by hand: a box Tower of 2 x 3 x 4 metres at (1, 0, 0) and a red square Roof of
 // side 2.
 
-#include "expectation.h"
+#include "cases/expectation.h"
 
 #include <gtest/gtest.h>
 
@@ -56,7 +56,8 @@ struct Made {
     section.text = text + "\n";
     section.textLine = 1;
     std::string all;
-    for (const Failure& f : failures(statements(section), {&scene, diagnostics, dumpText(scene)})) {
+    for (const CaseFailure& f :
+         failures(statements(section), {&scene, diagnostics, dumpText(scene)})) {
       all += std::to_string(f.line) + ": " + f.message + "\n";
     }
     return all;

@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "case_file.h"
+#include "cases/case_file.h"
+#include "cases/golden.h"
 #include "gable/gable.h"
+#include "geom/region/region.h"
 #include "scene/scene.h"
 
 namespace gable::cases {
@@ -19,16 +21,16 @@ struct Outcome {
   /// Of all stages, in the order in which they came.
   DiagnosticList diagnostics;
   std::string dump;
-};
-
-/// A failure has the line of its statement and a sentence with both sides.
-struct Failure {
-  size_t line = 0;
-  std::string message;
+  /// The initial shapes seen from above.
+  Region lot;
+  /// Null where nothing was derived.
+  const Model* model = nullptr;
+  /// Null: there are no expected files.
+  GoldenFiles* golden = nullptr;
 };
 
 /// All failures of the statements, and an error message that none of them expects.
-std::vector<Failure> failures(const std::vector<Statement>& expected, const Outcome& outcome);
+std::vector<CaseFailure> failures(const std::vector<Statement>& expected, const Outcome& outcome);
 
 /// Whether a number meets an expectation: `12.5`, `12.5 +- 0.1` (three words) or `10..14`. `used`
 /// is the count of words that were read; 0 when they are no number.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Reads .test files: cases with sections, as README.md in this folder describes them. What is wrong
+// Reads .test files: cases with sections, as docs/guide/rule-tests.md describes them. What is wrong
 // in a file is told with its line; a file with an error has no cases, so that nothing passes by
 // mistake.
 #pragma once
@@ -10,6 +10,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "gable/cases.h"
 
 namespace gable::cases {
 
@@ -36,8 +38,7 @@ struct Case {
 
 struct CaseFile {
   std::vector<Case> cases;
-  /// "line N: what is wrong".
-  std::vector<std::string> errors;
+  std::vector<CaseFailure> errors;
 };
 
 CaseFile parseCases(std::string_view text);
@@ -54,6 +55,8 @@ struct Statement {
 /// indented further than the first belong to the block of the statement above.
 std::vector<Statement> statements(const Section& section);
 
+/// Without blanks and tabs at both ends.
+std::string_view trimmed(std::string_view s);
 /// The lines of a text, without their ends.
 std::vector<std::string_view> linesOf(std::string_view text);
 

@@ -4,7 +4,7 @@
 // Sums over faces; a loop's area vector is half of the sum of the cross products along it (Newell),
 // so holes, which run the other way, count against their face by themselves.
 
-#include "measure.h"
+#include "cases/measure.h"
 
 #include <array>
 #include <cmath>

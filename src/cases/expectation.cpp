@@ -4,14 +4,16 @@
 // Each kind of statement is a function from a table; it returns an empty text when the statement
 // holds, and otherwise what was found.
 
-#include "expectation.h"
+#include "cases/expectation.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
 
-#include "measure.h"
+#include "cases/measure.h"
+#include "cases/plan.h"
+#include "geom/region/boolean.h"
 #include "scene/dump.h"
 
 namespace gable::cases {
@@ -19,6 +21,10 @@ namespace gable::cases {
 namespace {
 
 constexpr double kTolerance = 1e-4;
+/// How far a leaf may reach beyond the lot, in metres: results of booleans lie on a grid.
+constexpr double kReach = 1e-3;
+/// Square metres that are none.
+constexpr double kLeastArea = 1e-3;
 
 bool parseNumber(std::string_view text, double& out) {
   const std::string copy(text);
@@ -143,6 +149,43 @@ std::string checkFlat(const Facts& facts, const Words& words) {
   return checkEach(facts, words, 0, [](const PlacedLeaf& leaf, size_t) {
     return isFlat(leaf.mesh) ? std::string() : std::string(leaf.name) + " is not flat";
   });
+}
+
+/// Whether a mesh covers a hole of the lot without touching its edge.
+bool coversHole(const Mesh& mesh, const Region& lot) {
+  const bool holes =
+      std::any_of(lot.begin(), lot.end(), [](const Polygon& p) { return !p.holes.empty(); });
+  return holes && area(subtract(planOf(mesh), lot)) > kLeastArea;
+}
+
+std::string checkWithin(const Facts& facts, const Words& words) {
+  if (words.size() < 2 || words[1] != "lot") return kNotUnderstood;
+  const Words spoken(words.begin() + 1, words.end());
+  return checkEach(facts, spoken, 0, [&](const PlacedLeaf& leaf, size_t) -> std::string {
+    const double reach = reachBeyond(leaf.mesh, facts.outcome->lot);
+    if (reach > kReach) {
+      return std::string(leaf.name) + " reaches " + roundedText(reach) + " m beyond the lot";
+    }
+    if (coversHole(leaf.mesh, facts.outcome->lot)) {
+      return std::string(leaf.name) + " covers a hole of the lot";
+    }
+    return "";
+  });
+}
+
+std::string checkApart(const Facts& facts, const Words& words) {
+  size_t at = 0;
+  const std::vector<const PlacedLeaf*> leaves = spokenOf(facts, words, at);
+  if (words.size() != at) return kNotUnderstood;
+  for (size_t i = 0; i < leaves.size(); ++i) {
+    for (size_t j = i + 1; j < leaves.size(); ++j) {
+      const double shared = sharedPlan(*leaves[i], *leaves[j]);
+      if (shared <= kLeastArea) continue;
+      return std::string(leaves[i]->name) + " and " + std::string(leaves[j]->name) + " share " +
+             roundedText(shared) + " square metres";
+    }
+  }
+  return leaves.empty() ? "there is no such leaf" : "";
 }
 
 std::string checkNames(const Facts& facts, const Words& words) {
@@ -283,6 +326,12 @@ std::string checkDump(const Facts& facts, const Statement& statement) {
   return wanted == facts.outcome->dump ? "" : "found\n" + facts.outcome->dump;
 }
 
+std::string checkGolden(const Outcome& outcome, const Statement& statement) {
+  if (!outcome.golden || !outcome.model) return "there is no model";
+  if (statement.words[0] == "scene") return outcome.golden->checkScene(statement, outcome.dump);
+  return outcome.golden->checkPicture(statement, *outcome.model);
+}
+
 using Check = std::string (*)(const Facts&, const Words&);
 constexpr std::pair<const char*, Check> kChecks[] = {
     {"leaves", checkLeaves},    {"area", checkArea},
@@ -296,19 +345,33 @@ constexpr std::pair<const char*, Check> kChecks[] = {
     {"prototypes", checkCount}, {"materials", checkCount},
     {"error", checkDiagnostic}, {"warning", checkDiagnostic},
     {"note", checkDiagnostic},  {"diagnostics", checkDiagnostics},
+    {"within", checkWithin},    {"apart", checkApart},
 };
 
 std::string evaluate(const Facts& facts, const Statement& statement) {
   if (statement.words[0] == "dump") return checkDump(facts, statement);
+  if (statement.words[0] == "scene" || statement.words[0] == "picture") {
+    return checkGolden(*facts.outcome, statement);
+  }
   for (const auto& [name, check] : kChecks) {
     if (statement.words[0] == name) return check(facts, statement.words);
   }
   return kNotUnderstood;
 }
 
+/// A statement as it was written, but for its blanks.
+std::string textOf(const Statement& s) {
+  std::string text;
+  for (const std::string& word : s.words) {
+    const bool quoted = word.empty() || word.find(' ') != std::string::npos;
+    text += (text.empty() ? "" : " ") + (quoted ? '"' + word + '"' : word);
+  }
+  return text;
+}
+
 /// The `print` statements of a case are one expectation together.
 void checkPrints(const std::vector<Statement>& expected, const Outcome& outcome,
-                 std::vector<Failure>& failed) {
+                 std::vector<CaseFailure>& failed) {
   std::vector<std::string> wanted;
   size_t line = 0;
   bool none = false;
@@ -316,7 +379,7 @@ void checkPrints(const std::vector<Statement>& expected, const Outcome& outcome,
     if (s.words[0] != "print") continue;
     line = s.line;
     if (s.words.size() != 2)
-      failed.push_back({s.line, kNotUnderstood});
+      failed.push_back({static_cast<uint32_t>(s.line), kNotUnderstood});
     else if (s.words[1] == "none")
       none = true;
     else
@@ -325,7 +388,8 @@ void checkPrints(const std::vector<Statement>& expected, const Outcome& outcome,
   if (line == 0 || (wanted.empty() && !none) || wanted == outcome.scene->prints) return;
   std::string text = "found";
   for (const std::string& p : outcome.scene->prints) text += " \"" + p + "\"";
-  failed.push_back({line, outcome.scene->prints.empty() ? "nothing was printed" : text});
+  failed.push_back(
+      {static_cast<uint32_t>(line), outcome.scene->prints.empty() ? "nothing was printed" : text});
 }
 
 }  // namespace
@@ -351,8 +415,8 @@ bool meets(double found, const std::vector<std::string>& words, size_t at, size_
   return closeTo(found, a);
 }
 
-std::vector<Failure> failures(const std::vector<Statement>& expected, const Outcome& outcome) {
-  std::vector<Failure> failed;
+std::vector<CaseFailure> failures(const std::vector<Statement>& expected, const Outcome& outcome) {
+  std::vector<CaseFailure> failed;
   Facts facts{&outcome, placedLeaves(*outcome.scene), count(*outcome.scene)};
   bool allDiagnosticsNamed = false;
   for (const Statement& s : expected) {
@@ -360,9 +424,7 @@ std::vector<Failure> failures(const std::vector<Statement>& expected, const Outc
     if (s.words[0] == "print") continue;
     std::string complaint = evaluate(facts, s);
     if (complaint.empty()) continue;
-    std::string statement;
-    for (const std::string& word : s.words) statement += (statement.empty() ? "" : " ") + word;
-    failed.push_back({s.line, statement + ": " + complaint});
+    failed.push_back({static_cast<uint32_t>(s.line), textOf(s) + ": " + complaint});
   }
   checkPrints(expected, outcome, failed);
   for (const Diagnostic& m : outcome.diagnostics) {

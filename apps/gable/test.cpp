@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <thread>
+
+#include "commands.h"
+#include "gable/cases.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using gable::CaseFailure;
+using gable::CaseFileResult;
+using gable::CaseResult;
+using Results = std::vector<CaseFileResult>;
+
+struct Tally {
+  size_t passed = 0, failed = 0;
+  bool missing = false;
+};
+
+Tally tallyOf(const Results& results) {
+  Tally t;
+  for (const CaseFileResult& file : results) {
+    t.missing = t.missing || !file.found;
+    t.failed += file.errors.empty() ? 0 : 1;
+    for (const CaseResult& c : file.cases) ++(c.failures.empty() ? t.passed : t.failed);
+  }
+  return t;
+}
+
+/// What fails, a line each with its place, and `N passed, N failed` at the end.
+std::string plainText(const Results& results) {
+  std::string out;
+  const auto line = [&](const std::string& file, const std::string& name, const CaseFailure& f) {
+    out += file + (f.line ? ":" + std::to_string(f.line) : "") + ": " +
+           (name.empty() ? "" : name + ": ") + f.message + "\n";
+  };
+  for (const CaseFileResult& file : results) {
+    for (const CaseFailure& f : file.errors) line(file.file, "", f);
+    for (const CaseResult& c : file.cases) {
+      for (const CaseFailure& f : c.failures) line(file.file, c.name, f);
+    }
+    for (const std::string& written : file.written) out += "wrote " + written + "\n";
+  }
+  const Tally t = tallyOf(results);
+  return out + std::to_string(t.passed) + " passed, " + std::to_string(t.failed) + " failed\n";
+}
+
+std::string reportText(const Results& results, const std::string& format) {
+  if (format == "tap") return gable::tapText(results);
+  if (format == "junit") return gable::junitText(results);
+  return plainText(results);
+}
+
+std::vector<std::string> filesOf(const TestArguments& arguments) {
+  std::vector<std::string> files;
+  for (const std::string& path : arguments.paths) {
+    for (std::string& file : gable::caseFiles(path)) {
+      if (std::find(files.begin(), files.end(), file) == files.end()) {
+        files.push_back(std::move(file));
+      }
+    }
+  }
+  return files;
+}
+
+int runOnce(const TestArguments& arguments) {
+  gable::CaseSettings settings;
+  settings.filter = arguments.filter;
+  settings.project = arguments.project;
+  settings.update = arguments.update;
+  settings.jobs = arguments.jobs;
+  settings.limits = fileLimits(arguments.limits);
+  const std::vector<std::string> files = filesOf(arguments);
+  if (files.empty()) {
+    std::fputs("gable: there is no .test file here; name a file or a folder\n", stderr);
+    return kExitUsage;
+  }
+  Results results;
+  for (const std::string& file : files) results.push_back(gable::runCases(file, settings));
+  const Tally t = tallyOf(results);
+  if (const int status = writeText(arguments.output, reportText(results, arguments.format))) {
+    return status;
+  }
+  if (t.missing) return kExitFile;
+  if (t.passed + t.failed == 0) {
+    std::fprintf(stderr, "gable: no case has '%s' in its name\n", arguments.filter.c_str());
+    return kExitUsage;
+  }
+  return t.failed == 0 ? kExitDone : kExitWrong;
+}
+
+// ------------------------------------------------------------------------------------- watching
+
+using Times = std::map<std::string, fs::file_time_type>;
+
+/// What is looked at: folders as they are named, and those that files lie in. Rules lie beside a
+/// folder `tests` as a rule, so its parent counts.
+std::vector<fs::path> watchedFolders(const TestArguments& arguments) {
+  std::vector<fs::path> folders;
+  if (arguments.project) folders.emplace_back(*arguments.project);
+  for (const std::string& path : arguments.paths) {
+    std::error_code error;
+    fs::path folder = fs::absolute(path, error).lexically_normal();
+    if (!fs::is_directory(folder, error) || !folder.has_filename()) folder = folder.parent_path();
+    folders.push_back(folder.filename() == "tests" ? folder.parent_path() : folder);
+  }
+  return folders;
+}
+
+Times timesOf(const std::vector<fs::path>& folders) {
+  Times times;
+  for (const fs::path& folder : folders) {
+    std::error_code error;
+    fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied,
+                                        error);
+    for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
+      std::error_code one;
+      if (at->path().filename().string().starts_with('.')) {
+        if (at->is_directory(one)) at.disable_recursion_pending();
+      } else if (at->is_regular_file(one)) {
+        times[at->path().string()] = at->last_write_time(one);
+      }
+    }
+  }
+  return times;
+}
+
+int watch(const TestArguments& arguments) {
+  const std::vector<fs::path> folders = watchedFolders(arguments);
+  int status = kExitDone;
+  while (!*cancelFlag()) {
+    status = runOnce(arguments);
+    std::fflush(stdout);
+    // Taken after the run, so that pictures that it wrote start no other.
+    const Times before = timesOf(folders);
+    while (!*cancelFlag() && timesOf(folders) == before) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    }
+  }
+  return status;
+}
+
+}  // namespace
+
+int runTest(const TestArguments& arguments) {
+  return arguments.watch ? watch(arguments) : runOnce(arguments);
+}

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Rules that a case writes itself stand in its test file's project, so that they can import what is
+// to be tested. A case with `file` sections becomes a small project in a folder of its own instead,
+// so that imports and assets work as they do for users.
+
+#include "cases/run.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/files.h"
+#include "base/number.h"
+#include "cases/plan.h"
+#include "cases/start_shape.h"
+#include "cases/temporary_folder.h"
+#include "cases/values.h"
+#include "engine/guard.h"
+#include "engine/impl.h"
+#include "geom/region/boolean.h"
+#include "scene/dump.h"
+
+namespace gable::cases {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The rule that `values` sections are evaluated in.
+constexpr const char* kValuesRule = "CaseValues";
+
+std::string ruleText(const Case& c) {
+  std::string text(c.textOf("rule"));
+  if (const Section* values = c.find("values")) {
+    text += std::string("\n") + kValuesRule + " -->\n";
+    for (const ValueLine& v : valueLines(*values)) text += "  print(" + v.expression + ")\n";
+  }
+  return text;
+}
+
+/// The first line of a section that holds one word; empty where there is none.
+std::string wordOf(const Case& c, std::string_view section) {
+  const auto lines = linesOf(c.textOf(section));
+  return lines.empty() ? std::string() : std::string(trimmed(lines.front()));
+}
+
+bool readLimit(const Statement& s, Limits& limits) {
+  double n = 0;
+  if (s.words.size() != 2 || !parseNumber(s.words[1], n) || !(n >= 0) || n > 1e15) return false;
+  const auto small = static_cast<uint32_t>(std::min(n, 4294967295.0));
+  const auto large = static_cast<uint64_t>(n);
+  const std::string& word = s.words[0];
+  if (word == "depth") return limits.depth = small, true;
+  if (word == "width") return limits.width = small, true;
+  if (word == "shapes") return limits.shapes = large, true;
+  if (word == "vertices") return limits.vertices = large, true;
+  if (word == "steps") return limits.steps = large, true;
+  if (word == "seconds") return limits.seconds = n, true;
+  return false;
+}
+
+/// Writes the project of a case with files of its own; empty when all is written.
+std::string writeProject(const Case& c, const std::string& folder) {
+  for (const Section& s : c.sections) {
+    if (s.name != "file") continue;
+    const fs::path path = (fs::path(folder) / s.argument).lexically_normal();
+    const std::string below = path.lexically_relative(folder).string();
+    if (s.argument.empty() || below.empty() || below.starts_with("..")) {
+      return "'file' names a file below the case's own folder, not '" + s.argument + "'";
+    }
+    std::error_code error;
+    fs::create_directories(path.parent_path(), error);
+    const Result<uint64_t> written = writeFile(path.string(), s.text);
+    if (!written.ok()) return written.error().message;
+  }
+  return {};
+}
+
+void add(DiagnosticList& all, const DiagnosticList& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+Region lotOf(const Shapes& shapes) {
+  Region lot;
+  for (const ShapeFootprint& f : shapes.impl().footprints) {
+    lot = unite(lot, planOf(transformed(f.mesh, {1, 1, 1}, f.origin)));
+  }
+  return lot;
+}
+
+}  // namespace
+
+CaseRun::CaseRun(const Case& c, const std::string& file, const CaseSettings& settings)
+    : case_(c),
+      file_(file),
+      settings_(settings),
+      folder_(fs::path(file).parent_path().string()),
+      golden_(folder_, settings.update, settings.limits) {
+  result_.name = c.name;
+  result_.line = static_cast<uint32_t>(c.line);
+}
+
+void CaseRun::fail(size_t line, const std::string& message) {
+  result_.failures.push_back({static_cast<uint32_t>(line ? line : case_.line), message});
+}
+
+void CaseRun::failAt(const char* section, const std::string& message) {
+  const Section* s = case_.find(section);
+  fail(s ? s->line : 0, message);
+}
+
+CaseResult CaseRun::run() {
+  const double begin = now();
+  try {
+    runCase();
+  } catch (...) {
+    fail(0, diagnosticOfException().message);
+  }
+  result_.seconds = now() - begin;
+  return std::move(result_);
+}
+
+Rules CaseRun::loadRules() {
+  LoadSettings load;
+  load.project = settings_.project;
+  if (case_.find("file")) load.project = folder_;
+  load.limits = settings_.limits;
+  if (const std::string style = wordOf(case_, "style"); !style.empty()) load.style = style;
+  if (const std::string named = wordOf(case_, "rules"); !named.empty()) {
+    return Rules::load((fs::path(folder_) / named).string(), load);
+  }
+  return Rules::parse(ruleText(case_), (fs::path(folder_) / "case.cga").string(), load);
+}
+
+bool CaseRun::readAttributes(DeriveSettings& derive) {
+  for (std::string_view line : linesOf(case_.textOf("set"))) {
+    const size_t at = line.find('=');
+    if (trimmed(line).empty()) continue;
+    if (at == std::string_view::npos) {
+      failAt("set", "expected name = value, not '" + std::string(trimmed(line)) + "'");
+      return false;
+    }
+    derive.attributes.emplace_back(trimmed(line.substr(0, at)), trimmed(line.substr(at + 1)));
+  }
+  return true;
+}
+
+bool CaseRun::readSettings(DeriveSettings& derive) {
+  derive.jobs = 1;
+  derive.limits.bytes = settings_.limits.bytes;
+  derive.limits.seconds = settings_.limits.seconds;
+  if (const std::string seed = wordOf(case_, "seed");
+      !seed.empty() && !parseNumber(seed, derive.seed)) {
+    failAt("seed", "'" + seed + "' is not a number");
+    return false;
+  }
+  if (const std::string start = wordOf(case_, "start"); !start.empty()) derive.startRule = start;
+  if (case_.find("values")) derive.startRule = kValuesRule;
+  if (const Section* limits = case_.find("limits")) {
+    for (const Statement& s : statements(*limits)) {
+      if (readLimit(s, derive.limits)) continue;
+      fail(s.line, "the limit is not understood");
+      return false;
+    }
+  }
+  return readAttributes(derive);
+}
+
+void CaseRun::runCase() {
+  const bool rules = case_.find("rule") || case_.find("rules");
+  if ((!rules || !case_.find("expect")) && !case_.find("values")) {
+    fail(0, "a case has 'rule' or 'rules' with 'expect', or 'values'");
+    return;
+  }
+  if (case_.find("rules") && (case_.find("rule") || case_.find("values") || case_.find("file"))) {
+    failAt("rules", "'rules' names a rule file, so 'rule', 'values' and 'file' have no place");
+    return;
+  }
+  std::optional<TemporaryFolder> own;
+  if (case_.find("file")) {
+    own.emplace();
+    folder_ = own->path();
+    const std::string why =
+        folder_.empty() ? "there is no folder for temporary files" : writeProject(case_, folder_);
+    if (!why.empty()) return failAt("file", why);
+  }
+  const std::optional<Shapes> shapes = startShape(case_, folder_, settings_.limits);
+  if (!shapes) return failAt("shape", "the shape is not understood");
+  DeriveSettings derived;
+  if (!readSettings(derived)) return;
+  const Rules loaded = loadRules();
+  Outcome outcome;
+  outcome.diagnostics = loaded.diagnostics();
+  add(outcome.diagnostics, shapes->diagnostics());
+  std::optional<Model> model;
+  const Scene nothing;
+  outcome.scene = &nothing;
+  outcome.golden = &golden_;
+  if (loaded.ok() && shapes->ok()) {
+    model = derive(loaded, *shapes, derived);
+    add(outcome.diagnostics, model->diagnostics());
+    outcome.model = &*model;
+    outcome.scene = &model->impl().result.scene;
+    outcome.dump = dumpText(*outcome.scene);
+    outcome.lot = lotOf(*shapes);
+    derived.sharing = false;
+    const Model alone = derive(loaded, *shapes, derived);
+    if (dumpText(alone.impl().result.scene) != outcome.dump) {
+      fail(0, "the model differs when sharing is off");
+    }
+    checkValues(outcome.scene->prints);
+  }
+  judge(outcome);
+}
+
+void CaseRun::checkValues(const std::vector<std::string>& prints) {
+  const Section* section = case_.find("values");
+  if (!section) return;
+  const std::vector<ValueLine> lines = valueLines(*section);
+  if (prints.size() != lines.size()) {
+    fail(section->line, std::to_string(lines.size()) + " expressions gave " +
+                            std::to_string(prints.size()) + " values");
+    return;
+  }
+  for (size_t i = 0; i < lines.size(); ++i) {
+    if (sameValue(prints[i], lines[i].wanted)) continue;
+    fail(lines[i].line,
+         lines[i].expression + ": found " + prints[i] + ", expected " + lines[i].wanted);
+  }
+}
+
+void CaseRun::judge(const Outcome& outcome) {
+  const Section* expect = case_.find("expect");
+  const std::vector<Statement> expected = expect ? statements(*expect) : std::vector<Statement>{};
+  if (settings_.update) noteUpdates(expected, outcome.dump);
+  for (const CaseFailure& f : failures(expected, outcome)) {
+    if (settings_.update && f.message.starts_with("dump:")) continue;
+    fail(f.line, f.message);
+  }
+}
+
+/// Dumps are indented four columns: two for the section, two for the statement.
+void CaseRun::noteUpdates(const std::vector<Statement>& expected, const std::string& dump) {
+  for (const Statement& s : expected) {
+    if (s.words[0] != "dump") continue;
+    std::string text;
+    for (std::string_view line : linesOf(dump)) text += "    " + std::string(line) + "\n";
+    updates_.push_back({s.line, linesOf(s.block).size(), text});
+  }
+}
+
+}  // namespace gable::cases

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// One case: its project, its derivations, its verdict.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/case_file.h"
+#include "cases/expectation.h"
+#include "cases/golden.h"
+#include "gable/gable.h"
+
+namespace gable::cases {
+
+/// A dump that an update writes into the test file: the lines below `line` are replaced.
+struct DumpUpdate {
+  size_t line = 0;
+  size_t lines = 0;
+  std::string text;
+};
+
+class CaseRun {
+ public:
+  /// `file` is the test file. All must outlive the run.
+  CaseRun(const Case& c, const std::string& file, const CaseSettings& settings);
+
+  /// Derives with and without sharing, and holds the result against the expectations.
+  CaseResult run();
+
+  const std::vector<DumpUpdate>& updates() const { return updates_; }
+  const std::vector<std::string>& written() const { return golden_.written(); }
+
+ private:
+  void fail(size_t line, const std::string& message);
+  void failAt(const char* section, const std::string& message);
+  void runCase();
+  Rules loadRules();
+  bool readSettings(DeriveSettings& derive);
+  bool readAttributes(DeriveSettings& derive);
+  void checkValues(const std::vector<std::string>& prints);
+  void judge(const Outcome& outcome);
+  void noteUpdates(const std::vector<Statement>& expected, const std::string& dump);
+
+  const Case& case_;
+  const std::string& file_;
+  const CaseSettings& settings_;
+  std::string folder_;
+  GoldenFiles golden_;
+  CaseResult result_;
+  std::vector<DumpUpdate> updates_;
+};
+
+}  // namespace gable::cases
