@@ -59,6 +59,18 @@ struct RenderArguments {
   std::optional<double> fieldOfView;
 };
 int runRender(const RenderArguments& arguments);
+/// An exit status other than kExitDone, with a message, when an option of the picture is wrong.
+int pictureSettings(const RenderArguments& arguments, gable::PictureSettings& settings);
+/// Whether a path names a model that can be read, by its extension.
+bool isModel(const std::string& path);
+
+struct DiffArguments {
+  std::string before, after;
+  /// The options of the picture; its output may be empty.
+  RenderArguments picture;
+  bool json = false;
+};
+int runDiff(const DiffArguments& arguments);
 
 struct TraceArguments {
   DeriveArguments derive;

@@ -150,6 +150,19 @@ void addTraceFilter(CLI::App* app, TraceArguments& a) {
       ->check(number({0, 4294967295.0, true}));
 }
 
+void addDiff(CLI::App& app, DiffArguments& a, int& status) {
+  auto* diff = app.add_subcommand("diff", "Say what differs between two models");
+  diff->add_option("before", a.before, "A model: .glb .gltf .obj")->required();
+  diff->add_option("after", a.after, "Another of the same format")->required();
+  diff->add_option("-o,--output", a.picture.output,
+                   "A picture: what is added in green, removed in red, kept in grey");
+  diff->add_flag("--json", a.json, "Machine-readable output");
+  addPictureOptions(diff, a.picture);
+  addLimits(diff, a.picture.derive.limits,
+            "Stop reading and comparing after so many seconds each (default 600, 0: no limit)");
+  diff->callback([&a, &status] { status = runDiff(a); });
+}
+
 void addTest(CLI::App& app, TestArguments& a, int& status) {
   auto* test = app.add_subcommand("test", "Run rule tests: the cases of .test files");
   test->add_option("paths", a.paths, "Test files, and folders to search (default: this folder)");
@@ -264,6 +277,8 @@ int main(int argc, char** argv) {
 
   LspArguments lsp;
   addLsp(app, lsp, status);
+  DiffArguments diff;
+  addDiff(app, diff, status);
   TestArguments test;
   addTest(app, test, status);
   StudioArguments studio;

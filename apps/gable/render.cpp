@@ -9,15 +9,6 @@
 
 namespace {
 
-bool endsWith(const std::string& text, const char* end) {
-  const std::string e(end);
-  return text.size() >= e.size() && text.compare(text.size() - e.size(), e.size(), e) == 0;
-}
-
-bool isModel(const std::string& path) {
-  return endsWith(path, ".glb") || endsWith(path, ".gltf") || endsWith(path, ".obj");
-}
-
 /// "#rrggbb" as shares of 1.
 bool parseColor(const std::string& text, gable::Triple& rgb) {
   const bool digits = text.size() == 7 && text[0] == '#' &&
@@ -27,6 +18,8 @@ bool parseColor(const std::string& text, gable::Triple& rgb) {
   }
   return digits;
 }
+
+}  // namespace
 
 int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
   const std::pair<const char*, gable::View> views[] = {{"iso", gable::View::Iso},
@@ -87,7 +80,10 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
   return kExitDone;
 }
 
-}  // namespace
+bool isModel(const std::string& path) {
+  const std::string extension = path.substr(std::min(path.size(), path.rfind('.') + 1));
+  return extension == "glb" || extension == "gltf" || extension == "obj";
+}
 
 int runRender(const RenderArguments& arguments) {
   gable::PictureSettings settings;

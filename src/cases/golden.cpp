@@ -12,7 +12,7 @@
 #include <filesystem>
 
 #include "base/files.h"
-#include "cases/temporary_folder.h"
+#include "base/temporary_folder.h"
 #include "io/image/image.h"
 
 namespace gable::cases {

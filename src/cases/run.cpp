@@ -12,9 +12,9 @@
 
 #include "base/files.h"
 #include "base/number.h"
+#include "base/temporary_folder.h"
 #include "cases/plan.h"
 #include "cases/start_shape.h"
-#include "cases/temporary_folder.h"
 #include "cases/values.h"
 #include "engine/guard.h"
 #include "engine/impl.h"

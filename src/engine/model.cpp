@@ -3,13 +3,12 @@
 //
 // What can be asked of a model, and its way to files and pictures.
 
-#include <stdlib.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <map>
 
 #include "base/files.h"
+#include "base/temporary_folder.h"
 #include "engine/guard.h"
 #include "engine/impl.h"
 #include "io/exporters/draw_list.h"
@@ -53,26 +52,6 @@ class ProjectTextures final : public TextureSource {
   Project* project_;
   mutable std::map<std::string, TextureImage> images_;
   mutable uint64_t held_ = 0;
-};
-
-/// A folder of its own that goes with it; the path is empty where none can be made.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::error_code error;
-    std::string path = (std::filesystem::temp_directory_path(error) / "gable-XXXXXX").string();
-    if (!error && mkdtemp(path.data())) path_ = path;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
 };
 
 WriteResult failedWrite(const Error& e) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/json.h"
+#include "gable/compare.h"
 #include "gable/files.h"
 #include "gable/gable.h"
 
@@ -28,6 +29,9 @@ struct RunFigures {
 };
 /// Counts, bounds, reports, prints, diagnostics and figures as one object.
 std::string statisticsJson(const Model& model, const RunFigures& figures = {});
+
+/// Before and after as arrays of two; what was added, removed and kept as objects.
+std::string comparisonJson(const Comparison& comparison);
 
 /// The trees of all initial shapes, nested; of a filtered trace, those of the topmost shapes shown.
 /// Piece by piece: a town's tree has gigabytes.

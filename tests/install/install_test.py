@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parents[2]
 TREE = FOLDER / "moved"
 PAGE = ROOT / "docs/guide/embedding.md"
 PUBLIC = re.compile(r"gable::(Rules|Shapes|Model|LanguageServer|language::Workspace)::(?!Impl)|"
-                    r"gable::language::(referencePage|search)(\[abi:cxx11\])?\(|gable::(derive|convert|format|hasErrors|render|version|builtins|"
+                    r"gable::language::(referencePage|search)(\[abi:cxx11\])?\(|gable::(derive|compare|convert|format|hasErrors|render|version|builtins|"
                     r"readRuleText|writeTextFile|modelExtensions|removeUnfinishedFiles|runLanguageServer|runStudio|"
                     r"runCases|caseFiles|tapText|junitText)"
                     r"(\[abi:cxx11\])?\(|gable_\w+$")

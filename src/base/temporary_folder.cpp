@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 
-#include "cases/temporary_folder.h"
+#include "base/temporary_folder.h"
 
 #include <stdlib.h>
 
 #include <filesystem>
 
-namespace gable::cases {
+namespace gable {
 
 namespace fs = std::filesystem;
 
@@ -15,7 +15,7 @@ TemporaryFolder::TemporaryFolder() {
   std::error_code error;
   const fs::path base = fs::temp_directory_path(error);
   if (error) return;
-  std::string pattern = (base / "gable-test-XXXXXX").string();
+  std::string pattern = (base / "gable-XXXXXX").string();
   if (mkdtemp(pattern.data())) path_ = pattern;
 }
 
@@ -24,4 +24,4 @@ TemporaryFolder::~TemporaryFolder() {
   if (!path_.empty()) fs::remove_all(path_, ignored);
 }
 
-}  // namespace gable::cases
+}  // namespace gable

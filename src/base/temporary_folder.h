@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace gable::cases {
+namespace gable {
 
 class TemporaryFolder {
  public:
@@ -22,4 +22,4 @@ class TemporaryFolder {
   std::string path_;
 };
 
-}  // namespace gable::cases
+}  // namespace gable
