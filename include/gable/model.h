@@ -109,6 +109,11 @@ struct ReportSummary {
 struct Statistics {
   uint64_t shapes = 0, leaves = 0, faces = 0, vertices = 0, triangles = 0;
   uint64_t instances = 0, prototypes = 0, materials = 0;
+  /// As CityEngine's encoders count: polygons as they are, faces with holes as triangles, vertices
+  /// of each leaf by themselves.
+  struct Encoder {
+    uint64_t faces = 0, vertices = 0;
+  } encoder;
   /// Shapes that were taken over from DeriveSettings::before.
   uint64_t recalled = 0;
   /// Absent when there is no leaf.

@@ -265,10 +265,15 @@ std::string checkColor(const Facts& facts, const Words& words) {
 
 std::string checkCount(const Facts& facts, const Words& words) {
   const SceneCounts& c = facts.counts;
-  const std::map<std::string_view, uint64_t> counts = {
-      {"shapes", c.shapes},       {"faces", c.faces},         {"vertices", c.vertices},
-      {"triangles", c.triangles}, {"instances", c.instances}, {"prototypes", c.prototypes},
-      {"materials", c.materials}};
+  const std::map<std::string_view, uint64_t> counts = {{"shapes", c.shapes},
+                                                       {"faces", c.faces},
+                                                       {"vertices", c.vertices},
+                                                       {"triangles", c.triangles},
+                                                       {"instances", c.instances},
+                                                       {"prototypes", c.prototypes},
+                                                       {"materials", c.materials},
+                                                       {"encoder.faces", c.encoderFaces},
+                                                       {"encoder.vertices", c.vertices}};
   return compare(static_cast<double>(counts.at(words[0])), words, 1);
 }
 
@@ -334,18 +339,19 @@ std::string checkGolden(const Outcome& outcome, const Statement& statement) {
 
 using Check = std::string (*)(const Facts&, const Words&);
 constexpr std::pair<const char*, Check> kChecks[] = {
-    {"leaves", checkLeaves},    {"area", checkArea},
-    {"volume", checkVolume},    {"bounds", checkBounds},
-    {"size", checkSize},        {"closed", checkClosed},
-    {"flat", checkFlat},        {"names", checkNames},
-    {"report", checkReport},    {"attribute", checkAttribute},
-    {"color", checkColor},      {"shapes", checkCount},
-    {"faces", checkCount},      {"vertices", checkCount},
-    {"triangles", checkCount},  {"instances", checkCount},
-    {"prototypes", checkCount}, {"materials", checkCount},
-    {"error", checkDiagnostic}, {"warning", checkDiagnostic},
-    {"note", checkDiagnostic},  {"diagnostics", checkDiagnostics},
-    {"within", checkWithin},    {"apart", checkApart},
+    {"leaves", checkLeaves},       {"area", checkArea},
+    {"volume", checkVolume},       {"bounds", checkBounds},
+    {"size", checkSize},           {"closed", checkClosed},
+    {"flat", checkFlat},           {"names", checkNames},
+    {"report", checkReport},       {"attribute", checkAttribute},
+    {"color", checkColor},         {"shapes", checkCount},
+    {"faces", checkCount},         {"vertices", checkCount},
+    {"triangles", checkCount},     {"instances", checkCount},
+    {"prototypes", checkCount},    {"materials", checkCount},
+    {"error", checkDiagnostic},    {"warning", checkDiagnostic},
+    {"note", checkDiagnostic},     {"diagnostics", checkDiagnostics},
+    {"encoder.faces", checkCount}, {"encoder.vertices", checkCount},
+    {"within", checkWithin},       {"apart", checkApart},
 };
 
 std::string evaluate(const Facts& facts, const Statement& statement) {

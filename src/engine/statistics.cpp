@@ -53,6 +53,7 @@ Statistics statisticsOf(const Scene& scene) {
   out.faces = c.faces;
   out.vertices = c.vertices;
   out.triangles = c.triangles;
+  out.encoder = {c.encoderFaces, c.vertices};
   out.instances = c.instances;
   out.prototypes = c.prototypes;
   out.materials = c.materials;

@@ -76,6 +76,8 @@ std::string statisticsJson(const Model& model, const RunFigures& figures) {
   json.key("triangles").value(figures.triangles.value_or(s.triangles));
   json.key("instances").value(s.instances).key("prototypes").value(s.prototypes);
   json.key("materials").value(s.materials);
+  json.key("encoder").beginObject().key("faces").value(s.encoder.faces);
+  json.key("vertices").value(s.encoder.vertices).endObject();
   if (s.recalled > 0) json.key("recalled").value(s.recalled);
   const BoundingBox box = s.bounds.value_or(BoundingBox{});
   json.key("bbox").beginObject().key("min");

@@ -160,6 +160,8 @@ void forEachLeaf(const Scene& scene, const Prototype& prototype, const Frame& wo
 struct SceneCounts {
   uint64_t shapes = 0, leaves = 0, faces = 0, vertices = 0, triangles = 0;
   uint64_t instances = 0, prototypes = 0, materials = 0;
+  /// Faces as CityEngine's encoders count them: polygons, but faces with holes as triangles.
+  uint64_t encoderFaces = 0;
   Box3 bounds;
 };
 SceneCounts count(const Scene& scene);

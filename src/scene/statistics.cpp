@@ -18,23 +18,26 @@ namespace gable {
 namespace {
 
 struct Tally {
-  uint64_t leaves = 0, faces = 0, vertices = 0, triangles = 0;
+  uint64_t leaves = 0, faces = 0, vertices = 0, triangles = 0, encoderFaces = 0;
   void add(const Tally& t) {
     leaves = saturatingAdd(leaves, t.leaves);
     faces = saturatingAdd(faces, t.faces);
     vertices = saturatingAdd(vertices, t.vertices);
     triangles = saturatingAdd(triangles, t.triangles);
+    encoderFaces = saturatingAdd(encoderFaces, t.encoderFaces);
   }
 };
 
 Tally tallyOf(const Mesh& m) {
-  Tally t{1, m.faces.size(), m.positions.size(), 0};
+  Tally t{1, m.faces.size(), m.positions.size(), 0, 0};
   for (size_t f = 0; f < m.faces.size(); ++f) {
     // A polygon of n corners in all and h holes has n + 2h - 2 triangles.
     uint64_t corners = 0;
     for (const MeshLoop& loop : m.loopsOf(f)) corners += loop.cornerCount;
     const uint64_t holes = m.faces[f].loopCount > 0 ? m.faces[f].loopCount - 1 : 0;
-    if (corners >= 3) t.triangles += corners + 2 * holes - 2;
+    const uint64_t triangles = corners >= 3 ? corners + 2 * holes - 2 : 0;
+    t.triangles += triangles;
+    t.encoderFaces += holes > 0 ? triangles : 1;
   }
   return t;
 }
@@ -154,6 +157,7 @@ SceneCounts count(const Scene& scene) {
   counts.faces = all.faces;
   counts.vertices = all.vertices;
   counts.triangles = all.triangles;
+  counts.encoderFaces = all.encoderFaces;
   counts.instances = scene.instances.size();
   counts.prototypes = scene.prototypes.size();
   counts.materials = scene.materials.size();

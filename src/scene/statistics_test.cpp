@@ -60,6 +60,8 @@ TEST(Statistics, countsTrianglesAroundHoles) {
   scene.meshes.push_back(MeshRef(new Mesh(builder.take())));
   scene.leaves[1].mesh = static_cast<uint32_t>(scene.meshes.size() - 1);
   EXPECT_EQ(count(scene).triangles, 3u * (12 + 8));
+  EXPECT_EQ(count(scene).faces, 3u * (6 + 1));
+  EXPECT_EQ(count(scene).encoderFaces, 3u * (6 + 8));
 }
 
 }  // namespace
