@@ -110,6 +110,7 @@ struct TestArguments {
   std::string format = "text";
   std::string output = "-";
   std::optional<std::string> project;
+  gable::SearchSettings search;
   std::optional<int> jobs;
   bool update = false;
   /// Run again whenever a file of the folders changes, until Ctrl-C.

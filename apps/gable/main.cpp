@@ -174,6 +174,7 @@ void addTest(CLI::App& app, TestArguments& a, int& status) {
       ->envname("GABLE_UPDATE");
   test->add_flag("--watch", a.watch, "Run again whenever a file changes, until Ctrl-C");
   test->add_option("--project", a.project, "The folder that the rules may read from");
+  addSearch(test, a.search);
   test->add_option("--jobs", a.jobs, "Threads (default: one per processor)")
       ->check(number({0, 4096, true}));
   addLimits(test, a.limits, "Stop a derivation after so many seconds (default 600, 0: no limit)");

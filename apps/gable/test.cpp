@@ -74,6 +74,7 @@ int runOnce(const TestArguments& arguments) {
   gable::CaseSettings settings;
   settings.filter = arguments.filter;
   settings.project = arguments.project;
+  settings.search = arguments.search;
   settings.update = arguments.update;
   settings.jobs = arguments.jobs;
   settings.limits = fileLimits(arguments.limits);

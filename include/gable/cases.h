@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "gable/limits.h"
+#include "gable/search.h"
 
 namespace gable {
 
@@ -24,6 +25,7 @@ struct CaseSettings {
   /// The folder that the rules may read from. Absent: as LoadSettings::project has it, seen from
   /// the test file.
   std::optional<std::string> project;
+  SearchSettings search;
   /// Dumps, scenes and pictures that differ are written anew instead of compared.
   bool update = false;
   /// Threads; absent: one a processor.

@@ -123,6 +123,7 @@ CaseResult CaseRun::run() {
 Rules CaseRun::loadRules() {
   LoadSettings load;
   load.project = settings_.project;
+  load.search = settings_.search;
   if (case_.find("file")) load.project = folder_;
   load.limits = settings_.limits;
   if (const std::string style = wordOf(case_, "style"); !style.empty()) load.style = style;
