@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
@@ -12,6 +13,12 @@ namespace {
 
 using gable::Comparison;
 using gable::FaceSum;
+
+std::string extensionOf(const std::string& path) {
+  const std::string extension = path.substr(std::min(path.size(), path.rfind('.') + 1));
+  // Both are glTF with the same triangles.
+  return extension == "gltf" ? "glb" : extension;
+}
 
 int readModel(const std::string& path, const gable::FileLimits& limits, gable::Model& model) {
   if (!isModel(path)) {
@@ -92,6 +99,13 @@ int runDiff(const DiffArguments& arguments) {
   if (!picture.output.empty()) {
     if (const int status = checkExtension(picture.output, {"png"})) return status;
     if (const int status = pictureSettings(picture, settings)) return status;
+  }
+  if (extensionOf(arguments.before) != extensionOf(arguments.after)) {
+    std::fprintf(stderr,
+                 "gable: '%s' and '%s' have different formats, which keep faces in different ways; "
+                 "compare files of one format\n",
+                 arguments.before.c_str(), arguments.after.c_str());
+    return kExitUsage;
   }
   const gable::FileLimits limits = fileLimits(picture.derive.limits);
   gable::Model before(nullptr), after(nullptr);

@@ -133,6 +133,18 @@ Times timesOf(const std::vector<fs::path>& folders) {
   return times;
 }
 
+/// The first file that is new, has gone or has another time.
+std::string changedFile(const Times& before, const Times& after) {
+  for (const auto& [file, time] : after) {
+    const auto found = before.find(file);
+    if (found == before.end() || found->second != time) return file;
+  }
+  for (const auto& [file, time] : before) {
+    if (!after.contains(file)) return file;
+  }
+  return {};
+}
+
 int watch(const TestArguments& arguments) {
   const std::vector<fs::path> folders = watchedFolders(arguments);
   int status = kExitDone;
@@ -141,9 +153,12 @@ int watch(const TestArguments& arguments) {
     std::fflush(stdout);
     // Taken after the run, so that pictures that it wrote start no other.
     const Times before = timesOf(folders);
-    while (!*cancelFlag() && timesOf(folders) == before) {
+    Times after = before;
+    while (!*cancelFlag() && after == before) {
       std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      after = timesOf(folders);
     }
+    if (!*cancelFlag()) std::printf("\n%s has changed\n", changedFile(before, after).c_str());
   }
   return status;
 }

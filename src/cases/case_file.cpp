@@ -36,6 +36,12 @@ std::string dedented(const std::vector<std::string_view>& lines) {
   return text;
 }
 
+std::string sectionsText() {
+  std::string text;
+  for (std::string_view name : kSections) text += (text.empty() ? "" : ", ") + std::string(name);
+  return text;
+}
+
 class Reader {
  public:
   CaseFile read(std::string_view text) {
@@ -83,7 +89,8 @@ class Reader {
     const std::string_view name = head.substr(0, blank);
     if (colon == std::string_view::npos || file_.cases.empty() ||
         std::find(kSections.begin(), kSections.end(), name) == kSections.end()) {
-      error("expected a section of a case, not '" + std::string(line) + "'");
+      error("expected a section of a case, not '" + std::string(line) + "'; there are " +
+            sectionsText());
       return;
     }
     Section section;

@@ -10,7 +10,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <set>
 
+#include "base/text.h"
 #include "cases/measure.h"
 #include "cases/plan.h"
 #include "geom/region/boolean.h"
@@ -47,6 +49,11 @@ struct Facts {
 using Words = std::vector<std::string>;
 constexpr const char* kNotUnderstood = "the statement is not understood";
 
+/// Whether a word can be the name of a leaf: no sign that only a mistyped number has.
+bool isName(const std::string& word) {
+  return !word.empty() && word.find_first_of("<>=+-~#%*/") == std::string::npos;
+}
+
 bool isNumberWord(const std::string& word) {
   double number = 0;
   return parseNumber(word.substr(0, word.find("..")), number);
@@ -65,6 +72,7 @@ std::vector<const PlacedLeaf*> spokenOf(const Facts& facts, const Words& words, 
 }
 
 std::string compare(double found, const Words& words, size_t at) {
+  if (at > 1 && !isName(words[1])) return kNotUnderstood;
   size_t used = 0;
   const bool good = meets(found, words, at, used);
   if (used == 0 || at + used != words.size()) return kNotUnderstood;
@@ -217,6 +225,15 @@ std::string checkReportValues(const std::vector<const PlainValue*>& values, cons
   return text;
 }
 
+/// The keys that there are reports of.
+std::string keysText(const Facts& facts) {
+  std::set<std::string> keys;
+  for (const Report& report : facts.outcome->scene->reports) keys.insert(report.key);
+  std::string text;
+  for (const std::string& key : keys) text += (text.empty() ? "; the keys are " : ", ") + key;
+  return text;
+}
+
 std::string checkReport(const Facts& facts, const Words& words) {
   if (words.size() < 4) return kNotUnderstood;
   std::vector<const PlainValue*> values;
@@ -230,8 +247,11 @@ std::string checkReport(const Facts& facts, const Words& words) {
   }
   const double n = static_cast<double>(values.size());
   if (words[2] == "values") return checkReportValues(values, words);
-  if (words[2] == "n") return compare(n, words, 3);
-  if (values.empty()) return "nothing was reported";
+  if (words[2] == "n") {
+    const std::string complaint = compare(n, words, 3);
+    return complaint.empty() || n > 0 ? complaint : complaint + keysText(facts);
+  }
+  if (values.empty()) return "nothing was reported" + keysText(facts);
   if (words[2] == "sum") return compare(sum, words, 3);
   if (words[2] == "avg") return compare(sum / n, words, 3);
   if (words[2] == "min") return compare(low, words, 3);
@@ -250,14 +270,20 @@ std::string checkAttribute(const Facts& facts, const Words& words) {
         return plainText(v) == words[at + 1] ? "" : "found " + plainText(v);
       }
     }
-    return "it has no such attribute";
+    return "it carries no such attribute; rules give it with set(" + words[at] + ", ..)";
   });
+}
+
+bool isColor(const std::string& word) {
+  return word.size() == 7 && word[0] == '#' &&
+         word.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
 }
 
 std::string checkColor(const Facts& facts, const Words& words) {
   const Scene& scene = *facts.outcome->scene;
   return checkEach(facts, words, 1, [&](const PlacedLeaf& leaf, size_t at) -> std::string {
     const std::vector<uint32_t>& list = scene.materialLists[leaf.leaf->materials];
+    if (!isColor(words[at])) return kNotUnderstood;
     const Vec3 color = list.empty() ? Vec3{1, 1, 1} : scene.materials[list.front()].color;
     return colorText(color) == words[at] ? "" : "found " + colorText(color);
   });
@@ -294,7 +320,9 @@ std::string placeOf(const Diagnostic& m) {
 std::string describe(const Outcome& outcome) {
   std::string text = "found";
   for (const Diagnostic& m : outcome.diagnostics) {
-    text += std::string(" ") + severityName(m.severity) + " " + m.code + " " + placeOf(m) + ",";
+    const std::string place = placeOf(m);
+    text += (text == "found" ? " " : "; ") + std::string(severityName(m.severity)) + " " + m.code +
+            (place.empty() ? "" : " " + place) + ": " + m.message;
   }
   return outcome.diagnostics.empty() ? "there is no diagnostic" : text;
 }
@@ -338,31 +366,96 @@ std::string checkGolden(const Outcome& outcome, const Statement& statement) {
 }
 
 using Check = std::string (*)(const Facts&, const Words&);
-constexpr std::pair<const char*, Check> kChecks[] = {
-    {"leaves", checkLeaves},       {"area", checkArea},
-    {"volume", checkVolume},       {"bounds", checkBounds},
-    {"size", checkSize},           {"closed", checkClosed},
-    {"flat", checkFlat},           {"names", checkNames},
-    {"report", checkReport},       {"attribute", checkAttribute},
-    {"color", checkColor},         {"shapes", checkCount},
-    {"faces", checkCount},         {"vertices", checkCount},
-    {"triangles", checkCount},     {"instances", checkCount},
-    {"prototypes", checkCount},    {"materials", checkCount},
-    {"error", checkDiagnostic},    {"warning", checkDiagnostic},
-    {"note", checkDiagnostic},     {"diagnostics", checkDiagnostics},
-    {"encoder.faces", checkCount}, {"encoder.vertices", checkCount},
-    {"within", checkWithin},       {"apart", checkApart},
+
+/// A kind of statement: its word, what holds it, and how it is written.
+struct Kind {
+  const char* word;
+  Check check;
+  const char* form;
 };
+constexpr const char* kCountForm = "COUNT";
+constexpr const char* kNamedForm = "[LEAF] NUMBER";
+constexpr const char* kLeafForm = "[LEAF]";
+constexpr const char* kCodeForm = "CODE [LINE:COLUMN]";
+constexpr Kind kKinds[] = {
+    {"leaves", checkLeaves, kNamedForm},
+    {"area", checkArea, kNamedForm},
+    {"volume", checkVolume, kNamedForm},
+    {"bounds", checkBounds, "[LEAF] X Y Z  X Y Z"},
+    {"size", checkSize, "LEAF X Y Z"},
+    {"closed", checkClosed, kLeafForm},
+    {"flat", checkFlat, kLeafForm},
+    {"within", checkWithin, "lot [LEAF]"},
+    {"apart", checkApart, kLeafForm},
+    {"names", checkNames, "LEAF LEAF .."},
+    {"report", checkReport, "KEY n|sum|avg|min|max NUMBER, or KEY values TEXT=COUNT .."},
+    {"attribute", checkAttribute, "LEAF NAME VALUE"},
+    {"color", checkColor, "LEAF #rrggbb"},
+    {"shapes", checkCount, kCountForm},
+    {"faces", checkCount, kCountForm},
+    {"vertices", checkCount, kCountForm},
+    {"triangles", checkCount, kCountForm},
+    {"instances", checkCount, kCountForm},
+    {"prototypes", checkCount, kCountForm},
+    {"materials", checkCount, kCountForm},
+    {"encoder.faces", checkCount, kCountForm},
+    {"encoder.vertices", checkCount, kCountForm},
+    {"error", checkDiagnostic, kCodeForm},
+    {"warning", checkDiagnostic, kCodeForm},
+    {"note", checkDiagnostic, kCodeForm},
+    {"diagnostics", checkDiagnostics, "none, or CODE CODE .."},
+};
+
+/// Of statements that have no entry above: how they are written.
+constexpr const char* kOtherForms[][2] = {{"dump", ""},
+                                          {"scene", "FILE"},
+                                          {"picture", "FILE [VIEW] [WIDTHxHEIGHT]"},
+                                          {"print", "\"TEXT\", or none"}};
+
+std::string formOf(const Words& words) {
+  std::vector<std::string_view> all;
+  for (const Kind& k : kKinds) {
+    if (words[0] == k.word) return "expected: " + words[0] + " " + k.form;
+    all.emplace_back(k.word);
+  }
+  for (const auto& [word, form] : kOtherForms) {
+    if (words[0] == word) return "expected: " + words[0] + " " + form;
+    all.emplace_back(word);
+  }
+  const std::string meant = didYouMean(words[0], all);
+  return std::string("there is no such statement") + (meant.empty() ? "" : "; " + meant);
+}
+
+/// What to add to a failure where a statement names leaves that there are none of.
+std::string unknownLeaf(const Facts& facts, const Words& words) {
+  const bool speaks = std::any_of(std::begin(kKinds), std::end(kKinds), [&](const Kind& k) {
+    return words[0] == k.word && std::string_view(k.form).find("LEAF") != std::string_view::npos;
+  });
+  const size_t at = words[0] == "within" ? 2 : 1;
+  if (!speaks || words[0] == "names" || words.size() <= at || isNumberWord(words[at])) return "";
+  std::vector<std::string_view> names;
+  for (const PlacedLeaf& leaf : facts.leaves) {
+    if (leaf.name == words[at]) return "";
+    if (std::find(names.begin(), names.end(), leaf.name) == names.end()) {
+      names.push_back(leaf.name);
+    }
+  }
+  const std::string meant = didYouMean(words[at], names);
+  return "; there is no leaf '" + words[at] + "'" + (meant.empty() ? "" : ", " + meant);
+}
 
 std::string evaluate(const Facts& facts, const Statement& statement) {
   if (statement.words[0] == "dump") return checkDump(facts, statement);
   if (statement.words[0] == "scene" || statement.words[0] == "picture") {
     return checkGolden(*facts.outcome, statement);
   }
-  for (const auto& [name, check] : kChecks) {
-    if (statement.words[0] == name) return check(facts, statement.words);
+  for (const Kind& k : kKinds) {
+    if (statement.words[0] != k.word) continue;
+    const std::string complaint = k.check(facts, statement.words);
+    if (complaint == kNotUnderstood) break;
+    return complaint.empty() ? "" : complaint + unknownLeaf(facts, statement.words);
   }
-  return kNotUnderstood;
+  return formOf(statement.words);
 }
 
 /// A statement as it was written, but for its blanks.
@@ -385,7 +478,7 @@ void checkPrints(const std::vector<Statement>& expected, const Outcome& outcome,
     if (s.words[0] != "print") continue;
     line = s.line;
     if (s.words.size() != 2)
-      failed.push_back({static_cast<uint32_t>(s.line), kNotUnderstood});
+      failed.push_back({static_cast<uint32_t>(s.line), "print: " + formOf(s.words)});
     else if (s.words[1] == "none")
       none = true;
     else
@@ -396,6 +489,24 @@ void checkPrints(const std::vector<Statement>& expected, const Outcome& outcome,
   for (const std::string& p : outcome.scene->prints) text += " \"" + p + "\"";
   failed.push_back(
       {static_cast<uint32_t>(line), outcome.scene->prints.empty() ? "nothing was printed" : text});
+}
+
+std::vector<CaseFailure> unexpectedErrors(const std::vector<Statement>& expected,
+                                          const Outcome& outcome) {
+  std::vector<CaseFailure> failed;
+  const auto nameIt = [&](const Diagnostic& m) {
+    return std::any_of(expected.begin(), expected.end(), [&](const Statement& s) {
+      return matches(m, s.words) || (s.words[0] == "diagnostics" && s.words.size() > 1 &&
+                                     std::find(s.words.begin() + 1, s.words.end(), m.code) !=
+                                         s.words.end());
+    });
+  };
+  for (const Diagnostic& m : outcome.diagnostics) {
+    if (m.isError() && !nameIt(m)) {
+      failed.push_back({0, "an error that no statement expects: " + m.rendered});
+    }
+  }
+  return failed;
 }
 
 }  // namespace
@@ -422,24 +533,17 @@ bool meets(double found, const std::vector<std::string>& words, size_t at, size_
 }
 
 std::vector<CaseFailure> failures(const std::vector<Statement>& expected, const Outcome& outcome) {
-  std::vector<CaseFailure> failed;
+  // Rules that cannot be derived are told first, and what would follow from it is not told.
+  std::vector<CaseFailure> failed = unexpectedErrors(expected, outcome);
+  if (!failed.empty() && !outcome.model) return failed;
   Facts facts{&outcome, placedLeaves(*outcome.scene), count(*outcome.scene)};
-  bool allDiagnosticsNamed = false;
   for (const Statement& s : expected) {
-    if (s.words[0] == "diagnostics") allDiagnosticsNamed = true;
     if (s.words[0] == "print") continue;
-    std::string complaint = evaluate(facts, s);
+    const std::string complaint = evaluate(facts, s);
     if (complaint.empty()) continue;
     failed.push_back({static_cast<uint32_t>(s.line), textOf(s) + ": " + complaint});
   }
   checkPrints(expected, outcome, failed);
-  for (const Diagnostic& m : outcome.diagnostics) {
-    const bool named = std::any_of(expected.begin(), expected.end(),
-                                   [&](const Statement& s) { return matches(m, s.words); });
-    if (m.isError() && !named && !allDiagnosticsNamed) {
-      failed.push_back({0, "an error that no statement expects: " + m.rendered});
-    }
-  }
   return failed;
 }
 

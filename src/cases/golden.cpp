@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A pixel differs when a channel does by more than this.
-constexpr int kChannel = 16;
+constexpr int kChannel = 4;
 /// The share of pixels that may differ.
 constexpr double kShare = 0.001;
 constexpr int kSamples = 16;
@@ -128,11 +128,13 @@ std::string GoldenFiles::checkPicture(const Statement& s, const Model& model) {
   const Result<std::string> expected = readFile(path.string());
   const std::string differs =
       expected.ok() ? difference(expected.value(), found.value()) : expected.error().message;
+  fs::path beside = path;
+  beside.replace_extension(".found.png");
+  std::error_code ignored;
+  if (differs.empty() || update_) fs::remove(beside, ignored);
   if (differs.empty()) return {};
   if (update_) return write(path.string(), found.value());
   if (!expected.ok()) return differs + "; 'gable test --update' writes it";
-  fs::path beside = path;
-  beside.replace_extension(".found.png");
   const Result<uint64_t> left = writeFile(beside.string(), found.value());
   return differs + (left.ok() ? ", see " + beside.string() : "");
 }

@@ -26,6 +26,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kShapeForms =
+    "the shape is not understood; expected: lot 20x10, polygon X,Y X,Y .., face X,Y,Z .. or load FILE";
+
 /// The rule that `values` sections are evaluated in.
 constexpr const char* kValuesRule = "CaseValues";
 
@@ -173,6 +176,8 @@ void CaseRun::runCase() {
     fail(0, "a case has 'rule' or 'rules' with 'expect', or 'values'");
     return;
   }
+  const Section* expect = case_.find("expect");
+  if (expect && statements(*expect).empty()) return failAt("expect", "it expects nothing");
   if (case_.find("rules") && (case_.find("rule") || case_.find("values") || case_.find("file"))) {
     failAt("rules", "'rules' names a rule file, so 'rule', 'values' and 'file' have no place");
     return;
@@ -186,7 +191,7 @@ void CaseRun::runCase() {
     if (!why.empty()) return failAt("file", why);
   }
   const std::optional<Shapes> shapes = startShape(case_, folder_, settings_.limits);
-  if (!shapes) return failAt("shape", "the shape is not understood");
+  if (!shapes) return failAt("shape", kShapeForms);
   DeriveSettings derived;
   if (!readSettings(derived)) return;
   const Rules loaded = loadRules();
