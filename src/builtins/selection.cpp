@@ -222,7 +222,11 @@ bool Selector::holds(size_t term, const Selectable& c, const TagSource* tags, co
       }
       return wanted == c.index;
     }
-    case SelectorTerm::Kind::Boolean: return t.number != 0;
+    case SelectorTerm::Kind::Boolean: {
+      if (t.word == 0) return t.number != 0;
+      const Array& each = pool_.array(Value::array(ValueType::BoolArray, t.word - 1));
+      return c.index < each.numbers.size() && each.numbers[c.index] != 0;
+    }
     case SelectorTerm::Kind::Tagged: {
       if (!tags) return false;
       std::vector<uint32_t> sets;
@@ -272,7 +276,9 @@ std::string Selector::text() const {
     switch (t.kind) {
       case SelectorTerm::Kind::Word: stack.emplace_back(pool_.text(t.word)); break;
       case SelectorTerm::Kind::Index: stack.push_back(numberText(t.number)); break;
-      case SelectorTerm::Kind::Boolean: stack.emplace_back(t.number != 0 ? "true" : "false"); break;
+      case SelectorTerm::Kind::Boolean:
+        stack.emplace_back(t.word != 0 ? "expression" : t.number != 0 ? "true" : "false");
+        break;
       case SelectorTerm::Kind::Tagged:
         stack.push_back("isTagged(\"" + std::string(pool_.text(t.word)) + "\")");
         break;

@@ -288,6 +288,10 @@ NodeId Parser::parseApply() {
       name.keyword >= Keyword::Inline && !userWord_[static_cast<size_t>(name.keyword)];
   if (accept(TokenKind::Dot)) {
     n.flags |= kFlagTerminal;
+    // X.(a), the same as X(a). ; a weight in brackets has its sign behind.
+    const bool arguments = is(TokenKind::LParen) && children[0] == kNoNode &&
+                           token(skipBrackets(at_)).kind != TokenKind::Percent;
+    if (arguments) children[0] = parseArguments();
   } else if (takesOperand && isName(current()) && !declarationHere()) {
     n.flags |= kFlagOperand;
     children.push_back(parseOperand());

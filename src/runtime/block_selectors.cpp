@@ -17,6 +17,10 @@ SelectorTerm termOf(const BlockTerm& t, const Value* values) {
   term.number = v.number;
   if (v.type == ValueType::Bool) term.kind = SelectorTerm::Kind::Boolean;
   if (v.type == ValueType::Selector || v.type == ValueType::String) term.word = v.id;
+  if (v.type == ValueType::BoolArray) {
+    term.kind = SelectorTerm::Kind::Boolean;
+    term.word = v.id + 1;
+  }
   return term;
 }
 

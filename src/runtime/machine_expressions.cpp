@@ -177,7 +177,17 @@ void Machine::enterAttribute(uint32_t a, const Instruction* returnTo) {
     return;
   }
   if (attributeValues_.isBusy(a)) {
-    warn("cyclic-attribute", "the value of '" + program_.attributes[a].name + "' needs itself",
+    // The way around, as the frames on the stack tell it.
+    const auto from = std::find_if(functions_.begin(), functions_.end(), [&](const auto& f) {
+      return f.attribute == static_cast<int32_t>(a);
+    });
+    std::string path;
+    for (auto f = from; f != functions_.end(); ++f) {
+      if (f->attribute < 0) continue;
+      path += program_.attributes[static_cast<uint32_t>(f->attribute)].name + " -> ";
+    }
+    const std::string& name = program_.attributes[a].name;
+    warn("cyclic-attribute", "the value of '" + name + "' needs itself: " + path + name,
          "break the circle with a constant");
     push(Value::of(0.0));
     return;

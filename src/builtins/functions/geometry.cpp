@@ -114,6 +114,27 @@ Value height(FunctionCall& call) {
   return Value::of(std::max(high - low, 0.0));
 }
 
+// How high the lowest of the edges that stand reaches: of a wall under a slope, its lower side. The
+// whole height where no edge stands.
+Value lowerHeight(FunctionCall& call) {
+  constexpr double kStanding = 0.7071;  // Steeper than 45 degrees.
+  const Shape& s = call.shape();
+  if (s.geometry.kind == GeometryKind::None) return Value::of(0.0);
+  const Vec3 up = s.scope.toLocalDirection(worldFrame(call.services()).y);
+  const MeshRef m = meshInScope(s);
+  double bottom = std::numeric_limits<double>::infinity(), lowest = bottom;
+  for (const Vec3& p : m->positions) bottom = std::min(bottom, dot(p, up));
+  for (const MeshLoop& loop : m->loops) {
+    for (uint32_t c = 0; c < loop.cornerCount; ++c) {
+      const Vec3& a = m->positions[m->corners[loop.firstCorner + c]];
+      const Vec3& b = m->positions[m->corners[loop.firstCorner + (c + 1) % loop.cornerCount]];
+      if (std::fabs(dot(b - a, up)) < kStanding * length(b - a)) continue;
+      lowest = std::min(lowest, std::max(dot(a, up), dot(b, up)));
+    }
+  }
+  return std::isfinite(lowest) ? Value::of(lowest - bottom) : height(call);
+}
+
 Value nVertices(FunctionCall& call) { return number(countsOf(call.shape().geometry).vertices); }
 Value nEdges(FunctionCall& call) { return number(countsOf(call.shape().geometry).edges); }
 Value nFaces(FunctionCall& call) { return number(countsOf(call.shape().geometry).faces); }
@@ -345,6 +366,9 @@ constexpr FunctionSpec kFunctions[] = {
      kPure, true},
     {"geometry.isRectangular", kFamily, "Whether every face is a rectangle.", kTolerance,
      typed<isRectangularOf>, kPure, true},
+    {"geometry.lowerheight", kFamily,
+     "Old: the height of a wall at its lower side, where the lowest standing edge ends.", kNumber,
+     lowerHeight, kReadsWorld, true},
     {"geometry.materials", kFamily, "The names of the materials in the order of their first faces.",
      kNames, materials, kPure, true},
     {"geometry.nEdges", kFamily, "The number of edges.", kNumber, nEdges, kPure, true},

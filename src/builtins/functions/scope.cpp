@@ -142,6 +142,12 @@ Status setSeedian(OpCall& call, const Value& v) {
   return {};
 }
 
+// A number of its own for each shape. Counting would depend on what else is made, so it comes from
+// the shape's address.
+Value uid(FunctionCall& call) {
+  return Value::of(static_cast<double>(hashCombine(hashBytes("uid"), call.shape().path) >> 40));
+}
+
 constexpr ValueType kFloat = ValueType::Float;
 constexpr uint32_t kObject = kReadsWorld | kReadsInitialShape | kReadsPivot;
 
@@ -180,6 +186,8 @@ constexpr AttributeSpec kAttributes[] = {
      kReadsInitialShape},
     {"initialShape.startRule", ValueType::String, "Rule that the initial shape started with.",
      initialStartRule, nullptr, kReadsInitialShape},
+    {"initialShape.symbol", ValueType::String, "Old name of initialShape.startRule.",
+     initialStartRule, nullptr, kReadsInitialShape},
     {"initialShape.origin.px", kFloat, "Place of the object's origin along the world's x axis.",
      originPlaceOf<0>, nullptr, kReadsInitialShape},
     {"initialShape.origin.py", kFloat, "Place of the object's origin along the world's y axis.",
@@ -207,6 +215,8 @@ constexpr AttributeSpec kAttributes[] = {
      trimVertical, setTrimVertical, kUsesTrim},
     {"trim.horizontal", ValueType::Bool, "Whether horizontal trim planes cut what is inserted.",
      trimHorizontal, setTrimHorizontal, kUsesTrim},
+    {"uid", kFloat, "Old: a whole number that no other shape has, as far as 16 million go.", uid,
+     nullptr, kRandom},
     {"seedian", kFloat, "Seed of all random draws of the shape and what becomes of it.", seedian,
      setSeedian, kRandom},
 };

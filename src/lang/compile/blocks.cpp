@@ -4,12 +4,20 @@
 // Blocks: the braces after an operation, flattened into items. Each item has a slot of code; sizes
 // and index expressions are pushed after the operation's arguments, in order of writing.
 
+#include <algorithm>
 #include <utility>
 
 #include "lang/compile/unit_compiler.h"
 #include "program/tag_effects.h"
 
 namespace gable::lang {
+
+namespace {
+
+/// The size of a part of a split that has none: ~1.
+constexpr Value kMissingSize = {ValueType::Float, gable::Unit::Floating, 0, 1};
+
+}  // namespace
 
 uint32_t UnitCompiler::newBlock(NodeId node, const OpSpec& spec) {
   const auto number = static_cast<uint32_t>(e_.program().blocks.size());
@@ -51,6 +59,8 @@ void UnitCompiler::blockItems(NodeId node, uint32_t number) {
       else
         blockValues_.push_back(head);
       if (second != kNoNode) blockValues_.push_back(second);
+    } else if (code.kind == BlockKind::Split) {
+      blockValues_.push_back(kNoNode);
     }
     item.termCount = static_cast<uint32_t>(code.terms.size()) - item.firstTerm;
     code.items.push_back(item);
@@ -181,19 +191,37 @@ void UnitCompiler::taggedTerm(NodeId node, BlockCode& code) {
 }
 
 // Sizes that are all constant stay in the block; otherwise every value goes over the stack.
-void UnitCompiler::pushBlockValues(uint32_t number) {
+void UnitCompiler::pushBlockValues(uint32_t number, const BuiltinArguments& given) {
   const std::vector<NodeId> values = std::move(blockValues_);
   blockValues_.clear();
   if (e_.program().blocks[number].kind == BlockKind::Split) {
     std::vector<Value> fixed(values.size());
     bool all = !values.empty();
-    for (size_t i = 0; i < values.size(); ++i) all = all && constantOf(values[i], fixed[i]);
+    for (size_t i = 0; i < values.size(); ++i) {
+      if (values[i] == kNoNode)
+        fixed[i] = kMissingSize;
+      else
+        all = all && constantOf(values[i], fixed[i]);
+    }
     if (all) {
       e_.program().blocks[number].constantSizes = std::move(fixed);
       return;
     }
   }
-  for (NodeId v : values) expression(v);
+  const bool selects = e_.program().blocks[number].kind == BlockKind::Selectors;
+  const bool isComp = blockSpec_ == nullptr || blockSpec_ == componentOperation_;
+  for (NodeId v : values) {
+    if (v == kNoNode) {
+      e_.emit(Code::Constant, {}, e_.constant(kMissingSize));
+    } else if (!selects || !componentOperation_ || !isPerComponent(v)) {
+      expression(v);
+    } else if (isComp) {
+      pushArguments(given, t_.span(v));
+      valuePerComponent(v, given.form, given.list.size());
+    } else {
+      valuePerEdge(v);
+    }
+  }
   e_.program().blocks[number].valueCount = static_cast<uint32_t>(values.size());
 }
 
@@ -214,10 +242,10 @@ void UnitCompiler::componentValues(NodeId node) {
   blockItems(t_.child(node, 1), number);
   const std::vector<PendingSlot> slots = std::move(pending_);
   pending_ = std::move(outerSlots);
-  blockSpec_ = outerSpec;
   const BuiltinArguments given = builtinArguments(node, operation->signatures, arguments);
   pushArguments(given, t_.span(node));
-  pushBlockValues(number);
+  pushBlockValues(number, given);
+  blockSpec_ = outerSpec;
   blockValues_ = std::move(outer);
   e_.emit(Code::ComponentValues, t_.span(node), e_.operation(operation, given.form),
           given.list.size(), number + size_t{1}, e_.site("comp"));
@@ -233,9 +261,33 @@ void UnitCompiler::componentValues(NodeId node) {
   e_.land(over);
 }
 
+// Whether a selector's condition may differ from component to component. Numbers are indices, and
+// conditions on attributes and parameters are the same for all.
+bool UnitCompiler::isPerComponent(NodeId node) const {
+  return m_.types[node] == ValueType::Bool && readsShape(node);
+}
+
+bool UnitCompiler::readsShape(NodeId node) const {
+  if (node == kNoNode) return false;
+  const RefKind kind = m_.at(node).kind;
+  if (kind == RefKind::ShapeAttribute || kind == RefKind::BuiltinFunction ||
+      kind == RefKind::Function) {
+    return true;
+  }
+  const auto parts = t_.children(node);
+  return std::any_of(parts.begin(), parts.end(), [&](NodeId n) { return readsShape(n); });
+}
+
 // What setbackPerEdge(expr) means: comp(fe) { all : expr }.
 void UnitCompiler::valuePerEdge(NodeId node) {
   if (!componentOperation_) return expression(node);
+  ValuePool& pool = *e_.program().pool;
+  e_.emit(Code::Constant, t_.span(node), e_.constant(pool.selector("fe")));
+  valuePerComponent(node, nullptr, 1);
+}
+
+// comp(..) { all : expr }
+void UnitCompiler::valuePerComponent(NodeId node, const Signature* form, size_t arguments) {
   uses_.effects |= effectsOfCall(componentOperation_->effects, false);
   ValuePool& pool = *e_.program().pool;
   const auto number = static_cast<uint32_t>(e_.program().blocks.size());
@@ -251,8 +303,7 @@ void UnitCompiler::valuePerEdge(NodeId node) {
   block.items.push_back(item);
   block.slots.push_back(0);
   e_.program().blocks.push_back(std::move(block));
-  e_.emit(Code::Constant, t_.span(node), e_.constant(pool.selector("fe")));
-  e_.emit(Code::ComponentValues, t_.span(node), e_.operation(componentOperation_, nullptr), 1,
+  e_.emit(Code::ComponentValues, t_.span(node), e_.operation(componentOperation_, form), arguments,
           number + size_t{1}, e_.site("comp"));
   const uint32_t over = e_.jump(Code::Jump, t_.span(node));
   e_.program().blocks[number].slots[0] = e_.here();

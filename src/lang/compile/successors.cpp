@@ -54,6 +54,8 @@ void UnitCompiler::apply(NodeId node) {
   switch (ref.kind) {
     case RefKind::Operation: operation(node, *ref.spec.operation, arguments); break;
     case RefKind::Rule: callRule(node, ref.index, arguments); break;
+    // An operation that is not built, and was told.
+    case RefKind::None: break;
     default: {
       const Value name = e_.program().pool->string(t_.text(node));
       e_.emit(Code::Leaf, t_.span(node), e_.constant(name));
@@ -184,7 +186,7 @@ void UnitCompiler::operation(NodeId node, const OpSpec& spec, NodeId arguments) 
       push(given.list[i], span);
     }
   }
-  if (hasBlock) pushBlockValues(blockNumber);
+  if (hasBlock) pushBlockValues(blockNumber, given);
   const uint64_t site = e_.site(spec.name);
   const Code code = allFixed ? Code::OperationConstant : Code::Operation;
   e_.emit(code, span, e_.operation(&spec, given.form), given.list.size(),

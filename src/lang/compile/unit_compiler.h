@@ -68,12 +68,23 @@ class UnitCompiler {
   void branchBody(NodeId branch, bool inExpression);
   void enterDynamicImport(NodeId node);
 
+  /// The arguments of a call of a built-in: one for each parameter where the signature is known.
+  struct BuiltinArguments {
+    const Signature* form = nullptr;
+    /// An expression, or kNoNode and a default.
+    struct Argument {
+      NodeId node = kNoNode;
+      Value fixed;
+    };
+    std::vector<Argument> list;
+  };
+
   // Blocks.
   uint32_t newBlock(NodeId node, const OpSpec& spec);
   void blockItems(NodeId node, uint32_t block);
   void selectorTerms(NodeId node, uint32_t block);
   void taggedTerm(NodeId node, BlockCode& code);
-  void pushBlockValues(uint32_t block);
+  void pushBlockValues(uint32_t block, const BuiltinArguments& given);
   /// The preferred size of the shape that most likely comes of a sequence; null when there is none.
   const std::array<double, 3>* preferredSizeOf(NodeId sequence) const;
   NodeId likeliestBranch(NodeId choice) const;
@@ -89,18 +100,12 @@ class UnitCompiler {
   void range(NodeId node);
   void componentValues(NodeId node);
   void valuePerEdge(NodeId node);
+  /// An array with the value on each component that comp, with its arguments on the stack, makes.
+  void valuePerComponent(NodeId node, const Signature* form, size_t arguments);
+  bool isPerComponent(NodeId node) const;
+  bool readsShape(NodeId node) const;
   /// The value of an expression that needs no evaluation, with its unit.
   bool constantOf(NodeId node, Value& out) const;
-  /// The arguments of a call of a built-in: one for each parameter where the signature is known.
-  struct BuiltinArguments {
-    const Signature* form = nullptr;
-    /// An expression, or kNoNode and a default.
-    struct Argument {
-      NodeId node = kNoNode;
-      Value fixed;
-    };
-    std::vector<Argument> list;
-  };
   BuiltinArguments builtinArguments(NodeId call, std::span<const Signature> signatures,
                                     NodeId list);
   /// All values of the arguments, where none needs evaluation.

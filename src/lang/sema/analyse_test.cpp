@@ -336,7 +336,8 @@ TEST(Analyse, blocksAreCheckedByKind) {
       " comp(f) { all : A }* union { A } split(x) { 1 = A } comp(f) { { all : A } }"
       " scatter(scope, 1) { A | A } B { X. } inline { A }");
   EXPECT_EQ(a.problems(),
-            "1:18 unexpected-block\n1:25 missing-block\n1:44 missing-selector\n1:59 missing-size\n"
+            "1:18 unexpected-block\n1:25 missing-block\n1:44 missing-selector\n1:59 missing-size "
+            "(warning)\n"
             "1:83 unexpected-head\n1:99 unexpected-repeat\n1:118 wrong-operand-count\n"
             "1:135 bad-separator\n1:153 unexpected-group\n1:185 unexpected-separator\n"
             "1:197 unexpected-block\n");
@@ -584,10 +585,12 @@ TEST(Analyse, attributesAreOrderedByWhatTheyRead) {
   EXPECT_EQ(order, "cbad");
 }
 
-TEST(Analyse, circularDefinitionsAreErrors) {
+TEST(Analyse, circlesThatAreSureAreWarnings) {
   const Analysed a(
       "attr a = b attr b = f f = a + 1 g(x) = case x > 0 : g(x-1) else : 0 attr c = g(3)");
-  EXPECT_EQ(a.problems(), "1:6 definition-cycle\n");
+  EXPECT_EQ(a.problems(), "1:6 definition-cycle (warning)\n");
+  const Analysed unsure("attr a = case b : 1 else : c attr b = true && d attr c = a attr d = b");
+  EXPECT_EQ(unsure.problems(), "");
 }
 
 TEST(Analyse, constantsAreFolded) {

@@ -80,6 +80,8 @@ struct UnitIndex {
   std::map<std::string, size_t, std::less<>> styleNumbers;
   std::unordered_set<std::string_view> importNames;
   std::string description;
+  /// What `version` says, as a number: 2019.1; 0 where the file does not say it.
+  double version = 0;
 };
 
 class Analysis {
@@ -111,6 +113,16 @@ class Analysis {
                     std::vector<uint32_t>& open);
   void reportImport(const Error& why, const std::string& path, Span from);
   void indexUnit(uint32_t unit);
+  void readVersion(uint32_t unit, NodeId node);
+  /// Whether the file of a module was written for CGA before that version. One that does not say is
+  /// taken as written today.
+  bool isVersioned(ModuleId module) const {
+    return units_[program_.modules[module].unit].version > 0;
+  }
+  bool isBefore(double version, ModuleId module) const {
+    const double written = units_[program_.modules[module].unit].version;
+    return written > 0 && written < version;
+  }
   void loadImports(uint32_t unit, std::vector<uint32_t>& open);
   ModuleId addModule(uint32_t unit, std::string path, std::string style, ModuleId importer,
                      NodeId importNode, bool dynamic);
@@ -152,11 +164,15 @@ class Analysis {
     std::string_view name;
     NodeId node;
     std::span<const Signature> signatures;
+    /// A call that fits no signature is no call of this at all: a rule of that name, or a leaf.
+    bool mayBeLeaf = false;
   };
   /// The signature that a call means; none when nothing fits, which has been reported.
   struct Chosen {
     uint16_t signature = 0xffff;
     bool open = false;
+    /// The call is a leaf, which has been told.
+    bool leaf = false;
   };
   /// Visits the arguments and chooses a signature.
   Chosen checkBuiltinCall(const CallTarget& target, std::span<const NodeId> arguments);
@@ -168,7 +184,9 @@ class Analysis {
   bool reportMissingArgument(const CallTarget& target, std::span<const NodeId> arguments);
   void checkWrittenWord(NodeId node, const std::vector<const ParamSpec*>& params);
   ValueType visitArgumentFor(const CallTarget& target, std::span<const NodeId> arguments, size_t i,
-                             std::vector<uint16_t>& left);
+                             std::vector<uint16_t>& left, bool& isFit);
+  void reportMisfit(const CallTarget& target, const char* code, NodeId node, std::string message,
+                    std::string hint);
   /// Which parameter an argument is for, by its name or its place; npos when there is none.
   static constexpr size_t kNoParameter = static_cast<size_t>(-1);
   size_t parameterOf(const Signature& s, std::span<const NodeId> arguments, size_t i) const;
@@ -245,9 +263,11 @@ class Analysis {
   bool applyRule(NodeId node, const std::vector<RuleId>& rules, std::span<const NodeId> arguments,
                  const std::vector<ValueType>& types);
   void makeLeaf(NodeId node, bool known);
+  bool fitsOperation(NodeId node, const OpSpec& op);
   void reportUndefinedRule(NodeId node, const RuleSet& found);
-  /// Whether the name is one of CGA that is not built; then it is reported.
-  bool reportUnbuilt(NodeId node, std::string_view name);
+  /// Whether the name is one of CGA that is not built; then it is reported. `skipped` when the
+  /// shape goes on without it.
+  bool reportUnbuilt(NodeId node, std::string_view name, bool skipped = false);
   /// The operation whose name `name` is a slip of; empty when there is none.
   std::string_view slippedOperation(std::string_view name, size_t arguments) const;
   void checkWeights(NodeId choice);

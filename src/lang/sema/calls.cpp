@@ -258,7 +258,7 @@ std::string Analysis::mismatchHint(NodeId node, const ParamSpec& param, ValueTyp
 
 // Visits one argument, and strikes out the signatures that its word or its type does not fit.
 ValueType Analysis::visitArgumentFor(const CallTarget& target, std::span<const NodeId> args,
-                                     size_t i, std::vector<uint16_t>& left) {
+                                     size_t i, std::vector<uint16_t>& left, bool& isFit) {
   const bool named = tree().kind(args[i]) == NodeKind::NamedArg;
   const NodeId value = named ? tree().child(args[i], 0) : args[i];
   const auto paramOf = [&](uint16_t s) -> const ParamSpec& {
@@ -287,11 +287,20 @@ ValueType Analysis::visitArgumentFor(const CallTarget& target, std::span<const N
     left = std::move(fitting);
     return type;
   }
-  errorAt("type-mismatch", value,
-          quote(params[0]->name) + " of " + quote(target.name) + " is a " + typeName(type) +
-              ", not a " + typeName(valueType(params[0]->type)),
-          mismatchHint(value, *params[0], type));
+  reportMisfit(target, "type-mismatch", value,
+               quote(params[0]->name) + " of " + quote(target.name) + " is a " + typeName(type) +
+                   ", not a " + typeName(valueType(params[0]->type)),
+               mismatchHint(value, *params[0], type));
+  isFit = false;
   return type;
+}
+
+// An operation whose arguments fit none of its forms is another name to CGA: a rule without
+// definition.
+void Analysis::reportMisfit(const CallTarget& target, const char* code, NodeId node,
+                            std::string message, std::string hint) {
+  if (!target.mayBeLeaf) return errorAt(code, node, std::move(message), std::move(hint));
+  warning(code, tree().span(node), std::move(message) + "; so the call is a leaf", std::move(hint));
 }
 
 Analysis::Chosen Analysis::checkBuiltinCall(const CallTarget& target,
@@ -304,21 +313,29 @@ Analysis::Chosen Analysis::checkBuiltinCall(const CallTarget& target,
     if (anyNamed) {
       reportNamedArguments(target, args);
     } else {
-      errorAt("wrong-argument-count", target.node,
-              quote(target.name) + " takes " + countText(target.signatures) + ", not " +
-                  std::to_string(args.size()),
-              target.signatures.empty()
-                  ? ""
-                  : "write " + signatureText(target.name, target.signatures[0]));
+      reportMisfit(target, "wrong-argument-count", target.node,
+                   quote(target.name) + " takes " + countText(target.signatures) + ", not " +
+                       std::to_string(args.size()),
+                   target.signatures.empty()
+                       ? ""
+                       : "write " + signatureText(target.name, target.signatures[0]));
     }
-    return {};
+    Chosen none;
+    none.leaf = target.mayBeLeaf && !anyNamed;
+    return none;
   }
   bool unknownType = false;
+  bool isFit = true;
   for (size_t i = 0; i < args.size(); ++i) {
-    const ValueType type = visitArgumentFor(target, args, i, left);
+    const ValueType type = visitArgumentFor(target, args, i, left, isFit);
     // The value of a word may decide as well, where it is only known later.
     unknownType = unknownType || type == ValueType::Null || type == ValueType::String ||
                   type == ValueType::Selector;
+  }
+  if (target.mayBeLeaf && !isFit) {
+    Chosen none;
+    none.leaf = true;
+    return none;
   }
   checkFiles(target.signatures[left[0]], args);
   if (anyNamed) {

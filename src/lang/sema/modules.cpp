@@ -30,6 +30,33 @@ std::string prefixOf(std::string_view name) { return std::string(name.substr(0, 
 
 // --- Units ---
 
+// "2019.1"; the part behind a second dot does not count.
+void Analysis::readVersion(uint32_t unit, NodeId node) {
+  constexpr double kKnown = 2025.1;
+  const Tree& t = program_.units[unit].tree;
+  const std::string_view text = t.text(node);
+  double year = 0, part = 0;
+  size_t dots = 0;
+  for (const char c : text) {
+    if (c == '.' && ++dots < 2) continue;
+    if (c < '0' || c > '9') break;
+    (dots == 0 ? year : part) = (dots == 0 ? year : part) * 10 + (c - '0');
+  }
+  constexpr double kFirst = 2008, kLast = 9999;
+  if (year < kFirst || year > kLast || part > 9) {
+    warning("bad-version", t.span(node), quote(text) + " is no version of CGA",
+            "write a year and a number, such as version \"2025.1\"");
+    return;
+  }
+  units_[unit].version = year + part / 10;
+  if (units_[unit].version > kKnown + 0.05) {
+    warning(
+        "newer-version", t.span(node),
+        "the rules are written for CGA " + std::string(text) + ", and what is known here is 2025.1",
+        "what is new in it is told where it stands");
+  }
+}
+
 void Analysis::indexUnit(uint32_t unit) {
   const Tree& t = program_.units[unit].tree;
   UnitIndex& index = units_[unit];
@@ -47,6 +74,7 @@ void Analysis::indexUnit(uint32_t unit) {
   };
   for (const NodeId id : t.children(t.root())) {
     description(id);
+    if (t.kind(id) == NodeKind::Version) readVersion(unit, id);
     if (t.kind(id) == NodeKind::Annotation || t.kind(id) == NodeKind::Version) continue;
     for (const NodeId note : t.children(annotationsOf(t, id))) description(note);
     const Annotations notes = readAnnotations(t, annotationsOf(t, id), group, &diagnostics_);
@@ -462,8 +490,15 @@ void Analysis::bindOverrides(ModuleId module, NodeId overrides, bool dynamic) {
         if (!program_.attributes[id].constant) names.push_back(n);
       }
       std::sort(names.begin(), names.end());
-      error("unknown-attribute", nameSpan(t, item),
-            "the imported file has no attribute " + quote(name), near(name, [&] { return names; }));
+      constexpr double kOverridesChecked = 2023.0;
+      const Span span = nameSpan(t, item);
+      std::string message = "the imported file has no attribute " + quote(name);
+      std::string hint = near(name, [&] { return names; });
+      if (isBefore(kOverridesChecked, owner)) {
+        warning("unknown-attribute", span, std::move(message), std::move(hint));
+      } else {
+        error("unknown-attribute", span, std::move(message), std::move(hint));
+      }
       continue;
     }
     if (!seen.insert(name).second) {

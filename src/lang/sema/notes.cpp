@@ -103,8 +103,39 @@ void readEnum(NoteReader& r, Annotations& out) {
   out.choices = note;
 }
 
-// Numbers in order (min, max, step) or by name; strings make it an enumeration.
+// The old form with a name for each value, as a choice is shown: (Low=0, High=1).
+bool hasLabels(const NoteReader& r) {
+  constexpr std::string_view kKeys[] = {"min",       "max",  "stepsize",
+                                        "step_size", "step", "restricted"};
+  return std::any_of(r.arguments().begin(), r.arguments().end(), [&](NodeId a) {
+    const bool named = r.tree().kind(a) == NodeKind::NamedArg;
+    return named &&
+           std::find(std::begin(kKeys), std::end(kKeys), r.tree().text(a)) == std::end(kKeys);
+  });
+}
+
+// The values alone: an attribute holds the value, and the label is what an editor would show.
+void readLabels(NoteReader& r, Annotations& out) {
+  EnumNote choices;
+  for (const NodeId a : r.arguments()) {
+    const bool named = r.tree().kind(a) == NodeKind::NamedArg;
+    const NodeId value = named ? r.tree().child(a, 0) : a;
+    if (const auto n = r.number(value)) {
+      choices.values.push_back({true, *n, {}});
+    } else if (const auto b = r.truth(value)) {
+      choices.values.push_back({false, 0, *b ? "true" : "false"});
+    } else if (const auto s = r.word(value)) {
+      choices.values.push_back({false, 0, *s});
+    } else {
+      r.warn(a, "a value of '@Range' must be a number or a string", "");
+    }
+  }
+  out.choices = choices;
+}
+
+// Numbers in order (min, max, step) or by name; strings and labels make it an enumeration.
 void readRange(NoteReader& r, Annotations& out) {
+  if (hasLabels(r)) return readLabels(r, out);
   RangeNote note;
   double* const places[] = {&note.min, &note.max, &note.step};
   size_t next = 0;
@@ -121,7 +152,8 @@ void readRange(NoteReader& r, Annotations& out) {
     const auto n = r.number(value);
     if (key == "restricted" && r.truth(value)) {
       note.restricted = *r.truth(value);
-    } else if (n && (key == "min" || key == "max" || key == "stepsize" || key == "step")) {
+    } else if (n && (key == "min" || key == "max" || key == "stepsize" || key == "step_size" ||
+                     key == "step")) {
       *places[key == "min" ? 0 : key == "max" ? 1 : 2] = *n;
     } else if (n && !isNamed && next < 3) {
       *places[next++] = *n;

@@ -4,7 +4,8 @@
 // The order in which attributes are evaluated: each after those that its expression reads, directly
 // or through functions. A depth-first search over attributes and functions with an explicit stack;
 // a way back to an attribute that is being evaluated is a cycle. Which way a `case` takes is not
-// known here, so what any branch reads counts.
+// known here. So what any branch reads counts for the order, and only what is read in any case for
+// the warning; the machine tells of the other cycles when it comes to them.
 
 #include <algorithm>
 
@@ -17,7 +18,9 @@ namespace {
 // Attributes and functions in one numbering: attributes first.
 class ReadGraph {
  public:
-  ReadGraph(const ResolvedProgram& p) : program_(p), attributes_(p.attributes.size()) {}
+  enum class Reads : uint8_t { Possible, Certain };
+  ReadGraph(const ResolvedProgram& p, Reads reads)
+      : program_(p), attributes_(p.attributes.size()), certain_(reads == Reads::Certain) {}
 
   size_t size() const { return attributes_ + program_.functions.size(); }
   bool isAttribute(size_t v) const { return v < attributes_; }
@@ -47,17 +50,26 @@ class ReadGraph {
     const Resolution& r = program_.modules[module].resolutions[node];
     if (r.kind == RefKind::Attribute) out.push_back(r.index);
     if (r.kind == RefKind::Function) out.push_back(attributes_ + r.index);
-    for (const NodeId c : program_.tree(module).children(node)) collect(module, c, out);
+    const Tree& t = program_.tree(module);
+    if (certain_ && t.kind(node) == NodeKind::Choice) {
+      // Of a choice only the first condition.
+      return collect(module, t.child(t.child(node, 0), 0), out);
+    }
+    const bool mayEndEarly =
+        t.kind(node) == NodeKind::Binary && !t.has(node, kFlagElementwise) &&
+        (t.binaryOp(node) == BinaryOp::And || t.binaryOp(node) == BinaryOp::Or);
+    if (certain_ && mayEndEarly) return collect(module, t.child(node, 0), out);
+    for (const NodeId c : t.children(node)) collect(module, c, out);
   }
 
   const ResolvedProgram& program_;
   size_t attributes_;
+  bool certain_;
 };
 
-}  // namespace
-
-void Analysis::orderAttributes() {
-  const ReadGraph graph(program_);
+// The attributes, each after those it reads; `inCircle` is told those that come back to themselves.
+template <class InCircle>
+std::vector<AttributeId> orderOf(const ReadGraph& graph, size_t attributes, InCircle inCircle) {
   enum class State : uint8_t { New, Open, Done };
   std::vector<State> states(graph.size(), State::New);
   std::vector<AttributeId> order;
@@ -66,7 +78,7 @@ void Analysis::orderAttributes() {
     std::vector<size_t> reads;
     size_t next;
   };
-  for (size_t root = 0; root < program_.attributes.size(); ++root) {
+  for (size_t root = 0; root < attributes; ++root) {
     if (states[root] != State::New) continue;
     std::vector<Frame> stack;
     const auto push = [&](size_t v) {
@@ -84,11 +96,7 @@ void Analysis::orderAttributes() {
         }
         // Functions may call themselves; attributes may not need themselves.
         const bool open = states[v] == State::Open && graph.isAttribute(v);
-        if (!open) continue;
-        const AttributeInfo& a = program_.attributes[v];
-        error("definition-cycle", nameSpan(program_.tree(a.module), a.node),
-              "the value of " + quote(a.qualifiedName) + " depends on itself",
-              "break the circle with a constant or a function that does not read it");
+        if (open) inCircle(static_cast<AttributeId>(v));
         continue;
       }
       states[top.vertex] = State::Done;
@@ -96,6 +104,22 @@ void Analysis::orderAttributes() {
       stack.pop_back();
     }
   }
+  return order;
+}
+
+}  // namespace
+
+void Analysis::orderAttributes() {
+  using Reads = ReadGraph::Reads;
+  const size_t count = program_.attributes.size();
+  orderOf(ReadGraph(program_, Reads::Certain), count, [&](AttributeId id) {
+    const AttributeInfo& a = program_.attributes[id];
+    warning("definition-cycle", nameSpan(program_.tree(a.module), a.node),
+            "the value of " + quote(a.qualifiedName) + " depends on itself",
+            "break the circle with a constant or a function that does not read it");
+  });
+  const std::vector<AttributeId> order =
+      orderOf(ReadGraph(program_, Reads::Possible), count, [](AttributeId) {});
   for (const AttributeId id : order) {
     const AttributeInfo& a = program_.attributes[id];
     if (!program_.modules[a.module].dynamic) program_.initOrder.push_back(id);

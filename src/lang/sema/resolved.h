@@ -20,7 +20,8 @@
 //     arguments fits.
 //  3. A Builtin resolution has a spec, and the signature chosen by count and type, unless the
 //     operation takes any arguments.
-//  4. initOrder holds every attribute and constant of static modules once, after those it reads.
+//  4. initOrder holds every attribute and constant of static modules once, after those it reads,
+//     but for circles.
 // With errors reported the program must not be compiled.
 #pragma once
 

@@ -15,6 +15,10 @@ namespace gable::lang {
 
 namespace {
 
+// From then on CGA compares the types of what an operation or a rule gets; before, a call that fits
+// none was an undefined rule.
+constexpr double kTypesChecked = 2019.1;
+
 std::string hintOfNewName(std::string_view name) {
   return "write '" + std::string(name) + "', or let 'gable format' rewrite the file";
 }
@@ -98,8 +102,13 @@ void Analysis::makeLeaf(NodeId node, bool known) {
   }
 }
 
-bool Analysis::reportUnbuilt(NodeId node, std::string_view name) {
+bool Analysis::reportUnbuilt(NodeId node, std::string_view name, bool skipped) {
   if (!catalogue_.isUnbuilt(name)) return false;
+  if (skipped) {
+    warning("not-built", tree().span(node),
+            quote(name) + " is a name of CGA that Gable does not have yet, and is left out", "");
+    return true;
+  }
   errorAt("not-built", node, quote(name) + " is a name of CGA that Gable does not have yet",
           "do without it: what comes after it would work on another shape");
   return true;
@@ -157,7 +166,8 @@ void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
       return;
     }
     const size_t given = arguments(tree().child(node, 0)).size();
-    if (const std::string_view meant = slippedOperation(name, given); !meant.empty()) {
+    const std::string_view meant = slippedOperation(name, given);
+    if (!meant.empty() && !isVersioned(body_.module)) {
       std::string hint = near(name, [&] { return std::vector<std::string_view>{meant}; });
       error("unknown-operation", span, "there is no operation or rule " + quote(name),
             std::move(hint));
@@ -186,7 +196,18 @@ bool Analysis::applyRule(NodeId node, const std::vector<RuleId>& rules,
   if (id == kNone) return false;
   resolve(node, RefKind::Rule, id);
   for (size_t i = 0; i < args.size(); ++i) {
-    expectType(args[i], types[i], program_.rules[id].paramTypes[i], "this argument");
+    const ValueType wanted = program_.rules[id].paramTypes[i], got = types[i];
+    if (got == wanted || got == ValueType::Null || wanted == ValueType::Null) continue;
+    if (!isBefore(kTypesChecked, body_.module)) {
+      expectType(args[i], got, wanted, "this argument");
+      continue;
+    }
+    warning("type-mismatch", tree().span(args[i]),
+            std::string("this argument must be a ") + typeName(wanted) + ", not a " +
+                typeName(got) + "; so the call is a leaf",
+            "");
+    makeLeaf(node, true);
+    break;
   }
   for (const NodeId block : tree().children(node).subspan(1)) {
     if (tree().kind(block) != NodeKind::Block) continue;
@@ -213,7 +234,7 @@ void Analysis::visitApply(NodeId node) {
   if (op && op->soft) {
     // The author's own name wins; without brackets and block it is a leaf as ever.
     if (!found.rules.empty() || (t.child(node, 0) == kNoNode && !hasBlock)) op = nullptr;
-  } else if (op && ruleFits && !hasBlock && !acceptsCount(op->signatures, args.size())) {
+  } else if (op && ruleFits && !hasBlock && !fitsOperation(node, *op)) {
     op = nullptr;
   }
   if (op) return visitOperation(node, *op);
@@ -233,9 +254,11 @@ void Analysis::visitApply(NodeId node) {
     visitAllBlocks(node);
     return;
   }
+  const bool skipped = !hasBlock && isVersioned(body_.module);
   if (found.rules.empty() && !mute_ && !ruleInAnyStyle(body_.module, name) &&
       !inMissingImport(body_.module, name) && (hasBlock || t.child(node, 0) != kNoNode) &&
-      reportUnbuilt(node, name)) {
+      reportUnbuilt(node, name, skipped)) {
+    if (skipped) return resolve(node, RefKind::None);
     makeLeaf(node, true);
     return visitAllBlocks(node);
   }
@@ -297,6 +320,16 @@ void Analysis::visitImportCall(NodeId node, bool successor) {
 
 // --- Operations ---
 
+// Whether the arguments are those of the operation, as against a rule of its name.
+bool Analysis::fitsOperation(NodeId node, const OpSpec& op) {
+  const std::span<const NodeId> args = arguments(tree().child(node, 0));
+  if (!acceptsCount(op.signatures, args.size())) return false;
+  const bool muted = std::exchange(mute_, true);
+  const bool leaf = checkBuiltinCall({op.name, node, op.signatures, true}, args).leaf;
+  mute_ = muted;
+  return !leaf;
+}
+
 void Analysis::visitOperation(NodeId node, const OpSpec& op) {
   const std::string_view name = op.name;
   if (name == "set") return visitSet(node, op);
@@ -304,7 +337,11 @@ void Analysis::visitOperation(NodeId node, const OpSpec& op) {
   if (name == "do") return visitDo(node, op);
   const std::span<const NodeId> args = arguments(tree().child(node, 0));
   const bool old = reportOldCall(node, args);
-  const Chosen chosen = old ? Chosen{} : checkBuiltinCall({name, node, op.signatures}, args);
+  const bool mayBeLeaf = isBefore(kTypesChecked, body_.module) && !op.soft &&
+                         op.block == BlockKind::None && tree().children(node).size() == 1;
+  const Chosen chosen =
+      old ? Chosen{} : checkBuiltinCall({name, node, op.signatures, mayBeLeaf}, args);
+  if (chosen.leaf) return makeLeaf(node, true);
   resolve(node, RefKind::Operation);
   Resolution& r = module().resolutions[node];
   r.spec.operation = &op;
@@ -477,9 +514,13 @@ void Analysis::visitItem(NodeId item, const OpSpec& op) {
   const bool wantsHead = op.block == BlockKind::Split || op.block == BlockKind::Selectors;
   if (head == kNoNode && wantsHead && t.kind(t.child(item, 2)) != NodeKind::Missing) {
     const bool isSplit = op.block == BlockKind::Split;
-    errorAt(isSplit ? "missing-size" : "missing-selector", item,
-            std::string("this part has no ") + (isSplit ? "size" : "selector"),
-            isSplit ? "write 'size : operations'" : "write 'selector : operations'");
+    if (isSplit) {
+      warning("missing-size", t.span(item), "this part has no size, and takes '~1'",
+              "write 'size : operations'");
+    } else {
+      errorAt("missing-selector", item, "this part has no selector",
+              "write 'selector : operations'");
+    }
     const uint32_t begin = t[item].begin;
     fix({t.file(), begin, begin}, isSplit ? "~1 : " : "all : ");
   }

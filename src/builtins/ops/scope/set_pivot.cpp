@@ -20,13 +20,14 @@ constexpr Corner kCorners[8] = {{false, false, false}, {true, false, false}, {tr
                                 {false, false, true},  {false, true, false}, {true, true, false},
                                 {true, true, true},    {false, true, true}};
 
-enum class AxisMap : uint8_t { Xyz, Yzx, Zxy };
+// The last two are the words of CGA before 2010.1.
+enum class AxisMap : uint8_t { Xyz, Yzx, Zxy, YUp, ZUp };
 
 }  // namespace
 
 template <>
 struct WordsOf<AxisMap> {
-  static constexpr const char* text = "xyz yzx zxy";
+  static constexpr const char* text = "xyz yzx zxy yUp zUp";
 };
 
 namespace {
@@ -52,7 +53,8 @@ Status applySetPivot(OpCall& call, const SetPivot& args) {
   const Vec3 a = right ? x : z, c = right ? z : x;
   const Vec3 origin = s.scope.point(at);
   Frame pivot = Frame::of(origin, a, y, c);
-  if (args.axes == AxisMap::Yzx) pivot = Frame::of(origin, c, a, y);
+  const bool zUp = args.axes == AxisMap::Yzx || args.axes == AxisMap::ZUp;
+  if (zUp) pivot = Frame::of(origin, c, a, y);
   if (args.axes == AxisMap::Zxy) pivot = Frame::of(origin, y, c, a);
   realignScope(s, pivot);
   s.pivot = s.scope;
@@ -63,7 +65,7 @@ constexpr ParamSpec kParams[] = {
     param<&SetPivot::axes>(
         "axisMap",
         "Which new axis runs along the old y axis: the second (xyz), the third (yzx) or the first "
-        "(zxy)."),
+        "(zxy). Old: yUp for xyz, zUp for yzx."),
     param<&SetPivot::corner>(
         "cornerIndex",
         "The corner of the scope, 0 to 3 around the bottom from the origin along x, 4 to 7 above.")

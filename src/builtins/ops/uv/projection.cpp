@@ -184,6 +184,8 @@ constexpr OpSpec kSpecs[] = {
      kReadsWorld | kReadsWorldByWord | kIgnoresTags},
     {"setupUV", "uv", "Old name of setupProjection.", kOldSetupSignatures, typed<applySetup>,
      BlockKind::None, kReadsWorld | kReadsWorldByWord | kIgnoresTags, kNoParts, false, true},
+    {"bakeUV", "uv", "Old name of projectUV.", kProjectSignatures, typed<applyProject>,
+     BlockKind::None, kReadsUvProjection | kIgnoresTags, kNoParts, false, true},
     {"projectUV", "uv", "Writes texture coordinates from the prepared projection.",
      kProjectSignatures, typed<applyProject>, BlockKind::None, kReadsUvProjection | kIgnoresTags},
 };
