@@ -15,9 +15,10 @@ endforeach()
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(TIFF REQUIRED)
-set(foreign PNG::PNG JPEG::JPEG TIFF::TIFF Threads::Threads
+find_package(LibArchive REQUIRED)
+set(foreign PNG::PNG JPEG::JPEG TIFF::TIFF LibArchive::LibArchive Threads::Threads
     $<BUILD_INTERFACE:${WEBP_LIBRARY}> $<INSTALL_INTERFACE:webp>)
-set(foreign_flags "-lpng -ljpeg -ltiff -lwebp -pthread")
+set(foreign_flags "-lpng -ljpeg -ltiff -lwebp -larchive -pthread")
 if(EMBREE_LIBRARY)
   list(APPEND foreign $<BUILD_INTERFACE:${EMBREE_LIBRARY}> $<INSTALL_INTERFACE:embree3>)
   string(PREPEND foreign_flags "-lembree3 ")

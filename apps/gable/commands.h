@@ -13,6 +13,7 @@ struct GenerateArguments {
   DeriveArguments derive;
   std::string output;
   std::string stats;
+  std::string reports;
   bool gpuInstancing = false;
 };
 int runGenerate(const GenerateArguments& arguments);
@@ -27,6 +28,21 @@ struct CheckArguments {
   LimitArguments limits;
 };
 int runCheck(const CheckArguments& arguments);
+
+struct InfoArguments {
+  DeriveArguments derive;
+  bool json = false;
+};
+int runInfo(const InfoArguments& arguments);
+
+struct PackArguments {
+  std::string rules;
+  std::string output;
+  std::optional<std::string> project, dialect;
+  gable::SearchSettings search;
+  LimitArguments limits;
+};
+int runPack(const PackArguments& arguments);
 
 struct FormatArguments {
   std::vector<std::string> files;

@@ -45,6 +45,10 @@ int runGenerate(const GenerateArguments& arguments) {
   print(written.diagnostics);
   if (!written.ok) return statusOf(written.diagnostics, kExitFile);
 
+  if (!arguments.reports.empty()) {
+    const std::string table = gable::reportsCsv(model.statistics().reports);
+    if (const int status = writeText(arguments.reports, table)) return status;
+  }
   if (!arguments.stats.empty()) {
     gable::RunFigures figures;
     figures.parseSeconds = inputs.rules.parseSeconds();

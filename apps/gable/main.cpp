@@ -132,6 +132,39 @@ void addCheck(CLI::App& app, CheckArguments& a, int& status) {
   check->callback([&a, &status] { status = runCheck(a); });
 }
 
+void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
+  auto* generate = app.add_subcommand("generate", "Derive rules and write a model");
+  generate->add_option("rules", a.derive.rules, "The rule file or package")->required();
+  addDeriveOptions(generate, a.derive);
+  generate->add_option("-o,--output", a.output, "The model: .glb .gltf .obj .ply .stl .png")
+      ->required();
+  generate->add_option("--stats", a.stats, "Write counts as JSON to a file, or - for stdout");
+  generate->add_option("--reports", a.reports, "Write reports as CSV to a file, or - for stdout");
+  generate->add_flag("--gpu-instancing", a.gpuInstancing,
+                     "glTF: EXT_mesh_gpu_instancing instead of nodes");
+  generate->callback([&a, &status] { status = runGenerate(a); });
+}
+
+void addPack(CLI::App& app, PackArguments& a, int& status) {
+  auto* pack = app.add_subcommand("pack", "Write rules with all that they use to one file");
+  pack->add_option("rules", a.rules, "The rule file")->required();
+  pack->add_option("-o,--output", a.output, "The package: .rpk .7z .zip")->required();
+  pack->add_option("--project", a.project, "The folder that the rules may read from");
+  addSearch(pack, a.search);
+  pack->add_option("--dialect", a.dialect, "The rules' notation");
+  addLimits(pack, a.limits, kFileSeconds);
+  pack->callback([&a, &status] { status = runPack(a); });
+}
+
+void addInfo(CLI::App& app, InfoArguments& a, int& status) {
+  auto* info = app.add_subcommand(
+      "info", "Show start rules, attributes with their values, imports and assets of rules");
+  info->add_option("rules", a.derive.rules, "The rule file or package")->required();
+  addDeriveOptions(info, a.derive);
+  info->add_flag("--json", a.json, "Machine-readable output");
+  info->callback([&a, &status] { status = runInfo(a); });
+}
+
 void addFormat(CLI::App& app, FormatArguments& a, int& status) {
   auto* format = app.add_subcommand("format", "Format rule files");
   format->add_option("files", a.files, "Rule files")->required();
@@ -205,20 +238,13 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
 
   GenerateArguments generate;
-  auto* generateApp = app.add_subcommand("generate", "Derive rules and write a model");
-  generateApp->add_option("rules", generate.derive.rules, "The rule file")->required();
-  addDeriveOptions(generateApp, generate.derive);
-  generateApp
-      ->add_option("-o,--output", generate.output, "The model: .glb .gltf .obj .ply .stl .png")
-      ->required();
-  generateApp->add_option("--stats", generate.stats,
-                          "Write counts as JSON to a file, or - for stdout");
-  generateApp->add_flag("--gpu-instancing", generate.gpuInstancing,
-                        "glTF: EXT_mesh_gpu_instancing instead of nodes");
-  generateApp->callback([&] { status = runGenerate(generate); });
-
+  addGenerate(app, generate, status);
   CheckArguments check;
   addCheck(app, check, status);
+  InfoArguments info;
+  addInfo(app, info, status);
+  PackArguments pack;
+  addPack(app, pack, status);
   FormatArguments format;
   addFormat(app, format, status);
 

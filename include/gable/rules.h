@@ -41,7 +41,8 @@ struct AttributeInfo {
   /// "float", "bool", "string", "float[]", ...
   std::string type;
   bool hidden = false;
-  /// Annotations as name and arguments: {"Range", {{"min","0"},{"max","10"}}}.
+  /// Annotations as name and arguments: {"Range", {{"min","0"},{"max","10"}}}. Each @Handle is one
+  /// of them, with its arguments as they are written.
   struct Annotation {
     std::string name;
     std::vector<std::pair<std::string, std::string>> arguments;
@@ -55,6 +56,29 @@ struct RuleInfo {
   bool start = false;
   std::string file;
   uint32_t line = 0;
+  bool hidden = false;
+  /// What the start shape is expected to be (InPolygon, ...), and the like.
+  std::vector<AttributeInfo::Annotation> annotations;
+};
+
+/// An import of the rule file, or of one that it imports.
+struct ImportInfo {
+  /// With the imports around it: "house.window".
+  std::string name;
+  /// As it is written.
+  std::string path;
+  /// The file that was read; empty where there is none.
+  std::string file;
+};
+
+/// A file that rules name as a model, a picture or a table. Paths that they compute are not known
+/// before they run.
+struct AssetUse {
+  /// As it is written, and in which rule file.
+  std::string path, from;
+  /// The file that is meant; empty where there is none.
+  std::string file;
+  bool operator==(const AssetUse&) const = default;
 };
 
 /// A rule file with all it imports, compiled.
@@ -74,6 +98,13 @@ class Rules {
   const DiagnosticList& diagnostics() const;
   std::vector<AttributeInfo> attributes() const;
   std::vector<RuleInfo> rules() const;
+  std::vector<ImportInfo> imports() const;
+  /// Each file that is named, once, in the order of the text.
+  const std::vector<AssetUse>& assets() const;
+  /// What the rule file says of itself (@RuleFileDescription).
+  const std::string& description() const;
+  /// The styles that the rule file declares, "Default" first.
+  const std::vector<std::string>& styles() const;
   /// The rule that a derivation starts with unless told otherwise.
   std::optional<std::string> startRule() const;
   double parseSeconds() const;
@@ -88,6 +119,18 @@ class Rules {
  private:
   std::shared_ptr<const Impl> impl_;
 };
+
+/// Writes a package with the rule files that the rules import and the assets of their projects:
+/// .rpk (which is 7z) or .zip, by the extension of `path`. The same files give the same bytes.
+/// Codes: package-kind, package-too-large, archive-unwritable, file-unwritable, and those of
+/// reading.
+struct Packed {
+  bool ok = false;
+  uint64_t files = 0;
+  uint64_t bytes = 0;
+  DiagnosticList diagnostics;
+};
+Packed pack(const Rules& rules, const std::string& path, const FileLimits& limits = {});
 
 /// Rule text in canonical form. Text with mistakes comes back unchanged, with diagnostics.
 struct Formatted {

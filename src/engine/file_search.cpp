@@ -97,10 +97,14 @@ size_t alike(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-FileSearch::FileSearch(const std::string& root, const SearchSettings& settings)
-    : root_(canonical(root.empty() ? "." : root)), settings_(settings) {
+FileSearch::FileSearch(const std::string& root, const SearchSettings& settings,
+                       std::shared_ptr<const Package> package)
+    : root_(canonical(root.empty() ? "." : root)),
+      settings_(settings),
+      package_(std::move(package)) {
   rootName_ = fileNameOf(root_);
   if (settings.workspace) workspace_ = canonical(*settings.workspace);
+  if (package_ && !settings.workspace) workspace_ = package_->path();
   for (const std::string& written : settings.libraries) {
     const NamedFolder library = libraryOf(written);
     libraries_.push_back({library.name, canonical(library.folder)});
@@ -119,6 +123,17 @@ std::string FileSearch::rootFor(const std::string& ruleFile, const SearchSetting
     if (isFolder(at / "rules") || isFolder(at / "assets")) return at.string();
   }
   return folder.string();
+}
+
+std::string FileSearch::rootFor(const Package& package, const std::string& inner) {
+  for (std::string at = folderOf(inner); !at.empty();) {
+    at.pop_back();
+    if (package.hasFolder(at + "/rules") || package.hasFolder(at + "/assets")) return at;
+    at = folderOf(at);
+  }
+  const bool atTop = package.hasFolder("rules") || package.hasFolder("assets");
+  const std::string folder = folderOf(inner);
+  return atTop || folder.empty() ? std::string() : folder.substr(0, folder.size() - 1);
 }
 
 std::optional<Error> FileSearch::missingFolder(const SearchSettings& settings) {
@@ -144,7 +159,28 @@ bool FileSearch::covers(const std::string& path) const {
                      [&](const Library& l) { return !below(l.path, path).empty(); });
 }
 
+// The path within the package; empty for what lies elsewhere.
+std::string_view FileSearch::inPackage(std::string_view path) const {
+  const std::string_view rest = package_ ? below(package_->path(), path) : std::string_view();
+  return rest.empty() ? rest : rest.substr(1);
+}
+
+Result<std::string> FileSearch::read(const std::string& file, uint64_t maxBytes) const {
+  const std::string_view inner = inPackage(file);
+  if (inner.empty()) return readFile(file, maxBytes);
+  const std::string* bytes = package_->find(inner);
+  if (!bytes) return Error{"file-missing", "there is no file '" + file + "'", ""};
+  if (bytes->size() <= maxBytes) return *bytes;
+  return Error{"file-too-large", "'" + file + "' is larger than the limit", "split it"};
+}
+
 std::string FileSearch::inside(const std::string& candidate) const {
+  if (const std::string_view inner = inPackage(candidate); !inner.empty()) {
+    // Where a path on disk becomes canonical, one of a package becomes plain.
+    const std::string plain = fs::path(inner).lexically_normal().string();
+    const bool there = !isHidden(plain) && package_->find(plain);
+    return there ? package_->path() + "/" + plain : std::string();
+  }
   if (!fileExists(candidate)) return {};
   const std::string real = canonical(candidate);
   const auto open = [&](const std::string& folder) {
@@ -168,8 +204,11 @@ std::string FileSearch::baseOf(std::string_view fromFile) const {
   const std::string_view name = firstFolder(fromFile);
   if (name.empty()) return root_;
   if (const Library* library = libraryNamed(name)) return library->path;
+  if (workspace_.empty()) return root_;
   const std::string other = workspace_ + "/" + std::string(name);
-  return !workspace_.empty() && isFolder(other) ? other : root_;
+  const std::string_view inner = inPackage(other);
+  const bool there = inner.empty() ? isFolder(other) : package_->hasFolder(inner);
+  return there ? other : root_;
 }
 
 std::vector<std::string> FileSearch::places(std::string_view path,
@@ -243,11 +282,27 @@ std::string FileSearch::projectPath(const std::string& file) const {
   return rest.empty() ? file : std::string(rest);
 }
 
+std::vector<std::string> FileSearch::filesIn(const std::string& folder) const {
+  const std::string base = baseOf(folder);
+  const std::string prefix = base == root_ ? "" : "/" + std::string(firstFolder(folder));
+  std::vector<std::string> out;
+  for (const std::string& file : listed(base)) {
+    if ((prefix + file).starts_with(folder)) out.push_back(prefix + file);
+  }
+  return out;
+}
+
 const std::vector<std::string>& FileSearch::listed(const std::string& folder) const {
   const std::lock_guard lock(mutex_);
   const auto [at, fresh] = listings_.try_emplace(folder);
   std::vector<std::string>& files = at->second;
   if (!fresh) return files;
+  if (package_ && (folder == package_->path() || !inPackage(folder).empty())) {
+    for (std::string& file : package_->list(inPackage(folder))) {
+      if (!isHidden(file)) files.push_back(std::move(file));
+    }
+    return files;
+  }
   std::error_code error;
   fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, error);
   for (; !error && it != fs::recursive_directory_iterator(); it.increment(error)) {

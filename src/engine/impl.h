@@ -48,6 +48,12 @@ struct Rules::Impl {
   double seconds = 0;
   /// Null for Gable's own language.
   const Dialect* dialect = nullptr;
+  /// As the public class gives them.
+  std::vector<ImportInfo> imports;
+  std::vector<AssetUse> assets;
+  std::vector<std::vector<AttributeInfo::Annotation>> ruleAnnotations;
+  std::string description;
+  std::vector<std::string> styles;
 };
 
 struct Shapes::Impl {

@@ -31,14 +31,15 @@ size_t numberOfBuiltin(std::string_view path) {
 
 }  // namespace
 
-Project::Project(const std::string& root, const SearchSettings& settings)
-    : where_(root, settings) {}
+Project::Project(const std::string& root, const SearchSettings& settings,
+                 std::shared_ptr<const Package> package)
+    : where_(root, settings, std::move(package)) {}
 
 // Files that the asset names are read through the project, so that none lies outside.
 Result<Asset> Project::read(const std::string& file, bool zUp) const {
   // Whichever shape asks first, the derivation that does so takes as many steps.
   const UncountedWork uncounted;
-  Result<std::string> bytes = readFile(file, kLargestAsset);
+  Result<std::string> bytes = where_.read(file, kLargestAsset);
   if (!bytes.ok()) return bytes.error();
   AssetOptions options;
   options.path = projectPath(file);
@@ -46,7 +47,7 @@ Result<Asset> Project::read(const std::string& file, bool zUp) const {
   options.readFile = [this](const std::string& path) -> Result<std::string> {
     const std::string found = locate("/" + path, "");
     if (found.empty()) return Error{"file-unreadable", "there is no file '" + path + "'", ""};
-    return readFile(found, kLargestAsset);
+    return where_.read(found, kLargestAsset);
   };
   return readAsset(bytes.value(), options);
 }
@@ -98,7 +99,7 @@ Result<std::string> Project::texture(const std::string& path) {
     return Error{"texture-not-found", "there is no picture '" + path + "' in the project",
                  "paths count from the project's folder or its assets folder"};
   }
-  return readFile(file, kLargestAsset);
+  return where_.read(file, kLargestAsset);
 }
 
 Ref<AssetModel> Project::model(std::string_view path, std::string_view fromFile, bool zUp,
@@ -136,7 +137,7 @@ ImageInfo Project::image(std::string_view path, std::string_view fromFile) {
   std::lock_guard lock(mutex_);
   const auto [at, fresh] = images_.try_emplace(file);
   if (fresh) {
-    const auto bytes = readFile(file, kLargestAsset);
+    const auto bytes = where_.read(file, kLargestAsset);
     if (!bytes.ok()) return at->second;
     const auto info = readImageHeader(bytes.value());
     if (info.ok())
@@ -165,7 +166,7 @@ std::vector<std::string> Project::search(std::string_view pattern, std::string_v
 bool Project::text(std::string_view path, std::string_view fromFile, std::string& out) {
   const std::string file = locate(path, fromFile);
   if (file.empty()) return false;
-  Result<std::string> content = readFile(file, kMaxTextLength);
+  Result<std::string> content = where_.read(file, kMaxTextLength);
   if (!content.ok()) return false;
   out = std::move(content.value());
   return true;

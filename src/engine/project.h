@@ -20,7 +20,8 @@ namespace gable {
 
 class Project final : public Assets {
  public:
-  explicit Project(const std::string& root, const SearchSettings& settings = {});
+  explicit Project(const std::string& root, const SearchSettings& settings = {},
+                   std::shared_ptr<const Package> package = nullptr);
 
   const FileSearch& where() const { return where_; }
   const std::string& root() const { return where_.root(); }

@@ -4,6 +4,9 @@
 // Text to program: parse, analyse, compile. Each stage adds its diagnostics; a program exists only
 // when no stage found an error.
 
+#include <algorithm>
+#include <set>
+
 #include "base/files.h"
 #include "builtins/catalogue.h"
 #include "dialects/dialect.h"
@@ -48,14 +51,20 @@ class ProjectLoader final : public lang::FileLoader {
     for (const auto& [edited, content] : settings_.overlay) {
       if (edited == name) return File{std::move(name), content};
     }
-    Result<std::string> text = readFile(file, kLargestRuleFile);
+    Result<std::string> text = project_.where().read(file, kLargestRuleFile);
     if (!text.ok()) return text.error();
     return File{std::move(name), std::move(text.value())};
   }
 
   bool exists(const std::string& path, const std::string& importer) override {
-    return path.starts_with("builtin:") || !project_.locate(path, importer).empty();
+    if (path.starts_with("builtin:")) return true;
+    const std::string file = project_.locate(path, importer);
+    AssetUse use{path, importer, file.empty() ? file : project_.projectPath(file)};
+    if (known_.insert(path + '\0' + importer).second) assets_.push_back(std::move(use));
+    return !file.empty();
   }
+
+  std::vector<AssetUse> takeAssets() { return std::move(assets_); }
 
   std::vector<std::string> assets(const std::string&) override { return project_.assets(); }
 
@@ -66,6 +75,8 @@ class ProjectLoader final : public lang::FileLoader {
  private:
   const Project& project_;
   const LoadSettings& settings_;
+  std::vector<AssetUse> assets_;
+  std::set<std::string> known_;
 };
 
 /// The notation of a file: null for Gable's own language. Error when there is none of that name.
@@ -79,16 +90,38 @@ Result<const Dialect*> dialectFor(const std::optional<std::string>& name, const 
                "the notations are " + names};
 }
 
-std::string rootOf(const LoadSettings& settings, const std::string& path) {
-  return settings.project ? *settings.project : FileSearch::rootFor(path, settings.search);
+/// Where a rule file lies: on disk, or in a package.
+struct Home {
+  std::string path;
+  std::shared_ptr<const Package> package;
+};
+
+Result<Home> homeOf(const std::string& path) {
+  const Package::Place place = Package::placeOf(path);
+  if (place.package.empty()) return Home{path, nullptr};
+  const Result<std::shared_ptr<const Package>> opened = Package::open(place.package);
+  if (!opened.ok()) return opened.error();
+  const std::shared_ptr<const Package> package = opened.value();
+  if (!place.inner.empty()) return Home{package->path() + "/" + place.inner, package};
+  const Result<std::string> main = package->mainFile();
+  if (!main.ok()) return main.error();
+  return Home{package->path() + "/" + main.value(), package};
+}
+
+std::string rootOf(const LoadSettings& settings, const Home& home) {
+  if (settings.project) return *settings.project;
+  if (!home.package) return FileSearch::rootFor(home.path, settings.search);
+  const std::string& top = home.package->path();
+  const std::string inner = FileSearch::rootFor(*home.package, home.path.substr(top.size() + 1));
+  return inner.empty() ? top : top + "/" + inner;
 }
 
 // The project and its tables: those of the rules before where they are of the same project.
-void takeTables(Rules::Impl& to, const std::string& root, const SearchSettings& search,
-                const Rules::Impl* before) {
-  to.project = std::make_shared<Project>(root, search);
+void takeTables(Rules::Impl& to, const Home& home, const LoadSettings& settings) {
+  const Rules::Impl* before = settings.before ? settings.before->shared().get() : nullptr;
+  to.project = std::make_shared<Project>(rootOf(settings, home), settings.search, home.package);
   if (before && before->project && before->project->root() == to.project->root() &&
-      before->project->where().settings() == search) {
+      before->project->where().settings() == settings.search && !home.package) {
     to.project = before->project;
     if (before->generation < kGenerations && !before->tables->full) {
       to.pool = before->pool;
@@ -101,6 +134,45 @@ void takeTables(Rules::Impl& to, const std::string& root, const SearchSettings& 
   to.tables = std::make_shared<Environment>(to.pool, *to.project);
 }
 
+std::vector<AttributeInfo::Annotation> annotationsOf(const std::vector<AnnotationInfo>& from,
+                                                     const ValuePool& pool) {
+  std::vector<AttributeInfo::Annotation> out;
+  for (const AnnotationInfo& n : from) {
+    AttributeInfo::Annotation annotation{n.name, {}};
+    for (const auto& argument : n.arguments) {
+      annotation.arguments.emplace_back(argument.key, pool.str(argument.value));
+    }
+    out.push_back(std::move(annotation));
+  }
+  return out;
+}
+
+// What the program does not hold, since nothing runs it.
+void describe(Rules::Impl& to, const lang::ResolvedProgram& from) {
+  for (const lang::Module& m : from.modules) {
+    if (m.dynamic) continue;
+    const lang::Tree& t = from.units[m.unit].tree;
+    for (const lang::NodeId id : t.children(t.root())) {
+      if (t.kind(id) != lang::NodeKind::Import || t.child(id, 1) == lang::kNoNode) continue;
+      std::string name(t.text(id));
+      const auto made = std::find_if(from.modules.begin(), from.modules.end(), [&](const auto& x) {
+        return x.importer == m.id && x.importNode == id && !x.dynamic;
+      });
+      to.imports.push_back({m.path.empty() ? name : m.path + "." + name,
+                            std::string(t.text(t.child(id, 1))),
+                            made == from.modules.end() ? "" : from.units[made->unit].path});
+    }
+  }
+  for (const lang::RuleInfo& r : from.rules) {
+    lang::Annotations own = r.annotations;
+    // The group in force is that of attributes.
+    own.group = {};
+    to.ruleAnnotations.push_back(annotationsOf(lang::listed(own, *to.pool), *to.pool));
+  }
+  to.description = from.description;
+  for (const lang::StyleInfo& s : from.styles) to.styles.push_back(s.name);
+}
+
 std::shared_ptr<Rules::Impl> failed(const Error& e) {
   auto impl = std::make_shared<Rules::Impl>();
   impl->found = false;
@@ -108,15 +180,15 @@ std::shared_ptr<Rules::Impl> failed(const Error& e) {
   return impl;
 }
 
-std::shared_ptr<const Rules::Impl> parsed(const std::string& text, const std::string& path,
+std::shared_ptr<const Rules::Impl> parsed(const std::string& text, const Home& home,
                                           const LoadSettings& settings) {
+  const std::string& path = home.path;
   const double begin = now();
   auto impl = std::make_shared<Rules::Impl>();
   const Result<const Dialect*> dialect = dialectFor(settings.dialect, path);
   if (!dialect.ok()) return failed(dialect.error());
   if (const auto missing = FileSearch::missingFolder(settings.search)) return failed(*missing);
-  takeTables(*impl, rootOf(settings, path), settings.search,
-             settings.before ? settings.before->shared().get() : nullptr);
+  takeTables(*impl, home, settings);
   impl->dialect = dialect.value();
   Diagnostics diagnostics;
   const std::string name = impl->project->projectPath(path);
@@ -126,6 +198,8 @@ std::shared_ptr<const Rules::Impl> parsed(const std::string& text, const std::st
                             name, settings.style.value_or(std::string())};
   const lang::ResolvedProgram resolved = lang::analyse(
       std::move(input), builtinCatalogue(), *impl->pool, &loader, impl->sources, diagnostics);
+  describe(*impl, resolved);
+  impl->assets = loader.takeAssets();
   if (!diagnostics.hasErrors()) {
     impl->program =
         lang::compile(resolved, builtinCatalogue(), impl->pool, impl->sources, diagnostics);
@@ -172,15 +246,19 @@ WriteResult writeTextFile(const std::string& path,
 
 Rules Rules::load(const std::string& path, const LoadSettings& settings) {
   return Rules(guarded<Impl>(readingRules(path, settings), [&]() -> std::shared_ptr<const Impl> {
-    Result<std::string> text = readFile(path, kLargestRuleFile);
+    Result<Home> home = homeOf(path);
+    if (!home.ok()) return failed(home.error());
+    const FileSearch files({}, {}, home.value().package);
+    Result<std::string> text = files.read(home.value().path, kLargestRuleFile);
     if (!text.ok()) return failed(text.error());
-    return parsed(text.value(), path, settings);
+    return parsed(text.value(), home.value(), settings);
   }));
 }
 
 Rules Rules::parse(const std::string& text, const std::string& path, const LoadSettings& settings) {
-  return Rules(
-      guarded<Impl>(readingRules(path, settings), [&] { return parsed(text, path, settings); }));
+  return Rules(guarded<Impl>(readingRules(path, settings), [&] {
+    return parsed(text, {path, nullptr}, settings);
+  }));
 }
 
 bool Rules::ok() const { return impl_->ok; }
@@ -198,15 +276,8 @@ std::vector<AttributeInfo> Rules::attributes() const {
     std::vector<AttributeInfo> out;
     for (const AttributeCode& a : impl_->program.attributes) {
       if (a.constant || a.propagatesFrom >= 0) continue;
-      AttributeInfo info{a.name, typeName(a.type), a.hidden, {}};
-      for (const AnnotationInfo& n : a.annotations) {
-        AttributeInfo::Annotation annotation{n.name, {}};
-        for (const auto& argument : n.arguments) {
-          annotation.arguments.emplace_back(argument.key, impl_->pool->str(argument.value));
-        }
-        info.annotations.push_back(std::move(annotation));
-      }
-      out.push_back(std::move(info));
+      out.push_back(
+          {a.name, typeName(a.type), a.hidden, annotationsOf(a.annotations, *impl_->pool)});
     }
     return out;
   });
@@ -215,14 +286,21 @@ std::vector<AttributeInfo> Rules::attributes() const {
 std::vector<RuleInfo> Rules::rules() const {
   return guardedValue<std::vector<RuleInfo>>([&] {
     std::vector<RuleInfo> out;
-    for (const RuleCode& r : impl_->program.rules) {
+    for (size_t i = 0; i < impl_->program.rules.size(); ++i) {
+      const RuleCode& r = impl_->program.rules[i];
       out.push_back({r.qualifiedName, r.parameters.size(), r.startRule,
                      impl_->program.files[r.file],
-                     impl_->sources.locate(r.span.file, r.span.begin).line});
+                     impl_->sources.locate(r.span.file, r.span.begin).line, r.hidden,
+                     impl_->ruleAnnotations[i]});
     }
     return out;
   });
 }
+
+std::vector<ImportInfo> Rules::imports() const { return impl_->imports; }
+const std::vector<AssetUse>& Rules::assets() const { return impl_->assets; }
+const std::string& Rules::description() const { return impl_->description; }
+const std::vector<std::string>& Rules::styles() const { return impl_->styles; }
 
 std::optional<std::string> Rules::startRule() const {
   const int32_t rule = impl_->program.startRule;
@@ -240,7 +318,7 @@ Converted convert(const std::string& text, const std::string& path, const LoadSe
     }
     Sources sources;
     Diagnostics diagnostics;
-    const Project project(rootOf(settings, path), settings.search);
+    const Project project(rootOf(settings, {path, nullptr}), settings.search);
     const uint32_t file = sources.add(project.projectPath(path), text);
     if (!dialect.value()) {
       out.text = lang::format(sources, file, diagnostics);

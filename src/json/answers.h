@@ -37,6 +37,16 @@ std::string comparisonJson(const Comparison& comparison);
 /// Piece by piece: a town's tree has gigabytes.
 void writeTrace(const DerivationTrace& trace, const TextSink& sink);
 
+/// Members of an object: "startRule", "rules" and "attributes" with their annotations.
+void writeRules(JsonWriter& json, const Rules& rules);
+/// All that is known of a rule file without running it, and the values of its attributes where
+/// there are some, as one object.
+std::string rulesJson(const Rules& rules, const std::vector<NamedValue>& values);
+
+/// Reports as a table with a line for each key, or for each text that was reported under one:
+/// key,value,count,sum,average,minimum,maximum.
+std::string reportsCsv(const std::vector<ReportSummary>& reports);
+
 /// A number, a text, a bool, null, or an array of them.
 void writeValue(JsonWriter& json, const RuleValue& value);
 /// An object of name and value.

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "base/number.h"
 #include "json/answers.h"
 
 namespace gable {
@@ -133,6 +134,36 @@ void writeTrace(const DerivationTrace& trace, const TextSink& sink) {
   }
   json.endArray();
   sink(out + "\n");
+}
+
+namespace {
+
+// A text with commas, quotes or breaks stands in quotes.
+std::string csvText(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
+  return out + "\"";
+}
+
+}  // namespace
+
+std::string reportsCsv(const std::vector<ReportSummary>& reports) {
+  std::string out = "key,value,count,sum,average,minimum,maximum\n";
+  for (const ReportSummary& r : reports) {
+    const std::string key = csvText(r.key);
+    for (const auto& [value, count] : r.values) {
+      out += key + "," + csvText(value) + "," + std::to_string(count) + ",,,,\n";
+    }
+    if (!r.numbers) continue;
+    out += key + ",," + std::to_string(r.count);
+    const double average = r.numbers->sum / static_cast<double>(r.count);
+    for (const double x : {r.numbers->sum, average, r.numbers->min, r.numbers->max}) {
+      out += "," + shortestText(x);
+    }
+    out += "\n";
+  }
+  return out;
 }
 
 }  // namespace gable

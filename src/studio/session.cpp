@@ -64,29 +64,6 @@ DeriveSettings settingsOf(const JsonValue& request) {
   return s;
 }
 
-void writeRules(JsonWriter& json, const Rules& rules) {
-  json.key("startRule").value(rules.startRule().value_or(std::string())).key("rules").beginArray();
-  for (const RuleInfo& r : rules.rules()) {
-    json.beginObject().key("name").value(r.name);
-    json.key("parameters").value(static_cast<uint64_t>(r.parameters)).key("start").value(r.start);
-    json.key("file").value(r.file).key("line").value(r.line).endObject();
-  }
-  json.endArray().key("attributes").beginArray();
-  for (const AttributeInfo& a : rules.attributes()) {
-    json.beginObject().key("name").value(a.name).key("type").value(a.type);
-    json.key("hidden").value(a.hidden).key("annotations").beginArray();
-    for (const AttributeInfo::Annotation& n : a.annotations) {
-      json.beginObject().key("name").value(n.name).key("arguments").beginArray();
-      for (const auto& [key, value] : n.arguments) {
-        json.beginArray().value(key).value(value).endArray();
-      }
-      json.endArray().endObject();
-    }
-    json.endArray().endObject();
-  }
-  json.endArray();
-}
-
 const char* endName(End end) {
   switch (end) {
     case End::Done: return "done";

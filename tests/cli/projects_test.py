@@ -38,15 +38,21 @@ class Case(unittest.TestCase):
             path.write_text(text)
         return name
 
-    def gable(self, *arguments, status=DONE):
+    def run_gable(self, *arguments, status=DONE):
         done = subprocess.run([str(GABLE), *arguments], cwd=self.folder, capture_output=True, text=True, timeout=120,
                               check=False)
         self.assertEqual(done.returncode, status, f"{arguments}\n{done.stdout}{done.stderr}")
+        return done
+
+    def gable(self, *arguments, status=DONE):
+        done = self.run_gable(*arguments, status=status)
         return done.stdout + done.stderr
 
+    def out(self, *arguments, status=DONE):
+        return self.run_gable(*arguments, status=status).stdout
+
     def codes(self, *arguments, status=DONE):
-        told = self.gable("check", "--json", *arguments, status=status)
-        return [d["code"] for d in json.loads(told)]
+        return [d["code"] for d in json.loads(self.out("check", "--json", *arguments, status=status))]
 
     def reports(self, *arguments):
         self.gable("generate", *arguments, "-o", "out.glb", "--stats", "stats.json")

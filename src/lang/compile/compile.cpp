@@ -89,7 +89,7 @@ class Compiler {
     code.hidden = a.annotations.hidden;
     code.span = nameSpan(tree, a.node);
     code.entry = emitter_.here();
-    code.annotations = listed(a.annotations);
+    code.annotations = listed(a.annotations, *program_.pool);
     // A random value of an attribute must not change with the text around it, so it has a unit.
     Uses& uses = initialiserUses_[a.id];
     if (a.source == ValueSource::Propagated) {
@@ -107,8 +107,6 @@ class Compiler {
     program_.attributes.push_back(std::move(code));
   }
 
-  std::vector<AnnotationInfo> listed(const Annotations& a) const;
-
   const ResolvedProgram& r_;
   const OpSpec* component_;
   Program program_;
@@ -116,8 +114,9 @@ class Compiler {
   std::vector<Uses> ruleUses_, functionUses_, initialiserUses_;
 };
 
-std::vector<AnnotationInfo> Compiler::listed(const Annotations& a) const {
-  ValuePool& pool = *program_.pool;
+}  // namespace
+
+std::vector<AnnotationInfo> listed(const Annotations& a, ValuePool& pool) {
   std::vector<AnnotationInfo> out;
   const auto flag = [&](bool is, const char* name) {
     if (is) out.push_back({name, {}});
@@ -165,10 +164,21 @@ std::vector<AnnotationInfo> Compiler::listed(const Annotations& a) const {
   }
   flag(a.color, "Color");
   flag(a.hidden, "Hidden");
+  flag(a.startRule, "StartRule");
+  constexpr const char* kInputs[] = {nullptr,  "InMesh",  "InPolygon",
+                                     "InLine", "InPoint", "InPointCloud"};
+  const char* input = kInputs[static_cast<size_t>(a.input)];
+  flag(input != nullptr, input);
+  if (a.separateShapes) {
+    out.push_back({"Out", {{"granularity", pool.string("separatedShapes")}}});
+  }
+  for (const HandleNote& handle : a.handles) {
+    AnnotationInfo info{"Handle", {}};
+    for (const auto& [key, value] : handle) info.arguments.push_back({key, pool.string(value)});
+    out.push_back(std::move(info));
+  }
   return out;
 }
-
-}  // namespace
 
 Program compile(const ResolvedProgram& resolved, const Catalogue& catalogue,
                 std::shared_ptr<ValuePool> pool, const Sources& sources, Diagnostics& diagnostics) {

@@ -658,6 +658,11 @@ TEST(Analyse, annotationsBecomeData) {
   EXPECT_EQ(a.attribute("e").annotations.choices->values[1].number, 2);
   EXPECT_FALSE(a.attribute("e").annotations.choices->restricted);
   EXPECT_TRUE(a.attribute("e").annotations.hidden);
+  const Analysed handles("@Handle(shape=Lot^2, slip={in, -1}) @Handle(type=toggle, 3) attr a = 1");
+  EXPECT_EQ(handles.problems(), "1:57 bad-annotation (warning)\n");
+  EXPECT_EQ(
+      handles.attribute("a").annotations.handles,
+      (std::vector<HandleNote>{{{"shape", "Lot^2"}, {"slip", "{in,-1}"}}, {{"type", "toggle"}}}));
   EXPECT_EQ(a.attribute("d").annotations.choices->valuesAttribute, "list");
   EXPECT_TRUE(a.attribute("c").annotations.color);
   EXPECT_TRUE(a.attribute("c").annotations.group.path.empty());

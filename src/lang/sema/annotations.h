@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gable::lang {
@@ -51,6 +52,9 @@ enum class FileNote : uint8_t { None, File, Directory, MaterialFile };
 /// What the start shape is expected to be: @InPolygon and its kin.
 enum class InputNote : uint8_t { None, Mesh, Polygon, Line, Point, PointCloud };
 
+/// One @Handle: its arguments as they are written, with their names.
+using HandleNote = std::vector<std::pair<std::string, std::string>>;
+
 struct Annotations {
   std::string description;
   std::string displayName;
@@ -71,6 +75,7 @@ struct Annotations {
   /// @PreferredSize(x, y, z) of a rule: what splitRepeat, splitGrid and margin fit its shapes to;
   /// 0 along an axis: any size.
   std::optional<std::array<double, 3>> preferredSize;
+  std::vector<HandleNote> handles;
   /// @Out(granularity=separatedShapes).
   bool separateShapes = false;
 };

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "base/number.h"
 #include "base/text.h"
 #include "lang/sema/analysis.h"
 
@@ -221,6 +222,37 @@ void readPreferredSize(NoteReader& r, Annotations& out) {
   }
 }
 
+// A value of a handle as it is written: a word, the name of a rule or an attribute, a text, a
+// number, a truth value, a list {a, b}, or the shape of a rule by its number, Window^2.
+std::string handleText(const NoteReader& r, NodeId value) {
+  const Tree& t = r.tree();
+  if (value == kNoNode) return {};
+  if (const auto n = r.number(value)) return shortestText(*n);
+  if (const auto b = r.truth(value)) return *b ? "true" : "false";
+  if (t.kind(value) == NodeKind::Index) {
+    return handleText(r, t.child(value, 0)) + "^" + handleText(r, t.child(value, 1));
+  }
+  if (t.kind(value) != NodeKind::BraceList) return std::string(t.text(value));
+  std::string out;
+  for (const NodeId item : t.children(value)) {
+    out += (out.empty() ? "" : ",") + handleText(r, item);
+  }
+  return "{" + out + "}";
+}
+
+void readHandle(NoteReader& r, Annotations& out) {
+  HandleNote handle;
+  for (const NodeId a : r.arguments()) {
+    const bool named = r.tree().kind(a) == NodeKind::NamedArg;
+    if (named) {
+      handle.emplace_back(r.tree().text(a), handleText(r, r.tree().child(a, 0)));
+    } else {
+      r.warn(a, "each argument of '@Handle' has a name", "write '@Handle(shape = Wall, axis = y)'");
+    }
+  }
+  out.handles.push_back(std::move(handle));
+}
+
 struct NoteKind {
   std::string_view name;
   void (*read)(NoteReader&, Annotations&);
@@ -236,7 +268,7 @@ constexpr NoteKind kNotes[] = {
     {"Enum", readEnum},
     {"File", readFile},
     {"Group", readGroup},
-    {"Handle", [](NoteReader&, Annotations&) {}},
+    {"Handle", readHandle},
     {"Hidden", readHidden},
     {"InLine", [](NoteReader&, Annotations& o) { o.input = InputNote::Line; }},
     {"InMesh", [](NoteReader&, Annotations& o) { o.input = InputNote::Mesh; }},

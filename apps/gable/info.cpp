@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// gable info: what a rule file or package offers, without running its rules further than the
+// values of its attributes.
+
+#include <algorithm>
+#include <cstdio>
+
+#include "commands.h"
+#include "json/answers.h"
+
+namespace {
+
+using Annotations = std::vector<gable::AttributeInfo::Annotation>;
+
+/// Values of attributes need the beginning of a derivation, and no more.
+constexpr uint64_t kMostShapes = 1000;
+constexpr uint64_t kMostSteps = 1'000'000;
+
+std::vector<gable::NamedValue> valuesOf(Inputs& inputs) {
+  inputs.settings.limits.shapes = std::min(inputs.settings.limits.shapes, kMostShapes);
+  inputs.settings.limits.steps = std::min(inputs.settings.limits.steps, kMostSteps);
+  const gable::Model model = gable::derive(inputs.rules, inputs.shapes, inputs.settings);
+  return inputs.shapes.size() > 0 ? model.attributes(0) : std::vector<gable::NamedValue>();
+}
+
+std::string textOf(const gable::RuleValue& value) {
+  std::string out;
+  gable::JsonWriter json(out);
+  gable::writeValue(json, value);
+  return out;
+}
+
+// "@Range(min=0, max=10) @Order(2)"
+std::string textOf(const Annotations& annotations) {
+  std::string out;
+  for (const auto& n : annotations) {
+    out += (out.empty() ? "@" : " @") + n.name;
+    std::string list;
+    for (const auto& [key, value] : n.arguments) {
+      list += (list.empty() ? "" : ", ") + (key.empty() ? value : key + "=" + value);
+    }
+    if (!n.arguments.empty()) out += "(" + list + ")";
+  }
+  return out;
+}
+
+void row(const std::string& name, const std::string& what, const std::string& more = {}) {
+  std::printf("  %-24s %s%s%s\n", name.c_str(), what.c_str(), more.empty() ? "" : "  ",
+              more.c_str());
+}
+
+void title(const char* text, bool any) {
+  if (any) std::printf("%s\n", text);
+}
+
+void printFiles(const gable::Rules& rules) {
+  title("imports", !rules.imports().empty());
+  for (const gable::ImportInfo& i : rules.imports()) {
+    row(i.name, i.file.empty() ? "missing: " + i.path : i.file);
+  }
+  title("assets", !rules.assets().empty());
+  for (const gable::AssetUse& a : rules.assets()) {
+    row(a.path, a.file.empty() ? "missing" : a.file);
+  }
+}
+
+void printInfo(const gable::Rules& rules, const std::vector<gable::NamedValue>& values) {
+  if (!rules.description().empty()) std::printf("%s\n", rules.description().c_str());
+  const std::string first = rules.startRule().value_or(std::string());
+  title("start rules", !first.empty());
+  for (const gable::RuleInfo& r : rules.rules()) {
+    if (r.name != first && (!r.start || r.parameters > 0)) continue;
+    const std::string place = r.file + ":" + std::to_string(r.line);
+    row(r.name + (r.name == first ? " *" : ""), place, textOf(r.annotations));
+  }
+  title("attributes", !rules.attributes().empty());
+  for (const gable::AttributeInfo& a : rules.attributes()) {
+    std::string value;
+    for (const gable::NamedValue& v : values) {
+      if (v.name == a.name) value = " = " + textOf(v.value);
+    }
+    row(a.name, a.type + value, textOf(a.annotations));
+  }
+  title("styles", rules.styles().size() > 1);
+  for (size_t i = 0; rules.styles().size() > 1 && i < rules.styles().size(); ++i) {
+    row(rules.styles()[i], "");
+  }
+  printFiles(rules);
+}
+
+}  // namespace
+
+int runInfo(const InfoArguments& arguments) {
+  Inputs inputs;
+  if (const int status = readInputs(arguments.derive, inputs)) {
+    if (arguments.json && status == kExitWrong) {
+      std::printf("%s\n", gable::rulesJson(inputs.rules, {}).c_str());
+    }
+    return status;
+  }
+  const std::vector<gable::NamedValue> values = valuesOf(inputs);
+  if (arguments.json) {
+    std::printf("%s\n", gable::rulesJson(inputs.rules, values).c_str());
+  } else {
+    printInfo(inputs.rules, values);
+  }
+  return kExitDone;
+}

@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The Gable authors
+"""Packages, and what is told of rules: packages_test.py GABLE FOLDER.
+
+Files are made in FOLDER. Run from the repository's root.
+"""
+import csv
+import io
+import json
+import os
+import struct
+import sys
+import unittest
+import zipfile
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from projects_test import CUBE, DONE, FILE, MAIN, USAGE, WALL, WRONG, Case  # noqa: E402
+
+PNG = bytes.fromhex("89504e470d0a1a0a0000000d4948445200000001000000010806000000" "1f15c489"
+                    "0000000d49444154789c6360f8cfc0f01f00050001ffa5a7d2e20000000049454e44ae426082")
+
+
+class Packages(Case):
+    def zip(self, name, files, **options):
+        with zipfile.ZipFile(self.folder / name, "w", zipfile.ZIP_DEFLATED) as archive:
+            for path, text in files.items():
+                archive.writestr(path, text, **options)
+        return name
+
+    def code(self, *arguments, status=FILE):
+        codes = self.codes(*arguments, status=status)
+        self.assertEqual(len(codes), 1, codes)
+        return codes[0]
+
+    def testAreReadAsFolders(self):
+        self.zip("x.zip", {"rules/main.cga": 'import w : "/rules/w.cga"\nLot --> extrude(3) comp(f) { side : w.Wall }\n',
+                           "rules/w.cga": WALL, "assets/panel.obj": CUBE})
+        self.assertEqual(self.codes("x.zip"), [])
+        self.assertEqual(self.reports("x.zip"), {"walls": 4, "faces": 32})
+        self.assertEqual(self.reports("x.zip/rules/main.cga"), {"walls": 4, "faces": 32})
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["out.glb", "stats.json", "x.zip"])
+
+    def testComeBackAsTheyWerePacked(self):
+        self.put("town/Mine/rules/main.cga", MAIN)
+        self.put("town/Mine/assets/roof.png", PNG)
+        self.put("town/Other/rules/w.cga", WALL)
+        self.put("town/Other/assets/panel.obj", CUBE)
+        self.put("town/Other/rules/unused.cga", "Lot --> X.\n")
+        for kind in ["rpk", "zip"]:
+            package = f"w.{kind}"
+            self.gable("pack", "town/Mine/rules/main.cga", "--workspace", "town", "-o", package)
+            first = (self.folder / package).read_bytes()
+            os.utime(self.folder / "town/Other/assets/panel.obj", (1, 1))
+            self.gable("pack", "town/Mine/rules/main.cga", "--workspace", "town", "-o", package)
+            self.assertEqual((self.folder / package).read_bytes(), first, kind)
+            self.assertEqual(self.reports(package), {"walls": 4, "faces": 32}, kind)
+        with zipfile.ZipFile(self.folder / "w.zip") as archive:
+            self.assertEqual(sorted(archive.namelist()),
+                             ["Mine/assets/roof.png", "Mine/rules/main.cga", "Other/assets/panel.obj",
+                              "Other/rules/w.cga"])
+        self.assertEqual((self.folder / "w.rpk").read_bytes()[:6], b"7z\xbc\xaf\x27\x1c")
+
+    def testOfOneProjectHaveItsFolders(self):
+        self.put("p/rules/main.cga", 'Lot --> i("beside.obj") texture("a/roof.png") X.\n')
+        self.put("p/rules/beside.obj", CUBE)
+        self.put("p/rules/beside.mtl", "newmtl a\n")
+        self.put("p/assets/a/roof.png", PNG)
+        self.gable("pack", "p/rules/main.cga", "-o", "p.zip")
+        with zipfile.ZipFile(self.folder / "p.zip") as archive:
+            self.assertEqual(sorted(archive.namelist()), ["assets/a/roof.png", "rules/beside.mtl", "rules/beside.obj",
+                                                          "rules/main.cga"])
+        self.assertEqual(self.codes("p.zip"), [])
+
+    def testOfCompiledRulesAreTold(self):
+        self.zip("x.rpk", {"bin/rules/a.cgb": "?", "assets/a.txt": "?"})
+        told = self.gable("check", "x.rpk", status=FILE)
+        self.assertIn("package-compiled", told)
+        self.assertIn("bin/rules/a.cgb", told)
+
+    def testWithSeveralRuleFilesNameTheOneThatIsMeant(self):
+        files = {"rules/a.cga": "Lot --> X.\n", "rules/b.cga": "Lot --> Y.\n"}
+        self.assertEqual(self.code(self.zip("x.zip", files)), "package-ambiguous")
+        self.assertEqual(self.codes("x.zip/rules/b.cga"), [])
+        self.assertEqual(self.codes(self.zip("b.zip", files)), [])
+        self.assertEqual(self.codes(self.zip("y.zip", {**files, "bin/a.cgb": ""})), [])
+        self.assertEqual(self.code("x.zip/rules/c.cga"), "file-missing")
+        self.assertEqual(self.code(self.zip("z.zip", {"a.txt": ""})), "package-empty")
+
+    def testOfStrangersAreRefused(self):
+        rule = {"rules/a.cga": "Lot --> X.\n"}
+        for path in ["../evil.cga", "/etc/evil.cga", "rules/../../evil", "C:\\evil"]:
+            self.assertEqual(self.code(self.zip("x.zip", {**rule, path: "x"})), "archive-path", path)
+        link = zipfile.ZipInfo("rules/link.cga")
+        link.create_system, link.external_attr = 3, 0o120777 << 16
+        self.zip("x.zip", {**rule, link: "/etc/passwd"})
+        self.assertEqual(self.code("x.zip"), "archive-path")
+        self.zip("x.zip", {**rule, "assets/zeros": bytes(200 << 20)})
+        self.assertEqual(self.code("x.zip"), "archive-too-large")
+        self.zip("x.zip", {**rule, **{f"a/{i}": "" for i in range(100001)}})
+        self.assertEqual(self.code("x.zip"), "archive-too-large")
+
+    def testThatAreBrokenOffAreTold(self):
+        self.put("p/rules/main.cga", "Lot --> X.\n")
+        for kind in ["rpk", "zip"]:
+            self.gable("pack", "p/rules/main.cga", "-o", f"x.{kind}")
+            whole = (self.folder / f"x.{kind}").read_bytes()
+            for length in [0, 10, len(whole) // 2, len(whole) - 1]:
+                self.put(f"x.{kind}", whole[:length])
+                self.assertEqual(self.code(f"x.{kind}"), "archive-unreadable", (kind, length))
+
+    def testThatAreEncryptedAreTold(self):
+        self.zip("x.zip", {"rules/a.cga": "Lot --> X.\n"})
+        data = bytearray((self.folder / "x.zip").read_bytes())
+        for mark, at in [(b"PK\3\4", 6), (b"PK\1\2", 8)]:
+            flags = data.find(mark) + at
+            struct.pack_into("<H", data, flags, struct.unpack_from("<H", data, flags)[0] | 1)
+        self.put("x.zip", bytes(data))
+        self.assertEqual(self.code("x.zip"), "archive-encrypted")
+
+    def testAreNotMadeOfWhatIsWrong(self):
+        self.put("p/rules/main.cga", "Lot --> extrude(\n")
+        self.gable("pack", "p/rules/main.cga", "-o", "x.rpk", status=WRONG)
+        self.gable("pack", "gone.cga", "-o", "x.rpk", status=FILE)
+        self.gable("pack", "p/rules/main.cga", "-o", "x.tar", status=USAGE)
+        self.put("p/rules/main.cga", "Lot --> X.\n")
+        self.gable("pack", "p/rules/main.cga", "-o", "nowhere/x.rpk", status=FILE)
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["p"])
+
+
+RULES = """@RuleFileDescription("A house.")
+import w : "w.cga"
+import gone : "/Gone/gone.cga"
+@Group("Size", 2) @Order(1) @Range(min=3, max=30) @Distance
+@Handle(shape=Lot, axis=y, reference=edges, align=right, slip={inside, h}, translate={0, -1.5, 0})
+attr height = 3 * 3
+@Enum("a", "b")
+attr kind = "a"
+@Handle(type=toggle, shape=Roof^2) @Handle(shape=Lot)
+attr on = true
+@StartRule @InPolygon @Out(granularity=separatedShapes)
+Lot --> extrude(height) i("there.obj") i("gone.obj") report("area", 2) report("kind", "a,\\"b\\"") w.Wall
+@Hidden @StartRule
+Other --> X.
+style Red
+Lot --> X.
+"""
+
+
+class Info(Case):
+    def setUp(self):
+        super().setUp()
+        self.put("p/rules/main.cga", RULES)
+        self.put("p/rules/w.cga", 'attr width = 2\nWall --> i("there.obj") X.\n')
+        self.put("p/assets/there.obj", CUBE)
+
+    def testTellsAllAsJson(self):
+        told = json.loads(self.out("info", "p/rules/main.cga", "--json"))
+        self.assertEqual(told["description"], "A house.")
+        self.assertEqual(told["styles"], ["Default", "Red"])
+        self.assertEqual(told["startRule"], "Lot")
+        rules = {r["name"]: r for r in told["rules"]}
+        self.assertEqual([a["name"] for a in rules["Lot"]["annotations"]], ["StartRule", "InPolygon", "Out"])
+        self.assertTrue(rules["Other"]["hidden"])
+        attributes = {a["name"]: a for a in told["attributes"]}
+        height = {a["name"]: a["arguments"] for a in attributes["height"]["annotations"]}
+        self.assertEqual(height["Range"], [["min", "3"], ["max", "30"], ["restricted", "true"]])
+        self.assertEqual(height["Group"], [["", "Size"], ["order", "2"]])
+        self.assertEqual(height["Handle"], [["shape", "Lot"], ["axis", "y"], ["reference", "edges"], ["align", "right"],
+                                            ["slip", "{inside,h}"], ["translate", "{0,-1.5,0}"]])
+        self.assertEqual([a["name"] for a in attributes["on"]["annotations"]].count("Handle"), 2)
+        self.assertEqual(told["values"], {"height": 9, "kind": "a", "on": True})
+        self.assertEqual([(i["name"], i["found"]) for i in told["imports"]], [("w", True), ("gone", False)])
+        self.assertEqual([(a["path"], a["from"], a["found"]) for a in told["assets"]],
+                         [("there.obj", "rules/main.cga", True), ("gone.obj", "rules/main.cga", False),
+                          ("there.obj", "rules/w.cga", True)])
+
+    def testTellsTheSameInWords(self):
+        told = self.gable("info", "p/rules/main.cga")
+        for part in ["A house.", "Lot *", "height", "float = 9", "@Range(min=3, max=30, restricted=true)", "@InPolygon",
+                     "missing: /Gone/gone.cga", "w.width", "Red"]:
+            self.assertIn(part, told)
+
+    def testFailsForRulesThatCannotBeRead(self):
+        self.gable("info", "gone.cga", status=FILE)
+        self.put("p/rules/main.cga", "Lot --> extrude(\n")
+        self.gable("info", "p/rules/main.cga", status=WRONG)
+
+    def testReportsAreATable(self):
+        self.gable("generate", "p/rules/main.cga", "-o", "x.glb", "--reports", "x.csv")
+        rows = list(csv.DictReader(io.StringIO((self.folder / "x.csv").read_text())))
+        self.assertEqual(rows, [
+            {"key": "area", "value": "", "count": "1", "sum": "2", "average": "2", "minimum": "2", "maximum": "2"},
+            {"key": "kind", "value": 'a,"b"', "count": "1", "sum": "", "average": "", "minimum": "", "maximum": ""}])
+        self.gable("generate", "p/rules/main.cga", "-o", "x.glb", "--reports", "nowhere/x.csv", status=FILE)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], "-v", *sys.argv[3:]])
