@@ -54,6 +54,7 @@ class Merger {
     scene_.instances.reserve(total(&Output::instances));
     scene_.prototypes.reserve(total(&Output::prototypes));
     byKey_.reserve(total(&Output::prototypes));
+    meshNumbers_.reserve(total(&Output::meshes));
   }
 
   void addRoot(const OutputUnit& r) {
@@ -291,7 +292,11 @@ class Merger {
     leaf.name = lastName_.second;
     if (leaf.source != lastSource_.first) lastSource_ = {leaf.source, sourceNumber(leaf.source)};
     leaf.source = lastSource_.second;
-    if (leaf.attributes != 0) leaf.attributes = attributesNumber(leaf.attributes);
+    if (leaf.attributes == 0) return;
+    if (leaf.attributes != lastAttributes_.first) {
+      lastAttributes_ = {leaf.attributes, attributesNumber(leaf.attributes)};
+    }
+    leaf.attributes = lastAttributes_.second;
   }
 
   uint32_t meshNumber(uint32_t worker, uint32_t mesh) {
@@ -299,14 +304,14 @@ class Merger {
     if (known != kUnset) return known;
     const MeshRef& m = outputs_[worker].meshes[mesh];
     work(m->positions.size());
-    const uint64_t hash = m->sharedHash();
-    auto [first, last] = meshNumbers_.equal_range(hash);
-    for (; first != last; ++first) {
-      if (sameMesh(*scene_.meshes[first->second], *m)) return known = first->second;
+    // Others of the same hash have the next keys.
+    ShareKey key{m->sharedHash(), 0};
+    for (; const uint32_t* const at = meshNumbers_.find(key); ++key.b) {
+      if (sameMesh(*scene_.meshes[*at], *m)) return known = *at;
     }
     known = static_cast<uint32_t>(scene_.meshes.size());
     scene_.meshes.push_back(m);
-    meshNumbers_.emplace(hash, known);
+    meshNumbers_.emplace(key, known);
     return known;
   }
 
@@ -440,11 +445,11 @@ class Merger {
   const MergeInput& input_;
   std::vector<Worker> workers_;
   /// What was asked for last, and its number.
-  std::pair<uint32_t, uint32_t> lastName_{kUnset, 0}, lastSource_{kUnset, 0};
+  std::pair<uint32_t, uint32_t> lastName_{kUnset, 0}, lastSource_{kUnset, 0},
+      lastAttributes_{kUnset, 0};
   uint64_t events_ = 0, eventBytes_ = 0, attributeBytes_ = 0;
   Scene scene_;
-  KeyNumbers byKey_;
-  std::unordered_multimap<uint64_t, uint32_t> meshNumbers_;
+  KeyNumbers byKey_, meshNumbers_;
   std::unordered_map<uint64_t, uint32_t> listNumbers_;
   std::unordered_map<uint32_t, uint32_t> materialNumbers_, nameNumbers_, sourceNumbers_,
       attributeNumbers_;
