@@ -60,11 +60,14 @@ const Signature* choose(std::span<const Signature> signatures, std::span<const V
 }  // namespace
 
 int wordIndex(const char* words, std::string_view word) {
-  std::string_view rest = words ? words : "";
-  for (int place = 0; !rest.empty(); ++place) {
-    const size_t end = std::min(rest.find(' '), rest.size());
-    if (rest.substr(0, end) == word) return place;
-    rest.remove_prefix(std::min(end + 1, rest.size()));
+  if (!words) return -1;
+  for (int place = 0; *words; ++place) {
+    size_t same = 0;
+    const auto ends = [&] { return words[same] == 0 || words[same] == ' '; };
+    while (same < word.size() && !ends() && words[same] == word[same]) ++same;
+    if (same == word.size() && ends()) return place;
+    while (!ends()) ++same;
+    words += words[same] == 0 ? same : same + 1;
   }
   return -1;
 }
