@@ -171,9 +171,18 @@ class Merger {
       if (input_.recall) remember(s, shift, notes);
       to.shapes += s.content.range.shapes;
     }
+    to.empty = isEmpty(to);
     scene_.prototypes.push_back(to);
     if (input_.recall) input_.recall->prototypes.push_back(notes);
     return number;
+  }
+
+  // Of a prototype that has its leaves and instances.
+  bool isEmpty(const Prototype& p) const {
+    const Instance* const begin = scene_.instances.data() + p.firstInstance;
+    return p.leafCount == 0 && std::all_of(begin, begin + p.instanceCount, [&](const Instance& i) {
+             return scene_.prototypes[i.prototype].empty;
+           });
   }
 
   void append(const Segment& s, const Output::Mark& shift, Prototype& to) {
@@ -276,6 +285,7 @@ class Merger {
         renumber(scene_.leaves.back(), worker);
       }
     }
+    to.empty = isEmpty(to);
     scene_.prototypes.push_back(to);
     if (input_.recall) remember(outputs_[worker], from);
     const auto number = static_cast<uint32_t>(scene_.prototypes.size() - 1);

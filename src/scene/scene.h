@@ -69,6 +69,9 @@ struct Prototype {
   uint32_t firstInstance = 0, instanceCount = 0;
   /// Shapes made while deriving it, instances expanded, dropped ones included.
   uint64_t shapes = 0;
+  /// True where neither it nor its instances have a leaf. Shared rules that make nothing may stand
+  /// for more instances than can be walked through.
+  bool empty = false;
 };
 
 struct Root {
@@ -142,8 +145,8 @@ struct WalkLevel {
 
 /// Goes through a prototype placed at `world` in path order, on a stack of its own: instances nest
 /// as deep as rules do. Calls `visit(leaf, world, level)` with the index of each leaf and the frame
-/// of its prototype, and `enter(instance, world, level)` before an instance, which it goes into
-/// where that is true. The level counts from 0 for the prototype itself. Instances of instances can
+/// of its prototype, and `enter(instance, world, level)` before an instance that is not empty, which
+/// it goes into where that is true. The level counts from 0 for the prototype itself. Instances of instances can
 /// stand for more than anyone can wait for: it calls work().
 template <class Visit, class Enter>
 void walk(const Scene& scene, const Prototype& prototype, const Frame& world, Visit&& visit,
@@ -184,6 +187,8 @@ void walk(const Scene& scene, const Prototype& prototype, const Frame& world, Vi
     work();
     if (!next) {
       levels.pop_back();
+    } else if (scene.prototypes[next->prototype].empty) {
+      continue;
     } else if (const Frame inner = at.world * next->frame; enter(*next, inner, levels.size())) {
       levels.push_back({&scene.prototypes[next->prototype], inner});
     }

@@ -125,6 +125,22 @@ Tile --> case p(0.1) : i("none-" + floor(rand(20))) X. else : set(index, rand(0,
 Roof --> print([1, 2] + "x") taper(-2) roofHip(100 + index) Z.
 )";
 
+// Each call of B stands for two of A, so an undivided walk would take 2^50 steps.
+TEST(Limits, sharedRulesThatMakeNothingCostNothing) {
+  const Rules rules = rulesOf(R"(
+Lot --> [ s(1, 1, 1) X. ] A(50)
+A(n) --> case n == 0 : NIL else : split(x) { '1 : B(n) }
+B(n) --> [ A(n - 1) ] [ t(0, 1, 0) A(n - 1) ] NIL
+)");
+  const Model model = derive(rules, lots(1), {});
+  EXPECT_EQ(model.end(), End::Done);
+  WriteSettings settings;
+  settings.limits.seconds = 5;
+  const fs::path file = fs::temp_directory_path() / ("empty." + std::to_string(getpid()) + ".obj");
+  EXPECT_TRUE(model.write(file.string(), settings).ok);
+  fs::remove(file);
+}
+
 TEST(Limits, messagesAreThoseOfOneThread) {
   const Rules rules = rulesOf(kTelling);
   const Shapes shapes = lots(40);
