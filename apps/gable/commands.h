@@ -135,7 +135,6 @@ struct TestArguments {
 };
 int runTest(const TestArguments& arguments);
 
-
 struct StudioArguments {
   std::string folder = ".";
   gable::SearchSettings search;

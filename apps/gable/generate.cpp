@@ -24,6 +24,23 @@ gable::WriteResult writeModel(const gable::Model& model, const GenerateArguments
                      {arguments.gpuInstancing, fileLimits(arguments.derive.limits)});
 }
 
+/// Says why a model is empty: as a rule another start rule was meant.
+void tellEmpty(const gable::Model& model, const Inputs& inputs) {
+  if (model.leafCount() > 0 || model.end() != gable::End::Done) return;
+  const bool chosen = inputs.settings.startRule.has_value();
+  const std::string start =
+      chosen ? *inputs.settings.startRule : inputs.rules.startRule().value_or(std::string());
+  std::fprintf(stderr,
+               "warning: the model is empty: the start rule '%s' made nothing [empty-model]\n",
+               start.c_str());
+  if (!chosen) {
+    std::fputs(
+        "  hint: it is the one with @StartRule, else the first of the file; --start takes "
+        "another\n",
+        stderr);
+  }
+}
+
 }  // namespace
 
 int runGenerate(const GenerateArguments& arguments) {
@@ -39,6 +56,7 @@ int runGenerate(const GenerateArguments& arguments) {
   std::FILE* const prints = arguments.stats == "-" ? stderr : stdout;
   for (const std::string& line : model.prints()) std::fprintf(prints, "%s\n", line.c_str());
   if (gable::hasErrors(model.diagnostics())) return statusOf(model);
+  tellEmpty(model, inputs);
 
   const double writeBegin = secondsNow();
   const gable::WriteResult written = writeModel(model, arguments);

@@ -67,7 +67,8 @@ void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
       ->excludes(shapes);
   app->add_flag("--cut-nested", a.cutNested, "Cut footprints out of larger ones that they lie in");
   app->add_option("--style", a.style, "A style that the rule file declares");
-  app->add_option("--start", a.start, "The rule to start with");
+  app->add_option("--start", a.start,
+                  "The rule to start with (default: the one with @StartRule, else the first)");
   app->add_option("--set", a.set, "An attribute's value: NAME=VALUE; may be repeated")
       ->type_size(1)
       ->expected(1)

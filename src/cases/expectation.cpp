@@ -496,9 +496,9 @@ std::vector<CaseFailure> unexpectedErrors(const std::vector<Statement>& expected
   std::vector<CaseFailure> failed;
   const auto nameIt = [&](const Diagnostic& m) {
     return std::any_of(expected.begin(), expected.end(), [&](const Statement& s) {
-      return matches(m, s.words) || (s.words[0] == "diagnostics" && s.words.size() > 1 &&
-                                     std::find(s.words.begin() + 1, s.words.end(), m.code) !=
-                                         s.words.end());
+      return matches(m, s.words) ||
+             (s.words[0] == "diagnostics" && s.words.size() > 1 &&
+              std::find(s.words.begin() + 1, s.words.end(), m.code) != s.words.end());
     });
   };
   for (const Diagnostic& m : outcome.diagnostics) {

@@ -136,7 +136,12 @@ TEST(Expectation, rejectsWhatDoesNotHold) {
                            "leaves",
                            "leaves 2 3",
                            "area Roof four",
-                           "bounds 0 0 0"}) {
+                           "bounds 0 0 0",
+                           "area >= 3",
+                           "color Roof red",
+                           "within town",
+                           "encoder.faces 6",
+                           "print"}) {
     EXPECT_NE(made.complaints(text), "") << text;
   }
 }
@@ -148,6 +153,33 @@ TEST(Expectation, reportsAnErrorThatNobodyExpects) {
   made.diagnostics.push_back(unknown);
   EXPECT_NE(made.complaints("leaves 2"), "");
   EXPECT_EQ(made.complaints("leaves 2\nerror unknown-operation"), "");
+}
+
+TEST(Expectation, saysHowStatementsAreWritten) {
+  const Made made;
+  const std::pair<const char*, const char*> said[] = {
+      {"leafs 2", "did you mean 'leaves'?"},
+      {"leaves Roof four", "expected: leaves [LEAF] NUMBER"},
+      {"color Roof red", "expected: color LEAF #rrggbb"},
+      {"leaves Rof 1", "there is no leaf 'Rof', did you mean 'Roof'?"},
+      {"report Aera n 2", "the keys are Area, Kind"},
+      {"diagnostics none", "warning undefined-rule 2:3: "},
+      {"attribute Tower width 3", "set(width, ..)"},
+  };
+  for (const auto& [statement, says] : said) {
+    EXPECT_NE(made.complaints(statement).find(says), std::string::npos)
+        << made.complaints(statement);
+  }
+}
+
+TEST(Expectation, tellsWhatStopsACaseAndNothingElse) {
+  Made made;
+  Diagnostic unknown;
+  unknown.code = "unknown-operation";
+  unknown.rendered = "rules.cga:1:1: error";
+  made.diagnostics = {unknown};
+  EXPECT_EQ(made.complaints("leaves 7\nprint none\ndiagnostics none"),
+            "0: an error that no statement expects: rules.cga:1:1: error\n");
 }
 
 TEST(Expectation, comparesDumps) {

@@ -27,7 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kShapeForms =
-    "the shape is not understood; expected: lot 20x10, polygon X,Y X,Y .., face X,Y,Z .. or load FILE";
+    "the shape is not understood; expected: lot 20x10, polygon X,Y X,Y .., face X,Y,Z .. or load "
+    "FILE";
 
 /// The rule that `values` sections are evaluated in.
 constexpr const char* kValuesRule = "CaseValues";

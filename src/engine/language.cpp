@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 
+#include "base/encoding.h"
 #include "base/files.h"
 #include "base/hash.h"
 #include "builtins/catalogue.h"
@@ -76,7 +77,9 @@ class ProjectFiles final : public Files {
 
   Result<std::string> read(const std::string& path) override {
     if (stamp(path) == 0) return Error{"file-missing", "there is no file '" + path + "'", ""};
-    return readFile(path, kLargestRuleFile);
+    Result<std::string> text = readFile(path, kLargestRuleFile);
+    if (!text.ok()) return text;
+    return utf8Of(std::move(text.value()));
   }
 
   // Plain files alone: what a pipe or a device says is never read.

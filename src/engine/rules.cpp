@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/encoding.h"
 #include "base/files.h"
 #include "builtins/catalogue.h"
 #include "dialects/dialect.h"
@@ -53,7 +54,7 @@ class ProjectLoader final : public lang::FileLoader {
     }
     Result<std::string> text = project_.where().read(file, kLargestRuleFile);
     if (!text.ok()) return text.error();
-    return File{std::move(name), std::move(text.value())};
+    return File{std::move(name), utf8Of(std::move(text.value()))};
   }
 
   bool exists(const std::string& path, const std::string& importer) override {
@@ -221,7 +222,7 @@ RuleText readRuleText(const std::string& path) {
   return guardedResult<RuleText>([&]() -> RuleText {
     Result<std::string> text = readFile(path, kLargestRuleFile);
     if (!text.ok()) return {false, {}, {diagnosticOf(text.error())}};
-    return {true, std::move(text.value()), {}};
+    return {true, utf8Of(std::move(text.value())), {}};
   });
 }
 
@@ -251,7 +252,7 @@ Rules Rules::load(const std::string& path, const LoadSettings& settings) {
     const FileSearch files({}, {}, home.value().package);
     Result<std::string> text = files.read(home.value().path, kLargestRuleFile);
     if (!text.ok()) return failed(text.error());
-    return parsed(text.value(), home.value(), settings);
+    return parsed(utf8Of(std::move(text.value())), home.value(), settings);
   }));
 }
 

@@ -261,6 +261,7 @@ NodeId Parser::parseAnnotation() {
       if (!accept(TokenKind::Comma)) break;
     }
     if (!is(TokenKind::RParen)) {
+      n.flags = kFlagBroken;
       if (open.match == Token::kNoMatch) {
         error("unclosed-bracket", spanOf(open), "this '(' of '@" + name + "' is never closed",
               "add ')' behind its arguments");
@@ -508,9 +509,11 @@ void Parser::parseDeclaration() {
   } else {
     stray();
     if (atEnd()) return;
-    const bool call = isName(current());
-    unexpected("a declaration",
-               call ? "a rule is written 'Name --> ...', a function 'name(a) = ...'" : "");
+    const bool import = keyword == Keyword::Import && ahead(1).kind == TokenKind::String;
+    const char* const form = "a rule is written 'Name --> ...', a function 'name(a) = ...'";
+    unexpected("a declaration", import ? "an import has a name: import id : \"file.cga\""
+                                : isName(current()) ? form
+                                                    : "");
     advance();
     skipToDeclaration();
   }

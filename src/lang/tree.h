@@ -151,6 +151,8 @@ enum NodeFlag : uint16_t {
   kFlagOperand = 8,
   kFlagRepeat = 16,
   kFlagElementwise = 32,
+  /// An annotation whose arguments could not be read.
+  kFlagBroken = 64,
 };
 
 struct Node {

@@ -145,9 +145,9 @@ struct WalkLevel {
 
 /// Goes through a prototype placed at `world` in path order, on a stack of its own: instances nest
 /// as deep as rules do. Calls `visit(leaf, world, level)` with the index of each leaf and the frame
-/// of its prototype, and `enter(instance, world, level)` before an instance that is not empty, which
-/// it goes into where that is true. The level counts from 0 for the prototype itself. Instances of instances can
-/// stand for more than anyone can wait for: it calls work().
+/// of its prototype, and `enter(instance, world, level)` before an instance that is not empty,
+/// which it goes into where that is true. The level counts from 0 for the prototype itself.
+/// Instances of instances can stand for more than anyone can wait for: it calls work().
 template <class Visit, class Enter>
 void walk(const Scene& scene, const Prototype& prototype, const Frame& world, Visit&& visit,
           Enter&& enter);

@@ -78,6 +78,20 @@ class Options(Case):
         self.run_gable("render", "x.cga", "-o", "a.jpg", status=USAGE, says=".png")
         self.run_gable("render", "x.cga", "--eye=1,2,3", "--target=4,5,6", "--fov=60", "--size=16x9", "--samples=1", "-o", "a.png")
 
+    def testAnEmptyModelIsTold(self):
+        self.put("x.cga", "Fence --> NIL\nHouse --> extrude(3) X.\n")
+        told = self.run_gable("generate", "x.cga", "-o", "a.glb", says="the start rule 'Fence' made nothing [empty-model]")
+        self.assertIn("--start", told)
+        self.assertNotIn("empty", self.run_gable("generate", "x.cga", "--start", "House", "-o", "a.glb"))
+
+    def testRuleFilesOfWindowsAreRead(self):
+        (self.folder / "T\u00fcr.txt").write_text("door")
+        text = 'Lot --> print(readTextFile("T\u00fcr.txt")) print("5 \u20ac") X.'
+        for encoding in ("utf-8", "utf-8-sig", "cp1252", "utf-16"):
+            (self.folder / "x.cga").write_bytes(text.encode(encoding))
+            self.run_gable("generate", "x.cga", "-o", "a.glb", says="door\n5 \u20ac")
+            self.run_gable("check", "x.cga", says="")
+
     def testTheFormatIsKnownBeforeTheWorkBegins(self):
         self.put("x.cga", "Lot --> Lot")
         self.run_gable("generate", "x.cga", "-o", "a.xyz", status=USAGE, says=".glb")

@@ -22,6 +22,7 @@ class NoteReader {
       : tree_(tree), node_(node), diagnostics_(diagnostics) {}
 
   void warn(NodeId at, const std::string& message, const std::string& hint) {
+    warned_ = true;
     if (diagnostics_) diagnostics_->warning("bad-annotation", tree_.span(at), message, hint);
   }
 
@@ -63,11 +64,13 @@ class NoteReader {
 
   const Tree& tree() const { return tree_; }
   NodeId node() const { return node_; }
+  bool warned() const { return warned_; }
 
  private:
   const Tree& tree_;
   NodeId node_;
   Diagnostics* diagnostics_;
+  bool warned_ = false;
 };
 
 void readEnumValues(NoteReader& r, EnumNote& note) {
@@ -101,7 +104,7 @@ void readEnum(NoteReader& r, Annotations& out) {
     }
   }
   readEnumValues(r, note);
-  out.choices = note;
+  if (!r.warned()) out.choices = note;
 }
 
 // The old form with a name for each value, as a choice is shown: (Low=0, High=1).
@@ -295,6 +298,8 @@ Annotations readAnnotations(const Tree& tree, NodeId list, GroupNote& group,
     const std::string_view name = tree.text(id);
     const auto known = std::find_if(std::begin(kNotes), std::end(kNotes),
                                     [&](const NoteKind& k) { return k.name == name; });
+    // Of arguments that could not be read only a part is there, which must not bind anyone.
+    if (tree.has(id, kFlagBroken)) continue;
     if (known != std::end(kNotes)) {
       NoteReader reader(tree, id, diagnostics);
       known->read(reader, out);
