@@ -66,7 +66,8 @@ class Cases(Case):
                            (case("a", "leaves 1", more="seed: x\n"), "'x' is not a number"),
                            (case("a", "leaves 1", more="limits:\n  depth -1\n"), "limit is not understood"),
                            (case("a", "leaves 1", rules="rule: Lot --> A.\nfile ../b.cga: B --> C."), "own folder"),
-                           (case("a", "leafs 1"), "not understood"), (case("a", "within town"), "not understood"),
+                           (case("a", "leafs 1"), "did you mean 'leaves'?"), (case("a", "within town"), "expected: within lot"),
+                           (case("a"), "it expects nothing"),
                            (case("a", "scene none.scene"), "--update"), (case("a", "picture"), "expected: picture"),
                            (case("a", "picture none.jpg 9x0"), "expected: picture")):
             self.cases(text)
@@ -126,6 +127,8 @@ class Cases(Case):
                 self.assertEqual(watching.stdout.readline(), "1 passed, 0 failed\n")
                 time.sleep(1)
                 self.put("rules/tower.cga", RULES.replace("side : Wall", "side : Wal."))
+                self.assertEqual(watching.stdout.readline(), "\n")
+                self.assertEqual(watching.stdout.readline(), f"{self.folder}/rules/tower.cga has changed\n")
                 self.assertIn("found 0", watching.stdout.readline())
                 self.assertEqual(watching.stdout.readline(), "0 passed, 1 failed\n")
                 watching.send_signal(2)
