@@ -64,7 +64,7 @@ class Diff(Case):
         self.put("bad.obj", "f 1 2 3\n")
         for arguments, status, says in (([before, "none.glb"], FILE, "none.glb"), ([before, "x.cga"], USAGE, "different formats"), (["x.cga", "x.cga"], USAGE, "no model"),
                                         ([before, "b.obj"], USAGE, "different formats"),
-                                        ([before, "bad.obj"], FILE, "bad.obj"), ([before], USAGE, "after"),
+                                        (["bad.obj", "bad.obj"], FILE, "bad.obj"), ([before], USAGE, "after"),
                                         ([before, before, "-o", "d.jpg"], USAGE, ".png"),
                                         ([before, before, "-o", "d.png", "--size", "0x0"], USAGE, "--size")):
             self.run_gable("diff", *arguments, status=status, says=says)
