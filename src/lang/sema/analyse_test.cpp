@@ -659,7 +659,7 @@ TEST(Analyse, annotationsBecomeData) {
   EXPECT_FALSE(a.attribute("e").annotations.choices->restricted);
   EXPECT_TRUE(a.attribute("e").annotations.hidden);
   const Analysed handles("@Handle(shape=Lot^2, slip={in, -1}) @Handle(type=toggle, 3) attr a = 1");
-  EXPECT_EQ(handles.problems(), "1:57 bad-annotation (warning)\n");
+  EXPECT_EQ(handles.problems(), "1:58 bad-annotation (warning)\n");
   EXPECT_EQ(
       handles.attribute("a").annotations.handles,
       (std::vector<HandleNote>{{{"shape", "Lot^2"}, {"slip", "{in,-1}"}}, {{"type", "toggle"}}}));
