@@ -127,7 +127,9 @@ class RuleText(Case):
         for size in (1, 100, 10_000, 1_000_000):
             self.check(dice.randbytes(size), status=(0, 1))
         self.check(bytes(100_000), status=1)
-        self.check("A --> B.".encode("utf-16"), status=1)
+        self.check("A --> B.".encode("utf-16-le"), status=1)
+        self.check("A --> B.".encode("utf-16"), status=0)
+        self.check(b"\xff\xfe" + b"\xd8" * 99, status=1)
         self.check(b"A --> \x1b[31m B\x07 \x9b", status=1)
 
     def testFormattingTakesTheSame(self):
