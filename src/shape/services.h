@@ -57,8 +57,8 @@ class Assets {
                                 std::string& why) = 0;
   virtual ImageInfo image(std::string_view path, std::string_view fromFile) = 0;
   virtual bool exists(std::string_view path, std::string_view fromFile) = 0;
-  /// Project paths that match a pattern with $ (within a folder level) and * (any), sorted.
-  virtual std::vector<std::string> search(std::string_view pattern, std::string_view fromFile) = 0;
+  /// Project paths that a query means (shape/file_query.h), sorted; none where it cannot be read.
+  virtual std::vector<std::string> search(std::string_view query, std::string_view fromFile) = 0;
   /// The text of a file, for readTextFile and tables; false when there is none.
   virtual bool text(std::string_view path, std::string_view fromFile, std::string& out) = 0;
   /// The project path under which the file is found; the path itself when it is not.
