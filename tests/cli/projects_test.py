@@ -7,28 +7,18 @@ What `--workspace`, `--lib` and `--find-by-name` find, what nothing finds, and w
 FOLDER. Run from the repository's root.
 """
 import json
-import shutil
 import subprocess
 import sys
 import unittest
-from pathlib import Path
 
-GABLE, FOLDER = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-DONE, WRONG, USAGE, FILE = 0, 1, 2, 3
+import cli_test
+from cli_test import DONE, FILE, GABLE, USAGE, WRONG  # noqa: F401
 
 CUBE = "\n".join(["v 0 0 0", "v 1 0 0", "v 1 1 0", "v 0 1 0", "v 0 0 1", "v 1 0 1", "v 1 1 1", "v 0 1 1",
                   "f 4 3 2 1", "f 5 6 7 8", "f 1 2 6 5", "f 2 3 7 6", "f 3 4 8 7", "f 4 1 5 8", ""])
 
 
-class Case(unittest.TestCase):
-    def setUp(self):
-        self.folder = FOLDER / type(self).__name__ / self._testMethodName
-        shutil.rmtree(self.folder, ignore_errors=True)
-        self.folder.mkdir(parents=True)
-
-    def tearDown(self):
-        shutil.rmtree(self.folder, ignore_errors=True)
-
+class Case(cli_test.Case):
     def put(self, name, text):
         path = self.folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
