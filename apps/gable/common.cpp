@@ -30,12 +30,17 @@ int wrongOption(const char* option, const std::string& form, const std::string& 
   return kExitUsage;
 }
 
+std::string extensionOf(const std::string& path) {
+  const size_t dot = path.rfind('.');
+  return dot == std::string::npos ? std::string() : path.substr(dot + 1);
+}
+
 int checkExtension(const std::string& path, const std::vector<std::string>& extensions) {
-  std::string end = path.substr(std::min(path.rfind('.'), path.size()));
+  std::string end = extensionOf(path);
   for (char& c : end) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   std::string known;
   for (const std::string& e : extensions) {
-    if (end == "." + e) return kExitDone;
+    if (end == e) return kExitDone;
     known += (known.empty() ? "." : " .") + e;
   }
   return wrongOption("--output", "a file name with an ending that says its format (" + known + ")",

@@ -70,6 +70,9 @@ bool parseSeed(const std::string& text, double& seed);
 /// Says that an option takes something else than `text`; gives kExitUsage.
 int wrongOption(const char* option, const std::string& form, const std::string& text);
 
+/// "glb" of "town.glb"; empty where the name has none.
+std::string extensionOf(const std::string& path);
+
 /// kExitDone where the extension of an output is among those; else says which there are and gives
 /// kExitUsage.
 int checkExtension(const std::string& path, const std::vector<std::string>& extensions);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 
-#include <algorithm>
 #include <cstdio>
 #include <string>
 
@@ -14,9 +13,9 @@ namespace {
 using gable::Comparison;
 using gable::FaceSum;
 
-std::string extensionOf(const std::string& path) {
-  const std::string extension = path.substr(std::min(path.size(), path.rfind('.') + 1));
-  // Both are glTF with the same triangles.
+/// The extension, where both of glTF are one: they hold the same triangles.
+std::string formatOf(const std::string& path) {
+  const std::string extension = extensionOf(path);
   return extension == "gltf" ? "glb" : extension;
 }
 
@@ -100,7 +99,7 @@ int runDiff(const DiffArguments& arguments) {
     if (const int status = checkExtension(picture.output, {"png"})) return status;
     if (const int status = pictureSettings(picture, settings)) return status;
   }
-  if (extensionOf(arguments.before) != extensionOf(arguments.after)) {
+  if (formatOf(arguments.before) != formatOf(arguments.after)) {
     std::fprintf(stderr,
                  "gable: '%s' and '%s' have different formats, which keep faces in different ways; "
                  "compare files of one format\n",

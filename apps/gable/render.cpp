@@ -81,7 +81,7 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
 }
 
 bool isModel(const std::string& path) {
-  const std::string extension = path.substr(std::min(path.size(), path.rfind('.') + 1));
+  const std::string extension = extensionOf(path);
   return extension == "glb" || extension == "gltf" || extension == "obj";
 }
 

@@ -96,7 +96,6 @@ Region lotOf(const Shapes& shapes) {
 
 CaseRun::CaseRun(const Case& c, const std::string& file, const CaseSettings& settings)
     : case_(c),
-      file_(file),
       settings_(settings),
       folder_(fs::path(file).parent_path().string()),
       golden_(folder_, settings.update, settings.limits) {

@@ -45,7 +45,6 @@ class CaseRun {
   void noteUpdates(const std::vector<Statement>& expected, const std::string& dump);
 
   const Case& case_;
-  const std::string& file_;
   const CaseSettings& settings_;
   std::string folder_;
   GoldenFiles golden_;

@@ -27,6 +27,8 @@ struct FaceKey {
   uint64_t first = 0, second = 0;
   /// Where the face is: a leaf of the walk and a face of its mesh.
   uint32_t leaf = 0, face = 0;
+  /// Index of its look.
+  uint32_t look = 0;
 
   bool sameFace(const FaceKey& o) const { return first == o.first && second == o.second; }
   bool operator<(const FaceKey& o) const {
@@ -65,6 +67,14 @@ struct Look {
 class Side {
  public:
   explicit Side(const Scene& scene) : scene_(scene) {
+    looks_.push_back({"", "#ffffff", 1});
+    for (const Material& m : scene.materials) {
+      looks_.push_back({m.name, colorText(m.color), m.opacity});
+    }
+    for (const Look& look : looks_) {
+      const uint64_t hash = hashCombine(hashBytes(look.name), hashBytes(look.color));
+      lookHashes_.push_back(hashCombine(hash, hashDouble(look.opacity)));
+    }
     forEachLeaf(scene, [&](const Leaf& leaf, const Frame& world) {
       leaves_.push_back({transformed(*scene.meshes[leaf.mesh], leaf.scale, world), &leaf});
       addKeys(static_cast<uint32_t>(leaves_.size() - 1));
@@ -76,30 +86,31 @@ class Side {
   const Mesh& meshOf(const FaceKey& key) const { return leaves_[key.leaf].mesh; }
   double area(const FaceKey& key) const { return meshOf(key).area(key.face); }
 
-  Look lookOf(const FaceKey& key) const {
-    const Material* m = materialOf(key);
-    if (!m) return {"", "#ffffff", 1};
-    return {m->name, colorText(m->color), m->opacity};
+  /// The area of each look; those of no face have 0.
+  std::map<Look, double> areas() const {
+    std::vector<double> sums(looks_.size());
+    for (const FaceKey& key : keys_) sums[key.look] += area(key);
+    std::map<Look, double> out;
+    for (size_t i = 0; i < looks_.size(); ++i) out[looks_[i]] += sums[i];
+    return out;
   }
 
  private:
-  const Material* materialOf(const FaceKey& key) const {
-    const Placed& placed = leaves_[key.leaf];
+  /// Looks are numbered as materials are, behind the one of no material.
+  uint32_t lookOf(uint32_t leaf, uint32_t face) const {
+    const Placed& placed = leaves_[leaf];
     const std::vector<uint32_t>& list = scene_.materialLists[placed.leaf->materials];
-    if (list.empty()) return nullptr;
-    const uint16_t slot = placed.mesh.faces[key.face].materialSlot;
-    return &scene_.materials[list[slot < list.size() ? slot : 0]];
+    if (list.empty()) return 0;
+    const uint16_t slot = placed.mesh.faces[face].materialSlot;
+    return list[slot < list.size() ? slot : 0] + 1;
   }
 
   void addKeys(uint32_t leaf) {
     const Mesh& mesh = leaves_[leaf].mesh;
     for (uint32_t face = 0; face < mesh.faceCount(); ++face) {
       work();
-      FaceKey key{0, 0, leaf, face};
-      const Look look = lookOf(key);
-      fold(key, hashBytes(look.name));
-      fold(key, hashBytes(look.color));
-      fold(key, hashDouble(look.opacity));
+      FaceKey key{0, 0, leaf, face, lookOf(leaf, face)};
+      fold(key, lookHashes_[key.look]);
       for (const MeshLoop& loop : mesh.loopsOf(face)) addLoop(mesh, loop, key);
       keys_.push_back(key);
     }
@@ -117,6 +128,8 @@ class Side {
   }
 
   const Scene& scene_;
+  std::vector<Look> looks_;
+  std::vector<uint64_t> lookHashes_;
   std::vector<Placed> leaves_;
   std::vector<FaceKey> keys_;
   std::vector<Cell> cells_;
@@ -209,10 +222,12 @@ std::shared_ptr<const Model::Impl> pictureOf(Piles& piles) {
   return impl;
 }
 
-std::vector<MaterialChange> materialChanges(const Side& before, const Side& after) {
+using Areas = std::map<Look, double>;
+
+std::vector<MaterialChange> materialChanges(const Areas& before, const Areas& after) {
   std::map<Look, Change<double>> areas;
-  for (const FaceKey& key : before.keys()) areas[before.lookOf(key)].first += before.area(key);
-  for (const FaceKey& key : after.keys()) areas[after.lookOf(key)].second += after.area(key);
+  for (const auto& [look, area] : before) areas[look].first = area;
+  for (const auto& [look, area] : after) areas[look].second = area;
   std::vector<MaterialChange> changes;
   for (const auto& [look, area] : areas) {
     const double larger = std::max(area.first, area.second);
@@ -222,9 +237,9 @@ std::vector<MaterialChange> materialChanges(const Side& before, const Side& afte
   return changes;
 }
 
-double areaOf(const Side& side) {
+double total(const Areas& areas) {
   double sum = 0;
-  for (const FaceKey& key : side.keys()) sum += side.area(key);
+  for (const auto& [look, area] : areas) sum += area;
   return sum;
 }
 
@@ -235,8 +250,9 @@ Comparison compare(const Model& before, const Model& after, const FileLimits& li
     Comparison out;
     out.statistics = {before.statistics(), after.statistics()};
     const Side a(before.impl().scene()), b(after.impl().scene());
-    out.area = {areaOf(a), areaOf(b)};
-    out.materials = materialChanges(a, b);
+    const Areas areasBefore = a.areas(), areasAfter = b.areas();
+    out.area = {total(areasBefore), total(areasAfter)};
+    out.materials = materialChanges(areasBefore, areasAfter);
     Piles piles = sorted(a, b);
     out.kept = piles.kept.sum();
     out.removed = piles.removed.sum();
