@@ -4,8 +4,10 @@
 // The attributes material.*, one for each field of a material, and materials as arrays of names and
 // values.
 
+#include <algorithm>
 #include <array>
 #include <utility>
+#include <vector>
 
 #include "builtins/lists.h"
 #include "builtins/shared/materials.h"
@@ -38,18 +40,40 @@ std::array<AttributeSpec, sizeof...(index)> makeAttributes(std::index_sequence<i
 constexpr size_t kFieldCount = 85;
 const auto kAttributes = makeAttributes(std::make_index_sequence<kFieldCount>());
 
-// A table of names and values in the order of the fields.
+// The groups in which the original lists a material, each in the order of its names: truth values,
+// numbers, colours, texts, images, the shader.
+int groupOf(const MaterialField& f) {
+  const std::string_view name = shortName(f);
+  if (f.flag) return 0;
+  if (f.number) {
+    return name.ends_with(".r") || name.ends_with(".g") || name.ends_with(".b") ? 2 : 1;
+  }
+  if (name == "shader") return 5;
+  return name.ends_with("map") ? 4 : 3;
+}
+
+std::vector<const MaterialField*> fieldsInOrder() {
+  std::vector<const MaterialField*> fields;
+  for (const MaterialField& f : materialFields()) fields.push_back(&f);
+  std::sort(fields.begin(), fields.end(), [](const MaterialField* a, const MaterialField* b) {
+    return std::pair(groupOf(*a), shortName(*a)) < std::pair(groupOf(*b), shortName(*b));
+  });
+  return fields;
+}
+
+// A table of names and values.
 Value tableOf(const Material& m, bool changedOnly, ValuePool& pool) {
+  static const std::vector<const MaterialField*> kInOrder = fieldsInOrder();
   const Material plain;
   Array out;
   out.element = ValueType::String;
   out.columns = 2;
-  for (const MaterialField& f : materialFields()) {
+  for (const MaterialField* f : kInOrder) {
     // Fields that show what another one holds already.
-    const std::string_view name = shortName(f);
+    const std::string_view name = shortName(*f);
     if (name == "color.rgb" || name == "color.a") continue;
-    const Value v = readField(f, m, pool);
-    if (changedOnly && v == readField(f, plain, pool)) continue;
+    const Value v = readField(*f, m, pool);
+    if (changedOnly && v == readField(*f, plain, pool)) continue;
     out.strings.push_back(pool.intern(name));
     out.strings.push_back(pool.intern(pool.str(v)));
     ++out.rows;
