@@ -14,6 +14,9 @@ import subprocess
 import sys
 from pathlib import Path
 
+from coverage import PAGE as COVERAGE
+from coverage import Coverage, table
+
 ROOT = Path(__file__).resolve().parent.parent
 BUILTINS = ROOT / "src/builtins"
 REFERENCE = "docs/reference"
@@ -67,6 +70,15 @@ class Reference:
         self.index("functions", "Functions", functions, "summary")
         self.index("attributes", "Attributes of the shape", attributes, "doc", folder="functions")
         self.selectors()
+        self.coverage({"operations": operations, "functions": functions, "attributes": attributes})
+
+    def coverage(self, groups):
+        folders = {"operations": "operations", "functions": "functions", "attributes": "functions"}
+        pages = {(kind, entry["name"]): f"{folders[kind]}/{source.stem}.md"
+                 for kind, group in groups.items() for source, entries in group.items() for entry in entries}
+        coverage = Coverage(ROOT, self.catalogue, pages)
+        self.pages[COVERAGE] = coverage.make()
+        self.problems += coverage.problems
 
     def page(self, folder, source, entries, attributes):
         prose = source.with_suffix(".md")
@@ -113,13 +125,6 @@ def split_prose(text):
     match = re.search(r"^## ", text, re.M)
     at = match.start() if match else len(text)
     return tuple(part.strip() + "\n" if part.strip() else "" for part in (text[:at], text[at:]))
-
-
-def table(head, rows):
-    def cell(text):
-        return str(text).replace("|", "\\|").replace("\n", " ")
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    return "\n".join(lines + ["| " + " | ".join(map(cell, row)) + " |" for row in rows]) + "\n"
 
 
 def signature(entry, overload):

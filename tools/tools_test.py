@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The Gable authors
 """The tools do what they say."""
+import json
 import os
 import struct
 import subprocess
@@ -10,6 +11,7 @@ import unittest
 import zlib
 from pathlib import Path
 
+import coverage
 import gen_docs
 import new_op
 import run_tests
@@ -43,6 +45,42 @@ class NewOpTest(FolderCase):
     def testLeavesAnExistingOperationAlone(self):
         new_op.create(self.root, "build", "roofDome")
         self.assertEqual(new_op.create(self.root, "other", "roofDome"), [])
+
+
+class CoverageTest(FolderCase):
+    """The page of what is covered cannot claim what is not there."""
+    CASE = "# Reference: extrude\n== rises\nrule:\n  Lot --> extrude(3)\nexpect:\n  leaves 1\n"
+
+    def problems(self, rows, case=CASE, known=("extrude", "taper")):
+        for path, text in {"src/ops/extrude.test": case, "src/lang/sema/notes.cpp": "", "tests/cases/a.test": "",
+                           coverage.DATA: json.dumps({kind: rows if kind == "operations" else []
+                                                      for kind in coverage.TITLES})}.items():
+            (self.root / path).parent.mkdir(parents=True, exist_ok=True)
+            (self.root / path).write_text(text, encoding="utf-8")
+        catalogue = {"operations": [{"name": n} for n in known], "functions": [], "attributes": []}
+        made = coverage.Coverage(self.root, catalogue)
+        self.page = made.make()
+        return "\n".join(made.problems)
+
+    def testNamesTheCaseThatChecks(self):
+        self.assertEqual(self.problems([{"name": "extrude"}]), "")
+        self.assertIn("| `extrude` | whole | reference numbers: [rises](../../src/ops/extrude.test) |", self.page)
+
+    def testWantsACheckForEachNameThatIsKnown(self):
+        self.assertIn("nothing checks taper", self.problems([{"name": "extrude"}, {"name": "taper"}]))
+        self.assertEqual(self.problems([{"name": "extrude"}, {"name": "union"}]), "")
+        self.assertIn("| `union` | missing |", self.page)
+
+    def testBelievesNoClaimThatIsNotTrue(self):
+        extrude = {"name": "extrude"}
+        self.assertIn("does not use it", self.problems([extrude], self.CASE.replace("extrude(3)", "taper(3)")))
+        self.assertIn("is no name", self.problems([extrude], self.CASE.replace("Reference: extrude", "Reference: grow")))
+        self.assertIn("no file", self.problems([extrude | {"checked": [{"by": "own test", "test": "gone.cpp: it"}]}]))
+        self.assertIn("has no rose", self.problems([extrude | {"checked": [
+            {"by": "own test", "test": "src/ops/extrude.test: rose"}]}]))
+        self.assertIn("knows it", self.problems([extrude | {"missing": True}]))
+        self.assertIn("does not know it", self.problems([extrude, {"name": "union", "lacks": "holes"}]))
+        self.assertIn("belong together", self.problems([extrude | {"readings": ["one", "two"]}]))
 
 
 class ShrinkTest(FolderCase):

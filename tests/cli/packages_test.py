@@ -148,6 +148,60 @@ Lot --> X.
 """
 
 
+ANNOTATED = """@RuleFileDescription("All annotations.")
+version "2025.0"
+@Angle
+attr turn = 180
+@Color
+attr tint = "#000000"
+@Description("The building width")
+attr width = 40
+@Directory
+attr folder = "/assets/lod1"
+@DisplayName("Building height")
+attr height = 20
+@Distance
+attr distance = 1852
+@Enum("low", "mid", "high")
+attr lod = "low"
+@Enum(10, 20, 30, restricted = false)
+attr step = 20
+@Enum(valuesAttr = lods)
+attr chosen = "mid"
+@Hidden
+attr lods = ["low", "mid", "high"]
+@File("tif", "tiff")
+attr image = "tex0.tiff"
+@File
+attr anyFile = "x.obj"
+@Group("First", "Second", "Third", 1)
+attr grouped = 0
+@Group
+@Handle(shape=Solid, align=right)
+attr dimension = 40
+@MaterialFile
+attr mat = "myMaterial.cgamat"
+@Order(13)
+attr third = 0
+@Percent
+attr inflation = 0.012
+@Range(min=0, max=45, stepsize=15, restricted=false)
+attr angle = 30
+@Range(min=2.5, max=7)
+attr floors = [4, 5.5, 5.5]
+@StartRule @InMesh @Out(granularity=separatedShapes)
+Start --> NIL
+@StartRule @InPolygon
+Poly --> NIL
+@StartRule @InLine
+Line --> NIL
+@StartRule @InPoint
+Point --> NIL
+@StartRule @InPointCloud
+Cloud --> NIL
+"""
+
+
 class Info(Case):
     def setUp(self):
         super().setUp()
@@ -175,6 +229,35 @@ class Info(Case):
         self.assertEqual([(a["path"], a["from"], a["found"]) for a in told["assets"]],
                          [("there.obj", "rules/main.cga", True), ("gone.obj", "rules/main.cga", False),
                           ("there.obj", "rules/w.cga", True)])
+
+    def testTellsEveryAnnotationOfTheReference(self):
+        self.put("p/rules/all.cga", ANNOTATED)
+        told = json.loads(self.out("info", "p/rules/all.cga", "--json"))
+        self.assertEqual(told["diagnostics"], [])
+        self.assertEqual(told["description"], "All annotations.")
+        of = {a["name"]: {n["name"]: [x[-1] for x in n["arguments"]] for n in a["annotations"]}
+              for a in [*told["attributes"], *told["rules"]]}
+        self.assertEqual([name for name, notes in of.items() if len(notes) > 2], ["Start"])
+        self.assertEqual(of["lod"], {"Enum": ["low", "mid", "high", "true"]})
+        self.assertEqual(of["step"], {"Enum": ["10", "20", "30", "false"]})
+        self.assertEqual(of["chosen"], {"Enum": ["lods", "true"]})
+        self.assertEqual(of["angle"], {"Range": ["0", "45", "15", "false"]})
+        self.assertEqual(of["floors"], {"Range": ["2.5", "7", "true"]})
+        self.assertEqual(of["grouped"], {"Group": ["First", "Second", "Third", "1"]})
+        self.assertEqual(of["dimension"], {"Handle": ["Solid", "right"]})
+        self.assertEqual(of["third"], {"Order": ["13"]})
+        self.assertEqual(of["image"], {"File": ["tif", "tiff"]})
+        self.assertEqual(of["width"], {"Description": ["The building width"]})
+        self.assertEqual(of["height"], {"DisplayName": ["Building height"]})
+        for name, note in {"turn": "Angle", "tint": "Color", "folder": "Directory", "distance": "Distance",
+                           "lods": "Hidden", "anyFile": "File", "mat": "MaterialFile", "inflation": "Percent"}.items():
+            self.assertEqual(of[name], {note: []})
+        for name, note in {"Poly": "InPolygon", "Line": "InLine", "Point": "InPoint", "Cloud": "InPointCloud"}.items():
+            self.assertEqual(of[name], {"StartRule": [], note: []})
+        self.assertEqual(of["Start"], {"StartRule": [], "InMesh": [], "Out": ["separatedShapes"]})
+        # What is hidden has no value to choose.
+        self.assertNotIn("lods", told["values"])
+        self.assertEqual(told["values"]["inflation"], 0.012)
 
     def testTellsTheSameInWords(self):
         told = self.gable("info", "p/rules/main.cga")
