@@ -70,7 +70,10 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
   if (!inputs.rules.found()) return kExitFile;
   if (!inputs.rules.ok()) return statusOf(inputs.rules.diagnostics(), kExitWrong);
   if (!arguments.shapes.empty()) {
-    inputs.shapes = gable::Shapes::load(arguments.shapes, limits);
+    const size_t equals = arguments.only.find('=');
+    gable::FeatureSelection selection{arguments.layer, arguments.only.substr(0, equals), {}};
+    if (equals != std::string::npos) selection.value = arguments.only.substr(equals + 1);
+    inputs.shapes = gable::Shapes::load(arguments.shapes, limits, selection);
   } else {
     double width = 20, depth = 20;
     double sides[2] = {width, depth};

@@ -42,6 +42,8 @@ gable::FileLimits fileLimits(const LimitArguments& arguments);
 struct DeriveArguments {
   std::string rules;
   std::string shapes;
+  /// Which features of --shapes: a layer, and a property or PROPERTY=VALUE.
+  std::string layer, only;
   std::string lot;
   bool cutNested = false;
   std::optional<std::string> start;

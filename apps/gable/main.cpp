@@ -62,9 +62,15 @@ void addSearch(CLI::App* app, gable::SearchSettings& search) {
 }
 
 void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
-  auto* shapes = app->add_option("--shapes", a.shapes, "Footprints: .geojson .obj .gltf .glb");
+  auto* shapes = app->add_option("--shapes", a.shapes,
+                                 "Footprints: .geojson .osm .pbf .gpkg .fgb .shp .obj .gltf .glb");
   app->add_option("--lot", a.lot, "A rectangular lot in metres, such as 30x40 (default 20x20)")
       ->excludes(shapes);
+  app->add_option("--only", a.only,
+                  "Only features of --shapes with this property: building, or landuse=grass\n"
+                  "(default for OpenStreetMap: building)")
+      ->needs(shapes);
+  app->add_option("--layer", a.layer, "The layer of --shapes, where it has several")->needs(shapes);
   app->add_flag("--cut-nested", a.cutNested, "Cut footprints out of larger ones that they lie in");
   app->add_option("--style", a.style, "A style that the rule file declares");
   app->add_option("--start", a.start,

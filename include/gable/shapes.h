@@ -16,6 +16,18 @@
 
 namespace gable {
 
+/// Which features of a map (GeoJSON, OpenStreetMap, GeoPackage, FlatGeobuf, shapefile) become
+/// shapes.
+struct FeatureSelection {
+  /// Of a file with several layers.
+  std::string layer;
+  /// A property that features must have, such as "landuse", other than null and "no". Empty for all
+  /// features; in files of OpenStreetMap for those with "building".
+  std::string key;
+  /// The value of the property; empty for any.
+  std::string value;
+};
+
 class Shapes {
  public:
   /// A rectangle: a corner at the origin, `width` along +x, `depth` along -z, facing up.
@@ -28,11 +40,13 @@ class Shapes {
   static Shapes mesh(const std::vector<std::array<double, 3>>& vertices,
                      const std::vector<std::vector<uint32_t>>& faces,
                      const std::vector<std::vector<uint32_t>>& holes = {});
-  /// .obj .gltf .glb .geojson .json, by extension.
-  static Shapes load(const std::string& path, const FileLimits& limits = {});
+  /// By extension: .geojson .json; .osm .pbf where gable-maps is built; .gpkg .fgb .shp where
+  /// GDAL's programs are installed; .obj .gltf .glb; .fbx .dae where gable-convert is built.
+  static Shapes load(const std::string& path, const FileLimits& limits = {},
+                     const FeatureSelection& selection = {});
   /// The same for a file's content in memory; `name` gives the extension.
   static Shapes parse(const std::string& content, const std::string& name,
-                      const FileLimits& limits = {});
+                      const FileLimits& limits = {}, const FeatureSelection& selection = {});
 
   /// The same with footprints cut out of larger ones that they lie in or overlap, so that buildings
   /// in courts do not stand in their neighbours.

@@ -172,7 +172,8 @@ Shapes::Outline outlineOf(const ShapeFootprint& f) {
   return out;
 }
 
-std::shared_ptr<Shapes::Impl> parsed(const std::string& content, const std::string& name) {
+std::shared_ptr<Shapes::Impl> parsed(const std::string& content, const std::string& name,
+                                     const FeatureSelection& selection) {
   AssetOptions options;
   options.path = name;
   // Buffers are read from the file's own folder and below, nowhere else.
@@ -181,7 +182,8 @@ std::shared_ptr<Shapes::Impl> parsed(const std::string& content, const std::stri
     if (found.empty()) return Error{"file-missing", "there is no such file in the folder", {}};
     return readFile(found, kLargestShapeFile);
   };
-  Result<ShapeFile> file = readShapes(content, options);
+  Result<ShapeFile> file =
+      readShapes(content, options, {selection.layer, selection.key, selection.value});
   if (!file.ok()) return refused(file.error());
   auto impl = std::make_shared<Shapes::Impl>();
   impl->geoOrigin = file->geoOrigin;
@@ -224,20 +226,21 @@ Shapes Shapes::mesh(const std::vector<std::array<double, 3>>& vertices,
       guarded<Impl>(Task("making a mesh", {}, {}), [&] { return ofMesh(vertices, faces, holes); }));
 }
 
-Shapes Shapes::load(const std::string& path, const FileLimits& limits) {
+Shapes Shapes::load(const std::string& path, const FileLimits& limits,
+                    const FeatureSelection& selection) {
   return Shapes(guarded<Impl>(Task("reading", path, limits), [&] {
     Result<std::string> content = readFile(path, kLargestShapeFile);
-    if (content.ok()) return parsed(content.value(), path);
+    if (content.ok()) return parsed(content.value(), path, selection);
     auto impl = refused(content.error());
     impl->found = false;
     return impl;
   }));
 }
 
-Shapes Shapes::parse(const std::string& content, const std::string& name,
-                     const FileLimits& limits) {
-  return Shapes(
-      guarded<Impl>(Task("reading", name, limits), [&] { return parsed(content, name); }));
+Shapes Shapes::parse(const std::string& content, const std::string& name, const FileLimits& limits,
+                     const FeatureSelection& selection) {
+  return Shapes(guarded<Impl>(Task("reading", name, limits),
+                              [&] { return parsed(content, name, selection); }));
 }
 
 Shapes Shapes::withNestedCut(const FileLimits& limits) const {

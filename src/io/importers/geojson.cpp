@@ -52,12 +52,15 @@ bool pointOf(const JsonValue& v, Vec2& out) {
 
 class GeoJsonReader {
  public:
-  explicit GeoJsonReader(std::string path) : path_(std::move(path)) {}
+  GeoJsonReader(std::string path, const FeatureFilter& filter)
+      : path_(std::move(path)), filter_(filter) {}
 
   Result<ShapeFile> read(std::string_view text);
 
  private:
   void collect(const JsonValue& v);
+  bool passes(const Feature& f) const;
+  Error empty() const;
   void chooseProjection(const JsonValue& root);
   bool tellsMetres();
   void measure(const JsonValue& geometry, bool lines, int depth);
@@ -80,6 +83,7 @@ class GeoJsonReader {
   static void addAttributes(const JsonValue& properties, ShapeInput& shape);
 
   std::string path_;
+  const FeatureFilter& filter_;
   ShapeFile out_;
   std::vector<Feature> features_;
   Box2 extent_;
@@ -99,7 +103,7 @@ class GeoJsonReader {
   MeshBuilder allLines_;
   std::vector<std::string> allLineTags_;
   size_t lineFeatures_ = 0;
-  size_t faces_ = 0, messages_ = 0, otherGeometries_ = 0;
+  size_t seen_ = 0, faces_ = 0, messages_ = 0, otherGeometries_ = 0;
 };
 
 std::string GeoJsonReader::place() const {
@@ -121,6 +125,14 @@ void GeoJsonReader::complain(Severity severity, const char* code, const std::str
   out_.diagnostics.add(std::move(d));
 }
 
+bool GeoJsonReader::passes(const Feature& f) const {
+  if (filter_.key.empty()) return true;
+  if (!f.properties) return false;
+  const JsonValue& v = (*f.properties)[filter_.key];
+  if (!filter_.value.empty()) return textOf(v) == filter_.value;
+  return !v.isNull() && v.text() != "no";
+}
+
 void GeoJsonReader::collect(const JsonValue& v) {
   const std::string& type = v["type"].text();
   if (type == "FeatureCollection") {
@@ -130,7 +142,7 @@ void GeoJsonReader::collect(const JsonValue& v) {
     return;
   }
   Feature f;
-  f.number = features_.size();
+  f.number = seen_;
   if (type == "Feature") {
     f.geometry = v.find("geometry");
     f.properties = v.find("properties");
@@ -141,7 +153,8 @@ void GeoJsonReader::collect(const JsonValue& v) {
   } else {
     f.geometry = &v;
   }
-  features_.push_back(std::move(f));
+  ++seen_;
+  if (passes(f)) features_.push_back(std::move(f));
 }
 
 // The extent of all polygons, or of lines too.
@@ -407,12 +420,19 @@ PlainValue plainOf(const JsonValue& v) {
   return {PlainValue::Kind::Text, 0, v.text()};
 }
 
+// Maps name "roof:shape" what a rule calls roof_shape.
+std::string attributeName(std::string key) {
+  std::replace_if(
+      key.begin(), key.end(), [](char c) { return c == ':' || c == '-' || c == ' '; }, '_');
+  return key;
+}
+
 void GeoJsonReader::addAttributes(const JsonValue& properties, ShapeInput& shape) {
   const auto isPlain = [](const JsonValue& v) { return v.isNumber() || v.isBool() || v.isText(); };
   for (const JsonValue::Member& member : properties.members()) {
     const JsonValue& v = member.second;
     AttributeValue a;
-    a.name = member.first;
+    a.name = attributeName(member.first);
     if (isPlain(v)) {
       a.values.push_back(plainOf(v));
     } else if (v.isArray() && v.size() > 0) {
@@ -463,6 +483,19 @@ void GeoJsonReader::addFeature(const Feature& f) {
   out_.shapes.push_back(std::move(shape));
 }
 
+Error GeoJsonReader::empty() const {
+  if (filter_.key.empty() || seen_ == 0) {
+    return {"shapes-empty",
+            "'" + path_ + "' has no polygon and no line that could be an initial shape",
+            {}};
+  }
+  const std::string wanted = filter_.key + (filter_.value.empty() ? "" : '=' + filter_.value);
+  return {"shapes-empty",
+          "none of the " + std::to_string(seen_) + " features of '" + path_ + "' that has '" +
+              wanted + "' is a polygon or a line",
+          "choose others with --only, such as --only landuse or --only natural=water"};
+}
+
 Result<ShapeFile> GeoJsonReader::read(std::string_view text) {
   const Result<JsonValue> root = parseJson(text);
   if (!root.ok()) {
@@ -490,17 +523,16 @@ Result<ShapeFile> GeoJsonReader::read(std::string_view text) {
     out_.diagnostics.add(std::move(d));
   }
   if (out_.shapes.empty() && !out_.diagnostics.hasErrors()) {
-    return Error{"shapes-empty",
-                 "'" + path_ + "' has no polygon and no line that could be an initial shape",
-                 {}};
+    return empty();
   }
   return std::move(out_);
 }
 
 }  // namespace
 
-Result<ShapeFile> readGeoJsonShapes(std::string_view text, const std::string& path) {
-  return GeoJsonReader(path).read(text);
+Result<ShapeFile> readGeoJsonShapes(std::string_view text, const std::string& path,
+                                    const FeatureFilter& filter) {
+  return GeoJsonReader(path, filter).read(text);
 }
 
 }  // namespace gable

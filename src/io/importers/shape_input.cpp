@@ -9,6 +9,7 @@
 #include "geom/mesh/cleanup.h"
 #include "io/importers/converted.h"
 #include "io/importers/gltf_meshes.h"
+#include "io/importers/map_file.h"
 #include "io/importers/shape_parts.h"
 
 namespace gable {
@@ -55,11 +56,24 @@ Result<ShapeFile> readGltfShapes(std::string_view bytes, const AssetOptions& opt
   return out;
 }
 
-Result<ShapeFile> readShapes(std::string_view bytes, const AssetOptions& options) {
+namespace {
+
+Result<ShapeFile> readMapShapes(std::string_view bytes, const AssetOptions& options,
+                                FeatureFilter filter) {
+  if (filter.key.empty() && isOpenStreetMap(options.path)) filter.key = "building";
+  Result<std::string> text = mapAsGeoJson(bytes, options, filter.layer);
+  return text.ok() ? readGeoJsonShapes(*text, options.path, filter) : text.error();
+}
+
+}  // namespace
+
+Result<ShapeFile> readShapes(std::string_view bytes, const AssetOptions& options,
+                             const FeatureFilter& filter) {
   const std::string extension = extensionOf(options.path);
   if (extension == "geojson" || extension == "json") {
-    return readGeoJsonShapes(bytes, options.path);
+    return readGeoJsonShapes(bytes, options.path, filter);
   }
+  if (isMap(options.path)) return readMapShapes(bytes, options, filter);
   if (extension == "obj") return readObjShapes(bytes, options);
   if (isConvertible(options.path)) {
     Result<ConvertedModel> model = convertModel(bytes, options);
@@ -67,7 +81,7 @@ Result<ShapeFile> readShapes(std::string_view bytes, const AssetOptions& options
   }
   if (extension == "gltf" || extension == "glb") return readGltfShapes(bytes, options);
   return Error{"shapes-unknown", "'" + options.path + "' is no file of shapes that can be read",
-               "use GeoJSON, OBJ or glTF"};
+               "use GeoJSON, OpenStreetMap, GeoPackage, FlatGeobuf, a shapefile, OBJ or glTF"};
 }
 
 ShapeInput lotShape(double width, double depth) {

@@ -6,6 +6,7 @@
 //   GeoJSON  a shape a feature with polygons, a face a polygon, holes kept; properties are
 //            attributes. Lines beside polygons in a feature belong to its shape; those of a file
 //            without any polygon make one shape, "lines". A line is faces of two corners.
+//   maps     OpenStreetMap, GeoPackage, FlatGeobuf and shapefiles, read as GeoJSON
 //   OBJ      a shape an object (o), or a group (g) where there are no objects, or the whole file
 //   glTF     a shape a node with a mesh
 //
@@ -45,10 +46,23 @@ struct ShapeFile {
   Diagnostics diagnostics;
 };
 
-/// By extension: .geojson .json .obj .gltf .glb. Codes: shapes-unknown, shapes-broken,
-/// shapes-empty, and those of assets.
-Result<ShapeFile> readShapes(std::string_view bytes, const AssetOptions& options);
-Result<ShapeFile> readGeoJsonShapes(std::string_view text, const std::string& path);
+/// Which features of a map become shapes.
+struct FeatureFilter {
+  /// Of formats with layers; may be empty where the file has one.
+  std::string layer;
+  /// A property that features must have, other than null and "no". Empty for all features; in files
+  /// of OpenStreetMap for those with "building".
+  std::string key;
+  /// The value of the property; empty for any.
+  std::string value;
+};
+
+/// By extension: .geojson .json .osm .pbf .gpkg .fgb .shp .obj .gltf .glb .fbx .dae. Codes: shapes-
+/// unknown, shapes-broken, shapes-empty, and those of maps and assets.
+Result<ShapeFile> readShapes(std::string_view bytes, const AssetOptions& options,
+                             const FeatureFilter& filter = {});
+Result<ShapeFile> readGeoJsonShapes(std::string_view text, const std::string& path,
+                                    const FeatureFilter& filter = {});
 Result<ShapeFile> readObjShapes(std::string_view text, const AssetOptions& options);
 Result<ShapeFile> readGltfShapes(std::string_view bytes, const AssetOptions& options);
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Maps in formats that other programs read for us, as GeoJSON: OpenStreetMap by gable-maps,
+// GeoPackage, FlatGeobuf and shapefiles by ogr2ogr of GDAL. Both run with limits; where one is not
+// installed, an error names its package.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+#include "io/importers/asset.h"
+
+namespace gable {
+
+/// By extension: .osm .pbf .gpkg .fgb .shp.
+bool isMap(const std::string& path);
+/// Whether it is one of OpenStreetMap: a feature has its kind as a key there, in no layer.
+bool isOpenStreetMap(const std::string& path);
+
+/// The map, or the layer of it, in degrees; in the units of the file where that does not say what
+/// they are. The parts of a shapefile (.dbf .prj .shx .cpg) are read by `options`. Codes: shapes-
+/// reader, shapes-layer, shapes-broken, shapes-too-large.
+Result<std::string> mapAsGeoJson(std::string_view bytes, const AssetOptions& options,
+                                 const std::string& layer);
+
+}  // namespace gable
