@@ -8,28 +8,15 @@
 #include "geom/mesh/face_triangles.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/work.h"
+#include "geom/mesh/projection.h"
 #include "geom/region/triangulate.h"
 
 namespace gable {
 namespace {
 
 constexpr uint32_t kLongestFan = 8;
-
-// Which coordinates become x and y so that the normal points at the viewer.
-struct Projection {
-  size_t x = 0, y = 1;
-  Vec2 operator()(const Vec3& p) const { return {p[x], p[y]}; }
-};
-
-Projection projectionFor(const Vec3& n) {
-  const double ax = std::fabs(n.x), ay = std::fabs(n.y), az = std::fabs(n.z);
-  if (az >= ax && az >= ay) return n.z >= 0 ? Projection{0, 1} : Projection{1, 0};
-  if (ay >= ax) return n.y >= 0 ? Projection{2, 0} : Projection{0, 2};
-  return n.x >= 0 ? Projection{1, 2} : Projection{2, 1};
-}
 
 }  // namespace
 
