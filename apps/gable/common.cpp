@@ -48,7 +48,7 @@ int checkExtension(const std::string& path, const std::vector<std::string>& exte
 }
 
 void print(const gable::DiagnosticList& diagnostics) {
-  for (const gable::Diagnostic& d : diagnostics) std::fputs(d.rendered.c_str(), stderr);
+  std::fputs(gable::render(diagnostics).c_str(), stderr);
 }
 
 gable::FileLimits fileLimits(const LimitArguments& arguments) {

@@ -72,7 +72,9 @@ void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
       ->needs(shapes);
   app->add_option("--layer", a.layer, "The layer of --shapes, where it has several")->needs(shapes);
   app->add_flag("--cut-nested", a.cutNested, "Cut footprints out of larger ones that they lie in");
-  app->add_option("--style", a.style, "A style that the rule file declares");
+  app->add_option(
+      "--style", a.style,
+      "A style that the rule file declares, or IMPORT.STYLE; several with commas between");
   app->add_option("--start", a.start,
                   "The rule to start with (default: the one with @StartRule, else the first)");
   app->add_option("--set", a.set, "An attribute's value: NAME=VALUE; may be repeated")

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <new>
 #include <stdexcept>
 
@@ -32,11 +33,67 @@ bool hasErrors(const DiagnosticList& diagnostics) {
                      [](const Diagnostic& d) { return d.isError(); });
 }
 
+namespace {
+
+// The name in the first quotes of a message; empty without one.
+std::string quotedName(const std::string& message) {
+  const size_t from = message.find('\'');
+  const size_t to = from == std::string::npos ? from : message.find('\'', from + 1);
+  return to == std::string::npos ? std::string() : message.substr(from + 1, to - from - 1);
+}
+
+// A name that nothing is known of, and of which nothing better can be said than that.
+bool isPlainLeaf(const Diagnostic& d) {
+  const std::string name = quotedName(d.message);
+  return d.code == "undefined-rule" && d.range && !name.empty() &&
+         d.hint.find("'" + name + ".'") != std::string::npos;
+}
+
+// Up to so many names of a file are told one by one.
+constexpr size_t kFewLeaves = 3;
+
+struct Leaves {
+  std::vector<std::string> names;
+  std::string list;
+};
+
+// One line for all of a file.
+std::string rendered(const std::string& file, const Leaves& leaves) {
+  return file + ": warning: " + std::to_string(leaves.names.size()) +
+         " names are no rules or operations, and become leaves: " + leaves.list +
+         " [undefined-rule]\n  hint: write '" + leaves.names[0] +
+         ".' if it shall be a leaf, and so on\n";
+}
+
+}  // namespace
+
+// A file with many leaves would bury what is wrong with it.
 std::string render(const DiagnosticList& diagnostics) {
   return guardedValue<std::string>([&] {
-    std::string out;
-    for (const Diagnostic& d : diagnostics) out += d.rendered;
-    return out;
+    std::map<std::string, Leaves> files;
+    for (const Diagnostic& d : diagnostics) {
+      if (!isPlainLeaf(d)) continue;
+      Leaves& leaves = files[d.range->file];
+      const std::string name = quotedName(d.message);
+      if (std::find(leaves.names.begin(), leaves.names.end(), name) != leaves.names.end()) continue;
+      leaves.names.push_back(name);
+      leaves.list += (leaves.list.empty() ? "" : ", ") + name + " (" +
+                     std::to_string(d.range->line) + ":" + std::to_string(d.range->column) + ")";
+    }
+    std::string errors, warnings;
+    for (const Diagnostic& d : diagnostics) {
+      if (d.isError()) {
+        errors += d.rendered;
+        continue;
+      }
+      if (!isPlainLeaf(d) || files[d.range->file].names.size() <= kFewLeaves) {
+        warnings += d.rendered;
+      }
+    }
+    for (const auto& [file, leaves] : files) {
+      if (leaves.names.size() > kFewLeaves) warnings += rendered(file, leaves);
+    }
+    return errors + warnings;
   });
 }
 

@@ -254,6 +254,7 @@ void Analysis::checkOtherStyles() {
     infer();
     reportDuplicates(main);
     checkWrittenValues(main);
+    checkDefaults(main);
     program_.modules.resize(modules);
     scopes_.resize(modules);
     program_.rules.resize(rules);
@@ -270,6 +271,54 @@ void Analysis::checkOtherStyles() {
   }
 }
 
+// "Modern, roofs.Slate": a style of the file, and those of imports by their paths.
+std::string Analysis::chooseStyles(std::string_view text) {
+  std::string own(kDefaultStyle);
+  while (!text.empty()) {
+    const size_t end = std::min(text.find(','), text.size());
+    std::string_view one = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    while (one.starts_with(' ')) one.remove_prefix(1);
+    while (one.ends_with(' ')) one.remove_suffix(1);
+    const size_t dot = one.rfind('.');
+    if (dot != std::string_view::npos) {
+      importStyles_[std::string(one.substr(0, dot))] = {std::string(one.substr(dot + 1)), false};
+    } else if (!one.empty()) {
+      own = one;
+    }
+  }
+  return own;
+}
+
+void Analysis::reportUnusedStyles() {
+  for (const auto& [path, chosen] : importStyles_) {
+    if (chosen.taken) continue;
+    std::vector<std::string_view> paths;
+    for (const Module& m : program_.modules) {
+      if (!m.dynamic && !m.path.empty()) paths.push_back(m.path);
+    }
+    std::string hint = didYouMean(path, paths);
+    if (hint.empty() && !paths.empty()) hint = "it has the import " + quote(paths[0]);
+    error("unknown-style", {}, "the rule file has no import " + quote(path) + " with a style",
+          std::move(hint));
+  }
+}
+
+// The styles that imports offer, as chooseStyles() takes them.
+void Analysis::addImportedStyles() {
+  for (const Module& m : program_.modules) {
+    if (m.dynamic || m.importer == kNone) continue;
+    const Tree& t = program_.tree(m.importer);
+    const std::span<const NodeId> listed = t.children(t.child(m.importNode, 2));
+    for (const StyleInfo& s : units_[m.unit].styles) {
+      const bool offered =
+          std::any_of(listed.begin(), listed.end(), [&](NodeId n) { return t.text(n) == s.name; });
+      if (units_[m.unit].styles.size() < 2 || (!listed.empty() && !offered)) continue;
+      program_.styles.push_back({m.path + "." + s.name, "", s.description});
+    }
+  }
+}
+
 ResolvedProgram Analysis::run(AnalysisInput input) {
   const uint32_t file = input.tree.file();
   unitByPath_.emplace(input.path, 0);
@@ -279,7 +328,7 @@ ResolvedProgram Analysis::run(AnalysisInput input) {
   std::vector<uint32_t> open;
   loadImports(0, open);
 
-  std::string style = input.style.empty() ? "Default" : input.style;
+  std::string style = chooseStyles(input.style);
   const std::vector<StyleInfo>& styles = units_[0].styles;
   if (std::none_of(styles.begin(), styles.end(),
                    [&](const StyleInfo& s) { return s.name == style; })) {
@@ -300,9 +349,12 @@ ResolvedProgram Analysis::run(AnalysisInput input) {
   reportOverrideTypes();
   orderAttributes();
   checkWrittenValues(0);
+  checkDefaults(0);
   checkOtherStyles();
   chooseStartRule();
+  reportUnusedStyles();
   program_.styles = units_[0].styles;
+  addImportedStyles();
   program_.description = units_[0].description;
   return std::move(program_);
 }

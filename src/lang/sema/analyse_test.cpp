@@ -555,6 +555,27 @@ TEST(Analyse, importsTakeAStyle) {
   EXPECT_EQ(a.sources.locate(1, a.program.tree(r.module).span(r.node).begin).line, 3u);
 }
 
+TEST(Analyse, stylesOfImportsCanBeChosen) {
+  const std::map<std::string, std::string> files{
+      {"i.cga", "Lot --> extrude(1)\nstyle S\nLot --> extrude(2)\nstyle T\nLot --> extrude(3)"}};
+  const std::string text = "import i(S, T) : \"i.cga\" Lot --> i.Lot\nstyle Own Lot --> X. i.Lot";
+  const auto line = [&](const Analysed& a) {
+    const RuleInfo& r = a.rule("i.Lot");
+    return a.sources.locate(1, a.program.tree(r.module).span(r.node).begin).line;
+  };
+  EXPECT_EQ(line(Analysed(text, files)), 3u);
+  const Analysed t(text, files, "Own, i.T");
+  EXPECT_CLEAN(t);
+  EXPECT_EQ(line(t), 5u);
+  EXPECT_EQ(t.program.modules[0].style, "Own");
+  ASSERT_EQ(t.program.styles.size(), 4u);
+  EXPECT_EQ(t.program.styles[3].name, "i.T");
+  EXPECT_EQ(Analysed(text, files, "i.Default").problems(), "1:8 unknown-style\n");
+  const Analysed none(text, files, "j.T");
+  EXPECT_EQ(none.problems(), "unknown-style\n");
+  EXPECT_EQ(none.hint(0), "it has the import 'i'");
+}
+
 TEST(Analyse, otherStylesAreCheckedToo) {
   const Analysed a(
       "Lot --> Only\nstyle S\nLot --> extrude(\"x\") Only\nOnly --> X.\n"
@@ -609,6 +630,28 @@ TEST(Analyse, constantsAreFolded) {
   EXPECT_EQ(constant("z").type, ValueType::Null);
 }
 
+TEST(Analyse, namesOfTheFirstGrammarsAreExplained) {
+  const Analysed block(R"(Lot --> Subdiv("y", 3, 4) { A | B })");
+  EXPECT_NE(block.hint(0).find("split(y) {"), std::string::npos) << block.hint(0);
+  const Analysed plain("Lot --> Rx(45)");
+  EXPECT_EQ(plain.hint(0), "in CGA it is 'r(angle, 0, 0)'");
+}
+
+TEST(Analyse, slipsOfCapitalsNameTheOperation) {
+  const Analysed plain("Lot --> T(0, 1, 0)");
+  EXPECT_EQ(plain.problems(), "1:9 unknown-operation\n");
+  EXPECT_EQ(plain.hint(0), "did you mean 't'?");
+  const Analysed versioned("version \"2025.1\" Lot --> T(0, 1, 0)");
+  EXPECT_EQ(versioned.problems(), "1:26 undefined-rule (warning)\n");
+  EXPECT_EQ(versioned.hint(0), "did you mean 't'?");
+}
+
+TEST(Analyse, valuesThatTheirEnumLeavesOutHaveTheNearest) {
+  const Analysed a(R"(@Enum("low", "high") attr lod = "hihg" Lot --> X.)");
+  EXPECT_EQ(a.problems(), "1:33 attribute-outside (warning)\n");
+  EXPECT_EQ(a.hint(0), "did you mean 'high'?");
+}
+
 TEST(Analyse, startRules) {
   EXPECT_EQ(Analysed("A(x) --> X. B --> X. C --> X.").program.startRule, 1u);
   EXPECT_EQ(Analysed("A --> X. @StartRule B --> X. @StartRule C --> X.").program.startRule, 1u);
@@ -633,7 +676,8 @@ TEST(Analyse, annotationsBecomeData) {
 @Enum(valuesAttr=list) attr d = "x" @Group @Color attr c = "#ff" @File("png","jpg") attr f = ""
 @StartRule @InPolygon Lot --> X.
 @Decription("x") @Orders attr q = 1
-@PreferredSize(4, 3.5, 0) Bay --> X. @PreferredSize(4) Bad --> X.)");
+@PreferredSize(4, 3.5, 0) Bay --> X. @PreferredSize(4) Bad --> X.
+@Hidden attr list = ["x"])");
   EXPECT_EQ(a.problems(),
             "8:1 unknown-annotation (warning)\n8:18 unknown-annotation (warning)\n"
             "9:38 bad-annotation (warning)\n");

@@ -84,6 +84,9 @@ struct UnitIndex {
   double version = 0;
 };
 
+/// The style of all that stands before the first one.
+inline constexpr std::string_view kDefaultStyle = "Default";
+
 class Analysis {
  public:
   Analysis(const Catalogue& catalogue, ValuePool& values, FileLoader* loader, Sources& sources,
@@ -258,6 +261,7 @@ class Analysis {
   void visitSuccessorChoice(NodeId node);
   void visitBlocks(NodeId node, const OpSpec& op);
   void visitBlock(NodeId block, const OpSpec& op, bool nested);
+  void visitRemainder(NodeId block, const OpSpec& op);
   void visitItem(NodeId item, const OpSpec& op);
   void visitAllBlocks(NodeId node);
   bool applyRule(NodeId node, const std::vector<RuleId>& rules, std::span<const NodeId> arguments,
@@ -269,7 +273,7 @@ class Analysis {
   /// shape goes on without it.
   bool reportUnbuilt(NodeId node, std::string_view name, bool skipped = false);
   /// The operation whose name `name` is a slip of; empty when there is none.
-  std::string_view slippedOperation(std::string_view name, size_t arguments) const;
+  std::string_view slippedOperation(NodeId node);
   void checkWeights(NodeId choice);
 
   // --- parts.cpp: named parts of blocks, and the figures that they begin with ---
@@ -289,6 +293,16 @@ class Analysis {
   void checkWrittenCall(NodeId node, std::string_view callee, const Signature& signature,
                         std::span<const NodeId> arguments);
   bool hasTerm(NodeId node, std::string_view name) const;
+
+  // --- analyse.cpp: styles ---
+  std::string chooseStyles(std::string_view text);
+  void reportUnusedStyles();
+  void addImportedStyles();
+
+  // --- attribute_defaults.cpp: values that an attribute's own annotations leave out ---
+  void checkDefaults(ModuleId firstModule);
+  void checkDefault(NodeId node, const AttributeInfo& attribute);
+  void checkValuesAttribute(const AttributeInfo& attribute);
 
   // --- analyse.cpp: definitions and rounds ---
   void walkRule(RuleId id);
@@ -361,6 +375,12 @@ class Analysis {
   std::unordered_set<std::string> missingImports_;
   /// By (unit, import node): the unit imported; missing when it could not be loaded.
   std::map<std::pair<uint32_t, NodeId>, uint32_t> importedUnit_;
+  /// The styles that were chosen for imports, by their paths.
+  struct ChosenStyle {
+    std::string style;
+    bool taken = false;
+  };
+  std::map<std::string, ChosenStyle> importStyles_;
   std::map<std::pair<ModuleId, NodeId>, ModuleId> dynamicModules_;
   std::map<AttributeId, AttributeId> ownValues_;
   std::unordered_set<std::string_view> selectors_;

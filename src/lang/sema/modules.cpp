@@ -18,8 +18,6 @@ namespace gable::lang {
 
 namespace {
 
-constexpr std::string_view kDefaultStyle = "Default";
-
 std::string joinPath(const std::string& path, std::string_view name) {
   return path.empty() ? std::string(name) : path + "." + std::string(name);
 }
@@ -392,21 +390,35 @@ void Analysis::declareAttributes(ModuleId module, const StyleRanks& ranks) {
   }
 }
 
+// The style that was chosen for the import, else the first that it lists.
 std::string Analysis::styleOfImport(ModuleId importer, NodeId import, uint32_t unit) {
   const Tree& t = program_.tree(importer);
   std::string first(kDefaultStyle);
   bool isFirst = true;
+  std::vector<std::string_view> offered;
   for (const NodeId s : t.children(t.child(import, 2))) {
     std::vector<std::string_view> names;
     for (const StyleInfo& style : units_[unit].styles) names.push_back(style.name);
     if (std::find(names.begin(), names.end(), t.text(s)) == names.end()) {
       error("unknown-style", t.span(s), "the imported file has no style " + quote(t.text(s)),
             near(t.text(s), [&] { return names; }));
-    } else if (isFirst) {
-      first = std::string(t.text(s));
-      isFirst = false;
+      continue;
     }
+    offered.push_back(t.text(s));
+    if (isFirst) first = std::string(t.text(s));
+    isFirst = false;
   }
+  const auto chosen = importStyles_.find(joinPath(program_.modules[importer].path, t.text(import)));
+  if (chosen == importStyles_.end()) return first;
+  chosen->second.taken = true;
+  if (offered.empty()) {
+    for (const StyleInfo& style : units_[unit].styles) offered.push_back(style.name);
+  }
+  const std::string& wanted = chosen->second.style;
+  if (std::find(offered.begin(), offered.end(), wanted) != offered.end()) return wanted;
+  error("unknown-style", nameSpan(t, import),
+        "the import " + quote(chosen->first) + " has no style " + quote(wanted),
+        near(wanted, [&] { return offered; }));
   return first;
 }
 

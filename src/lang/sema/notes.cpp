@@ -143,6 +143,7 @@ void readRange(NoteReader& r, Annotations& out) {
   RangeNote note;
   double* const places[] = {&note.min, &note.max, &note.step};
   size_t next = 0;
+  bool hasMost = false;
   for (const NodeId a : r.arguments()) {
     if (r.string(a)) {
       EnumNote choices;
@@ -159,12 +160,19 @@ void readRange(NoteReader& r, Annotations& out) {
     } else if (n && (key == "min" || key == "max" || key == "stepsize" || key == "step_size" ||
                      key == "step")) {
       *places[key == "min" ? 0 : key == "max" ? 1 : 2] = *n;
+      hasMost = hasMost || key == "max";
     } else if (n && !isNamed && next < 3) {
       *places[next++] = *n;
+      hasMost = hasMost || next == 2;
     } else {
       r.warn(a, "this argument of '@Range' is not understood",
              "write '@Range(min=0, max=10, stepsize=1, restricted=true)'");
     }
+  }
+  if (hasMost && note.max < note.min) {
+    r.warn(r.node(), "the least value of this '@Range' is above the greatest",
+           "write '@Range(min=0, max=10)'");
+    return;
   }
   out.range = note;
 }

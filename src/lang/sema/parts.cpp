@@ -49,9 +49,8 @@ void Analysis::visitSizeHead(NodeId head, const OpSpec& op) {
   const bool isName = tree().kind(head) == NodeKind::Name;
   const std::string_view word = isName ? text(head) : std::string_view();
   if (isName && op.part(word)) {
-    // { remainder : ... } of the perimeter is a word.
-    resolve(head, RefKind::Selector);
-    typed(head, ValueType::Selector);
+    errorAt("unexpected-head", head, quote(word) + " stands in a block of its own",
+            "write '{ length : depth : ... } { " + std::string(word) + " : ... }'");
     return;
   }
   std::string owners = isName && !isKnownValue(word) ? partOwners(word) : std::string();
@@ -136,6 +135,44 @@ void Analysis::checkFigure(NodeId item, const OpSpec& op) {
               " stands in the rule " + quote(name),
           "begin the block with it, '" + (plain ? std::string() : std::string(word) + " : ") +
               figure->name + "(..) " + name + "', and take it out of the rule");
+}
+
+// { remainder : operations }
+void Analysis::visitRemainder(NodeId block, const OpSpec& op) {
+  const Tree& t = tree();
+  if (t.has(block, kFlagRepeat)) {
+    errorAt("unexpected-repeat", block, "what remains is one part, and cannot be repeated",
+            "remove the '*'");
+  }
+  for (const NodeId item : t.children(block)) {
+    if (t.kind(item) != NodeKind::Item) {
+      errorAt("unexpected-group", item, "this block has one part, without groups",
+              "remove the inner braces");
+      continue;
+    }
+    const NodeId head = t.child(item, 0);
+    if (head == kNoNode) {
+      errorAt("missing-selector", item, "this part has no selector",
+              "write 'remainder : operations'");
+    } else if (t.kind(head) == NodeKind::Name && op.part(t.text(head))) {
+      resolve(head, RefKind::Selector);
+      typed(head, ValueType::Selector);
+    } else if (t.kind(head) == NodeKind::Name) {
+      reportSelector(head, &op);
+    } else if (t.kind(head) != NodeKind::Missing) {
+      visit(head);
+      errorAt("unexpected-head", head, "the second block of " + quote(op.name) + " has one part",
+              "write 'remainder : operations'");
+    }
+    if (t.child(item, 1) != kNoNode && t.kind(t.child(item, 1)) != NodeKind::Missing) {
+      errorAt("unexpected-head", t.child(item, 1), "what remains has no depth",
+              "write 'remainder : operations'");
+    }
+    visitSequence(t.child(item, 2));
+  }
+  if (t.children(block).size() > 1) {
+    errorAt("unexpected-separator", block, "what remains is one part", "remove the others");
+  }
 }
 
 }  // namespace gable::lang

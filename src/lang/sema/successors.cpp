@@ -23,12 +23,39 @@ std::string hintOfNewName(std::string_view name) {
   return "write '" + std::string(name) + "', or let 'gable format' rewrite the file";
 }
 
+/// A split whose parts have a depth as well, and a second block for what they leave.
+bool hasSections(const OpSpec& op) { return op.block == BlockKind::Split && !op.parts.empty(); }
+
 bool equalButForCase(std::string_view a, std::string_view b) {
   const auto lower = [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   };
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+/// Operations of the first shape grammars and of CityEngine before 2009, and what CGA has in their
+/// place.
+std::string hintOfEarlyName(std::string_view name) {
+  struct Early {
+    std::string_view name;
+    const char* hint;
+  };
+  constexpr Early kEarly[] = {
+      {"subdiv",
+       "in CGA it is 'split(y) { size : operations | ... }': the axis is a word, and each "
+       "size stands before its part"},
+      {"repeat", "in CGA it is 'split(x) { ~size : operations }*'"},
+      {"component", "in CGA it is 'comp(f) { side : operations | top : operations }'"},
+      {"rx", "in CGA it is 'r(angle, 0, 0)'"},
+      {"ry", "in CGA it is 'r(0, angle, 0)'"},
+      {"rz", "in CGA it is 'r(0, 0, angle)'"},
+      {"snap", "CGA has no snap lines; give the parts that shall line up equal sizes"},
+  };
+  for (const Early& e : kEarly) {
+    if (equalButForCase(name, e.name)) return e.hint;
+  }
+  return {};
 }
 
 }  // namespace
@@ -92,8 +119,11 @@ void Analysis::makeLeaf(NodeId node, bool known) {
   if (known) return;
   for (const NodeId block : tree().children(node).subspan(1)) {
     const std::string_view now = modernOperation(text(node));
-    std::string hint = now.empty() ? near(text(node), [&] { return ruleNames(body_.module); })
-                                   : hintOfNewName(now);
+    std::string hint = hintOfEarlyName(text(node));
+    if (hint.empty()) {
+      hint = now.empty() ? near(text(node), [&] { return ruleNames(body_.module); })
+                         : hintOfNewName(now);
+    }
     const std::string nearest = now.empty() ? std::exchange(meant_, {}).nearest : std::string(now);
     errorAt("unexpected-block", block,
             quote(text(node)) + " is no operation, so it cannot have a block", std::move(hint));
@@ -117,14 +147,16 @@ bool Analysis::reportUnbuilt(NodeId node, std::string_view name, bool skipped) {
 // A name with arguments that is nearly that of an operation is meant to be it; as a leaf the model
 // would lack what the operation makes. Rules begin with a capital, and a file may call rules that
 // it does not define: so a name with a capital must be that of an operation but for the case, and
-// have arguments that the operation takes.
-std::string_view Analysis::slippedOperation(std::string_view name, size_t arguments) const {
+// have arguments that the operation takes, in number and type: T(0, 1, 0).
+std::string_view Analysis::slippedOperation(NodeId node) {
   constexpr size_t kShortest = 5;
+  const std::string_view name = text(node);
   if (name.empty()) return {};
   if (name[0] < 'a' || name[0] > 'z') {
     for (const OpSpec* op : catalogue_.operations) {
-      if (name.size() > 1 && equalButForCase(name, op->name) &&
-          acceptsCount(op->signatures, arguments)) {
+      if (!equalButForCase(name, op->name)) continue;
+      if (name.size() > 1 ? acceptsCount(op->signatures, arguments(tree().child(node, 0)).size())
+                          : fitsOperation(node, *op)) {
         return op->name;
       }
     }
@@ -158,6 +190,7 @@ void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
   }
   if (ruleInAnyStyle(body_.module, name) || inMissingImport(body_.module, name)) return;
   const bool called = tree().kind(node) == NodeKind::Apply && tree().child(node, 0) != kNoNode;
+  std::string_view meant;
   if (called) {
     if (const std::string_view now = modernOperation(name); !now.empty()) {
       error("unknown-operation", span, "there is no operation or rule " + quote(name),
@@ -165,17 +198,21 @@ void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
       fix(span, std::string(now));
       return;
     }
-    const size_t given = arguments(tree().child(node, 0)).size();
-    const std::string_view meant = slippedOperation(name, given);
+    meant = slippedOperation(node);
     if (!meant.empty() && !isVersioned(body_.module)) {
-      std::string hint = near(name, [&] { return std::vector<std::string_view>{meant}; });
+      meant_ = {name, std::string(meant)};
       error("unknown-operation", span, "there is no operation or rule " + quote(name),
-            std::move(hint));
+            "did you mean " + quote(meant) + "?");
       return;
     }
   }
   const std::pair<ModuleId, std::string_view> place = enter(body_.module, name);
   std::string hint = near(place.second, [&] { return ruleNames(place.first); });
+  if (hint.empty()) hint = hintOfEarlyName(name);
+  if (hint.empty() && !meant.empty()) {
+    meant_ = {name, std::string(meant)};
+    hint = "did you mean " + quote(meant) + "?";
+  }
   const bool leaf = hint.empty();
   if (name == "if" || name == "while" || name == "for") {
     meant_ = {};
@@ -466,10 +503,11 @@ void Analysis::visitBlocks(NodeId node, const OpSpec& op) {
     errorAt("missing-block", node, name + " needs a block", hints[static_cast<size_t>(op.block)]);
   }
   for (size_t i = 0; i < blocks.size(); ++i) {
-    // The perimeter's second block holds its remainder.
-    if (i > 0 && !(i == 1 && op.block == BlockKind::Split)) {
-      errorAt("unexpected-block", blocks[i], name + " takes no further block", "");
+    if (i == 1 && hasSections(op)) {
+      visitRemainder(blocks[i], op);
+      continue;
     }
+    if (i > 0) errorAt("unexpected-block", blocks[i], name + " takes no further block", "");
     visitBlock(blocks[i], op, false);
   }
 }
@@ -562,12 +600,15 @@ void Analysis::visitItem(NodeId item, const OpSpec& op) {
     }
   }
   if (second != kNoNode) {
+    checkPrefix(second, {});
     expectType(second, visit(second, ValueType::Float), ValueType::Float, "a depth");
-    const bool written = t.kind(second) != NodeKind::Missing;
-    if (written && op.name != std::string_view("splitAndSetbackPerimeter")) {
+    if (t.kind(second) != NodeKind::Missing && !hasSections(op)) {
       errorAt("unexpected-head", second, "only splitAndSetbackPerimeter takes a second size",
               "remove one of the two");
     }
+  } else if (head != kNoNode && t.kind(head) != NodeKind::Missing && hasSections(op)) {
+    errorAt("missing-depth", head, "this section has a length, but no depth",
+            "write 'length : depth : operations'");
   }
   visitSequence(t.child(item, 2));
   checkFigure(item, op);
