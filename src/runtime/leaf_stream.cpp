@@ -37,19 +37,11 @@ class Placer {
     root.world = world;
     root.axes = world.turned ? ++lastAxes_ : kUpright;
     while (depth_ > 0) {
-      Level& at = levels_[depth_ - 1];
-      const Prototype& prototype = *at.prototype;
-      const bool more = at.instance < prototype.instanceCount;
-      const Instance* const next =
-          more ? &from_.instances[prototype.firstInstance + at.instance++] : nullptr;
-      const uint32_t end = more ? next->leavesBefore : prototype.leafCount;
-      put(std::span(from_.leaves).subspan(prototype.firstLeaf + at.leaf, end - at.leaf), at);
-      at.leaf = end;
-      if (more) {
+      const Instance* const next = goOn(levels_[depth_ - 1]);
+      if (next)
         enter(*next);
-      } else {
+      else
         --depth_;
-      }
     }
     pass();
   }
@@ -72,6 +64,30 @@ class Placer {
     level.leaf = level.instance = 0;
     return level;
   }
+  // Places what is left of a level up to an instance that holds others, and gives that one; null
+  // where there is none. Instances that hold leaves alone, which most do, need no level.
+  const Instance* goOn(Level& at) {
+    const Prototype& prototype = *at.prototype;
+    const Leaf* const leaves = from_.leaves.data() + prototype.firstLeaf;
+    const Instance* const instances = from_.instances.data() + prototype.firstInstance;
+    const auto putUpTo = [&](uint32_t end) {
+      if (at.leaf < end) put({leaves + at.leaf, leaves + end}, at.world, at.world.origin, at.axes);
+      at.leaf = end;
+    };
+    while (at.instance < prototype.instanceCount) {
+      const Instance& next = instances[at.instance++];
+      putUpTo(next.leavesBefore);
+      const Prototype& inner = from_.prototypes[next.prototype].range;
+      if (inner.instanceCount > 0) return &next;
+      const std::span<const Leaf> within(from_.leaves.data() + inner.firstLeaf, inner.leafCount);
+      if (!next.frame.turned)
+        put(within, at.world, at.world.point(next.frame.origin), at.axes);
+      else
+        put(within, at.world * next.frame);
+    }
+    putUpTo(prototype.leafCount);
+    return nullptr;
+  }
   void enter(const Instance& instance) {
     Level& level = open(from_.prototypes[instance.prototype].range);
     const Level& around = levels_[depth_ - 2];
@@ -84,34 +100,43 @@ class Placer {
       level.world.origin = around.world.point(instance.frame.origin);
     }
   }
-  void put(std::span<const Leaf> leaves, const Level& level) {
+  void put(std::span<const Leaf> leaves, const Frame& world) {
+    put(leaves, world, world.origin, ++lastAxes_);
+  }
+  // The frame that they lie in has the axes of `world`, and begins at `origin`.
+  void put(std::span<const Leaf> leaves, const Frame& world, const Vec3& origin,
+           AxesNumber number) {
     while (!leaves.empty()) {
       const size_t count = std::min(leaves.size(), batch_.size() - count_);
       Leaf* placed = batch_.data() + count_;
       AxesNumber* axes = axesOf_.data() + count_;
-      for (const Leaf& leaf : leaves.first(count)) placeLeaf(leaf, level, *placed++, *axes++);
+      for (const Leaf& leaf : leaves.first(count)) {
+        if (leaf.frame.turned) {
+          *axes = ++lastAxes_;
+          placeTurned(leaf.frame, world, origin, *placed);
+        } else {
+          if (*axes != number) {
+            *axes = number;
+            placed->frame = world;
+          }
+          placed->frame.origin = origin + world.direction(leaf.frame.origin);
+        }
+        placed->scale = leaf.scale;
+        placed->mesh = leaf.mesh;
+        placed->materials = leaf.materials;
+        placed->name = leaf.name;
+        placed->source = leaf.source;
+        placed->attributes = leaf.attributes;
+        ++placed, ++axes;
+      }
       leaves = leaves.subspan(count);
       count_ += count;
       if (count_ == batch_.size()) pass();
     }
   }
-  void placeLeaf(const Leaf& leaf, const Level& level, Leaf& placed, AxesNumber& axes) {
-    if (leaf.frame.turned) {
-      axes = ++lastAxes_;
-      placed.frame = level.world * leaf.frame;
-    } else {
-      if (axes != level.axes) {
-        axes = level.axes;
-        placed.frame = level.world;
-      }
-      placed.frame.origin = level.world.point(leaf.frame.origin);
-    }
-    placed.scale = leaf.scale;
-    placed.mesh = leaf.mesh;
-    placed.materials = leaf.materials;
-    placed.name = leaf.name;
-    placed.source = leaf.source;
-    placed.attributes = leaf.attributes;
+  static void placeTurned(const Frame& leaf, Frame world, const Vec3& origin, Leaf& placed) {
+    world.origin = origin;
+    placed.frame = world * leaf;
   }
   void pass() {
     if (count_ > 0) take_({batch_.data(), count_});
