@@ -4,6 +4,7 @@
 #include "runtime/output.h"
 
 #include <algorithm>
+#include <new>
 
 #include "base/hash.h"
 
@@ -58,12 +59,24 @@ void Output::drop() {
 
 namespace {
 
+// Lists of more bytes than this grow by more than double.
+constexpr size_t kLarge = size_t{1} << 20;
+
+// Every page that is touched for the first time costs the system as much as the leaves in it cost
+// the machine, and workers wait for each other there. What is reserved and never touched is free.
 // Before anything is moved: where memory is refused, all stays as it was.
 template <class T>
 void makeRoom(std::vector<T>& to, size_t more) {
-  if (to.capacity() - to.size() < more) {
-    to.reserve(std::max(2 * to.capacity(), to.size() + more));
+  if (to.capacity() - to.size() >= more) return;
+  const size_t least = to.size() + more, twice = std::max(2 * to.capacity(), least);
+  if (to.size() * sizeof(T) >= kLarge) {
+    try {
+      return to.reserve(std::max(16 * to.capacity(), least));
+    } catch (const std::bad_alloc&) {
+      // So much is not to be had at once.
+    }
   }
+  to.reserve(twice);
 }
 
 template <class T>
