@@ -72,6 +72,10 @@ const pictures = {
     await page.keyboard.press('3');
     for (let i = 0; i < 3; ++i) await page.keyboard.press('w', { delay: 500 });
   },
+  async handles({ page }) {
+    await open(page, 'rowhouse/rowhouse.cga');
+    await page.waitForSelector('[data-handle]');
+  },
   async light({ page }) {
     await open(page, 'tower/tower.cga');
     await page.getByRole('button', { name: 'Light or dark' }).click();

@@ -80,6 +80,7 @@ export default {
     assert.ok(dragged > 12, String(dragged));
     await drag();
     assert.ok((await valueOf(page)) > dragged);
+    // The value is back before its model is.
     await page.keyboard.press('Escape');
     await page.mouse.up();
     assert.equal(await valueOf(page), dragged, 'Esc gives back the value from before');
@@ -90,6 +91,64 @@ export default {
     assert.ok(await page.getByRole('button', { name: 'Undo', exact: true }).isDisabled());
     // Nothing was changed, so nothing is marked as changed.
     assert.equal(await page.getByRole('button', { name: 'Reset height' }).count(), 0);
+  },
+
+  /** What is set is shown at once, however long its model takes. */
+  async aFieldShowsWhatIsSetAtOnce({ page }) {
+    await ready(page);
+    let release = () => undefined;
+    const held = new Promise((resolve) => (release = resolve));
+    await page.route('**/api/derive', async (route) => {
+      await held;
+      await route.continue().catch(() => undefined);
+    });
+    const field = page.locator('#attr-height');
+    await field.press('Enter');
+    await page.keyboard.type('21');
+    await page.keyboard.press('Enter');
+    assert.equal(await valueOf(page), 21);
+    await field.press('ArrowUp');
+    assert.equal(await valueOf(page), 21.2);
+    await page.getByRole('button', { name: 'Reset height' }).click();
+    assert.equal(await valueOf(page), 9);
+    release();
+  },
+
+  /** Fields have the names, units and choices that the rules say; what is hidden stays hidden. */
+  async fieldsAreAsTheRulesSay({ page, folder, pictured }) {
+    await ready(page);
+    writeFileSync(
+      join(folder, 'said.cga'),
+      `@Group("Late", 2) @Order(2) @Percent attr share = 0.25
+@Order(1) @DisplayName("Storeys") @Range(min=2, max=9, stepsize=2, restricted=false) attr n = 4
+@Group("Soon", 1) @Enum(valuesAttr=kinds) attr kind = kinds[0]
+@Enum(3, 6, restricted=false) attr depth = 3
+attr kinds = ["brick", "stone"]
+@Hidden Never --> NIL
+@StartRule @InMesh @Out(granularity=separatedShapes) Lot --> extrude(n * 3 + share) Mass.
+`,
+    );
+    await openByPalette(page, 'said.cga');
+    assert.deepEqual(await page.locator('.sec .sec-title').allInnerTexts(), ['Soon', 'Late']);
+    assert.deepEqual(await page.locator('.sec .fld label').allInnerTexts(), [
+      'kind',
+      'depth',
+      'kinds',
+      'Storeys',
+      'share',
+    ]);
+    assert.match(await page.locator('#attr-share').innerText(), /^25\s*%$/);
+    await page.locator('#attr-share').press('ArrowUp');
+    assert.match(await page.locator('#attr-share').innerText(), /^26\s*%$/);
+    await page.locator('#attr-n').press('ArrowUp');
+    assert.equal(await page.locator('#attr-n').getAttribute('aria-valuenow'), '6');
+    assert.deepEqual(await page.locator('#attr-kind option').allInnerTexts(), ['brick', 'stone']);
+    await page.locator('#attr-depth').fill('4.5');
+    await page.locator('#attr-depth').press('Enter');
+    await page.waitForSelector('[aria-label="Reset depth"]');
+    assert.deepEqual(await page.locator('#start option').allInnerTexts(), ['Lot']);
+    assert.match(await page.locator('#expects').innerText(), /on a mesh.*stay separate/);
+    await pictured();
   },
 
   /** Rules with errors that are opened show no model of other rules, and none that vanished. */

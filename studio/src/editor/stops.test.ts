@@ -9,6 +9,8 @@ const rule = (name: string, file: string, line: number) => ({
   line,
   parameters: 0,
   start: false,
+  hidden: false,
+  annotations: [],
 });
 const rules = [rule('Lot', 'a.cga', 4), rule('Wall', 'a.cga', 9), rule('b.Roof', 'b.cga', 6)];
 

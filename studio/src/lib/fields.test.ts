@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 import { describe, expect, it } from 'vitest';
-import { controlOf, evaluate, groupFields, shown, valueText } from './fields';
+import { controlOf, evaluate, groupFields, shown, valueOfText, valueText } from './fields';
 import type { AttributeInfo } from './protocol';
 
 function attribute(
@@ -53,21 +53,59 @@ describe('controls', () => {
     expect(unit('Height of a floor in metres')).toMatchObject({ unit: 'm' });
     expect(unit('Parameters')).toMatchObject({ unit: '' });
   });
+  it('have ranges that may be left', () => {
+    const range = (...args: [string, string][]) =>
+      controlOf(attribute('h', 'float', [['Range', ...args]]));
+    expect(range(['min', '1'], ['max', '2'], ['restricted', 'false'])).toMatchObject({
+      free: true,
+    });
+    expect(range(['min', '1'], ['max', '2'], ['restricted', 'true'])).not.toHaveProperty('free');
+    expect(controlOf(attribute('a', 'float', [['Angle']]))).toMatchObject({ max: 360, free: true });
+    expect(controlOf(attribute('p', 'float', [['Percent']]))).toMatchObject({
+      min: 0,
+      max: 1,
+      shownAs: 100,
+    });
+  });
+  it('offer the values of another attribute', () => {
+    const note: [string, ...[string, string][]][] = [['Enum', ['valuesAttr', 'lods']]];
+    expect(controlOf(attribute('lod', 'string', note), { lods: ['low', 'high'] })).toEqual({
+      kind: 'choice',
+      choices: ['low', 'high'],
+      free: false,
+    });
+    const imported = controlOf(attribute('a.lod', 'float', note), { 'a.lods': [1, 2], lods: [9] });
+    expect(imported).toMatchObject({ choices: ['1', '2'] });
+    expect(controlOf(attribute('lod', 'string', note))).toEqual({ kind: 'text' });
+  });
+  it('are called as their author says', () => {
+    const fields = groupFields([
+      attribute('h', 'float', [['DisplayName', ['', 'Building height']]]),
+      attribute('wall.h', 'float'),
+    ])[0]!.fields;
+    expect(fields.map((f) => f.label)).toEqual(['Building height', 'h']);
+  });
+  it('read back what was set', () => {
+    expect(valueOfText('3.5', 'float')).toBe(3.5);
+    expect(valueOfText('oops', 'float')).toBeNull();
+    expect(valueOfText('true', 'bool')).toBe(true);
+    expect(valueOfText('1', 'string')).toBe('1');
+  });
   it('are grouped and ordered, hidden ones left out', () => {
     const groups = groupFields([
       attribute('late', 'float', [
-        ['Group', ['', 'B'], ['', '2']],
+        ['Group', ['', 'B'], ['order', '2']],
         ['Order', ['', '2']],
       ]),
       attribute('plain', 'float'),
-      attribute('first', 'float', [['Group', ['', 'A'], ['', '1']]]),
+      attribute('first', 'float', [['Group', ['', 'A'], ['', '7'], ['order', '1']]]),
       attribute('early', 'float', [
-        ['Group', ['', 'B'], ['', '2']],
+        ['Group', ['', 'B'], ['order', '2']],
         ['Order', ['', '1']],
       ]),
       attribute('never', 'float', [], true),
     ]);
-    expect(groups.map((g) => g.name)).toEqual(['A', 'B', 'Attributes']);
+    expect(groups.map((g) => g.name)).toEqual(['A › 7', 'B', 'Attributes']);
     expect(groups[1]!.fields.map((f) => f.name)).toEqual(['early', 'late']);
   });
 });

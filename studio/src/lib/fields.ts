@@ -4,10 +4,22 @@
 // Attributes as fields of the inspector: their annotations say which control fits, in which group
 // and where in it.
 
-import type { Annotation, AttributeInfo, Value } from './protocol';
+import type { Annotation, AttributeInfo, RuleInfo, Value } from './protocol';
+
+export interface NumberControl {
+  kind: 'number';
+  min?: number;
+  max?: number;
+  step?: number;
+  /** Values outside of the range are as good. */
+  free?: boolean;
+  unit: string;
+  /** What is shown is the value times this: 100 where a share is given in percent. */
+  shownAs?: number;
+}
 
 export type Control =
-  | { kind: 'number'; min?: number; max?: number; step?: number; unit: string }
+  | NumberControl
   | { kind: 'bool' }
   | { kind: 'choice'; choices: string[]; free: boolean }
   | { kind: 'color' }
@@ -34,7 +46,7 @@ const find = (a: AttributeInfo, name: string): Annotation | undefined =>
 function argument(
   annotation: Annotation | undefined,
   key: string,
-  position: number,
+  position = -1,
 ): string | undefined {
   if (!annotation) return undefined;
   const named = annotation.arguments.find(([k]) => k === key);
@@ -56,31 +68,25 @@ function unitOf(a: AttributeInfo): string {
   return metres ? ({ square: 'm²', cubic: 'm³' }[metres[1]?.toLowerCase() ?? ''] ?? 'm') : '';
 }
 
-export function controlOf(a: AttributeInfo): Control {
-  const choices = find(a, 'Enum');
-  if (choices && a.type === 'string') {
-    const free = choices.arguments.some(([k, v]) => k === 'restricted' && v === 'false');
-    return {
-      kind: 'choice',
-      choices: choices.arguments.filter(([k]) => !k).map(([, v]) => v),
-      free,
-    };
-  }
-  if (find(a, 'Color')) return { kind: 'color' };
-  const file = find(a, 'File');
-  if (file)
-    return { kind: 'file', extensions: file.arguments.filter(([k]) => !k).map(([, v]) => v) };
-  if (a.type === 'bool') return { kind: 'bool' };
-  if (a.type !== 'float') return { kind: 'text' };
-  if (choices)
-    return {
-      kind: 'choice',
-      choices: choices.arguments.filter(([k]) => !k).map(([, v]) => v),
-      free: true,
-    };
+/** What a choice offers: values that are written, or those of another attribute. */
+function choicesOf(a: AttributeInfo, note: Annotation, values: Record<string, Value>): string[] {
+  const other = argument(note, 'valuesAttr');
+  if (other === undefined) return note.arguments.filter(([k]) => !k).map(([, v]) => String(v));
+  const beside = a.name.slice(0, a.name.lastIndexOf('.') + 1);
+  const given = values[beside + other] ?? values[other] ?? [];
+  return (Array.isArray(given) ? given.flat(2) : [given]).map(valueText);
+}
+
+const isFree = (note: Annotation | undefined): boolean =>
+  String(argument(note, 'restricted')) === 'false';
+
+function numberControl(a: AttributeInfo): NumberControl {
   const range = find(a, 'Range');
-  const min = numberOf(argument(range, 'min', 0));
-  const max = numberOf(argument(range, 'max', 1));
+  const shares = !!find(a, 'Percent');
+  // Those of an angle and of a share, where no other is written, hold for the slider alone.
+  const usual = find(a, 'Angle') ? [0, 360] : shares ? [0, 1] : [];
+  const min = range ? numberOf(argument(range, 'min', 0)) : usual[0];
+  const max = range ? numberOf(argument(range, 'max', 1)) : usual[1];
   const step = numberOf(argument(range, 'stepsize', 2));
   return {
     kind: 'number',
@@ -88,14 +94,34 @@ export function controlOf(a: AttributeInfo): Control {
     ...(min === undefined ? {} : { min }),
     ...(max === undefined ? {} : { max }),
     ...(step === undefined ? {} : { step }),
+    ...((range ? isFree(range) : usual.length) ? { free: true } : {}),
+    ...(shares ? { shownAs: 100 } : {}),
   };
+}
+
+/** `values`: those of all attributes, since some name the choices of others. */
+export function controlOf(a: AttributeInfo, values: Record<string, Value> = {}): Control {
+  const choices = find(a, 'Enum');
+  if (choices && (a.type === 'string' || a.type === 'float')) {
+    const offered = choicesOf(a, choices, values);
+    if (offered.length) return { kind: 'choice', choices: offered, free: isFree(choices) };
+  }
+  if (find(a, 'Color')) return { kind: 'color' };
+  const file = find(a, 'File') ?? find(a, 'MaterialFile');
+  if (file)
+    return { kind: 'file', extensions: file.arguments.filter(([k]) => !k).map(([, v]) => v) };
+  if (a.type === 'bool') return { kind: 'bool' };
+  return a.type === 'float' ? numberControl(a) : { kind: 'text' };
 }
 
 /**
  * Groups in the order of @Group, fields in that of @Order; those without stand where they are
  * declared.
  */
-export function groupFields(attributes: AttributeInfo[]): Group[] {
+export function groupFields(
+  attributes: AttributeInfo[],
+  values: Record<string, Value> = {},
+): Group[] {
   interface Placed {
     field: Field;
     groupOrder: number;
@@ -106,28 +132,24 @@ export function groupFields(attributes: AttributeInfo[]): Group[] {
     .map((a): Placed => {
       const group = find(a, 'Group');
       const names = (group?.arguments ?? []).filter(([k]) => !k).map(([, v]) => v);
-      const last = names.length > 1 ? numberOf(names[names.length - 1]) : undefined;
-      const title =
-        names.length === 0
-          ? 'Attributes'
-          : (last === undefined ? names : names.slice(0, -1)).join(' › ');
+      const title = names.length === 0 ? 'Attributes' : names.join(' › ');
       const order = numberOf(argument(find(a, 'Order'), 'order', 0));
       return {
         field: {
           name: a.name,
-          label: a.name.includes('.') ? a.name.slice(a.name.lastIndexOf('.') + 1) : a.name,
+          label:
+            argument(find(a, 'DisplayName'), 'text', 0) ??
+            a.name.slice(a.name.lastIndexOf('.') + 1),
           doc: argument(find(a, 'Description'), 'text', 0) ?? '',
           type: a.type,
-          control: controlOf(a),
+          control: controlOf(a, values),
           group: title,
         },
-        groupOrder: last ?? Infinity,
+        groupOrder: numberOf(argument(group, 'order')) ?? Infinity,
         order: order ?? Infinity,
       };
     });
   const groups = new Map<string, { order: number; members: Placed[] }>();
-  // An attribute without a group follows the one declared before it only by having none: CGA groups
-  // hold for the attribute they are written at.
   for (const p of placed) {
     const known = groups.get(p.field.group) ?? { order: Infinity, members: [] };
     known.order = Math.min(known.order, p.groupOrder);
@@ -142,6 +164,29 @@ export function groupFields(attributes: AttributeInfo[]): Group[] {
         .sort((a, b) => (a.order === b.order ? 0 : a.order - b.order))
         .map((m) => m.field),
     }));
+}
+
+const STARTS: Record<string, string> = {
+  InMesh: 'a mesh',
+  InPolygon: 'a polygon',
+  InLine: 'a line',
+  InPoint: 'a point',
+  InPointCloud: 'a point cloud',
+};
+
+/** What a start rule says of the shape that it expects and of what it makes; often nothing. */
+export function expectation(rule: RuleInfo | undefined): string {
+  const names = rule?.annotations.map((a) => a.name) ?? [];
+  const said = names.flatMap((n) => (STARTS[n] ? [`Starts on ${STARTS[n]}.`] : []));
+  // Without an argument the shapes are one.
+  if (names.includes('Out')) said.push('Its shapes are meant to stay separate.');
+  return said.join(' ');
+}
+
+/** What a text of `valueText` says, for an attribute of that type. */
+export function valueOfText(text: string, type: string): Value {
+  if (type === 'float') return numberOf(text) ?? null;
+  return type === 'bool' ? text === 'true' : text;
 }
 
 /** A value as the server takes it: numbers as they are, arrays as [1,2;3,4]. */

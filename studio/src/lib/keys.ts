@@ -19,6 +19,7 @@ export const KEYS: [string, string][] = [
   ['Shift F', 'frame all'],
   ['W', 'wireframe'],
   ['S', 'scopes: none, of the selection, of all below'],
+  ['H', 'handles of attributes'],
   ['1 2 3', 'orbit, fly, walk at eye height'],
   ['W A S D', 'fly and walk; Q E down and up'],
   ['G', 'derivation guide'],

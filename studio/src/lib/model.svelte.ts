@@ -65,6 +65,8 @@ export class Model {
   startRule = $state('');
   attributes = $state.raw<AttributeInfo[]>([]);
   values = $state.raw<Record<string, Value>>({});
+  /** What attributes were when nobody had set them. */
+  defaults = $state.raw<Record<string, Value>>({});
   diagnostics = $state.raw<Diagnostic[]>([]);
   stats = $state.raw<Stats | null>(null);
   derivation = $state(0);
@@ -77,8 +79,10 @@ export class Model {
   shapes = $state.raw<Shapes | null>(null);
   /** The derivation that the shapes belong to: they come a little later. */
   shapesOf = $state(0);
+  /** What attributes were when the shapes were made. */
+  shapesValues = $state.raw<Record<string, Value>>({});
 
-  readonly groups = $derived<Group[]>(groupFields(this.attributes));
+  readonly groups = $derived<Group[]>(groupFields(this.attributes, this.values));
   readonly errors = $derived(this.diagnostics.filter((m) => m.severity === 'error').length);
   readonly warnings = $derived(this.diagnostics.filter((m) => m.severity === 'warning').length);
   /** Too many shapes for a tree: the guide has the first steps. */
@@ -131,12 +135,13 @@ export class Model {
     const abort = new AbortController();
     this.treeAbort = abort;
     const { steps } = this.host;
-    const { derivation } = this;
+    const { derivation, values } = this;
     try {
       const { tree, draw } = await this.host.client.tree(request, abort.signal, steps);
       if (abort.signal.aborted || steps !== this.host.steps || tree.end === 'wrong') return;
       this.shapes = new Shapes(tree);
       this.shapesOf = derivation;
+      this.shapesValues = values;
       this.host.grown(this.shapes, draw, tree.end);
     } catch {
       // The next derivation asks again.
@@ -170,7 +175,7 @@ export class Model {
     try {
       const { derived, draw } = await this.host.client.derive(request, run.abort.signal);
       this.host.found();
-      if (!run.abort.signal.aborted) this.take(derived, draw);
+      if (!run.abort.signal.aborted) this.take(request, derived, draw);
     } catch (error) {
       if (error instanceof Refusal && error.status !== 401) this.refused(error);
       else if (!run.abort.signal.aborted) this.host.lost();
@@ -212,13 +217,14 @@ export class Model {
     this.rules = [];
     this.attributes = [];
     this.values = {};
+    this.defaults = {};
     this.stats = null;
     this.derivation = 0;
     this.lastGood = this.startRule = '';
     this.host.none();
   }
 
-  private take(derived: Derived, draw: DrawList | null): void {
+  private take(request: DeriveRequest, derived: Derived, draw: DrawList | null): void {
     if (derived.end === 'cancelled') return;
     if (derived.diagnostics.length || this.diagnostics.length)
       this.diagnostics = derived.diagnostics;
@@ -237,6 +243,8 @@ export class Model {
     const attributes = once(derived.attributes, (a) => a.name);
     this.attributes = sameOr(this.attributes, attributes);
     this.values = sameOr(this.values, derived.values ?? {});
+    const unset = Object.entries(this.values).filter(([name]) => !(name in request.attributes));
+    this.defaults = { ...this.defaults, ...Object.fromEntries(unset) };
     this.stats = derived.stats;
     this.derivation = derived.derivation ?? 0;
     this.lastGood = '';

@@ -36,6 +36,7 @@ export interface Annotation {
 export interface AttributeInfo {
   name: string;
   type: string;
+  /** Not offered to people. */
   hidden: boolean;
   annotations: Annotation[];
 }
@@ -46,6 +47,10 @@ export interface RuleInfo {
   start: boolean;
   file: string;
   line: number;
+  /** Not offered as a start rule. */
+  hidden: boolean;
+  /** What shape it expects (InPolygon, ...), how its model is to be divided (Out). */
+  annotations: Annotation[];
 }
 
 export type Value = number | boolean | string | Value[] | null;

@@ -13,7 +13,7 @@ import {
   type ProjectFile,
 } from './client';
 import { Documents } from './documents.svelte';
-import { valueText } from './fields';
+import { valueOfText, valueText } from './fields';
 import { gesture } from './gesture';
 import { applied, difference, History, type Step } from './history';
 import { Model } from './model.svelte';
@@ -196,6 +196,15 @@ export class Studio {
     this.history.record(step, group || usual, gesture.active);
     this.countSteps();
     this.changed();
+  }
+
+  /** What an attribute is: what was set, at once, else what the model was made with. */
+  valueOf(name: string): Value {
+    const { attributes, values, defaults } = this.model;
+    const set = this.place.attributes[name];
+    if (set === undefined) return defaults[name] ?? values[name] ?? null;
+    const type = attributes.find((a) => a.name === name)?.type ?? 'string';
+    return valueOfText(set, type) ?? values[name] ?? null;
   }
 
   setAttribute(name: string, value: Value | undefined): void {

@@ -15,6 +15,8 @@ export class Look {
   scopes = $state<'none' | 'selection' | 'below'>('selection');
   mode = $state<Mode>('orbit');
   sky = $state(false);
+  /** Handles of attributes are drawn. */
+  handles = $state(true);
   sunOpen = $state(false);
   sun = $state({ elevation: 44, azimuth: -28 });
   /** Where the camera stood when the view was last closed, and over which rules. */
@@ -32,6 +34,8 @@ export class Ui {
   /** The rules as a form instead of as text. */
   form = $state(false);
   tool = $state<Tool>('select');
+  /** The attribute whose handle is under the pointer or has the focus. */
+  attribute = $state('');
   /** The attribute that the wall of variations is over; empty: seeds. */
   vary = $state('');
 }

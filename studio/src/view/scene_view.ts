@@ -232,6 +232,16 @@ export class SceneView {
     };
   }
 
+  /** Where a place of the canvas is looked at from the camera, as a vector of length one. */
+  rayAt(x: number, y: number): [number, number, number] {
+    const { clientWidth: w, clientHeight: h } = this.canvas;
+    return new THREE.Vector3((x / w) * 2 - 1, 1 - (y / h) * 2, 0.5)
+      .unproject(this.camera)
+      .sub(this.camera.position)
+      .normalize()
+      .toArray();
+  }
+
   /** The first surface below a point. */
   heightBelow(at: THREE.Vector3): number {
     const height = this.leaves.heightBelow(at, this.ground.height, (base, range) =>
