@@ -149,6 +149,9 @@ class NoAssets final : public Assets {
     return {};
   }
   ImageInfo image(std::string_view, std::string_view) override { return {}; }
+  Result<Material> material(std::string_view, std::string_view) override {
+    return Error{"missing-file", "there are no files here", ""};
+  }
   bool exists(std::string_view, std::string_view) override { return false; }
   std::vector<std::string> search(std::string_view, std::string_view) override { return {}; }
   bool text(std::string_view, std::string_view, std::string&) override { return false; }

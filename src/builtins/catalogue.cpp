@@ -33,7 +33,6 @@ constexpr std::string_view kUnbuilt[] = {
     "getGeoCoord",
     "intersect",
     "modify",
-    "readMaterial",
     "setTagsFromEdgeAttrs",
     "splitAndSetbackPerimeter",
     "subtract",

@@ -76,9 +76,6 @@ std::optional<Shapes> startShape(const Case& c, const std::string& folder,
     return Shapes::lot(width, depth);
   }
   if (kind == "load" && !rest.empty()) {
-    for (const Section& s : c.sections) {
-      if (s.name == "file" && s.argument == rest) return Shapes::parse(s.text, rest, limits);
-    }
     return Shapes::load((std::filesystem::path(folder) / rest).string(), limits);
   }
   const auto rings = ringsOf(rest, kind == "face" ? 3 : 2);

@@ -14,7 +14,7 @@
 
 namespace gable::cases {
 
-/// The initial shape of a case. Files are looked for among its `file` sections, then in `folder`.
+/// The initial shape of a case. Files are looked for in `folder`, where the `file` sections lie.
 /// Absent where the text is not understood.
 std::optional<Shapes> startShape(const Case& c, const std::string& folder,
                                  const FileLimits& limits);

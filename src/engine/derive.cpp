@@ -34,6 +34,8 @@ std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, ValuePool& p
     s.origin = f.origin;
     s.identity = f.id;
     s.faceTags = f.faceTags;
+    s.materials = f.materials;
+    s.groups = f.groups;
     s.index = f.index;
     for (const AttributeValue& a : f.attributes) {
       s.attributes.emplace_back(identifier(a.name), valueOfAttribute(a, pool));
@@ -211,6 +213,7 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
   DeriveOptions options = optionsOf(settings, r, impl->diagnostics);
   if (hasErrors(impl->diagnostics)) return impl;
   std::vector<InitialShape> initial = initialShapes(shapes.impl(), *r.pool);
+  if (r.project) r.project->addTextures(shapes.impl().textures);
   for (const auto& [index, seed] : settings.shapeSeeds) {
     if (index < initial.size()) initial[index].seed = seed;
   }

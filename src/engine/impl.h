@@ -4,6 +4,7 @@
 // What stands behind the public classes. Only the engine sees it.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,9 @@ struct ShapeFootprint {
   std::vector<AttributeValue> attributes;
   /// By face, or empty.
   std::vector<std::string> faceTags;
+  /// Of the slots from 1 of the mesh; see InitialShape.
+  std::vector<Material> materials;
+  std::vector<std::string> groups;
   /// Its place in the input that it was chosen from; below 0: the place where it is.
   int64_t index = -1;
 };
@@ -61,6 +65,8 @@ struct Shapes::Impl {
   DiagnosticList diagnostics;
   std::vector<ShapeFootprint> footprints;
   GeoOrigin geoOrigin;
+  /// The pictures that materials of the footprints name.
+  std::map<std::string, std::string> textures;
 };
 
 struct Model::Impl {

@@ -11,6 +11,7 @@
 #include "io/image/image.h"
 #include "io/image/patterns.h"
 #include "io/importers/asset.h"
+#include "io/importers/mtl_file.h"
 #include "material/builtin_textures.h"
 
 namespace gable {
@@ -27,6 +28,13 @@ size_t numberOfBuiltin(std::string_view path) {
   size_t i = 0;
   while (i < kBuiltinTextures.size() && path != builtinTexturePath(i)) ++i;
   return i;
+}
+
+Metadatum metadatumOf(const std::string& key, const PlainValue& v) {
+  const ValueType type = v.kind == PlainValue::Kind::Number ? ValueType::Float
+                         : v.kind == PlainValue::Kind::Bool ? ValueType::Bool
+                                                            : ValueType::String;
+  return {key, type, v.number, v.text};
 }
 
 }  // namespace
@@ -61,6 +69,11 @@ Result<Asset> Project::load(std::string_view path) {
   std::lock_guard lock(mutex_);
   if (asset.ok()) embedded_.insert(asset->textures.begin(), asset->textures.end());
   return asset;
+}
+
+void Project::addTextures(const std::map<std::string, std::string>& textures) {
+  std::lock_guard lock(mutex_);
+  for (const auto& [name, bytes] : textures) embedded_[name] = bytes;
 }
 
 void Project::drawBuiltins(const std::vector<std::string>& paths) {
@@ -118,8 +131,13 @@ Ref<AssetModel> Project::model(std::string_view path, std::string_view fromFile,
     at = models_.emplace(key, ModelEntry{}).first;
     if (asset.ok()) {
       auto* m = new AssetModel;
-      m->mesh = asset->mesh;
+      Mesh mesh = *asset->mesh;
+      divideSlots(mesh, *asset);
+      m->mesh = makeRef<Mesh>(std::move(mesh));
       m->materials = asset->materials;
+      m->groups = asset->slotGroups;
+      for (const auto& [name, v] : asset->metadata) m->metadata.push_back(metadatumOf(name, v));
+      m->warnings = asset->warnings;
       m->bounds = asset->bounds;
       embedded_.insert(asset->textures.begin(), asset->textures.end());
       at->second.model = Ref<AssetModel>(m);
@@ -144,6 +162,21 @@ ImageInfo Project::image(std::string_view path, std::string_view fromFile) {
       at->second = {true, info.value().width, info.value().height, info.value().hasAlpha};
   }
   return at->second;
+}
+
+Result<Material> Project::material(std::string_view path, std::string_view fromFile) {
+  const std::string file = locate(path, fromFile);
+  if (file.empty()) {
+    return Error{"missing-file", "there is no file '" + std::string(path) + "'", kWherePathsStart};
+  }
+  Result<std::string> text = where_.read(file, kMaxTextLength);
+  if (!text.ok()) return text.error();
+  const std::vector<Material> all = parseMtl(*text, projectPath(file));
+  if (all.empty()) {
+    return Error{"bad-material", "'" + std::string(path) + "' has no material",
+                 "a material of an MTL file begins with 'newmtl' and its name"};
+  }
+  return all[0];
 }
 
 bool Project::exists(std::string_view path, std::string_view fromFile) {

@@ -35,6 +35,8 @@ class Project final : public Assets {
   Result<Asset> load(std::string_view path);
   /// The bytes of a texture by the path that a material names, those inside of models included.
   Result<std::string> texture(const std::string& path);
+  /// Pictures that texture() is to know by these names.
+  void addTextures(const std::map<std::string, std::string>& textures);
   /// Draws those of the paths that name built-in textures, on several threads; texture() has them
   /// then.
   void drawBuiltins(const std::vector<std::string>& paths);
@@ -42,6 +44,7 @@ class Project final : public Assets {
   Ref<AssetModel> model(std::string_view path, std::string_view fromFile, bool zUp,
                         std::string& why) override;
   ImageInfo image(std::string_view path, std::string_view fromFile) override;
+  Result<Material> material(std::string_view path, std::string_view fromFile) override;
   bool exists(std::string_view path, std::string_view fromFile) override;
   std::vector<std::string> search(std::string_view pattern, std::string_view fromFile) override;
   bool text(std::string_view path, std::string_view fromFile, std::string& out) override;

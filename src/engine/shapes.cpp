@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/files.h"
+#include "base/work.h"
 #include "engine/file_search.h"
 #include "engine/guard.h"
 #include "engine/impl.h"
@@ -28,6 +30,8 @@ ShapeFootprint footprint(ShapeInput input) {
   f.id = std::move(input.id);
   f.attributes = std::move(input.attributes);
   f.faceTags = std::move(input.faceTags);
+  f.materials = std::move(input.materials);
+  f.groups = std::move(input.groups);
   const Box3 box = input.mesh.bounds();
   Vec3 origin;
   if (!box.empty()) {
@@ -172,6 +176,37 @@ Shapes::Outline outlineOf(const ShapeFootprint& f) {
   return out;
 }
 
+// The pictures that the materials of the shapes name: those that lie in the file, and those that
+// can be read beside it.
+std::map<std::string, std::string> texturesOf(ShapeFile& file, const FileReader& read) {
+  constexpr uint64_t kMostBytes = 1ull << 29;
+  std::map<std::string, std::string> all = std::move(file.textures);
+  std::set<std::string> missing;
+  uint64_t held = 0;
+  for (const ShapeInput& shape : file.shapes) {
+    for (const Material& m : shape.materials) {
+      for (const TextureMap& map : m.maps) {
+        work();
+        if (map.path.empty() || held > kMostBytes || all.count(map.path) > 0) continue;
+        if (missing.count(map.path) > 0) continue;
+        Result<std::string> bytes = read(map.path);
+        if (bytes.ok()) {
+          held += bytes->size();
+          all[map.path] = std::move(*bytes);
+          continue;
+        }
+        missing.insert(map.path);
+        file.diagnostics.warning(
+            "shape-texture-missing", {},
+            "the picture '" + map.path +
+                "' of a shape's material is left out: " + bytes.error().message,
+            "pictures lie beside the file of shapes or below its folder");
+      }
+    }
+  }
+  return all;
+}
+
 std::shared_ptr<Shapes::Impl> parsed(const std::string& content, const std::string& name,
                                      const FeatureSelection& selection) {
   AssetOptions options;
@@ -186,6 +221,7 @@ std::shared_ptr<Shapes::Impl> parsed(const std::string& content, const std::stri
       readShapes(content, options, {selection.layer, selection.key, selection.value});
   if (!file.ok()) return refused(file.error());
   auto impl = std::make_shared<Shapes::Impl>();
+  impl->textures = texturesOf(*file, options.readFile);
   impl->geoOrigin = file->geoOrigin;
   for (ShapeInput& s : file->shapes) impl->footprints.push_back(footprint(std::move(s)));
   Diagnostics diagnostics = file->diagnostics;
@@ -257,6 +293,7 @@ Shapes Shapes::only(const std::vector<size_t>& indices) const {
     impl->found = impl_->found;
     impl->diagnostics = impl_->diagnostics;
     impl->geoOrigin = impl_->geoOrigin;
+    impl->textures = impl_->textures;
     for (const size_t i : indices) {
       if (i >= impl_->footprints.size()) continue;
       ShapeFootprint f = impl_->footprints[i];

@@ -49,6 +49,10 @@ struct InitialShape {
   std::vector<std::pair<std::string, Value>> edgeAttributes;
   /// By face of the mesh, or empty: its tag, if it has one.
   std::vector<std::string> faceTags;
+  /// Of the slots from 1 of the mesh: their materials, and the groups that they are of; both empty
+  /// where the file tells of none.
+  std::vector<Material> materials;
+  std::vector<std::string> groups;
 };
 
 /// The tables that one or more derivations share.

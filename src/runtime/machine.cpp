@@ -105,6 +105,17 @@ void Machine::clearStacks() {
   functions_.clear();
 }
 
+void Machine::setInitialMaterials(const InitialShape& input) {
+  if (input.materials.empty()) return;
+  std::vector<MaterialId> list;
+  for (int times = 0; times < 2; ++times) {
+    for (const Material& m : input.materials) list.push_back(materials().intern(m));
+  }
+  std::vector<StringId> groups;
+  for (const std::string& name : input.groups) groups.push_back(pool().intern(name));
+  info_.shape.assetMaterials = attributes().internMaterials(std::move(list), std::move(groups));
+}
+
 void Machine::begin(const InitialShape& input, uint32_t index) {
   attributeValues_.begin();
   nameId_ = 0;
@@ -127,6 +138,7 @@ void Machine::begin(const InitialShape& input, uint32_t index) {
   } else {
     setInitialGeometry(info_.shape, input.mesh);
   }
+  setInitialMaterials(input);
   info_.shape.path = hashCombine(hashDouble(seed), identity);
   worlds_.begin(input.origin);
   clearStacks();

@@ -239,6 +239,7 @@ class Machine final : public Services, private WorkMeter {
 
   // Initial shapes.
   void bindAttributes(const InitialShape& shape);
+  void setInitialMaterials(const InitialShape& input);
   int32_t startRuleOf(const InitialShape& shape);
 
   // Tracing and occluders.

@@ -159,9 +159,17 @@ bool TagTable::has(TagSetId set, std::string_view name) const {
                      [&](StringId s) { return impl_->pool.text(s) == name; });
 }
 
+namespace {
+struct SlotList {
+  std::vector<MaterialId> materials;
+  std::vector<StringId> groups;
+  bool operator==(const SlotList&) const = default;
+};
+}  // namespace
+
 struct AttributePool::Impl {
   Interned<std::vector<Entry>> sets;
-  Interned<std::vector<MaterialId>> lists;
+  Interned<SlotList> lists;
 };
 
 namespace {
@@ -201,13 +209,19 @@ uint32_t AttributePool::with(uint32_t set, uint32_t key, const Value& value) {
 }
 
 const std::vector<MaterialId>& AttributePool::materials(uint32_t list) const {
-  return impl_->lists.get(list);
+  return impl_->lists.get(list).materials;
 }
 
-uint32_t AttributePool::internMaterials(std::vector<MaterialId> list) {
+const std::vector<StringId>& AttributePool::groups(uint32_t list) const {
+  return impl_->lists.get(list).groups;
+}
+
+uint32_t AttributePool::internMaterials(std::vector<MaterialId> list,
+                                        std::vector<StringId> groups) {
   uint64_t h = list.size();
   for (MaterialId m : list) h = hashCombine(h, m);
-  return impl_->lists.intern(h, list);
+  for (StringId g : groups) h = hashCombine(h, g);
+  return impl_->lists.intern(h, SlotList{std::move(list), std::move(groups)});
 }
 
 }  // namespace gable

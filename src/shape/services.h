@@ -14,6 +14,7 @@
 
 #include "base/check.h"
 #include "base/ref.h"
+#include "base/result.h"
 #include "base/status.h"
 #include "geom/mesh/mesh.h"
 #include "material/material.h"
@@ -26,10 +27,24 @@ namespace gable {
 
 struct Program;  // program/program.h
 
+/// A property that a file carries: a number, a truth (Bool, as a number) or a text.
+struct Metadatum {
+  std::string key;
+  ValueType type = ValueType::Float;
+  double number = 0;
+  std::string text;
+};
+
 /// A model that i() inserts: one mesh, its slots' materials (slot k uses materials[k]).
 struct AssetModel : RefCounted {
   MeshRef mesh;
   std::vector<Material> materials;
+  /// By slot, the group of the file that its faces are of; empty where the file has no groups.
+  std::vector<std::string> groups;
+  /// What the file tells of itself.
+  std::vector<Metadatum> metadata;
+  /// One sentence each: what of the file is left out.
+  std::vector<std::string> warnings;
   Box3 bounds;
   /// What is inserted: the mesh moved to begin at the origin, with slots that count from 1 where
   /// there are materials. Made by fitModel; shared by all shapes that insert the model.
@@ -47,6 +62,10 @@ struct ImageInfo {
   bool hasAlpha = false;
 };
 
+/// The hint of all messages about a path that leads nowhere.
+inline constexpr const char* kWherePathsStart =
+    "paths start at the assets folder or at the root of the project";
+
 /// Files of the project, by the paths that rules write. `fromFile` is the rule file that names the
 /// path. A path never leads out of the project. Any thread may call; answers are cached.
 class Assets {
@@ -56,6 +75,8 @@ class Assets {
   virtual Ref<AssetModel> model(std::string_view path, std::string_view fromFile, bool zUp,
                                 std::string& why) = 0;
   virtual ImageInfo image(std::string_view path, std::string_view fromFile) = 0;
+  /// The first material of an MTL file. Codes: missing-file, bad-material.
+  virtual Result<Material> material(std::string_view path, std::string_view fromFile) = 0;
   virtual bool exists(std::string_view path, std::string_view fromFile) = 0;
   /// Project paths that a query means (shape/file_query.h), sorted; none where it cannot be read.
   virtual std::vector<std::string> search(std::string_view query, std::string_view fromFile) = 0;
@@ -84,7 +105,9 @@ class AttributePool {
   /// Lists of materials for the slots of inserted models; list 0 is empty. Behind the materials in
   /// use a list holds those that the model brought, in the same order, for resetMaterial.
   const std::vector<MaterialId>& materials(uint32_t list) const;
-  uint32_t internMaterials(std::vector<MaterialId> list);
+  /// The names of the groups by slot, from slot 1; empty where there are none.
+  const std::vector<StringId>& groups(uint32_t list) const;
+  uint32_t internMaterials(std::vector<MaterialId> list, std::vector<StringId> groups = {});
 
  private:
   struct Impl;

@@ -364,7 +364,10 @@ TEST(SuburbRows, S12UprightFacesHaveTheWallsMaterial) {
     return out.str();
   };
   const ObjFile obj = parseObj(textOf(path));
-  const auto materials = parseMtl(textOf(::testing::TempDir() + "suburb_rows.mtl"), path);
+  std::map<std::string, Material> materials;
+  for (const Material& m : parseMtl(textOf(::testing::TempDir() + "suburb_rows.mtl"), path)) {
+    materials[m.name] = m;
+  }
   const auto is = [&](const ObjFace& f, std::initializer_list<const char*> colors) {
     const Vec3 c = materials.at(obj.materials.at(f.material)).color;
     return std::any_of(colors.begin(), colors.end(), [&](const char* hex) {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/elementary.h"
 #include "builtins/lists.h"
@@ -98,14 +99,12 @@ Value fileExtension(FunctionCall& call, const Path& args) {
   return call.result(dot == std::string_view::npos ? std::string_view() : name.substr(dot + 1));
 }
 
-constexpr const char* kWhereFiles =
-    "paths start at the assets folder or at the root of the project";
-
 // Empty, with a warning, when there is no such file.
 std::string readText(const FunctionCall& call, const Path& args) {
   std::string bytes;
   if (call.services().assets().text(args.path, call.file(), bytes)) return decodedText(bytes);
-  call.fail("missing-file", "there is no file '" + std::string(args.path) + "'", kWhereFiles, {});
+  call.fail("missing-file", "there is no file '" + std::string(args.path) + "'", kWherePathsStart,
+            {});
   return {};
 }
 
@@ -146,7 +145,7 @@ Value assetInfo(FunctionCall& call, const AssetInfo& args) {
   const Ref<AssetModel> model = modelAt(call, args.path);
   if (!model) {
     return call.fail("missing-asset", "there is no model '" + std::string(args.path) + "'",
-                     kWhereFiles, Value::of(0.0));
+                     kWherePathsStart, Value::of(0.0));
   }
   const auto measure = static_cast<size_t>(args.measure);
   return Value::of(measure < 3 ? model->bounds.size()[measure] : model->bounds.min[measure - 3]);
@@ -156,12 +155,25 @@ struct NamingInfo : Path {
   Named named;
 };
 
-// Groups are not kept by readers; materials are.
+// In the order of the components that comp() makes: each material and each group once.
 Paths namesIn(const FunctionCall& call, const NamingInfo& args) {
   Paths names;
   const Ref<AssetModel> model = modelAt(call, args.path);
-  if (model && args.named == Named::Materials) {
-    for (const Material& m : model->materials) names.push_back(m.name);
+  if (!model) {
+    call.fail("missing-asset", "there is no model '" + std::string(args.path) + "'",
+              kWherePathsStart, {});
+    return names;
+  }
+  if (args.named == Named::Groups) {
+    std::set<std::string_view> known;
+    for (const std::string& name : model->groups) {
+      if (known.insert(name).second) names.push_back(name);
+    }
+  } else {
+    std::set<uint64_t> known;
+    for (const Material& m : model->materials) {
+      if (known.insert(contentHash(m)).second) names.push_back(m.name);
+    }
   }
   return names;
 }
@@ -177,8 +189,17 @@ struct Metadata : Path {
   Value otherwise;
 };
 
-// Readers keep no metadata, so there is none of any key.
-Value assetMetadata(FunctionCall&, const Metadata& args) { return args.otherwise; }
+// The property of that name and of the type of the default.
+Value assetMetadata(FunctionCall& call, const Metadata& args) {
+  const Ref<AssetModel> model = modelAt(call, args.path);
+  if (!model) return args.otherwise;
+  for (const Metadatum& m : model->metadata) {
+    if (m.key != args.key || m.type != args.otherwise.type) continue;
+    if (m.type == ValueType::String) return call.services().pool().string(m.text);
+    return m.type == ValueType::Bool ? Value::of(m.number != 0) : Value::of(m.number);
+  }
+  return args.otherwise;
+}
 
 struct ImageMeasureOf : Path {
   ImageMeasure measure;
@@ -188,7 +209,7 @@ Value imageInfo(FunctionCall& call, const ImageMeasureOf& args) {
   const ImageInfo image = call.services().assets().image(args.path, call.file());
   if (!image.found) {
     return call.fail("missing-texture", "there is no image '" + std::string(args.path) + "'",
-                     kWhereFiles, Value::of(0.0));
+                     kWherePathsStart, Value::of(0.0));
   }
   const bool height = args.measure == ImageMeasure::Height;
   return Value::of(double{1} * (height ? image.height : image.width));
@@ -425,10 +446,10 @@ constexpr FunctionSpec kFunctions[] = {
     {"readFloatTable", kFamily, "The cells of a CSV file as numbers; NaN where there is none.",
      kFloatTable, typed<readTable<ValueType::Float>>},
     {"assetInfo", kFamily, "A size or place of a model.", kAssetInfo, typed<assetInfo>},
-    {"assetNamingInfo", kFamily, "The names of a model's materials as a string list.", kNamingInfo,
-     typed<assetNamingInfo>},
-    {"assetNamingInfos", kFamily, "The names of a model's materials as an array.", kNamingInfos,
-     typed<assetNamingInfos>},
+    {"assetNamingInfo", kFamily, "The names of a model's groups or materials as a string list.",
+     kNamingInfo, typed<assetNamingInfo>},
+    {"assetNamingInfos", kFamily, "The names of a model's groups or materials as an array.",
+     kNamingInfos, typed<assetNamingInfos>},
     {"assetMetadata", kFamily, "A property that a model's file carries.", kMetadata,
      typed<assetMetadata>},
     {"imageInfo", kFamily, "Width or height of an image in pixels.", kImageInfo, typed<imageInfo>},

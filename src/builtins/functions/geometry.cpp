@@ -217,31 +217,45 @@ Value hasUvs(FunctionCall& call, const UvSet& args) {
   return Value::of(false);
 }
 
-// Names of the materials in the order of their first faces.
-Value materials(FunctionCall& call) {
-  const Shape& s = call.shape();
-  const Services& services = call.services();
+// The slots that faces have, each of those that count as one once: the components of a split.
+std::vector<uint16_t> slotsOf(const Shape& s, const std::vector<uint16_t>& firstSlots) {
   std::vector<uint16_t> slots;
   if (s.geometry.kind == GeometryKind::Mesh) {
-    std::vector<bool> seen(size_t{1} << 16);
-    for (const MeshFace& f : s.geometry.mesh->faces) {
-      if (!seen[f.materialSlot]) slots.push_back(f.materialSlot);
-      seen[f.materialSlot] = true;
-    }
+    for (const MeshFace& f : s.geometry.mesh->faces) slots.push_back(firstSlots[f.materialSlot]);
   } else if (s.geometry.kind != GeometryKind::None) {
     slots.push_back(0);
   }
+  std::sort(slots.begin(), slots.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  return slots;
+}
+
+Value materials(FunctionCall& call) {
+  const Shape& s = call.shape();
+  const Services& services = call.services();
   const auto& list = services.attributes().materials(s.assetMaterials);
   std::vector<std::string> names;
-  for (const uint16_t slot : slots) {
+  for (const uint16_t slot : slotsOf(s, slotsByMaterial(s, services))) {
     const bool own = slot == 0 || slot > list.size() / 2;
     names.push_back(services.materials().get(own ? s.material : list[slot - 1u]).name);
   }
   return stringArray(names, services.pool());
 }
 
-// Models are read as one mesh, without groups.
-Value groups(FunctionCall& call) { return stringArray({}, call.services().pool()); }
+// Without a group that has a name there are none.
+Value groups(FunctionCall& call) {
+  const Shape& s = call.shape();
+  const Services& services = call.services();
+  const auto& all = services.attributes().groups(s.assetMaterials);
+  std::vector<std::string> names;
+  for (const uint16_t slot : slotsOf(s, slotsByGroup(s, services))) {
+    const bool none = slot == 0 || slot > all.size();
+    names.emplace_back(none ? std::string_view() : services.pool().text(all[slot - 1u]));
+  }
+  const bool any = std::any_of(names.begin(), names.end(),
+                               [](const std::string& name) { return !name.empty(); });
+  return stringArray(any ? names : std::vector<std::string>(), services.pool());
+}
 
 struct TagQuery {
   std::string_view query;

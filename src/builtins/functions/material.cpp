@@ -9,8 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/files.h"
 #include "builtins/lists.h"
 #include "builtins/shared/materials.h"
+#include "builtins/shared/text_files.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -93,6 +95,75 @@ Value getMaterial(FunctionCall& call, const GetMaterial& args) {
   return tableOf(services.materials().get(id), args.mode == "changed", services.pool());
 }
 
+// A texture beside the material's file, by its path in the project; else the name as it is, which
+// setMaterial looks up as any other.
+std::string besideFile(const std::string& folder, const std::string& name, FunctionCall& call) {
+  Assets& assets = call.services().assets();
+  if (name.empty() || name[0] == '/' || name.starts_with("builtin:")) return name;
+  const std::string beside = folder + name;
+  return assets.exists(beside, call.file()) ? assets.resolve(beside, call.file()) : name;
+}
+
+// The rows of a .cgamat file, which is a CSV file of names and values.
+Value readCgamat(FunctionCall& call, std::string_view path) {
+  Assets& assets = call.services().assets();
+  ValuePool& pool = call.services().pool();
+  Array out;
+  out.element = ValueType::String;
+  out.columns = 2;
+  std::string bytes;
+  if (!assets.text(path, call.file(), bytes)) {
+    return call.fail("missing-file", "there is no file '" + std::string(path) + "'",
+                     kWherePathsStart, pool.intern(std::move(out)));
+  }
+  const std::string file = assets.resolve(path, call.file());
+  const std::string folder = file.substr(0, file.rfind('/') + 1);
+  const TextTable table = parseTable(decodedText(bytes));
+  for (size_t row = 0; row < table.rows; ++row) {
+    const std::string& name = table.cells[row * table.columns];
+    if (name.empty()) continue;
+    const MaterialField* field = materialField(name);
+    if (!field || table.columns < 2) {
+      call.fail("bad-material",
+                "'" + std::string(path) + "' sets no property of a material in line " +
+                    std::to_string(row + 1),
+                "each line is a property and its value, as in 'roughness,0.5'", {});
+      continue;
+    }
+    const std::string& value = table.cells[row * table.columns + 1];
+    out.strings.push_back(pool.intern(name));
+    out.strings.push_back(pool.intern(isTexture(*field) ? besideFile(folder, value, call) : value));
+    ++out.rows;
+  }
+  return pool.intern(std::move(out));
+}
+
+struct ReadMaterial {
+  std::string_view path;
+};
+
+Value readMaterial(FunctionCall& call, const ReadMaterial& args) {
+  const std::string extension = extensionOf(std::string(args.path));
+  if (extension == "cgamat") return readCgamat(call, args.path);
+  Array none;
+  none.element = ValueType::String;
+  none.columns = 2;
+  ValuePool& pool = call.services().pool();
+  if (extension != "mtl") {
+    return call.fail("bad-material", "'" + std::string(args.path) + "' is no file of a material",
+                     "use a .cgamat or an .mtl file", pool.intern(std::move(none)));
+  }
+  const Result<Material> m = call.services().assets().material(args.path, call.file());
+  if (m.ok()) return tableOf(m.value(), true, pool);
+  return call.fail(m.error().code == "bad-material" ? "bad-material" : "missing-file",
+                   m.error().message, m.error().hint, pool.intern(std::move(none)));
+}
+
+constexpr ParamSpec kReadMaterialParams[] = {
+    param<&ReadMaterial::path>("filePath", "A .cgamat or .mtl file, by its path in the project."),
+};
+constexpr Signature kReadMaterialSignatures[] = {{kReadMaterialParams, ValueType::StringArray}};
+
 constexpr ParamSpec kGetMaterialParams[] = {
     param<&GetMaterial::source>(
         "source",
@@ -107,6 +178,9 @@ constexpr FunctionSpec kFunctions[] = {
     {"getMaterial", "material",
      "A material as a table of two columns, names and values, that setMaterial understands.",
      kGetMaterialSignatures, typed<getMaterial>},
+    {"readMaterial", "material",
+     "The material of a file as a table of two columns, as getMaterial gives it.",
+     kReadMaterialSignatures, typed<readMaterial>},
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 
 namespace gable {
 
@@ -125,18 +126,20 @@ const char* modeName(OpacityMode mode) {
   return mode == OpacityMode::Opaque ? "opaque" : mode == OpacityMode::Mask ? "mask" : "blend";
 }
 
-bool isTexture(const MaterialField& f) {
-  return f.text != nullptr && std::string_view(f.name).ends_with("map");
-}
-
 // The path that a texture has in the project; built-in images and none stay as they are.
 std::string resolved(std::string_view path, Services& services, std::string_view file) {
   if (path.empty() || path.starts_with("builtin:")) return std::string(path);
   if (!services.assets().exists(path, file)) {
     services.warn("missing-texture", "there is no image '" + std::string(path) + "'",
-                  "paths start at the assets folder or at the root of the project");
+                  kWherePathsStart);
   }
   return services.assets().resolve(path, file);
+}
+
+// Other materials for the same slots, which stay of their groups.
+void keepMaterials(Shape& s, std::vector<MaterialId> list, Services& services) {
+  AttributePool& pool = services.attributes();
+  s.assetMaterials = pool.internMaterials(std::move(list), pool.groups(s.assetMaterials));
 }
 
 // Makes an edit on the shape's own material and on those in use in its slots.
@@ -151,7 +154,7 @@ void editAll(Shape& s, Services& services, MaterialEdit edit, Change change) {
     edit.base = list[i];
     list[i] = table.edited(edit, change);
   }
-  s.assetMaterials = services.attributes().internMaterials(std::move(list));
+  keepMaterials(s, std::move(list), services);
 }
 
 uint32_t indexOf(const MaterialField& f) { return static_cast<uint32_t>(&f - kFields); }
@@ -206,6 +209,10 @@ std::span<const MaterialField> materialFields() { return kFields; }
 
 std::string_view shortName(const MaterialField& f) {
   return std::string_view(f.name).substr(std::string_view("material.").size());
+}
+
+bool isTexture(const MaterialField& f) {
+  return f.text != nullptr && std::string_view(f.name).ends_with("map");
 }
 
 const MaterialField* materialField(std::string_view name) {
@@ -294,14 +301,55 @@ Material overlaid(const Material& own, const Material& model) {
   return out;
 }
 
-void setModelMaterials(Shape& s, const std::vector<Material>& model, Services& services) {
+void setModelMaterials(Shape& s, const AssetModel& model, Services& services) {
+  if (model.materials.empty()) return;
   MaterialTable& table = services.materials();
   const Material& own = table.get(s.material);
   std::vector<MaterialId> list;
-  list.reserve(model.size() * 2);
-  for (const Material& m : model) list.push_back(table.intern(overlaid(own, m)));
-  for (const Material& m : model) list.push_back(table.intern(m));
-  s.assetMaterials = services.attributes().internMaterials(std::move(list));
+  list.reserve(model.materials.size() * 2);
+  for (const Material& m : model.materials) list.push_back(table.intern(overlaid(own, m)));
+  for (const Material& m : model.materials) list.push_back(table.intern(m));
+  std::vector<StringId> groups;
+  for (const std::string& name : model.groups) groups.push_back(services.pool().intern(name));
+  s.assetMaterials = services.attributes().internMaterials(std::move(list), std::move(groups));
+}
+
+namespace {
+
+// The first slot of each key, for the slots that the mesh has.
+template <class KeyOf>
+std::vector<uint16_t> firstOfKey(const Shape& s, KeyOf keyOf) {
+  size_t slots = 1;
+  if (s.geometry.kind == GeometryKind::Mesh) {
+    for (const MeshFace& f : s.geometry.mesh->faces) {
+      slots = std::max(slots, size_t{f.materialSlot} + 1);
+    }
+  }
+  std::vector<uint16_t> first(slots);
+  std::map<decltype(keyOf(size_t{0})), uint16_t> known;
+  for (size_t slot = 0; slot < slots; ++slot) {
+    first[slot] = known.try_emplace(keyOf(slot), static_cast<uint16_t>(slot)).first->second;
+  }
+  return first;
+}
+
+}  // namespace
+
+std::vector<uint16_t> slotsByMaterial(const Shape& s, const Services& services) {
+  const auto& list = services.attributes().materials(s.assetMaterials);
+  const size_t n = list.size() / 2;
+  return firstOfKey(s, [&](size_t slot) {
+    const bool own = slot == 0 || slot > n;
+    return own ? std::pair<MaterialId, MaterialId>{s.material, 0}
+               : std::pair<MaterialId, MaterialId>{list[slot - 1], list[n + slot - 1]};
+  });
+}
+
+std::vector<uint16_t> slotsByGroup(const Shape& s, const Services& services) {
+  const auto& groups = services.attributes().groups(s.assetMaterials);
+  return firstOfKey(s, [&](size_t slot) {
+    return slot == 0 || slot > groups.size() ? StringId{0} : groups[slot - 1];
+  });
 }
 
 void resetMaterials(Shape& s, bool own, bool geometry, Services& services) {
@@ -315,7 +363,7 @@ void resetMaterials(Shape& s, bool own, bool geometry, Services& services) {
     if (geometry) original = 0;
     list[i] = table.intern(overlaid(table.get(s.material), table.get(original)));
   }
-  s.assetMaterials = services.attributes().internMaterials(std::move(list));
+  keepMaterials(s, std::move(list), services);
 }
 
 }  // namespace gable

@@ -30,6 +30,8 @@ struct MaterialField {
 std::span<const MaterialField> materialFields();
 /// The name without "material.".
 std::string_view shortName(const MaterialField& f);
+/// Whether the field is a path of an image.
+bool isTexture(const MaterialField& f);
 /// By its short name; null when there is none.
 const MaterialField* materialField(std::string_view shortName);
 
@@ -52,8 +54,12 @@ MaterialId geometryMaterial(const Shape& s, const Services& services);
 
 /// What the shape's own material has different from the default, laid over a model's material.
 Material overlaid(const Material& own, const Material& model);
-/// The materials of an inserted model become those of the shape's slots.
-void setModelMaterials(Shape& s, const std::vector<Material>& model, Services& services);
+/// The materials and groups of an inserted model become those of the shape's slots.
+void setModelMaterials(Shape& s, const AssetModel& model, Services& services);
+/// For each slot of the shape's mesh, slot 0 too, the first slot with the same material, or of the
+/// same group: what component splits take as one. Faces of no group are one.
+std::vector<uint16_t> slotsByMaterial(const Shape& s, const Services& services);
+std::vector<uint16_t> slotsByGroup(const Shape& s, const Services& services);
 /// Back to the default: the shape's own changes, the model's materials, or both.
 void resetMaterials(Shape& s, bool own, bool geometry, Services& services);
 

@@ -164,6 +164,12 @@ ImageInfo MemoryAssets::image(std::string_view path, std::string_view) {
   return at == images.end() ? ImageInfo{} : at->second;
 }
 
+Result<Material> MemoryAssets::material(std::string_view path, std::string_view) {
+  const auto at = materials.find(path);
+  if (at != materials.end()) return at->second;
+  return Error{"missing-file", "there is no file '" + std::string(path) + "'", ""};
+}
+
 bool MemoryAssets::exists(std::string_view path, std::string_view) {
   return models.count(path) || images.count(path) || texts.count(path);
 }

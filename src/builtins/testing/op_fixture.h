@@ -30,6 +30,7 @@ class MemoryAssets : public Assets {
   std::map<std::string, Ref<AssetModel>, std::less<>> models;
   std::map<std::string, ImageInfo, std::less<>> images;
   std::map<std::string, std::string, std::less<>> texts;
+  std::map<std::string, Material, std::less<>> materials;
 
   void addModel(std::string path, Mesh mesh, std::vector<Material> materials = {});
   void addImage(std::string path, uint32_t width, uint32_t height, bool hasAlpha = false);
@@ -38,6 +39,7 @@ class MemoryAssets : public Assets {
   Ref<AssetModel> model(std::string_view path, std::string_view fromFile, bool zUp,
                         std::string& why) override;
   ImageInfo image(std::string_view path, std::string_view fromFile) override;
+  Result<Material> material(std::string_view path, std::string_view fromFile) override;
   bool exists(std::string_view path, std::string_view fromFile) override;
   /// A * in the pattern stands for any characters.
   std::vector<std::string> search(std::string_view pattern, std::string_view fromFile) override;

@@ -18,6 +18,7 @@
 #include "base/result.h"
 #include "geom/mesh/mesh.h"
 #include "material/material.h"
+#include "scene/scene.h"
 
 namespace gable {
 
@@ -25,9 +26,13 @@ struct Asset {
   MeshRef mesh;
   /// By slot of the mesh; at least one.
   std::vector<Material> materials;
-  /// Names of the parts of the file (OBJ groups, glTF meshes), and the part of each face.
+  /// Names of the parts of the file (OBJ groups, glTF nodes), and the part of each face.
   std::vector<std::string> groups;
   std::vector<uint32_t> faceGroups;
+  /// By slot, the name of its part; filled in by divideSlots.
+  std::vector<std::string> slotGroups;
+  /// Properties that the file carries of itself.
+  std::vector<std::pair<std::string, PlainValue>> metadata;
   Box3 bounds;
   /// Textures that the file holds itself, by the name that `materials` use for them: the asset's
   /// path,
@@ -52,11 +57,16 @@ struct AssetOptions {
 /// Slots are numbers of 16 bits, and a shape's own material takes one more.
 constexpr size_t kMostMaterials = 65534;
 
-/// By the content and, for OBJ, the extension. Codes: asset-broken, asset-empty, asset-unknown,
-/// asset-too-large.
+/// By the content and the extension. Codes: asset-broken, asset-empty, asset-unknown,
+/// asset-too-large, asset-converter.
 Result<Asset> readAsset(std::string_view bytes, const AssetOptions& options);
 Result<Asset> readObjAsset(std::string_view text, const AssetOptions& options);
 Result<Asset> readGltfAsset(std::string_view bytes, const AssetOptions& options);
+
+/// Divides the slots of the mesh by `faceGroups`, so that each slot has faces of one material and
+/// one group, in the order of their first faces; fills in `slotGroups`. Where no group has a name,
+/// or there are more than slots can be, all stays as it is.
+void divideSlots(Mesh& mesh, Asset& asset);
 
 /// The project path of a file that is named relative to another: "a/b.obj" and "../t/c.png" give
 /// "t/c.png". Backslashes are slashes. What would leave the project keeps its leading "..".

@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: The Gable authors
 #include "io/importers/face_filter.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/work.h"
 
@@ -56,6 +58,34 @@ uint32_t FaceFilter::position(uint32_t index) {
 Error tooManyOf(const char* what, size_t most, const AssetOptions& options, const char* hint) {
   return {"asset-too-large",
           "'" + options.path + "' has more than " + std::to_string(most) + " " + what, hint};
+}
+
+void divideSlots(Mesh& mesh, Asset& asset) {
+  const bool named = std::any_of(asset.groups.begin(), asset.groups.end(),
+                                 [](const std::string& name) { return !name.empty(); });
+  if (!named || asset.faceGroups.size() != mesh.faceCount()) return;
+  std::map<std::pair<uint16_t, uint32_t>, size_t> slots;
+  std::vector<std::pair<uint16_t, uint32_t>> pairs;
+  std::vector<uint16_t> slotOf;
+  for (size_t f = 0; f < mesh.faceCount(); ++f) {
+    work();
+    const std::pair key{mesh.faces[f].materialSlot, asset.faceGroups[f]};
+    const auto [at, fresh] = slots.try_emplace(key, slots.size());
+    if (fresh) pairs.push_back(key);
+    if (pairs.size() > kMostMaterials) {
+      asset.warnings.push_back("the groups of the file are too many to be kept");
+      return;
+    }
+    slotOf.push_back(static_cast<uint16_t>(at->second));
+  }
+  std::vector<Material> materials;
+  for (const auto& [material, group] : pairs) {
+    workMemory(sizeof(Material));
+    materials.push_back(material < asset.materials.size() ? asset.materials[material] : Material{});
+    asset.slotGroups.push_back(asset.groups[group]);
+  }
+  asset.materials = std::move(materials);
+  for (size_t f = 0; f < mesh.faceCount(); ++f) mesh.faces[f].materialSlot = slotOf[f];
 }
 
 Result<Asset> finishAsset(Mesh mesh, Asset asset, const AssetOptions& options) {

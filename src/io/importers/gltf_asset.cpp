@@ -172,6 +172,30 @@ Mesh GltfMeshes::take() {
   return m;
 }
 
+namespace {
+
+// The extras of the file and of its scene: what writers let users add. The first of a name counts.
+void readMetadata(const JsonValue& json, Asset& asset) {
+  const JsonValue& scenes = json["scenes"];
+  const size_t scene = json.find("scene") ? GltfFile::index(json["scene"]) : 0;
+  const JsonValue& ofScene = scenes.at(std::min(scene, scenes.size()))["extras"];
+  for (const JsonValue* extras : {&json["asset"]["extras"], &ofScene, &json["extras"]}) {
+    for (const auto& [key, v] : extras->members()) {
+      work();
+      if (!v.isNumber() && !v.isBool() && !v.isText()) continue;
+      PlainValue value;
+      value.kind = v.isNumber() ? PlainValue::Kind::Number
+                   : v.isBool() ? PlainValue::Kind::Bool
+                                : PlainValue::Kind::Text;
+      value.number = v.number(v.boolean(false) ? 1 : 0);
+      value.text = v.text();
+      asset.metadata.emplace_back(key, std::move(value));
+    }
+  }
+}
+
+}  // namespace
+
 Result<Asset> readGltfAsset(std::string_view bytes, const AssetOptions& options) {
   Result<GltfFile> file = GltfFile::open(bytes, options);
   if (!file.ok()) return file.error();
@@ -197,6 +221,7 @@ Result<Asset> readGltfAsset(std::string_view bytes, const AssetOptions& options)
     asset.warnings.push_back(std::to_string(meshes.broken()) + " primitives cannot be read");
   }
   Mesh mesh = meshes.take();
+  readMetadata(file->json(), asset);
   return finishAsset(std::move(mesh), std::move(asset), options);
 }
 

@@ -133,16 +133,15 @@ void readStatement(const std::string& head, LineWords& words, Material& m,
 
 }  // namespace
 
-std::map<std::string, Material> parseMtl(std::string_view text, const std::string& path) {
-  std::map<std::string, Material> all;
+std::vector<Material> parseMtl(std::string_view text, const std::string& path) {
+  std::vector<Material> all;
   Material* m = nullptr;
   forEachLine(text, [&](LineWords words) {
     work();
     const std::string head = lowered(words.word());
     if (head == "newmtl") {
-      const std::string name(words.rest());
-      m = &(all[name] = Material{});
-      m->name = name;
+      m = &all.emplace_back();
+      m->name = words.rest();
     } else if (m) {
       readStatement(head, words, *m, path);
     }

@@ -83,7 +83,7 @@ class PartBuilder {
       const Vec3 n = from.normal == kNone ? Vec3{} : normalized(file_.normals[from.normal]);
       b.setNormal(c, filter_.direction(n));
     }
-    out_->asset.faceGroups.push_back(groupOf(f.group));
+    out_->asset.faceGroups.push_back(groupOf(byObject_ ? f.object : f.group));
   }
 
   // Material names of the faces become slots in the order of their first use.
@@ -108,10 +108,11 @@ class PartBuilder {
   }
 
   uint32_t groupOf(uint32_t group) {
-    if (!wishes_.groups || group >= file_.groups.size()) group = kNone;
+    const std::vector<std::string>& all = byObject_ ? file_.objects : file_.groups;
+    if (!wishes_.groups || group >= all.size()) group = kNone;
     std::vector<std::string>& names = out_->asset.groups;
     const auto [at, fresh] = groups_.try_emplace(group, static_cast<uint32_t>(names.size()));
-    if (fresh) names.push_back(group == kNone ? "" : file_.groups[group]);
+    if (fresh) names.push_back(group == kNone ? "" : all[group]);
     return at->second;
   }
 
@@ -119,6 +120,8 @@ class PartBuilder {
   std::span<const uint32_t> faces_;
   const ObjMaterials& materials_;
   const ObjPartWishes& wishes_;
+  // Objects are the groups of a file that has no others.
+  const bool byObject_ = file_.groups.empty();
   // The positions that the faces use, sorted, and their places.
   std::vector<uint32_t> used_, positions_;
   std::vector<Vec3> points_;
@@ -147,9 +150,9 @@ Result<ObjMaterials> objMaterials(const ObjFile& file, const AssetOptions& optio
       warnings.push_back("the material file '" + path + "' is left out: " + text.error().message);
       continue;
     }
-    for (auto& [key, material] : parseMtl(text.value(), path)) {
+    for (const Material& material : parseMtl(text.value(), path)) {
       work();
-      all[key] = material;
+      all[material.name] = material;
     }
   }
   return all;

@@ -72,20 +72,25 @@ Parts partsOf(const ObjFile& file, bool byObject) {
 Result<ShapeFile> readObjShapes(std::string_view text, const AssetOptions& options) {
   const ObjFile file = parseObj(text);
   ShapeFile out;
+  std::vector<std::string> warnings;
+  Result<ObjMaterials> materials = objMaterials(file, options, warnings);
+  if (!materials.ok()) return materials.error();
+  for (const std::string& w : warnings) out.diagnostics.warning("shape-material-missing", {}, w);
   const bool byObject = !file.objects.empty();
   const std::vector<std::string>& names = byObject ? file.objects : file.groups;
   const Parts parts = partsOf(file, byObject);
-  const ObjMaterials noMaterials;
-  const ObjPartWishes wishes{false, true, false};
+  // A shape that is a group has none inside it.
+  const ObjPartWishes wishes{byObject && !file.groups.empty(), true, false};
   uint64_t dropped = 0;
   for (size_t i = 0; i < parts.faces.size(); ++i) {
-    Result<ObjPart> part = objPart(file, parts.faces[i], noMaterials, wishes, options);
+    Result<ObjPart> part = objPart(file, parts.faces[i], *materials, wishes, options);
     if (!part.ok()) return part.error();
     dropped += part->dropped;
     ShapeInput shape;
     shape.name = parts.names[i] < names.size() ? names[parts.names[i]] : stemOf(options.path);
     shape.mesh = std::move(part->mesh);
     if (shape.mesh.empty()) continue;
+    takeMaterials(shape, std::move(part->asset));
     out.shapes.push_back(std::move(shape));
   }
   noteDropped(out, dropped);

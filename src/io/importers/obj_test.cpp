@@ -198,7 +198,7 @@ TEST(ObjShapes, bringTextureCoordinates) {
 TEST(Mtl, takesBumpFactorsXyzAndHalos) {
   const auto all = parseMtl(
       "newmtl a\nKd xyz 0.9505 1 1.089\nmap_Bump -bm 0.4 bump.png\nd -halo 0.25\n", "m/a.mtl");
-  const Material& m = all.at("a");
+  const Material& m = all.at(0);
   EXPECT_NEAR(m.color.x, 1, 1e-3);
   EXPECT_NEAR(m.color.y, 1, 1e-3);
   EXPECT_EQ(m.map(TextureLayer::Bump).path, "m/bump.png");

@@ -26,11 +26,13 @@ Result<ShapeFile> readGltfShapes(std::string_view bytes, const AssetOptions& opt
   if (!file.ok()) return file.error();
   ShapeFile out;
   uint64_t dropped = 0;
-  const std::vector<GltfMaterial> noMaterials;
+  Asset held;
+  const std::vector<GltfMaterial> materials = readGltfMaterials(*file, options, held);
+  out.textures = std::move(held.textures);
   uint64_t read = 0;
   for (const GltfPlacement& p : file->placements()) {
-    Asset scratch;
-    GltfMeshes meshes(*file, noMaterials, scratch, options.zUp);
+    Asset part;
+    GltfMeshes meshes(*file, materials, part, options.zUp);
     const bool fits = meshes.add(p, 0);
     read += meshes.work();
     if (!fits || read > GltfMeshes::kMostWork) {
@@ -41,6 +43,7 @@ Result<ShapeFile> readGltfShapes(std::string_view bytes, const AssetOptions& opt
     ShapeInput shape;
     shape.mesh = meshes.take();
     shape.mesh.normals.clear();
+    takeMaterials(shape, std::move(part));
     // Footprints come as triangles; what lies in one plane is one polygon again.
     mergePositions(shape.mesh, kSamePlace);
     mergeCoplanarFaces(shape.mesh, kSamePlane);

@@ -10,8 +10,8 @@
 //   OBJ      a shape an object (o), or a group (g) where there are no objects, or the whole file
 //   glTF     a shape a node with a mesh
 //
-// OBJ and glTF bring their texture coordinates; triangles of glTF that lie in one plane, with one
-// mapping, are one polygon.
+// OBJ and glTF bring their texture coordinates and materials; triangles of glTF that lie in one
+// plane, with one material and one mapping, are one polygon.
 //
 // Promises: coordinates are local metres with y up; every face has an area, but for lines; equal
 // input gives equal shapes. What is wrong with one shape is a Diagnostic that names it, and the
@@ -38,12 +38,17 @@ struct ShapeInput {
   std::string id;
   /// By face, or empty: a tag for it; lines have "width=7.5" by their property `width`.
   std::vector<std::string> faceTags;
+  /// Of the slots from 1 of the mesh, as Asset has them from 0; slot 0 is the shape's own material.
+  std::vector<Material> materials;
+  std::vector<std::string> groups;
 };
 
 struct ShapeFile {
   std::vector<ShapeInput> shapes;
   GeoOrigin geoOrigin;
   Diagnostics diagnostics;
+  /// Pictures that lie in the file itself, as Asset has them.
+  std::map<std::string, std::string> textures;
 };
 
 /// Which features of a map become shapes.

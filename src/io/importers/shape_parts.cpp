@@ -2,8 +2,11 @@
 // SPDX-FileCopyrightText: The Gable authors
 #include "io/importers/shape_parts.h"
 
+#include <algorithm>
+
 #include "base/files.h"
 #include "base/work.h"
+#include "io/importers/face_filter.h"
 
 namespace gable {
 
@@ -47,6 +50,20 @@ void turnFootprintsUp(ShapeFile& out) {
                               (turned == 1 ? " footprint faces" : " footprints face") +
                               " the ground and " + (turned == 1 ? "is" : "are") + " turned over",
                           "write the corners counter-clockwise as seen from above");
+}
+
+void takeMaterials(ShapeInput& shape, Asset part) {
+  divideSlots(shape.mesh, part);
+  const Material plain;
+  const bool looks = std::any_of(part.materials.begin(), part.materials.end(),
+                                 [&](const Material& m) { return m != plain; });
+  if (!looks && part.slotGroups.empty()) {
+    for (MeshFace& f : shape.mesh.faces) f.materialSlot = 0;
+    return;
+  }
+  for (MeshFace& f : shape.mesh.faces) f.materialSlot = static_cast<uint16_t>(f.materialSlot + 1);
+  shape.materials = std::move(part.materials);
+  shape.groups = std::move(part.slotGroups);
 }
 
 }  // namespace gable

@@ -19,5 +19,8 @@ void noteDropped(ShapeFile& out, uint64_t faces);
 /// A footprint that faces the ground would be built downward. Its outer ring is clockwise as seen
 /// from above, which says nothing about what was meant; GeoJSON's rings are turned as well.
 void turnFootprintsUp(ShapeFile& out);
+/// The slots of a mesh that was read as an asset become those of a shape, which count from 1: their
+/// materials, where one of them says anything, and their groups.
+void takeMaterials(ShapeInput& shape, Asset part);
 
 }  // namespace gable

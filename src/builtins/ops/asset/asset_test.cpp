@@ -114,6 +114,27 @@ TEST(Insert, missingModelsAreTheirScope) {
   EXPECT_EQ(kindOf({1, 0, 0}), GeometryKind::None);
 }
 
+TEST(Insert, groupsAreComponents) {
+  FakeServices services;
+  AssetModel model;
+  model.mesh = makeRef<Mesh>(makeBoxMesh({1, 1, 1}, false));
+  Mesh mesh = *model.mesh;
+  for (size_t f = 0; f < 6; ++f) mesh.faces[f].materialSlot = f < 4 ? 0 : 1;
+  model.mesh = makeRef<Mesh>(std::move(mesh));
+  model.materials.resize(2);
+  model.groups = {"Body", "Lid"};
+  fitModel(model);
+  services.files.models["g.obj"] = makeRef<AssetModel>(std::move(model));
+  const Shape s = Op("i").args("g.obj").on(boxShape({1, 1, 1}), services).shape;
+  EXPECT_EQ(callText("geometry.groups", {}, services, s), "(2)[Body,Lid]");
+  const Ran split = Op("comp").args(word("g")).select({"1", "all"}).on(s, services);
+  ASSERT_EQ(split.children.size(), 2u);
+  EXPECT_EQ(countsOf(split.of(0)[0].geometry).faces, 2u);
+  EXPECT_EQ(countsOf(split.of(1)[0].geometry).faces, 4u);
+  // Both slots have the same material, which is one component.
+  EXPECT_EQ(Op("comp").args(word("m")).select({"all"}).on(s, services).children.size(), 1u);
+}
+
 TEST(Insert, builtinModelsAreOneMetreLarge) {
   FakeServices services;
   for (const char* name : {"builtin:cube", "builtin:cube:notex", "builtin:cylinder",

@@ -102,14 +102,14 @@ Status applyI(OpCall& call, const Insert& args) {
     call.services().warn(
         "missing-asset",
         "cannot insert '" + std::string(path) + "': " + why + "; its scope stands in its place",
-        "paths start at the assets folder or at the root of the project");
+        kWherePathsStart);
     insertPlaceholder(call.shape());
     return {};
   }
   Shape& s = call.shape();
   placeScope(s, model->bounds, args.mode);
   insertMesh(s, fittedMesh(*model), model->bounds.size());
-  if (!model->materials.empty()) setModelMaterials(s, model->materials, call.services());
+  setModelMaterials(s, *model, call.services());
   return {};
 }
 

@@ -171,7 +171,7 @@ Status applyInsert(OpCall& call, const InsertAlongUv& args) {
   const Ref<AssetModel> model = call.services().assets().model(args.path, call.file(), false, why);
   if (!model) {
     return call.fail("missing-asset", "cannot insert '" + std::string(args.path) + "': " + why,
-                     "paths start at the assets folder or at the root of the project");
+                     kWherePathsStart);
   }
 
   // The model in (u, height, -v) space.
@@ -197,7 +197,7 @@ Status applyInsert(OpCall& call, const InsertAlongUv& args) {
   Mesh made = out.take();
   s.assetMaterials = 0;
   setMesh(s, std::move(made), ScopeFit::Refit);
-  if (!model->materials.empty()) setModelMaterials(s, model->materials, call.services());
+  setModelMaterials(s, *model, call.services());
   return {};
 }
 

@@ -39,8 +39,8 @@ Status beginInline(OpCall& call, const Inline&) {
   return {};
 }
 
-/// The materials of several shapes as slots of one. What a shape's own material is becomes part of
-/// the geometry.
+/// The materials and groups of several shapes as slots of one. What a shape's own material is
+/// becomes part of the geometry.
 class Slots {
  public:
   explicit Slots(Services& services) : services_(services) {}
@@ -48,32 +48,48 @@ class Slots {
   /// The slots, from 1, to which those of a shape's mesh go, from its own material on.
   std::vector<uint16_t> of(const Shape& s) {
     const std::vector<MaterialId> list = services_.attributes().materials(s.assetMaterials);
+    const std::vector<StringId>& groups = services_.attributes().groups(s.assetMaterials);
     const size_t n = list.size() / 2;
-    std::vector<uint16_t> out{slotOf(s.material, s.material)};
-    for (size_t k = 0; k < n; ++k) out.push_back(slotOf(list[k], list[n + k]));
+    std::vector<uint16_t> out{slotOf({s.material, s.material, none_})};
+    for (size_t k = 0; k < n; ++k) {
+      out.push_back(slotOf({list[k], list[n + k], k < groups.size() ? groups[k] : none_}));
+    }
     return out;
   }
   /// In the order of AttributePool: those in use, then those that the geometry has.
   uint32_t interned() {
     std::vector<MaterialId> list;
-    for (const auto& [used, own] : pairs_) list.push_back(used);
-    for (const auto& [used, own] : pairs_) list.push_back(own);
-    return services_.attributes().internMaterials(std::move(list));
+    std::vector<StringId> groups;
+    bool grouped = false;
+    for (const Slot& slot : slots_) {
+      list.push_back(slot.used);
+      groups.push_back(slot.group);
+      grouped = grouped || slot.group != none_;
+    }
+    for (const Slot& slot : slots_) list.push_back(slot.own);
+    if (!grouped) groups.clear();
+    return services_.attributes().internMaterials(std::move(list), std::move(groups));
   }
 
  private:
-  uint16_t slotOf(MaterialId used, MaterialId own) {
-    const std::pair pair{used, own};
-    auto at = std::find(pairs_.begin(), pairs_.end(), pair);
+  struct Slot {
+    MaterialId used = 0, own = 0;
+    StringId group = 0;
+    bool operator==(const Slot&) const = default;
+  };
+  uint16_t slotOf(const Slot& slot) {
+    auto at = std::find(slots_.begin(), slots_.end(), slot);
     // Slots have 16 bits; what would have more takes the last one.
-    if (at == pairs_.end() && pairs_.size() < 0xfffe) at = pairs_.insert(pairs_.end(), pair);
-    if (at == pairs_.end()) --at;
+    if (at == slots_.end() && slots_.size() < 0xfffe) at = slots_.insert(slots_.end(), slot);
+    if (at == slots_.end()) --at;
     work();
-    return static_cast<uint16_t>(at - pairs_.begin() + 1);
+    return static_cast<uint16_t>(at - slots_.begin() + 1);
   }
 
   Services& services_;
-  std::vector<std::pair<MaterialId, MaterialId>> pairs_;
+  // The name of faces that are of no group.
+  const StringId none_ = services_.pool().intern("");
+  std::vector<Slot> slots_;
 };
 
 bool haveOneMaterial(const std::vector<const Shape*>& shapes) {

@@ -143,7 +143,9 @@ Shape modelled(FakeServices& services) {
   bark.name = "Bark";
   leaf.name = "Leaf";
   leaf.color = {0, 1, 0};
-  setModelMaterials(s, {bark, leaf}, services);
+  AssetModel model;
+  model.materials = {bark, leaf};
+  setModelMaterials(s, model, services);
   return s;
 }
 
@@ -183,7 +185,9 @@ TEST(ModelMaterials, changesMadeBeforeLieOverTheModels) {
   Material leaf;
   leaf.name = "Leaf";
   leaf.color = {0, 1, 0};
-  setModelMaterials(s, {leaf}, services);
+  AssetModel model;
+  model.materials = {leaf};
+  setModelMaterials(s, model, services);
   const Material& m =
       services.materials().get(services.attributes().materials(s.assetMaterials)[0]);
   EXPECT_EQ(m.color.x, 1);

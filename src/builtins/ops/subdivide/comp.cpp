@@ -11,6 +11,7 @@
 #include "builtins/ops/subdivide/shared/components.h"
 #include "builtins/ops/subdivide/shared/parts.h"
 #include "builtins/selection.h"
+#include "builtins/shared/materials.h"
 #include "program/tag_effects.h"
 #include "shape/op_call.h"
 
@@ -291,10 +292,10 @@ bool isDegenerate(const Component& c, ComponentKind kind) {
   return kind != ComponentKind::Vertices && (c.z == Vec3{} || c.x == Vec3{});
 }
 
-void splitMesh(const Context& context, ComponentKind kind) {
+void splitMesh(const Context& context, ComponentKind kind, std::vector<uint16_t> firstSlots) {
   OpCall& call = context.call;
   const MeshRef mesh = meshInScope(call.shape());
-  Components all(*mesh, kind);
+  Components all(*mesh, kind, std::move(firstSlots));
   const Directions directions(call.services(), call.shape());
   std::vector<bool> taken(all.list().size(), false);
   call.countComponents(all.list().size());
@@ -325,14 +326,29 @@ void splitMesh(const Context& context, ComponentKind kind) {
   }
 }
 
+using SlotTable = std::vector<uint16_t> (*)(const Shape&, const Services&);
+
 // The words for components, in the order of kKinds.
 enum class KindWord : uint8_t {};
-constexpr ComponentKind kKinds[] = {
-    ComponentKind::Faces,     ComponentKind::Faces,        ComponentKind::Edges,
-    ComponentKind::Edges,     ComponentKind::FaceEdges,    ComponentKind::Vertices,
-    ComponentKind::Vertices,  ComponentKind::FaceVertices, ComponentKind::Materials,
-    ComponentKind::Materials, ComponentKind::Materials,    ComponentKind::Materials,
-    ComponentKind::Holes,     ComponentKind::Holes,
+struct Kind {
+  ComponentKind kind;
+  SlotTable slots = nullptr;
+};
+constexpr Kind kKinds[] = {
+    {ComponentKind::Faces},
+    {ComponentKind::Faces},
+    {ComponentKind::Edges},
+    {ComponentKind::Edges},
+    {ComponentKind::FaceEdges},
+    {ComponentKind::Vertices},
+    {ComponentKind::Vertices},
+    {ComponentKind::FaceVertices},
+    {ComponentKind::Slots, slotsByGroup},
+    {ComponentKind::Slots, slotsByGroup},
+    {ComponentKind::Slots, slotsByMaterial},
+    {ComponentKind::Slots, slotsByMaterial},
+    {ComponentKind::Holes},
+    {ComponentKind::Holes},
 };
 enum class Alignment : uint8_t { ZUp, NoAlign };
 
@@ -356,12 +372,15 @@ struct Comp {
 };
 
 Status applyComp(OpCall& call, const Comp& args) {
-  const ComponentKind kind = kKinds[static_cast<size_t>(args.component)];
+  const Kind& chosen = kKinds[static_cast<size_t>(args.component)];
+  const ComponentKind kind = chosen.kind;
   const Context context{call, args.alignment == Alignment::ZUp};
   if (kind == ComponentKind::Faces && context.align && hasFlatFaces(call, call.shape())) {
     splitFlatFaces(context);
   } else {
-    splitMesh(context, kind);
+    const Shape& s = call.shape();
+    splitMesh(context, kind,
+              chosen.slots ? chosen.slots(s, call.services()) : std::vector<uint16_t>());
   }
   return {};
 }

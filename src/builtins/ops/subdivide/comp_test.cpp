@@ -257,8 +257,15 @@ TEST(Comp, holesBecomeFaces) {
 
 TEST(Comp, materialsAreDividedByTheirSlots) {
   Mesh m = makeBoxMesh({1, 1, 1}, false);
-  for (size_t f = 2; f < 6; ++f) m.faces[f].materialSlot = 3;
-  const Ran ran = comp(meshShape(m), "m", {"all"});
+  for (size_t f = 0; f < 6; ++f) m.faces[f].materialSlot = f < 2 ? 1 : 3;
+  FakeServices services;
+  Shape s = meshShape(m);
+  const MaterialId own = services.materials().intern({});
+  Material red;
+  red.color = {1, 0, 0};
+  const MaterialId other = services.materials().intern(red);
+  s.assetMaterials = services.attributes().internMaterials({own, own, other, own, own, other}, {});
+  const Ran ran = Op("comp").args(word("m")).select({"all"}).on(s, services);
   ASSERT_EQ(ran.children.size(), 2u);
   EXPECT_EQ(countsOf(ran.children[0].shape.geometry).faces, 2u);
   EXPECT_EQ(countsOf(ran.children[1].shape.geometry).faces, 4u);

@@ -20,8 +20,11 @@ Vec3 someX(const Vec3& z) { return frameFromZ({}, z, {1, 0, 0}).x; }
 
 }  // namespace
 
-Components::Components(const Mesh& m, ComponentKind kind)
-    : mesh_(m), kind_(kind), edges_(std::make_unique<MeshEdges>(m)) {
+Components::Components(const Mesh& m, ComponentKind kind, std::vector<uint16_t> firstSlots)
+    : mesh_(m),
+      kind_(kind),
+      edges_(std::make_unique<MeshEdges>(m)),
+      firstSlots_(std::move(firstSlots)) {
   for (size_t f = 0; f < m.faceCount(); ++f) normals_.push_back(m.normal(f));
   switch (kind) {
     case ComponentKind::Faces: addFaces(); break;
@@ -29,7 +32,7 @@ Components::Components(const Mesh& m, ComponentKind kind)
     case ComponentKind::FaceEdges: addFaceEdges(); break;
     case ComponentKind::Vertices: addVertices(); break;
     case ComponentKind::FaceVertices: addFaceVertices(); break;
-    case ComponentKind::Materials: addMaterials(); break;
+    case ComponentKind::Slots: addSlots(); break;
     case ComponentKind::Holes: addHoles(); break;
   }
   for (uint32_t i = 0; i < list_.size(); ++i) list_[i].what.index = i;
@@ -205,25 +208,28 @@ void Components::addFaceVertices() {
   }
 }
 
+uint32_t Components::slotOf(uint32_t face) const {
+  const uint16_t slot = mesh_.faces[face].materialSlot;
+  return slot < firstSlots_.size() ? firstSlots_[slot] : slot;
+}
+
 std::span<const uint32_t> Components::facesOfSlot(uint32_t slot) const {
-  const auto first = std::partition_point(bySlot_.begin(), bySlot_.end(), [&](uint32_t f) {
-    return mesh_.faces[f].materialSlot < slot;
-  });
-  const auto end = std::partition_point(
-      first, bySlot_.end(), [&](uint32_t f) { return mesh_.faces[f].materialSlot == slot; });
+  const auto first = std::partition_point(bySlot_.begin(), bySlot_.end(),
+                                          [&](uint32_t f) { return slotOf(f) < slot; });
+  const auto end =
+      std::partition_point(first, bySlot_.end(), [&](uint32_t f) { return slotOf(f) == slot; });
   return {first, end};
 }
 
-void Components::addMaterials() {
+void Components::addSlots() {
   bySlot_.resize(mesh_.faceCount());
   std::iota(bySlot_.begin(), bySlot_.end(), 0);
-  std::stable_sort(bySlot_.begin(), bySlot_.end(), [&](uint32_t a, uint32_t b) {
-    return mesh_.faces[a].materialSlot < mesh_.faces[b].materialSlot;
-  });
+  std::stable_sort(bySlot_.begin(), bySlot_.end(),
+                   [&](uint32_t a, uint32_t b) { return slotOf(a) < slotOf(b); });
   for (size_t i = 0; i < bySlot_.size(); ++i) {
     const uint32_t f = bySlot_[i];
-    const uint16_t slot = mesh_.faces[f].materialSlot;
-    if (i > 0 && mesh_.faces[bySlot_[i - 1]].materialSlot == slot) continue;
+    const uint32_t slot = slotOf(f);
+    if (i > 0 && slotOf(bySlot_[i - 1]) == slot) continue;
     Component c;
     c.face = slot;
     c.corner = mesh_.loopsOf(f)[0].firstCorner;
@@ -334,7 +340,7 @@ Mesh Components::meshOf(const std::vector<uint32_t>& which) {
         break;
       case ComponentKind::Vertices:
       case ComponentKind::FaceVertices: out.vertex(c); break;
-      case ComponentKind::Materials:
+      case ComponentKind::Slots:
         for (const uint32_t f : facesOfSlot(c.face)) out.face(f);
         break;
       case ComponentKind::Holes:
@@ -423,7 +429,7 @@ void Components::tagsOf(const Selectable& what, Of of, std::vector<uint32_t>& ou
   switch (kind_) {
     case ComponentKind::Faces:
     case ComponentKind::Holes: return faceTags(c.face, of, out);
-    case ComponentKind::Materials:
+    case ComponentKind::Slots:
       for (const uint32_t f : facesOfSlot(c.face)) faceTags(f, of, out);
       return;
     case ComponentKind::Edges:

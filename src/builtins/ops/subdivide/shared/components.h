@@ -21,13 +21,14 @@ enum class ComponentKind : uint8_t {
   FaceEdges,
   Vertices,
   FaceVertices,
-  Materials,
+  /// Materials and groups: what has the same slot, as a table of first slots tells.
+  Slots,
   Holes,
 };
 
 struct Component {
   Selectable what;
-  /// The face; the material slot of Materials.
+  /// The face; the first slot of Slots.
   uint32_t face = 0;
   /// The corner it begins at: of faces the first, of edges the start, of holes the first.
   uint32_t corner = 0;
@@ -39,8 +40,9 @@ struct Component {
 
 class Components : public TagSource {
  public:
-  /// Of a mesh in scope coordinates, which must outlive this. O(n log n).
-  Components(const Mesh& m, ComponentKind kind);
+  /// Of a mesh in scope coordinates, which must outlive this. `firstSlots` tells of each slot the
+  /// first one that counts as the same. O(n log n).
+  Components(const Mesh& m, ComponentKind kind, std::vector<uint16_t> firstSlots = {});
 
   const std::vector<Component>& list() const { return list_; }
   const MeshEdges& edges() const { return *edges_; }
@@ -58,7 +60,8 @@ class Components : public TagSource {
   void addFaceEdges();
   void addVertices();
   void addFaceVertices();
-  void addMaterials();
+  void addSlots();
+  uint32_t slotOf(uint32_t face) const;
   std::span<const uint32_t> facesOfSlot(uint32_t slot) const;
   void addHoles();
   void classifyRoofEdges();
@@ -73,7 +76,8 @@ class Components : public TagSource {
   std::unique_ptr<MeshEdges> edges_;
   std::vector<Vec3> normals_;
   std::vector<Component> list_;
-  /// Of components by material: the faces, those of one slot together.
+  std::vector<uint16_t> firstSlots_;
+  /// Of components by slot: the faces, those of one slot together.
   std::vector<uint32_t> bySlot_;
   /// Where meshOf puts positions; empty of them between its calls.
   std::vector<uint32_t> positionMap_;
