@@ -7,12 +7,13 @@
 #include "base/number.h"
 
 namespace gable {
-namespace {
 
-Error failed(const Error& why, const std::string& path) {
-  if (why.code == std::string_view("child-missing")) {
+Error converterFailed(const Error& why, const std::string& path) {
+  const bool notBuilt = why.message.find("is built without") != std::string::npos;
+  if (why.code == std::string_view("child-missing") || notBuilt) {
     return {"asset-converter", "'" + path + "' needs the program gable-convert: " + why.message,
-            "install libassimp5"};
+            notBuilt ? "install the package and build again, or convert the model to glTF or OBJ"
+                     : "install libassimp5, libdraco7 and libmeshoptimizer2d"};
   }
   if (why.code == std::string_view("child-limit")) {
     return {"asset-too-large", "'" + path + "' takes too long to read: " + why.message,
@@ -21,8 +22,6 @@ Error failed(const Error& why, const std::string& path) {
   return {"asset-broken", "'" + path + "' cannot be read: " + why.message,
           "open it in the program that made it, and save it as glTF or OBJ"};
 }
-
-}  // namespace
 
 bool isConvertible(const std::string& path) {
   const std::string extension = extensionOf(path);
@@ -39,7 +38,7 @@ Result<ConvertedModel> convertModel(std::string_view bytes, const AssetOptions& 
                  "install libassimp-dev and build again, or convert the model to glTF or OBJ"};
   }
   Result<std::string> out = runChild(program, {extensionOf(options.path)}, bytes, {});
-  if (!out.ok()) return failed(out.error(), options.path);
+  if (!out.ok()) return converterFailed(out.error(), options.path);
   // The size of the materials, these, and the model.
   const std::string_view all = *out;
   const size_t line = all.find('\n');

@@ -14,6 +14,9 @@ namespace gable {
 /// By the extension.
 bool isConvertible(const std::string& path);
 
+/// What a failure of gable-convert (base/child_process.h) means for a file.
+Error converterFailed(const Error& why, const std::string& path);
+
 struct ConvertedModel {
   std::string obj, mtl;
   /// For the reader of OBJ: the materials are read from `mtl`.

@@ -44,26 +44,23 @@ bool GltfMeshes::add(const GltfPlacement& placement, uint32_t group) {
 bool GltfMeshes::readPrimitive(const JsonValue& p) {
   const size_t mode = modeOf(p);
   if (mode != kTriangles && mode != kTriangleStrip && mode != kTriangleFan) return false;
-  const JsonValue& accessors = file_.json()["accessors"];
   const JsonValue& attributes = p["attributes"];
-  const auto accessor = [&](const std::string& name) -> const JsonValue* {
-    const JsonValue* number = attributes.find(name);
-    return number ? &accessors.at(GltfFile::index(*number)) : nullptr;
+  const auto has = [&](const std::string& name) { return attributes.find(name) != nullptr; };
+  const auto read = [&](const std::string& name, int components, std::vector<double>& out) {
+    return file_.read(GltfFile::index(attributes[name]), components, out);
   };
-  const JsonValue* positions = accessor("POSITION");
-  if (!positions || !file_.read(*positions, 3, positions_)) return false;
+  if (!has("POSITION") || !read("POSITION", 3, positions_)) return false;
   const size_t count = positions_.size() / 3;
-  const JsonValue* normals = accessor("NORMAL");
   normals_.clear();
-  if (normals && (!file_.read(*normals, 3, normals_) || normals_.size() != count * 3)) {
+  if (has("NORMAL") && (!read("NORMAL", 3, normals_) || normals_.size() != count * 3)) {
     normals_.clear();
   }
   uvs_.clear();
   for (int set = 0; set < kUvSets; ++set) {
-    const JsonValue* uv = accessor("TEXCOORD_" + std::to_string(set));
-    if (!uv) break;
+    const std::string name = "TEXCOORD_" + std::to_string(set);
+    if (!has(name)) break;
     uvs_.emplace_back();
-    if (!file_.read(*uv, 2, uvs_.back()) || uvs_.back().size() != count * 2) {
+    if (!read(name, 2, uvs_.back()) || uvs_.back().size() != count * 2) {
       uvs_.pop_back();
       break;
     }

@@ -15,6 +15,8 @@ namespace {
 
 // Accessors without a buffer are zeros and cost the file nothing, so they are bounded.
 constexpr size_t kMostZeros = 1'000'000;
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
+constexpr const char* kMeshopt = "EXT_meshopt_compression";
 /// In all buffers together, the last one excepted.
 constexpr uint64_t kMostBytes = uint64_t{1} << 31;
 
@@ -41,6 +43,18 @@ int componentsOf(const std::string& type) {
   if (type == "VEC2") return 2;
   if (type == "VEC3") return 3;
   return type == "VEC4" ? 4 : 0;
+}
+
+// What a normalised component is divided by.
+double scaleOf(int component) {
+  switch (component) {
+    case 5120: return 127;
+    case 5121: return 255;
+    case 5122: return 32767;
+    case 5123: return 65535;
+    case 5125: return 4294967295.0;
+    default: return 1;
+  }
 }
 
 template <class T>
@@ -78,17 +92,24 @@ double componentAt(const char* p, int component, bool normalized) {
     }
   }
   switch (component) {
-    case 5120: return numberAt<int8_t>(p, 127);
-    case 5121: return numberAt<uint8_t>(p, 255);
-    case 5122: return numberAt<int16_t>(p, 32767);
-    case 5123: return numberAt<uint16_t>(p, 65535);
-    default: return numberAt<uint32_t>(p, 4294967295.0);
+    case 5120: return numberAt<int8_t>(p, scaleOf(component));
+    case 5121: return numberAt<uint8_t>(p, scaleOf(component));
+    case 5122: return numberAt<int16_t>(p, scaleOf(component));
+    case 5123: return numberAt<uint16_t>(p, scaleOf(component));
+    default: return numberAt<uint32_t>(p, scaleOf(component));
   }
 }
 
 Vec3 vecOf(const JsonValue& v, const Vec3& fallback) {
   if (v.size() != 3) return fallback;
   return {v.at(0).number(fallback.x), v.at(1).number(fallback.y), v.at(2).number(fallback.z)};
+}
+
+bool isKnownExtension(std::string_view name) {
+  constexpr std::string_view kKnown[] = {kDraco, kMeshopt, "KHR_texture_transform",
+                                         "KHR_mesh_quantization", "EXT_texture_webp"};
+  return std::find(std::begin(kKnown), std::end(kKnown), name) != std::end(kKnown) ||
+         name.starts_with("KHR_materials_");
 }
 
 Error broken(const AssetOptions& options, const std::string& why) {
@@ -135,14 +156,12 @@ Result<GltfFile> GltfFile::open(std::string_view bytes, const AssetOptions& opti
   if (version.empty() || version[0] != '2') return broken(options, "it is not of version 2");
   for (const JsonValue& e : file.json_["extensionsRequired"].items()) {
     const std::string& name = e.text();
-    if (name == "KHR_texture_transform" || name == "KHR_mesh_quantization" ||
-        name.substr(0, 14) == "KHR_materials_") {
-      continue;
-    }
+    if (isKnownExtension(name)) continue;
     return Error{"asset-broken", "'" + options.path + "' needs the extension '" + name + "'",
-                 "save it without compression and extensions"};
+                 "save it without that extension"};
   }
   file.loadBuffers(chunk, options);
+  if (std::optional<Error> error = file.unpack(options)) return *error;
   return file;
 }
 
@@ -172,8 +191,143 @@ void GltfFile::loadBuffers(std::string_view chunk, const AssetOptions& options) 
   }
 }
 
+namespace {
+
+// False where the file says what there is not.
+bool describePacked(const JsonValue& e, PackedBuffer& out) {
+  const std::string& mode = e["mode"].text();
+  const std::string& filter = e["filter"].text();
+  if (mode == "ATTRIBUTES")
+    out.kind = PackedBuffer::Vertices;
+  else if (mode == "TRIANGLES")
+    out.kind = PackedBuffer::Triangles;
+  else if (mode == "INDICES")
+    out.kind = PackedBuffer::Indices;
+  else
+    return false;
+  if (filter == "OCTAHEDRAL")
+    out.filter = PackedBuffer::Octahedral;
+  else if (filter == "QUATERNION")
+    out.filter = PackedBuffer::Quaternion;
+  else if (filter == "EXPONENTIAL")
+    out.filter = PackedBuffer::Exponential;
+  else if (!filter.empty() && filter != "NONE")
+    return false;
+  const size_t count = GltfFile::index(e["count"]), stride = GltfFile::index(e["byteStride"]);
+  if (count > 0xffffffff || stride > 256) return false;
+  out.count = static_cast<uint32_t>(count);
+  out.stride = static_cast<uint32_t>(stride);
+  return true;
+}
+
+}  // namespace
+
+// All that is compressed goes to gable-convert at once.
+std::optional<Error> GltfFile::unpack(const AssetOptions& options) {
+  std::vector<PackedBuffer> jobs;
+  std::vector<size_t> views;
+  const auto& allViews = json_["bufferViews"].items();
+  uint64_t bytes = 0;
+  const auto add = [&](PackedBuffer job, size_t view) {
+    bytes += job.bytes.size();
+    if (job.bytes.empty() || bytes > kMostBytes) return false;
+    jobs.push_back(job);
+    views.push_back(view);
+    return true;
+  };
+  uint64_t broken = 0;
+  for (size_t i = 0; i < allViews.size(); ++i) {
+    work();
+    const JsonValue& e = allViews[i]["extensions"][kMeshopt];
+    PackedBuffer job;
+    if (!e.isObject()) continue;
+    job.bytes = rangeOf(e);
+    if (!describePacked(e, job) || !add(job, i)) ++broken;
+  }
+  const size_t ofMeshopt = jobs.size();
+  std::map<size_t, std::vector<const JsonValue*>> primitives;
+  for (const JsonValue& mesh : json_["meshes"].items()) {
+    for (const JsonValue& p : mesh["primitives"].items()) {
+      work();
+      const JsonValue& e = p["extensions"][kDraco];
+      if (!e.isObject()) continue;
+      const size_t number = index(e["bufferView"]);
+      auto& users = primitives[number];
+      if (users.empty() &&
+          !add({PackedBuffer::Draco, 0, 0, PackedBuffer::None, view(number)}, number)) {
+        ++broken;
+      }
+      users.push_back(&p);
+    }
+  }
+  Result<std::vector<std::string>> made = unpackBuffers(jobs, options.path);
+  if (!made.ok()) {
+    const auto& required = json_["extensionsRequired"].items();
+    const bool needed = std::any_of(required.begin(), required.end(), [](const JsonValue& e) {
+      return e.text() == kDraco || e.text() == kMeshopt;
+    });
+    if (needed) return made.error();
+    warnings_.push_back("what is compressed is left out: " + made.error().message);
+    return {};
+  }
+  for (size_t i = 0; i < jobs.size(); ++i) {
+    DracoMesh mesh;
+    if ((*made)[i].empty()) {
+      ++broken;
+    } else if (i < ofMeshopt) {
+      unpackedViews_[views[i]] = std::move((*made)[i]);
+    } else if (readDracoMesh((*made)[i], mesh)) {
+      for (const JsonValue* p : primitives[views[i]]) takeDraco(*p, mesh);
+    } else {
+      ++broken;
+    }
+  }
+  if (broken > 0) {
+    warnings_.push_back(std::to_string(broken) + " compressed buffers cannot be read");
+  }
+  return {};
+}
+
+// The accessors of the primitive that the mesh has the numbers of.
+void GltfFile::takeDraco(const JsonValue& p, const DracoMesh& mesh) {
+  const JsonValue& own = p["attributes"];
+  for (const auto& [name, id] : p["extensions"][kDraco]["attributes"].members()) {
+    const size_t number = index(id);
+    const JsonValue* accessor = own.find(name);
+    const auto at =
+        mesh.attributes.find(static_cast<uint32_t>(std::min<size_t>(number, kNone >> 32)));
+    if (!accessor || at == mesh.attributes.end()) continue;
+    workMemory(at->second.numbers.size() * sizeof(float));
+    unpackedAttributes_[index(*accessor)] = at->second;
+  }
+  if (const JsonValue* indices = p.find("indices")) {
+    workMemory(mesh.indices.size() * sizeof(uint32_t));
+    unpackedIndices_[index(*indices)] = mesh.indices;
+  }
+}
+
+bool GltfFile::readUnpacked(const JsonValue& accessor, const DracoMesh::Attribute& from,
+                            int components, std::vector<double>& out) const {
+  if (from.components != static_cast<uint32_t>(components)) return false;
+  const int type = static_cast<int>(std::min<size_t>(index(accessor["componentType"]), 100000));
+  const double scale = accessor["normalized"].boolean(false) ? scaleOf(type) : 1;
+  reserveWork(out, static_cast<double>(from.numbers.size()));
+  out.clear();
+  for (const float v : from.numbers) {
+    work();
+    const double n = static_cast<double>(v) / scale;
+    out.push_back(scale == 1 ? n : std::max(n, -1.0));
+  }
+  return true;
+}
+
 std::string_view GltfFile::view(size_t i) const {
-  const JsonValue& v = json_["bufferViews"].at(i);
+  const auto unpacked = unpackedViews_.find(i);
+  if (unpacked != unpackedViews_.end()) return unpacked->second;
+  return rangeOf(json_["bufferViews"].at(i));
+}
+
+std::string_view GltfFile::rangeOf(const JsonValue& v) const {
   const size_t buffer = index(v["buffer"]);
   if (!v.isObject() || buffer >= buffers_.size()) return {};
   const std::string_view all = buffers_[buffer];
@@ -236,7 +390,12 @@ bool GltfFile::applySparse(const JsonValue& accessor, const Elements& e,
   return true;
 }
 
-bool GltfFile::read(const JsonValue& accessor, int components, std::vector<double>& out) const {
+bool GltfFile::read(size_t number, int components, std::vector<double>& out) const {
+  const JsonValue& accessor = json_["accessors"].at(number);
+  const auto unpacked = unpackedAttributes_.find(number);
+  if (unpacked != unpackedAttributes_.end()) {
+    return readUnpacked(accessor, unpacked->second, components, out);
+  }
   Elements e;
   if (!describe(accessor, e) || e.components != components) return false;
   const auto width = static_cast<size_t>(components);
@@ -260,14 +419,19 @@ bool GltfFile::readIndices(const JsonValue& primitive, size_t vertexCount,
     for (size_t i = 0; i < vertexCount; ++i) out.push_back(static_cast<uint32_t>(i));
     return true;
   }
-  Elements e;
-  if (!describe(json_["accessors"].at(index(*number)), e) || e.components != 1 ||
-      e.component == 5126) {
+  const auto unpacked = unpackedIndices_.find(index(*number));
+  if (unpacked != unpackedIndices_.end()) {
+    out = unpacked->second;
+    return std::all_of(out.begin(), out.end(), [&](uint32_t v) { return v < vertexCount; });
+  }
+  std::vector<double> numbers;
+  const JsonValue& accessor = json_["accessors"].at(index(*number));
+  if (accessor["normalized"].boolean(false) || index(accessor["componentType"]) == 5126 ||
+      !read(index(*number), 1, numbers)) {
     return false;
   }
-  for (size_t i = 0; e.data && i < e.count; ++i) {
+  for (const double v : numbers) {
     work();
-    const double v = componentAt(e.data + i * e.stride, e.component, false);
     if (!(v >= 0 && v < static_cast<double>(vertexCount))) return false;
     out.push_back(static_cast<uint32_t>(v));
   }

@@ -7,12 +7,15 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/json.h"
 #include "io/importers/asset.h"
+#include "io/importers/gltf_compression.h"
 #include "math/vec.h"
 
 namespace gable {
@@ -47,9 +50,9 @@ class GltfFile {
   /// The value as an index, or kNone.
   static size_t index(const JsonValue& v);
 
-  /// Numbers of an accessor, `components` wanted of each element; normalised integers become
-  /// fractions. False when the accessor does not fit its description or the buffer.
-  bool read(const JsonValue& accessor, int components, std::vector<double>& out) const;
+  /// Numbers of an accessor by its index, `components` wanted of each element; normalised integers
+  /// become fractions. False when the accessor does not fit its description or the buffer.
+  bool read(size_t accessor, int components, std::vector<double>& out) const;
   /// Indices; the plain count from 0 where the primitive has none.
   bool readIndices(const JsonValue& primitive, size_t vertexCount,
                    std::vector<uint32_t>& out) const;
@@ -69,13 +72,24 @@ class GltfFile {
     int component = 0, components = 0;
     bool normalized = false;
   };
+  /// The bytes that a buffer view, or an extension like one, names.
+  std::string_view rangeOf(const JsonValue& view) const;
   bool describe(const JsonValue& accessor, Elements& out) const;
+  /// Unpacks what is compressed. Codes as unpackBuffers, where the file cannot do without it.
+  std::optional<Error> unpack(const AssetOptions& options);
+  bool readUnpacked(const JsonValue& accessor, const DracoMesh::Attribute& from, int components,
+                    std::vector<double>& out) const;
+  void takeDraco(const JsonValue& primitive, const DracoMesh& mesh);
   bool applySparse(const JsonValue& accessor, const Elements& e, std::vector<double>& out) const;
   void loadBuffers(std::string_view chunk, const AssetOptions& options);
   static Affine localOf(const JsonValue& node);
 
   JsonValue json_;
   std::vector<std::string> buffers_;
+  /// In the place of buffer views, and of accessors; the indices of an accessor are its one.
+  std::map<size_t, std::string> unpackedViews_;
+  std::map<size_t, DracoMesh::Attribute> unpackedAttributes_;
+  std::map<size_t, std::vector<uint32_t>> unpackedIndices_;
   std::vector<std::string> warnings_;
 };
 
