@@ -365,8 +365,8 @@ TEST(SuburbRows, S12UprightFacesHaveTheWallsMaterial) {
   };
   const ObjFile obj = parseObj(textOf(path));
   std::map<std::string, Material> materials;
-  for (const Material& m : parseMtl(textOf(::testing::TempDir() + "suburb_rows.mtl"), path)) {
-    materials[m.name] = m;
+  for (const Material& one : parseMtl(textOf(::testing::TempDir() + "suburb_rows.mtl"), path)) {
+    materials[one.name] = one;
   }
   const auto is = [&](const ObjFace& f, std::initializer_list<const char*> colors) {
     const Vec3 c = materials.at(obj.materials.at(f.material)).color;
