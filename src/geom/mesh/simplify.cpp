@@ -89,6 +89,10 @@ struct Collapse {
   }
 };
 
+/// By the ends of an edge: the triangles that have it, and the number of their corner before it.
+using EdgeUses =
+    std::map<std::pair<uint32_t, uint32_t>, std::vector<std::pair<uint32_t, uint32_t>>>;
+
 class Simplifier {
  public:
   explicit Simplifier(const Mesh& m);
@@ -96,7 +100,8 @@ class Simplifier {
 
  private:
   bool sameAttributes(uint32_t a, uint32_t b) const;
-  bool isSeam(const Tri& a, uint32_t ka, const Tri& b, uint32_t from, uint32_t to) const;
+  uint32_t jumps(const Tri& a, uint32_t ka, const Tri& b, uint32_t from, uint32_t to) const;
+  std::vector<char> findPoles(const EdgeUses& uses) const;
   void findEdges();
   void markEdge(uint32_t tri, uint32_t k);
   void push(uint32_t from, uint32_t to);
@@ -164,30 +169,52 @@ bool Simplifier::sameAttributes(uint32_t a, uint32_t b) const {
                      [&](const auto& set) { return set.empty() || set[a] == set[b]; });
 }
 
-/// Whether attributes jump from one triangle to the other at their edge.
-bool Simplifier::isSeam(const Tri& a, uint32_t ka, const Tri& b, uint32_t from, uint32_t to) const {
-  if (mesh_.faces[a.face].materialSlot != mesh_.faces[b.face].materialSlot) return true;
+/// At which ends of an edge (1: from, 2: to) attributes jump from one triangle to the other.
+uint32_t Simplifier::jumps(const Tri& a, uint32_t ka, const Tri& b, uint32_t from,
+                           uint32_t to) const {
+  uint32_t out = 0;
   for (uint32_t k = 0; k < 3; ++k) {
-    if (b.vertex[k] == from && !sameAttributes(b.corner[k], a.corner[ka])) return true;
-    if (b.vertex[k] == to && !sameAttributes(b.corner[k], a.corner[(ka + 1) % 3])) return true;
+    if (b.vertex[k] == from && !sameAttributes(b.corner[k], a.corner[ka])) out |= 1;
+    if (b.vertex[k] == to && !sameAttributes(b.corner[k], a.corner[(ka + 1) % 3])) out |= 2;
   }
-  return false;
+  return out;
+}
+
+/// Vertices like the pole of a sphere, with attributes of their own in each triangle.
+std::vector<char> Simplifier::findPoles(const EdgeUses& uses) const {
+  std::vector<char> poles(at_.size(), 1);
+  for (const auto& [ends, at] : uses) {
+    const auto [t, k] = at[0];
+    const uint32_t from = tris_[t].vertex[k], to = tris_[t].vertex[(k + 1) % 3];
+    const uint32_t j = at.size() == 2 ? jumps(tris_[t], k, tris_[at[1].first], from, to) : 0;
+    if ((j & 1) == 0) poles[from] = 0;
+    if ((j & 2) == 0) poles[to] = 0;
+  }
+  return poles;
 }
 
 /// An edge of one triangle is a border; one of three and more fixes its ends.
 void Simplifier::findEdges() {
-  std::map<std::pair<uint32_t, uint32_t>, std::vector<std::pair<uint32_t, uint32_t>>> uses;
+  EdgeUses uses;
   for (uint32_t t = 0; t < tris_.size(); ++t) {
     for (uint32_t k = 0; k < 3; ++k) {
       work(4);
       uses[std::minmax(tris_[t].vertex[k], tris_[t].vertex[(k + 1) % 3])].push_back({t, k});
     }
   }
+  const std::vector<char> poles = findPoles(uses);
   for (const auto& [ends, at] : uses) {
     const auto [t, k] = at[0];
     const uint32_t from = tris_[t].vertex[k], to = tris_[t].vertex[(k + 1) % 3];
     if (at.size() > 2) fixed_[ends.first] = fixed_[ends.second] = 1;
-    if (at.size() == 2 && !isSeam(tris_[t], k, tris_[at[1].first], from, to)) continue;
+    if (at.size() == 2) {
+      const Tri& other = tris_[at[1].first];
+      const uint32_t j = jumps(tris_[t], k, other, from, to);
+      const bool spoke = (j == 1 && poles[from]) || (j == 2 && poles[to]);
+      const bool sameMaterial =
+          mesh_.faces[tris_[t].face].materialSlot == mesh_.faces[other.face].materialSlot;
+      if (sameMaterial && (j == 0 || spoke)) continue;
+    }
     seams_[ends] = 1;
     for (const auto& [tri, corner] : at) markEdge(tri, corner);
   }
@@ -261,11 +288,14 @@ const Move* Simplifier::moveOf(const Tri& t, uint32_t vertex,
   return nullptr;
 }
 
-/// Corners at `from` become those at `to` on the same side of all seams. False where one has none.
+/// Corners at `from` become those at `to` on the same side of all seams. False where one has none,
+/// or two that differ.
 bool Simplifier::findMoves(const Collapse& c, std::vector<Move>& moves) const {
   for (const uint32_t t : around_[c.from]) {
     const uint32_t to = cornerOf(tris_[t], c.to);
     if (to == MeshBuilder::kNoPosition) continue;
+    const Move* other = moveOf(tris_[t], c.from, moves);
+    if (other && !sameAttributes(other->to, to)) return false;
     moves.push_back({cornerOf(tris_[t], c.from), to, mesh_.faces[tris_[t].face].materialSlot});
   }
   return !moves.empty() &&
