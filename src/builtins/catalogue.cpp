@@ -26,7 +26,6 @@ void sortUnique(std::vector<const T*>& list) {
 
 // In the order of their bytes. Who builds one takes its name out; the catalogue insists on it.
 constexpr std::string_view kUnbuilt[] = {
-    "deleteTags",
     "edgeAttr.getBool",
     "edgeAttr.getFloat",
     "edgeAttr.getString",
@@ -36,7 +35,6 @@ constexpr std::string_view kUnbuilt[] = {
     "setTagsFromEdgeAttrs",
     "splitAndSetbackPerimeter",
     "subtract",
-    "tag",
     "union",
 };
 

@@ -51,6 +51,7 @@ Geometry withoutTags(Geometry g) {
   Mesh mesh = *g.mesh;
   for (MeshFace& f : mesh.faces) f.tags = 0;
   mesh.edgeTags.clear();
+  mesh.vertexTags.clear();
   g.mesh = makeRef<Mesh>(std::move(mesh));
   return g;
 }
@@ -137,9 +138,10 @@ Shape changedFields(const Shape& s, uint32_t effects) {
     out.trimVertical = !s.trimVertical;
     out.trimHorizontal = !s.trimHorizontal;
   }
-  // A box whose edges have tags stays a mesh.
+  // A box whose edges or vertices have tags stays a mesh.
   const Geometry& g = s.geometry;
-  const bool tagged = g.kind == GeometryKind::Mesh && !g.mesh->edgeTags.empty();
+  const bool tagged =
+      g.kind == GeometryKind::Mesh && (!g.mesh->edgeTags.empty() || !g.mesh->vertexTags.empty());
   if ((effects & kIgnoresTags) != 0 && !tagged) out.geometry = withoutTags(g);
   if (hidden(kRandom | kReadsPath)) out.path = hashCombine(s.path, 1);
   if (hidden(kReadsUvProjection)) {

@@ -44,7 +44,7 @@ bool isFlat(const Mesh& m, const std::vector<uint32_t>& ring) {
 class Rebuilder {
  public:
   explicit Rebuilder(const Mesh& from) : from_(from) {
-    for (const Vec3& p : from.positions) b_.addPosition(p);
+    for (uint32_t p = 0; p < from.positions.size(); ++p) b_.copyPosition(from, p);
   }
   void addFace(size_t face) {
     const std::vector<uint32_t> ring = distinctCorners(from_, from_.loopsOf(face)[0]);

@@ -25,7 +25,9 @@
 
 namespace gable {
 
-struct Program;  // program/program.h
+class EdgeAttributes;  // shape/edge_attributes.h
+class GeoFrame;        // shape/geo_frame.h
+struct Program;        // program/program.h
 
 /// A property that a file carries: a number, a truth (Bool, as a number) or a text.
 struct Metadatum {
@@ -122,8 +124,12 @@ struct InitialShapeInfo {
   Frame origin;
   double seed = 0;
   uint32_t index = 0;
-  /// The shape as it was given, in the object frame; for resetGeometry and edge attributes.
+  /// The shape as it was given, in the object frame; for resetGeometry.
   Shape shape;
+  /// What is known of its edges; null where nothing is.
+  std::shared_ptr<const EdgeAttributes> edges;
+  /// Where the world lies on the Earth; null where nobody knows.
+  const GeoFrame* geo = nullptr;
 };
 
 /// Which occluders a context query looks at.

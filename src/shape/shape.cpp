@@ -26,7 +26,7 @@ bool same(double a, double b, double extent) { return std::fabs(a - b) <= 1e-9 *
 
 // No attribute that a primitive could not carry.
 bool plainMesh(const Mesh& m) {
-  if (!m.normals.empty()) return false;
+  if (!m.normals.empty() || !m.vertexTags.empty()) return false;
   if (m.faceCount() > 1 &&
       std::any_of(m.edgeTags.begin(), m.edgeTags.end(), [](uint32_t t) { return t != 0; })) {
     return false;

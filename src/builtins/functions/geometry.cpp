@@ -263,7 +263,7 @@ struct TagQuery {
   Word subcomponent;
 };
 
-// All tags of the faces or edges that a query means, sorted, each once.
+// All tags of the faces, edges or vertices that a query means, sorted, each once.
 std::vector<std::string> tagNames(FunctionCall& call, const TagQuery& args) {
   const Services& services = call.services();
   const std::string_view query = args.query;
@@ -274,6 +274,9 @@ std::vector<std::string> tagNames(FunctionCall& call, const TagQuery& args) {
   }
   if (args.of == "all" || args.of == "edges") {
     sets.insert(sets.end(), m->edgeTags.begin(), m->edgeTags.end());
+  }
+  if (args.of == "all" || args.of == "vertices") {
+    sets.insert(sets.end(), m->vertexTags.begin(), m->vertexTags.end());
   }
   std::sort(sets.begin(), sets.end());
   sets.erase(std::unique(sets.begin(), sets.end()), sets.end());

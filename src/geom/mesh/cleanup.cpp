@@ -65,7 +65,9 @@ class CollinearFinder {
       for (uint32_t i = 0; i < loop.cornerCount; ++i) {
         work();
         const uint32_t c = loop.firstCorner + i;
-        if (loop.cornerCount < 3 || !straight(loop, i)) removable_[m.corners[c]] = false;
+        if (loop.cornerCount < 3 || m.vertexTagsAt(m.corners[c]) != 0 || !straight(loop, i)) {
+          removable_[m.corners[c]] = false;
+        }
       }
     }
   }
@@ -118,6 +120,10 @@ FaceSources composed(const FaceSources& outer, const FaceSources& inner) {
 FaceSources mergePositions(Mesh& m, double distance) {
   const std::vector<uint32_t> to = representatives(m.positions, distance);
   for (uint32_t& p : m.corners) p = to[p];
+  // A vertex without tags takes those of the first that it is united with.
+  for (uint32_t p = 0; p < m.vertexTags.size(); ++p) {
+    if (m.vertexTags[p] != 0 && m.vertexTags[to[p]] == 0) m.vertexTags[to[p]] = m.vertexTags[p];
+  }
   FaceSources sources;
   Rebuild r(m);
   for (uint32_t f = 0; f < m.faces.size(); ++f) {

@@ -116,9 +116,12 @@ class Extrusion {
     const auto [it, isNew] = pairs_.try_emplace(key);
     if (!isNew) return it->second;
     const Vec3 move = moveOf(face, corner);
-    const uint32_t low = builder_.addPosition(mesh_.at(corner));
+    const uint32_t tags = mesh_.vertexTagsAt(mesh_.corners[corner]);
+    const uint32_t low = builder_.addPosition(mesh_.at(corner), tags);
     it->second = {low, low};
-    if (length(move) > kNoMove) it->second.high = builder_.addPosition(mesh_.at(corner) + move);
+    if (length(move) > kNoMove) {
+      it->second.high = builder_.addPosition(mesh_.at(corner) + move, tags);
+    }
     return it->second;
   }
 
@@ -180,13 +183,14 @@ class Extrusion {
     builder_.beginFace(mesh_.faces[face].materialSlot, 0, false);
     note(face, role);
     builder_.beginLoop();
-    // The edge that belongs to the original or the moved face carries its tags.
+    // The edge that belongs to the original or the moved face carries its tags, and the edge that a
+    // vertex leaves behind those of the vertex.
     const uint32_t first = forward ? pa.low : pa.high, second = forward ? pb.low : pb.high;
     const uint32_t third = forward ? pb.high : pb.low, fourth = forward ? pa.high : pa.low;
     addCorner(first, a, tagsOf(a));
-    addCorner(second, b, second == third ? tagsOf(a) : 0);
+    addCorner(second, b, second == third ? tagsOf(a) : vertexTagsOf(b));
     if (third != second) addCorner(third, b, tagsOf(a));
-    if (fourth != first) addCorner(fourth, a, 0);
+    if (fourth != first) addCorner(fourth, a, vertexTagsOf(a));
   }
 
   void note(uint32_t face, ExtrudeRole role) {
@@ -194,9 +198,8 @@ class Extrusion {
     result_.faceSource.push_back(face);
   }
 
-  uint32_t tagsOf(uint32_t corner) const {
-    return mesh_.edgeTags.empty() ? 0 : mesh_.edgeTags[corner];
-  }
+  uint32_t tagsOf(uint32_t corner) const { return mesh_.edgeTagsAt(corner); }
+  uint32_t vertexTagsOf(uint32_t corner) const { return mesh_.vertexTagsAt(mesh_.corners[corner]); }
 
   void addCorner(uint32_t position, uint32_t source, uint32_t tags) {
     const uint32_t corner = builder_.addCorner(position, tags);

@@ -108,6 +108,7 @@ uint64_t Mesh::contentHash() const {
   for (const Vec3& n : normals) h = hashVec(h, n);
   h = hashCombine(h, edgeTags.size());
   for (const uint32_t t : edgeTags) h = hashCombine(h, t);
+  for (const uint32_t t : vertexTags) h = hashCombine(h, t);
   return h;
 }
 
@@ -135,6 +136,7 @@ bool Mesh::valid() const {
   for (const Vec3& n : normals) {
     if (!isFinite(n)) return false;
   }
+  if (vertexTags.size() > positions.size()) return false;
   return edgeTags.empty() || edgeTags.size() == corners.size();
 }
 
@@ -178,6 +180,10 @@ void append(Mesh& to, const Mesh& from, uint16_t slotOffset) {
   for (size_t s = 0; s < to.uvs.size(); ++s) appendOptional(to.uvs[s], from.uvs[s]);
   appendOptional(to.normals, from.normals);
   appendOptional(to.edgeTags, from.edgeTags);
+  if (!from.vertexTags.empty()) {
+    to.vertexTags.resize(positionBase);
+    to.vertexTags.insert(to.vertexTags.end(), from.vertexTags.begin(), from.vertexTags.end());
+  }
   to.positions.insert(to.positions.end(), from.positions.begin(), from.positions.end());
   to.corners.reserve(cornerTotal);
   work(from.corners.size());

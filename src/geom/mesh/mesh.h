@@ -6,9 +6,9 @@
 // A face is a list of loops, the outer one first, holes after it; a loop is a run of corners; a
 // corner names a position and carries the uv coordinates of up to ten sets, an optional normal and
 // the tags of the edge that starts at it. Seen from the face's normal side the outer loop is
-// counter-clockwise and holes are clockwise. Units are metres, the frame is the owner's. A face of
-// one loop with two corners stands for an edge and with one corner for a point (component splits
-// make such shapes).
+// counter-clockwise and holes are clockwise. Vertices, which are positions, may have tags as well.
+// Units are metres, the frame is the owner's. A face of one loop with two corners stands for an
+// edge and with one corner for a point (component splits make such shapes).
 //
 // Tags and materials are opaque numbers here: the folders above give them their meaning.
 // A Mesh never changes once it is shared (MeshRef); build one with MeshBuilder or edit a copy.
@@ -75,6 +75,8 @@ class Mesh : public RefCounted {
   std::array<std::vector<Vec2>, kUvSets> uvs;
   std::vector<Vec3> normals;
   std::vector<uint32_t> edgeTags;
+  /// By position, and no longer than positions: those beyond its end have none.
+  std::vector<uint32_t> vertexTags;
 
   bool empty() const { return faces.empty(); }
   size_t faceCount() const { return faces.size(); }
@@ -87,6 +89,11 @@ class Mesh : public RefCounted {
     return {corners.data() + loop.firstCorner, loop.cornerCount};
   }
   const Vec3& at(uint32_t corner) const { return positions[corners[corner]]; }
+  /// The tag set of the edge that starts at a corner, and that of a position.
+  uint32_t edgeTagsAt(uint32_t corner) const { return edgeTags.empty() ? 0 : edgeTags[corner]; }
+  uint32_t vertexTagsAt(uint32_t position) const {
+    return position < vertexTags.size() ? vertexTags[position] : 0;
+  }
 
   /// Newell's normal of a face's outer loop times twice its area; zero for a degenerate face.
   Vec3 areaNormal(size_t face) const;
@@ -113,7 +120,11 @@ using MeshRef = Ref<Mesh>;
 /// Makes meshes loop by loop. Positions are shared where the caller passes the same index.
 class MeshBuilder {
  public:
-  uint32_t addPosition(const Vec3& p);
+  uint32_t addPosition(const Vec3& p, uint32_t vertexTags = 0);
+  /// A position of another mesh with its tags.
+  uint32_t copyPosition(const Mesh& from, uint32_t position) {
+    return addPosition(from.positions[position], from.vertexTagsAt(position));
+  }
   /// Opens a face; its attributes apply until the next beginFace.
   void beginFace(uint16_t materialSlot = 0, uint32_t tags = 0, bool smooth = false);
   void beginLoop();

@@ -12,7 +12,11 @@
 
 namespace gable {
 
-uint32_t MeshBuilder::addPosition(const Vec3& p) {
+uint32_t MeshBuilder::addPosition(const Vec3& p, uint32_t vertexTags) {
+  if (vertexTags != 0) {
+    mesh_.vertexTags.resize(mesh_.positions.size());
+    mesh_.vertexTags.push_back(vertexTags);
+  }
   mesh_.positions.push_back(p);
   return static_cast<uint32_t>(mesh_.positions.size() - 1);
 }
@@ -69,8 +73,8 @@ void MeshBuilder::copyFace(const Mesh& from, size_t face, std::vector<uint32_t>&
       const uint32_t c = loop.firstCorner + (reversed ? (n - i) % n : i);
       const uint32_t edge = loop.firstCorner + (reversed ? n - 1 - i : i);
       uint32_t& position = map[from.corners[c]];
-      if (position == kNoPosition) position = addPosition(from.at(c));
-      const uint32_t corner = addCorner(position, from.edgeTags.empty() ? 0 : from.edgeTags[edge]);
+      if (position == kNoPosition) position = copyPosition(from, from.corners[c]);
+      const uint32_t corner = addCorner(position, from.edgeTagsAt(edge));
       for (int s = 0; s < kUvSets; ++s) {
         if (from.hasUv(s)) setUv(corner, s, from.uvs[static_cast<size_t>(s)][c]);
       }

@@ -123,16 +123,36 @@ TEST(Mesh, builderCopiesFacesReversed) {
   EXPECT_EQ(back.edgeTags, m.edgeTags);
 }
 
+TEST(Mesh, verticesKeepTheirTags) {
+  Mesh m = quadWithHole();
+  m.vertexTags = {0, 5};
+  ASSERT_TRUE(m.valid());
+  Mesh box = makeBoxMesh({1, 1, 1}, false);
+  append(box, m);
+  ASSERT_TRUE(box.valid());
+  EXPECT_EQ(box.vertexTagsAt(9), 5u);
+  EXPECT_EQ(box.vertexTagsAt(1), 0u);
+  MeshBuilder b;
+  std::vector<uint32_t> map;
+  b.copyFace(box, 6, map, true);
+  const Mesh copy = b.take();
+  ASSERT_TRUE(copy.valid());
+  for (uint32_t p = 0; p < copy.positions.size(); ++p) {
+    EXPECT_EQ(copy.vertexTagsAt(p), copy.positions[p] == m.positions[1] ? 5u : 0u);
+  }
+}
+
 TEST(Mesh, hashSeesEveryField) {
   const Mesh m = quadWithHole();
   const uint64_t h = m.contentHash();
-  Mesh a = m, b = m, c = m, d = m, e = m;
+  Mesh a = m, b = m, c = m, d = m, e = m, f = m;
+  f.vertexTags = {4};
   a.positions[0].x = 0.1;
   b.faces[0].tags = 8;
   c.edgeTags[1] = 0;
   d.uvs[3].resize(d.corners.size());
   e.normals[2] = {};
-  for (const Mesh* changed : {&a, &b, &c, &d, &e}) EXPECT_NE(changed->contentHash(), h);
+  for (const Mesh* changed : {&a, &b, &c, &d, &e, &f}) EXPECT_NE(changed->contentHash(), h);
   EXPECT_EQ(Mesh(m).contentHash(), h);
 }
 
@@ -145,6 +165,9 @@ TEST(Mesh, validRejectsBrokenMeshes) {
   EXPECT_FALSE(m.valid());
   m = quadWithHole();
   m.edgeTags.pop_back();
+  EXPECT_FALSE(m.valid());
+  m = quadWithHole();
+  m.vertexTags.resize(m.positions.size() + 1);
   EXPECT_FALSE(m.valid());
 }
 

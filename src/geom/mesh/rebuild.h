@@ -37,7 +37,9 @@ class Rebuild {
  private:
   void addCorner(uint32_t c) {
     uint32_t& position = map_[from_.corners[c]];
-    if (position == MeshBuilder::kNoPosition) position = builder_.addPosition(from_.at(c));
+    if (position == MeshBuilder::kNoPosition) {
+      position = builder_.copyPosition(from_, from_.corners[c]);
+    }
     uint32_t tags = 0;
     if (!from_.edgeTags.empty()) {
       const auto other = edges_.find(c);

@@ -428,6 +428,7 @@ Mesh Simplifier::result() const {
   Mesh out = b.take();
   out.normals.clear();
   out.edgeTags.clear();
+  out.vertexTags.clear();
   for (MeshFace& f : out.faces) f.tags = 0;
   return out;
 }

@@ -268,9 +268,12 @@ MeshPart Slicer::build(const std::vector<Piece>& pieces, const CutOptions& optio
       b.beginLoop();
       for (const cut::Corner& c : loop) {
         uint32_t& position = local[c.point];
-        if (position == MeshBuilder::kNoPosition) position = b.addPosition(points_[c.point]);
+        if (position == MeshBuilder::kNoPosition) {
+          // The mesh's own positions come first among the points.
+          position = b.addPosition(points_[c.point], mesh_.vertexTagsAt(c.point));
+        }
         uint32_t tags = isCap ? 0 : options.cutEdgeTags;
-        if (c.edge != MeshPart::kNone) tags = mesh_.edgeTags.empty() ? 0 : mesh_.edgeTags[c.edge];
+        if (c.edge != MeshPart::kNone) tags = mesh_.edgeTagsAt(c.edge);
         const uint32_t corner = b.addCorner(position, tags);
         part.edgeSource.push_back(c.edge);
         for (int s = 0; s < kUvSets; ++s) {

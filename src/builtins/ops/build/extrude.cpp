@@ -114,8 +114,7 @@ Status applyExtrude(OpCall& call, const Extrude& args) {
     const bool side =
         made.roles[f] == ExtrudeRole::SideOuter || made.roles[f] == ExtrudeRole::SideInner;
     // Sides stand on an edge and take its tags, the others on a face.
-    const uint32_t edgeTags =
-        mesh->edgeTags.empty() ? 0 : made.mesh.edgeTags[made.mesh.loopsOf(f)[0].firstCorner];
+    const uint32_t edgeTags = made.mesh.edgeTagsAt(made.mesh.loopsOf(f)[0].firstCorner);
     const uint32_t from = side ? edgeTags : mesh->faces[made.faceSource[f]].tags;
     made.mesh.faces[f].tags = tags.with(from, roleName(made.roles[f]));
   }

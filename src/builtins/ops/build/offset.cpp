@@ -35,8 +35,9 @@ class Growth {
     for (size_t r = 0; r <= p.holes.size(); ++r) {
       const Ring& ring = r == 0 ? p.outer : p.holes[r - 1];
       first_.push_back(static_cast<uint32_t>(plane_.points.size()));
-      plane_.points.insert(plane_.points.end(), ring.begin(), ring.end());
+      for (size_t i = 0; i < ring.size(); ++i) plane_.addCorner(plane_.cornerOf(r, i), ring[i]);
     }
+    inputCount_ = static_cast<uint32_t>(plane_.points.size());
   }
 
   Status run() {
@@ -59,9 +60,7 @@ class Growth {
   const Ring& ring(size_t r) const {
     return r == 0 ? plane_.polygon().outer : plane_.polygon().holes[r - 1];
   }
-  uint32_t edgeTags(uint32_t corner) const {
-    return mesh_.edgeTags.empty() ? 0 : mesh_.edgeTags[corner];
-  }
+  uint32_t edgeTags(uint32_t corner) const { return mesh_.edgeTagsAt(corner); }
 
   // The ground beside ring r as a polygon; the ring, turned round, is its hole or its outer ring.
   Polygon groundOf(size_t r) const {
@@ -109,7 +108,13 @@ class Growth {
     const auto addLoop = [&](const std::vector<uint32_t>& loop) {
       for (size_t i = 0; i < loop.size(); ++i) {
         const uint32_t from = number[loop[i]], to = number[loop[(i + 1) % loop.size()]];
-        edges.push_back({from, to, edgeTags(corner), 4 * corner + 2});
+        // What starts at a vertex of the face takes the tags of the vertex.
+        const bool side = (from < inputCount_) != (to < inputCount_);
+        const uint32_t vertex = std::min(from, to);
+        const uint32_t tags = !side                              ? edgeTags(corner)
+                              : vertex < plane_.pointTags.size() ? plane_.pointTags[vertex]
+                                                                 : 0;
+        edges.push_back({from, to, tags, 4 * corner + 2});
       }
     };
     addLoop(f.loop);
@@ -125,6 +130,7 @@ class Growth {
   double distance_;
   const AutoTags& tags_;
   PatchPlane plane_;
+  uint32_t inputCount_ = 0;
   std::vector<uint32_t> first_;
   std::vector<PatchEdge> outline_;
   std::vector<PatchFace> border_;

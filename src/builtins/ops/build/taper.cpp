@@ -55,13 +55,13 @@ Mesh tapered(const Mesh& m, size_t face, const Vec3& apexAt, bool downward, Auto
     for (uint32_t i = 0; i < loop.cornerCount; ++i) {
       const uint32_t a = loop.firstCorner + i;
       const uint32_t c = loop.firstCorner + (i + 1) % loop.cornerCount;
-      const uint32_t edge = m.edgeTags.empty() ? 0 : m.edgeTags[a];
+      const uint32_t edge = m.edgeTagsAt(a);
       b.beginFace(source.materialSlot, tags.with(edge, "side"));
       b.beginLoop();
       const uint32_t from = downward ? c : a, to = downward ? a : c;
       copy.corner(from, map[m.corners[from]], edge);
-      copy.corner(to, map[m.corners[to]], 0);
-      copy.corner(from, apex, 0);
+      copy.corner(to, map[m.corners[to]], m.vertexTagsAt(m.corners[to]));
+      copy.corner(from, apex, m.vertexTagsAt(m.corners[from]));
     }
   }
   return b.take();

@@ -37,9 +37,9 @@ class Convexifier {
       const auto n = static_cast<uint32_t>(ring.size());
       for (uint32_t i = 0; i < n; ++i) {
         work();
-        plane_.points.push_back(ring[i]);
         const uint32_t corner = plane_.cornerOf(r, i);
-        const uint32_t tags = m.edgeTags.empty() ? 0 : m.edgeTags[corner];
+        plane_.addCorner(corner, ring[i]);
+        const uint32_t tags = m.edgeTagsAt(corner);
         outline_.push_back({first + i, first + (i + 1) % n, tags, first + i});
       }
       first += n;

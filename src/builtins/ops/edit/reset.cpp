@@ -60,8 +60,11 @@ Mesh withoutHoles(const Mesh& m) {
     c = map[c];
   }
   std::vector<Vec3> kept(used);
-  for (size_t p = 0; p < map.size(); ++p) {
-    if (map[p] != MeshBuilder::kNoPosition) kept[map[p]] = m.positions[p];
+  out.vertexTags.resize(m.vertexTags.empty() ? 0 : used);
+  for (uint32_t p = 0; p < map.size(); ++p) {
+    if (map[p] == MeshBuilder::kNoPosition) continue;
+    kept[map[p]] = m.positions[p];
+    if (!out.vertexTags.empty()) out.vertexTags[map[p]] = m.vertexTagsAt(p);
   }
   out.positions = std::move(kept);
   return out;

@@ -156,6 +156,15 @@ uint32_t PatchPlane::cornerOf(size_t ring, size_t edge) const {
   return mesh_.loopsOf(face_)[ring].firstCorner + static_cast<uint32_t>(edge);
 }
 
+void PatchPlane::addCorner(uint32_t corner, Vec2 at) {
+  const uint32_t tags = mesh_.vertexTagsAt(mesh_.corners[corner]);
+  if (tags != 0) {
+    pointTags.resize(points.size());
+    pointTags.push_back(tags);
+  }
+  points.push_back(at);
+}
+
 // From the triangle of the outer loop with the largest area.
 void PatchPlane::fit(int set) {
   const Ring& r = polygon_.outer;
@@ -204,7 +213,8 @@ Mesh meshOfPatches(const Mesh& from, std::span<const PatchFace> faces) {
         uint32_t& position = number[edge.from];
         const Vec2 at = plane.points[edge.from];
         if (position == MeshBuilder::kNoPosition) {
-          position = b.addPosition(fromPlanFrame(plane.frame(), at));
+          const uint32_t tags = edge.from < plane.pointTags.size() ? plane.pointTags[edge.from] : 0;
+          position = b.addPosition(fromPlanFrame(plane.frame(), at), tags);
         }
         const uint32_t corner = b.addCorner(position, tagged.tags);
         for (int set = 0; set < kUvSets; ++set) {

@@ -48,6 +48,10 @@ class PatchPlane {
   Vec2 uvAlong(int set, Vec2 direction) const;
 
   std::vector<Vec2> points;
+  /// The tags of points; those beyond its end have none.
+  std::vector<uint32_t> pointTags;
+  /// Adds the point that a corner of the face is, with its tags.
+  void addCorner(uint32_t corner, Vec2 at);
 
  private:
   struct Affine {

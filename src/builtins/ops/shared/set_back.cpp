@@ -41,7 +41,7 @@ Status SetBack::addFace(size_t face, std::span<const double> distance,
       weights[r].push_back(moved ? distance[corner] : 0);
       moves |= moved;
       w.corner.push_back(corner);
-      w.plane->points.push_back(ring[i]);
+      w.plane->addCorner(corner, ring[i]);
     }
   }
   w.inputCount = static_cast<uint32_t>(w.corner.size());
@@ -68,6 +68,14 @@ Status SetBack::addFace(size_t face, std::span<const double> distance,
   return {};
 }
 
+// An edge that starts or ends at a vertex of the face takes the tags of the vertex.
+uint32_t SetBack::sideTags(const Work& w, const PatchEdge& e) {
+  const uint32_t side = tagged_ ? tags_.with(0, "side") : 0;
+  const uint32_t vertex = std::min(e.from, e.to);
+  if (vertex >= w.inputCount || std::max(e.from, e.to) < w.inputCount) return side;
+  return tags_.merged(side, mesh_.vertexTagsAt(mesh_.corners[w.corner[vertex]]));
+}
+
 // The edges of a strip with the tags that they have in it.
 void SetBack::addEdges(const Work& w, const Strip& s, const std::vector<uint32_t>& loop,
                        std::vector<PatchEdge>& out) {
@@ -83,7 +91,7 @@ void SetBack::addEdges(const Work& w, const Strip& s, const std::vector<uint32_t
       e.tags = tagged(s.corner, "back");
       e.order += 2;
     } else {
-      e.tags = sideTags();
+      e.tags = sideTags(w, e);
       e.order += 3;
     }
     out.push_back(e);
@@ -132,7 +140,7 @@ std::vector<PatchFace> SetBack::remainders() {
       for (size_t i = 0; i < n; ++i) {
         PatchEdge e{loop[(i + 1) % n], loop[i], 0, 4 * s.corner};
         e.tags = s.kind == 0   ? tagged(s.corner, "back")
-                 : s.kind == 1 ? sideTags()
+                 : s.kind == 1 ? sideTags(w, e)
                                : tagged(s.corner, "remainder");
         edges.push_back(e);
       }

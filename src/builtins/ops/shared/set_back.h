@@ -55,14 +55,12 @@ class SetBack {
     // By point of the face: the corner that it is.
     std::vector<uint32_t> corner;
   };
-  uint32_t tagsOf(uint32_t corner) const {
-    return mesh_.edgeTags.empty() ? 0 : mesh_.edgeTags[corner];
-  }
+  uint32_t tagsOf(uint32_t corner) const { return mesh_.edgeTagsAt(corner); }
   /// The tags of an edge, which is a part of the face's edge at `corner` or parallel to it.
   uint32_t tagged(uint32_t corner, std::string_view role) {
     return tagged_ ? tags_.with(tagsOf(corner), role) : tagsOf(corner);
   }
-  uint32_t sideTags() { return tagged_ ? tags_.with(0, "side") : 0; }
+  uint32_t sideTags(const Work& w, const PatchEdge& e);
   void addEdges(const Work& w, const Strip& s, const std::vector<uint32_t>& loop,
                 std::vector<PatchEdge>& out);
   std::vector<PatchEdge> faceOutline(const Work& w);

@@ -278,7 +278,7 @@ class Extractor {
     for (uint32_t i = 0; i < loop.cornerCount; ++i) {
       const uint32_t c = loop.firstCorner + (loop.cornerCount - i) % loop.cornerCount;
       const uint32_t edge = loop.firstCorner + (loop.cornerCount - 1 - i);
-      corner(c, from_.corners[c], from_.edgeTags.empty() ? 0 : from_.edgeTags[edge]);
+      corner(c, from_.corners[c], from_.edgeTagsAt(edge));
     }
   }
   void edge(const Component& c, uint32_t tags) {
@@ -309,7 +309,7 @@ class Extractor {
   uint32_t corner(uint32_t like, uint32_t position, uint32_t tags) {
     uint32_t& to = map_[position];
     if (to == MeshBuilder::kNoPosition) {
-      to = builder_.addPosition(from_.positions[position]);
+      to = builder_.copyPosition(from_, position);
       positions_.push_back(position);
     }
     const uint32_t made = builder_.addCorner(to, tags);
@@ -335,9 +335,7 @@ Mesh Components::meshOf(const std::vector<uint32_t>& which) {
     switch (kind_) {
       case ComponentKind::Faces: out.face(c.face); break;
       case ComponentKind::Edges:
-      case ComponentKind::FaceEdges:
-        out.edge(c, mesh_.edgeTags.empty() ? 0 : mesh_.edgeTags[c.corner]);
-        break;
+      case ComponentKind::FaceEdges: out.edge(c, mesh_.edgeTagsAt(c.corner)); break;
       case ComponentKind::Vertices:
       case ComponentKind::FaceVertices: out.vertex(c); break;
       case ComponentKind::Slots:
@@ -397,12 +395,13 @@ void Components::edgeTags(uint32_t edge, std::vector<uint32_t>& out) const {
   const MeshEdge& e = edges_->edges()[edge];
   for (const uint32_t corner : {e.corner, e.other}) {
     if (corner == kNone) continue;
-    if (!mesh_.edgeTags.empty()) out.push_back(mesh_.edgeTags[corner]);
+    out.push_back(mesh_.edgeTagsAt(corner));
     out.push_back(mesh_.faces[edges_->faceOf(corner)].tags);
   }
 }
 
 void Components::vertexTags(uint32_t position, std::vector<uint32_t>& out) const {
+  out.push_back(mesh_.vertexTagsAt(position));
   for (const uint32_t corner : edges_->cornersAt(position)) {
     edgeTags(edges_->edgeOf(corner), out);
     edgeTags(edges_->edgeOf(edges_->previous(corner)), out);
