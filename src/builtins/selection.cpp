@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/work.h"
+#include "builtins/edge_sampling.h"
 
 namespace gable {
 
@@ -18,6 +19,8 @@ enum class Test : uint8_t {
   All,
   // `a` has a bit for each side by Directions::side.
   Direction,
+  // The same by streets, and as Direction where none is known.
+  Street,
   // The angle to the ground plane.
   Horizontal,
   Vertical,
@@ -38,6 +41,7 @@ struct WordRule {
 };
 
 constexpr uint8_t kRight = 1, kUp = 2, kFront = 4, kLeft = 8, kDown = 16, kBack = 32;
+constexpr uint8_t kSides = kRight | kLeft;
 constexpr uint8_t kAround = kRight | kFront | kLeft | kBack;
 constexpr uint8_t kNotFront = kRight | kUp | kLeft | kDown | kBack;
 using enum Directions::Axes;
@@ -57,7 +61,7 @@ constexpr WordRule kRules[] = {
     {"horizontal", Test::Horizontal},
     {"inside", Test::Inside},
     {"left", Test::Direction, kLeft},
-    {"noStreetSide", Test::Direction, kNotFront, Object},
+    {"noStreetSide", Test::Street, kNotFront, Object},
     {"nutant", Test::Nutant},
     {"object.back", Test::Direction, kBack, Object},
     {"object.bottom", Test::Direction, kDown, Object},
@@ -69,12 +73,12 @@ constexpr WordRule kRules[] = {
     {"ridge", Test::Roof, of(RoofEdge::Ridge)},
     {"right", Test::Direction, kRight},
     {"side", Test::NotHorizontal},
-    {"street.back", Test::Direction, kBack, Object},
-    {"street.front", Test::Direction, kFront, Object},
-    {"street.left", Test::Direction, kLeft, Object},
-    {"street.right", Test::Direction, kRight, Object},
-    {"street.side", Test::Direction, kAround, Object},
-    {"streetSide", Test::Direction, kFront, Object},
+    {"street.back", Test::Street, kBack, Object},
+    {"street.front", Test::Street, kFront, Object},
+    {"street.left", Test::Street, kLeft, Object},
+    {"street.right", Test::Street, kRight, Object},
+    {"street.side", Test::Street, kSides, Object},
+    {"streetSide", Test::Street, kFront, Object},
     {"top", Test::Direction, kUp},
     {"uv.bottom", Test::Uv, kUvBottom},
     {"uv.left", Test::Uv, kUvLeft},
@@ -108,6 +112,8 @@ uint8_t ruleOf(std::string_view word) {
 // on, so the closed side of each interval is a little wider.
 constexpr double kSinLow = 0.19509032201612825, kSinHigh = 0.98078528040323043;
 constexpr double kSlack = 1e-9;
+// Parts of a unit vector that differ by less are equal.
+constexpr double kTie = 1e-6;
 
 bool inSteepness(Test test, const Vec3& normal) {
   const double l = length(normal);
@@ -124,21 +130,42 @@ bool inSteepness(Test test, const Vec3& normal) {
   }
 }
 
-bool ruleHolds(const WordRule& rule, const Selectable& c, const Directions& directions) {
+bool isOneOf(int side, uint8_t sides) { return side >= 0 && (sides >> side & 1) != 0; }
+
+bool ruleHolds(const WordRule& rule, const Selectable& c, const ComponentSource& source,
+               const Directions& directions) {
   switch (rule.test) {
     case Test::Nothing: return false;
     case Test::All: return true;
-    case Test::Direction: {
-      const int side = directions.side(c.normal, rule.axes);
-      return side >= 0 && (rule.a >> side & 1) != 0;
-    }
+    case Test::Street:
+      if (directions.knowsStreets()) return isOneOf(directions.streetSide(c, source), rule.a);
+      // object.side takes in the front and the back.
+      return isOneOf(directions.side(c.normal, rule.axes), rule.a == kSides ? kAround : rule.a);
+    case Test::Direction: break;
     case Test::Border: return c.border && !c.borderless;
     case Test::Inside: return !c.border && !c.borderless;
     case Test::Roof: return of(c.roof) == rule.a;
     case Test::Uv: return (c.uvSides & rule.a) != 0;
     default: return inSteepness(rule.test, c.normal);
   }
+  return isOneOf(directions.side(c.normal, rule.axes), rule.a);
 }
+
+// One component, of which all is known already.
+class PlainSource : public ComponentSource {
+ public:
+  PlainSource(std::span<const Vec3> points, uint32_t tags) : points_(points), tags_(tags) {}
+  void tagsOf(const Selectable&, Of, std::vector<uint32_t>& out) const override {
+    out.push_back(tags_);
+  }
+  void pointsOf(const Selectable&, std::vector<Vec3>& out) const override {
+    out.assign(points_.begin(), points_.end());
+  }
+
+ private:
+  std::span<const Vec3> points_;
+  uint32_t tags_;
+};
 
 // The first part of a dotted name, and what is behind it.
 std::string_view takePart(std::string_view& name) {
@@ -179,20 +206,104 @@ int Directions::side(const Vec3& normal, Axes axes) const {
     if (axes == Axes::Object) n = services_.initialShape().origin.toLocalDirection(n);
   }
   const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
-  constexpr double kTie = 1e-6;
   if (!(x + y + z > 0)) return -1;
   if (y >= std::max(x, z) - kTie) return n.y > 0 ? 1 : 4;
   if (z >= x - kTie) return n.z > 0 ? 2 : 5;
   return n.x > 0 ? 0 : 3;
 }
 
-bool selectsDirection(std::string_view word, const Vec3& normal, const Directions& directions) {
+namespace {
+
+constexpr std::string_view kStreet = "street";
+
+// The sum of what looks to the street: of tagged faces by area, else of tagged edges by length.
+// Where those cancel each other out, as around a block, it is the first of them that counts.
+Vec3 directionOfStreets(const Mesh& m, const TagTable& tags) {
+  Vec3 sum, first;
+  double whole = 0;
+  const auto add = [&](Vec3 outward) {
+    outward.y = 0;
+    sum += outward;
+    whole += length(outward);
+    if (first == Vec3{}) first = outward;
+  };
+  for (size_t f = 0; f < m.faceCount(); ++f) {
+    work();
+    if (tags.has(m.faces[f].tags, kStreet)) add(m.areaNormal(f));
+  }
+  for (size_t f = 0; f < m.faceCount() && !(whole > 0) && !m.edgeTags.empty(); ++f) {
+    const Vec3 up = m.normal(f);
+    for (const MeshLoop& loop : m.loopsOf(f)) {
+      for (uint32_t i = 0; i < loop.cornerCount; ++i) {
+        work();
+        const uint32_t a = loop.firstCorner + i, b = loop.firstCorner + (i + 1) % loop.cornerCount;
+        if (tags.has(m.edgeTags[a], kStreet)) add(cross(m.at(b) - m.at(a), up));
+      }
+    }
+  }
+  return normalized(length(sum) > kTie * whole ? sum : first);
+}
+
+}  // namespace
+
+bool Directions::hasTaggedStreets() const {
+  if (!looked_) street_ = directionOfStreets(*meshInScope(shape_), services_.tags());
+  looked_ = true;
+  return street_ != Vec3{};
+}
+
+bool Directions::knowsStreets() const {
+  const EdgeAttributes* edges = services_.initialShape().edges.get();
+  return hasTaggedStreets() || (edges && edges->hasStreets());
+}
+
+int Directions::streetSide(const Selectable& c, const ComponentSource& source) const {
+  return hasTaggedStreets() ? sideByTags(c, source) : sideByEdges(c, source);
+}
+
+int Directions::sideByTags(const Selectable& c, const ComponentSource& source) const {
+  const Vec3 n = normalized(c.normal);
+  const double aside = std::sqrt(n.x * n.x + n.z * n.z);
+  if (!(length(n) > 0)) return -1;
+  if (std::fabs(n.y) >= aside - kTie) return n.y > 0 ? 1 : 4;
+  std::vector<uint32_t> sets;
+  source.tagsOf(c, ComponentSource::Of::Itself, sets);
+  const TagTable& tags = services_.tags();
+  if (std::ranges::any_of(sets, [&](uint32_t set) { return tags.has(set, kStreet); })) return 2;
+  // As with edges of the initial shape, 45 degrees to the street is a side.
+  const double ahead = dot(n, street_), right = dot(n, cross({0, 1, 0}, street_));
+  if (-ahead > std::fabs(right) + kTie) return 5;
+  return right > 0 ? 0 : 3;
+}
+
+int Directions::sideByEdges(const Selectable& c, const ComponentSource& source) const {
+  const EdgeSampler sampler(services_, shape_);
+  const EdgeAttributes& edges = *sampler.attributes();
+  const Vec3 n = normalized(sampler.inObject(c.normal));
+  const double up = dot(n, edges.up()), aside = length(n - edges.up() * up);
+  if (!(length(n) > 0)) return -1;
+  if (std::fabs(up) >= aside - kTie) return up > 0 ? 1 : 4;
+  std::vector<Vec3> points;
+  source.pointsOf(c, points);
+  const int32_t edge = sampler.edgeAt(points, c.normal);
+  if (edge < 0) return -1;
+  switch (edges.sideOf(static_cast<size_t>(edge))) {
+    case StreetSide::Front: return 2;
+    case StreetSide::Back: return 5;
+    case StreetSide::Left: return 3;
+    case StreetSide::Right: break;
+  }
+  return 0;
+}
+
+bool selectsDirection(std::string_view word, const Vec3& normal, std::span<const Vec3> points,
+                      uint32_t tags, const Directions& directions) {
   const uint8_t rule = ruleOf(word);
   if (rule == kNoWord) return false;
   Selectable c;
   c.normal = normal;
   c.borderless = true;
-  return ruleHolds(kRules[rule], c, directions);
+  return ruleHolds(kRules[rule], c, PlainSource(points, tags), directions);
 }
 
 Selector::Selector(const SelectorItem& item, const ValuePool& pool, const Directions& directions)
@@ -208,12 +319,12 @@ bool Selector::is(std::string_view word) const {
          pool_.text(item_.terms[0].word) == word;
 }
 
-bool Selector::holds(size_t term, const Selectable& c, const TagSource* tags, const TagTable& table,
-                     uint32_t count) const {
+bool Selector::holds(size_t term, const Selectable& c, const ComponentSource& source,
+                     const TagTable& table, uint32_t count) const {
   const SelectorTerm& t = item_.terms[term];
   switch (t.kind) {
     case SelectorTerm::Kind::Word:
-      return words_[term] != kNoWord && ruleHolds(kRules[words_[term]], c, directions_);
+      return words_[term] != kNoWord && ruleHolds(kRules[words_[term]], c, source, directions_);
     case SelectorTerm::Kind::Index: {
       double wanted = std::trunc(t.number);
       if (count > 0) {
@@ -228,9 +339,8 @@ bool Selector::holds(size_t term, const Selectable& c, const TagSource* tags, co
       return c.index < each.numbers.size() && each.numbers[c.index] != 0;
     }
     case SelectorTerm::Kind::Tagged: {
-      if (!tags) return false;
       std::vector<uint32_t> sets;
-      tags->tagsOf(c, static_cast<TagSource::Of>(static_cast<int>(t.number)), sets);
+      source.tagsOf(c, static_cast<ComponentSource::Of>(static_cast<int>(t.number)), sets);
       for (const uint32_t set : sets) {
         for (const StringId name : table.names(set)) {
           if (tagMatches(pool_.text(t.word), pool_.text(name))) return true;
@@ -242,9 +352,9 @@ bool Selector::holds(size_t term, const Selectable& c, const TagSource* tags, co
   }
 }
 
-bool Selector::matches(const Selectable& c, const TagSource* tags, const TagTable& table,
+bool Selector::matches(const Selectable& c, const ComponentSource& source, const TagTable& table,
                        uint32_t count) const {
-  if (item_.terms.size() == 1) return holds(0, c, tags, table, count);
+  if (item_.terms.size() == 1) return holds(0, c, source, table, count);
   SmallBuffer<uint8_t, 32> stack;
   size_t depth = 0;
   const auto push = [&](bool v) {
@@ -263,7 +373,7 @@ bool Selector::matches(const Selectable& c, const TagSource* tags, const TagTabl
         --depth;
         stack[depth - 1] |= stack[depth];
         break;
-      default: push(holds(i, c, tags, table, count)); break;
+      default: push(holds(i, c, source, table, count)); break;
     }
   }
   return depth > 0 && stack[0];

@@ -5,10 +5,14 @@
 // kin, and for functions that take a side (geometry.area(top)).
 //
 // Directions are decided by the largest component of a normal along the axes asked for: of the
-// scope, of the initial shape (object.*, and street.* while no street is known) or of the world.
-// On a tie, which also is what differs by rounding, up and down win over front and back, and those
-// over left and right. The angles of vertical, aslant, nutant and horizontal are those of the
-// reference: within 11.25 degrees of the scope's ground plane, and within 11.25 of its normal.
+// scope, of the initial shape (object.*, and street.* where no street is known) or of the world.
+//
+// Streets are known in two ways. Where edges or faces of the shape have the tag `street`, as lots
+// of parcels() have, those are at the street. Else street.* ask for the edge of the initial shape
+// that a component belongs to and for the width of the street there (shape/edge_attributes.h). On a
+// tie, which also is what differs by rounding, up and down win over front and back, and those over
+// left and right. The angles of vertical, aslant, nutant and horizontal are those of the reference:
+// within 11.25 degrees of the scope's ground plane, and within 11.25 of its normal.
 #pragma once
 
 #include <cstdint>
@@ -50,13 +54,15 @@ struct Selectable {
   uint8_t uvSides = 0;
 };
 
-/// Tag sets of a component, gathered only when a query asks: its own and inherited ones, and those
-/// of its edges or vertices.
-class TagSource {
+/// What is gathered of a component only when a selector asks for it.
+class ComponentSource {
  public:
-  virtual ~TagSource() = default;
-  enum class Of : uint8_t { Component, Edges, Vertices };
+  virtual ~ComponentSource() = default;
+  enum class Of : uint8_t { Component, Edges, Vertices, Itself };
+  /// Tag sets: its own and inherited ones, those of its edges or vertices, or its own alone.
   virtual void tagsOf(const Selectable& c, Of of, std::vector<uint32_t>& out) const = 0;
+  /// Its vertices in scope coordinates.
+  virtual void pointsOf(const Selectable& c, std::vector<Vec3>& out) const = 0;
 };
 
 /// True when a tag, or one of its parents by the dots of its name, is what the query says; ? stands
@@ -71,14 +77,27 @@ class Directions {
   /// The axis among x, y, z along which a normal (in scope coordinates) is largest: 0 to 2 for
   /// the positive and 3 to 5 for the negative direction.
   int side(const Vec3& normal, Axes axes) const;
+  bool knowsStreets() const;
+  /// The same by streets, which must be known: the front looks to them.
+  int streetSide(const Selectable& c, const ComponentSource& source) const;
 
  private:
+  bool hasTaggedStreets() const;
+  int sideByTags(const Selectable& c, const ComponentSource& source) const;
+  int sideByEdges(const Selectable& c, const ComponentSource& source) const;
+
   const Services& services_;
   const Shape& shape_;
+  /// Where the streets lie by the tags of the shape, in scope coordinates and level; found when it
+  /// is first asked for.
+  mutable bool looked_ = false;
+  mutable Vec3 street_;
 };
 
-/// Word by word, as comp and geometry.area take it. False for words that are no selector.
-bool selectsDirection(std::string_view word, const Vec3& normal, const Directions& directions);
+/// Word by word, as comp and geometry.area take it. False for words that are no selector. `points`
+/// are the component's vertices in scope coordinates, `tags` its own tag set.
+bool selectsDirection(std::string_view word, const Vec3& normal, std::span<const Vec3> points,
+                      uint32_t tags, const Directions& directions);
 
 /// A block's selector made ready for many components.
 class Selector {
@@ -86,7 +105,7 @@ class Selector {
   Selector(const SelectorItem& item, const ValuePool& pool, const Directions& directions);
 
   /// `count` wraps indices when it is not 0. Boolean terms hold or not for all components.
-  bool matches(const Selectable& c, const TagSource* tags, const TagTable& table,
+  bool matches(const Selectable& c, const ComponentSource& source, const TagTable& table,
                uint32_t count = 0) const;
   /// True when the item is this word alone.
   bool is(std::string_view word) const;
@@ -94,7 +113,7 @@ class Selector {
   std::string text() const;
 
  private:
-  bool holds(size_t term, const Selectable& c, const TagSource* tags, const TagTable& table,
+  bool holds(size_t term, const Selectable& c, const ComponentSource& source, const TagTable& table,
              uint32_t count) const;
 
   const SelectorItem& item_;

@@ -9,6 +9,7 @@
 
 #include "base/text.h"
 #include "engine/impl.h"
+#include "shape/edge_attributes.h"
 
 namespace gable {
 
@@ -24,7 +25,17 @@ std::string identifier(std::string name) {
   return name;
 }
 
-std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, ValuePool& pool) {
+// Whether a list is a value of a rule attribute, be it one of edges as well.
+bool takesList(const Program& program, const std::string& name) {
+  const int32_t found = program.findAttribute(name);
+  if (found < 0) return false;
+  const ValueType type = program.attributes[static_cast<size_t>(found)].type;
+  return type == ValueType::FloatArray || type == ValueType::BoolArray ||
+         type == ValueType::StringArray;
+}
+
+std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, const Program& program,
+                                        ValuePool& pool) {
   std::vector<InitialShape> out;
   out.reserve(shapes.footprints.size());
   for (const ShapeFootprint& f : shapes.footprints) {
@@ -38,7 +49,13 @@ std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, ValuePool& p
     s.groups = f.groups;
     s.index = f.index;
     for (const AttributeValue& a : f.attributes) {
-      s.attributes.emplace_back(identifier(a.name), valueOfAttribute(a, pool));
+      const Value value = valueOfAttribute(a, pool);
+      if (EdgeAttributes::isNamed(a.name, value.isArray()) && value.isArray()) {
+        s.edgeAttributes.emplace_back(edgeAttributeName(a.name), value);
+      }
+      if (!EdgeAttributes::isNamed(a.name, value.isArray()) || takesList(program, a.name)) {
+        s.attributes.emplace_back(identifier(a.name), value);
+      }
     }
     out.push_back(std::move(s));
   }
@@ -87,6 +104,16 @@ void bindSettings(const Rules::Impl& rules, const DeriveSettings& settings, Deri
   const auto complain = [&](Error e) { wrong.push_back(diagnosticOf(e)); };
   for (const auto& [name, text] : settings.attributes) {
     const int32_t found = program.findAttribute(name);
+    if (EdgeAttributes::isNamed(name, text.starts_with('['))) {
+      const Value list = valueOfText(text, *rules.pool);
+      if (list.isArray()) {
+        options.edgeAttributes.emplace_back(edgeAttributeName(name), list);
+      } else {
+        complain({"attribute-value", "'" + name + "' is no list of values for edges",
+                  "write a value for each edge, all of one kind: [7, 0, 0, 0]"});
+      }
+      if (!takesList(program, name)) continue;
+    }
     if (found < 0) {
       std::vector<std::string_view> names;
       for (const AttributeCode& a : program.attributes) {
@@ -212,7 +239,8 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
   impl->rules = rules.shared();
   DeriveOptions options = optionsOf(settings, r, impl->diagnostics);
   if (hasErrors(impl->diagnostics)) return impl;
-  std::vector<InitialShape> initial = initialShapes(shapes.impl(), *r.pool);
+  options.geo = shapes.impl().geo.get();
+  std::vector<InitialShape> initial = initialShapes(shapes.impl(), r.program, *r.pool);
   if (r.project) r.project->addTextures(shapes.impl().textures);
   for (const auto& [index, seed] : settings.shapeSeeds) {
     if (index < initial.size()) initial[index].seed = seed;

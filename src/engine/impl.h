@@ -67,6 +67,7 @@ struct Shapes::Impl {
   GeoOrigin geoOrigin;
   /// The pictures that materials of the footprints name.
   std::map<std::string, std::string> textures;
+  std::shared_ptr<const GeoFrame> geo;
 };
 
 struct Model::Impl {
@@ -99,6 +100,9 @@ DiagnosticList listOf(const Diagnostics& diagnostics, const Sources& sources);
 
 /// Text of the command line ("3", "true", "#ff0000", "[1,2;3,4]") as a value of an attribute, whose
 /// type it must have. Code: attribute-value.
+/// What a text says on its own: [1,2;3,4] is an array, with rows by semicolons, of the type of its
+/// first element.
+Value valueOfText(const std::string& text, ValuePool& pool);
 Result<Value> settingOf(const std::string& name, const std::string& text, ValueType type,
                         ValuePool& pool);
 /// What is wrong with a value that the annotations of its attribute do not allow. A word that

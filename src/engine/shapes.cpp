@@ -223,6 +223,7 @@ std::shared_ptr<Shapes::Impl> parsed(const std::string& content, const std::stri
   auto impl = std::make_shared<Shapes::Impl>();
   impl->textures = texturesOf(*file, options.readFile);
   impl->geoOrigin = file->geoOrigin;
+  impl->geo = file->geo;
   for (ShapeInput& s : file->shapes) impl->footprints.push_back(footprint(std::move(s)));
   Diagnostics diagnostics = file->diagnostics;
   if (impl->footprints.empty() && !diagnostics.hasErrors()) {
@@ -294,6 +295,7 @@ Shapes Shapes::only(const std::vector<size_t>& indices) const {
     impl->diagnostics = impl_->diagnostics;
     impl->geoOrigin = impl_->geoOrigin;
     impl->textures = impl_->textures;
+    impl->geo = impl_->geo;
     for (const size_t i : indices) {
       if (i >= impl_->footprints.size()) continue;
       ShapeFootprint f = impl_->footprints[i];

@@ -49,7 +49,8 @@ void append(Array& a, const Value& v) {
     a.numbers.push_back(v.number);
 }
 
-// [1,2;3,4]: rows by semicolons; the first element decides the type.
+}  // namespace
+
 Value valueOfText(const std::string& text, ValuePool& pool) {
   if (text.size() < 2 || text.front() != '[' || text.back() != ']') {
     return scalarOfText(text, pool);
@@ -72,8 +73,6 @@ Value valueOfText(const std::string& text, ValuePool& pool) {
   }
   return pool.intern(std::move(a));
 }
-
-}  // namespace
 
 Result<Value> settingOf(const std::string& name, const std::string& text, ValueType type,
                         ValuePool& pool) {

@@ -6,6 +6,8 @@
 // which differ in nothing else are shared.
 #pragma once
 
+#include <string_view>
+
 #include "program/spec.h"
 
 namespace gable {
@@ -25,6 +27,11 @@ constexpr bool seesTags(uint32_t effects) { return (effects & (kReadsTags | kRea
 
 constexpr uint32_t effectsOfFunction(uint32_t effects) {
   return seesTags(effects) ? effects : effects | kIgnoresTags;
+}
+
+/// Whether a selector looks for the tags of streets.
+constexpr bool asksForStreets(std::string_view word) {
+  return word.starts_with("street") || word == "noStreetSide";
 }
 
 }  // namespace gable

@@ -46,6 +46,7 @@ struct InitialShape {
   int64_t index = -1;
   /// In place of the derivation's seed.
   std::optional<double> seed;
+  /// By name, each an array with a value for each face edge of the mesh; shape/edge_attributes.h.
   std::vector<std::pair<std::string, Value>> edgeAttributes;
   /// By face of the mesh, or empty: its tag, if it has one.
   std::vector<std::string> faceTags;
@@ -131,6 +132,10 @@ struct DeriveOptions {
   Limits limits;
   /// Attribute values for all initial shapes, over those of the shapes.
   std::vector<std::pair<std::string, Value>> attributes;
+  /// Attributes of edges, likewise.
+  std::vector<std::pair<std::string, Value>> edgeAttributes;
+  /// Where the world lies on the Earth; null where nobody knows.
+  const GeoFrame* geo = nullptr;
   /// Called from any thread with the number of initial shapes done.
   std::function<void(size_t done, size_t total)> progress;
   std::atomic<bool>* cancel = nullptr;

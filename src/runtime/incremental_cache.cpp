@@ -4,6 +4,8 @@
 #include "runtime/incremental_cache.h"
 
 #include "runtime/key_hash.h"
+#include "shape/edge_attributes.h"
+#include "shape/geo_frame.h"
 
 namespace gable {
 
@@ -118,6 +120,8 @@ IncrementalCache::Inputs IncrementalCache::inputsOf(const InitialShapeInfo& info
   h.add(info.shape.scope);
   h.add(info.shape.size);
   h.add(contentHash(info.shape.geometry));
+  h.add(info.edges ? info.edges->hash() : uint64_t{0});
+  h.add(info.geo ? info.geo->hash() : uint64_t{0});
   return {h.key().a, std::move(given)};
 }
 

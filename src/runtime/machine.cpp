@@ -5,10 +5,12 @@
 
 #include "runtime/machine.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/interned.h"
 #include "runtime/array_ops.h"
+#include "shape/edge_attributes.h"
 
 namespace gable {
 
@@ -140,6 +142,8 @@ void Machine::begin(const InitialShape& input, uint32_t index) {
   }
   setInitialMaterials(input);
   info_.shape.path = hashCombine(hashDouble(seed), identity);
+  info_.edges = edgesOf(input);
+  info_.geo = options().geo;
   worlds_.begin(input.origin);
   clearStacks();
   bindAttributes(input);
@@ -160,6 +164,30 @@ void Machine::begin(const InitialShape& input, uint32_t index) {
     a.shape = info_.shape;
     makeLeaf(a, nameId_, 0);
   }
+}
+
+// A list that is too long or too short is told: it is likely to be of another outline.
+std::shared_ptr<const EdgeAttributes> Machine::edgesOf(const InitialShape& input) {
+  EdgeAttributes::Given given = options().edgeAttributes;
+  for (const auto& attribute : input.edgeAttributes) {
+    const bool isNew = std::ranges::none_of(
+        given, [&](const auto& other) { return other.first == attribute.first; });
+    if (isNew) given.push_back(attribute);
+  }
+  if (given.empty()) return nullptr;
+  auto edges = std::make_shared<const EdgeAttributes>(input.mesh, std::move(given), pool());
+  for (const auto& [name, list] : edges->attributes()) {
+    const Array& a = pool().array(list);
+    const size_t count = std::max(a.numbers.size(), a.strings.size());
+    if (count == edges->edgeCount()) continue;
+    log_.input().warning("edge-count", Span{},
+                         "the attribute '" + name + "' has " + std::to_string(count) +
+                             (count == 1 ? " value" : " values") + " for the " +
+                             std::to_string(edges->edgeCount()) + " edges of shape '" + input.name +
+                             "'",
+                         "give a value for each edge, in the order of the outline and its holes");
+  }
+  return edges;
 }
 
 int32_t Machine::startRuleOf(const InitialShape& input) {

@@ -241,6 +241,7 @@ class Machine final : public Services, private WorkMeter {
   void bindAttributes(const InitialShape& shape);
   void setInitialMaterials(const InitialShape& input);
   int32_t startRuleOf(const InitialShape& shape);
+  std::shared_ptr<const EdgeAttributes> edgesOf(const InitialShape& shape);
 
   // Tracing and occluders.
   /// Whether a filter shows what is made below the node. `rule`: the one that makes it; null for a

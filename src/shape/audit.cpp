@@ -107,10 +107,12 @@ bool wasCutShort(const Status& s) {
   return !s.ok() && (s.code() == kWorkStopped || isOutOfMemory(s));
 }
 
-bool selectsByTag(const BlockInput* block) {
-  return block && std::ranges::any_of(block->selectors, [](const SelectorItem& item) {
-           return std::ranges::any_of(item.terms, [](const SelectorTerm& t) {
-             return t.kind == SelectorTerm::Kind::Tagged;
+bool selectsByTag(const BlockInput* block, const ValuePool& pool) {
+  return block && std::ranges::any_of(block->selectors, [&](const SelectorItem& item) {
+           return std::ranges::any_of(item.terms, [&](const SelectorTerm& t) {
+             const bool word = t.kind == SelectorTerm::Kind::Word;
+             return t.kind == SelectorTerm::Kind::Tagged ||
+                    (word && asksForStreets(pool.text(t.word)));
            });
          });
 }
@@ -159,7 +161,7 @@ void auditFields(const OpSpec& spec, const Shape& before, std::span<const Value>
                  Services& services, const CallPlace& place, const BlockInput* block,
                  const OpOutcome& outcome, Evaluations& evaluations) {
   uint32_t effects = spec.effects;
-  if (selectsByTag(block)) effects &= ~kIgnoresTags;
+  if (selectsByTag(block, services.pool())) effects &= ~kIgnoresTags;
   Shape shape = changedFields(before, effects);
   std::vector<BlockChild> children;
   std::vector<SplitPiece> pieces;

@@ -189,7 +189,11 @@ Value FunctionCall::run(Value (*function)(FunctionCall&), [[maybe_unused]] uint3
     const Services::Recording recording(services_, &evaluations);
     first = function(*this);
   }
-  const Shape other = changedFields(shape_, effectsOfFunction(effects));
+  const bool streets = std::ranges::any_of(args_, [&](const Value& v) {
+    return v.type == ValueType::Selector && asksForStreets(services_.pool().text(v.id));
+  });
+  const uint32_t seen = effectsOfFunction(streets ? effects | kReadsTags : effects);
+  const Shape other = changedFields(shape_, seen);
   FunctionCall again(args_, other, services_, spec_, form_);
   again.place(file_, site_);
   auditFunction(spec_ ? spec_->name : "an attribute", function, again, first, evaluations);

@@ -31,8 +31,11 @@ struct Orientation {
   Word word;
 };
 
-bool selects(std::string_view word, const Vec3& normal, const Directions& d) {
-  return word == "all" || word == "surface" || selectsDirection(word, normal, d);
+bool selects(std::string_view word, const Mesh& m, size_t face, const Directions& d) {
+  if (word == "all" || word == "surface") return true;
+  std::vector<Vec3> outline;
+  for (const uint32_t p : m.cornersOf(m.loopsOf(face)[0])) outline.push_back(m.positions[p]);
+  return selectsDirection(word, m.areaNormal(face), outline, m.faces[face].tags, d);
 }
 
 double plainArea(const Shape& s) {
@@ -54,7 +57,7 @@ Value area(FunctionCall& call, const Orientation& args) {
   const MeshRef m = meshInScope(s);
   double sum = 0;
   for (size_t f = 0; f < m->faceCount(); ++f) {
-    if (selects(args.word.text, m->areaNormal(f), directions)) sum += m->area(f);
+    if (selects(args.word.text, *m, f, directions)) sum += m->area(f);
   }
   return Value::of(sum);
 }
@@ -63,7 +66,7 @@ Value isOriented(FunctionCall& call, const Orientation& args) {
   const Directions directions(call.services(), call.shape());
   const MeshRef m = meshInScope(call.shape());
   for (size_t f = 0; f < m->faceCount(); ++f) {
-    if (selects(args.word.text, m->areaNormal(f), directions)) return Value::of(true);
+    if (selects(args.word.text, *m, f, directions)) return Value::of(true);
   }
   return Value::of(false);
 }

@@ -15,8 +15,11 @@
 #include "geom/region/boolean.h"
 #include "geom/region/clean.h"
 #include "geom/region/region.h"
+#include "io/geo/geo_frames.h"
 #include "io/geo/transverse_mercator.h"
+#include "io/importers/geojson_edges.h"
 #include "io/importers/shape_input.h"
+#include "shape/edge_attributes.h"
 
 namespace gable {
 namespace {
@@ -80,7 +83,8 @@ class GeoJsonReader {
   void complain(Severity severity, const char* code, const std::string& what,
                 const std::string& hint = {});
   std::string place() const;
-  static void addAttributes(const JsonValue& properties, ShapeInput& shape);
+  void addAttributes(const JsonValue& properties, ShapeInput& shape);
+  void addEdgeValues(const std::string& name, const JsonValue& list, ShapeInput& shape);
 
   std::string path_;
   const FeatureFilter& filter_;
@@ -98,6 +102,7 @@ class GeoJsonReader {
   const Feature* feature_ = nullptr;
   std::string name_;
   MeshBuilder builder_;
+  WrittenEdges edges_;
   std::vector<std::vector<Vec2>> lines_;
   // Those of features without polygons.
   MeshBuilder allLines_;
@@ -215,6 +220,7 @@ void GeoJsonReader::chooseProjection(const JsonValue& root) {
     // Metres. Large map coordinates are brought near the origin, by whole metres.
     const Vec2 c = extent_.center();
     if (std::fabs(c.x) > 1e5 || std::fabs(c.y) > 1e5) shift_ = {std::floor(c.x), std::floor(c.y)};
+    out_.geo = mapGeoFrame(root["crs"]["properties"]["name"].text(), shift_);
     return;
   }
   if (tellsMetres()) return;
@@ -226,6 +232,7 @@ void GeoJsonReader::chooseProjection(const JsonValue& root) {
   const Vec2 c = box.center();
   projection_.emplace(LonLat{c.x, c.y});
   out_.geoOrigin = {true, projection_->center().longitude, projection_->center().latitude};
+  out_.geo = localGeoFrame(projection_->center());
   if (box.size().x > kWidestDegrees || box.size().y > kWidestDegrees) {
     out_.diagnostics.warning("geojson-wide", {},
                              "'" + path_ + "' spans more than " + shortestText(kWidestDegrees) +
@@ -271,6 +278,10 @@ bool GeoJsonReader::readPoints(const JsonValue& coordinates, std::vector<Vec2>& 
 
 bool GeoJsonReader::readRing(const JsonValue& coordinates, Ring& out) {
   if (!readPoints(coordinates, out)) return false;
+  if (edges_.wanted()) {
+    out = edges_.ring(out, kTolerance);
+    return true;
+  }
   dropDuplicates(out, kTolerance);
   dropCollinear(out, kTolerance);
   return true;
@@ -280,7 +291,10 @@ void GeoJsonReader::addFace(const Polygon& p) {
   builder_.beginFace();
   const auto loop = [&](const Ring& ring) {
     builder_.beginLoop();
-    for (const Vec2 v : ring) builder_.addCorner(builder_.addPosition(fromPlan(v)));
+    for (size_t i = 0; i < ring.size(); ++i) {
+      builder_.addCorner(builder_.addPosition(fromPlan(ring[i])));
+      if (edges_.wanted()) edges_.add(ring[i], ring[(i + 1) % ring.size()]);
+    }
   };
   loop(p.outer);
   for (const Ring& hole : p.holes) loop(hole);
@@ -414,10 +428,24 @@ void GeoJsonReader::addGeometry(const JsonValue& geometry, int depth) {
   }
 }
 
-PlainValue plainOf(const JsonValue& v) {
-  if (v.isNumber()) return {PlainValue::Kind::Number, v.number(0), {}};
-  if (v.isBool()) return {PlainValue::Kind::Bool, v.boolean(false) ? 1.0 : 0.0, {}};
-  return {PlainValue::Kind::Text, 0, v.text()};
+void GeoJsonReader::addEdgeValues(const std::string& name, const JsonValue& list,
+                                  ShapeInput& shape) {
+  // Lines of the feature follow its faces.
+  AttributeValue values = edges_.values(name, list, shape.mesh.faceCount() - faces_);
+  if (values.values.empty()) {
+    complain(Severity::Warning, "edge-values",
+             "the attribute '" + name + "' is no list of values of one kind, and is left out",
+             "give each edge a number, a text, or true or false");
+    return;
+  }
+  if (list.size() != edges_.written()) {
+    complain(Severity::Warning, "edge-count",
+             "the attribute '" + name + "' has " + std::to_string(list.size()) +
+                 (list.size() == 1 ? " value" : " values") + " for " +
+                 std::to_string(edges_.written()) + " edges",
+             "give a value for each edge, in the order of the outline and its holes");
+  }
+  shape.attributes.push_back(std::move(values));
 }
 
 // Maps name "roof:shape" what a rule calls roof_shape.
@@ -428,21 +456,24 @@ std::string attributeName(std::string key) {
 }
 
 void GeoJsonReader::addAttributes(const JsonValue& properties, ShapeInput& shape) {
-  const auto isPlain = [](const JsonValue& v) { return v.isNumber() || v.isBool() || v.isText(); };
   for (const JsonValue::Member& member : properties.members()) {
     const JsonValue& v = member.second;
+    if (EdgeAttributes::isNamed(member.first, v.isArray())) {
+      addEdgeValues(member.first, v, shape);
+      continue;
+    }
     AttributeValue a;
     a.name = attributeName(member.first);
-    if (isPlain(v)) {
-      a.values.push_back(plainOf(v));
+    if (isPlainValue(v)) {
+      a.values.push_back(plainValue(v));
     } else if (v.isArray() && v.size() > 0) {
       // A list of values of one kind is an array of one row.
       const JsonValue::Kind kind = v.at(0).kind();
       const bool alike = std::all_of(v.items().begin(), v.items().end(), [&](const JsonValue& e) {
-        return isPlain(e) && e.kind() == kind;
+        return isPlainValue(e) && e.kind() == kind;
       });
       if (!alike) continue;
-      for (const JsonValue& e : v.items()) a.values.push_back(plainOf(e));
+      for (const JsonValue& e : v.items()) a.values.push_back(plainValue(e));
       a.rows = 1;
       a.columns = static_cast<uint32_t>(v.size());
     } else {
@@ -455,6 +486,7 @@ void GeoJsonReader::addAttributes(const JsonValue& properties, ShapeInput& shape
 void GeoJsonReader::addFeature(const Feature& f) {
   feature_ = &f;
   name_ = f.properties ? (*f.properties)["name"].text() : std::string{};
+  edges_.begin(f.properties);
   builder_ = MeshBuilder();
   faces_ = 0;
   lines_.clear();

@@ -18,6 +18,7 @@
 // others are read.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,7 @@
 #include "geom/mesh/mesh.h"
 #include "io/importers/asset.h"
 #include "scene/scene.h"
+#include "shape/geo_frame.h"
 
 namespace gable {
 
@@ -46,6 +48,8 @@ struct ShapeInput {
 struct ShapeFile {
   std::vector<ShapeInput> shapes;
   GeoOrigin geoOrigin;
+  /// Where its metres lie on the Earth; null where nobody knows.
+  std::shared_ptr<const GeoFrame> geo;
   Diagnostics diagnostics;
   /// Pictures that lie in the file itself, as Asset has them.
   std::map<std::string, std::string> textures;

@@ -214,7 +214,8 @@ uint32_t UnitCompiler::effectsOf(uint32_t effects, NodeId arguments) const {
                     (type == ValueType::String && (effects & kReadsWorldByWord) != 0);
     }
   }
-  return effectsOfCall(effects, worldNamed) | (worldNamed ? kReadsWorld : 0u);
+  // Words for streets are among those for the world.
+  return effectsOfCall(effects, worldNamed) | (worldNamed ? kReadsWorld | kReadsTags : 0u);
 }
 
 void UnitCompiler::unary(NodeId node) {

@@ -75,7 +75,7 @@ std::vector<uint32_t> itemsOfEdges(OpCall& call, const Mesh& m, const std::vecto
       work();
       if (out[c.corner] != kNoItem) continue;
       const bool taken = streets ? street[c.corner]
-                                 : selector.matches(c.what, &edges, call.services().tags(), count);
+                                 : selector.matches(c.what, edges, call.services().tags(), count);
       if (taken) out[c.corner] = i;
     }
   }

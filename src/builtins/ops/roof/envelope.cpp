@@ -4,6 +4,7 @@
 // Building envelopes on each face of a shape. The solid comes from geom/skeleton/envelope; here
 // edges get their numbers, by the way that they look or one by one.
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "base/work.h"
@@ -50,10 +51,11 @@ class SideChoice {
       : args_(args), directions_(call.services(), call.shape()) {}
 
   /// `number` counts face edges through all faces; `out` is where the edge looks.
-  EnvelopeSide of(size_t number, const Vec3& out) const {
+  EnvelopeSide of(size_t number, const std::array<Vec3, 2>& edge, uint32_t tags,
+                  const Vec3& out) const {
     if (args_.baseHeights.array != nullptr) return listed(number);
     const auto looks = [&](std::string_view word) {
-      return selectsDirection(word, out, directions_);
+      return selectsDirection(word, out, edge, tags, directions_);
     };
     if (looks("street.front")) return {args_.frontBaseHeight, args_.frontAngle};
     if (looks("street.back")) return {args_.backBaseHeight, args_.backAngle};
@@ -150,7 +152,8 @@ Status applyEnvelope(OpCall& call, const Arguments& args) {
         work();
         const Vec3 a = mesh->at(loop.firstCorner + i);
         const Vec3 b = mesh->at(loop.firstCorner + (i + 1) % loop.cornerCount);
-        ring.push_back(choice.of(number++, cross(b - a, normal)));
+        ring.push_back(choice.of(number++, {a, b}, mesh->edgeTagsAt(loop.firstCorner + i),
+                                 cross(b - a, normal)));
         depth.push_back(up == normal ? 0 : std::min(0.0, plan.toLocal(a).z));
       }
     }

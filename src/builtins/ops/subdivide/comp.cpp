@@ -118,12 +118,12 @@ Vec3 beyondEdge(const FlatFace& f, size_t i) {
   return cross(f.ring[(i + 1) % 4] - f.ring[i], f.normal);
 }
 
-class FlatTags : public TagSource {
+class FlatFaces : public ComponentSource {
  public:
-  FlatTags(const std::array<FlatFace, 6>& faces, size_t count) : faces_(faces), count_(count) {}
+  FlatFaces(const std::array<FlatFace, 6>& faces, size_t count) : faces_(faces), count_(count) {}
   void tagsOf(const Selectable& c, Of of, std::vector<uint32_t>& out) const override {
     out.push_back(faces_[c.index].tags);
-    if (of == Of::Component) return;
+    if (of == Of::Component || of == Of::Itself) return;
     if (count_ == 1) {
       out.insert(out.end(), faces_[0].edgeTags.begin(), faces_[0].edgeTags.end());
       return;
@@ -134,6 +134,9 @@ class FlatTags : public TagSource {
       work();
       if (faces_[f].side != opposite) out.push_back(faces_[f].tags);
     }
+  }
+  void pointsOf(const Selectable& c, std::vector<Vec3>& out) const override {
+    out.assign(faces_[c.index].ring.begin(), faces_[c.index].ring.end());
   }
 
  private:
@@ -188,7 +191,7 @@ void splitFlatFaces(const Context& context) {
   const Shape& s = call.shape();
   std::array<FlatFace, 6> faces;
   const size_t count = facesOf(s, faces);
-  const FlatTags tags(faces, count);
+  const FlatFaces source(faces, count);
   const Directions directions(call.services(), s);
   std::array<bool, 6> taken{};
   call.countComponents(count);
@@ -202,7 +205,7 @@ void splitFlatFaces(const Context& context) {
       what.normal = faces[f].normal;
       what.index = f;
       what.border = count == 1;
-      if (taken[f] || !selector.matches(what, &tags, call.services().tags())) continue;
+      if (taken[f] || !selector.matches(what, source, call.services().tags())) continue;
       taken[f] = true;
       chosen[total++] = f;
     }
@@ -306,7 +309,7 @@ void splitMesh(const Context& context, ComponentKind kind, std::vector<uint16_t>
       work();
       const Component& c = all.list()[i];
       if (taken[i] || isDegenerate(c, kind)) continue;
-      if (!selector.matches(c.what, &all, call.services().tags())) continue;
+      if (!selector.matches(c.what, all, call.services().tags())) continue;
       taken[i] = true;
       chosen.push_back(i);
     }

@@ -84,7 +84,7 @@ void chooseEdges(const OpCall& call, const Shape& s, int uvSet, EdgeChoice& choi
       if (choice.group[c.corner] != kNoGroup) continue;
       Selectable what = c.what;
       what.uvSides = uvSides[c.corner];
-      if (selector.matches(what, &choice.edges, call.services().tags(), count)) {
+      if (selector.matches(what, choice.edges, call.services().tags(), count)) {
         choice.group[c.corner] = i;
       }
     }
@@ -250,7 +250,7 @@ Status applyWings(OpCall& call, const Wings& args) {
   const Directions directions(call.services(), call.shape());
   for (const Component& c : choice.edges.list()) {
     for (const auto& [side, width] : wings) {
-      if (!width || !selectsDirection(side, c.what.normal, directions)) continue;
+      if (!width || !selectsDirection(side, c.what.normal, {}, 0, directions)) continue;
       choice.group[c.corner] = 0;
       choice.distance[c.corner] = *width;
     }

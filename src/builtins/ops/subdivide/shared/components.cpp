@@ -423,8 +423,29 @@ void Components::faceTags(uint32_t face, Of of, std::vector<uint32_t>& out) cons
   }
 }
 
+// Vertices have no sides and holes no tags of their own.
+void Components::ownTags(const Component& c, std::vector<uint32_t>& out) const {
+  switch (kind_) {
+    case ComponentKind::Faces: out.push_back(mesh_.faces[c.face].tags); return;
+    case ComponentKind::Slots:
+      for (const uint32_t f : facesOfSlot(c.face)) out.push_back(mesh_.faces[f].tags);
+      return;
+    case ComponentKind::FaceEdges: out.push_back(mesh_.edgeTagsAt(c.corner)); return;
+    case ComponentKind::Edges: {
+      const MeshEdge& e = edges_->edges()[edges_->edgeOf(c.corner)];
+      out.push_back(mesh_.edgeTagsAt(e.corner));
+      if (e.other != kNone) out.push_back(mesh_.edgeTagsAt(e.other));
+      return;
+    }
+    case ComponentKind::Vertices:
+    case ComponentKind::FaceVertices: out.push_back(mesh_.vertexTagsAt(c.from)); return;
+    case ComponentKind::Holes: return;
+  }
+}
+
 void Components::tagsOf(const Selectable& what, Of of, std::vector<uint32_t>& out) const {
   const Component& c = list_[what.index];
+  if (of == Of::Itself) return ownTags(c, out);
   switch (kind_) {
     case ComponentKind::Faces:
     case ComponentKind::Holes: return faceTags(c.face, of, out);
@@ -442,6 +463,28 @@ void Components::tagsOf(const Selectable& what, Of of, std::vector<uint32_t>& ou
       return;
     case ComponentKind::Vertices:
     case ComponentKind::FaceVertices: return vertexTags(c.from, out);
+  }
+}
+
+void Components::pointsOf(const Selectable& what, std::vector<Vec3>& out) const {
+  const Component& c = list_[what.index];
+  const auto addLoop = [&](const MeshLoop& loop) {
+    for (const uint32_t p : mesh_.cornersOf(loop)) out.push_back(mesh_.positions[p]);
+  };
+  switch (kind_) {
+    case ComponentKind::Faces: return addLoop(mesh_.loopsOf(c.face)[0]);
+    case ComponentKind::Slots:
+      for (const uint32_t f : facesOfSlot(c.face)) addLoop(mesh_.loopsOf(f)[0]);
+      return;
+    case ComponentKind::Holes:
+      for (const MeshLoop& loop : mesh_.loopsOf(c.face)) {
+        if (loop.firstCorner == c.corner) addLoop(loop);
+      }
+      return;
+    case ComponentKind::Edges:
+    case ComponentKind::FaceEdges: out.push_back(mesh_.positions[c.to]); [[fallthrough]];
+    case ComponentKind::Vertices:
+    case ComponentKind::FaceVertices: out.push_back(mesh_.positions[c.from]);
   }
 }
 

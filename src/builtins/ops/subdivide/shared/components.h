@@ -38,7 +38,7 @@ struct Component {
   uint32_t from = 0, to = 0;
 };
 
-class Components : public TagSource {
+class Components : public ComponentSource {
  public:
   /// Of a mesh in scope coordinates, which must outlive this. `firstSlots` tells of each slot the
   /// first one that counts as the same. O(n log n).
@@ -53,6 +53,7 @@ class Components : public TagSource {
   std::vector<std::vector<uint32_t>> connected(const std::vector<uint32_t>& which) const;
 
   void tagsOf(const Selectable& c, Of of, std::vector<uint32_t>& out) const override;
+  void pointsOf(const Selectable& c, std::vector<Vec3>& out) const override;
 
  private:
   void addFaces();
@@ -68,6 +69,7 @@ class Components : public TagSource {
   bool facesBorder(uint32_t face) const;
   Vec3 meanNormalOfEdge(uint32_t edge) const;
   void faceTags(uint32_t face, Of of, std::vector<uint32_t>& out) const;
+  void ownTags(const Component& c, std::vector<uint32_t>& out) const;
   void edgeTags(uint32_t edge, std::vector<uint32_t>& out) const;
   void vertexTags(uint32_t position, std::vector<uint32_t>& out) const;
 
