@@ -233,7 +233,7 @@ NodeId Parser::parseAnnotationValue() {
     return make(n, {value});
   }
   const NodeId value = parseExpression();
-  // @Handle(shape=Window^2): the second shape of that name.
+  // @Handle(shape=Window^2): a rule with two parameters.
   if (!accept(TokenKind::Caret)) return value;
   const NodeId index = parsePrimary();
   return make(node(NodeKind::Index, begin), {value, index, kNoNode});

@@ -20,6 +20,22 @@ Status unusedApply(OpCall&) { return {}; }
 // What the setters of shape attributes are called as.
 constexpr OpSpec kSetSpec{"", "", "", {}, unusedApply};
 
+// Whether people see the attribute, or choose another one's value among its own.
+std::vector<bool> shownAttributes(const Program& program) {
+  std::vector<bool> shown;
+  for (const AttributeCode& a : program.attributes) shown.push_back(!a.hidden);
+  for (const AttributeCode& a : program.attributes) {
+    for (const AnnotationInfo& note : a.annotations) {
+      for (const auto& [key, value] : note.arguments) {
+        if (key != "valuesAttr") continue;
+        const int32_t named = program.findAttribute(program.pool->str(value));
+        if (named >= 0) shown[static_cast<size_t>(named)] = true;
+      }
+    }
+  }
+  return shown;
+}
+
 }  // namespace
 
 Machine::Machine(DeriveShared& shared, uint32_t worker)
@@ -226,10 +242,11 @@ void Machine::bindAttributes(const InitialShape& shape) {
 
 std::vector<EvaluatedAttribute> Machine::attributeValues() {
   const WorkScope scope(*this);
+  if (shownAttributes_.empty()) shownAttributes_ = shownAttributes(program_);
   std::vector<EvaluatedAttribute> out;
   for (uint32_t a = 0; a < program_.attributes.size(); ++a) {
     const AttributeCode& code = program_.attributes[a];
-    if (code.constant || code.hidden || code.name.find('.') != std::string::npos) continue;
+    if (code.constant || !shownAttributes_[a] || code.name.find('.') != std::string::npos) continue;
     aborted_ = false;
     stack_.cut(0);
     seen_ = &info_.shape;

@@ -93,7 +93,8 @@ class Machine final : public Services, private WorkMeter {
   const IncrementalCache* incremental() const { return incremental_.get(); }
   /// Tells the usage what it has not been told yet; false when a limit is reached.
   bool tellUse();
-  /// The visible rule attributes of the shape derived last, as evaluated.
+  /// The rule attributes of the shape derived last that people see, as evaluated, and those that the
+  /// choices of others are.
   std::vector<EvaluatedAttribute> attributeValues();
 
   // Services.
@@ -306,6 +307,8 @@ class Machine final : public Services, private WorkMeter {
   Tracer tracer_;
   /// Of the initial shape at work.
   AttributeValues attributeValues_;
+  /// By number; made at the first use.
+  std::vector<bool> shownAttributes_;
   ContextQueries context_;
 
   // The stacks.

@@ -234,7 +234,7 @@ void readPreferredSize(NoteReader& r, Annotations& out) {
 }
 
 // A value of a handle as it is written: a word, the name of a rule or an attribute, a text, a
-// number, a truth value, a list {a, b}, or the shape of a rule by its number, Window^2.
+// number, a truth value, a list {a, b}, or a rule with the number of its parameters, Window^2.
 std::string handleText(const NoteReader& r, NodeId value) {
   const Tree& t = r.tree();
   if (value == kNoNode) return {};
