@@ -70,7 +70,7 @@ std::vector<std::string> filesOf(const TestArguments& arguments) {
   return files;
 }
 
-int runOnce(const TestArguments& arguments) {
+int runOnce(const TestArguments& arguments, Results& results) {
   gable::CaseSettings settings;
   settings.filter = arguments.filter;
   settings.project = arguments.project;
@@ -83,12 +83,14 @@ int runOnce(const TestArguments& arguments) {
     std::fputs("gable: there is no .test file here; name a file or a folder\n", stderr);
     return kExitUsage;
   }
-  Results results;
-  for (const std::string& file : files) results.push_back(gable::runCases(file, settings));
+  for (const std::string& file : files) {
+    if (!*cancelFlag()) results.push_back(gable::runCases(file, settings));
+  }
   const Tally t = tallyOf(results);
   if (const int status = writeText(arguments.output, reportText(results, arguments.format))) {
     return status;
   }
+  if (*cancelFlag()) return kExitLimit;
   if (t.missing) return kExitFile;
   if (t.passed + t.failed == 0) {
     std::fprintf(stderr, "gable: no case has '%s' in its name\n", arguments.filter.c_str());
@@ -101,20 +103,26 @@ int runOnce(const TestArguments& arguments) {
 
 using Times = std::map<std::string, fs::file_time_type>;
 
+fs::path placeOf(const std::string& file) {
+  std::error_code error;
+  return fs::absolute(file, error).lexically_normal();
+}
+
 /// What is looked at: folders as they are named, and those that files lie in. Rules lie beside a
 /// folder `tests` as a rule, so its parent counts.
 std::vector<fs::path> watchedFolders(const TestArguments& arguments) {
   std::vector<fs::path> folders;
-  if (arguments.project) folders.emplace_back(*arguments.project);
+  if (arguments.project) folders.push_back(placeOf(*arguments.project));
   for (const std::string& path : arguments.paths) {
     std::error_code error;
-    fs::path folder = fs::absolute(path, error).lexically_normal();
+    fs::path folder = placeOf(path);
     if (!fs::is_directory(folder, error) || !folder.has_filename()) folder = folder.parent_path();
     folders.push_back(folder.filename() == "tests" ? folder.parent_path() : folder);
   }
   return folders;
 }
 
+/// Pictures that a run leaves beside those that it expected are no edits.
 Times timesOf(const std::vector<fs::path>& folders) {
   Times times;
   for (const fs::path& folder : folders) {
@@ -123,7 +131,8 @@ Times timesOf(const std::vector<fs::path>& folders) {
                                         error);
     for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
       std::error_code one;
-      if (at->path().filename().string().starts_with('.')) {
+      const std::string name = at->path().filename().string();
+      if (name.starts_with('.') || name.ends_with(".found.png")) {
         if (at->is_directory(one)) at.disable_recursion_pending();
       } else if (at->is_regular_file(one)) {
         times[at->path().string()] = at->last_write_time(one);
@@ -145,15 +154,30 @@ std::string changedFile(const Times& before, const Times& after) {
   return {};
 }
 
+/// What the run itself has written is no edit either.
+void forget(Times& before, const Times& after, const TestArguments& arguments,
+            const Results& results) {
+  const auto written = [&](const std::string& file) {
+    const auto found = after.find(placeOf(file).string());
+    if (found != after.end()) before[found->first] = found->second;
+  };
+  if (!arguments.output.empty()) written(arguments.output);
+  for (const CaseFileResult& result : results) {
+    for (const std::string& file : result.written) written(file);
+  }
+}
+
 int watch(const TestArguments& arguments) {
   const std::vector<fs::path> folders = watchedFolders(arguments);
   int status = kExitDone;
   while (!*cancelFlag()) {
-    status = runOnce(arguments);
+    // Taken before the run, so that an edit during it starts another.
+    Times before = timesOf(folders);
+    Results results;
+    status = runOnce(arguments, results);
     std::fflush(stdout);
-    // Taken after the run, so that pictures that it wrote start no other.
-    const Times before = timesOf(folders);
-    Times after = before;
+    Times after = timesOf(folders);
+    forget(before, after, arguments, results);
     while (!*cancelFlag() && after == before) {
       std::this_thread::sleep_for(std::chrono::milliseconds(300));
       after = timesOf(folders);
@@ -166,5 +190,6 @@ int watch(const TestArguments& arguments) {
 }  // namespace
 
 int runTest(const TestArguments& arguments) {
-  return arguments.watch ? watch(arguments) : runOnce(arguments);
+  Results results;
+  return arguments.watch ? watch(arguments) : runOnce(arguments, results);
 }

@@ -30,7 +30,8 @@ struct CaseSettings {
   bool update = false;
   /// Threads; absent: one a processor.
   std::optional<int> jobs;
-  /// For reading and drawing, and the seconds of a derivation where a case sets none.
+  /// For reading and drawing, and the seconds of a derivation where a case sets none. Cases that are
+  /// cancelled fail, and what they would have updated stays.
   FileLimits limits;
 };
 

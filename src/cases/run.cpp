@@ -112,12 +112,22 @@ void CaseRun::failAt(const char* section, const std::string& message) {
   fail(s ? s->line : 0, message);
 }
 
+bool CaseRun::stopped() const {
+  return settings_.limits.cancel && settings_.limits.cancel->load();
+}
+
 CaseResult CaseRun::run() {
   const double begin = now();
   try {
-    runCase();
+    if (!stopped()) runCase();
   } catch (...) {
     fail(0, diagnosticOfException().message);
+  }
+  if (stopped()) {
+    // Half a model says nothing.
+    result_.failures.clear();
+    updates_.clear();
+    fail(0, "stopped before its end");
   }
   result_.seconds = now() - begin;
   return std::move(result_);
@@ -153,6 +163,7 @@ bool CaseRun::readSettings(DeriveSettings& derive) {
   derive.jobs = 1;
   derive.limits.bytes = settings_.limits.bytes;
   derive.limits.seconds = settings_.limits.seconds;
+  derive.cancel = settings_.limits.cancel;
   if (const std::string seed = wordOf(case_, "seed");
       !seed.empty() && !parseNumber(seed, derive.seed)) {
     failAt("seed", "'" + seed + "' is not a number");
@@ -216,6 +227,7 @@ void CaseRun::runCase() {
     }
     checkValues(outcome.scene->prints);
   }
+  if (stopped()) return;
   judge(outcome);
 }
 

@@ -34,6 +34,8 @@ class CaseRun {
   const std::vector<std::string>& written() const { return golden_.written(); }
 
  private:
+  /// Somebody has stopped the run: nothing is judged or written any more.
+  bool stopped() const;
   void fail(size_t line, const std::string& message);
   void failAt(const char* section, const std::string& message);
   void runCase();

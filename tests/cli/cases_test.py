@@ -21,6 +21,7 @@ Overlapping --> [ s('0.6, 1, '1) extrude(4) House. ] t('0.4, 0, 0) s('0.6, 1, '1
 Stacked --> [ extrude(4) House. ] t(0, 4, 0) extrude(4) House.
 Outside --> t(0.01, 0, 0) extrude(4) House.
 """
+LIMIT = 4
 GUIDE = Path("docs/guide/rule-tests.md")
 
 
@@ -135,6 +136,56 @@ class Cases(Case):
                 self.assertEqual(watching.wait(timeout=10), WRONG)
             finally:
                 watching.kill()
+
+    def watching(self, *options):
+        return subprocess.Popen([str(GABLE), "test", "tests", *options], cwd=self.folder, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, text=True)
+
+    def slow(self):
+        """A rule file whose derivation takes some seconds."""
+        self.put("rules/slow.cga", "Lot --> split(x) { ~0.001 : A }*\nA --> split(z) { ~0.01 : extrude(rand) X. }*\n")
+
+    def testWatchingSeesAnEditDuringARun(self):
+        self.slow()
+        self.put("rules/tower.cga", RULES)
+        limits = "limits:\n  seconds 3\n"
+        self.cases(case("slow", "warns limit-seconds", rules="rules: ../rules/slow.cga", more=limits))
+        with self.watching("--watch", "--jobs", "1") as watching:
+            try:
+                time.sleep(1.5)
+                self.put("rules/tower.cga", RULES + "// edited\n")
+                told = ""
+                while "has changed" not in told and (line := watching.stdout.readline()):
+                    told += line
+                self.assertIn(f"{self.folder}/rules/tower.cga has changed\n", told)
+                # The run that follows is stopped in the middle of a derivation.
+                time.sleep(1)
+                begin = time.monotonic()
+                watching.send_signal(2)
+                self.assertEqual(watching.wait(timeout=10), LIMIT)
+                self.assertLess(time.monotonic() - begin, 2)
+            finally:
+                watching.kill()
+
+    def testAStoppedRunUpdatesNothing(self):
+        self.slow()
+        self.cases(case("slow", "scene slow.scene", rules="rules: ../rules/slow.cga"), case("next", "leaves Glass 4"))
+        with self.watching("--update", "--jobs", "1") as running:
+            time.sleep(1)
+            running.send_signal(2)
+            told = running.communicate(timeout=5)[0]
+        self.assertEqual(running.returncode, LIMIT)
+        self.assertIn("slow: stopped before its end", told)
+        self.assertIn("0 passed, 2 failed", told)
+        self.assertFalse((self.folder / "tests/slow.scene").exists())
+
+    def testWhatARunWritesStartsNoOther(self):
+        self.cases(case("golden", "scene tower.scene"))
+        with self.watching("--watch", "--update", "-o", "tests/told.txt") as watching:
+            time.sleep(2.5)
+            watching.send_signal(2)
+            self.assertNotIn("has changed", watching.communicate(timeout=10)[0])
+        self.assertTrue((self.folder / "tests/tower.scene").exists())
 
     def testTheGuideIsTrue(self):
         text = (Path(__file__).resolve().parents[2] / GUIDE).read_text()
