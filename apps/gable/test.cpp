@@ -78,6 +78,7 @@ int runOnce(const TestArguments& arguments, Results& results) {
   settings.update = arguments.update;
   settings.jobs = arguments.jobs;
   settings.limits = fileLimits(arguments.limits);
+  settings.cancel = cancelFlag();
   const std::vector<std::string> files = filesOf(arguments);
   if (files.empty()) {
     std::fputs("gable: there is no .test file here; name a file or a folder\n", stderr);

@@ -9,6 +9,7 @@
 //     if (!c.failures.empty()) ...
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -30,9 +31,11 @@ struct CaseSettings {
   bool update = false;
   /// Threads; absent: one a processor.
   std::optional<int> jobs;
-  /// For reading and drawing, and the seconds of a derivation where a case sets none. Cases that are
-  /// cancelled fail, and what they would have updated stays.
+  /// For reading and drawing, and the seconds of a derivation where a case sets none.
   FileLimits limits;
+  /// Ends derivations, and with them the run, soon after it becomes true: cases that have not ended
+  /// fail, and what they would have updated stays. May be null.
+  std::atomic<bool>* cancel = nullptr;
 };
 
 /// What does not hold, as one sentence with what was found.

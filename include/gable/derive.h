@@ -48,7 +48,7 @@ struct DeriveSettings {
   /// Called from any thread.
   std::function<void(size_t done, size_t total)> progress;
   /// Ends the derivation soon after it becomes true. May be null.
-  const std::atomic<bool>* cancel = nullptr;
+  std::atomic<bool>* cancel = nullptr;
 };
 
 Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& settings = {});

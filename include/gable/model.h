@@ -69,7 +69,7 @@ struct PictureSettings {
   std::optional<int> jobs;
   /// Called from any thread.
   std::function<void(size_t done, size_t total)> progress;
-  const std::atomic<bool>* cancel = nullptr;
+  std::atomic<bool>* cancel = nullptr;
   /// By default it may take as long as its samples take.
   FileLimits limits{std::nullopt};
 };

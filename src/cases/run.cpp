@@ -113,7 +113,7 @@ void CaseRun::failAt(const char* section, const std::string& message) {
 }
 
 bool CaseRun::stopped() const {
-  return settings_.limits.cancel && settings_.limits.cancel->load();
+  return settings_.cancel && settings_.cancel->load();
 }
 
 CaseResult CaseRun::run() {
@@ -163,7 +163,7 @@ bool CaseRun::readSettings(DeriveSettings& derive) {
   derive.jobs = 1;
   derive.limits.bytes = settings_.limits.bytes;
   derive.limits.seconds = settings_.limits.seconds;
-  derive.cancel = settings_.limits.cancel;
+  derive.cancel = settings_.cancel;
   if (const std::string seed = wordOf(case_, "seed");
       !seed.empty() && !parseNumber(seed, derive.seed)) {
     failAt("seed", "'" + seed + "' is not a number");

@@ -22,6 +22,9 @@ void writeAnnotations(JsonWriter& json, const std::vector<AttributeInfo::Annotat
 }  // namespace
 
 void writeRules(JsonWriter& json, const Rules& rules) {
+  json.key("styles").beginArray();
+  for (const std::string& style : rules.styles()) json.value(style);
+  json.endArray();
   json.key("startRule").value(rules.startRule().value_or(std::string())).key("rules").beginArray();
   for (const RuleInfo& r : rules.rules()) {
     json.beginObject().key("name").value(r.name);
@@ -44,9 +47,6 @@ std::string rulesJson(const Rules& rules, const std::vector<NamedValue>& values)
   std::string out;
   JsonWriter json(out);
   json.beginObject().key("description").value(rules.description());
-  json.key("styles").beginArray();
-  for (const std::string& style : rules.styles()) json.value(style);
-  json.endArray();
   writeRules(json, rules);
   json.key("values").raw(valuesJson(values)).key("imports").beginArray();
   for (const ImportInfo& i : rules.imports()) {

@@ -370,6 +370,20 @@ TEST_F(Server, derivesDrawsAndWrites) {
   EXPECT_EQ(status(ask("GET /api/export?derivation=9&format=glb")), 404);
 }
 
+TEST_F(Server, stylesAndChoicesAreTold) {
+  const auto answer = [&](const std::string& style) {
+    return ask("POST /api/derive",
+               R"({"file":"rules/a.cga","page":"p","shapes":{"lot":[4,2]},"style":")" + style +
+                   R"(","text":"@Enum(valuesAttr=kinds) attr h = 3\n@Hidden attr kinds = [3, 5]\n)"
+                   R"(@Hidden attr other = 1\nLot --> extrude(h) B.\nstyle Tall\nattr h = 5"})");
+  };
+  const std::string usual = answer("");
+  EXPECT_NE(usual.find(R"("styles":["Default","Tall"])"), std::string::npos) << usual;
+  // Hidden attributes are told where the choices of others are theirs.
+  EXPECT_NE(usual.find(R"("values":{"h":3,"kinds":[3,5]})"), std::string::npos) << usual;
+  EXPECT_NE(answer("Tall").find(R"("values":{"h":5,)"), std::string::npos);
+}
+
 // The lot is replaced by a box, the box by six faces, and these stay.
 TEST_F(Server, stepsHoldEachShapeAsItsRuleGotIt) {
   const std::string body =

@@ -123,7 +123,7 @@ export default {
 @Order(1) @DisplayName("Storeys") @Range(min=2, max=9, stepsize=2, restricted=false) attr n = 4
 @Group("Soon", 1) @Enum(valuesAttr=kinds) attr kind = kinds[0]
 @Enum(3, 6, restricted=false) attr depth = 3
-attr kinds = ["brick", "stone"]
+@Hidden attr kinds = ["brick", "stone"]
 @Hidden Never --> NIL
 @StartRule @InMesh @Out(granularity=separatedShapes) Lot --> extrude(n * 3 + share) Mass.
 `,
@@ -133,7 +133,6 @@ attr kinds = ["brick", "stone"]
     assert.deepEqual(await page.locator('.sec .fld label').allInnerTexts(), [
       'kind',
       'depth',
-      'kinds',
       'Storeys',
       'share',
     ]);
@@ -149,6 +148,27 @@ attr kinds = ["brick", "stone"]
     assert.deepEqual(await page.locator('#start option').allInnerTexts(), ['Lot']);
     assert.match(await page.locator('#expects').innerText(), /on a mesh.*stay separate/);
     await pictured();
+  },
+
+  /** A style that the rules declare is chosen, undone, and given up when it is gone. */
+  async aStyleIsChosen({ page, folder }) {
+    await ready(page);
+    assert.equal(await page.locator('#style').count(), 0, 'HOUSE has none');
+    writeFileSync(join(folder, 'styled.cga'), `${HOUSE}\nstyle Tall\nattr height = 25\n`);
+    await openByPalette(page, 'styled.cga');
+    await page.locator('#style').selectOption('Tall');
+    const height = (n) =>
+      page.waitForFunction(
+        (n) => document.querySelector('#attr-height')?.getAttribute('aria-valuenow') === n,
+        String(n),
+      );
+    await height(25);
+    await page.getByRole('button', { name: 'Undo', exact: true }).click();
+    await height(9);
+    await page.locator('#style').selectOption('Tall');
+    await height(25);
+    await page.locator('#style').selectOption('Default');
+    await height(9);
   },
 
   /** Rules with errors that are opened show no model of other rules, and none that vanished. */

@@ -72,6 +72,7 @@ export interface DeriveRequest {
   text: string;
   overlay: Record<string, string>;
   start: string;
+  style?: string;
   seed: number;
   attributes: Record<string, string>;
   /** Of single initial shapes, by index. */

@@ -63,6 +63,7 @@ interface Run {
 export class Model {
   rules = $state.raw<RuleInfo[]>([]);
   startRule = $state('');
+  styles = $state.raw<string[]>([]);
   attributes = $state.raw<AttributeInfo[]>([]);
   values = $state.raw<Record<string, Value>>({});
   /** What attributes were when nobody had set them. */
@@ -215,6 +216,7 @@ export class Model {
   private clear(): void {
     this.fresh = false;
     this.rules = [];
+    this.styles = [];
     this.attributes = [];
     this.values = {};
     this.defaults = {};
@@ -240,6 +242,7 @@ export class Model {
     const rules = once(derived.rules, (r) => `${r.name} ${r.parameters}`);
     this.rules = sameOr(this.rules, rules);
     this.startRule = derived.startRule;
+    this.styles = sameOr(this.styles, derived.styles);
     const attributes = once(derived.attributes, (a) => a.name);
     this.attributes = sameOr(this.attributes, attributes);
     this.values = sameOr(this.values, derived.values ?? {});

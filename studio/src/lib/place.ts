@@ -8,6 +8,8 @@ import type { Example, ShapesSpec } from './client';
 /** What makes a place besides the rules. Values are texts as the engine takes them. */
 export interface Place {
   start: string;
+  /** One that the rules declare; absent: their default. */
+  style?: string;
   seed: number;
   attributes: Record<string, string>;
   shapes: ShapesSpec;

@@ -84,6 +84,8 @@ export interface Derived {
   end: End;
   derivation?: number;
   startRule: string;
+  /** "Default" first. */
+  styles: string[];
   rules: RuleInfo[];
   attributes: AttributeInfo[];
   diagnostics: Diagnostic[];
