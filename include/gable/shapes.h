@@ -16,8 +16,8 @@
 
 namespace gable {
 
-/// Which features of a map (GeoJSON, OpenStreetMap, GeoPackage, FlatGeobuf, shapefile) become
-/// shapes.
+/// Which features of a map (GeoJSON, OpenStreetMap, GeoPackage, FlatGeobuf, shapefile, KML, DXF)
+/// become shapes.
 struct FeatureSelection {
   /// Of a file with several layers.
   std::string layer;
@@ -40,8 +40,8 @@ class Shapes {
   static Shapes mesh(const std::vector<std::array<double, 3>>& vertices,
                      const std::vector<std::vector<uint32_t>>& faces,
                      const std::vector<std::vector<uint32_t>>& holes = {});
-  /// By extension: .geojson .json; .osm .pbf where gable-maps is built; .gpkg .fgb .shp where
-  /// GDAL's programs are installed; .obj .gltf .glb; .fbx .dae where gable-convert is built.
+  /// By extension: .geojson .json; .osm .pbf where gable-maps is built; .gpkg .fgb .shp .kml .dxf
+  /// where GDAL's programs are installed; .obj .gltf .glb; .fbx .dae where gable-convert is built.
   static Shapes load(const std::string& path, const FileLimits& limits = {},
                      const FeatureSelection& selection = {});
   /// The same for a file's content in memory; `name` gives the extension.

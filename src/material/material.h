@@ -54,14 +54,14 @@ struct Material {
   Vec3 emissive{0, 0, 0};
   double opacity = 1;
   double reflectivity = 0;
-  double shininess = 0;
-  double bumpValue = 0;
+  double shininess = 1;
+  double bumpValue = 1;
   double metallic = 0;
   double roughness = 1;
-  bool doubleSided = false;
+  bool doubleSided = true;
   OpacityMode opacityMode = OpacityMode::Blend;
   double opacityCutoff = 0.5;
-  std::string shader = "CityEnginePBRShader";
+  std::string shader = "CityEngineShader";
   std::array<TextureMap, kTextureLayers> maps;
 
   const TextureMap& map(TextureLayer l) const { return maps[static_cast<size_t>(l)]; }

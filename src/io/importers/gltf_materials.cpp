@@ -47,6 +47,7 @@ class Reader {
     to.roughness = unit(pbr["roughnessFactor"].number(1));
     to.emissive = colorOf(m["emissiveFactor"], {});
     to.doubleSided = m["doubleSided"].boolean(false);
+    to.shader = "CityEnginePBRShader";
     map(out, TextureLayer::Color, pbr["baseColorTexture"]);
     map(out, TextureLayer::Roughness, pbr["metallicRoughnessTexture"]);
     map(out, TextureLayer::Metallic, pbr["metallicRoughnessTexture"]);

@@ -44,12 +44,16 @@ Result<std::string> openStreetMap(std::string_view bytes, const std::string& pat
   return text;
 }
 
-// How a file of the format begins. GDAL goes by the content: without this it would take what only
-// has the name of one format for another, which may name files elsewhere.
-std::string_view beginningOf(const std::string& extension) {
-  if (extension == "gpkg") return "SQLite format 3";
-  if (extension == "fgb") return "fgb\x03";
-  return std::string_view("\x00\x00\x27\x0a", 4);
+// GDAL goes by the content: without this it would take what only has the name of one format for
+// another, which may name files elsewhere.
+bool isWhatItsNameSays(std::string_view bytes, const std::string& extension) {
+  constexpr size_t kHead = 1024;
+  const std::string_view head = bytes.substr(0, kHead);
+  if (extension == "gpkg") return head.starts_with("SQLite format 3");
+  if (extension == "fgb") return head.starts_with("fgb\x03");
+  if (extension == "kml") return head.find("<kml") != std::string_view::npos;
+  if (extension == "dxf") return head.find("SECTION") != std::string_view::npos;
+  return head.starts_with(std::string_view("\x00\x00\x27\x0a", 4));
 }
 
 /// A file of GDAL's, as a copy in a folder of its own: the programs take files, not bytes.
@@ -87,15 +91,22 @@ class GdalFile {
   }
 
   Result<std::string> geoJson(const std::string& layer) const {
-    std::vector<std::string> arguments{"-f",          "GeoJSON", "-lco", "COORDINATE_PRECISION=9",
-                                       "/vsistdout/", copy_,     layer};
-    const std::vector<std::string> degrees{"-t_srs", "EPSG:4326"};
-    std::vector<std::string> converted = arguments;
-    converted.insert(converted.begin(), degrees.begin(), degrees.end());
-    Result<std::string> text = run("ogr2ogr", converted);
+    const auto written = [&](std::vector<std::string> arguments) {
+      for (const std::string& a : {std::string("-lco"), std::string("COORDINATE_PRECISION=9"),
+                                   std::string("/vsistdout/"), copy_, layer}) {
+        arguments.push_back(a);
+      }
+      return run("ogr2ogr", arguments);
+    };
+    // A drawing has no coordinate system; any in metres says so. Its lots are closed lines.
+    if (extensionOf(path_) == "dxf") {
+      return written({"--config", "DXF_CLOSED_LINE_AS_POLYGON", "YES", "-f", "GeoJSON", "-a_srs",
+                      "EPSG:3857"});
+    }
+    Result<std::string> text = written({"-f", "GeoJSON", "-t_srs", "EPSG:4326"});
     // A file that does not name its coordinate system cannot be converted.
     if (text.ok() || !isCode(text.error(), "shapes-broken")) return text;
-    return run("ogr2ogr", arguments);
+    return written({"-f", "GeoJSON"});
   }
 
  private:
@@ -148,15 +159,15 @@ bool isOpenStreetMap(const std::string& path) {
 
 bool isMap(const std::string& path) {
   const std::string extension = extensionOf(path);
-  return isOpenStreetMap(path) || extension == "gpkg" || extension == "fgb" || extension == "shp";
+  return isOpenStreetMap(path) || extension == "gpkg" || extension == "fgb" || extension == "shp" ||
+         extension == "kml" || extension == "dxf";
 }
 
 Result<std::string> mapAsGeoJson(std::string_view bytes, const AssetOptions& options,
                                  const std::string& layer) {
   const std::string& path = options.path;
   if (isOpenStreetMap(path)) return openStreetMap(bytes, path);
-  const std::string_view beginning = beginningOf(extensionOf(path));
-  if (bytes.substr(0, beginning.size()) != beginning) {
+  if (!isWhatItsNameSays(bytes, extensionOf(path))) {
     return Error{"shapes-broken", "'" + path + "' is not what its name says",
                  "open it in a map program and save it again"};
   }

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Maps in formats that other programs read for us, as GeoJSON: OpenStreetMap by gable-maps,
-// GeoPackage, FlatGeobuf and shapefiles by ogr2ogr of GDAL. Both run with limits; where one is not
+// GeoPackage, FlatGeobuf, shapefiles, KML and DXF by ogr2ogr of GDAL. Both run with limits; where one is not
 // installed, an error names its package.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace gable {
 
-/// By extension: .osm .pbf .gpkg .fgb .shp.
+/// By extension: .osm .pbf .gpkg .fgb .shp .kml .dxf.
 bool isMap(const std::string& path);
 /// Whether it is one of OpenStreetMap: a feature has its kind as a key there, in no layer.
 bool isOpenStreetMap(const std::string& path);

@@ -132,7 +132,8 @@ TEST_F(Gdal, givesTheSameLotInEveryFormatAndProjection) {
   make({"-f", "GPKG", path("a.gpkg"), lots, "-t_srs", "EPSG:32632", "-nln", "lots"});
   make({"-f", "FlatGeobuf", path("a.fgb"), lots});
   make({path("a.shp"), lots, "-t_srs", "EPSG:32632"});
-  for (const char* name : {"lots.geojson", "a.gpkg", "a.fgb", "a.shp"}) {
+  make({"-f", "KML", path("a.kml"), lots});
+  for (const char* name : {"lots.geojson", "a.gpkg", "a.fgb", "a.shp", "a.kml"}) {
     Result<ShapeFile> r = read(name);
     ASSERT_TRUE(r.ok()) << name << ": " << r.error().message;
     ASSERT_EQ(r->shapes.size(), 1u) << name;
@@ -151,6 +152,17 @@ TEST_F(Gdal, aFileWithoutACoordinateSystemIsInMetres) {
   ASSERT_TRUE(r.ok()) << r.error().message;
   // The grid of that zone is smaller than the ground here.
   EXPECT_NEAR(r->shapes[0].mesh.area(), 8951.7 * 0.9992, 5);
+  EXPECT_FALSE(r->geoOrigin.present);
+}
+
+TEST_F(Gdal, aDrawingIsInMetres) {
+  const std::string drawing =
+      "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\nLots\n90\n4\n70\n1\n10\n0\n20\n0\n10\n30\n20\n0\n"
+      "10\n30\n20\n20\n10\n0\n20\n20\n0\nENDSEC\n0\nEOF\n";
+  ASSERT_TRUE(writeFile(path("a.dxf"), drawing).ok());
+  Result<ShapeFile> r = read("a.dxf", {"", "Layer", "Lots"});
+  ASSERT_TRUE(r.ok()) << r.error().message;
+  EXPECT_NEAR(r->shapes[0].mesh.area(), 600, 1e-6);
   EXPECT_FALSE(r->geoOrigin.present);
 }
 

@@ -84,7 +84,7 @@ Result<ShapeFile> readShapes(std::string_view bytes, const AssetOptions& options
   }
   if (extension == "gltf" || extension == "glb") return readGltfShapes(bytes, options);
   return Error{"shapes-unknown", "'" + options.path + "' is no file of shapes that can be read",
-               "use GeoJSON, OpenStreetMap, GeoPackage, FlatGeobuf, a shapefile, OBJ or glTF"};
+               "use GeoJSON, OpenStreetMap, GeoPackage, FlatGeobuf, a shapefile, KML, DXF, OBJ or glTF"};
 }
 
 ShapeInput lotShape(double width, double depth) {

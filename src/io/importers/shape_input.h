@@ -6,7 +6,7 @@
 //   GeoJSON  a shape a feature with polygons, a face a polygon, holes kept; properties are
 //            attributes. Lines beside polygons in a feature belong to its shape; those of a file
 //            without any polygon make one shape, "lines". A line is faces of two corners.
-//   maps     OpenStreetMap, GeoPackage, FlatGeobuf and shapefiles, read as GeoJSON
+//   maps     OpenStreetMap, GeoPackage, FlatGeobuf, shapefiles, KML and DXF, read as GeoJSON
 //   OBJ      a shape an object (o), or a group (g) where there are no objects, or the whole file
 //   glTF     a shape a node with a mesh
 //
@@ -66,8 +66,8 @@ struct FeatureFilter {
   std::string value;
 };
 
-/// By extension: .geojson .json .osm .pbf .gpkg .fgb .shp .obj .gltf .glb .fbx .dae. Codes: shapes-
-/// unknown, shapes-broken, shapes-empty, and those of maps and assets.
+/// By extension: .geojson .json .osm .pbf .gpkg .fgb .shp .kml .dxf .obj .gltf .glb .fbx .dae. Codes:
+/// shapes-unknown, shapes-broken, shapes-empty, and those of maps and assets.
 Result<ShapeFile> readShapes(std::string_view bytes, const AssetOptions& options,
                              const FeatureFilter& filter = {});
 Result<ShapeFile> readGeoJsonShapes(std::string_view text, const std::string& path,
