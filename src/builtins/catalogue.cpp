@@ -26,7 +26,8 @@ void sortUnique(std::vector<const T*>& list) {
 
 // In the order of their bytes. Who builds one takes its name out; the catalogue insists on it.
 constexpr std::string_view kUnbuilt[] = {
-    "intersect", "modify", "splitAndSetbackPerimeter", "subtract", "union",
+    "modify",
+    "splitAndSetbackPerimeter",
 };
 
 struct Storage {

@@ -19,6 +19,10 @@ void Gathers::begin(Call call) {
   worlds_.beginGather();
 }
 
+void Gathers::beginChild(uint32_t slot) {
+  open_.back().children.emplace_back(static_cast<uint32_t>(output_.openLeaves.size()), slot);
+}
+
 bool Gathers::anyTagged() const {
   return std::any_of(open_.begin(), open_.end(), [](const Open& g) { return g.call.tagged; });
 }
@@ -34,11 +38,17 @@ Gathers::Open Gathers::close() {
 Gathers::Ended Gathers::end() {
   Open g = close();
   const std::vector<Leaf>& open = output_.openLeaves;
-  Ended out{std::move(g.call), {}, {}, g.firstLeaf, g.firstNode};
+  Ended out{std::move(g.call), {}, {}, {}, g.firstLeaf, g.firstNode};
   // What a trace shows of shapes on their way is no leaf.
   out.shown = tracer_.shownShapes(g.firstNode, g.firstLeaf, open.size() - g.firstLeaf);
-  for (size_t k = 0; k < out.shown.size(); ++k) {
-    if (!out.shown[k]) out.leaves.push_back({shapeOf(open[g.firstLeaf + k], output_), false});
+  auto child = g.children.begin();
+  uint32_t slot = 0;
+  for (uint32_t k = 0; k < out.shown.size(); ++k) {
+    const uint32_t leaf = g.firstLeaf + k;
+    for (; child != g.children.end() && child->first <= leaf; ++child) slot = child->second;
+    if (out.shown[k]) continue;
+    out.leaves.push_back({shapeOf(open[leaf], output_), false});
+    out.slots.push_back(slot);
   }
   return out;
 }

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "runtime/output.h"
@@ -46,6 +47,8 @@ class Gathers {
   /// Whether the innermost call waits for the children of the activation at work, the last of so
   /// many.
   bool isDue(uint32_t activations) const { return due_ == activations; }
+  /// The next leaves come of a child that works on that slot.
+  void beginChild(uint32_t slot);
 
   /// A call whose children are done.
   struct Ended {
@@ -53,6 +56,8 @@ class Gathers {
     /// What came of them, in the frame of the call. The operation marks what it takes, and may give
     /// the others another mesh.
     std::vector<Gathered> leaves;
+    /// By leaf: the block slot of the child that it came of.
+    std::vector<uint32_t> slots;
     /// By open leaf since the call began: only a trace shows it.
     std::vector<bool> shown;
     uint32_t firstLeaf = 0, firstNode = 0;
@@ -70,6 +75,8 @@ class Gathers {
     Call call;
     /// So many open leaves and nodes of the trace were there before.
     uint32_t firstLeaf = 0, firstNode = 0;
+    /// By child: its first leaf, and its slot.
+    std::vector<std::pair<uint32_t, uint32_t>> children;
   };
   Open close();
   void keepLeaves(uint32_t firstLeaf, uint32_t firstNode, bool flat, const std::vector<bool>& gone);

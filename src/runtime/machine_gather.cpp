@@ -34,7 +34,13 @@ void Machine::endGather() {
   const OpSpec& spec = *program_.operations[i.a];
   const CallPlace place{a.previous.frame, a.previous.size,
                         program_.files[program_.rules[a.rule].file], program_.sites[pcOf(&i)]};
-  OpCall call(spec, a.shape, ended.call.arguments, *this, place);
+  // Its selectors are those that the leaves came of, leaf by leaf.
+  std::vector<SelectorItem> cameOf(ended.leaves.size());
+  for (size_t k = 0; k < cameOf.size(); ++k) cameOf[k].slot = ended.slots[k];
+  BlockInput block;
+  block.slotCount = static_cast<uint32_t>(program_.blocks[i.y - 1].slots.size());
+  block.selectors = cameOf;
+  OpCall call(spec, a.shape, ended.call.arguments, *this, place, &block);
   instruction_ = &i;
   const Shape before = a.shape;
   const Status status = guarded([&] { return call.runGathered(ended.leaves); });

@@ -234,6 +234,7 @@ void Machine::makeChild() {
     slot = children_[number].slot;
     a.shape = std::move(children_[number].shape);
   }
+  if (gathers_.isDue(parentIndex + 1)) gathers_.beginChild(slot);
   a.rule = parent.rule;
   a.stackBase = stack_.size();
   a.parameters = parent.parameters;

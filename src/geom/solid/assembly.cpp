@@ -40,8 +40,9 @@ class SourceFace {
     }
     work(corners_.size() + edges_.size());
     std::sort(corners_.begin(), corners_.end());
-    std::sort(edges_.begin(), edges_.end(),
-              [](const Run& a, const Run& b) { return std::pair(a.edge, a.from) < std::pair(b.edge, b.from); });
+    std::sort(edges_.begin(), edges_.end(), [](const Run& a, const Run& b) {
+      return std::pair(a.edge, a.from) < std::pair(b.edge, b.from);
+    });
   }
 
   uint32_t cornerAt(uint32_t vertex) const {
@@ -199,8 +200,7 @@ class Assembler {
     if (position_[v] == kNone) position_[v] = builder_.addPosition(facets_.pool[v]);
     const uint32_t edge = source_.edgeAt(v, w);
     const bool tagged = edge != kNone && !mesh_.edgeTags.empty();
-    const uint32_t corner =
-        builder_.addCorner(position_[v], tagged ? mesh_.edgeTags[edge] : 0);
+    const uint32_t corner = builder_.addCorner(position_[v], tagged ? mesh_.edgeTags[edge] : 0);
     out_.cornerSource.push_back(source_.cornerAt(v));
     out_.edgeSource.push_back(edge);
     out_.cut.push_back(std::binary_search(cuts_.begin(), cuts_.end(), edgeKey(v, w)));

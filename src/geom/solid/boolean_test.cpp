@@ -223,8 +223,8 @@ TEST(SolidBoolean, prismsOfTheCorpusOnEachOther) {
       for (const Vec2 p : ring) out.push_back((p - box.min) * (1 / length(box.size())));
       return out;
     };
-    expectConsistent(prismOf(unit(cases[k].ring), 0, 0.5),
-                     prismOf(unit(cases[k + 1].ring), 0, 0.5), 1e-6);
+    expectConsistent(prismOf(unit(cases[k].ring), 0, 0.5), prismOf(unit(cases[k + 1].ring), 0, 0.5),
+                     1e-6);
     if (HasFailure()) FAIL() << "case " << 61 * k;
   }
 }
@@ -254,7 +254,8 @@ double windingOf(const Mesh& m, const Vec3& p) {
   for (const MeshLoop& loop : m.loops) {
     const auto c = m.cornersOf(loop);
     for (size_t i = 1; i + 1 < c.size(); ++i) {
-      const Vec3 a = m.positions[c[0]] - p, b = m.positions[c[i]] - p, d = m.positions[c[i + 1]] - p;
+      const Vec3 a = m.positions[c[0]] - p, b = m.positions[c[i]] - p,
+                 d = m.positions[c[i + 1]] - p;
       const double la = length(a), lb = length(b), ld = length(d);
       sum += 2 * atan2Deg(dot(a, cross(b, d)),
                           la * lb * ld + dot(a, b) * ld + dot(b, d) * la + dot(d, a) * lb);
@@ -454,11 +455,11 @@ TEST(SolidBoolean, garbageGivesValidMeshesOrNothing) {
 }
 
 TEST(SolidBoolean, withoutExtentThereIsNothing) {
-  EXPECT_FALSE(solidBoolean(boxAt({0, 0, 0}, {0, 0, 0}), std::vector<uint32_t>(6, 0),
-                            SolidOp::Unify));
+  EXPECT_FALSE(
+      solidBoolean(boxAt({0, 0, 0}, {0, 0, 0}), std::vector<uint32_t>(6, 0), SolidOp::Unify));
   EXPECT_TRUE(solidBoolean(Mesh{}, {}, SolidOp::Union)->mesh.empty());
-  EXPECT_FALSE(solidBoolean(boxAt({0, 0, 0}, {1e200, 1, 1}), std::vector<uint32_t>(6, 0),
-                            SolidOp::Unify));
+  EXPECT_FALSE(
+      solidBoolean(boxAt({0, 0, 0}, {1e200, 1, 1}), std::vector<uint32_t>(6, 0), SolidOp::Unify));
 }
 
 }  // namespace

@@ -17,9 +17,8 @@
 namespace gable::solid {
 
 inline bool boxesMeet(const Box3& a, const Box3& b, double slack = 0) {
-  return a.min.x <= b.max.x + slack && b.min.x <= a.max.x + slack &&
-         a.min.y <= b.max.y + slack && b.min.y <= a.max.y + slack &&
-         a.min.z <= b.max.z + slack && b.min.z <= a.max.z + slack;
+  return a.min.x <= b.max.x + slack && b.min.x <= a.max.x + slack && a.min.y <= b.max.y + slack &&
+         b.min.y <= a.max.y + slack && a.min.z <= b.max.z + slack && b.min.z <= a.max.z + slack;
 }
 
 class BoxTree {

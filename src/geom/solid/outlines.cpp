@@ -134,7 +134,8 @@ class LoopTracer {
 
 class OutlineMaker {
  public:
-  OutlineMaker(const Facets& facets, const std::vector<Piece>& pieces) : facets_(facets), pieces_(pieces) {}
+  OutlineMaker(const Facets& facets, const std::vector<Piece>& pieces)
+      : facets_(facets), pieces_(pieces) {}
 
   bool run(const Selection& selection, std::vector<Outline>& out) {
     const std::vector<Group> groups = groupsOf(facets_, pieces_, selection);

@@ -234,9 +234,8 @@ class Selector {
   }
 
   bool isOpen(const Sheet& sheet) const {
-    return std::any_of(sheet.pieces.begin(), sheet.pieces.end(), [&](uint32_t p) {
-      return !surface_.shells()[surface_.shellOf(p)].closed;
-    });
+    return std::any_of(sheet.pieces.begin(), sheet.pieces.end(),
+                       [&](uint32_t p) { return !surface_.shells()[surface_.shellOf(p)].closed; });
   }
 
   std::vector<std::pair<uint32_t, int>> shellsOn(const Sheet& sheet) const {

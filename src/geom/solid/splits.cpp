@@ -20,8 +20,8 @@ bool Splits::add(uint32_t u, uint32_t v, uint32_t w) {
   if (std::find(list.begin(), list.end(), w) != list.end()) return false;
   const Vec3 from = pool_[std::min(u, v)], along = pool_[std::max(u, v)] - from;
   const auto place = [&](uint32_t x) { return dot(pool_[x] - from, along); };
-  const auto at = std::find_if(list.begin(), list.end(),
-                               [&](uint32_t x) { return place(x) > place(w); });
+  const auto at =
+      std::find_if(list.begin(), list.end(), [&](uint32_t x) { return place(x) > place(w); });
   list.insert(at, w);
   work();
   return true;

@@ -260,7 +260,7 @@ class Analysis {
   void visitImportCall(NodeId node, bool successor);
   void visitSuccessorChoice(NodeId node);
   void visitBlocks(NodeId node, const OpSpec& op);
-  void visitBlock(NodeId block, const OpSpec& op, bool nested);
+  void visitBlock(NodeId block, const OpSpec& op);
   void visitRemainder(NodeId block, const OpSpec& op);
   void visitItem(NodeId item, const OpSpec& op);
   void visitAllBlocks(NodeId node);

@@ -508,11 +508,17 @@ void Analysis::visitBlocks(NodeId node, const OpSpec& op) {
       continue;
     }
     if (i > 0) errorAt("unexpected-block", blocks[i], name + " takes no further block", "");
-    visitBlock(blocks[i], op, false);
+    // In the old form, union A, the other operand is the present shape.
+    const bool two = t.has(node, kFlagOperand) || t.children(blocks[i]).size() == 2;
+    if (op.block == BlockKind::Operands && !two) {
+      errorAt("wrong-operand-count", blocks[i], name + " takes two operands",
+              "write '" + std::string(op.name) + " { A | B }'");
+    }
+    visitBlock(blocks[i], op);
   }
 }
 
-void Analysis::visitBlock(NodeId block, const OpSpec& op, bool nested) {
+void Analysis::visitBlock(NodeId block, const OpSpec& op) {
   const Tree& t = tree();
   if (t.has(block, kFlagRepeat) && op.block != BlockKind::Split) {
     errorAt("unexpected-repeat", block, "only splits can be repeated with '*'", "remove the '*'");
@@ -522,10 +528,6 @@ void Analysis::visitBlock(NodeId block, const OpSpec& op, bool nested) {
     }
   }
   const size_t count = t.children(block).size();
-  if (op.block == BlockKind::Operands && !nested && count != 2 && !op.blockOptional) {
-    errorAt("wrong-operand-count", block, quote(op.name) + " takes two operands",
-            "write '" + std::string(op.name) + " { A | B }'");
-  }
   // Besides the operations there may be those for otherwise; what gathers takes any number.
   const size_t most = op.gathered ? count : !op.parts.empty() ? 2 : 1;
   if (op.block == BlockKind::Operations && count > most) {
@@ -540,7 +542,7 @@ void Analysis::visitBlock(NodeId block, const OpSpec& op, bool nested) {
     if (op.block != BlockKind::Split) {
       errorAt("unexpected-group", item, "only splits have groups", "remove the inner braces");
     }
-    visitBlock(item, op, true);
+    visitBlock(item, op);
   }
 }
 

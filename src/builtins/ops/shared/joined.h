@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Several shapes as one: their geometry in one mesh, and what becomes of their materials and
+// attributes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geom/mesh/mesh.h"
+#include "shape/services.h"
+#include "shape/shape.h"
+
+namespace gable {
+
+using Parts = std::vector<const Shape*>;
+
+/// The geometry of some shapes, in the scope of another.
+struct JoinedMesh {
+  Mesh mesh;
+  /// For each face the number of the shape that it comes from.
+  std::vector<uint32_t> partOf;
+};
+
+/// Joins shapes of a set, whose materials and groups it knows. Where these differ, each goes into
+/// the geometry: it becomes a slot of the joined shape's mesh.
+class Joiner {
+ public:
+  /// `all`: the set, at least one shape.
+  Joiner(Services& services, const Parts& all);
+  /// In the coordinates of `home`.
+  JoinedMesh join(const Frame& home, const Parts& parts);
+  /// Gives the shape the materials of the joined meshes.
+  void giveMaterials(Shape& s);
+
+ private:
+  // A material in use, that which the geometry has, and the group of its faces.
+  struct Slot {
+    MaterialId used = 0, own = 0;
+    StringId group = 0;
+    bool operator==(const Slot&) const = default;
+  };
+  std::vector<uint16_t> slotsOf(const Shape& s);
+  uint16_t slotOf(const Slot& slot);
+
+  Services& services_;
+  // The name of faces that are of no group.
+  const StringId none_;
+  // Null where materials differ.
+  const Shape* like_ = nullptr;
+  std::vector<Slot> slots_;
+};
+
+/// The attributes that all agree on; those of the shape where they do not.
+void giveAttributes(Shape& s, const Parts& parts);
+
+/// The shape becomes another one, with the place of its own in the derivation.
+void take(Shape& s, const Shape& other);
+
+/// Where a boolean of their geometry gives nothing.
+Status tooConfused();
+
+/// The boolean union of the parts. A face that lay on others has the tags of all.
+Status unify(JoinedMesh& joined, Services& services);
+
+}  // namespace gable
