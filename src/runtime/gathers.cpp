@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "geom/mesh/recompose.h"
 #include "runtime/leaf_shape.h"
 
 namespace gable {
@@ -55,9 +56,14 @@ Gathers::Ended Gathers::end() {
 
 void Gathers::putBack(const Ended& ended, bool done) {
   std::vector<bool> gone(ended.shown.size(), false);
-  for (size_t k = 0, next = 0; done && k < gone.size(); ++k) {
+  for (size_t k = 0, next = 0; k < gone.size(); ++k) {
     if (ended.shown[k]) continue;
     const Gathered& leaf = ended.leaves[next++];
+    if (!done) {
+      gone[k] = ended.call.keepsDeleted && leaf.shape.geometry.kind == GeometryKind::Mesh &&
+                isDeleted(*leaf.shape.geometry.mesh);
+      continue;
+    }
     gone[k] = leaf.taken || leaf.shape.geometry.kind == GeometryKind::None;
     Leaf& was = output_.openLeaves[ended.firstLeaf + k];
     if (gone[k] || leaf.shape.geometry.mesh == meshOf(was, output_)) continue;

@@ -38,10 +38,14 @@ class Gathers {
     std::vector<Value> arguments;
     /// The operation wants the tags of its leaves.
     bool tagged = false;
+    /// It gathers the components that its selectors took, and is given the deleted ones too.
+    bool keepsDeleted = false;
   };
   void begin(Call call);
   bool anyOpen() const { return !open_.empty(); }
   bool anyTagged() const;
+  /// Whether the innermost call asks for shapes that are deleted.
+  bool keepsDeleted() const { return !open_.empty() && open_.back().call.keepsDeleted; }
   /// There must be one.
   const Call& outermost() const { return open_.front().call; }
   /// Whether the innermost call waits for the children of the activation at work, the last of so

@@ -174,6 +174,7 @@ class Machine final : public Services, private WorkMeter {
   bool putLeaf(const Shape& s, StringId name, uint32_t source);
 
   // Gathering: operations that wait for the leaves of their children.
+  void keepDeleted(const Shape& s);
   void beginGather(const Instruction& i, std::span<const Value> arguments);
   void endGather();
   void dropGathers();

@@ -16,7 +16,8 @@ void Machine::beginGather(const Instruction& i, std::span<const Value> arguments
                   flat_,
                   lightPartsAllowed_,
                   {arguments.begin(), arguments.end()},
-                  (program_.operations[i.a]->effects & kReadsTags) != 0});
+                  (program_.operations[i.a]->effects & kReadsTags) != 0,
+                  program_.operations[i.a]->block == BlockKind::Selectors});
   flat_ = true;
   lightPartsAllowed_ = false;
 }

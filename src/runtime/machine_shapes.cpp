@@ -9,6 +9,7 @@
 
 #include <utility>
 
+#include "geom/mesh/recompose.h"
 #include "runtime/door.h"
 #include "runtime/leaf_shape.h"
 #include "runtime/machine.h"
@@ -256,8 +257,20 @@ void Machine::makeChild() {
 }
 
 // NIL: the shape goes, and nothing after it runs. What it had made before stays.
+// An operation that glues its parts together wants to know where those lay that are gone.
+void Machine::keepDeleted(const Shape& s) {
+  if (!gathers_.keepsDeleted() || s.geometry.kind != GeometryKind::Mesh) return;
+  if (!hasOrigins(*s.geometry.mesh)) return;
+  Mesh mesh = *s.geometry.mesh;
+  markDeleted(mesh);
+  Shape deleted = s;
+  deleted.geometry.mesh = makeRef<Mesh>(std::move(mesh));
+  putLeaf(deleted, program_.rules[current().rule].name, pcOf(pc_ - 1));
+}
+
 void Machine::dropShape() {
   Activation& a = current();
+  keepDeleted(a.shape);
   if (a.slot && a.made == 0) countShape();
   if (a.made == 0 && a.traceNode < TraceNode::kCut && !a.slot) tracer_.drop(a.traceNode);
   ++a.made;

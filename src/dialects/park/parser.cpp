@@ -46,6 +46,8 @@ std::string plainQuotes(std::string_view text) {
   return out;
 }
 
+constexpr const char* kRuleForm = "rules are written 'Name -> operations', constants 'name = 3'";
+
 class Parser {
  public:
   Parser(std::string text, uint32_t file, Diagnostics& diagnostics)
@@ -121,10 +123,10 @@ class Parser {
   void error(const char* code, Span where, std::string message, std::string hint) {
     diagnostics_.error(code, where, std::move(message), std::move(hint));
   }
-  void unexpected(const char* wanted) {
+  void unexpected(const char* wanted, const char* hint) {
     const size_t end = std::min(at_ + 1, text_.size());
     error("unexpected-text", span(std::min(at_, end), end),
-          std::string(wanted) + " was expected here", "see the notation's grammar");
+          std::string(wanted) + " was expected here", hint);
   }
 
   // Up to one of the signs outside of brackets and quotes; the sign is not taken.
@@ -176,7 +178,7 @@ class Parser {
       first = name();
     }
     if (first.empty()) {
-      unexpected("the name of a rule");
+      unexpected("the name of a rule", kRuleForm);
       while (!atEnd() && !declarationHere()) ++at_;
       return;
     }
@@ -191,10 +193,10 @@ class Parser {
         parameter(r);
         if (!accept(",")) break;
       }
-      if (!accept(")")) unexpected("')'");
+      if (!accept(")")) unexpected("')'", "a bracket that is opened before is closed here");
     }
     if (!accept("-->") && !accept("->")) {
-      unexpected("'->'");
+      unexpected("'->'", kRuleForm);
       while (!atEnd() && !declarationHere()) ++at_;
       return;
     }
@@ -214,7 +216,7 @@ class Parser {
       r.parameters.push_back(std::move(parameter));
       return;
     }
-    unexpected("the name of a parameter");
+    unexpected("the name of a parameter", "parameters are names: 'Lane(width, side) -> ...'");
     until(",)");
   }
 
@@ -257,7 +259,8 @@ class Parser {
         return;
       }
       if (isCase) b.condition = until(":");
-      if (!accept(":")) unexpected("':'");
+      if (!accept(":"))
+        unexpected("':'", "write 'case condition : operations', and 'else : operations' last");
       b.body = sequence(0);
       b.span = span(start, at_);
       r.branches.push_back(std::move(b));
@@ -297,10 +300,10 @@ class Parser {
         op.arguments.push_back({until(","), span(begin, at_)});
         if (!accept(",")) break;
       }
-      if (!accept(")")) unexpected("')'");
+      if (!accept(")")) unexpected("')'", "a bracket that is opened before is closed here");
     } else if (accept("[")) {
       op.size = until("]");
-      if (!accept("]")) unexpected("']'");
+      if (!accept("]")) unexpected("']'", "a bracket that is opened before is closed here");
     }
     const std::string what = lowered(word);
     const Parts parts = what == "choose"   ? Parts::Choices
@@ -341,7 +344,7 @@ class Parser {
       if (peek() == '}' && !choose) b.parts.push_back({});
     }
     if (!accept("}")) {
-      unexpected("'}'");
+      unexpected("'}'", "a bracket that is opened before is closed here");
       while (!atEnd() && peek() != '}' && !declarationHere()) ++at_;
       accept("}");
     }

@@ -28,10 +28,35 @@ uint32_t UnitCompiler::newBlock(NodeId node, const OpSpec& spec) {
   blockSpec_ = &spec;
   const auto parts = t_.children(node);
   for (size_t i = 1; i < parts.size(); ++i) {
+    if (i > 1 && spec.block == BlockKind::Split) {
+      remainderItem(parts[i], number);
+      continue;
+    }
     e_.program().blocks[number].repeat |= t_.has(parts[i], kFlagRepeat);
     blockItems(parts[i], number);
   }
   return number;
+}
+
+// { remainder : operations }, behind the parts of a split: a slot without a size.
+void UnitCompiler::remainderItem(NodeId node, uint32_t number) {
+  for (NodeId part : t_.children(node)) {
+    BlockCode& code = e_.program().blocks[number];
+    const auto slot = static_cast<uint32_t>(code.slots.size());
+    code.slots.push_back(0);
+    pending_.push_back({number, slot, t_.child(part, 2)});
+  }
+}
+
+// The depth of a section is worked out for each section, as a figure is for each piece: it is kept
+// as the only value of one.
+void UnitCompiler::depthOfItem(NodeId depth, uint32_t number, uint32_t slot) {
+  FigureCode code;
+  code.values.push_back(valueCode(depth));
+  e_.program().figures.push_back(std::move(code));
+  std::vector<uint32_t>& figures = e_.program().blocks[number].figures;
+  figures.resize(slot + size_t{1});
+  figures[slot] = static_cast<uint32_t>(e_.program().figures.size());
 }
 
 void UnitCompiler::blockItems(NodeId node, uint32_t number) {
@@ -58,16 +83,17 @@ void UnitCompiler::blockItems(NodeId node, uint32_t number) {
         selectorTerms(head, number);
       else
         blockValues_.push_back(head);
-      if (second != kNoNode) blockValues_.push_back(second);
     } else if (code.kind == BlockKind::Split) {
       blockValues_.push_back(kNoNode);
     }
     item.termCount = static_cast<uint32_t>(code.terms.size()) - item.firstTerm;
     code.items.push_back(item);
     code.slots.push_back(0);
+    if (second != kNoNode) depthOfItem(second, number, item.slot);
     if (const auto* preferred = preferredSizeOf(t_.child(part, 2))) {
-      code.preferredSizes.resize(code.slots.size());
-      code.preferredSizes.back() = *preferred;
+      BlockCode& now = e_.program().blocks[number];
+      now.preferredSizes.resize(now.slots.size());
+      now.preferredSizes.back() = *preferred;
     }
     const AttributeSpec* choice = figureOfItem(part, number, item.slot);
     pending_.push_back({number, item.slot, t_.child(part, 2), choice});

@@ -82,6 +82,8 @@ class UnitCompiler {
   // Blocks.
   uint32_t newBlock(NodeId node, const OpSpec& spec);
   void blockItems(NodeId node, uint32_t block);
+  void remainderItem(NodeId node, uint32_t block);
+  void depthOfItem(NodeId depth, uint32_t block, uint32_t slot);
   void selectorTerms(NodeId node, uint32_t block);
   void taggedTerm(NodeId node, BlockCode& code);
   void pushBlockValues(uint32_t block, const BuiltinArguments& given);

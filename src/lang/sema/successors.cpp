@@ -608,7 +608,8 @@ void Analysis::visitItem(NodeId item, const OpSpec& op) {
       errorAt("unexpected-head", second, "only splitAndSetbackPerimeter takes a second size",
               "remove one of the two");
     }
-  } else if (head != kNoNode && t.kind(head) != NodeKind::Missing && hasSections(op)) {
+  } else if (head != kNoNode && t.kind(head) != NodeKind::Missing && hasSections(op) &&
+             !op.part(t.text(head))) {
     errorAt("missing-depth", head, "this section has a length, but no depth",
             "write 'length : depth : operations'");
   }

@@ -14,13 +14,7 @@
 namespace gable {
 
 Joiner::Joiner(Services& services, const Parts& all)
-    : services_(services), none_(services.pool().intern("")), like_(all[0]) {
-  for (const Shape* s : all) {
-    const bool alike =
-        s->material == all[0]->material && s->assetMaterials == all[0]->assetMaterials;
-    if (!alike) like_ = nullptr;
-  }
-}
+    : like_(haveOneMaterial(all) ? all[0] : nullptr), slots_(services) {}
 
 JoinedMesh Joiner::join(const Frame& home, const Parts& parts) {
   JoinedMesh out;
@@ -28,12 +22,7 @@ JoinedMesh Joiner::join(const Frame& home, const Parts& parts) {
   for (uint32_t k = 0; k < parts.size(); ++k) {
     Mesh more = transformed(*meshInScope(*parts[k]), {1, 1, 1}, toHome * parts[k]->scope);
     work(static_cast<uint32_t>(more.corners.size()));
-    if (!like_) {
-      const std::vector<uint16_t> slot = slotsOf(*parts[k]);
-      for (MeshFace& f : more.faces) {
-        f.materialSlot = slot[f.materialSlot < slot.size() ? f.materialSlot : 0];
-      }
-    }
+    if (!like_) slots_.put(more, *parts[k]);
     append(out.mesh, more);
     out.partOf.resize(out.mesh.faceCount(), k);
   }
@@ -46,39 +35,7 @@ void Joiner::giveMaterials(Shape& s) {
     s.assetMaterials = like_->assetMaterials;
     return;
   }
-  // In the order of AttributePool: those in use, then those that the geometry has.
-  std::vector<MaterialId> list;
-  std::vector<StringId> groups;
-  bool grouped = false;
-  for (const Slot& slot : slots_) {
-    list.push_back(slot.used);
-    groups.push_back(slot.group);
-    grouped = grouped || slot.group != none_;
-  }
-  for (const Slot& slot : slots_) list.push_back(slot.own);
-  if (!grouped) groups.clear();
-  s.assetMaterials = services_.attributes().internMaterials(std::move(list), std::move(groups));
-}
-
-// The slots, from 1, to which those of a shape's mesh go, from its own material on.
-std::vector<uint16_t> Joiner::slotsOf(const Shape& s) {
-  const std::vector<MaterialId> list = services_.attributes().materials(s.assetMaterials);
-  const std::vector<StringId>& groups = services_.attributes().groups(s.assetMaterials);
-  const size_t n = list.size() / 2;
-  std::vector<uint16_t> out{slotOf({s.material, s.material, none_})};
-  for (size_t k = 0; k < n; ++k) {
-    out.push_back(slotOf({list[k], list[n + k], k < groups.size() ? groups[k] : none_}));
-  }
-  return out;
-}
-
-uint16_t Joiner::slotOf(const Slot& slot) {
-  auto at = std::find(slots_.begin(), slots_.end(), slot);
-  // Slots have 16 bits; what would have more takes the last one.
-  if (at == slots_.end() && slots_.size() < 0xfffe) at = slots_.insert(slots_.end(), slot);
-  if (at == slots_.end()) --at;
-  work();
-  return static_cast<uint16_t>(at - slots_.begin() + 1);
+  s.assetMaterials = slots_.interned();
 }
 
 void giveAttributes(Shape& s, const Parts& parts) {

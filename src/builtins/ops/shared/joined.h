@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "builtins/ops/shared/material_slots.h"
 #include "geom/mesh/mesh.h"
 #include "shape/services.h"
 #include "shape/shape.h"
@@ -35,21 +36,9 @@ class Joiner {
   void giveMaterials(Shape& s);
 
  private:
-  // A material in use, that which the geometry has, and the group of its faces.
-  struct Slot {
-    MaterialId used = 0, own = 0;
-    StringId group = 0;
-    bool operator==(const Slot&) const = default;
-  };
-  std::vector<uint16_t> slotsOf(const Shape& s);
-  uint16_t slotOf(const Slot& slot);
-
-  Services& services_;
-  // The name of faces that are of no group.
-  const StringId none_;
-  // Null where materials differ.
+  /// Null where materials differ.
   const Shape* like_ = nullptr;
-  std::vector<Slot> slots_;
+  MaterialSlots slots_;
 };
 
 /// The attributes that all agree on; those of the shape where they do not.

@@ -4,14 +4,17 @@
 // A box gives its faces, and a rectangle itself, without a mesh; so do the leaves of most facades.
 // All other geometry goes through Components, which counts and selects; what it gives out is put
 // into axes of its own, where a rectangle becomes a primitive again.
+#include <algorithm>
 #include <cmath>
 
 #include "base/work.h"
 #include "builtins/lists.h"
+#include "builtins/ops/shared/material_slots.h"
 #include "builtins/ops/subdivide/shared/components.h"
 #include "builtins/ops/subdivide/shared/parts.h"
 #include "builtins/selection.h"
 #include "builtins/shared/materials.h"
+#include "geom/mesh/recompose.h"
 #include "program/tag_effects.h"
 #include "shape/op_call.h"
 
@@ -50,6 +53,8 @@ void addTrimPlane(ShapeExtra& extra, const Shape& parent, const SharedEdge& e) {
 struct Context {
   OpCall& call;
   bool align;
+  /// The parts shall be glued back.
+  bool tracked = false;
 
   Shape child(StringId name, size_t index, size_t total) const {
     Shape s = call.shape();
@@ -269,6 +274,7 @@ void emitComponents(const Context& context, const Mesh& mesh, Components& all, C
   const Shape& parent = call.shape();
   const Component& first = all.list()[which[0]];
   Mesh part = all.meshOf(which);
+  if (context.tracked) setOrigins(part, which[0]);
   child.geometry = {};
   if (context.align) {
     const Frame own = axesOf(first, kind);
@@ -295,10 +301,10 @@ bool isDegenerate(const Component& c, ComponentKind kind) {
   return kind != ComponentKind::Vertices && (c.z == Vec3{} || c.x == Vec3{});
 }
 
-void splitMesh(const Context& context, ComponentKind kind, std::vector<uint16_t> firstSlots) {
+// Says of each component whether an item took it.
+std::vector<bool> splitMesh(const Context& context, Components& all, const Mesh& mesh,
+                            ComponentKind kind) {
   OpCall& call = context.call;
-  const MeshRef mesh = meshInScope(call.shape());
-  Components all(*mesh, kind, std::move(firstSlots));
   const Directions directions(call.services(), call.shape());
   std::vector<bool> taken(all.list().size(), false);
   call.countComponents(all.list().size());
@@ -323,10 +329,11 @@ void splitMesh(const Context& context, ComponentKind kind, std::vector<uint16_t>
     const StringId name = context.nameOf(item, selector);
     for (size_t i = 0; i < sets.size(); ++i) {
       work();
-      emitComponents(context, *mesh, all, kind, sets[i], context.child(name, i, sets.size()),
+      emitComponents(context, mesh, all, kind, sets[i], context.child(name, i, sets.size()),
                      item.slot, item.op == SelectOperator::Each);
     }
   }
+  return taken;
 }
 
 using SlotTable = std::vector<uint16_t> (*)(const Shape&, const Services&);
@@ -374,6 +381,10 @@ struct Comp {
   Alignment alignment;
 };
 
+std::vector<uint16_t> slotsOf(const Kind& kind, const OpCall& call, const Shape& s) {
+  return kind.slots ? kind.slots(s, call.services()) : std::vector<uint16_t>();
+}
+
 Status applyComp(OpCall& call, const Comp& args) {
   const Kind& chosen = kKinds[static_cast<size_t>(args.component)];
   const ComponentKind kind = chosen.kind;
@@ -381,10 +392,84 @@ Status applyComp(OpCall& call, const Comp& args) {
   if (kind == ComponentKind::Faces && context.align && hasFlatFaces(call, call.shape())) {
     splitFlatFaces(context);
   } else {
-    const Shape& s = call.shape();
-    splitMesh(context, kind,
-              chosen.slots ? chosen.slots(s, call.services()) : std::vector<uint16_t>());
+    const MeshRef mesh = meshInScope(call.shape());
+    Components all(*mesh, kind, slotsOf(chosen, call, call.shape()));
+    splitMesh(context, all, *mesh, kind);
   }
+  return {};
+}
+
+// The faces that no component took: all of them where components are edges or vertices.
+Mesh untouched(const Mesh& m, const Components& all, const std::vector<bool>& taken,
+               ComponentKind kind, const std::vector<uint16_t>& firstSlots) {
+  std::vector<bool> gone(m.faceCount(), false);
+  std::vector<bool> slotGone(size_t{1} << 16, false);
+  for (size_t i = 0; i < taken.size(); ++i) {
+    if (!taken[i]) continue;
+    if (kind == ComponentKind::Faces) gone[all.list()[i].face] = true;
+    if (kind == ComponentKind::Slots) slotGone[all.list()[i].face] = true;
+  }
+  MeshBuilder builder;
+  std::vector<uint32_t> map;
+  for (size_t f = 0; f < m.faceCount(); ++f) {
+    work();
+    const uint16_t own = m.faces[f].materialSlot;
+    const uint16_t slot = own < firstSlots.size() ? firstSlots[own] : own;
+    if (!gone[f] && !slotGone[slot]) builder.copyFace(m, f, map);
+  }
+  return builder.take();
+}
+
+// The shape keeps what is not edited until the parts come back.
+Status beginModify(OpCall& call, const Comp& args) {
+  const Kind& chosen = kKinds[static_cast<size_t>(args.component)];
+  const ComponentKind kind = chosen.kind;
+  const Context context{call, args.alignment == Alignment::ZUp, true};
+  const MeshRef mesh = meshInScope(call.shape());
+  if (!hasRoomForOrigins(*mesh)) {
+    return call.fail("uv-sets-in-use",
+                     "'modify' keeps its own notes in the uv sets 8 and 9, which the shape uses",
+                     "copy them to other sets, or modify the shape before they are made");
+  }
+  const std::vector<uint16_t> slots = slotsOf(chosen, call, call.shape());
+  Components all(*mesh, kind, slots);
+  const std::vector<bool> taken = splitMesh(context, all, *mesh, kind);
+  if (std::find(taken.begin(), taken.end(), true) == taken.end()) return {};
+  setMesh(call.shape(), untouched(*mesh, all, taken, kind, slots), ScopeFit::Keep);
+  call.gather();
+  return {};
+}
+
+Status finishModify(OpCall& call, std::span<Gathered> leaves) {
+  Shape& s = call.shape();
+  std::vector<const Shape*> shapes;
+  if (s.geometry.kind != GeometryKind::None) shapes.push_back(&s);
+  for (Gathered& leaf : leaves) {
+    leaf.taken = true;
+    if (leaf.shape.geometry.kind != GeometryKind::None) shapes.push_back(&leaf.shape);
+  }
+  const bool oneMaterial = haveOneMaterial(shapes);
+  MaterialSlots slots(call.services());
+  Mesh whole;
+  std::vector<Mesh> parts;
+  const Frame home = inverse(s.scope);
+  for (const Shape* shape : shapes) {
+    Mesh mesh = shape == &s ? *meshInScope(s)
+                            : transformed(*meshInScope(*shape), {1, 1, 1}, home * shape->scope);
+    work(static_cast<uint32_t>(mesh.corners.size()));
+    if (!oneMaterial) slots.put(mesh, *shape);
+    if (shape == &s) {
+      whole = std::move(mesh);
+    } else {
+      parts.push_back(std::move(mesh));
+    }
+  }
+  if (!shapes.empty()) {
+    s.material = oneMaterial ? shapes[0]->material : s.material;
+    s.assetMaterials = oneMaterial ? shapes[0]->assetMaterials : slots.interned();
+  }
+  s.geometry = {};
+  setMesh(s, recomposed(whole, parts), ScopeFit::Refit);
   return {};
 }
 
@@ -405,6 +490,19 @@ constexpr OpSpec kSpecs[] = {
     {"comp", "subdivide", "Divides the shape into faces, edges, vertices or other components.",
      kSignatures, typed<applyComp>, BlockKind::Selectors,
      kReadsWorld | kReadsWorldByWord | kReadsPivotAxes | kLeavesOccluder | kIgnoresTags},
+    heavy({"modify",
+           "subdivide",
+           "Edits components of the shape and glues what comes of them back into it.",
+           kSignatures,
+           typed<beginModify>,
+           BlockKind::Selectors,
+           kReadsWorld | kReadsWorldByWord | kReadsPivotAxes | kReadsTags,
+           kNoParts,
+           false,
+           false,
+           {},
+           1,
+           finishModify}),
 };
 
 }  // namespace

@@ -281,11 +281,13 @@ class Extractor {
       corner(c, from_.corners[c], from_.edgeTagsAt(edge));
     }
   }
-  void edge(const Component& c, uint32_t tags) {
+  // `next` is the corner behind the edge's.
+  void edge(const Component& c, uint32_t next, uint32_t tags) {
     builder_.beginFace(from_.faces[c.face].materialSlot);
     builder_.beginLoop();
     for (const uint32_t position : {c.from, c.to}) {
-      builder_.setNormal(corner(c.corner, position, tags), c.z);
+      const uint32_t like = from_.corners[next] == position ? next : c.corner;
+      builder_.setNormal(corner(like, position, tags), c.z);
     }
   }
   void vertex(const Component& c) {
@@ -335,7 +337,9 @@ Mesh Components::meshOf(const std::vector<uint32_t>& which) {
     switch (kind_) {
       case ComponentKind::Faces: out.face(c.face); break;
       case ComponentKind::Edges:
-      case ComponentKind::FaceEdges: out.edge(c, mesh_.edgeTagsAt(c.corner)); break;
+      case ComponentKind::FaceEdges:
+        out.edge(c, edges_->next(c.corner), mesh_.edgeTagsAt(c.corner));
+        break;
       case ComponentKind::Vertices:
       case ComponentKind::FaceVertices: out.vertex(c); break;
       case ComponentKind::Slots:
