@@ -56,6 +56,9 @@ class Divider {
   void sequence(Range r, double start, double length);
   // Divides it by a sequence repeated.
   void repetition(Range r, double start, double length);
+  // Divides [0, length] by all items in braces: a repeated group that is the only element of a
+  // sequence.
+  void braces(double length);
   Status takeStatus() { return std::move(status_); }
 
  private:
@@ -123,6 +126,7 @@ class Divider {
     double fewest = 0;
   };
   Plan planOf(Range r, double length);
+  void repeat(Range r, const Extent& once, double n, double stretch, double start, double limit);
   // The same, made once for repetitions of one length.
   const Plan& planAsBefore(Range r, double length) {
     if (r.begin != planned_.begin || r.end != planned_.end || length != plannedLength_) {
@@ -144,6 +148,9 @@ class Divider {
   Range planned_{1, 0};
   double plannedLength_ = 0;
 };
+
+// Of a sequence whose elastic parts are stretched.
+double lengthOf(const Extent& e, double stretch) { return e.rigid + e.elastic * stretch; }
 
 // The badness of a stretch: 1 is best, and halving is as bad as doubling.
 double strain(double k) { return k > 0 ? std::max(k, 1 / k) : HUGE_VAL; }
@@ -236,14 +243,37 @@ void Divider::sequence(Range r, double start, double length) {
         }
         double n = repetitions(plan.groupRoom / e.whole(), plan.rounding > 0);
         n = std::max(n, plan.fewest);
-        const double each = e.rigid + e.elastic * plan.stretch;
-        const double first = at;
-        for (double i = 0; i < n && status_.ok(); ++i) {
-          const double begin = first + i * each;
-          sequence(inner, begin, cut(each, limit - begin));
-        }
-        at = first + n * each;
+        repeat(inner, e, n, plan.stretch, at, limit);
+        at += n * lengthOf(e, plan.stretch);
       });
+}
+
+// Sequences n times over, with their elastic parts stretched.
+void Divider::repeat(Range r, const Extent& once, double n, double stretch, double start,
+                     double limit) {
+  const double each = lengthOf(once, stretch);
+  for (double i = 0; i < n && status_.ok(); ++i) {
+    const double begin = start + i * each;
+    sequence(r, begin, cut(each, limit - begin));
+  }
+}
+
+// As planOf() does it for such a sequence: nothing but the group could fill the room.
+void Divider::braces(double length) {
+  count();
+  if (!(length > tolerance_)) return;
+  const Range all{0, items_.size()};
+  const Extent once = extentOf(all);
+  if (!(once.whole() > 0)) return failEndless();
+  if (once.elastic == 0) return repetition(all, 0, length);
+  const double ratio = length / once.whole();
+  const double fewer = std::max(1.0, repetitions(ratio, false));
+  const double more = std::max(1.0, repetitions(ratio, true));
+  if (excessive(more)) return;
+  const auto stretchOf = [&](double n) { return (length - n * once.rigid) / (n * once.elastic); };
+  const bool up = strain(stretchOf(more)) < strain(stretchOf(fewer));
+  const double n = up ? more : fewer;
+  repeat(all, once, n, std::max(0.0, stretchOf(n)), 0, length);
 }
 
 void Divider::repetition(Range r, double start, double length) {
@@ -286,21 +316,11 @@ Status divide(const SplitBlock& block, double whole, SplitPieces& out) {
                            "check the expression for a division by zero");
   }
   Divider divider(block.items, whole, out);
-  const Range all{0, block.items.size()};
-  if (!block.repeat) {
-    divider.sequence(all, 0, whole);
-    return divider.takeStatus();
-  }
-  // The braces themselves are a repeated group, the only element of a sequence.
-  SmallBuffer<SplitItem, 32> wrapped;
-  SplitItem braces;
-  braces.group = braces.repeat = true;
-  braces.length = static_cast<uint32_t>(block.items.size());
-  wrapped.push_back(braces);
-  for (const SplitItem& item : block.items) wrapped.push_back(item);
-  Divider repeated({wrapped.begin(), wrapped.size()}, whole, out);
-  repeated.sequence({0, wrapped.size()}, 0, whole);
-  return repeated.takeStatus();
+  if (block.repeat)
+    divider.braces(whole);
+  else
+    divider.sequence({0, block.items.size()}, 0, whole);
+  return divider.takeStatus();
 }
 
 }  // namespace

@@ -69,6 +69,30 @@ TEST(SplitSizes, floatingSizesTakeWhatAbsoluteOnesLeave) {
   expectSizes(divide({size(3.3), floating(3), size(5)}, 10), {3.3, 1.7, 5});
 }
 
+// Braces around all are a repeated group that is the only element of a sequence.
+TEST(SplitSizes, bracesAreARepeatedGroupOnItsOwn) {
+  const std::vector<std::vector<SplitItem>> patterns{
+      {floating(3)},
+      {size(3)},
+      {share(.15), floating(2)},
+      {floating(1), size(.4), floating(2.5)},
+      {size(0)},
+      {size(1), group(2, true), floating(.7), size(.2)},
+      {group(1, true), size(.3), group(1, true), floating(.9)},
+  };
+  for (size_t p = 0; p < patterns.size(); ++p) {
+    std::vector<SplitItem> grouped = patterns[p];
+    grouped.insert(grouped.begin(), group(static_cast<uint32_t>(grouped.size()), true));
+    for (double whole = 0.05; whole < 60; whole *= 1.07) {
+      const Divided braces = divide(patterns[p], whole, true), own = divide(grouped, whole);
+      EXPECT_EQ(braces.status.code(), own.status.code()) << p << " at " << whole;
+      EXPECT_EQ(braces.starts, own.starts) << p << " at " << whole;
+      EXPECT_EQ(braces.sizes, own.sizes) << p << " at " << whole;
+      EXPECT_EQ(braces.slots, own.slots) << p << " at " << whole;
+    }
+  }
+}
+
 TEST(SplitSizes, whatLiesBeyondTheEndIsCutOrNeverMade) {
   expectSizes(divide({share(.5), share(.6), size(3)}, 10), {5, 5});
 }
