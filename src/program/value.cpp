@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
 
@@ -58,6 +59,16 @@ uint64_t contentHash(const Array& a) {
   return h;
 }
 
+bool isSame(std::string_view a, std::string_view b) { return a == b; }
+// To the bit: not a number is no new value each time, and -0 is another than 0.
+bool isSame(const Array& a, const Array& b) {
+  const auto sameBits = [](double x, double y) {
+    return std::bit_cast<uint64_t>(x) == std::bit_cast<uint64_t>(y);
+  };
+  return a.element == b.element && a.rows == b.rows && a.columns == b.columns &&
+         a.strings == b.strings && std::ranges::equal(a.numbers, b.numbers, sameBits);
+}
+
 }  // namespace
 
 template <class T>
@@ -70,7 +81,7 @@ class ValuePool::Table {
     std::lock_guard lock(shard.mutex);
     auto [first, last] = shard.index.equal_range(hash);
     for (; first != last; ++first) {
-      if (shard.at(first->second) == key) return id(hash % kShards, first->second);
+      if (isSame(shard.at(first->second), key)) return id(hash % kShards, first->second);
     }
     if (shard.count >= capacity_) tableIsFull();
     const uint32_t index = shard.count++;

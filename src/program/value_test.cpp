@@ -38,5 +38,21 @@ TEST(ValuePool, showsArrays) {
   EXPECT_EQ(pool.str(pool.intern(Array{})), "(0)[]");
 }
 
+// Else each would take a place of its own, and what depends on it could not be shared; and of 0 and
+// -0 all would get the sign of which came first.
+TEST(ValuePool, numbersOfArraysAreTheSameToTheBit) {
+  ValuePool pool;
+  Array a;
+  a.rows = a.columns = 1;
+  a.numbers = {std::nan("")};
+  const Value none = pool.intern(a);
+  EXPECT_EQ(pool.intern(a), none);
+  a.numbers = {0.0};
+  const Value zero = pool.intern(a);
+  a.numbers = {-0.0};
+  EXPECT_TRUE(std::signbit(pool.array(pool.intern(a)).numbers[0]));
+  EXPECT_FALSE(std::signbit(pool.array(zero).numbers[0]));
+}
+
 }  // namespace
 }  // namespace gable

@@ -164,7 +164,7 @@ ValueOrError applyBinary(BinaryOperator op, const Value& a, const Value& b, Valu
     }
     // Arrays that differ only in their form (1x2 and 2x1) are unequal, though neither is less.
     if (equality && a.isArray())
-      return {Value::of((a.id == b.id) == (op == BinaryOperator::Equal))};
+      return {Value::of((pool.array(a) == pool.array(b)) == (op == BinaryOperator::Equal))};
     return {Value::of(compares(op, orderOfValues(a, b, pool)))};
   }
   if (op == BinaryOperator::Add && (isText(a) || isText(b))) {
