@@ -112,9 +112,7 @@ void CaseRun::failAt(const char* section, const std::string& message) {
   fail(s ? s->line : 0, message);
 }
 
-bool CaseRun::stopped() const {
-  return settings_.cancel && settings_.cancel->load();
-}
+bool CaseRun::stopped() const { return settings_.cancel && settings_.cancel->load(); }
 
 CaseResult CaseRun::run() {
   const double begin = now();

@@ -93,8 +93,8 @@ class Machine final : public Services, private WorkMeter {
   const IncrementalCache* incremental() const { return incremental_.get(); }
   /// Tells the usage what it has not been told yet; false when a limit is reached.
   bool tellUse();
-  /// The rule attributes of the shape derived last that people see, as evaluated, and those that the
-  /// choices of others are.
+  /// The rule attributes of the shape derived last that people see, as evaluated, and those that
+  /// the choices of others are.
   std::vector<EvaluatedAttribute> attributeValues();
 
   // Services.

@@ -255,8 +255,8 @@ class Info(Case):
         for name, note in {"Poly": "InPolygon", "Line": "InLine", "Point": "InPoint", "Cloud": "InPointCloud"}.items():
             self.assertEqual(of[name], {"StartRule": [], note: []})
         self.assertEqual(of["Start"], {"StartRule": [], "InMesh": [], "Out": ["separatedShapes"]})
-        # What is hidden has no value to choose.
-        self.assertNotIn("lods", told["values"])
+        # What is hidden is not there to be set, but others choose from it.
+        self.assertEqual(told["values"]["lods"], ["low", "mid", "high"])
         self.assertEqual(told["values"]["inflation"], 0.012)
 
     def testTellsTheSameInWords(self):

@@ -164,7 +164,8 @@ class Recomposition {
     const Vec3 size = box.size();
     const double extent = std::max({size.x, size.y, size.z, std::fabs(box.max.x),
                                     std::fabs(box.max.y), std::fabs(box.max.z), 1e-3});
-    return std::isfinite(extent) ? 1e-7 * extent : 1e-7;
+    // Points that far apart are one, rather than none.
+    return std::isfinite(extent) ? 1e-7 * extent : 1e300;
   }
   static bool isFace(const Mesh& m, size_t f) { return m.loopsOf(f)[0].cornerCount > 2; }
 

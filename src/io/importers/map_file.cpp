@@ -100,8 +100,7 @@ class GdalFile {
     };
     // A drawing has no coordinate system; any in metres says so. Its lots are closed lines.
     if (extensionOf(path_) == "dxf") {
-      return written({"--config", "DXF_CLOSED_LINE_AS_POLYGON", "YES", "-f", "GeoJSON", "-a_srs",
-                      "EPSG:3857"});
+      return written({"-nlt", "POLYGON", "-f", "GeoJSON", "-a_srs", "EPSG:3857"});
     }
     Result<std::string> text = written({"-f", "GeoJSON", "-t_srs", "EPSG:4326"});
     // A file that does not name its coordinate system cannot be converted.

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Maps in formats that other programs read for us, as GeoJSON: OpenStreetMap by gable-maps,
-// GeoPackage, FlatGeobuf, shapefiles, KML and DXF by ogr2ogr of GDAL. Both run with limits; where one is not
-// installed, an error names its package.
+// GeoPackage, FlatGeobuf, shapefiles, KML and DXF by ogr2ogr of GDAL. Both run with limits; where
+// one is not installed, an error names its package.
 #pragma once
 
 #include <string>

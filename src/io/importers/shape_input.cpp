@@ -83,8 +83,9 @@ Result<ShapeFile> readShapes(std::string_view bytes, const AssetOptions& options
     return model.ok() ? readObjShapes(model->obj, model->options) : model.error();
   }
   if (extension == "gltf" || extension == "glb") return readGltfShapes(bytes, options);
-  return Error{"shapes-unknown", "'" + options.path + "' is no file of shapes that can be read",
-               "use GeoJSON, OpenStreetMap, GeoPackage, FlatGeobuf, a shapefile, KML, DXF, OBJ or glTF"};
+  return Error{
+      "shapes-unknown", "'" + options.path + "' is no file of shapes that can be read",
+      "use GeoJSON, OpenStreetMap, GeoPackage, FlatGeobuf, a shapefile, KML, DXF, OBJ or glTF"};
 }
 
 ShapeInput lotShape(double width, double depth) {

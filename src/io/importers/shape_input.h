@@ -66,8 +66,8 @@ struct FeatureFilter {
   std::string value;
 };
 
-/// By extension: .geojson .json .osm .pbf .gpkg .fgb .shp .kml .dxf .obj .gltf .glb .fbx .dae. Codes:
-/// shapes-unknown, shapes-broken, shapes-empty, and those of maps and assets.
+/// By extension: .geojson .json .osm .pbf .gpkg .fgb .shp .kml .dxf .obj .gltf .glb .fbx .dae.
+/// Codes: shapes-unknown, shapes-broken, shapes-empty, and those of maps and assets.
 Result<ShapeFile> readShapes(std::string_view bytes, const AssetOptions& options,
                              const FeatureFilter& filter = {});
 Result<ShapeFile> readGeoJsonShapes(std::string_view text, const std::string& path,
