@@ -183,7 +183,10 @@ int watch(const TestArguments& arguments) {
       std::this_thread::sleep_for(std::chrono::milliseconds(300));
       after = timesOf(folders);
     }
-    if (!*cancelFlag()) std::printf("\n%s has changed\n", changedFile(before, after).c_str());
+    if (*cancelFlag()) break;
+    std::printf("\n%s has changed\n", changedFile(before, after).c_str());
+    // The run that follows may take long.
+    std::fflush(stdout);
   }
   return status;
 }

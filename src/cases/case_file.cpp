@@ -175,6 +175,12 @@ std::vector<Statement> statements(const Section& section) {
   return result;
 }
 
+std::string strayLines(const Statement& statement) {
+  if (trimmed(statement.block).empty()) return {};
+  return "the lines below '" + statement.words[0] +
+         "' are indented further and belong to no statement; indent all statements alike";
+}
+
 std::vector<std::string_view> linesOf(std::string_view text) {
   std::vector<std::string_view> lines;
   while (!text.empty()) {

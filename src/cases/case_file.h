@@ -54,6 +54,8 @@ struct Statement {
 /// The statements of a section; blank lines and lines that start with # say nothing. Lines that are
 /// indented further than the first belong to the block of the statement above.
 std::vector<Statement> statements(const Section& section);
+/// Of a statement that takes no block: what is wrong with its lines; empty where it has none.
+std::string strayLines(const Statement& statement);
 
 /// Without blanks and tabs at both ends.
 std::string_view trimmed(std::string_view s);

@@ -63,5 +63,14 @@ TEST(CaseFile, rejectsWhatItDoesNotKnow) {
   }
 }
 
+TEST(CaseFile, linesThatAreIndentedFurtherAreNotLost) {
+  const CaseFile file =
+      parseCases("== a\nrule:\n  A --> B\nexpect:\n  leaves 1\n    volume 7\n  dump\n    B\n");
+  ASSERT_EQ(file.cases.size(), 1u);
+  const std::vector<Statement> list = statements(*file.cases[0].find("expect"));
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_NE(strayLines(list[0]).find("'leaves'"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace gable::cases

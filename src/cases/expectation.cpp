@@ -449,6 +449,7 @@ std::string evaluate(const Facts& facts, const Statement& statement) {
   if (statement.words[0] == "scene" || statement.words[0] == "picture") {
     return checkGolden(*facts.outcome, statement);
   }
+  if (const std::string stray = strayLines(statement); !stray.empty()) return stray;
   for (const Kind& k : kKinds) {
     if (statement.words[0] != k.word) continue;
     const std::string complaint = k.check(facts, statement.words);
@@ -477,6 +478,8 @@ void checkPrints(const std::vector<Statement>& expected, const Outcome& outcome,
   for (const Statement& s : expected) {
     if (s.words[0] != "print") continue;
     line = s.line;
+    if (const std::string stray = strayLines(s); !stray.empty())
+      failed.push_back({static_cast<uint32_t>(s.line), stray});
     if (s.words.size() != 2)
       failed.push_back({static_cast<uint32_t>(s.line), "print: " + formOf(s.words)});
     else if (s.words[1] == "none")

@@ -171,8 +171,9 @@ bool CaseRun::readSettings(DeriveSettings& derive) {
   if (case_.find("values")) derive.startRule = kValuesRule;
   if (const Section* limits = case_.find("limits")) {
     for (const Statement& s : statements(*limits)) {
-      if (readLimit(s, derive.limits)) continue;
-      fail(s.line, "the limit is not understood");
+      const std::string stray = strayLines(s);
+      if (stray.empty() && readLimit(s, derive.limits)) continue;
+      fail(s.line, stray.empty() ? "the limit is not understood" : stray);
       return false;
     }
   }

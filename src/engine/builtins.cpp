@@ -16,7 +16,9 @@ namespace {
 const char* blockName(const OpSpec& op) {
   switch (op.block) {
     case BlockKind::None: return "";
-    case BlockKind::Split: return "{ size : operations | ... }";
+    case BlockKind::Split:
+      return op.parts.empty() ? "{ size : operations | ... }"
+                              : "{ size : depth : operations | ... } { remainder : operations }";
     case BlockKind::Selectors: return "{ selector : operations | ... }";
     case BlockKind::Operations:
       return !op.parts.empty() ? "{ operations | otherwise : operations }" : "{ operations }";

@@ -14,7 +14,9 @@ namespace {
 const char* blockText(const Callable& c) {
   switch (c.block) {
     case BlockKind::None: return "";
-    case BlockKind::Split: return " { size : operations | ... }";
+    case BlockKind::Split:
+      return c.parts.empty() ? " { size : operations | ... }"
+                             : " { size : depth : operations | ... } { remainder : operations }";
     case BlockKind::Selectors: return " { selector : operations | ... }";
     case BlockKind::Operations: return " { operations }";
     case BlockKind::Operands: break;
@@ -66,7 +68,9 @@ std::string blockSample(const Callable& c, int place) {
   };
   switch (c.block) {
     case BlockKind::None: return "";
-    case BlockKind::Split: return " { " + at(0, "~1") + " : " + at(1, "NIL") + " }";
+    case BlockKind::Split:
+      if (c.parts.empty()) return " { " + at(0, "~1") + " : " + at(1, "NIL") + " }";
+      return " { " + at(0, "~1") + " : " + at(1, "1") + " : " + at(2, "NIL") + " }";
     case BlockKind::Selectors: {
       const std::string word = c.parts.empty() ? "all" : c.parts[0].name;
       return " { " + at(0, word.c_str()) + " : " + at(1, "NIL") + " }";

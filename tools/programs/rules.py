@@ -121,9 +121,11 @@ class Rules:
 
     def block(self, operation, depth):
         kind = operation["block"]
-        if "size" in kind:
-            return self.sizes(depth)
         words = [p["name"] for p in operation.get("parts", [])]
+        if "size" in kind:
+            # Where sizes have parts beside them, each has a depth, and a second block takes what remains.
+            rest = optional(self.parts(depth, words, False)) if words and self.chance(0.7) else ""
+            return Node([self.sizes(depth, bool(words)), rest])
         if "selector" in kind:
             return self.parts(depth, words, operation.get("selectors", False))
         if "A | B" in kind:
@@ -144,14 +146,15 @@ class Rules:
             items.append(Node([f" {word} {sign}{figure}", self.body(depth - 1) if depth > 0 else " X."]))
         return Node([" {", joined(items, " |"), " }"])
 
-    def sizes(self, depth):
+    def sizes(self, depth, sections=False):
         items = []
         for _ in range(self.random.randint(1, 3)):
             size = Node([self.random.choice(["", "~", "'"]), self.number()], ("~1", "1"))
-            items.append(Node([" ", size, " :", self.body(depth - 1) if depth > 0 else " X."]))
+            deep = Node([" ", self.number(), " :"], (" 1 :",)) if sections else ""
+            items.append(Node([" ", size, " :", deep, self.body(depth - 1) if depth > 0 else " X."]))
         if self.chance(0.2):
-            size = self.random.choice(USUAL)
-            items.append(Node([f" {{ {size} :", self.body(depth - 1) if depth > 0 else " X.", " }*"]))
+            size = f"{self.random.choice(USUAL)} :" + (f" {self.random.choice(USUAL)} :" if sections else "")
+            items.append(Node([f" {{ {size}", self.body(depth - 1) if depth > 0 else " X.", " }*"]))
         return Node([" {", joined(items, " |"), " }*" if self.chance(0.3) else " }"])
 
     # --- Values ---

@@ -133,10 +133,10 @@ void flatten(const std::vector<Piece>& pieces, uint32_t& slot, std::vector<Split
 
 }  // namespace
 
-void MemoryAssets::addModel(std::string path, Mesh mesh, std::vector<Material> materials) {
+void MemoryAssets::addModel(std::string path, Mesh mesh, std::vector<Material> list) {
   AssetModel m;
   m.mesh = makeRef<Mesh>(std::move(mesh));
-  m.materials = std::move(materials);
+  m.materials = std::move(list);
   fitModel(m);
   models[std::move(path)] = makeRef<AssetModel>(std::move(m));
 }

@@ -181,6 +181,16 @@ class Recomposition {
       }
     }
     moves_.resize(nodes_.places().size());
+    vertexTags_.resize(nodes_.places().size());
+    // Edited vertices say what tags they have, before untouched ones do.
+    for (size_t p = 0; p < parts_.size(); ++p) noteTags(parts_[p], nodesOf_[p]);
+    noteTags(whole_, wholeNodes_);
+  }
+  void noteTags(const Mesh& m, const std::vector<uint32_t>& nodes) {
+    for (uint32_t c = 0; !m.vertexTags.empty() && c < nodes.size(); ++c) {
+      uint32_t& tags = vertexTags_[nodes[c]];
+      if (tags == 0) tags = m.vertexTagsAt(m.corners[c]);
+    }
   }
 
   bool same(const Vec3& a, const Vec3& b) const { return length(a - b) <= 10 * nodes_.tolerance(); }
@@ -256,7 +266,7 @@ class Recomposition {
     if (fresh) {
       Vec3 p = nodes_.places()[node];
       for (const Move& m : moves_[node]) p += m.by;
-      at->second = builder_.addPosition(p);
+      at->second = builder_.addPosition(p, vertexTags_[node]);
     }
     return at->second;
   }
@@ -277,7 +287,7 @@ class Recomposition {
           position = positionOf(nodes[a]);
         } else {
           const auto [at, fresh] = own_.try_emplace({&m, m.corners[a]}, 0u);
-          if (fresh) at->second = builder_.addPosition(m.at(a));
+          if (fresh) at->second = builder_.copyPosition(m, m.corners[a]);
           position = at->second;
         }
         std::vector<NodesAlong::Within> within;
@@ -324,6 +334,7 @@ class Recomposition {
   std::vector<std::vector<uint32_t>> nodesOf_, plainPositions_;
   // By node.
   std::vector<std::vector<Move>> moves_;
+  std::vector<uint32_t> vertexTags_;
   std::map<uint32_t, uint32_t> positions_;
   std::map<std::pair<const Mesh*, uint32_t>, uint32_t> own_;
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> edgeTags_;

@@ -523,8 +523,8 @@ Error GeoJsonReader::empty() const {
   }
   const std::string wanted = filter_.key + (filter_.value.empty() ? "" : '=' + filter_.value);
   return {"shapes-empty",
-          "none of the " + std::to_string(seen_) + " features of '" + path_ + "' that has '" +
-              wanted + "' is a polygon or a line",
+          "of the " + std::to_string(seen_) + " features of '" + path_ + "' none with '" + wanted +
+              "' is a polygon or a line",
           "choose others with --only, such as --only landuse or --only natural=water"};
 }
 

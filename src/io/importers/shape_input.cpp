@@ -73,7 +73,15 @@ Result<ShapeFile> readMapShapes(std::string_view bytes, const AssetOptions& opti
 Result<ShapeFile> readShapes(std::string_view bytes, const AssetOptions& options,
                              const FeatureFilter& filter) {
   const std::string extension = extensionOf(options.path);
-  if (extension == "geojson" || extension == "json") {
+  const bool isGeoJson = extension == "geojson" || extension == "json";
+  if (!filter.layer.empty() && (!isMap(options.path) || isOpenStreetMap(options.path))) {
+    return Error{"shapes-layer", "'" + options.path + "' has no layers", "leave out --layer"};
+  }
+  if (!filter.key.empty() && !isMap(options.path) && !isGeoJson) {
+    return Error{"shapes-layer", "'" + options.path + "' has no properties to choose by",
+                 "leave out --only"};
+  }
+  if (isGeoJson) {
     return readGeoJsonShapes(bytes, options.path, filter);
   }
   if (isMap(options.path)) return readMapShapes(bytes, options, filter);

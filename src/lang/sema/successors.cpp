@@ -500,7 +500,9 @@ void Analysis::visitBlocks(NodeId node, const OpSpec& op) {
     const char* const hints[] = {"", "add '{ size : operations | ... }'",
                                  "add '{ selector : operations | ... }'", "add '{ operations }'",
                                  "add '{ operations | operations }'"};
-    errorAt("missing-block", node, name + " needs a block", hints[static_cast<size_t>(op.block)]);
+    errorAt("missing-block", node, name + " needs a block",
+            hasSections(op) ? "add '{ size : depth : operations | ... }'"
+                            : hints[static_cast<size_t>(op.block)]);
   }
   for (size_t i = 0; i < blocks.size(); ++i) {
     if (i == 1 && hasSections(op)) {
