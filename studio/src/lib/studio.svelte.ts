@@ -42,7 +42,7 @@ export interface Toast {
 }
 
 const RULES = /\.(cga|gbbg|grammar|pg3d|park)$/;
-const SHAPES = /\.(geojson|obj|glb|gltf)$/;
+const SHAPES = /\.(geojson|osm|pbf|gpkg|fgb|shp|kml|dxf|obj|glb|gltf)$/;
 const MEMORY = 'studio.json';
 const HISTORY = 'history.json';
 const LOOK_MS = 2000;
