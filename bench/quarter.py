@@ -11,8 +11,9 @@ import json
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
+
+from command_times import seconds_of, told
 
 COUNT = 655
 
@@ -33,17 +34,12 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         lots, model, stats = (Path(folder) / name for name in ("lots.geojson", "quarter.glb", "stats.json"))
         lots.write_text(json.dumps(data), encoding="utf-8")
-        seconds = []
-        for _ in range(runs):
-            begin = time.perf_counter()
-            subprocess.run([gable, "generate", "bench/quarter/quarter.cga", "--shapes", lots, "--cut-nested", "--jobs", "2",
-                            "-o", model, "--stats", stats], check=True, stderr=subprocess.DEVNULL)
-            seconds.append(time.perf_counter() - begin)
+        seconds = seconds_of([gable, "generate", "bench/quarter/quarter.cga", "--shapes", lots, "--cut-nested", "--jobs", "2",
+                              "-o", model, "--stats", stats], runs, stderr=subprocess.DEVNULL)
         counts = json.loads(stats.read_text(encoding="utf-8"))
         print(f"{int(counts['reports']['buildings']['n'])} buildings, {counts['triangles']} triangles, "
               f"{counts['leaves']} leaves, {model.stat().st_size / 1e6:.1f} MB")
-    print("seconds: " + " ".join(f"{s:.2f}" for s in seconds) + f"; median {sorted(seconds)[len(seconds) // 2]:.2f}, "
-          f"worst {max(seconds):.2f}")
+    print(told(seconds))
 
 
 if __name__ == "__main__":

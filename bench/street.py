@@ -10,11 +10,11 @@ the whole command for each run. Run from the repository's root.
 """
 import json
 import random
-import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
+
+from command_times import seconds_of, told
 
 LINES, CASES, PIECES, LENGTH, WIDTH = 4900, 700, 24, 80, 20
 KINDS = ("Lamp", "Bench", "Bin", "Sign", "Meter", "Hydrant", "Bollard", "Planter", "Tree", "Rack")
@@ -98,16 +98,11 @@ def main():
         rule, lots, model, stats = (Path(folder) / n for n in ("street.cga", "street.obj", "street.glb", "stats.json"))
         rule.write_text("\n".join(lines) + "\n", encoding="utf-8")
         street(lots)
-        seconds = []
-        for _ in range(runs):
-            begin = time.perf_counter()
-            subprocess.run([gable, "generate", rule, "--shapes", lots, "--jobs", "2", "-o", model, "--stats", stats], check=True)
-            seconds.append(time.perf_counter() - begin)
+        seconds = seconds_of([gable, "generate", rule, "--shapes", lots, "--jobs", "2", "-o", model, "--stats", stats], runs)
         counts = json.loads(stats.read_text(encoding="utf-8"))
         print(f"{len(lines)} lines, {cases} cases; {PIECES} pieces of street, {counts['leaves']} leaves, "
               f"{counts['triangles']} triangles, {model.stat().st_size / 1e6:.1f} MB")
-    print("seconds: " + " ".join(f"{s:.2f}" for s in seconds) + f"; median {sorted(seconds)[len(seconds) // 2]:.2f}, "
-          f"worst {max(seconds):.2f}")
+    print(told(seconds))
 
 
 if __name__ == "__main__":

@@ -10,33 +10,18 @@
 // A buffer comes as five words (kind, count, stride, filter, size) and its bytes, and goes as one
 // word, the size of what it holds, and that. The kinds are 0 for Draco and those of Meshopt.
 
-#include <sys/resource.h>
-
 #include <exception>
 #include <iostream>
 #include <iterator>
 #include <stdexcept>
 #include <string>
 
+#include "../limit_self.h"
 #include "jobs.h"
 
 namespace {
 
-constexpr rlim_t kMostMemory = rlim_t{4} << 30;
-constexpr rlim_t kMostSeconds = 50;
-// A pipe is no file; nothing else is written.
-constexpr rlim_t kMostFileBytes = 0;
-
-void limitSelf() {
-  const auto limit = [](int what, rlim_t most) {
-    const rlimit l{most, most};
-    setrlimit(static_cast<__rlimit_resource>(what), &l);
-  };
-  limit(RLIMIT_AS, kMostMemory);
-  limit(RLIMIT_CPU, kMostSeconds);
-  limit(RLIMIT_FSIZE, kMostFileBytes);
-  limit(RLIMIT_CORE, 0);
-}
+constexpr OwnLimits kLimits{rlim_t{4} << 30, 50};
 
 // In the place of a size: the buffer is broken, or this program is built without its library.
 constexpr uint32_t kBroken = 0xffffffff, kNotBuilt = 0xfffffffe;
@@ -138,7 +123,7 @@ int main(int argc, char** argv) {
   if (format != "fbx" && format != "dae" && format != "buffers") {
     return fail("usage: gable-convert fbx|dae|buffers");
   }
-  limitSelf();
+  limitSelf(kLimits);
   try {
     std::ios::sync_with_stdio(false);
     const std::string bytes{std::istreambuf_iterator<char>(std::cin), {}};

@@ -11,8 +11,6 @@
 // have the seven digits of the map: ends of lines that share a node are equal. What cannot be
 // assembled (a broken ring, a node that the file lacks) is counted in `passedOver`.
 
-#include <sys/resource.h>
-
 #include <osmium/area/assembler.hpp>
 #include <osmium/area/multipolygon_manager.hpp>
 #include <osmium/handler/node_locations_for_ways.hpp>
@@ -32,29 +30,17 @@
 #include <string>
 #include <string_view>
 
+#include "../limit_self.h"
+
 namespace {
 
-constexpr rlim_t kMostMemory = rlim_t{8} << 30;
-constexpr rlim_t kMostSeconds = 300;
-// A pipe is no file; nothing else is written.
-constexpr rlim_t kMostFileBytes = 0;
+constexpr OwnLimits kLimits{rlim_t{8} << 30, 300};
 
 using Index = osmium::index::map::FlexMem<osmium::unsigned_object_id_type, osmium::Location>;
 // Of the map's own nodes, and of those that an editor has just drawn, with negative numbers.
 using Locations = osmium::handler::NodeLocationsForWays<Index, Index>;
 using Assembler = osmium::area::Assembler;
 using Multipolygons = osmium::area::MultipolygonManager<Assembler>;
-
-void limitSelf() {
-  const auto limit = [](int what, rlim_t most) {
-    const rlimit l{most, most};
-    setrlimit(static_cast<__rlimit_resource>(what), &l);
-  };
-  limit(RLIMIT_AS, kMostMemory);
-  limit(RLIMIT_CPU, kMostSeconds);
-  limit(RLIMIT_FSIZE, kMostFileBytes);
-  limit(RLIMIT_CORE, 0);
-}
 
 // Whether a closed way means the area that it encloses. Most keys do; these are lines where no
 // tag says otherwise (https://wiki.openstreetmap.org/wiki/Key:area).
@@ -251,7 +237,7 @@ int fail(const std::string& why) {
 int main(int argc, char** argv) {
   const std::string format = argc == 2 ? argv[1] : "";
   if (format != "osm" && format != "pbf") return fail("usage: gable-maps osm|pbf");
-  limitSelf();
+  limitSelf(kLimits);
   try {
     std::ios::sync_with_stdio(false);
     const std::string bytes{std::istreambuf_iterator<char>(std::cin), {}};

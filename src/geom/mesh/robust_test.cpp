@@ -6,46 +6,16 @@
 
 #include <numeric>
 
-#include "base/random.h"
 #include "geom/mesh/cleanup.h"
 #include "geom/mesh/clip.h"
 #include "geom/mesh/extrude.h"
 #include "geom/mesh/face_triangles.h"
+#include "geom/mesh/garbage.h"
 #include "geom/mesh/topology.h"
 #include "geom/mesh/uv.h"
 
 namespace gable {
 namespace {
-
-// Random corners over few positions on a coarse lattice: repeated points, flat, crossing and warped
-// faces, holes outside their outer loop, edges of many faces.
-Mesh garbage(uint64_t seed) {
-  uint64_t n = 0;
-  const auto pick = [&](uint64_t count) {
-    return static_cast<uint32_t>(randomUnit(hashCombine(seed, ++n)) * static_cast<double>(count));
-  };
-  MeshBuilder b;
-  const uint32_t positions = 4 + pick(9);
-  const bool flat = pick(3) == 0;
-  for (uint32_t i = 0; i < positions; ++i) {
-    b.addPosition(Vec3{double(pick(4)), double(pick(4)), flat ? 0.0 : double(pick(4))} * 0.1);
-  }
-  const uint32_t faces = 1 + pick(6);
-  for (uint32_t f = 0; f < faces; ++f) {
-    b.beginFace(0, pick(2));
-    const uint32_t loops = 1 + pick(3);
-    for (uint32_t l = 0; l < loops; ++l) {
-      b.beginLoop();
-      const uint32_t corners = 1 + pick(7);
-      for (uint32_t c = 0; c < corners; ++c) {
-        const uint32_t corner = b.addCorner(pick(positions), pick(3));
-        b.setUv(corner, 0, {double(pick(3)), double(pick(3))});
-        b.setNormal(corner, {double(pick(3)) - 1, double(pick(3)) - 1, 0});
-      }
-    }
-  }
-  return b.take();
-}
 
 TEST(Robust, cuttingGarbageGivesValidMeshes) {
   CutOptions cap;
@@ -53,7 +23,7 @@ TEST(Robust, cuttingGarbageGivesValidMeshes) {
   const double cuts[] = {0.05, 0.1, 0.1, 0.15, 0.2};
   const double uvCuts[] = {0.5, 1};
   for (uint64_t seed = 0; seed < 4000; ++seed) {
-    const Mesh m = garbage(seed);
+    const Mesh m = garbage(seed, true);
     ASSERT_TRUE(m.valid());
     for (int axis = 0; axis < 3; ++axis) {
       for (const MeshPart& p : sliceAxis(m, axis, cuts, cap)) {
@@ -72,7 +42,7 @@ TEST(Robust, cuttingGarbageGivesValidMeshes) {
 
 TEST(Robust, editingGarbageGivesValidMeshes) {
   for (uint64_t seed = 0; seed < 4000; ++seed) {
-    const Mesh m = garbage(seed);
+    const Mesh m = garbage(seed, true);
     for (const ExtrudeMode mode : {ExtrudeMode::FaceNormal, ExtrudeMode::VertexNormal,
                                    ExtrudeMode::Along, ExtrudeMode::FlatTop}) {
       for (const double d : {-0.3, 0.0, 0.3}) {

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "base/random.h"
+#include "geom/mesh/garbage.h"
 #include "geom/mesh/topology.h"
 #include "geom/primitive/solids.h"
 #include "geom/region/corpus.h"
@@ -410,38 +411,9 @@ TEST(SolidBoolean, manyBoxesBecomeOneSolid) {
   EXPECT_GT(volume(r->mesh), 9 * 0.12);
 }
 
-// Random corners over few positions on a coarse lattice: flat, crossing and warped faces, repeated
-// points, holes outside their outer loop, edges of many faces.
-Mesh garbage(uint64_t seed) {
-  uint64_t n = 0;
-  const auto pick = [&](uint64_t count) {
-    return static_cast<uint32_t>(randomUnit(hashCombine(seed, ++n)) * static_cast<double>(count));
-  };
-  MeshBuilder b;
-  const uint32_t positions = 4 + pick(9);
-  const bool flat = pick(3) == 0;
-  for (uint32_t i = 0; i < positions; ++i) {
-    b.addPosition(Vec3{double(pick(4)), double(pick(4)), flat ? 0.0 : double(pick(4))} * 0.1);
-  }
-  const uint32_t faces = 1 + pick(6);
-  for (uint32_t f = 0; f < faces; ++f) {
-    b.beginFace(0, pick(2));
-    const uint32_t loops = 1 + pick(3);
-    for (uint32_t l = 0; l < loops; ++l) {
-      b.beginLoop();
-      const uint32_t corners = 1 + pick(7);
-      for (uint32_t c = 0; c < corners; ++c) {
-        const uint32_t corner = b.addCorner(pick(positions), pick(3));
-        b.setUv(corner, 0, {double(pick(3)), double(pick(3))});
-      }
-    }
-  }
-  return b.take();
-}
-
 TEST(SolidBoolean, garbageGivesValidMeshesOrNothing) {
   for (uint64_t seed = 0; seed < 500; ++seed) {
-    const Mesh a = garbage(2 * seed), b = garbage(2 * seed + 1);
+    const Mesh a = garbage(2 * seed, false), b = garbage(2 * seed + 1, false);
     Mesh both = a;
     append(both, b);
     std::vector<uint32_t> operand(both.faceCount(), 1);

@@ -163,10 +163,7 @@ class CellFinder {
     uint32_t h = first_[cycle];
     do {
       work();
-      const Vec2 a = at(from(h)), b = at(to(h));
-      if ((a.y > p.y) != (b.y > p.y) && (orientation(a, b, p) > 0) == (b.y > a.y)) {
-        inside = !inside;
-      }
+      if (passes(at(from(h)), at(to(h)), p)) inside = !inside;
       h = next_[h];
     } while (h != first_[cycle]);
     return inside;

@@ -32,6 +32,10 @@ Nearest nearestOn(const Vec3& a, const Vec3& b, const Vec3& p) {
   return {length(p - (a + d * t)), t};
 }
 
+bool passes(Vec2 a, Vec2 b, Vec2 p) {
+  return (a.y > p.y) != (b.y > p.y) && (orientation(a, b, p) > 0) == (b.y > a.y);
+}
+
 bool covers(const Facet& f, const VertexPool& pool, const Vec3& p) {
   const Vec2 q = f.project(p);
   bool inside = false, near = false;
@@ -40,9 +44,7 @@ bool covers(const Facet& f, const VertexPool& pool, const Vec3& p) {
     ++edges;
     if (near) return;
     near = nearestOn(pool[u], pool[v], p).distance <= pool.tolerance();
-    const Vec2 a = f.project(pool[u]), b = f.project(pool[v]);
-    if ((a.y > q.y) == (b.y > q.y)) return;
-    if ((orientation(a, b, q) > 0) == (b.y > a.y)) inside = !inside;
+    if (passes(f.project(pool[u]), f.project(pool[v]), q)) inside = !inside;
   });
   work(edges);
   return near || inside;

@@ -72,6 +72,10 @@ struct Nearest {
 };
 Nearest nearestOn(const Vec3& a, const Vec3& b, const Vec3& p);
 
+/// Whether the ray from p to +x passes the edge from a to b: of a closed ring an odd number of
+/// edges where p is inside. Signs are exact; a vertex on the ray counts once.
+bool passes(Vec2 a, Vec2 b, Vec2 p);
+
 /// A point of the facet's plane lies in the facet or within the pool's tolerance of its boundary.
 bool covers(const Facet& f, const VertexPool& pool, const Vec3& p);
 

@@ -270,9 +270,7 @@ class OutlineMaker {
     for (size_t i = 0; i < loop.size(); ++i) {
       const Vec2 a = project(facets_.pool[loop[i]]);
       const Vec2 b = project(facets_.pool[loop[i + 1 < loop.size() ? i + 1 : 0]]);
-      if ((a.y > p.y) != (b.y > p.y) && (orientation(a, b, p) > 0) == (b.y > a.y)) {
-        inside = !inside;
-      }
+      if (passes(a, b, p)) inside = !inside;
     }
     return inside;
   }

@@ -425,10 +425,13 @@ Status beginModify(OpCall& call, const Comp& args) {
   const Kind& chosen = kKinds[static_cast<size_t>(args.component)];
   const ComponentKind kind = chosen.kind;
   const Context context{call, args.alignment == Alignment::ZUp, true};
-  Mesh copy = *meshInScope(call.shape());
+  MeshRef mesh = meshInScope(call.shape());
   // Within another modify the notes are those of the outer one, which takes what comes as new.
-  if (hasOrigins(copy)) dropOrigins(copy);
-  const MeshRef mesh = makeRef<Mesh>(std::move(copy));
+  if (hasOrigins(*mesh)) {
+    Mesh without = *mesh;
+    dropOrigins(without);
+    mesh = makeRef<Mesh>(std::move(without));
+  }
   if (!hasRoomForOrigins(*mesh)) {
     return call.fail("uv-sets-in-use",
                      "'modify' keeps its own notes in the uv sets 8 and 9, which the shape uses",
