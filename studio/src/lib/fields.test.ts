@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 import { describe, expect, it } from 'vitest';
-import { controlOf, evaluate, groupFields, shown, valueOfText, valueText } from './fields';
+import { controlOf, evaluate, groupFields, offered, shown, valueOfText, valueText } from './fields';
 import type { AttributeInfo } from './protocol';
 
 function attribute(
@@ -44,6 +44,27 @@ describe('controls', () => {
     });
     expect(controlOf(attribute('b', 'bool'))).toEqual({ kind: 'bool' });
     expect(controlOf(attribute('s', 'string'))).toEqual({ kind: 'text' });
+  });
+  it('offer files and folders of the project', () => {
+    const paths = [
+      'assets/doors/oak.OBJ',
+      'assets/doors/old/elm.glb',
+      'rules/town.cga',
+      'assets/wall.png',
+      'stone.mtl',
+    ];
+    const of = (note: string, ...extensions: string[]) =>
+      offered(
+        controlOf(
+          attribute('f', 'string', [[note, ...extensions.map((e): [string, string] => ['', e])]]),
+        ),
+        paths,
+      );
+    expect(of('File', 'obj', '.glb')).toEqual(['doors/oak.OBJ', 'doors/old/elm.glb']);
+    expect(of('File')).toHaveLength(5);
+    expect(of('MaterialFile')).toEqual(['stone.mtl']);
+    expect(of('Directory')).toEqual(['assets', 'doors', 'doors/old', 'rules']);
+    expect(of('Color')).toEqual([]);
   });
   it('have the unit that their description names', () => {
     const unit = (text: string) =>

@@ -24,6 +24,7 @@ export type Control =
   | { kind: 'choice'; choices: string[]; free: boolean }
   | { kind: 'color' }
   | { kind: 'file'; extensions: string[] }
+  | { kind: 'folder' }
   | { kind: 'text' };
 
 export interface Field {
@@ -107,11 +108,34 @@ export function controlOf(a: AttributeInfo, values: Record<string, Value> = {}):
     if (offered.length) return { kind: 'choice', choices: offered, free: isFree(choices) };
   }
   if (find(a, 'Color')) return { kind: 'color' };
-  const file = find(a, 'File') ?? find(a, 'MaterialFile');
+  if (find(a, 'Directory')) return { kind: 'folder' };
+  if (find(a, 'MaterialFile')) return { kind: 'file', extensions: ['cgamat', 'mtl'] };
+  const file = find(a, 'File');
   if (file)
     return { kind: 'file', extensions: file.arguments.filter(([k]) => !k).map(([, v]) => v) };
   if (a.type === 'bool') return { kind: 'bool' };
   return a.type === 'float' ? numberControl(a) : { kind: 'text' };
+}
+
+/** As rules write it: paths start at the folder of assets or at that of the project. */
+const asWritten = (path: string): string =>
+  path.startsWith('assets/') ? path.slice('assets/'.length) : path;
+
+/** What of the project a field offers: files with one of its extensions, or folders; sorted. */
+export function offered(control: Control, paths: string[]): string[] {
+  if (control.kind === 'folder') {
+    const folders = new Set<string>();
+    for (const path of paths) {
+      for (let at = path.indexOf('/'); at >= 0; at = path.indexOf('/', at + 1))
+        folders.add(asWritten(path.slice(0, at)));
+    }
+    return [...folders].sort();
+  }
+  if (control.kind !== 'file') return [];
+  const endings = control.extensions.map((e) => `.${e.toLowerCase().replace(/^\*?\./, '')}`);
+  const fits = (path: string) =>
+    !endings.length || endings.some((e) => path.toLowerCase().endsWith(e));
+  return paths.filter(fits).map(asWritten).sort();
 }
 
 /**
