@@ -26,4 +26,18 @@ inline std::string builtinTexturePath(size_t number) {
          kBuiltinTextures[number] + ".png";
 }
 
+/// The pictures that CGA itself has, by name; nothing draws them, and surfaces keep their colour.
+constexpr std::array<std::string_view, 2> kCgaTextures{"builtin:default", "builtin:uvtest.png"};
+
+/// Whether a path that begins with "builtin:" names a texture.
+inline bool isBuiltinTexture(std::string_view path) {
+  for (const std::string_view name : kCgaTextures) {
+    if (path == name) return true;
+  }
+  for (size_t i = 0; i < kBuiltinTextures.size(); ++i) {
+    if (path == builtinTexturePath(i)) return true;
+  }
+  return false;
+}
+
 }  // namespace gable

@@ -12,6 +12,8 @@
 #include <cstdlib>
 #include <map>
 
+#include "material/builtin_textures.h"
+
 namespace gable {
 
 namespace {
@@ -128,7 +130,14 @@ const char* modeName(OpacityMode mode) {
 
 // The path that a texture has in the project; built-in images and none stay as they are.
 std::string resolved(std::string_view path, Services& services, std::string_view file) {
-  if (path.empty() || path.starts_with("builtin:")) return std::string(path);
+  if (path.empty()) return {};
+  if (path.starts_with("builtin:")) {
+    if (!isBuiltinTexture(path)) {
+      services.warn("missing-texture", "there is no built-in image '" + std::string(path) + "'",
+                    "they are named as in 'builtin:textures/02_brick.png'");
+    }
+    return std::string(path);
+  }
   if (!services.assets().exists(path, file)) {
     services.warn("missing-texture", "there is no image '" + std::string(path) + "'",
                   kWherePathsStart);

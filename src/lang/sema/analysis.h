@@ -403,7 +403,8 @@ class Analysis {
   std::map<uint32_t, std::unordered_set<std::string_view>> askedFiles_;
   /// Listed when the first file is missed.
   std::optional<std::vector<std::string>> projectFiles_;
-  int filesMissed_ = 0;
+  /// The paths that have been told; each is told where it stands first.
+  std::unordered_set<std::string> missedFiles_;
   /// Nodes of all modules together.
   size_t nodes_ = 0;
   /// Body::open of rules and functions, between rounds.

@@ -76,8 +76,9 @@ void Analysis::checkFile(NodeId node) {
   const std::string path(text(written));
   const std::string& from = program_.units[module().unit].path;
   if (loader_->exists(path, from) || asksForFile(node, path)) return;
+  if (!missedFiles_.insert(path).second) return;
   std::string nearest;
-  if (++filesMissed_ <= kMaxFileHints) {
+  if (missedFiles_.size() <= kMaxFileHints) {
     if (!projectFiles_) projectFiles_ = loader_->assets(from);
     nearest = nearestFile(path, *projectFiles_);
   }

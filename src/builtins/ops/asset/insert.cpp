@@ -74,22 +74,13 @@ Status insertBuiltin(OpCall& call, std::string_view path, InsertMode mode) {
   }
   Mesh mesh = builtinModel(path);
   if (mesh.empty()) {
-    return call.fail("missing-asset", "there is no model '" + std::string(path) + "'",
-                     "see the list of built-in models");
+    insertPlaceholder(call, path, "there is no built-in model of that name", kBuiltinModelNames);
+    return {};
   }
   const Box3 box = mesh.bounds();
   placeScope(s, box, mode);
   insertMesh(s, std::move(mesh), box);
   return {};
-}
-
-// What stands for a model that cannot be had: the scope as a box, or as the rectangle that it is. A
-// scope of less than two sizes has no box, and the shape stays as it was.
-void insertPlaceholder(Shape& s) {
-  const int flat = (s.size.x == 0) + (s.size.y == 0) + (s.size.z == 0);
-  if (flat == 0) return insertBox(s, false);
-  if (flat == 1 && s.size.z == 0) insertPrimitive(s, GeometryKind::QuadXy, false);
-  if (flat == 1 && s.size.y == 0) insertPrimitive(s, GeometryKind::QuadXz, false);
 }
 
 Status applyI(OpCall& call, const Insert& args) {
@@ -99,11 +90,7 @@ Status applyI(OpCall& call, const Insert& args) {
   const Ref<AssetModel> model =
       call.services().assets().model(path, call.file(), args.up == UpAxis::Z, why);
   if (!model) {
-    call.services().warn(
-        "missing-asset",
-        "cannot insert '" + std::string(path) + "': " + why + "; its scope stands in its place",
-        kWherePathsStart);
-    insertPlaceholder(call.shape());
+    insertPlaceholder(call, path, why, kWherePathsStart);
     return {};
   }
   Shape& s = call.shape();

@@ -6,6 +6,7 @@
 // cut piece is carried to the surface by the triangle's affine map. Neighbouring triangles cut at
 // the same coordinates, so their pieces meet; points that coincide are made one.
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -14,6 +15,7 @@
 #include "base/work.h"
 #include "builtins/lists.h"
 #include "builtins/ops/shared/edit_mesh.h"
+#include "builtins/ops/shared/insert.h"
 #include "builtins/shared/materials.h"
 #include "geom/mesh/clip.h"
 #include "geom/mesh/topology.h"
@@ -159,6 +161,20 @@ struct InsertAlongUv {
   HeightAlignment alignment = HeightAlignment::AlignPosition;
 };
 
+// Of a file or a built-in one; null with the reason.
+Ref<AssetModel> modelOf(const OpCall& call, std::string_view path, std::string& why) {
+  if (!path.starts_with("builtin:")) {
+    return call.services().assets().model(path, call.file(), false, why);
+  }
+  why = "there is no built-in model of that name";
+  Mesh mesh = builtinModel(path);
+  if (mesh.empty()) return {};
+  AssetModel made;
+  made.mesh = makeRef<Mesh>(std::move(mesh));
+  fitModel(made);
+  return makeRef<AssetModel>(std::move(made));
+}
+
 Status applyInsert(OpCall& call, const InsertAlongUv& args) {
   Shape& s = call.shape();
   const auto set = static_cast<int>(args.uvSet);
@@ -168,10 +184,13 @@ Status applyInsert(OpCall& call, const InsertAlongUv& args) {
                      "project or normalise some before");
   }
   std::string why;
-  const Ref<AssetModel> model = call.services().assets().model(args.path, call.file(), false, why);
+  const Ref<AssetModel> model = modelOf(call, args.path, why);
   if (!model) {
-    return call.fail("missing-asset", "cannot insert '" + std::string(args.path) + "': " + why,
-                     kWherePathsStart);
+    // The model would have been as high as that.
+    if (s.size.y == 0) s.size.y = std::max(args.height, 0.0);
+    insertPlaceholder(call, args.path, why,
+                      args.path.starts_with("builtin:") ? kBuiltinModelNames : kWherePathsStart);
+    return {};
   }
 
   // The model in (u, height, -v) space.
@@ -223,7 +242,7 @@ constexpr Signature kSignatures[] = {{kPlainParams}, {kFullParams}};
 constexpr OpSpec kSpecs[] = {
     {"insertAlongUV", "asset",
      "Replaces triangles and quads by copies of a model, bent along the texture coordinates.",
-     kSignatures, typed<applyInsert>},
+     kSignatures, typed<applyInsert>, BlockKind::None, kUsesTrim},
 };
 
 }  // namespace

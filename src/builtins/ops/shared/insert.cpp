@@ -71,6 +71,19 @@ void insertPrimitive(Shape& s, GeometryKind kind, bool uv) {
   if (s.extra) trimGeometry(s);
 }
 
+void insertPlaceholder(OpCall& call, std::string_view path, const std::string& why,
+                       const char* hint) {
+  call.services().warn(
+      "missing-asset",
+      "cannot insert '" + std::string(path) + "': " + why + "; its scope stands in its place",
+      hint);
+  Shape& s = call.shape();
+  const int flat = (s.size.x == 0) + (s.size.y == 0) + (s.size.z == 0);
+  if (flat == 0) return insertBox(s, false);
+  if (flat == 1 && s.size.z == 0) insertPrimitive(s, GeometryKind::QuadXy, false);
+  if (flat == 1 && s.size.y == 0) insertPrimitive(s, GeometryKind::QuadXz, false);
+}
+
 void insertBox(Shape& s, bool uv) {
   if (s.size.x < 0 || s.size.y < 0 || s.size.z < 0)
     insertMesh(s, makeBoxMesh({1, 1, 1}, uv), kUnitBox);

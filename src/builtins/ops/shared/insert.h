@@ -5,8 +5,12 @@
 // fill the scope, and fills in the sizes that the scope does not have.
 #pragma once
 
+#include <string>
+#include <string_view>
+
 #include "math/box.h"
 #include "shape/op_call.h"
+#include "shape/services.h"
 #include "shape/shape.h"
 
 namespace gable {
@@ -33,10 +37,19 @@ void insertPrimitive(Shape& s, GeometryKind kind, bool uv);
 /// A box that fills the scope, mirrored or not.
 void insertBox(Shape& s, bool uv);
 
+/// What stands for a model that cannot be had, and the warning that says so: the scope as a box, or
+/// as the rectangle that it is. A scope of less than two sizes has no box, and the shape stays as
+/// it was.
+void insertPlaceholder(OpCall& call, std::string_view path, const std::string& why,
+                       const char* hint);
+
 /// Models that exist without a file: "builtin:cube", "builtin:cube:notex", "builtin:quad",
 /// "builtin:disk", "builtin:sphere", "builtin:cylinder", "builtin:cone". They measure one metre.
 /// An empty mesh for any other name.
 Mesh builtinModel(std::string_view path);
+/// The hint of a message about another name.
+inline constexpr const char* kBuiltinModelNames =
+    "the built-in models are builtin:cube, cube:notex, quad, disk, sphere, cylinder and cone";
 
 const Box3 kUnitBox{{0, 0, 0}, {1, 1, 1}};
 
