@@ -20,6 +20,7 @@
 #include "scene/dump.h"
 #include "scene/flatten.h"
 
+#include "shape/losses.h"
 namespace gable {
 
 namespace {
@@ -97,6 +98,16 @@ std::shared_ptr<Model::Impl> loaded(const std::string& path) {
     return impl;
   }
   Scene& scene = impl->result.scene;
+  if (!asset->warnings.empty()) {
+    impl->diagnostics.push_back(diagnosticOf({Severity::Warning,
+                                              "read-with-loss",
+                                              Span{},
+                                              lossesOf(fileNameOf(path), asset->warnings),
+                                              kWithoutThem,
+                                              {},
+                                              {}},
+                                             Sources{}));
+  }
   scene.names.push_back(fileNameOf(path));
   scene.materials = asset->materials;
   if (scene.materials.empty()) scene.materials.emplace_back();

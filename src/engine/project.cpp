@@ -171,7 +171,8 @@ Result<Material> Project::material(std::string_view path, std::string_view fromF
   }
   Result<std::string> text = where_.read(file, kMaxTextLength);
   if (!text.ok()) return text.error();
-  const std::vector<Material> all = parseMtl(*text, projectPath(file));
+  std::vector<std::string> losses;
+  const std::vector<Material> all = parseMtl(*text, projectPath(file), losses);
   if (all.empty()) {
     return Error{"bad-material", "'" + std::string(path) + "' has no material",
                  "a material of an MTL file begins with 'newmtl' and its name"};

@@ -42,19 +42,20 @@ Vec3 fromXyz(const Vec3& c) {
 
 // Leaves `out` as it is where the numbers are wrong, and where a file of spectra is named. One
 // number is a grey.
-void readColor(LineWords& words, Vec3& out) {
+bool readColor(LineWords& words, Vec3& out) {
   Vec3 c;
   const LineWords before = words;
   const bool xyz = words.word() == "xyz";
   if (!xyz) words = before;
-  if (!words.number(c.x)) return;
+  if (!words.number(c.x)) return false;
   if (words.atEnd()) {
     c.y = c.z = c.x;
   } else if (!words.number(c.y) || !words.number(c.z)) {
-    return;
+    return false;
   }
   if (xyz) c = fromXyz(c);
   out = {unit(c.x), unit(c.y), unit(c.z)};
+  return true;
 }
 
 // One option of a map statement; false when the word is none, so that it begins the file's name.
@@ -87,65 +88,118 @@ bool readOption(LineWords& words, TextureMap& t, double& bump) {
 }
 
 // "-s 2 2 1 -o 0.5 0 0 -clamp on brick wall.png": options first, then the file's name.
-void readMap(LineWords& words, TextureMap& out, double& bump, const std::string& path) {
+bool readMap(LineWords& words, TextureMap& out, double& bump, const std::string& path) {
   TextureMap t;
   double factor = bump;
   while (readOption(words, t, factor)) {
   }
   const std::string_view name = words.rest();
-  if (name.empty()) return;
+  if (name.empty()) return false;
   t.path = relativeTo(path, name);
   out = t;
   bump = factor;
+  return true;
 }
 
-void readStatement(const std::string& head, LineWords& words, Material& m,
-                   const std::string& path) {
+enum class Outcome : uint8_t { Read, Broken, Unknown };
+
+Outcome outcomeOf(bool read) { return read ? Outcome::Read : Outcome::Broken; }
+
+// These say how light is to be computed, not what a surface is.
+constexpr std::string_view kWaysOfLight[] = {"illum", "ni", "sharpness", "map_aat"};
+
+Outcome readStatement(const std::string& head, LineWords& words, Material& m,
+                      const std::string& path) {
   double v = 0;
-  if (head == "kd") {
-    readColor(words, m.color);
-  } else if (head == "ka") {
-    readColor(words, m.ambient);
-  } else if (head == "ks") {
-    readColor(words, m.specular);
-  } else if (head == "ke") {
-    readColor(words, m.emissive);
-  } else if (head == "ns") {
-    if (words.number(v)) m.shininess = std::max(v, 0.0);
-  } else if (head == "d") {
+  const auto number = [&](double& out, double most) {
+    const bool ok = words.number(v);
+    if (ok) out = std::min(std::max(v, 0.0), most);
+    return outcomeOf(ok);
+  };
+  constexpr double kAny = 1e300;
+  if (head == "kd") return outcomeOf(readColor(words, m.color));
+  if (head == "ka") return outcomeOf(readColor(words, m.ambient));
+  if (head == "ks") return outcomeOf(readColor(words, m.specular));
+  if (head == "ke") return outcomeOf(readColor(words, m.emissive));
+  if (head == "ns") return number(m.shininess, kAny);
+  if (head == "pr") return number(m.roughness, 1);
+  if (head == "pm") return number(m.metallic, 1);
+  if (head == "d") {
     // The opacity at the middle of a body that is clearer at its border.
     const LineWords before = words;
     if (words.word() != "-halo") words = before;
-    if (words.number(v)) m.opacity = unit(v);
-  } else if (head == "tr") {
-    if (words.number(v)) m.opacity = unit(1 - v);
-  } else if (head == "pr") {
-    if (words.number(v)) m.roughness = unit(v);
-  } else if (head == "pm") {
-    if (words.number(v)) m.metallic = unit(v);
+    return number(m.opacity, 1);
+  }
+  if (head == "tr") {
+    const Outcome outcome = number(v, 1);
+    if (outcome == Outcome::Read) m.opacity = 1 - v;
+    return outcome;
+  }
+  if (head == "tf") {
+    // Light goes through unchanged where all is 1, which many programs write.
+    Vec3 filter;
+    const bool all = readColor(words, filter) && filter == Vec3{1, 1, 1};
+    return all ? Outcome::Read : Outcome::Unknown;
   }
   for (const MapStatement& s : kMaps) {
+    if (head != s.name) continue;
     double none = 0;
     double& bump = s.layer == TextureLayer::Bump ? m.bumpValue : none;
-    if (head == s.name) readMap(words, m.map(s.layer), bump, path);
+    return outcomeOf(readMap(words, m.map(s.layer), bump, path));
   }
+  const bool light =
+      std::find(std::begin(kWaysOfLight), std::end(kWaysOfLight), head) != std::end(kWaysOfLight);
+  return light ? Outcome::Read : Outcome::Unknown;
 }
+
+// Statements of one kind that are lost: the first with its line, and the names of some others.
+class Lost {
+ public:
+  void add(std::string_view head, uint64_t line) {
+    constexpr size_t kShown = 40;
+    const std::string name(head.substr(0, kShown));
+    if (count_++ == 0) line_ = line;
+    if (names_.size() <= kMostNames &&
+        std::find(names_.begin(), names_.end(), name) == names_.end())
+      names_.push_back(name);
+  }
+  void tell(const std::string& path, const char* what, std::vector<std::string>& out) const {
+    if (count_ == 0) return;
+    std::string text = path + ":" + std::to_string(line_) + ": '" + names_[0] + "' " + what;
+    for (size_t i = 1; i < names_.size(); ++i) {
+      text += i == kMostNames ? ", ..." : (i == 1 ? "; nor " : ", ") + ("'" + names_[i] + "'");
+    }
+    out.push_back(std::move(text));
+  }
+
+ private:
+  static constexpr size_t kMostNames = 5;
+  std::vector<std::string> names_;
+  uint64_t count_ = 0, line_ = 0;
+};
 
 }  // namespace
 
-std::vector<Material> parseMtl(std::string_view text, const std::string& path) {
+std::vector<Material> parseMtl(std::string_view text, const std::string& path,
+                               std::vector<std::string>& losses) {
   std::vector<Material> all;
   Material* m = nullptr;
+  Lost unknown, broken;
   forEachLine(text, [&](LineWords words) {
     work();
-    const std::string head = lowered(words.word());
+    const std::string_view written = words.word();
+    const std::string head = lowered(written);
     if (head == "newmtl") {
       m = &all.emplace_back();
       m->name = words.rest();
-    } else if (m) {
-      readStatement(head, words, *m, path);
+      return;
     }
+    const Outcome outcome = m ? readStatement(head, words, *m, path) : Outcome::Broken;
+    if (outcome == Outcome::Unknown) unknown.add(written, words.line);
+    if (outcome == Outcome::Broken) broken.add(written, words.line);
   });
+  unknown.tell(path, "has no counterpart", losses);
+  broken.tell(path, "cannot be read", losses);
   return all;
 }
 

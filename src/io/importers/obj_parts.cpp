@@ -134,7 +134,8 @@ class PartBuilder {
 }  // namespace
 
 Result<ObjMaterials> objMaterials(const ObjFile& file, const AssetOptions& options,
-                                  std::vector<std::string>& warnings) {
+                                  std::vector<std::string>& missing,
+                                  std::vector<std::string>& losses) {
   if (file.materialFiles.size() > kMostMaterialFiles) {
     return tooManyOf("material files", kMostMaterialFiles, options, "join them into one");
   }
@@ -142,15 +143,15 @@ Result<ObjMaterials> objMaterials(const ObjFile& file, const AssetOptions& optio
   for (const std::string& name : file.materialFiles) {
     const std::string path = relativeTo(options.path, name);
     if (!options.readFile) {
-      warnings.push_back("the material file '" + path + "' is not read");
+      missing.push_back("the material file '" + path + "' is not read");
       continue;
     }
     const Result<std::string> text = options.readFile(path);
     if (!text.ok()) {
-      warnings.push_back("the material file '" + path + "' is left out: " + text.error().message);
+      missing.push_back("the material file '" + path + "' is left out: " + text.error().message);
       continue;
     }
-    for (const Material& material : parseMtl(text.value(), path)) {
+    for (const Material& material : parseMtl(text.value(), path, losses)) {
       work();
       all[material.name] = material;
     }

@@ -17,9 +17,11 @@ namespace gable {
 
 using ObjMaterials = std::map<std::string, Material>;
 
-/// The materials of the files that `file` names; what cannot be read is told in `warnings`.
+/// The materials of the files that `file` names. Files that cannot be read are told in `missing`,
+/// what is left out of the others in `losses`.
 Result<ObjMaterials> objMaterials(const ObjFile& file, const AssetOptions& options,
-                                  std::vector<std::string>& warnings);
+                                  std::vector<std::string>& missing,
+                                  std::vector<std::string>& losses);
 
 struct ObjPartWishes {
   bool groups = true;

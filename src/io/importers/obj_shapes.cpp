@@ -8,6 +8,7 @@
 #include "base/work.h"
 #include "io/importers/obj_parts.h"
 #include "io/importers/shape_parts.h"
+#include "shape/losses.h"
 
 namespace gable {
 namespace {
@@ -72,10 +73,13 @@ Parts partsOf(const ObjFile& file, bool byObject) {
 Result<ShapeFile> readObjShapes(std::string_view text, const AssetOptions& options) {
   const ObjFile file = parseObj(text);
   ShapeFile out;
-  std::vector<std::string> warnings;
-  Result<ObjMaterials> materials = objMaterials(file, options, warnings);
+  std::vector<std::string> missing, losses;
+  Result<ObjMaterials> materials = objMaterials(file, options, missing, losses);
   if (!materials.ok()) return materials.error();
-  for (const std::string& w : warnings) out.diagnostics.warning("shape-material-missing", {}, w);
+  for (const std::string& w : missing) out.diagnostics.warning("shape-material-missing", {}, w);
+  if (!losses.empty()) {
+    out.diagnostics.warning("read-with-loss", {}, lossesOf(options.path, losses), kWithoutThem);
+  }
   const bool byObject = !file.objects.empty();
   const std::vector<std::string>& names = byObject ? file.objects : file.groups;
   const Parts parts = partsOf(file, byObject);

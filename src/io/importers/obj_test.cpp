@@ -196,14 +196,41 @@ TEST(ObjShapes, bringTextureCoordinates) {
 }
 
 TEST(Mtl, takesBumpFactorsXyzAndHalos) {
-  const auto all = parseMtl(
-      "newmtl a\nKd xyz 0.9505 1 1.089\nmap_Bump -bm 0.4 bump.png\nd -halo 0.25\n", "m/a.mtl");
+  std::vector<std::string> losses;
+  const auto all =
+      parseMtl("newmtl a\nKd xyz 0.9505 1 1.089\nmap_Bump -bm 0.4 bump.png\nd -halo 0.25\n",
+               "m/a.mtl", losses);
+  EXPECT_TRUE(losses.empty());
   const Material& m = all.at(0);
   EXPECT_NEAR(m.color.x, 1, 1e-3);
   EXPECT_NEAR(m.color.y, 1, 1e-3);
   EXPECT_EQ(m.map(TextureLayer::Bump).path, "m/bump.png");
   EXPECT_EQ(m.bumpValue, 0.4);
   EXPECT_EQ(m.opacity, 0.25);
+}
+
+TEST(Mtl, tellsWhatItLeavesOutByFileAndLine) {
+  std::vector<std::string> losses;
+  const auto all = parseMtl(
+      "# by hand\nKd 1 0 0\nnewmtl a\nillum 2\nNi 1.4\nTf 1 1 1\nKd 1 0\nrefl sky.png\nmap_Ns "
+      "gloss.png\nrefl sky.png\nTf 0 1 0\n",
+      "m/a.mtl", losses);
+  EXPECT_EQ(all.size(), 1u);
+  EXPECT_EQ(losses,
+            (std::vector<std::string>{"m/a.mtl:8: 'refl' has no counterpart; nor 'map_Ns', 'Tf'",
+                                      "m/a.mtl:2: 'Kd' cannot be read"}));
+}
+
+TEST(ObjShapes, tellsLossesOfMaterialsOnceAFile) {
+  AssetOptions options{"lot.obj", [](const std::string&) -> Result<std::string> {
+                         return std::string("newmtl a\nrefl x.png\nnewmtl b\nrefl y.png\n");
+                       }};
+  auto r = readObjShapes("mtllib a.mtl\nv 0 0 0\nv 4 0 0\nv 4 0 -3\nusemtl a\nf 1 2 3\n", options);
+  ASSERT_TRUE(r.ok());
+  ASSERT_EQ(r->diagnostics.all().size(), 1u);
+  EXPECT_EQ(r->diagnostics.all()[0].code, "read-with-loss");
+  EXPECT_EQ(r->diagnostics.all()[0].message,
+            "'lot.obj' is read with losses: a.mtl:2: 'refl' has no counterpart");
 }
 
 TEST(ObjShapes, footprintsThatFaceTheGroundAreTurned) {

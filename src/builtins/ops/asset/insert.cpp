@@ -93,6 +93,7 @@ Status applyI(OpCall& call, const Insert& args) {
     insertPlaceholder(call, path, why, kWherePathsStart);
     return {};
   }
+  tellLosses(call, path, *model);
   Shape& s = call.shape();
   placeScope(s, model->bounds, args.mode);
   insertMesh(s, fittedMesh(*model), model->bounds.size());

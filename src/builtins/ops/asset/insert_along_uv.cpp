@@ -192,6 +192,7 @@ Status applyInsert(OpCall& call, const InsertAlongUv& args) {
                       args.path.starts_with("builtin:") ? kBuiltinModelNames : kWherePathsStart);
     return {};
   }
+  tellLosses(call, args.path, *model);
 
   // The model in (u, height, -v) space.
   const Vec3 size = model->bounds.size();

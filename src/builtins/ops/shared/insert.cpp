@@ -8,6 +8,7 @@
 #include "builtins/ops/shared/frames.h"
 #include "builtins/ops/shared/trim.h"
 #include "geom/primitive/solids.h"
+#include "shape/losses.h"
 
 namespace gable {
 
@@ -82,6 +83,11 @@ void insertPlaceholder(OpCall& call, std::string_view path, const std::string& w
   if (flat == 0) return insertBox(s, false);
   if (flat == 1 && s.size.z == 0) insertPrimitive(s, GeometryKind::QuadXy, false);
   if (flat == 1 && s.size.y == 0) insertPrimitive(s, GeometryKind::QuadXz, false);
+}
+
+void tellLosses(const OpCall& call, std::string_view path, const AssetModel& model) {
+  if (model.warnings.empty()) return;
+  call.services().warn("read-with-loss", lossesOf(path, model.warnings), kWithoutThem);
 }
 
 void insertBox(Shape& s, bool uv) {

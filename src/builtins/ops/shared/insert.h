@@ -42,6 +42,8 @@ void insertBox(Shape& s, bool uv);
 /// it was.
 void insertPlaceholder(OpCall& call, std::string_view path, const std::string& why,
                        const char* hint);
+/// Warns of what is left out of a model's file; messages about one file are told once.
+void tellLosses(const OpCall& call, std::string_view path, const AssetModel& model);
 
 /// Models that exist without a file: "builtin:cube", "builtin:cube:notex", "builtin:quad",
 /// "builtin:disk", "builtin:sphere", "builtin:cylinder", "builtin:cone". They measure one metre.
