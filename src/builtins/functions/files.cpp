@@ -11,6 +11,7 @@
 #include <set>
 
 #include "base/elementary.h"
+#include "base/files.h"
 #include "builtins/lists.h"
 #include "builtins/shared/arrays.h"
 #include "builtins/shared/text_files.h"
@@ -65,8 +66,16 @@ Value fileSearch(FunctionCall& call, const Query& args) {
 Value filesSearch(FunctionCall& call, const Query& args) {
   return stringArray(args.search(call), call.services().pool());
 }
+// What operations and functions can take: models, pictures, materials, texts, tables.
+constexpr std::string_view kUsableExtensions[] = {"obj", "gltf", "glb", "fbx",    "dae", "png",
+                                                  "jpg", "jpeg", "tif", "tiff",   "bmp", "gif",
+                                                  "tga", "webp", "mtl", "cgamat", "txt", "csv"};
+
 Value fileExists(FunctionCall& call, const Path& args) {
-  return Value::of(call.services().assets().exists(args.path, call.file()));
+  const std::string extension = extensionOf(std::string(args.path));
+  const bool usable = std::find(std::begin(kUsableExtensions), std::end(kUsableExtensions),
+                                extension) != std::end(kUsableExtensions);
+  return Value::of(usable && call.services().assets().exists(args.path, call.file()));
 }
 
 const std::string& drawn(const FunctionCall& call, const Paths& paths, size_t among) {
@@ -430,7 +439,8 @@ constexpr FunctionSpec kFunctions[] = {
      typed<fileSearch>},
     {"filesSearch", kFamily, "All files that match, sorted, as an array.", kArrayOfQuery,
      typed<filesSearch>},
-    {"fileExists", kFamily, "Whether there is such a file.", kTruthOfPath, typed<fileExists>},
+    {"fileExists", kFamily, "Whether there is such a file, of a format that can be used.",
+     kTruthOfPath, typed<fileExists>},
     {"fileRandom", kFamily, "A random one of the files that match.", kTextOfQuery,
      typed<fileRandom>, kRandom},
     {"fileName", kFamily, "A path without its folders.", kTextOfPath, typed<fileName>},
