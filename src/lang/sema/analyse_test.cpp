@@ -667,6 +667,28 @@ TEST(Analyse, edgeMapsTakeOneParameter) {
 
 // --- Annotations ---
 
+TEST(Analyse, stylesKeepTheAnnotationsOfWhatTheyChange) {
+  const char* text =
+      "@Group(\"Size\", 1) @Range(min=1, max=9) @Order(3) attr h = 3 "
+      "@Group(\"Look\") @Enum(\"a\", \"b\") @Description(\"Kind\") attr k = \"a\" attr plain = 1 "
+      "Lot --> X. "
+      "style Low attr h = 2 attr k = \"b\" "
+      "style Lower extends Low @Range(min=0, max=1) attr h = 1 @Group(\"Own\") attr plain = 2";
+  const auto in = [&](const char* style) { return Analysed(text, {}, style); };
+  const Analysed low = in("Low"), lower = in("Lower");
+  const Annotations& h = low.attribute("h").annotations;
+  EXPECT_EQ(h.group.path, std::vector<std::string>{"Size"});
+  ASSERT_TRUE(h.range);
+  EXPECT_EQ(h.range->max, 9);
+  EXPECT_EQ(h.order, 3);
+  EXPECT_EQ(low.attribute("k").annotations.choices->values.size(), 2u);
+  EXPECT_EQ(low.attribute("k").annotations.description, "Kind");
+  EXPECT_EQ(lower.attribute("h").annotations.range->max, 1);
+  EXPECT_EQ(lower.attribute("h").annotations.group.path, std::vector<std::string>{"Size"});
+  EXPECT_EQ(lower.attribute("k").annotations.group.path, std::vector<std::string>{"Look"});
+  EXPECT_EQ(lower.attribute("plain").annotations.group.path, std::vector<std::string>{"Own"});
+}
+
 TEST(Analyse, annotationsBecomeData) {
   const Analysed a(R"(@RuleFileDescription("A house") version "2025.0"
 @Group("Mass", "Roof", 2) @Order(3) @Range(min=-1, max=5.5, stepsize=0.5, restricted=false)

@@ -134,6 +134,10 @@ class Analysis {
   void declareRules(ModuleId module, const StyleRanks& ranks);
   void declareFunctions(ModuleId module, const StyleRanks& ranks);
   void declareAttributes(ModuleId module, const StyleRanks& ranks);
+  /// Declarations of one name with the ranks of their styles.
+  using RankedDeclarations = std::vector<std::pair<size_t, const Declaration*>>;
+  static void inheritAnnotations(AttributeInfo& a, const Tree& t,
+                                 const RankedDeclarations& declarations);
   void addImports(ModuleId module);
   void bindOverrides(ModuleId module, NodeId overrides, bool dynamic);
   void bindRuleOverride(ModuleId module, NodeId rule, ModuleId owner);
@@ -415,5 +419,8 @@ class Analysis {
 /// What the annotations of a declaration say; mistakes are reported when `diagnostics` is given.
 Annotations readAnnotations(const Tree& tree, NodeId list, GroupNote& group,
                             Diagnostics* diagnostics);
+/// Adds what `base` says and `own` does not. What limits values (@Range, @Enum, @Color, @File)
+/// counts as one: where `own` has any of it, it has all.
+void addInherited(const Annotations& base, bool withGroup, Annotations& own);
 
 }  // namespace gable::lang

@@ -353,16 +353,21 @@ void Analysis::declareFunctions(ModuleId module, const StyleRanks& ranks) {
 void Analysis::declareAttributes(ModuleId module, const StyleRanks& ranks) {
   const uint32_t unit = program_.modules[module].unit;
   const Tree& t = program_.units[unit].tree;
-  std::unordered_map<std::string_view, size_t> best;
+  // The declarations of each name, those of the nearest style first.
+  std::unordered_map<std::string_view, RankedDeclarations> known;
   for (const Declaration& d : units_[unit].attributes) {
-    const auto [at, isNew] = best.emplace(t.text(d.node), ranks.of(d.style));
-    if (!isNew) at->second = std::min(at->second, ranks.of(d.style));
+    const size_t rank = ranks.of(d.style);
+    if (rank != ranks.none()) known[t.text(d.node)].emplace_back(rank, &d);
+  }
+  for (auto& [name, all] : known) {
+    std::stable_sort(all.begin(), all.end(),
+                     [](const auto& x, const auto& y) { return x.first < y.first; });
   }
   Scope& scope = scopes_[module];
   for (const Declaration& d : units_[unit].attributes) {
     const std::string_view name = t.text(d.node);
     const size_t rank = ranks.of(d.style);
-    if (rank == ranks.none() || rank > best[name]) continue;
+    if (rank == ranks.none() || rank > known[name].front().first) continue;
     if (scope.attributes.count(name) != 0) {
       error("duplicate-name", nameSpan(t, d.node), quote(name) + " is declared already",
             "rename one of the two");
@@ -385,8 +390,27 @@ void Analysis::declareAttributes(ModuleId module, const StyleRanks& ranks) {
     }
     a.slotCount = static_cast<uint32_t>(params + t.children(localsOf(t, d.node)).size());
     a.annotations = d.annotations;
+    inheritAnnotations(a, t, known[name]);
     scope.attributes[name] = a.id;
     program_.attributes.push_back(std::move(a));
+  }
+}
+
+// What the style at hand does not say of an attribute that it gives another value, the styles that
+// it extends say: the nearest first.
+void Analysis::inheritAnnotations(AttributeInfo& a, const Tree& t,
+                                  const RankedDeclarations& declarations) {
+  const auto saysGroup = [&](NodeId declaration) {
+    const auto notes = t.children(annotationsOf(t, declaration));
+    return std::any_of(notes.begin(), notes.end(), [&](NodeId n) { return t.text(n) == "Group"; });
+  };
+  // The group in force where the style begins is none of the attribute's.
+  bool grouped = saysGroup(a.node);
+  for (const auto& [rank, base] : declarations) {
+    if (rank == declarations.front().first) continue;
+    const bool last = base == declarations.back().second;
+    addInherited(base->annotations, !grouped && (last || saysGroup(base->node)), a.annotations);
+    grouped = grouped || saysGroup(base->node);
   }
 }
 

@@ -327,4 +327,20 @@ Annotations readAnnotations(const Tree& tree, NodeId list, GroupNote& group,
   return out;
 }
 
+void addInherited(const Annotations& base, bool withGroup, Annotations& own) {
+  if (own.description.empty()) own.description = base.description;
+  if (own.displayName.empty()) own.displayName = base.displayName;
+  if (!own.order) own.order = base.order;
+  if (withGroup) own.group = base.group;
+  if (own.unit == UnitNote::None) own.unit = base.unit;
+  if (own.handles.empty()) own.handles = base.handles;
+  own.hidden = own.hidden || base.hidden;
+  if (own.range || own.choices || own.color || own.file != FileNote::None) return;
+  own.range = base.range;
+  own.choices = base.choices;
+  own.color = base.color;
+  own.file = base.file;
+  own.extensions = base.extensions;
+}
+
 }  // namespace gable::lang
