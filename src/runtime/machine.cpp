@@ -182,7 +182,17 @@ void Machine::begin(const InitialShape& input, uint32_t index) {
   }
 }
 
-// A list that is too long or too short is told: it is likely to be of another outline.
+namespace {
+
+bool isList(ValueType type) {
+  return type == ValueType::FloatArray || type == ValueType::BoolArray ||
+         type == ValueType::StringArray;
+}
+
+}  // namespace
+
+// A list that is too long or too short is told: it is likely to be of another outline. So is one
+// whose name is a single value in the rules, which would seem to be that of the list.
 std::shared_ptr<const EdgeAttributes> Machine::edgesOf(const InitialShape& input) {
   EdgeAttributes::Given given = options().edgeAttributes;
   for (const auto& attribute : input.edgeAttributes) {
@@ -193,6 +203,15 @@ std::shared_ptr<const EdgeAttributes> Machine::edgesOf(const InitialShape& input
   if (given.empty()) return nullptr;
   auto edges = std::make_shared<const EdgeAttributes>(input.mesh, std::move(given), pool());
   for (const auto& [name, list] : edges->attributes()) {
+    const int32_t known = name == EdgeAttributes::kStreetWidth ? program_.findAttribute(name) : -1;
+    if (known >= 0 && !isList(program_.attributes[static_cast<size_t>(known)].type)) {
+      const AttributeCode& a = program_.attributes[static_cast<size_t>(known)];
+      log_.input().warning("attribute-type", a.span,
+                           "'" + name + "' has a list of values for the edges of the shapes, and " +
+                               "is a single " + typeName(a.type) + " in the rules",
+                           "the rules see the value that stands there; edgeAttr.getFloat(\"" +
+                               name + "\") gives that of an edge");
+    }
     const Array& a = pool().array(list);
     const size_t count = std::max(a.numbers.size(), a.strings.size());
     if (count == edges->edgeCount()) continue;
