@@ -204,6 +204,8 @@ class Analysis {
   std::vector<ValueType> visitArguments(std::span<const NodeId> arguments);
   void visitLoosely(std::span<const NodeId> arguments);
   void visitMisfits(const CallTarget& target, std::span<const NodeId> arguments);
+  std::string wordOfOther(const CallTarget& target, NodeId node,
+                          const std::vector<const ParamSpec*>& params) const;
   std::string mismatchHint(NodeId node, const ParamSpec& param, ValueType type) const;
   bool isKnownValue(std::string_view name) const;
   template <class Info>
@@ -399,6 +401,8 @@ class Analysis {
     std::string nearest;
   };
   Meant meant_;
+  /// What to say of a name that stands for nothing, as the argument at work.
+  std::string wordHint_;
   bool changed_ = false;
   int hints_ = 0;
   size_t errors_ = 0;

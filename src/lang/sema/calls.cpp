@@ -256,6 +256,26 @@ std::string Analysis::mismatchHint(NodeId node, const ParamSpec& param, ValueTyp
   return "it is: " + docText(param);
 }
 
+// What to write where a name is a word of another parameter than the one in its place; empty where
+// it is none.
+std::string Analysis::wordOfOther(const CallTarget& target, NodeId node,
+                                  const std::vector<const ParamSpec*>& params) const {
+  if (tree().kind(node) != NodeKind::Name) return {};
+  const auto takes = [&](const ParamSpec& p) {
+    return p.type == ParamType::Selector && hasWord(p.words, text(node));
+  };
+  if (std::any_of(params.begin(), params.end(), [&](const ParamSpec* p) { return takes(*p); }))
+    return {};
+  for (const Signature& s : target.signatures) {
+    for (const ParamSpec& p : s.params) {
+      if (!takes(p)) continue;
+      return quote(text(node)) + " is a word of the parameter " + quote(p.name) + ": write " +
+             quote(std::string(p.name) + " = " + std::string(text(node)));
+    }
+  }
+  return {};
+}
+
 // Visits one argument, and strikes out the signatures that its word or its type does not fit.
 ValueType Analysis::visitArgumentFor(const CallTarget& target, std::span<const NodeId> args,
                                      size_t i, std::vector<uint16_t>& left, bool& isFit) {
@@ -278,7 +298,9 @@ ValueType Analysis::visitArgumentFor(const CallTarget& target, std::span<const N
   }
   std::vector<const ParamSpec*> params;
   for (const uint16_t s : left) params.push_back(&paramOf(s));
+  wordHint_ = named ? std::string() : wordOfOther(target, value, params);
   const ValueType type = visitArgument(value, params);
+  const std::string wordHint = std::exchange(wordHint_, {});
   std::vector<uint16_t> fitting;
   for (const uint16_t s : left) {
     if (fits(type, paramOf(s).type)) fitting.push_back(s);
@@ -290,7 +312,7 @@ ValueType Analysis::visitArgumentFor(const CallTarget& target, std::span<const N
   reportMisfit(target, "type-mismatch", value,
                quote(params[0]->name) + " of " + quote(target.name) + " is a " + typeName(type) +
                    ", not a " + typeName(valueType(params[0]->type)),
-               mismatchHint(value, *params[0], type));
+               wordHint.empty() ? mismatchHint(value, *params[0], type) : wordHint);
   isFit = false;
   return type;
 }

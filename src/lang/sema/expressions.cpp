@@ -122,7 +122,8 @@ void Analysis::reportUnknownName(NodeId node) {
             "write " + quote(std::string(name) + "(...)"));
     return;
   }
-  std::string hint = near(name, [&] { return valueNames(body_.module); });
+  std::string hint =
+      wordHint_.empty() ? near(name, [&] { return valueNames(body_.module); }) : wordHint_;
   if (hint.empty()) hint = "declare it with 'attr' or 'const', or put it in quotes if it is a text";
   errorAt("unknown-name", node, "nothing is named " + quote(name), std::move(hint));
 }
