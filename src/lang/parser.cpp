@@ -136,6 +136,12 @@ std::string Parser::describe(const Token& t) const {
 void Parser::unexpected(const std::string& expected, std::string hint) {
   const bool separator = hint.empty() && is(TokenKind::Semicolon);
   if (separator) hint = "statements need no separator; remove it";
+  const bool joined = is(TokenKind::Colon) && at_ > 0 && isName(tokens_[at_ - 1]) &&
+                      isName(ahead(1)) && endOfLast() == current().begin &&
+                      ahead(1).begin == current().end;
+  if (hint.empty() && joined) {
+    hint = "names have no colon; the property 'a:b' of a map is the attribute 'a_b'";
+  }
   error("unexpected-token", spanOf(current()),
         describe(current()) + " is unexpected here; expected " + expected, std::move(hint));
   if (separator) fix(spanOf(current()), "");
@@ -426,6 +432,24 @@ void Parser::reportAfterValue(std::string_view name) {
   skipToDeclaration();
 }
 
+// building:levels, as a map calls its property, where a name is to stand.
+void Parser::takeTagName(const Token& first, Node& definition) {
+  if (!is(TokenKind::Colon) || !isName(ahead(1)) || ahead(1).begin != current().end) return;
+  if (ahead(2).kind != TokenKind::Equal && ahead(2).kind != TokenKind::Colon) return;
+  std::string written(textOf(first)), name = written;
+  while (is(TokenKind::Colon) && isName(ahead(1))) {
+    advance();
+    written += ':' + std::string(textOf(current()));
+    name += '_' + std::string(textOf(current()));
+    advance();
+  }
+  const Span span{file_, first.begin, endOfLast()};
+  error("unexpected-token", span, "'" + written + "' is no name: names have no colon",
+        "write '" + name + "', which takes the property '" + written + "' of a map");
+  fix(span, name);
+  definition.text = tree_.intern(name);
+}
+
 // attr, const, function or rule: all share the head `name(params) with (locals)`.
 NodeId Parser::parseDefinition(NodeId annotations, Keyword keyword) {
   const size_t nameIndex = at_;
@@ -451,6 +475,7 @@ NodeId Parser::parseDefinition(NodeId annotations, Keyword keyword) {
     return make(n, {annotations, params, locals, body});
   }
 
+  if (keyword == Keyword::Attr || keyword == Keyword::Const) takeTagName(name, n);
   if (keyword == Keyword::Attr) n.kind = NodeKind::Attr;
   if (keyword == Keyword::Const) n.kind = NodeKind::Const;
   NodeId value = kNoNode;

@@ -123,6 +123,7 @@ class Parser {
   NodeId parseImport(NodeId annotations);
   NodeId parseOverride();
   NodeId parseStyleNames();
+  void takeTagName(const Token& first, Node& definition);
   NodeId parseDefinition(NodeId annotations, Keyword keyword);
   NodeId parseParams();
   NodeId parseLocals();
