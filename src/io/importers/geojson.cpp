@@ -6,11 +6,13 @@
 // numbers cannot be degrees, is taken as metres already.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "base/allowance.h"
 #include "base/json.h"
 #include "base/number.h"
+#include "base/text.h"
 #include "base/work.h"
 #include "geom/region/boolean.h"
 #include "geom/region/clean.h"
@@ -63,6 +65,7 @@ class GeoJsonReader {
  private:
   void collect(const JsonValue& v);
   bool passes(const Feature& f) const;
+  void noteProperties(const Feature& f);
   Error empty() const;
   void chooseProjection(const JsonValue& root);
   bool tellsMetres();
@@ -108,6 +111,9 @@ class GeoJsonReader {
   MeshBuilder allLines_;
   std::vector<std::string> allLineTags_;
   size_t lineFeatures_ = 0;
+  // Of features that the filter leaves out: their properties, and the values of the one that it
+  // asks for, with how often they come.
+  std::map<std::string, size_t> properties_, values_;
   size_t seen_ = 0, faces_ = 0, messages_ = 0, otherGeometries_ = 0;
 };
 
@@ -159,7 +165,31 @@ void GeoJsonReader::collect(const JsonValue& v) {
     f.geometry = &v;
   }
   ++seen_;
-  if (passes(f)) features_.push_back(std::move(f));
+  if (passes(f)) {
+    features_.push_back(std::move(f));
+  } else {
+    noteProperties(f);
+  }
+}
+
+void GeoJsonReader::noteProperties(const Feature& f) {
+  // More kinds are not shown, and hardly asked for.
+  constexpr size_t kMostKinds = 1000;
+  const auto note = [](std::map<std::string, size_t>& counts, const std::string& name) {
+    const auto at = counts.find(name);
+    if (at != counts.end()) {
+      ++at->second;
+    } else if (counts.size() < kMostKinds) {
+      counts.emplace(name, 1);
+    }
+  };
+  if (!f.properties) return;
+  for (const auto& [name, value] : f.properties->members()) {
+    work();
+    if (value.isNull()) continue;
+    note(properties_, name);
+    if (name == filter_.key) note(values_, textOf(value));
+  }
 }
 
 // The extent of all polygons, or of lines too.
@@ -515,17 +545,44 @@ void GeoJsonReader::addFeature(const Feature& f) {
   out_.shapes.push_back(std::move(shape));
 }
 
+// The names that come most often, the first of the alphabet among equals.
+std::string commonest(const std::map<std::string, size_t>& counts) {
+  constexpr size_t kShown = 12;
+  std::vector<std::pair<std::string, size_t>> all(counts.begin(), counts.end());
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string out;
+  for (size_t i = 0; i < all.size() && i < kShown; ++i) {
+    out += (i > 0 ? ", " : "") + all[i].first + " (" + std::to_string(all[i].second) + ")";
+  }
+  return out + (all.size() > kShown ? ", ..." : "");
+}
+
 Error GeoJsonReader::empty() const {
   if (filter_.key.empty() || seen_ == 0) {
     return {"shapes-empty",
             "'" + path_ + "' has no polygon and no line that could be an initial shape",
             {}};
   }
+  // The value is wrong where others are there, else the property.
+  const bool byValue = !filter_.value.empty() && !values_.empty();
+  const std::map<std::string, size_t>& counts = byValue ? values_ : properties_;
+  std::vector<std::string_view> names;
+  for (const auto& [name, count] : counts) names.push_back(name);
+  const std::string begin = byValue ? filter_.key + '=' : std::string();
+  const std::string nearest = nearestName(byValue ? filter_.value : filter_.key, names);
+  std::string hint = "choose others with --only, such as --only landuse or --only natural=water";
+  if (!nearest.empty()) {
+    hint = "did you mean --only " + begin + nearest + "?";
+  } else if (!names.empty()) {
+    hint = byValue ? "the values of '" + filter_.key + "' are " : "its properties are ";
+    hint += commonest(counts) + "; choose with --only";
+  }
   const std::string wanted = filter_.key + (filter_.value.empty() ? "" : '=' + filter_.value);
   return {"shapes-empty",
           "of the " + std::to_string(seen_) + " features of '" + path_ + "' none with '" + wanted +
               "' is a polygon or a line",
-          "choose others with --only, such as --only landuse or --only natural=water"};
+          hint};
 }
 
 Result<ShapeFile> GeoJsonReader::read(std::string_view text) {

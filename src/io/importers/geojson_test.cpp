@@ -206,6 +206,22 @@ TEST(GeoJson, bothSidesOfTheDateLineAreNeighbours) {
   EXPECT_LT(std::abs(r->shapes[1].mesh.bounds().max.x), 100);
 }
 
+TEST(GeoJson, aFilterThatNothingPassesNamesWhatThereIs) {
+  std::string features;
+  for (const char* p : {R"({"building":"house"})", R"({"building":"barn","roof":"flat"})",
+                        R"({"building":"house","landuse":null})"}) {
+    features += (features.empty() ? "" : ",") + feature(polygon(kRing), p);
+  }
+  const auto hint = [&](const char* key, const char* value) {
+    return readGeoJsonShapes(collection(features), "a.geojson", {"", key, value}).error().hint;
+  };
+  EXPECT_EQ(hint("buildng", ""), "did you mean --only building?");
+  EXPECT_EQ(hint("building", "huose"), "did you mean --only building=house?");
+  EXPECT_EQ(hint("surface", "x"), "its properties are building (3), roof (1); choose with --only");
+  EXPECT_EQ(hint("building", "castle"),
+            "the values of 'building' are house (2), barn (1); choose with --only");
+}
+
 TEST(GeoJson, whatIsNoGeoJsonIsAnError) {
   for (const char* text :
        {"", "[]", "{}", "{\"type\":5}", "{\"type\":\"FeatureCollection\"}", "not json",

@@ -79,6 +79,7 @@ TEST_F(OpenStreetMap, givesWhatIsAskedFor) {
   EXPECT_EQ(trees.error().code, std::string("shapes-empty"));
   Result<ShapeFile> none = osmShapes({"", "water", ""});
   EXPECT_NE(none.error().message.find("'water'"), std::string::npos) << none.error().message;
+  EXPECT_EQ(osmShapes({"", "natral", ""}).error().hint, "did you mean --only natural?");
   EXPECT_EQ(osmShapes({"lots", "", ""}).error().code, std::string("shapes-layer"));
   Result<ShapeFile> model = readShapes("v 0 0 0\n", {"a.obj", {}, false}, {"", "use", ""});
   EXPECT_EQ(model.error().code, std::string("shapes-layer"));
