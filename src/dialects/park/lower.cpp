@@ -186,6 +186,12 @@ bool Lowering::step(const Op& op, Nodes& out) {
                        "give it to another operation, as in CastRays(CENTRE, Corners(Region))");
     return true;
   }
+  if (const char* own = wordForCga(op.name)) {
+    diagnostics_.error("unknown-operation", placeOf(source_, op.span, op.name),
+                       "'" + op.name + "' is a word of CGA, which park grammars do not have",
+                       std::string("write it as park grammars do: ") + own);
+    return true;
+  }
   const std::string nearest = nearestOperation(op.name);
   if (op.blocks.empty() && nearest.empty()) {
     // ParkPath(..): a name with arguments that nothing is made of.

@@ -63,6 +63,39 @@ Operation operationNamed(std::string_view name) {
   return Operation::None;
 }
 
+const char* wordForCga(std::string_view name) {
+  constexpr const char* kWords[][2] = {
+      {"split", "Grid(3, 2) { A }"},
+      {"splitGrid", "Grid(3, 2) { A }"},
+      {"splitArea", "Grid(3, 2) { A }"},
+      {"voronoi", "Voronoi(sites) { A } { B }"},
+      {"quadMap", "QuadMap(3, 2) { A }"},
+      {"castRays", "CastRays(CENTRE, Corners(Region)) { A } { B }"},
+      {"offset", "Contract(2)"},
+      {"contract", "Contract(2)"},
+      {"setback", "Peel(OUTER, 2) { A | B }"},
+      {"peel", "Peel(OUTER, 2) { A | B }"},
+      {"comp", "Select { OUTER : A } else { B }"},
+      {"innerRectangle", "InnerRect { shape: A | remainder: B }"},
+      {"innerRect", "InnerRect { shape: A | remainder: B }"},
+      {"deleteHoles", "NoHoles"},
+      {"scatter", "Scatter(20 {1}) { A }"},
+      {"scatterSpaced", "Scatter(20 {1}) { A }"},
+      {"i", "loadModel(\"tree\")"},
+      {"insert", "loadModel(\"tree\")"},
+      {"primitiveDisk", "Circle(3)"},
+      {"primitiveCylinder", "Circle(3)"},
+      {"primitiveQuad", "Rect(3, 2)"},
+      {"rhombus", "Romb(3)"},
+      {"sweep", "Sweep(OUTER, width=1) { A }"},
+      {"set", "Color(\"#79a052\") or Texture(\"gravel.jpg\")"},
+  };
+  for (const auto& [cga, own] : kWords) {
+    if (name == cga) return own;
+  }
+  return nullptr;
+}
+
 std::string nearestOperation(std::string_view name) {
   std::vector<std::string> all;
   for (const OperationName& n : operationNames()) all.push_back(lowered(n.name));

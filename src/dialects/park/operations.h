@@ -40,6 +40,9 @@ struct OperationName {
   Operation operation;
 };
 
+/// How park grammars write what an operation of CGA does; null where the name is none of those.
+const char* wordForCga(std::string_view name);
+
 /// All names, as the notation spells them.
 std::span<const OperationName> operationNames();
 /// None for what is no operation.

@@ -144,6 +144,23 @@ TEST(ParkNotation, HintsSpellAsTheNotationDoes) {
   EXPECT_FALSE(run("R -> Voronoi(5) { A } { B }", kLot).has("unknown-operation"));
 }
 
+TEST(ParkNotation, wordsOfCgaAreToldTheirOwnWord) {
+  const std::pair<const char*, const char*> slips[] = {
+      {"R -> offset(2, inside)", "Contract(2)"},
+      {"R -> split(x) { A }", "Grid(3, 2) { A }"},
+      {"R -> i(\"tree.obj\")", "loadModel(\"tree\")"}};
+  for (const auto& [text, own] : slips) {
+    const auto made = run(text, kLot);
+    ASSERT_TRUE(made.has("unknown-operation")) << text;
+    for (const Diagnostic& m : made.diagnostics) {
+      if (m.code == "unknown-operation") {
+        EXPECT_NE(m.hint.find(own), std::string::npos) << m.hint;
+      }
+    }
+  }
+  EXPECT_FALSE(run("R -> extrude(3)", kLot).has("unknown-operation"));
+}
+
 TEST(ParkNotation, TheGuideAndEditorsKnowAllOperations) {
   const std::string guide = readFile(std::string(GABLE_SOURCE_DIR) + "/docs/guide/park.md").value();
   std::set<park::Operation> proposed;
