@@ -124,18 +124,20 @@ class Reader {
   std::vector<std::string_view> lines_;
 };
 
-std::vector<std::string> wordsOf(std::string_view line) {
-  std::vector<std::string> words;
+Statement statementOf(std::string_view line, size_t number) {
+  Statement s;
+  s.line = number;
   size_t at = 0;
   while ((at = line.find_first_not_of(" \t\r", at)) != std::string_view::npos) {
     const bool quoted = line[at] == '"';
     const size_t begin = quoted ? at + 1 : at;
     const size_t end = quoted ? line.find('"', begin) : line.find_first_of(" \t\r", begin);
-    words.emplace_back(line.substr(begin, end == std::string_view::npos ? end : end - begin));
+    s.quoted.push_back(quoted);
+    s.words.emplace_back(line.substr(begin, end == std::string_view::npos ? end : end - begin));
     if (end == std::string_view::npos) break;
     at = end + 1;
   }
-  return words;
+  return s;
 }
 
 }  // namespace
@@ -168,7 +170,7 @@ std::vector<Statement> statements(const Section& section) {
     if (!result.empty() && line.starts_with(' ')) {
       result.back().block += std::string(line) + "\n";
     } else if (!words.empty() && words.front() != '#') {
-      result.push_back({wordsOf(words), number, {}});
+      result.push_back(statementOf(words, number));
     }
     ++number;
   }

@@ -47,6 +47,8 @@ CaseFile parseCases(std::string_view text);
 /// and for `dump` the lines below it.
 struct Statement {
   std::vector<std::string> words;
+  /// By word, whether it was written as quoted text.
+  std::vector<bool> quoted;
   size_t line = 0;
   std::string block;
 };

@@ -18,6 +18,7 @@
 #include "geom/region/boolean.h"
 #include "scene/dump.h"
 
+#include "scene/flatten.h"
 namespace gable::cases {
 
 namespace {
@@ -280,12 +281,22 @@ bool isColor(const std::string& word) {
 }
 
 std::string checkColor(const Facts& facts, const Words& words) {
+/// The colours of the faces, each once, in the order of the faces: those of an inserted model have
+/// the materials of its slots.
+std::string colorsOf(const Scene& scene, const PlacedLeaf& leaf) {
+  std::string all;
+  for (const MeshFace& face : leaf.mesh.faces) {
+    const std::string text = colorText(materialOf(scene, *leaf.leaf, face.materialSlot).color);
+    if (all.find(text) == std::string::npos) all += (all.empty() ? "" : " ") + text;
+  }
+  return all.empty() ? "no face" : all;
+}
+
   const Scene& scene = *facts.outcome->scene;
   return checkEach(facts, words, 1, [&](const PlacedLeaf& leaf, size_t at) -> std::string {
-    const std::vector<uint32_t>& list = scene.materialLists[leaf.leaf->materials];
     if (!isColor(words[at])) return kNotUnderstood;
-    const Vec3 color = list.empty() ? Vec3{1, 1, 1} : scene.materials[list.front()].color;
-    return colorText(color) == words[at] ? "" : "found " + colorText(color);
+    const std::string found = colorsOf(scene, leaf);
+    return found == words[at] ? "" : "found " + found;
   });
 }
 
@@ -320,20 +331,31 @@ std::string placeOf(const Diagnostic& m) {
 std::string describe(const Outcome& outcome) {
   std::string text = "found";
   for (const Diagnostic& m : outcome.diagnostics) {
+bool isPlace(const std::string& word) {
+  return word.find(':') != std::string::npos &&
+         word.find_first_not_of("0123456789:") == std::string::npos;
+}
+
     const std::string place = placeOf(m);
     text += (text == "found" ? " " : "; ") + std::string(severityName(m.severity)) + " " + m.code +
-            (place.empty() ? "" : " " + place) + ": " + m.message;
+            (place.empty() ? "" : " " + place) + ": " + m.message +
+            (m.hint.empty() ? "" : " (" + m.hint + ")");
   }
   return outcome.diagnostics.empty() ? "there is no diagnostic" : text;
 }
 
 bool matches(const Diagnostic& m, const Words& words) {
-  return words.size() >= 2 && severityName(m.severity) == words[0] && m.code == words[1] &&
-         (words.size() < 3 || placeOf(m) == words[2]);
+  if (words.size() < 2 || severityName(m.severity) != words[0] || m.code != words[1]) return false;
+  const bool placed = words.size() > 2 && isPlace(words[2]);
+  if (placed && placeOf(m) != words[2]) return false;
+  const size_t text = placed ? 3 : 2;
+  return words.size() <= text || m.message.find(words[text]) != std::string::npos ||
+         m.hint.find(words[text]) != std::string::npos;
 }
 
 std::string checkDiagnostic(const Facts& facts, const Words& words) {
-  if (words.size() < 2 || words.size() > 3) return kNotUnderstood;
+  const bool placed = words.size() > 2 && isPlace(words[2]);
+  if (words.size() < 2 || words.size() > (placed ? 4 : 3)) return kNotUnderstood;
   for (const Diagnostic& m : facts.outcome->diagnostics) {
     if (matches(m, words)) return "";
   }
@@ -376,7 +398,7 @@ struct Kind {
 constexpr const char* kCountForm = "COUNT";
 constexpr const char* kNamedForm = "[LEAF] NUMBER";
 constexpr const char* kLeafForm = "[LEAF]";
-constexpr const char* kCodeForm = "CODE [LINE:COLUMN]";
+constexpr const char* kCodeForm = "CODE [LINE:COLUMN] [\"TEXT\"]";
 constexpr Kind kKinds[] = {
     {"leaves", checkLeaves, kNamedForm},
     {"area", checkArea, kNamedForm},
@@ -482,7 +504,7 @@ void checkPrints(const std::vector<Statement>& expected, const Outcome& outcome,
       failed.push_back({static_cast<uint32_t>(s.line), stray});
     if (s.words.size() != 2)
       failed.push_back({static_cast<uint32_t>(s.line), "print: " + formOf(s.words)});
-    else if (s.words[1] == "none")
+    else if (s.words[1] == "none" && !s.quoted[1])
       none = true;
     else
       wanted.push_back(s.words[1]);
