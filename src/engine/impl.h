@@ -66,7 +66,7 @@ struct Shapes::Impl {
   std::vector<ShapeFootprint> footprints;
   GeoOrigin geoOrigin;
   /// The pictures that materials of the footprints name.
-  std::map<std::string, std::string> textures;
+  TextureBytes textures;
   std::shared_ptr<const GeoFrame> geo;
 };
 

@@ -67,11 +67,18 @@ Result<Asset> Project::load(std::string_view path) {
   }
   Result<Asset> asset = read(file, false);
   std::lock_guard lock(mutex_);
-  if (asset.ok()) embedded_.insert(asset->textures.begin(), asset->textures.end());
+  if (asset.ok()) embed(asset->textures);
   return asset;
 }
 
-void Project::addTextures(const std::map<std::string, std::string>& textures) {
+// Those of a model, which are its own from then on. With the lock held.
+void Project::embed(std::map<std::string, std::string>& textures) {
+  for (auto& [name, bytes] : textures) {
+    embedded_.try_emplace(name, std::make_shared<const std::string>(std::move(bytes)));
+  }
+}
+
+void Project::addTextures(const TextureBytes& textures) {
   std::lock_guard lock(mutex_);
   for (const auto& [name, bytes] : textures) embedded_[name] = bytes;
 }
@@ -100,7 +107,7 @@ Result<std::string> Project::texture(const std::string& path) {
   {
     std::lock_guard lock(mutex_);
     const auto at = embedded_.find(path);
-    if (at != embedded_.end()) return at->second;
+    if (at != embedded_.end()) return *at->second;
   }
   if (numberOfBuiltin(path) < kBuiltinTextures.size()) {
     drawBuiltins({path});
@@ -139,7 +146,7 @@ Ref<AssetModel> Project::model(std::string_view path, std::string_view fromFile,
       for (const auto& [name, v] : asset->metadata) m->metadata.push_back(metadatumOf(name, v));
       m->warnings = asset->warnings;
       m->bounds = asset->bounds;
-      embedded_.insert(asset->textures.begin(), asset->textures.end());
+      embed(asset->textures);
       at->second.model = Ref<AssetModel>(m);
     } else {
       at->second.why = asset.error().message;

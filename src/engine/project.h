@@ -6,6 +6,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -17,6 +18,9 @@
 #include "shape/services.h"
 
 namespace gable {
+
+/// The bytes of pictures, by name.
+using TextureBytes = std::map<std::string, std::shared_ptr<const std::string>>;
 
 class Project final : public Assets {
  public:
@@ -35,8 +39,8 @@ class Project final : public Assets {
   Result<Asset> load(std::string_view path);
   /// The bytes of a texture by the path that a material names, those inside of models included.
   Result<std::string> texture(const std::string& path);
-  /// Pictures that texture() is to know by these names.
-  void addTextures(const std::map<std::string, std::string>& textures);
+  /// Pictures that texture() is to know by these names; their bytes are shared.
+  void addTextures(const TextureBytes& textures);
   /// Draws those of the paths that name built-in textures, on several threads; texture() has them
   /// then.
   void drawBuiltins(const std::vector<std::string>& paths);
@@ -56,12 +60,13 @@ class Project final : public Assets {
     std::string why;
   };
   Result<Asset> read(const std::string& file, bool zUp) const;
+  void embed(std::map<std::string, std::string>& textures);
 
   FileSearch where_;
   mutable std::mutex mutex_;
   std::map<std::string, ModelEntry> models_;
   std::map<std::string, ImageInfo> images_;
-  std::map<std::string, std::string> embedded_;
+  TextureBytes embedded_;
   /// Built-in textures that have been asked for, as PNG.
   std::map<std::string, std::string> builtins_;
 };

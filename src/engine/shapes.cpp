@@ -178,9 +178,13 @@ Shapes::Outline outlineOf(const ShapeFootprint& f) {
 
 // The pictures that the materials of the shapes name: those that lie in the file, and those that
 // can be read beside it.
-std::map<std::string, std::string> texturesOf(ShapeFile& file, const FileReader& read) {
+TextureBytes texturesOf(ShapeFile& file, const FileReader& read) {
   constexpr uint64_t kMostBytes = 1ull << 29;
-  std::map<std::string, std::string> all = std::move(file.textures);
+  const auto shared = [](std::string& bytes) {
+    return std::make_shared<const std::string>(std::move(bytes));
+  };
+  TextureBytes all;
+  for (auto& [name, bytes] : file.textures) all[name] = shared(bytes);
   std::set<std::string> missing;
   uint64_t held = 0;
   for (const ShapeInput& shape : file.shapes) {
@@ -192,7 +196,7 @@ std::map<std::string, std::string> texturesOf(ShapeFile& file, const FileReader&
         Result<std::string> bytes = read(map.path);
         if (bytes.ok()) {
           held += bytes->size();
-          all[map.path] = std::move(*bytes);
+          all[map.path] = shared(*bytes);
           continue;
         }
         missing.insert(map.path);
