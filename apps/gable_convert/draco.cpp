@@ -17,7 +17,7 @@ bool unpackDraco(std::string_view bytes, std::string& out) {
   putWord(out, mesh.num_points());
   putWord(out, mesh.num_faces());
   for (uint32_t f = 0; f < mesh.num_faces(); ++f) {
-    for (const draco::PointIndex p : mesh.face(draco::FaceIndex(f))) putWord(out, p.value());
+    for (const draco::PointIndex& p : mesh.face(draco::FaceIndex(f))) putWord(out, p.value());
   }
   putWord(out, static_cast<uint32_t>(mesh.num_attributes()));
   for (int i = 0; i < mesh.num_attributes(); ++i) {
