@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "commands.h"
+#include "gable/names.h"
 
 namespace {
 
@@ -25,7 +26,7 @@ CLI::Validator number(NumberRange range) {
 
 void addPictureOptions(CLI::App* app, RenderArguments& a) {
   app->add_option("--view", a.view, "iso, top, front or street")
-      ->check(CLI::IsMember({"iso", "top", "front", "street"}));
+      ->check(CLI::IsMember(gable::viewNames()));
   app->add_option("--size", a.size, "Pixels (default 1600x900)");
   app->add_option("--samples", a.samples, "Paths per pixel (default 48)")
       ->check(number({1, 65536, true}));

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "commands.h"
+#include "gable/names.h"
 
 namespace {
 
@@ -22,13 +23,7 @@ bool parseColor(const std::string& text, gable::Triple& rgb) {
 }  // namespace
 
 int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
-  const std::pair<const char*, gable::View> views[] = {{"iso", gable::View::Iso},
-                                                       {"top", gable::View::Top},
-                                                       {"front", gable::View::Front},
-                                                       {"street", gable::View::Street}};
-  for (const auto& [name, view] : views) {
-    if (a.view == name) s.view = view;
-  }
+  s.view = gable::viewNamed(a.view).value_or(s.view);
   double size[2];
   // A pixel takes about 60 bytes while it is drawn.
   constexpr double kMostPixels = 50e6;

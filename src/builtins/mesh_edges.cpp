@@ -6,28 +6,14 @@
 #include <algorithm>
 #include <numeric>
 
-#include "base/work.h"
+#include "geom/mesh/corner_links.h"
 
 namespace gable {
 
 MeshEdges::MeshEdges(const Mesh& m) : mesh_(m) {
   const size_t n = m.corners.size();
   edgeOf_.resize(n);
-  faceOf_.resize(n);
-  next_.resize(n);
-  previous_.resize(n);
-  for (uint32_t f = 0; f < m.faceCount(); ++f) {
-    for (const MeshLoop& loop : m.loopsOf(f)) {
-      work(4 * loop.cornerCount);
-      for (uint32_t i = 0; i < loop.cornerCount; ++i) {
-        const uint32_t c = loop.firstCorner + i;
-        const uint32_t after = loop.firstCorner + (i + 1) % loop.cornerCount;
-        faceOf_[c] = f;
-        next_[c] = after;
-        previous_[after] = c;
-      }
-    }
-  }
+  linkCorners(m, faceOf_, next_, previous_);
   const auto key = [&](uint32_t c) {
     const uint64_t a = m.corners[c], b = m.corners[next_[c]];
     return a < b ? a << 32 | b : b << 32 | a;

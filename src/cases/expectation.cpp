@@ -15,10 +15,11 @@
 #include "base/text.h"
 #include "cases/measure.h"
 #include "cases/plan.h"
+#include "gable/names.h"
 #include "geom/region/boolean.h"
 #include "scene/dump.h"
-
 #include "scene/flatten.h"
+
 namespace gable::cases {
 
 namespace {
@@ -280,7 +281,6 @@ bool isColor(const std::string& word) {
          word.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
 }
 
-std::string checkColor(const Facts& facts, const Words& words) {
 /// The colours of the faces, each once, in the order of the faces: those of an inserted model have
 /// the materials of its slots.
 std::string colorsOf(const Scene& scene, const PlacedLeaf& leaf) {
@@ -292,6 +292,7 @@ std::string colorsOf(const Scene& scene, const PlacedLeaf& leaf) {
   return all.empty() ? "no face" : all;
 }
 
+std::string checkColor(const Facts& facts, const Words& words) {
   const Scene& scene = *facts.outcome->scene;
   return checkEach(facts, words, 1, [&](const PlacedLeaf& leaf, size_t at) -> std::string {
     if (!isColor(words[at])) return kNotUnderstood;
@@ -314,15 +315,6 @@ std::string checkCount(const Facts& facts, const Words& words) {
   return compare(static_cast<double>(counts.at(words[0])), words, 1);
 }
 
-const char* severityName(Diagnostic::Severity severity) {
-  switch (severity) {
-    case Diagnostic::Severity::Error: return "error";
-    case Diagnostic::Severity::Warning: return "warning";
-    case Diagnostic::Severity::Note: break;
-  }
-  return "note";
-}
-
 /// "line:column" of a message, empty where it has no place.
 std::string placeOf(const Diagnostic& m) {
   return m.range ? std::to_string(m.range->line) + ":" + std::to_string(m.range->column) : "";
@@ -331,17 +323,17 @@ std::string placeOf(const Diagnostic& m) {
 std::string describe(const Outcome& outcome) {
   std::string text = "found";
   for (const Diagnostic& m : outcome.diagnostics) {
-bool isPlace(const std::string& word) {
-  return word.find(':') != std::string::npos &&
-         word.find_first_not_of("0123456789:") == std::string::npos;
-}
-
     const std::string place = placeOf(m);
     text += (text == "found" ? " " : "; ") + std::string(severityName(m.severity)) + " " + m.code +
             (place.empty() ? "" : " " + place) + ": " + m.message +
             (m.hint.empty() ? "" : " (" + m.hint + ")");
   }
   return outcome.diagnostics.empty() ? "there is no diagnostic" : text;
+}
+
+bool isPlace(const std::string& word) {
+  return word.find(':') != std::string::npos &&
+         word.find_first_not_of("0123456789:") == std::string::npos;
 }
 
 bool matches(const Diagnostic& m, const Words& words) {

@@ -13,6 +13,7 @@
 
 #include "base/files.h"
 #include "base/temporary_folder.h"
+#include "gable/names.h"
 #include "io/image/image.h"
 
 namespace gable::cases {
@@ -25,14 +26,6 @@ constexpr int kChannel = 4;
 /// The share of pixels that may differ.
 constexpr double kShare = 0.001;
 constexpr int kSamples = 16;
-
-bool viewNamed(const std::string& word, View& view) {
-  if (word == "iso") return view = View::Iso, true;
-  if (word == "top") return view = View::Top, true;
-  if (word == "front") return view = View::Front, true;
-  if (word == "street") return view = View::Street, true;
-  return false;
-}
 
 bool sizeNamed(const std::string& word, PictureSettings& settings) {
   int used = 0;
@@ -50,7 +43,9 @@ bool readSettings(const Statement& s, PictureSettings& settings) {
   settings.jobs = 1;
   if (s.words.size() < 2 || s.words.size() > 4) return false;
   return std::all_of(s.words.begin() + 2, s.words.end(), [&](const std::string& word) {
-    return viewNamed(word, settings.view) || sizeNamed(word, settings);
+    const std::optional<View> view = viewNamed(word);
+    if (view) settings.view = *view;
+    return view || sizeNamed(word, settings);
   });
 }
 

@@ -9,6 +9,7 @@
 
 #include "engine/guard.h"
 #include "engine/impl.h"
+#include "gable/names.h"
 
 namespace gable {
 
@@ -66,6 +67,10 @@ std::string rendered(const std::string& file, const Leaves& leaves) {
 }
 
 }  // namespace
+
+const char* severityName(Diagnostic::Severity severity) {
+  return severityName(static_cast<Severity>(severity));
+}
 
 // A file with many leaves would bury what is wrong with it.
 std::string render(const DiagnosticList& diagnostics) {

@@ -11,6 +11,7 @@
 #include "base/temporary_folder.h"
 #include "engine/guard.h"
 #include "engine/impl.h"
+#include "gable/names.h"
 #include "io/exporters/draw_list.h"
 #include "io/exporters/write_model.h"
 #include "io/image/image.h"
@@ -19,8 +20,8 @@
 #include "runtime/output.h"
 #include "scene/dump.h"
 #include "scene/flatten.h"
-
 #include "shape/losses.h"
+
 namespace gable {
 
 namespace {
@@ -97,7 +98,6 @@ std::shared_ptr<Model::Impl> loaded(const std::string& path) {
     impl->diagnostics.push_back(diagnosticOf(asset.error()));
     return impl;
   }
-  Scene& scene = impl->result.scene;
   if (!asset->warnings.empty()) {
     impl->diagnostics.push_back(diagnosticOf({Severity::Warning,
                                               "read-with-loss",
@@ -108,6 +108,7 @@ std::shared_ptr<Model::Impl> loaded(const std::string& path) {
                                               {}},
                                              Sources{}));
   }
+  Scene& scene = impl->result.scene;
   scene.names.push_back(fileNameOf(path));
   scene.materials = asset->materials;
   if (scene.materials.empty()) scene.materials.emplace_back();
@@ -218,6 +219,18 @@ EncodeResult encoded(const Model::Impl& impl, const std::string& format,
 }
 
 }  // namespace
+
+const std::vector<std::string>& viewNames() {
+  static const std::vector<std::string> names{"iso", "top", "front", "street"};
+  return names;
+}
+
+std::optional<View> viewNamed(const std::string& name) {
+  const std::vector<std::string>& names = viewNames();
+  const auto at = std::find(names.begin(), names.end(), name);
+  if (at == names.end()) return std::nullopt;
+  return static_cast<View>(at - names.begin());
+}
 
 Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& settings) {
   return Model(guarded<Model::Impl>([&] { return derived(rules, shapes, settings); }));

@@ -3,18 +3,11 @@
 
 #include "json/answers.h"
 
+#include "gable/names.h"
+
 namespace gable {
 
 namespace {
-
-const char* severityName(Diagnostic::Severity s) {
-  switch (s) {
-    case Diagnostic::Severity::Note: return "note";
-    case Diagnostic::Severity::Warning: return "warning";
-    case Diagnostic::Severity::Error: break;
-  }
-  return "error";
-}
 
 void writeDiagnostic(JsonWriter& json, const Diagnostic& d) {
   json.beginObject();

@@ -11,6 +11,7 @@
 
 #include "base/text.h"
 #include "dialects/progen3d/dresser.h"
+#include "dialects/progen3d/messages.h"
 #include "dialects/progen3d/names.h"
 #include "dialects/progen3d/nodes.h"
 #include "dialects/progen3d/uses.h"
@@ -255,12 +256,7 @@ class Lowering {
   void call(const Step& step, bool bracketFollows, Nodes& out) {
     const Rule* r = g_.rule(step.name);
     if (!r) {
-      std::vector<std::string_view> known;
-      for (const Rule& each : g_.rules) known.push_back(each.name);
-      diagnostics_.warning(
-          "unknown-rule", step.span,
-          "there is no rule '" + std::string(step.name) + "'; nothing is drawn for it",
-          didYouMean(step.name, known));
+      warnUnknownRule(g_, step.name, step.span, diagnostics_);
       return;
     }
     // Before a closing bracket a copy of the shape serves as well, and what comes of the copy can

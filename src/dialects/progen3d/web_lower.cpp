@@ -9,8 +9,8 @@
 #include <optional>
 #include <set>
 
-#include "base/text.h"
 #include "dialects/progen3d/dresser.h"
+#include "dialects/progen3d/messages.h"
 #include "dialects/progen3d/names.h"
 #include "dialects/progen3d/nodes.h"
 #include "dialects/progen3d/web_expressions.h"
@@ -409,12 +409,7 @@ class Lowering {
   void call(const Statement& s, Nodes& out) {
     const Rule* r = g_.rule(s.name);
     if (!r) {
-      std::vector<std::string_view> known;
-      for (const Rule& each : g_.rules) known.push_back(each.name);
-      diagnostics_.warning(
-          "unknown-rule", s.nameSpan,
-          "there is no rule '" + std::string(s.name) + "'; nothing is drawn for it",
-          didYouMean(s.name, known));
+      warnUnknownRule(g_, s.name, s.nameSpan, diagnostics_);
       return;
     }
     Nodes arguments = values(s.arguments);

@@ -10,6 +10,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/work.h"
+#include "geom/mesh/corner_links.h"
 #include "math/trig.h"
 
 namespace gable {
@@ -22,22 +23,8 @@ Topology::Topology(const Mesh& m) : mesh_(m) {
 }
 
 void Topology::linkCorners() {
-  const size_t n = mesh_.corners.size();
-  faceOf_.assign(n, kNone);
-  next_.assign(n, kNone);
-  previous_.assign(n, kNone);
-  for (uint32_t f = 0; f < mesh_.faces.size(); ++f) {
-    for (const MeshLoop& loop : mesh_.loopsOf(f)) {
-      work(4 * loop.cornerCount);
-      for (uint32_t i = 0; i < loop.cornerCount; ++i) {
-        const uint32_t c = loop.firstCorner + i;
-        const uint32_t after = loop.firstCorner + (i + 1) % loop.cornerCount;
-        faceOf_[c] = f;
-        next_[c] = after;
-        previous_[after] = c;
-      }
-    }
-  }
+  static_assert(kNone == kNoCornerLink);
+  gable::linkCorners(mesh_, faceOf_, next_, previous_);
 }
 
 void Topology::findEdges() {

@@ -117,16 +117,6 @@ std::vector<Footprint> wanted(const OpCall& call, TurnBy turn, const Array& rows
   return out;
 }
 
-// `all` takes what no word before it took, unless that is asked for by name alone.
-const SelectorItem* itemFor(const OpCall& call, std::string_view what, bool orAll = true) {
-  for (const SelectorItem& item : call.selectors()) {
-    if (item.terms.size() != 1 || item.terms[0].kind != SelectorTerm::Kind::Word) continue;
-    const std::string_view word = call.services().pool().text(item.terms[0].word);
-    if (word == what || (orAll && word == "all")) return &item;
-  }
-  return nullptr;
-}
-
 // The shortest line around all that was placed on a ground.
 void emitHull(OpCall& call, const Ground& ground, const Region& covered, const SelectorItem* item,
               uint32_t piece) {

@@ -14,15 +14,6 @@ namespace {
 
 constexpr double kMostMerlons = 20000;
 
-const SelectorItem* itemFor(const OpCall& call, std::string_view what) {
-  for (const SelectorItem& item : call.selectors()) {
-    if (item.terms.size() != 1 || item.terms[0].kind != SelectorTerm::Kind::Word) continue;
-    const std::string_view word = call.services().pool().text(item.terms[0].word);
-    if (word == what || word == "all") return &item;
-  }
-  return nullptr;
-}
-
 class Emitter {
  public:
   explicit Emitter(OpCall& call) : call_(call) {}

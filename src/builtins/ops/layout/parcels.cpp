@@ -60,7 +60,7 @@ ParcelOptions optionsOf(const Parcels& args) {
 }
 
 // The first item that takes the parcel; corner takes those at a corner of two streets.
-const SelectorItem* itemFor(const OpCall& call, bool corner) {
+const SelectorItem* itemForParcel(const OpCall& call, bool corner) {
   for (const SelectorItem& item : call.selectors()) {
     if (item.terms.size() != 1 || item.terms[0].kind != SelectorTerm::Kind::Word) continue;
     const std::string_view word = call.services().pool().text(item.terms[0].word);
@@ -87,7 +87,7 @@ Status applyParcels(OpCall& call, const Parcels& args) {
     const auto divide = bySkeleton ? parcelsBySkeleton : parcelsByBox;
     for (const Parcel& p : divide(grounds[g].polygon, grounds[g].street, options)) {
       const uint32_t piece = number++;
-      const SelectorItem* item = itemFor(call, p.corner);
+      const SelectorItem* item = itemForParcel(call, p.corner);
       if (!item) continue;
       std::vector<bool> street;
       for (uint32_t e : p.street) street.push_back(e != Parcel::kNoStreet);

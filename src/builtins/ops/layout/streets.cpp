@@ -128,15 +128,6 @@ Status groundAround(const OpCall& call, const std::vector<Polyline2>& lines, dou
   return {};
 }
 
-const SelectorItem* itemFor(const OpCall& call, std::string_view what) {
-  for (const SelectorItem& item : call.selectors()) {
-    if (item.terms.size() != 1 || item.terms[0].kind != SelectorTerm::Kind::Word) continue;
-    const std::string_view word = call.services().pool().text(item.terms[0].word);
-    if (word == what || word == "all") return &item;
-  }
-  return nullptr;
-}
-
 Status applyStreets(OpCall& call, const Streets& args) {
   const double spacing = args.spacing, width = args.width;
   if (width >= spacing) {

@@ -29,6 +29,15 @@ std::vector<bool> streetEdges(const Mesh& m, size_t face, const TagTable& tags) 
 
 }  // namespace
 
+const SelectorItem* itemFor(const OpCall& call, std::string_view what, bool orAll) {
+  for (const SelectorItem& item : call.selectors()) {
+    if (item.terms.size() != 1 || item.terms[0].kind != SelectorTerm::Kind::Word) continue;
+    const std::string_view word = call.services().pool().text(item.terms[0].word);
+    if (word == what || (orAll && word == "all")) return &item;
+  }
+  return nullptr;
+}
+
 Status groundsOf(OpCall& call, std::vector<Ground>& out) {
   const MeshRef mesh = meshInScope(call.shape());
   for (size_t f = 0; f < mesh->faceCount(); ++f) {

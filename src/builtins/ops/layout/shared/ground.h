@@ -24,6 +24,10 @@ struct Ground {
   uint16_t materialSlot = 0;
 };
 
+/// The first item of the block that takes a part by its word: one that names the word or, with
+/// `orAll`, `all`. Null where none does.
+const SelectorItem* itemFor(const OpCall& call, std::string_view what, bool orAll = true);
+
 /// The faces that have an area, with valid polygons. Fails with no-geometry where there are none.
 Status groundsOf(OpCall& call, std::vector<Ground>& out);
 

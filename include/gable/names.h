@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The words for values of the interface, as command lines and files write them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gable/diagnostic.h"
+#include "gable/model.h"
+
+namespace gable {
+
+/// "note", "warning" or "error".
+const char* severityName(Diagnostic::Severity severity);
+
+/// "iso", "top", "front", "street": in the order of the views.
+const std::vector<std::string>& viewNames();
+/// Absent for any other word.
+std::optional<View> viewNamed(const std::string& name);
+
+}  // namespace gable
