@@ -25,8 +25,8 @@
    3. Objects never change once they are made, so any number of threads may read one at the same
       time. No thread may use an object while or after another releases it.
    4. Text is UTF-8 and ends in a zero byte. Text and arrays go into buffers of the caller's:
-   `length` (never NULL) receives what there is, in bytes without the zero or in elements. With a
-   NULL buffer that is all. A buffer that is too small is left as it was, and the status is
+      `length` (never NULL) receives what there is, in bytes without the zero or in elements. With
+      a NULL buffer that is all. A buffer that is too small is left as it was, and the status is
       GABLE_ERROR_BUFFER; text needs room for length + 1 bytes.
    5. Structs begin with struct_size, which the caller sets to sizeof of the struct. Later versions
       may add fields at the end, and fill in or read only what the caller's struct has. Functions
@@ -139,7 +139,8 @@ gable_status gable_shapes_lot(double width, double depth, gable_shapes** shapes)
    after ring, the outer ring first and then the holes; `ring_sizes` counts points. */
 gable_status gable_shapes_polygon(const double* coordinates, const size_t* ring_sizes,
                                   size_t ring_count, gable_shapes** shapes);
-/* .obj .gltf .glb .geojson .json, by extension. */
+/* By extension: .obj .gltf .glb .geojson .json, and the formats of maps and models that
+   Shapes::load in gable/shapes.h names. */
 gable_status gable_shapes_load(const char* path, gable_shapes** shapes);
 /* The same for a file's content; `name` gives the extension, and the folder of what it names. */
 gable_status gable_shapes_parse(const void* content, size_t size, const char* name,

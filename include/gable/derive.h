@@ -29,7 +29,7 @@ struct DeriveSettings {
   std::vector<std::pair<std::string, std::string>> attributes;
   /// Derive equal parts once. Off gives the same model, flattened.
   bool sharing = true;
-  /// Keep the derivation tree (turns sharing off).
+  /// Keep the derivation tree for Model::trace. Turns sharing off.
   bool trace = false;
   /// With `trace`: what of it is kept.
   TraceFilter traceFilter;
@@ -45,12 +45,14 @@ struct DeriveSettings {
   /// the result is the same as without. Implies `remember`. May be null.
   const Model* before = nullptr;
   Limits limits;
-  /// Called from any thread.
+  /// Called from any thread with the number of initial shapes that are done, and of all.
   std::function<void(size_t done, size_t total)> progress;
   /// Ends the derivation soon after it becomes true. May be null.
   std::atomic<bool>* cancel = nullptr;
 };
 
+/// With mistakes in the settings the model is empty and has their diagnostics. It is empty where
+/// `rules` are not ok(), too; what rules and shapes tell is not repeated.
 Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& settings = {});
 
 }  // namespace gable

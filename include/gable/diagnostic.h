@@ -50,7 +50,9 @@ struct Diagnostic {
 using DiagnosticList = std::vector<Diagnostic>;
 
 bool hasErrors(const DiagnosticList& diagnostics);
-/// All of them as a terminal shows them, one after the other.
+/// As a terminal shows them: first the errors, then the warnings and notes, each kind in the order
+/// of the list. Of a file with more than three names that are no rules or operations these are one
+/// line, at the end.
 std::string render(const DiagnosticList& diagnostics);
 
 }  // namespace gable

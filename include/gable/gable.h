@@ -29,7 +29,7 @@
 
 namespace gable {
 
-/// "0.1.0".
+/// Of the library, such as "0.1.0".
 const char* version();
 
 }  // namespace gable

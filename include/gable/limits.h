@@ -45,6 +45,7 @@ struct FileLimits {
   const std::atomic<bool>* cancel = nullptr;
 };
 
+/// How a derivation came to its end.
 enum class End : uint8_t { Done, LimitReached, Cancelled };
 
 }  // namespace gable

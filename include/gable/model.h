@@ -31,7 +31,9 @@ struct WriteSettings {
 
 struct WriteResult {
   bool ok = false;
+  /// Written, or drawn in a picture; instances expanded.
   uint64_t triangles = 0;
+  /// Of all files that were written.
   uint64_t bytes = 0;
   DiagnosticList diagnostics;
 };
@@ -43,6 +45,9 @@ struct EncodeResult {
   DiagnosticList diagnostics;
 };
 
+/// Where a picture is taken from. Iso: from above, with two fronts and the roofs in sight. Top: the
+/// plan, north up. Front: level, from the side of the main front. Street: the eye of somebody who
+/// stands outside.
 enum class View : uint8_t { Iso, Top, Front, Street };
 
 struct PictureSettings {
@@ -67,8 +72,10 @@ struct PictureSettings {
   std::optional<double> fieldOfView;
   /// Threads; absent: one a processor.
   std::optional<int> jobs;
-  /// Called from any thread.
+  /// Called from any thread with the thousandths of the picture that are done, of 1000.
   std::function<void(size_t done, size_t total)> progress;
+  /// Ends the drawing soon after it becomes true; what was drawn until then is written. In place of
+  /// limits.cancel. May be null.
   std::atomic<bool>* cancel = nullptr;
   /// By default it may take as long as its samples take.
   FileLimits limits{std::nullopt};
@@ -192,11 +199,13 @@ struct ModelGeometry {
 
 class Model {
  public:
-  /// Reads .obj, .gltf or .glb as it is, for pictures.
+  /// Reads a file as it is, to be drawn, compared, prepared or written in another format: .obj
+  /// .gltf .glb, and .fbx .dae where gable-convert is built.
   static Model load(const std::string& path, const FileLimits& limits = {});
   /// Of a model that was read: the same as an asset, for i(.., unitCube) and post-process tables.
   Model prepared(const PrepareSettings& settings) const;
-  /// Of a model that was read; absent when it is empty.
+  /// Of a model that was read; absent when it is empty, and for a derived one, whose bounds
+  /// statistics() has.
   std::optional<BoundingBox> bounds() const;
 
   bool ok() const;

@@ -18,12 +18,13 @@
 namespace gable {
 
 struct LoadSettings {
-  /// The folder that rules may read from. Absent: the nearest folder above the rule file that holds
-  /// a `rules` or an `assets` folder, else the rule file's own.
+  /// The folder that rules may read from. Absent: the folder of the workspace that the rule file
+  /// lies in, else the nearest folder above the rule file that holds a `rules` or an `assets`
+  /// folder, else the rule file's own.
   std::optional<std::string> project;
   /// The notation: "cga", "gbbg", "park", ... Absent: by the file's extension.
   std::optional<std::string> dialect;
-  /// A style that the rule file declares.
+  /// One of styles(); absent: "Default".
   std::optional<std::string> style;
   SearchSettings search;
   /// Texts that stand for files of the project while they are being edited, by project path
@@ -53,6 +54,7 @@ struct AttributeInfo {
 struct RuleInfo {
   std::string name;
   size_t parameters = 0;
+  /// Marked as one to start with, by @StartRule or as its notation has it.
   bool start = false;
   std::string file;
   uint32_t line = 0;
@@ -103,7 +105,8 @@ class Rules {
   const std::vector<AssetUse>& assets() const;
   /// What the rule file says of itself (@RuleFileDescription).
   const std::string& description() const;
-  /// The styles that the rule file declares, "Default" first.
+  /// "Default", the styles that the rule file declares, and those that its imports offer
+  /// ("windows.Gothic").
   const std::vector<std::string>& styles() const;
   /// The rule that a derivation starts with unless told otherwise.
   std::optional<std::string> startRule() const;

@@ -22,11 +22,12 @@ struct StudioSettings {
   std::string page;
   /// Holds examples, a folder each.
   std::optional<std::string> examples;
-  /// Loopback, unless others are meant to come in.
+  /// Where to listen: this machine alone, unless others are meant to come in.
   std::string address = "127.0.0.1";
   /// 0: that of this project's last studio where it is free, else any.
   uint16_t port = 0;
-  /// What a page must show; absent: that of this project's last studio, else drawn.
+  /// The secret that requests must have, as the address of the page has it; absent: that of this
+  /// project's last studio, else drawn.
   std::optional<std::string> token;
 };
 
