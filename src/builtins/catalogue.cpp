@@ -4,7 +4,6 @@
 #include "builtins/catalogue.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include "base/check.h"
@@ -25,9 +24,6 @@ void sortUnique(std::vector<const T*>& list) {
   }
 }
 
-// Names of CGA that nothing is built for, in the order of their bytes.
-constexpr std::array<std::string_view, 0> kUnbuilt{};
-
 struct Storage {
   std::vector<const OpSpec*> operations;
   std::vector<const FunctionSpec*> functions;
@@ -45,11 +41,7 @@ struct Storage {
     sortUnique(operations);
     sortUnique(functions);
     sortUnique(attributes);
-    catalogue = {operations, functions, attributes, kSelectors, kUnbuilt};
-    for (const std::string_view name : kUnbuilt) {
-      GABLE_CHECK(!catalogue.operation(name) && !catalogue.function(name));
-    }
-    GABLE_CHECK(std::is_sorted(std::begin(kUnbuilt), std::end(kUnbuilt)));
+    catalogue = {operations, functions, attributes, kSelectors};
   }
 };
 

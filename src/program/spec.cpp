@@ -96,9 +96,6 @@ const FunctionSpec* Catalogue::function(std::string_view name) const {
 const AttributeSpec* Catalogue::attribute(std::string_view name) const {
   return find(attributes, name);
 }
-bool Catalogue::isUnbuilt(std::string_view name) const {
-  return std::binary_search(unbuilt.begin(), unbuilt.end(), name);
-}
 bool Catalogue::isSelector(std::string_view name) const {
   return std::any_of(selectors.begin(), selectors.end(),
                      [&](const SelectorSpec& s) { return s.name == name; });

@@ -384,14 +384,11 @@ struct Catalogue {
   std::span<const FunctionSpec* const> functions;
   std::span<const AttributeSpec* const> attributes;
   std::span<const SelectorSpec> selectors;
-  /// Names of the CGA reference, of any kind, that are not built; sorted.
-  std::span<const std::string_view> unbuilt = {};
 
   const OpSpec* operation(std::string_view name) const;
   const FunctionSpec* function(std::string_view name) const;
   const AttributeSpec* attribute(std::string_view name) const;
   bool isSelector(std::string_view name) const;
-  bool isUnbuilt(std::string_view name) const;
 };
 
 }  // namespace gable

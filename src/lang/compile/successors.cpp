@@ -54,8 +54,6 @@ void UnitCompiler::apply(NodeId node) {
   switch (ref.kind) {
     case RefKind::Operation: operation(node, *ref.spec.operation, arguments); break;
     case RefKind::Rule: callRule(node, ref.index, arguments); break;
-    // An operation that is not built, and was told.
-    case RefKind::None: break;
     default: {
       const Value name = e_.program().pool->string(t_.text(node));
       e_.emit(Code::Leaf, t_.span(node), e_.constant(name));

@@ -275,9 +275,6 @@ class Analysis {
   void makeLeaf(NodeId node, bool known);
   bool fitsOperation(NodeId node, const OpSpec& op);
   void reportUndefinedRule(NodeId node, const RuleSet& found);
-  /// Whether the name is one of CGA that is not built; then it is reported. `skipped` when the
-  /// shape goes on without it.
-  bool reportUnbuilt(NodeId node, std::string_view name, bool skipped = false);
   /// The operation whose name `name` is a slip of; empty when there is none.
   std::string_view slippedOperation(NodeId node);
   void checkWeights(NodeId choice);

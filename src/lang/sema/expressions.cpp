@@ -198,7 +198,6 @@ ValueType Analysis::visitCall(NodeId node) {
     return ValueType::Null;
   }
   if (inMissingImport(body_.module, name)) return ValueType::Null;
-  if (reportUnbuilt(node, name)) return ValueType::Null;
   std::string hint = near(name, [&] { return valueNames(body_.module); });
   if (!rulesNamed(body_.module, name).rules.empty()) {
     meant_ = {};

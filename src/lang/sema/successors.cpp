@@ -132,18 +132,6 @@ void Analysis::makeLeaf(NodeId node, bool known) {
   }
 }
 
-bool Analysis::reportUnbuilt(NodeId node, std::string_view name, bool skipped) {
-  if (!catalogue_.isUnbuilt(name)) return false;
-  if (skipped) {
-    warning("not-built", tree().span(node),
-            quote(name) + " is a name of CGA that Gable does not have yet, and is left out", "");
-    return true;
-  }
-  errorAt("not-built", node, quote(name) + " is a name of CGA that Gable does not have yet",
-          "do without it: what comes after it would work on another shape");
-  return true;
-}
-
 // A name with arguments that is nearly that of an operation is meant to be it; as a leaf the model
 // would lack what the operation makes. Rules begin with a capital, and a file may call rules that
 // it does not define: so a name with a capital must be that of an operation but for the case, and
@@ -290,14 +278,6 @@ void Analysis::visitApply(NodeId node) {
   if (applyRule(node, found.rules, args, types)) {
     visitAllBlocks(node);
     return;
-  }
-  const bool skipped = !hasBlock && isVersioned(body_.module);
-  if (found.rules.empty() && !mute_ && !ruleInAnyStyle(body_.module, name) &&
-      !inMissingImport(body_.module, name) && (hasBlock || t.child(node, 0) != kNoNode) &&
-      reportUnbuilt(node, name, skipped)) {
-    if (skipped) return resolve(node, RefKind::None);
-    makeLeaf(node, true);
-    return visitAllBlocks(node);
   }
   makeLeaf(node, false);
   visitAllBlocks(node);
