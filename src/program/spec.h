@@ -240,6 +240,8 @@ enum Effect : uint32_t {
   /// Questions about other shapes are answered with the shape as it was before the operation, and
   /// not with its leaves alone: comp, offset.
   kLeavesOccluder = 1u << 14,
+  /// modify and inline(recompose) do not glue what comes of the operation to the shapes around it.
+  kForgetsOrigins = 1u << 19,
 };
 
 /// Whether a selector asks for a direction or place outside the shape: world.up, object,

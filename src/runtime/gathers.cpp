@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "geom/mesh/recompose.h"
+#include "geom/mesh/origins.h"
 #include "runtime/leaf_shape.h"
 
 namespace gable {
@@ -59,17 +59,28 @@ void Gathers::putBack(const Ended& ended, bool done) {
   for (size_t k = 0, next = 0; k < gone.size(); ++k) {
     if (ended.shown[k]) continue;
     const Gathered& leaf = ended.leaves[next++];
+    Leaf& was = output_.openLeaves[ended.firstLeaf + k];
     if (!done) {
-      gone[k] = ended.call.keepsDeleted && leaf.shape.geometry.kind == GeometryKind::Mesh &&
-                isDeleted(*leaf.shape.geometry.mesh);
+      if (ended.call.keepsOrigins) gone[k] = !forgetOrigins(leaf.shape, was);
       continue;
     }
     gone[k] = leaf.taken || leaf.shape.geometry.kind == GeometryKind::None;
-    Leaf& was = output_.openLeaves[ended.firstLeaf + k];
     if (gone[k] || leaf.shape.geometry.mesh == meshOf(was, output_)) continue;
     setShape(was, leaf.shape, output_);
   }
   keepLeaves(ended.firstLeaf, ended.firstNode, ended.call.flat, gone);
+}
+
+// A leaf that stays though the operation failed. False where it stands for a deleted shape.
+bool Gathers::forgetOrigins(const Shape& s, Leaf& leaf) {
+  if (s.geometry.kind != GeometryKind::Mesh || originLevels(*s.geometry.mesh) == 0) return true;
+  if (isDeleted(*s.geometry.mesh)) return false;
+  Mesh mesh = *s.geometry.mesh;
+  dropOrigins(mesh, originLevels(mesh) - 1);
+  Shape without = s;
+  without.geometry.mesh = makeRef<Mesh>(std::move(mesh));
+  setShape(leaf, without, output_);
+  return true;
 }
 
 Gathers::Call Gathers::drop() {

@@ -38,16 +38,19 @@ class Gathers {
     std::vector<Value> arguments;
     /// The operation wants the tags of its leaves.
     bool tagged = false;
-    /// It gathers the components that its selectors took, and is given the deleted ones too.
-    bool keepsDeleted = false;
+    /// Its leaves have origins, and it is given the deleted ones too (OpCall::gather).
+    bool keepsOrigins = false;
   };
   void begin(Call call);
   bool anyOpen() const { return !open_.empty(); }
   bool anyTagged() const;
-  /// Whether the innermost call asks for shapes that are deleted.
-  bool keepsDeleted() const { return !open_.empty() && open_.back().call.keepsDeleted; }
+  /// Whether the innermost call wants to know where its leaves come from, and what is deleted.
+  bool keepsOrigins() const { return !open_.empty() && open_.back().call.keepsOrigins; }
+  /// The number of a shape that begins within the innermost call; the call gives out smaller ones.
+  double nextShape() { return 0x1.0p32 + static_cast<double>(open_.back().shapes++); }
   /// There must be one.
   const Call& outermost() const { return open_.front().call; }
+  const Call& innermost() const { return open_.back().call; }
   /// Whether the innermost call waits for the children of the activation at work, the last of so
   /// many.
   bool isDue(uint32_t activations) const { return due_ == activations; }
@@ -79,10 +82,12 @@ class Gathers {
     Call call;
     /// So many open leaves and nodes of the trace were there before.
     uint32_t firstLeaf = 0, firstNode = 0;
+    uint64_t shapes = 0;
     /// By child: its first leaf, and its slot.
     std::vector<std::pair<uint32_t, uint32_t>> children;
   };
   Open close();
+  bool forgetOrigins(const Shape& s, Leaf& leaf);
   void keepLeaves(uint32_t firstLeaf, uint32_t firstNode, bool flat, const std::vector<bool>& gone);
 
   Output& output_;

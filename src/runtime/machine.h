@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/work.h"
+#include "geom/mesh/origins.h"
 #include "program/program.h"
 #include "program/reach.h"
 #include "runtime/activation.h"
@@ -175,7 +176,11 @@ class Machine final : public Services, private WorkMeter {
 
   // Gathering: operations that wait for the leaves of their children.
   void keepDeleted(const Shape& s);
-  void beginGather(const Instruction& i, std::span<const Value> arguments);
+  Frame homeOf(const Shape& s) const;
+  std::optional<Handover> endOrigins(const Shape& s);
+  void beginOrigins(const Handover& from, Shape& s);
+  void handOver(const OpSpec& spec, size_t firstChild);
+  void beginGather(const Instruction& i, const OpCall& call, std::span<const Value> arguments);
   void endGather();
   void dropGathers();
   void leaveGather(const Gathers::Call& call);

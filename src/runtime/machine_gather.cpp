@@ -9,7 +9,8 @@
 namespace gable {
 
 // An operation that declares kReadsTags gets the tags of its leaves.
-void Machine::beginGather(const Instruction& i, std::span<const Value> arguments) {
+void Machine::beginGather(const Instruction& i, const OpCall& call,
+                          std::span<const Value> arguments) {
   gathers_.begin({&i,
                   activationCount_ - 1,
                   current().made,
@@ -17,7 +18,7 @@ void Machine::beginGather(const Instruction& i, std::span<const Value> arguments
                   lightPartsAllowed_,
                   {arguments.begin(), arguments.end()},
                   (program_.operations[i.a]->effects & kReadsTags) != 0,
-                  program_.operations[i.a]->block == BlockKind::Selectors});
+                  call.keepsOrigins()});
   flat_ = true;
   lightPartsAllowed_ = false;
 }
@@ -52,6 +53,56 @@ void Machine::endGather() {
     tellFailure(spec.name, status);
   }
   gathers_.putBack(ended, status.ok());
+}
+
+// An operation that glues its parts together wants to know where those lay that are gone.
+void Machine::keepDeleted(const Shape& s) {
+  if (!gathers_.keepsOrigins() || s.geometry.kind != GeometryKind::Mesh) return;
+  if (!hasOrigins(*s.geometry.mesh)) return;
+  Mesh mesh = *s.geometry.mesh;
+  markDeleted(mesh);
+  Shape deleted = s;
+  deleted.geometry.mesh = makeRef<Mesh>(std::move(mesh));
+  putLeaf(deleted, program_.rules[current().rule].name, pcOf(pc_ - 1));
+}
+
+// Takes what lies in the scope into that of the operation that waits.
+Frame Machine::homeOf(const Shape& s) const {
+  const Shape& home = activations_[gathers_.innermost().activation].shape;
+  return inverse(home.scope) * worlds_.ofLeaves() * s.scope;
+}
+
+// Notes what a shape moved by itself, where others begin with its geometry. The shape itself may go
+// on. Nothing where no origins are known.
+std::optional<Handover> Machine::endOrigins(const Shape& s) {
+  if (!gathers_.keepsOrigins() || s.geometry.kind != GeometryKind::Mesh) return std::nullopt;
+  if (!hasOrigins(*s.geometry.mesh)) return std::nullopt;
+  const Handover out(*meshInScope(s), homeOf(s));
+  if (out.moved()) keepDeleted(s);
+  return out;
+}
+
+void Machine::beginOrigins(const Handover& from, Shape& s) {
+  if (s.geometry.kind != GeometryKind::Mesh || !hasOrigins(*s.geometry.mesh)) return;
+  Mesh mesh = *meshInScope(s);
+  from.begin(mesh, homeOf(s), gathers_.nextShape());
+  setMesh(s, std::move(mesh), ScopeFit::Keep);
+}
+
+// From a shape that was divided to its parts.
+void Machine::handOver(const OpSpec& spec, size_t firstChild) {
+  const std::optional<Handover> from = endOrigins(current().shape);
+  if (!from) return;
+  for (size_t c = firstChild; c < children_.size(); ++c) {
+    Shape& child = children_[c].shape;
+    if ((spec.effects & kForgetsOrigins) == 0) {
+      beginOrigins(*from, child);
+    } else if (child.geometry.kind == GeometryKind::Mesh) {
+      Mesh mesh = *child.geometry.mesh;
+      dropOrigins(mesh, 0);
+      child.geometry.mesh = makeRef<Mesh>(std::move(mesh));
+    }
+  }
 }
 
 // A limit struck within.

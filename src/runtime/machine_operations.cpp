@@ -160,7 +160,11 @@ void Machine::operation(const Instruction& i, const Value* constants) {
     if (vertices > options().limits.shapeVertices) shapeTooLarge(spec);
     return;
   }
-  if (call.gathers() && children_.size() > childBase) beginGather(i, {arguments, i.x});
+  if (!call.gathers()) {
+    handOver(spec, childBase);
+  } else if (children_.size() > childBase) {
+    beginGather(i, call, {arguments, i.x});
+  }
   beginChildren(i, childBase, pieceBase);
 }
 

@@ -9,7 +9,6 @@
 
 #include <utility>
 
-#include "geom/mesh/recompose.h"
 #include "runtime/door.h"
 #include "runtime/leaf_shape.h"
 #include "runtime/machine.h"
@@ -79,11 +78,13 @@ void Machine::beginRule(uint32_t rule, uint32_t argumentCount, const Instruction
   }
   caller.pc = pc_;
   // The last call of a rule may take the shape itself.
-  if (last)
-    a.shape = std::move(caller.shape);
-  else
-    a.shape = caller.shape;
   a.rule = rule;
+  if (last) {
+    a.shape = std::move(caller.shape);
+  } else {
+    a.shape = caller.shape;
+    if (const auto from = endOrigins(caller.shape)) beginOrigins(*from, a.shape);
+  }
   a.stackBase = stack_.size() - argumentCount;
   a.parameters = a.stackBase;
   a.shapeStackBase = static_cast<uint32_t>(shapeStack_.size());
@@ -257,17 +258,6 @@ void Machine::makeChild() {
 }
 
 // NIL: the shape goes, and nothing after it runs. What it had made before stays.
-// An operation that glues its parts together wants to know where those lay that are gone.
-void Machine::keepDeleted(const Shape& s) {
-  if (!gathers_.keepsDeleted() || s.geometry.kind != GeometryKind::Mesh) return;
-  if (!hasOrigins(*s.geometry.mesh)) return;
-  Mesh mesh = *s.geometry.mesh;
-  markDeleted(mesh);
-  Shape deleted = s;
-  deleted.geometry.mesh = makeRef<Mesh>(std::move(mesh));
-  putLeaf(deleted, program_.rules[current().rule].name, pcOf(pc_ - 1));
-}
-
 void Machine::dropShape() {
   Activation& a = current();
   keepDeleted(a.shape);

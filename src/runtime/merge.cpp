@@ -29,7 +29,8 @@ bool sameMesh(const Mesh& a, const Mesh& b) {
     return f.firstCorner == g.firstCorner && f.cornerCount == g.cornerCount;
   };
   return a.positions == b.positions && a.corners == b.corners && a.uvs == b.uvs &&
-         a.normals == b.normals && a.edgeTags == b.edgeTags && a.vertexTags == b.vertexTags &&
+         a.notes == b.notes && a.normals == b.normals && a.edgeTags == b.edgeTags &&
+         a.vertexTags == b.vertexTags &&
          std::equal(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(), sameFace) &&
          std::equal(a.loops.begin(), a.loops.end(), b.loops.begin(), b.loops.end(), sameLoop);
 }

@@ -64,8 +64,8 @@ class Rebuilder {
     b_.beginLoop();
     for (const uint32_t c : ring) {
       const uint32_t corner = b_.addCorner(from_.corners[c]);
-      for (int set = 0; set < kUvSets; ++set) {
-        if (from_.hasUv(set)) b_.setUv(corner, set, from_.uvs[static_cast<size_t>(set)][c]);
+      for (int set = 0; set < from_.setCount(); ++set) {
+        if (from_.hasUv(set)) b_.setUv(corner, set, from_.set(set)[c]);
       }
     }
   }

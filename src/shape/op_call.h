@@ -206,8 +206,15 @@ class OpCall {
   }
   /// The children are derived to their leaves, and OpSpec::gathered then gets these before the rule
   /// goes on with shape(). Where it succeeds the operation counts as one without children.
-  void gather() { gathers_ = true; }
+  /// `origins`: the children have origins (geom/mesh/origins.h). The runtime has the shapes that
+  /// come of them begin where their parents end; those that are deleted or that end in others are
+  /// given too, marked as deleted.
+  void gather(bool origins = false) {
+    gathers_ = true;
+    keepsOrigins_ = origins;
+  }
   bool gathers() const { return gathers_; }
+  bool keepsOrigins() const { return keepsOrigins_; }
   /// Deletes the shape (NIL): nothing after the operation runs.
   void drop() { dropped_ = true; }
   bool dropped() const { return dropped_; }
@@ -239,7 +246,7 @@ class OpCall {
   Services& services_;
   const CallPlace& place_;
   BlockInput* block_;
-  bool dropped_ = false, gathers_ = false;
+  bool dropped_ = false, gathers_ = false, keepsOrigins_ = false;
 };
 
 class FunctionCall {

@@ -31,7 +31,7 @@ bool plainMesh(const Mesh& m) {
       std::any_of(m.edgeTags.begin(), m.edgeTags.end(), [](uint32_t t) { return t != 0; })) {
     return false;
   }
-  for (int set = 0; set < kUvSets; ++set) {
+  for (int set = 0; set < m.setCount(); ++set) {
     if (m.hasUv(set)) return false;
   }
   for (const MeshFace& f : m.faces) {

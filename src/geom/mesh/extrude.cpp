@@ -203,8 +203,8 @@ class Extrusion {
 
   void addCorner(uint32_t position, uint32_t source, uint32_t tags) {
     const uint32_t corner = builder_.addCorner(position, tags);
-    for (int s = 0; s < kUvSets; ++s) {
-      if (mesh_.hasUv(s)) builder_.setUv(corner, s, mesh_.uvs[static_cast<size_t>(s)][source]);
+    for (int s = 0; s < mesh_.setCount(); ++s) {
+      if (mesh_.hasUv(s)) builder_.setUv(corner, s, mesh_.set(s)[source]);
     }
   }
 

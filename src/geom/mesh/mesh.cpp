@@ -100,9 +100,9 @@ uint64_t Mesh::contentHash() const {
   uint64_t h = hashCombine(0, positions.size());
   for (const Vec3& p : positions) h = hashVec(h, p);
   h = hashShape(h, *this);
-  for (const auto& set : uvs) {
-    h = hashCombine(h, set.size());
-    for (const Vec2 uv : set) h = hashVec(h, uv);
+  for (int s = 0; s < setCount(); ++s) {
+    h = hashCombine(h, set(s).size());
+    for (const Vec2 uv : set(s)) h = hashVec(h, uv);
   }
   h = hashCombine(h, normals.size());
   for (const Vec3& n : normals) h = hashVec(h, n);
@@ -126,9 +126,9 @@ bool Mesh::valid() const {
   for (const Vec3& p : positions) {
     if (!isFinite(p)) return false;
   }
-  for (const auto& set : uvs) {
-    if (!set.empty() && set.size() != corners.size()) return false;
-    for (const Vec2 uv : set) {
+  for (int s = 0; s < setCount(); ++s) {
+    if (hasUv(s) && set(s).size() != corners.size()) return false;
+    for (const Vec2 uv : set(s)) {
       if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) return false;
     }
   }
@@ -143,7 +143,7 @@ bool Mesh::valid() const {
 void reverseFace(Mesh& m, size_t face) {
   for (const MeshLoop& loop : m.loopsOf(face)) {
     reverseKeepingFirst(m.corners, loop);
-    for (auto& set : m.uvs) reverseKeepingFirst(set, loop);
+    for (int s = 0; s < m.setCount(); ++s) reverseKeepingFirst(m.set(s), loop);
     reverseKeepingFirst(m.normals, loop);
     reverseEdges(m.edgeTags, loop);
     if (m.normals.empty()) continue;
@@ -177,7 +177,11 @@ void append(Mesh& to, const Mesh& from, uint16_t slotOffset) {
     a.insert(a.end(), b.begin(), b.end());
     a.resize(cornerTotal);
   };
-  for (size_t s = 0; s < to.uvs.size(); ++s) appendOptional(to.uvs[s], from.uvs[s]);
+  const std::vector<Vec2> none;
+  to.notes.resize(std::max(to.notes.size(), from.notes.size()));
+  for (int s = 0; s < to.setCount(); ++s) {
+    appendOptional(to.set(s), s < from.setCount() ? from.set(s) : none);
+  }
   appendOptional(to.normals, from.normals);
   appendOptional(to.edgeTags, from.edgeTags);
   if (!from.vertexTags.empty()) {

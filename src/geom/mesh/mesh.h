@@ -73,6 +73,9 @@ class Mesh : public RefCounted {
   std::vector<uint32_t> corners;
   /// Each either empty or as long as corners.
   std::array<std::vector<Vec2>, kUvSets> uvs;
+  /// More sets of the same kind, which rules do not see: what operations note of corners while they
+  /// wait for others (mesh/origins.h). Cuts and copies keep them as they keep uv coordinates.
+  std::vector<std::vector<Vec2>> notes;
   std::vector<Vec3> normals;
   std::vector<uint32_t> edgeTags;
   /// By position, and no longer than positions: those beyond its end have none.
@@ -80,7 +83,17 @@ class Mesh : public RefCounted {
 
   bool empty() const { return faces.empty(); }
   size_t faceCount() const { return faces.size(); }
-  bool hasUv(int set) const { return !uvs[static_cast<size_t>(set)].empty(); }
+  /// The uv sets, and the notes as the sets behind them.
+  int setCount() const { return kUvSets + static_cast<int>(notes.size()); }
+  const std::vector<Vec2>& set(int s) const {
+    const auto i = static_cast<size_t>(s);
+    return i < kUvSets ? uvs[i] : notes[i - kUvSets];
+  }
+  std::vector<Vec2>& set(int s) {
+    const auto i = static_cast<size_t>(s);
+    return i < kUvSets ? uvs[i] : notes[i - kUvSets];
+  }
+  bool hasUv(int s) const { return !set(s).empty(); }
 
   std::span<const MeshLoop> loopsOf(size_t face) const {
     return {loops.data() + faces[face].firstLoop, faces[face].loopCount};
@@ -130,7 +143,7 @@ class MeshBuilder {
   void beginLoop();
   /// Adds a corner to the open loop and gives its index.
   uint32_t addCorner(uint32_t position, uint32_t edgeTags = 0);
-  /// Sets a uv of a corner; unset ones of the set become (0, 0).
+  /// Sets a uv or a note of a corner; unset ones of the set become (0, 0).
   void setUv(uint32_t corner, int set, Vec2 uv);
   void setNormal(uint32_t corner, const Vec3& n);
   /// A face of one loop.

@@ -44,7 +44,8 @@ uint32_t MeshBuilder::addCorner(uint32_t position, uint32_t edgeTags) {
 }
 
 void MeshBuilder::setUv(uint32_t corner, int set, Vec2 uv) {
-  std::vector<Vec2>& v = mesh_.uvs[static_cast<size_t>(set)];
+  if (set >= mesh_.setCount()) mesh_.notes.resize(static_cast<size_t>(set - kUvSets) + 1);
+  std::vector<Vec2>& v = mesh_.set(set);
   if (v.size() <= corner) v.resize(corner + 1);
   v[corner] = uv;
 }
@@ -75,8 +76,8 @@ void MeshBuilder::copyFace(const Mesh& from, size_t face, std::vector<uint32_t>&
       uint32_t& position = map[from.corners[c]];
       if (position == kNoPosition) position = copyPosition(from, from.corners[c]);
       const uint32_t corner = addCorner(position, from.edgeTagsAt(edge));
-      for (int s = 0; s < kUvSets; ++s) {
-        if (from.hasUv(s)) setUv(corner, s, from.uvs[static_cast<size_t>(s)][c]);
+      for (int s = 0; s < from.setCount(); ++s) {
+        if (from.hasUv(s)) setUv(corner, s, from.set(s)[c]);
       }
       if (!from.normals.empty()) {
         setNormal(corner, reversed ? -from.normals[c] : from.normals[c]);
@@ -87,8 +88,8 @@ void MeshBuilder::copyFace(const Mesh& from, size_t face, std::vector<uint32_t>&
 
 Mesh MeshBuilder::take() {
   const size_t n = mesh_.corners.size();
-  for (auto& set : mesh_.uvs) {
-    if (!set.empty()) set.resize(n);
+  for (int s = 0; s < mesh_.setCount(); ++s) {
+    if (mesh_.hasUv(s)) mesh_.set(s).resize(n);
   }
   if (!mesh_.normals.empty()) mesh_.normals.resize(n);
   if (!mesh_.edgeTags.empty()) mesh_.edgeTags.resize(n);

@@ -46,8 +46,8 @@ class Rebuild {
       tags = from_.edgeTags[other == edges_.end() ? c : other->second];
     }
     const uint32_t corner = builder_.addCorner(position, tags);
-    for (int s = 0; s < kUvSets; ++s) {
-      if (from_.hasUv(s)) builder_.setUv(corner, s, from_.uvs[static_cast<size_t>(s)][c]);
+    for (int s = 0; s < from_.setCount(); ++s) {
+      if (from_.hasUv(s)) builder_.setUv(corner, s, from_.set(s)[c]);
     }
     if (!from_.normals.empty()) builder_.setNormal(corner, from_.normals[c]);
   }

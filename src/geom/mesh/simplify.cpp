@@ -402,10 +402,8 @@ void Simplifier::addTriangle(const Tri& t, MeshBuilder& b, std::vector<uint32_t>
       position = b.addPosition(mesh_.positions[t.vertex[k]]);
     }
     const uint32_t corner = b.addCorner(position);
-    for (int set = 0; set < kUvSets; ++set) {
-      if (mesh_.hasUv(set)) {
-        b.setUv(corner, set, mesh_.uvs[static_cast<size_t>(set)][t.corner[k]]);
-      }
+    for (int set = 0; set < mesh_.setCount(); ++set) {
+      if (mesh_.hasUv(set)) b.setUv(corner, set, mesh_.set(set)[t.corner[k]]);
     }
   }
 }

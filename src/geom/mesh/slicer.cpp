@@ -33,8 +33,8 @@ Slicer::Slicer(const Mesh& m, std::vector<double> cornerValues, int axis, const 
       direction_(direction),
       points_(m.positions),
       values_(std::move(cornerValues)),
-      uvs_(m.uvs),
       normals_(m.normals) {
+  for (int s = 0; s < m.setCount(); ++s) sets_.push_back(m.set(s));
   measureTolerance(tolerance);
   collapseShortEdges();
 }
@@ -120,7 +120,7 @@ uint32_t Slicer::pointOn(const cut::Corner& a, const cut::Corner& b) {
 uint32_t Slicer::interpolate(uint32_t a, uint32_t b, double t) {
   const auto attributes = static_cast<uint32_t>(values_.size());
   values_.push_back(cut_);
-  for (auto& set : uvs_) {
+  for (auto& set : sets_) {
     if (!set.empty()) set.push_back(mix(set[a], set[b], t));
   }
   if (!normals_.empty()) normals_.push_back(normalized(mix(normals_[a], normals_[b], t)));
@@ -276,9 +276,8 @@ MeshPart Slicer::build(const std::vector<Piece>& pieces, const CutOptions& optio
         if (c.edge != MeshPart::kNone) tags = mesh_.edgeTagsAt(c.edge);
         const uint32_t corner = b.addCorner(position, tags);
         part.edgeSource.push_back(c.edge);
-        for (int s = 0; s < kUvSets; ++s) {
-          const auto& set = uvs_[static_cast<size_t>(s)];
-          if (!set.empty()) b.setUv(corner, s, set[c.attributes]);
+        for (size_t s = 0; s < sets_.size(); ++s) {
+          if (!sets_[s].empty()) b.setUv(corner, static_cast<int>(s), sets_[s][c.attributes]);
         }
         if (!normals_.empty()) b.setNormal(corner, normals_[c.attributes]);
       }

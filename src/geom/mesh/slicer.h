@@ -5,7 +5,6 @@
 // and of corner attributes that the parts refer to, and is the host of region/cut.h.
 #pragma once
 
-#include <array>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -66,6 +65,7 @@ class Slicer : public cut::Host {
                                  const std::vector<bool>& closed) const;
   std::vector<cut::Loop> linkLoops(const std::vector<CapEdge>& edges, uint32_t attributes) const;
   void capSide(const std::vector<bool>& closed, const Vec3& normal, std::vector<Piece>& pieces);
+  void giveNotes(const std::vector<Piece>& pieces, std::vector<cut::Face>& caps);
 
   const Mesh& mesh_;
   int axis_;
@@ -80,7 +80,7 @@ class Slicer : public cut::Host {
   std::vector<uint32_t> standIn_;
   // By attribute number; corners of the input come first.
   std::vector<double> values_;
-  std::array<std::vector<Vec2>, kUvSets> uvs_;
+  std::vector<std::vector<Vec2>> sets_;
   std::vector<Vec3> normals_;
   std::unordered_multimap<uint64_t, NewPoint> edgePoints_;
 };

@@ -123,6 +123,37 @@ std::vector<cut::Loop> Slicer::linkLoops(const std::vector<CapEdge>& edges,
   return loops;
 }
 
+// The vertices of a cap are those of the faces around it, and have their notes.
+void Slicer::giveNotes(const std::vector<Piece>& pieces, std::vector<cut::Face>& caps) {
+  std::unordered_map<uint32_t, uint32_t> like;
+  for (const Piece& piece : pieces) {
+    for (const cut::Loop& loop : piece.face) {
+      work(loop.size());
+      for (const cut::Corner& c : loop) like.try_emplace(c.point, c.attributes);
+    }
+  }
+  for (cut::Face& face : caps) {
+    for (cut::Loop& loop : face) {
+      for (cut::Corner& c : loop) {
+        work(sets_.size());
+        const auto from = like.find(c.point);
+        if (from == like.end()) continue;
+        values_.push_back(values_[c.attributes]);
+        for (size_t s = 0; s < sets_.size(); ++s) {
+          if (sets_[s].empty()) continue;
+          const Vec2 value = sets_[s][s < kUvSets ? c.attributes : from->second];
+          sets_[s].push_back(value);
+        }
+        if (!normals_.empty()) {
+          const Vec3 normal = normals_[c.attributes];
+          normals_.push_back(normal);
+        }
+        c.attributes = static_cast<uint32_t>(values_.size() - 1);
+      }
+    }
+  }
+}
+
 void Slicer::capSide(const std::vector<bool>& closed, const Vec3& normal,
                      std::vector<Piece>& pieces) {
   const std::vector<CapEdge> edges = openEdges(pieces, closed);
@@ -133,12 +164,13 @@ void Slicer::capSide(const std::vector<bool>& closed, const Vec3& normal,
   up_ = plane.y;
   const auto attributes = static_cast<uint32_t>(values_.size());
   values_.push_back(cut_);
-  for (auto& set : uvs_) {
+  for (auto& set : sets_) {
     if (!set.empty()) set.push_back({});
   }
   if (!normals_.empty()) normals_.push_back(normal);
   std::vector<cut::Face> caps;
   cut::nestLoops(linkLoops(edges, attributes), *this, caps);
+  if (!mesh_.notes.empty()) giveNotes(pieces, caps);
   for (cut::Face& f : caps) pieces.push_back({std::move(f), MeshPart::kNone});
 }
 

@@ -36,8 +36,8 @@ struct Copier {
 
   void corner(uint32_t like, uint32_t position, uint32_t tags) const {
     const uint32_t made = to.addCorner(position, tags);
-    for (int set = 0; set < kUvSets; ++set) {
-      if (from.hasUv(set)) to.setUv(made, set, from.uvs[static_cast<size_t>(set)][like]);
+    for (int set = 0; set < from.setCount(); ++set) {
+      if (from.hasUv(set)) to.setUv(made, set, from.set(set)[like]);
     }
   }
 };

@@ -43,7 +43,8 @@ Mesh withoutHoles(const Mesh& m) {
     };
     const auto first = static_cast<uint32_t>(out.corners.size());
     copy(m.corners, out.corners);
-    for (size_t set = 0; set < m.uvs.size(); ++set) copy(m.uvs[set], out.uvs[set]);
+    out.notes.resize(m.notes.size());
+    for (int set = 0; set < m.setCount(); ++set) copy(m.set(set), out.set(set));
     copy(m.normals, out.normals);
     copy(m.edgeTags, out.edgeTags);
     loop.firstCorner = first;

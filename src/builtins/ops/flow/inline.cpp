@@ -6,7 +6,7 @@
 
 #include "builtins/lists.h"
 #include "builtins/ops/shared/joined.h"
-#include "geom/solid/connect.h"
+#include "geom/mesh/origins.h"
 #include "program/tag_effects.h"
 #include "shape/op_call.h"
 
@@ -29,12 +29,19 @@ struct Inline {
   Merge geometryMergeStrategy = Merge::Append;
 };
 
-Status beginInline(OpCall& call, const Inline&) {
+Status beginInline(OpCall& call, const Inline& args) {
+  const bool glued = args.geometryMergeStrategy == Merge::Recompose;
+  Shape child = call.shape();
+  if (glued && child.geometry.kind != GeometryKind::None) {
+    Mesh mesh = *meshInScope(child);
+    noteOrigins(mesh, 1);
+    setMesh(child, std::move(mesh), ScopeFit::Keep);
+  }
   uint32_t piece = 0;
   for (const SelectorItem& item : call.selectors()) {
-    if (item.terms.empty()) call.emit(call.shape(), item.slot, piece++);
+    if (item.terms.empty()) call.emit(child, item.slot, piece++);
   }
-  call.gather();
+  call.gather(glued);
   return {};
 }
 
@@ -43,8 +50,6 @@ Status joinShapes(Shape& s, const Parts& parts, Merge merge, Services& services)
   JoinedMesh joined = joiner.join(s.scope, parts);
   if (merge == Merge::Unify) {
     if (Status status = unify(joined, services); !status.ok()) return status;
-  } else if (merge == Merge::Recompose) {
-    joined.mesh = connected(joined.mesh);
   }
   joiner.giveMaterials(s);
   giveAttributes(s, parts);
@@ -53,9 +58,28 @@ Status joinShapes(Shape& s, const Parts& parts, Merge merge, Services& services)
   return {};
 }
 
+void takeWithoutOrigins(Shape& s, const Shape& other) {
+  take(s, other);
+  if (s.geometry.kind != GeometryKind::Mesh) return;
+  Mesh mesh = *meshInScope(s);
+  if (originLevels(mesh) == 0) return;
+  dropOrigins(mesh, originLevels(mesh) - 1);
+  setMesh(s, std::move(mesh), ScopeFit::Keep);
+}
+
 Status finishInline(OpCall& call, std::span<Gathered> leaves) {
   Inline args;
   if (Status status = call.bind(&args); !status.ok()) return status;
+  if (args.geometryMergeStrategy == Merge::Recompose) {
+    const bool one = leaves.size() == 1 && !isDeleted(leaves[0].shape);
+    if (one) {
+      leaves[0].taken = true;
+      takeWithoutOrigins(call.shape(), leaves[0].shape);
+    } else {
+      recompose(call.shape(), nullptr, leaves, call.services());
+    }
+    return {};
+  }
   Parts parts;
   for (Gathered& leaf : leaves) {
     leaf.taken = true;

@@ -29,7 +29,7 @@ void turnFace(Mesh& m, size_t face) {
     };
     // Corners begin with the end of the first edge, edges with the first edge itself.
     reorder(m.corners, 1);
-    for (auto& set : m.uvs) reorder(set, 1);
+    for (int set = 0; set < m.setCount(); ++set) reorder(m.set(set), 1);
     reorder(m.normals, 1);
     reorder(m.edgeTags, 0);
     if (m.normals.empty()) continue;

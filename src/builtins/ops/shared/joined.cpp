@@ -8,22 +8,29 @@
 
 #include "base/work.h"
 #include "builtins/auto_tags.h"
+#include "geom/mesh/origins.h"
 #include "geom/solid/boolean.h"
+#include "geom/solid/recompose.h"
 #include "shape/tags.h"
 
 namespace gable {
 
 Joiner::Joiner(Services& services, const Parts& all)
-    : like_(haveOneMaterial(all) ? all[0] : nullptr), slots_(services) {}
+    : like_(!all.empty() && haveOneMaterial(all) ? all[0] : nullptr), slots_(services) {}
+
+Mesh Joiner::meshOf(const Shape& s, const Frame* toHome) {
+  Mesh out = *meshInScope(s);
+  if (toHome) out = transformed(out, {1, 1, 1}, *toHome * s.scope);
+  work(static_cast<uint32_t>(out.corners.size()));
+  if (!like_) slots_.put(out, s);
+  return out;
+}
 
 JoinedMesh Joiner::join(const Frame& home, const Parts& parts) {
   JoinedMesh out;
   const Frame toHome = inverse(home);
   for (uint32_t k = 0; k < parts.size(); ++k) {
-    Mesh more = transformed(*meshInScope(*parts[k]), {1, 1, 1}, toHome * parts[k]->scope);
-    work(static_cast<uint32_t>(more.corners.size()));
-    if (!like_) slots_.put(more, *parts[k]);
-    append(out.mesh, more);
+    append(out.mesh, meshOf(*parts[k], &toHome));
     out.partOf.resize(out.mesh.faceCount(), k);
   }
   return out;
@@ -36,6 +43,35 @@ void Joiner::giveMaterials(Shape& s) {
     return;
   }
   s.assetMaterials = slots_.interned();
+}
+
+bool isDeleted(const Shape& s) {
+  return s.geometry.kind == GeometryKind::Mesh && isDeleted(*s.geometry.mesh);
+}
+
+void recompose(Shape& s, const Shape* whole, std::span<Gathered> leaves, Services& services) {
+  const auto isThere = [](const Shape& p) { return p.geometry.kind != GeometryKind::None; };
+  Parts seen;
+  if (whole && isThere(*whole)) seen.push_back(whole);
+  for (Gathered& leaf : leaves) {
+    leaf.taken = true;
+    if (isThere(leaf.shape) && !isDeleted(leaf.shape)) seen.push_back(&leaf.shape);
+  }
+  Joiner joiner(services, seen);
+  const Frame toHome = inverse(s.scope);
+  const Mesh rest = whole && isThere(*whole) ? joiner.meshOf(*whole, nullptr) : Mesh();
+  std::vector<Mesh> parts;
+  for (const Gathered& leaf : leaves) {
+    if (!isThere(leaf.shape)) continue;
+    parts.push_back(isDeleted(leaf.shape) ? transformed(*meshInScope(leaf.shape), {1, 1, 1},
+                                                        toHome * leaf.shape.scope)
+                                          : joiner.meshOf(leaf.shape, &toHome));
+  }
+  Mesh glued = recomposed(rest, parts, whole ? LooseParts::Move : LooseParts::Stay);
+  if (!seen.empty()) joiner.giveMaterials(s);
+  if (!whole) giveAttributes(s, seen);
+  s.geometry = {};
+  if (!glued.empty()) setMesh(s, std::move(glued), ScopeFit::Refit);
 }
 
 void giveAttributes(Shape& s, const Parts& parts) {

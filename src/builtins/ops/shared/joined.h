@@ -6,10 +6,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "builtins/ops/shared/material_slots.h"
 #include "geom/mesh/mesh.h"
+#include "shape/op_call.h"
 #include "shape/services.h"
 #include "shape/shape.h"
 
@@ -28,8 +30,10 @@ struct JoinedMesh {
 /// the geometry: it becomes a slot of the joined shape's mesh.
 class Joiner {
  public:
-  /// `all`: the set, at least one shape.
+  /// `all`: the set.
   Joiner(Services& services, const Parts& all);
+  /// The geometry of one of them, `toHome` of its local frame; null: in its own scope.
+  Mesh meshOf(const Shape& s, const Frame* toHome);
   /// In the coordinates of `home`.
   JoinedMesh join(const Frame& home, const Parts& parts);
   /// Gives the shape the materials of the joined meshes.
@@ -40,6 +44,14 @@ class Joiner {
   const Shape* like_ = nullptr;
   MaterialSlots slots_;
 };
+
+/// Glues shapes with origins together (geom/solid/recompose.h): the gathered leaves, all of which
+/// it takes, and `whole`, of which they are parts. Null: the leaves are all, and edges and vertices
+/// among them stay. The axes of the scope stay, and it is fitted.
+void recompose(Shape& s, const Shape* whole, std::span<Gathered> leaves, Services& services);
+
+/// Whether a gathered leaf stands for a shape that is deleted.
+bool isDeleted(const Shape& s);
 
 /// The attributes that all agree on; those of the shape where they do not.
 void giveAttributes(Shape& s, const Parts& parts);

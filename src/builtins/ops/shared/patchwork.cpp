@@ -147,7 +147,8 @@ std::vector<Patch> patchesOf(std::vector<PatchEdge> edges, std::span<const Vec2>
 
 PatchPlane::PatchPlane(const Mesh& m, size_t face)
     : mesh_(m), face_(face), frame_(planFrame(m, face)), polygon_(facePolygon(m, face, frame_)) {
-  for (int set = 0; set < kUvSets; ++set) {
+  uv_.resize(static_cast<size_t>(m.setCount()));
+  for (int set = 0; set < m.setCount(); ++set) {
     if (m.hasUv(set)) fit(set);
   }
 }
@@ -168,7 +169,7 @@ void PatchPlane::addCorner(uint32_t corner, Vec2 at) {
 // From the triangle of the outer loop with the largest area.
 void PatchPlane::fit(int set) {
   const Ring& r = polygon_.outer;
-  const auto& uvs = mesh_.uvs[static_cast<size_t>(set)];
+  const auto& uvs = mesh_.set(set);
   double best = 0;
   for (size_t i = 1; i + 1 < r.size(); ++i) {
     work();
@@ -217,7 +218,7 @@ Mesh meshOfPatches(const Mesh& from, std::span<const PatchFace> faces) {
           position = b.addPosition(fromPlanFrame(plane.frame(), at), tags);
         }
         const uint32_t corner = b.addCorner(position, tagged.tags);
-        for (int set = 0; set < kUvSets; ++set) {
+        for (int set = 0; set < from.setCount(); ++set) {
           if (from.hasUv(set)) b.setUv(corner, set, plane.uvAt(set, at));
         }
       }

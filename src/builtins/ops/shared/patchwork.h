@@ -63,7 +63,7 @@ class PatchPlane {
   size_t face_;
   Frame frame_;
   Polygon polygon_;
-  std::array<Affine, kUvSets> uv_{};
+  std::vector<Affine> uv_;
 };
 
 /// A patch that is to become a face.

@@ -189,7 +189,7 @@ constexpr PartSpec kParts[] = {{"shape", "The largest rectangle inside."},
 constexpr OpSpec kSpecs[] = {
     heavy({"innerRectangle", "subdivide",
            "Gives out the largest rectangle in each face, and what remains.", kSignatures,
-           typed<applyInnerRectangle>, BlockKind::Selectors, kPure, kParts}),
+           typed<applyInnerRectangle>, BlockKind::Selectors, kForgetsOrigins, kParts}),
     heavy({"innerRect", "subdivide",
            "Replaces each face by the largest rectangle in it along the scope.", kNone,
            applyInnerRect}),

@@ -316,7 +316,7 @@ constexpr Signature kLSignatures[] = {{kLParams}};
 constexpr Signature kUSignatures[] = {{kUParams}};
 constexpr Signature kOSignatures[] = {{kOParams}};
 
-constexpr uint32_t kEffects = kReadsWorld | kReadsWorldByWord;
+constexpr uint32_t kEffects = kReadsWorld | kReadsWorldByWord | kForgetsOrigins;
 constexpr PartSpec kRemainder[] = {{"remainder", "What the strips leave of the face."}};
 constexpr PartSpec kWingParts[] = {{"shape", "The wings."},
                                    {"remainder", "What they leave of the face."}};
@@ -331,12 +331,12 @@ constexpr OpSpec kSpecs[] = {
                      "As setback, by such a distance that a given area remains.", kToArea,
                      typed<applySetbackToArea>, BlockKind::Selectors, kEffects, kRemainder})),
     heavy({"shapeL", "subdivide", "Gives out an L of a front and a left wing, and what remains.",
-           kLSignatures, typed<applyWings>, BlockKind::Selectors, kPure, kWingParts}),
+           kLSignatures, typed<applyWings>, BlockKind::Selectors, kForgetsOrigins, kWingParts}),
     heavy({"shapeU", "subdivide",
            "Gives out a U of a front, a right and a left wing, and what remains.", kUSignatures,
-           typed<applyWings>, BlockKind::Selectors, kPure, kWingParts}),
+           typed<applyWings>, BlockKind::Selectors, kForgetsOrigins, kWingParts}),
     heavy({"shapeO", "subdivide", "Gives out a ring of four wings, and what remains.", kOSignatures,
-           typed<applyWings>, BlockKind::Selectors, kPure, kWingParts}),
+           typed<applyWings>, BlockKind::Selectors, kForgetsOrigins, kWingParts}),
 };
 
 }  // namespace

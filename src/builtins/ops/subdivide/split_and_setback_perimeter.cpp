@@ -105,7 +105,8 @@ constexpr PartSpec kParts[] = {{"remainder", "What the sections leave of the fac
 constexpr OpSpec kSpecs[] = {
     heavy({"splitAndSetbackPerimeter", "subdivide",
            "Divides the outline of faces into sections and sets each back by a depth of its own.",
-           kSignatures, typed<applySplitAndSetback>, BlockKind::Split, kRandom, kParts}),
+           kSignatures, typed<applySplitAndSetback>, BlockKind::Split, kRandom | kForgetsOrigins,
+           kParts}),
 };
 
 }  // namespace

@@ -135,7 +135,7 @@ constexpr Signature kSignatures[] = {{kParams}};
 
 constexpr OpSpec kSpecs[] = {
     heavy({"splitArea", "subdivide", "Divides a flat shape into parts of given areas.", kSignatures,
-           typed<applySplitArea>, BlockKind::Split}),
+           typed<applySplitArea>, BlockKind::Split, kForgetsOrigins}),
 };
 
 }  // namespace

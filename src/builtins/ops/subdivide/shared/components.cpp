@@ -315,8 +315,8 @@ class Extractor {
       positions_.push_back(position);
     }
     const uint32_t made = builder_.addCorner(to, tags);
-    for (int set = 0; set < kUvSets; ++set) {
-      if (from_.hasUv(set)) builder_.setUv(made, set, from_.uvs[static_cast<size_t>(set)][like]);
+    for (int set = 0; set < from_.setCount(); ++set) {
+      if (from_.hasUv(set)) builder_.setUv(made, set, from_.set(set)[like]);
     }
     return made;
   }
