@@ -20,6 +20,7 @@
 #include "io/geo/geo_frames.h"
 #include "io/geo/transverse_mercator.h"
 #include "io/importers/geojson_edges.h"
+#include "io/importers/geojson_root.h"
 #include "io/importers/shape_input.h"
 #include "shape/edge_attributes.h"
 
@@ -47,12 +48,6 @@ struct Feature {
 
 std::string textOf(const JsonValue& v) {
   return v.isNumber() ? shortestText(v.number(0)) : v.text();
-}
-
-bool pointOf(const JsonValue& v, Vec2& out) {
-  if (v.size() < 2 || !v.at(0).isNumber() || !v.at(1).isNumber()) return false;
-  out = {v.at(0).number(0), v.at(1).number(0)};
-  return std::isfinite(out.x) && std::isfinite(out.y);
 }
 
 class GeoJsonReader {
@@ -198,7 +193,7 @@ void GeoJsonReader::measure(const JsonValue& geometry, bool lines, int depth) {
   const auto line = [&](const JsonValue& points) {
     for (const JsonValue& p : points.items()) {
       Vec2 at;
-      if (!pointOf(p, at)) continue;
+      if (!positionOf(p, at)) continue;
       extent_.include(at);
       eastward_.include({at.x < 0 ? at.x + 360 : at.x, at.y});
     }
@@ -209,7 +204,7 @@ void GeoJsonReader::measure(const JsonValue& geometry, bool lines, int depth) {
     Box2 own;
     for (const JsonValue& p : rings.at(0).items()) {
       Vec2 at;
-      if (pointOf(p, at)) own.include(at);
+      if (positionOf(p, at)) own.include(at);
     }
     if (!own.empty()) widths_.push_back(std::max(own.size().x, own.size().y));
   };
@@ -222,17 +217,6 @@ void GeoJsonReader::measure(const JsonValue& geometry, bool lines, int depth) {
   if (type == "GeometryCollection" && depth < kDeepestCollection) {
     for (const JsonValue& g : geometry["geometries"].items()) measure(g, lines, depth + 1);
   }
-}
-
-// Whether a `crs` member names longitude and latitude; true when there is none.
-bool namesDegrees(const JsonValue& root) {
-  const std::string& name = root["crs"]["properties"]["name"].text();
-  if (name.empty()) return true;
-  const auto endsWith = [&](const std::string& tail) {
-    return name.size() >= tail.size() &&
-           name.compare(name.size() - tail.size(), tail.size(), tail) == 0;
-  };
-  return endsWith("CRS84") || endsWith(":4326") || endsWith(":4258") || endsWith(":4269");
 }
 
 void GeoJsonReader::chooseProjection(const JsonValue& root) {
@@ -292,7 +276,7 @@ bool GeoJsonReader::readPoints(const JsonValue& coordinates, std::vector<Vec2>& 
   for (const JsonValue& v : coordinates.items()) {
     work();
     Vec2 p;
-    if (!pointOf(v, p)) {
+    if (!positionOf(v, p)) {
       complain(Severity::Error, "geojson-coordinates", "a position is not two numbers");
       return false;
     }
