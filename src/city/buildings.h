@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// What a map knows of its buildings, and a guess of what it does not: the storeys of those around,
+// of the same kind if there are some. A guess depends on the map alone, so it is the same each
+// time.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "io/importers/map_features.h"
+
+namespace gable {
+
+struct BuildingFacts {
+  /// From the middle of its box.
+  Vec2 place;
+  double area = 0;
+  /// Storeys as the map has them, or from its height; 0 where it has neither.
+  double levels = 0;
+  /// Storeys by the neighbours; 0 where none is near.
+  double guessedLevels = 0;
+  /// Parts of a building cover most of it, and stand for it.
+  bool hasParts = false;
+};
+
+/// By feature; those of what is no building say nothing. O(n log n), mostly.
+std::vector<BuildingFacts> buildingFactsOf(const std::vector<MapFeature>& features);
+
+bool isBuilding(const MapFeature& f);
+bool isBuildingPart(const MapFeature& f);
+
+}  // namespace gable

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+#include "city/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/json.h"
+#include "base/work.h"
+#include "city/buildings.h"
+#include "city/ribbon.h"
+#include "geom/curve/curve.h"
+#include "geom/region/boolean.h"
+#include "geom/region/clean.h"
+
+namespace gable {
+namespace {
+
+// Corners nearer to the line of their neighbours say nothing of a building, in metres.
+constexpr double kSurveyed = 0.03;
+constexpr double kLeastBuilding = 3;
+constexpr double kLeastPart = 0.5;
+
+AttributeValue number(const char* name, double v) {
+  PlainValue value;
+  value.number = v;
+  return {name, {value}, 0, 0};
+}
+AttributeValue truth(const char* name, bool v) {
+  PlainValue value;
+  value.kind = PlainValue::Kind::Bool;
+  value.number = v ? 1 : 0;
+  return {name, {value}, 0, 0};
+}
+PlainValue text(std::string v) {
+  PlainValue value;
+  value.kind = PlainValue::Kind::Text;
+  value.text = std::move(v);
+  return value;
+}
+
+std::vector<AttributeValue> tagsOf(const MapFeature& f) {
+  std::vector<AttributeValue> out;
+  for (const auto& [name, value] : f.tags) out.push_back({name, {text(value)}, 0, 0});
+  return out;
+}
+
+// A value for each edge.
+AttributeValue list(const char* name, std::vector<PlainValue> values) {
+  AttributeValue out{name, std::move(values), 1, 0};
+  out.columns = static_cast<uint32_t>(out.values.size());
+  return out;
+}
+
+bool isRoadway(Surface s) { return s == Surface::Carriageway || s == Surface::Junction; }
+
+// Without what surveys and the ground's grid have added; the longest edge first.
+Polygon cleaned(const Polygon& p) {
+  const auto clean = [](Ring r) {
+    dropDuplicates(r, kSurveyed);
+    dropCollinear(r, kSurveyed);
+    return r;
+  };
+  Polygon out{clean(p.outer), {}};
+  for (const Ring& h : p.holes) {
+    Ring hole = clean(h);
+    if (hole.size() >= 3) out.holes.push_back(std::move(hole));
+  }
+  if (out.outer.size() < 3 || !isValid(out)) out = p;
+  size_t longest = 0;
+  double most = -1;
+  for (size_t i = 0; i < out.outer.size(); ++i) {
+    const double l = length(out.outer[(i + 1) % out.outer.size()] - out.outer[i]);
+    if (l > most + 1e-6) {
+      most = l;
+      longest = i;
+    }
+  }
+  std::rotate(out.outer.begin(), out.outer.begin() + static_cast<std::ptrdiff_t>(longest),
+              out.outer.end());
+  return out;
+}
+
+bool within(Vec2 p, const Box2& box) {
+  return p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y;
+}
+
+class Planner {
+ public:
+  explicit Planner(const MapFeatures& map)
+      : map_(map), streets_(streetsOf(map.features)), facts_(buildingFactsOf(map.features)) {
+    out_.area = map.area;
+    out_.skips = map.skips;
+    out_.ground = groundOf(map.features, streets_, map.area);
+  }
+
+  CityPlan plan() {
+    for (const GroundPiece& p : out_.ground) addGround(p);
+    GroundIndex index(out_.ground);
+    for (uint32_t i = 0; i < map_.features.size(); ++i) {
+      work();
+      addAbove(i);
+      addLine(map_.features[i]);
+      addThing(map_.features[i], index);
+    }
+    addStreets();
+    addCrossings();
+    return std::move(out_);
+  }
+
+ private:
+  CityShape& add(const char* rule, const std::string& id) {
+    out_.shapes.emplace_back();
+    out_.shapes.back().rule = rule;
+    out_.shapes.back().id = id;
+    return out_.shapes.back();
+  }
+
+  void addGround(const GroundPiece& p) {
+    const MapFeature* f = p.feature == GroundPiece::kNothing ? nullptr : &map_.features[p.feature];
+    CityShape& shape = add(surfaceName(p.surface), f ? f->id : std::string());
+    shape.polygon = p.polygon;
+    if (f) shape.attributes = tagsOf(*f);
+    std::vector<PlainValue> beyond, widths;
+    for (const uint32_t b : p.beyond) {
+      const bool known = b != GroundPiece::kNothing;
+      const Surface s = known ? out_.ground[b].surface : Surface::Lot;
+      beyond.push_back(text(known ? surfaceName(s) : ""));
+      PlainValue width;
+      width.number = known && isRoadway(s) && !isRoadway(p.surface) ? 1 : 0;
+      widths.push_back(width);
+    }
+    shape.attributes.push_back(list("/edgeattr/beyond", std::move(beyond)));
+    shape.attributes.push_back(list("streetWidth", std::move(widths)));
+    if (p.surface == Surface::Footprint && f) addBuilding(p.polygon, p.feature);
+  }
+
+  void describe(CityShape& shape, uint32_t feature) const {
+    const BuildingFacts& facts = facts_[feature];
+    shape.attributes = tagsOf(map_.features[feature]);
+    shape.attributes.push_back(number("known_levels", facts.levels));
+    shape.attributes.push_back(number("guessed_levels", facts.guessedLevels));
+    shape.attributes.push_back(truth("has_parts", facts.hasParts));
+  }
+
+  void addBuilding(const Polygon& p, uint32_t feature) {
+    if (area(p) < kLeastBuilding) return;
+    CityShape& shape = add("Building", map_.features[feature].id);
+    shape.polygon = cleaned(p);
+    describe(shape, feature);
+  }
+
+  // Parts of buildings, and buildings that take no ground: roofs on posts, what stands on others.
+  void addAbove(uint32_t feature) {
+    const MapFeature& f = map_.features[feature];
+    const bool part = isBuildingPart(f);
+    if (!part && (!isBuilding(f) || isOnGround(f))) return;
+    if (tagNumber(f.tag("layer")).value_or(0) < 0 || f.tag("location") == "underground") return;
+    const bool roof = f.tag("building") == "roof" || f.tag("building:part") == "roof";
+    for (const Polygon& p : repaired(f.rings, FillRule::EvenOdd)) {
+      if (area(p) < kLeastPart || !within(p.outer[0], out_.area)) continue;
+      CityShape& shape = add(roof ? "Canopy" : part ? "BuildingPart" : "Building", f.id);
+      shape.polygon = cleaned(p);
+      describe(shape, feature);
+    }
+  }
+
+  void addLine(const MapFeature& f) {
+    if (f.kind != MapFeature::Kind::Line || !isOnGround(f)) return;
+    const char* rule = nullptr;
+    const std::string_view rail = f.tag("railway");
+    if (rail == "rail" || rail == "tram" || rail == "light_rail" || rail == "narrow_gauge") {
+      rule = "Rails";
+    } else if (f.tag("natural") == "tree_row") {
+      rule = "TreeRow";
+    } else {
+      for (const char* kind : {"wall", "city_wall", "retaining_wall", "fence", "hedge"}) {
+        if (f.tag("barrier") == kind) rule = "Barrier";
+      }
+    }
+    if (!rule) return;
+    // What lies in the area, as far as points tell.
+    std::vector<Vec2> line;
+    const auto finish = [&] {
+      if (line.size() > 1) {
+        CityShape& shape = add(rule, f.id);
+        shape.line = line;
+        shape.attributes = tagsOf(f);
+      }
+      line.clear();
+    };
+    for (const Vec2 p : f.points) {
+      if (within(p, out_.area)) {
+        line.push_back(p);
+      } else {
+        finish();
+      }
+    }
+    finish();
+  }
+
+  void addThing(const MapFeature& f, GroundIndex& index) {
+    if (f.kind != MapFeature::Kind::Point || !isOnGround(f)) return;
+    const bool tree = f.tag("natural") == "tree", lamp = f.tag("highway") == "street_lamp";
+    if (!tree && !lamp) return;
+    const uint32_t piece = index.pieceAt(f.points[0]);
+    if (piece == GroundPiece::kNothing) return;
+    const Surface s = out_.ground[piece].surface;
+    // Streets are as wide as usual here, and may be narrower there.
+    if (isRoadway(s) || s == Surface::Footprint || s == Surface::Sea || s == Surface::Water) return;
+    CityShape& shape = add(tree ? "Tree" : "StreetLamp", f.id);
+    const Vec2 p = f.points[0];
+    shape.polygon.outer = {{p.x - 0.5, p.y - 0.5},
+                           {p.x + 0.5, p.y - 0.5},
+                           {p.x + 0.5, p.y + 0.5},
+                           {p.x - 0.5, p.y + 0.5}};
+    shape.attributes = tagsOf(f);
+  }
+
+  void addStreets() {
+    for (const Stretch& s : streets_.stretches) {
+      const double whole = lineLength(s.line);
+      const std::vector<Vec2> middle = linePart(s.line, s.cutBegin, whole - s.cutEnd);
+      // In the area, whole.
+      const bool inside =
+          std::all_of(middle.begin(), middle.end(), [&](Vec2 p) { return within(p, out_.area); });
+      if (!inside || whole - s.cutBegin - s.cutEnd < 1) continue;
+      CityShape& shape = add("Street", map_.features[s.feature].id);
+      shape.line = middle;
+      for (AttributeValue& a : tagsOf(map_.features[s.feature])) {
+        if (a.name != "width" && a.name != "lanes") {
+          shape.attributes.push_back(std::move(a));
+        }
+      }
+      shape.attributes.push_back(number("width", s.profile.width));
+      shape.attributes.push_back(number("lanes", s.profile.lanes));
+      shape.attributes.push_back(truth("one_way", s.profile.oneway));
+      shape.attributes.push_back(number("left_walk", s.profile.leftWalk));
+      shape.attributes.push_back(number("right_walk", s.profile.rightWalk));
+      shape.attributes.push_back(truth("at_junction", s.cutEnd > 0));
+    }
+  }
+
+  // Where the map has a crossing on a street: a rectangle from kerb to kerb, outside of junctions.
+  void addCrossings() {
+    std::map<std::pair<double, double>, std::pair<uint32_t, double>> places;
+    for (uint32_t i = 0; i < streets_.stretches.size(); ++i) {
+      const Stretch& s = streets_.stretches[i];
+      double along = 0;
+      for (size_t k = 0; k < s.line.size(); ++k) {
+        work();
+        if (k > 0) along += length(s.line[k] - s.line[k - 1]);
+        places.emplace(std::pair(s.line[k].x, s.line[k].y), std::pair(i, along));
+      }
+    }
+    for (const MapFeature& f : map_.features) {
+      if (f.kind != MapFeature::Kind::Point || f.tag("highway") != "crossing") continue;
+      const auto at = places.find({f.points[0].x, f.points[0].y});
+      if (at == places.end() || !within(f.points[0], out_.area)) continue;
+      addCrossing(f, streets_.stretches[at->second.first], at->second.second);
+    }
+  }
+
+  void addCrossing(const MapFeature& f, const Stretch& s, double along) {
+    constexpr double kLong = 3;
+    const Path path(s.line);
+    const double low = s.cutBegin + kLong / 2 + 0.3,
+                 high = path.length() - s.cutEnd - kLong / 2 - 0.3;
+    if (low > high) return;
+    const Path::Place place = path.at(std::clamp(along, low, high));
+    const Vec2 on = place.tangent * (kLong / 2);
+    const Vec2 side = Vec2{-place.tangent.y, place.tangent.x} * (s.profile.width / 2);
+    CityShape& shape = add("Crossing", f.id);
+    // The first edge runs across the street.
+    shape.polygon.outer = {place.point - side + on, place.point + side + on,
+                           place.point + side - on, place.point - side - on};
+    shape.attributes = tagsOf(f);
+    shape.attributes.push_back(number("street_width", s.profile.width));
+  }
+
+  const MapFeatures& map_;
+  Streets streets_;
+  std::vector<BuildingFacts> facts_;
+  CityPlan out_;
+};
+
+}  // namespace
+
+CityPlan planCity(const MapFeatures& map) { return Planner(map).plan(); }
+
+std::string planGeoJson(const CityPlan& plan, const MapFeatures& map) {
+  std::string out;
+  JsonWriter w(out);
+  const auto ring = [&](const Ring& r) {
+    w.beginArray();
+    for (size_t i = 0; i <= r.size(); ++i) {
+      work();
+      const Vec2 p = r[i % r.size()];
+      const GeoPlace at = map.geo ? map.geo->at(p) : GeoPlace{p.x, p.y, {}};
+      w.beginArray();
+      w.value(at.degrees ? at.degrees->longitude : at.x);
+      w.value(at.degrees ? at.degrees->latitude : at.y).endArray();
+    }
+    w.endArray();
+  };
+  w.beginObject().field("type", "FeatureCollection").key("features").beginArray();
+  for (const GroundPiece& p : plan.ground) {
+    out += '\n';
+    w.beginObject().field("type", "Feature").key("properties").beginObject();
+    w.field("surface", surfaceName(p.surface));
+    if (p.feature != GroundPiece::kNothing) w.field("id", map.features[p.feature].id);
+    w.field("area", area(p.polygon)).endObject();
+    w.key("geometry").beginObject().field("type", "Polygon").key("coordinates").beginArray();
+    ring(p.polygon.outer);
+    for (const Ring& h : p.polygon.holes) ring(h);
+    w.endArray().endObject().endObject();
+  }
+  w.endArray().endObject();
+  out += '\n';
+  return out;
+}
+
+}  // namespace gable

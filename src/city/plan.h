@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The plan of a place: its ground, and the initial shapes that rules make the place from. Plan
+// coordinates, metres.
+//
+//   shape          is                                                      begins with the rule
+//   ground         a piece of the ground                                   Lot, Lawn, Carriageway,
+//   .. buildings      the part of a footprint that no other building has      Building
+//                  a building:part; a roof on posts                        BuildingPart, Canopy
+//   lines          a stretch of a street between junctions, rails, ..      Street, Rails, TreeRow,
+//                                                                          Barrier
+//   crossings      a rectangle across the carriageway, x across it         Crossing
+//   single things  a square of a metre                                     Tree, StreetLamp
+//
+// Attributes are the tags of the feature, and what is said in docs/guide/city.md.
+// Promises: equal input gives equal output. O(n log n), mostly.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "city/ground.h"
+#include "io/importers/map_features.h"
+
+namespace gable {
+
+struct CityShape {
+  /// The rule that it begins with.
+  std::string rule;
+  /// Of its feature; several shapes may have one.
+  std::string id;
+  Polygon polygon;
+  /// In place of a polygon.
+  std::vector<Vec2> line;
+  std::vector<AttributeValue> attributes;
+};
+
+struct CityPlan {
+  Box2 area;
+  std::vector<GroundPiece> ground;
+  std::vector<CityShape> shapes;
+  MapSkips skips;
+};
+
+CityPlan planCity(const MapFeatures& map);
+
+/// The ground as GeoJSON for map programs: a feature a piece, with `surface`, `id` and `area`.
+std::string planGeoJson(const CityPlan& plan, const MapFeatures& map);
+
+}  // namespace gable

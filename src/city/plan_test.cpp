@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The ground of small hostile maps and of two real ones.
+
+#include "city/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+#include <tuple>
+
+#include "base/child_process.h"
+#include "base/files.h"
+#include "geom/region/clean.h"
+#include "geom/region/segment_grid.h"
+
+namespace gable {
+namespace {
+
+// A feature of GeoJSON in metres.
+std::string feature(const std::string& tags, const std::string& kind, const std::string& at) {
+  return R"({"type":"Feature","properties":{)" + tags + R"(},"geometry":{"type":")" + kind +
+         R"(","coordinates":)" + at + "}}";
+}
+
+Result<MapFeatures> mapOf(const std::vector<std::string>& features) {
+  std::string text =
+      R"({"type":"FeatureCollection","crs":{"properties":{"name":"EPSG:32632"}},"features":[)";
+  for (size_t i = 0; i < features.size(); ++i) text += (i ? "," : "") + features[i];
+  return readMapFeatures(text + "]}", {"a.geojson", {}, false}, {}, MapBox{0, 0, 200, 200});
+}
+
+double areaOf(const CityPlan& plan, Surface s) {
+  double sum = 0;
+  for (const GroundPiece& p : plan.ground) sum += p.surface == s ? area(p.polygon) : 0;
+  return sum;
+}
+size_t countOf(const CityPlan& plan, const std::string& rule) {
+  size_t n = 0;
+  for (const CityShape& s : plan.shapes) n += s.rule == rule;
+  return n;
+}
+
+// Areas add up, polygons are valid, and each edge within has its counterpart in one neighbour.
+void expectWhole(const CityPlan& plan) {
+  const double whole = plan.area.size().x * plan.area.size().y;
+  double sum = 0;
+  std::map<std::tuple<double, double, double, double>, uint32_t> edges;
+  for (uint32_t i = 0; i < plan.ground.size(); ++i) {
+    const Polygon& p = plan.ground[i].polygon;
+    sum += area(p);
+    EXPECT_TRUE(isValid(p)) << surfaceName(plan.ground[i].surface) << ' ' << i;
+    for (const Segment& s : edgesOf(p)) {
+      EXPECT_TRUE(edges.emplace(std::tuple(s.a.x, s.a.y, s.b.x, s.b.y), i).second);
+    }
+  }
+  // Corners of the area lie on a grid of four millimetres.
+  EXPECT_NEAR(sum, whole, 1e-4 * whole);
+  size_t atBorder = 0;
+  for (const GroundPiece& p : plan.ground) {
+    const std::vector<Segment> own = edgesOf(p.polygon);
+    ASSERT_EQ(own.size(), p.beyond.size());
+    for (size_t k = 0; k < own.size(); ++k) {
+      const auto at = edges.find({own[k].b.x, own[k].b.y, own[k].a.x, own[k].a.y});
+      EXPECT_EQ(p.beyond[k], at == edges.end() ? GroundPiece::kNothing : at->second);
+      if (at != edges.end()) continue;
+      ++atBorder;
+      const auto near = [](double v, double w) { return std::fabs(v - w) < 0.01; };
+      const Vec2 a = own[k].a, b = own[k].b;
+      EXPECT_TRUE((near(a.x, b.x) && (near(a.x, plan.area.min.x) || near(a.x, plan.area.max.x))) ||
+                  (near(a.y, b.y) && (near(a.y, plan.area.min.y) || near(a.y, plan.area.max.y))));
+    }
+  }
+  EXPECT_GE(atBorder, 4u);
+}
+
+TEST(CityPlan, EachPlaceHasOneSurface) {
+  auto map = mapOf(
+      {feature(R"("highway":"residential")", "LineString", "[[0,100],[200,100]]"),
+       feature(R"("leisure":"park")", "Polygon", "[[[0,90],[80,90],[80,190],[0,190],[0,90]]]"),
+       feature(R"("natural":"water")", "Polygon",
+               "[[[10,120],[20,120],[20,130],[10,130],[10,120]]]"),
+       feature(R"("building":"yes")", "Polygon",
+               "[[[100,101],[120,101],[120,121],[100,121],[100,101]]]")});
+  ASSERT_TRUE(map.ok());
+  const CityPlan plan = planCity(*map);
+  expectWhole(plan);
+  EXPECT_NEAR(areaOf(plan, Surface::Footprint), 400, 0.1);
+  EXPECT_NEAR(areaOf(plan, Surface::Water), 100, 0.1);
+  // The house stands two metres in a street of six.
+  EXPECT_NEAR(areaOf(plan, Surface::Carriageway), 200 * 6 - 20 * 2, 0.5);
+  EXPECT_NEAR(areaOf(plan, Surface::Park), 80 * 90 - 100, 0.5);
+  EXPECT_EQ(countOf(plan, "Building"), 1u);
+  EXPECT_EQ(countOf(plan, "Street"), 1u);
+}
+
+TEST(CityPlan, BadRowsAreCountedAndNamed) {
+  auto map = mapOf(
+      {feature(R"("highway":"residential")", "LineString", "[[5,5],[5,5]]"),
+       feature(R"("building":"yes")", "Polygon", "[[[1,1],[2,2]]]"),
+       feature(R"("building":"yes")", "Polygon", R"([[[1,1],["x",2],[3,3]]])"),
+       feature(R"("building":"yes")", "Polygon", "[[[50,50],[60,50],[60,60],[50,60]],[[1,1]]]"),
+       feature(R"("building":"yes")", "Blob", "[]"), "7", R"({"type":"Feature"})"});
+  ASSERT_TRUE(map.ok());
+  EXPECT_EQ(map->skips.count, 7u);
+  EXPECT_EQ(map->skips.first[0].reason, "a line has no length");
+  expectWhole(planCity(*map));
+}
+
+TEST(CityPlan, HostileMapsKeepThePromise) {
+  std::vector<std::string> rows;
+  for (const char* kind : {"primary", "service", "residential", "footway", "steps"}) {
+    const std::string tags = R"("highway":")" + std::string(kind) + '"';
+    // On top of each other, across themselves, to and fro, repeated nodes, a needle's bend.
+    rows.push_back(feature(tags, "LineString", "[[-50,100],[100,100],[250,100]]"));
+    rows.push_back(feature(tags, "LineString", "[[20,20],[180,180],[180,20],[20,180],[20,20]]"));
+    rows.push_back(feature(tags, "LineString", "[[50,100],[60,100],[50,100],[60,100],[60,100]]"));
+    rows.push_back(feature(tags, "LineString", "[[30,60],[90,60.001],[30,60.002],[90,60.003]]"));
+    rows.push_back(feature(tags, "LineString", "[[100,100],[100,150]]"));
+  }
+  // Crossing itself; holes that overlap and leave the outline; on the border; far outside.
+  rows.push_back(
+      feature(R"("building":"yes")", "Polygon", "[[[90,90],[110,110],[110,90],[90,110],[90,90]]]"));
+  rows.push_back(feature(R"("landuse":"grass")", "MultiPolygon",
+                         "[[[[5,5],[70,5],[70,70],[5,70],[5,5]],[[20,20],[90,20],[90,40],[20,40]],"
+                         "[[30,10],[40,10],[40,60],[30,60]]],[[[60,60],[80,60],[80,80]]]]"));
+  rows.push_back(
+      feature(R"("natural":"water")", "Polygon", "[[[-9,150],[30,150],[30,209],[-9,209]]]"));
+  rows.push_back(feature(R"("leisure":"park")", "Polygon", "[[[1e7,1e7],[2e7,1e7],[2e7,2e7]]]"));
+  rows.push_back(
+      feature(R"("natural":"wood")", "Polygon", "[[[-1e7,-1e7],[140,-1e7],[140,1e7],[-1e7,1e7]]]"));
+  rows.push_back(
+      feature(R"("natural":"coastline")", "LineString", "[[150,-20],[150,60],[230,60]]"));
+  auto map = mapOf(rows);
+  ASSERT_TRUE(map.ok());
+  const CityPlan plan = planCity(*map);
+  expectWhole(plan);
+  EXPECT_GT(areaOf(plan, Surface::Junction), 10);
+  EXPECT_GT(areaOf(plan, Surface::Sea), 1000);
+}
+
+TEST(CityPlan, UnknownStoreysAreThoseOfTheNeighbours) {
+  const auto house = [](int x, const std::string& tags) {
+    const std::string a = std::to_string(x), b = std::to_string(x + 10);
+    return feature(R"("building":"yes")" + tags, "Polygon",
+                   "[[[" + a + ",50],[" + b + ",50],[" + b + ",60],[" + a + ",60]]]");
+  };
+  auto map = mapOf({house(10, R"(,"building:levels":"5")"), house(30, ""),
+                    house(50, R"(,"building:levels":"5")"), house(70, R"(,"height":"6.4 m")")});
+  ASSERT_TRUE(map.ok());
+  const CityPlan plan = planCity(*map);
+  std::vector<double> known, guessed;
+  for (const CityShape& s : plan.shapes) {
+    if (s.rule != "Building") continue;
+    for (const AttributeValue& a : s.attributes) {
+      if (a.name == "known_levels") known.push_back(a.values[0].number);
+      if (a.name == "guessed_levels") guessed.push_back(a.values[0].number);
+    }
+  }
+  std::sort(known.begin(), known.end());
+  EXPECT_EQ(known, (std::vector<double>{0, 2, 5, 5}));
+  EXPECT_EQ(*std::max_element(guessed.begin(), guessed.end()), 5);
+}
+
+TEST(CityPlan, PartsStandForTheirBuilding) {
+  auto map = mapOf(
+      {feature(R"("building":"yes")", "Polygon", "[[[10,10],[30,10],[30,20],[10,20]]]"),
+       feature(R"("building:part":"yes","min_height":"3")", "Polygon",
+               "[[[10,10],[20,10],[20,20],[10,20]]]"),
+       feature(R"("building:part":"yes")", "Polygon", "[[[20,10],[30,10],[30,20],[20,20]]]")});
+  ASSERT_TRUE(map.ok());
+  const CityPlan plan = planCity(*map);
+  EXPECT_EQ(countOf(plan, "BuildingPart"), 2u);
+  for (const CityShape& s : plan.shapes) {
+    if (s.rule != "Building") continue;
+    for (const AttributeValue& a : s.attributes) {
+      if (a.name == "has_parts") EXPECT_EQ(a.values[0].number, 1);
+    }
+  }
+  // Parts take no ground of their own.
+  EXPECT_NEAR(areaOf(plan, Surface::Footprint), 200, 0.1);
+}
+
+class RealMap : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(RealMap, KeepsThePromise) {
+  const char* shared = std::getenv("GABLE_SHARED");
+  const std::string path = std::string(shared ? shared : "../shared") + "/data/gis/" + GetParam();
+  Result<std::string> bytes = readFile(path, uint64_t{1} << 30);
+  if (!bytes.ok()) GTEST_SKIP() << path << " is not there";
+  if (programBeside("gable-maps").empty()) GTEST_SKIP() << "gable-maps is not built";
+  auto map = readMapFeatures(*bytes, {path, {}, false});
+  ASSERT_TRUE(map.ok()) << map.error().message;
+  const CityPlan plan = planCity(*map);
+  expectWhole(plan);
+  EXPECT_GT(countOf(plan, "Building"), 200u);
+  EXPECT_GT(countOf(plan, "Street"), 30u);
+  EXPECT_GT(areaOf(plan, Surface::Junction), 500);
+}
+
+INSTANTIATE_TEST_SUITE_P(Maps, RealMap,
+                         ::testing::Values("monaco-latest.osm.pbf", "prague_vinohrady.osm"),
+                         [](const auto& info) { return info.index == 0 ? "Monaco" : "Vinohrady"; });
+
+}  // namespace
+}  // namespace gable
