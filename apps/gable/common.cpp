@@ -14,6 +14,7 @@
 #include <mutex>
 #include <random>
 
+#include "derive_settings.h"
 #include "gable/files.h"
 
 bool parseSeed(const std::string& text, double& seed) {
@@ -61,6 +62,31 @@ gable::FileLimits fileLimits(const LimitArguments& arguments) {
   return limits;
 }
 
+int deriveSettings(const DeriveArguments& arguments, gable::DeriveSettings& s) {
+  s.startRule = arguments.start;
+  if (!parseSeed(arguments.seed, s.seed)) {
+    return wrongOption("--seed", "a number or the word random", arguments.seed);
+  }
+  s.sharing = !arguments.noSharing;
+  s.jobs = arguments.jobs;
+  if (arguments.limits.maxSeconds > 0.0) s.limits.seconds = arguments.limits.maxSeconds;
+  s.limits.shapes = arguments.maxShapes;
+  s.limits.vertices = arguments.maxVertices;
+  s.limits.width = arguments.maxWidth;
+  s.limits.depth = arguments.maxDepth;
+  s.limits.steps = arguments.maxSteps;
+  s.limits.bytes = fileLimits(arguments.limits).bytes;
+  s.cancel = cancelFlag();
+  for (const std::string& pair : arguments.set) {
+    const size_t equals = pair.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      return wrongOption("--set", "NAME=VALUE", pair);
+    }
+    s.attributes.emplace_back(pair.substr(0, equals), pair.substr(equals + 1));
+  }
+  return kExitDone;
+}
+
 int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
   const gable::FileLimits limits = fileLimits(arguments.limits);
   gable::LoadSettings load{arguments.project, arguments.dialect, arguments.style, arguments.search};
@@ -93,29 +119,7 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
   if (!inputs.shapes.ok() && inputs.shapes.size() == 0) {
     return statusOf(inputs.shapes.diagnostics(), kExitWrong);
   }
-  gable::DeriveSettings& s = inputs.settings;
-  s.startRule = arguments.start;
-  if (!parseSeed(arguments.seed, s.seed)) {
-    return wrongOption("--seed", "a number or the word random", arguments.seed);
-  }
-  s.sharing = !arguments.noSharing;
-  s.jobs = arguments.jobs;
-  if (arguments.limits.maxSeconds > 0.0) s.limits.seconds = arguments.limits.maxSeconds;
-  s.limits.shapes = arguments.maxShapes;
-  s.limits.vertices = arguments.maxVertices;
-  s.limits.width = arguments.maxWidth;
-  s.limits.depth = arguments.maxDepth;
-  s.limits.steps = arguments.maxSteps;
-  s.limits.bytes = limits.bytes;
-  s.cancel = cancelFlag();
-  for (const std::string& pair : arguments.set) {
-    const size_t equals = pair.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      return wrongOption("--set", "NAME=VALUE", pair);
-    }
-    s.attributes.emplace_back(pair.substr(0, equals), pair.substr(equals + 1));
-  }
-  return kExitDone;
+  return deriveSettings(arguments, inputs.settings);
 }
 
 int statusOf(const gable::Model& model) {

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 
+#include "city.h"
 #include "commands.h"
 #include "gable/names.h"
 
@@ -156,6 +157,34 @@ void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
   generate->callback([&a, &status] { status = runGenerate(a); });
 }
 
+void addCity(CLI::App& app, CityArguments& a, int& status) {
+  auto* city = app.add_subcommand("city", "Make a place from its map: streets, ground, buildings");
+  city->add_option("map", a.derive.shapes, "The map: .osm .pbf .geojson .gpkg .fgb .shp .kml .dxf")
+      ->required();
+  city->add_option(
+      "--rules", a.derive.rules,
+      "A folder with city.cga, or a rule file (default: the rules that come with Gable)");
+  city->add_option("--box", a.box,
+                   "The part of the map: west,south,east,north in degrees, or in the map's metres\n"
+                   "(default: the box around its buildings)");
+  city->add_option("--layer", a.derive.layer, "The layer of the map, where it has several");
+  city->add_option("-o,--output", a.output, "The model: .glb .gltf .obj .ply .stl .png");
+  city->add_option("--plan", a.plan, "Write the ground as GeoJSON: a polygon a piece, its surface");
+  city->add_option("--stats", a.stats, "Write areas and counts as JSON to a file, or - for stdout");
+  city->add_option("--set", a.derive.set, "An attribute's value: NAME=VALUE; may be repeated")
+      ->type_size(1)
+      ->expected(1)
+      ->take_all();
+  city->add_option("--seed", a.derive.seed, "The seed of all random numbers (default 0)");
+  addSearch(city, a.derive.search);
+  city->add_option("--jobs", a.derive.jobs, "Threads (default: one per processor)")
+      ->check(number({0, 4096, true}));
+  addLimits(city, a.derive.limits,
+            "Stop reading, deriving and writing after so many seconds each (default: 600 for\n"
+            "files, no limit else)");
+  city->callback([&a, &status] { status = runCity(a); });
+}
+
 void addPack(CLI::App& app, PackArguments& a, int& status) {
   auto* pack = app.add_subcommand("pack", "Write rules with all that they use to one file");
   pack->add_option("rules", a.rules, "The rule file")->required();
@@ -250,6 +279,8 @@ int main(int argc, char** argv) {
 
   GenerateArguments generate;
   addGenerate(app, generate, status);
+  CityArguments city;
+  addCity(app, city, status);
   CheckArguments check;
   addCheck(app, check, status);
   InfoArguments info;

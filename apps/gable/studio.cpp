@@ -6,26 +6,9 @@
 #include "gable/studio.h"
 
 #include <cstdio>
-#include <filesystem>
 
 #include "commands.h"
-
-namespace {
-
-namespace fs = std::filesystem;
-
-/// The first folder that holds `file`, as seen from the program: in a build, then installed.
-std::string folderWith(const char* file, const std::initializer_list<const char*>& folders) {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const char* folder : folders) {
-    const fs::path candidate = program / folder;
-    if (fs::exists(candidate / file, error)) return fs::weakly_canonical(candidate, error).string();
-  }
-  return {};
-}
-
-}  // namespace
+#include "folders.h"
 
 int runStudioCommand(const StudioArguments& arguments) {
   gable::StudioSettings settings;
@@ -33,7 +16,7 @@ int runStudioCommand(const StudioArguments& arguments) {
   settings.search = arguments.search;
   settings.port = static_cast<uint16_t>(arguments.port);
   settings.page = folderWith("index.html", {"../studio", "../share/gable/studio"});
-  settings.examples = folderWith("README.md", {"../../examples", "../share/gable/examples"});
+  settings.examples = examplesFolder();
   if (settings.page.empty()) {
     std::fputs("gable: the studio's page is not there; './run studio' builds it\n", stderr);
     return kExitFile;

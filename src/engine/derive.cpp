@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 
 #include "base/text.h"
-#include "engine/impl.h"
+#include "engine/footprint.h"
 #include "shape/edge_attributes.h"
 
 namespace gable {
@@ -38,6 +39,8 @@ std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, const Progra
                                         ValuePool& pool) {
   std::vector<InitialShape> out;
   out.reserve(shapes.footprints.size());
+  // Whether the rules have one of the name.
+  std::map<std::string, bool> rules;
   for (const ShapeFootprint& f : shapes.footprints) {
     InitialShape s;
     s.name = f.name;
@@ -49,6 +52,12 @@ std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, const Progra
     s.groups = f.groups;
     s.index = f.index;
     for (const AttributeValue& a : f.attributes) {
+      if (a.name == kStartRuleAttribute && a.values.size() == 1) {
+        const std::string& name = a.values[0].text;
+        const auto [rule, fresh] = rules.try_emplace(name, false);
+        if (fresh) rule->second = !name.empty() && program.findRule(name) >= 0;
+        if (rule->second) s.startRule = name;
+      }
       const Value value = valueOfAttribute(a, pool);
       if (EdgeAttributes::isNamed(a.name, value.isArray()) && value.isArray()) {
         s.edgeAttributes.emplace_back(edgeAttributeName(a.name), value);

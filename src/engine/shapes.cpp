@@ -11,19 +11,13 @@
 #include "base/files.h"
 #include "base/work.h"
 #include "engine/file_search.h"
+#include "engine/footprint.h"
 #include "engine/guard.h"
-#include "engine/impl.h"
 #include "geom/mesh/face_plane.h"
 #include "geom/region/region.h"
-#include "io/importers/shape_input.h"
 
 namespace gable {
 
-namespace {
-
-constexpr uint64_t kLargestShapeFile = 2ull << 30;
-
-// The frame stands, unturned, on a whole metre near the lower corner: offsets stay exact.
 ShapeFootprint footprint(ShapeInput input) {
   ShapeFootprint f;
   f.name = std::move(input.name);
@@ -43,6 +37,8 @@ ShapeFootprint footprint(ShapeInput input) {
   f.mesh = transformed(input.mesh, {1, 1, 1}, Frame::moved(-origin));
   return f;
 }
+
+namespace {
 
 /// Where a lot or a polygon of the caller's may lie: far beyond every map in metres.
 constexpr double kMostCoordinate = 1e9;

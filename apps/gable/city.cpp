@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// gable city: a map is planned, the rules for cities are derived on its plan, the model is written.
+
+#include "city.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "derive_settings.h"
+#include "folders.h"
+#include "gable/city.h"
+#include "gable/files.h"
+#include "json/city_json.h"
+
+namespace {
+
+/// Where city.cga lies: in the folder of the user's rules, or with the examples. Rules of the
+/// user's find what they import there as well.
+int findRules(DeriveArguments& arguments) {
+  const std::string examples = examplesFolder();
+  if (!examples.empty()) arguments.search.libraries.push_back(examples);
+  if (arguments.rules.empty()) {
+    if (examples.empty()) {
+      std::fputs("gable: the rules for cities are not there; name a folder with --rules\n", stderr);
+      return kExitFile;
+    }
+    arguments.rules = examples + "/rules/city.cga";
+  } else if (std::filesystem::is_directory(arguments.rules)) {
+    arguments.rules += "/city.cga";
+  }
+  return kExitDone;
+}
+
+int readBox(const std::string& text, gable::CitySettings& settings) {
+  if (text.empty()) return kExitDone;
+  settings.box.emplace();
+  if (parseNumbers(text, ',', {-1e9, 1e9}, settings.box->data(), 4)) return kExitDone;
+  return wrongOption("--box", "west,south,east,north, such as 7.41,43.72,7.44,43.75", text);
+}
+
+int writeModel(const gable::City& city, CityArguments& arguments, gable::RunFigures& figures) {
+  gable::DeriveSettings settings;
+  if (const int status = deriveSettings(arguments.derive, settings)) return status;
+  if (const int status = findRules(arguments.derive)) return status;
+  const gable::FileLimits limits = fileLimits(arguments.derive.limits);
+  gable::LoadSettings load;
+  load.search = arguments.derive.search;
+  load.limits = limits;
+  const gable::Rules rules = gable::Rules::load(arguments.derive.rules, load);
+  print(rules.diagnostics());
+  if (!rules.found()) return kExitFile;
+  if (!rules.ok()) return statusOf(rules.diagnostics(), kExitWrong);
+  ProgressLine progress("deriving");
+  settings.progress = progress.callback();
+  const gable::Model model = gable::derive(rules, city.shapes(), settings);
+  print(model.diagnostics());
+  for (const std::string& line : model.prints()) std::fprintf(stderr, "%s\n", line.c_str());
+  if (gable::hasErrors(model.diagnostics())) return statusOf(model);
+  figures.deriveSeconds = model.deriveSeconds();
+  const double begin = secondsNow();
+  const gable::WriteResult written = model.write(arguments.output, {false, limits});
+  print(written.diagnostics);
+  if (!written.ok) return statusOf(written.diagnostics, kExitFile);
+  figures.writeSeconds = secondsNow() - begin;
+  if (written.triangles > 0) figures.triangles = written.triangles;
+  return statusOf(model);
+}
+
+}  // namespace
+
+int runCity(const CityArguments& given) {
+  CityArguments arguments = given;
+  const double begin = secondsNow();
+  if (arguments.output.empty() && arguments.plan.empty() && arguments.stats.empty()) {
+    std::fputs("gable: say what to write: a model with -o, the ground with --plan\n", stderr);
+    return kExitUsage;
+  }
+  if (!arguments.output.empty()) {
+    std::vector<std::string> formats = gable::modelExtensions();
+    formats.emplace_back("png");
+    if (const int status = checkExtension(arguments.output, formats)) return status;
+  }
+  gable::CitySettings settings;
+  settings.layer = arguments.derive.layer;
+  if (const int status = readBox(arguments.box, settings)) return status;
+  const gable::City city =
+      gable::City::load(arguments.derive.shapes, settings, fileLimits(arguments.derive.limits));
+  print(city.diagnostics());
+  if (!city.found()) return kExitFile;
+  if (!city.ok()) return statusOf(city.diagnostics(), kExitWrong);
+  gable::RunFigures figures;
+  figures.parseSeconds = secondsNow() - begin;
+  if (!arguments.plan.empty()) {
+    if (const int status = writeText(arguments.plan, city.groundGeoJson())) return status;
+  }
+  int status = kExitDone;
+  if (!arguments.output.empty()) status = writeModel(city, arguments, figures);
+  if (!arguments.stats.empty() && (status == kExitDone || status == kExitLimit)) {
+    figures.totalSeconds = secondsNow() - begin;
+    figures.peakBytes = peakBytes();
+    const std::string text = gable::cityJson(city.statistics(), figures);
+    if (const int written = writeText(arguments.stats, text)) return written;
+  }
+  return status;
+}

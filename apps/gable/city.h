@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// gable city: its arguments, which hold those of a derivation.
+#pragma once
+
+#include <string>
+
+#include "common.h"
+
+struct CityArguments {
+  /// Its rules are a folder with city.cga, or a file; its shapes are the map.
+  DeriveArguments derive;
+  std::string box;
+  std::string output;
+  /// Where the ground goes as GeoJSON.
+  std::string plan;
+  std::string stats;
+};
+int runCity(const CityArguments& arguments);

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// A place from its map: the ground, divided so that every square metre has one surface, and initial
+// shapes for rules (docs/guide/city.md).
+//
+//   gable::City city = gable::City::load("monaco.osm.pbf");
+//   gable::Rules rules = gable::Rules::load("city.cga");
+//   gable::derive(rules, city.shapes()).write("monaco.glb");
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gable/diagnostic.h"
+#include "gable/limits.h"
+#include "gable/shapes.h"
+
+namespace gable {
+
+struct CitySettings {
+  /// Of a map with several layers.
+  std::string layer;
+  /// The part of the map to make: west, south, east, north, in degrees or in the map's own metres.
+  /// Absent: the box around its buildings.
+  std::optional<std::array<double, 4>> box;
+};
+
+struct CityStatistics {
+  struct Surface {
+    std::string name;
+    uint64_t pieces = 0;
+    /// Square metres.
+    double area = 0;
+  };
+  /// Of the place, and of the pieces of its ground together.
+  double area = 0, groundArea = 0;
+  /// All there are, whether the place has them or not.
+  std::vector<Surface> surfaces;
+  /// How many shapes begin with which rule.
+  std::vector<std::pair<std::string, uint64_t>> shapes;
+  uint64_t features = 0;
+  /// Features, or parts of them, that could not be read.
+  uint64_t skipped = 0;
+  /// The same as CitySettings::box.
+  std::array<double, 4> box{};
+};
+
+class City {
+ public:
+  /// By extension: .osm .pbf .geojson .json .gpkg .fgb .shp .kml .dxf; see Shapes::load.
+  static City load(const std::string& path, const CitySettings& settings = {},
+                   const FileLimits& limits = {});
+  /// The same for a file's content in memory; `name` gives the extension.
+  static City parse(const std::string& content, const std::string& name,
+                    const CitySettings& settings = {}, const FileLimits& limits = {});
+
+  /// Each begins with the rule of its name, where the rules have it.
+  Shapes shapes() const;
+  /// The ground as GeoJSON: a polygon a piece, with its surface, its area and the feature's id.
+  std::string groundGeoJson() const;
+  const CityStatistics& statistics() const;
+
+  bool ok() const;
+  /// False when the file itself could not be read.
+  bool found() const;
+  /// What could not be read, among them.
+  const DiagnosticList& diagnostics() const;
+
+  struct Impl;
+  explicit City(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+
+ private:
+  std::shared_ptr<const Impl> impl_;
+};
+
+}  // namespace gable

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// From a map to initial shapes.
+
+#include "gable/city.h"
+
+#include <algorithm>
+#include <map>
+
+#include "base/files.h"
+#include "city/plan.h"
+#include "engine/file_search.h"
+#include "engine/footprint.h"
+#include "engine/guard.h"
+
+namespace gable {
+
+struct City::Impl {
+  bool found = true;
+  DiagnosticList diagnostics;
+  std::shared_ptr<const Shapes::Impl> shapes = std::make_shared<Shapes::Impl>();
+  CityStatistics statistics;
+  CityPlan plan;
+  // Without its features, which the plan's texts replace.
+  MapFeatures map;
+};
+
+namespace {
+
+std::shared_ptr<City::Impl> refused(const Error& e) {
+  auto impl = std::make_shared<City::Impl>();
+  impl->diagnostics.push_back(diagnosticOf(e));
+  return impl;
+}
+
+Mesh meshOf(const CityShape& s) {
+  MeshBuilder b;
+  if (!s.line.empty()) {
+    uint32_t from = b.addPosition(fromPlan(s.line[0]));
+    for (size_t i = 1; i < s.line.size(); ++i) {
+      const uint32_t to = b.addPosition(fromPlan(s.line[i]));
+      const uint32_t ends[2] = {from, to};
+      b.addPolygon(ends);
+      from = to;
+    }
+    return b.take();
+  }
+  b.beginFace();
+  const auto loop = [&](const Ring& ring) {
+    b.beginLoop();
+    for (const Vec2 p : ring) b.addCorner(b.addPosition(fromPlan(p)));
+  };
+  loop(s.polygon.outer);
+  for (const Ring& h : s.polygon.holes) loop(h);
+  return b.take();
+}
+
+// Two shapes of one feature draw as two: the number of the second is part of its name.
+std::shared_ptr<const Shapes::Impl> shapesOf(const CityPlan& plan, const MapFeatures& map) {
+  auto out = std::make_shared<Shapes::Impl>();
+  out->geoOrigin = map.geoOrigin;
+  out->geo = map.geo;
+  std::map<std::pair<std::string, std::string>, uint32_t> seen;
+  for (const CityShape& s : plan.shapes) {
+    work();
+    ShapeInput input;
+    input.name = s.rule;
+    const uint32_t before = seen[{s.rule, s.id}]++;
+    input.id = s.rule + '/' + s.id + (before > 0 ? '/' + std::to_string(before) : "");
+    input.mesh = meshOf(s);
+    input.attributes = s.attributes;
+    PlainValue rule;
+    rule.kind = PlainValue::Kind::Text;
+    rule.text = s.rule;
+    input.attributes.push_back({kStartRuleAttribute, {rule}, 0, 0});
+    out->footprints.push_back(footprint(std::move(input)));
+  }
+  return out;
+}
+
+CityStatistics statisticsOf(const CityPlan& plan, const MapFeatures& map) {
+  CityStatistics out;
+  out.area = plan.area.size().x * plan.area.size().y;
+  for (size_t s = 0; s < kSurfaceCount; ++s) {
+    out.surfaces.push_back({surfaceName(static_cast<Surface>(s)), 0, 0});
+  }
+  for (const GroundPiece& p : plan.ground) {
+    CityStatistics::Surface& s = out.surfaces[static_cast<size_t>(p.surface)];
+    ++s.pieces;
+    s.area += area(p.polygon);
+  }
+  for (const CityStatistics::Surface& s : out.surfaces) out.groundArea += s.area;
+  std::map<std::string, uint64_t> counts;
+  for (const CityShape& s : plan.shapes) ++counts[s.rule];
+  out.shapes.assign(counts.begin(), counts.end());
+  out.features = map.features.size();
+  out.skipped = map.skips.count;
+  out.box = {map.box.west, map.box.south, map.box.east, map.box.north};
+  return out;
+}
+
+// What was left out: the first of it by name.
+void tellSkipped(const MapSkips& skips, const std::string& path, DiagnosticList& out) {
+  constexpr size_t kNamed = 20;
+  Diagnostics list;
+  for (size_t i = 0; i < std::min(skips.first.size(), kNamed); ++i) {
+    list.warning(
+        "map-row", {},
+        "'" + skips.first[i].place + "' of '" + path + "' is left out: " + skips.first[i].reason);
+  }
+  if (skips.count > kNamed) {
+    list.warning("map-rows", {},
+                 std::to_string(skips.count) + " features or parts of them of '" + path +
+                     "' are left out, of which the first " + std::to_string(kNamed) + " are named",
+                 "mend them in a map editor where they matter");
+  }
+  for (Diagnostic& d : listOf(list, Sources{})) out.push_back(std::move(d));
+}
+
+std::shared_ptr<City::Impl> parsed(const std::string& content, const std::string& name,
+                                   const CitySettings& settings) {
+  AssetOptions options;
+  options.path = name;
+  options.readFile = [&name](const std::string& path) -> Result<std::string> {
+    const std::string found = FileSearch(folderOf(name), {}).inside(path);
+    if (found.empty()) return Error{"file-missing", "there is no such file in the folder", {}};
+    return readFile(found, kLargestShapeFile);
+  };
+  std::optional<MapBox> box;
+  if (settings.box) {
+    const auto& [west, south, east, north] = *settings.box;
+    box = MapBox{west, south, east, north};
+  }
+  Result<MapFeatures> map = readMapFeatures(content, options, settings.layer, box);
+  if (!map.ok()) return refused(map.error());
+  auto impl = std::make_shared<City::Impl>();
+  impl->map = std::move(*map);
+  impl->plan = planCity(impl->map);
+  impl->shapes = shapesOf(impl->plan, impl->map);
+  impl->statistics = statisticsOf(impl->plan, impl->map);
+  tellSkipped(impl->plan.skips, name, impl->diagnostics);
+  return impl;
+}
+
+}  // namespace
+
+City City::load(const std::string& path, const CitySettings& settings, const FileLimits& limits) {
+  return City(guarded<Impl>(Task("planning", path, limits), [&] {
+    Result<std::string> content = readFile(path, kLargestShapeFile);
+    if (content.ok()) return parsed(content.value(), path, settings);
+    auto impl = refused(content.error());
+    impl->found = false;
+    return impl;
+  }));
+}
+
+City City::parse(const std::string& content, const std::string& name, const CitySettings& settings,
+                 const FileLimits& limits) {
+  return City(guarded<Impl>(Task("planning", name, limits),
+                            [&] { return parsed(content, name, settings); }));
+}
+
+Shapes City::shapes() const { return Shapes(impl_->shapes); }
+std::string City::groundGeoJson() const {
+  return guardedValue<std::string>([&] { return planGeoJson(impl_->plan, impl_->map); });
+}
+const CityStatistics& City::statistics() const { return impl_->statistics; }
+bool City::ok() const { return !hasErrors(impl_->diagnostics); }
+bool City::found() const { return impl_->found; }
+const DiagnosticList& City::diagnostics() const { return impl_->diagnostics; }
+
+}  // namespace gable

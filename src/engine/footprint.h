@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// An initial shape of a file as a derivation takes it.
+#pragma once
+
+#include "engine/impl.h"
+#include "io/importers/shape_input.h"
+
+namespace gable {
+
+/// The attribute of a shape that names the rule it begins with, where the rules have it.
+inline constexpr const char* kStartRuleAttribute = "startRule";
+
+/// Of files of shapes, in bytes.
+constexpr uint64_t kLargestShapeFile = uint64_t{2} << 30;
+
+/// Its frame stands, unturned, on a whole metre near the lower corner: offsets stay exact.
+ShapeFootprint footprint(ShapeInput input);
+
+}  // namespace gable

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// What was made of a map, as JSON. The form is a promise to scripts: docs/guide/city.md.
+#pragma once
+
+#include <string>
+
+#include "gable/city.h"
+#include "json/answers.h"
+
+namespace gable {
+
+/// Areas by surface, counts of shapes, what was left out, and figures as one object.
+std::string cityJson(const CityStatistics& statistics, const RunFigures& figures = {});
+
+}  // namespace gable
