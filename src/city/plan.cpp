@@ -21,6 +21,7 @@ namespace {
 constexpr double kSurveyed = 0.03;
 constexpr double kLeastBuilding = 3;
 constexpr double kLeastPart = 0.5;
+constexpr double kLeastKerb = 0.2;
 
 AttributeValue number(const char* name, double v) {
   PlainValue value;
@@ -54,6 +55,12 @@ AttributeValue list(const char* name, std::vector<PlainValue> values) {
 }
 
 bool isRoadway(Surface s) { return s == Surface::Carriageway || s == Surface::Junction; }
+
+// What people walk on is higher than roadways, and those than water.
+int stepOf(Surface s) {
+  if (s == Surface::Water || s == Surface::Sea) return 0;
+  return isRoadway(s) || s == Surface::ParkingLot ? 1 : 2;
+}
 
 // Without what surveys and the ground's grid have added; the longest edge first.
 Polygon cleaned(const Polygon& p) {
@@ -133,7 +140,48 @@ class Planner {
     }
     shape.attributes.push_back(list("/edgeattr/beyond", std::move(beyond)));
     shape.attributes.push_back(list("streetWidth", std::move(widths)));
+    addKerbs(p, f);
     if (p.surface == Surface::Footprint && f) addBuilding(p.polygon, p.feature);
+  }
+
+  // The surface beyond an edge that lies lower; nothing where there is no step.
+  std::optional<Surface> lowerBeyond(const GroundPiece& p, size_t edge) const {
+    const uint32_t b = p.beyond[edge];
+    if (b == GroundPiece::kNothing) return std::nullopt;
+    const Surface s = out_.ground[b].surface;
+    // Walls of buildings reach down to the roadway.
+    const bool hidden = p.surface == Surface::Footprint && stepOf(s) == 1;
+    return stepOf(s) < stepOf(p.surface) && !hidden ? std::optional(s) : std::nullopt;
+  }
+
+  // Steps down from a piece: lines along its border, the piece on their left.
+  void addKerbs(const GroundPiece& p, const MapFeature* f) {
+    size_t first = 0;
+    const auto ring = [&](const Ring& r) {
+      const size_t n = r.size();
+      const auto beyond = [&](size_t i) { return lowerBeyond(p, first + i % n); };
+      // Lines begin where the one before ends; without such a place they go round.
+      size_t start = 0;
+      while (start < n && beyond(start) == beyond(start + n - 1)) ++start;
+      start %= n;
+      for (size_t i = 0; i < n;) {
+        work();
+        const std::optional<Surface> lower = beyond(start + i);
+        std::vector<Vec2> line{r[(start + i) % n]};
+        for (; i < n && beyond(start + i) == lower; ++i) line.push_back(r[(start + i + 1) % n]);
+        if (lower && lineLength(line) >= kLeastKerb) addKerb(p, f, *lower, std::move(line));
+      }
+      first += n;
+    };
+    ring(p.polygon.outer);
+    for (const Ring& h : p.polygon.holes) ring(h);
+  }
+  void addKerb(const GroundPiece& p, const MapFeature* f, Surface lower, std::vector<Vec2> line) {
+    CityShape& shape = add("Kerb", f ? f->id : std::string());
+    shape.line = std::move(line);
+    if (f) shape.attributes = tagsOf(*f);
+    shape.attributes.push_back({"of", {text(surfaceName(p.surface))}, 0, 0});
+    shape.attributes.push_back({"beyond", {text(surfaceName(lower))}, 0, 0});
   }
 
   void describe(CityShape& shape, uint32_t feature) const {

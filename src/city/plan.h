@@ -10,6 +10,8 @@
 //                  a building:part; a roof on posts                        BuildingPart, Canopy
 //   lines          a stretch of a street between junctions, rails, ..      Street, Rails, TreeRow,
 //                                                                          Barrier
+//   steps          where the ground goes down to a roadway or to water, the higher
+//                  piece on the left                                       Kerb
 //   crossings      a rectangle across the carriageway, x across it         Crossing
 //   single things  a square of a metre                                     Tree, StreetLamp
 //
