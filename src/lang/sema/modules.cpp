@@ -9,6 +9,7 @@
 // Default. For one name (and number of parameters) the first in that chain counts.
 
 #include <algorithm>
+#include <set>
 
 #include "base/work.h"
 #include "lang/parser.h"
@@ -286,6 +287,11 @@ void Analysis::declareRules(ModuleId module, const StyleRanks& ranks) {
     if (!isNew) at->second = std::min(at->second, ranks.of(d.style));
   }
   Scope& scope = scopes_[module];
+  // A start rule that a style redefines is the start rule still.
+  std::set<std::pair<std::string_view, size_t>> starts;
+  for (const Declaration& d : units_[unit].rules) {
+    if (t.has(d.node, kFlagStart)) starts.insert(keyOf(d));
+  }
   for (const Declaration& d : units_[unit].rules) {
     const std::string_view name = t.text(d.node);
     const size_t rank = ranks.of(d.style);
@@ -306,7 +312,10 @@ void Analysis::declareRules(ModuleId module, const StyleRanks& ranks) {
     if (rank == ranks.none() || rank > best[keyOf(d)]) continue;
     const RuleId id = addRule(module, d.node, std::string(name), d.annotations);
     scope.rules[name].push_back(id);
-    if (t.has(d.node, kFlagStart)) scope.startRules.push_back(id);
+    if (starts.count(keyOf(d)) != 0) {
+      program_.rules[id].start = true;
+      scope.startRules.push_back(id);
+    }
     const std::vector<RuleId>& same = scope.rules[name];
     if (t.has(d.node, kFlagExtension) && same.size() > 1) {
       error("duplicate-rule", nameSpan(t, d.node),
