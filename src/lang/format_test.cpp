@@ -35,6 +35,11 @@ TEST(Format, shortDeclarationsStayOnOneLine) {
             "attr h = 10\nconst c = h * 2 + -1\n\nf(a, b) = a - b * -c\nA --> B C(1, 2) X.\n");
 }
 
+TEST(Format, stringsOverLinesStayAsTheyAre) {
+  EXPECT_EQ(formatted("attr a   = \"one \n\n\n   two\"\nA --> print( \"x\n  y\" ) [ B\n C ]"),
+            "attr a = \"one \n\n\n   two\"\nA --> print(\"x\n  y\") [ B\n    C ]\n");
+}
+
 TEST(Format, linesBeginWhereTheAuthorBeganThem) {
   EXPECT_EQ(
       formatted("attr h = 1\nA --> s('1,' -0.5,0) t(0,1,0) X.\nB -->\nC\n  [D\n E]\n\n\nF --> G"),

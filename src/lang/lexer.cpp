@@ -11,6 +11,7 @@
 #include "lang/lexer.h"
 
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "base/text.h"
@@ -260,16 +261,46 @@ class Lexer {
     return digits;
   }
 
-  void lexString() {
-    size_t end = at_ + 1;
-    while (end < text_.size() && text_[end] != '"' && text_[end] != '\n') {
+  // The place of the quote that closes the string at `from`, or of the end of the text; the end of
+  // the line where the string must end with it.
+  size_t stringEnd(size_t from, bool inLine) const {
+    size_t end = from + 1;
+    while (end < text_.size() && text_[end] != '"' && !(inLine && text_[end] == '\n')) {
       end += text_[end] == '\\' && end + 1 < text_.size() && text_[end + 1] != '\n' ? 2 : 1;
     }
+    return std::min(end, text_.size());
+  }
+
+  // Whether every string from `from` on is closed somewhere. If not, a quote is missing, and the
+  // next one begins another string.
+  bool stringsAreClosed(size_t from) const {
+    for (size_t i = from; i < text_.size(); ++i) {
+      const std::string_view two = text_.substr(i, 2);
+      if (text_[i] == '"') {
+        i = stringEnd(i, false);
+        if (i == text_.size()) return false;
+      } else if (text_[i] == '#' || two == "//") {
+        i = std::min(text_.find('\n', i), text_.size());
+      } else if (two == "/*") {
+        const size_t close = text_.find("*/", i + 2);
+        i = close == std::string_view::npos ? text_.size() : close + 1;
+      }
+    }
+    return true;
+  }
+
+  // A string may run over several lines. In a file where a quote is missing all end with their
+  // line, so that the mistake is told where it stands.
+  void lexString() {
+    size_t end = stringEnd(at_, true);
+    if (end < text_.size() && text_[end] == '\n') {
+      if (!runsOver_) runsOver_ = stringsAreClosed(at_);
+      if (*runsOver_) end = stringEnd(at_, false);
+    }
     if (end >= text_.size() || text_[end] != '"') {
-      end = std::min(end, text_.size());
       if (end > at_ + 1 && text_[end - 1] == '\r') --end;
-      error("unterminated-string", at_, at_ + 1, "this string is never closed",
-            "end it with '\"' on the same line", Replacement{spanOf(end, end), "\""});
+      error("unterminated-string", at_, at_ + 1, "this string is never closed", "end it with '\"'",
+            Replacement{spanOf(end, end), "\""});
       push(TokenKind::String, end - at_);
     } else {
       push(TokenKind::String, end + 1 - at_);
@@ -387,6 +418,8 @@ class Lexer {
   Tokens out_;
   BracketMatcher brackets_;
   size_t at_ = 0;
+  // Whether strings run over lines; known once one does not end in its own.
+  std::optional<bool> runsOver_;
 };
 
 int hexDigit(char c) {

@@ -96,6 +96,13 @@ TEST(Lexer, reportsWhatIsNoToken) {
   EXPECT_EQ(codes("a /* no end"), "unterminated-comment\n");
 }
 
+TEST(Lexer, stringsMayRunOverLines) {
+  EXPECT_EQ(words("a = \"one\n  two\" b"), "a = \"one\n  two\" b");
+  EXPECT_EQ(codes("a = \"one\n  two\" // say \"\nb = \"c\""), "");
+  // Where a quote is missing, all end with their line.
+  EXPECT_EQ(codes("a = \"one\nb = \"two\"\nc = \"three\""), "unterminated-string\n");
+}
+
 TEST(Lexer, replacesEscapesInStrings) {
   EXPECT_EQ(stringValue("\"a\\nb\\t\\\"c\\\" \\\\\""), "a\nb\t\"c\" \\");
   EXPECT_EQ(stringValue("\"\\ue000\\u0041\""),

@@ -15,15 +15,16 @@ export function notationOf(path: string): Notation {
   return path.endsWith('.park') ? 'Park' : 'CGA';
 }
 
-/** In a comment over several lines. */
+/** In a comment, or a string of CGA, over several lines. */
 interface State {
   comment: boolean;
+  string: boolean;
 }
 
 export function ruleLanguage(notation: Notation) {
   return StreamLanguage.define<State>({
     name: notation,
-    startState: () => ({ comment: false }),
+    startState: () => ({ comment: false, string: false }),
     copyState: (s) => ({ ...s }),
     languageData: {
       commentTokens: { line: '//', block: { open: '/*', close: '*/' } },
@@ -37,6 +38,11 @@ export function ruleLanguage(notation: Notation) {
         } else stream.skipToEnd();
         return 'comment';
       }
+      if (state.string) {
+        stream.match(/^(?:[^"\\]|\\.)*\\?/);
+        state.string = !stream.match('"');
+        return 'string';
+      }
       if (stream.eatSpace()) return null;
       // All notations know both kinds of comments.
       if (stream.match('//') || stream.match('#')) {
@@ -47,7 +53,12 @@ export function ruleLanguage(notation: Notation) {
         state.comment = true;
         return 'comment';
       }
-      if (stream.match(/^"(?:[^"\\]|\\.)*"?/)) return 'string';
+      if (stream.match(/^"(?:[^"\\]|\\.)*"/)) return 'string';
+      if (stream.match('"')) {
+        stream.skipToEnd();
+        state.string = notation === 'CGA';
+        return 'string';
+      }
       if (stream.match(/^\d+(?:\.\d+)?(?:[eE][+-]?\d+)?/)) return 'number';
       if (stream.match(/^[@A-Za-z_]\w*/)) return 'name';
       stream.next();
