@@ -11,6 +11,20 @@
 
 namespace gable::lang {
 
+namespace {
+
+// What to write where the sign before a colour is missing, or each digit stands for two; else the
+// hint of the parameter.
+std::string textHint(const ParamSpec& param, std::string_view text) {
+  std::string full = text.starts_with('#') ? "" : "#" + std::string(text);
+  if (text.starts_with('#') && text.size() == 4) {
+    for (const char c : text) full.append(c == '#' ? 1 : 2, c);
+  }
+  return !full.empty() && param.form->holds(full) ? "write \"" + full + "\"" : refusalHint(param);
+}
+
+}  // namespace
+
 // What is written, with its prefix; null where it is not constant.
 Value Analysis::writtenValue(NodeId node) {
   const NodeKind kind = tree().kind(node);
@@ -34,6 +48,12 @@ void Analysis::checkWrittenValue(NodeId node, const ParamSpec& param, std::strin
   }
   const Value v = writtenValue(node);
   if (v.type == ValueType::Null || isTaken(param, v, values_)) return;
+  // A text of another form does no harm: the shape stays as it is, or the value is that of none.
+  if (v.type == ValueType::String) {
+    warning("bad-argument", t.span(node), refusalText(param, callee, v, values_),
+            textHint(param, values_.text(v.id)));
+    return;
+  }
   errorAt("bad-argument", node, refusalText(param, callee, v, values_), refusalHint(param));
 }
 
