@@ -39,7 +39,7 @@ std::array<AttributeSpec, sizeof...(index)> makeAttributes(std::index_sequence<i
 }
 
 // How many fields there are; a test compares it with the table.
-constexpr size_t kFieldCount = 85;
+constexpr size_t kFieldCount = 103;
 const auto kAttributes = makeAttributes(std::make_index_sequence<kFieldCount>());
 
 // The groups in which the original lists a material, each in the order of its names: truth values,
@@ -73,7 +73,7 @@ Value tableOf(const Material& m, bool changedOnly, ValuePool& pool) {
   for (const MaterialField* f : kInOrder) {
     // Fields that show what another one holds already.
     const std::string_view name = shortName(*f);
-    if (name == "color.rgb" || name == "color.a") continue;
+    if (name == "color.rgb" || isOldName(*f)) continue;
     const Value v = readField(*f, m, pool);
     if (changedOnly && v == readField(*f, plain, pool)) continue;
     out.strings.push_back(pool.intern(name));

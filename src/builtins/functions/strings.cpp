@@ -282,6 +282,8 @@ constexpr ParamSpec kFirstBool[] = {
 constexpr Signature kFirst[] = {
     {kFirstText, kFloat}, {kFirstFloat, kFloat}, {kFirstString, kFloat}, {kFirstBool, kFloat}};
 
+constexpr Signature kIndex[] = {kFirst[1], kFirst[2], kFirst[3]};
+
 constexpr const char* kFamily = "strings";
 constexpr FunctionSpec kFunctions[] = {
     {"len", kFamily, "The number of characters of a text.", kLen, typed<length>},
@@ -294,6 +296,8 @@ constexpr FunctionSpec kFunctions[] = {
     {"findFirst", kFamily,
      "The position of the first occurrence in a text or an array; -1 when there is none.", kFirst,
      typed<findFirst>},
+    {"index", kFamily, "Old name of findFirst, for arrays.", kIndex, typed<findFirst>, kPure, false,
+     true},
     {"findLast", kFamily, "The position of the last occurrence of a text; -1 when there is none.",
      kNumberOfMatch, typed<findLast>},
     {"getPrefix", kFamily, "What comes before the first occurrence of a text.", kTextOfMatch,

@@ -64,6 +64,20 @@ constexpr MaterialField text(const char* name, const char* doc, std::string* (*a
       number(NAME ".rw", "Turn of the layer's texture around u = v = 0, in degrees.",           \
              mapNumberOf<TextureLayer::LAYER, &TextureMap::rw>)
 
+// The same layer under the name that it had before.
+#define GABLE_OLD_MAP_FIELDS(LAYER, NAME, NOW)                     \
+  text(NAME, "Old name of " NOW ".", pathOf<TextureLayer::LAYER>), \
+      number(NAME ".su", "Old name of " NOW ".su.",                \
+             mapNumberOf<TextureLayer::LAYER, &TextureMap::su>),   \
+      number(NAME ".sv", "Old name of " NOW ".sv.",                \
+             mapNumberOf<TextureLayer::LAYER, &TextureMap::sv>),   \
+      number(NAME ".tu", "Old name of " NOW ".tu.",                \
+             mapNumberOf<TextureLayer::LAYER, &TextureMap::tu>),   \
+      number(NAME ".tv", "Old name of " NOW ".tv.",                \
+             mapNumberOf<TextureLayer::LAYER, &TextureMap::tv>),   \
+      number(NAME ".rw", "Old name of " NOW ".rw.",                \
+             mapNumberOf<TextureLayer::LAYER, &TextureMap::rw>)
+
 constexpr const char* kRgbName = "material.color.rgb";
 constexpr const char* kModeName = "material.opacitymap.mode";
 
@@ -117,8 +131,12 @@ constexpr MaterialField kFields[] = {
     GABLE_MAP_FIELDS(Occlusion, "material.occlusionmap"),
     GABLE_MAP_FIELDS(Roughness, "material.roughnessmap"),
     GABLE_MAP_FIELDS(Metallic, "material.metallicmap"),
+    GABLE_OLD_MAP_FIELDS(Specular, "material.map3", "material.specularmap"),
+    GABLE_OLD_MAP_FIELDS(Opacity, "material.map4", "material.opacitymap"),
+    GABLE_OLD_MAP_FIELDS(Normal, "material.map5", "material.normalmap"),
 };
 #undef GABLE_MAP_FIELDS
+#undef GABLE_OLD_MAP_FIELDS
 
 // Edits beyond the fields; fields use their place in the table.
 constexpr uint32_t kColorEdit = 1000, kColorAndOpacityEdit = 1001, kTextureEdit = 1002,
@@ -220,8 +238,13 @@ std::string_view shortName(const MaterialField& f) {
   return std::string_view(f.name).substr(std::string_view("material.").size());
 }
 
+bool isOldName(const MaterialField& f) {
+  return std::string_view(f.doc).starts_with("Old name of ");
+}
+
 bool isTexture(const MaterialField& f) {
-  return f.text != nullptr && std::string_view(f.name).ends_with("map");
+  const std::string_view name = shortName(f);
+  return f.text != nullptr && (name.ends_with("map") || isOldName(f));
 }
 
 const MaterialField* materialField(std::string_view name) {

@@ -30,6 +30,8 @@ struct MaterialField {
 std::span<const MaterialField> materialFields();
 /// The name without "material.".
 std::string_view shortName(const MaterialField& f);
+/// Whether the field shows what another one holds, by a name of earlier versions of CGA.
+bool isOldName(const MaterialField& f);
 /// Whether the field is a path of an image.
 bool isTexture(const MaterialField& f);
 /// By its short name; null when there is none.

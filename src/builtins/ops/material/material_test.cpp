@@ -79,7 +79,7 @@ TEST(MaterialAttributes, everyFieldIsReadAsItWasSet) {
     EXPECT_EQ(getAttribute(f.name, s, services), value.value(services.pool())) << f.name;
     EXPECT_EQ(s.material == 0, own(s, services) == Material()) << f.name;
   }
-  EXPECT_EQ(seen.size(), 85u);
+  EXPECT_EQ(seen.size(), 103u);
 }
 
 TEST(MaterialAttributes, wrongTextsAreReported) {
