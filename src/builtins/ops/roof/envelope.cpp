@@ -34,7 +34,7 @@ namespace {
 
 // Of the signatures each names some; the others keep what stands here.
 struct Arguments {
-  Up direction;
+  Up direction = Up::Normal;
   double maxHeight;
   double frontBaseHeight = 0, frontAngle = 90;
   double backBaseHeight = 0, backAngle = 90;
@@ -221,7 +221,15 @@ constexpr ParamSpec kPerEdge[] = {
                                    "there are none left."),
     param<&Arguments::angles>("angles", "The slopes above them; 90 where there are none left."),
 };
-constexpr Signature kSignatures[] = {{kFront}, {kFrontBack}, {kThree}, {kFour}, {kPerEdge}};
+// Without a direction: files up to version 2012.
+template <size_t N>
+constexpr Signature undirected(const ParamSpec (&params)[N]) {
+  return {std::span<const ParamSpec>(params).subspan(1)};
+}
+constexpr Signature kSignatures[] = {
+    {kFront},           {kFrontBack},           {kThree},           {kFour},           {kPerEdge},
+    undirected(kFront), undirected(kFrontBack), undirected(kThree), undirected(kFour),
+};
 
 constexpr OpSpec kSpecs[] = {
     heavy({"envelope", "roof",
