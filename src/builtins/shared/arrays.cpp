@@ -103,7 +103,7 @@ bool truthOf(std::string_view text) {
   std::string lower(text);
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   double v = 1;
-  return !(lower.empty() || lower == "f" || lower == "false" || (parseNumber(lower, v) && v == 0));
+  return !(lower == "f" || lower == "false" || (parseNumber(lower, v) && v == 0));
 }
 
 }  // namespace gable
