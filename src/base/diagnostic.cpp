@@ -115,10 +115,17 @@ std::string excerpt(const Sources& sources, const Span& span, const LineColumn& 
     column -= from;
   }
   std::string out = "  " + lead + std::string(line) + "\n  " + std::string(lead.size(), ' ');
-  for (size_t i = 0; i < column && i < line.size(); ++i) out += line[i] == '\t' ? '\t' : ' ';
+  // A character of several bytes takes one column.
+  const auto begins = [&](size_t i) {
+    return (static_cast<unsigned char>(line[i]) & 0xc0) != 0x80;
+  };
+  for (size_t i = 0; i < column && i < line.size(); ++i) {
+    if (begins(i)) out += line[i] == '\t' ? '\t' : ' ';
+  }
   const size_t length = span.end > span.begin ? span.end - span.begin : 1;
-  const size_t room = line.size() > column ? line.size() - column : 1;
-  return out + std::string(std::max<size_t>(1, std::min(length, room)), '^') + "\n";
+  size_t carets = 0;
+  for (size_t i = column; i < line.size() && i - column < length; ++i) carets += begins(i) ? 1 : 0;
+  return out + std::string(std::max<size_t>(1, carets), '^') + "\n";
 }
 
 // Signs that would move a terminal's cursor or change its colours become question marks.

@@ -402,7 +402,9 @@ class Lexer {
     error("unexpected-character", at_, at_ + length,
           printable ? "'" + std::string(sign) + "' has no meaning here"
                     : std::string("a byte that is no text has no meaning here"),
-          typographic ? "use the straight quotes \" and '" : "remove it");
+          typographic          ? "use the straight quotes \" and '"
+          : sign == "\xc2\xb0" ? "remove it: angles are in degrees"
+                               : "remove it");
     // One report for a whole run of such bytes.
     at_ += length;
     while (at_ < text_.size() && !isLetter(at_) &&

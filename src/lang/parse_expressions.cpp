@@ -99,6 +99,45 @@ void Parser::skipUnit() {
   advance();
 }
 
+// A '%' that nothing follows to divide by: 50% in the place of '0.5.
+bool Parser::skipPercent(NodeId left) {
+  const TokenKind next = ahead(1).kind;
+  if (!is(TokenKind::Percent) || (next != TokenKind::Comma && next != TokenKind::RParen)) {
+    return false;
+  }
+  const bool written = tree_.kind(left) == NodeKind::Number;
+  const std::string share = written ? shortestText(tree_.number(left) / 100) : "0.5";
+  error("unexpected-token", spanOf(current()), "'%' is no unit of an argument",
+        "write '" + share + " for a share of the scope's size, " + share + " for a plain number");
+  advance();
+  return true;
+}
+
+// `not` before a value.
+bool Parser::notHere() const {
+  const Token& next = ahead(1);
+  const bool operand = next.kind == TokenKind::Number || next.kind == TokenKind::Name;
+  return isName(current()) && textOf(current()) == "not" && operand &&
+         next.keyword != Keyword::Else && textOf(next) != "and" && textOf(next) != "or";
+}
+
+NodeId Parser::parseNot() {
+  const Token word = current();
+  advance();
+  constexpr int kComparison = 3;
+  const uint32_t begin = current().begin;
+  const NodeId operand = parseBinary(kComparison);
+  const uint32_t end = std::max(begin, endOfLast());
+  const bool simple = tree_.kind(operand) != NodeKind::Binary;
+  const std::string negated(text_.substr(begin, end - begin));
+  const std::string written = simple ? "!" + negated : "!(" + negated + ")";
+  error("unexpected-token", spanOf(word), "'not' is no operator", "write " + written);
+  fix({file_, word.begin, end}, written);
+  Node n = node(NodeKind::Unary, word.begin);
+  n.op = static_cast<uint8_t>(UnaryOp::Not);
+  return make(n, {operand});
+}
+
 NodeId Parser::parseBinary(int minPrecedence) {
   const uint32_t begin = current().begin;
   NodeId left = parseUnary();
@@ -106,6 +145,7 @@ NodeId Parser::parseBinary(int minPrecedence) {
     const Operator op = operatorOf(operatorHere());
     if (op.precedence == 0 || op.precedence < minPrecedence) break;
     if (is(TokenKind::Percent) && ahead(1).kind == TokenKind::Colon) break;
+    if (skipPercent(left)) break;
     const bool elementwise = current().elementwise;
     advance();
     const NodeId right = parseBinary(op.precedence + 1);
@@ -120,11 +160,14 @@ NodeId Parser::parseBinary(int minPrecedence) {
 NodeId Parser::parseUnary() {
   const TokenKind kind = current().kind;
   const bool prefix = kind == TokenKind::Quote || kind == TokenKind::Tilde;
-  if (!prefix && kind != TokenKind::Minus && kind != TokenKind::Plus && kind != TokenKind::Not) {
+  const bool isNot = notHere() && !declarationHere();
+  if (!prefix && !isNot && kind != TokenKind::Minus && kind != TokenKind::Plus &&
+      kind != TokenKind::Not) {
     return parsePostfix();
   }
   const Nest nest(*this);
   if (!nest.ok()) return missing();
+  if (isNot) return parseNot();
   const Token sign = current();
   advance();
   const NodeId operand = parseUnary();

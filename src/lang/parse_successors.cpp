@@ -19,14 +19,23 @@ namespace gable::lang {
 bool Parser::weightHere() const {
   if (is(TokenKind::Number) || is(TokenKind::LParen)) return true;
   if (!isName(current())) return false;
-  switch (token(skipBrackets(at_ + 1)).kind) {
+  const size_t next = skipBrackets(at_ + 1);
+  switch (token(next).kind) {
     case TokenKind::Percent:
     case TokenKind::Plus:
-    case TokenKind::Minus:
-    case TokenKind::Star:
     case TokenKind::Slash: return true;
+    case TokenKind::Minus:
+      return token(next + 1).kind != TokenKind::Minus || token(next + 1).begin != token(next).end;
+    case TokenKind::Star: return !starHere(next);
     default: return false;
   }
+}
+
+// A '*' that was meant to repeat: nothing to multiply with follows.
+bool Parser::starHere(size_t index) const {
+  const TokenKind next = token(index + 1).kind;
+  return token(index).kind == TokenKind::Star &&
+         (next == TokenKind::RBrace || next == TokenKind::Pipe);
 }
 
 // True where, inside a block, the next item begins although there was no '|'.
@@ -48,6 +57,24 @@ NodeId Parser::parseSequence() {
   return make(n, items);
 }
 
+// Tells what is known of a token that begins no successor. False where nothing is.
+bool Parser::reportBadSuccessor() {
+  if (starHere(at_)) {
+    error("unexpected-token", spanOf(current()), "'*' repeats what stands in braces",
+          "write it behind the closing brace: }*");
+    const Token& close = ahead(1);
+    if (close.kind == TokenKind::RBrace) fix({file_, current().begin, close.end}, "}*");
+    return true;
+  }
+  if ((is(TokenKind::RBrace) || is(TokenKind::RParen) || is(TokenKind::RBracket)) &&
+      current().match == Token::kNoMatch) {
+    error("unexpected-token", spanOf(current()), describe(current()) + " closes nothing here",
+          "remove it, or write its opening partner where it belongs");
+    return true;
+  }
+  return false;
+}
+
 // Reports a token that begins no successor and passes it. False where the sequence ends instead.
 bool Parser::skipBadSuccessor() {
   const bool closes = is(TokenKind::RBrace) || is(TokenKind::RParen) || is(TokenKind::RBracket);
@@ -55,7 +82,11 @@ bool Parser::skipBadSuccessor() {
   if (is(TokenKind::Pipe) && place_.blocks > 0) return false;
   if (is(TokenKind::Comma) && place_.inOverrides) return false;
   if (separatorMissing()) return false;
-  unexpected("an operation, a rule or a new declaration");
+  if (dashesHere()) {
+    skipDashComment();
+    return true;
+  }
+  if (!reportBadSuccessor()) unexpected("an operation, a rule or a new declaration");
   if (is(TokenKind::LBrace) && current().match != Token::kNoMatch) at_ = current().match;
   advance();
   return true;
@@ -71,8 +102,14 @@ bool Parser::parseSuccessor(Nodes& items) {
     accept(TokenKind::Colon);
     return true;
   }
-  if (separatorMissing()) return false;
-  if (is(Keyword::Case) || weightHere()) return parseChoiceInSequence(items);
+  if (ifHere()) {
+    error("unexpected-token", spanOf(current()), "'if' is no word of rules",
+          "conditions are written 'case condition : ... else : ...'");
+    fix(spanOf(current()), "case");
+    ifAt_ = at_;
+  }
+  if (!caseHere() && separatorMissing()) return false;
+  if (caseHere() || weightHere()) return parseChoiceInSequence(items);
   if (is(TokenKind::LBracket)) {
     items.push_back(parsePush());
     return true;
@@ -82,6 +119,44 @@ bool Parser::parseSuccessor(Nodes& items) {
     return true;
   }
   return skipBadSuccessor();
+}
+
+// True at "if" with a condition and a colon behind it.
+bool Parser::ifHere() const {
+  if (!isName(current()) || textOf(current()) != "if") return false;
+  constexpr size_t kMost = 100;
+  const size_t last = at_ + kMost;
+  for (size_t i = at_ + 1; i < last && i < tokens_.size(); ++i) {
+    switch (token(i).kind) {
+      case TokenKind::Colon: return i > at_ + 1;
+      case TokenKind::LParen:
+      case TokenKind::LBracket:
+        if (token(i).match == Token::kNoMatch) return false;
+        i = token(i).match;
+        break;
+      case TokenKind::Number:
+      case TokenKind::String:
+      case TokenKind::Plus:
+      case TokenKind::Minus:
+      case TokenKind::Star:
+      case TokenKind::Slash:
+      case TokenKind::Not:
+      case TokenKind::Less:
+      case TokenKind::LessEqual:
+      case TokenKind::Greater:
+      case TokenKind::GreaterEqual:
+      case TokenKind::Equal:
+      case TokenKind::EqualEqual:
+      case TokenKind::NotEqual:
+      case TokenKind::And:
+      case TokenKind::Or: break;
+      case TokenKind::Name:
+        if (token(i).keyword == Keyword::Case || token(i).keyword == Keyword::Else) return false;
+        break;
+      default: return false;
+    }
+  }
+  return false;
 }
 
 bool Parser::parseChoiceInSequence(Nodes& items) {
@@ -98,7 +173,7 @@ bool Parser::parseChoiceInSequence(Nodes& items) {
 NodeId Parser::parseChoice() {
   const Nest nest(*this);
   if (!nest.ok()) return missing();
-  if (is(Keyword::Case)) return parseCaseChoice(false);
+  if (caseHere()) return parseCaseChoice(false);
   const uint32_t begin = current().begin;
   const size_t before = at_;
   const NodeId weight = parseBinary(0);
@@ -169,7 +244,7 @@ bool Parser::comparesWithEqual() const {
 NodeId Parser::parseCaseChoice(bool expressions) {
   const Token first = current();
   Nodes branches;
-  while (!panic_ && is(Keyword::Case)) {
+  while (!panic_ && caseHere()) {
     Node n = node(NodeKind::Branch, current().begin);
     advance();
     NodeId condition;
@@ -274,6 +349,27 @@ NodeId Parser::parseOperand() {
   return make(node(NodeKind::Block, begin), {item});
 }
 
+// A number behind a name, where no weight begins: extrude 10.
+bool Parser::bareArgumentHere() const {
+  if (!is(TokenKind::Number)) return false;
+  const Token& next = ahead(1);
+  return (isName(next) && next.begin > current().end && !headAfter(at_)) ||
+         next.kind == TokenKind::RBrace || next.kind == TokenKind::Pipe ||
+         next.kind == TokenKind::RBracket || next.kind == TokenKind::LBracket ||
+         next.kind == TokenKind::LBrace || next.kind == TokenKind::End;
+}
+
+NodeId Parser::parseBareArgument(const Token& name) {
+  const Token number = current();
+  const std::string written = "(" + std::string(textOf(number)) + ")";
+  error("unexpected-token", spanOf(number),
+        describe(number) + " stands behind " + describe(name) + " without brackets",
+        "put it in brackets: " + std::string(textOf(name)) + written);
+  fix({file_, name.end, number.end}, written);
+  const NodeId value = parsePrimary();
+  return list(number.begin, {value});
+}
+
 NodeId Parser::parseApply() {
   const Nest nest(*this);
   if (!nest.ok()) return missing();
@@ -296,6 +392,7 @@ NodeId Parser::parseApply() {
     n.flags |= kFlagOperand;
     children.push_back(parseOperand());
   } else {
+    if (children[0] == kNoNode && bareArgumentHere()) children[0] = parseBareArgument(name);
     if (bracketedBlockHere()) children.push_back(parseBracketedBlock());
     while (!panic_ && is(TokenKind::LBrace)) children.push_back(parseBlock(false));
   }
@@ -349,6 +446,16 @@ bool Parser::headAfter(size_t first) const {
   return false;
 }
 
+// "* : A", as a grid of another program says the rest.
+bool Parser::parseStarHead(NodeId& head) {
+  if (!is(TokenKind::Star) || ahead(1).kind != TokenKind::Colon) return false;
+  error("unexpected-token", spanOf(current()), "'*' is neither a size nor a selector",
+        "write '~1' for the rest of a split, 'all' for all parts");
+  head = missing();
+  advance();
+  return true;
+}
+
 NodeId Parser::parseItem(bool expressions) {
   if (is(TokenKind::LBrace)) return parseBlock(expressions);
   Node n = node(NodeKind::Item, current().begin);
@@ -359,7 +466,7 @@ NodeId Parser::parseItem(bool expressions) {
     if (is(Keyword::Else)) {
       head = named(NodeKind::Name, current());
       advance();
-    } else {
+    } else if (!parseStarHead(head)) {
       head = parseExpression();
     }
     if (accept(TokenKind::Equal)) {

@@ -428,8 +428,30 @@ void Parser::reportAfterValue(std::string_view name) {
       ahead(2).kind == TokenKind::String) {
     return;
   }
-  unexpected("a new declaration after the value of '" + std::string(name) + "'");
+  std::string hint;
+  const bool decimals = is(TokenKind::Comma) && at_ > 0 && ahead(1).kind == TokenKind::Number &&
+                        tokens_[at_ - 1].kind == TokenKind::Number;
+  if (decimals) {
+    hint = "numbers have a decimal point: write " + std::string(textOf(tokens_[at_ - 1])) + "." +
+           std::string(textOf(ahead(1)));
+  }
+  unexpected("a new declaration after the value of '" + std::string(name) + "'", std::move(hint));
+  if (decimals) fix(spanOf(current()), ".");
   skipToDeclaration();
+}
+
+bool Parser::dashesHere() const {
+  return is(TokenKind::Minus) && ahead(1).kind == TokenKind::Minus &&
+         ahead(1).begin == current().end;
+}
+
+// A comment of another language, "-- text": reports it and goes on behind its line.
+void Parser::skipDashComment() {
+  const Span dashes{file_, current().begin, ahead(1).end};
+  error("unexpected-token", dashes, "'--' begins no comment", "write '//' before a comment");
+  fix(dashes, "//");
+  const size_t end = std::min(text_.find('\n', dashes.end), text_.size());
+  while (!atEnd() && current().begin < end) advance();
 }
 
 // building:levels, as a map calls its property, where a name is to stand.
@@ -479,8 +501,14 @@ NodeId Parser::parseDefinition(NodeId annotations, Keyword keyword) {
   if (keyword == Keyword::Attr) n.kind = NodeKind::Attr;
   if (keyword == Keyword::Const) n.kind = NodeKind::Const;
   NodeId value = kNoNode;
-  if (expect(TokenKind::Equal, "and a value after the name") || accept(TokenKind::Colon) ||
-      accept(TokenKind::Assign)) {
+  const bool valueHere = is(TokenKind::Number) || is(TokenKind::String) || is(Keyword::True) ||
+                         is(Keyword::False) || is(TokenKind::LBracket);
+  if (valueHere) {
+    unexpected("'=' and a value after the name", "write '=' before the value");
+    fix(spanAt(current().begin), "= ");
+    value = parseExpression();
+  } else if (expect(TokenKind::Equal, "and a value after the name") || accept(TokenKind::Colon) ||
+             accept(TokenKind::Assign)) {
     value = parseExpression();
   } else {
     value = missing();
@@ -531,6 +559,10 @@ void Parser::parseDeclaration() {
             "this import stands without the word 'import'", "write 'import' before each import");
     fix(spanAt(current().begin), "import ");
     declarations_.push_back(parseImport(attached));
+  } else if (dashesHere()) {
+    stray();
+    skipDashComment();
+    skipToDeclaration();
   } else {
     stray();
     if (atEnd()) return;

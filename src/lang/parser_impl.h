@@ -128,6 +128,8 @@ class Parser {
   NodeId parseParams();
   NodeId parseLocals();
   void reportAfterValue(std::string_view name);
+  bool dashesHere() const;
+  void skipDashComment();
 
   // --- Successors (parse_successors.cpp) ---
   NodeId parseSequence();
@@ -156,12 +158,22 @@ class Parser {
   void noteDentedCloser(const Token& open);
   bool comparesWithEqual() const;
   bool skipBadSuccessor();
+  bool reportBadSuccessor();
+  bool ifHere() const;
+  bool caseHere() const { return is(Keyword::Case) || at_ == ifAt_; }
+  bool starHere(size_t index) const;
+  bool bareArgumentHere() const;
+  NodeId parseBareArgument(const Token& name);
+  bool parseStarHead(NodeId& head);
 
   // --- Expressions (parse_expressions.cpp) ---
   NodeId parseExpression();
   TokenKind operatorHere();
   TokenKind wordOperatorHere();
   void skipUnit();
+  bool skipPercent(NodeId left);
+  bool notHere() const;
+  NodeId parseNot();
   NodeId parseBinary(int minPrecedence);
   NodeId parseUnary();
   NodeId parsePostfix();
@@ -182,6 +194,8 @@ class Parser {
   Place place_;
   size_t at_ = 0;
   size_t lastErrorAt_ = SIZE_MAX;
+  // The word 'if' that is read as 'case'.
+  size_t ifAt_ = SIZE_MAX;
   size_t errors_ = 0;
   bool reported_ = false;
   uint32_t nesting_ = 0;
