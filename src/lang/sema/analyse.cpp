@@ -254,6 +254,7 @@ void Analysis::checkOtherStyles() {
     infer();
     reportDuplicates(main);
     checkWrittenValues(main);
+    checkEndlessRules(main);
     checkDefaults(main);
     program_.modules.resize(modules);
     scopes_.resize(modules);
@@ -349,6 +350,8 @@ ResolvedProgram Analysis::run(AnalysisInput input) {
   reportOverrideTypes();
   orderAttributes();
   checkWrittenValues(0);
+  checkEndlessRules(0);
+  reportEmptyFile();
   checkDefaults(0);
   checkOtherStyles();
   chooseStartRule();

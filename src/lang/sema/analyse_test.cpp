@@ -315,7 +315,8 @@ TEST(Analyse, overloadsAreChosenByCountAndType) {
 TEST(Analyse, sizesWithPrefixStandOnlyWhereTheyMay) {
   const Analysed a(
       "A(x) --> s('1,'0.5,0) A('1) extrude('2) s(~1,0,0) split(x) { '0.5 : X. | ~1 : X. }");
-  EXPECT_EQ(a.problems(), "1:25 bad-prefix\n1:37 bad-prefix\n1:43 bad-prefix\n");
+  EXPECT_EQ(a.problems(),
+            "1:23 endless-rule (warning)\n1:25 bad-prefix\n1:37 bad-prefix\n1:43 bad-prefix\n");
 }
 
 TEST(Analyse, comparisonsAndOperatorsCheckTypes) {
@@ -703,7 +704,7 @@ TEST(Analyse, annotationsBecomeData) {
   EXPECT_EQ(a.problems(),
             "8:1 unknown-annotation (warning)\n8:18 unknown-annotation (warning)\n"
             "9:38 bad-annotation (warning)\n");
-  EXPECT_EQ(a.hint(0), "did you mean 'Description'?");
+  EXPECT_EQ(a.hint(0), "did you mean '@Description'?");
   EXPECT_EQ(a.program.description, "A house");
   const Annotations& h = a.attribute("h").annotations;
   EXPECT_EQ(h.group.path, (std::vector<std::string>{"Mass", "Roof"}));

@@ -275,6 +275,7 @@ class Analysis {
   void makeLeaf(NodeId node, bool known);
   bool fitsOperation(NodeId node, const OpSpec& op);
   void reportUndefinedRule(NodeId node, const RuleSet& found);
+  void reportMissingHead(NodeId item, const OpSpec& op);
   /// The operation whose name `name` is a slip of; empty when there is none.
   std::string_view slippedOperation(NodeId node);
   void checkWeights(NodeId choice);
@@ -290,6 +291,9 @@ class Analysis {
 
   // --- written_values.cpp: values that parameters do not take ---
   void checkWrittenValues(ModuleId firstModule);
+  void checkEndlessRules(ModuleId firstModule);
+  void checkEndless(const RuleInfo& rule, NodeId sequence);
+  void reportEmptyFile();
   Value writtenValue(NodeId node);
   void checkWrittenSizes(NodeId block, const OpSpec& op);
   void checkWrittenValue(NodeId node, const ParamSpec& param, std::string_view callee);
@@ -390,6 +394,8 @@ class Analysis {
   Body body_;
   /// Rounds before the last one say nothing.
   bool mute_ = false;
+  // A selector that stands without its colon, and so reads as a rule.
+  NodeId headless_ = kNoNode;
   /// Whether the last report was taken in.
   bool reported_ = false;
   /// What near() found for the report to come.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "base/number.h"
 #include "lang/sema/analysis.h"
 
 namespace gable::lang {
@@ -43,6 +44,17 @@ std::string countText(std::span<const Signature> signatures) {
   if (open) out += " or more";
   if (counts == std::vector<size_t>{0}) return "no arguments";
   return out + (counts == std::vector<size_t>{1} ? " argument" : " arguments");
+}
+
+// The form that comes closest to a number of arguments; the first of several.
+const Signature& nearestByCount(std::span<const Signature> forms, size_t count) {
+  const auto distance = [&](const Signature& s) {
+    const size_t least = s.requiredCount(), most = s.params.size();
+    return count < least ? least - count : count > most ? count - most : 0;
+  };
+  return *std::min_element(forms.begin(), forms.end(), [&](const Signature& a, const Signature& b) {
+    return distance(a) < distance(b);
+  });
 }
 
 }  // namespace
@@ -253,6 +265,11 @@ std::string Analysis::mismatchHint(NodeId node, const ParamSpec& param, ValueTyp
              ") for a number between the two";
     }
   }
+  double number = 0;
+  if (valueType(param.type) == ValueType::Float && tree().kind(node) == NodeKind::String &&
+      parseNumber(text(node), number)) {
+    return "remove the quotes: " + std::string(text(node));
+  }
   return "it is: " + docText(param);
 }
 
@@ -340,7 +357,8 @@ Analysis::Chosen Analysis::checkBuiltinCall(const CallTarget& target,
                        std::to_string(args.size()),
                    target.signatures.empty()
                        ? ""
-                       : "write " + signatureText(target.name, target.signatures[0]));
+                       : "write " + signatureText(target.name,
+                                                  nearestByCount(target.signatures, args.size())));
     }
     Chosen none;
     none.leaf = target.mayBeLeaf && !anyNamed;

@@ -169,6 +169,11 @@ void readRange(NoteReader& r, Annotations& out) {
              "write '@Range(min=0, max=10, stepsize=1, restricted=true)'");
     }
   }
+  if (next == 1 && !hasMost) {
+    r.warn(r.node(), "this '@Range' has one number, and needs a least and a greatest one",
+           "write '@Range(min=0, max=10)'");
+    return;
+  }
   if (hasMost && note.max < note.min) {
     r.warn(r.node(), "the least value of this '@Range' is above the greatest",
            "write '@Range(min=0, max=10)'");
@@ -314,10 +319,10 @@ Annotations readAnnotations(const Tree& tree, NodeId list, GroupNote& group,
     } else if (diagnostics) {
       std::vector<std::string_view> names;
       for (const NoteKind& k : kNotes) names.push_back(k.name);
+      const std::string nearest = nearestName(name, names);
       diagnostics->warning("unknown-annotation", tree.span(id),
                            "there is no annotation '@" + std::string(name) + "'; it has no effect",
-                           didYouMean(name, names));
-      const std::string nearest = nearestName(name, names);
+                           nearest.empty() ? "" : "did you mean '@" + nearest + "'?");
       const uint32_t begin = tree.span(id).begin + 1;
       const auto end = begin + static_cast<uint32_t>(name.size());
       if (!nearest.empty()) diagnostics->fixLast({tree.file(), begin, end}, nearest);

@@ -94,6 +94,34 @@ void Analysis::reportSelector(NodeId node, const OpSpec* op) {
           std::move(hint));
 }
 
+// An item without the size or the selector that it begins with. The selector may be there, and only
+// its colon missing.
+void Analysis::reportMissingHead(NodeId item, const OpSpec& op) {
+  const Tree& t = tree();
+  const uint32_t begin = t[item].begin;
+  if (op.block == BlockKind::Split) {
+    warning("missing-size", t.span(item), "this part has no size, and takes '~1'",
+            "write 'size : operations'");
+    fix({t.file(), begin, begin}, "~1 : ");
+    return;
+  }
+  const std::span<const NodeId> operations = t.children(t.child(item, 2));
+  const NodeId first = operations.size() < 2 ? kNoNode : operations[0];
+  const bool plain = t.kind(first) == NodeKind::Apply && t.children(first).size() == 1 &&
+                     t.child(first, 0) == kNoNode && !t.has(first, kFlagTerminal);
+  if (plain && isSelectorWord(t.text(first), &op) &&
+      rulesNamed(body_.module, t.text(first)).rules.empty()) {
+    headless_ = first;
+    const Span word = nameSpan(t, first);
+    errorAt("missing-selector", first, "the ':' is missing behind " + quote(t.text(first)),
+            "write '" + std::string(t.text(first)) + " : operations'");
+    fix({t.file(), word.end, word.end}, " :");
+    return;
+  }
+  errorAt("missing-selector", item, "this part has no selector", "write 'selector : operations'");
+  fix({t.file(), begin, begin}, "all : ");
+}
+
 // The figure that operations begin with, where a rule of that name has it in its own body.
 const OpSpec* Analysis::figureOf(ModuleId module, NodeId sequence, int depth) const {
   const Tree& t = program_.tree(module);

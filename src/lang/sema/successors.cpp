@@ -164,7 +164,7 @@ std::string_view Analysis::slippedOperation(NodeId node) {
 }
 
 void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
-  if (mute_) return;
+  if (mute_ || (node == headless_ && node != kNoNode)) return;
   const std::string_view name = text(node);
   const Span span = nameSpan(tree(), node);
   if (!found.rules.empty()) {
@@ -535,16 +535,7 @@ void Analysis::visitItem(NodeId item, const OpSpec& op) {
   const NodeId second = t.child(item, 1);
   const bool wantsHead = op.block == BlockKind::Split || op.block == BlockKind::Selectors;
   if (head == kNoNode && wantsHead && t.kind(t.child(item, 2)) != NodeKind::Missing) {
-    const bool isSplit = op.block == BlockKind::Split;
-    if (isSplit) {
-      warning("missing-size", t.span(item), "this part has no size, and takes '~1'",
-              "write 'size : operations'");
-    } else {
-      errorAt("missing-selector", item, "this part has no selector",
-              "write 'selector : operations'");
-    }
-    const uint32_t begin = t[item].begin;
-    fix({t.file(), begin, begin}, isSplit ? "~1 : " : "all : ");
+    reportMissingHead(item, op);
   }
   // place { A | otherwise : B }: the word beside plain operations.
   const bool word = op.block == BlockKind::Operations && head != kNoNode &&
