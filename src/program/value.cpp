@@ -139,11 +139,20 @@ std::string numberText(double v) {
   if (std::isnan(v)) return "nan";
   if (std::isinf(v)) return v > 0 ? "inf" : "-inf";
   if (v == 0) return "0";
+  // The fewest digits that give the number back, up to sixteen: 9.3 has two, what the original
+  // shows of 0.1 as a float is 0.1000000014901161, and 0.1 + 0.2 looks as an author expects.
   char text[40];
-  // Sixteen digits: what the original shows of 0.1 as a float is 0.1000000014901161, while sums
-  // such as 0.1 + 0.2 still look as an author expects.
-  const auto end = std::to_chars(text, text + sizeof text, v, std::chars_format::general, 16);
-  return std::string(text, end.ptr);
+  const double size = std::fabs(v);
+  const bool plain = size >= 1e-4 && size < 1e16;
+  const auto format = plain ? std::chars_format::fixed : std::chars_format::scientific;
+  const char* end = std::to_chars(text, text + sizeof text, v, format).ptr;
+  const char* const exponent = std::find<const char*>(text, end, 'e');
+  const char* const first =
+      std::find_if<const char*>(text, exponent, [](char c) { return c >= '1' && c <= '9'; });
+  if (std::count_if(first, exponent, [](char c) { return c != '.'; }) > 16) {
+    end = std::to_chars(text, text + sizeof text, v, std::chars_format::general, 16).ptr;
+  }
+  return {static_cast<const char*>(text), end};
 }
 
 namespace {

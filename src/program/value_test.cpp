@@ -18,6 +18,14 @@ TEST(NumberText, showsUpToSixteenDigits) {
   EXPECT_EQ(numberText(0.1 + 0.2), "0.3");
   EXPECT_EQ(numberText(3 * 0.15), "0.45");
   EXPECT_EQ(numberText(static_cast<double>(0.1f)), "0.1000000014901161");
+  EXPECT_EQ(numberText(9.3), "9.3");
+  EXPECT_EQ(numberText(-8.7), "-8.7");
+  EXPECT_EQ(numberText(0.1 + 0.2), "0.3");
+  EXPECT_EQ(numberText(100000), "100000");
+  EXPECT_EQ(numberText(1e15), "1000000000000000");
+  EXPECT_EQ(numberText(1e20), "1e+20");
+  EXPECT_EQ(numberText(2.5e-7), "2.5e-07");
+  EXPECT_EQ(numberText(0.0003), "0.0003");
   EXPECT_EQ(numberText(1.0 / 3), "0.3333333333333333");
   EXPECT_EQ(numberText(1234567.25), "1234567.25");
   EXPECT_EQ(numberText(std::numeric_limits<double>::infinity()), "inf");
