@@ -18,7 +18,8 @@ namespace {
 
 // Trim planes of edges flatter than 40 degrees are horizontal; this is the sine.
 constexpr double kSinHorizontal = 0.64278760968653933;
-constexpr double kGrid = 0x1.0p-30;
+// Of the grid a metre: what a rule wrote as a decimal number comes out as the same number.
+constexpr double kGridLines = 1e9;
 
 Vec3 onGrid(const Vec3& v) { return {gable::onGrid(v.x), gable::onGrid(v.y), gable::onGrid(v.z)}; }
 
@@ -125,7 +126,9 @@ constexpr Kind kKinds[] = {
 
 }  // namespace
 
-double onGrid(double v) { return std::fabs(v) < 0x1.0p20 ? std::nearbyint(v / kGrid) * kGrid : v; }
+double onGrid(double v) {
+  return std::fabs(v) < 0x1.0p20 ? std::nearbyint(v * kGridLines) / kGridLines : v;
+}
 
 void addTrimPlane(ShapeExtra& extra, const Shape& parent, const SharedEdge& e) {
   const Vec3 along = normalized(e.along);
