@@ -198,11 +198,8 @@ Status applyOffset(OpCall& call, const OffsetArguments& args) {
     offset.border = inward.stripOfEachEdge();
   }
   Mesh result = assembled(*mesh, offset, args.keep);
-  if (result.faceCount() == 0) {
-    call.drop();
-  } else {
-    setPartMesh(s, Shape(s), std::move(result), true);
-  }
+  // Where no face is left inside, the shape stays as it was, as in CityEngine.
+  if (result.faceCount() > 0) setPartMesh(s, Shape(s), std::move(result), true);
   return {};
 }
 
