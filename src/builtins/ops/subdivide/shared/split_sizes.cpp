@@ -8,7 +8,7 @@
 //
 //   k = (whole - rigid lengths) / elastic weights,
 //
-// and the best n is the one with the least max(k, 1/k). k falls as n grows, so only the two whole
+// and the best n is the one with the least |k - 1|. k falls as n grows, so only the two whole
 // numbers around the n of k = 1 have to be looked at. Several repeated groups of one sequence get
 // equal shares of the room, so that symmetric patterns stay symmetric.
 #include "builtins/ops/subdivide/shared/split_sizes.h"
@@ -152,8 +152,8 @@ class Divider {
 // Of a sequence whose elastic parts are stretched.
 double lengthOf(const Extent& e, double stretch) { return e.rigid + e.elastic * stretch; }
 
-// The badness of a stretch: 1 is best, and halving is as bad as doubling.
-double strain(double k) { return k > 0 ? std::max(k, 1 / k) : HUGE_VAL; }
+// The badness of a stretch, by which the published examples choose: the change of a length.
+double strain(double k) { return k > 0 ? std::fabs(k - 1) : HUGE_VAL; }
 
 // How often a group is repeated when its share of the room holds `ratio` of it.
 double repetitions(double ratio, bool up) {
