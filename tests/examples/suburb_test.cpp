@@ -365,9 +365,10 @@ TEST(SuburbRows, S12UprightFacesHaveTheWallsMaterial) {
   };
   const ObjFile obj = parseObj(textOf(path));
   std::map<std::string, Material> materials;
-  for (const Material& one : parseMtl(textOf(::testing::TempDir() + "suburb_rows.mtl"), path)) {
-    materials[one.name] = one;
-  }
+  std::vector<std::string> losses;
+  const std::string mtl = textOf(::testing::TempDir() + "suburb_rows.mtl");
+  for (const Material& one : parseMtl(mtl, path, losses)) materials[one.name] = one;
+  EXPECT_TRUE(losses.empty());
   const auto is = [&](const ObjFace& f, std::initializer_list<const char*> colors) {
     const Vec3 c = materials.at(obj.materials.at(f.material)).color;
     return std::any_of(colors.begin(), colors.end(), [&](const char* hex) {
