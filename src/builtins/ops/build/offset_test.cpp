@@ -61,10 +61,11 @@ TEST(Offset, holesGrowInwardAndShrinkOutward) {
   EXPECT_NEAR(meshInLocal(offset(s, 3, "inside").shape).area(), 26 * 26, 1e-9);
 }
 
-TEST(Offset, whatVanishesLeavesNothing) {
+TEST(Offset, whatHasNoRoomInsideStays) {
   const Ran ran = offset(quadShape(10, 6), -4, "inside");
   ASSERT_TRUE(ran.status.ok());
-  EXPECT_TRUE(ran.dropped);
+  EXPECT_FALSE(ran.dropped);
+  EXPECT_NEAR(meshInLocal(ran.shape).area(), 60, 1e-9);
   EXPECT_NEAR(meshInLocal(offset(quadShape(10, 6), -4, "border").shape).area(), 60, 1e-9);
 }
 

@@ -116,7 +116,7 @@ TEST(SplitSizes, interleavedRepetitionStretchesLeast) {
 }
 
 TEST(SplitSizes, rhythmEndsWithTheFixedPart) {
-  expectSizes(divide({group(2, true), size(1), floating(2.7), size(1)}, 10), {1, 3.5, 1, 3.5, 1});
+  expectSizes(divide({group(2, true), size(1), floating(2.7), size(1)}, 10), {1, 2, 1, 2, 1, 2, 1});
 }
 
 TEST(SplitSizes, tenthsRepeatTenTimes) {
