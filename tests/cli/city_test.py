@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The Gable authors
+"""Places from maps on the command line: city_test.py GABLE FOLDER.
+
+A map of a few features, the same for each test. Files are made in FOLDER. Run from the repository's root.
+"""
+import json
+import sys
+import unittest
+
+from cli_test import FILE, USAGE, WRONG, Case
+
+
+def feature(kind, coordinates, **tags):
+    return {"type": "Feature", "properties": tags, "geometry": {"type": kind, "coordinates": coordinates}}
+
+
+def square(x, y, size):
+    return [[[x, y], [x + size, y], [x + size, y + size], [x, y + size], [x, y]]]
+
+
+MAP = {
+    "type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:25832"}},
+    "features": [
+        feature("Polygon", square(0, 0, 12), building="yes", **{"building:levels": "4"}),
+        feature("Polygon", square(60, 40, 20), building="yes", height="15 m"),
+        feature("LineString", [[-10, 25], [40, 25], [100, 25]], highway="residential", lanes="2"),
+        feature("LineString", [[40, -10], [40, 25], [40, 80]], highway="residential"),
+        feature("Polygon", square(50, 0, 15), leisure="park"),
+        feature("LineString", [[5, 5]], highway="residential"),
+    ],
+}
+
+
+class City(Case):
+    def setUp(self):
+        super().setUp()
+        self.put("map.geojson", json.dumps(MAP))
+
+    def city(self, *arguments, **expected):
+        return self.run_gable("city", *arguments, **expected)
+
+    def read(self, name):
+        return json.loads((self.folder / name).read_text())
+
+    def testSurfacesAddUpToTheBox(self):
+        self.city("map.geojson", "--plan", "plan.geojson", "--stats", "stats.json")
+        stats = self.read("stats.json")
+        areas = {name: s["area"] for name, s in stats["surfaces"].items()}
+        self.assertAlmostEqual(sum(areas.values()) / (80 * 60), 1, delta=1e-3)
+        self.assertAlmostEqual(areas["Footprint"], 12 * 12 + 20 * 20, delta=1)
+        for name in ("Carriageway", "Sidewalk", "Junction", "Park", "Lot"):
+            self.assertGreater(areas[name], 0, name)
+        pieces = sum(s["pieces"] for s in stats["surfaces"].values())
+        surfaces = [f for f in self.read("plan.geojson")["features"] if f["geometry"]["type"] == "Polygon"]
+        self.assertEqual(len(surfaces), pieces)
+
+    def testAModelIsTheSameWithAnyNumberOfThreads(self):
+        for jobs in ("1", "2"):
+            self.city("map.geojson", "--jobs", jobs, "-o", f"{jobs}.glb")
+        one, two = ((self.folder / f"{jobs}.glb").read_bytes() for jobs in ("1", "2"))
+        self.assertGreater(len(one), 10_000)
+        self.assertEqual(one, two)
+
+    def testRulesOfTheUserTakeTheirPlace(self):
+        (self.folder / "rules").mkdir()
+        self.put("rules/city.cga", "@StartRule Ground --> Flat.\nBuilding --> extrude(7) Block.\n")
+        self.city("map.geojson", "--rules", "rules", "-o", "own.obj")
+        text = (self.folder / "own.obj").read_text()
+        self.assertIn("g Block", text)
+        self.assertIn("g Flat", text)
+
+    def testWhatCannotBeReadIsNamed(self):
+        self.city("map.geojson", "-o", "a.glb", says="map-row")
+        self.city("none.osm", "-o", "b.glb", status=FILE, says="none.osm")
+        self.city("map.geojson", "--box", "1,2,3", "-o", "b.glb", status=USAGE, says="--box")
+        self.put("empty.geojson", '{"type": "FeatureCollection", "features": []}')
+        self.city("empty.geojson", "-o", "b.glb", status=WRONG, says="empty.geojson")
+        self.assertFalse((self.folder / "b.glb").exists())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
