@@ -10,9 +10,9 @@
 
 #include "base/files.h"
 #include "city/plan.h"
-#include "engine/file_search.h"
 #include "engine/footprint.h"
 #include "engine/guard.h"
+#include "geom/mesh/face_plane.h"
 
 namespace gable {
 
@@ -35,24 +35,15 @@ std::shared_ptr<City::Impl> refused(const Error& e) {
 }
 
 Mesh meshOf(const CityShape& s) {
+  if (s.line.empty()) return meshOf({s.polygon}, groundFrame());
   MeshBuilder b;
-  if (!s.line.empty()) {
-    uint32_t from = b.addPosition(fromPlan(s.line[0]));
-    for (size_t i = 1; i < s.line.size(); ++i) {
-      const uint32_t to = b.addPosition(fromPlan(s.line[i]));
-      const uint32_t ends[2] = {from, to};
-      b.addPolygon(ends);
-      from = to;
-    }
-    return b.take();
+  uint32_t from = b.addPosition(fromPlan(s.line[0]));
+  for (size_t i = 1; i < s.line.size(); ++i) {
+    const uint32_t to = b.addPosition(fromPlan(s.line[i]));
+    const uint32_t ends[2] = {from, to};
+    b.addPolygon(ends);
+    from = to;
   }
-  b.beginFace();
-  const auto loop = [&](const Ring& ring) {
-    b.beginLoop();
-    for (const Vec2 p : ring) b.addCorner(b.addPosition(fromPlan(p)));
-  };
-  loop(s.polygon.outer);
-  for (const Ring& h : s.polygon.holes) loop(h);
   return b.take();
 }
 
@@ -120,19 +111,12 @@ void tellSkipped(const MapSkips& skips, const std::string& path, DiagnosticList&
 
 std::shared_ptr<City::Impl> parsed(const std::string& content, const std::string& name,
                                    const CitySettings& settings) {
-  AssetOptions options;
-  options.path = name;
-  options.readFile = [&name](const std::string& path) -> Result<std::string> {
-    const std::string found = FileSearch(folderOf(name), {}).inside(path);
-    if (found.empty()) return Error{"file-missing", "there is no such file in the folder", {}};
-    return readFile(found, kLargestShapeFile);
-  };
   std::optional<MapBox> box;
   if (settings.box) {
     const auto& [west, south, east, north] = *settings.box;
     box = MapBox{west, south, east, north};
   }
-  Result<MapFeatures> map = readMapFeatures(content, options, settings.layer, box);
+  Result<MapFeatures> map = readMapFeatures(content, shapeFileOptions(name), settings.layer, box);
   if (!map.ok()) return refused(map.error());
   auto impl = std::make_shared<City::Impl>();
   impl->map = std::move(*map);

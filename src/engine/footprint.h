@@ -5,6 +5,7 @@
 #pragma once
 
 #include "engine/impl.h"
+#include "io/importers/asset.h"
 #include "io/importers/shape_input.h"
 
 namespace gable {
@@ -17,5 +18,12 @@ constexpr uint64_t kLargestShapeFile = uint64_t{2} << 30;
 
 /// Its frame stands, unturned, on a whole metre near the lower corner: offsets stay exact.
 ShapeFootprint footprint(ShapeInput input);
+
+/// Plan coordinates on the ground: x east, y north, which is -z; z up.
+Frame groundFrame(double height = 0);
+
+/// For readers of a file of shapes: other files are read from its own folder and below, nowhere
+/// else.
+AssetOptions shapeFileOptions(const std::string& path);
 
 }  // namespace gable

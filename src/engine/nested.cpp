@@ -10,7 +10,7 @@
 
 #include "base/allowance.h"
 #include "base/work.h"
-#include "engine/impl.h"
+#include "engine/footprint.h"
 #include "geom/mesh/face_plane.h"
 #include "geom/region/boolean.h"
 
@@ -34,10 +34,6 @@ struct Plan {
   Box2 box;
   double size = 0;
 };
-
-Frame groundFrame(double height) {
-  return Frame::of({0, height, 0}, {1, 0, 0}, {0, 0, -1}, {0, 1, 0});
-}
 
 Plan planOf(const ShapeFootprint& f) {
   Plan p;

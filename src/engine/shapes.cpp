@@ -38,6 +38,21 @@ ShapeFootprint footprint(ShapeInput input) {
   return f;
 }
 
+Frame groundFrame(double height) {
+  return Frame::of({0, height, 0}, {1, 0, 0}, {0, 0, -1}, {0, 1, 0});
+}
+
+AssetOptions shapeFileOptions(const std::string& path) {
+  AssetOptions options;
+  options.path = path;
+  options.readFile = [folder = folderOf(path)](const std::string& wanted) -> Result<std::string> {
+    const std::string found = FileSearch(folder, {}).inside(wanted);
+    if (found.empty()) return Error{"file-missing", "there is no such file in the folder", {}};
+    return readFile(found, kLargestShapeFile);
+  };
+  return options;
+}
+
 namespace {
 
 /// Where a lot or a polygon of the caller's may lie: far beyond every map in metres.
@@ -66,12 +81,9 @@ std::shared_ptr<Shapes::Impl> ofPolygon(const Polygon& p, const std::string& nam
     if (!usable(v.x) || !usable(v.y)) return refused(tooFar());
   }
   auto impl = std::make_shared<Shapes::Impl>();
-  MeshBuilder b;
-  // Plan coordinates to the ground: x east, y north is -z.
-  addFace(b, p, Frame::of({}, {1, 0, 0}, {0, 0, -1}, {0, 1, 0}));
   ShapeInput input;
   input.name = name;
-  input.mesh = b.take();
+  input.mesh = meshOf({p}, groundFrame());
   impl->footprints.push_back(footprint(std::move(input)));
   return impl;
 }
@@ -209,14 +221,7 @@ TextureBytes texturesOf(ShapeFile& file, const FileReader& read) {
 
 std::shared_ptr<Shapes::Impl> parsed(const std::string& content, const std::string& name,
                                      const FeatureSelection& selection) {
-  AssetOptions options;
-  options.path = name;
-  // Buffers are read from the file's own folder and below, nowhere else.
-  options.readFile = [&name](const std::string& path) -> Result<std::string> {
-    const std::string found = FileSearch(folderOf(name), {}).inside(path);
-    if (found.empty()) return Error{"file-missing", "there is no such file in the folder", {}};
-    return readFile(found, kLargestShapeFile);
-  };
+  const AssetOptions options = shapeFileOptions(name);
   Result<ShapeFile> file =
       readShapes(content, options, {selection.layer, selection.key, selection.value});
   if (!file.ok()) return refused(file.error());
