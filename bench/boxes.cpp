@@ -106,7 +106,7 @@ std::vector<House> houses() {
   for (int i = 0; i < 1000; ++i) {
     const double j = std::fmod(i * 0.618033988749895, 1.0);
     const double k = std::fmod(i * 0.754877666246693, 1.0);
-    out.push_back({(i % 40) * 30.0, -(i / 40) * 30.0, 8 + 6 * j, 8 + 6 * k, 13.6 + 2.8 * j});
+    out.push_back({(i % 40) * 30.0, -(i / 40) * 30.0, 8 + 6 * j, 8 + 6 * k, 13.6 + 2.6 * j});
   }
   return out;
 }
