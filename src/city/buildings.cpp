@@ -19,8 +19,6 @@ constexpr size_t kAsked = 7;
 // Of the area of a building: from so much on its parts stand for it.
 constexpr double kMostlyParts = 0.6;
 
-bool isTrue(std::string_view v) { return !v.empty() && v != "no"; }
-
 double areaOf(const MapFeature& f) {
   // The largest ring, less what lies within it by even-odd: outlines first, then their courts.
   double largest = 0, sum = 0;

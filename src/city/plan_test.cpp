@@ -109,6 +109,18 @@ TEST(CityPlan, BadRowsAreCountedAndNamed) {
   expectWhole(planCity(*map));
 }
 
+TEST(CityPlan, WhatIsNoBuildingHasNeitherWallsNorGround) {
+  const std::string square = "[[[10,10],[30,10],[30,30],[10,30],[10,10]]]";
+  for (const char* tag : {"no", "false", "0"}) {
+    Result<MapFeatures> map =
+        mapOf({feature(R"("building":")" + std::string(tag) + '"', "Polygon", square)});
+    ASSERT_TRUE(map.ok());
+    const CityPlan plan = planCity(*map);
+    EXPECT_EQ(areaOf(plan, Surface::Footprint), 0) << tag;
+    EXPECT_EQ(countOf(plan, "Building"), 0u) << tag;
+  }
+}
+
 TEST(CityPlan, HostileMapsKeepThePromise) {
   std::vector<std::string> rows;
   for (const char* kind : {"primary", "service", "residential", "footway", "steps"}) {

@@ -69,9 +69,9 @@ constexpr Meaning kMeanings[] = {
     {"landuse", "railway", Surface::Track},
 };
 
-bool isTrue(std::string_view v) { return !v.empty() && v != "no" && v != "false" && v != "0"; }
-
 }  // namespace
+
+bool isTrue(std::string_view v) { return !v.empty() && v != "no" && v != "false" && v != "0"; }
 
 const char* surfaceName(Surface s) {
   static constexpr std::array<const char*, kSurfaceCount> kNames{

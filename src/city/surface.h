@@ -38,6 +38,9 @@ constexpr size_t kSurfaceCount = static_cast<size_t>(Surface::Footprint) + 1;
 /// "Carriageway".
 const char* surfaceName(Surface s);
 
+/// Whether a tag says that something is there: "yes", or of what kind.
+bool isTrue(std::string_view tag);
+
 /// Whether something lies on the ground, and neither above nor below it.
 bool isOnGround(const MapFeature& f);
 
