@@ -78,7 +78,7 @@ void facadeByLoops(const Frame& facade, double width, VertexBuffer& out) {
       Frame f = facade;
       const auto box = [&](double x, double y, double w, double h, double d) {
         f.origin = facade.point({i * bay + x, floor * 3.0 + y, 0});
-        appendBox(f, {w, h, d}, out);
+        appendBox(f, f.origin, {w, h, d}, out);
       };
       box(0, 0, 0.15, 3, 0.2);
       box(0.15, 0, bay - 0.3, 0.15, 0.2);
@@ -112,11 +112,12 @@ std::vector<House> houses() {
 }
 
 void houseByLoops(const House& house, VertexBuffer& out) {
+  const Frame upright;
   const double floor = house.h / 5, bay = house.w / 4, part = house.d / 5;
   for (int f = 0; f < 5; ++f) {
     for (int b = 0; b < 4; ++b) {
       for (int p = 0; p < 5; ++p) {
-        appendBox(Frame::moved({house.x + b * bay, f * floor, house.z - house.d + p * part}),
+        appendBox(upright, {house.x + b * bay, f * floor, house.z - house.d + p * part},
                   {bay, floor, part}, out);
       }
     }
@@ -230,8 +231,15 @@ class Subject {
   // To a flattened mesh.
   void derive(VertexBuffer& out) {
     out.clear();
-    stream_.run(workload_.shapes, [&](std::span<const Leaf> leaves) {
-      for (const Leaf& leaf : leaves) appendBox(leaf.frame, leaf.scale, out);
+    stream_.run(workload_.shapes, [&](const PlacedLeaves& placed) {
+      for (const Leaf& leaf : placed.leaves) {
+        if (leaf.frame.turned) {
+          const Frame frame = placed.frameOf(leaf);
+          appendBox(frame, frame.origin, leaf.scale, out);
+        } else {
+          appendBox(placed.axes, placed.originOf(leaf), leaf.scale, out);
+        }
+      }
     });
   }
   // To a scene, with sharing.

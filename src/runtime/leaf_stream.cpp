@@ -6,9 +6,6 @@
 
 #include "runtime/leaf_stream.h"
 
-#include <algorithm>
-#include <array>
-
 #include "runtime/machine.h"
 
 namespace gable {
@@ -22,20 +19,16 @@ constexpr size_t kMostKept = size_t{1} << 12;
 // so much for each that little of the machine would be left in the caches for the next.
 constexpr size_t kMostUnits = 64;
 
-// Most leaves below one turned frame have its axes, and so have most that lay in the same place of
-// the batch before: axes are numbered, and written only where other ones lie.
+// Nothing is copied: leaves are passed on where they lie, with the frame around them.
 class Placer {
  public:
-  using Take = std::function<void(std::span<const Leaf>)>;
-  Placer(const Output& from, const Take& take) : from_(from), take_(take) {
-    axesOf_.fill(kUpright);
-  }
+  using Take = std::function<void(const PlacedLeaves&)>;
+  Placer(const Output& from, const Take& take) : from_(from), take_(take) {}
 
   void place(const Prototype& p, const Frame& world) {
     depth_ = 0;
     Level& root = open(p);
     root.world = world;
-    root.axes = world.turned ? ++lastAxes_ : kUpright;
     while (depth_ > 0) {
       const Instance* const next = goOn(levels_[depth_ - 1]);
       if (next)
@@ -43,17 +36,12 @@ class Placer {
       else
         --depth_;
     }
-    pass();
   }
 
  private:
-  using AxesNumber = uint64_t;
-  static constexpr AxesNumber kUpright = 0;
-
   struct Level {
     const Prototype* prototype;
     Frame world;
-    AxesNumber axes;
     uint32_t leaf, instance;
   };
 
@@ -71,7 +59,7 @@ class Placer {
     const Leaf* const leaves = from_.leaves.data() + prototype.firstLeaf;
     const Instance* const instances = from_.instances.data() + prototype.firstInstance;
     const auto putUpTo = [&](uint32_t end) {
-      if (at.leaf < end) put({leaves + at.leaf, leaves + end}, at.world, at.world.origin, at.axes);
+      if (at.leaf < end) put({leaves + at.leaf, leaves + end}, at.world, at.world.origin);
       at.leaf = end;
     };
     while (at.instance < prototype.instanceCount) {
@@ -81,9 +69,9 @@ class Placer {
       if (inner.instanceCount > 0) return &next;
       const std::span<const Leaf> within(from_.leaves.data() + inner.firstLeaf, inner.leafCount);
       if (!next.frame.turned)
-        put(within, at.world, at.world.point(next.frame.origin), at.axes);
+        put(within, at.world, at.world.point(next.frame.origin));
       else
-        put(within, at.world * next.frame);
+        putTurned(within, at.world * next.frame);
     }
     putUpTo(prototype.leafCount);
     return nullptr;
@@ -91,7 +79,6 @@ class Placer {
   void enter(const Instance& instance) {
     Level& level = open(from_.prototypes[instance.prototype].range);
     const Level& around = levels_[depth_ - 2];
-    level.axes = instance.frame.turned ? ++lastAxes_ : around.axes;
     // Written once: a copy of what was just written would wait for its stores.
     if (instance.frame.turned) {
       level.world = around.world * instance.frame;
@@ -100,47 +87,12 @@ class Placer {
       level.world.origin = around.world.point(instance.frame.origin);
     }
   }
-  void put(std::span<const Leaf> leaves, const Frame& world) {
-    put(leaves, world, world.origin, ++lastAxes_);
+  void putTurned(std::span<const Leaf> leaves, const Frame& world) {
+    put(leaves, world, world.origin);
   }
   // The frame that they lie in has the axes of `world`, and begins at `origin`.
-  void put(std::span<const Leaf> leaves, const Frame& world, const Vec3& origin,
-           AxesNumber number) {
-    while (!leaves.empty()) {
-      const size_t count = std::min(leaves.size(), batch_.size() - count_);
-      Leaf* placed = batch_.data() + count_;
-      AxesNumber* axes = axesOf_.data() + count_;
-      for (const Leaf& leaf : leaves.first(count)) {
-        if (leaf.frame.turned) {
-          *axes = ++lastAxes_;
-          placeTurned(leaf.frame, world, origin, *placed);
-        } else {
-          if (*axes != number) {
-            *axes = number;
-            placed->frame = world;
-          }
-          placed->frame.origin = origin + world.direction(leaf.frame.origin);
-        }
-        placed->scale = leaf.scale;
-        placed->mesh = leaf.mesh;
-        placed->materials = leaf.materials;
-        placed->name = leaf.name;
-        placed->source = leaf.source;
-        placed->attributes = leaf.attributes;
-        ++placed, ++axes;
-      }
-      leaves = leaves.subspan(count);
-      count_ += count;
-      if (count_ == batch_.size()) pass();
-    }
-  }
-  static void placeTurned(const Frame& leaf, Frame world, const Vec3& origin, Leaf& placed) {
-    world.origin = origin;
-    placed.frame = world * leaf;
-  }
-  void pass() {
-    if (count_ > 0) take_({batch_.data(), count_});
-    count_ = 0;
+  void put(std::span<const Leaf> leaves, const Frame& world, const Vec3& origin) {
+    if (!leaves.empty()) take_({leaves, world, origin});
   }
 
   const Output& from_;
@@ -148,11 +100,6 @@ class Placer {
   /// Used again and again: those in use come first.
   std::vector<Level> levels_;
   size_t depth_ = 0;
-  std::array<Leaf, 64> batch_;
-  /// Of the leaves of the batch.
-  std::array<AxesNumber, 64> axesOf_;
-  AxesNumber lastAxes_ = kUpright;
-  size_t count_ = 0;
 };
 
 DeriveOptions streamed(DeriveOptions options, const Program& program) {
@@ -184,7 +131,7 @@ LeafStream::LeafStream(const Program& program, Environment& environment,
 LeafStream::~LeafStream() = default;
 
 void LeafStream::run(const std::vector<InitialShape>& shapes,
-                     const std::function<void(std::span<const Leaf>)>& take) {
+                     const std::function<void(const PlacedLeaves&)>& take) {
   Machine& machine = impl_->machine;
   Output& output = machine.output();
   Placer placer(output, take);

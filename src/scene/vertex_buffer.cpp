@@ -79,10 +79,9 @@ uint32_t* VertexBuffer::reserveIndices(size_t count) {
   return reserve(indices_, indexCount_, indexCapacity_, count);
 }
 
-void appendBox(const Frame& frame, const Vec3& size, VertexBuffer& out) {
-  const Vec3f axes[3] = {narrow(frame.x), narrow(frame.y), narrow(frame.z)};
-  const Vec3 ex = frame.x * size.x, ey = frame.y * size.y, ez = frame.z * size.z;
-  const Vec3& o = frame.origin;
+void appendBox(const Frame& axes, const Vec3& o, const Vec3& size, VertexBuffer& out) {
+  const Vec3f axisOf[3] = {narrow(axes.x), narrow(axes.y), narrow(axes.z)};
+  const Vec3 ex = axes.x * size.x, ey = axes.y * size.y, ez = axes.z * size.z;
   const Vec3 oz = o + ez;
   const Vec3f corners[8] = {narrow(o),  narrow(o + ex),  narrow(o + ey),  narrow(o + ex + ey),
                             narrow(oz), narrow(oz + ex), narrow(oz + ey), narrow(oz + ex + ey)};
@@ -92,7 +91,7 @@ void appendBox(const Frame& frame, const Vec3& size, VertexBuffer& out) {
   uint32_t* index = out.reserveIndices(36);
   const auto base = static_cast<uint32_t>(out.vertexCount());
   for (int f = 0; f < 6; ++f) {
-    const Vec3f& axis = axes[kBoxAxis[f]];
+    const Vec3f& axis = axisOf[kBoxAxis[f]];
     const float sign = mirrored ? -kBoxSign[f] : kBoxSign[f];
     const Vec3f n{axis.x * sign, axis.y * sign, axis.z * sign};
     for (int c = 0; c < 4; ++c, ++v) {
@@ -109,7 +108,7 @@ void appendBox(const Frame& frame, const Vec3& size, VertexBuffer& out) {
 void flatten(const Scene& scene, VertexBuffer& out) {
   forEachLeaf(scene, [&](const Leaf& leaf, const Frame& world) {
     if (leaf.mesh == kUnitBox || leaf.mesh == kUnitBoxUv)
-      appendBox(world, leaf.scale, out);
+      appendBox(world, world.origin, leaf.scale, out);
     else
       appendMesh(*scene.meshes[leaf.mesh], world, leaf.scale, out);
   });

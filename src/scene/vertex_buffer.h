@@ -48,7 +48,7 @@ class VertexBuffer {
 /// corners has n vertices of its own. A box is 24 vertices and 36 indices.
 void flatten(const Scene& scene, VertexBuffer& out);
 
-/// Appends an upright or turned box: the unit box scaled by `size` and placed by `frame`.
-void appendBox(const Frame& frame, const Vec3& size, VertexBuffer& out);
+/// Appends the unit box scaled by `size`, with the axes of `axes`, beginning at `origin`.
+void appendBox(const Frame& axes, const Vec3& origin, const Vec3& size, VertexBuffer& out);
 
 }  // namespace gable
