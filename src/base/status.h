@@ -5,7 +5,6 @@
 // it into a warning with the rule, the line and the shape's path.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <utility>
 
@@ -14,12 +13,18 @@ namespace gable {
 class [[nodiscard]] Status {
  public:
   Status() = default;
-  /// `code` is a diagnostic code (a string literal), `message` one sentence, `hint` the remedy.
-  static Status failure(const char* code, std::string message, std::string hint = {}) {
-    Status s;
-    s.failure_ = std::make_shared<Failure>(Failure{code, std::move(message), std::move(hint)});
-    return s;
+  Status(const Status& other) : failure_(other.failure_ ? copyOf(*other.failure_) : nullptr) {}
+  Status(Status&& other) noexcept : failure_(std::exchange(other.failure_, nullptr)) {}
+  Status& operator=(Status other) noexcept {
+    std::swap(failure_, other.failure_);
+    return *this;
   }
+  ~Status() {
+    if (failure_) [[unlikely]]
+      drop(failure_);
+  }
+  /// `code` is a diagnostic code (a string literal), `message` one sentence, `hint` the remedy.
+  [[gnu::cold]] static Status failure(const char* code, std::string message, std::string hint = {});
 
   bool ok() const { return !failure_; }
   explicit operator bool() const { return ok(); }
@@ -34,8 +39,12 @@ class [[nodiscard]] Status {
     std::string message;
     std::string hint;
   };
-  // What went well costs a null pointer.
-  std::shared_ptr<const Failure> failure_;
+  // Failing is rare: what it takes lies apart from the code that runs.
+  [[gnu::cold]] static Failure* copyOf(const Failure& failure);
+  [[gnu::cold]] static void drop(Failure* failure) noexcept;
+
+  // Owned. What went well costs a null pointer.
+  Failure* failure_ = nullptr;
 };
 
 }  // namespace gable

@@ -264,11 +264,11 @@ class Machine final : public Services, private WorkMeter {
   ContextQueries::Place placeAtWork() const;
 
   // Limits and messages.
-  bool overLimit(const char* code, std::string message, std::string hint);
+  [[gnu::cold]] bool overLimit(const char* code, std::string message, std::string hint);
   /// Tells why an operation or a function did not do what it should. A limit has told it already.
-  void tellFailure(const char* name, const Status& status);
-  void endByFailure(const Status& status);
-  bool endsByFullTable(const Status& status);
+  [[gnu::cold]] void tellFailure(const char* name, const Status& status);
+  [[gnu::cold]] void endByFailure(const Status& status);
+  [[gnu::cold]] bool endsByFullTable(const Status& status);
   bool countShape() {
     tally_.countShape();
     return tick();

@@ -229,7 +229,7 @@ class OpCall {
     return hashCombine(hashCombine(shape_.path, place_.site), k);
   }
 
-  Status fail(const char* code, std::string message, std::string hint = {}) const {
+  [[gnu::cold]] Status fail(const char* code, std::string message, std::string hint = {}) const {
     return Status::failure(code, std::move(message), std::move(hint));
   }
   /// For what could not be done: the block's part `otherwise` gets the shape, and all is well; the
@@ -276,7 +276,8 @@ class FunctionCall {
     return hashCombine(hashCombine(shape_.path, site_), k);
   }
   /// Reports the author's mistake at this call; the caller then gets the returned value.
-  Value fail(const char* code, std::string message, std::string hint, Value otherwise) const;
+  [[gnu::cold]] Value fail(const char* code, std::string message, std::string hint,
+                           Value otherwise) const;
 
   void place(std::string_view file, uint64_t site) {
     file_ = file;
