@@ -4,8 +4,8 @@
 #include "builtins/auto_tags.h"
 
 #include <algorithm>
-#include <string>
 
+#include "base/small_buffer.h"
 #include "builtins/selection.h"
 
 namespace gable {
@@ -26,10 +26,11 @@ TagSetId AutoTags::without(TagSetId set) {
 }
 
 TagSetId AutoTags::with(TagSetId set, std::string_view name) {
-  std::string tag(family_);
-  tag += '.';
-  tag += name;
-  return services_.tags().with(without(set), tag);
+  SmallBuffer<char, 64> tag;
+  for (const std::string_view part : {family_, std::string_view("."), name}) {
+    for (const char c : part) tag.push_back(c);
+  }
+  return services_.tags().with(without(set), {tag.begin(), tag.size()});
 }
 
 TagSetId AutoTags::merged(TagSetId a, TagSetId b) const {

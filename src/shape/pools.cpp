@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -46,16 +47,16 @@ namespace {
 // What with() gave of late: operations put the same few names on face after face.
 class KnownUnions {
  public:
-  std::optional<TagSetId> find(TagSetId set, std::string_view name, uint64_t hash) {
+  std::optional<TagSetId> find(TagSetId set, std::string_view name) {
     const std::lock_guard lock(mutex_);
-    const Entry& e = entries_[hash % entries_.size()];
+    const Entry& e = entries_[placeOf(set, name)];
     if (e.name.empty() || e.set != set || e.name != name) return {};
     return e.result;
   }
-  void keep(TagSetId set, std::string_view name, uint64_t hash, TagSetId result) {
+  void keep(TagSetId set, std::string_view name, TagSetId result) {
     std::string copy(name);
     const std::lock_guard lock(mutex_);
-    Entry& e = entries_[hash % entries_.size()];
+    Entry& e = entries_[placeOf(set, name)];
     e.name.swap(copy);
     e.set = set;
     e.result = result;
@@ -66,8 +67,17 @@ class KnownUnions {
     TagSetId set = 0, result = 0;
     std::string name;
   };
+  // The names of a family begin alike: the last letters tell them apart.
+  static size_t placeOf(TagSetId set, std::string_view name) {
+    uint64_t end = 0;
+    const size_t count = std::min(name.size(), sizeof end);
+    std::memcpy(&end, name.data() + name.size() - count, count);
+    return hashCombine(end, set) % kKept;
+  }
+
+  static constexpr size_t kKept = 64;
   std::mutex mutex_;
-  std::array<Entry, 64> entries_;
+  std::array<Entry, kKept> entries_;
 };
 
 }  // namespace
@@ -106,12 +116,11 @@ TagSetId TagTable::of(std::string_view name) {
 }
 
 TagSetId TagTable::with(TagSetId set, std::string_view name) {
-  const uint64_t hash = hashBytes(name, set);
-  if (const auto known = impl_->unions.find(set, name, hash)) return *known;
+  if (const auto known = impl_->unions.find(set, name)) return *known;
   std::vector<StringId> all = names(set);
   all.push_back(impl_->pool.intern(name));
   const TagSetId result = withNames(set, std::move(all));
-  impl_->unions.keep(set, name, hash, result);
+  impl_->unions.keep(set, name, result);
   return result;
 }
 

@@ -3,6 +3,8 @@
 
 #include "shape/shape.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/check.h"
@@ -66,11 +68,11 @@ bool samePoint(const Vec3& a, const Vec3& b, const Vec3& size) {
 
 // The rectangle covering the scope in the order of makeQuadMesh. Other starting corners of the
 // ring stay meshes: edge indices are visible to rules.
-GeometryKind quadKind(const Mesh& m, const Vec3& size) {
-  if (size.x <= 0 || m.corners.size() != 4) return GeometryKind::Mesh;
+GeometryKind quadKind(const std::array<Vec3, 4>& corners, const Vec3& size) {
+  if (size.x <= 0) return GeometryKind::Mesh;
   const auto matches = [&](const Vec3(&ring)[4]) {
-    for (uint32_t i = 0; i < 4; ++i) {
-      if (!samePoint(m.at(i), ring[i], size)) return false;
+    for (size_t i = 0; i < 4; ++i) {
+      if (!samePoint(corners[i], ring[i], size)) return false;
     }
     return true;
   };
@@ -99,18 +101,25 @@ bool isBox(const Mesh& m, const Vec3& size, BoxOrder order) {
   return true;
 }
 
+bool isPlainQuad(const Mesh& m) {
+  return m.faceCount() == 1 && m.corners.size() == 4 && plainMesh(m);
+}
+
+// A rectangle with the tags of a face with four corners.
+Geometry quadOf(GeometryKind kind, const Mesh& face) {
+  Geometry g = primitive(kind, face.faces[0].tags);
+  for (size_t i = 0; i < face.edgeTags.size(); ++i) g.tags[quadEdges(kind)[i]] = face.edgeTags[i];
+  return g;
+}
+
 // The primitive that a mesh is exactly, or a geometry of kind Mesh without the mesh.
 Geometry recognised(const Mesh& m, const Vec3& size) {
   Geometry g{GeometryKind::Mesh, false, size, {}};
-  if (!plainMesh(m)) return g;
-  if (m.faceCount() == 1) {
-    g.kind = quadKind(m, size);
-    if (g.kind != GeometryKind::Mesh) g.refSize = {};
-    if (g.kind == GeometryKind::Mesh) return g;
-    g.tags[g.kind == GeometryKind::QuadXy ? kSideFront : kSideTop] = m.faces[0].tags;
-    for (size_t i = 0; i < m.edgeTags.size(); ++i) g.tags[quadEdges(g.kind)[i]] = m.edgeTags[i];
-    return g;
+  if (isPlainQuad(m)) {
+    const GeometryKind kind = quadKind({m.at(0), m.at(1), m.at(2), m.at(3)}, size);
+    return kind == GeometryKind::Mesh ? g : quadOf(kind, m);
   }
+  if (!plainMesh(m)) return g;
   if (m.faceCount() != 6) return g;
   for (const BoxOrder order : {BoxOrder::Cube, BoxOrder::Extruded}) {
     if (!isBox(m, size, order)) continue;
@@ -154,6 +163,34 @@ Mesh quadMesh(const Geometry& g, const Vec3& size) {
 
 void moveGeometry(Mesh& m, const Vec3& by) {
   for (Vec3& p : m.positions) p += by;
+}
+
+// The size of a scope around its content.
+Vec3 sizeAround(const Box3& box) {
+  Vec3 size = box.size();
+  // Flat up to rounding is flat: the next operation should see a face as a face.
+  const double extent = std::max({size.x, size.y, size.z});
+  for (size_t i = 0; i < 3; ++i) {
+    if (size[i] <= 1e-9 * (1 + extent)) size[i] = 0;
+  }
+  return size;
+}
+
+// As setMesh() does it for a face that is a rectangle in the scope, without a mesh of its own: many
+// initial shapes are such. False, and nothing done, where it is none.
+bool setQuad(Shape& s, const Mesh& face, const Frame& toScope) {
+  if (!isPlainQuad(face) || face.positions.size() != 4) return false;
+  std::array<Vec3, 4> corners;
+  Box3 box;
+  for (uint32_t i = 0; i < 4; ++i) box.include(corners[i] = toScope.point(face.at(i)));
+  const Vec3 size = sizeAround(box);
+  for (Vec3& p : corners) p += -box.min;
+  const GeometryKind kind = quadKind(corners, size);
+  if (kind == GeometryKind::Mesh) return false;
+  if (box.min != Vec3{}) s.scope.origin = s.scope.point(box.min);
+  s.size = size;
+  s.geometry = quadOf(kind, face);
+  return true;
 }
 
 }  // namespace
@@ -226,12 +263,7 @@ void setMesh(Shape& s, Mesh mesh, ScopeFit fit) {
       s.scope.origin = s.scope.point(box.min);
       moveGeometry(mesh, -box.min);
     }
-    s.size = box.size();
-    // Flat up to rounding is flat: the next operation should see a face as a face.
-    const double extent = std::max({s.size.x, s.size.y, s.size.z});
-    for (size_t i = 0; i < 3; ++i) {
-      if (s.size[i] <= 1e-9 * (1 + extent)) s.size[i] = 0;
-    }
+    s.size = sizeAround(box);
   }
   s.geometry = recognised(mesh, s.size);
   if (s.geometry.kind == GeometryKind::Mesh) s.geometry.mesh = makeRef<Mesh>(std::move(mesh));
@@ -273,7 +305,10 @@ void setInitialGeometry(Shape& s, const Mesh& mesh) {
     if (up != Vec3{}) axes = Frame::of({}, f.x, f.z, cross(f.x, f.z));
   }
   s.scope = axes;
-  if (!mesh.empty()) setMesh(s, transformed(mesh, {1, 1, 1}, inverse(axes)), ScopeFit::Refit);
+  const Frame toScope = inverse(axes);
+  if (!mesh.empty() && !setQuad(s, mesh, toScope)) {
+    setMesh(s, transformed(mesh, {1, 1, 1}, toScope), ScopeFit::Refit);
+  }
   s.pivot = s.scope;
 }
 

@@ -54,6 +54,7 @@ class Divider {
 
   // Divides [start, start + length] by a sequence.
   void sequence(Range r, double start, double length);
+  void size(const SplitItem& item, double start, double length);
   // Divides it by a sequence repeated.
   void repetition(Range r, double start, double length);
   // Divides [0, length] by all items in braces: a repeated group that is the only element of a
@@ -252,10 +253,23 @@ void Divider::sequence(Range r, double start, double length) {
 void Divider::repeat(Range r, const Extent& once, double n, double stretch, double start,
                      double limit) {
   const double each = lengthOf(once, stretch);
+  const bool single = r.end == r.begin + 1 && !items_[r.begin].group;
   for (double i = 0; i < n && status_.ok(); ++i) {
-    const double begin = start + i * each;
-    sequence(r, begin, cut(each, limit - begin));
+    const double begin = start + i * each, length = cut(each, limit - begin);
+    if (single)
+      size(items_[r.begin], begin, length);
+    else
+      sequence(r, begin, length);
   }
+}
+
+// A sequence of one size, which most repeated ones are.
+void Divider::size(const SplitItem& item, double start, double length) {
+  count();
+  if (!(length > tolerance_)) return;
+  const double own = item.unit == Unit::Floating ? std::max(0.0, item.size) : rigidSize(item);
+  const bool stretched = item.unit == Unit::Floating && own > 0;
+  place(start, stretched ? own * (length / own) : own, start + length, item.slot);
 }
 
 // As planOf() does it for such a sequence: nothing but the group could fill the room.
