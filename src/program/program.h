@@ -177,6 +177,8 @@ struct FigureCode {
 struct BlockCode {
   BlockKind kind = BlockKind::None;
   bool repeat = false;
+  /// Of ComponentValues: its one value is a selector's condition, asked of each component.
+  bool condition = false;
   std::vector<BlockItem> items;
   std::vector<BlockTerm> terms;
   /// Entry points by slot.

@@ -176,7 +176,8 @@ class Units {
   }
 
   void addBlock(Hash& h, const CodeUnit& u, const BlockCode& b) const {
-    h.add(static_cast<uint64_t>(b.kind) << 33 | uint64_t{b.repeat} << 32 | b.valueCount);
+    h.add(static_cast<uint64_t>(b.kind) << 34 | uint64_t{b.condition} << 33 |
+          uint64_t{b.repeat} << 32 | b.valueCount);
     for (const BlockItem& i : b.items) {
       h.add(uint64_t{i.length} << 32 | uint64_t{i.selectOperator} << 2 | uint64_t{i.group} << 1 |
             uint64_t{i.repeat});

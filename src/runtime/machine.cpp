@@ -248,6 +248,7 @@ void Machine::beginRoot(uint32_t rule) {
   if (options().trace) traceShape(a, TraceNode::kNone, nullptr);
   if (code.needsPrevious) a.keepScope();
   seen_ = &a.shape;
+  divided_ = nullptr;
   parameters_ = 0;
   pc_ = program_.code.data() + code.entry;
   if (incremental_ && beginPart(a)) activationCount_ = 0;
@@ -269,6 +270,7 @@ std::vector<EvaluatedAttribute> Machine::attributeValues() {
     aborted_ = false;
     stack_.cut(0);
     seen_ = &info_.shape;
+    divided_ = nullptr;
     functions_.clear();
     attributeValues_.giveUpEvaluation(a);
     Value value;

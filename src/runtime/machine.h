@@ -125,6 +125,7 @@ class Machine final : public Services, private WorkMeter {
     int32_t attribute;
     const Shape* shape;
     uint64_t salt;
+    const Shape* divided;
   };
   struct SavedShape {
     SavedShape() = default;

@@ -194,9 +194,10 @@ void Machine::enterAttribute(uint32_t a, const Instruction* returnTo) {
   }
   attributeValues_.beginEvaluation(a);
   functions_.push_back(
-      {returnTo, parameters_, stack_.size(), static_cast<int32_t>(a), seen_, salt_});
+      {returnTo, parameters_, stack_.size(), static_cast<int32_t>(a), seen_, salt_, divided_});
   parameters_ = stack_.size();
   seen_ = &info_.shape;
+  divided_ = nullptr;
   salt_ = 0;
   pc_ = program_.code.data() + program_.attributes[a].entry;
 }
@@ -210,7 +211,7 @@ void Machine::callFunction(const Instruction& i) {
     return;
   }
   if (!tick()) return;
-  functions_.push_back({pc_, parameters_, stack_.size() - i.x, -1, seen_, salt_});
+  functions_.push_back({pc_, parameters_, stack_.size() - i.x, -1, seen_, salt_, divided_});
   parameters_ = stack_.size() - i.x;
   salt_ = hashCombine(salt_, program_.sites[pcOf(&i)]);
   pc_ = program_.code.data() + program_.functions[i.a].entry;
@@ -224,6 +225,7 @@ void Machine::returnValue() {
   stack_.cut(f.stackBase);
   parameters_ = f.parameters;
   seen_ = f.shape;
+  divided_ = f.divided;
   salt_ = f.salt;
   pc_ = f.returnTo;
   push(v);
@@ -238,7 +240,7 @@ void Machine::initialise(const Instruction& i) {
     stackFull();
     return;
   }
-  functions_.push_back({pc_, parameters_, stack_.size(), -1, seen_, salt_});
+  functions_.push_back({pc_, parameters_, stack_.size(), -1, seen_, salt_, divided_});
   parameters_ = stack_.size();
   salt_ = hashCombine(salt_, program_.sites[pcOf(&i)]);
   pc_ = program_.code.data() + program_.attributes[i.a].entry;
@@ -302,13 +304,15 @@ void Machine::componentValues(const Instruction& i) {
   }
   const Instruction* resumeAt = pc_;
   const Shape* outer = seen_;
+  const Shape* divided = divided_;
   std::vector<Value> values;
   for (const BlockChild& part : parts) {
     if (aborted_ || functions_.size() >= options().limits.functionDepth) break;
     if (stack_.isNearlyFull() && !stackFull()) break;
     const size_t depth = functions_.size();
-    functions_.push_back({resumeAt, parameters_, stack_.size(), -1, outer, salt_});
+    functions_.push_back({resumeAt, parameters_, stack_.size(), -1, outer, salt_, divided_});
     seen_ = &part.shape;
+    divided_ = block.condition ? outer : nullptr;
     pc_ = program_.code.data() + block.slots[part.slot];
     runUntil(depth);
     if (aborted_) break;
@@ -316,6 +320,7 @@ void Machine::componentValues(const Instruction& i) {
   }
   pc_ = resumeAt;
   seen_ = outer;
+  divided_ = divided;
   const auto count = static_cast<uint32_t>(partOf.size());
   put(buildArray(valuesByComponent(values, partOf, pool()), {&count, 1}, pool()), i);
 }
@@ -364,7 +369,7 @@ Value Machine::evaluateAtWork(uint32_t entry, uint64_t address, const Shape* as)
   at.path = address;
   const uint32_t covered = stack_.cover();
   const size_t depth = functions_.size();
-  functions_.push_back({resumeAt, parameters_, stack_.size(), -1, outer, salt_});
+  functions_.push_back({resumeAt, parameters_, stack_.size(), -1, outer, salt_, divided_});
   seen_ = &at;
   pc_ = program_.code.data() + entry;
   runUntil(depth);

@@ -263,6 +263,10 @@ class Services {
     return worldAtWork();
   }
 
+  /// The shape whose component is asked for a selector's condition; null for all other questions.
+  /// Sides (top, front) are those of this shape.
+  const Shape* divided() const { return divided_; }
+
   /// Where a face or an edge of a region comes from, by its tags; null for others.
   const RegionProvenance* regionAt(TagSetId set) const {
     GABLE_DCHECK(mayAsk(kReadsRegion));
@@ -349,6 +353,7 @@ class Services {
   AttributePool* attributes_ = nullptr;
   TagTable* tags_ = nullptr;
   Assets* assets_ = nullptr;
+  const Shape* divided_ = nullptr;
 };
 
 }  // namespace gable

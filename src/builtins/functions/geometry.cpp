@@ -31,12 +31,47 @@ struct Orientation {
   Word word;
 };
 
-bool selects(std::string_view word, const Mesh& m, size_t face, const Directions& d) {
-  if (word == "all" || word == "surface") return true;
-  std::vector<Vec3> outline;
-  for (const uint32_t p : m.cornersOf(m.loopsOf(face)[0])) outline.push_back(m.positions[p]);
-  return selectsDirection(word, m.areaNormal(face), outline, m.faces[face].tags, d);
-}
+// The sides of a shape; where a selector asks, those of the shape whose component this one is.
+class Sides {
+ public:
+  explicit Sides(const FunctionCall& call)
+      : shape_(call.shape()),
+        asked_(call.services().divided() ? *call.services().divided() : call.shape()),
+        mesh_(meshInScope(shape_)),
+        directions_(call.services(), asked_) {}
+
+  const Mesh& mesh() const { return *mesh_; }
+  bool has(std::string_view word, size_t face) const {
+    if (word == "all" || word == "surface") return true;
+    std::vector<Vec3> outline;
+    for (const uint32_t p : mesh_->cornersOf(mesh_->loopsOf(face)[0])) {
+      outline.push_back(inAsked(mesh_->positions[p]));
+    }
+    const Vec3 normal = inAskedDirection(normalOf(face));
+    return selectsDirection(word, normal, outline, mesh_->faces[face].tags, directions_);
+  }
+
+ private:
+  // Edges and vertices look where their normals point.
+  Vec3 normalOf(size_t face) const {
+    const Vec3 normal = mesh_->areaNormal(face);
+    const MeshLoop& loop = mesh_->loopsOf(face)[0];
+    const bool flat = normal != Vec3{} || loop.cornerCount > 2 || mesh_->normals.empty();
+    return flat ? normal : mesh_->normals[loop.firstCorner];
+  }
+  bool isAsked() const { return &asked_ == &shape_; }
+  Vec3 inAsked(const Vec3& p) const {
+    return isAsked() ? p : asked_.scope.toLocal(shape_.scope.point(p));
+  }
+  Vec3 inAskedDirection(const Vec3& d) const {
+    return isAsked() ? d : asked_.scope.toLocalDirection(shape_.scope.direction(d));
+  }
+
+  const Shape& shape_;
+  const Shape& asked_;
+  MeshRef mesh_;
+  Directions directions_;
+};
 
 double plainArea(const Shape& s) {
   const double x = std::fabs(s.size.x), y = std::fabs(s.size.y), z = std::fabs(s.size.z);
@@ -53,20 +88,18 @@ double plainArea(const Shape& s) {
 Value area(FunctionCall& call, const Orientation& args) {
   const Shape& s = call.shape();
   if (args.word.text.empty()) return Value::of(plainArea(s));
-  const Directions directions(call.services(), s);
-  const MeshRef m = meshInScope(s);
+  const Sides sides(call);
   double sum = 0;
-  for (size_t f = 0; f < m->faceCount(); ++f) {
-    if (selects(args.word.text, *m, f, directions)) sum += m->area(f);
+  for (size_t f = 0; f < sides.mesh().faceCount(); ++f) {
+    if (sides.has(args.word.text, f)) sum += sides.mesh().area(f);
   }
   return Value::of(sum);
 }
 
 Value isOriented(FunctionCall& call, const Orientation& args) {
-  const Directions directions(call.services(), call.shape());
-  const MeshRef m = meshInScope(call.shape());
-  for (size_t f = 0; f < m->faceCount(); ++f) {
-    if (selects(args.word.text, *m, f, directions)) return Value::of(true);
+  const Sides sides(call);
+  for (size_t f = 0; f < sides.mesh().faceCount(); ++f) {
+    if (sides.has(args.word.text, f)) return Value::of(true);
   }
   return Value::of(false);
 }
@@ -148,8 +181,8 @@ Value volumeOf(FunctionCall& call) {
   if (s.geometry.kind == GeometryKind::Box) {
     return Value::of(std::fabs(s.size.x * s.size.y * s.size.z));
   }
-  return Value::of(s.geometry.kind == GeometryKind::Mesh ? std::fabs(volume(*meshInScope(s)))
-                                                         : 0.0);
+  if (s.geometry.kind != GeometryKind::Mesh) return Value::of(0.0);
+  return Value::of(std::fabs(volume(*meshInScope(s))));
 }
 
 Value boundary(FunctionCall& call) { return Value::of(boundaryLength(*meshInScope(call.shape()))); }

@@ -243,9 +243,9 @@ void UnitCompiler::pushBlockValues(uint32_t number, const BuiltinArguments& give
       expression(v);
     } else if (isComp) {
       pushArguments(given, t_.span(v));
-      valuePerComponent(v, given.form, given.list.size());
+      valuePerComponent(v, given.form, given.list.size(), true);
     } else {
-      valuePerEdge(v);
+      valuePerEdge(v, true);
     }
   }
   e_.program().blocks[number].valueCount = static_cast<uint32_t>(values.size());
@@ -305,20 +305,22 @@ bool UnitCompiler::readsShape(NodeId node) const {
 }
 
 // What setbackPerEdge(expr) means: comp(fe) { all : expr }.
-void UnitCompiler::valuePerEdge(NodeId node) {
+void UnitCompiler::valuePerEdge(NodeId node, bool condition) {
   if (!componentOperation_) return expression(node);
   ValuePool& pool = *e_.program().pool;
   e_.emit(Code::Constant, t_.span(node), e_.constant(pool.selector("fe")));
-  valuePerComponent(node, nullptr, 1);
+  valuePerComponent(node, nullptr, 1, condition);
 }
 
 // comp(..) { all : expr }
-void UnitCompiler::valuePerComponent(NodeId node, const Signature* form, size_t arguments) {
+void UnitCompiler::valuePerComponent(NodeId node, const Signature* form, size_t arguments,
+                                     bool condition) {
   uses_.effects |= effectsOfCall(componentOperation_->effects, false);
   ValuePool& pool = *e_.program().pool;
   const auto number = static_cast<uint32_t>(e_.program().blocks.size());
   BlockCode block;
   block.kind = BlockKind::Selectors;
+  block.condition = condition;
   BlockTerm all;
   all.kind = static_cast<uint8_t>(SelectTermKind::Word);
   all.word = pool.intern("all");

@@ -101,9 +101,9 @@ class UnitCompiler {
   void index(NodeId node);
   void range(NodeId node);
   void componentValues(NodeId node);
-  void valuePerEdge(NodeId node);
+  void valuePerEdge(NodeId node, bool condition = false);
   /// An array with the value on each component that comp, with its arguments on the stack, makes.
-  void valuePerComponent(NodeId node, const Signature* form, size_t arguments);
+  void valuePerComponent(NodeId node, const Signature* form, size_t arguments, bool condition);
   bool isPerComponent(NodeId node) const;
   bool readsShape(NodeId node) const;
   /// The value of an expression that needs no evaluation, with its unit.
