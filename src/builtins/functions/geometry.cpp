@@ -31,6 +31,14 @@ struct Orientation {
   Word word;
 };
 
+// A measure that differs by rounding alone from a number of few decimals, such as an author thinks
+// of, is that number: 300, where the sum over the faces is 299.9999999999999.
+Value measure(double v) {
+  constexpr double kDecimals = 1e6, kRounding = 1e-14;
+  const double near = std::nearbyint(v * kDecimals) / kDecimals;
+  return Value::of(std::fabs(near - v) <= kRounding * std::fabs(v) ? near : v);
+}
+
 // The sides of a shape; where a selector asks, those of the shape whose component this one is.
 class Sides {
  public:
@@ -87,13 +95,13 @@ double plainArea(const Shape& s) {
 
 Value area(FunctionCall& call, const Orientation& args) {
   const Shape& s = call.shape();
-  if (args.word.text.empty()) return Value::of(plainArea(s));
+  if (args.word.text.empty()) return measure(plainArea(s));
   const Sides sides(call);
   double sum = 0;
   for (size_t f = 0; f < sides.mesh().faceCount(); ++f) {
     if (sides.has(args.word.text, f)) sum += sides.mesh().area(f);
   }
-  return Value::of(sum);
+  return measure(sum);
 }
 
 Value isOriented(FunctionCall& call, const Orientation& args) {
@@ -179,13 +187,13 @@ Value nHoles(FunctionCall& call) { return number(countsOf(call.shape().geometry)
 Value volumeOf(FunctionCall& call) {
   const Shape& s = call.shape();
   if (s.geometry.kind == GeometryKind::Box) {
-    return Value::of(std::fabs(s.size.x * s.size.y * s.size.z));
+    return measure(std::fabs(s.size.x * s.size.y * s.size.z));
   }
   if (s.geometry.kind != GeometryKind::Mesh) return Value::of(0.0);
-  return Value::of(std::fabs(volume(*meshInScope(s))));
+  return measure(std::fabs(volume(*meshInScope(s))));
 }
 
-Value boundary(FunctionCall& call) { return Value::of(boundaryLength(*meshInScope(call.shape()))); }
+Value boundary(FunctionCall& call) { return measure(boundaryLength(*meshInScope(call.shape()))); }
 
 Value isClosed(FunctionCall& call) {
   const GeometryKind kind = call.shape().geometry.kind;

@@ -204,8 +204,42 @@ struct SetbackToArea {
   double uvSet;
 };
 
+// The distance, up to `reach`, whose area is nearest to the wanted one. The area falls as the
+// distance grows and is a polynomial between few breaks, so a secant finds it, or halving
+// where that leads astray. Where even the ends do not reach it, the nearer end is the answer.
+double distanceFor(double wanted, double reach, const std::function<double(double)>& areaAt) {
+  struct At {
+    double distance, excess;
+  };
+  const auto at = [&](double distance) { return At{distance, areaAt(distance) - wanted}; };
+  At low = at(0);
+  if (low.excess <= 0) return low.distance;
+  At high = at(reach);
+  if (high.excess >= 0) return high.distance;
+  At best = low.excess < -high.excess ? low : high;
+  At before = low, last = high;
+  constexpr double kExact = 1e-15;
+  for (int step = 0; step < 100 && std::fabs(best.excess) > kExact * wanted; ++step) {
+    work();
+    const double slope = (last.excess - before.excess) / (last.distance - before.distance);
+    const auto isInside = [&](double d) { return d > low.distance && d < high.distance; };
+    double next = last.distance - last.excess / slope;
+    if (step % 4 == 3 || !isInside(next)) next = (low.distance + high.distance) / 2;
+    if (!isInside(next)) break;
+    before = last;
+    last = at(next);
+    (last.excess > 0 ? low : high) = last;
+    if (std::fabs(last.excess) < std::fabs(best.excess)) best = last;
+  }
+  // A number with few digits, as authors think of one, is the answer where it is as good.
+  for (const double digits : {1e9, 1e12}) {
+    const At next = at(std::round(best.distance * digits) / digits);
+    if (std::fabs(next.excess) <= std::fabs(best.excess)) return next.distance;
+  }
+  return best.distance;
+}
+
 Status applySetbackToArea(OpCall& call, const SetbackToArea& args) {
-  const double wanted = args.area;
   const auto uvSet = static_cast<int>(args.uvSet);
   EdgeChoice choice(meshInScope(call.shape()));
   if (choice.mesh->empty()) return noFace(call);
@@ -221,18 +255,13 @@ Status applySetbackToArea(OpCall& call, const SetbackToArea& args) {
       return badDistance(call);
     }
   }
-  // The area falls as the distance grows: halve the interval until it is found. Where even the ends
-  // do not reach it, the nearer end is the answer.
-  double lo = 0, hi = reach;
   Status status;
-  if (remainderArea(choice, range, 0, call.services(), status) <= wanted) hi = 0;
-  for (int step = 0; step < 60 && hi - lo > 1e-9 * reach && status.ok(); ++step) {
-    const double middle = (lo + hi) / 2;
-    (remainderArea(choice, range, middle, call.services(), status) > wanted ? lo : hi) = middle;
-  }
+  const double more = distanceFor(args.area, reach, [&](double by) {
+    return status.ok() ? remainderArea(choice, range, by, call.services(), status) : 0;
+  });
   if (!status.ok()) return status;
   for (const Component& c : choice.edges.list()) {
-    choice.distance[c.corner] = std::min(range.least[c.corner] + hi, range.most[c.corner]);
+    choice.distance[c.corner] = std::min(range.least[c.corner] + more, range.most[c.corner]);
   }
   return finish(call, choice);
 }
