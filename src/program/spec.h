@@ -244,12 +244,17 @@ enum Effect : uint32_t {
   kForgetsOrigins = 1u << 19,
 };
 
+/// Whether a selector asks for an edge of a roof, which has an up and a down.
+inline bool namesRoofEdge(std::string_view word) {
+  return word == "eave" || word == "hip" || word == "valley" || word == "ridge";
+}
+
 /// Whether a selector asks for a direction or place outside the shape: world.up, object,
 /// street.side; and what looks at the world without saying so: auto of alignScopeToGeometry,
-/// conform of setNormals.
+/// conform of setNormals, the edges of roofs.
 inline bool namesWorld(std::string_view word) {
   return word.starts_with("world") || word.starts_with("object") || word.starts_with("street") ||
-         word == "auto" || word == "conform" || word == "noStreetSide";
+         word == "auto" || word == "conform" || word == "noStreetSide" || namesRoofEdge(word);
 }
 
 /// The effects of a call, once it is known whether one of its selectors namesWorld().

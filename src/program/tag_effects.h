@@ -34,4 +34,9 @@ constexpr bool asksForStreets(std::string_view word) {
   return word.starts_with("street") || word == "noStreetSide";
 }
 
+/// Whether a selector looks for any tags: the edges of a roof are told by its bottom.
+inline bool asksForTags(std::string_view word) {
+  return asksForStreets(word) || namesRoofEdge(word);
+}
+
 }  // namespace gable

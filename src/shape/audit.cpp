@@ -112,7 +112,7 @@ bool selectsByTag(const BlockInput* block, const ValuePool& pool) {
            return std::ranges::any_of(item.terms, [&](const SelectorTerm& t) {
              const bool word = t.kind == SelectorTerm::Kind::Word;
              return t.kind == SelectorTerm::Kind::Tagged ||
-                    (word && asksForStreets(pool.text(t.word)));
+                    (word && asksForTags(pool.text(t.word)));
            });
          });
 }

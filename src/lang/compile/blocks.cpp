@@ -180,7 +180,8 @@ void UnitCompiler::selectorTerms(NodeId node, uint32_t number) {
   if (kind == NodeKind::Name && m_.at(node).kind == RefKind::Selector) {
     add(Kind::Word, pool.intern(t_.text(node)), -1);
     if (namesWorld(t_.text(node))) uses_.effects |= kReadsWorld | kReadsInitialShape;
-    if (asksForStreets(t_.text(node))) uses_.effects |= kReadsInitialShape | kReadsTags;
+    if (asksForStreets(t_.text(node))) uses_.effects |= kReadsInitialShape;
+    if (asksForTags(t_.text(node))) uses_.effects |= kReadsTags;
   } else if (kind == NodeKind::Call && t_.text(node) == "isTagged") {
     taggedTerm(node, code);
   } else if (kind == NodeKind::Unary && t_.unaryOp(node) == UnaryOp::Not) {

@@ -182,7 +182,7 @@ Status applyComp(OpCall& call, const Comp& args) {
     splitFlatFaces(context);
   } else {
     const MeshRef mesh = meshInScope(call.shape());
-    Components all(*mesh, kind, componentSlots(args, call.shape(), call.services()));
+    Components all = componentsOf(call, args, *mesh);
     splitMesh(context, all, *mesh, kind);
   }
   return {};

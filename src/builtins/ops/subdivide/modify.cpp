@@ -43,7 +43,7 @@ Status beginModify(OpCall& call, const Comp& args) {
   const ComponentCall context{call, args.alignment == Alignment::ZUp, true};
   const MeshRef mesh = meshInScope(call.shape());
   const std::vector<uint16_t> slots = componentSlots(args, call.shape(), call.services());
-  Components all(*mesh, kind, slots);
+  Components all = componentsOf(call, args, *mesh);
   const std::vector<bool> taken = splitMesh(context, all, *mesh, kind);
   if (std::find(taken.begin(), taken.end(), true) == taken.end()) return {};
   setMesh(call.shape(), untouched(*mesh, all, taken, kind, slots), ScopeFit::Keep);

@@ -9,6 +9,7 @@
 
 #include "base/work.h"
 #include "builtins/ops/subdivide/shared/parts.h"
+#include "builtins/ops/subdivide/shared/roof_edges.h"
 #include "builtins/shared/materials.h"
 #include "geom/mesh/origins.h"
 
@@ -160,6 +161,21 @@ ComponentKind kindOf(const Comp& args) { return kKinds[static_cast<size_t>(args.
 std::vector<uint16_t> componentSlots(const Comp& args, const Shape& s, const Services& services) {
   const SlotTable slots = kKinds[static_cast<size_t>(args.component)].slots;
   return slots ? slots(s, services) : std::vector<uint16_t>();
+}
+
+Components componentsOf(OpCall& call, const Comp& args, const Mesh& mesh) {
+  const ComponentKind kind = kindOf(args);
+  bool asksForRoof = false;
+  for (const SelectorItem& item : call.selectors()) {
+    for (const SelectorTerm& t : item.terms) {
+      work();
+      asksForRoof = asksForRoof || (t.kind == SelectorTerm::Kind::Word &&
+                                    namesRoofEdge(call.services().pool().text(t.word)));
+    }
+  }
+  std::vector<Vec3> ups(std::begin(kUp), std::end(kUp));
+  if (asksForRoof && kind == ComponentKind::Edges) ups = waysUp(call, mesh);
+  return Components(mesh, kind, componentSlots(args, call.shape(), call.services()), ups);
 }
 
 std::vector<bool> splitMesh(const ComponentCall& context, Components& all, const Mesh& mesh,

@@ -51,6 +51,10 @@ ComponentKind kindOf(const Comp& args);
 /// them: groups or materials. Empty for others.
 std::vector<uint16_t> componentSlots(const Comp& args, const Shape& s, const Services& services);
 
+/// The components that the selectors of a call may select. The mesh is the shape's and must outlive
+/// them.
+Components componentsOf(OpCall& call, const Comp& args, const Mesh& mesh);
+
 /// What all children of a call have in common.
 struct ComponentCall {
   OpCall& call;

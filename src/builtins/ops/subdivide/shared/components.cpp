@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "base/disjoint_sets.h"
+#include "builtins/ops/subdivide/shared/roof_edges.h"
 
 namespace gable {
 
@@ -20,7 +21,8 @@ Vec3 someX(const Vec3& z) { return frameFromZ({}, z, {1, 0, 0}).x; }
 
 }  // namespace
 
-Components::Components(const Mesh& m, ComponentKind kind, std::vector<uint16_t> firstSlots)
+Components::Components(const Mesh& m, ComponentKind kind, std::vector<uint16_t> firstSlots,
+                       std::span<const Vec3> ups)
     : mesh_(m),
       kind_(kind),
       edges_(std::make_unique<MeshEdges>(m)),
@@ -28,7 +30,7 @@ Components::Components(const Mesh& m, ComponentKind kind, std::vector<uint16_t> 
   for (size_t f = 0; f < m.faceCount(); ++f) normals_.push_back(m.normal(f));
   switch (kind) {
     case ComponentKind::Faces: addFaces(); break;
-    case ComponentKind::Edges: addEdges(); break;
+    case ComponentKind::Edges: addEdges(ups); break;
     case ComponentKind::FaceEdges: addFaceEdges(); break;
     case ComponentKind::Vertices: addVertices(); break;
     case ComponentKind::FaceVertices: addFaceVertices(); break;
@@ -72,7 +74,7 @@ Vec3 Components::meanNormalOfEdge(uint32_t edge) const {
   return normals_[edges_->faceOf(e.corner)];
 }
 
-void Components::addEdges() {
+void Components::addEdges(std::span<const Vec3> ups) {
   for (uint32_t i = 0; i < edges_->edges().size(); ++i) {
     const MeshEdge& e = edges_->edges()[i];
     // The edge face of two corners has its one edge twice.
@@ -88,7 +90,7 @@ void Components::addEdges() {
     c.what.normal = c.z = meanNormalOfEdge(i);
     list_.push_back(c);
   }
-  classifyRoofEdges();
+  placeRoofEdges(ups);
   for (Component& c : list_) {
     c.origin = mesh_.positions[c.from];
     c.x = mesh_.positions[c.to] - c.origin;
@@ -96,42 +98,13 @@ void Components::addEdges() {
   }
 }
 
-// Faces that look down and upright ones are no roof; edges are judged by the roof faces at them.
-void Components::classifyRoofEdges() {
-  constexpr double kUpright = 1e-3;
-  std::vector<bool> atEave(mesh_.positions.size(), false);
-  const auto roofFaces = [&](const Component& c, std::array<uint32_t, 2>& corner) {
-    size_t n = 0;
-    const MeshEdge& e = edges_->edges()[edges_->edgeOf(c.corner)];
-    for (const uint32_t at : {e.corner, e.other}) {
-      if (at != kNone && normals_[edges_->faceOf(at)].y > kUpright) corner[n++] = at;
-    }
-    return n;
-  };
-  // From an edge into its face.
-  const auto inward = [&](uint32_t corner) {
-    const Vec3 along = normalized(mesh_.at(edges_->next(corner)) - mesh_.at(corner));
-    return cross(normals_[edges_->faceOf(corner)], along);
-  };
+void Components::placeRoofEdges(std::span<const Vec3> ups) {
+  const std::vector<PlacedEdge> placed = roofEdges(mesh_, *edges_, normals_, ups);
   for (Component& c : list_) {
-    std::array<uint32_t, 2> corner{};
-    if (roofFaces(c, corner) != 1) continue;
-    const Vec3 a = mesh_.positions[c.from], b = mesh_.positions[c.to];
-    if (std::fabs(b.y - a.y) > kUpright * length(b - a) || inward(corner[0]).y < -kUpright)
-      continue;
-    c.what.roof = RoofEdge::Eave;
-    c.from = mesh_.corners[corner[0]];
-    c.to = mesh_.corners[edges_->next(corner[0])];
-    atEave[c.from] = atEave[c.to] = true;
-  }
-  for (Component& c : list_) {
-    std::array<uint32_t, 2> corner{};
-    if (roofFaces(c, corner) != 2) continue;
-    const double fold = dot(inward(corner[1]), normals_[edges_->faceOf(corner[0])]);
-    c.what.roof = fold > 1e-6                      ? RoofEdge::Valley
-                  : atEave[c.from] || atEave[c.to] ? RoofEdge::Hip
-                                                   : RoofEdge::Ridge;
-    if (mesh_.positions[c.to].y < mesh_.positions[c.from].y) std::swap(c.from, c.to);
+    const PlacedEdge& e = placed[edges_->edgeOf(c.corner)];
+    c.what.roof = e.what;
+    c.from = e.from;
+    c.to = e.to;
   }
 }
 

@@ -38,11 +38,16 @@ struct Component {
   uint32_t from = 0, to = 0;
 };
 
+/// What is up where nobody asks for the edges of roofs: the y axis of the scope.
+inline constexpr Vec3 kUp[] = {{0, 1, 0}};
+
 class Components : public ComponentSource {
  public:
   /// Of a mesh in scope coordinates, which must outlive this. `firstSlots` tells of each slot the
   /// first one that counts as the same. O(n log n).
-  Components(const Mesh& m, ComponentKind kind, std::vector<uint16_t> firstSlots = {});
+  /// `ups`: the ways that may be up for the edges of roofs.
+  Components(const Mesh& m, ComponentKind kind, std::vector<uint16_t> firstSlots = {},
+             std::span<const Vec3> ups = kUp);
 
   const std::vector<Component>& list() const { return list_; }
   const MeshEdges& edges() const { return *edges_; }
@@ -57,7 +62,7 @@ class Components : public ComponentSource {
 
  private:
   void addFaces();
-  void addEdges();
+  void addEdges(std::span<const Vec3> ups);
   void addFaceEdges();
   void addVertices();
   void addFaceVertices();
@@ -65,7 +70,7 @@ class Components : public ComponentSource {
   uint32_t slotOf(uint32_t face) const;
   std::span<const uint32_t> facesOfSlot(uint32_t slot) const;
   void addHoles();
-  void classifyRoofEdges();
+  void placeRoofEdges(std::span<const Vec3> ups);
   bool facesBorder(uint32_t face) const;
   Vec3 meanNormalOfEdge(uint32_t edge) const;
   void faceTags(uint32_t face, Of of, std::vector<uint32_t>& out) const;
