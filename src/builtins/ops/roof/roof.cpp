@@ -7,7 +7,11 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
+#include <utility>
+#include <vector>
 
+#include "base/work.h"
 #include "builtins/auto_tags.h"
 #include "builtins/lists.h"
 #include "builtins/ops/shared/face_plan.h"
@@ -15,6 +19,7 @@
 #include "geom/mesh/clip.h"
 #include "geom/mesh/extrude.h"
 #include "geom/mesh/face_plane.h"
+#include "geom/mesh/origins.h"
 #include "geom/skeleton/roof.h"
 #include "math/trig.h"
 #include "shape/op_call.h"
@@ -51,6 +56,7 @@ class RoofMesh {
       : from_(from), tags_(tags), tellsSides_(tellsSides) {}
 
   void add(size_t face, const Frame& plan, const Roof& roof) {
+    findSources(face, plan, roof);
     // Vertices that no face uses are no part of the result.
     std::vector<uint32_t> position(roof.vertices.size(), MeshBuilder::kNoPosition);
     for (const RoofFace& f : roof.faces) {
@@ -71,6 +77,34 @@ class RoofMesh {
   Mesh take() { return builder_.take(); }
 
  private:
+  // The corners of the face that the vertices of the roof are: where vertices come from is told by
+  // them alone. New ones, of ridges and overhangs, come from nowhere.
+  void findSources(size_t face, const Frame& plan, const Roof& roof) {
+    sources_.assign(roof.vertices.size(), kNoSource);
+    if (originLevels(from_) == 0) return;
+    std::map<std::pair<double, double>, uint32_t> corners;
+    for (const MeshLoop& loop : from_.loopsOf(face)) {
+      for (uint32_t i = 0; i < loop.cornerCount; ++i) {
+        work();
+        const Vec3 at = plan.toLocal(from_.at(loop.firstCorner + i));
+        corners.try_emplace({at.x, at.y}, loop.firstCorner + i);
+      }
+    }
+    for (size_t v = 0; v < roof.vertices.size(); ++v) {
+      work();
+      const SkeletonVertex& at = roof.vertices[v];
+      const auto corner = corners.find({at.xy.x, at.xy.y});
+      if (at.height == 0 && corner != corners.end()) sources_[v] = corner->second;
+    }
+  }
+  void addCorner(uint32_t position, uint32_t source) {
+    const uint32_t corner = builder_.addCorner(position);
+    if (source == kNoSource) return;
+    for (int s = kUvSets; s < from_.setCount(); ++s) {
+      if (from_.hasUv(s)) builder_.setUv(corner, s, from_.set(s)[source]);
+    }
+  }
+
   uint32_t tagsOf(size_t face, const RoofFace& f) {
     if (f.role == RoofRole::Bottom) return tags_.with(from_.faces[face].tags, "bottom");
     // Other faces stand on an edge and take its tags.
@@ -86,13 +120,16 @@ class RoofMesh {
     builder_.beginFace(from_.faces[face].materialSlot, tagsOf(face, f));
     for (const RoofLoop& loop : f.loops) {
       builder_.beginLoop();
-      for (const uint32_t v : loop.vertices) builder_.addCorner(position[v]);
+      for (const uint32_t v : loop.vertices) addCorner(position[v], sources_[v]);
     }
   }
 
+  static constexpr uint32_t kNoSource = 0xffffffff;
   const Mesh& from_;
   AutoTags& tags_;
   bool tellsSides_;
+  /// By vertex of the roof at work.
+  std::vector<uint32_t> sources_;
   MeshBuilder builder_;
 };
 
