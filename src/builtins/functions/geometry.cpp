@@ -286,7 +286,8 @@ Value materials(FunctionCall& call) {
   return stringArray(names, services.pool());
 }
 
-// Without a group that has a name there are none.
+// Without a group that has a name, what comes of the initial shape has its name. What is inserted
+// then has none.
 Value groups(FunctionCall& call) {
   const Shape& s = call.shape();
   const Services& services = call.services();
@@ -298,7 +299,11 @@ Value groups(FunctionCall& call) {
   }
   const bool any = std::any_of(names.begin(), names.end(),
                                [](const std::string& name) { return !name.empty(); });
-  return stringArray(any ? names : std::vector<std::string>(), services.pool());
+  if (!any) names.clear();
+  if (!any && s.geometry.kind != GeometryKind::None && !s.geometry.instanced) {
+    names.push_back(services.initialShape().name);
+  }
+  return stringArray(names, services.pool());
 }
 
 struct TagQuery {
@@ -406,8 +411,8 @@ constexpr FunctionSpec kFunctions[] = {
      boundary, kPure, true},
     {"geometry.du", kFamily, "The range of u of a uv set.", kRange, typed<uvRange<0>>},
     {"geometry.dv", kFamily, "The range of v of a uv set.", kRange, typed<uvRange<1>>},
-    {"geometry.groups", kFamily, "The names of the groups of the geometry.", kNames, groups, kPure,
-     true},
+    {"geometry.groups", kFamily, "The names of the groups of the geometry.", kNames, groups,
+     kReadsInitialShape | kReadsPath, true},
     {"geometry.hasTags", kFamily, "Whether any component has a tag, or a certain tag.", kHasTags,
      typed<hasTags>, kReadsTags, true},
     {"geometry.hasUVs", kFamily, "Whether there are texture coordinates, in any or a certain set.",
