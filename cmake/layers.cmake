@@ -1,5 +1,5 @@
 # The layers in the order of who may use whom; tools/layers.toml holds the rule that a test checks.
-set(GABLE_LAYERS base math geom program lang dialects language material shape scene builtins runtime io render city engine cases json lsp studio c)
+set(GABLE_LAYERS base math geom program lang dialects language material shape scene builtins runtime io render city tiles engine cases json lsp studio c)
 
 # gable_layer(NAME [LINK libs...] [PRIVATE libs...]): the static library gable_NAME from all .cpp files of
 # the folder, tests (*_test.cpp) left out; those become the program test_NAME.

@@ -40,7 +40,8 @@ int readBox(const std::string& text, gable::CitySettings& settings) {
   return wrongOption("--box", "west,south,east,north, such as 7.41,43.72,7.44,43.75", text);
 }
 
-int writeModel(const gable::City& city, CityArguments& arguments, gable::RunFigures& figures) {
+int writeModel(const gable::City& city, CityArguments& arguments, gable::RunFigures& figures,
+               gable::TileResult& tiles) {
   gable::DeriveSettings settings;
   if (const int status = deriveSettings(arguments.derive, settings)) return status;
   if (const int status = findRules(arguments.derive)) return status;
@@ -52,6 +53,15 @@ int writeModel(const gable::City& city, CityArguments& arguments, gable::RunFigu
   print(rules.diagnostics());
   if (!rules.found()) return kExitFile;
   if (!rules.ok()) return statusOf(rules.diagnostics(), kExitWrong);
+  const std::string folder = tileFolder(arguments.output);
+  if (!folder.empty()) {
+    const int status = writeTileFolder(rules, city.shapes(), folder, settings, arguments.tiles,
+                                       arguments.derive.limits, tiles);
+    figures.deriveSeconds = tiles.deriveSeconds;
+    figures.writeSeconds = tiles.writeSeconds;
+    figures.triangles = tiles.triangles;
+    return status;
+  }
   ProgressLine progress("deriving");
   settings.progress = progress.callback();
   const gable::Model model = gable::derive(rules, city.shapes(), settings);
@@ -77,7 +87,7 @@ int runCity(const CityArguments& given) {
     std::fputs("gable: say what to write: a model with -o, the ground with --plan\n", stderr);
     return kExitUsage;
   }
-  if (!arguments.output.empty()) {
+  if (!arguments.output.empty() && tileFolder(arguments.output).empty()) {
     std::vector<std::string> formats = gable::modelExtensions();
     formats.emplace_back("png");
     if (const int status = checkExtension(arguments.output, formats)) return status;
@@ -96,11 +106,12 @@ int runCity(const CityArguments& given) {
     if (const int status = writeText(arguments.plan, city.groundGeoJson())) return status;
   }
   int status = kExitDone;
-  if (!arguments.output.empty()) status = writeModel(city, arguments, figures);
+  gable::TileResult tiles;
+  if (!arguments.output.empty()) status = writeModel(city, arguments, figures, tiles);
   if (!arguments.stats.empty() && (status == kExitDone || status == kExitLimit)) {
     figures.totalSeconds = secondsNow() - begin;
     figures.peakBytes = peakBytes();
-    const std::string text = gable::cityJson(city.statistics(), figures);
+    const std::string text = gable::cityJson(city.statistics(), figures, tiles.ok ? &tiles : nullptr);
     if (const int written = writeText(arguments.stats, text)) return written;
   }
   return status;

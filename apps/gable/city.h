@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common.h"
+#include "tiles.h"
 
 struct CityArguments {
   /// Its rules are a folder with city.cga, or a file; its shapes are the map.
@@ -16,5 +17,6 @@ struct CityArguments {
   /// Where the ground goes as GeoJSON.
   std::string plan;
   std::string stats;
+  TileArguments tiles;
 };
 int runCity(const CityArguments& arguments);

@@ -11,6 +11,7 @@
 #include "city.h"
 #include "commands.h"
 #include "gable/names.h"
+#include "tiles.h"
 
 namespace {
 
@@ -157,6 +158,12 @@ void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
   generate->callback([&a, &status] { status = runGenerate(a); });
 }
 
+void addTileOptions(CLI::App* app, TileArguments& a) {
+  app->add_option("--tile-triangles", a.triangles,
+                  "Triangles of a tile that shows everything (default 65536)")
+      ->check(number({100, 10'000'000, true}));
+}
+
 void addCity(CLI::App& app, CityArguments& a, int& status) {
   auto* city = app.add_subcommand("city", "Make a place from its map: streets, ground, buildings");
   city->add_option("map", a.derive.shapes, "The map: .osm .pbf .geojson .gpkg .fgb .shp .kml .dxf")
@@ -168,7 +175,9 @@ void addCity(CLI::App& app, CityArguments& a, int& status) {
                    "The part of the map: west,south,east,north in degrees, or in the map's metres\n"
                    "(default: the box around its buildings)");
   city->add_option("--layer", a.derive.layer, "The layer of the map, where it has several");
-  city->add_option("-o,--output", a.output, "The model: .glb .gltf .obj .ply .stl .png");
+  city->add_option("-o,--output", a.output,
+                   "The model: .glb .gltf .obj .ply .stl .png; a folder/ for 3D Tiles");
+  addTileOptions(city, a.tiles);
   city->add_option("--plan", a.plan, "Write the ground as GeoJSON: a polygon a piece, its surface");
   city->add_option("--stats", a.stats, "Write areas and counts as JSON to a file, or - for stdout");
   city->add_option("--set", a.derive.set, "An attribute's value: NAME=VALUE; may be repeated")
@@ -183,6 +192,16 @@ void addCity(CLI::App& app, CityArguments& a, int& status) {
             "Stop reading, deriving and writing after so many seconds each (default: 600 for\n"
             "files, no limit else)");
   city->callback([&a, &status] { status = runCity(a); });
+}
+
+void addTiles(CLI::App& app, TilesArguments& a, int& status) {
+  auto* tiles = app.add_subcommand("tiles", "Derive rules and write 3D Tiles for browsers");
+  tiles->add_option("rules", a.derive.rules, "The rule file or package")->required();
+  addDeriveOptions(tiles, a.derive);
+  tiles->add_option("-o,--output", a.output, "The folder of the tiles")->required();
+  tiles->add_option("--stats", a.stats, "Write counts as JSON to a file, or - for stdout");
+  addTileOptions(tiles, a.tiles);
+  tiles->callback([&a, &status] { status = runTiles(a); });
 }
 
 void addPack(CLI::App& app, PackArguments& a, int& status) {
@@ -281,6 +300,8 @@ int main(int argc, char** argv) {
   addGenerate(app, generate, status);
   CityArguments city;
   addCity(app, city, status);
+  TilesArguments tiles;
+  addTiles(app, tiles, status);
   CheckArguments check;
   addCheck(app, check, status);
   InfoArguments info;

@@ -3,9 +3,11 @@
 
 #include "json/city_json.h"
 
+#include "json/tiles_json.h"
+
 namespace gable {
 
-std::string cityJson(const CityStatistics& s, const RunFigures& figures) {
+std::string cityJson(const CityStatistics& s, const RunFigures& figures, const TileResult* tiles) {
   std::string out;
   JsonWriter json(out, 2);
   json.beginObject().field("area", s.area).field("groundArea", s.groundArea);
@@ -28,6 +30,11 @@ std::string cityJson(const CityStatistics& s, const RunFigures& figures) {
     if (seconds) json.field(name, *seconds);
   }
   json.endObject();
+  if (tiles) {
+    json.key("tiles").beginObject();
+    writeTileCounts(json, *tiles);
+    json.endObject();
+  }
   if (figures.triangles) json.field("triangles", *figures.triangles);
   if (figures.peakBytes) json.field("peakBytes", *figures.peakBytes);
   json.endObject();

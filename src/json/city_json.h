@@ -7,11 +7,14 @@
 #include <string>
 
 #include "gable/city.h"
+#include "gable/tiles.h"
 #include "json/answers.h"
 
 namespace gable {
 
 /// Areas by surface, counts of shapes, what was left out, and figures as one object.
-std::string cityJson(const CityStatistics& statistics, const RunFigures& figures = {});
+/// Those of tiles, too, where there are.
+std::string cityJson(const CityStatistics& statistics, const RunFigures& figures = {},
+                     const TileResult* tiles = nullptr);
 
 }  // namespace gable

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// gable tiles: rules and shapes as a folder of 3D Tiles.
+
+#include "tiles.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "json/tiles_json.h"
+
+std::string tileFolder(const std::string& output) {
+  constexpr std::string_view kTileset = "tileset.json";
+  if (output.ends_with('/')) return output;
+  if (output == kTileset) return "./";
+  if (output.ends_with("/" + std::string(kTileset))) {
+    return output.substr(0, output.size() - kTileset.size());
+  }
+  std::error_code error;
+  return std::filesystem::is_directory(output, error) ? output + "/" : std::string();
+}
+
+int writeTileFolder(const gable::Rules& rules, const gable::Shapes& shapes,
+                    const std::string& folder, const gable::DeriveSettings& settings,
+                    const TileArguments& arguments, const LimitArguments& limits,
+                    gable::TileResult& result) {
+  ProgressLine progress("writing tiles");
+  gable::TileSettings tiles;
+  tiles.derive = settings;
+  tiles.derive.progress = progress.callback();
+  tiles.triangles = arguments.triangles;
+  tiles.limits = fileLimits(limits);
+  // Places take what time they take.
+  if (!limits.maxSeconds) tiles.limits.seconds.reset();
+  result = gable::writeTiles(rules, shapes, folder, tiles);
+  print(result.diagnostics);
+  for (const std::string& line : result.prints) std::fprintf(stderr, "%s\n", line.c_str());
+  if (result.end != gable::End::Done) return kExitLimit;
+  if (result.ok) return kExitDone;
+  for (const gable::Diagnostic& d : result.diagnostics) {
+    if (d.code == "attribute-value") return kExitUsage;
+    if (d.code == "tiles-folder" || d.code == "file-unwritable") return kExitFile;
+  }
+  return statusOf(result.diagnostics, kExitWrong);
+}
+
+int runTiles(const TilesArguments& arguments) {
+  const double begin = secondsNow();
+  std::string folder = tileFolder(arguments.output);
+  if (folder.empty()) folder = arguments.output + "/";
+  Inputs inputs;
+  if (const int status = readInputs(arguments.derive, inputs)) return status;
+  gable::TileResult result;
+  if (const int status = writeTileFolder(inputs.rules, inputs.shapes, folder, inputs.settings,
+                                         arguments.tiles, arguments.derive.limits, result)) {
+    return status;
+  }
+  if (arguments.stats.empty()) return kExitDone;
+  gable::RunFigures figures;
+  figures.parseSeconds = inputs.rules.parseSeconds();
+  figures.totalSeconds = secondsNow() - begin;
+  figures.peakBytes = peakBytes();
+  return writeText(arguments.stats, gable::tilesJson(result, figures));
+}

@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Whether a small part lies on a large one is asked of their boxes, which fit them, as rules make
+// parts along the axes of scopes: the eight corners of the one within the tolerance of the other.
+// A box is convex, so all between the corners is as near.
+//
+// Joining corners is vertex clustering (Rossignac, Borrel: Multi-resolution 3D approximations for
+// rendering complex scenes, 1993), with the mean of the corners for each cell: a corner that stands
+// alone stays where it is. Pieces of the ground share their corners, and share them still.
+#include "tiles/coarse.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <tuple>
+#include <unordered_map>
+
+#include "base/hash.h"
+#include "base/work.h"
+#include "scene/flatten.h"
+
+namespace gable {
+namespace {
+
+// So many of the largest parts of a feature are asked whether they bear a small one.
+constexpr size_t kMostBearers = 256;
+// Longer ones are not gathered: a box of several would be far from them.
+constexpr double kLongestGathered = 2;
+
+using Cell = std::array<int64_t, 3>;
+
+Cell cellOf(const Vec3& p, double side) {
+  const auto at = [side](double v) { return static_cast<int64_t>(std::floor(v / side)); };
+  return {at(p.x), at(p.y), at(p.z)};
+}
+
+struct CellHash {
+  size_t operator()(const Cell& c) const {
+    uint64_t h = 0;
+    for (const int64_t v : c) h = hashCombine(h, static_cast<uint64_t>(v));
+    return h;
+  }
+};
+
+double faceArea(const Box3& box) {
+  const Vec3 s = box.size();
+  return std::max({s.x * s.y, s.y * s.z, s.x * s.z});
+}
+
+std::array<Vec3, 8> cornersOf(const CoarsePart& p) {
+  std::array<Vec3, 8> out;
+  for (size_t i = 0; i < 8; ++i) {
+    out[i] = p.frame.point({i & 1 ? p.box.max.x : p.box.min.x, i & 2 ? p.box.max.y : p.box.min.y,
+                            i & 4 ? p.box.max.z : p.box.min.z});
+  }
+  return out;
+}
+
+bool bears(const CoarsePart& large, const std::array<Vec3, 8>& corners, double tolerance) {
+  return std::all_of(corners.begin(), corners.end(), [&](const Vec3& c) {
+    const Vec3 p = large.frame.toLocal(c);
+    const auto beyond = [](double v, double low, double high) {
+      return std::max({low - v, v - high, 0.0});
+    };
+    const Vec3 d{beyond(p.x, large.box.min.x, large.box.max.x),
+                 beyond(p.y, large.box.min.y, large.box.max.y),
+                 beyond(p.z, large.box.min.z, large.box.max.z)};
+    return dot(d, d) <= tolerance * tolerance;
+  });
+}
+
+// A colour and how much of it there is.
+struct Tint {
+  Vec3 sum;
+  double weight = 0;
+  void add(const Vec3& color, double area) {
+    sum += color * area;
+    weight += area;
+  }
+  Vec3 mean(const Vec3& otherwise) const { return weight > 0 ? sum * (1 / weight) : otherwise; }
+};
+
+class Coarsener {
+ public:
+  Coarsener(const CoarseModel& from, double tolerance)
+      : from_(from), tolerance_(tolerance), side_(tolerance / 2) {}
+
+  CoarseModel run() {
+    out_.features = from_.features;
+    for (size_t i = 0; i < from_.parts.size();) {
+      size_t end = i;
+      while (end < from_.parts.size() && from_.parts[end].feature == from_.parts[i].feature) ++end;
+      addFeature(i, end);
+      i = end;
+    }
+    join();
+    out_.error = from_.error + std::max(tolerance_, boxError_) + shift_;
+    return std::move(out_);
+  }
+
+ private:
+  bool isLarge(const CoarsePart& p) const {
+    return p.triangleCount > 0 && widthOf(p.box) >= tolerance_;
+  }
+
+  void addFeature(size_t begin, size_t end) {
+    std::vector<size_t> large;
+    for (size_t i = begin; i < end; ++i) {
+      if (isLarge(from_.parts[i])) large.push_back(i);
+    }
+    std::vector<size_t> bearers = large;
+    std::stable_sort(bearers.begin(), bearers.end(), [&](size_t a, size_t b) {
+      return faceArea(from_.parts[a].box) > faceArea(from_.parts[b].box);
+    });
+    if (bearers.size() > kMostBearers) bearers.resize(kMostBearers);
+
+    std::vector<Tint> borne(bearers.size());
+    std::map<Cell, std::vector<size_t>> cells;
+    size_t last = 0;
+    for (size_t i = begin; i < end; ++i) {
+      const CoarsePart& p = from_.parts[i];
+      if (isLarge(p)) continue;
+      const std::array<Vec3, 8> corners = cornersOf(p);
+      // Neighbours in the list are neighbours on a wall.
+      size_t at = last;
+      size_t tries = 0;
+      for (; tries < bearers.size(); ++tries, at = at + 1 < bearers.size() ? at + 1 : 0) {
+        work();
+        if (bears(from_.parts[bearers[at]], corners, tolerance_)) break;
+      }
+      if (tries < bearers.size()) {
+        last = at;
+        borne[at].add(p.color, faceArea(p.box));
+        continue;
+      }
+      const Vec3 s = p.box.size();
+      if (std::max({s.x, s.y, s.z}) > kLongestGathered * tolerance_) continue;
+      cells[cellOf(p.frame.point(p.box.center()), tolerance_)].push_back(i);
+    }
+    for (size_t b = 0; b < bearers.size(); ++b) {
+      const CoarsePart& p = from_.parts[bearers[b]];
+      borne[b].add(p.color, p.area);
+    }
+    for (const size_t i : large) {
+      const auto b = std::find(bearers.begin(), bearers.end(), i);
+      const CoarsePart& p = from_.parts[i];
+      copy(p, b == bearers.end() ? p.color
+                                 : borne[static_cast<size_t>(b - bearers.begin())].mean(p.color));
+    }
+    for (const auto& [cell, members] : cells) addBox(members);
+  }
+
+  void copy(const CoarsePart& p, const Vec3& color) {
+    CoarsePart part = p;
+    part.color = color;
+    part.firstVertex = static_cast<uint32_t>(out_.vertices.size());
+    part.firstTriangle = static_cast<uint32_t>(out_.triangles.size());
+    const auto vertices = from_.vertices.begin() + p.firstVertex;
+    const auto triangles = from_.triangles.begin() + p.firstTriangle;
+    out_.vertices.insert(out_.vertices.end(), vertices, vertices + p.vertexCount);
+    out_.triangles.insert(out_.triangles.end(), triangles, triangles + p.triangleCount);
+    out_.parts.push_back(part);
+  }
+
+  // One box for what stands in a cell; its underside is never seen.
+  void addBox(const std::vector<size_t>& members) {
+    Box3 box;
+    Tint tint;
+    for (const size_t i : members) {
+      const CoarsePart& p = from_.parts[i];
+      for (const Vec3& c : cornersOf(p)) box.include(c);
+      tint.add(p.color, faceArea(p.box));
+    }
+    if (widthOf(box) < side_) return;
+    CoarsePart part;
+    part.feature = from_.parts[members[0]].feature;
+    part.color = tint.mean(from_.parts[members[0]].color);
+    part.area = faceArea(box);
+    part.box = box;
+    part.firstVertex = static_cast<uint32_t>(out_.vertices.size());
+    part.firstTriangle = static_cast<uint32_t>(out_.triangles.size());
+    part.vertexCount = 8;
+    part.triangleCount = 10;
+    for (const Vec3& c : cornersOf(part)) out_.vertices.push_back(c);
+    static constexpr std::array<std::array<uint32_t, 3>, 10> kSides = {{{2, 6, 7},
+                                                                        {2, 7, 3},
+                                                                        {4, 5, 7},
+                                                                        {4, 7, 6},
+                                                                        {1, 0, 2},
+                                                                        {1, 2, 3},
+                                                                        {5, 1, 3},
+                                                                        {5, 3, 7},
+                                                                        {0, 4, 6},
+                                                                        {0, 6, 2}}};
+    out_.triangles.insert(out_.triangles.end(), kSides.begin(), kSides.end());
+    out_.parts.push_back(part);
+    boxError_ = std::max(boxError_, length(box.size()));
+  }
+
+  // Corners of one cell become their mean.
+  void join() {
+    struct Sum {
+      Vec3 first, sum;
+      double count = 0;
+    };
+    std::unordered_map<Cell, Sum, CellHash> cells;
+    std::vector<Sum*> cellOfVertex(out_.vertices.size());
+    for (size_t v = 0; v < out_.vertices.size(); ++v) {
+      work();
+      const Vec3& p = out_.vertices[v];
+      Sum& s = cells[cellOf(p, side_)];
+      if (s.count == 0) s.first = p;
+      // Differences to the first, so that equal corners stay what they are.
+      s.sum += p - s.first;
+      s.count += 1;
+      cellOfVertex[v] = &s;
+    }
+    for (size_t v = 0; v < out_.vertices.size(); ++v) {
+      const Sum& s = *cellOfVertex[v];
+      const Vec3 mean = s.first + s.sum * (1 / s.count);
+      shift_ = std::max(shift_, length(mean - out_.vertices[v]));
+      out_.vertices[v] = mean;
+    }
+    dropFlat();
+  }
+
+  // Leaves out triangles without area, corners that none has, and parts without triangles.
+  void dropFlat() {
+    std::vector<CoarsePart> parts;
+    std::vector<Vec3> vertices;
+    std::vector<std::array<uint32_t, 3>> triangles;
+    std::vector<uint32_t> index;
+    for (const CoarsePart& old : out_.parts) {
+      CoarsePart p = old;
+      p.firstVertex = static_cast<uint32_t>(vertices.size());
+      p.firstTriangle = static_cast<uint32_t>(triangles.size());
+      p.box = {};
+      index.assign(old.vertexCount, 0xffffffff);
+      for (uint32_t t = 0; t < old.triangleCount; ++t) {
+        std::array<uint32_t, 3> tri = out_.triangles[old.firstTriangle + t];
+        const Vec3& a = out_.vertices[old.firstVertex + tri[0]];
+        const Vec3& b = out_.vertices[old.firstVertex + tri[1]];
+        const Vec3& c = out_.vertices[old.firstVertex + tri[2]];
+        if (!(length(cross(b - a, c - a)) > 1e-6)) continue;
+        for (uint32_t& v : tri) {
+          uint32_t& at = index[v];
+          if (at == 0xffffffff) {
+            at = static_cast<uint32_t>(vertices.size()) - p.firstVertex;
+            vertices.push_back(out_.vertices[old.firstVertex + v]);
+            p.box.include(p.frame.toLocal(vertices.back()));
+          }
+          v = at;
+        }
+        triangles.push_back(tri);
+      }
+      p.vertexCount = static_cast<uint32_t>(vertices.size()) - p.firstVertex;
+      p.triangleCount = static_cast<uint32_t>(triangles.size()) - p.firstTriangle;
+      if (p.triangleCount > 0) parts.push_back(p);
+    }
+    out_.parts.swap(parts);
+    out_.vertices.swap(vertices);
+    out_.triangles.swap(triangles);
+    dropFeatures();
+  }
+
+  // Those of which nothing is left to see, and to pick.
+  void dropFeatures() {
+    std::vector<TileFeature> features;
+    uint32_t last = 0xffffffff;
+    for (CoarsePart& p : out_.parts) {
+      if (p.feature != last) features.push_back(std::move(out_.features[p.feature]));
+      last = p.feature;
+      p.feature = static_cast<uint32_t>(features.size()) - 1;
+    }
+    out_.features.swap(features);
+  }
+
+  const CoarseModel& from_;
+  double tolerance_, side_;
+  CoarseModel out_;
+  double boxError_ = 0, shift_ = 0;
+};
+
+// One leaf: a part for each of its material slots.
+class PartMaker {
+ public:
+  PartMaker(const TileContent& content, double tolerance, const MeanColor& colorOf)
+      : content_(content), tolerance_(tolerance), colorOf_(colorOf) {}
+
+  CoarseModel run() {
+    out_.features = content_.features;
+    for (const TileLeaf& l : content_.leaves) add(l);
+    return std::move(out_);
+  }
+
+ private:
+  const Vec3& colorOf(uint32_t scene, uint32_t material, const Material& m) {
+    const auto [at, fresh] = colors_.try_emplace({scene, material});
+    if (fresh) at->second = colorOf_(m);
+    return at->second;
+  }
+
+  void add(const TileLeaf& l) {
+    const Scene& scene = *content_.scenes[l.scene];
+    const Leaf& leaf = scene.leaves[l.leaf];
+    const Mesh& mesh = *scene.meshes[leaf.mesh];
+    CoarsePart part;
+    part.feature = l.feature;
+    part.frame = l.world;
+    part.box = localBox(scene, leaf);
+    if (part.box.empty()) return;
+    part.area = faceArea(part.box);
+    if (widthOf(part.box) < tolerance_) {
+      const uint32_t slot = mesh.faces.empty() ? 0 : mesh.faces[0].materialSlot;
+      part.color = colorOf(l.scene, materialIndexOf(scene, leaf, slot),
+                           materialOf(scene, leaf, slot));
+      out_.parts.push_back(part);
+      return;
+    }
+    std::map<uint16_t, std::vector<std::array<uint32_t, 3>>> slots;
+    for (size_t f = 0; f < mesh.faceCount(); ++f) {
+      triangulator_.add(mesh, f, slots[mesh.faces[f].materialSlot]);
+    }
+    for (const auto& [slot, triangles] : slots) {
+      part.color = colorOf(l.scene, materialIndexOf(scene, leaf, slot),
+                           materialOf(scene, leaf, slot));
+      addTriangles(part, l, leaf, mesh, triangles);
+    }
+  }
+
+  void addTriangles(CoarsePart part, const TileLeaf& l, const Leaf& leaf, const Mesh& mesh,
+                    const std::vector<std::array<uint32_t, 3>>& triangles) {
+    const bool mirrored = leaf.scale.x * leaf.scale.y * leaf.scale.z < 0;
+    part.firstVertex = static_cast<uint32_t>(out_.vertices.size());
+    part.firstTriangle = static_cast<uint32_t>(out_.triangles.size());
+    std::unordered_map<uint32_t, uint32_t> index;
+    work(triangles.size());
+    for (const auto& tri : triangles) {
+      std::array<uint32_t, 3> out{};
+      for (size_t k = 0; k < 3; ++k) {
+        const uint32_t position = mesh.corners[tri[mirrored ? 2 - k : k]];
+        const auto [at, fresh] = index.try_emplace(position, static_cast<uint32_t>(index.size()));
+        if (fresh) {
+          out_.vertices.push_back(l.world.point(scaled(mesh.positions[position], leaf.scale)));
+        }
+        out[k] = at->second;
+      }
+      out_.triangles.push_back(out);
+    }
+    part.vertexCount = static_cast<uint32_t>(out_.vertices.size()) - part.firstVertex;
+    part.triangleCount = static_cast<uint32_t>(out_.triangles.size()) - part.firstTriangle;
+    out_.parts.push_back(part);
+  }
+
+  const TileContent& content_;
+  double tolerance_;
+  const MeanColor& colorOf_;
+  FaceTriangulator triangulator_;
+  std::map<std::pair<uint32_t, uint32_t>, Vec3> colors_;
+  CoarseModel out_;
+};
+
+}  // namespace
+
+void CoarseModel::append(CoarseModel&& other) {
+  const auto firstFeature = static_cast<uint32_t>(features.size());
+  const auto firstVertex = static_cast<uint32_t>(vertices.size());
+  const auto firstTriangle = static_cast<uint32_t>(triangles.size());
+  std::move(other.features.begin(), other.features.end(), std::back_inserter(features));
+  vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
+  triangles.insert(triangles.end(), other.triangles.begin(), other.triangles.end());
+  for (CoarsePart p : other.parts) {
+    p.feature += firstFeature;
+    p.firstVertex += firstVertex;
+    p.firstTriangle += firstTriangle;
+    parts.push_back(p);
+  }
+  error = std::max(error, other.error);
+}
+
+CoarseModel partsOf(const TileContent& content, double tolerance, const MeanColor& colorOf) {
+  return PartMaker(content, tolerance, colorOf).run();
+}
+
+CoarseModel coarsened(const CoarseModel& model, double tolerance) {
+  return Coarsener(model, tolerance).run();
+}
+
+}  // namespace gable

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Coarse models: what a place looks like from far away, made of what the rules made of it.
+//
+// A model is a list of parts: a leaf, or a box that stands for many small ones. coarsened() makes a
+// model with a tolerance of a model with a smaller one:
+//   1. Parts narrower than the tolerance that lie on a larger part of their feature go; the larger
+//      one takes on their colour by area (windows, cornices, tiles).
+//   2. Others of them that stand close together become boxes, a cell of the tolerance each (the
+//      crowns of trees); single ones go.
+//   3. Corners in one cell of half the tolerance become one, and triangles without area go.
+// `error` bounds, in metres, how far a point of the full model is from the coarse one, other than
+// points of things that are narrower than `error`.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "tiles/tile_content.h"
+
+namespace gable {
+
+struct CoarsePart {
+  /// Index into CoarseModel::features; ascending.
+  uint32_t feature = 0;
+  /// sRGB.
+  Vec3 color;
+  /// Square metres, the weight of its colour.
+  double area = 0;
+  /// The box of the part, in a frame that fits it.
+  Frame frame;
+  Box3 box;
+  /// Ranges of CoarseModel::triangles and vertices; both empty for what is small.
+  uint32_t firstVertex = 0, vertexCount = 0;
+  uint32_t firstTriangle = 0, triangleCount = 0;
+};
+
+struct CoarseModel {
+  std::vector<TileFeature> features;
+  std::vector<CoarsePart> parts;
+  std::vector<Vec3> vertices;
+  /// Count from the part's first vertex.
+  std::vector<std::array<uint32_t, 3>> triangles;
+  double error = 0;
+
+  void append(CoarseModel&& other);
+};
+
+/// What a material looks like from far away, sRGB.
+using MeanColor = std::function<Vec3(const Material&)>;
+
+/// The parts of a tile; those narrower than `tolerance` without their triangles.
+CoarseModel partsOf(const TileContent& content, double tolerance, const MeanColor& colorOf);
+
+/// O(n log n) in the parts, times how many large ones a feature has in the worst case.
+CoarseModel coarsened(const CoarseModel& model, double tolerance);
+
+}  // namespace gable

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// What a tile's file holds: few primitives, one a look. Materials that differ in colour alone share
+// one, as colours are data of vertices; so is the number of the feature.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/exporters/gltf_materials.h"
+#include "tiles/coarse.h"
+#include "tiles/tile_content.h"
+
+namespace gable {
+
+/// Interleaved: position 3, normal 3, colour 2 (four numbers of 16 bits), feature 1, 2 a uv set.
+struct TilePrimitive {
+  uint32_t variant = 0;
+  uint32_t uvCount = 0;
+  std::vector<uint32_t> words;
+  std::vector<uint32_t> indices;
+  std::array<float, 3> min, max;
+
+  TilePrimitive();
+  uint32_t floats() const { return 9 + 2 * uvCount; }
+  uint32_t vertexCount() const { return static_cast<uint32_t>(words.size()) / floats(); }
+};
+
+/// Where a feature begins and ends above the ground, metres.
+struct FeatureRange {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+};
+
+struct TileMesh {
+  /// Positions count from here.
+  Vec3 center;
+  std::vector<TileFeature> features;
+  /// By feature.
+  std::vector<FeatureRange> ranges;
+  std::vector<TilePrimitive> primitives;
+  /// The materials of the primitives, which `materials` looks into.
+  std::shared_ptr<Scene> looks;
+  std::shared_ptr<GltfMaterials> materials;
+  std::vector<std::string> warnings;
+  /// Of the vertices as they are written, in the frame of the place.
+  Box3 box;
+  uint64_t triangles = 0;
+};
+
+/// Triangles without area in single precision are left out.
+TileMesh meshOf(const TileContent& content, const WriteOptions& options);
+TileMesh meshOf(const CoarseModel& model);
+
+/// Writes it as GLB: one node, EXT_mesh_features, EXT_structural_metadata with a table of features.
+/// Code: file-unwritable. Gives the number of bytes.
+Result<uint64_t> writeTile(const TileMesh& mesh, const std::string& path);
+
+}  // namespace gable
