@@ -40,7 +40,7 @@ int writeTileFolder(const gable::Rules& rules, const gable::Shapes& shapes,
   if (result.ok) return kExitDone;
   for (const gable::Diagnostic& d : result.diagnostics) {
     if (d.code == "attribute-value") return kExitUsage;
-    if (d.code == "tiles-folder" || d.code == "file-unwritable") return kExitFile;
+    if (d.code == "tiles-folder" || d.code.starts_with("file-")) return kExitFile;
   }
   return statusOf(result.diagnostics, kExitWrong);
 }

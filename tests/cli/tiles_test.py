@@ -1,0 +1,239 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The Gable authors
+"""Places as 3D Tiles on the command line: tiles_test.py GABLE FOLDER.
+
+Tilesets are walked: boxes, errors, triangles and the tables of features are held against each other and against
+the one-file model. Files are made in FOLDER. Run from the repository's root.
+"""
+import json
+import resource
+import signal
+import struct
+import sys
+import unittest
+
+from city_test import MAP, feature, square
+from cli_test import FILE, WRONG, Case
+
+LIMIT = 4
+
+NO_NUMBER = -1
+
+
+class Tile:
+    """The content of a tile, read as the specifications say."""
+
+    def __init__(self, path):
+        data = path.read_bytes()
+        magic, version, length, json_bytes, kind = struct.unpack_from("<5I", data)
+        assert (magic, version, length, kind) == (0x46546C67, 2, len(data), 0x4E4F534A)
+        self.json = json.loads(data[20:20 + json_bytes])
+        self.buffer = data[28 + json_bytes:]
+        self.bytes = len(data)
+        assert self.json["buffers"][0]["byteLength"] <= len(self.buffer)
+
+    def view(self, index):
+        v = self.json["bufferViews"][index]
+        assert v["byteOffset"] % 4 == 0 and v["byteOffset"] + v["byteLength"] <= len(self.buffer)
+        return self.buffer[v["byteOffset"]:v["byteOffset"] + v["byteLength"]]
+
+    def accessor(self, index):
+        a = self.json["accessors"][index]
+        form = {5126: "f", 5123: "H", 5125: "I"}[a["componentType"]]
+        form = "<" + form * {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}[a["type"]]
+        stride = self.json["bufferViews"][a["bufferView"]].get("byteStride", struct.calcsize(form))
+        data = self.view(a["bufferView"])
+        return [struct.unpack_from(form, data, a.get("byteOffset", 0) + i * stride) for i in range(a["count"])]
+
+    def primitives(self):
+        return self.json["meshes"][0]["primitives"]
+
+    def triangles(self):
+        return sum(self.json["accessors"][p["indices"]]["count"] // 3 for p in self.primitives())
+
+    def places(self):
+        """Positions in the tileset's frame: east, north, up."""
+        tx, ty, tz = self.json["nodes"][0]["translation"]
+        for p in self.primitives():
+            for x, y, z in self.accessor(p["attributes"]["POSITION"]):
+                yield x + tx, -(z + tz), y + ty
+
+    def table(self):
+        table = self.json["extensions"]["EXT_structural_metadata"]["propertyTables"][0]
+        columns = {}
+        for name, p in table["properties"].items():
+            values = self.view(p["values"])
+            if "stringOffsets" in p:
+                ends = struct.unpack(f"<{table['count'] + 1}I", self.view(p["stringOffsets"]))
+                columns[name] = [values[a:b].decode() for a, b in zip(ends, ends[1:])]
+            else:
+                columns[name] = list(struct.unpack(f"<{table['count']}f", values))
+        return [dict(zip(columns, row)) for row in zip(*columns.values())]
+
+
+def sides(node):
+    b = node["boundingVolume"]["box"]
+    return [(b[i] - b[3 + 4 * i], b[i] + b[3 + 4 * i]) for i in range(3)]
+
+
+def glb_triangles(path):
+    tile = Tile(path)
+    meshes = [sum(tile.json["accessors"][p["indices"]]["count"] // 3 for p in m["primitives"]) for m in tile.json["meshes"]]
+    return sum(meshes[n["mesh"]] for n in tile.json["nodes"] if "mesh" in n)
+
+
+class Tiles(Case):
+    def setUp(self):
+        super().setUp()
+        named = json.loads(json.dumps(MAP))
+        named["features"][0]["properties"]["name"] = "Villa Běla"
+        self.put("map.geojson", json.dumps(named))
+
+    def city(self, *arguments, **expected):
+        return self.run_gable("city", *arguments, **expected)
+
+    def tileset(self, folder):
+        return json.loads((self.folder / folder / "tileset.json").read_text())
+
+    def walk(self, folder):
+        """Every tile with its content and that of the tile above, children after parents."""
+        def below(node, parent):
+            uri = node.get("content", {}).get("uri")
+            yield node, parent, Tile(self.folder / folder / uri) if uri else None
+            for child in node.get("children", []):
+                yield from below(child, node)
+        yield from below(self.tileset(folder)["root"], None)
+
+    def files(self, folder):
+        return sorted(p for p in (self.folder / folder).rglob("*") if p.is_file())
+
+    def contents(self, folder):
+        return {p.relative_to(self.folder / folder): p.read_bytes() for p in self.files(folder)}
+
+    def testBoxesHoldAndErrorsShrink(self):
+        self.city("map.geojson", "-o", "out/", "--tile-triangles", "2000")
+        root = self.tileset("out")["root"]
+        self.assertEqual((self.tileset("out")["asset"]["version"], root["refine"]), ("1.1", "REPLACE"))
+        self.assertEqual(len(root["transform"]), 16)
+        self.assertGreaterEqual(self.tileset("out")["geometricError"], root["geometricError"])
+        levels = 0
+        for node, parent, tile in self.walk("out"):
+            for child, around in zip(sides(node), sides(parent or node)):
+                self.assertTrue(around[0] - 1e-9 <= child[0] <= child[1] <= around[1] + 1e-9)
+            if parent:
+                self.assertLess(node["geometricError"], parent["geometricError"])
+            if "children" not in node:
+                self.assertEqual(node["geometricError"], 0)
+            levels += bool(parent)
+            box = sides(node)
+            for place in tile.places() if tile else ():
+                self.assertTrue(all(low <= v <= high for v, (low, high) in zip(place, box)), (place, box))
+        self.assertGreater(levels, 4)
+
+    def testTheFinestTilesAreTheModel(self):
+        told = self.city("map.geojson", "-o", "out/", "--tile-triangles", "2000", "--stats", "-")
+        stats = json.loads(told[told.index("{"):told.rindex("}") + 1])["tiles"]
+        self.city("map.geojson", "-o", "one.glb")
+        leaves = [t for n, _, t in self.walk("out") if "children" not in n]
+        self.assertEqual(sum(t.triangles() for t in leaves), glb_triangles(self.folder / "one.glb"))
+        self.assertEqual(stats["triangles"], sum(t.triangles() for t in leaves))
+        self.assertEqual(stats["tiles"], len(self.files("out/tiles")))
+        self.assertEqual(stats["bytes"], sum(len(b) for b in self.contents("out").values()))
+        for t in leaves:
+            self.assertLessEqual(t.triangles(), 2000)
+
+    def testAViewerFindsTheBuildings(self):
+        self.city("map.geojson", "-o", "out/", "--tile-triangles", "2000")
+        found = {}
+        for node, _, tile in self.walk("out"):
+            rows = tile.table() if tile else []
+            for p in tile.primitives() if tile else ():
+                ids = {int(i) for i, in tile.accessor(p["attributes"]["_FEATURE_ID_0"])}
+                self.assertLess(max(ids), len(rows))
+                self.assertEqual(p["extensions"]["EXT_mesh_features"]["featureIds"][0]["featureCount"], len(rows))
+                indices = [i for i, in tile.accessor(p["indices"])]
+                self.assertLess(max(indices), tile.json["accessors"][p["attributes"]["POSITION"]]["count"])
+            if "children" not in node:
+                for row in rows:
+                    found.setdefault(row["id"], []).append(row)
+        villa, = [r for rows in found.values() for r in rows if r["name"] == "Villa Běla" and r["shape"] == "Building"][:1]
+        self.assertEqual((villa["type"], villa["levels"]), ("yes", 4))
+        self.assertEqual(json.loads(villa["attributes"])["building:levels"], "4")
+        heights = [r["height"] for r in found[villa["id"]]]
+        self.assertTrue(any(12 < h < 18 for h in heights), heights)
+        self.assertTrue(any(r["levels"] == NO_NUMBER for rows in found.values() for r in rows))
+
+    def testFilesAreTheSameWithAnyNumberOfThreads(self):
+        for jobs in ("1", "4"):
+            self.city("map.geojson", "--jobs", jobs, "--tile-triangles", "1000", "-o", f"{jobs}/")
+        self.assertEqual(self.contents("1"), self.contents("4"))
+
+    def testAFolderIsWrittenAgainAndOtherFilesStay(self):
+        self.city("map.geojson", "-o", "out/", "--tile-triangles", "500")
+        many = len(self.files("out"))
+        self.put("out/tiles/mine.txt", "mine")
+        self.put("out/notes.txt", "mine")
+        self.city("map.geojson", "-o", "out/tileset.json")
+        few = self.files("out")
+        self.assertLess(len(few), many)
+        self.assertTrue((self.folder / "out/notes.txt").exists() and (self.folder / "out/tiles/mine.txt").exists())
+        self.city("map.geojson", "-o", "fresh/")
+        self.assertEqual({k: v for k, v in self.contents("out").items() if k.suffix != ".txt"}, self.contents("fresh"))
+
+    def testFoldersOfOthersAreLeftAlone(self):
+        (self.folder / "theirs").mkdir()
+        self.put("theirs/tileset.json", '{"asset": {"version": "1.0", "generator": "other"}}')
+        self.city("map.geojson", "-o", "theirs", status=FILE, says="tiles-folder")
+        self.assertEqual(len(self.files("theirs")), 1)
+        (self.folder / "full/tiles").mkdir(parents=True)
+        self.put("full/tiles/a.bin", "x")
+        self.city("map.geojson", "-o", "full/", status=FILE, says="tiles-folder")
+        self.put("file", "x")
+        self.city("map.geojson", "-o", "file/", status=FILE, says="file")
+        self.assertEqual((self.folder / "file").read_text(), "x")
+
+    def testWhatCannotBeBuiltIsTold(self):
+        (self.folder / "rules").mkdir()
+        self.put("rules/city.cga", "@StartRule Ground --> NIL\n")
+        self.city("map.geojson", "--rules", "rules", "-o", "none/", status=WRONG, says="tiles-empty")
+        self.put("rules/city.cga", "@StartRule Ground --> split(x) { 0.001 : X }* X --> extrude(1) Y.\n")
+        self.run_gable("tiles", "rules/city.cga", "--lot", "90x90", "--max-shapes", "100", "-o", "cut/", status=LIMIT)
+        self.assertFalse((self.folder / "cut/tileset.json").exists())
+        self.city("map.geojson", "--set", "nothing=1", "-o", "set/", status=WRONG, says="unknown-attribute")
+
+    def testRulesOnShapesBecomeTiles(self):
+        lots = [feature("Polygon", square(20 * x, 20 * y, 15), id=f"lot {x} {y}") for x in range(12) for y in range(12)]
+        self.put("lots.geojson", json.dumps(dict(MAP, features=lots)))
+        self.put("boxes.cga", "Lot --> extrude(rand(5, 9)) comp(f) { side : Wall | all : X }\n"
+                              "Wall --> X split(x) { { ~1.5 : s('0.5, '0.5, 0) center(xy) t(0, 0, 0.01) X }* }\n")
+        self.run_gable("tiles", "boxes.cga", "--shapes", "lots.geojson", "-o", "out", "--tile-triangles", "3000")
+        self.run_gable("generate", "boxes.cga", "--shapes", "lots.geojson", "-o", "one.glb")
+        tiles = list(self.walk("out"))
+        leaves = [t for n, _, t in tiles if "children" not in n]
+        self.assertEqual(sum(t.triangles() for t in leaves), glb_triangles(self.folder / "one.glb"))
+        self.assertEqual(sum(len(t.table()) for t in leaves), len(lots))
+        # Windows go first, walls stay.
+        coarse = tiles[0][2].triangles()
+        self.assertTrue(len(lots) * 4 < coarse < len(lots) * 14, coarse)
+
+    def testAQuestionAboutOthersIsAnsweredAcrossTiles(self):
+        lots = [feature("Polygon", square(15 * x, 0, 15), id=str(x)) for x in range(6)]
+        self.put("lots.geojson", json.dumps(dict(MAP, features=lots)))
+        self.put("near.cga", "Lot --> extrude(5) label(\"x\") Block\nBlock --> case touches(inter): X. else: NIL\n")
+        told = self.run_gable("tiles", "near.cga", "--shapes", "lots.geojson", "-o", "out/")
+        self.assertIn("tiles-together", told)
+        self.assertEqual([t.triangles() for _, _, t in self.walk("out")], [6 * 12])
+
+    def testAFullDiskLeavesNoTileset(self):
+        def full_disk():
+            signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
+        self.city("map.geojson", "-o", "out/", status=FILE, says="file-unwritable", preexec_fn=full_disk)
+        self.assertEqual([p.name for p in self.files("out")], ["unfinished"])
+        self.city("map.geojson", "-o", "out/")
+        self.assertFalse((self.folder / "out/tiles/unfinished").exists())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
