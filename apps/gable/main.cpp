@@ -162,6 +162,7 @@ void addTileOptions(CLI::App* app, TileArguments& a) {
   app->add_option("--tile-triangles", a.triangles,
                   "Triangles of a tile that shows everything (default 65536)")
       ->check(number({100, 10'000'000, true}));
+  app->add_flag("--viewer", a.viewer, "Put a page beside the tiles that shows them (index.html)");
 }
 
 void addCity(CLI::App& app, CityArguments& a, int& status) {

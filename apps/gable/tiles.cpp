@@ -8,7 +8,38 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "folders.h"
 #include "json/tiles_json.h"
+
+namespace {
+
+/// Puts the viewer into a folder, where it may be from before, and nothing else of that name.
+int writeViewer(const std::string& folder) {
+  const std::string from = folderWith("viewer.js", {"../studio/viewer", "../share/gable/studio/viewer"});
+  if (from.empty()) {
+    std::fputs("gable: the page for --viewer is not built; ./run studio builds it\n", stderr);
+    return kExitFile;
+  }
+  std::error_code error;
+  if (std::filesystem::exists(folder + "index.html", error)) {
+    std::string before;
+    if (!readText(folder + "index.html", before)) return kExitFile;
+    if (before.find("name=\"generator\" content=\"Gable\"") == std::string::npos) {
+      std::fprintf(stderr, "gable: '%sindex.html' is a page of another program; remove it first\n",
+                   folder.c_str());
+      return kExitFile;
+    }
+  }
+  std::filesystem::create_directories(folder, error);
+  for (const char* name : {"viewer.js", "index.html"}) {
+    std::string text;
+    if (!readText(from + "/" + name, text)) return kExitFile;
+    if (const int status = writeText(folder + name, text)) return status;
+  }
+  return kExitDone;
+}
+
+}  // namespace
 
 std::string tileFolder(const std::string& output) {
   constexpr std::string_view kTileset = "tileset.json";
@@ -37,7 +68,7 @@ int writeTileFolder(const gable::Rules& rules, const gable::Shapes& shapes,
   print(result.diagnostics);
   for (const std::string& line : result.prints) std::fprintf(stderr, "%s\n", line.c_str());
   if (result.end != gable::End::Done) return kExitLimit;
-  if (result.ok) return kExitDone;
+  if (result.ok) return arguments.viewer ? writeViewer(folder) : kExitDone;
   for (const gable::Diagnostic& d : result.diagnostics) {
     if (d.code == "attribute-value") return kExitUsage;
     if (d.code == "tiles-folder" || d.code.starts_with("file-")) return kExitFile;

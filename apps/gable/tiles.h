@@ -11,6 +11,8 @@
 
 struct TileArguments {
   uint64_t triangles = 65'536;
+  /// Put the page that shows the tiles beside them.
+  bool viewer = false;
 };
 
 struct TilesArguments {

@@ -27,6 +27,8 @@ struct TileFeature {
   double levels = std::numeric_limits<double>::quiet_NaN();
   /// All attributes of the shape as a JSON object.
   std::string attributes;
+  /// From its lowest to its highest point.
+  double height = 0;
   /// The middle of the shape seen from above, x and z; the one by which it belongs to a tile.
   Vec2 middle;
 };

@@ -117,7 +117,7 @@ class TileWriter {
       addTexts([](const TileFeature& f) { return f.type; });
       addTexts([](const TileFeature& f) { return f.attributes; });
       addNumbers([&](size_t i) { return mesh_.features[i].levels; });
-      addNumbers([&](size_t i) { return mesh_.ranges[i].high - mesh_.ranges[i].low; });
+      addNumbers([&](size_t i) { return mesh_.features[i].height; });
     }
     for (const std::string& c : columns_) addView(c.size(), 0, 0);
     firstImage_ = views_.size();

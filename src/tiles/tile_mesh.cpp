@@ -59,7 +59,6 @@ Material lookOf(const Material& m) {
 class Filler {
  public:
   explicit Filler(TileMesh& mesh) : mesh_(mesh) {
-    mesh_.ranges.resize(mesh_.features.size());
     mesh_.looks = std::make_shared<Scene>();
   }
 
@@ -81,9 +80,6 @@ class Filler {
       p.max[i] = std::max(p.max[i], static_cast<float>(at[i]));
     }
     mesh_.box.include(mesh_.center + at);
-    FeatureRange& range = mesh_.ranges[static_cast<size_t>(floatOf(head[8]))];
-    range.low = std::min(range.low, mesh_.center.y + at.y);
-    range.high = std::max(range.high, mesh_.center.y + at.y);
   }
 
  private:

@@ -31,18 +31,10 @@ struct TilePrimitive {
   uint32_t vertexCount() const { return static_cast<uint32_t>(words.size()) / floats(); }
 };
 
-/// Where a feature begins and ends above the ground, metres.
-struct FeatureRange {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-};
-
 struct TileMesh {
   /// Positions count from here.
   Vec3 center;
   std::vector<TileFeature> features;
-  /// By feature.
-  std::vector<FeatureRange> ranges;
   std::vector<TilePrimitive> primitives;
   /// The materials of the primitives, which `materials` looks into.
   std::shared_ptr<Scene> looks;

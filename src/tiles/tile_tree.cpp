@@ -99,6 +99,19 @@ class TextureTints {
   std::map<std::string, Vec3> known_;
 };
 
+// Widens a range by what a box reaches up and down.
+void includeHeights(const Box3& box, const Frame& world, double& low, double& high) {
+  if (box.empty()) return;
+  double least = world.origin.y, most = world.origin.y;
+  const std::array<double, 3> up = {world.x.y, world.y.y, world.z.y};
+  for (size_t i = 0; i < 3; ++i) {
+    least += std::min(box.min[i] * up[i], box.max[i] * up[i]);
+    most += std::max(box.min[i] * up[i], box.max[i] * up[i]);
+  }
+  low = std::min(low, least);
+  high = std::max(high, most);
+}
+
 class Builder {
  public:
   Builder(TileSource& source, const TileTreeOptions& options)
@@ -161,12 +174,14 @@ class Builder {
     }
     for (size_t i = 0; i < shapes.size() && i < scene->roots.size(); ++i) {
       const Instance& root = scene->roots[i].instance;
+      double low = std::numeric_limits<double>::infinity(), high = -low;
       const auto add = [&](uint32_t leaf, const Frame& world, size_t) {
         const Leaf& l = scene->leaves[leaf];
         TileLeaf t{0, leaf, static_cast<uint32_t>(out.features.size()), triangles[l.mesh],
                    world * l.frame};
         out.triangles += t.triangles;
         out.leaves.push_back(t);
+        includeHeights(localBox(*scene, l), t.world, low, high);
         if (out.leaves.size() % 65536 == 0) workMemory(65536 * sizeof(TileLeaf));
       };
       const size_t before = out.leaves.size();
@@ -175,6 +190,7 @@ class Builder {
       if (out.leaves.size() == before) continue;
       out.features.push_back(source_.feature(shapes[i]));
       out.features.back().middle = source_.middle(shapes[i]);
+      out.features.back().height = high - low;
     }
     return out;
   }

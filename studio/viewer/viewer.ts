@@ -40,6 +40,13 @@ async function framed(url: string): Promise<Matrix4> {
   return new Matrix4().makeRotationX(-Math.PI / 2).multiply(toEarth.invert());
 }
 
+/** At the root of a server the renderer asks for `//tiles/0.glb`. */
+const oneSlash = (address: string | URL) => {
+  const at = new URL(address);
+  at.pathname = at.pathname.replace(/^\/\/+/, '/');
+  return at.href;
+};
+
 function show(feature: Feature | undefined) {
   if (!panel) return;
   panel.hidden = !feature;
@@ -158,6 +165,7 @@ framed(url).then(
   (toPlace) => {
     const tiles = new TilesRenderer(url);
     tiles.registerPlugin(new GLTFExtensionsPlugin({ metadata: true, autoDispose: false }));
+    tiles.registerPlugin({ preprocessURL: oneSlash });
     new Viewer(tiles, toPlace);
   },
   (e: unknown) => {
