@@ -40,6 +40,14 @@ int readBox(const std::string& text, gable::CitySettings& settings) {
   return wrongOption("--box", "west,south,east,north, such as 7.41,43.72,7.44,43.75", text);
 }
 
+int readCountry(std::string text, gable::CitySettings& settings) {
+  for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  const auto isLetter = [](char c) { return c >= 'A' && c <= 'Z'; };
+  settings.country = text;
+  if (text.empty() || (text.size() == 2 && isLetter(text[0]) && isLetter(text[1]))) return kExitDone;
+  return wrongOption("--country", "two letters, such as MC or CZ", text);
+}
+
 int writeModel(const gable::City& city, CityArguments& arguments, gable::RunFigures& figures,
                gable::TileResult& tiles) {
   gable::DeriveSettings settings;
@@ -95,6 +103,7 @@ int runCity(const CityArguments& given) {
   gable::CitySettings settings;
   settings.layer = arguments.derive.layer;
   if (const int status = readBox(arguments.box, settings)) return status;
+  if (const int status = readCountry(arguments.country, settings)) return status;
   const gable::City city =
       gable::City::load(arguments.derive.shapes, settings, fileLimits(arguments.derive.limits));
   print(city.diagnostics());

@@ -13,6 +13,7 @@ struct CityArguments {
   /// Its rules are a folder with city.cga, or a file; its shapes are the map.
   DeriveArguments derive;
   std::string box;
+  std::string country;
   std::string output;
   /// Where the ground goes as GeoJSON.
   std::string plan;

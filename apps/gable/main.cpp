@@ -175,6 +175,8 @@ void addCity(CLI::App& app, CityArguments& a, int& status) {
   city->add_option("--box", a.box,
                    "The part of the map: west,south,east,north in degrees, or in the map's metres\n"
                    "(default: the box around its buildings)");
+  city->add_option("--country", a.country,
+                   "How houses look: two letters, such as FR (default: by addresses and place)");
   city->add_option("--layer", a.derive.layer, "The layer of the map, where it has several");
   city->add_option("-o,--output", a.output,
                    "The model: .glb .gltf .obj .ply .stl .png; a folder/ for 3D Tiles");

@@ -29,6 +29,8 @@ struct CitySettings {
   /// The part of the map to make: west, south, east, north, in degrees or in the map's own metres.
   /// Absent: the box around its buildings.
   std::optional<std::array<double, 4>> box;
+  /// Two letters, such as "MC": how houses look. Empty: by addresses of the map, else by its place.
+  std::string country;
 };
 
 struct CityStatistics {

@@ -137,9 +137,42 @@ void findParts(const std::vector<MapFeature>& features, std::vector<BuildingFact
     }
     double covered = 0;
     near.within(facts[i].place, 0.5 * length(box.size()), [&](uint32_t part) {
-      if (hasWithin(features[i], facts[part].place)) covered += facts[part].area;
+      if (!hasWithin(features[i], facts[part].place)) return;
+      covered += facts[part].area;
+      if (facts[part].owner == BuildingFacts::kNone) facts[part].owner = i;
     });
     facts[i].hasParts = covered >= kMostlyParts * facts[i].area;
+  }
+}
+
+// Larger areas first, so that the smallest one counts.
+void findLandUse(const std::vector<MapFeature>& features, std::vector<BuildingFacts>& facts) {
+  std::vector<uint32_t> buildings;
+  std::vector<std::pair<double, uint32_t>> areas;
+  for (uint32_t i = 0; i < features.size(); ++i) {
+    const MapFeature& f = features[i];
+    if (isBuilding(f)) buildings.push_back(i);
+    if (f.kind == MapFeature::Kind::Area && !f.tag("landuse").empty()) {
+      areas.emplace_back(-areaOf(f), i);
+    }
+  }
+  if (buildings.empty() || areas.empty()) return;
+  std::sort(areas.begin(), areas.end());
+  const Near near(facts, buildings);
+  for (const auto& [size, i] : areas) {
+    Box2 box;
+    for (const Ring& r : features[i].rings) {
+      work(r.size());
+      for (const Vec2 p : r) box.include(p);
+    }
+    if (box.empty()) continue;
+    near.within(box.center(), 0.5 * length(box.size()), [&](uint32_t building) {
+      const Vec2 p = facts[building].place;
+      const bool inBox =
+          p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y;
+      if (!inBox || !hasWithin(features[i], p)) return;
+      facts[building].landUse = features[i].tag("landuse");
+    });
   }
 }
 
@@ -175,6 +208,7 @@ std::vector<BuildingFacts> buildingFactsOf(const std::vector<MapFeature>& featur
     }
   }
   findParts(features, out);
+  findLandUse(features, out);
   return out;
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "io/importers/map_features.h"
@@ -23,6 +24,11 @@ struct BuildingFacts {
   double guessedLevels = 0;
   /// Parts of a building cover most of it, and stand for it.
   bool hasParts = false;
+  /// Of a part: the building that it is of, or none.
+  static constexpr uint32_t kNone = 0xffffffff;
+  uint32_t owner = kNone;
+  /// The value of `landuse` of the smallest area around it; the features own it.
+  std::string_view landUse;
 };
 
 /// By feature; those of what is no building say nothing. O(n log n), mostly.

@@ -3,22 +3,23 @@
 #include "city/plan.h"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <map>
+#include <memory>
 
 #include "base/json.h"
 #include "base/work.h"
+#include "city/building_kind.h"
 #include "city/buildings.h"
+#include "city/country.h"
 #include "city/ribbon.h"
+#include "city/walls.h"
 #include "geom/curve/curve.h"
 #include "geom/region/boolean.h"
-#include "geom/region/clean.h"
 
 namespace gable {
 namespace {
 
-// Corners nearer to the line of their neighbours say nothing of a building, in metres.
-constexpr double kSurveyed = 0.03;
 constexpr double kLeastBuilding = 3;
 constexpr double kLeastPart = 0.5;
 constexpr double kLeastKerb = 0.2;
@@ -62,31 +63,9 @@ int stepOf(Surface s) {
   return isRoadway(s) || s == Surface::ParkingLot ? 1 : 2;
 }
 
-// Without what surveys and the ground's grid have added; the longest edge first.
-Polygon cleaned(const Polygon& p) {
-  const auto clean = [](Ring r) {
-    dropDuplicates(r, kSurveyed);
-    dropCollinear(r, kSurveyed);
-    return r;
-  };
-  Polygon out{clean(p.outer), {}};
-  for (const Ring& h : p.holes) {
-    Ring hole = clean(h);
-    if (hole.size() >= 3) out.holes.push_back(std::move(hole));
-  }
-  if (out.outer.size() < 3 || !isValid(out)) out = p;
-  size_t longest = 0;
-  double most = -1;
-  for (size_t i = 0; i < out.outer.size(); ++i) {
-    const double l = length(out.outer[(i + 1) % out.outer.size()] - out.outer[i]);
-    if (l > most + 1e-6) {
-      most = l;
-      longest = i;
-    }
-  }
-  std::rotate(out.outer.begin(), out.outer.begin() + static_cast<std::ptrdiff_t>(longest),
-              out.outer.end());
-  return out;
+constexpr const char* kColourTags[] = {"building:colour", "roof:colour"};
+bool isColourTag(std::string_view name) {
+  return std::find(std::begin(kColourTags), std::end(kColourTags), name) != std::end(kColourTags);
 }
 
 bool within(Vec2 p, const Box2& box) {
@@ -95,21 +74,24 @@ bool within(Vec2 p, const Box2& box) {
 
 class Planner {
  public:
-  explicit Planner(const MapFeatures& map)
-      : map_(map), streets_(streetsOf(map.features)), facts_(buildingFactsOf(map.features)) {
+  Planner(const MapFeatures& map, const std::string& country)
+      : map_(map),
+        country_(country.empty() ? countryOf(map) : country),
+        streets_(streetsOf(map.features)),
+        facts_(buildingFactsOf(map.features)) {
     out_.area = map.area;
     out_.skips = map.skips;
     out_.ground = groundOf(map.features, streets_, map.area);
+    index_ = std::make_unique<GroundIndex>(out_.ground);
   }
 
   CityPlan plan() {
     for (const GroundPiece& p : out_.ground) addGround(p);
-    GroundIndex index(out_.ground);
     for (uint32_t i = 0; i < map_.features.size(); ++i) {
       work();
       addAbove(i);
       addLine(map_.features[i]);
-      addThing(map_.features[i], index);
+      addThing(map_.features[i]);
     }
     addStreets();
     addCrossings();
@@ -141,7 +123,7 @@ class Planner {
     shape.attributes.push_back(list("/edgeattr/beyond", std::move(beyond)));
     shape.attributes.push_back(list("streetWidth", std::move(widths)));
     addKerbs(p, f);
-    if (p.surface == Surface::Footprint && f) addBuilding(p.polygon, p.feature);
+    if (p.surface == Surface::Footprint && f) addBuilding(p);
   }
 
   // The surface beyond an edge that lies lower; nothing where there is no step.
@@ -184,19 +166,74 @@ class Planner {
     shape.attributes.push_back({"beyond", {text(surfaceName(lower))}, 0, 0});
   }
 
-  void describe(CityShape& shape, uint32_t feature) const {
+  // Tags of colours as colours; those of a part that it lacks are its building's.
+  void describe(CityShape& shape, uint32_t feature, double attached) const {
     const BuildingFacts& facts = facts_[feature];
-    shape.attributes = tagsOf(map_.features[feature]);
+    const MapFeature& f = map_.features[feature];
+    const bool isPart = facts.owner != BuildingFacts::kNone;
+    const uint32_t whole = isPart ? facts.owner : feature;
+    const MapFeature& owner = map_.features[whole];
+    for (AttributeValue& a : tagsOf(f)) {
+      if (!isColourTag(a.name)) shape.attributes.push_back(std::move(a));
+    }
+    for (const char* name : kColourTags) {
+      const std::string_view own = f.tag(name);
+      std::string colour = colourOfTag(own.empty() ? owner.tag(name) : own);
+      if (!colour.empty()) shape.attributes.push_back({name, {text(std::move(colour))}, 0, 0});
+    }
+    const double levels = facts_[whole].levels;
+    const BuildingSize size{facts_[whole].area, levels > 0 ? levels : facts_[whole].guessedLevels,
+                            attached};
+    const std::string_view kind = buildingKindOf(owner, size, facts_[whole].landUse);
+    shape.attributes.push_back({"kind", {text(std::string(kind))}, 0, 0});
+    if (!country_.empty()) shape.attributes.push_back({"country", {text(country_)}, 0, 0});
     shape.attributes.push_back(number("known_levels", facts.levels));
     shape.attributes.push_back(number("guessed_levels", facts.guessedLevels));
     shape.attributes.push_back(truth("has_parts", facts.hasParts));
   }
 
-  void addBuilding(const Polygon& p, uint32_t feature) {
-    if (area(p) < kLeastBuilding) return;
-    CityShape& shape = add("Building", map_.features[feature].id);
-    shape.polygon = cleaned(p);
-    describe(shape, feature);
+  // What each wall looks at: `beyond`, the storeys of a neighbour there, metres to the street.
+  void describeWalls(CityShape& shape, const BuildingOutline& outline) const {
+    std::vector<PlainValue> beyond, levels, street, widths, entrance;
+    const auto plain = [](double v) {
+      PlainValue value;
+      value.number = v;
+      return value;
+    };
+    for (const Wall& w : outline.walls) {
+      const bool known = w.beyond != GroundPiece::kNothing;
+      const GroundPiece* piece = known ? &out_.ground[w.beyond] : nullptr;
+      beyond.push_back(text(known ? surfaceName(piece->surface) : ""));
+      const bool party = known && piece->surface == Surface::Footprint;
+      double storeys = 0;
+      if (party && piece->feature != GroundPiece::kNothing) {
+        const BuildingFacts& other = facts_[piece->feature];
+        storeys = other.levels > 0 ? other.levels : other.guessedLevels;
+      }
+      levels.push_back(plain(storeys));
+      street.push_back(plain(w.street));
+      widths.push_back(plain(w.street > 0 ? 1 : 0));
+      entrance.push_back(plain(w.entrance ? 1 : 0));
+    }
+    shape.attributes.push_back(list("/edgeattr/beyond", std::move(beyond)));
+    shape.attributes.push_back(list("/edgeattr/beyond_levels", std::move(levels)));
+    shape.attributes.push_back(list("/edgeattr/street", std::move(street)));
+    shape.attributes.push_back(list("/edgeattr/entrance", std::move(entrance)));
+    shape.attributes.push_back(list("streetWidth", std::move(widths)));
+  }
+
+  void addBuilding(const GroundPiece& piece) {
+    if (area(piece.polygon) < kLeastBuilding) return;
+    BuildingOutline outline = outlineOf(piece, out_.ground);
+    findStreets(outline, out_.ground, *index_);
+    CityShape& shape = add("Building", map_.features[piece.feature].id);
+    const double attached = attachedShare(outline, out_.ground);
+    describe(shape, piece.feature, attached);
+    shape.attributes.push_back(number("attached_share", attached));
+    const uint32_t edge = roofEdgeOf(outline, map_.features[piece.feature], attached > 0.1);
+    shape.attributes.push_back(number("roof_edge", edge));
+    describeWalls(shape, outline);
+    shape.polygon = std::move(outline.polygon);
   }
 
   // Parts of buildings, and buildings that take no ground: roofs on posts, what stands on others.
@@ -209,8 +246,12 @@ class Planner {
     for (const Polygon& p : repaired(f.rings, FillRule::EvenOdd)) {
       if (area(p) < kLeastPart || !within(p.outer[0], out_.area)) continue;
       CityShape& shape = add(roof ? "Canopy" : part ? "BuildingPart" : "Building", f.id);
-      shape.polygon = cleaned(p);
-      describe(shape, feature);
+      BuildingOutline outline = outlineOf(p);
+      findStreets(outline, out_.ground, *index_);
+      describe(shape, feature, 0);
+      shape.attributes.push_back(number("roof_edge", roofEdgeOf(outline, f, false)));
+      describeWalls(shape, outline);
+      shape.polygon = std::move(outline.polygon);
     }
   }
 
@@ -248,11 +289,11 @@ class Planner {
     finish();
   }
 
-  void addThing(const MapFeature& f, GroundIndex& index) {
+  void addThing(const MapFeature& f) {
     if (f.kind != MapFeature::Kind::Point || !isOnGround(f)) return;
     const bool tree = f.tag("natural") == "tree", lamp = f.tag("highway") == "street_lamp";
     if (!tree && !lamp) return;
-    const uint32_t piece = index.pieceAt(f.points[0]);
+    const uint32_t piece = index_->pieceAt(f.points[0]);
     if (piece == GroundPiece::kNothing) return;
     const Surface s = out_.ground[piece].surface;
     // Streets are as wide as usual here, and may be narrower there.
@@ -328,14 +369,18 @@ class Planner {
   }
 
   const MapFeatures& map_;
+  std::string country_;
   Streets streets_;
   std::vector<BuildingFacts> facts_;
   CityPlan out_;
+  std::unique_ptr<GroundIndex> index_;
 };
 
 }  // namespace
 
-CityPlan planCity(const MapFeatures& map) { return Planner(map).plan(); }
+CityPlan planCity(const MapFeatures& map, const std::string& country) {
+  return Planner(map, country).plan();
+}
 
 std::string planGeoJson(const CityPlan& plan, const MapFeatures& map) {
   std::string out;

@@ -45,7 +45,8 @@ struct CityPlan {
   MapSkips skips;
 };
 
-CityPlan planCity(const MapFeatures& map);
+/// `country` as countryOf() gives it, which is asked where it is empty.
+CityPlan planCity(const MapFeatures& map, const std::string& country = {});
 
 /// The ground as GeoJSON for map programs: a feature a piece, with `surface`, `id` and `area`.
 std::string planGeoJson(const CityPlan& plan, const MapFeatures& map);

@@ -195,6 +195,64 @@ TEST(CityPlan, PartsStandForTheirBuilding) {
   EXPECT_NEAR(areaOf(plan, Surface::Footprint), 200, 0.1);
 }
 
+// Of the first shape of a rule whose feature has a name.
+const AttributeValue* attributeOf(const CityPlan& plan, const std::string& rule,
+                                  const std::string& name, const std::string& attribute) {
+  const auto find = [](const CityShape& s, const std::string& wanted) -> const AttributeValue* {
+    for (const AttributeValue& a : s.attributes) {
+      if (a.name == wanted) return &a;
+    }
+    return nullptr;
+  };
+  for (const CityShape& s : plan.shapes) {
+    const AttributeValue* own = s.rule == rule ? find(s, "name") : nullptr;
+    if (own && own->values[0].text == name) return find(s, attribute);
+  }
+  return nullptr;
+}
+
+// Two houses wall to wall, one of them half as deep, and a street before both.
+TEST(CityPlan, WallsKnowNeighboursStreetsAndTheEntrance) {
+  auto map = mapOf(
+      {feature(R"("highway":"residential")", "LineString", "[[0,40],[200,40]]"),
+       feature(R"("building":"yes","name":"a","building:levels":"5","roof:direction":"N")",
+               "Polygon", "[[[50,50],[70,50],[70,62],[50,62],[50,50]]]"),
+       feature(R"("building":"yes","name":"b","building:levels":"2","roof:colour":"Dark_Red")",
+               "Polygon", "[[[70,50],[85,50],[85,56],[70,56],[70,50]]]")});
+  ASSERT_TRUE(map.ok());
+  const CityPlan plan = planCity(*map, "CZ");
+  expectWhole(plan);
+  const auto* beyond = attributeOf(plan, "Building", "a", "/edgeattr/beyond");
+  const auto* levels = attributeOf(plan, "Building", "a", "/edgeattr/beyond_levels");
+  const auto* street = attributeOf(plan, "Building", "a", "/edgeattr/street");
+  const auto* entrance = attributeOf(plan, "Building", "a", "/edgeattr/entrance");
+  ASSERT_TRUE(beyond && levels && street && entrance);
+  // The wall towards the neighbour is divided where that ends.
+  ASSERT_EQ(beyond->values.size(), 5u);
+  size_t party = 0, toStreet = 0, entrances = 0;
+  for (size_t i = 0; i < 5; ++i) {
+    const bool isParty = beyond->values[i].text == "Footprint";
+    party += isParty;
+    EXPECT_EQ(levels->values[i].number, isParty ? 2 : 0);
+    toStreet += street->values[i].number > 0;
+    if (entrance->values[i].number == 0) continue;
+    ++entrances;
+    EXPECT_GT(street->values[i].number, 0);
+  }
+  EXPECT_EQ(party, 1u);
+  EXPECT_EQ(toStreet, 1u);
+  EXPECT_EQ(entrances, 1u);
+  EXPECT_EQ(attributeOf(plan, "Building", "a", "country")->values[0].text, "CZ");
+  EXPECT_EQ(attributeOf(plan, "Building", "a", "kind")->values[0].text, "apartments");
+  EXPECT_EQ(attributeOf(plan, "Building", "b", "roof:colour")->values[0].text, "#8b0000");
+  EXPECT_NEAR(attributeOf(plan, "Building", "b", "attached_share")->values[0].number, 6.0 / 42,
+              0.01);
+  // The longest edges are those in the south and the north; the first is one of them.
+  const double edge = attributeOf(plan, "Building", "a", "roof_edge")->values[0].number;
+  EXPECT_EQ(street->values[static_cast<size_t>(edge)].number, 0);
+  EXPECT_EQ(beyond->values[static_cast<size_t>(edge)].text, "Lot");
+}
+
 class RealMap : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(RealMap, KeepsThePromise) {

@@ -120,7 +120,7 @@ std::shared_ptr<City::Impl> parsed(const std::string& content, const std::string
   if (!map.ok()) return refused(map.error());
   auto impl = std::make_shared<City::Impl>();
   impl->map = std::move(*map);
-  impl->plan = planCity(impl->map);
+  impl->plan = planCity(impl->map, settings.country);
   impl->shapes = shapesOf(impl->plan, impl->map);
   impl->statistics = statisticsOf(impl->plan, impl->map);
   tellSkipped(impl->plan.skips, name, impl->diagnostics);
