@@ -71,6 +71,31 @@ class City(Case):
         self.assertIn("g Block", text)
         self.assertIn("g Flat", text)
 
+    def testHousesLookAsInTheirCountry(self):
+        rules = '@StartRule Ground --> NIL\nattr country = ""\nattr kind = ""\nBuilding --> print(country) print(kind) Block.\n'
+        self.put("own.cga", rules)
+        self.city("map.geojson", "--rules", "own.cga", "--country", "fr", "-o", "a.obj", says="FR")
+        # The map lies at the foot of the Gulf of Guinea's meridian: no country of the table.
+        self.city("map.geojson", "--rules", "own.cga", "-o", "a.obj", says="apartments")
+        self.city("map.geojson", "--country", "France", "-o", "b.glb", status=USAGE, says="--country")
+
+    def testAllStylesAndRoofsAreBuilt(self):
+        shapes = ("flat", "gabled", "hipped", "pyramidal", "half-hipped", "mansard", "dome", "onion", "skillion",
+                  "gambrel", "round", "sawtooth")
+        houses = [feature("Polygon", square(30 * i, 0, 14), building="yes", height="12", **{"roof:shape": shape})
+                  for i, shape in enumerate(shapes)]
+        kinds = ("house", "church", "school", "industrial", "garage", "shed", "retail", "public")
+        others = [feature("Polygon", square(30 * i, 40, 14), building=kind) for i, kind in enumerate(kinds)]
+        for style in ("block", "riviera", "haussmann", "row", "family", "modern", "tower", "school"):
+            # A height of the map is that of the roof, but for what stands on it; steeples are higher.
+            for features, most in ((houses, 14.7), (others, 32)):
+                self.put("all.geojson", json.dumps({**MAP, "features": features}))
+                self.assertEqual(self.city("all.geojson", "--set", f"style={style}", "-o", "all.obj"), "")
+                heights = [float(line.split()[2]) for line in (self.folder / "all.obj").read_text().splitlines()
+                           if line.startswith("v ")]
+                self.assertLess(max(heights), most, style)
+                self.assertGreater(max(heights), 11.9, style)
+
     def testWhatCannotBeReadIsNamed(self):
         self.city("map.geojson", "-o", "a.glb", says="map-row")
         self.city("none.osm", "-o", "b.glb", status=FILE, says="none.osm")
