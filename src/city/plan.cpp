@@ -215,6 +215,16 @@ class Planner {
       widths.push_back(plain(w.street > 0 ? 1 : 0));
       entrance.push_back(plain(w.entrance ? 1 : 0));
     }
+    // Walls beside each other have different numbers, so that rules can tell them apart.
+    std::vector<PlainValue> turn;
+    const auto count = [&](const Ring& r) {
+      for (size_t i = 0; i < r.size(); ++i) {
+        turn.push_back(plain(i + 1 == r.size() && i % 2 == 0 ? 2 : static_cast<double>(i % 2)));
+      }
+    };
+    count(outline.polygon.outer);
+    for (const Ring& h : outline.polygon.holes) count(h);
+    shape.attributes.push_back(list("/edgeattr/turn", std::move(turn)));
     shape.attributes.push_back(list("/edgeattr/beyond", std::move(beyond)));
     shape.attributes.push_back(list("/edgeattr/beyond_levels", std::move(levels)));
     shape.attributes.push_back(list("/edgeattr/street", std::move(street)));
