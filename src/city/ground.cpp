@@ -95,8 +95,8 @@ void addStreets(const Streets& streets, Candidates& out) {
 
 }  // namespace
 
-std::optional<LineGround> lineGroundOf(const MapFeature& f) {
-  if (f.kind != MapFeature::Kind::Line || !isOnGround(f)) return std::nullopt;
+std::optional<LineGround> lineGroundOf(const MapFeature& f, bool anywhere) {
+  if (f.kind != MapFeature::Kind::Line || (!anywhere && !isOnGround(f))) return std::nullopt;
   struct Usual {
     const char *key, *value;
     Surface surface;

@@ -34,12 +34,13 @@ std::vector<GroundPiece> groundOf(const std::vector<MapFeature>& features, const
                                   const Box2& area);
 
 /// How wide a line of the map is on the ground that is no street for cars, and what surface it
-/// makes; nothing where it makes none.
+/// makes; nothing where it makes none, or does not lie on the ground and is not asked for
+/// `anywhere`.
 struct LineGround {
   Surface surface = Surface::Path;
   double width = 0;
 };
-std::optional<LineGround> lineGroundOf(const MapFeature& f);
+std::optional<LineGround> lineGroundOf(const MapFeature& f, bool anywhere = false);
 
 /// Finds the piece at a place. Piece numbers are those of the ground, which outlives it.
 class GroundIndex {

@@ -9,6 +9,7 @@
 
 #include "base/json.h"
 #include "base/work.h"
+#include "city/bridges.h"
 #include "city/building_kind.h"
 #include "city/buildings.h"
 #include "city/country.h"
@@ -95,6 +96,7 @@ class Planner {
     }
     addStreets();
     addCrossings();
+    addBridges();
     return std::move(out_);
   }
 
@@ -338,6 +340,24 @@ class Planner {
       shape.attributes.push_back(number("left_walk", s.profile.leftWalk));
       shape.attributes.push_back(number("right_walk", s.profile.rightWalk));
       shape.attributes.push_back(truth("at_junction", s.cutEnd > 0));
+    }
+  }
+
+  void addBridges() {
+    for (const Bridge& b : bridgesOf(map_.features, streets_)) {
+      const MapFeature& f = map_.features[b.feature];
+      for (BridgeShape& s : shapesOf(b, out_.area, out_.ground, *index_)) {
+        CityShape& shape = add(s.rule, f.id);
+        shape.faces = std::move(s.faces);
+        for (AttributeValue& a : tagsOf(f)) {
+          if (a.name != "width" && a.name != "height") shape.attributes.push_back(std::move(a));
+        }
+        shape.attributes.push_back(number("width", b.width));
+        shape.attributes.push_back(number("thickness", b.thickness));
+        const char* const carries = b.isStreet ? "street" : b.isRail ? "rails" : "path";
+        shape.attributes.push_back({"carries", {text(carries)}, 0, 0});
+        if (s.height > 0) shape.attributes.push_back(number("height", s.height));
+      }
     }
   }
 

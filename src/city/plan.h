@@ -13,6 +13,10 @@
 //   steps          where the ground goes down to a roadway or to water, the higher
 //                  piece on the left                                       Kerb
 //   crossings      a rectangle across the carriageway, x across it         Crossing
+//   bridges        faces in space: the upper side of a deck, strips along     BridgeDeck,
+//   BridgeParapet,
+//                  its edges and its rails, sides of ramps, feet of piers  BridgeRail, BridgeWall,
+//                                                                          BridgePier
 //   single things  a square of a metre                                     Tree, StreetLamp
 //
 // Attributes are the tags of the feature, and what is said in docs/guide/city.md.
@@ -35,6 +39,8 @@ struct CityShape {
   Polygon polygon;
   /// In place of a polygon.
   std::vector<Vec2> line;
+  /// In place of both: faces in space, points of the plan with their heights.
+  std::vector<std::vector<Vec3>> faces;
   std::vector<AttributeValue> attributes;
 };
 

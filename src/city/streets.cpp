@@ -319,8 +319,8 @@ class Builder {
 
 }  // namespace
 
-std::optional<StreetProfile> streetProfileOf(const MapFeature& f) {
-  if (f.kind != MapFeature::Kind::Line || !isOnGround(f)) return std::nullopt;
+std::optional<StreetProfile> streetProfileOf(const MapFeature& f, bool anywhere) {
+  if (f.kind != MapFeature::Kind::Line || (!anywhere && !isOnGround(f))) return std::nullopt;
   const std::string_view highway = f.tag("highway");
   const Usual* usual = std::find_if(std::begin(kUsual), std::end(kUsual),
                                     [&](const Usual& u) { return highway == u.highway; });

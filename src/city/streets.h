@@ -33,8 +33,9 @@ struct StreetProfile {
   bool operator==(const StreetProfile&) const = default;
 };
 
-/// Nothing where a feature is no street for cars.
-std::optional<StreetProfile> streetProfileOf(const MapFeature& f);
+/// Nothing where a feature is no street for cars, or does not lie on the ground and is not asked
+/// for `anywhere`.
+std::optional<StreetProfile> streetProfileOf(const MapFeature& f, bool anywhere = false);
 
 struct Stretch {
   /// Index among the features.

@@ -35,8 +35,17 @@ std::shared_ptr<City::Impl> refused(const Error& e) {
 }
 
 Mesh meshOf(const CityShape& s) {
-  if (s.line.empty()) return meshOf({s.polygon}, groundFrame());
   MeshBuilder b;
+  if (!s.faces.empty()) {
+    for (const std::vector<Vec3>& face : s.faces) {
+      work();
+      std::vector<uint32_t> corners;
+      for (const Vec3& p : face) corners.push_back(b.addPosition(fromPlan({p.x, p.y}, p.z)));
+      b.addPolygon(corners);
+    }
+    return b.take();
+  }
+  if (s.line.empty()) return meshOf({s.polygon}, groundFrame());
   uint32_t from = b.addPosition(fromPlan(s.line[0]));
   for (size_t i = 1; i < s.line.size(); ++i) {
     const uint32_t to = b.addPosition(fromPlan(s.line[i]));
