@@ -178,7 +178,7 @@ class Machine final : public Services, private WorkMeter {
   // Gathering: operations that wait for the leaves of their children.
   void keepDeleted(const Shape& s);
   Frame homeOf(const Shape& s) const;
-  std::optional<Handover> endOrigins(const Shape& s);
+  std::optional<Handover> endOrigins(const Shape& s, bool divided);
   void beginOrigins(const Handover& from, Shape& s);
   void handOver(const OpSpec& spec, size_t firstChild);
   void beginGather(const Instruction& i, const OpCall& call, std::span<const Value> arguments);

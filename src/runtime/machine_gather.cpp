@@ -73,12 +73,16 @@ Frame Machine::homeOf(const Shape& s) const {
 }
 
 // Notes what a shape moved by itself, where others begin with its geometry. The shape itself may go
-// on. Nothing where no origins are known.
-std::optional<Handover> Machine::endOrigins(const Shape& s) {
+// on. Nothing where no origins are known. One that was divided is kept for its edges: vertices that
+// the division made on them follow their ends.
+std::optional<Handover> Machine::endOrigins(const Shape& s, bool divided) {
   if (!gathers_.keepsOrigins() || s.geometry.kind != GeometryKind::Mesh) return std::nullopt;
   if (!hasOrigins(*s.geometry.mesh)) return std::nullopt;
-  const Handover out(*meshInScope(s), homeOf(s));
-  if (out.moved()) keepDeleted(s);
+  Handover out(*meshInScope(s), homeOf(s));
+  if (out.moved() || divided) {
+    keepDeleted(s);
+    out.keep();
+  }
   return out;
 }
 
@@ -91,7 +95,8 @@ void Machine::beginOrigins(const Handover& from, Shape& s) {
 
 // From a shape that was divided to its parts.
 void Machine::handOver(const OpSpec& spec, size_t firstChild) {
-  const std::optional<Handover> from = endOrigins(current().shape);
+  const bool divided = firstChild < children_.size() && (spec.effects & kForgetsOrigins) == 0;
+  const std::optional<Handover> from = endOrigins(current().shape, divided);
   if (!from) return;
   for (size_t c = firstChild; c < children_.size(); ++c) {
     Shape& child = children_[c].shape;

@@ -83,7 +83,7 @@ void Machine::beginRule(uint32_t rule, uint32_t argumentCount, const Instruction
     a.shape = std::move(caller.shape);
   } else {
     a.shape = caller.shape;
-    if (const auto from = endOrigins(caller.shape)) beginOrigins(*from, a.shape);
+    if (const auto from = endOrigins(caller.shape, false)) beginOrigins(*from, a.shape);
   }
   a.stackBase = stack_.size() - argumentCount;
   a.parameters = a.stackBase;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // A level is four sets of two numbers: x and y of the origin; its z and x of the begin; y and z of
-// the begin; and the shape, negative where it was deleted.
+// the begin; and the shape, negative where it was deleted, with its parent.
 #include "geom/mesh/origins.h"
 
 #include <algorithm>
@@ -104,7 +104,8 @@ void Handover::begin(Mesh& m, const Frame& home, double shape) const {
     }
     m.notes[first + 1][c].y = at.x;
     m.notes[first + 2][c] = {at.y, at.z};
-    m.notes[first + 3][c] = {shape, 0};
+    const double parent = kept_ ? origins.shape(c) : origins.parent(c);
+    m.notes[first + 3][c] = {shape, parent};
   }
 }
 

@@ -49,6 +49,8 @@ class Origins {
   Vec3 origin(uint32_t corner) const;
   Vec3 begin(uint32_t corner) const;
   double shape(uint32_t corner) const { return std::fabs((*shapes_)[corner].x); }
+  /// The nearest one of the shapes that it came of that was kept; 0 for none.
+  double parent(uint32_t corner) const { return (*shapes_)[corner].y; }
 
  private:
   const std::vector<Vec2>* origins_ = nullptr;
@@ -64,6 +66,8 @@ class Handover {
   Handover(const Mesh& ending, const Frame& home);
   /// Whether the shape moved any vertex.
   bool moved() const { return moved_; }
+  /// The ending shape is kept as a deleted one: those that begin have it as their parent.
+  void keep() { kept_ = true; }
   /// The innermost level begins anew where the mesh is now. A vertex that the ending shape made
   /// beside the one that stayed, as extrude does, has its origin there from now on.
   void begin(Mesh& m, const Frame& home, double shape) const;
@@ -80,6 +84,7 @@ class Handover {
   std::map<Key, Stayed> stayed_;
   double slack_ = 0;
   bool moved_ = false;
+  bool kept_ = false;
 };
 
 }  // namespace gable

@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Vertices of one origin are a node. A node's moves are those of the shapes that have it as a
-// vertex, and of those that have it within an edge, where they move it as they move the edge.
+// vertex, and of those that have it within an edge, where they move it as they move the edge. A
+// node within an edge of a shape that was divided also follows what others move the ends of that
+// edge by; what came of the shape itself moved its own vertices already.
 #include "geom/solid/recompose.h"
 
 #include <algorithm>
@@ -91,6 +93,7 @@ class Recomposition {
     within_.emplace(nodes_);
     for (size_t p = 0; p < parts_.size(); ++p) moveNodes(p);
     for (size_t p = 0; p < parts_.size(); ++p) moveWithinEdges(p);
+    followEnds();
     for (Source& source : sources_) {
       if (source.deleted) continue;
       for (size_t f = 0; f < source.mesh->faceCount(); ++f) addFace(source, f);
@@ -218,6 +221,61 @@ class Recomposition {
     }
     if (!partSource(part).deleted) noteEdgeTags(m, nodes);
   }
+
+  // Shapes that were divided, the outer ones first: their numbers are smaller.
+  void followEnds() {
+    std::vector<std::pair<double, size_t>> divided;
+    for (size_t p = 0; p < parts_.size(); ++p) {
+      const Origins origins(parts_[p], level_);
+      for (uint32_t c = 0; c < parts_[p].corners.size(); ++c) {
+        work();
+        if (!origins.known(c)) continue;
+        parents_[origins.shape(c)] = origins.parent(c);
+        if (!partSource(p).deleted) continue;
+        if (divided.empty() || divided.back().second != p) divided.push_back({origins.shape(c), p});
+      }
+    }
+    std::sort(divided.begin(), divided.end());
+    for (const auto& [shape, part] : divided) followEnds(part, shape);
+  }
+  void followEnds(size_t part, double shape) {
+    const std::vector<uint32_t>& nodes = partSource(part).nodes;
+    for (const MeshLoop& loop : parts_[part].loops) {
+      for (uint32_t i = 0; i < edgeCount(loop); ++i) {
+        work();
+        const uint32_t a = nodes[loop.firstCorner + i];
+        const uint32_t b = nodes[loop.firstCorner + (i + 1) % loop.cornerCount];
+        if (a == kNone || b == kNone || a == b) continue;
+        if (moves_[a].empty() && moves_[b].empty()) continue;
+        const std::vector<NodesWithin::Within> within = within_->find(a, b);
+        if (within.empty()) continue;
+        // By shape, what it moves the ends by.
+        std::map<double, std::pair<Vec3, Vec3>> others;
+        for (const Move& m : moves_[a]) {
+          if (!cameOf(m.shape, shape)) others[m.shape].first += m.by;
+        }
+        for (const Move& m : moves_[b]) {
+          if (!cameOf(m.shape, shape)) others[m.shape].second += m.by;
+        }
+        for (const NodesWithin::Within& w : within) {
+          for (const auto& [mover, by] : others) {
+            work();
+            addMove(w.node, mover, by.first + (by.second - by.first) * w.share);
+          }
+        }
+      }
+    }
+  }
+  bool cameOf(double shape, double ancestor) const {
+    while (shape > ancestor) {
+      work();
+      const auto parent = parents_.find(shape);
+      if (parent == parents_.end() || parent->second >= shape) return false;
+      shape = parent->second;
+    }
+    return shape == ancestor;
+  }
+
   static uint32_t edgeCount(const MeshLoop& loop) {
     return loop.cornerCount > 2 ? loop.cornerCount : loop.cornerCount - 1;
   }
@@ -326,6 +384,8 @@ class Recomposition {
   // By node.
   std::vector<std::vector<Move>> moves_;
   std::vector<uint32_t> vertexTags_;
+  /// By shape, the one that was divided into it.
+  std::map<double, double> parents_;
   std::map<uint32_t, uint32_t> positions_;
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> edgeTags_;
   MeshBuilder builder_;
