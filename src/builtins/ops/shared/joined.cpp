@@ -8,6 +8,7 @@
 
 #include "base/work.h"
 #include "builtins/auto_tags.h"
+#include "builtins/mesh_edges.h"
 #include "geom/mesh/origins.h"
 #include "geom/solid/boolean.h"
 #include "geom/solid/recompose.h"
@@ -49,6 +50,24 @@ bool isDeleted(const Shape& s) {
   return s.geometry.kind == GeometryKind::Mesh && isDeleted(*s.geometry.mesh);
 }
 
+namespace {
+
+// An edge between parts has the tags that it has in any of them.
+void shareEdgeTags(Mesh& m, const Services& services) {
+  if (m.edgeTags.empty()) return;
+  const AutoTags tags(services, "");
+  const MeshEdges edges(m);
+  std::vector<TagSetId> all(edges.edges().size(), 0);
+  for (uint32_t c = 0; c < m.corners.size(); ++c) {
+    work();
+    TagSetId& set = all[edges.edgeOf(c)];
+    set = set == 0 ? m.edgeTags[c] : tags.merged(set, m.edgeTags[c]);
+  }
+  for (uint32_t c = 0; c < m.corners.size(); ++c) m.edgeTags[c] = all[edges.edgeOf(c)];
+}
+
+}  // namespace
+
 void recompose(Shape& s, const Shape* whole, std::span<Gathered> leaves, Services& services) {
   const auto isThere = [](const Shape& p) { return p.geometry.kind != GeometryKind::None; };
   Parts seen;
@@ -68,6 +87,7 @@ void recompose(Shape& s, const Shape* whole, std::span<Gathered> leaves, Service
                                           : joiner.meshOf(leaf.shape, &toHome));
   }
   Mesh glued = recomposed(rest, parts, whole ? LooseParts::Move : LooseParts::Stay);
+  shareEdgeTags(glued, services);
   if (!seen.empty()) joiner.giveMaterials(s);
   if (!whole) giveAttributes(s, seen);
   s.geometry = {};
