@@ -9,6 +9,7 @@
 #include "builtins/auto_tags.h"
 #include "builtins/lists.h"
 #include "builtins/ops/shared/joined.h"
+#include "builtins/ops/shared/kept_tags.h"
 #include "geom/solid/boolean.h"
 #include "program/tag_effects.h"
 #include "shape/op_call.h"
@@ -63,6 +64,7 @@ Operands operandsOf(OpCall& call, const Boolean& args, const Shape& present,
 void tagResult(SolidResult& r, const JoinedMesh& both, Services& services) {
   AutoTags tags(services, "bool");
   Mesh& m = r.mesh;
+  keepTags(m, both.mesh, services);
   for (size_t f = 0; f < m.faceCount(); ++f) {
     bool of[2] = {false, false};
     of[both.partOf[r.faceSource[f]]] = true;

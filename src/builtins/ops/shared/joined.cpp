@@ -9,6 +9,7 @@
 #include "base/work.h"
 #include "builtins/auto_tags.h"
 #include "builtins/mesh_edges.h"
+#include "builtins/ops/shared/kept_tags.h"
 #include "geom/mesh/origins.h"
 #include "geom/solid/boolean.h"
 #include "geom/solid/recompose.h"
@@ -119,6 +120,7 @@ Status unify(JoinedMesh& joined, Services& services) {
     uint32_t& set = r->mesh.faces[f].tags;
     for (const uint32_t o : r->faceOthers[f]) set = tags.merged(set, joined.mesh.faces[o].tags);
   }
+  keepTags(r->mesh, joined.mesh, services);
   joined = {std::move(r->mesh), std::move(partOf)};
   return {};
 }
