@@ -120,7 +120,8 @@ int runCity(const CityArguments& given) {
   if (!arguments.stats.empty() && (status == kExitDone || status == kExitLimit)) {
     figures.totalSeconds = secondsNow() - begin;
     figures.peakBytes = peakBytes();
-    const std::string text = gable::cityJson(city.statistics(), figures, tiles.ok ? &tiles : nullptr);
+    const std::string text =
+        gable::cityJson(city.statistics(), figures, tiles.ok ? &tiles : nullptr);
     if (const int written = writeText(arguments.stats, text)) return written;
   }
   return status;

@@ -15,7 +15,8 @@ namespace {
 
 /// Puts the viewer into a folder, where it may be from before, and nothing else of that name.
 int writeViewer(const std::string& folder) {
-  const std::string from = folderWith("viewer.js", {"../studio/viewer", "../share/gable/studio/viewer"});
+  const std::string from =
+      folderWith("viewer.js", {"../studio/viewer", "../share/gable/studio/viewer"});
   if (from.empty()) {
     std::fputs("gable: the page for --viewer is not built; ./run studio builds it\n", stderr);
     return kExitFile;

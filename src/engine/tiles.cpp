@@ -237,7 +237,8 @@ class TileFolder {
       return Error{"tiles-folder", "the folder '" + path_ + "' cannot be made: " + error.message(),
                    "name another one, or see to its permissions"};
     }
-    const Result<uint64_t> marked = writeFile(path_ + kUnfinished, "This folder is being written.\n");
+    const Result<uint64_t> marked =
+        writeFile(path_ + kUnfinished, "This folder is being written.\n");
     if (!marked.ok()) return marked.error();
     return std::nullopt;
   }
@@ -298,9 +299,8 @@ void fail(TileResult& result, const Error& e) {
 
 // Whether a rule asks about other shapes, which a batch does not have.
 bool asksOthers(const Program& program) {
-  return std::any_of(program.rules.begin(), program.rules.end(), [](const RuleCode& r) {
-    return (r.reads.effects & kReadsContext) != 0;
-  });
+  return std::any_of(program.rules.begin(), program.rules.end(),
+                     [](const RuleCode& r) { return (r.reads.effects & kReadsContext) != 0; });
 }
 
 void tile(const Rules& rules, const Shapes& shapes, const std::string& path,

@@ -314,8 +314,8 @@ class PartMaker {
     part.area = faceArea(part.box);
     if (widthOf(part.box) < tolerance_) {
       const uint32_t slot = mesh.faces.empty() ? 0 : mesh.faces[0].materialSlot;
-      part.color = colorOf(l.scene, materialIndexOf(scene, leaf, slot),
-                           materialOf(scene, leaf, slot));
+      part.color =
+          colorOf(l.scene, materialIndexOf(scene, leaf, slot), materialOf(scene, leaf, slot));
       out_.parts.push_back(part);
       return;
     }
@@ -324,8 +324,8 @@ class PartMaker {
       triangulator_.add(mesh, f, slots[mesh.faces[f].materialSlot]);
     }
     for (const auto& [slot, triangles] : slots) {
-      part.color = colorOf(l.scene, materialIndexOf(scene, leaf, slot),
-                           materialOf(scene, leaf, slot));
+      part.color =
+          colorOf(l.scene, materialIndexOf(scene, leaf, slot), materialOf(scene, leaf, slot));
       addTriangles(part, l, leaf, mesh, triangles);
     }
   }

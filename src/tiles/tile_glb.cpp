@@ -128,12 +128,11 @@ class TileWriter {
   void writeSchema(JsonWriter& w) const {
     w.key("schema").beginObject().field("id", "gable");
     w.key("classes").beginObject().key("feature").beginObject().key("properties").beginObject();
-    const std::pair<const char*, const char*> texts[] = {
-        {"id", "What identifies it in the map"},
-        {"shape", "What it is to the rules"},
-        {"name", "Its name"},
-        {"type", "Its kind, as the map has it"},
-        {"attributes", "All attributes, as JSON"}};
+    const std::pair<const char*, const char*> texts[] = {{"id", "What identifies it in the map"},
+                                                         {"shape", "What it is to the rules"},
+                                                         {"name", "Its name"},
+                                                         {"type", "Its kind, as the map has it"},
+                                                         {"attributes", "All attributes, as JSON"}};
     for (const auto& [name, about] : texts) {
       w.key(name).beginObject().field("type", "STRING").field("description", about).endObject();
     }

@@ -58,9 +58,7 @@ Material lookOf(const Material& m) {
 // Takes vertices and triangles in, keeps the bounds.
 class Filler {
  public:
-  explicit Filler(TileMesh& mesh) : mesh_(mesh) {
-    mesh_.looks = std::make_shared<Scene>();
-  }
+  explicit Filler(TileMesh& mesh) : mesh_(mesh) { mesh_.looks = std::make_shared<Scene>(); }
 
   TilePrimitive& primitive(uint32_t variant, uint32_t uvCount) {
     const auto [at, fresh] = byVariant_.try_emplace(variant, mesh_.primitives.size());
@@ -228,7 +226,9 @@ class CoarseFiller {
  private:
   void addTriangle(const CoarsePart& p, const std::array<uint32_t, 3>& tri,
                    const std::array<uint32_t, 2>& color, TilePrimitive& primitive) {
-    const auto at = [&](size_t i) { return model_.vertices[p.firstVertex + tri[i]] - mesh_.center; };
+    const auto at = [&](size_t i) {
+      return model_.vertices[p.firstVertex + tri[i]] - mesh_.center;
+    };
     const Vec3 n = normalized(cross(at(1) - at(0), at(2) - at(0)));
     std::array<Head, 3> heads;
     for (size_t i = 0; i < 3; ++i) heads[i] = headOf(at(i), n, color, p.feature);

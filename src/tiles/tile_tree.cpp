@@ -14,8 +14,8 @@
 
 #include "base/json.h"
 #include "base/parallel.h"
-#include "io/image/image.h"
 #include "io/exporters/surface.h"
+#include "io/image/image.h"
 #include "tiles/tile_mesh.h"
 
 namespace gable {
@@ -260,10 +260,10 @@ class Builder {
 
   // The square of four quarters: one tile where they are small together, else a coarse one above.
   Branch join(const Square& square, std::vector<Branch> branches, const std::string& name) {
-    branches.erase(std::remove_if(
-                       branches.begin(), branches.end(),
+    branches.erase(
+        std::remove_if(branches.begin(), branches.end(),
                        [](const Branch& b) { return b.state == Branch::State::Nothing; }),
-                   branches.end());
+        branches.end());
     if (branches.empty()) return {};
     if (branches.size() == 1) return std::move(branches[0]);
     const auto isOpen = [](const Branch& b) { return b.state == Branch::State::Open; };
@@ -305,8 +305,7 @@ class Builder {
     b.state = mesh.triangles > 0 ? Branch::State::Done : Branch::State::Nothing;
     if (mesh.triangles > 0) {
       TextureTints tints(options_.readTexture);
-      b.coarse =
-          partsOf(b.content, tolerance, [&](const Material& m) { return tints.of(m); });
+      b.coarse = partsOf(b.content, tolerance, [&](const Material& m) { return tints.of(m); });
       writeNode(b, mesh);
     }
     b.content = {};

@@ -26,8 +26,8 @@ import { GLTFExtensionsPlugin } from '3d-tiles-renderer/three/plugins';
 import { featureAt, rowsOf, titleOf, type Feature } from './features';
 
 const SKY = '#dfe6ec';
-/** Pixels that a tile may be wrong by. */
-const ERROR = 8;
+/** Pixels that a tile may be wrong by: ?error=8. */
+const ERROR = Number(new URLSearchParams(location.search).get('error') ?? 8);
 
 const told = document.querySelector<HTMLElement>('#told');
 const panel = document.querySelector<HTMLElement>('#feature');
@@ -70,6 +70,7 @@ class Viewer {
   private readonly controls = new OrbitControls(this.camera, this.renderer.domElement);
   private readonly raycaster = new Raycaster();
   private placed = false;
+  private changed = true;
   private loaded = 0;
   private failures = 0;
 
@@ -94,6 +95,8 @@ class Viewer {
       this.failures += 1;
       this.tell();
     });
+    tiles.addEventListener('tile-visibility-change', () => (this.changed = true));
+    this.controls.addEventListener('change', () => (this.changed = true));
     this.controls.maxPolarAngle = 0.49 * Math.PI;
     document.body.prepend(this.renderer.domElement);
     addEventListener('resize', () => this.resize());
@@ -116,6 +119,7 @@ class Viewer {
     this.renderer.setPixelRatio(devicePixelRatio);
     this.renderer.setSize(innerWidth, innerHeight);
     this.tiles.setResolutionFromRenderer(this.camera, this.renderer);
+    this.changed = true;
   }
 
   /** The whole place in the picture, from the south and above. */
@@ -143,7 +147,8 @@ class Viewer {
     if (!this.placed) this.place();
     this.camera.updateMatrixWorld();
     this.tiles.update();
-    this.renderer.render(this.scene, this.camera);
+    if (this.changed) this.renderer.render(this.scene, this.camera);
+    this.changed = false;
     const { downloading, parsing } = this.tiles.stats;
     if (told) told.dataset.quiet = String(this.loaded > 0 && downloading + parsing === 0);
   }
