@@ -310,6 +310,7 @@ void setInitialGeometry(Shape& s, const Mesh& mesh) {
     setMesh(s, transformed(mesh, {1, 1, 1}, toScope), ScopeFit::Refit);
   }
   s.pivot = s.scope;
+  if (mesh.faceCount() > 0) s.pivot.origin = mesh.at(0);
 }
 
 const UvProjection* ShapeExtra::projection(int set) const {

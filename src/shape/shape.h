@@ -182,7 +182,8 @@ void alignScope(Shape& s, const Frame& axes);
 
 /// Makes `s` the start of a derivation: the geometry in its object frame, with the scope of the
 /// language's initial shapes. A single face gets y along its normal and x along its first edge;
-/// other geometry keeps the object's axes. The pivot is the scope's frame.
+/// other geometry keeps the object's axes. The pivot has the scope's axes and stands at the first
+/// vertex of the first face; without faces it is the scope's frame.
 void setInitialGeometry(Shape& s, const Mesh& mesh);
 
 /// The extra of `s` for editing: a copy of its own. Put it back with s.extra = makeRef(...).
