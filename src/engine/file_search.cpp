@@ -105,6 +105,7 @@ FileSearch::FileSearch(const std::string& root, const SearchSettings& settings,
   rootName_ = fileNameOf(root_);
   if (settings.workspace) workspace_ = canonical(*settings.workspace);
   if (package_ && !settings.workspace) workspace_ = package_->path();
+  rootPrefix_ = below(workspace_, root_);
   for (const std::string& written : settings.libraries) {
     const NamedFolder library = libraryOf(written);
     libraries_.push_back({library.name, canonical(library.folder)});
@@ -332,9 +333,9 @@ std::vector<std::string> FileSearch::search(std::string_view query,
   };
   const std::string base = baseOf(fromFile);
   const std::string name(base == root_ ? rootName_ : firstFolder(fromFile));
-  look(base, base == root_ ? "" : "/" + name, name, true);
+  look(base, base == root_ ? rootPrefix_ : "/" + name, name, true);
   if (parsed->leavesTheProject()) {
-    if (base != root_) look(root_, "", rootName_, false);
+    if (base != root_) look(root_, rootPrefix_, rootName_, false);
     for (const Library& l : libraries_) {
       if (l.path != base) look(l.path, "/" + l.name, l.name, false);
     }

@@ -64,7 +64,8 @@ class FileSearch {
   /// What the files are called that lie in a folder or below it: "/assets/", "/ESRI.lib/assets/".
   std::vector<std::string> filesIn(const std::string& folder) const;
   /// What the files are called, with a slash before them, that a query means (shape/file_query.h):
-  /// those of the project of `fromFile`, and of others where the query can reach them; sorted.
+  /// those of the project of `fromFile`, and of others where the query can reach them; sorted. In a
+  /// workspace each begins with the name of its project, else those of the own project do not.
   std::vector<std::string> search(std::string_view query, std::string_view fromFile) const;
 
  private:
@@ -80,6 +81,8 @@ class FileSearch {
 
   std::string root_;
   std::string rootName_;
+  /// What files of the project begin with where they are listed: its path in the workspace.
+  std::string rootPrefix_;
   SearchSettings settings_;
   std::shared_ptr<const Package> package_;
   /// Empty without one.

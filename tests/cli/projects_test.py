@@ -86,6 +86,26 @@ class Projects(Case):
         self.assertEqual(self.reports(main, "--workspace", "town"), {"n": 1})
         self.assertEqual(self.reports(main), {"n": 0})
 
+    def testSearchesNameTheProjectOfEveryFileInAWorkspace(self):
+        main = self.project()
+        for name in ("town/Mine/assets/b.obj", "town/Mine/a.obj", "town/Zoo/assets/c.obj"):
+            self.put(name, CUBE)
+        rules = 'Lot --> print(filesSearch("*.obj")) print(filesSearch("b*")) {} X.\n'
+        self.put(main, rules.format('i(fileRandom("b.obj")) report("n", geometry.nVertices)'))
+        own, other = '"/Mine/a.obj","/Mine/assets/b.obj"', '"/Other/assets/panel.obj","/Zoo/assets/c.obj"'
+        told = self.gable("generate", main, "--workspace", "town", "-o", "out.glb", "--stats", "stats.json")
+        self.assertIn("(4)[" + f"{own},{other}".replace('"', "") + "]", told)
+        self.assertIn("(1)[/Mine/assets/b.obj]", told)
+        self.assertEqual(json.loads((self.folder / "stats.json").read_text())["reports"]["n"]["sum"], 8)
+        # From a file of another project the order is the same.
+        self.put("town/Other/rules/w.cga", rules.replace("Lot", "Wall").format(""))
+        self.put(main, 'import w : "/Other/rules/w.cga"\nLot --> w.Wall\n')
+        told = self.gable("generate", main, "--workspace", "town", "-o", "out.glb")
+        self.assertIn("(4)[" + f"{own},{other}".replace('"', "") + "]", told)
+        # Without a workspace a file of the project is named by its path in the project.
+        self.put(main, rules.format(""))
+        self.assertIn("(2)[/a.obj,/assets/b.obj]", self.gable("generate", main, "-o", "out.glb"))
+
     def testFilesAreFoundByNameWhereThatIsAskedFor(self):
         self.put("p/rules/main.cga", 'import w : "/Gone/rules/Walls.cga"\nLot --> w.Wall i("x/Panel.obj") X.\n')
         self.put("p/rules/old/walls.cga", 'Wall --> report("old", 1) X.\n')
