@@ -427,7 +427,7 @@ TEST(Analyse, importersRedefineRules) {
 
 TEST(Analyse, extensionsAreReplacedInTheScopeOfTheImporter) {
   const Analysed a(
-      "import i : \"i.cga\" ( Roof(x) --> extrude(x) Mine )\nMine --> i.start",
+      "import i : \"i.cga\" ( Roof(x) --> extrude(x) Mine )\nMine --> 50% : i.start else : X.",
       {{"i.cga", "start Init --> Roof(2) Plain extension Roof(a) --> X. Plain --> X."}});
   EXPECT_CLEAN(a);
   EXPECT_EQ(a.meaning("Roof", 1), "rule:i.Roof@0");

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -292,7 +293,9 @@ class Analysis {
   // --- written_values.cpp: values that parameters do not take ---
   void checkWrittenValues(ModuleId firstModule);
   void checkEndlessRules(ModuleId firstModule);
-  void checkEndless(const RuleInfo& rule, NodeId sequence);
+  using CertainRules = std::vector<std::pair<RuleId, Span>>;
+  void certainRules(NodeId sequence, CertainRules& out);
+  void reportEndless(std::span<const RuleId> path, Span at);
   void reportEmptyFile();
   Value writtenValue(NodeId node);
   void checkWrittenSizes(NodeId block, const OpSpec& op);

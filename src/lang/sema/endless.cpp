@@ -3,44 +3,97 @@
 //
 // Rules that cannot end, A --> extrude(1) A, and files that have none.
 
+#include <algorithm>
+
 #include "base/work.h"
 #include "lang/sema/analysis.h"
 
 namespace gable::lang {
 
-// What stands in a choice or in a block may not be reached; the rest always is.
-void Analysis::checkEndless(const RuleInfo& rule, NodeId sequence) {
+// The rules that a sequence applies whatever happens: what stands in a choice or in a block may not
+// be reached; the rest always is.
+void Analysis::certainRules(NodeId sequence, CertainRules& out) {
   const Tree& t = tree();
   for (const NodeId item : t.children(sequence)) {
     work();
-    if (t.kind(item) == NodeKind::Push) checkEndless(rule, t.child(item, 0));
+    if (t.kind(item) == NodeKind::Push) certainRules(t.child(item, 0), out);
     if (t.kind(item) != NodeKind::Apply) continue;
     // What follows has nothing to work on.
     if (t.text(item) == "NIL") return;
     const Resolution& r = module().at(item);
-    if (r.kind != RefKind::Rule || r.index != rule.id) continue;
-    warning("endless-rule", nameSpan(t, item),
-            quote(rule.name) + " applies itself whatever happens, and ends at the limit on depth",
-            "write 'case condition : ... else : ...' around it");
+    if (r.kind != RefKind::Rule) continue;
+    const bool known =
+        std::any_of(out.begin(), out.end(), [&](const auto& c) { return c.first == r.index; });
+    if (!known) out.emplace_back(r.index, nameSpan(t, item));
   }
 }
 
+// `path` goes from a rule to one that applies it again.
+void Analysis::reportEndless(std::span<const RuleId> path, Span at) {
+  constexpr size_t kMostNames = 6;
+  const std::string& name = program_.rules[path[0]].name;
+  std::string way;
+  for (size_t i = 0; i < std::min(path.size(), kMostNames); ++i) {
+    way += program_.rules[path[i]].name + ", ";
+  }
+  if (path.size() > kMostNames) way += "..., ";
+  const bool direct = path.size() == 1;
+  warning("endless-rule", at,
+          direct ? quote(name) + " applies itself whatever happens, and ends at the limit on depth"
+                 : quote(name) + " applies itself whatever happens, by way of other rules (" + way +
+                       name + "), and ends at the limit on depth",
+          "write 'case condition : ... else : ...' around it");
+}
+
+// A walk along the rules that are applied whatever happens; one that is on the way already closes a
+// circle.
 void Analysis::checkEndlessRules(ModuleId firstModule) {
-  for (size_t i = 0; i < program_.rules.size(); ++i) {
-    const RuleInfo rule = program_.rules[i];
-    if (rule.module < firstModule) continue;
+  struct Step {
+    CertainRules next;
+    size_t done = 0;
+  };
+  enum State : uint8_t { kNew, kOnTheWay, kSeen };
+  std::vector<uint8_t> states(program_.rules.size(), kNew);
+  std::vector<Step> steps;
+  std::vector<RuleId> path;
+  const auto enter = [&](RuleId id) {
+    const RuleInfo& rule = program_.rules[id];
     body_ = {};
     body_.module = rule.module;
+    Step step;
     const NodeId body = bodyOf(tree(), rule.node);
-    if (tree().kind(body) == NodeKind::Sequence) checkEndless(rule, body);
+    if (tree().kind(body) == NodeKind::Sequence) certainRules(body, step.next);
+    states[id] = kOnTheWay;
+    path.push_back(id);
+    steps.push_back(std::move(step));
+  };
+  for (RuleId first = 0; first < program_.rules.size(); ++first) {
+    if (program_.rules[first].module < firstModule || states[first] != kNew) continue;
+    enter(first);
+    while (!steps.empty()) {
+      work();
+      Step& step = steps.back();
+      if (step.done == step.next.size()) {
+        states[path.back()] = kSeen;
+        path.pop_back();
+        steps.pop_back();
+        continue;
+      }
+      const auto [next, at] = step.next[step.done++];
+      if (states[next] == kNew) {
+        enter(next);
+      } else if (states[next] == kOnTheWay && program_.rules[path.back()].module >= firstModule) {
+        const auto from = std::find(path.begin(), path.end(), next);
+        reportEndless({from, path.end()}, at);
+      }
+    }
   }
 }
 
 void Analysis::reportEmptyFile() {
   const Tree& t = program_.units[0].tree;
   if (!t.children(t.root()).empty() || diagnostics_.hasErrors()) return;
-  warning("empty-file", {t.file(), 0, 0}, "the file has no rules",
-          "write one: Lot --> extrude(10)");
+  error("empty-file", {t.file(), 0, 0}, "the file has no rules", "write one: Lot --> extrude(10)");
 }
 
 }  // namespace gable::lang
