@@ -146,6 +146,10 @@ NodeId Parser::parseBinary(int minPrecedence) {
     if (op.precedence == 0 || op.precedence < minPrecedence) break;
     if (is(TokenKind::Percent) && ahead(1).kind == TokenKind::Colon) break;
     if (skipPercent(left)) break;
+    if (dashCommentHere()) {
+      skipDashComment();
+      break;
+    }
     const bool elementwise = current().elementwise;
     advance();
     const NodeId right = parseBinary(op.precedence + 1);

@@ -445,6 +445,37 @@ bool Parser::dashesHere() const {
          ahead(1).begin == current().end;
 }
 
+// Behind a value "-- text" may subtract what is negative. It does not where the line ends, where
+// two words follow, or one that stands nowhere else in the file.
+bool Parser::dashCommentHere() {
+  if (!dashesHere() || at_ == 0 || tokens_[at_ - 1].end == current().begin) return false;
+  const size_t end = std::min(text_.find('\n', ahead(1).end), text_.size());
+  const auto operand = [&](const Token& t) {
+    const bool value = t.kind == TokenKind::Name || t.kind == TokenKind::Number;
+    return value && t.keyword == Keyword::None && t.begin < end;
+  };
+  const Token& first = ahead(2);
+  if (first.kind == TokenKind::End || first.begin >= end) return true;
+  if (first.begin == ahead(1).end || !operand(first)) return false;
+  const Token& second = ahead(3);
+  if (operand(second) && !declarationAt(at_ + 3, false)) return true;
+  if (!isName(first) || second.kind == TokenKind::LParen || second.kind == TokenKind::LBracket ||
+      textOf(first).find('.') != std::string_view::npos) {
+    return false;
+  }
+  return usesOf(textOf(first)) == 1;
+}
+
+size_t Parser::usesOf(std::string_view name) {
+  if (nameUses_.empty()) {
+    for (const Token& t : tokens_) {
+      if (isName(t)) ++nameUses_[textOf(t)];
+    }
+  }
+  const auto at = nameUses_.find(name);
+  return at == nameUses_.end() ? 0 : at->second;
+}
+
 // A comment of another language, "-- text": reports it and goes on behind its line.
 void Parser::skipDashComment() {
   const Span dashes{file_, current().begin, ahead(1).end};

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "base/diagnostic.h"
@@ -129,6 +130,8 @@ class Parser {
   NodeId parseLocals();
   void reportAfterValue(std::string_view name);
   bool dashesHere() const;
+  bool dashCommentHere();
+  size_t usesOf(std::string_view name);
   void skipDashComment();
 
   // --- Successors (parse_successors.cpp) ---
@@ -196,6 +199,8 @@ class Parser {
   size_t lastErrorAt_ = SIZE_MAX;
   // The word 'if' that is read as 'case'.
   size_t ifAt_ = SIZE_MAX;
+  /// How often each name stands in the file; empty until someone asks.
+  std::unordered_map<std::string_view, size_t> nameUses_;
   size_t errors_ = 0;
   bool reported_ = false;
   uint32_t nesting_ = 0;
