@@ -13,14 +13,13 @@
 #include "base/number.h"
 #include "base/text.h"
 #include "dialects/progen3d/grammar.h"
+#include "dialects/progen3d/token_reader.h"
 
 namespace gable::progen3d {
 
 namespace {
 
 using Kind = Expression::Kind;
-
-constexpr size_t kMaxWarnings = 200;
 
 struct CommandWord {
   std::string_view word;
@@ -51,10 +50,9 @@ const CommandWord* commandOf(std::string_view word) {
   return nullptr;
 }
 
-class Parser {
+class Parser : TokenReader {
  public:
-  Parser(std::string_view text, uint32_t file, std::vector<Token> tokens, Diagnostics& diagnostics)
-      : text_(text), file_(file), diagnostics_(diagnostics), tokens_(std::move(tokens)) {}
+  using TokenReader::TokenReader;
 
   Grammar run() {
     const std::vector<size_t> begins = ruleBegins();
@@ -71,33 +69,6 @@ class Parser {
   }
 
  private:
-  // --- Tokens ---
-
-  const Token& current() const { return at_ < end_ ? tokens_[at_] : endToken_; }
-  const Token& ahead(size_t n) const { return at_ + n < end_ ? tokens_[at_ + n] : endToken_; }
-  bool is(TokenKind kind) const { return current().kind == kind; }
-  bool accept(TokenKind kind) {
-    if (!is(kind)) return false;
-    ++at_;
-    return true;
-  }
-  std::string_view textOf(const Token& t) const { return text_.substr(t.begin, t.end - t.begin); }
-  Span spanOf(const Token& t) const { return {file_, t.begin, t.end}; }
-  uint32_t lastEnd() const { return at_ > begin_ ? tokens_[at_ - 1].end : tokens_[begin_].begin; }
-  Span since(uint32_t begin) const { return {file_, begin, std::max(begin, lastEnd())}; }
-
-  void warning(const char* code, Span span, std::string message, std::string hint = {}) {
-    if (++warnings_ <= kMaxWarnings)
-      diagnostics_.warning(code, span, std::move(message), std::move(hint));
-  }
-
-  void window(size_t begin, size_t end) {
-    begin_ = at_ = begin;
-    end_ = end;
-    const uint32_t place = end > begin ? tokens_[end - 1].end : tokens_[begin].begin;
-    endToken_ = {place, place, TokenKind::End, true, true};
-  }
-
   // --- Rules: where they begin ---
 
   bool beginsRule(size_t i) const {
@@ -599,7 +570,7 @@ class Parser {
         }
         warning("unexpected-token", spanOf(t), "'&' needs the name of a variable", "write '&name'");
         return number(0, t.begin);
-      case TokenKind::Open: ++at_; return inBrackets();
+      case TokenKind::Open: ++at_; return inBrackets([&] { return parseExpression(); });
       default: break;
     }
     warning("unexpected-token", spanOf(t),
@@ -617,36 +588,16 @@ class Parser {
     const bool function = e.name == "sin" || e.name == "cos";
     if (function && accept(TokenKind::Open)) {
       e.kind = e.name == "sin" ? Kind::Sin : Kind::Cos;
-      e.left = inBrackets();
+      e.left = inBrackets([&] { return parseExpression(); });
       return add(e, t.begin);
     }
     e.kind = Kind::Name;
     return add(e, t.begin);
   }
 
-  // The rest of "( expression )".
-  uint32_t inBrackets() {
-    const Token open = tokens_[at_ - 1];
-    ++innerBrackets_;
-    const uint32_t inner = parseExpression();
-    --innerBrackets_;
-    if (!accept(TokenKind::Close)) {
-      warning("unclosed-bracket", spanOf(open), "this '(' is never closed", "add ')'");
-    }
-    return inner;
-  }
-
-  std::string_view text_;
-  uint32_t file_;
-  Diagnostics& diagnostics_;
-  std::vector<Token> tokens_;
-  size_t begin_ = 0, at_ = 0, end_ = 0;
-  Token endToken_;
   Grammar grammar_;
   Span pipe_;
-  int innerBrackets_ = 0;
   uint32_t depth_ = 0;
-  size_t warnings_ = 0;
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "base/number.h"
 #include "base/text.h"
+#include "dialects/progen3d/token_reader.h"
 #include "dialects/progen3d/web_grammar.h"
 #include "dialects/progen3d/web_words.h"
 
@@ -19,12 +20,9 @@ namespace {
 
 using Kind = Expression::Kind;
 
-constexpr size_t kMaxWarnings = 200;
-
-class Parser {
+class Parser : TokenReader {
  public:
-  Parser(std::string_view text, uint32_t file, std::vector<Token> tokens, Diagnostics& diagnostics)
-      : text_(text), file_(file), tokens_(std::move(tokens)), diagnostics_(diagnostics) {}
+  using TokenReader::TokenReader;
 
   Grammar run() {
     std::vector<size_t> begins;
@@ -43,28 +41,6 @@ class Parser {
   }
 
  private:
-  // --- Tokens ---
-
-  const Token& ahead(size_t n) const { return at_ + n < end_ ? tokens_[at_ + n] : endToken_; }
-  const Token& current() const { return ahead(0); }
-  bool is(TokenKind kind) const { return current().kind == kind; }
-  bool accept(TokenKind kind) {
-    if (!is(kind)) return false;
-    ++at_;
-    return true;
-  }
-  std::string_view textOf(const Token& t) const { return text_.substr(t.begin, t.end - t.begin); }
-  Span spanOf(const Token& t) const { return {file_, t.begin, t.end}; }
-  Span since(uint32_t begin) const {
-    const uint32_t end = at_ > begin_ ? tokens_[at_ - 1].end : begin;
-    return {file_, begin, std::max(begin, end)};
-  }
-
-  void warning(const char* code, Span span, std::string message, std::string hint = {}) {
-    if (++warnings_ <= kMaxWarnings)
-      diagnostics_.warning(code, span, std::move(message), std::move(hint));
-  }
-
   bool beginsRule(size_t i) const {
     if (!tokens_[i].firstOfLine || tokens_[i].kind != TokenKind::Name) return false;
     int depth = 0;
@@ -93,10 +69,8 @@ class Parser {
   // --- Rules ---
 
   void parseRule(size_t begin, size_t end) {
-    begin_ = at_ = begin;
-    end_ = end;
+    window(begin, end);
     const uint32_t place = tokens_[end - 1].end;
-    endToken_ = {place, place, TokenKind::End, true, true};
     findColons();
     const Token name = current();
     ++at_;
@@ -528,7 +502,7 @@ class Parser {
           e.parts = parseArguments(false);
         }
         return add(std::move(e), t.begin);
-      case TokenKind::Open: return inBrackets();
+      case TokenKind::Open: ++at_; return inBrackets([&] { return parseExpression(); });
       default: break;
     }
     warning("unexpected-token", spanOf(t),
@@ -539,30 +513,11 @@ class Parser {
     return add(std::move(e), t.begin);
   }
 
-  uint32_t inBrackets() {
-    const Token open = current();
-    ++at_;
-    ++innerBrackets_;
-    const uint32_t inner = parseExpression();
-    --innerBrackets_;
-    if (!accept(TokenKind::Close)) {
-      warning("unclosed-bracket", spanOf(open), "this '(' is never closed", "add ')'");
-    }
-    return inner;
-  }
-
-  std::string_view text_;
-  uint32_t file_;
-  std::vector<Token> tokens_;
-  Diagnostics& diagnostics_;
-  size_t begin_ = 0, at_ = 0, end_ = 0;
-  Token endToken_;
   Grammar grammar_;
   std::vector<bool> colonAhead_;
-  int waitForColon_ = 0, innerBrackets_ = 0;
+  int waitForColon_ = 0;
   bool parted_ = false;
   uint32_t depth_ = 0;
-  size_t warnings_ = 0;
 };
 
 }  // namespace
