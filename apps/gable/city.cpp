@@ -48,19 +48,13 @@ int readCountry(std::string text, gable::CitySettings& settings) {
   return wrongOption("--country", "two letters, such as MC or CZ", text);
 }
 
-int writeModel(const gable::City& city, CityArguments& arguments, gable::RunFigures& figures,
+int buildModel(const gable::City& city, CityArguments& arguments, gable::RunFigures& figures,
                gable::TileResult& tiles) {
   gable::DeriveSettings settings;
   if (const int status = deriveSettings(arguments.derive, settings)) return status;
   if (const int status = findRules(arguments.derive)) return status;
-  const gable::FileLimits limits = fileLimits(arguments.derive.limits);
-  gable::LoadSettings load;
-  load.search = arguments.derive.search;
-  load.limits = limits;
-  const gable::Rules rules = gable::Rules::load(arguments.derive.rules, load);
-  print(rules.diagnostics());
-  if (!rules.found()) return kExitFile;
-  if (!rules.ok()) return statusOf(rules.diagnostics(), kExitWrong);
+  gable::Rules rules(nullptr);
+  if (const int status = readRules(arguments.derive, rules)) return status;
   const std::string folder = tileFolder(arguments.output);
   if (!folder.empty()) {
     const int status = writeTileFolder(rules, city.shapes(), folder, settings, arguments.tiles,
@@ -70,19 +64,10 @@ int writeModel(const gable::City& city, CityArguments& arguments, gable::RunFigu
     figures.triangles = tiles.triangles;
     return status;
   }
-  ProgressLine progress("deriving");
-  settings.progress = progress.callback();
-  const gable::Model model = gable::derive(rules, city.shapes(), settings);
-  print(model.diagnostics());
-  for (const std::string& line : model.prints()) std::fprintf(stderr, "%s\n", line.c_str());
+  const gable::Model model = deriveModel(rules, city.shapes(), settings, stderr);
   if (gable::hasErrors(model.diagnostics())) return statusOf(model);
-  figures.deriveSeconds = model.deriveSeconds();
-  const double begin = secondsNow();
-  const gable::WriteResult written = model.write(arguments.output, {false, limits});
-  print(written.diagnostics);
-  if (!written.ok) return statusOf(written.diagnostics, kExitFile);
-  figures.writeSeconds = secondsNow() - begin;
-  if (written.triangles > 0) figures.triangles = written.triangles;
+  const gable::WriteSettings write{false, fileLimits(arguments.derive.limits)};
+  if (const int status = writeModel(model, arguments.output, write, figures)) return status;
   return statusOf(model);
 }
 
@@ -116,7 +101,7 @@ int runCity(const CityArguments& given) {
   }
   int status = kExitDone;
   gable::TileResult tiles;
-  if (!arguments.output.empty()) status = writeModel(city, arguments, figures, tiles);
+  if (!arguments.output.empty()) status = buildModel(city, arguments, figures, tiles);
   if (!arguments.stats.empty() && (status == kExitDone || status == kExitLimit)) {
     figures.totalSeconds = secondsNow() - begin;
     figures.peakBytes = peakBytes();

@@ -87,14 +87,18 @@ int deriveSettings(const DeriveArguments& arguments, gable::DeriveSettings& s) {
   return kExitDone;
 }
 
+int readRules(const DeriveArguments& arguments, gable::Rules& rules) {
+  gable::LoadSettings load{arguments.project, arguments.dialect, arguments.style, arguments.search};
+  load.limits = fileLimits(arguments.limits);
+  rules = gable::Rules::load(arguments.rules, load);
+  print(rules.diagnostics());
+  if (!rules.found()) return kExitFile;
+  return rules.ok() ? kExitDone : statusOf(rules.diagnostics(), kExitWrong);
+}
+
 int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
   const gable::FileLimits limits = fileLimits(arguments.limits);
-  gable::LoadSettings load{arguments.project, arguments.dialect, arguments.style, arguments.search};
-  load.limits = limits;
-  inputs.rules = gable::Rules::load(arguments.rules, load);
-  print(inputs.rules.diagnostics());
-  if (!inputs.rules.found()) return kExitFile;
-  if (!inputs.rules.ok()) return statusOf(inputs.rules.diagnostics(), kExitWrong);
+  if (const int status = readRules(arguments, inputs.rules)) return status;
   if (!arguments.shapes.empty()) {
     const size_t equals = arguments.only.find('=');
     gable::FeatureSelection selection{arguments.layer, arguments.only.substr(0, equals), {}};
@@ -120,6 +124,33 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
     return statusOf(inputs.shapes.diagnostics(), kExitWrong);
   }
   return deriveSettings(arguments, inputs.settings);
+}
+
+gable::Model deriveModel(const gable::Rules& rules, const gable::Shapes& shapes,
+                         gable::DeriveSettings settings, std::FILE* prints) {
+  gable::Model model = [&] {
+    ProgressLine progress("deriving");
+    settings.progress = progress.callback();
+    return gable::derive(rules, shapes, settings);
+  }();
+  print(model.diagnostics());
+  for (const std::string& line : model.prints()) std::fprintf(prints, "%s\n", line.c_str());
+  return model;
+}
+
+int writeModel(const gable::Model& model, const std::string& path,
+               const gable::WriteSettings& settings, gable::RunFigures& figures) {
+  const double begin = secondsNow();
+  const gable::WriteResult written = [&] {
+    const ProgressLine progress("writing");
+    return model.write(path, settings);
+  }();
+  print(written.diagnostics);
+  if (!written.ok) return statusOf(written.diagnostics, kExitFile);
+  figures.deriveSeconds = model.deriveSeconds();
+  figures.writeSeconds = secondsNow() - begin;
+  if (written.triangles > 0) figures.triangles = written.triangles;
+  return kExitDone;
 }
 
 int statusOf(const gable::Model& model) {

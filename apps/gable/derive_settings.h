@@ -1,9 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
+//
+// The steps of commands that derive a model and write it. Each tells what goes wrong.
 #pragma once
 
+#include <cstdio>
+
 #include "common.h"
+#include "json/answers.h"
 
 /// What the arguments say about a derivation; an exit status other than kExitDone, with a message,
 /// when an option is wrong.
 int deriveSettings(const DeriveArguments& arguments, gable::DeriveSettings& settings);
+
+/// The rules that the arguments name; an exit status other than kExitDone when they are not usable.
+int readRules(const DeriveArguments& arguments, gable::Rules& rules);
+
+/// Derives, with a line of progress. What the rules print goes to `prints`.
+gable::Model deriveModel(const gable::Rules& rules, const gable::Shapes& shapes,
+                         gable::DeriveSettings settings, std::FILE* prints);
+
+/// Writes the model to a file, with a line of progress; an exit status. The figures tell what
+/// deriving and writing took.
+int writeModel(const gable::Model& model, const std::string& path,
+               const gable::WriteSettings& settings, gable::RunFigures& figures);

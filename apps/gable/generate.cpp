@@ -7,22 +7,10 @@
 #include <cstdio>
 
 #include "commands.h"
+#include "derive_settings.h"
 #include "gable/files.h"
-#include "json/answers.h"
 
 namespace {
-
-gable::Model deriveModel(Inputs& inputs) {
-  ProgressLine progress("deriving");
-  inputs.settings.progress = progress.callback();
-  return gable::derive(inputs.rules, inputs.shapes, inputs.settings);
-}
-
-gable::WriteResult writeModel(const gable::Model& model, const GenerateArguments& arguments) {
-  const ProgressLine progress("writing");
-  return model.write(arguments.output,
-                     {arguments.gpuInstancing, fileLimits(arguments.derive.limits)});
-}
 
 /// Says why a model is empty: as a rule another start rule was meant.
 void tellEmpty(const gable::Model& model, const Inputs& inputs) {
@@ -50,31 +38,24 @@ int runGenerate(const GenerateArguments& arguments) {
   if (const int status = checkExtension(arguments.output, formats)) return status;
   Inputs inputs;
   if (const int status = readInputs(arguments.derive, inputs)) return status;
-  const gable::Model model = deriveModel(inputs);
-  print(model.diagnostics());
   // Statistics on the standard output are JSON and nothing else; what was printed is part of them.
   std::FILE* const prints = arguments.stats == "-" ? stderr : stdout;
-  for (const std::string& line : model.prints()) std::fprintf(prints, "%s\n", line.c_str());
+  const gable::Model model = deriveModel(inputs.rules, inputs.shapes, inputs.settings, prints);
   if (gable::hasErrors(model.diagnostics())) return statusOf(model);
   tellEmpty(model, inputs);
 
-  const double writeBegin = secondsNow();
-  const gable::WriteResult written = writeModel(model, arguments);
-  print(written.diagnostics);
-  if (!written.ok) return statusOf(written.diagnostics, kExitFile);
+  gable::RunFigures figures;
+  const gable::WriteSettings write{arguments.gpuInstancing, fileLimits(arguments.derive.limits)};
+  if (const int status = writeModel(model, arguments.output, write, figures)) return status;
 
   if (!arguments.reports.empty()) {
     const std::string table = gable::reportsCsv(model.statistics().reports);
     if (const int status = writeText(arguments.reports, table)) return status;
   }
   if (!arguments.stats.empty()) {
-    gable::RunFigures figures;
     figures.parseSeconds = inputs.rules.parseSeconds();
-    figures.deriveSeconds = model.deriveSeconds();
-    figures.writeSeconds = secondsNow() - writeBegin;
     figures.totalSeconds = secondsNow() - begin;
     figures.peakBytes = peakBytes();
-    if (written.triangles > 0) figures.triangles = written.triangles;
     const std::string text = gable::statisticsJson(model, figures);
     if (const int status = writeText(arguments.stats, text)) return status;
   }
