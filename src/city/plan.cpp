@@ -26,22 +26,12 @@ constexpr double kLeastPart = 0.5;
 constexpr double kLeastKerb = 0.2;
 
 AttributeValue number(const char* name, double v) {
-  PlainValue value;
-  value.number = v;
-  return {name, {value}, 0, 0};
+  return {name, {{PlainValue::Kind::Number, v, {}}}, 0, 0};
 }
 AttributeValue truth(const char* name, bool v) {
-  PlainValue value;
-  value.kind = PlainValue::Kind::Bool;
-  value.number = v ? 1 : 0;
-  return {name, {value}, 0, 0};
+  return {name, {{PlainValue::Kind::Bool, v ? 1.0 : 0.0, {}}}, 0, 0};
 }
-PlainValue text(std::string v) {
-  PlainValue value;
-  value.kind = PlainValue::Kind::Text;
-  value.text = std::move(v);
-  return value;
-}
+PlainValue text(std::string v) { return {PlainValue::Kind::Text, 0, std::move(v)}; }
 
 std::vector<AttributeValue> tagsOf(const MapFeature& f) {
   std::vector<AttributeValue> out;

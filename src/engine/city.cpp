@@ -70,10 +70,7 @@ std::shared_ptr<const Shapes::Impl> shapesOf(const CityPlan& plan, const MapFeat
     input.id = s.rule + '/' + s.id + (before > 0 ? '/' + std::to_string(before) : "");
     input.mesh = meshOf(s);
     input.attributes = s.attributes;
-    PlainValue rule;
-    rule.kind = PlainValue::Kind::Text;
-    rule.text = s.rule;
-    input.attributes.push_back({kStartRuleAttribute, {rule}, 0, 0});
+    input.attributes.push_back({kStartRuleAttribute, {{PlainValue::Kind::Text, 0, s.rule}}, 0, 0});
     out->footprints.push_back(footprint(std::move(input)));
   }
   return out;

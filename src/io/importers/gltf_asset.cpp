@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "base/hash.h"
+#include "io/importers/geojson_edges.h"
 
 namespace gable {
 namespace {
@@ -179,14 +180,7 @@ void readMetadata(const JsonValue& json, Asset& asset) {
   for (const JsonValue* extras : {&json["asset"]["extras"], &ofScene, &json["extras"]}) {
     for (const auto& [key, v] : extras->members()) {
       work();
-      if (!v.isNumber() && !v.isBool() && !v.isText()) continue;
-      PlainValue value;
-      value.kind = v.isNumber() ? PlainValue::Kind::Number
-                   : v.isBool() ? PlainValue::Kind::Bool
-                                : PlainValue::Kind::Text;
-      value.number = v.number(v.boolean(false) ? 1 : 0);
-      value.text = v.text();
-      asset.metadata.emplace_back(key, std::move(value));
+      if (isPlainValue(v)) asset.metadata.emplace_back(key, plainValue(v));
     }
   }
 }
