@@ -107,7 +107,7 @@ TEST(RoofShed, oneSlopeRisesFromTheEdge) {
   EXPECT_NEAR(enclosedVolume(m), 8 * 4 * 4 / 2., 1e-9);
   EXPECT_EQ(facesTagged(services, m, "roof.top"), 1u);
   EXPECT_EQ(facesTagged(services, m, "roof.side.outer"), 3u);
-  EXPECT_EQ(edgesOf(services, ran.shape, "eave"), 1u);
+  EXPECT_EQ(edgesOf(services, ran.shape, "eave"), 2u);
   const Ran right = Op("roofShed").args(word("byHeight"), 3, 1).on(quadShape(8, 4), services);
   EXPECT_NEAR(enclosedVolume(meshInLocal(right.shape)), 8 * 4 * 3 / 2., 1e-9);
 }
