@@ -10,6 +10,7 @@
 
 #include "base/text.h"
 #include "engine/footprint.h"
+#include "engine/missing_files.h"
 #include "shape/edge_attributes.h"
 
 namespace gable {
@@ -265,7 +266,10 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
     impl->result = gable::derive(r.program, initial, own, options);
   }
   impl->result.scene.geoOrigin = shapes.impl().geoOrigin;
-  const DiagnosticList made = listOf(inWordsOf(r.dialect, impl->result.diagnostics), r.sources);
+  MissingFiles told;
+  told.add(r.diagnostics);
+  const DiagnosticList made =
+      told.without(listOf(inWordsOf(r.dialect, impl->result.diagnostics), r.sources));
   impl->diagnostics.insert(impl->diagnostics.end(), made.begin(), made.end());
   impl->makeSound();
   impl->seconds = now() - begin;

@@ -9,6 +9,7 @@
 
 #include "engine/guard.h"
 #include "engine/impl.h"
+#include "engine/missing_files.h"
 #include "gable/names.h"
 
 namespace gable {
@@ -41,6 +42,14 @@ std::string quotedName(const std::string& message) {
   const size_t from = message.find('\'');
   const size_t to = from == std::string::npos ? from : message.find('\'', from + 1);
   return to == std::string::npos ? std::string() : message.substr(from + 1, to - from - 1);
+}
+
+constexpr std::string_view kAboutMissingFiles[] = {"missing-file", "missing-texture",
+                                                   "missing-asset", "shape-texture-missing"};
+
+bool isAboutMissingFile(const Diagnostic& d) {
+  return std::find(std::begin(kAboutMissingFiles), std::end(kAboutMissingFiles), d.code) !=
+         std::end(kAboutMissingFiles);
 }
 
 // A name that nothing is known of, and of which nothing better can be said than that.
@@ -168,6 +177,21 @@ Diagnostic Task::diagnosticOfException() const {
     const Diagnostic d = gable::diagnosticOfException();
     return diagnosticOf(Error{d.code, what() + ": " + d.message, d.hint});
   }
+}
+
+void MissingFiles::add(const DiagnosticList& told) {
+  for (const Diagnostic& d : told) {
+    if (isAboutMissingFile(d)) paths_.insert(quotedName(d.message));
+  }
+}
+
+bool MissingFiles::has(const Diagnostic& made) const {
+  return paths_.count(quotedName(made.message)) > 0;
+}
+
+DiagnosticList MissingFiles::without(DiagnosticList made) const {
+  std::erase_if(made, [&](const Diagnostic& d) { return isAboutMissingFile(d) && has(d); });
+  return made;
 }
 
 }  // namespace gable

@@ -11,6 +11,7 @@
 #include "base/temporary_folder.h"
 #include "engine/guard.h"
 #include "engine/impl.h"
+#include "engine/missing_files.h"
 #include "gable/names.h"
 #include "io/exporters/draw_list.h"
 #include "io/exporters/write_model.h"
@@ -158,9 +159,13 @@ WriteResult written(const Model::Impl& impl, const std::string& path,
   out.ok = true;
   out.triangles = report->triangles;
   out.bytes = report->bytes;
+  MissingFiles told;
+  if (impl.rules) told.add(impl.rules->diagnostics);
+  told.add(impl.diagnostics);
   for (const std::string& w : report->warnings) {
-    out.diagnostics.push_back(
-        diagnosticOf({Severity::Warning, "written-with-loss", Span{}, w, {}, {}, {}}, Sources{}));
+    Diagnostic loss =
+        diagnosticOf({Severity::Warning, "written-with-loss", Span{}, w, {}, {}, {}}, Sources{});
+    if (!told.has(loss)) out.diagnostics.push_back(std::move(loss));
   }
   return out;
 }

@@ -131,8 +131,8 @@ class MessageList {
     for (size_t i = begin; i < end; ++i) {
       const Diagnostics::Entry& d = messages.all()[i];
       // A file that is missing is missing wherever it is named.
-      const bool aboutFile =
-          d.code == "missing-asset" || d.code == "missing-texture" || d.code == "read-with-loss";
+      const bool aboutFile = d.code == "missing-asset" || d.code == "missing-texture" ||
+                             d.code == "missing-file" || d.code == "read-with-loss";
       const uint64_t place = aboutFile ? 0 : uint64_t{d.span.file} << 32 | d.span.begin;
       if (!told_.insert(hashBytes(d.message, hashBytes(d.code, place))).second) continue;
       size_t& count = d.severity == Severity::Error ? errors_ : warnings_;

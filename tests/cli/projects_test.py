@@ -117,6 +117,16 @@ class Projects(Case):
         # Of two files that have the name, the one whose folders are those of the path.
         self.assertEqual(self.reports(main, "--find-by-name"), {"near": 1})
 
+    def testAFileThatIsMissingIsToldOnce(self):
+        main = self.put("main.cga", 'Lot --> extrude(3) comp(f) { side : Wall | top : texture("gone.jpg") X. }\n'
+                        'Wall --> texture("away" + ".jpg") print(len(readTextFile("gone.txt"))) [ i("gone.obj") ] Y.\n')
+        for out in ("out.glb", "out.obj"):
+            told = self.gable("generate", main, "-o", out)
+            lines = [line for line in told.splitlines() if ": warning: " in line or line.startswith("warning: ")]
+            self.assertEqual(len(lines), 4, told)
+            self.assertEqual([line.split(": warning")[0] for line in lines if "away" in line], ["main.cga:2:10"], told)
+            self.assertEqual([line.split(": warning")[0] for line in lines if "gone.jpg" in line], ["main.cga:1:58"], told)
+
     def testTheRestIsDerivedWithoutWhatIsMissing(self):
         main = self.put("main.cga", 'import a : "/ESRI.lib/rules/a.cga"\nimport b : "/ESRI.lib/rules/a.cga" (h = 2)\n'
                         'attr h = a.h\nattr k = case a.on : 1 else : 2\n'
