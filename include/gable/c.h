@@ -234,7 +234,7 @@ gable_status gable_model_statistics(const gable_model* model, gable_statistics* 
 typedef struct gable_report {
   size_t struct_size;
   uint64_t count;
-  /* Other than 0 where all values are numbers. */
+  /* Other than 0 where values are numbers. */
   int32_t numbers;
   double sum, min, max;
   /* Different texts and bools; see gable_model_report_value. */

@@ -106,9 +106,9 @@ struct ReportSummary {
   struct Numbers {
     double sum = 0, min = 0, max = 0;
   };
-  /// Present when all values are numbers.
+  /// Of the values that are numbers, present when one is.
   std::optional<Numbers> numbers;
-  /// Else texts and bools with how often each was reported, sorted by text.
+  /// Texts and bools with how often each was reported, sorted by text; the rest are numbers.
   std::vector<std::pair<std::string, uint64_t>> values;
 };
 

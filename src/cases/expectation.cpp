@@ -239,10 +239,12 @@ std::string keysText(const Facts& facts) {
 std::string checkReport(const Facts& facts, const Words& words) {
   if (words.size() < 4) return kNotUnderstood;
   std::vector<const PlainValue*> values;
-  double sum = 0, low = INFINITY, high = -INFINITY;
+  double sum = 0, low = INFINITY, high = -INFINITY, numbers = 0;
   for (const Report& report : facts.outcome->scene->reports) {
     if (report.key != words[1]) continue;
     values.push_back(&report.value);
+    if (report.value.kind != PlainValue::Kind::Number) continue;
+    ++numbers;
     sum += report.value.number;
     low = std::min(low, report.value.number);
     high = std::max(high, report.value.number);
@@ -254,8 +256,9 @@ std::string checkReport(const Facts& facts, const Words& words) {
     return complaint.empty() || n > 0 ? complaint : complaint + keysText(facts);
   }
   if (values.empty()) return "nothing was reported" + keysText(facts);
+  if (numbers == 0) return "no number was reported";
   if (words[2] == "sum") return compare(sum, words, 3);
-  if (words[2] == "avg") return compare(sum / n, words, 3);
+  if (words[2] == "avg") return compare(sum / numbers, words, 3);
   if (words[2] == "min") return compare(low, words, 3);
   if (words[2] == "max") return compare(high, words, 3);
   return kNotUnderstood;

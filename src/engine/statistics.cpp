@@ -15,7 +15,7 @@ namespace {
 struct ReportTotal {
   uint64_t count = 0;
   ReportSummary::Numbers numbers;
-  bool allNumbers = true;
+  uint64_t numberCount = 0;
   std::map<std::string, uint64_t> values;
 };
 
@@ -27,12 +27,12 @@ std::map<std::string, ReportTotal> totals(const Scene& scene) {
     if (r.value.kind == PlainValue::Kind::Number) {
       const double v = r.value.number;
       ReportSummary::Numbers& n = t.numbers;
-      n.min = t.count == 1 ? v : std::min(n.min, v);
-      n.max = t.count == 1 ? v : std::max(n.max, v);
+      const bool first = ++t.numberCount == 1;
+      n.min = first ? v : std::min(n.min, v);
+      n.max = first ? v : std::max(n.max, v);
       n.sum += v;
       continue;
     }
-    t.allNumbers = false;
     const bool isBool = r.value.kind == PlainValue::Kind::Bool;
     ++t.values[isBool ? (r.value.number != 0 ? "true" : "false") : r.value.text];
   }
@@ -62,7 +62,7 @@ Statistics statisticsOf(const Scene& scene) {
     ReportSummary r;
     r.key = key;
     r.count = t.count;
-    if (t.allNumbers) r.numbers = t.numbers;
+    if (t.numberCount > 0) r.numbers = t.numbers;
     r.values.assign(t.values.begin(), t.values.end());
     out.reports.push_back(std::move(r));
   }

@@ -14,15 +14,23 @@ void writeTriple(JsonWriter& json, const Triple& v) {
   json.beginArray().value(v[0]).value(v[1]).value(v[2]).endArray();
 }
 
+// How many of the values are numbers.
+uint64_t numberCount(const ReportSummary& r) {
+  uint64_t others = 0;
+  for (const auto& [value, count] : r.values) others += count;
+  return r.count - others;
+}
+
 void writeReports(JsonWriter& json, const std::vector<ReportSummary>& reports) {
   json.key("reports").beginObject();
   for (const ReportSummary& r : reports) {
     json.key(r.key).beginObject().key("n").value(r.count);
     if (r.numbers) {
       json.key("sum").value(r.numbers->sum);
-      json.key("avg").value(r.numbers->sum / static_cast<double>(r.count));
+      json.key("avg").value(r.numbers->sum / static_cast<double>(numberCount(r)));
       json.key("min").value(r.numbers->min).key("max").value(r.numbers->max);
-    } else {
+    }
+    if (!r.values.empty()) {
       json.key("values").beginObject();
       for (const auto& [value, n] : r.values) json.key(value).value(n);
       json.endObject();
@@ -156,8 +164,9 @@ std::string reportsCsv(const std::vector<ReportSummary>& reports) {
       out += key + "," + csvText(value) + "," + std::to_string(count) + ",,,,\n";
     }
     if (!r.numbers) continue;
-    out += key + ",," + std::to_string(r.count);
-    const double average = r.numbers->sum / static_cast<double>(r.count);
+    const uint64_t count = numberCount(r);
+    out += key + ",," + std::to_string(count);
+    const double average = r.numbers->sum / static_cast<double>(count);
     for (const double x : {r.numbers->sum, average, r.numbers->min, r.numbers->max}) {
       out += "," + shortestText(x);
     }

@@ -278,6 +278,15 @@ class Info(Case):
             {"key": "kind", "value": 'a,"b"', "count": "1", "sum": "", "average": "", "minimum": "", "maximum": ""}])
         self.gable("generate", "p/rules/main.cga", "-o", "x.glb", "--reports", "nowhere/x.csv", status=FILE)
 
+    def testNumbersAndTextsUnderOneKeyAreCollectedByThemselves(self):
+        self.put("mixed.cga", 'Lot --> report("k", "t") report("k", 2) report("k", true) report("k", 6) X.\n')
+        self.gable("generate", "mixed.cga", "-o", "x.glb", "--reports", "x.csv", "--stats", "x.json")
+        rows = [r.split(",") for r in (self.folder / "x.csv").read_text().splitlines()[1:]]
+        self.assertEqual(rows, [["k", "t", "1", "", "", "", ""], ["k", "true", "1", "", "", "", ""],
+                                ["k", "", "2", "8", "4", "2", "6"]])
+        self.assertEqual(json.loads((self.folder / "x.json").read_text())["reports"]["k"],
+                         {"n": 4, "sum": 8, "avg": 4, "min": 2, "max": 6, "values": {"t": 1, "true": 1}})
+
 
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0], "-v", *sys.argv[3:]])
