@@ -7,6 +7,7 @@
 
 #include "base/number.h"
 #include "base/text.h"
+#include "base/work.h"
 #include "engine/impl.h"
 
 namespace gable {
@@ -120,6 +121,18 @@ std::optional<Diagnostics::Entry> outsideOf(const AttributeCode& a, const Value&
     e.hint = std::move(hint);
     return e;
   };
+  if (v.isArray() && v.type != ValueType::BoolArray) {
+    // Annotations of an array are about its elements.
+    const Array& list = pool.array(v);
+    for (size_t i = 0; i < list.size(); ++i) {
+      work();
+      const bool isText = list.element == ValueType::String;
+      auto found =
+          outsideOf(a, isText ? Value::string(list.strings[i]) : Value::of(list.numbers[i]), pool);
+      if (found) return found;
+    }
+    return std::nullopt;
+  }
   if (v.type != ValueType::String && v.type != ValueType::Float) return std::nullopt;
   for (const AnnotationInfo& note : a.annotations) {
     const auto named = [&](std::string_view key) {
