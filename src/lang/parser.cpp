@@ -386,7 +386,14 @@ NodeId Parser::parseParams() {
   Nodes params;
   while (isName(current())) {
     params.push_back(named(NodeKind::Param, current()));
+    const std::string name(textOf(current()));
     advance();
+    if (is(TokenKind::Equal)) {
+      error("unexpected-token", spanOf(current()), "the parameter '" + name + "' has no default",
+            "define the short form as well, which calls the long one with the value");
+      advance();
+      parseExpression();
+    }
     if (!accept(TokenKind::Comma)) break;
   }
   if (!is(TokenKind::RParen)) {
