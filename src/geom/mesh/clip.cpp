@@ -4,6 +4,9 @@
 // The public cuts set up a field of values at the corners; mesh/slicer does the work.
 #include "geom/mesh/clip.h"
 
+#include <iterator>
+#include <utility>
+
 #include "geom/mesh/slicer.h"
 
 namespace gable {
@@ -47,6 +50,15 @@ std::vector<MeshPart> sliceField(const Mesh& m, std::span<const double> cornerVa
   CutOptions options;
   options.cutEdgeTags = cutEdgeTags;
   return run(slicer, cuts, options);
+}
+
+Mesh scoreField(const Mesh& m, std::span<const double> cornerValues, std::span<const double> cuts) {
+  slicing::Slicer slicer(m, {cornerValues.begin(), cornerValues.end()}, -1, Vec3{}, 0);
+  std::vector<slicing::Piece> all;
+  for (std::vector<slicing::Piece>& slab : slicer.slice(cuts)) {
+    std::move(slab.begin(), slab.end(), std::back_inserter(all));
+  }
+  return slicer.build(all, {}).mesh;
 }
 
 PlaneCut cutByPlane(const Mesh& m, const Plane& plane, const CutOptions& options) {

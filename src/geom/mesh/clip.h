@@ -73,5 +73,7 @@ std::vector<MeshPart> sliceDirection(const Mesh& m, const Vec3& direction,
 /// of `cuts`. Faces that share an edge share new points where their values on it agree. No caps.
 std::vector<MeshPart> sliceField(const Mesh& m, std::span<const double> cornerValues,
                                  std::span<const double> cuts, uint32_t cutEdgeTags = 0);
+/// The same, with all parts in one mesh that share their points.
+Mesh scoreField(const Mesh& m, std::span<const double> cornerValues, std::span<const double> cuts);
 
 }  // namespace gable

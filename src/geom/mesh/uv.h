@@ -26,9 +26,14 @@ enum class UvNormalize : uint8_t { Both, Uniform, U, V };
 /// without extent moves to 0. Each face by itself or all together.
 void normalizeUv(Mesh& m, int set, UvNormalize mode, bool eachFace);
 
-/// Metres that one unit of u, and one of v, spans on the surface: the mean over faces by area.
-/// Zero where the set is absent or has no extent.
+/// Metres that one unit of u, and one of v, spans on the surface: the mean over faces by area, over
+/// the triangles of faces that bend. Zero where the set is absent or has no extent.
 Vec2 uvUnitLength(const Mesh& m, int set);
+
+/// A face bends where a set is not linear over it, as that of a street along a curve. Cuts such
+/// faces across, where their corners have values of u (coordinate 0) or v (1), so that lines of the
+/// other coordinate run straight in each strip. Other faces stay.
+Mesh cutWhereUvBends(const Mesh& m, int set, int coordinate);
 
 struct UvTile {
   /// Metres a tile; 0 leaves the direction as it is, negative mirrors.

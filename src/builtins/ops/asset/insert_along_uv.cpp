@@ -181,7 +181,7 @@ Status applyInsert(OpCall& call, const InsertAlongUv& args) {
   if (!hasUvSet(s, set)) {
     return call.fail("no-uv",
                      "the shape has no texture coordinates in uv set " + std::to_string(set),
-                     "project or normalise some before");
+                     howToMakeUvs(s, set));
   }
   std::string why;
   const Ref<AssetModel> model = modelOf(call, args.path, why);

@@ -153,12 +153,14 @@ Status applyStreets(OpCall& call, const Streets& args) {
     joined.shortest = areGiven ? joined.snap : spacing / 2;
     const StreetGraph graph = buildStreetGraph(streets, joined);
     const StreetPlan plan = planStreets(graph, area, width / 3, width * width);
-    const auto emit = [&](const Region& parts, std::string_view what, auto&& streetEdges) {
+    const auto emit = [&](const Region& parts, std::string_view what, auto&& streetEdges,
+                          auto&& uvsOf) {
       const SelectorItem* item = itemFor(call, what);
       for (const Polygon& p : parts) {
         const uint32_t number = piece++;
         if (!item || gable::area(p) < kSliver * gable::area(area)) continue;
-        call.emit(groundPart(call, ground, p, kNoFront, streetEdges(p)), item->slot, number);
+        call.emit(groundPart(call, ground, p, kNoFront, streetEdges(p), uvsOf(p)), item->slot,
+                  number);
       }
     };
     // The border of the ground is no street; grown streets take the outer one for one.
@@ -177,16 +179,20 @@ Status applyStreets(OpCall& call, const Streets& args) {
       return out;
     };
     const auto none = [](const Polygon&) { return std::vector<bool>(); };
-    emit(plan.blocks, "block", all);
+    const auto noUvs = [](const Polygon&) { return std::vector<StreetUvs>(); };
+    emit(plan.blocks, "block", all, noUvs);
     for (size_t e = 0; e < plan.roadways.size(); ++e) {
       const StreetGraph::Edge& street = graph.edges[e];
       const Polyline2 centre{street.line};
-      emit(plan.roadways[e], "roadway", [&](const Polygon& p) {
-        return kerbsAlong(p, {&centre, 1}, street.width);
-      });
+      emit(
+          plan.roadways[e], "roadway",
+          [&](const Polygon& p) {
+            return kerbsAlong(p, {&centre, 1}, street.width);
+          },
+          [&](const Polygon& p) { return roadwayUvs(p, street.line, street.width); });
     }
-    for (const Region& r : plan.junctions) emit(r, "junction", none);
-    emit(plan.islands, "island", none);
+    for (const Region& r : plan.junctions) emit(r, "junction", none, junctionUvs);
+    emit(plan.islands, "island", none, noUvs);
   }
   return {};
 }

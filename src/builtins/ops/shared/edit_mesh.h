@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "shape/op_call.h"
@@ -28,6 +29,16 @@ inline bool hasUvSet(const Shape& s, int set) {
   if (s.geometry.kind == GeometryKind::None) return false;
   if (s.geometry.kind != GeometryKind::Mesh) return s.geometry.uv && set == 0;
   return s.geometry.mesh->hasUv(set);
+}
+
+/// The hint where an operation needs texture coordinates in a set that has none.
+inline std::string howToMakeUvs(const Shape& s, int set) {
+  for (int other = 0; other < kUvSets; ++other) {
+    if (!hasUvSet(s, other)) continue;
+    return "copy those of set " + std::to_string(other) + " with copyUV(" + std::to_string(other) +
+           ", " + std::to_string(set) + "), or make some with setupProjection and projectUV";
+  }
+  return "make some with setupProjection and projectUV";
 }
 
 }  // namespace gable

@@ -9,6 +9,7 @@
 #include "base/number.h"
 #include "base/work.h"
 #include "builtins/lists.h"
+#include "builtins/ops/shared/edit_mesh.h"
 #include "builtins/ops/subdivide/shared/parts.h"
 #include "builtins/ops/subdivide/shared/slabs.h"
 #include "builtins/ops/subdivide/shared/split_sizes.h"
@@ -99,16 +100,19 @@ Status splitAlong(OpCall& call, const Split& args) {
 Status splitUv(OpCall& call, const Split& args) {
   const Shape& s = call.shape();
   const auto set = static_cast<int>(args.uvSet);
-  const MeshRef mesh = meshInScope(s);
-  if (!mesh->hasUv(set)) {
-    return call.fail("split-no-uv", "the geometry has no texture coordinates in this uv set",
-                     "make some with setupProjection and projectUV");
+  const MeshRef given = meshInScope(s);
+  if (!given->hasUv(set)) {
+    return call.fail("split-no-uv",
+                     "the geometry has no texture coordinates in uv set " + std::to_string(set),
+                     howToMakeUvs(s, set));
   }
   const auto a = static_cast<size_t>(*args.coordinate);
-  const Box2 box = uvBounds(*mesh, set);
+  // Cuts along a street follow its bends.
+  const Mesh mesh = cutWhereUvBends(*given, set, 1 - static_cast<int>(a));
+  const Box2 box = uvBounds(mesh, set);
   const double range = box.max[a] - box.min[a];
   const bool units = args.space == UvSpace::UnitSpace;
-  const double whole = units ? range * uvUnitLength(*mesh, set)[a] : range;
+  const double whole = units ? range * uvUnitLength(mesh, set)[a] : range;
   if (!(whole > kFlat)) {
     return call.fail("split-flat", "the texture coordinates have no extent in this direction", {});
   }
@@ -118,8 +122,8 @@ Status splitUv(OpCall& call, const Split& args) {
   Cuts cuts = cutsOf(pieces, 0, whole);
   for (double& c : cuts.at) c = box.min[a] + c * (range / whole);
   std::vector<double> field;
-  for (const Vec2 uv : mesh->uvs[static_cast<size_t>(set)]) field.push_back(uv[a]);
-  std::vector<MeshPart> parts = sliceField(*mesh, field, cuts.at);
+  for (const Vec2 uv : mesh.uvs[static_cast<size_t>(set)]) field.push_back(uv[a]);
+  std::vector<MeshPart> parts = sliceField(mesh, field, cuts.at);
   for (size_t i = 0; i < pieces.size(); ++i) {
     work(4);
     Mesh& part = parts[cuts.slab[i]].mesh;

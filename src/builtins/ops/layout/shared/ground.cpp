@@ -57,7 +57,7 @@ Status groundsOf(OpCall& call, std::vector<Ground>& out) {
 }
 
 Shape groundPart(OpCall& call, const Ground& ground, const Polygon& part, uint32_t front,
-                 const std::vector<bool>& street) {
+                 const std::vector<bool>& street, const std::vector<StreetUvs>& uvs) {
   Shape child = call.shape();
   MeshBuilder b;
   b.beginFace(ground.materialSlot, ground.tags);
@@ -67,8 +67,12 @@ Shape groundPart(OpCall& call, const Ground& ground, const Polygon& part, uint32
     b.beginLoop();
     for (const Vec2 p : ring) {
       const bool on = edge < street.size() && street[edge];
+      const uint32_t corner =
+          b.addCorner(b.addPosition(fromPlanFrame(ground.frame, p)), on ? tag : 0);
+      for (size_t set = 0; edge < uvs.size() && set < uvs[edge].size(); ++set) {
+        b.setUv(corner, static_cast<int>(set), uvs[edge][set]);
+      }
       ++edge;
-      b.addCorner(b.addPosition(fromPlanFrame(ground.frame, p)), on ? tag : 0);
     }
   };
   addLoop(part.outer);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "builtins/ops/layout/shared/street_uv.h"
 #include "geom/region/region.h"
 #include "shape/op_call.h"
 
@@ -33,9 +34,10 @@ Status groundsOf(OpCall& call, std::vector<Ground>& out);
 
 /// A part of the ground as a child: a face of its own. Its scope lies along the edge `front` of the
 /// outer ring, y along the face's normal, as that of an initial shape; with kNoFront along the
-/// parent's axes. `street` (by edge, may be empty) gives edges the tag "street".
+/// parent's axes. `street` (by edge, may be empty) gives edges the tag "street", `uvs` (by corner,
+/// may be empty) texture coordinates.
 constexpr uint32_t kNoFront = 0xffffffff;
 Shape groundPart(OpCall& call, const Ground& ground, const Polygon& part, uint32_t front,
-                 const std::vector<bool>& street);
+                 const std::vector<bool>& street, const std::vector<StreetUvs>& uvs = {});
 
 }  // namespace gable
