@@ -32,7 +32,11 @@ constexpr double kLongestGathered = 2;
 using Cell = std::array<int64_t, 3>;
 
 Cell cellOf(const Vec3& p, double side) {
-  const auto at = [side](double v) { return static_cast<int64_t>(std::floor(v / side)); };
+  // Places can be as far away as rules say.
+  static constexpr double kMost = 9e18;
+  const auto at = [side](double v) {
+    return static_cast<int64_t>(std::clamp(std::floor(v / side), -kMost, kMost));
+  };
   return {at(p.x), at(p.y), at(p.z)};
 }
 

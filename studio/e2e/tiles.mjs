@@ -7,7 +7,14 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { createReadStream, existsSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import {
+  createReadStream,
+  existsSync,
+  mkdtempSync,
+  readdirSync,
+  rmSync,
+  writeFileSync,
+} from 'node:fs';
 import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
 import { extname, join, normalize } from 'node:path';
@@ -51,12 +58,28 @@ const building = (x, y, size, tags) => ({
 function makePlace() {
   const folder = mkdtempSync(join(tmpdir(), 'gable-tiles-'));
   const features = [building(40, 40, 40, { name: 'Town hall', height: '30' })];
-  for (const [x, y] of [[0, 0], [100, 0], [0, 100], [100, 100]]) {
+  for (const [x, y] of [
+    [0, 0],
+    [100, 0],
+    [0, 100],
+    [100, 100],
+  ]) {
     features.push(building(x, y, 20, { 'building:levels': '4' }));
   }
   const crs = { type: 'name', properties: { name: 'EPSG:25832' } };
-  writeFileSync(join(folder, 'map.geojson'), JSON.stringify({ type: 'FeatureCollection', crs, features }));
-  execFileSync(gable, ['city', join(folder, 'map.geojson'), '-o', `${folder}/`, '--viewer', '--tile-triangles', '2000']);
+  writeFileSync(
+    join(folder, 'map.geojson'),
+    JSON.stringify({ type: 'FeatureCollection', crs, features }),
+  );
+  execFileSync(gable, [
+    'city',
+    join(folder, 'map.geojson'),
+    '-o',
+    `${folder}/`,
+    '--viewer',
+    '--tile-triangles',
+    '2000',
+  ]);
   return folder;
 }
 
@@ -68,7 +91,10 @@ try {
   const url = `http://127.0.0.1:${server.address().port}/`;
   const { page, complaints } = await openPage(browser, url);
   const outside = [];
-  page.on('request', (r) => r.url().startsWith(url) || r.url().startsWith('blob:') || outside.push(r.url()));
+  page.on(
+    'request',
+    (r) => r.url().startsWith(url) || r.url().startsWith('blob:') || outside.push(r.url()),
+  );
   const told = page.locator('#told');
   const quiet = () =>
     page.waitForFunction(() => document.querySelector('#told')?.dataset.quiet === 'true', null, {
@@ -85,7 +111,8 @@ try {
   }
   await page.waitForTimeout(500);
   await quiet();
-  if (process.env.GABLE_SHOTS) await page.screenshot({ path: join(process.env.GABLE_SHOTS, 'tiles.png') });
+  if (process.env.GABLE_SHOTS)
+    await page.screenshot({ path: join(process.env.GABLE_SHOTS, 'tiles.png') });
   console.log(await told.textContent(), 'of', readdirSync(join(folder, 'tiles')).length);
   assert.equal(await told.getAttribute('data-failed'), '0');
   assert.ok(Number(await told.getAttribute('data-loaded')) > 1);

@@ -43,7 +43,10 @@ export function rowsOf(feature: Feature): [string, string][] {
   const rows: [string, string][] = [];
   const add = (name: string, value: unknown) => {
     if (value === null || value === undefined || value === '') return;
-    rows.push([name, typeof value === 'number' ? String(Math.round(value * 100) / 100) : String(value)]);
+    rows.push([
+      name,
+      typeof value === 'number' ? String(Math.round(value * 100) / 100) : String(value),
+    ]);
   };
   for (const name of ['shape', 'type', 'levels', 'height', 'id']) {
     if (feature[name] !== -1) add(name, feature[name]);

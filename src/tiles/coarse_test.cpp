@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+#include "tiles/coarse.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gable {
+namespace {
+
+// Boxes of one feature; colours by number.
+class Place {
+ public:
+  Place() {
+    scene_->materials.resize(2);
+    scene_->materials[0].color = {1, 1, 1};
+    scene_->materials[1].color = {0, 0, 0};
+    scene_->materialLists = {{0}, {1}};
+    content_.features.resize(1);
+  }
+
+  void add(const Vec3& low, const Vec3& size, uint32_t color = 0) {
+    Leaf leaf;
+    leaf.scale = size;
+    leaf.materials = color;
+    TileLeaf at;
+    at.leaf = static_cast<uint32_t>(scene_->leaves.size());
+    at.world = Frame::moved(low);
+    scene_->leaves.push_back(leaf);
+    content_.leaves.push_back(at);
+  }
+
+  CoarseModel coarse(double tolerance) {
+    content_.scenes = {scene_};
+    return coarsened(
+        partsOf(content_, tolerance, [](const Material& m) { return m.color; }), tolerance);
+  }
+
+ private:
+  std::shared_ptr<Scene> scene_ = std::make_shared<Scene>();
+  TileContent content_;
+};
+
+Box3 boundsOf(const CoarseModel& m) {
+  Box3 box;
+  for (const Vec3& v : m.vertices) box.include(v);
+  return box;
+}
+
+TEST(Coarse, keepsWhatIsLarge) {
+  Place place;
+  place.add({0, 0, 0}, {10, 6, 8});
+  const CoarseModel m = place.coarse(1);
+  EXPECT_EQ(m.triangles.size(), 12u);
+  EXPECT_EQ(boundsOf(m).max, Vec3(10, 6, 8));
+  EXPECT_LE(m.error, 1);
+}
+
+TEST(Coarse, detailsColourWhatTheyLieOn) {
+  Place place;
+  place.add({0, 0, 0}, {10, 6, 8});
+  for (int i = 0; i < 8; ++i) place.add({i * 1.2, 3, -0.1}, {0.9, 0.9, 0.1}, 1);
+  const CoarseModel m = place.coarse(1);
+  ASSERT_EQ(m.parts.size(), 1u);
+  EXPECT_LT(m.parts[0].color.x, 0.99);
+  EXPECT_GT(m.parts[0].color.x, 0.8);
+  EXPECT_EQ(m.triangles.size(), 12u);
+}
+
+TEST(Coarse, manySmallThingsBecomeBoxes) {
+  Place place;
+  for (int i = 0; i < 512; ++i) {
+    place.add({0.5 * (i % 8), 0.5 * (i / 8 % 8), 0.5 * (i / 64)}, {0.4, 0.4, 0.4});
+  }
+  const CoarseModel m = place.coarse(2);
+  ASSERT_FALSE(m.parts.empty());
+  EXPECT_LE(m.parts.size(), 8u);
+  const Box3 box = boundsOf(m);
+  EXPECT_NEAR(box.min.x, 0, m.error);
+  EXPECT_NEAR(box.max.z, 4, m.error);
+  EXPECT_GT(box.size().y, 2);
+}
+
+TEST(Coarse, singleNarrowThingsGo) {
+  Place place;
+  place.add({0, 0, 0}, {0.1, 6, 0.1});
+  EXPECT_TRUE(place.coarse(2).parts.empty());
+  EXPECT_TRUE(place.coarse(2).features.empty());
+}
+
+TEST(Coarse, everyLevelIsAtMostItsErrorAway) {
+  Place place;
+  for (int i = 0; i < 200; ++i) {
+    place.add({7.0 * (i % 20), 0, 9.0 * (i / 20)}, {6.5, 3.0 + i % 5, 8.3}, i % 2);
+  }
+  CoarseModel m = place.coarse(0.5);
+  const size_t full = m.triangles.size();
+  const Box3 before = boundsOf(m);
+  double error = m.error;
+  for (double tolerance = 1; tolerance < 20; tolerance *= 2) {
+    m = coarsened(m, tolerance);
+    EXPECT_GT(m.error, error);
+    error = m.error;
+    if (m.parts.empty()) break;
+    const Box3 box = boundsOf(m);
+    for (size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(box.min[i], before.min[i], m.error);
+      EXPECT_NEAR(box.max[i], before.max[i], m.error);
+    }
+  }
+  EXPECT_LT(m.triangles.size(), full / 4);
+}
+
+TEST(Coarse, hugeAndOddNumbersEnd) {
+  Place place;
+  place.add({1e30, 0, -1e30}, {1e30, 1, 1e30});
+  place.add({0, 0, 0}, {0, 0, 0});
+  place.add({0, 0, 0}, {-5, 5, 5});
+  EXPECT_NO_FATAL_FAILURE(place.coarse(1));
+}
+
+}  // namespace
+}  // namespace gable
