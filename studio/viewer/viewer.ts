@@ -71,6 +71,7 @@ class Viewer {
   private readonly raycaster = new Raycaster();
   private placed = false;
   private changed = true;
+  private loading = false;
   private loaded = 0;
   private failures = 0;
 
@@ -95,6 +96,8 @@ class Viewer {
       this.failures += 1;
       this.tell();
     });
+    tiles.addEventListener('tiles-load-start', () => (this.loading = true));
+    tiles.addEventListener('tiles-load-end', () => (this.loading = false));
     tiles.addEventListener('tile-visibility-change', () => (this.changed = true));
     this.controls.addEventListener('change', () => (this.changed = true));
     this.controls.maxPolarAngle = 0.49 * Math.PI;
@@ -149,8 +152,7 @@ class Viewer {
     this.tiles.update();
     if (this.changed) this.renderer.render(this.scene, this.camera);
     this.changed = false;
-    const { downloading, parsing } = this.tiles.stats;
-    if (told) told.dataset.quiet = String(this.loaded > 0 && downloading + parsing === 0);
+    if (told) told.dataset.quiet = String(this.loaded > 0 && !this.loading);
   }
 
   private pick(event: MouseEvent) {
