@@ -34,8 +34,8 @@ class Place {
 
   CoarseModel coarse(double tolerance) {
     content_.scenes = {scene_};
-    return coarsened(
-        partsOf(content_, tolerance, [](const Material& m) { return m.color; }), tolerance);
+    return coarsened(partsOf(content_, tolerance, [](const Material& m) { return m.color; }),
+                     tolerance);
   }
 
  private:
