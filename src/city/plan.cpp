@@ -104,16 +104,19 @@ class Planner {
     shape.polygon = p.polygon;
     if (f) shape.attributes = tagsOf(*f);
     std::vector<PlainValue> beyond, widths;
+    bool hasPaths = false;
     for (const uint32_t b : p.beyond) {
       const bool known = b != GroundPiece::kNothing;
       const Surface s = known ? out_.ground[b].surface : Surface::Lot;
       beyond.push_back(text(known ? surfaceName(s) : ""));
+      hasPaths = hasPaths || (known && s == Surface::Path);
       PlainValue width;
       width.number = known && isRoadway(s) && !isRoadway(p.surface) ? 1 : 0;
       widths.push_back(width);
     }
     shape.attributes.push_back(list("/edgeattr/beyond", std::move(beyond)));
     shape.attributes.push_back(list("streetWidth", std::move(widths)));
+    if (p.surface == Surface::Park) shape.attributes.push_back(truth("has_paths", hasPaths));
     addKerbs(p, f);
     if (p.surface == Surface::Footprint && f) addBuilding(p);
   }

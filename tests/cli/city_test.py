@@ -79,6 +79,18 @@ class City(Case):
         self.city("map.geojson", "--rules", "own.cga", "-o", "a.obj", says="apartments")
         self.city("map.geojson", "--country", "France", "-o", "b.glb", status=USAGE, says="--country")
 
+    def testParksKnowWhetherTheMapHasPathsInThem(self):
+        park = feature("Polygon", square(14, 12, 44), leisure="park")
+        path = feature("LineString", [[10, 30], [36, 28], [60, 32]], highway="footway")
+        self.put("own.cga", "@StartRule Ground --> NIL\nattr has_paths = false\nPark --> print(has_paths) Grass.\n")
+        for features, said in (([park], "false"), ([park, path], "true")):
+            self.put("park.geojson", json.dumps({**MAP, "features": MAP["features"][:2] + features}))
+            self.assertIn(said, self.city("park.geojson", "--rules", "own.cga", "-o", "a.obj"))
+        # Without paths a park is laid out by the rules of gardens.
+        self.put("park.geojson", json.dumps({**MAP, "features": MAP["features"][:2] + [park]}))
+        self.city("park.geojson", "-o", "park.obj")
+        self.assertIn("Spray", (self.folder / "park.obj").read_text())
+
     def testAllStylesAndRoofsAreBuilt(self):
         shapes = ("flat", "gabled", "hipped", "pyramidal", "half-hipped", "mansard", "dome", "onion", "skillion",
                   "gambrel", "round", "sawtooth")
