@@ -42,6 +42,7 @@ constexpr Words kBuildings[] = {{"house", "house"},
                                 {"sports_hall", "public"},
                                 {"sports_centre", "public"},
                                 {"palace", "public"},
+                                {"castle", "public"},
                                 {"school", "school"},
                                 {"kindergarten", "school"},
                                 {"university", "school"},
@@ -161,6 +162,11 @@ std::string_view buildingKindOf(const MapFeature& f, const BuildingSize& size,
   if (!said.empty()) return said;
   const std::string_view amenity = find(kAmenities, f.tag("amenity"));
   if (!amenity.empty()) return amenity;
+  const std::string_view history = f.tag("historic");
+  if (history == "castle" || history == "palace" || history == "monument" ||
+      f.tag("tourism") == "museum") {
+    return "public";
+  }
   if (!f.tag("tourism").empty() || !f.tag("office").empty()) return "commercial";
   if (size.area < kShedArea) return "shed";
   if (landUse == "garages") return "garage";

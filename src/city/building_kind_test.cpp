@@ -23,6 +23,8 @@ TEST(BuildingKind, TagsGoFirst) {
             "school");
   EXPECT_EQ(buildingKindOf(building({{"building", "yes"}, {"amenity", "townhall"}}), size, {}),
             "public");
+  EXPECT_EQ(buildingKindOf(building({{"building", "yes"}, {"historic", "castle"}}), size, {}),
+            "public");
 }
 
 TEST(BuildingKind, SizeNeighboursAndLandTellTheRest) {
