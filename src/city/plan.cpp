@@ -116,9 +116,27 @@ class Planner {
     }
     shape.attributes.push_back(list("/edgeattr/beyond", std::move(beyond)));
     shape.attributes.push_back(list("streetWidth", std::move(widths)));
+    if (p.surface == Surface::Lot) shape.attributes.push_back(truth("is_court", isCourt(p)));
     if (p.surface == Surface::Park) shape.attributes.push_back(truth("has_paths", hasPaths));
     addKerbs(p, f);
     if (p.surface == Surface::Footprint && f) addBuilding(p);
+  }
+
+  // Whether buildings stand along most of a piece's border.
+  bool isCourt(const GroundPiece& p) const {
+    double all = 0, built = 0;
+    size_t edge = 0;
+    const auto ring = [&](const Ring& r) {
+      for (size_t i = 0; i < r.size(); ++i, ++edge) {
+        const double l = length(r[(i + 1) % r.size()] - r[i]);
+        const uint32_t b = p.beyond[edge];
+        all += l;
+        if (b != GroundPiece::kNothing && out_.ground[b].surface == Surface::Footprint) built += l;
+      }
+    };
+    ring(p.polygon.outer);
+    for (const Ring& h : p.polygon.holes) ring(h);
+    return built > 0.6 * all;
   }
 
   // The surface beyond an edge that lies lower; nothing where there is no step.

@@ -253,6 +253,25 @@ TEST(CityPlan, WallsKnowNeighboursStreetsAndTheEntrance) {
   EXPECT_EQ(beyond->values[static_cast<size_t>(edge)].text, "Lot");
 }
 
+TEST(CityPlan, GroundWithinABlockIsACourt) {
+  auto map = mapOf({feature(R"("building":"yes")", "Polygon",
+                            "[[[50,50],[90,50],[90,90],[50,90],[50,50]],"
+                            "[[60,60],[80,60],[80,80],[60,80],[60,60]]]")});
+  ASSERT_TRUE(map.ok());
+  size_t courts = 0, lots = 0;
+  for (const CityShape& s : planCity(*map).shapes) {
+    for (const AttributeValue& a : s.attributes) {
+      if (a.name != "is_court") continue;
+      ++lots;
+      if (a.values[0].number == 0) continue;
+      ++courts;
+      EXPECT_NEAR(area(s.polygon), 400, 0.5);
+    }
+  }
+  EXPECT_EQ(lots, 2u);
+  EXPECT_EQ(courts, 1u);
+}
+
 class RealMap : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(RealMap, KeepsThePromise) {
