@@ -159,9 +159,10 @@ void findLandUse(const std::vector<MapFeature>& features, std::vector<BuildingFa
   if (buildings.empty() || areas.empty()) return;
   std::sort(areas.begin(), areas.end());
   const Near near(facts, buildings);
-  for (const auto& [size, i] : areas) {
+  for (const auto& entry : areas) {
+    const MapFeature& f = features[entry.second];
     Box2 box;
-    for (const Ring& r : features[i].rings) {
+    for (const Ring& r : f.rings) {
       work(r.size());
       for (const Vec2 p : r) box.include(p);
     }
@@ -170,8 +171,7 @@ void findLandUse(const std::vector<MapFeature>& features, std::vector<BuildingFa
       const Vec2 p = facts[building].place;
       const bool inBox =
           p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y;
-      if (!inBox || !hasWithin(features[i], p)) return;
-      facts[building].landUse = features[i].tag("landuse");
+      if (inBox && hasWithin(f, p)) facts[building].landUse = f.tag("landuse");
     });
   }
 }
