@@ -148,7 +148,7 @@ class Words(Case):
 
     def testUnknownCommandsAreNamed(self):
         self.run_gable("genrate", "a.cga", status=USAGE, says="there is no command 'genrate'; did you mean 'generate'?")
-        self.run_gable("xyz", status=USAGE, says="'xyz'; there are generate, city, check")
+        self.run_gable("xyz", status=USAGE, says="'xyz'; there are generate, city, tiles, check")
         self.run_gable(status=USAGE, says="subcommand")
 
     def testFormatSaysWhatItLeaves(self):

@@ -119,8 +119,8 @@ class RuleText(Case):
 
     def testEmptyAndBlankFilesAreRead(self):
         for content in ("", " \n\t\n", "\ufeff", "\r\r\r", "#", "/**/"):
-            self.check(content, status=0)
-            self.generate(content, status=1, codes=["no-start-rule"])
+            self.check(content, status=1, codes=["empty-file"])
+            self.generate(content, status=1, codes=["empty-file"])
 
     def testBinaryGarbageIsReported(self):
         dice = random.Random(1)
