@@ -23,12 +23,21 @@ int findRules(DeriveArguments& arguments) {
   if (!examples.empty()) arguments.search.libraries.push_back(examples);
   if (arguments.rules.empty()) {
     if (examples.empty()) {
-      std::fputs("gable: the rules for cities are not there; name a folder with --rules\n", stderr);
+      std::fputs(
+          "gable: the rules for cities, examples/rules/city.cga, do not lie beside the program; "
+          "name the folder of a city.cga with --rules\n",
+          stderr);
       return kExitFile;
     }
     arguments.rules = examples + "/rules/city.cga";
   } else if (std::filesystem::is_directory(arguments.rules)) {
+    const std::string folder = arguments.rules;
     arguments.rules += "/city.cga";
+    if (!std::filesystem::exists(arguments.rules)) {
+      std::fprintf(stderr, "gable: there is no city.cga in '%s'; copy it there%s\n", folder.c_str(),
+                   examples.empty() ? "" : (" from '" + examples + "/rules'").c_str());
+      return kExitFile;
+    }
   }
   return kExitDone;
 }
@@ -44,7 +53,8 @@ int readCountry(std::string text, gable::CitySettings& settings) {
   for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
   const auto isLetter = [](char c) { return c >= 'A' && c <= 'Z'; };
   settings.country = text;
-  if (text.empty() || (text.size() == 2 && isLetter(text[0]) && isLetter(text[1]))) return kExitDone;
+  if (text.empty() || (text.size() == 2 && isLetter(text[0]) && isLetter(text[1])))
+    return kExitDone;
   return wrongOption("--country", "two letters, such as MC or CZ", text);
 }
 
@@ -52,7 +62,6 @@ int buildModel(const gable::City& city, CityArguments& arguments, gable::RunFigu
                gable::TileResult& tiles) {
   gable::DeriveSettings settings;
   if (const int status = deriveSettings(arguments.derive, settings)) return status;
-  if (const int status = findRules(arguments.derive)) return status;
   gable::Rules rules(nullptr);
   if (const int status = readRules(arguments.derive, rules)) return status;
   const std::string folder = tileFolder(arguments.output);
@@ -84,6 +93,9 @@ int runCity(const CityArguments& given) {
     std::vector<std::string> formats = gable::modelExtensions();
     formats.emplace_back("png");
     if (const int status = checkExtension(arguments.output, formats)) return status;
+  }
+  if (!arguments.output.empty()) {
+    if (const int status = findRules(arguments.derive)) return status;
   }
   gable::CitySettings settings;
   settings.layer = arguments.derive.layer;

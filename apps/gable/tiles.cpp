@@ -13,24 +13,30 @@
 
 namespace {
 
-/// Puts the viewer into a folder, where it may be from before, and nothing else of that name.
-int writeViewer(const std::string& folder) {
+/// Where the page that shows tiles lies; empty, with a message, where it is not built.
+std::string viewerFolder() {
   const std::string from =
       folderWith("viewer.js", {"../studio/viewer", "../share/gable/studio/viewer"});
   if (from.empty()) {
     std::fputs("gable: the page for --viewer is not built; ./run studio builds it\n", stderr);
-    return kExitFile;
   }
+  return from;
+}
+
+/// Whether the page may be put there: it may be from before, and nothing else of that name.
+bool mayHoldViewer(const std::string& folder) {
   std::error_code error;
-  if (std::filesystem::exists(folder + "index.html", error)) {
-    std::string before;
-    if (!readText(folder + "index.html", before)) return kExitFile;
-    if (before.find("name=\"generator\" content=\"Gable\"") == std::string::npos) {
-      std::fprintf(stderr, "gable: '%sindex.html' is a page of another program; remove it first\n",
-                   folder.c_str());
-      return kExitFile;
-    }
-  }
+  if (!std::filesystem::exists(folder + "index.html", error)) return true;
+  std::string before;
+  if (!readText(folder + "index.html", before)) return false;
+  if (before.find("name=\"generator\" content=\"Gable\"") != std::string::npos) return true;
+  std::fprintf(stderr, "gable: '%sindex.html' is a page of another program; remove it first\n",
+               folder.c_str());
+  return false;
+}
+
+int writeViewer(const std::string& from, const std::string& folder) {
+  std::error_code error;
   std::filesystem::create_directories(folder, error);
   for (const char* name : {"viewer.js", "index.html"}) {
     std::string text;
@@ -57,6 +63,12 @@ int writeTileFolder(const gable::Rules& rules, const gable::Shapes& shapes,
                     const std::string& folder, const gable::DeriveSettings& settings,
                     const TileArguments& arguments, const LimitArguments& limits,
                     gable::TileResult& result) {
+  // Before what takes long.
+  std::string viewer;
+  if (arguments.viewer) {
+    viewer = viewerFolder();
+    if (viewer.empty() || !mayHoldViewer(folder)) return kExitFile;
+  }
   ProgressLine progress("writing tiles");
   gable::TileSettings tiles;
   tiles.derive = settings;
@@ -69,7 +81,7 @@ int writeTileFolder(const gable::Rules& rules, const gable::Shapes& shapes,
   print(result.diagnostics);
   for (const std::string& line : result.prints) std::fprintf(stderr, "%s\n", line.c_str());
   if (result.end != gable::End::Done) return kExitLimit;
-  if (result.ok) return arguments.viewer ? writeViewer(folder) : kExitDone;
+  if (result.ok) return arguments.viewer ? writeViewer(viewer, folder) : kExitDone;
   for (const gable::Diagnostic& d : result.diagnostics) {
     if (d.code == "attribute-value") return kExitUsage;
     if (d.code == "tiles-folder" || d.code.starts_with("file-")) return kExitFile;
