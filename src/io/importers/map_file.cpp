@@ -37,7 +37,7 @@ Result<std::string> openStreetMap(std::string_view bytes, const std::string& pat
                  "'" + path +
                      "' needs the program gable-maps, which is built where libosmium is "
                      "installed",
-                 "install libosmium2-dev and build again"};
+                 "install libosmium2-dev and build again, or convert the map to GeoJSON"};
   }
   Result<std::string> text = runChild(program, {extensionOf(path)}, bytes, kLimits);
   if (!text.ok()) return failed(text.error(), path, "libosmium2-dev and build again");
