@@ -298,11 +298,7 @@ std::string extensionOf(const std::string& path) {
   const std::string name = fileNameOf(path);
   const size_t dot = name.rfind('.');
   if (dot == std::string::npos) return {};
-  std::string e = name.substr(dot + 1);
-  for (char& c : e) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return e;
+  return lowerCase(std::string_view(name).substr(dot + 1));
 }
 
 std::string folderOf(const std::string& path) {

@@ -11,17 +11,16 @@
 
 namespace gable {
 
-namespace {
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-std::string lower(std::string_view s) {
-  std::string out(s);
-  std::transform(out.begin(), out.end(), out.begin(), [](char c) { return lower(c); });
+std::string lowerCase(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = lowerCase(c);
   return out;
 }
 
-}  // namespace
+bool equalButForCase(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return lowerCase(x) == lowerCase(y); });
+}
 
 size_t editDistance(std::string_view a, std::string_view b, size_t limit) {
   if (a.size() > b.size()) std::swap(a, b);
@@ -50,14 +49,14 @@ std::string nearestName(std::string_view name, const std::vector<std::string_vie
   // Names longer than any in a rule file are not worth comparing.
   constexpr size_t kLongest = 64;
   if (name.size() < 2 || name.size() > kLongest) return {};
-  const std::string folded = lower(name);
+  const std::string folded = lowerCase(name);
   size_t bestDistance = std::max<size_t>(1, (name.size() + 1) / 3) + 1;
   std::string_view best;
   for (const std::string_view candidate : candidates) {
     work(name.size());
     if (candidate == name || candidate.size() > kLongest) continue;
     const size_t distance =
-        lower(candidate) == folded ? 0 : editDistance(name, candidate, bestDistance - 1);
+        lowerCase(candidate) == folded ? 0 : editDistance(name, candidate, bestDistance - 1);
     if (distance < bestDistance && distance < candidate.size()) {
       bestDistance = distance;
       best = candidate;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Small helpers for text: the nearest known name for "did you mean", and UTF-8. All functions are
-// pure.
+// Small helpers for text: lower case, the nearest known name for "did you mean", and UTF-8. All
+// functions are pure.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +12,15 @@
 #include <vector>
 
 namespace gable {
+
+/// A letter of ASCII in lower case, any other byte as it is; the same in every locale.
+constexpr char lowerCase(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
+
+/// The text with its letters of ASCII in lower case.
+std::string lowerCase(std::string_view text);
+
+/// The same text, but for the case of letters of ASCII.
+bool equalButForCase(std::string_view a, std::string_view b);
 
 /// Changes (insert, delete, replace, swap of neighbours) that lead from `a` to `b`; stops counting
 /// at `limit` + 1. Optimal string alignment, O(|a| |b|), case counts.

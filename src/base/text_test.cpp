@@ -8,6 +8,13 @@
 namespace gable {
 namespace {
 
+TEST(Text, lowerCaseChangesLettersOfAsciiAlone) {
+  EXPECT_EQ(lowerCase("Roof.\xc3\x89" "[@Z]"), "roof.\xc3\x89" "[@z]");
+  EXPECT_TRUE(equalButForCase("roofHip", "ROOFhip"));
+  EXPECT_FALSE(equalButForCase("roof", "roofs"));
+  EXPECT_FALSE(equalButForCase("\xc3\x89", "\xc3\xa9"));
+}
+
 TEST(Text, editDistanceCountsSlips) {
   EXPECT_EQ(editDistance("", "abc", 9), 3u);
   EXPECT_EQ(editDistance("extrude", "extrude", 9), 0u);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include "base/text.h"
 #include "dialects/gbbg/gbbg.h"
 #include "dialects/park/park.h"
 #include "dialects/progen3d/progen3d.h"
@@ -26,9 +27,7 @@ const Dialect* dialectNamed(std::string_view name) {
 }
 
 const Dialect* dialectOfPath(std::string_view path) {
-  std::string lower(path);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  const std::string lower = lowerCase(path);
   for (const Dialect* d : dialects()) {
     for (const char* extension : d->extensions) {
       if (lower.ends_with(extension)) return d;

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/files.h"
+#include "base/text.h"
 #include "shape/file_query.h"
 
 namespace gable {
@@ -74,13 +75,6 @@ NamedFolder libraryOf(const std::string& written) {
   return {fileNameOf(canonical(written)), written};
 }
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
-
-bool sameName(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](char x, char y) { return lower(x) == lower(y); });
-}
-
 /// How many names, from the last one on, two paths have in common; letters of another case count
 /// less than the same.
 size_t alike(std::string_view a, std::string_view b) {
@@ -88,7 +82,7 @@ size_t alike(std::string_view a, std::string_view b) {
   for (;;) {
     const size_t i = a.rfind('/'), j = b.rfind('/');
     const std::string_view x = a.substr(i + 1), y = b.substr(j + 1);
-    if (!sameName(x, y)) return points;
+    if (!equalButForCase(x, y)) return points;
     points += x == y ? 3 : 2;
     if (i == std::string_view::npos || j == std::string_view::npos) return points;
     a = a.substr(0, i), b = b.substr(0, j);

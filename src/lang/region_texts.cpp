@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "base/number.h"
+#include "base/text.h"
 
 namespace gable::lang {
 
@@ -22,12 +23,6 @@ struct Piece {
 
 std::string within(const Piece& p, Level least) {
   return p.level < least ? "(" + p.text + ")" : p.text;
-}
-
-std::string lowered(std::string_view s) {
-  std::string out(s);
-  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
 }
 
 bool isBlank(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
@@ -116,7 +111,7 @@ class RegionReader {
     if (at_ < text_.size() && isLetter(text_[at_])) {
       while (at_ < text_.size() && (isLetter(text_[at_]) || isDigit(text_[at_]))) ++at_;
     }
-    return lowered(text_.substr(begin, at_ - begin));
+    return lowerCase(text_.substr(begin, at_ - begin));
   }
   size_t place() const { return at_; }
   void goTo(size_t place) { at_ = place; }
@@ -654,9 +649,9 @@ std::vector<std::pair<std::string, std::string>> RegionTexts::options(std::strin
     const std::string_view one = text.substr(begin, at - begin);
     const size_t equals = one.find('=');
     if (equals == std::string_view::npos) {
-      out.emplace_back(lowered(one), std::string());
+      out.emplace_back(lowerCase(one), std::string());
     } else {
-      out.emplace_back(lowered(one.substr(0, equals)), std::string(one.substr(equals + 1)));
+      out.emplace_back(lowerCase(one.substr(0, equals)), std::string(one.substr(equals + 1)));
     }
   }
   return out;

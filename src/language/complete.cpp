@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/text.h"
 #include "language/forms.h"
 #include "language/service.h"
 #include "language/words.h"
@@ -26,13 +27,12 @@ namespace {
 constexpr size_t kMostItems = 400;
 constexpr size_t kMostFiles = 300;
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
 bool isUpper(char c) { return c >= 'A' && c <= 'Z'; }
 
 bool beginsWith(std::string_view name, std::string_view typed) {
   if (typed.size() > name.size()) return false;
   for (size_t i = 0; i < typed.size(); ++i) {
-    if (lower(name[i]) != lower(typed[i])) return false;
+    if (lowerCase(name[i]) != lowerCase(typed[i])) return false;
   }
   return true;
 }
@@ -43,7 +43,7 @@ bool humps(std::string_view name, std::string_view typed) {
   for (size_t i = 0; i < name.size() && at < typed.size(); ++i) {
     const bool part = i == 0 || isUpper(name[i]) || name[i - 1] == '.' || name[i - 1] == '_';
     if (part && beginsWith(name.substr(i), typed.substr(at))) return true;
-    if (part && lower(name[i]) == lower(typed[at])) ++at;
+    if (part && lowerCase(name[i]) == lowerCase(typed[at])) ++at;
   }
   return at == typed.size();
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "base/text.h"
 #include "language/forms.h"
 #include "language/service.h"
 #include "language/words.h"
@@ -163,18 +164,10 @@ void ownSignatures(const Snapshot& s, uint32_t unit, std::string_view word, Sign
 // The word of another notation under a name; parks do not mind capitals.
 const DialectWord* dialectWord(const Dialect& dialect, std::string_view name) {
   if (!dialect.words) return nullptr;
-  const auto same = [](std::string_view a, std::string_view b) {
-    return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) {
-             const auto lower = [](char c) {
-               return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-             };
-             return lower(x) == lower(y);
-           });
-  };
   const DialectWord* near = nullptr;
   for (const DialectWord& w : dialect.words()) {
     if (name == w.name) return &w;
-    if (!near && same(name, w.name)) near = &w;
+    if (!near && equalButForCase(name, w.name)) near = &w;
   }
   return near;
 }

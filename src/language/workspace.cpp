@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/text.h"
 #include "language/rule_form.h"
 #include "language/service.h"
 
@@ -18,18 +19,10 @@ namespace {
 /// More than an editor shows; the rest is found by typing more.
 constexpr size_t kMostSymbols = 1000;
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
-
-std::string lowered(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(), lower);
-  return out;
-}
-
 // All letters of the query, in their order.
 bool hasLetters(std::string_view name, std::string_view query) {
   size_t at = 0;
-  for (const char c : name) at += at < query.size() && lower(c) == lower(query[at]) ? 1 : 0;
+  for (const char c : name) at += at < query.size() && lowerCase(c) == lowerCase(query[at]) ? 1 : 0;
   return at == query.size();
 }
 
@@ -358,7 +351,7 @@ std::vector<Entry> searchIn(const Catalogue& catalogue, const std::string& words
   };
   std::vector<Ranked> found;
   std::vector<std::string> parts;
-  std::string query = lowered(words);
+  std::string query = lowerCase(words);
   for (size_t at = 0; at < query.size();) {
     const size_t end = std::min(query.find(' ', at), query.size());
     // "floors" finds what says "floor".
@@ -368,7 +361,7 @@ std::vector<Entry> searchIn(const Catalogue& catalogue, const std::string& words
   }
   if (parts.empty()) return {};
   const auto consider = [&](const char* name, NameKind kind, const char* summary) {
-    const std::string low = lowered(name), text = lowered(summary);
+    const std::string low = lowerCase(name), text = lowerCase(summary);
     int rank = 0;
     for (const std::string& part : parts) {
       const bool alias = std::any_of(aliases().begin(), aliases().end(), [&](const Alias& a) {

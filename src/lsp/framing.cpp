@@ -5,16 +5,15 @@
 
 #include <algorithm>
 
+#include "base/text.h"
+
 namespace gable::lsp {
 
 namespace {
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
-
 // The number of a Content-Length line in a head; none where there is none, or no number.
 std::optional<uint64_t> lengthOf(std::string_view head) {
-  std::string low(head);
-  std::transform(low.begin(), low.end(), low.begin(), lower);
+  const std::string low = lowerCase(head);
   constexpr std::string_view kName = "content-length:";
   size_t at = low.find(kName);
   while (at != std::string::npos && at > 0 && low[at - 1] != '\n') at = low.find(kName, at + 1);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/text.h"
 #include "base/work.h"
 
 namespace gable {
@@ -34,12 +35,6 @@ Result<bool> nextTerm(std::string_view& rest, std::string& out) {
     rest.remove_prefix(end + 1);
   }
   return true;
-}
-
-bool sameWord(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [&](char x, char y) { return lower(x) == lower(y); });
 }
 
 }  // namespace
@@ -79,7 +74,7 @@ Result<FileQuery> FileQuery::parse(std::string_view text) {
     Term term;
     const size_t mark = word.find_first_of("=:");
     for (const auto& [name, property] : kProperties) {
-      if (mark == std::string::npos || !sameWord(name, word.substr(0, mark))) continue;
+      if (mark == std::string::npos || !equalButForCase(name, word.substr(0, mark))) continue;
       term.property = property;
       word.erase(0, mark + 1);
       break;

@@ -18,6 +18,7 @@
 #include <set>
 
 #include "base/json.h"
+#include "base/text.h"
 #include "studio/socket.h"
 
 namespace gable::studio {
@@ -32,11 +33,6 @@ namespace {
 
 std::chrono::milliseconds milliseconds(double seconds) {
   return std::chrono::milliseconds(static_cast<int64_t>(seconds * 1000));
-}
-
-std::string lower(std::string text) {
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return text;
 }
 
 bool parseTarget(const std::string& target, HttpRequest& out) {
@@ -158,7 +154,7 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
     request_.cancelled = std::make_shared<std::atomic<bool>>(false);
     request_.method = std::string(head.method_string());
     for (const auto& field : head) {
-      request_.headers[lower(std::string(field.name_string()))] = std::string(field.value());
+      request_.headers[lowerCase(std::string(field.name_string()))] = std::string(field.value());
     }
     keep_ = head.keep_alive();
     if (!parseTarget(std::string(head.target()), request_)) {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/number.h"
+#include "base/text.h"
 
 namespace gable {
 
@@ -100,8 +101,7 @@ double numberOf(std::string_view text) {
 }
 
 bool truthOf(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string lower = lowerCase(text);
   double v = 1;
   return !(lower == "f" || lower == "false" || (parseNumber(lower, v) && v == 0));
 }

@@ -19,14 +19,6 @@ constexpr std::string_view kKeywords[] = {"axiom", "postprocess", "select",
                                           "shape", "terminal",    "use"};
 constexpr size_t kMaxErrors = 100;
 
-std::string lower(std::string_view s) {
-  std::string out(s);
-  for (char& c : out) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
-  }
-  return out;
-}
-
 bool namesSymbol(const Token& t) {
   return t.kind == TokenKind::Word || (t.kind == TokenKind::Text && !t.text.empty());
 }
@@ -40,7 +32,7 @@ Parser::Parser(std::string_view text, uint32_t file, Diagnostics& diagnostics)
 
 bool Parser::wordAt(size_t index, std::string_view word) const {
   const Token& t = tokens_[index < tokens_.size() ? index : tokens_.size() - 1];
-  return t.kind == TokenKind::Word && lower(t.text) == lower(word);
+  return t.kind == TokenKind::Word && lowerCase(t.text) == lowerCase(word);
 }
 
 bool Parser::accept(char sign) {

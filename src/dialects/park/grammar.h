@@ -92,7 +92,4 @@ Sequence withArguments(const Sequence& body, const std::map<std::string, std::st
 /// What stands between the brackets of `Name(a, b)`.
 std::vector<std::string> argumentTexts(std::string_view call);
 
-/// Names do not mind capitals where they are operations.
-std::string lowered(std::string_view text);
-
 }  // namespace gable::park

@@ -210,7 +210,7 @@ bool Lowering::step(const Op& op, Nodes& out) {
 void Lowering::look(const Op& op, Nodes& out) {
   std::string value = text(op, 0);
   std::erase(value, '"');
-  const char* const made = lowered(op.name) == "texture" ? "texture" : "color";
+  const char* const made = lowerCase(op.name) == "texture" ? "texture" : "color";
   out.push_back(b_.apply(made, {b_.text(value)}));
 }
 
@@ -221,8 +221,8 @@ bool Lowering::symbol(const Op& op, Nodes& out) {
     call(*r, op, out);
     return false;
   }
-  if (lowered(op.name) == "grid") return grid(op, out), false;
-  if (lowered(op.name) == "noholes") return out.push_back(b_.applyBare("cutHoles")), true;
+  if (lowerCase(op.name) == "grid") return grid(op, out), false;
+  if (lowerCase(op.name) == "noholes") return out.push_back(b_.applyBare("cutHoles")), true;
   if (isMaterialWord(op.name)) {
     warnOfColour(op);
     out.push_back(colour(op.name));
@@ -342,7 +342,7 @@ Lowering::Slots Lowering::slotsOf(const Op& op,
       ++at;
     }
     for (const Part& p : block.parts) {
-      const std::string label = lowered(p.label);
+      const std::string label = lowerCase(p.label);
       size_t place = names.size();
       for (size_t i = 0; i < names.size(); ++i) {
         if (std::find(names[i].begin(), names[i].end(), label) != names[i].end()) place = i;
@@ -410,7 +410,7 @@ void Lowering::noElse(const Op& op) {
 void Lowering::checkWords(const Op& op, size_t first,
                           std::initializer_list<std::string_view> words) {
   for (size_t i = first; i < op.arguments.size(); ++i) {
-    std::string a = lowered(op.arguments[i].text);
+    std::string a = lowerCase(op.arguments[i].text);
     const size_t equals = a.find('=');
     if (equals != std::string::npos) a = a.substr(0, a.find_last_not_of(' ', equals - 1) + 1) + '=';
     if (std::find(words.begin(), words.end(), a) != words.end()) continue;

@@ -45,7 +45,7 @@ void Lowering::options(const Op& op, size_t first, std::initializer_list<Option>
                            hint.empty() ? list : hint);
         continue;
       }
-      const std::string word = lowered(value);
+      const std::string word = lowerCase(value);
       const Span before = b_.span();
       b_.at(span);
       NodeId made = kNoNode;
@@ -65,7 +65,7 @@ void Lowering::flags(const Op& op, size_t first, std::initializer_list<std::stri
                      Nodes& arguments) {
   checkWords(op, first, known);
   for (size_t i = first; i < op.arguments.size(); ++i) {
-    const std::string word = lowered(op.arguments[i].text);
+    const std::string word = lowerCase(op.arguments[i].text);
     const bool isKnown = std::find(known.begin(), known.end(), word) != known.end();
     // What is cut out is cut out by default, and x of what stands along edges runs along them.
     const bool plain = word == "cut" || (word == "align" && known.size() == 5);
@@ -78,11 +78,11 @@ void Lowering::flags(const Op& op, size_t first, std::initializer_list<std::stri
 NodeId Lowering::figureNode(const Op& op) {
   const Span before = b_.span();
   b_.at(op.span);
-  const std::string name = lowered(op.name);
+  const std::string name = lowerCase(op.name);
   Nodes arguments;
   for (size_t i = 0; i < op.arguments.size(); ++i) {
     const std::string& written = op.arguments[i].text;
-    if (lowered(written) == "free") {
+    if (lowerCase(written) == "free") {
       arguments.push_back(b_.argument("reach", b_.word("free")));
     } else if (written.find_first_not_of(". ") == std::string::npos) {
       // RombCenter(..) of the sketches.
@@ -220,7 +220,7 @@ void Lowering::gridOptions(const Op& op, Nodes& arguments) {
   using Takes = Option::Takes;
   Op spelt = op;
   for (Argument& a : spelt.arguments) {
-    const std::string low = lowered(a.text);
+    const std::string low = lowerCase(a.text);
     if (low == "fit=centre") a.text = "fit=center";
     if (low == "pattern=center") a.text = "pattern=centre";
     if (low == "pattern=extendl") a.text = "pattern=extendL";
@@ -398,7 +398,7 @@ void Lowering::voronoi(const Op& op, Nodes& out) {
   rest.arguments.clear();
   for (size_t i = 1; i < op.arguments.size(); ++i) {
     Argument a = op.arguments[i];
-    const std::string low = lowered(a.text);
+    const std::string low = lowerCase(a.text);
     if (low.starts_with("jitter(") && a.text.back() == ')') {
       a.text = "jitter=" + a.text.substr(7, a.text.size() - 8);
     }
@@ -438,7 +438,7 @@ void Lowering::rayOptions(const Op& op, Nodes& arguments) {
   for (size_t i = 2; i < spelt.arguments.size(); ++i) {
     std::string& a = spelt.arguments[i].text;
     // connect=thin(0.5)
-    const size_t thin = lowered(a).find("thin(");
+    const size_t thin = lowerCase(a).find("thin(");
     if (thin != std::string::npos && a.back() == ')') {
       const std::string share = a.substr(thin + 5, a.size() - thin - 6);
       a = a.substr(0, thin + 4) + " share=" + share;
@@ -461,7 +461,7 @@ void Lowering::rays(const Op& op, Nodes& out) {
   }
   double v = 0;
   const bool sized = !known(size, v) || v > 0;
-  const bool middle = lowered(source) == "centre" || lowered(source) == "center";
+  const bool middle = lowerCase(source) == "centre" || lowerCase(source) == "center";
   const Span first = spanOf(op, 0), second = spanOf(op, 1);
   Nodes arguments;
   std::string radius;
@@ -477,7 +477,7 @@ void Lowering::rays(const Op& op, Nodes& out) {
   }
   std::string targets = op.arguments.size() > 1 ? op.arguments[1].text : "corners";
   if (const Op* t = onlyOp(g_, targets)) {
-    targets = lowered(t->name) + "(";
+    targets = lowerCase(t->name) + "(";
     for (const Argument& a : t->arguments) targets += a.text + ' ';
     targets += ')';
   }
@@ -514,7 +514,7 @@ NodeId Lowering::centreItem(const Slots& s, size_t i, const std::string& size, S
   figure.span = span;
   figure.called = true;
   figure.name = trimmed(size.substr(0, size.find('(')));
-  if (isFigure(lowered(figure.name)) && size.back() == ')') {
+  if (isFigure(lowerCase(figure.name)) && size.back() == ')') {
     for (const std::string& a : argumentTexts(size)) figure.arguments.push_back({a, span});
   } else {
     figure.name = "circle";
@@ -567,7 +567,7 @@ void Lowering::peel(const Op& op, Nodes& out) {
                       : formed(&RegionTexts::selection, written, spanOf(op, 0))};
   // The size stands in the block, or behind the selection.
   const bool inBlock = s.part[0] && !s.part[0]->label.empty() &&
-                       lowered(s.part[0]->label) != "strip" && lowered(s.part[0]->label) != "shape";
+                       lowerCase(s.part[0]->label) != "strip" && lowerCase(s.part[0]->label) != "shape";
   const size_t flags = inBlock ? 1 : 2;
   if (inBlock) {
     arguments.push_back(numberOf(s.part[0]->label, s.part[0]->span));
@@ -581,7 +581,7 @@ void Lowering::peel(const Op& op, Nodes& out) {
   }
   checkWords(op, flags, {"cornersorthogonal", "cornersfollow", "smooth="});
   for (size_t i = flags; i < op.arguments.size(); ++i) {
-    const std::string a = lowered(op.arguments[i].text);
+    const std::string a = lowerCase(op.arguments[i].text);
     if (a == "cornersorthogonal") {
       arguments.push_back(b_.argument("orthogonal", b_.boolean(true)));
     } else if (a.starts_with("smooth=")) {
@@ -648,14 +648,14 @@ void Lowering::innerRect(const Op& op, Nodes& out) {
   const Slots s = slotsOf(op, {{"shape"}, {"remainder", "rest"}});
   checkWords(op, 0, {"scope", "edge"});
   noElse(op);
-  const std::string along = lowered(text(op, 0)) == "edge" ? "edge" : "scope";
+  const std::string along = lowerCase(text(op, 0)) == "edge" ? "edge" : "scope";
   const Nodes items{item("shape", s, 0, "Shape"), item("remainder", s, 1, "Grass")};
   out.push_back(b_.apply("innerRectangle", {b_.word(along)}, b_.block(items)));
 }
 
 void Lowering::contract(const Op& op, Nodes& out) {
   checkWords(op, 1, {"centre", "center"});
-  const std::string towards = lowered(text(op, 1));
+  const std::string towards = lowerCase(text(op, 1));
   const bool centre = towards == "centre" || towards == "center";
   double v = 0;
   const bool share = centre && known(text(op, 0), v) && v <= 0.9;

@@ -4,6 +4,7 @@
 // Operations of the notation that put things into a region: at places, along edges, scattered,
 // swept. Flat things are cut out of their ground.
 #include "base/number.h"
+#include "base/text.h"
 #include "dialects/park/lowering.h"
 
 namespace gable::park {
@@ -104,7 +105,7 @@ void Lowering::positions(const std::string& written, Span span, Nodes& arguments
     }
   }
   // [start : item], [start : item : end], [: item : end], [item].
-  const bool start = lowered(parts[0]) == "start", bare = parts.size() == 1;
+  const bool start = lowerCase(parts[0]) == "start", bare = parts.size() == 1;
   const std::string item = bare ? parts[0] : parts[1];
   double v = 0;
   const bool fixed = known(item, v);
@@ -115,7 +116,7 @@ void Lowering::positions(const std::string& written, Span span, Nodes& arguments
   const bool real = item.find('.') != std::string::npos || (fixed && v != static_cast<int>(v));
   arguments.push_back(b_.argument(real ? "interval" : "intervals", numberOf(item, span)));
   if (start) arguments.push_back(b_.argument("start", b_.boolean(true)));
-  if (parts.size() > 2 && lowered(parts[2]) == "end") {
+  if (parts.size() > 2 && lowerCase(parts[2]) == "end") {
     arguments.push_back(b_.argument("end", b_.boolean(true)));
   }
 }
@@ -150,12 +151,12 @@ void Lowering::scatter(const Op& op, Nodes& out) {
                   formed(&RegionTexts::drawn, radius, span)};
   Op spelt = op;
   for (Argument& a : spelt.arguments) {
-    if (lowered(a.text).starts_with("min")) a.text = "gap" + a.text.substr(3);
+    if (lowerCase(a.text).starts_with("min")) a.text = "gap" + a.text.substr(3);
   }
   bool over = false;
   std::erase_if(spelt.arguments, [&](const Argument& a) {
-    const bool word = lowered(a.text) == "over" || lowered(a.text) == "cut";
-    over = over || lowered(a.text) == "over";
+    const bool word = lowerCase(a.text) == "over" || lowerCase(a.text) == "cut";
+    over = over || lowerCase(a.text) == "over";
     return word;
   });
   using Takes = Option::Takes;
@@ -190,7 +191,7 @@ void Lowering::sweep(const Op& op, Nodes& out) {
   Nodes options;
   bool over = false, wide = true;
   for (size_t i = 1; i < op.arguments.size(); ++i) {
-    const std::string a = lowered(op.arguments[i].text);
+    const std::string a = lowerCase(op.arguments[i].text);
     const Span span = spanOf(op, i);
     over = over || a == "over";
     if (a.starts_with("width")) {

@@ -27,7 +27,7 @@ Lines linesOf(const Grammar& g, const std::string& argument, int depth) {
   const Rule* r = g.rule(name);
   const Op* op = r ? onlyOp(*r) : nullptr;
   if (depth > kDeepest) return l;
-  if (!r && lowered(name) == "parametrise") {
+  if (!r && lowerCase(name) == "parametrise") {
     Op here;
     here.name = name;
     for (const std::string& a : argumentTexts(argument)) here.arguments.push_back({a, {}});
@@ -88,17 +88,17 @@ Lines linesOf(const Grammar& g, const Op& op, int depth) {
     return linesOf(g, call + ')', depth + 1);
   }
   for (const Argument& a : op.arguments) {
-    const std::string word = lowered(a.text.substr(0, a.text.find('(')));
+    const std::string word = lowerCase(a.text.substr(0, a.text.find('(')));
     if (isFigure(word) && a.text.back() == ')') {
       l.figure = a.text;
-    } else if (lowered(a.text) != "perimeter") {
+    } else if (lowerCase(a.text) != "perimeter") {
       addLines(a.text, l.ranges, selections);
     }
   }
   l.ranges += (l.ranges.empty() || selections.empty() ? "" : "; ") + selections;
   for (const Part& p : partsOf(op)) {
     for (const Op& inner : p.body) {
-      if (lowered(inner.name) == "contract" && !inner.arguments.empty()) {
+      if (lowerCase(inner.name) == "contract" && !inner.arguments.empty()) {
         l.inset = inner.arguments[0].text;
       }
     }
@@ -143,7 +143,7 @@ constexpr ColourHint kColours[] = {
 }  // namespace
 
 const char* knownColourOf(std::string_view name) {
-  const std::string low = lowered(name);
+  const std::string low = lowerCase(name);
   for (const ColourHint& h : kHints) {
     if (low.find(h.part) != std::string::npos) return h.colour;
   }
@@ -167,7 +167,7 @@ std::string nearestColour(std::string_view name) {
   std::vector<std::string_view> words;
   for (const ColourHint& h : kHints) words.push_back(h.part);
   for (const ColourHint& h : kColours) words.push_back(h.part);
-  std::string nearest = nearestName(lowered(name), words);
+  std::string nearest = nearestName(lowerCase(name), words);
   for (char& c : nearest) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
   return nearest;
 }
@@ -183,7 +183,7 @@ const Op* onlyOp(const Grammar& g, std::string_view rule) {
 }
 
 bool isPointSetName(std::string_view name) {
-  const std::string low = lowered(name);
+  const std::string low = lowerCase(name);
   return low == "corner" || low == "corners" || low == "entrances" || low == "directions" ||
          low == "points";
 }
@@ -191,7 +191,7 @@ bool isPointSetName(std::string_view name) {
 bool isPointSet(const Rule& r) {
   const Op* op = onlyOp(r);
   if (!op || !op->blocks.empty() || !op->called) return false;
-  const std::string name = lowered(op->name);
+  const std::string name = lowerCase(op->name);
   return name == "scattercircles" || name == "scatter" ||
          (name != "corner" && isPointSetName(name));
 }
@@ -201,7 +201,7 @@ FigureHead figureHead(const Grammar& g, const Sequence& s) {
   const Sequence* at = &s;
   for (int depth = 0; depth < kDeepest && !at->empty(); ++depth) {
     const Op& first = at->front();
-    if (isFigure(lowered(first.name)) && first.called) {
+    if (isFigure(lowerCase(first.name)) && first.called) {
       out.figure = &first;
       out.body = at;
       return out;
@@ -229,7 +229,7 @@ Ending endingOf(const Grammar& g, const Sequence& s, std::set<const Rule*>& seen
     return best;
   };
   for (const Op& op : s) {
-    const std::string name = lowered(op.name);
+    const std::string name = lowerCase(op.name);
     if (name == "loadmodel") return Ending::Nothing;
     if (name == "extrude") return Ending::Raised;
     if (name == "choose" || name == "select") {
@@ -262,7 +262,7 @@ const Op* joinedOp(const Grammar& g, const Part* part) {
   if (!part || part->body.size() != 1) return nullptr;
   const Op* op = &part->body[0];
   if (!op->called && op->blocks.empty()) op = onlyOp(g, op->name);
-  return op && lowered(op->name) == "joined" ? op : nullptr;
+  return op && lowerCase(op->name) == "joined" ? op : nullptr;
 }
 
 Joined joinedParts(const Grammar& g, const Op& op) {
@@ -285,7 +285,7 @@ std::string discs(const Grammar& g, const std::string& argument) {
   if (const Op* op = onlyOp(g, argument)) {
     if (op->arguments.empty()) return "1";
     std::string all = op->arguments[0].text;
-    const bool places = lowered(op->name) == "points";
+    const bool places = lowerCase(op->name) == "points";
     for (size_t i = 1; places && i < op->arguments.size(); ++i) {
       all += ' ' + op->arguments[i].text;
     }
@@ -330,7 +330,7 @@ JunctionChoices junctionChoices(const Grammar& g, const Part& part) {
   const Rule* r = op && !op->called && op->blocks.empty() ? g.rule(op->name) : nullptr;
   out.rule = r;
   if (r && r->branches.size() == 1 && r->branches[0].body.size() == 1) op = onlyOp(*r);
-  if (op && lowered(op->name) == "choose") {
+  if (op && lowerCase(op->name) == "choose") {
     out.parts = partsOf(*op);
     out.shares = sharesOf(g, out.parts);
   } else if (r && r->branches.size() > 1) {

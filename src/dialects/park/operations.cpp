@@ -56,9 +56,9 @@ std::span<const OperationName> operationNames() {
 }
 
 Operation operationNamed(std::string_view name) {
-  const std::string low = lowered(name);
+  const std::string low = lowerCase(name);
   for (const OperationName& n : operationNames()) {
-    if (lowered(n.name) == low) return n.operation;
+    if (lowerCase(n.name) == low) return n.operation;
   }
   return Operation::None;
 }
@@ -98,11 +98,11 @@ const char* wordForCga(std::string_view name) {
 
 std::string nearestOperation(std::string_view name) {
   std::vector<std::string> all;
-  for (const OperationName& n : operationNames()) all.push_back(lowered(n.name));
+  for (const OperationName& n : operationNames()) all.push_back(lowerCase(n.name));
   const std::string nearest =
-      nearestName(lowered(name), std::vector<std::string_view>(all.begin(), all.end()));
+      nearestName(lowerCase(name), std::vector<std::string_view>(all.begin(), all.end()));
   for (const OperationName& n : operationNames()) {
-    if (lowered(n.name) == nearest) return n.name;
+    if (lowerCase(n.name) == nearest) return n.name;
   }
   return {};
 }

@@ -7,15 +7,10 @@
 #include <cctype>
 
 #include "base/number.h"
+#include "base/text.h"
 #include "dialects/park/grammar.h"
 
 namespace gable::park {
-
-std::string lowered(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
 
 const Rule* Grammar::rule(std::string_view name) const {
   for (const Rule& r : rules) {
@@ -305,7 +300,7 @@ class Parser {
       op.size = until("]");
       if (!accept("]")) unexpected("']'", "a bracket that is opened before is closed here");
     }
-    const std::string what = lowered(word);
+    const std::string what = lowerCase(word);
     const Parts parts = what == "choose"   ? Parts::Choices
                         : what == "select" ? Parts::Selections
                                            : Parts::Plain;

@@ -6,15 +6,15 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/text.h"
+
 namespace gable::park {
 
 namespace {
 
 bool inWord(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-bool sameLetter(char a, char b) {
-  return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-}
+bool sameLetter(char a, char b) { return lowerCase(a) == lowerCase(b); }
 
 }  // namespace
 

@@ -5,6 +5,8 @@
 
 #include <cstddef>
 
+#include "base/text.h"
+
 namespace gable::progen3d {
 
 namespace {
@@ -164,10 +166,8 @@ const Word* taken(const Word (&table)[N], std::string_view& rest) {
 std::optional<NamedTexture> namedTexture(std::string_view name) {
   std::string letters;
   for (const char c : name) {
-    if (c >= 'A' && c <= 'Z')
-      letters += static_cast<char>(c + 32);
-    else if (c >= 'a' && c <= 'z')
-      letters += c;
+    const char low = lowerCase(c);
+    if (low >= 'a' && low <= 'z') letters += low;
   }
   for (const Preset& p : kPresets) {
     if (p.name == letters) return ofPreset(p);

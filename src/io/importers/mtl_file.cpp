@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "base/work.h"
 #include "io/importers/asset.h"
 #include "io/importers/text_lines.h"
@@ -23,14 +24,6 @@ constexpr MapStatement kMaps[] = {
     {"map_kn", TextureLayer::Normal},    {"map_ke", TextureLayer::Emissive},
     {"map_pr", TextureLayer::Roughness}, {"map_pm", TextureLayer::Metallic},
     {"map_ka", TextureLayer::Occlusion}};
-
-std::string lowered(std::string_view s) {
-  std::string out(s);
-  for (char& c : out) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return out;
-}
 
 double unit(double v) { return std::min(std::max(v, 0.0), 1.0); }
 
@@ -63,7 +56,7 @@ bool readOption(LineWords& words, TextureMap& t, double& bump) {
   words.skip();
   if (words.p >= words.end || *words.p != '-') return false;
   const LineWords before = words;
-  const std::string option = lowered(words.word());
+  const std::string option = lowerCase(words.word());
   double v[3] = {0, 0, 0};
   int n = 0;
   if (option == "-s" || option == "-o" || option == "-t") {
@@ -188,7 +181,7 @@ std::vector<Material> parseMtl(std::string_view text, const std::string& path,
   forEachLine(text, [&](LineWords words) {
     work();
     const std::string_view written = words.word();
-    const std::string head = lowered(written);
+    const std::string head = lowerCase(written);
     if (head == "newmtl") {
       m = &all.emplace_back();
       m->name = words.rest();

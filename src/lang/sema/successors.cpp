@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/text.h"
 #include "base/work.h"
 #include "lang/old_regions.h"
 #include "lang/sema/analysis.h"
@@ -25,14 +26,6 @@ std::string hintOfNewName(std::string_view name) {
 
 /// A split whose parts have a depth as well, and a second block for what they leave.
 bool hasSections(const OpSpec& op) { return op.block == BlockKind::Split && !op.parts.empty(); }
-
-bool equalButForCase(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [&](char x, char y) { return lower(x) == lower(y); });
-}
 
 /// Operations of the first shape grammars and of CityEngine before 2009, and what CGA has in their
 /// place.

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/text.h"
 #include "material/builtin_textures.h"
 
 namespace gable {
@@ -18,10 +19,9 @@ namespace {
 /// The edit of a material by a texture number; other edits count from 1000 (builtins/shared).
 constexpr uint32_t kNumberedTextureEdit = 2000;
 
-bool isImage(std::string path) {
-  std::transform(path.begin(), path.end(), path.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return path.ends_with(".png") || path.ends_with(".jpg") || path.ends_with(".jpeg");
+bool isImage(const std::string& path) {
+  const std::string low = lowerCase(path);
+  return low.ends_with(".png") || low.ends_with(".jpg") || low.ends_with(".jpeg");
 }
 
 std::vector<std::string> numberedImages(Assets& assets) {
