@@ -5,15 +5,15 @@
 #include <cmath>
 #include <optional>
 
+#include "io/geo/wgs84.h"
 #include "math/trig.h"
 #include "math/vec.h"
 
 namespace gable {
 namespace {
 
-// WGS 84.
-constexpr double kSemiMajor = 6378137;
-constexpr double kFlattening = 1 / 298.257223563;
+using wgs84::kFlattening;
+using wgs84::kSemiMajor;
 // Far enough to tell a direction, near enough to be straight.
 constexpr double kStep = 100;
 

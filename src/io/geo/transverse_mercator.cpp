@@ -12,14 +12,14 @@
 #include <array>
 #include <cmath>
 
+#include "io/geo/wgs84.h"
 #include "math/trig.h"
 
 namespace gable {
 namespace {
 
-// WGS 84.
-constexpr double kSemiMajor = 6378137.0;
-constexpr double kFlattening = 1 / 298.257223563;
+using wgs84::kFlattening;
+using wgs84::kSemiMajor;
 constexpr double kN = kFlattening / (2 - kFlattening);
 constexpr double kN2 = kN * kN, kN3 = kN2 * kN, kN4 = kN2 * kN2, kN5 = kN4 * kN, kN6 = kN3 * kN3;
 constexpr double kRectifyingRadius = kSemiMajor / (1 + kN) * (1 + kN2 / 4 + kN4 / 64 + kN6 / 256);
