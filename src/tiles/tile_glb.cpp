@@ -9,14 +9,13 @@
 #include <utility>
 
 #include "base/files.h"
+#include "io/gltf_format.h"
 #include "tiles/tile_mesh.h"
 
 namespace gable {
 namespace {
 
-constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125;
-constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
-constexpr uint64_t kGlbLimit = 0xffffffff;
+using namespace gltf;
 
 // Stands in the table where a number is not known.
 constexpr float kNoNumber = -1;
@@ -35,7 +34,7 @@ class TileWriter {
     layOut();
     const std::string json = text();
     const uint64_t jsonBytes = (json.size() + 3) / 4 * 4;
-    const uint64_t all = 12 + 8 + jsonBytes + 8 + bytes_;
+    const uint64_t all = kGlbHead + jsonBytes + kGlbChunkHead + bytes_;
     if (all > kGlbLimit) {
       return Error{"model-too-large",
                    "the tile '" + path_ + "' would hold " + std::to_string(all >> 20) +
@@ -44,11 +43,11 @@ class TileWriter {
     }
     FileWriter out(path_);
     const auto word = [](uint64_t v) { return static_cast<uint32_t>(v); };
-    const uint32_t head[5] = {0x46546c67, 2, word(all), word(jsonBytes), 0x4e4f534a};
+    const uint32_t head[5] = {kGlbMagic, kGlbVersion, word(all), word(jsonBytes), kJsonChunk};
     out.append(head, sizeof head);
     out.append(json);
     out.fill(' ', jsonBytes - json.size());
-    const uint32_t chunk[2] = {word(bytes_), 0x004e4942};
+    const uint32_t chunk[2] = {word(bytes_), kBinaryChunk};
     out.append(chunk, sizeof chunk);
     const uint64_t begin = out.offset();
     size_t view = 0;

@@ -12,13 +12,14 @@
 
 #include "base/number.h"
 #include "io/exporters/quaternion.h"
+#include "io/gltf_format.h"
 #include "scene/flatten.h"
 
 namespace gable {
 namespace {
 
-constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125;
-constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+using namespace gltf;
+
 
 // The widest texts that a number in its place can have.
 constexpr uint64_t kWidestOffset = 18'446'744'073'709'551'615u;

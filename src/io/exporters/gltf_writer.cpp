@@ -20,6 +20,7 @@
 #include "io/exporters/gltf_document.h"
 #include "io/exporters/quaternion.h"
 #include "io/exporters/vertex_writer.h"
+#include "io/gltf_format.h"
 #include "io/uri.h"
 #include "scene/flatten.h"
 
@@ -29,7 +30,6 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian");
 
 constexpr uint32_t kMostVertices = 65535;
-constexpr uint64_t kGlbLimit = 0xffffffff;
 constexpr uint64_t kMostNodes = 50'000'000;
 // Merged into one unit.
 constexpr double kMostLeaves = 1e8;
@@ -361,22 +361,23 @@ Result<WriteReport> GltfWriter::writeGlb() {
 
   // A file without geometry has no second chunk.
   const bool hasBuffer = content_.bufferBytes > 0;
-  out.fill(0, 20);
+  out.fill(0, gltf::kGlbHead);
   out.fill(' ', room);
-  if (hasBuffer) out.fill(0, 8);
+  if (hasBuffer) out.fill(0, gltf::kGlbChunkHead);
   const std::vector<bool> planned = meshFlags();
   writeBuffer(out);
   rewriteNodes(planned);
   std::string text = document_.text(content_, false);
   GABLE_CHECK_LE(text.size(), room);
-  if (out.offset() > kGlbLimit) return tooLarge(out.offset());
+  if (out.offset() > gltf::kGlbLimit) return tooLarge(out.offset());
 
   const auto word = [](uint64_t v) { return static_cast<uint32_t>(v); };
-  const uint32_t head[5] = {0x46546c67, 2, word(out.offset()), word(room), 0x4e4f534a};
-  const uint32_t chunk[2] = {word(content_.bufferBytes), 0x004e4942};
+  const uint32_t head[5] = {gltf::kGlbMagic, gltf::kGlbVersion, word(out.offset()), word(room),
+                            gltf::kJsonChunk};
+  const uint32_t chunk[2] = {word(content_.bufferBytes), gltf::kBinaryChunk};
   text.insert(0, reinterpret_cast<const char*>(head), sizeof head);
   out.patch(0, text.data(), text.size());
-  if (hasBuffer) out.patch(20 + room, chunk, sizeof chunk);
+  if (hasBuffer) out.patch(gltf::kGlbHead + room, chunk, sizeof chunk);
   const Result<uint64_t> bytes = out.finish();
   if (!bytes.ok()) return bytes.error();
   report_.bytes = bytes.value();
@@ -424,7 +425,7 @@ Result<WriteReport> GltfWriter::write() {
     return Error{"model-too-large", "'" + path_ + "' would show more leaves than can be written",
                  "generate fewer shapes at a time"};
   }
-  if (binary_ && content_.bufferBytes > kGlbLimit) return tooLarge(content_.bufferBytes);
+  if (binary_ && content_.bufferBytes > gltf::kGlbLimit) return tooLarge(content_.bufferBytes);
   const uint64_t nodes = document_.planNodes(meshFlags(), options_.gpuInstancing);
   if (nodes > kMostNodes) {
     return Error{"model-too-large",

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "base/work.h"
+#include "io/gltf_format.h"
 #include "io/importers/base64.h"
 #include "io/uri.h"
 
@@ -136,15 +137,15 @@ size_t GltfFile::index(const JsonValue& v) {
 Result<GltfFile> GltfFile::open(std::string_view bytes, const AssetOptions& options) {
   std::string_view text = bytes, chunk;
   if (bytes.substr(0, 4) == "glTF") {
-    if (bytes.size() < 20 || wordAt(bytes, 4) != 2) return broken(options, "the head is wrong");
+    if (bytes.size() < gltf::kGlbHead || wordAt(bytes, 4) != gltf::kGlbVersion) return broken(options, "the head is wrong");
     const size_t size = wordAt(bytes, 12);
-    if (wordAt(bytes, 16) != 0x4e4f534a || size > bytes.size() - 20) {
+    if (wordAt(bytes, 16) != gltf::kJsonChunk || size > bytes.size() - gltf::kGlbHead) {
       return broken(options, "the JSON chunk is cut off");
     }
-    text = bytes.substr(20, size);
-    const size_t next = 20 + (size + 3) / 4 * 4;
-    if (next + 8 <= bytes.size() && wordAt(bytes, next + 4) == 0x004e4942) {
-      chunk = bytes.substr(next + 8, wordAt(bytes, next));
+    text = bytes.substr(gltf::kGlbHead, size);
+    const size_t next = gltf::kGlbHead + (size + 3) / 4 * 4;
+    if (next + gltf::kGlbChunkHead <= bytes.size() && wordAt(bytes, next + 4) == gltf::kBinaryChunk) {
+      chunk = bytes.substr(next + gltf::kGlbChunkHead, wordAt(bytes, next));
     }
   }
   GltfFile file;
