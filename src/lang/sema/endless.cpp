@@ -4,6 +4,7 @@
 // Rules that cannot end, A --> extrude(1) A, and files that have none.
 
 #include <algorithm>
+#include <unordered_set>
 
 #include "base/work.h"
 #include "lang/sema/analysis.h"
@@ -22,9 +23,7 @@ void Analysis::certainRules(NodeId sequence, CertainRules& out) {
     if (t.text(item) == "NIL") return;
     const Resolution& r = module().at(item);
     if (r.kind != RefKind::Rule) continue;
-    const bool known =
-        std::any_of(out.begin(), out.end(), [&](const auto& c) { return c.first == r.index; });
-    if (!known) out.emplace_back(r.index, nameSpan(t, item));
+    out.emplace_back(r.index, nameSpan(t, item));
   }
 }
 
@@ -63,6 +62,9 @@ void Analysis::checkEndlessRules(ModuleId firstModule) {
     Step step;
     const NodeId body = bodyOf(tree(), rule.node);
     if (tree().kind(body) == NodeKind::Sequence) certainRules(body, step.next);
+    // A rule that is applied several times is told once, where it stands first.
+    std::unordered_set<RuleId> known;
+    std::erase_if(step.next, [&](const auto& c) { return !known.insert(c.first).second; });
     states[id] = kOnTheWay;
     path.push_back(id);
     steps.push_back(std::move(step));
