@@ -13,6 +13,7 @@
 
 #include "base/work.h"
 #include "city/ribbon.h"
+#include "city/surface.h"
 
 namespace gable {
 namespace {
@@ -33,8 +34,6 @@ struct Kind {
   bool isStreet, isRail;
   double width, thickness, slope;
 };
-
-bool isTrue(std::string_view v) { return !v.empty() && v != "no" && v != "0"; }
 
 double layerOf(const MapFeature& f) {
   const double layer = tagNumber(f.tag("layer")).value_or(1);
@@ -277,10 +276,7 @@ class Builder {
  private:
   bool inside(size_t i) const {
     for (const double at : {-0.5, 0.5}) {
-      const Vec2 p = flat(b_.line[i]) + sides_[i] * (at * b_.width);
-      if (p.x < area_.min.x || p.x > area_.max.x || p.y < area_.min.y || p.y > area_.max.y) {
-        return false;
-      }
+      if (!area_.contains(flat(b_.line[i]) + sides_[i] * (at * b_.width))) return false;
     }
     return true;
   }

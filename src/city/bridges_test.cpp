@@ -49,6 +49,14 @@ double steepest(const Bridge& b) {
   return most;
 }
 
+TEST(Bridges, WhatTheMapSaysIsNoBridgeIsNone) {
+  for (const char* word : {"no", "false", "0", ""}) {
+    MapFeatures map = overTheRails(100);
+    map.features[1].tags[1].second = word;
+    EXPECT_TRUE(bridgesOf(map.features, streetsOf(map.features)).empty()) << word;
+  }
+}
+
 TEST(Bridges, DecksAreClearOfWhatPassesBelow) {
   const MapFeatures map = overTheRails(100);
   const std::vector<Bridge> bridges = bridgesOf(map.features, streetsOf(map.features));

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <utility>
 
+#include "base/text.h"
+
 namespace gable {
 namespace {
 
@@ -182,11 +184,7 @@ std::string_view buildingKindOf(const MapFeature& f, const BuildingSize& size,
 std::string colourOfTag(std::string_view text) {
   std::string plain;
   for (const char c : text) {
-    if (c >= 'A' && c <= 'Z') {
-      plain += static_cast<char>(c - 'A' + 'a');
-    } else if (c != '-' && c != '_' && c != ' ') {
-      plain += c;
-    }
+    if (c != '-' && c != '_' && c != ' ') plain += lowerCase(c);
   }
   if (!plain.empty() && plain[0] == '#') {
     const bool digits = std::all_of(plain.begin() + 1, plain.end(), [](char c) {

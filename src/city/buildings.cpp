@@ -169,9 +169,7 @@ void findLandUse(const std::vector<MapFeature>& features, std::vector<BuildingFa
     if (box.empty()) continue;
     near.within(box.center(), 0.5 * length(box.size()), [&](uint32_t building) {
       const Vec2 p = facts[building].place;
-      const bool inBox =
-          p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y;
-      if (inBox && hasWithin(f, p)) facts[building].landUse = f.tag("landuse");
+      if (box.contains(p) && hasWithin(f, p)) facts[building].landUse = f.tag("landuse");
     });
   }
 }

@@ -17,10 +17,6 @@ namespace {
 
 using Chain = std::vector<Vec2>;
 
-bool inBox(Vec2 p, const Box2& b) {
-  return p.x >= b.min.x && p.x <= b.max.x && p.y >= b.min.y && p.y <= b.max.y;
-}
-
 std::vector<Chain> chainsOf(const std::vector<Chain>& lines) {
   std::map<std::pair<double, double>, size_t> byBegin;
   std::vector<bool> follows(lines.size(), false), used(lines.size(), false);
@@ -101,8 +97,8 @@ bool clip(Vec2 a, Vec2 b, const Box2& box, double& from, double& to) {
 
 // The parts of an open chain within the area, from border to border.
 void partsOf(Chain chain, const Box2& area, std::vector<Chain>& out) {
-  if (inBox(chain.front(), area)) chain.insert(chain.begin(), toBorder(chain.front(), area));
-  if (inBox(chain.back(), area)) chain.push_back(toBorder(chain.back(), area));
+  if (area.contains(chain.front())) chain.insert(chain.begin(), toBorder(chain.front(), area));
+  if (area.contains(chain.back())) chain.push_back(toBorder(chain.back(), area));
   Chain part;
   const auto finish = [&] {
     if (part.size() > 1) out.push_back(part);
@@ -168,11 +164,11 @@ std::vector<Ring> seaOf(const std::vector<Chain>& coastlines, const Box2& area) 
       continue;
     }
     const bool inside =
-        std::all_of(chain.begin(), chain.end(), [&](Vec2 p) { return inBox(p, area); });
+        std::all_of(chain.begin(), chain.end(), [&](Vec2 p) { return area.contains(p); });
     if (!inside) {
       // It begins outside, so that its parts run from border to border.
       const auto outside =
-          std::find_if(chain.begin(), chain.end(), [&](Vec2 p) { return !inBox(p, area); });
+          std::find_if(chain.begin(), chain.end(), [&](Vec2 p) { return !area.contains(p); });
       chain.pop_back();
       std::rotate(chain.begin(), outside, chain.end());
       chain.push_back(chain.front());

@@ -201,9 +201,7 @@ GroundIndex::~GroundIndex() = default;
 
 uint32_t GroundIndex::pieceAt(Vec2 p) {
   Cells& c = *cells_;
-  if (!(p.x >= c.area.min.x && p.x <= c.area.max.x && p.y >= c.area.min.y && p.y <= c.area.max.y)) {
-    return kNothing;
-  }
+  if (!c.area.contains(p)) return kNothing;
   const size_t cell = c.grid.cellOf(Cells::gridPoint(p));
   for (const uint32_t* i = c.lists.begin(cell); i != c.lists.end(cell); ++i) {
     std::unique_ptr<Locator>& locator = c.locators[*i];

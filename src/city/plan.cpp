@@ -25,9 +25,8 @@ constexpr double kLeastBuilding = 3;
 constexpr double kLeastPart = 0.5;
 constexpr double kLeastKerb = 0.2;
 
-AttributeValue number(const char* name, double v) {
-  return {name, {{PlainValue::Kind::Number, v, {}}}, 0, 0};
-}
+PlainValue plain(double v) { return {PlainValue::Kind::Number, v, {}}; }
+AttributeValue number(const char* name, double v) { return {name, {plain(v)}, 0, 0}; }
 AttributeValue truth(const char* name, bool v) {
   return {name, {{PlainValue::Kind::Bool, v ? 1.0 : 0.0, {}}}, 0, 0};
 }
@@ -57,10 +56,6 @@ int stepOf(Surface s) {
 constexpr const char* kColourTags[] = {"building:colour", "roof:colour"};
 bool isColourTag(std::string_view name) {
   return std::find(std::begin(kColourTags), std::end(kColourTags), name) != std::end(kColourTags);
-}
-
-bool within(Vec2 p, const Box2& box) {
-  return p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y;
 }
 
 class Planner {
@@ -208,11 +203,6 @@ class Planner {
   // What each wall looks at: `beyond`, the storeys of a neighbour there, metres to the street.
   void describeWalls(CityShape& shape, const BuildingOutline& outline) const {
     std::vector<PlainValue> beyond, levels, street, widths, entrance;
-    const auto plain = [](double v) {
-      PlainValue value;
-      value.number = v;
-      return value;
-    };
     for (const Wall& w : outline.walls) {
       const bool known = w.beyond != GroundPiece::kNothing;
       const GroundPiece* piece = known ? &out_.ground[w.beyond] : nullptr;
@@ -267,7 +257,7 @@ class Planner {
     if (tagNumber(f.tag("layer")).value_or(0) < 0 || f.tag("location") == "underground") return;
     const bool roof = f.tag("building") == "roof" || f.tag("building:part") == "roof";
     for (const Polygon& p : repaired(f.rings, FillRule::EvenOdd)) {
-      if (area(p) < kLeastPart || !within(p.outer[0], out_.area)) continue;
+      if (area(p) < kLeastPart || !out_.area.contains(p.outer[0])) continue;
       CityShape& shape = add(roof ? "Canopy" : part ? "BuildingPart" : "Building", f.id);
       BuildingOutline outline = outlineOf(p);
       findStreets(outline, out_.ground, *index_);
@@ -303,7 +293,7 @@ class Planner {
       line.clear();
     };
     for (const Vec2 p : f.points) {
-      if (within(p, out_.area)) {
+      if (out_.area.contains(p)) {
         line.push_back(p);
       } else {
         finish();
@@ -336,7 +326,7 @@ class Planner {
       const std::vector<Vec2> middle = linePart(s.line, s.cutBegin, whole - s.cutEnd);
       // In the area, whole.
       const bool inside =
-          std::all_of(middle.begin(), middle.end(), [&](Vec2 p) { return within(p, out_.area); });
+          std::all_of(middle.begin(), middle.end(), [&](Vec2 p) { return out_.area.contains(p); });
       if (!inside || whole - s.cutBegin - s.cutEnd < 1) continue;
       CityShape& shape = add("Street", map_.features[s.feature].id);
       shape.line = middle;
@@ -387,7 +377,7 @@ class Planner {
     for (const MapFeature& f : map_.features) {
       if (f.kind != MapFeature::Kind::Point || f.tag("highway") != "crossing") continue;
       const auto at = places.find({f.points[0].x, f.points[0].y});
-      if (at == places.end() || !within(f.points[0], out_.area)) continue;
+      if (at == places.end() || !out_.area.contains(f.points[0])) continue;
       addCrossing(f, streets_.stretches[at->second.first], at->second.second);
     }
   }

@@ -20,6 +20,10 @@ struct Box2 {
     max = {std::max(max.x, p.x), std::max(max.y, p.y)};
   }
   bool empty() const { return min.x > max.x || min.y > max.y; }
+  /// Points on the border are inside.
+  bool contains(Vec2 p) const {
+    return p.x >= min.x && p.x <= max.x && p.y >= min.y && p.y <= max.y;
+  }
   Vec2 size() const { return empty() ? Vec2{} : max - min; }
   Vec2 center() const { return (min + max) * 0.5; }
 };

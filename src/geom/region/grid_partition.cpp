@@ -198,7 +198,7 @@ bool meetIn(const Line& a, const Line& b, const Box2& box) {
   const double det = cross(a.along, b.along);
   if (std::fabs(det) < 1e-12) return false;
   const Vec2 p = a.at + a.along * (cross(b.at - a.at, b.along) / det);
-  return p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y;
+  return box.contains(p);
 }
 
 // The lines of one family, ascending; `near` and `far` are the sides of the template on which they

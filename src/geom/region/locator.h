@@ -69,9 +69,7 @@ class Locator {
   }
 
   Where at(Vec2 p) const {
-    if (!(p.x >= box_.min.x && p.x <= box_.max.x && p.y >= box_.min.y && p.y <= box_.max.y)) {
-      return Where::Outside;
-    }
+    if (!box_.contains(p)) return Where::Outside;
     bool inside = false;
     const size_t y = row(p.y);
     work(1 + starts_[y + 1] - starts_[y]);
