@@ -252,7 +252,7 @@ void countTriangles(TileMesh& mesh) {
   for (const TilePrimitive& p : mesh.primitives) mesh.triangles += p.indices.size() / 3;
 }
 
-// Metres to the tenth: such numbers are exact in files.
+// To the eighth of a metre: such numbers are exact in files.
 Vec3 centerOf(const Box3& box) {
   if (box.empty()) return {};
   const Vec3 c = box.center();
