@@ -9,7 +9,10 @@ namespace gable {
 namespace {
 
 TEST(Text, lowerCaseChangesLettersOfAsciiAlone) {
-  EXPECT_EQ(lowerCase("Roof.\xc3\x89" "[@Z]"), "roof.\xc3\x89" "[@z]");
+  EXPECT_EQ(lowerCase("Roof.\xc3\x89"
+                      "[@Z]"),
+            "roof.\xc3\x89"
+            "[@z]");
   EXPECT_TRUE(equalButForCase("roofHip", "ROOFhip"));
   EXPECT_FALSE(equalButForCase("roof", "roofs"));
   EXPECT_FALSE(equalButForCase("\xc3\x89", "\xc3\xa9"));

@@ -14,7 +14,8 @@ inline constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
 inline constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 
 // The words "glTF", "JSON" and "BIN\0" of a .glb file, and its version.
-inline constexpr uint32_t kGlbMagic = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
+inline constexpr uint32_t kGlbMagic = 0x46546c67, kJsonChunk = 0x4e4f534a,
+                          kBinaryChunk = 0x004e4942;
 inline constexpr uint32_t kGlbVersion = 2;
 /// Bytes of the file's head with the head of the JSON chunk, and of the head of each other chunk.
 inline constexpr uint64_t kGlbHead = 20, kGlbChunkHead = 8;

@@ -230,7 +230,8 @@ TEST(Recall, threadsTakeOverWhatOthersMade) {
 }
 
 TEST(Recall, warningsStay) {
-  const std::string text = replaced(kBlocks, "top : RightRoof.", "top : i(\"none\" + \".obj\") Roof.");
+  const std::string text =
+      replaced(kBlocks, "top : RightRoof.", "top : i(\"none\" + \".obj\") Roof.");
   OneJob place(Shapes::lot(80, 20));
   const Model first = place.next(text);
   EXPECT_FALSE(first.diagnostics().empty());

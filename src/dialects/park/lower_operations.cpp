@@ -567,7 +567,8 @@ void Lowering::peel(const Op& op, Nodes& out) {
                       : formed(&RegionTexts::selection, written, spanOf(op, 0))};
   // The size stands in the block, or behind the selection.
   const bool inBlock = s.part[0] && !s.part[0]->label.empty() &&
-                       lowerCase(s.part[0]->label) != "strip" && lowerCase(s.part[0]->label) != "shape";
+                       lowerCase(s.part[0]->label) != "strip" &&
+                       lowerCase(s.part[0]->label) != "shape";
   const size_t flags = inBlock ? 1 : 2;
   if (inBlock) {
     arguments.push_back(numberOf(s.part[0]->label, s.part[0]->span));

@@ -20,7 +20,6 @@ namespace {
 
 using namespace gltf;
 
-
 // The widest texts that a number in its place can have.
 constexpr uint64_t kWidestOffset = 18'446'744'073'709'551'615u;
 constexpr uint32_t kWidestCount = 4'294'967'295u;

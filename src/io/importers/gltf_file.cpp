@@ -137,14 +137,16 @@ size_t GltfFile::index(const JsonValue& v) {
 Result<GltfFile> GltfFile::open(std::string_view bytes, const AssetOptions& options) {
   std::string_view text = bytes, chunk;
   if (bytes.substr(0, 4) == "glTF") {
-    if (bytes.size() < gltf::kGlbHead || wordAt(bytes, 4) != gltf::kGlbVersion) return broken(options, "the head is wrong");
+    if (bytes.size() < gltf::kGlbHead || wordAt(bytes, 4) != gltf::kGlbVersion)
+      return broken(options, "the head is wrong");
     const size_t size = wordAt(bytes, 12);
     if (wordAt(bytes, 16) != gltf::kJsonChunk || size > bytes.size() - gltf::kGlbHead) {
       return broken(options, "the JSON chunk is cut off");
     }
     text = bytes.substr(gltf::kGlbHead, size);
     const size_t next = gltf::kGlbHead + (size + 3) / 4 * 4;
-    if (next + gltf::kGlbChunkHead <= bytes.size() && wordAt(bytes, next + 4) == gltf::kBinaryChunk) {
+    if (next + gltf::kGlbChunkHead <= bytes.size() &&
+        wordAt(bytes, next + 4) == gltf::kBinaryChunk) {
       chunk = bytes.substr(next + gltf::kGlbChunkHead, wordAt(bytes, next));
     }
   }
