@@ -20,6 +20,9 @@ endif()
 # Same input, same bytes: no fused multiply-add, no value-changing optimisation.
 add_compile_options(-ffp-contract=off -fno-fast-math)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # No function of the library is replaced from outside: calls within a file may be inlined, which
+  # clang++ does unasked.
+  add_compile_options($<$<CONFIG:Release>:-fno-semantic-interposition>)
   # g++ 12 loses the rounding of (double)(float)x when it packs neighbouring conversions into one
   # vector (src/io/exporters/stl_writer.cpp shows it from -O2 on). Loops are not affected.
   add_compile_options(-fno-tree-slp-vectorize)
