@@ -4,8 +4,10 @@
 #include "builtins/auto_tags.h"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 
-#include "base/small_buffer.h"
+#include "base/check.h"
 #include "builtins/selection.h"
 
 namespace gable {
@@ -26,11 +28,13 @@ TagSetId AutoTags::without(TagSetId set) {
 }
 
 TagSetId AutoTags::with(TagSetId set, std::string_view name) {
-  SmallBuffer<char, 64> tag;
-  for (const std::string_view part : {family_, std::string_view("."), name}) {
-    for (const char c : part) tag.push_back(c);
-  }
-  return services_.tags().with(without(set), {tag.begin(), tag.size()});
+  std::array<char, 64> tag;
+  const size_t size = family_.size() + 1 + name.size();
+  GABLE_CHECK_LE(size, tag.size());
+  std::memcpy(tag.data(), family_.data(), family_.size());
+  tag[family_.size()] = '.';
+  std::memcpy(tag.data() + family_.size() + 1, name.data(), name.size());
+  return services_.tags().with(without(set), {tag.data(), size});
 }
 
 TagSetId AutoTags::merged(TagSetId a, TagSetId b) const {

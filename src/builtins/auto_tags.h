@@ -21,7 +21,7 @@ class AutoTags {
 
   /// The set without the family's tags.
   TagSetId without(TagSetId set);
-  /// The set without the family's tags, with `family.name`.
+  /// The set without the family's tags, with `family.name`: 64 letters at most.
   TagSetId with(TagSetId set, std::string_view name);
   /// All of both sets.
   TagSetId merged(TagSetId a, TagSetId b) const;

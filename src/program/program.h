@@ -49,8 +49,8 @@ enum class Code : uint8_t {
   ComponentValues,  // comp(...) { sel expr } as a function: blocks[a]; the values become an array
   // Shapes.
   Operation,          // operations[a], x arguments; y: block index + 1
-  OperationConstant,  // the same with the x arguments at constants[b of the next instruction]
-  Operand,            // carries a second operand for the instruction before it
+  OperationConstant,  // the same with the x arguments at constants[a of the next instruction]
+  Operand,            // carries a, and in y the number + 1 of the constant call, 0 for none
   CallRule,           // rules[a] with x arguments
   CallComputed,       // a rule whose name is computed (a string on the stack)
   RunRule,            // rules[a] with x arguments, on the present shape itself
@@ -274,6 +274,8 @@ struct Program {
   std::vector<Span> spans;
   std::vector<uint64_t> sites;
   std::vector<Value> constants;
+  /// Calls of operations with constant arguments that are numbered, so that these are bound once.
+  uint32_t constantCalls = 0;
   std::vector<BlockCode> blocks;
   /// By the ids of values of the type Code.
   std::vector<ArgumentCode> arguments;

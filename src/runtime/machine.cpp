@@ -47,6 +47,7 @@ Machine::Machine(DeriveShared& shared, uint32_t worker)
       attributeValues_(shared.program.attributes.size()),
       context_(shared.collectOccluders, shared.occluders),
       splits_(shared.program),
+      bound_(shared.program.constantCalls),
       flat_(!shared.options.sharing || shared.options.trace),
       lightParts_({shared.program, shared.options.limits, splits_, flat_}, output_, tally_) {
   pool_ = shared.environment.pool.get();

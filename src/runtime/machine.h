@@ -332,6 +332,8 @@ class Machine final : public Services, private WorkMeter {
   Worlds worlds_;
   Gathers gathers_{output_, tracer_, worlds_};
   SplitCache splits_;
+  /// By the numbers of calls with constant arguments.
+  std::vector<BoundArguments> bound_;
   BlockSelectors selectors_;
 
   // The initial shape at work.

@@ -74,7 +74,8 @@ Status guardedKeeping(Shape& shape, const Run& run) {
 Status Machine::apply(OpCall& call, const Instruction& i, std::span<const Value> arguments,
                       const BlockInput* block) {
   const OpSpec& spec = call.spec();
-  if (!allHold(arguments, pool())) {
+  const bool known = call.bound() && call.bound()->known;
+  if (!known && !allHold(arguments, pool())) {
     Status refused = refusedNumber(spec, program_.operations[i.a].form, arguments, pool());
     if (!refused.ok()) return refused;
   }
@@ -128,9 +129,14 @@ void Machine::operation(const Instruction& i, const Value* constants) {
   }
 
   if (isDeformed(a.shape) && (spec.effects & kTakesDeformed) == 0) bakeDeformation(a.shape);
-  const CallPlace place{a.previous.frame, a.previous.size,
-                        program_.files[program_.rules[a.rule].file], program_.sites[pcOf(&i)],
-                        program_.operations[i.a].form};
+  // The instruction behind one with constant arguments carries the number of the call.
+  const uint32_t numbered = constants ? (&i)[1].y : 0;
+  const CallPlace place{a.previous.frame,
+                        a.previous.size,
+                        program_.files[program_.rules[a.rule].file],
+                        program_.sites[pcOf(&i)],
+                        program_.operations[i.a].form,
+                        numbered > 0 ? &bound_[numbered - 1] : nullptr};
   BlockInput input;
   if (block) fillBlock(i.y - 1u, blockStart, a.plan, input);
   OpCall call(spec, a.shape, {arguments, i.x}, *this, place, block ? &input : nullptr);

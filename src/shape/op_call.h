@@ -112,6 +112,12 @@ struct BlockInput {
   static constexpr uint32_t kNoChild = 0xffffffff;
 };
 
+/// The struct of arguments of a call whose values never change, filled by its first run.
+struct BoundArguments {
+  alignas(std::max_align_t) std::byte room[LightOp::kRoom];
+  bool known = false;
+};
+
 /// Where an operation is called from.
 struct CallPlace {
   /// The scope of the shape below on the shape stack.
@@ -123,6 +129,8 @@ struct CallPlace {
   uint64_t site = 0;
   /// The signature that the analysis chose; null where the values decide.
   const Signature* form = nullptr;
+  /// For calls with constant arguments; null where nothing is kept.
+  BoundArguments* bound = nullptr;
 };
 
 /// A leaf that came of an operation's children, in the frame of the rule call.
@@ -159,6 +167,8 @@ class OpCall {
 
   /// Fills the struct of arguments; see program/arguments.h and typed below.
   Status bind(void* arguments) const;
+  /// Where they are kept for the next run of this call; null where they are not.
+  BoundArguments* bound() const { return place_.bound; }
   /// What this call may ask its services for: the effects of the specification, narrowed or widened
   /// by the words among the arguments and in the block.
   uint32_t effects() const;
@@ -302,8 +312,21 @@ struct Typed;
 template <class A, Status (*Apply)(OpCall&, const A&)>
 struct Typed<Apply> {
   static Status call(OpCall& c) {
+    constexpr bool fits = sizeof(A) <= sizeof(BoundArguments::room) &&
+                          alignof(A) <= alignof(std::max_align_t) &&
+                          std::is_trivially_copyable_v<A>;
+    if constexpr (fits) {
+      BoundArguments* const kept = c.bound();
+      if (kept && kept->known) return Apply(c, *reinterpret_cast<const A*>(kept->room));
+    }
     A arguments;
     if (Status s = c.bind(&arguments); !s.ok()) return c.orElse(std::move(s));
+    if constexpr (fits) {
+      if (BoundArguments* const kept = c.bound()) {
+        ::new (static_cast<void*>(kept->room)) A(arguments);
+        kept->known = true;
+      }
+    }
     return Apply(c, arguments);
   }
 };

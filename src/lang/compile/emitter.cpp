@@ -68,6 +68,12 @@ uint32_t Emitter::constantRun(const std::vector<Value>& values) {
   return first;
 }
 
+uint32_t Emitter::constantCall() {
+  // As many as an instruction has room for.
+  constexpr uint32_t kMost = 0xffff;
+  return p_.constantCalls < kMost ? ++p_.constantCalls : 0;
+}
+
 uint32_t Emitter::table(std::vector<uint32_t> entries) {
   p_.jumpTables.push_back(std::move(entries));
   return static_cast<uint32_t>(p_.jumpTables.size() - 1);

@@ -42,6 +42,8 @@ class Emitter {
   uint32_t constant(const Value& v);
   /// Consecutive constants; gives the first one's number.
   uint32_t constantRun(const std::vector<Value>& values);
+  /// The number of the next call with constant arguments, from 1; 0 when there are too many.
+  uint32_t constantCall();
   uint32_t table(std::vector<uint32_t> entries);
   uint32_t operation(const OpSpec* spec, const Signature* form);
   uint32_t function(const FunctionSpec* spec, const Signature* form);

@@ -189,7 +189,7 @@ void UnitCompiler::operation(NodeId node, const OpSpec& spec, NodeId arguments) 
   const Code code = allFixed ? Code::OperationConstant : Code::Operation;
   e_.emit(code, span, e_.operation(&spec, given.form), given.list.size(),
           hasBlock ? blockNumber + size_t{1} : 0, site);
-  if (allFixed) e_.emit(Code::Operand, span, e_.constantRun(fixed));
+  if (allFixed) e_.emit(Code::Operand, span, e_.constantRun(fixed), 0, e_.constantCall());
 }
 
 void UnitCompiler::choice(NodeId node, bool inExpression) {
