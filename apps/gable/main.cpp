@@ -10,6 +10,7 @@
 
 #include "city.h"
 #include "commands.h"
+#include "folders.h"
 #include "gable/names.h"
 #include "tiles.h"
 
@@ -52,6 +53,7 @@ void addLimits(CLI::App* app, LimitArguments& a, const char* seconds) {
 constexpr const char* kFileSeconds = "Stop after so many seconds a file (default 600, 0: no limit)";
 
 void addSearch(CLI::App* app, gable::SearchSettings& search) {
+  if (std::string examples = examplesFolder(); !examples.empty()) search.bundled = examples;
   app->add_option("--workspace", search.workspace,
                   "A folder of projects: rules may name files of others as /Project/rules/x.cga");
   app->add_option("--lib", search.libraries,

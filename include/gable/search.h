@@ -17,6 +17,10 @@ struct SearchSettings {
   /// Folders of further projects, such as "/usr/share/ESRI.lib" for "/ESRI.lib/rules/x.cga";
   /// "NAME=FOLDER" gives one another name. Relative paths are looked for in them last.
   std::vector<std::string> libraries;
+  /// The folder of what comes with Gable: rules and models that are called
+  /// "/gable/rules/trees.cga". Nothing else leads there. A library of the name `gable` takes its
+  /// place.
+  std::optional<std::string> bundled;
   /// What is nowhere under its path is looked for by its file name alone, without regard to case,
   /// below the project and the folders above. Of several files the one whose folders are most
   /// alike is taken, then the first in the order of the alphabet.

@@ -18,6 +18,7 @@ namespace {
 
 /// A project of more files than this is no project; listing stops there.
 constexpr size_t kMostFiles = 200000;
+constexpr const char* kBundledName = "gable";
 
 bool climbs(std::string_view path) {
   size_t from = 0;
@@ -104,6 +105,7 @@ FileSearch::FileSearch(const std::string& root, const SearchSettings& settings,
     const NamedFolder library = libraryOf(written);
     libraries_.push_back({library.name, canonical(library.folder)});
   }
+  if (settings.bundled) bundled_ = {kBundledName, canonical(*settings.bundled)};
 }
 
 std::string FileSearch::rootFor(const std::string& ruleFile, const SearchSettings& settings) {
@@ -151,7 +153,8 @@ std::optional<Error> FileSearch::missingFolder(const SearchSettings& settings) {
 bool FileSearch::covers(const std::string& path) const {
   return !below(root_, path).empty() || !below(workspace_, path).empty() ||
          std::any_of(libraries_.begin(), libraries_.end(),
-                     [&](const Library& l) { return !below(l.path, path).empty(); });
+                     [&](const Library& l) { return !below(l.path, path).empty(); }) ||
+         (bundled_ && !below(bundled_->path, path).empty());
 }
 
 // The path within the package; empty for what lies elsewhere.
@@ -184,14 +187,16 @@ std::string FileSearch::inside(const std::string& candidate) const {
   };
   const bool allowed = open(root_) || open(workspace_) ||
                        std::any_of(libraries_.begin(), libraries_.end(),
-                                   [&](const Library& l) { return open(l.path); });
+                                   [&](const Library& l) { return open(l.path); }) ||
+                       (bundled_ && open(bundled_->path));
   return allowed ? real : std::string();
 }
 
 const FileSearch::Library* FileSearch::libraryNamed(std::string_view name) const {
   const auto at = std::find_if(libraries_.begin(), libraries_.end(),
                                [&](const Library& l) { return l.name == name; });
-  return at == libraries_.end() ? nullptr : &*at;
+  if (at != libraries_.end()) return &*at;
+  return bundled_ && bundled_->name == name ? &*bundled_ : nullptr;
 }
 
 // The root of the project that a file lies in, by what the file is called.
@@ -273,8 +278,12 @@ std::string FileSearch::projectPath(const std::string& file) const {
     const std::string_view rest = below(l.path, real);
     if (!rest.empty()) return "/" + l.name + std::string(rest);
   }
-  const std::string_view rest = below(workspace_, real);
-  return rest.empty() ? file : std::string(rest);
+  if (const std::string_view rest = below(workspace_, real); !rest.empty()) {
+    return std::string(rest);
+  }
+  const std::string_view rest = bundled_ ? below(bundled_->path, real) : std::string_view();
+  if (!rest.empty()) return "/" + bundled_->name + std::string(rest);
+  return file;
 }
 
 std::vector<std::string> FileSearch::filesIn(const std::string& folder) const {

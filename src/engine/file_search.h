@@ -6,8 +6,8 @@
 // A path "/a/b" counts from the project's root, then names a file of another project: `a` is the
 // project's own folder, a library or a folder of the workspace. Other paths are looked up in
 // `assets/`, in the root and beside the file that names them, all in the project of that file; then
-// in the libraries. Nothing else is ever read: no "..", no links that lead out; and nothing hidden,
-// by a name that begins with a dot.
+// in the libraries. "/gable/a" is a file of what comes with Gable. Nothing else is ever read: no
+// "..", no links that lead out; and nothing hidden, by a name that begins with a dot.
 //
 // Files of the own project are called by their path from its root, "rules/town.cga"; those of
 // others by a path that begins with a slash, "/ESRI.lib/rules/x.cga".
@@ -88,6 +88,8 @@ class FileSearch {
   /// Empty without one.
   std::string workspace_;
   std::vector<Library> libraries_;
+  /// What comes with Gable: found by its name alone.
+  std::optional<Library> bundled_;
   mutable std::mutex mutex_;
   mutable std::map<std::string, std::vector<std::string>> listings_;
 };

@@ -55,6 +55,31 @@ MAIN = 'import w : "/Other/rules/w.cga"\nLot --> extrude(3) comp(f) { side : w.W
 WALL = 'Wall --> i("panel.obj") report("walls", 1) report("faces", geometry.nVertices) X.\n'
 
 
+class Bundled(Case):
+    """What comes with Gable: called by its name from any project, and in no other way."""
+
+    def testAPathThatNamesGableFindsRulesAndModels(self):
+        self.put("mine/rules/main.cga",
+                 'import trees : "/gable/rules/trees.cga"\nLot --> report("there", case fileExists("/gable/park/bench.glb") : 1 else : 0) '
+                 'report("loose", case fileExists("bench.glb") : 1 else : 0) report("listed", listSize(fileSearch("*/bench.glb"))) '
+                 't(5, 0, 5) trees.Birch(9)\n')
+        reports = self.reports("mine/rules/main.cga")
+        self.assertEqual(reports["there"], 1)
+        self.assertEqual(reports["loose"], 0)
+        self.assertEqual(reports["listed"], 0)
+
+    def testAFileOfTheProjectComesFirst(self):
+        self.put("mine/gable/park/bench.glb", "own")
+        self.put("mine/rules/main.cga", 'Lot --> report("bytes", len(readTextFile("/gable/park/bench.glb")))\n')
+        self.assertEqual(self.reports("mine/rules/main.cga")["bytes"], 3)
+
+    def testAParkTakesTheModelsThatItHasNot(self):
+        self.put("park.park", 'Region -> Place(CENTRE) { Bench }\nBench -> loadModel("bench")\n')
+        self.assertNotIn("warning", self.gable("generate", "park.park", "-o", "park.glb"))
+        self.put("other.park", 'Region -> Place(CENTRE) { Bench }\nBench -> loadModel("unicorn")\n')
+        self.assertIn("unicorn", self.gable("generate", "other.park", "-o", "park.glb"))
+
+
 class Projects(Case):
     def project(self):
         self.put("town/Mine/rules/main.cga", MAIN)

@@ -637,11 +637,17 @@ NodeId Lowering::modelFile() {
     return b_.binary(lang::BinaryOp::Add, b_.word("name"), b_.text(type));
   };
   std::vector<std::pair<NodeId, NodeId>> branches;
-  for (const char* type : {".obj", ".glb"}) {
+  for (const char* type : {".obj", ".glb", ".gltf"}) {
     const NodeId exists = b_.call("fileExists", {named(type)});
     branches.emplace_back(exists, named(type));
   }
-  branches.emplace_back(kNoNode, named(".gltf"));
+  // One of those that come with Gable.
+  const auto bundled = [&] {
+    return b_.binary(lang::BinaryOp::Add, b_.text("/gable/park/"), named(".glb"));
+  };
+  const NodeId exists = b_.call("fileExists", {bundled()});
+  branches.emplace_back(exists, bundled());
+  branches.emplace_back(kNoNode, named(".obj"));
   return b_.function(modelFile_, {"name"}, b_.valueChoice(branches));
 }
 
