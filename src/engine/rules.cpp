@@ -332,7 +332,14 @@ Converted convert(const std::string& text, const std::string& path, const LoadSe
     }
     diagnostics.sortByPlace();
     out.diagnostics = listOf(diagnostics, sources);
-    if (diagnostics.hasErrors()) out.text.clear();
+    // What cannot be derived is not converted either: its mistakes would be told of other lines.
+    if (dialect.value() && !diagnostics.hasErrors()) {
+      const std::shared_ptr<const Rules::Impl> checked = parsed(text, {path, nullptr}, settings);
+      for (const Diagnostic& d : checked->diagnostics) {
+        if (d.severity == Diagnostic::Severity::Error) out.diagnostics.push_back(d);
+      }
+    }
+    if (hasErrors(out.diagnostics)) out.text.clear();
     return out;
   });
 }

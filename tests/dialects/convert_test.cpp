@@ -67,7 +67,13 @@ TEST(Convert, asksForTheFileOfAModelInOnePlace) {
       "Lot -> Grid(2, 1) { Tree }\nTree -> Choose { Oak, Elm, Ash }\nOak -> loadModel(\"oak\")\n"
       "Elm -> loadModel(\"elm\")\nAsh -> loadModel(\"ash.obj\")",
       "a.park");
-  EXPECT_EQ(count(text, "fileExists("), 5u) << text;
+  EXPECT_EQ(count(text, "fileExists("), 7u) << text;
+}
+
+TEST(Convert, refusesWhatCannotBeDerived) {
+  const Converted c = convert("Region -> Contract(-45.5) { A }", "a.park");
+  EXPECT_TRUE(hasErrors(c.diagnostics));
+  EXPECT_TRUE(c.text.empty());
 }
 
 TEST(Convert, keepsComments) {
