@@ -100,9 +100,10 @@ class RegionReader {
   }
   void fail(std::string what) {
     if (!ok()) return;
-    const std::string place = at_ < text_.size()
-                                  ? " at '" + std::string(text_.substr(at_, 12)) + "'"
-                                  : std::string(" at the end");
+    std::string place = " at the end";
+    if (at_ < text_.size()) place = " at '" + std::string(text_.substr(at_, 12)) + "'";
+    // The whole text stands in the message already.
+    if (at_ == 0) place.clear();
     o_.problem_ = std::move(what) + place;
   }
   std::string word() {
@@ -261,7 +262,7 @@ class RegionReader {
   Piece unknown(const std::string& w, size_t begin) {
     at_ = begin;
     if (ok()) o_.word_ = w;
-    fail("no edges are called so");
+    fail("no edges have this name");
     return {};
   }
 

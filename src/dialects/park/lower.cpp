@@ -276,6 +276,11 @@ void Lowering::call(const Rule& r, const Op& op, Nodes& out) {
   out.push_back(b_.apply(op.name, arguments));
 }
 
+void Lowering::wrongCount(const std::string& mistake, Span span) {
+  diagnostics_.error("wrong-argument-count", span, mistake,
+                     "give a value for each of its parameters");
+}
+
 bool Lowering::canInline(const Rule& r, const Op& op) {
   constexpr size_t kMostCalls = 50000, kLongestArgument = 4096;
   const auto refuse = [&](const char* code, const std::string& what, const char* hint) {
@@ -293,10 +298,8 @@ bool Lowering::canInline(const Rule& r, const Op& op) {
                   "call functions within functions less often");
   }
   if (op.called && r.parameters.size() != op.arguments.size()) {
-    return refuse("wrong-argument-count",
-                  "takes " + std::to_string(r.parameters.size()) + " arguments, not " +
-                      std::to_string(op.arguments.size()),
-                  "give a value for each of its parameters");
+    wrongCount(countMistake(r, op.arguments.size()), op.span);
+    return false;
   }
   for (const auto& argument : op.arguments) {
     if (argument.text.size() <= kLongestArgument) continue;
@@ -414,11 +417,14 @@ void Lowering::checkWords(const Op& op, size_t first,
     const size_t equals = a.find('=');
     if (equals != std::string::npos) a = a.substr(0, a.find_last_not_of(' ', equals - 1) + 1) + '=';
     if (std::find(words.begin(), words.end(), a) != words.end()) continue;
-    std::string hint;
-    for (const std::string_view w : words) hint += (hint.empty() ? "" : ", ") + std::string(w);
+    std::string hint = didYouMean(a, words);
+    for (const std::string_view w : words) {
+      if (hint.ends_with('?')) break;
+      hint += (hint.empty() ? "it knows " : ", ") + std::string(w);
+    }
     diagnostics_.error("bad-argument", op.arguments[i].span,
                        "'" + op.arguments[i].text + "' is nothing that '" + op.name + "' knows",
-                       "it knows " + hint);
+                       hint);
   }
 }
 

@@ -186,6 +186,7 @@ NodeId Lowering::onFigure(const std::string& figure, Span span, NodeId operation
 
 void Lowering::sweep(const Op& op, Nodes& out) {
   const Lines l = linesOf(g_, op.arguments.empty() ? std::string("all") : op.arguments[0].text);
+  if (!l.mistake.empty()) return wrongCount(l.mistake, spanOf(op, 0));
   checkWords(op, 1, {"width=", "height=", "profile=", "joins=", "ends=", "round", "over", "cut"});
   NodeId width = kNoNode, height = kNoNode, section = kNoNode;
   Nodes options;
@@ -250,6 +251,7 @@ void Lowering::sweep(const Op& op, Nodes& out) {
 
 void Lowering::lines(const Op& op, Nodes& out) {
   const Lines l = linesOf(g_, op);
+  if (!l.mistake.empty()) return wrongCount(l.mistake, op.span);
   // A Contract alone in the braces says where the lines run.
   const std::vector<Part> parts = partsOf(op);
   const bool moved = !l.inset.empty() && parts.size() == 1 && parts[0].body.size() == 1;

@@ -57,6 +57,7 @@ class Lowering {
   void warnOfColour(const Op& op);
 
   // The steps of a function, with the arguments in the place of its parameters.
+  void wrongCount(const std::string& mistake, Span span);
   // Tells why a function cannot stand in the place of its call; false then.
   bool canInline(const Rule& r, const Op& op);
   bool inlined(const Rule& r, const Op& op, Nodes& out);

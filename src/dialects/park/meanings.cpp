@@ -40,7 +40,12 @@ Lines linesOf(const Grammar& g, const std::string& argument, int depth) {
   for (size_t i = 0; i < r->parameters.size() && i < given.size(); ++i) {
     words[r->parameters[i]] = given[i];
   }
-  return linesOf(g, withArguments({*op}, words)[0], depth + 1);
+  Lines inner = linesOf(g, withArguments({*op}, words)[0], depth + 1);
+  const bool called = name.size() < argument.size() && argument.find('(') != std::string::npos;
+  if (called && given.size() != r->parameters.size()) {
+    inner.mistake = countMistake(*r, given.size());
+  }
+  return inner;
 }
 
 // Ranges at the head of an argument, "[0.1, 0.9] _ 0", are an entry for each logical edge; what
@@ -279,6 +284,11 @@ Joined joinedParts(const Grammar& g, const Op& op) {
     }
   }
   return out;
+}
+
+std::string countMistake(const Rule& function, size_t given) {
+  return "the function '" + function.name + "' takes " +
+         std::to_string(function.parameters.size()) + " arguments, not " + std::to_string(given);
 }
 
 std::string discs(const Grammar& g, const std::string& argument) {

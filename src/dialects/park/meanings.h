@@ -64,7 +64,11 @@ struct Lines {
   /// How far inside; empty for not at all.
   std::string inset;
   std::string figure;
+  /// What is wrong with the call of a function on the way, as a sentence; empty for nothing.
+  std::string mistake;
 };
+/// "the function 'F' takes 1 arguments, not 2".
+std::string countMistake(const Rule& function, size_t given);
 Lines linesOf(const Grammar& g, const std::string& argument);
 Lines linesOf(const Grammar& g, const Op& op);
 

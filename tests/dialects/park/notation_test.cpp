@@ -97,6 +97,8 @@ TEST(ParkNotation, SlipsAreFound) {
       {"R -> Grid(2, 2) { A } { B } { Romp(3) C }", "unknown-operation"},
       {"R -> Contract(1, centr) A", "bad-argument"},
       {"R -> F(2, 3)\nfun F(d) -> Contract(d)", "wrong-argument-count"},
+      {"R -> Sweep(F(2, 3), width=1) { H }\nfun F(d) -> Parametrise([0, 1]) { Contract(d) }",
+       "wrong-argument-count"},
       {"R -> Peel(OUTER) { A | B }", "wrong-argument-count"},
       {"R -> Peel(Outr, 1) { A | B }", "bad-selection"},
       {"R -> Distribute(side(Q), 2) { A }", "bad-selection"},
