@@ -407,7 +407,12 @@ void Analysis::visitMisfits(const CallTarget& target, std::span<const NodeId> ar
   for (size_t i = 0; i < args.size(); ++i) {
     const bool named = tree().kind(args[i]) == NodeKind::NamedArg;
     const NodeId value = named ? tree().child(args[i], 0) : args[i];
+    const bool unknown = named && std::all_of(target.signatures.begin(), target.signatures.end(),
+                                              [&](const Signature& s) {
+                                                return parameterOf(s, args, i) == kNoParameter;
+                                              });
     const bool understood =
+        unknown ||
         std::any_of(target.signatures.begin(), target.signatures.end(), [&](const Signature& s) {
           const size_t p = parameterOf(s, args, i);
           const ParamType type = p == kNoParameter ? ParamType::Any : s.paramAt(p)->type;
