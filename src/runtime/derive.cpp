@@ -136,7 +136,7 @@ class MessageList {
       const uint64_t place = aboutFile ? 0 : uint64_t{d.span.file} << 32 | d.span.begin;
       if (!told_.insert(hashBytes(d.message, hashBytes(d.code, place))).second) continue;
       size_t& count = d.severity == Severity::Error ? errors_ : warnings_;
-      if (++count <= kMostMessages) out_.add(d);
+      if (++count <= kMostDiagnostics) out_.add(d);
     }
   }
 

@@ -28,7 +28,7 @@
 namespace gable {
 
 /// Of the warnings of a derivation so many are kept, the first in path order, and as many errors.
-inline constexpr size_t kMostMessages = 1000;
+inline constexpr size_t kMostDiagnostics = 1000;
 
 struct InitialShape {
   std::string name;

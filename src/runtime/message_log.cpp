@@ -11,7 +11,7 @@ namespace gable {
 bool MessageLog::isNews(const char* code, const Span& at, const std::string& message,
                         uint32_t initialShape) {
   ++warnings_;
-  if (count() >= kMostMessages) return false;
+  if (count() >= kMostDiagnostics) return false;
   const uint64_t key = hashBytes(message, hashBytes(code, uint64_t{at.file} << 32 | at.begin));
   const auto [known, fresh] = told_.try_emplace(key, Told{initialShape, unit_});
   if (fresh) return true;

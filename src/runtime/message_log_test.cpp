@@ -57,15 +57,15 @@ TEST(MessageLog, KeepsNoMoreThanAnybodyIsShown) {
   MessageLog log;
   log.beginUnit();
   int paths = 0;
-  for (size_t i = 0; i < kMostMessages + 50; ++i) {
+  for (size_t i = 0; i < kMostDiagnostics + 50; ++i) {
     log.warn("too-small", kHere, std::to_string(i), "", 0, [&] {
       ++paths;
       return std::string();
     });
   }
-  EXPECT_EQ(log.count(), kMostMessages);
-  EXPECT_EQ(log.warnings(), kMostMessages + 50);
-  EXPECT_EQ(static_cast<size_t>(paths), kMostMessages);
+  EXPECT_EQ(log.count(), kMostDiagnostics);
+  EXPECT_EQ(log.warnings(), kMostDiagnostics + 50);
+  EXPECT_EQ(static_cast<size_t>(paths), kMostDiagnostics);
 }
 
 }  // namespace

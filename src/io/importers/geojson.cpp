@@ -37,7 +37,7 @@ constexpr double kWidestPolygon = 0.2;
 // More than once around the Earth.
 constexpr double kFarthest = 1e8;
 constexpr int kDeepestCollection = 16;
-constexpr size_t kMostMessages = 100;
+constexpr size_t kMostDiagnostics = 100;
 
 struct Feature {
   const JsonValue* geometry = nullptr;
@@ -122,7 +122,7 @@ std::string GeoJsonReader::place() const {
 void GeoJsonReader::complain(Severity severity, const char* code, const std::string& what,
                              const std::string& hint) {
   // A file that is wrong throughout is told so once, not a million times.
-  if (++messages_ > kMostMessages) return;
+  if (++messages_ > kMostDiagnostics) return;
   Diagnostics::Entry d;
   d.severity = severity;
   d.code = code;
@@ -582,9 +582,9 @@ Result<ShapeFile> GeoJsonReader::read(std::string_view text) {
   if (out_.diagnostics.hasErrors()) return std::move(out_);
   for (const Feature& f : features_) addFeature(f);
   addAllLines();
-  if (messages_ > kMostMessages) {
+  if (messages_ > kMostDiagnostics) {
     out_.diagnostics.warning("geojson-more", {},
-                             "'" + path_ + "' has " + std::to_string(messages_ - kMostMessages) +
+                             "'" + path_ + "' has " + std::to_string(messages_ - kMostDiagnostics) +
                                  " more messages of this kind");
   }
   if (otherGeometries_ > 0) {

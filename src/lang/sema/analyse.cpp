@@ -26,15 +26,15 @@ Analysis::Analysis(const Catalogue& catalogue, ValuePool& values, FileLoader* lo
   for (const SelectorSpec& s : catalogue.selectors) selectors_.insert(s.name);
 }
 
-// Beyond kMaxMessages of a kind a reader needs no more, and memory stays bounded.
+// Beyond kMostDiagnostics of a kind a reader needs no more, and memory stays bounded.
 void Analysis::error(const char* code, Span span, std::string message, std::string hint) {
   const Meant meant = std::exchange(meant_, {});
-  reported_ = !mute_ && ++errors_ <= kMaxMessages;
+  reported_ = !mute_ && ++errors_ <= kMostDiagnostics;
   if (mute_) return;
   if (reported_) {
     diagnostics_.error(code, span, std::move(message), std::move(hint));
     if (!meant.nearest.empty()) fix(placeOf(meant.name, span), meant.nearest);
-  } else if (errors_ == kMaxMessages + 1) {
+  } else if (errors_ == kMostDiagnostics + 1) {
     diagnostics_.error("too-many-errors", span, "mistakes from here on are not shown",
                        "correct those above first");
   }
@@ -42,7 +42,7 @@ void Analysis::error(const char* code, Span span, std::string message, std::stri
 
 void Analysis::warning(const char* code, Span span, std::string message, std::string hint) {
   const Meant meant = std::exchange(meant_, {});
-  reported_ = !mute_ && ++warnings_ <= kMaxMessages;
+  reported_ = !mute_ && ++warnings_ <= kMostDiagnostics;
   if (!reported_) return;
   diagnostics_.warning(code, span, std::move(message), std::move(hint));
   if (!meant.nearest.empty()) fix(placeOf(meant.name, span), meant.nearest);

@@ -34,7 +34,7 @@ inline constexpr size_t kMaxModules = 2000;
 inline constexpr size_t kMaxModuleNodes = 8'000'000;
 inline constexpr size_t kMaxUnits = 1000;
 
-inline constexpr size_t kMaxMessages = 1000;
+inline constexpr size_t kMostDiagnostics = 1000;
 
 /// What a module offers by name. Keys are views of the texts of its tree.
 struct Scope {
