@@ -9,7 +9,8 @@
 // MultiPolygon, other ways as LineString, nodes as Point, in the order of the file, areas of
 // relations last. Properties are the tags; `id` is "way/123", "relation/5" or "node/7". Coordinates
 // have the seven digits of the map: ends of lines that share a node are equal. What cannot be
-// assembled (a broken ring, a node that the file lacks) is counted in `passedOver`.
+// assembled (a broken ring, a node or a way that the file lacks) is counted in `passedOver`; the first
+// of it stands in `leftOut`, pairs of an id and a reason.
 
 #include <osmium/area/assembler.hpp>
 #include <osmium/area/multipolygon_manager.hpp>
@@ -29,6 +30,8 @@
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "../limit_self.h"
 
@@ -63,6 +66,18 @@ bool meansArea(const osmium::TagList& tags) {
 
 // What has no tags is a part of something else.
 bool isTagged(const osmium::OSMObject& o) { return !o.tags().empty(); }
+
+/// What could not be assembled, the first of it by name.
+struct PassedOver {
+  static constexpr size_t kNamed = 1000;
+  uint64_t count = 0;
+  std::vector<std::pair<std::string, const char*>> first;
+
+  void add(const char* kind, osmium::object_id_type id, const char* reason) {
+    ++count;
+    if (first.size() < kNamed) first.emplace_back(kind + ('/' + std::to_string(id)), reason);
+  }
+};
 
 /// GeoJSON, piece by piece to standard output.
 class Writer {
@@ -105,9 +120,13 @@ class Writer {
     degrees(at.y());
     out_ += ']';
   }
-  /// `passedOver` of the collection.
-  void finish(uint64_t passedOver) {
-    out_ += "\n],\"passedOver\":" + std::to_string(passedOver) + "}\n";
+  void finish(const PassedOver& passedOver) {
+    out_ += "\n],\"passedOver\":" + std::to_string(passedOver.count) + ",\"leftOut\":[";
+    for (const auto& [id, reason] : passedOver.first) {
+      separate();
+      out_ += "[\"" + id + "\",\"" + reason + "\"]";
+    }
+    out_ += "]}\n";
     flush();
     std::cout.flush();
   }
@@ -167,7 +186,7 @@ class Features : public osmium::handler::Handler {
     const bool whole = std::all_of(w.nodes().begin(), w.nodes().end(),
                                    [](const osmium::NodeRef& n) { return n.location().valid(); });
     if (!whole || w.nodes().size() < 2) {
-      ++passedOver;
+      passedOver.add("way", w.id(), whole ? "it has fewer than two nodes" : kLacksNodes);
       return;
     }
     out_.begin("way", w.id(), w.tags(), "LineString");
@@ -179,7 +198,8 @@ class Features : public osmium::handler::Handler {
     if (!isTagged(a) || (a.from_way() && !meansArea(a.tags()))) return;
     const auto [outer, inner] = a.num_rings();
     if (outer == 0) {
-      ++passedOver;
+      passedOver.add(a.from_way() ? "way" : "relation", a.orig_id(),
+                     "its ways make no ring that is closed");
       return;
     }
     out_.begin(a.from_way() ? "way" : "relation", a.orig_id(), a.tags(), "MultiPolygon");
@@ -194,9 +214,10 @@ class Features : public osmium::handler::Handler {
     out_.end();
   }
 
-  uint64_t passedOver = 0;
+  PassedOver passedOver;
 
  private:
+  static constexpr const char* kLacksNodes = "the file lacks some of its nodes";
   void ring(const osmium::NodeRefList& nodes) {
     out_.open();
     for (const osmium::NodeRef& n : nodes) out_.point(n.location());
@@ -222,6 +243,13 @@ void convert(const osmium::io::File& file) {
                 multipolygons.handler(
                     [&](const osmium::memory::Buffer& areas) { osmium::apply(areas, features); }));
   reader.close();
+  multipolygons.for_each_incomplete_relation([&](const osmium::relations::RelationHandle& handle) {
+    const char* type = handle->tags()["type"];
+    // Those of a boundary are longer than any extract.
+    if (type && std::strcmp(type, "multipolygon") == 0) {
+      features.passedOver.add("relation", handle->id(), "the file lacks some of its ways");
+    }
+  });
   writer.finish(features.passedOver);
 }
 

@@ -49,6 +49,12 @@ struct CityStatistics {
   uint64_t features = 0;
   /// Features, or parts of them, that could not be read.
   uint64_t skipped = 0;
+  struct Skip {
+    /// The id of a feature, such as way/123, and why.
+    std::string place, reason;
+  };
+  /// The first thousand of them.
+  std::vector<Skip> skips;
   /// The same as CitySettings::box.
   std::array<double, 4> box{};
 };

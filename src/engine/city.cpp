@@ -93,6 +93,7 @@ CityStatistics statisticsOf(const CityPlan& plan, const MapFeatures& map) {
   out.shapes.assign(counts.begin(), counts.end());
   out.features = map.features.size();
   out.skipped = map.skips.count;
+  for (const MapSkips::Row& row : map.skips.first) out.skips.push_back({row.place, row.reason});
   out.box = {map.box.west, map.box.south, map.box.east, map.box.north};
   return out;
 }

@@ -21,6 +21,11 @@ std::string cityJson(const CityStatistics& s, const RunFigures& figures, const T
   json.endObject().key("shapes").beginObject();
   for (const auto& [rule, count] : s.shapes) json.field(rule, count);
   json.endObject().field("features", s.features).field("skipped", s.skipped);
+  json.key("leftOut").beginArray();
+  for (const CityStatistics::Skip& skip : s.skips) {
+    json.beginObject().field("feature", skip.place).field("reason", skip.reason).endObject();
+  }
+  json.endArray();
   json.key("seconds").beginObject();
   const std::pair<const char*, std::optional<double>> parts[] = {{"plan", figures.parseSeconds},
                                                                  {"derive", figures.deriveSeconds},

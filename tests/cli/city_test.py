@@ -108,6 +108,22 @@ class City(Case):
                 self.assertLess(max(heights), most, style)
                 self.assertGreater(max(heights), 11.9, style)
 
+    def testWhatAnExtractHasInPartIsListed(self):
+        node = '<node id="{0}" lat="{1}" lon="{2}" version="1"/>'
+        corners = [(1, 0, 0), (2, 0, 0.0002), (3, 0.0002, 0.0002), (4, 0.0002, 0)]
+        way = '<way id="{0}" version="1">{1}<tag k="{2}" v="yes"/></way>'
+        refs = lambda ids: "".join(f'<nd ref="{i}"/>' for i in ids)
+        self.put("part.osm", '<osm version="0.6">' + "".join(node.format(*c) for c in corners)
+                 + way.format(10, refs((1, 2, 3, 4, 1)), "building") + way.format(11, refs((1, 99)), "bridge")
+                 + '<relation id="12" version="1"><member type="way" ref="98" role="outer"/>'
+                 '<tag k="type" v="multipolygon"/><tag k="landuse" v="grass"/></relation></osm>')
+        self.city("part.osm", "--stats", "part.json", says="way/11")
+        stats = self.read("part.json")
+        self.assertEqual(stats["skipped"], 2)
+        self.assertEqual([s["feature"] for s in stats["leftOut"]], ["way/11", "relation/12"])
+        for skip in stats["leftOut"]:
+            self.assertIn("lacks", skip["reason"])
+
     def testWhatCannotBeReadIsNamed(self):
         self.city("map.geojson", "-o", "a.glb", says="map-row")
         self.city("none.osm", "-o", "b.glb", status=FILE, says="none.osm")

@@ -59,6 +59,18 @@ class Reader {
     addGeometry(feature ? v["geometry"] : v, out, 0);
   }
 
+  // What the program that read the map could not assemble.
+  void addLeftOut(const JsonValue& root) {
+    const std::vector<JsonValue>& rows = root["leftOut"].items();
+    for (const JsonValue& row : rows) {
+      work();
+      out_.skips.add(row.at(0).text(), row.at(1).text());
+    }
+    const double all = root["passedOver"].number(0);
+    const auto named = static_cast<double>(rows.size());
+    if (all > named && all < 1e15) out_.skips.count += static_cast<uint64_t>(all - named);
+  }
+
   // Degrees become metres about the middle of the area.
   Result<MapFeatures> finish(const JsonValue& root, const std::string& path) {
     const Box2 box = extent();
@@ -254,6 +266,7 @@ Result<MapFeatures> readMapFeatures(std::string_view bytes, const AssetOptions& 
   }
   Reader reader(box);
   reader.collect(root.value());
+  reader.addLeftOut(root.value());
   return reader.finish(root.value(), options.path);
 }
 
