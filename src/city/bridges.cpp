@@ -14,6 +14,7 @@
 #include "base/work.h"
 #include "city/ribbon.h"
 #include "city/surface.h"
+#include "city/tag_values.h"
 
 namespace gable {
 namespace {

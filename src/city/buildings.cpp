@@ -7,6 +7,7 @@
 
 #include "base/work.h"
 #include "city/surface.h"
+#include "city/tag_values.h"
 #include "geom/region/cell_grid.h"
 
 namespace gable {
@@ -33,7 +34,7 @@ double areaOf(const MapFeature& f) {
 double levelsOf(const MapFeature& f) {
   const double levels = tagNumber(f.tag("building:levels")).value_or(0);
   if (levels > 0 && levels < 200) return levels;
-  const double height = tagNumber(f.tag("height")).value_or(0);
+  const double height = tagMetres(f.tag("height")).value_or(0);
   return height > 0 && height < 900 ? std::max(1.0, std::round(height / kStorey)) : 0;
 }
 

@@ -8,6 +8,7 @@
 #include "base/work.h"
 #include "city/coast.h"
 #include "city/ribbon.h"
+#include "city/tag_values.h"
 #include "geom/region/cell_grid.h"
 #include "geom/region/locator.h"
 #include "geom/region/overlay.h"
@@ -122,7 +123,7 @@ std::optional<LineGround> lineGroundOf(const MapFeature& f, bool anywhere) {
   constexpr double kNarrowest = 0.5, kWidest = 500;
   for (const Usual& u : kUsual) {
     if (f.tag(u.key) != u.value) continue;
-    const double width = tagNumber(f.tag("width")).value_or(0);
+    const double width = tagMetres(f.tag("width")).value_or(0);
     return LineGround{u.surface, width >= kNarrowest && width <= kWidest ? width : u.width};
   }
   return std::nullopt;

@@ -34,7 +34,10 @@ PlainValue text(std::string v) { return {PlainValue::Kind::Text, 0, std::move(v)
 
 std::vector<AttributeValue> tagsOf(const MapFeature& f) {
   std::vector<AttributeValue> out;
-  for (const auto& [name, value] : f.tags) out.push_back({name, {text(value)}, 0, 0});
+  for (const auto& [name, value] : f.tags) {
+    std::optional<std::string> plain = plainTag(name, value);
+    if (plain) out.push_back({name, {text(std::move(*plain))}, 0, 0});
+  }
   return out;
 }
 
@@ -67,6 +70,7 @@ class Planner {
         facts_(buildingFactsOf(map.features)) {
     out_.area = map.area;
     out_.skips = map.skips;
+    out_.doubts = doubtsOf(map.features);
     out_.ground = groundOf(map.features, streets_, map.area);
     index_ = std::make_unique<GroundIndex>(out_.ground);
   }

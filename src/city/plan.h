@@ -19,14 +19,15 @@
 //                                                                          BridgePier
 //   single things  a square of a metre                                     Tree, StreetLamp
 //
-// Attributes are the tags of the feature, and what is said in docs/guide/city.md.
-// Promises: equal input gives equal output. O(n log n), mostly.
+// Attributes are the tags of the feature, numbers without their units, and what is said in
+// docs/guide/city.md. Promises: equal input gives equal output. O(n log n), mostly.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "city/ground.h"
+#include "city/tag_values.h"
 #include "io/importers/map_features.h"
 
 namespace gable {
@@ -49,6 +50,7 @@ struct CityPlan {
   std::vector<GroundPiece> ground;
   std::vector<CityShape> shapes;
   MapSkips skips;
+  std::vector<MapDoubt> doubts;
 };
 
 /// `country` as countryOf() gives it, which is asked where it is empty.

@@ -272,6 +272,46 @@ TEST(CityPlan, GroundWithinABlockIsACourt) {
   EXPECT_EQ(courts, 1u);
 }
 
+// Of each shape of a rule, the text or number of an attribute.
+std::string valueOf(const CityShape& s, const std::string& name) {
+  for (const AttributeValue& a : s.attributes) {
+    if (a.name != name) continue;
+    return a.values[0].text.empty() ? std::to_string(std::lround(a.values[0].number))
+                                    : a.values[0].text;
+  }
+  return "-";
+}
+const CityShape* shapeOf(const CityPlan& plan, const std::string& rule, const std::string& id) {
+  for (const CityShape& s : plan.shapes) {
+    if (s.rule == rule && s.id == id) return &s;
+  }
+  return nullptr;
+}
+std::string square(int x, int y, int size) {
+  const auto at = [](int u, int v) {
+    return "[" + std::to_string(u) + "," + std::to_string(v) + "]";
+  };
+  return "[[" + at(x, y) + "," + at(x + size, y) + "," + at(x + size, y + size) + "," +
+         at(x, y + size) + "," + at(x, y) + "]]";
+}
+
+TEST(CityPlan, ValuesAreNumbersForTheRulesOrTold) {
+  auto map =
+      mapOf({feature(R"("building":"yes","id":"a","height":"20 ft","building:levels":"6 floors",)"
+                     R"("bulding:levels":"4")",
+                     "Polygon", square(50, 50, 20))});
+  ASSERT_TRUE(map.ok());
+  const CityPlan plan = planCity(*map);
+  const CityShape* shape = shapeOf(plan, "Building", "a");
+  ASSERT_TRUE(shape);
+  EXPECT_EQ(valueOf(*shape, "height"), "6.096");
+  EXPECT_EQ(valueOf(*shape, "building:levels"), "-");
+  EXPECT_EQ(valueOf(*shape, "known_levels"), "2");
+  ASSERT_EQ(plan.doubts.size(), 2u);
+  EXPECT_EQ(plan.doubts[0].meant, "building:levels");
+  EXPECT_EQ(plan.doubts[1].key, "building:levels");
+}
+
 class RealMap : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(RealMap, KeepsThePromise) {

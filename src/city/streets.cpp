@@ -12,6 +12,7 @@
 
 #include "base/work.h"
 #include "city/ribbon.h"
+#include "city/tag_values.h"
 #include "geom/curve/curve.h"
 #include "math/trig.h"
 
@@ -335,7 +336,7 @@ std::optional<StreetProfile> streetProfileOf(const MapFeature& f, bool anywhere)
   if (lanes >= 1 && lanes <= 16) out.lanes = static_cast<int>(lanes);
   // A single lane has room for what stops in it.
   out.width = out.lanes * usual->lane + (out.lanes == 1 && usual->walk > 0 ? 1 : 0);
-  const double width = tagNumber(f.tag("width")).value_or(0);
+  const double width = tagMetres(f.tag("width")).value_or(0);
   if (width >= kNarrowest && width <= kWidest) out.width = width;
   const bool walks = usual->walk > 0 && out.rank > 1;
   const double walk = std::max(usual->walk, 1.5);

@@ -2,16 +2,12 @@
 // SPDX-FileCopyrightText: The Gable authors
 #include "city/surface.h"
 
-#include <algorithm>
 #include <array>
-#include <string>
 
-#include "base/number.h"
+#include "city/tag_values.h"
 
 namespace gable {
 namespace {
-
-constexpr double kFoot = 0.3048;
 
 struct Meaning {
   std::string_view key, value;
@@ -105,24 +101,6 @@ std::optional<Surface> surfaceOfArea(const MapFeature& f) {
     if (f.tag(m.key) == m.value) return m.surface;
   }
   return std::nullopt;
-}
-
-std::optional<double> tagNumber(std::string_view text) {
-  std::string plain(text);
-  double factor = 1;
-  const auto drop = [&](std::string_view tail, double unit) {
-    if (!plain.ends_with(tail)) return;
-    plain.resize(plain.size() - tail.size());
-    factor *= unit;
-  };
-  drop("m", 1);
-  drop("ft", kFoot);
-  drop("'", kFoot);
-  while (!plain.empty() && plain.back() == ' ') plain.pop_back();
-  std::replace(plain.begin(), plain.end(), ',', '.');
-  double value = 0;
-  if (!parseNumber(plain, value)) return std::nullopt;
-  return value * factor;
 }
 
 }  // namespace gable

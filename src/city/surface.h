@@ -47,7 +47,4 @@ bool isOnGround(const MapFeature& f);
 /// What an area of the map makes of the ground; nothing where it says nothing of it.
 std::optional<Surface> surfaceOfArea(const MapFeature& f);
 
-/// The number that a tag says: "3", "3.5 m", "12'" are metres; nothing where it is none.
-std::optional<double> tagNumber(std::string_view text);
-
 }  // namespace gable

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "base/work.h"
+#include "city/tag_values.h"
 #include "geom/region/clean.h"
 #include "math/trig.h"
 

@@ -116,6 +116,39 @@ void tellSkipped(const MapSkips& skips, const std::string& path, DiagnosticList&
   for (Diagnostic& d : listOf(list, Sources{})) out.push_back(std::move(d));
 }
 
+// Once for each name, with the first of the features.
+void tellDoubts(const std::vector<MapDoubt>& doubts, const std::string& path, DiagnosticList& out) {
+  constexpr size_t kTold = 30;
+  Diagnostics list;
+  const auto features = [](const MapDoubt& d) {
+    return std::to_string(d.count) + (d.count == 1 ? " feature" : " features");
+  };
+  for (size_t i = 0; i < std::min(doubts.size(), kTold); ++i) {
+    const MapDoubt& d = doubts[i];
+    std::string named;
+    for (const auto& [id, value] : d.first) {
+      named += (named.empty() ? "" : ", ") + id + " ('" + value + "')";
+    }
+    if (d.count > d.first.size()) named += ", ..";
+    const std::string where = "' of " + features(d) + " of '" + path + "' ";
+    if (d.meant.empty()) {
+      list.warning("map-value", {},
+                   "'" + d.key + where + "says no number and is not used: " + named,
+                   "write a number, such as 3 or 3.5; lengths in metres, or as 12 ft or 12'6\"");
+    } else {
+      list.warning("map-name", {}, "'" + d.key + where + "has a name that is not known: " + named,
+                   "did you mean '" + d.meant + "'?");
+    }
+  }
+  if (doubts.size() > kTold) {
+    list.warning("map-names", {},
+                 std::to_string(doubts.size() - kTold) + " more names or values of '" + path +
+                     "' are in doubt",
+                 "mend those that are named first");
+  }
+  for (Diagnostic& d : listOf(list, Sources{})) out.push_back(std::move(d));
+}
+
 std::shared_ptr<City::Impl> parsed(const std::string& content, const std::string& name,
                                    const CitySettings& settings) {
   std::optional<MapBox> box;
@@ -131,6 +164,7 @@ std::shared_ptr<City::Impl> parsed(const std::string& content, const std::string
   impl->shapes = shapesOf(impl->plan, impl->map);
   impl->statistics = statisticsOf(impl->plan, impl->map);
   tellSkipped(impl->plan.skips, name, impl->diagnostics);
+  tellDoubts(impl->plan.doubts, name, impl->diagnostics);
   return impl;
 }
 

@@ -108,6 +108,17 @@ class City(Case):
                 self.assertLess(max(heights), most, style)
                 self.assertGreater(max(heights), 11.9, style)
 
+    def testWhatIsMeantOtherwiseIsTold(self):
+        houses = [feature("Polygon", square(30 * i, 0, 14), id=f"h{i}", building="yes", height="6 floors", heigth="12")
+                  for i in range(7)]
+        self.put("slips.geojson", json.dumps({**MAP, "features": houses}))
+        told = self.city("slips.geojson", "--stats", "slips.json")
+        self.assertEqual(told.count("[map-value]"), 1)
+        self.assertEqual(told.count("[map-name]"), 1)
+        self.assertIn("7 features", told)
+        self.assertIn("h4 ('6 floors'), ..", told)
+        self.assertIn("did you mean 'height'", told)
+
     def testWhatAnExtractHasInPartIsListed(self):
         node = '<node id="{0}" lat="{1}" lon="{2}" version="1"/>'
         corners = [(1, 0, 0), (2, 0, 0.0002), (3, 0.0002, 0.0002), (4, 0.0002, 0)]
