@@ -177,6 +177,21 @@ void findLandUse(const std::vector<MapFeature>& features, std::vector<BuildingFa
 
 }  // namespace
 
+std::vector<bool> buildingsBeyond(const std::vector<MapFeature>& features,
+                                  const std::vector<BuildingFacts>& facts, const Box2& area) {
+  const auto beyond = [&](uint32_t i) {
+    const Vec2 p = facts[i].place;
+    return p.x < area.min.x || p.y < area.min.y || p.x >= area.max.x || p.y >= area.max.y;
+  };
+  std::vector<bool> out(features.size(), false);
+  for (uint32_t i = 0; i < features.size(); ++i) {
+    const bool part = isBuildingPart(features[i]);
+    if (!part && !isBuilding(features[i])) continue;
+    out[i] = beyond(part && facts[i].owner != BuildingFacts::kNone ? facts[i].owner : i);
+  }
+  return out;
+}
+
 bool isBuilding(const MapFeature& f) {
   return f.kind == MapFeature::Kind::Area && isTrue(f.tag("building"));
 }

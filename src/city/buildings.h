@@ -34,6 +34,11 @@ struct BuildingFacts {
 /// By feature; those of what is no building say nothing. O(n log n), mostly.
 std::vector<BuildingFacts> buildingFactsOf(const std::vector<MapFeature>& features);
 
+/// The buildings that a place within `area` lacks: those the middle of whose box is not in it, and
+/// their parts. So of two places beside each other just one has a building at their border.
+std::vector<bool> buildingsBeyond(const std::vector<MapFeature>& features,
+                                  const std::vector<BuildingFacts>& facts, const Box2& area);
+
 bool isBuilding(const MapFeature& f);
 bool isBuildingPart(const MapFeature& f);
 

@@ -69,9 +69,11 @@ class Candidates {
   std::vector<Candidate> all_;
 };
 
-void addFeatures(const std::vector<MapFeature>& features, Candidates& out) {
+void addFeatures(const std::vector<MapFeature>& features, const std::vector<bool>& leftOut,
+                 Candidates& out) {
   for (uint32_t i = 0; i < features.size(); ++i) {
     work();
+    if (!leftOut.empty() && leftOut[i]) continue;
     const MapFeature& f = features[i];
     if (const auto surface = surfaceOfArea(f)) out.add(*surface, i, f.rings, FillRule::EvenOdd);
     if (const auto line = lineGroundOf(f)) {
@@ -130,7 +132,7 @@ std::optional<LineGround> lineGroundOf(const MapFeature& f, bool anywhere) {
 }
 
 std::vector<GroundPiece> groundOf(const std::vector<MapFeature>& features, const Streets& streets,
-                                  const Box2& area) {
+                                  const Box2& area, const std::vector<bool>& leftOut) {
   const Ring border{area.min, {area.max.x, area.min.y}, area.max, {area.min.x, area.max.y}};
   Candidates candidates;
   candidates.add(Surface::Lot, kNothing, {border}, FillRule::EvenOdd);
@@ -141,7 +143,7 @@ std::vector<GroundPiece> groundOf(const std::vector<MapFeature>& features, const
   }
   std::vector<Ring> sea = seaOf(coast, area);
   if (!sea.empty()) candidates.add(Surface::Sea, kNothing, std::move(sea), FillRule::EvenOdd);
-  addFeatures(features, candidates);
+  addFeatures(features, leftOut, candidates);
   addStreets(streets, candidates);
 
   std::vector<Candidate> sorted = candidates.sorted();

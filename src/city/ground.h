@@ -30,8 +30,9 @@ struct GroundPiece {
   std::vector<uint32_t> beyond;
 };
 
+/// Without the features that are left out, by their numbers; an empty list leaves out none.
 std::vector<GroundPiece> groundOf(const std::vector<MapFeature>& features, const Streets& streets,
-                                  const Box2& area);
+                                  const Box2& area, const std::vector<bool>& leftOut = {});
 
 /// How wide a line of the map is on the ground that is no street for cars, and what surface it
 /// makes; nothing where it makes none, or does not lie on the ground and is not asked for

@@ -24,6 +24,8 @@ namespace {
 constexpr double kLeastBuilding = 3;
 constexpr double kLeastPart = 0.5;
 constexpr double kLeastKerb = 0.2;
+// No building reaches farther beyond the place, in metres.
+constexpr double kMostBeyond = 2000;
 
 PlainValue plain(double v) { return {PlainValue::Kind::Number, v, {}}; }
 AttributeValue number(const char* name, double v) { return {name, {plain(v)}, 0, 0}; }
@@ -71,12 +73,21 @@ class Planner {
     out_.area = map.area;
     out_.skips = map.skips;
     out_.doubts = doubtsOf(map.features);
-    out_.ground = groundOf(map.features, streets_, map.area);
+    leftOut_ = buildingsBeyond(map.features, facts_, map.area);
+    out_.ground = groundOf(map.features, streets_, map.area, leftOut_);
     index_ = std::make_unique<GroundIndex>(out_.ground);
+    const Box2 whole = wholeArea();
+    if (!(whole.min == map.area.min && whole.max == map.area.max)) {
+      standing_ = groundOf(map.features, streets_, whole, leftOut_);
+      standingIndex_ = std::make_unique<GroundIndex>(standing_);
+    }
   }
 
   CityPlan plan() {
     for (const GroundPiece& p : out_.ground) addGround(p);
+    for (const GroundPiece& p : under()) {
+      if (p.surface == Surface::Footprint && p.feature != GroundPiece::kNothing) addBuilding(p);
+    }
     for (uint32_t i = 0; i < map_.features.size(); ++i) {
       work();
       addAbove(i);
@@ -90,6 +101,27 @@ class Planner {
   }
 
  private:
+  // The area, and what of its buildings reaches beyond it.
+  Box2 wholeArea() const {
+    Box2 out = map_.area;
+    for (uint32_t i = 0; i < map_.features.size(); ++i) {
+      const MapFeature& f = map_.features[i];
+      if (leftOut_[i] || (!isBuilding(f) && !isBuildingPart(f))) continue;
+      for (const Ring& r : f.rings) {
+        work(r.size());
+        for (const Vec2 p : r) out.include(p);
+      }
+    }
+    const Vec2 most{kMostBeyond, kMostBeyond};
+    const Vec2 low = map_.area.min - most, high = map_.area.max + most;
+    out.min = {std::max(out.min.x, low.x), std::max(out.min.y, low.y)};
+    out.max = {std::min(out.max.x, high.x), std::min(out.max.y, high.y)};
+    return out;
+  }
+  // The ground that buildings stand on, whole: that of the place where none reaches beyond it.
+  const std::vector<GroundPiece>& under() const { return standingIndex_ ? standing_ : out_.ground; }
+  GroundIndex& underIndex() const { return standingIndex_ ? *standingIndex_ : *index_; }
+
   CityShape& add(const char* rule, const std::string& id) {
     out_.shapes.emplace_back();
     out_.shapes.back().rule = rule;
@@ -118,7 +150,6 @@ class Planner {
     if (p.surface == Surface::Lot) shape.attributes.push_back(truth("is_court", isCourt(p)));
     if (p.surface == Surface::Park) shape.attributes.push_back(truth("has_paths", hasPaths));
     addKerbs(p, f);
-    if (p.surface == Surface::Footprint && f) addBuilding(p);
   }
 
   // Whether buildings stand along most of a piece's border.
@@ -209,7 +240,7 @@ class Planner {
     std::vector<PlainValue> beyond, levels, street, widths, entrance;
     for (const Wall& w : outline.walls) {
       const bool known = w.beyond != GroundPiece::kNothing;
-      const GroundPiece* piece = known ? &out_.ground[w.beyond] : nullptr;
+      const GroundPiece* piece = known ? &under()[w.beyond] : nullptr;
       beyond.push_back(text(known ? surfaceName(piece->surface) : ""));
       const bool party = known && piece->surface == Surface::Footprint;
       double storeys = 0;
@@ -241,10 +272,10 @@ class Planner {
 
   void addBuilding(const GroundPiece& piece) {
     if (area(piece.polygon) < kLeastBuilding) return;
-    BuildingOutline outline = outlineOf(piece, out_.ground);
-    findStreets(outline, out_.ground, *index_);
+    BuildingOutline outline = outlineOf(piece, under());
+    findStreets(outline, under(), underIndex());
     CityShape& shape = add("Building", map_.features[piece.feature].id);
-    const double attached = attachedShare(outline, out_.ground);
+    const double attached = attachedShare(outline, under());
     describe(shape, piece.feature, attached);
     shape.attributes.push_back(number("attached_share", attached));
     const uint32_t edge = roofEdgeOf(outline, map_.features[piece.feature], attached > 0.1);
@@ -257,14 +288,14 @@ class Planner {
   void addAbove(uint32_t feature) {
     const MapFeature& f = map_.features[feature];
     const bool part = isBuildingPart(f);
-    if (!part && (!isBuilding(f) || isOnGround(f))) return;
+    if (leftOut_[feature] || (!part && (!isBuilding(f) || isOnGround(f)))) return;
     if (tagNumber(f.tag("layer")).value_or(0) < 0 || f.tag("location") == "underground") return;
     const bool roof = f.tag("building") == "roof" || f.tag("building:part") == "roof";
     for (const Polygon& p : repaired(f.rings, FillRule::EvenOdd)) {
-      if (area(p) < kLeastPart || !out_.area.contains(p.outer[0])) continue;
+      if (area(p) < kLeastPart) continue;
       CityShape& shape = add(roof ? "Canopy" : part ? "BuildingPart" : "Building", f.id);
       BuildingOutline outline = outlineOf(p);
-      findStreets(outline, out_.ground, *index_);
+      findStreets(outline, under(), underIndex());
       describe(shape, feature, 0);
       shape.attributes.push_back(number("roof_edge", roofEdgeOf(outline, f, false)));
       describeWalls(shape, outline);
@@ -407,8 +438,13 @@ class Planner {
   std::string country_;
   Streets streets_;
   std::vector<BuildingFacts> facts_;
+  // Buildings that belong to the place beside.
+  std::vector<bool> leftOut_;
   CityPlan out_;
   std::unique_ptr<GroundIndex> index_;
+  // Of a larger area, so that buildings at the border are whole; only where there are such.
+  std::vector<GroundPiece> standing_;
+  std::unique_ptr<GroundIndex> standingIndex_;
 };
 
 }  // namespace

@@ -295,6 +295,37 @@ std::string square(int x, int y, int size) {
          at(x, y + size) + "," + at(x, y) + "]]";
 }
 
+TEST(CityPlan, BuildingsAtTheBorderAreWholeOrNotThere) {
+  const auto house = [](const char* id, int x, int y) {
+    return feature(R"("building":"yes","id":")" + std::string(id) + '"', "Polygon",
+                   square(x, y, 20));
+  };
+  // Beside a neighbour within; with its middle just outside; its middle on either border.
+  auto map = mapOf({house("in", -9, 50), house("beside", 11, 50), house("out", 100, -11),
+                    house("low", -10, 150), house("high", 190, 150),
+                    feature(R"("building:part":"yes","id":"part")", "Polygon", square(-9, 50, 8))});
+  ASSERT_TRUE(map.ok());
+  const CityPlan plan = planCity(*map);
+  expectWhole(plan);
+  EXPECT_NEAR(areaOf(plan, Surface::Footprint), 11 * 20 + 400 + 10 * 20, 0.5);
+  for (const char* id : {"in", "beside", "low"}) {
+    const CityShape* shape = shapeOf(plan, "Building", id);
+    ASSERT_TRUE(shape) << id;
+    EXPECT_NEAR(area(shape->polygon), 400, 0.5) << id;
+  }
+  EXPECT_EQ(countOf(plan, "Building"), 3u);
+  // A part goes with its building, and walls know the neighbour within.
+  EXPECT_EQ(countOf(plan, "BuildingPart"), 1u);
+  EXPECT_EQ(valueOf(*shapeOf(plan, "Building", "in"), "attached_share"), "0");
+  const CityShape* in = shapeOf(plan, "Building", "in");
+  size_t party = 0;
+  for (const AttributeValue& a : in->attributes) {
+    if (a.name != "/edgeattr/beyond") continue;
+    for (const PlainValue& v : a.values) party += v.text == "Footprint";
+  }
+  EXPECT_EQ(party, 1u);
+}
+
 TEST(CityPlan, ValuesAreNumbersForTheRulesOrTold) {
   auto map =
       mapOf({feature(R"("building":"yes","id":"a","height":"20 ft","building:levels":"6 floors",)"
