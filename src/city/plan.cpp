@@ -11,6 +11,7 @@
 #include "base/work.h"
 #include "city/bridges.h"
 #include "city/building_kind.h"
+#include "city/building_points.h"
 #include "city/buildings.h"
 #include "city/country.h"
 #include "city/ribbon.h"
@@ -69,7 +70,8 @@ class Planner {
       : map_(map),
         country_(country.empty() ? countryOf(map) : country),
         streets_(streetsOf(map.features)),
-        facts_(buildingFactsOf(map.features)) {
+        facts_(buildingFactsOf(map.features)),
+        points_(buildingPointsOf(map.features)) {
     out_.area = map.area;
     out_.skips = map.skips;
     out_.doubts = doubtsOf(map.features);
@@ -233,11 +235,28 @@ class Planner {
     shape.attributes.push_back(number("known_levels", facts.levels));
     shape.attributes.push_back(number("guessed_levels", facts.guessedLevels));
     shape.attributes.push_back(truth("has_parts", facts.hasParts));
+    describePoints(shape, feature);
+  }
+
+  // What the map has as points in a building, where the building itself does not say it.
+  void describePoints(CityShape& shape, uint32_t feature) const {
+    const auto at = points_.find(feature);
+    const double count = at == points_.end() ? 0 : static_cast<double>(at->second.shops.size());
+    shape.attributes.push_back(number("shops", count));
+    if (at == points_.end()) return;
+    const BuildingPoints& points = at->second;
+    for (const auto& [name, value] : points.tags) {
+      if (map_.features[feature].tag(name).empty()) {
+        shape.attributes.push_back({name, {text(value)}, 0, 0});
+      }
+    }
+    shape.attributes.push_back({"addresses", {text(points.addresses)}, 0, 0});
+    shape.attributes.push_back({"names", {text(points.names)}, 0, 0});
   }
 
   // What each wall looks at: `beyond`, the storeys of a neighbour there, metres to the street.
   void describeWalls(CityShape& shape, const BuildingOutline& outline) const {
-    std::vector<PlainValue> beyond, levels, street, widths, entrance;
+    std::vector<PlainValue> beyond, levels, street, widths, entrance, shops;
     for (const Wall& w : outline.walls) {
       const bool known = w.beyond != GroundPiece::kNothing;
       const GroundPiece* piece = known ? &under()[w.beyond] : nullptr;
@@ -252,6 +271,7 @@ class Planner {
       street.push_back(plain(w.street));
       widths.push_back(plain(w.street > 0 ? 1 : 0));
       entrance.push_back(plain(w.entrance ? 1 : 0));
+      shops.push_back(plain(w.shops));
     }
     // Walls beside each other have different numbers, so that rules can tell them apart.
     std::vector<PlainValue> turn;
@@ -267,6 +287,7 @@ class Planner {
     shape.attributes.push_back(list("/edgeattr/beyond_levels", std::move(levels)));
     shape.attributes.push_back(list("/edgeattr/street", std::move(street)));
     shape.attributes.push_back(list("/edgeattr/entrance", std::move(entrance)));
+    shape.attributes.push_back(list("/edgeattr/shops", std::move(shops)));
     shape.attributes.push_back(list("streetWidth", std::move(widths)));
   }
 
@@ -274,6 +295,7 @@ class Planner {
     if (area(piece.polygon) < kLeastBuilding) return;
     BuildingOutline outline = outlineOf(piece, under());
     findStreets(outline, under(), underIndex());
+    findDoors(outline, piece.feature);
     CityShape& shape = add("Building", map_.features[piece.feature].id);
     const double attached = attachedShare(outline, under());
     describe(shape, piece.feature, attached);
@@ -282,6 +304,25 @@ class Planner {
     shape.attributes.push_back(number("roof_edge", edge));
     describeWalls(shape, outline);
     shape.polygon = std::move(outline.polygon);
+  }
+
+  // Doors and shops of a building that is divided stand at the piece that is nearest to them.
+  void findDoors(BuildingOutline& outline, uint32_t feature) const {
+    const auto at = points_.find(feature);
+    if (at == points_.end()) return;
+    const auto near = [&](std::vector<Vec2> list) {
+      list.erase(std::remove_if(list.begin(), list.end(),
+                                [&](Vec2 p) { return !isNear(outline.polygon, p); }),
+                 list.end());
+      return list;
+    };
+    placeDoors(outline, under(), near(at->second.entrances), near(at->second.shops));
+  }
+  static bool isNear(const Polygon& polygon, Vec2 p) {
+    constexpr double kNear = 1;
+    const Box2 box = bounds(polygon);
+    return p.x >= box.min.x - kNear && p.x <= box.max.x + kNear && p.y >= box.min.y - kNear &&
+           p.y <= box.max.y + kNear;
   }
 
   // Parts of buildings, and buildings that take no ground: roofs on posts, what stands on others.
@@ -296,6 +337,7 @@ class Planner {
       CityShape& shape = add(roof ? "Canopy" : part ? "BuildingPart" : "Building", f.id);
       BuildingOutline outline = outlineOf(p);
       findStreets(outline, under(), underIndex());
+      findDoors(outline, feature);
       describe(shape, feature, 0);
       shape.attributes.push_back(number("roof_edge", roofEdgeOf(outline, f, false)));
       describeWalls(shape, outline);
@@ -438,6 +480,7 @@ class Planner {
   std::string country_;
   Streets streets_;
   std::vector<BuildingFacts> facts_;
+  std::map<uint32_t, BuildingPoints> points_;
   // Buildings that belong to the place beside.
   std::vector<bool> leftOut_;
   CityPlan out_;

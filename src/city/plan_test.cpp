@@ -326,6 +326,72 @@ TEST(CityPlan, BuildingsAtTheBorderAreWholeOrNotThere) {
   EXPECT_EQ(party, 1u);
 }
 
+TEST(CityPlan, PointsOfABuildingReachIt) {
+  const std::string street =
+      feature(R"("highway":"residential")", "LineString", "[[0,40],[200,40]]");
+  const std::vector<std::string> points = {
+      feature(R"("addr:street":"Long","addr:housenumber":"12","id":"n3")", "Point", "[55,55]"),
+      feature(R"("addr:street":"Long","addr:housenumber":"9a","id":"n1")", "Point", "[60,56]"),
+      feature(R"("shop":"bakery","name":"Bread","id":"n2")", "Point", "[69,55]"),
+      feature(R"("shop":"books","name":"Leaves","id":"n5","level":"1")", "Point", "[69,56]"),
+      // On the northern wall, where no street is.
+      feature(R"("entrance":"main","id":"n4")", "Point", "[62,70]"),
+      feature(R"("shop":"kiosk","id":"n6")", "Point", "[120,120]")};
+  const std::string house =
+      feature(R"("building":"yes","id":"house")", "Polygon", square(50, 50, 20));
+  std::vector<std::string> rows = points;
+  rows.push_back(street);
+  rows.push_back(house);
+  std::vector<std::string> turned(points.rbegin(), points.rend());
+  turned.insert(turned.begin(), house);
+  turned.push_back(street);
+  for (const auto& order : {rows, turned}) {
+    auto map = mapOf(order);
+    ASSERT_TRUE(map.ok());
+    const CityPlan plan = planCity(*map);
+    const CityShape* shape = shapeOf(plan, "Building", "house");
+    ASSERT_TRUE(shape);
+    EXPECT_EQ(valueOf(*shape, "addr:street"), "Long");
+    EXPECT_EQ(valueOf(*shape, "addr:housenumber"), "9a");
+    EXPECT_EQ(valueOf(*shape, "addresses"), "Long 9a;Long 12");
+    EXPECT_EQ(valueOf(*shape, "names"), "Bread;Leaves");
+    EXPECT_EQ(valueOf(*shape, "name"), "-");
+    EXPECT_EQ(valueOf(*shape, "shop"), "bakery;books");
+    EXPECT_EQ(valueOf(*shape, "shops"), "1");
+    for (const AttributeValue& a : shape->attributes) {
+      if (a.name != "/edgeattr/entrance" && a.name != "/edgeattr/shops") continue;
+      for (size_t i = 0; i < a.values.size(); ++i) {
+        const Vec2 from = shape->polygon.outer[i], to = shape->polygon.outer[(i + 1) % 4];
+        // The door is where the map has it; the shop looks at the street.
+        const double y = a.name == "/edgeattr/entrance" ? 20 : 0;
+        const bool here = std::fabs(from.y - to.y) < 1 &&
+                          std::fabs(from.y - shape->polygon.outer[0].y) < 1e9 &&
+                          std::fabs((from.y + to.y) / 2 - (y - 50)) < 1;
+        EXPECT_EQ(a.values[i].number, here ? 1 : 0) << a.name << i;
+      }
+    }
+  }
+}
+
+TEST(CityPlan, ADoorAddressIsAnEntrance) {
+  auto map = mapOf({feature(R"("highway":"residential")", "LineString", "[[0,40],[200,40]]"),
+                    feature(R"("addr:street":"Long","addr:housenumber":"1","name":"Old Mill")",
+                            "Point", "[70,60]"),
+                    feature(R"("building":"yes","id":"house")", "Polygon", square(50, 50, 20))});
+  ASSERT_TRUE(map.ok());
+  const CityPlan plan = planCity(*map);
+  const CityShape* shape = shapeOf(plan, "Building", "house");
+  ASSERT_TRUE(shape);
+  EXPECT_EQ(valueOf(*shape, "name"), "Old Mill");
+  for (const AttributeValue& a : shape->attributes) {
+    if (a.name != "/edgeattr/entrance") continue;
+    for (size_t i = 0; i < 4; ++i) {
+      const Vec2 middle = (shape->polygon.outer[i] + shape->polygon.outer[(i + 1) % 4]) * 0.5;
+      EXPECT_EQ(a.values[i].number > 0, std::fabs(middle.x - (70 - 100)) < 1) << i;
+    }
+  }
+}
+
 TEST(CityPlan, ValuesAreNumbersForTheRulesOrTold) {
   auto map =
       mapOf({feature(R"("building":"yes","id":"a","height":"20 ft","building:levels":"6 floors",)"

@@ -25,6 +25,8 @@ constexpr double kSurveyed = 0.03;
 constexpr double kLeastRest = 0.4;
 // Narrower walls have no door.
 constexpr double kLeastEntrance = 1.8;
+// Nor have those a door that the map places there.
+constexpr double kLeastDoor = 1;
 // Where a wall's view is asked for, in metres from it.
 constexpr double kSteps[] = {0.5, 1.5, 3, 5, 8, 12, 17, 23, 30};
 
@@ -215,6 +217,42 @@ void findStreets(BuildingOutline& outline, const std::vector<GroundPiece>& groun
   });
   if (best == outline.walls.size()) best = open;
   if (best < outline.walls.size()) outline.walls[best].entrance = true;
+}
+
+void placeDoors(BuildingOutline& outline, const std::vector<GroundPiece>& ground,
+                const std::vector<Vec2>& entrances, const std::vector<Vec2>& shops) {
+  // The nearest wall with room for a door that no neighbour stands against.
+  const auto nearest = [&](Vec2 p, bool atStreet) {
+    size_t best = outline.walls.size();
+    double least = 0;
+    forEachWall(outline, [&](size_t number, Vec2 a, Vec2 b) {
+      work();
+      const Wall& wall = outline.walls[number];
+      const double l = length(b - a);
+      if (l < kLeastDoor || isParty(wall.beyond, ground) || (atStreet && wall.street == 0)) return;
+      const double t = std::clamp(dot(p - a, b - a) / (l * l), 0.0, 1.0);
+      const double distance = length(p - (a + (b - a) * t));
+      if (best < outline.walls.size() && distance >= least - 1e-6) return;
+      best = number;
+      least = distance;
+    });
+    return best;
+  };
+  bool fresh = true;
+  for (const Vec2 p : entrances) {
+    const size_t wall = nearest(p, false);
+    if (wall == outline.walls.size()) break;
+    if (fresh) {
+      for (Wall& w : outline.walls) w.entrance = false;
+    }
+    fresh = false;
+    outline.walls[wall].entrance = true;
+  }
+  for (const Vec2 p : shops) {
+    size_t wall = nearest(p, true);
+    if (wall == outline.walls.size()) wall = nearest(p, false);
+    if (wall < outline.walls.size()) ++outline.walls[wall].shops;
+  }
 }
 
 double attachedShare(const BuildingOutline& outline, const std::vector<GroundPiece>& ground) {

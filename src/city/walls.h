@@ -24,6 +24,8 @@ struct Wall {
   /// Metres to the street that it looks at; 0 where it looks at none.
   double street = 0;
   bool entrance = false;
+  /// Shops of the map that have their front in it.
+  uint32_t shops = 0;
 };
 
 struct BuildingOutline {
@@ -40,6 +42,11 @@ BuildingOutline outlineOf(const GroundPiece& piece, const std::vector<GroundPiec
 /// Finds the streets that walls look at, and the entrance.
 void findStreets(BuildingOutline& outline, const std::vector<GroundPiece>& ground,
                  GroundIndex& index);
+
+/// Of a wall each: the entrances that the map has, in place of what was found, and its shops. After
+/// findStreets(): shops look at a street where a wall does.
+void placeDoors(BuildingOutline& outline, const std::vector<GroundPiece>& ground,
+                const std::vector<Vec2>& entrances, const std::vector<Vec2>& shops);
 
 /// The share of the walls' length that neighbours stand against.
 double attachedShare(const BuildingOutline& outline, const std::vector<GroundPiece>& ground);
