@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "base/work.h"
+#include "geom/region/segment_grid.h"
 #include "geom/skeleton/faces.h"
 #include "geom/skeleton/planes.h"
 #include "geom/skeleton/wavefront.h"
@@ -354,6 +356,57 @@ WaveEnd sweep(const Polygon& polygon, const Input& in, double slack, double maxH
   return assembleFaces(faceInput, trace, out) ? end : WaveEnd::Stuck;
 }
 
+/// True where corners of the boundary share a place.
+bool hasContacts(const Input& in) {
+  std::vector<std::pair<int64_t, int64_t>> places;
+  for (const auto& ring : in.rings) {
+    for (const InputEdge& e : ring) places.emplace_back(in.points[e.from].x, in.points[e.from].y);
+  }
+  std::sort(places.begin(), places.end());
+  return std::adjacent_find(places.begin(), places.end()) != places.end();
+}
+
+/// True where two edges cross clearly, on all four sides.
+bool crossClearly(const Segment& s, const Segment& t, double tolerance) {
+  const Vec2 along = s.b - s.a, other = t.b - t.a;
+  const double reach = tolerance * length(along), otherReach = tolerance * length(other);
+  const double a = cross(along, t.a - s.a), b = cross(along, t.b - s.a);
+  const double c = cross(other, s.a - t.a), d = cross(other, s.b - t.a);
+  const auto parts = [](double u, double v, double least) {
+    return std::min(std::abs(u), std::abs(v)) > least && (u > 0) != (v > 0);
+  };
+  return parts(a, b, reach) && parts(c, d, otherReach);
+}
+
+/// True where faces overlap in plan: parts of a polygon that touch each other at a corner may have
+/// been swept across each other.
+bool overlaps(const Skeleton& s, double tolerance) {
+  std::vector<std::pair<uint32_t, uint32_t>> pairs;
+  for (const SkeletonFace& f : s.faces) {
+    work(f.loop.size());
+    for (size_t i = 0; i < f.loop.size(); ++i) {
+      pairs.push_back(std::minmax(f.loop[i], f.loop[(i + 1) % f.loop.size()]));
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  std::vector<Segment> edges;
+  for (const auto& [a, b] : pairs) edges.push_back({s.vertices[a].xy, s.vertices[b].xy});
+  SegmentGrid grid(edges);
+  for (uint32_t i = 0; i < edges.size(); ++i) {
+    Box2 box;
+    box.include(edges[i].a);
+    box.include(edges[i].b);
+    bool found = false;
+    grid.query(box, [&](uint32_t k) {
+      work();
+      found = found || (k < i && crossClearly(edges[i], edges[k], tolerance));
+    });
+    if (found) return true;
+  }
+  return false;
+}
+
 Skeleton failed(const char* code, const char* message, const char* hint) {
   Skeleton s;
   s.status = Status::failure(code, message, hint);
@@ -395,11 +448,17 @@ Skeleton buildSkeleton(const Polygon& polygon, std::span<const std::vector<doubl
   // First with walls in line as they were meant, then as they are to the last bit; a polygon that
   // touches itself is taken apart there by a hair, then by more of it.
   Skeleton result;
-  WaveEnd end = sweep(polygon, in, in.slack, maxHeight, result);
-  if (end == WaveEnd::Stuck) end = sweep(polygon, in, 0, maxHeight, result = {});
+  const bool touches = hasContacts(in);
+  const double tolerance = 0x1p20 * in.step;
+  const auto run = [&](double slack) {
+    const WaveEnd end = sweep(polygon, in, slack, maxHeight, result = {});
+    return end == WaveEnd::Done && touches && overlaps(result, tolerance) ? WaveEnd::Stuck : end;
+  };
+  WaveEnd end = run(in.slack);
+  if (end == WaveEnd::Stuck) end = run(0);
   for (const double reach : {0x1p18, 0x1p30}) {
     if (end != WaveEnd::Stuck) break;
-    if (loosenContacts(in, reach)) end = sweep(polygon, in, 0, maxHeight, result = {});
+    if (loosenContacts(in, reach)) end = run(0);
   }
   if (end == WaveEnd::Done) return result;
   if (end == WaveEnd::Unbounded) {

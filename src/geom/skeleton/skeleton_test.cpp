@@ -199,6 +199,29 @@ TEST(Skeleton, ringsMayTouch) {
   }
 }
 
+// A hole begins at a corner of the outline, so that the polygon is one strip wound to a loop. It
+// was swept as if the two did not meet: a hole within the outline's set-back part.
+TEST(Skeleton, aHoleAtACornerPartsWhatIsLeft) {
+  const Vec2 corner{18.553168047, -45.373396884};
+  const Polygon p{{{25, -4}, corner, {27, -100}}, {{corner, {25, -32}, {19, -45}}}};
+  const std::vector<std::vector<double>> weights{{1.6, 1.6, 1.6}, {1.6, 1.6, 1.6}};
+  const Skeleton s = buildSkeleton(p, weights, 1);
+  ASSERT_EQ(broken(p, s, weights, 1), "");
+  std::vector<std::pair<Vec2, Vec2>> edges;
+  for (const SkeletonFace& f : s.faces) {
+    for (size_t i = 0; i < f.loop.size(); ++i) {
+      edges.emplace_back(s.vertices[f.loop[i]].xy, s.vertices[f.loop[(i + 1) % f.loop.size()]].xy);
+    }
+  }
+  for (size_t i = 0; i < edges.size(); ++i) {
+    for (size_t j = 0; j < i; ++j) {
+      EXPECT_FALSE(
+          crossClearly(edges[i].first, edges[i].second, edges[j].first, edges[j].second, 1e-6))
+          << i << ' ' << j;
+    }
+  }
+}
+
 TEST(Skeleton, nearlyParallelWallsCollapseTogether) {
   // A comb, turned so that its teeth are parallel but for rounding.
   Ring comb;
