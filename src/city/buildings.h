@@ -29,6 +29,10 @@ struct BuildingFacts {
   uint32_t owner = kNone;
   /// The value of `landuse` of the smallest area around it; the features own it.
   std::string_view landUse;
+  /// From 0 to 1, the same for all that stand wall to wall; below 0: it stands alone.
+  double rowChance = -1;
+  /// The value of `roof:shape` that most of those have; empty where none has one.
+  std::string_view rowRoof;
 };
 
 /// By feature; those of what is no building say nothing. O(n log n), mostly.

@@ -15,6 +15,7 @@
 #include "city/buildings.h"
 #include "city/country.h"
 #include "city/ribbon.h"
+#include "city/rows.h"
 #include "city/walls.h"
 #include "geom/curve/curve.h"
 #include "geom/region/boolean.h"
@@ -83,6 +84,7 @@ class Planner {
       standing_ = groundOf(map.features, streets_, whole, leftOut_);
       standingIndex_ = std::make_unique<GroundIndex>(standing_);
     }
+    joinRows(under(), map.features, facts_);
   }
 
   CityPlan plan() {
@@ -302,6 +304,11 @@ class Planner {
     shape.attributes.push_back(number("attached_share", attached));
     const uint32_t edge = roofEdgeOf(outline, map_.features[piece.feature], attached > 0.1);
     shape.attributes.push_back(number("roof_edge", edge));
+    shape.attributes.push_back(number("row_chance", facts_[piece.feature].rowChance));
+    if (!facts_[piece.feature].rowRoof.empty()) {
+      std::string roof(facts_[piece.feature].rowRoof);
+      shape.attributes.push_back({"row_roof", {text(std::move(roof))}, 0, 0});
+    }
     describeWalls(shape, outline);
     shape.polygon = std::move(outline.polygon);
   }

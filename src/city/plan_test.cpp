@@ -392,6 +392,39 @@ TEST(CityPlan, ADoorAddressIsAnEntrance) {
   }
 }
 
+TEST(CityPlan, RowsGetTheStoreysOfThoseBesideThem) {
+  const auto house = [](const char* id, int x, const std::string& tags) {
+    return feature(R"("building":"yes","id":")" + std::string(id) + '"' + tags, "Polygon",
+                   square(x, 50, 20));
+  };
+  // Five in a row, the middle three unknown; another that stands alone, nearer to low ones.
+  auto map =
+      mapOf({house("a", 0, R"(,"building:levels":"6","roof:shape":"gabled")"), house("b", 20, ""),
+             house("c", 40, ""), house("d", 60, ""), house("e", 80, R"(,"building:levels":"6")"),
+             house("f", 120, ""),
+             feature(R"("building":"yes","building:levels":"2")", "Polygon", square(25, 80, 20)),
+             feature(R"("building":"yes","building:levels":"2")", "Polygon", square(50, 80, 20)),
+             feature(R"("building":"yes","building:levels":"2")", "Polygon", square(120, 80, 20))});
+  ASSERT_TRUE(map.ok());
+  const CityPlan plan = planCity(*map);
+  std::string chance;
+  for (const char* id : {"b", "c", "d"}) {
+    const CityShape* shape = shapeOf(plan, "Building", id);
+    ASSERT_TRUE(shape);
+    EXPECT_EQ(valueOf(*shape, "guessed_levels"), "6") << id;
+    EXPECT_EQ(valueOf(*shape, "row_roof"), "gabled");
+  }
+  const auto chanceOf = [&](const char* id) {
+    for (const AttributeValue& a : shapeOf(plan, "Building", id)->attributes) {
+      if (a.name == "row_chance") return a.values[0].number;
+    }
+    return -2.0;
+  };
+  EXPECT_EQ(chanceOf("a"), chanceOf("e"));
+  EXPECT_GE(chanceOf("a"), 0);
+  EXPECT_EQ(chanceOf("f"), -1);
+}
+
 TEST(CityPlan, ValuesAreNumbersForTheRulesOrTold) {
   auto map =
       mapOf({feature(R"("building":"yes","id":"a","height":"20 ft","building:levels":"6 floors",)"
