@@ -65,9 +65,7 @@ class ExampleTest(unittest.TestCase):
                               text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         for rules in files:
-            # Eight styles of houses, from sheds to churches, are in one file.
-            most = 450 if rules.name == "city_buildings.cga" else 300
-            self.assertLess(len(rules.read_text().splitlines()), most, rules)
+            self.assertLess(len(rules.read_text().splitlines()), 300, rules)
 
 
 if __name__ == "__main__":
