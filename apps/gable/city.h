@@ -14,6 +14,8 @@ struct CityArguments {
   DeriveArguments derive;
   std::string box;
   std::string country;
+  /// A file of heights; empty for a flat place.
+  std::string terrain;
   std::string output;
   /// Where the ground goes as GeoJSON.
   std::string plan;

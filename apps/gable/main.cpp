@@ -177,6 +177,8 @@ void addCity(CLI::App& app, CityArguments& a, int& status) {
   city->add_option("--box", a.box,
                    "The part of the map: west,south,east,north in degrees, or in the map's metres\n"
                    "(default: the box around its buildings)");
+  city->add_option("--terrain", a.terrain,
+                   "Heights: a GeoTIFF (.tif) or a tile of SRTM (.hgt) (default: a flat place)");
   city->add_option("--country", a.country,
                    "How houses look: two letters, such as FR (default: by addresses and place)");
   city->add_option("--layer", a.derive.layer, "The layer of the map, where it has several");

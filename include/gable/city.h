@@ -29,6 +29,9 @@ struct CitySettings {
   /// The part of the map to make: west, south, east, north, in degrees or in the map's own metres.
   /// Absent: the box around its buildings.
   std::optional<std::array<double, 4>> box;
+  /// A file of heights, a GeoTIFF (.tif) or a tile of SRTM (.hgt): the place lies on its terrain.
+  /// Empty: the place is flat.
+  std::string terrain;
   /// Two letters, such as "MC": how houses look. Empty: by addresses of the map, else by its place.
   std::string country;
 };
@@ -57,6 +60,8 @@ struct CityStatistics {
   std::vector<Skip> skips;
   /// The same as CitySettings::box.
   std::array<double, 4> box{};
+  /// Of the ground, in metres of the file of heights; 0 in a flat place.
+  double lowest = 0, highest = 0;
 };
 
 class City {

@@ -7,6 +7,7 @@
 #include "city/bridges.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <queue>
@@ -30,6 +31,8 @@ constexpr double kPierEvery = 18, kLeastPier = 2.5;
 constexpr double kSolid = 1.5;
 // What is lower is no deck.
 constexpr double kLeastHeight = 0.02;
+// How deep walls and piers stand in terrain.
+constexpr double kBuried = 0.5;
 
 struct Kind {
   bool isStreet, isRail;
@@ -64,8 +67,9 @@ struct LessPoint {
 
 class Heights {
  public:
-  Heights(const std::vector<MapFeature>& features, const Streets& streets)
-      : features_(features), streets_(streets) {}
+  Heights(const std::vector<MapFeature>& features, const Streets& streets,
+          const GroundHeight& ground)
+      : features_(features), streets_(streets), ground_(ground) {}
 
   std::vector<Bridge> build() {
     for (uint32_t i = 0; i < features_.size(); ++i) {
@@ -74,13 +78,18 @@ class Heights {
     }
     if (lines_.empty()) return {};
     findGround();
+    bases_.assign(samples_.size(), 0);
+    if (ground_) findBases();
     relax();
     std::vector<Bridge> out;
     for (const Line& l : lines_) {
       out.push_back(
           {l.feature, l.kind.width, l.kind.thickness, l.kind.isStreet, l.kind.isRail, false, {}});
       for (const uint32_t s : l.samples) {
-        out.back().line.push_back({samples_[s].place.x, samples_[s].place.y, samples_[s].height});
+        const Vec2 p = samples_[s].place;
+        double height = bases_[s] + samples_[s].height;
+        if (ground_) height = std::max(height, ground_(p));
+        out.back().line.push_back({p.x, p.y, height});
       }
     }
     addRamps(out);
@@ -94,7 +103,7 @@ class Heights {
   };
   struct Link {
     uint32_t other;
-    double rise;
+    double rise, length;
   };
   struct Line {
     uint32_t feature;
@@ -129,9 +138,10 @@ class Heights {
       const uint32_t s = sampleAt(p, height, shared);
       if (!line.samples.empty()) {
         if (line.samples.back() == s) return;
-        const double rise = kind.slope * length(p - samples_[line.samples.back()].place);
-        links_[line.samples.back()].push_back({s, rise});
-        links_[s].push_back({line.samples.back(), rise});
+        const double l = length(p - samples_[line.samples.back()].place);
+        const double rise = kind.slope * l;
+        links_[line.samples.back()].push_back({s, rise, l});
+        links_[s].push_back({line.samples.back(), rise, l});
       }
       line.samples.push_back(s);
     };
@@ -187,7 +197,53 @@ class Heights {
           ramps_.push_back({end, number, begin, room, l.kind.slope});
         }
         samples_[end].height = std::min(samples_[end].height, height);
+        ends_.push_back(end);
       }
+    }
+  }
+
+  // The even fall between the ends on the ground: of the two that are nearest along bridges, each
+  // counts the more the nearer it is. A bridge that none belongs to lies on the ground below.
+  void findBases() {
+    struct Entry {
+      double distance;
+      uint32_t end, sample;
+      bool operator>(const Entry& o) const {
+        if (distance != o.distance) return distance > o.distance;
+        return end != o.end ? end > o.end : sample > o.sample;
+      }
+    };
+    struct Near {
+      uint32_t count = 0;
+      std::array<std::pair<uint32_t, double>, 2> ends;
+    };
+    std::vector<Near> near(samples_.size());
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    for (const uint32_t e : ends_) queue.push({0, e, e});
+    while (!queue.empty()) {
+      work();
+      const Entry at = queue.top();
+      queue.pop();
+      Near& n = near[at.sample];
+      if (n.count == 2 || (n.count == 1 && n.ends[0].first == at.end)) continue;
+      n.ends[n.count++] = {at.end, at.distance};
+      for (const Link& l : links_[at.sample]) {
+        queue.push({at.distance + l.length, at.end, l.other});
+      }
+    }
+    std::vector<bool> isEnd(samples_.size(), false);
+    for (const uint32_t e : ends_) isEnd[e] = true;
+    for (uint32_t i = 0; i < samples_.size(); ++i) {
+      double sum = 0, weights = 0;
+      for (uint32_t k = 0; k < near[i].count; ++k) {
+        const double w = 1 / std::max(near[i].ends[k].second, 1e-3);
+        sum += w * ground_(samples_[near[i].ends[k].first].place);
+        weights += w;
+      }
+      const double below = ground_(samples_[i].place);
+      bases_[i] = isEnd[i] || !(weights > 0) ? below : sum / weights;
+      // Clear of the ground where that is higher than its ends.
+      if (!isEnd[i]) samples_[i].height += std::max(0.0, below - bases_[i]);
     }
   }
 
@@ -219,17 +275,37 @@ class Heights {
       if (!r.begin) std::reverse(line.begin(), line.end());
       Bridge ramp{s.feature, s.profile.width, 0.4, true, false, true, {}};
       double along = 0;
+      if (ground_) line = withSteps(line);
       for (size_t i = 0; i < line.size(); ++i) {
         if (i > 0) along += length(line[i] - line[i - 1]);
+        const double above = std::max(0.0, height * (1 - along / std::max(down, 1e-6)));
         ramp.line.push_back(
-            {line[i].x, line[i].y, std::max(0.0, height * (1 - along / std::max(down, 1e-6)))});
+            {line[i].x, line[i].y, above + (ground_ ? ground_(line[i]) : 0)});
       }
       if (ramp.line.size() > 1) out.push_back(std::move(ramp));
     }
   }
 
+  // With points every few metres.
+  static std::vector<Vec2> withSteps(const std::vector<Vec2>& line) {
+    std::vector<Vec2> out{line[0]};
+    for (size_t i = 1; i < line.size(); ++i) {
+      const Vec2 d = line[i] - line[i - 1];
+      const int steps = static_cast<int>(std::clamp(std::ceil(length(d) / kStep), 1.0, 1e4));
+      for (int k = 1; k <= steps; ++k) {
+        work();
+        out.push_back(k == steps ? line[i] : line[i - 1] + d * (static_cast<double>(k) / steps));
+      }
+    }
+    return out;
+  }
+
   const std::vector<MapFeature>& features_;
   const Streets& streets_;
+  const GroundHeight& ground_;
+  // Samples that meet the ground; by sample, the height that its own counts from.
+  std::vector<uint32_t> ends_;
+  std::vector<double> bases_;
   std::vector<Line> lines_;
   std::vector<Sample> samples_;
   std::vector<std::vector<Link>> links_;
@@ -256,8 +332,10 @@ std::vector<Vec2> sidesOf(const std::vector<SpacePoint>& line) {
 
 class Builder {
  public:
-  Builder(const Bridge& bridge, const Box2& area) : b_(bridge), area_(area) {
+  Builder(const Bridge& bridge, const Box2& area, const GroundHeight& height)
+      : b_(bridge), area_(area), height_(height) {
     sides_ = sidesOf(b_.line);
+    for (const SpacePoint& p : b_.line) above_.push_back(p.z - (height_ ? height_(flat(p)) : 0));
   }
 
   std::vector<BridgeShape> shapes(const std::vector<GroundPiece>& ground, GroundIndex& index) {
@@ -283,13 +361,16 @@ class Builder {
   }
   bool isBuilt(size_t segment) const {
     return inside(segment) && inside(segment + 1) &&
-           std::max(b_.line[segment].z, b_.line[segment + 1].z) > kLeastHeight;
+           std::max(above_[segment], above_[segment + 1]) > kLeastHeight;
   }
   // `at` metres to the left of the line.
   SpacePoint beside(size_t i, double at) const {
     const Vec2 p = flat(b_.line[i]) + sides_[i] * at;
     return {p.x, p.y, b_.line[i].z};
   }
+
+  // Where a wall or a pier begins: on terrain, in the ground.
+  SpacePoint footOf(Vec2 p) const { return {p.x, p.y, height_ ? height_(p) - kBuried : 0}; }
 
   void addStrip(const char* rule, double from, double to) {
     BridgeShape shape{rule, {}, 0};
@@ -314,21 +395,21 @@ class Builder {
     BridgeShape shape{"BridgeWall", {}, 0};
     for (size_t i = 0; i + 1 < b_.line.size(); ++i) {
       work();
-      const double high = std::max(b_.line[i].z, b_.line[i + 1].z);
+      const double high = std::max(above_[i], above_[i + 1]);
       if (!isBuilt(i) || (!b_.isRamp && high > kSolid)) continue;
       for (const double at : {-half, half}) {
         SpacePoint a = beside(i, at), b = beside(i + 1, at);
         if (at > 0) std::swap(a, b);
-        std::vector<SpacePoint> face{{a.x, a.y, 0}, {b.x, b.y, 0}};
-        if (b.z > kLeastHeight / 2) face.push_back(b);
-        if (a.z > kLeastHeight / 2) face.push_back(a);
+        std::vector<SpacePoint> face{footOf(flat(a)), footOf(flat(b))};
+        if (b.z - face[1].z > kLeastHeight / 2) face.push_back(b);
+        if (a.z - face[0].z > kLeastHeight / 2) face.push_back(a);
         if (face.size() > 2) shape.faces.push_back(std::move(face));
       }
     }
     // Where the ramp meets the bridge, which may be wider.
     if (b_.isRamp && isBuilt(0)) {
       const SpacePoint a = beside(0, half), b = beside(0, -half);
-      shape.faces.push_back({{a.x, a.y, 0}, {b.x, b.y, 0}, b, a});
+      shape.faces.push_back({footOf(flat(a)), footOf(flat(b)), b, a});
     }
     if (!shape.faces.empty()) out_.push_back(std::move(shape));
   }
@@ -344,7 +425,7 @@ class Builder {
     for (size_t i = 1; i + 1 < b_.line.size(); ++i) {
       work();
       since += length(flat(b_.line[i]) - flat(b_.line[i - 1]));
-      if (since < kPierEvery || b_.line[i].z < kLeastPier || !inside(i)) continue;
+      if (since < kPierEvery || above_[i] < kLeastPier || !inside(i)) continue;
       const Vec2 across = sides_[i] * (0.3 * b_.width);
       const Vec2 along = normalized(Vec2{sides_[i].y, -sides_[i].x}) * 0.5;
       const Vec2 p = flat(b_.line[i]);
@@ -355,8 +436,11 @@ class Builder {
         return piece != GroundPiece::kNothing && mayStandOn(ground[piece].surface);
       });
       if (!stands) continue;
-      BridgeShape pier{"BridgePier", {{}}, b_.line[i].z - b_.thickness};
-      for (const Vec2 c : corners) pier.faces[0].push_back({c.x, c.y, 0});
+      // Level, on the lowest corner.
+      double foot = footOf(p).z;
+      for (const Vec2 c : corners) foot = std::min(foot, footOf(c).z);
+      BridgeShape pier{"BridgePier", {{}}, b_.line[i].z - b_.thickness - foot};
+      for (const Vec2 c : corners) pier.faces[0].push_back({c.x, c.y, foot});
       out_.push_back(std::move(pier));
       since = 0;
     }
@@ -364,19 +448,24 @@ class Builder {
 
   const Bridge& b_;
   const Box2& area_;
+  const GroundHeight& height_;
+  // By point: the deck above the ground.
+  std::vector<double> above_;
   std::vector<Vec2> sides_;
   std::vector<BridgeShape> out_;
 };
 
 }  // namespace
 
-std::vector<Bridge> bridgesOf(const std::vector<MapFeature>& features, const Streets& streets) {
-  return Heights(features, streets).build();
+std::vector<Bridge> bridgesOf(const std::vector<MapFeature>& features, const Streets& streets,
+                              const GroundHeight& ground) {
+  return Heights(features, streets, ground).build();
 }
 
 std::vector<BridgeShape> shapesOf(const Bridge& bridge, const Box2& area,
-                                  const std::vector<GroundPiece>& ground, GroundIndex& index) {
-  return Builder(bridge, area).shapes(ground, index);
+                                  const std::vector<GroundPiece>& ground, GroundIndex& index,
+                                  const GroundHeight& height) {
+  return Builder(bridge, area, height).shapes(ground, index);
 }
 
 }  // namespace gable

@@ -5,12 +5,15 @@
 // its layer asks for, clear of what passes below, and comes down to the ground at its ends, no
 // steeper than its kind allows: within the bridge, and along the street that goes on from it, up
 // to the next junction. Where that is too short the deck stays lower. Bridges that meet have one
-// height there. Plan coordinates and heights, metres.
+// height there. On terrain all of this counts from the ground at the ends: between them the deck
+// falls evenly from one to the other, and is nowhere below the ground. Plan coordinates and
+// heights, metres.
 //
 // Promises: equal input gives equal output. O(n log n).
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "city/ground.h"
@@ -33,7 +36,11 @@ struct Bridge {
   std::vector<SpacePoint> line;
 };
 
-std::vector<Bridge> bridgesOf(const std::vector<MapFeature>& features, const Streets& streets);
+/// Of the ground at a place; without one it is flat, at 0.
+using GroundHeight = std::function<double(Vec2)>;
+
+std::vector<Bridge> bridgesOf(const std::vector<MapFeature>& features, const Streets& streets,
+                              const GroundHeight& ground = {});
 
 /// What stands in the area, as faces in space, by the rule that they begin with.
 struct BridgeShape {
@@ -45,6 +52,7 @@ struct BridgeShape {
   double height = 0;
 };
 std::vector<BridgeShape> shapesOf(const Bridge& bridge, const Box2& area,
-                                  const std::vector<GroundPiece>& ground, GroundIndex& index);
+                                  const std::vector<GroundPiece>& ground, GroundIndex& index,
+                                  const GroundHeight& height = {});
 
 }  // namespace gable

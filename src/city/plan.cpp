@@ -3,9 +3,11 @@
 #include "city/plan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <memory>
+#include <unordered_map>
 
 #include "base/json.h"
 #include "base/work.h"
@@ -16,6 +18,8 @@
 #include "city/country.h"
 #include "city/ribbon.h"
 #include "city/rows.h"
+#include "city/street_grade.h"
+#include "city/terrain.h"
 #include "city/walls.h"
 #include "geom/curve/curve.h"
 #include "geom/region/boolean.h"
@@ -67,7 +71,7 @@ bool isColourTag(std::string_view name) {
 
 class Planner {
  public:
-  Planner(const MapFeatures& map, const std::string& country)
+  Planner(const MapFeatures& map, const std::string& country, const HeightField* heights)
       : map_(map),
         country_(country.empty() ? countryOf(map) : country),
         streets_(streetsOf(map.features)),
@@ -85,6 +89,7 @@ class Planner {
       standingIndex_ = std::make_unique<GroundIndex>(standing_);
     }
     joinRows(under(), map.features, facts_);
+    if (heights) makeTerrain(*heights);
   }
 
   CityPlan plan() {
@@ -101,6 +106,7 @@ class Planner {
     addStreets();
     addCrossings();
     addBridges();
+    addTerrainWalls();
     return std::move(out_);
   }
 
@@ -131,6 +137,32 @@ class Planner {
     out_.shapes.back().rule = rule;
     out_.shapes.back().id = id;
     return out_.shapes.back();
+  }
+
+  void makeTerrain(const HeightField& heights) {
+    const StreetGrade grade(heights, map_.features, streets_, map_.area);
+    Terrain terrain = terrainOf(heights, grade, map_.features, out_.ground);
+    out_.terrain = std::move(terrain.surface);
+    for (size_t i = 0; i < out_.ground.size(); ++i) {
+      const GroundPiece& p = out_.ground[i];
+      if (p.surface == Surface::Footprint) floors_.try_emplace(p.feature, i);
+    }
+    terrainWalls_ = std::move(terrain.walls);
+  }
+  double groundAt(Vec2 p) const { return out_.terrain ? out_.terrain->heightAt(p) : 0; }
+
+  // Below floors, and beside what lies level.
+  void addTerrainWalls() {
+    for (TerrainWall& w : terrainWalls_) {
+      const GroundPiece &piece = out_.ground[w.piece], &beyond = out_.ground[w.beyond];
+      const bool isPlinth = piece.surface == Surface::Footprint;
+      const bool known = piece.feature != GroundPiece::kNothing;
+      CityShape& shape = add(isPlinth ? "Plinth" : "RetainingWall",
+                             known ? map_.features[piece.feature].id : std::string());
+      shape.faces = std::move(w.faces);
+      shape.attributes.push_back({"of", {text(surfaceName(piece.surface))}, 0, 0});
+      shape.attributes.push_back({"beyond", {text(surfaceName(beyond.surface))}, 0, 0});
+    }
   }
 
   void addGround(const GroundPiece& p) {
@@ -293,12 +325,27 @@ class Planner {
     shape.attributes.push_back(list("streetWidth", std::move(widths)));
   }
 
+  double floorOf(const GroundPiece& piece) const {
+    if (!out_.terrain) return 0;
+    size_t number = static_cast<size_t>(&piece - out_.ground.data());
+    if (standingIndex_) {
+      // What reaches beyond the place has the floor of what lies within.
+      const auto within = floors_.find(piece.feature);
+      if (within == floors_.end()) return groundAt(bounds(piece.polygon).center());
+      number = within->second;
+    }
+    return out_.terrain->points()[out_.terrain->pieces()[number].firstPoint].z;
+  }
+
   void addBuilding(const GroundPiece& piece) {
     if (area(piece.polygon) < kLeastBuilding) return;
     BuildingOutline outline = outlineOf(piece, under());
-    findStreets(outline, under(), underIndex());
+    const double floor = floorOf(piece);
+    const auto climb = [&](Vec2 p) { return std::fabs(groundAt(p) - floor); };
+    findStreets(outline, under(), underIndex(), climb);
     findDoors(outline, piece.feature);
     CityShape& shape = add("Building", map_.features[piece.feature].id);
+    shape.height = floor;
     const double attached = attachedShare(outline, under());
     describe(shape, piece.feature, attached);
     shape.attributes.push_back(number("attached_share", attached));
@@ -347,6 +394,7 @@ class Planner {
       findDoors(outline, feature);
       describe(shape, feature, 0);
       shape.attributes.push_back(number("roof_edge", roofEdgeOf(outline, f, false)));
+      shape.height = groundAt(bounds(p).center());
       describeWalls(shape, outline);
       shape.polygon = std::move(outline.polygon);
     }
@@ -429,9 +477,11 @@ class Planner {
   }
 
   void addBridges() {
-    for (const Bridge& b : bridgesOf(map_.features, streets_)) {
+    GroundHeight height;
+    if (out_.terrain) height = [&](Vec2 p) { return groundAt(p); };
+    for (const Bridge& b : bridgesOf(map_.features, streets_, height)) {
       const MapFeature& f = map_.features[b.feature];
-      for (BridgeShape& s : shapesOf(b, out_.area, out_.ground, *index_)) {
+      for (BridgeShape& s : shapesOf(b, out_.area, out_.ground, *index_, height)) {
         CityShape& shape = add(s.rule, f.id);
         shape.faces = std::move(s.faces);
         for (AttributeValue& a : tagsOf(f)) {
@@ -495,12 +545,24 @@ class Planner {
   // Of a larger area, so that buildings at the border are whole; only where there are such.
   std::vector<GroundPiece> standing_;
   std::unique_ptr<GroundIndex> standingIndex_;
+  std::vector<TerrainWall> terrainWalls_;
+  // The first piece of the ground under each building.
+  std::unordered_map<uint32_t, size_t> floors_;
 };
 
 }  // namespace
 
-CityPlan planCity(const MapFeatures& map, const std::string& country) {
-  return Planner(map, country).plan();
+CityPlan planCity(const MapFeatures& map, const std::string& country, const HeightField* heights) {
+  return Planner(map, country, heights).plan();
+}
+
+bool liesOnGround(std::string_view rule) {
+  for (size_t s = 0; s < kSurfaceCount; ++s) {
+    if (rule == surfaceName(static_cast<Surface>(s))) return true;
+  }
+  constexpr std::string_view kLying[] = {"Kerb",    "Street",  "Crossing", "Rails",
+                                         "TreeRow", "Barrier", "Tree",     "StreetLamp"};
+  return std::find(std::begin(kLying), std::end(kLying), rule) != std::end(kLying);
 }
 
 std::string planGeoJson(const CityPlan& plan, const MapFeatures& map) {

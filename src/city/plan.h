@@ -18,16 +18,22 @@
 //                  its edges and its rails, sides of ramps, feet of piers  BridgeRail, BridgeWall,
 //                                                                          BridgePier
 //   single things  a square of a metre                                     Tree, StreetLamp
+//   on terrain     faces in space: below floors, and where a piece lies
+//                  above another                                           Plinth, RetainingWall
 //
 // Attributes are the tags of the feature, numbers without their units, and what is said in
 // docs/guide/city.md. Promises: equal input gives equal output. O(n log n), mostly.
 #pragma once
 
+#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "city/ground.h"
 #include "city/tag_values.h"
+#include "city/terrain_surface.h"
+#include "io/geo/height_field.h"
 #include "io/importers/map_features.h"
 
 namespace gable {
@@ -42,6 +48,8 @@ struct CityShape {
   std::vector<Vec2> line;
   /// In place of both: faces in space, points of the plan with their heights.
   std::vector<std::vector<Vec3>> faces;
+  /// Of the polygon.
+  double height = 0;
   std::vector<AttributeValue> attributes;
 };
 
@@ -51,10 +59,18 @@ struct CityPlan {
   std::vector<CityShape> shapes;
   MapSkips skips;
   std::vector<MapDoubt> doubts;
+  /// Null for a flat place. Shapes that lie on the ground are flat also where there is one: what
+  /// rules make of them is laid on it (city/drape.h). The others are where they stand.
+  std::shared_ptr<const TerrainSurface> terrain;
 };
 
-/// `country` as countryOf() gives it, which is asked where it is empty.
-CityPlan planCity(const MapFeatures& map, const std::string& country = {});
+/// `country` as countryOf() gives it, which is asked where it is empty; without `heights` the place
+/// is flat.
+CityPlan planCity(const MapFeatures& map, const std::string& country = {},
+                  const HeightField* heights = nullptr);
+
+/// Whether shapes that begin with a rule lie on the ground.
+bool liesOnGround(std::string_view rule);
 
 /// The ground as GeoJSON for map programs: a feature a piece, with `surface`, `id` and `area`.
 std::string planGeoJson(const CityPlan& plan, const MapFeatures& map);

@@ -27,6 +27,8 @@ constexpr double kLeastRest = 0.4;
 constexpr double kLeastEntrance = 1.8;
 // Nor have those a door that the map places there.
 constexpr double kLeastDoor = 1;
+// Each metre between a door and the ground counts as so many metres to the street.
+constexpr double kClimb = 8;
 // Where a wall's view is asked for, in metres from it.
 constexpr double kSteps[] = {0.5, 1.5, 3, 5, 8, 12, 17, 23, 30};
 
@@ -187,7 +189,7 @@ BuildingOutline outlineOf(const GroundPiece& piece, const std::vector<GroundPiec
 }
 
 void findStreets(BuildingOutline& outline, const std::vector<GroundPiece>& ground,
-                 GroundIndex& index) {
+                 GroundIndex& index, const std::function<double(Vec2)>& climb) {
   size_t best = outline.walls.size(), open = best;
   double bestScore = 0, openScore = 0;
   forEachWall(outline, [&](size_t number, Vec2 a, Vec2 b) {
@@ -205,7 +207,8 @@ void findStreets(BuildingOutline& outline, const std::vector<GroundPiece>& groun
     }
     if (l < kLeastEntrance) return;
     // Near a street, on a wall that has room.
-    const double score = 0.4 * std::min(l, 15.0) - wall.street;
+    const double above = climb ? climb((a + b) * 0.5 + out * kSteps[0]) : 0;
+    const double score = 0.4 * std::min(l, 15.0) - wall.street - kClimb * above;
     if (wall.street > 0 && (best == outline.walls.size() || score > bestScore + 1e-6)) {
       best = number;
       bestScore = score;

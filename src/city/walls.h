@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "city/ground.h"
@@ -39,9 +40,10 @@ BuildingOutline outlineOf(const Polygon& polygon);
 /// Of a piece of the ground: its walls know what is beyond.
 BuildingOutline outlineOf(const GroundPiece& piece, const std::vector<GroundPiece>& ground);
 
-/// Finds the streets that walls look at, and the entrance.
+/// Finds the streets that walls look at, and the entrance. `climb` tells the metres between the
+/// floor and the ground at a place.
 void findStreets(BuildingOutline& outline, const std::vector<GroundPiece>& ground,
-                 GroundIndex& index);
+                 GroundIndex& index, const std::function<double(Vec2)>& climb = {});
 
 /// Of a wall each: the entrances that the map has, in place of what was found, and its shops. After
 /// findStreets(): shops look at a street where a wall does.

@@ -6,13 +6,16 @@
 #include "gable/city.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "base/files.h"
+#include "base/number.h"
 #include "city/plan.h"
 #include "engine/footprint.h"
 #include "engine/guard.h"
 #include "geom/mesh/face_plane.h"
+#include "io/geo/height_field.h"
 
 namespace gable {
 
@@ -27,6 +30,9 @@ struct City::Impl {
 };
 
 namespace {
+
+// Of files of heights, in bytes.
+constexpr uint64_t kLargestHeightFile = uint64_t{1} << 30;
 
 std::shared_ptr<City::Impl> refused(const Error& e) {
   auto impl = std::make_shared<City::Impl>();
@@ -45,7 +51,7 @@ Mesh meshOf(const CityShape& s) {
     }
     return b.take();
   }
-  if (s.line.empty()) return meshOf({s.polygon}, groundFrame());
+  if (s.line.empty()) return meshOf({s.polygon}, groundFrame(s.height));
   uint32_t from = b.addPosition(fromPlan(s.line[0]));
   for (size_t i = 1; i < s.line.size(); ++i) {
     const uint32_t to = b.addPosition(fromPlan(s.line[i]));
@@ -61,6 +67,7 @@ std::shared_ptr<const Shapes::Impl> shapesOf(const CityPlan& plan, const MapFeat
   auto out = std::make_shared<Shapes::Impl>();
   out->geoOrigin = map.geoOrigin;
   out->geo = map.geo;
+  out->terrain = plan.terrain;
   std::map<std::pair<std::string, std::string>, uint32_t> seen;
   for (const CityShape& s : plan.shapes) {
     work();
@@ -95,6 +102,13 @@ CityStatistics statisticsOf(const CityPlan& plan, const MapFeatures& map) {
   out.skipped = map.skips.count;
   for (const MapSkips::Row& row : map.skips.first) out.skips.push_back({row.place, row.reason});
   out.box = {map.box.west, map.box.south, map.box.east, map.box.north};
+  if (plan.terrain && !plan.terrain->points().empty()) {
+    out.lowest = out.highest = plan.terrain->points()[0].z;
+    for (const Vec3& p : plan.terrain->points()) {
+      out.lowest = std::min(out.lowest, p.z);
+      out.highest = std::max(out.highest, p.z);
+    }
+  }
   return out;
 }
 
@@ -149,6 +163,25 @@ void tellDoubts(const std::vector<MapDoubt>& doubts, const std::string& path, Di
   for (Diagnostic& d : listOf(list, Sources{})) out.push_back(std::move(d));
 }
 
+Result<HeightField> heightsOf(const MapFeatures& map, const std::string& path) {
+  Result<std::string> content = readFile(path, kLargestHeightFile);
+  if (!content.ok()) return content.error();
+  Result<HeightRaster> raster = HeightRaster::read(*content, path);
+  if (!raster.ok()) return raster.error();
+  return HeightField::of(*raster, *map.geo, map.area);
+}
+
+void tellFilled(double share, const std::string& path, DiagnosticList& out) {
+  if (!(share > 0)) return;
+  Diagnostics list;
+  const double percent = std::max(0.1, std::round(1000 * share) / 10);
+  list.warning("heights-void", {},
+               "'" + path + "' has no heights for " + shortestText(percent) +
+                   " % of the place: they are filled from those around",
+               "take a file that covers the place where that matters");
+  for (Diagnostic& d : listOf(list, Sources{})) out.push_back(std::move(d));
+}
+
 std::shared_ptr<City::Impl> parsed(const std::string& content, const std::string& name,
                                    const CitySettings& settings) {
   std::optional<MapBox> box;
@@ -160,7 +193,14 @@ std::shared_ptr<City::Impl> parsed(const std::string& content, const std::string
   if (!map.ok()) return refused(map.error());
   auto impl = std::make_shared<City::Impl>();
   impl->map = std::move(*map);
-  impl->plan = planCity(impl->map, settings.country);
+  std::optional<HeightField> heights;
+  if (!settings.terrain.empty()) {
+    Result<HeightField> field = heightsOf(impl->map, settings.terrain);
+    if (!field.ok()) return refused(field.error());
+    heights.emplace(std::move(*field));
+    tellFilled(heights->filled(), settings.terrain, impl->diagnostics);
+  }
+  impl->plan = planCity(impl->map, settings.country, heights ? &*heights : nullptr);
   impl->shapes = shapesOf(impl->plan, impl->map);
   impl->statistics = statisticsOf(impl->plan, impl->map);
   tellSkipped(impl->plan.skips, name, impl->diagnostics);

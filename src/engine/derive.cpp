@@ -9,6 +9,8 @@
 #include <map>
 
 #include "base/text.h"
+#include "city/drape.h"
+#include "city/plan.h"
 #include "engine/footprint.h"
 #include "engine/missing_files.h"
 #include "shape/edge_attributes.h"
@@ -272,6 +274,9 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
       told.without(listOf(inWordsOf(r.dialect, impl->result.diagnostics), r.sources));
   impl->diagnostics.insert(impl->diagnostics.end(), made.begin(), made.end());
   impl->makeSound();
+  if (shapes.impl().terrain) {
+    impl->sound.scene = draped(impl->scene(), *shapes.impl().terrain, liesOnGround);
+  }
   impl->seconds = now() - begin;
   return impl;
 }

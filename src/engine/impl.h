@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "city/terrain_surface.h"
 #include "dialects/dialect.h"
 #include "engine/project.h"
 #include "gable/gable.h"
@@ -68,6 +69,9 @@ struct Shapes::Impl {
   /// The pictures that materials of the footprints name.
   TextureBytes textures;
   std::shared_ptr<const GeoFrame> geo;
+  /// Where it is set, what is made of shapes that lie on the ground is laid on it; see
+  /// city/drape.h.
+  std::shared_ptr<const TerrainSurface> terrain;
 };
 
 struct Model::Impl {

@@ -301,6 +301,7 @@ Shapes Shapes::only(const std::vector<size_t>& indices) const {
     impl->geoOrigin = impl_->geoOrigin;
     impl->textures = impl_->textures;
     impl->geo = impl_->geo;
+    impl->terrain = impl_->terrain;
     for (const size_t i : indices) {
       if (i >= impl_->footprints.size()) continue;
       ShapeFootprint f = impl_->footprints[i];

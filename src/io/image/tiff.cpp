@@ -1,79 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// libtiff reads from memory through our functions, with handlers of errors and a limit on memory
-// for each file: its global ones are left alone. Its RGBA reader knows all kinds of pixels, but
-// multiplies colours by alpha, which is undone.
+// The library's RGBA reader knows all kinds of pixels, but multiplies colours by alpha, which is
+// undone.
 #include "io/image/tiff.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstring>
-#include <memory>
 
 #include <tiffio.h>
 
+#include "io/image/tiff_source.h"
+
 namespace gable {
 namespace {
-
-// What one call of the library may allocate: strips and tiles of a hostile file can be larger than
-// the picture.
-constexpr tmsize_t kMostMemory = tmsize_t{1} << 29;
-
-struct Source {
-  std::string_view bytes;
-  size_t at = 0;
-  char why[200] = "it has no picture";
-};
-
-int onError(TIFF*, void* user, const char*, const char* format, va_list arguments) {
-  auto* source = static_cast<Source*>(user);
-  std::vsnprintf(source->why, sizeof source->why, format, arguments);
-  return 1;
-}
-int onWarning(TIFF*, void*, const char*, const char*, va_list) { return 1; }
-
-tmsize_t readBytes(thandle_t handle, void* to, tmsize_t size) {
-  auto* s = static_cast<Source*>(handle);
-  const size_t n = std::min(static_cast<size_t>(std::max<tmsize_t>(size, 0)),
-                            s->bytes.size() - std::min(s->at, s->bytes.size()));
-  if (n > 0) std::memcpy(to, s->bytes.data() + s->at, n);
-  s->at += n;
-  return static_cast<tmsize_t>(n);
-}
-tmsize_t writeBytes(thandle_t, void*, tmsize_t) { return 0; }
-toff_t seekTo(thandle_t handle, toff_t offset, int from) {
-  auto* s = static_cast<Source*>(handle);
-  const toff_t base = from == SEEK_CUR ? s->at : from == SEEK_END ? s->bytes.size() : 0;
-  s->at = static_cast<size_t>(base + offset);
-  return s->at;
-}
-int closeSource(thandle_t) { return 0; }
-toff_t sizeOf(thandle_t handle) { return static_cast<Source*>(handle)->bytes.size(); }
-int mapFile(thandle_t, void**, toff_t*) { return 0; }
-void unmapFile(thandle_t, void*, toff_t) {}
-
-using Tiff = std::unique_ptr<TIFF, void (*)(TIFF*)>;
-
-Tiff open(Source& source) {
-  TIFFOpenOptions* options = TIFFOpenOptionsAlloc();
-  if (!options) return {nullptr, TIFFClose};
-  TIFFOpenOptionsSetMaxSingleMemAlloc(options, kMostMemory);
-  TIFFOpenOptionsSetErrorHandlerExtR(options, onError, &source);
-  TIFFOpenOptionsSetWarningHandlerExtR(options, onWarning, nullptr);
-  // Read only, without mapping, and only the first directory.
-  Tiff tiff(TIFFClientOpenExt("picture", "rm", &source, readBytes, writeBytes, seekTo, closeSource,
-                              sizeOf, mapFile, unmapFile, options),
-            TIFFClose);
-  TIFFOpenOptionsFree(options);
-  return tiff;
-}
 
 Error broken(const char* why) {
   return {"image-broken", std::string("the TIFF picture cannot be read: ") + why, {}};
 }
 
-Result<ImageHeader> headerOf(TIFF* tiff, const Source& source) {
+Result<ImageHeader> headerOf(TIFF* tiff, const TiffSource& source) {
   ImageHeader h{ImageFormat::Tiff};
   if (!TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &h.width) ||
       !TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &h.height) || h.width == 0 || h.height == 0) {
@@ -93,14 +38,14 @@ uint8_t straight(uint32_t colour, uint32_t alpha) {
 }  // namespace
 
 Result<ImageHeader> readTiffHeader(std::string_view bytes) {
-  Source source{bytes};
-  const Tiff tiff = open(source);
+  TiffSource source{bytes};
+  const Tiff tiff = openTiff(source);
   return tiff ? headerOf(tiff.get(), source) : broken(source.why);
 }
 
 Result<Image> decodeTiff(std::string_view bytes, uint64_t maxPixels) {
-  Source source{bytes};
-  const Tiff tiff = open(source);
+  TiffSource source{bytes};
+  const Tiff tiff = openTiff(source);
   if (!tiff) return broken(source.why);
   Result<ImageHeader> header = headerOf(tiff.get(), source);
   if (!header.ok()) return header.error();

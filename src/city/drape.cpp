@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// A face over one facet of the ground stays whole. A face that is a piece of the ground becomes its
+// facets. Any other is taken apart into triangles, each of which is cut by the upright planes
+// through the sides of the facets that it meets (I. E. Sutherland and G. W. Hodgman, "Reentrant
+// polygon clipping", 1974). Corners carry their barycentric coordinates, which give texture
+// coordinates and normals at the end.
+#include "city/drape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "base/work.h"
+#include "geom/mesh/face_triangles.h"
+
+namespace gable {
+namespace {
+
+constexpr uint32_t kNothing = TerrainSurface::kNothing;
+// What stands is taller than this, and not wider than so many times its height and a bit.
+constexpr double kLeastTall = 0.5, kWidest = 1.2, kWider = 0.5;
+// What reaches below the ground lies in it.
+constexpr double kBelow = -0.1;
+constexpr double kSame = 1e-6;
+// In square metres: what is smaller is no piece of a face.
+constexpr double kLeastArea = 1e-10;
+
+Vec2 plan(const Vec3& p) { return {p.x, -p.z}; }
+
+struct Corner {
+  Vec3 at;
+  std::array<double, 3> share;
+};
+using Part = std::vector<Corner>;
+
+Part clipped(const Part& part, Vec2 a, Vec2 b) {
+  Part out;
+  const Vec2 d = b - a;
+  const double l = std::max(length(d), 1e-12);
+  const auto side = [&](const Corner& c) { return cross(d, plan(c.at) - a) / l; };
+  for (size_t i = 0; i < part.size(); ++i) {
+    const Corner &p = part[i], &q = part[(i + 1) % part.size()];
+    const double sp = side(p), sq = side(q);
+    if (sp >= 0) out.push_back(p);
+    if ((sp > 0 && sq < 0) || (sp < 0 && sq > 0)) {
+      const double t = sp / (sp - sq);
+      Corner c{p.at + (q.at - p.at) * t, {}};
+      for (size_t k = 0; k < 3; ++k) c.share[k] = p.share[k] + t * (q.share[k] - p.share[k]);
+      out.push_back(c);
+    }
+  }
+  return out;
+}
+
+double areaOf(const Part& part) {
+  Vec3 sum;
+  for (size_t i = 1; i + 1 < part.size(); ++i) {
+    sum += cross(part[i].at - part[0].at, part[i + 1].at - part[0].at);
+  }
+  return 0.5 * length(sum);
+}
+
+Vec2 middleOf(const Part& part) {
+  Vec2 sum;
+  for (const Corner& c : part) sum = sum + plan(c.at);
+  return sum * (1 / static_cast<double>(part.size()));
+}
+
+// A mesh in world coordinates, laid on the ground.
+class MeshDrape {
+ public:
+  MeshDrape(const Mesh& from, const TerrainSurface& ground) : from_(from), ground_(ground) {}
+
+  Mesh take() {
+    std::vector<uint32_t> map(from_.positions.size(), MeshBuilder::kNoPosition);
+    for (size_t f = 0; f < from_.faceCount(); ++f) {
+      work();
+      const uint32_t facet = commonFacet(f);
+      if (facet != kNothing) {
+        addWhole(f, [&](Vec2 p) { return ground_.heightOn(facet, p); });
+      } else if (!addAsPiece(f)) {
+        addCut(f);
+      }
+    }
+    return out_.take();
+  }
+
+ private:
+  // The facet that holds all corners of a face.
+  uint32_t commonFacet(size_t face) const {
+    uint32_t facet = kNothing;
+    for (const MeshLoop& loop : from_.loopsOf(face)) {
+      for (const uint32_t c : from_.cornersOf(loop)) {
+        work();
+        const Vec2 p = plan(from_.positions[c]);
+        if (facet == kNothing) facet = ground_.facetAt(p);
+        if (facet == kNothing || !ground_.holds(facet, p)) return kNothing;
+      }
+    }
+    return facet;
+  }
+
+  template <class HeightAt>
+  void addWhole(size_t face, HeightAt&& heightAt) {
+    beginFace(face, false);
+    for (const MeshLoop& loop : from_.loopsOf(face)) {
+      out_.beginLoop();
+      for (uint32_t i = 0; i < loop.cornerCount; ++i) {
+        const uint32_t corner = loop.firstCorner + i;
+        Vec3 p = from_.at(corner);
+        p.y += heightAt(plan(p));
+        const uint32_t c = out_.addCorner(out_.addPosition(p));
+        copyCorner(c, {corner, corner, corner}, {1, 0, 0});
+      }
+    }
+  }
+
+  void beginFace(size_t face, bool smooth) {
+    const MeshFace& f = from_.faces[face];
+    out_.beginFace(f.materialSlot, f.tags, smooth || f.smooth);
+  }
+  void copyCorner(uint32_t to, const std::array<uint32_t, 3>& corners,
+                  const std::array<double, 3>& share) {
+    for (int set = 0; set < kUvSets; ++set) {
+      if (!from_.hasUv(set)) continue;
+      Vec2 uv;
+      for (size_t k = 0; k < 3; ++k) uv = uv + from_.set(set)[corners[k]] * share[k];
+      out_.setUv(to, set, uv);
+    }
+    if (from_.normals.empty()) return;
+    Vec3 n;
+    for (size_t k = 0; k < 3; ++k) n += from_.normals[corners[k]] * share[k];
+    if (dot(n, n) > 0) out_.setNormal(to, normalized(n));
+  }
+
+  // Where a face is a piece of the ground, corner by corner, and level.
+  bool addAsPiece(size_t face) {
+    const uint32_t piece = pieceOf(face);
+    if (piece == kNothing) return false;
+    const TerrainSurface::Piece& p = ground_.pieces()[piece];
+    const double above = from_.at(from_.loopsOf(face)[0].firstCorner).y;
+    if (p.level) {
+      const double level = ground_.points()[p.firstPoint].z;
+      addWhole(face, [&](Vec2) { return level; });
+      return true;
+    }
+    std::map<uint32_t, uint32_t> positions;
+    for (uint32_t f = p.firstFacet; f < p.firstFacet + p.facetCount; ++f) {
+      work();
+      beginFace(face, true);
+      out_.beginLoop();
+      for (const uint32_t v : ground_.facets()[f].points) {
+        const auto [at, isNew] = positions.emplace(v, 0);
+        const Vec3& q = ground_.points()[v];
+        if (isNew) at->second = out_.addPosition({q.x, q.z + above, -q.y});
+        out_.addCorner(at->second);
+      }
+    }
+    return true;
+  }
+  uint32_t pieceOf(size_t face) const {
+    for (int set = 0; set < kUvSets; ++set) {
+      if (from_.hasUv(set)) return kNothing;
+    }
+    if (!from_.normals.empty() || !(from_.areaNormal(face).y > 0)) return kNothing;
+    std::vector<Vec2> corners;
+    const double above = from_.at(from_.loopsOf(face)[0].firstCorner).y;
+    for (const MeshLoop& loop : from_.loopsOf(face)) {
+      for (const uint32_t c : from_.cornersOf(loop)) {
+        if (std::fabs(from_.positions[c].y - above) > kSame) return kNothing;
+        corners.push_back(plan(from_.positions[c]));
+      }
+    }
+    return pieceAround(corners, from_.area(face));
+  }
+  // The piece that has all these corners, which are as many as it has but for those in between.
+  uint32_t pieceAround(const std::vector<Vec2>& corners, double size) const {
+    std::vector<uint32_t> candidates;
+    Box2 box;
+    const Vec2 reach{kSame, kSame};
+    box.include(corners[0] - reach);
+    box.include(corners[0] + reach);
+    ground_.near(box, [&](uint32_t f) { candidates.push_back(ground_.facets()[f].piece); });
+    std::sort(candidates.begin(), candidates.end());
+    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+    for (const uint32_t piece : candidates) {
+      if (isOutline(piece, corners, size)) return piece;
+    }
+    return kNothing;
+  }
+  // Whether the corners go along the piece's outline one by one; the outline has more of them.
+  bool isOutline(uint32_t piece, const std::vector<Vec2>& corners, double size) const {
+    const TerrainSurface::Piece& p = ground_.pieces()[piece];
+    if (corners.size() > p.pointCount) return false;
+    double planArea = 0;
+    for (uint32_t f = p.firstFacet; f < p.firstFacet + p.facetCount; ++f) {
+      const auto& v = ground_.facets()[f].points;
+      planArea += 0.5 * cross(point(v[1]) - point(v[0]), point(v[2]) - point(v[0]));
+    }
+    std::vector<Vec2> own;
+    for (uint32_t i = 0; i < p.pointCount; ++i) own.push_back(point(p.firstPoint + i));
+    const auto less = [](Vec2 a, Vec2 b) {
+      return std::fabs(a.x - b.x) > kSame ? a.x < b.x : a.y < b.y;
+    };
+    std::sort(own.begin(), own.end(), less);
+    for (const Vec2 c : corners) {
+      work();
+      const auto at = std::lower_bound(own.begin(), own.end(), c - Vec2{2 * kSame, 2 * kSame}, less);
+      bool found = false;
+      for (auto i = at; i != own.end() && i->x <= c.x + kSame && !found; ++i) {
+        work();
+        found = length(*i - c) <= kSame;
+      }
+      if (!found) return false;
+    }
+    return std::fabs(planArea - size) <= 1e-4 + 1e-9 * planArea;
+  }
+  Vec2 point(uint32_t i) const { return {ground_.points()[i].x, ground_.points()[i].y}; }
+
+  void addCut(size_t face) {
+    std::vector<std::array<uint32_t, 3>> triangles;
+    triangulator_.add(from_, face, triangles);
+    for (const auto& t : triangles) {
+      Part whole;
+      Box2 box;
+      for (size_t k = 0; k < 3; ++k) {
+        whole.push_back({from_.at(t[k]), {k == 0 ? 1.0 : 0, k == 1 ? 1.0 : 0, k == 2 ? 1.0 : 0}});
+        box.include(plan(whole.back().at));
+      }
+      double left = areaOf(whole);
+      ground_.near(box, [&](uint32_t facet) {
+        const auto& v = ground_.facets()[facet].points;
+        Part part = whole;
+        for (size_t i = 0; i < 3 && part.size() > 2; ++i) {
+          part = clipped(part, point(v[i]), point(v[(i + 1) % 3]));
+        }
+        if (part.size() < 3) return;
+        const double size = areaOf(part);
+        if (size < kLeastArea) return;
+        // An upright face along an edge of the ground goes to one of its sides.
+        const Vec2 middle = middleOf(part);
+        if (isUpright(part) && ground_.facetAt(middle) != facet) return;
+        left -= size;
+        addPart(face, t, part, [&](Vec2 p) { return ground_.heightOn(facet, p); });
+      });
+      // What is beyond the border of the place goes with the ground nearest to it.
+      if (left > 1e-3 + 0.02 * areaOf(whole)) addBeyond(face, t, whole);
+    }
+  }
+  void addBeyond(size_t face, const std::array<uint32_t, 3>& corners, const Part& whole) {
+    const double height = ground_.heightAt(middleOf(whole));
+    const bool outside = std::none_of(whole.begin(), whole.end(), [&](const Corner& c) {
+      return ground_.facetAt(plan(c.at)) != kNothing;
+    });
+    if (outside) addPart(face, corners, whole, [&](Vec2) { return height; });
+  }
+  static bool isUpright(const Part& part) {
+    double sum = 0;
+    for (size_t i = 1; i + 1 < part.size(); ++i) {
+      sum += cross(plan(part[i].at) - plan(part[0].at), plan(part[i + 1].at) - plan(part[0].at));
+    }
+    return std::fabs(sum) < 1e-7 * std::max(areaOf(part), 1e-6);
+  }
+  template <class HeightAt>
+  void addPart(size_t face, const std::array<uint32_t, 3>& corners, const Part& part,
+               HeightAt&& heightAt) {
+    beginFace(face, false);
+    out_.beginLoop();
+    for (const Corner& c : part) {
+      Vec3 p = c.at;
+      p.y += heightAt(plan(p));
+      copyCorner(out_.addCorner(out_.addPosition(p)), corners, c.share);
+    }
+  }
+
+  const Mesh& from_;
+  const TerrainSurface& ground_;
+  MeshBuilder out_;
+  FaceTriangulator triangulator_;
+};
+
+class SceneDrape {
+ public:
+  SceneDrape(const Scene& from, const TerrainSurface& ground) : from_(from), ground_(ground) {}
+
+  Scene drape(const std::function<bool(const std::string&)>& lies) {
+    out_ = from_;
+    std::map<uint32_t, bool> known;
+    for (Root& root : out_.roots) {
+      const auto [at, isNew] = known.emplace(root.name, false);
+      if (isNew) at->second = root.name < from_.names.size() && lies(from_.names[root.name]);
+      if (at->second) layDown(root);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  // The root gets a prototype of its own, with leaves in world coordinates.
+  void layDown(Root& root) {
+    const Prototype& old = from_.prototypes[root.instance.prototype];
+    if (old.empty) return;
+    Prototype own = old;
+    own.firstLeaf = static_cast<uint32_t>(out_.leaves.size());
+    own.firstInstance = static_cast<uint32_t>(out_.instances.size());
+    own.instanceCount = 0;
+    forEachLeaf(from_, old, root.instance.frame, [&](const Leaf& leaf, const Frame& world) {
+      Leaf moved = leaf;
+      moved.frame = world;
+      addLeaf(moved);
+    });
+    own.leafCount = static_cast<uint32_t>(out_.leaves.size()) - own.firstLeaf;
+    own.empty = own.leafCount == 0;
+    root.instance.prototype = static_cast<uint32_t>(out_.prototypes.size());
+    root.instance.frame = Frame();
+    out_.prototypes.push_back(own);
+  }
+
+  void addLeaf(Leaf leaf) {
+    const Mesh& mesh = *from_.meshes[leaf.mesh];
+    const Mesh world = transformed(mesh, leaf.scale, leaf.frame);
+    const Box3 box = world.bounds();
+    if (box.empty()) return;
+    const Vec3 size = box.size();
+    const bool stands = size.y > kLeastTall && box.min.y > kBelow &&
+                        std::max(size.x, size.z) < kWidest * size.y + kWider;
+    if (stands) {
+      leaf.frame.origin.y += ground_.heightAt(plan(box.center()));
+    } else {
+      MeshDrape drape(world, ground_);
+      Mesh laid = drape.take();
+      if (laid.empty()) return;
+      leaf.mesh = static_cast<uint32_t>(out_.meshes.size());
+      leaf.frame = Frame();
+      leaf.scale = {1, 1, 1};
+      out_.meshes.push_back(makeRef<Mesh>(std::move(laid)));
+    }
+    out_.leaves.push_back(leaf);
+  }
+
+  const Scene& from_;
+  const TerrainSurface& ground_;
+  Scene out_;
+};
+
+}  // namespace
+
+Scene draped(const Scene& scene, const TerrainSurface& ground,
+             const std::function<bool(const std::string&)>& lies) {
+  return SceneDrape(scene, ground).drape(lies);
+}
+
+}  // namespace gable

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Lays what rules have made of a flat place on its terrain: faces are cut where the ground bends
+// and raised with it, so that what lies on the ground touches it everywhere; what stands, taller
+// than it is wide, is raised whole. World coordinates: y up, the plan's y is -z.
+//
+// Promises: areas in plan stay; points that coincide before do so after; equal input gives equal
+// output, whether prototypes are shared or not.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "city/terrain_surface.h"
+#include "scene/scene.h"
+
+namespace gable {
+
+/// `lies` says by the name of an initial shape whether it lies on the ground; the others stay where
+/// they are. O(n log n) for n pieces that the ground's bends cut the faces into.
+Scene draped(const Scene& scene, const TerrainSurface& ground,
+             const std::function<bool(const std::string&)>& lies);
+
+}  // namespace gable
