@@ -177,9 +177,15 @@ class Maker {
       if (!isWater(ground_[i].surface) || !isLevel(static_cast<uint32_t>(i))) continue;
       for (const uint32_t p : outlines_[i].places) shore_[p] = std::max(shore_[p], levels_[i]);
     }
+    std::vector<bool> isPier(places_.size(), false);
+    for (size_t i = 0; i < ground_.size(); ++i) {
+      if (ground_[i].surface != Surface::Pier) continue;
+      for (const uint32_t p : outlines_[i].places) isPier[p] = true;
+    }
     for (size_t p = 0; p < places_.size(); ++p) {
       if (!std::isfinite(shore_[p])) continue;
-      const double above = heights_[p] - shore_[p];
+      // Whatever the heights say of a pier: it stands in the water.
+      const double above = isPier[p] ? 0 : heights_[p] - shore_[p];
       const double left = stays_[p] ? above : above - kHighestBank;
       heights_[p] = shore_[p] + std::max(0.0, left);
     }
