@@ -60,7 +60,7 @@ struct CityStatistics {
   std::vector<Skip> skips;
   /// The same as CitySettings::box.
   std::array<double, 4> box{};
-  /// Of the ground, in metres of the file of heights; 0 in a flat place.
+  /// Heights of the ground, in metres; 0 in a flat place.
   double lowest = 0, highest = 0;
 };
 

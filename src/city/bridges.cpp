@@ -279,8 +279,7 @@ class Heights {
       for (size_t i = 0; i < line.size(); ++i) {
         if (i > 0) along += length(line[i] - line[i - 1]);
         const double above = std::max(0.0, height * (1 - along / std::max(down, 1e-6)));
-        ramp.line.push_back(
-            {line[i].x, line[i].y, above + (ground_ ? ground_(line[i]) : 0)});
+        ramp.line.push_back({line[i].x, line[i].y, above + (ground_ ? ground_(line[i]) : 0)});
       }
       if (ramp.line.size() > 1) out.push_back(std::move(ramp));
     }

@@ -208,7 +208,8 @@ class MeshDrape {
     std::sort(own.begin(), own.end(), less);
     for (const Vec2 c : corners) {
       work();
-      const auto at = std::lower_bound(own.begin(), own.end(), c - Vec2{2 * kSame, 2 * kSame}, less);
+      const auto at =
+          std::lower_bound(own.begin(), own.end(), c - Vec2{2 * kSame, 2 * kSame}, less);
       bool found = false;
       for (auto i = at; i != own.end() && i->x <= c.x + kSame && !found; ++i) {
         work();

@@ -3,8 +3,8 @@
 //
 // Ears are clipped and edges exchanged until the circle of each triangle is free of its neighbours'
 // corners (C. L. Lawson, "Software for C1 surface interpolation", 1977). Then each triangle takes
-// the points of the grid that lie in it, one splits it into three that share the rest, and edges are
-// exchanged again.
+// the points of the grid that lie in it, one splits it into three that share the rest, and edges
+// are exchanged again.
 #include "city/plan_mesh.h"
 
 #include <algorithm>

@@ -5,8 +5,8 @@
 // added inside, none on its outline. Plan coordinates, metres.
 //
 // Promises: the triangles of a valid polygon are counter-clockwise, have an area each, and together
-// that of the polygon; every edge of the polygon is an edge of one triangle. Equal input gives equal
-// output. About O(n log n).
+// that of the polygon; every edge of the polygon is an edge of one triangle. Equal input gives
+// equal output. About O(n log n).
 #pragma once
 
 #include <cstdint>

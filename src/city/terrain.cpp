@@ -57,8 +57,8 @@ bool isWater(Surface s) { return s == Surface::Water || s == Surface::Sea; }
 
 class Maker {
  public:
-  Maker(const HeightField& field, const StreetGrade& grade,
-        const std::vector<MapFeature>& features, const std::vector<GroundPiece>& ground)
+  Maker(const HeightField& field, const StreetGrade& grade, const std::vector<MapFeature>& features,
+        const std::vector<GroundPiece>& ground)
       : field_(field), grade_(grade), features_(features), ground_(ground) {}
 
   Terrain make() {
@@ -339,8 +339,7 @@ class Maker {
 }  // namespace
 
 Terrain terrainOf(const HeightField& field, const StreetGrade& grade,
-                  const std::vector<MapFeature>& features,
-                  const std::vector<GroundPiece>& ground) {
+                  const std::vector<MapFeature>& features, const std::vector<GroundPiece>& ground) {
   return Maker(field, grade, features, ground).make();
 }
 

@@ -87,7 +87,8 @@ uint32_t TerrainSurface::facetAt(Vec2 p) const {
 }
 
 double TerrainSurface::heightAt(Vec2 p) const {
-  const Vec2 q{std::clamp(p.x, area_.min.x, area_.max.x), std::clamp(p.y, area_.min.y, area_.max.y)};
+  const Vec2 q{std::clamp(p.x, area_.min.x, area_.max.x),
+               std::clamp(p.y, area_.min.y, area_.max.y)};
   const uint32_t facet = facetAt(q);
   if (facet != kNothing) return heightOn(facet, q);
   return points_.empty() ? 0 : points_[0].z;

@@ -149,8 +149,8 @@ void expectNothingSunk(const CityPlan& plan) {
     if (plan.ground[i].surface != Surface::Footprint) continue;
     const TerrainSurface::Piece& p = s.pieces()[i];
     for (uint32_t k = p.firstPoint; k < p.firstPoint + p.pointCount; ++k) {
-      const auto [at, isNew] = floors.emplace(std::pair(s.points()[k].x, s.points()[k].y),
-                                              s.points()[k].z);
+      const auto [at, isNew] =
+          floors.emplace(std::pair(s.points()[k].x, s.points()[k].y), s.points()[k].z);
       if (!isNew) at->second = std::min(at->second, s.points()[k].z);
     }
   }
@@ -261,8 +261,8 @@ TEST(Terrain, BridgesGoFromBankToBank) {
       mapOf({feature(R"("highway":"primary")", "LineString", "[[-100,0],[-50,0]]"),
              feature(R"("highway":"primary","bridge":"yes")", "LineString", "[[-50,0],[50,0]]"),
              feature(R"("highway":"primary")", "LineString", "[[50,0],[100,0]]")});
-  const HeightField field =
-      fieldOf(map.area, 5, [](Vec2 p) { return 100 - 30 * std::max(0.0, 1 - std::fabs(p.x) / 45); });
+  const HeightField field = fieldOf(
+      map.area, 5, [](Vec2 p) { return 100 - 30 * std::max(0.0, 1 - std::fabs(p.x) / 45); });
   const CityPlan plan = planCity(map, "CZ", &field);
   double lowest = 1e9, deepest = 1e9;
   for (const CityShape& s : plan.shapes) {
@@ -285,8 +285,7 @@ TEST(PlanMesh, KeepsTheOutlineAndTheArea) {
     const PlanMesh m = meshOf(p, spacing);
     double sum = 0;
     for (const Triangle& t : m.triangles) {
-      const double twice =
-          cross(m.points[t[1]] - m.points[t[0]], m.points[t[2]] - m.points[t[0]]);
+      const double twice = cross(m.points[t[1]] - m.points[t[0]], m.points[t[2]] - m.points[t[0]]);
       EXPECT_GT(twice, 0);
       sum += 0.5 * twice;
     }
@@ -396,7 +395,8 @@ TEST_P(RealTerrain, KeepsThePromises) {
   auto map = readMapFeatures(*bytes, {path, {}, false});
   ASSERT_TRUE(map.ok()) << map.error().message;
   const HeightField field = fieldOf(map->area, 15, [](Vec2 p) {
-    return std::max(0.0, 120 + 0.15 * p.y - 0.1 * p.x + 15 * std::sin(p.x / 90) * std::sin(p.y / 70));
+    return std::max(0.0,
+                    120 + 0.15 * p.y - 0.1 * p.x + 15 * std::sin(p.x / 90) * std::sin(p.y / 70));
   });
   const CityPlan plan = planCity(*map, {}, &field);
   expectClosed(plan);

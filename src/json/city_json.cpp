@@ -13,7 +13,11 @@ std::string cityJson(const CityStatistics& s, const RunFigures& figures, const T
   json.beginObject().field("area", s.area).field("groundArea", s.groundArea);
   json.key("box").beginArray();
   for (const double v : s.box) json.value(v);
-  json.endArray().key("surfaces").beginObject();
+  json.endArray();
+  if (s.lowest != 0 || s.highest != 0) {
+    json.field("lowest", s.lowest).field("highest", s.highest);
+  }
+  json.key("surfaces").beginObject();
   for (const CityStatistics::Surface& surface : s.surfaces) {
     json.key(surface.name).beginObject().field("pieces", surface.pieces);
     json.field("area", surface.area).endObject();

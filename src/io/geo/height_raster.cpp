@@ -98,10 +98,10 @@ std::optional<Vec2> cornerOf(const std::string& name) {
 }
 
 double cubic(const double* v, double t) {
-  return v[1] + 0.5 * t *
-                    (v[2] - v[0] +
-                     t * (2 * v[0] - 5 * v[1] + 4 * v[2] - v[3] +
-                          t * (3 * (v[1] - v[2]) + v[3] - v[0])));
+  return v[1] +
+         0.5 * t *
+             (v[2] - v[0] +
+              t * (2 * v[0] - 5 * v[1] + 4 * v[2] - v[3] + t * (3 * (v[1] - v[2]) + v[3] - v[0])));
 }
 
 }  // namespace
@@ -208,8 +208,7 @@ std::optional<Vec2> HeightRaster::cellAt(const GeoPlace& place) const {
   }
   if (system_ == System::Utm) {
     const TransverseMercator zone({6.0 * zone_ - 183, 0});
-    at = zone.forward({at.x, at.y}) * kUtmScale +
-         Vec2{kFalseEasting, south_ ? kFalseNorthing : 0};
+    at = zone.forward({at.x, at.y}) * kUtmScale + Vec2{kFalseEasting, south_ ? kFalseNorthing : 0};
   }
   const auto& m = toCell_;
   Vec2 cell{m[0] * at.x + m[1] * at.y + m[2], m[3] * at.x + m[4] * at.y + m[5]};

@@ -71,7 +71,8 @@ TEST(HeightRaster, KnowsUtmOfBothHalves) {
     const Vec2 at = zone.forward(corner) * 0.9996 + Vec2{5e5, south ? 1e7 : 0};
     s.pixelScale = {30, 30, 0};
     s.tiepoints = {0, 0, 0, at.x, at.y, 0};
-    s.geoKeys = {1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, static_cast<uint16_t>(south ? 32732 : 32632)};
+    s.geoKeys = {1, 1, 0,    2, 1024, 0,
+                 1, 1, 3072, 0, 1,    static_cast<uint16_t>(south ? 32732 : 32632)};
     Result<HeightRaster> r = HeightRaster::read(tiffOf(s), "a.tif");
     ASSERT_TRUE(r.ok()) << r.error().message;
     const auto cell = r->cellAt(degrees(corner.longitude, corner.latitude));

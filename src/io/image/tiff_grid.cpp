@@ -111,8 +111,7 @@ Result<Blocks> blocksOf(TIFF* tiff, const TiffGrid& grid, uint64_t sampleBytes) 
   return b;
 }
 
-bool readBlocks(TIFF* tiff, const Blocks& b, Sample sample, uint64_t sampleBytes,
-                TiffGrid& out) {
+bool readBlocks(TIFF* tiff, const Blocks& b, Sample sample, uint64_t sampleBytes, TiffGrid& out) {
   std::vector<uint8_t> block(b.bytes);
   uint32_t number = 0;
   for (uint64_t y = 0; y < out.height; y += b.height) {
