@@ -87,6 +87,13 @@ int deriveSettings(const DeriveArguments& arguments, gable::DeriveSettings& s) {
   return kExitDone;
 }
 
+gable::FeatureSelection selectionOf(const DeriveArguments& arguments) {
+  const size_t equals = arguments.only.find('=');
+  gable::FeatureSelection selection{arguments.layer, arguments.only.substr(0, equals), {}};
+  if (equals != std::string::npos) selection.value = arguments.only.substr(equals + 1);
+  return selection;
+}
+
 int readRules(const DeriveArguments& arguments, gable::Rules& rules) {
   gable::LoadSettings load{arguments.project, arguments.dialect, arguments.style, arguments.search};
   load.limits = fileLimits(arguments.limits);
@@ -100,10 +107,7 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
   const gable::FileLimits limits = fileLimits(arguments.limits);
   if (const int status = readRules(arguments, inputs.rules)) return status;
   if (!arguments.shapes.empty()) {
-    const size_t equals = arguments.only.find('=');
-    gable::FeatureSelection selection{arguments.layer, arguments.only.substr(0, equals), {}};
-    if (equals != std::string::npos) selection.value = arguments.only.substr(equals + 1);
-    inputs.shapes = gable::Shapes::load(arguments.shapes, limits, selection);
+    inputs.shapes = gable::Shapes::load(arguments.shapes, limits, selectionOf(arguments));
   } else {
     double width = 20, depth = 20;
     double sides[2] = {width, depth};

@@ -13,6 +13,9 @@
 /// when an option is wrong.
 int deriveSettings(const DeriveArguments& arguments, gable::DeriveSettings& settings);
 
+/// Which features of a map the arguments name.
+gable::FeatureSelection selectionOf(const DeriveArguments& arguments);
+
 /// The rules that the arguments name; an exit status other than kExitDone when they are not usable.
 int readRules(const DeriveArguments& arguments, gable::Rules& rules);
 

@@ -164,6 +164,8 @@ void addTileOptions(CLI::App* app, TileArguments& a) {
   app->add_option("--tile-triangles", a.triangles,
                   "Triangles of a tile that shows everything (default 65536)")
       ->check(number({100, 10'000'000, true}));
+  app->add_flag("--compress", a.compress,
+                "Compress tiles (EXT_meshopt_compression): a fifth of the bytes, as near as 2 mm");
   app->add_flag("--viewer", a.viewer, "Put a page beside the tiles that shows them (index.html)");
 }
 
@@ -201,14 +203,75 @@ void addCity(CLI::App& app, CityArguments& a, int& status) {
   city->callback([&a, &status] { status = runCity(a); });
 }
 
-void addTiles(CLI::App& app, TilesArguments& a, int& status) {
+struct AllTilesArguments {
+  TilesArguments whole;
+  PlanArguments plan;
+  JobArguments job;
+  MergeArguments merge;
+  SubmitArguments submit;
+};
+
+void addTileRun(CLI::App* app, std::string& folder, LimitArguments& limits) {
+  app->add_option("folder", folder, "The folder of the plan")->required();
+  addLimits(app, limits, "Stop after so many seconds (default: no limit)");
+}
+
+void addTileJobs(CLI::App* tiles, AllTilesArguments& a, int& status) {
+  const NumberRange threads{0, 4096, true};
+  auto* plan = tiles->add_subcommand("plan", "Divide the work into jobs, for any number of machines");
+  plan->add_option("rules", a.plan.derive.rules, "The rule file or package")->required();
+  addDeriveOptions(plan, a.plan.derive);
+  plan->add_option("-o,--output", a.plan.output, "The folder of the tiles")->required();
+  plan->add_option("--job-shapes", a.plan.jobShapes, "About how many shapes a job has (default 16384)")
+      ->check(number({1, 1e9, true}));
+  addTileOptions(plan, a.plan.tiles);
+  plan->callback([&a, &status] { status = runTilesPlan(a.plan); });
+
+  auto* job = tiles->add_subcommand("job", "Make the tiles of a job that are not there yet");
+  addTileRun(job, a.job.folder, a.job.limits);
+  job->add_option("jobs", a.job.jobs, "A number, or several: 3-17")->required();
+  job->add_option("--jobs", a.job.threads, "Threads (default: one per processor)")
+      ->check(number(threads));
+  job->add_option("--stats", a.job.stats, "Write counts as JSON to a file, or - for stdout");
+  job->callback([&a, &status] { status = runTilesJob(a.job); });
+
+  auto* merge = tiles->add_subcommand("merge", "Check the tiles of all jobs and write the tileset");
+  addTileRun(merge, a.merge.folder, a.merge.limits);
+  merge->add_flag("--mend", a.merge.mend, "Run jobs whose tiles are missing or damaged, here");
+  merge->add_flag("--viewer", a.merge.viewer,
+                  "Put a page beside the tiles that shows them (index.html)");
+  merge->add_option("--jobs", a.merge.threads, "Threads (default: one per processor)")
+      ->check(number(threads));
+  merge->add_option("--stats", a.merge.stats, "Write counts as JSON to a file, or - for stdout");
+  merge->callback([&a, &status] { status = runTilesMerge(a.merge); });
+
+  auto* submit = tiles->add_subcommand("submit", "Run all jobs of a plan, and the merge");
+  submit->add_option("folder", a.submit.folder, "The folder of the plan")->required();
+  auto* slurm = submit->add_flag("--slurm", a.submit.slurm, "As a job array of Slurm");
+  submit->add_flag("--parallel", a.submit.parallel, "With GNU parallel, on this machine")
+      ->excludes(slurm);
+  submit->add_option("--tries", a.submit.tries, "How often a job is tried (default 3)")
+      ->check(number({1, 100, true}));
+  submit->add_option("--options", a.submit.options, "Further options of sbatch or parallel, a text");
+  submit->add_flag("--dry-run", a.submit.dry, "Write the scripts, and run nothing");
+  submit->callback([&a, &status] { status = runTilesSubmit(a.submit); });
+}
+
+void addTiles(CLI::App& app, AllTilesArguments& a, int& status) {
   auto* tiles = app.add_subcommand("tiles", "Derive rules and write 3D Tiles for browsers");
-  tiles->add_option("rules", a.derive.rules, "The rule file or package")->required();
-  addDeriveOptions(tiles, a.derive);
-  tiles->add_option("-o,--output", a.output, "The folder of the tiles")->required();
-  tiles->add_option("--stats", a.stats, "Write counts as JSON to a file, or - for stdout");
-  addTileOptions(tiles, a.tiles);
-  tiles->callback([&a, &status] { status = runTiles(a); });
+  tiles->add_option("rules", a.whole.derive.rules, "The rule file or package");
+  addDeriveOptions(tiles, a.whole.derive);
+  tiles->add_option("-o,--output", a.whole.output, "The folder of the tiles");
+  tiles->add_option("--stats", a.whole.stats, "Write counts as JSON to a file, or - for stdout");
+  addTileOptions(tiles, a.whole.tiles);
+  addTileJobs(tiles, a, status);
+  tiles->callback([tiles, &a, &status] {
+    if (!tiles->get_subcommands().empty()) return;
+    // Required, unless a command follows.
+    if (a.whole.derive.rules.empty()) throw CLI::RequiredError("rules");
+    if (a.whole.output.empty()) throw CLI::RequiredError("--output");
+    status = runTiles(a.whole);
+  });
 }
 
 void addPack(CLI::App& app, PackArguments& a, int& status) {
@@ -307,7 +370,7 @@ int main(int argc, char** argv) {
   addGenerate(app, generate, status);
   CityArguments city;
   addCity(app, city, status);
-  TilesArguments tiles;
+  AllTilesArguments tiles;
   addTiles(app, tiles, status);
   CheckArguments check;
   addCheck(app, check, status);

@@ -11,6 +11,8 @@
 
 struct TileArguments {
   uint64_t triangles = 65'536;
+  /// Compress the tiles.
+  bool compress = false;
   /// Put the page that shows the tiles beside them.
   bool viewer = false;
 };
@@ -23,9 +25,52 @@ struct TilesArguments {
 };
 int runTiles(const TilesArguments& arguments);
 
+struct PlanArguments {
+  DeriveArguments derive;
+  TileArguments tiles;
+  std::string output;
+  uint64_t jobShapes = 16'384;
+};
+int runTilesPlan(const PlanArguments& arguments);
+
+struct JobArguments {
+  std::string folder;
+  /// "3" or "3-17".
+  std::string jobs;
+  std::optional<int> threads;
+  LimitArguments limits;
+  std::string stats;
+};
+int runTilesJob(const JobArguments& arguments);
+
+struct MergeArguments {
+  std::string folder;
+  /// Run the jobs that are missing, here.
+  bool mend = false;
+  bool viewer = false;
+  std::optional<int> threads;
+  LimitArguments limits;
+  std::string stats;
+};
+int runTilesMerge(const MergeArguments& arguments);
+
+struct SubmitArguments {
+  std::string folder;
+  bool slurm = false, parallel = false;
+  /// Write the scripts, and run nothing.
+  bool dry = false;
+  uint64_t tries = 3;
+  /// Further options of sbatch or parallel.
+  std::string options;
+};
+int runTilesSubmit(const SubmitArguments& arguments);
+
 /// The folder that an output names: "monaco/", "monaco/tileset.json", a folder that is there; empty
 /// when it names none.
 std::string tileFolder(const std::string& output);
+
+/// The same, or the output itself as a folder.
+std::string asFolder(const std::string& output);
 
 /// Writes tiles, prints what there is to say, and gives an exit status.
 int writeTileFolder(const gable::Rules& rules, const gable::Shapes& shapes,

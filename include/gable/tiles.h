@@ -6,9 +6,20 @@
 //   gable::City city = gable::City::load("monaco.osm.pbf");
 //   gable::Rules rules = gable::Rules::load("city.cga");
 //   gable::writeTiles(rules, city.shapes(), "monaco/");
+//
+// What is too large for one process is planned, made in jobs by any number of them, and merged. The
+// files are those of writeTiles(), byte for byte:
+//
+//   gable::TilePlan plan = gable::planTiles(rules, "land.fgb", {}, "land/", settings);
+//   for (uint64_t job = 0; job < plan.jobs(); ++job) gable::runTileJob(plan, rules, job);
+//   gable::mergeTiles(plan);
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,9 +35,15 @@ struct TileSettings {
   DeriveSettings derive;
   /// How many triangles a tile has that shows everything.
   uint64_t triangles = 65'536;
+  /// EXT_meshopt_compression and KHR_mesh_quantization: vertices are up to two millimetres from
+  /// their places. An error where canCompressTiles() is false.
+  bool compress = false;
   /// Of writing.
   FileLimits limits;
 };
+
+/// Whether this build can.
+bool canCompressTiles();
 
 struct TileResult {
   bool ok = false;
@@ -43,6 +60,10 @@ struct TileResult {
   /// Of all files.
   uint64_t bytes = 0;
   double deriveSeconds = 0, writeSeconds = 0;
+  /// Of a job: shapes whose tiles were there already.
+  uint64_t shapesBefore = 0;
+  /// Of a merge: the jobs that are to be run first, as tiles are missing or damaged.
+  std::vector<uint64_t> jobsToRun;
 };
 
 /// Derives the rules on the shapes a batch at a time, and writes `folder`/tileset.json with tiles
@@ -50,5 +71,68 @@ struct TileResult {
 /// the folder stay; a tileset of another program is left alone, with an error.
 TileResult writeTiles(const Rules& rules, const Shapes& shapes, const std::string& folder,
                       const TileSettings& settings = {});
+
+struct TilePlanSettings {
+  /// Where the rules come from; jobs load them again by this. Relative paths are kept as whole ones.
+  std::string rules;
+  LoadSettings load;
+  /// Threads and seeds of single shapes are no part of a plan.
+  TileSettings tiles;
+  /// About how many shapes a job has; the files do not depend on it.
+  uint64_t jobShapes = 16'384;
+};
+
+/// Work on tiles in jobs, and what they need: files in `folder`/plan, which mergeTiles() removes.
+class TilePlan {
+ public:
+  /// The plan of a folder. Codes: tiles-plan.
+  static TilePlan load(const std::string& folder);
+
+  bool ok() const;
+  const DiagnosticList& diagnostics() const;
+  uint64_t shapes() const;
+  uint64_t jobs() const;
+  /// With the settings of the plan.
+  Rules rules(const FileLimits& limits = {}) const;
+
+  struct Impl;
+  explicit TilePlan(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+  const Impl& impl() const { return *impl_; }
+
+ private:
+  std::shared_ptr<const Impl> impl_;
+};
+
+/// Divides shapes into jobs. Where the folder has a plan of the same rules, shapes and settings,
+/// what its jobs have finished stays.
+TilePlan planTiles(const Rules& rules, const Shapes& shapes, const std::string& folder,
+                   const TilePlanSettings& settings);
+
+/// The same for a file of shapes. Maps, but those of OpenStreetMap, are read a piece at a time: of
+/// each shape memory holds 32 bytes.
+TilePlan planTiles(const Rules& rules, const std::string& map, const FeatureSelection& selection,
+                   const std::string& folder, const TilePlanSettings& settings);
+
+/// Whether a file of shapes is read a piece at a time.
+bool isReadInPieces(const std::string& map);
+
+/// What of TileSettings is not the plan's: threads, limits in time and memory, progress, cancelling.
+struct TileRun {
+  std::optional<int> jobs;
+  FileLimits limits;
+  std::function<void(size_t done, size_t total)> progress;
+  std::atomic<bool>* cancel = nullptr;
+};
+
+/// Makes the tiles of a job that are missing or damaged. Any number of jobs may run at a time, on
+/// any machines that share the folder; a job may be run again at any time. Codes: tiles-job,
+/// tiles-plan, tiles-plan-changed, and those of writeTiles().
+TileResult runTileJob(const TilePlan& plan, const Rules& rules, uint64_t job,
+                      const TileRun& run = {});
+
+/// Checks the tiles of all jobs, writes those above them and the tileset, and removes the plan.
+/// Where tiles are missing or damaged the error tiles-unfinished names the jobs, and nothing is
+/// written.
+TileResult mergeTiles(const TilePlan& plan, const TileRun& run = {});
 
 }  // namespace gable

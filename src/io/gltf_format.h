@@ -9,7 +9,7 @@
 namespace gable::gltf {
 
 // Component types of accessors.
-inline constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
+inline constexpr int kByte = 5120, kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
 // Targets of buffer views.
 inline constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 

@@ -9,6 +9,7 @@ void writeTileCounts(JsonWriter& w, const TileResult& result) {
   w.field("tiles", result.tiles).field("levels", result.levels).field("shapes", result.shapes);
   w.field("triangles", result.triangles).field("coarseTriangles", result.coarseTriangles);
   w.field("bytes", result.bytes);
+  if (result.shapesBefore > 0) w.field("shapesBefore", result.shapesBefore);
 }
 
 std::string tilesJson(const TileResult& result, const RunFigures& figures) {

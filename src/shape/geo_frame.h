@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "math/vec.h"
 
@@ -30,6 +31,8 @@ class GeoFrame {
   virtual GeoPlace at(Vec2 place) const = 0;
   /// Equal for frames that give the same.
   virtual uint64_t hash() const = 0;
+  /// A text by which geoFrameOf() of io/geo/geo_frames.h makes an equal one.
+  virtual std::string text() const = 0;
 };
 
 }  // namespace gable

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "base/result.h"
 #include "io/exporters/gltf_materials.h"
 #include "tiles/coarse.h"
 #include "tiles/tile_content.h"
@@ -45,12 +46,23 @@ struct TileMesh {
   uint64_t triangles = 0;
 };
 
+/// Metres: positions are integers where that moves none by more.
+constexpr double kMostQuantized = 0.002;
+
 /// Triangles without area in single precision are left out.
 TileMesh meshOf(const TileContent& content, const WriteOptions& options);
 TileMesh meshOf(const CoarseModel& model);
 
-/// Writes it as GLB: one node, EXT_mesh_features, EXT_structural_metadata with a table of features.
-/// Code: file-unwritable. Gives the number of bytes.
-Result<uint64_t> writeTile(const TileMesh& mesh, const std::string& path);
+/// As it was written, to tell whether it still is.
+struct TileFile {
+  std::string name;
+  uint64_t bytes = 0, checksum = 0;
+};
+
+/// Writes it as GLB to `folder` + `name`: one node, EXT_mesh_features, EXT_structural_metadata with
+/// a table of features; `compressed` where the build has the library, with vertices at most
+/// kMostQuantized from their places. Code: file-unwritable.
+Result<TileFile> writeTile(const TileMesh& mesh, const std::string& folder,
+                           const std::string& name, bool compressed);
 
 }  // namespace gable

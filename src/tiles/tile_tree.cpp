@@ -8,15 +8,16 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
-#include <set>
 #include <utility>
 
+#include "base/bytes.h"
+#include "base/files.h"
 #include "base/json.h"
 #include "base/parallel.h"
 #include "io/exporters/surface.h"
 #include "io/image/image.h"
-#include "tiles/tile_mesh.h"
 
 namespace gable {
 namespace {
@@ -24,48 +25,21 @@ namespace {
 // A square's side over what may be left out of its coarse model. Viewers refine a tile when its
 // error covers more than about sixteen pixels; with this they do at two or three sides' distance.
 constexpr double kFineness = 160;
-constexpr int kDeepest = 30;
-constexpr double kSmallestSide = 1;
-// Viewers place vertices in single precision: boxes are larger by this, in metres.
-constexpr double kMargin = 0.002;
+// Viewers place vertices in single precision, and files may quantise them: boxes are larger by
+// this, in metres.
+constexpr double kMargin = kMostQuantized;
 
-struct Square {
-  Vec2 low;
-  double side = 0;
-
-  double tolerance() const { return side / kFineness; }
-  Vec2 middle() const { return {low.x + side / 2, low.y + side / 2}; }
-  size_t quarterOf(Vec2 p) const {
-    const Vec2 m = middle();
-    return (p.x >= m.x ? 1u : 0u) + (p.y >= m.y ? 2u : 0u);
-  }
-  Square quarter(size_t q) const {
-    const double half = side / 2;
-    return {{low.x + (q & 1 ? half : 0), low.y + (q & 2 ? half : 0)}, half};
-  }
-  bool holds(const Box2& box) const {
-    return box.min.x >= low.x && box.min.y >= low.y && box.max.x <= low.x + side &&
-           box.max.y <= low.y + side;
-  }
-};
-
-Square squareAround(const Box2& box) {
-  if (box.empty()) return {{}, kSmallestSide};
-  const Vec2 size = box.size();
-  const double side = std::max({size.x, size.y, kSmallestSide});
-  return {box.center() - Vec2{side, side} * 0.5, side};
-}
+double toleranceOf(const TileSquare& square) { return square.side / kFineness; }
 
 // What a quarter of a square has come to.
 struct Branch {
   enum class State : uint8_t { Nothing, Open, Done } state = State::Nothing;
   std::string name;
   TileContent content;
-  TileNode node;
-  CoarseModel coarse;
-  uint64_t bytes = 0;
-  std::vector<std::string> warnings;
+  TilePart part;
   std::optional<Error> error;
+
+  TileNode& node() { return *part.root; }
 };
 
 // What textures look like from far away, by their paths.
@@ -112,42 +86,144 @@ void includeHeights(const Box3& box, const Frame& world, double& low, double& hi
   high = std::max(high, most);
 }
 
+Branch failed(const Error& e) {
+  Branch b;
+  b.error = e;
+  return b;
+}
+
+// Squares that have been made, and the coarse one above them.
+class Coverer {
+ public:
+  explicit Coverer(const TileTreeOptions& options) : options_(options) {}
+
+  Branch cover(std::vector<Branch>& branches, const TileSquare& square, const std::string& name);
+  /// Writes a tile of a branch.
+  void write(Branch& b, const TileMesh& mesh) const;
+
+ private:
+  void addChild(Branch& out, Branch& child, Box3& box) const;
+  void divide(Branch& out, const std::vector<std::string>& names) const;
+
+  const TileTreeOptions& options_;
+};
+
+void append(std::vector<std::string>& to, const std::vector<std::string>& more) {
+  for (const std::string& s : more) {
+    if (std::find(to.begin(), to.end(), s) == to.end()) to.push_back(s);
+  }
+}
+
+void Coverer::write(Branch& b, const TileMesh& mesh) const {
+  append(b.part.warnings, mesh.warnings);
+  b.node().uri = "tiles/" + b.name + ".glb";
+  b.node().box = mesh.box;
+  b.node().triangles = mesh.triangles;
+  const Result<TileFile> file =
+      writeTile(mesh, options_.folder, b.node().uri, options_.compressed);
+  if (!file.ok()) {
+    b.error = file.error();
+    return;
+  }
+  b.part.bytes += file.value().bytes;
+  ++b.part.tiles;
+  b.part.files.push_back(file.value());
+}
+
+void Coverer::addChild(Branch& out, Branch& child, Box3& box) const {
+  TilePart& part = child.part;
+  out.part.coarse.append(std::move(part.coarse));
+  box.include(part.root->box);
+  out.node().levels = std::max(out.node().levels, part.root->levels + 1);
+  out.node().nodes += part.root->nodes;
+  out.node().children.push_back(std::move(*part.root));
+  std::move(part.files.begin(), part.files.end(), std::back_inserter(out.part.files));
+  out.part.tiles += part.tiles;
+  out.part.bytes += part.bytes;
+  out.part.triangles += part.triangles;
+  out.part.coarseTriangles += part.coarseTriangles;
+  append(out.part.warnings, part.warnings);
+}
+
+// Gives the children tilesets of their own where there are too many nodes.
+void Coverer::divide(Branch& out, const std::vector<std::string>& names) const {
+  TileNode& node = out.node();
+  if (node.nodes <= options_.mostNodes) return;
+  for (size_t i = 0; i < node.children.size(); ++i) {
+    TileNode& child = node.children[i];
+    if (child.children.empty()) continue;
+    const std::string uri = "tiles/" + names[i] + ".json";
+    const std::string text = tilesetJson(child, {}, "tiles/");
+    const Result<uint64_t> bytes = writeFile(options_.folder + uri, text);
+    if (!bytes.ok()) {
+      out.error = bytes.error();
+      return;
+    }
+    out.part.files.push_back({uri, bytes.value(), checksum(text)});
+    out.part.bytes += bytes.value();
+    node.nodes -= child.nodes - 1;
+    child.children.clear();
+    child.nodes = 1;
+    child.uri = uri;
+  }
+}
+
+Branch Coverer::cover(std::vector<Branch>& branches, const TileSquare& square,
+                      const std::string& name) {
+  Branch out;
+  out.part.root.emplace();
+  Box3 box;
+  std::vector<std::string> names;
+  for (Branch& b : branches) {
+    if (b.error) return std::move(b);
+    if (b.state != Branch::State::Done) continue;
+    addChild(out, b, box);
+    names.push_back(b.name);
+  }
+  if (names.empty()) return {};
+  out.state = Branch::State::Done;
+  out.name = name;
+  out.part.coarse = coarsened(out.part.coarse, toleranceOf(square));
+  out.node().error = out.part.coarse.error;
+  const TileMesh mesh = meshOf(out.part.coarse);
+  if (mesh.triangles > 0) {
+    write(out, mesh);
+    out.part.coarseTriangles += mesh.triangles;
+  }
+  out.node().box.include(box);
+  if (!out.error) divide(out, names);
+  return out;
+}
+
+// Those that have come to something; a single one stands for the whole square.
+void dropNothing(std::vector<Branch>& branches) {
+  branches.erase(
+      std::remove_if(branches.begin(), branches.end(),
+                     [](const Branch& b) { return b.state == Branch::State::Nothing; }),
+      branches.end());
+}
+
+// The tiles of one unit.
 class Builder {
  public:
   Builder(TileSource& source, const TileTreeOptions& options)
-      : source_(source), options_(options) {}
+      : source_(source), options_(options), coverer_(options) {}
 
-  Result<TileTree> run() {
-    std::vector<size_t> all(source_.size());
-    Box2 box;
-    for (size_t i = 0; i < all.size(); ++i) {
-      all[i] = i;
-      box.include(source_.middle(i));
-    }
-    Branch root = build(squareAround(box), std::move(all), "0", 0);
-    if (root.state == Branch::State::Open) {
-      std::vector<Branch> one;
-      one.push_back(std::move(root));
-      finish(one, kSmallestSide);
-      root = std::move(one[0]);
-    }
-    if (root.error) return *root.error;
-    if (root.state == Branch::State::Done) tree_.root = std::move(root.node);
-    tree_.warnings.assign(warnings_.begin(), warnings_.end());
-    return std::move(tree_);
+  Result<TilePart> run(const TileSquare& square, const TileUnit& unit) {
+    std::vector<Branch> one;
+    one.push_back(build(square, {unit.shapes.begin(), unit.shapes.end()}, unit.name,
+                        static_cast<int>(unit.name.size()) - 1));
+    // What is not written by now is written for a square around this one.
+    finish(one, toleranceOf(square) * 2);
+    if (one[0].error) return *one[0].error;
+    return std::move(one[0].part);
   }
 
  private:
-  Branch failed(const Error& e) const {
-    Branch b;
-    b.error = e;
-    return b;
-  }
-
-  Branch build(const Square& square, std::vector<size_t> shapes, const std::string& name,
+  Branch build(const TileSquare& square, std::vector<size_t> shapes, const std::string& name,
                int depth) {
     if (shapes.empty()) return {};
-    if (shapes.size() <= options_.batch || options_.together || depth >= kDeepest) {
+    if (options_.batch == 0 || shapes.size() <= options_.batch || depth >= kDeepestSquare) {
       Result<std::shared_ptr<const Scene>> scene = source_.derive(shapes);
       if (!scene.ok()) return failed(scene.error());
       return split(square, contentOf(scene.value(), shapes), name, depth);
@@ -216,10 +292,10 @@ class Builder {
     return points;
   }
 
-  Branch split(Square square, TileContent content, const std::string& name, int depth) {
+  Branch split(TileSquare square, TileContent content, const std::string& name, int depth) {
     Branch out;
     if (content.leaves.empty()) return out;
-    if (content.triangles <= options_.triangles || depth >= kDeepest) {
+    if (content.triangles <= options_.triangles || depth >= kDeepestSquare) {
       out.state = Branch::State::Open;
       out.name = name;
       out.content = std::move(content);
@@ -259,11 +335,8 @@ class Builder {
   }
 
   // The square of four quarters: one tile where they are small together, else a coarse one above.
-  Branch join(const Square& square, std::vector<Branch> branches, const std::string& name) {
-    branches.erase(
-        std::remove_if(branches.begin(), branches.end(),
-                       [](const Branch& b) { return b.state == Branch::State::Nothing; }),
-        branches.end());
+  Branch join(const TileSquare& square, std::vector<Branch> branches, const std::string& name) {
+    dropNothing(branches);
     if (branches.empty()) return {};
     if (branches.size() == 1) return std::move(branches[0]);
     const auto isOpen = [](const Branch& b) { return b.state == Branch::State::Open; };
@@ -276,8 +349,8 @@ class Builder {
       branches[0].name = name;
       return std::move(branches[0]);
     }
-    finish(branches, square.tolerance());
-    return cover(branches, square, name);
+    finish(branches, toleranceOf(square));
+    return coverer_.cover(branches, square, name);
   }
 
   // Writes the tiles of those that are open.
@@ -287,14 +360,6 @@ class Builder {
       if (options_.meter) scope.emplace(*options_.meter);
       if (branches[i].state == Branch::State::Open) finishOne(branches[i], tolerance);
     });
-    for (Branch& b : branches) {
-      if (b.state == Branch::State::Done && b.node.children.empty() && b.bytes > 0) {
-        ++tree_.tiles;
-        tree_.bytes += std::exchange(b.bytes, 0);
-        tree_.triangles += b.node.triangles;
-      }
-      warnings_.insert(b.warnings.begin(), b.warnings.end());
-    }
   }
 
   void finishOne(Branch& b, double tolerance) const {
@@ -305,59 +370,65 @@ class Builder {
     b.state = mesh.triangles > 0 ? Branch::State::Done : Branch::State::Nothing;
     if (mesh.triangles > 0) {
       TextureTints tints(options_.readTexture);
-      b.coarse = partsOf(b.content, tolerance, [&](const Material& m) { return tints.of(m); });
-      writeNode(b, mesh);
+      b.part.coarse = partsOf(b.content, tolerance, [&](const Material& m) { return tints.of(m); });
+      b.part.root.emplace();
+      b.part.triangles = mesh.triangles;
+      coverer_.write(b, mesh);
     }
     b.content = {};
   }
 
-  void writeNode(Branch& b, const TileMesh& mesh) const {
-    b.warnings = mesh.warnings;
-    b.node.uri = "tiles/" + b.name + ".glb";
-    b.node.box = mesh.box;
-    b.node.triangles = mesh.triangles;
-    const Result<uint64_t> bytes = writeTile(mesh, options_.folder + b.node.uri);
-    if (bytes.ok()) {
-      b.bytes = bytes.value();
-    } else {
-      b.error = bytes.error();
-    }
-  }
-
-  Branch cover(std::vector<Branch>& branches, const Square& square, const std::string& name) {
-    Branch out;
-    CoarseModel all;
-    Box3 box;
-    for (Branch& b : branches) {
-      if (b.error) return std::move(b);
-      if (b.state != Branch::State::Done) continue;
-      all.append(std::move(b.coarse));
-      box.include(b.node.box);
-      out.node.children.push_back(std::move(b.node));
-    }
-    if (out.node.children.empty()) return {};
-    out.state = Branch::State::Done;
-    out.name = name;
-    out.coarse = coarsened(all, square.tolerance());
-    out.node.error = out.coarse.error;
-    const TileMesh mesh = meshOf(out.coarse);
-    if (mesh.triangles > 0) {
-      writeNode(out, mesh);
-      ++tree_.tiles;
-      tree_.bytes += out.bytes;
-      tree_.coarseTriangles += mesh.triangles;
-    }
-    out.node.box.include(box);
-    return out;
-  }
-
   TileSource& source_;
   const TileTreeOptions& options_;
-  TileTree tree_;
-  std::set<std::string> warnings_;
+  Coverer coverer_;
 };
 
-void writeNode(JsonWriter& w, const TileNode& node) {
+// The tiles above units.
+class Top {
+ public:
+  Top(const TileDivision& division, const TileParts& parts, const TileTreeOptions& options)
+      : division_(division), parts_(parts), coverer_(options) {}
+
+  Result<TilePart> run() {
+    Branch root = assemble("0");
+    if (root.error) return *root.error;
+    return std::move(root.part);
+  }
+
+ private:
+  // Units come in the order of this walk, so the next one is in this square or in none. It goes as
+  // deep as squares are divided.
+  Branch assemble(const std::string& name) {
+    const std::vector<TileUnit>& units = division_.units;
+    if (next_ == units.size() || !units[next_].name.starts_with(name)) return {};
+    Branch out;
+    if (units[next_].name == name) {
+      Result<TilePart> part = parts_(next_++);
+      if (!part.ok()) return failed(part.error());
+      if (!part->root) return {};
+      out.state = Branch::State::Done;
+      out.name = name;
+      out.part = std::move(*part);
+      return out;
+    }
+    std::vector<Branch> branches;
+    for (size_t q = 0; q < 4; ++q) {
+      branches.push_back(assemble(name + static_cast<char>('0' + q)));
+      if (branches.back().error) return std::move(branches.back());
+    }
+    dropNothing(branches);
+    if (branches.empty()) return {};
+    if (branches.size() == 1) return std::move(branches[0]);
+    return coverer_.cover(branches, division_.squareOf(name), name);
+  }
+
+  const TileDivision& division_;
+  const TileParts& parts_;
+  Coverer coverer_;
+  size_t next_ = 0;
+};
+
+void writeNode(JsonWriter& w, const TileNode& node, const std::string& folder) {
   w.beginObject().key("boundingVolume").beginObject().key("box").beginArray();
   // From y up to z up: east, north, up.
   const Vec3 c = node.box.center();
@@ -367,16 +438,25 @@ void writeNode(JsonWriter& w, const TileNode& node) {
   }
   w.endArray().endObject();
   w.field("geometricError", node.error);
-  if (!node.uri.empty()) w.key("content").beginObject().field("uri", node.uri).endObject();
+  if (node.uri.empty()) return;
+  const std::string uri = node.uri.starts_with(folder) ? node.uri.substr(folder.size()) : node.uri;
+  w.key("content").beginObject().field("uri", uri).endObject();
 }
 
 }  // namespace
 
-Result<TileTree> writeTileTree(TileSource& source, const TileTreeOptions& options) {
-  return Builder(source, options).run();
+Result<TilePart> writeTileUnit(TileSource& source, const TileSquare& square, const TileUnit& unit,
+                               const TileTreeOptions& options) {
+  return Builder(source, options).run(square, unit);
 }
 
-std::string tilesetJson(const TileNode& root, const std::vector<double>& transform) {
+Result<TilePart> writeTileTop(const TileDivision& division, const TileParts& parts,
+                              const TileTreeOptions& options) {
+  return Top(division, parts, options).run();
+}
+
+std::string tilesetJson(const TileNode& root, const std::vector<double>& transform,
+                        const std::string& folder) {
   std::string out;
   JsonWriter w(out);
   w.beginObject().key("asset").beginObject();
@@ -390,7 +470,7 @@ std::string tilesetJson(const TileNode& root, const std::vector<double>& transfo
     size_t next = 0;
   };
   std::vector<Open> open{{&root}};
-  writeNode(w, root);
+  writeNode(w, root, folder);
   w.field("refine", "REPLACE");
   if (!transform.empty()) {
     w.key("transform").beginArray();
@@ -402,7 +482,7 @@ std::string tilesetJson(const TileNode& root, const std::vector<double>& transfo
     Open& top = open.back();
     if (top.next < top.node->children.size()) {
       const TileNode& child = top.node->children[top.next++];
-      writeNode(w, child);
+      writeNode(w, child, folder);
       if (!child.children.empty()) w.key("children").beginArray();
       open.push_back({&child});
       continue;

@@ -21,6 +21,7 @@ import {
   WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
 import { TilesRenderer } from '3d-tiles-renderer/three';
 import { GLTFExtensionsPlugin } from '3d-tiles-renderer/three/plugins';
 import { featureAt, rowsOf, titleOf, type Feature } from './features';
@@ -171,7 +172,13 @@ const url = new URL('tileset.json', location.href).href;
 framed(url).then(
   (toPlace) => {
     const tiles = new TilesRenderer(url);
-    tiles.registerPlugin(new GLTFExtensionsPlugin({ metadata: true, autoDispose: false }));
+    tiles.registerPlugin(
+      new GLTFExtensionsPlugin({
+        metadata: true,
+        meshoptDecoder: MeshoptDecoder,
+        autoDispose: false,
+      }),
+    );
     tiles.registerPlugin({ preprocessURL: oneSlash });
     new Viewer(tiles, toPlace);
   },

@@ -10,11 +10,13 @@ import json
 import resource
 import signal
 import struct
+import subprocess
 import sys
+import time
 import unittest
 
 from city_test import MAP, feature, square
-from cli_test import FILE, WRONG, Case
+from cli_test import FILE, GABLE, USAGE, WRONG, Case
 
 LIMIT = 4
 
@@ -48,6 +50,9 @@ class Tile:
 
     def primitives(self):
         return self.json["meshes"][0]["primitives"]
+
+    def compressed(self):
+        return "EXT_meshopt_compression" in self.json.get("extensionsRequired", [])
 
     def triangles(self):
         return sum(self.json["accessors"][p["indices"]]["count"] // 3 for p in self.primitives())
@@ -233,6 +238,154 @@ class Tiles(Case):
         self.assertEqual([p.name for p in self.files("out")], ["unfinished"])
         self.city("map.geojson", "-o", "out/")
         self.assertFalse((self.folder / "out/tiles/unfinished").exists())
+
+
+BOXES = ("Lot --> extrude(rand(5, 9)) comp(f) { side : Wall | all : X. }\n"
+         "Wall --> X. split(x) { { ~5 : s('0.5, '0.5, 0) center(xy) t(0, 0, 0.01) X. }* }\n")
+
+
+class Jobs(Case):
+    """A plan, its jobs in any order and the merge give the bytes of one process, whatever befalls them."""
+
+    COUNT = 72
+
+    def setUp(self):
+        super().setUp()
+        self.put("boxes.cga", BOXES)
+        # More than one unit, and more nodes than one tileset has.
+        lots = [feature("Polygon", square(20 * x, 20 * y, 15), id=f"lot {x} {y}", levels=x % 7)
+                for x in range(self.COUNT) for y in range(self.COUNT)]
+        self.put("lots.geojson", json.dumps(dict(MAP, features=lots)))
+
+    def tiles(self, *arguments, **expected):
+        return self.run_gable("tiles", *arguments, **expected)
+
+    def plan(self, folder, *arguments, rules="boxes.cga", **expected):
+        return self.tiles("plan", rules, "--shapes", "lots.geojson", "--tile-triangles", "300", "--job-shapes", "100",
+                          "-o", folder, *arguments, **expected)
+
+    def contents(self, folder):
+        files = (p for p in (self.folder / folder).rglob("*") if p.is_file())
+        return {str(p.relative_to(self.folder / folder)): p.read_bytes() for p in files}
+
+    def jobs(self, folder):
+        return json.loads((self.folder / folder / "plan/plan.json").read_text())["jobs"]
+
+    def testWhateverHappensTheBytesAreThoseOfOneProcess(self):
+        self.tiles("boxes.cga", "--shapes", "lots.geojson", "--tile-triangles", "300", "-o", "one")
+        one = self.contents("one")
+        self.assertTrue(any(name.startswith("tiles/") and name.endswith(".json") for name in one))
+        self.assertFalse([name for name in one if "plan" in name or "unfinished" in name or ".part" in name])
+        # Shapes that were in memory, as those of --cut-nested, make the same.
+        self.tiles("boxes.cga", "--shapes", "lots.geojson", "--tile-triangles", "300", "--cut-nested", "-o", "whole")
+        self.assertEqual(self.contents("whole"), one)
+
+        self.plan("many")
+        count = self.jobs("many")
+        self.assertGreater(count, 2)
+        self.tiles("merge", "many", status=WRONG, says="tiles-unfinished")
+        # Killed in the middle, as a node is that fails.
+        killed = subprocess.Popen([str(GABLE), "tiles", "job", "many", "0"], cwd=self.folder)
+        time.sleep(0.3)
+        killed.kill()
+        killed.wait()
+        for job in reversed(range(count)):
+            self.tiles("job", "many", str(job))
+        before = self.contents("many")
+        told = self.tiles("job", "many", f"0-{count - 1}", "--stats", "-")
+        stats = json.loads(told[told.index("{"):told.rindex("}") + 1])
+        self.assertEqual((stats["shapesBefore"], stats["shapes"]), (self.COUNT**2, self.COUNT**2))
+        self.assertEqual(self.contents("many"), before)
+
+        # A damaged tile, a missing one and a damaged part are found.
+        names = sorted(name for name in before if name.endswith(".glb"))
+        damaged = bytearray(before[names[0]])
+        damaged[-1] ^= 1
+        (self.folder / "many" / names[0]).write_bytes(damaged)
+        (self.folder / "many" / names[-1]).unlink()
+        part = sorted((self.folder / "many/plan/done").iterdir())[1]
+        part.write_bytes(part.read_bytes()[:-9])
+        self.tiles("merge", "many", status=WRONG, says="tiles-unfinished")
+        self.tiles("merge", "many", "--mend")
+        self.assertEqual(self.contents("many"), one)
+        self.tiles("merge", "many", status=FILE, says="tiles-plan")
+
+    def testWhatWasBegunGoesOn(self):
+        self.plan("out")
+        self.tiles("job", "out", "1")
+        kept = {n: (self.folder / "out" / n).stat().st_mtime_ns for n in self.contents("out") if n.endswith(".glb")}
+        self.tiles("boxes.cga", "--shapes", "lots.geojson", "--tile-triangles", "300", "-o", "out")
+        for name, written in kept.items():
+            self.assertEqual((self.folder / "out" / name).stat().st_mtime_ns, written)
+        self.assertFalse((self.folder / "out/plan").exists())
+
+    def testAFullDiskEndsAJobWhichIsRunAgain(self):
+        def full_disk():
+            signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (6_000, 6_000))
+        self.plan("out")
+        self.tiles("job", "out", "0", status=FILE, says="file-unwritable", preexec_fn=full_disk)
+        self.tiles("job", "out", f"0-{self.jobs('out') - 1}")
+        self.tiles("merge", "out")
+
+    def testPlansThatDoNotFitAreToldWithTheRemedy(self):
+        self.tiles("job", "nowhere", "0", status=FILE, says="tiles-plan")
+        self.plan("out")
+        self.tiles("job", "out", "99", status=USAGE, says="jobs of the plan")
+        self.tiles("job", "out", "1-0", status=USAGE, says="jobs of the plan")
+        self.put("boxes.cga", BOXES.replace("rand(5, 9)", "7"))
+        self.tiles("job", "out", "0", status=WRONG, says="tiles-plan-changed")
+        self.put("boxes.cga", BOXES)
+        shapes = self.folder / "out/plan/shapes/0.shapes"
+        good = shapes.read_bytes()
+        shapes.write_bytes(good[:-1] + b"x")
+        self.tiles("job", "out", "0", status=FILE, says="is damaged")
+        shapes.write_bytes(good)
+        plan = self.folder / "out/plan/plan.json"
+        text = plan.read_text()
+        plan.write_text(text.replace('"format": 1', '"format": 0'))
+        self.tiles("job", "out", "0", status=FILE, says="one version on all machines")
+        plan.write_text(text[:100])
+        self.tiles("merge", "out", status=FILE, says="tiles-plan")
+        plan.write_text(text)
+        job = self.folder / "out/plan/jobs/0.json"
+        job.write_text(job.read_text().replace('"name": "0', '"name": "../0'))
+        self.tiles("job", "out", "0", status=FILE, says="is damaged")
+        (self.folder / "theirs/plan").mkdir(parents=True)
+        self.put("theirs/plan/mine.txt", "mine")
+        self.plan("theirs", status=FILE, says="tiles-folder")
+
+    def testScriptsForClustersAreWritten(self):
+        self.plan("out")
+        self.tiles("submit", "out", status=USAGE, says="--slurm or --parallel")
+        for kind in ("--slurm", "--parallel"):
+            script = self.tiles("submit", "out", kind, "--dry-run").strip().splitlines()[-1]
+            for name in ("submit.sh", "array.sh", "merge.sh"):
+                subprocess.run(["sh", "-n", self.folder / "out/plan" / name], check=True)
+            self.assertTrue(script.endswith("out/plan/submit.sh"), script)
+
+    def testCompressedTilesAreSmallAndInPlace(self):
+        arguments = ("boxes.cga", "--shapes", "lots.geojson", "--compress", "-o", "small")
+        if b"tiles-compress" in subprocess.run([str(GABLE), "tiles", *arguments], cwd=self.folder, check=False,
+                                               stderr=subprocess.PIPE).stderr:
+            self.skipTest("built without meshoptimizer")
+        self.tiles("boxes.cga", "--shapes", "lots.geojson", "-o", "plain")
+        plain, small = (self.contents(f) for f in ("plain", "small"))
+        self.assertEqual(plain.keys(), small.keys())
+        self.assertLess(sum(map(len, small.values())) * 4, sum(map(len, plain.values())))
+        for name in (n for n in small if n.endswith(".glb")):
+            a, b = Tile(self.folder / "plain" / name), Tile(self.folder / "small" / name)
+            self.assertTrue(b.compressed())
+            self.assertEqual(a.triangles(), b.triangles())
+            self.assertEqual(a.table(), b.table())
+            self.assertEqual(len(b.json["buffers"]), 2)
+            for ours, theirs in zip(b.primitives(), a.primitives()):
+                def box(tile, p):
+                    node, accessor = tile.json["nodes"][0], tile.json["accessors"][p["attributes"]["POSITION"]]
+                    scale = node.get("scale", [1, 1, 1])
+                    return [node["translation"][i] + scale[i] * accessor[k][i] for k in ("min", "max") for i in range(3)]
+                for got, wanted in zip(box(b, ours), box(a, theirs)):
+                    self.assertLess(abs(got - wanted), 0.0021)
 
 
 if __name__ == "__main__":

@@ -7,6 +7,8 @@
 // sphere.
 #include "io/geo/geo_frames.h"
 
+#include <algorithm>
+
 #include "base/elementary.h"
 #include "base/hash.h"
 #include "base/number.h"
@@ -29,6 +31,10 @@ class LocalFrame : public GeoFrame {
     return hashCombine(hashDouble(projection_.center().longitude),
                        hashDouble(projection_.center().latitude));
   }
+  std::string text() const override {
+    return "local " + shortestText(projection_.center().longitude) + " " +
+           shortestText(projection_.center().latitude);
+  }
 
  private:
   TransverseMercator projection_;
@@ -44,6 +50,10 @@ class MapFrame : public GeoFrame {
   uint64_t hash() const override {
     const uint64_t place = hashCombine(hashDouble(origin_.x), hashDouble(origin_.y));
     return hashCombine(place, static_cast<uint64_t>(code_));
+  }
+  std::string text() const override {
+    return "map " + shortestText(origin_.x) + " " + shortestText(origin_.y) + " " +
+           std::to_string(code_);
   }
 
  private:
@@ -82,6 +92,22 @@ std::shared_ptr<const GeoFrame> localGeoFrame(const LonLat& center) {
 
 std::shared_ptr<const GeoFrame> mapGeoFrame(std::string_view system, Vec2 origin) {
   return std::make_shared<MapFrame>(codeOf(system), origin);
+}
+
+std::shared_ptr<const GeoFrame> geoFrameOf(std::string_view text) {
+  // A word and its numbers.
+  const auto next = [&text] {
+    const size_t space = std::min(text.find(' '), text.size());
+    const std::string_view word = text.substr(0, space);
+    text.remove_prefix(std::min(space + 1, text.size()));
+    return word;
+  };
+  const std::string_view kind = next();
+  double a = 0, b = 0, code = 0;
+  if (!parseNumber(next(), a) || !parseNumber(next(), b)) return nullptr;
+  if (kind == "local") return localGeoFrame({a, b});
+  if (kind != "map" || !parseNumber(next(), code)) return nullptr;
+  return std::make_shared<MapFrame>(static_cast<int>(std::clamp(code, 0.0, 1e6)), Vec2{a, b});
 }
 
 }  // namespace gable

@@ -21,4 +21,7 @@ std::shared_ptr<const GeoFrame> localGeoFrame(const LonLat& center);
 /// and 327xx), of UTM on ETRS89 (258xx) and of the web's Mercator (3857), and of no other.
 std::shared_ptr<const GeoFrame> mapGeoFrame(std::string_view system, Vec2 origin);
 
+/// The frame of a GeoFrame::text(); null for any other text.
+std::shared_ptr<const GeoFrame> geoFrameOf(std::string_view text);
+
 }  // namespace gable

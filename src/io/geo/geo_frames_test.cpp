@@ -39,6 +39,18 @@ TEST(GeoFrames, theWebsMercatorIsASphere) {
   EXPECT_NEAR(frame->at({0, 0}).degrees->latitude, 45, 1e-9);
 }
 
+TEST(GeoFrames, textsMakeEqualFrames) {
+  for (const auto& frame : {localGeoFrame({7.123456789012345, -43.1}),
+                            mapGeoFrame("EPSG:32632", {500000.25, 1}), mapGeoFrame("", {3, 4})}) {
+    const auto again = geoFrameOf(frame->text());
+    ASSERT_TRUE(again) << frame->text();
+    EXPECT_EQ(again->hash(), frame->hash());
+  }
+  for (const char* text : {"", "local", "local 1", "map 1 2", "map 1 2 x", "other 1 2 3"}) {
+    EXPECT_FALSE(geoFrameOf(text)) << text;
+  }
+}
+
 TEST(GeoFrames, otherSystemsHaveNoDegrees) {
   for (const char* system : {"EPSG:2056", "EPSG:32661", "", "ESRI:102100", "EPSG:x"}) {
     const GeoPlace p = mapGeoFrame(system, {2600000, 1200000})->at({5, 7});

@@ -19,6 +19,7 @@
 #include "geom/region/region.h"
 #include "io/geo/geo_frames.h"
 #include "io/geo/transverse_mercator.h"
+#include "io/importers/feature_pieces.h"
 #include "io/importers/geojson_edges.h"
 #include "io/importers/geojson_root.h"
 #include "io/importers/shape_input.h"
@@ -56,12 +57,18 @@ class GeoJsonReader {
       : path_(std::move(path)), filter_(filter) {}
 
   Result<ShapeFile> read(std::string_view text);
+  Result<ShapeFile> readPieces(FeaturePieces& file, const ShapeSink& sink);
 
  private:
+  Result<JsonValue> pieceOf(const std::string& features) const;
+  std::optional<Error> measurePieces(FeaturePieces& file);
+  void handOn(const ShapeSink& sink);
+  void conclude();
   void collect(const JsonValue& v);
   bool passes(const Feature& f) const;
   void noteProperties(const Feature& f);
   Error empty() const;
+  void measureAll();
   void chooseProjection(const JsonValue& root);
   bool tellsMetres();
   void measure(const JsonValue& geometry, bool lines, int depth);
@@ -110,6 +117,8 @@ class GeoJsonReader {
   // asks for, with how often they come.
   std::map<std::string, size_t> properties_, values_;
   size_t seen_ = 0, faces_ = 0, messages_ = 0, otherGeometries_ = 0;
+  // Those that have been handed on, when the file is read in pieces.
+  size_t handedOn_ = 0;
 };
 
 std::string GeoJsonReader::place() const {
@@ -219,7 +228,7 @@ void GeoJsonReader::measure(const JsonValue& geometry, bool lines, int depth) {
   }
 }
 
-void GeoJsonReader::chooseProjection(const JsonValue& root) {
+void GeoJsonReader::measureAll() {
   // Lines count where there is nothing else.
   for (const bool lines : {false, true}) {
     if (!extent_.empty()) break;
@@ -227,6 +236,9 @@ void GeoJsonReader::chooseProjection(const JsonValue& root) {
       if (f.geometry) measure(*f.geometry, lines, 0);
     }
   }
+}
+
+void GeoJsonReader::chooseProjection(const JsonValue& root) {
   if (extent_.empty()) return;
   const bool canBeDegrees =
       extent_.min.x >= -180 && extent_.max.x <= 180 && extent_.min.y >= -90 && extent_.max.y <= 90;
@@ -415,7 +427,7 @@ void GeoJsonReader::addAllLines() {
   ShapeInput shape;
   shape.mesh = allLines_.take();
   if (shape.mesh.empty()) return;
-  if (!out_.shapes.empty()) {
+  if (!out_.shapes.empty() || handedOn_ > 0) {
     otherGeometries_ += lineFeatures_;
     return;
   }
@@ -578,10 +590,20 @@ Result<ShapeFile> GeoJsonReader::read(std::string_view text) {
     return Error{"shapes-broken", "'" + path_ + "' is JSON but not GeoJSON: it has no type", {}};
   }
   collect(root.value());
+  measureAll();
   chooseProjection(root.value());
   if (out_.diagnostics.hasErrors()) return std::move(out_);
   for (const Feature& f : features_) addFeature(f);
   addAllLines();
+  conclude();
+  if (out_.shapes.empty() && !out_.diagnostics.hasErrors()) {
+    return empty();
+  }
+  return std::move(out_);
+}
+
+// What there is to say when all features have been seen.
+void GeoJsonReader::conclude() {
   if (messages_ > kMostDiagnostics) {
     out_.diagnostics.warning("geojson-more", {},
                              "'" + path_ + "' has " + std::to_string(messages_ - kMostDiagnostics) +
@@ -595,9 +617,73 @@ Result<ShapeFile> GeoJsonReader::read(std::string_view text) {
                 "' are no polygons and are passed over";
     out_.diagnostics.add(std::move(d));
   }
-  if (out_.shapes.empty() && !out_.diagnostics.hasErrors()) {
-    return empty();
+}
+
+Result<JsonValue> GeoJsonReader::pieceOf(const std::string& features) const {
+  Result<JsonValue> piece =
+      parseJson("{\"type\":\"FeatureCollection\",\"features\":[" + features + "]}");
+  if (piece.ok()) return piece;
+  return Error{"shapes-broken",
+               "'" + path_ + "', one of the features from the " + std::to_string(seen_ + 1) +
+                   "th on: " + piece.error().message,
+               piece.error().hint};
+}
+
+// The extent of all features, in one go through the file, or two where there are lines alone.
+std::optional<Error> GeoJsonReader::measurePieces(FeaturePieces& file) {
+  for (const bool lines : {false, true}) {
+    if (!extent_.empty()) break;
+    file.rewind();
+    seen_ = 0;
+    for (;;) {
+      const Result<std::string> features = file.next();
+      if (!features.ok()) return features.error();
+      if (features.value().empty()) break;
+      const Result<JsonValue> piece = pieceOf(features.value());
+      if (!piece.ok()) return piece.error();
+      collect(piece.value());
+      for (const Feature& f : features_) {
+        if (f.geometry) measure(*f.geometry, lines, 0);
+      }
+      features_.clear();
+    }
   }
+  properties_.clear();
+  values_.clear();
+  seen_ = 0;
+  return std::nullopt;
+}
+
+void GeoJsonReader::handOn(const ShapeSink& sink) {
+  for (ShapeInput& shape : out_.shapes) sink(std::move(shape));
+  handedOn_ += out_.shapes.size();
+  out_.shapes.clear();
+}
+
+Result<ShapeFile> GeoJsonReader::readPieces(FeaturePieces& file, const ShapeSink& sink) {
+  if (auto e = measurePieces(file)) return *e;
+  const Result<JsonValue> root = parseJson(file.rest());
+  if (!root.ok()) {
+    return Error{"shapes-broken", "'" + path_ + "': " + root.error().message, root.error().hint};
+  }
+  chooseProjection(root.value());
+  if (out_.diagnostics.hasErrors()) return std::move(out_);
+  file.rewind();
+  for (;;) {
+    const Result<std::string> features = file.next();
+    if (!features.ok()) return features.error();
+    if (features.value().empty()) break;
+    const Result<JsonValue> piece = pieceOf(features.value());
+    if (!piece.ok()) return piece.error();
+    collect(piece.value());
+    for (const Feature& f : features_) addFeature(f);
+    features_.clear();
+    handOn(sink);
+  }
+  addAllLines();
+  handOn(sink);
+  conclude();
+  if (handedOn_ == 0 && !out_.diagnostics.hasErrors()) return empty();
   return std::move(out_);
 }
 
@@ -606,6 +692,14 @@ Result<ShapeFile> GeoJsonReader::read(std::string_view text) {
 Result<ShapeFile> readGeoJsonShapes(std::string_view text, const std::string& path,
                                     const FeatureFilter& filter) {
   return GeoJsonReader(path, filter).read(text);
+}
+
+Result<ShapeFile> streamGeoJsonShapes(const std::string& file, const std::string& path,
+                                      const FeatureFilter& filter, const ShapeSink& sink) {
+  FeaturePieces pieces;
+  const Result<uint64_t> opened = pieces.open(file);
+  if (!opened.ok()) return opened.error();
+  return GeoJsonReader(path, filter).readPieces(pieces, sink);
 }
 
 }  // namespace gable

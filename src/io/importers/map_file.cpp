@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/child_process.h"
+#include "base/file_pieces.h"
 #include "base/files.h"
 #include "base/temporary_folder.h"
 
@@ -12,6 +13,8 @@ namespace gable {
 namespace {
 
 constexpr ChildLimits kLimits{300, size_t{4} << 30};
+// Of maps that are written to a file: a country takes an hour.
+constexpr ChildLimits kLongLimits{24 * 3600, size_t{1} << 20};
 
 bool isCode(const Error& e, std::string_view code) { return e.code == code; }
 
@@ -71,6 +74,9 @@ class GdalFile {
     }
   }
 
+  /// As it lies on disk. Nothing is copied.
+  explicit GdalFile(const std::string& path) : path_(path), copy_(path) {}
+
   /// Empty where the copy could not be made.
   const std::string& copy() const { return copy_; }
 
@@ -90,10 +96,12 @@ class GdalFile {
     return out;
   }
 
-  Result<std::string> geoJson(const std::string& layer) const {
+  /// To `target`, or as the result.
+  Result<std::string> geoJson(const std::string& layer,
+                              const std::string& target = "/vsistdout/") const {
     const auto written = [&](std::vector<std::string> arguments) {
       for (const std::string& a : {std::string("-lco"), std::string("COORDINATE_PRECISION=9"),
-                                   std::string("/vsistdout/"), copy_, layer}) {
+                                   target, copy_, layer}) {
         arguments.push_back(a);
       }
       return run("ogr2ogr", arguments);
@@ -105,7 +113,10 @@ class GdalFile {
     Result<std::string> text = written({"-f", "GeoJSON", "-t_srs", "EPSG:4326"});
     // A file that does not name its coordinate system cannot be converted.
     if (text.ok() || !isCode(text.error(), "shapes-broken")) return text;
-    return written({"-f", "GeoJSON"});
+    std::vector<std::string> arguments{"-f", "GeoJSON"};
+    if (target.starts_with("/vsi")) return written(arguments);
+    arguments.emplace_back("-overwrite");
+    return written(arguments);
   }
 
  private:
@@ -116,7 +127,7 @@ class GdalFile {
                    "'" + path_ + "' needs the program " + name + " of GDAL, which is not installed",
                    "install gdal-bin, or convert the map to GeoJSON"};
     }
-    Result<std::string> out = runChild(program, arguments, {}, kLimits);
+    Result<std::string> out = runChild(program, arguments, {}, copy_ == path_ ? kLongLimits : kLimits);
     if (!out.ok()) return failed(out.error(), path_, "gdal-bin");
     return out;
   }
@@ -177,6 +188,27 @@ Result<std::string> mapAsGeoJson(std::string_view bytes, const AssetOptions& opt
   }
   Result<std::string> chosen = layerOf(file, path, layer);
   return chosen.ok() ? file.geoJson(*chosen) : chosen.error();
+}
+
+Result<std::string> mapAsGeoJsonFile(const std::string& path, const std::string& layer,
+                                     const std::string& folder) {
+  FilePieces head;
+  const Result<uint64_t> size = head.open(path);
+  if (!size.ok()) return size.error();
+  std::string begin(1024, '\0');
+  const Result<size_t> got = head.read(begin.data(), begin.size());
+  if (!got.ok()) return got.error();
+  if (!isWhatItsNameSays(std::string_view(begin).substr(0, got.value()), extensionOf(path))) {
+    return Error{"shapes-broken", "'" + path + "' is not what its name says",
+                 "open it in a map program and save it again"};
+  }
+  const GdalFile file(path);
+  const Result<std::string> chosen = layerOf(file, path, layer);
+  if (!chosen.ok()) return chosen.error();
+  const std::string target = folder + "/map.geojson";
+  const Result<std::string> written = file.geoJson(chosen.value(), target);
+  if (!written.ok()) return written.error();
+  return target;
 }
 
 }  // namespace gable

@@ -6,6 +6,7 @@
 
 #include "base/files.h"
 #include "base/number.h"
+#include "base/temporary_folder.h"
 #include "geom/mesh/cleanup.h"
 #include "io/importers/converted.h"
 #include "io/importers/gltf_meshes.h"
@@ -94,6 +95,23 @@ Result<ShapeFile> readShapes(std::string_view bytes, const AssetOptions& options
   return Error{
       "shapes-unknown", "'" + options.path + "' is no file of shapes that can be read",
       "use GeoJSON, OpenStreetMap, GeoPackage, FlatGeobuf, a shapefile, KML, DXF, OBJ or glTF"};
+}
+
+bool isStreamed(const std::string& path) {
+  const std::string extension = extensionOf(path);
+  return extension == "geojson" || extension == "json" ||
+         (isMap(path) && !isOpenStreetMap(path));
+}
+
+Result<ShapeFile> streamShapes(const AssetOptions& options, const FeatureFilter& filter,
+                               const ShapeSink& sink) {
+  if (!isMap(options.path)) {
+    return streamGeoJsonShapes(options.path, options.path, filter, sink);
+  }
+  const TemporaryFolder folder;
+  const Result<std::string> file = mapAsGeoJsonFile(options.path, filter.layer, folder.path());
+  if (!file.ok()) return file.error();
+  return streamGeoJsonShapes(file.value(), options.path, filter, sink);
 }
 
 ShapeInput lotShape(double width, double depth) {

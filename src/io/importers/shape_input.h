@@ -18,6 +18,7 @@
 // others are read.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -72,6 +73,19 @@ Result<ShapeFile> readShapes(std::string_view bytes, const AssetOptions& options
                              const FeatureFilter& filter = {});
 Result<ShapeFile> readGeoJsonShapes(std::string_view text, const std::string& path,
                                     const FeatureFilter& filter = {});
+/// Takes shapes as they are read.
+using ShapeSink = std::function<void(ShapeInput&&)>;
+
+/// Whether streamShapes() reads it: GeoJSON, and the maps that GDAL reads.
+bool isStreamed(const std::string& path);
+/// The same shapes as readShapes() gives, one after the other: memory holds some hundred, whatever
+/// the size of the map. The result has all but the shapes. A file that is no collection of features
+/// is shapes-broken.
+Result<ShapeFile> streamShapes(const AssetOptions& options, const FeatureFilter& filter,
+                               const ShapeSink& sink);
+/// The same for GeoJSON in a file; messages call it `path`.
+Result<ShapeFile> streamGeoJsonShapes(const std::string& file, const std::string& path,
+                                      const FeatureFilter& filter, const ShapeSink& sink);
 Result<ShapeFile> readObjShapes(std::string_view text, const AssetOptions& options);
 Result<ShapeFile> readGltfShapes(std::string_view bytes, const AssetOptions& options);
 
