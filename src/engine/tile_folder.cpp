@@ -16,16 +16,11 @@ constexpr const char* kGenerator = "Gable";
 // Says that the folders `tiles` and `plan` are ours as long as there is no tileset.
 constexpr const char* kUnfinished = "tiles/unfinished";
 
-// tiles/0123.glb, tiles/01.json
-bool isTileName(std::string_view uri) {
-  constexpr std::string_view kBegin = "tiles/";
-  if (!uri.starts_with(kBegin)) return false;
-  uri.remove_prefix(kBegin.size());
-  const size_t dot = std::min(uri.find('.'), uri.size());
-  const std::string_view end = uri.substr(dot);
-  return dot > 0 && (end == ".glb" || end == ".json") &&
-         std::all_of(uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(dot),
-                     [](char c) { return c >= '0' && c <= '3'; });
+// 0123.glb, 01230/1.json
+bool isTileName(std::string_view name) {
+  const size_t dot = std::min(name.find('.'), name.size());
+  const std::string_view end = name.substr(dot);
+  return (end == ".glb" || end == ".json") && isSquarePath(name.substr(0, dot));
 }
 
 bool holdsFiles(const std::string& folder) {
@@ -59,7 +54,11 @@ Result<uint64_t> TileFolder::close(const TilePart& all, const std::vector<double
   if (!bytes.ok()) return bytes;
   for (const TileFile& f : all.files) before_.erase(f.name);
   std::error_code ignored;
-  for (const std::string& old : before_) std::filesystem::remove(path_ + old, ignored);
+  for (const std::string& old : before_) {
+    std::filesystem::remove(path_ + old, ignored);
+    // Goes where it is empty.
+    std::filesystem::remove(path_ + folderOf(old), ignored);
+  }
   std::filesystem::remove_all(plan(), ignored);
   std::filesystem::remove(path_ + kUnfinished, ignored);
   return bytes;
@@ -86,10 +85,12 @@ std::optional<Error> TileFolder::readBefore() {
                  "the folder '" + path_ + "plan' has files that Gable has not made",
                  "name another folder"};
   }
+  const std::string tiles = path_ + "tiles/";
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(path_ + "tiles", error)) {
-    const std::string name = "tiles/" + entry.path().filename().string();
-    if (isTileName(name)) before_.insert(name);
+  for (auto at = std::filesystem::recursive_directory_iterator(tiles, error);
+       !error && at != std::filesystem::recursive_directory_iterator(); at.increment(error)) {
+    const std::string name = at->path().string().substr(tiles.size());
+    if (isTileName(name)) before_.insert("tiles/" + name);
   }
   return std::nullopt;
 }

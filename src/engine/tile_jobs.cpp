@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <filesystem>
 
 #include "base/bytes.h"
 #include "base/files.h"
@@ -100,8 +101,11 @@ class JobRunner {
     const Result<TilePart> part =
         writeTileUnit(source, division.squareOf(unit.name), all, options_);
     if (!part.ok()) return part.error();
-    const Result<uint64_t> written =
-        writeFile(partPath(plan_, unit.name), partBytes(part.value(), plan_.id));
+    const std::string path = partPath(plan_, unit.name);
+    // Where that fails, the file cannot be written, which is told.
+    std::error_code ignored;
+    std::filesystem::create_directories(folderOf(path), ignored);
+    const Result<uint64_t> written = writeFile(path, partBytes(part.value(), plan_.id));
     if (!written.ok()) return written.error();
     count(part.value());
     return std::nullopt;

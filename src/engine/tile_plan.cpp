@@ -237,7 +237,7 @@ std::string shapesPath(const TilePlan::Impl& plan, uint64_t job) {
 }
 
 std::string partPath(const TilePlan::Impl& plan, const std::string& unit) {
-  return TileFolder(plan.folder).plan() + "done/" + unit + ".part";
+  return TileFolder(plan.folder).plan() + "done/" + squarePath(unit) + ".part";
 }
 
 }  // namespace gable

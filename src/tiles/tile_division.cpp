@@ -38,6 +38,30 @@ TileSquare TileDivision::squareOf(std::string_view name) const {
   return out;
 }
 
+namespace {
+
+// A folder has at most four to the power of this squares, and as many folders.
+constexpr size_t kNamePiece = 5;
+
+}  // namespace
+
+std::string squarePath(std::string_view name) {
+  std::string out;
+  for (size_t i = 0; i < name.size(); ++i) {
+    if (i > 0 && i % kNamePiece == 0) out += '/';
+    out += name[i];
+  }
+  return out;
+}
+
+bool isSquarePath(std::string_view path) {
+  for (size_t i = 0; i < path.size(); ++i) {
+    const bool slash = i % (kNamePiece + 1) == kNamePiece;
+    if (slash ? path[i] != '/' : path[i] < '0' || path[i] > '3') return false;
+  }
+  return !path.empty() && path.back() != '/';
+}
+
 TileDivision divided(const std::vector<Vec2>& middles, size_t most) {
   TileDivision out;
   Box2 box;

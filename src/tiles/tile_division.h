@@ -50,6 +50,11 @@ struct TileDivision {
   TileSquare squareOf(std::string_view name) const;
 };
 
+/// The name as a path of folders with few entries: "0123012" is "01230/12".
+std::string squarePath(std::string_view name);
+/// Whether a path without its ending may be one of those.
+bool isSquarePath(std::string_view path);
+
 /// `most`: shapes of a unit; 0: all are one unit.
 TileDivision divided(const std::vector<Vec2>& middles, size_t most);
 

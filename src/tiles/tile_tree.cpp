@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <iterator>
 #include <map>
 #include <utility>
@@ -102,6 +103,7 @@ class Coverer {
   void write(Branch& b, const TileMesh& mesh) const;
 
  private:
+  std::string uriOf(const std::string& name, const char* ending) const;
   void addChild(Branch& out, Branch& child, Box3& box) const;
   void divide(Branch& out, const std::vector<std::string>& names) const;
 
@@ -114,9 +116,18 @@ void append(std::vector<std::string>& to, const std::vector<std::string>& more) 
   }
 }
 
+// Its folder is made.
+std::string Coverer::uriOf(const std::string& name, const char* ending) const {
+  const std::string uri = "tiles/" + squarePath(name) + ending;
+  // Where that fails, the file cannot be written, which is told.
+  std::error_code ignored;
+  std::filesystem::create_directories(options_.folder + folderOf(uri), ignored);
+  return uri;
+}
+
 void Coverer::write(Branch& b, const TileMesh& mesh) const {
   append(b.part.warnings, mesh.warnings);
-  b.node().uri = "tiles/" + b.name + ".glb";
+  b.node().uri = uriOf(b.name, ".glb");
   b.node().box = mesh.box;
   b.node().triangles = mesh.triangles;
   const Result<TileFile> file =
@@ -152,8 +163,8 @@ void Coverer::divide(Branch& out, const std::vector<std::string>& names) const {
   for (size_t i = 0; i < node.children.size(); ++i) {
     TileNode& child = node.children[i];
     if (child.children.empty()) continue;
-    const std::string uri = "tiles/" + names[i] + ".json";
-    const std::string text = tilesetJson(child, {}, "tiles/");
+    const std::string uri = uriOf(names[i], ".json");
+    const std::string text = tilesetJson(child, {}, folderOf(uri));
     const Result<uint64_t> bytes = writeFile(options_.folder + uri, text);
     if (!bytes.ok()) {
       out.error = bytes.error();
