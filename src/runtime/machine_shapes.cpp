@@ -12,7 +12,9 @@
 #include "runtime/door.h"
 #include "runtime/leaf_shape.h"
 #include "runtime/machine.h"
+#include "runtime/sharing.h"
 #include "shape/deformation.h"
+#include "shape/seeded_path.h"
 
 namespace gable {
 
@@ -116,7 +118,10 @@ void Machine::becomeRule(const Instruction& i) {
 bool Machine::enterRule(Activation& a, uint32_t callerDepth, uint32_t callerTrace,
                         const Instruction* at) {
   const RuleCode& code = program_.rules[a.rule];
-  a.shape.path = hashCombine(a.shape.path, program_.sites[pcOf(at)]);
+  // What comes of a chosen address does not depend on where the call stands.
+  const bool seeded = (code.reads.effects & kRandom) != 0 && seedOf(a.shape.path);
+  const uint64_t site = seeded ? hashBytes(code.qualifiedName) : program_.sites[pcOf(at)];
+  a.shape.path = hashCombine(a.shape.path, site);
   a.made = 0;
   a.childCount = 0;
   a.owner = activationCount_ - 1;
@@ -133,7 +138,8 @@ bool Machine::enterRule(Activation& a, uint32_t callerDepth, uint32_t callerTrac
   }
   if (options().trace) traceShape(a, callerTrace, at);
   a.kept = false;
-  if (code.shared && beginShared(code, a)) return false;
+  const bool shared = code.shared || (seeded && isSharedWhenSeeded(code.reads.effects));
+  if (shared && beginShared(code, a)) return false;
   if (incremental_ && beginPart(a)) return false;
   if (code.needsPrevious) a.keepScope();
   seen_ = &a.shape;

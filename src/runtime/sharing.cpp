@@ -76,8 +76,14 @@ ShareKey sharedKey(const SharedCall& call) {
     h.add(uint64_t{s.compSelector});
   }
   if (call.effects & (kReadsPivot | kReadsPivotAxes)) h.add(s.pivot);
+  if (call.effects & kRandom) h.add(s.path);
   if (s.extra) h.add(*s.extra);
   return h.key();
+}
+
+bool isSharedWhenSeeded(uint32_t effects) {
+  constexpr uint32_t kElsewhere = kReadsWorld | kReadsContext | kReadsPath | kReadsInitialShape;
+  return (effects & kRandom) != 0 && (effects & kElsewhere) == 0;
 }
 
 bool areAlike(const Shape& parent, uint32_t effects, const PartPlan& plan, const SplitPiece& a,

@@ -34,6 +34,10 @@ struct SharedCall {
 
 ShareKey sharedKey(const SharedCall& call);
 
+/// Whether calls of a rule with these effects, which draws, are shared where a rule has chosen the
+/// address of the shape (shape/seeded_path.h): then the address is part of the key.
+bool isSharedWhenSeeded(uint32_t effects);
+
 /// Puts a shape into `outer`, the frame of its own scope, and drops what a rule with these effects
 /// cannot see.
 void putIntoOwnFrame(Shape& shape, uint32_t effects, const Frame& outer);

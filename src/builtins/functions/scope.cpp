@@ -5,15 +5,15 @@
 // and what became of it in the last split or comp. Scope and pivot lie in the local frame of the
 // rule call, so the pivot's place and the world's are read only by what shows them.
 
-#include <bit>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include "base/hash.h"
 #include "base/random.h"
 #include "builtins/lists.h"
 #include "builtins/ops/shared/frames.h"
 #include "shape/op_call.h"
+#include "shape/seeded_path.h"
 
 namespace gable {
 
@@ -138,33 +138,15 @@ Status setTrimHorizontal(OpCall& call, const Value& v) {
   return {};
 }
 
-// The bits that `hashCombine(seed, bits)` was made of: each step of mix64 backwards.
-constexpr uint64_t hashedBits(uint64_t seed, uint64_t hash) {
-  hash ^= (hash >> 31) ^ (hash >> 62);
-  hash *= 0x319642b2d24d8ec3ULL;
-  hash ^= (hash >> 27) ^ (hash >> 54);
-  hash *= 0x96de1b173f119089ULL;
-  hash ^= (hash >> 30) ^ (hash >> 60);
-  return (hash - 0x9e3779b97f4a7c15ULL - seed) * 0x572b5ee77a54e3bdULL;
-}
-static_assert(hashedBits(5, hashCombine(5, 7)) == 7);
-
-// The bits of a double that a float does not have. By chance they are zero in one of 500 million
-// paths.
-constexpr uint64_t kBeyondFloat = (1ULL << 29) - 1;
-
-// What was set is read again, as far as a float holds it. Else a number that rules can print and
-// put elsewhere; the address itself has more bits than a float.
+// Where none was set: a number that rules can print and put elsewhere; the address itself has more
+// bits than a float.
 Value seedian(FunctionCall& call) {
-  const uint64_t bits = hashedBits(hashBytes("seedian"), call.shape().path);
-  const double given = std::bit_cast<double>(bits);
-  if ((bits & kBeyondFloat) == 0 && std::abs(given) <= std::numeric_limits<float>::max()) {
-    return Value::of(given);
-  }
-  return Value::of(static_cast<double>(randomBits(call.shape().path) >> 33));
+  const uint64_t path = call.shape().path;
+  const std::optional<double> seed = seedOf(path);
+  return Value::of(seed ? *seed : static_cast<double>(randomBits(path) >> 33));
 }
 Status setSeedian(OpCall& call, const Value& v) {
-  call.shape().path = hashCombine(hashBytes("seedian"), hashDouble(v.number));
+  call.shape().path = seededPath(v.number);
   return {};
 }
 
