@@ -75,7 +75,7 @@ int buildModel(const gable::City& city, CityArguments& arguments, gable::RunFigu
   }
   const gable::Model model = deriveModel(rules, city.shapes(), settings, stderr);
   if (gable::hasErrors(model.diagnostics())) return statusOf(model);
-  const gable::WriteSettings write{false, fileLimits(arguments.derive.limits)};
+  const gable::WriteSettings write = writeSettings(arguments.instancing, arguments.derive.limits);
   if (const int status = writeModel(model, arguments.output, write, figures)) return status;
   return statusOf(model);
 }

@@ -20,6 +20,7 @@ struct CityArguments {
   /// Where the ground goes as GeoJSON.
   std::string plan;
   std::string stats;
+  std::string instancing = "auto";
   TileArguments tiles;
 };
 int runCity(const CityArguments& arguments);

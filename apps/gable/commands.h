@@ -14,7 +14,7 @@ struct GenerateArguments {
   std::string output;
   std::string stats;
   std::string reports;
-  bool gpuInstancing = false;
+  std::string instancing = "auto";
 };
 int runGenerate(const GenerateArguments& arguments);
 

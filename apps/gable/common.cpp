@@ -16,6 +16,7 @@
 
 #include "derive_settings.h"
 #include "gable/files.h"
+#include "gable/names.h"
 
 bool parseSeed(const std::string& text, double& seed) {
   if (text == "random") {
@@ -140,6 +141,13 @@ gable::Model deriveModel(const gable::Rules& rules, const gable::Shapes& shapes,
   print(model.diagnostics());
   for (const std::string& line : model.prints()) std::fprintf(prints, "%s\n", line.c_str());
   return model;
+}
+
+gable::WriteSettings writeSettings(const std::string& instancing, const LimitArguments& limits) {
+  gable::WriteSettings settings;
+  settings.instancing = gable::instancingNamed(instancing).value_or(settings.instancing);
+  settings.limits = fileLimits(limits);
+  return settings;
 }
 
 int writeModel(const gable::Model& model, const std::string& path,

@@ -45,7 +45,7 @@ int runGenerate(const GenerateArguments& arguments) {
   tellEmpty(model, inputs);
 
   gable::RunFigures figures;
-  const gable::WriteSettings write{arguments.gpuInstancing, fileLimits(arguments.derive.limits)};
+  const gable::WriteSettings write = writeSettings(arguments.instancing, arguments.derive.limits);
   if (const int status = writeModel(model, arguments.output, write, figures)) return status;
 
   if (!arguments.reports.empty()) {

@@ -147,6 +147,14 @@ void addCheck(CLI::App& app, CheckArguments& a, int& status) {
   check->callback([&a, &status] { status = runCheck(a); });
 }
 
+void addInstancing(CLI::App* app, std::string& instancing) {
+  app->add_option("--instancing", instancing,
+                  "glTF: how parts that occur several times are shown: auto (by nodes, at most\n"
+                  "20000; what saves least is merged), nodes (by a node each), gpu (by\n"
+                  "EXT_mesh_gpu_instancing), none (one mesh, merged by material)")
+      ->check(CLI::IsMember(gable::instancingNames()));
+}
+
 void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
   auto* generate = app.add_subcommand("generate", "Derive rules and write a model");
   generate->add_option("rules", a.derive.rules, "The rule file or package")->required();
@@ -155,8 +163,7 @@ void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
       ->required();
   generate->add_option("--stats", a.stats, "Write counts as JSON to a file, or - for stdout");
   generate->add_option("--reports", a.reports, "Write reports as CSV to a file, or - for stdout");
-  generate->add_flag("--gpu-instancing", a.gpuInstancing,
-                     "glTF: EXT_mesh_gpu_instancing instead of nodes");
+  addInstancing(generate, a.instancing);
   generate->callback([&a, &status] { status = runGenerate(a); });
 }
 
@@ -186,6 +193,7 @@ void addCity(CLI::App& app, CityArguments& a, int& status) {
   city->add_option("--layer", a.derive.layer, "The layer of the map, where it has several");
   city->add_option("-o,--output", a.output,
                    "The model: .glb .gltf .obj .ply .stl .png; a folder/ for 3D Tiles");
+  addInstancing(city, a.instancing);
   addTileOptions(city, a.tiles);
   city->add_option("--plan", a.plan, "Write the ground as GeoJSON: a polygon a piece, its surface");
   city->add_option("--stats", a.stats, "Write areas and counts as JSON to a file, or - for stdout");

@@ -252,10 +252,19 @@ gable_status gable_model_print(const gable_model* model, size_t index, char* buf
                                size_t capacity, size_t* length);
 
 /* Writes .glb .gltf .obj .ply .stl, and .png for a picture, by extension. */
+/* How glTF files show parts that occur several times: by nodes, at most 20,000 of them, by a node
+   each, by EXT_mesh_gpu_instancing, or not at all. */
+typedef enum gable_instancing {
+  GABLE_INSTANCING_AUTO = 0,
+  GABLE_INSTANCING_NODES = 1,
+  GABLE_INSTANCING_GPU = 2,
+  GABLE_INSTANCING_NONE = 3
+} gable_instancing;
+
 typedef struct gable_write_settings {
   size_t struct_size;
-  /* glTF: instances as EXT_mesh_gpu_instancing instead of nodes. */
-  int32_t gpu_instancing;
+  /* A gable_instancing. */
+  int32_t instancing;
 } gable_write_settings;
 gable_status gable_write_settings_init(gable_write_settings* settings);
 gable_status gable_model_write(const gable_model* model, const char* path,

@@ -23,9 +23,14 @@ namespace gable {
 
 using Triple = std::array<double, 3>;
 
+/// How glTF files show parts that occur several times. Auto: by nodes that share a mesh, at most
+/// 20,000 of them; beyond, parts that save least are merged, or, where that would add more than 256
+/// MiB, equal ones become one node with EXT_mesh_gpu_instancing. Nodes: by a node each. Gpu: by
+/// EXT_mesh_gpu_instancing. None: not at all, everything is one mesh, merged by material.
+enum class Instancing : uint8_t { Auto, Nodes, Gpu, None };
+
 struct WriteSettings {
-  /// glTF: instances as EXT_mesh_gpu_instancing instead of nodes.
-  bool gpuInstancing = false;
+  Instancing instancing = Instancing::Auto;
   FileLimits limits;
 };
 

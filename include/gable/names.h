@@ -21,4 +21,8 @@ const std::vector<std::string>& viewNames();
 /// Absent for any other word.
 std::optional<View> viewNamed(const std::string& name);
 
+/// "auto", "nodes", "gpu", "none": in the order of Instancing.
+const std::vector<std::string>& instancingNames();
+std::optional<Instancing> instancingNamed(const std::string& name);
+
 }  // namespace gable

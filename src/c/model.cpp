@@ -30,6 +30,15 @@ gable_write_settings writeDefaults() {
 
 namespace {
 
+bool isInstancing(const gable_write_settings& s) {
+  return s.instancing >= GABLE_INSTANCING_AUTO && s.instancing <= GABLE_INSTANCING_NONE;
+}
+
+// The two enumerations are in the same order.
+gable::Instancing instancingOf(const gable_write_settings& s) {
+  return static_cast<gable::Instancing>(s.instancing);
+}
+
 void setLimits(const gable_derive_settings& s, Limits& limits) {
   limits.depth = s.max_depth;
   limits.width = s.max_width;
@@ -218,7 +227,8 @@ gable_status gable_model_write(const gable_model* model, const char* path,
     gable_write_settings s = writeDefaults();
     if (!path) return nullArgument();
     if (!takeStruct(settings, s)) return fail(GABLE_ERROR_ARGUMENT, "struct_size is not set");
-    const gable::WriteResult written = m.model.write(path, {s.gpu_instancing != 0});
+    if (!isInstancing(s)) return fail(GABLE_ERROR_ARGUMENT, "there is no such instancing");
+    const gable::WriteResult written = m.model.write(path, {instancingOf(s)});
     return written.ok ? GABLE_OK : writeError(written.diagnostics);
   });
 }
@@ -230,7 +240,8 @@ gable_status gable_model_encode(const gable_model* model, const char* format,
     gable_write_settings s = writeDefaults();
     if (!format || !blob) return nullArgument();
     if (!takeStruct(settings, s)) return fail(GABLE_ERROR_ARGUMENT, "struct_size is not set");
-    gable::EncodeResult encoded = m.model.encode(format, {s.gpu_instancing != 0});
+    if (!isInstancing(s)) return fail(GABLE_ERROR_ARGUMENT, "there is no such instancing");
+    gable::EncodeResult encoded = m.model.encode(format, {instancingOf(s)});
     if (!encoded.ok) return writeError(encoded.diagnostics);
     *blob =
         reinterpret_cast<gable_blob*>(new BlobObject{BlobObject::kMark, std::move(encoded.bytes)});

@@ -147,7 +147,8 @@ std::vector<std::string> texturesOf(const Scene& scene, const std::string& path)
 WriteResult written(const Model::Impl& impl, const std::string& path,
                     const WriteSettings& settings) {
   WriteOptions options;
-  options.gpuInstancing = settings.gpuInstancing;
+  // The two enumerations are in the same order.
+  options.instancing = static_cast<WriteOptions::Instancing>(settings.instancing);
   options.readTexture = [&impl](const std::string& texture) -> Result<std::string> {
     if (impl.project) return impl.project->texture(texture);
     return Error{"texture-not-found", "there is no picture '" + texture + "'", ""};
@@ -223,6 +224,14 @@ EncodeResult encoded(const Model::Impl& impl, const std::string& format,
   return out;
 }
 
+// Of names in the order of the enumeration.
+template <class Enumeration>
+std::optional<Enumeration> named(const std::vector<std::string>& names, const std::string& name) {
+  const auto at = std::find(names.begin(), names.end(), name);
+  if (at == names.end()) return std::nullopt;
+  return static_cast<Enumeration>(at - names.begin());
+}
+
 }  // namespace
 
 const std::vector<std::string>& viewNames() {
@@ -230,11 +239,15 @@ const std::vector<std::string>& viewNames() {
   return names;
 }
 
-std::optional<View> viewNamed(const std::string& name) {
-  const std::vector<std::string>& names = viewNames();
-  const auto at = std::find(names.begin(), names.end(), name);
-  if (at == names.end()) return std::nullopt;
-  return static_cast<View>(at - names.begin());
+std::optional<View> viewNamed(const std::string& name) { return named<View>(viewNames(), name); }
+
+const std::vector<std::string>& instancingNames() {
+  static const std::vector<std::string> names{"auto", "nodes", "gpu", "none"};
+  return names;
+}
+
+std::optional<Instancing> instancingNamed(const std::string& name) {
+  return named<Instancing>(instancingNames(), name);
 }
 
 Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& settings) {

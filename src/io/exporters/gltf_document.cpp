@@ -89,7 +89,7 @@ uint64_t GltfDocument::planNodes(const std::vector<bool>& hasMesh, bool instance
   }
   countNodes();
   uint64_t all = 0;
-  for (const uint32_t u : plan_.rootUnits()) all = saturatingAdd(all, nodeCounts_[u]);
+  for (const PlannedRoot& r : plan_.roots()) all = saturatingAdd(all, nodeCounts_[r.unit]);
   return all;
 }
 
@@ -130,6 +130,7 @@ uint64_t GltfDocument::nodesFor(const Group& g) const {
 const std::string& GltfDocument::nameOf(uint32_t unit) const {
   static const std::string kNone;
   const ScenePlan::Unit& u = plan_.units()[unit];
+  if (u.leaf == ScenePlan::kNone && u.prototype == ScenePlan::kNone) return kNone;
   const uint32_t name =
       u.leaf != ScenePlan::kNone ? scene_.leaves[u.leaf].name : scene_.prototypes[u.prototype].name;
   return name < scene_.names.size() ? scene_.names[name] : kNone;
@@ -217,14 +218,14 @@ void GltfDocument::writeNodes() {
   roots.beginArray();
   uint64_t index = 0;
   static const std::string kNoName;
-  for (size_t r = 0; r < scene_.roots.size(); ++r) {
-    const Root& root = scene_.roots[r];
-    const uint32_t unit = plan_.rootUnits()[r];
-    if (nodeCount(unit) == 0) continue;
-    const std::string& name = root.name < scene_.names.size() ? scene_.names[root.name] : kNoName;
-    writeTree(nodes, unit, {&root.instance.frame, {1, 1, 1}, &name, PlannedChild::kNone}, index);
+  for (const PlannedRoot& root : plan_.roots()) {
+    if (nodeCount(root.unit) == 0) continue;
+    const bool named =
+        root.root != PlannedRoot::kAll && scene_.roots[root.root].name < scene_.names.size();
+    const std::string& name = named ? scene_.names[scene_.roots[root.root].name] : kNoName;
+    writeTree(nodes, root.unit, {&root.frame, {1, 1, 1}, &name, PlannedChild::kNone}, index);
     roots.value(index);
-    index += nodeCount(unit);
+    index += nodeCount(root.unit);
   }
   nodes.endArray();
   roots.endArray();

@@ -42,6 +42,13 @@ struct Draw {
   uint32_t corners = 0, triangles = 0;
 };
 
+using Instancing = WriteOptions::Instancing;
+
+PlanOptions planFor(Instancing instancing) {
+  return {instancing != Instancing::None,
+          instancing == Instancing::Auto ? WriteOptions::kMostNodes : 0};
+}
+
 class GltfWriter {
  public:
   GltfWriter(const Scene& scene, const std::string& path, const WriteOptions& options)
@@ -49,7 +56,8 @@ class GltfWriter {
         path_(path),
         binary_(extensionOf(path) == "glb"),
         options_(options),
-        plan_(scene, options.shareMeshes),
+        plan_(scene, planFor(options.instancing)),
+        gpu_(options.instancing == Instancing::Gpu || !plan_.fits()),
         materials_(scene, options, report_.warnings),
         document_(scene, plan_, materials_),
         recentVariants_(256, {~uint64_t{0}, 0}) {}
@@ -76,7 +84,8 @@ class GltfWriter {
   void writeUnit(FileWriter& out, VertexWriter& vertices, uint32_t unit);
   void writeIndices(FileWriter& out, const PrimitiveState& state, bool wide);
   void align(FileWriter& out);
-  void countTriangles();
+  uint64_t bytesOf(const GltfPrimitive& p) const;
+  void countShown();
 
   void rewriteNodes(const std::vector<bool>& planned);
   Result<WriteReport> writeGlb();
@@ -89,6 +98,8 @@ class GltfWriter {
   const WriteOptions& options_;
   WriteReport report_;
   ScenePlan plan_;
+  /// Equal children of a node are one node.
+  bool gpu_;
   GltfMaterials materials_;
   GltfDocument document_;
   GltfContent content_;
@@ -186,7 +197,7 @@ void GltfWriter::planUnits() {
       bytes +=
           uint64_t{d.corners} * materials_.layout(d.variant).stride() + uint64_t{d.triangles} * 6;
     }
-    if (!options_.gpuInstancing) continue;
+    if (!gpu_) continue;
     for (const auto& g : GltfDocument::groupsOf(plan_, u, true)) {
       if (g.children.size() > 1) {
         content_.instances[u].push_back({0, static_cast<uint32_t>(g.children.size())});
@@ -301,7 +312,7 @@ void GltfWriter::writeBuffer(FileWriter& out) {
   bufferStart_ = out.offset();
   VertexWriter vertices(scene_, out);
   const auto count = static_cast<uint32_t>(plan_.units().size());
-  for (uint32_t u = 0; u < count && options_.gpuInstancing; ++u) writeInstances(out, u);
+  for (uint32_t u = 0; u < count && gpu_; ++u) writeInstances(out, u);
   for (uint32_t u = 0; u < count && !out.failed(); ++u) writeUnit(out, vertices, u);
   if (binary_) {
     for (const ModelTexture& t : materials_.images()) {
@@ -317,11 +328,17 @@ void GltfWriter::writeBuffer(FileWriter& out) {
   }
 }
 
-// Triangles with nodes expanded: units are shown by their nodes.
-void GltfWriter::countTriangles() {
+uint64_t GltfWriter::bytesOf(const GltfPrimitive& p) const {
+  return uint64_t{p.vertexCount} * materials_.layout(p.variant).stride() +
+         uint64_t{p.indexCount} * (p.wideIndices ? 4 : 2);
+}
+
+// Triangles with nodes expanded: units are shown by their nodes. What a unit takes is saved each
+// time but the first.
+void GltfWriter::countShown() {
   const size_t count = plan_.units().size();
   std::vector<uint64_t> shown(count);
-  for (const uint32_t u : plan_.rootUnits()) ++shown[u];
+  for (const PlannedRoot& r : plan_.roots()) ++shown[r.unit];
   // A parent's unit may come after its child's, so this follows the references in rounds of depth.
   std::vector<uint32_t> waiting(count);
   for (const auto& unit : plan_.units()) {
@@ -334,8 +351,15 @@ void GltfWriter::countTriangles() {
   while (!ready.empty()) {
     const uint32_t u = ready.back();
     ready.pop_back();
-    uint64_t own = 0;
-    for (const GltfPrimitive& p : content_.meshes[u]) own += p.indexCount / 3;
+    uint64_t own = 0, bytes = 0;
+    for (const GltfPrimitive& p : content_.meshes[u]) {
+      own += p.indexCount / 3;
+      bytes += bytesOf(p);
+    }
+    if (shown[u] > 1) {
+      report_.savedBytes =
+          saturatingAdd(report_.savedBytes, saturatingMultiply(bytes, shown[u] - 1));
+    }
     report_.triangles = saturatingAdd(report_.triangles, saturatingMultiply(own, shown[u]));
     for (const PlannedChild& c : plan_.units()[u].children) {
       shown[c.unit] = saturatingAdd(shown[c.unit], shown[u]);
@@ -347,7 +371,7 @@ void GltfWriter::countTriangles() {
 // Units that turned out to have no triangle have no mesh and perhaps no node.
 void GltfWriter::rewriteNodes(const std::vector<bool>& planned) {
   if (meshFlags() == planned) return;
-  document_.planNodes(meshFlags(), options_.gpuInstancing);
+  document_.planNodes(meshFlags(), gpu_);
   document_.writeNodes();
 }
 
@@ -426,7 +450,7 @@ Result<WriteReport> GltfWriter::write() {
                  "generate fewer shapes at a time"};
   }
   if (binary_ && content_.bufferBytes > gltf::kGlbLimit) return tooLarge(content_.bufferBytes);
-  const uint64_t nodes = document_.planNodes(meshFlags(), options_.gpuInstancing);
+  const uint64_t nodes = document_.planNodes(meshFlags(), gpu_);
   if (nodes > kMostNodes) {
     return Error{"model-too-large",
                  "'" + path_ + "' would have " + std::to_string(nodes) + " nodes",
@@ -435,8 +459,9 @@ Result<WriteReport> GltfWriter::write() {
   document_.writeNodes();
   Result<WriteReport> result = binary_ ? writeGlb() : writeSeparate();
   if (!result.ok()) return result;
-  countTriangles();
+  countShown();
   result->triangles = report_.triangles;
+  result->savedBytes = report_.savedBytes;
   return result;
 }
 

@@ -51,17 +51,35 @@ void expectSame(const GlbModel& model, const Scene& s) {
 TEST(GltfWriter, sharedFlatAndInstancedFilesShowTheSameModel) {
   const Scene s = street(5);
   WriteOptions flat, instanced;
-  flat.shareMeshes = false;
-  instanced.gpuInstancing = true;
+  flat.instancing = WriteOptions::Instancing::None;
+  instanced.instancing = WriteOptions::Instancing::Gpu;
   const GlbModel a = roundTrip(s, "street.glb");
   const GlbModel b = roundTrip(s, "street-flat.glb", flat);
   const GlbModel c = roundTrip(s, "street-instanced.glb", instanced);
   for (const GlbModel* m : {&a, &b, &c}) expectSame(*m, s);
   EXPECT_LT(a.bytes.size() * 4, b.bytes.size());
   EXPECT_LT(c.nodes, a.nodes);
-  EXPECT_EQ(b.meshes, 5u);
+  EXPECT_EQ(b.meshes, 1u);
+  EXPECT_EQ(b.nodes, 1u);
   // Windows, trees and houses.
   EXPECT_EQ(a.meshes, 7u);
+}
+
+TEST(GltfWriter, nodesAreBoundedUnlessEachIsAskedFor) {
+  SceneBuilder b;
+  for (int i = 0; i < 9; ++i) b.leaf(kUnitBox, Frame::moved({0, 2.0 * i, 0}), {1, 1, 1});
+  const uint32_t tower = b.prototype("Tower");
+  for (int row = 0; row < 150; ++row) {
+    for (int i = 0; i < 150; ++i) b.root("tower", tower, Frame::moved({3.0 * i, 0, 3.0 * row}));
+  }
+  WriteOptions each;
+  each.instancing = WriteOptions::Instancing::Nodes;
+  const GlbModel a = roundTrip(b.scene, "bounded.glb");
+  const GlbModel all = roundTrip(b.scene, "unbounded.glb", each);
+  expectSame(a, b.scene);
+  expectSame(all, b.scene);
+  EXPECT_EQ(a.nodes, 1u);
+  EXPECT_EQ(all.nodes, 22'500u);
 }
 
 TEST(GltfWriter, nodesAreNamedAfterShapesAndRules) {

@@ -8,6 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
+#include <utility>
+
+#include "base/hash.h"
+#include "math/box.h"
 
 namespace gable {
 namespace {
@@ -18,6 +23,8 @@ constexpr double kNodeBytes = 400;
 constexpr double kTinyBytes = 2048;
 // Leaves with meshes from this size on get nodes of their own when the mesh occurs twice.
 constexpr double kAloneBytes = 8192;
+// What a bound on nodes may add to a file.
+constexpr double kMostMerged = 256.0 * 1024 * 1024;
 
 double bytesOf(const Mesh& m) {
   double triangles = 0;
@@ -27,65 +34,157 @@ double bytesOf(const Mesh& m) {
   return 28.0 * static_cast<double>(m.corners.size()) + 6 * triangles;
 }
 
+bool isLarge(double bytes) { return bytes >= kAloneBytes; }
+
 uint64_t aloneKey(const Leaf& l) { return static_cast<uint64_t>(l.mesh) << 32 | l.materials; }
 
 }  // namespace
 
-ScenePlan::ScenePlan(const Scene& scene, bool share) : scene_(scene), share_(share) {
+ScenePlan::ScenePlan(const Scene& scene, const PlanOptions& options)
+    : scene_(scene), share_(options.share) {
+  findEqual();
+  measureMeshes();
+  if (share_) findAlone();
   measure();
-  decide();
+  const auto shown = std::count_if(scene.roots.begin(), scene.roots.end(),
+                                   [&](const Root& r) { return bytes_[shownBy(r.instance)] > 0; });
+  const auto most = static_cast<double>(options.mostNodes);
+  if (!share_ || (most > 0 && static_cast<double>(shown) > most)) joinRoots();
+  plan(kTinyBytes);
+  if (share_ && most > 0 && cost_.nodes > most) fit(most);
   measureContents();
-  prototypeUnit_.assign(scene.prototypes.size(), kNone);
-  // A unit's children make new units at the end of the list, so the list is its own queue.
-  size_t done = 0;
-  for (const Root& root : scene.roots) {
-    if (!share_) prototypeUnit_[root.instance.prototype] = kNone;
-    rootUnits_.push_back(unitOfPrototype(root.instance.prototype));
-    for (; done < units_.size(); ++done) {
-      if (units_[done].prototype == kNone || units_[done].solid) continue;
-      std::vector<PlannedChild> children;
-      walk(units_[done].prototype, Frame{}, false, nullptr, &children);
-      for (PlannedChild& c : children) {
-        c.unit = c.leaf == PlannedChild::kNone ? unitOfPrototype(c.unit) : unitOfLeaf(c.leaf);
-      }
-      units_[done].children = std::move(children);
-    }
+  makeUnits();
+}
+
+// What an instance shows comes before what holds it, so children are compared by number. Of those
+// with one hash and unlike content all but the first stay by themselves.
+void ScenePlan::findEqual() {
+  std::unordered_map<uint64_t, uint32_t> first;
+  for (uint32_t p = 0; p < scene_.prototypes.size(); ++p) {
+    const auto [at, fresh] =
+        share_ ? first.try_emplace(hashOf(p), p) : std::pair{first.end(), true};
+    same_.push_back(!fresh && isLike(at->second, p) ? at->second : p);
   }
 }
 
-void ScenePlan::measure() {
-  for (const MeshRef& m : scene_.meshes) meshBytes_.push_back(bytesOf(*m));
-  const bool anyLarge = std::any_of(meshBytes_.begin(), meshBytes_.end(),
-                                    [](double bytes) { return bytes >= kAloneBytes; });
-  if (share_ && anyLarge) {
-    for (const Leaf& l : scene_.leaves) {
-      if (meshBytes_[l.mesh] >= kAloneBytes) alone_.push_back(aloneKey(l));
-    }
-    std::sort(alone_.begin(), alone_.end());
-    // Keep one of each key that occurs at least twice.
-    size_t kept = 0;
-    for (size_t i = 0; i < alone_.size();) {
-      size_t end = i;
-      while (end < alone_.size() && alone_[end] == alone_[i]) ++end;
-      if (end - i > 1) alone_[kept++] = alone_[i];
-      i = end;
-    }
-    alone_.resize(kept);
-    aloneUnit_.assign(kept, kNone);
+uint64_t ScenePlan::hashOf(uint32_t prototype) const {
+  const Prototype& p = scene_.prototypes[prototype];
+  uint64_t h = hashCombine(p.leafCount, p.instanceCount);
+  const auto add = [&](const Vec3& v) {
+    for (size_t i = 0; i < 3; ++i) h = hashCombine(h, hashDouble(v[i]));
+  };
+  const auto addFrame = [&](const Frame& f) {
+    add(f.origin);
+    if (!f.turned) return;
+    add(f.x);
+    add(f.y);
+  };
+  for (uint32_t i = 0; i < p.leafCount; ++i) {
+    work();
+    const Leaf& l = scene_.leaves[p.firstLeaf + i];
+    h = hashCombine(h, uint64_t{l.mesh} << 32 | l.materials);
+    addFrame(l.frame);
+    add(l.scale);
   }
+  for (uint32_t i = 0; i < p.instanceCount; ++i) {
+    work();
+    const Instance& in = scene_.instances[p.firstInstance + i];
+    h = hashCombine(h, uint64_t{shownBy(in)} << 32 | in.leavesBefore);
+    addFrame(in.frame);
+  }
+  return h;
+}
+
+bool ScenePlan::isLike(uint32_t a, uint32_t b) const {
+  const Prototype &p = scene_.prototypes[a], &q = scene_.prototypes[b];
+  if (p.leafCount != q.leafCount || p.instanceCount != q.instanceCount) return false;
+  const auto leaf = [](const Leaf& m, const Leaf& n) {
+    return m.mesh == n.mesh && m.materials == n.materials && m.scale == n.scale &&
+           m.frame == n.frame;
+  };
+  const auto instance = [&](const Instance& m, const Instance& n) {
+    return shownBy(m) == shownBy(n) && m.leavesBefore == n.leavesBefore && m.frame == n.frame;
+  };
+  const auto leaves = scene_.leaves.begin();
+  const auto instances = scene_.instances.begin();
+  return std::equal(leaves + p.firstLeaf, leaves + p.firstLeaf + p.leafCount, leaves + q.firstLeaf,
+                    leaf) &&
+         std::equal(instances + p.firstInstance, instances + p.firstInstance + p.instanceCount,
+                    instances + q.firstInstance, instance);
+}
+
+void ScenePlan::measureMeshes() {
+  for (const MeshRef& m : scene_.meshes) meshBytes_.push_back(bytesOf(*m));
+}
+
+// Sorted, one of each key that occurs at least twice.
+void ScenePlan::findAlone() {
+  if (std::none_of(meshBytes_.begin(), meshBytes_.end(), isLarge)) return;
+  for (const Leaf& l : scene_.leaves) {
+    if (isLarge(meshBytes_[l.mesh])) alone_.push_back(aloneKey(l));
+  }
+  std::sort(alone_.begin(), alone_.end());
+  size_t kept = 0;
+  for (size_t i = 0; i < alone_.size();) {
+    size_t end = i;
+    while (end < alone_.size() && alone_[end] == alone_[i]) ++end;
+    if (end - i > 1) alone_[kept++] = alone_[i];
+    i = end;
+  }
+  alone_.resize(kept);
+  aloneUnit_.assign(kept, kNone);
+}
+
+void ScenePlan::measure() {
+  firstLarge_.push_back(0);
   for (const Prototype& p : scene_.prototypes) {
-    double bytes = 0, nodes = 0;
+    double bytes = 0;
     for (uint32_t i = 0; i < p.leafCount; ++i) {
       const Leaf& l = scene_.leaves[p.firstLeaf + i];
       bytes += meshBytes_[l.mesh];
-      nodes += standsAlone(l) ? 1 : 0;
+      if (standsAlone(l)) largeLeaves_.push_back(p.firstLeaf + i);
     }
+    ownBytes_.push_back(bytes);
     for (uint32_t i = 0; i < p.instanceCount; ++i) {
-      const uint32_t child = scene_.instances[p.firstInstance + i].prototype;
-      bytes += bytes_[child];
-      nodes += bytes_[child] <= kTinyBytes ? 0 : 1 + nodes_[child];
+      bytes += bytes_[shownBy(scene_.instances[p.firstInstance + i])];
     }
     bytes_.push_back(bytes);
+    firstLarge_.push_back(static_cast<uint32_t>(largeLeaves_.size()));
+  }
+}
+
+// The middle of where roots lie, in whole metres: a node's text gives it exactly.
+void ScenePlan::joinRoots() {
+  constexpr double kFarthest = 1e9;
+  joined_ = true;
+  Box3 places;
+  for (const Root& r : scene_.roots) {
+    const Vec3& o = r.instance.frame.origin;
+    if (std::fabs(o.x) < kFarthest && std::fabs(o.y) < kFarthest && std::fabs(o.z) < kFarthest) {
+      places.include(o);
+    }
+  }
+  if (places.empty()) return;
+  for (size_t i = 0; i < 3; ++i) home_[i] = std::floor((places.min[i] + places.max[i]) / 2);
+}
+
+void ScenePlan::plan(double smallest) {
+  smallest_ = smallest;
+  countNodes();
+  decide();
+  weigh();
+}
+
+// Nodes below each prototype when nothing but what is small is merged.
+void ScenePlan::countNodes() {
+  nodes_.clear();
+  for (size_t p = 0; p < scene_.prototypes.size(); ++p) {
+    double nodes = aloneIn(p).nodes;
+    const Prototype& prototype = scene_.prototypes[p];
+    for (uint32_t i = 0; i < prototype.instanceCount; ++i) {
+      const uint32_t child = shownBy(scene_.instances[prototype.firstInstance + i]);
+      nodes += bytes_[child] <= smallest_ ? 0 : 1 + nodes_[child];
+    }
     nodes_.push_back(nodes);
   }
 }
@@ -96,13 +195,13 @@ void ScenePlan::decide() {
   // References from units, and placements in the flattened scene.
   std::vector<double> references(count), placements(count), roots(count);
   for (const Root& r : scene_.roots) {
-    ++references[r.instance.prototype];
-    ++placements[r.instance.prototype];
-    ++roots[r.instance.prototype];
+    ++references[shownBy(r.instance)];
+    ++placements[shownBy(r.instance)];
+    ++roots[shownBy(r.instance)];
   }
   for (size_t p = count; p-- > 0;) {
     if (references[p] == 0) continue;
-    const bool tiny = bytes_[p] <= kTinyBytes && roots[p] < 2;
+    const bool tiny = bytes_[p] <= smallest_ && (joined_ || roots[p] < 2);
     if (!share_) {
       use_[p] = Use::Solid;
     } else if (references[p] == 1 || tiny) {
@@ -114,7 +213,7 @@ void ScenePlan::decide() {
     if (use_[p] == Use::Solid) continue;
     const Prototype& prototype = scene_.prototypes[p];
     for (uint32_t i = 0; i < prototype.instanceCount; ++i) {
-      const uint32_t child = scene_.instances[prototype.firstInstance + i].prototype;
+      const uint32_t child = shownBy(scene_.instances[prototype.firstInstance + i]);
       if (bytes_[child] == 0) continue;
       references[child] += use_[p] == Use::Merged ? references[p] : 1;
       placements[child] += placements[p];
@@ -122,11 +221,114 @@ void ScenePlan::decide() {
   }
 }
 
+// What the leaves of a prototype that stand alone take and save.
+ScenePlan::Cost ScenePlan::aloneIn(size_t prototype) const {
+  Cost c;
+  for (uint32_t i = firstLarge_[prototype]; i < firstLarge_[prototype + 1]; ++i) {
+    const double bytes = meshBytes_[scene_.leaves[largeLeaves_[i]].mesh];
+    if (bytes < smallest_) continue;
+    ++c.nodes;
+    c.bytes += bytes;
+  }
+  return c;
+}
+
+// What the file would take: nodes, and bytes of geometry but for meshes that stand alone.
+void ScenePlan::weigh() {
+  // Within the unit that a prototype is, or is merged into.
+  std::vector<Cost> within(scene_.prototypes.size());
+  cost_ = {joined_ ? 1.0 : 0.0, 0};
+  const auto add = [&](Cost& to, uint32_t child) {
+    if (bytes_[child] == 0) return;
+    const Cost& inner = within[child];
+    if (use_[child] == Use::Merged) {
+      to.nodes += inner.nodes;
+      to.bytes += inner.bytes;
+    } else {
+      to.nodes += 1 + (use_[child] == Use::Solid ? 0 : inner.nodes);
+    }
+  };
+  for (size_t p = 0; p < within.size(); ++p) {
+    if (use_[p] == Use::None) continue;
+    const Prototype& prototype = scene_.prototypes[p];
+    const Cost alone = aloneIn(p);
+    within[p] = {alone.nodes, ownBytes_[p] - alone.bytes};
+    for (uint32_t i = 0; i < prototype.instanceCount && use_[p] != Use::Solid; ++i) {
+      add(within[p], shownBy(scene_.instances[prototype.firstInstance + i]));
+    }
+    if (use_[p] == Use::Solid) within[p] = {0, bytes_[p]};
+    if (use_[p] != Use::Merged) cost_.bytes += within[p].bytes;
+  }
+  for (const Root& r : scene_.roots) {
+    const uint32_t p = shownBy(r.instance);
+    // A root that is merged elsewhere is a unit of its own all the same.
+    if (!joined_ && bytes_[p] > 0 && use_[p] == Use::Merged) ++cost_.nodes;
+    add(cost_, p);
+  }
+}
+
+// Merges more until the nodes are few enough: what saves least comes first. Each step takes a
+// quarter more bytes; the first that is enough is searched by halves. Where that would make the
+// file much larger, all stays as it was.
+void ScenePlan::fit(double mostNodes) {
+  const double largest = std::max(*std::max_element(bytes_.begin(), bytes_.end()),
+                                  *std::max_element(meshBytes_.begin(), meshBytes_.end()));
+  std::vector<double> steps{kTinyBytes};
+  while (steps.back() < largest) steps.push_back(steps.back() * 1.25);
+  // Of what is as large as the largest, leaves still stand alone.
+  steps.push_back(steps.back() * 1.25);
+  const Cost before = cost_;
+  size_t low = 0, high = steps.size() - 1;
+  while (low + 1 < high) {
+    const size_t middle = (low + high) / 2;
+    plan(steps[middle]);
+    (cost_.nodes <= mostNodes ? high : low) = middle;
+  }
+  plan(steps[high]);
+  fits_ = cost_.nodes <= mostNodes && cost_.bytes <= before.bytes + kMostMerged;
+  if (!fits_) plan(kTinyBytes);
+}
+
+void ScenePlan::makeUnits() {
+  prototypeUnit_.assign(scene_.prototypes.size(), kNone);
+  // A unit's children make new units at the end of the list, so the list is its own queue.
+  size_t done = 0;
+  const auto addRoot = [&](uint32_t unit, uint32_t root, const Frame& frame) {
+    roots_.push_back({unit, root, frame});
+    for (; done < units_.size(); ++done) {
+      if (units_[done].leaf != kNone || units_[done].solid) continue;
+      std::vector<PlannedChild> children = childrenOf(units_[done]);
+      for (PlannedChild& c : children) {
+        c.unit = c.leaf == PlannedChild::kNone ? unitOfPrototype(c.unit) : unitOfLeaf(c.leaf);
+      }
+      units_[done].children = std::move(children);
+    }
+  };
+  if (joined_) {
+    units_.push_back({kNone, kNone, !share_, {}});
+    addRoot(0, PlannedRoot::kAll, Frame::moved(home_));
+    return;
+  }
+  for (uint32_t r = 0; r < scene_.roots.size(); ++r) {
+    const Instance& root = scene_.roots[r].instance;
+    addRoot(unitOfPrototype(shownBy(root)), r, root.frame);
+  }
+}
+
+std::vector<PlannedChild> ScenePlan::childrenOf(const Unit& unit) const {
+  std::vector<PlannedChild> children;
+  if (isAll(unit))
+    walkAll(unit.solid, nullptr, &children);
+  else
+    walk(unit.prototype, Frame{}, false, nullptr, &children);
+  return children;
+}
+
 void ScenePlan::measureContents() {
   for (const Prototype& p : scene_.prototypes) {
     double solid = 1.0 + p.leafCount, open = solid;
     for (uint32_t i = 0; i < p.instanceCount; ++i) {
-      const uint32_t child = scene_.instances[p.firstInstance + i].prototype;
+      const uint32_t child = shownBy(scene_.instances[p.firstInstance + i]);
       if (bytes_[child] == 0) continue;
       solid += solidSize_[child];
       open += use_[child] == Use::Merged ? openSize_[child] : 1;
@@ -143,7 +345,7 @@ bool ScenePlan::standsAlone(const Leaf& leaf) const {
   constexpr double kThinnest = 1e-5;
   const bool flat = std::fabs(leaf.scale.x) < kThinnest || std::fabs(leaf.scale.y) < kThinnest ||
                     std::fabs(leaf.scale.z) < kThinnest;
-  return !flat && meshBytes_[leaf.mesh] >= kAloneBytes &&
+  return !flat && meshBytes_[leaf.mesh] >= std::max(kAloneBytes, smallest_) &&
          std::binary_search(alone_.begin(), alone_.end(), aloneKey(leaf));
 }
 
@@ -187,20 +389,43 @@ void ScenePlan::walk(uint32_t index, const Frame& frame, bool solid, UnitContent
   };
   const auto enter = [&](const Instance& in, const Frame& at, size_t level) {
     // What shows nothing is passed over, however often it stands here.
-    if (bytes_[in.prototype] == 0) return false;
-    if (solid || use_[in.prototype] == Use::Merged) {
+    const uint32_t shown = shownBy(in);
+    if (bytes_[shown] == 0) return false;
+    if (solid || use_[shown] == Use::Merged) {
       open(at, level);
       return true;
     }
-    if (children) children->push_back({in.prototype, at, {1, 1, 1}, PlannedChild::kNone});
+    if (children) children->push_back({shown, at, {1, 1, 1}, PlannedChild::kNone});
     return false;
   };
   open(frame, 0);
   gable::walk(scene_, scene_.prototypes[index], frame, addLeaf, enter);
 }
 
+void ScenePlan::walkAll(bool solid, UnitContent* content,
+                        std::vector<PlannedChild>* children) const {
+  const Frame inward = Frame::moved(-home_);
+  for (const Root& r : scene_.roots) {
+    const uint32_t p = shownBy(r.instance);
+    if (bytes_[p] == 0) continue;
+    const Frame at = inward * r.instance.frame;
+    if (solid || use_[p] == Use::Merged)
+      walk(p, at, solid, content, children);
+    else if (children)
+      children->push_back({p, at, {1, 1, 1}, PlannedChild::kNone});
+  }
+}
+
 double ScenePlan::contentSize(uint32_t unit) const {
   const Unit& u = units_[unit];
+  if (isAll(u)) {
+    double size = 0;
+    for (const Root& r : scene_.roots) {
+      const uint32_t p = shownBy(r.instance);
+      size += u.solid ? solidSize_[p] : use_[p] == Use::Merged ? openSize_[p] : 1;
+    }
+    return size;
+  }
   return u.prototype == kNone ? 1 : u.solid ? solidSize_[u.prototype] : openSize_[u.prototype];
 }
 
@@ -208,7 +433,9 @@ void ScenePlan::collect(uint32_t unit, UnitContent& out) const {
   out.placements.clear();
   out.leaves.clear();
   const Unit& u = units_[unit];
-  if (u.prototype != kNone) {
+  if (isAll(u)) {
+    walkAll(u.solid, &out, nullptr);
+  } else if (u.prototype != kNone) {
     walk(u.prototype, Frame{}, u.solid, &out, nullptr);
   } else {
     // The leaf's frame and scale belong to the nodes that show it.

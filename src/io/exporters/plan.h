@@ -6,10 +6,15 @@
 // A unit is what becomes one mesh: leaves merged into one frame, and children that are shown by
 // nodes of their own. Units are
 //   - the content of a root, when no other root shows the same prototype;
-//   - a prototype that is placed several times, when it is not tiny;
-//   - a large mesh (a tree, a statue) that several leaves place.
+//   - a prototype that is placed several times, when it is not small;
+//   - a large mesh (a tree, a statue) that several leaves place;
+//   - the content of all roots together, when there are too many of them, or nothing is shared.
+// Prototypes of equal content are one, whatever made them.
 // A prototype placed once is merged into the unit around it. A prototype placed several times takes
 // its own children in when writing them again costs less than the nodes for each placement.
+//
+// A bound on nodes decides what is small: a node that shows a prototype of b bytes once more saves
+// b bytes, so those that save least are merged first.
 #pragma once
 
 #include <cstdint>
@@ -35,6 +40,22 @@ struct PlannedChild {
   uint32_t leaf = kNone;
 };
 
+struct PlannedRoot {
+  /// Stands for all roots.
+  static constexpr uint32_t kAll = 0xffffffff;
+  uint32_t unit = 0;
+  /// Index into Scene::roots, or kAll.
+  uint32_t root = kAll;
+  Frame frame;
+};
+
+struct PlanOptions {
+  /// Equal parts are shown by nodes; else everything is one unit.
+  bool share = true;
+  /// So many nodes at most; 0 for any number.
+  uint64_t mostNodes = 0;
+};
+
 struct UnitContent {
   std::vector<Frame> placements;
   std::vector<PlannedLeaf> leaves;
@@ -44,7 +65,7 @@ class ScenePlan {
  public:
   static constexpr uint32_t kNone = 0xffffffff;
   struct Unit {
-    /// One of the two.
+    /// One of the two; neither for the unit of all roots.
     uint32_t prototype = kNone;
     uint32_t leaf = kNone;
     /// True when everything below is merged in.
@@ -52,14 +73,15 @@ class ScenePlan {
     std::vector<PlannedChild> children;
   };
 
-  /// Linear in the scene, instances of merged prototypes expanded. Without `share`, each root is
-  /// one solid unit.
-  ScenePlan(const Scene& scene, bool share);
+  /// Linear in the scene, instances of merged prototypes expanded.
+  ScenePlan(const Scene& scene, const PlanOptions& options);
 
+  /// False where the bound on nodes would cost too much: then there are more.
+  bool fits() const { return fits_; }
   /// In the order in which nodes first show them.
   const std::vector<Unit>& units() const { return units_; }
-  /// By root.
-  const std::vector<uint32_t>& rootUnits() const { return rootUnits_; }
+  /// In the order of the scene's roots; one that stands for all of them where they are joined.
+  const std::vector<PlannedRoot>& roots() const { return roots_; }
   /// The leaves to merge, in path order. Replaces `out`.
   void collect(uint32_t unit, UnitContent& out) const;
   /// How many leaves and placements that would be.
@@ -67,19 +89,51 @@ class ScenePlan {
 
  private:
   enum class Use : uint8_t { None, Merged, Open, Solid };
+  bool isAll(const Unit& unit) const { return unit.prototype == kNone && unit.leaf == kNone; }
+  struct Cost {
+    double nodes = 0, bytes = 0;
+  };
+  void findEqual();
+  uint64_t hashOf(uint32_t prototype) const;
+  bool isLike(uint32_t a, uint32_t b) const;
+  /// The prototype that stands for all of equal content.
+  uint32_t shownBy(const Instance& i) const { return same_[i.prototype]; }
+  void measureMeshes();
+  void findAlone();
   void measure();
+  void joinRoots();
+  void plan(double smallest);
+  void countNodes();
   void decide();
+  Cost aloneIn(size_t prototype) const;
+  void weigh();
+  void fit(double mostNodes);
   void measureContents();
+  void makeUnits();
+  std::vector<PlannedChild> childrenOf(const Unit& unit) const;
   void walk(uint32_t prototype, const Frame& frame, bool solid, UnitContent* content,
             std::vector<PlannedChild>* children) const;
+  void walkAll(bool solid, UnitContent* content, std::vector<PlannedChild>* children) const;
   bool standsAlone(const Leaf& leaf) const;
   uint32_t unitOfPrototype(uint32_t prototype);
   uint32_t unitOfLeaf(uint32_t leaf);
 
   const Scene& scene_;
   bool share_;
-  // By mesh: bytes once written. By prototype: bytes when expanded, nodes below when open.
-  std::vector<double> meshBytes_, bytes_, nodes_;
+  /// Roots are parts of one unit, which lies about `home_`.
+  bool joined_ = false;
+  Vec3 home_;
+  /// Prototypes up to so many bytes are merged wherever they stand.
+  double smallest_ = 0;
+  bool fits_ = true;
+  /// By prototype: the first of equal content.
+  std::vector<uint32_t> same_;
+  Cost cost_;
+  // By mesh: bytes once written. By prototype: bytes when expanded and those of its own leaves,
+  // nodes below when open.
+  std::vector<double> meshBytes_, bytes_, ownBytes_, nodes_;
+  // Leaves that may stand alone, those of a prototype from firstLarge_ on.
+  std::vector<uint32_t> largeLeaves_, firstLarge_;
   // By prototype: leaves and placements when all is merged in, and when only what is merged is.
   std::vector<double> solidSize_, openSize_;
   // Sorted (mesh, materials) of the leaves that stand alone, and their units.
@@ -88,7 +142,7 @@ class ScenePlan {
   std::vector<Use> use_;
   std::vector<uint32_t> prototypeUnit_;
   std::vector<Unit> units_;
-  std::vector<uint32_t> rootUnits_;
+  std::vector<PlannedRoot> roots_;
 };
 
 }  // namespace gable

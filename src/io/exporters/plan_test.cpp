@@ -29,13 +29,24 @@ uint64_t shownLeaves(const ScenePlan& plan, uint32_t unit) {
   return n;
 }
 
+uint64_t shownNodes(const ScenePlan& plan, uint32_t unit) {
+  uint64_t n = 1;
+  for (const PlannedChild& c : plan.units()[unit].children) n += shownNodes(plan, c.unit);
+  return n;
+}
+
 void expectWhole(const Scene& s) {
-  for (const bool share : {true, false}) {
-    const ScenePlan plan(s, share);
-    uint64_t n = 0;
-    for (const uint32_t u : plan.rootUnits()) n += shownLeaves(plan, u);
+  const PlanOptions shared, bounded{true, 40}, tight{true, 1}, flat{false, 0};
+  for (const PlanOptions& options : {shared, bounded, tight, flat}) {
+    const ScenePlan plan(s, options);
+    uint64_t n = 0, nodes = 0;
+    for (const PlannedRoot& r : plan.roots()) {
+      n += shownLeaves(plan, r.unit);
+      nodes += shownNodes(plan, r.unit);
+    }
     EXPECT_EQ(n, count(s).leaves);
-    EXPECT_TRUE(share || plan.units().size() == s.roots.size());
+    if (options.mostNodes > 0) EXPECT_LE(nodes, options.mostNodes);
+    EXPECT_TRUE(options.share || plan.units().size() == 1u);
   }
 }
 
@@ -44,7 +55,7 @@ TEST(Plan, whatStandsOnceIsMerged) {
   const uint32_t w = wall(b, 50);
   b.instance(w, Frame::moved({0, 5, 0}));
   b.root("house", b.prototype("House"), Frame{});
-  const ScenePlan plan(b.scene, true);
+  const ScenePlan plan(b.scene, {});
   EXPECT_EQ(plan.units().size(), 1u);
   expectWhole(b.scene);
 }
@@ -57,7 +68,7 @@ TEST(Plan, whatStandsOftenIsAUnitUnlessTiny) {
     b.instance(tiny, Frame::moved({0, 5.0 * i, 9}));
   }
   b.root("house", b.prototype("House"), Frame{});
-  const ScenePlan plan(b.scene, true);
+  const ScenePlan plan(b.scene, {});
   ASSERT_EQ(plan.units().size(), 2u);
   EXPECT_EQ(plan.units()[0].children.size(), 20u);
   expectWhole(b.scene);
@@ -69,7 +80,7 @@ TEST(Plan, equalRootsShareTheirUnitAndTakeInWhatIsBelow) {
   for (int i = 0; i < 40; ++i) b.instance(w, Frame::moved({0, 5.0 * i, 0}));
   const uint32_t house = b.prototype("House");
   for (int i = 0; i < 100; ++i) b.root("house", house, Frame::moved({50.0 * i, 0, 0}));
-  const ScenePlan plan(b.scene, true);
+  const ScenePlan plan(b.scene, {});
   ASSERT_EQ(plan.units().size(), 1u);
   EXPECT_TRUE(plan.units()[0].solid);
   expectWhole(b.scene);
@@ -83,12 +94,69 @@ TEST(Plan, largeMeshesStandAloneWhenTheyOccurTwice) {
   b.leaf(tree, Frame::moved({9, 0, 0}), {1, 0, 1});
   b.leaf(statue, Frame{}, {1, 1, 1});
   b.root("garden", b.prototype("Garden"), Frame{});
-  const ScenePlan plan(b.scene, true);
+  const ScenePlan plan(b.scene, {});
   ASSERT_EQ(plan.units().size(), 2u);
   // A node must not flatten its mesh, so that the third tree is merged.
   EXPECT_EQ(plan.units()[0].children.size(), 2u);
   EXPECT_EQ(plan.units()[0].children[1].scale, (Vec3{1, 3, -1}));
   expectWhole(b.scene);
+}
+
+// Three kinds of walls, of 20, 40 and 80 boxes, each 30 times, and a statue.
+SceneBuilder quarter() {
+  SceneBuilder b;
+  const uint32_t walls[] = {wall(b, 20), wall(b, 40), wall(b, 80)};
+  const uint32_t statue = b.mesh(testing::ball(20, 30));
+  for (int i = 0; i < 30; ++i) {
+    for (const uint32_t w : walls) b.instance(w, Frame::moved({9.0 * i, 0, 3.0 * w}));
+    b.leaf(statue, Frame::moved({9.0 * i, 0, 30}), {1, 1, 1});
+  }
+  b.root("quarter", b.prototype("Quarter"), Frame{});
+  return b;
+}
+
+TEST(Plan, aBoundOnNodesMergesFirstWhatSavesLeast) {
+  const SceneBuilder b = quarter();
+  EXPECT_EQ(shownNodes(ScenePlan(b.scene, {}), 0), 121u);
+  const auto children = [&](uint64_t most) {
+    const ScenePlan plan(b.scene, {true, most});
+    EXPECT_TRUE(plan.fits());
+    return plan.units()[0].children.size();
+  };
+  EXPECT_EQ(children(121), 120u);
+  EXPECT_EQ(children(120), 90u);
+  EXPECT_EQ(children(91), 90u);
+  EXPECT_EQ(children(31), 30u);
+  EXPECT_EQ(children(30), 0u);
+  expectWhole(b.scene);
+}
+
+TEST(Plan, tooManyRootsAreOneUnitAndStillShare) {
+  SceneBuilder b;
+  const uint32_t large = wall(b, 500);
+  for (int i = 0; i < 50; ++i) {
+    b.leaf(kUnitBox, Frame{}, {1, 1, 1});
+    if (i % 10 == 0) b.instance(large, Frame::moved({0, 9, 0}));
+    b.root("house", b.prototype("House"), Frame::moved({9000.25 + i, 0, 1}));
+  }
+  const ScenePlan plan(b.scene, {true, 49});
+  ASSERT_EQ(plan.roots().size(), 1u);
+  EXPECT_EQ(plan.roots()[0].root, PlannedRoot::kAll);
+  EXPECT_EQ(plan.roots()[0].frame.origin, (Vec3{9024, 0, 1}));
+  EXPECT_EQ(plan.units()[0].children.size(), 5u);
+  expectWhole(b.scene);
+}
+
+TEST(Plan, aBoundThatWouldCostTooMuchIsNotKept) {
+  SceneBuilder b;
+  const uint32_t tree = b.mesh(testing::ball(200, 200));
+  for (int i = 0; i < 100; ++i) b.leaf(tree, Frame::moved({9.0 * i, 0, 0}), {1, 1, 1});
+  const uint32_t grove = b.prototype("Grove");
+  for (int i = 0; i < 10; ++i) b.instance(grove, Frame::moved({0, 0, 9.0 * i}));
+  b.root("wood", b.prototype("Wood"), Frame{});
+  const ScenePlan plan(b.scene, {true, 90});
+  EXPECT_FALSE(plan.fits());
+  EXPECT_GT(shownNodes(plan, 0), 90u);
 }
 
 TEST(Plan, nestedScenesAreShownWhole) {

@@ -27,11 +27,20 @@ using TextureReader = std::function<Result<std::string>(const std::string& path)
 struct WriteOptions {
   /// Without a reader, files stand for themselves: paths are opened as they are.
   TextureReader readTexture;
-  /// glTF: prototypes that occur several times become one mesh that many nodes show. Off: one mesh
-  /// a root.
-  bool shareMeshes = true;
-  /// glTF: equal children of a node become one node with EXT_mesh_gpu_instancing.
-  bool gpuInstancing = false;
+  /// glTF: how parts that occur several times are shown.
+  enum class Instancing : uint8_t {
+    /// By nodes that share a mesh, as long as there are at most kMostNodes: beyond, parts that save
+    /// least are merged, and where that would add much, as Gpu.
+    Auto,
+    /// By a node each.
+    Nodes,
+    /// By nodes; equal children of a node become one node with EXT_mesh_gpu_instancing.
+    Gpu,
+    /// Not at all: everything is one mesh, merged by material.
+    None,
+  };
+  static constexpr uint64_t kMostNodes = 20'000;
+  Instancing instancing = Instancing::Auto;
   /// Keep uv set 0 on surfaces whose material has no texture.
   bool keepUv = true;
 };
@@ -41,6 +50,8 @@ struct WriteReport {
   uint64_t triangles = 0;
   /// Of all files written.
   uint64_t bytes = 0;
+  /// glTF: what its geometry would take more with nothing shared.
+  uint64_t savedBytes = 0;
   std::vector<std::string> files;
   /// One sentence each: a texture that was not found, a surface left out.
   std::vector<std::string> warnings;
