@@ -56,6 +56,9 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/gable DESTINATION ${CMAKE_INSTAL
 
 # The program looks for its page and its examples in ../share/gable, seen from where it lies.
 install(TARGETS gable)
+install(CODE "if(NOT EXISTS ${PROJECT_SOURCE_DIR}/build/studio/index.html)
+    message(NOTICE \"The studio's page is not built, so 'gable studio' has none here: './run studio' builds it.\")
+  endif()")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/studio DESTINATION share/gable OPTIONAL)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION share/gable)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/doc/gable)
