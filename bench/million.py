@@ -4,11 +4,12 @@
 """Tiles of a made-up land: million.py GABLE FOLDER COUNT...
 
 Writes, for each count, a map of so many buildings (GeoJSON, and FlatGeobuf where GDAL is installed), makes tiles of
-it with bench/million.cga, and prints time, rate and memory at the peak. The buildings stand in villages, so that the
+it with bench/million.cga, and prints time, rate and memory at the peak. On a busy machine the rate of a core counts. The buildings stand in villages, so that the
 land is as uneven as a real one; each is a rectangle with storeys and a turn that depend on its number alone.
 """
 import json
 import math
+import resource
 import subprocess
 import sys
 import time
@@ -61,13 +62,14 @@ def main(gable, folder, counts):
             if subprocess.run(["ogr2ogr", "-f", "FlatGeobuf", flat, geojson], check=False).returncode == 0:
                 geojson.unlink()
         source = flat if flat.exists() else geojson
-        begin = time.monotonic()
+        begin, before = time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
         subprocess.run([gable, "tiles", rules, "--shapes", source, "-o", folder / str(count), "--stats", folder / "stats.json"],
                        check=True)
-        seconds = time.monotonic() - begin
+        seconds, after = time.monotonic() - begin, resource.getrusage(resource.RUSAGE_CHILDREN)
+        busy = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
         stats = json.loads((folder / "stats.json").read_text())
         spent = stats["seconds"]
-        print(f"{count:9} buildings: {seconds:7.1f} s, {count / seconds:6.0f} a second (plan {spent['parse']:.1f} s, "
+        print(f"{count:9} buildings: {seconds:7.1f} s, {count / seconds:6.0f} a second, {count / busy:6.0f} a second of a core (plan {spent['parse']:.1f} s, "
               f"derive {spent['derive']:.1f} s, write {spent['write']:.1f} s), {stats['peakBytes'] / 2**20:5.0f} MiB, "
               f"{stats['tiles']} tiles, {stats['triangles'] / 1e6:.1f} M triangles, {stats['bytes'] / 2**20:.0f} MiB", flush=True)
 

@@ -50,7 +50,7 @@ start_slurm() {
   chown munge: /run/munge
   local socket=/run/munge/gable.socket
   runuser -u munge -- munged --force --foreground --key-file="$home/munge/key" --socket=$socket \
-    --pid-file="$home/munge/pid" --seed-file="$home/munge/seed" --log-file="$home/munge/log" &
+    --pid-file="$home/munge/pid" --seed-file="$home/munge/seed" --log-file="$home/munge/log" 2>/dev/null &
   pids+=($!)
   cat >"$SLURM_CONF" <<TEXT
 ClusterName=gable
@@ -71,6 +71,8 @@ SlurmctldPort=16817
 SlurmctldTimeout=10
 SlurmdTimeout=10
 InactiveLimit=0
+KillWait=5
+CompleteWait=0
 MinJobAge=600
 ReturnToService=2
 JobRequeue=1
@@ -107,21 +109,17 @@ await() { # SECONDS WHAT COMMAND...
 done_parts() { [ "$(find "$1/plan/done" -name '*.part' 2>/dev/null | wc -l)" -ge "$2" ]; }
 is_running() { [ "$(running)" -ge 2 ]; }
 is_over() { [ "$(left)" = 0 ]; }
-# Whatever runs below the daemon of a node, the daemon first.
+# The daemon of a node and all that it has started: the watcher of each job, its script, our program.
 kill_node() {
-  local top all
-  top=$(cat "$home/$1.pid")
-  kill -9 "$top"
-  all=$(pgrep -f "slurmstepd: \[" || true)
-  for step in $all; do
-    tr '\0' '\n' <"/proc/$step/environ" 2>/dev/null | grep -q "SLURMD_NODENAME=$1" || continue
-    kill -9 $(pgrep -P "$step") "$step" 2>/dev/null || true
-  done
-  # Steps that do not tell their node are found by their job.
-  for pid in $(pgrep -f "$gable tiles job $home"); do
-    grep -qz "SLURMD_NODENAME=$1" "/proc/$pid/environ" 2>/dev/null && kill -9 "$pid" || true
+  local pid script
+  kill -9 "$(cat "$home/$1.pid")"
+  for pid in $(pgrep -f "^$gable tiles job $home"); do
+    grep -qz "SLURMD_NODENAME=$1" "/proc/$pid/environ" 2>/dev/null || continue
+    script=$(ps -o ppid= -p "$pid" | tr -d ' ')
+    kill -9 "$(ps -o ppid= -p "$script" | tr -d ' ')" "$script" "$pid" 2>/dev/null || true
   done
 }
+is_down() { sinfo -h -N -n n2 -o %t 2>/dev/null | grep -q down; }
 plan() { "$gable" tiles plan bench/million.cga --shapes "$home/map/$count.geojson" --job-shapes 4096 -o "$1"; }
 same() { # FOLDER
   diff -r "$home/one" "$1" >"$home/diff" || { head "$home/diff" && say "$1 differs" && exit 1; }
@@ -147,14 +145,15 @@ await 60 "two tasks that run" is_running
 kill_node n2
 say "node n2 is dead, with what ran on it"
 sleep 1
-victim=$(pgrep -f "$gable tiles job $home/many" | head -n 1 || true)
+victim=$(pgrep -f "^$gable tiles job $home/many" | head -n 1 || true)
 [ -z "$victim" ] || kill -9 "$victim"
 say "a process is killed on node n1"
 await 120 "a finished unit" done_parts "$home/many" 2
 tile=$(find "$home/many/tiles" -name '*.glb' | sort | head -n 1)
 printf 'x' | dd of="$tile" bs=1 seek=1000 conv=notrunc 2>/dev/null
 say "a tile is damaged: ${tile#"$home/"}"
-sleep 12
+await 120 "the controller to miss n2" is_down
+say "Slurm has given n2 up and queued its job again: $(squeue -h -n gable-tiles -o '%i %r' | head -n 3 | tr '\n' ',')"
 start_node n2
 say "node n2 is back"
 await 600 "the end" is_over

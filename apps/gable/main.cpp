@@ -172,7 +172,7 @@ void addTileOptions(CLI::App* app, TileArguments& a) {
                   "Triangles of a tile that shows everything (default 65536)")
       ->check(number({100, 10'000'000, true}));
   app->add_flag("--compress", a.compress,
-                "Compress tiles (EXT_meshopt_compression): a fifth of the bytes, as near as 2 mm");
+                "Compress tiles (EXT_meshopt_compression): a quarter of the bytes, as near as 2 mm");
   app->add_flag("--viewer", a.viewer, "Put a page beside the tiles that shows them (index.html)");
 }
 
