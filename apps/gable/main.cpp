@@ -171,8 +171,9 @@ void addTileOptions(CLI::App* app, TileArguments& a) {
   app->add_option("--tile-triangles", a.triangles,
                   "Triangles of a tile that shows everything (default 65536)")
       ->check(number({100, 10'000'000, true}));
-  app->add_flag("--compress", a.compress,
-                "Compress tiles (EXT_meshopt_compression): a quarter of the bytes, as near as 2 mm");
+  app->add_flag(
+      "--compress", a.compress,
+      "Compress tiles (EXT_meshopt_compression): a quarter of the bytes, as near as 2 mm");
   app->add_flag("--viewer", a.viewer, "Put a page beside the tiles that shows them (index.html)");
 }
 
@@ -226,11 +227,13 @@ void addTileRun(CLI::App* app, std::string& folder, LimitArguments& limits) {
 
 void addTileJobs(CLI::App* tiles, AllTilesArguments& a, int& status) {
   const NumberRange threads{0, 4096, true};
-  auto* plan = tiles->add_subcommand("plan", "Divide the work into jobs, for any number of machines");
+  auto* plan =
+      tiles->add_subcommand("plan", "Divide the work into jobs, for any number of machines");
   plan->add_option("rules", a.plan.derive.rules, "The rule file or package")->required();
   addDeriveOptions(plan, a.plan.derive);
   plan->add_option("-o,--output", a.plan.output, "The folder of the tiles")->required();
-  plan->add_option("--job-shapes", a.plan.jobShapes, "About how many shapes a job has (default 16384)")
+  plan->add_option("--job-shapes", a.plan.jobShapes,
+                   "About how many shapes a job has (default 16384)")
       ->check(number({1, 1e9, true}));
   addTileOptions(plan, a.plan.tiles);
   plan->callback([&a, &status] { status = runTilesPlan(a.plan); });
@@ -260,7 +263,8 @@ void addTileJobs(CLI::App* tiles, AllTilesArguments& a, int& status) {
       ->excludes(slurm);
   submit->add_option("--tries", a.submit.tries, "How often a job is tried (default 3)")
       ->check(number({1, 100, true}));
-  submit->add_option("--options", a.submit.options, "Further options of sbatch or parallel, a text");
+  submit->add_option("--options", a.submit.options,
+                     "Further options of sbatch or parallel, a text");
   submit->add_flag("--dry-run", a.submit.dry, "Write the scripts, and run nothing");
   submit->callback([&a, &status] { status = runTilesSubmit(a.submit); });
 }

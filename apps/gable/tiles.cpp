@@ -181,8 +181,7 @@ int runInPieces(const TilesArguments& arguments, const std::string& folder, doub
   }
   gable::TilePlan plan(nullptr);
   constexpr uint64_t kJobShapes = 16'384;
-  if (const int status =
-          planFolder(arguments.derive, arguments.tiles, kJobShapes, folder, plan)) {
+  if (const int status = planFolder(arguments.derive, arguments.tiles, kJobShapes, folder, plan)) {
     return status;
   }
   const double planned = secondsNow();
@@ -263,8 +262,8 @@ int runTiles(const TilesArguments& arguments) {
 int runTilesPlan(const PlanArguments& arguments) {
   const std::string folder = asFolder(arguments.output);
   gable::TilePlan plan(nullptr);
-  if (const int status = planFolder(arguments.derive, arguments.tiles, arguments.jobShapes, folder,
-                                    plan)) {
+  if (const int status =
+          planFolder(arguments.derive, arguments.tiles, arguments.jobShapes, folder, plan)) {
     return status;
   }
   std::printf("%llu jobs for %llu shapes in %s\n", static_cast<unsigned long long>(plan.jobs()),

@@ -64,8 +64,8 @@ std::string mergeScript(const Place& at) {
 std::string slurmArray(const Place& at, uint64_t jobs, uint64_t each, uint64_t tries) {
   return head("one task of the job array.") + "first=$((SLURM_ARRAY_TASK_ID * " +
          std::to_string(each) + "))\nlast=$((first + " + std::to_string(each - 1) +
-         "))\nif [ $last -ge " + std::to_string(jobs) + " ]; then last=" + std::to_string(jobs - 1) +
-         "; fi\n" + tryJobs(at, tries);
+         "))\nif [ $last -ge " + std::to_string(jobs) +
+         " ]; then last=" + std::to_string(jobs - 1) + "; fi\n" + tryJobs(at, tries);
 }
 
 std::string slurmSubmit(const Place& at, uint64_t tasks, const std::string& options) {

@@ -73,7 +73,8 @@ TileResult writeTiles(const Rules& rules, const Shapes& shapes, const std::strin
                       const TileSettings& settings = {});
 
 struct TilePlanSettings {
-  /// Where the rules come from; jobs load them again by this. Relative paths are kept as whole ones.
+  /// Where the rules come from; jobs load them again by this. Relative paths are kept as whole
+  /// ones.
   std::string rules;
   LoadSettings load;
   /// Threads and seeds of single shapes are no part of a plan.
@@ -116,7 +117,8 @@ TilePlan planTiles(const Rules& rules, const std::string& map, const FeatureSele
 /// Whether a file of shapes is read a piece at a time.
 bool isReadInPieces(const std::string& map);
 
-/// What of TileSettings is not the plan's: threads, limits in time and memory, progress, cancelling.
+/// What of TileSettings is not the plan's: threads, limits in time and memory, progress,
+/// cancelling.
 struct TileRun {
   std::optional<int> jobs;
   FileLimits limits;

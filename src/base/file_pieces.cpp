@@ -15,7 +15,8 @@ namespace {
 Error refused(const std::string& path, const char* what, const std::string& why) {
   const bool missing = errno == ENOENT || errno == ENOTDIR;
   return {missing ? "file-missing" : "file-unreadable",
-          "'" + path + "' cannot be " + what + ": " + why, {}};
+          "'" + path + "' cannot be " + what + ": " + why,
+          {}};
 }
 
 }  // namespace

@@ -42,8 +42,7 @@ std::optional<Error> TileFolder::open() {
     return Error{"tiles-folder", "the folder '" + path_ + "' cannot be made: " + error.message(),
                  "name another one, or see to its permissions"};
   }
-  const Result<uint64_t> marked =
-      writeFile(path_ + kUnfinished, "This folder is being written.\n");
+  const Result<uint64_t> marked = writeFile(path_ + kUnfinished, "This folder is being written.\n");
   if (!marked.ok()) return marked.error();
   return std::nullopt;
 }
@@ -81,8 +80,7 @@ std::optional<Error> TileFolder::readBefore() {
                  "name another folder"};
   }
   if (!begun && holdsFiles(plan())) {
-    return Error{"tiles-folder",
-                 "the folder '" + path_ + "plan' has files that Gable has not made",
+    return Error{"tiles-folder", "the folder '" + path_ + "plan' has files that Gable has not made",
                  "name another folder"};
   }
   const std::string tiles = path_ + "tiles/";

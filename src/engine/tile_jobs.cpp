@@ -78,7 +78,8 @@ class JobRunner {
     if (bytes->size() == job.bytes && units == job.bytes && checksum(*bytes) == job.checksum) {
       return bytes;
     }
-    return Error{"tiles-plan", "'" + path + "' is damaged", "make the plan again; what is done stays"};
+    return Error{"tiles-plan", "'" + path + "' is damaged",
+                 "make the plan again; what is done stays"};
   }
 
   std::optional<Error> runUnit(const JobUnit& unit, std::string_view records) {
@@ -272,29 +273,31 @@ Rules TilePlan::rules(const FileLimits& limits) const {
 }
 
 TileResult runTileJob(const TilePlan& plan, const Rules& rules, uint64_t job, const TileRun& run) {
-  return guardedResult<TileResult>(Task("writing", plan.impl().folder, run.limits), [&](Task& task) {
-    TileResult result;
-    if (!rules.ok() || !usable(plan, result)) return result;
-    const double begin = now();
-    const std::optional<Error> e = JobRunner(plan.impl(), rules, run, task, result).run(job);
-    if (e) fail(result, *e);
-    result.ok = !e;
-    result.writeSeconds = now() - begin - result.deriveSeconds;
-    return result;
-  });
+  return guardedResult<TileResult>(
+      Task("writing", plan.impl().folder, run.limits), [&](Task& task) {
+        TileResult result;
+        if (!rules.ok() || !usable(plan, result)) return result;
+        const double begin = now();
+        const std::optional<Error> e = JobRunner(plan.impl(), rules, run, task, result).run(job);
+        if (e) fail(result, *e);
+        result.ok = !e;
+        result.writeSeconds = now() - begin - result.deriveSeconds;
+        return result;
+      });
 }
 
 TileResult mergeTiles(const TilePlan& plan, const TileRun& run) {
-  return guardedResult<TileResult>(Task("writing", plan.impl().folder, run.limits), [&](Task& task) {
-    TileResult result;
-    if (!usable(plan, result)) return result;
-    const double begin = now();
-    const std::optional<Error> e = Merger(plan.impl(), run, task).run(result);
-    if (e) fail(result, *e);
-    result.ok = !e;
-    result.writeSeconds = now() - begin;
-    return result;
-  });
+  return guardedResult<TileResult>(
+      Task("writing", plan.impl().folder, run.limits), [&](Task& task) {
+        TileResult result;
+        if (!usable(plan, result)) return result;
+        const double begin = now();
+        const std::optional<Error> e = Merger(plan.impl(), run, task).run(result);
+        if (e) fail(result, *e);
+        result.ok = !e;
+        result.writeSeconds = now() - begin;
+        return result;
+      });
 }
 
 }  // namespace gable

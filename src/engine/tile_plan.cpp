@@ -72,14 +72,13 @@ void readLoad(const JsonValue& v, TilePlan::Impl& plan) {
 
 // By name, each with the field that it is.
 auto limitsOf(Limits& limits) {
-  return std::pair{std::array{std::pair{"depth", &limits.depth},
-                              std::pair{"functionDepth", &limits.functionDepth},
-                              std::pair{"width", &limits.width},
-                              std::pair{"arraySize", &limits.arraySize}},
-                   std::array{std::pair{"shapes", &limits.shapes},
-                              std::pair{"vertices", &limits.vertices},
-                              std::pair{"shapeVertices", &limits.shapeVertices},
-                              std::pair{"steps", &limits.steps}}};
+  return std::pair{
+      std::array{std::pair{"depth", &limits.depth},
+                 std::pair{"functionDepth", &limits.functionDepth},
+                 std::pair{"width", &limits.width}, std::pair{"arraySize", &limits.arraySize}},
+      std::array{std::pair{"shapes", &limits.shapes}, std::pair{"vertices", &limits.vertices},
+                 std::pair{"shapeVertices", &limits.shapeVertices},
+                 std::pair{"steps", &limits.steps}}};
 }
 
 void writeTiles(JsonWriter& w, const TileSettings& tiles) {
@@ -202,8 +201,7 @@ Result<TilePlan::Impl> readPlan(const std::string& folder) {
 
 Result<TileJob> readJob(const TilePlan::Impl& plan, uint64_t job) {
   if (job >= plan.jobs) {
-    return Error{"tiles-job",
-                 "the plan in '" + plan.folder + "' has no job " + std::to_string(job),
+    return Error{"tiles-job", "the plan in '" + plan.folder + "' has no job " + std::to_string(job),
                  "its jobs are 0 to " + std::to_string(plan.jobs - 1)};
   }
   const std::string path = jobPath(plan, job);
@@ -219,9 +217,9 @@ Result<TileJob> readJob(const TilePlan::Impl& plan, uint64_t job) {
   for (const JsonValue& unit : json.value()["units"].items()) {
     const std::string& name = unit["name"].text();
     // Names become paths.
-    const bool isName = !name.empty() && name.size() <= kDeepestSquare + 1 &&
-                        std::all_of(name.begin(), name.end(),
-                                    [](char c) { return c >= '0' && c <= '3'; });
+    const bool isName =
+        !name.empty() && name.size() <= kDeepestSquare + 1 &&
+        std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '3'; });
     if (!isName) return planError(plan.folder, "'" + path + "' is damaged");
     out.units.push_back({name, wholeOf(unit["shapes"]), wholeOf(unit["bytes"])});
   }

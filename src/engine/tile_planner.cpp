@@ -157,8 +157,7 @@ class Planner {
       const Result<uint64_t> written = writeFile(jobPath(plan_, j), jobJson(jobs[j], plan_.id));
       if (!written.ok()) return written.error();
     }
-    const Result<uint64_t> written =
-        writeFile(folder_.plan() + "plan.json", settingsJson(plan_));
+    const Result<uint64_t> written = writeFile(folder_.plan() + "plan.json", settingsJson(plan_));
     if (!written.ok()) return written.error();
     return std::nullopt;
   }
@@ -241,9 +240,9 @@ bool isReadInPieces(const std::string& map) { return isStreamed(map); }
 
 TilePlan planTiles(const Rules& rules, const Shapes& shapes, const std::string& folder,
                    const TilePlanSettings& settings) {
-  return TilePlan(
-      guarded<TilePlan::Impl>(Task("planning", folder, settings.tiles.limits),
-                              [&] { return planned(rules, shapes, folder, settings); }));
+  return TilePlan(guarded<TilePlan::Impl>(Task("planning", folder, settings.tiles.limits), [&] {
+    return planned(rules, shapes, folder, settings);
+  }));
 }
 
 TilePlan planTiles(const Rules& rules, const std::string& map, const FeatureSelection& selection,
@@ -253,9 +252,9 @@ TilePlan planTiles(const Rules& rules, const std::string& map, const FeatureSele
     if (!shapes.ok() || shapes.size() == 0) return TilePlan(refused(shapes.diagnostics()));
     return planTiles(rules, shapes, folder, settings);
   }
-  return TilePlan(guarded<TilePlan::Impl>(
-      Task("planning", folder, settings.tiles.limits),
-      [&] { return streamed(rules, map, selection, folder, settings); }));
+  return TilePlan(guarded<TilePlan::Impl>(Task("planning", folder, settings.tiles.limits), [&] {
+    return streamed(rules, map, selection, folder, settings);
+  }));
 }
 
 }  // namespace gable

@@ -183,9 +183,7 @@ TileTreeOptions tileOptions(const Rules& rules, const TileSettings& settings,
   return options;
 }
 
-size_t unitShapes(const Rules& rules) {
-  return asksOthers(rules.impl().program) ? 0 : kUnitShapes;
-}
+size_t unitShapes(const Rules& rules) { return asksOthers(rules.impl().program) ? 0 : kUnitShapes; }
 
 void warnTogether(DiagnosticList& diagnostics) {
   diagnostics.push_back(diagnosticOf(

@@ -45,8 +45,7 @@ void tile(const Rules& rules, const Shapes& shapes, const std::string& path,
     return fail(result, {"tiles-empty", "nothing is built on the shapes, so there are no tiles",
                          "see that the shapes are where you look, and what the rules begin with"});
   }
-  const Result<uint64_t> bytes =
-      folder.close(all.value(), placementOf(shapes.impl().geo.get()));
+  const Result<uint64_t> bytes = folder.close(all.value(), placementOf(shapes.impl().geo.get()));
   if (!bytes.ok()) return fail(result, bytes.error());
   result.ok = true;
   result.shapes = shapes.size();

@@ -38,8 +38,8 @@ void settleOrder(std::string& vertices, size_t stride, std::vector<uint32_t>& in
   meshopt_remapIndexBuffer(indices.data(), indices.data(), indices.size(), remap.data());
   meshopt_optimizeVertexCache(indices.data(), indices.data(), indices.size(), different);
   std::string ordered(kept.size(), '\0');
-  const size_t used = meshopt_optimizeVertexFetch(
-      ordered.data(), indices.data(), indices.size(), kept.data(), different, stride);
+  const size_t used = meshopt_optimizeVertexFetch(ordered.data(), indices.data(), indices.size(),
+                                                  kept.data(), different, stride);
   ordered.resize(used * stride);
   vertices.swap(ordered);
 }

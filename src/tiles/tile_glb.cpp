@@ -144,7 +144,8 @@ class TileWriter {
     l.position = quantized_ ? field(kUnsignedShort, 6, false) : field(kFloat, 12, false);
     l.normal = compressed_ ? field(kByte, 3, true) : field(kFloat, 12, false);
     l.color = field(kUnsignedShort, 8, true);
-    l.feature = compressed_ && fewFeatures ? field(kUnsignedShort, 2, false) : field(kFloat, 4, false);
+    l.feature =
+        compressed_ && fewFeatures ? field(kUnsignedShort, 2, false) : field(kFloat, 4, false);
     l.uv = field(kFloat, 8 * p.uvCount, false);
     return l;
   }
@@ -463,8 +464,8 @@ class TileWriter {
 
 }  // namespace
 
-Result<TileFile> writeTile(const TileMesh& mesh, const std::string& folder,
-                           const std::string& name, bool compressed) {
+Result<TileFile> writeTile(const TileMesh& mesh, const std::string& folder, const std::string& name,
+                           bool compressed) {
   const Result<std::string> bytes = TileWriter(mesh, name, compressed).bytes();
   if (!bytes.ok()) return bytes.error();
   const Result<uint64_t> written = writeFile(folder + name, bytes.value());

@@ -62,7 +62,7 @@ struct TileFile {
 /// Writes it as GLB to `folder` + `name`: one node, EXT_mesh_features, EXT_structural_metadata with
 /// a table of features; `compressed` where the build has the library, with vertices at most
 /// kMostQuantized from their places. Code: file-unwritable.
-Result<TileFile> writeTile(const TileMesh& mesh, const std::string& folder,
-                           const std::string& name, bool compressed);
+Result<TileFile> writeTile(const TileMesh& mesh, const std::string& folder, const std::string& name,
+                           bool compressed);
 
 }  // namespace gable

@@ -130,8 +130,7 @@ void Coverer::write(Branch& b, const TileMesh& mesh) const {
   b.node().uri = uriOf(b.name, ".glb");
   b.node().box = mesh.box;
   b.node().triangles = mesh.triangles;
-  const Result<TileFile> file =
-      writeTile(mesh, options_.folder, b.node().uri, options_.compressed);
+  const Result<TileFile> file = writeTile(mesh, options_.folder, b.node().uri, options_.compressed);
   if (!file.ok()) {
     b.error = file.error();
     return;
@@ -208,10 +207,9 @@ Branch Coverer::cover(std::vector<Branch>& branches, const TileSquare& square,
 
 // Those that have come to something; a single one stands for the whole square.
 void dropNothing(std::vector<Branch>& branches) {
-  branches.erase(
-      std::remove_if(branches.begin(), branches.end(),
-                     [](const Branch& b) { return b.state == Branch::State::Nothing; }),
-      branches.end());
+  branches.erase(std::remove_if(branches.begin(), branches.end(),
+                                [](const Branch& b) { return b.state == Branch::State::Nothing; }),
+                 branches.end());
 }
 
 // The tiles of one unit.

@@ -100,8 +100,8 @@ class GdalFile {
   Result<std::string> geoJson(const std::string& layer,
                               const std::string& target = "/vsistdout/") const {
     const auto written = [&](std::vector<std::string> arguments) {
-      for (const std::string& a : {std::string("-lco"), std::string("COORDINATE_PRECISION=9"),
-                                   target, copy_, layer}) {
+      for (const std::string& a :
+           {std::string("-lco"), std::string("COORDINATE_PRECISION=9"), target, copy_, layer}) {
         arguments.push_back(a);
       }
       return run("ogr2ogr", arguments);
@@ -127,7 +127,8 @@ class GdalFile {
                    "'" + path_ + "' needs the program " + name + " of GDAL, which is not installed",
                    "install gdal-bin, or convert the map to GeoJSON"};
     }
-    Result<std::string> out = runChild(program, arguments, {}, copy_ == path_ ? kLongLimits : kLimits);
+    Result<std::string> out =
+        runChild(program, arguments, {}, copy_ == path_ ? kLongLimits : kLimits);
     if (!out.ok()) return failed(out.error(), path_, "gdal-bin");
     return out;
   }

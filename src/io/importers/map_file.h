@@ -25,8 +25,8 @@ bool isOpenStreetMap(const std::string& path);
 Result<std::string> mapAsGeoJson(std::string_view bytes, const AssetOptions& options,
                                  const std::string& layer);
 
-/// The same for a file on disk that GDAL reads, as a file in `folder`, for maps that do not fit into
-/// memory. Gives its path.
+/// The same for a file on disk that GDAL reads, as a file in `folder`, for maps that do not fit
+/// into memory. Gives its path.
 Result<std::string> mapAsGeoJsonFile(const std::string& path, const std::string& layer,
                                      const std::string& folder);
 

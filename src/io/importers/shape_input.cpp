@@ -99,8 +99,7 @@ Result<ShapeFile> readShapes(std::string_view bytes, const AssetOptions& options
 
 bool isStreamed(const std::string& path) {
   const std::string extension = extensionOf(path);
-  return extension == "geojson" || extension == "json" ||
-         (isMap(path) && !isOpenStreetMap(path));
+  return extension == "geojson" || extension == "json" || (isMap(path) && !isOpenStreetMap(path));
 }
 
 Result<ShapeFile> streamShapes(const AssetOptions& options, const FeatureFilter& filter,
