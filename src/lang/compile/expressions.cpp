@@ -3,6 +3,8 @@
 //
 // Expressions: each leaves one value on the stack. Parts that the analysis folded are constants.
 
+#include <algorithm>
+
 #include "lang/compile/unit_compiler.h"
 #include "program/tag_effects.h"
 
@@ -186,16 +188,32 @@ void UnitCompiler::call(NodeId node, NodeId arguments) {
 }
 
 void UnitCompiler::operationEffects(const OpSpec& spec, NodeId arguments) {
-  uses_.effects |= effectsOf(effectsOfOperation(spec.effects), arguments);
+  uses_.effects |= effectsOf(effectsOfOperation(spec.effects), spec.signatures, arguments);
 }
 
 void UnitCompiler::functionEffects(const FunctionSpec& spec, NodeId arguments) {
-  uses_.effects |= effectsOf(spec.effects, arguments);
+  uses_.effects |= effectsOf(spec.effects, spec.signatures, arguments);
 }
 
+namespace {
+
+bool takesSelectors(std::span<const Signature> signatures) {
+  return std::ranges::any_of(signatures, [](const Signature& s) {
+    return std::ranges::any_of(s.params, [](const ParamSpec& p) {
+      return p.type == ParamType::Selector || p.type == ParamType::Selection;
+    });
+  });
+}
+
+}  // namespace
+
 // The effects of a call with these arguments: words narrow or widen what the spec says.
-uint32_t UnitCompiler::effectsOf(uint32_t effects, NodeId arguments) const {
+uint32_t UnitCompiler::effectsOf(uint32_t effects, std::span<const Signature> signatures,
+                                 NodeId arguments) const {
   bool worldNamed = false;
+  // An argument whose type is not known here (a parameter, an item of a list) may be any word.
+  const bool byWord = (effects & kReadsWorldByWord) != 0;
+  const bool byAny = byWord || takesSelectors(signatures);
   for (NodeId argument : t_.children(arguments)) {
     if (t_.kind(argument) == NodeKind::NamedArg) argument = t_.child(argument, 0);
     Value v;
@@ -210,8 +228,8 @@ uint32_t UnitCompiler::effectsOf(uint32_t effects, NodeId arguments) const {
                                                   : text.find("world.") != std::string_view::npos;
     } else {
       const ValueType type = m_.types[argument];
-      worldNamed |= type == ValueType::Selector || type == ValueType::Null ||
-                    (type == ValueType::String && (effects & kReadsWorldByWord) != 0);
+      worldNamed |= type == ValueType::Selector || (type == ValueType::Null && byAny) ||
+                    (type == ValueType::String && byWord);
     }
   }
   // Words for streets are among those for the world.

@@ -137,7 +137,8 @@ class UnitCompiler {
   uint32_t figuresIn(NodeId sequence) const;
   void behindFigure(NodeId sequence, const AttributeSpec& choice, uint32_t& ordinals);
   void figureChoice(NodeId choiceNode, const AttributeSpec& choice, uint32_t& ordinals);
-  uint32_t effectsOf(uint32_t effects, NodeId arguments) const;
+  uint32_t effectsOf(uint32_t effects, std::span<const Signature> signatures,
+                     NodeId arguments) const;
   void operationEffects(const OpSpec& spec, NodeId arguments);
   void functionEffects(const FunctionSpec& spec, NodeId arguments);
   size_t pushArguments(NodeId arguments);
