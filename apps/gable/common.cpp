@@ -162,6 +162,8 @@ int writeModel(const gable::Model& model, const std::string& path,
   figures.deriveSeconds = model.deriveSeconds();
   figures.writeSeconds = secondsNow() - begin;
   if (written.triangles > 0) figures.triangles = written.triangles;
+  figures.fileBytes = written.bytes;
+  figures.savedBytes = written.savedBytes;
   return kExitDone;
 }
 

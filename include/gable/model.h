@@ -24,8 +24,8 @@ namespace gable {
 using Triple = std::array<double, 3>;
 
 /// How glTF files show parts that occur several times. Auto: by nodes that share a mesh, at most
-/// 20,000 of them; beyond, parts that save least are merged, or, where that would add more than 256
-/// MiB, equal ones become one node with EXT_mesh_gpu_instancing. Nodes: by a node each. Gpu: by
+/// 20,000 of them; beyond, parts that save least are merged, or, where that would add more than a
+/// GiB, equal ones become one node with EXT_mesh_gpu_instancing. Nodes: by a node each. Gpu: by
 /// EXT_mesh_gpu_instancing. None: not at all, everything is one mesh, merged by material.
 enum class Instancing : uint8_t { Auto, Nodes, Gpu, None };
 
@@ -41,6 +41,8 @@ struct WriteResult {
   /// Of all files that were written.
   uint64_t bytes = 0;
   DiagnosticList diagnostics;
+  /// glTF: what its geometry would take more if parts that occur several times were written out.
+  uint64_t savedBytes = 0;
 };
 
 /// A model file in memory.

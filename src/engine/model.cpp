@@ -160,6 +160,7 @@ WriteResult written(const Model::Impl& impl, const std::string& path,
   out.ok = true;
   out.triangles = report->triangles;
   out.bytes = report->bytes;
+  out.savedBytes = report->savedBytes;
   MissingFiles told;
   if (impl.rules) told.add(impl.rules->diagnostics);
   told.add(impl.diagnostics);

@@ -26,6 +26,8 @@ struct RunFigures {
   std::optional<int64_t> peakBytes;
   /// Of the file that was written, in place of the model's own count.
   std::optional<uint64_t> triangles;
+  /// Of the file, and what sharing saves in it; see WriteResult.
+  std::optional<uint64_t> fileBytes, savedBytes;
 };
 /// Counts, bounds, reports, prints, diagnostics and figures as one object.
 std::string statisticsJson(const Model& model, const RunFigures& figures = {});

@@ -51,6 +51,8 @@ void writeFigures(JsonWriter& json, const RunFigures& f) {
   }
   json.endObject();
   if (f.peakBytes) json.key("peakBytes").value(*f.peakBytes);
+  if (f.fileBytes) json.key("fileBytes").value(*f.fileBytes);
+  if (f.savedBytes) json.key("savedBytes").value(*f.savedBytes);
 }
 
 void openNode(JsonWriter& json, const DerivationTrace& trace, const DerivationTrace::Node& n) {

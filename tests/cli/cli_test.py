@@ -304,6 +304,25 @@ class Models(Case):
         "many": "Lot --> split(x) { 1 : House }*\nHouse --> extrude(9) [ Far(8) ] Y." + GROWING,
     }
 
+    def testInstancingIsChosen(self):
+        self.put("x.cga", "Lot --> split(x) { 4 : variants(2) Post }*\n"
+                 "Post --> s(1, rand(2, 9), 1) primitiveCylinder(200) split(y) { ~1 : Low. | ~1 : High. }")
+        nodes, sizes = {}, {}
+        for way in ["auto", "nodes", "gpu", "none"]:
+            told = self.run_gable("generate", "x.cga", "--lot", "400x4", "-o", "a.glb", "--instancing", way, "--stats",
+                                  "-")
+            figures = json.loads(told[told.index("{"):])
+            data = (self.folder / "a.glb").read_bytes()
+            self.assertEqual(figures["fileBytes"], len(data))
+            self.assertEqual(figures["savedBytes"] > 0, way != "none")
+            end = 20 + int.from_bytes(data[12:16], "little")
+            nodes[way], sizes[way] = len(json.loads(data[20:end])["nodes"]), len(data)
+        self.assertEqual((nodes["auto"], nodes["gpu"], nodes["none"]), (101, 3, 1))
+        self.assertEqual(nodes["nodes"], nodes["auto"])
+        self.assertLess(sizes["gpu"], sizes["nodes"])
+        self.assertLess(sizes["nodes"] * 5, sizes["none"])
+        self.run_gable("generate", "x.cga", "-o", "a.glb", "--instancing", "both", status=USAGE, says="both")
+
     def testStatisticsOnStdoutAreJsonAndNothingElse(self):
         self.put("x.cga", 'Lot --> print("a line") extrude(2)\n')
         done = subprocess.run([str(GABLE), "generate", "x.cga", "-o", "a.glb", "--lot", "2x2", "--stats", "-"],

@@ -57,7 +57,7 @@ class GltfWriter {
         binary_(extensionOf(path) == "glb"),
         options_(options),
         plan_(scene, planFor(options.instancing)),
-        gpu_(options.instancing == Instancing::Gpu || !plan_.fits()),
+        gpu_(options.instancing == Instancing::Gpu || plan_.grouped()),
         materials_(scene, options, report_.warnings),
         document_(scene, plan_, materials_),
         recentVariants_(256, {~uint64_t{0}, 0}) {}

@@ -24,7 +24,7 @@ constexpr double kTinyBytes = 2048;
 // Leaves with meshes from this size on get nodes of their own when the mesh occurs twice.
 constexpr double kAloneBytes = 8192;
 // What a bound on nodes may add to a file.
-constexpr double kMostMerged = 256.0 * 1024 * 1024;
+constexpr double kMostMerged = 1024.0 * 1024 * 1024;
 
 double bytesOf(const Mesh& m) {
   double triangles = 0;
@@ -170,6 +170,8 @@ void ScenePlan::joinRoots() {
 
 void ScenePlan::plan(double smallest) {
   smallest_ = smallest;
+  // The more has to be merged, the more a node is worth.
+  nodeBytes_ = kNodeBytes * smallest / kTinyBytes;
   countNodes();
   decide();
   weigh();
@@ -207,8 +209,9 @@ void ScenePlan::decide() {
     } else if (references[p] == 1 || tiny) {
       use_[p] = Use::Merged;
     } else {
-      use_[p] = bytes_[p] <= placements[p] * nodes_[p] * kNodeBytes || nodes_[p] == 0 ? Use::Solid
-                                                                                      : Use::Open;
+      const bool solid = nodes_[p] == 0 || bytes_[p] <= placements[p] * nodes_[p] * nodeBytes_;
+      // What lies below a group is a group of its own.
+      use_[p] = solid ? Use::Solid : grouped_ ? Use::Merged : Use::Open;
     }
     if (use_[p] == Use::Solid) continue;
     const Prototype& prototype = scene_.prototypes[p];
@@ -259,6 +262,13 @@ void ScenePlan::weigh() {
     if (use_[p] == Use::Solid) within[p] = {0, bytes_[p]};
     if (use_[p] != Use::Merged) cost_.bytes += within[p].bytes;
   }
+  if (grouped_) {
+    cost_.nodes = 1 + static_cast<double>(std::count(use_.begin(), use_.end(), Use::Solid)) +
+                  static_cast<double>(std::count_if(alone_.begin(), alone_.end(), [&](uint64_t k) {
+                    return meshBytes_[k >> 32] >= smallest_;
+                  }));
+    return;
+  }
   for (const Root& r : scene_.roots) {
     const uint32_t p = shownBy(r.instance);
     // A root that is merged elsewhere is a unit of its own all the same.
@@ -268,16 +278,14 @@ void ScenePlan::weigh() {
 }
 
 // Merges more until the nodes are few enough: what saves least comes first. Each step takes a
-// quarter more bytes; the first that is enough is searched by halves. Where that would make the
-// file much larger, all stays as it was.
-void ScenePlan::fit(double mostNodes) {
+// quarter more bytes; the first that is enough is searched by halves.
+void ScenePlan::merge(double mostNodes) {
   const double largest = std::max(*std::max_element(bytes_.begin(), bytes_.end()),
                                   *std::max_element(meshBytes_.begin(), meshBytes_.end()));
   std::vector<double> steps{kTinyBytes};
   while (steps.back() < largest) steps.push_back(steps.back() * 1.25);
   // Of what is as large as the largest, leaves still stand alone.
   steps.push_back(steps.back() * 1.25);
-  const Cost before = cost_;
   size_t low = 0, high = steps.size() - 1;
   while (low + 1 < high) {
     const size_t middle = (low + high) / 2;
@@ -285,8 +293,18 @@ void ScenePlan::fit(double mostNodes) {
     (cost_.nodes <= mostNodes ? high : low) = middle;
   }
   plan(steps[high]);
-  fits_ = cost_.nodes <= mostNodes && cost_.bytes <= before.bytes + kMostMerged;
-  if (!fits_) plan(kTinyBytes);
+}
+
+// Where merging would make the file much larger, equal children are to be one node: then all of
+// them are children of one unit, which has as many nodes below it as there are other units.
+void ScenePlan::fit(double mostNodes) {
+  const Cost before = cost_;
+  merge(mostNodes);
+  if (cost_.bytes <= before.bytes + kMostMerged) return;
+  grouped_ = true;
+  joinRoots();
+  plan(kTinyBytes);
+  if (cost_.nodes > mostNodes) merge(mostNodes);
 }
 
 void ScenePlan::makeUnits() {

@@ -76,8 +76,8 @@ class ScenePlan {
   /// Linear in the scene, instances of merged prototypes expanded.
   ScenePlan(const Scene& scene, const PlanOptions& options);
 
-  /// False where the bound on nodes would cost too much: then there are more.
-  bool fits() const { return fits_; }
+  /// True where the bound on nodes holds only if one node shows all equal children of a unit.
+  bool grouped() const { return grouped_; }
   /// In the order in which nodes first show them.
   const std::vector<Unit>& units() const { return units_; }
   /// In the order of the scene's roots; one that stands for all of them where they are joined.
@@ -107,6 +107,7 @@ class ScenePlan {
   void decide();
   Cost aloneIn(size_t prototype) const;
   void weigh();
+  void merge(double mostNodes);
   void fit(double mostNodes);
   void measureContents();
   void makeUnits();
@@ -125,7 +126,9 @@ class ScenePlan {
   Vec3 home_;
   /// Prototypes up to so many bytes are merged wherever they stand.
   double smallest_ = 0;
-  bool fits_ = true;
+  /// What a node costs.
+  double nodeBytes_ = 0;
+  bool grouped_ = false;
   /// By prototype: the first of equal content.
   std::vector<uint32_t> same_;
   Cost cost_;

@@ -120,7 +120,7 @@ TEST(Plan, aBoundOnNodesMergesFirstWhatSavesLeast) {
   EXPECT_EQ(shownNodes(ScenePlan(b.scene, {}), 0), 121u);
   const auto children = [&](uint64_t most) {
     const ScenePlan plan(b.scene, {true, most});
-    EXPECT_TRUE(plan.fits());
+    EXPECT_FALSE(plan.grouped());
     return plan.units()[0].children.size();
   };
   EXPECT_EQ(children(121), 120u);
@@ -128,6 +128,22 @@ TEST(Plan, aBoundOnNodesMergesFirstWhatSavesLeast) {
   EXPECT_EQ(children(91), 90u);
   EXPECT_EQ(children(31), 30u);
   EXPECT_EQ(children(30), 0u);
+  expectWhole(b.scene);
+}
+
+TEST(Plan, prototypesOfEqualContentAreOne) {
+  SceneBuilder b;
+  uint32_t towers[3];
+  for (const int boxes : {30, 30, 31}) {
+    const uint32_t w = wall(b, boxes);
+    for (int i = 0; i < 9; ++i) b.instance(w, Frame::moved({0, 5.0 * i, 0}));
+    towers[w / 2] = b.prototype("Tower");
+  }
+  for (int i = 0; i < 3; ++i) b.root("tower", towers[i], Frame::moved({90.0 * i, 0, 0}));
+  const ScenePlan plan(b.scene, {});
+  ASSERT_EQ(plan.roots().size(), 3u);
+  EXPECT_EQ(plan.roots()[0].unit, plan.roots()[1].unit);
+  EXPECT_NE(plan.roots()[0].unit, plan.roots()[2].unit);
   expectWhole(b.scene);
 }
 
@@ -147,16 +163,22 @@ TEST(Plan, tooManyRootsAreOneUnitAndStillShare) {
   expectWhole(b.scene);
 }
 
-TEST(Plan, aBoundThatWouldCostTooMuchIsNotKept) {
+TEST(Plan, whereMergingWouldCostTooMuchEqualChildrenAreOneNode) {
   SceneBuilder b;
   const uint32_t tree = b.mesh(testing::ball(200, 200));
-  for (int i = 0; i < 100; ++i) b.leaf(tree, Frame::moved({9.0 * i, 0, 0}), {1, 1, 1});
+  for (int i = 0; i < 300; ++i) b.leaf(tree, Frame::moved({9.0 * i, 0, 0}), {1, 1, 1});
+  const uint32_t row = b.prototype("Row");
+  for (int i = 0; i < 10; ++i) b.instance(row, Frame::moved({0, 0, 9.0 * i}));
   const uint32_t grove = b.prototype("Grove");
-  for (int i = 0; i < 10; ++i) b.instance(grove, Frame::moved({0, 0, 9.0 * i}));
-  b.root("wood", b.prototype("Wood"), Frame{});
+  for (int i = 0; i < 5; ++i) b.root("grove", grove, Frame::moved({999.0 * i, 0, 0}));
   const ScenePlan plan(b.scene, {true, 90});
-  EXPECT_FALSE(plan.fits());
-  EXPECT_GT(shownNodes(plan, 0), 90u);
+  EXPECT_TRUE(plan.grouped());
+  ASSERT_EQ(plan.roots().size(), 1u);
+  EXPECT_LE(plan.units().size(), 3u);
+  for (const PlannedChild& c : plan.units()[0].children) {
+    EXPECT_TRUE(plan.units()[c.unit].children.empty());
+  }
+  EXPECT_EQ(shownLeaves(plan, 0), 15000u);
 }
 
 TEST(Plan, nestedScenesAreShownWhole) {

@@ -30,7 +30,7 @@ struct WriteOptions {
   /// glTF: how parts that occur several times are shown.
   enum class Instancing : uint8_t {
     /// By nodes that share a mesh, as long as there are at most kMostNodes: beyond, parts that save
-    /// least are merged, and where that would add much, as Gpu.
+    /// least are merged. Where that would add more than a GiB, as Gpu, from one node down.
     Auto,
     /// By a node each.
     Nodes,
