@@ -79,6 +79,7 @@ std::shared_ptr<const Shapes::Impl> shapesOf(const CityPlan& plan, const MapFeat
     input.attributes = s.attributes;
     input.attributes.push_back({kStartRuleAttribute, {{PlainValue::Kind::Text, 0, s.rule}}, 0, 0});
     out->footprints.push_back(footprint(std::move(input)));
+    out->footprints.back().reachesImports = true;
   }
   return out;
 }

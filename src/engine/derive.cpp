@@ -38,8 +38,9 @@ bool takesList(const Program& program, const std::string& name) {
          type == ValueType::StringArray;
 }
 
-std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, const Program& program,
-                                        ValuePool& pool) {
+std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, const Rules::Impl& r) {
+  const Program& program = r.program;
+  ValuePool& pool = *r.pool;
   std::vector<InitialShape> out;
   out.reserve(shapes.footprints.size());
   // Whether the rules have one of the name.
@@ -68,6 +69,9 @@ std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, const Progra
       if (!EdgeAttributes::isNamed(a.name, value.isArray()) || takesList(program, a.name)) {
         s.attributes.emplace_back(identifier(a.name), value);
       }
+      if (!f.reachesImports) continue;
+      const auto [begin, end] = r.open.equal_range(identifier(a.name));
+      for (auto at = begin; at != end; ++at) s.attributes.emplace_back(at->second, value);
     }
     out.push_back(std::move(s));
   }
@@ -252,7 +256,7 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
   DeriveOptions options = optionsOf(settings, r, impl->diagnostics);
   if (hasErrors(impl->diagnostics)) return impl;
   options.geo = shapes.impl().geo.get();
-  std::vector<InitialShape> initial = initialShapes(shapes.impl(), r.program, *r.pool);
+  std::vector<InitialShape> initial = initialShapes(shapes.impl(), r);
   if (r.project) r.project->addTextures(shapes.impl().textures);
   for (const auto& [index, seed] : settings.shapeSeeds) {
     if (index < initial.size()) initial[index].seed = seed;

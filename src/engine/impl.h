@@ -35,6 +35,8 @@ struct ShapeFootprint {
   std::vector<std::string> groups;
   /// Its place in the input that it was chosen from; below 0: the place where it is.
   int64_t index = -1;
+  /// Its attributes reach attributes of imported files as well: see Rules::Impl::open.
+  bool reachesImports = false;
 };
 
 struct Rules::Impl {
@@ -59,6 +61,9 @@ struct Rules::Impl {
   std::vector<std::vector<AttributeInfo::Annotation>> ruleAnnotations;
   std::string description;
   std::vector<std::string> styles;
+  /// Attributes of imported files that no file above declares, overrides or protects, by their own
+  /// names: "height" to "house.height".
+  std::multimap<std::string, std::string> open;
 };
 
 struct Shapes::Impl {

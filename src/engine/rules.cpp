@@ -148,6 +148,27 @@ std::vector<AttributeInfo::Annotation> annotationsOf(const std::vector<Annotatio
   return out;
 }
 
+// Whether an import hands a name down from the main file to a module: no import on the way has
+// empty brackets or the name in them.
+bool isHandedDown(const lang::ResolvedProgram& from, lang::ModuleId module, std::string_view name) {
+  constexpr size_t kOverrides = 3;
+  while (from.modules[module].importer != lang::kNone) {
+    const lang::Module& m = from.modules[module];
+    const lang::Tree& t = from.tree(m.importer);
+    const lang::NodeId list = t.kind(m.importNode) == lang::NodeKind::Import
+                                  ? t.child(m.importNode, kOverrides)
+                                  : lang::kNoNode;
+    if (list != lang::kNoNode) {
+      const auto& items = t.children(list);
+      const bool named = std::any_of(items.begin(), items.end(),
+                                     [&](lang::NodeId item) { return t.text(item) == name; });
+      if (items.empty() || named) return false;
+    }
+    module = m.importer;
+  }
+  return true;
+}
+
 // What the program does not hold, since nothing runs it.
 void describe(Rules::Impl& to, const lang::ResolvedProgram& from) {
   for (const lang::Module& m : from.modules) {
@@ -163,6 +184,12 @@ void describe(Rules::Impl& to, const lang::ResolvedProgram& from) {
                             std::string(t.text(t.child(id, 1))),
                             made == from.modules.end() ? "" : from.units[made->unit].path});
     }
+  }
+  for (const lang::AttributeInfo& a : from.attributes) {
+    const lang::Module& m = from.modules[a.module];
+    if (a.constant || a.source != lang::ValueSource::Own || m.importer == lang::kNone) continue;
+    if (!m.dynamic && isHandedDown(from, a.module, a.name))
+      to.open.emplace(a.name, a.qualifiedName);
   }
   for (const lang::RuleInfo& r : from.rules) {
     lang::Annotations own = r.annotations;

@@ -71,6 +71,28 @@ class City(Case):
         self.assertIn("g Block", text)
         self.assertIn("g Flat", text)
 
+    def testAnAttributeOfTheMapIsDeclaredOnce(self):
+        (self.folder / "once").mkdir()
+        house = 'attr heritage = "none"\nattr roof_colour = ""\nHouse --> print(heritage + roof_colour) Block.\n'
+        self.put("once/house.cga", house)
+        houses = [feature("Polygon", square(30 * i, 0, 14), building="yes", heritage=h, **{"roof:colour": "red"})
+                  for i, h in enumerate(("listed", "old"))]
+        self.put("heritage.geojson", json.dumps({**MAP, "features": houses}))
+        main = '@StartRule Ground --> NIL\nBuilding --> houses.House\n'
+        said = {"": ("listed#ff0000", "old#ff0000"), " (heritage)": ("none#ff0000",), " ()": ("none",),
+                ' (heritage = "given")': ("given#ff0000",)}
+        for brackets, texts in said.items():
+            self.put("once/city.cga", f'import houses : "house.cga"{brackets}\n{main}')
+            told = self.city("heritage.geojson", "--rules", "once", "-o", "a.obj")
+            for text in texts:
+                self.assertIn(text, told, brackets)
+        # The importer's own goes before the map's way around it.
+        self.put("once/city.cga", f'import houses : "house.cga"\nattr heritage = "mine"\n{main}')
+        self.assertIn("listed#ff0000", self.city("heritage.geojson", "--rules", "once", "-o", "a.obj"))
+        # Other shapes set attributes of imports by their whole names.
+        self.put("once/lot.cga", 'import houses : "house.cga"\nLot --> houses.House\n')
+        self.assertIn("none", self.run_gable("generate", "once/lot.cga", "--shapes", "heritage.geojson", "-o", "a.obj"))
+
     def testHousesLookAsInTheirCountry(self):
         rules = '@StartRule Ground --> NIL\nattr country = ""\nattr kind = ""\nBuilding --> print(country) print(kind) Block.\n'
         self.put("own.cga", rules)
