@@ -58,7 +58,18 @@ int readCountry(std::string text, gable::CitySettings& settings) {
   return wrongOption("--country", "two letters, such as MC or CZ", text);
 }
 
-int buildModel(const gable::City& city, CityArguments& arguments, gable::RunFigures& figures,
+int checkPicture(const CityArguments& arguments, gable::PictureSettings& settings) {
+  if (const int status = checkExtension(arguments.picture.output, {"png"})) return status;
+  if (!tileFolder(arguments.output).empty()) {
+    std::fputs("gable: --picture draws a model, and -o asks for tiles; give one of the two\n",
+               stderr);
+    return kExitUsage;
+  }
+  return pictureSettings(arguments.picture, settings);
+}
+
+int buildModel(const gable::City& city, CityArguments& arguments,
+               const gable::PictureSettings& picture, gable::RunFigures& figures,
                gable::TileResult& tiles) {
   gable::DeriveSettings settings;
   if (const int status = deriveSettings(arguments.derive, settings)) return status;
@@ -75,8 +86,13 @@ int buildModel(const gable::City& city, CityArguments& arguments, gable::RunFigu
   }
   const gable::Model model = deriveModel(rules, city.shapes(), settings, stderr);
   if (gable::hasErrors(model.diagnostics())) return statusOf(model);
-  const gable::WriteSettings write = writeSettings(arguments.instancing, arguments.derive.limits);
-  if (const int status = writeModel(model, arguments.output, write, figures)) return status;
+  if (!arguments.output.empty()) {
+    const gable::WriteSettings write = writeSettings(arguments.instancing, arguments.derive.limits);
+    if (const int status = writeModel(model, arguments.output, write, figures)) return status;
+  }
+  if (!arguments.picture.output.empty()) {
+    if (const int status = drawPicture(model, arguments.picture.output, picture)) return status;
+  }
   return statusOf(model);
 }
 
@@ -85,8 +101,13 @@ int buildModel(const gable::City& city, CityArguments& arguments, gable::RunFigu
 int runCity(const CityArguments& given) {
   CityArguments arguments = given;
   const double begin = secondsNow();
-  if (arguments.output.empty() && arguments.plan.empty() && arguments.stats.empty()) {
-    std::fputs("gable: say what to write: a model with -o, the ground with --plan\n", stderr);
+  const bool draws = !arguments.picture.output.empty();
+  const bool builds = draws || !arguments.output.empty();
+  if (!builds && arguments.plan.empty() && arguments.stats.empty()) {
+    std::fputs(
+        "gable: say what to write: a model with -o, a picture with --picture, the ground with "
+        "--plan\n",
+        stderr);
     return kExitUsage;
   }
   if (!arguments.output.empty() && tileFolder(arguments.output).empty()) {
@@ -94,7 +115,12 @@ int runCity(const CityArguments& given) {
     formats.emplace_back("png");
     if (const int status = checkExtension(arguments.output, formats)) return status;
   }
-  if (!arguments.output.empty()) {
+  arguments.picture.derive = arguments.derive;
+  gable::PictureSettings picture;
+  if (draws) {
+    if (const int status = checkPicture(arguments, picture)) return status;
+  }
+  if (builds) {
     if (const int status = findRules(arguments.derive)) return status;
   }
   gable::CitySettings settings;
@@ -114,7 +140,7 @@ int runCity(const CityArguments& given) {
   }
   int status = kExitDone;
   gable::TileResult tiles;
-  if (!arguments.output.empty()) status = buildModel(city, arguments, figures, tiles);
+  if (builds) status = buildModel(city, arguments, picture, figures, tiles);
   if (!arguments.stats.empty() && (status == kExitDone || status == kExitLimit)) {
     figures.totalSeconds = secondsNow() - begin;
     figures.peakBytes = peakBytes();

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "commands.h"
 #include "common.h"
 #include "tiles.h"
 
@@ -22,5 +23,7 @@ struct CityArguments {
   std::string stats;
   std::string instancing = "auto";
   TileArguments tiles;
+  /// Its output is empty where no picture is asked for; it has no derivation of its own.
+  RenderArguments picture;
 };
 int runCity(const CityArguments& arguments);

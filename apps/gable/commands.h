@@ -76,6 +76,9 @@ struct RenderArguments {
 };
 int runRender(const RenderArguments& arguments);
 /// An exit status other than kExitDone, with a message, when an option of the picture is wrong.
+/// Draws a model with a line of progress.
+int drawPicture(const gable::Model& model, const std::string& path,
+                gable::PictureSettings settings);
 int pictureSettings(const RenderArguments& arguments, gable::PictureSettings& settings);
 /// Whether a path names a model that can be read, by its extension.
 bool isModel(const std::string& path);

@@ -196,6 +196,8 @@ void addCity(CLI::App& app, CityArguments& a, int& status) {
                    "The model: .glb .gltf .obj .ply .stl .png; a folder/ for 3D Tiles");
   addInstancing(city, a.instancing);
   addTileOptions(city, a.tiles);
+  city->add_option("--picture", a.picture.output, "Draw the place as well: .png");
+  addPictureOptions(city, a.picture);
   city->add_option("--plan", a.plan, "Write the ground as GeoJSON: a polygon a piece, its surface");
   city->add_option("--stats", a.stats, "Write areas and counts as JSON to a file, or - for stdout");
   city->add_option("--set", a.derive.set, "An attribute's value: NAME=VALUE; may be repeated")

@@ -80,6 +80,16 @@ bool isModel(const std::string& path) {
   return extension == "glb" || extension == "gltf" || extension == "obj";
 }
 
+int drawPicture(const gable::Model& model, const std::string& path,
+                gable::PictureSettings settings) {
+  ProgressLine progress("drawing");
+  settings.progress = progress.callback();
+  const gable::WriteResult written = model.picture(path, settings);
+  print(written.diagnostics);
+  if (gable::hasErrors(written.diagnostics)) return statusOf(written.diagnostics, kExitFile);
+  return written.ok ? kExitDone : kExitLimit;
+}
+
 int runRender(const RenderArguments& arguments) {
   gable::PictureSettings settings;
   if (const int status = checkExtension(arguments.output, {"png"})) return status;
@@ -97,12 +107,6 @@ int runRender(const RenderArguments& arguments) {
   if (gable::hasErrors(model.diagnostics())) {
     return statusOf(model.diagnostics(), statusOf(model));
   }
-  ProgressLine progress("drawing");
-  settings.progress = progress.callback();
-  const gable::WriteResult written = model.picture(arguments.output, settings);
-  print(written.diagnostics);
-  if (gable::hasErrors(written.diagnostics)) {
-    return statusOf(written.diagnostics, kExitFile);
-  }
-  return written.ok ? statusOf(model) : kExitLimit;
+  const int status = drawPicture(model, arguments.output, settings);
+  return status == kExitDone ? statusOf(model) : status;
 }

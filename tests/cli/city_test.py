@@ -63,6 +63,16 @@ class City(Case):
         self.assertGreater(len(one), 10_000)
         self.assertEqual(one, two)
 
+    def testAPictureIsDrawnFromTheSameDerivation(self):
+        self.city("map.geojson", "--picture", "a.png", "--size", "64x36", "--samples", "1", "--eye=0,60,120",
+                  "--target=0,0,0")
+        picture = (self.folder / "a.png").read_bytes()
+        self.assertEqual(picture[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(int.from_bytes(picture[16:20], "big"), 64)
+        self.city("map.geojson", "--picture", "a.jpg", status=USAGE, says=".png")
+        self.city("map.geojson", "--picture", "a.png", "--eye=0,60,120", status=USAGE, says="--target")
+        self.city("map.geojson", "-o", "tiles/", "--picture", "a.png", status=USAGE, says="--picture")
+
     def testRulesOfTheUserTakeTheirPlace(self):
         (self.folder / "rules").mkdir()
         self.put("rules/city.cga", "@StartRule Ground --> Flat.\nBuilding --> extrude(7) Block.\n")
