@@ -11,7 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
+#include <tuple>
+#include <vector>
 
 #include "base/work.h"
 #include "geom/mesh/face_triangles.h"
@@ -22,9 +23,13 @@ namespace {
 constexpr uint32_t kNothing = TerrainSurface::kNothing;
 // What stands is taller than this, and not wider than so many times its height and a bit.
 constexpr double kLeastTall = 0.5, kWidest = 1.2, kWider = 0.5;
+// So are its parts that are no wider and begin as far above the ground.
+constexpr double kWidestAbove = 3;
 // What reaches below the ground lies in it.
 constexpr double kBelow = -0.1;
 constexpr double kSame = 1e-6;
+// Faces of what is shared: an instance takes room, too.
+constexpr size_t kLeastShared = 10;
 // In square metres: what is smaller is no piece of a face.
 constexpr double kLeastArea = 1e-10;
 
@@ -290,45 +295,98 @@ class SceneDrape {
   Scene drape(const std::function<bool(const std::string&)>& lies) {
     out_ = from_;
     std::map<uint32_t, bool> known;
-    for (Root& root : out_.roots) {
-      const auto [at, isNew] = known.emplace(root.name, false);
-      if (isNew) at->second = root.name < from_.names.size() && lies(from_.names[root.name]);
-      if (at->second) layDown(root);
+    for (uint32_t i = 0; i < out_.roots.size(); ++i) {
+      const uint32_t name = out_.roots[i].name;
+      const auto [at, isNew] = known.emplace(name, false);
+      if (isNew) at->second = name < from_.names.size() && lies(from_.names[name]);
+      if (at->second) layDown(i);
     }
+    for (const Laid& l : laid_) put(l);
     return std::move(out_);
   }
 
  private:
-  // The root gets a prototype of its own, with leaves in world coordinates.
-  void layDown(Root& root) {
-    const Prototype& old = from_.prototypes[root.instance.prototype];
+  struct Laid {
+    uint32_t root = 0;
+    std::vector<Leaf> leaves;
+    // By leaf.
+    std::vector<bool> stands;
+  };
+  // What leaves have in common that differ by their place alone.
+  using Kind = std::tuple<uint32_t, uint32_t, uint32_t, uint32_t, uint32_t, double, double, double>;
+  static Kind kindOf(const Leaf& l) {
+    return {l.mesh, l.materials, l.name, l.source, l.attributes, l.scale.x, l.scale.y, l.scale.z};
+  }
+
+  void layDown(uint32_t root) {
+    const Instance& at = from_.roots[root].instance;
+    const Prototype& old = from_.prototypes[at.prototype];
     if (old.empty) return;
-    Prototype own = old;
-    own.firstLeaf = static_cast<uint32_t>(out_.leaves.size());
-    own.firstInstance = static_cast<uint32_t>(out_.instances.size());
-    own.instanceCount = 0;
-    forEachLeaf(from_, old, root.instance.frame, [&](const Leaf& leaf, const Frame& world) {
+    laid_.push_back({root, {}, {}});
+    forEachLeaf(from_, old, at.frame, [&](const Leaf& leaf, const Frame& world) {
       Leaf moved = leaf;
       moved.frame = world;
-      addLeaf(moved);
+      addLeaf(moved, laid_.back());
     });
-    own.leafCount = static_cast<uint32_t>(out_.leaves.size()) - own.firstLeaf;
-    own.empty = own.leafCount == 0;
+  }
+
+  // The root gets a prototype of its own, with leaves in world coordinates. Of a leaf that stands
+  // in several places there is one, and instances of it.
+  void put(const Laid& laid) {
+    Root& root = out_.roots[laid.root];
+    Prototype own = from_.prototypes[root.instance.prototype];
+    std::vector<Leaf> leaves;
+    std::vector<Instance> instances;
+    for (size_t i = 0; i < laid.leaves.size(); ++i) {
+      work();
+      const Leaf& leaf = laid.leaves[i];
+      const auto count = counts_.find(kindOf(leaf));
+      if (laid.stands[i] && count != counts_.end() && count->second > 1) {
+        instances.push_back({leaf.frame, alone(leaf), static_cast<uint32_t>(leaves.size())});
+      } else {
+        leaves.push_back(leaf);
+      }
+    }
+    own.firstLeaf = static_cast<uint32_t>(out_.leaves.size());
+    own.leafCount = static_cast<uint32_t>(leaves.size());
+    own.firstInstance = static_cast<uint32_t>(out_.instances.size());
+    own.instanceCount = static_cast<uint32_t>(instances.size());
+    own.empty = leaves.empty() && instances.empty();
+    out_.leaves.insert(out_.leaves.end(), leaves.begin(), leaves.end());
+    out_.instances.insert(out_.instances.end(), instances.begin(), instances.end());
     root.instance.prototype = static_cast<uint32_t>(out_.prototypes.size());
     root.instance.frame = Frame();
     out_.prototypes.push_back(own);
   }
+  uint32_t alone(const Leaf& leaf) {
+    const auto [at, isNew] = alone_.emplace(kindOf(leaf), 0);
+    if (!isNew) return at->second;
+    at->second = static_cast<uint32_t>(out_.prototypes.size());
+    Prototype p;
+    p.name = leaf.name;
+    p.firstLeaf = static_cast<uint32_t>(out_.leaves.size());
+    p.leafCount = 1;
+    p.firstInstance = static_cast<uint32_t>(out_.instances.size());
+    p.shapes = 1;
+    out_.leaves.push_back(leaf);
+    out_.leaves.back().frame = Frame();
+    out_.prototypes.push_back(p);
+    return at->second;
+  }
 
-  void addLeaf(Leaf leaf) {
+  void addLeaf(Leaf leaf, Laid& to) {
     const Mesh& mesh = *from_.meshes[leaf.mesh];
     const Mesh world = transformed(mesh, leaf.scale, leaf.frame);
     const Box3 box = world.bounds();
     if (box.empty()) return;
     const Vec3 size = box.size();
-    const bool stands = size.y > kLeastTall && box.min.y > kBelow &&
-                        std::max(size.x, size.z) < kWidest * size.y + kWider;
+    const double wide = std::max(size.x, size.z);
+    const bool isTall = size.y > kLeastTall && wide < kWidest * size.y + kWider;
+    const bool isAbove = box.min.y > kLeastTall && wide < kWidestAbove;
+    const bool stands = box.min.y > kBelow && (isTall || isAbove);
     if (stands) {
       leaf.frame.origin.y += ground_.heightAt(plan(box.center()));
+      if (mesh.faceCount() >= kLeastShared) ++counts_[kindOf(leaf)];
     } else {
       MeshDrape drape(world, ground_);
       Mesh laid = drape.take();
@@ -338,12 +396,16 @@ class SceneDrape {
       leaf.scale = {1, 1, 1};
       out_.meshes.push_back(makeRef<Mesh>(std::move(laid)));
     }
-    out_.leaves.push_back(leaf);
+    to.leaves.push_back(leaf);
+    to.stands.push_back(stands);
   }
 
   const Scene& from_;
   const TerrainSurface& ground_;
   Scene out_;
+  std::vector<Laid> laid_;
+  // Of what stands and is worth sharing: how often, and the prototype of it alone.
+  std::map<Kind, uint32_t> counts_, alone_;
 };
 
 }  // namespace

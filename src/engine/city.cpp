@@ -164,9 +164,10 @@ void tellDoubts(const std::vector<MapDoubt>& doubts, const std::string& path, Di
   for (Diagnostic& d : listOf(list, Sources{})) out.push_back(std::move(d));
 }
 
-Result<HeightField> heightsOf(const MapFeatures& map, const std::string& path) {
+Result<HeightField> heightsOf(const MapFeatures& map, const std::string& path, bool& found) {
   Result<std::string> content = readFile(path, kLargestHeightFile);
-  if (!content.ok()) return content.error();
+  found = content.ok();
+  if (!found) return content.error();
   Result<HeightRaster> raster = HeightRaster::read(*content, path);
   if (!raster.ok()) return raster.error();
   return HeightField::of(*raster, *map.geo, map.area);
@@ -196,8 +197,13 @@ std::shared_ptr<City::Impl> parsed(const std::string& content, const std::string
   impl->map = std::move(*map);
   std::optional<HeightField> heights;
   if (!settings.terrain.empty()) {
-    Result<HeightField> field = heightsOf(impl->map, settings.terrain);
-    if (!field.ok()) return refused(field.error());
+    bool found = true;
+    Result<HeightField> field = heightsOf(impl->map, settings.terrain, found);
+    if (!field.ok()) {
+      impl = refused(field.error());
+      impl->found = found;
+      return impl;
+    }
     heights.emplace(std::move(*field));
     tellFilled(heights->filled(), settings.terrain, impl->diagnostics);
   }

@@ -6,6 +6,7 @@
 A map of a few features, the same for each test. Files are made in FOLDER. Run from the repository's root.
 """
 import json
+import struct
 import sys
 import unittest
 
@@ -31,6 +32,18 @@ MAP = {
         feature("LineString", [[5, 5]], highway="residential"),
     ],
 }
+
+
+def heights(at, size=12, step=20):
+    """A TIFF file of heights in the map's own metres, from (-40, 200) to the south and the east; `at` gives each."""
+    data = b"".join(struct.pack("<f", at(-40 + (c + 0.5) * step, 200 - (r + 0.5) * step))
+                    for r in range(size) for c in range(size))
+    place = struct.pack("<9d", step, step, 0, 0, 0, 0, -40, 200, 0)
+    tags = [(256, 4, 1, size), (257, 4, 1, size), (258, 3, 1, 32), (259, 3, 1, 1), (262, 3, 1, 1), (273, 4, 1, 8), (277, 3, 1, 1),
+            (278, 4, 1, size), (279, 4, 1, len(data)), (339, 3, 1, 3), (33550, 12, 3, 8 + len(data)),
+            (33922, 12, 6, 32 + len(data))]
+    directory = struct.pack("<H", len(tags)) + b"".join(struct.pack("<HHII", *t) for t in tags)
+    return b"II*\0" + struct.pack("<I", 8 + len(data) + len(place)) + data + place + directory + bytes(4)
 
 
 class City(Case):
@@ -102,6 +115,30 @@ class City(Case):
         # Other shapes set attributes of imports by their whole names.
         self.put("once/lot.cga", 'import houses : "house.cga"\nLot --> houses.House\n')
         self.assertIn("none", self.run_gable("generate", "once/lot.cga", "--shapes", "heritage.geojson", "-o", "a.obj"))
+
+    def testAPlaceLiesOnItsTerrain(self):
+        (self.folder / "heights.tif").write_bytes(heights(lambda x, y: 200 + 0.3 * x + 0.2 * y))
+        for jobs in ("1", "2"):
+            self.city("map.geojson", "--terrain", "heights.tif", "--jobs", jobs, "-o", f"{jobs}.glb")
+        one, two = ((self.folder / f"{jobs}.glb").read_bytes() for jobs in ("1", "2"))
+        self.assertEqual(one, two)
+        self.city("map.geojson", "--terrain", "heights.tif", "--stats", "stats.json")
+        stats = self.read("stats.json")
+        self.assertTrue(195 < stats["lowest"] < 210 and 225 < stats["highest"] < 245, stats["lowest"])
+        self.assertGreater(stats["shapes"]["Plinth"], 0)
+        self.put("own.cga", "@StartRule Ground --> Flat.\nBuilding --> extrude(7) Block.\nPlinth --> Stone.\n")
+        self.city("map.geojson", "--terrain", "heights.tif", "--rules", "own.cga", "-o", "own.obj")
+        ys = [float(line.split()[2]) for line in (self.folder / "own.obj").read_text().splitlines() if line.startswith("v ")]
+        self.assertTrue(190 < min(ys) and max(ys) < 260)
+
+    def testHeightsThatDoNotFitAreErrors(self):
+        self.city("map.geojson", "--terrain", "none.tif", "-o", "a.obj", status=FILE, says="none.tif")
+        self.put("broken.tif", "II*")
+        self.city("map.geojson", "--terrain", "broken.tif", "-o", "a.obj", status=WRONG, says="heights-broken")
+        self.put("map.png", "x")
+        self.city("map.geojson", "--terrain", "map.png", "-o", "a.obj", status=WRONG, says="GeoTIFF")
+        (self.folder / "void.tif").write_bytes(heights(lambda x, y: 200 if x > 20 else float("nan")))
+        self.city("map.geojson", "--terrain", "void.tif", "--stats", "s.json", says="filled")
 
     def testHousesLookAsInTheirCountry(self):
         rules = '@StartRule Ground --> NIL\nattr country = ""\nattr kind = ""\nBuilding --> print(country) print(kind) Block.\n'
