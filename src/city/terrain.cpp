@@ -21,8 +21,9 @@ namespace gable {
 namespace {
 
 constexpr uint32_t kNothing = GroundPiece::kNothing;
-// Corners of the ground, along borders and within pieces.
-constexpr double kBorderStep = 8, kInnerStep = 12;
+// Metres between corners of the ground, along borders and within pieces; within level ones they
+// keep triangles small. Places of more than so many square metres have them farther apart.
+constexpr double kBorderStep = 8, kInnerStep = 12, kLevelStep = 48, kUsualArea = 2e8;
 // A bank that leads down to water; what is higher is a cliff.
 constexpr double kHighestBank = 4;
 // How deep a building without a street is let into the hill.
@@ -38,11 +39,10 @@ bool less(Vec2 a, Vec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
 
 // The corners between the ends of a border, from the lesser end on.
 template <class Visit>
-void alongBorder(Vec2 a, Vec2 b, Visit&& visit) {
+void alongBorder(Vec2 a, Vec2 b, double step, Visit&& visit) {
   const bool turned = less(b, a);
   const Vec2 from = turned ? b : a, to = turned ? a : b;
-  const auto steps =
-      static_cast<int>(std::clamp(std::ceil(length(to - from) / kBorderStep), 1.0, 1e5));
+  const auto steps = static_cast<int>(std::clamp(std::ceil(length(to - from) / step), 1.0, 1e5));
   for (int k = 1; k < steps; ++k) {
     work();
     visit(from + (to - from) * (static_cast<double>(turned ? steps - k : k) / steps));
@@ -59,7 +59,11 @@ class Maker {
  public:
   Maker(const HeightField& field, const StreetGrade& grade, const std::vector<MapFeature>& features,
         const std::vector<GroundPiece>& ground)
-      : field_(field), grade_(grade), features_(features), ground_(ground) {}
+      : field_(field), grade_(grade), features_(features), ground_(ground) {
+    double whole = 0;
+    for (const GroundPiece& p : ground_) whole += area(p.polygon);
+    wider_ = std::max(1.0, std::sqrt(whole / kUsualArea));
+  }
 
   Terrain make() {
     outline();
@@ -105,7 +109,7 @@ class Maker {
             o.beyond.push_back(ground_[i].beyond[edge]);
           };
           put(r[k]);
-          alongBorder(r[k], r[(k + 1) % r.size()], put);
+          alongBorder(r[k], r[(k + 1) % r.size()], kBorderStep * wider_, put);
         }
         places_.insert(places_.end(), ring.begin(), ring.end());
         if (first) {
@@ -302,7 +306,7 @@ class Maker {
     std::vector<TerrainSurface::Piece> pieces;
     for (uint32_t i = 0; i < ground_.size(); ++i) {
       const Outline& o = outlines_[i];
-      const PlanMesh mesh = meshOf(o.polygon, isLevel(i) ? 0 : kInnerStep);
+      const PlanMesh mesh = meshOf(o.polygon, (isLevel(i) ? kLevelStep : kInnerStep) * wider_);
       const auto first = static_cast<uint32_t>(points.size());
       for (size_t k = 0; k < mesh.points.size(); ++k) {
         const Vec2 p = mesh.points[k];
@@ -326,6 +330,8 @@ class Maker {
   const StreetGrade& grade_;
   const std::vector<MapFeature>& features_;
   const std::vector<GroundPiece>& ground_;
+  // By how much the usual steps are stretched.
+  double wider_ = 1;
   std::vector<Outline> outlines_;
   std::vector<Vec2> places_;
   // By place: the graded ground; whether a street lies there; the water's level at a shore.

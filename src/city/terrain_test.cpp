@@ -256,6 +256,20 @@ TEST(Terrain, TheSeaIsAtItsLevelAndLandAboveIt) {
   EXPECT_TRUE(sea);
 }
 
+// A box of a thousand kilometres around one street: the ground has no more corners than a town's.
+TEST(Terrain, HugePlacesEnd) {
+  const std::string text =
+      R"({"type":"FeatureCollection","crs":{"properties":{"name":"EPSG:32632"}},"features":[)" +
+      feature(R"("highway":"residential")", "LineString", "[[-500000,0],[500000,10]]") + "]}";
+  Result<MapFeatures> map = readMapFeatures(text, {"a.geojson", {}, false}, {},
+                                            MapBox{-500000, -500000, 500000, 500000});
+  ASSERT_TRUE(map.ok());
+  const HeightField field = fieldOf(map->area, 10'000, [](Vec2 p) { return 0.001 * p.x; });
+  const CityPlan plan = planCity(*map, "CZ", &field);
+  EXPECT_LT(plan.terrain->points().size(), 6'000'000u);
+  EXPECT_GT(plan.terrain->points().size(), 1000u);
+}
+
 TEST(Terrain, BridgesGoFromBankToBank) {
   const MapFeatures map =
       mapOf({feature(R"("highway":"primary")", "LineString", "[[-100,0],[-50,0]]"),
