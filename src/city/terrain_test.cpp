@@ -261,8 +261,8 @@ TEST(Terrain, HugePlacesEnd) {
   const std::string text =
       R"({"type":"FeatureCollection","crs":{"properties":{"name":"EPSG:32632"}},"features":[)" +
       feature(R"("highway":"residential")", "LineString", "[[-500000,0],[500000,10]]") + "]}";
-  Result<MapFeatures> map = readMapFeatures(text, {"a.geojson", {}, false}, {},
-                                            MapBox{-500000, -500000, 500000, 500000});
+  Result<MapFeatures> map =
+      readMapFeatures(text, {"a.geojson", {}, false}, {}, MapBox{-500000, -500000, 500000, 500000});
   ASSERT_TRUE(map.ok());
   const HeightField field = fieldOf(map->area, 10'000, [](Vec2 p) { return 0.001 * p.x; });
   const CityPlan plan = planCity(*map, "CZ", &field);

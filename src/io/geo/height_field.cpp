@@ -3,7 +3,8 @@
 //
 // The raster is asked once for each place of a grid of its own density. Where that lies in the
 // raster is told by the projections for a wide lattice, and in between by its corners: within 300
-// metres of each other these leave the truth by millimetres. Voids are filled by pulling averages up a pyramid and pushing them down again.
+// metres of each other these leave the truth by millimetres. Voids are filled by pulling averages
+// up a pyramid and pushing them down again.
 #include "io/geo/height_field.h"
 
 #include <algorithm>
