@@ -23,7 +23,7 @@ namespace {
 constexpr uint32_t kNothing = GroundPiece::kNothing;
 // Metres between corners of the ground, along borders and within pieces; within level ones they
 // keep triangles small. Places of more than so many square metres have them farther apart.
-constexpr double kBorderStep = 8, kInnerStep = 12, kLevelStep = 48, kUsualArea = 2e8;
+constexpr double kBorderStep = 8, kInnerStep = 12, kLevelStep = 48, kUsualArea = 5e7;
 // A bank that leads down to water; what is higher is a cliff.
 constexpr double kHighestBank = 4;
 // How deep a building without a street is let into the hill.
