@@ -3,7 +3,8 @@
 #
 # What an example is: examples/NAME/NAME.cga, or a grammar of that name in another notation, on the
 # shapes of examples/NAME/buildings.geojson where there is such a file. generate.args and picture.args beside them hold further arguments of
-# `gable generate` and `gable render`; # starts a comment in them. Sourced from the repository's root.
+# `gable generate` and `gable render`; # starts a comment in them. An example of a place is a map instead,
+# examples/NAME/NAME.osm or NAME.osm.pbf, for `gable city`. Sourced from the repository's root.
 
 # The park grammars share a folder: examples/park/NAME.park is the example park/NAME.
 
@@ -13,6 +14,22 @@ example_names() {
   for folder in examples/*/; do
     name=$(basename "$folder")
     if [ -n "$(example_rules "$name")" ]; then echo "$name"; fi
+  done
+}
+
+# example_map NAME: the map of a place; nothing where the example is none.
+example_map() {
+  local extension
+  for extension in osm.pbf osm; do
+    [ ! -f "examples/$1/$1.$extension" ] || { echo "examples/$1/$1.$extension" && return; }
+  done
+}
+
+place_names() {
+  local folder name
+  for folder in examples/*/; do
+    name=$(basename "$folder")
+    if [ -n "$(example_map "$name")" ]; then echo "$name"; fi
   done
 }
 
@@ -57,8 +74,14 @@ derive_arguments() {
 
 # generate_example GABLE NAME MODEL ARGUMENT...
 generate_example() {
-  local gable=$1 name=$2 model=$3 arguments
+  local gable=$1 name=$2 model=$3 map arguments
   shift 3
+  map=$(example_map "$name")
+  if [ -n "$map" ]; then
+    mapfile -t arguments < <(words "examples/$name/generate.args")
+    "$gable" city "$map" "${arguments[@]}" "$@" -o "$model"
+    return
+  fi
   mapfile -t arguments < <(derive_arguments "$name")
   "$gable" generate "${arguments[@]}" "$@" -o "$model"
 }
@@ -66,8 +89,14 @@ generate_example() {
 # render_example GABLE NAME PICTURE VIEW ARGUMENT...: VIEW.args beside the rules names the camera.
 # Drawn from the rules, not from the model: parts that occur often are held in memory once.
 render_example() {
-  local gable=$1 name=$2 picture=$3 view=$4 arguments
+  local gable=$1 name=$2 picture=$3 view=$4 map arguments
   shift 4
+  map=$(example_map "$name")
+  if [ -n "$map" ]; then
+    mapfile -t arguments < <(words "examples/$name/generate.args"; words "examples/$name/$view.args")
+    "$gable" city "$map" "${arguments[@]}" "$@" --picture "$picture"
+    return
+  fi
   mapfile -t arguments < <(derive_arguments "$name"; words "examples/$name/$view.args")
   "$gable" render "${arguments[@]}" "$@" -o "$picture"
 }

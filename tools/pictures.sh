@@ -15,7 +15,7 @@ root=$PWD
 gable=build/release/gable
 ./run build
 examples=("$@")
-[ ${#examples[@]} -gt 0 ] || mapfile -t examples < <(example_names)
+[ ${#examples[@]} -gt 0 ] || mapfile -t examples < <(place_names; example_names)
 mkdir -p build/pictures
 
 for name in "${examples[@]}"; do

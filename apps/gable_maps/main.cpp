@@ -9,8 +9,8 @@
 // MultiPolygon, other ways as LineString, nodes as Point, in the order of the file, areas of
 // relations last. Properties are the tags; `id` is "way/123", "relation/5" or "node/7". Coordinates
 // have the seven digits of the map: ends of lines that share a node are equal. What cannot be
-// assembled (a broken ring, a node or a way that the file lacks) is counted in `passedOver`; the first
-// of it stands in `leftOut`, pairs of an id and a reason.
+// assembled (a broken ring, a node or a way that the file lacks) is counted in `passedOver`; the
+// first of it stands in `leftOut`, pairs of an id and a reason.
 
 #include <osmium/area/assembler.hpp>
 #include <osmium/area/multipolygon_manager.hpp>

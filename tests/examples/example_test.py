@@ -46,8 +46,9 @@ class ExampleTest(unittest.TestCase):
         self.assertTrue(model.read_bytes() == self.model.read_bytes(), "the models differ")
 
     def testMakesSomethingWithoutErrors(self):
-        self.assertGreater(self.stats["leaves"], 0)
-        errors = [d for d in self.stats["diagnostics"] if "error" in json.dumps(d)]
+        # A place has no statistics of its leaves.
+        self.assertGreater(self.stats.get("leaves", self.stats.get("triangles", 0)), 0)
+        errors = [d for d in self.stats.get("diagnostics", []) if "error" in json.dumps(d)]
         self.assertEqual(errors, [])
 
     def testPassesTheValidator(self):
@@ -60,7 +61,7 @@ class ExampleTest(unittest.TestCase):
 
     def testIsFormattedAndShort(self):
         known = (Path(f"examples/{NAME}/{NAME}.{e}") for e in ("cga", "gbbg", "grammar", "pg3d", "park"))
-        files = [next(path for path in known if path.exists()), *Path("examples/rules").glob("*.cga")]
+        files = [*(path for path in known if path.exists()), *Path("examples/rules").glob("*.cga")]
         done = subprocess.run([GABLE, "format", "--check", *map(str, files)], capture_output=True,
                               text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
