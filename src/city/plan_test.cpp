@@ -425,6 +425,23 @@ TEST(CityPlan, RowsGetTheStoreysOfThoseBesideThem) {
   EXPECT_EQ(chanceOf("f"), -1);
 }
 
+TEST(CityPlan, ATowerSaysNothingOfALongRow) {
+  std::vector<std::string> rows;
+  for (int i = 0; i < 9; ++i) {
+    rows.push_back(feature(R"("building":"yes","id":"h)" + std::to_string(i) + '"' +
+                               (i == 0 ? R"(,"building:levels":"30")" : ""),
+                           "Polygon", square(15 * i, 50, 15)));
+    rows.push_back(
+        feature(R"("building":"yes","building:levels":"4")", "Polygon", square(15 * i, 80, 14)));
+  }
+  auto map = mapOf(rows);
+  ASSERT_TRUE(map.ok());
+  const CityPlan plan = planCity(*map);
+  for (const char* id : {"h1", "h4", "h8"}) {
+    EXPECT_EQ(valueOf(*shapeOf(plan, "Building", id), "guessed_levels"), "4") << id;
+  }
+}
+
 TEST(CityPlan, ValuesAreNumbersForTheRulesOrTold) {
   auto map =
       mapOf({feature(R"("building":"yes","id":"a","height":"20 ft","building:levels":"6 floors",)"

@@ -21,6 +21,8 @@ namespace {
 // Shorter walls join nothing, in metres; nor does what is smaller, in square metres.
 constexpr double kLeastWall = 3;
 constexpr double kLeastHouse = 40;
+// A known house beside a group tells of so many in it: a lone tower says nothing of a quarter.
+constexpr size_t kSpeaksFor = 3;
 
 class Sets {
  public:
@@ -95,8 +97,10 @@ void joinRows(const std::vector<GroundPiece>& ground, const std::vector<MapFeatu
     }
   }
   std::map<uint32_t, std::vector<double>> guesses;
+  std::map<uint32_t, size_t> sizes;
   std::map<uint32_t, std::map<std::string_view, size_t>> roofs;
   for (const uint32_t i : members) {
+    ++sizes[unknown.of(i)];
     if (facts[i].levels == 0 && facts[i].guessedLevels > 0) {
       guesses[unknown.of(i)].push_back(facts[i].guessedLevels);
     }
@@ -114,7 +118,7 @@ void joinRows(const std::vector<GroundPiece>& ground, const std::vector<MapFeatu
       facts[i].rowRoof = roof;
     }
     if (facts[i].levels > 0) continue;
-    if (beside.count(group) > 0) {
+    if (beside.count(group) > 0 && kSpeaksFor * beside[group].size() >= sizes[group]) {
       facts[i].guessedLevels = middleOf(beside[group]);
     } else if (guesses.count(group) > 0) {
       facts[i].guessedLevels = middleOf(guesses[group]);

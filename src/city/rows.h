@@ -14,8 +14,9 @@
 namespace gable {
 
 /// Sets guessedLevels, rowChance and rowRoof of `facts`. Buildings of unknown storeys that touch
-/// each other get one number: the middle of what their known neighbours in the row have, else of
-/// their own guesses. What is smaller than a house joins no row. O(n log n).
+/// each other get one number: the middle of what their known neighbours in the row have where these
+/// are a third of them at least, else of their own guesses. What is smaller than a house joins no
+/// row. O(n log n).
 void joinRows(const std::vector<GroundPiece>& ground, const std::vector<MapFeature>& features,
               std::vector<BuildingFacts>& facts);
 
