@@ -265,8 +265,10 @@ void setMesh(Shape& s, Mesh mesh, ScopeFit fit) {
     }
     s.size = sizeAround(box);
   }
-  s.geometry = recognised(mesh, s.size);
-  if (s.geometry.kind == GeometryKind::Mesh) s.geometry.mesh = makeRef<Mesh>(std::move(mesh));
+  // All or nothing: memory may be refused.
+  Geometry made = recognised(mesh, s.size);
+  if (made.kind == GeometryKind::Mesh) made.mesh = makeRef<Mesh>(std::move(mesh));
+  s.geometry = std::move(made);
 }
 
 void setMesh(Shape& s, MeshRef mesh, ScopeFit fit) {
