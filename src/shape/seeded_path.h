@@ -5,6 +5,7 @@
 // from a number alone, and the number can be read from them again.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -19,7 +20,8 @@ inline constexpr uint64_t kSeedName = hashBytes("seedian");
 
 /// The address that a seed stands for. A seed is a float; what is finer is rounded.
 inline uint64_t seededPath(double seed) {
-  const auto single = static_cast<double>(static_cast<float>(seed));
+  constexpr double kMost = std::numeric_limits<float>::max();
+  const auto single = static_cast<double>(static_cast<float>(std::clamp(seed, -kMost, kMost)));
   return hashCombine(kSeedName, hashDouble(single));
 }
 

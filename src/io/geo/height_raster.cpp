@@ -146,7 +146,8 @@ Result<HeightRaster> HeightRaster::ofTiff(std::string_view bytes, const std::str
   out.width_ = grid->width;
   out.height_ = grid->height;
   out.values_ = std::move(grid->values);
-  const bool marked = grid->noData && std::isfinite(*grid->noData);
+  // A mark that no float holds is of values that were read as voids already.
+  const bool marked = grid->noData && std::fabs(*grid->noData) <= std::numeric_limits<float>::max();
   const float missing = marked ? static_cast<float>(*grid->noData) : kVoid;
   for (float& v : out.values_) {
     v = marked && v == missing ? kVoid : static_cast<float>(v * factor);
