@@ -205,16 +205,15 @@ class MeshDrape {
       const auto& v = ground_.facets()[f].points;
       planArea += 0.5 * cross(point(v[1]) - point(v[0]), point(v[2]) - point(v[0]));
     }
+    if (!(std::fabs(planArea - size) <= 1e-4 + 1e-9 * planArea)) return false;
     std::vector<Vec2> own;
+    work(p.pointCount);
     for (uint32_t i = 0; i < p.pointCount; ++i) own.push_back(point(p.firstPoint + i));
-    const auto less = [](Vec2 a, Vec2 b) {
-      return std::fabs(a.x - b.x) > kSame ? a.x < b.x : a.y < b.y;
-    };
+    const auto less = [](Vec2 a, Vec2 b) { return a.x < b.x; };
     std::sort(own.begin(), own.end(), less);
     for (const Vec2 c : corners) {
       work();
-      const auto at =
-          std::lower_bound(own.begin(), own.end(), c - Vec2{2 * kSame, 2 * kSame}, less);
+      const auto at = std::lower_bound(own.begin(), own.end(), c - Vec2{2 * kSame, 0}, less);
       bool found = false;
       for (auto i = at; i != own.end() && i->x <= c.x + kSame && !found; ++i) {
         work();
@@ -222,7 +221,7 @@ class MeshDrape {
       }
       if (!found) return false;
     }
-    return std::fabs(planArea - size) <= 1e-4 + 1e-9 * planArea;
+    return true;
   }
   Vec2 point(uint32_t i) const { return {ground_.points()[i].x, ground_.points()[i].y}; }
 
