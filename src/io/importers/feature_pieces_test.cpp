@@ -71,6 +71,18 @@ TEST(FeaturePieces, giveTheShapesOfTheWholeFile) {
             atOnce(collection(many + "," + lot(-9)), filter));
 }
 
+TEST(FeaturePieces, oneFeatureAndOneGeometryAreShapes) {
+  const std::string geometry =
+      R"({"type":"Polygon","coordinates":[[[0,0],[0.001,0],[0.001,0.001],[0,0]]]})";
+  const std::string feature =
+      R"({"type":"Feature","id":7,"properties":{"name":"a"},"geometry":)" + geometry + "}";
+  for (const std::string& text : {geometry, feature, collection(feature)}) {
+    EXPECT_EQ(inPieces(text), atOnce(text)) << text;
+    EXPECT_FALSE(inPieces(text).starts_with("error")) << text;
+  }
+  EXPECT_EQ(inPieces("{}"), "error shapes-broken");
+}
+
 TEST(FeaturePieces, whatIsNoCollectionIsAnError) {
   const std::string good = collection(lot(0) + "," + lot(9));
   for (size_t end = 0; end < good.size(); end += 7) {

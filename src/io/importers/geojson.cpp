@@ -78,6 +78,8 @@ class GeoJsonReader {
   void addLine(const JsonValue& coordinates);
   void buildLines(MeshBuilder& b, std::vector<std::string>& tags, size_t facesBefore) const;
   void addAllLines();
+  Result<JsonValue> rootOf(std::string_view text) const;
+  Result<ShapeFile> readRoot(const JsonValue& root);
   bool readPoints(const JsonValue& coordinates, std::vector<Vec2>& out);
   bool readRing(const JsonValue& coordinates, Ring& out);
   void addFace(const Polygon& p);
@@ -426,11 +428,11 @@ void GeoJsonReader::buildLines(MeshBuilder& b, std::vector<std::string>& tags,
 void GeoJsonReader::addAllLines() {
   ShapeInput shape;
   shape.mesh = allLines_.take();
-  if (shape.mesh.empty()) return;
   if (!out_.shapes.empty() || handedOn_ > 0) {
     otherGeometries_ += lineFeatures_;
     return;
   }
+  if (shape.mesh.empty()) return;
   shape.name = "lines";
   shape.faceTags = std::move(allLineTags_);
   if (!shape.faceTags.empty()) shape.faceTags.resize(shape.mesh.faceCount());
@@ -519,7 +521,9 @@ void GeoJsonReader::addFeature(const Feature& f) {
   const size_t before = messages_ + otherGeometries_;
   if (f.geometry && f.geometry->isObject()) addGeometry(*f.geometry, 0);
   if (faces_ == 0 && !lines_.empty()) {
-    buildLines(allLines_, allLineTags_, allLines_.mesh().faceCount());
+    // Lines are a shape where there is no other.
+    if (out_.shapes.empty() && handedOn_ == 0)
+      buildLines(allLines_, allLineTags_, allLines_.mesh().faceCount());
     ++lineFeatures_;
     return;
   }
@@ -582,16 +586,26 @@ Error GeoJsonReader::empty() const {
 }
 
 Result<ShapeFile> GeoJsonReader::read(std::string_view text) {
-  const Result<JsonValue> root = parseJson(text);
+  const Result<JsonValue> root = rootOf(text);
+  if (!root.ok()) return root.error();
+  return readRoot(root.value());
+}
+
+Result<JsonValue> GeoJsonReader::rootOf(std::string_view text) const {
+  Result<JsonValue> root = parseJson(text);
   if (!root.ok()) {
     return Error{"shapes-broken", "'" + path_ + "': " + root.error().message, root.error().hint};
   }
   if (!root.value()["type"].isText()) {
     return Error{"shapes-broken", "'" + path_ + "' is JSON but not GeoJSON: it has no type", {}};
   }
-  collect(root.value());
+  return root;
+}
+
+Result<ShapeFile> GeoJsonReader::readRoot(const JsonValue& root) {
+  collect(root);
   measureAll();
-  chooseProjection(root.value());
+  chooseProjection(root);
   if (out_.diagnostics.hasErrors()) return std::move(out_);
   for (const Feature& f : features_) addFeature(f);
   addAllLines();
@@ -662,9 +676,15 @@ void GeoJsonReader::handOn(const ShapeSink& sink) {
 
 Result<ShapeFile> GeoJsonReader::readPieces(FeaturePieces& file, const ShapeSink& sink) {
   if (auto e = measurePieces(file)) return *e;
-  const Result<JsonValue> root = parseJson(file.rest());
-  if (!root.ok()) {
-    return Error{"shapes-broken", "'" + path_ + "': " + root.error().message, root.error().hint};
+  const Result<JsonValue> root = rootOf(file.rest());
+  if (!root.ok()) return root.error();
+  if (root.value()["type"].text() != "FeatureCollection") {
+    // One feature or geometry is no list that could be read in pieces.
+    Result<ShapeFile> all = readRoot(root.value());
+    if (!all.ok()) return all.error();
+    for (ShapeInput& shape : all->shapes) sink(std::move(shape));
+    all->shapes.clear();
+    return all;
   }
   chooseProjection(root.value());
   if (out_.diagnostics.hasErrors()) return std::move(out_);

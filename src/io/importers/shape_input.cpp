@@ -69,15 +69,18 @@ Result<ShapeFile> readMapShapes(std::string_view bytes, const AssetOptions& opti
   return text.ok() ? readGeoJsonShapes(*text, options.path, filter) : text.error();
 }
 
+std::optional<Error> layerMistake(const std::string& path, const FeatureFilter& filter) {
+  if (filter.layer.empty() || (isMap(path) && !isOpenStreetMap(path))) return std::nullopt;
+  return Error{"shapes-layer", "'" + path + "' has no layers", "leave out --layer"};
+}
+
 }  // namespace
 
 Result<ShapeFile> readShapes(std::string_view bytes, const AssetOptions& options,
                              const FeatureFilter& filter) {
   const std::string extension = extensionOf(options.path);
   const bool isGeoJson = extension == "geojson" || extension == "json";
-  if (!filter.layer.empty() && (!isMap(options.path) || isOpenStreetMap(options.path))) {
-    return Error{"shapes-layer", "'" + options.path + "' has no layers", "leave out --layer"};
-  }
+  if (auto e = layerMistake(options.path, filter)) return *e;
   if (!filter.key.empty() && !isMap(options.path) && !isGeoJson) {
     return Error{"shapes-layer", "'" + options.path + "' has no properties to choose by",
                  "leave out --only"};
@@ -104,10 +107,16 @@ bool isStreamed(const std::string& path) {
 
 Result<ShapeFile> streamShapes(const AssetOptions& options, const FeatureFilter& filter,
                                const ShapeSink& sink) {
+  if (auto e = layerMistake(options.path, filter)) return *e;
   if (!isMap(options.path)) {
     return streamGeoJsonShapes(options.path, options.path, filter, sink);
   }
   const TemporaryFolder folder;
+  if (folder.path().empty()) {
+    return Error{"file-unwritable",
+                 "no temporary folder can be made to convert '" + options.path + "'",
+                 "make room where TMPDIR says, or /tmp"};
+  }
   const Result<std::string> file = mapAsGeoJsonFile(options.path, filter.layer, folder.path());
   if (!file.ok()) return file.error();
   return streamGeoJsonShapes(file.value(), options.path, filter, sink);
