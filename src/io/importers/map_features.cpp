@@ -79,6 +79,9 @@ class Reader {
           "shapes-empty", "'" + path + "' has no feature that could be a part of a place", {}};
     }
     out_.box = {box.min.x, box.min.y, box.max.x, box.max.y};
+    if (wanted_) {
+      if (auto e = missed(box, path)) return *e;
+    }
     const bool degrees = namesDegrees(root) && box.min.x >= -180 && box.max.x <= 180 &&
                          box.min.y >= -90 && box.max.y <= 90;
     const Vec2 middle = box.center();
@@ -100,6 +103,26 @@ class Reader {
   }
 
  private:
+  // A box beside the map is a slip, of coordinates in the other order perhaps.
+  std::optional<Error> missed(const Box2& box, const std::string& path) const {
+    Box2 all;
+    for (const MapFeature& f : out_.features) {
+      work(f.points.size());
+      for (const Vec2 p : f.points) all.include(p);
+      for (const Ring& r : f.rings) {
+        work(r.size());
+        for (const Vec2 p : r) all.include(p);
+      }
+    }
+    const bool meets = all.min.x <= box.max.x && all.max.x >= box.min.x && all.min.y <= box.max.y &&
+                       all.max.y >= box.min.y;
+    if (meets || all.empty()) return std::nullopt;
+    const auto text = [](double v) { return shortestText(std::round(v * 1e6) / 1e6); };
+    return Error{"map-box", "nothing of '" + path + "' lies in the box",
+                 "the map goes from " + text(all.min.x) + "," + text(all.min.y) + " to " +
+                     text(all.max.x) + "," + text(all.max.y) + "; give west,south,east,north"};
+  }
+
   bool point(const JsonValue& v, Vec2& p) {
     if (positionOf(v, p)) return true;
     skip("a position is not two numbers");
@@ -241,8 +264,11 @@ void MapSkips::add(const std::string& place, const std::string& reason) {
 Result<MapFeatures> readMapFeatures(std::string_view bytes, const AssetOptions& options,
                                     const std::string& layer, const std::optional<MapBox>& box) {
   if (box && !(box->west < box->east && box->south < box->north)) {
-    return Error{"map-box", "the box of the map is empty: its west is not west of its east",
-                 "give west,south,east,north, such as 7.41,43.72,7.44,43.75"};
+    return Error{
+        "map-box",
+        "the box of the map is empty: its west is not west of its east, or its south not south "
+        "of its north",
+        "give west,south,east,north, such as 7.41,43.72,7.44,43.75"};
   }
   const std::string extension = extensionOf(options.path);
   std::string converted;
