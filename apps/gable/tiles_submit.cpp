@@ -68,13 +68,23 @@ std::string slurmArray(const Place& at, uint64_t jobs, uint64_t each, uint64_t t
          " ]; then last=" + std::to_string(jobs - 1) + "; fi\n" + tryJobs(at, tries);
 }
 
+/// Slurm reads % in the names of logs.
+std::string forSlurm(const std::string& path) {
+  std::string out;
+  for (const char c : path) out += c == '%' ? std::string("%%") : std::string(1, c);
+  return out;
+}
+
 std::string slurmSubmit(const Place& at, uint64_t tasks, const std::string& options) {
   const std::string common = "sbatch --parsable --requeue " + options + " --job-name=";
   return head("hands the jobs to Slurm; the merge waits for all, failed ones too.") +
          "set -e\narray=$(" + common + "gable-tiles --array=0-" + std::to_string(tasks - 1) +
-         " --output=" + quoted(at.plan + "logs/%a.txt") + " " + quoted(at.plan + "array.sh") +
-         ")\nmerge=$(" + common + "gable-merge --dependency=\"afterany:$array\" --output=" +
-         quoted(at.plan + "logs/merge.txt") + " " + quoted(at.plan + "merge.sh") +
+         " --output=" + quoted(forSlurm(at.plan) + "logs/%a.txt") + " " +
+         quoted(at.plan + "array.sh") +
+         ")\n# Behind it stands the cluster, where there are "
+         "several.\narray=${array%%;*}\nmerge=$(" +
+         common + "gable-merge --dependency=\"afterany:$array\" --output=" +
+         quoted(forSlurm(at.plan) + "logs/merge.txt") + " " + quoted(at.plan + "merge.sh") +
          ")\necho \"jobs $array, merge $merge; logs in \"" + quoted(at.plan + "logs") + "\n";
 }
 
