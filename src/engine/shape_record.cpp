@@ -142,6 +142,20 @@ void appendRecord(const ShapeFootprint& f, std::string& out) {
   w.value(f.index);
 }
 
+// Of what the record says beside the mesh: lists of the size they tell, slots that there are.
+bool isSound(const ShapeFootprint& f) {
+  const Frame& o = f.origin;
+  bool sound = isFinite(o.origin) && isFinite(o.x) && isFinite(o.y) && isFinite(o.z);
+  for (const AttributeValue& a : f.attributes) {
+    const bool isList = a.rows > 0 || a.columns > 0;
+    sound = sound && (!isList || uint64_t{a.rows} * a.columns == a.values.size());
+  }
+  for (const MeshFace& face : f.mesh.faces) {
+    sound = sound && face.materialSlot <= f.materials.size();
+  }
+  return sound;
+}
+
 bool readRecord(ByteReader& r, ShapeFootprint& f) {
   f.name = r.text();
   f.id = r.text();
@@ -154,7 +168,7 @@ bool readRecord(ByteReader& r, ShapeFootprint& f) {
   for (Material& m : f.materials) m = readMaterial(r);
   f.groups = readTexts(r);
   f.index = r.value<int64_t>();
-  return r.ok() && f.mesh.valid() && isFinite(f.origin.origin);
+  return r.ok() && f.mesh.valid() && isSound(f);
 }
 
 }  // namespace gable

@@ -152,6 +152,7 @@ class Merger {
       : plan_(plan), run_(run), task_(task) {}
 
   std::optional<Error> run(TileResult& result) {
+    if (auto e = compressMistake(plan_.tiles)) return e;
     if (auto e = readJobs()) return e;
     check(result);
     if (!result.jobsToRun.empty()) return unfinished(result.jobsToRun);
@@ -182,16 +183,30 @@ class Merger {
 
   std::optional<Error> readJobs() {
     division_.square = plan_.square;
+    uint64_t shapes = 0;
     for (uint64_t j = 0; j < plan_.jobs; ++j) {
       work();
       const Result<TileJob> job = readJob(plan_, j);
       if (!job.ok()) return job.error();
       for (const JobUnit& unit : job.value().units) {
+        // Squares come in the order of their names, and none lies in another.
+        const bool follows =
+            division_.units.empty() || (division_.units.back().name < unit.name &&
+                                        !unit.name.starts_with(division_.units.back().name));
+        if (!follows) return unitsDiffer(j);
         division_.units.push_back({unit.name, {}});
         jobOfUnit_.push_back(j);
+        shapes += unit.shapes;
       }
     }
-    return std::nullopt;
+    return shapes == plan_.shapes ? std::nullopt : std::optional(unitsDiffer(plan_.jobs - 1));
+  }
+
+  Error unitsDiffer(uint64_t job) const {
+    return {"tiles-plan",
+            "the jobs of the plan in '" + plan_.folder +
+                "' are not those it was made with, up to '" + jobPath(plan_, job) + "'",
+            "make the plan again with 'gable tiles plan'; what is done is kept"};
   }
 
   void check(TileResult& result) const {

@@ -10,6 +10,8 @@
 #include "base/files.h"
 #include "base/hash.h"
 #include "base/json.h"
+#include "engine/file_search.h"
+#include "engine/project.h"
 #include "io/geo/geo_frames.h"
 
 namespace gable {
@@ -130,10 +132,13 @@ uint64_t checksumOf(const Rules& rules) {
   const Rules::Impl& impl = rules.impl();
   uint64_t h = hashBytes(impl.dialect ? impl.dialect->name : "cga");
   for (uint32_t i = 0; i < impl.sources.size(); ++i) h = hashBytes(impl.sources.text(i), h);
+  constexpr uint64_t kLargestAsset = 1ull << 30;
+  const FileSearch& files = impl.project->where();
   for (const AssetUse& use : impl.assets) {
     h = hashBytes(use.path, h);
-    const Result<std::string> bytes = readFile(use.file);
-    if (bytes.ok()) h = hashCombine(h, checksum(bytes.value()));
+    const std::string name = use.file.starts_with("/") ? use.file : "/" + use.file;
+    const Result<std::string> bytes = files.read(files.locate(name, ""), kLargestAsset);
+    h = hashCombine(h, bytes.ok() ? checksum(bytes.value()) : 0);
   }
   return h;
 }
@@ -196,6 +201,7 @@ Result<TilePlan::Impl> readPlan(const std::string& folder) {
   plan.shapes = wholeOf(v["shapes"]);
   plan.jobs = wholeOf(v["jobs"]);
   if (plan.id == 0) return planError(folder, "'" + path + "' is damaged: it has no id");
+  if (plan.jobs == 0) return planError(folder, "'" + path + "' is damaged: it has no jobs");
   return plan;
 }
 

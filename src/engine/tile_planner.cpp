@@ -151,6 +151,7 @@ class Planner {
     TilePlan::Impl nowhere = plan_;
     nowhere.rules.clear();
     nowhere.load = {};
+    nowhere.load.style = plan_.load.style;
     nowhere.jobs = 0;
     plan_.id = std::max<uint64_t>(hashBytes(settingsJson(nowhere), units_), 1);
     for (uint64_t j = 0; j < jobs.size(); ++j) {

@@ -7,6 +7,7 @@ Tilesets are walked: boxes, errors, triangles and the tables of features are hel
 the one-file model. Files are made in FOLDER. Run from the repository's root.
 """
 import json
+import re
 import resource
 import signal
 import struct
@@ -347,6 +348,10 @@ class Jobs(Case):
         self.tiles("job", "out", "0", status=FILE, says="one version on all machines")
         plan.write_text(text[:100])
         self.tiles("merge", "out", status=FILE, says="tiles-plan")
+        plan.write_text(re.sub('"jobs": [0-9]+', '"jobs": 0', text))
+        self.tiles("merge", "out", status=FILE, says="it has no jobs")
+        plan.write_text(re.sub('"shapes": [0-9]+', '"shapes": 3', text))
+        self.tiles("merge", "out", says="are not those it was made with", status=FILE)
         plan.write_text(text)
         job = self.folder / "out/plan/jobs/0.json"
         job.write_text(job.read_text().replace('"name": "0', '"name": "../0'))
