@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 
+#include "base/allowance.h"
 #include "base/text.h"
 #include "city/drape.h"
 #include "city/plan.h"
@@ -245,6 +246,27 @@ void Model::Impl::makeSound() {
                    Sources{}));
 }
 
+namespace {
+
+// Within what the derivation has left of its limits.
+void layOnTerrain(Model::Impl& model, const TerrainSurface& terrain, const DeriveOptions& options,
+                  double spent) {
+  Allowance::Most most{options.limits.seconds, options.limits.bytes, options.cancel};
+  if (most.seconds) most.seconds = std::max(0.0, std::ceil((*most.seconds - spent) * 100) / 100);
+  Allowance allowance(most);
+  const WorkScope scope(allowance);
+  const Status status = guarded([&] {
+    model.sound.scene = draped(model.scene(), terrain, liesOnGround);
+    return Status();
+  });
+  if (status.ok()) return;
+  model.diagnostics.push_back(
+      allowance.reached() ? diagnosticOf(allowance.reason("laying the place on its terrain"))
+                          : diagnosticOf(Error{status.code(), status.message(), status.hint()}));
+}
+
+}  // namespace
+
 std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
                                      const DeriveSettings& settings) {
   const double begin = now();
@@ -278,9 +300,7 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
       told.without(listOf(inWordsOf(r.dialect, impl->result.diagnostics), r.sources));
   impl->diagnostics.insert(impl->diagnostics.end(), made.begin(), made.end());
   impl->makeSound();
-  if (shapes.impl().terrain) {
-    impl->sound.scene = draped(impl->scene(), *shapes.impl().terrain, liesOnGround);
-  }
+  if (shapes.impl().terrain) layOnTerrain(*impl, *shapes.impl().terrain, options, now() - begin);
   impl->seconds = now() - begin;
   return impl;
 }
