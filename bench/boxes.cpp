@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Rules against loops: the same boxes by rules (from the parsed program) and by hard-coded C++,
-// both to the same flattened mesh in a reused buffer, on one thread.
+// both to the same flattened mesh in a reused buffer, on one thread. Loops write box by box; leaves
+// of rules come in batches with the same axes, whose normals are made once.
 //
 //   W1      a building of 20 x 10 bays on four sides, 5 boxes a bay: 4000 boxes
 //   W1x25   the same 25 times over
@@ -232,14 +233,7 @@ class Subject {
   void derive(VertexBuffer& out) {
     out.clear();
     stream_.run(workload_.shapes, [&](const PlacedLeaves& placed) {
-      for (const Leaf& leaf : placed.leaves) {
-        if (leaf.frame.turned) {
-          const Frame frame = placed.frameOf(leaf);
-          appendBox(frame, frame.origin, leaf.scale, out);
-        } else {
-          appendBox(placed.axes, placed.originOf(leaf), leaf.scale, out);
-        }
-      }
+      appendBoxes(placed.axes, placed.origin, placed.leaves, out);
     });
   }
   // To a scene, with sharing.

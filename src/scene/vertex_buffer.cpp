@@ -5,9 +5,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <vector>
-
-#include "geom/mesh/face_triangles.h"
 
 namespace gable {
 
@@ -41,33 +38,46 @@ Vec3f narrow(const Vec3& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-void appendMesh(const Mesh& mesh, const Frame& frame, const Vec3& scale, VertexBuffer& out) {
-  const Mesh placed = transformed(mesh, scale, frame);
-  FaceTriangulator faces;
-  std::vector<std::array<uint32_t, 3>> triangles;
-  for (size_t f = 0; f < placed.faceCount(); ++f) {
-    triangles.clear();
-    faces.add(placed, f, triangles);
-    if (triangles.empty()) continue;
-    const Vec3f n = narrow(placed.normal(f));
-    const auto loops = placed.loopsOf(f);
-    const uint32_t first = loops[0].firstCorner;
-    uint32_t end = first;
-    for (const MeshLoop& l : loops) end = std::max(end, l.firstCorner + l.cornerCount);
-    BufferVertex* v = out.reserveVertices(end - first);
-    const auto base = static_cast<uint32_t>(out.vertexCount());
-    for (uint32_t c = first; c < end; ++c, ++v) {
-      const Vec3f p = narrow(placed.at(c));
-      const Vec2 uv = placed.hasUv(0) ? placed.uvs[0][c] : Vec2{};
-      *v = {{p.x, p.y, p.z}, {n.x, n.y, n.z}, {static_cast<float>(uv.x), static_cast<float>(uv.y)}};
+// Along one axis or along three.
+bool isMirrored(const Vec3& size) { return size.x * size.y * size.z < 0; }
+
+// Boxes with the same axes: their normals, texture coordinates and indices are made once. Only the
+// corners differ from box to box.
+class BoxBatch {
+ public:
+  explicit BoxBatch(const Frame& axes) : x_(axes.x), y_(axes.y), z_(axes.z) {
+    const Vec3f axisOf[3] = {narrow(x_), narrow(y_), narrow(z_)};
+    for (int f = 0; f < 6; ++f) {
+      const Vec3f& axis = axisOf[kBoxAxis[f]];
+      const float sign = kBoxSign[f];
+      for (int c = 0; c < 4; ++c) {
+        vertices_[f * 4 + c] = {
+            {}, {axis.x * sign, axis.y * sign, axis.z * sign}, {kUv[c][0], kUv[c][1]}};
+      }
+      for (int i = 0; i < 6; ++i)
+        indices_[f * 6 + i] = static_cast<uint32_t>(f) * 4 + kFaceIndices[i];
     }
-    uint32_t* i = out.reserveIndices(triangles.size() * 3);
-    for (const auto& t : triangles) {
-      for (uint32_t c : t) *i++ = base + c - first;
-    }
-    out.advance(end - first, triangles.size() * 3);
   }
-}
+
+  /// `size` mirrors nothing.
+  void write(const Vec3& o, const Vec3& size, BufferVertex* v, uint32_t* index,
+             uint32_t base) const {
+    const Vec3 ex = x_ * size.x, ey = y_ * size.y, oz = o + z_ * size.z;
+    const Vec3f corners[8] = {narrow(o),  narrow(o + ex),  narrow(o + ey),  narrow(o + ex + ey),
+                              narrow(oz), narrow(oz + ex), narrow(oz + ey), narrow(oz + ex + ey)};
+    std::memcpy(v, vertices_, sizeof vertices_);
+    for (int f = 0; f < 6; ++f) {
+      for (int c = 0; c < 4; ++c, ++v)
+        std::memcpy(v->position, &corners[kBoxCorners[f][c]], sizeof v->position);
+    }
+    for (int i = 0; i < 36; ++i) index[i] = base + indices_[i];
+  }
+
+ private:
+  Vec3 x_, y_, z_;
+  BufferVertex vertices_[24];
+  uint32_t indices_[36];
+};
 
 }  // namespace
 
@@ -86,13 +96,13 @@ void appendBox(const Frame& axes, const Vec3& o, const Vec3& size, VertexBuffer&
   const Vec3f corners[8] = {narrow(o),  narrow(o + ex),  narrow(o + ey),  narrow(o + ex + ey),
                             narrow(oz), narrow(oz + ex), narrow(oz + ey), narrow(oz + ex + ey)};
   // A mirrored box turns its faces round.
-  const bool mirrored = size.x * size.y * size.z < 0;
+  const bool mirrored = isMirrored(size);
   BufferVertex* v = out.reserveVertices(24);
   uint32_t* index = out.reserveIndices(36);
   const auto base = static_cast<uint32_t>(out.vertexCount());
   for (int f = 0; f < 6; ++f) {
     const Vec3f& axis = axisOf[kBoxAxis[f]];
-    const float sign = mirrored ? -kBoxSign[f] : kBoxSign[f];
+    const float sign = size[kBoxAxis[f]] < 0 ? -kBoxSign[f] : kBoxSign[f];
     const Vec3f n{axis.x * sign, axis.y * sign, axis.z * sign};
     for (int c = 0; c < 4; ++c, ++v) {
       const Vec3f& p = corners[kBoxCorners[f][c]];
@@ -105,13 +115,22 @@ void appendBox(const Frame& axes, const Vec3& o, const Vec3& size, VertexBuffer&
   out.advance(24, 36);
 }
 
-void flatten(const Scene& scene, VertexBuffer& out) {
-  forEachLeaf(scene, [&](const Leaf& leaf, const Frame& world) {
-    if (leaf.mesh == kUnitBox || leaf.mesh == kUnitBoxUv)
-      appendBox(world, world.origin, leaf.scale, out);
-    else
-      appendMesh(*scene.meshes[leaf.mesh], world, leaf.scale, out);
-  });
+void appendBoxes(const Frame& axes, const Vec3& origin, std::span<const Leaf> boxes,
+                 VertexBuffer& out) {
+  const BoxBatch batch(axes);
+  BufferVertex* v = out.reserveVertices(24 * boxes.size());
+  uint32_t* index = out.reserveIndices(36 * boxes.size());
+  for (const Leaf& box : boxes) {
+    const Vec3& size = box.scale;
+    const Vec3 o = origin + axes.direction(box.frame.origin);
+    if (box.frame.turned || size.x < 0 || size.y < 0 || size.z < 0)
+      appendBox(axes * box.frame, o, size, out);
+    else {
+      batch.write(o, size, v, index, static_cast<uint32_t>(out.vertexCount()));
+      out.advance(24, 36);
+    }
+    v += 24, index += 36;
+  }
 }
 
 }  // namespace gable

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// VertexBuffer: a scene as one flat list of triangles, the form that graphics memory takes. Buffers
-// keep their memory between uses, so that a viewer or a benchmark can fill one again and again.
+// VertexBuffer: boxes as one flat list of triangles, the form that graphics memory takes. Buffers
+// keep their memory between uses, so that a benchmark can fill one again and again.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "scene/scene.h"
 
@@ -44,11 +45,13 @@ class VertexBuffer {
   size_t indexCount_ = 0, indexCapacity_ = 0;
 };
 
-/// Appends every leaf, instances expanded, in path order. Faces are flat-shaded; a face of n
-/// corners has n vertices of its own. A box is 24 vertices and 36 indices.
-void flatten(const Scene& scene, VertexBuffer& out);
-
-/// Appends the unit box scaled by `size`, with the axes of `axes`, beginning at `origin`.
+/// Appends the unit box scaled by `size`, with the axes of `axes`, beginning at `origin`: 24
+/// vertices, since faces are flat-shaded, and 36 indices.
 void appendBox(const Frame& axes, const Vec3& origin, const Vec3& size, VertexBuffer& out);
+
+/// Appends leaves that are unit boxes. They lie in a frame with the axes of `axes` that begins at
+/// `origin`.
+void appendBoxes(const Frame& axes, const Vec3& origin, std::span<const Leaf> boxes,
+                 VertexBuffer& out);
 
 }  // namespace gable
