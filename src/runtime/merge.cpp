@@ -3,7 +3,7 @@
 //
 // Merging walks the initial shapes in their order and takes over each prototype after the ones that
 // it holds. That is the order in which a single worker finishes them, so one worker or many give
-// the same scene. Names, materials, sources and meshes are numbered as this walk first meets them.
+// the same scene. What leaves refer to is numbered as this walk first meets it (LeafMerger).
 // Scenes have millions of leaves, so the walk calls work() and can be left at any time.
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "base/check.h"
 #include "base/parallel.h"
 #include "base/work.h"
+#include "runtime/leaf_merger.h"
 #include "runtime/recall.h"
 
 namespace gable {
@@ -20,42 +21,24 @@ namespace {
 
 constexpr uint32_t kUnset = 0xffffffff;
 
-bool sameMesh(const Mesh& a, const Mesh& b) {
-  const auto sameFace = [](const MeshFace& f, const MeshFace& g) {
-    return f.firstLoop == g.firstLoop && f.loopCount == g.loopCount &&
-           f.materialSlot == g.materialSlot && f.smooth == g.smooth && f.tags == g.tags;
-  };
-  const auto sameLoop = [](const MeshLoop& f, const MeshLoop& g) {
-    return f.firstCorner == g.firstCorner && f.cornerCount == g.cornerCount;
-  };
-  return a.positions == b.positions && a.corners == b.corners && a.uvs == b.uvs &&
-         a.notes == b.notes && a.normals == b.normals && a.edgeTags == b.edgeTags &&
-         a.vertexTags == b.vertexTags &&
-         std::equal(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(), sameFace) &&
-         std::equal(a.loops.begin(), a.loops.end(), b.loops.begin(), b.loops.end(), sameLoop);
-}
-
 class Merger {
  public:
   Merger(std::vector<Output>& outputs, const std::deque<OutputUnit>& portions,
          const MergeInput& input)
-      : outputs_(outputs), portions_(portions), input_(input), workers_(outputs.size()) {
+      : outputs_(outputs),
+        portions_(portions),
+        input_(input),
+        workers_(outputs.size()),
+        leaves_(outputs, input, scene_) {
+    size_t instances = 0, prototypes = 0;
     for (size_t w = 0; w < outputs.size(); ++w) {
       workers_[w].prototypes.assign(outputs[w].prototypes.size(), kUnset);
-      workers_[w].meshes.assign(outputs[w].meshes.size(), kUnset);
-      workers_[w].materials.assign(outputs[w].materials.size(), kUnset);
+      instances += outputs[w].instances.size();
+      prototypes += outputs[w].prototypes.size();
     }
-    scene_.attributeSets.emplace_back();
-    attributeNumbers_.emplace(0, 0);
-    // A single worker finishes prototypes in the order of the walk, so its leaves stay in place.
-    if (outputs.size() == 1)
-      scene_.leaves = std::move(outputs[0].leaves);
-    else
-      scene_.leaves.reserve(total(&Output::leaves));
-    scene_.instances.reserve(total(&Output::instances));
-    scene_.prototypes.reserve(total(&Output::prototypes));
-    byKey_.reserve(total(&Output::prototypes));
-    meshNumbers_.reserve(total(&Output::meshes));
+    scene_.instances.reserve(instances);
+    scene_.prototypes.reserve(prototypes);
+    byKey_.reserve(prototypes);
   }
 
   void addRoot(const OutputUnit& r) {
@@ -63,10 +46,9 @@ class Merger {
     const uint32_t prototype =
         segments.size() == 1 ? import(r.worker, r.prototype) : join(segments);
     Root root;
-    root.name = static_cast<uint32_t>(scene_.names.size());
-    scene_.names.push_back(r.name);
     root.instance = {r.frame, prototype, 0};
     scene_.roots.push_back(root);
+    leaves_.addRoot(r.name);
     for (const Segment& s : segments) replay(s.worker, s.content, s.from.instances);
   }
 
@@ -85,37 +67,20 @@ class Merger {
 
   /// What the scene's numbers stand for.
   void explain(Recall& recall) {
-    inverse(nameNumbers_, recall.names, scene_.names.size());
-    inverse(listNumbers_, recall.materials, scene_.materialLists.size());
-    inverse(attributeNumbers_, recall.attributeSets, scene_.attributeSets.size());
-    recall.sources.resize(scene_.sources.size());
-    for (const auto& [instruction, number] : sourceNumbers_) {
-      const int32_t rule = input_.program.ruleAt(instruction);
-      if (rule < 0) continue;
-      const RuleCode& code = input_.program.rules[static_cast<size_t>(rule)];
-      recall.sources[number] = {code.qualifiedName, code.parameters.size(),
-                                instruction - code.entry};
-    }
+    leaves_.explain(recall);
     recall.prototypeNumbers = std::move(byKey_);
   }
 
-  Merged take() { return {std::move(scene_), !full(), !attributesFull()}; }
+  void finish() { leaves_.finish(); }
+  Merged take() { return {std::move(scene_), !full(), leaves_.allAttributes()}; }
 
  private:
   struct Worker {
-    std::vector<uint32_t> prototypes, meshes, materials;
+    std::vector<uint32_t> prototypes;
     /// By prototype and hole of units that were put together: how far what lies behind the hole
     /// before has been moved. Unsigned differences wrap around, and back again.
     std::unordered_map<uint64_t, Output::Mark> segments;
   };
-
-  // In all outputs.
-  template <class T>
-  size_t total(std::vector<T> Output::*list) const {
-    size_t sum = 0;
-    for (const Output& o : outputs_) sum += (o.*list).size();
-    return sum;
-  }
 
   /// What lies in a unit between two holes: part of a prototype, and where it begins there.
   struct Segment {
@@ -156,9 +121,9 @@ class Merger {
       }
     }
     Prototype to;
-    to.name = nameNumber(segments[0].content.range.name);
+    leaves_.addPrototype(segments[0].content.range.name, 0, 0, 0);
     to.firstInstance = static_cast<uint32_t>(scene_.instances.size());
-    to.firstLeaf = static_cast<uint32_t>(scene_.leaves.size());
+    to.firstLeaf = leafCount_;
     Recall::PrototypeNotes notes;
     if (input_.recall) notes.firstEvent = static_cast<uint32_t>(input_.recall->events.size());
     const auto number = static_cast<uint32_t>(scene_.prototypes.size());
@@ -195,10 +160,8 @@ class Merger {
       copy.prototype = workers_[s.worker].prototypes[copy.prototype];
       copy.leavesBefore += shift.leaves;
     }
-    for (uint32_t i = 0; i < range.leafCount; ++i) {
-      scene_.leaves.push_back(from.leaves[range.firstLeaf + i]);
-      renumber(scene_.leaves.back(), s.worker);
-    }
+    leaves_.addLeaves(s.worker, range.firstLeaf, range.leafCount);
+    leafCount_ += range.leafCount;
     to.instanceCount += range.instanceCount;
     to.leafCount += range.leafCount;
   }
@@ -212,12 +175,6 @@ class Merger {
     }
     notes.eventCount += s.content.eventCount;
     notes.speaks = notes.speaks || s.content.speaks;
-  }
-
-  template <class Numbers, class T>
-  static void inverse(const Numbers& numbers, std::vector<T>& out, size_t count) {
-    out.assign(count, T{});
-    for (const auto& [id, number] : numbers) out[number] = id;
   }
 
   void remember(const Output& output, const OutputPrototype& p) {
@@ -268,7 +225,6 @@ class Merger {
   void takeOver(uint32_t worker, uint32_t prototype) {
     const OutputPrototype& from = outputs_[worker].prototypes[prototype];
     Prototype to = from.range;
-    to.name = nameNumber(from.range.name);
     to.firstInstance = static_cast<uint32_t>(scene_.instances.size());
     for (uint32_t i = 0; i < from.range.instanceCount; ++i) {
       work();
@@ -276,16 +232,9 @@ class Merger {
           scene_.instances.emplace_back(outputs_[worker].instances[from.range.firstInstance + i]);
       copy.prototype = workers_[worker].prototypes[copy.prototype];
     }
-    if (outputs_.size() == 1) {
-      Leaf* leaves = scene_.leaves.data() + from.range.firstLeaf;
-      for (uint32_t i = 0; i < from.range.leafCount; ++i) renumber(leaves[i], worker);
-    } else {
-      to.firstLeaf = static_cast<uint32_t>(scene_.leaves.size());
-      for (uint32_t i = 0; i < from.range.leafCount; ++i) {
-        scene_.leaves.push_back(outputs_[worker].leaves[from.range.firstLeaf + i]);
-        renumber(scene_.leaves.back(), worker);
-      }
-    }
+    if (outputs_.size() > 1) to.firstLeaf = leafCount_;
+    leaves_.addPrototype(from.range.name, worker, from.range.firstLeaf, from.range.leafCount);
+    leafCount_ += from.range.leafCount;
     to.empty = isEmpty(to);
     scene_.prototypes.push_back(to);
     if (input_.recall) remember(outputs_[worker], from);
@@ -293,119 +242,6 @@ class Merger {
     workers_[worker].prototypes[prototype] = number;
     if (isShared(from)) byKey_.emplace(from.key, number);
   }
-
-  void renumber(Leaf& leaf, uint32_t worker) {
-    work();
-    if (leaf.mesh >= kFirstMesh) leaf.mesh = meshNumber(worker, leaf.mesh - kFirstMesh);
-    leaf.materials = materialsNumber(worker, leaf.materials);
-    // Neighbours often agree, which spares the look-ups.
-    if (leaf.name != lastName_.first) lastName_ = {leaf.name, nameNumber(leaf.name)};
-    leaf.name = lastName_.second;
-    if (leaf.source != lastSource_.first) lastSource_ = {leaf.source, sourceNumber(leaf.source)};
-    leaf.source = lastSource_.second;
-    if (leaf.attributes == 0) return;
-    if (leaf.attributes != lastAttributes_.first) {
-      lastAttributes_ = {leaf.attributes, attributesNumber(leaf.attributes)};
-    }
-    leaf.attributes = lastAttributes_.second;
-  }
-
-  uint32_t meshNumber(uint32_t worker, uint32_t mesh) {
-    uint32_t& known = workers_[worker].meshes[mesh];
-    if (known != kUnset) return known;
-    const MeshRef& m = outputs_[worker].meshes[mesh];
-    work(m->positions.size());
-    // Others of the same hash have the next keys.
-    ShareKey key{m->sharedHash(), 0};
-    for (; const uint32_t* const at = meshNumbers_.find(key); ++key.b) {
-      if (sameMesh(*scene_.meshes[*at], *m)) return known = *at;
-    }
-    known = static_cast<uint32_t>(scene_.meshes.size());
-    scene_.meshes.push_back(m);
-    meshNumbers_.emplace(key, known);
-    return known;
-  }
-
-  uint32_t materialsNumber(uint32_t worker, uint32_t list) {
-    uint32_t& known = workers_[worker].materials[list];
-    if (known != kUnset) return known;
-    const uint64_t pair = outputs_[worker].materials[list];
-    const auto [at, fresh] =
-        listNumbers_.try_emplace(pair, static_cast<uint32_t>(scene_.materialLists.size()));
-    if (fresh) {
-      std::vector<uint32_t> slots{materialNumber(static_cast<MaterialId>(pair >> 32))};
-      for (MaterialId m : input_.attributes.materials(static_cast<uint32_t>(pair))) {
-        slots.push_back(materialNumber(m));
-      }
-      scene_.materialLists.push_back(std::move(slots));
-    }
-    return known = at->second;
-  }
-
-  uint32_t materialNumber(MaterialId id) {
-    const auto [at, fresh] =
-        materialNumbers_.try_emplace(id, static_cast<uint32_t>(scene_.materials.size()));
-    if (fresh) scene_.materials.push_back(input_.materials.get(id));
-    return at->second;
-  }
-
-  uint32_t nameNumber(StringId id) {
-    const auto [at, fresh] =
-        nameNumbers_.try_emplace(id, static_cast<uint32_t>(scene_.names.size()));
-    if (fresh) scene_.names.emplace_back(input_.program.pool->text(id));
-    return at->second;
-  }
-
-  uint32_t sourceNumber(uint32_t instruction) {
-    const auto [at, fresh] =
-        sourceNumbers_.try_emplace(instruction, static_cast<uint32_t>(scene_.sources.size()));
-    if (fresh) scene_.sources.push_back(placeOf(instruction));
-    return at->second;
-  }
-
-  SourcePlace placeOf(uint32_t instruction) const {
-    const Program& p = input_.program;
-    const int32_t rule = p.ruleAt(instruction);
-    SourcePlace place;
-    if (rule < 0) return place;
-    const RuleCode& code = p.rules[static_cast<size_t>(rule)];
-    place.rule = code.qualifiedName;
-    place.file = p.files[code.file];
-    const Span span = instruction == code.entry ? code.span : p.spans[instruction];
-    if (input_.sources && span.valid()) {
-      const LineColumn at = input_.sources->locate(span.file, span.begin);
-      place.line = at.line;
-      place.column = at.column;
-    }
-    return place;
-  }
-
-  uint32_t attributesNumber(uint32_t set) {
-    const auto [at, fresh] =
-        attributeNumbers_.try_emplace(set, static_cast<uint32_t>(scene_.attributeSets.size()));
-    if (!fresh) return at->second;
-    for (const auto& e : input_.attributes.entries(set)) attributeBytes_ += bytesOf(e.value);
-    std::vector<AttributeValue> values;
-    for (const auto& e : input_.attributes.entries(set)) {
-      if (attributesFull()) break;
-      values.push_back(
-          plainAttribute(input_.program.attributes[e.key].name, e.value, *input_.program.pool));
-    }
-    scene_.attributeSets.push_back(std::move(values));
-    return at->second;
-  }
-
-  // What a value takes in the scene.
-  uint64_t bytesOf(const Value& v) const {
-    const ValuePool& pool = *input_.program.pool;
-    if (v.type == ValueType::String) return sizeof(AttributeValue) + pool.text(v.id).size();
-    if (!v.isArray()) return sizeof(AttributeValue);
-    uint64_t bytes = sizeof(AttributeValue) + pool.array(v).size() * sizeof(PlainValue);
-    for (const StringId s : pool.array(v).strings) bytes += pool.text(s).size();
-    return bytes;
-  }
-
-  bool attributesFull() const { return attributeBytes_ > input_.mostAttributeBytes; }
 
   bool full() const { return events_ > input_.mostEvents || eventBytes_ > input_.mostEventBytes; }
 
@@ -455,15 +291,11 @@ class Merger {
   const std::deque<OutputUnit>& portions_;
   const MergeInput& input_;
   std::vector<Worker> workers_;
-  /// What was asked for last, and its number.
-  std::pair<uint32_t, uint32_t> lastName_{kUnset, 0}, lastSource_{kUnset, 0},
-      lastAttributes_{kUnset, 0};
-  uint64_t events_ = 0, eventBytes_ = 0, attributeBytes_ = 0;
+  uint64_t events_ = 0, eventBytes_ = 0;
+  uint32_t leafCount_ = 0;
   Scene scene_;
-  KeyNumbers byKey_, meshNumbers_;
-  std::unordered_map<uint64_t, uint32_t> listNumbers_;
-  std::unordered_map<uint32_t, uint32_t> materialNumbers_, nameNumbers_, sourceNumbers_,
-      attributeNumbers_;
+  KeyNumbers byKey_;
+  LeafMerger leaves_;
 };
 
 }  // namespace
@@ -501,6 +333,7 @@ Merged merge(std::vector<Output>& outputs, const std::vector<const OutputUnit*>&
              const std::deque<OutputUnit>& portions, const MergeInput& input) {
   Merger merger(outputs, portions, input);
   for (const OutputUnit* r : roots) merger.addRoot(*r);
+  merger.finish();
   if (input.recall) {
     for (RecallPart& p : input.recall->parts) merger.place(p);
     merger.explain(*input.recall);

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "runtime/leaf_merger.h"
+
+#include <algorithm>
+#include <chrono>
+#include <system_error>
+
+#include "base/work.h"
+#include "runtime/recall.h"
+
+namespace gable {
+
+namespace {
+
+constexpr uint32_t kUnset = 0xffffffff;
+
+// So many prototypes or leaves are handed over at once.
+constexpr size_t kItemsOfBatch = 256, kLeavesOfBatch = 4096;
+
+// How often who waits looks at the limits.
+constexpr std::chrono::milliseconds kBetweenLooks{5};
+
+// In all outputs.
+template <class T>
+size_t total(const std::vector<Output>& outputs, std::vector<T> Output::*list) {
+  size_t sum = 0;
+  for (const Output& o : outputs) sum += (o.*list).size();
+  return sum;
+}
+
+template <class Numbers, class T>
+void inverse(const Numbers& numbers, std::vector<T>& out, size_t count) {
+  out.assign(count, T{});
+  for (const auto& [id, number] : numbers) out[number] = id;
+}
+
+bool sameMesh(const Mesh& a, const Mesh& b) {
+  const auto sameFace = [](const MeshFace& f, const MeshFace& g) {
+    return f.firstLoop == g.firstLoop && f.loopCount == g.loopCount &&
+           f.materialSlot == g.materialSlot && f.smooth == g.smooth && f.tags == g.tags;
+  };
+  const auto sameLoop = [](const MeshLoop& f, const MeshLoop& g) {
+    return f.firstCorner == g.firstCorner && f.cornerCount == g.cornerCount;
+  };
+  return a.positions == b.positions && a.corners == b.corners && a.uvs == b.uvs &&
+         a.notes == b.notes && a.normals == b.normals && a.edgeTags == b.edgeTags &&
+         a.vertexTags == b.vertexTags &&
+         std::equal(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(), sameFace) &&
+         std::equal(a.loops.begin(), a.loops.end(), b.loops.begin(), b.loops.end(), sameLoop);
+}
+
+}  // namespace
+
+LeafMerger::LeafMerger(std::vector<Output>& outputs, const MergeInput& input, Scene& scene)
+    : outputs_(outputs), input_(input), scene_(scene), workers_(outputs.size()) {
+  for (size_t w = 0; w < outputs.size(); ++w) {
+    workers_[w].meshes.assign(outputs[w].meshes.size(), kUnset);
+    workers_[w].materials.assign(outputs[w].materials.size(), kUnset);
+  }
+  scene_.attributeSets.emplace_back();
+  attributeNumbers_.emplace(0, 0);
+  meshNumbers_.reserve(total(outputs, &Output::meshes));
+  // A single worker finishes prototypes in the order of the walk, so its leaves stay in place.
+  if (outputs.size() == 1) {
+    scene_.leaves = std::move(outputs[0].leaves);
+  } else {
+    scene_.leaves.reserve(total(outputs, &Output::leaves));
+    start();
+  }
+}
+
+LeafMerger::~LeafMerger() {
+  abandoned_ = true;
+  {
+    const std::lock_guard lock(mutex_);
+    complete_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void LeafMerger::start() {
+  try {
+    thread_ = std::thread([this] { takeAll(); });
+  } catch (const std::system_error&) {
+    // The machine gives no more threads: each leaf is taken over as it comes.
+  }
+}
+
+void LeafMerger::addPrototype(StringId name, uint32_t worker, uint32_t firstLeaf,
+                              uint32_t leafCount) {
+  put({nullptr, name, worker, firstLeaf, leafCount});
+}
+
+void LeafMerger::addLeaves(uint32_t worker, uint32_t firstLeaf, uint32_t leafCount) {
+  put({nullptr, kNoName, worker, firstLeaf, leafCount});
+}
+
+void LeafMerger::addRoot(const std::string& name) { put({&name, kNoName, 0, 0, 0}); }
+
+void LeafMerger::put(const Item& item) {
+  if (!thread_.joinable()) return take(item);
+  batch_.push_back(item);
+  leavesOfBatch_ += item.leafCount;
+  if (batch_.size() >= kItemsOfBatch || leavesOfBatch_ >= kLeavesOfBatch) handOver();
+}
+
+void LeafMerger::handOver() {
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_.push_back(std::move(batch_));
+  }
+  changed_.notify_all();
+  batch_.clear();
+  leavesOfBatch_ = 0;
+}
+
+void LeafMerger::finish() {
+  if (thread_.joinable()) {
+    handOver();
+    std::unique_lock lock(mutex_);
+    complete_ = true;
+    changed_.notify_all();
+    while (!changed_.wait_for(lock, kBetweenLooks, [&] { return done_; })) {
+      lock.unlock();
+      work(kWorkBetweenLooks);
+      lock.lock();
+    }
+    lock.unlock();
+    thread_.join();
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
+  for (size_t i = 0; i < prototypeNames_.size(); ++i)
+    scene_.prototypes[i].name = prototypeNames_[i];
+  for (size_t i = 0; i < rootNames_.size(); ++i) scene_.roots[i].name = rootNames_[i];
+}
+
+// On the thread of its own.
+void LeafMerger::takeAll() noexcept {
+  try {
+    for (;;) {
+      std::vector<std::vector<Item>> taken;
+      {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return !waiting_.empty() || complete_; });
+        taken.swap(waiting_);
+      }
+      if (taken.empty() || abandoned_) break;
+      for (const std::vector<Item>& batch : taken) {
+        for (const Item& item : batch) {
+          if (!abandoned_) take(item);
+        }
+      }
+    }
+  } catch (...) {
+    thrown_ = std::current_exception();
+  }
+  const std::lock_guard lock(mutex_);
+  done_ = true;
+  changed_.notify_all();
+}
+
+void LeafMerger::take(const Item& item) {
+  if (item.root) {
+    rootNames_.push_back(static_cast<uint32_t>(scene_.names.size()));
+    scene_.names.push_back(*item.root);
+    return;
+  }
+  if (item.prototypeName != kNoName) prototypeNames_.push_back(nameNumber(item.prototypeName));
+  takeLeaves(item);
+}
+
+void LeafMerger::takeLeaves(const Item& item) {
+  Leaf* leaves = nullptr;
+  if (outputs_.size() == 1) {
+    leaves = scene_.leaves.data() + item.firstLeaf;
+  } else {
+    const auto from = outputs_[item.worker].leaves.begin() + item.firstLeaf;
+    scene_.leaves.insert(scene_.leaves.end(), from, from + item.leafCount);
+    leaves = scene_.leaves.data() + scene_.leaves.size() - item.leafCount;
+  }
+  for (uint32_t i = 0; i < item.leafCount; ++i) renumber(leaves[i], item.worker);
+}
+
+void LeafMerger::explain(Recall& recall) const {
+  inverse(nameNumbers_, recall.names, scene_.names.size());
+  inverse(listNumbers_, recall.materials, scene_.materialLists.size());
+  inverse(attributeNumbers_, recall.attributeSets, scene_.attributeSets.size());
+  recall.sources.resize(scene_.sources.size());
+  for (const auto& [instruction, number] : sourceNumbers_) {
+    const int32_t rule = input_.program.ruleAt(instruction);
+    if (rule < 0) continue;
+    const RuleCode& code = input_.program.rules[static_cast<size_t>(rule)];
+    recall.sources[number] = {code.qualifiedName, code.parameters.size(), instruction - code.entry};
+  }
+}
+
+void LeafMerger::renumber(Leaf& leaf, uint32_t worker) {
+  work();
+  if (leaf.mesh >= kFirstMesh) leaf.mesh = meshNumber(worker, leaf.mesh - kFirstMesh);
+  leaf.materials = materialsNumber(worker, leaf.materials);
+  // Neighbours often agree, which spares the look-ups.
+  if (leaf.name != lastName_.first) lastName_ = {leaf.name, nameNumber(leaf.name)};
+  leaf.name = lastName_.second;
+  if (leaf.source != lastSource_.first) lastSource_ = {leaf.source, sourceNumber(leaf.source)};
+  leaf.source = lastSource_.second;
+  if (leaf.attributes == 0) return;
+  if (leaf.attributes != lastAttributes_.first) {
+    lastAttributes_ = {leaf.attributes, attributesNumber(leaf.attributes)};
+  }
+  leaf.attributes = lastAttributes_.second;
+}
+
+uint32_t LeafMerger::meshNumber(uint32_t worker, uint32_t mesh) {
+  uint32_t& known = workers_[worker].meshes[mesh];
+  if (known != kUnset) return known;
+  const MeshRef& m = outputs_[worker].meshes[mesh];
+  work(m->positions.size());
+  // Others of the same hash have the next keys.
+  ShareKey key{m->sharedHash(), 0};
+  for (; const uint32_t* const at = meshNumbers_.find(key); ++key.b) {
+    if (sameMesh(*scene_.meshes[*at], *m)) return known = *at;
+  }
+  known = static_cast<uint32_t>(scene_.meshes.size());
+  scene_.meshes.push_back(m);
+  meshNumbers_.emplace(key, known);
+  return known;
+}
+
+uint32_t LeafMerger::materialsNumber(uint32_t worker, uint32_t list) {
+  uint32_t& known = workers_[worker].materials[list];
+  if (known != kUnset) return known;
+  const uint64_t pair = outputs_[worker].materials[list];
+  const auto [at, fresh] =
+      listNumbers_.try_emplace(pair, static_cast<uint32_t>(scene_.materialLists.size()));
+  if (fresh) {
+    std::vector<uint32_t> slots{materialNumber(static_cast<MaterialId>(pair >> 32))};
+    for (MaterialId m : input_.attributes.materials(static_cast<uint32_t>(pair))) {
+      slots.push_back(materialNumber(m));
+    }
+    scene_.materialLists.push_back(std::move(slots));
+  }
+  return known = at->second;
+}
+
+uint32_t LeafMerger::materialNumber(MaterialId id) {
+  const auto [at, fresh] =
+      materialNumbers_.try_emplace(id, static_cast<uint32_t>(scene_.materials.size()));
+  if (fresh) scene_.materials.push_back(input_.materials.get(id));
+  return at->second;
+}
+
+uint32_t LeafMerger::nameNumber(StringId id) {
+  const auto [at, fresh] = nameNumbers_.try_emplace(id, static_cast<uint32_t>(scene_.names.size()));
+  if (fresh) scene_.names.emplace_back(input_.program.pool->text(id));
+  return at->second;
+}
+
+uint32_t LeafMerger::sourceNumber(uint32_t instruction) {
+  const auto [at, fresh] =
+      sourceNumbers_.try_emplace(instruction, static_cast<uint32_t>(scene_.sources.size()));
+  if (fresh) scene_.sources.push_back(placeOf(instruction));
+  return at->second;
+}
+
+SourcePlace LeafMerger::placeOf(uint32_t instruction) const {
+  const Program& p = input_.program;
+  const int32_t rule = p.ruleAt(instruction);
+  SourcePlace place;
+  if (rule < 0) return place;
+  const RuleCode& code = p.rules[static_cast<size_t>(rule)];
+  place.rule = code.qualifiedName;
+  place.file = p.files[code.file];
+  const Span span = instruction == code.entry ? code.span : p.spans[instruction];
+  if (input_.sources && span.valid()) {
+    const LineColumn at = input_.sources->locate(span.file, span.begin);
+    place.line = at.line;
+    place.column = at.column;
+  }
+  return place;
+}
+
+uint32_t LeafMerger::attributesNumber(uint32_t set) {
+  const auto [at, fresh] =
+      attributeNumbers_.try_emplace(set, static_cast<uint32_t>(scene_.attributeSets.size()));
+  if (!fresh) return at->second;
+  for (const auto& e : input_.attributes.entries(set)) attributeBytes_ += bytesOf(e.value);
+  std::vector<AttributeValue> values;
+  for (const auto& e : input_.attributes.entries(set)) {
+    if (attributesFull()) break;
+    values.push_back(
+        plainAttribute(input_.program.attributes[e.key].name, e.value, *input_.program.pool));
+  }
+  scene_.attributeSets.push_back(std::move(values));
+  return at->second;
+}
+
+// What a value takes in the scene.
+uint64_t LeafMerger::bytesOf(const Value& v) const {
+  const ValuePool& pool = *input_.program.pool;
+  if (v.type == ValueType::String) return sizeof(AttributeValue) + pool.text(v.id).size();
+  if (!v.isArray()) return sizeof(AttributeValue);
+  uint64_t bytes = sizeof(AttributeValue) + pool.array(v).size() * sizeof(PlainValue);
+  for (const StringId s : pool.array(v).strings) bytes += pool.text(s).size();
+  return bytes;
+}
+
+}  // namespace gable

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// LeafMerger: takes the leaves of all workers over into the scene, and numbers what they refer to
+// as it first meets it. Leaves are most of a scene, so with several workers they are taken over on
+// a thread of its own, while merge() walks on through the prototypes.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <unordered_map>
+#include <vector>
+
+#include "runtime/output.h"
+
+namespace gable {
+
+/// Writes the leaves, meshes, materials, names, sources and attribute sets of the scene; nothing
+/// else may use them before finish().
+class LeafMerger {
+ public:
+  /// All must outlive it. The leaves of a single worker stay where they are.
+  LeafMerger(std::vector<Output>& outputs, const MergeInput& input, Scene& scene);
+  ~LeafMerger();
+  LeafMerger(const LeafMerger&) = delete;
+  LeafMerger& operator=(const LeafMerger&) = delete;
+
+  /// The next prototype of the scene, and leaves of it; more of its leaves may follow.
+  void addPrototype(StringId name, uint32_t worker, uint32_t firstLeaf, uint32_t leafCount);
+  void addLeaves(uint32_t worker, uint32_t firstLeaf, uint32_t leafCount);
+  /// The next root of the scene. The name must outlive the merger.
+  void addRoot(const std::string& name);
+  /// Returns when all is taken over, and gives the scene's prototypes and roots their names.
+  /// What a thread of its own meets (memory that is refused) is thrown here.
+  void finish();
+
+  /// After finish():
+  bool allAttributes() const { return !attributesFull(); }
+  void explain(Recall& recall) const;
+
+ private:
+  struct Item {
+    const std::string* root = nullptr;
+    uint32_t prototypeName = kNoName;
+    uint32_t worker = 0, firstLeaf = 0, leafCount = 0;
+  };
+  static constexpr uint32_t kNoName = 0xffffffff;
+  struct Worker {
+    std::vector<uint32_t> meshes, materials;
+  };
+
+  void start();
+  void put(const Item& item);
+  void handOver();
+  void takeAll() noexcept;
+  void take(const Item& item);
+  void takeLeaves(const Item& item);
+  void renumber(Leaf& leaf, uint32_t worker);
+  uint32_t meshNumber(uint32_t worker, uint32_t mesh);
+  uint32_t materialsNumber(uint32_t worker, uint32_t list);
+  uint32_t materialNumber(MaterialId id);
+  uint32_t nameNumber(StringId id);
+  uint32_t sourceNumber(uint32_t instruction);
+  uint32_t attributesNumber(uint32_t set);
+  SourcePlace placeOf(uint32_t instruction) const;
+  uint64_t bytesOf(const Value& v) const;
+  bool attributesFull() const { return attributeBytes_ > input_.mostAttributeBytes; }
+
+  std::vector<Output>& outputs_;
+  const MergeInput& input_;
+  Scene& scene_;
+
+  // What is handed over, and how that stands.
+  std::vector<Item> batch_;
+  size_t leavesOfBatch_ = 0;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::vector<Item>> waiting_;
+  bool complete_ = false, done_ = false;
+  std::atomic<bool> abandoned_{false};
+  std::exception_ptr thrown_;
+  std::thread thread_;
+
+  // Of who takes over.
+  std::vector<Worker> workers_;
+  /// By prototype and root of the scene.
+  std::vector<uint32_t> prototypeNames_, rootNames_;
+  /// What was asked for last, and its number.
+  std::pair<uint32_t, uint32_t> lastName_{kNoName, 0}, lastSource_{kNoName, 0},
+      lastAttributes_{kNoName, 0};
+  uint64_t attributeBytes_ = 0;
+  KeyNumbers meshNumbers_;
+  std::unordered_map<uint64_t, uint32_t> listNumbers_;
+  std::unordered_map<uint32_t, uint32_t> materialNumbers_, nameNumbers_, sourceNumbers_,
+      attributeNumbers_;
+};
+
+}  // namespace gable
