@@ -13,6 +13,7 @@
 
 #include "gable/diagnostic.h"
 #include "gable/limits.h"
+#include "gable/value.h"
 
 namespace gable {
 
@@ -51,6 +52,13 @@ class Shapes {
   /// The same with footprints cut out of larger ones that they lie in or overlap, so that buildings
   /// in courts do not stand in their neighbours.
   Shapes withNestedCut(const FileLimits& limits = {}) const;
+
+  /// The shapes of all, one after the other. A place on the Earth is that of the first that has
+  /// one.
+  static Shapes joined(const std::vector<Shapes>& all);
+  /// The same with values for attributes of rules, by shape; more of them than shapes are left out.
+  /// A value takes the place of one of the same name.
+  Shapes withAttributes(const std::vector<std::vector<NamedValue>>& byShape) const;
 
   /// Some of the shapes, by index; their draws stay those that they have among all. Numbers that
   /// name no shape are left out.

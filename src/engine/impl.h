@@ -121,6 +121,7 @@ std::optional<Diagnostics::Entry> outsideOf(const AttributeCode& a, const Value&
 Value valueOfAttribute(const AttributeValue& a, ValuePool& pool);
 
 RuleValue ruleValueOf(const AttributeValue& a);
+AttributeValue attributeValueOf(const NamedValue& given);
 std::vector<NamedValue> namedValuesOf(const std::vector<AttributeValue>& attributes);
 MaterialInfo materialInfoOf(const Material& m);
 BoundingBox boundingBoxOf(const Box3& box);

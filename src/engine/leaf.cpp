@@ -101,6 +101,28 @@ RuleValue ruleValueOf(const AttributeValue& a) {
   return out;
 }
 
+AttributeValue attributeValueOf(const NamedValue& given) {
+  AttributeValue out;
+  out.name = given.name;
+  if (given.value.array) {
+    out.rows = given.value.array->rows;
+    out.columns = given.value.array->columns;
+  }
+  for (const RuleValue::Scalar& item : given.value.items) {
+    PlainValue& v = out.values.emplace_back();
+    if (const auto* number = std::get_if<double>(&item)) {
+      v.number = *number;
+    } else if (const auto* flag = std::get_if<bool>(&item)) {
+      v.kind = PlainValue::Kind::Bool;
+      v.number = *flag ? 1 : 0;
+    } else {
+      v.kind = PlainValue::Kind::Text;
+      v.text = std::get<std::string>(item);
+    }
+  }
+  return out;
+}
+
 std::vector<NamedValue> namedValuesOf(const std::vector<AttributeValue>& attributes) {
   std::vector<NamedValue> out;
   for (const AttributeValue& a : attributes) out.push_back({a.name, ruleValueOf(a)});

@@ -184,6 +184,15 @@ Shapes::Outline outlineOf(const ShapeFootprint& f) {
   return out;
 }
 
+// One item, or as many as an array has places, all of one kind.
+bool isWhole(const RuleValue& v) {
+  if (!v.array) return v.items.size() == 1;
+  if (v.items.size() != size_t{v.array->rows} * v.array->columns) return false;
+  return std::all_of(v.items.begin(), v.items.end(), [&](const RuleValue::Scalar& item) {
+    return item.index() == v.items[0].index();
+  });
+}
+
 // The pictures that the materials of the shapes name: those that lie in the file, and those that
 // can be read beside it.
 TextureBytes texturesOf(ShapeFile& file, const FileReader& read) {
@@ -307,6 +316,46 @@ Shapes Shapes::only(const std::vector<size_t>& indices) const {
       ShapeFootprint f = impl_->footprints[i];
       if (f.index < 0) f.index = static_cast<int64_t>(i);
       impl->footprints.push_back(std::move(f));
+    }
+    return impl;
+  }));
+}
+
+Shapes Shapes::joined(const std::vector<Shapes>& all) {
+  return Shapes(guarded<Impl>([&] {
+    auto impl = std::make_shared<Impl>();
+    for (const Shapes& shapes : all) {
+      const Impl& from = shapes.impl();
+      impl->found = impl->found && from.found;
+      impl->diagnostics.insert(impl->diagnostics.end(), from.diagnostics.begin(),
+                               from.diagnostics.end());
+      if (!impl->geoOrigin.present) impl->geoOrigin = from.geoOrigin;
+      impl->textures.insert(from.textures.begin(), from.textures.end());
+      for (ShapeFootprint f : from.footprints) {
+        f.index = -1;
+        impl->footprints.push_back(std::move(f));
+      }
+    }
+    return impl;
+  }));
+}
+
+Shapes Shapes::withAttributes(const std::vector<std::vector<NamedValue>>& byShape) const {
+  return Shapes(guarded<Impl>([&] {
+    auto impl = std::make_shared<Impl>(*impl_);
+    const size_t count = std::min(byShape.size(), impl->footprints.size());
+    for (size_t i = 0; i < count; ++i) {
+      std::vector<AttributeValue>& attributes = impl->footprints[i].attributes;
+      for (const NamedValue& given : byShape[i]) {
+        if (!isWhole(given.value)) {
+          impl->diagnostics.push_back(diagnosticOf(
+              Error{"attribute-value", "the value for '" + given.name + "' is no value of rules",
+                    "give one item, or an array of rows times columns items of one kind"}));
+          continue;
+        }
+        std::erase_if(attributes, [&](const AttributeValue& a) { return a.name == given.name; });
+        attributes.push_back(attributeValueOf(given));
+      }
     }
     return impl;
   }));

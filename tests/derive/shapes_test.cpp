@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Shapes put together, and with attributes of their own.
+
+#include <gtest/gtest.h>
+
+#include "gable/gable.h"
+
+namespace gable {
+namespace {
+
+const char* const kRules =
+    "attr height = 4\nattr list = [0]\n@StartRule\nLot --> extrude(height)\n";
+
+Rules rules() { return Rules::parse(kRules, "shapes.cga"); }
+
+double height(const Model& model, size_t shape) {
+  return std::get<double>(model.attributes(shape)[0].value.items[0]);
+}
+
+NamedValue number(const char* name, double value) { return {name, {{value}, std::nullopt}}; }
+
+TEST(Shapes, joinedAreAllOfThemInOrder) {
+  const Shapes two = Shapes::joined({Shapes::lot(1, 1), Shapes::lot(3, 1)});
+  const Shapes five = Shapes::joined({two, Shapes::joined({}), two, Shapes::lot(5, 1)});
+  ASSERT_EQ(5u, five.size());
+  EXPECT_TRUE(five.ok());
+  EXPECT_EQ(3, five.outline(3).area);
+  EXPECT_EQ(5, five.outline(4).area);
+}
+
+TEST(Shapes, joinedKeepWhatWasToldOfThem) {
+  const Shapes wrong = Shapes::polygon({{0, 0}, {1e300, 0}, {1, 1}});
+  ASSERT_FALSE(wrong.ok());
+  EXPECT_FALSE(Shapes::joined({Shapes::lot(1, 1), wrong}).ok());
+}
+
+TEST(Shapes, haveAttributesOfTheirOwn) {
+  Shapes lots = Shapes::joined({Shapes::lot(1, 1), Shapes::lot(2, 1), Shapes::lot(3, 1)});
+  lots = lots.withAttributes({{number("height", 1)}, {}, {number("height", 2)}, {number("x", 1)}});
+  lots = lots.withAttributes({{number("height", 7)}});
+  EXPECT_TRUE(lots.ok());
+  const Model model = derive(rules(), lots);
+  EXPECT_EQ(7, height(model, 0));
+  EXPECT_EQ(4, height(model, 1));
+  EXPECT_EQ(2, height(model, 2));
+}
+
+TEST(Shapes, refuseValuesThatAreNone) {
+  using Items = std::vector<RuleValue::Scalar>;
+  const auto with = [](RuleValue value) {
+    return Shapes::lot(1, 1).withAttributes({{{"list", std::move(value)}}});
+  };
+  EXPECT_TRUE(with({Items{1.0, 2.0}, RuleValue::Size{1, 2}}).ok());
+  EXPECT_TRUE(with({Items{}, RuleValue::Size{0, 0}}).ok());
+  const RuleValue wrong[] = {{Items{}, std::nullopt},
+                             {Items{1.0, 2.0}, std::nullopt},
+                             {Items{1.0}, RuleValue::Size{4000000000u, 4000000000u}},
+                             {Items{1.0, true}, RuleValue::Size{1, 2}}};
+  for (const RuleValue& value : wrong) {
+    const Shapes shapes = with(value);
+    ASSERT_FALSE(shapes.ok());
+    EXPECT_EQ("attribute-value", shapes.diagnostics()[0].code);
+    EXPECT_TRUE(derive(rules(), shapes).ok());
+  }
+}
+
+}  // namespace
+}  // namespace gable
