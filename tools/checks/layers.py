@@ -30,7 +30,7 @@ class Layers:
         parts = path.split("/")
         if parts[0] == "src" and len(parts) > 2:
             return parts[1]
-        if parts[0] in ("apps", "bindings"):
+        if parts[0] in ("apps", "python"):
             return parts[0]
         if parts[0] == "include":
             return "include"

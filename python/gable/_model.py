@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The Gable authors
+"""What a derivation made."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from typing import Any
+
+from gable import _gable
+from gable._messages import Error, Message, checked, messages_of, path_text
+
+_INSTANCING = ("auto", "nodes", "gpu", "none")
+_VIEWS = ("iso", "top", "front", "street")
+_MOST_LEAVES = 1 << 40
+
+
+@dataclass(frozen=True)
+class Material:
+    name: str
+    color: str
+    """"#rrggbb", sRGB."""
+    opacity: float
+    roughness: float
+    metallic: float
+    emissive: str | None
+    textures: dict[str, str]
+    """Path by layer: "colormap", "normalmap", ..."""
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """The whole model as triangles in the world. All but `materials` are arrays of numpy."""
+
+    positions: Any
+    """(n, 3), float64."""
+    normals: Any
+    """(n, 3), float32."""
+    uvs: Any
+    """(n, 2), float32; zeros where a surface has none."""
+    triangles: Any
+    """(m, 3), uint32: counter-clockwise from outside."""
+    material: Any
+    """(m,), uint32: index into materials."""
+    leaf: Any
+    """(m,), uint32: the number of the leaf that a triangle belongs to."""
+    materials: list[Material]
+
+
+@dataclass(frozen=True)
+class Parts:
+    """The model with what it shares: meshes, and where each leaf puts one of them."""
+
+    meshes: list[dict[str, Any]]
+    """positions, normals, uvs (empty where there are none), triangles, and slot by triangle."""
+    materials: list[Material]
+    names: list[str]
+    mesh: Any
+    """By leaf: index into meshes."""
+    name: Any
+    """By leaf: index into names."""
+    material: Any
+    """By leaf: index into materials, of its first surface."""
+    transform: Any
+    """By leaf, (n, 12): a point p of the mesh lies at origin + x p.x + y p.y + z p.z."""
+
+
+@dataclass(frozen=True)
+class Leaf:
+    """A shape that stays in the model."""
+
+    name: str
+    rule: str | None
+    file: str | None
+    line: int | None
+    faces: int
+    vertices: int
+    color: str
+    material: str
+    size: tuple[float, float, float]
+    attributes: dict[str, Any]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "size", tuple(self.size))
+
+
+@dataclass(frozen=True)
+class Report:
+    """All values that rules reported under one key."""
+
+    count: int
+    values: dict[str, int]
+    """Texts and bools, and how often each was reported."""
+    sum: float | None = None
+    min: float | None = None
+    max: float | None = None
+    mean: float | None = field(default=None)
+
+
+class Model:
+    """A model: derived by rules, or read from a file."""
+
+    def __init__(self, raw: Any):
+        self._raw = checked(raw)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Model:
+        """Reads a model file as it is: OBJ, glTF, GLB, and FBX and COLLADA where they can be read."""
+        return cls(_gable.Model.load(path_text(path)))
+
+    @property
+    def messages(self) -> list[Message]:
+        """Warnings and notes."""
+        return messages_of(self._raw.messages())
+
+    @property
+    def is_whole(self) -> bool:
+        """False when a limit ended the derivation; the messages tell which."""
+        return self._raw.end() == "done"
+
+    @property
+    def statistics(self) -> dict[str, Any]:
+        """shapes, leaves, faces, vertices, triangles, instances, prototypes, materials, seconds of
+        the derivation, and bounds as (least, largest) or None. Instances are expanded."""
+        return self._raw.statistics()
+
+    @property
+    def reports(self) -> dict[str, Report]:
+        """What rules reported, by key."""
+        return {key: Report(**r) for key, r in self._raw.reports().items()}
+
+    @property
+    def prints(self) -> list[str]:
+        return self._raw.prints()
+
+    def attributes(self, shape: int = 0) -> dict[str, Any]:
+        """The attributes of an initial shape, as its rules found them."""
+        return self._raw.attributes(shape)
+
+    def mesh(self, most_leaves: int = _MOST_LEAVES) -> Mesh:
+        """Triangles of the first leaves in the world. The arrays own their memory: no copy is made
+        when they are handed over."""
+        arrays = self._raw.flat(most_leaves)
+        arrays["materials"] = [Material(**m) for m in arrays["materials"]]
+        return Mesh(**arrays)
+
+    def parts(self, most_leaves: int = _MOST_LEAVES) -> Parts:
+        """Meshes once each, with their places: for programs that can draw instances."""
+        arrays = self._raw.parts(most_leaves)
+        arrays["materials"] = [Material(**m) for m in arrays["materials"]]
+        return Parts(**arrays)
+
+    def leaf(self, number: int) -> Leaf:
+        """A leaf by its number, as Mesh.leaf has it."""
+        raw = self._raw.leaf(number) if number >= 0 else None
+        if raw is None:
+            raise IndexError(f"there are {self._raw.leaf_count()} leaves, none of number {number}")
+        return Leaf(**raw)
+
+    def __len__(self) -> int:
+        """The number of leaves."""
+        return self._raw.leaf_count()
+
+    def leaves(self, most: int = 1_000_000) -> Any:
+        """The first leaves as a table of pandas: name, rule, file, line, faces, vertices, color,
+        material, width, height, depth, and a column for each attribute."""
+        import pandas
+
+        rows = []
+        for number in range(min(most, len(self))):
+            leaf = self._raw.leaf(number)
+            width, height, depth = leaf.pop("size")
+            attributes = leaf.pop("attributes")
+            rows.append({**leaf, "width": width, "height": height, "depth": depth, **attributes})
+        return pandas.DataFrame(rows)
+
+    def write(self, path: str | os.PathLike[str], *, instancing: str = "auto") -> int:
+        """Writes .glb, .gltf, .obj, .ply or .stl, and gives the bytes written.
+
+        `instancing` says how glTF files show what occurs several times: "auto", "nodes", "gpu" or
+        "none".
+        """
+        if instancing not in _INSTANCING:
+            raise ValueError(f"instancing is one of {', '.join(_INSTANCING)}, not {instancing!r}")
+        return _written(self._raw.write(path_text(path), instancing))
+
+    def encode(self, format: str) -> bytes:
+        """The bytes of a file: "glb", "ply", "stl" or "png"."""
+        return _written(self._raw.encode(format))
+
+    def picture(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        view: str = "iso",
+        width: int = 1600,
+        height: int = 900,
+        samples: int = 48,
+        sun: tuple[float, float] | None = None,
+        camera: tuple[tuple[float, float, float], tuple[float, float, float]] | None = None,
+        field_of_view: float | None = None,
+    ) -> None:
+        """Draws a .png from "iso", "top", "front" or "street", or from a camera (eye, target).
+
+        `sun` is its elevation above the horizon and its azimuth clockwise from north.
+        """
+        if view not in _VIEWS:
+            raise ValueError(f"view is one of {', '.join(_VIEWS)}, not {view!r}")
+        _written(
+            self._raw.picture(path_text(path), view, width, height, samples, sun, camera, field_of_view)
+        )
+
+    def __repr__(self) -> str:
+        return f"<gable.Model, {len(self)} leaves>"
+
+
+def _written(result: tuple[bool, list[dict[str, Any]], Any]) -> Any:
+    ok, messages, what = result
+    if not ok:
+        raise Error(messages_of(messages))
+    return what

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The Gable authors
+"""Rule files."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import Any
+
+from gable import _gable
+from gable._messages import Message, checked, messages_of, path_text
+
+Annotation = tuple[str, dict[str, str]]
+
+
+@dataclass(frozen=True)
+class Attribute:
+    """An attribute that a caller may set."""
+
+    name: str
+    type: str
+    """"float", "bool", "string", or one of these with "[]"."""
+    hidden: bool
+    annotations: list[Annotation]
+    """Name and arguments: ("Range", {"min": "0", "max": "10"})."""
+
+    @property
+    def range(self) -> tuple[float, float] | None:
+        """The least and the largest value of @Range, where it has both."""
+        for name, arguments in self.annotations:
+            if name != "Range":
+                continue
+            values = list(arguments.values())
+            low, high = arguments.get("min", values[0] if values else None), arguments.get("max")
+            if high is None and len(values) > 1:
+                high = values[1]
+            try:
+                return (float(low), float(high)) if low is not None and high is not None else None
+            except ValueError:
+                return None
+        return None
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A rule of the file or of one that it imports."""
+
+    name: str
+    parameters: int
+    start: bool
+    """Marked as one to start with."""
+    hidden: bool
+    file: str
+    line: int
+    annotations: list[Annotation]
+
+
+class Rules:
+    """A rule file with all that it imports, compiled: CGA, or another notation that Gable reads."""
+
+    def __init__(self, raw: Any):
+        self._raw = checked(raw)
+
+    @classmethod
+    def load(
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        style: str | None = None,
+        project: str | os.PathLike[str] | None = None,
+        notation: str | None = None,
+    ) -> Rules:
+        """Reads a rule file (.cga, .park, .gbbg, ...) or a package (.rpk, .zip).
+
+        `project` is the folder that rules may read from; without it the one that the file lies in
+        is found as on the command line. Raises Error with all mistakes of the rules.
+        """
+        folder = None if project is None else path_text(project)
+        return cls(_gable.Rules.load(path_text(path), folder, notation, style))
+
+    @classmethod
+    def parse(
+        cls,
+        text: str,
+        path: str | os.PathLike[str] = "rules.cga",
+        *,
+        style: str | None = None,
+        project: str | os.PathLike[str] | None = None,
+        notation: str | None = None,
+    ) -> Rules:
+        """The same for text in memory; `path` names it in messages and places it in the project."""
+        folder = None if project is None else path_text(project)
+        return cls(_gable.Rules.parse(text, path_text(path), folder, notation, style))
+
+    @property
+    def messages(self) -> list[Message]:
+        """Warnings and notes."""
+        return messages_of(self._raw.messages())
+
+    @property
+    def attributes(self) -> list[Attribute]:
+        return [Attribute(**a) for a in self._raw.attributes()]
+
+    @property
+    def rules(self) -> list[Rule]:
+        return [Rule(**r) for r in self._raw.rules()]
+
+    @property
+    def styles(self) -> list[str]:
+        return self._raw.styles()
+
+    @property
+    def start_rule(self) -> str | None:
+        """The rule that a derivation starts with unless told otherwise."""
+        return self._raw.start_rule()
+
+    def __repr__(self) -> str:
+        return f"<gable.Rules, starts with {self.start_rule}>"

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The Gable authors
+"""Initial shapes: lots, footprints, meshes."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from gable import _gable
+from gable._messages import Message, checked, messages_of, path_text
+
+
+class Outline(NamedTuple):
+    """A shape in plan."""
+
+    name: str
+    ring: Any
+    """Points of the largest face, (n, 2): x east, y north."""
+    area: float
+    """Of all its faces."""
+
+
+class Shapes:
+    """The initial shapes of a derivation, in order."""
+
+    def __init__(self, raw: Any):
+        self._raw = checked(raw)
+
+    @classmethod
+    def lot(cls, width: float, depth: float) -> Shapes:
+        """A rectangle with a corner at the origin: `width` along +x, `depth` along -z."""
+        return cls(_gable.Shapes.lot(width, depth))
+
+    @classmethod
+    def polygon(cls, ring: Iterable[Any], holes: Iterable[Iterable[Any]] = ()) -> Shapes:
+        """A polygon in plan (x east, y north), from points or an array of shape (n, 2)."""
+        return cls(_gable.Shapes.polygon(_ring(ring), [_ring(h) for h in holes]))
+
+    @classmethod
+    def mesh(
+        cls,
+        vertices: Iterable[Any],
+        faces: Iterable[Sequence[int]],
+        holes: Iterable[Sequence[int]] = (),
+    ) -> Shapes:
+        """Faces over vertices (n, 3), y up, as one shape.
+
+        `holes` are lists of face numbers: the first is the face that has the others as holes.
+        """
+        points = [tuple(float(c) for c in v) for v in vertices]
+        return cls(
+            _gable.Shapes.mesh(points, [list(map(int, f)) for f in faces], [list(map(int, h)) for h in holes])
+        )
+
+    @classmethod
+    def load(
+        cls, path: str | os.PathLike[str], *, layer: str = "", key: str = "", value: str = ""
+    ) -> Shapes:
+        """Reads GeoJSON, OpenStreetMap, GeoPackage, FlatGeobuf, shapefiles, OBJ or glTF.
+
+        Of a map, features with the property `key` become shapes, with `value` those that have it.
+        """
+        return cls(_gable.Shapes.load(path_text(path), layer, key, value))
+
+    @classmethod
+    def of_geometries(cls, geometries: Iterable[Any], attributes: Iterable[Mapping[str, Any]] | None = None) -> Shapes:
+        """Of polygons of shapely, or of anything with `__geo_interface__`, in metres.
+
+        Each polygon becomes a shape, each part of a multipolygon one of its own. Other geometries
+        raise TypeError. `attributes` has a mapping for each geometry.
+        """
+        shapes: list[Shapes] = []
+        values: list[Mapping[str, Any]] = []
+        given = iter(attributes) if attributes is not None else None
+        for geometry in geometries:
+            own = next(given, {}) if given is not None else {}
+            for ring, holes in _polygons(geometry):
+                shapes.append(cls.polygon(ring, holes))
+                values.append(own)
+        joined = cls.joined(shapes)
+        return joined.with_attributes(values) if given is not None else joined
+
+    @classmethod
+    def of_frame(cls, frame: Any) -> Shapes:
+        """Of a GeoDataFrame of geopandas: its columns become attributes.
+
+        A frame in degrees is projected to metres first, by the zone of UTM that it lies in. Missing
+        values are left out. Shapes lie around the origin; the middle of the frame becomes (0, 0).
+        """
+        if frame.crs is not None and frame.crs.is_geographic:
+            frame = frame.to_crs(frame.estimate_utm_crs())
+        if len(frame) > 0:
+            west, south, east, north = frame.total_bounds
+            frame = frame.set_geometry(frame.geometry.translate(-(west + east) / 2, -(south + north) / 2))
+        columns = [c for c in frame.columns if c != frame.geometry.name]
+        rows = (
+            {str(c): v for c, v in zip(columns, row) if not _is_missing(v)}
+            for row in frame[columns].itertuples(index=False, name=None)
+        )
+        return cls.of_geometries(frame.geometry, rows)
+
+    @classmethod
+    def joined(cls, all: Iterable[Shapes]) -> Shapes:
+        """The shapes of all, one after the other."""
+        return cls(_gable.Shapes.joined([s._raw for s in all]))
+
+    def with_attributes(self, by_shape: Iterable[Mapping[str, Any]]) -> Shapes:
+        """The same with attributes of rules, a mapping for each shape in order."""
+        return Shapes(self._raw.with_attributes([dict(values) for values in by_shape]))
+
+    def with_nested_cut(self) -> Shapes:
+        """The same with footprints cut out of larger ones that they lie in or overlap."""
+        return Shapes(self._raw.with_nested_cut())
+
+    def __getitem__(self, which: int | slice) -> Shapes:
+        """Some of the shapes; what is random about them stays as it is among all."""
+        if isinstance(which, slice):
+            return Shapes(self._raw.only(list(range(*which.indices(len(self))))))
+        index = which + len(self) if which < 0 else which
+        if not 0 <= index < len(self):
+            raise IndexError(f"there are {len(self)} shapes, none of number {which}")
+        return Shapes(self._raw.only([index]))
+
+    def __len__(self) -> int:
+        return self._raw.size()
+
+    def outline(self, shape: int) -> Outline:
+        return Outline(*self._raw.outline(shape))
+
+    @property
+    def messages(self) -> list[Message]:
+        """Warnings and notes."""
+        return messages_of(self._raw.messages())
+
+    def __repr__(self) -> str:
+        return f"<gable.Shapes, {len(self)}>"
+
+
+def _ring(points: Iterable[Any]) -> list[tuple[float, float]]:
+    return [(float(p[0]), float(p[1])) for p in points]
+
+
+def _open(ring: Sequence[Any]) -> Sequence[Any]:
+    """A ring of GeoJSON repeats its first point at the end."""
+    return ring[:-1] if len(ring) > 1 and tuple(ring[0]) == tuple(ring[-1]) else ring
+
+
+def _polygons(geometry: Any) -> Iterable[tuple[Any, list[Any]]]:
+    plain = getattr(geometry, "__geo_interface__", geometry)
+    kind = plain.get("type") if isinstance(plain, Mapping) else None
+    if kind == "Polygon":
+        parts = [plain["coordinates"]]
+    elif kind == "MultiPolygon":
+        parts = plain["coordinates"]
+    else:
+        raise TypeError(f"a shape is made of polygons, not of {kind or type(geometry).__name__}")
+    for rings in parts:
+        if rings:
+            yield _open(rings[0]), [_open(r) for r in rings[1:]]
+
+
+def _is_missing(value: Any) -> bool:
+    return value is None or value != value

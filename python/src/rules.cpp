@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "bindings.h"
+
+namespace gable::python {
+
+namespace {
+
+py::list annotationsOf(const std::vector<AttributeInfo::Annotation>& annotations) {
+  py::list out;
+  for (const auto& a : annotations) {
+    py::dict arguments;
+    for (const auto& [name, value] : a.arguments) arguments[py::str(name)] = value;
+    out.append(py::make_tuple(a.name, arguments));
+  }
+  return out;
+}
+
+py::list attributesOf(const Rules& rules) {
+  py::list out;
+  for (const AttributeInfo& a : rules.attributes()) {
+    py::dict d;
+    d["name"] = a.name;
+    d["type"] = a.type;
+    d["hidden"] = a.hidden;
+    d["annotations"] = annotationsOf(a.annotations);
+    out.append(std::move(d));
+  }
+  return out;
+}
+
+py::list rulesOf(const Rules& rules) {
+  py::list out;
+  for (const RuleInfo& r : rules.rules()) {
+    py::dict d;
+    d["name"] = r.name;
+    d["parameters"] = r.parameters;
+    d["start"] = r.start;
+    d["hidden"] = r.hidden;
+    d["file"] = r.file;
+    d["line"] = r.line;
+    d["annotations"] = annotationsOf(r.annotations);
+    out.append(std::move(d));
+  }
+  return out;
+}
+
+LoadSettings settingsOf(std::optional<std::string> project, std::optional<std::string> notation,
+                        std::optional<std::string> style) {
+  LoadSettings s;
+  s.project = std::move(project);
+  s.dialect = std::move(notation);
+  s.style = std::move(style);
+  return s;
+}
+
+}  // namespace
+
+void bindRules(py::module_& m) {
+  using Text = std::optional<std::string>;
+  py::class_<Rules>(m, "Rules")
+      .def_static(
+          "load",
+          [](const std::string& path, Text project, Text notation, Text style) {
+            const py::gil_scoped_release released;
+            return Rules::load(path, settingsOf(project, notation, style));
+          },
+          py::arg("path"), py::arg("project"), py::arg("notation"), py::arg("style"))
+      .def_static(
+          "parse",
+          [](const std::string& text, const std::string& path, Text project, Text notation,
+             Text style) {
+            const py::gil_scoped_release released;
+            return Rules::parse(text, path, settingsOf(project, notation, style));
+          },
+          py::arg("text"), py::arg("path"), py::arg("project"), py::arg("notation"),
+          py::arg("style"))
+      .def("ok", &Rules::ok)
+      .def("messages", [](const Rules& r) { return messagesOf(r.diagnostics()); })
+      .def("attributes", &attributesOf)
+      .def("rules", &rulesOf)
+      .def("styles", &Rules::styles)
+      .def("start_rule", &Rules::startRule);
+}
+
+}  // namespace gable::python

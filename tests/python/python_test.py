@@ -1,0 +1,321 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The Gable authors
+"""The Python module, as a script uses it.
+
+    python_test.py BUILD
+
+BUILD holds python/gable. The examples of docs/guide/python.md are run one after the other, too.
+"""
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import zipfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SKIP = 77
+
+
+def with_numpy():
+    """Runs this again under an interpreter of the same version that has numpy, where there is one."""
+    try:
+        import numpy  # noqa: F401
+        return
+    except ImportError:
+        pass
+    other = "/usr/bin/python3"
+    same = f"import sys, numpy; sys.exit(sys.version_info[:2] != {sys.version_info[:2]})"
+    if os.path.exists(other) and subprocess.run([other, "-c", same], capture_output=True).returncode == 0:
+        os.execv(other, [other, "-B", *sys.argv])
+    print("skipped: numpy is not installed for this Python (Debian's python3-numpy)")
+    sys.exit(SKIP)
+
+
+if __name__ == "__main__":
+    with_numpy()
+    BUILD = Path(sys.argv.pop(1)).resolve()
+    sys.path.insert(0, str(BUILD / "python"))
+
+import numpy as np  # noqa: E402
+
+import gable  # noqa: E402
+import gable.prt as pyprt  # noqa: E402
+
+BOX = '@StartRule\nLot --> extrude(height) report("kind", "box") report("h", height) comp(f) { all : Face }\nattr height = 4\n'
+# Some hundred million shapes, none like another.
+LONG = "@StartRule\nLot --> split(x) { ~1 : A(0) }*\nA(n) --> case n > 26 : B else : split(x) { ~rand(1, 2) : A(n + 1) | ~1 : A(n + 1) }\n"
+
+
+class Square:
+    __geo_interface__ = {
+        "type": "MultiPolygon",
+        "coordinates": [
+            [[(0, 0), (10, 0), (10, 10), (0, 10), (0, 0)], [(2, 2), (2, 4), (4, 4), (4, 2), (2, 2)]],
+            [[(20, 0), (30, 0), (30, 10), (20, 0)]],
+        ],
+    }
+
+
+class Rules(unittest.TestCase):
+    def test_what_is_in_rules(self):
+        rules = gable.Rules.parse("@Range(min=1, max=9)\nattr h = 3\nattr names = [\"a\"]\n@StartRule\nLot --> extrude(h)\n")
+        self.assertEqual([(a.name, a.type, a.range) for a in rules.attributes],
+                         [("h", "float", (1.0, 9.0)), ("names", "string[]", None)])
+        self.assertEqual(rules.start_rule, "Lot")
+        self.assertEqual([(r.name, r.start, r.line) for r in rules.rules], [("Lot", True, 5)])
+        self.assertEqual(rules.styles, ["Default"])
+
+    def test_all_mistakes_are_told(self):
+        with self.assertRaises(gable.Error) as raised:
+            gable.Rules.parse("Lot --> extrud(3)\nB --> t(0, 0)\n", "a.cga")
+        places = [(m.code, m.file, m.line) for m in raised.exception.messages if m.severity == "error"]
+        self.assertEqual(places[0], ("unknown-operation", "a.cga", 1))
+        self.assertIn("a.cga:2", str(raised.exception))
+
+    def test_a_file_that_is_not_there(self):
+        with self.assertRaisesRegex(gable.Error, "nowhere.cga"):
+            gable.Rules.load(Path("nowhere.cga"))
+
+
+class Shapes(unittest.TestCase):
+    def test_of_geometries(self):
+        shapes = gable.Shapes.of_geometries([Square()], [{"height": 7}])
+        self.assertEqual(len(shapes), 2)
+        self.assertAlmostEqual(shapes.outline(0).area, 96)
+        self.assertEqual(shapes.outline(1).ring.shape, (3, 2))
+        model = gable.derive(gable.Rules.parse(BOX), shapes)
+        self.assertEqual(model.attributes(1)["height"], 7)
+
+    def test_of_a_frame(self):
+        class Column(list):
+            name = "geometry"
+            def translate(self, x, y):
+                return self
+        class Frame:
+            crs = None
+            geometry = Column([Square()])
+            columns = ["geometry", "height", "other"]
+            total_bounds = (0, 0, 30, 10)
+            def set_geometry(self, geometry):
+                return self
+            def __len__(self):
+                return 1
+            def __getitem__(self, columns):
+                assert columns == ["height", "other"]
+                return self
+            def itertuples(self, index, name):
+                return iter([(8.0, float("nan"))])
+        model = gable.derive(gable.Rules.parse(BOX), gable.Shapes.of_frame(Frame()))
+        self.assertEqual(model.attributes(0)["height"], 8)
+
+    def test_other_geometries_are_refused(self):
+        with self.assertRaisesRegex(TypeError, "Point"):
+            gable.Shapes.of_geometries([{"type": "Point", "coordinates": (0, 0)}])
+
+    def test_arrays(self):
+        ring = np.array([[0, 0], [10, 0], [10, 10]], dtype=np.float32)
+        self.assertAlmostEqual(gable.Shapes.polygon(ring).outline(0).area, 50)
+        cube = gable.Shapes.mesh(np.eye(3), np.array([[0, 1, 2]]))
+        self.assertEqual(len(cube), 1)
+        with self.assertRaisesRegex(gable.Error, "vertex 7"):
+            gable.Shapes.mesh(np.eye(3), [[0, 1, 7]])
+
+    def test_some_of_them(self):
+        lots = gable.Shapes.joined([gable.Shapes.lot(w, 1) for w in (1, 2, 3)])
+        self.assertEqual([round(lots[i].outline(0).area) for i in (0, -1)], [1, 3])
+        self.assertEqual(len(lots[1:]), 2)
+        with self.assertRaisesRegex(IndexError, "3 shapes"):
+            lots[3]
+
+    def test_hostile_values(self):
+        lot = gable.Shapes.lot(1, 1)
+        for value in (object(), None, [1, object()], [[1, 2], [3]], {"a": 1}):
+            with self.assertRaises(TypeError, msg=repr(value)):
+                lot.with_attributes([{"height": value}])
+        with self.assertRaisesRegex(gable.Error, "height"):
+            lot.with_attributes([{"height": [1, "a"]}])
+        for ring in ([(float("nan"), 0), (1, 0), (1, 1)], [(1e300, 0), (1, 0), (1, 1)]):
+            with self.assertRaises(gable.Error):
+                gable.Shapes.polygon(ring)
+
+
+class Derivation(unittest.TestCase):
+    def setUp(self):
+        self.rules = gable.Rules.parse(BOX)
+
+    def test_attributes_of_every_kind(self):
+        rules = gable.Rules.parse(
+            "attr n = 1\nattr b = false\nattr s = \"\"\nattr l = [1]\nattr m = [1]\nattr t = [\"\"]\n@StartRule\n"
+            "Lot --> print(n) print(b) print(s) print(l) print(m) print(t)\n")
+        model = gable.derive(rules, gable.Shapes.lot(1, 1), n=np.float32(2), b=np.True_, s="12", l=[1, 2],
+                             attributes={"m": np.arange(4).reshape(2, 2), "t": ["x", "y"]})
+        self.assertEqual(model.attributes(0), {"n": 2, "b": True, "s": "12", "l": [1, 2], "m": [[0, 1], [2, 3]],
+                                               "t": ["x", "y"]})
+        with self.assertRaisesRegex(gable.Error, "height"):
+            gable.derive(self.rules, gable.Shapes.lot(1, 1), height="high")
+
+    def test_the_mesh_is_the_box(self):
+        mesh = gable.derive(self.rules, gable.Shapes.lot(2, 3), height=5).mesh()
+        self.assertEqual(mesh.positions.dtype, np.float64)
+        self.assertEqual(mesh.triangles.shape, (12, 3))
+        corners = mesh.positions[mesh.triangles]
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        self.assertAlmostEqual(np.einsum("ij,ij->", corners[:, 0], normals) / 6, 30)
+        unit = normals / np.linalg.norm(normals, axis=1)[:, None]
+        np.testing.assert_allclose(unit, mesh.normals[mesh.triangles[:, 0]], atol=1e-6)
+        self.assertEqual(sorted(set(mesh.leaf.tolist())), list(range(6)))
+
+    def test_parts_are_the_same_model(self):
+        rules = gable.Rules.parse("@StartRule\nLot --> extrude(4) split(x) { ~1 : B }*\nB --> s('0.5, '1, '1) rotateScope(0, 30, 0) i(\"builtin:cube\")\n")
+        model = gable.derive(rules, gable.Shapes.lot(6, 3))
+        mesh, parts = model.mesh(), model.parts()
+        self.assertEqual(len(parts.mesh), len(model))
+        at = 0
+        for number, which in enumerate(parts.mesh):
+            own = parts.meshes[which]["positions"]
+            t = parts.transform[number]
+            world = t[:3] + own @ t[3:].reshape(3, 3)
+            np.testing.assert_allclose(world, mesh.positions[at : at + len(own)], atol=1e-9)
+            at += len(own)
+        self.assertEqual(at, len(mesh.positions))
+
+    def test_reports_leaves_files(self):
+        model = gable.derive(self.rules, gable.Shapes.lot(2, 3), height=5)
+        self.assertEqual(model.reports["h"].mean, 5)
+        self.assertEqual(model.reports["kind"].values, {"box": 1})
+        leaf = model.leaf(0)
+        self.assertEqual((leaf.name, leaf.rule, leaf.line), ("Face", "Lot", 2))
+        with self.assertRaises(IndexError):
+            model.leaf(6)
+        with self.assertRaises(IndexError):
+            model.leaf(-1)
+        self.assertEqual(model.encode("glb")[:4], b"glTF")
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "a.obj"
+            self.assertEqual(model.write(path), path.stat().st_size + (Path(folder) / "a.mtl").stat().st_size)
+            self.assertEqual(len(gable.Model.load(path).mesh().triangles), 12)
+            with self.assertRaisesRegex(gable.Error, "a.xyz"):
+                model.write(Path(folder) / "a.xyz")
+        with self.assertRaisesRegex(ValueError, "instancing"):
+            model.write("a.glb", instancing="some")
+
+    def test_the_same_for_any_number_of_threads(self):
+        lots = gable.Shapes.joined([gable.Shapes.lot(w, 5) for w in range(1, 20)])
+        one, four = (gable.derive(self.rules, lots, jobs=jobs).encode("glb") for jobs in (1, 4))
+        self.assertEqual(one, four)
+
+    def test_limits_keep_what_was_made(self):
+        model = gable.derive(gable.Rules.parse(LONG), gable.Shapes.lot(10, 10), seconds=0.2)
+        self.assertFalse(model.is_whole)
+        self.assertTrue(model.messages)
+
+    def test_progress_and_what_it_raises(self):
+        lots = gable.Shapes.joined([gable.Shapes.lot(w, 5) for w in range(1, 50)])
+        told = []
+        gable.derive(self.rules, lots, progress=lambda done, total: told.append((done, total)))
+        self.assertEqual(told[-1], (49, 49))
+        class Enough(Exception):
+            pass
+        def stop(done, total):
+            raise Enough
+        with self.assertRaises(Enough):
+            gable.derive(self.rules, lots, progress=stop)
+
+    def test_other_threads_run_meanwhile(self):
+        counted = []
+        over = threading.Event()
+        def count():
+            while not over.is_set():
+                counted.append(1)
+                time.sleep(0.01)
+        thread = threading.Thread(target=count)
+        thread.start()
+        gable.derive(gable.Rules.parse(LONG), gable.Shapes.lot(10, 10), seconds=0.5)
+        over.set()
+        thread.join()
+        self.assertGreater(len(counted), 5)
+
+    def test_interrupt(self):
+        script = ("import sys, gable\nprint('ready', flush=True)\ntry:\n"
+                  f"    gable.derive(gable.Rules.parse({LONG!r}), gable.Shapes.lot(10, 10))\n"
+                  "except KeyboardInterrupt:\n    print('stopped')\n")
+        with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True,
+                              env={**os.environ, "PYTHONPATH": str(BUILD / "python")}) as process:
+            self.assertEqual(process.stdout.readline(), "ready\n")
+            time.sleep(0.3)
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.communicate(timeout=60)[0], "stopped\n")
+
+
+class OfPyPrt(unittest.TestCase):
+    def test_one_set_of_attributes_for_all(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "a.cga"
+            path.write_text(BOX + "@Hidden\nattr secret = 1\n", encoding="utf-8")
+            square = [0, 0, 0, 0, 0, 10, 10, 0, 10, 10, 0, 0]
+            shapes = [pyprt.InitialShape(square), pyprt.InitialShape(square, [0, 1, 2, 3], [4])]
+            self.assertEqual((shapes[1].get_vertex_count(), shapes[1].get_index_count()), (12, 4))
+            models = pyprt.ModelGenerator(shapes).generate_model([{"height": 3.0}], path, pyprt.PY_ENCODER, {})
+            self.assertEqual([m.get_initial_shape_index() for m in models], [0, 1])
+            self.assertEqual(models[1].get_attributes()["height"], 3)
+            self.assertEqual(models[0].get_report(), {"kind": "box", "h_n": 1, "h_sum": 3, "h_avg": 3, "h_min": 3,
+                                                      "h_max": 3})
+            self.assertEqual(sum(models[0].get_faces()), len(models[0].get_indices()))
+            self.assertEqual(pyprt.inspect_rpk(path), {"height": "float"})
+            obj = "com.esri.prt.codecs.OBJEncoder"
+            out = pyprt.ModelGenerator(shapes).generate_model(
+                [{"outputPath": folder, "shapeName": n} for n in "ab"], path, obj, {})
+            self.assertEqual(out, [])
+            self.assertTrue((Path(folder) / "a_0.obj").exists() and (Path(folder) / "b_1.obj").exists())
+            with self.assertWarnsRegex(UserWarning, "heigth"):
+                pyprt.ModelGenerator(shapes).generate_model([{"heigth": 3.0}], path)
+            with self.assertRaisesRegex(ValueError, "3 attribute"):
+                pyprt.ModelGenerator(shapes).generate_model([{}] * 3, path)
+            with self.assertRaisesRegex(ValueError, "no encoder"):
+                pyprt.ModelGenerator(shapes).generate_model([{}], path, "other", {})
+
+
+class Package(unittest.TestCase):
+    def test_every_example_of_the_guide(self):
+        page = (ROOT / "docs/guide/python.md").read_text(encoding="utf-8")
+        blocks = re.findall(r"```python\n(.*?)```", page, re.S)
+        self.assertGreater(len(blocks), 5)
+        before = os.getcwd()
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            try:
+                names = {}
+                for block in blocks:
+                    exec(compile(block, "python.md", "exec"), names)
+                self.assertTrue(Path("house.png").exists())
+            finally:
+                os.chdir(before)
+
+    def test_the_wheel(self):
+        sys.path.insert(0, str(ROOT / "python"))
+        import build_wheel
+        with tempfile.TemporaryDirectory() as folder:
+            name = build_wheel.write_wheel(folder, BUILD / "python" / "gable")
+            with zipfile.ZipFile(Path(folder) / name) as wheel:
+                names = wheel.namelist()
+                self.assertIn("gable/__init__.py", names)
+                self.assertTrue(any(n.startswith("gable/_gable") and n.endswith(".so") for n in names))
+                wheel.extractall(Path(folder) / "installed")
+            script = "import gable; print(len(gable.derive(gable.Rules.parse('@StartRule\\nLot --> extrude(1)'), gable.Shapes.lot(1, 1))))"
+            out = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True,
+                                 env={**os.environ, "PYTHONPATH": str(Path(folder) / "installed")})
+            self.assertEqual(out.stdout, "1\n")
+
+    def test_all_that_is_public_is_told(self):
+        for name in gable.__all__:
+            self.assertTrue(getattr(gable, name).__doc__, name)
+
+
+if __name__ == "__main__":
+    unittest.main()
