@@ -15,6 +15,8 @@ struct GenerateArguments {
   std::string stats;
   std::string reports;
   std::string instancing = "auto";
+  /// Run again whenever a file that is read changes, until Ctrl-C.
+  bool watch = false;
 };
 int runGenerate(const GenerateArguments& arguments);
 
@@ -34,6 +36,12 @@ struct InfoArguments {
   bool json = false;
 };
 int runInfo(const InfoArguments& arguments);
+
+struct NewArguments {
+  /// Its last part is the name of the project.
+  std::string folder;
+};
+int runNew(const NewArguments& arguments);
 
 struct PackArguments {
   std::string rules;
@@ -73,6 +81,8 @@ struct RenderArguments {
   std::string eye, target;
   std::string ground;
   std::optional<double> fieldOfView;
+  /// Run again whenever a file that is read changes, until Ctrl-C.
+  bool watch = false;
 };
 int runRender(const RenderArguments& arguments);
 /// An exit status other than kExitDone, with a message, when an option of the picture is wrong.

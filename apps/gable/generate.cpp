@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "derive_settings.h"
 #include "gable/files.h"
+#include "watch.h"
 
 namespace {
 
@@ -29,9 +30,7 @@ void tellEmpty(const gable::Model& model, const Inputs& inputs) {
   }
 }
 
-}  // namespace
-
-int runGenerate(const GenerateArguments& arguments) {
+int generateOnce(const GenerateArguments& arguments) {
   const double begin = secondsNow();
   std::vector<std::string> formats = gable::modelExtensions();
   formats.emplace_back("png");
@@ -60,4 +59,17 @@ int runGenerate(const GenerateArguments& arguments) {
     if (const int status = writeText(arguments.stats, text)) return status;
   }
   return statusOf(model);
+}
+
+}  // namespace
+
+int runGenerate(const GenerateArguments& arguments) {
+  if (!arguments.watch) return generateOnce(arguments);
+  return watch({[&] { return inputTimes(arguments.derive); },
+                [&] {
+                  const int status = generateOnce(arguments);
+                  if (status == kExitDone) std::printf("%s\n", arguments.output.c_str());
+                  return status;
+                },
+                {}});
 }

@@ -155,6 +155,10 @@ void addInstancing(CLI::App* app, std::string& instancing) {
       ->check(CLI::IsMember(gable::instancingNames()));
 }
 
+void addWatch(CLI::App* app, bool& watch) {
+  app->add_flag("--watch", watch, "Run again whenever a file that is read changes, until Ctrl-C");
+}
+
 void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
   auto* generate = app.add_subcommand("generate", "Derive rules and write a model");
   generate->add_option("rules", a.derive.rules, "The rule file or package")->required();
@@ -164,6 +168,7 @@ void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
   generate->add_option("--stats", a.stats, "Write counts as JSON to a file, or - for stdout");
   generate->add_option("--reports", a.reports, "Write reports as CSV to a file, or - for stdout");
   addInstancing(generate, a.instancing);
+  addWatch(generate, a.watch);
   generate->callback([&a, &status] { status = runGenerate(a); });
 }
 
@@ -339,6 +344,23 @@ void addDiff(CLI::App& app, DiffArguments& a, int& status) {
   diff->callback([&a, &status] { status = runDiff(a); });
 }
 
+void addRender(CLI::App& app, RenderArguments& a, int& status) {
+  auto* command = app.add_subcommand("render", "Render rules or a model as a picture");
+  command->add_option("input", a.derive.rules, "A rule file or a model (.glb .gltf .obj)")
+      ->required();
+  addDeriveOptions(command, a.derive);
+  command->add_option("-o,--output", a.output, "The picture: .png")->required();
+  addPictureOptions(command, a);
+  addWatch(command, a.watch);
+  command->callback([&a, &status] { status = runRender(a); });
+}
+
+void addNew(CLI::App& app, NewArguments& a, int& status) {
+  auto* command = app.add_subcommand("new", "Begin a project: rules, a test, a place for assets");
+  command->add_option("folder", a.folder, "The folder to make")->required();
+  command->callback([&a, &status] { status = runNew(a); });
+}
+
 void addTest(CLI::App& app, TestArguments& a, int& status) {
   auto* test = app.add_subcommand("test", "Run rule tests: the cases of .test files");
   test->add_option("paths", a.paths, "Test files, and folders to search (default: this folder)");
@@ -390,6 +412,8 @@ int main(int argc, char** argv) {
   addCheck(app, check, status);
   InfoArguments info;
   addInfo(app, info, status);
+  NewArguments fresh;
+  addNew(app, fresh, status);
   PackArguments pack;
   addPack(app, pack, status);
   FormatArguments format;
@@ -409,14 +433,7 @@ int main(int argc, char** argv) {
   convertApp->callback([&] { status = runConvert(convert); });
 
   RenderArguments render;
-  auto* renderApp = app.add_subcommand("render", "Render rules or a model as a picture");
-  renderApp->add_option("input", render.derive.rules, "A rule file or a model (.glb .gltf .obj)")
-      ->required();
-  addDeriveOptions(renderApp, render.derive);
-  renderApp->add_option("-o,--output", render.output, "The picture: .png")->required();
-  addPictureOptions(renderApp, render);
-  renderApp->callback([&] { status = runRender(render); });
-
+  addRender(app, render, status);
   TraceArguments trace;
   auto* traceApp = app.add_subcommand("trace", "Write the derivation tree as JSON");
   traceApp->add_option("rules", trace.derive.rules, "The rule file")->required();

@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "gable/names.h"
+#include "watch.h"
 
 namespace {
 
@@ -90,7 +91,9 @@ int drawPicture(const gable::Model& model, const std::string& path,
   return written.ok ? kExitDone : kExitLimit;
 }
 
-int runRender(const RenderArguments& arguments) {
+namespace {
+
+int renderOnce(const RenderArguments& arguments) {
   gable::PictureSettings settings;
   if (const int status = checkExtension(arguments.output, {"png"})) return status;
   if (const int status = pictureSettings(arguments, settings)) return status;
@@ -109,4 +112,17 @@ int runRender(const RenderArguments& arguments) {
   }
   const int status = drawPicture(model, arguments.output, settings);
   return status == kExitDone ? statusOf(model) : status;
+}
+
+}  // namespace
+
+int runRender(const RenderArguments& arguments) {
+  if (!arguments.watch) return renderOnce(arguments);
+  return watch({[&] { return inputTimes(arguments.derive); },
+                [&] {
+                  const int status = renderOnce(arguments);
+                  if (status == kExitDone) std::printf("%s\n", arguments.output.c_str());
+                  return status;
+                },
+                {}});
 }

@@ -2,14 +2,12 @@
 // SPDX-FileCopyrightText: The Gable authors
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <map>
-#include <thread>
 
 #include "commands.h"
 #include "gable/cases.h"
+#include "watch.h"
 
 namespace {
 
@@ -102,13 +100,6 @@ int runOnce(const TestArguments& arguments, Results& results) {
 
 // ------------------------------------------------------------------------------------- watching
 
-using Times = std::map<std::string, fs::file_time_type>;
-
-fs::path placeOf(const std::string& file) {
-  std::error_code error;
-  return fs::absolute(file, error).lexically_normal();
-}
-
 /// What is looked at: folders as they are named, and those that files lie in. Rules lie beside a
 /// folder `tests` as a rule, so its parent counts.
 std::vector<fs::path> watchedFolders(const TestArguments& arguments) {
@@ -124,8 +115,8 @@ std::vector<fs::path> watchedFolders(const TestArguments& arguments) {
 }
 
 /// Pictures that a run leaves beside those that it expected are no edits.
-Times timesOf(const std::vector<fs::path>& folders) {
-  Times times;
+FileTimes timesOf(const std::vector<fs::path>& folders) {
+  FileTimes times;
   for (const fs::path& folder : folders) {
     std::error_code error;
     fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied,
@@ -143,20 +134,8 @@ Times timesOf(const std::vector<fs::path>& folders) {
   return times;
 }
 
-/// The first file that is new, has gone or has another time.
-std::string changedFile(const Times& before, const Times& after) {
-  for (const auto& [file, time] : after) {
-    const auto found = before.find(file);
-    if (found == before.end() || found->second != time) return file;
-  }
-  for (const auto& [file, time] : before) {
-    if (!after.contains(file)) return file;
-  }
-  return {};
-}
-
 /// What the run itself has written is no edit either.
-void forget(Times& before, const Times& after, const TestArguments& arguments,
+void forget(FileTimes& before, const FileTimes& after, const TestArguments& arguments,
             const Results& results) {
   const auto written = [&](const std::string& file) {
     const auto found = after.find(placeOf(file).string());
@@ -168,32 +147,22 @@ void forget(Times& before, const Times& after, const TestArguments& arguments,
   }
 }
 
-int watch(const TestArguments& arguments) {
+int watchTests(const TestArguments& arguments) {
   const std::vector<fs::path> folders = watchedFolders(arguments);
-  int status = kExitDone;
-  while (!*cancelFlag()) {
-    // Taken before the run, so that an edit during it starts another.
-    Times before = timesOf(folders);
-    Results results;
-    status = runOnce(arguments, results);
-    std::fflush(stdout);
-    Times after = timesOf(folders);
-    forget(before, after, arguments, results);
-    while (!*cancelFlag() && after == before) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(300));
-      after = timesOf(folders);
-    }
-    if (*cancelFlag()) break;
-    std::printf("\n%s has changed\n", changedFile(before, after).c_str());
-    // The run that follows may take long.
-    std::fflush(stdout);
-  }
-  return status;
+  Results results;
+  return watch({[&] { return timesOf(folders); },
+                [&] {
+                  results.clear();
+                  return runOnce(arguments, results);
+                },
+                [&](FileTimes& before, const FileTimes& after) {
+                  forget(before, after, arguments, results);
+                }});
 }
 
 }  // namespace
 
 int runTest(const TestArguments& arguments) {
   Results results;
-  return arguments.watch ? watch(arguments) : runOnce(arguments, results);
+  return arguments.watch ? watchTests(arguments) : runOnce(arguments, results);
 }
