@@ -375,18 +375,26 @@ namespace {
 
 // The file, or its text with operations on regions as they are written today.
 uint32_t modernised(Sources& sources, uint32_t file, Diagnostics& diagnostics) {
-  Diagnostics unheard;
-  const lang::Tree tree = lang::parse(sources, file, unheard);
-  if (unheard.hasErrors()) return file;
-  const std::string text(sources.text(file));
-  const lang::ModernText now = lang::withModernRegions(tree, text);
-  for (const lang::NodeId call : now.left) {
-    diagnostics.warning("text-selection", tree.span(call),
-                        "this call of '" + std::string(tree.text(call)) +
-                            "' takes texts, and is left as it is: they cannot be rewritten here",
-                        "write selections, figures and options as expressions by hand");
+  // Calls within calls, outermost first.
+  constexpr int kPasses = 16;
+  for (int pass = 0;; ++pass) {
+    Diagnostics unheard;
+    const lang::Tree tree = lang::parse(sources, file, unheard);
+    if (unheard.hasErrors()) return file;
+    const std::string text(sources.text(file));
+    lang::ModernText now = lang::withModernRegions(tree, text);
+    if (now.again && now.text != text && pass < kPasses) {
+      file = sources.add(std::string(sources.path(file)), std::move(now.text));
+      continue;
+    }
+    for (const lang::NodeId call : now.left) {
+      diagnostics.warning("text-selection", tree.span(call),
+                          "this call of '" + std::string(tree.text(call)) +
+                              "' takes texts, and is left as it is: they cannot be rewritten here",
+                          "write selections, figures and options as expressions by hand");
+    }
+    return now.text == text ? file : sources.add(std::string(sources.path(file)), now.text);
   }
-  return now.text == text ? file : sources.add(std::string(sources.path(file)), now.text);
 }
 
 void noteThatNothingIsDone(const Dialect& dialect, const std::string& path,

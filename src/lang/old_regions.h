@@ -10,6 +10,7 @@
 //   romb(3) Plaza                                  rhombus(3) Plaza
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,9 @@ struct TextEdit {
 /// The name that the operation `name` has now; empty where it is no former name.
 std::string_view modernOperation(std::string_view name);
 
+/// The operations, and the function, that took texts.
+std::span<const std::string_view> oldRegionOperations();
+
 /// Whether a call of an operation on regions, or of region.selects, has texts among its arguments.
 bool isOldRegionCall(const Tree& tree, NodeId call);
 
@@ -36,6 +40,8 @@ std::vector<TextEdit> modernRegionCall(const Tree& tree, NodeId call, std::strin
 struct ModernText {
   std::string text;
   std::vector<NodeId> left;
+  /// Calls within what others rewrote are still to be rewritten, in the new text.
+  bool again = false;
 };
 ModernText withModernRegions(const Tree& tree, std::string_view source);
 

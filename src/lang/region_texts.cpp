@@ -259,7 +259,18 @@ class RegionReader {
     return "(" + inside + ")";
   }
 
+  // A word as it is written, with the arguments behind it.
+  std::string asWritten(size_t begin) {
+    skipTo(begin);
+    std::string out;
+    while (at_ < text_.size() && (isLetter(text_[at_]) || isDigit(text_[at_]))) out += text_[at_++];
+    if (!accept('(')) return out;
+    out += "(" + std::string(raw(")"));
+    need(')');
+    return out + ")";
+  }
   Piece unknown(const std::string& w, size_t begin) {
+    if (o_.keepUnknown_ && !w.empty()) return {asWritten(begin), kAtom};
     at_ = begin;
     if (ok()) o_.word_ = w;
     fail("no edges have this name");
@@ -282,6 +293,7 @@ class RegionReader {
     if (w == "side") {
       const std::string name = word();
       const char* side = sideNamed(name);
+      if (!side && o_.keepUnknown_ && !name.empty()) return unknown(w, begin);
       if (!side && ok()) o_.word_ = name;
       if (!side) fail("side takes W, N, E or S");
       out = std::string("side(") + (side ? side : "west");
@@ -362,6 +374,10 @@ class RegionReader {
   }
 
  private:
+  void skipTo(size_t place) {
+    at_ = place;
+    skip();
+  }
   void skip() {
     while (at_ < text_.size() && isBlank(text_[at_])) ++at_;
   }
@@ -446,6 +462,7 @@ std::string RegionTexts::places(std::string_view text) {
     }
     return {};
   }
+  if (keepUnknown_ && !w.empty()) return r.finish(r.asWritten(0));
   word_ = w;
   problem_ = "this is no place of a region";
   return {};
@@ -529,6 +546,7 @@ std::string RegionTexts::figure(std::string_view text) {
                     : name == "square"                              ? "square"
                     : name == "rect"                                ? "rect"
                                                                     : nullptr;
+  if (!now && keepUnknown_ && !name.empty() && r.peek() == '(') return r.finish(r.asWritten(0));
   if (!now) {
     word_ = name;
     problem_ = "'" + std::string(text) + "' is no figure";
@@ -549,6 +567,7 @@ std::string RegionTexts::smoothing(std::string_view text) {
   const std::string name = r.word();
   const bool known = name == "none" || name == "average" || name == "chaikin" || name == "bezier" ||
                      name == "round";
+  if (!known && keepUnknown_ && !name.empty()) return r.finish(r.asWritten(0));
   if (!known) {
     word_ = name;
     problem_ = "there is no such smoothing";

@@ -28,6 +28,10 @@ class RegionTexts {
   RegionTexts() = default;
   explicit RegionTexts(Number number) : number_(std::move(number)) {}
 
+  /// Words that mean nothing become words of the expression, for the analysis to report; otherwise
+  /// they are problems.
+  void keepUnknown() { keepUnknown_ = true; }
+
   // Empty where the text cannot be read; problem() then says why, and word() which word is wrong.
   std::string selection(std::string_view text);
   std::string lines(std::string_view text);
@@ -61,6 +65,7 @@ class RegionTexts {
   friend class RegionReader;
   Number number_;
   std::string problem_, word_;
+  bool keepUnknown_ = false;
 };
 
 }  // namespace gable::lang

@@ -93,12 +93,46 @@ TEST(OldRegions, CallsAreRewritten) {
             "{ B }");
   EXPECT_EQ(modern("A --> [ romb(r) B ] place(centre) { romb(2) C } romb"),
             "A --> [ rhombus(r) B ] place(centre) { rhombus(2) C } romb");
+  // Words that mean nothing are for the analysis to report.
+  EXPECT_EQ(modern("A --> peel(\"outer & front\", 1, \"smoth=2\") { strip : B }"),
+            "A --> peel(outer && front, 1, smoth = 2) { strip : B }");
+  EXPECT_EQ(modern("A --> place(\"centr\", \"cirle(2)\", \"under\") { B }"),
+            "A --> place(centr, under = true) { cirle(2) B }");
+  // A figure that no one takes is cut out all the same.
+  EXPECT_EQ(modern("A --> grid(2, 2, 1, \"romb(3)\") { region : B }"),
+            "A --> grid(2, 2, 1) { region : B | junction : rhombus(3) NIL }");
+  EXPECT_EQ(modern("A --> place(centre, \"circle(2)\") {}"),
+            "A --> place(centre) {circle(2) NIL }");
+  EXPECT_EQ(modern("A --> joined(\"romb(3) rect(8, 2)\", free) B"),
+            "A --> joined { rhombus(3, free) Part. | rect(8, 2, free) Part. } B");
+  EXPECT_EQ(modern("A --> peel(\"W\", 1, smooth = none) { strip : B }"),
+            "A --> peel(side(west), 1, smooth = none) { strip : B }");
   // What cannot be said exactly stays, and so do calls of the author's own rules.
-  const char* const left[] = {"A --> peel(\"nonsense\", 1) { strip : B }",
-                              "A --> peel(\"outer\")\npeel(x) --> B",
-                              "A --> romb(3) B\nromb(r) --> C",
-                              "A --> grid(2, 2, 1, \"30%: romb(3) | circle(2)\") { junction : B }"};
+  const char* const left[] = {
+      "A --> peel(\"outer &\", 1) { strip : B }", "A --> peel(\"outer\")\npeel(x) --> B",
+      "A --> romb(3) B\nromb(r) --> C", "A --> grid(2, 2, 1, \"romb(3)\") { all : B }",
+      "A --> grid(2, 2, 1, \"romb(3) | circle(2)\") "
+      "{ junction : 50% : B else : C }"};
   for (const char* text : left) EXPECT_EQ(modern(text), text);
+}
+
+TEST(OldRegions, ChoicesOfFiguresAreWrittenForEach) {
+  const auto junction = [](const std::string& figures) {
+    const std::string text =
+        modern("A --> grid(2, 2, 1, \"" + figures + "\") { junction : B C | region : D }");
+    const std::string head = "A --> grid(2, 2, 1) { junction : ", tail = " | region : D }";
+    EXPECT_TRUE(text.starts_with(head) && text.ends_with(tail)) << text;
+    return text.substr(head.size(), text.size() - head.size() - tail.size());
+  };
+  EXPECT_EQ(junction("30%: romb(3) | circle(2)"), "30% : rhombus(3) B C else : circle(2) B C");
+  // Those without a chance share the rest; chances are shares of their sum.
+  EXPECT_EQ(junction("40: romb(3) | circle(2) | none"),
+            "40% : rhombus(3) B C 30% : circle(2) B C else : B C");
+  EXPECT_EQ(junction("1: romb(3) | 3: circle(2)"), "25% : rhombus(3) B C else : circle(2) B C");
+  EXPECT_EQ(junction("case ix == 0 && (by != 1): romb(3) | circle(2)"),
+            "case region.ix == 0 && (region.by != 1) : rhombus(3) B C else : circle(2) B C");
+  EXPECT_EQ(junction("case nx>2||iy<1: romb(3)"),
+            "case region.nx>2||region.iy<1 : rhombus(3) B C else : B C");
 }
 
 }  // namespace

@@ -73,7 +73,12 @@ bool Analysis::reportOldCall(NodeId node, std::span<const NodeId> args) {
       now += std::string(source.substr(at, e.begin - at)) + e.text;
       at = e.end;
     }
-    hint = "write '" + now + (edits.size() > 1 ? "..." : ")") +
+    // An edit in the block ends there; that of all arguments, with their bracket.
+    const bool whole = now.ends_with('}');
+    hint = "write '" + now +
+           (edits.size() > 1 ? "..."
+            : whole          ? ""
+                             : ")") +
            "', or let 'gable format' rewrite the file";
   }
   errorAt("text-selection", node, quote(text(node)) + " takes no texts", std::move(hint));
