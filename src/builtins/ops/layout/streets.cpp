@@ -153,6 +153,11 @@ Status applyStreets(OpCall& call, const Streets& args) {
     joined.shortest = areGiven ? joined.snap : spacing / 2;
     const StreetGraph graph = buildStreetGraph(streets, joined);
     const StreetPlan plan = planStreets(graph, area, width / 3, width * width);
+    // Given lines may run through open ground.
+    if (!areGiven && plan.blocks.empty()) {
+      call.services().warn("no-cells", "'streets': no block is left between the streets",
+                           "write a smaller spacing and width, or take a larger ground");
+    }
     const auto emit = [&](const Region& parts, std::string_view what, auto&& streetEdges,
                           auto&& uvsOf) {
       const SelectorItem* item = itemFor(call, what);

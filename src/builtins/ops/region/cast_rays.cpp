@@ -169,7 +169,7 @@ Status applyCastRays(OpCall& call, const CastRays& args) {
       job.keep(f, word, std::move(p), std::move(marks), cell);
     }
   }
-  job.emit();
+  job.emitCells("write fewer targets, a narrower path, or a smaller centre");
   return {};
 }
 

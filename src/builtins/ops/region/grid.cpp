@@ -245,7 +245,7 @@ Status applyGrid(OpCall& call, const GridArguments& args) {
       job.keep(f, word, std::move(p), std::move(marks), cell);
     }
   }
-  job.emit();
+  job.emitCells("write fewer cells, a narrower path, or a smaller minArea");
   return {};
 }
 
@@ -273,7 +273,7 @@ Status applyQuadMap(OpCall& call, const QuadMap& args) {
       job.keep(f, rest ? "remainder" : "region", std::move(p), std::move(marks), cell);
     }
   }
-  job.emit();
+  job.emitCells("write fewer columns and rows");
   return {};
 }
 

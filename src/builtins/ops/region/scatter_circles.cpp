@@ -80,6 +80,11 @@ Status applyScatterCircles(OpCall& call, const ScatterCircles& args) {
     left.push_back(combineTraced(BooleanOp::Difference, wholePiece(view.polygon()), taken, made));
   }
   if (piece == 0) {
+    // A count has been told of already.
+    if (args.count == 0 && !slotOf(call, "otherwise")) {
+      call.services().warn("scatter-full", "'scatterCircles': no disc found a place",
+                           "write smaller ones, or what else shall happen: otherwise : ...");
+    }
     call.giveToOtherwise();
   } else if (args.cut) {
     job.replace(call.shape(), left);

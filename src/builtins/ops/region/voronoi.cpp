@@ -163,7 +163,7 @@ Status applyVoronoi(OpCall& call, const Voronoi& args) {
       job.keep(f, word, std::move(p), std::move(marks), cell);
     }
   }
-  job.emit();
+  job.emitCells("write fewer sites, a narrower path, or smaller figures");
   return {};
 }
 

@@ -56,6 +56,24 @@ void RegionJob::emit() {
   }
 }
 
+void RegionJob::emitCells(const char* remedy) {
+  const bool any =
+      std::any_of(kept_.begin(), kept_.end(), [](const Kept& k) { return k.word == "region"; });
+  if (!kept_.empty() && !any) {
+    std::string what;
+    for (const char* word : {"path", "junction", "centre", "remainder"}) {
+      const bool made =
+          std::any_of(kept_.begin(), kept_.end(), [&](const Kept& k) { return k.word == word; });
+      if (made) what += (what.empty() ? "" : " and ") + std::string(word);
+    }
+    call_.services().warn(
+        "no-cells",
+        "'" + std::string(call_.spec().name) + "': no cell is left; all of the region is " + what,
+        "make the region larger, or " + std::string(remedy));
+  }
+  emit();
+}
+
 bool RegionJob::flat() const {
   constexpr double kOnPlane = 1e-6;
   const Frame& first = faces_[0]->plane().frame();

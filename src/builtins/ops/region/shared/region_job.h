@@ -31,6 +31,9 @@ class RegionJob {
   /// Gives out what was kept: in the order of the block's items, each piece by itself, or all in
   /// one shape after `=`.
   void emit();
+  /// The same for a division into cells; warns when none is left among the pieces. The remedy ends
+  /// the hint "make the region larger, or ".
+  void emitCells(const char* remedy);
   size_t kept() const { return kept_.size(); }
 
   /// Whether all faces lie in one plane and look to one side: a region of one or several pieces.
