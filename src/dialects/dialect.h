@@ -32,7 +32,7 @@ struct DialectInput {
   lang::FileLoader* loader = nullptr;
 };
 
-/// What to do about a diagnostic of the derivation, in the words of a notation.
+/// What to do about a diagnostic of the analysis or the derivation, in the words of a notation.
 struct Remedy {
   std::string_view code;
   const char* hint;
@@ -71,6 +71,8 @@ struct Dialect {
   std::span<const DialectWord> (*words)() = nullptr;
   /// Why values from outside have no effect on hidden attributes; null where they have.
   const char* hiddenReason = nullptr;
+  /// In place of a hint that names words of Gable's own language and has no remedy.
+  const char* guide = "";
 };
 
 /// All dialects, by name.
@@ -81,6 +83,14 @@ const Dialect* dialectNamed(std::string_view name);
 const Dialect* dialectOfPath(std::string_view path);
 
 /// The diagnostics of a derivation with the notation's own hints; null is Gable's own language.
-Diagnostics inWordsOf(const Dialect* dialect, const Diagnostics& diagnostics);
+Diagnostics inWordsOf(const Dialect* dialect, const Diagnostics& diagnostics,
+                      const Catalogue& catalogue);
+/// The same for those of an analysis: of a file in `dialect`, and of other files by their paths.
+/// An error that stands where the notation found one is left out: it only follows from that.
+Diagnostics inWordsOf(const Dialect* dialect, uint32_t file, const Diagnostics& diagnostics,
+                      const Sources& sources, const Catalogue& catalogue);
+/// Whether a hint names an operation, a function or a keyword of Gable's own language that is no
+/// word of the notation.
+bool namesForeignWord(const Dialect& dialect, std::string_view hint, const Catalogue& catalogue);
 
 }  // namespace gable

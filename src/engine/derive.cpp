@@ -10,6 +10,7 @@
 
 #include "base/allowance.h"
 #include "base/text.h"
+#include "builtins/catalogue.h"
 #include "city/drape.h"
 #include "city/plan.h"
 #include "engine/footprint.h"
@@ -296,8 +297,8 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
   impl->result.scene.geoOrigin = shapes.impl().geoOrigin;
   MissingFiles told;
   told.add(r.diagnostics);
-  const DiagnosticList made =
-      told.without(listOf(inWordsOf(r.dialect, impl->result.diagnostics), r.sources));
+  const DiagnosticList made = told.without(
+      listOf(inWordsOf(r.dialect, impl->result.diagnostics, builtinCatalogue()), r.sources));
   impl->diagnostics.insert(impl->diagnostics.end(), made.begin(), made.end());
   impl->makeSound();
   if (shapes.impl().terrain) layOnTerrain(*impl, *shapes.impl().terrain, options, now() - begin);

@@ -226,6 +226,7 @@ std::shared_ptr<const Rules::Impl> parsed(const std::string& text, const Home& h
                             name, settings.style.value_or(std::string())};
   const lang::ResolvedProgram resolved = lang::analyse(
       std::move(input), builtinCatalogue(), *impl->pool, &loader, impl->sources, diagnostics);
+  diagnostics = inWordsOf(impl->dialect, file, diagnostics, impl->sources, builtinCatalogue());
   describe(*impl, resolved);
   impl->assets = loader.takeAssets();
   if (!diagnostics.hasErrors()) {

@@ -241,6 +241,7 @@ std::shared_ptr<const Snapshot> Library::analyse(const std::string& path) {
                                  out->diagnostics);
   });
   if (trouble_) return nullptr;
+  out->diagnostics = inWordsOf(out->dialect, file, out->diagnostics, out->sources, catalogue_);
   out->diagnostics.sortByPlace();
   return out;
 }

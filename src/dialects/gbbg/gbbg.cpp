@@ -137,6 +137,7 @@ std::string formatGbbg(const Sources& sources, uint32_t file, Diagnostics& diagn
 constexpr const char* kExtensions[] = {".gbbg"};
 
 constexpr Remedy kRemedies[] = {
+    {"endless-rule", "let one of the shapes be terminal: 'terminal NAME'"},
     {"recursion-too-deep", "let one of the shapes be terminal: 'terminal NAME'"},
     {"split-too-many", "give the successor a larger preferred size: 'shape NAME [3, 3, 0]'"},
     {"too-many-children", "give the successor a larger preferred size: 'shape NAME [3, 3, 0]'"},
@@ -145,7 +146,16 @@ constexpr Remedy kRemedies[] = {
 
 }  // namespace
 
-const Dialect kGbbgDialect = {"gbbg", "GBBG",    kExtensions, parseGbbg,  formatGbbg,
-                              true,   kRemedies, true,        gbbg::words};
+const Dialect kGbbgDialect = {"gbbg",
+                              "GBBG",
+                              kExtensions,
+                              parseGbbg,
+                              formatGbbg,
+                              true,
+                              kRemedies,
+                              true,
+                              gbbg::words,
+                              nullptr,
+                              "see the guide to GBBG, docs/guide/gbbg.md"};
 
 }  // namespace gable

@@ -87,7 +87,7 @@ class Reader {
   NodeId fail(const std::string& message) {
     if (ok_) {
       diagnostics_.error("bad-expression", here(), "'" + std::string(text_) + "': " + message,
-                         "write numbers, constants, w, h, area, ix, iy, nx, ny, bx, by, border");
+                         kExpressionHint);
     }
     ok_ = false;
     return b_.number(0);
@@ -167,9 +167,7 @@ class Reader {
     }
     if (g_.constants.count(name) != 0) return b_.word(name);
     if (name == "area") return b_.call("geometry.area", {});
-    for (const Known& k : kKnown) {
-      if (k.name == name) return b_.word(k.attribute);
-    }
+    if (const char* attribute = attributeOf(name)) return b_.word(attribute);
     return fail("'" + name + "' is no constant and nothing that a region knows");
   }
 
@@ -185,6 +183,14 @@ class Reader {
 };
 
 }  // namespace
+
+const char* attributeOf(std::string_view name) {
+  if (name == "area") return "geometry.area";
+  for (const Known& k : kKnown) {
+    if (k.name == name) return k.attribute;
+  }
+  return nullptr;
+}
 
 lang::NodeId expression(const Grammar& g, const std::vector<std::string>& parameters,
                         std::string_view text, Span span, gbbg::TreeBuilder& builder,

@@ -19,4 +19,10 @@ lang::NodeId expression(const Grammar& g, const std::vector<std::string>& parame
                         std::string_view text, Span span, gbbg::TreeBuilder& builder,
                         Diagnostics& diagnostics);
 
+/// The attribute that a region's own name stands for; null for other names.
+const char* attributeOf(std::string_view name);
+
+inline constexpr const char* kExpressionHint =
+    "write numbers, constants, w, h, area, ix, iy, nx, ny, bx, by, border";
+
 }  // namespace gable::park

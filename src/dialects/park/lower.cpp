@@ -458,15 +458,36 @@ bool Lowering::isParameter(const std::string& word) const {
   return std::find(all.begin(), all.end(), word) != all.end();
 }
 
-std::string Lowering::number(std::string_view written) const {
-  static const std::map<std::string, std::string> kRegion = {
-      {"w", "region.w"},   {"h", "region.h"},   {"ix", "region.ix"},
-      {"iy", "region.iy"}, {"nx", "region.nx"}, {"ny", "region.ny"},
-      {"bx", "region.bx"}, {"by", "region.by"}, {"area", "geometry.area"}};
-  std::map<std::string, std::string> words = kRegion;
-  for (const std::string& p : rule_->parameters) words.erase(p);
-  for (const auto& [name, value] : g_.constants) words.erase(name);
-  return withWords(written, words);
+std::string Lowering::number(std::string_view written, Span span) {
+  const auto isPartOfName = [](char c) {
+    return c == '_' || c == '.' || std::isalnum(static_cast<unsigned char>(c)) != 0;
+  };
+  std::string out;
+  for (size_t at = 0; at < written.size();) {
+    size_t end = at;
+    while (end < written.size() && isPartOfName(written[end])) ++end;
+    if (end == at) {
+      out += written[at++];
+      continue;
+    }
+    const std::string word(written.substr(at, end - at));
+    at = end;
+    const size_t next = written.find_first_not_of(" \t", end);
+    const bool called = next != written.npos && written[next] == '(';
+    const char* attribute = attributeOf(word);
+    const bool own = isParameter(word) || g_.constants.count(word) != 0;
+    const bool digit = word[0] == '.' || (word[0] >= '0' && word[0] <= '9');
+    // A word of sector; dotted names and functions are those of the language.
+    const bool known =
+        own || attribute || called || digit || word == "whole" || word.find('.') != word.npos;
+    if (!known) {
+      diagnostics_.error("bad-expression", placeOf(source_, span, word),
+                         "'" + word + "' is no constant and nothing that a region knows",
+                         kExpressionHint);
+    }
+    out += attribute && !own ? std::string(attribute) : word;
+  }
+  return out;
 }
 
 NodeId Lowering::node(const std::string& expression, std::string_view written, Span span) {
@@ -486,7 +507,7 @@ void Lowering::unreadable(std::string_view written, Span span) {
 }
 
 NodeId Lowering::formed(Form form, std::string_view written, Span span) {
-  lang::RegionTexts texts([this](std::string_view n) { return number(n); });
+  lang::RegionTexts texts([&](std::string_view n) { return number(n, span); });
   const std::string made = (texts.*form)(written);
   if (!made.empty()) return node(made, written, span);
   std::string hint = didYouMean(texts.word(), lang::RegionTexts::words());

@@ -203,7 +203,7 @@ void Lowering::dimension(const Op& op, size_t i, const char* count, const char* 
     if (op.arguments.empty()) arguments.push_back(b_.argument(count, b_.number(2)));
     return;
   }
-  RegionTexts texts([this](std::string_view n) { return number(n); });
+  RegionTexts texts([&](std::string_view n) { return number(n, span); });
   const RegionTexts::Dimension d = texts.dimension(written);
   if (!d.read) {
     diagnostics_.error("bad-argument", span,
@@ -389,7 +389,7 @@ void Lowering::voronoi(const Op& op, Nodes& out) {
       slotsOf(op, {{"region"}, {"path", "section"}, {"centre", "center"}, {"junction"}});
   const std::string written = op.arguments.empty() ? "5 {3}" : discs(g_, op.arguments[0].text);
   const Span span = spanOf(op, 0);
-  RegionTexts texts([this](std::string_view n) { return number(n); });
+  RegionTexts texts([&](std::string_view n) { return number(n, span); });
   const RegionTexts::Sites sites = texts.sites(written);
   if (sites.sites.empty()) unreadable(written, span);
   Nodes arguments{node(sites.sites.empty() ? "1" : sites.sites, written, span),
@@ -469,7 +469,7 @@ void Lowering::rays(const Op& op, Nodes& out) {
   if (middle) {
     arguments.push_back(b_.word("centre"));
   } else {
-    RegionTexts texts([this](std::string_view n) { return number(n); });
+    RegionTexts texts([&](std::string_view n) { return number(n, first); });
     const RegionTexts::Sites sites = texts.sites(written);
     if (sites.sites.empty()) unreadable(written, first);
     arguments.push_back(node(sites.sites.empty() ? "1" : sites.sites, written, first));

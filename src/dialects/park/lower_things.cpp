@@ -93,7 +93,7 @@ void Lowering::positions(const std::string& written, Span span, Nodes& arguments
   }
   const std::string inside = written.substr(1, written.rfind(']') - 1);
   if (inside.find(',') != std::string::npos) {
-    arguments.push_back(b_.argument("at", node("[" + number(inside) + "]", written, span)));
+    arguments.push_back(b_.argument("at", node("[" + number(inside, span) + "]", written, span)));
     return;
   }
   std::vector<std::string> parts(1);
@@ -110,7 +110,7 @@ void Lowering::positions(const std::string& written, Span span, Nodes& arguments
   double v = 0;
   const bool fixed = known(item, v);
   if (bare && fixed && v < 1 && v > 0) {
-    arguments.push_back(b_.argument("at", node("[" + number(item) + "]", written, span)));
+    arguments.push_back(b_.argument("at", node("[" + number(item, span) + "]", written, span)));
     return;
   }
   const bool real = item.find('.') != std::string::npos || (fixed && v != static_cast<int>(v));

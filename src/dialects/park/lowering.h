@@ -98,7 +98,7 @@ class Lowering {
   bool isParameter(const std::string& word) const;
   // An expression of the language, as it stands there; w and the like are those of the region.
   NodeId node(const std::string& expression, std::string_view written, Span span);
-  std::string number(std::string_view written) const;
+  std::string number(std::string_view written, Span span);
   NodeId number(const Op& op, size_t i, double otherwise);
   NodeId numberOf(std::string written, Span span);
   NodeId pathWidth();

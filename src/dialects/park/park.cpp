@@ -3,6 +3,7 @@
 
 #include "dialects/park/park.h"
 
+#include "dialects/park/expression.h"
 #include "dialects/park/grammar.h"
 #include "dialects/park/lower.h"
 
@@ -20,11 +21,34 @@ lang::Tree parse(const DialectInput& input, Diagnostics& diagnostics) {
   return park::lower(grammar, input.file, text, diagnostics);
 }
 
+constexpr const char* kEnd = "let the rule end: 'case (w > 2): A else: B'";
+
+constexpr Remedy kRemedies[] = {
+    {"unknown-name", park::kExpressionHint},
+    {"no-cells",
+     "make the region larger, or write fewer cells, a narrower PathWidth, or a smaller "
+     "minarea"},
+    {"scatter-full", "scatter fewer or smaller ones, or write what else shall happen: else { A }"},
+    {"endless-rule", kEnd},
+    {"recursion-too-deep", kEnd},
+    {"too-many-shapes", "write larger cells or fewer of them, or raise --max-shapes"},
+    {"too-many-children", "write larger cells or fewer of them"},
+};
+
 constexpr const char* kExtensions[] = {".park"};
 
 }  // namespace
 
-const Dialect kParkDialect{"park", "Park grammar", kExtensions, parse, nullptr, false,
-                           {},     false,          park::words};
+const Dialect kParkDialect{"park",
+                           "Park grammar",
+                           kExtensions,
+                           parse,
+                           nullptr,
+                           false,
+                           kRemedies,
+                           false,
+                           park::words,
+                           nullptr,
+                           "see the guide to park grammars, docs/guide/park.md"};
 
 }  // namespace gable

@@ -35,9 +35,11 @@ lang::Tree parse(const DialectInput& input, Diagnostics& diagnostics) {
   return progen3d::lower(grammar, input.file, input.catalogue, exists, diagnostics);
 }
 
+constexpr const char* kEnd =
+    "give the rule an end: 'X ; 0.8 -> A X ->' goes on four times of five, then stops";
 constexpr Remedy kRemedies[] = {
-    {"recursion-too-deep",
-     "give the rule an end: 'X ; 0.8 -> A X ->' goes on four times of five, then stops"},
+    {"endless-rule", kEnd},
+    {"recursion-too-deep", kEnd},
     {"too-many-turns", "write a smaller number of turns behind the name of the rule"},
     {"too-many-children", "write a smaller number of turns behind the name of the rule"},
     {"too-many-shapes", "take fewer turns, or raise --max-shapes"},
@@ -48,11 +50,16 @@ constexpr const char* kExtensions[] = {".grammar", ".pg3d"};
 
 }  // namespace
 
-const Dialect kProgen3d{
-    "progen3d",      "ProGen3d",
-    kExtensions,     parse,
-    nullptr,         true,
-    kRemedies,       false,
-    progen3d::words, "is drawn anew by each rule that has it in its head, or counts turns"};
+const Dialect kProgen3d{"progen3d",
+                        "ProGen3d",
+                        kExtensions,
+                        parse,
+                        nullptr,
+                        true,
+                        kRemedies,
+                        false,
+                        progen3d::words,
+                        "is drawn anew by each rule that has it in its head, or counts turns",
+                        "see the guide to ProGen3d, docs/guide/progen3d.md"};
 
 }  // namespace gable

@@ -104,7 +104,7 @@ TEST(ParkNotation, SlipsAreFound) {
       {"R -> Distribute(side(Q), 2) { A }", "bad-selection"},
       {"R -> Grid(2, 2, pattrn=pair) { A }", "bad-argument"},
       {"R -> Grid(2, 2, pattern=par) { A }", "unknown-selector"},
-      {"R -> Grid(2, x) { A }", "unknown-name"},
+      {"R -> Grid(2, x) { A }", "bad-expression"},
       {"R -> Place(CENTR) { A }", "bad-selection"},
       {"R -> Sweep(Q(1)) { A }", "bad-selection"},
       {"R -> VoronoiRegions(3 {2}, averag) { A }", "bad-selection"},
@@ -124,7 +124,7 @@ std::string placeOf(const Made& made, const std::string& code) {
 TEST(ParkNotation, MistakesAreToldWhereTheyStand) {
   const std::tuple<const char*, const char*, const char*> mistakes[] = {
       {"R -> Peel(outer & Outr, 1) { A | B }", "bad-selection", "1:19"},
-      {"R -> Grid(2, x + 1) { A }", "unknown-name", "1:14"},
+      {"R -> Grid(2, x + 1) { A }", "bad-expression", "1:14"},
       {"R -> Contract(1 + nothing) A", "bad-expression", "1:19"},
       {"R -> case (w == 2 && hh > 3) : A else : B", "bad-expression", "1:22"},
       {"R -> Distribute(outer & side(Q), 2) { A }", "bad-selection", "1:30"},
