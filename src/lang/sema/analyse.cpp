@@ -9,6 +9,7 @@
 #include "lang/sema/analyse.h"
 
 #include <algorithm>
+#include <unordered_set>
 #include <utility>
 
 #include "base/text.h"
@@ -79,8 +80,15 @@ void Analysis::openFrame(ModuleId module, NodeId declaration,
   body_.module = module;
   body_.types = paramTypes;
   body_.open = open;
-  for (const NodeId p : tree().children(paramsOf(tree(), declaration))) {
-    if (std::find(body_.slots.begin(), body_.slots.end(), text(p)) != body_.slots.end()) {
+  const std::span<const NodeId> params = tree().children(paramsOf(tree(), declaration));
+  // Looking through a few is faster than a set of them.
+  constexpr size_t kFew = 16;
+  std::unordered_set<std::string_view> seen;
+  for (const NodeId p : params) {
+    const bool twice = params.size() > kFew ? !seen.insert(text(p)).second
+                                            : std::find(body_.slots.begin(), body_.slots.end(),
+                                                        text(p)) != body_.slots.end();
+    if (twice) {
       errorAt("duplicate-parameter", p, quote(text(p)) + " stands here twice",
               "rename one of the two");
     }
@@ -241,9 +249,17 @@ void Analysis::chooseStartRule() {
 
 // Styles that are not derived now are checked all the same; what is made for them is dropped.
 void Analysis::checkOtherStyles() {
+  // Each style is a reading of the whole file; styles by the thousand are made by programs.
+  constexpr size_t kMostNodes = 16'000'000;
   const std::string active = program_.modules[0].style;
+  const size_t before = nodes_, count = units_[0].styles.size();
+  size_t read = 0, left = 0;
   for (const StyleInfo& style : std::vector<StyleInfo>(units_[0].styles)) {
     if (style.name == active) continue;
+    if (read > kMostNodes) {
+      ++left;
+      continue;
+    }
     const size_t modules = program_.modules.size();
     const size_t rules = program_.rules.size();
     const size_t functions = program_.functions.size();
@@ -269,7 +285,15 @@ void Analysis::checkOtherStyles() {
     drop(ownValues_, [&](const auto& e) { return e.first >= attributes; });
     drop(openRules_, [&](const auto& e) { return e.first >= rules; });
     drop(openFunctions_, [&](const auto& e) { return e.first >= functions; });
+    // A style may extend all the others.
+    read += nodes_ - before + count;
+    nodes_ = before;
   }
+  if (left == 0) return;
+  warning("unchecked-styles", {},
+          std::to_string(left) + " of " + std::to_string(count) +
+              " styles of the rule file are not checked, because that would take long",
+          "derive with one of them to check it: --style NAME");
 }
 
 // "Modern, roofs.Slate": a style of the file, and those of imports by their paths.

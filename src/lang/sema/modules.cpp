@@ -56,6 +56,39 @@ void Analysis::readVersion(uint32_t unit, NodeId node) {
   }
 }
 
+namespace {
+
+// Which styles lead back to the default one, by their bases; the others extend themselves or a
+// style that is not there. Each is passed once.
+template <class Index>
+std::vector<bool> stylesToDefault(const Index& index) {
+  enum class State : uint8_t { Unknown, Open, Reaches, Not };
+  std::vector<State> states(index.styles.size(), State::Unknown);
+  states[0] = State::Reaches;
+  std::vector<size_t> open;
+  for (size_t s = 0; s < states.size(); ++s) {
+    State end = State::Not;
+    for (size_t at = s;;) {
+      if (states[at] != State::Unknown) {
+        if (states[at] != State::Open) end = states[at];
+        break;
+      }
+      states[at] = State::Open;
+      open.push_back(at);
+      const auto base = index.styleNumbers.find(index.styles[at].base);
+      if (base == index.styleNumbers.end()) break;
+      at = base->second;
+    }
+    for (const size_t o : open) states[o] = end;
+    open.clear();
+  }
+  std::vector<bool> out;
+  for (const State s : states) out.push_back(s == State::Reaches);
+  return out;
+}
+
+}  // namespace
+
 void Analysis::indexUnit(uint32_t unit) {
   const Tree& t = program_.units[unit].tree;
   UnitIndex& index = units_[unit];
@@ -106,6 +139,7 @@ void Analysis::indexUnit(uint32_t unit) {
       default: break;
     }
   }
+  const std::vector<bool> reaching = stylesToDefault(index);
   // Bases may stand behind the styles that extend them.
   for (const NodeId id : t.children(t.root())) {
     const NodeId base = t.kind(id) == NodeKind::Style ? t.child(id, 1) : kNoNode;
@@ -118,7 +152,7 @@ void Analysis::indexUnit(uint32_t unit) {
     if (index.styleNumbers.find(t.text(base)) == index.styleNumbers.end()) {
       error("unknown-style", t.span(base), "there is no style " + quote(t.text(base)),
             near(t.text(base), names));
-    } else if (styleChain(unit, t.text(id)).back() != kDefaultStyle) {
+    } else if (!reaching[index.styleNumbers.find(t.text(id))->second]) {
       error("style-cycle", t.span(base), "the style " + quote(t.text(id)) + " extends itself",
             "extend another style");
     }
