@@ -26,11 +26,14 @@ namespace gable {{
 
 namespace {{
 
-// A field for each parameter; its type is the type of the parameter (program/arguments.h).
+// A field for each parameter; its type is the type of the parameter (program/arguments.h): a Size
+// may be written as a share of the scope, '0.5.
 struct Arguments {{
   double distance;
 }};
 
+// Changes call.shape(), or fails and leaves it as it was. A loop whose length depends on the
+// arguments or the shape calls work() (base/work.h). Draws come from call.randomAddress(k).
 Status apply(OpCall& call, const Arguments& args) {{
   (void)call;
   (void)args.distance;
@@ -42,9 +45,12 @@ constexpr ParamSpec kParams[] = {{
 }};
 constexpr Signature kSignatures[] = {{{{kParams}}}};
 
+// kPure: the result depends on the shape and the arguments alone. Declare what else it looks at:
+// kRandom, kReadsWorld, kReadsPivot, ... (docs/dev/effects.md); tests stop at what is not declared.
+// An operation with braces says which kind. withLight() adds a short way for boxes and rectangles.
 constexpr OpSpec kSpecs[] = {{
     {{"{name}", "{family}", "One sentence that says what it does to the shape.", kSignatures,
-     typed<apply>}},
+     typed<apply>, BlockKind::None, kPure}},
 }};
 
 }}  // namespace
