@@ -129,11 +129,13 @@ class WordsTest(CheckCase):
         self.write("src/base/a.cpp", HEAD + "// The caf\u00e9.\nconst char* k = \"caf\u00e9\";\n")
         self.write("src/base/b.cpp", "int b;\n")
         self.write("docs/c.md", "See /home" "/me/x and issue" " #12.\n\nTO" "DO\n")
+        self.write("--list/a.glb", "")
         found = self.messages(words)
+        self.assertIn("--list/a.glb: a path that reads as an option", found)
         self.assertIn("src/base/a.cpp:3: a comment that is not ASCII", found)
         self.assertIn("src/base/b.cpp:1: the two SPDX lines are missing", found)
         self.assertEqual(len([f for f in found if f.startswith("docs/c.md")]), 3)
-        self.assertEqual(len(found), 5)
+        self.assertEqual(len(found), 6)
 
 
 class LinksTest(CheckCase):

@@ -321,7 +321,12 @@ static void refusesMisuse(void) {
 }
 
 int main(int argc, char** argv) {
-  if (argc < 2 || (mkdir(argv[1], 0777) != 0 && errno != EEXIST)) return 2;
+  /* This is no googletest program: `--gtest_list_tests` is not the name of a folder. */
+  if (argc != 2 || argv[1][0] == '-') {
+    fprintf(stderr, "usage: c_test FOLDER\n");
+    return 2;
+  }
+  if (mkdir(argv[1], 0777) != 0 && errno != EEXIST) return 2;
   EXPECT(gable_c_interface() == GABLE_C_INTERFACE);
   EXPECT(strlen(gable_library_version()) > 0);
   readsAttributesWithAnnotations();

@@ -83,7 +83,11 @@ void operator delete(void* memory, size_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, size_t) noexcept { std::free(memory); }
 
 int main(int argc, char** argv) {
-  if (argc < 2) return 2;
+  // This is no googletest program: `--gtest_list_tests` is not the name of a folder.
+  if (argc != 2 || argv[1][0] == '-') {
+    std::fprintf(stderr, "usage: memory_test FOLDER\n");
+    return 2;
+  }
   std::filesystem::create_directories(argv[1]);
   const std::string path = std::string(argv[1]) + "/model.glb";
   if (!runOnce(path, 1, Phase::Files, -1).whole) return 1;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The Gable authors
-"""SPDX heads, comments in ASCII, and words that have no place in the files."""
+"""SPDX heads, comments in ASCII, and names and words that have no place in the files."""
 import re
 
 from .tree import CPP, Finding, comments_of
@@ -27,6 +27,9 @@ def scripts(tree):
 
 def check(tree):
     findings = []
+    # A program that takes its first argument for a folder makes such a path of an option.
+    findings += [Finding(path, 0, "a path that reads as an option", path)
+                 for path in tree.paths if any(part.startswith("-") for part in path.split("/"))]
     shell = scripts(tree)
     for path in tree.files(*WITH_HEAD) + shell:
         first = tree.text(path).split("\n", 4)[:3]
