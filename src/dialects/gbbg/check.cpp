@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/text.h"
+#include "dialects/proposal.h"
 
 namespace gable::gbbg {
 
@@ -91,9 +92,11 @@ class Checker {
     SymbolInfo* s = out_.find(line.symbol.text);
     if (!s && broken_) return;
     if (!s) {
+      const std::string nearest = near(line.symbol.text, names());
       diagnostics_.warning("gbbg-unknown-symbol", line.symbol.span,
                            "no shape of this grammar is " + quote(line.symbol.text),
-                           near(line.symbol.text, names()));
+                           meaning(nearest));
+      propose(diagnostics_, line.symbol.span, line.symbol.text, nearest);
       return;
     }
     if (!s->terminal) {
@@ -129,9 +132,11 @@ class Checker {
     }
     const bool reached = reached_.count(s.name) > 0;
     if (!broken_ && !s.rules.empty() && !reached && s.name != kStart) {
+      const std::string nearest = near(s.name, reachedNames());
       diagnostics_.warning("gbbg-unknown-predecessor", s.rules[0]->predecessor.span,
                            "nothing becomes " + quote(s.name) + ", so this rule never applies",
-                           near(s.name, reachedNames()));
+                           meaning(nearest));
+      propose(diagnostics_, s.rules[0]->predecessor.span, s.name, nearest);
     }
     if (!broken_ && s.rules.empty() && !s.terminal && reached) {
       diagnostics_.warning(
@@ -149,7 +154,7 @@ class Checker {
 
   // Looking for the nearest name takes time: not for more mistakes than anyone reads.
   std::string near(std::string_view name, const std::vector<std::string_view>& known) {
-    return ++hints_ > 100 ? std::string() : didYouMean(name, known);
+    return ++hints_ > 100 ? std::string() : nearestName(name, known);
   }
   std::vector<std::string_view> names() const {
     std::vector<std::string_view> list;

@@ -10,6 +10,7 @@
 
 #include "base/text.h"
 #include "dialects/gbbg/parser_impl.h"
+#include "dialects/proposal.h"
 
 namespace gable::gbbg {
 
@@ -107,11 +108,13 @@ bool Parser::unexpected(const std::string& wanted, std::string hint) {
 bool Parser::unknownWord(const char* what, const std::vector<std::string_view>& words) {
   std::string list;
   for (const std::string_view w : words) list += (list.empty() ? "" : ", ") + std::string(w);
-  std::string hint;
-  if (current().kind == TokenKind::Word) hint = didYouMean(current().text, words);
-  if (hint.empty()) hint = "it is one of: " + list;
-  return error("gbbg-word", spanOf(current()),
-               "here stands " + described() + ", but " + what + " is expected", std::move(hint));
+  std::string nearest;
+  if (current().kind == TokenKind::Word) nearest = nearestName(current().text, words);
+  error("gbbg-word", spanOf(current()),
+        "here stands " + described() + ", but " + what + " is expected",
+        nearest.empty() ? "it is one of: " + list : meaning(nearest));
+  if (errors_ <= kMaxErrors) propose(diagnostics_, spanOf(current()), current().text, nearest);
+  return false;
 }
 
 // --- Statements ---
@@ -182,10 +185,12 @@ void Parser::statement(Grammar& grammar) {
     good = postProcess(s);
   } else {
     std::vector<std::string_view> words(std::begin(kKeywords), std::end(kKeywords));
+    const bool word = current().kind == TokenKind::Word && ahead(1).kind != TokenKind::Sign;
+    const std::string nearest = word ? nearestName(current().text, words) : std::string();
     unexpected("a statement",
-               current().kind == TokenKind::Word && ahead(1).kind != TokenKind::Sign
-                   ? didYouMean(current().text, words)
-                   : "a rule is written 'Predecessor -> Operator(Parameters) {Successor}'");
+               word ? meaning(nearest)
+                    : "a rule is written 'Predecessor -> Operator(Parameters) {Successor}'");
+    if (errors_ <= kMaxErrors) propose(diagnostics_, spanOf(current()), current().text, nearest);
   }
   // Comments within a statement go before it.
   for (size_t i = from + 1; i < at_ && s.kind != StatementKind::PostProcess; ++i) {

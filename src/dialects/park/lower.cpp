@@ -17,6 +17,7 @@
 #include "dialects/park/lowering.h"
 #include "dialects/park/operations.h"
 #include "dialects/park/places.h"
+#include "dialects/proposal.h"
 #include "lang/graft.h"
 
 namespace gable::park {
@@ -94,9 +95,11 @@ void Lowering::warnOfUnused() {
   }
   for (const Grammar::Constant& c : g_.written) {
     if (c.name == "PathWidth" || named.count(c.name) != 0) continue;
-    const std::string hint = didYouMean(c.name, {"PathWidth"});
-    diagnostics_.warning("unused-rule", c.span, "nothing names the constant '" + c.name + "'",
-                         hint.empty() ? "name it where it is meant, or take it out" : hint);
+    const std::string nearest = nearestName(c.name, {"PathWidth"});
+    diagnostics_.warning(
+        "unused-rule", c.span, "nothing names the constant '" + c.name + "'",
+        nearest.empty() ? "name it where it is meant, or take it out" : meaning(nearest));
+    propose(diagnostics_, placeOf(source_, c.span, c.name), c.name, nearest);
   }
 }
 
@@ -199,10 +202,11 @@ bool Lowering::step(const Op& op, Nodes& out) {
     out.push_back(b_.leaf(op.name));
     return false;
   }
-  diagnostics_.error("unknown-operation", placeOf(source_, op.span, op.name),
-                     "there is no operation '" + op.name + "'",
-                     nearest.empty() ? "docs/guide/park.md lists the operations"
-                                     : "did you mean '" + nearest + "'?");
+  const Span word = placeOf(source_, op.span, op.name);
+  diagnostics_.error(
+      "unknown-operation", word, "there is no operation '" + op.name + "'",
+      nearest.empty() ? "docs/guide/park.md lists the operations" : meaning(nearest));
+  propose(diagnostics_, word, op.name, nearest);
   return true;
 }
 
@@ -247,7 +251,8 @@ void Lowering::warnOfColour(const Op& op) {
   if (nearest.empty()) return;
   diagnostics_.warning("unknown-colour", op.span,
                        "'" + op.name + "' is no colour or material; it becomes grey",
-                       "did you mean '" + nearest + "'?");
+                       meaning(nearest));
+  propose(diagnostics_, placeOf(source_, op.span, op.name), op.name, nearest);
 }
 
 // A name without a rule is a leaf, but one close to a rule's was probably meant to be that.
@@ -255,12 +260,12 @@ void Lowering::warnOfSlip(const Op& op) {
   std::vector<std::string_view> names;
   for (const Rule& r : g_.rules) names.push_back(r.name);
   const std::string nearest = nearestName(op.name, names);
-  const std::string hint = nearest.empty() ? nearest : "did you mean '" + nearest + "'?";
   // Plant1 beside Plant2, Hedge beside Hedges.
   const bool counted = isdigit(static_cast<unsigned char>(op.name.back())) != 0;
-  if (hint.empty() || counted || nearest == op.name + "s" || op.name == nearest + "s") return;
+  if (nearest.empty() || counted || nearest == op.name + "s" || op.name == nearest + "s") return;
   diagnostics_.warning("undefined-rule", op.span,
-                       "no rule is named '" + op.name + "'; it becomes a leaf", hint);
+                       "no rule is named '" + op.name + "'; it becomes a leaf", meaning(nearest));
+  propose(diagnostics_, placeOf(source_, op.span, op.name), op.name, nearest);
 }
 
 void Lowering::call(const Rule& r, const Op& op, Nodes& out) {
@@ -354,7 +359,8 @@ Lowering::Slots Lowering::slotsOf(const Op& op,
       if (place == names.size() && !label.empty() && isName(label) && !value) {
         std::vector<std::string_view> words;
         for (const auto& same : names) words.insert(words.end(), same.begin(), same.end());
-        std::string hint = didYouMean(label, words);
+        const std::string nearest = nearestName(label, words);
+        std::string hint = meaning(nearest);
         if (hint.empty()) {
           for (const std::string_view w : words) {
             hint += (hint.empty() ? "it knows " : ", ") + std::string(w);
@@ -362,6 +368,7 @@ Lowering::Slots Lowering::slotsOf(const Op& op,
         }
         diagnostics_.error("unknown-selector", p.span,
                            "'" + op.name + "' has no part called '" + p.label + "'", hint);
+        propose(diagnostics_, placeOf(source_, p.span, p.label), p.label, nearest);
       }
       if (place == names.size()) place = at++;
       if (place < names.size()) {
@@ -417,14 +424,19 @@ void Lowering::checkWords(const Op& op, size_t first,
     const size_t equals = a.find('=');
     if (equals != std::string::npos) a = a.substr(0, a.find_last_not_of(' ', equals - 1) + 1) + '=';
     if (std::find(words.begin(), words.end(), a) != words.end()) continue;
-    std::string hint = didYouMean(a, words);
+    const std::string nearest = nearestName(a, words);
+    std::string hint = meaning(nearest);
     for (const std::string_view w : words) {
-      if (hint.ends_with('?')) break;
+      if (!nearest.empty()) break;
       hint += (hint.empty() ? "it knows " : ", ") + std::string(w);
     }
     diagnostics_.error("bad-argument", op.arguments[i].span,
                        "'" + op.arguments[i].text + "' is nothing that '" + op.name + "' knows",
                        hint);
+    const std::string& written = op.arguments[i].text;
+    if (equals == std::string::npos) {
+      propose(diagnostics_, placeOf(source_, op.arguments[i].span, written), written, nearest);
+    }
   }
 }
 
@@ -510,7 +522,8 @@ NodeId Lowering::formed(Form form, std::string_view written, Span span) {
   lang::RegionTexts texts([&](std::string_view n) { return number(n, span); });
   const std::string made = (texts.*form)(written);
   if (!made.empty()) return node(made, written, span);
-  std::string hint = didYouMean(texts.word(), lang::RegionTexts::words());
+  const std::string nearest = nearestName(texts.word(), lang::RegionTexts::words());
+  std::string hint = meaning(nearest);
   if (hint.empty() && form == &lang::RegionTexts::places) {
     hint =
         "write CENTRE, CENTROID, Corners, CORNER(0), CORNER(OUTER), (0.8, 0.1) or Points((3, 4))";
@@ -519,8 +532,10 @@ NodeId Lowering::formed(Form form, std::string_view written, Span span) {
   } else if (hint.empty()) {
     hint = "see the selections in the guide to park grammars";
   }
-  diagnostics_.error("bad-selection", placeOf(source_, span, texts.word()),
+  const Span word = placeOf(source_, span, texts.word());
+  diagnostics_.error("bad-selection", word,
                      "'" + std::string(written) + "' cannot be read: " + texts.problem(), hint);
+  propose(diagnostics_, word, texts.word(), nearest);
   return b_.number(0);
 }
 

@@ -8,6 +8,8 @@
 #include "base/number.h"
 #include "base/text.h"
 #include "dialects/park/lowering.h"
+#include "dialects/park/places.h"
+#include "dialects/proposal.h"
 
 namespace gable::park {
 
@@ -39,10 +41,11 @@ void Lowering::options(const Op& op, size_t first, std::initializer_list<Option>
           names.push_back(o.name);
           list += (list.empty() ? "it knows " : ", ") + std::string(o.name);
         }
-        const std::string hint = didYouMean(name, names);
+        const std::string nearest = nearestName(name, names);
         diagnostics_.error("bad-argument", span,
                            "'" + name + "' is nothing that '" + op.name + "' knows",
-                           hint.empty() ? list : hint);
+                           nearest.empty() ? list : meaning(nearest));
+        propose(diagnostics_, placeOf(source_, span, name), name, nearest);
         continue;
       }
       const std::string word = lowerCase(value);

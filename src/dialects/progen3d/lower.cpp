@@ -15,6 +15,7 @@
 #include "dialects/progen3d/names.h"
 #include "dialects/progen3d/nodes.h"
 #include "dialects/progen3d/uses.h"
+#include "dialects/proposal.h"
 
 namespace gable::progen3d {
 
@@ -345,11 +346,13 @@ class Lowering {
     if (!unknown_.insert(name).second) return;
     std::vector<std::string_view> known;
     for (const Variable& v : g_.variables) known.push_back(v.name);
-    std::string hint = didYouMean(name, known);
-    if (hint.empty()) hint = "declare it: R " + std::string(name) + " ( min max )";
+    const std::string nearest = nearestName(name, known);
+    std::string hint =
+        nearest.empty() ? "declare it: R " + std::string(name) + " ( min max )" : meaning(nearest);
     diagnostics_.warning("unknown-variable", at,
                          "there is no variable '" + std::string(name) + "'; it counts as 0",
                          std::move(hint));
+    propose(diagnostics_, at, name, nearest);
   }
 
   NodeId name(const Expression& e) {

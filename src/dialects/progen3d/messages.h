@@ -10,6 +10,7 @@
 
 #include "base/diagnostic.h"
 #include "base/text.h"
+#include "dialects/proposal.h"
 
 namespace gable::progen3d {
 
@@ -18,9 +19,11 @@ template <class Grammar>
 void warnUnknownRule(const Grammar& grammar, std::string_view name, Span at, Diagnostics& out) {
   std::vector<std::string_view> known;
   for (const auto& rule : grammar.rules) known.push_back(rule.name);
+  const std::string nearest = nearestName(name, known);
   out.warning("unknown-rule", at,
               "there is no rule '" + std::string(name) + "'; nothing is drawn for it",
-              didYouMean(name, known));
+              meaning(nearest));
+  propose(out, at, name, nearest);
 }
 
 }  // namespace gable::progen3d

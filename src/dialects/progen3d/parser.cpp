@@ -299,8 +299,8 @@ class Parser : TokenReader {
     step.span = spanOf(t);
     if (is(TokenKind::Open)) {
       skipArguments();
-      warning("unknown-word", step.span, "there is no operation '" + std::string(word) + "'",
-              didYouMean(word, {"S", "T", "A", "D", "I", "R", "DS", "DT"}));
+      warningOfWord("unknown-word", step.span, "there is no operation '" + std::string(word) + "'",
+                    "", nearestName(word, {"S", "T", "A", "D", "I", "R", "DS", "DT"}));
       return;
     }
     out.push_back(std::move(step));
@@ -406,10 +406,9 @@ class Parser : TokenReader {
     }
     std::vector<std::string_view> names;
     for (const auto& [name, b] : kBodies) names.push_back(name);
-    std::string hint = didYouMean(textOf(t), names);
-    if (hint.empty()) hint = "there are Cube, CubeX, CubeY, Sphere and Cylinder";
-    warning("unknown-primitive", spanOf(t),
-            "there is no primitive '" + std::string(textOf(t)) + "'", std::move(hint));
+    warningOfWord(
+        "unknown-primitive", spanOf(t), "there is no primitive '" + std::string(textOf(t)) + "'",
+        "there are Cube, CubeX, CubeY, Sphere and Cylinder", nearestName(textOf(t), names));
     return false;
   }
 

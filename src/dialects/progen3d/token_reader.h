@@ -13,6 +13,7 @@
 
 #include "base/diagnostic.h"
 #include "dialects/progen3d/lexer.h"
+#include "dialects/proposal.h"
 
 namespace gable::progen3d {
 
@@ -41,6 +42,13 @@ class TokenReader {
   void warning(const char* code, Span span, std::string message, std::string hint = {}) {
     if (++warnings_ <= kMaxWarnings)
       diagnostics_.warning(code, span, std::move(message), std::move(hint));
+  }
+
+  /// A warning about the word at `span`, which may mean `nearest`.
+  void warningOfWord(const char* code, Span span, std::string message, std::string hint,
+                     const std::string& nearest) {
+    warning(code, span, std::move(message), nearest.empty() ? std::move(hint) : meaning(nearest));
+    if (!nearest.empty() && warnings_ <= kMaxWarnings) diagnostics_.fixLast(span, nearest);
   }
 
   void window(size_t begin, size_t end) {

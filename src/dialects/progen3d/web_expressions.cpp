@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "dialects/progen3d/web_words.h"
+#include "dialects/proposal.h"
 
 namespace gable::progen3d::web {
 
@@ -168,11 +169,13 @@ void Expressions::unknownVariable(std::string_view name, Span at) {
   std::vector<std::string_view> known;
   for (const auto& [variable, drawn] : uses_.drawn()) known.push_back(variable);
   known.insert(known.end(), uses_.parameters().begin(), uses_.parameters().end());
-  std::string hint = didYouMean(name, known);
-  if (hint.empty()) hint = "declare it: R " + std::string(name) + " ( min max )";
+  const std::string nearest = nearestName(name, known);
+  std::string hint =
+      nearest.empty() ? "declare it: R " + std::string(name) + " ( min max )" : meaning(nearest);
   diagnostics_.warning("unknown-variable", at,
                        "there is no variable '" + std::string(name) + "'; it counts as 0",
                        std::move(hint));
+  propose(diagnostics_, at, name, nearest);
 }
 
 NodeId Expressions::name(const Expression& e) {
@@ -203,9 +206,13 @@ NodeId Expressions::function(const Expression& e) {
                                      "max", "float", "int", "rand"}) {
       known.push_back(n);
     }
+    const std::string nearest = nearestName(e.name, known);
     diagnostics_.warning("unknown-function", e.span,
                          "there is no function '" + std::string(e.name) + "'; it counts as 0",
-                         didYouMean(e.name, known));
+                         meaning(nearest));
+    // The call begins with its name.
+    const auto length = static_cast<uint32_t>(e.name.size());
+    propose(diagnostics_, {e.span.file, e.span.begin, e.span.begin + length}, e.name, nearest);
     return b_.number(0, e.span);
   }
   if (e.parts.size() < f->least || e.parts.size() > f->most) {

@@ -359,10 +359,10 @@ class Parser : TokenReader {
     const auto* at = std::find(std::begin(kBodies), std::end(kBodies), textOf(body));
     s.axis = static_cast<uint32_t>(at - kBodies);
     if (at != std::end(kBodies)) return true;
-    std::string hint = didYouMean(textOf(body), {"Cube", "CubeX", "CubeY", "CubeZ"});
-    if (hint.empty()) hint = "there are Cube, CubeX, CubeY and CubeZ";
-    warning("unknown-primitive", spanOf(body),
-            "there is no primitive '" + std::string(textOf(body)) + "'", std::move(hint));
+    warningOfWord("unknown-primitive", spanOf(body),
+                  "there is no primitive '" + std::string(textOf(body)) + "'",
+                  "there are Cube, CubeX, CubeY and CubeZ",
+                  nearestName(textOf(body), {"Cube", "CubeX", "CubeY", "CubeZ"}));
     return false;
   }
 
