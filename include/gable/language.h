@@ -115,6 +115,8 @@ struct Completion {
   uint32_t order = 0;
   /// The word as it was typed, which Enter shall keep.
   bool preselect = false;
+  /// The path of the picture that is offered; empty for all else.
+  std::string picture;
 };
 
 struct Completions {

@@ -80,6 +80,31 @@ constexpr KnownNote kNotes[] = {
     {"Out", "Out(granularity=separatedShapes)", "Each shape stands alone in the result."},
 };
 
+struct KnownColour {
+  const char* hex;
+  const char* of;
+};
+
+constexpr KnownColour kColours[] = {
+    {"#f2f0ea", "white plaster"}, {"#d8c7a4", "sandstone"}, {"#b5533c", "brick"},
+    {"#8f8f8a", "concrete"},      {"#4a4f55", "slate"},     {"#b86f50", "roof tiles"},
+    {"#7c5a3a", "wood"},          {"#9fb8c8", "glass"},     {"#2f2f2f", "iron"},
+    {"#cfc0a0", "gravel"},        {"#6fa854", "grass"},     {"#6f9fc0", "water"},
+};
+
+bool isPicture(std::string_view path) {
+  for (const char* const end : {".png", ".jpg", ".jpeg", ".gif", ".webp", ".bmp"}) {
+    if (lowerCase(path).ends_with(end)) return true;
+  }
+  return false;
+}
+
+// What a parameter of texts is asked for, by its name: files of the project.
+bool namesFiles(std::string_view parameter) {
+  return parameter == "filePath" || parameter == "filePathList" || parameter == "path" ||
+         parameter == "searchQuery";
+}
+
 class Completer {
  public:
   Completer(Library& library, const std::string& path, const Lexed& lexed, uint32_t offset)
@@ -293,8 +318,20 @@ class Completer {
   }
 
   void values() {
+    const bool named = cursor_.call.callee == "set" && cursor_.call.successor;
+    if (cursor_.atArgument && named && cursor_.call.argument == 0) return settable();
     if (cursor_.atArgument) arguments();
     expression();
+  }
+
+  // What set() can give a value.
+  void settable() {
+    const auto attribute = [](NameKind k) { return k == NameKind::Attribute; };
+    own(attribute);
+    imported(attribute);
+    for (const AttributeSpec* a : catalogue_.attributes) {
+      if (a->set) add(a->name, NameKind::ShapeAttribute, typeName(a->type), a->doc, 30);
+    }
   }
 
   void expression() {
@@ -326,14 +363,8 @@ class Completer {
   void arguments() {
     const std::optional<Callable> c =
         callableOf(catalogue_, cursor_.call.callee, cursor_.call.successor);
-    if (!c) return;
-    for (const ParamSpec* p : parametersAt(*c, cursor_.call)) {
-      for (const std::string_view w : listed(p->words)) {
-        add(w, NameKind::Selector, p->name, p->doc, 1);
-      }
-      for (const TermSpec& t : p->terms) add(t.name, NameKind::Selector, p->name, t.doc, 1);
-      if (p->type == ParamType::Selector && !p->words) selectorWords(2);
-    }
+    if (!c) return termArguments();
+    for (const ParamSpec* p : parametersAt(*c, cursor_.call)) parameter(*p);
     if (!cursor_.call.named.empty()) return;
     for (const Signature& s : c->signatures) {
       for (size_t i = cursor_.call.argument; i < s.params.size(); ++i) {
@@ -341,6 +372,28 @@ class Completer {
         Completion* item = add(name + " =", NameKind::Parameter, typeText(s.params[i].type),
                                docText(s.params[i]), 7);
         if (item) item->text = name + " = ";
+      }
+    }
+  }
+
+  void parameter(const ParamSpec& p) {
+    for (const std::string_view w : listed(p.words)) {
+      add(w, NameKind::Selector, p.name, p.doc, 1);
+    }
+    for (const TermSpec& t : p.terms) add(t.name, NameKind::Selector, p.name, t.doc, 1);
+    if (p.type == ParamType::Selector && !p.words) selectorWords(2);
+  }
+
+  // A call within a selection: side(west).
+  void termArguments() {
+    for (const OpSpec* op : catalogue_.operations) {
+      for (const Signature& s : op->signatures) {
+        for (const ParamSpec& p : s.params) {
+          for (const TermSpec& t : p.terms) {
+            if (t.name != cursor_.call.callee || cursor_.call.argument >= t.paramCount) continue;
+            return parameter(t.params[cursor_.call.argument]);
+          }
+        }
       }
     }
   }
@@ -395,12 +448,27 @@ class Completer {
   void strings() {
     if (cursor_.owner == "import") return rulePaths();
     if (cursor_.typed.starts_with("#")) return colors();
+    if (cursor_.atArgument && !asksForFile()) return;
     size_t count = 0;
     for (const std::string& asset : library_.files().assets(path_)) {
       if (count++ >= kMostFiles) out_.partial = true;
       if (count > kMostFiles) break;
       file(asset);
     }
+  }
+
+  // Offers the words of the parameter where it has some; true where any file may stand.
+  bool asksForFile() {
+    const std::optional<Callable> c =
+        callableOf(catalogue_, cursor_.call.callee, cursor_.call.successor);
+    if (!c || std::string_view(c->name) == "set") return true;
+    bool files = false;
+    for (const ParamSpec* p : parametersAt(*c, cursor_.call)) {
+      files = files || namesFiles(p->name);
+      if (std::string_view(p->name) == "hexValue") colors();
+      if (!files) parameter(*p);
+    }
+    return files;
   }
 
   void file(const std::string& name) {
@@ -415,7 +483,15 @@ class Completer {
     c.kind = NameKind::File;
     c.filter = beginsWith(name, typed) ? name : std::string(last);
     c.order = 10;
+    if (isPicture(name)) c.picture = pathOf(name);
     out_.items.push_back(std::move(c));
+  }
+
+  // Where an asset lies, whose name begins at the assets folder or at the root of the project.
+  std::string pathOf(const std::string& asset) {
+    const std::string root = library_.files().root(path_);
+    const std::string within = root + "/assets/" + asset;
+    return library_.files().readable(within, path_) ? within : root + "/" + asset;
   }
 
   void rulePaths() {
@@ -426,7 +502,7 @@ class Completer {
     }
   }
 
-  // Colours that the file uses already.
+  // Colours that the file uses already, and those of common materials.
   void colors() {
     std::set<std::string> known;
     for (const lang::Token& t : lexed_.tokens.tokens) {
@@ -435,6 +511,7 @@ class Completer {
       if (text[0] == '#' && text != cursor_.typed) known.insert(text);
     }
     for (const std::string& c : known) add(c, NameKind::Color, c, "", 10);
+    for (const KnownColour& c : kColours) add(c.hex, NameKind::Color, c.hex, c.of, 20);
   }
 
   Library& library_;
@@ -465,7 +542,11 @@ class DialectCompleter {
   }
 
   Completions run() {
-    if (quiet_ || typed_.empty()) return {};
+    // What calls for proposals in rule files is part of words here.
+    const char before = begin_ > 0 ? text_[begin_ - 1] : ' ';
+    if (quiet_ || (typed_.empty() && std::string_view(".\"#@").find(before) != std::string::npos)) {
+      return {};
+    }
     for (const Declared& d : declaredIn(parsed_.tree)) {
       // What the parser has made up is not written.
       const std::string_view there =
@@ -479,7 +560,7 @@ class DialectCompleter {
     if (out_.items.empty()) return std::move(out_);
     const bool exact = std::any_of(out_.items.begin(), out_.items.end(),
                                    [&](const Completion& c) { return c.label == typed_; });
-    if (!exact) {
+    if (!exact && !typed_.empty()) {
       Completion own;
       own.label = own.text = typed_;
       own.kind = NameKind::Leaf;

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "lsp/server.h"
+#include "lsp/uri.h"
 
 namespace gable {
 
@@ -135,15 +136,20 @@ void LanguageServer::Impl::completion(const JsonValue& params, JsonWriter& json)
     if (c.kind == NameKind::Operation || c.kind == NameKind::BuiltinFunction ||
         c.kind == NameKind::ShapeAttribute) {
       json.key("data").value(c.label);
+    } else if (!c.picture.empty()) {
+      json.key("data").beginObject().key("picture").value(lsp::uriOfPath(c.picture)).endObject();
     }
     json.endObject();
   }
   json.endArray().endObject();
 }
 
-// The page of the reference, asked for when an item is looked at.
+// The page of the reference or the picture, asked for when an item is looked at.
 void LanguageServer::Impl::completionResolve(const JsonValue& params, JsonWriter& json) {
-  const std::string page = language::referencePage(params["data"].text());
+  const JsonValue& data = params["data"];
+  const std::string picture = data["picture"].text();
+  const std::string page =
+      picture.empty() ? language::referencePage(data.text()) : "![](" + picture + ")";
   json.beginObject();
   for (const auto& [name, value] : params.members()) {
     if (name == "documentation" && !page.empty()) continue;

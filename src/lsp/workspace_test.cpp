@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include "gable/language.h"
 
@@ -128,6 +129,35 @@ TEST(Completion, partsTakeSelectorsOrSizes) {
   EXPECT_FALSE(d.offers("width"));
   d.put("attr width = 1\nLot --> split(x) { { ~wi^ : X. }* }");
   EXPECT_TRUE(d.offers("width"));
+}
+
+TEST(Completion, selectionsTakeTheirTerms) {
+  Desk d("Lot --> peel(ou^, 1) { strip : A. }");
+  EXPECT_TRUE(d.offers("outer"));
+  d.put("Lot --> peel(outer && !si^, 1) { strip : A. }");
+  EXPECT_EQ(d.labels()[0], "side");
+  d.put("Lot --> peel(side(we^), 1) { strip : A. }");
+  EXPECT_EQ(d.labels()[0], "west");
+  d.put("Lot --> peel(width = 1, selection = in^) { strip : A. }");
+  EXPECT_EQ(d.labels()[0], "inner");
+}
+
+TEST(Completion, setTakesAttributes) {
+  Desk d("attr height = 9\nLot --> set(^, 3) X.");
+  EXPECT_EQ(d.labels()[0], "height");
+  EXPECT_TRUE(d.offers("material.color.r"));
+  EXPECT_FALSE(d.offers("geometry.area"));
+  EXPECT_FALSE(d.offers("front"));
+}
+
+TEST(Completion, textsTakeWhatTheyAreFor) {
+  Desk d("Lot --> color(\"#aabbcc\") A.\nB --> color(\"#^\")");
+  EXPECT_EQ(d.labels()[0], "#aabbcc");
+  EXPECT_TRUE(d.offers("#b5533c"));
+  d.put("B --> color(\"^\")");
+  EXPECT_TRUE(d.offers("#b5533c"));
+  d.put("B --> report(\"^\", 1)");
+  EXPECT_TRUE(d.labels().empty());
 }
 
 TEST(Completion, keepsNewNames) {
@@ -446,6 +476,54 @@ TEST(Dialects, haveFindingsOutlinesAndNames) {
   w.open("/nowhere/a.grammar", texts.at("/nowhere/a.grammar"));
   EXPECT_EQ(w.definition("/nowhere/a.grammar", {0, 22})[0].range.begin.line, 1u);
   EXPECT_EQ(w.references("/nowhere/a.grammar", {1, 1}, true).size(), 2u);
+}
+
+TEST(Dialects, offerTheirWordsWhereNothingIsTyped) {
+  const auto labels = [](const std::string& path, const std::string& text) {
+    Workspace w;
+    w.open(path, text);
+    std::vector<std::string> out;
+    for (const Completion& c : w.complete(path, {0, static_cast<uint32_t>(text.size())}).items) {
+      EXPECT_NE(c.label, "");
+      out.push_back(c.label);
+    }
+    return out;
+  };
+  for (const char* path : {"/nowhere/a.gbbg", "/nowhere/a.park", "/nowhere/a.grammar"}) {
+    EXPECT_GT(labels(path, "A -> ").size(), 8u) << path;
+    EXPECT_TRUE(labels(path, "A -> B.").empty()) << path;
+  }
+  const std::vector<std::string> places = labels("/nowhere/a.park", "A -> Place(COR");
+  EXPECT_NE(std::find(places.begin(), places.end(), "CORNER"), places.end());
+}
+
+TEST(Dialects, carryOutHints) {
+  const std::vector<std::tuple<std::string, std::string, std::string>> slips = {
+      {"a.park", "A -> Grdi(2, 2) { B } { } { }\nB -> GREEN\n", "Grid"},
+      {"a.park", "A -> Grid(2, 2) { B } { } { }\nB -> YELOW\n", "YELLOW"},
+      {"a.park", "A -> Grid(2, 2) { regoin: B }\nB -> GREEN\n", "region"},
+      {"a.park", "A -> Peel(OUTR) { 1: B | A }\nB -> GREEN\n", "outer"},
+      {"a.gbbg", "axiom START size (9, 9, 9)\nshape START\nshape W\nSTART -> Repaet(X) {W}\n",
+       "Repeat"},
+      {"a.gbbg", "axoim START size (9, 9, 9)\nshape START\nterminal START\n", "axiom"},
+      {"a.grammar", "Start -> I ( Cubee 0 )\n", "Cube"},
+      {"a.grammar", "Start -> Wal\nWall -> I ( Cube 0 )\n", "Wall"},
+      {"a.grammar", "Start -> R high ( 1 2 ) S ( hihg 1 1 ) I ( Cube 0 )\n", "high"},
+  };
+  for (const auto& [file, text, meant] : slips) {
+    Workspace w;
+    const std::string path = "/nowhere/" + file;
+    w.open(path, text);
+    const std::vector<Action> actions = w.actions(path, {{0, 0}, {9, 0}});
+    const auto action = std::find_if(actions.begin(), actions.end(), [&](const Action& a) {
+      return a.title == "Write '" + meant + "'";
+    });
+    ASSERT_NE(action, actions.end()) << text;
+    const Range at = action->edits[0].edits[0].range;
+    // One word is replaced, and nothing else.
+    EXPECT_EQ(at.begin.line, at.end.line) << text;
+    EXPECT_LE(at.end.character - at.begin.character, meant.size() + 1) << text;
+  }
 }
 
 TEST(Dialects, explainTheirWords) {

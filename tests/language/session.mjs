@@ -26,6 +26,7 @@ const window = join(folder, 'rules/window.cga');
 writeFileSync(house, HOUSE);
 writeFileSync(window, WINDOW);
 writeFileSync(join(folder, 'assets/tree.obj'), 'v 0 0 0\n');
+writeFileSync(join(folder, 'assets/wall.png'), '');
 const stamps = [house, window].map((f) => statSync(f).mtimeMs);
 
 const client = new Client(program);
@@ -79,7 +80,9 @@ items = (await client.request('textDocument/completion', at('w.Window', 2))).ite
 assert.ok(items.some((i) => i.label === 'w.Window'));
 await type('Roof -->', 8, ' i("")');
 items = (await client.request('textDocument/completion', at('i("', 3))).items;
-assert.deepEqual(items.map((i) => i.label), ['tree.obj']);
+assert.deepEqual(items.map((i) => i.label), ['tree.obj', 'wall.png']);
+const pictured = await client.request('completionItem/resolve', items[1]);
+assert.equal(pictured.documentation.value, `![](${uri(join(folder, 'assets/wall.png'))})`);
 await client.change(house, [{ text: HOUSE }]);
 text = HOUSE;
 const help = await client.request('textDocument/signatureHelp', at('w.Window(2', 9));
