@@ -101,6 +101,12 @@ class SizesTest(CheckCase):
         self.write("src/base/a.cpp", "int a;\n" * 801)
         self.assertEqual(self.messages(sizes), ["src/base/a.cpp: 801 lines; 800 is the end"])
 
+    def testKeepsFilesOfThePageShorter(self):
+        for path, lines in (("src/a.svelte", 601), ("src/b.ts", 601), ("src/c.ts", 600), ("e2e/d.mjs", 601)):
+            self.write("studio/" + path, "x();\n" * lines)
+        self.assertEqual(self.messages(sizes), ["studio/src/a.svelte: 601 lines; 600 is the end",
+                                                "studio/src/b.ts: 601 lines; 600 is the end"])
+
     def testKeepsStylesShort(self):
         self.write("examples/tower/tower.cga", "A --> B\n" * 300)
         self.write("examples/town/town.cga", "A --> B\n" * 300)

@@ -20,10 +20,10 @@ export interface Command {
   when?: () => boolean;
 }
 
-export function commands(studio: Studio, layout: Layout, showKeys: () => void): Command[] {
+/** Files, and what has been done to them. */
+function ofFiles(studio: Studio): Command[] {
   const hasRules = () => !!studio.main;
   const modeled = () => !!studio.model.derivation;
-  const go = (page: Studio['page']) => () => void (studio.page = page);
   return [
     {
       title: 'Search or run',
@@ -75,6 +75,13 @@ export function commands(studio: Studio, layout: Layout, showKeys: () => void): 
       run: () => void (ui.share = true),
       when: hasRules,
     },
+  ];
+}
+
+/** Panels beside the view, and the rules in them. */
+function ofPanels(studio: Studio, layout: Layout): Command[] {
+  const hasRules = () => !!studio.main;
+  return [
     {
       title: 'Editor',
       keys: 'Ctrl B',
@@ -119,6 +126,14 @@ export function commands(studio: Studio, layout: Layout, showKeys: () => void): 
       run: () => void studio.format(),
       when: hasRules,
     },
+  ];
+}
+
+/** The place that is derived. */
+function ofPlace(studio: Studio): Command[] {
+  const hasRules = () => !!studio.main;
+  const modeled = () => !!studio.model.derivation;
+  return [
     { title: 'New seed', keys: 'R', icon: 'dice', run: () => studio.reroll(), when: hasRules },
     {
       title: 'New seed for all lots',
@@ -148,6 +163,14 @@ export function commands(studio: Studio, layout: Layout, showKeys: () => void): 
       run: () => void (ui.tool = 'select'),
       when: hasRules,
     },
+  ];
+}
+
+/** Pages, and the page as a whole. */
+function ofPages(studio: Studio, showKeys: () => void): Command[] {
+  const hasRules = () => !!studio.main;
+  const go = (page: Studio['page']) => () => void (studio.page = page);
+  return [
     {
       title: 'Rules',
       keys: 'Alt 1',
@@ -180,6 +203,15 @@ export function commands(studio: Studio, layout: Layout, showKeys: () => void): 
       run: () => studio.setTheme(studio.theme === 'dark' ? 'light' : 'dark'),
     },
     { title: 'List of keys', keys: '?', icon: 'help', run: showKeys },
+  ];
+}
+
+export function commands(studio: Studio, layout: Layout, showKeys: () => void): Command[] {
+  return [
+    ...ofFiles(studio),
+    ...ofPanels(studio, layout),
+    ...ofPlace(studio),
+    ...ofPages(studio, showKeys),
   ];
 }
 

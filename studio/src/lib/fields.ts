@@ -216,7 +216,10 @@ export function valueOfText(text: string, type: string): Value {
 /** A value as the server takes it: numbers as they are, arrays as [1,2;3,4]. */
 export function valueText(value: Value): string {
   if (!Array.isArray(value)) return value === null ? '' : String(value);
-  return `[${value.map((row) => (Array.isArray(row) ? row.map(valueText).join(',') : valueText(row))).join(value.some(Array.isArray) ? ';' : ',')}]`;
+  const rows = value.map((row) =>
+    Array.isArray(row) ? row.map(valueText).join(',') : valueText(row),
+  );
+  return `[${rows.join(value.some(Array.isArray) ? ';' : ',')}]`;
 }
 
 /** Numbers for people: two decimals at most, thin spaces between thousands. */

@@ -114,7 +114,8 @@ function pieces(
 ): string[] {
   const groups = new Map<string, number>();
   children.forEach((child, i) => {
-    const key = `${shapes.nameOf(child)} of ${metres(placed[i]!.max[axis]! - placed[i]!.min[axis]!)}`;
+    const { min, max } = placed[i]!;
+    const key = `${shapes.nameOf(child)} of ${metres(max[axis]! - min[axis]!)}`;
     groups.set(key, (groups.get(key) ?? 0) + 1);
   });
   const told = [...groups].slice(0, 6).map(([what, count]) => `${count} × ${what}`);

@@ -21,7 +21,9 @@ const SCREEN =
 /** Metres in front of the camera, from what a depth buffer holds. */
 const DISTANCE = `
   uniform vec2 range;
-  float distanceAt(float depth) { return range.x * range.y / (range.y - depth * (range.y - range.x)); }
+  float distanceAt(float depth) {
+    return range.x * range.y / (range.y - depth * (range.y - range.x));
+  }
 `;
 
 export class Ambient {
@@ -112,7 +114,8 @@ function lookMaterial(range: THREE.IUniform, depths: THREE.IUniform): THREE.Shad
         vec3 up = nearer(at(vUv + vec2(0.0, texel.y)) - p, p - at(vUv - vec2(0.0, texel.y)));
         vec3 n = normalize(cross(across, up));
         float metre = 1.0 / (pixel * -p.z);
-        float reach = clamp(${LEAST_METRES.toFixed(1)} * metre, ${LEAST_PIXELS.toFixed(1)}, ${MOST_PIXELS.toFixed(1)});
+        float least = ${LEAST_PIXELS.toFixed(1)}, most = ${MOST_PIXELS.toFixed(1)};
+        float reach = clamp(${LEAST_METRES.toFixed(1)} * metre, least, most);
         float radius = reach / metre;
         vec2 cell = mod(gl_FragCoord.xy, 4.0);
         float turn = (cell.x + 4.0 * cell.y) * 2.399963;
@@ -162,7 +165,8 @@ function darkenMaterial(
         vec2 base = floor(vUv * pixels - 1.5) + 0.5;
         float sum = 0.0, weights = 0.0;
         for (int i = 0; i < 16; ++i) {
-          vec2 there = texture2D(open, (base + vec2(mod(float(i), 4.0), floor(float(i) / 4.0))) / pixels).rg;
+          vec2 aside = vec2(mod(float(i), 4.0), floor(float(i) / 4.0));
+          vec2 there = texture2D(open, (base + aside) / pixels).rg;
           float w = min(1.0, same / (1e-4 + 2.0 * abs(there.y - here)));
           sum += there.x * w;
           weights += w;

@@ -1,40 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// SceneView: a draw list on a canvas. While something changes its pictures are as fine as they can
-// be in time (Pace). Once nothing does, it draws one in full and then refines it: further passes
-// with a moved sun and moved pixels are averaged into soft shadows, light from the whole sky and
-// smooth edges. A model too large for that is drawn once more, with shadows softened from the one
-// map; its edges and how its corners are darker come from the leaves and depths of that picture.
+// SceneView: a draw list on a canvas, seen by a camera that people move. Where things are and what
+// is shown is told here; Painter makes the pictures, Schedule says when, Marking points at parts,
+// and Surroundings are what the model stands in.
 
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { PictureView } from '../lib/client';
 import type { DrawList } from '../lib/protocol';
-import { Ambient } from './ambient';
 import { BatchMaker, type Batched } from './batches';
-import { emptyGroup, ghostBox, manyScopes, scopeLines, type ScopeBox } from './boxes';
-import { Detail, MOVING, POSED } from './detail';
-import { Framing, WIDE, type Bounds, type Standpoint } from './framing';
-import { Ground } from './ground';
-import { LeafPicture, without } from './leaf_picture';
+import type { ScopeBox } from './boxes';
+import { Detail } from './detail';
+import { Framing, type Bounds, type Standpoint } from './framing';
+import { Marking, type Range } from './marking';
 import { Materials } from './materials';
 import { Navigation, type Mode } from './navigation';
 import { isSoftware, Pace } from './pace';
-import { outlineMaterial, skyMaterial, type Marks } from './shading';
-import { Still } from './still';
-import { Lights } from './sun';
+import { Painter } from './painter';
+import { Schedule, type Work } from './schedule';
+import { Surroundings, type ViewColors } from './surroundings';
 
-export interface ViewColors {
-  ground: string;
-  line: string;
-  accent: string;
-  text: string;
-  ghost: string;
-  /** The sky over the place, where it is shown. */
-  zenith: string;
-  horizon: string;
-}
+export type { Range, ViewColors };
 
 /** What a picture costs. */
 export interface Cost {
@@ -43,26 +30,6 @@ export interface Cost {
   /** Of all buffers on the graphics card. */
   bytes: number;
 }
-
-export interface Range {
-  from: number;
-  to: number;
-}
-
-const NOTHING: Range = { from: 0, to: 0 };
-/** Passes that a still picture is made of. */
-const PASSES = 40;
-const SHOWN_AFTER = 10;
-/** How dark thin edges between leaves are in a refined picture, and in one of a large place. */
-const FINE_EDGES = 0.22;
-const PLACE_EDGES = 0.16;
-/**
- * So long nothing changes before a picture is drawn in full: longer than it takes from key to key.
- */
-const QUIET_MS = 400;
-const SLOW_PASS_MS = 400;
-/** Of a large model: its picture in full, then edges, then darker corners. */
-const PLACE_PASSES = 2;
 
 export class SceneView {
   readonly renderer: THREE.WebGLRenderer;
@@ -80,120 +47,44 @@ export class SceneView {
    */
   timed: ((seconds: number) => void) | null = null;
   readonly navigation: Navigation;
-
-  private readonly scene = new THREE.Scene();
-  private readonly model = new THREE.Group();
-  private readonly lights: Lights;
-  private readonly pace: Pace;
+  readonly scene = new THREE.Scene();
+  readonly surroundings: Surroundings;
+  readonly marking = new Marking();
   /** The processor draws, as on a machine without a graphics card. */
   readonly software: boolean;
-  private readonly ground: Ground;
-  private readonly marks: Marks = {
-    selected: { value: new THREE.Vector2() },
-    accent: { value: new THREE.Color() },
-    guideStep: { value: 1e9 },
-  };
-  private readonly materials = new Materials(this.marks, () => {
-    this.leaves.forget();
+
+  private readonly model = new THREE.Group();
+  private readonly painter: Painter;
+  private readonly schedule: Schedule;
+  private readonly materials = new Materials(this.marking.marks, () => {
+    this.painter.leaves.forget();
     this.redraw();
   });
   readonly pictures = this.materials.pictures;
-  private readonly overlay = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), outlineMaterial());
-  private readonly copy: THREE.Mesh<THREE.PlaneGeometry, THREE.MeshBasicMaterial>;
-  private readonly flat = new THREE.OrthographicCamera(-1, 1, 1, -1, 0, 1);
-  private readonly batchMaker = new BatchMaker(this.marks);
-  private readonly dome = new THREE.Mesh(new THREE.SphereGeometry(1, 32, 16), skyMaterial());
-  private readonly scopes = new THREE.Group();
-  private readonly manyScopes = new THREE.Group();
-  private readonly ghosts = new THREE.Group();
-  private readonly ghostColor = new THREE.Color();
-  private readonly groundColor = new THREE.Color();
-  private readonly horizonColor = new THREE.Color();
-  private readonly leaves: LeafPicture;
-  /** The picture before it is refined. */
-  private readonly picture: THREE.WebGLRenderTarget;
-  private readonly still: Still;
-  /** What the canvas shows below the outlines. */
-  private shown: THREE.WebGLRenderTarget;
-  private readonly onePixel = new THREE.WebGLRenderTarget(1, 1);
+  private readonly batchMaker = new BatchMaker(this.marking.marks);
+  private readonly framing: Framing;
   private batches: Batched[] = [];
   private bounds: Bounds = { min: [0, 0, 0], max: [20, 0, 20] };
-  private selected = NOTHING;
-  private hovered = NOTHING;
-  private dirty = false;
-  /** The next picture is drawn in full at once. */
-  private fine = false;
-  /** The picture that is shown is less than the canvas could show. */
-  private coarse = false;
-  /** The camera has moved since the latest picture. */
-  private panned = false;
-  private pass = 0;
-  private passes = PASSES;
-  /** How dark edges between leaves are in what is shown, and whether corners are darker in it. */
-  private edges = 0;
-  private cornered = false;
-  /** What is left of a picture that is being made. */
-  private helpings: Generator<boolean, void> | null = null;
-  private readonly ambient: Ambient;
-  private drawnWith = { calls: 0, triangles: 0 };
-  private quiet = 0;
-  private frame = 0;
-  private readonly framing: Framing;
   /** Counts models, so that one that was sorted too late is not shown. */
   private models = 0;
-  private detail: Detail | null = null;
-  private sky_ = false;
   private wireframe = false;
-  private share = 0;
-  /** Pixels of the canvas. */
-  private readonly size = new THREE.Vector2();
-  private waiting: WebGLSync | null = null;
 
   /** `posed`: for pictures that are taken as soon as they are drawn, so that all are in full. */
   constructor(
     readonly canvas: HTMLCanvasElement,
-    private readonly posed = false,
+    readonly posed = false,
   ) {
     this.renderer = new THREE.WebGLRenderer({
       canvas,
       antialias: false,
       preserveDrawingBuffer: true,
     });
-    const software = isSoftware(this.renderer.getContext());
-    this.software = software;
-    this.pace = new Pace(software);
-    this.lights = new Lights(software && !posed);
-    this.ground = new Ground(this.lights.scatter);
-    this.picture = new THREE.WebGLRenderTarget(1, 1, {
-      colorSpace: THREE.SRGBColorSpace,
-      samples: software && !posed ? 0 : 4,
-    });
-    this.shown = this.picture;
-    this.renderer.shadowMap.enabled = true;
-    // A processor pays for each look at the shadows; refining makes them soft all the same.
-    this.renderer.shadowMap.type = software && !posed ? THREE.BasicShadowMap : THREE.PCFShadowMap;
-    this.renderer.shadowMap.autoUpdate = false;
-    this.renderer.autoClear = false;
-    this.renderer.info.autoReset = false;
-    this.ambient = new Ambient(this.renderer);
-    this.copy = new THREE.Mesh(
-      new THREE.PlaneGeometry(2, 2),
-      new THREE.MeshBasicMaterial({
-        transparent: true,
-        depthTest: false,
-        depthWrite: false,
-        toneMapped: false,
-      }),
-    );
-    this.still = new Still(this.renderer, this.copy, this.flat);
-    for (const screen of [this.overlay, this.copy]) screen.frustumCulled = false;
-    this.dome.frustumCulled = false;
-    this.dome.renderOrder = -10;
-    this.dome.visible = false;
-    this.scene.add(this.dome, this.model, this.lights.group, this.ground.group);
-    this.scene.add(this.scopes, this.manyScopes, this.ghosts);
-    const beside = [this.dome, this.ground.group, this.scopes, this.manyScopes, this.ghosts];
-    this.leaves = new LeafPicture(this.renderer, this.scene, this.flat, beside);
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    this.software = isSoftware(gl);
+    this.surroundings = new Surroundings(this.scene, this.software && !posed);
+    this.scene.add(this.model, ...this.marking.boxes);
+    this.painter = new Painter(this.renderer, this);
+    this.schedule = new Schedule(gl, new Pace(this.software), posed, this.work());
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.maxPolarAngle = Math.PI * 0.495;
@@ -209,9 +100,26 @@ export class SceneView {
     this.framing.box(this.bounds, true);
   }
 
+  private work(): Work {
+    return {
+      draw: (share) => this.painter.begin(share),
+      unfinished: () => this.painter.unfinished && this.canvas.isConnected,
+      refine: () => {
+        // A model that no longer fits is framed once it stays as it is.
+        const turned = !this.posed && this.navigation.mode === 'orbit';
+        if (turned && this.framing.outgrown(this.bounds)) this.frameAll(false);
+        else this.painter.refine();
+      },
+      hurry: () => this.painter.hurry(),
+      drawn: () => this.drawn?.(),
+      timed: (seconds) => this.timed?.(seconds),
+      refined: () => this.refined?.(),
+    };
+  }
+
   cameraMoved(): void {
-    this.leaves.forget();
-    this.panned = true;
+    this.painter.leaves.forget();
+    this.schedule.cameraMoved();
     this.moved?.();
     this.redraw();
   }
@@ -244,35 +152,24 @@ export class SceneView {
 
   /** The first surface below a point. */
   heightBelow(at: THREE.Vector3): number {
-    const height = this.leaves.heightBelow(at, this.ground.height, (base, range) =>
-      this.batchMaker.heights(base, range),
+    const height = this.painter.leaves.heightBelow(
+      at,
+      this.surroundings.ground.height,
+      (base, range) => this.batchMaker.heights(base, range),
     );
     return height ?? Math.min(0, this.bounds.min[1]);
   }
 
   setColors(colors: ViewColors): void {
-    const ground = this.groundColor.set(colors.ground);
-    this.horizonColor.set(colors.horizon);
-    this.ghostColor.set(colors.ghost);
-    this.dome.material.uniforms.horizon!.value = this.horizonColor;
-    (this.dome.material.uniforms.zenith!.value as THREE.Color).set(colors.zenith);
-    this.setSky(this.sky_);
-    this.ground.setColors(ground, colors.line);
-    this.marks.accent.value.set(colors.accent);
-    const uniforms = this.overlay.material.uniforms;
-    (uniforms.accent!.value as THREE.Color).set(colors.accent);
-    (uniforms.text!.value as THREE.Color).set(colors.text);
+    this.surroundings.setColors(colors);
+    this.marking.setColors(colors);
     this.fitGround();
     this.redraw();
   }
 
   /** With the sky the ground fades into the horizon; without, into a ground without end. */
   setSky(on: boolean): void {
-    this.sky_ = on;
-    this.dome.visible = on;
-    const far = on ? this.horizonColor : this.groundColor;
-    this.scene.background = far;
-    this.scene.fog = new THREE.Fog(far, 100, 1000);
+    this.surroundings.setSky(on);
     this.fitGround();
     this.redraw();
   }
@@ -300,22 +197,22 @@ export class SceneView {
             () => number !== this.models,
           );
     if (number !== this.models) return false;
-    this.detail = detail;
+    this.painter.detail = detail;
     for (const { mesh } of this.batches) {
       mesh.geometry.dispose();
       if (mesh instanceof THREE.InstancedMesh) mesh.dispose();
     }
     this.model.clear();
-    this.batches = this.leaves.batches = batches;
+    this.batches = this.painter.leaves.batches = batches;
     for (const { mesh } of this.batches) this.model.add(mesh);
     this.fitWires();
     this.bounds = bounds;
     this.framing.know(list, bounds);
     this.fitGround();
-    this.fitSun();
-    this.lights.forget();
+    this.surroundings.fitSun(this.centre, this.radius);
+    this.surroundings.lights.forget();
     if (this.framing.fresh && list.leaves > 0) this.frameAll();
-    this.leaves.forget();
+    this.painter.leaves.forget();
     this.redraw();
     return true;
   }
@@ -337,47 +234,30 @@ export class SceneView {
 
   private fitGround(): void {
     const r = this.radius;
-    this.ground.fit(this.centre, r, this.bounds.min[1]);
-    if (this.scene.fog instanceof THREE.Fog) {
-      // Who stands in a place looks into the haze; who turns it does not have it between.
-      const inside = this.sky_ && this.navigation && this.navigation.mode !== 'orbit';
-      this.scene.fog.near = r * (inside ? 2.5 : this.sky_ ? 4 : 5);
-      this.scene.fog.far = r * (this.sky_ ? 12 : 22);
-    }
+    const within = !!this.navigation && this.navigation.mode !== 'orbit';
+    this.surroundings.fitGround(this.centre, r, this.bounds.min[1], within);
     const near = this.navigation?.mode === 'walk' ? 0.08 : 0.05;
-    this.camera.near =
-      this.navigation?.mode === 'orbit' || !this.navigation ? Math.max(near, r / 300) : near;
+    this.camera.near = within ? near : Math.max(near, r / 300);
     this.camera.far = r * 60;
     this.camera.updateProjectionMatrix();
   }
 
-  private fitSun(): void {
-    this.lights.fit(this.centre, this.radius, this.radius > WIDE);
-    (this.dome.material.uniforms.sun!.value as THREE.Vector3).copy(this.lights.direction());
-  }
-
   setSun(elevation: number, azimuth: number): void {
-    this.lights.turn(elevation, azimuth);
-    (this.dome.material.uniforms.sun!.value as THREE.Vector3).copy(this.lights.direction());
+    this.surroundings.setSun(elevation, azimuth);
     this.redraw();
   }
 
   setSelected(range: Range | null): void {
-    const next = range ?? NOTHING;
-    if (next.from === this.selected.from && next.to === this.selected.to) return;
-    this.selected = next;
-    this.marks.selected.value.set(next.from, next.to);
+    if (!this.marking.select(range)) return;
     // The picture of a large model stays, below the outline.
-    if (this.detail && !this.dirty) this.present();
+    if (this.painter.detail && !this.schedule.dirty) this.painter.present();
     else this.redraw(true);
   }
 
   setHovered(range: Range | null): void {
-    const next = range ?? NOTHING;
-    if (next.from === this.hovered.from && next.to === this.hovered.to) return;
-    this.hovered = next;
+    if (!this.marking.hover(range)) return;
     // The picture itself stays; one that is about to be drawn has the outline anyway.
-    if (!this.dirty) this.present();
+    if (!this.schedule.dirty) this.painter.present();
   }
 
   setWireframe(on: boolean): void {
@@ -395,29 +275,20 @@ export class SceneView {
   /** A box in the accent colour with its axes; null hides it. */
   setScope(box: ScopeBox | null): void {
     // Lines into a picture of a large model would have it made anew.
-    if (this.detail) box = null;
-    if (!box && !this.scopes.children.length) return;
-    emptyGroup(this.scopes);
-    if (box) this.scopes.add(...scopeLines(box, this.marks.accent.value));
-    this.redraw(true);
+    if (this.painter.detail) box = null;
+    if (this.marking.setScope(box)) this.redraw(true);
   }
 
   /** The scopes of many shapes, thinly. */
   setScopes(boxes: ScopeBox[]): void {
-    if (!boxes.length && !this.manyScopes.children.length) return;
-    emptyGroup(this.manyScopes);
-    if (boxes.length) this.manyScopes.add(manyScopes(boxes, this.marks.accent.value));
-    this.redraw(true);
+    if (this.marking.setScopes(boxes)) this.redraw(true);
   }
 
   /** Shows a derivation as it is after a step, and what the step has replaced. */
   setStep(step: number, ghost: ScopeBox | null): void {
-    if (step === this.marks.guideStep.value && !ghost && !this.ghosts.children.length) return;
-    this.marks.guideStep.value = step;
-    emptyGroup(this.ghosts);
-    if (ghost) this.ghosts.add(...ghostBox(ghost, this.ghostColor));
-    this.leaves.forget();
-    this.lights.forget();
+    if (!this.marking.setStep(step, ghost)) return;
+    this.painter.leaves.forget();
+    this.surroundings.lights.forget();
     this.redraw();
   }
 
@@ -436,26 +307,27 @@ export class SceneView {
   /** Stands where somebody stood before, over the model that comes next. */
   lookFrom(from: Standpoint): void {
     this.framing.lookFrom(from, this.bounds);
-    this.leaves.forget();
+    this.painter.leaves.forget();
     this.redraw();
   }
 
   frameAll(reset = true): void {
     this.framing.model(this.bounds, reset);
-    this.leaves.forget();
+    this.painter.leaves.forget();
     this.redraw();
   }
 
   frameBox(bounds: Bounds, reset = false): void {
     this.framing.box(bounds, reset);
-    this.leaves.forget();
+    this.painter.leaves.forget();
     this.redraw();
   }
 
   /** The leaf under a point of the canvas in CSS pixels; -1 for none. */
   pick(x: number, y: number): number {
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    return this.leaves.leafAt({ x, y }, { width, height }, this.camera, !!this.detail);
+    const { leaves, detail } = this.painter;
+    return leaves.leafAt({ x, y }, { width, height }, this.camera, !!detail);
   }
 
   /**
@@ -464,7 +336,7 @@ export class SceneView {
    */
   surfaceAt(x: number, y: number): { point: [number, number, number]; leaf: number } | null {
     const { clientWidth: w, clientHeight: h } = this.canvas;
-    const depth = this.leaves.depthAt(x / w, 1 - y / h, this.camera);
+    const depth = this.painter.leaves.depthAt(x / w, 1 - y / h, this.camera);
     const at = new THREE.Vector3((x / w) * 2 - 1, 1 - (y / h) * 2, depth * 2 - 1).unproject(
       this.camera,
     );
@@ -482,222 +354,17 @@ export class SceneView {
   private resize(): void {
     const { clientWidth: w, clientHeight: h } = this.canvas;
     if (!w || !h) return;
-    this.share = 0;
     this.camera.aspect = w / h;
     this.camera.updateProjectionMatrix();
-    this.leaves.forget();
-    this.render();
-    clearTimeout(this.quiet);
-    this.quiet = window.setTimeout(() => this.refine(), QUIET_MS);
+    this.painter.resized();
+    this.schedule.drawNow();
   }
 
   /**
    * Draws anew; `fine`: what changes does not move, so that the picture may take a little longer.
    */
   redraw(fine = false): void {
-    this.fine = this.dirty ? this.fine && fine : fine;
-    this.dirty = true;
-    if (!this.frame) this.frame = requestAnimationFrame(() => this.tick());
-  }
-
-  private tick(): void {
-    this.frame = 0;
-    if (!this.dirty) return;
-    const began = performance.now();
-    const moving = !this.fine;
-    this.render();
-    this.drawn?.();
-    clearTimeout(this.quiet);
-    this.whenDrawn(() => {
-      const seconds = (performance.now() - began) / 1000;
-      if (moving) this.pace.took(seconds);
-      if (this.panned) this.timed?.(seconds);
-      this.panned = false;
-      this.quiet = window.setTimeout(() => this.refine(), QUIET_MS);
-    });
-  }
-
-  private render(): void {
-    const share = this.fine || this.posed ? 1 : this.pace.share;
-    this.dirty = this.fine = false;
-    this.pass = 0;
-    this.passes = this.detail ? PLACE_PASSES : PASSES;
-    this.coarse = share < 1 || !!this.detail;
-    if (this.helpings) this.leaves.forget();
-    this.helpings = null;
-    this.lights.soften(false);
-    this.draw(share);
-  }
-
-  /**
-   * The canvas has this share of the pixels each way that the screen has for it; the page enlarges
-   * it.
-   */
-  private setShare(share: number): void {
-    if (share === this.share) return;
-    this.share = share;
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio) * share);
-    this.renderer.setSize(this.canvas.clientWidth, this.canvas.clientHeight, false);
-    const size = this.renderer.getDrawingBufferSize(this.size);
-    this.picture.setSize(size.x, size.y);
-    this.leaves.setSize(size.x, size.y);
-    (this.overlay.material.uniforms.texel!.value as THREE.Vector2).set(1 / size.x, 1 / size.y);
-  }
-
-  /** A picture with the light of the sun as it is set. */
-  private draw(share: number): void {
-    this.setShare(share);
-    this.lights.first(share < 1);
-    this.drawShadows();
-    this.detail?.select(this.camera, this.canvas.clientHeight, this.posed ? POSED : MOVING);
-    this.renderer.info.reset();
-    this.renderScene(this.picture);
-    this.drawnWith = {
-      calls: this.renderer.info.render.calls,
-      triangles: this.renderer.info.render.triangles,
-    };
-    this.shown = this.picture;
-    this.edges = 0;
-    this.cornered = false;
-    this.present();
-  }
-
-  private renderScene(target: THREE.WebGLRenderTarget, over = false): void {
-    // Each sun knows whether its shadows are stale.
-    this.renderer.shadowMap.needsUpdate = true;
-    this.renderer.setRenderTarget(target);
-    const { background } = this.scene;
-    // A background clears.
-    if (over) this.scene.background = null;
-    else this.renderer.clear();
-    this.renderer.render(this.scene, this.camera);
-    this.scene.background = background;
-    this.renderer.setRenderTarget(null);
-    this.renderer.shadowMap.needsUpdate = false;
-  }
-
-  /** Puts the latest picture on the canvas, with outlines. */
-  private present(): void {
-    this.renderer.setRenderTarget(null);
-    this.copy.material.map = this.shown.texture;
-    this.copy.material.opacity = 1;
-    this.renderer.clear();
-    this.renderer.render(this.copy, this.flat);
-    if (this.cornered) this.ambient.draw();
-    const outlined = this.selected.to > this.selected.from || this.hovered.to > this.hovered.from;
-    if (this.edges > 0 || outlined) this.drawOverlay(this.edges);
-  }
-
-  /**
-   * Of a large model, the shadows of all that is large enough for them, where they are to be drawn
-   * anew.
-   */
-  private drawShadows(): void {
-    if (!this.detail || !this.lights.stale) return;
-    this.detail.selectForShadow(this.lights.texel);
-    // Drawing on one pixel draws the shadow map as well.
-    this.renderScene(this.onePixel);
-  }
-
-  private drawOverlay(edges: number): void {
-    this.leaves.update(this.camera);
-    const uniforms = this.overlay.material.uniforms;
-    uniforms.leaves!.value = this.leaves.target.texture;
-    (uniforms.selected!.value as THREE.Vector2).set(this.selected.from, this.selected.to);
-    (uniforms.hovered!.value as THREE.Vector2).set(this.hovered.from, this.hovered.to);
-    uniforms.edges!.value = edges;
-    this.renderer.render(this.overlay, this.flat);
-  }
-
-  /** One more step towards the best picture, then room for whatever else the page has to do. */
-  private refine(): void {
-    if (this.dirty || this.pass >= this.passes || !this.canvas.isConnected) return;
-    // A model that no longer fits is framed once it stays as it is.
-    if (!this.posed && this.navigation.mode === 'orbit' && this.framing.outgrown(this.bounds))
-      return this.frameAll(false);
-    const began = performance.now();
-    if (this.coarse && this.detail) this.addHelping();
-    else if (this.coarse) this.settle();
-    else if (this.detail) this.finishPlace();
-    else this.addPass();
-    this.whenDrawn(() => {
-      const took = performance.now() - began;
-      // Where passes are slow, fewer have to do.
-      if (took > SLOW_PASS_MS) this.passes = Math.min(this.passes, SHOWN_AFTER);
-      if (this.pass >= this.passes) this.refined?.();
-      else this.quiet = window.setTimeout(() => this.refine(), Math.max(8, took));
-    });
-  }
-
-  /** The picture in full, as it was moved. */
-  private settle(): void {
-    this.coarse = false;
-    this.draw(1);
-    this.leaves.forget();
-  }
-
-  /** Of a large model one more helping, over those that are there. */
-  private addHelping(): void {
-    const first = !this.helpings;
-    if (!this.helpings) {
-      this.setShare(1);
-      this.lights.first(false);
-      this.lights.soften(true);
-      this.drawShadows();
-      this.helpings = this.detail!.helpings(this.camera, this.canvas.clientHeight);
-    }
-    const last = this.helpings.next().value ?? true;
-    const marks = last ? [] : [this.scopes, this.manyScopes, this.ghosts];
-    without(first ? marks : [...marks, this.dome, this.ground.group], () =>
-      this.renderScene(this.picture, !first),
-    );
-    this.leaves.draw(this.camera, !first);
-    this.shown = this.picture;
-    if (last) {
-      this.helpings = null;
-      this.coarse = false;
-    }
-    this.present();
-  }
-
-  /**
-   * What a large model gets instead of passes; each of these is short, so that nobody waits for it.
-   */
-  private finishPlace(): void {
-    this.pass += 1;
-    if (this.pass === 1) this.edges = PLACE_EDGES;
-    else {
-      this.ambient.read(this.leaves.target.depthTexture!, this.camera, this.size);
-      this.cornered = true;
-    }
-    this.present();
-  }
-
-  private addPass(): void {
-    const i = this.pass + 1;
-    this.still.add(i, this.size, this.camera, this.lights, (target) => this.renderScene(target));
-    this.pass = i;
-    if (i % SHOWN_AFTER !== 0) return;
-    this.shown = this.still.sum;
-    this.edges = FINE_EDGES;
-    this.present();
-  }
-
-  /** Calls back when the graphics card has drawn what was queued, without waiting for it. */
-  private whenDrawn(then: () => void): void {
-    const gl = this.renderer.getContext() as WebGL2RenderingContext;
-    if (this.waiting) gl.deleteSync(this.waiting);
-    const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
-    this.waiting = fence;
-    if (!fence) return then();
-    gl.flush();
-    const look = () => {
-      if (this.waiting !== fence || this.dirty) return;
-      const state = gl.clientWaitSync(fence, 0, 0);
-      if (state === gl.TIMEOUT_EXPIRED) this.quiet = window.setTimeout(look, 4);
-      else then();
-    };
-    this.quiet = window.setTimeout(look, 2);
+    this.schedule.redraw(fine);
   }
 
   /** What the latest picture cost, and what the model holds of the graphics card's memory. */
@@ -710,18 +377,14 @@ export class SceneView {
       bytes += geometry.index?.array.byteLength ?? 0;
       if (mesh instanceof THREE.InstancedMesh) bytes += mesh.instanceMatrix.array.byteLength;
     }
-    return { ...this.drawnWith, bytes };
+    return { ...this.painter.cost, bytes };
   }
 
   dispose(): void {
-    cancelAnimationFrame(this.frame);
-    clearTimeout(this.quiet);
+    this.schedule.dispose();
     this.navigation.dispose();
     this.controls.dispose();
-    this.ambient.dispose();
-    this.still.dispose();
-    this.leaves.dispose();
-    this.onePixel.dispose();
+    this.painter.dispose();
     this.renderer.dispose();
   }
 }

@@ -61,7 +61,8 @@ export function softened(fragmentShader: string): string {
         for (int x = 0; x < 4; ++x) {
           vec2 d = 2.0 - abs(vec2(float(x), float(y)) - 1.0 - part);
           vec2 w = clamp(d * 0.5, 0.0, 1.0);
-          shadow += w.x * w.y * texture2DCompare( shadowMap, (corner + vec2(float(x), float(y))) / shadowMapSize, shadowCoord.z );
+          vec2 texel = (corner + vec2(float(x), float(y))) / shadowMapSize;
+          shadow += w.x * w.y * texture2DCompare( shadowMap, texel, shadowCoord.z );
         }
       }
       shadow *= 0.25;
@@ -117,12 +118,14 @@ export function lookMaterial(look: Look, marks: Marks, stepped = false): THREE.M
     }
     shader.fragmentShader =
       (stepped ? 'varying float vFresh;\n' : '') +
-      'varying vec3 vTint;\nflat varying float vLeaf;\nuniform vec2 selected;\nuniform vec3 accent;\n' +
+      'varying vec3 vTint;\nflat varying float vLeaf;\n' +
+      'uniform vec2 selected;\nuniform vec3 accent;\n' +
       softened(shader.fragmentShader).replace(
         '#include <map_fragment>',
         `diffuseColor.rgb *= vTint;
          ${metal > 0.4 ? 'diffuseColor.rgb *= 0.82;' : ''}
-         if (vLeaf + 0.5 > selected.x && vLeaf + 0.5 < selected.y) diffuseColor.rgb = mix(diffuseColor.rgb, accent, 0.06);
+         if (vLeaf + 0.5 > selected.x && vLeaf + 0.5 < selected.y)
+           diffuseColor.rgb = mix(diffuseColor.rgb, accent, 0.06);
          ${stepped ? 'diffuseColor.rgb = mix(diffuseColor.rgb, accent, 0.75 * vFresh);' : ''}
          #include <map_fragment>`,
       );
@@ -172,7 +175,8 @@ export function leafMaterial(
         float n = floor(vLeaf + 0.5);
         vec3 d = normalize(cross(dFdx(vWorld), dFdy(vWorld)));
         float face = (d.x * 0.31 + d.y * 0.43 + d.z * 0.57) * 0.35 + 0.6;
-        gl_FragColor = vec4(mod(n, 256.0), mod(floor(n / 256.0), 256.0), floor(n / 65536.0), face * 255.0) / 255.0;
+        vec3 bytes = vec3(mod(n, 256.0), mod(floor(n / 256.0), 256.0), floor(n / 65536.0));
+        gl_FragColor = vec4(bytes / 255.0, face);
       }`,
   });
 }
@@ -201,7 +205,8 @@ export function heightMaterial(instanced: boolean): THREE.ShaderMaterial {
       uniform float range;
       void main() {
         float h = clamp((vHeight - base) / range, 0.0, 0.999999) * 16777216.0;
-        gl_FragColor = vec4(floor(h / 65536.0), mod(floor(h / 256.0), 256.0), mod(floor(h), 256.0), 255.0) / 255.0;
+        vec3 bytes = vec3(floor(h / 65536.0), mod(floor(h / 256.0), 256.0), mod(floor(h), 256.0));
+        gl_FragColor = vec4(bytes / 255.0, 1.0);
       }`,
   });
 }
@@ -234,7 +239,8 @@ export function skyMaterial(): THREE.ShaderMaterial {
         vec3 d = normalize(vAt);
         vec3 c = mix(horizon, zenith, smoothstep(0.0, 0.55, d.y));
         float near = max(0.0, dot(d, sun));
-        c += vec3(1.0, 0.86, 0.62) * (0.16 * pow(near, 24.0) + 0.9 * smoothstep(0.9993, 0.9996, near));
+        float disc = 0.9 * smoothstep(0.9993, 0.9996, near);
+        c += vec3(1.0, 0.86, 0.62) * (0.16 * pow(near, 24.0) + disc);
         gl_FragColor = vec4(c, 1.0);
         #include <colorspace_fragment>
       }`,
@@ -267,7 +273,9 @@ export function outlineMaterial(): THREE.ShaderMaterial {
       uniform vec3 text;
       uniform float edges;
       varying vec2 vUv;
-      float number(vec4 c) { return floor(c.r * 255.0 + 0.5) + floor(c.g * 255.0 + 0.5) * 256.0 + floor(c.b * 255.0 + 0.5) * 65536.0 - 1.0; }
+      float number(vec4 c) {
+        return dot(floor(c.rgb * 255.0 + 0.5), vec3(1.0, 256.0, 65536.0)) - 1.0;
+      }
       float within(float n, vec2 range) { return step(range.x, n) * (1.0 - step(range.y, n)); }
       void main() {
         vec4 here = texture2D(leaves, vUv);
@@ -284,7 +292,8 @@ export function outlineMaterial(): THREE.ShaderMaterial {
         if (edges > 0.0) {
           vec4 right = texture2D(leaves, vUv + vec2(texel.x, 0.0));
           vec4 up = texture2D(leaves, vUv + vec2(0.0, texel.y));
-          fold = step(0.5, abs(number(right) - n)) + step(0.5, abs(number(up) - n)) + step(0.03, abs(right.a - here.a)) + step(0.03, abs(up.a - here.a));
+          fold = step(0.5, abs(number(right) - n)) + step(0.5, abs(number(up) - n));
+          fold += step(0.03, abs(right.a - here.a)) + step(0.03, abs(up.a - here.a));
           fold = min(fold, 1.0) * (n < 0.0 ? 0.0 : 1.0);
         }
         float selectedLine = smoothstep(0.0, 2.5, sEdge), hoveredLine = smoothstep(0.0, 4.0, hEdge);
@@ -324,7 +333,8 @@ export function groundMaterial(): THREE.ShaderMaterial {
         vec2 at = vWorld.xz / cell;
         vec2 width = fwidth(at);
         vec2 d = abs(fract(at - 0.5) - 0.5) / max(width, vec2(1e-5));
-        float on = (1.0 - smoothstep(0.3, 1.1, min(d.x, d.y))) * (1.0 - smoothstep(0.25, 0.6, max(width.x, width.y)));
+        float on = 1.0 - smoothstep(0.3, 1.1, min(d.x, d.y));
+        on *= 1.0 - smoothstep(0.25, 0.6, max(width.x, width.y));
         float fade = 1.0 - smoothstep(reach * 0.45, reach, distance(vWorld.xz, centre));
         gl_FragColor = vec4(line, on * fade * 0.5);
         #include <colorspace_fragment>
@@ -345,7 +355,8 @@ export function depthMaterial(): THREE.ShaderMaterial {
       uniform vec2 place;
       void main() {
         float d = clamp(texture2D(depths, place).r, 0.0, 0.9999999) * 16777216.0;
-        gl_FragColor = vec4(floor(d / 65536.0), mod(floor(d / 256.0), 256.0), mod(floor(d), 256.0), 255.0) / 255.0;
+        vec3 bytes = vec3(floor(d / 65536.0), mod(floor(d / 256.0), 256.0), mod(floor(d), 256.0));
+        gl_FragColor = vec4(bytes / 255.0, 1.0);
       }`,
   });
 }
