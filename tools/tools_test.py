@@ -12,6 +12,7 @@ import zlib
 from pathlib import Path
 
 import coverage
+import figures
 import gen_docs
 import new_op
 import run_tests
@@ -45,6 +46,18 @@ class NewOpTest(FolderCase):
     def testLeavesAnExistingOperationAlone(self):
         new_op.create(self.root, "build", "roofDome")
         self.assertEqual(new_op.create(self.root, "other", "roofDome"), [])
+
+
+class FiguresTest(FolderCase):
+    def testCountsCyclesAndCopies(self):
+        for name, text in {"a.h": '#include "b.h"\n', "b.h": '#include "c.h"\n', "c.h": '#include "b.h"\n'}.items():
+            (self.root / "src").mkdir(exist_ok=True)
+            (self.root / "src" / name).write_text(text, encoding="utf-8")
+        self.assertEqual(figures.cycles(figures.includes(Tree(self.root), ["src/a.h", "src/b.h", "src/c.h"])), 2)
+        lines = [f"call({i});" for i in range(figures.COPY)]
+        self.assertEqual(figures.copied(["\n".join(lines), "\n".join(lines + ["other();"])]), (16, 17))
+        self.assertEqual(figures.copied(["\n".join(lines), "\n".join(lines[1:])]), (0, 15))
+        self.assertEqual(figures.spread([3, 1, 2]), (2, 3, 3))
 
 
 class CoverageTest(FolderCase):
