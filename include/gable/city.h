@@ -66,7 +66,7 @@ struct CityStatistics {
 
 class City {
  public:
-  /// By extension: .osm .pbf .geojson .json .gpkg .fgb .shp .kml .dxf; see Shapes::load.
+  /// By extension: .osm .pbf .geojson .json (also CityJSON) .gpkg .fgb .shp .kml .dxf; see Shapes::load.
   static City load(const std::string& path, const CitySettings& settings = {},
                    const FileLimits& limits = {});
   /// The same for a file's content in memory; `name` gives the extension.

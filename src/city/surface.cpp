@@ -38,6 +38,8 @@ constexpr Meaning kMeanings[] = {
     {"highway", "footway", Surface::Square},
     {"area:highway", "footway", Surface::Square},
     {"area:highway", "pedestrian", Surface::Square},
+    {"area:highway", "cycleway", Surface::Path},
+    {"area:highway", "road", Surface::Carriageway},
     {"highway", "platform", Surface::Square},
     {"railway", "platform", Surface::Square},
     {"public_transport", "platform", Surface::Square},

@@ -11,6 +11,7 @@
 #include "base/work.h"
 #include "io/geo/geo_frames.h"
 #include "io/geo/transverse_mercator.h"
+#include "io/importers/city_json.h"
 #include "io/importers/geojson_root.h"
 #include "io/importers/map_file.h"
 
@@ -71,8 +72,24 @@ class Reader {
     if (all > named && all < 1e15) out_.skips.count += static_cast<uint64_t>(all - named);
   }
 
+  // Of a city model.
+  std::optional<Error> addModel(const JsonValue& root, const std::string& path) {
+    Result<CityJsonMap> model = readCityJson(root, path, out_.skips);
+    if (!model.ok()) return model.error();
+    out_.features = std::move(model->features);
+    system_ = std::move(model->system);
+    degrees_ = system_ == "EPSG:4326" || system_ == "EPSG:4979" || system_ == "EPSG:4258";
+    return std::nullopt;
+  }
+  void addMap(const JsonValue& root) {
+    collect(root);
+    addLeftOut(root);
+    system_ = root["crs"]["properties"]["name"].text();
+    degrees_ = namesDegrees(root);
+  }
+
   // Degrees become metres about the middle of the area.
-  Result<MapFeatures> finish(const JsonValue& root, const std::string& path) {
+  Result<MapFeatures> finish(const std::string& path) {
     const Box2 box = extent();
     if (box.empty()) {
       return Error{
@@ -82,7 +99,7 @@ class Reader {
     if (wanted_) {
       if (auto e = missed(box, path)) return *e;
     }
-    const bool degrees = namesDegrees(root) && box.min.x >= -180 && box.max.x <= 180 &&
+    const bool degrees = degrees_ && box.min.x >= -180 && box.max.x <= 180 &&
                          box.min.y >= -90 && box.max.y <= 90;
     const Vec2 middle = box.center();
     if (degrees) {
@@ -94,7 +111,7 @@ class Reader {
       out_.area.include(projection.forward({box.max.x, box.max.y}));
     } else {
       const Vec2 shift{std::floor(middle.x), std::floor(middle.y)};
-      out_.geo = mapGeoFrame(root["crs"]["properties"]["name"].text(), shift);
+      out_.geo = mapGeoFrame(system_, shift);
       move([&](Vec2 p) { return p - shift; });
       out_.area.include(box.min - shift);
       out_.area.include(box.max - shift);
@@ -243,6 +260,9 @@ class Reader {
 
   const std::optional<MapBox>& wanted_;
   MapFeatures out_;
+  // What the numbers of the file are.
+  std::string system_;
+  bool degrees_ = false;
   std::string place_;
   size_t number_ = 0;
 };
@@ -279,7 +299,7 @@ Result<MapFeatures> readMapFeatures(std::string_view bytes, const AssetOptions& 
     bytes = converted;
   } else if (extension != "geojson" && extension != "json") {
     return Error{"shapes-unknown", "'" + options.path + "' is no map that can be read",
-                 "use GeoJSON, OpenStreetMap, GeoPackage, FlatGeobuf, a shapefile, KML or DXF"};
+                 "use GeoJSON, CityJSON, OpenStreetMap, GeoPackage, FlatGeobuf, a shapefile, KML or DXF"};
   }
   const Result<JsonValue> root = parseJson(bytes);
   if (!root.ok()) {
@@ -291,9 +311,12 @@ Result<MapFeatures> readMapFeatures(std::string_view bytes, const AssetOptions& 
         "shapes-broken", "'" + options.path + "' is JSON but not GeoJSON: it has no type", {}};
   }
   Reader reader(box);
-  reader.collect(root.value());
-  reader.addLeftOut(root.value());
-  return reader.finish(root.value(), options.path);
+  if (isCityJson(root.value())) {
+    if (auto e = reader.addModel(root.value(), options.path)) return *e;
+  } else {
+    reader.addMap(root.value());
+  }
+  return reader.finish(options.path);
 }
 
 }  // namespace gable
