@@ -5,6 +5,10 @@
 // those under a roof or against a wall dropped, and from each one a coarse picture is taken in
 // every direction and marked for what makes a good photograph: walls over half of it, a quarter of
 // sky, depth, two thirds of the walls in the sun, something near but nothing in the way.
+//
+// A place that is wide has ground of its own, which may be a hill: there the eye stands on it, away
+// from its border, and looks along a street. Ground is told from roofs as surveys by laser tell it:
+// on a roof both sides fall away, on a slope what one side loses the other one gains.
 
 #include "math/trig.h"
 #include "render/viewpoint.h"
@@ -20,21 +24,67 @@ constexpr int kPlaces = 640, kDirections = 24;
 constexpr size_t kRefined = 8;
 constexpr int kSteps = 16;
 constexpr int kColumns = 20, kRows = 12;
+/// Just above the horizon.
+constexpr int kHorizonRow = 4;
+
+/// Of a place, in metres: how far its sides are looked for, and how much they may fall together.
+constexpr double kAside[] = {5, 10, 20, 32};
+constexpr double kFall = 0.8, kFallPerMetre = 0.04;
+constexpr int kSides = 8;
+/// The steepest ground that is looked at as such.
+constexpr double kSteepest = 0.35;
+
+/// The highest thing at (x, z); false where there is none.
+bool topAt(const Subject& s, double x, double z, double& y, Hit& hit) {
+  const double above = s.world.bounds.max.y + 1;
+  Ray down;
+  down.origin = toVec3f({x, above, z});
+  down.direction = {0, -1, 0};
+  if (!s.tracer.intersect(down, hit)) return false;
+  y = above - static_cast<double>(hit.distance);
+  return true;
+}
+
+/// What mirrors is water.
+bool isWater(const Subject& s, const Hit& hit) {
+  constexpr float kWet = 0.15f;
+  const World& w = s.world;
+  const Part& part = w.parts[hit.placement == kNone ? 0 : w.placements[hit.placement].part];
+  const TriangleSet& set = hit.clear ? part.clear : part.solid;
+  return w.materials[set.materials[hit.triangle]].roughness < kWet;
+}
+
+/// Whether what lies at `foot` is the ground of a place and no roof.
+bool groundOfPlace(const Subject& s, const Vec3& foot) {
+  for (const double aside : kAside) {
+    for (int k = 0; k < kSides; ++k) {
+      const double a = 180.0 * k / kSides;
+      double sum = 0;
+      for (const double side : {-aside, aside}) {
+        Hit hit;
+        double y = foot.y;
+        topAt(s, foot.x + side * sinDeg(a), foot.z + side * cosDeg(a), y, hit);
+        sum += y - foot.y;
+      }
+      if (sum / 2 < -(kFall + kFallPerMetre * aside)) return false;
+    }
+  }
+  return true;
+}
 
 /// The foot of somebody who stands at (x, z); false where there is no open ground.
 bool openGround(const Subject& s, double x, double z, Vec3& foot) {
   const Box3& box = s.world.bounds;
   const double tall = box.max.y - s.groundHeight;
-  Ray down;
-  down.origin = toVec3f({x, box.max.y + 1, z});
-  down.direction = {0, -1, 0};
   foot = {x, s.groundHeight, z};
   Hit hit;
-  if (!s.tracer.intersect(down, hit)) return true;
-  const double y = box.max.y + 1 - static_cast<double>(hit.distance);
+  double y = 0;
+  if (!topAt(s, x, z, y, hit)) return !isPlace(s);
   foot.y = std::max(y, s.groundHeight);
   const Vec3f n = normalized(hit.normal);
-  return std::abs(n.y) > 0.8f && foot.y < s.groundHeight + std::max(1.0, 0.3 * tall);
+  if (!(std::abs(n.y) > 0.8f)) return false;
+  if (isPlace(s)) return !isWater(s, hit) && groundOfPlace(s, foot);
+  return foot.y < s.groundHeight + std::max(1.0, 0.3 * tall);
 }
 
 bool roomAround(const Subject& s, const Vec3& foot) {
@@ -57,13 +107,39 @@ double off(double share, double lo, double hi) {
   return share < lo ? lo - share : share > hi ? share - hi : 0;
 }
 
+/// Metres to what stands beside somebody who looks ahead, above cars and hedges.
+double widthBeside(const Subject& s, const Camera& camera) {
+  constexpr double kAboveEye = 2.6, kWidest = 300;
+  double widest = 0;
+  for (const double side : {-1.0, 1.0}) {
+    Ray ray;
+    ray.origin = toVec3f(camera.eye + Vec3{0, kAboveEye, 0});
+    ray.direction = toVec3f(normalized(camera.right * side + camera.forward * 0.4));
+    Hit hit;
+    const bool any = s.tracer.intersect(ray, hit);
+    widest = std::max(widest, any ? static_cast<double>(hit.distance) : kWidest);
+  }
+  return std::min(widest, kWidest);
+}
+
+/// Of a place: how far from its middle, how wide the street and how short the look along it is.
+double markInPlace(const Subject& s, const Camera& camera, double ahead) {
+  if (!isPlace(s)) return 0;
+  const Vec3 aside = camera.eye - s.world.bounds.center(), size = s.world.bounds.size();
+  const double edge = 2 * std::max(std::abs(aside.x) / size.x, std::abs(aside.z) / size.z);
+  return -6 * off(edge, 0, 0.6) - 1.5 * off(std::log2(std::max(ahead, 1.0)), 6, 40) -
+         2 * off(std::log2(widthBeside(s, camera)), 0, 4.3);
+}
+
 double mark(const Subject& s, const Light& light, const Camera& camera, double aspect) {
+  const bool place = isPlace(s);
+  const double footY = camera.eye.y - kEyeHeight;
   int sides[2] = {0, 0};
   int flat = 0, blank = 0;
   Vec3f last;
   Hit lastHit;
   int things = 0, sky = 0, inTheWay = 0, near = 0, lit = 0, walls = 0, cut = 0;
-  double logSum = 0, logSquares = 0;
+  double logSum = 0, logSquares = 0, ahead = 1000;
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
       const Ray ray = cameraRay(camera, aspect, (column + 0.5) / kColumns, (row + 0.5) / kRows);
@@ -73,7 +149,13 @@ double mark(const Subject& s, const Light& light, const Camera& camera, double a
         continue;
       }
       const Vec3f p = ray.origin + ray.direction * hit.distance;
+      const bool looksAhead =
+          row == kHorizonRow && column >= kColumns / 2 - 2 && column < kColumns / 2 + 2;
+      if (looksAhead) ahead = std::min(ahead, static_cast<double>(hit.distance));
       if (static_cast<double>(p.y) < s.groundHeight + 0.5) continue;
+      const bool flatThere = place && std::abs(normalized(hit.normal).y) > 0.8f;
+      const double slope = 0.5 + kSteepest * static_cast<double>(hit.distance);
+      if (flatThere && static_cast<double>(p.y) < footY + slope) continue;
       ++things;
       cut += row == kRows - 1;
       inTheWay += hit.distance < 2.6f;
@@ -114,7 +196,7 @@ double mark(const Subject& s, const Light& light, const Camera& camera, double a
          8 * off(inTheWay / all, 0, 0.02) - 2 * off(near / all, 0.02, 0.2) -
          1.5 * off(litShare, 0.5, 0.8) + 2.4 * std::min(depth, 1.5) -
          4 * off(sides[0] / third, 0.4, 1) - 4 * off(sides[1] / third, 0.4, 1) -
-         1.2 * off(static_cast<double>(cut) / kColumns, 0, 0.3);
+         1.2 * off(static_cast<double>(cut) / kColumns, 0, 0.3) + markInPlace(s, camera, ahead);
 }
 
 struct Standpoint {
@@ -134,7 +216,7 @@ struct Search {
     Vec3 foot;
     if (!openGround(subject, x, z, foot) || !roomAround(subject, foot)) return;
     const double tall = std::max(1.0, subject.world.bounds.max.y - subject.groundHeight);
-    const double raised = (foot.y - subject.groundHeight) / tall;
+    const double raised = isPlace(subject) ? 0 : (foot.y - subject.groundHeight) / tall;
     for (int k = 0; k < count; ++k) {
       Camera c = cameraTowards(azimuth + (k - 0.5 * (count - 1)) * step, 0);
       c.eye = foot + Vec3{0, kEyeHeight, 0};
@@ -152,7 +234,7 @@ bool findStandpoint(const Subject& s, const Light& light, double halfWidth, doub
                     Camera& camera) {
   const Box3& box = s.world.bounds;
   const double tall = std::max(0.0, box.max.y - s.groundHeight);
-  const double margin = std::clamp(1.2 * tall, 8.0, 150.0);
+  const double margin = isPlace(s) ? 0 : std::clamp(1.2 * tall, 8.0, 150.0);
   const Vec3 size = box.size();
   const Search search{s, light, halfWidth, aspect};
 

@@ -131,11 +131,23 @@ void keepAboveGround(Camera& camera, const Subject& subject) {
   camera.eye.y = std::max(camera.eye.y, subject.groundHeight + 1);
 }
 
+/// Lifts an eye that stands within the plan of a hill to above what is there.
+void keepAboveHill(Camera& camera, const Subject& subject) {
+  const double above = subject.world.bounds.max.y + 1;
+  Ray down;
+  down.origin = toVec3f({camera.eye.x, above, camera.eye.z});
+  down.direction = {0, -1, 0};
+  Hit hit;
+  if (!subject.tracer.intersect(down, hit)) return;
+  const double top = above - static_cast<double>(hit.distance);
+  camera.eye.y = std::max(camera.eye.y, top + kEyeHeight);
+}
+
 /// A building that stands higher than half its plan is wide: seen from near, it would be cut.
 bool isTower(const Subject& subject) {
   const Vec3 size = subject.world.bounds.size();
   const double tall = subject.world.bounds.max.y - subject.groundHeight;
-  return std::max(size.x, size.z) < 2 * tall;
+  return !isPlace(subject) && std::max(size.x, size.z) < 2 * tall;
 }
 
 Camera standardCamera(const Subject& subject, const RenderOptions& options, const Light& light,
@@ -158,16 +170,18 @@ Camera standardCamera(const Subject& subject, const RenderOptions& options, cons
       const double height =
           subject.groundHeight + std::max(std::clamp(0.42 * tall, 1.6, 8.0), hill);
       frameLevel(camera, subject, aspect, height);
+      keepAboveHill(camera, subject);
       return camera;
     }
     case PictureView::Street: {
       Camera camera;
       const bool tower = isTower(subject);
-      const double halfWidth = given > 0 ? given : lens(tall > 60 && !tower ? 20 : 26);
+      const double halfWidth = given > 0 ? given : lens(tall > 60 && !tower && !isPlace(subject) ? 20 : 26);
       if (!tower && findStandpoint(subject, light, halfWidth, aspect, camera)) return camera;
       camera = cameraTowards(toFront - 30, 0);
       camera.halfWidth = halfWidth;
       frameLevel(camera, subject, aspect, subject.groundHeight + kEyeHeight);
+      keepAboveHill(camera, subject);
       return camera;
     }
     case PictureView::Iso: break;
@@ -180,6 +194,12 @@ Camera standardCamera(const Subject& subject, const RenderOptions& options, cons
 }
 
 }  // namespace
+
+bool isPlace(const Subject& subject) {
+  constexpr double kLeastSide = 120;
+  const Vec3 size = subject.world.bounds.size();
+  return std::min(size.x, size.z) >= kLeastSide;
+}
 
 double frontAzimuthOf(const World& world) {
   // Wall angles count from +z (south) towards +x (east).

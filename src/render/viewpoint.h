@@ -21,6 +21,9 @@ struct Subject {
   double frontAzimuth = 180;
 };
 
+/// Wide enough to have ground of its own to stand on: streets are within it, not around it.
+bool isPlace(const Subject& subject);
+
 double frontAzimuthOf(const World& world);
 
 /// A level or tilted camera in the direction of a compass angle; `pitch` is negative downwards.
@@ -33,7 +36,8 @@ Camera chooseCamera(const Subject& subject, const RenderOptions& options, const 
 /// Of somebody who stands in the street, in metres above it.
 constexpr double kEyeHeight = 1.62;
 
-/// The best place for a street view; false when no place outside things was found.
+/// The best place for a street view, kEyeHeight above the ground there; false when no place outside
+/// things was found.
 bool findStandpoint(const Subject& subject, const Light& light, double halfWidth, double aspect,
                     Camera& camera);
 

@@ -115,6 +115,56 @@ TEST(Viewpoint, streetEyeStandsOnOpenGround) {
   ASSERT_TRUE(s.tracer.intersect(down, hit) || c.eye.y < s.subject.groundHeight + 2);
 }
 
+// A slope of 30 % with houses along level streets.
+Scene hillTown() {
+  SceneMaker m;
+  const uint32_t earth = m.material("#8f7f5e"), wall = m.material("#e3cf9f");
+  for (int k = 0; k < 40; ++k) m.box({-200, -20, -200.0 + 10 * k}, {400, 20 + 3.0 * k, 10}, earth);
+  for (int k = 0; k < 8; ++k) {
+    for (int i = 0; i < 24; ++i) {
+      m.box({-190.0 + 16 * i, 0, -190.0 + 50 * k}, {13, 12 + 15.0 * k, 11}, wall);
+      m.box({-190.0 + 16 * i, 0, -169.0 + 50 * k}, {13, 18 + 15.0 * k, 11}, wall);
+    }
+  }
+  return std::move(m.finish());
+}
+
+TEST(Viewpoint, streetEyeStandsOnItsHill) {
+  const Set s(hillTown());
+  RenderOptions o;
+  o.view = PictureView::Street;
+  const Camera c = chooseCamera(s.subject, o, Light(o, 38, 225));
+  Ray down;
+  down.origin = toVec3f(c.eye);
+  down.direction = {0, -1, 0};
+  Hit hit;
+  ASSERT_TRUE(s.tracer.intersect(down, hit));
+  EXPECT_NEAR(hit.distance, kEyeHeight, 1e-3);
+  Ray up = down;
+  up.direction = {0, 1, 0};
+  EXPECT_FALSE(s.tracer.intersect(up, hit));
+  // On the steps of the slope, and on no roof; not at the border.
+  const Vec3 at = c.eye + s.world.origin;
+  const double ground = 3 * std::floor((at.z + 200) / 10);
+  EXPECT_NEAR(at.y - kEyeHeight, ground, 1e-3);
+  EXPECT_LT(std::max(std::abs(at.x), std::abs(at.z)), 150);
+}
+
+TEST(Viewpoint, frontEyeIsAboveItsHill) {
+  const Set s(hillTown());
+  RenderOptions o;
+  o.target = Vec3{0, 60, 0};
+  for (const PictureView view : {PictureView::Iso, PictureView::Front, PictureView::Street}) {
+    o.view = view;
+    const Camera c = chooseCamera(s.subject, o, Light(o, 38, 225));
+    Ray up;
+    up.origin = toVec3f(c.eye);
+    up.direction = {0, 1, 0};
+    Hit hit;
+    EXPECT_FALSE(s.tracer.intersect(up, hit));
+  }
+}
+
 TEST(Viewpoint, frontFollowsTurnedWalls) {
   for (const double turn : {-30.0, -10.0, 0.0, 20.0, 40.0}) {
     const World world = makeWorld(boxScene({20, 10, 8}, turn), nullptr);
