@@ -126,6 +126,7 @@ int runCity(const CityArguments& given) {
   gable::CitySettings settings;
   settings.layer = arguments.derive.layer;
   settings.terrain = arguments.terrain;
+  settings.soil = arguments.soil;
   if (const int status = readBox(arguments.box, settings)) return status;
   if (const int status = readCountry(arguments.country, settings)) return status;
   const gable::City city =

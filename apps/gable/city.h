@@ -4,6 +4,7 @@
 // gable city: its arguments, which hold those of a derivation.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "commands.h"
@@ -17,6 +18,8 @@ struct CityArguments {
   std::string country;
   /// A file of heights; empty for a flat place.
   std::string terrain;
+  /// Metres of soil below it.
+  std::optional<double> soil;
   std::string output;
   /// Where the ground goes as GeoJSON.
   std::string plan;

@@ -194,6 +194,10 @@ void addCity(CLI::App& app, CityArguments& a, int& status) {
                    "(default: the box around its buildings)");
   city->add_option("--terrain", a.terrain,
                    "Heights: a GeoTIFF (.tif) or a tile of SRTM (.hgt) (default: a flat place)");
+  city->add_option("--soil", a.soil,
+                   "On terrain: metres of soil below the lowest ground, with sides; 0: none\n"
+                   "(default: 2 % of the place, 4 to 40 metres)")
+      ->check(number({0, 10'000}));
   city->add_option("--country", a.country,
                    "How houses look: two letters, such as FR (default: by addresses and place)");
   city->add_option("--layer", a.derive.layer, "The layer of the map, where it has several");

@@ -32,6 +32,9 @@ struct CitySettings {
   /// A file of heights, a GeoTIFF (.tif) or a tile of SRTM (.hgt): the place lies on its terrain.
   /// Empty: the place is flat.
   std::string terrain;
+  /// On terrain the place is a block of soil that goes so many metres below its lowest ground, at
+  /// least 2; 0: no block. Absent: as suits its size.
+  std::optional<double> soil;
   /// Two letters, such as "MC": how houses look. Empty: by addresses of the map, else by its place.
   std::string country;
 };
@@ -66,7 +69,8 @@ struct CityStatistics {
 
 class City {
  public:
-  /// By extension: .osm .pbf .geojson .json (also CityJSON) .gpkg .fgb .shp .kml .dxf; see Shapes::load.
+  /// By extension: .osm .pbf .geojson .json (also CityJSON) .gpkg .fgb .shp .kml .dxf; see
+  /// Shapes::load.
   static City load(const std::string& path, const CitySettings& settings = {},
                    const FileLimits& limits = {});
   /// The same for a file's content in memory; `name` gives the extension.

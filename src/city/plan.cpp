@@ -18,6 +18,7 @@
 #include "city/country.h"
 #include "city/ribbon.h"
 #include "city/rows.h"
+#include "city/soil.h"
 #include "city/street_grade.h"
 #include "city/terrain.h"
 #include "city/walls.h"
@@ -71,7 +72,8 @@ bool isColourTag(std::string_view name) {
 
 class Planner {
  public:
-  Planner(const MapFeatures& map, const std::string& country, const HeightField* heights)
+  Planner(const MapFeatures& map, const std::string& country, const HeightField* heights,
+          std::optional<double> soil)
       : map_(map),
         country_(country.empty() ? countryOf(map) : country),
         streets_(streetsOf(map.features)),
@@ -90,6 +92,7 @@ class Planner {
     }
     joinRows(under(), map.features, facts_);
     if (heights) makeTerrain(*heights);
+    if (heights && soil.value_or(1) > 0) soil_ = soilBelow(*out_.terrain, soil);
   }
 
   CityPlan plan() {
@@ -107,6 +110,7 @@ class Planner {
     addCrossings();
     addBridges();
     addTerrainWalls();
+    addSoil();
     return std::move(out_);
   }
 
@@ -163,6 +167,18 @@ class Planner {
       shape.attributes.push_back({"of", {text(surfaceName(piece.surface))}, 0, 0});
       shape.attributes.push_back({"beyond", {text(surfaceName(beyond.surface))}, 0, 0});
     }
+  }
+
+  void addSoil() {
+    for (SoilSide& s : soil_.sides) {
+      const std::string surface = surfaceName(out_.ground[s.piece].surface);
+      for (auto [rule, faces] : {std::pair("Soil", &s.side), std::pair("SoilRim", &s.rim)}) {
+        CityShape& shape = add(rule, std::string());
+        shape.faces = std::move(*faces);
+        shape.attributes.push_back({"of", {text(surface)}, 0, 0});
+      }
+    }
+    if (!soil_.bottom.empty()) add("Soil", "bottom").faces.push_back(std::move(soil_.bottom));
   }
 
   void addGround(const GroundPiece& p) {
@@ -546,14 +562,16 @@ class Planner {
   std::vector<GroundPiece> standing_;
   std::unique_ptr<GroundIndex> standingIndex_;
   std::vector<TerrainWall> terrainWalls_;
+  SoilBlock soil_;
   // The first piece of the ground under each building.
   std::unordered_map<uint32_t, size_t> floors_;
 };
 
 }  // namespace
 
-CityPlan planCity(const MapFeatures& map, const std::string& country, const HeightField* heights) {
-  return Planner(map, country, heights).plan();
+CityPlan planCity(const MapFeatures& map, const std::string& country, const HeightField* heights,
+                  std::optional<double> soil) {
+  return Planner(map, country, heights, soil).plan();
 }
 
 bool liesOnGround(std::string_view rule) {
@@ -561,7 +579,8 @@ bool liesOnGround(std::string_view rule) {
     if (rule == surfaceName(static_cast<Surface>(s))) return true;
   }
   constexpr std::string_view kLying[] = {"Kerb",    "Street",  "Crossing", "Rails",
-                                         "TreeRow", "Barrier", "Tree",     "StreetLamp"};
+                                         "TreeRow", "Barrier", "Tree",     "StreetLamp",
+                                         "SoilRim"};
   return std::find(std::begin(kLying), std::end(kLying), rule) != std::end(kLying);
 }
 

@@ -20,12 +20,15 @@
 //   single things  a square of a metre                                     Tree, StreetLamp
 //   on terrain     faces in space: below floors, and where a piece lies
 //                  above another                                           Plinth, RetainingWall
+//                  sides and bottom of the block that it is; the uppermost
+//                  part of the sides, flat on the ground                   Soil, SoilRim
 //
 // Attributes are the tags of the feature, numbers without their units, and what is said in
 // docs/guide/city.md. Promises: equal input gives equal output. O(n log n), mostly.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,9 +68,10 @@ struct CityPlan {
 };
 
 /// `country` as countryOf() gives it, which is asked where it is empty; without `heights` the place
-/// is flat.
+/// is flat. On heights it is a block of soil that goes so many metres below its lowest ground: 0
+/// for none, absent for what suits its size.
 CityPlan planCity(const MapFeatures& map, const std::string& country = {},
-                  const HeightField* heights = nullptr);
+                  const HeightField* heights = nullptr, std::optional<double> soil = {});
 
 /// Whether shapes that begin with a rule lie on the ground.
 bool liesOnGround(std::string_view rule);

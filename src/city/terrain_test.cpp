@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
@@ -257,6 +258,76 @@ TEST(Terrain, TheSeaIsAtItsLevelAndLandAboveIt) {
 }
 
 // A box of a thousand kilometres around one street: the ground has no more corners than a town's.
+// Six times the signed volume below a fan of faces.
+double volumeOf(const std::vector<std::vector<Vec3>>& faces) {
+  double sum = 0;
+  for (const auto& f : faces) {
+    for (size_t i = 1; i + 1 < f.size(); ++i) sum += dot(f[0], cross(f[i], f[i + 1]));
+  }
+  return sum / 6;
+}
+
+TEST(Terrain, ThePlaceIsAClosedBlockOfSoil) {
+  const MapFeatures map = mapOf(
+      {feature(R"("highway":"residential")", "LineString", "[[-100,0],[0,0],[100,0]]"),
+       feature(R"("landuse":"grass")", "Polygon", "[[[-95,20],[20,20],[20,130],[-95,130]]]")});
+  const HeightField field = fieldOf(map.area, 5, hill);
+  const CityPlan plan = planCity(map, "CZ", &field, 12);
+  const TerrainSurface& s = *plan.terrain;
+  double lowest = 1e9, expected = 0;
+  for (const Vec3& p : s.points()) lowest = std::min(lowest, p.z);
+  std::vector<std::vector<Vec3>> faces;
+  for (const TerrainSurface::Facet& f : s.facets()) {
+    std::vector<Vec3> face;
+    for (const uint32_t v : f.points) face.push_back(s.points()[v]);
+    const Vec3 a = face[1] - face[0], b = face[2] - face[0];
+    const double twice = cross(Vec2{a.x, a.y}, Vec2{b.x, b.y});
+    expected += twice / 2 * (face[0].z + face[1].z + face[2].z) / 3;
+    faces.push_back(std::move(face));
+  }
+  double base = 1e9;
+  for (const CityShape& shape : plan.shapes) {
+    if (shape.rule != "Soil" && shape.rule != "SoilRim") continue;
+    EXPECT_EQ(liesOnGround(shape.rule), shape.rule == "SoilRim");
+    for (std::vector<Vec3> face : shape.faces) {
+      // As the drape lays it down.
+      if (shape.rule == "SoilRim") {
+        for (Vec3& p : face) p.z += s.heightAt({p.x, p.y});
+      }
+      for (const Vec3& p : face) base = std::min(base, p.z);
+      faces.push_back(std::move(face));
+    }
+  }
+  EXPECT_LE(base, lowest - 12);
+  EXPECT_GT(base, lowest - 13.01);
+  const double whole = plan.area.size().x * plan.area.size().y;
+  EXPECT_NEAR(volumeOf(faces), expected - base * whole, 1e-9 * std::fabs(expected));
+  // Without the bottom, every edge above it has its counterpart.
+  std::map<std::array<double, 6>, int> edges;
+  for (const auto& f : faces) {
+    for (size_t i = 0; i < f.size(); ++i) {
+      const Vec3 &a = f[i], &b = f[(i + 1) % f.size()];
+      ++edges[{a.x, a.y, a.z, b.x, b.y, b.z}];
+      --edges[{b.x, b.y, b.z, a.x, a.y, a.z}];
+    }
+  }
+  for (const auto& [e, count] : edges) {
+    if (e[2] <= base && e[5] <= base) continue;
+    EXPECT_EQ(count, 0) << e[0] << ' ' << e[1] << ' ' << e[2];
+  }
+}
+
+TEST(Terrain, SoilCanBeLeftOut) {
+  const MapFeatures map = village();
+  const HeightField field = fieldOf(map.area, 5, hill);
+  for (const auto& [depth, count] : {std::pair(0.0, 0), std::pair(1.0, 1)}) {
+    const CityPlan plan = planCity(map, "CZ", &field, depth);
+    int bottoms = 0;
+    for (const CityShape& shape : plan.shapes) bottoms += shape.id == "bottom";
+    EXPECT_EQ(bottoms, count);
+  }
+}
+
 TEST(Terrain, HugePlacesEnd) {
   const std::string text =
       R"({"type":"FeatureCollection","crs":{"properties":{"name":"EPSG:32632"}},"features":[)" +

@@ -207,7 +207,7 @@ std::shared_ptr<City::Impl> parsed(const std::string& content, const std::string
     heights.emplace(std::move(*field));
     tellFilled(heights->filled(), settings.terrain, impl->diagnostics);
   }
-  impl->plan = planCity(impl->map, settings.country, heights ? &*heights : nullptr);
+  impl->plan = planCity(impl->map, settings.country, heights ? &*heights : nullptr, settings.soil);
   impl->shapes = shapesOf(impl->plan, impl->map);
   impl->statistics = statisticsOf(impl->plan, impl->map);
   tellSkipped(impl->plan.skips, name, impl->diagnostics);

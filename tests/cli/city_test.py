@@ -130,6 +130,10 @@ class City(Case):
         self.city("map.geojson", "--terrain", "heights.tif", "--rules", "own.cga", "-o", "own.obj")
         ys = [float(line.split()[2]) for line in (self.folder / "own.obj").read_text().splitlines() if line.startswith("v ")]
         self.assertTrue(190 < min(ys) and max(ys) < 260)
+        for depth, low in (("30", 160), ("0", 190)):
+            self.city("map.geojson", "--terrain", "heights.tif", "--soil", depth, "--rules", "own.cga", "-o", "own.obj")
+            ys = [float(line.split()[2]) for line in (self.folder / "own.obj").read_text().splitlines() if line.startswith("v ")]
+            self.assertTrue(low < min(ys) < low + 20, (depth, min(ys)))
 
     def testHeightsThatDoNotFitAreErrors(self):
         self.city("map.geojson", "--terrain", "none.tif", "-o", "a.obj", status=FILE, says="none.tif")
