@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <set>
 #include <unordered_map>
 
 #include "base/json.h"
@@ -108,6 +109,7 @@ class Planner {
     }
     addStreets();
     addCrossings();
+    for (uint32_t i = 0; i < streets_.stretches.size(); ++i) addParking(streets_.stretches[i], i);
     addBridges();
     addTerrainWalls();
     addSoil();
@@ -478,18 +480,78 @@ class Planner {
       if (!inside || whole - s.cutBegin - s.cutEnd < 1) continue;
       CityShape& shape = add("Street", map_.features[s.feature].id);
       shape.line = middle;
-      for (AttributeValue& a : tagsOf(map_.features[s.feature])) {
-        if (a.name != "width" && a.name != "lanes") {
-          shape.attributes.push_back(std::move(a));
-        }
-      }
-      shape.attributes.push_back(number("width", s.profile.width));
-      shape.attributes.push_back(number("lanes", s.profile.lanes));
-      shape.attributes.push_back(truth("one_way", s.profile.oneway));
+      describeStreet(shape, s);
       shape.attributes.push_back(number("left_walk", s.profile.leftWalk));
       shape.attributes.push_back(number("right_walk", s.profile.rightWalk));
       shape.attributes.push_back(truth("at_junction", s.cutEnd > 0));
     }
+  }
+
+  // What the map says of parking at a side of a street; empty where it says nothing.
+  static std::string_view parkingAt(const MapFeature& f, const std::string& side) {
+    for (const std::string& key : {"parking:" + side, std::string("parking:both"),
+                                   "parking:lane:" + side, std::string("parking:lane:both")}) {
+      const std::string_view value = f.tag(key);
+      if (!value.empty()) return value;
+    }
+    return {};
+  }
+
+  // Lines along kerbs where cars can stand: on the carriageway for all their width, away from
+  // junctions and crossings.
+  void addParking(const Stretch& s, uint32_t number) {
+    constexpr double kCar = 2, kFromKerb = 0.15, kStep = 2, kFromEnds = 6, kLeast = 5;
+    const Path path(s.line);
+    const double from = s.cutBegin + kFromEnds, to = path.length() - s.cutEnd - kFromEnds;
+    if (s.profile.width < kCar + 1 || !(to - from >= kLeast)) return;
+    for (const double side : {1.0, -1.0}) {
+      std::vector<Vec2> line;
+      const auto end = [&] {
+        if (line.size() >= 3) addParkingLane(s, side, std::move(line));
+        line.clear();
+      };
+      for (double along = from; along <= to; along += kStep) {
+        work();
+        const Path::Place place = path.at(along);
+        const Vec2 across{place.tangent.y * side, -place.tangent.x * side};
+        const double kerb = 0.5 * s.profile.width - kFromKerb;
+        const bool free = isCarriageway(place.point + across * kerb) &&
+                          isCarriageway(place.point + across * (kerb - kCar)) &&
+                          !isAtCrossing(number, along);
+        if (!free) {
+          end();
+          continue;
+        }
+        line.push_back(place.point + across * (kerb - 0.5 * kCar));
+      }
+      end();
+    }
+  }
+  bool isCarriageway(Vec2 p) const {
+    const uint32_t piece = index_->pieceAt(p);
+    return piece != GroundPiece::kNothing && out_.ground[piece].surface == Surface::Carriageway;
+  }
+  bool isAtCrossing(uint32_t stretch, double along) const {
+    constexpr double kClear = 6;
+    const auto next = crossings_.lower_bound({stretch, along - kClear});
+    return next != crossings_.end() && next->first == stretch && next->second <= along + kClear;
+  }
+  void addParkingLane(const Stretch& s, double side, std::vector<Vec2> line) {
+    const MapFeature& f = map_.features[s.feature];
+    CityShape& shape = add("ParkingLane", f.id);
+    shape.line = std::move(line);
+    describeStreet(shape, s);
+    const std::string name = side > 0 ? "right" : "left";
+    shape.attributes.push_back({"side", {text(name)}, 0, 0});
+    shape.attributes.push_back({"parking", {text(std::string(parkingAt(f, name)))}, 0, 0});
+  }
+  void describeStreet(CityShape& shape, const Stretch& s) const {
+    for (AttributeValue& a : tagsOf(map_.features[s.feature])) {
+      if (a.name != "width" && a.name != "lanes") shape.attributes.push_back(std::move(a));
+    }
+    shape.attributes.push_back(number("width", s.profile.width));
+    shape.attributes.push_back(number("lanes", s.profile.lanes));
+    shape.attributes.push_back(truth("one_way", s.profile.oneway));
   }
 
   void addBridges() {
@@ -528,6 +590,7 @@ class Planner {
       if (f.kind != MapFeature::Kind::Point || f.tag("highway") != "crossing") continue;
       const auto at = places.find({f.points[0].x, f.points[0].y});
       if (at == places.end() || !out_.area.contains(f.points[0])) continue;
+      crossings_.insert(at->second);
       addCrossing(f, streets_.stretches[at->second.first], at->second.second);
     }
   }
@@ -561,6 +624,8 @@ class Planner {
   // Of a larger area, so that buildings at the border are whole; only where there are such.
   std::vector<GroundPiece> standing_;
   std::unique_ptr<GroundIndex> standingIndex_;
+  // Stretches, and how far along each.
+  std::set<std::pair<uint32_t, double>> crossings_;
   std::vector<TerrainWall> terrainWalls_;
   SoilBlock soil_;
   // The first piece of the ground under each building.
@@ -580,7 +645,7 @@ bool liesOnGround(std::string_view rule) {
   }
   constexpr std::string_view kLying[] = {"Kerb",    "Street",  "Crossing", "Rails",
                                          "TreeRow", "Barrier", "Tree",     "StreetLamp",
-                                         "SoilRim"};
+                                         "SoilRim", "ParkingLane"};
   return std::find(std::begin(kLying), std::end(kLying), rule) != std::end(kLying);
 }
 

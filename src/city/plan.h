@@ -10,6 +10,7 @@
 //                  a building:part; a roof on posts                        BuildingPart, Canopy
 //   lines          a stretch of a street between junctions, rails, ..      Street, Rails, TreeRow,
 //                                                                          Barrier
+//                  where cars can stand along a kerb, in their middle      ParkingLane
 //   steps          where the ground goes down to a roadway or to water, the higher
 //                  piece on the left                                       Kerb
 //   crossings      a rectangle across the carriageway, x across it         Crossing

@@ -326,6 +326,43 @@ TEST(CityPlan, BuildingsAtTheBorderAreWholeOrNotThere) {
   EXPECT_EQ(party, 1u);
 }
 
+TEST(CityPlan, CarsCanStandAlongKerbsOnly) {
+  auto map = mapOf(
+      {feature(R"("highway":"residential","parking:left":"no","width":"7","id":"w")", "LineString",
+               "[[0,100],[60,100],[100,100],[200,100]]"),
+       feature(R"("highway":"residential","id":"x")", "LineString", "[[100,0],[100,100]]"),
+       feature(R"("highway":"crossing")", "Point", "[60,100]"),
+       feature(R"("building":"yes")", "Polygon", square(150, 90, 8))});
+  ASSERT_TRUE(map.ok());
+  CityPlan plan = planCity(*map);
+  GroundIndex index(plan.ground);
+  size_t left = 0, right = 0;
+  for (const CityShape& s : plan.shapes) {
+    if (s.rule != "ParkingLane") continue;
+    const bool isLeft = valueOf(s, "side") == "left";
+    ++(isLeft ? left : right);
+    if (s.id == "w") {
+      EXPECT_EQ(valueOf(s, "parking") == "no", isLeft);
+      EXPECT_EQ(valueOf(s, "width"), "7");
+    }
+    for (const Vec2 p : s.line) {
+      // Two metres wide, beside the kerb.
+      for (const double x : {-0.9, 0.9}) {
+        for (const double y : {-0.9, 0.9}) {
+          const uint32_t piece = index.pieceAt(p + Vec2{s.id == "w" ? 0 : x, s.id == "w" ? y : 0});
+          ASSERT_NE(piece, GroundPiece::kNothing);
+          EXPECT_EQ(plan.ground[piece].surface, Surface::Carriageway);
+        }
+      }
+      // The plan's origin is the middle of the box: the crossing lies at (-40, 0).
+      EXPECT_GT(length(p - Vec2{-40, 0}), 5.5);
+    }
+  }
+  EXPECT_GE(left, 3u);
+  // The house takes a part of the right side.
+  EXPECT_GE(right, 4u);
+}
+
 TEST(CityPlan, PointsOfABuildingReachIt) {
   const std::string street =
       feature(R"("highway":"residential")", "LineString", "[[0,40],[200,40]]");
