@@ -5,13 +5,10 @@
 // both to the same flattened mesh in a reused buffer, on one thread. Loops write box by box; leaves
 // of rules come in batches with the same axes, whose normals are made once.
 //
-//   W1      a building of 20 x 10 bays on four sides, 5 boxes a bay: 4000 boxes
-//   W1x25   the same 25 times over
-//   W2      1000 buildings of 100 boxes with sizes of their own
-//
-// Runs are interleaved; the medians and their ratio are printed. With `--runs N` N runs (default
-// 9). `--rules NAME` runs the rules of one workload alone until `--boxes N` are made (20 000 000),
-// for a profiler; `--shared NAME` derives to a scene instead.
+// The workloads W1, W1x25 and W2 of bench/workloads.h. Runs are interleaved; the medians and their
+// ratio are printed. With `--runs N` N runs (default 9). `--rules NAME` runs the rules of one
+// workload alone until `--boxes N` are made (20 000 000), for a profiler; `--shared NAME` derives
+// to a scene instead.
 
 #include <algorithm>
 #include <cmath>
@@ -22,124 +19,43 @@
 #include <string>
 #include <vector>
 
+#include "base/files.h"
 #include "builtins/catalogue.h"
 #include "lang/compile/compile.h"
 #include "lang/parser.h"
 #include "lang/sema/analyse.h"
 #include "runtime/leaf_stream.h"
 #include "scene/vertex_buffer.h"
+#include "workloads.h"
 
 using namespace gable;
+using namespace gable::bench;
+using namespace std::string_literals;
 
 namespace {
 
-constexpr const char* kFacadeRules = R"(
-Lot --> extrude(60) comp(f) { side : Facade }
-Facade --> split(y) { ~3 : Floor }*
-Floor --> split(x) { ~(scope.sx / 10) : Bay }*
-Bay --> split(x) { 0.15 : Frame | ~1 : Middle | 0.15 : Frame }
-Middle --> split(y) { 0.15 : Frame | ~1 : Glass | 0.15 : Frame }
-Frame --> s('1, '1, 0.2) primitiveCube()
-Glass --> s('1, '1, 0.05) primitiveCube()
-)";
-
-// 5 floors of 4 bays of 5 boxes, stacked slabs: 100 boxes a building.
-constexpr const char* kTownRules = R"(
-attr height = 15
-Lot --> extrude(height) split(y) { ~3 : Floor }*
-Floor --> split(x) { ~(scope.sx / 4) : Bay }*
-Bay --> split(z) { ~(scope.sz / 5) : Box. }*
-)";
-
-struct Workload {
-  const char* name;
-  const char* rules;
-  std::vector<InitialShape> shapes;
-  size_t boxes;
-  std::function<void(VertexBuffer&)> loops;
-};
-
-InitialShape lot(double x, double z, double w, double d, double height) {
+InitialShape shapeOf(const Lot& lot) {
   InitialShape s;
   MeshBuilder b;
-  const uint32_t ring[] = {b.addPosition({0, 0, 0}), b.addPosition({w, 0, 0}),
-                           b.addPosition({w, 0, -d}), b.addPosition({0, 0, -d})};
+  const uint32_t ring[] = {b.addPosition({0, 0, 0}), b.addPosition({lot.w, 0, 0}),
+                           b.addPosition({lot.w, 0, -lot.d}), b.addPosition({0, 0, -lot.d})};
   b.addPolygon(ring);
   s.mesh = b.take();
-  s.origin = Frame::moved({x, 0, z});
-  if (height > 0) s.attributes.emplace_back("height", Value::of(height));
+  s.origin = Frame::moved({lot.x, 0, lot.z});
+  if (lot.height > 0) s.attributes.emplace_back("height", Value::of(lot.height));
   return s;
 }
 
-// One facade by loops: the frame has x along it, y up and z outwards.
-void facadeByLoops(const Frame& facade, double width, VertexBuffer& out) {
-  const double bay = width / 10;
-  for (int floor = 0; floor < 20; ++floor) {
-    for (int i = 0; i < 10; ++i) {
-      Frame f = facade;
-      const auto box = [&](double x, double y, double w, double h, double d) {
-        f.origin = facade.point({i * bay + x, floor * 3.0 + y, 0});
-        appendBox(f, f.origin, {w, h, d}, out);
-      };
-      box(0, 0, 0.15, 3, 0.2);
-      box(0.15, 0, bay - 0.3, 0.15, 0.2);
-      box(0.15, 0.15, bay - 0.3, 2.7, 0.05);
-      box(0.15, 2.85, bay - 0.3, 0.15, 0.2);
-      box(bay - 0.15, 0, 0.15, 3, 0.2);
-    }
-  }
-}
-
-void buildingByLoops(double x, double z, VertexBuffer& out) {
-  const Vec3 up{0, 1, 0};
-  facadeByLoops(Frame::of({x, 0, z}, {1, 0, 0}, up, {0, 0, 1}), 30, out);
-  facadeByLoops(Frame::of({x + 30, 0, z}, {0, 0, -1}, up, {1, 0, 0}), 20, out);
-  facadeByLoops(Frame::of({x + 30, 0, z - 20}, {-1, 0, 0}, up, {0, 0, -1}), 30, out);
-  facadeByLoops(Frame::of({x, 0, z - 20}, {0, 0, 1}, up, {-1, 0, 0}), 20, out);
-}
-
-struct House {
-  double x, z, w, d, h;
-};
-
-std::vector<House> houses() {
-  std::vector<House> out;
-  for (int i = 0; i < 1000; ++i) {
-    const double j = std::fmod(i * 0.618033988749895, 1.0);
-    const double k = std::fmod(i * 0.754877666246693, 1.0);
-    out.push_back({(i % 40) * 30.0, -(i / 40) * 30.0, 8 + 6 * j, 8 + 6 * k, 13.6 + 2.6 * j});
-  }
+std::vector<InitialShape> shapesOf(const Workload& w) {
+  std::vector<InitialShape> out;
+  for (const Lot& lot : w.lots) out.push_back(shapeOf(lot));
   return out;
 }
 
-void houseByLoops(const House& house, VertexBuffer& out) {
-  const Frame upright;
-  const double floor = house.h / 5, bay = house.w / 4, part = house.d / 5;
-  for (int f = 0; f < 5; ++f) {
-    for (int b = 0; b < 4; ++b) {
-      for (int p = 0; p < 5; ++p) {
-        appendBox(upright, {house.x + b * bay, f * floor, house.z - house.d + p * part},
-                  {bay, floor, part}, out);
-      }
-    }
-  }
-}
-
-std::vector<Workload> workloads() {
-  std::vector<Workload> all;
-  all.push_back({"W1", kFacadeRules, {lot(0, 0, 30, 20, 0)}, 4000, [](VertexBuffer& out) {
-                   buildingByLoops(0, 0, out);
-                 }});
-  std::vector<InitialShape> row;
-  for (int i = 0; i < 25; ++i) row.push_back(lot(i * 50.0, 0, 30, 20, 0));
-  all.push_back({"W1x25", kFacadeRules, std::move(row), 100000, [](VertexBuffer& out) {
-                   for (int i = 0; i < 25; ++i) buildingByLoops(i * 50.0, 0, out);
-                 }});
-  std::vector<InitialShape> town;
-  for (const House& h : houses()) town.push_back(lot(h.x, h.z, h.w, h.d, h.h));
-  all.push_back({"W2", kTownRules, std::move(town), 100000, [](VertexBuffer& out) {
-                   for (const House& h : houses()) houseByLoops(h, out);
-                 }});
+// Those that are measured without a file: a tree of a million boxes is not.
+std::vector<Workload> measured() {
+  std::vector<Workload> all = workloads();
+  std::erase_if(all, [](const Workload& w) { return w.name[1] == '3'; });
   return all;
 }
 
@@ -162,10 +78,10 @@ class NoAssets final : public Assets {
   }
 };
 
-Program compileText(const char* text, const std::shared_ptr<ValuePool>& pool) {
+Program compileText(std::string text, const std::shared_ptr<ValuePool>& pool) {
   Sources sources;
   Diagnostics diagnostics;
-  const uint32_t file = sources.add("bench.cga", text);
+  const uint32_t file = sources.add("bench.cga", std::move(text));
   lang::AnalysisInput input{lang::parse(sources, file, diagnostics), "bench.cga", ""};
   const auto resolved =
       lang::analyse(std::move(input), builtinCatalogue(), *pool, nullptr, sources, diagnostics);
@@ -223,21 +139,21 @@ bool agree(const VertexBuffer& a, const VertexBuffer& b) {
 class Subject {
  public:
   explicit Subject(const Workload& w)
-      : workload_(w),
+      : shapes_(shapesOf(w)),
         pool_(std::make_shared<ValuePool>()),
-        program_(compileText(w.rules, pool_)),
+        program_(compileText(readFile(GABLE_BENCH_DIR "/boxes/"s + w.rules).value(), pool_)),
         environment_(pool_, assets_),
         stream_(program_, environment_, oneJob()) {}
 
   // To a flattened mesh.
   void derive(VertexBuffer& out) {
     out.clear();
-    stream_.run(workload_.shapes, [&](const PlacedLeaves& placed) {
+    stream_.run(shapes_, [&](const PlacedLeaves& placed) {
       appendBoxes(placed.axes, placed.origin, placed.leaves, out);
     });
   }
   // To a scene, with sharing.
-  void deriveShared() { gable::derive(program_, workload_.shapes, environment_, oneJob()); }
+  void deriveShared() { gable::derive(program_, shapes_, environment_, oneJob()); }
 
  private:
   static DeriveOptions oneJob() {
@@ -245,7 +161,7 @@ class Subject {
     options.jobs = 1;
     return options;
   }
-  const Workload& workload_;
+  const std::vector<InitialShape> shapes_;
   NoAssets assets_;
   std::shared_ptr<ValuePool> pool_;
   Program program_;
@@ -260,7 +176,9 @@ bool run(const Workload& w, int runs) {
   const auto sharedOnly = [&] { subject.deriveShared(); };
   const auto loops = [&] {
     byLoops.clear();
-    w.loops(byLoops);
+    boxesByLoops(w, [&](const Frame& axes, const Vec3& origin, const Vec3& size) {
+      appendBox(axes, origin, size, byLoops);
+    });
   };
   rules();
   loops();
@@ -313,12 +231,12 @@ int main(int argc, char** argv) {
     if (std::strcmp(argv[i], "--boxes") == 0) boxes = std::strtoull(argv[i + 1], nullptr, 10);
   }
   if (only) {
-    for (const Workload& w : workloads()) {
+    for (const Workload& w : measured()) {
       if (std::strcmp(w.name, only) == 0) profile(w, boxes, shared != nullptr);
     }
     return 0;
   }
   bool same = true;
-  for (const Workload& w : workloads()) same = run(w, runs) && same;
+  for (const Workload& w : measured()) same = run(w, runs) && same;
   return same ? 0 : 1;
 }
