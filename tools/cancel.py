@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The Gable authors
+"""How soon everything stops that is asked to: tools/cancel.py GABLE [NAME...] [--times N].
+
+Makes each example (model, picture, tiles) and interrupts it at random times, from the start of the program to the end of
+its work. Prints for each the worst time from the interrupt to the end of the process, and ends with 1 where one is over
+0.1 seconds. That time is the lesser of the clock's and the processor's, of all threads together: on a busy machine the
+clock runs while the program waits for its turn. An interrupt before the program is ready for one ends it at once.
+"""
+import argparse
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import example_commands
+from example_commands import ROOT
+
+KINDS = ("generate", "render", "tiles")
+TICK = os.sysconf("SC_CLK_TCK")
+
+
+def processor_seconds(pid):
+    """Of a process and the children that it has, in steps of a hundredth."""
+    try:
+        fields = Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()
+        children = Path(f"/proc/{pid}/task/{pid}/children").read_text(encoding="ascii").split()
+    except OSError:
+        return 0
+    return sum(map(int, fields[11:15])) / TICK + sum(processor_seconds(child) for child in children)
+
+
+def run(command, after=None):
+    """Seconds of a whole run; with `after`, seconds from an interrupt so late to the end: by the clock, by the processor."""
+    begin = time.perf_counter()
+    with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+        if after is None:
+            if process.wait() != 0:
+                raise RuntimeError(f"'{' '.join(command)}' ended with {process.returncode}; run it to see why")
+            return time.perf_counter() - begin
+        time.sleep(after)
+        before = processor_seconds(process.pid)
+        begin = time.perf_counter()
+        os.kill(process.pid, signal.SIGINT)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        clock = time.perf_counter() - begin
+        return clock, max(0.0, usage.ru_utime + usage.ru_stime - before)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("gable", type=Path)
+    parser.add_argument("names", nargs="*", metavar="NAME", help="examples; without, all")
+    parser.add_argument("--times", type=int, default=20, help="interrupts of each command (default 20)")
+    parser.add_argument("--kinds", nargs="+", choices=KINDS, default=KINDS)
+    parser.add_argument("--seed", type=int, default=0, help="of the random times (default 0)")
+    parser.add_argument("--most", type=float, default=0.1, metavar="SECONDS")
+    options = parser.parse_args()
+    unknown = set(options.names) - set(example_commands.names())
+    if unknown:
+        parser.error(f"there is no example '{min(unknown)}'; './run example' lists them")
+    chance = random.Random(options.seed)
+    worst = (0.0, "")
+    with tempfile.TemporaryDirectory() as place:
+        out = Path(place) / "out"
+        for name in options.names or example_commands.names():
+            out.mkdir()
+            for kind, command in example_commands.commands(options.gable.resolve(), name, out, options.kinds):
+                whole = run(command)
+                late = []
+                for _ in range(options.times):
+                    shutil.rmtree(out)
+                    out.mkdir()
+                    after = chance.uniform(0, whole)
+                    clock, busy = run(command, after)
+                    late.append((min(clock, busy), clock, busy, after))
+                least, clock, busy, after = max(late)
+                worst = max(worst, (least, f"{name}, {kind}"))
+                print(f"{name:18} {kind:9} {whole:6.2f} s; worst of {len(late)}: {least * 1000:4.0f} ms (clock {clock * 1000:.0f}, processor "
+                      f"{busy * 1000:.0f}) after {after:.2f} s{'   TOO LATE' if least > options.most else ''}", flush=True)
+            shutil.rmtree(out)
+    print(f"worst: {worst[0] * 1000:.0f} ms ({worst[1]})")
+    return 1 if worst[0] > options.most else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
