@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "base/files.h"
+#include "base/parallel.h"
 #include "json/answers.h"
 
 namespace gable::studio {
@@ -38,12 +39,14 @@ void keep(std::deque<Kept>& kept, Kept one, size_t most) {
   if (kept.size() > most) kept.pop_back();
 }
 
-std::string joined(const char* mark, std::string json, const std::string& rest) {
+// A draw list has room for what comes in front of it.
+std::string joined(const char* mark, std::string json, std::string rest) {
   json.append((4 - json.size() % 4) % 4, ' ');
   const auto size = static_cast<uint32_t>(json.size());
-  std::string out = mark;
-  out.append(reinterpret_cast<const char*>(&size), sizeof size);
-  return out + json + rest;
+  std::string head = mark;
+  head.append(reinterpret_cast<const char*>(&size), sizeof size);
+  rest.insert(0, head + json);
+  return rest;
 }
 
 DeriveSettings settingsOf(const JsonValue& request) {
@@ -315,8 +318,15 @@ Result<std::string> Session::derive(const JsonValue& request, const Cancel& canc
   RunFigures figures;
   figures.parseSeconds = rules->parseSeconds();
   figures.deriveSeconds = model.deriveSeconds();
-  json.key("stats").raw(statisticsJson(model, figures)).endObject();
-  return joined("GBS1", text, drawn ? model.drawList() : std::string());
+  std::string stats, list;
+  parallelFor(drawn ? 2 : 1, 2, [&](size_t i, unsigned) {
+    if (i == 0)
+      stats = statisticsJson(model, figures);
+    else
+      list = model.drawList();
+  });
+  json.key("stats").raw(stats).endObject();
+  return joined("GBS1", text, std::move(list));
 }
 
 Result<std::string> Session::tree(const JsonValue& request, const Cancel& cancel) {

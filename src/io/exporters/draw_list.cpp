@@ -1,18 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// One pass counts how often each mesh stands, a second one sorts leaves into batches. A batch is
-// named by what a draw call cannot change: geometry, textures and the class of the material.
+// One pass counts how often each mesh stands, one how much each batch will hold, and the last one
+// sorts leaves into batches, several threads a range of them each. A batch is named by what a draw
+// call cannot change: geometry, textures and the class of the material. Counting visits what is
+// stored, sorting what is flattened. A large place has hundreds of megabytes here: memory that is
+// asked for once is touched once.
 
 #include "io/exporters/draw_list.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <deque>
+#include <iterator>
 #include <map>
+#include <optional>
+#include <string_view>
 #include <tuple>
+#include <unordered_map>
 
 #include "base/json.h"
+#include "base/parallel.h"
 #include "base/work.h"
 #include "io/exporters/surface.h"
 #include "scene/flatten.h"
@@ -26,6 +35,10 @@ constexpr uint32_t kOftenEnough = 3;
 // Each geometry of its own is a draw call, or several; beyond so many only those that save most.
 constexpr size_t kMostOwn = 100;
 constexpr uint32_t kMerged = 0xffffffff;
+/// A thread has at least so many leaves.
+constexpr uint64_t kLeavesAPart = 1 << 16;
+/// Behind the bytes: what they become a part of goes in front, without moving house.
+constexpr size_t kRoom = 1 << 20;
 /// Stands for the zero scale of a flat shape, which no normal survives.
 constexpr double kFlat = 1e-5;
 
@@ -81,6 +94,18 @@ struct Batch {
   std::vector<uint32_t> instanceColors;
 };
 
+// What is drawn of a material. `group`: the first paint of the same look.
+struct Paint {
+  Look look;
+  uint32_t color = 0;
+  uint32_t group = 0;
+};
+
+// What a batch will hold; upper bounds.
+struct Tally {
+  uint64_t instances = 0, corners = 0, triangles = 0;
+};
+
 float narrow(double v) { return static_cast<float>(v); }
 
 void push(std::vector<float>& out, const Vec3& v) {
@@ -89,59 +114,70 @@ void push(std::vector<float>& out, const Vec3& v) {
   out.push_back(narrow(v.z));
 }
 
-class Builder {
+// What all threads look up: who draws which material, what stands how often, how much there will
+// be.
+class Plan {
  public:
-  explicit Builder(const Scene& scene) : scene_(scene), looks_(scene.materials.size() + 1) {}
-
-  std::string build() {
+  explicit Plan(const Scene& scene)
+      : scene_(scene), leavesOf_(prototypeLeafCounts(scene)), paints_(scene.materials.size() + 1) {
+    countPrototypes();
     countMeshes();
     findOften();
-    findDrawn();
-    for (const Root& r : scene_.roots) {
-      addPrototype(scene_.prototypes[r.instance.prototype], r.instance.frame);
-    }
-    return bytes(made_);
+    findPaints();
+    all_ = leafCount(scene_);
+    // Where only the first leaves are drawn, nobody knows how much of a batch that is.
+    if (all_ <= kMostLeaves) tallyBatches();
+  }
+
+  const Scene& scene() const { return scene_; }
+  uint64_t leaves() const { return std::min(all_, kMostLeaves); }
+  bool truncated() const { return all_ > kMostLeaves; }
+  uint64_t leavesOf(uint32_t prototype) const { return leavesOf_[prototype]; }
+  const Paint& paint(uint32_t number) const { return paints_[number]; }
+  size_t paints() const { return paints_.size(); }
+  bool isSingle(uint32_t mesh) const { return uses_[mesh] == 1; }
+  bool isOften(const Leaf& leaf) const { return leaf.mesh < kFirstMesh || often_[leaf.mesh]; }
+
+  // The place of a leaf's material among the paints.
+  uint32_t paintOf(const Leaf& leaf, uint16_t slot) const {
+    const uint32_t material = materialIndexOf(scene_, leaf, slot);
+    return material == kNoMaterial ? static_cast<uint32_t>(scene_.materials.size()) : material;
+  }
+
+  // `look`: what stands for it.
+  static BatchKey keyOf(const Leaf& leaf, uint16_t slot, bool often, uint32_t look) {
+    const bool mirrored = leaf.scale.x * leaf.scale.y * leaf.scale.z < 0;
+    return {look, often ? leaf.mesh : kMerged, often ? slot : uint16_t{0}, often && mirrored};
+  }
+
+  /// By a key whose look is the group of its paint; null where it is not known.
+  const Tally* tally(const BatchKey& byGroup) const {
+    const auto found = tallies_.find(byGroup);
+    return found == tallies_.end() ? nullptr : &found->second;
   }
 
  private:
-  // As forEachLeaf, but it ends: instances of instances can stand for more than time allows.
-  void addPrototype(const Prototype& p, const Frame& world) {
-    const auto addLeaf = [&](uint32_t leaf, const Frame& at, size_t) {
-      if (made_ >= kMostLeaves) return;
-      const Leaf& l = scene_.leaves[leaf];
-      add(l, at * l.frame, made_++);
-    };
-    const auto enter = [&](const Instance& instance, const Frame&, size_t) {
-      return made_ < kMostLeaves && drawn_[instance.prototype];
-    };
-    walk(scene_, p, world, addLeaf, enter);
-  }
-
-  // Of prototypes without leaves there can be as many instances as of others.
-  void findDrawn() {
-    for (const Prototype& p : scene_.prototypes) {
-      bool drawn = p.leafCount > 0;
-      for (uint32_t i = 0; i < p.instanceCount && !drawn; ++i) {
-        drawn = drawn_[scene_.instances[p.firstInstance + i].prototype];
+  const Scene& scene_;
+  // How often each prototype stands.
+  void countPrototypes() {
+    times_.assign(scene_.prototypes.size(), 0);
+    for (const Root& r : scene_.roots) ++times_[r.instance.prototype];
+    for (size_t p = scene_.prototypes.size(); p-- > 0;) {
+      const Prototype& prototype = scene_.prototypes[p];
+      for (uint32_t i = 0; i < prototype.instanceCount; ++i) {
+        uint64_t& inner = times_[scene_.instances[prototype.firstInstance + i].prototype];
+        inner = saturatingAdd(inner, times_[p]);
       }
-      drawn_.push_back(drawn);
     }
   }
 
   void countMeshes() {
     uses_.assign(scene_.meshes.size(), 0);
-    // Expanded by prototype, so that the pass costs what is stored.
-    std::vector<uint64_t> times(scene_.prototypes.size(), 0);
-    for (const Root& r : scene_.roots) ++times[r.instance.prototype];
-    for (size_t p = scene_.prototypes.size(); p-- > 0;) {
+    for (size_t p = 0; p < scene_.prototypes.size(); ++p) {
       const Prototype& prototype = scene_.prototypes[p];
-      for (uint32_t i = 0; i < prototype.instanceCount; ++i) {
-        uint64_t& inner = times[scene_.instances[prototype.firstInstance + i].prototype];
-        inner = saturatingAdd(inner, times[p]);
-      }
       for (uint32_t i = 0; i < prototype.leafCount; ++i) {
         uint64_t& used = uses_[scene_.leaves[prototype.firstLeaf + i].mesh];
-        used = saturatingAdd(used, times[p]);
+        used = saturatingAdd(used, times_[p]);
       }
     }
   }
@@ -159,17 +195,137 @@ class Builder {
     for (const auto& [saved, m] : own) often_[m] = true;
   }
 
-  uint32_t lookIndex(uint32_t material, const Material& m) {
-    const size_t at = material == kNoMaterial ? scene_.materials.size() : material;
-    if (looks_[at] == 0) {
-      const auto [found, fresh] = lookNames_.try_emplace(lookOf(m), lookNames_.size());
-      looks_[at] = static_cast<uint32_t>(found->second) + 1;
+  void findPaints() {
+    static const Material kPlain;
+    std::map<Look, uint32_t> first;
+    for (uint32_t m = 0; m < paints_.size(); ++m) {
+      work();
+      const Material& material = m < scene_.materials.size() ? scene_.materials[m] : kPlain;
+      Look look = lookOf(material);
+      const uint32_t group = first.try_emplace(look, m).first->second;
+      paints_[m] = {std::move(look), rgb8(material.color), group};
     }
-    return looks_[at] - 1;
+  }
+
+  // How much each batch will hold, by what is stored.
+  void tallyBatches() {
+    for (size_t p = 0; p < scene_.prototypes.size(); ++p) {
+      const Prototype& prototype = scene_.prototypes[p];
+      work(prototype.leafCount + 1);
+      if (times_[p] == 0) continue;
+      for (uint32_t i = 0; i < prototype.leafCount; ++i) {
+        count(scene_.leaves[prototype.firstLeaf + i], times_[p]);
+      }
+    }
+  }
+
+  void count(const Leaf& leaf, uint64_t times) {
+    const auto [at, fresh] = slots_.try_emplace(leaf.mesh);
+    if (fresh) at->second = slotTallies(*scene_.meshes[leaf.mesh]);
+    const bool often = isOften(leaf);
+    for (const SlotTally& slot : at->second) {
+      const uint32_t group = paints_[paintOf(leaf, slot.slot)].group;
+      Tally& sum = tallies_[keyOf(leaf, slot.slot, often, group)];
+      sum.instances += times;
+      sum.corners += times * slot.corners;
+      sum.triangles += times * slot.triangles;
+    }
+  }
+
+  const std::vector<uint64_t> leavesOf_;
+  uint64_t all_ = 0;
+  /// By prototype, by mesh: how often it stands.
+  std::vector<uint64_t> times_, uses_;
+  std::vector<bool> often_;
+  /// By material, the default one last.
+  std::vector<Paint> paints_;
+  std::unordered_map<uint32_t, std::vector<SlotTally>> slots_;
+  std::map<BatchKey, Tally> tallies_;
+};
+
+// The batches of a range of leaves in path order. Looks are numbered as they come.
+class Part {
+ public:
+  Part(const Plan& plan, uint64_t from, uint64_t to)
+      : plan_(plan), scene_(plan.scene()), from_(from), to_(to), looks_(plan.paints()) {}
+
+  void build() {
+    for (const Root& r : scene_.roots) {
+      if (enters(r.instance)) {
+        addPrototype(scene_.prototypes[r.instance.prototype], r.instance.frame);
+      }
+    }
+  }
+  std::map<BatchKey, Batch>& batches() { return batches_; }
+  /// By look: a paint that has it.
+  const std::vector<uint32_t>& looks() const { return lookOrder_; }
+
+ private:
+  // As forEachLeaf, but it ends: instances of instances can stand for more than time allows.
+  void addPrototype(const Prototype& p, const Frame& world) {
+    const auto addLeaf = [&](uint32_t leaf, const Frame& at, size_t) {
+      const uint64_t number = passed_++;
+      if (number < from_ || number >= to_) return;
+      const Leaf& l = scene_.leaves[leaf];
+      add(l, at * l.frame, static_cast<uint32_t>(number));
+    };
+    const auto enter = [&](const Instance& instance, const Frame&, size_t) {
+      return enters(instance);
+    };
+    walk(scene_, p, world, addLeaf, enter);
+  }
+
+  // What lies outside of the range is passed by.
+  bool enters(const Instance& instance) {
+    const uint64_t inside = plan_.leavesOf(instance.prototype);
+    if (inside == 0 || passed_ >= to_) return false;
+    if (saturatingAdd(passed_, inside) > from_) return true;
+    passed_ += inside;
+    return false;
+  }
+
+  uint32_t lookIndex(uint32_t paint) {
+    uint32_t& index = looks_[plan_.paint(paint).group];
+    if (index == 0) {
+      lookOrder_.push_back(paint);
+      index = static_cast<uint32_t>(lookOrder_.size());
+    }
+    return index - 1;
+  }
+
+  // Memory for all that it will hold is taken once.
+  void reserve(Batch& batch, const BatchKey& byGroup) const {
+    const Tally* const known = plan_.tally(byGroup);
+    if (!known) return;
+    const Tally& sum = *known;
+    if (byGroup.mesh != kMerged) {
+      batch.matrices.reserve(sum.instances * 16);
+      batch.instanceLeaves.reserve(sum.instances);
+      batch.instanceColors.reserve(sum.instances);
+      return;
+    }
+    batch.positions.reserve(sum.corners * 3);
+    batch.normals.reserve(sum.corners * 3);
+    batch.uvs.reserve(sum.corners * 2);
+    batch.leaves.reserve(sum.corners);
+    batch.colors.reserve(sum.corners);
+    batch.indices.reserve(sum.triangles * 3);
+  }
+
+  // Leaves that lie beside each other mostly go into the same batch.
+  Batch& batchOf(const BatchKey& byGroup, uint32_t paint) {
+    if (last_ && !(byGroup < lastKey_) && !(lastKey_ < byGroup)) return *last_;
+    BatchKey key = byGroup;
+    key.look = lookIndex(paint);
+    const auto [at, fresh] = batches_.try_emplace(key);
+    if (fresh) reserve(at->second, byGroup);
+    lastKey_ = byGroup;
+    last_ = &at->second;
+    return *last_;
   }
 
   const Surface& surfaceOf(uint32_t mesh) {
-    if (uses_[mesh] == 1) {
+    if (plan_.isSingle(mesh)) {
       single_.build(*scene_.meshes[mesh], triangulator_);
       return single_;
     }
@@ -179,18 +335,16 @@ class Builder {
   }
 
   void add(const Leaf& leaf, const Frame& world, uint32_t number) {
-    const bool often = leaf.mesh < kFirstMesh || often_[leaf.mesh];
+    const bool often = plan_.isOften(leaf);
     const bool mirrored = leaf.scale.x * leaf.scale.y * leaf.scale.z < 0;
     const Surface& surface = surfaceOf(leaf.mesh);
     if (!often) work(surface.corners.size());
     for (const SurfacePart& part : surface.parts) {
-      const uint32_t material = materialIndexOf(scene_, leaf, part.slot);
-      const Material& m = materialOf(scene_, leaf, part.slot);
-      BatchKey key{lookIndex(material, m), often ? leaf.mesh : kMerged,
-                   often ? part.slot : uint16_t{0}, often && mirrored};
-      Batch& batch = batches_[key];
+      const uint32_t paint = plan_.paintOf(leaf, part.slot);
+      const uint32_t color = plan_.paint(paint).color;
+      Batch& batch = batchOf(Plan::keyOf(leaf, part.slot, often, plan_.paint(paint).group), paint);
       if (!often) {
-        addPart(batch, leaf.mesh, surface, part, world, leaf.scale, rgb8(m.color), narrow(number));
+        addPart(batch, leaf.mesh, surface, part, world, leaf.scale, color, narrow(number));
         continue;
       }
       if (batch.positions.empty()) {
@@ -198,7 +352,7 @@ class Builder {
         addPart(batch, leaf.mesh, surface, part, {}, scale, 0xffffffffu, 0);
       }
       addInstance(batch, leaf, world, mirrored);
-      batch.instanceColors.push_back(rgb8(m.color));
+      batch.instanceColors.push_back(color);
       batch.instanceLeaves.push_back(narrow(number));
     }
   }
@@ -208,12 +362,12 @@ class Builder {
   static void addInstance(Batch& batch, const Leaf& leaf, const Frame& world, bool mirrored) {
     const auto whole = [](double s) { return std::abs(s) < kFlat ? kFlat : s; };
     const Vec3 x = world.x * (whole(leaf.scale.x) * (mirrored ? -1 : 1));
-    for (const Vec3& column : {x, world.y * whole(leaf.scale.y), world.z * whole(leaf.scale.z)}) {
-      push(batch.matrices, column);
-      batch.matrices.push_back(0);
-    }
-    push(batch.matrices, world.origin);
-    batch.matrices.push_back(1);
+    const Vec3 y = world.y * whole(leaf.scale.y), z = world.z * whole(leaf.scale.z);
+    const Vec3& o = world.origin;
+    const float matrix[] = {
+        narrow(x.x), narrow(x.y), narrow(x.z), 0, narrow(y.x), narrow(y.y), narrow(y.z), 0,
+        narrow(z.x), narrow(z.y), narrow(z.z), 0, narrow(o.x), narrow(o.y), narrow(o.z), 1};
+    batch.matrices.insert(batch.matrices.end(), std::begin(matrix), std::end(matrix));
   }
 
   void addPart(Batch& batch, uint32_t mesh, const Surface& surface, const SurfacePart& part,
@@ -240,18 +394,117 @@ class Builder {
     }
   }
 
-  template <class T>
-  void section(JsonWriter& json, const char* name, const std::vector<T>& data) {
-    if (data.empty()) return;
-    json.key(name).beginArray().value(static_cast<uint64_t>(blob_.size()));
-    json.value(static_cast<uint64_t>(data.size())).endArray();
-    blob_.append(reinterpret_cast<const char*>(data.data()), data.size() * sizeof(T));
+  const Plan& plan_;
+  const Scene& scene_;
+  const uint64_t from_, to_;
+  uint64_t passed_ = 0;
+  FaceTriangulator triangulator_;
+  /// By group of paints: one more than the look, 0 for not asked yet.
+  std::vector<uint32_t> looks_;
+  std::vector<uint32_t> lookOrder_;
+  /// Of meshes that stand more than once; of the others only the last.
+  std::map<uint32_t, Surface> surfaces_;
+  Surface single_;
+  std::map<BatchKey, Batch> batches_;
+  BatchKey lastKey_;
+  Batch* last_ = nullptr;
+};
+
+// Parts in path order as one list: looks are numbered as one part would, and arrays follow each
+// other.
+class Joiner {
+ public:
+  Joiner(const Plan& plan, std::deque<Part>& parts) : plan_(plan), looks_(plan.paints()) {
+    for (Part& part : parts) add(part);
   }
 
-  std::vector<Look> looksInOrder() const {
-    std::vector<Look> looks(lookNames_.size());
-    for (const auto& [look, index] : lookNames_) looks[index] = look;
-    return looks;
+  std::string bytes() {
+    std::string text;
+    JsonWriter json(text);
+    json.beginObject().key("leaves").value(plan_.leaves());
+    json.key("truncated").value(plan_.truncated());
+    json.key("looks").beginArray();
+    for (const uint32_t paint : lookOrder_) writeLook(json, plan_.paint(paint).look);
+    json.endArray().key("batches").beginArray();
+    for (const auto& [key, pieces] : batches_) writeBatch(json, key, pieces);
+    json.endArray().endObject();
+    text.append((4 - text.size() % 4) % 4, ' ');
+    const auto size = static_cast<uint32_t>(text.size());
+    std::string out;
+    out.reserve(text.size() + arrayBytes_ + kRoom);
+    out = "GBL1";
+    out.append(reinterpret_cast<const char*>(&size), sizeof size);
+    out += text;
+    for (const std::string_view array : arrays_) out += array;
+    return out;
+  }
+
+ private:
+  using Pieces = std::vector<Batch*>;
+
+  void add(Part& part) {
+    std::vector<uint32_t> numbers;
+    for (const uint32_t paint : part.looks()) {
+      uint32_t& number = looks_[plan_.paint(paint).group];
+      if (number == 0) {
+        lookOrder_.push_back(paint);
+        number = static_cast<uint32_t>(lookOrder_.size());
+      }
+      numbers.push_back(number - 1);
+    }
+    for (auto& [key, batch] : part.batches()) {
+      if (batch.indices.empty()) continue;
+      BatchKey named = key;
+      named.look = numbers[key.look];
+      Pieces& pieces = batches_[named];
+      if (named.mesh == kMerged) rebase(batch, pieces);
+      pieces.push_back(&batch);
+    }
+  }
+  static void rebase(Batch& batch, const Pieces& before) {
+    size_t base = 0;
+    for (const Batch* b : before) base += b->positions.size() / 3;
+    if (base == 0) return;
+    for (uint32_t& index : batch.indices) index += static_cast<uint32_t>(base);
+  }
+
+  void writeBatch(JsonWriter& json, const BatchKey& key, const Pieces& all) {
+    json.beginObject().key("look").value(key.look);
+    const bool merged = key.mesh == kMerged;
+    // Instances have one geometry, which each part has made for itself.
+    const Pieces geometry(all.begin(), merged ? all.end() : all.begin() + 1);
+    section(json, "position", geometry, &Batch::positions);
+    section(json, "normal", geometry, &Batch::normals);
+    if (!plan_.paint(lookOrder_[key.look]).look.map.empty()) {
+      section(json, "uv", geometry, &Batch::uvs);
+    }
+    section(json, "index", geometry, &Batch::indices);
+    if (merged) {
+      section(json, "color", all, &Batch::colors);
+      section(json, "leaf", all, &Batch::leaves);
+    } else {
+      section(json, "matrix", all, &Batch::matrices);
+      section(json, "color", all, &Batch::instanceColors);
+      section(json, "leaf", all, &Batch::instanceLeaves);
+    }
+    json.endObject();
+  }
+
+  template <class T>
+  void section(JsonWriter& json, const char* name, const Pieces& pieces,
+               std::vector<T> Batch::*member) {
+    size_t count = 0;
+    const size_t begin = arrayBytes_;
+    for (const Batch* piece : pieces) {
+      const std::vector<T>& data = piece->*member;
+      if (data.empty()) continue;
+      arrays_.emplace_back(reinterpret_cast<const char*>(data.data()), data.size() * sizeof(T));
+      arrayBytes_ += data.size() * sizeof(T);
+      count += data.size();
+    }
+    if (count == 0) return;
+    json.key(name).beginArray().value(static_cast<uint64_t>(begin));
+    json.value(static_cast<uint64_t>(count)).endArray();
   }
 
   static void writeLook(JsonWriter& json, const Look& l) {
@@ -267,59 +520,33 @@ class Builder {
     json.endObject();
   }
 
-  std::string bytes(uint32_t leaves) {
-    const std::vector<Look> looks = looksInOrder();
-    std::string text;
-    JsonWriter json(text);
-    json.beginObject().key("leaves").value(leaves);
-    json.key("truncated").value(leafCount(scene_) > leaves);
-    json.key("looks").beginArray();
-    for (const Look& l : looks) writeLook(json, l);
-    json.endArray().key("batches").beginArray();
-    for (const auto& [key, b] : batches_) {
-      if (b.indices.empty()) continue;
-      json.beginObject().key("look").value(key.look);
-      section(json, "position", b.positions);
-      section(json, "normal", b.normals);
-      if (!looks[key.look].map.empty()) section(json, "uv", b.uvs);
-      section(json, "index", b.indices);
-      if (key.mesh == kMerged) {
-        section(json, "color", b.colors);
-        section(json, "leaf", b.leaves);
-      } else {
-        section(json, "matrix", b.matrices);
-        section(json, "color", b.instanceColors);
-        section(json, "leaf", b.instanceLeaves);
-      }
-      json.endObject();
-    }
-    json.endArray().endObject();
-    text.append((4 - text.size() % 4) % 4, ' ');
-    const auto size = static_cast<uint32_t>(text.size());
-    std::string out = "GBL1";
-    out.append(reinterpret_cast<const char*>(&size), sizeof size);
-    return out + text + blob_;
-  }
-
-  const Scene& scene_;
-  uint32_t made_ = 0;
-  /// By prototype: whether there is a leaf in it.
-  std::vector<bool> drawn_;
-  FaceTriangulator triangulator_;
-  std::vector<uint64_t> uses_;
-  std::vector<bool> often_;
-  /// By material, the default one last: one more than the look, 0 for not asked yet.
+  const Plan& plan_;
+  /// By group of paints: one more than the look, 0 for not met yet.
   std::vector<uint32_t> looks_;
-  std::map<Look, size_t> lookNames_;
-  /// Of meshes that stand more than once; of the others only the last.
-  std::map<uint32_t, Surface> surfaces_;
-  Surface single_;
-  std::map<BatchKey, Batch> batches_;
-  std::string blob_;
+  std::vector<uint32_t> lookOrder_;
+  std::map<BatchKey, Pieces> batches_;
+  std::vector<std::string_view> arrays_;
+  size_t arrayBytes_ = 0;
 };
 
 }  // namespace
 
-std::string drawList(const Scene& scene) { return Builder(scene).build(); }
+std::string drawList(const Scene& scene, unsigned jobs) {
+  const Plan plan(scene);
+  const uint64_t all = plan.leaves();
+  const uint64_t most = std::max<uint64_t>(1, all / kLeavesAPart);
+  const uint64_t count = jobs ? jobs : std::min<uint64_t>(defaultJobs(), most);
+  std::deque<Part> parts;
+  for (uint64_t i = 0; i < count; ++i) {
+    parts.emplace_back(plan, all * i / count, all * (i + 1) / count);
+  }
+  WorkMeter* const meter = detail::workState.meter;
+  parallelFor(parts.size(), static_cast<unsigned>(count), [&](size_t i, unsigned) {
+    std::optional<WorkScope> scope;
+    if (meter) scope.emplace(*meter);
+    parts[i].build();
+  });
+  return Joiner(plan, parts).bytes();
+}
 
 }  // namespace gable

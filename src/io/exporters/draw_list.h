@@ -23,6 +23,8 @@ namespace gable {
 constexpr uint64_t kMostLeaves = 1u << 22;
 
 /// Linear in the flattened leaves; leaves beyond kMostLeaves are left out and the JSON says so.
-std::string drawList(const Scene& scene);
+/// `jobs`: threads, 0 for as many as are worth it; the bytes are the same for any number. There is
+/// room behind them, so that a head can be put in front without another copy.
+std::string drawList(const Scene& scene, unsigned jobs = 0);
 
 }  // namespace gable

@@ -124,6 +124,26 @@ TEST(DrawList, flatLeavesHaveFiniteMatrices) {
   }
 }
 
+TEST(DrawList, theBytesAreTheSameForAnyNumberOfJobs) {
+  SceneBuilder b;
+  for (int i = 0; i < 30; ++i) {
+    Material m;
+    m.color = {i / 30.0, 0.5, 1};
+    m.roughness = 0.1 * (i % 4);
+    if (i % 5 == 0) m.maps[static_cast<size_t>(TextureLayer::Color)].path = "wall.png";
+    const Frame at = testing::turned(10.0 * i, {3.0 * i, 1, 2});
+    const uint32_t material = b.material(m);
+    b.leaf(i % 3 ? kUnitBox : b.mesh(testing::ball(6 + i, 8)), at, {i % 2 ? -1.0 : 1.0, 1, 2},
+           material);
+  }
+  const uint32_t tower = b.prototype("tower");
+  for (int i = 0; i < 4; ++i) b.instance(tower, testing::turned(5.0 * i, {0, 0, 9.0 * i}));
+  const Scene& scene = placed(b);
+  const std::string one = drawList(scene, 1);
+  EXPECT_EQ(readBack(one).head["leaves"].number(0), 120);
+  for (const unsigned jobs : {2u, 3u, 7u, 200u}) EXPECT_EQ(drawList(scene, jobs), one) << jobs;
+}
+
 // Doubling forty times: 2^40 instances, once with a leaf at the end and once with none.
 TEST(DrawList, endsWhereInstancesOutgrowTime) {
   for (const uint32_t leaves : {0u, 1u}) {
