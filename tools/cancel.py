@@ -66,6 +66,8 @@ def main():
     unknown = set(options.names) - set(example_commands.names())
     if unknown:
         parser.error(f"there is no example '{min(unknown)}'; './run example' lists them")
+    # A shell starts what runs beside it with interrupts ignored, and gable leaves that as it is.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     chance = random.Random(options.seed)
     worst = (0.0, "")
     with tempfile.TemporaryDirectory() as place:
