@@ -77,8 +77,8 @@ int buildModel(const gable::City& city, CityArguments& arguments,
   if (const int status = readRules(arguments.derive, rules)) return status;
   const std::string folder = tileFolder(arguments.output);
   if (!folder.empty()) {
-    const int status = writeTileFolder(rules, city.shapes(), folder, settings, arguments.tiles,
-                                       arguments.derive.limits, tiles);
+    const int status = makeTiles(arguments.derive, arguments.tiles,
+                                 {rules, city.shapes(), settings}, folder, tiles);
     figures.deriveSeconds = tiles.deriveSeconds;
     figures.writeSeconds = tiles.writeSeconds;
     figures.triangles = tiles.triangles;
@@ -114,6 +114,10 @@ int runCity(const CityArguments& given) {
     std::vector<std::string> formats = gable::modelExtensions();
     formats.emplace_back("png");
     if (const int status = checkExtension(arguments.output, formats)) return status;
+  }
+  if (arguments.tiles.onlyPlan && tileFolder(arguments.output).empty()) {
+    std::fputs("gable: --plan-jobs plans tiles: give -o a folder, such as monaco/\n", stderr);
+    return kExitUsage;
   }
   arguments.picture.derive = arguments.derive;
   gable::PictureSettings picture;

@@ -13,6 +13,7 @@
 #include "folders.h"
 #include "gable/names.h"
 #include "tiles.h"
+#include "tiles_viewer.h"
 
 namespace {
 
@@ -182,6 +183,16 @@ void addTileOptions(CLI::App* app, TileArguments& a) {
   app->add_flag("--viewer", a.viewer, "Put a page beside the tiles that shows them (index.html)");
 }
 
+void addJobShapes(CLI::App* app, TileArguments& a) {
+  app->add_option("--job-shapes", a.jobShapes, "About how many shapes a job has (default 16384)")
+      ->check(number({1, 1e9, true}));
+}
+
+void addReplacePlan(CLI::App* app, TileArguments& a) {
+  app->add_flag("--replace-plan", a.replacePlan,
+                "Write into a folder with a plan, none of whose jobs may run; what is done stays");
+}
+
 void addCity(CLI::App& app, CityArguments& a, int& status) {
   auto* city = app.add_subcommand("city", "Make a place from its map: streets, ground, buildings");
   city->add_option("map", a.derive.shapes, "The map: .osm .pbf .geojson .city.json .gpkg .fgb .shp .kml .dxf")
@@ -205,6 +216,10 @@ void addCity(CLI::App& app, CityArguments& a, int& status) {
                    "The model: .glb .gltf .obj .ply .stl .png; a folder/ for 3D Tiles");
   addInstancing(city, a.instancing);
   addTileOptions(city, a.tiles);
+  city->add_flag("--plan-jobs", a.tiles.onlyPlan,
+                 "Plan the tiles alone: gable tiles job, submit and merge make them");
+  addJobShapes(city, a.tiles);
+  addReplacePlan(city, a.tiles);
   city->add_option("--picture", a.picture.output, "Draw the place as well: .png");
   addPictureOptions(city, a.picture);
   city->add_option("--plan", a.plan, "Write the ground as GeoJSON: a polygon a piece, its surface");
@@ -229,6 +244,8 @@ struct AllTilesArguments {
   JobArguments job;
   MergeArguments merge;
   SubmitArguments submit;
+  /// The folder that gets the page.
+  std::string viewer;
 };
 
 void addTileRun(CLI::App* app, std::string& folder, LimitArguments& limits) {
@@ -243,16 +260,14 @@ void addTileJobs(CLI::App* tiles, AllTilesArguments& a, int& status) {
   plan->add_option("rules", a.plan.derive.rules, "The rule file or package")->required();
   addDeriveOptions(plan, a.plan.derive);
   plan->add_option("-o,--output", a.plan.output, "The folder of the tiles")->required();
-  plan->add_option("--job-shapes", a.plan.jobShapes,
-                   "About how many shapes a job has (default 16384)")
-      ->check(number({1, 1e9, true}));
+  addJobShapes(plan, a.plan.tiles);
   addTileOptions(plan, a.plan.tiles);
   plan->callback([&a, &status] { status = runTilesPlan(a.plan); });
 
   auto* job = tiles->add_subcommand("job", "Make the tiles of a job that are not there yet");
   addTileRun(job, a.job.folder, a.job.limits);
   job->add_option("jobs", a.job.jobs, "A number, or several: 3-17")->required();
-  job->add_option("--jobs", a.job.threads, "Threads (default: one per processor)")
+  job->add_option("--threads", a.job.threads, "Threads (default: one per processor)")
       ->check(number(threads));
   job->add_option("--stats", a.job.stats, "Write counts as JSON to a file, or - for stdout");
   job->callback([&a, &status] { status = runTilesJob(a.job); });
@@ -262,7 +277,7 @@ void addTileJobs(CLI::App* tiles, AllTilesArguments& a, int& status) {
   merge->add_flag("--mend", a.merge.mend, "Run jobs whose tiles are missing or damaged, here");
   merge->add_flag("--viewer", a.merge.viewer,
                   "Put a page beside the tiles that shows them (index.html)");
-  merge->add_option("--jobs", a.merge.threads, "Threads (default: one per processor)")
+  merge->add_option("--threads", a.merge.threads, "Threads (default: one per processor)")
       ->check(number(threads));
   merge->add_option("--stats", a.merge.stats, "Write counts as JSON to a file, or - for stdout");
   merge->callback([&a, &status] { status = runTilesMerge(a.merge); });
@@ -280,6 +295,12 @@ void addTileJobs(CLI::App* tiles, AllTilesArguments& a, int& status) {
   submit->callback([&a, &status] { status = runTilesSubmit(a.submit); });
 }
 
+void addTilesViewer(CLI::App* tiles, std::string& folder, int& status) {
+  auto* viewer = tiles->add_subcommand("viewer", "Put a page beside tiles that shows them");
+  viewer->add_option("folder", folder, "The folder of the tiles")->required();
+  viewer->callback([&folder, &status] { status = runTilesViewer(folder); });
+}
+
 void addTiles(CLI::App& app, AllTilesArguments& a, int& status) {
   auto* tiles = app.add_subcommand("tiles", "Derive rules and write 3D Tiles for browsers");
   tiles->add_option("rules", a.whole.derive.rules, "The rule file or package");
@@ -287,7 +308,9 @@ void addTiles(CLI::App& app, AllTilesArguments& a, int& status) {
   tiles->add_option("-o,--output", a.whole.output, "The folder of the tiles");
   tiles->add_option("--stats", a.whole.stats, "Write counts as JSON to a file, or - for stdout");
   addTileOptions(tiles, a.whole.tiles);
+  addReplacePlan(tiles, a.whole.tiles);
   addTileJobs(tiles, a, status);
+  addTilesViewer(tiles, a.viewer, status);
   tiles->callback([tiles, &a, &status] {
     if (!tiles->get_subcommands().empty()) return;
     // Required, unless a command follows.

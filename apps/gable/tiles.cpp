@@ -11,48 +11,16 @@
 #include <filesystem>
 
 #include "derive_settings.h"
-#include "folders.h"
 #include "json/tiles_json.h"
+#include "tiles_viewer.h"
 
 namespace {
-
-/// Where the page that shows tiles lies; empty, with a message, where it is not built.
-std::string viewerFolder() {
-  const std::string from =
-      folderWith("viewer.js", {"../studio/viewer", "../share/gable/studio/viewer"});
-  if (from.empty()) {
-    std::fputs("gable: the page for --viewer is not built; ./run studio builds it\n", stderr);
-  }
-  return from;
-}
-
-/// Whether the page may be put there: it may be from before, and nothing else of that name.
-bool mayHoldViewer(const std::string& folder) {
-  std::error_code error;
-  if (!std::filesystem::exists(folder + "index.html", error)) return true;
-  std::string before;
-  if (!readText(folder + "index.html", before)) return false;
-  if (before.find("name=\"generator\" content=\"Gable\"") != std::string::npos) return true;
-  std::fprintf(stderr, "gable: '%sindex.html' is a page of another program; remove it first\n",
-               folder.c_str());
-  return false;
-}
-
-int writeViewer(const std::string& from, const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  for (const char* name : {"viewer.js", "index.html"}) {
-    std::string text;
-    if (!readText(from + "/" + name, text)) return kExitFile;
-    if (const int status = writeText(folder + name, text)) return status;
-  }
-  return kExitDone;
-}
 
 int statusOfTiles(const gable::DiagnosticList& diagnostics) {
   for (const gable::Diagnostic& d : diagnostics) {
     if (d.code == "attribute-value" || d.code == "tiles-job") return kExitUsage;
-    if (d.code == "tiles-folder" || d.code == "tiles-plan" || d.code.starts_with("file-")) {
+    if (d.code == "tiles-folder" || d.code == "tiles-plan" || d.code == "tiles-planned" ||
+        d.code.starts_with("file-")) {
       return kExitFile;
     }
   }
@@ -72,15 +40,27 @@ int told(const gable::TilePlan& plan) {
   return plan.ok() ? static_cast<int>(kExitDone) : statusOfTiles(plan.diagnostics());
 }
 
-gable::TileRun runOf(const std::optional<int>& threads, const LimitArguments& limits) {
-  gable::TileRun run;
-  run.jobs = threads;
-  run.limits = fileLimits(limits);
-  // Places take what time they take.
-  if (!limits.maxSeconds) run.limits.seconds.reset();
-  run.cancel = cancelFlag();
-  return run;
-}
+/// What a command may use for all that it runs, one thing after the other.
+struct Means {
+  std::optional<int> threads;
+  LimitArguments limits;
+  /// Of the command.
+  double begin = 0;
+
+  /// For the next one: with the time that is left.
+  gable::TileRun run() const {
+    gable::TileRun run;
+    run.threads = threads;
+    run.limits = fileLimits(limits);
+    // Places take what time they take.
+    run.limits.seconds.reset();
+    if (limits.maxSeconds > 0.0) {
+      run.limits.seconds = std::max(0.0, *limits.maxSeconds - (secondsNow() - begin));
+    }
+    run.cancel = cancelFlag();
+    return run;
+  }
+};
 
 int writeStats(const std::string& path, const gable::TileResult& result, double begin,
                double parseSeconds) {
@@ -92,17 +72,32 @@ int writeStats(const std::string& path, const gable::TileResult& result, double 
   return writeText(path, gable::tilesJson(result, figures));
 }
 
-/// Maps are read a piece at a time; others are in memory first.
-int planFolder(const DeriveArguments& derive, const TileArguments& tiles, uint64_t jobShapes,
-               const std::string& folder, gable::TilePlan& plan) {
+gable::TileSettings tileSettings(const TileArguments& arguments, const LimitArguments& limits) {
+  gable::TileSettings tiles;
+  tiles.triangles = arguments.triangles;
+  tiles.compress = arguments.compress;
+  tiles.replacePlan = arguments.replacePlan;
+  tiles.limits = fileLimits(limits);
+  // Places take what time they take.
+  if (!limits.maxSeconds) tiles.limits.seconds.reset();
+  return tiles;
+}
+
+gable::TilePlanSettings planSettings(const DeriveArguments& derive, const TileArguments& tiles,
+                                     bool ofOneRun) {
   gable::TilePlanSettings settings;
   settings.rules = derive.rules;
   settings.load = {derive.project, derive.dialect, derive.style, derive.search};
-  settings.jobShapes = jobShapes;
-  settings.tiles.triangles = tiles.triangles;
-  settings.tiles.compress = tiles.compress;
-  settings.tiles.limits = fileLimits(derive.limits);
-  if (!derive.limits.maxSeconds) settings.tiles.limits.seconds.reset();
+  settings.jobShapes = tiles.jobShapes;
+  settings.tiles = tileSettings(tiles, derive.limits);
+  settings.ofOneRun = ofOneRun;
+  return settings;
+}
+
+/// Maps are read a piece at a time; others are in memory first.
+int planFolder(const DeriveArguments& derive, const TileArguments& tiles, bool ofOneRun,
+               const std::string& folder, gable::TilePlan& plan) {
+  gable::TilePlanSettings settings = planSettings(derive, tiles, ofOneRun);
   if (!derive.shapes.empty() && !derive.cutNested) {
     gable::Rules rules(nullptr);
     if (const int status = readRules(derive, rules)) return status;
@@ -120,10 +115,11 @@ int planFolder(const DeriveArguments& derive, const TileArguments& tiles, uint64
 
 /// Runs jobs one after the other; `result` has their counts.
 int runJobs(const gable::TilePlan& plan, const gable::Rules& rules,
-            const std::vector<uint64_t>& jobs, gable::TileRun run, gable::TileResult& result) {
+            const std::vector<uint64_t>& jobs, const Means& means, gable::TileResult& result) {
   ProgressLine progress("writing tiles");
   const std::function<void(size_t, size_t)> show = progress.callback();
   for (size_t i = 0; i < jobs.size(); ++i) {
+    gable::TileRun run = means.run();
     if (show) {
       run.progress = [&, i](size_t done, size_t total) {
         constexpr size_t kSteps = 1000;
@@ -171,34 +167,61 @@ int rulesOf(const gable::TilePlan& plan, const LimitArguments& limits, gable::Ru
   return rules.ok() ? static_cast<int>(kExitDone) : statusOf(rules.diagnostics(), kExitWrong);
 }
 
-/// Plans, runs all jobs and merges, in this process: memory does not grow with the map, and what
-/// was begun before goes on.
+/// Runs all jobs of a plan and merges, in this process.
+int runPlan(const gable::TilePlan& plan, const gable::Rules& rules, const Means& means,
+            gable::TileResult& result) {
+  std::vector<uint64_t> jobs;
+  for (uint64_t j = 0; j < plan.jobs(); ++j) jobs.push_back(j);
+  gable::TileResult made;
+  if (const int status = runJobs(plan, rules, jobs, means, made)) {
+    result.end = made.end;
+    return status;
+  }
+  result = gable::mergeTiles(plan, means.run());
+  result.deriveSeconds = made.deriveSeconds;
+  result.writeSeconds += made.writeSeconds;
+  return told(result);
+}
+
+/// Memory does not grow with the map, and what was begun before goes on.
 int runInPieces(const TilesArguments& arguments, const std::string& folder, double begin) {
-  std::string viewer;
+  ViewerPage page;
   if (arguments.tiles.viewer) {
-    viewer = viewerFolder();
-    if (viewer.empty() || !mayHoldViewer(folder)) return kExitFile;
+    if (const int status = page.find(folder)) return status;
   }
   gable::TilePlan plan(nullptr);
-  constexpr uint64_t kJobShapes = 16'384;
-  if (const int status = planFolder(arguments.derive, arguments.tiles, kJobShapes, folder, plan)) {
+  if (const int status = planFolder(arguments.derive, arguments.tiles, true, folder, plan)) {
     return status;
   }
   const double planned = secondsNow();
-  gable::Rules rules = plan.rules(fileLimits(arguments.derive.limits));
-  std::vector<uint64_t> jobs;
-  for (uint64_t j = 0; j < plan.jobs(); ++j) jobs.push_back(j);
-  const gable::TileRun run = runOf(arguments.derive.jobs, arguments.derive.limits);
-  gable::TileResult made;
-  if (const int status = runJobs(plan, rules, jobs, run, made)) return status;
-  gable::TileResult result = gable::mergeTiles(plan, run);
-  if (const int status = told(result)) return status;
-  result.deriveSeconds = made.deriveSeconds;
-  result.writeSeconds += made.writeSeconds;
-  if (arguments.tiles.viewer) {
-    if (const int status = writeViewer(viewer, folder)) return status;
-  }
+  const gable::Rules rules = plan.rules(fileLimits(arguments.derive.limits));
+  const Means means{arguments.derive.jobs, arguments.derive.limits, begin};
+  gable::TileResult result;
+  if (const int status = runPlan(plan, rules, means, result)) return status;
+  if (const int status = page.write()) return status;
   return writeStats(arguments.stats, result, begin, planned - begin);
+}
+
+/// Tiles of shapes that are in memory.
+int writeTileFolder(const TilesArguments& arguments, const Inputs& inputs,
+                    const std::string& folder, gable::TileResult& result) {
+  ViewerPage page;
+  if (arguments.tiles.viewer) {
+    if (const int status = page.find(folder)) return status;
+  }
+  ProgressLine progress("writing tiles");
+  gable::TileSettings tiles = tileSettings(arguments.tiles, arguments.derive.limits);
+  tiles.derive = inputs.settings;
+  tiles.derive.progress = progress.callback();
+  result = gable::writeTiles(inputs.rules, inputs.shapes, folder, tiles);
+  if (const int status = told(result)) return status;
+  return page.write();
+}
+
+int tellPlan(const gable::TilePlan& plan, const std::string& folder) {
+  std::printf("%llu jobs for %llu shapes in %s\n", static_cast<unsigned long long>(plan.jobs()),
+              static_cast<unsigned long long>(plan.shapes()), folder.c_str());
+  return kExitDone;
 }
 
 }  // namespace
@@ -219,28 +242,21 @@ std::string asFolder(const std::string& output) {
   return folder.empty() ? output + "/" : folder;
 }
 
-int writeTileFolder(const gable::Rules& rules, const gable::Shapes& shapes,
-                    const std::string& folder, const gable::DeriveSettings& settings,
-                    const TileArguments& arguments, const LimitArguments& limits,
-                    gable::TileResult& result) {
-  // Before what takes long.
-  std::string viewer;
-  if (arguments.viewer) {
-    viewer = viewerFolder();
-    if (viewer.empty() || !mayHoldViewer(folder)) return kExitFile;
+int makeTiles(const DeriveArguments& derive, const TileArguments& tiles, const PlacedShapes& placed,
+              const std::string& folder, gable::TileResult& result) {
+  const double begin = secondsNow();
+  ViewerPage page;
+  if (tiles.viewer) {
+    if (const int status = page.find(folder)) return status;
   }
-  ProgressLine progress("writing tiles");
-  gable::TileSettings tiles;
-  tiles.derive = settings;
-  tiles.derive.progress = progress.callback();
-  tiles.triangles = arguments.triangles;
-  tiles.compress = arguments.compress;
-  tiles.limits = fileLimits(limits);
-  // Places take what time they take.
-  if (!limits.maxSeconds) tiles.limits.seconds.reset();
-  result = gable::writeTiles(rules, shapes, folder, tiles);
-  if (const int status = told(result)) return status;
-  return arguments.viewer ? writeViewer(viewer, folder) : kExitDone;
+  gable::TilePlanSettings settings = planSettings(derive, tiles, !tiles.onlyPlan);
+  settings.tiles.derive = placed.settings;
+  const gable::TilePlan plan = gable::planTiles(placed.rules, placed.shapes, folder, settings);
+  if (const int status = told(plan)) return status;
+  if (tiles.onlyPlan) return tellPlan(plan, folder);
+  const Means means{derive.jobs, derive.limits, begin};
+  if (const int status = runPlan(plan, placed.rules, means, result)) return status;
+  return page.write();
 }
 
 int runTiles(const TilesArguments& arguments) {
@@ -252,23 +268,17 @@ int runTiles(const TilesArguments& arguments) {
   Inputs inputs;
   if (const int status = readInputs(arguments.derive, inputs)) return status;
   gable::TileResult result;
-  if (const int status = writeTileFolder(inputs.rules, inputs.shapes, folder, inputs.settings,
-                                         arguments.tiles, arguments.derive.limits, result)) {
-    return status;
-  }
+  if (const int status = writeTileFolder(arguments, inputs, folder, result)) return status;
   return writeStats(arguments.stats, result, begin, inputs.rules.parseSeconds());
 }
 
 int runTilesPlan(const PlanArguments& arguments) {
   const std::string folder = asFolder(arguments.output);
   gable::TilePlan plan(nullptr);
-  if (const int status =
-          planFolder(arguments.derive, arguments.tiles, arguments.jobShapes, folder, plan)) {
+  if (const int status = planFolder(arguments.derive, arguments.tiles, false, folder, plan)) {
     return status;
   }
-  std::printf("%llu jobs for %llu shapes in %s\n", static_cast<unsigned long long>(plan.jobs()),
-              static_cast<unsigned long long>(plan.shapes()), folder.c_str());
-  return kExitDone;
+  return tellPlan(plan, folder);
 }
 
 int runTilesJob(const JobArguments& arguments) {
@@ -280,35 +290,32 @@ int runTilesJob(const JobArguments& arguments) {
   gable::Rules rules(nullptr);
   if (const int status = rulesOf(plan, arguments.limits, rules)) return status;
   gable::TileResult result;
-  const gable::TileRun run = runOf(arguments.threads, arguments.limits);
-  if (const int status = runJobs(plan, rules, jobs, run, result)) return status;
+  const Means means{arguments.threads, arguments.limits, begin};
+  if (const int status = runJobs(plan, rules, jobs, means, result)) return status;
   return writeStats(arguments.stats, result, begin, rules.parseSeconds());
 }
 
 int runTilesMerge(const MergeArguments& arguments) {
   const double begin = secondsNow();
   const std::string folder = asFolder(arguments.folder);
-  std::string viewer;
+  ViewerPage page;
   if (arguments.viewer) {
-    viewer = viewerFolder();
-    if (viewer.empty() || !mayHoldViewer(folder)) return kExitFile;
+    if (const int status = page.find(folder)) return status;
   }
   const gable::TilePlan plan = gable::TilePlan::load(folder);
   if (const int status = told(plan)) return status;
-  const gable::TileRun run = runOf(arguments.threads, arguments.limits);
-  gable::TileResult result = gable::mergeTiles(plan, run);
+  const Means means{arguments.threads, arguments.limits, begin};
+  gable::TileResult result = gable::mergeTiles(plan, means.run());
   if (!result.jobsToRun.empty() && arguments.mend) {
     std::fprintf(stderr, "gable: runs %zu of %llu jobs again\n", result.jobsToRun.size(),
                  static_cast<unsigned long long>(plan.jobs()));
     gable::Rules rules(nullptr);
     if (const int status = rulesOf(plan, arguments.limits, rules)) return status;
     gable::TileResult again;
-    if (const int status = runJobs(plan, rules, result.jobsToRun, run, again)) return status;
-    result = gable::mergeTiles(plan, run);
+    if (const int status = runJobs(plan, rules, result.jobsToRun, means, again)) return status;
+    result = gable::mergeTiles(plan, means.run());
   }
   if (const int status = told(result)) return status;
-  if (arguments.viewer) {
-    if (const int status = writeViewer(viewer, folder)) return status;
-  }
+  if (const int status = page.write()) return status;
   return writeStats(arguments.stats, result, begin, 0);
 }

@@ -15,6 +15,12 @@ struct TileArguments {
   bool compress = false;
   /// Put the page that shows the tiles beside them.
   bool viewer = false;
+  /// Of a plan.
+  uint64_t jobShapes = 16'384;
+  /// Write the plan alone: others run its jobs.
+  bool onlyPlan = false;
+  /// Write into the folder of a plan whose jobs others may be running.
+  bool replacePlan = false;
 };
 
 struct TilesArguments {
@@ -29,7 +35,6 @@ struct PlanArguments {
   DeriveArguments derive;
   TileArguments tiles;
   std::string output;
-  uint64_t jobShapes = 16'384;
 };
 int runTilesPlan(const PlanArguments& arguments);
 
@@ -72,8 +77,14 @@ std::string tileFolder(const std::string& output);
 /// The same, or the output itself as a folder.
 std::string asFolder(const std::string& output);
 
-/// Writes tiles, prints what there is to say, and gives an exit status.
-int writeTileFolder(const gable::Rules& rules, const gable::Shapes& shapes,
-                    const std::string& folder, const gable::DeriveSettings& settings,
-                    const TileArguments& arguments, const LimitArguments& limits,
-                    gable::TileResult& result);
+/// Shapes in memory, and how they are derived.
+struct PlacedShapes {
+  const gable::Rules& rules;
+  const gable::Shapes& shapes;
+  const gable::DeriveSettings& settings;
+};
+
+/// Plans them, runs all jobs and merges, or plans alone; `derive` says where the rules come from.
+/// What was begun before goes on. Prints what there is to say, and gives an exit status.
+int makeTiles(const DeriveArguments& derive, const TileArguments& tiles, const PlacedShapes& placed,
+              const std::string& folder, gable::TileResult& result);

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // gable tiles submit: scripts that run the jobs of a plan, and run. They lie in the plan, so that
-// who wants other options changes and starts them by hand.
+// who wants other options changes and starts them by hand; the merge removes them with it, and the
+// logs.
 
 #include <sys/wait.h>
 
@@ -44,7 +45,7 @@ std::string tryJobs(const Place& at, uint64_t tries) {
   return "try=1\n"
          "until " +
          quoted(at.program) + " tiles job " + quoted(at.folder) +
-         " \"$first-$last\" --jobs \"${SLURM_CPUS_PER_TASK:-1}\"; do\n"
+         " \"$first-$last\" --threads \"${SLURM_CPUS_PER_TASK:-1}\"; do\n"
          "  status=$?\n"
          "  if [ $status -le 2 ] || [ $try -ge " +
          std::to_string(tries) +
@@ -68,7 +69,7 @@ std::string slurmArray(const Place& at, uint64_t jobs, uint64_t each, uint64_t t
          " ]; then last=" + std::to_string(jobs - 1) + "; fi\n" + tryJobs(at, tries);
 }
 
-/// Slurm reads % in the names of logs.
+/// Slurm reads % in the names of logs: %% is a plain one, %a the number of the task.
 std::string forSlurm(const std::string& path) {
   std::string out;
   for (const char c : path) out += c == '%' ? std::string("%%") : std::string(1, c);
@@ -85,16 +86,20 @@ std::string slurmSubmit(const Place& at, uint64_t tasks, const std::string& opti
          "several.\narray=${array%%;*}\nmerge=$(" +
          common + "gable-merge --dependency=\"afterany:$array\" --output=" +
          quoted(forSlurm(at.plan) + "logs/merge.txt") + " " + quoted(at.plan + "merge.sh") +
-         ")\necho \"jobs $array, merge $merge; logs in \"" + quoted(at.plan + "logs") + "\n";
+         ")\necho \"jobs $array, merge $merge; until that is done, logs in \"" +
+         quoted(at.plan + "logs") + "\n";
 }
 
 std::string parallelRun(const Place& at, uint64_t jobs, uint64_t tries,
                         const std::string& options) {
-  return head("runs the jobs with GNU parallel, then the merge.") + "seq 0 " +
-         std::to_string(jobs - 1) + " | parallel --will-cite --retries " + std::to_string(tries) +
-         " --joblog " + quoted(at.plan + "logs/jobs.txt") + " " + options + " " +
-         quoted(quoted(at.program) + " tiles job " + quoted(at.folder) + " {} --jobs 1") +
-         "\nexec " + quoted(at.plan + "merge.sh") + "\n";
+  // GNU parallel would read braces in paths, so those go to the jobs as variables.
+  return head("runs the jobs with GNU parallel, then the merge.") +
+         "export GABLE_PROGRAM=" + quoted(at.program) + " GABLE_TILES=" + quoted(at.folder) +
+         "\nseq 0 " + std::to_string(jobs - 1) +
+         " | parallel --will-cite --env GABLE_PROGRAM --env GABLE_TILES --retries " +
+         std::to_string(tries) + " --joblog " + quoted(at.plan + "logs/jobs.txt") + " " + options +
+         " '\"$GABLE_PROGRAM\" tiles job \"$GABLE_TILES\" {} --threads 1'\nexec " +
+         quoted(at.plan + "merge.sh") + "\n";
 }
 
 bool isInstalled(const char* program) {

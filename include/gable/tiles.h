@@ -38,7 +38,11 @@ struct TileSettings {
   /// EXT_meshopt_compression and KHR_mesh_quantization: vertices are up to two millimetres from
   /// their places. An error where canCompressTiles() is false.
   bool compress = false;
-  /// Of writing.
+  /// A folder may hold a plan whose jobs others run: writing the whole place there in one process
+  /// ends them, and is an error (tiles-planned) where this is false. The tiles of finished jobs
+  /// stay where they fit.
+  bool replacePlan = false;
+  /// Of all, deriving included.
   FileLimits limits;
 };
 
@@ -81,6 +85,9 @@ struct TilePlanSettings {
   TileSettings tiles;
   /// About how many shapes a job has; the files do not depend on it.
   uint64_t jobShapes = 16'384;
+  /// Whoever plans runs all jobs and merges: what finds the plan of a run that was stopped may
+  /// begin anew. Of other plans see TileSettings::replacePlan.
+  bool ofOneRun = false;
 };
 
 /// Work on tiles in jobs, and what they need: files in `folder`/plan, which mergeTiles() removes.
@@ -104,8 +111,8 @@ class TilePlan {
   std::shared_ptr<const Impl> impl_;
 };
 
-/// Divides shapes into jobs. Where the folder has a plan of the same rules, shapes and settings,
-/// what its jobs have finished stays.
+/// Divides shapes into jobs; the terrain of a city goes with them. Where the folder has a plan of
+/// the same rules, shapes and settings, what its jobs have finished stays.
 TilePlan planTiles(const Rules& rules, const Shapes& shapes, const std::string& folder,
                    const TilePlanSettings& settings);
 
@@ -120,9 +127,13 @@ bool isReadInPieces(const std::string& map);
 /// What of TileSettings is not the plan's: threads, limits in time and memory, progress,
 /// cancelling.
 struct TileRun {
-  std::optional<int> jobs;
+  std::optional<int> threads;
+  /// Of a job or a merge, deriving included.
   FileLimits limits;
+  /// Called by one thread at a time, with rising numbers.
   std::function<void(size_t done, size_t total)> progress;
+  /// Ends the job or the merge soon after it becomes true. May be null; limits.cancel is heard
+  /// between batches alone.
   std::atomic<bool>* cancel = nullptr;
 };
 

@@ -140,6 +140,7 @@ void appendRecord(const ShapeFootprint& f, std::string& out) {
   for (const Material& m : f.materials) write(w, m);
   write(w, f.groups);
   w.value(f.index);
+  w.value(static_cast<uint8_t>(f.reachesImports));
 }
 
 // Of what the record says beside the mesh: lists of the size they tell, slots that there are.
@@ -168,6 +169,7 @@ bool readRecord(ByteReader& r, ShapeFootprint& f) {
   for (Material& m : f.materials) m = readMaterial(r);
   f.groups = readTexts(r);
   f.index = r.value<int64_t>();
+  f.reachesImports = r.value<uint8_t>() != 0;
   return r.ok() && f.mesh.valid() && isSound(f);
 }
 

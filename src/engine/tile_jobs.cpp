@@ -8,12 +8,15 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <functional>
+#include <mutex>
 
 #include "base/bytes.h"
 #include "base/files.h"
 #include "base/parallel.h"
 #include "engine/guard.h"
 #include "engine/shape_record.h"
+#include "engine/terrain_record.h"
 #include "engine/tile_plan.h"
 #include "engine/tile_source.h"
 #include "tiles/placement.h"
@@ -39,12 +42,37 @@ Error changed(const TilePlan::Impl& plan) {
           "plan again, or put the old rules back"};
 }
 
+// Threads tell of what is done; whoever listens hears one at a time, and rising numbers.
+class RisingProgress {
+ public:
+  explicit RisingProgress(const TileRun& run) : listener_(run.progress) {}
+
+  void tell(size_t done, size_t total) {
+    if (!listener_) return;
+    const std::lock_guard lock(telling_);
+    if (done <= told_) return;
+    told_ = done;
+    listener_(done, total);
+  }
+
+ private:
+  const std::function<void(size_t, size_t)>& listener_;
+  std::mutex telling_;
+  size_t told_ = 0;
+};
+
 class JobRunner {
  public:
   JobRunner(const TilePlan::Impl& plan, const Rules& rules, const TileRun& run, Task& task,
             TileResult& result)
-      : plan_(plan), rules_(rules), run_(run), settings_(plan.tiles), result_(result) {
-    settings_.derive.jobs = run.jobs;
+      : plan_(plan),
+        rules_(rules),
+        run_(run),
+        settings_(plan.tiles),
+        result_(result),
+        progress_(run),
+        begin_(now()) {
+    settings_.derive.jobs = run.threads;
     settings_.derive.cancel = run.cancel;
     options_ = tileOptions(rules, settings_, plan.folder);
     options_.meter = &task.allowance();
@@ -57,6 +85,7 @@ class JobRunner {
     if (!job.ok()) return job.error();
     const Result<std::string> bytes = readShapes(job.value(), number);
     if (!bytes.ok()) return bytes.error();
+    if (auto e = readTerrain()) return e;
     for (const JobUnit& unit : job.value().units) result_.shapes += unit.shapes;
     size_t offset = 0;
     for (const JobUnit& unit : job.value().units) {
@@ -82,6 +111,20 @@ class JobRunner {
                  "make the plan again; what is done stays"};
   }
 
+  // Each job reads all of it: what is laid on the ground may reach into other units.
+  std::optional<Error> readTerrain() {
+    if (plan_.terrainChecksum == 0) return std::nullopt;
+    const std::string path = terrainPath(plan_);
+    const Result<std::string> bytes = readFile(path, uint64_t{1} << 40);
+    if (!bytes.ok()) return bytes.error();
+    if (std::max<uint64_t>(checksum(bytes.value()), 1) == plan_.terrainChecksum) {
+      terrain_ = terrainOf(bytes.value());
+    }
+    if (terrain_) return std::nullopt;
+    return Error{"tiles-plan", "'" + path + "' is damaged",
+                 "make the plan again; what is done stays"};
+  }
+
   std::optional<Error> runUnit(const JobUnit& unit, std::string_view records) {
     if (const std::optional<TilePart> part = intactPart(plan_, unit.name)) {
       result_.shapesBefore += unit.shapes;
@@ -90,9 +133,14 @@ class JobRunner {
     }
     const Result<Shapes> shapes = shapesOf(unit, records);
     if (!shapes.ok()) return shapes.error();
-    ShapeSource source(rules_, shapes.value(), settings_.derive, told_, result_);
+    // What is left of the time of the whole job.
+    DeriveSettings derive = settings_.derive;
+    if (run_.limits.seconds) {
+      derive.limits.seconds = std::max(0.0, *run_.limits.seconds - (now() - begin_));
+    }
+    ShapeSource source(rules_, shapes.value(), derive, told_, result_);
     if (run_.progress) {
-      source.showProgress([this](size_t done) { run_.progress(done_ + done, result_.shapes); });
+      source.showProgress([this](size_t done) { progress_.tell(done_ + done, result_.shapes); });
     }
     TileUnit all{unit.name, {}};
     all.shapes.resize(shapes.value().size());
@@ -123,6 +171,7 @@ class JobRunner {
   Result<Shapes> shapesOf(const JobUnit& unit, std::string_view records) const {
     const auto impl = std::make_shared<Shapes::Impl>();
     impl->geo = plan_.geo;
+    impl->terrain = terrain_;
     ByteReader reader(records);
     for (uint64_t i = 0; i < unit.shapes && reader.ok(); ++i) {
       work(records.size() / unit.shapes);
@@ -142,7 +191,10 @@ class JobRunner {
   TileSettings settings_;
   TileTreeOptions options_;
   TileResult& result_;
+  std::shared_ptr<const TerrainSurface> terrain_;
   Told told_;
+  RisingProgress progress_;
+  double begin_;
   uint64_t done_ = 0;
 };
 
@@ -161,7 +213,7 @@ class Merger {
     TileTreeOptions options;
     options.folder = folder.path();
     options.compressed = plan_.tiles.compress;
-    options.jobs = threads();
+    options.threads = threads();
     options.meter = &task_.allowance();
     const Result<TilePart> all = writeTileTop(
         division_, [this](size_t unit) { return partAt(unit); }, options);
@@ -179,7 +231,7 @@ class Merger {
   }
 
  private:
-  unsigned threads() const { return static_cast<unsigned>(std::max(0, run_.jobs.value_or(0))); }
+  unsigned threads() const { return static_cast<unsigned>(std::max(0, run_.threads.value_or(0))); }
 
   std::optional<Error> readJobs() {
     division_.square = plan_.square;
@@ -211,11 +263,12 @@ class Merger {
 
   void check(TileResult& result) const {
     std::vector<char> intact(division_.units.size(), 0);
+    RisingProgress progress(run_);
     std::atomic<size_t> done{0};
     parallelFor(intact.size(), threads(), [&](size_t i, unsigned) {
       const WorkScope scope(task_.allowance());
       intact[i] = intactPart(plan_, division_.units[i].name).has_value();
-      if (run_.progress) run_.progress(++done, intact.size());
+      progress.tell(++done, intact.size());
     });
     for (size_t i = 0; i < intact.size(); ++i) {
       if (intact[i] || (!result.jobsToRun.empty() && result.jobsToRun.back() == jobOfUnit_[i])) {
@@ -255,6 +308,12 @@ class Merger {
   std::vector<uint64_t> jobOfUnit_;
 };
 
+// One wish to stop, wherever the caller has put it.
+TileRun settled(TileRun run) {
+  if (!run.limits.cancel) run.limits.cancel = run.cancel;
+  return run;
+}
+
 bool usable(const TilePlan& plan, TileResult& result) {
   if (plan.ok()) return true;
   result.diagnostics = plan.diagnostics();
@@ -287,7 +346,9 @@ Rules TilePlan::rules(const FileLimits& limits) const {
   return Rules::load(impl_->rules, load);
 }
 
-TileResult runTileJob(const TilePlan& plan, const Rules& rules, uint64_t job, const TileRun& run) {
+TileResult runTileJob(const TilePlan& plan, const Rules& rules, uint64_t job,
+                      const TileRun& given) {
+  const TileRun run = settled(given);
   return guardedResult<TileResult>(
       Task("writing", plan.impl().folder, run.limits), [&](Task& task) {
         TileResult result;
@@ -301,7 +362,8 @@ TileResult runTileJob(const TilePlan& plan, const Rules& rules, uint64_t job, co
       });
 }
 
-TileResult mergeTiles(const TilePlan& plan, const TileRun& run) {
+TileResult mergeTiles(const TilePlan& plan, const TileRun& given) {
+  const TileRun run = settled(given);
   return guardedResult<TileResult>(
       Task("writing", plan.impl().folder, run.limits), [&](Task& task) {
         TileResult result;

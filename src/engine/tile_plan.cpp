@@ -19,7 +19,8 @@ namespace gable {
 namespace {
 
 // Of the files of a plan; a program with another one cannot go on with it.
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
+constexpr uint64_t kMostPlanBytes = 64 << 20;
 
 std::string hex(uint64_t v) {
   std::array<char, 16> digits{};
@@ -156,6 +157,8 @@ std::string settingsJson(const TilePlan::Impl& plan) {
   w.key("square").beginArray();
   w.value(plan.square.low.x).value(plan.square.low.y).value(plan.square.side).endArray();
   w.field("geo", plan.geo ? plan.geo->text() : std::string());
+  if (plan.terrainChecksum != 0) w.field("terrain", hex(plan.terrainChecksum));
+  if (plan.ofOneRun) w.field("ofOneRun", true);
   w.field("shapes", plan.shapes).field("jobs", plan.jobs).endObject();
   out += '\n';
   return out;
@@ -179,7 +182,7 @@ std::string jobJson(const TileJob& job, uint64_t plan) {
 Result<TilePlan::Impl> readPlan(const std::string& folder) {
   const TileFolder place(folder);
   const std::string path = place.plan() + "plan.json";
-  const Result<std::string> text = readFile(path, 64 << 20);
+  const Result<std::string> text = readFile(path, kMostPlanBytes);
   if (!text.ok()) return planError(folder, text.error().message);
   const Result<JsonValue> json = parseJson(text.value());
   if (!json.ok()) return planError(folder, "'" + path + "' is damaged: " + json.error().message);
@@ -198,11 +201,23 @@ Result<TilePlan::Impl> readPlan(const std::string& folder) {
   const JsonValue& square = v["square"];
   plan.square = {{square.at(0).number(0), square.at(1).number(0)}, square.at(2).number(1)};
   plan.geo = geoFrameOf(v["geo"].text());
+  plan.terrainChecksum = ofHex(v["terrain"].text());
+  plan.ofOneRun = v["ofOneRun"].boolean(false);
   plan.shapes = wholeOf(v["shapes"]);
   plan.jobs = wholeOf(v["jobs"]);
   if (plan.id == 0) return planError(folder, "'" + path + "' is damaged: it has no id");
   if (plan.jobs == 0) return planError(folder, "'" + path + "' is damaged: it has no jobs");
   return plan;
+}
+
+std::optional<Error> planInUse(const TileFolder& folder) {
+  const Result<std::string> text = readFile(folder.plan() + "plan.json", kMostPlanBytes);
+  if (!text.ok()) return std::nullopt;
+  const Result<JsonValue> json = parseJson(text.value());
+  if (!json.ok() || json.value()["ofOneRun"].boolean(false)) return std::nullopt;
+  return Error{"tiles-planned",
+               "the folder '" + folder.path() + "' has a plan, whose jobs may be running",
+               "finish it with 'gable tiles merge --mend', or give --replace-plan"};
 }
 
 Result<TileJob> readJob(const TilePlan::Impl& plan, uint64_t job) {
@@ -211,7 +226,7 @@ Result<TileJob> readJob(const TilePlan::Impl& plan, uint64_t job) {
                  "its jobs are 0 to " + std::to_string(plan.jobs - 1)};
   }
   const std::string path = jobPath(plan, job);
-  const Result<std::string> text = readFile(path, 64 << 20);
+  const Result<std::string> text = readFile(path, kMostPlanBytes);
   if (!text.ok()) return planError(plan.folder, text.error().message);
   const Result<JsonValue> json = parseJson(text.value());
   if (!json.ok() || ofHex(json.value()["plan"].text()) != plan.id) {
@@ -238,6 +253,10 @@ std::string jobPath(const TilePlan::Impl& plan, uint64_t job) {
 
 std::string shapesPath(const TilePlan::Impl& plan, uint64_t job) {
   return TileFolder(plan.folder).plan() + "shapes/" + std::to_string(job) + ".shapes";
+}
+
+std::string terrainPath(const TilePlan::Impl& plan) {
+  return TileFolder(plan.folder).plan() + "terrain.bin";
 }
 
 std::string partPath(const TilePlan::Impl& plan, const std::string& unit) {

@@ -6,10 +6,12 @@
 //   plan/plan.json         rules, settings, the square of the place; it is written last
 //   plan/jobs/0.json       the units of a job, and its file of shapes
 //   plan/shapes/0.shapes   records of shapes (engine/shape_record.h), unit after unit
+//   plan/terrain.bin       the ground that a city lies on, where it does (engine/terrain_record.h)
 //   plan/done/0123.part    what has come of a unit (tiles/tile_part.h)
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,10 @@ struct TilePlan::Impl {
   TileSquare square;
   std::shared_ptr<const GeoFrame> geo;
   uint64_t shapes = 0, jobs = 0;
+  /// Of the bytes of plan/terrain.bin; 0: the place is flat.
+  uint64_t terrainChecksum = 0;
+  /// One process runs all jobs, and no other one is to.
+  bool ofOneRun = false;
 };
 
 /// A job's unit, and how many bytes of the job's file are its shapes.
@@ -57,8 +63,13 @@ std::string jobJson(const TileJob& job, uint64_t plan);
 Result<TilePlan::Impl> readPlan(const std::string& folder);
 Result<TileJob> readJob(const TilePlan::Impl& plan, uint64_t job);
 
+/// The error where others may be running the jobs of a plan of the folder, which would lose it.
+/// Code: tiles-planned.
+std::optional<Error> planInUse(const TileFolder& folder);
+
 std::string jobPath(const TilePlan::Impl& plan, uint64_t job);
 std::string shapesPath(const TilePlan::Impl& plan, uint64_t job);
+std::string terrainPath(const TilePlan::Impl& plan);
 std::string partPath(const TilePlan::Impl& plan, const std::string& unit);
 
 }  // namespace gable

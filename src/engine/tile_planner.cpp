@@ -15,6 +15,7 @@
 #include "engine/footprint.h"
 #include "engine/guard.h"
 #include "engine/shape_record.h"
+#include "engine/terrain_record.h"
 #include "engine/tile_plan.h"
 #include "engine/tile_source.h"
 
@@ -30,20 +31,20 @@ class Planner {
 
   std::optional<Error> begin() {
     if (auto e = compressMistake(settings_.tiles)) return e;
+    if (settings_.ofOneRun && !settings_.tiles.replacePlan) {
+      if (auto e = planInUse(folder_)) return e;
+    }
     if (auto e = folder_.open()) return e;
     // A plan that is being written is none, and what jobs of an older one have made stays.
+    const std::string plan = folder_.plan();
     std::error_code error;
-    std::filesystem::remove(folder_.plan() + "plan.json", error);
-    for (const char* part : {"jobs", "shapes"}) {
-      std::filesystem::remove_all(folder_.plan() + part, error);
+    for (const char* old : {"plan.json", "terrain.bin", "jobs", "shapes"}) {
+      std::filesystem::remove_all(plan + old, error);
+      if (error) return folderError(plan + old, "removed", error);
     }
     for (const char* part : {"jobs", "shapes", "done"}) {
-      std::filesystem::create_directories(folder_.plan() + part, error);
-    }
-    if (error) {
-      return Error{"tiles-folder",
-                   "the folder '" + folder_.plan() + "' cannot be made: " + error.message(),
-                   "name another one, or see to its permissions"};
+      std::filesystem::create_directories(plan + part, error);
+      if (error) return folderError(plan + part, "made", error);
     }
     spool_.emplace(spoolPath());
     return std::nullopt;
@@ -60,6 +61,16 @@ class Planner {
   }
 
   size_t size() const { return middles_.size(); }
+
+  /// Before finish(), where the place has one.
+  std::optional<Error> addTerrain(const TerrainSurface& terrain) {
+    const std::string bytes = terrainBytes(terrain);
+    plan_.folder = folder_.path();
+    plan_.terrainChecksum = std::max<uint64_t>(checksum(bytes), 1);
+    const Result<uint64_t> written = writeFile(terrainPath(plan_), bytes);
+    if (!written.ok()) return written.error();
+    return std::nullopt;
+  }
 
   std::optional<Error> finish(std::shared_ptr<const GeoFrame> geo) {
     offsets_.push_back(spool_->offset());
@@ -81,6 +92,7 @@ class Planner {
     }
     plan_.tiles = settings_.tiles;
     plan_.geo = std::move(geo);
+    plan_.ofOneRun = settings_.ofOneRun;
     plan_.shapes = middles_.size();
     auto e = writeJobs();
     std::error_code ignored;
@@ -89,6 +101,12 @@ class Planner {
   }
 
  private:
+  static Error folderError(const std::string& path, const char* what,
+                           const std::error_code& error) {
+    return {"tiles-folder", "'" + path + "' cannot be " + what + ": " + error.message(),
+            "name another folder, or see to its permissions"};
+  }
+
   std::string spoolPath() const { return folder_.plan() + "all.shapes"; }
 
   static std::string whole(const std::string& path) {
@@ -147,12 +165,13 @@ class Planner {
 
   std::optional<Error> writePlan(const std::vector<TileJob>& jobs) {
     plan_.id = 0;
-    // Where the rules lie and how the units are divided into jobs is no matter.
+    // Where the rules lie, how the units are divided into jobs and who runs those is no matter.
     TilePlan::Impl nowhere = plan_;
     nowhere.rules.clear();
     nowhere.load = {};
     nowhere.load.style = plan_.load.style;
     nowhere.jobs = 0;
+    nowhere.ofOneRun = false;
     plan_.id = std::max<uint64_t>(hashBytes(settingsJson(nowhere), units_), 1);
     for (uint64_t j = 0; j < jobs.size(); ++j) {
       const Result<uint64_t> written = writeFile(jobPath(plan_, j), jobJson(jobs[j], plan_.id));
@@ -205,7 +224,8 @@ std::shared_ptr<TilePlan::Impl> planned(const Rules& rules, const Shapes& shapes
   std::optional<Error> e = planner.begin();
   if (!e) {
     for (const ShapeFootprint& f : shapes.impl().footprints) planner.add(f);
-    e = planner.finish(shapes.impl().geo);
+    if (shapes.impl().terrain) e = planner.addTerrain(*shapes.impl().terrain);
+    if (!e) e = planner.finish(shapes.impl().geo);
   }
   settle(*plan, e, rules);
   return plan;

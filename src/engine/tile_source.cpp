@@ -171,7 +171,7 @@ TileTreeOptions tileOptions(const Rules& rules, const TileSettings& settings,
                             const std::string& folder) {
   TileTreeOptions options;
   options.triangles = std::max<uint64_t>(settings.triangles, 1);
-  options.jobs = static_cast<unsigned>(std::max(0, settings.derive.jobs.value_or(0)));
+  options.threads = static_cast<unsigned>(std::max(0, settings.derive.jobs.value_or(0)));
   if (unitShapes(rules) == 0) options.batch = 0;
   options.folder = folder;
   options.compressed = settings.compress;

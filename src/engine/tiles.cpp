@@ -6,7 +6,7 @@
 #include "gable/tiles.h"
 
 #include "engine/guard.h"
-#include "engine/tile_folder.h"
+#include "engine/tile_plan.h"
 #include "engine/tile_source.h"
 #include "tiles/placement.h"
 
@@ -19,6 +19,9 @@ void tile(const Rules& rules, const Shapes& shapes, const std::string& path,
   const double begin = now();
   if (auto e = compressMistake(settings)) return fail(result, *e);
   TileFolder folder(path);
+  if (!settings.replacePlan) {
+    if (auto e = planInUse(folder)) return fail(result, *e);
+  }
   if (auto e = folder.open()) return fail(result, *e);
   Told told;
   ShapeSource source(rules, shapes, settings.derive, told, result);
@@ -57,7 +60,9 @@ void tile(const Rules& rules, const Shapes& shapes, const std::string& path,
 
 TileResult writeTiles(const Rules& rules, const Shapes& shapes, const std::string& folder,
                       const TileSettings& settings) {
-  return guardedResult<TileResult>(Task("writing", folder, settings.limits), [&](Task& task) {
+  FileLimits limits = settings.limits;
+  if (!limits.cancel) limits.cancel = settings.derive.cancel;
+  return guardedResult<TileResult>(Task("writing", folder, limits), [&](Task& task) {
     TileResult result;
     if (rules.ok()) tile(rules, shapes, folder, settings, task, result);
     return result;

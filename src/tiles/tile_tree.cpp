@@ -364,7 +364,7 @@ class Builder {
 
   // Writes the tiles of those that are open.
   void finish(std::vector<Branch>& branches, double tolerance) {
-    parallelFor(branches.size(), options_.jobs, [&](size_t i, unsigned) {
+    parallelFor(branches.size(), options_.threads, [&](size_t i, unsigned) {
       std::optional<WorkScope> scope;
       if (options_.meter) scope.emplace(*options_.meter);
       if (branches[i].state == Branch::State::Open) finishOne(branches[i], tolerance);

@@ -63,7 +63,7 @@ struct TileTreeOptions {
   size_t batch = 512;
   /// A tileset with more nodes has its larger parts in files of their own.
   uint64_t mostNodes = 1000;
-  unsigned jobs = 0;
+  unsigned threads = 0;
   /// Quantised and compressed (tiles/compress.h).
   bool compressed = false;
   /// Ends in a slash.

@@ -9,6 +9,7 @@ the one-file model. Files are made in FOLDER. Run from the repository's root.
 import json
 import re
 import resource
+import shutil
 import signal
 import struct
 import subprocess
@@ -16,7 +17,7 @@ import sys
 import time
 import unittest
 
-from city_test import MAP, feature, square
+from city_test import MAP, feature, heights, square
 from cli_test import FILE, GABLE, USAGE, WRONG, Case
 
 LIMIT = 4
@@ -315,7 +316,12 @@ class Jobs(Case):
         self.plan("out")
         self.tiles("job", "out", "1")
         kept = {n: (self.folder / "out" / n).stat().st_mtime_ns for n in self.contents("out") if n.endswith(".glb")}
-        self.tiles("boxes.cga", "--shapes", "lots.geojson", "--tile-triangles", "300", "-o", "out")
+        whole = ("boxes.cga", "--shapes", "lots.geojson", "--tile-triangles", "300", "-o", "out")
+        # Who runs the other jobs would lose them.
+        self.tiles(*whole, status=FILE, says="tiles-planned")
+        self.tiles(*whole, "--cut-nested", status=FILE, says="tiles-planned")
+        self.assertTrue((self.folder / "out/plan/plan.json").exists())
+        self.tiles(*whole, "--replace-plan")
         for name, written in kept.items():
             self.assertEqual((self.folder / "out" / name).stat().st_mtime_ns, written)
         self.assertFalse((self.folder / "out/plan").exists())
@@ -344,7 +350,7 @@ class Jobs(Case):
         shapes.write_bytes(good)
         plan = self.folder / "out/plan/plan.json"
         text = plan.read_text()
-        plan.write_text(text.replace('"format": 1', '"format": 0'))
+        plan.write_text(text.replace('"format": 2', '"format": 0'))
         self.tiles("job", "out", "0", status=FILE, says="one version on all machines")
         plan.write_text(text[:100])
         self.tiles("merge", "out", status=FILE, says="tiles-plan")
@@ -359,6 +365,74 @@ class Jobs(Case):
         (self.folder / "theirs/plan").mkdir(parents=True)
         self.put("theirs/plan/mine.txt", "mine")
         self.plan("theirs", status=FILE, says="tiles-folder")
+
+    def testAPlaceIsMadeInJobsAsWell(self):
+        """Streets, ground, terrain and all: the plan of gable city, of more than one job."""
+        houses = [feature("Polygon", square(12 * x, 12 * y, 9), building="yes", levels=x % 7) for x in range(45) for y in range(45)]
+        self.put("town.geojson", json.dumps(dict(MAP, features=MAP["features"][2:5] + houses)))
+        (self.folder / "hill.tif").write_bytes(heights(lambda x, y: 100 + 0.06 * x + 0.03 * y, size=32))
+        (self.folder / "plain").mkdir()
+        self.put("plain/city.cga", "import b : \"block.cga\"\n@StartRule Ground --> Flat.\nBuilding --> b.Block\n")
+        self.put("plain/block.cga", "attr levels = 9\nBlock --> extrude(3 + levels + rand(1)) comp(f) { all : Face. }\n")
+        arguments = ("town.geojson", "--terrain", "hill.tif", "--rules", "plain", "--tile-triangles", "3000")
+        self.run_gable("city", *arguments, "-o", "one/")
+        self.run_gable("city", *arguments, "--plan-jobs", "-o", "many.glb", status=USAGE, says="give -o a folder")
+        self.run_gable("city", *arguments, "--plan-jobs", "--job-shapes", "100", "-o", "many/", says="jobs for")
+        count = self.jobs("many")
+        self.assertGreater(count, 1)
+        self.run_gable("city", *arguments, "-o", "many/", status=FILE, says="tiles-planned")
+        terrain = self.folder / "many/plan/terrain.bin"
+        good = terrain.read_bytes()
+        for bad in (good[:-1], good[:-1] + b"x", b""):
+            terrain.write_bytes(bad)
+            self.tiles("job", "many", "0", status=FILE, says="terrain.bin' is damaged")
+        terrain.write_bytes(good)
+        killed = subprocess.Popen([str(GABLE), "tiles", "job", "many", "0"], cwd=self.folder)
+        time.sleep(0.2)
+        killed.kill()
+        killed.wait()
+        for job in reversed(range(count)):
+            self.tiles("job", "many", str(job), "--threads", str(1 + job % 2))
+        self.tiles("merge", "many")
+        one = self.contents("one")
+        self.assertEqual(self.contents("many"), one)
+        # What the ground and the levels are reaches the jobs.
+        self.run_gable("city", *arguments[:1], *arguments[3:], "-o", "flat/")
+        self.assertNotEqual(self.contents("flat"), one)
+        self.run_gable("city", *arguments, "-o", "one.obj")
+        faces = (self.folder / "one.obj").read_text().count("\nf ")
+        self.assertGreater(faces, 10_000)
+
+    def testTheTimeOfAllIsOne(self):
+        self.plan("out")
+        self.put("boxes.cga", BOXES)
+        begin = time.monotonic()
+        self.tiles("job", "out", f"0-{self.jobs('out') - 1}", "--max-seconds", "0.2", status=LIMIT)
+        self.assertLess(time.monotonic() - begin, 5)
+
+    def testAPageIsPutBesideTilesThatAreThere(self):
+        self.tiles("viewer", "nowhere", status=FILE, says="no tileset")
+        self.tiles("boxes.cga", "--shapes", "lots.geojson", "-o", "out")
+        page = self.folder / "out/index.html"
+        page.write_text("mine")
+        told = subprocess.run([str(GABLE), "tiles", "viewer", "out"], cwd=self.folder, check=False, stderr=subprocess.PIPE,
+                              text=True)
+        self.assertEqual((told.returncode, page.read_text()), (FILE, "mine"))
+        page.unlink()
+        told = subprocess.run([str(GABLE), "tiles", "viewer", "out"], cwd=self.folder, check=False, stderr=subprocess.PIPE,
+                              text=True)
+        if "is not built" in told.stderr:
+            self.skipTest("the page is not built")
+        self.assertEqual(told.returncode, 0)
+        self.assertTrue(page.exists() and (self.folder / "out/viewer.js").exists())
+
+    def testBracesInPathsAreOnesForGnuParallel(self):
+        if not shutil.which("parallel"):
+            self.skipTest("GNU parallel is not installed")
+        self.plan("a {} {#} {= 1 =}")
+        self.tiles("submit", "a {} {#} {= 1 =}", "--parallel", "--options", "-j 2")
+        self.tiles("boxes.cga", "--shapes", "lots.geojson", "--tile-triangles", "300", "-o", "one")
+        self.assertEqual(self.contents("a {} {#} {= 1 =}"), self.contents("one"))
 
     def testScriptsForClustersAreWritten(self):
         self.plan("out")

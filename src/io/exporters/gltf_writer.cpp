@@ -30,7 +30,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian");
 
 constexpr uint32_t kMostVertices = 65535;
-constexpr uint64_t kMostNodes = 50'000'000;
+constexpr uint64_t kMostInDocument = 50'000'000;
 // Merged into one unit.
 constexpr double kMostLeaves = 1e8;
 
@@ -451,7 +451,7 @@ Result<WriteReport> GltfWriter::write() {
   }
   if (binary_ && content_.bufferBytes > gltf::kGlbLimit) return tooLarge(content_.bufferBytes);
   const uint64_t nodes = document_.planNodes(meshFlags(), gpu_);
-  if (nodes > kMostNodes) {
+  if (nodes > kMostInDocument) {
     return Error{"model-too-large",
                  "'" + path_ + "' would have " + std::to_string(nodes) + " nodes",
                  "generate fewer shapes at a time"};

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+#include "tiles_viewer.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "folders.h"
+#include "tiles.h"
+
+namespace {
+
+/// Whether the page may be put there: it may be from before, and nothing else of that name.
+bool mayHoldViewer(const std::string& folder) {
+  std::error_code error;
+  if (!std::filesystem::exists(folder + "index.html", error)) return true;
+  std::string before;
+  if (!readText(folder + "index.html", before)) return false;
+  if (before.find("name=\"generator\" content=\"Gable\"") != std::string::npos) return true;
+  std::fprintf(stderr, "gable: '%sindex.html' is a page of another program; remove it first\n",
+               folder.c_str());
+  return false;
+}
+
+}  // namespace
+
+int ViewerPage::find(const std::string& folder) {
+  folder_ = folder;
+  from_ = folderWith("viewer.js", {"../studio/viewer", "../share/gable/studio/viewer"});
+  if (from_.empty()) {
+    std::fputs("gable: the page for --viewer is not built; ./run studio builds it\n", stderr);
+    return kExitFile;
+  }
+  return mayHoldViewer(folder) ? kExitDone : kExitFile;
+}
+
+int ViewerPage::write() const {
+  if (from_.empty()) return kExitDone;
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  for (const char* name : {"viewer.js", "index.html"}) {
+    std::string text;
+    if (!readText(from_ + "/" + name, text)) return kExitFile;
+    if (const int status = writeText(folder_ + name, text)) return status;
+  }
+  return kExitDone;
+}
+
+int runTilesViewer(const std::string& output) {
+  const std::string folder = asFolder(output);
+  std::error_code error;
+  if (!std::filesystem::exists(folder + "tileset.json", error)) {
+    std::fprintf(stderr,
+                 "gable: there is no tileset in '%s'; gable tiles and gable city make one\n",
+                 folder.c_str());
+    return kExitFile;
+  }
+  ViewerPage page;
+  if (const int status = page.find(folder)) return status;
+  return page.write();
+}
