@@ -277,15 +277,15 @@ void ScenePlan::weigh() {
   }
 }
 
-// Merges more until the nodes are few enough: what saves least comes first. Each step takes a
-// quarter more bytes; the first that is enough is searched by halves.
+// Merges more until the nodes are few enough: what saves least comes first. Each step takes one in
+// fifty more bytes; the first that is enough is searched by halves.
 void ScenePlan::merge(double mostNodes) {
   const double largest = std::max(*std::max_element(bytes_.begin(), bytes_.end()),
                                   *std::max_element(meshBytes_.begin(), meshBytes_.end()));
   std::vector<double> steps{kTinyBytes};
-  while (steps.back() < largest) steps.push_back(steps.back() * 1.25);
+  while (steps.back() < largest) steps.push_back(steps.back() * 1.02);
   // Of what is as large as the largest, leaves still stand alone.
-  steps.push_back(steps.back() * 1.25);
+  steps.push_back(steps.back() * 1.02);
   size_t low = 0, high = steps.size() - 1;
   while (low + 1 < high) {
     const size_t middle = (low + high) / 2;
