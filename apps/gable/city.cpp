@@ -87,7 +87,7 @@ int buildModel(const gable::City& city, CityArguments& arguments,
   const gable::Model model = deriveModel(rules, city.shapes(), settings, stderr);
   if (gable::hasErrors(model.diagnostics())) return statusOf(model);
   if (!arguments.output.empty()) {
-    const gable::WriteSettings write = writeSettings(arguments.instancing, arguments.derive.limits);
+    const gable::WriteSettings write = writeSettings(arguments.write, arguments.derive.limits);
     if (const int status = writeModel(model, arguments.output, write, figures)) return status;
   }
   if (!arguments.picture.output.empty()) {

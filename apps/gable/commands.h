@@ -14,7 +14,7 @@ struct GenerateArguments {
   std::string output;
   std::string stats;
   std::string reports;
-  std::string instancing = "auto";
+  WriteArguments write;
   /// Run again whenever a file that is read changes, until Ctrl-C.
   bool watch = false;
 };

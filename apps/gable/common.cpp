@@ -143,9 +143,10 @@ gable::Model deriveModel(const gable::Rules& rules, const gable::Shapes& shapes,
   return model;
 }
 
-gable::WriteSettings writeSettings(const std::string& instancing, const LimitArguments& limits) {
+gable::WriteSettings writeSettings(const WriteArguments& arguments, const LimitArguments& limits) {
   gable::WriteSettings settings;
-  settings.instancing = gable::instancingNamed(instancing).value_or(settings.instancing);
+  settings.instancing = gable::instancingNamed(arguments.instancing).value_or(settings.instancing);
+  settings.vertices = gable::verticesNamed(arguments.vertices).value_or(settings.vertices);
   settings.limits = fileLimits(limits);
   return settings;
 }

@@ -35,6 +35,12 @@ struct LimitArguments {
   /// 0: no limit.
   uint64_t maxMegabytes = 4096;
 };
+
+/// How a model file is written: one of gable::instancingNames() and of gable::verticesNames().
+struct WriteArguments {
+  std::string instancing = "auto";
+  std::string vertices = "float";
+};
 /// Those for reading, analysing, converting and writing. Ctrl-C cancels.
 gable::FileLimits fileLimits(const LimitArguments& arguments);
 

@@ -23,8 +23,7 @@ int readRules(const DeriveArguments& arguments, gable::Rules& rules);
 gable::Model deriveModel(const gable::Rules& rules, const gable::Shapes& shapes,
                          gable::DeriveSettings settings, std::FILE* prints);
 
-/// `instancing`: one of gable::instancingNames().
-gable::WriteSettings writeSettings(const std::string& instancing, const LimitArguments& limits);
+gable::WriteSettings writeSettings(const WriteArguments& arguments, const LimitArguments& limits);
 
 /// Writes the model to a file, with a line of progress; an exit status. The figures tell what
 /// deriving and writing took.

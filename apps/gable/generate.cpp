@@ -44,7 +44,7 @@ int generateOnce(const GenerateArguments& arguments) {
   tellEmpty(model, inputs);
 
   gable::RunFigures figures;
-  const gable::WriteSettings write = writeSettings(arguments.instancing, arguments.derive.limits);
+  const gable::WriteSettings write = writeSettings(arguments.write, arguments.derive.limits);
   if (const int status = writeModel(model, arguments.output, write, figures)) return status;
 
   if (!arguments.reports.empty()) {

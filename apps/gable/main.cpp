@@ -148,12 +148,16 @@ void addCheck(CLI::App& app, CheckArguments& a, int& status) {
   check->callback([&a, &status] { status = runCheck(a); });
 }
 
-void addInstancing(CLI::App* app, std::string& instancing) {
-  app->add_option("--instancing", instancing,
+void addWriting(CLI::App* app, WriteArguments& a) {
+  app->add_option("--instancing", a.instancing,
                   "glTF: how parts that occur several times are shown: auto (by nodes, at most\n"
                   "20000; what saves least is merged), nodes (by a node each), gpu (by\n"
                   "EXT_mesh_gpu_instancing), none (one mesh, merged by material)")
       ->check(CLI::IsMember(gable::instancingNames()));
+  app->add_option("--vertices", a.vertices,
+                  "glTF: what a vertex takes: float (single precision), compact (half of that, by\n"
+                  "KHR_mesh_quantization, no vertex moved by more than half a millimetre)")
+      ->check(CLI::IsMember(gable::verticesNames()));
 }
 
 void addWatch(CLI::App* app, bool& watch) {
@@ -168,7 +172,7 @@ void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
       ->required();
   generate->add_option("--stats", a.stats, "Write counts as JSON to a file, or - for stdout");
   generate->add_option("--reports", a.reports, "Write reports as CSV to a file, or - for stdout");
-  addInstancing(generate, a.instancing);
+  addWriting(generate, a.write);
   addWatch(generate, a.watch);
   generate->callback([&a, &status] { status = runGenerate(a); });
 }
@@ -214,7 +218,7 @@ void addCity(CLI::App& app, CityArguments& a, int& status) {
   city->add_option("--layer", a.derive.layer, "The layer of the map, where it has several");
   city->add_option("-o,--output", a.output,
                    "The model: .glb .gltf .obj .ply .stl .png; a folder/ for 3D Tiles");
-  addInstancing(city, a.instancing);
+  addWriting(city, a.write);
   addTileOptions(city, a.tiles);
   city->add_flag("--plan-jobs", a.tiles.onlyPlan,
                  "Plan the tiles alone: gable tiles job, submit and merge make them");

@@ -29,8 +29,14 @@ using Triple = std::array<double, 3>;
 /// EXT_mesh_gpu_instancing. None: not at all, everything is one mesh, merged by material.
 enum class Instancing : uint8_t { Auto, Nodes, Gpu, None };
 
+/// What a vertex of a glTF file takes. Float: single precision, which every program reads. Compact:
+/// half of that, by KHR_mesh_quantization; no vertex moves by more than half a millimetre along an
+/// axis, and only surfaces with textures have texture coordinates.
+enum class Vertices : uint8_t { Float, Compact };
+
 struct WriteSettings {
   Instancing instancing = Instancing::Auto;
+  Vertices vertices = Vertices::Float;
   FileLimits limits;
 };
 

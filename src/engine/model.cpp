@@ -147,8 +147,9 @@ std::vector<std::string> texturesOf(const Scene& scene, const std::string& path)
 WriteResult written(const Model::Impl& impl, const std::string& path,
                     const WriteSettings& settings) {
   WriteOptions options;
-  // The two enumerations are in the same order.
+  // The enumerations are in the same order.
   options.instancing = static_cast<WriteOptions::Instancing>(settings.instancing);
+  options.vertices = static_cast<WriteOptions::Vertices>(settings.vertices);
   options.readTexture = [&impl](const std::string& texture) -> Result<std::string> {
     if (impl.project) return impl.project->texture(texture);
     return Error{"texture-not-found", "there is no picture '" + texture + "'", ""};
@@ -249,6 +250,15 @@ const std::vector<std::string>& instancingNames() {
 
 std::optional<Instancing> instancingNamed(const std::string& name) {
   return named<Instancing>(instancingNames(), name);
+}
+
+const std::vector<std::string>& verticesNames() {
+  static const std::vector<std::string> names{"float", "compact"};
+  return names;
+}
+
+std::optional<Vertices> verticesNamed(const std::string& name) {
+  return named<Vertices>(verticesNames(), name);
 }
 
 Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& settings) {

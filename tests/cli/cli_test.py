@@ -322,6 +322,9 @@ class Models(Case):
         self.assertLess(sizes["gpu"], sizes["nodes"])
         self.assertLess(sizes["nodes"] * 5, sizes["none"])
         self.run_gable("generate", "x.cga", "-o", "a.glb", "--instancing", "both", status=USAGE, says="both")
+        self.run_gable("generate", "x.cga", "--lot", "400x4", "-o", "a.glb", "--vertices", "compact")
+        self.assertLess((self.folder / "a.glb").stat().st_size, 0.8 * sizes["auto"])
+        self.run_gable("generate", "x.cga", "-o", "a.glb", "--vertices", "half", status=USAGE, says="half")
 
     def testStatisticsOnStdoutAreJsonAndNothingElse(self):
         self.put("x.cga", 'Lot --> print("a line") extrude(2)\n')

@@ -36,6 +36,12 @@ void writeVec(JsonWriter& w, const char* name, const Vec3& v, int decimals) {
   w.endArray();
 }
 
+void writeSteps(JsonWriter& w, const Vec3& v) {
+  w.key("scale").beginArray();
+  for (size_t i = 0; i < 3; ++i) w.value(static_cast<float>(v[i]));
+  w.endArray();
+}
+
 void writeFloats(JsonWriter& w, const char* name, const std::array<float, 3>& v, bool roomy) {
   w.key(name).beginArray();
   for (const float f : v) w.value(roomy ? kWidestFloat : f);
@@ -72,8 +78,18 @@ std::vector<GltfDocument::Group> GltfDocument::groupsOf(const ScenePlan& plan, u
   return groups;
 }
 
-uint64_t GltfDocument::planNodes(const std::vector<bool>& hasMesh, bool instanced) {
+Vec3 GltfDocument::placeOf(const PlannedChild& c, const VertexGrid& grid) {
+  return grid.on ? c.frame.point(scaled(grid.low, c.scale)) : c.frame.origin;
+}
+
+Vec3 GltfDocument::scaleOf(const Vec3& scale, const VertexGrid& grid) {
+  return grid.on ? scale * grid.step : scale;
+}
+
+uint64_t GltfDocument::planNodes(const std::vector<bool>& hasMesh,
+                                 const std::vector<VertexGrid>& grids, bool instanced) {
   instanced_ = instanced;
+  grids_ = grids;
   const size_t count = plan_.units().size();
   meshNumbers_.assign(count, -1);
   int64_t meshes = 0;
@@ -98,6 +114,7 @@ void GltfDocument::countNodes() {
   const size_t count = plan_.units().size();
   constexpr uint64_t kUnknown = ~uint64_t{0};
   nodeCounts_.assign(count, kUnknown);
+  apart_.assign(count, false);
   std::vector<uint32_t> stack;
   for (uint32_t root = 0; root < count; ++root) {
     stack.push_back(root);
@@ -117,6 +134,8 @@ void GltfDocument::countNodes() {
         }
       }
       if (stack.size() > before) continue;
+      apart_[u] = nodes > 0 && meshNumbers_[u] >= 0 && grids_[u].on;
+      if (apart_[u]) nodes = saturatingAdd(nodes, 1);
       nodeCounts_[u] = nodes > 0 || meshNumbers_[u] >= 0 ? saturatingAdd(nodes, 1) : 0;
       stack.pop_back();
     }
@@ -147,17 +166,23 @@ void GltfDocument::writeNode(JsonWriter& w, const OpenUnit& open, const NodePlac
   const uint32_t unit = open.unit;
   w.beginObject();
   if (!place.name->empty()) w.field("name", *place.name);
-  if (meshNumbers_[unit] >= 0) w.field("mesh", meshNumbers_[unit]);
+  const bool onGrid = grids_[unit].on && meshNumbers_[unit] >= 0 && !apart_[unit];
+  if (meshNumbers_[unit] >= 0 && !apart_[unit]) w.field("mesh", meshNumbers_[unit]);
   const Frame& f = *place.frame;
-  if (f.origin != Vec3{}) writeVec(w, "translation", f.origin, 6);
+  const Vec3 origin = onGrid ? f.point(scaled(grids_[unit].low, place.scale)) : f.origin;
+  if (origin != Vec3{}) writeVec(w, "translation", origin, 6);
   if (f.turned) {
     w.key("rotation").beginArray();
     for (const double q : quaternionOf(f)) writeRounded(w, q, 9);
     w.endArray();
   }
-  if (place.scale != Vec3{1, 1, 1}) writeVec(w, "scale", place.scale, 9);
+  if (onGrid)
+    writeSteps(w, scaleOf(place.scale, grids_[unit]));
+  else if (place.scale != Vec3{1, 1, 1})
+    writeVec(w, "scale", place.scale, 9);
   uint64_t next = open.next;
-  bool any = false;
+  bool any = apart_[unit];
+  if (any) w.key("children").beginArray().value(next - 1);
   for (const Group& g : open.groups) {
     const uint64_t nodes = nodesFor(g);
     if (nodes == 0) continue;
@@ -171,6 +196,14 @@ void GltfDocument::writeNode(JsonWriter& w, const OpenUnit& open, const NodePlac
   w.endObject();
 }
 
+void GltfDocument::writeMeshNode(JsonWriter& w, uint32_t unit) const {
+  const VertexGrid& grid = grids_[unit];
+  w.beginObject().field("mesh", meshNumbers_[unit]);
+  if (grid.low != Vec3{}) writeVec(w, "translation", grid.low, 6);
+  writeSteps(w, scaleOf({1, 1, 1}, grid));
+  w.endObject();
+}
+
 // A node that shows all children of a group.
 void GltfDocument::writeGroup(JsonWriter& w, const Group& g, uint32_t accessor) const {
   w.beginObject().field("name", nameOf(g.unit)).field("mesh", meshNumbers_[g.unit]);
@@ -180,13 +213,15 @@ void GltfDocument::writeGroup(JsonWriter& w, const Group& g, uint32_t accessor) 
   w.endObject().endObject().endObject();
 }
 
-// A unit's node, then those below it, each before its own. Units nest as deep as rules do, so those
-// at work are a list.
+// A unit's node, that of its mesh, then those below it, each before its own. Units nest as deep as
+// rules do, so those at work are a list.
 void GltfDocument::writeTree(JsonWriter& w, uint32_t unit, const NodePlace& place, uint64_t index) {
   std::vector<OpenUnit> open;
   const auto begin = [&](uint32_t u, const NodePlace& at, uint64_t number) {
-    open.push_back({u, number + 1, instanceBase_[u], 0, groupsOf(plan_, u, instanced_)});
+    const uint64_t first = number + (apart_[u] ? 2 : 1);
+    open.push_back({u, first, instanceBase_[u], 0, groupsOf(plan_, u, instanced_)});
     writeNode(w, open.back(), at);
+    if (apart_[u]) writeMeshNode(w, u);
   };
   begin(unit, place, index);
   while (!open.empty()) {
@@ -283,25 +318,28 @@ void GltfDocument::writeAccessors(JsonWriter& w, const GltfContent& content, boo
       w.endObject();
     }
   }
-  for (const auto& mesh : content.meshes) {
-    for (const GltfPrimitive& p : mesh) {
+  for (size_t u = 0; u < content.meshes.size(); ++u) {
+    const bool onGrid = content.grids[u].on;
+    for (const GltfPrimitive& p : content.meshes[u]) {
       if (p.indexCount == 0) continue;
       const VertexLayout& l = materials_.layout(p.variant);
       const uint32_t count = roomy ? kWidestCount : p.vertexCount;
       uint32_t offset = 0;
-      const auto attribute = [&](const char* type, uint32_t floats, bool position) {
-        begin(view, offset, kFloat, count, type);
-        if (position) {
+      const auto attribute = [&](const char* type, int component, uint32_t bytes) {
+        begin(view, offset, component, count, type);
+        if (component == kByte) w.field("normalized", true);
+        if (offset == 0) {
           writeFloats(w, "min", p.min, roomy);
           writeFloats(w, "max", p.max, roomy);
         }
         w.endObject();
-        offset += 4 * floats;
+        offset += bytes;
       };
-      attribute("VEC3", 3, true);
-      attribute("VEC3", 3, false);
-      if (l.tangentSet >= 0) attribute("VEC4", 4, false);
-      for (uint32_t i = 0; i < l.uvCount; ++i) attribute("VEC2", 2, false);
+      const int direction = l.compact ? kByte : kFloat;
+      attribute("VEC3", onGrid ? kUnsignedShort : kFloat, l.positionBytes(onGrid));
+      attribute("VEC3", direction, l.normalBytes());
+      if (l.tangentSet >= 0) attribute("VEC4", direction, l.tangentBytes());
+      for (uint32_t i = 0; i < l.uvCount; ++i) attribute("VEC2", kFloat, 8);
       begin(view + 1, 0, p.wideIndices ? kUnsignedInt : kUnsignedShort,
             roomy ? kWidestCount : p.indexCount, "SCALAR");
       w.endObject();
@@ -331,10 +369,10 @@ void GltfDocument::writeViews(JsonWriter& w, const GltfContent& content, bool ro
       view(g.offset + 28 * n, 12 * n, 0, 0);
     }
   }
-  for (const auto& mesh : content.meshes) {
-    for (const GltfPrimitive& p : mesh) {
+  for (size_t u = 0; u < content.meshes.size(); ++u) {
+    for (const GltfPrimitive& p : content.meshes[u]) {
       if (p.indexCount == 0) continue;
-      const uint32_t stride = materials_.layout(p.variant).stride();
+      const uint32_t stride = materials_.layout(p.variant).stride(content.grids[u].on);
       view(p.vertexOffset, uint64_t{p.vertexCount} * stride, stride, kArrayBuffer);
       view(p.indexOffset, uint64_t{p.indexCount} * (p.wideIndices ? 4 : 2), 0, kElementArrayBuffer);
     }
@@ -376,13 +414,18 @@ std::string GltfDocument::text(const GltfContent& content, bool roomy) const {
   w.endObject();
   bool groups = false;
   for (const auto& g : content.instances) groups = groups || !g.empty();
-  if (groups || materials_.usesTransforms()) {
-    w.key("extensionsUsed").beginArray();
+  const bool compact =
+      materials_.isCompact() && !std::all_of(content.meshes.begin(), content.meshes.end(), isEmpty);
+  const auto extensions = [&](const char* name, bool transforms) {
+    if (!groups && !compact && !transforms) return;
+    w.key(name).beginArray();
     if (groups) w.value("EXT_mesh_gpu_instancing");
-    if (materials_.usesTransforms()) w.value("KHR_texture_transform");
+    if (compact) w.value("KHR_mesh_quantization");
+    if (transforms) w.value("KHR_texture_transform");
     w.endArray();
-  }
-  if (groups) w.key("extensionsRequired").beginArray().value("EXT_mesh_gpu_instancing").endArray();
+  };
+  extensions("extensionsUsed", materials_.usesTransforms());
+  extensions("extensionsRequired", false);
   w.field("scene", 0).key("scenes").beginArray().beginObject();
   if (nodesWritten_ > 0) w.key("nodes").raw(roots_);
   w.endObject().endArray();

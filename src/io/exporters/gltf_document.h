@@ -38,6 +38,8 @@ struct GltfImageRange {
 struct GltfContent {
   /// By unit.
   std::vector<std::vector<GltfPrimitive>> meshes;
+  /// By unit.
+  std::vector<VertexGrid> grids;
   /// By unit, a list entry for each group of equal children; empty when nodes show them one by one.
   std::vector<std::vector<GltfInstances>> instances;
   /// By image; empty for a file whose images lie beside it.
@@ -54,7 +56,13 @@ class GltfDocument {
   GltfDocument(const Scene& scene, const ScenePlan& plan, const GltfMaterials& materials);
 
   /// Numbers nodes and meshes, and gives the number of nodes: it may be too large to write them.
-  uint64_t planNodes(const std::vector<bool>& hasMesh, bool instanced);
+  /// Grids are by unit: what a node shows is placed by its scale, so a mesh on a grid whose unit
+  /// has children has a node of its own.
+  uint64_t planNodes(const std::vector<bool>& hasMesh, const std::vector<VertexGrid>& grids,
+                     bool instanced);
+  /// Where an instance of a unit stands, its grid included.
+  static Vec3 placeOf(const PlannedChild& c, const VertexGrid& grid);
+  static Vec3 scaleOf(const Vec3& scale, const VertexGrid& grid);
   /// Nodes depend on nothing but which units have a mesh.
   void writeNodes();
   /// The whole text. With `roomy`, numbers that are not known yet take as much room as they can
@@ -90,6 +98,7 @@ class GltfDocument {
   };
   void writeTree(JsonWriter& w, uint32_t unit, const NodePlace& place, uint64_t index);
   void writeNode(JsonWriter& w, const OpenUnit& open, const NodePlace& place) const;
+  void writeMeshNode(JsonWriter& w, uint32_t unit) const;
   void writeGroup(JsonWriter& w, const Group& g, uint32_t accessor) const;
   void writeExtras(JsonWriter& w, const Leaf& leaf) const;
   const std::string& nameOf(uint32_t unit) const;
@@ -105,6 +114,9 @@ class GltfDocument {
   // By unit: nodes that showing it takes (0 when it shows nothing), and its mesh's number.
   std::vector<uint64_t> nodeCounts_;
   std::vector<int64_t> meshNumbers_;
+  std::vector<VertexGrid> grids_;
+  // By unit: whether its mesh has a node of its own.
+  std::vector<bool> apart_;
   std::vector<uint32_t> instanceBase_;
   std::string nodes_, roots_;
   uint64_t nodesWritten_ = 0;

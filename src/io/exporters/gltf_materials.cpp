@@ -35,7 +35,11 @@ double linearOf(double srgb) {
 
 GltfMaterials::GltfMaterials(const Scene& scene, const WriteOptions& options,
                              std::vector<std::string>& warnings)
-    : scene_(scene), keepUv_(options.keepUv), warnings_(warnings), textures_(options, warnings) {}
+    : scene_(scene),
+      keepUv_(options.keepUv && options.vertices == WriteOptions::Vertices::Float),
+      compact_(options.vertices == WriteOptions::Vertices::Compact),
+      warnings_(warnings),
+      textures_(options, warnings) {}
 
 uint32_t GltfMaterials::variant(uint32_t material, uint32_t uvMask) {
   const uint64_t key = static_cast<uint64_t>(material) << 32 | uvMask;
@@ -95,6 +99,7 @@ void GltfMaterials::warnOnce(const std::string& text) {
 GltfMaterials::Variant GltfMaterials::make(const Material& m, uint32_t uvMask) {
   Variant v;
   v.material = &m;
+  v.layout.compact = compact_;
   const std::string& opacity = m.map(TextureLayer::Opacity).path;
   const bool useOpacity = !opacity.empty() && m.opacityMode != OpacityMode::Opaque;
   if (uvMask != 0) {

@@ -17,15 +17,30 @@
 
 namespace gable {
 
-/// Floats of a vertex: position 3, normal 3, tangent 4 if any, 2 for each uv set.
+/// A vertex: position, normal, tangent if any, uv sets. In floats 3, 3, 4 and 2 each; compact, the
+/// position takes 12 bytes, or 8 as integers, normal and tangent 4 each, a uv set 8.
 struct VertexLayout {
+  bool compact = false;
   /// The uv set of the normal map, or -1.
   int tangentSet = -1;
   uint32_t uvCount = 0;
   /// TEXCOORD_n shows uv set uvSets[n].
   uint8_t uvSets[kTextureLayers] = {};
   uint32_t floats() const { return 6 + (tangentSet >= 0 ? 4 : 0) + 2 * uvCount; }
-  uint32_t stride() const { return floats() * 4; }
+  uint32_t positionBytes(bool quantized) const { return quantized ? 8 : 12; }
+  uint32_t normalBytes() const { return compact ? 4 : 12; }
+  uint32_t tangentBytes() const { return tangentSet < 0 ? 0 : compact ? 4 : 16; }
+  uint32_t stride(bool quantized) const {
+    return positionBytes(quantized) + normalBytes() + tangentBytes() + 8 * uvCount;
+  }
+};
+
+/// Positions as steps from a corner: step is a power of two, and low a multiple of it.
+struct VertexGrid {
+  static constexpr double kMostSteps = 65535;
+  bool on = false;
+  Vec3 low;
+  double step = 1;
 };
 
 class GltfMaterials {
@@ -42,6 +57,8 @@ class GltfMaterials {
   /// one.
   uint32_t materialOf(uint32_t variant) const { return variants_[variant].number; }
   const std::vector<ModelTexture>& images() const { return textures_.all(); }
+  /// Whether vertices have integers of KHR_mesh_quantization.
+  bool isCompact() const { return compact_; }
   bool usesTransforms() const { return usesTransforms_; }
 
   /// The members "materials", "textures" and "samplers"; images are up to the caller.
@@ -71,7 +88,7 @@ class GltfMaterials {
   void warnOnce(const std::string& text);
 
   const Scene& scene_;
-  bool keepUv_;
+  bool keepUv_, compact_;
   std::vector<std::string>& warnings_;
   TextureSet textures_;
   std::vector<Variant> variants_;

@@ -33,6 +33,8 @@ constexpr uint32_t kMostVertices = 65535;
 constexpr uint64_t kMostInDocument = 50'000'000;
 // Merged into one unit.
 constexpr double kMostLeaves = 1e8;
+// No grid begins farther from its unit's origin.
+constexpr double kFarthest = 1e6;
 
 // A part of a leaf's mesh: what one slot shows.
 struct Draw {
@@ -67,12 +69,16 @@ class GltfWriter {
  private:
   struct MeshInfo {
     bool known = false;
+    Box3 bounds;
     uint32_t uvMask = 0;
     std::vector<SlotTally> slots;
   };
 
   void planUnits();
+  uint64_t planNodes();
   void makeDraws(uint32_t unit);
+  Box3 boundsOf(const PlannedLeaf& p);
+  VertexGrid gridFor(double largestScale);
   void cutPrimitives(std::vector<GltfPrimitive>& out, std::vector<size_t>* ends);
   const MeshInfo& infoOf(uint32_t mesh);
   uint32_t variantOf(uint32_t material, uint32_t uvMask);
@@ -84,7 +90,7 @@ class GltfWriter {
   void writeUnit(FileWriter& out, VertexWriter& vertices, uint32_t unit);
   void writeIndices(FileWriter& out, const PrimitiveState& state, bool wide);
   void align(FileWriter& out);
-  uint64_t bytesOf(const GltfPrimitive& p) const;
+  uint64_t bytesOf(const GltfPrimitive& p, bool quantized) const;
   void countShown();
 
   void rewriteNodes(const std::vector<bool>& planned);
@@ -118,6 +124,7 @@ const GltfWriter::MeshInfo& GltfWriter::infoOf(uint32_t mesh) {
   if (!info.known) {
     const Mesh& m = *scene_.meshes[mesh];
     info.known = true;
+    info.bounds = m.bounds();
     for (int s = 0; s < kUvSets; ++s) info.uvMask |= m.hasUv(s) ? 1u << s : 0;
     info.slots = slotTallies(m);
   }
@@ -182,20 +189,70 @@ void GltfWriter::cutPrimitives(std::vector<GltfPrimitive>& out, std::vector<size
   if (ends && !draws_.empty()) ends->push_back(draws_.size());
 }
 
+// In the unit's frame, where the leaf's mesh lies: no smaller.
+Box3 GltfWriter::boundsOf(const PlannedLeaf& p) {
+  const Leaf& leaf = scene_.leaves[p.leaf];
+  const Box3& mesh = infoOf(leaf.mesh).bounds;
+  if (p.placement == ScenePlan::kNone || mesh.empty()) return mesh;
+  const Frame at = unit_.placements[p.placement] * leaf.frame;
+  const Vec3 middle = at.point(scaled((mesh.min + mesh.max) * 0.5, leaf.scale));
+  const Vec3 half = scaled((mesh.max - mesh.min) * 0.5, leaf.scale);
+  Vec3 reach;
+  for (size_t i = 0; i < 3; ++i) {
+    reach[i] =
+        std::fabs(at.x[i] * half.x) + std::fabs(at.y[i] * half.y) + std::fabs(at.z[i] * half.z);
+  }
+  Box3 box;
+  box.include(middle - reach);
+  box.include(middle + reach);
+  return box;
+}
+
+// The finest grid that holds the unit at hand; none where a vertex might move too far.
+VertexGrid GltfWriter::gridFor(double largestScale) {
+  if (!materials_.isCompact()) return {};
+  Box3 all;
+  for (const PlannedLeaf& p : unit_.leaves) {
+    const Box3 box = boundsOf(p);
+    if (!box.empty()) all.include(box);
+  }
+  if (all.empty()) return {};
+  double side = 0;
+  for (size_t i = 0; i < 3; ++i) side = std::max(side, all.max[i] - all.min[i]);
+  VertexGrid grid;
+  grid.step = 1.0 / (1 << 20);
+  const double coarsest = 2 * WriteOptions::kMostQuantized / largestScale;
+  // Two steps are for the corner, which is rounded.
+  while (grid.step <= coarsest && side > (VertexGrid::kMostSteps - 2) * grid.step) grid.step *= 2;
+  grid.on = grid.step <= coarsest && length(all.min) < kFarthest;
+  for (size_t i = 0; i < 3; ++i) grid.low[i] = std::floor(all.min[i] / grid.step) * grid.step;
+  return grid;
+}
+
 void GltfWriter::planUnits() {
   const size_t count = plan_.units().size();
   meshInfo_.resize(scene_.meshes.size());
   content_.meshes.resize(count);
+  content_.grids.resize(count);
   content_.instances.resize(count);
+  std::vector<double> largestScale(count, 1);
+  for (const auto& unit : plan_.units()) {
+    for (const PlannedChild& c : unit.children) {
+      for (size_t i = 0; i < 3; ++i) {
+        largestScale[c.unit] = std::max(largestScale[c.unit], std::fabs(c.scale[i]));
+      }
+    }
+  }
   uint64_t bytes = 0;
   for (uint32_t u = 0; u < count; ++u) {
     tooManyLeaves_ = plan_.contentSize(u) > kMostLeaves;
     if (tooManyLeaves_) return;
     makeDraws(u);
     cutPrimitives(content_.meshes[u], nullptr);
+    content_.grids[u] = gridFor(largestScale[u]);
     for (const Draw& d : draws_) {
-      bytes +=
-          uint64_t{d.corners} * materials_.layout(d.variant).stride() + uint64_t{d.triangles} * 6;
+      bytes += uint64_t{d.corners} * materials_.layout(d.variant).stride(content_.grids[u].on) +
+               uint64_t{d.triangles} * 6;
     }
     if (!gpu_) continue;
     for (const auto& g : GltfDocument::groupsOf(plan_, u, true)) {
@@ -253,6 +310,7 @@ void GltfWriter::writeInstances(FileWriter& out, uint32_t unit) {
   for (const auto& g : GltfDocument::groupsOf(plan_, unit, true)) {
     if (g.children.size() < 2) continue;
     content_.instances[unit][next++].offset = out.offset() - bufferStart_;
+    const VertexGrid& grid = content_.grids[g.unit];
     const auto put = [&](std::initializer_list<double> values) {
       for (const double v : values) {
         const auto f = static_cast<float>(v);
@@ -261,7 +319,7 @@ void GltfWriter::writeInstances(FileWriter& out, uint32_t unit) {
       }
     };
     for (const uint32_t c : g.children) {
-      const Vec3& o = children[c].frame.origin;
+      const Vec3 o = GltfDocument::placeOf(children[c], grid);
       put({o.x, o.y, o.z});
     }
     for (const uint32_t c : g.children) {
@@ -269,7 +327,7 @@ void GltfWriter::writeInstances(FileWriter& out, uint32_t unit) {
       put({q[0], q[1], q[2], q[3]});
     }
     for (const uint32_t c : g.children) {
-      const Vec3& s = children[c].scale;
+      const Vec3 s = GltfDocument::scaleOf(children[c].scale, grid);
       put({s.x, s.y, s.z});
     }
   }
@@ -282,6 +340,7 @@ void GltfWriter::writeUnit(FileWriter& out, VertexWriter& vertices, uint32_t uni
   std::vector<size_t> ends;
   cutPrimitives(primitives, &ends);
   PrimitiveState state;
+  state.grid = content_.grids[unit];
   size_t draw = 0;
   for (size_t i = 0; i < primitives.size() && !out.failed(); ++i) {
     GltfPrimitive& p = primitives[i];
@@ -328,8 +387,8 @@ void GltfWriter::writeBuffer(FileWriter& out) {
   }
 }
 
-uint64_t GltfWriter::bytesOf(const GltfPrimitive& p) const {
-  return uint64_t{p.vertexCount} * materials_.layout(p.variant).stride() +
+uint64_t GltfWriter::bytesOf(const GltfPrimitive& p, bool quantized) const {
+  return uint64_t{p.vertexCount} * materials_.layout(p.variant).stride(quantized) +
          uint64_t{p.indexCount} * (p.wideIndices ? 4 : 2);
 }
 
@@ -354,7 +413,7 @@ void GltfWriter::countShown() {
     uint64_t own = 0, bytes = 0;
     for (const GltfPrimitive& p : content_.meshes[u]) {
       own += p.indexCount / 3;
-      bytes += bytesOf(p);
+      bytes += bytesOf(p, content_.grids[u].on);
     }
     if (shown[u] > 1) {
       report_.savedBytes =
@@ -371,9 +430,11 @@ void GltfWriter::countShown() {
 // Units that turned out to have no triangle have no mesh and perhaps no node.
 void GltfWriter::rewriteNodes(const std::vector<bool>& planned) {
   if (meshFlags() == planned) return;
-  document_.planNodes(meshFlags(), gpu_);
+  planNodes();
   document_.writeNodes();
 }
+
+uint64_t GltfWriter::planNodes() { return document_.planNodes(meshFlags(), content_.grids, gpu_); }
 
 Result<WriteReport> GltfWriter::writeGlb() {
   FileWriter out(path_);
@@ -450,7 +511,15 @@ Result<WriteReport> GltfWriter::write() {
                  "generate fewer shapes at a time"};
   }
   if (binary_ && content_.bufferBytes > gltf::kGlbLimit) return tooLarge(content_.bufferBytes);
-  const uint64_t nodes = document_.planNodes(meshFlags(), gpu_);
+  uint64_t nodes = planNodes();
+  const uint64_t most = planFor(options_.instancing).mostNodes;
+  if (materials_.isCompact() && most > 0 && nodes > most) {
+    // Without nodes for meshes beside children.
+    for (uint32_t u = 0; u < plan_.units().size(); ++u) {
+      if (!plan_.units()[u].children.empty()) content_.grids[u].on = false;
+    }
+    nodes = planNodes();
+  }
   if (nodes > kMostInDocument) {
     return Error{"model-too-large",
                  "'" + path_ + "' would have " + std::to_string(nodes) + " nodes",

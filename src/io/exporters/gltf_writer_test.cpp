@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <limits>
+#include <set>
 
 #include "io/exporters/gltf_materials.h"
 #include "io/exporters/quaternion.h"
@@ -80,6 +81,81 @@ TEST(GltfWriter, nodesAreBoundedUnlessEachIsAskedFor) {
   expectSame(all, b.scene);
   EXPECT_EQ(a.nodes, 1u);
   EXPECT_EQ(all.nodes, 22'500u);
+}
+
+WriteOptions compact(WriteOptions::Instancing instancing = WriteOptions::Instancing::Auto) {
+  WriteOptions o;
+  o.vertices = WriteOptions::Vertices::Compact;
+  o.instancing = instancing;
+  return o;
+}
+
+// Of the triangles in one order, how far a corner lies from where it lies in the other file.
+double farthestApart(const GlbModel& a, const GlbModel& b) {
+  EXPECT_EQ(a.triangles.size(), b.triangles.size());
+  double most = 0;
+  for (size_t i = 0; i < std::min(a.triangles.size(), b.triangles.size()); ++i) {
+    for (size_t k = 0; k < 3; ++k) {
+      const Vec3 d = a.triangles[i].p[k] - b.triangles[i].p[k];
+      most = std::max({most, std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)});
+      EXPECT_GT(dot(a.triangles[i].normal[k], b.triangles[i].normal[k]),
+                0.9998 * length(b.triangles[i].normal[k]));
+    }
+  }
+  return most;
+}
+
+TEST(GltfWriter, compactVerticesStayWithinHalfAMillimetre) {
+  const Scene s = street(5);
+  for (const auto way : {WriteOptions::Instancing::Auto, WriteOptions::Instancing::Gpu}) {
+    WriteOptions wide;
+    wide.instancing = way;
+    const GlbModel full = roundTrip(s, "street-wide.glb", wide);
+    const GlbModel m = roundTrip(s, "street-compact.glb", compact(way));
+    EXPECT_LT(farthestApart(full, m), WriteOptions::kMostQuantized + 1e-5);
+    EXPECT_EQ(m.json["extensionsRequired"].items().back().text(), "KHR_mesh_quantization");
+  }
+}
+
+TEST(GltfWriter, compactMeshesBesideChildrenHaveANodeOfTheirOwn) {
+  const auto wide = roundTrip(street(5), "street-wide.glb");
+  const auto m = roundTrip(street(5), "street-compact.glb", compact());
+  EXPECT_GT(m.nodes, wide.nodes);
+  for (const JsonValue& n : m.json["nodes"].items()) {
+    EXPECT_FALSE(n["mesh"].isNumber() && n["children"].size() > 0 && n["scale"].size() > 0);
+  }
+}
+
+TEST(GltfWriter, compactPositionsOfWideMeshesStayFloats) {
+  SceneBuilder b;
+  b.leaf(kUnitBox, Frame{}, {90, 1, 1});
+  b.leaf(kUnitBox, testing::turned(30, {500, 2, 0}), {1, 2, 3});
+  b.root("wide", b.prototype("Wide"), Frame::moved({1e5, 0, -1e5}));
+  for (int i = 0; i < 3; ++i) {
+    b.leaf(kUnitBox, testing::turned(20.0 * i, {-30, 1, 0}), {-8, 2, 0.01});
+    b.root("small", b.prototype("Small"), testing::turned(75, {0, 0, 20.0 * i}));
+  }
+  const GlbModel wide = roundTrip(b.scene, "compact-wide-float.glb");
+  const GlbModel m = roundTrip(b.scene, "compact-wide.glb", compact());
+  EXPECT_LT(farthestApart(wide, m), 0.01);
+  std::set<int> components;
+  for (const JsonValue& a : m.json["accessors"].items()) {
+    if (a["min"].size() == 3) components.insert(static_cast<int>(a["componentType"].number(0)));
+  }
+  EXPECT_EQ(components, (std::set<int>{5123, 5126}));
+}
+
+TEST(GltfWriter, compactFilesKeepWithinTheBoundOnNodes) {
+  SceneBuilder b;
+  for (int i = 0; i < 3; ++i) b.leaf(kUnitBox, Frame::moved({0, 2.0 * i, 0}), {1, 1, 1});
+  const uint32_t post = b.prototype("Post");
+  for (int i = 0; i < 9000; ++i) {
+    b.leaf(kUnitBox, Frame{}, {1, 1, 1 + 0.001 * i});
+    b.instance(post, Frame::moved({0, 0, 3}));
+    b.root("house", b.prototype("House"), Frame::moved({5.0 * i, 0, 0}));
+  }
+  const GlbModel m = roundTrip(b.scene, "compact-bounded.glb", compact());
+  EXPECT_EQ(m.nodes, 18'000u);
 }
 
 TEST(GltfWriter, nodesAreNamedAfterShapesAndRules) {

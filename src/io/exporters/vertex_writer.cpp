@@ -20,6 +20,48 @@ float* put(float* p, const Vec3& v) {
   return p + 3;
 }
 
+void setOnGrid(float* p, const VertexGrid& grid) {
+  for (size_t i = 0; i < 3; ++i) {
+    // Told apart later: faces with such a number are left out.
+    if (!std::isfinite(p[i])) continue;
+    const double steps = std::round((double{p[i]} - grid.low[i]) / grid.step);
+    p[i] = static_cast<float>(std::clamp(steps, 0.0, VertexGrid::kMostSteps));
+  }
+}
+
+char* putSteps(char* to, const float* position) {
+  uint16_t q[4]{};
+  for (size_t i = 0; i < 3; ++i) q[i] = static_cast<uint16_t>(position[i]);
+  std::memcpy(to, q, 8);
+  return to + 8;
+}
+
+// A direction in bytes; the fourth is the sense of a tangent, or zero.
+char* putBytes(char* to, const float* v, size_t count) {
+  int8_t q[4]{};
+  for (size_t i = 0; i < count; ++i) {
+    q[i] = static_cast<int8_t>(std::round(std::clamp(v[i], -1.0f, 1.0f) * 127));
+  }
+  std::memcpy(to, q, 4);
+  return to + 4;
+}
+
+// Corners of a box, and the normals of its sides, as they are written.
+template <size_t kPosition, size_t kNormal, class Box>
+char* fillBox(char* p, const Box& box, const char (&corners)[8][12], const char (&normals)[6][12],
+              bool uv) {
+  for (size_t v = 0; v < 24; ++v) {
+    std::memcpy(p, corners[box.corner[v]], kPosition);
+    std::memcpy(p + kPosition, normals[box.side[v]], kNormal);
+    p += kPosition + kNormal;
+    if (uv) {
+      std::memcpy(p, box.uv[v].data(), 8);
+      p += 8;
+    }
+  }
+  return p;
+}
+
 // Differences and products of floats are exact in double precision or at least keep their sign, so
 // the area is zero exactly when the triangle has none. False for NaN.
 bool hasArea(const float* a, const float* b, const float* c) {
@@ -99,36 +141,40 @@ bool VertexWriter::addBox(uint32_t mesh, const Frame& frame, const Vec3& scale,
   const double reach = std::fabs(frame.origin.x) + std::fabs(frame.origin.y) +
                        std::fabs(frame.origin.z) + size.x + size.y + size.z;
   const double thin = std::min(std::min(size.x, size.y), size.z);
+  const VertexGrid& grid = state.grid;
   if (!(thin > 1e-6 * reach) || !(reach < 1e18)) return false;
+  if (grid.on && thin < 4 * grid.step) return false;
 
   // A mirrored box is the box from its other corner.
   const Vec3 low{std::min(scale.x, 0.0), std::min(scale.y, 0.0), std::min(scale.z, 0.0)};
   const Vec3 high{std::max(scale.x, 0.0), std::max(scale.y, 0.0), std::max(scale.z, 0.0)};
-  float corners[8][3];
+  char corners[8][12];
   for (unsigned i = 0; i < 8; ++i) {
-    put(corners[i],
-        frame.point({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z}));
-    include(state, corners[i]);
+    float at[3];
+    put(at, frame.point({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z}));
+    if (grid.on) setOnGrid(at, grid);
+    include(state, at);
+    if (grid.on)
+      putSteps(corners[i], at);
+    else
+      std::memcpy(corners[i], at, 12);
   }
-  float normals[6][3];
-  for (unsigned i = 0; i < 3; ++i) {
-    const Vec3& axis = i == 0 ? frame.x : i == 1 ? frame.y : frame.z;
-    put(normals[2 * i], -axis);
-    put(normals[2 * i + 1], axis);
+  char normals[6][12];
+  for (unsigned i = 0; i < 6; ++i) {
+    const Vec3& axis = i < 2 ? frame.x : i < 4 ? frame.y : frame.z;
+    float n[3];
+    put(n, i & 1 ? axis : -axis);
+    if (layout.compact)
+      putBytes(normals[i], n, 3);
+    else
+      std::memcpy(normals[i], n, 12);
   }
   const BoxTemplate& box = boxes_[mesh == kUnitBoxUv ? 1 : 0];
   const bool uv = layout.uvCount == 1;
-  char* p = out_.reserve(24 * (uv ? 32 : 24));
-  for (size_t v = 0; v < 24; ++v) {
-    std::memcpy(p, corners[box.corner[v]], 12);
-    std::memcpy(p + 12, normals[box.side[v]], 12);
-    p += 24;
-    if (uv) {
-      std::memcpy(p, box.uv[v].data(), 8);
-      p += 8;
-    }
-  }
-  out_.advanceTo(p);
+  char* const to = out_.reserve(24 * size_t{layout.stride(grid.on)});
+  out_.advanceTo(grid.on          ? fillBox<8, 4>(to, box, corners, normals, uv)
+                 : layout.compact ? fillBox<12, 4>(to, box, corners, normals, uv)
+                                  : fillBox<12, 12>(to, box, corners, normals, uv));
   const uint32_t base = state.vertexCount;
   const size_t first = state.indices.size();
   state.indices.resize(first + 36);
@@ -185,14 +231,51 @@ void VertexWriter::add(uint32_t mesh, uint16_t slot, const Frame& frame, const V
   }
 }
 
+// Vertices in floats become what the layout says.
+void VertexWriter::append(const float* vertices, uint32_t count, const VertexLayout& layout,
+                          bool quantized) {
+  if (!layout.compact) {
+    out_.append(vertices, size_t{count} * layout.stride(false));
+    return;
+  }
+  const size_t uvFloats = 2 * size_t{layout.uvCount}, stride = layout.stride(quantized);
+  // A mesh may have any number of vertices in one face.
+  constexpr uint32_t kAtOnce = 1024;
+  for (uint32_t done = 0; done < count;) {
+    const uint32_t end = done + std::min(kAtOnce, count - done);
+    char* p = out_.reserve((end - done) * stride);
+    for (; done < end; ++done) {
+      if (quantized) {
+        p = putSteps(p, vertices);
+      } else {
+        std::memcpy(p, vertices, 12);
+        p += 12;
+      }
+      p = putBytes(p, vertices + 3, 3);
+      vertices += 6;
+      if (layout.tangentSet >= 0) {
+        p = putBytes(p, vertices, 4);
+        vertices += 4;
+      }
+      std::memcpy(p, vertices, uvFloats * 4);
+      p += uvFloats * 4;
+      vertices += uvFloats;
+    }
+    out_.advanceTo(p);
+  }
+}
+
 const float* VertexWriter::writeVertices(const Mesh& m, const Surface& s, const Tangents* tangents,
-                                         const SurfaceFace& face, const VertexLayout& layout) {
+                                         const SurfaceFace& face, const VertexLayout& layout,
+                                         const VertexGrid& grid) {
   scratch_.resize(static_cast<size_t>(face.vertexCount) * layout.floats());
   float* p = scratch_.data();
   Vec3 localNormal, normal;
   for (uint32_t v = face.firstVertex; v < face.firstVertex + face.vertexCount; ++v) {
     const uint32_t corner = s.corners[v];
-    p = put(p, frame_.point(scaled(m.at(corner), scale_)));
+    put(p, frame_.point(scaled(m.at(corner), scale_)));
+    if (grid.on) setOnGrid(p, grid);
+    p += 3;
     if (v == face.firstVertex || s.normals[v] != localNormal) {
       localNormal = s.normals[v];
       normal = frame_.direction(scaledNormal(localNormal, scale_));
@@ -218,7 +301,7 @@ const float* VertexWriter::writeVertices(const Mesh& m, const Surface& s, const 
 void VertexWriter::addFace(const Mesh& m, const Surface& s, const Tangents* tangents,
                            const SurfaceFace& face, const VertexLayout& layout,
                            PrimitiveState& state) {
-  const float* vertices = writeVertices(m, s, tangents, face, layout);
+  const float* vertices = writeVertices(m, s, tangents, face, layout, state.grid);
   if (!std::all_of(scratch_.begin(), scratch_.end(), [](float f) { return std::isfinite(f); })) {
     ++brokenFaces_;
     return;
@@ -238,7 +321,7 @@ void VertexWriter::addFace(const Mesh& m, const Surface& s, const Tangents* tang
   }
   if (state.indices.size() == first) return;
   for (uint32_t v = 0; v < face.vertexCount; ++v) include(state, vertices + v * floats);
-  out_.append(vertices, face.vertexCount * layout.stride());
+  append(vertices, face.vertexCount, layout, state.grid.on);
   state.vertexCount += face.vertexCount;
 }
 

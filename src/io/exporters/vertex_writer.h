@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Turns leaves into interleaved single-precision vertices and triangle indices, straight into the
-// buffer of the file. Triangles without area in those numbers, and faces with a number that is not
-// finite, are left out; mirrored leaves are turned round. Boxes have a way of their own, as most
-// leaves are boxes.
+// Turns leaves into interleaved vertices and triangle indices, straight into the buffer of the
+// file. Positions are single precision, or whole steps of a grid. Triangles without area in those
+// numbers, and faces with a number that is not finite, are left out; mirrored leaves are turned
+// round. Boxes have a way of their own, as most leaves are boxes.
 #pragma once
 
 #include <array>
@@ -24,9 +24,12 @@ namespace gable {
 
 /// What has been written of one primitive so far.
 struct PrimitiveState {
+  VertexGrid grid;
   uint32_t vertexCount = 0;
   std::vector<uint32_t> indices;
+  /// As they are written: steps on a grid.
   std::array<float, 3> min, max;
+  /// All but the grid.
   void clear() {
     vertexCount = 0;
     indices.clear();
@@ -63,12 +66,14 @@ class VertexWriter {
   };
 
   static BoxTemplate boxTemplate(const Mesh& m);
+  void append(const float* vertices, uint32_t count, const VertexLayout& layout, bool quantized);
   bool addBox(uint32_t mesh, const Frame& frame, const Vec3& scale, const VertexLayout& layout,
               PrimitiveState& state);
   void addFace(const Mesh& m, const Surface& s, const Tangents* tangents, const SurfaceFace& face,
                const VertexLayout& layout, PrimitiveState& state);
   const float* writeVertices(const Mesh& m, const Surface& s, const Tangents* tangents,
-                             const SurfaceFace& face, const VertexLayout& layout);
+                             const SurfaceFace& face, const VertexLayout& layout,
+                             const VertexGrid& grid);
   CachedSurface& surfaceOf(uint32_t mesh);
 
   const Scene& scene_;

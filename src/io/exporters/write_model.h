@@ -41,7 +41,19 @@ struct WriteOptions {
   };
   static constexpr uint64_t kMostNodes = 20'000;
   Instancing instancing = Instancing::Auto;
-  /// Keep uv set 0 on surfaces whose material has no texture.
+  /// glTF: what a vertex takes.
+  enum class Vertices : uint8_t {
+    /// Single precision.
+    Float,
+    /// Integers of KHR_mesh_quantization: normals and tangents in bytes, positions in 16 bits where
+    /// a mesh is small enough that no vertex moves by more than kMostQuantized along an axis; no uv
+    /// sets but those of textures.
+    Compact,
+  };
+  /// In metres, half a step.
+  static constexpr double kMostQuantized = 1.0 / 2048;
+  Vertices vertices = Vertices::Float;
+  /// Keep uv set 0 on surfaces whose material has no texture, unless vertices are compact.
   bool keepUv = true;
 };
 

@@ -114,6 +114,26 @@ struct GlbModel {
     return reinterpret_cast<const float*>(buffer() + at + i * (stride ? stride : packed));
   }
 
+  // A vector of floats or of the integers of KHR_mesh_quantization.
+  Vec3 vector(const JsonValue& number, size_t i) const {
+    const JsonValue& a = accessor(number);
+    size_t stride = 0;
+    const char* at = buffer() + place(a, stride) + i * stride;
+    const auto read = [&](auto unit, size_t k) {
+      std::memcpy(&unit, at + k * sizeof unit, sizeof unit);
+      return static_cast<double>(unit);
+    };
+    Vec3 v;
+    for (size_t k = 0; k < 3; ++k) {
+      switch (static_cast<int>(a["componentType"].number(0))) {
+        case 5120: v[k] = read(int8_t{}, k) / 127; break;
+        case 5123: v[k] = read(uint16_t{}, k); break;
+        default: v[k] = read(float{}, k);
+      }
+    }
+    return v;
+  }
+
   void addMesh(const JsonValue& node, const Frame& world, const Vec3& scale) {
     const JsonValue& mesh = json["meshes"].at(index(node["mesh"]));
     for (const JsonValue& p : mesh["primitives"].items()) addPrimitive(p, world, scale);
@@ -125,7 +145,7 @@ struct GlbModel {
     ASSERT_EQ(count % 3, 0u);
     ASSERT_GT(count, 0u);
     size_t stride = 0;
-    const char* at = buffer() + place(indices, stride);
+    const char* indexed = buffer() + place(indices, stride);
     const bool wide = indices["componentType"].number(0) == 5125;
     const bool mirrors = scale.x * scale.y * scale.z < 0;
     for (size_t i = 0; i < count; i += 3) {
@@ -133,14 +153,15 @@ struct GlbModel {
       t.material = static_cast<int>(index(p["material"]));
       for (size_t k = 0; k < 3; ++k) {
         uint32_t v = 0;
-        std::memcpy(&v, at + (i + k) * (wide ? 4 : 2), wide ? 4 : 2);
-        const float* f = floats(p["attributes"]["POSITION"], v, 12);
-        const float* n = floats(p["attributes"]["NORMAL"], v, 12);
-        ASSERT_TRUE(std::isfinite(f[0]) && std::isfinite(f[1]) && std::isfinite(f[2]));
-        ASSERT_NEAR(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1, 1e-5);
+        std::memcpy(&v, indexed + (i + k) * (wide ? 4 : 2), wide ? 4 : 2);
+        const Vec3 at = vector(p["attributes"]["POSITION"], v);
+        const Vec3 normal = vector(p["attributes"]["NORMAL"], v);
+        const bool coarse = accessor(p["attributes"]["NORMAL"])["componentType"].number(0) == 5120;
+        ASSERT_TRUE(std::isfinite(at.x) && std::isfinite(at.y) && std::isfinite(at.z));
+        ASSERT_NEAR(dot(normal, normal), 1, coarse ? 0.02 : 1e-5);
         const size_t to = mirrors ? 2 - k : k;
-        t.p[to] = world.point(scaled({f[0], f[1], f[2]}, scale));
-        t.normal[to] = world.direction({n[0], n[1], n[2]});
+        t.p[to] = world.point(scaled(at, scale));
+        t.normal[to] = world.direction(normal);
         bounds.include(t.p[to]);
       }
       const Vec3 n = cross(t.p[1] - t.p[0], t.p[2] - t.p[0]);
