@@ -46,9 +46,12 @@ struct Draw {
 
 using Instancing = WriteOptions::Instancing;
 
-PlanOptions planFor(Instancing instancing) {
-  return {instancing != Instancing::None,
-          instancing == Instancing::Auto ? WriteOptions::kMostNodes : 0};
+PlanOptions planFor(const WriteOptions& options) {
+  // As wide as a grid of the coarsest steps reaches, but for the steps that rounding may take.
+  constexpr double kWidest = (VertexGrid::kMostSteps - 4) * 2 * WriteOptions::kMostQuantized;
+  return {options.instancing != Instancing::None,
+          options.instancing == Instancing::Auto ? WriteOptions::kMostNodes : 0,
+          options.vertices == WriteOptions::Vertices::Compact ? kWidest : 0};
 }
 
 class GltfWriter {
@@ -58,7 +61,7 @@ class GltfWriter {
         path_(path),
         binary_(extensionOf(path) == "glb"),
         options_(options),
-        plan_(scene, planFor(options.instancing)),
+        plan_(scene, planFor(options)),
         gpu_(options.instancing == Instancing::Gpu || plan_.grouped()),
         materials_(scene, options, report_.warnings),
         document_(scene, plan_, materials_),
@@ -193,19 +196,8 @@ void GltfWriter::cutPrimitives(std::vector<GltfPrimitive>& out, std::vector<size
 Box3 GltfWriter::boundsOf(const PlannedLeaf& p) {
   const Leaf& leaf = scene_.leaves[p.leaf];
   const Box3& mesh = infoOf(leaf.mesh).bounds;
-  if (p.placement == ScenePlan::kNone || mesh.empty()) return mesh;
-  const Frame at = unit_.placements[p.placement] * leaf.frame;
-  const Vec3 middle = at.point(scaled((mesh.min + mesh.max) * 0.5, leaf.scale));
-  const Vec3 half = scaled((mesh.max - mesh.min) * 0.5, leaf.scale);
-  Vec3 reach;
-  for (size_t i = 0; i < 3; ++i) {
-    reach[i] =
-        std::fabs(at.x[i] * half.x) + std::fabs(at.y[i] * half.y) + std::fabs(at.z[i] * half.z);
-  }
-  Box3 box;
-  box.include(middle - reach);
-  box.include(middle + reach);
-  return box;
+  if (p.placement == ScenePlan::kNone) return mesh;
+  return boundsAt(mesh, unit_.placements[p.placement] * leaf.frame, leaf.scale);
 }
 
 // The finest grid that holds the unit at hand; none where a vertex might move too far.
@@ -512,7 +504,7 @@ Result<WriteReport> GltfWriter::write() {
   }
   if (binary_ && content_.bufferBytes > gltf::kGlbLimit) return tooLarge(content_.bufferBytes);
   uint64_t nodes = planNodes();
-  const uint64_t most = planFor(options_.instancing).mostNodes;
+  const uint64_t most = planFor(options_).mostNodes;
   if (materials_.isCompact() && most > 0 && nodes > most) {
     // Without nodes for meshes beside children.
     for (uint32_t u = 0; u < plan_.units().size(); ++u) {

@@ -13,11 +13,15 @@
 // A prototype placed once is merged into the unit around it. A prototype placed several times takes
 // its own children in when writing them again costs less than the nodes for each placement.
 //
+// Where meshes are to stay small in space, what is merged into a wide unit that is shown once is
+// cut into the cells of a grid: units of their own, with nodes below that of the unit.
+//
 // A bound on nodes decides what is small: a node that shows a prototype of b bytes once more saves
 // b bytes, so those that save least are merged first.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "scene/scene.h"
@@ -54,7 +58,12 @@ struct PlanOptions {
   bool share = true;
   /// So many nodes at most; 0 for any number.
   uint64_t mostNodes = 0;
+  /// Units that are wider, in metres, are cut into cells; 0 for none.
+  double widest = 0;
 };
+
+/// The box of a placed mesh, no smaller than the mesh.
+Box3 boundsAt(const Box3& mesh, const Frame& at, const Vec3& scale);
 
 struct UnitContent {
   std::vector<Frame> placements;
@@ -71,6 +80,8 @@ class ScenePlan {
     /// True when everything below is merged in.
     bool solid = false;
     std::vector<PlannedChild> children;
+    /// Of a unit that was cut, and of its cells: what is left, by number.
+    uint32_t content = kNone;
   };
 
   /// Linear in the scene, instances of merged prototypes expanded.
@@ -111,6 +122,9 @@ class ScenePlan {
   void fit(double mostNodes);
   void measureContents();
   void makeUnits();
+  void cutWideUnits(double widest, double mostNodes);
+  void cut(uint32_t unit, double widest, size_t mostCells);
+  Box3 boundsOf(const PlannedLeaf& leaf, const UnitContent& content);
   std::vector<PlannedChild> childrenOf(const Unit& unit) const;
   void walk(uint32_t prototype, const Frame& frame, bool solid, UnitContent* content,
             std::vector<PlannedChild>* children) const;
@@ -146,6 +160,9 @@ class ScenePlan {
   std::vector<uint32_t> prototypeUnit_;
   std::vector<Unit> units_;
   std::vector<PlannedRoot> roots_;
+  std::vector<UnitContent> contents_;
+  /// By mesh, once asked for.
+  std::vector<std::optional<Box3>> meshBounds_;
 };
 
 }  // namespace gable

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "io/exporters/surface.h"
 #include "io/testing/scenes.h"
 
@@ -36,8 +38,8 @@ uint64_t shownNodes(const ScenePlan& plan, uint32_t unit) {
 }
 
 void expectWhole(const Scene& s) {
-  const PlanOptions shared, bounded{true, 40}, tight{true, 1}, flat{false, 0};
-  for (const PlanOptions& options : {shared, bounded, tight, flat}) {
+  const PlanOptions shared, bounded{true, 40}, tight{true, 1}, flat{false, 0}, cut{true, 40, 20};
+  for (const PlanOptions& options : {shared, bounded, tight, flat, cut}) {
     const ScenePlan plan(s, options);
     uint64_t n = 0, nodes = 0;
     for (const PlannedRoot& r : plan.roots()) {
@@ -72,6 +74,38 @@ TEST(Plan, whatStandsOftenIsAUnitUnlessTiny) {
   ASSERT_EQ(plan.units().size(), 2u);
   EXPECT_EQ(plan.units()[0].children.size(), 20u);
   expectWhole(b.scene);
+}
+
+TEST(Plan, wideUnitsAreCutIntoCells) {
+  SceneBuilder b;
+  for (int i = 0; i < 4000; ++i) {
+    b.leaf(kUnitBox, Frame::moved({i % 100 * 2.0 - 90, i % 7 * 1.0, i / 100 * 5.0}), {1, 1, 1});
+  }
+  b.leaf(kUnitBox, Frame{}, {300, 1, 1});
+  const uint32_t field = b.prototype("Field");
+  b.root("field", field, testing::turned(30, {1e4, 0, 0}));
+  const ScenePlan plan(b.scene, {true, 0, 64});
+  ASSERT_GT(plan.units().size(), 9u);
+  EXPECT_EQ(shownLeaves(plan, 0), 4001u);
+  for (uint32_t u = 0; u < plan.units().size(); ++u) {
+    UnitContent content;
+    plan.collect(u, content);
+    EXPECT_EQ(plan.units()[u].children.empty(), u > 0);
+    Box3 box;
+    for (const PlannedLeaf& p : content.leaves) {
+      const Leaf& leaf = b.scene.leaves[p.leaf];
+      const Box3 unit = b.scene.meshes[leaf.mesh]->bounds();
+      box.include(boundsAt(unit, content.placements[p.placement] * leaf.frame, leaf.scale));
+    }
+    const Vec3 size = box.size();
+    if (u > 0) EXPECT_LE(std::max({size.x, size.y, size.z}), 64);
+    if (u == 0) EXPECT_EQ(size.x, 300);
+  }
+  // Too few nodes, a unit that is shown twice, and what is narrow.
+  EXPECT_EQ(ScenePlan(b.scene, {true, 3, 64}).units().size(), 1u);
+  EXPECT_EQ(ScenePlan(b.scene, {true, 0, 1000}).units().size(), 1u);
+  b.root("field", field, Frame{});
+  EXPECT_EQ(ScenePlan(b.scene, {true, 0, 64}).units().size(), 1u);
 }
 
 TEST(Plan, equalRootsShareTheirUnitAndTakeInWhatIsBelow) {
