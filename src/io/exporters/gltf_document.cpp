@@ -20,10 +20,9 @@ namespace {
 
 using namespace gltf;
 
-// The widest texts that a number in its place can have.
-constexpr uint64_t kWidestOffset = 18'446'744'073'709'551'615u;
-constexpr uint32_t kWidestCount = 4'294'967'295u;
+// The widest text that a coordinate can have.
 constexpr float kWidestFloat = -1.17549435e-38f;
+constexpr float kWidestStep = static_cast<float>(VertexGrid::kMostSteps);
 
 void writeRounded(JsonWriter& w, double v, int decimals) {
   char text[kNumberRoom];
@@ -42,9 +41,9 @@ void writeSteps(JsonWriter& w, const Vec3& v) {
   w.endArray();
 }
 
-void writeFloats(JsonWriter& w, const char* name, const std::array<float, 3>& v, bool roomy) {
+void writeFloats(JsonWriter& w, const char* name, const std::array<float, 3>& v) {
   w.key(name).beginArray();
-  for (const float f : v) w.value(roomy ? kWidestFloat : f);
+  for (const float f : v) w.value(f);
   w.endArray();
 }
 
@@ -320,17 +319,19 @@ void GltfDocument::writeAccessors(JsonWriter& w, const GltfContent& content, boo
   }
   for (size_t u = 0; u < content.meshes.size(); ++u) {
     const bool onGrid = content.grids[u].on;
+    std::array<float, 3> widest;
+    widest.fill(onGrid ? kWidestStep : kWidestFloat);
     for (const GltfPrimitive& p : content.meshes[u]) {
       if (p.indexCount == 0) continue;
       const VertexLayout& l = materials_.layout(p.variant);
-      const uint32_t count = roomy ? kWidestCount : p.vertexCount;
+      const uint32_t count = p.vertexCount;
       uint32_t offset = 0;
       const auto attribute = [&](const char* type, int component, uint32_t bytes) {
         begin(view, offset, component, count, type);
         if (component == kByte) w.field("normalized", true);
         if (offset == 0) {
-          writeFloats(w, "min", p.min, roomy);
-          writeFloats(w, "max", p.max, roomy);
+          writeFloats(w, "min", roomy ? widest : p.min);
+          writeFloats(w, "max", roomy ? widest : p.max);
         }
         w.endObject();
         offset += bytes;
@@ -340,8 +341,7 @@ void GltfDocument::writeAccessors(JsonWriter& w, const GltfContent& content, boo
       attribute("VEC3", direction, l.normalBytes());
       if (l.tangentSet >= 0) attribute("VEC4", direction, l.tangentBytes());
       for (uint32_t i = 0; i < l.uvCount; ++i) attribute("VEC2", kFloat, 8);
-      begin(view + 1, 0, p.wideIndices ? kUnsignedInt : kUnsignedShort,
-            roomy ? kWidestCount : p.indexCount, "SCALAR");
+      begin(view + 1, 0, p.wideIndices ? kUnsignedInt : kUnsignedShort, p.indexCount, "SCALAR");
       w.endObject();
       view += 2;
     }
@@ -355,8 +355,8 @@ void GltfDocument::writeViews(JsonWriter& w, const GltfContent& content, bool ro
     if (!any) w.key("bufferViews").beginArray();
     any = true;
     w.beginObject().field("buffer", 0);
-    w.field("byteOffset", roomy ? kWidestOffset : offset);
-    w.field("byteLength", roomy ? kWidestOffset : bytes);
+    w.field("byteOffset", roomy ? content.bufferBytes : offset);
+    w.field("byteLength", bytes);
     if (stride) w.field("byteStride", stride);
     if (target) w.field("target", target);
     w.endObject();
@@ -438,7 +438,7 @@ std::string GltfDocument::text(const GltfContent& content, bool roomy) const {
   if (content.bufferBytes > 0) {
     w.key("buffers").beginArray().beginObject();
     if (!content.bufferUri.empty()) w.field("uri", content.bufferUri);
-    w.field("byteLength", roomy ? kWidestOffset : content.bufferBytes);
+    w.field("byteLength", content.bufferBytes);
     w.endObject().endArray();
   }
   w.endObject();

@@ -66,7 +66,8 @@ class GltfDocument {
   /// Nodes depend on nothing but which units have a mesh.
   void writeNodes();
   /// The whole text. With `roomy`, numbers that are not known yet take as much room as they can
-  /// ever need, so that the final text is not longer.
+  /// ever need, so that the final text is not longer: the content then has the most that its counts
+  /// and bytes can become.
   std::string text(const GltfContent& content, bool roomy) const;
 
   /// Children of a unit that one node can show together: equal units without children of their own,

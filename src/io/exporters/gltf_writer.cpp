@@ -181,12 +181,15 @@ void GltfWriter::cutPrimitives(std::vector<GltfPrimitive>& out, std::vector<size
       if (i > 0 && ends) ends->push_back(i);
       GltfPrimitive p;
       p.variant = d.variant;
-      // Until it is written: more than nothing.
+      // Until it is written: the most it can have, and more than nothing.
       p.indexCount = 3;
       out.push_back(p);
       corners = 0;
     }
     corners += d.corners;
+    out.back().vertexCount = static_cast<uint32_t>(std::min<uint64_t>(corners, UINT32_MAX));
+    out.back().indexCount = static_cast<uint32_t>(std::min<uint64_t>(
+        uint64_t{out.back().indexCount} + 3 * uint64_t{d.triangles}, UINT32_MAX));
     out.back().wideIndices = corners > kMostVertices;
   }
   if (ends && !draws_.empty()) ends->push_back(draws_.size());
@@ -246,6 +249,8 @@ void GltfWriter::planUnits() {
       bytes += uint64_t{d.corners} * materials_.layout(d.variant).stride(content_.grids[u].on) +
                uint64_t{d.triangles} * 6;
     }
+    // Each ends with up to three bytes of padding.
+    bytes += 4 * content_.meshes[u].size();
     if (!gpu_) continue;
     for (const auto& g : GltfDocument::groupsOf(plan_, u, true)) {
       if (g.children.size() > 1) {
@@ -255,7 +260,7 @@ void GltfWriter::planUnits() {
     }
   }
   content_.bufferBytes = bytes;
-  for (const ModelTexture& t : materials_.images()) content_.bufferBytes += t.bytes.size();
+  for (const ModelTexture& t : materials_.images()) content_.bufferBytes += t.bytes.size() + 4;
 }
 
 Error GltfWriter::tooLarge(uint64_t bytes) const {
@@ -508,7 +513,13 @@ Result<WriteReport> GltfWriter::write() {
   if (materials_.isCompact() && most > 0 && nodes > most) {
     // Without nodes for meshes beside children.
     for (uint32_t u = 0; u < plan_.units().size(); ++u) {
-      if (!plan_.units()[u].children.empty()) content_.grids[u].on = false;
+      if (plan_.units()[u].children.empty() || !content_.grids[u].on) continue;
+      content_.grids[u].on = false;
+      for (const GltfPrimitive& p : content_.meshes[u]) {
+        const VertexLayout& layout = materials_.layout(p.variant);
+        content_.bufferBytes +=
+            uint64_t{p.vertexCount} * (layout.stride(false) - layout.stride(true));
+      }
     }
     nodes = planNodes();
   }
