@@ -7,6 +7,8 @@
 #include <set>
 
 #include "base/number.h"
+#include "lang/lexer.h"
+#include "lang/parser.h"
 #include "lang/region_texts.h"
 
 namespace gable::lang {
@@ -139,6 +141,15 @@ std::vector<std::string> headsOf(const std::vector<FigureChoice>& choices) {
   return out;
 }
 
+/// Whether a list of arguments can be read: texts held what nobody wrote into a rule.
+bool reads(const std::string& list) {
+  const std::string text = "const c = f(" + list + ")";
+  Diagnostics unheard;
+  const Tokens tokens = tokenize(text, 0, unheard);
+  parse(text, 0, tokens, unheard);
+  return !unheard.hasErrors();
+}
+
 class Rewriter {
  public:
   Rewriter(const Tree& t, NodeId call, std::string_view source)
@@ -208,6 +219,7 @@ class Rewriter {
     std::string list;
     for (const std::string& p : positional_) list += (list.empty() ? "" : ", ") + p;
     for (const std::string& p : named_) list += (list.empty() ? "" : ", ") + p;
+    if (!reads(list + parts_)) return {};
     const Span from = t_.span(arguments_.front()),
                to = t_.span(byName_.empty() ? arguments_.back() : byName_.back());
     edits_.insert(edits_.begin(), {from.begin, to.end, list});
@@ -369,6 +381,13 @@ class Rewriter {
     } else {
       choices = figureChoices(old);
     }
+    for (const FigureChoice& c : choices) {
+      std::string condition = c.condition;
+      if (condition.starts_with("case")) condition.erase(0, 4);
+      for (const std::string& part : {c.figure, condition, c.chance}) {
+        if (!part.empty()) parts_ += ", " + part;
+      }
+    }
     const std::vector<std::string> heads = headsOf(choices);
     ok_ = ok_ && !heads.empty();
     if (!ok_) return;
@@ -442,7 +461,7 @@ class Rewriter {
       if (open == std::string::npos || end <= at) return {};
       RegionTexts texts;
       std::string one = texts.figure(figures.substr(at, end - at));
-      if (one.empty()) return {};
+      if (one.empty() || !reads(one)) return {};
       if (free) one.insert(one.size() - 1, ", free");
       block += (block.empty() ? " { " : " | ") + one + " Part.";
       at = end;
@@ -509,6 +528,8 @@ class Rewriter {
   std::vector<std::string> positional_, named_;
   std::vector<TextEdit> edits_;
   std::string radius_;
+  // Figures and what chooses among them, behind a comma each.
+  std::string parts_;
   bool ok_ = true, gap_ = false;
 };
 

@@ -108,11 +108,14 @@ TEST(OldRegions, CallsAreRewritten) {
   EXPECT_EQ(modern("A --> peel(\"W\", 1, smooth = none) { strip : B }"),
             "A --> peel(side(west), 1, smooth = none) { strip : B }");
   // What cannot be said exactly stays, and so do calls of the author's own rules.
-  const char* const left[] = {
-      "A --> peel(\"outer &\", 1) { strip : B }", "A --> peel(\"outer\")\npeel(x) --> B",
-      "A --> romb(3) B\nromb(r) --> C", "A --> grid(2, 2, 1, \"romb(3)\") { all : B }",
-      "A --> grid(2, 2, 1, \"romb(3) | circle(2)\") "
-      "{ junction : 50% : B else : C }"};
+  const char* const left[] = {"A --> peel(\"outer &\", 1) { strip : B }",
+                              "A --> peel(\"outer\")\npeel(x) --> B",
+                              "A --> romb(3) B\nromb(r) --> C",
+                              "A --> grid(2, 2, 1, \"romb(3)\") { all : B }",
+                              "A --> scatterCircles(2, \"3 a[-1,1]\") { B }",
+                              "A --> grid(2, 2, 1, \"circle(2 3)\") { junction : B }",
+                              "A --> grid(2, 2, 1, \"romb(3) | circle(2)\") "
+                              "{ junction : 50% : B else : C }"};
   for (const char* text : left) EXPECT_EQ(modern(text), text);
 }
 

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "base/most_diagnostics.h"
 #include "gable/limits.h"
 #include "gable/trace.h"
 #include "program/program.h"
@@ -26,9 +27,6 @@
 #include "shape/shape.h"
 
 namespace gable {
-
-/// Of the warnings of a derivation so many are kept, the first in path order, and as many errors.
-inline constexpr size_t kMostDiagnostics = 1000;
 
 struct InitialShape {
   std::string name;

@@ -11,6 +11,7 @@
 
 #include "base/allowance.h"
 #include "base/json.h"
+#include "base/most_diagnostics.h"
 #include "base/number.h"
 #include "base/text.h"
 #include "base/work.h"
@@ -38,7 +39,6 @@ constexpr double kWidestPolygon = 0.2;
 // More than once around the Earth.
 constexpr double kFarthest = 1e8;
 constexpr int kDeepestCollection = 16;
-constexpr size_t kMostDiagnostics = 100;
 
 struct Feature {
   const JsonValue* geometry = nullptr;

@@ -6,8 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
-#include <functional>
 #include <map>
 
 #include "lang/parser.h"
@@ -556,41 +554,6 @@ TEST(Analyse, importsTakeAStyle) {
   EXPECT_CLEAN(a);
   const RuleInfo& r = a.rule("i.Lot");
   EXPECT_EQ(a.sources.locate(1, a.program.tree(r.module).span(r.node).begin).line, 3u);
-}
-
-// Ten thousand of a kind, each naming the one before. Quadratic time took 40 seconds for styles.
-TEST(Analyse, manyOfAKindTakeLinearTime) {
-  constexpr int kMany = 10000;
-  struct Kind {
-    const char* first;
-    std::function<std::string(const std::string& own, const std::string& before)> next;
-  };
-  const Kind kinds[] = {
-      {"style S0\n", [](auto& i, auto& j) { return "style S" + i + " extends S" + j + "\n"; }},
-      {"attr a = 0 style S0\n", [](auto& i, auto&) { return "style S" + i + " attr a = 1\n"; }},
-      {"A0 --> X.\n", [](auto& i, auto& j) { return "A" + i + " --> A" + j + "\n"; }},
-      {"A0 --> X.\n", [](auto& i, auto&) { return "Wall" + i + " --> Wal" + i + "\n"; }},
-      {"attr a0 = 0\n", [](auto& i, auto& j) { return "attr a" + i + " = a" + j + " + 1\n"; }},
-      {"const a0 = 0\n", [](auto& i, auto& j) { return "const a" + i + " = a" + j + " + 1\n"; }},
-      {"f0(x) = x\n", [](auto& i, auto& j) { return "f" + i + "(x) = f" + j + "(x)\n"; }},
-      {"R(p0", [](auto& i, auto&) { return ", p" + i; }}};
-  for (const Kind& kind : kinds) {
-    std::string text = kind.first;
-    for (int i = 1; i < kMany; ++i) text += kind.next(std::to_string(i), std::to_string(i - 1));
-    text += kind.first[0] == 'R' ? ") --> X.\n" : "";
-    const auto start = std::chrono::steady_clock::now();
-    const Analysed a("Lot --> X.\n" + text);
-    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 8)
-        << text.substr(0, 60);
-    EXPECT_FALSE(a.diagnostics.hasErrors()) << text.substr(0, 60);
-  }
-}
-
-TEST(Analyse, styleCyclesAreFoundWhereTheyAre) {
-  EXPECT_EQ(Analysed("Lot --> X.\nstyle A extends B\nstyle B extends C\nstyle C extends A\n"
-                     "style D extends A\nstyle E\nstyle F extends E")
-                .problems(),
-            "2:17 style-cycle\n3:17 style-cycle\n4:17 style-cycle\n5:17 style-cycle\n");
 }
 
 TEST(Analyse, stylesOfImportsCanBeChosen) {

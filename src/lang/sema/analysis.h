@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "base/most_diagnostics.h"
 #include "base/text.h"
 #include "lang/sema/analyse.h"
 #include "lang/sema/resolved.h"
@@ -33,8 +34,6 @@ inline constexpr size_t kMaxModules = 2000;
 /// Bounds the work where large files are imported many times.
 inline constexpr size_t kMaxModuleNodes = 8'000'000;
 inline constexpr size_t kMaxUnits = 1000;
-
-inline constexpr size_t kMostDiagnostics = 1000;
 
 /// What a module offers by name. Keys are views of the texts of its tree.
 struct Scope {
