@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
 #include <functional>
 #include <string>
 
@@ -15,6 +15,13 @@
 
 namespace gable::lang {
 namespace {
+
+// Of this thread: others may keep the machine busy.
+double processorSeconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
 
 void analysed(const std::string& text, Diagnostics& diagnostics) {
   Sources sources;
@@ -45,11 +52,10 @@ TEST(Many, manyOfAKindTakeLinearTime) {
     std::string text = kind.first;
     for (int i = 1; i < kMany; ++i) text += kind.next(std::to_string(i), std::to_string(i - 1));
     text += kind.first[0] == 'R' ? ") --> X.\n" : "";
-    const auto start = std::chrono::steady_clock::now();
+    const double start = processorSeconds();
     Diagnostics diagnostics;
     analysed("Lot --> X.\n" + text, diagnostics);
-    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 8)
-        << text.substr(0, 60);
+    EXPECT_LT(processorSeconds() - start, 8) << text.substr(0, 60);
     EXPECT_FALSE(diagnostics.hasErrors()) << text.substr(0, 60);
   }
 }
