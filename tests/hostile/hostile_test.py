@@ -661,5 +661,29 @@ class Project(Case):
             self.run_gable(command, rules, "-o", out, *more, status=(0, 1, 3), seconds=60, megabytes=4000)
 
 
+class Attack(Case):
+    """Random programs that once ended the program, had no end, or wrote numbers that are none, in today's notation;
+    `zero` keeps a number that no operation takes from the analysis. The number of a file says how it is run."""
+
+    def testWhatOnceBrokeItEnds(self):
+        programs = sorted((Path(__file__).parent / "attack").glob("*.cga"))
+        self.assertEqual(len(programs), 36)
+        shutil.copytree(programs[0].parent, self.folder / "rules")
+        for program in programs:
+            number = int(program.stem)
+            rules = f"rules/{program.name}"
+            self.run_gable("check", rules)
+            shapes = ("--lot", "30x24") if number % 2 == 0 else ("--shapes", "rules/shapes.geojson")
+            shared = ("--no-sharing",) if number % 5 == 0 else ()
+            model = f"models/{number}.{'obj' if number % 3 == 0 else 'glb'}"
+            (self.folder / "models").mkdir(exist_ok=True)
+            # 4: a limit was met, and said so.
+            self.run_gable("generate", rules, *shapes, *shared, "--max-seconds", "3", "--max-memory", "1200",
+                           "--max-shapes", "100000", "--jobs", "2", "-o", model, status=(0, 4))
+        checker = Path(__file__).parents[1] / "written" / "model_check.py"
+        done = subprocess.run([sys.executable, "-B", checker, self.folder / "models"], capture_output=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout.decode(errors="replace")[:3000])
+
+
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0]] + sys.argv[3:4], verbosity=1)
