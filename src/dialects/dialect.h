@@ -73,6 +73,8 @@ struct Dialect {
   const char* hiddenReason = nullptr;
   /// In place of a hint that names words of Gable's own language and has no remedy.
   const char* guide = "";
+  /// Words behind which a name is declared that is no rule: "fun Edge", "R floors".
+  std::span<const char* const> declaring = {};
 };
 
 /// All dialects, by name.

@@ -272,6 +272,15 @@ std::optional<Hover> hoverAt(Library& library, const std::string& path, const Pa
   std::string text;
   if (const auto declared = declarationOfName(*s, *n)) {
     text = declarationCard(*s, declared->first, declared->second);
+  } else if (parsed.dialect) {
+    // What is no rule is explained by the line that declares it.
+    const auto first = std::find_if(names.begin(), names.end(), [&](const Name& d) {
+      return d.declaration && d.word == n->word;
+    });
+    if (first == names.end()) return std::nullopt;
+    const std::string_view all = parsed.text.content();
+    const size_t begin = parsed.text.lineStart(parsed.text.lineOf(first->begin));
+    text = quoted(firstLines(all.substr(begin, all.find_first_of("\r\n", begin) - begin)));
   } else if (n->space == Space::Rule) {
     text = "`" + std::string(n->word) + "`: a leaf. No rule has this name.";
   } else {

@@ -319,7 +319,12 @@ class Collector {
   std::vector<Name> out_;
 };
 
-// Another notation: what the tree declares by a word of the text, and that word wherever it stands.
+bool isOneOf(std::span<const char* const> words, std::string_view word) {
+  return std::any_of(words.begin(), words.end(), [&](const char* w) { return word == w; });
+}
+
+// Another notation: what the tree declares by a word of the text or what stands behind a word that
+// declares, and that word wherever it stands.
 std::vector<Name> namesOfDialect(const Snapshot& snapshot, uint32_t unit, const Dialect& dialect) {
   const Tree& t = snapshot.tree(unit);
   const std::string_view text = snapshot.text(unit);
@@ -332,8 +337,19 @@ std::vector<Name> namesOfDialect(const Snapshot& snapshot, uint32_t unit, const 
     const uint32_t quote = begin < text.size() && text[begin] == '"' ? 1 : 0;
     if (text.substr(begin + quote, word.size()) == word) declared[word].insert(begin + quote);
   }
+  const std::vector<Word> words = wordsOf(text, dialect.hashComments);
+  std::map<std::string_view, std::set<uint32_t>> besides;
+  bool declaring = false;
+  for (const Word& w : words) {
+    const std::string_view word = text.substr(w.begin, w.end - w.begin);
+    const bool name = w.kind == WordKind::Name;
+    if (declaring && name && declared.count(word) == 0) besides[word].insert(w.begin);
+    declaring = (name && !declaring && isOneOf(dialect.declaring, word)) ||
+                (declaring && (w.kind == WordKind::Comment || word == "*"));
+  }
+  declared.merge(besides);
   std::vector<Name> out;
-  for (const Word& w : wordsOf(text, dialect.hashComments)) {
+  for (const Word& w : words) {
     if (w.kind != WordKind::Name && w.kind != WordKind::String) continue;
     const uint32_t quote = w.kind == WordKind::String ? 1 : 0;
     if (w.end - w.begin <= 2 * quote) continue;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "language/service.h"
 #include "language/words.h"
@@ -179,6 +180,36 @@ std::vector<std::string> colorTextsOf(const Parsed& parsed, const Color& color) 
           "\"" + hex + "\""};
 }
 
+namespace {
+
+// Trees of other notations know where a declaration begins. It goes on to the last word before the
+// next one.
+void foldDeclarations(const Parsed& parsed, std::vector<Fold>& out) {
+  const std::string_view text = parsed.text.content();
+  std::set<uint32_t> begins;
+  for (const Declared& d : declaredIn(parsed.tree)) {
+    if (writtenAt(text, parsed.tree, d.node)) begins.insert(parsed.tree[d.node].begin);
+  }
+  std::optional<uint32_t> first;
+  uint32_t last = 0;
+  const auto put = [&] {
+    if (first && parsed.text.lineOf(last) > *first) {
+      out.push_back({*first, parsed.text.lineOf(last), Fold::Kind::Code});
+    }
+  };
+  for (const Word& w : wordsOf(text, parsed.dialect->hashComments)) {
+    if (w.kind == WordKind::Comment) continue;
+    if (begins.count(w.begin) != 0) {
+      put();
+      first = parsed.text.lineOf(w.begin);
+    }
+    last = w.end;
+  }
+  put();
+}
+
+}  // namespace
+
 std::vector<Fold> foldsOf(const Parsed& parsed) {
   const std::string_view text = parsed.text.content();
   std::vector<Fold> out;
@@ -218,6 +249,7 @@ std::vector<Fold> foldsOf(const Parsed& parsed) {
     }
   }
   endRun();
+  if (parsed.dialect) foldDeclarations(parsed, out);
   std::optional<uint32_t> firstImport;
   uint32_t lastImport = 0;
   for (const Declared& d : declaredIn(parsed.tree)) {

@@ -526,6 +526,45 @@ TEST(Dialects, carryOutHints) {
   }
 }
 
+TEST(Dialects, knowNamesThatAreNoRules) {
+  struct Case {
+    std::string file, text, word;
+    size_t uses;
+  };
+  const Case cases[] = {
+      {"a.grammar", "A -> R floors ( 2 4 ) S ( floors 1 1 ) I ( Cube 0 )\n", "floors", 2},
+      {"a.grammar", "A -> R* floors ( 2 4 ) S ( floors 1 1 ) I ( Cube 0 )\n", "floors", 2},
+      {"a.park", "Park -> Edge(2)\nfun Edge(d) -> Peel(OUTER, d) { A | B }\nA -> RED\n", "Edge", 2},
+      {"a.park", "Wide = 2\nPark -> Peel(OUTER, Wide) { A | B }\nA -> RED\n", "Wide", 2},
+      {"a.gbbg", "axiom S size (9, 9, 9)\nshape S\nterminal Wall\nS -> Repeat(X) {Wall}\n", "Wall",
+       2},
+  };
+  for (const auto& [file, text, word, uses] : cases) {
+    Workspace w;
+    const std::string path = "/nowhere/" + file;
+    w.open(path, text);
+    const size_t last = text.rfind(word);
+    const size_t line = text.rfind('\n', last);
+    const auto lines = static_cast<uint32_t>(std::count(text.begin(), text.begin() + last, '\n'));
+    const Position at{lines, static_cast<uint32_t>(last - (line == text.npos ? 0 : line + 1))};
+    EXPECT_EQ(w.references(path, at, true).size(), uses) << text;
+    EXPECT_EQ(w.definition(path, at).size(), 1u) << text;
+    const std::optional<Hover> hover = w.hover(path, at);
+    ASSERT_TRUE(hover) << text;
+    EXPECT_NE(hover->text.find(word), std::string::npos) << text;
+    EXPECT_EQ(hover->text.find("a leaf"), std::string::npos) << text;
+    EXPECT_TRUE(w.rename(path, at, "Other").ok) << text;
+  }
+}
+
+TEST(Dialects, foldRulesOfSeveralLines) {
+  Workspace w;
+  w.open("/nowhere/a.park", "Park ->\n  case (ix == 1): RED\n  else: BLUE\n\nB -> RED\n");
+  const std::vector<Fold> folds = w.folds("/nowhere/a.park");
+  ASSERT_EQ(folds.size(), 1u);
+  EXPECT_EQ(folds[0].endLine, 2u);
+}
+
 TEST(Dialects, explainTheirWords) {
   // The sentence of a word is its own, or that of an operation which there is.
   for (const char* path : {"/nowhere/a.gbbg", "/nowhere/a.park", "/nowhere/a.grammar"}) {

@@ -135,6 +135,8 @@ std::string formatGbbg(const Sources& sources, uint32_t file, Diagnostics& diagn
 }
 
 constexpr const char* kExtensions[] = {".gbbg"};
+// Names that are no rules.
+constexpr const char* kDeclaring[] = {"shape", "terminal"};
 
 constexpr Remedy kRemedies[] = {
     {"endless-rule", "let one of the shapes be terminal: 'terminal NAME'"},
@@ -156,6 +158,6 @@ const Dialect kGbbgDialect = {"gbbg",
                               true,
                               gbbg::words,
                               nullptr,
-                              "see the guide to GBBG, docs/guide/gbbg.md"};
+                              "see the guide to GBBG, docs/guide/gbbg.md", kDeclaring};
 
 }  // namespace gable

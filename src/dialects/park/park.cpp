@@ -36,6 +36,8 @@ constexpr Remedy kRemedies[] = {
 };
 
 constexpr const char* kExtensions[] = {".park"};
+// Names that are no rules.
+constexpr const char* kDeclaring[] = {"fun"};
 
 }  // namespace
 
@@ -49,6 +51,6 @@ const Dialect kParkDialect{"park",
                            false,
                            park::words,
                            nullptr,
-                           "see the guide to park grammars, docs/guide/park.md"};
+                           "see the guide to park grammars, docs/guide/park.md", kDeclaring};
 
 }  // namespace gable

@@ -47,6 +47,8 @@ constexpr Remedy kRemedies[] = {
 };
 
 constexpr const char* kExtensions[] = {".grammar", ".pg3d"};
+// Names that are no rules.
+constexpr const char* kDeclaring[] = {"R"};
 
 }  // namespace
 
@@ -60,6 +62,6 @@ const Dialect kProgen3d{"progen3d",
                         false,
                         progen3d::words,
                         "is drawn anew by each rule that has it in its head, or counts turns",
-                        "see the guide to ProGen3d, docs/guide/progen3d.md"};
+                        "see the guide to ProGen3d, docs/guide/progen3d.md", kDeclaring};
 
 }  // namespace gable
