@@ -12,10 +12,10 @@
 #include <map>
 #include <queue>
 
+#include "base/measure.h"
 #include "base/work.h"
 #include "city/ribbon.h"
 #include "city/surface.h"
-#include "city/tag_values.h"
 
 namespace gable {
 namespace {
@@ -40,7 +40,7 @@ struct Kind {
 };
 
 double layerOf(const MapFeature& f) {
-  const double layer = tagNumber(f.tag("layer")).value_or(1);
+  const double layer = writtenNumber(f.tag("layer")).value_or(1);
   return std::clamp(layer == 0 ? 1 : layer, -1.0, kMostLayers);
 }
 

@@ -9,11 +9,11 @@
 #include <set>
 #include <tuple>
 
+#include "base/measure.h"
 #include "base/work.h"
 #include "city/buildings.h"
+#include "city/grid_point.h"
 #include "city/surface.h"
-#include "city/tag_values.h"
-#include "geom/region/cell_grid.h"
 
 namespace gable {
 namespace {
@@ -40,7 +40,7 @@ bool isUse(const MapFeature& f) {
 }
 bool isShop(const MapFeature& f) {
   // On another floor.
-  if (tagNumber(f.tag("level")).value_or(0) != 0) return false;
+  if (writtenNumber(f.tag("level")).value_or(0) != 0) return false;
   const std::string_view amenity = f.tag("amenity");
   return isTrue(f.tag("shop")) || isTrue(f.tag("craft")) ||
          std::find(std::begin(kOpen), std::end(kOpen), amenity) != std::end(kOpen);
@@ -106,11 +106,6 @@ class Outlines {
   }
 
  private:
-  static GridPoint gridPoint(Vec2 p) {
-    constexpr double kMost = 1e8;
-    return {static_cast<int64_t>(std::floor(std::clamp(p.x, -kMost, kMost))),
-            static_cast<int64_t>(std::floor(std::clamp(p.y, -kMost, kMost)))};
-  }
   static bool isInside(const MapFeature& f, Vec2 p) {
     bool inside = false;
     for (const Ring& r : f.rings) {

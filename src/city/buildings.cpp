@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/measure.h"
 #include "base/work.h"
+#include "city/grid_point.h"
 #include "city/surface.h"
-#include "city/tag_values.h"
-#include "geom/region/cell_grid.h"
 
 namespace gable {
 namespace {
@@ -32,9 +32,9 @@ double areaOf(const MapFeature& f) {
 }
 
 double levelsOf(const MapFeature& f) {
-  const double levels = tagNumber(f.tag("building:levels")).value_or(0);
+  const double levels = writtenNumber(f.tag("building:levels")).value_or(0);
   if (levels > 0 && levels < 200) return levels;
-  const double height = tagMetres(f.tag("height")).value_or(0);
+  const double height = writtenMetres(f.tag("height")).value_or(0);
   return height > 0 && height < 900 ? std::max(1.0, std::round(height / kStorey)) : 0;
 }
 
@@ -65,11 +65,6 @@ class Near {
   }
 
  private:
-  static GridPoint gridPoint(Vec2 p) {
-    constexpr double kMost = 1e8;
-    return {static_cast<int64_t>(std::clamp(p.x, -kMost, kMost)),
-            static_cast<int64_t>(std::clamp(p.y, -kMost, kMost))};
-  }
   CellGrid make() const {
     GridPoint low{0, 0}, high{0, 0};
     for (size_t k = 0; k < numbers_.size(); ++k) {

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/measure.h"
 #include "base/work.h"
 #include "city/coast.h"
+#include "city/grid_point.h"
 #include "city/ribbon.h"
-#include "city/tag_values.h"
-#include "geom/region/cell_grid.h"
 #include "geom/region/locator.h"
 #include "geom/region/overlay.h"
 
@@ -125,7 +125,7 @@ std::optional<LineGround> lineGroundOf(const MapFeature& f, bool anywhere) {
   constexpr double kNarrowest = 0.5, kWidest = 500;
   for (const Usual& u : kUsual) {
     if (f.tag(u.key) != u.value) continue;
-    const double width = tagMetres(f.tag("width")).value_or(0);
+    const double width = writtenMetres(f.tag("width")).value_or(0);
     return LineGround{u.surface, width >= kNarrowest && width <= kWidest ? width : u.width};
   }
   return std::nullopt;
@@ -177,9 +177,6 @@ struct GroundIndex::Cells {
               }),
         locators(g.size()) {}
 
-  static GridPoint gridPoint(Vec2 p) {
-    return {static_cast<int64_t>(std::floor(p.x)), static_cast<int64_t>(std::floor(p.y))};
-  }
   static Box2 boxOf(const std::vector<GroundPiece>& g) {
     Box2 box;
     for (const GroundPiece& p : g) {
@@ -205,7 +202,7 @@ GroundIndex::~GroundIndex() = default;
 uint32_t GroundIndex::pieceAt(Vec2 p) {
   Cells& c = *cells_;
   if (!c.area.contains(p)) return kNothing;
-  const size_t cell = c.grid.cellOf(Cells::gridPoint(p));
+  const size_t cell = c.grid.cellOf(gridPoint(p));
   for (const uint32_t* i = c.lists.begin(cell); i != c.lists.end(cell); ++i) {
     std::unique_ptr<Locator>& locator = c.locators[*i];
     if (!locator) locator = std::make_unique<Locator>(c.ground[*i].polygon);

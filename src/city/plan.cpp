@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "base/json.h"
+#include "base/measure.h"
 #include "base/work.h"
 #include "city/bridges.h"
 #include "city/building_kind.h"
@@ -402,7 +403,7 @@ class Planner {
     const MapFeature& f = map_.features[feature];
     const bool part = isBuildingPart(f);
     if (leftOut_[feature] || (!part && (!isBuilding(f) || isOnGround(f)))) return;
-    if (tagNumber(f.tag("layer")).value_or(0) < 0 || f.tag("location") == "underground") return;
+    if (writtenNumber(f.tag("layer")).value_or(0) < 0 || f.tag("location") == "underground") return;
     const bool roof = f.tag("building") == "roof" || f.tag("building:part") == "roof";
     for (const Polygon& p : repaired(f.rings, FillRule::EvenOdd)) {
       if (area(p) < kLeastPart) continue;
@@ -643,8 +644,8 @@ bool liesOnGround(std::string_view rule) {
   for (size_t s = 0; s < kSurfaceCount; ++s) {
     if (rule == surfaceName(static_cast<Surface>(s))) return true;
   }
-  constexpr std::string_view kLying[] = {"Kerb",    "Street",  "Crossing", "Rails",
-                                         "TreeRow", "Barrier", "Tree",     "StreetLamp",
+  constexpr std::string_view kLying[] = {"Kerb",    "Street",     "Crossing", "Rails",
+                                         "TreeRow", "Barrier",    "Tree",     "StreetLamp",
                                          "SoilRim", "ParkingLane"};
   return std::find(std::begin(kLying), std::end(kLying), rule) != std::end(kLying);
 }

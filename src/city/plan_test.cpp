@@ -327,12 +327,12 @@ TEST(CityPlan, BuildingsAtTheBorderAreWholeOrNotThere) {
 }
 
 TEST(CityPlan, CarsCanStandAlongKerbsOnly) {
-  auto map = mapOf(
-      {feature(R"("highway":"residential","parking:left":"no","width":"7","id":"w")", "LineString",
-               "[[0,100],[60,100],[100,100],[200,100]]"),
-       feature(R"("highway":"residential","id":"x")", "LineString", "[[100,0],[100,100]]"),
-       feature(R"("highway":"crossing")", "Point", "[60,100]"),
-       feature(R"("building":"yes")", "Polygon", square(150, 90, 8))});
+  auto map =
+      mapOf({feature(R"("highway":"residential","parking:left":"no","width":"7","id":"w")",
+                     "LineString", "[[0,100],[60,100],[100,100],[200,100]]"),
+             feature(R"("highway":"residential","id":"x")", "LineString", "[[100,0],[100,100]]"),
+             feature(R"("highway":"crossing")", "Point", "[60,100]"),
+             feature(R"("building":"yes")", "Polygon", square(150, 90, 8))});
   ASSERT_TRUE(map.ok());
   CityPlan plan = planCity(*map);
   GroundIndex index(plan.ground);

@@ -18,9 +18,9 @@
 #include <queue>
 
 #include "base/work.h"
+#include "city/grid_point.h"
 #include "city/ground.h"
 #include "city/ribbon.h"
-#include "geom/region/cell_grid.h"
 
 namespace gable {
 namespace {
@@ -80,13 +80,14 @@ class GraphMaker {
         along += l;
         continue;
       }
+      if (static_cast<double>(graph.places.size()) >= kMostSamples) return;
       const auto steps = static_cast<int>(std::clamp(std::ceil(l / kSample), 1.0, 1e4));
       if (last == kNone) last = shared(a);
       for (int k = 1; k <= steps; ++k) {
         work();
         const double t = static_cast<double>(k) / steps;
         const uint32_t next = k == steps ? shared(b) : sample(a + (b - a) * t);
-        if (next != last && static_cast<double>(graph.edges.size()) < kMostSamples) {
+        if (next != last) {
           const double slope = slopeAt(along + l * (t - 0.5 / steps));
           graph.edges.push_back({last, next, slope, half, weight});
         }
@@ -179,12 +180,6 @@ std::vector<double> bounded(const Graph& g, double sign) {
     }
   }
   return out;
-}
-
-GridPoint gridPoint(Vec2 p) {
-  constexpr double kMost = 1e8;
-  return {static_cast<int64_t>(std::clamp(std::floor(p.x), -kMost, kMost)),
-          static_cast<int64_t>(std::clamp(std::floor(p.y), -kMost, kMost))};
 }
 
 Graph graded(const HeightField& field, const std::vector<MapFeature>& features,

@@ -10,9 +10,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/measure.h"
 #include "base/work.h"
 #include "city/ribbon.h"
-#include "city/tag_values.h"
 #include "geom/curve/curve.h"
 #include "math/trig.h"
 
@@ -332,11 +332,11 @@ std::optional<StreetProfile> streetProfileOf(const MapFeature& f, bool anywhere)
   out.oneway = oneway == "yes" || oneway == "1" || oneway == "-1" || highway == "motorway" ||
                f.tag("junction") == "roundabout";
   out.lanes = out.oneway ? std::max(1, usual->lanes / 2) : usual->lanes;
-  const double lanes = tagNumber(f.tag("lanes")).value_or(0);
+  const double lanes = writtenNumber(f.tag("lanes")).value_or(0);
   if (lanes >= 1 && lanes <= 16) out.lanes = static_cast<int>(lanes);
   // A single lane has room for what stops in it.
   out.width = out.lanes * usual->lane + (out.lanes == 1 && usual->walk > 0 ? 1 : 0);
-  const double width = tagMetres(f.tag("width")).value_or(0);
+  const double width = writtenMetres(f.tag("width")).value_or(0);
   if (width >= kNarrowest && width <= kWidest) out.width = width;
   const bool walks = usual->walk > 0 && out.rank > 1;
   const double walk = std::max(usual->walk, 1.5);

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "city/tag_values.h"
+#include "base/measure.h"
 
 namespace gable {
 namespace {
@@ -93,7 +93,7 @@ bool isOnGround(const MapFeature& f) {
   if (kind == "roof" || f.tag("parking") == "underground" || f.tag("parking") == "multi-storey") {
     return false;
   }
-  return tagNumber(f.tag("layer")).value_or(0) == 0;
+  return writtenNumber(f.tag("layer")).value_or(0) == 0;
 }
 
 std::optional<Surface> surfaceOfArea(const MapFeature& f) {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Numbers as tags of a map write them (https://wiki.openstreetmap.org/wiki/Map_features/Units),
-// and what in a map seems to be meant otherwise than it is written: values that are no numbers
-// where numbers belong, and names of tags that are nearly those that a place is made from.
-//
-// A number is taken whole or not at all: "6 floors", "2-3" and "4;5" are none.
+// What in a map seems to be meant otherwise than it is written: values that are no numbers where
+// numbers belong (base/measure.h), and names of tags that are nearly those that a place is made
+// from.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +16,6 @@
 #include "io/importers/map_features.h"
 
 namespace gable {
-
-/// A number without a unit: "3", "-1", "5.5" and, with a comma, "5,5".
-std::optional<double> tagNumber(std::string_view text);
-
-/// A length in metres: a number alone, or with m, cm, km, mi, ft, in or their whole names; feet and
-/// inches as 12'6" or 12 ft 6 in.
-std::optional<double> tagMetres(std::string_view text);
 
 /// Whether the values of a tag must be numbers.
 bool isNumberTag(std::string_view key);

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/measure.h"
+
 namespace gable {
 namespace {
 
@@ -32,23 +34,23 @@ TEST(TagValues, LengthsAreReadWithTheirUnits) {
                                                     {"0.2 km", 200},
                                                     {"1 mi", 1609.344}};
   for (const auto& [text, metres] : lengths) {
-    const auto read = tagMetres(text);
+    const auto read = writtenMetres(text);
     ASSERT_TRUE(read) << text;
     EXPECT_NEAR(*read, metres, 1e-9) << text;
   }
   for (const char* text :
        {"", " ", "m", "6 floors", "3-5", "4;5", "~15", "3 m 2", "1,200", "1.2.3", "12'13\"",
         "12'6 m", "3 m 6 in", "1e3", "--3", "'", "nan", "0x10", "3,"}) {
-    EXPECT_FALSE(tagMetres(text)) << text;
+    EXPECT_FALSE(writtenMetres(text)) << text;
   }
 }
 
 TEST(TagValues, CountsHaveNoUnit) {
-  EXPECT_EQ(tagNumber("5.5"), 5.5);
-  EXPECT_EQ(tagNumber("5,5"), 5.5);
-  EXPECT_EQ(tagNumber("-1"), -1);
+  EXPECT_EQ(writtenNumber("5.5"), 5.5);
+  EXPECT_EQ(writtenNumber("5,5"), 5.5);
+  EXPECT_EQ(writtenNumber("-1"), -1);
   for (const char* text : {"3 m", "12'", "two", "4;5", "2-3", "6 floors"}) {
-    EXPECT_FALSE(tagNumber(text)) << text;
+    EXPECT_FALSE(writtenNumber(text)) << text;
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace gable {
@@ -20,12 +21,6 @@ Box2 boxAround(const std::vector<Vec3>& points) {
 }
 
 }  // namespace
-
-GridPoint TerrainSurface::gridPoint(Vec2 p) {
-  constexpr double kMost = 1e8;
-  return {static_cast<int64_t>(std::clamp(std::floor(p.x), -kMost, kMost)),
-          static_cast<int64_t>(std::clamp(std::floor(p.y), -kMost, kMost))};
-}
 
 Box2 TerrainSurface::boxOf(uint32_t facet) const {
   Box2 box;
@@ -86,12 +81,31 @@ uint32_t TerrainSurface::facetAt(Vec2 p) const {
   return kNothing;
 }
 
+double TerrainSurface::nearestHeight(Vec2 p) const {
+  const Vec2 size = area_.size();
+  const double whole = std::max(size.x, size.y) + 1;
+  double nearest = std::numeric_limits<double>::infinity(), height = 0;
+  for (double reach = 0.01; !std::isfinite(nearest) && reach < 8 * whole; reach *= 8) {
+    Box2 box;
+    box.include(p - Vec2{reach, reach});
+    box.include(p + Vec2{reach, reach});
+    near(box, [&](uint32_t facet) {
+      for (const uint32_t i : facets_[facet].points) {
+        const double distance = length(flat(i) - p);
+        if (!(distance < nearest)) continue;
+        nearest = distance;
+        height = points_[i].z;
+      }
+    });
+  }
+  return height;
+}
+
 double TerrainSurface::heightAt(Vec2 p) const {
   const Vec2 q{std::clamp(p.x, area_.min.x, area_.max.x),
                std::clamp(p.y, area_.min.y, area_.max.y)};
   const uint32_t facet = facetAt(q);
-  if (facet != kNothing) return heightOn(facet, q);
-  return points_.empty() ? 0 : points_[0].z;
+  return facet != kNothing ? heightOn(facet, q) : nearestHeight(q);
 }
 
 }  // namespace gable

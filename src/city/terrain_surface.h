@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-#include "geom/region/cell_grid.h"
+#include "city/grid_point.h"
 #include "math/box.h"
 #include "math/vec.h"
 
@@ -43,7 +43,7 @@ class TerrainSurface {
 
   /// kNothing outside of the place.
   uint32_t facetAt(Vec2 p) const;
-  /// Outside of the place: the height of its nearest corner there is in that direction, about.
+  /// Outside of the place: that of the nearest place of its box.
   double heightAt(Vec2 p) const;
   /// Of the plane of a facet.
   double heightOn(uint32_t facet, Vec2 p) const;
@@ -77,8 +77,9 @@ class TerrainSurface {
   }
 
  private:
-  static GridPoint gridPoint(Vec2 p);
   Box2 boxOf(uint32_t facet) const;
+  // In a crack between facets: of a corner of those around it.
+  double nearestHeight(Vec2 p) const;
   Vec2 flat(uint32_t point) const { return {points_[point].x, points_[point].y}; }
 
   std::vector<Vec3> points_;

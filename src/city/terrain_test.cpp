@@ -328,6 +328,16 @@ TEST(Terrain, SoilCanBeLeftOut) {
   }
 }
 
+TEST(Terrain, InACrackTheGroundIsThatAroundIt) {
+  const std::vector<Vec3> points{{0, 0, 100}, {10, 0, 1},  {0, 10, 2},
+                                 {90, 90, 7}, {99, 90, 8}, {90, 99, 9}};
+  const TerrainSurface surface(points, {{{0, 1, 2}, 0}, {{3, 4, 5}, 1}},
+                               {{0, 1, 0, 3}, {1, 1, 3, 3}});
+  EXPECT_EQ(surface.facetAt({60, 60}), TerrainSurface::kNothing);
+  EXPECT_EQ(surface.heightAt({60, 60}), 7);
+  EXPECT_EQ(surface.heightAt({11, 1}), 1);
+}
+
 TEST(Terrain, HugePlacesEnd) {
   const std::string text =
       R"({"type":"FeatureCollection","crs":{"properties":{"name":"EPSG:32632"}},"features":[)" +

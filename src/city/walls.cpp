@@ -10,8 +10,8 @@
 #include <iterator>
 #include <optional>
 
+#include "base/measure.h"
 #include "base/work.h"
-#include "city/tag_values.h"
 #include "geom/region/clean.h"
 #include "math/trig.h"
 
@@ -167,7 +167,7 @@ std::optional<double> compassDegrees(std::string_view text) {
   for (size_t i = 0; i < std::size(kPoints); ++i) {
     if (text == kPoints[i]) return 22.5 * static_cast<double>(i);
   }
-  const auto number = tagNumber(text);
+  const auto number = writtenNumber(text);
   return number && std::fabs(*number) <= 720 ? number : std::nullopt;
 }
 

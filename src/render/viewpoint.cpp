@@ -176,7 +176,8 @@ Camera standardCamera(const Subject& subject, const RenderOptions& options, cons
     case PictureView::Street: {
       Camera camera;
       const bool tower = isTower(subject);
-      const double halfWidth = given > 0 ? given : lens(tall > 60 && !tower && !isPlace(subject) ? 20 : 26);
+      const double halfWidth =
+          given > 0 ? given : lens(tall > 60 && !tower && !isPlace(subject) ? 20 : 26);
       if (!tower && findStandpoint(subject, light, halfWidth, aspect, camera)) return camera;
       camera = cameraTowards(toFront - 30, 0);
       camera.halfWidth = halfWidth;

@@ -3,7 +3,10 @@
 
 #include "runtime/attribute_values.h"
 
-#include <charconv>
+#include <optional>
+
+#include "base/measure.h"
+#include "base/number.h"
 
 namespace gable {
 
@@ -18,10 +21,10 @@ bool convert(const Value& v, ValueType wanted, const ValuePool& pool, Value& out
   if (wanted == ValueType::Float && v.type == ValueType::String) {
     const std::string_view text = pool.text(v.id);
     double number = 0;
-    const auto r = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (r.ec != std::errc() || text.empty()) return false;
-    out = Value::of(number);
-    return true;
+    const std::optional<double> metres =
+        parseNumber(text, number) ? std::optional(number) : writtenMetres(text);
+    if (metres) out = Value::of(*metres);
+    return metres.has_value();
   }
   if (wanted == ValueType::Float && v.type == ValueType::Bool) {
     out = Value::of(v.number);
@@ -60,7 +63,10 @@ void AttributeValues::give(const Given& values, const Program& program, ValuePoo
       told.warning("attribute-type", attribute.span,
                    "the value '" + pool.str(value) + "' given for '" + name + "' is no " +
                        typeName(attribute.type),
-                   "the value of the rule file is used instead");
+                   attribute.type == ValueType::Float
+                       ? "the value of the rule file is used instead; write a number, or a length "
+                         "with its unit, such as 12 ft"
+                       : "the value of the rule file is used instead");
     }
   }
 }

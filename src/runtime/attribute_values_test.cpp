@@ -57,6 +57,19 @@ TEST_F(AttributeValuesTest, ConvertsBetweenTextsNumbersAndTruth) {
   EXPECT_TRUE(told.all().empty());
 }
 
+TEST_F(AttributeValuesTest, LengthsHaveTheirUnitsAndHalfNumbersAreNone) {
+  const uint32_t number = declare("number", ValueType::Float);
+  give({{"number", pool.string("12 ft")}});
+  EXPECT_NEAR(values.value(number).number, 3.6576, 1e-12);
+  EXPECT_TRUE(told.all().empty());
+  for (const char* text : {"12 floors", "2-3", "4;5", "12 ", "", "1e999", "nan"}) {
+    values.begin();
+    told = {};
+    give({{"number", pool.string(text)}});
+    EXPECT_EQ(told.all().size(), std::string(text) == "12 " ? 0u : 1u) << text;
+  }
+}
+
 TEST_F(AttributeValuesTest, TellsWhatIsOfNoUseAndKeepsTheInitialiser) {
   const uint32_t number = declare("number", ValueType::Float);
   give({{"number", pool.string("tall")}});

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// The raster is asked once for each place of a grid of its own density. Where that lies in the
+// The raster is asked once for each place of a grid twice as dense as it is, which is coarser where
+// a place is large. Where that lies in the
 // raster is told by the projections for a wide lattice, and in between by its corners: within 300
 // metres of each other these leave the truth by millimetres. Voids are filled by pulling averages
 // up a pyramid and pushing them down again.
@@ -16,8 +17,8 @@
 namespace gable {
 namespace {
 
-// Heights of a place: 64 MB of them.
-constexpr double kMostHeights = 8e6;
+// Of a place: 64 MB of heights.
+constexpr double kMostPlaces = 8e6;
 // Of the lattice: metres, and corners along a side.
 constexpr double kLattice = 300, kMostCorners = 400;
 // Around the area, in metres.
@@ -168,7 +169,7 @@ Result<HeightField> HeightField::of(const HeightRaster& raster, const GeoFrame& 
   const double density = std::max(length(*east - *here), length(*north - *here)) / 10;
   const double wide = size.x + 2 * kAround, high = size.y + 2 * kAround;
   double step = std::clamp(density > 0 ? 0.5 / density : kCoarsest, kFinest, kCoarsest);
-  step = std::max(step, std::sqrt(wide * high / kMostHeights));
+  step = std::max(step, std::sqrt(wide * high / kMostPlaces));
   step = std::max(step, std::max(wide, high) / 1e6);
   const auto columns = static_cast<uint32_t>(std::ceil(wide / step)) + 2;
   const auto rows = static_cast<uint32_t>(std::ceil(high / step)) + 2;

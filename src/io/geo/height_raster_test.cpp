@@ -121,6 +121,8 @@ TEST(HeightRaster, BrokenFilesAreErrors) {
   const std::string good = tiffOf(sample());
   EXPECT_EQ(HeightRaster::read("", "a.tif").error().code, "heights-broken");
   EXPECT_EQ(HeightRaster::read("x", "a.png").error().code, "heights-unknown");
+  const std::string hint = HeightRaster::read("x", "a.asc").error().hint;
+  EXPECT_NE(hint.find("gdal_translate -a_srs EPSG:4326 'a.asc' heights.tif"), std::string::npos);
   for (size_t cut = 1; cut < good.size(); cut += 7) {
     // Any answer, without a crash.
     const auto r = HeightRaster::read(good.substr(0, cut), "a.tif");

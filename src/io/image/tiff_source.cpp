@@ -15,6 +15,10 @@ namespace {
 int onError(TIFF*, void* user, const char*, const char* format, va_list arguments) {
   auto* source = static_cast<TiffSource*>(user);
   std::vsnprintf(source->why, sizeof source->why, format, arguments);
+  // With numbers of rows that say nothing, such as 4294967295.
+  if (std::strncmp(source->why, "Read error", 10) == 0) {
+    std::snprintf(source->why, sizeof source->why, "its data end too early");
+  }
   return 1;
 }
 int onWarning(TIFF*, void*, const char*, const char*, va_list) { return 1; }

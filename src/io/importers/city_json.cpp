@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Faces are taken out of whatever solids and surfaces an object has. Its footprint is the outline of
-// those that are said to be its ground, else of those that look down, else of all, seen from above;
-// models are full of triangles, so that this goes by the edges that no two faces share.
-// The shape of a roof is told by the directions that its faces look in.
+// Faces are taken out of whatever solids and surfaces an object has. Its footprint is the outline
+// of those that are said to be its ground, else of those that look down, else of all, seen from
+// above; models are full of triangles, so that this goes by the edges that no two faces share. The
+// shape of a roof is told by the directions that its faces look in.
 #include "io/importers/city_json.h"
 
 #include <algorithm>
@@ -277,7 +277,8 @@ class Reader {
     for (const auto& [surface, value] : lists) {
       const double number = value->number(-1);
       const bool known = number >= 0 && number < 1e9;
-      const JsonValue& of = semantics["surfaces"].at(known ? static_cast<size_t>(number) : SIZE_MAX);
+      const JsonValue& of =
+          semantics["surfaces"].at(known ? static_cast<size_t>(number) : SIZE_MAX);
       addFace(*surface, of["type"].text(), to);
     }
   }

@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // City models as maps: the objects of a CityJSON file (https://www.cityjson.org/specs, 1.0 to 2.0)
-// as features with the tags that maps have, so that rules make a place of them. A building gives its
-// footprint, its height and, from models with roofs, the shape of its roof; what stands between is
-// made by rules.
+// as features with the tags that maps have, so that rules make a place of them. A building gives
+// its footprint, its height and, from models with roofs, the shape of its roof; what stands between
+// is made by rules.
 //
 //   object                                    becomes
 //   Building, BuildingPart                    building, building:part: height, roof:shape, ..

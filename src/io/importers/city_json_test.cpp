@@ -11,7 +11,8 @@
 namespace gable {
 namespace {
 
-// A box of 10 by 6 by 5 metres at (100, 200) under a gabled roof of 2 metres, whose ridge runs east.
+// A box of 10 by 6 by 5 metres at (100, 200) under a gabled roof of 2 metres, whose ridge runs
+// east.
 constexpr const char* kVertices =
     "[[0,0,0],[10,0,0],[10,6,0],[0,6,0],[0,0,5],[10,0,5],[10,6,5],[0,6,5],[0,3,7],[10,3,7]]";
 constexpr const char* kHouse =
@@ -36,10 +37,10 @@ double areaOf(const MapFeature& f) {
 }
 
 TEST(CityJson, takesFootprintHeightAndRoofOfBuildings) {
-  auto map = mapOf(model(
-      R"("b":{"type":"Building","attributes":{"storeysAboveGround":2,"owner":"me"},)"
-      R"("address":[{"ThoroughfareName":"Long"}],"geometry":[)" +
-      std::string(kHouse) + "]}"));
+  auto map =
+      mapOf(model(R"("b":{"type":"Building","attributes":{"storeysAboveGround":2,"owner":"me"},)"
+                  R"("address":[{"ThoroughfareName":"Long"}],"geometry":[)" +
+                  std::string(kHouse) + "]}"));
   ASSERT_TRUE(map.ok()) << map.error().message;
   ASSERT_EQ(map->features.size(), 1u);
   const MapFeature& f = map->features[0];
@@ -61,10 +62,10 @@ TEST(CityJson, takesFootprintHeightAndRoofOfBuildings) {
 
 TEST(CityJson, buildingsOfPartsHaveThemAsParts) {
   const std::string part = R"({"type":"BuildingPart","parents":["b"],"geometry":[)";
-  auto map = mapOf(model(
-      R"("b":{"type":"Building","children":["p","q"],"geometry":[]},"p":)" + part + kHouse +
-      R"(]},"q":)" + part +
-      R"({"type":"MultiSurface","lod":"1","boundaries":[[[1,2,6,5]],[[0,1,2]]]}]})"));
+  auto map =
+      mapOf(model(R"("b":{"type":"Building","children":["p","q"],"geometry":[]},"p":)" + part +
+                  kHouse + R"(]},"q":)" + part +
+                  R"({"type":"MultiSurface","lod":"1","boundaries":[[[1,2,6,5]],[[0,1,2]]]}]})"));
   ASSERT_TRUE(map.ok()) << map.error().message;
   ASSERT_EQ(map->features.size(), 3u);
   EXPECT_EQ(map->features[0].tag("building"), "yes");
@@ -78,11 +79,10 @@ TEST(CityJson, groundHasTheTagsOfMaps) {
     return '"' + id + R"(":{"type":")" + type + R"(","attributes":{)" + own +
            R"(},"geometry":[{"type":"MultiSurface","lod":"0","boundaries":[[[0,1,2,3]]]}]})";
   };
-  auto map = mapOf(model(surface("a", "Road", "") + ',' +
-                               surface("b", "Road", R"("function":"voetpad")") + ',' +
-                               surface("c", "WaterBody", "") + ',' +
-                               surface("d", "PlantCover", R"("class":"bos")") + ',' +
-                               surface("e", "Tunnel", "")));
+  auto map = mapOf(
+      model(surface("a", "Road", "") + ',' + surface("b", "Road", R"("function":"voetpad")") + ',' +
+            surface("c", "WaterBody", "") + ',' + surface("d", "PlantCover", R"("class":"bos")") +
+            ',' + surface("e", "Tunnel", "")));
   ASSERT_TRUE(map.ok()) << map.error().message;
   ASSERT_EQ(map->features.size(), 4u);
   EXPECT_EQ(map->features[0].tag("area:highway"), "road");
