@@ -143,8 +143,9 @@ class Suite:
         if name == "W2":
             blender = peer("blender", self.absent, "Blender") if extension == "glb" else shutil.which("blender")
             if blender:
+                # Its Python looks for its library beside the first `python3` of the path.
                 scene.commands["Blender"] = lambda folder: [
-                    blender, "-b", "--factory-startup", "--python-exit-code", "1", "--python", BENCH / "peers/blender_w2.py", "--",
+                    "env", "PATH=/usr/bin:/bin", blender, "-b", "--factory-startup", "--python-exit-code", "1", "--python", BENCH / "peers/blender_w2.py", "--",
                     folder / f"out.{extension}"]
         if (name, extension) == ("W2", "obj"):
             if cfdg := peer("cfdg", self.absent, "Context Free"):
@@ -241,6 +242,12 @@ class Suite:
                         rows[who].append(command_seconds(make(folders[who]), folders[who], None if own else LONGEST))
                     except TimeoutError as late:
                         notes[who] = str(late)
+                        continue
+                    except Failed as failure:
+                        if own:
+                            raise
+                        notes[who] = "failed"
+                        tell(f"{scene.name}: {failure}", flush=True)
                         continue
                     sizes[who] = sum(bytes_of(p) for p in [*folders[who].glob("out*"), *folders[who].glob("tiles")])
                     if sizes[who] == 0:

@@ -3,8 +3,8 @@
 # SPDX-FileCopyrightText: The Gable authors
 """How soon everything stops that is asked to: tools/cancel.py GABLE [NAME...] [--times N].
 
-Makes each example (model, picture, tiles) and interrupts it at random times, from the start of the program to the end of
-its work. Prints for each the worst time from the interrupt to the end of the process, and ends with 1 where one is over
+Makes each example (model, picture, tiles) and interrupts it at random places of its work, counted in seconds of the
+processor. Prints for each the worst time from the interrupt to the end of the process, and ends with 1 where one is over
 0.1 seconds. That time is the lesser of the clock's and the processor's, of all threads together: on a busy machine the
 clock runs while the program waits for its turn. An interrupt before the program is ready for one ends it at once.
 """
@@ -37,21 +37,28 @@ def processor_seconds(pid):
 
 
 def run(command, after=None):
-    """Seconds of a whole run; with `after`, seconds from an interrupt so late to the end: by the clock, by the processor."""
-    begin = time.perf_counter()
+    """Processor seconds of a whole run; with `after`, seconds from an interrupt behind so much work to the end, by the clock
+    and by the processor."""
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
-        if after is None:
-            if process.wait() != 0:
-                raise RuntimeError(f"'{' '.join(command)}' ended with {process.returncode}; run it to see why")
-            return time.perf_counter() - begin
-        time.sleep(after)
-        before = processor_seconds(process.pid)
-        begin = time.perf_counter()
-        os.kill(process.pid, signal.SIGINT)
+        if after is not None:
+            # What has ended is no longer running, and takes no interrupt.
+            while processor_seconds(process.pid) < after and not has_ended(process.pid):
+                time.sleep(0.001)
+            before = processor_seconds(process.pid)
+            begin = time.perf_counter()
+            os.kill(process.pid, signal.SIGINT)
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
-        clock = time.perf_counter() - begin
-        return clock, max(0.0, usage.ru_utime + usage.ru_stime - before)
+        busy = usage.ru_utime + usage.ru_stime
+        if after is not None:
+            return time.perf_counter() - begin, max(0.0, busy - before)
+        if process.returncode != 0:
+            raise RuntimeError(f"'{' '.join(command)}' ended with {process.returncode}; run it to see why")
+        return busy
+
+
+def has_ended(pid):
+    return Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()[0] == "Z"
 
 
 def main():
