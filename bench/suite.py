@@ -272,6 +272,7 @@ def told(f):
 def page(result):
     """The page of the results, in Markdown."""
     machine = result["machine"]
+    chosen = [f"- Only what has one of these words in its name: {', '.join(result['only'])}"] if result.get("only") else []
     lines = ["# Rates", "",
              "Written by `bench/run`, which measures the programs of `bench/` and peers where they are installed; do not edit. "
              "Read [where the time goes](../design/performance.md) for what is behind the figures.", "",
@@ -280,7 +281,7 @@ def page(result):
              f"- Machine: {machine['processor']}, {machine['cores']} cores, {machine['memory'] / 2**30:.0f} GiB; {machine['system']}",
              f"- Load of the machine at the start and at the end: {machine['load'][0]:.1f}, {machine['load'][1]:.1f}. Above "
              f"{machine['cores']}, compare processor seconds and ratios only.",
-             "", "## Whole processes", "",
+             *chosen, "", "## Whole processes", "",
              "From the start of the process to its end, the written file included; medians. The programs of a scene run in turn. "
              "`times the head` compares processor seconds.", "",
              "| scene | by | seconds | worst | processor | times the head | MiB | MB written |", "|---|---|---|---|---|---|---|---|"]
