@@ -179,7 +179,7 @@ void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
 
 void addTileOptions(CLI::App* app, TileArguments& a) {
   app->add_option("--tile-triangles", a.triangles,
-                  "Triangles of a tile that shows everything (default 65536)")
+                  "Triangles of a tile at most (default 49152 with --compress, else 8192)")
       ->check(number({100, 10'000'000, true}));
   app->add_flag(
       "--compress", a.compress,
@@ -250,6 +250,9 @@ struct AllTilesArguments {
   SubmitArguments submit;
   /// The folder that gets the page.
   std::string viewer;
+  /// To join, and where.
+  std::vector<std::string> places;
+  std::string land;
 };
 
 void addTileRun(CLI::App* app, std::string& folder, LimitArguments& limits) {
@@ -305,6 +308,13 @@ void addTilesViewer(CLI::App* tiles, std::string& folder, int& status) {
   viewer->callback([&folder, &status] { status = runTilesViewer(folder); });
 }
 
+void addTilesJoin(CLI::App* tiles, AllTilesArguments& a, int& status) {
+  auto* join = tiles->add_subcommand("join", "Write one tileset above those of several places");
+  join->add_option("places", a.places, "Folders of tiles, in the folder of the output")->required();
+  join->add_option("-o,--output", a.land, "The folder of the tileset of all")->required();
+  join->callback([&a, &status] { status = runTilesJoin(a.places, a.land); });
+}
+
 void addTiles(CLI::App& app, AllTilesArguments& a, int& status) {
   auto* tiles = app.add_subcommand("tiles", "Derive rules and write 3D Tiles for browsers");
   tiles->add_option("rules", a.whole.derive.rules, "The rule file or package");
@@ -314,6 +324,7 @@ void addTiles(CLI::App& app, AllTilesArguments& a, int& status) {
   addTileOptions(tiles, a.whole.tiles);
   addReplacePlan(tiles, a.whole.tiles);
   addTileJobs(tiles, a, status);
+  addTilesJoin(tiles, a, status);
   addTilesViewer(tiles, a.viewer, status);
   tiles->callback([tiles, &a, &status] {
     if (!tiles->get_subcommands().empty()) return;

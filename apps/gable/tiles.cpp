@@ -20,7 +20,7 @@ int statusOfTiles(const gable::DiagnosticList& diagnostics) {
   for (const gable::Diagnostic& d : diagnostics) {
     if (d.code == "attribute-value" || d.code == "tiles-job") return kExitUsage;
     if (d.code == "tiles-folder" || d.code == "tiles-plan" || d.code == "tiles-planned" ||
-        d.code.starts_with("file-")) {
+        d.code == "tiles-join" || d.code.starts_with("file-")) {
       return kExitFile;
     }
   }
@@ -293,6 +293,14 @@ int runTilesJob(const JobArguments& arguments) {
   const Means means{arguments.threads, arguments.limits, begin};
   if (const int status = runJobs(plan, rules, jobs, means, result)) return status;
   return writeStats(arguments.stats, result, begin, rules.parseSeconds());
+}
+
+int runTilesJoin(const std::vector<std::string>& places, const std::string& output) {
+  gable::FileLimits limits;
+  limits.cancel = cancelFlag();
+  const gable::DiagnosticList told = gable::joinTilesets(places, asFolder(output), limits);
+  print(told);
+  return gable::hasErrors(told) ? statusOfTiles(told) : static_cast<int>(kExitDone);
 }
 
 int runTilesMerge(const MergeArguments& arguments) {

@@ -5,12 +5,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "common.h"
 #include "gable/tiles.h"
 
 struct TileArguments {
-  uint64_t triangles = 65'536;
+  /// 0: what TileSettings takes.
+  uint64_t triangles = 0;
   /// Compress the tiles.
   bool compress = false;
   /// Put the page that shows the tiles beside them.
@@ -69,6 +71,9 @@ struct SubmitArguments {
   std::string options;
 };
 int runTilesSubmit(const SubmitArguments& arguments);
+
+/// gable tiles join.
+int runTilesJoin(const std::vector<std::string>& places, const std::string& output);
 
 /// The folder that an output names: "monaco/", "monaco/tileset.json", a folder that is there; empty
 /// when it names none.

@@ -33,8 +33,10 @@ struct TileSettings {
   /// Limits on shapes, vertices and steps are those of a batch of shapes; seconds and the wish to
   /// stop are those of all. `trace`, `remember` and `before` have no effect.
   DeriveSettings derive;
-  /// How many triangles a tile has that shows everything.
-  uint64_t triangles = 65'536;
+  /// How many triangles a tile has at most; a coarse one as far as that can be. 0: as many as take
+  /// a browser's main thread no longer than 30 ms (docs/design/tiles.md): 49,152 compressed ones,
+  /// 8192 others.
+  uint64_t triangles = 0;
   /// EXT_meshopt_compression and KHR_mesh_quantization: vertices are up to two millimetres from
   /// their places. An error where canCompressTiles() is false.
   bool compress = false;
@@ -147,5 +149,11 @@ TileResult runTileJob(const TilePlan& plan, const Rules& rules, uint64_t job,
 /// Where tiles are missing or damaged the error tiles-unfinished names the jobs, and nothing is
 /// written.
 TileResult mergeTiles(const TilePlan& plan, const TileRun& run = {});
+
+/// Writes `land`/tileset.json above tilesets in folders within it, each of which lies on the Earth
+/// by its own transform: a country of many places. Empty, or why not. Codes: tiles-join,
+/// tiles-folder, and those of files.
+DiagnosticList joinTilesets(const std::vector<std::string>& folders, const std::string& land,
+                            const FileLimits& limits = {});
 
 }  // namespace gable

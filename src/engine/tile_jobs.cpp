@@ -212,6 +212,7 @@ class Merger {
     if (auto e = folder.open()) return e;
     TileTreeOptions options;
     options.folder = folder.path();
+    options.triangles = mostTriangles(plan_.tiles);
     options.compressed = plan_.tiles.compress;
     options.threads = threads();
     options.meter = &task_.allowance();

@@ -17,6 +17,8 @@ constexpr size_t kMostTold = 1000;
 // A unit is what can be made anew on its own. Its tiles are not joined with those of others, so it
 // has far more shapes than a tile.
 constexpr size_t kUnitShapes = 4096;
+// See docs/design/tiles.md: a plain tile has seven times the bytes, which the main thread copies.
+constexpr uint64_t kCompressedTriangles = 49'152, kPlainTriangles = 8192;
 
 std::string textOf(const AttributeValue& a) {
   return a.values.empty() || a.values[0].kind != PlainValue::Kind::Text ? std::string()
@@ -167,10 +169,15 @@ void ShapeSource::take(const Model& model) {
   result_.prints.insert(result_.prints.end(), prints.begin(), prints.end());
 }
 
+uint64_t mostTriangles(const TileSettings& settings) {
+  if (settings.triangles > 0) return settings.triangles;
+  return settings.compress ? kCompressedTriangles : kPlainTriangles;
+}
+
 TileTreeOptions tileOptions(const Rules& rules, const TileSettings& settings,
                             const std::string& folder) {
   TileTreeOptions options;
-  options.triangles = std::max<uint64_t>(settings.triangles, 1);
+  options.triangles = mostTriangles(settings);
   options.threads = static_cast<unsigned>(std::max(0, settings.derive.jobs.value_or(0)));
   if (unitShapes(rules) == 0) options.batch = 0;
   options.folder = folder;

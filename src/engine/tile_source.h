@@ -50,6 +50,9 @@ class ShapeSource final : public TileSource {
   std::function<void(size_t)> progress_;
 };
 
+/// Of a tile.
+uint64_t mostTriangles(const TileSettings& settings);
+
 /// How a unit is written: as the settings say, with the pictures of the rules.
 TileTreeOptions tileOptions(const Rules& rules, const TileSettings& settings,
                             const std::string& folder);

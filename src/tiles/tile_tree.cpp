@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <map>
@@ -29,6 +30,11 @@ constexpr double kFineness = 160;
 // Viewers place vertices in single precision, and files may quantise them: boxes are larger by
 // this, in metres.
 constexpr double kMargin = kMostQuantized;
+
+// A coarse model with too many triangles is made anew, coarser by at least so much, so often at
+// most.
+constexpr double kCoarser = 1.5;
+constexpr int kMostCoarser = 4;
 
 double toleranceOf(const TileSquare& square) { return square.side / kFineness; }
 
@@ -105,6 +111,7 @@ class Coverer {
  private:
   std::string uriOf(const std::string& name, const char* ending) const;
   void addChild(Branch& out, Branch& child, Box3& box) const;
+  void coarsen(CoarseModel& model, double tolerance) const;
   void divide(Branch& out, const std::vector<std::string>& names) const;
 
   const TileTreeOptions& options_;
@@ -178,6 +185,22 @@ void Coverer::divide(Branch& out, const std::vector<std::string>& names) const {
   }
 }
 
+// With no more triangles than other tiles, where that can be: surfaces in many colours have many.
+void Coverer::coarsen(CoarseModel& model, double tolerance) const {
+  const CoarseModel below = std::move(model);
+  model = coarsened(below, tolerance);
+  for (int i = 0; i < kMostCoarser && model.triangles.size() > options_.triangles; ++i) {
+    const double times = static_cast<double>(model.triangles.size()) /
+                         static_cast<double>(std::max<uint64_t>(options_.triangles, 1));
+    // Triangles are as many as there is room for them, which is a surface.
+    tolerance *= std::max(kCoarser, std::sqrt(times));
+    CoarseModel coarser = coarsened(below, tolerance);
+    // Too much is better than nothing.
+    if (coarser.triangles.empty()) return;
+    model = std::move(coarser);
+  }
+}
+
 Branch Coverer::cover(std::vector<Branch>& branches, const TileSquare& square,
                       const std::string& name) {
   Branch out;
@@ -193,7 +216,7 @@ Branch Coverer::cover(std::vector<Branch>& branches, const TileSquare& square,
   if (names.empty()) return {};
   out.state = Branch::State::Done;
   out.name = name;
-  out.part.coarse = coarsened(out.part.coarse, toleranceOf(square));
+  coarsen(out.part.coarse, toleranceOf(square));
   out.node().error = out.part.coarse.error;
   const TileMesh mesh = meshOf(out.part.coarse);
   if (mesh.triangles > 0) {

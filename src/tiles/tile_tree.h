@@ -57,7 +57,7 @@ struct TilePart {
 };
 
 struct TileTreeOptions {
-  /// Of a tile that shows everything.
+  /// Of a tile at most; of a coarse one as far as that can be.
   uint64_t triangles = 65'536;
   /// Shapes that are derived together; 0: all of a unit.
   size_t batch = 512;

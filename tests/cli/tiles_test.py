@@ -147,8 +147,9 @@ class Tiles(Case):
         self.assertEqual(stats["triangles"], sum(t.triangles() for t in leaves))
         self.assertEqual(stats["tiles"], len(self.files("out/tiles")))
         self.assertEqual(stats["bytes"], sum(len(b) for b in self.contents("out").values()))
-        for t in leaves:
-            self.assertLessEqual(t.triangles(), 2000)
+        # Coarse ones about as many: those that would have more are coarser.
+        for _, _, t in self.walk("out"):
+            self.assertLessEqual(t.triangles() if t else 0, 3000)
 
     def testAViewerFindsTheBuildings(self):
         self.city("map.geojson", "-o", "out/", "--tile-triangles", "2000")
@@ -410,6 +411,46 @@ class Jobs(Case):
         self.tiles("job", "out", f"0-{self.jobs('out') - 1}", "--max-seconds", "0.2", status=LIMIT)
         self.assertLess(time.monotonic() - begin, 5)
 
+    def testPlacesAreJoined(self):
+        self.put("boxes.cga", BOXES)
+        for name, east in (("land/a", 8), ("land/b b", 8.1), ("else", 8)):
+            lot = feature("Polygon", square(east, 50, 0.0002))
+            self.put("lot.geojson", json.dumps({"type": "FeatureCollection", "features": [lot]}))
+            self.tiles("boxes.cga", "--shapes", "lot.geojson", "-o", name)
+        self.tiles("join", "land/b b", "land/a", "-o", "land")
+        land = json.loads((self.folder / "land/tileset.json").read_text())
+        children = land["root"]["children"]
+        self.assertEqual([c["content"]["uri"] for c in children], ["a/tileset.json", "b%20b/tileset.json"])
+        for child, name in zip(children, ("a", "b b")):
+            place = json.loads((self.folder / "land" / name / "tileset.json").read_text())
+            box, m, got = place["root"]["boundingVolume"]["box"], place["root"]["transform"], child["boundingVolume"]["box"]
+            for k in range(4):
+                for axis in range(3):
+                    turned = sum(m[4 * i + axis] * box[3 * k + i] for i in range(3)) + (m[12 + axis] if k == 0 else 0)
+                    self.assertAlmostEqual(got[3 * k + axis], turned, delta=1e-6)
+            low, high = zip(*sides(land["root"]))
+            for axis in range(3):
+                reach = sum(abs(got[3 * k + axis]) for k in (1, 2, 3))
+                self.assertLessEqual(low[axis], got[axis] - reach + 1e-6)
+                self.assertGreaterEqual(high[axis], got[axis] + reach - 1e-6)
+            self.assertLessEqual(child["geometricError"], land["root"]["geometricError"])
+        # Again, and with what cannot be joined.
+        self.tiles("join", "land/a", "-o", "land")
+        self.tiles("join", "land/a", "land/a/", "-o", "land", status=FILE, says="named twice")
+        self.tiles("join", "else", "-o", "land", status=FILE, says="does not lie in")
+        self.tiles("join", "land/none", "-o", "land", status=FILE, says="land/none")
+        self.tiles("join", "land/a", "-o", "else", status=FILE, says="tiles-join")
+        self.tiles("boxes.cga", "--shapes", "lots.geojson", "-o", "land/c")
+        place = self.folder / "land/c/tileset.json"
+        nowhere = json.loads(place.read_text())
+        del nowhere["root"]["transform"]
+        place.write_text(json.dumps(nowhere))
+        self.tiles("join", "land/c", "-o", "land", status=FILE, says="where it lies on the Earth")
+        place.write_text("{")
+        self.tiles("join", "land/c", "-o", "land", status=FILE, says="is damaged")
+        self.put("land/a/tiles.txt", "")
+        self.tiles("join", "land/a", "-o", "land/a", status=FILE, says="does not lie in")
+
     def testAPageIsPutBesideTilesThatAreThere(self):
         self.tiles("viewer", "nowhere", status=FILE, says="no tileset")
         self.tiles("boxes.cga", "--shapes", "lots.geojson", "-o", "out")
@@ -444,11 +485,11 @@ class Jobs(Case):
             self.assertTrue(script.endswith("out/plan/submit.sh"), script)
 
     def testCompressedTilesAreSmallAndInPlace(self):
-        arguments = ("boxes.cga", "--shapes", "lots.geojson", "--compress", "-o", "small")
+        arguments = ("boxes.cga", "--shapes", "lots.geojson", "--compress", "--tile-triangles", "20000", "-o", "small")
         if b"tiles-compress" in subprocess.run([str(GABLE), "tiles", *arguments], cwd=self.folder, check=False,
                                                stderr=subprocess.PIPE).stderr:
             self.skipTest("built without meshoptimizer")
-        self.tiles("boxes.cga", "--shapes", "lots.geojson", "-o", "plain")
+        self.tiles("boxes.cga", "--shapes", "lots.geojson", "--tile-triangles", "20000", "-o", "plain")
         plain, small = (self.contents(f) for f in ("plain", "small"))
         self.assertEqual(plain.keys(), small.keys())
         self.assertLess(sum(map(len, small.values())) * 4, sum(map(len, plain.values())))
