@@ -199,7 +199,8 @@ void addReplacePlan(CLI::App* app, TileArguments& a) {
 
 void addCity(CLI::App& app, CityArguments& a, int& status) {
   auto* city = app.add_subcommand("city", "Make a place from its map: streets, ground, buildings");
-  city->add_option("map", a.derive.shapes, "The map: .osm .pbf .geojson .city.json .gpkg .fgb .shp .kml .dxf")
+  city->add_option("map", a.derive.shapes,
+                   "The map: .osm .pbf .geojson .city.json .gpkg .fgb .shp .kml .dxf")
       ->required();
   city->add_option(
       "--rules", a.derive.rules,

@@ -158,6 +158,7 @@ const Dialect kGbbgDialect = {"gbbg",
                               true,
                               gbbg::words,
                               nullptr,
-                              "see the guide to GBBG, docs/guide/gbbg.md", kDeclaring};
+                              "see the guide to GBBG, docs/guide/gbbg.md",
+                              kDeclaring};
 
 }  // namespace gable

@@ -51,6 +51,7 @@ const Dialect kParkDialect{"park",
                            false,
                            park::words,
                            nullptr,
-                           "see the guide to park grammars, docs/guide/park.md", kDeclaring};
+                           "see the guide to park grammars, docs/guide/park.md",
+                           kDeclaring};
 
 }  // namespace gable

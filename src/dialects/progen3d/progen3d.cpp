@@ -62,6 +62,7 @@ const Dialect kProgen3d{"progen3d",
                         false,
                         progen3d::words,
                         "is drawn anew by each rule that has it in its head, or counts turns",
-                        "see the guide to ProGen3d, docs/guide/progen3d.md", kDeclaring};
+                        "see the guide to ProGen3d, docs/guide/progen3d.md",
+                        kDeclaring};
 
 }  // namespace gable

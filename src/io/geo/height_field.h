@@ -4,8 +4,8 @@
 // The natural ground of a place: heights over its plan. Plan coordinates and heights, metres.
 //
 // Promises: every place of the plan has a finite height; some metres beyond the area it is that of
-// the nearest place of the grid's border. What a file does not know is filled from what is around it,
-// smoothly. Equal input gives equal output.
+// the nearest place of the grid's border. What a file does not know is filled from what is around
+// it, smoothly. Equal input gives equal output.
 #pragma once
 
 #include <cstdint>

@@ -190,10 +190,11 @@ Result<HeightRaster> HeightRaster::read(std::string_view bytes, const std::strin
   const std::string extension = extensionOf(path);
   const bool isTiff = extension == "tif" || extension == "tiff";
   if (!isTiff && extension != "hgt") {
-    return Error{"heights-unknown", "'" + path + "' is no file of heights that can be read",
-                 "use a GeoTIFF (.tif) or a tile of SRTM (.hgt); others become one by gdal_translate "
-                 "-a_srs EPSG:4326 '" +
-                     path + "' heights.tif, with the system that their numbers are in"};
+    return Error{
+        "heights-unknown", "'" + path + "' is no file of heights that can be read",
+        "use a GeoTIFF (.tif) or a tile of SRTM (.hgt); others become one by gdal_translate "
+        "-a_srs EPSG:4326 '" +
+            path + "' heights.tif, with the system that their numbers are in"};
   }
   Result<HeightRaster> out = isTiff ? ofTiff(bytes, path) : ofHgt(bytes, path);
   if (!out.ok()) return out;

@@ -99,8 +99,8 @@ class Reader {
     if (wanted_) {
       if (auto e = missed(box, path)) return *e;
     }
-    const bool degrees = degrees_ && box.min.x >= -180 && box.max.x <= 180 &&
-                         box.min.y >= -90 && box.max.y <= 90;
+    const bool degrees =
+        degrees_ && box.min.x >= -180 && box.max.x <= 180 && box.min.y >= -90 && box.max.y <= 90;
     const Vec2 middle = box.center();
     if (degrees) {
       const TransverseMercator projection({middle.x, middle.y});
@@ -298,8 +298,9 @@ Result<MapFeatures> readMapFeatures(std::string_view bytes, const AssetOptions& 
     converted = std::move(*text);
     bytes = converted;
   } else if (extension != "geojson" && extension != "json") {
-    return Error{"shapes-unknown", "'" + options.path + "' is no map that can be read",
-                 "use GeoJSON, CityJSON, OpenStreetMap, GeoPackage, FlatGeobuf, a shapefile, KML or DXF"};
+    return Error{
+        "shapes-unknown", "'" + options.path + "' is no map that can be read",
+        "use GeoJSON, CityJSON, OpenStreetMap, GeoPackage, FlatGeobuf, a shapefile, KML or DXF"};
   }
   const Result<JsonValue> root = parseJson(bytes);
   if (!root.ok()) {

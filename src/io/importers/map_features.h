@@ -69,8 +69,8 @@ struct MapFeatures {
   MapSkips skips;
 };
 
-/// By extension: .geojson .json (also CityJSON) .osm .pbf .gpkg .fgb .shp .kml .dxf. Codes: shapes-unknown,
-/// shapes-broken, shapes-empty, map-box and those of maps.
+/// By extension: .geojson .json (also CityJSON) .osm .pbf .gpkg .fgb .shp .kml .dxf. Codes:
+/// shapes-unknown, shapes-broken, shapes-empty, map-box and those of maps.
 Result<MapFeatures> readMapFeatures(std::string_view bytes, const AssetOptions& options,
                                     const std::string& layer = {},
                                     const std::optional<MapBox>& box = {});
