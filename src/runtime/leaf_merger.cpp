@@ -123,11 +123,11 @@ void LeafMerger::finish() {
     std::unique_lock lock(mutex_);
     complete_ = true;
     changed_.notify_all();
-    while (!changed_.wait_for(lock, kBetweenLooks, [&] { return done_; })) {
+    do {
       lock.unlock();
       work(kWorkBetweenLooks);
       lock.lock();
-    }
+    } while (!changed_.wait_for(lock, kBetweenLooks, [&] { return done_; }));
     lock.unlock();
     thread_.join();
     if (thrown_) std::rethrow_exception(thrown_);

@@ -52,7 +52,9 @@ def check_json_numbers(value, where, faults):
 
 
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
-KINDS = {5123: ("H", 2), 5125: ("I", 4), 5126: ("f", 4)}
+KINDS = {5120: ("b", 1), 5121: ("B", 1), 5122: ("h", 2), 5123: ("H", 2), 5125: ("I", 4), 5126: ("f", 4)}
+# What a number of a normalized accessor is divided by (glTF 2.0, 3.11).
+WHOLE = {5120: 127, 5121: 255, 5122: 32767, 5123: 65535}
 
 
 def read_accessor(document, buffer, accessor):
@@ -66,10 +68,18 @@ def read_accessor(document, buffer, accessor):
     return out, width
 
 
-def check_unit(values, width, used, what, faults):
+def check_unit(values, width, used, what, faults, margin=1e-3):
     for i in range(0, len(values) - width + 1, width):
-        if abs(math.hypot(*values[i:i + used]) - 1) > 1e-3:
+        if abs(math.hypot(*values[i:i + used]) - 1) > margin:
             faults.add(f"{what}: the length of {list(values[i:i + used])} is not 1")
+
+
+def check_directions(document, buffer, accessor, what, faults):
+    values, width = read_accessor(document, buffer, accessor)
+    whole = WHOLE[accessor["componentType"]] if accessor.get("normalized") else 1
+    # Each of three numbers is off by half a step at most.
+    margin = 1e-3 if whole == 1 else math.sqrt(3) / 2 / whole + 1e-6
+    check_unit([max(v / whole, -1) for v in values], width, 3, what, faults, margin)
 
 
 def check_gltf(document, buffer, faults):
@@ -77,8 +87,6 @@ def check_gltf(document, buffer, faults):
     accessors = document.get("accessors", [])
     for number, accessor in enumerate(accessors):
         values, width = read_accessor(document, buffer, accessor)
-        if accessor["componentType"] != 5126:
-            continue
         if not all(map(math.isfinite, values)):
             faults.add(f"accessor {number}: not finite")
         for k in range(width if "min" in accessor else 0):
@@ -90,9 +98,8 @@ def check_gltf(document, buffer, faults):
     for mesh in document.get("meshes", []):
         for primitive in mesh["primitives"]:
             attributes = primitive["attributes"]
-            check_unit(*read_accessor(document, buffer, accessors[attributes["NORMAL"]]), 3, "normal", faults)
-            if "TANGENT" in attributes:
-                check_unit(*read_accessor(document, buffer, accessors[attributes["TANGENT"]]), 3, "tangent", faults)
+            for name in {"NORMAL", "TANGENT"} & attributes.keys():
+                check_directions(document, buffer, accessors[attributes[name]], name.lower(), faults)
             indices, _ = read_accessor(document, buffer, accessors[primitive["indices"]])
             if not indices or max(indices) >= accessors[attributes["POSITION"]]["count"]:
                 faults.add("indices: none, or beyond the vertices")
