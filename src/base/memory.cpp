@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Linux tells in /proc/self/statm: two numbers of pages, the second those that are resident.
+// Linux tells in /proc/self/statm: two numbers of pages, the second those that are resident. Pages
+// are given out in advance since Linux 5.14.
 
 #include "base/memory.h"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <charconv>
@@ -42,6 +44,17 @@ uint64_t residentBytes() {
   if (first.ec != std::errc() || first.ptr == end) return 0;
   if (std::from_chars(first.ptr + 1, end, resident).ec != std::errc()) return 0;
   return resident * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE)) / kTimesOwn;
+}
+
+bool populate(void* begin, size_t bytes) {
+#ifdef MADV_POPULATE_WRITE
+  const auto page = static_cast<uintptr_t>(::sysconf(_SC_PAGESIZE));
+  const uintptr_t at = reinterpret_cast<uintptr_t>(begin) / page * page;
+  const uintptr_t end = reinterpret_cast<uintptr_t>(begin) + bytes;
+  return bytes == 0 || ::madvise(reinterpret_cast<void*>(at), end - at, MADV_POPULATE_WRITE) == 0;
+#else
+  return begin == nullptr && bytes == 0;
+#endif
 }
 
 }  // namespace gable

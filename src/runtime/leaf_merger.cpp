@@ -7,6 +7,7 @@
 #include <chrono>
 #include <system_error>
 
+#include "base/memory.h"
 #include "base/work.h"
 #include "runtime/recall.h"
 
@@ -18,6 +19,9 @@ constexpr uint32_t kUnset = 0xffffffff;
 
 // So many prototypes or leaves are handed over at once.
 constexpr size_t kItemsOfBatch = 256, kLeavesOfBatch = 4096;
+
+// Room is made for so many leaves at once: a few megabytes.
+constexpr size_t kLeavesOfRoom = 1 << 15;
 
 // How often who waits looks at the limits.
 constexpr std::chrono::milliseconds kBetweenLooks{5};
@@ -114,21 +118,34 @@ void LeafMerger::handOver() {
   }
   changed_.notify_all();
   batch_.clear();
+  leavesHandedOver_ += leavesOfBatch_;
   leavesOfBatch_ = 0;
+}
+
+// Has the system give out the memory that the thread is about to write, from its end on, so that
+// the thread meets memory that is there: half of its time goes into that otherwise.
+void LeafMerger::makeRoom() {
+  Leaf* const leaves = scene_.leaves.data();
+  for (size_t end = leavesHandedOver_; end > taken_ + 2 * kLeavesOfRoom; end -= kLeavesOfRoom) {
+    if (!populate(leaves + end - kLeavesOfRoom, kLeavesOfRoom * sizeof(Leaf))) return;
+    work(kWorkBetweenLooks);
+  }
 }
 
 void LeafMerger::finish() {
   if (thread_.joinable()) {
     handOver();
-    std::unique_lock lock(mutex_);
-    complete_ = true;
+    {
+      const std::lock_guard lock(mutex_);
+      complete_ = true;
+    }
     changed_.notify_all();
-    do {
-      lock.unlock();
+    makeRoom();
+    for (bool done = false; !done;) {
       work(kWorkBetweenLooks);
-      lock.lock();
-    } while (!changed_.wait_for(lock, kBetweenLooks, [&] { return done_; }));
-    lock.unlock();
+      std::unique_lock lock(mutex_);
+      done = changed_.wait_for(lock, kBetweenLooks, [&] { return done_; });
+    }
     thread_.join();
     if (thrown_) std::rethrow_exception(thrown_);
   }
@@ -180,6 +197,7 @@ void LeafMerger::takeLeaves(const Item& item) {
     const auto from = outputs_[item.worker].leaves.begin() + item.firstLeaf;
     scene_.leaves.insert(scene_.leaves.end(), from, from + item.leafCount);
     leaves = scene_.leaves.data() + scene_.leaves.size() - item.leafCount;
+    taken_ = scene_.leaves.size();
   }
   for (uint32_t i = 0; i < item.leafCount; ++i) renumber(leaves[i], item.worker);
 }

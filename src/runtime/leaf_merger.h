@@ -55,6 +55,7 @@ class LeafMerger {
   void start();
   void put(const Item& item);
   void handOver();
+  void makeRoom();
   void takeAll() noexcept;
   void take(const Item& item);
   void takeLeaves(const Item& item);
@@ -75,12 +76,14 @@ class LeafMerger {
 
   // What is handed over, and how that stands.
   std::vector<Item> batch_;
-  size_t leavesOfBatch_ = 0;
+  size_t leavesOfBatch_ = 0, leavesHandedOver_ = 0;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<std::vector<Item>> waiting_;
   bool complete_ = false, done_ = false;
   std::atomic<bool> abandoned_{false};
+  /// How many leaves the thread has written.
+  std::atomic<size_t> taken_{0};
   std::exception_ptr thrown_;
   std::thread thread_;
 
