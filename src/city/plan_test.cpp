@@ -188,7 +188,9 @@ TEST(CityPlan, PartsStandForTheirBuilding) {
   for (const CityShape& s : plan.shapes) {
     if (s.rule != "Building") continue;
     for (const AttributeValue& a : s.attributes) {
-      if (a.name == "has_parts") EXPECT_EQ(a.values[0].number, 1);
+      if (a.name == "has_parts") {
+        EXPECT_EQ(a.values[0].number, 1);
+      }
     }
   }
   // Parts take no ground of their own.

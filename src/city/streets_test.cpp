@@ -88,7 +88,9 @@ TEST(Streets, DoublesAndHostileWaysDoNoHarm) {
   const Streets s = streetsOf(features);
   double longest = 0;
   for (const Stretch& stretch : s.stretches) {
-    if (stretch.line[0].y == 0) EXPECT_EQ(stretch.feature, 1u);
+    if (stretch.line[0].y == 0) {
+      EXPECT_EQ(stretch.feature, 1u);
+    }
     longest = std::max(longest, lineLength(stretch.line));
   }
   EXPECT_NEAR(longest, 144.85, 0.01);

@@ -116,8 +116,12 @@ void expectReports(const JsonValue& expected, const Scene& scene) {
       for (const PlainValue* v : values) sum += v->number;
       EXPECT_NEAR(sum, want["sum"].number(NAN), 1e-9) << key;
     }
-    if (want["value"].isText()) EXPECT_EQ(values[0]->text, want["value"].text()) << key;
-    if (want["value"].isBool()) EXPECT_EQ(values[0]->number != 0, want["value"].boolean(false));
+    if (want["value"].isText()) {
+      EXPECT_EQ(values[0]->text, want["value"].text()) << key;
+    }
+    if (want["value"].isBool()) {
+      EXPECT_EQ(values[0]->number != 0, want["value"].boolean(false));
+    }
   }
 }
 
@@ -287,7 +291,9 @@ TEST_F(Reference, splitSizes) {
       (r.key == "size" ? sizes : r.key == "index" ? indices : totals).push_back(r.value.number);
     }
     const JsonValue& expected = v["sizes"];
-    if (expected.isArray()) ASSERT_EQ(sizes.size(), expected.size()) << split;
+    if (expected.isArray()) {
+      ASSERT_EQ(sizes.size(), expected.size()) << split;
+    }
     for (size_t i = 0; i < expected.size(); ++i) {
       EXPECT_NEAR(sizes[i], expected.at(i).number(0), 1e-9) << split << " part " << i;
     }

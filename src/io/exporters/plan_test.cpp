@@ -47,7 +47,9 @@ void expectWhole(const Scene& s) {
       nodes += shownNodes(plan, r.unit);
     }
     EXPECT_EQ(n, count(s).leaves);
-    if (options.mostNodes > 0) EXPECT_LE(nodes, options.mostNodes);
+    if (options.mostNodes > 0) {
+      EXPECT_LE(nodes, options.mostNodes);
+    }
     EXPECT_TRUE(options.share || plan.units().size() == 1u);
   }
 }
@@ -98,8 +100,12 @@ TEST(Plan, wideUnitsAreCutIntoCells) {
       box.include(boundsAt(unit, content.placements[p.placement] * leaf.frame, leaf.scale));
     }
     const Vec3 size = box.size();
-    if (u > 0) EXPECT_LE(std::max({size.x, size.y, size.z}), 64);
-    if (u == 0) EXPECT_EQ(size.x, 300);
+    if (u > 0) {
+      EXPECT_LE(std::max({size.x, size.y, size.z}), 64);
+    }
+    if (u == 0) {
+      EXPECT_EQ(size.x, 300);
+    }
   }
   // Too few nodes, a unit that is shown twice, and what is narrow.
   EXPECT_EQ(ScenePlan(b.scene, {true, 3, 64}).units().size(), 1u);

@@ -140,7 +140,9 @@ TEST(ParkNotation, HintsSpellAsTheNotationDoes) {
       EXPECT_NE(m.hint.find("'Name -> operations'"), std::string::npos);
   }
   for (const Diagnostic& m : run("R -> Voronoii(5) { A } { B }", kLot).diagnostics) {
-    if (m.code == "unknown-operation") EXPECT_EQ(m.hint, "did you mean 'Voronoi'?");
+    if (m.code == "unknown-operation") {
+      EXPECT_EQ(m.hint, "did you mean 'Voronoi'?");
+    }
   }
   EXPECT_TRUE(run("R -> Voronoii(5) { A } { B }", kLot).has("unknown-operation"));
   EXPECT_FALSE(run("R -> Voronoi(5) { A } { B }", kLot).has("unknown-operation"));
