@@ -66,7 +66,7 @@ UncountedWork::UncountedWork() : outer_(detail::workState.meter) {
   if (outer_) scope_.emplace(static_cast<WorkMeter&>(*this));
 }
 
-bool UncountedWork::look(uint64_t, uint64_t bytes) { return outer_->look(0, bytes); }
+bool UncountedWork::look(uint64_t, uint64_t bytes) { return outer_->lookAside(bytes); }
 
 void unwindIfStopped(const Status& status) {
   if (!status.ok() && std::string_view(status.code()) == kWorkStopped) throw Unwinding(status);

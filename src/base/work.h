@@ -34,6 +34,9 @@ class WorkMeter {
   /// Called about every kWorkBetweenLooks units of work, with the units since the call before, and
   /// before so many bytes are taken. False when it is time to stop.
   virtual bool look(uint64_t units, uint64_t bytes) = 0;
+  /// The same for work that does not count: nothing that is counted may change by it, nor be held
+  /// against a limit.
+  virtual bool lookAside(uint64_t bytes) { return look(0, bytes); }
 
  protected:
   ~WorkMeter() = default;

@@ -45,8 +45,6 @@ Project::Project(const std::string& root, const SearchSettings& settings,
 
 // Files that the asset names are read through the project, so that none lies outside.
 Result<Asset> Project::read(const std::string& file, bool zUp) const {
-  // Whichever shape asks first, the derivation that does so takes as many steps.
-  const UncountedWork uncounted;
   Result<std::string> bytes = where_.read(file, kLargestAsset);
   if (!bytes.ok()) return bytes.error();
   AssetOptions options;
@@ -129,6 +127,8 @@ Ref<AssetModel> Project::model(std::string_view path, std::string_view fromFile,
     why = "there is no file '" + std::string(path) + "' in the project";
     return {};
   }
+  // Whichever shape asks first, the derivation that does so takes as many steps.
+  const UncountedWork uncounted;
   std::lock_guard lock(mutex_);
   const std::string key = file + (zUp ? "|z" : "|y");
   auto at = models_.find(key);

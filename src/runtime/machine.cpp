@@ -390,14 +390,22 @@ bool Machine::look(uint64_t units, uint64_t bytes) {
   return lookAtLimits(bytes);
 }
 
+// Within what is done once and kept, as reading a file: whether this derivation is the first to ask
+// must not move the places at which counts are held against their limits.
+bool Machine::lookAside(uint64_t bytes) {
+  return !aborted_ && !endsByWish() && over(tally_.lookAside(bytes));
+}
+
+bool Machine::endsByWish() {
+  if (!shared_.usage.cancelled()) return false;
+  aborted_ = true;
+  return true;
+}
+
 // The clock, memory, the user's wish to stop, and what all workers have made and done together.
 // `bytes`: so many are about to be taken.
 bool Machine::lookAtLimits(uint64_t bytes) {
-  if (shared_.usage.cancelled()) {
-    aborted_ = true;
-    return false;
-  }
-  if (!over(tally_.look(bytes))) return false;
+  if (endsByWish() || !over(tally_.look(bytes))) return false;
   if (shared_.portions && shared_.portions->isHungry()) offerPortion();
   return true;
 }

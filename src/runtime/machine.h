@@ -282,7 +282,10 @@ class Machine final : public Services, private WorkMeter {
   }
   bool look() { return lookAtLimits(0); }
   bool look(uint64_t units, uint64_t bytes) override;
+  bool lookAside(uint64_t bytes) override;
   bool lookAtLimits(uint64_t bytes);
+  /// Whether the user wants it to end; nothing goes on then.
+  bool endsByWish();
   bool stackFull();
   bool over(std::optional<Usage::Excess> excess);
   /// Texts and arrays cost by their length; the next tick() looks at the limits.

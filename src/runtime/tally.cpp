@@ -16,6 +16,15 @@ std::optional<Usage::Excess> Tally::tell() {
 
 std::optional<Usage::Excess> Tally::look(uint64_t bytes) {
   if (auto excess = tell()) return excess;
+  return lookAtMemory(bytes);
+}
+
+std::optional<Usage::Excess> Tally::lookAside(uint64_t bytes) {
+  if (auto excess = usage_.lookAtClock()) return excess;
+  return lookAtMemory(bytes);
+}
+
+std::optional<Usage::Excess> Tally::lookAtMemory(uint64_t bytes) {
   const auto now = std::chrono::steady_clock::now();
   if (bytes == 0 && now - memoryLooked_ < kBetweenMemory) return {};
   memoryLooked_ = now;

@@ -49,6 +49,8 @@ class Tally {
   /// The same, and looks at the memory that the process holds, where it has not done so just now.
   /// `bytes`: so many are about to be taken.
   std::optional<Usage::Excess> look(uint64_t bytes);
+  /// Looks at the clock and at memory alone, and tells nothing.
+  std::optional<Usage::Excess> lookAside(uint64_t bytes);
 
   /// For what is tried and given up.
   struct Mark {
@@ -66,6 +68,8 @@ class Tally {
   static constexpr uint64_t kUnitsPerStep = 16;
 
  private:
+  std::optional<Usage::Excess> lookAtMemory(uint64_t bytes);
+
   /// A look at memory takes microseconds.
   static constexpr std::chrono::milliseconds kBetweenMemory{2};
 

@@ -48,6 +48,20 @@ TEST(Tally, SumsWithOthers) {
   EXPECT_STREQ(excess->code, "too-many-vertices");
 }
 
+TEST(Tally, LooksAsideWithoutTelling) {
+  Limits limits = smallLimits();
+  Usage usage(limits, nullptr);
+  Tally tally(usage);
+  tally.countShapes(11);
+  tally.countSteps(Tally::kStepsBetweenLooks);
+  EXPECT_FALSE(tally.lookAside(0));
+  EXPECT_TRUE(tally.isLookDue());
+  limits.seconds = -1;
+  const auto excess = tally.lookAside(0);
+  ASSERT_TRUE(excess);
+  EXPECT_STREQ(excess->code, "out-of-time");
+}
+
 TEST(Tally, CountsTurnsOnTheirOwn) {
   const Limits limits = smallLimits();
   Usage usage(limits, nullptr);

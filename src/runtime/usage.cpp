@@ -60,6 +60,10 @@ std::optional<Usage::Excess> Usage::spend(const Use& use) {
                        "the derivation takes more than " + std::to_string(limits_.steps) + " steps",
                        "end a recursion earlier, or raise the limit on steps (--max-steps)");
   }
+  return lookAtClock();
+}
+
+std::optional<Usage::Excess> Usage::lookAtClock() {
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
   if (limits_.seconds && spent.count() > *limits_.seconds) {
     return exceed("out-of-time",

@@ -39,6 +39,8 @@ class Usage {
   /// Adds to what has been used; the first limit that is exceeded then, if any. Any thread may
   /// call.
   std::optional<Excess> spend(const Use& use);
+  /// The same of time alone.
+  std::optional<Excess> lookAtClock();
   /// The same of memory, which costs microseconds to find out.
   /// `bytes`: so many are about to be taken.
   std::optional<Excess> lookAtMemory(uint64_t bytes = 0);

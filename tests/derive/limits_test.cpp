@@ -10,6 +10,7 @@
 #include <atomic>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "base/interned.h"
@@ -232,6 +233,33 @@ Lot --> split(x) { 0.01 : set(a, [split.index:1:split.index+20000]) X. }*
   }
   EXPECT_GT(values, 0u);
   EXPECT_LT(values * sizeof(PlainValue), uint64_t{30} << 20);
+}
+
+// Who reads a model first does no more than who finds it read, so a limit is met at the same place.
+TEST(Limits, aModelThatIsReadMovesNoLimit) {
+  const fs::path folder = fs::temp_directory_path() / ("gable_limits" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  std::string file = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < 20'000; ++i) file += "f 1 2 3\n";
+  std::ofstream(folder / "model.obj") << file;
+  std::ofstream(folder / "rules.cga")
+      << "Lot --> A\nA --> s('0.99, 1, 1) [ i(\"model.obj\") M. ] A B.\n";
+  const auto made = [](const Rules& rules, int jobs) {
+    DeriveSettings settings;
+    settings.jobs = jobs;
+    settings.limits.shapes = 500;
+    settings.limits.depth = 5000;
+    const Model model = derive(rules, lots(2), settings);
+    EXPECT_EQ(model.end(), End::LimitReached);
+    return std::to_string(model.leafCount()) + render(model.diagnostics());
+  };
+  const std::string path = (folder / "rules.cga").string();
+  const Rules rules = Rules::load(path);
+  ASSERT_TRUE(rules.ok()) << render(rules.diagnostics());
+  const std::string first = made(rules, 1);
+  EXPECT_EQ(made(rules, 1), first);
+  for (const int jobs : {2, 4}) EXPECT_EQ(made(Rules::load(path), jobs), first) << jobs;
+  fs::remove_all(folder);
 }
 
 // The wish to stop comes when the last shape is done: what is left is to put the scene together.
