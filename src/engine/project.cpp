@@ -159,6 +159,7 @@ Ref<AssetModel> Project::model(std::string_view path, std::string_view fromFile,
 ImageInfo Project::image(std::string_view path, std::string_view fromFile) {
   const std::string file = locate(path, fromFile);
   if (file.empty()) return {};
+  const UncountedWork uncounted;
   std::lock_guard lock(mutex_);
   const auto [at, fresh] = images_.try_emplace(file);
   if (fresh) {

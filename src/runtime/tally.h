@@ -49,7 +49,8 @@ class Tally {
   /// The same, and looks at the memory that the process holds, where it has not done so just now.
   /// `bytes`: so many are about to be taken.
   std::optional<Usage::Excess> look(uint64_t bytes);
-  /// Looks at the clock and at memory alone, and tells nothing.
+  /// Looks at the clock and at memory alone. What has been counted stays to be told at its own
+  /// place, so that limits on counts are reached where they are reached without this look.
   std::optional<Usage::Excess> lookAside(uint64_t bytes);
 
   /// For what is tried and given up.

@@ -48,20 +48,6 @@ TEST(Tally, SumsWithOthers) {
   EXPECT_STREQ(excess->code, "too-many-vertices");
 }
 
-TEST(Tally, LooksAsideWithoutTelling) {
-  Limits limits = smallLimits();
-  Usage usage(limits, nullptr);
-  Tally tally(usage);
-  tally.countShapes(11);
-  tally.countSteps(Tally::kStepsBetweenLooks);
-  EXPECT_FALSE(tally.lookAside(0));
-  EXPECT_TRUE(tally.isLookDue());
-  limits.seconds = -1;
-  const auto excess = tally.lookAside(0);
-  ASSERT_TRUE(excess);
-  EXPECT_STREQ(excess->code, "out-of-time");
-}
-
 TEST(Tally, CountsTurnsOnTheirOwn) {
   const Limits limits = smallLimits();
   Usage usage(limits, nullptr);
@@ -112,6 +98,24 @@ TEST(Tally, GoesBackToAMark) {
   EXPECT_EQ(tally.expanded(), 3u);
   EXPECT_EQ(tally.steps(), 0u);
   EXPECT_FALSE(tally.tell());
+}
+
+// A look that only happens where something is read for the first time.
+TEST(Tally, LooksAsideWithoutTelling) {
+  Limits limits = smallLimits();
+  limits.bytes = uint64_t{64} << 20;
+  Usage usage(limits, nullptr);
+  Tally tally(usage);
+  tally.countShapes(11);
+  tally.countSteps(Tally::kStepsBetweenLooks - 1);
+  EXPECT_FALSE(tally.lookAside(0));
+  EXPECT_FALSE(tally.isLookDue());
+  tally.countSteps(1);
+  EXPECT_TRUE(tally.isLookDue());
+  const auto excess = tally.lookAside(uint64_t{1} << 40);
+  ASSERT_TRUE(excess);
+  EXPECT_STREQ(excess->code, "out-of-memory");
+  EXPECT_STREQ(tally.tell()->code, "too-many-shapes");
 }
 
 TEST(Tally, AsksBeforeMuchMemoryIsTaken) {

@@ -177,6 +177,36 @@ TEST(Limits, onCountsEndAtTheSamePlaceWithAnyNumberOfThreads) {
   with([](Limits& b) { b.width = 3; });
 }
 
+// Several workers that reach a limit begin anew as one, which then finds models and images that have
+// been read, and bodies that have been made.
+TEST(Limits, onCountsDoNotDependOnWhatIsReadOnce) {
+  const fs::path folder = fs::temp_directory_path() / ("once." + std::to_string(getpid()));
+  fs::create_directories(folder / "textures");
+  fs::copy_file(fs::path(GABLE_SOURCE_DIR) / "tools" / "programs" / "house.obj", folder / "m.obj",
+                fs::copy_options::overwrite_existing);
+  for (int i = 0; i < 100; ++i) {
+    std::ofstream(folder / "textures" / (std::to_string(i) + ".png")) << "no picture";
+  }
+  // What is read at the head moves the places where limits are looked at.
+  for (const char* head : {"[ i(\"m.obj\") X. ]", "affineBox(1, 1, 1, y, 4)", "affineSphere()",
+                           "affineCylinder()", "print(imageInfo(\"textures/1.png\", sx))"}) {
+    std::ofstream(folder / "r.cga")
+        << "Lot --> " << head << " repeat(9999) { parametrise(border) { X. } Z. } X.\n";
+    const Rules rules = Rules::load((folder / "r.cga").string());
+    ASSERT_TRUE(rules.ok()) << rules.diagnostics()[0].rendered;
+    for (const uint64_t most : {300, 500, 700}) {
+      DeriveSettings settings;
+      settings.limits.shapes = most;
+      settings.jobs = 1;
+      const Model one = derive(rules, lots(2), settings);
+      EXPECT_EQ(one.end(), End::LimitReached);
+      settings.jobs = 2;
+      EXPECT_TRUE(textOf(derive(rules, lots(2), settings)) == textOf(one)) << head << most;
+    }
+  }
+  fs::remove_all(folder);
+}
+
 TEST(Limits, noMoreMessagesAreKeptThanAnybodyReads) {
   const Rules rules = rulesOf("Lot --> split(x) { 0.001 : i(\"no-\" + split.index) X. }*\n");
   DeriveSettings settings;
@@ -233,33 +263,6 @@ Lot --> split(x) { 0.01 : set(a, [split.index:1:split.index+20000]) X. }*
   }
   EXPECT_GT(values, 0u);
   EXPECT_LT(values * sizeof(PlainValue), uint64_t{30} << 20);
-}
-
-// Who reads a model first does no more than who finds it read, so a limit is met at the same place.
-TEST(Limits, aModelThatIsReadMovesNoLimit) {
-  const fs::path folder = fs::temp_directory_path() / ("gable_limits" + std::to_string(::getpid()));
-  fs::create_directories(folder);
-  std::string file = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-  for (int i = 0; i < 20'000; ++i) file += "f 1 2 3\n";
-  std::ofstream(folder / "model.obj") << file;
-  std::ofstream(folder / "rules.cga")
-      << "Lot --> A\nA --> s('0.99, 1, 1) [ i(\"model.obj\") M. ] A B.\n";
-  const auto made = [](const Rules& rules, int jobs) {
-    DeriveSettings settings;
-    settings.jobs = jobs;
-    settings.limits.shapes = 500;
-    settings.limits.depth = 5000;
-    const Model model = derive(rules, lots(2), settings);
-    EXPECT_EQ(model.end(), End::LimitReached);
-    return std::to_string(model.leafCount()) + render(model.diagnostics());
-  };
-  const std::string path = (folder / "rules.cga").string();
-  const Rules rules = Rules::load(path);
-  ASSERT_TRUE(rules.ok()) << render(rules.diagnostics());
-  const std::string first = made(rules, 1);
-  EXPECT_EQ(made(rules, 1), first);
-  for (const int jobs : {2, 4}) EXPECT_EQ(made(Rules::load(path), jobs), first) << jobs;
-  fs::remove_all(folder);
 }
 
 // The wish to stop comes when the last shape is done: what is left is to put the scene together.

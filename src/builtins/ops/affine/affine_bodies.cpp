@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "base/allowance.h"
 #include "builtins/lists.h"
 #include "builtins/ops/shared/numbered_texture.h"
 #include "geom/mesh/topology.h"
@@ -152,14 +153,19 @@ Status leaveRound(OpCall& call, const Wearing& args, const MeshRef& unit, double
 }
 
 Status applySphere(OpCall& call, const Wearing& args) {
-  static const MeshRef kUnit = makeRef<Mesh>(
-      transformed(makeSphere(kRoundSides, kRoundDivisions), {0.5, 0.5, 0.5}, Frame{}));
+  static const MeshRef kUnit = [] {
+    const UncountedWork uncounted;
+    return makeRef<Mesh>(
+        transformed(makeSphere(kRoundSides, kRoundDivisions), {0.5, 0.5, 0.5}, Frame{}));
+  }();
   return leaveRound(call, args, kUnit, -0.5, 0.5);
 }
 
 Status applyCylinder(OpCall& call, const Wearing& args) {
-  static const MeshRef kUnit =
-      makeRef<Mesh>(transformed(makeCylinder(kRoundSides), {0.5, 1, 0.5}, Frame{}));
+  static const MeshRef kUnit = [] {
+    const UncountedWork uncounted;
+    return makeRef<Mesh>(transformed(makeCylinder(kRoundSides), {0.5, 1, 0.5}, Frame{}));
+  }();
   return leaveRound(call, args, kUnit, 0, 1);
 }
 

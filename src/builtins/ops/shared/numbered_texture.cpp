@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/allowance.h"
 #include "base/text.h"
 #include "material/builtin_textures.h"
 
@@ -57,6 +58,8 @@ void wearNumberedTexture(Shape& s, Services& services, double number, double qua
   const MaterialEdit edit{s.material, kNumberedTextureEdit, std::bit_cast<uint64_t>(index),
                           std::bit_cast<uint64_t>(turns), std::bit_cast<uint64_t>(scale)};
   s.material = services.materials().edited(edit, [&](Material& m) {
+    // Whoever comes first looks the images up.
+    const UncountedWork uncounted;
     const std::vector<std::string> images = numberedImages(services.assets());
     if (!(index >= 0 && index < static_cast<double>(images.size()))) return;
     TextureMap& map = m.map(TextureLayer::Color);
