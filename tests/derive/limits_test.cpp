@@ -177,8 +177,8 @@ TEST(Limits, onCountsEndAtTheSamePlaceWithAnyNumberOfThreads) {
   with([](Limits& b) { b.width = 3; });
 }
 
-// Several workers that reach a limit begin anew as one, which then finds models and images that have
-// been read, and bodies that have been made.
+// Several workers that reach a limit begin anew as one, which then finds models and images that
+// have been read, and bodies that have been made.
 TEST(Limits, onCountsDoNotDependOnWhatIsReadOnce) {
   const fs::path folder = fs::temp_directory_path() / ("once." + std::to_string(getpid()));
   fs::create_directories(folder / "textures");
