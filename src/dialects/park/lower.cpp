@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
+#include <utility>
 
 #include "base/number.h"
 #include "base/text.h"
@@ -136,19 +137,21 @@ NodeId Lowering::colour(std::string_view name) {
 
 NodeId Lowering::sequence(const Sequence& ops, std::string_view owner) {
   Nodes steps;
-  bool open = true;
-  for (const Op& op : ops) open = step(op, steps);
-  if (open && !owner.empty()) {
-    if (!coloured(ops)) steps.push_back(colour(owner));
-    steps.push_back(b_.leaf(owner));
-  }
+  addSteps(ops, owner, steps);
   return b_.sequence(steps);
 }
 
-bool Lowering::coloured(const Sequence& ops) {
-  return std::any_of(ops.begin(), ops.end(), [](const Op& op) {
-    return !op.called && op.blocks.empty() && isMaterialWord(op.name);
-  });
+void Lowering::addSteps(const Sequence& ops, std::string_view owner, Nodes& out) {
+  const bool outer = std::exchange(coloured_, false);
+  bool open = true;
+  for (const Op& op : ops) open = step(op, out);
+  if (open && !owner.empty()) addLeaf(owner, out);
+  coloured_ = outer;
+}
+
+void Lowering::addLeaf(std::string_view name, Nodes& out) {
+  if (!coloured_) out.push_back(colour(name));
+  out.push_back(b_.leaf(name));
 }
 
 bool Lowering::step(const Op& op, Nodes& out) {
@@ -198,8 +201,7 @@ bool Lowering::step(const Op& op, Nodes& out) {
   const std::string nearest = nearestOperation(op.name);
   if (op.blocks.empty() && nearest.empty()) {
     // ParkPath(..): a name with arguments that nothing is made of.
-    out.push_back(colour(op.name));
-    out.push_back(b_.leaf(op.name));
+    addLeaf(op.name, out);
     return false;
   }
   const Span word = placeOf(source_, op.span, op.name);
@@ -216,6 +218,7 @@ void Lowering::look(const Op& op, Nodes& out) {
   std::erase(value, '"');
   const char* const made = lowerCase(op.name) == "texture" ? "texture" : "color";
   out.push_back(b_.apply(made, {b_.text(value)}));
+  coloured_ = true;
 }
 
 bool Lowering::symbol(const Op& op, Nodes& out) {
@@ -230,6 +233,7 @@ bool Lowering::symbol(const Op& op, Nodes& out) {
   if (isMaterialWord(op.name)) {
     warnOfColour(op);
     out.push_back(colour(op.name));
+    coloured_ = true;
     return true;
   }
   if (operationNamed(op.name) != Operation::None) {
@@ -239,8 +243,7 @@ bool Lowering::symbol(const Op& op, Nodes& out) {
     return true;
   }
   warnOfSlip(op);
-  out.push_back(colour(op.name));
-  out.push_back(b_.leaf(op.name));
+  addLeaf(op.name, out);
   return false;
 }
 
@@ -270,9 +273,7 @@ void Lowering::warnOfSlip(const Op& op) {
 
 void Lowering::call(const Rule& r, const Op& op, Nodes& out) {
   if (r.parameters.size() != op.arguments.size()) {
-    diagnostics_.error("wrong-argument-count", op.span,
-                       "'" + op.name + "' takes " + std::to_string(r.parameters.size()) +
-                           " arguments, not " + std::to_string(op.arguments.size()),
+    diagnostics_.error("wrong-argument-count", op.span, countMistake(r, op.arguments.size()),
                        "give a value for each of its parameters");
     return;
   }

@@ -135,12 +135,7 @@ NodeId Lowering::figureBody(const Sequence& body, std::string_view owner, bool g
     steps.push_back(b_.push(b_.sequence({colour("Centre"), b_.leaf("Centre")})));
     steps.push_back(sequence(rest, ""));
   } else {
-    bool open = true;
-    for (const Op& op : rest) open = step(op, steps);
-    if (open) {
-      if (!coloured(rest)) steps.push_back(colour(owner));
-      steps.push_back(b_.leaf(owner));
-    }
+    addSteps(rest, owner, steps);
   }
   rule_ = outer;
   inlined_ -= head.rule ? 1 : 0;

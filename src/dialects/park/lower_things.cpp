@@ -105,8 +105,16 @@ void Lowering::positions(const std::string& written, Span span, Nodes& arguments
     }
   }
   // [start : item], [start : item : end], [: item : end], [item].
-  const bool start = lowerCase(parts[0]) == "start", bare = parts.size() == 1;
+  const bool bare = parts.size() == 1, start = !bare && lowerCase(parts[0]) == "start";
   const std::string item = bare ? parts[0] : parts[1];
+  const auto isOnly = [&](size_t i, std::string_view word) {
+    return bare || i >= parts.size() || parts[i].empty() || lowerCase(parts[i]) == word;
+  };
+  if (!isOnly(0, "start") || !isOnly(2, "end") || parts.size() > 3) {
+    diagnostics_.error("bad-argument", span, "'" + written + "' is no way to stand along an edge",
+                       "write [start : 3 : end], [start : 3], [: 3 : end] or [3]");
+    return;
+  }
   double v = 0;
   const bool fixed = known(item, v);
   if (bare && fixed && v < 1 && v > 0) {

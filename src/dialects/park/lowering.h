@@ -45,7 +45,9 @@ class Lowering {
 
   // `owner` names the leaf that the region itself becomes; none for parts that stand for nothing.
   NodeId sequence(const Sequence& ops, std::string_view owner);
-  static bool coloured(const Sequence& ops);
+  void addSteps(const Sequence& ops, std::string_view owner, Nodes& out);
+  // In the colour that its name suggests, unless it has one.
+  void addLeaf(std::string_view name, Nodes& out);
 
   // Adds what an operation becomes; false when the region has been given away by it.
   bool step(const Op& op, Nodes& out);
@@ -202,6 +204,8 @@ class Lowering {
   size_t functionCalls_ = 0;
   // Rules in the place of their names.
   int inlined_ = 0;
+  // An operation of the sequence at work has given a colour or a picture.
+  bool coloured_ = false;
   // Some model is named without the type of its file.
   bool models_ = false;
   std::string modelFile_ = "modelFile";

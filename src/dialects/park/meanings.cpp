@@ -287,8 +287,10 @@ Joined joinedParts(const Grammar& g, const Op& op) {
 }
 
 std::string countMistake(const Rule& function, size_t given) {
-  return "the function '" + function.name + "' takes " +
-         std::to_string(function.parameters.size()) + " arguments, not " + std::to_string(given);
+  const size_t wanted = function.parameters.size();
+  return (function.function ? "the function '" : "'") + function.name + "' takes " +
+         std::to_string(wanted) + (wanted == 1 ? " argument, not " : " arguments, not ") +
+         std::to_string(given);
 }
 
 std::string discs(const Grammar& g, const std::string& argument) {

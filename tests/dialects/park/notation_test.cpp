@@ -99,6 +99,9 @@ TEST(ParkNotation, SlipsAreFound) {
       {"R -> F(2, 3)\nfun F(d) -> Contract(d)", "wrong-argument-count"},
       {"R -> Sweep(F(2, 3), width=1) { H }\nfun F(d) -> Parametrise([0, 1]) { Contract(d) }",
        "wrong-argument-count"},
+      {"R -> Distribute(W: 1, [from : 3]) { A }", "bad-argument"},
+      {"R -> Distribute(W: 1, [0 : 3 : 1]) { A }", "bad-argument"},
+      {"R -> Distribute(W: 1, [start : 3 : end : 2]) { A }", "bad-argument"},
       {"R -> Peel(OUTER) { A | B }", "wrong-argument-count"},
       {"R -> Peel(Outr, 1) { A | B }", "bad-selection"},
       {"R -> Distribute(side(Q), 2) { A }", "bad-selection"},
@@ -110,6 +113,26 @@ TEST(ParkNotation, SlipsAreFound) {
       {"R -> VoronoiRegions(3 {2}, averag) { A }", "bad-selection"},
       {"R -> A\nB -> C", "unused-rule"}};
   for (const auto& [text, code] : slips) EXPECT_TRUE(run(text, kLot).has(code)) << text;
+}
+
+// The leaves of a grammar on the lot, with their colours.
+std::string leavesOf(const std::string& text) {
+  return derive(Rules::parse(text, "a.park"), Shapes::lot(20, 20), {}).dump();
+}
+
+TEST(ParkNotation, ColoursAndPicturesStay) {
+  for (const char* text : {"R -> Color(\"#ff0000\")", "R -> Color(\"#ff0000\") Lawn",
+                           "R -> Red()\nfun Red() -> Colour(\"#ff0000\")",
+                           "R -> Color(\"#ff0000\") Contract(1) Extrude(2)",
+                           "R -> Color(\"#ff0000\") Place(CENTRE) { A }"}) {
+    const std::string leaves = leavesOf(text);
+    EXPECT_NE(leaves.find("color #ff0000"), std::string::npos) << text << leaves;
+  }
+  const std::string pictured = leavesOf("R -> Texture(\"gravel.jpg\")");
+  EXPECT_EQ(pictured.find("color"), std::string::npos) << pictured;
+  // What an operation makes has colours of its own.
+  const std::string cells = leavesOf("R -> Color(\"#ff0000\") Grid(2, 2) { Lawn }");
+  EXPECT_EQ(cells.find("color #ff0000"), std::string::npos) << cells;
 }
 
 // line:column of the first message with that code.
