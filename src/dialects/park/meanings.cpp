@@ -168,11 +168,15 @@ const char* colourOf(std::string_view name) {
   return known ? known : "#9a9a92";
 }
 
-std::string nearestColour(std::string_view name) {
+std::vector<std::string_view> colourWords() {
   std::vector<std::string_view> words;
   for (const ColourHint& h : kHints) words.push_back(h.part);
   for (const ColourHint& h : kColours) words.push_back(h.part);
-  std::string nearest = nearestName(lowerCase(name), words);
+  return words;
+}
+
+std::string nearestColour(std::string_view name) {
+  std::string nearest = nearestName(lowerCase(name), colourWords());
   for (char& c : nearest) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
   return nearest;
 }

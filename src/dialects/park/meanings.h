@@ -19,6 +19,8 @@ bool isMaterialWord(std::string_view name);
 const char* colourOf(std::string_view name);
 /// The colour that a name tells; null for none.
 const char* knownColourOf(std::string_view name);
+/// Words for colours and materials, in lower case.
+std::vector<std::string_view> colourWords();
 /// The colour or material that was probably meant; empty where none is near.
 std::string nearestColour(std::string_view name);
 

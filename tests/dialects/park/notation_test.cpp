@@ -200,6 +200,11 @@ TEST(ParkNotation, TheGuideAndEditorsKnowAllOperations) {
     EXPECT_TRUE(named) << n.name << " is missing in docs/guide/park.md";
     EXPECT_TRUE(proposed.count(n.operation)) << n.name << " is missing in words.cpp";
   }
+  for (const std::string_view word : park::colourWords()) {
+    std::string upper(word);
+    for (char& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    EXPECT_NE(guide.find("`" + upper + "`"), std::string::npos) << upper << " is missing";
+  }
 }
 
 // Partitions and placements never change the area.
