@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "dialects/dialect.h"
+#include "dialects/park/meanings.h"
 #include "dialects/park/operations.h"
 #include "dialects/park/park.h"
 #include "park_testing.h"
