@@ -69,7 +69,7 @@ struct Lines {
   /// What is wrong with the call of a function on the way, as a sentence; empty for nothing.
   std::string mistake;
 };
-/// "the function 'F' takes 1 arguments, not 2".
+/// "the function 'F' takes 1 argument, not 2".
 std::string countMistake(const Rule& function, size_t given);
 Lines linesOf(const Grammar& g, const std::string& argument);
 Lines linesOf(const Grammar& g, const Op& op);

@@ -375,8 +375,8 @@ class Parser : TokenReader {
     if (step.arguments.size() < command.least) {
       warning("wrong-argument-count", step.span,
               "'" + std::string(command.word) + "' takes " + std::to_string(command.least) +
-                  " arguments, not " + std::to_string(step.arguments.size()) +
-                  ", so it is left out",
+                  (command.least == 1 ? " argument, not " : " arguments, not ") +
+                  std::to_string(step.arguments.size()) + ", so it is left out",
               std::string("the form is '") + command.form + "'");
       return;
     }

@@ -417,7 +417,8 @@ class Lowering {
     if (arguments.size() != wanted) {
       diagnostics_.warning(
           "wrong-argument-count", s.span,
-          "'" + std::string(s.name) + "' takes " + std::to_string(wanted) + " arguments, not " +
+          "'" + std::string(s.name) + "' takes " + std::to_string(wanted) +
+              (wanted == 1 ? " argument, not " : " arguments, not ") +
               std::to_string(arguments.size()) +
               (arguments.size() < wanted ? "; the others are 0" : ""),
           "write one for each parameter in the head of '" + std::string(s.name) + "'");

@@ -323,7 +323,8 @@ class Parser : TokenReader {
     if (s.arguments.size() != command.count) {
       warning("wrong-argument-count", s.span,
               "'" + std::string(command.word) + "' takes " + std::to_string(command.count) +
-                  " numbers, not " + std::to_string(s.arguments.size()) +
+                  (command.count == 1 ? " number, not " : " numbers, not ") +
+                  std::to_string(s.arguments.size()) +
                   (s.arguments.size() < command.count ? ", so it is left out" : ""),
               std::string("the form is '") + command.form +
                   "'; a '-' with a blank before it begins a new argument, so put brackets around "

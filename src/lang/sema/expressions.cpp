@@ -191,9 +191,11 @@ ValueType Analysis::visitCall(NodeId node) {
     return program_.attributes[attribute].type;
   }
   if (!overloads.empty()) {
+    const auto wanted = program_.functions[overloads[0]].paramCount;
     errorAt("wrong-argument-count", node,
-            quote(name) + " takes " + std::to_string(program_.functions[overloads[0]].paramCount) +
-                " arguments, not " + std::to_string(args.size()),
+            quote(name) + " takes " + std::to_string(wanted) +
+                (wanted == 1 ? " argument, not " : " arguments, not ") +
+                std::to_string(args.size()),
             "");
     return ValueType::Null;
   }
