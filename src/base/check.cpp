@@ -6,12 +6,24 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "base/check_context.h"
+
 namespace gable {
+
+namespace {
+
+constinit thread_local const char* atWork = nullptr;
+
+}  // namespace
+
+CheckContext::CheckContext(const char* name) : before_(atWork) { atWork = name; }
+CheckContext::~CheckContext() { atWork = before_; }
 
 void checkFailed(const char* file, int line, const char* expression, const std::string& left,
                  const std::string& right) {
-  std::fprintf(stderr, "%s:%d: internal check failed: %s (left %s, right %s)\n", file, line,
-               expression, left.c_str(), right.c_str());
+  std::fprintf(stderr, "%s:%d: internal check failed: %s (left %s, right %s)%s%s%s\n", file, line,
+               expression, left.c_str(), right.c_str(), atWork ? " in '" : "", atWork ? atWork : "",
+               atWork ? "'" : "");
   std::abort();
 }
 

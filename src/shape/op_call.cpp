@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/check_context.h"
 #include "base/work.h"
 #include "program/program.h"
 #include "program/tag_effects.h"
@@ -145,6 +146,7 @@ uint32_t OpCall::effects() const {
 Status OpCall::run() {
 #if GABLE_DCHECKS
   const Services::Declared declared(services_, effects());
+  const CheckContext context(spec_.name);
   if ((spec_.effects & kTells) != 0 || spec_.gathered ||
       !services_.isAuditDue(reinterpret_cast<uintptr_t>(&spec_))) {
     return spec_.apply(*this);
@@ -171,6 +173,7 @@ Status OpCall::run() {
 Status OpCall::runGathered(std::span<Gathered> leaves) {
 #if GABLE_DCHECKS
   const Services::Declared declared(services_, effects());
+  const CheckContext context(spec_.name);
 #endif
   return spec_.gathered(*this, leaves);
 }
@@ -180,6 +183,7 @@ Value FunctionCall::run(Value (*function)(FunctionCall&), [[maybe_unused]] uint3
   uint32_t all = effectsOfValues(effects, args_, services_.pool());
   if (namesWorldIn(args_, services_)) all |= effectsOfCall(effects, true) | kReadsWorld;
   const Services::Declared declared(services_, all);
+  const CheckContext context(spec_ ? spec_->name : "an attribute");
   if ((effects & kTells) != 0 || !services_.isAuditDue(reinterpret_cast<uintptr_t>(function))) {
     return function(*this);
   }
