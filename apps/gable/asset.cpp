@@ -5,6 +5,7 @@
 
 #include <cstdio>
 
+#include "answer.h"
 #include "commands.h"
 #include "derive_settings.h"
 
@@ -38,7 +39,11 @@ int runAssetPrepare(const AssetArguments& a) {
   print(written.diagnostics);
   if (!written.ok) return statusOf(written.diagnostics, kExitFile);
   const auto [low, high] = ready.bounds().value_or(gable::BoundingBox{});
-  std::printf("%s: the model covers %.3g..%.3g, %.3g..%.3g, %.3g..%.3g of the volume\n",
-              a.output.c_str(), low[0], high[0], low[1], high[1], low[2], high[2]);
+  char text[200];
+  std::snprintf(text, sizeof text,
+                ": the model covers %.3g..%.3g, %.3g..%.3g, %.3g..%.3g of the volume\n", low[0],
+                high[0], low[1], high[1], low[2], high[2]);
+  answer().wrote(a.output);
+  tell(a.output + text);
   return kExitDone;
 }

@@ -2,10 +2,9 @@
 // SPDX-FileCopyrightText: The Gable authors
 
 #include <algorithm>
-#include <cstdio>
 
+#include "answer.h"
 #include "commands.h"
-#include "json/answers.h"
 
 int runCheck(const CheckArguments& arguments) {
   gable::DiagnosticList all;
@@ -15,19 +14,19 @@ int runCheck(const CheckArguments& arguments) {
     settings.limits = fileLimits(arguments.limits);
     const gable::Rules rules = gable::Rules::load(path, settings);
     missing = missing || !rules.found();
-    if (arguments.disassemble) std::fputs(rules.disassembly().c_str(), stdout);
+    if (arguments.disassemble) {
+      put(rules.disassembly());
+      answer().text("disassembly", rules.disassembly());
+    }
     all.insert(all.end(), rules.diagnostics().begin(), rules.diagnostics().end());
   }
   const auto errors = static_cast<size_t>(
       std::count_if(all.begin(), all.end(), [](const auto& d) { return d.isError(); }));
-  if (arguments.json) {
-    std::printf("%s\n", gable::diagnosticsJson(all).c_str());
-  } else {
-    std::fputs(gable::render(all).c_str(), stdout);
-    if (!all.empty()) {
-      std::printf("%zu error%s, %zu warning%s\n", errors, errors == 1 ? "" : "s",
-                  all.size() - errors, all.size() - errors == 1 ? "" : "s");
-    }
+  print(all, stdout);
+  const size_t others = all.size() - errors;
+  if (!all.empty()) {
+    tell(std::to_string(errors) + (errors == 1 ? " error, " : " errors, ") +
+         std::to_string(others) + (others == 1 ? " warning\n" : " warnings\n"));
   }
   if (missing) return kExitFile;
   return statusOf(all, errors > 0 ? kExitWrong : kExitDone);

@@ -5,14 +5,15 @@
 
 #include "city.h"
 
-#include <cstdio>
 #include <filesystem>
 
+#include "answer.h"
 #include "derive_settings.h"
 #include "folders.h"
 #include "gable/city.h"
 #include "gable/files.h"
 #include "json/city_json.h"
+#include "progress.h"
 
 namespace {
 
@@ -23,20 +24,17 @@ int findRules(DeriveArguments& arguments) {
   if (!examples.empty()) arguments.search.libraries.push_back(examples);
   if (arguments.rules.empty()) {
     if (examples.empty()) {
-      std::fputs(
-          "gable: the rules for cities, examples/rules/city.cga, do not lie beside the program; "
-          "name the folder of a city.cga with --rules\n",
-          stderr);
-      return kExitFile;
+      return fail(kExitFile,
+                  "the rules for cities, examples/rules/city.cga, do not lie beside the program; "
+                  "name the folder of a city.cga with --rules");
     }
     arguments.rules = examples + "/rules/city.cga";
   } else if (std::filesystem::is_directory(arguments.rules)) {
     const std::string folder = arguments.rules;
     arguments.rules += "/city.cga";
     if (!std::filesystem::exists(arguments.rules)) {
-      std::fprintf(stderr, "gable: there is no city.cga in '%s'; copy it there%s\n", folder.c_str(),
-                   examples.empty() ? "" : (" from '" + examples + "/rules'").c_str());
-      return kExitFile;
+      return fail(kExitFile, "there is no city.cga in '" + folder + "'; copy it there" +
+                                 (examples.empty() ? "" : " from '" + examples + "/rules'"));
     }
   }
   return kExitDone;
@@ -61,9 +59,7 @@ int readCountry(std::string text, gable::CitySettings& settings) {
 int checkPicture(const CityArguments& arguments, gable::PictureSettings& settings) {
   if (const int status = checkExtension(arguments.picture.output, {"png"})) return status;
   if (!tileFolder(arguments.output).empty()) {
-    std::fputs("gable: --picture draws a model, and -o asks for tiles; give one of the two\n",
-               stderr);
-    return kExitUsage;
+    return fail(kExitUsage, "--picture draws a model, and -o asks for tiles; give one of the two");
   }
   return pictureSettings(arguments.picture, settings);
 }
@@ -104,11 +100,9 @@ int runCity(const CityArguments& given) {
   const bool draws = !arguments.picture.output.empty();
   const bool builds = draws || !arguments.output.empty();
   if (!builds && arguments.plan.empty() && arguments.stats.empty()) {
-    std::fputs(
-        "gable: say what to write: a model with -o, a picture with --picture, the ground with "
-        "--plan\n",
-        stderr);
-    return kExitUsage;
+    return fail(
+        kExitUsage,
+        "say what to write: a model with -o, a picture with --picture, the ground with --plan");
   }
   if (!arguments.output.empty() && tileFolder(arguments.output).empty()) {
     std::vector<std::string> formats = gable::modelExtensions();
@@ -116,8 +110,7 @@ int runCity(const CityArguments& given) {
     if (const int status = checkExtension(arguments.output, formats)) return status;
   }
   if (arguments.tiles.onlyPlan && tileFolder(arguments.output).empty()) {
-    std::fputs("gable: --plan-jobs plans tiles: give -o a folder, such as monaco/\n", stderr);
-    return kExitUsage;
+    return fail(kExitUsage, "--plan-jobs plans tiles: give -o a folder, such as monaco/");
   }
   arguments.picture.derive = arguments.derive;
   gable::PictureSettings picture;
@@ -133,8 +126,11 @@ int runCity(const CityArguments& given) {
   settings.soil = arguments.soil;
   if (const int status = readBox(arguments.box, settings)) return status;
   if (const int status = readCountry(arguments.country, settings)) return status;
-  const gable::City city =
-      gable::City::load(arguments.derive.shapes, settings, fileLimits(arguments.derive.limits));
+  const gable::City city = [&] {
+    const Progress progress("planning " + arguments.derive.shapes);
+    return gable::City::load(arguments.derive.shapes, settings,
+                             fileLimits(arguments.derive.limits));
+  }();
   print(city.diagnostics());
   if (!city.found()) return kExitFile;
   if (!city.ok()) return statusOf(city.diagnostics(), kExitWrong);
@@ -146,11 +142,13 @@ int runCity(const CityArguments& given) {
   int status = kExitDone;
   gable::TileResult tiles;
   if (builds) status = buildModel(city, arguments, picture, figures, tiles);
-  if (!arguments.stats.empty() && (status == kExitDone || status == kExitLimit)) {
+  if (status == kExitDone || status == kExitLimit) {
     figures.totalSeconds = secondsNow() - begin;
     figures.peakBytes = peakBytes();
     const std::string text =
         gable::cityJson(city.statistics(), figures, tiles.ok ? &tiles : nullptr);
+    answer().members(text);
+    if (arguments.stats.empty()) return status;
     if (const int written = writeText(arguments.stats, text)) return written;
   }
   return status;

@@ -24,7 +24,6 @@ struct CheckArguments {
   std::vector<std::string> rules;
   std::optional<std::string> project, dialect;
   gable::SearchSettings search;
-  bool json = false;
   /// Print what the rules are compiled to as well.
   bool disassemble = false;
   LimitArguments limits;
@@ -33,7 +32,6 @@ int runCheck(const CheckArguments& arguments);
 
 struct InfoArguments {
   DeriveArguments derive;
-  bool json = false;
 };
 int runInfo(const InfoArguments& arguments);
 
@@ -93,11 +91,13 @@ int pictureSettings(const RenderArguments& arguments, gable::PictureSettings& se
 /// Whether a path names a model that can be read, by its extension.
 bool isModel(const std::string& path);
 
+/// gable watch: a picture or a model, by the ending of the output, made again at every change.
+int runWatch(const RenderArguments& arguments);
+
 struct DiffArguments {
   std::string before, after;
   /// The options of the picture; its output may be empty.
   RenderArguments picture;
-  bool json = false;
 };
 int runDiff(const DiffArguments& arguments);
 
@@ -123,7 +123,6 @@ int runAssetPrepare(const AssetArguments& arguments);
 
 struct OpsArguments {
   std::string name;
-  bool json = false;
 };
 int runOps(const OpsArguments& arguments);
 

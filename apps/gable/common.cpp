@@ -4,7 +4,6 @@
 #include "common.h"
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -14,22 +13,26 @@
 #include <mutex>
 #include <random>
 
+#include "answer.h"
 #include "derive_settings.h"
 #include "gable/files.h"
 #include "gable/names.h"
+#include "progress.h"
 
 bool parseSeed(const std::string& text, double& seed) {
   if (text == "random") {
     seed = static_cast<int32_t>(std::random_device{}());
-    std::fprintf(stderr, "seed %.0f\n", seed);
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%.0f", seed);
+    answer().member("seed", digits);
+    note(std::string("seed ") + digits);
     return true;
   }
   return parseNumber(text, {}, seed);
 }
 
 int wrongOption(const char* option, const std::string& form, const std::string& text) {
-  std::fprintf(stderr, "gable: %s takes %s, not '%s'\n", option, form.c_str(), text.c_str());
-  return kExitUsage;
+  return fail(kExitUsage, std::string(option) + " takes " + form + ", not '" + text + "'");
 }
 
 std::string extensionOf(const std::string& path) {
@@ -47,10 +50,6 @@ int checkExtension(const std::string& path, const std::vector<std::string>& exte
   }
   return wrongOption("--output", "a file name with an ending that says its format (" + known + ")",
                      path);
-}
-
-void print(const gable::DiagnosticList& diagnostics) {
-  std::fputs(gable::render(diagnostics).c_str(), stderr);
 }
 
 gable::FileLimits fileLimits(const LimitArguments& arguments) {
@@ -98,7 +97,10 @@ gable::FeatureSelection selectionOf(const DeriveArguments& arguments) {
 int readRules(const DeriveArguments& arguments, gable::Rules& rules) {
   gable::LoadSettings load{arguments.project, arguments.dialect, arguments.style, arguments.search};
   load.limits = fileLimits(arguments.limits);
-  rules = gable::Rules::load(arguments.rules, load);
+  {
+    const Progress progress("reading " + arguments.rules);
+    rules = gable::Rules::load(arguments.rules, load);
+  }
   print(rules.diagnostics());
   if (!rules.found()) return kExitFile;
   return rules.ok() ? kExitDone : statusOf(rules.diagnostics(), kExitWrong);
@@ -108,6 +110,7 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
   const gable::FileLimits limits = fileLimits(arguments.limits);
   if (const int status = readRules(arguments, inputs.rules)) return status;
   if (!arguments.shapes.empty()) {
+    const Progress progress("reading " + arguments.shapes);
     inputs.shapes = gable::Shapes::load(arguments.shapes, limits, selectionOf(arguments));
   } else {
     double width = 20, depth = 20;
@@ -134,12 +137,12 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
 gable::Model deriveModel(const gable::Rules& rules, const gable::Shapes& shapes,
                          gable::DeriveSettings settings, std::FILE* prints) {
   gable::Model model = [&] {
-    ProgressLine progress("deriving");
+    Progress progress("deriving", "shapes");
     settings.progress = progress.callback();
     return gable::derive(rules, shapes, settings);
   }();
   print(model.diagnostics());
-  for (const std::string& line : model.prints()) std::fprintf(prints, "%s\n", line.c_str());
+  printLines(model.prints(), prints);
   return model;
 }
 
@@ -155,11 +158,12 @@ int writeModel(const gable::Model& model, const std::string& path,
                const gable::WriteSettings& settings, gable::RunFigures& figures) {
   const double begin = secondsNow();
   const gable::WriteResult written = [&] {
-    const ProgressLine progress("writing");
+    const Progress progress("writing " + path);
     return model.write(path, settings);
   }();
   print(written.diagnostics);
   if (!written.ok) return statusOf(written.diagnostics, kExitFile);
+  answer().wrote(path);
   figures.deriveSeconds = model.deriveSeconds();
   figures.writeSeconds = secondsNow() - begin;
   if (written.triangles > 0) figures.triangles = written.triangles;
@@ -183,22 +187,6 @@ int statusOf(const gable::DiagnosticList& diagnostics, int otherwise) {
   return limited ? static_cast<int>(kExitLimit) : otherwise;
 }
 
-ProgressLine::ProgressLine(const char* what) : what_(what), terminal_(isatty(STDERR_FILENO) != 0) {}
-
-ProgressLine::~ProgressLine() {
-  if (terminal_) std::fputs("\r\033[K", stderr);
-}
-
-std::function<void(size_t, size_t)> ProgressLine::callback() {
-  if (!terminal_) return {};
-  const auto last = std::make_shared<std::atomic<int>>(-1);
-  const char* what = what_;
-  return [last, what](size_t done, size_t total) {
-    const int percent = total ? static_cast<int>(done * 100 / total) : 100;
-    if (last->exchange(percent) != percent) std::fprintf(stderr, "\r%s %3d %%", what, percent);
-  };
-}
-
 int64_t peakBytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -218,20 +206,25 @@ bool readText(const std::string& path, std::string& text) {
 }
 
 int writeText(const std::string& path, const std::string& text) {
+  if (path == "-" && terminal().json) {
+    answer().text("text", text);
+    return kExitDone;
+  }
   if (path == "-") {
     std::fwrite(text.data(), 1, text.size(), stdout);
     return kExitDone;
   }
   const gable::WriteResult written = gable::writeTextFile(path, text);
   print(written.diagnostics);
+  if (written.ok) answer().wrote(path);
   return written.ok ? kExitDone : kExitFile;
 }
 
 int finishOutput(int status) {
   const bool flushed = std::fflush(stdout) == 0;
   if (flushed && std::ferror(stdout) == 0) return status;
-  std::fputs("gable: the output could not be written; see that there is room for it\n", stderr);
-  return kExitFile;
+  terminal().json = false;
+  return fail(kExitFile, "the output could not be written; see that there is room for it");
 }
 
 namespace {

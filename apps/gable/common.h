@@ -5,7 +5,6 @@
 #pragma once
 
 #include <atomic>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +12,7 @@
 
 #include "gable/gable.h"
 #include "numbers.h"
+#include "terminal.h"
 
 /// The exit statuses that scripts rely on.
 enum ExitStatus : int {
@@ -94,25 +94,10 @@ struct Inputs {
 };
 int readInputs(const DeriveArguments& arguments, Inputs& inputs);
 
-/// Prints diagnostics to stderr.
-void print(const gable::DiagnosticList& diagnostics);
-
 /// The exit status that a derivation asks for.
 int statusOf(const gable::Model& model);
 /// kExitLimit where a limit or a cancel ended what has these diagnostics, else `otherwise`.
 int statusOf(const gable::DiagnosticList& diagnostics, int otherwise);
-
-/// A line of progress on a terminal; silent in a pipe. Erased when it goes out of scope.
-class ProgressLine {
- public:
-  explicit ProgressLine(const char* what);
-  ~ProgressLine();
-  std::function<void(size_t, size_t)> callback();
-
- private:
-  const char* what_;
-  bool terminal_;
-};
 
 /// Largest resident memory so far, in bytes.
 int64_t peakBytes();

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 
-#include <cstdio>
-
 #include "commands.h"
 
 int runConvert(const ConvertArguments& arguments) {

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <string>
 
+#include "answer.h"
 #include "commands.h"
 #include "gable/compare.h"
-#include "json/answers.h"
 
 namespace {
 
@@ -21,9 +21,7 @@ std::string formatOf(const std::string& path) {
 
 int readModel(const std::string& path, const gable::FileLimits& limits, gable::Model& model) {
   if (!isModel(path)) {
-    std::fprintf(stderr, "gable: '%s' is no model; name a .glb, .gltf or .obj file\n",
-                 path.c_str());
-    return kExitUsage;
+    return fail(kExitUsage, "'" + path + "' is no model; name a .glb, .gltf or .obj file");
   }
   model = gable::Model::load(path, limits);
   print(model.diagnostics());
@@ -100,11 +98,9 @@ int runDiff(const DiffArguments& arguments) {
     if (const int status = pictureSettings(picture, settings)) return status;
   }
   if (formatOf(arguments.before) != formatOf(arguments.after)) {
-    std::fprintf(stderr,
-                 "gable: '%s' and '%s' have different formats, which keep faces in different ways; "
-                 "compare files of one format\n",
-                 arguments.before.c_str(), arguments.after.c_str());
-    return kExitUsage;
+    return fail(kExitUsage, "'" + arguments.before + "' and '" + arguments.after +
+                                "' have different formats, which keep faces in different ways; "
+                                "compare files of one format");
   }
   const gable::FileLimits limits = fileLimits(picture.derive.limits);
   gable::Model before(nullptr), after(nullptr);
@@ -113,14 +109,12 @@ int runDiff(const DiffArguments& arguments) {
   const Comparison c = gable::compare(before, after, limits);
   print(c.diagnostics);
   if (gable::hasErrors(c.diagnostics)) return statusOf(c.diagnostics, kExitWrong);
-  if (arguments.json)
-    std::printf("%s\n", gable::comparisonJson(c).c_str());
+  if (terminal().json)
+    answer().members(gable::comparisonJson(c));
   else
     printText(c);
   if (!picture.output.empty()) {
-    const gable::WriteResult written = c.picture.picture(picture.output, settings);
-    print(written.diagnostics);
-    if (!written.ok) return statusOf(written.diagnostics, kExitFile);
+    if (const int status = drawPicture(c.picture, picture.output, settings)) return status;
   }
   return c.same() ? kExitDone : kExitWrong;
 }

@@ -16,6 +16,10 @@ std::string folderWith(const char* file, const std::initializer_list<const char*
   return {};
 }
 
+std::string studioPage() {
+  return folderWith("index.html", {"../studio", "../share/gable/studio"});
+}
+
 std::string examplesFolder() {
   return folderWith("README.md", {"../../examples", "../share/gable/examples"});
 }

@@ -11,3 +11,5 @@
 std::string folderWith(const char* file, const std::initializer_list<const char*>& folders);
 /// The examples that come with Gable; empty where they are not there.
 std::string examplesFolder();
+/// The folder of the studio's page; empty where it is not built.
+std::string studioPage();

@@ -2,12 +2,15 @@
 // SPDX-FileCopyrightText: The Gable authors
 
 #include <algorithm>
-#include <cstdio>
 
+#include "answer.h"
 #include "commands.h"
 
 int runFormat(const FormatArguments& arguments) {
   int status = kExitDone;
+  std::string names;
+  gable::JsonWriter changed(names);
+  changed.beginArray();
   for (const std::string& path : arguments.files) {
     std::string text;
     if (!readText(path, text)) {
@@ -21,15 +24,18 @@ int runFormat(const FormatArguments& arguments) {
       continue;
     }
     if (arguments.toStdout) {
-      std::fwrite(formatted.text.data(), 1, formatted.text.size(), stdout);
+      if (const int written = writeText("-", formatted.text)) return written;
     } else if (formatted.text != text) {
       if (!arguments.check) {
         if (const int written = writeText(path, formatted.text)) return written;
       } else {
         status = std::max<int>(status, kExitWrong);
       }
-      std::printf("%s%s\n", path.c_str(), arguments.check ? " would change" : "");
+      changed.value(path);
+      tell(path + (arguments.check ? " would change\n" : "\n"));
     }
   }
+  changed.endArray();
+  answer().member("changed", names);
   return status;
 }

@@ -6,6 +6,7 @@
 
 #include <cstdio>
 
+#include "answer.h"
 #include "commands.h"
 #include "derive_settings.h"
 #include "gable/files.h"
@@ -19,15 +20,16 @@ void tellEmpty(const gable::Model& model, const Inputs& inputs) {
   const bool chosen = inputs.settings.startRule.has_value();
   const std::string start =
       chosen ? *inputs.settings.startRule : inputs.rules.startRule().value_or(std::string());
-  std::fprintf(stderr,
-               "warning: the model is empty: the start rule '%s' made nothing [empty-model]\n",
-               start.c_str());
+  gable::Diagnostic d;
+  d.severity = gable::Diagnostic::Severity::Warning;
+  d.code = "empty-model";
+  d.message = "the model is empty: the start rule '" + start + "' made nothing";
+  d.rendered = "warning: " + d.message + " [" + d.code + "]\n";
   if (!chosen) {
-    std::fputs(
-        "  hint: it is the one with @StartRule, else the first of the file; --start takes "
-        "another\n",
-        stderr);
+    d.hint = "it is the one with @StartRule, else the first of the file; --start takes another";
+    d.rendered += "  hint: " + d.hint + "\n";
   }
+  print({d});
 }
 
 int generateOnce(const GenerateArguments& arguments) {
@@ -37,8 +39,8 @@ int generateOnce(const GenerateArguments& arguments) {
   if (const int status = checkExtension(arguments.output, formats)) return status;
   Inputs inputs;
   if (const int status = readInputs(arguments.derive, inputs)) return status;
-  // Statistics on the standard output are JSON and nothing else; what was printed is part of them.
-  std::FILE* const prints = arguments.stats == "-" ? stderr : stdout;
+  // JSON on the standard output is that and nothing else; what was printed is part of it.
+  std::FILE* const prints = arguments.stats == "-" || terminal().json ? stderr : stdout;
   const gable::Model model = deriveModel(inputs.rules, inputs.shapes, inputs.settings, prints);
   if (gable::hasErrors(model.diagnostics())) return statusOf(model);
   tellEmpty(model, inputs);
@@ -51,10 +53,11 @@ int generateOnce(const GenerateArguments& arguments) {
     const std::string table = gable::reportsCsv(model.statistics().reports);
     if (const int status = writeText(arguments.reports, table)) return status;
   }
+  figures.parseSeconds = inputs.rules.parseSeconds();
+  figures.totalSeconds = secondsNow() - begin;
+  figures.peakBytes = peakBytes();
+  if (terminal().json) answer().members(gable::statisticsMembers(model, figures));
   if (!arguments.stats.empty()) {
-    figures.parseSeconds = inputs.rules.parseSeconds();
-    figures.totalSeconds = secondsNow() - begin;
-    figures.peakBytes = peakBytes();
     const std::string text = gable::statisticsJson(model, figures);
     if (const int status = writeText(arguments.stats, text)) return status;
   }
@@ -68,7 +71,7 @@ int runGenerate(const GenerateArguments& arguments) {
   return watch({[&] { return inputTimes(arguments.derive); },
                 [&] {
                   const int status = generateOnce(arguments);
-                  if (status == kExitDone) std::printf("%s\n", arguments.output.c_str());
+                  if (status == kExitDone) tell(arguments.output + "\n");
                   return status;
                 },
                 {}});

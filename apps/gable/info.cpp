@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "answer.h"
 #include "commands.h"
-#include "json/answers.h"
 
 namespace {
 
@@ -90,21 +90,26 @@ void printInfo(const gable::Rules& rules, const std::vector<gable::NamedValue>& 
   printFiles(rules);
 }
 
+void addMembers(const gable::Rules& rules, const std::vector<gable::NamedValue>& values) {
+  if (!terminal().json) return;
+  std::string out;
+  gable::JsonWriter json(out);
+  json.beginObject();
+  gable::writeRuleFile(json, rules, values);
+  json.endObject();
+  answer().members(out);
+}
+
 }  // namespace
 
 int runInfo(const InfoArguments& arguments) {
   Inputs inputs;
   if (const int status = readInputs(arguments.derive, inputs)) {
-    if (arguments.json && status == kExitWrong) {
-      std::printf("%s\n", gable::rulesJson(inputs.rules, {}).c_str());
-    }
+    if (status == kExitWrong) addMembers(inputs.rules, {});
     return status;
   }
   const std::vector<gable::NamedValue> values = valuesOf(inputs);
-  if (arguments.json) {
-    std::printf("%s\n", gable::rulesJson(inputs.rules, values).c_str());
-  } else {
-    printInfo(inputs.rules, values);
-  }
+  addMembers(inputs.rules, values);
+  if (!terminal().json) printInfo(inputs.rules, values);
   return kExitDone;
 }

@@ -8,12 +8,15 @@
 #include <csignal>
 #include <cstdio>
 
+#include "answer.h"
 #include "city.h"
+#include "cli_tree.h"
 #include "commands.h"
 #include "folders.h"
 #include "gable/names.h"
 #include "tiles.h"
 #include "tiles_viewer.h"
+#include "version.h"
 
 namespace {
 
@@ -124,7 +127,25 @@ std::string unknownCommand(const CLI::App& app, int argc, char** argv) {
   if (hint.empty()) {
     for (const std::string& name : names) hint += (hint.empty() ? "there are " : ", ") + name;
   }
-  return "gable: there is no command '" + word + "'; " + hint + "\n";
+  return "there is no command '" + word + "'; " + hint;
+}
+
+/// Tells what is wrong with the command line. Help and the version are no mistakes.
+int wrongLine(const CLI::App& app, const CLI::ParseError& e, int argc, char** argv) {
+  if (e.get_exit_code() == 0) {
+    terminal().json = false;
+    return app.exit(e) == 0 ? kExitDone : kExitUsage;
+  }
+  for (int i = 1; i < argc; ++i) {
+    if (std::string_view(argv[i]) == "--json") terminal().json = true;
+  }
+  answer().begin(chosenCommand(app));
+  if (const std::string unknown = unknownCommand(app, argc, argv); !unknown.empty()) {
+    return fail(kExitUsage, unknown);
+  }
+  if (terminal().json) return fail(kExitUsage, e.what());
+  app.exit(e);
+  return kExitUsage;
 }
 
 void addLsp(CLI::App& app, LspArguments& a, int& status) {
@@ -142,7 +163,6 @@ void addCheck(CLI::App& app, CheckArguments& a, int& status) {
   check->add_option("--project", a.project, "The folder that the rules may read from");
   addSearch(check, a.search);
   check->add_option("--dialect", a.dialect, "The rules' notation");
-  check->add_flag("--json", a.json, "Machine-readable output");
   check->add_flag("--disassemble", a.disassemble, "List the compiled program as well");
   addLimits(check, a.limits, kFileSeconds);
   check->callback([&a, &status] { status = runCheck(a); });
@@ -204,7 +224,7 @@ void addCity(CLI::App& app, CityArguments& a, int& status) {
       ->required();
   city->add_option(
       "--rules", a.derive.rules,
-      "A folder with city.cga, or a rule file (default: the rules that come with Gable)");
+      "A rule file, or a folder with city.cga (default: the rules that come with Gable)");
   city->add_option("--box", a.box,
                    "The part of the map: west,south,east,north in degrees, or in the map's metres\n"
                    "(default: the box around its buildings)");
@@ -227,7 +247,8 @@ void addCity(CLI::App& app, CityArguments& a, int& status) {
   addReplacePlan(city, a.tiles);
   city->add_option("--picture", a.picture.output, "Draw the place as well: .png");
   addPictureOptions(city, a.picture);
-  city->add_option("--plan", a.plan, "Write the ground as GeoJSON: a polygon a piece, its surface");
+  city->add_option("--plan", a.plan,
+                   "Write the ground to a file as GeoJSON: a polygon a piece, its surface");
   city->add_option("--stats", a.stats, "Write areas and counts as JSON to a file, or - for stdout");
   city->add_option("--set", a.derive.set, "An attribute's value: NAME=VALUE; may be repeated")
       ->type_size(1)
@@ -352,7 +373,6 @@ void addInfo(CLI::App& app, InfoArguments& a, int& status) {
       "info", "Show start rules, attributes with their values, imports and assets of rules");
   info->add_option("rules", a.derive.rules, "The rule file or package")->required();
   addDeriveOptions(info, a.derive);
-  info->add_flag("--json", a.json, "Machine-readable output");
   info->callback([&a, &status] { status = runInfo(a); });
 }
 
@@ -380,7 +400,6 @@ void addDiff(CLI::App& app, DiffArguments& a, int& status) {
   diff->add_option("after", a.after, "Another of the same format")->required();
   diff->add_option("-o,--output", a.picture.output,
                    "A picture: what is added in green, removed in red, kept in grey");
-  diff->add_flag("--json", a.json, "Machine-readable output");
   addPictureOptions(diff, a.picture);
   addLimits(diff, a.picture.derive.limits,
             "Stop reading and comparing after so many seconds each (default 600, 0: no limit)");
@@ -396,6 +415,19 @@ void addRender(CLI::App& app, RenderArguments& a, int& status) {
   addPictureOptions(command, a);
   addWatch(command, a.watch);
   command->callback([&a, &status] { status = runRender(a); });
+}
+
+void addWatchCommand(CLI::App& app, RenderArguments& a, int& status) {
+  auto* command =
+      app.add_subcommand("watch", "Make a picture or a model again whenever a file changes");
+  command->add_option("rules", a.derive.rules, "The rule file or package")->required();
+  addDeriveOptions(command, a.derive);
+  command
+      ->add_option("-o,--output", a.output,
+                   "The picture or the model: .png .glb .gltf .obj .ply .stl")
+      ->required();
+  addPictureOptions(command, a);
+  command->callback([&a, &status] { status = runWatch(a); });
 }
 
 void addNew(CLI::App& app, NewArguments& a, int& status) {
@@ -422,6 +454,22 @@ void addTest(CLI::App& app, TestArguments& a, int& status) {
   test->callback([&a, &status] { status = runTest(a); });
 }
 
+void addCompletion(CLI::App& app, CompletionArguments& a, int& status) {
+  auto* command =
+      app.add_subcommand("completion", "Write what completes commands in a shell: bash, zsh, fish");
+  command->add_option("shell", a.shell, "The shell")
+      ->required()
+      ->check(CLI::IsMember(completionShells()));
+  command->callback([&app, &a, &status] { status = runCompletion(describe(app), a); });
+}
+
+void addMan(CLI::App& app, ManArguments& a, int& status) {
+  auto* command = app.add_subcommand("man", "Write the man page of a command, or all pages");
+  command->add_option("command", a.command, "The command (default: the page of the program)");
+  command->add_option("-o,--output", a.output, "A folder that gets all pages");
+  command->callback([&app, &a, &status] { status = runMan(describe(app), a); });
+}
+
 void addStudio(CLI::App& app, StudioArguments& a, int& status) {
   auto* studio = app.add_subcommand(
       "studio", "Start the studio: write rules in the browser and see the model");
@@ -437,7 +485,9 @@ void addStudio(CLI::App& app, StudioArguments& a, int& status) {
 
 int main(int argc, char** argv) {
   CLI::App app("Gable turns rules into places: shape grammars (CGA) in, 3D models out.", "gable");
-  app.set_version_flag("--version", std::string("gable ") + gable::version());
+  app.set_version_flag("--version", versionText());
+  app.footer(exitText() +
+             "\n\n'gable COMMAND --help' tells the options of a command, with examples.");
   app.require_subcommand(1);
   int status = kExitDone;
 
@@ -477,6 +527,8 @@ int main(int argc, char** argv) {
 
   RenderArguments render;
   addRender(app, render, status);
+  RenderArguments watched;
+  addWatchCommand(app, watched, status);
   TraceArguments trace;
   auto* traceApp = app.add_subcommand("trace", "Write the derivation tree as JSON");
   traceApp->add_option("rules", trace.derive.rules, "The rule file")->required();
@@ -506,7 +558,6 @@ int main(int argc, char** argv) {
   auto* opsApp =
       app.add_subcommand("ops", "List the operations, functions and attributes, or explain one");
   opsApp->add_option("name", ops.name, "An operation, function or attribute");
-  opsApp->add_flag("--json", ops.json, "Machine-readable output");
   opsApp->callback([&] { status = runOps(ops); });
 
   LspArguments lsp;
@@ -517,15 +568,17 @@ int main(int argc, char** argv) {
   addTest(app, test, status);
   StudioArguments studio;
   addStudio(app, studio, status);
+  CompletionArguments completion;
+  addCompletion(app, completion, status);
+  ManArguments man;
+  addMan(app, man, status);
+  addCommon(app);
+  app.parse_complete_callback([&app] { answer().begin(chosenCommand(app)); });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    if (const std::string unknown = unknownCommand(app, argc, argv); !unknown.empty()) {
-      std::fputs(unknown.c_str(), stderr);
-      return kExitUsage;
-    }
-    // Help and version are no mistakes; all else is a wrong command line.
-    return finishOutput(app.exit(e) == 0 ? kExitDone : kExitUsage);
+    status = wrongLine(app, e, argc, argv);
   }
+  printAnswer(status);
   return finishOutput(status);
 }

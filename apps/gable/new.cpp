@@ -5,9 +5,9 @@
 // holds.
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
+#include "answer.h"
 #include "commands.h"
 #include "gable/files.h"
 
@@ -105,11 +105,6 @@ bool isName(const std::string& name) {
   });
 }
 
-int refuse(const std::string& what, const char* remedy, int status) {
-  std::fprintf(stderr, "gable: %s\n  hint: %s\n", what.c_str(), remedy);
-  return status;
-}
-
 }  // namespace
 
 int runNew(const NewArguments& arguments) {
@@ -118,20 +113,21 @@ int runNew(const NewArguments& arguments) {
   if (!folder.has_filename()) folder = folder.parent_path();
   const std::string name = folder.filename().string();
   if (!isName(name)) {
-    return refuse("'" + name + "' is no name of a project", "use letters, digits, '-' and '_'",
-                  kExitUsage);
+    return fail(kExitUsage, "'" + name + "' is no name of a project",
+                "use letters, digits, '-' and '_'");
   }
   if (fs::exists(folder, error) &&
       (!fs::is_directory(folder, error) || !fs::is_empty(folder, error))) {
-    return refuse("'" + arguments.folder + "' is there already, and is no empty folder",
-                  "name another one; nothing was written", kExitUsage);
+    return fail(kExitUsage, "'" + arguments.folder + "' is there already, and is no empty folder",
+                "name another one; nothing was written");
   }
   for (const char* part : {"rules", "tests", "assets"}) {
     fs::create_directories(folder / part, error);
     if (error) {
-      return refuse(
+      return fail(
+          kExitFile,
           "the folder '" + (folder / part).string() + "' cannot be made: " + error.message(),
-          "see that the folder around it may be written", kExitFile);
+          "see that the folder around it may be written");
     }
   }
   const std::pair<fs::path, std::string> files[] = {
@@ -141,9 +137,7 @@ int runNew(const NewArguments& arguments) {
   for (const auto& [path, text] : files) {
     if (const int status = writeText(path.string(), text)) return status;
   }
-  std::printf(
-      "%s: a project\n\n  cd %s\n  gable render rules/%s.cga --lot 24x18 -o %s.png\n  gable studio "
-      ".\n",
-      arguments.folder.c_str(), arguments.folder.c_str(), name.c_str(), name.c_str());
+  tell(arguments.folder + ": a project\n\n  cd " + arguments.folder + "\n  gable render rules/" +
+       name + ".cga --lot 24x18 -o " + name + ".png\n  gable studio .\n");
   return kExitDone;
 }

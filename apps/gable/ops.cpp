@@ -2,10 +2,9 @@
 // SPDX-FileCopyrightText: The Gable authors
 
 #include <algorithm>
-#include <cstdio>
 
+#include "answer.h"
 #include "commands.h"
-#include "json/answers.h"
 
 namespace {
 
@@ -155,16 +154,16 @@ int runOps(const OpsArguments& arguments) {
   const gable::Builtins all = gable::builtins();
   std::optional<std::string> text;
   if (arguments.name.empty())
-    text = arguments.json ? gable::builtinsJson(all) : textOfAll(all);
+    text = terminal().json ? gable::builtinsJson(all) : textOfAll(all);
   else
-    text = arguments.json ? gable::builtinJson(all, knownName(all, arguments.name))
-                          : pageOf(all, arguments.name);
+    text = terminal().json ? gable::builtinJson(all, knownName(all, arguments.name))
+                           : pageOf(all, arguments.name);
   if (!text) {
     const std::string near = gable::suggestion(arguments.name, namesOf(all));
-    std::fprintf(stderr, "gable: nothing built in is called '%s'; %s%s'gable ops' lists all\n",
-                 arguments.name.c_str(), near.c_str(), near.empty() ? "" : " ");
-    return kExitUsage;
+    return fail(kExitUsage, "nothing built in is called '" + arguments.name + "'; " + near +
+                                (near.empty() ? "" : " ") + "'gable ops' lists all");
   }
-  std::fputs(text->c_str(), stdout);
+  put(*text);
+  answer().members(*text);
   return kExitDone;
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 
-#include <cstdio>
+#include <string>
 
+#include "answer.h"
 #include "commands.h"
 
 int runPack(const PackArguments& arguments) {
@@ -16,8 +17,10 @@ int runPack(const PackArguments& arguments) {
   const gable::Packed packed = gable::pack(rules, arguments.output, settings.limits);
   print(packed.diagnostics);
   if (!packed.ok) return statusOf(packed.diagnostics, kExitFile);
-  std::printf("%s: %llu files, %llu bytes\n", arguments.output.c_str(),
-              static_cast<unsigned long long>(packed.files),
-              static_cast<unsigned long long>(packed.bytes));
+  answer().wrote(arguments.output);
+  answer().member("count", std::to_string(packed.files));
+  answer().member("bytes", std::to_string(packed.bytes));
+  tell(arguments.output + ": " + std::to_string(packed.files) + " files, " +
+       std::to_string(packed.bytes) + " bytes\n");
   return kExitDone;
 }

@@ -2,11 +2,13 @@
 // SPDX-FileCopyrightText: The Gable authors
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 
+#include "answer.h"
 #include "commands.h"
+#include "derive_settings.h"
 #include "gable/names.h"
+#include "progress.h"
 #include "watch.h"
 
 namespace {
@@ -56,11 +58,8 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
     }
   }
   if (a.eye.empty() != a.target.empty()) {
-    std::fputs(
-        "gable: --eye and --target are given together: where the camera is, and what it "
-        "looks at\n",
-        stderr);
-    return kExitUsage;
+    return fail(kExitUsage,
+                "--eye and --target are given together: where the camera is, and what it looks at");
   }
   if (!a.eye.empty()) {
     const char* const kForm = "x,y,z in metres, such as 10,1.7,25";
@@ -83,11 +82,12 @@ bool isModel(const std::string& path) {
 
 int drawPicture(const gable::Model& model, const std::string& path,
                 gable::PictureSettings settings) {
-  ProgressLine progress("drawing");
+  Progress progress("drawing");
   settings.progress = progress.callback();
   const gable::WriteResult written = model.picture(path, settings);
   print(written.diagnostics);
   if (gable::hasErrors(written.diagnostics)) return statusOf(written.diagnostics, kExitFile);
+  answer().wrote(path);
   return written.ok ? kExitDone : kExitLimit;
 }
 
@@ -116,12 +116,25 @@ int renderOnce(const RenderArguments& arguments) {
 
 }  // namespace
 
+int runWatch(const RenderArguments& arguments) {
+  if (extensionOf(arguments.output) == "png") {
+    RenderArguments picture = arguments;
+    picture.watch = true;
+    return runRender(picture);
+  }
+  GenerateArguments model;
+  model.derive = arguments.derive;
+  model.output = arguments.output;
+  model.watch = true;
+  return runGenerate(model);
+}
+
 int runRender(const RenderArguments& arguments) {
   if (!arguments.watch) return renderOnce(arguments);
   return watch({[&] { return inputTimes(arguments.derive); },
                 [&] {
                   const int status = renderOnce(arguments);
-                  if (status == kExitDone) std::printf("%s\n", arguments.output.c_str());
+                  if (status == kExitDone) tell(arguments.output + "\n");
                   return status;
                 },
                 {}});

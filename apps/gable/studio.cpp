@@ -15,11 +15,10 @@ int runStudioCommand(const StudioArguments& arguments) {
   settings.project = arguments.folder;
   settings.search = arguments.search;
   settings.port = static_cast<uint16_t>(arguments.port);
-  settings.page = folderWith("index.html", {"../studio", "../share/gable/studio"});
+  settings.page = studioPage();
   settings.examples = examplesFolder();
   if (settings.page.empty()) {
-    std::fputs("gable: the studio's page is not there; './run studio' builds it\n", stderr);
-    return kExitFile;
+    return fail(kExitFile, "the studio's page is not there; './run studio' builds it");
   }
   const gable::StudioResult result =
       gable::runStudio(settings, *cancelFlag(), [](const std::string& url) {

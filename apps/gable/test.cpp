@@ -2,11 +2,12 @@
 // SPDX-FileCopyrightText: The Gable authors
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
+#include "answer.h"
 #include "commands.h"
 #include "gable/cases.h"
+#include "progress.h"
 #include "watch.h"
 
 namespace {
@@ -56,6 +57,39 @@ std::string reportText(const Results& results, const std::string& format) {
   return plainText(results);
 }
 
+void addFailures(gable::JsonWriter& json, const std::vector<CaseFailure>& failures) {
+  json.key("failures").beginArray();
+  for (const CaseFailure& f : failures) {
+    json.beginObject().field("line", f.line).field("message", f.message).endObject();
+  }
+  json.endArray();
+}
+
+/// "passed", "failed", and "cases" with their file, line, seconds and what failed.
+void addMembers(const Results& results, const Tally& tally) {
+  std::string out;
+  gable::JsonWriter json(out);
+  json.beginArray();
+  for (const CaseFileResult& file : results) {
+    if (!file.errors.empty()) {
+      json.beginObject().field("file", file.file);
+      addFailures(json, file.errors);
+      json.endObject();
+    }
+    for (const CaseResult& c : file.cases) {
+      json.beginObject().field("file", file.file).field("name", c.name).field("line", c.line);
+      json.field("seconds", c.seconds);
+      addFailures(json, c.failures);
+      json.endObject();
+    }
+    for (const std::string& written : file.written) answer().wrote(written);
+  }
+  json.endArray();
+  answer().member("passed", std::to_string(tally.passed));
+  answer().member("failed", std::to_string(tally.failed));
+  answer().member("cases", out);
+}
+
 std::vector<std::string> filesOf(const TestArguments& arguments) {
   std::vector<std::string> files;
   for (const std::string& path : arguments.paths) {
@@ -79,21 +113,27 @@ int runOnce(const TestArguments& arguments, Results& results) {
   settings.cancel = cancelFlag();
   const std::vector<std::string> files = filesOf(arguments);
   if (files.empty()) {
-    std::fputs("gable: there is no .test file here; name a file or a folder\n", stderr);
-    return kExitUsage;
+    return fail(kExitUsage, "there is no .test file here; name a file or a folder");
   }
-  for (const std::string& file : files) {
-    if (!*cancelFlag()) results.push_back(gable::runCases(file, settings));
+  {
+    Progress progress("testing", "files");
+    const auto show = progress.callback();
+    for (const std::string& file : files) {
+      if (!*cancelFlag()) results.push_back(gable::runCases(file, settings));
+      if (show) show(results.size(), files.size());
+    }
   }
   const Tally t = tallyOf(results);
-  if (const int status = writeText(arguments.output, reportText(results, arguments.format))) {
-    return status;
+  addMembers(results, t);
+  if (!terminal().json || arguments.output != "-") {
+    if (const int status = writeText(arguments.output, reportText(results, arguments.format))) {
+      return status;
+    }
   }
   if (*cancelFlag()) return kExitLimit;
   if (t.missing) return kExitFile;
   if (t.passed + t.failed == 0) {
-    std::fprintf(stderr, "gable: no case has '%s' in its name\n", arguments.filter.c_str());
-    return kExitUsage;
+    return fail(kExitUsage, "no case has '" + arguments.filter + "' in its name");
   }
   return t.failed == 0 ? kExitDone : kExitWrong;
 }

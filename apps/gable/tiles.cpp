@@ -7,11 +7,12 @@
 #include "tiles.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
+#include "answer.h"
 #include "derive_settings.h"
 #include "json/tiles_json.h"
+#include "progress.h"
 #include "tiles_viewer.h"
 
 namespace {
@@ -30,7 +31,7 @@ int statusOfTiles(const gable::DiagnosticList& diagnostics) {
 /// Prints what there is to say; the exit status.
 int told(const gable::TileResult& result) {
   print(result.diagnostics);
-  for (const std::string& line : result.prints) std::fprintf(stderr, "%s\n", line.c_str());
+  printLines(result.prints, stderr);
   if (result.end != gable::End::Done) return kExitLimit;
   return result.ok ? static_cast<int>(kExitDone) : statusOfTiles(result.diagnostics);
 }
@@ -64,12 +65,13 @@ struct Means {
 
 int writeStats(const std::string& path, const gable::TileResult& result, double begin,
                double parseSeconds) {
-  if (path.empty()) return kExitDone;
   gable::RunFigures figures;
   figures.parseSeconds = parseSeconds;
   figures.totalSeconds = secondsNow() - begin;
   figures.peakBytes = peakBytes();
-  return writeText(path, gable::tilesJson(result, figures));
+  const std::string text = gable::tilesJson(result, figures);
+  answer().members(text);
+  return path.empty() ? static_cast<int>(kExitDone) : writeText(path, text);
 }
 
 gable::TileSettings tileSettings(const TileArguments& arguments, const LimitArguments& limits) {
@@ -116,7 +118,7 @@ int planFolder(const DeriveArguments& derive, const TileArguments& tiles, bool o
 /// Runs jobs one after the other; `result` has their counts.
 int runJobs(const gable::TilePlan& plan, const gable::Rules& rules,
             const std::vector<uint64_t>& jobs, const Means& means, gable::TileResult& result) {
-  ProgressLine progress("writing tiles");
+  Progress progress("writing tiles");
   const std::function<void(size_t, size_t)> show = progress.callback();
   for (size_t i = 0; i < jobs.size(); ++i) {
     gable::TileRun run = means.run();
@@ -150,8 +152,8 @@ bool parseJobs(const std::string& text, uint64_t count, std::vector<uint64_t>& j
   if (!parseNumber(text.substr(0, dash), range, first) ||
       !parseNumber(dash == std::string::npos ? text : text.substr(dash + 1), range, last) ||
       last < first) {
-    std::fprintf(stderr, "gable: '%s' names no jobs of the plan; it has 0 to %.0f, as 3 or 3-17\n",
-                 text.c_str(), range.most);
+    fail(kExitUsage, "'" + text + "' names no jobs of the plan; it has 0 to " +
+                         std::to_string(count - 1) + ", as 3 or 3-17");
     return false;
   }
   for (auto j = static_cast<uint64_t>(first); j <= static_cast<uint64_t>(last); ++j) {
@@ -199,6 +201,7 @@ int runInPieces(const TilesArguments& arguments, const std::string& folder, doub
   gable::TileResult result;
   if (const int status = runPlan(plan, rules, means, result)) return status;
   if (const int status = page.write()) return status;
+  answer().wrote(folder);
   return writeStats(arguments.stats, result, begin, planned - begin);
 }
 
@@ -209,7 +212,7 @@ int writeTileFolder(const TilesArguments& arguments, const Inputs& inputs,
   if (arguments.tiles.viewer) {
     if (const int status = page.find(folder)) return status;
   }
-  ProgressLine progress("writing tiles");
+  Progress progress("writing tiles", "shapes");
   gable::TileSettings tiles = tileSettings(arguments.tiles, arguments.derive.limits);
   tiles.derive = inputs.settings;
   tiles.derive.progress = progress.callback();
@@ -219,8 +222,11 @@ int writeTileFolder(const TilesArguments& arguments, const Inputs& inputs,
 }
 
 int tellPlan(const gable::TilePlan& plan, const std::string& folder) {
-  std::printf("%llu jobs for %llu shapes in %s\n", static_cast<unsigned long long>(plan.jobs()),
-              static_cast<unsigned long long>(plan.shapes()), folder.c_str());
+  const std::string jobs = std::to_string(plan.jobs()), shapes = std::to_string(plan.shapes());
+  answer().wrote(folder);
+  answer().member("jobs", jobs);
+  answer().member("shapes", shapes);
+  tell(jobs + " jobs for " + shapes + " shapes in " + folder + "\n");
   return kExitDone;
 }
 
@@ -256,6 +262,7 @@ int makeTiles(const DeriveArguments& derive, const TileArguments& tiles, const P
   if (tiles.onlyPlan) return tellPlan(plan, folder);
   const Means means{derive.jobs, derive.limits, begin};
   if (const int status = runPlan(plan, placed.rules, means, result)) return status;
+  answer().wrote(folder);
   return page.write();
 }
 
@@ -269,6 +276,7 @@ int runTiles(const TilesArguments& arguments) {
   if (const int status = readInputs(arguments.derive, inputs)) return status;
   gable::TileResult result;
   if (const int status = writeTileFolder(arguments, inputs, folder, result)) return status;
+  answer().wrote(folder);
   return writeStats(arguments.stats, result, begin, inputs.rules.parseSeconds());
 }
 
@@ -300,6 +308,7 @@ int runTilesJoin(const std::vector<std::string>& places, const std::string& outp
   limits.cancel = cancelFlag();
   const gable::DiagnosticList told = gable::joinTilesets(places, asFolder(output), limits);
   print(told);
+  if (!gable::hasErrors(told)) answer().wrote(asFolder(output));
   return gable::hasErrors(told) ? statusOfTiles(told) : static_cast<int>(kExitDone);
 }
 
@@ -315,8 +324,8 @@ int runTilesMerge(const MergeArguments& arguments) {
   const Means means{arguments.threads, arguments.limits, begin};
   gable::TileResult result = gable::mergeTiles(plan, means.run());
   if (!result.jobsToRun.empty() && arguments.mend) {
-    std::fprintf(stderr, "gable: runs %zu of %llu jobs again\n", result.jobsToRun.size(),
-                 static_cast<unsigned long long>(plan.jobs()));
+    note("runs " + std::to_string(result.jobsToRun.size()) + " of " + std::to_string(plan.jobs()) +
+         " jobs again");
     gable::Rules rules(nullptr);
     if (const int status = rulesOf(plan, arguments.limits, rules)) return status;
     gable::TileResult again;
@@ -325,5 +334,6 @@ int runTilesMerge(const MergeArguments& arguments) {
   }
   if (const int status = told(result)) return status;
   if (const int status = page.write()) return status;
+  answer().wrote(folder);
   return writeStats(arguments.stats, result, begin, 0);
 }

@@ -7,10 +7,10 @@
 
 #include <sys/wait.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
+#include "answer.h"
 #include "tiles.h"
 
 namespace {
@@ -118,8 +118,7 @@ int writeScript(const std::string& path, const std::string& text) {
 
 int runTilesSubmit(const SubmitArguments& arguments) {
   if (!arguments.slurm && !arguments.parallel) {
-    std::fputs("gable: say how to run the jobs: --slurm or --parallel\n", stderr);
-    return kExitUsage;
+    return fail(kExitUsage, "say how to run the jobs: --slurm or --parallel");
   }
   const std::string folder = asFolder(arguments.folder);
   const gable::TilePlan plan = gable::TilePlan::load(folder);
@@ -127,9 +126,9 @@ int runTilesSubmit(const SubmitArguments& arguments) {
   if (!plan.ok()) return kExitFile;
   const char* const program = arguments.slurm ? "sbatch" : "parallel";
   if (!arguments.dry && !isInstalled(program)) {
-    std::fprintf(stderr, "gable: the program %s is not installed; install the package %s\n",
-                 program, arguments.slurm ? "slurm-client" : "parallel");
-    return kExitFile;
+    return fail(kExitFile, std::string("the program ") + program +
+                               " is not installed; install the package " +
+                               (arguments.slurm ? "slurm-client" : "parallel"));
   }
   const Place at = placeOf(folder);
   std::error_code error;
@@ -148,7 +147,7 @@ int runTilesSubmit(const SubmitArguments& arguments) {
     if (const int status = writeScript(path, text)) return status;
   }
   if (arguments.dry) {
-    std::printf("%s\n", run.c_str());
+    tell(run + "\n");
     return kExitDone;
   }
   const int status = std::system(quoted(run).c_str());

@@ -17,8 +17,7 @@ bool mayHoldViewer(const std::string& folder) {
   std::string before;
   if (!readText(folder + "index.html", before)) return false;
   if (before.find("name=\"generator\" content=\"Gable\"") != std::string::npos) return true;
-  std::fprintf(stderr, "gable: '%sindex.html' is a page of another program; remove it first\n",
-               folder.c_str());
+  fail(kExitFile, "'" + folder + "index.html' is a page of another program; remove it first");
   return false;
 }
 
@@ -28,8 +27,7 @@ int ViewerPage::find(const std::string& folder) {
   folder_ = folder;
   from_ = folderWith("viewer.js", {"../studio/viewer", "../share/gable/studio/viewer"});
   if (from_.empty()) {
-    std::fputs("gable: the page for --viewer is not built; ./run studio builds it\n", stderr);
-    return kExitFile;
+    return fail(kExitFile, "the page for --viewer is not built; ./run studio builds it");
   }
   return mayHoldViewer(folder) ? kExitDone : kExitFile;
 }
@@ -50,10 +48,8 @@ int runTilesViewer(const std::string& output) {
   const std::string folder = asFolder(output);
   std::error_code error;
   if (!std::filesystem::exists(folder + "tileset.json", error)) {
-    std::fprintf(stderr,
-                 "gable: there is no tileset in '%s'; gable tiles and gable city make one\n",
-                 folder.c_str());
-    return kExitFile;
+    return fail(kExitFile,
+                "there is no tileset in '" + folder + "'; gable tiles and gable city make one");
   }
   ViewerPage page;
   if (const int status = page.find(folder)) return status;

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "answer.h"
 #include "commands.h"
+#include "derive_settings.h"
 #include "gable/files.h"
-#include "json/answers.h"
 
 namespace {
 
@@ -22,6 +23,12 @@ std::vector<std::string> namesOf(const std::string& path) {
 }
 
 int write(const gable::DerivationTrace& trace, const std::string& path) {
+  if (path == "-" && terminal().json) {
+    std::string text;
+    gable::writeTrace(trace, [&](std::string_view more) { text += more; });
+    answer().member("trees", text);
+    return kExitDone;
+  }
   if (path == "-") {
     gable::writeTrace(
         trace, [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); });
@@ -30,6 +37,7 @@ int write(const gable::DerivationTrace& trace, const std::string& path) {
   const gable::WriteResult written = gable::writeTextFile(
       path, [&](const gable::TextSink& sink) { gable::writeTrace(trace, sink); });
   print(written.diagnostics);
+  if (written.ok) answer().wrote(path);
   return written.ok ? kExitDone : kExitFile;
 }
 
@@ -40,8 +48,7 @@ int runTrace(const TraceArguments& arguments) {
   if (const int status = readInputs(arguments.derive, inputs)) return status;
   inputs.settings.trace = true;
   inputs.settings.traceFilter = {arguments.rule, namesOf(arguments.path), arguments.depth};
-  const gable::Model model = gable::derive(inputs.rules, inputs.shapes, inputs.settings);
-  print(model.diagnostics());
+  const gable::Model model = deriveModel(inputs.rules, inputs.shapes, inputs.settings, stderr);
   if (gable::hasErrors(model.diagnostics())) return statusOf(model);
   if (const int status = write(model.trace(), arguments.output)) return status;
   return statusOf(model);

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <thread>
 
+#include "answer.h"
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -46,6 +48,8 @@ int watch(const Watched& watched) {
     // Taken before the run, so that an edit during it starts another.
     FileTimes before = watched.times();
     status = watched.run();
+    // What follows is the answer of another run.
+    printAnswer(status);
     std::fflush(stdout);
     FileTimes after = watched.times();
     if (watched.forget) watched.forget(before, after);
@@ -54,7 +58,7 @@ int watch(const Watched& watched) {
       after = watched.times();
     }
     if (*cancelFlag()) break;
-    std::printf("\n%s has changed\n", changedFile(before, after).c_str());
+    tell("\n" + changedFile(before, after) + " has changed\n");
     // The run that follows may take long.
     std::fflush(stdout);
   }

@@ -31,6 +31,8 @@ struct RunFigures {
 };
 /// Counts, bounds, reports, prints, diagnostics and figures as one object.
 std::string statisticsJson(const Model& model, const RunFigures& figures = {});
+/// The same without the diagnostics.
+std::string statisticsMembers(const Model& model, const RunFigures& figures = {});
 
 /// Before and after as arrays of two; what was added, removed and kept as objects.
 std::string comparisonJson(const Comparison& comparison);
@@ -41,9 +43,9 @@ void writeTrace(const DerivationTrace& trace, const TextSink& sink);
 
 /// Members of an object: "startRule", "rules" and "attributes" with their annotations.
 void writeRules(JsonWriter& json, const Rules& rules);
-/// All that is known of a rule file without running it, and the values of its attributes where
-/// there are some, as one object.
-std::string rulesJson(const Rules& rules, const std::vector<NamedValue>& values);
+/// Members of an object: all that is known of a rule file without running it, and the values of its
+/// attributes where there are some.
+void writeRuleFile(JsonWriter& json, const Rules& rules, const std::vector<NamedValue>& values);
 
 /// Reports as a table with a line for each key, or for each text that was reported under one:
 /// key,value,count,sum,average,minimum,maximum.

@@ -77,11 +77,10 @@ void openNode(JsonWriter& json, const DerivationTrace& trace, const DerivationTr
 
 }  // namespace
 
-std::string statisticsJson(const Model& model, const RunFigures& figures) {
+namespace {
+
+void writeStatistics(JsonWriter& json, const Model& model, const RunFigures& figures) {
   const Statistics s = model.statistics();
-  std::string out;
-  JsonWriter json(out, 1);
-  json.beginObject();
   json.key("shapes").value(s.shapes).key("leaves").value(s.leaves).key("faces").value(s.faces);
   json.key("vertices").value(s.vertices);
   json.key("triangles").value(figures.triangles.value_or(s.triangles));
@@ -100,8 +99,26 @@ std::string statisticsJson(const Model& model, const RunFigures& figures) {
   json.key("prints").beginArray();
   for (const std::string& p : model.prints()) json.value(p);
   json.endArray();
-  json.key("diagnostics").raw(diagnosticsJson(model.diagnostics()));
   writeFigures(json, figures);
+}
+
+}  // namespace
+
+std::string statisticsMembers(const Model& model, const RunFigures& figures) {
+  std::string out;
+  JsonWriter json(out, 1);
+  json.beginObject();
+  writeStatistics(json, model, figures);
+  json.endObject();
+  return out;
+}
+
+std::string statisticsJson(const Model& model, const RunFigures& figures) {
+  std::string out;
+  JsonWriter json(out, 1);
+  json.beginObject();
+  writeStatistics(json, model, figures);
+  json.key("diagnostics").raw(diagnosticsJson(model.diagnostics()));
   json.endObject();
   return out + "\n";
 }

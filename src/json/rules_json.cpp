@@ -43,10 +43,8 @@ void writeRules(JsonWriter& json, const Rules& rules) {
   json.endArray();
 }
 
-std::string rulesJson(const Rules& rules, const std::vector<NamedValue>& values) {
-  std::string out;
-  JsonWriter json(out);
-  json.beginObject().key("description").value(rules.description());
+void writeRuleFile(JsonWriter& json, const Rules& rules, const std::vector<NamedValue>& values) {
+  json.key("description").value(rules.description());
   writeRules(json, rules);
   json.key("values").raw(valuesJson(values)).key("imports").beginArray();
   for (const ImportInfo& i : rules.imports()) {
@@ -58,8 +56,7 @@ std::string rulesJson(const Rules& rules, const std::vector<NamedValue>& values)
     json.beginObject().key("path").value(a.path).key("from").value(a.from);
     json.key("file").value(a.file).key("found").value(!a.file.empty()).endObject();
   }
-  json.endArray().key("diagnostics").raw(diagnosticsJson(rules.diagnostics())).endObject();
-  return out;
+  json.endArray();
 }
 
 }  // namespace gable

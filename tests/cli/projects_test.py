@@ -43,7 +43,7 @@ class Case(cli_test.Case):
         return self.run_gable(*arguments, status=status).stdout
 
     def codes(self, *arguments, status=DONE):
-        return [d["code"] for d in json.loads(self.out("check", "--json", *arguments, status=status))]
+        return [d["code"] for d in json.loads(self.out("check", "--json", *arguments, status=status))["diagnostics"]]
 
     def reports(self, *arguments):
         self.gable("generate", *arguments, "-o", "out.glb", "--stats", "stats.json")

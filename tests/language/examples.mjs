@@ -30,7 +30,7 @@ function checked(path, lines) {
   }
   const all = JSON.parse(out);
   const name = path.split('/').at(-1);
-  return (all.diagnostics ?? all)
+  return all.diagnostics
     .filter((d) => !d.file || d.file.split('/').at(-1) === name)
     .map((d) => {
       const line = Buffer.from(lines[(d.line ?? 1) - 1] ?? '');

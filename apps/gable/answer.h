@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// What a command answers with --json: one object, the same for all commands. Its form is a promise
+// to scripts: docs/reference/answers.md.
+//
+//   {"command": "pack", "status": 0, "files": ["a.rpk"], "diagnostics": [], ...what the command
+//   adds}
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gable/diagnostic.h"
+#include "json/answers.h"
+
+class Answer {
+ public:
+  /// "tiles plan".
+  void begin(const std::string& command) { command_ = command; }
+  void add(const gable::DiagnosticList& diagnostics);
+  /// A file or folder that was written.
+  void wrote(const std::string& path) { files_.push_back(path); }
+
+  /// A member of the command's own, whose value is JSON already.
+  void member(std::string_view name, std::string_view json);
+  /// A text as a member.
+  void text(std::string_view name, std::string_view value);
+  /// All members of an object, given as its text.
+  void members(std::string_view object);
+
+  /// The object, and makes ready for the next one (--watch).
+  std::string take(int status);
+
+ private:
+  std::string command_;
+  gable::DiagnosticList diagnostics_;
+  std::vector<std::string> files_;
+  /// ",\n \"name\": value" for each.
+  std::string own_;
+};
+
+/// That of this run; without --json nobody reads it.
+Answer& answer();
+
+/// With --json prints the answer to the standard output.
+void printAnswer(int status);
