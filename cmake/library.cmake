@@ -46,24 +46,34 @@ target_link_options(gable_shared PRIVATE LINKER:--version-script=${exports} LINK
 set_target_properties(gable_shared PROPERTIES LINK_DEPENDS ${exports})
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/gable)
-install(TARGETS gable_shared gable_static EXPORT gableTargets)
-install(EXPORT gableTargets NAMESPACE gable:: DESTINATION ${package})
+install(TARGETS gable_shared EXPORT gableTargets LIBRARY COMPONENT library NAMELINK_COMPONENT development)
+install(TARGETS gable_static EXPORT gableTargets COMPONENT development)
+# With --strip the static library loses what is for debuggers alone.
+install(CODE "if(CMAKE_INSTALL_DO_STRIP)
+    execute_process(COMMAND ${CMAKE_STRIP} --strip-debug --enable-deterministic-archives
+                    \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/libgable.a\")
+  endif()" COMPONENT development)
+install(EXPORT gableTargets NAMESPACE gable:: DESTINATION ${package} COMPONENT development)
 configure_package_config_file(cmake/gableConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/gableConfig.cmake
                               INSTALL_DESTINATION ${package})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/gableConfigVersion.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/gableConfig.cmake
-              ${CMAKE_CURRENT_BINARY_DIR}/gableConfigVersion.cmake DESTINATION ${package})
+              ${CMAKE_CURRENT_BINARY_DIR}/gableConfigVersion.cmake DESTINATION ${package}
+        COMPONENT development)
 file(RELATIVE_PATH pc_to_prefix /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
 configure_file(cmake/gable.pc.in ${CMAKE_CURRENT_BINARY_DIR}/gable.pc @ONLY)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/gable.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/gable DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/gable.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+        COMPONENT development)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/gable DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+        COMPONENT development)
 
 # The program looks for its page and its examples in ../share/gable, seen from where it lies.
-install(TARGETS gable)
+install(TARGETS gable COMPONENT program)
 install(CODE "if(NOT EXISTS ${PROJECT_SOURCE_DIR}/build/studio/index.html)
     message(NOTICE \"The studio's page is not built, so 'gable studio' has none here: './run studio' builds it.\")
-  endif()")
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/studio DESTINATION share/gable OPTIONAL)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION share/gable)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/doc/gable)
+  endif()" COMPONENT program)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/studio DESTINATION share/gable COMPONENT program OPTIONAL)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION share/gable COMPONENT program)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/cmake/debian/copyright DESTINATION share/doc/gable
+        COMPONENT license)

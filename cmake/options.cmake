@@ -52,3 +52,10 @@ if(GABLE_LLD)
 endif()
 
 find_package(Threads REQUIRED)
+
+# gable_finds_libraries(PROGRAM): installed, it finds libraries in lib/gable, where archives have them; by
+# the older kind of path, which holds for the libraries of libraries as well.
+function(gable_finds_libraries program)
+  set_target_properties(${program} PROPERTIES INSTALL_RPATH "$ORIGIN/../lib/gable")
+  target_link_options(${program} PRIVATE LINKER:--disable-new-dtags)
+endfunction()

@@ -1,0 +1,15 @@
+# Read by cpack for each kind of package.
+if(CPACK_GENERATOR STREQUAL "DEB")
+  set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+  set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
+  set(CPACK_COMPONENTS_ALL program debian debian_program library debian_library development debian_development)
+  file(GLOB modules ${CPACK_GABLE_PYTHON_MODULES}/_gable*.so)
+  if(modules)
+    list(APPEND CPACK_COMPONENTS_ALL python debian_python)
+  endif()
+else()
+  # One archive with the program and what it needs.
+  set(CPACK_ARCHIVE_COMPONENT_INSTALL ON)
+  set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
+  set(CPACK_COMPONENTS_ALL program license bundle)
+endif()
