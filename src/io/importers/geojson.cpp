@@ -24,6 +24,7 @@
 #include "io/importers/geojson_edges.h"
 #include "io/importers/geojson_root.h"
 #include "io/importers/shape_input.h"
+#include "io/importers/shape_parts.h"
 #include "shape/edge_attributes.h"
 
 namespace gable {
@@ -476,13 +477,6 @@ void GeoJsonReader::addEdgeValues(const std::string& name, const JsonValue& list
   shape.attributes.push_back(std::move(values));
 }
 
-// Maps name "roof:shape" what a rule calls roof_shape.
-std::string attributeName(std::string key) {
-  std::replace_if(
-      key.begin(), key.end(), [](char c) { return c == ':' || c == '-' || c == ' '; }, '_');
-  return key;
-}
-
 void GeoJsonReader::addAttributes(const JsonValue& properties, ShapeInput& shape) {
   for (const JsonValue::Member& member : properties.members()) {
     const JsonValue& v = member.second;
@@ -490,24 +484,7 @@ void GeoJsonReader::addAttributes(const JsonValue& properties, ShapeInput& shape
       addEdgeValues(member.first, v, shape);
       continue;
     }
-    AttributeValue a;
-    a.name = attributeName(member.first);
-    if (isPlainValue(v)) {
-      a.values.push_back(plainValue(v));
-    } else if (v.isArray() && v.size() > 0) {
-      // A list of values of one kind is an array of one row.
-      const JsonValue::Kind kind = v.at(0).kind();
-      const bool alike = std::all_of(v.items().begin(), v.items().end(), [&](const JsonValue& e) {
-        return isPlainValue(e) && e.kind() == kind;
-      });
-      if (!alike) continue;
-      for (const JsonValue& e : v.items()) a.values.push_back(plainValue(e));
-      a.rows = 1;
-      a.columns = static_cast<uint32_t>(v.size());
-    } else {
-      continue;
-    }
-    shape.attributes.push_back(std::move(a));
+    addAttribute(member, shape);
   }
 }
 

@@ -505,7 +505,8 @@ std::vector<GltfPlacement> GltfFile::placements() const {
     const size_t mesh = index(n["mesh"]);
     if (mesh < json_["meshes"].size() && world.finite()) {
       const std::string& name = n["name"].text();
-      out.push_back({mesh, world, name.empty() ? json_["meshes"].at(mesh)["name"].text() : name});
+      out.push_back({mesh, world, name.empty() ? json_["meshes"].at(mesh)["name"].text() : name,
+                     n.find("extras")});
     }
     const auto& children = n["children"].items();
     work(children.size());

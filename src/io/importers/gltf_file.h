@@ -37,6 +37,8 @@ struct GltfPlacement {
   size_t mesh = 0;
   Affine world;
   std::string name;
+  /// What its node says of itself, or null; it lives as long as the file.
+  const JsonValue* extras = nullptr;
 };
 
 class GltfFile {

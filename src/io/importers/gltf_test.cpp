@@ -256,6 +256,31 @@ TEST(GltfShapes, nodesAreShapes) {
   EXPECT_EQ(r->shapes[0].mesh.corners.size(), 4u);
 }
 
+TEST(GltfShapes, extrasOfNodesAreAttributes) {
+  std::string text = R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],
+    "nodes":[{"mesh":0,"extras":{"roof:shape":"hip","floors":3,"old":true,"odd":{"a":1},"mix":[1,"a"]}}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
+    "bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,
+    "uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIC/"}]})";
+  auto r = readShapes(text, optionsFor("lots.gltf"));
+  ASSERT_TRUE(r.ok());
+  const std::vector<AttributeValue>& a = r->shapes[0].attributes;
+  ASSERT_EQ(a.size(), 3u);
+  EXPECT_EQ(a[0].name, "roof_shape");
+  EXPECT_EQ(a[0].values[0].text, "hip");
+  EXPECT_EQ(a[1].values[0].number, 3);
+  EXPECT_EQ(a[2].values[0].kind, PlainValue::Kind::Bool);
+  for (const char* broken : {"[]", "null", "\"x\"", "{\"\":[]}"}) {
+    std::string other = text;
+    const size_t at = other.find("{\"roof"), end = other.find("}}]") + 1;
+    other.replace(at, end - at, broken);
+    r = readShapes(other, optionsFor("lots.gltf"));
+    ASSERT_TRUE(r.ok()) << broken;
+    EXPECT_TRUE(r->shapes[0].attributes.empty()) << broken;
+  }
+}
+
 TEST(GltfShapes, holesComeBack) {
   SceneBuilder b;
   b.leaf(b.mesh(testing::holedSquare()), testing::turned(33, {100, 0, 50}), {1, 1, 1});

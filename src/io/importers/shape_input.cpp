@@ -52,6 +52,9 @@ Result<ShapeFile> readGltfShapes(std::string_view bytes, const AssetOptions& opt
     dropDegenerateFaces(shape.mesh, 0);
     if (shape.mesh.empty()) continue;
     shape.name = p.name.empty() ? stemOf(options.path) : p.name;
+    if (p.extras) {
+      for (const JsonValue::Member& member : p.extras->members()) addAttribute(member, shape);
+    }
     out.shapes.push_back(std::move(shape));
   }
   noteDropped(out, dropped);

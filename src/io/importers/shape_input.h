@@ -8,7 +8,7 @@
 //            without any polygon make one shape, "lines". A line is faces of two corners.
 //   maps     OpenStreetMap, GeoPackage, FlatGeobuf, shapefiles, KML and DXF, read as GeoJSON
 //   OBJ      a shape an object (o), or a group (g) where there are no objects, or the whole file
-//   glTF     a shape a node with a mesh
+//   glTF     a shape a node with a mesh; its extras, Blender's custom properties, are attributes
 //
 // OBJ and glTF bring their texture coordinates and materials; triangles of glTF that lie in one
 // plane, with one material and one mapping, are one polygon.

@@ -7,6 +7,7 @@
 #include "base/files.h"
 #include "base/work.h"
 #include "io/importers/face_filter.h"
+#include "io/importers/geojson_edges.h"
 
 namespace gable {
 
@@ -64,6 +65,29 @@ void takeMaterials(ShapeInput& shape, Asset part) {
   for (MeshFace& f : shape.mesh.faces) f.materialSlot = static_cast<uint16_t>(f.materialSlot + 1);
   shape.materials = std::move(part.materials);
   shape.groups = std::move(part.slotGroups);
+}
+
+void addAttribute(const JsonValue::Member& member, ShapeInput& shape) {
+  const JsonValue& v = member.second;
+  AttributeValue a;
+  a.name = member.first;
+  std::replace_if(
+      a.name.begin(), a.name.end(), [](char c) { return c == ':' || c == '-' || c == ' '; }, '_');
+  if (isPlainValue(v)) {
+    a.values.push_back(plainValue(v));
+  } else if (v.isArray() && v.size() > 0) {
+    const JsonValue::Kind kind = v.at(0).kind();
+    const bool alike = std::all_of(v.items().begin(), v.items().end(), [&](const JsonValue& e) {
+      return isPlainValue(e) && e.kind() == kind;
+    });
+    if (!alike) return;
+    for (const JsonValue& e : v.items()) a.values.push_back(plainValue(e));
+    a.rows = 1;
+    a.columns = static_cast<uint32_t>(v.size());
+  } else {
+    return;
+  }
+  shape.attributes.push_back(std::move(a));
 }
 
 }  // namespace gable

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "base/json.h"
 #include "io/importers/shape_input.h"
 
 namespace gable {
@@ -22,5 +23,9 @@ void turnFootprintsUp(ShapeFile& out);
 /// The slots of a mesh that was read as an asset become those of a shape, which count from 1: their
 /// materials, where one of them says anything, and their groups.
 void takeMaterials(ShapeInput& shape, Asset part);
+
+/// A number, text or bool as an attribute, or a list of one kind of them as an array of one row; what
+/// is neither is left out. Maps name "roof:shape" what a rule calls roof_shape.
+void addAttribute(const JsonValue::Member& member, ShapeInput& shape);
 
 }  // namespace gable
