@@ -1,0 +1,31 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The Gable authors
+"""Packs the add-on for Blender: tools/pack_blender.py [OUTPUT], build/gable_blender.zip where none is given.
+
+The same files give the same bytes, on every machine: sorted names, one date, nothing compressed.
+"""
+import sys
+import zipfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+ADDON = ROOT / "blender" / "gable_blender"
+DATE = (1980, 1, 1, 0, 0, 0)
+
+
+def pack(output):
+    output.parent.mkdir(parents=True, exist_ok=True)
+    files = sorted([*ADDON.glob("*.py"), ADDON / "blender_manifest.toml", ROOT / "LICENSE"], key=lambda p: p.name)
+    with zipfile.ZipFile(output, "w", zipfile.ZIP_STORED) as archive:
+        for path in files:
+            entry = zipfile.ZipInfo(f"{ADDON.name}/{path.name}", DATE)
+            entry.create_system = 3
+            entry.external_attr = 0o644 << 16
+            archive.writestr(entry, path.read_bytes())
+
+
+if __name__ == "__main__":
+    out = Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build" / "gable_blender.zip"
+    pack(out)
+    print(out)
