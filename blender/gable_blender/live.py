@@ -5,12 +5,12 @@ import json
 
 import bpy
 
-from . import run
+from . import lots, run
 
 SECONDS = 0.5
 # By object: what it was when the timer last looked. A value that is still being dragged waits.
 _seen = {}
-# Objects whose mesh changed since they were generated last.
+# Objects that Blender says have changed since the timer last looked at their faces.
 _changed = set()
 
 
@@ -33,15 +33,26 @@ def look():
         now = own.signature()
         settled = _seen.get(obj.name) == now
         _seen[obj.name] = now
-        if not settled or (now == own.made and obj.name not in _changed):
+        if not settled or (now == own.made and not _has_other_lots(obj)):
             continue
-        _changed.discard(obj.name)
         if own.loaded == own.rules and own.watched() != _times_in(own.made):
             # The rules themselves: they may have other attributes now.
             own.loaded = ""
         _regenerate(obj)
         done.append(obj.name)
     return done
+
+
+def _has_other_lots(obj):
+    """Blender tells of changes to an object that are none of its faces."""
+    if obj.name not in _changed:
+        return False
+    _changed.discard(obj.name)
+    try:
+        good, _ = run.lots_of(obj)
+    except run.Refused:
+        return True
+    return run.digest(lots.to_glb(good)) != obj.gable.lots
 
 
 def _times_in(signature):

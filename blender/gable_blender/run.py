@@ -6,6 +6,7 @@ What was there stays until all of the new is there; a run that fails or is cance
 messages.
 """
 import dataclasses
+import hashlib
 import json
 import os
 import tempfile
@@ -56,6 +57,10 @@ def lots_of(obj):
         raise Refused([messages.Message("error", f"none of the faces of {obj.name} can be a lot: {faults[0]}",
                                         "mend the face"), *found])
     return good, found
+
+
+def digest(data):
+    return hashlib.sha1(data).hexdigest()
 
 
 def load_rules(obj):
@@ -137,7 +142,7 @@ class Run:
         if obj is None:
             return False
         own = obj.gable
-        own.made = self.signature
+        own.made, own.lots = self.signature, digest(self.data)
         found = messages.ordered(self.found + [m for o in self.outcomes for m in o.messages])
         made = []
         if not self.failed:

@@ -141,6 +141,8 @@ class GableObject(bpy.types.PropertyGroup):
     messages: CollectionProperty(type=GableMessage)
     files: StringProperty()
     made: StringProperty()
+    # The digest of the lots that the last run had.
+    lots: StringProperty()
     # How the lots were shown before a model stood on them; empty while none does.
     shown: StringProperty()
 
@@ -187,7 +189,7 @@ class GableObject(bpy.types.PropertyGroup):
         """Lots lie where the ground of their model lies: they are shown as wire, and not rendered."""
         if not self.shown:
             self.shown = json.dumps([obj.display_type, obj.hide_render])
-        obj.display_type, obj.hide_render = "WIRE", True
+            obj.display_type, obj.hide_render = "WIRE", True
 
     def step_forward(self, obj):
         if self.shown:

@@ -323,6 +323,11 @@ class Blender(unittest.TestCase):
         self.assertEqual(look(), ["Lots"])
         self.assertEqual((bounds(made(obj))[1][2], "more" in obj.gable.attributes), (9, True))
         self.assertEqual((look(), look()), ([], []))
+        obj.data.vertices[2].co.x = 20
+        obj.data.update()
+        bpy.context.view_layer.update()
+        self.assertEqual((look(), look()), (["Lots"], []))
+        self.assertEqual(bounds(made(obj))[1][0], 20)
 
     def test_missing_and_old_programs_are_told(self):
         obj = rectangle(10, 10)

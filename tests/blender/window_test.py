@@ -9,6 +9,7 @@ panel.png in OUT; the exit status is 1 where a step fails.
 """
 import os
 import sys
+import tempfile
 import time
 import traceback
 from pathlib import Path
@@ -54,7 +55,10 @@ def steps():
     obj = bpy.data.objects.new("Lots", mesh)
     bpy.context.scene.collection.objects.link(obj)
     bpy.context.view_layer.objects.active = obj
-    obj.gable.rules = str(ROOT / "examples" / "castle" / "castle.cga")
+    # A short path, for the picture.
+    examples = Path(tempfile.mkdtemp()) / "examples"
+    os.symlink(ROOT / "examples", examples)
+    obj.gable.rules = str(examples / "castle" / "castle.cga")
     obj.gable.seed = 5
     space = area().spaces.active
     space.show_region_ui = True
@@ -121,14 +125,13 @@ def pictured(space):
     space.shading.show_cavity = True
     space.overlay.show_overlays = False
     view = space.region_3d
-    view.view_location, view.view_distance = (228, 225, 8), 330
+    view.view_location, view.view_distance = (238, 225, 8), 250
     view.view_rotation = Quaternion((1, 0, 0), 1.05)
-    for region in area().regions:
-        if region.type == "UI" and hasattr(region, "active_panel_category"):
-            try:
-                region.active_panel_category = "Gable"
-            except (AttributeError, TypeError):
-                pass
+    # The tab of Gable, in a window of 1280 x 800.
+    window = bpy.context.window_manager.windows[0]
+    for kind, value in (("MOUSEMOVE", "NOTHING"), ("LEFTMOUSE", "PRESS"), ("LEFTMOUSE", "RELEASE")):
+        window.event_simulate(kind, value, x=1044, y=555)
+        yield None
     area().tag_redraw()
     yield None
     yield None
@@ -157,4 +160,6 @@ class Walk:
         os._exit(status)
 
 
+# Nothing of the person's settings, and no greeting over the page.
+bpy.context.preferences.view.show_splash = False
 bpy.app.timers.register(Walk(), first_interval=1.0, persistent=True)
