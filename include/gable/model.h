@@ -175,6 +175,20 @@ struct LeafInfo {
   std::vector<Part> parts;
 };
 
+/// What lies directly below a part of a model.
+struct ModelParts {
+  struct Part {
+    std::string name;
+    uint64_t firstLeaf = 0, endLeaf = 0;
+    /// A leaf has nothing below it.
+    bool leaf = false;
+  };
+  /// In path order, without those that have no leaves.
+  std::vector<Part> parts;
+  /// How many were left out behind them.
+  uint64_t more = 0;
+};
+
 /// Triangles for a renderer, in the mesh's own frame. Leaves that share a mesh differ in their
 /// place alone.
 struct TriangleMesh {
@@ -239,6 +253,9 @@ class Model {
   uint64_t leafCount() const;
   /// A leaf by its number in path order.
   std::optional<LeafInfo> leaf(uint64_t number) const;
+  /// What lies directly below the part LeafInfo::parts[level - 1] of a leaf, which is nothing where
+  /// it has no such part; at level 0 the initial shapes. The first `most` of it.
+  ModelParts parts(uint64_t leaf, size_t level, uint64_t most = 100'000) const;
   /// Meshes, materials and the places of the first leaves, at most `mostLeaves`.
   ModelGeometry geometry(uint64_t mostLeaves = 1u << 24) const;
   /// The model for a graphics card: batches of instances and of merged triangles; the bytes are

@@ -132,6 +132,7 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
 DerivationTrace traceOf(const DeriveResult& result, const Program& program, const Sources& sources);
 /// Absent when there is no leaf of that number.
 std::optional<LeafInfo> leafOf(const Scene& scene, uint64_t number);
+ModelParts partsOf(const Scene& scene, uint64_t leaf, size_t level, uint64_t most);
 ModelGeometry geometryOf(const Scene& scene, uint64_t mostLeaves);
 /// The same as a settled asset; see Model::prepared.
 std::shared_ptr<const Model::Impl> preparedOf(const Model::Impl& from,

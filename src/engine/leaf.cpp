@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// What is known of one leaf. It is found by the counts of prototypes, so that no instance is
-// expanded for it. Values and materials in their public form.
+// What is known of one leaf, and of the parts above it. It is found by the counts of prototypes, so
+// that no instance is expanded for it. Values and materials in their public form.
 
 #include "engine/impl.h"
 #include "scene/flatten.h"
@@ -13,7 +13,7 @@ namespace {
 
 /// A rule's shape above a leaf, with the leaves below it.
 struct Above {
-  uint32_t name = 0;
+  const Prototype* prototype = nullptr;
   uint64_t first = 0, end = 0;
 };
 
@@ -25,15 +25,14 @@ struct FoundLeaf {
 };
 
 /// The leaf of that number in path order.
-FoundLeaf leafAt(const Scene& scene, uint64_t wanted) {
-  const std::vector<uint64_t> counts = prototypeLeafCounts(scene);
+FoundLeaf leafAt(const Scene& scene, const std::vector<uint64_t>& counts, uint64_t wanted) {
   FoundLeaf found;
   uint64_t first = 0;
   const Prototype* p = nullptr;
   const auto enter = [&](const Instance& instance) {
     p = &scene.prototypes[instance.prototype];
     found.world = found.world * instance.frame;
-    found.above.push_back({p->name, first, first + counts[instance.prototype]});
+    found.above.push_back({p, first, first + counts[instance.prototype]});
   };
   for (const Root& r : scene.roots) {
     const uint64_t here = counts[r.instance.prototype];
@@ -145,7 +144,7 @@ MaterialInfo materialInfoOf(const Material& m) {
 }
 
 std::optional<LeafInfo> leafOf(const Scene& scene, uint64_t number) {
-  const FoundLeaf found = leafAt(scene, number);
+  const FoundLeaf found = leafAt(scene, prototypeLeafCounts(scene), number);
   const Leaf* leaf = found.leaf;
   if (!leaf) return std::nullopt;
   LeafInfo out;
@@ -162,7 +161,44 @@ std::optional<LeafInfo> leafOf(const Scene& scene, uint64_t number) {
     out.attributes = namedValuesOf(scene.attributeSets[leaf->attributes]);
   }
   setScope(out, scene, found);
-  for (const Above& a : found.above) out.parts.push_back({scene.names[a.name], a.first, a.end});
+  for (const Above& a : found.above) {
+    out.parts.push_back({scene.names[a.prototype->name], a.first, a.end});
+  }
+  return out;
+}
+
+ModelParts partsOf(const Scene& scene, uint64_t leaf, size_t level, uint64_t most) {
+  const std::vector<uint64_t> counts = prototypeLeafCounts(scene);
+  ModelParts out;
+  uint64_t next = 0;
+  const auto add = [&](uint32_t name, uint64_t leaves, bool isLeaf) {
+    work();
+    if (leaves == 0) return;
+    if (out.parts.size() < most)
+      out.parts.push_back({scene.names[name], next, next + leaves, isLeaf});
+    else
+      ++out.more;
+    next += leaves;
+  };
+  const auto addInstance = [&](const Instance& instance) {
+    add(scene.prototypes[instance.prototype].name, counts[instance.prototype], false);
+  };
+  if (level == 0) {
+    for (const Root& r : scene.roots) addInstance(r.instance);
+    return out;
+  }
+  const FoundLeaf found = leafAt(scene, counts, leaf);
+  if (level > found.above.size()) return out;
+  const Prototype& p = *found.above[level - 1].prototype;
+  next = found.above[level - 1].first;
+  uint32_t done = 0;
+  for (uint32_t i = 0; i <= p.instanceCount; ++i) {
+    const bool last = i == p.instanceCount;
+    const Instance* instance = last ? nullptr : &scene.instances[p.firstInstance + i];
+    const uint32_t end = last ? p.leafCount : instance->leavesBefore;
+    for (; done < end; ++done) add(scene.leaves[p.firstLeaf + done].name, 1, true);
+    if (instance) addInstance(*instance);
+  }
   return out;
 }
 

@@ -317,6 +317,10 @@ std::optional<LeafInfo> Model::leaf(uint64_t number) const {
   return guardedValue<std::optional<LeafInfo>>([&] { return leafOf(impl_->scene(), number); });
 }
 
+ModelParts Model::parts(uint64_t leaf, size_t level, uint64_t most) const {
+  return guardedValue<ModelParts>([&] { return partsOf(impl_->scene(), leaf, level, most); });
+}
+
 ModelGeometry Model::geometry(uint64_t mostLeaves) const {
   return guardedValue<ModelGeometry>([&] { return geometryOf(impl_->scene(), mostLeaves); });
 }

@@ -116,4 +116,15 @@ std::string leafJson(const LeafInfo& leaf) {
   return out;
 }
 
+std::string partsJson(const ModelParts& parts) {
+  std::string out;
+  JsonWriter json(out);
+  json.beginObject().key("parts").beginArray();
+  for (const ModelParts::Part& p : parts.parts) {
+    json.beginArray().value(p.name).value(p.firstLeaf).value(p.endLeaf).value(p.leaf).endArray();
+  }
+  json.endArray().key("more").value(parts.more).endObject();
+  return out;
+}
+
 }  // namespace gable

@@ -57,6 +57,7 @@ void writeValue(JsonWriter& json, const RuleValue& value);
 std::string valuesJson(const std::vector<NamedValue>& values);
 
 std::string leafJson(const LeafInfo& leaf);
+std::string partsJson(const ModelParts& parts);
 
 /// All that is built in.
 std::string builtinsJson(const Builtins& builtins);

@@ -130,6 +130,11 @@ class Router {
     };
     routes_["POST /api/derive"] = [this](const HttpRequest& r) { return derived(r, false); };
     routes_["POST /api/tree"] = [this](const HttpRequest& r) { return derived(r, true); };
+    routes_["GET /api/parts"] = [this](const HttpRequest& r) {
+      return bytesOf(session_.parts(numberOf(r.argument("derivation")),
+                                    numberOf(r.argument("leaf")), numberOf(r.argument("level"))),
+                     "application/json");
+    };
     routes_["GET /api/progress"] = [this](const HttpRequest& r) { return progress(r); };
     routes_["GET /api/export"] = [this](const HttpRequest& r) { return exported(r); };
     routes_["GET /api/export-progress"] = [this](const HttpRequest& r) {

@@ -404,6 +404,12 @@ Result<std::string> Session::leaf(uint64_t derivation, uint64_t number) const {
   return leafJson(*leaf);
 }
 
+Result<std::string> Session::parts(uint64_t derivation, uint64_t leaf, uint64_t level) const {
+  const Result<Model> kept = model(derivation);
+  if (!kept.ok()) return kept.error();
+  return partsJson(kept.value().parts(leaf, level));
+}
+
 Result<std::string> Session::texture(uint64_t derivation, const std::string& path) const {
   const std::optional<Model> model = made(derivation);
   std::optional<std::string> bytes = model ? model->texture(path) : std::nullopt;

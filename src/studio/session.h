@@ -39,6 +39,8 @@ class Session {
   Result<std::string> tree(const JsonValue& request, const Cancel& cancel);
   /// JSON of a leaf by its number in the draw list.
   Result<std::string> leaf(uint64_t derivation, uint64_t number) const;
+  /// JSON of what lies directly below a part of a derivation (Model::parts).
+  Result<std::string> parts(uint64_t derivation, uint64_t leaf, uint64_t level) const;
   /// A derivation that is kept. Code: derivation-gone.
   Result<Model> model(uint64_t derivation) const;
   /// Keeps a model that was not derived, for its textures; its number.

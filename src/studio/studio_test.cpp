@@ -364,6 +364,14 @@ TEST_F(Server, derivesDrawsAndWrites) {
   EXPECT_NE(leaf.find(R"("size":[4,)"), std::string::npos) << leaf;
   EXPECT_NE(leaf.find(R"("above":[{"name":"lot","from":0,"to":1})"), std::string::npos) << leaf;
   EXPECT_EQ(status(ask("GET /api/leaf?derivation=1&leaf=1")), 404);
+  // The tree by level: the initial shape, the leaf in it, and nothing below.
+  const std::string roots = ask("GET /api/parts?derivation=1&leaf=0&level=0");
+  EXPECT_NE(roots.find(R"({"parts":[["lot",0,1,false]],"more":0})"), std::string::npos) << roots;
+  const std::string below = ask("GET /api/parts?derivation=1&leaf=0&level=1");
+  EXPECT_NE(below.find(R"({"parts":[["B",0,1,true]],"more":0})"), std::string::npos) << below;
+  const std::string nothing = ask("GET /api/parts?derivation=1&leaf=0&level=2");
+  EXPECT_NE(nothing.find(R"({"parts":[],"more":0})"), std::string::npos) << nothing;
+  EXPECT_EQ(status(ask("GET /api/parts?derivation=9&leaf=0&level=0")), 404);
   const std::string glb = ask("GET /api/export?derivation=1&format=glb");
   EXPECT_NE(glb.find("glTF"), std::string::npos);
   EXPECT_EQ(status(ask("GET /api/export?derivation=1&format=sh")), 422);

@@ -6,7 +6,8 @@
 import assert from 'node:assert/strict';
 import { existsSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { caretBehind, drawn, ready, untilDrawn } from '../studio.mjs';
+import { openByPalette } from '../hands.mjs';
+import { caretBehind, drawn, ready, status, untilDrawn } from '../studio.mjs';
 
 const LOTS = JSON.stringify({
   type: 'FeatureCollection',
@@ -31,6 +32,14 @@ const LOTS = JSON.stringify({
     };
   }),
 });
+
+/** 3600 houses of 103 shapes, of which one is to be seen. */
+const LARGE = `@StartRule
+Lot --> split(z) { '0.01666 : Street }*
+Street --> split(x) { '0.01666 : House }*
+House --> extrude(0.3) [ comp(f) { bottom : Cellar } ] Mass.
+Cellar --> split(x) { '0.01 : NIL }*
+`;
 
 export default {
   async aLotIsDrawn({ page }) {
@@ -128,5 +137,46 @@ export default {
     await page.getByRole('button', { name: 'sum' }).click();
     assert.match(await page.locator('.rep-table tbody tr').first().innerText(), /area\.wall\s+4/);
     await page.getByRole('button', { name: 'Charts' }).click();
+  },
+
+  /** A place with more shapes than a tree holds has one that is fetched as it is opened. */
+  async aLargePlaceHasATreeByLevel({ page, folder, pictured }) {
+    await ready(page);
+    writeFileSync(join(folder, 'large.cga'), LARGE);
+    await openByPalette(page, 'large.cga');
+    const shapes = () =>
+      status(page).then((s) =>
+        Number(s.replace(/[^]*?([\d\s]+) shapes[^]*/, '$1').replace(/\s/g, '')),
+      );
+    await page.waitForFunction(() =>
+      /[3-9]\d\d\s\d\d\d shapes/.test(document.querySelector('.status')?.textContent ?? ''),
+    );
+    assert.ok((await shapes()) > 300_000);
+    const row = (name) => page.locator('.tree .tr', { hasText: name }).first();
+    await row(/Street\s*× 61/).waitFor();
+    await row(/Street\s*× 61/)
+      .locator('.tw')
+      .click();
+    await page.waitForFunction(() => document.querySelectorAll('.tree .tr').length > 10);
+    await page.locator('.tree .tr[aria-level="2"]').nth(1).locator('.tw').click();
+    await row(/House\s*× 61/).waitFor();
+    await row(/House\s*× 61/).click();
+    await page.waitForFunction(() =>
+      /House/.test(document.querySelector('.tree .tr.on')?.textContent ?? ''),
+    );
+    assert.match(await page.locator('.path').innerText(), /Street[^]*House/);
+    // A face leads to its row, and the keys go on from there.
+    const box = await page.locator('.stage canvas').boundingBox();
+    await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+    await page.waitForFunction(() =>
+      /Mass/.test(document.querySelector('.tree .tr.on')?.textContent ?? ''),
+    );
+    assert.equal(await page.locator('.tree .tr.on').count(), 1);
+    await pictured();
+    await page.locator('.tree').focus();
+    await page.keyboard.press('ArrowLeft');
+    await page.waitForFunction(() =>
+      /House/.test(document.querySelector('.tree .tr.on')?.textContent ?? ''),
+    );
   },
 };

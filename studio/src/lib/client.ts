@@ -12,6 +12,7 @@ import {
   type LeafInfo,
   type Diagnostic,
   type ModelPreview,
+  type PartsBelow,
   type Tree,
 } from './protocol';
 
@@ -244,6 +245,12 @@ export class EngineClient {
     return (
       await this.call('GET', `leaf?derivation=${derivation}&leaf=${leaf}`)
     ).json() as Promise<LeafInfo>;
+  }
+
+  /** What lies below part `level` of those above a leaf; at level 0 the initial shapes. */
+  async parts(derivation: number, leaf: number, level: number): Promise<PartsBelow> {
+    const query = `parts?derivation=${derivation}&leaf=${leaf}&level=${level}`;
+    return (await this.call('GET', query)).json() as Promise<PartsBelow>;
   }
 
   async progress(): Promise<{ done: number; total: number }> {

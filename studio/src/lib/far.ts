@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Far: a shape of a model that has too many shapes for a tree. What the engine knows of one leaf
-// has the shapes above it that were derived on their own, so that one can go up from it.
+// Far: a shape of a model that has too many shapes for a tree at once. What the engine knows of one
+// leaf has the shapes above it that were derived on their own, so that one can go up from it.
 
 import type { LeafInfo } from './protocol';
 

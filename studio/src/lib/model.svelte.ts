@@ -16,6 +16,7 @@ import type {
   Tree,
   Value,
 } from './protocol';
+import { Parts } from './parts.svelte';
 import { Shapes } from './tree';
 
 /** A derivation younger than this is waited for: pictures come in while a slider is dragged. */
@@ -51,7 +52,7 @@ export interface ModelHost {
   none(): void;
   /** The tree of the model, with a draw list of its steps where they were asked for. */
   grown(shapes: Shapes, draw: DrawList | null, end: Tree['end']): void;
-  /** There are too many shapes for a tree. */
+  /** There are too many shapes for a tree at once. */
   treeless(): void;
 }
 
@@ -78,6 +79,8 @@ export class Model {
   deriving = $state(0);
   progress = $state.raw<{ done: number; total: number } | null>(null);
   shapes = $state.raw<Shapes | null>(null);
+  /** The tree where there are too many shapes for all at once. */
+  parts = $state.raw<Parts | null>(null);
   /** The derivation that the shapes belong to: they come a little later. */
   shapesOf = $state(0);
   /** What attributes were when the shapes were made. */
@@ -86,7 +89,7 @@ export class Model {
   readonly groups = $derived<Group[]>(groupFields(this.attributes, this.values));
   readonly errors = $derived(this.diagnostics.filter((m) => m.severity === 'error').length);
   readonly warnings = $derived(this.diagnostics.filter((m) => m.severity === 'warning').length);
-  /** Too many shapes for a tree: the guide has the first steps. */
+  /** Too many shapes for a tree at once: the guide has the first steps. */
   readonly huge = $derived((this.stats?.shapes ?? 0) > MOST_TREE_SHAPES);
 
   private running: Run | null = null;
@@ -102,6 +105,7 @@ export class Model {
   begin(): void {
     this.fresh = true;
     this.shapes = null;
+    this.parts = null;
     this.running?.abort.abort();
   }
 
@@ -222,6 +226,7 @@ export class Model {
     this.defaults = {};
     this.stats = null;
     this.derivation = 0;
+    this.parts = null;
     this.lastGood = this.startRule = '';
     this.host.none();
   }
@@ -259,5 +264,9 @@ export class Model {
       this.shapes = null;
       this.host.treeless();
     }
+    const { derivation } = this;
+    this.parts = this.huge
+      ? new Parts((leaf, level) => this.host.client.parts(derivation, leaf, level))
+      : null;
   }
 }

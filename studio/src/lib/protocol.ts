@@ -324,3 +324,10 @@ export interface LeafInfo {
    */
   above: { name: string; from: number; to: number }[];
 }
+
+/** What lies directly below a shape: name, first leaf, end of its leaves, whether it is a leaf. */
+export interface PartsBelow {
+  parts: [string, number, number, boolean][];
+  /** Those that were left out behind them. */
+  more: number;
+}

@@ -52,13 +52,16 @@ export class Selection {
     if (reveal && node >= 0 && shapes) this.revealShape(shapes, node);
   }
 
-  /** Selects a leaf of a model with too many shapes for a tree; -1 for none. */
-  async selectFar(leaf: number): Promise<void> {
+  /**
+   * Selects a leaf of a model with too many shapes for a tree, or the part `level` of those above
+   * it; -1 for none.
+   */
+  async selectFar(leaf: number, level?: number): Promise<void> {
     const { model, client } = this.host;
     const { derivation } = model;
     const info = leaf < 0 ? null : await client.leaf(derivation, leaf).catch(() => null);
     if (derivation !== model.derivation) return;
-    this.goFar(info ? new Far(leaf, info) : null);
+    this.goFar(info ? new Far(leaf, info, level) : null);
   }
 
   goFar(far: Far | null): void {

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: The Gable authors
 import { describe, expect, it } from 'vitest';
 import { NONE, type Tree } from './protocol';
-import { outline, Shapes } from './tree';
+import { outline } from './outline';
+import { Shapes } from './tree';
 
 /** A tree from lines that are indented by one blank a level; a name with a dot is a leaf. */
 function grow(text: string): Shapes {

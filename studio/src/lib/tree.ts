@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// The derivation tree for people: children, paths that survive a new derivation, rows of an outline
-// in which equal siblings are folded, the shape that a click means.
+// The derivation tree for people: children, paths that survive a new derivation, the shape that a
+// click means.
 
+import type { Outlined } from './outline';
 import { NONE, type Tree } from './protocol';
 
-export class Shapes {
+export class Shapes implements Outlined {
   private readonly childStart: Uint32Array;
   private readonly childList: Uint32Array;
   readonly roots: number[] = [];
@@ -39,6 +40,14 @@ export class Shapes {
 
   children(node: number): Uint32Array {
     return this.childList.subarray(this.childStart[node]!, this.childStart[node + 1]!);
+  }
+
+  isParent(node: number): boolean {
+    return this.childStart[node + 1]! > this.childStart[node]!;
+  }
+
+  leavesOf(node: number): number {
+    return this.leaves[node]!;
   }
 
   nameOf(node: number): string {
@@ -113,55 +122,4 @@ export class Shapes {
     while (common < path.length && path[common] === above[common]) ++common;
     return path[Math.min(common, path.length - 1)]!;
   }
-}
-
-export interface Row {
-  node: number;
-  depth: number;
-  name: string;
-  /** How many equal siblings the row stands for. */
-  times: number;
-  leaves: number;
-  open: boolean;
-  parent: boolean;
-}
-
-/** The rows of an outline: siblings with one name that follow each other fold to one row. */
-export function outline(
-  shapes: Shapes,
-  open: ReadonlySet<number>,
-  unfolded: ReadonlySet<number>,
-): Row[] {
-  const rows: Row[] = [];
-  const visit = (nodes: ArrayLike<number>, depth: number) => {
-    for (let i = 0; i < nodes.length;) {
-      const node = nodes[i]!;
-      const name = shapes.nameOf(node);
-      let end = i + 1;
-      while (end < nodes.length && shapes.nameOf(nodes[end]!) === name) ++end;
-      const folds = end - i > 2 && !unfolded.has(node) && depth > 0;
-      const last = folds ? i + 1 : end;
-      for (let k = i; k < last; ++k) {
-        const each = nodes[k]!;
-        const times = folds ? end - i : 1;
-        let leaves = 0;
-        for (let j = k; j < (folds ? end : k + 1); ++j) leaves += shapes.leaves[nodes[j]!]!;
-        const isParent = shapes.children(each).length > 0;
-        const isOpen = isParent && open.has(each) && !folds;
-        rows.push({
-          node: each,
-          depth,
-          name,
-          times,
-          leaves,
-          open: isOpen,
-          parent: isParent || folds,
-        });
-        if (isOpen) visit(shapes.children(each), depth + 1);
-      }
-      i = end;
-    }
-  };
-  visit(shapes.roots, 0);
-  return rows;
 }
