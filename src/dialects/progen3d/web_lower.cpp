@@ -118,7 +118,7 @@ class Lowering {
       diagnostics_.warning("unused-rule", r.nameSpan,
                            "nothing that the first rule leads to runs '" + std::string(r.name) +
                                "', so it draws nothing",
-                           "write its name into a rule, remove it, or begin with it by --start");
+                           "write its name into a rule, remove it, or make it the start rule");
     }
   }
 

@@ -178,6 +178,10 @@ export default {
     await other.page.waitForSelector('.shared-page h1');
     assert.match(await other.page.locator('.shared-page').innerText(), /journey, a shared place/);
     assert.match(await other.page.locator('.shared-page').innerText(), /models\/window\.mtl/);
+    assert.match(
+      await other.page.locator('.shared-page').innerText(),
+      /needs a studio[^]*gable studio/,
+    );
     await pictured(other.page);
     const [download] = await Promise.all([
       other.page.waitForEvent('download'),

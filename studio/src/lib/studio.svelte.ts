@@ -521,7 +521,11 @@ export class Studio {
   }
 }
 
-const EMPTY_RULES = `attr height = 12
+const EMPTY_RULES = `// A lot becomes a block of this height.
+// Point at a word: what does it do?
+// Ctrl Space: what can stand here?
+// Ctrl K: operations by everyday words.
+attr height = 12
 
 @StartRule
 Lot -->
