@@ -1,4 +1,4 @@
-;;; gable.el --- Rules of Gable with eglot (Emacs 29 or newer) -*- lexical-binding: t -*-
+;;; gable.el --- Rules of Gable with eglot -*- lexical-binding: t -*-
 (require 'eglot)
 (define-derived-mode gable-mode prog-mode "Gable"
   "Rules of Gable and grammars of other notations."
