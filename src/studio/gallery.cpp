@@ -95,6 +95,8 @@ std::string Gallery::list() const {
     json.key("shapes").value(has("buildings.geojson"));
     const auto arguments = folder_.read(name + "/generate.args");
     json.key("arguments").value(arguments.ok() ? arguments.value() : std::string());
+    const auto view = folder_.read(name + "/picture.args");
+    json.key("view").value(view.ok() ? view.value() : std::string());
     json.endObject();
   }
   json.endArray();

@@ -9,7 +9,7 @@ import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { openByPalette, text } from '../hands.mjs';
 import { meter } from '../processes.mjs';
-import { HOUSE, caretBehind, code, drawn, ready, status, untilDrawn } from '../studio.mjs';
+import { HOUSE, caretBehind, code, drawn, ready, root, status, untilDrawn } from '../studio.mjs';
 
 /** The model as it is drawn, without what lies over it. */
 const modelPixels = (page) =>
@@ -245,6 +245,28 @@ Late --> extrude(3) Building roofGable(30)
       /No problems/.test(document.querySelector('.status')?.textContent ?? ''),
     );
     assert.match(await code(page).innerText(), /\/\/[^]*Ctrl/);
+    await pictured();
+  },
+
+  /** An example that is opened looks as its card does: its camera, under a sky. */
+  async anExampleLooksAsItsCard({ page, pictured }) {
+    await ready(page);
+    await page.keyboard.press('Alt+4');
+    await page.waitForSelector('.gc img');
+    await page.getByRole('button', { name: /Tower/ }).first().click();
+    await page.waitForSelector('text=tower.cga');
+    await ready(page);
+    await page.getByRole('button', { name: 'Sun', exact: true }).click();
+    assert.ok(await page.getByLabel('Sky').isChecked());
+    await page.keyboard.press('Escape');
+    const asked = page.waitForRequest(/api\/export\?/);
+    await page.keyboard.press('Control+e');
+    await page.getByRole('menuitem', { name: 'A picture, traced' }).click();
+    const camera = JSON.parse(new URL((await asked).url()).searchParams.get('camera'));
+    await page.getByRole('button', { name: 'Stop writing png' }).click();
+    const words = readFileSync(join(root, 'examples/tower/picture.args'), 'utf8');
+    const target = /--target=(\S+)/.exec(words)[1].split(',').map(Number);
+    camera.slice(3, 6).forEach((v, i) => assert.ok(Math.abs(v - target[i]) < 0.01, String(camera)));
     await pictured();
   },
 

@@ -37,6 +37,8 @@ export interface Example {
   picture: boolean;
   shapes: boolean;
   arguments: string;
+  /** Where its picture was taken from, as arguments. */
+  view: string;
 }
 
 export type ShapesSpec =

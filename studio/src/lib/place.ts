@@ -3,6 +3,7 @@
 //
 // Place: what a model depends on besides the rules.
 
+import type { Standpoint } from '../view/framing';
 import type { Example, ShapesSpec } from './client';
 
 /** What makes a place besides the rules. Values are texts as the engine takes them. */
@@ -34,4 +35,25 @@ export function placeOf(example: Example, folder: string): Place {
   place.seed = Number(after('--seed') ?? 0) || 0;
   if (example.shapes) place.shapes = { file: `${folder}/buildings.geojson` };
   return place;
+}
+
+/** The horizontal angle of view of the page, about, in degrees. */
+const ANGLE = 28;
+/** Nobody looks at a place from below its ground. */
+const LOWEST = 1.6;
+
+/** Where the picture of an example was taken from, for the page's angle of view. */
+export function standpointOf(example: Example): Standpoint | null {
+  const three = (word: string) => {
+    const found = new RegExp(`--${word}[= ](\\S+)`).exec(example.view)?.[1]?.split(',').map(Number);
+    return found?.length === 3 && found.every(Number.isFinite) ? found : null;
+  };
+  const [eye, target] = [three('eye'), three('target')];
+  if (!eye || !target) return null;
+  const half = (degrees: number) => Math.tan((degrees * Math.PI) / 360);
+  const angle = Number(/--fov[= ](\S+)/.exec(example.view)?.[1] ?? ANGLE);
+  const away = Math.max(1, half(angle) / half(ANGLE));
+  const at = eye.map((v, i) => target[i]! + (v - target[i]!) * away) as [number, number, number];
+  at[1] = Math.max(at[1], Math.min(LOWEST, eye[1]!));
+  return { position: at, target: target as [number, number, number], ahead: true };
 }

@@ -17,11 +17,12 @@ import { valueOfText, valueText } from './fields';
 import { gesture } from './gesture';
 import { applied, difference, History, type Step } from './history';
 import { Model } from './model.svelte';
-import { newPlace, placeOf, type Place } from './place';
+import { newPlace, placeOf, standpointOf, type Place } from './place';
 import type { DrawList, Stats, Tree, Value } from './protocol';
 import { readRegistry, type Entry } from './registry';
 import { Selection, type Reveal } from './selection.svelte';
 import type { Shapes } from './tree';
+import { ui } from './ui.svelte';
 import { Unsent } from './unsent';
 import { Guide } from '../guide/guide.svelte';
 import type { Wire } from '../language/connection';
@@ -453,10 +454,12 @@ export class Studio {
     await this.attempt(`${example.title} could not be opened`, async () => {
       const folder = await this.client.copyExample(example.name);
       await this.refreshFiles();
-      await this.openRules(
-        `${folder}/${example.name}.${example.notation}`,
-        placeOf(example, folder),
-      );
+      const rules = `${folder}/${example.name}.${example.notation}`;
+      const from = standpointOf(example);
+      // As its card shows it.
+      if (from) [ui.look.camera, ui.look.sky] = [{ of: rules, ...from }, true];
+      await this.openRules(rules, placeOf(example, folder));
+      if (from) this.reframe = false;
       this.say(`Opened a copy in ${folder}`);
     });
   }

@@ -16,6 +16,8 @@ export interface Bounds {
 export interface Standpoint {
   position: [number, number, number];
   target: [number, number, number];
+  /** Of a model that is still to come. */
+  ahead?: boolean;
 }
 
 /** Metres from the middle to a corner of what counts as a place, not a building. */
@@ -41,6 +43,8 @@ export class Framing {
   private framed: Bounds | null = null;
   private own = false;
   private empty = true;
+  /** The next model is seen from where the camera stands. */
+  private ahead = false;
   /** Somebody has moved the camera since the page did. */
   private moved = false;
 
@@ -56,6 +60,10 @@ export class Framing {
   /** Hears of another model. */
   know(list: DrawList, bounds: Bounds): void {
     this.empty = list.leaves === 0;
+    if (this.ahead && !this.empty) {
+      this.framed = bounds;
+      this.ahead = false;
+    }
     this.points =
       boxOf(bounds).getSize(new THREE.Vector3()).length() / 2 > WIDE ? somePoints(list) : [];
   }
@@ -71,6 +79,7 @@ export class Framing {
     this.controls.update();
     this.framed = bounds;
     this.moved = true;
+    this.ahead = from.ahead ?? false;
   }
 
   /** Whether no model has been framed yet. */
