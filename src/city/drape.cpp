@@ -6,6 +6,9 @@
 // through the sides of the facets that it meets (I. E. Sutherland and G. W. Hodgman, "Reentrant
 // polygon clipping", 1974). Corners carry their barycentric coordinates, which give texture
 // coordinates and normals at the end.
+//
+// A prototype that is a thing on narrow feet is moved as a whole, one on wide feet turned with the
+// ground where that is even, and anything where the ground is level: so it stays shared.
 #include "city/drape.h"
 
 #include <algorithm>
@@ -15,6 +18,7 @@
 #include <vector>
 
 #include "base/work.h"
+#include "city/footing.h"
 #include "geom/mesh/face_triangles.h"
 
 namespace gable {
@@ -28,6 +32,14 @@ constexpr double kWidestAbove = 3;
 // What reaches below the ground lies in it.
 constexpr double kBelow = -0.1;
 constexpr double kSame = 1e-6;
+// A thing is so high, and not wider than so many times its height and a bit; its feet are narrow.
+constexpr double kWidestThing = 1.6, kWidestFoot = 1.5;
+// What is no wider is turned with the ground, where that bends by so little below it.
+constexpr double kWidestTurned = 6, kEven = 0.05;
+// Wider parts are taken apart without a look at the ground.
+constexpr double kWidestLevel = 40;
+// The cosine of the lean of what is upright.
+constexpr double kUpright = 1 - 1e-9;
 // Faces of what is shared: an instance takes room, too.
 constexpr size_t kLeastShared = 10;
 // In square metres: what is smaller is no piece of a face.
@@ -289,7 +301,8 @@ class MeshDrape {
 
 class SceneDrape {
  public:
-  SceneDrape(const Scene& from, const TerrainSurface& ground) : from_(from), ground_(ground) {}
+  SceneDrape(const Scene& from, const TerrainSurface& ground)
+      : from_(from), ground_(ground), footings_(from) {}
 
   Scene drape(const std::function<bool(const std::string&)>& lies) {
     out_ = from_;
@@ -310,6 +323,8 @@ class SceneDrape {
     std::vector<Leaf> leaves;
     // By leaf.
     std::vector<bool> stands;
+    // Moved as they are.
+    std::vector<Instance> whole;
   };
   // What leaves have in common that differ by their place alone.
   using Kind = std::tuple<uint32_t, uint32_t, uint32_t, uint32_t, uint32_t, double, double, double>;
@@ -321,12 +336,75 @@ class SceneDrape {
     const Instance& at = from_.roots[root].instance;
     const Prototype& old = from_.prototypes[at.prototype];
     if (old.empty) return;
-    laid_.push_back({root, {}, {}});
-    forEachLeaf(from_, old, at.frame, [&](const Leaf& leaf, const Frame& world) {
-      Leaf moved = leaf;
-      moved.frame = world;
-      addLeaf(moved, laid_.back());
+    laid_.push_back({root, {}, {}, {}});
+    Laid& to = laid_.back();
+    const auto visit = [&](uint32_t leaf, const Frame& world, size_t) {
+      Leaf moved = from_.leaves[leaf];
+      moved.frame = world * moved.frame;
+      addLeaf(moved, to);
+    };
+    const auto enter = [&](const Instance& instance, const Frame& world, size_t) {
+      Frame laid = world;
+      if (!raiseWhole(footings_.of(instance.prototype), laid)) return true;
+      to.whole.push_back({laid, instance.prototype, static_cast<uint32_t>(to.leaves.size())});
+      return false;
+    };
+    walk(from_, old, at.frame, visit, enter);
+  }
+
+  // Whether a prototype at `at` is moved as one, and to where.
+  bool raiseWhole(const Footing& thing, Frame& at) const {
+    if (thing.box.empty()) return false;
+    const Vec3 size = thing.box.size(), foot = thing.foot.size();
+    const double wide = std::max(size.x, size.z);
+    if (wide < kWidestLevel && raiseLevel(thing.box, at)) return true;
+    const bool isThing = size.y > kLeastTall && at.y.y > kUpright && !thing.lies &&
+                         at.origin.y + thing.box.min.y > kBelow;
+    if (!isThing) return false;
+    if (wide < kWidestThing * size.y + kWider && std::max(foot.x, foot.z) < kWidestFoot) {
+      at.origin.y += ground_.heightAt(plan(at.point(thing.foot.center())));
+      return true;
+    }
+    return wide < kWidestTurned && turn(thing.foot, at);
+  }
+  // Where the ground is level below all of it: as each of its faces would be.
+  bool raiseLevel(const Box3& box, Frame& at) const {
+    Box2 below;
+    for (unsigned k = 0; k < 8; ++k) {
+      below.include(plan(at.point({k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y,
+                                   k & 4 ? box.max.z : box.min.z})));
+    }
+    // As a box along x.
+    Box2 heights;
+    ground_.near(below, [&](uint32_t f) {
+      for (const uint32_t p : ground_.facets()[f].points) {
+        heights.include({ground_.points()[p].z, 0});
+      }
     });
+    if (heights.empty() || heights.max.x - heights.min.x > kSame) return false;
+    at.origin.y += heights.min.x;
+    return true;
+  }
+  // With the plane through the ground below its feet.
+  bool turn(const Box3& foot, Frame& at) const {
+    const Vec3 middle = foot.center(), size = foot.size();
+    if (!(size.x > kSame) || !(size.z > kSame)) return false;
+    const auto heightAt = [&](double x, double z) {
+      return ground_.heightAt(plan(at.point({x, middle.y, z})));
+    };
+    const double low = heightAt(foot.min.x, foot.min.z), right = heightAt(foot.max.x, foot.min.z),
+                 front = heightAt(foot.min.x, foot.max.z), far = heightAt(foot.max.x, foot.max.z);
+    const double mean = 0.25 * (low + right + front + far);
+    const double twist = 0.25 * std::fabs(low + far - right - front);
+    if (twist > kEven || std::fabs(heightAt(middle.x, middle.z) - mean) > kEven) return false;
+    const double alongX = 0.5 * (right + far - low - front) / size.x,
+                 alongZ = 0.5 * (front + far - low - right) / size.z;
+    const Vec3 goal = at.point(middle) + Vec3{0, mean, 0};
+    const Vec3 up = normalized(Vec3{0, 1, 0} - at.x * alongX - at.z * alongZ);
+    const Vec3 x = normalized(at.x - up * dot(at.x, up));
+    at = Frame::of({}, x, up, cross(x, up));
+    at.origin = goal - at.direction(middle);
+    return true;
   }
 
   // The root gets a prototype of its own, with leaves in world coordinates. Of a leaf that stands
@@ -336,8 +414,15 @@ class SceneDrape {
     Prototype own = from_.prototypes[root.instance.prototype];
     std::vector<Leaf> leaves;
     std::vector<Instance> instances;
+    auto whole = laid.whole.begin();
+    const auto putWhole = [&](size_t before) {
+      for (; whole != laid.whole.end() && whole->leavesBefore <= before; ++whole) {
+        instances.push_back({whole->frame, whole->prototype, static_cast<uint32_t>(leaves.size())});
+      }
+    };
     for (size_t i = 0; i < laid.leaves.size(); ++i) {
       work();
+      putWhole(i);
       const Leaf& leaf = laid.leaves[i];
       const auto count = counts_.find(kindOf(leaf));
       if (laid.stands[i] && count != counts_.end() && count->second > 1) {
@@ -346,6 +431,7 @@ class SceneDrape {
         leaves.push_back(leaf);
       }
     }
+    putWhole(laid.leaves.size());
     own.firstLeaf = static_cast<uint32_t>(out_.leaves.size());
     own.leafCount = static_cast<uint32_t>(leaves.size());
     own.firstInstance = static_cast<uint32_t>(out_.instances.size());
@@ -401,6 +487,7 @@ class SceneDrape {
 
   const Scene& from_;
   const TerrainSurface& ground_;
+  Footings footings_;
   Scene out_;
   std::vector<Laid> laid_;
   // Of what stands and is worth sharing: how often, and the prototype of it alone.

@@ -18,6 +18,7 @@
 #include "city/drape.h"
 #include "city/plan.h"
 #include "city/plan_mesh.h"
+#include "scene/flatten.h"
 
 namespace gable {
 namespace {
@@ -445,6 +446,59 @@ TEST(Drape, LaysWhatLiesAndMovesWhatStands) {
   EXPECT_EQ(post.mesh, kUnitBox);
   EXPECT_NEAR(post.frame.origin.y, plan.terrain->heightAt({10.1, -10.1}), 1e-9);
   EXPECT_EQ(laid.roots[2].instance.frame.origin.y, 300);
+}
+
+// A post that carries a wide sign, placed twice, is one prototype still; so is a long low cart
+// where the ground is even. Paving that the same rule makes is not moved as a whole.
+TEST(Drape, ThingsStayShared) {
+  const MapFeatures map = village();
+  const HeightField field = fieldOf(map.area, 5, [](Vec2 p) { return 200 + 0.1 * p.x; });
+  const CityPlan plan = planCity(map, "CZ", &field);
+  Scene scene;
+  scene.names = {"Lot"};
+  scene.materialLists = {{0}};
+  scene.materials.emplace_back();
+  const auto addPrototype = [&](const std::vector<std::pair<Vec3, Vec3>>& boxes) {
+    Prototype p;
+    p.firstLeaf = static_cast<uint32_t>(scene.leaves.size());
+    p.leafCount = static_cast<uint32_t>(boxes.size());
+    for (const auto& [at, size] : boxes) {
+      Leaf leaf;
+      leaf.frame = Frame::moved(at);
+      leaf.scale = size;
+      scene.leaves.push_back(leaf);
+    }
+    scene.prototypes.push_back(p);
+    return static_cast<uint32_t>(scene.prototypes.size() - 1);
+  };
+  const uint32_t post =
+      addPrototype({{{-0.1, 0, -0.1}, {0.2, 3, 0.2}}, {{-1, 3, -1}, {2, 0.1, 2}}});
+  const uint32_t cart = addPrototype({{{-0.7, 0, -2}, {0.3, 0.6, 0.6}},
+                                      {{0.4, 0, 1.4}, {0.3, 0.6, 0.6}},
+                                      {{-0.8, 0.4, -2}, {1.6, 0.5, 4}}});
+  const uint32_t paved =
+      addPrototype({{{-2, 0, -2}, {4, 0.1, 4}}, {{-0.1, 0, -0.1}, {0.2, 2, 0.2}}});
+  Prototype all;
+  all.instanceCount = 6;
+  for (uint32_t i = 0; i < 6; ++i) {
+    const Vec3 at{-60.0 + 8 * i, 0, 70};
+    scene.instances.push_back({Frame::moved(at), i / 2 == 0 ? post : i / 2 == 1 ? cart : paved, 0});
+  }
+  scene.prototypes.push_back(all);
+  scene.roots.push_back({0, {Frame(), static_cast<uint32_t>(scene.prototypes.size() - 1), 0}});
+  const Scene laid = draped(scene, *plan.terrain, [](const std::string&) { return true; });
+  const Prototype& own = laid.prototypes[laid.roots[0].instance.prototype];
+  ASSERT_EQ(own.instanceCount, 4u);
+  EXPECT_EQ(leafCount(laid), leafCount(scene));
+  for (uint32_t i = 0; i < 4; ++i) {
+    const Instance& in = laid.instances[own.firstInstance + i];
+    EXPECT_EQ(in.prototype, i < 2 ? post : cart);
+    const Vec3& at = in.frame.origin;
+    EXPECT_NEAR(at.y, plan.terrain->heightAt({at.x, -at.z}), 0.05) << i;
+    // Posts are upright, carts go with the ground.
+    EXPECT_NEAR(in.frame.y.x, i < 2 ? 0 : -0.1 / std::sqrt(1.01), 0.02) << i;
+    EXPECT_NEAR(dot(in.frame.x, in.frame.y), 0, 1e-12);
+  }
 }
 
 TEST(Drape, APieceOfTheGroundBecomesItsFacets) {
