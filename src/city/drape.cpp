@@ -4,8 +4,8 @@
 // A face over one facet of the ground stays whole. A face that is a piece of the ground becomes its
 // facets. Any other is taken apart into triangles, each of which is cut by the upright planes
 // through the sides of the facets that it meets (I. E. Sutherland and G. W. Hodgman, "Reentrant
-// polygon clipping", 1974). Corners carry their barycentric coordinates, which give texture
-// coordinates and normals at the end.
+// polygon clipping", 1974), unless the ground bends by millimetres only below it. Corners carry
+// their barycentric coordinates, which give texture coordinates and normals at the end.
 //
 // A prototype that is a thing on narrow feet is moved as a whole, one on wide feet turned with the
 // ground where that is even, and anything where the ground is level: so it stays shared.
@@ -42,6 +42,9 @@ constexpr double kWidestLevel = 40;
 constexpr double kUpright = 1 - 1e-9;
 // Faces of what is shared: an instance takes room, too.
 constexpr size_t kLeastShared = 10;
+// A triangle that all its pieces would leave by no more stays whole, in metres: less than paint
+// lies above its road.
+constexpr double kFlat = 0.003;
 // In square metres: what is smaller is no piece of a face.
 constexpr double kLeastArea = 1e-10;
 
@@ -248,6 +251,7 @@ class MeshDrape {
         box.include(plan(whole.back().at));
       }
       double left = areaOf(whole);
+      pieces_.clear();
       ground_.near(box, [&](uint32_t facet) {
         const auto& v = ground_.facets()[facet].points;
         Part part = whole;
@@ -261,8 +265,14 @@ class MeshDrape {
         const Vec2 middle = middleOf(part);
         if (isUpright(part) && ground_.facetAt(middle) != facet) return;
         left -= size;
-        addPart(face, t, part, [&](Vec2 p) { return ground_.heightOn(facet, p); });
+        for (Corner& c : part) c.at.y += ground_.heightOn(facet, plan(c.at));
+        pieces_.push_back(std::move(part));
       });
+      if (isFlat(whole, left)) {
+        addPart(face, t, whole);
+      } else {
+        for (const Part& part : pieces_) addPart(face, t, part);
+      }
       // What is beyond the border of the place goes with the ground nearest to it.
       if (left > 1e-3 + 0.02 * areaOf(whole)) addBeyond(face, t, whole);
     }
@@ -272,7 +282,36 @@ class MeshDrape {
     const bool outside = std::none_of(whole.begin(), whole.end(), [&](const Corner& c) {
       return ground_.facetAt(plan(c.at)) != kNothing;
     });
-    if (outside) addPart(face, corners, whole, [&](Vec2) { return height; });
+    if (!outside) return;
+    Part raised = whole;
+    for (Corner& c : raised) c.at.y += height;
+    addPart(face, corners, raised);
+  }
+  // Whether the pieces, which cover a triangle, are one plane but for millimetres: then its corners
+  // get their heights.
+  bool isFlat(Part& whole, double left) const {
+    if (pieces_.size() < 2 || left > 1e-6 + 1e-6 * areaOf(whole)) return false;
+    std::array<double, 3> above{};
+    std::array<bool, 3> known{};
+    for (const Part& part : pieces_) {
+      for (const Corner& c : part) {
+        for (size_t k = 0; k < 3; ++k) {
+          if (c.share[k] < 1 - 1e-9) continue;
+          above[k] = c.at.y - whole[k].at.y;
+          known[k] = true;
+        }
+      }
+    }
+    if (!known[0] || !known[1] || !known[2]) return false;
+    for (const Part& part : pieces_) {
+      for (const Corner& c : part) {
+        double y = 0;
+        for (size_t k = 0; k < 3; ++k) y += c.share[k] * (whole[k].at.y + above[k]);
+        if (!(std::fabs(c.at.y - y) <= kFlat)) return false;
+      }
+    }
+    for (size_t k = 0; k < 3; ++k) whole[k].at.y += above[k];
+    return true;
   }
   static bool isUpright(const Part& part) {
     double sum = 0;
@@ -281,15 +320,11 @@ class MeshDrape {
     }
     return std::fabs(sum) < 1e-7 * std::max(areaOf(part), 1e-6);
   }
-  template <class HeightAt>
-  void addPart(size_t face, const std::array<uint32_t, 3>& corners, const Part& part,
-               HeightAt&& heightAt) {
+  void addPart(size_t face, const std::array<uint32_t, 3>& corners, const Part& part) {
     beginFace(face, false);
     out_.beginLoop();
     for (const Corner& c : part) {
-      Vec3 p = c.at;
-      p.y += heightAt(plan(p));
-      copyCorner(out_.addCorner(out_.addPosition(p)), corners, c.share);
+      copyCorner(out_.addCorner(out_.addPosition(c.at)), corners, c.share);
     }
   }
 
@@ -297,6 +332,8 @@ class MeshDrape {
   const TerrainSurface& ground_;
   MeshBuilder out_;
   FaceTriangulator triangulator_;
+  // Of the triangle at hand, raised.
+  std::vector<Part> pieces_;
 };
 
 class SceneDrape {

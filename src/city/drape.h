@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Lays what rules have made of a flat place on its terrain: faces are cut where the ground bends
-// and raised with it, so that what lies on the ground touches it everywhere; what stands, taller
-// than it is wide, is raised whole: prototypes such as trees, lamps and parked cars, else leaves.
-// World coordinates: y up, the plan's y is -z.
+// and raised with it, so that what lies on the ground touches it everywhere but for 3 mm; what
+// stands, taller than it is wide, is raised whole: prototypes such as trees, lamps and parked cars,
+// else leaves. World coordinates: y up, the plan's y is -z.
 //
 // Promises: areas in plan of what lies stay; points of it that coincide before do so after; a thing
 // that is moved whole is moved by a rigid motion; equal input gives equal output.

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -26,6 +28,9 @@ constexpr double kNodeBytes = 400;
 constexpr double kTinyBytes = 2048;
 // Leaves with meshes from this size on get nodes of their own when the mesh occurs twice.
 constexpr double kAloneBytes = 8192;
+// Where nodes are short, roots of one name with less of their own are one node for each cell of a
+// grid, in metres.
+constexpr double kSmallRoot = 4096, kGroupCell = 512;
 // What a bound on nodes may add to a file.
 constexpr double kMostMerged = 1024.0 * 1024 * 1024;
 
@@ -59,7 +64,7 @@ Box3 boundsAt(const Box3& mesh, const Frame& at, const Vec3& scale) {
 }
 
 ScenePlan::ScenePlan(const Scene& scene, const PlanOptions& options)
-    : scene_(scene), share_(options.share) {
+    : scene_(scene), share_(options.share), groupOf_(scene.roots.size(), kNone) {
   findEqual();
   measureMeshes();
   if (share_) findAlone();
@@ -69,6 +74,7 @@ ScenePlan::ScenePlan(const Scene& scene, const PlanOptions& options)
   const auto most = static_cast<double>(options.mostNodes);
   if (!share_ || (most > 0 && static_cast<double>(shown) > most)) joinRoots();
   plan(kTinyBytes);
+  if (share_ && most > 0 && cost_.nodes > most && groups_.empty()) gatherSmallRoots();
   if (share_ && most > 0 && cost_.nodes > most) fit(most);
   measureContents();
   makeUnits();
@@ -172,19 +178,51 @@ void ScenePlan::measure() {
   }
 }
 
-// The middle of where roots lie, in whole metres: a node's text gives it exactly.
 void ScenePlan::joinRoots() {
+  groups_.assign(1, {});
+  groupOf_.assign(scene_.roots.size(), 0);
+  for (uint32_t r = 0; r < scene_.roots.size(); ++r) groups_[0].roots.push_back(r);
+  findHome(groups_[0]);
+}
+
+// A kerb, a path, the paint of a crossing: there are thousands, and a node for each saves nothing,
+// while it takes the place of one that shows a tree once more.
+void ScenePlan::gatherSmallRoots() {
+  const auto cellOf = [](double v) { return std::floor(std::clamp(v, -1e12, 1e12) / kGroupCell); };
+  std::map<std::tuple<std::string, double, double>, std::vector<uint32_t>> found;
+  for (uint32_t r = 0; r < scene_.roots.size(); ++r) {
+    work();
+    const Root& root = scene_.roots[r];
+    const uint32_t p = shownBy(root.instance);
+    if (bytes_[p] == 0 || use_[p] != Use::Merged || within_[p].bytes > kSmallRoot) continue;
+    const Vec3& o = root.instance.frame.origin;
+    const std::string name =
+        root.name < scene_.names.size() ? scene_.names[root.name] : std::string();
+    found[{name, cellOf(o.x), cellOf(o.z)}].push_back(r);
+  }
+  for (auto& [key, roots] : found) {
+    if (roots.size() < 2) continue;
+    for (const uint32_t r : roots) groupOf_[r] = static_cast<uint32_t>(groups_.size());
+    groups_.push_back({std::move(roots), {}});
+    findHome(groups_.back());
+  }
+  plan(kTinyBytes);
+}
+
+// The middle of where roots lie, in whole metres: a node's text gives it exactly.
+void ScenePlan::findHome(Group& group) const {
   constexpr double kFarthest = 1e9;
-  joined_ = true;
   Box3 places;
-  for (const Root& r : scene_.roots) {
-    const Vec3& o = r.instance.frame.origin;
+  for (const uint32_t r : group.roots) {
+    const Vec3& o = scene_.roots[r].instance.frame.origin;
     if (std::fabs(o.x) < kFarthest && std::fabs(o.y) < kFarthest && std::fabs(o.z) < kFarthest) {
       places.include(o);
     }
   }
   if (places.empty()) return;
-  for (size_t i = 0; i < 3; ++i) home_[i] = std::floor((places.min[i] + places.max[i]) / 2);
+  for (size_t i = 0; i < 3; ++i) {
+    group.home[i] = std::floor((places.min[i] + places.max[i]) / 2);
+  }
 }
 
 void ScenePlan::plan(double smallest) {
@@ -215,14 +253,15 @@ void ScenePlan::decide() {
   use_.assign(count, Use::None);
   // References from units, and placements in the flattened scene.
   std::vector<double> references(count), placements(count), roots(count);
-  for (const Root& r : scene_.roots) {
-    ++references[shownBy(r.instance)];
-    ++placements[shownBy(r.instance)];
-    ++roots[shownBy(r.instance)];
+  for (uint32_t r = 0; r < scene_.roots.size(); ++r) {
+    const uint32_t p = shownBy(scene_.roots[r].instance);
+    ++references[p];
+    ++placements[p];
+    if (groupOf_[r] == kNone) ++roots[p];
   }
   for (size_t p = count; p-- > 0;) {
     if (references[p] == 0) continue;
-    const bool tiny = bytes_[p] <= smallest_ && (joined_ || roots[p] < 2);
+    const bool tiny = bytes_[p] <= smallest_ && roots[p] < 2;
     if (!share_) {
       use_[p] = Use::Solid;
     } else if (references[p] == 1 || tiny) {
@@ -257,12 +296,11 @@ ScenePlan::Cost ScenePlan::aloneIn(size_t prototype) const {
 
 // What the file would take: nodes, and bytes of geometry but for meshes that stand alone.
 void ScenePlan::weigh() {
-  // Within the unit that a prototype is, or is merged into.
-  std::vector<Cost> within(scene_.prototypes.size());
-  cost_ = {joined_ ? 1.0 : 0.0, 0};
+  within_.assign(scene_.prototypes.size(), {});
+  cost_ = {static_cast<double>(groups_.size()), 0};
   const auto add = [&](Cost& to, uint32_t child) {
     if (bytes_[child] == 0) return;
-    const Cost& inner = within[child];
+    const Cost& inner = within_[child];
     if (use_[child] == Use::Merged) {
       to.nodes += inner.nodes;
       to.bytes += inner.bytes;
@@ -270,16 +308,16 @@ void ScenePlan::weigh() {
       to.nodes += 1 + (use_[child] == Use::Solid ? 0 : inner.nodes);
     }
   };
-  for (size_t p = 0; p < within.size(); ++p) {
+  for (size_t p = 0; p < within_.size(); ++p) {
     if (use_[p] == Use::None) continue;
     const Prototype& prototype = scene_.prototypes[p];
     const Cost alone = aloneIn(p);
-    within[p] = {alone.nodes, ownBytes_[p] - alone.bytes};
+    within_[p] = {alone.nodes, ownBytes_[p] - alone.bytes};
     for (uint32_t i = 0; i < prototype.instanceCount && use_[p] != Use::Solid; ++i) {
-      add(within[p], shownBy(scene_.instances[prototype.firstInstance + i]));
+      add(within_[p], shownBy(scene_.instances[prototype.firstInstance + i]));
     }
-    if (use_[p] == Use::Solid) within[p] = {0, bytes_[p]};
-    if (use_[p] != Use::Merged) cost_.bytes += within[p].bytes;
+    if (use_[p] == Use::Solid) within_[p] = {0, bytes_[p]};
+    if (use_[p] != Use::Merged) cost_.bytes += within_[p].bytes;
   }
   if (grouped_) {
     cost_.nodes = 1 + static_cast<double>(std::count(use_.begin(), use_.end(), Use::Solid)) +
@@ -288,10 +326,10 @@ void ScenePlan::weigh() {
                   }));
     return;
   }
-  for (const Root& r : scene_.roots) {
-    const uint32_t p = shownBy(r.instance);
+  for (uint32_t r = 0; r < scene_.roots.size(); ++r) {
+    const uint32_t p = shownBy(scene_.roots[r].instance);
     // A root that is merged elsewhere is a unit of its own all the same.
-    if (!joined_ && bytes_[p] > 0 && use_[p] == Use::Merged) ++cost_.nodes;
+    if (groupOf_[r] == kNone && bytes_[p] > 0 && use_[p] == Use::Merged) ++cost_.nodes;
     add(cost_, p);
   }
 }
@@ -341,14 +379,24 @@ void ScenePlan::makeUnits() {
       units_[done].children = std::move(children);
     }
   };
-  if (joined_) {
-    units_.push_back({kNone, kNone, !share_, {}});
-    addRoot(0, PlannedRoot::kAll, Frame::moved(home_));
+  const auto addGroup = [&](uint32_t group, uint32_t root) {
+    const auto unit = static_cast<uint32_t>(units_.size());
+    units_.push_back({kNone, kNone, !share_, {}, kNone, group});
+    addRoot(unit, root, Frame::moved(groups_[group].home));
+  };
+  const bool joined = groups_.size() == 1 && groups_[0].roots.size() == scene_.roots.size();
+  if (joined) {
+    addGroup(0, PlannedRoot::kAll);
     return;
   }
   for (uint32_t r = 0; r < scene_.roots.size(); ++r) {
     const Instance& root = scene_.roots[r].instance;
-    addRoot(unitOfPrototype(shownBy(root)), r, root.frame);
+    const uint32_t group = groupOf_[r];
+    if (group == kNone) {
+      addRoot(unitOfPrototype(shownBy(root)), r, root.frame);
+    } else if (groups_[group].roots.front() == r) {
+      addGroup(group, r);
+    }
   }
 }
 
@@ -456,8 +504,8 @@ void ScenePlan::cut(uint32_t unit, double widest, size_t mostCells) {
 
 std::vector<PlannedChild> ScenePlan::childrenOf(const Unit& unit) const {
   std::vector<PlannedChild> children;
-  if (isAll(unit))
-    walkAll(unit.solid, nullptr, &children);
+  if (unit.group != kNone)
+    walkGroup(groups_[unit.group], unit.solid, nullptr, &children);
   else
     walk(unit.prototype, Frame{}, false, nullptr, &children);
   return children;
@@ -541,13 +589,14 @@ void ScenePlan::walk(uint32_t index, const Frame& frame, bool solid, UnitContent
   gable::walk(scene_, scene_.prototypes[index], frame, addLeaf, enter);
 }
 
-void ScenePlan::walkAll(bool solid, UnitContent* content,
-                        std::vector<PlannedChild>* children) const {
-  const Frame inward = Frame::moved(-home_);
-  for (const Root& r : scene_.roots) {
-    const uint32_t p = shownBy(r.instance);
+void ScenePlan::walkGroup(const Group& group, bool solid, UnitContent* content,
+                          std::vector<PlannedChild>* children) const {
+  const Frame inward = Frame::moved(-group.home);
+  for (const uint32_t r : group.roots) {
+    const Instance& root = scene_.roots[r].instance;
+    const uint32_t p = shownBy(root);
     if (bytes_[p] == 0) continue;
-    const Frame at = inward * r.instance.frame;
+    const Frame at = inward * root.frame;
     if (solid || use_[p] == Use::Merged)
       walk(p, at, solid, content, children);
     else if (children)
@@ -561,10 +610,10 @@ double ScenePlan::contentSize(uint32_t unit) const {
     const UnitContent& c = contents_[u.content];
     return static_cast<double>(c.leaves.size() + c.placements.size());
   }
-  if (isAll(u)) {
+  if (u.group != kNone) {
     double size = 0;
-    for (const Root& r : scene_.roots) {
-      const uint32_t p = shownBy(r.instance);
+    for (const uint32_t r : groups_[u.group].roots) {
+      const uint32_t p = shownBy(scene_.roots[r].instance);
       size += u.solid ? solidSize_[p] : use_[p] == Use::Merged ? openSize_[p] : 1;
     }
     return size;
@@ -578,8 +627,8 @@ void ScenePlan::collect(uint32_t unit, UnitContent& out) const {
   const Unit& u = units_[unit];
   if (u.content != kNone) {
     out = contents_[u.content];
-  } else if (isAll(u)) {
-    walkAll(u.solid, &out, nullptr);
+  } else if (u.group != kNone) {
+    walkGroup(groups_[u.group], u.solid, &out, nullptr);
   } else if (u.prototype != kNone) {
     walk(u.prototype, Frame{}, u.solid, &out, nullptr);
   } else {

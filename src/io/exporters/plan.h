@@ -8,7 +8,9 @@
 //   - the content of a root, when no other root shows the same prototype;
 //   - a prototype that is placed several times, when it is not small;
 //   - a large mesh (a tree, a statue) that several leaves place;
-//   - the content of all roots together, when there are too many of them, or nothing is shared.
+//   - the content of many roots: of small ones of one name that stand near each other, when nodes
+//   are
+//     short; of all roots, when there are too many of them, or nothing is shared.
 // Prototypes of equal content are one, whatever made them.
 // A prototype placed once is merged into the unit around it. A prototype placed several times takes
 // its own children in when writing them again costs less than the nodes for each placement.
@@ -48,7 +50,7 @@ struct PlannedRoot {
   /// Stands for all roots.
   static constexpr uint32_t kAll = 0xffffffff;
   uint32_t unit = 0;
-  /// Index into Scene::roots, or kAll.
+  /// Index into Scene::roots, of several the first; or kAll.
   uint32_t root = kAll;
   Frame frame;
 };
@@ -74,7 +76,7 @@ class ScenePlan {
  public:
   static constexpr uint32_t kNone = 0xffffffff;
   struct Unit {
-    /// One of the two; neither for the unit of all roots.
+    /// One of the two; neither for a unit of several roots.
     uint32_t prototype = kNone;
     uint32_t leaf = kNone;
     /// True when everything below is merged in.
@@ -82,6 +84,8 @@ class ScenePlan {
     std::vector<PlannedChild> children;
     /// Of a unit that was cut, and of its cells: what is left, by number.
     uint32_t content = kNone;
+    /// Of several roots: their group.
+    uint32_t group = kNone;
   };
 
   /// Linear in the scene, instances of merged prototypes expanded.
@@ -91,7 +95,7 @@ class ScenePlan {
   bool grouped() const { return grouped_; }
   /// In the order in which nodes first show them.
   const std::vector<Unit>& units() const { return units_; }
-  /// In the order of the scene's roots; one that stands for all of them where they are joined.
+  /// In the order of the scene's roots; one that stands for several of them where they are joined.
   const std::vector<PlannedRoot>& roots() const { return roots_; }
   /// The leaves to merge, in path order. Replaces `out`.
   void collect(uint32_t unit, UnitContent& out) const;
@@ -100,7 +104,11 @@ class ScenePlan {
 
  private:
   enum class Use : uint8_t { None, Merged, Open, Solid };
-  bool isAll(const Unit& unit) const { return unit.prototype == kNone && unit.leaf == kNone; }
+  // Roots that are parts of one unit, which lies about `home`.
+  struct Group {
+    std::vector<uint32_t> roots;
+    Vec3 home;
+  };
   struct Cost {
     double nodes = 0, bytes = 0;
   };
@@ -113,6 +121,8 @@ class ScenePlan {
   void findAlone();
   void measure();
   void joinRoots();
+  void gatherSmallRoots();
+  void findHome(Group& group) const;
   void plan(double smallest);
   void countNodes();
   void decide();
@@ -128,16 +138,17 @@ class ScenePlan {
   std::vector<PlannedChild> childrenOf(const Unit& unit) const;
   void walk(uint32_t prototype, const Frame& frame, bool solid, UnitContent* content,
             std::vector<PlannedChild>* children) const;
-  void walkAll(bool solid, UnitContent* content, std::vector<PlannedChild>* children) const;
+  void walkGroup(const Group& group, bool solid, UnitContent* content,
+                 std::vector<PlannedChild>* children) const;
   bool standsAlone(const Leaf& leaf) const;
   uint32_t unitOfPrototype(uint32_t prototype);
   uint32_t unitOfLeaf(uint32_t leaf);
 
   const Scene& scene_;
   bool share_;
-  /// Roots are parts of one unit, which lies about `home_`.
-  bool joined_ = false;
-  Vec3 home_;
+  std::vector<Group> groups_;
+  /// By root: its group, or kNone.
+  std::vector<uint32_t> groupOf_;
   /// Prototypes up to so many bytes are merged wherever they stand.
   double smallest_ = 0;
   /// What a node costs.
@@ -146,6 +157,8 @@ class ScenePlan {
   /// By prototype: the first of equal content.
   std::vector<uint32_t> same_;
   Cost cost_;
+  /// By prototype: within the unit that it is, or is merged into.
+  std::vector<Cost> within_;
   // By mesh: bytes once written. By prototype: bytes when expanded and those of its own leaves,
   // nodes below when open.
   std::vector<double> meshBytes_, bytes_, ownBytes_, nodes_;

@@ -78,6 +78,31 @@ TEST(Plan, whatStandsOftenIsAUnitUnlessTiny) {
   expectWhole(b.scene);
 }
 
+// Two streets of kerbs, a kilometre apart, and houses that are more than a kerb; posts stand about.
+TEST(Plan, smallRootsOfANameAreOneNodeWhereNodesAreShort) {
+  SceneBuilder b;
+  const uint32_t post = wall(b, 40);
+  for (int i = 0; i < 60; ++i) {
+    b.leaf(kUnitBox, Frame{}, {1.0 + i, 1, 1});
+    b.instance(post, Frame::moved({0, 0, 2}));
+    b.root("kerb", b.prototype("Kerb"), Frame::moved({i < 30 ? 10.0 : 1000.0, 0, 100}));
+  }
+  for (int i = 0; i < 10; ++i) {
+    for (int k = 0; k < 40; ++k) b.leaf(kUnitBox, Frame::moved({2.0 * k, 0, 5.0 * i}), {1, 1, 1});
+    b.root("house", b.prototype("House"), Frame::moved({10, 0, 300}));
+  }
+  // A node for each root and each post.
+  EXPECT_EQ(ScenePlan(b.scene, {true, 200}).roots().size(), 70u);
+  // Kerbs become two nodes, houses stay, and so do the posts.
+  const ScenePlan plan(b.scene, {true, 80});
+  ASSERT_EQ(plan.roots().size(), 12u);
+  uint64_t nodes = 0;
+  for (const PlannedRoot& r : plan.roots()) nodes += shownNodes(plan, r.unit);
+  EXPECT_EQ(nodes, 72u);
+  EXPECT_EQ(plan.units()[plan.roots()[0].unit].children.size(), 30u);
+  expectWhole(b.scene);
+}
+
 TEST(Plan, wideUnitsAreCutIntoCells) {
   SceneBuilder b;
   for (int i = 0; i < 4000; ++i) {
