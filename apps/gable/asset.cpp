@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// gable asset prepare: a model made ready to fill the scopes of terminal shapes.
+// gable asset prepare: a model made ready to fill the scopes of terminal shapes. gable asset
+// material: the library of materials.
 
 #include <cstdio>
+#include <filesystem>
 
 #include "answer.h"
 #include "commands.h"
 #include "derive_settings.h"
+#include "gable/materials.h"
 
 namespace {
 
@@ -45,5 +48,23 @@ int runAssetPrepare(const AssetArguments& a) {
                 high[0], low[1], high[1], low[2], high[2]);
   answer().wrote(a.output);
   tell(a.output + text);
+  return kExitDone;
+}
+
+int runAssetMaterial(const MaterialArguments& a) {
+  if (a.name.empty()) {
+    for (const gable::LibraryMaterialInfo& m : gable::libraryMaterials()) {
+      std::printf("%-18s %4.3g x %-4.3g m  %s  %s\n", m.name.c_str(), m.width, m.height,
+                  m.color.c_str(), m.doc.c_str());
+    }
+    return kExitDone;
+  }
+  const std::string folder = a.folder.empty() ? a.name : a.folder;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  const gable::WriteResult written = gable::writeLibraryMaterial(a.name, folder);
+  print(written.diagnostics);
+  if (!written.ok) return statusOf(written.diagnostics, kExitFile);
+  std::printf("%s: 3 pictures, %.0f kB\n", folder.c_str(), static_cast<double>(written.bytes) / 1000);
   return kExitDone;
 }

@@ -121,6 +121,13 @@ struct AssetArguments {
 };
 int runAssetPrepare(const AssetArguments& arguments);
 
+struct MaterialArguments {
+  /// Without a name all are listed.
+  std::string name;
+  std::string folder;
+};
+int runAssetMaterial(const MaterialArguments& arguments);
+
 struct OpsArguments {
   std::string name;
 };

@@ -538,7 +538,7 @@ int main(int argc, char** argv) {
   traceApp->callback([&] { status = runTrace(trace); });
 
   AssetArguments asset;
-  auto* assetApp = app.add_subcommand("asset", "Prepare models for use as assets");
+  auto* assetApp = app.add_subcommand("asset", "Prepare models and materials for use as assets");
   assetApp->require_subcommand(1);
   auto* prepareApp =
       assetApp->add_subcommand("prepare", "Map the volume of a model to the unit cube");
@@ -553,6 +553,14 @@ int main(int argc, char** argv) {
   prepareApp->add_option("-o,--output", asset.output, "The asset: .glb .gltf .obj")->required();
   addLimits(prepareApp, asset.limits, kFileSeconds);
   prepareApp->callback([&] { status = runAssetPrepare(asset); });
+
+  MaterialArguments material;
+  auto* materialApp = assetApp->add_subcommand(
+      "material", "Write the pictures of a material of the library, or list all materials");
+  materialApp->add_option("name", material.name, "The material; without it, all are listed");
+  materialApp->add_option("-o,--output", material.folder,
+                          "A folder for color.jpg, normal.jpg, surface.jpg and material.mtl");
+  materialApp->callback([&] { status = runAssetMaterial(material); });
 
   OpsArguments ops;
   auto* opsApp =

@@ -4,15 +4,18 @@
 #include "engine/project.h"
 
 #include <algorithm>
+#include <array>
 
 #include "base/allowance.h"
 #include "base/files.h"
 #include "base/parallel.h"
 #include "io/image/image.h"
 #include "io/image/patterns.h"
+#include "io/image/surface.h"
 #include "io/importers/asset.h"
 #include "io/importers/mtl_file.h"
 #include "material/builtin_textures.h"
+#include "material/library.h"
 
 namespace gable {
 
@@ -81,7 +84,38 @@ void Project::addTextures(const TextureBytes& textures) {
   for (const auto& [name, bytes] : textures) embedded_[name] = bytes;
 }
 
+// The pictures of a material come from one field, so all are drawn once one is asked for.
+void Project::drawMaterials(const std::vector<std::string>& paths) {
+  std::vector<const LibraryMaterial*> wanted;
+  {
+    std::lock_guard lock(mutex_);
+    for (const std::string& path : paths) {
+      const LibraryMaterial* m = materialPictureOf(path).material;
+      if (m && builtins_.count(path) == 0) wanted.push_back(m);
+    }
+  }
+  // They lie in one table.
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  constexpr std::array kPictures{MaterialPicture::Color, MaterialPicture::Normal,
+                                 MaterialPicture::Surface};
+  std::vector<std::array<std::string, kPictures.size()>> made(wanted.size());
+  parallelFor(wanted.size(), 0, [&](size_t i, unsigned) {
+    const SurfaceField field = drawSurface(*wanted[i]);
+    for (size_t k = 0; k < kPictures.size(); ++k) {
+      made[i][k] = encodeMaterialPicture(field, *wanted[i], kPictures[k]).value();
+    }
+  });
+  std::lock_guard lock(mutex_);
+  for (size_t i = 0; i < wanted.size(); ++i) {
+    for (size_t k = 0; k < kPictures.size(); ++k) {
+      builtins_[materialPicturePath(*wanted[i], kPictures[k])] = std::move(made[i][k]);
+    }
+  }
+}
+
 void Project::drawBuiltins(const std::vector<std::string>& paths) {
+  drawMaterials(paths);
   std::vector<std::pair<std::string, std::string>> made;
   {
     std::lock_guard lock(mutex_);
@@ -107,7 +141,7 @@ Result<std::string> Project::texture(const std::string& path) {
     const auto at = embedded_.find(path);
     if (at != embedded_.end()) return *at->second;
   }
-  if (numberOfBuiltin(path) < kBuiltinTextures.size()) {
+  if (numberOfBuiltin(path) < kBuiltinTextures.size() || materialPictureOf(path).material) {
     drawBuiltins({path});
     std::lock_guard lock(mutex_);
     return builtins_[path];

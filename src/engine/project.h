@@ -44,6 +44,7 @@ class Project final : public Assets {
   /// Draws those of the paths that name built-in textures, on several threads; texture() has them
   /// then.
   void drawBuiltins(const std::vector<std::string>& paths);
+  void drawMaterials(const std::vector<std::string>& paths);
 
   Ref<AssetModel> model(std::string_view path, std::string_view fromFile, bool zUp,
                         std::string& why) override;

@@ -8,6 +8,7 @@
 
 #include <bit>
 
+#include "material/laying.h"
 #include "render/tracer.h"
 
 namespace gable::rt {
@@ -67,10 +68,17 @@ class LayerReader {
               const Corners& corners, float u, float v)
       : world_(world), material_(material), set_(set), corners_(corners), u_(u), v_(v) {}
 
+  /// Where a laid material's textures are read.
+  void lay(Vec2f at) { laidAt_ = at; }
+
   bool read(TextureLayer layer, std::array<float, 4>& value) const {
     const size_t i = static_cast<size_t>(layer);
     const TextureLookup& map = material_.maps[i];
     if (map.image < 0) return false;
+    if (material_.laid) {
+      value = world_.textures.sample(map, laidAt_, layer == TextureLayer::Color);
+      return true;
+    }
     const int uvSet = setOf(corners_, i);
     if (uvSet < 0) return false;
     const bool isColor = layer == TextureLayer::Color || layer == TextureLayer::Dirt ||
@@ -98,12 +106,28 @@ class LayerReader {
   const TriangleSet& set_;
   const Corners& corners_;
   float u_, v_;
+  Vec2f laidAt_{0, 0};
 };
 
 Vec3f colorOf(const std::array<float, 4>& texel) { return {texel[0], texel[1], texel[2]}; }
 
 Vec3f turned(const Placement* p, const Vec3f& d) {
   return p ? p->x * d.x + p->y * d.y + p->z * d.z : d;
+}
+
+Vec3 wide(const Vec3f& v) { return {v.x, v.y, v.z}; }
+
+/// The same for a laid material, whose directions follow from the face.
+void bendLaidNormal(const FaceAxes& axes, const std::array<float, 4>& texel, Surface& s) {
+  const Vec3f u{static_cast<float>(axes.u.x), static_cast<float>(axes.u.y),
+                static_cast<float>(axes.u.z)};
+  const Vec3f t = normalized(u - s.normal * dot(u, s.normal));
+  const Vec3f up{static_cast<float>(axes.v.x), static_cast<float>(axes.v.y),
+                 static_cast<float>(axes.v.z)};
+  const Vec3f b = normalized(up - s.normal * dot(up, s.normal));
+  const Vec3f n = t * (2 * texel[0] - 1) + b * (2 * texel[1] - 1) +
+                  s.normal * std::max(0.1f, 2 * texel[2] - 1);
+  if (isFinite(n) && length(n) > 0) s.normal = normalized(n);
 }
 
 /// Bends the normal by the normal map, in the frame of the map's uv directions.
@@ -155,7 +179,7 @@ Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray) {
   s.normal = s.facet;
 
   Corners corners;
-  if (!readCorners(set, hit.triangle, corners)) return s;
+  if (!readCorners(set, hit.triangle, corners) && !m.laid) return s;
   Vec3f at[3];
   for (size_t k = 0; k < 3; ++k) {
     at[k] = turned(placement, set.positions[set.corners[hit.triangle][k]]);
@@ -180,7 +204,13 @@ Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray) {
     }
   }
 
-  const LayerReader layers(world, m, set, corners, hit.u, hit.v);
+  LayerReader layers(world, m, set, corners, hit.u, hit.v);
+  FaceAxes axes;
+  if (m.laid) {
+    axes = layingAxes(normalized(wide(hit.normal)));
+    const Vec2 at = axes.at(wide(ray.origin + ray.direction * hit.distance));
+    layers.lay({static_cast<float>(at.x), static_cast<float>(at.y)});
+  }
   std::array<float, 4> texel;
   if (layers.read(TextureLayer::Color, texel)) s.base *= colorOf(texel);
   if (layers.read(TextureLayer::Dirt, texel)) {
@@ -189,7 +219,13 @@ Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray) {
   if (layers.read(TextureLayer::Emissive, texel)) s.emissive *= colorOf(texel);
   if (layers.read(TextureLayer::Roughness, texel)) s.roughness *= texel[1];
   if (layers.read(TextureLayer::Metallic, texel)) s.metallic *= texel[2];
-  if (layers.read(TextureLayer::Normal, texel)) bendNormal(set, corners, at, texel, s);
+  if (layers.read(TextureLayer::Occlusion, texel)) s.base *= texel[0];
+  if (layers.read(TextureLayer::Normal, texel)) {
+    if (m.laid)
+      bendLaidNormal(axes, texel, s);
+    else
+      bendNormal(set, corners, at, texel, s);
+  }
   if (hit.clear) s.opacity = layers.opacity();
 
   // A shading normal that looks away from the viewer would darken the outline of smooth shapes.

@@ -9,6 +9,7 @@
 
 #include <map>
 
+#include "material/library.h"
 #include "math/trig.h"
 #include "render/tone.h"
 
@@ -113,6 +114,7 @@ SurfaceMaterial surfaceOf(const Material& m) {
   s.metallic = unit(m.metallic, 0);
   s.opacity = unit(m.opacity, 1);
   s.cutoff = unit(m.opacityCutoff, 0.5);
+  s.laid = isLaid(m);
   s.mask = m.opacityMode == OpacityMode::Mask;
   if (m.opacityMode == OpacityMode::Opaque) s.opacity = 1;
   // Materials of the older shader say reflectivity and shininess instead of roughness.
@@ -164,12 +166,15 @@ void makeMaterials(const std::vector<Material>& from, const TextureSource* sourc
     SurfaceMaterial s = surfaceOf(m);
     for (const TextureLayer layer :
          {TextureLayer::Color, TextureLayer::Dirt, TextureLayer::Opacity, TextureLayer::Normal,
-          TextureLayer::Emissive, TextureLayer::Roughness, TextureLayer::Metallic}) {
+          TextureLayer::Emissive, TextureLayer::Occlusion, TextureLayer::Roughness,
+          TextureLayer::Metallic}) {
       const size_t i = static_cast<size_t>(layer);
+      // Others are seen in the shadows that the tracer finds itself.
+      if (layer == TextureLayer::Occlusion && !s.laid) continue;
       const int32_t image = imageIndex(m.maps[i].path, source, known, textures);
       if (image < 0) continue;
       s.maps[i] = lookupOf(m.maps[i], image);
-      s.uvSets |= static_cast<uint16_t>(1u << i);
+      if (!s.laid) s.uvSets |= static_cast<uint16_t>(1u << i);
     }
     const int32_t color = s.maps[static_cast<size_t>(TextureLayer::Color)].image;
     const bool cutOut = s.mask || s.maps[static_cast<size_t>(TextureLayer::Opacity)].image >= 0;

@@ -36,6 +36,8 @@ struct SurfaceMaterial {
   float transmission = 0;
   float cutoff = 0.5f;
   bool mask = false;
+  /// Textures lie in metres, by the face (material/laying.h).
+  bool laid = false;
   /// Some light may pass straight through.
   bool clear = false;
   /// Bit s: uv set s is needed.

@@ -13,6 +13,7 @@
 #include <map>
 
 #include "material/builtin_textures.h"
+#include "material/library.h"
 
 namespace gable {
 
@@ -140,7 +141,7 @@ constexpr MaterialField kFields[] = {
 
 // Edits beyond the fields; fields use their place in the table.
 constexpr uint32_t kColorEdit = 1000, kColorAndOpacityEdit = 1001, kTextureEdit = 1002,
-                   kAlphaTextureEdit = 1003;
+                   kAlphaTextureEdit = 1003, kLibraryEdit = 1004;
 
 const char* modeName(OpacityMode mode) {
   return mode == OpacityMode::Opaque ? "opaque" : mode == OpacityMode::Mask ? "mask" : "blend";
@@ -150,7 +151,7 @@ const char* modeName(OpacityMode mode) {
 std::string resolved(std::string_view path, Services& services, std::string_view file) {
   if (path.empty()) return {};
   if (path.starts_with("builtin:")) {
-    if (!isBuiltinTexture(path)) {
+    if (!isBuiltinTexture(path) && !materialPictureOf(path).material) {
       services.warn("missing-texture", "there is no built-in image '" + std::string(path) + "'",
                     "they are named as in 'builtin:textures/02_brick.png'");
     }
@@ -297,9 +298,37 @@ void setTexture(Shape& s, std::string_view path, Services& services, std::string
           {0, alpha ? kAlphaTextureEdit : kTextureEdit, hashBytes(content), hashBytes(content, 1),
            content.size()},
           [&](Material& m) {
+            // What is laid in metres has pictures that belong together.
+            if (isLaid(m)) m = Material{};
             m.map(TextureLayer::Color).path = content;
             m.map(TextureLayer::Opacity).path = alpha ? content : std::string();
           });
+}
+
+Status setLibraryMaterial(Shape& s, std::string_view name, const Vec3* tint, Services& services,
+                          std::string_view file) {
+  Material m;
+  if (const LibraryMaterial* entry = libraryMaterial(name)) {
+    m = laidMaterial(*entry, tint);
+  } else {
+    const std::string path = "materials/" + std::string(name) + "/material.mtl";
+    if (!services.assets().exists(path, file)) {
+      return Status::failure("unknown-material",
+                             "there is no material '" + std::string(name) + "'",
+                             materialHint(name));
+    }
+    Result<Material> own = services.assets().material(path, file);
+    if (!own.ok()) {
+      return Status::failure("bad-material", own.error().message, own.error().hint);
+    }
+    m = std::move(*own);
+    m.name = name;
+    m.shader = std::string(kLaidShader) + "own";
+    if (tint) m.color = *tint;
+  }
+  editAll(s, services, {0, kLibraryEdit, contentHash(m), hashBytes(name), 0},
+          [&](Material& to) { to = m; });
+  return {};
 }
 
 MaterialId usedMaterial(const Shape& s, const Services& services) {

@@ -49,6 +49,10 @@ Status writeFieldText(const MaterialField& f, std::string_view v, Shape& s, Serv
 void setColor(Shape& s, const Vec3& rgb, double opacity, Services& services);
 /// Sets the colour map, and the opacity map to the same image when it has alpha, else to none.
 void setTexture(Shape& s, std::string_view path, Services& services, std::string_view file);
+/// A material of the library (material/library.h), or one of the folder materials/NAME of the
+/// project, in a tint if there is one. Codes: unknown-material, bad-material.
+Status setLibraryMaterial(Shape& s, std::string_view name, const Vec3* tint, Services& services,
+                          std::string_view file);
 
 /// The material in use of the shape's first face, and the one that the model brought for it.
 MaterialId usedMaterial(const Shape& s, const Services& services);

@@ -24,6 +24,7 @@
 #include "base/parallel.h"
 #include "base/work.h"
 #include "io/exporters/surface.h"
+#include "material/library.h"
 #include "scene/flatten.h"
 
 namespace gable {
@@ -41,6 +42,11 @@ constexpr uint64_t kLeavesAPart = 1 << 16;
 constexpr size_t kRoom = 1 << 20;
 /// Stands for the zero scale of a flat shape, which no normal survives.
 constexpr double kFlat = 1e-5;
+
+bool isWhole(const Vec3& scale) {
+  const auto one = [](double s) { return std::abs(std::abs(s) - 1) < 1e-3; };
+  return one(scale.x) && one(scale.y) && one(scale.z);
+}
 
 // The part of a material that a batch has in common. Roughness and the like in steps nobody sees.
 struct Look {
@@ -120,6 +126,10 @@ class Plan {
  public:
   explicit Plan(const Scene& scene)
       : scene_(scene), leavesOf_(prototypeLeafCounts(scene)), paints_(scene.materials.size() + 1) {
+    for (const std::vector<uint32_t>& list : scene.materialLists) {
+      laidLists_.push_back(
+          std::any_of(list.begin(), list.end(), [&](uint32_t m) { return isLaidPaint(m); }));
+    }
     countPrototypes();
     countMeshes();
     findOften();
@@ -136,7 +146,17 @@ class Plan {
   const Paint& paint(uint32_t number) const { return paints_[number]; }
   size_t paints() const { return paints_.size(); }
   bool isSingle(uint32_t mesh) const { return uses_[mesh] == 1; }
-  bool isOften(const Leaf& leaf) const { return leaf.mesh < kFirstMesh || often_[leaf.mesh]; }
+  /// What is laid in metres stands often only where it is not scaled.
+  bool isOften(const Leaf& leaf) const {
+    if (leaf.mesh >= kFirstMesh && !often_[leaf.mesh]) return false;
+    return isWhole(leaf.scale) || !isLaidLeaf(leaf);
+  }
+  bool isLaidLeaf(const Leaf& leaf) const {
+    return leaf.materials < laidLists_.size() && laidLists_[leaf.materials];
+  }
+  bool isLaidPaint(uint32_t number) const {
+    return number < scene_.materials.size() && isLaid(scene_.materials[number]);
+  }
 
   // The place of a leaf's material among the paints.
   uint32_t paintOf(const Leaf& leaf, uint16_t slot) const {
@@ -237,6 +257,8 @@ class Plan {
   /// By prototype, by mesh: how often it stands.
   std::vector<uint64_t> times_, uses_;
   std::vector<bool> often_;
+  /// By list of materials: whether one of them is laid in metres.
+  std::vector<bool> laidLists_;
   /// By material, the default one last.
   std::vector<Paint> paints_;
   std::unordered_map<uint32_t, std::vector<SlotTally>> slots_;
@@ -324,32 +346,34 @@ class Part {
     return *last_;
   }
 
-  const Surface& surfaceOf(uint32_t mesh) {
+  // Faces of what is laid have coordinates of their own.
+  const Surface& surfaceOf(uint32_t mesh, bool apart) {
     if (plan_.isSingle(mesh)) {
-      single_.build(*scene_.meshes[mesh], triangulator_);
+      single_.build(*scene_.meshes[mesh], triangulator_, apart);
       return single_;
     }
-    const auto [at, fresh] = surfaces_.try_emplace(mesh);
-    if (fresh) at->second.build(*scene_.meshes[mesh], triangulator_);
+    const auto [at, fresh] = surfaces_.try_emplace({mesh, apart});
+    if (fresh) at->second.build(*scene_.meshes[mesh], triangulator_, apart);
     return at->second;
   }
 
   void add(const Leaf& leaf, const Frame& world, uint32_t number) {
     const bool often = plan_.isOften(leaf);
     const bool mirrored = leaf.scale.x * leaf.scale.y * leaf.scale.z < 0;
-    const Surface& surface = surfaceOf(leaf.mesh);
+    const Surface& surface = surfaceOf(leaf.mesh, plan_.isLaidLeaf(leaf));
     if (!often) work(surface.corners.size());
     for (const SurfacePart& part : surface.parts) {
       const uint32_t paint = plan_.paintOf(leaf, part.slot);
       const uint32_t color = plan_.paint(paint).color;
       Batch& batch = batchOf(Plan::keyOf(leaf, part.slot, often, plan_.paint(paint).group), paint);
+      const bool laid = plan_.isLaidPaint(paint);
       if (!often) {
-        addPart(batch, leaf.mesh, surface, part, world, leaf.scale, color, narrow(number));
+        addPart(batch, leaf.mesh, surface, part, world, leaf.scale, color, narrow(number), laid);
         continue;
       }
       if (batch.positions.empty()) {
         const Vec3 scale{mirrored ? -1.0 : 1.0, 1, 1};
-        addPart(batch, leaf.mesh, surface, part, {}, scale, 0xffffffffu, 0);
+        addPart(batch, leaf.mesh, surface, part, {}, scale, 0xffffffffu, 0, laid);
       }
       addInstance(batch, leaf, world, mirrored);
       batch.instanceColors.push_back(color);
@@ -371,17 +395,20 @@ class Part {
   }
 
   void addPart(Batch& batch, uint32_t mesh, const Surface& surface, const SurfacePart& part,
-               const Frame& world, const Vec3& scale, uint32_t color, float leaf) {
+               const Frame& world, const Vec3& scale, uint32_t color, float leaf, bool laid) {
     const Mesh& m = *scene_.meshes[mesh];
     const bool turned = scale.x * scale.y * scale.z < 0;
     for (uint32_t f = part.firstFace; f < part.firstFace + part.faceCount; ++f) {
       const SurfaceFace& face = surface.faces[f];
       const auto base = static_cast<uint32_t>(batch.positions.size() / 3);
+      const FaceAxes axes = laid ? layingOf(m, surface, face, world, scale) : FaceAxes{};
       for (uint32_t v = face.firstVertex; v < face.firstVertex + face.vertexCount; ++v) {
         const uint32_t corner = surface.corners[v];
         push(batch.positions, world.point(scaled(m.at(corner), scale)));
         push(batch.normals, world.direction(scaledNormal(surface.normals[v], scale)));
-        const Vec2 uv = m.hasUv(0) ? m.uvs[0][corner] : Vec2{};
+        const Vec2 uv = laid         ? axes.at(world.point(scaled(m.at(corner), scale)))
+                        : m.hasUv(0) ? m.uvs[0][corner]
+                                     : Vec2{};
         batch.uvs.push_back(narrow(uv.x));
         batch.uvs.push_back(narrow(uv.y));
         batch.leaves.push_back(leaf);
@@ -403,7 +430,7 @@ class Part {
   std::vector<uint32_t> looks_;
   std::vector<uint32_t> lookOrder_;
   /// Of meshes that stand more than once; of the others only the last.
-  std::map<uint32_t, Surface> surfaces_;
+  std::map<std::pair<uint32_t, bool>, Surface> surfaces_;
   Surface single_;
   std::map<BatchKey, Batch> batches_;
   BatchKey lastKey_;

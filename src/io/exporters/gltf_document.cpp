@@ -416,16 +416,18 @@ std::string GltfDocument::text(const GltfContent& content, bool roomy) const {
   for (const auto& g : content.instances) groups = groups || !g.empty();
   const bool compact =
       materials_.isCompact() && !std::all_of(content.meshes.begin(), content.meshes.end(), isEmpty);
-  const auto extensions = [&](const char* name, bool transforms) {
-    if (!groups && !compact && !transforms) return;
+  const auto extensions = [&](const char* name, bool transforms,
+                              const std::set<std::string>& more) {
+    if (!groups && !compact && !transforms && more.empty()) return;
     w.key(name).beginArray();
     if (groups) w.value("EXT_mesh_gpu_instancing");
     if (compact) w.value("KHR_mesh_quantization");
     if (transforms) w.value("KHR_texture_transform");
+    for (const std::string& name : more) w.value(name);
     w.endArray();
   };
-  extensions("extensionsUsed", materials_.usesTransforms());
-  extensions("extensionsRequired", false);
+  extensions("extensionsUsed", materials_.usesTransforms(), materials_.extensions());
+  extensions("extensionsRequired", false, {});
   w.field("scene", 0).key("scenes").beginArray().beginObject();
   if (nodesWritten_ > 0) w.key("nodes").raw(roots_);
   w.endObject().endArray();

@@ -10,6 +10,7 @@
 #include <bit>
 #include <cmath>
 
+#include "material/library.h"
 #include "math/trig.h"
 #include "scene/flatten.h"
 
@@ -24,6 +25,21 @@ void writeColor(JsonWriter& w, const Vec3& srgb) {
 
 bool plain(const TextureMap& t) {
   return t.su == 1 && t.sv == 1 && t.tu == 0 && t.tv == 0 && t.rw == 0;
+}
+
+// What a material of the library has beyond glTF's core: each extension, its field, its value.
+template <class Visit>
+void forEachExtension(const Material& m, Visit visit) {
+  const LibraryMaterial* entry = libraryEntryOf(m);
+  if (!entry) return;
+  const LibraryMaterial plain{};
+  if (entry->clearcoat > 0) {
+    visit("KHR_materials_clearcoat", "clearcoatFactor", entry->clearcoat);
+  }
+  if (entry->ior != plain.ior) visit("KHR_materials_ior", "ior", entry->ior);
+  if (entry->transmission > 0) {
+    visit("KHR_materials_transmission", "transmissionFactor", entry->transmission);
+  }
 }
 
 }  // namespace
@@ -100,6 +116,9 @@ GltfMaterials::Variant GltfMaterials::make(const Material& m, uint32_t uvMask) {
   Variant v;
   v.material = &m;
   v.layout.compact = compact_;
+  v.layout.laid = isLaid(m);
+  if (v.layout.laid) uvMask = 1;
+  forEachExtension(m, [&](const char* name, const char*, double) { extensions_.insert(name); });
   const std::string& opacity = m.map(TextureLayer::Opacity).path;
   const bool useOpacity = !opacity.empty() && m.opacityMode != OpacityMode::Opaque;
   if (uvMask != 0) {
@@ -141,7 +160,8 @@ void GltfMaterials::addSets(Variant& v, uint32_t uvMask) {
   for (const Map* map : maps) {
     if (map->image != TextureSet::kNone) used |= 1u << map->texcoord;
   }
-  if (v.normal.image != TextureSet::kNone)
+  // Viewers make the tangents of what is laid, which has the same everywhere on a face.
+  if (v.normal.image != TextureSet::kNone && !v.layout.laid)
     v.layout.tangentSet = static_cast<int>(v.normal.texcoord);
   for (uint32_t set = 0; set < kTextureLayers; ++set) {
     if (used >> set & 1) v.layout.uvSets[v.layout.uvCount++] = static_cast<uint8_t>(set);
@@ -199,7 +219,18 @@ void GltfMaterials::writeMaterial(JsonWriter& w, const Variant& v) const {
     if (mask) w.field("alphaCutoff", static_cast<float>(unit(m.opacityCutoff)));
   }
   if (m.doubleSided) w.field("doubleSided", true);
+  writeExtensions(w, m);
   w.endObject();
+}
+
+void GltfMaterials::writeExtensions(JsonWriter& w, const Material& m) {
+  bool any = false;
+  forEachExtension(m, [&](const char* name, const char* field, double value) {
+    if (!any) w.key("extensions").beginObject();
+    any = true;
+    w.key(name).beginObject().field(field, static_cast<float>(value)).endObject();
+  });
+  if (any) w.endObject();
 }
 
 void GltfMaterials::write(JsonWriter& w) const {

@@ -21,6 +21,8 @@ namespace gable {
 /// position takes 12 bytes, or 8 as integers, normal and tangent 4 each, a uv set 8.
 struct VertexLayout {
   bool compact = false;
+  /// The one uv set is made here, in metres (material/laying.h).
+  bool laid = false;
   /// The uv set of the normal map, or -1.
   int tangentSet = -1;
   uint32_t uvCount = 0;
@@ -60,6 +62,8 @@ class GltfMaterials {
   /// Whether vertices have integers of KHR_mesh_quantization.
   bool isCompact() const { return compact_; }
   bool usesTransforms() const { return usesTransforms_; }
+  /// KHR_materials_... of the library's materials in use, sorted.
+  const std::set<std::string>& extensions() const { return extensions_; }
 
   /// The members "materials", "textures" and "samplers"; images are up to the caller.
   void write(JsonWriter& w) const;
@@ -85,6 +89,7 @@ class GltfMaterials {
   void addSets(Variant& v, uint32_t uvMask);
   void writeMaterial(JsonWriter& w, const Variant& v) const;
   void writeMap(JsonWriter& w, const char* name, const Map& map) const;
+  static void writeExtensions(JsonWriter& w, const Material& m);
   void warnOnce(const std::string& text);
 
   const Scene& scene_;
@@ -97,6 +102,7 @@ class GltfMaterials {
   /// By material and what tells variants, and glTF materials, of one material apart.
   std::map<std::vector<uint32_t>, uint32_t> byLayout_, numbers_;
   std::set<std::string> warned_;
+  std::set<std::string> extensions_;
   bool usesTransforms_ = false;
 };
 

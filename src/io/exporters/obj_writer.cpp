@@ -21,6 +21,7 @@
 #include "io/exporters/write_model.h"
 #include "io/uri.h"
 #include "math/trig.h"
+#include "material/library.h"
 #include "scene/flatten.h"
 
 namespace gable {
@@ -76,6 +77,8 @@ class ObjWriter {
   void putPolygon(const Mesh& m, const uint32_t* corners, size_t count, bool turn);
   bool hasArea(const Mesh& m, const uint32_t* corners, size_t count) const;
   void useMaterial(const Leaf& leaf, uint32_t slot);
+  bool isLaidSlot(const Leaf& leaf, uint32_t slot) const;
+  void layFace(const Mesh& m, size_t face, bool mirrored, std::vector<Vec2>& uvs) const;
   bool isTurned(const Leaf& leaf, uint32_t slot) const;
   void putUvs(const Mesh& m, const Leaf& leaf);
   void putLine(const char* word, const Vec3& v);
@@ -90,8 +93,8 @@ class ObjWriter {
   TextureSet textures_;
   // Whole lines, by Scene::names and by material (the last is the default material's).
   std::vector<std::string> groupLines_, materialNames_, materialLines_;
-  // By material, the default one included; turned: its texture is.
-  std::vector<bool> materialUsed_, turned_;
+  // By material, the default one included; turned: its texture is, or lies in metres.
+  std::vector<bool> materialUsed_, turned_, laid_;
   uint32_t group_ = kNoMaterial, material_ = kNoMaterial;
   bool anyMaterial_ = false;
   uint64_t vertices_ = 0, uvs_ = 0, normals_ = 0;
@@ -118,7 +121,8 @@ void ObjWriter::nameMaterials() {
     materialNames_.push_back(unique);
     materialLines_.push_back("usemtl " + unique + "\n");
     const TextureMap& map = m.map(TextureLayer::Color);
-    turned_.push_back(!map.path.empty() && map.rw != 0);
+    laid_.push_back(isLaid(m));
+    turned_.push_back(isLaid(m) || (!map.path.empty() && map.rw != 0));
   };
   for (const Material& m : scene_.materials) add(m);
   add(Material{});
@@ -158,7 +162,7 @@ bool ObjWriter::addBox(const Leaf& leaf, const Frame& world) {
   const bool plain = s.x > kThin && s.y > kThin && s.z > kThin && s.x < kFar && s.y < kFar &&
                      s.z < kFar && std::fabs(o.x) < kFar && std::fabs(o.y) < kFar &&
                      std::fabs(o.z) < kFar;
-  if (!plain || (leaf.mesh == kUnitBoxUv && isTurned(leaf, 0))) return false;
+  if (!plain || isLaidSlot(leaf, 0) || (leaf.mesh == kUnitBoxUv && isTurned(leaf, 0))) return false;
   const Mesh& m = *scene_.meshes[leaf.mesh];
   useMaterial(leaf, 0);
   Piece index[8], numbers[6];
@@ -260,12 +264,38 @@ bool ObjWriter::isTurned(const Leaf& leaf, uint32_t slot) const {
   return m < scene_.materials.size() && turned_[m];
 }
 
+bool ObjWriter::isLaidSlot(const Leaf& leaf, uint32_t slot) const {
+  const uint32_t m = materialIndexOf(scene_, leaf, slot);
+  return m < scene_.materials.size() && laid_[m];
+}
+
+// In metres, from where the face stands.
+void ObjWriter::layFace(const Mesh& m, size_t face, bool mirrored, std::vector<Vec2>& uvs) const {
+  Vec3 normal;
+  for (const MeshLoop& loop : m.loopsOf(face)) {
+    const auto at = [&](uint32_t i) { return placed_[m.corners[loop.firstCorner + i]]; };
+    for (uint32_t i = 2; i < loop.cornerCount; ++i) {
+      normal += cross(at(i - 1) - at(0), at(i) - at(0));
+    }
+  }
+  const FaceAxes axes = layingAxes(unitOf(mirrored ? -normal : normal));
+  for (const MeshLoop& loop : m.loopsOf(face)) {
+    for (uint32_t i = loop.firstCorner; i < loop.firstCorner + loop.cornerCount; ++i) {
+      const Vec2 uv = axes.at(placed_[m.corners[i]]);
+      uvs[i] = std::isfinite(uv.x) && std::isfinite(uv.y) ? uv : Vec2{};
+    }
+  }
+}
+
 // As glTF's exporter and the pictures transform them: scaled, turned about the lower left, shifted.
 void ObjWriter::putUvs(const Mesh& m, const Leaf& leaf) {
   std::vector<Vec2> uvs = m.uvs[0];
+  uvs.resize(m.corners.size());
+  const bool mirrored = ((leaf.scale.x < 0) != (leaf.scale.y < 0)) != (leaf.scale.z < 0);
   for (size_t f = 0; f < m.faceCount(); ++f) {
     const uint32_t slot = m.faces[f].materialSlot;
     if (!isTurned(leaf, slot)) continue;
+    if (isLaidSlot(leaf, slot)) layFace(m, f, mirrored, uvs);
     const TextureMap& t = materialOf(scene_, leaf, slot).map(TextureLayer::Color);
     const double c = cosDeg(t.rw), s = sinDeg(t.rw);
     for (const MeshLoop& loop : m.loopsOf(f)) {
@@ -295,6 +325,9 @@ void ObjWriter::addMesh(const Leaf& leaf, const Frame& world) {
     putLine("v", isFinite(placed_[i]) ? placed_[i] : Vec3{});
   }
   hasUv_ = m.hasUv(0);
+  for (size_t f = 0; f < m.faceCount() && !hasUv_; ++f) {
+    hasUv_ = isLaidSlot(leaf, m.faces[f].materialSlot);
+  }
   hasNormals_ = !m.normals.empty();
   uvBase_ = uvs_;
   normalBase_ = normals_;
@@ -338,7 +371,7 @@ void ObjWriter::putMap(std::string& out, const char* statement, const Material& 
   if (texture == TextureSet::kNone) return;
   out += statement;
   const TextureMap& color = m.map(TextureLayer::Color);
-  const bool baked = !color.path.empty() && color.rw != 0;
+  const bool baked = !color.path.empty() && (color.rw != 0 || isLaid(m));
   if (baked) {
     const auto placing = [](const TextureMap& t) {
       return std::array<double, 5>{t.su, t.sv, t.tu, t.tv, t.rw};
@@ -373,6 +406,7 @@ std::string ObjWriter::materialFile() {
     out += "Pr " + shortestText(m.roughness) + "\nPm " + shortestText(m.metallic) + "\n";
     putMap(out, "map_Kd", m, TextureLayer::Color);
     putMap(out, "map_bump", m, TextureLayer::Bump);
+    putMap(out, "map_Ka", m, TextureLayer::Occlusion);
     putMap(out, "map_Ks", m, TextureLayer::Specular);
     putMap(out, "map_d", m, TextureLayer::Opacity);
     putMap(out, "norm", m, TextureLayer::Normal);

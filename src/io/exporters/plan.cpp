@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "base/hash.h"
+#include "material/library.h"
 #include "math/box.h"
 
 namespace gable {
@@ -525,6 +526,18 @@ void ScenePlan::measureContents() {
   }
 }
 
+// A node that scales its mesh scales what counts in metres too; a little of that is not seen.
+bool ScenePlan::changesLaid(const Leaf& leaf) const {
+  constexpr double kMost = 1.5;
+  const auto kept = [](double s) { return std::fabs(s) < kMost && std::fabs(s) * kMost > 1; };
+  if (kept(leaf.scale.x) && kept(leaf.scale.y) && kept(leaf.scale.z)) return false;
+  if (leaf.materials >= scene_.materialLists.size()) return false;
+  const std::vector<uint32_t>& list = scene_.materialLists[leaf.materials];
+  return std::any_of(list.begin(), list.end(), [&](uint32_t m) {
+    return m < scene_.materials.size() && isLaid(scene_.materials[m]);
+  });
+}
+
 bool ScenePlan::standsAlone(const Leaf& leaf) const {
   // Most scenes have none: leaves, which fill memory, are not even looked at.
   if (alone_.empty()) return false;
@@ -532,7 +545,7 @@ bool ScenePlan::standsAlone(const Leaf& leaf) const {
   constexpr double kThinnest = 1e-5;
   const bool flat = std::fabs(leaf.scale.x) < kThinnest || std::fabs(leaf.scale.y) < kThinnest ||
                     std::fabs(leaf.scale.z) < kThinnest;
-  return !flat && meshBytes_[leaf.mesh] >= std::max(kAloneBytes, smallest_) &&
+  return !flat && !changesLaid(leaf) && meshBytes_[leaf.mesh] >= std::max(kAloneBytes, smallest_) &&
          std::binary_search(alone_.begin(), alone_.end(), aloneKey(leaf));
 }
 

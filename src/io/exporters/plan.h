@@ -141,6 +141,7 @@ class ScenePlan {
   void walkGroup(const Group& group, bool solid, UnitContent* content,
                  std::vector<PlannedChild>* children) const;
   bool standsAlone(const Leaf& leaf) const;
+  bool changesLaid(const Leaf& leaf) const;
   uint32_t unitOfPrototype(uint32_t prototype);
   uint32_t unitOfLeaf(uint32_t leaf);
 

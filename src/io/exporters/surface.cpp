@@ -139,7 +139,7 @@ void Surface::mergeVertices(const Mesh& m, SurfacePart& part) {
   part.faceCount = 1;
 }
 
-void Surface::build(const Mesh& m, FaceTriangulator& triangulator) {
+void Surface::build(const Mesh& m, FaceTriangulator& triangulator, bool apart) {
   corners.clear();
   normals.clear();
   triangles.clear();
@@ -147,8 +147,9 @@ void Surface::build(const Mesh& m, FaceTriangulator& triangulator) {
   parts.clear();
   const std::vector<Vec3> lit = cornerNormals(m);
   const bool mergeable =
-      !m.normals.empty() ||
-      std::any_of(m.faces.begin(), m.faces.end(), [](const MeshFace& f) { return f.smooth; });
+      !apart &&
+      (!m.normals.empty() ||
+       std::any_of(m.faces.begin(), m.faces.end(), [](const MeshFace& f) { return f.smooth; }));
   std::vector<uint32_t> order(m.faces.size());
   std::iota(order.begin(), order.end(), 0);
   const auto before = [&](uint32_t a, uint32_t b) {
@@ -167,6 +168,21 @@ void Surface::build(const Mesh& m, FaceTriangulator& triangulator) {
     if (mergeable) mergeVertices(m, part);
     parts.push_back(part);
   }
+}
+
+FaceAxes layingOf(const Mesh& m, const Surface& surface, const SurfaceFace& face,
+                  const Frame& frame, const Vec3& scale) {
+  const auto at = [&](uint32_t vertex) {
+    return frame.point(scaled(m.at(surface.corners[face.firstVertex + vertex]), scale));
+  };
+  Vec3 normal;
+  for (uint32_t t = 0; t < face.triangleCount; ++t) {
+    const auto& tri = surface.triangles[face.firstTriangle + t];
+    const Vec3 a = at(tri[0]);
+    normal += cross(at(tri[1]) - a, at(tri[2]) - a);
+  }
+  const bool mirrored = ((scale.x < 0) != (scale.y < 0)) != (scale.z < 0);
+  return layingAxes(unitOf(mirrored ? -normal : normal));
 }
 
 Tangents tangentsOf(const Mesh& m, const Surface& surface, int uvSet) {

@@ -11,6 +11,8 @@
 
 #include "geom/mesh/face_triangles.h"
 #include "geom/mesh/mesh.h"
+#include "material/laying.h"
+#include "math/frame.h"
 
 namespace gable {
 
@@ -52,8 +54,8 @@ class Surface {
   std::vector<SurfacePart> parts;
 
   /// Replaces the content. Meshes with corner normals have equal vertices of a part merged, so that
-  /// a part of such a mesh is one face.
-  void build(const Mesh& m, FaceTriangulator& triangulator);
+  /// a part of such a mesh is one face; not where `apart`.
+  void build(const Mesh& m, FaceTriangulator& triangulator, bool apart = false);
   /// The part of a slot, or nullptr.
   const SurfacePart* part(uint16_t slot) const;
 
@@ -63,6 +65,11 @@ class Surface {
   void mergeVertices(const Mesh& m, SurfacePart& part);
   std::vector<std::array<uint32_t, 3>> scratch_;
 };
+
+/// How a material that counts in metres lies on a face of a placed mesh: the axes are those of the
+/// frame around it.
+FaceAxes layingOf(const Mesh& m, const Surface& surface, const SurfaceFace& face,
+                  const Frame& frame, const Vec3& scale);
 
 /// The directions in which a uv set grows over a mesh, at each vertex of a surface: not unit, in
 /// the mesh's frame; zero where the uv set is flat.

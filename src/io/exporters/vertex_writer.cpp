@@ -95,7 +95,8 @@ VertexWriter::VertexWriter(const Scene& scene, FileWriter& out)
       out_(out),
       boxes_{boxTemplate(*scene.meshes[kUnitBox]), boxTemplate(*scene.meshes[kUnitBoxUv])},
       uses_(scene.meshes.size()),
-      cache_(scene.meshes.size()) {
+      cache_(scene.meshes.size()),
+      laidCache_(scene.meshes.size()) {
   for (const Leaf& l : scene.leaves) uses_[l.mesh] += uses_[l.mesh] < 2 ? 1 : 0;
   for (const Instance& in : scene.instances) {
     // A placed prototype may be expanded several times.
@@ -136,7 +137,7 @@ VertexWriter::BoxTemplate VertexWriter::boxTemplate(const Mesh& m) {
 bool VertexWriter::addBox(uint32_t mesh, const Frame& frame, const Vec3& scale,
                           const VertexLayout& layout, PrimitiveState& state) {
   const bool mirrors = scale.x < 0 || scale.y < 0 || scale.z < 0;
-  if (layout.tangentSet >= 0 || layout.uvCount > 1 || (mirrors && layout.uvCount > 0)) return false;
+  if (layout.laid || layout.tangentSet >= 0 || layout.uvCount > 1 || (mirrors && layout.uvCount > 0)) return false;
   const Vec3 size{std::fabs(scale.x), std::fabs(scale.y), std::fabs(scale.z)};
   const double reach = std::fabs(frame.origin.x) + std::fabs(frame.origin.y) +
                        std::fabs(frame.origin.z) + size.x + size.y + size.z;
@@ -183,23 +184,25 @@ bool VertexWriter::addBox(uint32_t mesh, const Frame& frame, const Vec3& scale,
   return true;
 }
 
-VertexWriter::CachedSurface& VertexWriter::surfaceOf(uint32_t mesh) {
+VertexWriter::CachedSurface& VertexWriter::surfaceOf(uint32_t mesh, bool laid) {
   const auto fill = [&](CachedSurface& c) {
-    c.surface.build(*scene_.meshes[mesh], triangulator_);
+    c.surface.build(*scene_.meshes[mesh], triangulator_, laid);
     c.tangents.clear();
   };
   if (mesh >= kFirstMesh && uses_[mesh] < 2) {
     // Its slots follow one another.
-    if (singleMesh_ != mesh) fill(single_);
+    if (singleMesh_ != mesh || singleLaid_ != laid) fill(single_);
     singleMesh_ = mesh;
+    singleLaid_ = laid;
     return single_;
   }
-  if (!cache_[mesh]) {
-    cache_[mesh] = std::make_unique<CachedSurface>();
-    fill(*cache_[mesh]);
-    cachedVertices_ += cache_[mesh]->surface.corners.size();
+  std::unique_ptr<CachedSurface>& cached = (laid ? laidCache_ : cache_)[mesh];
+  if (!cached) {
+    cached = std::make_unique<CachedSurface>();
+    fill(*cached);
+    cachedVertices_ += cached->surface.corners.size();
   }
-  return *cache_[mesh];
+  return *cached;
 }
 
 void VertexWriter::trimCache() {
@@ -207,6 +210,7 @@ void VertexWriter::trimCache() {
   constexpr uint64_t kMostVertices = 1'500'000;
   if (cachedVertices_ < kMostVertices) return;
   for (auto& c : cache_) c.reset();
+  for (auto& c : laidCache_) c.reset();
   cachedVertices_ = 0;
 }
 
@@ -216,7 +220,7 @@ void VertexWriter::add(uint32_t mesh, uint16_t slot, const Frame& frame, const V
   frame_ = frame;
   scale_ = scale;
   mirrored_ = ((scale.x < 0) != (scale.y < 0)) != (scale.z < 0);
-  CachedSurface& cached = surfaceOf(mesh);
+  CachedSurface& cached = surfaceOf(mesh, layout.laid);
   const Mesh& m = *scene_.meshes[mesh];
   const Tangents* tangents = nullptr;
   if (layout.tangentSet >= 0) {
@@ -269,6 +273,7 @@ const float* VertexWriter::writeVertices(const Mesh& m, const Surface& s, const 
                                          const SurfaceFace& face, const VertexLayout& layout,
                                          const VertexGrid& grid) {
   scratch_.resize(static_cast<size_t>(face.vertexCount) * layout.floats());
+  if (layout.laid) axes_ = layingOf(m, s, face, frame_, scale_);
   float* p = scratch_.data();
   Vec3 localNormal, normal;
   for (uint32_t v = face.firstVertex; v < face.firstVertex + face.vertexCount; ++v) {
@@ -290,7 +295,9 @@ const float* VertexWriter::writeVertices(const Mesh& m, const Surface& s, const 
     }
     for (uint32_t i = 0; i < layout.uvCount; ++i) {
       const std::vector<Vec2>& uv = m.uvs[layout.uvSets[i]];
-      const Vec2 at = uv.empty() ? Vec2{} : uv[corner];
+      const Vec2 at = layout.laid  ? axes_.at(frame_.point(scaled(m.at(corner), scale_)))
+                      : uv.empty() ? Vec2{}
+                                   : uv[corner];
       *p++ = static_cast<float>(at.x);
       *p++ = static_cast<float>(1 - at.y);
     }

@@ -74,7 +74,7 @@ class VertexWriter {
   const float* writeVertices(const Mesh& m, const Surface& s, const Tangents* tangents,
                              const SurfaceFace& face, const VertexLayout& layout,
                              const VertexGrid& grid);
-  CachedSurface& surfaceOf(uint32_t mesh);
+  CachedSurface& surfaceOf(uint32_t mesh, bool laid);
 
   const Scene& scene_;
   FileWriter& out_;
@@ -82,14 +82,18 @@ class VertexWriter {
   std::array<BoxTemplate, 2> boxes_;
   // By mesh; meshes that one leaf shows are made anew each time.
   std::vector<uint32_t> uses_;
-  std::vector<std::unique_ptr<CachedSurface>> cache_;
+  // Faces of what is laid stay apart: each has coordinates of its own.
+  std::vector<std::unique_ptr<CachedSurface>> cache_, laidCache_;
   CachedSurface single_;
   uint32_t singleMesh_ = 0xffffffff;
+  bool singleLaid_ = false;
   uint64_t cachedVertices_ = 0;
   // Of the leaf at hand.
   Frame frame_;
   Vec3 scale_;
   bool mirrored_ = false;
+  // Of the face at hand, where it is laid.
+  FaceAxes axes_;
   std::vector<float> scratch_;
   uint64_t brokenFaces_ = 0;
 };

@@ -6,8 +6,10 @@
 // stopped.
 #include "io/image/jpeg.h"
 
+#include <algorithm>
 #include <csetjmp>
 #include <cstdio>
+#include <cstdlib>
 // jpeglib.h needs size_t and FILE to be declared before it.
 #include <jpeglib.h>
 
@@ -115,7 +117,79 @@ Error broken(const char* why) {
   return {"image-broken", std::string("the JPEG picture cannot be read: ") + why, {}};
 }
 
+struct JpegWriting {
+  jpeg_compress_struct jpeg{};
+  jpeg_error_mgr errors{};
+  std::jmp_buf back;
+  char why[JMSG_LENGTH_MAX] = "";
+  const Image* image = nullptr;
+  int quality = 80;
+  bool thinColor = false;
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;
+  std::vector<uint8_t> row;
+};
+
+[[noreturn]] void onWriteError(j_common_ptr common) {
+  auto* w = static_cast<JpegWriting*>(common->client_data);
+  common->err->format_message(common, w->why);
+  std::longjmp(w->back, 1);
+}
+
+bool write(JpegWriting& w) {
+  if (setjmp(w.back)) return false;
+  jpeg_create_compress(&w.jpeg);
+  jpeg_mem_dest(&w.jpeg, &w.bytes, &w.size);
+  w.jpeg.image_width = w.image->width;
+  w.jpeg.image_height = w.image->height;
+  w.jpeg.input_components = 3;
+  w.jpeg.in_color_space = JCS_RGB;
+  jpeg_set_defaults(&w.jpeg);
+  jpeg_set_quality(&w.jpeg, w.quality, TRUE);
+  // The reference transform, which is the same on every machine.
+  w.jpeg.dct_method = JDCT_ISLOW;
+  w.jpeg.optimize_coding = TRUE;
+  if (!w.thinColor) {
+    for (int c = 0; c < 3; ++c) {
+      w.jpeg.comp_info[c].h_samp_factor = w.jpeg.comp_info[c].v_samp_factor = 1;
+    }
+  }
+  jpeg_start_compress(&w.jpeg, TRUE);
+  for (uint32_t y = 0; y < w.image->height; ++y) {
+    for (uint32_t x = 0; x < w.image->width; ++x) {
+      std::copy_n(w.image->at(x, y), 3, w.row.data() + 3 * size_t{x});
+    }
+    uint8_t* row = w.row.data();
+    jpeg_write_scanlines(&w.jpeg, &row, 1);
+  }
+  jpeg_finish_compress(&w.jpeg);
+  return true;
+}
+
 }  // namespace
+
+Result<std::string> encodeJpeg(const Image& image, int quality, bool thinColor) {
+  constexpr uint32_t kLongestSide = 65500;
+  if (image.width == 0 || image.height == 0 || image.width > kLongestSide ||
+      image.height > kLongestSide) {
+    return Error{"image-too-large", "a JPEG picture has 1 to 65500 pixels each way", {}};
+  }
+  JpegWriting w;
+  w.image = &image;
+  w.quality = quality;
+  w.thinColor = thinColor;
+  w.row.resize(3 * size_t{image.width});
+  w.jpeg.err = jpeg_std_error(&w.errors);
+  w.errors.error_exit = onWriteError;
+  w.jpeg.client_data = &w;
+  const bool ok = write(w);
+  std::string out;
+  if (ok) out.assign(reinterpret_cast<const char*>(w.bytes), w.size);
+  jpeg_destroy_compress(&w.jpeg);
+  std::free(w.bytes);
+  if (!ok) return Error{"image-broken", std::string("the JPEG picture cannot be made: ") + w.why, {}};
+  return out;
+}
 
 Result<ImageHeader> readJpegHeader(std::string_view bytes) {
   JpegReading r;

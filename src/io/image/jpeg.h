@@ -11,4 +11,8 @@ namespace gable {
 Result<ImageHeader> readJpegHeader(std::string_view bytes);
 Result<Image> decodeJpeg(std::string_view bytes, uint64_t maxPixels);
 
+/// Alpha is left out. `quality`: 1 to 100; `thinColor` keeps a quarter of the colour differences.
+/// The same bytes for the same picture on one version of the JPEG library.
+Result<std::string> encodeJpeg(const Image& image, int quality, bool thinColor);
+
 }  // namespace gable

@@ -45,6 +45,19 @@ Status applyTexture(OpCall& call, const Texture& args) {
   return {};
 }
 
+struct LibraryCall {
+  std::string_view name;
+  std::optional<std::string_view> tint;
+};
+
+Status applyMaterial(OpCall& call, const LibraryCall& args) {
+  Vec3 rgb;
+  double opacity = kKeepOpacity;
+  const bool tinted = args.tint && parseColor(*args.tint, rgb, opacity);
+  return setLibraryMaterial(call.shape(), args.name, tinted ? &rgb : nullptr, call.services(),
+                            call.file());
+}
+
 struct SetMaterial {
   Strings pairs;
 };
@@ -115,6 +128,16 @@ constexpr ParamSpec kTextureParams[] = {
 };
 constexpr Signature kTextureSignatures[] = {{kTextureParams}};
 
+constexpr ParamSpec kMaterialName = param<&LibraryCall::name>(
+    "name", "A material of the library, or a folder in materials/ beside the rules.");
+constexpr ParamSpec kOwnTintParams[] = {kMaterialName};
+constexpr ParamSpec kTintParams[] = {
+    kMaterialName,
+    param<&LibraryCall::tint>("tint", "The colour that its main part gets, \"#rrggbb\".")
+        .of(kColourText),
+};
+constexpr Signature kMaterialSignatures[] = {{kOwnTintParams}, {kTintParams}};
+
 constexpr ParamSpec kSetMaterialParams[] = {
     param<&SetMaterial::pairs>(
         "material",
@@ -135,6 +158,9 @@ constexpr OpSpec kSpecs[] = {
     {"texture", "material",
      "Sets the colour map, and the opacity map too when the image has an alpha channel.",
      kTextureSignatures, typed<applyTexture>, BlockKind::None, kTakesDeformed | kIgnoresTags},
+    {"material", "material",
+     "Gives the shape a material of the library, in its true size on any face.",
+     kMaterialSignatures, typed<applyMaterial>, BlockKind::None, kTakesDeformed | kIgnoresTags},
     {"setMaterial", "material", "Sets many attributes of the material at once.",
      kSetMaterialSignatures, typed<applySetMaterial>, BlockKind::None,
      kTakesDeformed | kIgnoresTags},
