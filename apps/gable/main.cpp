@@ -470,6 +470,31 @@ void addMan(CLI::App& app, ManArguments& a, int& status) {
   command->callback([&app, &a, &status] { status = runMan(describe(app), a); });
 }
 
+void addAsset(CLI::App& app, AssetArguments& asset, MaterialArguments& material, int& status) {
+  auto* assetApp = app.add_subcommand("asset", "Prepare models and materials for use as assets");
+  assetApp->require_subcommand(1);
+  auto* prepareApp =
+      assetApp->add_subcommand("prepare", "Map the volume of a model to the unit cube");
+  prepareApp->add_option("model", asset.model, "The model: .glb .gltf .obj")->required();
+  prepareApp->add_option("--pivot", asset.pivot,
+                         "The point that becomes the origin: x,y,z (default: its lower corner)");
+  prepareApp->add_option("--rotate", asset.rotate, "Degrees about x, y and z, around the pivot");
+  prepareApp->add_option("--size", asset.volume,
+                         "What fills a scope, from the pivot: x,y,z (default: its box)");
+  prepareApp->add_option("--name", asset.name, "The name of the model in the file");
+  prepareApp->add_flag("--z-up", asset.zUp, "The up axis of the file is z");
+  prepareApp->add_option("-o,--output", asset.output, "The asset: .glb .gltf .obj")->required();
+  addLimits(prepareApp, asset.limits, kFileSeconds);
+  prepareApp->callback([&] { status = runAssetPrepare(asset); });
+
+  auto* materialApp = assetApp->add_subcommand(
+      "material", "Write the pictures of a material of the library, or list all materials");
+  materialApp->add_option("name", material.name, "The material; without it, all are listed");
+  materialApp->add_option("-o,--output", material.folder,
+                          "A folder for color.jpg, normal.jpg, surface.jpg and material.mtl");
+  materialApp->callback([&] { status = runAssetMaterial(material); });
+}
+
 void addStudio(CLI::App& app, StudioArguments& a, int& status) {
   auto* studio = app.add_subcommand(
       "studio", "Start the studio: write rules in the browser and see the model");
@@ -538,29 +563,8 @@ int main(int argc, char** argv) {
   traceApp->callback([&] { status = runTrace(trace); });
 
   AssetArguments asset;
-  auto* assetApp = app.add_subcommand("asset", "Prepare models and materials for use as assets");
-  assetApp->require_subcommand(1);
-  auto* prepareApp =
-      assetApp->add_subcommand("prepare", "Map the volume of a model to the unit cube");
-  prepareApp->add_option("model", asset.model, "The model: .glb .gltf .obj")->required();
-  prepareApp->add_option("--pivot", asset.pivot,
-                         "The point that becomes the origin: x,y,z (default: its lower corner)");
-  prepareApp->add_option("--rotate", asset.rotate, "Degrees about x, y and z, around the pivot");
-  prepareApp->add_option("--size", asset.volume,
-                         "What fills a scope, from the pivot: x,y,z (default: its box)");
-  prepareApp->add_option("--name", asset.name, "The name of the model in the file");
-  prepareApp->add_flag("--z-up", asset.zUp, "The up axis of the file is z");
-  prepareApp->add_option("-o,--output", asset.output, "The asset: .glb .gltf .obj")->required();
-  addLimits(prepareApp, asset.limits, kFileSeconds);
-  prepareApp->callback([&] { status = runAssetPrepare(asset); });
-
   MaterialArguments material;
-  auto* materialApp = assetApp->add_subcommand(
-      "material", "Write the pictures of a material of the library, or list all materials");
-  materialApp->add_option("name", material.name, "The material; without it, all are listed");
-  materialApp->add_option("-o,--output", material.folder,
-                          "A folder for color.jpg, normal.jpg, surface.jpg and material.mtl");
-  materialApp->callback([&] { status = runAssetMaterial(material); });
+  addAsset(app, asset, material, status);
 
   OpsArguments ops;
   auto* opsApp =

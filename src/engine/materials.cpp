@@ -29,7 +29,7 @@ std::string mtlOf(const LibraryMaterial& m) {
   out += "Kd 1 1 1\nPr 1\nPm " + std::string(m.metallic > 0 ? "1" : "0") + "\n";
   out += "map_Kd" + scale + "color.jpg\nnorm" + scale + "normal.jpg\n";
   out += "map_Ka" + scale + "surface.jpg\nmap_Pr" + scale + "surface.jpg\n";
-  if (m.metallic > 0) out += "map_Pm" + scale + "surface.jpg\n";
+  out += "map_Pm" + scale + "surface.jpg\n";
   return out;
 }
 

@@ -182,7 +182,8 @@ Material laidMaterial(const LibraryMaterial& m, const Vec3* tint) {
   lay(TextureLayer::Normal, MaterialPicture::Normal);
   lay(TextureLayer::Occlusion, MaterialPicture::Surface);
   lay(TextureLayer::Roughness, MaterialPicture::Surface);
-  if (m.metallic > 0) lay(TextureLayer::Metallic, MaterialPicture::Surface);
+  // Where nothing is metal too: writers then have one picture for the three.
+  lay(TextureLayer::Metallic, MaterialPicture::Surface);
   return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "io/exporters/gltf_materials.h"
@@ -11,6 +12,7 @@
 #include "io/exporters/write_model.h"
 #include "io/testing/glb_model.h"
 #include "io/testing/scenes.h"
+#include "material/library.h"
 
 namespace gable {
 namespace {
@@ -291,6 +293,50 @@ TEST(GltfWriter, texturesAreEmbeddedTransformedAndCombined) {
   EXPECT_EQ(report.files.size(), 6u);
   EXPECT_EQ(report.warnings.size(), 3u);
   for (const std::string& f : report.files) EXPECT_TRUE(fileExists(f));
+}
+
+// Faces of any size, of a box and of a smooth mesh, have coordinates in metres; each picture is in
+// the file once.
+TEST(GltfWriter, materialsOfTheLibraryLieInMetres) {
+  const std::string rgb = testing::picture(8, false);
+  WriteOptions o;
+  std::map<std::string, int> asked;
+  o.readTexture = [&](const std::string& path) -> Result<std::string> {
+    ++asked[path];
+    return rgb;
+  };
+  SceneBuilder b;
+  const Vec3 tint{0.3, 0.2, 0.1};
+  const uint32_t bricks = b.material(laidMaterial(*libraryMaterial("brick.flemish"), nullptr));
+  const uint32_t tinted = b.material(laidMaterial(*libraryMaterial("brick.flemish"), &tint));
+  const uint32_t glass = b.material(laidMaterial(*libraryMaterial("glass"), nullptr));
+  b.leaf(kUnitBox, Frame{}, {6, 4, 2}, bricks);
+  b.leaf(kUnitBoxUv, Frame::moved({9, 0, 0}), {-1, 2, 3}, tinted);
+  b.leaf(kUnitQuadXz, Frame::moved({5, 0, 0}), {1, 0, 2}, glass);
+  b.root("r", b.prototype("P"), Frame{});
+
+  const GlbModel model = roundTrip(b.scene, "laid.glb", o);
+  EXPECT_EQ(model.json["materials"].size(), 3u);
+  EXPECT_EQ(model.json["images"].size(), 6u);
+  for (const auto& [path, times] : asked) EXPECT_EQ(times, 1) << path;
+  const JsonValue& color =
+      model.json["materials"].at(0)["pbrMetallicRoughness"]["baseColorTexture"];
+  EXPECT_NEAR(color["extensions"]["KHR_texture_transform"]["scale"].at(0).number(0), 1 / 1.35,
+              1e-6);
+  EXPECT_EQ(model.json["materials"].at(2)["extensions"]["KHR_materials_ior"]["ior"].number(0),
+            static_cast<double>(1.52f));
+  std::set<std::string> used;
+  const JsonValue& extensions = model.json["extensionsUsed"];
+  for (size_t i = 0; i < extensions.size(); ++i) used.insert(extensions.at(i).text());
+  EXPECT_EQ(used, (std::set<std::string>{"KHR_materials_ior", "KHR_materials_transmission",
+                                         "KHR_texture_transform"}));
+
+  // In OBJ the coordinates are tiles: the front of the first box is 6 x 4 m.
+  writeTo(b.scene, written("laid.obj"), o);
+  Result<std::string> text = readFile(written("laid.obj"), 1 << 20);
+  ASSERT_TRUE(text.ok());
+  EXPECT_NE(text->find("vt 4.4444"), std::string::npos);
+  EXPECT_NE(text->find(" 2.96296"), std::string::npos);
 }
 
 TEST(GltfWriter, textureTransformsShowTheSamePlace) {

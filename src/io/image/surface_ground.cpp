@@ -59,11 +59,12 @@ SurfaceTexel drawStones(const LibraryMaterial& m, double u, double v) {
   const double face = ramp(m.joint < 0 ? -gap : gap * 0.5, gap + round, c.border);
   const double body = ramp(gap * 0.5, gap + 0.004, c.border);
   // Faces of rock and clods have no joints, only shade between them.
-  const double cover = m.joint < 0 ? 0.55 + 0.45 * face : body;
+  const double cover = m.joint < 0 ? 0.8 + 0.2 * face : body;
   t.color = mix(rgb(m.between) * (0.85 + 0.3 * fine), color, cover);
   // Stones tilt and stand unlike.
   const double tilt = (c.id - 0.5) * c.dx + (c.second - 0.5) * c.dy;
-  t.height = m.relief * face * (0.75 + 0.5 * (c.second - 0.5)) + 0.25 * tilt * body +
+  const double rise = m.joint < 0 ? 0.3 : 1, slant = m.joint < 0 ? 0.6 : 0.25;
+  t.height = rise * m.relief * face * (0.75 + 0.5 * (c.second - 0.5)) + slant * tilt * body +
              m.grainHeight * (0.7 * grain + 0.3 * fine);
   t.roughness = m.roughness + 0.08 * (1 - body) + 0.1 * (grain - 0.5);
   return t;
