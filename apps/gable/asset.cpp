@@ -65,6 +65,7 @@ int runAssetMaterial(const MaterialArguments& a) {
   const gable::WriteResult written = gable::writeLibraryMaterial(a.name, folder);
   print(written.diagnostics);
   if (!written.ok) return statusOf(written.diagnostics, kExitFile);
-  std::printf("%s: 3 pictures, %.0f kB\n", folder.c_str(), static_cast<double>(written.bytes) / 1000);
+  std::printf("%s: 3 pictures, %.0f kB\n", folder.c_str(),
+              static_cast<double>(written.bytes) / 1000);
   return kExitDone;
 }

@@ -18,7 +18,8 @@ namespace gable {
 namespace {
 
 std::string hexText(uint32_t color) {
-  return colorText({(color >> 16 & 255) / 255.0, (color >> 8 & 255) / 255.0, (color & 255) / 255.0});
+  return colorText(
+      {(color >> 16 & 255) / 255.0, (color >> 8 & 255) / 255.0, (color & 255) / 255.0});
 }
 
 // Options of MTL count tiles a metre.
@@ -42,8 +43,8 @@ WriteResult write(const std::string& name, const std::string& folder) {
   };
   const LibraryMaterial* m = libraryMaterial(name);
   if (!m) {
-    return fail({"unknown-material", "the library has no material '" + name + "'",
-                 materialHint(name)});
+    return fail(
+        {"unknown-material", "the library has no material '" + name + "'", materialHint(name)});
   }
   const SurfaceField field = drawSurface(*m);
   std::vector<std::pair<std::string, std::string>> files{{"material.mtl", mtlOf(*m)}};

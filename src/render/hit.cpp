@@ -125,8 +125,8 @@ void bendLaidNormal(const FaceAxes& axes, const std::array<float, 4>& texel, Sur
   const Vec3f up{static_cast<float>(axes.v.x), static_cast<float>(axes.v.y),
                  static_cast<float>(axes.v.z)};
   const Vec3f b = normalized(up - s.normal * dot(up, s.normal));
-  const Vec3f n = t * (2 * texel[0] - 1) + b * (2 * texel[1] - 1) +
-                  s.normal * std::max(0.1f, 2 * texel[2] - 1);
+  const Vec3f n =
+      t * (2 * texel[0] - 1) + b * (2 * texel[1] - 1) + s.normal * std::max(0.1f, 2 * texel[2] - 1);
   if (isFinite(n) && length(n) > 0) s.normal = normalized(n);
 }
 

@@ -313,8 +313,7 @@ Status setLibraryMaterial(Shape& s, std::string_view name, const Vec3* tint, Ser
   } else {
     const std::string path = "materials/" + std::string(name) + "/material.mtl";
     if (!services.assets().exists(path, file)) {
-      return Status::failure("unknown-material",
-                             "there is no material '" + std::string(name) + "'",
+      return Status::failure("unknown-material", "there is no material '" + std::string(name) + "'",
                              materialHint(name));
     }
     Result<Material> own = services.assets().material(path, file);

@@ -323,8 +323,8 @@ TEST(GltfWriter, materialsOfTheLibraryLieInMetres) {
       model.json["materials"].at(0)["pbrMetallicRoughness"]["baseColorTexture"];
   EXPECT_NEAR(color["extensions"]["KHR_texture_transform"]["scale"].at(0).number(0), 1 / 1.35,
               1e-6);
-  EXPECT_EQ(model.json["materials"].at(2)["extensions"]["KHR_materials_ior"]["ior"].number(0),
-            static_cast<double>(1.52f));
+  EXPECT_NEAR(model.json["materials"].at(2)["extensions"]["KHR_materials_ior"]["ior"].number(0),
+              1.52, 1e-6);
   std::set<std::string> used;
   const JsonValue& extensions = model.json["extensionsUsed"];
   for (size_t i = 0; i < extensions.size(); ++i) used.insert(extensions.at(i).text());

@@ -20,8 +20,8 @@
 #include "io/exporters/triangle_cache.h"
 #include "io/exporters/write_model.h"
 #include "io/uri.h"
-#include "math/trig.h"
 #include "material/library.h"
+#include "math/trig.h"
 #include "scene/flatten.h"
 
 namespace gable {

@@ -147,9 +147,8 @@ void Surface::build(const Mesh& m, FaceTriangulator& triangulator, bool apart) {
   parts.clear();
   const std::vector<Vec3> lit = cornerNormals(m);
   const bool mergeable =
-      !apart &&
-      (!m.normals.empty() ||
-       std::any_of(m.faces.begin(), m.faces.end(), [](const MeshFace& f) { return f.smooth; }));
+      !apart && (!m.normals.empty() || std::any_of(m.faces.begin(), m.faces.end(),
+                                                   [](const MeshFace& f) { return f.smooth; }));
   std::vector<uint32_t> order(m.faces.size());
   std::iota(order.begin(), order.end(), 0);
   const auto before = [&](uint32_t a, uint32_t b) {

@@ -137,7 +137,9 @@ VertexWriter::BoxTemplate VertexWriter::boxTemplate(const Mesh& m) {
 bool VertexWriter::addBox(uint32_t mesh, const Frame& frame, const Vec3& scale,
                           const VertexLayout& layout, PrimitiveState& state) {
   const bool mirrors = scale.x < 0 || scale.y < 0 || scale.z < 0;
-  if (layout.laid || layout.tangentSet >= 0 || layout.uvCount > 1 || (mirrors && layout.uvCount > 0)) return false;
+  if (layout.laid || layout.tangentSet >= 0 || layout.uvCount > 1 ||
+      (mirrors && layout.uvCount > 0))
+    return false;
   const Vec3 size{std::fabs(scale.x), std::fabs(scale.y), std::fabs(scale.z)};
   const double reach = std::fabs(frame.origin.x) + std::fabs(frame.origin.y) +
                        std::fabs(frame.origin.z) + size.x + size.y + size.z;

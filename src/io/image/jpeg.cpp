@@ -187,7 +187,8 @@ Result<std::string> encodeJpeg(const Image& image, int quality, bool thinColor) 
   if (ok) out.assign(reinterpret_cast<const char*>(w.bytes), w.size);
   jpeg_destroy_compress(&w.jpeg);
   std::free(w.bytes);
-  if (!ok) return Error{"image-broken", std::string("the JPEG picture cannot be made: ") + w.why, {}};
+  if (!ok)
+    return Error{"image-broken", std::string("the JPEG picture cannot be made: ") + w.why, {}};
   return out;
 }
 

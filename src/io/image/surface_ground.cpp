@@ -171,8 +171,8 @@ SurfaceTexel drawPanes(const LibraryMaterial& m, double u, double v) {
   const double half = m.joint / 2;
   const double side = std::min(x, module - x);
   const double level = std::min({y, storey - y, std::fabs(y - kSpandrel)});
-  const double bar = std::max(1 - ramp(half * 0.9, half * 1.1, side),
-                              1 - ramp(half * 0.6, half * 0.8, level));
+  const double bar =
+      std::max(1 - ramp(half * 0.9, half * 1.1, side), 1 - ramp(half * 0.6, half * 0.8, level));
   t.color = mix(t.color, rgb(m.between), bar);
   t.height = m.relief * bar + (1 - bar) * (t.height + 0.0006 * (id - 0.5) * (x - module / 2));
   t.roughness += bar * (0.35 - t.roughness);

@@ -46,8 +46,8 @@ Course courseOf(const LibraryMaterial& m, int row) {
 // The joint before unit i, in units along the course.
 double startOf(const LibraryMaterial& m, int i, int row, int repeats) {
   if (m.wander == 0) return i;
-  const double free = chance(static_cast<uint64_t>(wrapped(i, repeats)), static_cast<uint64_t>(row),
-                             seedOf(m) + 1);
+  const double free =
+      chance(static_cast<uint64_t>(wrapped(i, repeats)), static_cast<uint64_t>(row), seedOf(m) + 1);
   return i + m.wander * (free - 0.5);
 }
 

@@ -47,7 +47,8 @@ class Painter {
         const double along = (dx * c + dy * s) / length;
         if (along < 0 || along > 1) continue;
         const double across = (dy * c - dx * s) / half;
-        const double wide = 1 - (2 * along - 1) * (2 * along - 1) * (2 * along - 1) * (2 * along - 1);
+        const double wide =
+            1 - (2 * along - 1) * (2 * along - 1) * (2 * along - 1) * (2 * along - 1);
         if (std::fabs(across) > wide) continue;
         const double h = height + rise * along - 0.25 * half * across * across;
         SurfaceTexel& t = at(x, y);

@@ -59,8 +59,8 @@ SurfaceTexel drawLappedBoards(const LibraryMaterial& m, double u, double v) {
   // The lower edge shades the top of the board below.
   const double shade = ramp(0, 0.008 / high, 1 - up);
   t.color = mix(rgb(m.between), c, butt * (0.45 + 0.55 * shade));
-  t.height = m.relief * (1 - up) * ramp(0, 0.003 / high, up) - 0.003 * (1 - butt) +
-             m.grainHeight * w.line;
+  t.height =
+      m.relief * (1 - up) * ramp(0, 0.003 / high, up) - 0.003 * (1 - butt) + m.grainHeight * w.line;
   t.roughness = m.roughness + 0.06 * w.fibre;
   return t;
 }
@@ -97,8 +97,8 @@ SurfaceTexel drawCourses(const LibraryMaterial& m, double u, double v) {
     }
     const double side = std::min(x - left, right - x) * wide - m.joint / 2;
     const double face = ramp(-0.001, 0.002, side);
-    const double grain = m.roughness > 0.9 ? clouds(u, v, 190, 190, 2, seed + 5)
-                                           : clouds(u, v, 90, 24, 3, seed + 5);
+    const double grain =
+        m.roughness > 0.9 ? clouds(u, v, 190, 190, 2, seed + 5) : clouds(u, v, 90, 24, 3, seed + 5);
     SurfaceTexel t;
     Vec3 c = toneOf(m, id) * (1 + 0.2 * m.variety * (second - 0.5));
     c = c * (1 + m.grain * 0.6 * (grain - 0.5));
@@ -129,7 +129,7 @@ SurfaceTexel drawRolls(const LibraryMaterial& m, double u, double v) {
   const double a = 2 * along / m.joint - 1;
   const double b = 2 * (along - m.joint) / (wide - m.joint) - 1;
   const bool barrel = m.wander >= 0.5;
-  const double across = onCover ? m.relief * std::sqrt(std::max(0.0, 1 - a * a))
+  const double across = onCover  ? m.relief * std::sqrt(std::max(0.0, 1 - a * a))
                         : barrel ? -0.35 * m.relief * (1 - b * b)
                                  : 0;
   const double grain = clouds(u, v, 90, 90, 3, seed + 5);
