@@ -160,8 +160,7 @@ void GltfMaterials::addSets(Variant& v, uint32_t uvMask) {
   for (const Map* map : maps) {
     if (map->image != TextureSet::kNone) used |= 1u << map->texcoord;
   }
-  // Viewers make the tangents of what is laid, which has the same everywhere on a face.
-  if (v.normal.image != TextureSet::kNone && !v.layout.laid)
+  if (v.normal.image != TextureSet::kNone)
     v.layout.tangentSet = static_cast<int>(v.normal.texcoord);
   for (uint32_t set = 0; set < kTextureLayers; ++set) {
     if (used >> set & 1) v.layout.uvSets[v.layout.uvCount++] = static_cast<uint8_t>(set);

@@ -225,7 +225,7 @@ void VertexWriter::add(uint32_t mesh, uint16_t slot, const Frame& frame, const V
   CachedSurface& cached = surfaceOf(mesh, layout.laid);
   const Mesh& m = *scene_.meshes[mesh];
   const Tangents* tangents = nullptr;
-  if (layout.tangentSet >= 0) {
+  if (layout.tangentSet >= 0 && !layout.laid) {
     const auto [at, isNew] = cached.tangents.try_emplace(layout.tangentSet);
     if (isNew) at->second = tangentsOf(m, cached.surface, layout.tangentSet);
     tangents = &at->second;
@@ -288,7 +288,11 @@ const float* VertexWriter::writeVertices(const Mesh& m, const Surface& s, const 
       normal = frame_.direction(scaledNormal(localNormal, scale_));
     }
     p = put(p, normal);
-    if (tangents) {
+    if (layout.laid && layout.tangentSet >= 0) {
+      const Vec3 t = tangentFor(normal, axes_.u);
+      p = put(p, t);
+      *p++ = dot(cross(normal, t), axes_.v) < 0 ? -1.0f : 1.0f;
+    } else if (tangents) {
       const Vec3 u = frame_.direction(scaled(tangents->u[v], scale_));
       const Vec3 up = frame_.direction(scaled(tangents->v[v], scale_));
       const Vec3 t = tangentFor(normal, u);
