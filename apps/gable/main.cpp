@@ -188,7 +188,8 @@ void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
   auto* generate = app.add_subcommand("generate", "Derive rules and write a model");
   generate->add_option("rules", a.derive.rules, "The rule file or package")->required();
   addDeriveOptions(generate, a.derive);
-  generate->add_option("-o,--output", a.output, "The model: .glb .gltf .obj .ply .stl .png")
+  generate
+      ->add_option("-o,--output", a.output, "The model: .glb .gltf .usda .usdz .obj .ply .stl .png")
       ->required();
   generate->add_option("--stats", a.stats, "Write counts as JSON to a file, or - for stdout");
   generate->add_option("--reports", a.reports, "Write reports as CSV to a file, or - for stdout");

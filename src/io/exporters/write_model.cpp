@@ -16,10 +16,9 @@ struct Format {
   bool expands;
   Result<WriteReport> (*write)(const Scene&, const std::string&, const WriteOptions&);
 };
-constexpr Format kFormats[] = {{"glb", false, writeGltf},
-                               {"gltf", false, writeGltf},
-                               {"obj", true, writeObj},
-                               {"ply", true, writePly},
+constexpr Format kFormats[] = {{"glb", false, writeGltf}, {"gltf", false, writeGltf},
+                               {"obj", true, writeObj},   {"usda", false, writeUsd},
+                               {"usdz", false, writeUsd}, {"ply", true, writePly},
                                {"stl", true, writeStl}};
 
 }  // namespace

@@ -4,6 +4,8 @@
 // Writes a scene as a model file that other programs open. The format follows the extension:
 //   .glb .gltf   nodes that share meshes, PBR materials, textures inside (.glb) or beside (.gltf)
 //   .obj         polygons in groups by leaf name, with an .mtl beside it
+//   .usda .usdz  prims by rule, instanceable prims for what stands several times, UsdPreviewSurface
+//                with textures beside (.usda) or inside (.usdz)
 //   .ply .stl    one mesh, binary
 //
 // Promises: equal scenes give equal bytes on every machine; no coordinate is NaN or infinite and no
@@ -80,6 +82,8 @@ const std::vector<std::string>& modelExtensions();
 Result<WriteReport> writeGltf(const Scene& scene, const std::string& path,
                               const WriteOptions& options);
 Result<WriteReport> writeObj(const Scene& scene, const std::string& path,
+                             const WriteOptions& options);
+Result<WriteReport> writeUsd(const Scene& scene, const std::string& path,
                              const WriteOptions& options);
 Result<WriteReport> writePly(const Scene& scene, const std::string& path,
                              const WriteOptions& options);

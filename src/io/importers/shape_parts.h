@@ -24,8 +24,8 @@ void turnFootprintsUp(ShapeFile& out);
 /// materials, where one of them says anything, and their groups.
 void takeMaterials(ShapeInput& shape, Asset part);
 
-/// A number, text or bool as an attribute, or a list of one kind of them as an array of one row; what
-/// is neither is left out. Maps name "roof:shape" what a rule calls roof_shape.
+/// A number, text or bool as an attribute, or a list of one kind of them as an array of one row;
+/// what is neither is left out. Maps name "roof:shape" what a rule calls roof_shape.
 void addAttribute(const JsonValue::Member& member, ShapeInput& shape);
 
 }  // namespace gable

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "base/files.h"
+#include "io/exporters/usd_text.h"
+#include "io/exporters/write_model.h"
+#include "io/testing/scenes.h"
+
+namespace gable {
+namespace {
+
+using testing::SceneBuilder;
+
+// Three places of one prototype, which is not so small that it is merged into each of them; and a
+// name that is no identifier.
+Scene threePlaces() {
+  SceneBuilder b;
+  Material red;
+  red.color = {1, 0, 0};
+  const uint32_t reds = b.material(red);
+  for (int i = 0; i < 39; ++i) b.leaf(kUnitBox, Frame::moved({0, i * 1.0, 0}), {1, 0.5, 1}, reds);
+  b.leaf(kUnitBoxUv, Frame::moved({0, 2, 0}), {-1, 0.5, 1});
+  const uint32_t post = b.prototype("Post");
+  for (const double x : {0.0, 5.0, 10.0}) b.instance(post, Frame::moved({x, 0, 0}));
+  b.root("lot \"1\"/a", b.prototype("Lot"), Frame::moved({100, 0, 0}));
+  return b.scene;
+}
+
+std::string written(const Scene& scene, const std::string& name, WriteReport* report = nullptr) {
+  const std::string path = ::testing::TempDir() + name;
+  auto r = writeModel(scene, path, {});
+  EXPECT_TRUE(r.ok()) << r.error().message;
+  if (report) *report = *r;
+  return readFile(path).value();
+}
+
+size_t countOf(const std::string& text, const std::string& word) {
+  size_t n = 0;
+  for (size_t at = 0; (at = text.find(word, at)) != std::string::npos; ++at) ++n;
+  return n;
+}
+
+TEST(UsdWriter, whatStandsSeveralTimesIsOnePrototype) {
+  WriteOptions nodes;
+  nodes.instancing = WriteOptions::Instancing::Nodes;
+  const std::string path = ::testing::TempDir() + "posts.usda";
+  auto r = writeModel(threePlaces(), path, nodes);
+  ASSERT_TRUE(r.ok());
+  const std::string text = readFile(path).value();
+  EXPECT_EQ(countOf(text, "instanceable = true"), 3u);
+  EXPECT_EQ(countOf(text, "references = </Prototypes/Post>"), 3u);
+  EXPECT_EQ(countOf(text, "def Mesh "), 2u);
+  EXPECT_EQ(r->triangles, 3u * 40 * 12);
+  EXPECT_EQ(countOf(text, "{"), countOf(text, "}"));
+}
+
+TEST(UsdWriter, namesAreIdentifiersAndTheirTextIsKept) {
+  const std::string text = written(threePlaces(), "names.usda");
+  EXPECT_NE(text.find("def Xform \"lot__1__a\""), std::string::npos);
+  EXPECT_NE(text.find("string name = \"lot \\\"1\\\"/a\""), std::string::npos);
+  UsdNames names;
+  EXPECT_EQ(names.unique("a"), "a");
+  EXPECT_EQ(names.unique("a_1"), "a_1");
+  EXPECT_EQ(names.unique("a"), "a_2");
+  EXPECT_EQ(names.unique("7 b"), "_7_b");
+  EXPECT_EQ(names.unique(""), "part");
+  EXPECT_EQ(usdText("a\n\\\x01"), "\"a\\x0a\\\\\\x01\"");
+  EXPECT_EQ(usdAsset("x@y.png"), "@x_y.png@");
+}
+
+TEST(UsdWriter, brokenNumbersAreLeftOut) {
+  SceneBuilder b;
+  b.leaf(kUnitBox, Frame{}, {1e300, 1, 1});
+  b.leaf(kUnitBox, Frame{}, {1, 0, 1});
+  b.root("lot", b.prototype("P"), Frame{});
+  WriteReport report;
+  const std::string text = written(b.scene, "broken.usda", &report);
+  EXPECT_EQ(text.find("(inf"), std::string::npos);
+  EXPECT_EQ(text.find("nan,"), std::string::npos);
+  EXPECT_EQ(report.warnings.size(), 1u);
+  // One side of the first, and both sides of the second.
+  EXPECT_EQ(report.triangles, 6u);
+}
+
+// Contract of the format: nothing is compressed, and each file begins at a multiple of 64.
+TEST(UsdWriter, archivesAreStoredAndAligned) {
+  const std::string zip = written(threePlaces(), "posts.usdz");
+  const std::string layer = written(threePlaces(), "posts.usda");
+  ASSERT_EQ(zip.substr(0, 4), "PK\x03\x04");
+  const auto number = [&](size_t at, size_t bytes) {
+    uint32_t v = 0;
+    std::memcpy(&v, zip.data() + at, bytes);
+    return v;
+  };
+  EXPECT_EQ(number(8, 2), 0u);
+  const size_t start = 30 + number(26, 2) + number(28, 2);
+  EXPECT_EQ(start % 64, 0u);
+  EXPECT_EQ(number(22, 4), layer.size());
+  EXPECT_EQ(zip.substr(start, layer.size()), layer);
+  EXPECT_EQ(zip, written(threePlaces(), "again.usdz"));
+}
+
+}  // namespace
+}  // namespace gable
