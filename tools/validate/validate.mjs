@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// node validate.mjs FILE-OR-FOLDER...: runs the Khronos validator over .glb and .gltf files. Exit status 0
-// when none has an error or a warning, 1 when one has, 3 when nothing was there to look at. Infos and hints
-// are counted only. The validator is read from build/validate, where ./test installs it, or from the folder
-// that GABLE_VALIDATOR names.
+// node validate.mjs FILE-OR-FOLDER...: runs the Khronos validator over .glb and .gltf files, and tinyusdz over
+// .usda and .usdz files. Exit status 0 when none has an error or a warning, 1 when one has, 3 when nothing was
+// there to look at. Infos and hints are counted only. Both are read from build/validate, where ./test installs
+// them, or from the folder that GABLE_VALIDATOR names.
 import { createRequire } from "node:module";
 import { readFileSync, readdirSync, statSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
-import { fileURLToPath } from "node:url";
+import { fileURLToPath, pathToFileURL } from "node:url";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const home = process.env.GABLE_VALIDATOR ?? resolve(here, "../../build/validate");
@@ -22,7 +22,7 @@ function modelsAt(path) {
     .flatMap((name) => {
       const child = join(path, name);
       if (statSync(child).isDirectory()) return modelsAt(child);
-      return /\.(glb|gltf)$/.test(name) ? [child] : [];
+      return /\.(glb|gltf|usda|usdz)$/.test(name) ? [child] : [];
     });
 }
 
@@ -44,11 +44,41 @@ async function isClean(path) {
   return numErrors === 0 && numWarnings === 0;
 }
 
+let usd = null;
+/** tinyusdz, which is made for pages of a browser. */
+async function usdReader() {
+  if (usd) return usd;
+  const folder = join(home, "node_modules/tinyusdz");
+  process.type = "renderer";
+  globalThis.window = globalThis;
+  const { default: make } = await import(pathToFileURL(join(folder, "tinyusdz.js")));
+  usd = await make({ wasmBinary: readFileSync(join(folder, "tinyusdz.wasm")) });
+  return usd;
+}
+
+/** Whether tinyusdz reads a layer or an archive: every mesh has whole triangles of vertices that are there. */
+async function isCleanUsd(path) {
+  const reader = new (await usdReader()).TinyUSDZLoaderNative();
+  const read = reader.loadFromBinary(new Uint8Array(readFileSync(path)), path);
+  let wrong = read ? "" : reader.error();
+  const meshes = read ? reader.numMeshes() : 0;
+  for (let n = 0; n < meshes && !wrong; n++) {
+    const { faceVertexIndices: corners, points, primName } = reader.getMesh(n);
+    const isWhole = corners.length % 3 === 0 && corners.every((c) => 3 * c < points.length);
+    if (!isWhole || !points.every(Number.isFinite)) wrong = `the mesh ${primName} is broken`;
+  }
+  console.log(`${path}: ${wrong || `${meshes} meshes`}`);
+  reader.delete();
+  return !wrong;
+}
+
 const files = process.argv.slice(2).flatMap(modelsAt);
 if (files.length === 0) {
-  console.error("validate.mjs: no .glb or .gltf file was given");
+  console.error("validate.mjs: no .glb, .gltf, .usda or .usdz file was given");
   process.exit(3);
 }
 let clean = true;
-for (const file of files) clean = (await isClean(file)) && clean;
+for (const file of files) {
+  clean = (await (/\.usd[az]$/.test(file) ? isCleanUsd(file) : isClean(file))) && clean;
+}
 process.exit(clean ? 0 : 1);

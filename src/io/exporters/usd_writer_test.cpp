@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <filesystem>
 
 #include "base/files.h"
 #include "io/exporters/usd_text.h"
@@ -29,8 +30,13 @@ Scene threePlaces() {
   return b.scene;
 }
 
+std::string inWritten(const std::string& name) {
+  std::filesystem::create_directories(GABLE_WRITTEN_DIR);
+  return std::string(GABLE_WRITTEN_DIR) + "/" + name;
+}
+
 std::string written(const Scene& scene, const std::string& name, WriteReport* report = nullptr) {
-  const std::string path = ::testing::TempDir() + name;
+  const std::string path = inWritten(name);
   auto r = writeModel(scene, path, {});
   EXPECT_TRUE(r.ok()) << r.error().message;
   if (report) *report = *r;
@@ -46,7 +52,7 @@ size_t countOf(const std::string& text, const std::string& word) {
 TEST(UsdWriter, whatStandsSeveralTimesIsOnePrototype) {
   WriteOptions nodes;
   nodes.instancing = WriteOptions::Instancing::Nodes;
-  const std::string path = ::testing::TempDir() + "posts.usda";
+  const std::string path = inWritten("nodes.usda");
   auto r = writeModel(threePlaces(), path, nodes);
   ASSERT_TRUE(r.ok());
   const std::string text = readFile(path).value();
