@@ -568,9 +568,8 @@ NodeId Lowering::pathWidth() {
   return isParameter("PathWidth") ? b_.number(found->second) : b_.word("PathWidth");
 }
 
-lang::Tree lower(const Grammar& grammar, uint32_t file, std::string_view source,
-                 Diagnostics& diagnostics) {
-  return Lowering(grammar, file, source, diagnostics).run();
+lang::Tree lower(const Grammar& grammar, const LowerInput& input, Diagnostics& diagnostics) {
+  return Lowering(grammar, input, diagnostics).run();
 }
 
 }  // namespace gable::park

@@ -15,6 +15,10 @@ namespace gable::park {
 
 namespace {
 
+// What a model without a type may be, the first that is there; else one that comes with Gable.
+constexpr const char* kModelTypes[] = {".obj", ".glb", ".gltf"};
+constexpr const char* kBundledModels = "/gable/park/";
+
 using lang::RegionTexts;
 
 std::string trimmed(std::string s) {
@@ -607,6 +611,36 @@ void Lowering::choose(const Op& op, Nodes& out) {
   if (branches.size() > 1) out.push_back(b_.choice(lang::ChoiceKind::Percent, branches));
 }
 
+// The same files as modelFile() names, while the grammar is read.
+void Lowering::checkModel(const Op& op, const std::string& file, bool typed) {
+  if (!files_.loader || file.empty() || file.find(':') != std::string::npos) return;
+  const auto exists = [&](const std::string& path) {
+    return files_.loader->exists(path, files_.path);
+  };
+  bool found = typed && exists(file);
+  for (const char* type : kModelTypes) found = found || (!typed && exists(file + type));
+  found = found || (!typed && exists(kBundledModels + file + ".glb"));
+  if (found || !missedModels_.insert(file).second) return;
+  std::vector<std::string> names;
+  for (std::string name : files_.loader->assets(files_.path)) {
+    const size_t dot = name.rfind('.');
+    const bool isModel =
+        dot != std::string::npos && std::find(std::begin(kModelTypes), std::end(kModelTypes),
+                                              lowerCase(name.substr(dot))) != std::end(kModelTypes);
+    if (!isModel) continue;
+    if (!typed) name.erase(dot);
+    names.push_back(std::move(name));
+  }
+  const std::string nearest = nearestName(file, {names.begin(), names.end()});
+  // By the name with which the derivation tells it, so that it is told once.
+  diagnostics_.warning("missing-file", op.arguments.empty() ? op.span : spanOf(op, 0),
+                       "there is no file '" + (typed ? file : file + kModelTypes[0]) + "'" +
+                           (typed ? "" : ", nor .glb or .gltf of that name"),
+                       nearest.empty() ? "a box stands for it; models lie in the assets folder, "
+                                         "at the root of the project or beside the grammar"
+                                       : "did you mean '" + nearest + "'?");
+}
+
 void Lowering::model(const Op& op, Nodes& out) {
   std::string file = op.arguments.empty() ? "" : op.arguments[0].text;
   std::erase_if(file, [](char c) { return c == '"'; });
@@ -614,6 +648,7 @@ void Lowering::model(const Op& op, Nodes& out) {
   while (!file.empty() && file.back() == ' ') file.pop_back();
   const bool typed = file.find('.') != std::string::npos;
   if (!typed) models_ = true;
+  checkModel(op, file, typed);
   // A file without a type is the first there is of those that can be read.
   const auto path = [&] { return typed ? b_.text(file) : b_.call(modelFile_, {b_.text(file)}); };
   const auto inserted = [&](NodeId of) {
@@ -635,13 +670,13 @@ NodeId Lowering::modelFile() {
     return b_.binary(lang::BinaryOp::Add, b_.word("name"), b_.text(type));
   };
   std::vector<std::pair<NodeId, NodeId>> branches;
-  for (const char* type : {".obj", ".glb", ".gltf"}) {
+  for (const char* type : kModelTypes) {
     const NodeId exists = b_.call("fileExists", {named(type)});
     branches.emplace_back(exists, named(type));
   }
   // One of those that come with Gable.
   const auto bundled = [&] {
-    return b_.binary(lang::BinaryOp::Add, b_.text("/gable/park/"), named(".glb"));
+    return b_.binary(lang::BinaryOp::Add, b_.text(kBundledModels), named(".glb"));
   };
   const NodeId exists = b_.call("fileExists", {bundled()});
   branches.emplace_back(exists, bundled());

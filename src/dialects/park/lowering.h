@@ -7,12 +7,14 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "dialects/gbbg/tree_builder.h"
+#include "dialects/park/lower.h"
 #include "dialects/park/meanings.h"
 #include "lang/region_texts.h"
 #include "lang/tree.h"
@@ -27,8 +29,8 @@ constexpr double kPathWidth = 3;
 
 class Lowering {
  public:
-  Lowering(const Grammar& g, uint32_t file, std::string_view source, Diagnostics& diagnostics)
-      : g_(g), source_(source), b_(file), diagnostics_(diagnostics) {
+  Lowering(const Grammar& g, const LowerInput& input, Diagnostics& diagnostics)
+      : g_(g), source_(input.source), files_(input), b_(input.file), diagnostics_(diagnostics) {
     while (g.rule(modelFile_) || g.constants.count(modelFile_) != 0) modelFile_ += '_';
   }
 
@@ -159,6 +161,7 @@ class Lowering {
   void look(const Op& op, Nodes& out);
 
   void model(const Op& op, Nodes& out);
+  void checkModel(const Op& op, const std::string& file, bool typed);
   // The function that finds the file of a model by its name without a type.
   NodeId modelFile();
 
@@ -196,6 +199,9 @@ class Lowering {
 
   const Grammar& g_;
   std::string_view source_;
+  LowerInput files_;
+  // Those that were told already.
+  std::set<std::string> missedModels_;
   gbbg::TreeBuilder b_;
   Diagnostics& diagnostics_;
   const Rule* rule_ = nullptr;

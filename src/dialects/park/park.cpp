@@ -18,7 +18,8 @@ lang::Tree parse(const DialectInput& input, Diagnostics& diagnostics) {
     diagnostics.error("no-rules", {input.file, 0, 0}, "this grammar has no rule",
                       "write 'Region -> Grid(2, 2) { Quarter }'");
   }
-  return park::lower(grammar, input.file, text, diagnostics);
+  return park::lower(grammar, {input.file, text, input.sources.path(input.file), input.loader},
+                     diagnostics);
 }
 
 constexpr const char* kEnd = "let the rule end: 'case (w > 2): A else: B'";

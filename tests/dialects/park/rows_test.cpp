@@ -305,7 +305,7 @@ TEST(ParkRows, P19JoinedChooseConstantsFunctions) {
 
 TEST(ParkRows, P20ModelsAreLoaded) {
   const Made m = run("R -> Place(CENTRE) { Tree }\nTree -> loadModel(“tree”)", kLot);
-  EXPECT_TRUE(m.has("missing-asset"));
+  EXPECT_TRUE(m.has("missing-file") || m.has("missing-asset"));
   EXPECT_EQ(m.count.at("Tree"), 1);
   EXPECT_NEAR(m.area.at("Tree"), 6, 1e-6);
   // A triangle of half a square metre as OBJ, a larger one as glTF, each at the place that is told.
@@ -334,6 +334,16 @@ TEST(ParkRows, P20ModelsAreLoaded) {
   EXPECT_NEAR(loaded.area.at("Lamp"), 2, 1e-6);
   EXPECT_NEAR(loaded.places.at("Lamp")[0].z, -10, 1e-6);
   EXPECT_GT(loaded.places.at("Lamp")[0].x, loaded.places.at("Tree")[0].x + 9);
+  // One that is not there is told while the grammar is read, once, with the nearest.
+  write("slip.park", "R -> Place(CENTRE) { Tree }\nTree -> loadModel(\"trea\")\n");
+  const Rules slip = Rules::load(folder + "slip.park", settings);
+  ASSERT_EQ(slip.diagnostics().size(), 1u);
+  const Diagnostic& d = slip.diagnostics()[0];
+  EXPECT_EQ(d.code, "missing-file");
+  EXPECT_EQ(d.hint, "did you mean 'tree'?");
+  EXPECT_EQ(d.range->line, 2u);
+  EXPECT_EQ(d.range->column, 19u);
+  EXPECT_TRUE(derive(slip, kLot, {}).diagnostics().empty());
 }
 
 TEST(ParkRows, P21NothingIsLostOnASliver) {
