@@ -41,6 +41,18 @@ class Imports : public testing::Test {
   fs::path folder_;
 };
 
+TEST_F(Imports, pathsThatAreMisspeltAreMended) {
+  put("tower.cga", "Tower --> X.\n");
+  const Rules rules = Rules::load(
+      put("main.cga", "import a : \"towr.cga\"\nimport b : \"else.cga\"\nLot --> X.\n"));
+  const DiagnosticList& told = rules.diagnostics();
+  ASSERT_EQ(told.size(), 2u);
+  ASSERT_TRUE(told[0].fix);
+  EXPECT_TRUE(told[0].fix->text.ends_with("tower.cga")) << told[0].fix->text;
+  EXPECT_TRUE(told[0].hint.starts_with("did you mean")) << told[0].hint;
+  EXPECT_FALSE(told[1].fix);
+}
+
 TEST_F(Imports, grammarsOfOtherNotationsAreDerivedTogether) {
   put("tower.grammar", "Tower -> S ( 2 3 2 ) I ( Cube 1 ) [ T ( 0 1 0 ) I ( Cube 2 ) ]\n");
   put("wall.gbbg", "terminal Brick\nSTART -> Split(X, {1, 1}, FromRoot) {Brick | Brick | Brick}\n");

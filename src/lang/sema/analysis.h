@@ -114,7 +114,11 @@ class Analysis {
   // --- modules.cpp: files, styles, imports, declarations ---
   uint32_t loadUnit(const std::string& path, Span from, uint32_t importerUnit,
                     std::vector<uint32_t>& open);
-  void reportImport(const Error& why, const std::string& path, Span from);
+  void reportImport(const Error& why, const std::string& path, Span from,
+                    const std::string& importer);
+  /// The file of the project that a path was probably meant to be, which the report that follows
+  /// proposes; empty where none is near. `from` names it.
+  std::string nearFile(const std::string& path, const std::string& from);
   void indexUnit(uint32_t unit);
   void readVersion(uint32_t unit, NodeId node);
   /// Whether the file of a module was written for CGA before that version. One that does not say is

@@ -69,6 +69,14 @@ bool Analysis::asksForFile(NodeId argument, std::string_view path) {
   return asked.count(path) != 0 || asked.count(text(argument)) != 0 || asked.count(kAnyFile) != 0;
 }
 
+std::string Analysis::nearFile(const std::string& path, const std::string& from) {
+  if (missedFiles_.size() + missingImports_.size() > kMaxFileHints) return {};
+  if (!projectFiles_) projectFiles_ = loader_->assets(from);
+  std::string nearest = nearestFile(path, *projectFiles_);
+  if (!nearest.empty()) meant_ = {path, nearest};
+  return nearest;
+}
+
 void Analysis::checkFile(NodeId node) {
   if (mute_ || !loader_) return;
   const NodeId written = writtenText(node);
@@ -77,12 +85,7 @@ void Analysis::checkFile(NodeId node) {
   const std::string& from = program_.units[module().unit].path;
   if (loader_->exists(path, from) || asksForFile(node, path)) return;
   if (!missedFiles_.insert(path).second) return;
-  std::string nearest;
-  if (missedFiles_.size() <= kMaxFileHints) {
-    if (!projectFiles_) projectFiles_ = loader_->assets(from);
-    nearest = nearestFile(path, *projectFiles_);
-  }
-  if (!nearest.empty()) meant_ = {path, nearest};
+  const std::string nearest = nearFile(path, from);
   warning("missing-file", tree().span(written), "there is no file " + quote(path),
           nearest.empty()
               ? "paths start at the assets folder, at the root of the project or beside "

@@ -193,12 +193,14 @@ Error missingImport(const std::string& path) {
 }
 
 // Rules often name files of libraries that are not there. What they want of these is left out.
-void Analysis::reportImport(const Error& why, const std::string& path, Span from) {
+void Analysis::reportImport(const Error& why, const std::string& path, Span from,
+                            const std::string& importer) {
   if (why.code != kNotFound) return error(why.code.c_str(), from, why.message, why.hint);
   if (!missingImports_.insert(path).second) return;
+  const std::string nearest = nearFile(path, importer);
   warning(kNotFound, from,
           why.message + ": its rules become leaves, its attributes and functions have no value",
-          why.hint);
+          nearest.empty() ? why.hint : "did you mean " + quote(nearest) + "?");
 }
 
 uint32_t Analysis::loadUnit(const std::string& path, Span from, uint32_t importerUnit,
@@ -219,7 +221,7 @@ uint32_t Analysis::loadUnit(const std::string& path, Span from, uint32_t importe
   }
   Result<FileLoader::File> file = loader_->load(path, program_.units[importerUnit].path);
   if (!file) {
-    reportImport(file.error(), path, from);
+    reportImport(file.error(), path, from, program_.units[importerUnit].path);
     return kNone;
   }
   const auto known = unitByPath_.find(file->path);
