@@ -107,6 +107,19 @@ TEST(Hints, SpeakTheNotationOfTheFile) {
   }
 }
 
+TEST(Hints, ColoursAreMended) {
+  const Rules rules = Rules::parse(
+      "Lot --> color(\"#ff00\") color(\"#f80\") color(\"ff8800\") color(\"blue\") X.\n", "a.cga");
+  const DiagnosticList& told = rules.diagnostics();
+  ASSERT_EQ(told.size(), 4u);
+  const char* const mended[] = {"#ffff0000", "#ff8800", "#ff8800"};
+  for (size_t i = 0; i < 3; ++i) {
+    ASSERT_TRUE(told[i].fix) << i;
+    EXPECT_EQ(told[i].fix->text, mended[i]);
+  }
+  EXPECT_FALSE(told[3].fix);
+}
+
 // What follows from a mistake is not told beside it.
 TEST(Hints, OneErrorAPlace) {
   for (const Mistake& m : kMistakes) {

@@ -13,14 +13,14 @@ namespace gable::lang {
 
 namespace {
 
-// What to write where the sign before a colour is missing, or each digit stands for two; else the
-// hint of the parameter.
-std::string textHint(const ParamSpec& param, std::string_view text) {
+// A colour without the sign before it, or with one digit for two (#f80, #f80c), as its parameter
+// takes it; empty where that is not what is wrong.
+std::string mendedText(const ParamSpec& param, std::string_view text) {
   std::string full = text.starts_with('#') ? "" : "#" + std::string(text);
-  if (text.starts_with('#') && text.size() == 4) {
+  if (text.starts_with('#') && (text.size() == 4 || text.size() == 5)) {
     for (const char c : text) full.append(c == '#' ? 1 : 2, c);
   }
-  return !full.empty() && param.form->holds(full) ? "write \"" + full + "\"" : refusalHint(param);
+  return !full.empty() && param.form->holds(full) ? full : std::string();
 }
 
 }  // namespace
@@ -50,8 +50,11 @@ void Analysis::checkWrittenValue(NodeId node, const ParamSpec& param, std::strin
   if (v.type == ValueType::Null || isTaken(param, v, values_)) return;
   // A text of another form does no harm: the shape stays as it is, or the value is that of none.
   if (v.type == ValueType::String) {
+    const std::string_view text = values_.text(v.id);
+    const std::string mended = mendedText(param, text);
+    if (!mended.empty() && t.kind(node) == NodeKind::String) meant_ = {text, mended};
     warning("bad-argument", t.span(node), refusalText(param, callee, v, values_),
-            textHint(param, values_.text(v.id)));
+            mended.empty() ? refusalHint(param) : "write \"" + mended + "\"");
     return;
   }
   errorAt("bad-argument", node, refusalText(param, callee, v, values_), refusalHint(param));
