@@ -1,6 +1,5 @@
 # Copies the libraries that the installed programs need to lib/gable, where their rpath looks. The C
 # library and its parts stay the system's: they belong to its kernel and its loader.
-file(GLOB programs ${prefix}/bin/gable*)
 file(GET_RUNTIME_DEPENDENCIES EXECUTABLES ${programs} RESOLVED_DEPENDENCIES_VAR found
      UNRESOLVED_DEPENDENCIES_VAR missing
      POST_EXCLUDE_REGEXES "/(ld-linux|libc|libm|libpthread|libdl|librt|libresolv)[-.][^/]*$")

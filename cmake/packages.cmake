@@ -25,7 +25,13 @@ foreach(part program library development python)
 endforeach()
 
 # The libraries that the programs need, beside them: everything but the C library.
-install(CODE "set(prefix \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\")" COMPONENT bundle EXCLUDE_FROM_ALL)
+cmake_policy(SET CMP0087 NEW)
+set(programs $<TARGET_FILE:gable> $<TARGET_FILE:gable-convert>)
+if(TARGET gable-maps)
+  list(APPEND programs $<TARGET_FILE:gable-maps>)
+endif()
+install(CODE "set(programs \"${programs}\")
+  set(prefix \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\")" COMPONENT bundle EXCLUDE_FROM_ALL)
 install(SCRIPT cmake/bundle.cmake COMPONENT bundle EXCLUDE_FROM_ALL)
 
 set(CPACK_PACKAGE_NAME gable)
@@ -41,10 +47,13 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 
-set(about "Gable turns rules into places: shape grammars (CGA) in, textured 3D models out.")
+set(about "Gable turns rules into places: shape grammars (CGA) in,
+textured 3D models out.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME gable)
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Open engine for shape grammars: the program
 ${about} This package has the command line,
@@ -53,7 +62,6 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "gdal-bin")
 
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${library_package})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "Open engine for shape grammars: the library
 ${about} This package has the library
 with its interfaces in C++ and C.")
