@@ -208,8 +208,8 @@ Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray) {
   FaceAxes axes;
   if (m.laid) {
     axes = layingAxes(normalized(wide(hit.normal)));
-    const Vec2 at = axes.at(wide(ray.origin + ray.direction * hit.distance));
-    layers.lay({static_cast<float>(at.x), static_cast<float>(at.y)});
+    const Vec2 metres = axes.at(wide(ray.origin + ray.direction * hit.distance));
+    layers.lay({static_cast<float>(metres.x), static_cast<float>(metres.y)});
   }
   std::array<float, 4> texel;
   if (layers.read(TextureLayer::Color, texel)) s.base *= colorOf(texel);

@@ -416,10 +416,9 @@ std::string GltfDocument::text(const GltfContent& content, bool roomy) const {
   for (const auto& g : content.instances) groups = groups || !g.empty();
   const bool compact =
       materials_.isCompact() && !std::all_of(content.meshes.begin(), content.meshes.end(), isEmpty);
-  const auto extensions = [&](const char* name, bool transforms,
-                              const std::set<std::string>& more) {
+  const auto extensions = [&](const char* key, bool transforms, const std::set<std::string>& more) {
     if (!groups && !compact && !transforms && more.empty()) return;
-    w.key(name).beginArray();
+    w.key(key).beginArray();
     if (groups) w.value("EXT_mesh_gpu_instancing");
     if (compact) w.value("KHR_mesh_quantization");
     if (transforms) w.value("KHR_texture_transform");

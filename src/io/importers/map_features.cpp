@@ -14,6 +14,7 @@
 #include "io/importers/city_json.h"
 #include "io/importers/geojson_root.h"
 #include "io/importers/map_file.h"
+#include "io/importers/other_tags.h"
 
 namespace gable {
 namespace {
@@ -49,10 +50,13 @@ class Reader {
     if (feature) {
       for (const auto& [name, value] : v["properties"].members()) {
         std::string text = textOf(value);
-        if (!text.empty()) out.tags.emplace_back(name, std::move(text));
+        if (!text.empty() && name != kOtherTags) out.tags.emplace_back(name, std::move(text));
+      }
+      for (auto& tag : otherTags(v["properties"][kOtherTags].text())) {
+        out.tags.push_back(std::move(tag));
       }
     }
-    for (const char* key : {"osm_id", "id", "@id", "fid", "OBJECTID"}) {
+    for (const char* key : {"osm_id", "osm_way_id", "id", "@id", "fid", "OBJECTID"}) {
       if (out.id.empty()) out.id = out.tag(key);
     }
     if (out.id.empty()) out.id = "feature/" + std::to_string(number_);

@@ -160,8 +160,9 @@ TEST(ParkNotation, MistakesAreToldWhereTheyStand) {
 
 TEST(ParkNotation, HintsSpellAsTheNotationDoes) {
   for (const Diagnostic& m : run("R - A", kLot).diagnostics) {
-    if (m.code == "unexpected-text")
+    if (m.code == "unexpected-text") {
       EXPECT_NE(m.hint.find("'Name -> operations'"), std::string::npos);
+    }
   }
   for (const Diagnostic& m : run("R -> Voronoii(5) { A } { B }", kLot).diagnostics) {
     if (m.code == "unknown-operation") {
