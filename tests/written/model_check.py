@@ -136,7 +136,8 @@ def check_words(path, counts, faults):
             try:
                 numbers.append(float(word))
             except ValueError:
-                if words[0][0] != "m":
+                # Those of textures (map_Kd, norm) end with the name of a file.
+                if words[0][0] not in "mn":
                     faults.add(f"{words[0]}: '{word}' is no number")
         for number in numbers:
             faults.number(number, words[0])
