@@ -39,6 +39,7 @@ constexpr Example kExamples[] = {
     {"watch", "gable watch house.cga --shapes lots.geojson -o town.glb"},
     {"trace", "gable trace house.cga --rule Roof -o roofs.json"},
     {"asset prepare", "gable asset prepare door.glb --size 1,2.1,0.2 -o prepared.glb"},
+    {"asset material", "gable asset material brick.flemish -o materials/brick"},
     {"ops", "gable ops split"},
     {"ops", "gable ops --json"},
     {"lsp", "gable lsp"},
