@@ -449,12 +449,28 @@ class Completer {
     if (cursor_.owner == "import") return rulePaths();
     if (cursor_.typed.starts_with("#")) return colors();
     if (cursor_.atArgument && !asksForFile()) return;
+    if (cursor_.atArgument && cursor_.call.callee == "set" && cursor_.call.successor && choices())
+      return;
     size_t count = 0;
     for (const std::string& asset : library_.files().assets(path_)) {
       if (count++ >= kMostFiles) out_.partial = true;
       if (count > kMostFiles) break;
       file(asset);
     }
+  }
+
+  // Offers the values of @Enum of the attribute that set() gives a value; false where it has none.
+  bool choices() {
+    const Snapshot* s = snapshot();
+    if (!s || cursor_.call.argument == 0) return false;
+    for (const lang::AttributeInfo& a : s->program.attributes) {
+      if (a.qualifiedName != cursor_.call.first || !a.annotations.choices) continue;
+      for (const lang::EnumValue& v : a.annotations.choices->values) {
+        if (!v.isNumber) add(v.text, NameKind::Parameter, a.name, "", 5);
+      }
+      return true;
+    }
+    return false;
   }
 
   // Offers the words of the parameter where it has some; true where any file may stand.

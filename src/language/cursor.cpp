@@ -200,6 +200,7 @@ class Reader {
       case TokenKind::RBrace: return pop(t.kind);
       case TokenKind::Comma:
         if (top().hasCall) {
+          if (top().call.argument == 0 && i > 0) top().call.first = textOf(tokens_[i - 1]);
           ++top().call.argument;
           top().call.named = {};
         }

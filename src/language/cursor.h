@@ -41,6 +41,8 @@ struct Call {
   /// As a successor: an operation or a rule; else a function.
   bool successor = false;
   uint32_t argument = 0;
+  /// The word that ends the first argument, where the caret is behind it: the attribute of set().
+  std::string_view first;
   /// The word before '=' where the argument is named.
   std::string_view named;
 };

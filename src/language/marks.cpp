@@ -217,17 +217,17 @@ std::vector<Highlight> highlightsOf(const Parsed& parsed, const Snapshot& snapsh
                                     const Catalogue& catalogue) {
   if (parsed.dialect) return dialectMarks(parsed);
   std::vector<Highlight> out;
-  struct Piece {
+  struct Stretch {
     uint32_t begin, end;
     Highlight mark;
   };
-  std::vector<Piece> pieces;
+  std::vector<Stretch> pieces;
   std::vector<Known> known;
   for (uint32_t u = 0; u < snapshot.program.units.size(); ++u) {
     known.push_back(knownIn(snapshot.tree(u)));
   }
   for (const Name& n : namesOf(snapshot, 0, catalogue)) {
-    Piece p{n.begin, n.end, meaning(n, snapshot)};
+    Stretch p{n.begin, n.end, meaning(n, snapshot)};
     const NameKind* k = n.unit < known.size() ? known[n.unit].find(n.word) : nullptr;
     if (n.space == Space::Rule && !k) p.mark.kind = Kind::Leaf;
     if (n.space == Space::Value && k) {
@@ -238,8 +238,9 @@ std::vector<Highlight> highlightsOf(const Parsed& parsed, const Snapshot& snapsh
   }
   const size_t names = pieces.size();
   const auto taken = [&](uint32_t begin) {
-    const auto at = std::lower_bound(pieces.begin(), pieces.begin() + static_cast<ptrdiff_t>(names),
-                                     begin, [](const Piece& p, uint32_t b) { return p.begin < b; });
+    const auto at =
+        std::lower_bound(pieces.begin(), pieces.begin() + static_cast<ptrdiff_t>(names), begin,
+                         [](const Stretch& p, uint32_t b) { return p.begin < b; });
     return at != pieces.begin() + static_cast<ptrdiff_t>(names) && at->begin == begin;
   };
   for (const Token& t : parsed.tokens.tokens) {
@@ -251,10 +252,10 @@ std::vector<Highlight> highlightsOf(const Parsed& parsed, const Snapshot& snapsh
   }
   for (const lang::Comment& c : parsed.tokens.comments) pieces.push_back({c.begin, c.end, {}});
   std::sort(pieces.begin(), pieces.end(),
-            [](const Piece& a, const Piece& b) { return a.begin < b.begin; });
+            [](const Stretch& a, const Stretch& b) { return a.begin < b.begin; });
   Walker begins(parsed.text), ends(parsed.text);
   uint32_t last = 0;
-  for (Piece& p : pieces) {
+  for (Stretch& p : pieces) {
     if (p.begin < last) continue;
     last = p.end;
     p.mark.range = {begins(p.begin), ends(p.end)};

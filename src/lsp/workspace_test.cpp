@@ -211,6 +211,21 @@ std::string filledIn(const std::string& text) {
   return out;
 }
 
+TEST(Completion, setOffersTheValuesThatAnAttributeMayHave) {
+  const std::string attributes =
+      "@Enum(\"shed\", \"gable\")\nattr kind = \"shed\"\n@Enum(1, 2)\nattr rows = 1\nattr free = "
+      "\"a\"\n";
+  const std::vector<std::string> kinds{"shed", "gable"};
+  EXPECT_EQ(Desk(attributes + "Lot --> set(kind, \"^\")").labels(), kinds);
+  EXPECT_EQ(Desk(attributes + "Lot --> set(kind, \"ga^\") X.").labels(),
+            std::vector<std::string>{"gable"});
+  EXPECT_EQ(
+      Desk("import a : \"a.cga\"\nLot --> set(a.kind, \"^\") X.", {{"a.cga", attributes}}).labels(),
+      kinds);
+  EXPECT_TRUE(Desk(attributes + "Lot --> set(rows, \"^\")").labels().empty());
+  EXPECT_FALSE(Desk(attributes + "Lot --> set(free, \"^\")").offers("shed"));
+}
+
 TEST(Completion, allOperationsAreRightAtOnce) {
   size_t operations = 0;
   for (char letter = 'a'; letter <= 'z'; ++letter) {
