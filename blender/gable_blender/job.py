@@ -26,19 +26,22 @@ class Outcome:
 
 
 def ask(line, seconds):
-    """Runs a command that answers in JSON: (what it says or None, messages)."""
+    """Runs a command that answers with an object of JSON: (the object or None, messages)."""
     try:
-        done = subprocess.run(line, capture_output=True, text=True, errors="replace", timeout=seconds,
+        done = subprocess.run(line, capture_output=True, encoding="utf-8", errors="replace", timeout=seconds,
                               stdin=subprocess.DEVNULL)
     except (OSError, subprocess.SubprocessError) as error:
         return None, [messages.Message("error", f"gable does not answer: {error}",
                                        "look at the program in the add-on's preferences")]
-    found = messages.of_text(done.stderr)
     try:
-        return json.loads(done.stdout), found
+        answer = json.loads(done.stdout)
     except ValueError:
-        return None, found or [messages.Message("error", f"gable ended with status {done.returncode} and no answer",
-                                                "run it in a terminal to see why")]
+        answer = None
+    if isinstance(answer, dict):
+        return answer, messages.of_json(answer.get("diagnostics", []))
+    found = messages.of_text(done.stderr)
+    return None, found or [messages.Message("error", f"gable ended with status {done.returncode} and no answer",
+                                            "run it in a terminal to see why")]
 
 
 class Job:

@@ -46,7 +46,7 @@ def of_text(text):
 
 
 def of_json(diagnostics):
-    """Those of `gable check --json`."""
+    """Those of the member `diagnostics` of an answer in JSON."""
     return [Message(d.get("severity", "error"), d.get("message", ""), d.get("hint", ""), d.get("file", ""),
                     int(d.get("line", 0)), d.get("code", "")) for d in diagnostics]
 

@@ -72,8 +72,8 @@ class GABLE_OT_check(_OnLots):
             obj.gable.take_messages(error.messages)
             tell(self, obj)
             return {"CANCELLED"}
-        answer, found = job.ask(line, program.SECONDS)
-        obj.gable.take_messages(messages.ordered((messages.of_json(answer) if answer else []) + found))
+        _, found = job.ask(line, program.SECONDS)
+        obj.gable.take_messages(messages.ordered(found))
         if not obj.gable.messages:
             self.report({"INFO"}, "No mistakes")
         tell(self, obj)

@@ -191,6 +191,30 @@ class Runs(unittest.TestCase):
         self.assertFalse(outcome.ok)
         self.assertEqual((outcome.messages[0].line, outcome.messages[0].hint), (2, "did you mean 'extrude'?"))
 
+    def test_answers_have_their_messages(self):
+        with tempfile.TemporaryDirectory() as folder:
+            wrong, right, missing = (os.path.join(folder, name) for name in ("wrong.cga", "right.cga", "missing.cga"))
+            Path(wrong).write_text("@StartRule\nLot --> extrud(3)\n")
+            Path(right).write_text("@StartRule\nLot --> extrude(3)\n")
+            shapes = Path(folder, "lots.glb")
+            shapes.write_bytes(lots.to_glb([lot(SQUARE)]))
+            for line in (lambda rules: command.info(GABLE, command.Wishes(rules), shapes),
+                         lambda rules: command.check(GABLE, command.Wishes(rules))):
+                answer, found = job.ask(line(right), 20)
+                self.assertEqual((answer["status"], found), (0, []))
+                _, found = job.ask(line(wrong), 20)
+                self.assertEqual([(m.severity, m.line, m.code, m.hint) for m in found],
+                                 [("error", 2, "unknown-operation", "did you mean 'extrude'?")])
+                _, found = job.ask(line(missing), 20)
+                self.assertEqual([(m.severity, m.code) for m in found], [("error", "file-missing")])
+                self.assertIn("missing.cga", found[0].text)
+
+    def test_programs_that_do_not_answer(self):
+        for said in ("", "[]", "words"):
+            answer, found = job.ask([sys.executable, "-c", f"print({said!r})"], 20)
+            self.assertIsNone(answer)
+            self.assertIn("no answer", found[0].text)
+
     def test_values_of_a_person_go_first(self):
         rules = "attr height = 3\nattr name = \"x\"\n@StartRule\nLot --> extrude(world.y, height) print(name)\n"
         outcome, model = self.run_rules(rules, [lot(SQUARE)], attributes={"height": "6", "name": "a=b --c"})
