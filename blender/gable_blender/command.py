@@ -17,8 +17,12 @@ class Wishes:
     megabytes: int = 4096
 
 
+# Whatever the environment asks for: messages are read line by line.
+PLAIN = "--color=never"
+
+
 def _common(wishes, shapes):
-    line = [f"--shapes={shapes}", f"--seed={wishes.seed}", f"--max-seconds={wishes.seconds}",
+    line = [PLAIN, f"--shapes={shapes}", f"--seed={wishes.seed}", f"--max-seconds={wishes.seconds}",
             f"--max-memory={wishes.megabytes}"]
     if wishes.start:
         line.append(f"--start={wishes.start}")
@@ -37,5 +41,5 @@ def info(program, wishes, shapes):
 
 
 def check(program, wishes):
-    return [program, "check", "--json", f"--max-seconds={wishes.seconds}",
+    return [program, "check", "--json", PLAIN, f"--max-seconds={wishes.seconds}",
             f"--max-memory={wishes.megabytes}", "--", wishes.rules]

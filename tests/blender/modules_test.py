@@ -12,6 +12,7 @@ import sys
 import tempfile
 import time
 import unittest
+import unittest.mock
 import zipfile
 from pathlib import Path
 
@@ -208,6 +209,12 @@ class Runs(unittest.TestCase):
                 _, found = job.ask(line(missing), 20)
                 self.assertEqual([(m.severity, m.code) for m in found], [("error", "file-missing")])
                 self.assertIn("missing.cga", found[0].text)
+
+    def test_messages_have_no_colors(self):
+        with unittest.mock.patch.dict(os.environ, {"CLICOLOR_FORCE": "1"}):
+            os.environ.pop("NO_COLOR", None)
+            outcome, _ = self.run_rules("@StartRule\nLot --> extrud(3)\n", [lot(SQUARE)])
+        self.assertEqual([(m.severity, m.line, m.code) for m in outcome.messages], [("error", 2, "unknown-operation")])
 
     def test_programs_that_do_not_answer(self):
         for said in ("", "[]", "words"):
