@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: The Gable authors
 """The attributes of rules as controls of a panel, from what `gable info --json` tells. Needs no Blender."""
 import json
+import math
 import re
 from dataclasses import dataclass, field
 
@@ -142,6 +143,11 @@ def color_of(text):
 
 def hex_of(color):
     return "#" + "".join(f"{min(255, max(0, round(c * 255))):02x}" for c in color[:3])
+
+
+def value_of_color(color):
+    """"#rrggbb" of (red, green, blue) from 0 to 1; NaN where one of them is infinite or no number."""
+    return hex_of(color) if all(map(math.isfinite, color[:3])) else math.nan
 
 
 def start_rules(info):

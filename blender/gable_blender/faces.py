@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 
 from . import lots
-from .attributes import hex_of
+from .attributes import value_of_color
 
 # Faces that can be lots at once.
 MOST = 100_000
@@ -44,7 +44,7 @@ def _values_of(mesh):
         if layer.data_type in PLAIN:
             found[layer.name] = [_plain(item.value) for item in layer.data]
         elif layer.data_type in COLORS:
-            found[layer.name] = [hex_of(item.color_srgb if hasattr(item, "color_srgb") else item.color)
+            found[layer.name] = [value_of_color(item.color_srgb if hasattr(item, "color_srgb") else item.color)
                                  for item in layer.data]
     return found
 

@@ -7,6 +7,7 @@ touches becomes one polygon again when Gable reads it, with holes where it enclo
 over as triangles, and the two faces that Blender makes around a hole are one lot with a hole.
 """
 import json
+import math
 import struct
 from dataclasses import dataclass, field
 
@@ -121,12 +122,27 @@ def sort_out(lots):
     return good, faults, caveats
 
 
+def leave_out_values(lots):
+    """Takes away attributes that are infinite or no number, which JSON has not; a sentence for each name of one."""
+    owners = {}
+    for lot in lots:
+        for name, value in list(lot.attributes.items()):
+            if isinstance(value, float) and not math.isfinite(value):
+                del lot.attributes[name]
+                owners.setdefault(name, []).append(lot.name)
+    return [f"the attribute '{name}' of {names[0]}" + (f" and {len(names) - 1} more" if len(names) > 1 else "") +
+            " is infinite or not a number" for name, names in owners.items()]
+
+
 def _padded(data, filler):
     return data + filler * (-len(data) % 4)
 
 
 def to_glb(lots):
-    """The bytes of a GLB with a node for each lot, which has its name; single precision about its middle."""
+    """The bytes of a GLB with a node for each lot, which has its name; single precision about its middle.
+
+    All numbers are finite (fault_of, leave_out_values), or ValueError is raised.
+    """
     nodes, meshes, accessors, views = [], [], [], []
     binary = bytearray()
 
@@ -150,7 +166,7 @@ def to_glb(lots):
     document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(len(nodes)))}],
                 "nodes": nodes, "meshes": meshes, "accessors": accessors, "bufferViews": views,
                 "buffers": [{"byteLength": len(binary)}]}
-    text = _padded(json.dumps(document).encode(), b" ")
+    text = _padded(json.dumps(document, allow_nan=False).encode(), b" ")
     head = struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(binary))
     return b"".join([head, struct.pack("<I4s", len(text), b"JSON"), text,
                      struct.pack("<I4s", len(binary), b"BIN\0"), bytes(binary)])

@@ -56,6 +56,8 @@ def lots_of(obj):
     if not good:
         raise Refused([messages.Message("error", f"none of the faces of {obj.name} can be a lot: {faults[0]}",
                                         "mend the face"), *found])
+    found += [messages.Message("warning", f"{value}: it is left out", "give it a finite number")
+              for value in lots.leave_out_values(good)]
     return good, found
 
 

@@ -6,6 +6,7 @@
 
 tests/blender/blender_test.py tests the rest in Blender itself.
 """
+import math
 import os
 import subprocess
 import sys
@@ -94,6 +95,9 @@ class Attributes(unittest.TestCase):
                          ["true", "3", "2.5", "0.3", "x", "[1, 2]"])
         self.assertEqual(attributes.hex_of(attributes.color_of("#a08060")), "#a08060")
         self.assertEqual(attributes.color_of("none"), (1, 1, 1))
+        for odd in (math.nan, math.inf, -math.inf):
+            self.assertTrue(math.isnan(attributes.value_of_color((0, odd, 1))))
+        self.assertEqual(attributes.value_of_color((0, 2, 1, math.nan)), "#00ffff")
 
     def test_start_rules(self):
         rules = [{"name": n, "parameters": p, "hidden": h, "start": s} for n, p, h, s in
@@ -138,6 +142,18 @@ class Lots(unittest.TestCase):
         self.assertIn("turned up", caveats[0])
         self.assertIn("bent", caveats[1])
         self.assertEqual(good[0].triangles[0].tolist(), [2, 1, 0])
+
+    def test_values_that_are_no_numbers_are_left_out(self):
+        three = [lot(SQUARE) for _ in range(3)]
+        for each, attribute in zip(three, (math.nan, 4.5, math.inf)):
+            each.attributes = {"height": attribute, "kind": "a", "flag": True, "count": 3}
+        self.assertRaises(ValueError, lots.to_glb, three)
+        self.assertEqual(lots.leave_out_values(three),
+                         ["the attribute 'height' of lot 1 and 1 more is infinite or not a number"])
+        self.assertEqual([each.attributes.get("height") for each in three], [None, 4.5, None])
+        self.assertEqual(three[0].attributes, {"kind": "a", "flag": True, "count": 3})
+        self.assertEqual(lots.leave_out_values(three), [])
+        self.assertNotIn(b"NaN", lots.to_glb(three))
 
     def test_islands(self):
         self.assertEqual(lots.islands([[0, 1, 2], [10, 11, 12], [2, 1, 3], [3, 4, 5]]), [[0, 2], [1], [3]])
