@@ -15,6 +15,8 @@ from . import command, messages
 DONE, LIMIT = 0, 4
 # What ends by itself once it is asked to.
 PATIENCE = 3.0
+# Bytes of UTF-8 that the name of a custom property of Blender has at most.
+MOST_NAME = 63
 
 
 @dataclass
@@ -23,6 +25,17 @@ class Outcome:
     model: str = ""
     statistics: dict = field(default_factory=dict)
     messages: list = field(default_factory=list)
+
+    def report_sums(self):
+        """{name of a custom property: the sum of a report}, of reports of numbers."""
+        return {property_name(f"report {key}"): float(report["sum"])
+                for key, report in self.statistics.get("reports", {}).items()
+                if isinstance(report.get("sum"), (int, float))}
+
+
+def property_name(text):
+    """The beginning of a text that Blender takes as a name, in whole characters."""
+    return text.encode("utf-8", "replace")[:MOST_NAME].decode("utf-8", "ignore")
 
 
 def ask(line, seconds):

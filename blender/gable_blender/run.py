@@ -177,7 +177,6 @@ class Run:
         collection["gable_seed"] = wishes.seed
         collection["gable_attributes"] = json.dumps({a.name: a.value_text() for a in obj.gable.attributes
                                                      if a.known or a.is_own()})
-        for key, report in outcome.statistics.get("reports", {}).items():
-            if isinstance(report.get("sum"), (int, float)):
-                collection[f"report {key}"[:63]] = float(report["sum"])
+        for key, total in outcome.report_sums().items():
+            collection[key] = total
         return collection, name

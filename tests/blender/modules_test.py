@@ -244,6 +244,14 @@ class Runs(unittest.TestCase):
         self.assertEqual(model.meshes[0].positions.max(axis=0)[2], 6)
         self.assertEqual(outcome.statistics["prints"], ["a=b --c"])
 
+    def test_names_of_reports_fit_into_blender(self):
+        # Two and four bytes a letter; 56 bytes are left behind "report ".
+        for letter, most in (("a", 56), ("\u00e4", 28), ("\U0001f3e0", 14)):
+            outcome, _ = self.run_rules(f'@StartRule\nLot --> report("{letter * 60}", 2) extrude(world.y, 2)\n', [lot(SQUARE)])
+            self.assertEqual(outcome.report_sums(), {"report " + letter * most: 2})
+        self.assertEqual(job.property_name("x" + "\u00e4" * 40), "x" + "\u00e4" * 31)
+        self.assertEqual(job.property_name("x\udcff"), "x?")
+
     def test_broken_models_are_told(self):
         for data in (b"", b"glTF" + bytes(40), b"x" * 100, lots.to_glb([lot(SQUARE)])[:-8]):
             self.assertRaises(glb.BrokenModel, glb.read, data)
