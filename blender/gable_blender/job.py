@@ -15,6 +15,8 @@ from . import command, messages
 DONE, LIMIT = 0, 4
 # What ends by itself once it is asked to.
 PATIENCE = 3.0
+# Between looks at a run that is waited for.
+PAUSE = 0.02
 # Bytes of UTF-8 that the name of a custom property of Blender has at most.
 MOST_NAME = 63
 
@@ -55,6 +57,16 @@ def ask(line, seconds):
     found = messages.of_text(done.stderr)
     return None, found or [messages.Message("error", f"gable ended with status {done.returncode} and no answer",
                                             "run it in a terminal to see why")]
+
+
+def complete(work):
+    """Steps until the work is done; cancels it where a step raises."""
+    try:
+        while not work.step():
+            time.sleep(PAUSE)
+    except BaseException:
+        work.cancel()
+        raise
 
 
 class Job:

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The Gable authors
 """What a person can ask for: look at rules, generate, cancel, vary, take away."""
-import time
-
 import bpy
 from bpy.props import IntProperty, StringProperty
 
@@ -117,9 +115,16 @@ class _Generating(_OnLots):
         work = self.begin(context)
         if work is None:
             return {"CANCELLED"}
-        while not work.step():
-            time.sleep(0.02)
+        try:
+            job.complete(work)
+        except OSError as error:
+            return self.fail(context, error)
         return self.end(context, work)
+
+    def fail(self, context, error):
+        redraw(context)
+        self.report({"ERROR"}, f"gable cannot be run: {error}")
+        return {"CANCELLED"}
 
     def invoke(self, context, _event):
         self.work = self.begin(context)
@@ -146,8 +151,7 @@ class _Generating(_OnLots):
         except OSError as error:
             self.work.cancel()
             self.stop(context)
-            self.report({"ERROR"}, f"gable cannot be run: {error}")
-            return {"CANCELLED"}
+            return self.fail(context, error)
         self.stop(context)
         return self.end(context, self.work)
 

@@ -256,6 +256,29 @@ class Runs(unittest.TestCase):
         for data in (b"", b"glTF" + bytes(40), b"x" * 100, lots.to_glb([lot(SQUARE)])[:-8]):
             self.assertRaises(glb.BrokenModel, glb.read, data)
 
+    def test_work_that_fails_is_cancelled(self):
+        class Work:
+            steps = cancelled = 0
+
+            def __init__(self, program, most=9):
+                self.program, self.most = program, most
+
+            def step(self):
+                self.steps += 1
+                if self.steps == 2:
+                    job.Job(self.program, command.Wishes("none.cga"), b"").close()
+                return self.steps == self.most
+
+            def cancel(self):
+                self.cancelled += 1
+
+        work = Work("/none/gable")
+        self.assertRaises(OSError, job.complete, work)
+        self.assertEqual((work.steps, work.cancelled), (2, 1))
+        work = Work(GABLE, 3)
+        job.complete(work)
+        self.assertEqual((work.steps, work.cancelled), (3, 0))
+
     def test_programs(self):
         self.assertEqual(program.find(GABLE, "/none")[0], GABLE)
         with tempfile.TemporaryDirectory() as folder:
