@@ -267,6 +267,51 @@ class Blender(unittest.TestCase):
         bpy.ops.gable.open(number=0)
         self.assertEqual(bpy.data.texts[0].current_line_index, message.line - 1)
 
+    def test_rules_are_checked_and_read(self):
+        obj = rectangle(10, 10)
+        obj.gable.rules = write_rules("checked.cga", "@StartRule\nLot --> extrude(world.y, 5)\n")
+        for ask in (bpy.ops.gable.check, bpy.ops.gable.load):
+            write_rules("checked.cga", "@StartRule\nLot --> extrude(world.y, 5)\n")
+            self.assertEqual(ask(), {"FINISHED"})
+            self.assertEqual(len(obj.gable.messages), 0)
+            write_rules("checked.cga", "@StartRule\nLot --> extrud(world.y, 5)\n")
+            with self.assertRaises(RuntimeError) as told:
+                ask()
+            self.assertIn("checked.cga:2: there is no operation or rule 'extrud'", str(told.exception))
+            obj.gable.rules = str(OUT / "missing.cga")
+            with self.assertRaises(RuntimeError) as told:
+                ask()
+            self.assertIn("missing.cga", str(told.exception))
+            obj.gable.rules = str(OUT / "checked.cga")
+
+    def test_values_that_are_no_numbers_and_long_names(self):
+        obj = rectangle(10, 10)
+        obj["height"] = float("nan")
+        for name, kind in (("depth", "FLOAT"), ("tint", "FLOAT_COLOR")):
+            layer = obj.data.attributes.new(name, kind, "FACE")
+            setattr(layer.data[0], "value" if kind == "FLOAT" else "color", float("inf") if kind == "FLOAT" else [float("nan")] * 4)
+        long = "\u00e4" * 40
+        obj.gable.rules = write_rules("odd.cga", "attr height = 5\nattr depth = 1\nattr tint = \"#ff0000\"\n@StartRule\n"
+                                      f'Lot --> report("{long}", height) extrude(world.y, height * depth) color(tint)\n')
+        self.assertEqual(generate(), {"FINISHED"})
+        self.assertEqual({m.text.split("'")[1] for m in obj.gable.messages}, {"height", "depth", "tint"})
+        self.assertEqual(made(obj)[0]["report " + long[:28]], 5)
+
+    def test_a_program_that_goes_away_ends_the_run(self):
+        obj = rectangle(10, 10)
+        obj.gable.rules = write_rules("box.cga", "@StartRule\nLot --> extrude(world.y, 5)\n")
+        run = module("run")
+        find, run.find_program = run.find_program, lambda: str(OUT / "gone")
+        try:
+            obj.gable.attributes.add().name = "a"
+            obj.gable.loaded = obj.gable.rules
+            with self.assertRaises(RuntimeError) as told:
+                generate()
+            self.assertIn("cannot be run", str(told.exception))
+            self.assertEqual(run.running, {})
+        finally:
+            run.find_program = find
+
     def test_regeneration_and_removal_leave_nothing(self):
         obj = rectangle(12, 9)
         obj.gable.rules = write_rules("house.cga", HOUSE)
