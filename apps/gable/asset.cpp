@@ -4,6 +4,7 @@
 // gable asset prepare: a model made ready to fill the scopes of terminal shapes. gable asset
 // material: the library of materials.
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -18,6 +19,22 @@ bool setTriple(const std::string& text, const char* option, gable::Triple& out) 
   if (parseNumbers(text, ',', kMetres, out.data(), 3)) return true;
   wrongOption(option, "three numbers, such as 8,9,8", text);
   return false;
+}
+
+void listMaterials() {
+  std::string all;
+  gable::JsonWriter json(all);
+  json.beginArray();
+  for (const gable::LibraryMaterialInfo& m : gable::libraryMaterials()) {
+    char text[96];
+    std::snprintf(text, sizeof text, "%-18s %4.3g x %-4.3g m  ", m.name.c_str(), m.width, m.height);
+    put(text + m.color + "  " + m.doc + "\n");
+    json.beginObject().key("name").value(m.name).key("width").value(m.width);
+    json.key("height").value(m.height).key("color").value(m.color);
+    json.key("doc").value(m.doc).endObject();
+  }
+  json.endArray();
+  answer().member("materials", all);
 }
 
 }  // namespace
@@ -53,19 +70,31 @@ int runAssetPrepare(const AssetArguments& a) {
 
 int runAssetMaterial(const MaterialArguments& a) {
   if (a.name.empty()) {
-    for (const gable::LibraryMaterialInfo& m : gable::libraryMaterials()) {
-      std::printf("%-18s %4.3g x %-4.3g m  %s  %s\n", m.name.c_str(), m.width, m.height,
-                  m.color.c_str(), m.doc.c_str());
-    }
+    listMaterials();
     return kExitDone;
   }
+  const std::vector<gable::LibraryMaterialInfo> all = gable::libraryMaterials();
+  const bool known =
+      std::any_of(all.begin(), all.end(), [&](const auto& m) { return m.name == a.name; });
   const std::string folder = a.folder.empty() ? a.name : a.folder;
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
+  // A name that is none leaves no folder.
+  if (known) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) {
+      return fail(kExitFile, "the folder '" + folder + "' could not be made: " + error.message(),
+                  "name another with -o");
+    }
+  }
   const gable::WriteResult written = gable::writeLibraryMaterial(a.name, folder);
   print(written.diagnostics);
+  if (!known) return kExitUsage;
   if (!written.ok) return statusOf(written.diagnostics, kExitFile);
-  std::printf("%s: 3 pictures, %.0f kB\n", folder.c_str(),
-              static_cast<double>(written.bytes) / 1000);
+  char text[64];
+  std::snprintf(text, sizeof text, ": 3 pictures, %.0f kB\n",
+                static_cast<double>(written.bytes) / 1000);
+  answer().wrote(folder);
+  answer().member("bytes", std::to_string(written.bytes));
+  tell(folder + text);
   return kExitDone;
 }

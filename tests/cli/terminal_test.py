@@ -179,6 +179,23 @@ class Answers(Case):
         told = self.answer("tiles", "good.cga", "--shapes", "lots.geojson", "-o", "t")
         self.assertEqual((told["files"], told["shapes"]), (["t/"], 1))
 
+    def testMaterialsOfTheLibrary(self):
+        listed = self.answer("asset", "material")["materials"]
+        self.assertEqual(sorted(listed[0]), ["color", "doc", "height", "name", "width"])
+        lines = self.ran("asset", "material").stdout.splitlines()
+        self.assertEqual([line.split()[0] for line in lines], [m["name"] for m in listed])
+        told = self.answer("asset", "material", "brick.flemish", "-o", "bricks")
+        self.assertEqual(told["files"], ["bricks"])
+        self.assertEqual(told["bytes"], sum(p.stat().st_size for p in (self.folder / "bricks").iterdir()))
+        done = self.ran("asset", "material", "brick.flemish", "-o", "bricks", "--quiet")
+        self.assertEqual(done.stdout + done.stderr, "")
+        # A name that is none leaves no folder; a folder that cannot be made is told.
+        told = self.answer("asset", "material", "brik", "-o", "none", status=USAGE)
+        self.assertEqual([d["code"] for d in told["diagnostics"]], ["unknown-material"])
+        self.assertFalse((self.folder / "none").exists())
+        done = self.ran("asset", "material", "brick.flemish", "-o", "good.cga/bricks", status=FILE)
+        self.assertIn("good.cga/bricks", done.stderr)
+
     def testWhatIsWrongIsPartOfIt(self):
         told = self.answer("check", "bad.cga", status=WRONG)
         self.assertEqual([d["code"] for d in told["diagnostics"]], ["unknown-operation", "undefined-rule"])
