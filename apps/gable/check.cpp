@@ -9,6 +9,9 @@
 int runCheck(const CheckArguments& arguments) {
   gable::DiagnosticList all;
   bool missing = false;
+  std::string programs;
+  gable::JsonWriter json(programs);
+  json.beginArray();
   for (const std::string& path : arguments.rules) {
     gable::LoadSettings settings{arguments.project, arguments.dialect, {}, arguments.search};
     settings.limits = fileLimits(arguments.limits);
@@ -16,10 +19,13 @@ int runCheck(const CheckArguments& arguments) {
     missing = missing || !rules.found();
     if (arguments.disassemble) {
       put(rules.disassembly());
-      answer().text("disassembly", rules.disassembly());
+      json.beginObject().key("file").value(path);
+      json.key("text").value(rules.disassembly()).endObject();
     }
     all.insert(all.end(), rules.diagnostics().begin(), rules.diagnostics().end());
   }
+  json.endArray();
+  if (arguments.disassemble) answer().member("disassembly", programs);
   const auto errors = static_cast<size_t>(
       std::count_if(all.begin(), all.end(), [](const auto& d) { return d.isError(); }));
   print(all, stdout);

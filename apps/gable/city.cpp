@@ -137,7 +137,9 @@ int runCity(const CityArguments& given) {
   gable::RunFigures figures;
   figures.parseSeconds = secondsNow() - begin;
   if (!arguments.plan.empty()) {
-    if (const int status = writeText(arguments.plan, city.groundGeoJson())) return status;
+    if (const int status = writeText(arguments.plan, city.groundGeoJson(), "plan")) {
+      return status;
+    }
   }
   int status = kExitDone;
   gable::TileResult tiles;
@@ -148,8 +150,7 @@ int runCity(const CityArguments& given) {
     const std::string text =
         gable::cityJson(city.statistics(), figures, tiles.ok ? &tiles : nullptr);
     answer().members(text);
-    if (arguments.stats.empty()) return status;
-    if (const int written = writeText(arguments.stats, text)) return written;
+    if (const int written = writeCounts(arguments.stats, text)) return written;
   }
   return status;
 }

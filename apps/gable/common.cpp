@@ -205,9 +205,9 @@ bool readText(const std::string& path, std::string& text) {
   return read.ok;
 }
 
-int writeText(const std::string& path, const std::string& text) {
+int writeText(const std::string& path, const std::string& text, const char* member) {
   if (path == "-" && terminal().json) {
-    answer().text("text", text);
+    answer().text(member, text);
     return kExitDone;
   }
   if (path == "-") {
@@ -218,6 +218,11 @@ int writeText(const std::string& path, const std::string& text) {
   print(written.diagnostics);
   if (written.ok) answer().wrote(path);
   return written.ok ? kExitDone : kExitFile;
+}
+
+int writeCounts(const std::string& path, const std::string& text) {
+  if (path.empty() || (path == "-" && terminal().json)) return kExitDone;
+  return writeText(path, text);
 }
 
 int finishOutput(int status) {

@@ -106,8 +106,12 @@ double secondsNow();
 /// Reads a whole file; false, with a message, when that fails.
 bool readText(const std::string& path, std::string& text);
 
-/// Writes to a file, or to stdout for "-"; an exit status.
-int writeText(const std::string& path, const std::string& text);
+/// Writes to a file, or to stdout for "-", which is the answer's `member` with --json; an exit
+/// status.
+int writeText(const std::string& path, const std::string& text, const char* member = "text");
+/// The same for --stats: nothing without a path, nor for "-" with --json, whose answer has the
+/// counts as members.
+int writeCounts(const std::string& path, const std::string& text);
 
 /// `status`, or kExitFile with a message when what was printed has not arrived: a full disk.
 int finishOutput(int status);

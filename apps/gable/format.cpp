@@ -8,7 +8,9 @@
 
 int runFormat(const FormatArguments& arguments) {
   int status = kExitDone;
-  std::string names;
+  std::string names, all;
+  gable::JsonWriter texts(all);
+  texts.beginArray();
   gable::JsonWriter changed(names);
   changed.beginArray();
   for (const std::string& path : arguments.files) {
@@ -24,7 +26,9 @@ int runFormat(const FormatArguments& arguments) {
       continue;
     }
     if (arguments.toStdout) {
-      if (const int written = writeText("-", formatted.text)) return written;
+      put(formatted.text);
+      texts.beginObject().key("file").value(path);
+      texts.key("text").value(formatted.text).endObject();
     } else if (formatted.text != text) {
       if (!arguments.check) {
         if (const int written = writeText(path, formatted.text)) return written;
@@ -35,6 +39,8 @@ int runFormat(const FormatArguments& arguments) {
       tell(path + (arguments.check ? " would change\n" : "\n"));
     }
   }
+  texts.endArray();
+  if (arguments.toStdout) answer().member("texts", all);
   changed.endArray();
   answer().member("changed", names);
   return status;

@@ -51,7 +51,7 @@ int generateOnce(const GenerateArguments& arguments) {
 
   if (!arguments.reports.empty()) {
     const std::string table = gable::reportsCsv(model.statistics().reports);
-    if (const int status = writeText(arguments.reports, table)) return status;
+    if (const int status = writeText(arguments.reports, table, "table")) return status;
   }
   figures.parseSeconds = inputs.rules.parseSeconds();
   figures.totalSeconds = secondsNow() - begin;
@@ -59,7 +59,7 @@ int generateOnce(const GenerateArguments& arguments) {
   if (terminal().json) answer().members(gable::statisticsMembers(model, figures));
   if (!arguments.stats.empty()) {
     const std::string text = gable::statisticsJson(model, figures);
-    if (const int status = writeText(arguments.stats, text)) return status;
+    if (const int status = writeCounts(arguments.stats, text)) return status;
   }
   return statusOf(model);
 }

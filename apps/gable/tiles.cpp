@@ -71,7 +71,7 @@ int writeStats(const std::string& path, const gable::TileResult& result, double 
   figures.peakBytes = peakBytes();
   const std::string text = gable::tilesJson(result, figures);
   answer().members(text);
-  return path.empty() ? static_cast<int>(kExitDone) : writeText(path, text);
+  return writeCounts(path, text);
 }
 
 gable::TileSettings tileSettings(const TileArguments& arguments, const LimitArguments& limits) {

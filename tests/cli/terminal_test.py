@@ -179,6 +179,22 @@ class Answers(Case):
         told = self.answer("tiles", "good.cga", "--shapes", "lots.geojson", "-o", "t")
         self.assertEqual((told["files"], told["shapes"]), (["t/"], 1))
 
+    def testEachMemberIsThereOnce(self):
+        self.put("other.cga", "Lot-->X.")
+        told = self.answer("generate", "good.cga", "-o", "a.obj", "--stats", "-", "--reports", "-")
+        self.assertEqual((told["leaves"], told["reports"]["n"]["sum"]), (6, 1))
+        self.assertIn("n,,1,1", told["table"])
+        told = self.answer("check", "good.cga", "other.cga", "--disassemble")["disassembly"]
+        self.assertEqual([one["file"] for one in told], ["good.cga", "other.cga"])
+        self.assertIn("extrude", told[0]["text"])
+        told = self.answer("format", "good.cga", "other.cga", "--stdout")
+        self.assertEqual([one["file"] for one in told["texts"]], ["good.cga", "other.cga"])
+        self.assertEqual((told["texts"][1]["text"], told["changed"]), ("Lot --> X.\n", []))
+        house = {"type": "Polygon", "coordinates": [[[7, 43], [7.0002, 43], [7.0002, 43.0002], [7, 43]]]}
+        self.put("map.geojson", json.dumps({"type": "Feature", "properties": {"building": "house"}, "geometry": house}))
+        told = self.answer("city", "map.geojson", "--plan", "-", "--stats", "-")
+        self.assertEqual(json.loads(told["plan"])["type"], "FeatureCollection")
+
     def testMaterialsOfTheLibrary(self):
         listed = self.answer("asset", "material")["materials"]
         self.assertEqual(sorted(listed[0]), ["color", "doc", "height", "name", "width"])
