@@ -45,6 +45,7 @@ std::string Answer::take(int status) {
   diagnostics_.clear();
   files_.clear();
   own_.clear();
+  given_ = true;
   return out;
 }
 
@@ -54,6 +55,7 @@ Answer& answer() {
 }
 
 void printAnswer(int status) {
-  if (!terminal().json) return;
-  std::fputs(answer().take(status).c_str(), stdout);
+  // Also without --json, so that it does not grow with each run of --watch.
+  const std::string text = answer().take(status);
+  if (terminal().json) std::fputs(text.c_str(), stdout);
 }

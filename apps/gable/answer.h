@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // What a command answers with --json: one object, the same for all commands. Its form is a promise
-// to scripts: docs/reference/answers.md.
+// to scripts: docs/reference/command-line.md#answers.
 //
 //   {"command": "pack", "status": 0, "files": ["a.rpk"], "diagnostics": [], ...what the command
 //   adds}
@@ -32,6 +32,8 @@ class Answer {
 
   /// The object, and makes ready for the next one (--watch).
   std::string take(int status);
+  /// Whether one was taken.
+  bool given() const { return given_; }
 
  private:
   std::string command_;
@@ -39,10 +41,11 @@ class Answer {
   std::vector<std::string> files_;
   /// ",\n \"name\": value" for each.
   std::string own_;
+  bool given_ = false;
 };
 
 /// That of this run; without --json nobody reads it.
 Answer& answer();
 
-/// With --json prints the answer to the standard output.
+/// Takes the answer, and prints it to the standard output with --json.
 void printAnswer(int status);

@@ -592,6 +592,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     status = wrongLine(app, e, argc, argv);
   }
-  printAnswer(status);
+  // --watch has answered for each run.
+  if (!answer().given()) printAnswer(status);
   return finishOutput(status);
 }

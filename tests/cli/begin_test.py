@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The Gable authors
 """Beginning a project, and working on it: `gable new`, and commands that run again: begin_test.py GABLE FOLDER."""
+import json
 import subprocess
 import sys
 import time
@@ -75,6 +76,28 @@ class Watch(Case):
                 self.assertEqual(watching.wait(timeout=10), WRONG)
             finally:
                 watching.kill()
+
+    def testEachRunHasAnAnswer(self):
+        self.put("tower.cga", RULES)
+        with self.watching("generate", "tower.cga", "-o", "out.obj", "--json") as watching:
+            try:
+                told = self.answer_of(watching)
+                time.sleep(1)
+                self.put("tower.cga", "Lot --> extrud(3)\n")
+                told += self.answer_of(watching)
+                watching.send_signal(2)
+                told += watching.communicate(timeout=10)[0]
+                self.assertEqual(watching.returncode, WRONG)
+            finally:
+                watching.kill()
+        answers = [json.loads(text + "}") for text in told.split("\n}\n") if text]
+        self.assertEqual([(a["status"], a["files"]) for a in answers], [(DONE, ["out.obj"]), (WRONG, [])])
+
+    def answer_of(self, watching):
+        told = ""
+        while not told.endswith("\n}\n") and (line := watching.stdout.readline()):
+            told += line
+        return told
 
     def testAFileThatWasMissingMayCome(self):
         with self.watching("render", "tower.cga", "-o", "out.png", "--size", "64x64", "--samples", "1") as watching:
