@@ -147,10 +147,13 @@ int runTilesSubmit(const SubmitArguments& arguments) {
     if (const int status = writeScript(path, text)) return status;
   }
   if (arguments.dry) {
-    tell(run + "\n");
+    put(run + "\n");
+    answer().text("script", run);
     return kExitDone;
   }
-  const int status = std::system(quoted(run).c_str());
+  // With --json the standard output is the answer alone.
+  const std::string command = quoted(run) + (terminal().json ? " >&2" : "");
+  const int status = std::system(command.c_str());
   if (status == 0) return kExitDone;
   return WIFEXITED(status) ? WEXITSTATUS(status) : kExitWrong;
 }

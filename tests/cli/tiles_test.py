@@ -7,6 +7,7 @@ Tilesets are walked: boxes, errors, triangles and the tables of features are hel
 the one-file model. Files are made in FOLDER. Run from the repository's root.
 """
 import json
+import os
 import re
 import resource
 import shutil
@@ -18,7 +19,7 @@ import time
 import unittest
 
 from city_test import MAP, feature, heights, square
-from cli_test import FILE, GABLE, USAGE, WRONG, Case
+from cli_test import DONE, FILE, GABLE, USAGE, WRONG, Case
 
 LIMIT = 4
 
@@ -483,6 +484,18 @@ class Jobs(Case):
             for name in ("submit.sh", "array.sh", "merge.sh"):
                 subprocess.run(["sh", "-n", self.folder / "out/plan" / name], check=True)
             self.assertTrue(script.endswith("out/plan/submit.sh"), script)
+            self.assertEqual(self.tiles("submit", "out", kind, "--dry-run", "--quiet").strip(), script)
+            self.assertEqual(json.loads(self.tiles("submit", "out", kind, "--dry-run", "--json"))["script"], script)
+
+    def testWhatAClusterSaysIsNotInTheAnswer(self):
+        self.plan("out")
+        (self.folder / "bin").mkdir()
+        self.put("bin/sbatch", "#!/bin/sh\necho 5\n")
+        (self.folder / "bin/sbatch").chmod(0o755)
+        done = subprocess.run([str(GABLE), "tiles", "submit", "out", "--slurm", "--json"], cwd=self.folder, text=True,
+                              capture_output=True, check=True, env={**os.environ, "PATH": f"{self.folder}/bin:{os.environ['PATH']}"})
+        self.assertEqual(json.loads(done.stdout)["status"], DONE)
+        self.assertIn("jobs 5, merge 5", done.stderr)
 
     def testCompressedTilesAreSmallAndInPlace(self):
         arguments = ("boxes.cga", "--shapes", "lots.geojson", "--compress", "--tile-triangles", "20000", "-o", "small")
