@@ -92,8 +92,8 @@ Progress::~Progress() {
     }
     end_.notify_one();
     drawer_.join();
-    erase();
   }
+  const Pause pause;
   if (terminal().verbose && !terminal().quiet) {
     std::fprintf(stderr, "%s: %.2f s\n", what_.c_str(), secondsNow() - begin_);
   }
@@ -109,10 +109,7 @@ std::function<void(size_t, size_t)> Progress::callback() {
   };
 }
 
-void Progress::erase() {
-  const std::lock_guard hold(screen());
-  eraseLocked();
-}
+Progress::Pause::Pause() : hold_(screen()) { eraseLocked(); }
 
 void Progress::draw() {
   std::unique_lock hold(lock_);

@@ -28,8 +28,15 @@ class Progress {
   /// Whether a bar may be drawn.
   static bool isShown();
 
-  /// Makes room for a line on the terminal; the bar comes again below it.
-  static void erase();
+  /// Erases the bar and keeps it away while lines are written; it comes again below them. One at a
+  /// time in a thread.
+  class Pause {
+   public:
+    Pause();
+
+   private:
+    std::lock_guard<std::mutex> hold_;
+  };
 
  private:
   void draw();

@@ -108,26 +108,31 @@ void print(const gable::DiagnosticList& diagnostics, std::FILE* stream) {
   gable::DiagnosticList shown = diagnostics;
   if (terminal().quiet) std::erase_if(shown, [](const auto& d) { return !d.isError(); });
   if (shown.empty()) return;
-  Progress::erase();
+  const Progress::Pause pause;
   std::fputs(painted(gable::render(shown), stream).c_str(), stream);
 }
 
 void tell(const std::string& text) {
   if (terminal().json || terminal().quiet) return;
+  const Progress::Pause pause;
   std::fputs(text.c_str(), stdout);
 }
 
 void put(const std::string& text) {
-  if (!terminal().json) std::fputs(text.c_str(), stdout);
+  if (terminal().json) return;
+  const Progress::Pause pause;
+  std::fputs(text.c_str(), stdout);
 }
 
 void note(const std::string& text) {
   if (terminal().json || terminal().quiet) return;
-  Progress::erase();
+  const Progress::Pause pause;
   std::fprintf(stderr, "%s\n", text.c_str());
 }
 
 void printLines(const std::vector<std::string>& lines, std::FILE* stream) {
+  if (lines.empty()) return;
+  const Progress::Pause pause;
   for (const std::string& line : lines) std::fprintf(stream, "%s\n", line.c_str());
 }
 
@@ -140,7 +145,7 @@ int fail(int status, const std::string& message, const std::string& hint) {
     answer().add({d});
     return status;
   }
-  Progress::erase();
+  const Progress::Pause pause;
   const std::string name = "gable: ";
   std::fputs((hasColors(stderr) ? inked(kRed, name) : name).c_str(), stderr);
   std::fprintf(stderr, "%s\n", message.c_str());

@@ -153,6 +153,21 @@ class Bar(Case):
         self.assertRegex(shown, r"deriving  \[#*-*\] +\d+ %  [\d.]+ shapes/s  .* left")
 
 
+    def testWhatRulesPrintStandsApartFromIt(self):
+        lots = [{"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [
+            [[x + 0.001 * i, y] for x, y in ((0, 0), (0.0003, 0), (0.0003, 0.0003), (0, 0.0003), (0, 0))]]}} for i in range(60)]
+        self.put("lots.geojson", json.dumps({"type": "FeatureCollection", "features": lots}))
+        self.put("slow.cga", SLOW.replace("--> ", '--> print("a line") ', 1))
+        self.ran("tiles", "plan", "slow.cga", "--shapes", "lots.geojson", "--job-shapes", "1", "-o", "t", "--no-sharing")
+        jobs = self.answer("tiles", "submit", "t", "--parallel", "--dry-run")["script"]
+        last = int(re.search(r"seq 0 (\d+)", (self.folder / jobs).read_text())[1])
+        status, shown = on_terminal([str(GABLE), "tiles", "job", "t", f"0-{last}", "--threads", "1"], self.folder)
+        self.assertEqual(status, DONE, shown[-500:])
+        self.assertIn("writing tiles  [", shown)
+        told = [line for line in re.split(r"[\r\n]|\x1b\[K", shown) if "a line" in line]
+        self.assertEqual(set(told), {"a line"})
+
+
 class Answers(Case):
     def testEveryCommandAnswersInOneForm(self):
         self.put("a.test", "== one\nrules: good.cga\nexpect:\n  leaves 6\n")
