@@ -8,7 +8,7 @@ foreach(shell ${shells})
 endforeach()
 find_program(GABLE_GZIP gzip)
 if(GABLE_GZIP)
-  list(APPEND commands COMMAND sh -c "${GABLE_GZIP} -9nf ${papers}/man1/*.1")
+  list(APPEND commands COMMAND sh -c [["$0" -9nf "$1"/man1/*.1]] ${GABLE_GZIP} ${papers})
 endif()
 add_custom_command(OUTPUT ${completions} ${papers}/done
                    COMMAND ${CMAKE_COMMAND} -E rm -rf ${papers}

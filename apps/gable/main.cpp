@@ -13,6 +13,7 @@
 #include "cli_tree.h"
 #include "commands.h"
 #include "folders.h"
+#include "gable/files.h"
 #include "gable/names.h"
 #include "tiles.h"
 #include "tiles_viewer.h"
@@ -29,6 +30,13 @@ CLI::Validator number(NumberRange range) {
         return "'" + text + "' is not " + rangeText(range);
       },
       "");
+}
+
+/// ".glb .gltf .png": what models are written as.
+std::string modelEndings() {
+  std::string out;
+  for (const std::string& extension : gable::modelExtensions()) out += "." + extension + " ";
+  return out + ".png";
 }
 
 void addPictureOptions(CLI::App* app, RenderArguments& a) {
@@ -188,9 +196,7 @@ void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
   auto* generate = app.add_subcommand("generate", "Derive rules and write a model");
   generate->add_option("rules", a.derive.rules, "The rule file or package")->required();
   addDeriveOptions(generate, a.derive);
-  generate
-      ->add_option("-o,--output", a.output, "The model: .glb .gltf .usda .usdz .obj .ply .stl .png")
-      ->required();
+  generate->add_option("-o,--output", a.output, "The model: " + modelEndings())->required();
   generate->add_option("--stats", a.stats, "Write counts as JSON to a file, or - for stdout");
   generate->add_option("--reports", a.reports, "Write reports as CSV to a file, or - for stdout");
   addWriting(generate, a.write);
@@ -239,7 +245,7 @@ void addCity(CLI::App& app, CityArguments& a, int& status) {
                    "How houses look: two letters, such as FR (default: by addresses and place)");
   city->add_option("--layer", a.derive.layer, "The layer of the map, where it has several");
   city->add_option("-o,--output", a.output,
-                   "The model: .glb .gltf .obj .ply .stl .png; a folder/ for 3D Tiles");
+                   "The model: " + modelEndings() + "; a folder/ for 3D Tiles");
   addWriting(city, a.write);
   addTileOptions(city, a.tiles);
   city->add_flag("--plan-jobs", a.tiles.onlyPlan,
@@ -423,9 +429,7 @@ void addWatchCommand(CLI::App& app, RenderArguments& a, int& status) {
       app.add_subcommand("watch", "Make a picture or a model again whenever a file changes");
   command->add_option("rules", a.derive.rules, "The rule file or package")->required();
   addDeriveOptions(command, a.derive);
-  command
-      ->add_option("-o,--output", a.output,
-                   "The picture or the model: .png .glb .gltf .obj .ply .stl")
+  command->add_option("-o,--output", a.output, "The picture or the model: " + modelEndings())
       ->required();
   addPictureOptions(command, a);
   command->callback([&a, &status] { status = runWatch(a); });

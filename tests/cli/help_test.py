@@ -19,7 +19,7 @@ import unittest
 from pathlib import Path
 
 import cli_test
-from cli_test import DONE, GABLE
+from cli_test import DONE, GABLE, USAGE
 
 ROOT = Path.cwd()
 COMMAND = re.compile(r"^  ([a-z]+) {2,}", re.M)
@@ -203,8 +203,23 @@ class Completion(Case):
         line = ("source ./complete.bash; COMP_WORDS=(gable generate --output mod); COMP_CWORD=3; _gable; "
                 "echo ${COMPREPLY[*]}; COMP_WORDS=(gable generate --view = mod)")
         self.assertEqual(self.shell(line).stdout, "model.glb\n")
+        (self.folder / " blank .glb").touch()
+        (self.folder / " folder ").mkdir()
+        line = ("source ./complete.bash; COMP_WORDS=(gable generate --output ' '); COMP_CWORD=3; _gable; "
+                "printf '%s|' \"${COMPREPLY[@]}\"")
+        self.assertEqual(self.shell(line).stdout, " folder | blank .glb|")
         line = "source ./complete.bash; COMP_WORDS=(gable render --view = f); COMP_CWORD=4; _gable; echo ${COMPREPLY[*]}"
         self.assertEqual(self.shell(line).stdout, "front\n")
+
+
+class Endings(Case):
+    def testHelpNamesAllFormatsOfModels(self):
+        known = re.search(r"\(([. a-z]+)\)", self.run_gable("generate", "x.cga", "-o", "x.none", status=USAGE))[1].split()
+        self.assertIn(".usdz", known)
+        for command in ("generate", "watch", "city"):
+            told = self.shell(f"gable {command} --help").stdout
+            output = re.search(r"--output .*?(?=\n +-)", told, re.S)[0]
+            self.assertEqual([e for e in known if e + " " not in output.replace("\n", " ").replace(";", " ") + " "], [], command)
 
 
 class Man(Case):
