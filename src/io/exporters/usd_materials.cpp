@@ -10,6 +10,7 @@
 
 #include "base/number.h"
 #include "io/exporters/gltf_materials.h"
+#include "material/library.h"
 #include "scene/flatten.h"
 
 namespace gable {
@@ -28,14 +29,18 @@ std::string pair(double a, double b) { return "(" + numberOf(a) + ", " + numberO
 
 }  // namespace
 
+bool UsdMaterials::isLaid(uint32_t binding) const { return gable::isLaid(material(binding)); }
+
 std::string UsdMaterials::path(uint32_t binding) const { return kScope + bindings_[binding].name; }
 
 uint32_t UsdMaterials::binding(uint32_t material, uint32_t uvMask) {
+  static const Material kDefault;
+  const Material& m = material == kNoMaterial ? kDefault : scene_.materials[material];
+  // The writer makes the coordinates of what is laid.
+  if (gable::isLaid(m)) uvMask = 1;
   const uint64_t key = static_cast<uint64_t>(material) << 32 | uvMask;
   const auto [at, isNew] = known_.try_emplace(key, static_cast<uint32_t>(bindings_.size()));
   if (!isNew) return at->second;
-  static const Material kDefault;
-  const Material& m = material == kNoMaterial ? kDefault : scene_.materials[material];
   Binding b = make(m, uvMask);
   // Masks that differ in sets which no texture reads are one material in all but their uv sets.
   b.name = names_.unique(m.name.empty() ? "color_" + colorText(m.color).substr(1) : m.name);

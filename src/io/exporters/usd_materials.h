@@ -26,6 +26,8 @@ class UsdMaterials {
   uint32_t binding(uint32_t material, uint32_t uvMask);
   /// The uv sets that its textures read; bit 0 always where the surface has it.
   uint32_t uvMask(uint32_t binding) const { return bindings_[binding].uvMask; }
+  /// Its textures lie in metres: uv set 0 is that of layingOf, whatever the surface has.
+  bool isLaid(uint32_t binding) const;
   const Material& material(uint32_t binding) const { return *bindings_[binding].material; }
   std::string path(uint32_t binding) const;
   const std::vector<ModelTexture>& images() const { return textures_.all(); }

@@ -35,6 +35,9 @@ Point pointOf(const Vec3& v) {
 
 Vec3 vecOf(const Point& p) { return {p[0], p[1], p[2]}; }
 
+// In single precision.
+bool isNumber(double v) { return std::isfinite(static_cast<float>(v)); }
+
 bool hasArea(const Point& a, const Point& b, const Point& c) {
   const Vec3 n = cross(vecOf(b) - vecOf(a), vecOf(c) - vecOf(a));
   return isFinite(n) && dot(n, n) > 0;
@@ -89,7 +92,8 @@ class UsdWriter {
                       const Vec3& scale);
   void writeMeshes(uint32_t unit, UsdNames& names);
   std::vector<MeshGroup> groupsOf();
-  void add(const PlannedLeaf& planned, uint16_t slot, uint32_t uvMask, MeshText& mesh);
+  const Surface& surfaceOf(uint32_t mesh, bool laid);
+  void add(const PlannedLeaf& planned, uint16_t slot, uint32_t binding, MeshText& mesh);
   void writeMesh(const MeshGroup& group, const std::string& name, const MeshText& mesh);
   void writePoints(const char* head, size_t count, const std::function<Vec3(size_t)>& at,
                    const char* end);
@@ -112,7 +116,10 @@ class UsdWriter {
   // Of the unit at hand.
   UnitContent content_;
   FaceTriangulator triangulator_;
-  Surface surface_;
+  // Meshes that the unit draws twice, be it in two slots, are kept: by mesh, and whether laid.
+  std::map<uint32_t, uint32_t> draws_;
+  std::map<std::pair<uint32_t, bool>, Surface> surfaces_;
+  Surface single_;
   uint64_t brokenFaces_ = 0;
 };
 
@@ -213,6 +220,8 @@ void UsdWriter::writePrototypes() {
 
 std::vector<MeshGroup> UsdWriter::groupsOf() {
   std::vector<MeshGroup> groups;
+  draws_.clear();
+  surfaces_.clear();
   std::map<std::array<uint32_t, 3>, size_t> known;
   for (uint32_t i = 0; i < content_.leaves.size(); ++i) {
     work();
@@ -225,28 +234,43 @@ std::vector<MeshGroup> UsdWriter::groupsOf() {
       const auto [at, isNew] = known.try_emplace({leaf.name, leaf.source, b}, groups.size());
       if (isNew) groups.push_back({leaf.name, leaf.source, b, {}});
       groups[at->second].draws.emplace_back(i, slot.slot);
+      uint32_t& draws = draws_[leaf.mesh];
+      draws += draws < 2 ? 1 : 0;
     }
   }
   return groups;
 }
 
-void UsdWriter::add(const PlannedLeaf& planned, uint16_t slot, uint32_t uvMask, MeshText& mesh) {
+// Faces of what is laid stay apart: each has coordinates of its own.
+const Surface& UsdWriter::surfaceOf(uint32_t mesh, bool laid) {
+  if (draws_[mesh] < 2) {
+    single_.build(*scene_.meshes[mesh], triangulator_, laid);
+    return single_;
+  }
+  const auto [at, isNew] = surfaces_.try_emplace({mesh, laid});
+  if (isNew) at->second.build(*scene_.meshes[mesh], triangulator_, laid);
+  return at->second;
+}
+
+void UsdWriter::add(const PlannedLeaf& planned, uint16_t slot, uint32_t binding, MeshText& mesh) {
   const Leaf& leaf = scene_.leaves[planned.leaf];
   const Mesh& m = *scene_.meshes[leaf.mesh];
   const bool own = planned.placement == ScenePlan::kNone;
   const Frame world = own ? Frame{} : content_.placements[planned.placement] * leaf.frame;
   const Vec3 scale = own ? Vec3{1, 1, 1} : leaf.scale;
   const bool turn = ((scale.x < 0) != (scale.y < 0)) != (scale.z < 0);
-  surface_.build(m, triangulator_);
-  const SurfacePart* part = surface_.part(slot);
+  const bool laid = materials_.isLaid(binding);
+  const uint32_t uvMask = materials_.uvMask(binding);
+  const Surface& surface = surfaceOf(leaf.mesh, laid);
+  const SurfacePart* part = surface.part(slot);
   if (!part) return;
   std::vector<uint32_t> placed;
   for (uint32_t f = part->firstFace; f < part->firstFace + part->faceCount; ++f) {
-    const SurfaceFace& face = surface_.faces[f];
+    const SurfaceFace& face = surface.faces[f];
     work(face.vertexCount + face.triangleCount);
     std::vector<Point> points(face.vertexCount);
     for (uint32_t v = 0; v < face.vertexCount; ++v) {
-      const uint32_t corner = surface_.corners[face.firstVertex + v];
+      const uint32_t corner = surface.corners[face.firstVertex + v];
       points[v] = pointOf(world.point(scaled(m.positions[m.corners[corner]], scale)));
     }
     const bool finite = std::all_of(points.begin(), points.end(),
@@ -256,13 +280,18 @@ void UsdWriter::add(const PlannedLeaf& planned, uint16_t slot, uint32_t uvMask, 
       continue;
     }
     placed.assign(face.vertexCount, ScenePlan::kNone);
+    const FaceAxes axes = laid ? layingOf(m, surface, face, world, scale) : FaceAxes{};
     const auto place = [&](uint32_t v) {
       if (placed[v] == ScenePlan::kNone) {
         placed[v] = static_cast<uint32_t>(mesh.points.size());
-        const uint32_t vertex = face.firstVertex + v, corner = surface_.corners[vertex];
+        const uint32_t vertex = face.firstVertex + v, corner = surface.corners[vertex];
         mesh.points.push_back(points[v]);
-        mesh.normals.push_back(world.direction(scaledNormal(surface_.normals[vertex], scale)));
-        for (int s = 0; s < kUvSets; ++s) {
+        mesh.normals.push_back(world.direction(scaledNormal(surface.normals[vertex], scale)));
+        if (laid) {
+          const Vec2 uv = axes.at(vecOf(points[v]));
+          mesh.uvs[0].push_back(isNumber(uv.x) && isNumber(uv.y) ? uv : Vec2{});
+        }
+        for (int s = 0; s < kUvSets && !laid; ++s) {
           if (uvMask >> s & 1)
             mesh.uvs[static_cast<size_t>(s)].push_back(m.uvs[static_cast<size_t>(s)][corner]);
         }
@@ -270,7 +299,7 @@ void UsdWriter::add(const PlannedLeaf& planned, uint16_t slot, uint32_t uvMask, 
       mesh.indices.push_back(placed[v]);
     };
     for (uint32_t t = face.firstTriangle; t < face.firstTriangle + face.triangleCount; ++t) {
-      const std::array<uint32_t, 3>& abc = surface_.triangles[t];
+      const std::array<uint32_t, 3>& abc = surface.triangles[t];
       if (!hasArea(points[abc[0]], points[abc[1]], points[abc[2]])) continue;
       for (const size_t k : {0, turn ? 2 : 1, turn ? 1 : 2}) place(abc[k]);
     }
@@ -341,7 +370,6 @@ void UsdWriter::writeMeshes(uint32_t unit, UsdNames& names) {
   plan_.collect(unit, content_);
   for (const MeshGroup& group : groupsOf()) {
     const std::string& symbol = group.name < scene_.names.size() ? scene_.names[group.name] : "";
-    const uint32_t mask = materials_.uvMask(group.binding);
     MeshText mesh;
     const auto put = [&] {
       if (mesh.indices.empty()) return;
@@ -352,7 +380,7 @@ void UsdWriter::writeMeshes(uint32_t unit, UsdNames& names) {
     for (const auto& [leaf, slot] : group.draws) {
       if (out_.failed()) return;
       workMemory(mesh.points.capacity() * sizeof(Point));
-      add(content_.leaves[leaf], slot, mask, mesh);
+      add(content_.leaves[leaf], slot, group.binding, mesh);
       if (mesh.points.size() > kMostVertices) put();
     }
     put();

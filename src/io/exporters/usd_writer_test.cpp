@@ -6,9 +6,12 @@
 #include <filesystem>
 
 #include "base/files.h"
+#include "base/work.h"
+#include "io/image/png.h"
 #include "io/exporters/usd_text.h"
 #include "io/exporters/write_model.h"
 #include "io/testing/scenes.h"
+#include "material/library.h"
 
 namespace gable {
 namespace {
@@ -75,6 +78,77 @@ TEST(UsdWriter, namesAreIdentifiersAndTheirTextIsKept) {
   EXPECT_EQ(names.unique(""), "part");
   EXPECT_EQ(usdText("a\n\\\x01"), "\"a\\x0a\\\\\\x01\"");
   EXPECT_EQ(usdAsset("x@y.png"), "@x_y.png@");
+}
+
+// A wall of 4 x 2 m without coordinates of its own: metres, and the tile in UsdTransform2d.
+TEST(UsdWriter, laidMaterialsCountInMetres) {
+  SceneBuilder b;
+  const LibraryMaterial& brick = *libraryMaterial("brick.flemish");
+  const uint32_t bricks = b.material(laidMaterial(brick, nullptr));
+  b.leaf(kUnitBox, Frame::moved({0, 1, 0}), {4, 2, 0.5}, bricks);
+  b.leaf(kUnitBoxUv, Frame::moved({8, 1, 0}), {4, 2, 0.5}, bricks);
+  b.root("lot", b.prototype("Wall"), Frame{});
+  WriteOptions o;
+  o.readTexture = [](const std::string&) -> Result<std::string> {
+    return testing::picture(2, false);
+  };
+  const std::string path = inWritten("laid.usda");
+  auto r = writeModel(b.scene, path, o);
+  ASSERT_TRUE(r.ok()) << r.error().message;
+  const std::string text = readFile(path).value();
+  EXPECT_EQ(countOf(text, "def Material "), 1u);
+  EXPECT_NE(text.find("Texture_color.outputs:rgb"), std::string::npos);
+  EXPECT_NE(text.find("float2 inputs:scale = (0.74"), std::string::npos);
+  const size_t at = text.find("primvars:st = [");
+  ASSERT_NE(at, std::string::npos);
+  const std::string uvs = text.substr(at, text.find(']', at) - at);
+  // Courses are level: v is the height in the model, on both boxes.
+  EXPECT_NE(uvs.find(", 1)"), std::string::npos);
+  EXPECT_NE(uvs.find(", 3)"), std::string::npos);
+  EXPECT_EQ(countOf(uvs, "("), 48u);
+}
+
+class Counter final : public WorkMeter {
+ public:
+  bool look(uint64_t count, uint64_t) override {
+    units += count;
+    return true;
+  }
+  uint64_t units = 0;
+};
+
+// A mesh of many slots is prepared once, and its parts come out each in its own material.
+TEST(UsdWriter, slotsOfOneMeshAreAsManyMeshes) {
+  constexpr uint32_t kSlots = 2000;
+  SceneBuilder b;
+  MeshBuilder mesh;
+  std::vector<uint32_t> list;
+  for (uint32_t i = 0; i < kSlots; ++i) {
+    const double x = i;
+    std::vector<uint32_t> triangle;
+    for (const Vec3& p : {Vec3{x, 0, 0}, Vec3{x + 1, 0, 0}, Vec3{x, 1, 0}}) {
+      triangle.push_back(mesh.addPosition(p));
+    }
+    mesh.addPolygon(triangle, static_cast<uint16_t>(i));
+    Material own;
+    own.color = {i / 2000.0, 0, 0};
+    b.scene.materials.push_back(own);
+    list.push_back(static_cast<uint32_t>(b.scene.materials.size() - 1));
+  }
+  b.scene.materialLists.push_back(list);
+  b.leaf(b.mesh(mesh.take()), Frame{}, {1, 1, 1},
+         static_cast<uint32_t>(b.scene.materialLists.size() - 1));
+  b.root("lot", b.prototype("Parts"), Frame{});
+  Counter meter;
+  WriteReport report;
+  std::string text;
+  {
+    const WorkScope scope(meter);
+    text = written(b.scene, "slots.usda", &report);
+  }
+  EXPECT_EQ(report.triangles, kSlots);
+  EXPECT_EQ(countOf(text, "def Mesh "), kSlots);
+  EXPECT_LT(meter.units, 100u * kSlots);
 }
 
 TEST(UsdWriter, brokenNumbersAreLeftOut) {
