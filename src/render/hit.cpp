@@ -6,6 +6,7 @@
 // (Hanika 2021, Hacking the Shadow Terminator), so that low-polygon crowns cast no facet shadows on
 // themselves.
 
+#include <array>
 #include <bit>
 
 #include "material/laying.h"
@@ -61,6 +62,22 @@ Vec2f uvAt(const TriangleSet& set, const Corners& c, int uvSet, float u, float v
   return {a.x * w + b.x * u + d.x * v, a.y * w + b.y * u + d.y * v};
 }
 
+Vec3 wide(const Vec3f& v) { return {v.x, v.y, v.z}; }
+
+Vec3f turned(const Placement* p, const Vec3f& d) {
+  return p ? p->x * d.x + p->y * d.y + p->z * d.z : d;
+}
+
+/// The corners of a triangle in the world.
+std::array<Vec3f, 3> cornersAt(const TriangleSet& set, uint32_t triangle, const Placement* p) {
+  std::array<Vec3f, 3> at;
+  for (size_t k = 0; k < 3; ++k) {
+    at[k] = turned(p, set.positions[set.corners[triangle][k]]);
+    if (p) at[k] += p->origin;
+  }
+  return at;
+}
+
 /// Reads texture layers at one point of a triangle.
 class LayerReader {
  public:
@@ -68,21 +85,24 @@ class LayerReader {
               const Corners& corners, float u, float v)
       : world_(world), material_(material), set_(set), corners_(corners), u_(u), v_(v) {}
 
-  /// Where a laid material's textures are read.
-  void lay(Vec2f at) { laidAt_ = at; }
+  /// Where a laid material's textures are read: at a point of the world, on a face with these axes.
+  void lay(const FaceAxes& axes, const Vec3f& point) {
+    const Vec2 metres = axes.at(wide(point));
+    laidAt_ = {static_cast<float>(metres.x), static_cast<float>(metres.y)};
+  }
 
   bool read(TextureLayer layer, std::array<float, 4>& value) const {
     const size_t i = static_cast<size_t>(layer);
     const TextureLookup& map = material_.maps[i];
     if (map.image < 0) return false;
+    const bool isColor = layer == TextureLayer::Color || layer == TextureLayer::Dirt ||
+                         layer == TextureLayer::Emissive;
     if (material_.laid) {
-      value = world_.textures.sample(map, laidAt_, layer == TextureLayer::Color);
+      value = world_.textures.sample(map, laidAt_, isColor);
       return true;
     }
     const int uvSet = setOf(corners_, i);
     if (uvSet < 0) return false;
-    const bool isColor = layer == TextureLayer::Color || layer == TextureLayer::Dirt ||
-                         layer == TextureLayer::Emissive;
     value = world_.textures.sample(map, uvAt(set_, corners_, uvSet, u_, v_), isColor);
     return true;
   }
@@ -110,12 +130,6 @@ class LayerReader {
 };
 
 Vec3f colorOf(const std::array<float, 4>& texel) { return {texel[0], texel[1], texel[2]}; }
-
-Vec3f turned(const Placement* p, const Vec3f& d) {
-  return p ? p->x * d.x + p->y * d.y + p->z * d.z : d;
-}
-
-Vec3 wide(const Vec3f& v) { return {v.x, v.y, v.z}; }
 
 /// The same for a laid material, whose directions follow from the face.
 void bendLaidNormal(const FaceAxes& axes, const std::array<float, 4>& texel, Surface& s) {
@@ -151,11 +165,19 @@ void bendNormal(const TriangleSet& set, const Corners& c, const Vec3f corner[3],
 
 }  // namespace
 
-float clearness(const World& world, const TriangleSet& set, uint32_t triangle, float u, float v) {
+float clearness(const World& world, const TriangleSet& set, uint32_t triangle, uint32_t placement,
+                float u, float v) {
   const SurfaceMaterial& material = world.materials[set.materials[triangle]];
   Corners corners;
   readCorners(set, triangle, corners);
-  return 1 - LayerReader(world, material, set, corners, u, v).opacity();
+  LayerReader layers(world, material, set, corners, u, v);
+  if (material.laid) {
+    const Placement* const placed = placement == kNone ? nullptr : &world.placements[placement];
+    const std::array<Vec3f, 3> at = cornersAt(set, triangle, placed);
+    const Vec3f a = at[1] - at[0], b = at[2] - at[0];
+    layers.lay(layingAxes(normalized(wide(cross(a, b)))), at[0] + a * u + b * v);
+  }
+  return 1 - layers.opacity();
 }
 
 Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray) {
@@ -180,11 +202,7 @@ Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray) {
 
   Corners corners;
   if (!readCorners(set, hit.triangle, corners) && !m.laid) return s;
-  Vec3f at[3];
-  for (size_t k = 0; k < 3; ++k) {
-    at[k] = turned(placement, set.positions[set.corners[hit.triangle][k]]);
-    if (placement) at[k] += placement->origin;
-  }
+  const std::array<Vec3f, 3> at = cornersAt(set, hit.triangle, placement);
   const float w = 1 - hit.u - hit.v;
   if (corners.smooth) {
     Vec3f n[3];
@@ -208,8 +226,7 @@ Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray) {
   FaceAxes axes;
   if (m.laid) {
     axes = layingAxes(normalized(wide(hit.normal)));
-    const Vec2 metres = axes.at(wide(ray.origin + ray.direction * hit.distance));
-    layers.lay({static_cast<float>(metres.x), static_cast<float>(metres.y)});
+    layers.lay(axes, ray.origin + ray.direction * hit.distance);
   }
   std::array<float, 4> texel;
   if (layers.read(TextureLayer::Color, texel)) s.base *= colorOf(texel);
@@ -224,7 +241,7 @@ Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray) {
     if (m.laid)
       bendLaidNormal(axes, texel, s);
     else
-      bendNormal(set, corners, at, texel, s);
+      bendNormal(set, corners, at.data(), texel, s);
   }
   if (hit.clear) s.opacity = layers.opacity();
 

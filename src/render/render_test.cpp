@@ -9,7 +9,9 @@
 #include <limits>
 #include <map>
 
+#include "material/library.h"
 #include "render/test_scenes.h"
+#include "render/tracer.h"
 
 namespace gable {
 namespace {
@@ -323,6 +325,40 @@ TEST(Render, cutOutTexelsShowWhatIsBehind) {
   opaque.opacityMode = OpacityMode::Opaque;
   const Vec3 solid = meanOf(planOfTexturedQuad(textures, opaque).image, 0.72, 0.72, 0.78, 0.78);
   EXPECT_LT(luminanceOf(through), 0.6 * luminanceOf(solid));
+}
+
+// A quad of one tile, a quarter of which is clear: that is the light that gets through.
+TEST(Render, cutOutTexelsOfLaidMaterialsLetLightThrough) {
+  const OneTexture textures = quarters();
+  Material laid;
+  laid.shader = std::string(kLaidShader) + "own";
+  laid.opacityMode = OpacityMode::Blend;
+  TextureMap& map = laid.map(TextureLayer::Color);
+  map.path = "quarters.png";
+  map.su = map.sv = 0.1;
+  SceneMaker m;
+  Leaf quad;
+  quad.mesh = kUnitQuadXz;
+  quad.scale = {10, 1, 10};
+  quad.materials = m.material(laid);
+  m.leaves.push_back(quad);
+  const rt::World world = rt::makeWorld(m.finish(), &textures);
+  const rt::TriangleSet& set = world.parts[0].clear;
+  ASSERT_EQ(set.corners.size(), 2u);
+  constexpr int kSteps = 40;
+  double sum = 0;
+  int points = 0;
+  for (uint32_t triangle = 0; triangle < 2; ++triangle) {
+    for (int i = 0; i < kSteps; ++i) {
+      for (int k = 0; i + k < kSteps; ++k) {
+        const float u = (static_cast<float>(i) + 0.33f) / kSteps;
+        const float v = (static_cast<float>(k) + 0.33f) / kSteps;
+        sum += static_cast<double>(rt::clearness(world, set, triangle, rt::kNone, u, v));
+        ++points;
+      }
+    }
+  }
+  EXPECT_NEAR(sum / points, 0.25, 0.02);
 }
 
 TEST(Render, clearPanesLetSunlightThrough) {

@@ -35,7 +35,10 @@ void passClear(const RTCFilterFunctionNArguments* args) {
   if (args->valid[0] != -1) return;
   const unsigned triangle = RTCHitN_primID(args->hit, 1, 0);
   const float u = RTCHitN_u(args->hit, 1, 0), v = RTCHitN_v(args->hit, 1, 0);
-  const float share = clearness(*geometry.world, *geometry.set, triangle, u, v);
+  const unsigned instance = RTCHitN_instID(args->hit, 1, 0, 0);
+  const uint32_t placement =
+      instance == RTC_INVALID_GEOMETRY_ID ? kNone : instance - kFirstPlacement;
+  const float share = clearness(*geometry.world, *geometry.set, triangle, placement, u, v);
   auto& shadow = *reinterpret_cast<ShadowContext*>(args->context);
   shadow.visibility *= share;
   if (shadow.visibility > 1e-3f) args->valid[0] = 0;

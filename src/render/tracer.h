@@ -52,8 +52,10 @@ class Tracer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The share of light that passes straight through a triangle of a `clear` set.
-float clearness(const World& world, const TriangleSet& set, uint32_t triangle, float u, float v);
+/// The share of light that passes straight through a triangle of a `clear` set, at the barycentric
+/// coordinates of the second and third corner; `placement` as in Hit.
+float clearness(const World& world, const TriangleSet& set, uint32_t triangle, uint32_t placement,
+                float u, float v);
 
 /// What lies at a hit, seen along the ray's direction.
 Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray);
