@@ -180,6 +180,7 @@ void ScenePlan::measure() {
 }
 
 void ScenePlan::joinRoots() {
+  joined_ = true;
   groups_.assign(1, {});
   groupOf_.assign(scene_.roots.size(), 0);
   for (uint32_t r = 0; r < scene_.roots.size(); ++r) groups_[0].roots.push_back(r);
@@ -385,8 +386,7 @@ void ScenePlan::makeUnits() {
     units_.push_back({kNone, kNone, !share_, {}, kNone, group});
     addRoot(unit, root, Frame::moved(groups_[group].home));
   };
-  const bool joined = groups_.size() == 1 && groups_[0].roots.size() == scene_.roots.size();
-  if (joined) {
+  if (joined_) {
     addGroup(0, PlannedRoot::kAll);
     return;
   }

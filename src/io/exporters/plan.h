@@ -9,8 +9,7 @@
 //   - a prototype that is placed several times, when it is not small;
 //   - a large mesh (a tree, a statue) that several leaves place;
 //   - the content of many roots: of small ones of one name that stand near each other, when nodes
-//   are
-//     short; of all roots, when there are too many of them, or nothing is shared.
+//     are short; of all roots, when there are too many of them, or nothing is shared.
 // Prototypes of equal content are one, whatever made them.
 // A prototype placed once is merged into the unit around it. A prototype placed several times takes
 // its own children in when writing them again costs less than the nodes for each placement.
@@ -155,6 +154,8 @@ class ScenePlan {
   /// What a node costs.
   double nodeBytes_ = 0;
   bool grouped_ = false;
+  /// All roots are one group.
+  bool joined_ = false;
   /// By prototype: the first of equal content.
   std::vector<uint32_t> same_;
   Cost cost_;

@@ -103,6 +103,22 @@ TEST(Plan, smallRootsOfANameAreOneNodeWhereNodesAreShort) {
   expectWhole(b.scene);
 }
 
+// A group that has all roots is no model as a whole: its node is called as they are.
+TEST(Plan, smallRootsOfOneNameKeepIt) {
+  SceneBuilder b;
+  const uint32_t post = wall(b, 40);
+  for (int i = 0; i < 60; ++i) {
+    b.leaf(kUnitBox, Frame{}, {1.0 + i, 1, 1});
+    b.instance(post, Frame::moved({0, 0, 2}));
+    b.root("kerb", b.prototype("Kerb"), Frame::moved({10, 0, 100}));
+  }
+  const ScenePlan plan(b.scene, {true, 80});
+  ASSERT_EQ(plan.roots().size(), 1u);
+  EXPECT_EQ(plan.roots()[0].root, 0u);
+  expectWhole(b.scene);
+  EXPECT_EQ(ScenePlan(b.scene, {true, 20}).roots()[0].root, PlannedRoot::kAll);
+}
+
 TEST(Plan, wideUnitsAreCutIntoCells) {
   SceneBuilder b;
   for (int i = 0; i < 4000; ++i) {
