@@ -78,13 +78,14 @@ std::string usdText(std::string_view text) {
   return out + '"';
 }
 
-std::string usdAsset(const std::string& path) {
-  std::string out = path;
-  for (char& c : out) {
+std::string usdFileName(std::string name) {
+  for (char& c : name) {
     if (c == '@' || static_cast<unsigned char>(c) < 0x20) c = '_';
   }
-  return "@" + out + "@";
+  return name;
 }
+
+std::string usdAsset(const std::string& path) { return "@" + usdFileName(path) + "@"; }
 
 std::string usdVec(const Vec3& v) {
   std::string out = "(";

@@ -30,7 +30,9 @@ class UsdNames {
 
 /// A text in quotes.
 std::string usdText(std::string_view text);
-/// The path of a file between at signs.
+/// Without what the path of an asset cannot hold: files to which a layer refers are called so.
+std::string usdFileName(std::string name);
+/// The path of a file between at signs, as usdFileName.
 std::string usdAsset(const std::string& path);
 /// "(0.5, 1, 2)" in single precision.
 std::string usdVec(const Vec3& v);

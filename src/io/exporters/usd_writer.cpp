@@ -43,6 +43,13 @@ bool hasArea(const Point& a, const Point& b, const Point& c) {
   return isFinite(n) && dot(n, n) > 0;
 }
 
+// What the files of textures beside a layer begin with.
+std::string textureStem(const std::string& path) {
+  const std::string file = fileNameOf(path);
+  return path.substr(0, path.size() - file.size()) +
+         usdFileName(file.substr(0, file.size() - extensionOf(path).size() - 1));
+}
+
 // What becomes one mesh: the leaves of a unit that one place in the rules made of one material.
 struct MeshGroup {
   uint32_t name = 0, source = 0, binding = 0;
@@ -62,7 +69,7 @@ class UsdWriter {
   UsdWriter(const Scene& scene, const std::string& path, const WriteOptions& options)
       : scene_(scene),
         path_(path),
-        stem_(path.substr(0, path.size() - extensionOf(path).size() - 1)),
+        stem_(textureStem(path)),
         packed_(extensionOf(path) == "usdz"),
         plan_(scene,
               {options.instancing != WriteOptions::Instancing::None,

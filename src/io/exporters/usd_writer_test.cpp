@@ -92,10 +92,16 @@ TEST(UsdWriter, laidMaterialsCountInMetres) {
   o.readTexture = [](const std::string&) -> Result<std::string> {
     return testing::picture(2, false);
   };
-  const std::string path = inWritten("laid.usda");
+  const std::string path = inWritten("laid@2.usda");
   auto r = writeModel(b.scene, path, o);
   ASSERT_TRUE(r.ok()) << r.error().message;
   const std::string text = readFile(path).value();
+  // What a path between at signs cannot hold is not in the names of files.
+  EXPECT_NE(text.find("= @./laid_2-brick"), std::string::npos);
+  for (size_t i = 1; i < r->files.size(); ++i) {
+    EXPECT_NE(text.find("@./" + fileNameOf(r->files[i]) + "@"), std::string::npos) << r->files[i];
+    EXPECT_TRUE(readFile(r->files[i]).ok());
+  }
   EXPECT_EQ(countOf(text, "def Material "), 1u);
   EXPECT_NE(text.find("Texture_color.outputs:rgb"), std::string::npos);
   EXPECT_NE(text.find("float2 inputs:scale = (0.74"), std::string::npos);
