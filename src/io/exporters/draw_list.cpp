@@ -55,8 +55,10 @@ struct Look {
   int roughness = 10, metallic = 0, opacity = 20;
   int cutoff = -1;
   uint32_t emissive = 0;
+  /// Its coordinates are metres.
+  bool laid = false;
   auto tie() const {
-    return std::tie(map, su, sv, tu, tv, rw, roughness, metallic, opacity, cutoff, emissive);
+    return std::tie(map, su, sv, tu, tv, rw, roughness, metallic, opacity, cutoff, emissive, laid);
   }
   bool operator<(const Look& o) const { return tie() < o.tie(); }
 };
@@ -72,6 +74,7 @@ Look lookOf(const Material& m) {
   Look l;
   const TextureMap& map = m.map(TextureLayer::Color);
   l.map = map.path;
+  l.laid = isLaid(m);
   if (!l.map.empty())
     std::tie(l.su, l.sv, l.tu, l.tv, l.rw) = std::tie(map.su, map.sv, map.tu, map.tv, map.rw);
   l.roughness = static_cast<int>(std::lround(std::clamp(m.roughness, 0.0, 1.0) * 10));

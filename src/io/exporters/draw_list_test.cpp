@@ -9,6 +9,7 @@
 
 #include "base/json.h"
 #include "io/testing/scenes.h"
+#include "material/library.h"
 
 namespace gable {
 namespace {
@@ -67,6 +68,19 @@ double volume(const Read& r, const JsonValue& batch) {
     }
   }
   return sum;
+}
+
+// The coordinates of one are metres, those of the other its own.
+TEST(DrawList, whatIsLaidIsALookOfItsOwn) {
+  SceneBuilder b;
+  Material laid;
+  laid.map(TextureLayer::Color).path = "wall.png";
+  Material plain = laid;
+  laid.shader = std::string(kLaidShader) + "own";
+  b.leaf(kUnitBoxUv, Frame{}, {4, 2, 1}, b.material(plain));
+  b.leaf(kUnitBoxUv, Frame::moved({9, 0, 0}), {4, 2, 1}, b.material(laid));
+  const Read r = readBack(drawList(placed(b)));
+  EXPECT_EQ(r.head["looks"].size(), 2u);
 }
 
 TEST(DrawList, boxesAreInstancesWhateverTheirColourAndMirroring) {
