@@ -211,12 +211,21 @@ Result<Material> Project::material(std::string_view path, std::string_view fromF
   if (file.empty()) {
     return Error{"missing-file", "there is no file '" + std::string(path) + "'", kWherePathsStart};
   }
+  // Once, as models are.
+  const UncountedWork uncounted;
+  std::lock_guard lock(mutex_);
+  auto at = materials_.find(file);
+  if (at == materials_.end()) at = materials_.emplace(file, readMaterial(file)).first;
+  return at->second;
+}
+
+Result<Material> Project::readMaterial(const std::string& file) const {
   Result<std::string> text = where_.read(file, kMaxTextLength);
   if (!text.ok()) return text.error();
   std::vector<std::string> losses;
   const std::vector<Material> all = parseMtl(*text, projectPath(file), losses);
   if (all.empty()) {
-    return Error{"bad-material", "'" + std::string(path) + "' has no material",
+    return Error{"bad-material", "'" + projectPath(file) + "' has no material",
                  "a material of an MTL file begins with 'newmtl' and its name"};
   }
   return all[0];

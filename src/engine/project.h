@@ -61,12 +61,14 @@ class Project final : public Assets {
     std::string why;
   };
   Result<Asset> read(const std::string& file, bool zUp) const;
+  Result<Material> readMaterial(const std::string& file) const;
   void embed(std::map<std::string, std::string>& textures);
 
   FileSearch where_;
   mutable std::mutex mutex_;
   std::map<std::string, ModelEntry> models_;
   std::map<std::string, ImageInfo> images_;
+  std::map<std::string, Result<Material>> materials_;
   TextureBytes embedded_;
   /// Built-in textures that have been asked for, as PNG.
   std::map<std::string, std::string> builtins_;

@@ -312,11 +312,11 @@ Status setLibraryMaterial(Shape& s, std::string_view name, const Vec3* tint, Ser
     m = laidMaterial(*entry, tint);
   } else {
     const std::string path = "materials/" + std::string(name) + "/material.mtl";
-    if (!services.assets().exists(path, file)) {
+    Result<Material> own = services.assets().material(path, file);
+    if (!own.ok() && own.error().code == "missing-file") {
       return Status::failure("unknown-material", "there is no material '" + std::string(name) + "'",
                              materialHint(name));
     }
-    Result<Material> own = services.assets().material(path, file);
     if (!own.ok()) {
       return Status::failure("bad-material", own.error().message, own.error().hint);
     }
