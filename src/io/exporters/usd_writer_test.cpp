@@ -7,9 +7,9 @@
 
 #include "base/files.h"
 #include "base/work.h"
-#include "io/image/png.h"
 #include "io/exporters/usd_text.h"
 #include "io/exporters/write_model.h"
+#include "io/image/png.h"
 #include "io/testing/scenes.h"
 #include "material/library.h"
 
