@@ -49,6 +49,17 @@ enum class SurfaceKind : uint8_t {
 
 enum class Bond : uint8_t { Stretcher, Header, Flemish, English, Stack, Random };
 
+/// What a surface has beside its layout.
+enum class SurfaceExtra : uint8_t {
+  None,
+  /// Masonry: holes of the ties of formwork.
+  Ties,
+  /// Grain: chips of stone in tar.
+  Chips,
+  /// Grain: ripples of wind, `joint` metres long.
+  Ripples,
+};
+
 struct LibraryMaterial {
   const char* name;
   /// One sentence for lists.
@@ -73,6 +84,7 @@ struct LibraryMaterial {
   /// KHR_materials_ior, KHR_materials_transmission, KHR_materials_clearcoat; as glTF has them by
   /// default.
   double ior = 1.5, transmission = 0, clearcoat = 0;
+  SurfaceExtra extra = SurfaceExtra::None;
 };
 
 /// Sorted by name.

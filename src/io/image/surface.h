@@ -41,7 +41,10 @@ struct SurfaceField {
 /// O(pixels), about 100 ms.
 SurfaceField drawSurface(const LibraryMaterial& m);
 Image pictureOf(const SurfaceField& field, const LibraryMaterial& m, MaterialPicture picture);
-/// As JPEG: the colour in at most 80 kB, the normals in 100, the rest in 40.
+/// Of all pictures of a library material.
+inline constexpr size_t kMostMaterialBytes = 220'000;
+/// As JPEG, in a quality that falls to 20 while the colour has more than 80 kB, the normals more
+/// than 100, the rest more than 40: those of the library then fit.
 Result<std::string> encodeMaterialPicture(const SurfaceField& field, const LibraryMaterial& m,
                                           MaterialPicture picture);
 

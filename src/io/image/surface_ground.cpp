@@ -81,14 +81,13 @@ SurfaceTexel drawGrain(const LibraryMaterial& m, double u, double v) {
   c = c * (1 + m.grain * (0.5 * (fine - 0.5) + 0.25 * (middle - 0.5)));
   t.height = m.grainHeight * fine + m.relief * 0.4 * middle;
   t.roughness = m.roughness + 0.15 * (stain - 0.5) * m.variety + 0.1 * (fine - 0.5);
-  if (m.grain > 0.75) {
-    // Chips of stone in tar.
+  if (m.extra == SurfaceExtra::Chips) {
     const Cell chip = cellAt(u, v, {m.columns / 2, m.rows / 2, m.width, m.height, 0.9, seed + 12});
     c = mix(c, rgb(chip.id > 0.6 ? m.second : m.between), 0.45 * chip.second);
     t.height += m.grainHeight * (1 - ramp(0, 0.006, chip.point)) * chip.id;
   }
-  if (m.bond == Bond::Flemish) {
-    // Ripples of wind run along u and fork here and there.
+  if (m.extra == SurfaceExtra::Ripples) {
+    // They run along u and fork here and there.
     const double bend = 1.6 * (clouds(u, v, 5, 3, 3, seed + 15) - 0.5);
     const double wave = sinDeg(360 * (m.height / m.joint * v + bend * 2));
     t.height += m.relief * 0.5 * wave;

@@ -109,8 +109,7 @@ SurfaceTexel drawMasonry(const LibraryMaterial& m, double u, double v) {
   const double proud = m.relief * (0.85 + 0.3 * (id - 0.5));
   t.height = face * proud + m.grainHeight * (face * grain + (1 - face) * bed);
   t.roughness = m.roughness + 0.1 * (1 - face) + 0.12 * (grain - 0.5);
-  if (m.bond == Bond::Random && m.between == 0x8d8b85) {
-    // Ties of formwork.
+  if (m.extra == SurfaceExtra::Ties) {
     const Cell hole = cellAt(u, v, {4, 4, m.width, m.height, 0, seed});
     const double deep = 1 - ramp(0.011, 0.016, hole.point);
     t.height -= 0.012 * deep;
