@@ -5,7 +5,7 @@
 
 The same files give the same bytes, on every machine: sorted names, one date, nothing compressed.
 """
-import sys
+import argparse
 import zipfile
 from pathlib import Path
 
@@ -26,6 +26,8 @@ def pack(output):
 
 
 if __name__ == "__main__":
-    out = Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build" / "gable_blender.zip"
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("output", nargs="?", type=Path, default=ROOT / "build" / "gable_blender.zip")
+    out = parser.parse_args().output
     pack(out)
     print(out)

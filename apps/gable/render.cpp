@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 
 #include "answer.h"
 #include "commands.h"
 #include "derive_settings.h"
+#include "gable/files.h"
 #include "gable/names.h"
 #include "progress.h"
 #include "watch.h"
@@ -75,9 +77,20 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
   return kExitDone;
 }
 
+constexpr const char* kDrawn[] = {"glb", "gltf", "obj"};
+
 bool isModel(const std::string& path) {
-  const std::string extension = extensionOf(path);
-  return extension == "glb" || extension == "gltf" || extension == "obj";
+  return std::find(std::begin(kDrawn), std::end(kDrawn), extensionOf(path)) != std::end(kDrawn);
+}
+
+// Models that are written and not read, which are no rules either.
+int checkRules(const std::string& path) {
+  const auto& written = gable::modelExtensions();
+  const bool model = std::find(written.begin(), written.end(), extensionOf(path)) != written.end();
+  if (!model || isModel(path)) return kExitDone;
+  return fail(
+      kExitUsage,
+      "'" + path + "' cannot be drawn: it is neither rules nor a model in .glb, .gltf or .obj");
 }
 
 int drawPicture(const gable::Model& model, const std::string& path,
@@ -97,6 +110,7 @@ int renderOnce(const RenderArguments& arguments) {
   gable::PictureSettings settings;
   if (const int status = checkExtension(arguments.output, {"png"})) return status;
   if (const int status = pictureSettings(arguments, settings)) return status;
+  if (const int status = checkRules(arguments.derive.rules)) return status;
   gable::Model model(nullptr);
   if (isModel(arguments.derive.rules)) {
     model = gable::Model::load(arguments.derive.rules, fileLimits(arguments.derive.limits));

@@ -411,6 +411,8 @@ std::string ObjWriter::materialFile() {
     putMap(out, "map_d", m, TextureLayer::Opacity);
     putMap(out, "norm", m, TextureLayer::Normal);
     putMap(out, "map_Ke", m, TextureLayer::Emissive);
+    // MTL has no words for the channels of one picture, and readers take the whole of it.
+    if (m.map(TextureLayer::Roughness).path == m.map(TextureLayer::Metallic).path) continue;
     putMap(out, "map_Pr", m, TextureLayer::Roughness);
     putMap(out, "map_Pm", m, TextureLayer::Metallic);
   }
