@@ -135,7 +135,11 @@ void findParts(const std::vector<MapFeature>& features, std::vector<BuildingFact
     near.within(facts[i].place, 0.5 * length(box.size()), [&](uint32_t part) {
       if (!hasWithin(features[i], facts[part].place)) return;
       covered += facts[part].area;
-      if (facts[part].owner == BuildingFacts::kNone) facts[part].owner = i;
+      if (facts[part].owner != BuildingFacts::kNone) return;
+      facts[part].owner = i;
+      if (facts[part].levels > 0) return;
+      facts[part].levels = facts[i].levels;
+      facts[part].guessedLevels = facts[i].guessedLevels;
     });
     facts[i].hasParts = covered >= kMostlyParts * facts[i].area;
   }

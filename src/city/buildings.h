@@ -18,7 +18,8 @@ struct BuildingFacts {
   /// From the middle of its box.
   Vec2 place;
   double area = 0;
-  /// Storeys as the map has them, or from its height; 0 where it has neither.
+  /// Storeys as the map has them, or from its height; 0 where it has neither. A part that has
+  /// neither has those of its building.
   double levels = 0;
   /// Storeys by the neighbours; 0 where none is near.
   double guessedLevels = 0;

@@ -9,6 +9,7 @@
 
 #include <cstdlib>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "base/child_process.h"
@@ -174,6 +175,25 @@ TEST(CityPlan, UnknownStoreysAreThoseOfTheNeighbours) {
   std::sort(known.begin(), known.end());
   EXPECT_EQ(known, (std::vector<double>{0, 2, 5, 5}));
   EXPECT_EQ(*std::max_element(guessed.begin(), guessed.end()), 5);
+}
+
+TEST(CityPlan, PartsHaveTheStoreysOfTheirBuildingWhereTheyHaveNone) {
+  auto map =
+      mapOf({feature(R"("building":"yes","building:levels":"6")", "Polygon",
+                     "[[[10,10],[40,10],[40,20],[10,20]]]"),
+             feature(R"("building:part":"yes")", "Polygon", "[[[10,10],[20,10],[20,20],[10,20]]]"),
+             feature(R"("building:part":"yes","building:levels":"2")", "Polygon",
+                     "[[[20,10],[30,10],[30,20],[20,20]]]"),
+             feature(R"("building:part":"yes","height":"9")", "Polygon",
+                     "[[[30,10],[40,10],[40,20],[30,20]]]")});
+  ASSERT_TRUE(map.ok());
+  std::multiset<double> known;
+  for (const CityShape& s : planCity(*map).shapes) {
+    for (const AttributeValue& a : s.attributes) {
+      if (s.rule == "BuildingPart" && a.name == "known_levels") known.insert(a.values[0].number);
+    }
+  }
+  EXPECT_EQ(known, (std::multiset<double>{2, 3, 6}));
 }
 
 TEST(CityPlan, PartsStandForTheirBuilding) {

@@ -8,9 +8,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <string>
 
 #include "base/files.h"
 #include "base/number.h"
+#include "base/work.h"
+#include "city/buildings.h"
 #include "city/plan.h"
 #include "engine/footprint.h"
 #include "engine/guard.h"
@@ -164,6 +168,35 @@ void tellDoubts(const std::vector<MapDoubt>& doubts, const std::string& path, Di
   for (Diagnostic& d : listOf(list, Sources{})) out.push_back(std::move(d));
 }
 
+// A map whose columns have other names than OpenStreetMap's makes a place without a house.
+void tellNoBuildings(const MapFeatures& map, const std::string& path, DiagnosticList& out) {
+  constexpr size_t kTold = 12;
+  std::set<std::string_view> names;
+  bool more = false;
+  for (const MapFeature& f : map.features) {
+    if (isBuilding(f)) return;
+    for (const auto& [name, value] : f.tags) {
+      work();
+      if (names.size() < kTold) {
+        names.insert(name);
+      } else {
+        more = more || !names.contains(name);
+      }
+    }
+  }
+  std::string told;
+  for (const std::string_view name : names) {
+    told += (told.empty() ? "; their properties are '" : ", '") + std::string(name) + "'";
+  }
+  const std::string features = map.features.size() == 1 ? " feature" : " features";
+  Diagnostics list;
+  list.warning("map-no-buildings", {},
+               "'" + path + "' has " + std::to_string(map.features.size()) + features +
+                   " and no building" + told + (more ? ", .." : ""),
+               "buildings are areas with the property 'building', such as building=yes");
+  for (Diagnostic& d : listOf(list, Sources{})) out.push_back(std::move(d));
+}
+
 Result<HeightField> heightsOf(const MapFeatures& map, const std::string& path, bool& found) {
   Result<std::string> content = readFile(path, kLargestHeightFile);
   found = content.ok();
@@ -211,6 +244,7 @@ std::shared_ptr<City::Impl> parsed(const std::string& content, const std::string
   impl->shapes = shapesOf(impl->plan, impl->map);
   impl->statistics = statisticsOf(impl->plan, impl->map);
   tellSkipped(impl->plan.skips, name, impl->diagnostics);
+  tellNoBuildings(impl->map, name, impl->diagnostics);
   tellDoubts(impl->plan.doubts, name, impl->diagnostics);
   return impl;
 }

@@ -191,6 +191,13 @@ class City(Case):
         self.assertIn("7 features", told)
         self.assertIn("h4 ('6 floors'), ..", told)
         self.assertIn("did you mean 'height'", told)
+        self.assertNotIn("no building", told)
+
+    def testAMapOfOtherColumnsIsTold(self):
+        houses = [feature("Polygon", square(30 * i, 0, 14), podlazi=3, typ="dum") for i in range(3)]
+        self.put("other.geojson", json.dumps({**MAP, "features": houses}))
+        told = self.city("other.geojson", "--stats", "other.json")
+        self.assertIn("has 3 features and no building; their properties are 'podlazi', 'typ' [map-no-buildings]", told)
 
     def testWhatAnExtractHasInPartIsListed(self):
         node = '<node id="{0}" lat="{1}" lon="{2}" version="1"/>'
