@@ -8,7 +8,6 @@
 #include "answer.h"
 #include "commands.h"
 #include "derive_settings.h"
-#include "gable/files.h"
 #include "gable/names.h"
 #include "progress.h"
 #include "watch.h"
@@ -83,16 +82,6 @@ bool isModel(const std::string& path) {
   return std::find(std::begin(kDrawn), std::end(kDrawn), extensionOf(path)) != std::end(kDrawn);
 }
 
-// Models that are written and not read, which are no rules either.
-int checkRules(const std::string& path) {
-  const auto& written = gable::modelExtensions();
-  const bool model = std::find(written.begin(), written.end(), extensionOf(path)) != written.end();
-  if (!model || isModel(path)) return kExitDone;
-  return fail(
-      kExitUsage,
-      "'" + path + "' cannot be drawn: it is neither rules nor a model in .glb, .gltf or .obj");
-}
-
 int drawPicture(const gable::Model& model, const std::string& path,
                 gable::PictureSettings settings) {
   Progress progress("drawing");
@@ -110,7 +99,6 @@ int renderOnce(const RenderArguments& arguments) {
   gable::PictureSettings settings;
   if (const int status = checkExtension(arguments.output, {"png"})) return status;
   if (const int status = pictureSettings(arguments, settings)) return status;
-  if (const int status = checkRules(arguments.derive.rules)) return status;
   gable::Model model(nullptr);
   if (isModel(arguments.derive.rules)) {
     model = gable::Model::load(arguments.derive.rules, fileLimits(arguments.derive.limits));

@@ -5,6 +5,8 @@
 // when no stage found an error.
 
 #include <algorithm>
+#include <cctype>
+#include <iterator>
 #include <set>
 
 #include "base/encoding.h"
@@ -208,6 +210,18 @@ std::shared_ptr<Rules::Impl> failed(const Error& e) {
   return impl;
 }
 
+// Models, maps and pictures, which would be mistakes from the first letter on. Any other file may
+// hold rules.
+bool isOther(const std::string& path) {
+  constexpr std::string_view kOthers[] = {"geojson", "json", "osm", "pbf", "gpkg", "fgb",
+                                          "shp",     "fbx",  "dae", "png", "jpg",  "tif"};
+  std::string extension = path.substr(std::min(path.rfind('.') + 1, path.size()));
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const auto& models = modelExtensions();
+  return std::find(models.begin(), models.end(), extension) != models.end() ||
+         std::find(std::begin(kOthers), std::end(kOthers), extension) != std::end(kOthers);
+}
+
 std::shared_ptr<const Rules::Impl> parsed(const std::string& text, const Home& home,
                                           const LoadSettings& settings) {
   const std::string& path = home.path;
@@ -277,6 +291,11 @@ Rules Rules::load(const std::string& path, const LoadSettings& settings) {
   return Rules(guarded<Impl>(readingRules(path, settings), [&]() -> std::shared_ptr<const Impl> {
     Result<Home> home = homeOf(path);
     if (!home.ok()) return failed(home.error());
+    if (!settings.dialect && isOther(home.value().path)) {
+      return failed({"rules-format", "'" + path + "' is no file of rules",
+                     "give a file such as .cga, .gbbg, .grammar or .park; 'gable render' draws "
+                     "models in .glb, .gltf and .obj"});
+    }
     const FileSearch files({}, {}, home.value().package);
     Result<std::string> text = files.read(home.value().path, kLargestRuleFile);
     if (!text.ok()) return failed(text.error());
