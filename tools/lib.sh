@@ -127,6 +127,16 @@ page_packages() {
     step "Installing what the studio's page needs" page-packages.log install_page_packages
 }
 
+# What makes the documentation's site and looks at it.
+install_site_packages() {
+  (cd "$root/site" && npm ci --no-audit --no-fund --loglevel=error) &&
+    cp "$root/site/package-lock.json" "$root/site/node_modules/installed.json"
+}
+site_packages() {
+  cmp -s "$root/site/package-lock.json" "$root/site/node_modules/installed.json" ||
+    step "Installing what the site needs" site-packages.log install_site_packages
+}
+
 # What the extension for editors and the tests of the language server need, in build/editors.
 install_editor_packages() {
   mkdir -p "$root/build/editors"
