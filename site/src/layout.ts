@@ -64,6 +64,7 @@ export function layout({ page, content, menu, model }: Parts): string {
   const asset = (name: string) => relative(page.path, `assets/${name}`);
   const home = relative(page.path, 'index.html');
   const title = page.path === 'index.html' ? 'Gable' : `${page.title} · Gable`;
+  const text = content.html.replace('</h1>', () => `</h1>${modelOf(page, model)}`);
   // The theme is set before anything is drawn, so that no page flashes.
   return `<!doctype html>
 <html lang="en" data-theme="light">
@@ -87,7 +88,7 @@ export function layout({ page, content, menu, model }: Parts): string {
 </header>
 <div class="page">
 <nav id="menu" class="menu" aria-label="Pages">${menuOf(page, menu)}</nav>
-<main id="text" tabindex="-1">${modelOf(page, model)}${content.html}${neighboursOf(page, menu)}</main>
+<main id="text" tabindex="-1">${text}${neighboursOf(page, menu)}</main>
 ${headingsOf(content)}
 </div>
 </body>

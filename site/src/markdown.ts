@@ -45,9 +45,14 @@ export function pngSize(file: string): [width: number, height: number] | undefin
 
 type Token = ReturnType<MarkdownIt['parse']>[number];
 
+/** What a part of a line says. */
+function wordsOf(part: Token): string {
+  if (part.type === 'softbreak' || part.type === 'hardbreak') return ' ';
+  return part.type === 'image' ? '' : part.content;
+}
+
 /** The text of a line without its marks. */
-const plain = (line: Token | undefined): string =>
-  (line?.children ?? []).map((part) => (part.type === 'image' ? '' : part.content)).join('');
+const plain = (line: Token | undefined): string => (line?.children ?? []).map(wordsOf).join('');
 
 export class Markdown {
   private readonly parser: MarkdownIt;

@@ -124,6 +124,8 @@ export function navigation(pages: Page[]): MenuGroup[] {
   for (const [, title, folded] of kGroups) {
     if (!groups.has(title)) groups.set(title, { title, pages: [], folded });
   }
-  for (const page of pages) groups.get(page.group)?.pages.push(page);
+  // Licences of data are read from the pages of their examples.
+  const listed = pages.filter((page) => !page.source.endsWith('/NOTICE.md'));
+  for (const page of listed) groups.get(page.group)?.pages.push(page);
   return [...groups.values()].filter((group) => group.pages.length > 0);
 }
