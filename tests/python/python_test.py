@@ -18,23 +18,9 @@ import unittest
 import zipfile
 from pathlib import Path
 
+from interpreter import SKIP, with_numpy
+
 ROOT = Path(__file__).resolve().parents[2]
-SKIP = 77
-
-
-def with_numpy():
-    """Runs this again under an interpreter of the same version that has numpy, where there is one."""
-    try:
-        import numpy  # noqa: F401
-        return
-    except ImportError:
-        pass
-    other = "/usr/bin/python3"
-    same = f"import sys, numpy; sys.exit(sys.version_info[:2] != {sys.version_info[:2]})"
-    if os.path.exists(other) and subprocess.run([other, "-c", same], capture_output=True).returncode == 0:
-        os.execv(other, [other, "-B", *sys.argv])
-    print("skipped: numpy is not installed for this Python (Debian's python3-numpy)")
-    sys.exit(SKIP)
 
 
 if __name__ == "__main__":
