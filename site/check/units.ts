@@ -8,6 +8,7 @@ import { test } from 'node:test';
 import { introduction } from '../src/gallery';
 import { Links, relative } from '../src/links';
 import { Markdown, slug } from '../src/markdown';
+import { notebookText } from '../src/notebook';
 import { pathOf, titleOf, type Page } from '../src/pages';
 
 const page = (source: string): Page => ({ source, path: pathOf(source), title: source, group: '' });
@@ -87,4 +88,27 @@ test('the introduction of an example is its first paragraph of words', () => {
     introduction('<p><img src="a"></p><p>Two <a href="b">houses</a>.</p>'),
     'Two houses.',
   );
+});
+
+test('a notebook is its words, its code and what it shows', () => {
+  const cells = [
+    { cell_type: 'markdown', source: ['# A\n', 'words'] },
+    {
+      cell_type: 'code',
+      source: 'print(1)\n2',
+      outputs: [
+        { output_type: 'stream', text: ['1\n'] },
+        { output_type: 'execute_result', data: { 'text/plain': ['2'] } },
+        { output_type: 'display_data', data: { 'image/png': 'AAAA\n', 'text/plain': ['<Image>'] } },
+      ],
+    },
+    { cell_type: 'code', source: 'pass', outputs: [] },
+  ];
+  const text = notebookText(JSON.stringify({ cells }));
+  assert.match(
+    text,
+    /^# A\nwords\n\n```python\nprint\(1\)\n2\n```\n\n```text\n1\n```\n\n```text\n2\n```\n/,
+  );
+  assert.match(text, /!\[[^\]]+\]\(data:image\/png;base64,AAAA\)\n\n```python\npass\n```/);
+  assert.doesNotMatch(text, /<Image>/);
 });

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Makes the site: each Markdown file of the documentation becomes a page, each file that a page links to
+// Makes the site: each Markdown file and each notebook of the documentation becomes a page, each file that a page links to
 // comes along, and nothing is fetched from elsewhere when somebody reads it.
 //
 //   node build.mjs --root REPOSITORY --out FOLDER [--models FOLDER]
 //
 // `--models` is a folder with NAME.glb for examples; their pages let the reader turn them.
 
-import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, existsSync, mkdirSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
 import { bundleClient } from './bundle';
@@ -17,7 +17,7 @@ import { highlighter } from './highlight';
 import { layout } from './layout';
 import { Links } from './links';
 import { Markdown } from './markdown';
-import { findPages, navigation, type Page } from './pages';
+import { findPages, navigation, textOf, type Page } from './pages';
 import { SearchText } from './search';
 import { folderPage, sourcePage } from './source';
 
@@ -63,7 +63,7 @@ async function main(): Promise<void> {
 
   rmSync(out, { recursive: true, force: true });
   for (const page of pages) {
-    const text = readFileSync(join(root, page.source), 'utf8');
+    const text = textOf(root, page.source);
     const model = modelOf(page, models);
     const content =
       page.source === 'examples/README.md'

@@ -9,7 +9,7 @@ import { extname, join, posix } from 'node:path';
 import type { Page } from './pages';
 
 /** Files that a browser shows or saves as they are. */
-const kAsTheyAre = new Set(['.png', '.jpg', '.svg', '.glb', '.webm', '.ipynb', '.csv', '.json']);
+const kAsTheyAre = new Set(['.png', '.jpg', '.svg', '.glb', '.webm', '.gpkg', '.csv', '.json']);
 
 /** The address of `to` on the page `from`; both are paths within the site. */
 export function relative(from: string, to: string): string {

@@ -5,6 +5,7 @@
 
 import { readdirSync, readFileSync, statSync } from 'node:fs';
 import { join } from 'node:path';
+import { notebookText } from './notebook';
 
 export interface Page {
   /** The file, relative to the repository. */
@@ -66,6 +67,7 @@ const kOrder = [
 const kGroups: readonly (readonly [prefix: string, title: string, folded: boolean])[] = [
   ['README.md', 'Begin', false],
   ['docs/guide/', 'Guides', false],
+  ['docs/notebooks/', 'Notebooks', true],
   ['examples/', 'Examples', true],
   ['docs/reference/operations/', 'Operations', true],
   ['docs/reference/functions/', 'Functions', true],
@@ -81,13 +83,13 @@ const kGroups: readonly (readonly [prefix: string, title: string, folded: boolea
 /** Folders of the repository with pages. */
 const kFolders = ['docs', 'examples', 'editors', 'tests/cases'];
 
-function markdownFiles(root: string, folder: string): string[] {
+function pagesIn(root: string, folder: string): string[] {
   const found: string[] = [];
   for (const name of readdirSync(join(root, folder)).sort()) {
     if (name === 'node_modules') continue;
     const path = folder ? `${folder}/${name}` : name;
-    if (statSync(join(root, path)).isDirectory()) found.push(...markdownFiles(root, path));
-    else if (name.endsWith('.md')) found.push(path);
+    if (statSync(join(root, path)).isDirectory()) found.push(...pagesIn(root, path));
+    else if (/\.(md|ipynb)$/.test(name)) found.push(path);
   }
   return found;
 }
@@ -100,12 +102,18 @@ export function titleOf(text: string): string | undefined {
 
 /** `README.md` is the index of its folder. */
 export function pathOf(source: string): string {
-  return source.replace(/(^|\/)README\.md$/, '$1index.html').replace(/\.md$/, '.html');
+  return source.replace(/(^|\/)README\.md$/, '$1index.html').replace(/\.(md|ipynb)$/, '.html');
+}
+
+/** A page's text in Markdown. */
+export function textOf(root: string, source: string): string {
+  const text = readFileSync(join(root, source), 'utf8');
+  return source.endsWith('.ipynb') ? notebookText(text) : text;
 }
 
 export function findPages(root: string): Page[] {
   const files = ['README.md', 'CONTRIBUTING.md', 'CHANGELOG.md'];
-  for (const folder of kFolders) files.push(...markdownFiles(root, folder));
+  for (const folder of kFolders) files.push(...pagesIn(root, folder));
   const rank = (file: string) => {
     const place = kOrder.indexOf(file);
     return place < 0 ? kOrder.length : place;
@@ -113,7 +121,7 @@ export function findPages(root: string): Page[] {
   return files
     .map((source) => {
       const group = kGroups.find(([prefix]) => source.startsWith(prefix))?.[1] ?? 'Developing';
-      const title = titleOf(readFileSync(join(root, source), 'utf8')) ?? source;
+      const title = titleOf(textOf(root, source)) ?? source;
       return { source, path: pathOf(source), title, group };
     })
     .sort((a, b) => rank(a.source) - rank(b.source) || (a.source < b.source ? -1 : 1));
