@@ -492,7 +492,7 @@ std::vector<Frame> placesOf(const Model& m) {
     const bool drive = sceneOf(m).names[leaf.name] == "Concrete";
     if (drive && !inDrive) {
       Frame f = world;
-      f.origin = world.point({1.75 * kUnit, 0, -1.75 * kUnit});
+      f.origin = world.point({3.75 * kUnit, 0, -0.4 * kUnit});
       out.push_back(f);
     }
     inDrive = drive;
@@ -553,9 +553,9 @@ TEST(SuburbRows, S16ADriveForEachHouse) {
           const Vec2 q{v.x, -v.z};
           away = std::min(away, length(path.at(path.nearest(q)).point - q));
         }
-        // From the kerb to the house's own line.
-        EXPECT_GT(away, 1.1 * kUnit);
-        EXPECT_LT(away, 4 * kUnit);
+        // Between the roadway and the house's own line, from which the road bends away beside it.
+        EXPECT_GT(away, 1.2 * kUnit);
+        EXPECT_LT(away, 4.4 * kUnit);
       }
     }
   }

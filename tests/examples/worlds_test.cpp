@@ -92,7 +92,7 @@ void addSuburbHouses(const Scene& scene, double unit, std::vector<Polygon>& out)
     const bool drive = scene.names[leaf.name] == "Concrete";
     if (drive && !inDrive) {
       const auto corner = [&](double x, double z) {
-        const Vec3 p = world.point({(1.75 + x) * unit, 0, (z - 1.75) * unit});
+        const Vec3 p = world.point({(3.75 + x) * unit, 0, (z - 0.4) * unit});
         return Vec2{p.x, -p.z};
       };
       const double w = 2.3391, d = 1.9588;
