@@ -10,6 +10,7 @@
 #include "base/files.h"
 #include "base/parallel.h"
 #include "io/image/image.h"
+#include "io/image/leaf_pictures.h"
 #include "io/image/patterns.h"
 #include "io/image/surface.h"
 #include "io/importers/asset.h"
@@ -31,6 +32,12 @@ size_t numberOfBuiltin(std::string_view path) {
   size_t i = 0;
   while (i < kBuiltinTextures.size() && path != builtinTexturePath(i)) ++i;
   return i;
+}
+
+/// A texture or a picture of leaves that is drawn when it is asked for.
+bool isDrawn(std::string_view path) {
+  return numberOfBuiltin(path) < kBuiltinTextures.size() ||
+         builtinLeaves(path) < kBuiltinLeaves.size();
 }
 
 Metadatum metadatumOf(const std::string& key, const PlainValue& v) {
@@ -120,16 +127,20 @@ void Project::drawBuiltins(const std::vector<std::string>& paths) {
   {
     std::lock_guard lock(mutex_);
     for (const std::string& path : paths) {
-      const bool wanted = numberOfBuiltin(path) < kBuiltinTextures.size();
+      const bool wanted = isDrawn(path);
       if (wanted && builtins_.count(path) == 0) made.emplace_back(path, "");
     }
   }
   std::sort(made.begin(), made.end());
   made.erase(std::unique(made.begin(), made.end()), made.end());
   // Noise does not get smaller at higher levels, only slower.
-  constexpr int kLevel = 3;
+  constexpr int kLevel = 3, kLeavesLevel = 9;
   parallelFor(made.size(), 0, [&](size_t i, unsigned) {
-    made[i].second = encodePng(drawPattern(numberOfBuiltin(made[i].first)), 3, kLevel).value();
+    const std::string& path = made[i].first;
+    const size_t leaves = builtinLeaves(path);
+    made[i].second = leaves < kBuiltinLeaves.size()
+                         ? encodePng(drawLeaves(leaves), 4, kLeavesLevel).value()
+                         : encodePng(drawPattern(numberOfBuiltin(path)), 3, kLevel).value();
   });
   std::lock_guard lock(mutex_);
   for (auto& [path, bytes] : made) builtins_[path] = std::move(bytes);
@@ -141,7 +152,7 @@ Result<std::string> Project::texture(const std::string& path) {
     const auto at = embedded_.find(path);
     if (at != embedded_.end()) return *at->second;
   }
-  if (numberOfBuiltin(path) < kBuiltinTextures.size() || materialPictureOf(path).material) {
+  if (isDrawn(path) || materialPictureOf(path).material) {
     drawBuiltins({path});
     std::lock_guard lock(mutex_);
     return builtins_[path];

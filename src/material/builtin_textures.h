@@ -26,6 +26,26 @@ inline std::string builtinTexturePath(size_t number) {
          kBuiltinTextures[number] + ".png";
 }
 
+/// Pictures of leaves, sorted; io/image/leaf_pictures.h draws them.
+constexpr std::array<const char*, 17> kBuiltinLeaves{
+    "birch", "blossom", "candle", "cherry", "chestnut", "cypress", "grass",  "ivy",   "lime",
+    "oak",   "olive",   "palm",   "pine",   "plane",    "poplar",  "spruce", "willow"};
+
+constexpr std::string_view kBuiltinLeavesPrefix = "builtin:leaves/";
+
+/// The number of a path such as "builtin:leaves/lime.png"; kBuiltinLeaves.size() for any other.
+inline size_t builtinLeaves(std::string_view path) {
+  constexpr std::string_view kEnding = ".png";
+  if (!path.starts_with(kBuiltinLeavesPrefix) || !path.ends_with(kEnding)) {
+    return kBuiltinLeaves.size();
+  }
+  path.remove_prefix(kBuiltinLeavesPrefix.size());
+  path.remove_suffix(kEnding.size());
+  size_t i = 0;
+  while (i < kBuiltinLeaves.size() && path != kBuiltinLeaves[i]) ++i;
+  return i;
+}
+
 /// The pictures that CGA itself has, by name; nothing draws them, and surfaces keep their colour.
 constexpr std::array<std::string_view, 2> kCgaTextures{"builtin:default", "builtin:uvtest.png"};
 
@@ -37,7 +57,7 @@ inline bool isBuiltinTexture(std::string_view path) {
   for (size_t i = 0; i < kBuiltinTextures.size(); ++i) {
     if (path == builtinTexturePath(i)) return true;
   }
-  return false;
+  return builtinLeaves(path) < kBuiltinLeaves.size();
 }
 
 }  // namespace gable

@@ -21,6 +21,8 @@ enum class SurfaceKind : uint8_t {
   Masonry,
   /// Stones that touch: rubble, cobbles, gravel, rock, plates of bark.
   Stones,
+  /// Ridges that part and meet along v, furrows between them: bark.
+  Furrows,
   /// Mineral ground or coat: plaster, concrete, asphalt, sand, paint.
   Grain,
   /// Boards beside one another along v.

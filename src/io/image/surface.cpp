@@ -22,6 +22,7 @@ surface::Draw drawOf(SurfaceKind kind) {
   switch (kind) {
     case SurfaceKind::Masonry: return surface::drawMasonry;
     case SurfaceKind::Stones: return surface::drawStones;
+    case SurfaceKind::Furrows: return surface::drawFurrows;
     case SurfaceKind::Grain: return surface::drawGrain;
     case SurfaceKind::Boards: return surface::drawBoards;
     case SurfaceKind::LappedBoards: return surface::drawLappedBoards;

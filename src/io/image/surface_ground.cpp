@@ -70,6 +70,30 @@ SurfaceTexel drawStones(const LibraryMaterial& m, double u, double v) {
   return t;
 }
 
+// Two families of waves that lean against each other: a ridge is where either stands, so ridges
+// part and meet in long diamonds. `joint` is the share of the furrows.
+SurfaceTexel drawFurrows(const LibraryMaterial& m, double u, double v) {
+  const uint64_t seed = seedOf(m);
+  const double bend = 0.5 * m.wander / m.columns;
+  const double x = u + bend * (clouds(u, v, m.columns, m.rows * 3, 3, seed) - 0.5) * 2;
+  const double slow = 1.2 * m.wander * (clouds(u, v, 3, 4, 2, seed + 1) - 0.5);
+  const auto wave = [&](double lean, double shift) {
+    return sinDeg(360 * (m.columns * x + lean * v + lean * slow + shift));
+  };
+  const double high = std::max(wave(m.rows, 0), wave(-m.rows, 0.37));
+  const double fine = clouds(u, v, 9 * m.columns, 24, 4, seed + 2);
+  const double cracks = clouds(u, v, 2 * m.columns, 30, 3, seed + 3);
+  // Ridges break across here and there.
+  const double body =
+      ramp(-1 + m.joint, 1 - m.joint, high + 1.2 * (fine - 0.5) - 1.6 * ramp(0.56, 0.68, cracks));
+  SurfaceTexel t;
+  const Vec3 ridge = mix(rgb(m.color), rgb(m.second), m.variety * clouds(u, v, 5, 3, 3, seed + 4));
+  t.color = mix(rgb(m.between), ridge * (1 + m.grain * (fine - 0.5)), body);
+  t.height = m.relief * body + m.grainHeight * fine;
+  t.roughness = m.roughness;
+  return t;
+}
+
 SurfaceTexel drawGrain(const LibraryMaterial& m, double u, double v) {
   const uint64_t seed = seedOf(m);
   const double fine = clouds(u, v, m.columns / 2, m.rows / 2, 2, seed);

@@ -58,6 +58,7 @@ Cell cellAt(double u, double v, const Cells& c);
 using Draw = SurfaceTexel (*)(const LibraryMaterial& m, double u, double v);
 SurfaceTexel drawMasonry(const LibraryMaterial& m, double u, double v);
 SurfaceTexel drawStones(const LibraryMaterial& m, double u, double v);
+SurfaceTexel drawFurrows(const LibraryMaterial& m, double u, double v);
 SurfaceTexel drawGrain(const LibraryMaterial& m, double u, double v);
 SurfaceTexel drawBoards(const LibraryMaterial& m, double u, double v);
 SurfaceTexel drawLappedBoards(const LibraryMaterial& m, double u, double v);
