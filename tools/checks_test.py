@@ -229,6 +229,10 @@ class LibmTest(CheckCase):
         self.write("src/render/a.cpp", "float f(float x) { return std::sin(x); }\n")
         self.assertEqual(len(self.messages(libm)), 2)
 
+    def testHoldsCopiedLibrariesToIt(self):
+        self.write("third_party/clip/a.cpp", "double f(double x) { return std::acos(x); }\n")
+        self.assertEqual(len(self.messages(libm)), 1)
+
     def testAcceptsWhatIsExactAndWhatIsOurs(self):
         self.write("src/geom/a.cpp", "// sin(x) of a comment\ndouble log(int line);\n"
                    "double f(double x) { return std::sqrt(x) + std::fmod(x, 2) + m.exp(x) + sinDeg(x); }\n")

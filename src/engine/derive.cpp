@@ -169,7 +169,7 @@ void bindSettings(const Rules::Impl& rules, const DeriveSettings& settings, Deri
     complain(
         {"unknown-start-rule",
          "the rules have no rule '" + *settings.startRule + "' without parameters to start with",
-         hintFor(*settings.startRule, starts, "such rules")});
+         hintFor(*settings.startRule, starts, "rules without parameters")});
   } else if (program.startRule < 0) {
     const std::string file = program.files.empty() ? std::string() : program.files[0];
     const bool blank = program.rules.empty();

@@ -40,6 +40,7 @@
 
 #include "clipper.hpp"
 #include "base/work.h"
+#include "math/trig.h"
 #include <cmath>
 #include <vector>
 #include <algorithm>
@@ -4043,11 +4044,11 @@ void ClipperOffset::DoOffset(double delta)
     y = std::fabs(delta) * def_arc_tolerance;
   else y = ArcTolerance;
   //see offset_triginometry2.svg in the documentation folder ...
-  double steps = pi / std::acos(1 - y / std::fabs(delta));
+  double steps = pi / gable::acosOf(1 - y / std::fabs(delta));
   if (steps > std::fabs(delta) * pi) 
     steps = std::fabs(delta) * pi;  //ie excessive precision check
-  m_sin = std::sin(two_pi / steps);
-  m_cos = std::cos(two_pi / steps);
+  m_sin = gable::sinDeg(360 / steps);
+  m_cos = gable::cosDeg(360 / steps);
   m_StepsPerRad = steps / two_pi;
   if (delta < 0.0) m_sin = -m_sin;
 
@@ -4236,8 +4237,10 @@ void ClipperOffset::OffsetPoint(int j, int& k, JoinType jointype)
 
 void ClipperOffset::DoSquare(int j, int k)
 {
-  double dx = std::tan(std::atan2(m_sinA,
-      m_normals[k].X * m_normals[j].X + m_normals[k].Y * m_normals[j].Y) / 4);
+  //a quarter of an angle within [-pi, pi]
+  const double quarter = gable::atan2Of(m_sinA,
+      m_normals[k].X * m_normals[j].X + m_normals[k].Y * m_normals[j].Y) / 4;
+  double dx = gable::sinSmall(quarter) / gable::cosSmall(quarter);
   m_destPoly.push_back(IntPoint(
       Round(m_srcPoly[j].X + m_delta * (m_normals[k].X - m_normals[k].Y * dx)),
       Round(m_srcPoly[j].Y + m_delta * (m_normals[k].Y + m_normals[k].X * dx))));
@@ -4257,7 +4260,7 @@ void ClipperOffset::DoMiter(int j, int k, double r)
 
 void ClipperOffset::DoRound(int j, int k)
 {
-  double a = std::atan2(m_sinA,
+  double a = gable::atan2Of(m_sinA,
   m_normals[k].X * m_normals[j].X + m_normals[k].Y * m_normals[j].Y);
   int steps = std::max((int)Round(m_StepsPerRad * std::fabs(a)), 1);
 

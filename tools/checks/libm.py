@@ -15,7 +15,8 @@ CALL = re.compile(r"(?:\bstd::|(?<![\w:.>]))(" + "|".join(n + "[fl]?" for n in N
 
 def check(tree):
     findings = []
-    for path in tree.files(*CPP, under="src/"):
+    copies = [path for path in tree.copies if path.endswith(CPP)]
+    for path in tree.files(*CPP, under="src/") + copies:
         if path.startswith(FREE) or path.endswith("_test.cpp") or "/testing" in path:
             continue
         text = code_of(tree.text(path))

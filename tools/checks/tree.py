@@ -9,8 +9,9 @@ from pathlib import Path
 
 CPP = (".cpp", ".h", ".hpp", ".cc")
 PICTURES = (".png", ".jpg", ".jpeg", ".gif", ".webp")
-# Folders that hold what others wrote or what a build makes.
-FOREIGN = ("third_party/", "build/", "out/", "node_modules/", ".git/")
+# What others wrote and we build; what a build makes or fetches.
+COPIES = "third_party/"
+FOREIGN = ("build/", "out/", "node_modules/", ".git/")
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,10 @@ class Tree:
 
     def __init__(self, root):
         self.root = Path(root).resolve()
-        self.paths = sorted(p for p in self._listed() if not self._foreign(p))
+        listed = sorted(p for p in self._listed() if not self._foreign(p))
+        self.paths = [p for p in listed if not p.startswith(COPIES)]
+        # Few checks ask for these.
+        self.copies = [p for p in listed if p.startswith(COPIES)]
 
     def _foreign(self, path):
         return path.startswith(FOREIGN) or "/node_modules/" in path

@@ -139,10 +139,13 @@ class Checker {
       propose(diagnostics_, s.rules[0]->predecessor.span, s.name, nearest);
     }
     if (!broken_ && s.rules.empty() && !s.terminal && reached) {
+      const std::string nearest = near(s.name, namesWithMeaning());
       diagnostics_.warning(
           "gbbg-no-rule", s.span,
           "there is no rule for the non-terminal shape " + quote(s.name) + "; it stays as it is",
-          "write a rule for it, or declare it: 'terminal " + s.name + "'");
+          nearest.empty() ? "write a rule for it, or declare it: 'terminal " + s.name + "'"
+                          : meaning(nearest));
+      propose(diagnostics_, s.span, s.name, nearest);
     }
     if (out_.selection != Selection::First) return;
     for (size_t i = 1; i < s.rules.size(); ++i) {
@@ -159,6 +162,14 @@ class Checker {
   std::vector<std::string_view> names() const {
     std::vector<std::string_view> list;
     for (const SymbolInfo& s : out_.symbols) list.emplace_back(s.name);
+    return list;
+  }
+  // Of shapes that end there or have rules.
+  std::vector<std::string_view> namesWithMeaning() const {
+    std::vector<std::string_view> list;
+    for (const SymbolInfo& s : out_.symbols) {
+      if (s.terminal || !s.rules.empty()) list.emplace_back(s.name);
+    }
     return list;
   }
   std::vector<std::string_view> reachedNames() const { return {reached_.begin(), reached_.end()}; }

@@ -159,6 +159,12 @@ TEST(GbbgNotation, allMistakesAreReportedInOneRun) {
   EXPECT_EQ(read.hint(4), "did you mean 'shape'?");
 }
 
+TEST(GbbgNotation, aSlipInASymbolNamesTheOneThatIsMeant) {
+  Read slip(kStart + "terminal wall\nSTART -> Split(X, {1}) {wall | wal}\n");
+  EXPECT_EQ(slip.problems(), "4:32 gbbg-no-rule (warning)\n");
+  EXPECT_EQ(slip.hint(0), "did you mean 'wall'?");
+}
+
 TEST(GbbgNotation, aGrammarNeedsAStart) {
   EXPECT_EQ(Read("A -> Grid(Y) {B}\nterminal B").problems(),
             "1:1 gbbg-no-start\n1:1 gbbg-unknown-predecessor (warning)\n");

@@ -36,6 +36,7 @@ lang::Tree Lowering::run() {
   bool first = true;
   for (const Rule& r : g_.rules) {
     if (r.function || isPointSet(r)) continue;
+    if (first) checkStart(r);
     rules.push_back(rule(r, first));
     first = false;
   }
@@ -157,6 +158,7 @@ void Lowering::addLeaf(std::string_view name, Nodes& out) {
 bool Lowering::step(const Op& op, Nodes& out) {
   b_.at(op.span);
   if (!op.called && op.blocks.empty()) return symbol(op, out);
+  checkUsage(op);
   switch (operationNamed(op.name)) {
     case Operation::Grid: return grid(op, out), false;
     case Operation::Voronoi: return voronoi(op, out), false;
@@ -200,7 +202,7 @@ bool Lowering::step(const Op& op, Nodes& out) {
   }
   const std::string nearest = nearestOperation(op.name);
   if (op.blocks.empty() && nearest.empty()) {
-    // ParkPath(..): a name with arguments that nothing is made of.
+    warnOfArguments(op);
     addLeaf(op.name, out);
     return false;
   }
@@ -264,7 +266,9 @@ void Lowering::warnOfSlip(const Op& op) {
   for (const Rule& r : g_.rules) names.push_back(r.name);
   const std::string nearest = nearestName(op.name, names);
   // Plant1 beside Plant2, Hedge beside Hedges.
-  const bool counted = isdigit(static_cast<unsigned char>(op.name.back())) != 0;
+  const bool counted = std::any_of(op.name.begin(), op.name.end(), [](char c) {
+    return std::isdigit(static_cast<unsigned char>(c)) != 0;
+  });
   if (nearest.empty() || counted || nearest == op.name + "s" || op.name == nearest + "s") return;
   diagnostics_.warning("undefined-rule", op.span,
                        "no rule is named '" + op.name + "'; it becomes a leaf", meaning(nearest));
@@ -410,35 +414,6 @@ NodeId Lowering::elseBlock(const Op& op) {
   addElse(op, items);
   b_.at(op.span);
   return items.empty() ? kNoNode : b_.block(items);
-}
-
-void Lowering::noElse(const Op& op) {
-  if (!op.hasElse) return;
-  diagnostics_.error("unexpected-text", op.span, "'" + op.name + "' has no use for else",
-                     "leave it out: the operation cannot fail");
-}
-
-void Lowering::checkWords(const Op& op, size_t first,
-                          std::initializer_list<std::string_view> words) {
-  for (size_t i = first; i < op.arguments.size(); ++i) {
-    std::string a = lowerCase(op.arguments[i].text);
-    const size_t equals = a.find('=');
-    if (equals != std::string::npos) a = a.substr(0, a.find_last_not_of(' ', equals - 1) + 1) + '=';
-    if (std::find(words.begin(), words.end(), a) != words.end()) continue;
-    const std::string nearest = nearestName(a, words);
-    std::string hint = meaning(nearest);
-    for (const std::string_view w : words) {
-      if (!nearest.empty()) break;
-      hint += (hint.empty() ? "it knows " : ", ") + std::string(w);
-    }
-    diagnostics_.error("bad-argument", op.arguments[i].span,
-                       "'" + op.arguments[i].text + "' is nothing that '" + op.name + "' knows",
-                       hint);
-    const std::string& written = op.arguments[i].text;
-    if (equals == std::string::npos) {
-      propose(diagnostics_, placeOf(source_, op.arguments[i].span, written), written, nearest);
-    }
-  }
 }
 
 std::string Lowering::text(const Op& op, size_t i) const {

@@ -98,6 +98,7 @@ NodeId Lowering::figureNode(const Op& op) {
       arguments.push_back(number(op, i, 1));
     }
   }
+  noBraces(op);
   if (op.arguments.empty()) {
     diagnostics_.error("wrong-argument-count", op.span, "'" + op.name + "' needs its size",
                        "write " + op.name + "(2)");
@@ -190,6 +191,7 @@ NodeId Lowering::choiceBody(const JunctionChoices& choices) {
 
 NodeId Lowering::figureItem(NodeId head, const Part& p, bool together) {
   const JunctionChoices choices = junctionChoices(g_, p);
+  if (!choices.rule && !choices.shares.empty()) checkShares(choices.parts, p.span);
   const bool plain = choices.parts.empty() || (choices.rule && !mayInline(*choices.rule));
   const NodeId body = plain ? figureBody(p.body, "Region", true) : choiceBody(choices);
   return together ? b_.together(head, body) : b_.item(head, body);
@@ -600,6 +602,7 @@ void Lowering::peel(const Op& op, Nodes& out) {
 
 void Lowering::choose(const Op& op, Nodes& out) {
   const std::vector<Part> parts = partsOf(op);
+  checkShares(parts, op.span);
   const std::vector<double> shares = sharesOf(g_, parts);
   std::vector<std::pair<NodeId, NodeId>> branches;
   for (size_t i = 0; i < parts.size(); ++i) {

@@ -6,6 +6,7 @@
 #include "base/number.h"
 #include "base/text.h"
 #include "dialects/park/lowering.h"
+#include "dialects/park/places.h"
 
 namespace gable::park {
 
@@ -151,7 +152,11 @@ void Lowering::scatter(const Op& op, Nodes& out) {
   std::string count = what, radius = "1";
   if (const size_t brace = what.find('{'); brace != std::string::npos) {
     count = what.substr(0, brace);
-    radius = what.substr(brace + 1, what.find('}') - brace - 1);
+    const size_t close = what.find('}');
+    radius = what.substr(brace + 1, close - brace - 1);
+    if (close == what.npos || what.find_first_not_of(' ', close + 1) != what.npos) {
+      unreadable(what, span);
+    }
   }
   // Without a count as many as fit.
   const bool fill = count.find_first_not_of(' ') == std::string::npos;
@@ -214,8 +219,10 @@ void Lowering::sweep(const Op& op, Nodes& out) {
       options.push_back(b_.argument("ends", b_.word("round")));
     }
     const std::string value = valueOf(a) == "miter" ? "mitre" : valueOf(a);
+    b_.at(placeOf(source_, span, value));
     if (a.starts_with("joins")) options.push_back(b_.argument("joins", b_.word(value)));
     if (a.starts_with("ends")) options.push_back(b_.argument("ends", b_.word(value)));
+    b_.at(op.span);
     if (a.starts_with("profile")) section = formed(&RegionTexts::profile, value, span);
   }
   // The volume of a cross-section is made at once, any other by drawing the ribbon up.

@@ -84,13 +84,23 @@ class Lowering {
 
   // Of an operation that only has a block for what stands behind else.
   NodeId elseBlock(const Op& op);
+
+  // --- Checks: what is written beyond what an operation takes ---
+
+  // The number of its arguments, and its braces.
+  void checkUsage(const Op& op);
   void noElse(const Op& op);
-
-  // --- Arguments ---
-
+  void noBraces(const Op& op);
+  void onePart(const Op& op, const char* written);
+  // Of the parts of a Choose.
+  void checkShares(const std::vector<Part>& parts, Span whole);
+  void checkStart(const Rule& r);
+  void warnOfArguments(const Op& op);
   // What an operation does not know is an error: arguments from `first` on that are none of the
   // words, and do not begin with one that ends in =.
   void checkWords(const Op& op, size_t first, std::initializer_list<std::string_view> words);
+
+  // --- Arguments ---
 
   std::string text(const Op& op, size_t i) const;
   Span spanOf(const Op& op, size_t i) const;

@@ -339,7 +339,10 @@ class Parser {
       if (peek() == '}' && !choose) b.parts.push_back({});
     }
     if (!accept("}")) {
-      unexpected("'}'", "a bracket that is opened before is closed here");
+      const bool divided = peek() == (choose ? '|' : ',');
+      unexpected("'}'", !divided ? "a bracket that is opened before is closed here"
+                        : choose ? "parts of Choose are divided by commas"
+                                 : "parts are divided by '|'");
       while (!atEnd() && peek() != '}' && !declarationHere()) ++at_;
       accept("}");
     }

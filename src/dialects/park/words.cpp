@@ -46,7 +46,7 @@ std::span<const DialectWord> words() {
       {"Romb", "Romb(radius)", "rhombus", "", ""},
       {"Square", "Square(side)", "square", "", ""},
       {"Rect", "Rect(width, height)", "rect", "", ""},
-      {"Polygon", "Polygon(radius, sides)", "regularPolygon", "", ""},
+      {"Polygon", "Polygon(sides, radius)", "regularPolygon", "", ""},
       {"OUTER", "OUTER", nullptr, "Sides on the border of the park.", ""},
       {"INNER", "INNER", nullptr, "Sides along paths.", ""},
       {"CENTRE", "CENTRE", nullptr, "The middle of the region, always inside.", ""},

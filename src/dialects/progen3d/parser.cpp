@@ -300,10 +300,19 @@ class Parser : TokenReader {
     if (is(TokenKind::Open)) {
       skipArguments();
       warningOfWord("unknown-word", step.span, "there is no operation '" + std::string(word) + "'",
-                    "", nearestName(word, {"S", "T", "A", "D", "I", "R", "DS", "DT"}));
+                    "", operationLike(word));
       return;
     }
     out.push_back(std::move(step));
+  }
+
+  // Names of one letter are near none but that of the other case.
+  static std::string operationLike(std::string_view word) {
+    constexpr std::string_view kOperations[] = {"S", "T", "A", "D", "I", "R", "DS", "DT"};
+    for (const std::string_view o : kOperations) {
+      if (lowerCase(o) == lowerCase(word)) return std::string(o);
+    }
+    return nearestName(word, {std::begin(kOperations), std::end(kOperations)});
   }
 
   void skipArguments() {

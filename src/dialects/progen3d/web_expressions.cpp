@@ -148,6 +148,11 @@ NodeId Expressions::rand(const Expression& e) {
   const std::string_view variable = rolledBy(g_, e);
   if (variable.empty() || !uses_.isDrawn(variable)) {
     const NodeId least = value(e.parts[0]);
+    if (e.parts.size() == 1 && variable.empty()) {
+      diagnostics_.warning("wrong-argument-count", e.span,
+                           "'rand' draws between two values, or anew from the range of a variable",
+                           "write 'rand(min max)'");
+    }
     return e.parts.size() == 1 ? least : b_.call("rand", {least, value(e.parts[1])}, e.span);
   }
   // In the head of a rule nothing can stand before.

@@ -113,6 +113,15 @@ class Lowering {
                              "give one of them another name");
       }
     }
+    for (const Variant& v : g_.rules[0].variants) {
+      if (v.parameters.empty()) continue;
+      const std::string name(v.parameters[0].name);
+      diagnostics_.warning(
+          "wrong-argument-count", g_.rules[0].nameSpan,
+          "nothing gives the first rule a value for '" + name + "'; it counts as 0",
+          "write a rule without parameters above it, to begin with");
+      break;
+    }
     for (const Rule& r : g_.rules) {
       if (uses_.isReachable(r.name)) continue;
       diagnostics_.warning("unused-rule", r.nameSpan,

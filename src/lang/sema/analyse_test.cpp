@@ -690,6 +690,16 @@ TEST(Analyse, stylesKeepTheAnnotationsOfWhatTheyChange) {
   EXPECT_EQ(lower.attribute("plain").annotations.group.path, std::vector<std::string>{"Own"});
 }
 
+TEST(Analyse, slipsInAnnotationsAreFound) {
+  EXPECT_EQ(Analysed("@Range(min=1, mx=2) attr a = 1").problems(),
+            "1:15 bad-annotation (warning)\n");
+  EXPECT_EQ(Analysed("@Range(Low=0, High=1) attr a = 1").problems(), "");
+  const Analysed handle("@Handle(shpe=Lot, type=lnear, axis=y, other=3) attr a = 1");
+  EXPECT_EQ(handle.problems(), "1:9 bad-annotation (warning)\n1:19 bad-annotation (warning)\n");
+  EXPECT_EQ(handle.hint(0), "did you mean 'shape'?");
+  EXPECT_EQ(handle.hint(1), "did you mean 'linear'?");
+}
+
 TEST(Analyse, annotationsBecomeData) {
   const Analysed a(R"(@RuleFileDescription("A house") version "2025.0"
 @Group("Mass", "Roof", 2) @Order(3) @Range(min=-1, max=5.5, stepsize=0.5, restricted=false)

@@ -111,11 +111,15 @@ void readEnum(NoteReader& r, Annotations& out) {
 bool hasLabels(const NoteReader& r) {
   constexpr std::string_view kKeys[] = {"min",       "max",  "stepsize",
                                         "step_size", "step", "restricted"};
-  return std::any_of(r.arguments().begin(), r.arguments().end(), [&](NodeId a) {
-    const bool named = r.tree().kind(a) == NodeKind::NamedArg;
-    return named &&
-           std::find(std::begin(kKeys), std::end(kKeys), r.tree().text(a)) == std::end(kKeys);
-  });
+  bool labels = false;
+  for (const NodeId a : r.arguments()) {
+    if (r.tree().kind(a) != NodeKind::NamedArg) continue;
+    const std::string_view key = r.tree().text(a);
+    // Beside a bound every other name is a slip of one.
+    if (std::find(std::begin(kKeys), std::end(kKeys), key) != std::end(kKeys)) return false;
+    labels = true;
+  }
+  return labels;
 }
 
 // The values alone: an attribute holds the value, and the label is what an editor would show.
@@ -256,11 +260,32 @@ std::string handleText(const NoteReader& r, NodeId value) {
   return "{" + out + "}";
 }
 
+// A name or a kind close to one that handles have was meant to be that. Others may be known to
+// other programs.
+void warnOfHandleWords(NoteReader& r, NodeId argument) {
+  static const std::vector<std::string_view> kKeys = {"shape",  "type",      "axis", "reference",
+                                                      "align",  "slip",      "skin", "occlusion",
+                                                      "repeat", "translate", "color"};
+  static const std::vector<std::string_view> kTypes = {"linear", "move",     "angular",
+                                                       "toggle", "selector", "color"};
+  const auto tell = [&](std::string_view word, const std::vector<std::string_view>& known) {
+    if (std::find(known.begin(), known.end(), word) != known.end()) return;
+    const std::string nearest = nearestName(word, known);
+    if (nearest.empty()) return;
+    r.warn(argument, "'" + std::string(word) + "' is not understood in '@Handle'",
+           "did you mean '" + nearest + "'?");
+  };
+  const std::string_view key = r.tree().text(argument);
+  tell(key, kKeys);
+  if (key == "type") tell(r.word(r.tree().child(argument, 0)).value_or(""), kTypes);
+}
+
 void readHandle(NoteReader& r, Annotations& out) {
   HandleNote handle;
   for (const NodeId a : r.arguments()) {
     const bool named = r.tree().kind(a) == NodeKind::NamedArg;
     if (named) {
+      warnOfHandleWords(r, a);
       handle.emplace_back(r.tree().text(a), handleText(r, r.tree().child(a, 0)));
     } else {
       r.warn(a, "each argument of '@Handle' has a name", "write '@Handle(shape = Wall, axis = y)'");

@@ -116,6 +116,49 @@ TEST(ParkNotation, SlipsAreFound) {
   for (const auto& [text, code] : slips) EXPECT_TRUE(run(text, kLot).has(code)) << text;
 }
 
+// What would be dropped in silence is told.
+TEST(ParkNotation, WhatAnOperationDoesNotTakeIsFound) {
+  const std::pair<const char*, const char*> slips[] = {
+      {"R -> Extrude(2, 5)", "wrong-argument-count"},
+      {"R -> Extrude()", "wrong-argument-count"},
+      {"R -> Color(\"#aabbcc\", 3)", "wrong-argument-count"},
+      {"R -> loadModel()", "wrong-argument-count"},
+      {"R -> loadModel(\"bench\", \"lamp\")", "wrong-argument-count"},
+      {"R -> Insert(1, 2)", "wrong-argument-count"},
+      {"R -> QuadMap(2, 2, 3) { A }", "wrong-argument-count"},
+      {"R -> Contract() A", "wrong-argument-count"},
+      {"R -> NoHoles(3) A", "wrong-argument-count"},
+      {"R -> Choose(3) { A, B }", "wrong-argument-count"},
+      {"R -> Select(3) { outer : A }", "wrong-argument-count"},
+      {"R -> joined(3) { A B }", "wrong-argument-count"},
+      {"R -> Contract(1) { A }", "too-many-blocks"},
+      {"R -> Extrude(1) { A }", "too-many-blocks"},
+      {"R -> Circle(1) { A }", "too-many-blocks"},
+      {"R -> Place(CENTRE) { Circle(1) { A } }", "too-many-blocks"},
+      {"R -> B { A }\nB -> C", "too-many-blocks"},
+      {"R -> Place(CENTRE) { A | B }", "too-many-blocks"},
+      {"R -> Scatter(2 {1}) { A } { B }", "too-many-blocks"},
+      {"R -> Place(CENTRE) { foo : A }", "unknown-selector"},
+      {"R -> Extrude(1) else { A }", "unexpected-text"},
+      {"R -> Scatter(3 {1} 2) { A }", "bad-argument"},
+      {"R -> Choose { A, 130%: B }", "weights-over-100"},
+      {"R -> Choose { A, x%: B }", "bad-argument"},
+      {"R -> Choose { }", "bad-argument"},
+      {"R -> Grid(2, 2) { A } { B } { Choose { Circle(1) P, x%: Romb(1) P } }", "bad-argument"},
+      {"R -> RED(3)", "undefined-rule"},
+      {"R -> Foo(3)", "undefined-rule"},
+      {"R(x) -> Contract(x) A", "wrong-argument-count"}};
+  for (const auto& [text, code] : slips) EXPECT_TRUE(run(text, kLot).has(code)) << text;
+  for (const char* right :
+       {"R -> Insert(1) { A } Extrude(2)", "R -> Contract(2) else { A } NoHoles",
+        "R -> ParkPath(..)", "R -> Choose { 30%: A, 30%: B, C }", "R -> Choose { 50: A, 50: B }",
+        "R -> Extrude(w / 2)", "R -> Sweep(outer, width=1, joins=round) { Hedge } else { A }",
+        "R -> Place(CENTRE) { Circle(2) A } QuadMap(2, 2) { A | B } else { C }"}) {
+    const Made m = run(right, kLot);
+    EXPECT_TRUE(m.diagnostics.empty()) << right << render(m.diagnostics);
+  }
+}
+
 // The leaves of a grammar on the lot, with their colours.
 std::string leavesOf(const std::string& text) {
   return derive(Rules::parse(text, "a.park"), Shapes::lot(20, 20), {}).dump();
@@ -152,6 +195,8 @@ TEST(ParkNotation, MistakesAreToldWhereTheyStand) {
       {"R -> Contract(1 + nothing) A", "bad-expression", "1:19"},
       {"R -> case (w == 2 && hh > 3) : A else : B", "bad-expression", "1:22"},
       {"R -> Distribute(outer & side(Q), 2) { A }", "bad-selection", "1:30"},
+      {"R -> Sweep(outer, width=1, joins=foo) { A }", "unknown-selector", "1:34"},
+      {"R -> Scatter(2 {1}) { A } { B }", "too-many-blocks", "1:29"},
       {"R -> A Contrct(2)", "unknown-operation", "1:8"}};
   for (const auto& [text, code, place] : mistakes) {
     EXPECT_EQ(placeOf(run(text, kLot), code), place) << text;

@@ -707,6 +707,15 @@ TEST(Mistakes, thatOnceWereSilent) {
   EXPECT_EQ(codes("X ; -0.5 -> I ( Cube )"), Codes{"bad-probability 1:5"});
   EXPECT_EQ(codes("X ; -> I ( Cube )"), Codes{"bad-probability 1:3"});
   EXPECT_EQ(codes("X -> I ( Cube )\nY -> I ( Cube )"), Codes{"unused-rule 2:1"});
+  EXPECT_EQ(codes("X -> I ( Cube 24 )"), Codes{"unknown-texture 1:6"});
+  EXPECT_EQ(codes("X -> I ( Cube -1 )"), Codes{"unknown-texture 1:6"});
+  EXPECT_EQ(codes("X -> I ( Cube 23 ) I ( Cube 23 )"), Codes{});
+}
+
+TEST(Mistakes, wordsOfTheOtherCaseAreMeant) {
+  const Drawn d = draw("X -> s ( 1 1 1 ) I ( Cube )");
+  ASSERT_EQ(d.codes(), std::vector<std::string>{"unknown-word 1:6"});
+  EXPECT_EQ(d.messages().at(0).hint, "did you mean 'S'?");
 }
 
 TEST(Mistakes, haveRemediesInTheNotation) {

@@ -365,6 +365,8 @@ TEST(Web, mistakesAreTold) {
       {"Start -> ?( 1 ) DSX", "missing-arguments 1:17"},
       {"Start -> ?( sine( 1 ) ) Start", "unknown-function 1:13"},
       {"Start -> ?( sin( 1 2 ) ) Start", "wrong-argument-count 1:13"},
+      {"Start -> ?( rand( 1 ) ) Start", "wrong-argument-count 1:13"},
+      {"Start( w ) -> ?( w ) Start( 1 )", "wrong-argument-count 1:1"},
       {"Start -> ?( 1 )", "missing-arguments 1:10"},
       {"Start -> ?( 1 ) A ( 90 3 )", "bad-axis 1:24"},
       {"Start -> ?( 1 ) [ T ( 1 0 0 )", "unclosed-bracket 1:17"},

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/allowance.h"
+#include "base/number.h"
 #include "base/text.h"
 #include "material/builtin_textures.h"
 
@@ -35,6 +36,16 @@ std::vector<std::string> numberedImages(Assets& assets) {
   }
   std::sort(out.begin(), out.end());
   return out;
+}
+
+bool tellsMissing(Services& services, double index) {
+  const UncountedWork uncounted;
+  const size_t count = numberedImages(services.assets()).size();
+  if (index >= 0 && index < static_cast<double>(count)) return false;
+  services.warn("unknown-texture",
+                "there is no texture number " + shortestText(index) + "; the body is plain",
+                "write a number from 0 to " + std::to_string(count - 1));
+  return true;
 }
 
 std::string stemOf(const std::string& path) {
@@ -68,6 +79,8 @@ void wearNumberedTexture(Shape& s, Services& services, double number, double qua
     if (std::isfinite(scale)) map.su = map.sv = 2 * scale;
     if (std::isfinite(turns)) map.rw = 90 * std::fmod(turns, 4);
   });
+  // A number without an image is told for each shape, so that it is not remembered.
+  if (s.material == edit.base && tellsMissing(services, index)) return;
   last = {true, edit.base, s.material, number, quarters, scale};
 }
 
