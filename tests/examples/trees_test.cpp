@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// The trees that rules share: the branching tree against its definition, worked out here once more
-// with matrices, and all kinds by size, cost and look.
+// The trees and people that rules share: the branching tree against its definition, worked out here
+// once more with matrices, and all kinds by size, cost and look.
 
 #include <gtest/gtest.h>
 
@@ -331,7 +331,7 @@ TEST(Trees, haveFiveLevelsOfDetailFromCardsToAllLeaves) {
     SCOPED_TRACE(kind);
     size_t before = 0;
     for (const char* level : {"0", "1", "2", "3", "4"}) {
-      const Cost cost = costOf(kind, "detail", level);
+      const Cost cost = costOf(kind, "treeDetail", level);
       EXPECT_GT(cost.triangles, before) << level;
       EXPECT_GT(cost.leaves, 0u) << level;
       if (before == 0) {
@@ -351,6 +351,31 @@ TEST(Trees, areBareInWinterButForEvergreens) {
       EXPECT_GT(costOf(kind, "season", season).leaves, 0u) << season;
     }
   }
+}
+
+TEST(People, areTwelveLooksThatStandOnTheGround) {
+  std::set<std::string> looks;
+  for (int number = 0; number < 12; ++number) {
+    SCOPED_TRACE(number);
+    for (const bool sits : {false, true}) {
+      const Rules rules = Rules::parse(
+          "version \"2025.1\"\nimport people : \"people.cga\"\nLot --> s(0, 0, 0) people." +
+              std::string(sits ? "Sitting(" : "Person(") + std::to_string(number) + ")",
+          std::string(GABLE_SOURCE_DIR) + "/examples/grove/test.cga");
+      const Model model = derivedFrom(rules, Shapes::lot(4, 4), "Lot", 0);
+      ASSERT_FALSE(hasErrors(model.diagnostics())) << render(model.diagnostics());
+      const SceneCounts counted = count(model.impl().result.scene);
+      const Vec3 size = counted.bounds.max - counted.bounds.min;
+      EXPECT_LT(counted.triangles, 600u);
+      EXPECT_LT(size.x, 1.2);
+      if (sits) continue;
+      EXPECT_GT(size.y, 1.1);
+      EXPECT_LT(size.y, 2.3);
+      EXPECT_NEAR(counted.bounds.min.y, 0, 0.12);
+      looks.insert(std::to_string(size.x) + " " + std::to_string(size.y));
+    }
+  }
+  EXPECT_EQ(looks.size(), 12u);
 }
 
 }  // namespace
