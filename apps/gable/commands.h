@@ -79,6 +79,21 @@ struct RenderArguments {
   std::string eye, target;
   std::string ground;
   std::optional<double> fieldOfView;
+  std::string look;
+  /// latitude,longitude,date,hour
+  std::string sunAt;
+  std::optional<double> haze, mist, aperture, focus, lamps, litRooms;
+  std::string exposure = "auto";
+  std::string cut;
+  std::optional<int> bounces;
+  bool noDenoise = false;
+  /// A folder for the layers; empty: none.
+  std::string layers;
+  /// Frames around the model, or along the path of a file; 0 and empty: one picture.
+  int turntable = 0;
+  std::string walk;
+  /// Of a turntable.
+  double framesPerSecond = 24;
   /// Run again whenever a file that is read changes, until Ctrl-C.
   bool watch = false;
 };
@@ -88,6 +103,9 @@ int runRender(const RenderArguments& arguments);
 int drawPicture(const gable::Model& model, const std::string& path,
                 gable::PictureSettings settings);
 int pictureSettings(const RenderArguments& arguments, gable::PictureSettings& settings);
+/// A turntable or a walk: numbered pictures, or a film of them.
+int drawFrames(const gable::Model& model, const RenderArguments& arguments,
+               const gable::PictureSettings& settings);
 /// Whether a path names a model that can be read, by its extension.
 bool isModel(const std::string& path);
 

@@ -45,7 +45,39 @@ void addPictureOptions(CLI::App* app, RenderArguments& a) {
   app->add_option("--size", a.size, "Pixels (default 1600x900)");
   app->add_option("--samples", a.samples, "Paths per pixel (default 48)")
       ->check(number({1, 65536, true}));
-  app->add_option("--sun", a.sun, "elevation,azimuth in degrees (azimuth from north)");
+  app->add_option("--look", a.look,
+                  "photo, clay, blueprint, ink or section (a model cut open); --style takes these "
+                  "words too")
+      ->check(CLI::IsMember(gable::lookNames()));
+  auto* sun = app->add_option("--sun", a.sun, "elevation,azimuth in degrees (azimuth from north)");
+  app->add_option(
+         "--sun-at", a.sunAt,
+         "The sun by place and time: latitude,longitude,YYYY-MM-DD,HH:MM, the time with +02:00 "
+         "or Z\nwhere a clock is meant; without the place that of the shapes")
+      ->excludes(sun);
+  app->add_option("--haze", a.haze, "Dust in the air: 1 on a clear day, 5 on a milky one")
+      ->check(number({0, 50}));
+  app->add_option("--mist", a.mist, "Metres over which mist takes 63 % of a colour, 0 for none")
+      ->check(number({0, 1e9}));
+  app->add_option("--exposure", a.exposure,
+                  "auto, or stops by which the picture is brightened (default auto)");
+  app->add_option("--lit", a.litRooms,
+                  "Share of rooms with light behind their windows (default 0.4 at night)")
+      ->check(number({0, 1}));
+  app->add_option("--lamps", a.lamps,
+                  "How strongly what shines lights its surroundings (default 1)")
+      ->check(number({0, 1e6}));
+  app->add_option("--aperture", a.aperture,
+                  "Blur what is out of focus: the lens's f-number, such as 2.8")
+      ->check(number({1e-4, 1e4}));
+  app->add_option("--focus", a.focus, "Metres to what is sharp (default: to the target)")
+      ->check(number({1e-3, 1e9}));
+  app->add_option("--cut", a.cut,
+                  "Leave out a part: front, side, or what lies beyond x=, y= or z= METRES (-z= for "
+                  "before)");
+  app->add_option("--bounces", a.bounces, "Reflections that light is followed through (default 3)")
+      ->check(number({0, 32, true}));
+  app->add_flag("--no-denoise", a.noDenoise, "Leave the noise of few samples in the picture");
   app->add_option("--eye", a.eye, "The camera's place: x,y,z in metres");
   app->add_option("--target", a.target, "What it looks at: x,y,z in metres");
   app->add_option("--ground", a.ground,
@@ -413,13 +445,30 @@ void addDiff(CLI::App& app, DiffArguments& a, int& status) {
   diff->callback([&a, &status] { status = runDiff(a); });
 }
 
+void addFrameOptions(CLI::App* app, RenderArguments& a) {
+  app->add_option("--aov", a.layers,
+                  "A folder for what lies behind each pixel: depth, normals, colours, objects, "
+                  "instances, rules, materials");
+  auto* turntable =
+      app->add_option("--turntable", a.turntable,
+                      "So many pictures once around the model, NAME-001.png and so on, or a film")
+          ->check(number({1, 100000, true}));
+  app->add_option("--walk", a.walk, "Pictures along the path of a JSON file, or a film")
+      ->excludes(turntable);
+  app->add_option("--fps", a.framesPerSecond,
+                  "Pictures a second of a turntable's film (default 24)")
+      ->check(number({1, 240}));
+}
+
 void addRender(CLI::App& app, RenderArguments& a, int& status) {
   auto* command = app.add_subcommand("render", "Render rules or a model as a picture");
   command->add_option("input", a.derive.rules, "A rule file or a model (.glb .gltf .obj)")
       ->required();
   addDeriveOptions(command, a.derive);
-  command->add_option("-o,--output", a.output, "The picture: .png")->required();
+  command->add_option("-o,--output", a.output, "The picture: .png; or a film: .webm .mp4")
+      ->required();
   addPictureOptions(command, a);
+  addFrameOptions(command, a);
   addWatch(command, a.watch);
   command->callback([&a, &status] { status = runRender(a); });
 }

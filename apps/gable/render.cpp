@@ -24,6 +24,125 @@ bool parseColor(const std::string& text, gable::Triple& rgb) {
   return digits;
 }
 
+/// Splits at commas.
+std::vector<std::string> partsOf(const std::string& text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+/// "2024-06-21".
+bool parseDate(const std::string& text, gable::SunTime& time) {
+  double n[3];
+  const bool form = text.size() == 10 && text[4] == '-' && text[7] == '-';
+  if (!form || !parseNumber(text.substr(0, 4), {1950, 2050, true}, n[0]) ||
+      !parseNumber(text.substr(5, 2), {1, 12, true}, n[1]) ||
+      !parseNumber(text.substr(8, 2), {1, 31, true}, n[2])) {
+    return false;
+  }
+  time.year = static_cast<int>(n[0]);
+  time.month = static_cast<int>(n[1]);
+  time.day = static_cast<int>(n[2]);
+  return true;
+}
+
+/// "18:30" or "18.5" as hours.
+bool parseHour(const std::string& text, double most, double& hour) {
+  const size_t colon = text.find(':');
+  if (colon == std::string::npos) return parseNumber(text, {0, most}, hour);
+  double minutes = 0;
+  if (!parseNumber(text.substr(0, colon), {0, most, true}, hour) ||
+      !parseNumber(text.substr(colon + 1), {0, 59, true}, minutes)) {
+    return false;
+  }
+  hour += minutes / 60;
+  return hour <= most;
+}
+
+/// "18:30", "18:30Z" or "18:30+02:00".
+bool parseClock(std::string text, gable::SunTime& time) {
+  if (!text.empty() && (text.back() == 'Z' || text.back() == 'z')) {
+    text.pop_back();
+    time.hoursEast = 0;
+  } else if (const size_t sign = text.find_first_of("+-", 1); sign != std::string::npos) {
+    double east = 0;
+    if (!parseHour(text.substr(sign + 1), 14, east)) return false;
+    time.hoursEast = text[sign] == '-' ? -east : east;
+    text.resize(sign);
+  }
+  return parseHour(text, 24, time.hour);
+}
+
+bool parseSunAt(const std::string& text, gable::SunTime& time) {
+  const std::vector<std::string> parts = partsOf(text);
+  if (parts.size() != 2 && parts.size() != 4) return false;
+  if (parts.size() == 4) {
+    gable::SunTime::Place place;
+    if (!parseNumber(parts[0], {-90, 90}, place.latitude) ||
+        !parseNumber(parts[1], {-180, 180}, place.longitude)) {
+      return false;
+    }
+    time.place = place;
+  }
+  return parseDate(parts[parts.size() - 2], time) && parseClock(parts.back(), time);
+}
+
+/// "front", "side", "z=3" or "-z=3".
+bool parseCut(const std::string& text, gable::PictureSettings& s) {
+  using Side = gable::PictureSettings::CutSide;
+  if (text == "front" || text == "side") {
+    s.cutSide = text == "front" ? Side::Front : Side::Side;
+    return true;
+  }
+  const bool back = !text.empty() && text[0] == '-';
+  const size_t at = back ? 1 : 0;
+  if (text.size() < at + 3 || text[at + 1] != '=' || text[at] < 'x' || text[at] > 'z') return false;
+  double metres = 0;
+  if (!parseNumber(text.substr(at + 2), kMetres, metres)) return false;
+  gable::PictureSettings::Cut cut;
+  cut.normal = {0, 0, 0};
+  cut.normal[static_cast<size_t>(text[at] - 'x')] = back ? -1 : 1;
+  cut.offset = back ? -metres : metres;
+  s.cut = cut;
+  return true;
+}
+
+/// What photographers set.
+int lightSettings(const RenderArguments& a, gable::PictureSettings& s) {
+  if (!a.look.empty()) s.look = gable::lookNamed(a.look).value_or(s.look);
+  if (!a.sunAt.empty() && !parseSunAt(a.sunAt, s.sunTime.emplace())) {
+    return wrongOption("--sun-at",
+                       "latitude,longitude,date,hour, such as 48.86,2.35,2024-06-21,18:30 or "
+                       "2024-06-21,16:30Z",
+                       a.sunAt);
+  }
+  double stops = 0;
+  if (a.exposure != "auto") {
+    if (!parseNumber(a.exposure, {-30, 30}, stops)) {
+      return wrongOption("--exposure", "auto or stops from -30 to 30, such as 0.5", a.exposure);
+    }
+    s.exposure = stops;
+  }
+  if (!a.cut.empty() && !parseCut(a.cut, s)) {
+    return wrongOption("--cut", "front, side, or a plane such as z=3, y=1.2 or -x=0", a.cut);
+  }
+  s.haziness = a.haze.value_or(s.haziness);
+  s.mist = a.mist;
+  s.aperture = a.aperture;
+  s.focus = a.focus;
+  s.lamps = a.lamps.value_or(s.lamps);
+  s.litRooms = a.litRooms;
+  s.bounces = a.bounces.value_or(s.bounces);
+  s.denoise = !a.noDenoise;
+  s.layers = !a.layers.empty();
+  return kExitDone;
+}
+
 }  // namespace
 
 int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
@@ -46,6 +165,7 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
   s.limits = fileLimits(a.derive.limits);
   if (!a.derive.limits.maxSeconds) s.limits.seconds.reset();
   s.cancel = cancelFlag();
+  if (const int status = lightSettings(a, s)) return status;
   double sun[2];
   if (!a.sun.empty()) {
     if (!parseNumbers(a.sun, ',', kDegrees, sun, 2)) {
@@ -95,24 +215,78 @@ int drawPicture(const gable::Model& model, const std::string& path,
 
 namespace {
 
-int renderOnce(const RenderArguments& arguments) {
+/// The picture with its layers in a folder.
+int drawWithLayers(const gable::Model& model, const RenderArguments& arguments,
+                   gable::PictureSettings settings) {
+  Progress progress("drawing");
+  settings.progress = progress.callback();
+  const gable::PictureMaker maker(model, settings.limits);
+  const gable::PictureData data = maker.draw(settings);
+  print(data.diagnostics);
+  if (!data.ok) return statusOf(data.diagnostics, kExitLimit);
+  for (const gable::WriteResult& written : {gable::writePicture(data, arguments.output),
+                                            gable::writePictureLayers(data, arguments.layers)}) {
+    print(written.diagnostics);
+    if (!written.ok) return statusOf(written.diagnostics, kExitFile);
+  }
+  answer().wrote(arguments.output);
+  answer().wrote(arguments.layers);
+  return kExitDone;
+}
+
+/// Rules and shapes. `--style clay` and the like are looks of the picture, unless the rules declare
+/// a style of that name.
+int readForPicture(RenderArguments& a, Inputs& inputs) {
+  const std::string style = a.derive.style.value_or("");
+  const bool isLook = a.look.empty() && style != "photo" && gable::lookNamed(style);
+  if (isLook) a.derive.style.reset();
+  const int status = readInputs(a.derive, inputs);
+  if (status || !isLook) return status;
+  const std::vector<std::string>& declared = inputs.rules.styles();
+  if (std::find(declared.begin(), declared.end(), style) == declared.end()) {
+    a.look = style;
+    return kExitDone;
+  }
+  a.derive.style = style;
+  return readInputs(a.derive, inputs);
+}
+
+int makeModel(RenderArguments& arguments, gable::Model& model) {
+  if (isModel(arguments.derive.rules)) {
+    // A model has no styles of its own.
+    if (arguments.look.empty() && gable::lookNamed(arguments.derive.style.value_or(""))) {
+      arguments.look = *arguments.derive.style;
+    }
+    model = gable::Model::load(arguments.derive.rules, fileLimits(arguments.derive.limits));
+    return kExitDone;
+  }
+  Inputs inputs;
+  if (const int status = readForPicture(arguments, inputs)) return status;
+  model = gable::derive(inputs.rules, inputs.shapes, inputs.settings);
+  return kExitDone;
+}
+
+int renderOnce(RenderArguments arguments) {
+  const bool moves = arguments.turntable > 0 || !arguments.walk.empty();
+  const std::vector<std::string> endings =
+      moves ? std::vector<std::string>{"png", "webm", "mp4"} : std::vector<std::string>{"png"};
+  if (const int status = checkExtension(arguments.output, endings)) return status;
+  if (moves && !arguments.layers.empty()) {
+    return fail(kExitUsage, "--aov goes with one picture, not with --turntable or --walk");
+  }
   gable::PictureSettings settings;
-  if (const int status = checkExtension(arguments.output, {"png"})) return status;
   if (const int status = pictureSettings(arguments, settings)) return status;
   gable::Model model(nullptr);
-  if (isModel(arguments.derive.rules)) {
-    model = gable::Model::load(arguments.derive.rules, fileLimits(arguments.derive.limits));
-  } else {
-    Inputs inputs;
-    if (const int status = readInputs(arguments.derive, inputs)) return status;
-    model = gable::derive(inputs.rules, inputs.shapes, inputs.settings);
-  }
+  if (const int status = makeModel(arguments, model)) return status;
+  settings.look = gable::lookNamed(arguments.look).value_or(settings.look);
   print(model.diagnostics());
   if (!model.found()) return statusOf(model.diagnostics(), kExitFile);
   if (gable::hasErrors(model.diagnostics())) {
     return statusOf(model.diagnostics(), statusOf(model));
   }
-  const int status = drawPicture(model, arguments.output, settings);
+  const int status = moves             ? drawFrames(model, arguments, settings)
+                     : settings.layers ? drawWithLayers(model, arguments, settings)
+                                       : drawPicture(model, arguments.output, settings);
   return status == kExitDone ? statusOf(model) : status;
 }
 

@@ -22,6 +22,7 @@
 #include "gable/diagnostic.h"
 #include "gable/limits.h"
 #include "gable/model.h"
+#include "gable/picture.h"
 #include "gable/rules.h"
 #include "gable/shapes.h"
 #include "gable/trace.h"

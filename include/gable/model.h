@@ -5,9 +5,7 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,12 +14,11 @@
 
 #include "gable/diagnostic.h"
 #include "gable/limits.h"
+#include "gable/picture.h"
 #include "gable/trace.h"
 #include "gable/value.h"
 
 namespace gable {
-
-using Triple = std::array<double, 3>;
 
 /// How glTF files show parts that occur several times. Auto: by nodes that share a mesh, at most
 /// 20,000 of them; beyond, parts that save least are merged, or, where that would add more than a
@@ -56,42 +53,6 @@ struct EncodeResult {
   bool ok = false;
   std::string bytes;
   DiagnosticList diagnostics;
-};
-
-/// Where a picture is taken from. Iso: from above, with two fronts and the roofs in sight. Top: the
-/// plan, north up. Front: level, from the side of the main front. Street: the eye of somebody who
-/// stands outside.
-enum class View : uint8_t { Iso, Top, Front, Street };
-
-struct PictureSettings {
-  View view = View::Iso;
-  int width = 1600, height = 900;
-  int samples = 48;
-  /// Degrees: the elevation above the horizon, the azimuth clockwise from north.
-  struct Sun {
-    double elevation = 38, azimuth = 45;
-  };
-  /// Absent: the view's own.
-  std::optional<Sun> sun;
-  /// The colour of the ground around the model, sRGB from 0 to 1.
-  std::optional<Triple> ground;
-  /// Metres.
-  struct Camera {
-    Triple eye{}, target{};
-  };
-  /// Absent: the view's own.
-  std::optional<Camera> camera;
-  /// Horizontal angle of view in degrees; absent: the view's own.
-  std::optional<double> fieldOfView;
-  /// Threads; absent: one a processor.
-  std::optional<int> jobs;
-  /// Called from any thread with the thousandths of the picture that are done, of 1000.
-  std::function<void(size_t done, size_t total)> progress;
-  /// Ends the drawing soon after it becomes true; what was drawn until then is written. In place of
-  /// limits.cancel. May be null.
-  std::atomic<bool>* cancel = nullptr;
-  /// By default it may take as long as its samples take.
-  FileLimits limits{std::nullopt};
 };
 
 /// How a model becomes an asset that fills scopes: its volume is mapped to the unit cube.

@@ -20,6 +20,10 @@ const char* severityName(Diagnostic::Severity severity);
 const std::vector<std::string>& viewNames();
 /// Absent for any other word.
 std::optional<View> viewNamed(const std::string& name);
+/// "photo", "clay", "blueprint", "ink", "section", in the order of Look.
+const std::vector<std::string>& lookNames();
+/// Empty where there is no such look.
+std::optional<Look> lookNamed(const std::string& name);
 
 /// "auto", "nodes", "gpu", "none": in the order of Instancing.
 const std::vector<std::string>& instancingNames();

@@ -5,19 +5,17 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 
 #include "base/files.h"
 #include "base/temporary_folder.h"
 #include "engine/guard.h"
 #include "engine/impl.h"
 #include "engine/missing_files.h"
+#include "engine/picture.h"
 #include "gable/names.h"
 #include "io/exporters/draw_list.h"
 #include "io/exporters/write_model.h"
-#include "io/image/image.h"
 #include "io/importers/asset.h"
-#include "render/render.h"
 #include "runtime/output.h"
 #include "scene/dump.h"
 #include "scene/flatten.h"
@@ -27,66 +25,10 @@ namespace gable {
 
 namespace {
 
-// Textures by the paths that materials name, decoded once.
-class ProjectTextures final : public TextureSource {
- public:
-  explicit ProjectTextures(Project* project) : project_(project) {}
-
-  const TextureImage* find(const std::string& path) const override {
-    const auto [at, fresh] = images_.try_emplace(path);
-    if (fresh) load(path, at->second);
-    return at->second.width > 0 ? &at->second : nullptr;
-  }
-
- private:
-  void load(const std::string& path, TextureImage& out) const {
-    if (!project_) return;
-    const auto bytes = project_->texture(path);
-    if (!bytes.ok()) return;
-    auto image = decodeImage(bytes.value());
-    if (!image.ok()) return;
-    // Small files can be large pictures; beyond this, surfaces have their colour.
-    constexpr uint64_t kMostBytes = 2ull << 30;
-    held_ += image->rgba.size();
-    if (held_ > kMostBytes) return;
-    out = {image.value().width, image.value().height, std::move(image.value().rgba)};
-  }
-
-  Project* project_;
-  mutable std::map<std::string, TextureImage> images_;
-  mutable uint64_t held_ = 0;
-};
-
 WriteResult failedWrite(const Error& e) {
   WriteResult r;
   r.diagnostics.push_back(diagnosticOf(e));
   return r;
-}
-
-Vec3 vec(const Triple& t) { return {t[0], t[1], t[2]}; }
-
-RenderOptions renderOptions(const PictureSettings& s, Allowance& allowance) {
-  RenderOptions o;
-  o.view = static_cast<PictureView>(s.view);
-  o.width = static_cast<uint32_t>(s.width);
-  o.height = static_cast<uint32_t>(s.height);
-  o.samples = static_cast<uint32_t>(s.samples);
-  if (s.sun) {
-    o.sunElevation = s.sun->elevation;
-    o.sunAzimuth = s.sun->azimuth;
-  }
-  if (s.camera) {
-    o.eye = vec(s.camera->eye);
-    o.target = vec(s.camera->target);
-  }
-  if (s.ground) o.groundColor = vec(*s.ground);
-  if (s.fieldOfView) o.fov = *s.fieldOfView;
-  o.threads = static_cast<unsigned>(std::max(0, s.jobs.value_or(0)));
-  o.progress = [&s, &allowance](double share) {
-    if (s.progress) s.progress(static_cast<size_t>(share * 1000), 1000);
-    return allowance.look(0, 0);
-  };
-  return o;
 }
 
 // A model is a scene of one leaf; its textures are found beside it.
@@ -173,33 +115,6 @@ WriteResult written(const Model::Impl& impl, const std::string& path,
   return out;
 }
 
-// The door to pictures. Where a limit ends the tracing, what was made is written, as when it is
-// cancelled; where one ends what comes before, there is no picture.
-WriteResult drawn(const Model::Impl& impl, const std::string& path, const PictureSettings& settings,
-                  Task& task) {
-  const int most = 1 << 15;
-  if (settings.width < 1 || settings.height < 1 || settings.width > most ||
-      settings.height > most || settings.samples < 1) {
-    return failedWrite({"picture-size", "a picture has 1 to 32768 pixels a side and a sample",
-                        "correct the size or the samples"});
-  }
-  RenderOptions options = renderOptions(settings, task.allowance());
-  const ProjectTextures textures(impl.project.get());
-  options.textures = &textures;
-  const Picture picture = render(impl.scene(), options);
-  const Result<std::string> png =
-      encodePng({picture.image.width, picture.image.height, toRgba8(picture.image)}, 3);
-  if (!png.ok()) return failedWrite(png.error());
-  Result<uint64_t> bytes = writeFile(path, png.value());
-  if (!bytes.ok()) return failedWrite(bytes.error());
-  WriteResult out;
-  out.ok = !picture.cancelled;
-  if (picture.cancelled) out.diagnostics.push_back(task.warning());
-  out.triangles = picture.stats.triangles;
-  out.bytes = bytes.value();
-  return out;
-}
-
 // Writers write files, so a file is made and read back.
 EncodeResult encoded(const Model::Impl& impl, const std::string& format,
                      const WriteSettings& settings, Task& task) {
@@ -216,7 +131,8 @@ EncodeResult encoded(const Model::Impl& impl, const std::string& format,
   const TemporaryFolder folder;
   if (folder.path().empty()) return fail({"file-unwritable", "there is no room for files", ""});
   const std::string file = folder.path() + "/model." + format;
-  WriteResult made = format == "png" ? drawn(impl, file, {}, task) : written(impl, file, settings);
+  WriteResult made =
+      format == "png" ? drawnPicture(impl, file, {}, task) : written(impl, file, settings);
   out.diagnostics = std::move(made.diagnostics);
   if (!made.ok) return out;
   Result<std::string> bytes = readFile(file);
@@ -242,6 +158,13 @@ const std::vector<std::string>& viewNames() {
 }
 
 std::optional<View> viewNamed(const std::string& name) { return named<View>(viewNames(), name); }
+
+const std::vector<std::string>& lookNames() {
+  static const std::vector<std::string> names{"photo", "clay", "blueprint", "ink", "section"};
+  return names;
+}
+
+std::optional<Look> lookNamed(const std::string& name) { return named<Look>(lookNames(), name); }
 
 const std::vector<std::string>& instancingNames() {
   static const std::vector<std::string> names{"auto", "nodes", "gpu", "none"};
@@ -344,7 +267,7 @@ std::optional<std::string> Model::texture(const std::string& path) const {
 
 WriteResult Model::write(const std::string& path, const WriteSettings& settings) const {
   return guardedResult<WriteResult>(Task("writing", path, settings.limits), [&](Task& task) {
-    return extensionOf(path) == "png" ? drawn(*impl_, path, {}, task)
+    return extensionOf(path) == "png" ? drawnPicture(*impl_, path, {}, task)
                                       : written(*impl_, path, settings);
   });
 }
@@ -359,7 +282,7 @@ WriteResult Model::picture(const std::string& path, const PictureSettings& setti
   FileLimits limits = settings.limits;
   if (settings.cancel) limits.cancel = settings.cancel;
   return guardedResult<WriteResult>(Task("drawing", path, limits), [&](Task& task) {
-    return drawn(*impl_, path, settings, task);
+    return drawnPicture(*impl_, path, settings, task);
   });
 }
 

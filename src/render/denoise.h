@@ -6,7 +6,7 @@
 // apart; of the sun's shadows only the grain of their soft rims goes.
 #pragma once
 
-#include "render/integrator.h"
+#include "render/film.h"
 
 namespace gable::rt {
 

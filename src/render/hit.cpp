@@ -11,6 +11,7 @@
 
 #include "material/laying.h"
 #include "render/tracer.h"
+#include "render/water.h"
 
 namespace gable::rt {
 
@@ -163,11 +164,19 @@ void bendNormal(const TriangleSet& set, const Corners& c, const Vec3f corner[3],
   if (isFinite(n) && length(n) > 0) s.normal = normalized(n);
 }
 
+/// A shading normal that looks away from the viewer would darken the outline of smooth shapes.
+void faceViewer(Surface& s, const Ray& ray) {
+  const Vec3f view = -normalized(ray.direction);
+  const float facing = dot(s.normal, view);
+  if (facing < 0.02f) s.normal = normalized(s.normal + view * (0.02f - facing));
+}
+
 }  // namespace
 
 float clearness(const World& world, const TriangleSet& set, uint32_t triangle, uint32_t placement,
                 float u, float v) {
   const SurfaceMaterial& material = world.materials[set.materials[triangle]];
+  if (material.matter == Matter::Water) return 1;
   Corners corners;
   readCorners(set, triangle, corners);
   LayerReader layers(world, material, set, corners, u, v);
@@ -194,11 +203,21 @@ Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray) {
   s.opacity = m.opacity;
   s.facing = m.facing;
   s.transmission = m.transmission;
+  s.matter = m.matter;
+  s.pane = m.pane;
+  s.material = set.materials[hit.triangle];
+  s.piece = (placement ? placement->firstPiece : 0) + set.pieces[hit.triangle];
   s.point = ray.origin + ray.direction * hit.distance;
   s.facet = normalized(hit.normal);
   const bool behind = dot(s.facet, ray.direction) > 0;
   if (behind) s.facet = -s.facet;
   s.normal = s.facet;
+
+  if (m.matter == Matter::Water) {
+    makeWater(s, hit.distance);
+    faceViewer(s, ray);
+    return s;
+  }
 
   Corners corners;
   if (!readCorners(set, hit.triangle, corners) && !m.laid) return s;
@@ -245,10 +264,7 @@ Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray) {
   }
   if (hit.clear) s.opacity = layers.opacity();
 
-  // A shading normal that looks away from the viewer would darken the outline of smooth shapes.
-  const Vec3f view = -normalized(ray.direction);
-  const float facing = dot(s.normal, view);
-  if (facing < 0.02f) s.normal = normalized(s.normal + view * (0.02f - facing));
+  faceViewer(s, ray);
   return s;
 }
 

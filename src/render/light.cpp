@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// The sky is a gradient of four display colours. What lights the scene has the gradient's shape and
-// is scaled by channel to the irradiance that a clear sky has beside the sun; what the camera sees
-// is the gradient itself, taken back through the tone curve, since a photograph of a facade shows
-// its sky a little brighter than it would light the facade.
+// The physical sky is balanced as film and eye do it: at a sun of 38 degrees, stone in the sun is
+// almost white and its shade cool but not blue. What the camera sees of the sky has a balance of
+// its own, since a photograph of a facade shows its sky a little brighter than it would light the
+// facade. Both balances are factors by channel, so the sky keeps its gradients and its hours.
 
 #include "render/light.h"
 
@@ -16,39 +16,70 @@ namespace gable::rt {
 
 namespace {
 
-/// Linear colours of the noon sun, balanced for 5,500 K, and of the sky at luminance 1. The sky's
-/// tint is between the measured one (0.79, 1.02, 1.46) and its half: the full tint turns shade
-/// under pale walls plainly blue.
+/// The sun for which pictures are balanced.
+constexpr double kBalanced = 38;
+/// Linear colours of that sun, for 5,500 K, and of its sky at luminance 1. The sky's tint is
+/// between the measured one (0.79, 1.02, 1.46) and its half: the full tint turns shade under pale
+/// walls plainly blue.
 constexpr Vec3f kSun{1.0f, 0.93f, 0.83f};
 constexpr Vec3f kSkyTint{0.86f, 1.01f, 1.30f};
 /// Irradiance of the sky on a horizontal plane while the sun gives 1. Measured skies give 0.16; a
 /// little more brings a shaded wall to a quarter of a sunlit one without neighbours to light it.
 constexpr float kSkyShare = 0.178f;
+/// How that sky is shown at 45 degrees, across from the sun.
+constexpr Vec3 kShownSky{0x7d / 255.0, 0xa7 / 255.0, 0xd1 / 255.0};
 constexpr double kSunRadius = 0.5;
 /// Display level of sunlit stone of albedo 0.55.
 constexpr float kStoneAlbedo = 0.55f, kStoneLevel = 211 / 255.0f;
 
-struct Stop {
-  double elevation;
-  Vec3 color;
-};
-/// The sky as shown.
-const Stop kStops[] = {{0, {0xdd / 255.0, 0xe4 / 255.0, 0xe4 / 255.0}},
-                       {10, {0xc3 / 255.0, 0xd7 / 255.0, 0xe4 / 255.0}},
-                       {45, {0x8f / 255.0, 0xb4 / 255.0, 0xd8 / 255.0}},
-                       {90, {0x4f / 255.0, 0x7d / 255.0, 0xb3 / 255.0}}};
+/// The least that a night has, as light on a level surface: a moon behind clouds.
+constexpr float kNightShare = 2e-5f;
+constexpr Vec3f kNightTint{0.62f, 0.85f, 1.6f};
+/// The least share of the day's brightness that a picture of the night has.
+constexpr double kNightLevel = 0.045;
+/// An emissive 1 shows a little under white by day and above it at night.
+constexpr float kGlowByDay = 0.9f, kGlowAtNight = 1.7f;
+/// How much brighter than they are shown lamps are at night.
+constexpr float kLampPower = 80;
+/// The sun's disc, and the radius in degrees of the glare that a lens adds.
+constexpr float kShownDisc = 40, kGlare = 2.2f;
 
-Vec3f shownAt(double elevation) {
-  size_t i = 1;
-  while (i < 3 && elevation > kStops[i].elevation) ++i;
-  const Stop &a = kStops[i - 1], &b = kStops[i];
-  const double t = (elevation - a.elevation) / (b.elevation - a.elevation);
-  return srgbToLinear(a.color * (1 - t) + b.color * t);
+/// The sky for which pictures are balanced.
+const Sky& balancedSky() {
+  static const Sky sky(kBalanced);
+  return sky;
 }
 
-double sineOf(int step, int steps) {
-  const double t = static_cast<double>(step) / steps;
-  return t * t;
+/// By day film is balanced for the day; at dusk a balance that takes the blue from shade would make
+/// everything red.
+Vec3f dusky(const Vec3f& scale, double sunElevation) {
+  const float day = static_cast<float>(std::clamp((sunElevation + 2) / 16, 0.0, 1.0));
+  const float even = luminance(scale);
+  return mix({even, even, even}, scale, day * day * (3 - 2 * day));
+}
+
+/// In the dark the eye sees less of colours, and red least of all.
+constexpr Vec3f kDarkTint{0.72f, 0.92f, 1.4f};
+Vec3f adapted(const Vec3f& light, float night) {
+  return mix(light, kDarkTint * luminance(light), 0.62f * night);
+}
+
+Vec3f over(const Vec3f& a, const Vec3f& b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
+
+/// Display levels of stone and sky as light before the exposure.
+float stoneWanted() {
+  return luminance(inverseToneMapped(srgbToLinear(Vec3{kStoneLevel, kStoneLevel, kStoneLevel})));
+}
+
+/// The exposure for stone in that light.
+float exposureFor(const Vec3f& onStone) {
+  return stoneWanted() / (kStoneAlbedo * luminance(onStone) / kPif);
+}
+
+/// On a stone wall that the sun meets at 45 degrees in plan: sun, half the sky, half the ground.
+Vec3f onStone(double elevation, const Vec3f& sun, const Vec3f& sky, const Vec3f& ground) {
+  const float facing = static_cast<float>(std::max(0.0, cosDeg(elevation) * cosDeg(45)));
+  return sun * facing + (sky + ground * kPif) * 0.5f;
 }
 
 }  // namespace
@@ -60,52 +91,39 @@ Light::Light(const RenderOptions& options, double sunElevation, double sunAzimut
   groundAlbedo = srgbToLinear(options.groundColor);
 
   if (options.uniformSky) {
-    uniform_ = true;
-    light_.fill(toVec3f(*options.uniformSky));
-    shown_ = light_;
-    ground_ = light_[0];
-    skyIrradiance = light_[0] * kPif;
+    uniform_ = ground_ = toVec3f(*options.uniformSky);
+    skyIrradiance = uniform_ * kPif;
+    shownGlow = glow = kGlowByDay;
     return;
   }
 
-  // The sun fades and reddens while it sets; dusk leaves a tenth of the sky.
-  const float high = static_cast<float>(std::clamp((sunElevation + 1) / 12, 0.0, 1.0));
-  const Vec3f reddened = mix({1, 0.45f, 0.18f}, kSun, high);
-  sun = sunElevation > 0 ? reddened * high : Vec3f{};
-  const float day = static_cast<float>(std::clamp((sunElevation + 8) / 16, 0.02, 1.0));
+  const Sky& balanced = balancedSky();
+  sky_.emplace(sunElevation, options.haziness);
+  sun = sky_->sun * over(kSun, balanced.sun);
+  lightScale_ = dusky(over(kSkyTint * kSkyShare, balanced.irradiance), sunElevation);
+  nightLight_ = kNightTint * (kSkyShare * kNightShare / kPif);
+  night = static_cast<float>(std::clamp((2 - sunElevation) / 8, 0.0, 1.0));
+  night = night * night * (3 - 2 * night);
+  skyIrradiance = adapted(sky_->irradiance, night) * lightScale_ + nightLight_ * kPif;
+  const auto groundUnder = [&](const Vec3f& sunlight, double elevation, const Vec3f& sky) {
+    const float up = static_cast<float>(std::max(0.0, sinDeg(elevation)));
+    return groundAlbedo * (sunlight * up + sky) * (1 / kPif);
+  };
+  ground_ = groundUnder(sun, sunElevation, skyIrradiance);
 
-  Gradient shape;
-  for (int i = 0; i <= kSteps; ++i)
-    shape[static_cast<size_t>(i)] = shownAt(asinDeg(sineOf(i, kSteps)));
-  // Irradiance is the integral of radiance * sine over the solid angle: pi * L d(sine^2).
-  Vec3f sum;
-  for (int i = 0; i < kSteps; ++i) {
-    const double lo = sineOf(i, kSteps), hi = sineOf(i + 1, kSteps);
-    const Vec3f mean = (shape[static_cast<size_t>(i)] + shape[static_cast<size_t>(i) + 1]) * 0.5f;
-    sum += mean * static_cast<float>(kPi * (hi * hi - lo * lo));
-  }
-  skyIrradiance = kSkyTint * (kSkyShare * day);
-  const Vec3f scale = {skyIrradiance.x / sum.x, skyIrradiance.y / sum.y, skyIrradiance.z / sum.z};
-  for (int i = 0; i <= kSteps; ++i) {
-    light_[static_cast<size_t>(i)] = shape[static_cast<size_t>(i)] * scale;
-  }
-  const Vec3f onGround = sun * std::max(0.0f, sunDirection.y) + skyIrradiance;
-  ground_ = groundAlbedo * onGround * (1 / kPif);
-
-  // A stone wall that the sun meets at 45 degrees in plan: sun, half the sky, half the ground.
-  const float facing = static_cast<float>(std::max(0.0, c) * cosDeg(45));
-  const Vec3f onStone = sun * facing + (skyIrradiance + ground_ * kPif) * 0.5f;
-  const float wanted =
-      luminance(inverseToneMapped(srgbToLinear(Vec3{kStoneLevel, kStoneLevel, kStoneLevel})));
-  const float stone = kStoneAlbedo * luminance(onStone) / kPif;
   // Dusk stays darker than noon: the eye does not adapt fully.
-  exposure = wanted / stone * static_cast<float>(std::clamp((sunElevation + 8) / 18, 0.06, 1.0));
+  const double level = std::clamp((sunElevation + 8) / 18, kNightLevel, 1.0);
+  exposure =
+      exposureFor(onStone(sunElevation, sun, skyIrradiance, ground_)) * static_cast<float>(level);
+  shownGlow = (kGlowByDay + (kGlowAtNight - kGlowByDay) * night) / exposure;
+  glow = shownGlow * (1 + (kLampPower - 1) * night) * static_cast<float>(options.lampPower);
 
-  for (int i = 0; i <= kSteps; ++i) {
-    shown_[static_cast<size_t>(i)] =
-        inverseToneMapped(shape[static_cast<size_t>(i)] * std::min(1.0f, 0.25f + 0.75f * day)) *
-        (1 / exposure);
-  }
+  const float exposureThen = exposureFor(onStone(
+      kBalanced, kSun, kSkyTint * kSkyShare, groundUnder(kSun, kBalanced, kSkyTint * kSkyShare)));
+  const Vec3f shown = inverseToneMapped(srgbToLinear(kShownSky)) * (1 / exposureThen);
+  shownScale_ =
+      dusky(over(shown, balanced.radiance(static_cast<float>(sinDeg(45)), 0)), sunElevation);
+  nightShown_ = nightLight_ * over(shownScale_, lightScale_);
 }
 
 Vec3f Light::towardsSun(Vec2f u) const {
@@ -116,26 +134,37 @@ Vec3f Light::towardsSun(Vec2f u) const {
   return normalized(sunDirection + t * (d.x * r) + b * (d.y * r));
 }
 
-Vec3f Light::at(const Gradient& gradient, float up) {
-  const float x = std::sqrt(std::clamp(up, 0.0f, 1.0f)) * kSteps;
-  const size_t i = std::min<size_t>(kSteps - 1, static_cast<size_t>(x));
-  return mix(gradient[i], gradient[i + 1], x - static_cast<float>(i));
-}
-
-float Light::sunSide(const Vec3f& d) const {
-  const float flat = d.x * sunPlan_.x + d.z * sunPlan_.y;
-  return 1 + 0.09f * flat;
+Vec3f Light::radiance(const Vec3f& d, float up) const {
+  const float flat = std::sqrt(d.x * d.x + d.z * d.z);
+  const float cosine = flat > 0 ? (d.x * sunPlan_.x + d.z * sunPlan_.y) / flat : 0;
+  return adapted(sky_->radiance(up, cosine), night);
 }
 
 Vec3f Light::sky(const Vec3f& direction) const {
-  if (uniform_) return light_[0];
+  if (!sky_) return uniform_;
   if (direction.y < 0) return ground_;
-  return at(light_, direction.y) * sunSide(direction);
+  return radiance(direction, direction.y) * lightScale_ + nightLight_;
 }
 
 Vec3f Light::shownSky(const Vec3f& direction) const {
-  if (uniform_) return shown_[0];
-  return at(shown_, direction.y) * sunSide(direction);
+  if (!sky_) return uniform_;
+  return radiance(direction, direction.y) * shownScale_ + nightShown_;
+}
+
+Vec3f Light::horizon(const Vec3f& direction) const {
+  if (!sky_) return uniform_;
+  return radiance(direction, 0) * shownScale_ + nightShown_;
+}
+
+Vec3f Light::shownSun(const Vec3f& direction) const {
+  if (!sky_ || maxOf(sun) <= 0) return {};
+  const float sine = length(cross(direction, sunDirection));
+  if (dot(direction, sunDirection) <= 0) return {};
+  const float degrees = sine * (180 / kPif);
+  const Vec3f colour = sun * (1 / (std::max(1e-6f, luminance(sun)) * exposure));
+  if (degrees < kSunRadius / 2) return colour * kShownDisc;
+  const float glare = std::exp(-degrees / kGlare) * std::min(1.0f, luminance(sun) * 2);
+  return colour * (0.6f * glare);
 }
 
 }  // namespace gable::rt

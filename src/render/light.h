@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// The light of a picture: one sun, a sky that is blue above and pale at the horizon, haze, and the
-// exposure at which sunlit stone comes out bright but not white. In these units the sun gives a
-// surface that faces it an irradiance of 1 in red.
+// The light of a picture: the sun, the sky about it (render/sky.h), what lamps give at night, and
+// the exposure at which sunlit stone comes out bright but not white. In these units the sun of a
+// bright morning gives a surface that faces it an irradiance of 1 in red.
 #pragma once
 
-#include <array>
+#include <optional>
 
 #include "render/render.h"
+#include "render/sky.h"
 #include "render/vec3f.h"
 
 namespace gable::rt {
@@ -27,6 +28,11 @@ class Light {
   Vec3f groundAlbedo;
   /// Picture light = radiance * exposure, before it adapts to the picture.
   float exposure = 1;
+  /// 0 by day, 1 when it is dark.
+  float night = 0;
+  /// The radiance of an emissive 1 as the camera sees it, and as it lights its surroundings: a lamp
+  /// outshines the street a thousand times, and no picture shows that.
+  float shownGlow = 0, glow = 0;
 
   /// A direction on the sun's disc.
   Vec3f towardsSun(Vec2f u) const;
@@ -34,20 +40,19 @@ class Light {
   Vec3f sky(const Vec3f& direction) const;
   /// What the camera and mirrors see of the sky.
   Vec3f shownSky(const Vec3f& direction) const;
-  Vec3f horizon() const { return shown_[0]; }
+  /// The same at the horizon below or above a direction: what distance fades into.
+  Vec3f horizon(const Vec3f& direction) const;
+  /// What the camera sees of the sun's disc and the glare about it.
+  Vec3f shownSun(const Vec3f& direction) const;
 
  private:
-  /// By elevation, from the horizon to the zenith, in even steps of its sine's square root.
-  static constexpr int kSteps = 64;
-  using Gradient = std::array<Vec3f, kSteps + 1>;
-  static Vec3f at(const Gradient& gradient, float up);
-  /// 1 on average over the horizon, 20 % more on the sun's side than on the other.
-  float sunSide(const Vec3f& direction) const;
+  Vec3f radiance(const Vec3f& direction, float up) const;
 
-  Gradient light_, shown_;
-  Vec3f ground_;
+  std::optional<Sky> sky_;
+  /// White balance: from the physical sky to its light, and to what is shown of it.
+  Vec3f lightScale_, shownScale_, nightLight_, nightShown_;
+  Vec3f ground_, uniform_;
   Vec2f sunPlan_;
-  bool uniform_ = false;
 };
 
 }  // namespace gable::rt

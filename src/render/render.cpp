@@ -2,15 +2,22 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // The life of a picture: the scene becomes triangles, the camera finds its place, every pixel
-// traces its paths, what noise is left is smoothed, and the exposure makes it a picture.
+// traces its paths, what noise is left is smoothed, and the exposure makes it a picture. Drawings
+// leave the paths out.
 
 #include "render/render.h"
 
 #include <chrono>
 #include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "math/trig.h"
 
 #include "render/denoise.h"
-#include "render/integrator.h"
+#include "render/drawing.h"
+#include "render/film.h"
+#include "render/layers.h"
 #include "render/tone.h"
 #include "render/viewpoint.h"
 
@@ -44,6 +51,8 @@ constexpr float kVeil = 0.008f;
 /// The mean level that a picture should have, and how many stops the exposure may move for it: the
 /// stone on which the exposure rests stays between 195 and 225.
 constexpr float kMeanLevel = 126 / 255.0f, kLeastStops = -0.3f, kMostStops = 0.35f;
+/// The same at night, when the brightest part of the dusk may be before the camera or behind it.
+constexpr float kNightLevel = 56 / 255.0f, kNightStops = -1.0f;
 
 /// Mean display level of some thousand pixels.
 float meanLevel(const std::vector<rt::Vec3f>& pixels, float exposure) {
@@ -57,8 +66,9 @@ float meanLevel(const std::vector<rt::Vec3f>& pixels, float exposure) {
 }
 
 /// From light to picture: veil and exposure.
-void develop(std::vector<rt::Vec3f> pixels, float exposure, bool adapt, double stops,
+void develop(std::vector<rt::Vec3f> pixels, const rt::Light& light, bool adapt, double stops,
              LinearImage& image) {
+  float exposure = light.exposure;
   if (adapt && !pixels.empty()) {
     // What outshines white counts as white, or a lit window would fog the picture.
     const float white = 2 / exposure;
@@ -68,10 +78,11 @@ void develop(std::vector<rt::Vec3f> pixels, float exposure, bool adapt, double s
     }
     const rt::Vec3f mean = rt::toVec3f(sum * (1 / static_cast<double>(pixels.size())));
     for (rt::Vec3f& p : pixels) p = rt::mix(p, mean, kVeil);
-    float lo = kLeastStops, hi = kMostStops;
+    const float wanted = kMeanLevel + (kNightLevel - kMeanLevel) * light.night;
+    float lo = kLeastStops + (kNightStops - kLeastStops) * light.night, hi = kMostStops;
     for (int i = 0; i < 12; ++i) {
       const float middle = (lo + hi) / 2;
-      (meanLevel(pixels, exposure * std::exp2(middle)) > kMeanLevel ? hi : lo) = middle;
+      (meanLevel(pixels, exposure * std::exp2(middle)) > wanted ? hi : lo) = middle;
     }
     exposure *= std::exp2((lo + hi) / 2);
   }
@@ -82,55 +93,233 @@ void develop(std::vector<rt::Vec3f> pixels, float exposure, bool adapt, double s
   }
 }
 
+/// Of a section: the paper behind the model, and the block of soil it stands on.
+constexpr Vec3 kPaper{0xf4 / 255.0, 0xf1 / 255.0, 0xea / 255.0};
+
+/// Share of rooms with light at night, where nobody says.
+constexpr double kLitRooms = 0.4;
+/// What a room gives to the street, over what a lamp as bright would give: it shows more than it
+/// shines, through curtains and towards its own walls.
+constexpr float kRoomShine = 0.12f;
+
+/// Turned about the vertical through `middle`, counter-clockwise from above.
+void orbit(Camera& camera, const Vec3& middle, double degrees) {
+  if (degrees == 0) return;
+  const double c = cosDeg(degrees), s = sinDeg(degrees);
+  const auto turned = [&](const Vec3& v) {
+    return Vec3{c * v.x + s * v.z, v.y, c * v.z - s * v.x};
+  };
+  camera.eye = middle + turned(camera.eye - middle);
+  camera.right = turned(camera.right);
+  camera.up = turned(camera.up);
+  camera.forward = turned(camera.forward);
+}
+
 }  // namespace
 
-Picture render(const Scene& scene, const RenderOptions& options) {
+struct Renderer::Impl {
+  const Scene& scene;
+  double seconds = 0;
+  rt::World world;
+  rt::Tracer tracer;
+  std::vector<rt::Vec3f> points;
+  double front;
+
+  Impl(const Scene& s, const TextureSource* textures) : Impl(s, textures, Stopwatch()) {}
+  Impl(const Scene& s, const TextureSource* textures, Stopwatch watch)
+      : scene(s),
+        world(rt::makeWorld(s, textures)),
+        tracer(world),
+        points(rt::framingPoints(world)),
+        front(rt::frontAzimuthOf(world)) {
+    seconds = watch.lap();
+  }
+
+  rt::Subject subject(const RenderOptions& o) const {
+    const double foot = o.groundHeight ? *o.groundHeight - world.origin.y : world.footHeight;
+    return {world, tracer, points, foot, o.frontAzimuth.value_or(front)};
+  }
+
+  rt::Light light(const RenderOptions& o) const {
+    const bool drawn = o.look == PictureLook::Ink || o.look == PictureLook::Blueprint;
+    RenderOptions options = o;
+    if (o.look == PictureLook::Clay) options.groundColor = {0.78, 0.77, 0.75};
+    if (drawn) options.haziness = 1;
+    const auto [elevation, azimuth] = sun(o);
+    return {options, elevation, azimuth};
+  }
+
+  std::pair<double, double> sun(const RenderOptions& o) const {
+    // It goes with the camera around the turntable.
+    return {o.sunElevation.value_or(o.view == PictureView::Top ? 50.0 : 38.0),
+            o.sunAzimuth.value_or(o.frontAzimuth.value_or(front) + 45 - o.orbit)};
+  }
+
+  Camera camera(const RenderOptions& o, const rt::Subject& subject, const rt::Light& light) const {
+    Camera camera = rt::chooseCamera(subject, o, light);
+    orbit(camera, world.bounds.center(), o.orbit);
+    return camera;
+  }
+
+  std::optional<rt::Cut> cut(const RenderOptions& o) const {
+    if (o.cut) {
+      return rt::Cut{rt::toVec3f(o.cut->normal),
+                     static_cast<float>(o.cut->offset - dot(o.cut->normal, world.origin))};
+    }
+    CutSide side = o.cutSide;
+    if (side == CutSide::None && o.look == PictureLook::Section) side = CutSide::Front;
+    if (side == CutSide::None) return {};
+    const double azimuth = o.frontAzimuth.value_or(front) - (side == CutSide::Side ? 90 : 0);
+    const Vec3 normal{sinDeg(azimuth), 0, -cosDeg(azimuth)};
+    return rt::Cut{rt::toVec3f(normal), static_cast<float>(dot(normal, world.bounds.center()))};
+  }
+
+  rt::Emitters emitters(const RenderOptions& o, const rt::Light& light, double rooms) const {
+    if (o.look == PictureLook::Clay || o.lampPower <= 0) return {};
+    if (light.night <= 0 && rooms <= 0 && !anyEmission()) return {};
+    return {world, [&](const rt::SurfaceMaterial& m, const rt::Vec3f& middle, const rt::Vec3f& n) {
+              rt::Vec3f shine = m.meanEmissive;
+              if (m.pane && rooms > 0) {
+                shine += rt::roomLight(static_cast<float>(rooms), middle, n) * kRoomShine;
+              }
+              return shine;
+            }};
+  }
+
+  bool anyEmission() const {
+    for (const rt::SurfaceMaterial& m : world.materials) {
+      if (rt::maxOf(m.emissive) > 0) return true;
+    }
+    return false;
+  }
+
+  /// The block of soil: as wide as the model, and some.
+  rt::Stage::Block block(double foot) const {
+    const Vec3 size = world.bounds.size();
+    const double margin = 0.04 * std::max(size.x, size.z) + 0.5;
+    const double deep = std::clamp(0.12 * std::max(size.x, size.z), 0.8, 12.0);
+    const Vec3 out{margin, 0, margin};
+    Vec3 min = world.bounds.min - out, max = world.bounds.max + out;
+    min.y = std::min(foot - deep, world.bounds.min.y - 0.3);
+    max.y = foot;
+    return {rt::toVec3f(min), rt::toVec3f(max)};
+  }
+
+  rt::Stage stage(const RenderOptions& o, const rt::Light& light, const rt::Emitters& emitters,
+                  const Camera& camera, double foot) const {
+    rt::Stage s{world, tracer, light, emitters};
+    s.ground = o.ground;
+    s.groundHeight = static_cast<float>(foot);
+    const double haze = hazeDistance(o, camera, world);
+    s.haze = static_cast<float>(haze > 0 ? 1 / haze : 0);
+    const double away =
+        length(world.bounds.center() - camera.eye) + length(world.bounds.size()) / 2;
+    s.nearGround = static_cast<float>(std::max(250.0, 2 * away));
+    s.bounces = o.bounces;
+    s.clay = o.look == PictureLook::Clay;
+    s.cut = cut(o);
+    s.litRooms = static_cast<float>(rooms(o, light));
+    if (o.look == PictureLook::Section) {
+      s.paper = rt::inverseToneMapped(rt::srgbToLinear(kPaper)) * (1 / light.exposure);
+      s.haze = 0;
+      s.block = block(foot);
+    }
+    return s;
+  }
+
+  static double rooms(const RenderOptions& o, const rt::Light& light) {
+    if (o.look == PictureLook::Clay) return 0;
+    return o.litRooms.value_or(light.night > 0 ? kLitRooms * static_cast<double>(light.night) : 0);
+  }
+
+  rt::Lens lens(const RenderOptions& o, const Camera& camera, const rt::Stage& stage) const {
+    rt::Lens lens;
+    if (o.aperture <= 0 || camera.parallel) return lens;
+    // 18 mm of film lie on each side of the lens's axis.
+    lens.radius = static_cast<float>(0.018 / camera.halfWidth / o.aperture / 2);
+    double focus = 0;
+    if (o.focus) {
+      focus = *o.focus;
+    } else if (o.target) {
+      focus = dot(*o.target - world.origin - camera.eye, camera.forward);
+    } else {
+      const double aspect = static_cast<double>(o.width) / o.height;
+      focus = static_cast<double>(
+          rt::glimpse(stage, scene, camera, rt::cameraRay(camera, aspect, 0.5, 0.5)).depth);
+    }
+    if (!(focus > 0)) focus = length(world.bounds.center() - camera.eye);
+    lens.focus = static_cast<float>(std::max(0.01, focus));
+    return lens;
+  }
+
+  /// Paths, smoothing and exposure.
+  void photograph(const rt::Stage& stage, const RenderOptions& o, Picture& picture,
+                  Stopwatch& watch) const {
+    rt::Film film;
+    picture.cancelled = !rt::tracePicture(stage, picture.camera, lens(o, picture.camera, stage), o,
+                                          film, picture.stats.rays);
+    picture.stats.seconds.trace = watch.lap();
+    const std::vector<rt::Vec3f> pixels =
+        rt::resolve(film, o.denoise && !picture.cancelled, o.threads);
+    const bool adapts = o.adaptExposure && !o.uniformSky && !stage.paper && !picture.cancelled;
+    develop(pixels, stage.light, adapts, o.exposureStops, picture.image);
+    picture.stats.seconds.denoise = watch.lap();
+  }
+};
+
+Renderer::Renderer(const Scene& scene, const TextureSource* textures)
+    : impl_(std::make_unique<Impl>(scene, textures)) {}
+Renderer::~Renderer() = default;
+
+Camera Renderer::cameraOf(const RenderOptions& options) const {
+  const rt::Light light = impl_->light(options);
+  Camera camera = impl_->camera(options, impl_->subject(options), light);
+  camera.eye += impl_->world.origin;
+  return camera;
+}
+
+Picture Renderer::render(const RenderOptions& options) const {
   Picture picture;
   picture.image.width = options.width;
   picture.image.height = options.height;
   if (options.width == 0 || options.height == 0) return picture;
 
+  const Impl& impl = *impl_;
   Stopwatch watch;
-  const rt::World world = rt::makeWorld(scene, options.textures);
-  const rt::Tracer tracer(world);
-  const double foot =
-      options.groundHeight ? *options.groundHeight - world.origin.y : world.footHeight;
-  const double front = options.frontAzimuth ? *options.frontAzimuth : rt::frontAzimuthOf(world);
-  const rt::Subject subject{world, tracer, rt::framingPoints(world), foot, front};
-  const rt::Light light(
-      options, options.sunElevation.value_or(options.view == PictureView::Top ? 50.0 : 38.0),
-      options.sunAzimuth.value_or(front + 45));
-  picture.camera = rt::chooseCamera(subject, options, light);
-
-  const double haze = hazeDistance(options, picture.camera, world);
-  const double away =
-      length(world.bounds.center() - picture.camera.eye) + length(world.bounds.size()) / 2;
-  const rt::Stage stage{world,
-                        tracer,
-                        light,
-                        options.ground,
-                        static_cast<float>(foot),
-                        static_cast<float>(haze > 0 ? 1 / haze : 0),
-                        static_cast<float>(std::max(250.0, 2 * away)),
-                        options.bounces};
+  const rt::Subject subject = impl.subject(options);
+  const rt::Light light = impl.light(options);
+  picture.camera = impl.camera(options, subject, light);
+  std::tie(picture.sun.elevation, picture.sun.azimuth) = impl.sun(options);
+  const rt::Emitters emitters = impl.emitters(options, light, Impl::rooms(options, light));
+  const rt::Stage stage =
+      impl.stage(options, light, emitters, picture.camera, subject.groundHeight);
   picture.stats.seconds.prepare = watch.lap();
 
-  rt::Film film;
-  picture.cancelled = !rt::tracePicture(stage, picture.camera, options, film, picture.stats.rays);
-  picture.stats.seconds.trace = watch.lap();
+  if (options.look == PictureLook::Ink || options.look == PictureLook::Blueprint) {
+    picture.cancelled = !rt::drawLines(stage, impl.scene, picture.camera, options, picture.image);
+    picture.stats.seconds.trace = watch.lap();
+  } else {
+    impl.photograph(stage, options, picture, watch);
+  }
+  if (options.layers && !picture.cancelled) {
+    picture.layers = rt::traceLayers(stage, impl.scene, picture.camera, options);
+  }
 
-  const std::vector<rt::Vec3f> pixels =
-      rt::resolve(film, options.denoise && !picture.cancelled, options.threads);
-  develop(pixels, light.exposure,
-          options.adaptExposure && !options.uniformSky && !picture.cancelled, options.exposureStops,
-          picture.image);
-  picture.stats.seconds.denoise = watch.lap();
-
-  picture.stats.triangles = world.triangles;
-  picture.stats.instances = world.placements.size();
-  for (const rt::Part& part : world.parts) picture.stats.storedTriangles += part.triangles();
-  picture.camera.eye += world.origin;
+  picture.stats.triangles = impl.world.triangles;
+  picture.stats.instances = impl.world.placements.size();
+  for (const rt::Part& part : impl.world.parts) picture.stats.storedTriangles += part.triangles();
+  picture.camera.eye += impl.world.origin;
   return picture;
+}
+
+Picture render(const Scene& scene, const RenderOptions& options) {
+  if (options.width == 0 || options.height == 0) {
+    Picture picture;
+    picture.image.width = options.width;
+    picture.image.height = options.height;
+    return picture;
+  }
+  return Renderer(scene, options.textures).render(options);
 }
 
 }  // namespace gable

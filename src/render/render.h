@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Pictures of scenes: a path tracer for the processor, with one sun, an analytic sky and a ground
-// plane. It needs no display, and the defaults give an architectural photograph of whatever the
-// rules made: camera, sun side, ground height and exposure follow from the scene.
+// Pictures of scenes: a path tracer for the processor, with one sun, a physical sky and a ground
+// plane; and drawings of the same scenes in lines. It needs no display, and the defaults give an
+// architectural photograph of whatever the rules made: camera, sun side, ground height and exposure
+// follow from the scene. A Renderer draws one scene any number of times.
 //
 //   RenderOptions options;
 //   options.view = PictureView::Street;
@@ -23,6 +24,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,6 +59,28 @@ enum class PictureView : uint8_t {
   Street,
 };
 
+enum class PictureLook : uint8_t {
+  Photo,
+  /// Everything of one pale matter.
+  Clay,
+  /// White lines on blue.
+  Blueprint,
+  /// Pen on paper, hatched in the shade.
+  Ink,
+  /// A model cut open, on paper.
+  Section,
+};
+
+/// Cuts away what lies beyond: the points p with dot(normal, p) > offset.
+struct CutPlane {
+  /// Unit.
+  Vec3 normal{0, 1, 0};
+  double offset = 0;
+};
+/// The planes through the scene's middle that cut away its front, or its right side as seen from
+/// there.
+enum class CutSide : uint8_t { None, Front, Side };
+
 struct RenderOptions {
   PictureView view = PictureView::Iso;
   uint32_t width = 1600, height = 900;
@@ -72,6 +96,8 @@ struct RenderOptions {
   std::optional<double> sunElevation;
   /// Where the sun stands; absent: 45 degrees to the left of the main front's normal.
   std::optional<double> sunAzimuth;
+  /// Dust in the air: 1 on a clear day, 5 on a milky one.
+  double haziness = 1;
   /// Replaces sun and sky by light of this radiance from everywhere (for tests and for models of
   /// materials); the ground stays as asked for.
   std::optional<Vec3> uniformSky;
@@ -84,6 +110,13 @@ struct RenderOptions {
   /// The way from the scene's centre that its main front faces; absent: found from the walls, the
   /// wall direction nearest to south.
   std::optional<double> frontAzimuth;
+  /// Turns the camera that was chosen about the vertical through the scene's middle, and the sun
+  /// with it unless it is given: the scene stands on a turntable.
+  double orbit = 0;
+  /// The f-number of a lens as long as `fov` says, for film of 36 mm; 0: all is sharp.
+  double aperture = 0;
+  /// Metres to what is sharp; absent: to the target, or to what is in the picture's middle.
+  std::optional<double> focus;
 
   /// An endless ground below the scene.
   bool ground = true;
@@ -98,6 +131,17 @@ struct RenderOptions {
   bool adaptExposure = true;
   /// Brightens (or darkens) the picture by so many stops.
   double exposureStops = 0;
+  /// How strongly emissive materials light their surroundings; 0: not at all.
+  double lampPower = 1;
+  /// The share of rooms behind glass with light in them; absent: 0.4 at night, none by day.
+  std::optional<double> litRooms;
+
+  PictureLook look = PictureLook::Photo;
+  std::optional<CutPlane> cut;
+  /// Used where there is no `cut`; a Section without either is cut at its front.
+  CutSide cutSide = CutSide::None;
+  /// Fills Picture::layers as well.
+  bool layers = false;
 
   /// 0: as many as the machine has.
   unsigned threads = 0;
@@ -123,6 +167,19 @@ struct Camera {
   bool parallel = false;
 };
 
+/// What lies behind the centre of each pixel, rows from the top: what pictures are made of, for
+/// programs that learn from them or go on with them. What is more than half clear is looked
+/// through.
+struct RawLayers {
+  /// Metres ahead of the eye, along the direction of view; 0 where there is nothing.
+  std::vector<float> depth;
+  /// Three numbers a pixel: unit, in the world, on the viewer's side; linear colours.
+  std::vector<float> normals, albedo;
+  /// 0 where there is nothing or the picture's own ground; else a number from 1: of the initial
+  /// shape; of the leaf, instances expanded; of the entry of Scene::sources; of the material.
+  std::vector<uint32_t> objects, instances, sources, materials;
+};
+
 struct RenderStats {
   /// Instances expanded, and as held in memory.
   uint64_t triangles = 0, storedTriangles = 0;
@@ -135,12 +192,38 @@ struct RenderStats {
 
 struct Picture {
   LinearImage image;
+  /// Empty unless asked for.
+  RawLayers layers;
   Camera camera;
+  /// Degrees above the horizon, and clockwise from north.
+  struct {
+    double elevation = 0, azimuth = 0;
+  } sun;
   RenderStats stats;
   /// True when `progress` ended it; the rows that were not reached are black.
   bool cancelled = false;
 };
 
+/// A scene made ready once, for any number of pictures. Keeps references to the scene and to the
+/// images of the textures. One thread may call at a time.
+class Renderer {
+ public:
+  explicit Renderer(const Scene& scene, const TextureSource* textures = nullptr);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// RenderOptions::textures has no effect here.
+  Picture render(const RenderOptions& options) const;
+  /// The camera that a picture with these options has.
+  Camera cameraOf(const RenderOptions& options) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// One picture.
 Picture render(const Scene& scene, const RenderOptions& options);
 
 /// Tone curve, sRGB encoding and dither: rows from the top, 4 bytes a pixel, opaque.

@@ -436,7 +436,7 @@ TEST(Render, skyIsBrightButNotWhite) {
   const std::vector<uint8_t> rgba = toRgba8(render(Scene(), o).image);
   for (size_t i = 0; i < rgba.size(); i += 4) {
     EXPECT_GE(rgba[i + 1], 180);
-    EXPECT_LE(rgba[i + 1], 230);
+    EXPECT_LE(rgba[i + 1], 242);
     EXPECT_GT(rgba[i + 2], rgba[i]);
   }
 }

@@ -7,6 +7,8 @@
 
 #include "render/surface.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "material/library.h"
@@ -23,6 +25,22 @@ constexpr float kNoCoat = 0.97f;
 constexpr float kLeastAlpha = 0.0012f;
 /// Share of the light from behind that a leaf lets through (styles, trees: 15 to 25 %).
 constexpr float kLeafTransmission = 0.22f;
+/// A leaf against the light is yellower than one in the light.
+constexpr Vec3f kLeafTint{1.12f, 1.06f, 0.5f};
+/// Of water: what it mirrors when looked at from above, and the roughest material that can be it.
+constexpr float kWaterFacing = 0.02f, kWaterRoughness = 0.3f;
+/// The roughest material that can be a pane, and the most transparent and brightest one.
+constexpr float kPaneRoughness = 0.2f;
+
+constexpr std::string_view kWaterWords[] = {"water", "pond", "pool",  "river",
+                                            "lake",  "sea",  "canal", "stream"};
+constexpr std::string_view kFoliageWords[] = {"foliage", "leaves", "frond", "fronds",
+                                              "needles", "petals", "blades"};
+
+template <size_t N>
+bool isOneOf(std::string_view word, const std::string_view (&words)[N]) {
+  return std::find(std::begin(words), std::end(words), word) != std::end(words);
+}
 
 Vec3f fresnel(const Vec3f& facing, float cosine) {
   const float m = std::clamp(1 - cosine, 0.0f, 1.0f);
@@ -158,12 +176,23 @@ std::array<float, 4> TextureTable::sample(const TextureLookup& map, Vec2f uv, bo
   return sum;
 }
 
+Vec3f TextureTable::mean(int32_t image) const {
+  const std::vector<uint8_t>& texels = images[static_cast<size_t>(image)]->rgba;
+  Vec3 sum;
+  for (size_t i = 0; i + 3 < texels.size(); i += 4) {
+    sum += toVec3({decodedByte(texels[i]), decodedByte(texels[i + 1]), decodedByte(texels[i + 2])});
+  }
+  return toVec3f(sum * (4.0 / static_cast<double>(texels.size())));
+}
+
 void makeMaterials(const std::vector<Material>& from, const TextureSource* source,
                    std::vector<SurfaceMaterial>& to, TextureTable& textures) {
   std::map<std::string, int32_t> known;
   to.clear();
   for (const Material& m : from) {
     SurfaceMaterial s = surfaceOf(m);
+    s.source = static_cast<uint32_t>(to.size());
+    s.pane = s.roughness < kPaneRoughness && s.metallic < 0.5f;
     for (const TextureLayer layer :
          {TextureLayer::Color, TextureLayer::Dirt, TextureLayer::Opacity, TextureLayer::Normal,
           TextureLayer::Emissive, TextureLayer::Occlusion, TextureLayer::Roughness,
@@ -176,15 +205,54 @@ void makeMaterials(const std::vector<Material>& from, const TextureSource* sourc
       s.maps[i] = lookupOf(m.maps[i], image);
       if (!s.laid) s.uvSets |= static_cast<uint16_t>(1u << i);
     }
+    const int32_t glow = s.maps[static_cast<size_t>(TextureLayer::Emissive)].image;
+    s.meanEmissive = s.emissive;
+    if (glow >= 0 && maxOf(s.emissive) > 0) s.meanEmissive *= textures.mean(glow);
     const int32_t color = s.maps[static_cast<size_t>(TextureLayer::Color)].image;
     const bool cutOut = s.mask || s.maps[static_cast<size_t>(TextureLayer::Opacity)].image >= 0;
     const bool mapped = cutOut || (color >= 0 && textures.hasAlpha[static_cast<size_t>(color)]);
     s.clear = m.opacityMode != OpacityMode::Opaque && (s.opacity < 1 || mapped);
     if (m.doubleSided && cutOut && s.metallic == 0) s.transmission = kLeafTransmission;
+    if (s.laid &&
+        matterNamed(std::string_view(m.shader).substr(kLaidShader.size())) == Matter::Water) {
+      s = madeOf(s, Matter::Water);
+    }
     to.push_back(s);
   }
   // A scene may name no material at all.
   if (to.empty()) to.emplace_back();
+}
+
+Matter matterNamed(std::string_view name) {
+  // Words begin with capitals and at what is no letter: DeepWater, deep_water.
+  std::string word;
+  for (size_t i = 0; i <= name.size(); ++i) {
+    const char c = i < name.size() ? name[i] : ' ';
+    const bool capital = c >= 'A' && c <= 'Z', small = c >= 'a' && c <= 'z';
+    if (!small) {
+      if (isOneOf(word, kWaterWords)) return Matter::Water;
+      if (isOneOf(word, kFoliageWords)) return Matter::Foliage;
+      word.clear();
+    }
+    if (small || capital) word += capital ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return Matter::Plain;
+}
+
+SurfaceMaterial madeOf(const SurfaceMaterial& material, Matter matter) {
+  SurfaceMaterial m = material;
+  if (matter == Matter::Foliage && m.metallic == 0 && m.opacity == 1) {
+    m.matter = matter;
+    m.transmission = kLeafTransmission;
+  }
+  if (matter == Matter::Water && m.roughness < kWaterRoughness && m.metallic == 0) {
+    m.matter = matter;
+    m.facing = kWaterFacing;
+    m.pane = false;
+    // Shadow rays pass it: the surface itself takes nothing.
+    m.clear = m.opacity < 1;
+  }
+  return m;
 }
 
 Lobes lobesOf(const Surface& s, const Vec3f& view) {
@@ -199,7 +267,7 @@ Lobes lobesOf(const Surface& s, const Vec3f& view) {
   lobes.diffuse = s.base * (Vec3f{1, 1, 1} - lobes.coat) * (1 - s.metallic);
   if (s.transmission > 0) {
     const float most = std::max(maxOf(s.base), 1e-4f);
-    lobes.through = s.base * (s.transmission * (1 - std::min(1.0f, most)) / most);
+    lobes.through = kLeafTint * s.base * (s.transmission * (1 - std::min(1.0f, most)) / most);
   }
   const float coat = luminance(lobes.coat);
   const float body = luminance(lobes.diffuse) + luminance(lobes.through);

@@ -5,12 +5,15 @@
 //
 // A surface is a Lambert body under a GGX coat (4 % facing reflection, as metallic turns it into
 // the base colour), a share of which lets light through. Thin cut-out sheets (double sided, with an
-// opacity map or in mask mode: leaves) also let a fifth of the light through diffusely.
+// opacity map or in mask mode: leaves) also let a fifth of the light through diffusely, and so does
+// what rules call foliage. Water is a coat with waves over what lies in it; its opacity is the
+// share of the light that a metre of it takes.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -28,9 +31,22 @@ struct TextureLookup {
   float uu = 1, uv = 0, u0 = 0, vu = 0, vv = 1, v0 = 0;
 };
 
+/// What a surface is by the name that rules gave its shape.
+enum class Matter : uint8_t { Plain, Foliage, Water };
+
+/// By the words of a name: a Pond or DeepWater is Water, Foliage or PalmFronds are Foliage.
+Matter matterNamed(std::string_view name);
+
 struct SurfaceMaterial {
+  /// Index into Scene::materials.
+  uint32_t source = 0;
+  Matter matter = Matter::Plain;
+  /// Smooth enough for a window: at night there may be light behind it.
+  bool pane = false;
   Vec3f base{1, 1, 1};
   Vec3f emissive;
+  /// With the mean of its texture.
+  Vec3f meanEmissive;
   float roughness = 1, metallic = 0, opacity = 1;
   float facing = 0.04f;
   float transmission = 0;
@@ -51,11 +67,16 @@ struct TextureTable {
   std::vector<bool> hasAlpha;
   /// Bilinear, repeating, alpha last; `decode` takes the colours from sRGB to linear light.
   std::array<float, 4> sample(const TextureLookup& map, Vec2f uv, bool decode) const;
+  /// Of all texels in linear light.
+  Vec3f mean(int32_t image) const;
 };
 
 /// Materials with their textures looked up; those without images have no lookups.
 void makeMaterials(const std::vector<Material>& from, const TextureSource* source,
                    std::vector<SurfaceMaterial>& to, TextureTable& textures);
+
+/// The same material for shapes of another matter; unchanged where it cannot be that.
+SurfaceMaterial madeOf(const SurfaceMaterial& material, Matter matter);
 
 struct Surface {
   Vec3f point;
@@ -63,8 +84,16 @@ struct Surface {
   Vec3f facet, normal;
   Vec3f base, emissive;
   float roughness = 1, metallic = 0, opacity = 1, facing = 0.04f, transmission = 0;
+  /// Of water: metres after which 63 % of the light is gone; 0: nothing is seen in it.
+  float clearWater = 0;
+  Matter matter = Matter::Plain;
+  bool pane = false;
   /// The picture's own ground, no part of the scene.
   bool isGround = false;
+  /// Where a plane cuts through something solid.
+  bool isCut = false;
+  /// Index into World::materials, and the number of the piece among all; kNone for the ground.
+  uint32_t material = 0xffffffff, piece = 0xffffffff;
 };
 
 /// The parts of a surface's answer towards `view`, worked out once a point.

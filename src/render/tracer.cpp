@@ -108,6 +108,23 @@ void noteHit(const RTCFilterFunctionNArguments* args) {
   order.found = true;
 }
 
+/// Counts the faces that a ray leaves things by, less those it enters them by.
+struct WindingContext {
+  RTCIntersectContext embree;
+  const World* world = nullptr;
+  Vec3f direction;
+  int left = 0;
+};
+
+void countFace(const RTCFilterFunctionNArguments* args) {
+  if (args->valid[0] != -1) return;
+  args->valid[0] = 0;
+  auto& winding = *reinterpret_cast<WindingContext*>(args->context);
+  const RTCHit h = rtcGetHitFromHitN(args->hit, 1, 0);
+  const Hit hit = hitOf(*winding.world, h, RTCRayN_tfar(args->ray, 1, 0));
+  winding.left += dot(hit.normal, winding.direction) > 0 ? 1 : -1;
+}
+
 RTCGeometry makeGeometry(RTCDevice device, const TriangleSet& set) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   // Embree reads 16 bytes at the last vertex; sets carry one vertex more than they use.
@@ -218,6 +235,23 @@ float Tracer::visibility(const Ray& ray) const {
   RTCRay r = embreeRay(ray);
   rtcOccluded1(impl_->scenes[0], &context.embree, &r);
   return r.tfar < 0 ? 0 : context.visibility;
+}
+
+bool Tracer::isInside(const Vec3f& point, const Vec3f& direction) const {
+  WindingContext winding;
+  rtcInitIntersectContext(&winding.embree);
+  winding.embree.filter = countFace;
+  winding.world = &impl_->world;
+  winding.direction = direction;
+  Ray ray;
+  ray.origin = point;
+  ray.direction = direction;
+  RTCRayHit r;
+  r.ray = embreeRay(ray);
+  r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(impl_->scenes[0], &winding.embree, &r);
+  return winding.left > 0;
 }
 
 }  // namespace gable::rt

@@ -46,6 +46,9 @@ class Tracer {
   bool intersectOrdered(const Ray& ray, Hit& hit) const;
   /// The share of light that gets along the ray: 0 behind something solid.
   float visibility(const Ray& ray) const;
+  /// Whether a point lies within something closed: along the direction more faces are left than
+  /// entered.
+  bool isInside(const Vec3f& point, const Vec3f& direction) const;
 
  private:
   struct Impl;

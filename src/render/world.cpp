@@ -9,6 +9,7 @@
 
 #include <bit>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "base/work.h"
@@ -67,9 +68,38 @@ std::vector<bool> choosePlaced(const Scene& scene, const std::vector<MeshTriangl
   return placed;
 }
 
+/// Materials as shapes of a certain matter have them, made when they are met.
+class SpecialMaterials {
+ public:
+  SpecialMaterials(const Scene& scene, std::vector<SurfaceMaterial>& materials)
+      : materials_(materials), matters_(scene.names.size()) {
+    for (size_t i = 0; i < matters_.size(); ++i) matters_[i] = matterNamed(scene.names[i]);
+  }
+
+  uint32_t of(const Leaf& leaf, uint32_t material) {
+    const Matter matter = leaf.name < matters_.size() ? matters_[leaf.name] : Matter::Plain;
+    if (matter == Matter::Plain) return material;
+    const auto [at, isNew] = made_.try_emplace({material, matter}, material);
+    if (isNew) {
+      const SurfaceMaterial special = madeOf(materials_[material], matter);
+      if (special.matter != materials_[material].matter) {
+        at->second = static_cast<uint32_t>(materials_.size());
+        materials_.push_back(special);
+      }
+    }
+    return at->second;
+  }
+
+ private:
+  std::vector<SurfaceMaterial>& materials_;
+  std::vector<Matter> matters_;
+  std::map<std::pair<uint32_t, Matter>, uint32_t> made_;
+};
+
 class Builder {
  public:
-  Builder(const Scene& scene, World& world) : scene_(scene), world_(world) {
+  Builder(const Scene& scene, World& world)
+      : scene_(scene), world_(world), special_(scene, world.materials) {
     meshes_.reserve(scene.meshes.size());
     std::vector<bool> used(scene.meshes.size(), false);
     for (const Leaf& leaf : scene.leaves) used[leaf.mesh] = true;
@@ -84,7 +114,10 @@ class Builder {
     world_.parts.emplace_back();
     findOrigin();
     const Frame centred = Frame::moved(-world_.origin);
-    for (const Root& root : scene_.roots) place(root.instance, centred);
+    for (const Root& root : scene_.roots) {
+      place(root.instance, centred);
+      ++root_;
+    }
     finish();
   }
 
@@ -150,17 +183,18 @@ class Builder {
   void addPlacement(uint32_t part, const Frame& at) {
     if (world_.parts[part].triangles() == 0 || !usable(at.origin)) return;
     world_.placements.push_back(
-        {part, toVec3f(at.x), toVec3f(at.y), toVec3f(at.z), toVec3f(at.origin)});
+        {part, root_, 0, toVec3f(at.x), toVec3f(at.y), toVec3f(at.z), toVec3f(at.origin)});
   }
 
   void addLeaves(const Level& level) {
     for (uint32_t i = 0; i < level.prototype->leafCount; ++i) {
       const Leaf& leaf = scene_.leaves[level.prototype->firstLeaf + i];
-      addLeaf(leaf, level.at * leaf.frame, level.part);
+      addLeaf(level.prototype->firstLeaf + i, level.at * leaf.frame, level.part);
     }
   }
 
-  void addLeaf(const Leaf& leaf, const Frame& at, uint32_t partIndex) {
+  void addLeaf(uint32_t index, const Frame& at, uint32_t partIndex) {
+    const Leaf& leaf = scene_.leaves[index];
     Part& part = world_.parts[partIndex];
     const Mesh& mesh = *scene_.meshes[leaf.mesh];
     const MeshTriangles& triangles = meshes_[leaf.mesh];
@@ -174,6 +208,13 @@ class Builder {
       if (usable(points_.back())) box.include(points_.back());
     }
     part.bounds.include(box);
+    const uint32_t piece = static_cast<uint32_t>(part.pieces.size());
+    Piece place{index, root_, {}, 0};
+    if (!box.empty()) {
+      place.middle = toVec3f(box.center());
+      place.size = maxOf(toVec3f(box.size()));
+    }
+    part.pieces.push_back(place);
     if (partIndex == 0 && !box.empty()) feet_.push_back({box.min.y, footArea(points_)});
 
     uint32_t firstOf[2] = {kNone, kNone};
@@ -181,7 +222,7 @@ class Builder {
       const std::array<uint32_t, 3>& corners = triangles.corners[t];
       const MeshFace& face = mesh.faces[triangles.faces[t]];
       const uint32_t material =
-          materialOf(scene_, leaf, face.materialSlot, world_.materials.size());
+          special_.of(leaf, materialOf(scene_, leaf, face.materialSlot, scene_.materials.size()));
       std::array<uint32_t, 3> at3;
       for (size_t k = 0; k < 3; ++k) at3[k] = mesh.corners[corners[k]];
       if (!usable(points_[at3[0]]) || !usable(points_[at3[1]]) || !usable(points_[at3[2]])) {
@@ -198,6 +239,7 @@ class Builder {
       }
       set.corners.push_back({first + at3[0], first + at3[1], first + at3[2]});
       set.materials.push_back(material);
+      set.pieces.push_back(piece);
       set.attributes.push_back(addAttributes(set, leaf, at, mesh, triangles, t, material));
     }
   }
@@ -272,6 +314,11 @@ class Builder {
       part.solid.positions.emplace_back();
       part.clear.positions.emplace_back();
     }
+    uint64_t pieces = world_.parts[0].pieces.size();
+    for (Placement& placement : world_.placements) {
+      placement.firstPiece = static_cast<uint32_t>(pieces);
+      pieces += world_.parts[placement.part].pieces.size();
+    }
     Box3 bounds = world_.parts[0].bounds;
     world_.triangles = world_.parts[0].triangles();
     double area = world_.parts[0].wallArea, c4 = world_.parts[0].wallCos,
@@ -328,12 +375,15 @@ class Builder {
 
   const Scene& scene_;
   World& world_;
+  SpecialMaterials special_;
   std::vector<MeshTriangles> meshes_;
   std::vector<bool> placed_;
   std::vector<uint32_t> partOf_;
   std::vector<Level> levels_;
   std::vector<Vec3> points_;
   std::vector<std::pair<double, double>> feet_;
+  /// Of the root that is being placed.
+  uint32_t root_ = 0;
 };
 
 }  // namespace

@@ -34,14 +34,27 @@ struct TriangleSet {
   std::vector<std::array<uint32_t, 3>> corners;
   /// Index into World::materials, by triangle.
   std::vector<uint32_t> materials;
+  /// Index into Part::pieces, by triangle.
+  std::vector<uint32_t> pieces;
   /// Where a triangle's record begins in the pool, or kNone.
   std::vector<uint32_t> attributes;
   AttributePool pool;
 };
 
+/// A leaf as it stands in a part.
+struct Piece {
+  /// Index into Scene::leaves, and of the root it belongs to (of part 0; placements have their
+  /// own).
+  uint32_t leaf = 0, root = 0;
+  /// The middle of its box and its longest side, in the part.
+  Vec3f middle;
+  float size = 0;
+};
+
 struct Part {
   /// Light passes some triangles of `clear` and none of `solid`.
   TriangleSet solid, clear;
+  std::vector<Piece> pieces;
   Box3 bounds;
   /// Area of the box about what lies within half a metre above the part's lowest point.
   double footArea = 0;
@@ -54,6 +67,9 @@ struct Part {
 
 struct Placement {
   uint32_t part = 0;
+  uint32_t root = 0;
+  /// The number of its first piece among those of all parts and placements; part 0 comes first.
+  uint32_t firstPiece = 0;
   Vec3f x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, origin;
 };
 

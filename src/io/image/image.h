@@ -51,4 +51,15 @@ Result<Image> decodeImage(std::string_view bytes, uint64_t maxPixels = kMostPixe
 /// the same picture on one version of the PNG library.
 Result<std::string> encodePng(const Image& image, int channels = 4, int level = 6);
 
+/// Numbers a pixel that are no colours for the eye.
+struct NumberImage {
+  uint32_t width = 0, height = 0;
+  /// 1 or 3 numbers a pixel, of 8 or 16 bits.
+  int channels = 1, bits = 8;
+  std::vector<uint16_t> numbers;
+};
+
+/// Without a colour space, so that no program bends the numbers.
+Result<std::string> encodePng(const NumberImage& image);
+
 }  // namespace gable

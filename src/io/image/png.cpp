@@ -111,6 +111,7 @@ struct PngWriting {
   png_structp png = nullptr;
   png_infop info = nullptr;
   const Image* image = nullptr;
+  const NumberImage* numbers = nullptr;
   int channels = 4, level = 6;
 };
 
@@ -141,6 +142,32 @@ bool writePixels(PngWriting& w) {
   return true;
 }
 
+bool writeNumbers(PngWriting& w, std::vector<uint8_t>& bytes) {
+  const NumberImage& image = *w.numbers;
+  if (setjmp(png_jmpbuf(w.png))) return false;
+  png_set_write_fn(w.png, &w, onWrite, onFlush);
+  png_set_user_limits(w.png, kLongestSide, kLongestSide);
+  png_set_IHDR(w.png, w.info, image.width, image.height, image.bits,
+               image.channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(w.png, w.info);
+  const size_t row = static_cast<size_t>(image.width) * static_cast<size_t>(image.channels);
+  for (size_t y = 0; y < image.height; ++y) {
+    for (size_t i = 0; i < row; ++i) {
+      const uint16_t v = image.numbers[y * row + i];
+      if (image.bits == 8) {
+        bytes[i] = static_cast<uint8_t>(v);
+      } else {
+        bytes[2 * i] = static_cast<uint8_t>(v >> 8);
+        bytes[2 * i + 1] = static_cast<uint8_t>(v & 0xff);
+      }
+    }
+    png_write_row(w.png, bytes.data());
+  }
+  png_write_end(w.png, w.info);
+  return true;
+}
+
 }  // namespace
 
 Result<ImageHeader> readPngHeader(std::string_view bytes) {
@@ -157,6 +184,26 @@ Result<Image> decodePng(std::string_view bytes, uint64_t maxPixels) {
   if (!read(r, true)) return broken(r.why);
   if (r.tooLarge) return Error{"image-too-large", "the PNG picture has too many pixels", {}};
   return std::move(r.image);
+}
+
+Result<std::string> encodePng(const NumberImage& image) {
+  const size_t row = static_cast<size_t>(image.width) * static_cast<size_t>(image.channels);
+  if (row == 0 || image.numbers.size() != row * image.height) {
+    return Error{"image-broken", "a picture without pixels cannot be written", {}};
+  }
+  PngWriting w;
+  w.numbers = &image;
+  w.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &w, onWriteError, onWarning);
+  if (!w.png) return Error{"image-broken", w.why, {}};
+  w.info = png_create_info_struct(w.png);
+  // Two bytes a number at most, the high one first.
+  std::vector<uint8_t> bytes(row * 2);
+  const bool ok = w.info && writeNumbers(w, bytes);
+  png_destroy_write_struct(&w.png, &w.info);
+  if (!ok) {
+    return Error{"image-broken", std::string("the PNG picture cannot be written: ") + w.why, {}};
+  }
+  return std::move(w.out);
 }
 
 Result<std::string> encodePng(const Image& image, int channels, int level) {

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// From settings to pictures: they are checked, the sun is found by time and place, and what the
+// renderer makes of the scene becomes a file or data.
+
+#include "engine/picture.h"
+
+#include <cmath>
+#include <map>
+
+#include "base/files.h"
+#include "io/image/image.h"
+#include "render/render.h"
+#include "render/sun_position.h"
+
+namespace gable {
+
+namespace {
+
+// Textures by the paths that materials name, decoded once.
+class ProjectTextures final : public TextureSource {
+ public:
+  explicit ProjectTextures(Project* project) : project_(project) {}
+
+  const TextureImage* find(const std::string& path) const override {
+    const auto [at, fresh] = images_.try_emplace(path);
+    if (fresh) load(path, at->second);
+    return at->second.width > 0 ? &at->second : nullptr;
+  }
+
+ private:
+  void load(const std::string& path, TextureImage& out) const {
+    if (!project_) return;
+    const auto bytes = project_->texture(path);
+    if (!bytes.ok()) return;
+    auto image = decodeImage(bytes.value());
+    if (!image.ok()) return;
+    // Small files can be large pictures; beyond this, surfaces have their colour.
+    constexpr uint64_t kMostBytes = 2ull << 30;
+    held_ += image->rgba.size();
+    if (held_ > kMostBytes) return;
+    out = {image.value().width, image.value().height, std::move(image.value().rgba)};
+  }
+
+  Project* project_;
+  mutable std::map<std::string, TextureImage> images_;
+  mutable uint64_t held_ = 0;
+};
+
+template <class Result>
+Result failed(const Error& e) {
+  Result r;
+  r.diagnostics.push_back(diagnosticOf(e));
+  return r;
+}
+
+Vec3 vec(const Triple& t) { return {t[0], t[1], t[2]}; }
+Triple triple(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+bool isWithin(double v, double least, double most) { return v >= least && v <= most; }
+
+Error wrongSetting(const std::string& what, const std::string& remedy) {
+  return {"picture-settings", what, remedy};
+}
+
+Result<PictureSettings::Sun> sunAt(const SunTime& time, const GeoOrigin& origin) {
+  double latitude = origin.latitude, longitude = origin.longitude;
+  if (time.place) {
+    latitude = time.place->latitude;
+    longitude = time.place->longitude;
+  } else if (!origin.present) {
+    return wrongSetting("the sun's place is not known: the shapes do not say where they lie",
+                        "give latitude and longitude with the date and the hour");
+  }
+  if (!isWithin(latitude, -90, 90) || !isWithin(longitude, -180, 180)) {
+    return wrongSetting("there is no such latitude and longitude on the Earth",
+                        "latitudes are -90 to 90 degrees, longitudes -180 to 180");
+  }
+  const bool date = isWithin(time.year, 1950, 2050) && isWithin(time.month, 1, 12) &&
+                    isWithin(time.day, 1, 31) && isWithin(time.hour, 0, 24) &&
+                    isWithin(time.hoursEast.value_or(0), -14, 14);
+  if (!date) {
+    return wrongSetting("the sun is not known at that date and hour",
+                        "years are 1950 to 2050, hours 0 to 24");
+  }
+  const rt::SunPosition sun = rt::sunPosition(
+      latitude, longitude,
+      {time.year, time.month, time.day, time.hour, time.hoursEast.value_or(longitude / 15)});
+  return PictureSettings::Sun{sun.elevation, sun.azimuth};
+}
+
+// The first thing that no picture can be made of.
+std::optional<Error> mistakeIn(const PictureSettings& s) {
+  const int most = 1 << 15;
+  if (s.width < 1 || s.height < 1 || s.width > most || s.height > most || s.samples < 1) {
+    return Error{"picture-size", "a picture has 1 to 32768 pixels a side and a sample",
+                 "correct the size or the samples"};
+  }
+  if (!isWithin(s.haziness, 0, 50)) {
+    return wrongSetting("the air's haze is no number from 0 to 50", "1 is a clear day");
+  }
+  if (s.bounces < 0 || s.bounces > 32) {
+    return wrongSetting("light is followed through 0 to 32 reflections", "3 are enough outdoors");
+  }
+  if (!isWithin(s.mist.value_or(1), 0, 1e9) || !isWithin(s.focus.value_or(1), 1e-3, 1e9)) {
+    return wrongSetting("mist and focus are distances in metres", "correct them");
+  }
+  if (!isWithin(s.aperture.value_or(1), 1e-4, 1e4)) {
+    return wrongSetting("the aperture is an f-number above 0", "2.8 blurs, 16 hardly does");
+  }
+  if (!isWithin(s.exposure.value_or(0), -30, 30) || !isWithin(s.lamps, 0, 1e6) ||
+      !isWithin(s.litRooms.value_or(0), 0, 1) || !std::isfinite(s.turn)) {
+    return wrongSetting("exposure, lamps, lit rooms or turn are out of their range",
+                        "stops are -30 to 30, the share of lit rooms 0 to 1");
+  }
+  if (s.cut && (!(length(vec(s.cut->normal)) > 1e-9) || !std::isfinite(s.cut->offset))) {
+    return wrongSetting("the plane of the cut has no direction", "give it a normal");
+  }
+  return std::nullopt;
+}
+
+Result<RenderOptions> renderOptions(const PictureSettings& s, const Scene& scene) {
+  if (const std::optional<Error> mistake = mistakeIn(s)) return *mistake;
+  RenderOptions o;
+  // The enumerations are in the same order.
+  o.view = static_cast<PictureView>(s.view);
+  o.look = static_cast<PictureLook>(s.look);
+  o.cutSide = static_cast<CutSide>(s.cutSide);
+  o.width = static_cast<uint32_t>(s.width);
+  o.height = static_cast<uint32_t>(s.height);
+  o.samples = static_cast<uint32_t>(s.samples);
+  o.bounces = static_cast<uint32_t>(s.bounces);
+  std::optional<PictureSettings::Sun> sun = s.sun;
+  if (s.sunTime) {
+    const Result<PictureSettings::Sun> found = sunAt(*s.sunTime, scene.geoOrigin);
+    if (!found.ok()) return found.error();
+    sun = found.value();
+  }
+  if (sun) {
+    o.sunElevation = sun->elevation;
+    o.sunAzimuth = sun->azimuth;
+  }
+  if (s.camera) {
+    o.eye = vec(s.camera->eye);
+    o.target = vec(s.camera->target);
+  }
+  if (s.ground) o.groundColor = vec(*s.ground);
+  o.fov = s.fieldOfView;
+  o.haziness = s.haziness;
+  o.hazeDistance = s.mist;
+  o.adaptExposure = !s.exposure;
+  o.exposureStops = s.exposure.value_or(0);
+  o.lampPower = s.lamps;
+  o.litRooms = s.litRooms;
+  o.orbit = s.turn;
+  o.aperture = s.aperture.value_or(0);
+  o.focus = s.focus;
+  if (s.cut) {
+    const Vec3 n = vec(s.cut->normal);
+    o.cut = CutPlane{normalized(n), s.cut->offset / length(n)};
+  }
+  o.denoise = s.denoise;
+  o.layers = s.layers;
+  o.threads = static_cast<unsigned>(std::max(0, s.jobs.value_or(0)));
+  return o;
+}
+
+void watch(const PictureSettings& s, Allowance& allowance, RenderOptions& o) {
+  o.progress = [&s, &allowance](double share) {
+    if (s.progress) s.progress(static_cast<size_t>(share * 1000), 1000);
+    return allowance.look(0, 0);
+  };
+}
+
+WriteResult writtenPicture(const Picture& picture, const std::string& path, const Task& task) {
+  const Result<std::string> png =
+      encodePng({picture.image.width, picture.image.height, toRgba8(picture.image)}, 3);
+  if (!png.ok()) return failed<WriteResult>(png.error());
+  const Result<uint64_t> bytes = writeFile(path, png.value());
+  if (!bytes.ok()) return failed<WriteResult>(bytes.error());
+  WriteResult out;
+  out.ok = !picture.cancelled;
+  if (picture.cancelled) out.diagnostics.push_back(task.warning());
+  out.triangles = picture.stats.triangles;
+  out.bytes = bytes.value();
+  return out;
+}
+
+// Numbers of sources by those of their rules, and the names of these in the order of first use.
+void nameRules(const Scene& scene, std::vector<uint32_t>& sources, PictureLayers& layers) {
+  std::map<std::string, uint32_t> known;
+  std::vector<uint32_t> ruleOf(scene.sources.size() + 1, 0);
+  for (size_t i = 0; i < scene.sources.size(); ++i) {
+    const std::string& rule = scene.sources[i].rule;
+    if (rule.empty()) continue;
+    const auto [at, isNew] = known.try_emplace(rule, layers.ruleNames.size() + 1);
+    if (isNew) layers.ruleNames.push_back(rule);
+    ruleOf[i + 1] = at->second;
+  }
+  for (uint32_t& s : sources) s = s < ruleOf.size() ? ruleOf[s] : 0;
+  layers.rules = std::move(sources);
+}
+
+PictureLayers layersOf(const Scene& scene, RawLayers&& data) {
+  PictureLayers layers;
+  layers.depth = std::move(data.depth);
+  layers.normals = std::move(data.normals);
+  layers.albedo = std::move(data.albedo);
+  layers.objects = std::move(data.objects);
+  layers.instances = std::move(data.instances);
+  layers.materials = std::move(data.materials);
+  nameRules(scene, data.sources, layers);
+  for (const Root& root : scene.roots) {
+    layers.objectNames.push_back(root.name < scene.names.size() ? scene.names[root.name] : "");
+  }
+  for (const Material& m : scene.materials) {
+    layers.materialNames.push_back(m.name.empty() ? colorText(m.color) : m.name);
+  }
+  return layers;
+}
+
+PictureData dataOf(const Scene& scene, const RenderOptions& options, Picture&& picture,
+                   const Task& task) {
+  PictureData out;
+  out.ok = !picture.cancelled;
+  if (picture.cancelled) out.diagnostics.push_back(task.warning());
+  out.width = static_cast<int>(picture.image.width);
+  out.height = static_cast<int>(picture.image.height);
+  out.rgba = toRgba8(picture.image);
+  out.light = std::move(picture.image.rgb);
+  const Camera& c = picture.camera;
+  out.pose = {triple(c.eye), triple(c.right), triple(c.up), triple(c.forward),
+              c.halfWidth,   c.horizon,       c.parallel};
+  out.sun = {picture.sun.elevation, picture.sun.azimuth};
+  if (options.layers) out.layers = layersOf(scene, std::move(picture.layers));
+  return out;
+}
+
+}  // namespace
+
+WriteResult drawnPicture(const Model::Impl& model, const std::string& path,
+                         const PictureSettings& settings, Task& task) {
+  Result<RenderOptions> options = renderOptions(settings, model.scene());
+  if (!options.ok()) return failed<WriteResult>(options.error());
+  watch(settings, task.allowance(), options.value());
+  const ProjectTextures textures(model.project.get());
+  options->textures = &textures;
+  return writtenPicture(render(model.scene(), options.value()), path, task);
+}
+
+struct PictureMaker::Impl {
+  Model model;
+  ProjectTextures textures;
+  std::unique_ptr<Renderer> renderer;
+  DiagnosticList diagnostics;
+
+  explicit Impl(const Model& m) : model(m), textures(m.impl().project.get()) {}
+};
+
+PictureMaker::PictureMaker(const Model& model, const FileLimits& limits) {
+  auto impl = std::make_shared<Impl>(model);
+  struct Made {
+    DiagnosticList diagnostics;
+  };
+  impl->diagnostics = guardedResult<Made>(Task("making ready", "the model", limits), [&] {
+                        impl->renderer =
+                            std::make_unique<Renderer>(model.impl().scene(), &impl->textures);
+                        return Made{};
+                      }).diagnostics;
+  impl_ = impl;
+}
+
+bool PictureMaker::ok() const { return impl_->renderer != nullptr; }
+const DiagnosticList& PictureMaker::diagnostics() const { return impl_->diagnostics; }
+
+namespace {
+
+FileLimits limitsOf(const PictureSettings& settings) {
+  FileLimits limits = settings.limits;
+  if (settings.cancel) limits.cancel = settings.cancel;
+  return limits;
+}
+
+}  // namespace
+
+PictureData PictureMaker::draw(const PictureSettings& settings) const {
+  PictureData none;
+  none.diagnostics = impl_->diagnostics;
+  if (!ok()) return none;
+  return guardedResult<PictureData>(
+      Task("drawing", "the model", limitsOf(settings)), [&](Task& task) {
+        const Scene& scene = impl_->model.impl().scene();
+        Result<RenderOptions> options = renderOptions(settings, scene);
+        if (!options.ok()) return failed<PictureData>(options.error());
+        watch(settings, task.allowance(), options.value());
+        return dataOf(scene, options.value(), impl_->renderer->render(options.value()), task);
+      });
+}
+
+WriteResult PictureMaker::write(const std::string& path, const PictureSettings& settings) const {
+  WriteResult none;
+  none.diagnostics = impl_->diagnostics;
+  if (!ok()) return none;
+  return guardedResult<WriteResult>(Task("drawing", path, limitsOf(settings)), [&](Task& task) {
+    Result<RenderOptions> options = renderOptions(settings, impl_->model.impl().scene());
+    if (!options.ok()) return failed<WriteResult>(options.error());
+    watch(settings, task.allowance(), options.value());
+    return writtenPicture(impl_->renderer->render(options.value()), path, task);
+  });
+}
+
+}  // namespace gable

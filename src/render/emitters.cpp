@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// A hierarchy of lights in the manner of Conty Estevez and Kulla 2018, Importance Sampling of Many
+// Lights: boxes with the sum of their power, halved in the middle of the longer side. On the way
+// down each child is taken by its power over the squared distance to its box.
+
+#include "render/emitters.h"
+
+#include <algorithm>
+
+#include "base/work.h"
+
+namespace gable::rt {
+
+namespace {
+
+constexpr float kLeastArea = 1e-6f;
+
+float areaOf(const Emitter& e) { return length(cross(e.ab, e.ac)) / 2; }
+Vec3f middleOf(const Emitter& e) { return e.a + (e.ab + e.ac) * (1.0f / 3); }
+
+void include(Vec3f& min, Vec3f& max, const Vec3f& p) {
+  min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
+  max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
+}
+
+float along(const Vec3f& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+}  // namespace
+
+Emitters::Emitters(const World& world, const Shine& shine) {
+  addPart(world, kNone, shine);
+  for (uint32_t i = 0; i < world.placements.size(); ++i) addPart(world, i, shine);
+  if (!emitters_.empty()) build();
+}
+
+void Emitters::addPart(const World& world, uint32_t placement, const Shine& shine) {
+  const Placement* const p = placement == kNone ? nullptr : &world.placements[placement];
+  const Part& part = world.parts[p ? p->part : 0];
+  const auto direction = [&](const Vec3f& d) {
+    return p ? p->x * d.x + p->y * d.y + p->z * d.z : d;
+  };
+  const auto point = [&](const Vec3f& d) { return p ? direction(d) + p->origin : d; };
+  for (const bool clear : {false, true}) {
+    const TriangleSet& set = part.set(clear);
+    for (uint32_t t = 0; t < set.corners.size(); ++t) {
+      const SurfaceMaterial& material = world.materials[set.materials[t]];
+      if (maxOf(material.emissive) <= 0 && !material.pane) continue;
+      work();
+      Emitter e;
+      e.a = point(set.positions[set.corners[t][0]]);
+      e.ab = point(set.positions[set.corners[t][1]]) - e.a;
+      e.ac = point(set.positions[set.corners[t][2]]) - e.a;
+      if (!(areaOf(e) > kLeastArea)) continue;
+      e.emissive =
+          shine(material, point(part.pieces[set.pieces[t]].middle), normalized(cross(e.ab, e.ac)));
+      if (maxOf(e.emissive) <= 0) continue;
+      e.placement = placement;
+      e.triangle = t;
+      e.clear = clear;
+      emitters_.push_back(e);
+    }
+  }
+}
+
+void Emitters::build() {
+  nodes_.push_back({});
+  nodes_[0].count = static_cast<uint32_t>(emitters_.size());
+  for (size_t n = 0; n < nodes_.size(); ++n) {
+    Node node = nodes_[n];
+    node.min = node.max = middleOf(emitters_[node.first]);
+    Vec3f least = node.min, most = node.max;
+    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const Emitter& e = emitters_[i];
+      for (const Vec3f& c : {e.a, e.a + e.ab, e.a + e.ac}) include(node.min, node.max, c);
+      include(least, most, middleOf(e));
+      node.power += areaOf(e) * luminance(e.emissive);
+    }
+    if (node.count > 1) {
+      const Vec3f size = most - least;
+      const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+      const auto begin = emitters_.begin() + node.first;
+      const uint32_t half = node.count / 2;
+      // Equal places keep their order, so the tree is the same everywhere.
+      std::stable_sort(begin, begin + node.count, [&](const Emitter& a, const Emitter& b) {
+        return along(middleOf(a), axis) < along(middleOf(b), axis);
+      });
+      node.left = static_cast<uint32_t>(nodes_.size());
+      Node left, right;
+      left.first = node.first;
+      left.count = half;
+      right.first = node.first + half;
+      right.count = node.count - half;
+      nodes_.push_back(left);
+      nodes_.push_back(right);
+    }
+    nodes_[n] = node;
+  }
+}
+
+float Emitters::importance(const Node& node, const Vec3f& at, const Vec3f& normal) {
+  const Vec3f middle = (node.min + node.max) * 0.5f, half = (node.max - node.min) * 0.5f;
+  const Vec3f to = middle - at;
+  // The box lies below the surface's plane.
+  const float reach =
+      std::abs(normal.x) * half.x + std::abs(normal.y) * half.y + std::abs(normal.z) * half.z;
+  const float height = dot(normal, to) + reach;
+  if (height <= 0) return 0;
+  const float squared = std::max(dot(to, to), dot(half, half));
+  // Of far boxes the cosine is known well enough to count.
+  const float cosine = std::min(1.0f, height / std::sqrt(std::max(squared, 1e-12f)));
+  return node.power * cosine / std::max(squared, 1e-4f);
+}
+
+bool Emitters::sample(const Vec3f& at, const Vec3f& normal, float pick, Vec2f u,
+                      EmitterSample& sample) const {
+  if (nodes_.empty()) return false;
+  const Node* node = &nodes_[0];
+  float chance = 1;
+  while (node->count > 1) {
+    const Node &left = nodes_[node->left], &right = nodes_[node->left + 1];
+    const float a = importance(left, at, normal), b = importance(right, at, normal);
+    if (!(a + b > 0)) return false;
+    const float share = a / (a + b);
+    if (pick < share) {
+      node = &left;
+      chance *= share;
+      pick = std::min(pick / share, 0.99999994f);
+    } else {
+      node = &right;
+      chance *= 1 - share;
+      pick = std::min((pick - share) / (1 - share), 0.99999994f);
+    }
+  }
+  const Emitter& e = emitters_[node->first];
+  const float r = std::sqrt(u.x);
+  sample.point = e.a + e.ab * (r * (1 - u.y)) + e.ac * (r * u.y);
+  sample.facet = normalized(cross(e.ab, e.ac));
+  sample.emissive = e.emissive;
+  sample.density = chance / areaOf(e);
+  return true;
+}
+
+}  // namespace gable::rt

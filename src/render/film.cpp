@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Pixels are filtered by where their samples lie, so each belongs to one pixel and no thread waits
+// for another.
+
+#include "render/film.h"
+
+#include <array>
+#include <atomic>
+#include <mutex>
+
+#include "base/parallel.h"
+#include "math/trig.h"
+#include "render/integrator.h"
+#include "render/sampler.h"
+#include "render/viewpoint.h"
+
+namespace gable::rt {
+
+namespace {
+
+/// Dimensions of the sampler that no path uses.
+constexpr uint32_t kPixelDimension = 0, kLensDimension = 0x40000000;
+constexpr uint32_t kTile = 16;
+
+/// Offsets from the pixel's centre with the density of the Blackman-Harris window, 1.5 pixels to
+/// each side: averaging such samples is filtering with that window.
+class PixelFilter {
+ public:
+  PixelFilter() {
+    double sum = 0;
+    for (size_t i = 0; i < kSteps; ++i) {
+      const double t = 360.0 * (static_cast<double>(i) + 0.5) / kSteps;
+      sum += 0.35875 - 0.48829 * cosDeg(t) + 0.14128 * cosDeg(2 * t) - 0.01168 * cosDeg(3 * t);
+      cumulative_[i + 1] = static_cast<float>(sum);
+    }
+    for (float& c : cumulative_) c /= static_cast<float>(sum);
+  }
+
+  float offset(float u) const {
+    const auto at = std::upper_bound(cumulative_.begin() + 1, cumulative_.end() - 1, u);
+    const size_t i = static_cast<size_t>(at - cumulative_.begin()) - 1;
+    const float step = std::max(1e-9f, cumulative_[i + 1] - cumulative_[i]);
+    const float t = (static_cast<float>(i) + std::clamp((u - cumulative_[i]) / step, 0.0f, 1.0f));
+    return 1.5f * (2 * t / kSteps - 1);
+  }
+
+ private:
+  static constexpr size_t kSteps = 256;
+  std::array<float, kSteps + 1> cumulative_{};
+};
+
+/// Adds up a layer's samples.
+struct LayerSum {
+  Vec3f light;
+  float sum = 0, squares = 0;
+
+  void add(const Vec3f& sample, const Vec3f& albedo) {
+    light += sample;
+    const float l = luminance(sample) / std::max(0.02f, luminance(albedo));
+    sum += l;
+    squares += l * l;
+  }
+  /// `share` is one over the number of samples.
+  void store(FilmLayer& layer, size_t i, float share) const {
+    layer.light[i] = light * share;
+    const float mean = sum * share, spread = squares * share - mean * mean;
+    // With one sample nothing is known of the spread; assume it as large as the light.
+    layer.variance[i] = share < 1 ? std::max(0.0f, spread) * share / (1 - share) : mean * mean;
+  }
+};
+
+/// A ray through a point of the lens, to what the ray through its middle shows sharp.
+Ray throughLens(const Ray& middle, const Camera& camera, const Lens& lens, Vec2f u) {
+  const float ahead = dot(middle.direction, toVec3f(camera.forward));
+  if (lens.radius <= 0 || !(ahead > 0)) return middle;
+  const Vec2f d = onDisc(u);
+  const Vec3f sharp = middle.origin + middle.direction * (lens.focus / ahead);
+  Ray ray = middle;
+  ray.origin +=
+      toVec3f(camera.right) * (d.x * lens.radius) + toVec3f(camera.up) * (d.y * lens.radius);
+  ray.direction = normalized(sharp - ray.origin);
+  return ray;
+}
+
+struct PixelTask {
+  const Stage& stage;
+  const Camera& camera;
+  const Lens& lens;
+  const RenderOptions& options;
+  const PixelFilter& filter;
+  Film& film;
+
+  uint64_t run(uint32_t x, uint32_t y) const {
+    const double width = options.width, height = options.height, aspect = width / height;
+    const uint32_t n = std::max(1u, options.samples);
+    Vec3f direct, albedo, normal;
+    LayerSum sun, indirect;
+    float distance = 0, distances = 0, hits = 0;
+    uint64_t rays = 0;
+    for (uint32_t s = 0; s < n; ++s) {
+      const Sampler sampler(x, y, s, options.seed);
+      const Vec2f u = sampler.point(kPixelDimension);
+      const double px = x + 0.5 + static_cast<double>(filter.offset(u.x));
+      const double py = y + 0.5 + static_cast<double>(filter.offset(u.y));
+      const Ray ray = throughLens(cameraRay(camera, aspect, px / width, 1 - py / height), camera,
+                                  lens, sampler.point(kLensDimension));
+      const PathResult path = tracePath(stage, ray, x, y, s, options.seed);
+      direct += path.direct;
+      sun.add(path.sun, path.albedo);
+      indirect.add(path.indirect, path.albedo);
+      albedo += path.albedo;
+      normal += path.normal;
+      distance += path.distance;
+      distances += path.distance * path.distance;
+      hits += path.distance > 0 ? 1.0f : 0.0f;
+      rays += path.rays;
+    }
+    const float k = 1 / static_cast<float>(n);
+    const size_t i = static_cast<size_t>(y) * options.width + x;
+    film.direct[i] = direct * k;
+    sun.store(film.sun, i, k);
+    indirect.store(film.indirect, i, k);
+    film.albedo[i] = albedo * k;
+    if (hits > 0) {
+      film.normal[i] = normal * (1 / hits);
+      film.distance[i] = distance / hits;
+      film.spread[i] =
+          std::sqrt(std::max(0.0f, distances / hits - film.distance[i] * film.distance[i]));
+    }
+    return rays;
+  }
+};
+
+}  // namespace
+
+bool tracePicture(const Stage& stage, const Camera& camera, const Lens& lens,
+                  const RenderOptions& options, Film& film, uint64_t& rays) {
+  film.width = options.width;
+  film.height = options.height;
+  const size_t pixels = static_cast<size_t>(options.width) * options.height;
+  for (std::vector<Vec3f>* v :
+       {&film.direct, &film.sun.light, &film.indirect.light, &film.albedo, &film.normal}) {
+    v->assign(pixels, {});
+  }
+  for (std::vector<float>* v :
+       {&film.distance, &film.spread, &film.sun.variance, &film.indirect.variance}) {
+    v->assign(pixels, 0);
+  }
+
+  const PixelFilter filter;
+  const PixelTask task{stage, camera, lens, options, filter, film};
+  const uint32_t across = (options.width + kTile - 1) / kTile;
+  const uint32_t down = (options.height + kTile - 1) / kTile;
+  const size_t tiles = static_cast<size_t>(across) * down;
+  std::atomic<uint64_t> allRays = 0;
+  std::atomic<bool> ended = false;
+  std::mutex reporting;
+  size_t done = 0;
+  parallelFor(tiles, options.threads, [&](size_t tile, unsigned) {
+    if (ended.load(std::memory_order_relaxed)) return;
+    const uint32_t x0 = static_cast<uint32_t>(tile % across) * kTile;
+    const uint32_t y0 = static_cast<uint32_t>(tile / across) * kTile;
+    uint64_t count = 0;
+    for (uint32_t y = y0; y < std::min(y0 + kTile, options.height); ++y) {
+      for (uint32_t x = x0; x < std::min(x0 + kTile, options.width); ++x) count += task.run(x, y);
+    }
+    allRays += count;
+    const std::lock_guard lock(reporting);
+    ++done;
+    if (options.progress &&
+        !options.progress(static_cast<double>(done) / static_cast<double>(tiles))) {
+      ended = true;
+    }
+  });
+  rays += allRays;
+  return !ended;
+}
+
+}  // namespace gable::rt

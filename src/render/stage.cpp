@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// A cut is a half-space without anything in it: each ray is shortened to what is left. Where a ray
+// enters what is left inside something closed, that is a cut face. Whether it is closed there is
+// counted along three directions, two of which must agree, since rules leave gaps.
+
+#include "render/stage.h"
+
+#include "math/trig.h"
+#include "render/sampler.h"
+
+namespace gable::rt {
+
+namespace {
+
+constexpr Vec3f kClay{0.70f, 0.67f, 0.63f}, kClayGround{0.58f, 0.555f, 0.525f};
+constexpr Vec3f kCutSolid{0.045f, 0.04f, 0.04f}, kCutSoil{0.26f, 0.19f, 0.13f};
+
+/// A room behind panes: this wide and high.
+constexpr float kRoom = 3.8f, kStorey = 3.1f;
+/// Panes of larger pieces belong to the room that they are at, not to that of their middle.
+constexpr float kLargePane = 8;
+
+/// A smooth random value in [-1, 1] over the plane, with features of about one unit.
+float smoothNoise(float x, float z, uint32_t seed) {
+  const float fx = std::floor(x), fz = std::floor(z);
+  const auto corner = [&](int i, int j) {
+    const uint32_t cx = static_cast<uint32_t>(static_cast<int64_t>(fx) + i);
+    const uint32_t cz = static_cast<uint32_t>(static_cast<int64_t>(fz) + j);
+    return static_cast<float>(mix32(cx + mix32(cz + seed)) >> 8) * 0x1p-23f - 1;
+  };
+  const float tx = x - fx, tz = z - fz;
+  const float sx = tx * tx * (3 - 2 * tx), sz = tz * tz * (3 - 2 * tz);
+  return (corner(0, 0) * (1 - sx) + corner(1, 0) * sx) * (1 - sz) +
+         (corner(0, 1) * (1 - sx) + corner(1, 1) * sx) * sz;
+}
+
+/// Soil is nowhere of one tone: a few percent over metres, finer ones near the camera only.
+float groundTone(const Vec3f& p, float distance) {
+  float tone = 1 + 0.05f * smoothNoise(p.x / 19, p.z / 19, 1);
+  const float fine = 60 / (60 + distance);
+  tone += fine * 0.04f * smoothNoise(p.x / 2.3f, p.z / 2.3f, 2);
+  tone += fine * fine * 0.05f * smoothNoise(p.x / 0.31f, p.z / 0.31f, 3);
+  return tone;
+}
+
+/// Shortens a ray to what is not cut away; false where nothing is left of it. `entry`: where it
+/// crosses the plane on its way in, else below 0.
+bool shorten(const Stage& stage, Ray& ray, float& entry) {
+  entry = -1;
+  if (!stage.cut) return true;
+  const float beyond = stage.cut->beyond(ray.origin);
+  const float towards = dot(stage.cut->normal, ray.direction);
+  if (beyond > 0) {
+    if (towards >= 0) return false;
+    entry = -beyond / towards;
+    ray.from = std::max(ray.from, entry);
+  } else if (towards > 0) {
+    ray.to = std::min(ray.to, -beyond / towards);
+  }
+  return ray.from < ray.to;
+}
+
+bool isSolid(const Stage& stage, const Vec3f& p) {
+  const Vec3f inwards = -stage.cut->normal;
+  Vec3f t, b;
+  basisAround(inwards, t, b);
+  const Vec3f start = p + inwards * 1e-3f;
+  int votes = 0;
+  // Directions that no wall of a house runs along.
+  for (const Vec3f& d : {inwards + t * 0.113f + b * 0.071f, inwards - t * 0.617f + b * 0.439f,
+                         inwards + t * 0.271f - b * 0.733f}) {
+    votes += stage.tracer.isInside(start, normalized(d));
+  }
+  return votes >= 2;
+}
+
+void makeCut(const Stage& stage, const Ray& ray, float distance, const Vec3f& base,
+             Surface& surface) {
+  surface = Surface();
+  surface.point = ray.origin + ray.direction * distance;
+  surface.facet = surface.normal = stage.cut->normal;
+  surface.base = base;
+  surface.isCut = true;
+}
+
+void makeGround(const Stage& stage, const Ray& ray, float t, Surface& surface) {
+  surface = Surface();
+  surface.point = ray.origin + ray.direction * t;
+  surface.point.y = stage.groundHeight;
+  surface.facet = surface.normal = {0, 1, 0};
+  surface.base = stage.clay ? kClayGround : stage.light.groundAlbedo * groundTone(surface.point, t);
+  surface.isGround = true;
+}
+
+/// The endless ground, before what is found at `distance`.
+bool meetGround(const Stage& stage, const Ray& ray, bool found, float& distance, Surface& surface) {
+  if (!stage.ground || stage.block || ray.direction.y >= 0) return false;
+  const float t = (stage.groundHeight - ray.origin.y) / ray.direction.y;
+  // What lies on the ground, within 3 mm, wins over it.
+  const float lead = 0.003f / -ray.direction.y;
+  if (!(t > ray.from && t < ray.to && (!found || t + lead < distance))) return false;
+  makeGround(stage, ray, t, surface);
+  distance = t;
+  return true;
+}
+
+/// The block of soil that stands for the ground of a section.
+bool meetBlock(const Stage& stage, const Ray& ray, float entry, bool found, float& distance,
+               Surface& surface) {
+  if (!stage.ground || !stage.block) return false;
+  const Vec3f min = stage.block->min, max = stage.block->max;
+  float from = -1e30f, to = 1e30f;
+  int face = -1;
+  for (int k = 0; k < 3; ++k) {
+    const auto of = [k](const Vec3f& v) { return k == 0 ? v.x : k == 1 ? v.y : v.z; };
+    const float inverse = 1 / of(ray.direction);
+    float a = (of(min) - of(ray.origin)) * inverse, b = (of(max) - of(ray.origin)) * inverse;
+    if (a > b) std::swap(a, b);
+    if (a > from) {
+      from = a;
+      face = k;
+    }
+    to = std::min(to, b);
+  }
+  if (!(from < to) || to <= ray.from) return false;
+  if (entry >= 0 && entry >= from && entry < to) {
+    makeCut(stage, ray, entry, kCutSoil, surface);
+    distance = entry;
+    return true;
+  }
+  const float lead = face == 1 ? 0.003f / std::max(1e-6f, std::abs(ray.direction.y)) : 0;
+  if (!(from > ray.from && from < ray.to && (!found || from + lead < distance))) return false;
+  makeGround(stage, ray, from, surface);
+  if (face != 1) {
+    surface.point = ray.origin + ray.direction * from;
+    surface.base = kCutSoil;
+    const float side = (face == 0 ? ray.direction.x : ray.direction.z) > 0 ? -1.0f : 1.0f;
+    surface.facet = surface.normal = face == 0 ? Vec3f{side, 0, 0} : Vec3f{0, 0, side};
+  }
+  distance = from;
+  return true;
+}
+
+void makeClay(Surface& s) {
+  s.base = kClay;
+  s.emissive = {};
+  s.metallic = 0;
+  s.roughness = 0.9f;
+  s.facing = 0.04f;
+  s.transmission = 0;
+  s.clearWater = 0;
+  if (s.pane || s.matter == Matter::Water) s.opacity = 1;
+}
+
+}  // namespace
+
+Vec3f offsetFrom(const Vec3f& point, const Vec3f& facet, const Vec3f& direction) {
+  const float most = std::max(std::abs(point.x), std::max(std::abs(point.y), std::abs(point.z)));
+  const float by = 2e-4f + 1e-6f * most;
+  return point + facet * (dot(facet, direction) < 0 ? -by : by);
+}
+
+bool meet(const Stage& stage, const Ray& whole, bool ordered, Surface& surface, float& distance) {
+  Ray ray = whole;
+  float entry = -1;
+  if (!shorten(stage, ray, entry)) return false;
+  Hit hit;
+  const bool found =
+      ordered ? stage.tracer.intersectOrdered(ray, hit) : stage.tracer.intersect(ray, hit);
+  if (found) distance = hit.distance;
+  if (meetBlock(stage, ray, entry, found, distance, surface)) return true;
+  if (entry >= 0) {
+    const Vec3f p = ray.origin + ray.direction * entry;
+    const bool soil = stage.ground && !stage.block && p.y < stage.groundHeight;
+    if (soil || (found && isSolid(stage, p))) {
+      makeCut(stage, ray, entry, soil ? kCutSoil : kCutSolid, surface);
+      distance = entry;
+      return true;
+    }
+  }
+  if (meetGround(stage, ray, found, distance, surface)) return true;
+  if (!found) return false;
+  surface = surfaceAt(stage.world, hit, ray);
+  if (stage.clay) {
+    makeClay(surface);
+  } else if (surface.pane && stage.litRooms > 0) {
+    const Placement* const p =
+        hit.placement == kNone ? nullptr : &stage.world.placements[hit.placement];
+    const Part& part = stage.world.parts[p ? p->part : 0];
+    const Piece& piece = part.pieces[part.set(hit.clear).pieces[hit.triangle]];
+    Vec3f middle = piece.middle;
+    if (p) middle = p->origin + p->x * middle.x + p->y * middle.y + p->z * middle.z;
+    if (piece.size > kLargePane) middle = surface.point;
+    surface.emissive += roomLight(stage.litRooms, middle, surface.facet);
+  }
+  return true;
+}
+
+float visibility(const Stage& stage, const Ray& whole) {
+  Ray ray = whole;
+  float entry = -1;
+  return shorten(stage, ray, entry) ? stage.tracer.visibility(ray) : 1.0f;
+}
+
+Vec3f roomLight(float share, const Vec3f& middle, const Vec3f& facet) {
+  if (std::abs(facet.y) > 0.5f) return {};
+  // The same room for both sides of a pane.
+  const float side = facet.x + 0.5f * facet.z < 0 ? -1.0f : 1.0f;
+  const Vec3f n = normalized(Vec3f{facet.x, 0, facet.z} * side);
+  const auto cell = [](float v) {
+    return static_cast<uint32_t>(static_cast<int64_t>(std::floor(v)));
+  };
+  const uint32_t room =
+      mix32(cell((middle.x * n.z - middle.z * n.x) / kRoom) +
+            mix32(cell(middle.y / kStorey) + mix32(cell(dot(middle, n) / kRoom + 0.37f))));
+  const auto draw = [&](uint32_t k) {
+    return static_cast<float>(mix32(room + k * 0x9e3779b9U) >> 8) * 0x1p-24f;
+  };
+  if (draw(1) >= share) return {};
+  const Vec3f warm = mix({1, 0.56f, 0.22f}, {1, 0.75f, 0.46f}, draw(2));
+  const Vec3f colour = draw(3) < 0.07f ? Vec3f{0.62f, 0.76f, 1} : warm;
+  return colour * (0.18f + 0.62f * draw(4) * draw(4));
+}
+
+}  // namespace gable::rt
