@@ -41,11 +41,11 @@ std::string extensionOf(const std::string& path) {
 }
 
 int checkExtension(const std::string& path, const std::vector<std::string>& extensions) {
-  std::string end = extensionOf(path);
-  for (char& c : end) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  std::string lower = path;
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   std::string known;
   for (const std::string& e : extensions) {
-    if (end == e) return kExitDone;
+    if (lower.ends_with("." + e)) return kExitDone;
     known += (known.empty() ? "." : " .") + e;
   }
   return wrongOption("--output", "a file name with an ending that says its format (" + known + ")",
@@ -150,6 +150,7 @@ gable::WriteSettings writeSettings(const WriteArguments& arguments, const LimitA
   gable::WriteSettings settings;
   settings.instancing = gable::instancingNamed(arguments.instancing).value_or(settings.instancing);
   settings.vertices = gable::verticesNamed(arguments.vertices).value_or(settings.vertices);
+  settings.detail = gable::detailNamed(arguments.detail).value_or(settings.detail);
   settings.limits = fileLimits(limits);
   return settings;
 }

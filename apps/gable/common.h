@@ -36,10 +36,12 @@ struct LimitArguments {
   uint64_t maxMegabytes = 4096;
 };
 
-/// How a model file is written: one of gable::instancingNames() and of gable::verticesNames().
+/// How a model file is written: one of gable::instancingNames(), of gable::verticesNames() and of
+/// gable::detailNames().
 struct WriteArguments {
   std::string instancing = "auto";
   std::string vertices = "float";
+  std::string detail = "all";
 };
 /// Those for reading, analysing, converting and writing. Ctrl-C cancels.
 gable::FileLimits fileLimits(const LimitArguments& arguments);

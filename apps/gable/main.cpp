@@ -218,6 +218,10 @@ void addWriting(CLI::App* app, WriteArguments& a) {
                   "glTF: what a vertex takes: float (single precision), compact (half of that, by\n"
                   "KHR_mesh_quantization, no vertex moved by more than half a millimetre)")
       ->check(CLI::IsMember(gable::verticesNames()));
+  app->add_option("--lod", a.detail,
+                  "CityJSON: which levels of detail: 1 (blocks), 2 (roofs and walls), 3 (all that\n"
+                  "rules made), all")
+      ->check(CLI::IsMember(gable::detailNames()));
 }
 
 void addWatch(CLI::App* app, bool& watch) {

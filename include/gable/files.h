@@ -30,7 +30,7 @@ using TextSink = std::function<void(std::string_view)>;
 WriteResult writeTextFile(const std::string& path,
                           const std::function<void(const TextSink& sink)>& write);
 
-/// The extensions of the models that Model::write makes, without dots.
+/// The extensions of the models that Model::write makes, without the first dot: "glb", "city.json".
 const std::vector<std::string>& modelExtensions();
 
 /// Removes what is half written. May be called by a signal handler, just before the process ends.

@@ -31,9 +31,14 @@ enum class Instancing : uint8_t { Auto, Nodes, Gpu, None };
 /// axis, and only surfaces with textures have texture coordinates.
 enum class Vertices : uint8_t { Float, Compact };
 
+/// Which levels of detail a CityJSON file has. One: blocks. Two: roofs and walls. Three: all that
+/// rules made.
+enum class Detail : uint8_t { All, One, Two, Three };
+
 struct WriteSettings {
   Instancing instancing = Instancing::Auto;
   Vertices vertices = Vertices::Float;
+  Detail detail = Detail::All;
   FileLimits limits;
 };
 
@@ -224,7 +229,8 @@ class Model {
   std::string drawList(const FileLimits& limits = {}) const;
   /// The bytes of a texture by the path that a material names.
   std::optional<std::string> texture(const std::string& path) const;
-  /// By extension: .glb .gltf .obj .ply .stl, and .png for a picture with default settings.
+  /// By extension: .glb .gltf .obj .usda .usdz .ply .stl .city.json .city.jsonl .ifc, and .png for
+  /// a picture with default settings.
   WriteResult write(const std::string& path, const WriteSettings& settings = {}) const;
   /// The bytes of a format of one file: "glb", "ply", "stl" or "png".
   EncodeResult encode(const std::string& format, const WriteSettings& settings = {}) const;

@@ -33,4 +33,8 @@ std::optional<Instancing> instancingNamed(const std::string& name);
 const std::vector<std::string>& verticesNames();
 std::optional<Vertices> verticesNamed(const std::string& name);
 
+/// "all", "1", "2", "3": in the order of Detail.
+const std::vector<std::string>& detailNames();
+std::optional<Detail> detailNamed(const std::string& name);
+
 }  // namespace gable

@@ -295,6 +295,10 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
     impl->result = gable::derive(r.program, initial, own, options);
   }
   impl->result.scene.geoOrigin = shapes.impl().geoOrigin;
+  impl->geo = shapes.impl().geo;
+  for (const ShapeFootprint& f : shapes.impl().footprints) {
+    impl->shapeAttributes.push_back(f.attributes);
+  }
   MissingFiles told;
   told.add(r.diagnostics);
   const DiagnosticList made = told.without(

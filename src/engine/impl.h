@@ -86,6 +86,9 @@ struct Model::Impl {
   /// Holds the tables that trace names point into.
   std::shared_ptr<const Rules::Impl> rules;
   DeriveResult result;
+  /// What initial shapes came with, and where their world lies on the Earth, for city models.
+  std::vector<std::vector<AttributeValue>> shapeAttributes;
+  std::shared_ptr<const GeoFrame> geo;
   /// What of result.scene can be shown and written; a later derivation goes on from the other.
   SoundScene sound;
   double seconds = 0;
@@ -99,6 +102,10 @@ struct Model::Impl {
 /// Of a footprint that others cover wholly an inner part stays. O(n^2) box tests, a boolean
 /// operation a pair that meets.
 void cutNested(std::vector<ShapeFootprint>& footprints);
+
+/// What city models say of a root: its reports, numbers of one key summed; then the attributes of
+/// its shape as rules see them; then those that it came with.
+std::vector<AttributeValue> knownOfRoot(const Model::Impl& model, size_t root);
 
 /// Seconds of a steady clock.
 double now();

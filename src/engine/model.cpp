@@ -77,7 +77,9 @@ std::shared_ptr<Model::Impl> loaded(const std::string& path) {
 std::vector<std::string> texturesOf(const Scene& scene, const std::string& path) {
   std::vector<std::string> paths;
   const std::string format = extensionOf(path);
-  if (format == "ply" || format == "stl") return paths;
+  const std::string written = modelFormatOf(path);
+  if (format == "ply" || format == "stl" || written == "ifc") return paths;
+  if (written.starts_with("city.")) return paths;
   for (const Material& m : scene.materials) {
     for (const TextureMap& map : m.maps) {
       if (!map.path.empty()) paths.push_back(map.path);
@@ -92,6 +94,9 @@ WriteResult written(const Model::Impl& impl, const std::string& path,
   // The enumerations are in the same order.
   options.instancing = static_cast<WriteOptions::Instancing>(settings.instancing);
   options.vertices = static_cast<WriteOptions::Vertices>(settings.vertices);
+  options.detail = static_cast<WriteOptions::Detail>(settings.detail);
+  options.geo = impl.geo.get();
+  options.attributesOf = [&impl](size_t root) { return knownOfRoot(impl, root); };
   options.readTexture = [&impl](const std::string& texture) -> Result<std::string> {
     if (impl.project) return impl.project->texture(texture);
     return Error{"texture-not-found", "there is no picture '" + texture + "'", ""};
@@ -182,6 +187,15 @@ const std::vector<std::string>& verticesNames() {
 
 std::optional<Vertices> verticesNamed(const std::string& name) {
   return named<Vertices>(verticesNames(), name);
+}
+
+const std::vector<std::string>& detailNames() {
+  static const std::vector<std::string> names{"all", "1", "2", "3"};
+  return names;
+}
+
+std::optional<Detail> detailNamed(const std::string& name) {
+  return named<Detail>(detailNames(), name);
 }
 
 Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& settings) {

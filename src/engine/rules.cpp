@@ -213,8 +213,8 @@ std::shared_ptr<Rules::Impl> failed(const Error& e) {
 // Models, maps and pictures, which would be mistakes from the first letter on. Any other file may
 // hold rules.
 bool isOther(const std::string& path) {
-  constexpr std::string_view kOthers[] = {"geojson", "json", "osm", "pbf", "gpkg", "fgb",
-                                          "shp",     "fbx",  "dae", "png", "jpg",  "tif"};
+  constexpr std::string_view kOthers[] = {"geojson", "json", "jsonl", "osm", "pbf", "gpkg", "fgb",
+                                          "shp",     "fbx",  "dae",   "png", "jpg", "tif"};
   std::string extension = path.substr(std::min(path.rfind('.') + 1, path.size()));
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const auto& models = modelExtensions();

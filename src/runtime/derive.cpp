@@ -254,11 +254,16 @@ void assemble(Pass& pass, DeriveShared& shared, const std::vector<InitialShape>&
   for (auto& m : pass.machines) outputs.push_back(std::move(m->output()));
   std::vector<const OutputUnit*> roots;
   for (size_t i = 0; i < shapes.size(); ++i) {
-    if (pass.derived[i]) roots.push_back(&pass.units[i]);
+    if (!pass.derived[i]) continue;
+    roots.push_back(&pass.units[i]);
+    result.roots.push_back({i, 0});
   }
   result.attributes = std::move(pass.attributes);
   Merged merged = merge(outputs, roots, pass.portions->units(), mergeInput(shared, recall.get()));
   result.scene = std::move(merged.scene);
+  for (size_t r = 0; r < result.roots.size(); ++r) {
+    result.roots[r].reportsEnd = merged.reportsEnd[r];
+  }
   if (!merged.allEvents) {
     result.diagnostics.warning("too-many-reports", Span{},
                                "the rules report or print more than can be kept",

@@ -147,8 +147,18 @@ struct DeriveOptions {
   const Sources* sources = nullptr;
 };
 
+/// What a root of the scene is of.
+struct DerivedRoot {
+  /// The number of the initial shape: those whose derivation a limit ended have no root.
+  size_t shape = 0;
+  /// Its reports are those of the scene from where the root before ends to here.
+  size_t reportsEnd = 0;
+};
+
 struct DeriveResult {
   Scene scene;
+  /// By root of the scene.
+  std::vector<DerivedRoot> roots;
   Diagnostics diagnostics;
   End end = End::Done;
   std::vector<TraceNode> trace;

@@ -50,6 +50,7 @@ class Merger {
     scene_.roots.push_back(root);
     leaves_.addRoot(r.name);
     for (const Segment& s : segments) replay(s.worker, s.content, s.from.instances);
+    reportsEnd_.push_back(scene_.reports.size());
   }
 
   /// Puts a part to where its unit came to lie in the scene.
@@ -72,7 +73,9 @@ class Merger {
   }
 
   void finish() { leaves_.finish(); }
-  Merged take() { return {std::move(scene_), !full(), leaves_.allAttributes()}; }
+  Merged take() {
+    return {std::move(scene_), !full(), leaves_.allAttributes(), std::move(reportsEnd_)};
+  }
 
  private:
   struct Worker {
@@ -293,6 +296,7 @@ class Merger {
   std::vector<Worker> workers_;
   uint64_t events_ = 0, eventBytes_ = 0;
   uint32_t leafCount_ = 0;
+  std::vector<size_t> reportsEnd_;
   Scene scene_;
   KeyNumbers byKey_;
   LeafMerger leaves_;

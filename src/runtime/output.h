@@ -117,6 +117,8 @@ struct Merged {
   bool allEvents = true;
   /// False when leaves are without attributes, for which there was no room.
   bool allAttributes = true;
+  /// By root: before which of the scene's reports its own end.
+  std::vector<size_t> reportsEnd;
 };
 
 PlainValue plainValue(const Value& v, const ValuePool& pool);

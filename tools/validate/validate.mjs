@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// node validate.mjs FILE-OR-FOLDER...: runs the Khronos validator over .glb and .gltf files, and tinyusdz over
-// .usda and .usdz files. Exit status 0 when none has an error or a warning, 1 when one has, 3 when nothing was
-// there to look at. Infos and hints are counted only. Both are read from build/validate, where ./test installs
-// them, or from the folder that GABLE_VALIDATOR names.
+// node validate.mjs FILE-OR-FOLDER...: runs the Khronos validator over .glb and .gltf files, tinyusdz over .usda and
+// .usdz files, a parser of CityJSON over .city.json files, and web-ifc over .ifc files. Exit status 0 when none has an
+// error or a warning, 1 when one has, 3 when nothing was there to look at. Infos and hints are counted only. All are
+// read from build/validate, where ./test installs them, or from the folder that GABLE_VALIDATOR names.
 import { createRequire } from "node:module";
 import { readFileSync, readdirSync, statSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
+
+import { readCity, readIfc } from "./building_models.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const home = process.env.GABLE_VALIDATOR ?? resolve(here, "../../build/validate");
@@ -22,7 +24,7 @@ function modelsAt(path) {
     .flatMap((name) => {
       const child = join(path, name);
       if (statSync(child).isDirectory()) return modelsAt(child);
-      return /\.(glb|gltf|usda|usdz)$/.test(name) ? [child] : [];
+      return /\.(glb|gltf|usda|usdz|city\.json|ifc)$/.test(name) ? [child] : [];
     });
 }
 
@@ -72,13 +74,27 @@ async function isCleanUsd(path) {
   return !wrong;
 }
 
+/** Whether a city model or a building model is read, and holds together. */
+async function isCleanBuilding(path) {
+  const read = await (path.endsWith(".ifc") ? readIfc : readCity)(home, path);
+  const kinds = Object.entries(read.elements ?? read.objects).map(([kind, count]) => `${count} ${kind}`);
+  console.log(`${path}: ${read.wrong.join("; ") || `${read.triangles} triangles, ${kinds.join(", ")}`}`);
+  return read.wrong.length === 0;
+}
+
+/** Of any of the formats. */
+function isCleanFile(path) {
+  if (/\.usd[az]$/.test(path)) return isCleanUsd(path);
+  return /\.(city\.json|ifc)$/.test(path) ? isCleanBuilding(path) : isClean(path);
+}
+
 const files = process.argv.slice(2).flatMap(modelsAt);
 if (files.length === 0) {
-  console.error("validate.mjs: no .glb, .gltf, .usda or .usdz file was given");
+  console.error("validate.mjs: no .glb, .gltf, .usda, .usdz, .city.json or .ifc file was given");
   process.exit(3);
 }
 let clean = true;
 for (const file of files) {
-  clean = (await (/\.usd[az]$/.test(file) ? isCleanUsd(file) : isClean(file))) && clean;
+  clean = (await isCleanFile(file)) && clean;
 }
 process.exit(clean ? 0 : 1);

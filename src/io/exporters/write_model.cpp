@@ -3,6 +3,7 @@
 #include "io/exporters/write_model.h"
 
 #include "base/files.h"
+#include "base/text.h"
 #include "scene/flatten.h"
 
 namespace gable {
@@ -16,10 +17,16 @@ struct Format {
   bool expands;
   Result<WriteReport> (*write)(const Scene&, const std::string&, const WriteOptions&);
 };
-constexpr Format kFormats[] = {{"glb", false, writeGltf}, {"gltf", false, writeGltf},
-                               {"obj", true, writeObj},   {"usda", false, writeUsd},
-                               {"usdz", false, writeUsd}, {"ply", true, writePly},
-                               {"stl", true, writeStl}};
+constexpr Format kFormats[] = {{"glb", false, writeGltf},
+                               {"gltf", false, writeGltf},
+                               {"obj", true, writeObj},
+                               {"usda", false, writeUsd},
+                               {"usdz", false, writeUsd},
+                               {"ply", true, writePly},
+                               {"stl", true, writeStl},
+                               {"city.json", true, writeCityJson},
+                               {"city.jsonl", true, writeCityJson},
+                               {"ifc", true, writeIfc}};
 
 }  // namespace
 
@@ -32,9 +39,21 @@ const std::vector<std::string>& modelExtensions() {
   return kAll;
 }
 
+std::string modelFormatOf(const std::string& path) {
+  const std::string name = lowerCase(fileNameOf(path));
+  for (const Format& f : kFormats) {
+    const std::string_view end = f.extension;
+    const size_t size = end.size() + 1;
+    if (name.size() >= size && name.ends_with(end) && name[name.size() - size] == '.') {
+      return f.extension;
+    }
+  }
+  return {};
+}
+
 Result<WriteReport> writeModel(const Scene& scene, const std::string& path,
                                const WriteOptions& options) {
-  const std::string extension = extensionOf(path);
+  const std::string extension = modelFormatOf(path);
   for (const Format& f : kFormats) {
     if (extension != f.extension) continue;
     if (f.expands && leafCount(scene) > kMostLeaves) {

@@ -7,6 +7,9 @@
 //   .usda .usdz  prims by rule, instanceable prims for what stands several times, UsdPreviewSurface
 //                with textures beside (.usda) or inside (.usdz)
 //   .ply .stl    one mesh, binary
+//   .city.json .city.jsonl   CityJSON 2.0, whole or a feature a line: objects by what leaves are
+//                (city_kinds.h), with semantic surfaces and levels of detail
+//   .ifc         IFC4 as STEP text: a building an initial shape, elements in storeys
 //
 // Promises: equal scenes give equal bytes on every machine; no coordinate is NaN or infinite and no
 // triangle has zero area in the numbers as written; a file is complete or not there at all. Memory
@@ -20,6 +23,7 @@
 
 #include "base/result.h"
 #include "scene/scene.h"
+#include "shape/geo_frame.h"
 
 namespace gable {
 
@@ -57,6 +61,14 @@ struct WriteOptions {
   Vertices vertices = Vertices::Float;
   /// Keep uv set 0 on surfaces whose material has no texture, unless vertices are compact.
   bool keepUv = true;
+  /// CityJSON: which levels of detail.
+  enum class Detail : uint8_t { All, One, Two, Three };
+  Detail detail = Detail::All;
+  /// City models and building models: what is known of an initial shape, by the number of its root;
+  /// of equal names the first counts. Without a function nothing is.
+  std::function<std::vector<AttributeValue>(size_t root)> attributesOf;
+  /// Where the world lies on the Earth; null where the scene's origin says it, or nobody knows.
+  const GeoFrame* geo = nullptr;
 };
 
 struct WriteReport {
@@ -75,8 +87,11 @@ struct WriteReport {
 Result<WriteReport> writeModel(const Scene& scene, const std::string& path,
                                const WriteOptions& options = {});
 
-/// The extensions that writeModel takes, without dots.
+/// The extensions that writeModel takes, without the first dot.
 const std::vector<std::string>& modelExtensions();
+
+/// The one of them that a path ends with, whatever the case of its letters; empty for none.
+std::string modelFormatOf(const std::string& path);
 
 /// The formats one by one.
 Result<WriteReport> writeGltf(const Scene& scene, const std::string& path,
@@ -88,6 +103,10 @@ Result<WriteReport> writeUsd(const Scene& scene, const std::string& path,
 Result<WriteReport> writePly(const Scene& scene, const std::string& path,
                              const WriteOptions& options);
 Result<WriteReport> writeStl(const Scene& scene, const std::string& path,
+                             const WriteOptions& options);
+Result<WriteReport> writeCityJson(const Scene& scene, const std::string& path,
+                                  const WriteOptions& options);
+Result<WriteReport> writeIfc(const Scene& scene, const std::string& path,
                              const WriteOptions& options);
 
 }  // namespace gable

@@ -16,6 +16,7 @@
 #include "base/number.h"
 #include "base/text.h"
 #include "base/work.h"
+#include "io/importers/city_json_geometry.h"
 #include "math/trig.h"
 
 namespace gable {
@@ -28,32 +29,8 @@ constexpr double kLeastHeight = 0.5;
 constexpr double kMostlyLevel = 0.6, kSide = 0.12;
 constexpr int kDirections = 8;
 
-struct Face {
-  // The outer ring and its holes.
-  std::vector<std::vector<Vec3>> rings;
-  std::string_view meaning;
-};
-
-struct Geometry {
-  double lod = 0;
-  std::vector<Face> faces;
-  // Of lines and points.
-  std::vector<std::vector<Vec3>> lines;
-};
-
-Vec3 normalOf(const std::vector<Vec3>& ring) {
-  Vec3 sum;
-  for (size_t i = 1; i + 1 < ring.size(); ++i) {
-    sum += cross(ring[i] - ring[0], ring[i + 1] - ring[0]);
-  }
-  return sum * 0.5;
-}
-
-std::string textOf(const JsonValue& v) {
-  if (v.isNumber()) return shortestText(v.number(0));
-  if (v.isBool()) return v.boolean(false) ? "yes" : "no";
-  return v.text();
-}
+using Face = CityJsonFace;
+using Geometry = CityJsonBody;
 
 std::string rounded(double metres) { return shortestText(std::round(metres * 100) / 100); }
 
@@ -120,41 +97,20 @@ std::vector<Ring> outlineOf(const std::vector<Ring>& rings) {
 
 class Reader {
  public:
-  Reader(const JsonValue& root, MapSkips& skips) : root_(root), skips_(skips) {}
+  Reader(const JsonValue& root, MapSkips& skips) : root_(root), skips_(skips), geometry_(root) {}
 
   CityJsonMap read() {
-    readVertices();
     for (const auto& [id, object] : root_["CityObjects"].members()) objects_.emplace(id, &object);
     for (const auto& [id, object] : root_["CityObjects"].members()) {
       work();
       id_ = id;
       add(object);
     }
-    out_.system = system();
+    out_.system = cityJsonSystem(root_);
     return std::move(out_);
   }
 
  private:
-  // "https://www.opengis.net/def/crs/EPSG/0/7415" and "urn:ogc:def:crs:EPSG::7415".
-  std::string system() const {
-    const std::string& name = root_["metadata"]["referenceSystem"].text();
-    const size_t at = name.find_last_of("/:");
-    if (at == std::string::npos || name.find("EPSG") == std::string::npos) return {};
-    return "EPSG:" + name.substr(at + 1);
-  }
-
-  void readVertices() {
-    const JsonValue &scale = root_["transform"]["scale"], &shift = root_["transform"]["translate"];
-    const double none = std::numeric_limits<double>::quiet_NaN();
-    for (const JsonValue& v : root_["vertices"].items()) {
-      work();
-      const auto at = [&](size_t i) {
-        return v.at(i).number(none) * scale.at(i).number(1) + shift.at(i).number(0);
-      };
-      vertices_.push_back({at(0), at(1), at(2)});
-    }
-  }
-
   void skip(const std::string& reason) { skips_.add(id_, reason); }
 
   void add(const JsonValue& object) {
@@ -208,106 +164,22 @@ class Reader {
     const JsonValue& own = object["attributes"];
     // Of a model without heights.
     const bool isBuilt = !f.tag("building").empty() || !f.tag("building:part").empty();
-    if (isBuilt) put(f, "height", textOf(own["measuredHeight"]));
-    put(f, "building:levels", textOf(own["storeysAboveGround"]));
-    put(f, "start_date", textOf(own["yearOfConstruction"]));
+    if (isBuilt) put(f, "height", cityJsonText(own["measuredHeight"]));
+    put(f, "building:levels", cityJsonText(own["storeysAboveGround"]));
+    put(f, "start_date", cityJsonText(own["yearOfConstruction"]));
     const JsonValue& address = object["address"].at(0);
-    put(f, "addr:country", textOf(address["Country"]));
-    put(f, "addr:city", textOf(address["Locality"]));
-    put(f, "addr:street", textOf(address["ThoroughfareName"]));
-    put(f, "addr:housenumber", textOf(address["ThoroughfareNumber"]));
+    put(f, "addr:country", cityJsonText(address["Country"]));
+    put(f, "addr:city", cityJsonText(address["Locality"]));
+    put(f, "addr:street", cityJsonText(address["ThoroughfareName"]));
+    put(f, "addr:housenumber", cityJsonText(address["ThoroughfareNumber"]));
     for (const auto& [name, value] : own.members()) {
       work();
-      put(f, name, textOf(value));
-    }
-  }
-
-  // ---- Geometry ---------------------------------------------------------------------------------
-
-  // The corners of a ring; false where one is none of the file's.
-  bool ring(const JsonValue& indices, std::vector<Vec3>& out) {
-    for (const JsonValue& i : indices.items()) {
-      work();
-      const double at = i.number(-1);
-      if (!(at >= 0) || !(at < static_cast<double>(vertices_.size()))) {
-        skip("it names a vertex that is not there");
-        return false;
-      }
-      const Vec3& p = vertices_[static_cast<size_t>(at)];
-      if (!isFinite(p)) {
-        skip("a vertex is not three numbers");
-        return false;
-      }
-      if (out.empty() || !(out.back() == p)) out.push_back(p);
-    }
-    while (out.size() > 1 && out.back() == out.front()) out.pop_back();
-    return true;
-  }
-
-  void addFace(const JsonValue& rings, std::string_view meaning, Geometry& to) {
-    Face face;
-    face.meaning = meaning;
-    for (const JsonValue& r : rings.items()) {
-      std::vector<Vec3> corners;
-      if (!ring(r, corners)) return;
-      // Models are full of faces without an area: nothing is lost with them.
-      if (corners.size() >= 3) {
-        face.rings.push_back(std::move(corners));
-      } else if (face.rings.empty()) {
-        return;
-      }
-    }
-    if (!face.rings.empty()) to.faces.push_back(std::move(face));
-  }
-
-  // Surfaces, in shells, in solids: `depth` lists of lists, semantics in lists of the same shape.
-  void addFaces(const JsonValue& boundaries, const JsonValue& semantics, int depth, Geometry& to) {
-    using Pair = std::pair<const JsonValue*, const JsonValue*>;
-    std::vector<Pair> lists{{&boundaries, &semantics["values"]}};
-    for (int d = 0; d < depth; ++d) {
-      std::vector<Pair> next;
-      for (const auto& [list, values] : lists) {
-        for (size_t i = 0; i < list->size(); ++i) {
-          work();
-          next.emplace_back(&list->at(i), &values->at(i));
-        }
-      }
-      lists = std::move(next);
-    }
-    for (const auto& [surface, value] : lists) {
-      const double number = value->number(-1);
-      const bool known = number >= 0 && number < 1e9;
-      const JsonValue& of =
-          semantics["surfaces"].at(known ? static_cast<size_t>(number) : SIZE_MAX);
-      addFace(*surface, of["type"].text(), to);
+      put(f, name, cityJsonText(value));
     }
   }
 
   std::vector<Geometry> geometriesOf(const JsonValue& object) {
-    std::vector<Geometry> out;
-    for (const JsonValue& g : object["geometry"].items()) {
-      Geometry one;
-      if (!parseNumber(textOf(g["lod"]), one.lod)) one.lod = 0;
-      const std::string& type = g["type"].text();
-      const JsonValue& at = g["boundaries"];
-      if (type == "MultiSurface" || type == "CompositeSurface") {
-        addFaces(at, g["semantics"], 1, one);
-      } else if (type == "Solid") {
-        addFaces(at, g["semantics"], 2, one);
-      } else if (type == "MultiSolid" || type == "CompositeSolid") {
-        addFaces(at, g["semantics"], 3, one);
-      } else if (type == "MultiLineString") {
-        for (const JsonValue& line : at.items()) {
-          one.lines.emplace_back();
-          if (!ring(line, one.lines.back())) one.lines.pop_back();
-        }
-      } else if (type == "MultiPoint" || type == "GeometryInstance") {
-        one.lines.emplace_back();
-        if (!ring(at, one.lines.back())) one.lines.pop_back();
-      }
-      if (!one.faces.empty() || !one.lines.empty()) out.push_back(std::move(one));
-    }
-    return out;
+    return geometry_.of(object, [this](const std::string& reason) { skip(reason); });
   }
 
   // ---- Areas ------------------------------------------------------------------------------------
@@ -317,7 +189,7 @@ class Reader {
     std::vector<Ring> rings;
     for (const Face& f : faces) {
       work();
-      const Vec3 normal = normalOf(f.rings[0]);
+      const Vec3 normal = cityJsonNormal(f.rings[0]);
       const double size = length(normal);
       if (!(size > 0) || !takes(f, normal.z / size)) continue;
       for (size_t i = 0; i < f.rings.size(); ++i) {
@@ -465,7 +337,7 @@ class Reader {
     double all = 0, level = 0;
     std::array<double, kDirections> sides{};
     for (const Face& face : g.faces) {
-      const Vec3 normal = normalOf(face.rings[0]);
+      const Vec3 normal = cityJsonNormal(face.rings[0]);
       const double size = length(normal), up = size > 0 ? normal.z / size : 0;
       double lowest = std::numeric_limits<double>::infinity();
       for (const Vec3& p : face.rings[0]) {
@@ -503,7 +375,7 @@ class Reader {
   const JsonValue& root_;
   MapSkips& skips_;
   CityJsonMap out_;
-  std::vector<Vec3> vertices_;
+  CityJsonGeometry geometry_;
   std::map<std::string_view, const JsonValue*> objects_;
   std::string id_;
 };

@@ -20,6 +20,8 @@
 #include "geom/region/region.h"
 #include "io/geo/geo_frames.h"
 #include "io/geo/transverse_mercator.h"
+#include "io/importers/city_json.h"
+#include "io/importers/city_json_shapes.h"
 #include "io/importers/feature_pieces.h"
 #include "io/importers/geojson_edges.h"
 #include "io/importers/geojson_root.h"
@@ -580,6 +582,7 @@ Result<JsonValue> GeoJsonReader::rootOf(std::string_view text) const {
 }
 
 Result<ShapeFile> GeoJsonReader::readRoot(const JsonValue& root) {
+  if (isCityJson(root)) return readCityJsonShapes(root, path_, filter_);
   collect(root);
   measureAll();
   chooseProjection(root);

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+#include "io/exporters/city_content.h"
+
+#include <map>
+
+#include "base/work.h"
+
+namespace gable {
+namespace {
+
+// Metres between leaves that touch.
+constexpr double kTouching = 0.05;
+
+bool isNear(const Box3& a, const Box3& b) {
+  for (size_t i = 0; i < 3; ++i) {
+    if (a.min[i] > b.max[i] + kTouching || b.min[i] > a.max[i] + kTouching) return false;
+  }
+  return true;
+}
+
+class Collector {
+ public:
+  Collector(const Scene& scene, const CityParts& kinds, CityFaces& faces, CityKind kindOfShape)
+      : scene_(scene), kinds_(kinds), faces_(faces), kindOfShape_(kindOfShape) {}
+
+  CityContent collect(const Root& root) {
+    if (!enters(root.instance, root.instance.frame)) return std::move(out_);
+    std::vector<uint32_t> placements;
+    const auto open = [&](const Frame& at, size_t level) {
+      placements.resize(level + 1);
+      placements[level] = static_cast<uint32_t>(out_.placements.size());
+      out_.placements.push_back(at);
+    };
+    open(root.instance.frame, 0);
+    const auto leaf = [&](uint32_t index, const Frame&, size_t level) {
+      add({index, placements[level]});
+    };
+    const auto enter = [&](const Instance& in, const Frame& at, size_t level) {
+      if (!enters(in, at)) return false;
+      open(at, level);
+      return true;
+    };
+    walk(scene_, scene_.prototypes[root.instance.prototype], root.instance.frame, leaf, enter);
+    return std::move(out_);
+  }
+
+ private:
+  // False for what is an object as a whole.
+  bool enters(const Instance& in, const Frame& at) {
+    if (!kinds_.isWhole(in.prototype)) return true;
+    const CityPart& part = kinds_.wholePart(in.prototype);
+    if (!isSolitary(part.kind)) return true;
+    run_.end();
+    out_.instances.push_back({part, in.prototype, at});
+    return false;
+  }
+
+  void add(const PlannedLeaf& planned) {
+    const Leaf& leaf = scene_.leaves[planned.leaf];
+    CityPart part = partWithin(kinds_.of(leaf), kindOfShape_);
+    part.storey = 0;
+    PlacedPart placed{planned, part.kind, 0};
+    CityObjectKey key;
+    key.object = part.object;
+    if (specOf(part.kind).object) key.kind = part.kind;
+    if (isSolitary(part.kind) || isOpening(part.kind)) {
+      const Frame world = out_.placements[planned.placement] * leaf.frame;
+      if (run_.begins(part, faces_.boxOf(leaf, world))) ++runs_;
+      placed.run = runs_;
+      if (isSolitary(part.kind) && part.object == 0) key.run = runs_;
+    } else {
+      run_.end();
+    }
+    const auto [at, isNew] = known_.try_emplace(key, out_.objects.size());
+    if (isNew) out_.objects.push_back({key, {}});
+    std::vector<PlacedPart>& parts = out_.objects[at->second].parts;
+    if (parts.size() == parts.capacity()) workMemory(parts.size() * sizeof(PlacedPart));
+    parts.push_back(placed);
+  }
+
+  const Scene& scene_;
+  const CityParts& kinds_;
+  CityFaces& faces_;
+  CityKind kindOfShape_;
+  CityContent out_;
+  std::map<CityObjectKey, size_t> known_;
+  CityRun run_;
+  uint32_t runs_ = 0;
+};
+
+}  // namespace
+
+CityPart partWithin(CityPart part, CityKind kindOfShape) {
+  const bool says = part.kind != CityKind::Unknown;
+  const bool takesShape = !says || (!isOfBuilding(kindOfShape) && isOfBuilding(part.kind));
+  if (kindOfShape != CityKind::Unknown && takesShape) part.kind = kindOfShape;
+  return part;
+}
+
+bool CityRun::begins(const CityPart& part, const Box3& box) {
+  const bool follows = open_ && part == part_ && isNear(box_, box);
+  if (!follows) box_ = Box3{};
+  open_ = true;
+  part_ = part;
+  box_.include(box);
+  return !follows;
+}
+
+CityKind kindOfShape(const std::string& name, const std::vector<AttributeValue>& attributes) {
+  for (const AttributeValue& a : attributes) {
+    if (a.name != "cityPart" || a.values.empty()) continue;
+    const CityKind kind = cityKindNamed(textOf(a.values[0]));
+    if (kind != CityKind::Unknown) return kind;
+  }
+  constexpr const char* kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
+  if (name.find_first_not_of(kLetters) != std::string::npos) return CityKind::Unknown;
+  const CityKind kind = cityKindOfIdentifier(name);
+  return isOfBuilding(kind) || kind == CityKind::Land ? CityKind::Unknown : kind;
+}
+
+CityContent cityContentOf(const Scene& scene, const CityParts& kinds, CityFaces& faces,
+                          const Root& root, CityKind kindOfShape) {
+  return Collector(scene, kinds, faces, kindOfShape).collect(root);
+}
+
+}  // namespace gable

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// What an initial shape became, sorted into the objects of a city model.
+#pragma once
+
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+#include "io/exporters/city_faces.h"
+#include "io/exporters/city_kinds.h"
+#include "io/exporters/plan.h"
+
+namespace gable {
+
+/// The kind that an initial shape gives to leaves that say nothing themselves: by its attribute
+/// cityPart, or by a name of one word such as Carriageway. Land says nothing, since a house stands
+/// on a lot, and names of several words are those of things: Park Road may be a house.
+CityKind kindOfShape(const std::string& name, const std::vector<AttributeValue>& attributes);
+
+/// What a leaf or a prototype of a shape of that kind is: a shape that is no building makes none.
+CityPart partWithin(CityPart part, CityKind kindOfShape);
+
+struct PlacedPart {
+  PlannedLeaf planned;
+  CityKind kind = CityKind::Unknown;
+  /// Of windows, doors and what stands for itself: leaves of one number belong together.
+  uint32_t run = 0;
+};
+
+/// A city object: all that is equal in this.
+struct CityObjectKey {
+  /// Unknown for buildings and their parts.
+  CityKind kind = CityKind::Unknown;
+  /// The value of cityObject, in CityParts::text().
+  uint32_t object = 0;
+  uint32_t run = 0;
+  friend bool operator<(const CityObjectKey& a, const CityObjectKey& b) {
+    return std::tie(a.kind, a.object, a.run) < std::tie(b.kind, b.object, b.run);
+  }
+};
+
+struct CityObjectContent {
+  CityObjectKey key;
+  std::vector<PlacedPart> parts;
+};
+
+/// A prototype that is a city object.
+struct CityInstance {
+  CityPart part;
+  uint32_t prototype = 0;
+  Frame world;
+};
+
+struct CityContent {
+  std::vector<Frame> placements;
+  /// In the order in which they first come.
+  std::vector<CityObjectContent> objects;
+  std::vector<CityInstance> instances;
+};
+
+/// Leaves that follow each other in path order, are of one part and touch: one window, one tree.
+class CityRun {
+ public:
+  /// True where the next leaf begins a new one.
+  bool begins(const CityPart& part, const Box3& box);
+  /// The next leaf is of none.
+  void end() { open_ = false; }
+  const Box3& box() const { return box_; }
+
+ private:
+  bool open_ = false;
+  CityPart part_;
+  Box3 box_;
+};
+
+/// O(n log n) in the leaves of the shape, instances expanded.
+CityContent cityContentOf(const Scene& scene, const CityParts& kinds, CityFaces& faces,
+                          const Root& root, CityKind kindOfShape);
+
+}  // namespace gable

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+#include "io/exporters/city_kinds.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/number.h"
+#include "base/text.h"
+#include "base/work.h"
+
+namespace gable {
+namespace {
+
+// In the order of CityKind. The classes of CityJSON 2.0 (https://www.cityjson.org/specs/2.0.1) and
+// of IFC4 ADD2 TC1.
+constexpr CityKindSpec kSpecs[kCityKinds] = {
+    {"Unknown", nullptr, nullptr, "IfcBuildingElementProxy", ""},
+    {"Wall", "WallSurface", nullptr, "IfcWall",
+     "wall walls facade facades siding stucco plaster masonry gable spandrel"},
+    {"Roof", "RoofSurface", nullptr, "IfcRoof",
+     "roof roofs roofing dormer ridge thatch slate slates shingle shingles"},
+    {"Floor", "OuterFloorSurface", nullptr, "IfcSlab", "slab slabs deck balcony terrace"},
+    {"Ground", "GroundSurface", nullptr, "IfcSlab", "foundation"},
+    {"Ceiling", "OuterCeilingSurface", nullptr, "IfcCovering", "ceiling ceilings soffit"},
+    {"Window", "Window", nullptr, "IfcWindow",
+     "window windows glass glazing pane panes sash shutter shutters skylight"},
+    {"Door", "Door", nullptr, "IfcDoor", "door doors gate entrance portal"},
+    {"Covering", nullptr, nullptr, "IfcCovering", "covering cladding"},
+    {"Stair", nullptr, "BuildingInstallation", "IfcStair", "stair stairs staircase step steps"},
+    {"Railing", nullptr, "BuildingInstallation", "IfcRailing",
+     "railing railings handrail balustrade baluster balusters"},
+    {"Column", nullptr, "BuildingConstructiveElement", "IfcColumn",
+     "column columns pillar pillars pilaster pilasters"},
+    {"Beam", nullptr, "BuildingConstructiveElement", "IfcBeam",
+     "beam beams lintel lintels girder rafter rafters joist purlin"},
+    {"Chimney", nullptr, "BuildingInstallation", "IfcChimney", "chimney chimneys"},
+    {"Installation", nullptr, "BuildingInstallation", "IfcBuildingElementProxy",
+     "installation antenna awning"},
+    {"Closure", "ClosureSurface", nullptr, "IfcBuildingElementProxy", "closure"},
+    {"Furniture", nullptr, "BuildingFurniture", "IfcFurniture",
+     "furniture chair chairs sofa cupboard"},
+    {"StreetFurniture", nullptr, "CityFurniture", "IfcFurniture",
+     "bench benches lamp lamps lamppost bollard bollards hydrant signpost fence"},
+    {"Tree", nullptr, "SolitaryVegetationObject", "IfcGeographicElement",
+     "tree trees trunk crown foliage bark branch branches bush shrub"},
+    {"Plants", nullptr, "PlantCover", "IfcGeographicElement",
+     "plants grass lawn meadow hedge flowers flowerbed"},
+    {"Road", nullptr, "Road", "IfcGeographicElement",
+     "road roads street carriageway junction sidewalk pavement kerb curb asphalt path"},
+    {"Square", nullptr, "TransportSquare", "IfcGeographicElement", "square paving parking"},
+    {"Railway", nullptr, "Railway", "IfcGeographicElement", "railway rails sleeper"},
+    {"Water", nullptr, "WaterBody", "IfcGeographicElement", "water sea lake pond pool river"},
+    {"Land", nullptr, "LandUse", "IfcGeographicElement", "land lot yard soil earth field sand"},
+    {"Bridge", nullptr, "Bridge", "IfcCivilElement", "bridge"},
+    {"Tunnel", nullptr, "Tunnel", "IfcCivilElement", "tunnel"},
+    {"Construction", nullptr, "OtherConstruction", "IfcBuildingElementProxy", "construction"},
+};
+
+// Sorted.
+using Words = std::vector<std::pair<std::string_view, CityKind>>;
+
+Words wordsOfNames() {
+  Words out;
+  for (size_t k = 0; k < kCityKinds; ++k) {
+    std::string_view left = kSpecs[k].words;
+    while (!left.empty()) {
+      const size_t end = std::min(left.find(' '), left.size());
+      out.emplace_back(left.substr(0, end), static_cast<CityKind>(k));
+      left.remove_prefix(std::min(end + 1, left.size()));
+    }
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+CityKind kindOfWord(const std::string& word) {
+  static const Words kWords = wordsOfNames();
+  const auto at =
+      std::lower_bound(kWords.begin(), kWords.end(), word,
+                       [](const auto& row, const std::string& w) { return row.first < w; });
+  return at != kWords.end() && at->first == word ? at->second : CityKind::Unknown;
+}
+
+bool isUpper(char c) { return c >= 'A' && c <= 'Z'; }
+bool isLetter(char c) { return isUpper(c) || (c >= 'a' && c <= 'z'); }
+
+}  // namespace
+
+const CityKindSpec& specOf(CityKind kind) { return kSpecs[static_cast<size_t>(kind)]; }
+
+bool isOfBuilding(CityKind kind) {
+  const char* object = specOf(kind).object;
+  return !object || std::string_view(object).starts_with("Building");
+}
+
+bool isSolitary(CityKind kind) {
+  return kind == CityKind::Tree || kind == CityKind::StreetFurniture;
+}
+
+bool isOpening(CityKind kind) { return kind == CityKind::Window || kind == CityKind::Door; }
+
+CityKind cityKindNamed(std::string_view name) {
+  for (size_t k = 1; k < kCityKinds; ++k) {
+    const CityKindSpec& s = kSpecs[k];
+    for (const char* known : {s.name, s.surface, s.object, s.ifc}) {
+      if (known && equalButForCase(name, known)) return static_cast<CityKind>(k);
+    }
+  }
+  return CityKind::Unknown;
+}
+
+CityKind cityKindOfIdentifier(std::string_view name) {
+  size_t end = name.size();
+  while (end > 0) {
+    if (!isLetter(name[end - 1])) {
+      --end;
+      continue;
+    }
+    // A word begins with a capital, or behind what is no letter.
+    size_t begin = end - 1;
+    while (begin > 0 && !isUpper(name[begin]) && isLetter(name[begin - 1])) --begin;
+    const CityKind kind = kindOfWord(lowerCase(name.substr(begin, end - begin)));
+    if (kind != CityKind::Unknown) return kind;
+    end = begin;
+  }
+  return CityKind::Unknown;
+}
+
+CityParts::CityParts(const Scene& scene) {
+  for (const std::string& name : scene.names) {
+    work(name.size());
+    nameKinds_.push_back(cityKindOfIdentifier(name));
+  }
+  for (const SourcePlace& s : scene.sources) {
+    work(s.rule.size());
+    sourceKinds_.push_back(cityKindOfIdentifier(s.rule));
+  }
+  for (const auto& set : scene.attributeSets) readAttributes(set);
+  findWholes(scene);
+}
+
+uint32_t CityParts::numberOf(const std::string& text) {
+  if (text.empty()) return 0;
+  const auto [at, isNew] = textNumbers_.try_emplace(text, static_cast<uint32_t>(texts_.size()));
+  if (isNew) texts_.push_back(text);
+  return at->second;
+}
+
+void CityParts::readAttributes(const std::vector<AttributeValue>& set) {
+  CityPart& part = setParts_.emplace_back();
+  for (const AttributeValue& a : set) {
+    work();
+    // Attributes of imported files have the name of the import before a dot.
+    const size_t dot = a.name.rfind('.');
+    const std::string_view name =
+        std::string_view(a.name).substr(dot == std::string::npos ? 0 : dot + 1);
+    if (!name.starts_with("city") || a.values.empty()) continue;
+    const std::string value = textOf(a.values[0]);
+    if (name == "cityObject") part.object = numberOf(value);
+    if (name == "cityStorey") part.storey = numberOf(value);
+    if (name != "cityPart" || value.empty()) continue;
+    part.kind = cityKindNamed(value);
+    if (part.kind != CityKind::Unknown) continue;
+    if (std::find(unknownWords_.begin(), unknownWords_.end(), value) == unknownWords_.end()) {
+      constexpr size_t kMostTold = 20;
+      if (unknownWords_.size() < kMostTold) unknownWords_.push_back(value);
+    }
+  }
+}
+
+CityPart CityParts::of(const Leaf& leaf) const {
+  CityPart part;
+  if (leaf.attributes < setParts_.size()) part = setParts_[leaf.attributes];
+  if (part.kind == CityKind::Unknown && leaf.name < nameKinds_.size()) {
+    part.kind = nameKinds_[leaf.name];
+  }
+  if (part.kind == CityKind::Unknown && leaf.source < sourceKinds_.size()) {
+    part.kind = sourceKinds_[leaf.source];
+  }
+  return part;
+}
+
+void CityParts::findWholes(const Scene& scene) {
+  whole_.assign(scene.prototypes.size(), Whole::Empty);
+  wholePart_.resize(scene.prototypes.size());
+  uses_.assign(scene.prototypes.size(), 0);
+  const auto use = [&](uint32_t p) {
+    uses_[p] = static_cast<uint8_t>(uses_[p] < 2 ? uses_[p] + 1 : 2);
+  };
+  for (size_t p = 0; p < scene.prototypes.size(); ++p) {
+    const Prototype& prototype = scene.prototypes[p];
+    const auto take = [&](const CityPart& part, Whole how) {
+      if (how == Whole::Empty || whole_[p] == Whole::Mixed) return;
+      const bool differs = whole_[p] == Whole::One && !(wholePart_[p] == part);
+      whole_[p] =
+          how == Whole::Mixed || differs || part.kind == CityKind::Unknown ? Whole::Mixed : how;
+      wholePart_[p] = part;
+    };
+    for (uint32_t l = 0; l < prototype.leafCount && whole_[p] != Whole::Mixed; ++l) {
+      work();
+      take(of(scene.leaves[prototype.firstLeaf + l]), Whole::One);
+    }
+    for (uint32_t i = 0; i < prototype.instanceCount; ++i) {
+      work();
+      const uint32_t inner = scene.instances[prototype.firstInstance + i].prototype;
+      use(inner);
+      take(wholePart_[inner], whole_[inner]);
+    }
+  }
+  for (const Root& r : scene.roots) use(r.instance.prototype);
+}
+
+std::string textOf(const PlainValue& v) {
+  if (v.kind == PlainValue::Kind::Text) return v.text;
+  if (v.kind == PlainValue::Kind::Bool) return v.number != 0 ? "true" : "false";
+  return shortestText(v.number);
+}
+
+}  // namespace gable

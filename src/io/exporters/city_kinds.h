@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// What a leaf is in a city model or a building model: a wall, a window, a tree, a street. The word
+// for it comes, in this order, from
+//   1. the attribute cityPart of the leaf, which rules set: a name of the table below, or the word
+//      that CityJSON or IFC have for it ("WallSurface", "IfcWall");
+//   2. the last word of the leaf's name that says it: FrontDoor is a door, DoorWall a wall;
+//   3. the last such word of the rule that made it.
+// What none of them says is unknown: part of the building, told by where it looks.
+// docs/guide/city-models.md has the table for authors of rules.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace gable {
+
+enum class CityKind : uint8_t {
+  Unknown,
+  Wall,
+  Roof,
+  Floor,
+  Ground,
+  Ceiling,
+  Window,
+  Door,
+  Covering,
+  Stair,
+  Railing,
+  Column,
+  Beam,
+  Chimney,
+  Installation,
+  Closure,
+  Furniture,
+  StreetFurniture,
+  Tree,
+  Plants,
+  Road,
+  Square,
+  Railway,
+  Water,
+  Land,
+  Bridge,
+  Tunnel,
+  Construction,
+};
+constexpr size_t kCityKinds = 28;
+
+struct CityKindSpec {
+  /// As rules write it.
+  const char* name;
+  /// The semantic surface of CityJSON; null: by where the surface looks.
+  const char* surface;
+  /// The city object that it makes; null: it belongs to the building itself.
+  const char* object;
+  const char* ifc;
+  /// The words of names that say it, with blanks between.
+  const char* words;
+};
+const CityKindSpec& specOf(CityKind kind);
+
+/// Part of a building, or an object that is a child of one.
+bool isOfBuilding(CityKind kind);
+/// Stands for itself wherever it stands: each one is an object.
+bool isSolitary(CityKind kind);
+/// Has a semantic surface for each of it: windows and doors.
+bool isOpening(CityKind kind);
+
+/// A kind by a name of its row, whatever the case of its letters; Unknown for any other text.
+CityKind cityKindNamed(std::string_view name);
+/// The kind that the last telling word of an identifier says; Unknown where none does.
+CityKind cityKindOfIdentifier(std::string_view name);
+
+/// What a leaf is a part of.
+struct CityPart {
+  CityKind kind = CityKind::Unknown;
+  /// Of the attributes cityObject and cityStorey: indices into CityParts::texts(), 0 for none.
+  uint32_t object = 0, storey = 0;
+  friend bool operator==(const CityPart&, const CityPart&) = default;
+};
+
+/// The parts of a scene's leaves.
+class CityParts {
+ public:
+  /// Linear in what the scene stores.
+  explicit CityParts(const Scene& scene);
+
+  CityPart of(const Leaf& leaf) const;
+  /// True where all leaves of a prototype, instances expanded, are of one part that is known.
+  bool isWhole(uint32_t prototype) const { return whole_[prototype] == Whole::One; }
+  /// The part of a prototype that is whole.
+  const CityPart& wholePart(uint32_t prototype) const { return wholePart_[prototype]; }
+  /// How often instances and roots show a prototype, 2 for more.
+  uint8_t uses(uint32_t prototype) const { return uses_[prototype]; }
+  const std::string& text(uint32_t number) const { return texts_[number]; }
+  /// Values of cityPart that name nothing, each once, in the order of the scene.
+  const std::vector<std::string>& unknownWords() const { return unknownWords_; }
+
+ private:
+  enum class Whole : uint8_t { Empty, One, Mixed };
+  void readAttributes(const std::vector<AttributeValue>& set);
+  void findWholes(const Scene& scene);
+  uint32_t numberOf(const std::string& text);
+
+  // By name, source and attribute set.
+  std::vector<CityKind> nameKinds_, sourceKinds_;
+  std::vector<CityPart> setParts_;
+  std::vector<std::string> texts_{""};
+  std::map<std::string, uint32_t> textNumbers_;
+  std::vector<std::string> unknownWords_;
+  std::vector<Whole> whole_;
+  std::vector<CityPart> wholePart_;
+  std::vector<uint8_t> uses_;
+};
+
+/// What an attribute or a report says, as text: numbers as short as they are, bools true or false.
+std::string textOf(const PlainValue& v);
+
+}  // namespace gable

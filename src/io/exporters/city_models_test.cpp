@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// CityJSON and IFC of small scenes. What is written here is read again by
+// tests/written/city_check.py and, with other programs' readers, by tools/validate.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+
+#include "base/files.h"
+#include "base/json.h"
+#include "io/exporters/city_kinds.h"
+#include "io/exporters/city_place.h"
+#include "io/exporters/step_text.h"
+#include "io/exporters/write_model.h"
+#include "io/geo/geo_frames.h"
+#include "io/importers/shape_input.h"
+#include "io/testing/scenes.h"
+
+namespace gable {
+namespace {
+
+using testing::SceneBuilder;
+
+class City : public SceneBuilder {
+ public:
+  City() { scene.attributeSets.emplace_back(); }
+  uint32_t says(const std::string& attribute, const std::string& value) {
+    scene.attributeSets.push_back({{attribute, {{PlainValue::Kind::Text, 0, value}}, 0, 0}});
+    return static_cast<uint32_t>(scene.attributeSets.size() - 1);
+  }
+  Leaf& box(const std::string& named, const Vec3& at, const Vec3& size, uint32_t attributes = 0) {
+    Leaf& l = leaf(kUnitBox, Frame::moved(at), size);
+    l.name = name(named);
+    l.source = 1;
+    l.attributes = attributes;
+    if (scene.sources.size() < 2) scene.sources.push_back({"rules.cga", 9, 1, "Mass"});
+    return l;
+  }
+};
+
+// A house of a body, a roof slab, a door, two windows that stand apart, with a tree in two places
+// and a path.
+City houseWithGarden() {
+  City c;
+  c.box("Trunk", {0, 0, 0}, {0.4, 2, 0.4});
+  c.box("Crown", {-1, 2, -1}, {2.4, 3, 2.4});
+  const uint32_t tree = c.prototype("Tree");
+  c.box("Plaster", {0, 0, 0}, {10, 6, 8});
+  c.box("FrontDoor", {1, 0, 8}, {1, 2, 0.1});
+  c.box("Glass", {4, 1, 8}, {1, 1.5, 0.1});
+  c.box("Glass", {7, 1, 8}, {1, 1.5, 0.1});
+  c.box("Slab", {-0.5, 6, -0.5}, {11, 0.4, 9}, c.says("cityPart", "Roof"));
+  c.box("Path", {1, 0, 8.2}, {1, 0.05, 5});
+  c.instance(tree, testing::turned(30, {15, 0, 3}));
+  c.instance(tree, testing::turned(75, {19, 0, 5}));
+  c.root("Long Street 5", c.prototype("Lot"), testing::turned(20, {100, 2, -50}));
+  return c;
+}
+
+std::string inWritten(const std::string& name) {
+  std::filesystem::create_directories(GABLE_WRITTEN_DIR);
+  return std::string(GABLE_WRITTEN_DIR) + "/" + name;
+}
+
+JsonValue written(const Scene& scene, const std::string& name, const WriteOptions& options = {},
+                  WriteReport* report = nullptr) {
+  const std::string path = inWritten(name);
+  auto r = writeModel(scene, path, options);
+  EXPECT_TRUE(r.ok()) << r.error().message;
+  if (report && r.ok()) *report = *r;
+  auto json = parseJson(readFile(path).value());
+  EXPECT_TRUE(json.ok()) << json.error().message;
+  return json.ok() ? std::move(*json) : JsonValue();
+}
+
+std::set<std::string> typesOf(const JsonValue& geometry) {
+  std::set<std::string> out;
+  for (const JsonValue& s : geometry["semantics"]["surfaces"].items()) out.insert(s["type"].text());
+  return out;
+}
+
+size_t countOf(const std::string& text, const std::string& word) {
+  size_t n = 0;
+  for (size_t at = 0; (at = text.find(word, at)) != std::string::npos; ++at) ++n;
+  return n;
+}
+
+TEST(CityKinds, lastTellingWordOfAName) {
+  EXPECT_EQ(cityKindOfIdentifier("FrontDoor"), CityKind::Door);
+  EXPECT_EQ(cityKindOfIdentifier("DoorWall"), CityKind::Wall);
+  EXPECT_EQ(cityKindOfIdentifier("house.WindowFrame"), CityKind::Window);
+  EXPECT_EQ(cityKindOfIdentifier("roof_2"), CityKind::Roof);
+  EXPECT_EQ(cityKindOfIdentifier("Wood"), CityKind::Unknown);
+  EXPECT_EQ(cityKindOfIdentifier(""), CityKind::Unknown);
+  EXPECT_EQ(cityKindNamed("wallsurface"), CityKind::Wall);
+  EXPECT_EQ(cityKindNamed("IfcSlab"), CityKind::Floor);
+  EXPECT_EQ(cityKindNamed("SolitaryVegetationObject"), CityKind::Tree);
+  EXPECT_EQ(cityKindNamed("Wal"), CityKind::Unknown);
+}
+
+TEST(CityJsonWriter, aLotBecomesABuildingTreesAndAPath) {
+  const City c = houseWithGarden();
+  WriteOptions options;
+  options.attributesOf = [](size_t) {
+    return std::vector<AttributeValue>{
+        {"owner", {{PlainValue::Kind::Text, 0, "O'Neil \"x\" \\ \xc3\xa9"}}, 0, 0},
+        {"owner", {{PlainValue::Kind::Text, 0, "another"}}, 0, 0},
+        {"area", {{PlainValue::Kind::Number, 80.5, {}}}, 0, 0}};
+  };
+  const JsonValue model = written(c.scene, "house.city.json", options);
+  const JsonValue& objects = model["CityObjects"];
+  ASSERT_EQ(objects.members().size(), 4u);
+  const JsonValue& house = objects["Long Street 5"];
+  EXPECT_EQ(house["type"].text(), "Building");
+  EXPECT_EQ(house["attributes"]["owner"].text(), "O'Neil \"x\" \\ \xc3\xa9");
+  EXPECT_EQ(house["attributes"]["area"].number(0), 80.5);
+  EXPECT_NEAR(house["attributes"]["measuredHeight"].number(0), 6.4, 1e-9);
+  ASSERT_EQ(house["geometry"].size(), 3u);
+  EXPECT_EQ(house["geometry"].at(0)["type"].text(), "Solid");
+  EXPECT_EQ(house["geometry"].at(0)["lod"].text(), "1.2");
+  EXPECT_EQ(house["geometry"].at(1)["lod"].text(), "2.2");
+  const JsonValue& full = house["geometry"].at(2);
+  EXPECT_EQ(full["type"].text(), "MultiSurface");
+  EXPECT_EQ(full["boundaries"].size(), 5u * 6);
+  EXPECT_EQ(typesOf(full), (std::set<std::string>{"Door", "GroundSurface", "RoofSurface",
+                                                  "WallSurface", "Window"}));
+  // Two windows are two semantic surfaces.
+  size_t windows = 0;
+  for (const JsonValue& s : full["semantics"]["surfaces"].items()) {
+    windows += s["type"].text() == "Window" ? 1 : 0;
+  }
+  EXPECT_EQ(windows, 2u);
+  EXPECT_EQ(objects["Long Street 5/Road"]["type"].text(), "Road");
+  EXPECT_EQ(objects["Long Street 5/Tree"]["type"].text(), "SolitaryVegetationObject");
+  EXPECT_EQ(objects["Long Street 5/Tree-2"]["geometry"].at(0)["type"].text(), "GeometryInstance");
+  EXPECT_EQ(model["geometry-templates"]["templates"].size(), 1u);
+}
+
+TEST(CityJsonWriter, templatesStandWhereTheLeavesStand) {
+  const City c = houseWithGarden();
+  const JsonValue model = written(c.scene, "trees.city.json");
+  // A corner of the crown, by the scene and by the file.
+  const Frame lot = c.scene.roots[0].instance.frame;
+  const Vec3 corner = (lot * testing::turned(30, {15, 0, 3})).point({-1, 2, -1});
+  const JsonValue& g = model["CityObjects"]["Long Street 5/Tree"]["geometry"].at(0);
+  const JsonValue& m = g["transformationMatrix"];
+  const JsonValue& v = model["vertices"].at(static_cast<size_t>(g["boundaries"].at(0).number(0)));
+  double nearest = 1e9;
+  for (const JsonValue& t : model["geometry-templates"]["vertices-templates"].items()) {
+    std::array<double, 3> at{};
+    for (size_t row = 0; row < 3; ++row) {
+      for (size_t k = 0; k < 3; ++k) at[row] += m.at(4 * row + k).number(0) * t.at(k).number(0);
+      at[row] += v.at(row).number(0) * 0.001 + model["transform"]["translate"].at(row).number(0);
+    }
+    nearest = std::min(nearest, length(Vec3{at[0], at[2], -at[1]} - corner));
+  }
+  EXPECT_LT(nearest, 0.002);
+}
+
+TEST(CityJsonWriter, levelsOfDetailAreChosen) {
+  const City c = houseWithGarden();
+  WriteOptions options;
+  options.detail = WriteOptions::Detail::Two;
+  const JsonValue two = written(c.scene, "two.city.json", options);
+  EXPECT_EQ(two["CityObjects"].members().size(), 2u);
+  EXPECT_EQ(two["CityObjects"]["Long Street 5"]["geometry"].size(), 1u);
+  EXPECT_EQ(typesOf(two["CityObjects"]["Long Street 5"]["geometry"].at(0)),
+            (std::set<std::string>{"GroundSurface", "RoofSurface", "WallSurface"}));
+  // What the path shows from above.
+  EXPECT_EQ(two["CityObjects"]["Long Street 5/Road"]["geometry"].at(0)["boundaries"].size(), 1u);
+  options.detail = WriteOptions::Detail::One;
+  written(c.scene, "one.city.json", options);
+  options.detail = WriteOptions::Detail::Three;
+  written(c.scene, "three.city.json", options);
+}
+
+TEST(CityJsonWriter, partsAndInstallationsAreChildren) {
+  City c;
+  c.box("Plaster", {0, 0, 0}, {10, 6, 8});
+  c.box("Plaster", {10, 0, 0}, {5, 4, 8}, c.says("cityObject", "West wing"));
+  c.box("Chimney", {3, 6, 3}, {0.5, 2, 0.5});
+  c.box("Anything", {0, 0, 9}, {1, 1, 1}, c.says("houses.cityPart", "IfcStair"));
+  c.box("Anything", {0, 0, 20}, {1, 1, 1}, c.says("cityPart", "Widget"));
+  c.root("a", c.prototype("Lot"), Frame{});
+  WriteReport report;
+  const JsonValue model = written(c.scene, "parts.city.json", {}, &report);
+  const JsonValue& objects = model["CityObjects"];
+  EXPECT_EQ(objects["a"]["children"].size(), 3u);
+  EXPECT_EQ(objects["a/West wing"]["type"].text(), "BuildingPart");
+  EXPECT_EQ(objects["a/West wing"]["parents"].at(0).text(), "a");
+  EXPECT_EQ(objects["a/Chimney"]["type"].text(), "BuildingInstallation");
+  EXPECT_EQ(objects["a/Stair"]["type"].text(), "BuildingInstallation");
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_NE(report.warnings[0].find("'Widget' is no cityPart"), std::string::npos);
+}
+
+TEST(CityJsonWriter, aFeatureALine) {
+  City c = houseWithGarden();
+  c.box("Water", {0, 0, 0}, {5, 1, 5});
+  c.root("Pond", c.prototype("Pond"), Frame::moved({300, 0, 0}));
+  const std::string path = inWritten("lines.city.jsonl");
+  ASSERT_TRUE(writeModel(c.scene, path, {}).ok());
+  const std::string text = readFile(path).value();
+  EXPECT_EQ(countOf(text, "\n"), 1u + 4 + 1);
+  EXPECT_EQ(countOf(text, "\"CityJSONFeature\""), 5u);
+  EXPECT_EQ(countOf(text, "GeometryInstance"), 0u);
+  EXPECT_NE(text.find("\"Pond\":{\"type\":\"WaterBody\""), std::string::npos);
+}
+
+TEST(CityJsonWriter, liesWhereTheShapesLie) {
+  City c = houseWithGarden();
+  c.scene.geoOrigin = {true, 7.42, 43.73};
+  const JsonValue model = written(c.scene, "monaco.city.json");
+  EXPECT_EQ(model["metadata"]["referenceSystem"].text(),
+            "https://www.opengis.net/def/crs/EPSG/0/32632");
+  // 7.42 E, 43.73 N by the series of Krueger, computed apart from this.
+  const JsonValue& shift = model["transform"]["translate"];
+  EXPECT_NEAR(shift.at(0).number(0), 372751, 1);
+  EXPECT_NEAR(shift.at(1).number(0), 4843098, 1);
+  const auto frame = mapGeoFrame("EPSG:28992", {85000, 447000});
+  CityPlace place(frame.get(), {});
+  EXPECT_EQ(place.system(), 28992);
+  EXPECT_EQ(place.at({10, 3, -20}), (Vec3{85010, 3, 447020} + Vec3{0, 447017, -447017}));
+  EXPECT_EQ(CityPlace(nullptr, {}).system(), 0);
+  // What tiles make of a projection is that projection, also across their borders.
+  CityPlace tiled(nullptr, c.scene.geoOrigin);
+  const TransverseMercator local({7.42, 43.73}), utm({9, 0});
+  for (const Vec2 p : {Vec2{0, 0}, Vec2{255.99, -0.01}, Vec2{256.01, 1000}, Vec2{-7321, 4000}}) {
+    const Vec2 on = utm.forward(local.inverse(p));
+    const Vec3 at = tiled.at({p.x, 5, -p.y});
+    EXPECT_NEAR(at.x, 5e5 + 0.9996 * on.x, 2e-6);
+    EXPECT_NEAR(at.y, 0.9996 * on.y, 2e-6);
+  }
+}
+
+TEST(CityModels, emptyAndHostileScenesAreModels) {
+  for (const char* format : {"city.json", "city.jsonl", "ifc"}) {
+    EXPECT_TRUE(writeModel(Scene{}, inWritten(std::string("none.") + format), {}).ok());
+    City c;
+    c.box("x", {0, 0, 0}, {0, 0, 0});
+    c.box("y", {1e29, 0, 0}, {1, 1, 1});
+    c.box("Wall\n'\"\\\xff\xf0\x9f\x8c\xb3", {0, 0, 0}, {1, 3, -1});
+    Mesh bent = makeQuadMesh(2, 2, QuadPlane::Xy, false);
+    bent.positions[2].z = 1;
+    c.leaf(c.mesh(bent), Frame{}, {1, 1, 1});
+    c.root("'); DROP\\\n\"", c.prototype("P"), Frame{});
+    c.root("'); DROP\\\n\"", 0, Frame::moved({9, 0, 0}));
+    c.prototype("Nothing");
+    c.scene.prototypes.back().empty = true;
+    c.root("", 1, Frame{});
+    EXPECT_TRUE(writeModel(c.scene, inWritten(std::string("hostile.") + format), {}).ok());
+  }
+  const JsonValue hostile = parseJson(readFile(inWritten("hostile.city.json")).value()).value();
+  EXPECT_EQ(hostile["CityObjects"].members().size(), 2u);
+}
+
+TEST(Ifc, elementsLieInStoreys) {
+  City c = houseWithGarden();
+  const std::string path = inWritten("house.ifc");
+  WriteOptions options;
+  options.attributesOf = [](size_t) {
+    return std::vector<AttributeValue>{{"floors", {{PlainValue::Kind::Number, 2, {}}}, 0, 0}};
+  };
+  auto report = writeModel(c.scene, path, options);
+  ASSERT_TRUE(report.ok());
+  EXPECT_EQ(report->triangles, 12u * (6 + 2 * 2));
+  const std::string text = readFile(path).value();
+  EXPECT_EQ(countOf(text, "=IFCBUILDING("), 1u);
+  EXPECT_EQ(countOf(text, "=IFCBUILDINGSTOREY("), 2u);
+  EXPECT_EQ(countOf(text, "=IFCWALL("), 1u);
+  EXPECT_EQ(countOf(text, "=IFCWINDOW("), 2u);
+  EXPECT_EQ(countOf(text, "=IFCDOOR("), 1u);
+  EXPECT_EQ(countOf(text, "=IFCROOF("), 1u);
+  EXPECT_EQ(countOf(text, "=IFCGEOGRAPHICELEMENT("), 3u);
+  EXPECT_EQ(countOf(text, "=IFCMAPPEDITEM("), 2u);
+  EXPECT_EQ(countOf(text, "=IFCREPRESENTATIONMAP("), 1u);
+  // As wide as it is, though the house is turned.
+  EXPECT_NE(text.find(",$,2.,1.,.NOTDEFINED."), std::string::npos);
+  EXPECT_NE(text.find("IFCPROPERTYSINGLEVALUE('floors',$,IFCREAL(2.),$)"), std::string::npos);
+}
+
+TEST(Ifc, storeysHaveTheNamesThatRulesGive) {
+  City c;
+  c.box("Wall", {0, 0, 0}, {9, 3, 1}, c.says("cityStorey", "Ground floor"));
+  c.box("Wall", {0, 3, 0}, {9, 3, 1}, c.says("cityStorey", "Piano nobile"));
+  c.root("a", c.prototype("Lot"), Frame{});
+  const std::string path = inWritten("storeys.ifc");
+  ASSERT_TRUE(writeModel(c.scene, path, {}).ok());
+  const std::string text = readFile(path).value();
+  EXPECT_NE(text.find("'Ground floor',$,$"), std::string::npos);
+  EXPECT_NE(text.find("'Piano nobile',$,$"), std::string::npos);
+  EXPECT_NE(text.find(".ELEMENT.,3.);"), std::string::npos);
+}
+
+TEST(StepText, isEscaped) {
+  EXPECT_EQ(stepText("a'b\\c"), "'a''b\\\\c'");
+  EXPECT_EQ(stepText("\xc3\xa9\n"), "'\\X2\\00E9\\X0\\\\X2\\000A\\X0\\'");
+  EXPECT_EQ(stepText("\xf0\x9f\x8c\xb3\xff"), "'\\X4\\0001F333\\X0\\\\X2\\FFFD\\X0\\'");
+  EXPECT_EQ(stepText("abc", 2), "'ab'");
+  EXPECT_EQ(stepReal(1), "1.");
+  EXPECT_EQ(stepReal(-0.5), "-0.5");
+  EXPECT_EQ(stepReal(1e300), "1.E+300");
+  EXPECT_EQ(stepReal(std::numeric_limits<double>::quiet_NaN()), "0.");
+  const std::string id = stepGuid(1, 2);
+  EXPECT_EQ(id.size(), 22u);
+  EXPECT_LE(id[0], '3');
+  EXPECT_NE(id, stepGuid(2, 1));
+}
+
+TEST(CityJsonShapes, comeBackWithTagsAndAttributes) {
+  const City c = houseWithGarden();
+  WriteOptions options;
+  options.detail = WriteOptions::Detail::Two;
+  options.attributesOf = [](size_t) {
+    return std::vector<AttributeValue>{{"floors", {{PlainValue::Kind::Number, 2, {}}}, 0, 0}};
+  };
+  const std::string path = inWritten("again.city.json");
+  ASSERT_TRUE(writeModel(c.scene, path, options).ok());
+  const std::string text = readFile(path).value();
+  auto shapes = readShapes(text, {path, {}, false}, {{}, "type", "Building"});
+  ASSERT_TRUE(shapes.ok()) << shapes.error().message;
+  ASSERT_EQ(shapes->shapes.size(), 1u);
+  const ShapeInput& house = shapes->shapes[0];
+  EXPECT_EQ(house.id, "Long Street 5");
+  EXPECT_NEAR(house.mesh.bounds().size().y, 6.4, 1e-6);
+  EXPECT_NEAR(house.mesh.bounds().min.y, 2, 1e-6);
+  ASSERT_EQ(house.faceTags.size(), house.mesh.faceCount());
+  for (size_t f = 0; f < house.faceTags.size(); ++f) {
+    const double up = house.mesh.normal(f).y;
+    EXPECT_EQ(house.faceTags[f], up > 0.5    ? "RoofSurface"
+                                 : up < -0.5 ? "GroundSurface"
+                                             : "WallSurface");
+  }
+  ASSERT_GE(house.attributes.size(), 2u);
+  EXPECT_EQ(house.attributes[0].name, "cityType");
+  EXPECT_EQ(house.attributes[1].name, "floors");
+  auto none = readShapes(text, {path, {}, false}, {{}, "type", "Bridge"});
+  ASSERT_FALSE(none.ok());
+  EXPECT_EQ(none.error().code, "shapes-empty");
+}
+
+}  // namespace
+}  // namespace gable

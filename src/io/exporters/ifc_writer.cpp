@@ -1,0 +1,473 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// IFC4 (ISO 16739-1:2018, Reference View) as STEP text. An initial shape is a building; its leaves
+// are taken in path order, and those that follow each other, are of one kind and touch are one
+// element. A prototype that is of one kind and stands several times is an element for each place of
+// it, of one mapped shape. In memory are one element, and the numbers of those of a building.
+//
+// Elements lie in the storey that cityStorey names. Without it storeys are as high as the number of
+// them that the shape or its reports say allows, else three metres.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "base/hash.h"
+#include "base/number.h"
+#include "base/work.h"
+#include "io/exporters/city_content.h"
+#include "io/exporters/city_place.h"
+#include "io/exporters/ifc_elements.h"
+#include "io/exporters/step_text.h"
+#include "io/exporters/write_model.h"
+#include "scene/flatten.h"
+
+namespace gable {
+namespace {
+
+constexpr double kStoreyHeight = 3;
+constexpr double kMostStoreys = 300;
+// An element of more is several.
+constexpr uint64_t kMostTriangles = 50'000;
+constexpr size_t kMostLabel = 255;
+
+// Attributes and reports that say how many storeys a building has.
+constexpr const char* kStoreyNames[] = {"storeys",         "storeysAboveGround", "floors",
+                                        "building:levels", "building_levels",    "levels"};
+
+struct Storey {
+  StepId id = 0, placement = 0;
+  std::string name;
+  double elevation = 1e300;
+  std::vector<StepId> elements;
+};
+
+class IfcWriter {
+ public:
+  IfcWriter(const Scene& scene, const std::string& path, const WriteOptions& options)
+      : scene_(scene),
+        options_(options),
+        path_(path),
+        file_(path),
+        kinds_(scene),
+        faces_(scene),
+        triangles_(scene),
+        place_(options.geo, scene.geoOrigin),
+        shape_(scene, triangles_) {}
+
+  Result<WriteReport> write();
+
+ private:
+  using Attributes = std::vector<AttributeValue>;
+  struct Mapped {
+    StepId map = 0;
+    Box3 box;
+    uint64_t triangles = 0;
+    uint32_t material = kNoMaterial;
+  };
+
+  std::string guid() { return "'" + stepGuid(rootNumber_, ++guids_) + "'"; }
+  void writeHead();
+  void writeContext();
+  void writePlaceOnEarth(StepId context);
+  void writeSite();
+  void writeRoot(uint32_t root);
+  void measure(const Root& root, CityKind kind);
+  void openBuilding();
+  void closeBuilding(const Attributes& known);
+  double storeyHeightBy(const Attributes& known) const;
+  Storey& storeyOf(const CityPart& part, const Box3& box);
+  void addLeaf(uint32_t leaf, const Frame& world, CityKind kindOfShape);
+  void addInstance(const Instance& in, const Frame& world, const CityPart& part);
+  void endElement();
+  const Mapped& mappedOf(uint32_t prototype);
+  struct Element {
+    CityPart part;
+    uint32_t name = 0, material = kNoMaterial;
+    /// In the world, and the size along its own axes.
+    Box3 box;
+    Vec3 size;
+  };
+  void putElement(const Element& e, StepId representation, const Frame& frame);
+  std::string tailOf(CityKind kind, const Vec3& size) const;
+  void relate(const char* relation, StepId parent, const std::vector<StepId>& children);
+  std::string nameOf(uint32_t number) const {
+    return stepText(number < scene_.names.size() ? scene_.names[number] : "", kMostLabel);
+  }
+
+  const Scene& scene_;
+  const WriteOptions& options_;
+  std::string path_;
+  StepFile file_;
+  CityParts kinds_;
+  CityFaces faces_;
+  TriangleCache triangles_;
+  CityPlace place_;
+  WriteReport report_;
+  StepId project_ = 0, body_ = 0, site_ = 0, sitePlacement_ = 0, identity_ = 0, same_ = 0;
+  std::unique_ptr<IfcShapeWriter> shapes_;
+  std::map<uint32_t, Mapped> mapped_;
+  std::vector<StepId> buildings_, siteElements_;
+  // By material of the scene.
+  std::map<uint32_t, std::vector<StepId>> elementsOf_;
+  uint64_t rootNumber_ = 0, guids_ = 0;
+  // Of the building at hand.
+  StepId building_ = 0, buildingPlacement_ = 0;
+  std::string buildingName_;
+  Box3 bounds_;
+  bool builds_ = false;
+  double storeyHeight_ = kStoreyHeight;
+  std::map<std::string, Storey> storeys_;
+  // The element at hand.
+  IfcShape shape_;
+  CityRun run_;
+  Element open_;
+  Frame fromWorld_;
+  Box3 ownBox_;
+};
+
+void IfcWriter::relate(const char* relation, StepId parent, const std::vector<StepId>& children) {
+  if (children.empty()) return;
+  const bool aggregates = std::string_view(relation) == "IFCRELAGGREGATES";
+  const std::string head = std::string(relation) + "(" + guid() + ",$,$,$,";
+  file_.add(aggregates ? head + stepRef(parent) + "," + stepList(children) + ")"
+                       : head + stepList(children) + "," + stepRef(parent) + ")");
+}
+
+// ---- Head ---------------------------------------------------------------------------------------
+
+void IfcWriter::writeHead() {
+  // The time is part of the form; files of equal models are equal.
+  file_.raw(
+      "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('ViewDefinition [ReferenceView_V1.2]'),"
+      "'2;1');\nFILE_NAME(" +
+      stepText(fileNameOf(path_)) +
+      ",'2000-01-01T00:00:00',(''),(''),'Gable','Gable','');\nFILE_SCHEMA(('IFC4'));\n"
+      "ENDSEC;\nDATA;\n");
+  writeContext();
+  writeSite();
+}
+
+void IfcWriter::writeContext() {
+  identity_ = ifcAxes(file_, Frame{});
+  const StepId context = file_.add("IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3,1.E-05," +
+                                   stepRef(identity_) + ",$)");
+  body_ = file_.add("IFCGEOMETRICREPRESENTATIONSUBCONTEXT('Body','Model',*,*,*,*," +
+                    stepRef(context) + ",$,.MODEL_VIEW.,$)");
+  std::vector<StepId> units;
+  for (const char* unit : {".LENGTHUNIT.,$,.METRE.", ".AREAUNIT.,$,.SQUARE_METRE.",
+                           ".VOLUMEUNIT.,$,.CUBIC_METRE.", ".PLANEANGLEUNIT.,$,.RADIAN."}) {
+    units.push_back(file_.add(std::string("IFCSIUNIT(*,") + unit + ")"));
+  }
+  const StepId assigned = file_.add("IFCUNITASSIGNMENT(" + stepList(units) + ")");
+  std::string name = fileNameOf(path_);
+  project_ = file_.add("IFCPROJECT(" + guid() + ",$," + stepText(name, kMostLabel) + ",$,$,$,$,(" +
+                       stepRef(context) + ")," + stepRef(assigned) + ")");
+  shapes_ = std::make_unique<IfcShapeWriter>(scene_, file_, body_);
+  writePlaceOnEarth(context);
+}
+
+void IfcWriter::writePlaceOnEarth(StepId context) {
+  if (place_.system() == 0) return;
+  const Vec3 at = place_.at({0, 0, 0});
+  Vec3 east, north;
+  place_.axesAt({0, 0, 0}, east, north);
+  const StepId system =
+      file_.add("IFCPROJECTEDCRS('EPSG:" + std::to_string(place_.system()) + "',$,$,$,$,$,$)");
+  const double scale = length(east);
+  file_.add("IFCMAPCONVERSION(" + stepRef(context) + "," + stepRef(system) + "," +
+            stepReal(std::round(at.x * 1000) / 1000) + "," +
+            stepReal(std::round(at.y * 1000) / 1000) + ",0.," + stepReal(east.x / scale) + "," +
+            stepReal(east.y / scale) + "," + stepReal(scale) + ")");
+}
+
+// Degrees, minutes, seconds and millionths of a second, all of one sign.
+std::string angleText(double degrees) {
+  const auto all = static_cast<int64_t>(std::llround(degrees * 3600e6));
+  const int64_t parts[] = {all / 3600000000, all / 60000000 % 60, all / 1000000 % 60,
+                           all % 1000000};
+  std::string out;
+  for (const int64_t p : parts) out += (out.empty() ? "(" : ",") + std::to_string(p);
+  return out + ")";
+}
+
+void IfcWriter::writeSite() {
+  sitePlacement_ = file_.add("IFCLOCALPLACEMENT($," + stepRef(identity_) + ")");
+  std::string where = "$,$,$";
+  if (place_.degrees()) {
+    where = angleText(place_.degrees()->latitude) + "," + angleText(place_.degrees()->longitude) +
+            ",0.";
+  }
+  site_ = file_.add("IFCSITE(" + guid() + ",$,'Site',$,$," + stepRef(sitePlacement_) +
+                    ",$,$,.ELEMENT.," + where + ",$,$)");
+  relate("IFCRELAGGREGATES", project_, {site_});
+}
+
+// ---- Buildings ----------------------------------------------------------------------------------
+
+void IfcWriter::measure(const Root& root, CityKind kind) {
+  bounds_ = Box3{};
+  builds_ = false;
+  forEachLeaf(scene_, scene_.prototypes[root.instance.prototype], root.instance.frame,
+              [&](const Leaf& leaf, const Frame& world) {
+                if (!isOfBuilding(partWithin(kinds_.of(leaf), kind).kind)) return;
+                builds_ = true;
+                bounds_.include(faces_.boxOf(leaf, world));
+              });
+}
+
+double IfcWriter::storeyHeightBy(const Attributes& known) const {
+  const double height = bounds_.size().y;
+  for (const char* name : kStoreyNames) {
+    for (const AttributeValue& a : known) {
+      if (a.name != name || a.values.empty()) continue;
+      double count = a.values[0].number;
+      const bool isText = a.values[0].kind == PlainValue::Kind::Text;
+      if (isText && !parseNumber(a.values[0].text, count)) continue;
+      if (count >= 1 && count <= kMostStoreys && height > 0) return height / count;
+    }
+  }
+  return kStoreyHeight;
+}
+
+void IfcWriter::openBuilding() {
+  building_ = file_.reserve();
+  buildingPlacement_ =
+      file_.add("IFCLOCALPLACEMENT(" + stepRef(sitePlacement_) + "," + stepRef(identity_) + ")");
+  file_.put(building_, "IFCBUILDING(" + guid() + ",$," + buildingName_ + ",$,$," +
+                           stepRef(buildingPlacement_) + ",$,$,.ELEMENT.,$,$,$)");
+  buildings_.push_back(building_);
+}
+
+Storey& IfcWriter::storeyOf(const CityPart& part, const Box3& box) {
+  std::string key, name;
+  if (part.storey) {
+    name = kinds_.text(part.storey);
+    key = "s" + name;
+  } else {
+    const double up = box.center().y - bounds_.min.y;
+    const double number = std::clamp(std::floor(up / storeyHeight_), 0.0, kMostStoreys);
+    name = "Storey " + std::to_string(static_cast<int>(number));
+    // So that text order is that of numbers.
+    key = "h" + std::to_string(1000 + static_cast<int>(number));
+  }
+  Storey& s = storeys_[key];
+  s.elevation = std::min(s.elevation, box.min.y);
+  if (s.id) return s;
+  s.name = name;
+  s.id = file_.reserve();
+  s.placement = file_.add("IFCLOCALPLACEMENT(" + stepRef(buildingPlacement_) + "," +
+                          stepRef(identity_) + ")");
+  return s;
+}
+
+void IfcWriter::closeBuilding(const Attributes& known) {
+  std::vector<std::pair<double, StepId>> all;
+  for (auto& [key, s] : storeys_) {
+    file_.put(s.id, "IFCBUILDINGSTOREY(" + guid() + ",$," + stepText(s.name, kMostLabel) + ",$,$," +
+                        stepRef(s.placement) + ",$,$,.ELEMENT.," +
+                        stepReal(std::round(s.elevation * 1e5) / 1e5) + ")");
+    relate("IFCRELCONTAINEDINSPATIALSTRUCTURE", s.id, s.elements);
+    all.emplace_back(s.elevation, s.id);
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<StepId> ids;
+  for (const auto& [elevation, id] : all) ids.push_back(id);
+  relate("IFCRELAGGREGATES", building_, ids);
+  storeys_.clear();
+  const StepId set = ifcProperties(file_, stepGuid(rootNumber_, ++guids_), known);
+  if (set) {
+    file_.add("IFCRELDEFINESBYPROPERTIES(" + guid() + ",$,$,$,(" + stepRef(building_) + ")," +
+              stepRef(set) + ")");
+  }
+}
+
+// ---- Elements -----------------------------------------------------------------------------------
+
+// What follows the tag in the lines of a class.
+std::string IfcWriter::tailOf(CityKind kind, const Vec3& size) const {
+  switch (kind) {
+    case CityKind::Window:
+    case CityKind::Door: {
+      const std::string tall = stepReal(std::round(size.y * 1e5) / 1e5);
+      const std::string wide = stepReal(std::round(std::max(size.x, size.z) * 1e5) / 1e5);
+      return "," + tall + "," + wide + ",.NOTDEFINED.,.NOTDEFINED.,$)";
+    }
+    case CityKind::Floor: return ",.FLOOR.)";
+    case CityKind::Ground: return ",.BASESLAB.)";
+    case CityKind::Ceiling: return ",.CEILING.)";
+    case CityKind::Covering: return ",.CLADDING.)";
+    case CityKind::Bridge:
+    case CityKind::Tunnel: return ")";
+    default: break;
+  }
+  return std::string_view(specOf(kind).ifc) == "IfcGeographicElement" ? ",.USERDEFINED.)"
+                                                                      : ",.NOTDEFINED.)";
+}
+
+std::string upperCase(std::string text) {
+  for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
+  return text;
+}
+
+void IfcWriter::putElement(const Element& e, StepId representation, const Frame& frame) {
+  const CityPart& part = e.part;
+  Storey* storey = isOfBuilding(part.kind) ? &storeyOf(part, e.box) : nullptr;
+  const StepId around = storey ? storey->placement : sitePlacement_;
+  const StepId axes = frame == Frame{} ? identity_ : ifcAxes(file_, frame);
+  const StepId placement =
+      file_.add("IFCLOCALPLACEMENT(" + stepRef(around) + "," + stepRef(axes) + ")");
+  const StepId shape =
+      file_.add("IFCPRODUCTDEFINITIONSHAPE($,$,(" + stepRef(representation) + "))");
+  const CityKindSpec& spec = specOf(part.kind);
+  const std::string type = part.object ? stepText(kinds_.text(part.object), kMostLabel)
+                           : part.kind == CityKind::Unknown ? "$"
+                                                            : std::string("'") + spec.name + "'";
+  const StepId id =
+      file_.add(upperCase(spec.ifc) + "(" + guid() + ",$," + nameOf(e.name) + ",$," + type + "," +
+                stepRef(placement) + "," + stepRef(shape) + ",$" + tailOf(part.kind, e.size));
+  (storey ? storey->elements : siteElements_).push_back(id);
+  if (e.material < scene_.materials.size()) elementsOf_[e.material].push_back(id);
+}
+
+void IfcWriter::endElement() {
+  if (shape_.triangleCount() > 0) {
+    report_.triangles += shape_.triangleCount();
+    open_.material = shape_.parts().begin()->first;
+    open_.box = run_.box();
+    open_.size = ownBox_.size();
+    putElement(open_, shapes_->representation(shape_), Frame{});
+  }
+  shape_.clear();
+  run_.end();
+}
+
+void IfcWriter::addLeaf(uint32_t index, const Frame& around, CityKind kindOfShape) {
+  const Leaf& leaf = scene_.leaves[index];
+  const Frame world = around * leaf.frame;
+  const CityPart part = partWithin(kinds_.of(leaf), kindOfShape);
+  const Box3 box = faces_.boxOf(leaf, world);
+  // Of what is unknown the name is all that there is.
+  const bool other = part.kind == CityKind::Unknown && leaf.name != open_.name;
+  CityRun next = run_;
+  if (other) next.end();
+  if (next.begins(part, box) || shape_.triangleCount() > kMostTriangles) {
+    endElement();
+    run_.begins(part, box);
+    open_.part = part;
+    open_.name = leaf.name;
+    fromWorld_ = inverse(world);
+    ownBox_ = Box3{};
+  } else {
+    run_ = next;
+  }
+  ownBox_.include(faces_.boxOf(leaf, fromWorld_ * world));
+  shape_.add(leaf, world);
+}
+
+const IfcWriter::Mapped& IfcWriter::mappedOf(uint32_t prototype) {
+  const auto [at, isNew] = mapped_.try_emplace(prototype);
+  Mapped& m = at->second;
+  if (!isNew) return m;
+  IfcShape shape(scene_, triangles_);
+  forEachLeaf(scene_, scene_.prototypes[prototype], Frame{},
+              [&](const Leaf& leaf, const Frame& world) {
+                shape.add(leaf, world);
+                m.box.include(faces_.boxOf(leaf, world));
+              });
+  m.triangles = shape.triangleCount();
+  if (m.triangles == 0) return m;
+  m.material = shape.parts().begin()->first;
+  m.map = file_.add("IFCREPRESENTATIONMAP(" + stepRef(identity_) + "," +
+                    stepRef(shapes_->representation(shape)) + ")");
+  return m;
+}
+
+void IfcWriter::addInstance(const Instance& in, const Frame& world, const CityPart& part) {
+  endElement();
+  const Mapped& mapped = mappedOf(in.prototype);
+  if (mapped.triangles == 0) return;
+  report_.triangles += mapped.triangles;
+  if (!same_) {
+    const StepId at = file_.add("IFCCARTESIANPOINT((0.,0.,0.))");
+    same_ = file_.add("IFCCARTESIANTRANSFORMATIONOPERATOR3D($,$," + stepRef(at) + ",1.,$)");
+  }
+  const StepId item =
+      file_.add("IFCMAPPEDITEM(" + stepRef(mapped.map) + "," + stepRef(same_) + ")");
+  const StepId shown = file_.add("IFCSHAPEREPRESENTATION(" + stepRef(body_) +
+                                 ",'Body','MappedRepresentation',(" + stepRef(item) + "))");
+  putElement({part, scene_.prototypes[in.prototype].name, mapped.material,
+              boundsAt(mapped.box, world, {1, 1, 1}), mapped.box.size()},
+             shown, world);
+}
+
+void IfcWriter::writeRoot(uint32_t number) {
+  const Root& root = scene_.roots[number];
+  rootNumber_ = number + 1;
+  guids_ = 0;
+  const Attributes known = options_.attributesOf ? options_.attributesOf(number) : Attributes{};
+  const std::string& name = root.name < scene_.names.size() ? scene_.names[root.name] : path_;
+  const CityKind kind = kindOfShape(name, known);
+  measure(root, kind);
+  storeyHeight_ = storeyHeightBy(known);
+  buildingName_ = stepText(name, kMostLabel);
+  if (builds_) openBuilding();
+  const auto enter = [&](const Instance& in, const Frame& world) {
+    const bool maps = kinds_.isWhole(in.prototype) && kinds_.uses(in.prototype) > 1;
+    if (maps) addInstance(in, world, partWithin(kinds_.wholePart(in.prototype), kind));
+    return !maps;
+  };
+  if (enter(root.instance, root.instance.frame)) {
+    walk(
+        scene_, scene_.prototypes[root.instance.prototype], root.instance.frame,
+        [&](uint32_t leaf, const Frame& at, size_t) {
+          if (!file_.failed()) addLeaf(leaf, at, kind);
+        },
+        [&](const Instance& in, const Frame& at, size_t) {
+          return !file_.failed() && enter(in, at);
+        });
+  }
+  endElement();
+  if (builds_) closeBuilding(known);
+}
+
+Result<WriteReport> IfcWriter::write() {
+  writeHead();
+  for (uint32_t r = 0; r < scene_.roots.size() && !file_.failed(); ++r) {
+    work();
+    if (!scene_.prototypes[scene_.roots[r].instance.prototype].empty) writeRoot(r);
+  }
+  // Numbers of no shape.
+  rootNumber_ = ~uint64_t{0};
+  guids_ = 0;
+  relate("IFCRELAGGREGATES", site_, buildings_);
+  relate("IFCRELCONTAINEDINSPATIALSTRUCTURE", site_, siteElements_);
+  for (const auto& [material, elements] : elementsOf_) {
+    const StepId of = shapes_->material(material);
+    if (!of) continue;
+    file_.add("IFCRELASSOCIATESMATERIAL(" + guid() + ",$,$,$," + stepList(elements) + "," +
+              stepRef(of) + ")");
+  }
+  file_.raw("ENDSEC;\nEND-ISO-10303-21;\n");
+  for (const std::string& word : kinds_.unknownWords()) {
+    report_.warnings.push_back("'" + word +
+                               "' is no cityPart: the parts that say so are taken for " +
+                               "what their names say; docs/guide/city-models.md lists the words");
+  }
+  const Result<uint64_t> bytes = file_.finish();
+  if (!bytes.ok()) return bytes.error();
+  report_.bytes = bytes.value();
+  report_.files = {path_};
+  return report_;
+}
+
+}  // namespace
+
+Result<WriteReport> writeIfc(const Scene& scene, const std::string& path,
+                             const WriteOptions& options) {
+  return IfcWriter(scene, path, options).write();
+}
+
+}  // namespace gable
