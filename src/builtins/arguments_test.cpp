@@ -31,7 +31,10 @@ Value fitting(const ParamSpec& p, ValuePool& pool) {
       const std::string_view words = p.words ? p.words : "all";
       return pool.selector(words.substr(0, words.find(' ')));
     }
-    case ParamType::FloatArray: return floats({1, 2}).value(pool);
+    case ParamType::FloatArray: {
+      const Value list = floats({1, 2}).value(pool);
+      return isTaken(p, list, pool) ? list : floats({0, 1}).value(pool);
+    }
     case ParamType::BoolArray: return bools({true, false}).value(pool);
     case ParamType::StringArray: return strings({"a", "b"}).value(pool);
     default: return Value::of(p.range.holds(1) ? 1 : p.range.least + 1);

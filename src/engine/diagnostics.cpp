@@ -45,7 +45,16 @@ std::string quotedName(const std::string& message) {
 }
 
 constexpr std::string_view kAboutMissingFiles[] = {"missing-file", "missing-texture",
-                                                   "missing-asset", "shape-texture-missing"};
+                                                   "missing-asset", "shape-texture-missing",
+                                                   "unknown-material"};
+
+// The file that such a message is about; of a material its name, which stands last.
+std::string missingName(const Diagnostic& d) {
+  if (d.code != "unknown-material") return quotedName(d.message);
+  const size_t to = d.message.rfind('\'');
+  const size_t from = to == std::string::npos || to == 0 ? to : d.message.rfind('\'', to - 1);
+  return from == std::string::npos ? std::string() : d.message.substr(from + 1, to - from - 1);
+}
 
 bool isAboutMissingFile(const Diagnostic& d) {
   return std::find(std::begin(kAboutMissingFiles), std::end(kAboutMissingFiles), d.code) !=
@@ -181,13 +190,11 @@ Diagnostic Task::diagnosticOfException() const {
 
 void MissingFiles::add(const DiagnosticList& told) {
   for (const Diagnostic& d : told) {
-    if (isAboutMissingFile(d)) paths_.insert(quotedName(d.message));
+    if (isAboutMissingFile(d)) paths_.insert(missingName(d));
   }
 }
 
-bool MissingFiles::has(const Diagnostic& made) const {
-  return paths_.count(quotedName(made.message)) > 0;
-}
+bool MissingFiles::has(const Diagnostic& made) const { return paths_.count(missingName(made)) > 0; }
 
 DiagnosticList MissingFiles::without(DiagnosticList made) const {
   std::erase_if(made, [&](const Diagnostic& d) { return isAboutMissingFile(d) && has(d); });

@@ -17,6 +17,7 @@
 #include "base/hash.h"
 #include "builtins/catalogue.h"
 #include "dialects/dialect.h"
+#include "engine/builtin_files.h"
 #include "engine/file_search.h"
 #include "language/workspace.h"
 
@@ -71,6 +72,7 @@ class ProjectFiles final : public Files {
   }
 
   bool readable(const std::string& path, const std::string& importer) override {
+    if (path.starts_with("builtin:")) return isBuiltinFile(path);
     const FileSearch* project = projectOf(importer);
     return project && !project->inside(path).empty();
   }

@@ -14,6 +14,7 @@
 #include "builtins/catalogue.h"
 #include "dialects/dialect.h"
 #include "dialects/remarks.h"
+#include "engine/builtin_files.h"
 #include "engine/guard.h"
 #include "engine/impl.h"
 #include "gable/files.h"
@@ -23,6 +24,7 @@
 #include "lang/parser.h"
 #include "lang/print.h"
 #include "lang/sema/analyse.h"
+#include "material/library.h"
 
 namespace gable {
 
@@ -60,12 +62,14 @@ class ProjectLoader final : public lang::FileLoader {
   }
 
   bool exists(const std::string& path, const std::string& importer) override {
-    if (path.starts_with("builtin:")) return true;
+    if (path.starts_with("builtin:")) return isBuiltinFile(path);
     const std::string file = project_.locate(path, importer);
     AssetUse use{path, importer, file.empty() ? file : project_.projectPath(file)};
     if (known_.insert(path + '\0' + importer).second) assets_.push_back(std::move(use));
     return !file.empty();
   }
+
+  std::string materialHint(const std::string& name) override { return gable::materialHint(name); }
 
   std::vector<AssetUse> takeAssets() { return std::move(assets_); }
 

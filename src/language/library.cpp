@@ -152,7 +152,7 @@ std::string Library::locate(const std::string& written, const std::string& impor
 }
 
 bool Library::hasAsset(const std::string& written, const std::string& importer) {
-  if (written.starts_with("builtin:")) return true;
+  if (written.starts_with("builtin:")) return files_->readable(written, importer);
   const std::vector<std::string> places = files_->places(written, importer);
   return std::any_of(places.begin(), places.end(),
                      [&](const std::string& place) { return files_->readable(place, importer); });

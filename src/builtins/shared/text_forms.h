@@ -17,6 +17,10 @@ inline constexpr TextForm kColourText{"a colour",
                                       },
                                       "write \"#rrggbb\" or \"#rrggbboo\""};
 
+/// The analysis looks for the material (lang/sema/assets.cpp): the project may have it.
+inline constexpr TextForm kMaterialText{"a material", [](std::string_view) { return true; },
+                                        "'gable asset material' lists them"};
+
 inline constexpr TextForm kNotEmptyText{
     "a name", [](std::string_view text) { return !text.empty(); }, "write at least one letter"};
 

@@ -42,6 +42,8 @@ class FileLoader {
   virtual bool exists(const std::string& path, const std::string& importer);
   /// The files that rules can use as assets, as the rules would write them.
   virtual std::vector<std::string> assets(const std::string& importer);
+  /// What to write in the place of the name of a material that there is not.
+  virtual std::string materialHint(const std::string& name);
   /// The tree of a file that load gave: its notation may be another than this language's.
   virtual Tree parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics);
 };

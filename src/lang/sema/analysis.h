@@ -221,6 +221,7 @@ class Analysis {
   // --- assets.cpp: files that rules name ---
   static constexpr int kMaxFileHints = 50;
   void checkFiles(const Signature& s, std::span<const NodeId> arguments);
+  void checkMaterial(NodeId node);
   void checkFile(NodeId node);
   NodeId writtenText(NodeId node) const;
   bool asksForFile(NodeId argument, std::string_view path);
@@ -412,6 +413,8 @@ class Analysis {
   Meant meant_;
   /// What to say of a name that stands for nothing, as the argument at work.
   std::string wordHint_;
+  /// The words that may stand for the name at work, beside values.
+  std::vector<std::string_view> wordsHere_;
   bool changed_ = false;
   int hints_ = 0;
   size_t errors_ = 0;

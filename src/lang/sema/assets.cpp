@@ -14,6 +14,8 @@ namespace {
 
 // Parameters with this name are files that must be there.
 constexpr std::string_view kFileParameter = "filePath";
+// Texts of this form name a material: one that comes with Gable, or a folder of the project.
+constexpr std::string_view kMaterialForm = "a material";
 // No file has an empty path.
 constexpr std::string_view kAnyFile;
 
@@ -77,6 +79,18 @@ std::string Analysis::nearFile(const std::string& path, const std::string& from)
   return nearest;
 }
 
+void Analysis::checkMaterial(NodeId node) {
+  if (mute_ || !loader_) return;
+  const NodeId written = writtenText(node);
+  if (written == kNoNode) return;
+  const std::string name(text(written)), file = "materials/" + name + "/material.mtl";
+  const std::string& from = program_.units[module().unit].path;
+  if (loader_->exists("builtin:" + file, from) || loader_->exists(file, from)) return;
+  if (!missedFiles_.insert(file).second) return;
+  warning("unknown-material", tree().span(written), "there is no material " + quote(name),
+          loader_->materialHint(name));
+}
+
 void Analysis::checkFile(NodeId node) {
   if (mute_ || !loader_) return;
   const NodeId written = writtenText(node);
@@ -85,6 +99,11 @@ void Analysis::checkFile(NodeId node) {
   const std::string& from = program_.units[module().unit].path;
   if (loader_->exists(path, from) || asksForFile(node, path)) return;
   if (!missedFiles_.insert(path).second) return;
+  if (path.starts_with("builtin:")) {
+    warning("missing-file", tree().span(written), quote(path) + " does not come with Gable",
+            "the pages of texture() and i() list what does");
+    return;
+  }
   const std::string nearest = nearFile(path, from);
   warning("missing-file", tree().span(written), "there is no file " + quote(path),
           nearest.empty()
@@ -97,9 +116,12 @@ void Analysis::checkFile(NodeId node) {
 void Analysis::checkFiles(const Signature& s, std::span<const NodeId> args) {
   for (size_t i = 0; i < args.size(); ++i) {
     const size_t p = parameterOf(s, args, i);
-    if (p == kNoParameter || !s.paramAt(p) || s.paramAt(p)->name != kFileParameter) continue;
+    if (p == kNoParameter || !s.paramAt(p)) continue;
+    const ParamSpec& param = *s.paramAt(p);
     const bool named = tree().kind(args[i]) == NodeKind::NamedArg;
-    checkFile(named ? tree().child(args[i], 0) : args[i]);
+    const NodeId value = named ? tree().child(args[i], 0) : args[i];
+    if (param.name == kFileParameter) checkFile(value);
+    if (param.form && param.form->name == kMaterialForm) checkMaterial(value);
   }
 }
 

@@ -132,6 +132,8 @@ ValueType Analysis::visitArgument(NodeId node, const std::vector<const ParamSpec
 void Analysis::checkWrittenWord(NodeId node, const std::vector<const ParamSpec*>& params) {
   std::string list;
   for (const ParamSpec* p : params) {
+    // What takes no text says nothing about this one.
+    if (!fits(ValueType::String, p->type)) continue;
     const bool word = p->type == ParamType::Selector || p->type == ParamType::String;
     if (!word || !p->words || hasWord(p->words, text(node))) return;
     list += (list.empty() ? "" : " ") + std::string(p->words);
@@ -487,7 +489,9 @@ ValueType Analysis::visitSelectorWord(NodeId node, const std::vector<const Param
   const bool isOwn = isSlot || attributeNamed(body_.module, word) != kNone ||
                      !functionsNamed(body_.module, word).empty();
   if (isOwn || !onlyWords) {
+    if (!isOwn) wordsHere_ = known;
     const ValueType type = visitName(node, ValueType::Null);
+    wordsHere_.clear();
     if (!onlyWords || type != ValueType::Float) return type;
   }
   if (open) {

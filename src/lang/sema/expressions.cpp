@@ -122,8 +122,9 @@ void Analysis::reportUnknownName(NodeId node) {
             "write " + quote(std::string(name) + "(...)"));
     return;
   }
-  std::string hint =
-      wordHint_.empty() ? near(name, [&] { return valueNames(body_.module); }) : wordHint_;
+  std::string hint = wordHint_;
+  if (hint.empty() && !wordsHere_.empty()) hint = near(name, [&] { return wordsHere_; });
+  if (hint.empty()) hint = near(name, [&] { return valueNames(body_.module); });
   if (hint.empty()) hint = "declare it with 'attr' or 'const', or put it in quotes if it is a text";
   errorAt("unknown-name", node, "nothing is named " + quote(name), std::move(hint));
 }

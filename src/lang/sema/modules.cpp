@@ -178,6 +178,10 @@ bool FileLoader::exists(const std::string&, const std::string&) { return true; }
 
 std::vector<std::string> FileLoader::assets(const std::string&) { return {}; }
 
+std::string FileLoader::materialHint(const std::string&) {
+  return "'gable asset material' lists them";
+}
+
 Tree FileLoader::parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics) {
   return lang::parse(sources, file, diagnostics);
 }

@@ -128,8 +128,10 @@ constexpr ParamSpec kTextureParams[] = {
 };
 constexpr Signature kTextureSignatures[] = {{kTextureParams}};
 
-constexpr ParamSpec kMaterialName = param<&LibraryCall::name>(
-    "name", "A material of the library, or a folder in materials/ beside the rules.");
+constexpr ParamSpec kMaterialName =
+    param<&LibraryCall::name>(
+        "name", "A material of the library, or a folder in materials/ beside the rules.")
+        .of(kMaterialText);
 constexpr ParamSpec kOwnTintParams[] = {kMaterialName};
 constexpr ParamSpec kTintParams[] = {
     kMaterialName,

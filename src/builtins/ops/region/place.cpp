@@ -331,8 +331,20 @@ class Placer {
   bool bad_ = false;
 };
 
+// Of places that were asked for, those on none of the faces.
+uint32_t outsideOf(const RegionJob& job, std::span<const Vec2> places) {
+  uint32_t outside = 0;
+  for (const Vec2 at : places) {
+    work(job.faces().size());
+    outside += std::all_of(job.faces().begin(), job.faces().end(), [&](const auto& view) {
+      return locate(view->polygon().outer, at) == Where::Outside;
+    });
+  }
+  return outside;
+}
+
 // The shape becomes what the figures leave of it.
-void finish(OpCall& call, RegionJob& job, std::span<const Placer> placers) {
+void finish(OpCall& call, RegionJob& job, std::span<const Placer> placers, uint32_t outside = 0) {
   uint32_t nested = 0;
   bool cuts = false;
   for (const Placer& p : placers) {
@@ -345,7 +357,16 @@ void finish(OpCall& call, RegionJob& job, std::span<const Placer> placers) {
                              " figures were left out, because others stand there",
                          "place them farther apart, or make them smaller");
   }
-  if (placers.empty() || placers.back().count() == 0) call.giveToOtherwise();
+  const bool nothing = placers.empty() || placers.back().count() == 0;
+  const bool given = nothing && call.giveToOtherwise();
+  if (outside > 0 && !given) {
+    call.services().warn("place-outside",
+                         "'" + std::string(call.spec().name) + "': " + std::to_string(outside) +
+                             (outside == 1 ? " place lies" : " places lie") +
+                             " outside of the region, where nothing is put",
+                         "shares of the sides are 0 to 1; points are metres from the south-western "
+                         "corner");
+  }
   if (!cuts) return;
   std::vector<std::vector<RegionPiece>> left;
   for (const Placer& p : placers) left.push_back(p.left());
@@ -369,7 +390,7 @@ Status applyPlace(OpCall& call, const Place& args) {
     }
     if (placers.back().bad()) return badFigure(call);
   }
-  finish(call, job, placers);
+  finish(call, job, placers, outsideOf(job, places));
   return {};
 }
 
@@ -520,7 +541,8 @@ constexpr ParamSpec kDistribute[] = {
     selection<&Distribute::selection>("selection", "The edges, as in peel.", kEdgeTerms, "all"),
     param<&Distribute::spacing>("spacing", "Metres between them, kept exactly.", "1").above(0),
     param<&Distribute::inset>("inset", "How far inside the edge.", "0"),
-    param<&Distribute::at>("at", "Shares of the edge's length, clockwise: [0.2, 0.8].", "none"),
+    param<&Distribute::at>("at", "Shares of the edge's length, clockwise: [0.2, 0.8].", "none")
+        .between(0, 1),
     param<&Distribute::intervals>("intervals", "How many equal parts; one at each joint.", "none")
         .between(1, kMostIntervals),
     param<&Distribute::interval>("interval", "About how long these parts are.", "none").above(0),

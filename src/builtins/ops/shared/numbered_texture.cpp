@@ -78,6 +78,9 @@ void wearNumberedTexture(Shape& s, Services& services, double number, double qua
     m.name = stemOf(map.path);
     if (std::isfinite(scale)) map.su = map.sv = 2 * scale;
     if (std::isfinite(turns)) map.rw = 90 * std::fmod(turns, 4);
+    // Where the picture is transparent, so is the body.
+    const bool alpha = services.assets().image(map.path, "").hasAlpha;
+    m.map(TextureLayer::Opacity) = alpha ? map : TextureMap{};
   });
   // A number without an image is told for each shape, so that it is not remembered.
   if (s.material == edit.base && tellsMissing(services, index)) return;

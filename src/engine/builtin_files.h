@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Files that rules name and that are in no project: pictures, models and materials of the program.
+#pragma once
+
+#include <string_view>
+
+namespace gable {
+
+/// Of a path that begins with "builtin:". A material is "builtin:materials/NAME/material.mtl".
+bool isBuiltinFile(std::string_view path);
+
+}  // namespace gable
