@@ -39,7 +39,7 @@ struct LimitArguments {
 /// How a model file is written: one of gable::instancingNames() and of gable::verticesNames().
 struct WriteArguments {
   std::string instancing = "auto";
-  std::string vertices = "float";
+  std::string vertices = "auto";
 };
 /// Those for reading, analysing, converting and writing. Ctrl-C cancels.
 gable::FileLimits fileLimits(const LimitArguments& arguments);
