@@ -40,7 +40,7 @@ struct LimitArguments {
 /// gable::detailNames().
 struct WriteArguments {
   std::string instancing = "auto";
-  std::string vertices = "float";
+  std::string vertices = "auto";
   std::string detail = "all";
 };
 /// Those for reading, analysing, converting and writing. Ctrl-C cancels.

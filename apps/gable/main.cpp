@@ -214,9 +214,11 @@ void addWriting(CLI::App* app, WriteArguments& a) {
                   "20000; what saves least is merged), nodes (by a node each), gpu (by\n"
                   "EXT_mesh_gpu_instancing), none (one mesh, merged by material)")
       ->check(CLI::IsMember(gable::instancingNames()));
-  app->add_option("--vertices", a.vertices,
-                  "glTF: what a vertex takes: float (single precision), compact (half of that, by\n"
-                  "KHR_mesh_quantization, no vertex moved by more than half a millimetre)")
+  app->add_option(
+         "--vertices", a.vertices,
+         "glTF: what a vertex takes: auto (compact in large files), float (single\n"
+         "precision), compact (half of that, by KHR_mesh_quantization, no vertex moved by\n"
+         "more than half a millimetre), bare (compact, flat surfaces without normals)")
       ->check(CLI::IsMember(gable::verticesNames()));
   app->add_option("--lod", a.detail,
                   "CityJSON: which levels of detail: 1 (blocks), 2 (roofs and walls), 3 (all that\n"

@@ -29,7 +29,7 @@ enum class Instancing : uint8_t { Auto, Nodes, Gpu, None };
 /// What a vertex of a glTF file takes. Float: single precision, which every program reads. Compact:
 /// half of that, by KHR_mesh_quantization; no vertex moves by more than half a millimetre along an
 /// axis, and only surfaces with textures have texture coordinates.
-enum class Vertices : uint8_t { Float, Compact };
+enum class Vertices : uint8_t { Auto, Float, Compact, Bare };
 
 /// Which levels of detail a CityJSON file has. One: blocks. Two: roofs and walls. Three: all that
 /// rules made.
@@ -37,7 +37,7 @@ enum class Detail : uint8_t { All, One, Two, Three };
 
 struct WriteSettings {
   Instancing instancing = Instancing::Auto;
-  Vertices vertices = Vertices::Float;
+  Vertices vertices = Vertices::Auto;
   Detail detail = Detail::All;
   FileLimits limits;
 };

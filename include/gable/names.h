@@ -29,7 +29,7 @@ std::optional<Look> lookNamed(const std::string& name);
 const std::vector<std::string>& instancingNames();
 std::optional<Instancing> instancingNamed(const std::string& name);
 
-/// "float", "compact": in the order of Vertices.
+/// "auto", "float", "compact", "bare": in the order of Vertices.
 const std::vector<std::string>& verticesNames();
 std::optional<Vertices> verticesNamed(const std::string& name);
 

@@ -181,7 +181,7 @@ std::optional<Instancing> instancingNamed(const std::string& name) {
 }
 
 const std::vector<std::string>& verticesNames() {
-  static const std::vector<std::string> names{"float", "compact"};
+  static const std::vector<std::string> names{"auto", "float", "compact", "bare"};
   return names;
 }
 

@@ -46,6 +46,8 @@ std::string cityJson(const CityStatistics& s, const RunFigures& figures, const T
   }
   if (figures.triangles) json.field("triangles", *figures.triangles);
   if (figures.peakBytes) json.field("peakBytes", *figures.peakBytes);
+  if (figures.fileBytes) json.field("fileBytes", *figures.fileBytes);
+  if (figures.savedBytes) json.field("savedBytes", *figures.savedBytes);
   json.endObject();
   out += '\n';
   return out;

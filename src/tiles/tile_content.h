@@ -33,13 +33,26 @@ struct TileFeature {
   Vec2 middle;
 };
 
+/// A part that its scene shows several times, where it stands once: the leaves that name it, which
+/// are all that the prototype has.
+struct TilePlacement {
+  /// Index into TileContent::scenes, and of a prototype of that scene.
+  uint32_t scene = 0, prototype = 0;
+  /// Index into TileContent::features.
+  uint32_t feature = 0;
+  Frame world;
+};
+
 struct TileLeaf {
+  static constexpr uint32_t kNone = 0xffffffff;
   /// Index into TileContent::scenes, and of a leaf of that scene.
   uint32_t scene = 0, leaf = 0;
   /// Index into TileContent::features; ascending from leaf to leaf.
   uint32_t feature = 0;
   /// An upper bound.
   uint32_t triangles = 0;
+  /// Index into TileContent::placements, or kNone.
+  uint32_t placement = kNone;
   /// Of the leaf's mesh, its own frame included.
   Frame world;
 };
@@ -48,12 +61,24 @@ struct TileContent {
   std::vector<std::shared_ptr<const Scene>> scenes;
   std::vector<TileFeature> features;
   std::vector<TileLeaf> leaves;
-  /// Of the leaves, an upper bound.
+  std::vector<TilePlacement> placements;
+  /// What the leaves cost, in triangles, an upper bound: the bytes of a part that is placed several
+  /// times are there once, so that each further time counts as an eighth.
   uint64_t triangles = 0;
 
   /// Takes over what another one shows.
   void append(TileContent&& other);
+  /// Sums up `triangles`.
+  void measure();
 };
+
+/// Placements of one prototype, by number.
+struct TileGroup {
+  uint32_t scene = 0, prototype = 0;
+  std::vector<uint32_t> placements;
+};
+/// Parts to be held once and placed several times, as that saves more than another draw call costs.
+std::vector<TileGroup> groupsOf(const TileContent& content);
 
 /// The box of a leaf's mesh in the frame of the leaf, and the second largest side of it: what is
 /// narrower than that has no width that can be seen.

@@ -7,7 +7,8 @@
 //
 // Compressed, the first two kinds lie in views of a second buffer that no file holds
 // (EXT_meshopt_compression calls it a fallback), and their extension says where the bytes are.
-// Integers for positions (KHR_mesh_quantization) count steps of one size from a corner of the tile.
+// Integers for positions (KHR_mesh_quantization) count steps of one size from a corner of the tile,
+// or of a part that is placed several times: then the places scale the steps.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -17,6 +18,7 @@
 #include "base/bytes.h"
 #include "base/files.h"
 #include "base/work.h"
+#include "io/exporters/quaternion.h"
 #include "io/gltf_format.h"
 #include "tiles/compress.h"
 #include "tiles/tile_mesh.h"
@@ -40,6 +42,26 @@ struct Layout {
   };
   Field position, normal, color, feature, uv;
   uint32_t stride = 0;
+};
+
+// Of the tile's own mesh, or of instances.
+struct Steps {
+  bool on = false;
+  std::array<float, 3> low{};
+  double size = 0;
+
+  Vec3 corner() const { return on ? Vec3{double{low[0]}, double{low[1]}, double{low[2]}} : Vec3{}; }
+};
+
+// A primitive of the file: of the mesh 0, the tile's own, or of that of instances `mesh` - 1.
+struct Part {
+  const TilePrimitive* primitive = nullptr;
+  size_t mesh = 0;
+  Layout layout;
+  uint32_t vertices = 0;
+  // As they are written: vertices that no triangle uses are gone when compressed.
+  std::array<float, 3> low{}, high{};
+  uint32_t accessors() const { return 4 + (mesh == 0 ? 1 : 0) + primitive->uvCount; }
 };
 
 struct Piece {
@@ -117,23 +139,25 @@ class TileWriter {
   }
 
   // Whether positions are integers: where that moves none by more than it may.
-  void chooseSteps() {
+  Steps stepsOf(const std::vector<TilePrimitive>& primitives) const {
+    Steps out;
     std::array<float, 3> most;
-    low_.fill(std::numeric_limits<float>::infinity());
+    out.low.fill(std::numeric_limits<float>::infinity());
     most.fill(-std::numeric_limits<float>::infinity());
-    for (const TilePrimitive& p : mesh_.primitives) {
+    for (const TilePrimitive& p : primitives) {
       for (size_t i = 0; i < 3; ++i) {
-        low_[i] = std::min(low_[i], p.min[i]);
+        out.low[i] = std::min(out.low[i], p.min[i]);
         most[i] = std::max(most[i], p.max[i]);
       }
     }
     double side = 0;
-    for (size_t i = 0; i < 3; ++i) side = std::max(side, double{most[i]} - double{low_[i]});
-    step_ = side / kMostSteps;
-    quantized_ = compressed_ && step_ > 0 && step_ <= 2 * kMostQuantized;
+    for (size_t i = 0; i < 3; ++i) side = std::max(side, double{most[i]} - double{out.low[i]});
+    out.size = side / kMostSteps;
+    out.on = compressed_ && out.size > 0 && out.size <= 2 * kMostQuantized;
+    return out;
   }
 
-  Layout layoutOf(const TilePrimitive& p) const {
+  Layout layoutOf(const TilePrimitive& p, size_t mesh) const {
     Layout l;
     const auto field = [&l](int component, uint32_t bytes, bool normalized) {
       const Layout::Field f{l.stride, component, normalized};
@@ -141,35 +165,38 @@ class TileWriter {
       return f;
     };
     const bool fewFeatures = mesh_.features.size() <= 65536;
-    l.position = quantized_ ? field(kUnsignedShort, 6, false) : field(kFloat, 12, false);
+    l.position = steps_[mesh].on ? field(kUnsignedShort, 6, false) : field(kFloat, 12, false);
     l.normal = compressed_ ? field(kByte, 3, true) : field(kFloat, 12, false);
     l.color = field(kUnsignedShort, 8, true);
-    l.feature =
-        compressed_ && fewFeatures ? field(kUnsignedShort, 2, false) : field(kFloat, 4, false);
+    // Instances have it once each; plain vertices are written as they are all the same.
+    if (mesh == 0 || !compressed_) {
+      l.feature =
+          compressed_ && fewFeatures ? field(kUnsignedShort, 2, false) : field(kFloat, 4, false);
+    }
     l.uv = field(kFloat, 8 * p.uvCount, false);
     return l;
   }
 
-  std::string packed(const TilePrimitive& p, const Layout& l) const {
+  std::string packed(const TilePrimitive& p, const Layout& l, const Steps& steps) const {
     std::string out(uint64_t{p.vertexCount()} * l.stride, '\0');
     for (uint32_t v = 0; v < p.vertexCount(); ++v) {
       const uint32_t* from = p.words.data() + size_t{v} * p.floats();
       char* to = out.data() + size_t{v} * l.stride;
       const auto real = [from](size_t i) { return double{std::bit_cast<float>(from[i])}; };
       for (size_t i = 0; i < 3; ++i) {
-        if (quantized_) {
-          const double steps = std::round((real(i) - double{low_[i]}) / step_);
-          const auto q = static_cast<uint16_t>(std::clamp(steps, 0.0, kMostSteps));
+        if (steps.on) {
+          const double step = std::round((real(i) - double{steps.low[i]}) / steps.size);
+          const auto q = static_cast<uint16_t>(std::clamp(step, 0.0, kMostSteps));
           std::memcpy(to + 2 * i, &q, 2);
         }
         const auto n = static_cast<int8_t>(std::lround(std::clamp(real(3 + i), -1.0, 1.0) * 127));
         to[l.normal.offset + i] = static_cast<char>(n);
       }
-      if (!quantized_) std::memcpy(to, from, 12);
+      if (!steps.on) std::memcpy(to, from, 12);
       std::memcpy(to + l.color.offset, from + 6, 8);
-      if (l.feature.component == kFloat) {
+      if (l.feature.offset > 0 && l.feature.component == kFloat) {
         std::memcpy(to + l.feature.offset, from + 8, 4);
-      } else {
+      } else if (l.feature.offset > 0) {
         const auto feature = static_cast<uint16_t>(real(8));
         std::memcpy(to + l.feature.offset, &feature, 2);
       }
@@ -178,25 +205,43 @@ class TileWriter {
     return out;
   }
 
-  void addPrimitive(const TilePrimitive& p) {
-    const Layout l = layoutOf(p);
-    layouts_.push_back(l);
+  void addPrimitive(const TilePrimitive& p, size_t mesh) {
+    if (p.indices.empty()) return;
+    Part part{&p, mesh, layoutOf(p, mesh), p.vertexCount(), p.min, p.max};
+    const Layout& l = part.layout;
     if (!compressed_) {
-      counts_.push_back(p.vertexCount());
       add(bytesOf(p.words), kArrayBuffer, l.stride);
       add(bytesOf(p.indices), kElementArrayBuffer);
+      parts_.push_back(part);
       return;
     }
-    std::string vertices = packed(p, l);
+    std::string vertices = packed(p, l, steps_[mesh]);
     std::vector<uint32_t> indices = p.indices;
     settleOrder(vertices, l.stride, indices);
-    addBounds(vertices, l.stride);
-    const auto count = static_cast<uint32_t>(vertices.size() / l.stride);
-    counts_.push_back(count);
+    setBounds(part, vertices);
+    part.vertices = static_cast<uint32_t>(vertices.size() / l.stride);
     addCompressed(compressedVertices(vertices, l.stride), kArrayBuffer, l.stride, "ATTRIBUTES",
-                  count);
-    addCompressed(compressedTriangles(indices, count), kElementArrayBuffer, 4, "TRIANGLES",
+                  part.vertices);
+    addCompressed(compressedTriangles(indices, part.vertices), kElementArrayBuffer, 4, "TRIANGLES",
                   indices.size());
+    parts_.push_back(part);
+  }
+
+  // Translations, rotations, scales and features, a column each.
+  void addPlaces(const TileInstances& instances, const Steps& steps) {
+    std::array<std::string, 4> columns;
+    const auto put = [](std::string& to, double v) {
+      const auto f = static_cast<float>(v);
+      to.append(reinterpret_cast<const char*>(&f), 4);
+    };
+    for (const TileInstances::Place& p : instances.places) {
+      const Vec3 at = p.frame.point(steps.corner());
+      for (size_t i = 0; i < 3; ++i) put(columns[0], at[i]);
+      for (const double q : quaternionOf(p.frame)) put(columns[1], q);
+      for (size_t i = 0; i < 3; ++i) put(columns[2], steps.on ? steps.size : 1);
+      put(columns[3], p.feature);
+    }
+    for (std::string& c : columns) add(std::move(c));
   }
 
   template <class Get>
@@ -229,8 +274,16 @@ class TileWriter {
   }
 
   void layOut() {
-    chooseSteps();
-    for (const TilePrimitive& p : mesh_.primitives) addPrimitive(p);
+    steps_.push_back(stepsOf(mesh_.primitives));
+    for (const TileInstances& i : mesh_.instances) steps_.push_back(stepsOf(i.primitives));
+    for (const TilePrimitive& p : mesh_.primitives) addPrimitive(p, 0);
+    for (size_t i = 0; i < mesh_.instances.size(); ++i) {
+      for (const TilePrimitive& p : mesh_.instances[i].primitives) addPrimitive(p, i + 1);
+    }
+    firstPlaces_ = pieces_.size();
+    for (size_t i = 0; i < mesh_.instances.size(); ++i) {
+      addPlaces(mesh_.instances[i], steps_[i + 1]);
+    }
     firstColumn_ = pieces_.size();
     if (!mesh_.features.empty()) {
       addTexts([](const TileFeature& f) { return f.id; });
@@ -282,85 +335,97 @@ class TileWriter {
     w.endObject().endObject().endArray().endObject().endObject();
   }
 
-  void writeMesh(JsonWriter& w) const {
-    w.key("meshes").beginArray().beginObject().key("primitives").beginArray();
+  void writeMeshes(JsonWriter& w) const {
+    w.key("meshes").beginArray();
     uint64_t accessor = 0;
-    for (const TilePrimitive& p : mesh_.primitives) {
+    for (size_t at = 0; at < parts_.size(); ++at) {
+      const Part& part = parts_[at];
+      if (at == 0 || parts_[at - 1].mesh != part.mesh) {
+        w.beginObject().key("primitives").beginArray();
+      }
       w.beginObject().key("attributes").beginObject();
       w.field("POSITION", accessor).field("NORMAL", accessor + 1).field("COLOR_0", accessor + 2);
-      w.field("_FEATURE_ID_0", accessor + 3);
-      accessor += 4;
-      for (uint32_t i = 0; i < p.uvCount; ++i) {
+      accessor += 3;
+      if (part.mesh == 0) w.field("_FEATURE_ID_0", accessor++);
+      for (uint32_t i = 0; i < part.primitive->uvCount; ++i) {
         w.field("TEXCOORD_" + std::to_string(i), accessor++);
       }
       w.endObject().field("indices", accessor++);
-      w.field("material", mesh_.materials->materialOf(p.variant));
-      w.key("extensions").beginObject().key("EXT_mesh_features").beginObject();
-      w.key("featureIds").beginArray().beginObject();
-      w.field("featureCount", uint64_t{mesh_.features.size()});
-      w.field("attribute", 0).field("propertyTable", 0).endObject().endArray();
-      w.endObject().endObject().endObject();
+      w.field("material", mesh_.materials->materialOf(part.primitive->variant));
+      if (part.mesh == 0) {
+        w.key("extensions").beginObject().key("EXT_mesh_features").beginObject();
+        writeFeatureIds(w);
+        w.endObject().endObject();
+      }
+      w.endObject();
+      if (at + 1 == parts_.size() || parts_[at + 1].mesh != part.mesh) w.endArray().endObject();
     }
-    w.endArray().endObject().endArray();
+    w.endArray();
   }
 
-  // Of positions, as they are written: vertices that no triangle uses are gone when compressed.
-  void writeBounds(JsonWriter& w, size_t primitive) const {
-    const TilePrimitive& p = mesh_.primitives[primitive];
-    std::array<float, 3> low = p.min, high = p.max;
-    if (compressed_) low = bounds_[2 * primitive], high = bounds_[2 * primitive + 1];
-    for (const auto& [name, v] : {std::pair{"min", low}, std::pair{"max", high}}) {
-      w.key(name).beginArray().value(v[0]).value(v[1]).value(v[2]).endArray();
-    }
+  void writeFeatureIds(JsonWriter& w) const {
+    w.key("featureIds").beginArray().beginObject();
+    w.field("featureCount", uint64_t{mesh_.features.size()});
+    w.field("attribute", 0).field("propertyTable", 0).endObject().endArray();
   }
 
-  void addBounds(const std::string& vertices, uint32_t stride) {
-    std::array<float, 3> low, high;
-    low.fill(std::numeric_limits<float>::infinity());
-    high.fill(-std::numeric_limits<float>::infinity());
-    for (size_t at = 0; at < vertices.size(); at += stride) {
+  void setBounds(Part& part, const std::string& vertices) const {
+    part.low.fill(std::numeric_limits<float>::infinity());
+    part.high.fill(-std::numeric_limits<float>::infinity());
+    for (size_t at = 0; at < vertices.size(); at += part.layout.stride) {
       std::array<float, 3> v{};
       std::array<uint16_t, 3> q{};
-      if (quantized_) {
+      if (steps_[part.mesh].on) {
         std::memcpy(q.data(), vertices.data() + at, sizeof q);
         for (size_t i = 0; i < 3; ++i) v[i] = static_cast<float>(q[i]);
       } else {
         std::memcpy(v.data(), vertices.data() + at, sizeof v);
       }
       for (size_t i = 0; i < 3; ++i) {
-        low[i] = std::min(low[i], v[i]);
-        high[i] = std::max(high[i], v[i]);
+        part.low[i] = std::min(part.low[i], v[i]);
+        part.high[i] = std::max(part.high[i], v[i]);
       }
     }
-    bounds_.push_back(low);
-    bounds_.push_back(high);
   }
 
   void writeAccessors(JsonWriter& w) const {
     w.key("accessors").beginArray();
-    for (size_t at = 0; at < mesh_.primitives.size(); ++at) {
-      const TilePrimitive& p = mesh_.primitives[at];
-      const Layout& l = layouts_[at];
+    for (size_t at = 0; at < parts_.size(); ++at) {
+      const Part& part = parts_[at];
+      const Layout& l = part.layout;
       const auto accessor = [&](const Layout::Field& f, const char* type) {
         w.beginObject().field("bufferView", uint64_t{2 * at});
         if (f.offset) w.field("byteOffset", f.offset);
-        w.field("componentType", f.component).field("count", counts_[at]).field("type", type);
+        w.field("componentType", f.component).field("count", part.vertices).field("type", type);
         if (f.normalized) w.field("normalized", true);
-        if (f.offset == 0) writeBounds(w, at);
+        if (f.offset == 0) {
+          for (const auto& [name, v] : {std::pair{"min", part.low}, std::pair{"max", part.high}}) {
+            w.key(name).beginArray().value(v[0]).value(v[1]).value(v[2]).endArray();
+          }
+        }
         w.endObject();
       };
       accessor(l.position, "VEC3");
       accessor(l.normal, "VEC3");
       accessor(l.color, "VEC4");
-      accessor(l.feature, "SCALAR");
-      for (uint32_t i = 0; i < p.uvCount; ++i) {
+      if (part.mesh == 0) accessor(l.feature, "SCALAR");
+      for (uint32_t i = 0; i < part.primitive->uvCount; ++i) {
         Layout::Field uv = l.uv;
         uv.offset += 8 * i;
         accessor(uv, "VEC2");
       }
       w.beginObject().field("bufferView", uint64_t{2 * at + 1});
       w.field("componentType", kUnsignedInt);
-      w.field("count", uint64_t{p.indices.size()}).field("type", "SCALAR").endObject();
+      w.field("count", uint64_t{part.primitive->indices.size()})
+          .field("type", "SCALAR")
+          .endObject();
+    }
+    uint64_t view = firstPlaces_;
+    for (const TileInstances& i : mesh_.instances) {
+      for (const char* type : {"VEC3", "VEC4", "VEC3", "SCALAR"}) {
+        w.beginObject().field("bufferView", view++).field("componentType", kFloat);
+        w.field("count", uint64_t{i.places.size()}).field("type", type).endObject();
+      }
     }
     w.endArray();
   }
@@ -395,25 +460,51 @@ class TileWriter {
   void writeExtensions(JsonWriter& w) const {
     w.key("extensionsUsed").beginArray();
     w.value("EXT_mesh_features").value("EXT_structural_metadata");
+    const bool instanced = !mesh_.instances.empty();
+    if (instanced) w.value("EXT_instance_features").value("EXT_mesh_gpu_instancing");
     if (mesh_.materials->usesTransforms()) w.value("KHR_texture_transform");
     if (compressed_) w.value("EXT_meshopt_compression").value("KHR_mesh_quantization");
     w.endArray();
-    if (!compressed_) return;
+    if (!compressed_ && !instanced) return;
     w.key("extensionsRequired").beginArray();
-    w.value("EXT_meshopt_compression").value("KHR_mesh_quantization").endArray();
+    if (instanced) w.value("EXT_mesh_gpu_instancing");
+    if (compressed_) w.value("EXT_meshopt_compression").value("KHR_mesh_quantization");
+    w.endArray();
   }
 
   // Steps of integers become metres from the middle of the tile.
-  void writeNode(JsonWriter& w) const {
-    Vec3 at = mesh_.center;
-    if (quantized_) at += Vec3{double{low_[0]}, double{low_[1]}, double{low_[2]}};
-    w.key("nodes").beginArray().beginObject().field("mesh", 0).key("translation").beginArray();
-    w.value(at.x).value(at.y).value(at.z).endArray();
-    if (quantized_) {
-      w.key("scale").beginArray().value(step_).value(step_).value(step_).endArray();
+  void writeNodes(JsonWriter& w) const {
+    w.key("nodes").beginArray();
+    uint64_t accessor = 0, number = 0;
+    for (const Part& p : parts_) accessor += p.accessors();
+    const auto begin = [&](const Vec3& at) {
+      w.beginObject().field("mesh", number++);
+      w.key("translation").beginArray().value(at.x).value(at.y).value(at.z).endArray();
+    };
+    if (ownMesh()) {
+      begin(mesh_.center + steps_[0].corner());
+      if (steps_[0].on) {
+        const double step = steps_[0].size;
+        w.key("scale").beginArray().value(step).value(step).value(step).endArray();
+      }
+      w.endObject();
     }
-    w.endObject().endArray();
+    for (size_t i = 0; i < mesh_.instances.size(); ++i) {
+      begin(mesh_.center);
+      w.key("extensions").beginObject();
+      w.key("EXT_mesh_gpu_instancing").beginObject().key("attributes").beginObject();
+      w.field("TRANSLATION", accessor).field("ROTATION", accessor + 1).field("SCALE", accessor + 2);
+      w.field("_FEATURE_ID_0", accessor + 3).endObject().endObject();
+      w.key("EXT_instance_features").beginObject();
+      writeFeatureIds(w);
+      w.endObject().endObject().endObject();
+      accessor += 4;
+    }
+    w.endArray();
   }
+
+  /// Whether the tile has a mesh beside those of instances.
+  bool ownMesh() const { return !parts_.empty() && parts_[0].mesh == 0; }
 
   void writeImages(JsonWriter& w) const {
     const std::vector<ModelTexture>& images = mesh_.materials->images();
@@ -435,9 +526,10 @@ class TileWriter {
     writeExtensions(w);
     writeTable(w);
     w.field("scene", 0).key("scenes").beginArray().beginObject().key("nodes").beginArray();
-    w.value(0).endArray().endObject().endArray();
-    writeNode(w);
-    writeMesh(w);
+    for (size_t n = 0; n < mesh_.instances.size() + (ownMesh() ? 1 : 0); ++n) w.value(uint64_t{n});
+    w.endArray().endObject().endArray();
+    writeNodes(w);
+    writeMeshes(w);
     mesh_.materials->write(w);
     writeImages(w);
     writeAccessors(w);
@@ -450,15 +542,10 @@ class TileWriter {
   const std::string& name_;
   const bool compressed_;
   std::vector<Piece> pieces_;
-  // By primitive.
-  std::vector<Layout> layouts_;
-  std::vector<uint32_t> counts_;
-  // Two by primitive, of what is compressed.
-  std::vector<std::array<float, 3>> bounds_;
-  std::array<float, 3> low_{};
-  double step_ = 0;
-  bool quantized_ = false;
-  size_t firstColumn_ = 0, firstImage_ = 0;
+  // By mesh.
+  std::vector<Steps> steps_;
+  std::vector<Part> parts_;
+  size_t firstPlaces_ = 0, firstColumn_ = 0, firstImage_ = 0;
   uint64_t bytes_ = 0, rawBytes_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "base/work.h"
+#include "io/exporters/plan.h"
 #include "io/exporters/surface.h"
 #include "scene/flatten.h"
 
@@ -58,16 +59,16 @@ Material lookOf(const Material& m) {
 // Takes vertices and triangles in, keeps the bounds.
 class Filler {
  public:
-  explicit Filler(TileMesh& mesh) : mesh_(mesh) { mesh_.looks = std::make_shared<Scene>(); }
+  explicit Filler(std::vector<TilePrimitive>& primitives) : primitives_(primitives) {}
 
   TilePrimitive& primitive(uint32_t variant, uint32_t uvCount) {
-    const auto [at, fresh] = byVariant_.try_emplace(variant, mesh_.primitives.size());
+    const auto [at, fresh] = byVariant_.try_emplace(variant, primitives_.size());
     if (fresh) {
-      mesh_.primitives.emplace_back();
-      mesh_.primitives.back().variant = variant;
-      mesh_.primitives.back().uvCount = uvCount;
+      primitives_.emplace_back();
+      primitives_.back().variant = variant;
+      primitives_.back().uvCount = uvCount;
     }
-    return mesh_.primitives[at->second];
+    return primitives_[at->second];
   }
 
   void add(TilePrimitive& p, const Head& head) {
@@ -77,27 +78,96 @@ class Filler {
       p.min[i] = std::min(p.min[i], static_cast<float>(at[i]));
       p.max[i] = std::max(p.max[i], static_cast<float>(at[i]));
     }
-    mesh_.box.include(mesh_.center + at);
   }
 
  private:
-  TileMesh& mesh_;
+  std::vector<TilePrimitive>& primitives_;
   std::map<uint32_t, size_t> byVariant_;
 };
+
+// Of all vertices, where they count from.
+Box3 boxOf(const std::vector<TilePrimitive>& primitives) {
+  Box3 box;
+  for (const TilePrimitive& p : primitives) {
+    if (p.words.empty()) continue;
+    box.include(Vec3{double{p.min[0]}, double{p.min[1]}, double{p.min[2]}});
+    box.include(Vec3{double{p.max[0]}, double{p.max[1]}, double{p.max[2]}});
+  }
+  return box;
+}
+
+void measure(TileMesh& mesh) {
+  const auto triangles = [](const std::vector<TilePrimitive>& primitives) {
+    uint64_t sum = 0;
+    for (const TilePrimitive& p : primitives) sum += p.indices.size() / 3;
+    return sum;
+  };
+  Box3 box = boxOf(mesh.primitives);
+  mesh.triangles = triangles(mesh.primitives);
+  for (const TileInstances& i : mesh.instances) {
+    mesh.triangles += triangles(i.primitives) * i.places.size();
+    const Box3 part = boxOf(i.primitives);
+    for (const TileInstances::Place& p : i.places) {
+      const Box3 placed = boundsAt(part, p.frame, {1, 1, 1});
+      if (!placed.empty()) box.include(placed);
+    }
+  }
+  if (box.empty()) return;
+  mesh.box.include(mesh.center + box.min);
+  mesh.box.include(mesh.center + box.max);
+}
 
 class FullFiller {
  public:
   FullFiller(const TileContent& content, const WriteOptions& options, TileMesh& mesh)
-      : content_(content), mesh_(mesh), filler_(mesh) {
+      : content_(content), mesh_(mesh) {
+    mesh_.looks = std::make_shared<Scene>();
     canonize();
     mesh_.materials = std::make_shared<GltfMaterials>(*mesh_.looks, options, mesh_.warnings);
   }
 
   void run() {
-    for (const TileLeaf& l : content_.leaves) add(l);
+    const std::vector<TileGroup> groups = groupsOf(content_);
+    std::vector<bool> apart(content_.placements.size());
+    for (const TileGroup& g : groups) {
+      for (const uint32_t p : g.placements) apart[p] = true;
+    }
+    Filler rest(mesh_.primitives);
+    for (const TileLeaf& l : content_.leaves) {
+      if (l.placement != TileLeaf::kNone && apart[l.placement]) continue;
+      add(l, mesh_.center, rest);
+    }
+    for (const TileGroup& g : groups) addGroup(g);
   }
 
  private:
+  void addGroup(const TileGroup& g) {
+    TileInstances out;
+    const Scene& scene = *content_.scenes[g.scene];
+    Filler filler(out.primitives);
+    walk(
+        scene, scene.prototypes[g.prototype], Frame{},
+        [&](uint32_t leaf, const Frame& at, size_t) {
+          TileLeaf l;
+          l.scene = g.scene;
+          l.leaf = leaf;
+          l.world = at * scene.leaves[leaf].frame;
+          add(l, {}, filler);
+        },
+        [](const Instance&, const Frame&, size_t) { return true; });
+    if (std::all_of(out.primitives.begin(), out.primitives.end(),
+                    [](const TilePrimitive& p) { return p.indices.empty(); })) {
+      return;
+    }
+    for (const uint32_t p : g.placements) {
+      const TilePlacement& placed = content_.placements[p];
+      Frame at = placed.world;
+      at.origin = at.origin - mesh_.center;
+      out.places.push_back({at, placed.feature});
+    }
+    mesh_.instances.push_back(std::move(out));
+  }
+
   // Materials are known before the first is asked for: those who look into the list keep pointers.
   void canonize() {
     std::map<uint64_t, std::vector<uint32_t>> known;
@@ -136,7 +206,8 @@ class FullFiller {
     return at->second;
   }
 
-  void add(const TileLeaf& l) {
+  // Positions count from `center`.
+  void add(const TileLeaf& l, const Vec3& center, Filler& filler) {
     const Scene& scene = *content_.scenes[l.scene];
     const Leaf& leaf = scene.leaves[l.leaf];
     const Mesh& mesh = *scene.meshes[leaf.mesh];
@@ -149,24 +220,30 @@ class FullFiller {
       const uint32_t look = material == kNoMaterial ? kNoMaterial : looks_[l.scene][material];
       const uint32_t variant = mesh_.materials->variant(look, uvMask);
       const VertexLayout& layout = mesh_.materials->layout(variant);
-      TilePrimitive& primitive = filler_.primitive(variant, layout.uvCount);
+      TilePrimitive& primitive = filler.primitive(variant, layout.uvCount);
       const auto color = colorWords(materialOf(scene, leaf, part.slot).color);
       for (uint32_t f = 0; f < part.faceCount; ++f) {
-        addFace(l, leaf, mesh, surface, surface.faces[part.firstFace + f], layout, color,
-                primitive);
+        setHeads(l, leaf, mesh, surface, surface.faces[part.firstFace + f], center, color);
+        addFace(leaf, mesh, surface, surface.faces[part.firstFace + f], layout, filler, primitive);
       }
     }
   }
 
-  void addFace(const TileLeaf& l, const Leaf& leaf, const Mesh& mesh, const Surface& surface,
-               const SurfaceFace& face, const VertexLayout& layout,
-               const std::array<uint32_t, 2>& color, TilePrimitive& primitive) {
+  void setHeads(const TileLeaf& l, const Leaf& leaf, const Mesh& mesh, const Surface& surface,
+                const SurfaceFace& face, const Vec3& center, const std::array<uint32_t, 2>& color) {
     heads_.clear();
     for (uint32_t v = face.firstVertex; v < face.firstVertex + face.vertexCount; ++v) {
       const Vec3 p = l.world.point(scaled(mesh.at(surface.corners[v]), leaf.scale));
       const Vec3 n = l.world.direction(scaledNormal(surface.normals[v], leaf.scale));
-      heads_.push_back(headOf(p - mesh_.center, n, color, l.feature));
-      if (!isFinite(placeOf(heads_.back()))) return;
+      heads_.push_back(headOf(p - center, n, color, l.feature));
+    }
+  }
+
+  void addFace(const Leaf& leaf, const Mesh& mesh, const Surface& surface, const SurfaceFace& face,
+               const VertexLayout& layout, Filler& filler, TilePrimitive& primitive) {
+    if (!std::all_of(heads_.begin(), heads_.end(),
+                     [](const Head& h) { return isFinite(placeOf(h)); })) {
+      return;
     }
     const uint32_t base = primitive.vertexCount();
     const size_t first = primitive.indices.size();
@@ -180,7 +257,7 @@ class FullFiller {
     }
     if (primitive.indices.size() == first) return;
     for (uint32_t v = 0; v < face.vertexCount; ++v) {
-      filler_.add(primitive, heads_[v]);
+      filler.add(primitive, heads_[v]);
       for (uint32_t i = 0; i < layout.uvCount; ++i) {
         const std::vector<Vec2>& uv = mesh.uvs[layout.uvSets[i]];
         const Vec2 at = uv.empty() ? Vec2{} : uv[surface.corners[face.firstVertex + v]];
@@ -192,7 +269,6 @@ class FullFiller {
 
   const TileContent& content_;
   TileMesh& mesh_;
-  Filler filler_;
   // By scene and material: the index of its look.
   std::vector<std::vector<uint32_t>> looks_;
   FaceTriangulator triangulator_;
@@ -205,7 +281,8 @@ class FullFiller {
 class CoarseFiller {
  public:
   CoarseFiller(const CoarseModel& model, TileMesh& mesh)
-      : model_(model), mesh_(mesh), filler_(mesh) {
+      : model_(model), mesh_(mesh), filler_(mesh.primitives) {
+    mesh_.looks = std::make_shared<Scene>();
     mesh_.looks->materials.push_back(lookOf(Material{}));
     mesh_.materials = std::make_shared<GltfMaterials>(*mesh_.looks, WriteOptions{}, mesh_.warnings);
   }
@@ -248,10 +325,6 @@ class CoarseFiller {
   std::map<std::tuple<uint32_t, int32_t, int32_t, int32_t>, uint32_t> known_;
 };
 
-void countTriangles(TileMesh& mesh) {
-  for (const TilePrimitive& p : mesh.primitives) mesh.triangles += p.indices.size() / 3;
-}
-
 // To the eighth of a metre: such numbers are exact in files.
 Vec3 centerOf(const Box3& box) {
   if (box.empty()) return {};
@@ -278,7 +351,7 @@ TileMesh meshOf(const TileContent& content, const WriteOptions& options) {
   }
   mesh.center = centerOf(box);
   FullFiller(content, options, mesh).run();
-  countTriangles(mesh);
+  measure(mesh);
   return mesh;
 }
 
@@ -289,7 +362,7 @@ TileMesh meshOf(const CoarseModel& model) {
   for (const Vec3& v : model.vertices) box.include(v);
   mesh.center = centerOf(box);
   CoarseFiller(model, mesh).run();
-  countTriangles(mesh);
+  measure(mesh);
   return mesh;
 }
 

@@ -32,17 +32,31 @@ struct TilePrimitive {
   uint32_t vertexCount() const { return static_cast<uint32_t>(words.size()) / floats(); }
 };
 
+/// A part that is there once and placed several times: primitives in its own frame, whose vertices
+/// say nothing of features.
+struct TileInstances {
+  struct Place {
+    Frame frame;
+    uint32_t feature = 0;
+  };
+  std::vector<TilePrimitive> primitives;
+  /// The origins of frames count from the middle of the tile.
+  std::vector<Place> places;
+};
+
 struct TileMesh {
   /// Positions count from here.
   Vec3 center;
   std::vector<TileFeature> features;
   std::vector<TilePrimitive> primitives;
+  std::vector<TileInstances> instances;
   /// The materials of the primitives, which `materials` looks into.
   std::shared_ptr<Scene> looks;
   std::shared_ptr<GltfMaterials> materials;
   std::vector<std::string> warnings;
   /// Of the vertices as they are written, in the frame of the place.
   Box3 box;
+  /// As they are shown, each as often as it is placed.
   uint64_t triangles = 0;
 };
 
@@ -61,7 +75,8 @@ struct TileFile {
 
 /// Writes it as GLB to `folder` + `name`: one node, EXT_mesh_features, EXT_structural_metadata with
 /// a table of features; `compressed` where the build has the library, with vertices at most
-/// kMostQuantized from their places. Code: file-unwritable.
+/// kMostQuantized from their places. Instances are nodes of EXT_mesh_gpu_instancing and
+/// EXT_instance_features. Code: file-unwritable.
 Result<TileFile> writeTile(const TileMesh& mesh, const std::string& folder, const std::string& name,
                            bool compressed);
 

@@ -18,6 +18,7 @@
 #include "base/files.h"
 #include "base/json.h"
 #include "base/parallel.h"
+#include "io/exporters/plan.h"
 #include "io/exporters/surface.h"
 #include "io/image/image.h"
 
@@ -280,31 +281,85 @@ class Builder {
     for (size_t m = 0; m < triangles.size(); ++m) {
       for (const SlotTally& s : slotTallies(*scene->meshes[m])) triangles[m] += s.triangles;
     }
+    const std::vector<uint32_t> shared = sharedPrototypes(*scene, triangles);
     for (size_t i = 0; i < shapes.size() && i < scene->roots.size(); ++i) {
       const Instance& root = scene->roots[i].instance;
+      const auto feature = static_cast<uint32_t>(out.features.size());
       double low = std::numeric_limits<double>::infinity(), high = -low;
-      const auto add = [&](uint32_t leaf, const Frame& world, size_t) {
+      // The level at which the placement began that leaves are part of; none below it.
+      size_t within = std::numeric_limits<size_t>::max();
+      const auto place = [&](const Instance& in, const Frame& world, size_t level) {
+        if (level <= within) within = std::numeric_limits<size_t>::max();
+        if (level < within && shared[in.prototype] != TileLeaf::kNone) {
+          within = level;
+          out.placements.push_back({0, shared[in.prototype], feature, world});
+        }
+        return true;
+      };
+      place(root, root.frame, 0);
+      const auto add = [&](uint32_t leaf, const Frame& world, size_t level) {
         const Leaf& l = scene->leaves[leaf];
-        TileLeaf t{0, leaf, static_cast<uint32_t>(out.features.size()), triangles[l.mesh],
-                   world * l.frame};
-        out.triangles += t.triangles;
+        if (level < within) within = std::numeric_limits<size_t>::max();
+        const bool placed = within != std::numeric_limits<size_t>::max();
+        const TileLeaf t{
+            0,
+            leaf,
+            feature,
+            triangles[l.mesh],
+            placed ? static_cast<uint32_t>(out.placements.size() - 1) : TileLeaf::kNone,
+            world * l.frame};
         out.leaves.push_back(t);
         includeHeights(localBox(*scene, l), t.world, low, high);
         if (out.leaves.size() % 65536 == 0) workMemory(65536 * sizeof(TileLeaf));
       };
       const size_t before = out.leaves.size();
-      walk(*scene, scene->prototypes[root.prototype], root.frame, add,
-           [](const Instance&, const Frame&, size_t) { return true; });
+      walk(*scene, scene->prototypes[root.prototype], root.frame, add, place);
       if (out.leaves.size() == before) continue;
       out.features.push_back(source_.feature(shapes[i]));
       out.features.back().middle = source_.middle(shapes[i]);
       out.features.back().height = high - low;
     }
+    out.measure();
+    return out;
+  }
+
+  // By prototype: the first of its content where that is placed several times and is no small part
+  // of a tile, else kNone.
+  std::vector<uint32_t> sharedPrototypes(const Scene& scene,
+                                         const std::vector<uint32_t>& meshTriangles) const {
+    constexpr double kLeast = 64;
+    const size_t count = scene.prototypes.size();
+    const std::vector<uint32_t> same = firstOfEqual(scene);
+    std::vector<double> triangles(count), placed(count);
+    for (size_t i = 0; i < count; ++i) {
+      const Prototype& p = scene.prototypes[i];
+      for (uint32_t k = 0; k < p.leafCount; ++k) {
+        triangles[i] += meshTriangles[scene.leaves[p.firstLeaf + k].mesh];
+      }
+      for (uint32_t k = 0; k < p.instanceCount; ++k) {
+        triangles[i] += triangles[scene.instances[p.firstInstance + k].prototype];
+      }
+    }
+    for (const Root& r : scene.roots) ++placed[same[r.instance.prototype]];
+    for (size_t i = count; i-- > 0;) {
+      const Prototype& p = scene.prototypes[i];
+      for (uint32_t k = 0; k < p.instanceCount; ++k) {
+        placed[same[scene.instances[p.firstInstance + k].prototype]] += placed[i];
+      }
+    }
+    std::vector<uint32_t> out(count, TileLeaf::kNone);
+    for (size_t i = 0; i < count; ++i) {
+      const size_t p = same[i];
+      if (placed[p] > 1 && triangles[p] >= kLeast &&
+          triangles[p] <= static_cast<double>(options_.triangles)) {
+        out[i] = same[i];
+      }
+    }
     return out;
   }
 
   // Where the leaves of a content belong: features of one tile by their middle, larger ones leaf by
-  // leaf.
+  // leaf, and a placement as one.
   std::vector<Vec2> pointsOf(const TileContent& content) const {
     std::vector<uint64_t> triangles(content.features.size());
     for (const TileLeaf& l : content.leaves) triangles[l.feature] += l.triangles;
@@ -314,6 +369,11 @@ class Builder {
       work();
       if (triangles[l.feature] <= options_.triangles) {
         points.push_back(content.features[l.feature].middle);
+        continue;
+      }
+      if (l.placement != TileLeaf::kNone) {
+        const Vec3& p = content.placements[l.placement].world.origin;
+        points.push_back({p.x, p.z});
         continue;
       }
       const Scene& scene = *content.scenes[l.scene];
@@ -339,10 +399,11 @@ class Builder {
     // What reaches beyond the square is divided all the same.
     if (!square.holds(box)) square = squareAround(box);
     std::array<TileContent, 4> quarters;
-    std::array<std::vector<uint32_t>, 4> numbers;
+    std::array<std::vector<uint32_t>, 4> numbers, placed;
     for (size_t q = 0; q < 4; ++q) {
       quarters[q].scenes = content.scenes;
       numbers[q].assign(content.features.size(), 0xffffffff);
+      placed[q].assign(content.placements.size(), 0xffffffff);
     }
     for (size_t i = 0; i < points.size(); ++i) {
       const size_t q = square.quarterOf(points[i]);
@@ -353,9 +414,18 @@ class Builder {
         quarters[q].features.push_back(content.features[l.feature]);
       }
       l.feature = number;
-      quarters[q].triangles += l.triangles;
+      if (l.placement != TileLeaf::kNone) {
+        uint32_t& placement = placed[q][l.placement];
+        if (placement == 0xffffffff) {
+          placement = static_cast<uint32_t>(quarters[q].placements.size());
+          quarters[q].placements.push_back(content.placements[l.placement]);
+          quarters[q].placements.back().feature = number;
+        }
+        l.placement = placement;
+      }
       quarters[q].leaves.push_back(l);
     }
+    for (TileContent& quarter : quarters) quarter.measure();
     content = {};
     std::vector<Branch> branches;
     for (size_t q = 0; q < 4; ++q) {

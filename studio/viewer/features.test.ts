@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
+import {
+  BufferAttribute,
+  Group,
+  InstancedMesh,
+  type Intersection,
+  type Mesh,
+  Vector3,
+} from 'three';
 import { expect, test } from 'vitest';
-import { rowsOf, titleOf } from './features';
+import { featureAt, rowsOf, titleOf } from './features';
 
 const villa = {
   id: 'Building/way/1',
@@ -31,4 +39,24 @@ test('what is not known is not shown', () => {
 
 test('attributes that cannot be read are none', () => {
   expect(rowsOf({ shape: 'Lot', attributes: '{' })).toEqual([['shape', 'Lot']]);
+});
+
+test('each place of a part that is there once has its own feature', () => {
+  const tile = new Group();
+  tile.userData.structuralMetadata = {
+    getPropertyTableData: (tables: number[], ids: number[]) =>
+      tables.map((table, i) => ({ id: `table ${table}, row ${ids[i]}` })),
+  };
+  const trees = new InstancedMesh(undefined, undefined, 3);
+  trees.geometry.setAttribute('_FEATURE_ID_0', new BufferAttribute(new Float32Array([4, 9, 2]), 1));
+  tile.add(trees);
+  const hit = (instanceId: number): Intersection<Mesh> => ({
+    distance: 1,
+    point: new Vector3(),
+    object: trees,
+    instanceId,
+  });
+  expect(featureAt(hit(1))).toEqual({ id: 'table 0, row 9' });
+  trees.geometry.deleteAttribute('_FEATURE_ID_0');
+  expect(featureAt(hit(1))).toBeUndefined();
 });

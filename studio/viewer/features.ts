@@ -3,7 +3,7 @@
 //
 // What a tile knows of the thing at a point: a row of its table.
 
-import { type Intersection, type Mesh, Triangle, Vector3 } from 'three';
+import { type Intersection, type Mesh, type Object3D, Triangle, Vector3 } from 'three';
 
 export type Feature = Record<string, unknown>;
 
@@ -18,7 +18,21 @@ interface Known {
   };
 }
 
+/** Of a part that stands there several times (EXT_instance_features), which no library reads. */
+function featureOfInstance(hit: Intersection<Mesh>): Feature | undefined {
+  const ids = hit.object.geometry.getAttribute('_FEATURE_ID_0');
+  if (hit.instanceId === undefined || !ids) return undefined;
+  for (let at: Object3D | null = hit.object; at; at = at.parent) {
+    const { structuralMetadata } = at.userData as Known;
+    if (structuralMetadata) {
+      return structuralMetadata.getPropertyTableData([0], [ids.getX(hit.instanceId)])[0];
+    }
+  }
+  return undefined;
+}
+
 export function featureAt(hit: Intersection<Mesh>): Feature | undefined {
+  if (hit.instanceId !== undefined) return featureOfInstance(hit);
   const { meshFeatures, structuralMetadata } = hit.object.userData as Known;
   if (!meshFeatures || !structuralMetadata || hit.faceIndex == null || !hit.face) return undefined;
   const place = hit.object.geometry.getAttribute('position');

@@ -282,7 +282,7 @@ void GltfDocument::writeMeshes(JsonWriter& w, const GltfContent& content) const 
       const VertexLayout& l = materials_.layout(p.variant);
       w.beginObject().key("attributes").beginObject();
       w.field("POSITION", accessor++);
-      w.field("NORMAL", accessor++);
+      if (l.normals) w.field("NORMAL", accessor++);
       if (l.tangentSet >= 0) w.field("TANGENT", accessor++);
       for (uint32_t i = 0; i < l.uvCount; ++i) {
         w.field("TEXCOORD_" + std::to_string(i), accessor++);
@@ -338,7 +338,7 @@ void GltfDocument::writeAccessors(JsonWriter& w, const GltfContent& content, boo
       };
       const int direction = l.compact ? kByte : kFloat;
       attribute("VEC3", onGrid ? kUnsignedShort : kFloat, l.positionBytes(onGrid));
-      attribute("VEC3", direction, l.normalBytes());
+      if (l.normals) attribute("VEC3", direction, l.normalBytes());
       if (l.tangentSet >= 0) attribute("VEC4", direction, l.tangentBytes());
       for (uint32_t i = 0; i < l.uvCount; ++i) attribute("VEC2", kFloat, 8);
       begin(view + 1, 0, p.wideIndices ? kUnsignedInt : kUnsignedShort, p.indexCount, "SCALAR");

@@ -52,18 +52,21 @@ double linearOf(double srgb) {
 GltfMaterials::GltfMaterials(const Scene& scene, const WriteOptions& options,
                              std::vector<std::string>& warnings)
     : scene_(scene),
-      keepUv_(options.keepUv && options.vertices == WriteOptions::Vertices::Float),
-      compact_(options.vertices == WriteOptions::Vertices::Compact),
+      keepUv_(options.keepUv && options.vertices <= WriteOptions::Vertices::Float),
+      compact_(options.vertices == WriteOptions::Vertices::Compact ||
+               options.vertices == WriteOptions::Vertices::Bare),
+      bare_(options.vertices == WriteOptions::Vertices::Bare),
       warnings_(warnings),
       textures_(options, warnings) {}
 
-uint32_t GltfMaterials::variant(uint32_t material, uint32_t uvMask) {
-  const uint64_t key = static_cast<uint64_t>(material) << 32 | uvMask;
+uint32_t GltfMaterials::variant(uint32_t material, uint32_t uvMask, bool flat) {
+  constexpr uint32_t kFlat = 1u << 31;
+  const uint64_t key = static_cast<uint64_t>(material) << 32 | uvMask | (bare_ && flat ? kFlat : 0);
   const auto found = known_.find(key);
   if (found != known_.end()) return found->second;
   static const Material kDefault;
   const Material& m = material == kNoMaterial ? kDefault : scene_.materials[material];
-  Variant v = make(m, uvMask);
+  Variant v = make(m, uvMask, flat);
   // Masks that differ in sets which the material does not use give the same variant.
   const auto [at, isNew] =
       byLayout_.try_emplace(layoutKey(material, v.layout), static_cast<uint32_t>(variants_.size()));
@@ -75,7 +78,7 @@ uint32_t GltfMaterials::variant(uint32_t material, uint32_t uvMask) {
 }
 
 std::vector<uint32_t> GltfMaterials::layoutKey(uint32_t material, const VertexLayout& layout) {
-  std::vector<uint32_t> key{material, static_cast<uint32_t>(layout.tangentSet)};
+  std::vector<uint32_t> key{material, static_cast<uint32_t>(layout.tangentSet), layout.normals};
   key.insert(key.end(), layout.uvSets, layout.uvSets + layout.uvCount);
   return key;
 }
@@ -112,7 +115,7 @@ void GltfMaterials::warnOnce(const std::string& text) {
   if (warned_.insert(text).second) warnings_.push_back(text);
 }
 
-GltfMaterials::Variant GltfMaterials::make(const Material& m, uint32_t uvMask) {
+GltfMaterials::Variant GltfMaterials::make(const Material& m, uint32_t uvMask, bool flat) {
   Variant v;
   v.material = &m;
   v.layout.compact = compact_;
@@ -150,6 +153,8 @@ GltfMaterials::Variant GltfMaterials::make(const Material& m, uint32_t uvMask) {
              ": such textures are left out");
   }
   addSets(v, uvMask);
+  // Without normals there are no tangents either.
+  v.layout.normals = !(bare_ && flat && v.layout.tangentSet < 0);
   return v;
 }
 

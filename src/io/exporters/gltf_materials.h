@@ -21,6 +21,8 @@ namespace gable {
 /// position takes 12 bytes, or 8 as integers, normal and tangent 4 each, a uv set 8.
 struct VertexLayout {
   bool compact = false;
+  /// False where readers are to make flat normals.
+  bool normals = true;
   /// The one uv set is made here, in metres (material/laying.h).
   bool laid = false;
   /// The uv set of the normal map, or -1.
@@ -28,9 +30,10 @@ struct VertexLayout {
   uint32_t uvCount = 0;
   /// TEXCOORD_n shows uv set uvSets[n].
   uint8_t uvSets[kTextureLayers] = {};
+  /// Before it is packed: a normal is always there.
   uint32_t floats() const { return 6 + (tangentSet >= 0 ? 4 : 0) + 2 * uvCount; }
   uint32_t positionBytes(bool quantized) const { return quantized ? 8 : 12; }
-  uint32_t normalBytes() const { return compact ? 4 : 12; }
+  uint32_t normalBytes() const { return !normals ? 0 : compact ? 4 : 12; }
   uint32_t tangentBytes() const { return tangentSet < 0 ? 0 : compact ? 4 : 16; }
   uint32_t stride(bool quantized) const {
     return positionBytes(quantized) + normalBytes() + tangentBytes() + 8 * uvCount;
@@ -51,8 +54,9 @@ class GltfMaterials {
                 std::vector<std::string>& warnings);
 
   /// `material` indexes Scene::materials or is kNoMaterial; bit s of `uvMask` says that the surface
-  /// has uv set s. Variants are numbered in the order of first use.
-  uint32_t variant(uint32_t material, uint32_t uvMask);
+  /// has uv set s; `flat` says that it is lit flat. Variants are numbered in the order of first
+  /// use.
+  uint32_t variant(uint32_t material, uint32_t uvMask, bool flat = false);
   const VertexLayout& layout(uint32_t variant) const { return variants_[variant].layout; }
   size_t count() const { return variants_.size(); }
   /// The number of the variant's glTF material: variants that differ in their layout only share
@@ -82,7 +86,7 @@ class GltfMaterials {
     uint32_t number = 0;
     Map color, metallicRoughness, normal, occlusion, emissive;
   };
-  Variant make(const Material& m, uint32_t uvMask);
+  Variant make(const Material& m, uint32_t uvMask, bool flat);
   void numberMaterial(uint32_t material, Variant& v);
   static std::vector<uint32_t> layoutKey(uint32_t material, const VertexLayout& layout);
   Map mapOf(const Material& m, TextureLayer layer, uint32_t uvMask, int image);
@@ -93,7 +97,7 @@ class GltfMaterials {
   void warnOnce(const std::string& text);
 
   const Scene& scene_;
-  bool keepUv_, compact_;
+  bool keepUv_, compact_, bare_;
   std::vector<std::string>& warnings_;
   TextureSet textures_;
   std::vector<Variant> variants_;

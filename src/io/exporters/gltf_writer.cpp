@@ -51,7 +51,24 @@ PlanOptions planFor(const WriteOptions& options) {
   constexpr double kWidest = (VertexGrid::kMostSteps - 4) * 2 * WriteOptions::kMostQuantized;
   return {options.instancing != Instancing::None,
           options.instancing == Instancing::Auto ? WriteOptions::kMostNodes : 0,
-          options.vertices == WriteOptions::Vertices::Compact ? kWidest : 0};
+          options.vertices >= WriteOptions::Vertices::Compact ? kWidest : 0};
+}
+
+// With a vertex of 24 bytes, as if each prototype were written once.
+bool isLarge(const Scene& scene) {
+  constexpr uint64_t kVertex = 24, kTriangle = 6;
+  std::vector<uint64_t> meshBytes(scene.meshes.size());
+  for (size_t m = 0; m < meshBytes.size(); ++m) {
+    for (const SlotTally& s : slotTallies(*scene.meshes[m])) {
+      meshBytes[m] += kVertex * s.corners + kTriangle * s.triangles;
+    }
+  }
+  uint64_t bytes = 0;
+  for (const Leaf& l : scene.leaves) {
+    bytes += meshBytes[l.mesh];
+    if (bytes > WriteOptions::kMostFloat) return true;
+  }
+  return false;
 }
 
 class GltfWriter {
@@ -74,6 +91,8 @@ class GltfWriter {
     bool known = false;
     Box3 bounds;
     uint32_t uvMask = 0;
+    /// No normals of its own, no face that is smooth.
+    bool flat = false;
     std::vector<SlotTally> slots;
   };
 
@@ -84,7 +103,7 @@ class GltfWriter {
   VertexGrid gridFor(double largestScale);
   void cutPrimitives(std::vector<GltfPrimitive>& out, std::vector<size_t>* ends);
   const MeshInfo& infoOf(uint32_t mesh);
-  uint32_t variantOf(uint32_t material, uint32_t uvMask);
+  uint32_t variantOf(uint32_t material, const MeshInfo& info);
   Error tooLarge(uint64_t bytes) const;
   std::vector<bool> meshFlags() const;
 
@@ -129,16 +148,18 @@ const GltfWriter::MeshInfo& GltfWriter::infoOf(uint32_t mesh) {
     info.known = true;
     info.bounds = m.bounds();
     for (int s = 0; s < kUvSets; ++s) info.uvMask |= m.hasUv(s) ? 1u << s : 0;
+    info.flat = m.normals.empty() && std::none_of(m.faces.begin(), m.faces.end(),
+                                                  [](const MeshFace& f) { return f.smooth; });
     info.slots = slotTallies(m);
   }
   return info;
 }
 
 // Neighbouring leaves alternate between few materials: a table in front of the map.
-uint32_t GltfWriter::variantOf(uint32_t material, uint32_t uvMask) {
-  const uint64_t key = static_cast<uint64_t>(material) << 32 | uvMask;
+uint32_t GltfWriter::variantOf(uint32_t material, const MeshInfo& info) {
+  const uint64_t key = static_cast<uint64_t>(material) << 32 | info.uvMask << 1 | info.flat;
   auto& entry = recentVariants_[mix64(key) % recentVariants_.size()];
-  if (entry.first != key) entry = {key, materials_.variant(material, uvMask)};
+  if (entry.first != key) entry = {key, materials_.variant(material, info.uvMask, info.flat)};
   return entry.second;
 }
 
@@ -152,7 +173,7 @@ void GltfWriter::makeDraws(uint32_t unit) {
     const Leaf& leaf = scene_.leaves[p.leaf];
     const MeshInfo& info = infoOf(leaf.mesh);
     for (const SlotTally& s : info.slots) {
-      const uint32_t v = variantOf(materialIndexOf(scene_, leaf, s.slot), info.uvMask);
+      const uint32_t v = variantOf(materialIndexOf(scene_, leaf, s.slot), info);
       if (v >= rank.size()) rank.resize(v + size_t{1}, kNoMaterial);
       if (rank[v] == kNoMaterial) {
         rank[v] = static_cast<uint32_t>(order.size());
@@ -240,7 +261,7 @@ void GltfWriter::planUnits() {
   }
   uint64_t bytes = 0;
   for (uint32_t u = 0; u < count; ++u) {
-    tooManyLeaves_ = plan_.contentSize(u) > kMostLeaves;
+    tooManyLeaves_ = plan_.tooLarge() || plan_.contentSize(u) > kMostLeaves;
     if (tooManyLeaves_) return;
     makeDraws(u);
     cutPrimitives(content_.meshes[u], nullptr);
@@ -541,7 +562,12 @@ Result<WriteReport> GltfWriter::write() {
 
 Result<WriteReport> writeGltf(const Scene& scene, const std::string& path,
                               const WriteOptions& options) {
-  return GltfWriter(scene, path, options).write();
+  using Vertices = WriteOptions::Vertices;
+  WriteOptions chosen = options;
+  if (options.vertices == Vertices::Auto) {
+    chosen.vertices = isLarge(scene) ? Vertices::Compact : Vertices::Float;
+  }
+  return GltfWriter(scene, path, chosen).write();
 }
 
 }  // namespace gable

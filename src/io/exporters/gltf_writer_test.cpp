@@ -160,6 +160,75 @@ TEST(GltfWriter, compactFilesKeepWithinTheBoundOnNodes) {
   EXPECT_EQ(m.nodes, 18'000u);
 }
 
+TEST(GltfWriter, facesOfOnePlaneShareVertices) {
+  SceneBuilder b;
+  for (int i = 0; i < 4; ++i) {
+    b.leaf(kUnitQuadXz, testing::turned(30, {}) * Frame::moved({i % 2 * 3.1, 7, i / 2 * 0.7}),
+           {3.1, 1, 0.7});
+  }
+  // Round the edge to another plane they share none.
+  b.leaf(kUnitQuadXy, testing::turned(30, {}) * Frame::moved({0, 7, 0}), {3.1, 2, 1});
+  b.root("ground", b.prototype("Ground"), Frame::moved({1000, 0, 5}));
+  WriteOptions o = compact();
+  EXPECT_EQ(roundTrip(b.scene, "plane.glb").vertices, 9u + 4);
+  EXPECT_EQ(roundTrip(b.scene, "plane-compact.glb", o).vertices, 9u + 4);
+  o.vertices = WriteOptions::Vertices::Bare;
+  EXPECT_EQ(roundTrip(b.scene, "plane-bare.glb", o).vertices, 9u + 2);
+}
+
+TEST(GltfWriter, bareVerticesHaveNormalsWhereSurfacesAreSmooth) {
+  const Scene s = street(5);
+  WriteOptions o = compact(), floats;
+  o.vertices = WriteOptions::Vertices::Bare;
+  const GlbModel m = roundTrip(s, "street-bare.glb", o);
+  const GlbModel full = roundTrip(s, "street-float.glb", floats);
+  EXPECT_LT(m.bytes.size(), full.bytes.size());
+  size_t smooth = 0, flat = 0;
+  for (const JsonValue& mesh : m.json["meshes"].items()) {
+    for (const JsonValue& p : mesh["primitives"].items()) {
+      ++(p["attributes"]["NORMAL"].isNull() ? flat : smooth);
+    }
+  }
+  EXPECT_EQ(smooth, 1u);
+  EXPECT_GT(flat, 4u);
+  double most = 0;
+  ASSERT_EQ(m.triangles.size(), full.triangles.size());
+  for (size_t i = 0; i < m.triangles.size(); ++i) {
+    for (size_t k = 0; k < 3; ++k) {
+      most = std::max(most, length(m.triangles[i].p[k] - full.triangles[i].p[k]));
+      EXPECT_GT(dot(m.triangles[i].normal[k], full.triangles[i].normal[k]), 0.99);
+    }
+  }
+  EXPECT_LT(most, 2 * WriteOptions::kMostQuantized);
+}
+
+TEST(GltfWriter, bareBoxesHaveEightCorners) {
+  SceneBuilder b;
+  b.leaf(kUnitBox, testing::turned(30, {1, 2, 3}), {1, -2, 3});
+  b.leaf(kUnitBoxUv, testing::turned(30, {5, 2, 3}), {1, 2, 3});
+  b.root("boxes", b.prototype("P"), Frame{});
+  WriteOptions o = compact();
+  o.vertices = WriteOptions::Vertices::Bare;
+  const GlbModel m = roundTrip(b.scene, "boxes-bare.glb", o);
+  EXPECT_EQ(m.vertices, 16u);
+  double volume = 0;
+  for (const auto& t : m.triangles) volume += dot(t.p[0], cross(t.p[1], t.p[2])) / 6;
+  EXPECT_NEAR(volume, 12, 0.05);
+}
+
+TEST(GltfWriter, largeFilesAreCompact) {
+  const auto boxes = [](int count) {
+    SceneBuilder b;
+    for (int i = 0; i < count; ++i) b.leaf(kUnitBox, Frame::moved({2.0 * i, 0, 0}), {1, 1, 1});
+    b.root("row", b.prototype("Row"), Frame{});
+    return roundTrip(b.scene, "boxes.glb").json["extensionsRequired"].size();
+  };
+  // A box takes 24 vertices of 24 bytes and 12 triangles of 6.
+  const auto most = static_cast<int>(WriteOptions::kMostFloat / (24 * 24 + 12 * 6));
+  EXPECT_EQ(boxes(most), 0u);
+  EXPECT_EQ(boxes(most + 1), 1u);
+}
+
 TEST(GltfWriter, nodesAreNamedAfterShapesAndRules) {
   const GlbModel m = roundTrip(street(2), "names.glb");
   const JsonValue& first = m.json["nodes"].at(0);
@@ -230,7 +299,9 @@ TEST(GltfWriter, longUnitsAreCutAndLargeMeshesKeptWhole) {
   const uint32_t large = b.mesh(testing::ball(300, 300));
   b.leaf(large, Frame{}, {5, 5, 5});
   b.root("ball", b.prototype("Ball"), Frame::moved({0, 20, 0}));
-  const GlbModel m = roundTrip(b.scene, "large.glb");
+  WriteOptions o;
+  o.vertices = WriteOptions::Vertices::Float;
+  const GlbModel m = roundTrip(b.scene, "large.glb", o);
   expectSame(m, b.scene);
   const JsonValue& row = m.json["meshes"].at(0)["primitives"];
   const JsonValue& ball = m.json["meshes"].at(1)["primitives"];

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <string>
 #include <tuple>
@@ -32,6 +33,8 @@ constexpr double kAloneBytes = 8192;
 // Where nodes are short, roots of one name with less of their own are one node for each cell of a
 // grid, in metres.
 constexpr double kSmallRoot = 4096, kGroupCell = 512;
+// Of one unit; they are a list in memory.
+constexpr double kMostChildren = 2e7;
 // What a bound on nodes may add to a file.
 constexpr double kMostMerged = 1024.0 * 1024 * 1024;
 
@@ -47,7 +50,77 @@ bool isLarge(double bytes) { return bytes >= kAloneBytes; }
 
 uint64_t aloneKey(const Leaf& l) { return static_cast<uint64_t>(l.mesh) << 32 | l.materials; }
 
+// What an instance shows comes before what holds it, so children are compared by number. Of those
+// with one hash and unlike content all but the first stay by themselves.
+class EqualPrototypes {
+ public:
+  explicit EqualPrototypes(const Scene& scene) : scene_(scene) {}
+
+  std::vector<uint32_t> find() {
+    std::unordered_map<uint64_t, uint32_t> first;
+    for (uint32_t p = 0; p < scene_.prototypes.size(); ++p) {
+      const auto [at, fresh] = first.try_emplace(hashOf(p), p);
+      same_.push_back(!fresh && isLike(at->second, p) ? at->second : p);
+    }
+    return std::move(same_);
+  }
+
+ private:
+  uint32_t shownBy(const Instance& i) const { return same_[i.prototype]; }
+
+  uint64_t hashOf(uint32_t prototype) const {
+    const Prototype& p = scene_.prototypes[prototype];
+    uint64_t h = hashCombine(p.leafCount, p.instanceCount);
+    const auto add = [&](const Vec3& v) {
+      for (size_t i = 0; i < 3; ++i) h = hashCombine(h, hashDouble(v[i]));
+    };
+    const auto addFrame = [&](const Frame& f) {
+      add(f.origin);
+      if (!f.turned) return;
+      add(f.x);
+      add(f.y);
+    };
+    for (uint32_t i = 0; i < p.leafCount; ++i) {
+      work();
+      const Leaf& l = scene_.leaves[p.firstLeaf + i];
+      h = hashCombine(h, uint64_t{l.mesh} << 32 | l.materials);
+      addFrame(l.frame);
+      add(l.scale);
+    }
+    for (uint32_t i = 0; i < p.instanceCount; ++i) {
+      work();
+      const Instance& in = scene_.instances[p.firstInstance + i];
+      h = hashCombine(h, uint64_t{shownBy(in)} << 32 | in.leavesBefore);
+      addFrame(in.frame);
+    }
+    return h;
+  }
+
+  bool isLike(uint32_t a, uint32_t b) const {
+    const Prototype &p = scene_.prototypes[a], &q = scene_.prototypes[b];
+    if (p.leafCount != q.leafCount || p.instanceCount != q.instanceCount) return false;
+    const auto leaf = [](const Leaf& m, const Leaf& n) {
+      return m.mesh == n.mesh && m.materials == n.materials && m.scale == n.scale &&
+             m.frame == n.frame;
+    };
+    const auto instance = [&](const Instance& m, const Instance& n) {
+      return shownBy(m) == shownBy(n) && m.leavesBefore == n.leavesBefore && m.frame == n.frame;
+    };
+    const auto leaves = scene_.leaves.begin();
+    const auto instances = scene_.instances.begin();
+    return std::equal(leaves + p.firstLeaf, leaves + p.firstLeaf + p.leafCount,
+                      leaves + q.firstLeaf, leaf) &&
+           std::equal(instances + p.firstInstance, instances + p.firstInstance + p.instanceCount,
+                      instances + q.firstInstance, instance);
+  }
+
+  const Scene& scene_;
+  std::vector<uint32_t> same_;
+};
+
 }  // namespace
+
+std::vector<uint32_t> firstOfEqual(const Scene& scene) { return EqualPrototypes(scene).find(); }
 
 Box3 boundsAt(const Box3& mesh, const Frame& at, const Vec3& scale) {
   if (mesh.empty()) return mesh;
@@ -82,61 +155,13 @@ ScenePlan::ScenePlan(const Scene& scene, const PlanOptions& options)
   if (share_ && options.widest > 0) cutWideUnits(options.widest, most);
 }
 
-// What an instance shows comes before what holds it, so children are compared by number. Of those
-// with one hash and unlike content all but the first stay by themselves.
 void ScenePlan::findEqual() {
-  std::unordered_map<uint64_t, uint32_t> first;
-  for (uint32_t p = 0; p < scene_.prototypes.size(); ++p) {
-    const auto [at, fresh] =
-        share_ ? first.try_emplace(hashOf(p), p) : std::pair{first.end(), true};
-    same_.push_back(!fresh && isLike(at->second, p) ? at->second : p);
+  if (share_) {
+    same_ = firstOfEqual(scene_);
+  } else {
+    same_.resize(scene_.prototypes.size());
+    std::iota(same_.begin(), same_.end(), 0);
   }
-}
-
-uint64_t ScenePlan::hashOf(uint32_t prototype) const {
-  const Prototype& p = scene_.prototypes[prototype];
-  uint64_t h = hashCombine(p.leafCount, p.instanceCount);
-  const auto add = [&](const Vec3& v) {
-    for (size_t i = 0; i < 3; ++i) h = hashCombine(h, hashDouble(v[i]));
-  };
-  const auto addFrame = [&](const Frame& f) {
-    add(f.origin);
-    if (!f.turned) return;
-    add(f.x);
-    add(f.y);
-  };
-  for (uint32_t i = 0; i < p.leafCount; ++i) {
-    work();
-    const Leaf& l = scene_.leaves[p.firstLeaf + i];
-    h = hashCombine(h, uint64_t{l.mesh} << 32 | l.materials);
-    addFrame(l.frame);
-    add(l.scale);
-  }
-  for (uint32_t i = 0; i < p.instanceCount; ++i) {
-    work();
-    const Instance& in = scene_.instances[p.firstInstance + i];
-    h = hashCombine(h, uint64_t{shownBy(in)} << 32 | in.leavesBefore);
-    addFrame(in.frame);
-  }
-  return h;
-}
-
-bool ScenePlan::isLike(uint32_t a, uint32_t b) const {
-  const Prototype &p = scene_.prototypes[a], &q = scene_.prototypes[b];
-  if (p.leafCount != q.leafCount || p.instanceCount != q.instanceCount) return false;
-  const auto leaf = [](const Leaf& m, const Leaf& n) {
-    return m.mesh == n.mesh && m.materials == n.materials && m.scale == n.scale &&
-           m.frame == n.frame;
-  };
-  const auto instance = [&](const Instance& m, const Instance& n) {
-    return shownBy(m) == shownBy(n) && m.leavesBefore == n.leavesBefore && m.frame == n.frame;
-  };
-  const auto leaves = scene_.leaves.begin();
-  const auto instances = scene_.instances.begin();
-  return std::equal(leaves + p.firstLeaf, leaves + p.firstLeaf + p.leafCount, leaves + q.firstLeaf,
-                    leaf) &&
-         std::equal(instances + p.firstInstance, instances + p.firstInstance + p.instanceCount,
-                    instances + q.firstInstance, instance);
 }
 
 void ScenePlan::measureMeshes() {
@@ -176,6 +201,15 @@ void ScenePlan::measure() {
     }
     bytes_.push_back(bytes);
     firstLarge_.push_back(static_cast<uint32_t>(largeLeaves_.size()));
+  }
+  placements_.assign(scene_.prototypes.size(), 0);
+  for (const Root& r : scene_.roots) ++placements_[shownBy(r.instance)];
+  for (size_t p = placements_.size(); p-- > 0;) {
+    if (placements_[p] == 0) continue;
+    const Prototype& prototype = scene_.prototypes[p];
+    for (uint32_t i = 0; i < prototype.instanceCount; ++i) {
+      placements_[shownBy(scene_.instances[prototype.firstInstance + i])] += placements_[p];
+    }
   }
 }
 
@@ -236,17 +270,37 @@ void ScenePlan::plan(double smallest) {
   weigh();
 }
 
-// Nodes below each prototype when nothing but what is small is merged.
+// True where writing all below a prototype again costs less than the nodes for each placement.
+bool ScenePlan::isSolid(size_t prototype, double placements) const {
+  const double nodes = nodes_[prototype];
+  return nodes == 0 || bytes_[prototype] <= placements * nodes * nodeBytes_;
+}
+
+// True where all but the nodes below a prototype is small: a node of its own would save little.
+bool ScenePlan::isThin(size_t prototype) const { return openBytes_[prototype] <= smallest_; }
+
+// Nodes below each prototype, and bytes without those, when what is small or thin is merged, and
+// what will be solid is.
 void ScenePlan::countNodes() {
   nodes_.clear();
+  openBytes_.clear();
   for (size_t p = 0; p < scene_.prototypes.size(); ++p) {
-    double nodes = aloneIn(p).nodes;
+    const Cost alone = aloneIn(p);
+    double nodes = alone.nodes, bytes = ownBytes_[p] - alone.bytes;
     const Prototype& prototype = scene_.prototypes[p];
     for (uint32_t i = 0; i < prototype.instanceCount; ++i) {
       const uint32_t child = shownBy(scene_.instances[prototype.firstInstance + i]);
-      nodes += bytes_[child] <= smallest_ ? 0 : 1 + nodes_[child];
+      if (bytes_[child] <= smallest_) {
+        bytes += bytes_[child];
+      } else if (isSolid(child, placements_[child])) {
+        nodes += 1;
+      } else {
+        nodes += nodes_[child] + (isThin(child) ? 0 : 1);
+        bytes += isThin(child) ? openBytes_[child] : 0;
+      }
     }
     nodes_.push_back(nodes);
+    openBytes_.push_back(bytes);
   }
 }
 
@@ -269,9 +323,9 @@ void ScenePlan::decide() {
     } else if (references[p] == 1 || tiny) {
       use_[p] = Use::Merged;
     } else {
-      const bool solid = nodes_[p] == 0 || bytes_[p] <= placements[p] * nodes_[p] * nodeBytes_;
       // What lies below a group is a group of its own.
-      use_[p] = solid ? Use::Solid : grouped_ ? Use::Merged : Use::Open;
+      const bool merged = grouped_ || (isThin(p) && roots[p] < 2);
+      use_[p] = isSolid(p, placements[p]) ? Use::Solid : merged ? Use::Merged : Use::Open;
     }
     if (use_[p] == Use::Solid) continue;
     const Prototype& prototype = scene_.prototypes[p];
@@ -366,6 +420,17 @@ void ScenePlan::fit(double mostNodes) {
   if (cost_.nodes > mostNodes) merge(mostNodes);
 }
 
+// Of an open unit, leaves that stand alone left out.
+double ScenePlan::childCount(const Unit& u) const {
+  if (u.group == kNone) return childCount_[u.prototype];
+  double count = 0;
+  for (const uint32_t r : groups_[u.group].roots) {
+    const uint32_t p = shownBy(scene_.roots[r].instance);
+    count += use_[p] == Use::Merged ? childCount_[p] : 1;
+  }
+  return count;
+}
+
 void ScenePlan::makeUnits() {
   prototypeUnit_.assign(scene_.prototypes.size(), kNone);
   // A unit's children make new units at the end of the list, so the list is its own queue.
@@ -374,6 +439,8 @@ void ScenePlan::makeUnits() {
     roots_.push_back({unit, root, frame});
     for (; done < units_.size(); ++done) {
       if (units_[done].leaf != kNone || units_[done].solid) continue;
+      tooLarge_ = tooLarge_ || childCount(units_[done]) > kMostChildren;
+      if (tooLarge_) continue;
       std::vector<PlannedChild> children = childrenOf(units_[done]);
       for (PlannedChild& c : children) {
         c.unit = c.leaf == PlannedChild::kNone ? unitOfPrototype(c.unit) : unitOfLeaf(c.leaf);
@@ -514,13 +581,15 @@ std::vector<PlannedChild> ScenePlan::childrenOf(const Unit& unit) const {
 
 void ScenePlan::measureContents() {
   for (const Prototype& p : scene_.prototypes) {
-    double solid = 1.0 + p.leafCount, open = solid;
+    double solid = 1.0 + p.leafCount, open = solid, children = 0;
     for (uint32_t i = 0; i < p.instanceCount; ++i) {
       const uint32_t child = shownBy(scene_.instances[p.firstInstance + i]);
       if (bytes_[child] == 0) continue;
       solid += solidSize_[child];
       open += use_[child] == Use::Merged ? openSize_[child] : 1;
+      children += use_[child] == Use::Merged ? childCount_[child] : 1;
     }
+    childCount_.push_back(children);
     solidSize_.push_back(solid);
     openSize_.push_back(open);
   }

@@ -12,7 +12,8 @@
 //     are short; of all roots, when there are too many of them, or nothing is shared.
 // Prototypes of equal content are one, whatever made them.
 // A prototype placed once is merged into the unit around it. A prototype placed several times takes
-// its own children in when writing them again costs less than the nodes for each placement.
+// its own children in when writing them again costs less than the nodes for each placement; one
+// that has little beside such children is merged, so that these are children of what is around it.
 //
 // Where meshes are to stay small in space, what is merged into a wide unit that is shown once is
 // cut into the cells of a grid: units of their own, with nodes below that of the unit.
@@ -63,6 +64,9 @@ struct PlanOptions {
   double widest = 0;
 };
 
+/// By prototype: the first of equal content, whatever made them. Linear in the scene.
+std::vector<uint32_t> firstOfEqual(const Scene& scene);
+
 /// The box of a placed mesh, no smaller than the mesh.
 Box3 boundsAt(const Box3& mesh, const Frame& at, const Vec3& scale);
 
@@ -92,6 +96,8 @@ class ScenePlan {
 
   /// True where the bound on nodes holds only if one node shows all equal children of a unit.
   bool grouped() const { return grouped_; }
+  /// True where a unit would have more children than there is room for: it has none.
+  bool tooLarge() const { return tooLarge_; }
   /// In the order in which nodes first show them.
   const std::vector<Unit>& units() const { return units_; }
   /// In the order of the scene's roots; one that stands for several of them where they are joined.
@@ -112,8 +118,6 @@ class ScenePlan {
     double nodes = 0, bytes = 0;
   };
   void findEqual();
-  uint64_t hashOf(uint32_t prototype) const;
-  bool isLike(uint32_t a, uint32_t b) const;
   /// The prototype that stands for all of equal content.
   uint32_t shownBy(const Instance& i) const { return same_[i.prototype]; }
   void measureMeshes();
@@ -123,6 +127,8 @@ class ScenePlan {
   void gatherSmallRoots();
   void findHome(Group& group) const;
   void plan(double smallest);
+  bool isSolid(size_t prototype, double placements) const;
+  bool isThin(size_t prototype) const;
   void countNodes();
   void decide();
   Cost aloneIn(size_t prototype) const;
@@ -130,6 +136,7 @@ class ScenePlan {
   void merge(double mostNodes);
   void fit(double mostNodes);
   void measureContents();
+  double childCount(const Unit& u) const;
   void makeUnits();
   void cutWideUnits(double widest, double mostNodes);
   void cut(uint32_t unit, double widest, size_t mostCells);
@@ -154,6 +161,7 @@ class ScenePlan {
   /// What a node costs.
   double nodeBytes_ = 0;
   bool grouped_ = false;
+  bool tooLarge_ = false;
   /// All roots are one group.
   bool joined_ = false;
   /// By prototype: the first of equal content.
@@ -164,10 +172,16 @@ class ScenePlan {
   // By mesh: bytes once written. By prototype: bytes when expanded and those of its own leaves,
   // nodes below when open.
   std::vector<double> meshBytes_, bytes_, ownBytes_, nodes_;
+  /// By prototype: bytes without those of nodes below.
+  std::vector<double> openBytes_;
+  /// By prototype: how often it stands in the flattened scene.
+  std::vector<double> placements_;
   // Leaves that may stand alone, those of a prototype from firstLarge_ on.
   std::vector<uint32_t> largeLeaves_, firstLarge_;
   // By prototype: leaves and placements when all is merged in, and when only what is merged is.
   std::vector<double> solidSize_, openSize_;
+  /// By prototype: units below, when only what is merged is.
+  std::vector<double> childCount_;
   // Sorted (mesh, materials) of the leaves that stand alone, and their units.
   std::vector<uint64_t> alone_;
   std::vector<uint32_t> aloneUnit_;

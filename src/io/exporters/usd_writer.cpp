@@ -487,7 +487,7 @@ std::optional<Error> UsdWriter::writeTextures(UsdArchive& archive) {
 
 Result<WriteReport> UsdWriter::write() {
   for (uint32_t u = 0; u < plan_.units().size(); ++u) {
-    if (plan_.contentSize(u) > kMostLeaves) {
+    if (plan_.tooLarge() || plan_.contentSize(u) > kMostLeaves) {
       return Error{"model-too-large", "'" + path_ + "' would show more leaves than can be written",
                    "generate fewer shapes at a time"};
     }

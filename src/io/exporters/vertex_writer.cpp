@@ -13,10 +13,9 @@ namespace {
 
 bool isUnitBox(uint32_t mesh) { return mesh == kUnitBox || mesh == kUnitBoxUv; }
 
+// Zero has one sign, so that equal vertices have equal bytes.
 float* put(float* p, const Vec3& v) {
-  p[0] = static_cast<float>(v.x);
-  p[1] = static_cast<float>(v.y);
-  p[2] = static_cast<float>(v.z);
+  for (size_t i = 0; i < 3; ++i) p[i] = static_cast<float>(v[i]) + 0.0f;
   return p + 3;
 }
 
@@ -138,7 +137,7 @@ bool VertexWriter::addBox(uint32_t mesh, const Frame& frame, const Vec3& scale,
                           const VertexLayout& layout, PrimitiveState& state) {
   const bool mirrors = scale.x < 0 || scale.y < 0 || scale.z < 0;
   if (layout.laid || layout.tangentSet >= 0 || layout.uvCount > 1 ||
-      (mirrors && layout.uvCount > 0))
+      ((mirrors || !layout.normals) && layout.uvCount > 0))
     return false;
   const Vec3 size{std::fabs(scale.x), std::fabs(scale.y), std::fabs(scale.z)};
   const double reach = std::fabs(frame.origin.x) + std::fabs(frame.origin.y) +
@@ -173,6 +172,10 @@ bool VertexWriter::addBox(uint32_t mesh, const Frame& frame, const Vec3& scale,
       std::memcpy(normals[i], n, 12);
   }
   const BoxTemplate& box = boxes_[mesh == kUnitBoxUv ? 1 : 0];
+  if (!layout.normals) {
+    appendCorners(corners, box, layout.positionBytes(grid.on), state);
+    return true;
+  }
   const bool uv = layout.uvCount == 1;
   char* const to = out_.reserve(24 * size_t{layout.stride(grid.on)});
   out_.advanceTo(grid.on          ? fillBox<8, 4>(to, box, corners, normals, uv)
@@ -184,6 +187,16 @@ bool VertexWriter::addBox(uint32_t mesh, const Frame& frame, const Vec3& scale,
   for (size_t i = 0; i < 36; ++i) state.indices[first + i] = base + box.indices[i];
   state.vertexCount += 24;
   return true;
+}
+
+// A box without normals has eight vertices.
+void VertexWriter::appendCorners(const char (&corners)[8][12], const BoxTemplate& box, size_t bytes,
+                                 PrimitiveState& state) {
+  for (const char* corner : corners) out_.append(corner, bytes);
+  for (const uint8_t i : box.indices) {
+    state.indices.push_back(state.vertexCount + box.corner[i]);
+  }
+  state.vertexCount += 8;
 }
 
 VertexWriter::CachedSurface& VertexWriter::surfaceOf(uint32_t mesh, bool laid) {
@@ -218,6 +231,7 @@ void VertexWriter::trimCache() {
 
 void VertexWriter::add(uint32_t mesh, uint16_t slot, const Frame& frame, const Vec3& scale,
                        const VertexLayout& layout, PrimitiveState& state) {
+  if (state.vertexCount == 0) written_.begin(layout.stride(state.grid.on));
   if (isUnitBox(mesh) && addBox(mesh, frame, scale, layout, state)) return;
   frame_ = frame;
   scale_ = scale;
@@ -238,37 +252,33 @@ void VertexWriter::add(uint32_t mesh, uint16_t slot, const Frame& frame, const V
 }
 
 // Vertices in floats become what the layout says.
-void VertexWriter::append(const float* vertices, uint32_t count, const VertexLayout& layout,
-                          bool quantized) {
+char* VertexWriter::pack(const float* vertices, uint32_t count, const VertexLayout& layout,
+                         bool quantized) {
+  packed_.resize(size_t{count} * layout.stride(quantized));
+  char* p = packed_.data();
   if (!layout.compact) {
-    out_.append(vertices, size_t{count} * layout.stride(false));
-    return;
+    std::memcpy(p, vertices, packed_.size());
+    return p;
   }
-  const size_t uvFloats = 2 * size_t{layout.uvCount}, stride = layout.stride(quantized);
-  // A mesh may have any number of vertices in one face.
-  constexpr uint32_t kAtOnce = 1024;
-  for (uint32_t done = 0; done < count;) {
-    const uint32_t end = done + std::min(kAtOnce, count - done);
-    char* p = out_.reserve((end - done) * stride);
-    for (; done < end; ++done) {
-      if (quantized) {
-        p = putSteps(p, vertices);
-      } else {
-        std::memcpy(p, vertices, 12);
-        p += 12;
-      }
-      p = putBytes(p, vertices + 3, 3);
-      vertices += 6;
-      if (layout.tangentSet >= 0) {
-        p = putBytes(p, vertices, 4);
-        vertices += 4;
-      }
-      std::memcpy(p, vertices, uvFloats * 4);
-      p += uvFloats * 4;
-      vertices += uvFloats;
+  const size_t uvFloats = 2 * size_t{layout.uvCount};
+  for (uint32_t v = 0; v < count; ++v) {
+    if (quantized) {
+      p = putSteps(p, vertices);
+    } else {
+      std::memcpy(p, vertices, 12);
+      p += 12;
     }
-    out_.advanceTo(p);
+    if (layout.normals) p = putBytes(p, vertices + 3, 3);
+    vertices += 6;
+    if (layout.tangentSet >= 0) {
+      p = putBytes(p, vertices, 4);
+      vertices += 4;
+    }
+    std::memcpy(p, vertices, uvFloats * 4);
+    p += uvFloats * 4;
+    vertices += uvFloats;
   }
+  return packed_.data();
 }
 
 const float* VertexWriter::writeVertices(const Mesh& m, const Surface& s, const Tangents* tangents,
@@ -327,15 +337,27 @@ void VertexWriter::addFace(const Mesh& m, const Surface& s, const Tangents* tang
                  vertices + tri[2] * floats)) {
       continue;
     }
-    const uint32_t base = state.vertexCount;
-    state.indices.push_back(base + tri[0]);
-    state.indices.push_back(base + tri[mirrored_ ? 2 : 1]);
-    state.indices.push_back(base + tri[mirrored_ ? 1 : 2]);
+    state.indices.insert(state.indices.end(),
+                         {tri[0], tri[mirrored_ ? 2 : 1], tri[mirrored_ ? 1 : 2]});
   }
   if (state.indices.size() == first) return;
-  for (uint32_t v = 0; v < face.vertexCount; ++v) include(state, vertices + v * floats);
-  append(vertices, face.vertexCount, layout, state.grid.on);
-  state.vertexCount += face.vertexCount;
+  // Those that are new are moved together and written.
+  const size_t stride = layout.stride(state.grid.on);
+  char* const packed = pack(vertices, face.vertexCount, layout, state.grid.on);
+  numbers_.resize(face.vertexCount);
+  size_t fresh = 0;
+  for (uint32_t v = 0; v < face.vertexCount; ++v) {
+    const char* const vertex = packed + v * stride;
+    numbers_[v] = written_.add(vertex, state.vertexCount);
+    if (numbers_[v] != state.vertexCount) continue;
+    include(state, vertices + v * floats);
+    std::memmove(packed + fresh++ * stride, vertex, stride);
+    ++state.vertexCount;
+  }
+  out_.append(packed, fresh * stride);
+  for (size_t i = first; i < state.indices.size(); ++i) {
+    state.indices[i] = numbers_[state.indices[i]];
+  }
 }
 
 }  // namespace gable

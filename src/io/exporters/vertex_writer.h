@@ -4,7 +4,8 @@
 // Turns leaves into interleaved vertices and triangle indices, straight into the buffer of the
 // file. Positions are single precision, or whole steps of a grid. Triangles without area in those
 // numbers, and faces with a number that is not finite, are left out; mirrored leaves are turned
-// round. Boxes have a way of their own, as most leaves are boxes.
+// round. Faces share vertices that are equal. Boxes, of which most leaves are made, have a way of
+// their own and share none.
 #pragma once
 
 #include <array>
@@ -18,6 +19,7 @@
 #include "base/files.h"
 #include "io/exporters/gltf_materials.h"
 #include "io/exporters/surface.h"
+#include "io/exporters/written_vertices.h"
 #include "scene/scene.h"
 
 namespace gable {
@@ -66,7 +68,9 @@ class VertexWriter {
   };
 
   static BoxTemplate boxTemplate(const Mesh& m);
-  void append(const float* vertices, uint32_t count, const VertexLayout& layout, bool quantized);
+  char* pack(const float* vertices, uint32_t count, const VertexLayout& layout, bool quantized);
+  void appendCorners(const char (&corners)[8][12], const BoxTemplate& box, size_t bytes,
+                     PrimitiveState& state);
   bool addBox(uint32_t mesh, const Frame& frame, const Vec3& scale, const VertexLayout& layout,
               PrimitiveState& state);
   void addFace(const Mesh& m, const Surface& s, const Tangents* tangents, const SurfaceFace& face,
@@ -95,6 +99,9 @@ class VertexWriter {
   // Of the face at hand, where it is laid.
   FaceAxes axes_;
   std::vector<float> scratch_;
+  std::vector<char> packed_;
+  std::vector<uint32_t> numbers_;
+  WrittenVertices written_;
   uint64_t brokenFaces_ = 0;
 };
 

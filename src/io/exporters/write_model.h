@@ -49,16 +49,23 @@ struct WriteOptions {
   Instancing instancing = Instancing::Auto;
   /// glTF: what a vertex takes.
   enum class Vertices : uint8_t {
+    /// Float where the parts of a scene, each once, take at most kMostFloat bytes; else Compact.
+    Auto,
     /// Single precision.
     Float,
     /// Integers of KHR_mesh_quantization: normals and tangents in bytes, positions in 16 bits where
     /// a mesh is small enough that no vertex moves by more than kMostQuantized along an axis; no uv
     /// sets but those of textures.
     Compact,
+    /// The same, and meshes that are lit flat have no normals: a reader makes them, as glTF
+    /// demands.
+    /// Faces share vertices round edges as well.
+    Bare,
   };
+  static constexpr uint64_t kMostFloat = 4 << 20;
   /// In metres, half a step.
   static constexpr double kMostQuantized = 1.0 / 2048;
-  Vertices vertices = Vertices::Float;
+  Vertices vertices = Vertices::Auto;
   /// Keep uv set 0 on surfaces whose material has no texture, unless vertices are compact.
   bool keepUv = true;
   /// CityJSON: which levels of detail.

@@ -30,6 +30,8 @@ struct GlbModel {
   std::string bytes;
   JsonValue json;
   std::vector<WorldTriangle> triangles;
+  /// Of meshes as often as they are shown.
+  size_t vertices = 0;
   size_t nodes = 0, meshes = 0;
   double area = 0;
   Box3 bounds;
@@ -148,6 +150,8 @@ struct GlbModel {
     const char* indexed = buffer() + place(indices, stride);
     const bool wide = indices["componentType"].number(0) == 5125;
     const bool mirrors = scale.x * scale.y * scale.z < 0;
+    const bool flat = p["attributes"]["NORMAL"].isNull();
+    vertices += index(accessor(p["attributes"]["POSITION"])["count"]);
     for (size_t i = 0; i < count; i += 3) {
       WorldTriangle t;
       t.material = static_cast<int>(index(p["material"]));
@@ -155,17 +159,20 @@ struct GlbModel {
         uint32_t v = 0;
         std::memcpy(&v, indexed + (i + k) * (wide ? 4 : 2), wide ? 4 : 2);
         const Vec3 at = vector(p["attributes"]["POSITION"], v);
-        const Vec3 normal = vector(p["attributes"]["NORMAL"], v);
-        const bool coarse = accessor(p["attributes"]["NORMAL"])["componentType"].number(0) == 5120;
         ASSERT_TRUE(std::isfinite(at.x) && std::isfinite(at.y) && std::isfinite(at.z));
-        ASSERT_NEAR(dot(normal, normal), 1, coarse ? 0.02 : 1e-5);
         const size_t to = mirrors ? 2 - k : k;
         t.p[to] = world.point(scaled(at, scale));
-        t.normal[to] = world.direction(normal);
         bounds.include(t.p[to]);
+        if (flat) continue;
+        const Vec3 normal = vector(p["attributes"]["NORMAL"], v);
+        const bool coarse = accessor(p["attributes"]["NORMAL"])["componentType"].number(0) == 5120;
+        ASSERT_NEAR(dot(normal, normal), 1, coarse ? 0.02 : 1e-5);
+        t.normal[to] = world.direction(normal);
       }
       const Vec3 n = cross(t.p[1] - t.p[0], t.p[2] - t.p[0]);
       EXPECT_GT(length(n), 0);
+      // A reader makes them.
+      for (size_t k = 0; k < 3 && flat; ++k) t.normal[k] = n * (1 / length(n));
       area += length(n) / 2;
       triangles.push_back(t);
     }
