@@ -17,6 +17,7 @@
 #include "gable/gable.h"
 #include "json/answers.h"
 #include "math/trig.h"
+#include "scene_faults.h"
 
 namespace gable {
 namespace {
@@ -224,6 +225,7 @@ Look lookOf(const std::string& kind, double height, int number) {
   const Model model = derivedFrom(rules, Shapes::lot(10, 10), "Lot", 0);
   EXPECT_FALSE(hasErrors(model.diagnostics())) << render(model.diagnostics());
   const Scene& scene = model.impl().result.scene;
+  EXPECT_EQ(joined(faults(scene)), "");
   Look look;
   look.triangles = count(scene).triangles;
   const Box3 all = count(scene).bounds;
@@ -364,6 +366,7 @@ TEST(People, areTwelveLooksThatStandOnTheGround) {
           std::string(GABLE_SOURCE_DIR) + "/examples/grove/test.cga");
       const Model model = derivedFrom(rules, Shapes::lot(4, 4), "Lot", 0);
       ASSERT_FALSE(hasErrors(model.diagnostics())) << render(model.diagnostics());
+      EXPECT_EQ(joined(faults(model.impl().result.scene)), "");
       const SceneCounts counted = count(model.impl().result.scene);
       const Vec3 size = counted.bounds.max - counted.bounds.min;
       EXPECT_LT(counted.triangles, 600u);
