@@ -10,6 +10,29 @@ namespace gable::surface {
 
 namespace {
 
+struct Spread {
+  double least, most;
+};
+
+// Of a rectangle that begins at 0, by how far its end and its half width lie in one direction.
+Spread acrossRectangle(double end, double half) {
+  const double beside = std::fabs(half);
+  return {std::min(0.0, end) - beside, std::max(0.0, end) + beside};
+}
+
+// Where a line at dy meets the rectangle along (c, s).
+Spread alongRow(double dy, double c, double s, double length, double half) {
+  // A direction that is all but along the row, or across it, bounds nothing.
+  constexpr double kFlat = 1e-6;
+  Spread out = acrossRectangle(length * c, half * s);
+  const auto bound = [&](double a, double b) {
+    out = {std::max(out.least, std::min(a, b)), std::min(out.most, std::max(a, b))};
+  };
+  if (std::fabs(c) > kFlat) bound(-dy * s / c, (length - dy * s) / c);
+  if (std::fabs(s) > kFlat) bound((dy * c - half) / s, (dy * c + half) / s);
+  return out;
+}
+
 class Painter {
  public:
   explicit Painter(const LibraryMaterial& m) : m_(m), seed_(seedOf(m)) {
@@ -34,16 +57,18 @@ class Painter {
             double rise, const Vec3& color, double roughness) {
     const double c = cosDeg(turn), s = sinDeg(turn);
     const double px = kSurfaceSize / m_.width, py = kSurfaceSize / m_.height;
-    const double reach = length + width;
-    const int left = floorOf(u * kSurfaceSize - reach * px);
-    const int right = floorOf(u * kSurfaceSize + reach * px) + 1;
-    const int low = floorOf(v * kSurfaceSize - reach * py);
-    const int high = floorOf(v * kSurfaceSize + reach * py) + 1;
     // At least a pixel wide.
     const double half = std::max(width / 2, 0.6 / px);
+    const Spread rows = acrossRectangle(length * s, half * c);
+    const int low = floorOf(v * kSurfaceSize + rows.least * py) - 1;
+    const int high = floorOf(v * kSurfaceSize + rows.most * py) + 1;
     for (int y = low; y <= high; ++y) {
+      const double dy = (y + 0.5) / py - v * m_.height;
+      const Spread row = alongRow(dy, c, s, length, half);
+      const int left = floorOf(u * kSurfaceSize + row.least * px) - 1;
+      const int right = floorOf(u * kSurfaceSize + row.most * px) + 1;
       for (int x = left; x <= right; ++x) {
-        const double dx = (x + 0.5) / px - u * m_.width, dy = (y + 0.5) / py - v * m_.height;
+        const double dx = (x + 0.5) / px - u * m_.width;
         const double along = (dx * c + dy * s) / length;
         if (along < 0 || along > 1) continue;
         const double across = (dy * c - dx * s) / half;

@@ -22,8 +22,13 @@ void Analysis::certainRules(NodeId sequence, CertainRules& out) {
     // What follows has nothing to work on.
     if (t.text(item) == "NIL") return;
     const Resolution& r = module().at(item);
-    if (r.kind != RefKind::Rule) continue;
-    out.emplace_back(r.index, nameSpan(t, item));
+    if (r.kind == RefKind::Rule) out.emplace_back(r.index, nameSpan(t, item));
+    // do(Rule) applies it in place.
+    if (r.kind != RefKind::Operation || t.text(item) != "do") continue;
+    for (const NodeId call : arguments(t.child(item, 0))) {
+      const Resolution& run = module().at(call);
+      if (run.kind == RefKind::Rule) out.emplace_back(run.index, t.span(call));
+    }
   }
 }
 
