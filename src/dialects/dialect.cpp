@@ -63,7 +63,9 @@ void translate(const Dialect& dialect, Diagnostics::Entry& d, const Catalogue& c
   for (const Remedy& r : dialect.remedies) {
     if (r.code == d.code) d.hint = r.hint;
   }
-  if (!namesForeignWord(dialect, d.hint, catalogue)) return;
+  // The words of an argument are those that the notation hands on.
+  const bool word = d.code == "unknown-selector" && d.hint.starts_with("did you mean '");
+  if (word || !namesForeignWord(dialect, d.hint, catalogue)) return;
   d.hint = dialect.guide;
   d.fix.reset();
 }

@@ -125,6 +125,9 @@ NodeId Lowering::rule(const Rule& r, bool start) {
   b_.at(r.nameSpan);
   if (!branches.empty()) {
     if (branches.back().first != kNoNode) {
+      diagnostics_.warning("missing-else", r.branches.back().span,
+                           "'" + r.name + "' has no 'else': what fits none of its cases is a leaf",
+                           "add 'else: operations'");
       branches.emplace_back(kNoNode, b_.sequence({colour(r.name), b_.leaf(r.name)}));
     }
     body = b_.sequence({b_.choice(lang::ChoiceKind::Case, branches)});

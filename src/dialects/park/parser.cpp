@@ -41,6 +41,7 @@ std::string plainQuotes(std::string_view text) {
   return out;
 }
 
+constexpr const char* kStillOpen = "add it: a bracket that was opened before is still open here";
 constexpr const char* kRuleForm = "rules are written 'Name -> operations', constants 'name = 3'";
 
 class Parser {
@@ -188,7 +189,7 @@ class Parser {
         parameter(r);
         if (!accept(",")) break;
       }
-      if (!accept(")")) unexpected("')'", "a bracket that is opened before is closed here");
+      if (!accept(")")) unexpected("')'", kStillOpen);
     }
     if (!accept("-->") && !accept("->")) {
       unexpected("'->'", kRuleForm);
@@ -295,10 +296,10 @@ class Parser {
         op.arguments.push_back({until(","), span(begin, at_)});
         if (!accept(",")) break;
       }
-      if (!accept(")")) unexpected("')'", "a bracket that is opened before is closed here");
+      if (!accept(")")) unexpected("')'", kStillOpen);
     } else if (accept("[")) {
       op.size = until("]");
-      if (!accept("]")) unexpected("']'", "a bracket that is opened before is closed here");
+      if (!accept("]")) unexpected("']'", kStillOpen);
     }
     const std::string what = lowerCase(word);
     const Parts parts = what == "choose"   ? Parts::Choices
@@ -340,7 +341,7 @@ class Parser {
     }
     if (!accept("}")) {
       const bool divided = peek() == (choose ? '|' : ',');
-      unexpected("'}'", !divided ? "a bracket that is opened before is closed here"
+      unexpected("'}'", !divided ? kStillOpen
                         : choose ? "parts of Choose are divided by commas"
                                  : "parts are divided by '|'");
       while (!atEnd() && peek() != '}' && !declarationHere()) ++at_;

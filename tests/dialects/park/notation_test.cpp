@@ -145,6 +145,7 @@ TEST(ParkNotation, WhatAnOperationDoesNotTakeIsFound) {
       {"R -> Choose { A, x%: B }", "bad-argument"},
       {"R -> Choose { }", "bad-argument"},
       {"R -> Grid(2, 2) { A } { B } { Choose { Circle(1) P, x%: Romb(1) P } }", "bad-argument"},
+      {"R -> case (ix == 1): A", "missing-else"},
       {"R -> RED(3)", "undefined-rule"},
       {"R -> Foo(3)", "undefined-rule"},
       {"R(x) -> Contract(x) A", "wrong-argument-count"}};
@@ -214,6 +215,12 @@ TEST(ParkNotation, HintsSpellAsTheNotationDoes) {
       EXPECT_EQ(m.hint, "did you mean 'Voronoi'?");
     }
   }
+  for (const Diagnostic& m : run("R -> Grid(2, 2, fit=centr) { A }", kLot).diagnostics) {
+    if (m.code == "unknown-selector") {
+      EXPECT_EQ(m.hint, "did you mean 'center'?");
+    }
+  }
+  EXPECT_TRUE(run("R -> Grid(2, 2, fit=centr) { A }", kLot).has("unknown-selector"));
   EXPECT_TRUE(run("R -> Voronoii(5) { A } { B }", kLot).has("unknown-operation"));
   EXPECT_FALSE(run("R -> Voronoi(5) { A } { B }", kLot).has("unknown-operation"));
 }
