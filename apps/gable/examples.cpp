@@ -35,6 +35,10 @@ constexpr Example kExamples[] = {
     {"convert", "gable convert house.gbbg -o converted.cga"},
     {"render", "gable render house.cga --lot 24x18 -o house.png"},
     {"render", "gable render house.glb --view front --size 640x360 --samples 16 -o front.png"},
+    {"render", "gable render house.glb --style ink --size 640x360 -o drawn.png"},
+    {"render",
+     "gable render house.glb --sun-at 48.86,2.35,2024-06-21,19:30 --size 320x180 --samples 8 -o "
+     "evening.png"},
     {"watch", "gable watch house.cga --lot 24x18 -o house.png"},
     {"watch", "gable watch house.cga --shapes lots.geojson -o town.glb"},
     {"trace", "gable trace house.cga --rule Roof -o roofs.json"},

@@ -80,9 +80,11 @@ int drawFrames(const gable::Model& model, const RenderArguments& arguments,
       path.place(frame, each);
     else
       each.turn = settings.turn + 360.0 * static_cast<double>(frame) / static_cast<double>(frames);
-    each.progress = [&](size_t done, size_t total) {
-      callback(frame * total + done, frames * total);
-    };
+    if (callback) {
+      each.progress = [&, frame](size_t done, size_t total) {
+        callback(frame * total + done, frames * total);
+      };
+    }
     const gable::WriteResult written = maker.write(files.path(frame), each);
     print(written.diagnostics);
     if (!written.ok) return statusOf(written.diagnostics, kExitFile);

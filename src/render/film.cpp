@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Pixels are filtered by where their samples lie, so each belongs to one pixel and no thread waits
-// for another.
+// for another. The smoothing leaves edges and shadows as they are; so pixels whose paths disagree
+// about them get more paths, which end at the first surface.
 
 #include "render/film.h"
 
@@ -23,6 +24,10 @@ namespace {
 /// Dimensions of the sampler that no path uses.
 constexpr uint32_t kPixelDimension = 0, kLensDimension = 0x40000000;
 constexpr uint32_t kTile = 16;
+/// Brief paths a whole one at most, and the error that nobody sees, on a scale from black to white.
+/// Even samples err about half as much as their spread says.
+constexpr uint32_t kMostBrief = 2;
+constexpr float kSeenError = 0.014f;
 
 /// Offsets from the pixel's centre with the density of the Blackman-Harris window, 1.5 pixels to
 /// each side: averaging such samples is filtering with that window.
@@ -84,6 +89,54 @@ Ray throughLens(const Ray& middle, const Camera& camera, const Lens& lens, Vec2f
   return ray;
 }
 
+/// Adds up a pixel's paths.
+struct PixelSum {
+  Vec3f direct, albedo, normal;
+  LayerSum sun, indirect;
+  float distance = 0, distances = 0, hits = 0;
+  /// Of what brief paths find, as luminance before the tone curve.
+  float level = 0, levels = 0;
+  uint64_t rays = 0;
+
+  /// All but what is indirect.
+  void add(const PathResult& path, float exposure) {
+    direct += path.direct;
+    sun.add(path.sun, path.albedo);
+    albedo += path.albedo;
+    normal += path.normal;
+    distance += path.distance;
+    distances += path.distance * path.distance;
+    hits += path.distance > 0 ? 1.0f : 0.0f;
+    const float l = std::min(4.0f, luminance(path.direct + path.sun) * exposure);
+    level += l;
+    levels += l * l;
+    rays += path.rays;
+  }
+
+  /// Of `all` paths the first `whole` knew what is indirect, on surfaces of `wholeAlbedo` on
+  /// average; it is carried over to the better known mean of all.
+  void store(Film& film, size_t i, uint32_t whole, uint32_t all, const Vec3f& wholeAlbedo) const {
+    const float k = 1 / static_cast<float>(all);
+    film.direct[i] = direct * k;
+    film.albedo[i] = albedo * k;
+    sun.store(film.sun, i, k);
+    indirect.store(film.indirect, i, 1 / static_cast<float>(whole));
+    constexpr float kLeast = 0.02f;
+    const auto ratio = [](float better, float known) {
+      return std::clamp((better + kLeast) / (known + kLeast), 0.25f, 4.0f);
+    };
+    const Vec3f& better = film.albedo[i];
+    film.indirect.light[i] *= Vec3f{ratio(better.x, wholeAlbedo.x), ratio(better.y, wholeAlbedo.y),
+                                    ratio(better.z, wholeAlbedo.z)};
+    if (hits > 0) {
+      film.normal[i] = normal * (1 / hits);
+      film.distance[i] = distance / hits;
+      film.spread[i] =
+          std::sqrt(std::max(0.0f, distances / hits - film.distance[i] * film.distance[i]));
+    }
+  }
+};
+
 struct PixelTask {
   const Stage& stage;
   const Camera& camera;
@@ -93,43 +146,42 @@ struct PixelTask {
   Film& film;
 
   uint64_t run(uint32_t x, uint32_t y) const {
-    const double width = options.width, height = options.height, aspect = width / height;
     const uint32_t n = std::max(1u, options.samples);
-    Vec3f direct, albedo, normal;
-    LayerSum sun, indirect;
-    float distance = 0, distances = 0, hits = 0;
-    uint64_t rays = 0;
+    PixelSum sum;
     for (uint32_t s = 0; s < n; ++s) {
-      const Sampler sampler(x, y, s, options.seed);
-      const Vec2f u = sampler.point(kPixelDimension);
-      const double px = x + 0.5 + static_cast<double>(filter.offset(u.x));
-      const double py = y + 0.5 + static_cast<double>(filter.offset(u.y));
-      const Ray ray = throughLens(cameraRay(camera, aspect, px / width, 1 - py / height), camera,
-                                  lens, sampler.point(kLensDimension));
-      const PathResult path = tracePath(stage, ray, x, y, s, options.seed);
-      direct += path.direct;
-      sun.add(path.sun, path.albedo);
-      indirect.add(path.indirect, path.albedo);
-      albedo += path.albedo;
-      normal += path.normal;
-      distance += path.distance;
-      distances += path.distance * path.distance;
-      hits += path.distance > 0 ? 1.0f : 0.0f;
-      rays += path.rays;
+      const PathResult path = trace(x, y, s, false);
+      sum.add(path, stage.light.exposure);
+      sum.indirect.add(path.indirect, path.albedo);
     }
+    const Vec3f albedo = sum.albedo * (1 / static_cast<float>(n));
+    const uint32_t all = n + briefPaths(sum, n);
+    for (uint32_t s = n; s < all; ++s) sum.add(trace(x, y, s, true), stage.light.exposure);
+    sum.store(film, static_cast<size_t>(y) * options.width + x, n, all, albedo);
+    return sum.rays;
+  }
+
+  PathResult trace(uint32_t x, uint32_t y, uint32_t s, bool brief) const {
+    const double width = options.width, height = options.height, aspect = width / height;
+    const Sampler sampler(x, y, s, options.seed);
+    const Vec2f u = sampler.point(kPixelDimension);
+    const double px = x + 0.5 + static_cast<double>(filter.offset(u.x));
+    const double py = y + 0.5 + static_cast<double>(filter.offset(u.y));
+    const Ray ray = throughLens(cameraRay(camera, aspect, px / width, 1 - py / height), camera,
+                                lens, sampler.point(kLensDimension));
+    return tracePath(stage, ray, x, y, s, options.seed, brief);
+  }
+
+  /// How many brief paths bring a pixel's edges and shadows below what the eye tells apart.
+  uint32_t briefPaths(const PixelSum& sum, uint32_t n) const {
+    if (n < 2 || !options.denoise) return 0;
     const float k = 1 / static_cast<float>(n);
-    const size_t i = static_cast<size_t>(y) * options.width + x;
-    film.direct[i] = direct * k;
-    sun.store(film.sun, i, k);
-    indirect.store(film.indirect, i, k);
-    film.albedo[i] = albedo * k;
-    if (hits > 0) {
-      film.normal[i] = normal * (1 / hits);
-      film.distance[i] = distance / hits;
-      film.spread[i] =
-          std::sqrt(std::max(0.0f, distances / hits - film.distance[i] * film.distance[i]));
-    }
-    return rays;
+    const float mean = sum.level * k;
+    const float variance = std::max(0.0f, sum.levels * k - mean * mean) * k;
+    // On a scale of even steps for the eye, about the square root.
+    const float error = std::sqrt(variance) / (2 * std::sqrt(mean + 0.02f));
+    const float wanted = error / kSeenError;
+    const float more = static_cast<float>(n) * (wanted * wanted - 1);
+    return static_cast<uint32_t>(std::clamp(more, 0.0f, static_cast<float>(kMostBrief * n)));
   }
 };
 

@@ -57,8 +57,12 @@ struct Walk {
 
 class Tracing {
  public:
-  Tracing(const Stage& stage, const Sampler& sampler)
-      : stage_(stage), light_(stage.light), sampler_(sampler), limit_(kClamp / light_.exposure) {}
+  Tracing(const Stage& stage, const Sampler& sampler, bool brief)
+      : stage_(stage),
+        light_(stage.light),
+        sampler_(sampler),
+        limit_(kClamp / light_.exposure),
+        brief_(brief) {}
 
   void follow(Walk w) {
     while (step(w)) {
@@ -144,7 +148,8 @@ class Tracing {
      : w.sharp             ? result.sun
                            : result.indirect) +=
         withoutFireflies(w.carried * sun, w.sharp ? limit_ * 4 : limit_);
-    if (stage_.emitters.empty()) return;
+    // What lamps give to the first surface is indirect.
+    if (stage_.emitters.empty() || (brief_ && !w.mirrored)) return;
     const Vec3f lamp = lamplight(w, surface, lobes, view);
     (w.mirrored && w.sharp ? result.direct : result.indirect) +=
         withoutFireflies(w.carried * lamp, limit_);
@@ -275,6 +280,7 @@ class Tracing {
     if (next.coat && smooth) {
       w.mirrored = true;
     } else {
+      if (brief_) return false;
       w.sharp = false;
     }
     if (w.depth >= 1) {
@@ -291,14 +297,15 @@ class Tracing {
   const Light& light_;
   const Sampler& sampler_;
   float limit_;
+  bool brief_;
 };
 
 }  // namespace
 
 PathResult tracePath(const Stage& stage, const Ray& ray, uint32_t x, uint32_t y, uint32_t sample,
-                     uint32_t seed) {
+                     uint32_t seed, bool brief) {
   const Sampler sampler(x, y, sample, seed);
-  Tracing tracing(stage, sampler);
+  Tracing tracing(stage, sampler, brief);
   Walk walk;
   walk.ray = ray;
   tracing.follow(walk);

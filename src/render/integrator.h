@@ -22,7 +22,8 @@ struct PathResult {
   uint32_t rays = 0;
 };
 
+/// `brief` leaves out what is indirect, at a third of the cost: all else is as in a whole path.
 PathResult tracePath(const Stage& stage, const Ray& ray, uint32_t x, uint32_t y, uint32_t sample,
-                     uint32_t seed);
+                     uint32_t seed, bool brief = false);
 
 }  // namespace gable::rt

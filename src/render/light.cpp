@@ -41,6 +41,8 @@ constexpr double kNightLevel = 0.045;
 constexpr float kGlowByDay = 0.9f, kGlowAtNight = 1.7f;
 /// How much brighter than they are shown lamps are at night.
 constexpr float kLampPower = 80;
+/// Sine of the elevation whose sky stands for the light of haze.
+constexpr float kHazeUp = 0.05f;
 /// The sun's disc, and the radius in degrees of the glare that a lens adds.
 constexpr float kShownDisc = 40, kGlare = 2.2f;
 
@@ -153,7 +155,7 @@ Vec3f Light::shownSky(const Vec3f& direction) const {
 
 Vec3f Light::horizon(const Vec3f& direction) const {
   if (!sky_) return uniform_;
-  return radiance(direction, 0) * shownScale_ + nightShown_;
+  return radiance(direction, kHazeUp) * shownScale_ + nightShown_;
 }
 
 Vec3f Light::shownSun(const Vec3f& direction) const {

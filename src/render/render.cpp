@@ -39,11 +39,11 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// 6 km as on a clear day; from far above less, so that a town keeps its colours.
+/// 9 km as on a clear day; from far above less, so that a town keeps its colours.
 double hazeDistance(const RenderOptions& options, const Camera& camera, const rt::World& world) {
   if (options.hazeDistance) return *options.hazeDistance;
   if (options.uniformSky || camera.parallel) return 0;
-  return std::max(6000.0, 16 * length(world.bounds.center() - camera.eye));
+  return std::max(9000.0, 24 * length(world.bounds.center() - camera.eye));
 }
 
 /// Share of the picture's mean light that a lens scatters over all of it: shadows keep some light.

@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The Gable authors
+"""`gable render`: light, looks, layers, frames: pictures_test.py GABLE FOLDER. Run from the repository's root."""
+import json
+import os
+import shutil
+import struct
+import sys
+import unittest
+
+from cli_test import DONE, FILE, USAGE, Case
+
+RULES = """Lot --> [ s('0.4, 0, '1) extrude(4) color("#c04030") Brick ] t('0.6, 0, 0) s('0.4, 0, '1) extrude(4) House
+House --> comp(f) { top : color("#505860") Roof | side : color("#e0d8c8") Wall }
+"""
+SMALL = ("--size", "48x27", "--samples", "1", "--lot", "20x10")
+
+
+class Pictures(Case):
+    def setUp(self):
+        super().setUp()
+        self.put("x.cga", RULES)
+
+    def draw(self, name, *options, status=DONE, says=""):
+        self.run_gable("render", "x.cga", *SMALL, *options, "-o", name, status=status, says=says)
+        path = self.folder / name
+        return path.read_bytes() if path.exists() else b""
+
+    def testWrongOptionsAreTold(self):
+        for option in (["--look", "oil"], ["--sun-at", "48,2"], ["--sun-at", "91,0,2024-06-21,12"],
+                       ["--sun-at", "48,2,2024-13-01,12"], ["--sun-at", "48,2,2024-06-21,25"], ["--sun-at", "48,2,2024-06-21,12:61"],
+                       ["--exposure", "bright"], ["--exposure", "99"], ["--cut", "w=3"], ["--cut", "x"], ["--cut", "x=nan"],
+                       ["--haze", "-1"], ["--mist", "nan"], ["--aperture", "0"], ["--focus", "0"], ["--lit", "2"],
+                       ["--lamps", "-1"], ["--bounces", "99"], ["--turntable", "0"], ["--fps", "0"]):
+            self.draw("a.png", "=".join(option), status=USAGE, says=option[0])
+        self.draw("a.webm", status=USAGE, says=".png")
+        self.draw("a.png", "--turntable", "2", "--walk", "w.json", status=USAGE, says="--walk")
+        self.draw("a.png", "--turntable", "2", "--aov", "layers", status=USAGE, says="--aov")
+        self.draw("a.png", "--sun", "40,135", "--sun-at", "48,2,2024-06-21,12", status=USAGE, says="--sun")
+
+    def testTheSunOfAPlaceNeedsAPlace(self):
+        self.draw("a.png", "--sun-at", "2024-06-21,12", status=FILE, says="[picture-settings]")
+        noon = self.draw("noon.png", "--sun-at", "48.86,2.35,2024-06-21,13:50+02:00")
+        self.assertEqual(noon, self.draw("same.png", "--sun-at", "48.86,2.35,2024-06-21,11:50Z"))
+        self.assertNotEqual(noon, self.draw("night.png", "--sun-at", "48.86,2.35,2024-06-21,01:00"))
+
+    def testLooksDifferAndStyleTakesTheirWords(self):
+        pictures = {look: self.draw(f"{look}.png", "--look", look) for look in ("photo", "clay", "blueprint", "ink", "section")}
+        self.assertEqual(len(set(pictures.values())), 5)
+        self.assertEqual(self.draw("style.png", "--style", "ink"), pictures["ink"])
+        self.assertNotEqual(self.draw("cut.png", "--cut", "y=2"), pictures["photo"])
+        self.assertEqual(self.draw("cut.png", "--cut", "y=200"), pictures["photo"])
+
+    def testStylesOfTheRulesComeFirst(self):
+        self.put("x.cga", RULES + "attr tone = 1\n@Description(\"dark\") style clay\nattr tone = 2\n")
+        self.assertEqual(self.draw("a.png", "--style", "clay"), self.draw("b.png"))
+
+    def testAnUnknownStyleIsStillTold(self):
+        self.draw("a.png", "--style", "Baroque", status=1, says="Baroque")
+
+    def testLayersAreFiles(self):
+        self.draw("a.png", "--aov", "layers", "--view", "front")
+        folder = self.folder / "layers"
+        self.assertEqual(sorted(p.name for p in folder.iterdir()),
+                         ["albedo.png", "depth.pfm", "depth.png", "instance.png", "layers.json", "material.png",
+                          "normal.png", "object.png", "rule.png"])
+        names = json.loads((folder / "layers.json").read_text())
+        self.assertEqual(sorted(names["rules"]), ["House", "Lot"])
+        self.assertIn("#c04030", names["materials"])
+        head, values = (folder / "depth.pfm").read_bytes().split(b"-1.0\n", 1)
+        self.assertEqual(head, b"Pf\n48 27\n")
+        depths = struct.unpack("<1296f", values)
+        # Sky above, the fronts in the middle, and the ground nearer still.
+        self.assertEqual(depths[-1], 0)
+        self.assertGreater(depths[13 * 48 + 14], depths[24])
+        self.assertGreater(depths[24], 0)
+
+    def testATurntableIsNumberedAndGoesAround(self):
+        self.draw("t.png", "--turntable", "3")
+        frames = [(self.folder / f"t-00{k}.png").read_bytes() for k in (1, 2, 3)]
+        self.assertEqual(len(set(frames)), 3)
+        self.assertFalse((self.folder / "t-004.png").exists())
+        self.assertEqual(frames[0], self.draw("one.png"))
+
+    def testAWalkFollowsItsPath(self):
+        path = {"fps": 2, "stops": [{"eye": [10, 2, 30], "target": [10, 2, 0], "time": 0},
+                                    {"eye": [20, 2, 30], "target": [10, 2, 0], "time": 1}]}
+        (self.folder / "w.json").write_text(json.dumps(path))
+        self.draw("w.png", "--walk", "w.json")
+        self.assertEqual((self.folder / "w-001.png").read_bytes(),
+                         self.draw("one.png", "--eye=10,2,30", "--target=10,2,0"))
+        self.assertEqual((self.folder / "w-003.png").read_bytes(),
+                         self.draw("one.png", "--eye=20,2,30", "--target=10,2,0"))
+        self.assertFalse((self.folder / "w-004.png").exists())
+
+    def testWrongPathsAreTold(self):
+        for text, says in (("{}", "stops"), ("[", "json-syntax"), ('{"stops": [{"eye": [1, 2]}]}', "stop 1"),
+                           ('{"fps": 0, "stops": []}', "fps"),
+                           ('{"stops": [{"eye": [0,0,0], "target": [1,0,0], "time": 1},'
+                            '{"eye": [0,0,0], "target": [1,0,0], "time": 1}]}', "time")):
+            (self.folder / "w.json").write_text(text)
+            self.draw("w.png", "--walk", "w.json", status=FILE, says=says)
+
+    def testFilmsNeedFfmpeg(self):
+        if shutil.which("ffmpeg"):
+            self.draw("t.webm", "--turntable", "2")
+            self.assertTrue((self.folder / "t.webm").exists())
+            self.assertFalse((self.folder / "t-frames").exists())
+            return
+        self.draw("t.webm", "--turntable", "2", status=FILE, says="ffmpeg")
+        self.assertFalse(os.path.exists(self.folder / "t-frames"))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
