@@ -126,6 +126,12 @@ class Grower {
   explicit Grower(const LimbOptions& o) : o_(o) {}
 
   LimbSystem take() {
+    const LimbCounts counts = limbCounts(o_);
+    reserveWork(pending_, counts.limbs);
+    reserveWork(out_.limbs, counts.limbs);
+    reserveWork(out_.leaves, counts.leaves);
+    // The rings; twigs have fewer.
+    workMemory(static_cast<uint64_t>(counts.limbs * (o_.sides + 6) * sizeof(Limb::Ring)));
     Foot stem;
     stem.along = kUp;
     stem.length = o_.length;

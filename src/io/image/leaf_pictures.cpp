@@ -308,17 +308,22 @@ class Twig {
       const double t = 0.12 + 0.09 * side, turn = (side % 2 == 0 ? 48 : -48) + 6 * either(8, side);
       combed(on(t, 0.9), turn, 0.46 * (1 - 0.75 * t), 46, 100 * side);
     }
-    combed({0.5, 0.02}, atan2Deg(0.16 * either(99, 0), 0.9), 0.9, kind_.count, 5000);
+    needlesAlong([&](double t) { return on(t, 0.9); }, atan2Deg(0.16 * either(99, 0), 0.9),
+                 kind_.count, 5000);
   }
   void combed(const Vec2& from, double turn, double long_, int count, int first) {
-    if (first < 5000) canvas_.stalk(from.x, from.y, turn, long_, 0.012, kTwig);
+    canvas_.stalk(from.x, from.y, turn, long_, 0.012, kTwig);
+    const Vec2 way{long_ * sinDeg(turn), long_ * cosDeg(turn)};
+    needlesAlong([&](double t) { return from + way * t; }, turn, count, first);
+  }
+  /// `at`: the line, by share of its length.
+  template <class At>
+  void needlesAlong(At&& at, double turn, int count, int first) {
     for (int i = 0; i < count; ++i) {
-      const double t = (i + 0.5) / count,
-                   off = first < 5000 ? 0 : on(t, 1).x - 0.5 - t * on(1, 1).x + 0.5 * t;
-      const double x = from.x + off + t * long_ * sinDeg(turn),
-                   y = from.y + t * long_ * cosDeg(turn);
+      const double t = (i + 0.5) / count;
+      const Vec2 foot = at(t);
       const double out = kind_.angle * (1.2 - 0.7 * t) * (i % 2 == 0 ? 1 : -1);
-      canvas_.leaf(outline_, x, y, turn + out * (0.6 + 0.6 * free(9, first + i)),
+      canvas_.leaf(outline_, foot.x, foot.y, turn + out * (0.6 + 0.6 * free(9, first + i)),
                    kind_.length * (0.8 + 0.3 * free(10, first + i)), tone(first + i));
     }
   }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/work.h"
 #include "builtins/lists.h"
 #include "shape/op_call.h"
 
@@ -131,6 +132,12 @@ Status applyLimb(OpCall& call, const LimbArguments& args) {
   const LimbOptions o = optionsOf(call, args);
   if (Status bad = checked(call, args, o); !bad) return bad;
   const LimbSystem system = growLimbs(o);
+  // A corner takes some sixty bytes, and a point of a ring is in six.
+  double points = 0;
+  for (const Limb& limb : system.limbs) {
+    points += static_cast<double>(limb.rings.size()) * limb.sides;
+  }
+  workMemory(static_cast<uint64_t>(400 * (points + 4 * static_cast<double>(system.leaves.size()))));
   Emitter emitter(call);
   emitter.emit("wood", system.limbs.size(),
                [&](MeshBuilder& b, size_t i) { addSkin(b, system.limbs[i]); });
