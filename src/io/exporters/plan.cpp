@@ -35,6 +35,8 @@ constexpr double kAloneBytes = 8192;
 constexpr double kSmallRoot = 4096, kGroupCell = 512;
 // Of one unit; they are a list in memory.
 constexpr double kMostChildren = 2e7;
+// Nodes that are kept for the cells of wide units, as a share of all.
+constexpr double kForCells = 1.0 / 32;
 // What a bound on nodes may add to a file.
 constexpr double kMostMerged = 1024.0 * 1024 * 1024;
 
@@ -149,7 +151,9 @@ ScenePlan::ScenePlan(const Scene& scene, const PlanOptions& options)
   if (!share_ || (most > 0 && static_cast<double>(shown) > most)) joinRoots();
   plan(kTinyBytes);
   if (share_ && most > 0 && cost_.nodes > most && groups_.empty()) gatherSmallRoots();
-  if (share_ && most > 0 && cost_.nodes > most) fit(most);
+  if (share_ && most > 0 && cost_.nodes > most) {
+    fit(options.widest > 0 ? most * (1 - kForCells) : most);
+  }
   measureContents();
   makeUnits();
   if (share_ && options.widest > 0) cutWideUnits(options.widest, most);
@@ -261,8 +265,9 @@ void ScenePlan::findHome(Group& group) const {
   }
 }
 
-void ScenePlan::plan(double smallest) {
+void ScenePlan::plan(double smallest, const PartlyMerged& more) {
   smallest_ = smallest;
+  more_ = more;
   // The more has to be merged, the more a node is worth.
   nodeBytes_ = kNodeBytes * smallest / kTinyBytes;
   countNodes();
@@ -274,6 +279,11 @@ void ScenePlan::plan(double smallest) {
 bool ScenePlan::isSolid(size_t prototype, double placements) const {
   const double nodes = nodes_[prototype];
   return nodes == 0 || bytes_[prototype] <= placements * nodes * nodeBytes_;
+}
+
+bool ScenePlan::isTiny(size_t prototype) const {
+  const double bytes = bytes_[prototype];
+  return bytes <= smallest_ || (bytes <= more_.smallest && prototype <= more_.last);
 }
 
 // True where all but the nodes below a prototype is small: a node of its own would save little.
@@ -290,7 +300,7 @@ void ScenePlan::countNodes() {
     const Prototype& prototype = scene_.prototypes[p];
     for (uint32_t i = 0; i < prototype.instanceCount; ++i) {
       const uint32_t child = shownBy(scene_.instances[prototype.firstInstance + i]);
-      if (bytes_[child] <= smallest_) {
+      if (isTiny(child)) {
         bytes += bytes_[child];
       } else if (isSolid(child, placements_[child])) {
         nodes += 1;
@@ -317,7 +327,7 @@ void ScenePlan::decide() {
   }
   for (size_t p = count; p-- > 0;) {
     if (references[p] == 0) continue;
-    const bool tiny = bytes_[p] <= smallest_ && roots[p] < 2;
+    const bool tiny = isTiny(p) && roots[p] < 2;
     if (!share_) {
       use_[p] = Use::Solid;
     } else if (references[p] == 1 || tiny) {
@@ -391,7 +401,8 @@ void ScenePlan::weigh() {
 }
 
 // Merges more until the nodes are few enough: what saves least comes first. Each step takes one in
-// fifty more bytes; the first that is enough is searched by halves.
+// fifty more bytes; the first that is enough is searched by halves. Thousands of windows may have
+// nearly one size, so of those in the last step only so many are merged as has to be.
 void ScenePlan::merge(double mostNodes) {
   const double largest = std::max(*std::max_element(bytes_.begin(), bytes_.end()),
                                   *std::max_element(meshBytes_.begin(), meshBytes_.end()));
@@ -405,7 +416,21 @@ void ScenePlan::merge(double mostNodes) {
     plan(steps[middle]);
     (cost_.nodes <= mostNodes ? high : low) = middle;
   }
-  plan(steps[high]);
+  std::vector<size_t> last;
+  for (size_t p = 0; p < bytes_.size(); ++p) {
+    if (bytes_[p] > steps[low] && bytes_[p] <= steps[high]) last.push_back(p);
+  }
+  size_t few = 0, enough = last.size();
+  while (few < enough) {
+    const size_t middle = (few + enough) / 2;
+    plan(steps[low], {steps[high], last[middle]});
+    if (cost_.nodes <= mostNodes)
+      enough = middle;
+    else
+      few = middle + 1;
+  }
+  if (enough < last.size()) plan(steps[low], {steps[high], last[enough]});
+  if (enough == last.size() || cost_.nodes > mostNodes) plan(steps[high]);
 }
 
 // Where merging would make the file much larger, equal children are to be one node: then all of

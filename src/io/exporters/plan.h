@@ -126,7 +126,13 @@ class ScenePlan {
   void joinRoots();
   void gatherSmallRoots();
   void findHome(Group& group) const;
-  void plan(double smallest);
+  // Up to the prototype `last` those up to so many bytes are merged as well.
+  struct PartlyMerged {
+    double smallest = 0;
+    size_t last = 0;
+  };
+  void plan(double smallest, const PartlyMerged& more = {0, 0});
+  bool isTiny(size_t prototype) const;
   bool isSolid(size_t prototype, double placements) const;
   bool isThin(size_t prototype) const;
   void countNodes();
@@ -158,6 +164,7 @@ class ScenePlan {
   std::vector<uint32_t> groupOf_;
   /// Prototypes up to so many bytes are merged wherever they stand.
   double smallest_ = 0;
+  PartlyMerged more_;
   /// What a node costs.
   double nodeBytes_ = 0;
   bool grouped_ = false;
