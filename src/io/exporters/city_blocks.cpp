@@ -107,7 +107,8 @@ bool flatten(const RoofFace& face, const Vec3& origin, double base, FlatFace& ou
 
 // Without details. A layer that is only thin goes, all others keep their outline as it is.
 Region withoutDetails(const std::vector<Ring>& rings) {
-  const Region whole = offset(offset(repaired(rings, FillRule::NonZero), kGap), -kGap);
+  Region whole = repaired(rings, FillRule::NonZero);
+  if (whole.size() > 1) whole = offset(offset(whole, kGap), -kGap);
   Region out;
   for (const Polygon& p : whole) {
     work();
@@ -127,6 +128,7 @@ std::vector<Layer> layersOf(std::span<const RoofFace> faces, const Vec3& origin,
   struct Gathered {
     Plane plane;
     std::vector<Ring> rings;
+    double area = 0;
   };
   std::vector<Gathered> planes;
   for (FlatFace& f : flat) {
@@ -136,9 +138,12 @@ std::vector<Layer> layersOf(std::span<const RoofFace> faces, const Vec3& origin,
     if (at == planes.end() && planes.size() == kMostPlanes) continue;
     Gathered& to = at == planes.end() ? planes.emplace_back(Gathered{f.plane, {}}) : *at;
     to.rings.insert(to.rings.end(), f.rings.begin(), f.rings.end());
+    to.area += f.area;
   }
   std::vector<Layer> layers;
   for (const Gathered& g : planes) {
+    // Most of a building are sills and ledges, which need no kernel to be told.
+    if (g.area < kLeastArea) continue;
     Layer layer{g.plane, withoutDetails(g.rings), {}};
     layer.box = boxOf(layer.region);
     if (!layer.region.empty()) layers.push_back(std::move(layer));

@@ -70,6 +70,11 @@ class CityJsonWriter {
  private:
   using Detail = WriteOptions::Detail;
   using Attributes = std::vector<AttributeValue>;
+  struct Body {
+    Box3 box;
+    std::vector<BuildingShell> shells;
+  };
+  using Bodies = std::map<const CityObjectContent*, Body>;
   struct Template {
     uint32_t number = 0;
     uint64_t triangles = 0;
@@ -93,12 +98,14 @@ class CityJsonWriter {
                   const std::string& parent, const std::vector<std::string>& children);
   void closeObject();
   void openGeometry(const char* type, const char* lod);
-  void writeBuilding(const std::string& id, const CityContent& content, const Attributes& known);
-  void writeBody(const CityObjectContent* object, const CityContent& content);
+  void writeBuilding(const std::string& id, const CityContent& content, const Bodies& bodies,
+                     const Attributes& known);
+  void writeBody(const CityObjectContent* object, const CityContent& content, const Bodies& bodies);
   void writeThing(const std::string& id, const CityObjectContent& object,
                   const CityContent& content, const Attributes& known, const std::string& parent);
   void writeInstance(const std::string& id, const CityInstance& whole);
-  void writeBlocks(const CityObjectContent& object, const CityContent& content, const Box3& box);
+  Bodies bodiesOf(const CityContent& content);
+  void writeBlocks(const Body& body);
   void writeShells(const std::vector<BuildingShell>& shells, const char* lod);
   void writeShell(const BuildingShell& shell);
   void writeFull(const CityObjectContent& object, const CityContent& content, const char* lod,
@@ -344,34 +351,42 @@ void CityJsonWriter::writeShells(const std::vector<BuildingShell>& shells, const
   openBuildings_ += solid ? 0 : 1;
 }
 
-void CityJsonWriter::writeBlocks(const CityObjectContent& object, const CityContent& content,
-                                 const Box3& box) {
-  if (!wants(Detail::One) && !wants(Detail::Two)) return;
-  std::vector<RoofFace> roofs;
-  forEachLeafOf(object, content, [&](const Leaf& leaf, const Frame& world, const PlacedPart& p) {
-    if (isOpening(p.kind) || p.kind == CityKind::Closure) return;
-    faces_.forEach(leaf, world, [&](CityFace& face) {
-      if (!(face.normal.y > 2 * kLeastFace)) return;
-      RoofFace& roof = roofs.emplace_back();
-      for (const std::vector<Vec3>& ring : face.rings) {
-        std::vector<Vec3>& to = roof.rings.emplace_back();
-        for (const Vec3& point : ring) to.push_back(upright(point));
-      }
+// The bodies of all buildings and their parts.
+CityJsonWriter::Bodies CityJsonWriter::bodiesOf(const CityContent& content) {
+  Bodies out;
+  for (const CityObjectContent& object : content.objects) {
+    if (!isBuildingKey(object.key)) continue;
+    Body& body = out[&object];
+    body.box = boxOf(object, content);
+    std::vector<RoofFace> roofs;
+    forEachLeafOf(object, content, [&](const Leaf& leaf, const Frame& world, const PlacedPart& p) {
+      if (isOpening(p.kind) || p.kind == CityKind::Closure) return;
+      faces_.forEach(leaf, world, [&](CityFace& face) {
+        if (!(face.normal.y > 2 * kLeastFace)) return;
+        RoofFace& roof = roofs.emplace_back();
+        for (const std::vector<Vec3>& ring : face.rings) {
+          std::vector<Vec3>& to = roof.rings.emplace_back();
+          for (const Vec3& point : ring) to.push_back(upright(point));
+        }
+      });
     });
-  });
-  std::vector<BuildingShell> shells;
-  const Status status = guarded([&] {
-    shells = shellsOf(roofs, box.min.y);
-    return Status();
-  });
-  unwindIfStopped(status);
-  if (!status.ok()) ++failedBuildings_;
+    const Status status = guarded([&] {
+      body.shells = shellsOf(roofs, body.box.min.y);
+      return Status();
+    });
+    unwindIfStopped(status);
+    if (!status.ok()) ++failedBuildings_;
+  }
+  return out;
+}
+
+void CityJsonWriter::writeBlocks(const Body& body) {
   if (wants(Detail::One)) {
     std::vector<BuildingShell> blocks;
-    for (const BuildingShell& s : shells) blocks.push_back(blockOf(s));
+    for (const BuildingShell& s : body.shells) blocks.push_back(blockOf(s));
     writeShells(blocks, "1.2");
   }
-  if (wants(Detail::Two)) writeShells(shells, "2.2");
+  if (wants(Detail::Two)) writeShells(body.shells, "2.2");
 }
 
 // ---- Objects ------------------------------------------------------------------------------------
@@ -425,14 +440,15 @@ void CityJsonWriter::closeObject() {
 }
 
 // The geometries of a building, or of a part of one.
-void CityJsonWriter::writeBody(const CityObjectContent* object, const CityContent& content) {
+void CityJsonWriter::writeBody(const CityObjectContent* object, const CityContent& content,
+                               const Bodies& bodies) {
   if (!object) return;
-  writeBlocks(*object, content, boxOf(*object, content));
+  writeBlocks(bodies.at(object));
   if (wants(Detail::Three)) writeFull(*object, content, "3", false);
 }
 
 void CityJsonWriter::writeBuilding(const std::string& id, const CityContent& content,
-                                   const Attributes& known) {
+                                   const Bodies& bodies, const Attributes& known) {
   const CityObjectContent* own = nullptr;
   std::vector<std::pair<std::string, const CityObjectContent*>> parts, things;
   std::vector<std::string> children;
@@ -443,7 +459,7 @@ void CityJsonWriter::writeBuilding(const std::string& id, const CityContent& con
     std::string name = id;
     if (key.object) name += "/" + kinds_.text(key.object);
     if (!isBuildingKey(key)) name += std::string("/") + specOf(key.kind).name;
-    if (isBuildingKey(key)) box.include(boxOf(o, content));
+    if (isBuildingKey(key)) box.include(bodies.at(&o).box);
     if (isBuildingKey(key) && key.object == 0) {
       own = &o;
     } else {
@@ -455,11 +471,11 @@ void CityJsonWriter::writeBuilding(const std::string& id, const CityContent& con
   const double height = box.empty() ? 0 : std::round(box.size().y * 1000) / 1000;
   if (height > 0) all.push_back({"measuredHeight", {{PlainValue::Kind::Number, height, {}}}, 0, 0});
   openObject(id, "Building", all, {}, children);
-  writeBody(own, content);
+  writeBody(own, content, bodies);
   closeObject();
   for (const auto& [name, object] : parts) {
     openObject(name, "BuildingPart", {}, id, {});
-    writeBody(object, content);
+    writeBody(object, content, bodies);
     closeObject();
   }
   for (const auto& [name, object] : things) writeThing(name, *object, content, {}, id);
@@ -644,23 +660,26 @@ void CityJsonWriter::writeRoot(uint32_t number) {
   const std::string& name = root.name < scene_.names.size() ? scene_.names[root.name] : path_;
   const Attributes known = options_.attributesOf ? options_.attributesOf(number) : Attributes{};
   const CityContent content = cityContentOf(scene_, kinds_, faces_, root, kindOfShape(name, known));
-  // Stairs and railings without a building are constructions of their own.
-  const bool builds = std::any_of(content.objects.begin(), content.objects.end(),
-                                  [](const auto& o) { return isBuildingKey(o.key); });
+  // What has no roof, such as a street with its cars, and railings without a building are
+  // constructions of their own.
+  const Bodies bodies = bodiesOf(content);
+  const bool builds = std::any_of(bodies.begin(), bodies.end(),
+                                  [](const auto& b) { return !b.second.shells.empty(); });
   const std::string id = uniqueId(name);
   if (builds) {
     openLine(id);
-    writeBuilding(id, content, known);
+    writeBuilding(id, content, bodies, known);
     closeLine();
   }
   bool first = !builds;
   for (const CityObjectContent& o : content.objects) {
-    if (builds && isOfBuilding(o.key.kind)) continue;
+    const bool alone = isOfBuilding(o.key.kind);
+    if (alone && builds) continue;
+    if (!wants(Detail::Three) && (alone || isSolitary(o.key.kind))) continue;
     std::string own =
         o.key.object ? id + "/" + kinds_.text(o.key.object) : id + "/" + specOf(o.key.kind).name;
     if (!first || o.key.object) own = uniqueId(own);
     const std::string& thing = first && !o.key.object ? id : own;
-    if (!wants(Detail::Three) && isSolitary(o.key.kind)) continue;
     openLine(thing);
     writeThing(thing, o, content, builds || isSolitary(o.key.kind) ? Attributes{} : known, {});
     closeLine();

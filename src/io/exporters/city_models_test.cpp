@@ -196,6 +196,20 @@ TEST(CityJsonWriter, partsAndInstallationsAreChildren) {
   EXPECT_NE(report.warnings[0].find("'Widget' is no cityPart"), std::string::npos);
 }
 
+TEST(CityJsonWriter, whatHasNoRoofIsNoBuilding) {
+  City c;
+  c.box("Anything", {0, 0, 0}, {3, 1, 2});
+  c.box("Step", {3, 0, 0}, {1, 0.2, 2});
+  c.root("a", c.prototype("Lot"), Frame{});
+  const JsonValue model = written(c.scene, "low.city.json");
+  for (const auto& [id, object] : model["CityObjects"].members()) {
+    EXPECT_EQ(object["type"].text(), "OtherConstruction") << id;
+    EXPECT_TRUE(object["parents"].isNull());
+    EXPECT_EQ(object["geometry"].size(), 1u);
+  }
+  EXPECT_EQ(model["CityObjects"].members().size(), 2u);
+}
+
 TEST(CityJsonWriter, aFeatureALine) {
   City c = houseWithGarden();
   c.box("Water", {0, 0, 0}, {5, 1, 5});
