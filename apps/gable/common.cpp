@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <mutex>
 #include <random>
+#include <sstream>
 
 #include "answer.h"
 #include "derive_settings.h"
@@ -106,6 +107,29 @@ int readRules(const DeriveArguments& arguments, gable::Rules& rules) {
   return rules.ok() ? kExitDone : statusOf(rules.diagnostics(), kExitWrong);
 }
 
+namespace {
+
+// Rules of a folder may be made for a lot that generate.args beside them tells.
+void tellUsualLot(const std::string& rules) {
+  const size_t slash = rules.find_last_of('/');
+  const std::string path =
+      (slash == std::string::npos ? "" : rules.substr(0, slash + 1)) + "generate.args";
+  const gable::RuleText told = gable::readRuleText(path);
+  std::istringstream words(told.ok ? told.text : std::string());
+  for (std::string word, lot; words >> word;) {
+    if (word != "--lot" || !(words >> lot)) continue;
+    gable::Diagnostic d;
+    d.severity = gable::Diagnostic::Severity::Note;
+    d.code = "usual-lot";
+    d.message = "without --lot the lot is 20x20 m; " + path + " has --lot " + lot;
+    d.rendered = "note: " + d.message + " [" + d.code + "]\n";
+    print({d});
+    return;
+  }
+}
+
+}  // namespace
+
 int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
   const gable::FileLimits limits = fileLimits(arguments.limits);
   if (const int status = readRules(arguments, inputs.rules)) return status;
@@ -119,6 +143,7 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
         !parseNumbers(arguments.lot, 'x', {1e-300, kMetres.most}, sides, 2)) {
       return wrongOption("--lot", "width x depth in metres, such as 30x40", arguments.lot);
     }
+    if (arguments.lot.empty()) tellUsualLot(arguments.rules);
     width = sides[0], depth = sides[1];
     inputs.shapes = gable::Shapes::lot(width, depth);
   }

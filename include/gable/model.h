@@ -106,6 +106,12 @@ struct Statistics {
   std::optional<BoundingBox> bounds;
   /// Sorted by key.
   std::vector<ReportSummary> reports;
+  /// What `ifFree` decided, by group: sorted by name.
+  struct Room {
+    std::string group;
+    uint64_t kept = 0, dropped = 0;
+  };
+  std::vector<Room> rooms;
 };
 
 struct MaterialInfo {

@@ -222,6 +222,7 @@ Statistics Model::statistics() const {
   return guardedValue<Statistics>([&] {
     Statistics out = statisticsOf(impl_->scene());
     out.recalled = impl_->result.recalled;
+    for (const auto& r : impl_->result.rooms) out.rooms.push_back({r.group, r.kept, r.dropped});
     return out;
   });
 }

@@ -95,8 +95,9 @@ std::vector<std::string> texturesOf(const Scene& scene) {
 
 // Whether a rule asks about other shapes, which a batch does not have.
 bool asksOthers(const Program& program) {
-  return std::any_of(program.rules.begin(), program.rules.end(),
-                     [](const RuleCode& r) { return (r.reads.effects & kReadsContext) != 0; });
+  return std::any_of(program.rules.begin(), program.rules.end(), [](const RuleCode& r) {
+    return (r.reads.effects & (kReadsContext | kAsksForRoom)) != 0;
+  });
 }
 
 }  // namespace
@@ -193,15 +194,16 @@ TileTreeOptions tileOptions(const Rules& rules, const TileSettings& settings,
 size_t unitShapes(const Rules& rules) { return asksOthers(rules.impl().program) ? 0 : kUnitShapes; }
 
 void warnTogether(DiagnosticList& diagnostics) {
-  diagnostics.push_back(diagnosticOf(
-      {Severity::Warning,
-       "tiles-together",
-       Span{},
-       "the rules ask about other shapes, so all shapes are derived at once",
-       "it takes as much memory as one model; without inside, touches and the like it takes less",
-       {},
-       {}},
-      Sources{}));
+  diagnostics.push_back(
+      diagnosticOf({Severity::Warning,
+                    "tiles-together",
+                    Span{},
+                    "the rules ask about other shapes, so all shapes are derived at once",
+                    "it takes as much memory as one model; without inside, touches, ifFree and the "
+                    "like it takes less",
+                    {},
+                    {}},
+                   Sources{}));
 }
 
 std::optional<Error> compressMistake(const TileSettings& settings) {

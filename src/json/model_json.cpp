@@ -96,6 +96,14 @@ void writeStatistics(JsonWriter& json, const Model& model, const RunFigures& fig
   writeTriple(json, box.max);
   json.endObject();
   writeReports(json, s.reports);
+  if (!s.rooms.empty()) {
+    json.key("room").beginObject();
+    for (const Statistics::Room& r : s.rooms) {
+      json.key(r.group).beginObject().key("kept").value(r.kept);
+      json.key("dropped").value(r.dropped).endObject();
+    }
+    json.endObject();
+  }
   json.key("prints").beginArray();
   for (const std::string& p : model.prints()) json.value(p);
   json.endArray();

@@ -222,8 +222,10 @@ enum Effect : uint32_t {
   /// Only the directions of the pivot's axes, not its place: comp, r.
   kReadsPivotAxes = 1u << 12,
   kUsesTrim = 1u << 4,
-  /// Registers the shape under a name or in a tree: label, getTreeKey.
+  /// Where the shape stands in the tree: getTreeKey.
   kReadsPath = 1u << 5,
+  /// Registers the shape under a name, for others that ask: label.
+  kLabels = 1u << 21,
   kReports = 1u << 6,
   kReadsSplit = 1u << 7,
   kReadsComp = 1u << 8,
@@ -240,6 +242,8 @@ enum Effect : uint32_t {
   /// Questions about other shapes are answered with the shape as it was before the operation, and
   /// not with its leaves alone: comp, offset.
   kLeavesOccluder = 1u << 14,
+  /// Asks whether there is room for the shape among others, which a first pass has found: ifFree.
+  kAsksForRoom = 1u << 20,
   /// modify and inline(recompose) do not glue what comes of the operation to the shapes around it.
   kForgetsOrigins = 1u << 19,
 };

@@ -8,6 +8,7 @@
 
 #include "program/program.h"
 #include "runtime/derive.h"
+#include "runtime/room.h"
 #include "shape/part.h"
 #include "shape/shape.h"
 
@@ -40,6 +41,20 @@ struct Activation {
   uint32_t owner = 0, ordinal = 0;
   /// In a rule call: children made by it and its slots.
   uint32_t childCount = 0;
+  /// Its number among the children of the activation below, and how many it has begun itself: where
+  /// it stands in the tree (Machine::placePath). Alike in both passes of a derivation.
+  uint32_t step = 0, steps = 0;
+  /// The number of the first child of the block at work. Where the block is that of a shape which
+  /// asked for room, the number of that question instead: its children are numbered by their slots.
+  uint32_t stepBase = 0;
+  bool asked = false;
+  /// Of a child of such a block.
+  static constexpr uint32_t kNoQuestion = 0xffffffff;
+  uint32_t question = kNoQuestion;
+  /// In the first pass: the claim that the block at work belongs to, the slot for shapes that have
+  /// room, and on what it depends that there is this activation.
+  uint32_t claim = 0, roomSlot = 0;
+  RoomCondition condition = kAlways;
   /// Children made so far; none at the end makes the shape a leaf.
   uint32_t made = 0;
   uint32_t depth = 0;

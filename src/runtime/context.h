@@ -14,14 +14,16 @@
 
 #include "geom/mesh/mesh.h"
 #include "program/value.h"
+#include "runtime/room.h"
 #include "shape/services.h"
 
 namespace gable {
 
 struct Occluder {
   uint32_t initialShape = 0;
-  /// Child numbers from the initial shape down; a prefix marks an ancestor.
-  std::vector<uint32_t> path;
+  PlacePath path;
+  /// On what it depends that there is this shape at all.
+  RoomCondition condition = kAlways;
   /// 0 for an unlabelled one.
   StringId label = 0;
   /// World coordinates.

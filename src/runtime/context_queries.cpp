@@ -14,6 +14,7 @@ Occluder standing(const Shape& s, const ContextQueries::Place& at) {
   Occluder o;
   o.initialShape = at.initialShape;
   o.path = at.path;
+  o.condition = at.condition;
   o.mesh = transformed(meshInLocal(s), {1, 1, 1}, at.world);
   o.scope = at.world * s.scope;
   o.size = s.size;

@@ -21,8 +21,9 @@ class ContextQueries {
   /// in.
   struct Place {
     uint32_t initialShape = 0;
-    std::vector<uint32_t> path;
+    PlacePath path;
     const Frame& world;
+    RoomCondition condition = kAlways;
   };
 
   bool collects() const { return collects_; }

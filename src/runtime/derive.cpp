@@ -2,8 +2,9 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // One machine a worker takes initial shapes in turn; the outputs are merged in the order of the
-// shapes. When rules ask about other shapes (inside, touches, ...) there are two passes: the first
-// collects occluders and is thrown away, the second asks them.
+// shapes. When rules ask about other shapes (inside, touches, ...) or for room among them (ifFree)
+// there are two passes: the first collects occluders and claims and is thrown away, the second asks
+// them.
 //
 // Where several workers together reach a limit on counts, what they made depends on which was
 // faster. Then all is thrown away, and one worker alone goes as far as it may: whatever the number
@@ -13,6 +14,7 @@
 #include "runtime/derive.h"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <unordered_set>
@@ -65,7 +67,7 @@ void deriveShape(Pass& pass, Machine& machine, unsigned worker, const InitialSha
   const size_t noteBegin = tracer.notes().size();
   pass.units[i] = machine.run(shape, static_cast<uint32_t>(i));
   pass.derived[i] = 1;
-  if (!machine.context().collects()) {
+  if (!machine.isFirstPass()) {
     pass.attributes[i] = machine.attributeValues();
     pass.units[i].messages.append(machine.takeMessages());
   }
@@ -156,11 +158,13 @@ void takeMessages(const Pass& pass, Diagnostics& out) {
   }
 }
 
-// Occluders in the order of the initial shapes, whatever worker found them.
-std::vector<Occluder> takeOccluders(Pass& pass) {
+// Occluders in the order of the initial shapes, whatever worker found them: those that come to be.
+std::vector<Occluder> takeOccluders(Pass& pass, const RoomPlan* rooms) {
   std::vector<Occluder> all;
-  for (auto& m : pass.machines) {
-    for (Occluder& o : m->context().occluders()) all.push_back(std::move(o));
+  for (size_t w = 0; w < pass.machines.size(); ++w) {
+    for (Occluder& o : pass.machines[w]->context().occluders()) {
+      if (!rooms || rooms->holds(w, o.condition)) all.push_back(std::move(o));
+    }
   }
   std::stable_sort(all.begin(), all.end(), [](const Occluder& a, const Occluder& b) {
     return a.initialShape < b.initialShape;
@@ -338,9 +342,114 @@ struct Way {
   unsigned jobs = 1;
   /// Initial shapes are divided among workers.
   bool divides = false;
-  /// Rules ask about other shapes.
-  bool asks = false;
+  /// Rules ask about other shapes, or for room among them.
+  bool asks = false, asksForRoom = false;
 };
+
+// Counts what is worked out between the passes like what operations do.
+class BetweenMeter final : public WorkMeter {
+ public:
+  explicit BetweenMeter(Usage& usage) : usage_(usage), tally_(usage) {}
+  bool look(uint64_t units, uint64_t bytes) override {
+    if (usage_.cancelled()) return false;
+    tally_.countWork(units);
+    if (!excess_) excess_ = tally_.look(bytes);
+    return !excess_;
+  }
+  const std::optional<Usage::Excess>& excess() const { return excess_; }
+
+ private:
+  Usage& usage_;
+  Tally tally_;
+  std::optional<Usage::Excess> excess_;
+};
+
+// What the first pass found out.
+struct FirstPass {
+  std::unique_ptr<RoomPlan> rooms;
+  std::unique_ptr<OccluderIndex> occluders;
+  /// The first initial shape that a limit ended there.
+  std::optional<Machine::LimitOfShape> limit;
+  /// Why there is nothing to go on with; null where all is well.
+  std::unique_ptr<DeriveResult> failure;
+};
+
+FirstPass firstPassOf(Pass& pass, const DeriveShared& shared) {
+  FirstPass out;
+  BetweenMeter meter(shared.usage);
+  const Status status = guarded([&] {
+    const WorkScope scope(meter);
+    if (shared.collectClaims) {
+      std::vector<RoomClaims> claims;
+      for (auto& m : pass.machines) claims.push_back(std::move(m->claims()));
+      out.rooms = std::make_unique<RoomPlan>(std::move(claims));
+    }
+    if (shared.collectOccluders) {
+      out.occluders = std::make_unique<OccluderIndex>(takeOccluders(pass, out.rooms.get()));
+    }
+    return Status();
+  });
+  for (const auto& m : pass.machines) {
+    const auto& limit = m->firstPassLimit();
+    if (!limit || !shared.collectClaims) continue;
+    if (!out.limit || limit->initialShape < out.limit->initialShape) out.limit = limit;
+  }
+  if (status.ok()) return out;
+  if (meter.excess()) {
+    const Usage::Excess& e = *meter.excess();
+    out.failure = failed(Status::failure(e.code, e.message, e.hint));
+  } else if (status.code() != kWorkStopped) {
+    out.failure = failed(status);
+  } else {
+    out.failure = std::make_unique<DeriveResult>();
+    out.failure->end = End::Cancelled;
+  }
+  return out;
+}
+
+// What messages call the operation that asks for room.
+std::string askingOperation(const Program& program) {
+  for (const auto& op : program.operations) {
+    if ((op->effects & kAsksForRoom) != 0) return "'" + std::string(op->name) + "'";
+  }
+  return {};
+}
+
+// How many shapes had room, and which of them nobody can tell.
+void tellRooms(const Pass& pass, const RoomPlan& rooms, const DeriveShared& shared,
+               DeriveResult& result) {
+  const std::string asking = askingOperation(shared.program);
+  const ValuePool& pool = *shared.environment.pool;
+  std::map<std::string, RoomTotal> totals;
+  size_t told = 0;
+  for (const RoomCount& c : rooms.counts()) {
+    RoomTotal& total = totals[std::string(pool.text(c.group))];
+    total.kept += c.kept;
+    total.dropped += c.dropped;
+    if (c.dropped == 0 || ++told > kMostDiagnostics) continue;
+    result.diagnostics.add({Severity::Note,
+                            "no-room",
+                            c.span,
+                            asking + ": " + std::to_string(c.dropped) + " of " +
+                                std::to_string(c.kept + c.dropped) + " shapes have no room in '" +
+                                std::string(pool.text(c.group)) + "'",
+                            "'otherwise' in the block says what becomes of them",
+                            {},
+                            {}});
+  }
+  for (auto& [group, total] : totals) {
+    total.group = group;
+    result.rooms.push_back(total);
+  }
+  uint64_t strangers = 0;
+  for (const auto& m : pass.machines) strangers += m->strangers();
+  if (strangers == 0) return;
+  result.diagnostics.warning(
+      "room-unknown", Span{},
+      asking + ": " + std::to_string(strangers) + (strangers == 1 ? " shape has" : " shapes have") +
+          " no room, because they asked only after questions about other shapes were answered",
+      "ask for room first, and inside of its block for overlaps, touches and the like");
+}
 
 // What the workers made together; null where it is not what one alone would have made.
 std::unique_ptr<DeriveResult> deriveIn(Way way, const Program& program,
@@ -352,15 +461,18 @@ std::unique_ptr<DeriveResult> deriveIn(Way way, const Program& program,
     shared.reach = reachOf(program);
     shared.before = recallInput(options.before, program, environment);
   }
-  std::unique_ptr<OccluderIndex> occluders;
-  if (way.asks) {
-    shared.collectOccluders = true;
+  FirstPass known;
+  if (way.asks || way.asksForRoom) {
+    shared.collectOccluders = way.asks;
+    shared.collectClaims = way.asksForRoom;
     Pass first = runPass(shared, shapes, way.jobs, false);
     if (way.jobs > 1 && usage.exhaustedByCount()) return nullptr;
     if (!first.failure.ok()) return failed(first.failure);
-    occluders = std::make_unique<OccluderIndex>(takeOccluders(first));
-    shared.occluders = occluders.get();
-    shared.collectOccluders = false;
+    known = firstPassOf(first, shared);
+    if (known.failure) return std::move(known.failure);
+    shared.rooms = known.rooms.get();
+    shared.occluders = known.occluders.get();
+    shared.collectOccluders = shared.collectClaims = false;
     usage.startAgain();
   }
   Pass pass = runPass(shared, shapes, way.jobs, way.divides);
@@ -369,7 +481,18 @@ std::unique_ptr<DeriveResult> deriveIn(Way way, const Program& program,
   if (shared.indivisible && !usage.exhausted() && !usage.cancelled()) return nullptr;
 
   if (!pass.failure.ok()) return failed(pass.failure);
-  return assembled(pass, shared, shapes);
+  auto result = assembled(pass, shared, shapes);
+  if (known.rooms) {
+    tellRooms(pass, *known.rooms, shared, *result);
+    if (known.limit) {
+      Diagnostics::Entry& message = known.limit->message;
+      message.message += ", where both ways of " + askingOperation(program) +
+                         " are followed to find out who asks for room";
+      result->diagnostics.add(std::move(message));
+    }
+    result->diagnostics.sortByPlace();
+  }
+  return result;
 }
 
 }  // namespace
@@ -381,6 +504,7 @@ DeriveResult derive(const Program& program, const std::vector<InitialShape>& sha
   Way way;
   way.jobs = options.jobs > 0 ? static_cast<unsigned>(options.jobs) : defaultJobs();
   way.asks = anyHas(kReadsContext, program, shapes, options.startRule);
+  way.asksForRoom = anyHas(kAsksForRoom, program, shapes, options.startRule);
   // Children are counted for the paths of shapes.
   way.divides = way.jobs > 1 && !way.asks && !options.trace &&
                 !anyHas(kReadsPath, program, shapes, options.startRule);
@@ -394,7 +518,8 @@ DeriveResult derive(const Program& program, const std::vector<InitialShape>& sha
   }
   if (!made) {
     usage.startAgain();
-    made = deriveIn(Way{1, false, way.asks}, program, shapes, environment, options, usage);
+    made = deriveIn(Way{1, false, way.asks, way.asksForRoom}, program, shapes, environment, options,
+                    usage);
   }
   return std::move(*made);
 }

@@ -155,6 +155,12 @@ struct DerivedRoot {
   size_t reportsEnd = 0;
 };
 
+/// Of all shapes that asked for room in a group (`ifFree`).
+struct RoomTotal {
+  std::string group;
+  uint64_t kept = 0, dropped = 0;
+};
+
 struct DeriveResult {
   Scene scene;
   /// By root of the scene.
@@ -165,6 +171,8 @@ struct DeriveResult {
   std::vector<TraceNote> notes;
   /// Rule attributes of each initial shape as they were evaluated: visible ones of the main file.
   std::vector<std::vector<EvaluatedAttribute>> attributes;
+  /// Sorted by group; none where no shape asked.
+  std::vector<RoomTotal> rooms;
   /// Derivations that the sharing cache answered.
   uint64_t shared = 0;
   /// Shapes that were taken over from the derivation before, instances expanded.

@@ -46,6 +46,7 @@ Machine::Machine(DeriveShared& shared, uint32_t worker)
       tracer_(shared.program, shared.options),
       attributeValues_(shared.program.attributes.size()),
       context_(shared.collectOccluders, shared.occluders),
+      claimsOnly_(shared.collectClaims && !shared.collectOccluders),
       splits_(shared.program),
       bound_(shared.program.constantCalls),
       flat_(!shared.options.sharing || shared.options.trace),
@@ -56,8 +57,8 @@ Machine::Machine(DeriveShared& shared, uint32_t worker)
   tags_ = &shared.environment.tags;
   assets_ = &shared.environment.assets;
   builtinSetSpec_ = &kSetSpec;
-  lightPartsAllowed_ = !context_.collects() && !shared.options.trace;
-  if (shared.options.remember) {
+  lightPartsAllowed_ = !context_.collects() && !claimsOnly_ && !shared.options.trace;
+  if (shared.options.remember && !isFirstPass()) {
     incremental_ = std::make_unique<IncrementalCache>(
         IncrementalCache::Tables{program_, shared.reach, shared.before}, output_, prototypes_,
         tally_);
@@ -300,10 +301,11 @@ void Machine::takePrint(std::string text) {
   speak({prototypes_.instancesAround(), true, pool().intern(text), {}});
 }
 
-void Machine::takeWarning(const char* code, std::string message, std::string hint) {
+void Machine::takeMessage(Severity severity, const char* code, std::string message,
+                          std::string hint) {
   noteEffect();
-  log_.warn(code, here(), std::move(message), std::move(hint), info_.index,
-            [&] { return shapePath(); });
+  log_.add(severity, code, here(), std::move(message), std::move(hint), info_.index,
+           [&] { return shapePath(); });
 }
 
 Span Machine::here() const { return instruction_ ? program_.spans[pcOf(instruction_)] : Span{}; }
@@ -340,6 +342,10 @@ std::string Machine::treeKeyAtWork() const {
 bool Machine::overLimit(const char* code, std::string message, std::string hint) {
   // An initial shape may be over a limit before its first instruction.
   instruction_ = pc_ && pc_ != program_.code.data() ? pc_ - 1 : nullptr;
+  if (isFirstPass() && !firstPassLimit_) {
+    firstPassLimit_ = {info_.index,
+                       {Severity::Warning, code, here(), message, hint, shapePath(), {}}};
+  }
   warn(code, std::move(message), std::move(hint));
   aborted_ = true;
   // What comes after in path order goes, and may be with another worker.

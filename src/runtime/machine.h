@@ -36,6 +36,7 @@
 #include "runtime/portion.h"
 #include "runtime/prototypes.h"
 #include "runtime/recall.h"
+#include "runtime/room.h"
 #include "runtime/split_cache.h"
 #include "runtime/tally.h"
 #include "runtime/tracer.h"
@@ -57,6 +58,10 @@ struct DeriveShared {
   const OccluderIndex* occluders = nullptr;
   /// The first pass of a derivation whose rules ask about other shapes.
   bool collectOccluders = false;
+  /// The answers to shapes that ask for room; null in the first pass and where none asks.
+  const RoomPlan* rooms = nullptr;
+  /// The first pass of a derivation whose shapes ask for room.
+  bool collectClaims = false;
   /// By rule, and what came before; with DeriveOptions::remember.
   std::vector<Reach> reach;
   RecallInput before;
@@ -89,6 +94,17 @@ class Machine final : public Services, private WorkMeter {
   Diagnostics takeMessages() { return log_.take(); }
   Tracer& tracer() { return tracer_; }
   ContextQueries& context() { return context_; }
+  RoomClaims& claims() { return claims_; }
+  /// Of two: what it makes is thrown away.
+  bool isFirstPass() const { return shared_.collectOccluders || shared_.collectClaims; }
+  /// The first initial shape of this worker that a limit of the first pass ended, and how.
+  struct LimitOfShape {
+    uint32_t initialShape;
+    Diagnostics::Entry message;
+  };
+  const std::optional<LimitOfShape>& firstPassLimit() const { return firstPassLimit_; }
+  /// How many shapes asked for room in the second pass that did not ask in the first.
+  uint64_t strangers() const { return strangers_; }
   uint64_t cacheHits() const { return cacheHits_ + (incremental_ ? incremental_->shared() : 0); }
   /// Null without DeriveOptions::remember.
   const IncrementalCache* incremental() const { return incremental_.get(); }
@@ -105,13 +121,15 @@ class Machine final : public Services, private WorkMeter {
   const Frame& worldAtWork() const override { return worlds_.present(); }
   void takeReport(StringId key, const Value& value) override;
   void takePrint(std::string text) override;
-  void takeWarning(const char* code, std::string message, std::string hint) override;
+  void takeMessage(Severity severity, const char* code, std::string message,
+                   std::string hint) override;
   bool answerQuery(ContextTest test, ContextScope scope, StringId label,
                    const Shape& shape) override;
   double answerDistance(ContextScope scope, StringId label, const Shape& shape) override;
   double answerCount(ContextScope scope, StringId label) override;
   double answerRank(ContextScope scope, StringId label, ContextOrder order,
                     const Shape& shape) override;
+  Room answerRoom(const RoomRequest& request, const Shape& shape) override;
   void takeLabel(StringId name, const Shape& shape) override;
   std::string treeKeyAtWork() const override;
   void leaveLeaf() override;
@@ -212,6 +230,15 @@ class Machine final : public Services, private WorkMeter {
   bool evaluatesAttribute() const;
   /// Reports, prints and warnings in an attribute's initialiser come with its first use.
   void noteEffect();
+
+  // Room.
+  /// A pass that is there for those who ask for room alone: what they do not depend on is left out.
+  bool isLeftOut(uint32_t rule) const;
+  bool leavesAreLeftOut() const { return claimsOnly_ && !gathers_.anyOpen(); }
+  void leaveOut(uint32_t argumentCount);
+  void placeChild(const Activation& parent, uint32_t number, uint32_t slot,
+                  Activation& child) const;
+  PlacePath placePath(uint32_t end) const;
 
   // Portions.
   void offerPortion();
@@ -320,6 +347,10 @@ class Machine final : public Services, private WorkMeter {
   /// By number; made at the first use.
   std::vector<bool> shownAttributes_;
   ContextQueries context_;
+  RoomClaims claims_;
+  const bool claimsOnly_;
+  uint64_t strangers_ = 0;
+  std::optional<LimitOfShape> firstPassLimit_;
 
   // The stacks.
   ValueStack stack_;

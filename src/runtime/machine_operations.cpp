@@ -182,6 +182,9 @@ void Machine::beginChildren(const Instruction& i, uint32_t childBase, uint32_t p
   a.childBase = a.childNext = a.inPieces ? pieceBase : childBase;
   a.childEnd = static_cast<uint32_t>(a.inPieces ? pieces_.size() : children_.size());
   const uint32_t count = a.childEnd - a.childBase;
+  a.asked = (program_.operations[i.a]->effects & kAsksForRoom) != 0;
+  a.stepBase = a.steps;
+  a.steps += a.asked ? 1 : count;
   if (count > options().limits.width) {
     overLimit("too-many-children",
               "'" + std::string(program_.operations[i.a]->name) + "' makes " +

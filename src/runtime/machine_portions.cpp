@@ -60,6 +60,9 @@ void Machine::offerChildren(uint32_t index, const Frame& world) {
       children_[c].shape = Shape{};
     }
   }
+  p->place = placePath(index + 1);
+  p->asked = a.asked;
+  p->firstStep = a.asked ? a.stepBase : a.stepBase + first - a.childBase;
   a.childEnd = first;
   holes_.leave(index, shared_.portions->push(std::move(p)));
 }
@@ -97,6 +100,8 @@ void Machine::beginPortion(const Portion& p) {
   a.block = p.block;
   a.depth = p.depth;
   a.plan = p.plan;
+  a.stepBase = p.firstStep;
+  a.asked = p.asked;
   a.slot = true;
   a.stackBase = stack_.size();
   a.inPieces = !pieces_.empty();

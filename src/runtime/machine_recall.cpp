@@ -16,7 +16,10 @@ IncrementalCache::Moment Machine::moment() const { return {log_.warnings(), hole
 
 bool Machine::beginPart(Activation& call) {
   if (!worksInTheOpen() || aborted_ || !incremental_->isRuleDue(call.rule)) return false;
-  const bool asksForPath = (program_.rules[call.rule].reads.effects & kReadsPath) != 0;
+  const uint32_t effects = program_.rules[call.rule].reads.effects;
+  // What came of it depends on shapes anywhere.
+  if ((effects & kAsksForRoom) != 0) return false;
+  const bool asksForPath = (effects & kReadsPath) != 0;
   const ShareKey key =
       incremental_->keyOf({call.rule, call.depth, call.shape, stack_.from(call.parameters), locals_,
                            asksForPath ? hashBytes(treeKey()) | 1 : 0});
@@ -31,7 +34,7 @@ bool Machine::beginPart(Activation& call) {
 // Runs the operation at `i`, or takes what it did the time before.
 Status Machine::applyRemembering(OpCall& call, const Instruction& i,
                                  std::span<const Value> arguments, const BlockInput* block) {
-  constexpr uint32_t kTold = kReadsContext | kReadsPath | kReports;
+  constexpr uint32_t kTold = kReadsContext | kReadsPath | kLabels | kReports | kAsksForRoom;
   const uint32_t at = pcOf(&i);
   const bool split = block && !block->split.items.empty();
   const bool told = (call.spec().effects & kTold) != 0 || call.spec().gathered;

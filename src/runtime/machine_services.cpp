@@ -54,15 +54,19 @@ void Machine::traceLeaf(const Activation& a, StringId name, uint32_t source) {
 }
 
 ContextQueries::Place Machine::placeAtWork() const {
-  ContextQueries::Place at{info_.index, {}, worlds_.present()};
-  for (uint32_t i = 1; i < activationCount_; ++i) {
-    if (!activations_[i].slot) at.path.push_back(activations_[i].ordinal);
-  }
-  return at;
+  const RoomCondition condition = activationCount_ > 0 ? current().condition : kAlways;
+  // What a block makes belongs to the rule of the block.
+  uint32_t end = activationCount_;
+  while (end > 1 && activations_[end - 1].slot) --end;
+  return {info_.index, placePath(end), worlds_.present(), condition};
 }
 
 void Machine::takeLabel(StringId name, const Shape& shape) {
   if (context_.collects()) context_.add(name, shape, placeAtWork());
+  if (!shared_.collectClaims) return;
+  RoomClaims::Claim claim{.initialShape = info_.index, .condition = current().condition};
+  claim.group = name;
+  claims_.add(claim, placePath(activationCount_), shape, worlds_.present());
 }
 
 bool Machine::answerQuery(ContextTest test, ContextScope scope, StringId label,

@@ -66,6 +66,7 @@ Activation& Machine::pushActivation() {
 
 void Machine::beginRule(uint32_t rule, uint32_t argumentCount, const Instruction* at, bool last) {
   if (!countShape()) return;
+  if (isLeftOut(rule)) return leaveOut(argumentCount);
   const uint32_t callerIndex = activationCount_ - 1;
   Activation& a = pushActivation();
   Activation& caller = activations_[callerIndex];
@@ -94,6 +95,10 @@ void Machine::beginRule(uint32_t rule, uint32_t argumentCount, const Instruction
   a.localBase = static_cast<uint32_t>(locals_.size());
   a.childBase = a.childNext = a.childEnd = 0;
   a.ordinal = activations_[caller.owner].childCount++;
+  a.step = caller.steps++;
+  a.steps = 0;
+  a.question = Activation::kNoQuestion;
+  a.condition = caller.condition;
   if (enterRule(a, caller.depth, caller.traceNode, at)) return;
   stack_.cut(a.stackBase);
   --activationCount_;
@@ -103,6 +108,7 @@ void Machine::beginRule(uint32_t rule, uint32_t argumentCount, const Instruction
 // becomes the rule's, with the shape where it is.
 void Machine::becomeRule(const Instruction& i) {
   if (!countShape()) return;
+  if (isLeftOut(i.a)) return leaveOut(i.x);
   Activation& a = current();
   a.rule = i.a;
   a.parameters = stack_.size() - i.x;
@@ -242,6 +248,7 @@ void Machine::makeChild() {
     slot = children_[number].slot;
     a.shape = std::move(children_[number].shape);
   }
+  placeChild(parent, number, slot, a);
   if (gathers_.isDue(parentIndex + 1)) gathers_.beginChild(slot);
   a.rule = parent.rule;
   a.stackBase = stack_.size();
@@ -289,6 +296,7 @@ void Machine::leaveBracket() {
 }
 
 void Machine::makeLeaf(Activation& a, StringId name, uint32_t source) {
+  if (leavesAreLeftOut()) return;
   if (isDeformed(a.shape) && a.shape.geometry.kind != GeometryKind::None) bakeDeformation(a.shape);
   if (options().trace) traceLeaf(a, name, source);
   if (!putLeaf(a.shape, name, source)) return;

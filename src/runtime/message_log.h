@@ -23,16 +23,15 @@ class MessageLog {
   void beginUnit() { ++unit_; }
   /// `shapePath` is called for what is told alone.
   template <class ShapePath>
-  void warn(const char* code, const Span& at, std::string message, std::string hint,
-            uint32_t initialShape, ShapePath&& shapePath) {
+  void add(Severity severity, const char* code, const Span& at, std::string message,
+           std::string hint, uint32_t initialShape, ShapePath&& shapePath) {
     if (!isNews(code, at, message, initialShape)) return;
-    messages_.add(
-        {Severity::Warning, code, at, std::move(message), std::move(hint), shapePath(), {}});
+    messages_.add({severity, code, at, std::move(message), std::move(hint), shapePath(), {}});
   }
   /// Messages about the input, which no rule has made.
   Diagnostics& input() { return messages_; }
 
-  /// Warnings that came, repetitions counted.
+  /// Warnings and notes that came, repetitions counted.
   uint64_t warnings() const { return warnings_; }
   /// Messages that wait to be taken.
   size_t count() const { return messages_.all().size(); }

@@ -13,7 +13,8 @@ namespace {
 const Span kHere{0, 10, 12}, kThere{0, 20, 22};
 
 void warn(MessageLog& log, const Span& at, const std::string& message, uint32_t initialShape) {
-  log.warn("too-small", at, message, "make it larger", initialShape, [] { return "Lot"; });
+  log.add(Severity::Warning, "too-small", at, message, "make it larger", initialShape,
+          [] { return "Lot"; });
 }
 
 TEST(MessageLog, TellsARepetitionOnceAUnit) {
@@ -58,7 +59,7 @@ TEST(MessageLog, KeepsNoMoreThanAnybodyIsShown) {
   log.beginUnit();
   int paths = 0;
   for (size_t i = 0; i < kMostDiagnostics + 50; ++i) {
-    log.warn("too-small", kHere, std::to_string(i), "", 0, [&] {
+    log.add(Severity::Warning, "too-small", kHere, std::to_string(i), "", 0, [&] {
       ++paths;
       return std::string();
     });

@@ -26,6 +26,7 @@
 #include "runtime/kept_shape.h"
 #include "runtime/local_values.h"
 #include "runtime/output.h"
+#include "runtime/room.h"
 #include "shape/part.h"
 #include "shape/services.h"
 
@@ -54,6 +55,11 @@ struct Portion {
   LocalValues locals;
   /// Rules that are run in place.
   uint32_t inPlace = 0;
+  /// Where the shape that was divided stands in the tree, the number of the first child there, and
+  /// whether it asked for room (Activation).
+  PlacePath place;
+  uint32_t firstStep = 0;
+  bool asked = false;
   /// Where the frame of the rule call lies.
   Frame world;
   /// The rules from the initial shape to here, for messages, and how many they are.

@@ -82,7 +82,8 @@ ShareKey sharedKey(const SharedCall& call) {
 }
 
 bool isSharedWhenSeeded(uint32_t effects) {
-  constexpr uint32_t kElsewhere = kReadsWorld | kReadsContext | kReadsPath | kReadsInitialShape;
+  constexpr uint32_t kElsewhere =
+      kReadsWorld | kReadsContext | kReadsPath | kLabels | kReadsInitialShape | kAsksForRoom;
   return (effects & kRandom) != 0 && (effects & kElsewhere) == 0;
 }
 

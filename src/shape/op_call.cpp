@@ -34,7 +34,8 @@ const char* codeOf(const ArgumentProblem& problem) {
 }
 
 // What tells others of itself would tell them twice.
-[[maybe_unused]] constexpr uint32_t kTells = kReports | kReadsPath | kReadsContext;
+[[maybe_unused]] constexpr uint32_t kTells =
+    kReports | kReadsPath | kLabels | kReadsContext | kAsksForRoom;
 
 }  // namespace
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/check.h"
+#include "base/diagnostic.h"
 #include "base/ref.h"
 #include "base/result.h"
 #include "base/status.h"
@@ -147,6 +148,21 @@ enum class ContextOrder : uint8_t {
   LargestArea,
   SmallestArea,
 };
+
+/// A shape asks for room among those that ask in the same group; see runtime/room.h.
+struct RoomRequest {
+  StringId group = 0;
+  /// Metres to all others of the group.
+  double clearance = 0;
+  /// Lower ones are answered first.
+  double rank = 0;
+  /// Things above each other are not in each other's way.
+  bool byHeight = false;
+  /// The block slot for shapes that have room.
+  uint32_t slot = 0;
+};
+/// Unknown: in the pass that finds out what asks. The shape goes both ways there.
+enum class Room : uint8_t { Taken, Free, Unknown };
 
 /// What the code of arguments gave while a call was at work, in order. The second run of the call
 /// for the audit gets the same again: the code would see the shape as the first run left it.
@@ -287,7 +303,11 @@ class Services {
   }
   /// A warning at the present instruction, with the shape's path.
   void warn(const char* code, std::string message, std::string hint) {
-    if (!muted_) takeWarning(code, std::move(message), std::move(hint));
+    if (!muted_) takeMessage(Severity::Warning, code, std::move(message), std::move(hint));
+  }
+  /// The same for what may well be meant, and should be known.
+  void note(const char* code, std::string message, std::string hint) {
+    if (!muted_) takeMessage(Severity::Note, code, std::move(message), std::move(hint));
   }
 
   /// Context queries; labels are by name, 0 for any occluder.
@@ -308,8 +328,12 @@ class Services {
     GABLE_DCHECK(mayAsk(kReadsContext));
     return answerRank(scope, label, order, shape);
   }
+  Room room(const RoomRequest& request, const Shape& shape) {
+    GABLE_DCHECK(mayAsk(kAsksForRoom));
+    return answerRoom(request, shape);
+  }
   void label(StringId name, const Shape& shape) {
-    GABLE_DCHECK(mayAsk(kReadsPath));
+    GABLE_DCHECK(mayAsk(kLabels));
     takeLabel(name, shape);
   }
   /// The path of the present shape in the shape tree ("0;0;1;").
@@ -335,9 +359,11 @@ class Services {
   virtual double answerCount(ContextScope scope, StringId label) = 0;
   virtual double answerRank(ContextScope scope, StringId label, ContextOrder order,
                             const Shape& shape) = 0;
+  virtual Room answerRoom(const RoomRequest& request, const Shape& shape) = 0;
   virtual void takeLabel(StringId name, const Shape& shape) = 0;
   virtual std::string treeKeyAtWork() const = 0;
-  virtual void takeWarning(const char* code, std::string message, std::string hint) = 0;
+  virtual void takeMessage(Severity severity, const char* code, std::string message,
+                           std::string hint) = 0;
   virtual void leaveLeaf() = 0;
   virtual Value evaluateAtWork(uint32_t, uint64_t, const Shape*) { return {}; }
 

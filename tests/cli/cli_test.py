@@ -84,6 +84,21 @@ class Options(Case):
         self.assertIn("--start", told)
         self.assertNotIn("empty", self.run_gable("generate", "x.cga", "--start", "House", "-o", "a.glb"))
 
+    def testTheUsualLotIsTold(self):
+        self.put("x.cga", "Lot --> X.")
+        self.put("generate.args", "# As in the picture.\n--seed 4 --lot 320x300\n")
+        told = self.run_gable("generate", "x.cga", "-o", "a.glb", says="[usual-lot]")
+        self.assertIn("generate.args has --lot 320x300", told)
+        self.assertNotIn("usual-lot", self.run_gable("generate", "x.cga", "--lot", "9x9", "-o", "a.glb"))
+
+    def testWhatHasNoRoomIsTold(self):
+        self.put("x.cga", 'Lot --> [ House ] House\nHouse --> ifFree("house") { A. | otherwise : B. }')
+        self.run_gable("generate", "x.cga", "-o", "a.glb", says="note: 'ifFree': 1 of 2 shapes have no room in 'house' [no-room]")
+        stats = self.run_gable("generate", "x.cga", "-o", "a.glb", "--stats", "s.json")
+        self.assertNotIn("warning", stats)
+        with open(self.folder / "s.json") as file:
+            self.assertEqual(json.load(file)["room"], {"house": {"kept": 1, "dropped": 1}})
+
     def testRuleFilesOfWindowsAreRead(self):
         (self.folder / "T\u00fcr.txt").write_text("door")
         text = 'Lot --> print(readTextFile("T\u00fcr.txt")) print("5 \u20ac") X.'

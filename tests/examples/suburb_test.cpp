@@ -607,6 +607,31 @@ TEST(SuburbRows, S18LampsOnBothSidesOfAllStreets) {
     EXPECT_EQ(countOf(suburb(seed, {{"detail", "false"}}), "lamps"), 162);
 }
 
+TEST(SuburbRows, S18NoLampStandsInACarriageway) {
+  constexpr double kRoad = 2.4 * kUnit, kMiddle = kSide / 2;
+  for (int seed = 1; seed <= 12; ++seed) {
+    const Plan plan(seed);
+    std::vector<Path> streets;
+    for (const Line& line : plan.lines) streets.emplace_back(line);
+    for (const double x : {kMiddle - 60 * kUnit, kMiddle + 60 * kUnit}) {
+      streets.emplace_back(Line{{x, -kSide}, {x, 0}});
+    }
+    size_t posts = 0;
+    forEachLeaf(sceneOf(plan.model), [&](const Leaf& leaf, const Frame& world) {
+      if (sceneOf(plan.model).names[leaf.name] != "Iron") return;
+      const Box3 box =
+          transformed(*sceneOf(plan.model).meshes[leaf.mesh], leaf.scale, world).bounds();
+      if (box.size().y < 4) return;
+      ++posts;
+      const Vec2 foot{box.center().x, -box.center().z};
+      for (const Path& street : streets) {
+        EXPECT_GT(length(street.at(street.nearest(foot)).point - foot), kRoad / 2) << seed;
+      }
+    });
+    EXPECT_EQ(posts, countOf(plan.model, "lamps"));
+  }
+}
+
 TEST(SuburbRows, S19AnotherModelMakesOtherHouses) {
   namespace fs = std::filesystem;
   const fs::path folder = fs::path(::testing::TempDir()) / "suburb_model";

@@ -213,7 +213,7 @@ void FakeServices::takeReport(StringId key, const Value& value) {
   reports.push_back({std::string(pool().text(key)), value});
 }
 
-void FakeServices::takeWarning(const char* code, std::string message, std::string) {
+void FakeServices::takeMessage(Severity, const char* code, std::string message, std::string) {
   warnings.push_back({code, std::move(message)});
 }
 

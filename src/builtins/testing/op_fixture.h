@@ -70,6 +70,9 @@ class FakeServices : public Services {
   /// What context queries answer.
   bool queryAnswer = false;
   double distanceAnswer = 0, countAnswer = 0;
+  /// What a shape that asks for room is told, and what it asked for last.
+  Room roomAnswer = Room::Free;
+  RoomRequest roomRequest;
   std::string treeKeyAnswer = "0;";
   /// How many leaves operations left on the way.
   size_t leaves = 0;
@@ -78,7 +81,8 @@ class FakeServices : public Services {
   const Frame& worldAtWork() const override { return worldFrame; }
   void takeReport(StringId key, const Value& value) override;
   void takePrint(std::string text) override { prints.push_back(std::move(text)); }
-  void takeWarning(const char* code, std::string message, std::string hint) override;
+  void takeMessage(Severity severity, const char* code, std::string message,
+                   std::string hint) override;
   bool answerQuery(ContextTest, ContextScope, StringId, const Shape&) override {
     return queryAnswer;
   }
@@ -86,6 +90,10 @@ class FakeServices : public Services {
   double answerCount(ContextScope, StringId) override { return countAnswer; }
   double answerRank(ContextScope, StringId, ContextOrder order, const Shape&) override {
     return static_cast<double>(order);
+  }
+  Room answerRoom(const RoomRequest& request, const Shape&) override {
+    roomRequest = request;
+    return roomAnswer;
   }
   void takeLabel(StringId name, const Shape& shape) override;
   std::string treeKeyAtWork() const override { return treeKeyAnswer; }

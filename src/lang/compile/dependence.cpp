@@ -7,8 +7,8 @@ namespace gable::lang {
 
 namespace {
 
-constexpr uint32_t kUnshareable =
-    kReadsWorld | kRandom | kReadsContext | kReadsPath | kReadsInitialShape;
+constexpr uint32_t kUnshareable = kReadsWorld | kRandom | kReadsContext | kReadsPath | kLabels |
+                                  kReadsInitialShape | kAsksForRoom;
 
 // Adds what `from` uses to `to`; true when that was news.
 bool include(Uses& to, const Uses& from) {

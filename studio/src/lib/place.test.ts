@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The Gable authors
 import { expect, it } from 'vitest';
 import type { Example } from './client';
-import { standpointOf } from './place';
+import { newPlace, placeBeside, standpointOf } from './place';
 
 const seen = (view: string) => standpointOf({ view } as Example);
 
@@ -15,4 +15,20 @@ it('stands where the picture of an example was taken, for the angle of the page'
   expect(wide.position[1]).toBe(1.6);
   expect(seen('')).toBeNull();
   expect(seen('--eye=1,2 --target=0,0,x')).toBeNull();
+});
+
+it('takes the lot of rules in a folder from what lies beside them', async () => {
+  const files = ['suburb/suburb.cga', 'suburb/generate.args', 'row/row.cga', 'row/generate.args']
+    .concat(['row/buildings.geojson', 'plain/plain.cga', 'lot.cga', 'generate.args'])
+    .map((path) => ({ path }));
+  const read = (path: string) =>
+    path === 'generate.args'
+      ? Promise.reject(new Error())
+      : Promise.resolve('--lot 320x300 --seed 4\n');
+  const suburb = await placeBeside('suburb/suburb.cga', files, read);
+  expect(suburb).toMatchObject({ seed: 4, shapes: { lot: [320, 300] } });
+  const row = await placeBeside('row/row.cga', files, read);
+  expect(row).toMatchObject({ seed: 4, shapes: { file: 'row/buildings.geojson' } });
+  expect(await placeBeside('plain/plain.cga', files, read)).toEqual(newPlace());
+  expect(await placeBeside('lot.cga', files, read)).toEqual(newPlace());
 });

@@ -25,7 +25,7 @@ export function newPlace(): Place {
 }
 
 /** The place of an example that was copied to a folder, as its own arguments have it. */
-export function placeOf(example: Example, folder: string): Place {
+export function placeOf(example: Pick<Example, 'arguments' | 'shapes'>, folder: string): Place {
   const place = newPlace();
   const words = example.arguments.split(/\s+/);
   const after = (word: string) =>
@@ -33,8 +33,27 @@ export function placeOf(example: Example, folder: string): Place {
   const lot = /^(\d+(?:\.\d+)?)x(\d+(?:\.\d+)?)$/.exec(after('--lot') ?? '');
   if (lot) place.shapes = { lot: [Number(lot[1]), Number(lot[2])] };
   place.seed = Number(after('--seed') ?? 0) || 0;
-  if (example.shapes) place.shapes = { file: `${folder}/buildings.geojson` };
+  const file = folder ? `${folder}/buildings.geojson` : 'buildings.geojson';
+  if (example.shapes) place.shapes = { file };
   return place;
+}
+
+/** The place of rules that nobody has opened before: what lies beside them tells of it. */
+export async function placeBeside(
+  path: string,
+  files: { path: string }[],
+  read: (path: string) => Promise<string>,
+): Promise<Place> {
+  const folder = path.includes('/') ? path.slice(0, path.lastIndexOf('/')) : '';
+  const beside = (name: string) => {
+    const wanted = folder ? `${folder}/${name}` : name;
+    return files.find((f) => f.path === wanted)?.path;
+  };
+  const told = beside('generate.args');
+  const shapes = beside('buildings.geojson') !== undefined;
+  if (!told && !shapes) return newPlace();
+  const words = told ? await read(told).catch(() => '') : '';
+  return placeOf({ arguments: words, shapes }, folder);
 }
 
 /** The horizontal angle of view of the page, about, in degrees. */

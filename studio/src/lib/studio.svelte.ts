@@ -17,7 +17,7 @@ import { valueOfText, valueText } from './fields';
 import { gesture } from './gesture';
 import { applied, difference, History, type Step } from './history';
 import { Model } from './model.svelte';
-import { newPlace, placeOf, standpointOf, type Place } from './place';
+import { newPlace, placeBeside, placeOf, standpointOf, type Place } from './place';
 import type { DrawList, Stats, Tree, Value } from './protocol';
 import { readRegistry, type Entry } from './registry';
 import { Selection, type Reveal } from './selection.svelte';
@@ -165,7 +165,7 @@ export class Studio {
   async openRules(path: string, place?: Place): Promise<void> {
     await this.documents.show(path);
     this.main = path;
-    this.place = place ?? this.places[path] ?? newPlace();
+    this.place = place ?? this.places[path] ?? (await this.placeBeside(path));
     this.selection.clear();
     this.page = 'rules';
     this.reframe = true;
@@ -173,6 +173,10 @@ export class Studio {
     this.latest = null;
     this.model.begin();
     this.changed();
+  }
+
+  private placeBeside(path: string): Promise<Place> {
+    return placeBeside(path, this.files, async (f) => (await this.client.read(f)).text);
   }
 
   /** The text of a file has changed in the editor. A label makes it a step of its own. */

@@ -70,7 +70,7 @@ constexpr OpSpec kSpecs[] = {
     {"NIL", "flow", "Deletes the shape: nothing comes of it.", kNilSignatures, applyNil,
      BlockKind::None, kIgnoresTags},
     {"label", "flow", "Leaves a named copy of the shape for context queries.", kLabelSignatures,
-     typed<applyLabel>, BlockKind::None, kReadsPath},
+     typed<applyLabel>, BlockKind::None, kLabels},
     {"print", "flow", "Writes a value to the console.", kPrintSignatures, typed<applyPrint>,
      BlockKind::None, kReports | kIgnoresTags},
     {"report", "flow", "Adds a value to a collection of statistics.", kReportSignatures,

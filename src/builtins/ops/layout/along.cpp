@@ -17,6 +17,7 @@
 #include "builtins/ops/subdivide/shared/components.h"
 #include "geom/curve/curve.h"
 #include "geom/mesh/face_plane.h"
+#include "geom/region/segment_grid.h"
 #include "math/trig.h"
 #include "shape/op_call.h"
 
@@ -39,6 +40,8 @@ struct Chain {
 struct Layout {
   Spacing spacing;
   double offset = 0;
+  /// From a place beside a line to all other lines.
+  double clear = 0;
   enum class Facing : uint8_t { Outward, Inward, Along } facing = Facing::Outward;
 };
 
@@ -188,6 +191,49 @@ Ref<Mesh> pointMesh() {
   return makeRef<Mesh>(b.take());
 }
 
+Vec2 besideOf(const Path::Place& place, double offset) {
+  return place.point + Vec2{place.tangent.y, -place.tangent.x} * offset;
+}
+
+// Tells which places lie in a junction: too near to a line that is not their own.
+class Junctions {
+ public:
+  Junctions(const std::vector<Polyline2>& lines, const Layout& layout)
+      : layout_(layout), segments_(segmentsOf(lines)), grid_(segments_) {}
+
+  bool hold(const Path::Place& place, uint32_t line) {
+    if (!(layout_.clear > 0)) return false;
+    const Vec2 p = besideOf(place, layout_.offset), around{layout_.clear, layout_.clear};
+    Box2 box;
+    box.include(p - around);
+    box.include(p + around);
+    bool near = false;
+    grid_.query(box, [&](uint32_t i) {
+      near = near || (lineOf_[i] != line && distanceTo(segments_[i], p) < layout_.clear);
+    });
+    return near;
+  }
+
+ private:
+  std::vector<Segment> segmentsOf(const std::vector<Polyline2>& lines) {
+    std::vector<Segment> out;
+    for (uint32_t k = 0; layout_.clear > 0 && k < lines.size(); ++k) {
+      const Line& line = lines[k].line;
+      for (size_t i = 0; i + (lines[k].closed ? 0 : 1) < line.size(); ++i) {
+        work();
+        out.push_back({line[i], line[(i + 1) % line.size()]});
+        lineOf_.push_back(k);
+      }
+    }
+    return out;
+  }
+
+  const Layout& layout_;
+  std::vector<uint32_t> lineOf_;
+  std::vector<Segment> segments_;
+  SegmentGrid grid_;
+};
+
 // Gives out one child after the other.
 class Emitter {
  public:
@@ -198,7 +244,7 @@ class Emitter {
   void emit(const Frame& plane, const Path::Place& place, uint32_t slot, size_t index, size_t total,
             bool ofLine = false) {
     const Vec2 right{place.tangent.y, -place.tangent.x};
-    const Vec2 at = place.point + right * layout_.offset;
+    const Vec2 at = besideOf(place, layout_.offset);
     const Vec2 out = ofLine && layout_.offset < 0 ? right * -1.0 : right;
     const Vec2 z = layout_.facing == Layout::Facing::Along    ? place.tangent
                    : layout_.facing == Layout::Facing::Inward ? out * -1.0
@@ -244,6 +290,7 @@ struct Along {
   double spacing, offset, inset;
   Fit fit;
   Layout::Facing facing;
+  double clear;
 };
 
 Layout layoutOf(const Along& args) {
@@ -253,6 +300,7 @@ Layout layoutOf(const Along& args) {
   out.spacing.startInset = out.spacing.endInset = args.inset;
   out.spacing.stretch = args.fit == Fit::Stretch;
   out.facing = args.facing;
+  out.clear = args.clear;
   return out;
 }
 
@@ -283,7 +331,9 @@ std::vector<Path::Place> placesOn(const Chain& chain, const Spacing& spacing) {
 // where the line is seen from its other end.
 void emitAlongLines(OpCall& call, const Mesh& mesh, const Layout& layout, Emitter& emitter) {
   const auto lines = polylinesOf(mesh, call.services().tags(), call.services().pool());
-  for (const Polyline2& line : lines) {
+  Junctions junctions(lines, layout);
+  for (uint32_t k = 0; k < lines.size(); ++k) {
+    const Polyline2& line = lines[k];
     const Frame plane = groundAt(line.height);
     std::vector<Chain> chains;
     addChains(line, chains);
@@ -293,11 +343,13 @@ void emitAlongLines(OpCall& call, const Mesh& mesh, const Layout& layout, Emitte
         const std::vector<Path::Place> places = placesOn(chain, layout.spacing);
         for (size_t i = 0; i < places.size(); ++i) {
           work(8);
+          if (junctions.hold(places[i], k)) continue;
           emitter.emit(plane, places[i], item.slot, i, places.size(), true);
         }
         for (size_t i = 0; sides && i < places.size(); ++i) {
           work(8);
           const Path::Place back{places[i].point, places[i].tangent * -1.0};
+          if (junctions.hold(back, k)) continue;
           emitter.emit(plane, back, item.slot, i, places.size(), true);
         }
       }
@@ -357,6 +409,11 @@ constexpr ParamSpec kParams[] = {
         "centred"),
     param<&Along::facing>("facing", "Where z points: outward across the edge, inward, or along it.",
                           "outward"),
+    param<&Along::clear>("clear",
+                         "Beside lines: places that are nearer than so many metres to another "
+                         "line of the shape, as in junctions, are left out.",
+                         "0")
+        .atLeast(0),
 };
 constexpr Signature kSignatures[] = {{kParams}};
 

@@ -167,6 +167,22 @@ Status checked(const OpCall& call, const Array& rows) {
   return {};
 }
 
+// Rows of nothing take no place.
+void tellLeftOut(OpCall& call, const Array& rows, const std::vector<bool>& done) {
+  uint32_t asked = 0, left = 0;
+  for (uint32_t r = 0; r < rows.rows; ++r) {
+    const double* n = rows.numbers.data() + size_t{r} * rows.columns;
+    if (!(n[0] > 0) || !(n[1] > 0)) continue;
+    ++asked;
+    left += done[r] ? 0 : 1;
+  }
+  if (left == 0) return;
+  call.services().note("no-room",
+                       "'arrange': " + std::to_string(left) + " of " + std::to_string(asked) +
+                           " footprints found no place",
+                       "ask for fewer or smaller ones, a smaller gap, or a larger ground");
+}
+
 Status applyArrange(OpCall& call, const Arrange& args) {
   const Array& rows = *args.footprints.array;
   const double gap = args.gap, edge = args.edge.value_or(gap);
@@ -206,6 +222,7 @@ Status applyArrange(OpCall& call, const Arrange& args) {
       call.emit(groundPart(call, ground, p, kNoFront, streetOf(ground, p)), remainder->slot, piece);
     }
   }
+  tellLeftOut(call, rows, done);
   return {};
 }
 
