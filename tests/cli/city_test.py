@@ -71,7 +71,10 @@ class City(Case):
 
     def testAModelIsTheSameWithAnyNumberOfThreads(self):
         for jobs in ("1", "2"):
-            self.city("map.geojson", "--jobs", jobs, "-o", f"{jobs}.glb")
+            self.city("map.geojson", "--jobs", jobs, "-o", f"{jobs}.glb", "--stats", "stats.json")
+            figures = self.read("stats.json")
+            self.assertEqual(figures["fileBytes"], (self.folder / f"{jobs}.glb").stat().st_size)
+            self.assertGreater(figures["savedBytes"], 0)
         one, two = ((self.folder / f"{jobs}.glb").read_bytes() for jobs in ("1", "2"))
         self.assertGreater(len(one), 10_000)
         self.assertEqual(one, two)
