@@ -297,7 +297,8 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
   impl->result.scene.geoOrigin = shapes.impl().geoOrigin;
   impl->geo = shapes.impl().geo;
   for (const ShapeFootprint& f : shapes.impl().footprints) {
-    impl->shapeAttributes.push_back(f.attributes);
+    std::vector<AttributeValue>& known = impl->shapeAttributes.emplace_back(f.attributes);
+    if (!f.id.empty()) known.push_back({"id", {{PlainValue::Kind::Text, 0, f.id}}, 0, 0});
   }
   MissingFiles told;
   told.add(r.diagnostics);

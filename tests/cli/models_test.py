@@ -38,7 +38,7 @@ Garden --> [ Lawn. ] scatter(surface, 5, uniform) { Tree }
 Tree --> [ s(0.3, 2, 0.3) primitiveCylinder(6) Trunk. ] t(0, 2, 0) s(2, 2, 2) center(xz) primitiveSphere(6, 4) Crown.
 """
 LOTS = {"type": "FeatureCollection", "features": [
-    {"type": "Feature", "properties": {"name": name, "floors": floors, "owner": "O'Neil \"é\""},
+    {"type": "Feature", "id": "way/" + name[-1], "properties": {"name": name, "floors": floors, "owner": "O'Neil \"é\""},
      "geometry": {"type": "Polygon", "coordinates": [[[x, 50], [x + 0.0003, 50], [x + 0.0003, 50.0001], [x, 50.0001], [x, 50]]]}}
     for name, floors, x in (("Long Street 1", 2, 14.4), ("Long Street 2", 3, 14.4004))]}
 
@@ -85,6 +85,7 @@ class Models(Case):
         self.assertEqual(model["metadata"]["referenceSystem"], "https://www.opengis.net/def/crs/EPSG/0/32633")
         own = model["CityObjects"]["Long Street 1"]["attributes"]
         self.assertEqual((own["floors"], own["owner"]), (2, "O'Neil \"é\""))
+        self.assertEqual(own["id"], "way/1")
         self.assertGreater(own["floor area"], 100)
         found = self.read_by_others("a.city.json")
         self.assertEqual(found["objects"]["Building"], 2)

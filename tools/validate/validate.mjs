@@ -93,6 +93,8 @@ if (files.length === 0) {
   console.error("validate.mjs: no .glb, .gltf, .usda, .usdz, .city.json or .ifc file was given");
   process.exit(3);
 }
+// tinyusdz is told that it is in a browser, which web-ifc must not believe: it comes last.
+files.sort((a, b) => Number(/\.usd[az]$/.test(a)) - Number(/\.usd[az]$/.test(b)));
 let clean = true;
 for (const file of files) {
   clean = (await isCleanFile(file)) && clean;

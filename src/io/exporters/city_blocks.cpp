@@ -112,7 +112,12 @@ Region withoutDetails(const std::vector<Ring>& rings) {
   Region out;
   for (const Polygon& p : whole) {
     work();
-    if (area(p) >= kLeastArea && !offset({p}, -kLeastWidth).empty()) out.push_back(p);
+    const double size = area(p);
+    if (size < kLeastArea) continue;
+    // The area of a polygon is at most its perimeter by the radius of a circle that fits into it.
+    double edges = perimeter(p.outer);
+    for (const Ring& hole : p.holes) edges += perimeter(hole);
+    if (size > kLeastWidth * edges || !offset({p}, -kLeastWidth).empty()) out.push_back(p);
   }
   return out;
 }
