@@ -7,8 +7,8 @@
 // meet at different heights, straight down from eaves; the ground is flat.
 //
 // Promises: a shell that says it is closed has every edge twice, once in each direction; every
-// face turns counter-clockwise as seen from outside; walls and ground are flat, roofs within a
-// centimetre; points lie on a grid of 2^-8 m in the plan and of a millimetre in height, and no two
+// face turns counter-clockwise as seen from outside; walls and ground are flat, roofs within two
+// centimetres; points lie on a grid of 2^-8 m in the plan and of a millimetre in height, and no two
 // are equal. Coordinates: metres, x east, y north, z up. Equal input gives equal output.
 #pragma once
 
