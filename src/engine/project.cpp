@@ -8,7 +8,7 @@
 
 #include "base/allowance.h"
 #include "base/files.h"
-#include "base/parallel.h"
+#include "base/parallel_work.h"
 #include "io/image/image.h"
 #include "io/image/leaf_pictures.h"
 #include "io/image/patterns.h"
@@ -107,7 +107,7 @@ void Project::drawMaterials(const std::vector<std::string>& paths) {
   constexpr std::array kPictures{MaterialPicture::Color, MaterialPicture::Normal,
                                  MaterialPicture::Surface};
   std::vector<std::array<std::string, kPictures.size()>> made(wanted.size());
-  parallelFor(wanted.size(), 0, [&](size_t i, unsigned) {
+  parallelWork(wanted.size(), 0, [&](size_t i, unsigned) {
     const SurfaceField field = drawSurface(*wanted[i]);
     for (size_t k = 0; k < kPictures.size(); ++k) {
       made[i][k] = encodeMaterialPicture(field, *wanted[i], kPictures[k]).value();
@@ -122,6 +122,8 @@ void Project::drawMaterials(const std::vector<std::string>& paths) {
 }
 
 void Project::drawBuiltins(const std::vector<std::string>& paths) {
+  // Drawn once and kept, whoever asks first.
+  const UncountedWork uncounted;
   drawMaterials(paths);
   std::vector<std::pair<std::string, std::string>> made;
   {
@@ -135,7 +137,7 @@ void Project::drawBuiltins(const std::vector<std::string>& paths) {
   made.erase(std::unique(made.begin(), made.end()), made.end());
   // Noise does not get smaller at higher levels, only slower.
   constexpr int kLevel = 3, kLeavesLevel = 9;
-  parallelFor(made.size(), 0, [&](size_t i, unsigned) {
+  parallelWork(made.size(), 0, [&](size_t i, unsigned) {
     const std::string& path = made[i].first;
     const size_t leaves = builtinLeaves(path);
     made[i].second = leaves < kBuiltinLeaves.size()

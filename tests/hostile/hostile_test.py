@@ -177,7 +177,7 @@ class Derivations(Case):
         self.generate(text, "--max-seconds", "0.5", status=4, codes=["out-of-time"])
 
     def testShapesThatMultiplyEnd(self):
-        text = "A --> B(40)\nB(n) --> case n > 0 : B(n-1) t(1,0,0) B(n-1) else : X."
+        text = "A --> B(60)\nB(n) --> case n > 0 : B(n-1) t(1,0,0) B(n-1) else : X."
         self.generate(text, status=3, codes=["model-too-large"])
         self.generate(text, "--no-sharing", "--max-shapes", "1000000", status=4, codes=["too-many-shapes"])
         self.generate("A --> B(40)\nB(n) --> case n > 0 : B(n-1) t(1,0,0) B(n-1) else : print(1) X.",

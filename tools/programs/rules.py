@@ -167,6 +167,8 @@ class Rules:
         kind = param["type"]
         # What is written out and out of range is a mistake that ends the run; a sum is not known
         # before.
+        if "range" in param and kind == "float[]":
+            return Node(["[", self.number(), " + 0 * h, ", self.number(), " + 0 * h]"], ("[1 + 0 * h]",))
         if "range" in param and kind != "selection" and not kind.endswith("[]"):
             return Node(["(", self.number(), " + 0 * h)"], ("(1 + 0 * h)",))
         if param["name"] in ("hexValue", "label") and kind == "string":

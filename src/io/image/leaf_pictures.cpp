@@ -13,6 +13,7 @@
 
 #include "base/check.h"
 #include "base/elementary.h"
+#include "base/work.h"
 #include "io/image/surface_noise.h"
 #include "material/builtin_textures.h"
 #include "math/trig.h"
@@ -397,6 +398,7 @@ void put(const Canvas& from, int column, int row, Image& to) {
   Vec3 mean;
   double covered = 0;
   for (int y = 0; y < kCell; ++y) {
+    work(kCell);
     for (int x = 0; x < kCell; ++x) {
       if (!from.at(x, y).covered) continue;
       mean += from.at(x, y).color;
@@ -406,6 +408,7 @@ void put(const Canvas& from, int column, int row, Image& to) {
   mean = mean * (1 / std::max(1.0, covered));
   constexpr int kSize = kCell / kFine;
   for (int y = 0; y < kSize; ++y) {
+    work(kCell);
     for (int x = 0; x < kSize; ++x) {
       Vec3 sum;
       double share = 0;
@@ -432,6 +435,7 @@ Image drawLeaves(size_t number) {
   Image image{kLeafPictureSize, kLeafPictureSize, {}};
   image.rgba.resize(size_t{kLeafPictureSize} * kLeafPictureSize * 4);
   for (int cell = 0; cell < kCells * kCells; ++cell) {
+    work(kWorkBetweenLooks);
     Twig twig(kKinds[number], number, static_cast<uint64_t>(cell));
     put(twig.take(), cell % kCells, cell / kCells, image);
   }

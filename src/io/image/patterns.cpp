@@ -13,6 +13,7 @@
 
 #include "base/check.h"
 #include "base/hash.h"
+#include "base/work.h"
 #include "material/builtin_textures.h"
 #include "math/trig.h"
 #include "math/vec.h"
@@ -420,6 +421,7 @@ Image drawPattern(size_t number) {
   };
   Chances random;
   for (int y = 0; y < n; ++y) {
+    work(kPatternSize);
     for (int x = 0; x < n; ++x) {
       random.next();
       at(x, y) = pattern(random, number, (x + 0.5) / n, (y + 0.5) / n);
@@ -428,6 +430,7 @@ Image drawPattern(size_t number) {
   Image image{kPatternSize, kPatternSize, {}};
   image.rgba.resize(samples.size() * 4);
   for (int y = 0; y < n; ++y) {
+    work(kPatternSize);
     for (int x = 0; x < n; ++x) {
       // v runs up, rows of an image run down: light from above left.
       const double slope =

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/work.h"
 #include "io/image/jpeg.h"
 #include "io/image/surface_noise.h"
 
@@ -51,6 +52,7 @@ std::vector<double> blurred(const std::vector<double>& from, int r) {
            static_cast<size_t>((x + kSize) % kSize);
   };
   for (int y = 0; y < kSize; ++y) {
+    work(kSurfaceSize);
     for (int x = 0; x < kSize; ++x) {
       double sum = 0;
       for (int k = -r; k <= r; ++k) sum += from[index(x + k, y)];
@@ -58,6 +60,7 @@ std::vector<double> blurred(const std::vector<double>& from, int r) {
     }
   }
   for (int y = 0; y < kSize; ++y) {
+    work(kSurfaceSize);
     for (int x = 0; x < kSize; ++x) {
       double sum = 0;
       for (int k = -r; k <= r; ++k) sum += rows[index(x, y + k)];
@@ -92,6 +95,7 @@ Image normalPicture(const SurfaceField& field, const LibraryMaterial& m) {
   image.rgba.resize(field.texels.size() * 4);
   const double acrossU = 2 * m.width / kSize, acrossV = 2 * m.height / kSize;
   for (int y = 0; y < kSize; ++y) {
+    work(kSurfaceSize);
     for (int x = 0; x < kSize; ++x) {
       const double du = (field.at(x + 1, y).height - field.at(x - 1, y).height) / acrossU;
       const double dv = (field.at(x, y + 1).height - field.at(x, y - 1).height) / acrossV;
@@ -113,6 +117,7 @@ Image surfacePicture(const SurfaceField& field, const LibraryMaterial& m) {
   Image image{kSurfaceSize / 2, kSurfaceSize / 2, {}};
   image.rgba.resize(size_t{kHalf} * kHalf * 4);
   for (int y = 0; y < kHalf; ++y) {
+    work(kSurfaceSize);
     for (int x = 0; x < kHalf; ++x) {
       double occlusion = 0, roughness = 0, metallic = 0;
       for (int k = 0; k < 4; ++k) {
@@ -137,6 +142,7 @@ Image colorPicture(const SurfaceField& field) {
   Image image{kSurfaceSize, kSurfaceSize, {}};
   image.rgba.resize(field.texels.size() * 4);
   for (int y = 0; y < kSize; ++y) {
+    work(kSurfaceSize);
     for (int x = 0; x < kSize; ++x) {
       uint8_t* out =
           image.rgba.data() + (rowOf(y, kSize) * kSurfaceSize + static_cast<size_t>(x)) * 4;
@@ -155,6 +161,7 @@ SurfaceField drawSurface(const LibraryMaterial& m) {
   SurfaceField field;
   field.texels.reserve(size_t{kSurfaceSize} * kSurfaceSize);
   for (int y = 0; y < kSize; ++y) {
+    work(kSurfaceSize);
     for (int x = 0; x < kSize; ++x) {
       field.texels.push_back(draw(m, (x + 0.5) / kSize, (y + 0.5) / kSize));
     }
@@ -174,6 +181,7 @@ Result<std::string> encodeMaterialPicture(const SurfaceField& field, const Libra
   const Image image = pictureOf(field, m, picture);
   const bool color = picture == MaterialPicture::Color;
   for (int quality = 80;; quality -= 10) {
+    work(kWorkBetweenLooks);
     Result<std::string> bytes = encodeJpeg(image, quality, color);
     const bool fits = !bytes.ok() || bytes->size() <= kMostBytes[static_cast<size_t>(picture)];
     if (fits || quality <= 20) return bytes;

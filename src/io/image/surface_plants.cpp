@@ -3,6 +3,7 @@
 //
 // Blades, straws and leaves are drawn one by one into the field; the higher one covers.
 
+#include "base/work.h"
 #include "io/image/surface_noise.h"
 #include "math/trig.h"
 
@@ -39,6 +40,7 @@ class Painter {
     field_.texels.resize(size_t{kSurfaceSize} * kSurfaceSize);
     const int n = static_cast<int>(kSurfaceSize);
     for (int y = 0; y < n; ++y) {
+      work(kSurfaceSize);
       for (int x = 0; x < n; ++x) {
         const double u = (x + 0.5) / n, v = (y + 0.5) / n;
         SurfaceTexel& t = at(x, y);
@@ -63,6 +65,7 @@ class Painter {
     const int low = floorOf(v * kSurfaceSize + rows.least * py) - 1;
     const int high = floorOf(v * kSurfaceSize + rows.most * py) + 1;
     for (int y = low; y <= high; ++y) {
+      work();
       const double dy = (y + 0.5) / py - v * m_.height;
       const Spread row = alongRow(dy, c, s, length, half);
       const int left = floorOf(u * kSurfaceSize + row.least * px) - 1;
