@@ -186,7 +186,8 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
   }
   if (!a.eye.empty()) {
     const char* const kForm = "x,y,z in metres, such as 10,1.7,25";
-    auto& [eye, target] = s.camera.emplace();
+    gable::PictureSettings::Camera camera;
+    auto& [eye, target] = camera;
     if (!parseNumbers(a.eye, ',', kMetres, eye.data(), 3)) {
       return wrongOption("--eye", kForm, a.eye);
     }
@@ -194,6 +195,7 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
       return wrongOption("--target", kForm, a.target);
     }
     if (eye == target) return wrongOption("--target", "another place than --eye", a.target);
+    s.camera = camera;
   }
   return kExitDone;
 }
