@@ -115,12 +115,14 @@ bool parseCut(const std::string& text, gable::PictureSettings& s) {
 /// What photographers set.
 int lightSettings(const RenderArguments& a, gable::PictureSettings& s) {
   if (!a.look.empty()) s.look = gable::lookNamed(a.look).value_or(s.look);
-  if (!a.sunAt.empty() && !parseSunAt(a.sunAt, s.sunTime.emplace())) {
+  gable::SunTime time;
+  if (!a.sunAt.empty() && !parseSunAt(a.sunAt, time)) {
     return wrongOption("--sun-at",
                        "latitude,longitude,date,hour, such as 48.86,2.35,2024-06-21,18:30 or "
                        "2024-06-21,16:30Z",
                        a.sunAt);
   }
+  if (!a.sunAt.empty()) s.sunTime = time;
   double stops = 0;
   if (a.exposure != "auto") {
     if (!parseNumber(a.exposure, {-30, 30}, stops)) {
@@ -184,7 +186,8 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
   }
   if (!a.eye.empty()) {
     const char* const kForm = "x,y,z in metres, such as 10,1.7,25";
-    auto& [eye, target] = s.camera.emplace();
+    gable::PictureSettings::Camera camera;
+    auto& [eye, target] = camera;
     if (!parseNumbers(a.eye, ',', kMetres, eye.data(), 3)) {
       return wrongOption("--eye", kForm, a.eye);
     }
@@ -192,6 +195,7 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
       return wrongOption("--target", kForm, a.target);
     }
     if (eye == target) return wrongOption("--target", "another place than --eye", a.target);
+    s.camera = camera;
   }
   return kExitDone;
 }

@@ -15,14 +15,14 @@ namespace gable::rt {
 namespace {
 
 /// The sun's light has noise in penumbras only: small, and next to edges to be kept.
-constexpr int kSunPasses = 2, kIndirectPasses = 5;
+constexpr int kSunPasses = 1, kIndirectPasses = 4;
 constexpr float kKernel[3] = {3.0f / 8, 1.0f / 4, 1.0f / 16};
 /// Least albedo to divide by.
 constexpr float kLeastAlbedo = 0.02f;
 /// Brightness differences count in standard deviations times this.
-constexpr float kSunBrightness = 1.5f, kIndirectBrightness = 3.5f;
-/// Weight of a normal that is turned by 20 degrees: a third.
-constexpr float kSharpness = 18;
+constexpr float kSunBrightness = 1.0f, kIndirectBrightness = 3.0f;
+/// Weight of a normal that is turned by 20 degrees: a half.
+constexpr float kSharpness = 10;
 
 Vec3f divisor(const Vec3f& albedo) {
   return {std::max(kLeastAlbedo, albedo.x), std::max(kLeastAlbedo, albedo.y),

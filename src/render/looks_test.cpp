@@ -144,6 +144,30 @@ TEST(Cut, showsTheInsideOfWhatIsHollow) {
   EXPECT_NEAR(p.layers.depth[wall], 24, 1e-2);
 }
 
+// Rules leave out the faces that houses stand on.
+TEST(Cut, fillsWhatHasNoUnderside) {
+  SceneMaker m;
+  MeshBuilder b;
+  std::vector<uint32_t> at;
+  for (const Vec3& p : {Vec3{-4, 0, 4}, Vec3{4, 0, 4}, Vec3{4, 0, -4}, Vec3{-4, 0, -4}}) {
+    at.push_back(b.addPosition(p));
+    at.push_back(b.addPosition(p + Vec3{0, 4, 0}));
+  }
+  for (uint32_t k = 0; k < 4; ++k) {
+    const uint32_t n = (k + 1) % 4;
+    b.addPolygon(std::vector<uint32_t>{at[2 * k], at[2 * n], at[2 * n + 1], at[2 * k + 1]});
+  }
+  b.addPolygon(std::vector<uint32_t>{at[1], at[3], at[5], at[7]});
+  m.mesh(b.take(), m.material("#ff0000"));
+  RenderOptions o = straightAhead();
+  o.cut = CutPlane{{0, 0, 1}, 0};
+  o.groundHeight = 0;
+  // From above, rays leave the house by its underside.
+  o.eye = Vec3{0, 10, 24};
+  const Picture p = render(m.finish(), o);
+  for (size_t y = 18; y < 24; ++y) EXPECT_LT(p.layers.albedo[3 * (y * 80 + 40)], 0.1f) << y;
+}
+
 TEST(Looks, sectionIsCutAtItsFrontOnPaper) {
   RenderOptions o = smallOptions(64, 48, 8);
   o.look = PictureLook::Section;

@@ -3,7 +3,7 @@
 //
 // A cut is a half-space without anything in it: each ray is shortened to what is left. Where a ray
 // enters what is left inside something closed, that is a cut face. Whether it is closed there is
-// counted along three directions, two of which must agree, since rules leave gaps.
+// counted along five directions, three of which must agree, since rules leave gaps.
 
 #include "render/stage.h"
 
@@ -63,14 +63,11 @@ bool shorten(const Stage& stage, Ray& ray, float& entry) {
 }
 
 bool isSolid(const Stage& stage, const Vec3f& p) {
-  const Vec3f inwards = -stage.cut->normal;
-  Vec3f t, b;
-  basisAround(inwards, t, b);
-  const Vec3f start = p + inwards * 1e-3f;
+  const Vec3f start = p - stage.cut->normal * 1e-3f;
   int votes = 0;
-  // Directions that no wall of a house runs along.
-  for (const Vec3f& d : {inwards + t * 0.113f + b * 0.071f, inwards - t * 0.617f + b * 0.439f,
-                         inwards + t * 0.271f - b * 0.733f}) {
+  // Directions that no wall of a house runs along, and none downwards: houses have no undersides.
+  for (const Vec3f& d :
+       {Vec3f{0.83f, 0.21f, 0.31f}, Vec3f{-0.37f, 0.29f, 0.88f}, Vec3f{-0.52f, 0.97f, -0.61f}}) {
     votes += stage.tracer.isInside(start, normalized(d));
   }
   return votes >= 2;
@@ -170,16 +167,18 @@ bool meet(const Stage& stage, const Ray& whole, bool ordered, Surface& surface, 
   const bool found =
       ordered ? stage.tracer.intersectOrdered(ray, hit) : stage.tracer.intersect(ray, hit);
   if (found) distance = hit.distance;
-  if (meetBlock(stage, ray, entry, found, distance, surface)) return true;
   if (entry >= 0) {
     const Vec3f p = ray.origin + ray.direction * entry;
-    const bool soil = stage.ground && !stage.block && p.y < stage.groundHeight;
-    if (soil || (found && isSolid(stage, p))) {
+    // Below a house without an underside all counts as its inside: there, soil is what is cut.
+    const bool under = stage.ground && p.y < stage.groundHeight;
+    const bool soil = under && !stage.block;
+    if (soil || (!under && isSolid(stage, p))) {
       makeCut(stage, ray, entry, soil ? kCutSoil : kCutSolid, surface);
       distance = entry;
       return true;
     }
   }
+  if (meetBlock(stage, ray, entry, found, distance, surface)) return true;
   if (meetGround(stage, ray, found, distance, surface)) return true;
   if (!found) return false;
   surface = surfaceAt(stage.world, hit, ray);

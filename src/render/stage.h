@@ -36,13 +36,13 @@ struct Stage {
   uint32_t bounces = 3;
   bool clay = false;
   /// A plain background in place of sky and far ground, as light before the exposure.
-  std::optional<Vec3f> paper;
-  std::optional<Cut> cut;
+  std::optional<Vec3f> paper = {};
+  std::optional<Cut> cut = {};
   /// The ground as a block of soil instead of without an end.
   struct Block {
     Vec3f min, max;
   };
-  std::optional<Block> block;
+  std::optional<Block> block = {};
   /// Share of rooms with light in them.
   float litRooms = 0;
 };
