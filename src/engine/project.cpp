@@ -136,7 +136,7 @@ void Project::drawBuiltins(const std::vector<std::string>& paths) {
   std::sort(made.begin(), made.end());
   made.erase(std::unique(made.begin(), made.end()), made.end());
   // Noise does not get smaller at higher levels, only slower.
-  constexpr int kLevel = 3, kLeavesLevel = 9;
+  constexpr int kLevel = 3, kLeavesLevel = 6;
   parallelWork(made.size(), 0, [&](size_t i, unsigned) {
     const std::string& path = made[i].first;
     const size_t leaves = builtinLeaves(path);
