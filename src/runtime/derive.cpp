@@ -481,6 +481,9 @@ std::unique_ptr<DeriveResult> deriveIn(Way way, const Program& program,
   if (shared.indivisible && !usage.exhausted() && !usage.cancelled()) return nullptr;
 
   if (!pass.failure.ok()) return failed(pass.failure);
+  // The scene needs their room.
+  if (known.rooms) known.rooms->forgetAnswers();
+  known.occluders.reset();
   auto result = assembled(pass, shared, shapes);
   if (known.rooms) {
     tellRooms(pass, *known.rooms, shared, *result);

@@ -221,4 +221,14 @@ bool RoomPlan::holds(size_t worker, RoomCondition condition) const {
   return e.state == (condition % 2 == 1 ? State::Free : State::Taken);
 }
 
+void RoomPlan::forgetAnswers() {
+  groups_ = {};
+  labels_ = {};
+  entryOf_ = {};
+  begins_ = {};
+  asking_ = {};
+  entries_ = {};
+  workers_ = {};
+}
+
 }  // namespace gable

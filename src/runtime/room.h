@@ -88,6 +88,8 @@ class RoomPlan {
   bool holds(size_t worker, RoomCondition condition) const;
   /// In the order in which they first ask. Those that were never made are not counted.
   const std::vector<RoomCount>& counts() const { return counts_; }
+  /// Gives the memory of the answers back, which nobody may ask for any more; the counts stay.
+  void forgetAnswers();
 
  private:
   enum class State : uint8_t { NotMade, Taken, Free };

@@ -41,6 +41,8 @@ Model derivedFrom(const Rules& rules, double width, double depth, double seed, S
   DeriveSettings settings;
   settings.seed = seed;
   settings.jobs = 2;
+  // A hundred thousand houses take about four gigabytes.
+  settings.limits.bytes = uint64_t{8} << 30;
   settings.attributes = std::move(set);
   Model model = derive(rules, Shapes::lot(width, depth), settings);
   EXPECT_FALSE(hasErrors(model.diagnostics())) << render(model.diagnostics());
