@@ -81,7 +81,7 @@ TEST(TownExample, hasTwoThousandBuildingsOfAllStylesAParkAndACastle) {
   const Town town(1000, 1);
   const std::set<std::string> files = filesOf(town.scene());
   for (const char* file : {"haussmann.cga", "monaco.cga", "rowhouse.cga", "suburb_house.cga",
-                           "tower.cga", "gardens.cga", "castle.cga"}) {
+                           "tower.cga", "gardens.cga", "castle.cga", "huts.cga"}) {
     EXPECT_EQ(files.count(file), 1u) << file;
   }
   // The studio draws so many.
