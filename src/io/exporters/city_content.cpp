@@ -119,6 +119,16 @@ CityKind kindOfShape(const std::string& name, const std::vector<AttributeValue>&
   return isOfBuilding(kind) || kind == CityKind::Land ? CityKind::Unknown : kind;
 }
 
+std::string titleOfShape(const std::string& name, const std::vector<AttributeValue>& attributes) {
+  for (const AttributeValue& a : attributes) {
+    if (a.name != "id" || a.values.empty()) continue;
+    const std::string& id = a.values[0].text;
+    const bool goesOn = id.size() > name.size() + 1 && id.starts_with(name + "/");
+    if (goesOn && id[name.size() + 1] != '/') return id.substr(name.size() + 1);
+  }
+  return name;
+}
+
 CityContent cityContentOf(const Scene& scene, const CityParts& kinds, CityFaces& faces,
                           const Root& root, CityKind kindOfShape) {
   return Collector(scene, kinds, faces, kindOfShape).collect(root);

@@ -103,6 +103,8 @@ class IfcWriter {
   // By material of the scene.
   std::map<uint32_t, std::vector<StepId>> elementsOf_;
   uint64_t rootNumber_ = 0, guids_ = 0;
+  // How many shapes of a title were written.
+  std::map<std::string, uint64_t> titles_;
   // Of the building at hand.
   StepId building_ = 0, buildingPlacement_ = 0;
   std::string buildingName_;
@@ -368,14 +370,16 @@ void IfcWriter::addInstance(const Instance& in, const Frame& world, const CityPa
 
 void IfcWriter::writeRoot(uint32_t number) {
   const Root& root = scene_.roots[number];
-  rootNumber_ = number + 1;
   guids_ = 0;
   const Attributes known = options_.attributesOf ? options_.attributesOf(number) : Attributes{};
   const std::string& name = root.name < scene_.names.size() ? scene_.names[root.name] : path_;
   const CityKind kind = kindOfShape(name, known);
   measure(root, kind);
   levels_.divide(storeyCountOf(known));
-  buildingName_ = stepText(name, kMostLabel);
+  const std::string title = titleOfShape(name, known);
+  buildingName_ = stepText(title, kMostLabel);
+  // Ids stay as they are where other shapes come and go.
+  rootNumber_ = hashBytes(title, ++titles_[title]);
   if (builds_) openBuilding();
   const auto enter = [&](const Instance& in, const Frame& world) {
     const bool maps = kinds_.isWhole(in.prototype) && kinds_.uses(in.prototype) > 1;
