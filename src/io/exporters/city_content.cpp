@@ -124,7 +124,8 @@ std::string titleOfShape(const std::string& name, const std::vector<AttributeVal
     if (a.name != "id" || a.values.empty()) continue;
     const std::string& id = a.values[0].text;
     const bool goesOn = id.size() > name.size() + 1 && id.starts_with(name + "/");
-    if (goesOn && id[name.size() + 1] != '/') return id.substr(name.size() + 1);
+    if (!goesOn || id[name.size() + 1] == '/') continue;
+    return name == "Building" ? id.substr(name.size() + 1) : id;
   }
   return name;
 }

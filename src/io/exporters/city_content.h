@@ -19,8 +19,9 @@ namespace gable {
 /// on a lot, and names of several words are those of things: Park Road may be a house.
 CityKind kindOfShape(const std::string& name, const std::vector<AttributeValue>& attributes);
 
-/// What an initial shape is called: where its name is that of a kind of things and its id goes on
-/// from there, as "Building/way/7" does, the rest of the id; else the name.
+/// What an initial shape is called: its name, unless that is of a kind of things and its id goes on
+/// from there. Then it is the id, such as "Street/way/7", and of buildings only the rest, "way/7":
+/// several shapes may be of one thing of a map.
 std::string titleOfShape(const std::string& name, const std::vector<AttributeValue>& attributes);
 
 /// What a leaf or a prototype of a shape of that kind is: a shape that is no building makes none.

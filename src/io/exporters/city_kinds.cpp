@@ -58,8 +58,8 @@ constexpr CityKindSpec kSpecs[kCityKinds] = {
 };
 
 // Words of a window that other things have as well.
-constexpr std::string_view kTrims[] = {"frame",   "frames", "bar",     "bars", "mullion", "mullions",
-                                       "muntin",  "muntins", "sill",   "sills", "trim",   "trims"};
+constexpr std::string_view kTrims[] = {"frame",  "frames",  "bar",  "bars",  "mullion", "mullions",
+                                       "muntin", "muntins", "sill", "sills", "trim",    "trims"};
 
 // Sorted.
 using Words = std::vector<std::pair<std::string_view, CityKind>>;

@@ -56,8 +56,8 @@ void IfcStoreys::add(const Leaf& leaf, const Frame& world, const CityPart& part)
   const Box3 box = faces_.boxOf(leaf, world);
   if (box.empty()) return;
   bounds_.include(box);
-  const bool stands = part.kind == CityKind::Wall || part.kind == CityKind::Unknown ||
-                      isOpening(part.kind);
+  const bool stands =
+      part.kind == CityKind::Wall || part.kind == CityKind::Unknown || isOpening(part.kind);
   if (stands) addUpright(leaf, world);
   if (part.storey == 0) return;
   const double width = std::max(box.size().x, box.size().z);
