@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/work.h"
+#include "scene/flatten.h"
 
 namespace gable {
 namespace {
@@ -119,6 +120,18 @@ CityKind kindOfShape(const std::string& name, const std::vector<AttributeValue>&
   return isOfBuilding(kind) || kind == CityKind::Land ? CityKind::Unknown : kind;
 }
 
+CityKind kindOrLand(const Scene& scene, const CityParts& kinds, const Root& root, CityKind kind) {
+  if (kind != CityKind::Unknown) return kind;
+  bool lies = false, stands = false;
+  forEachLeaf(scene, scene.prototypes[root.instance.prototype], root.instance.frame,
+              [&](const Leaf& leaf, const Frame&) {
+                const CityKind of = kinds.of(leaf).kind;
+                lies = lies || of == CityKind::Ground;
+                stands = stands || (of != CityKind::Ground && isOfBuilding(of));
+              });
+  return lies && !stands ? CityKind::Land : kind;
+}
+
 std::string titleOfShape(const std::string& name, const std::vector<AttributeValue>& attributes) {
   for (const AttributeValue& a : attributes) {
     if (a.name != "id" || a.values.empty()) continue;
@@ -132,7 +145,8 @@ std::string titleOfShape(const std::string& name, const std::vector<AttributeVal
 
 CityContent cityContentOf(const Scene& scene, const CityParts& kinds, CityFaces& faces,
                           const Root& root, CityKind kindOfShape) {
-  return Collector(scene, kinds, faces, kindOfShape).collect(root);
+  const CityKind kind = kindOrLand(scene, kinds, root, kindOfShape);
+  return Collector(scene, kinds, faces, kind).collect(root);
 }
 
 }  // namespace gable

@@ -27,6 +27,9 @@ std::string titleOfShape(const std::string& name, const std::vector<AttributeVal
 /// What a leaf or a prototype of a shape of that kind is: a shape that is no building makes none.
 CityPart partWithin(CityPart part, CityKind kindOfShape);
 
+/// The kind of a shape, or Land where nothing of a building stands on its ground.
+CityKind kindOrLand(const Scene& scene, const CityParts& kinds, const Root& root, CityKind kind);
+
 struct PlacedPart {
   PlannedLeaf planned;
   CityKind kind = CityKind::Unknown;

@@ -210,6 +210,19 @@ TEST(CityJsonWriter, whatHasNoRoofIsNoBuilding) {
   EXPECT_EQ(model["CityObjects"].members().size(), 2u);
 }
 
+TEST(CityJsonWriter, groundWithoutABuildingIsLand) {
+  City c;
+  c.box("Ground", {0, 0, 0}, {9, 0.1, 9});
+  c.root("bare", c.prototype("Lot"), Frame{});
+  c.box("Ground", {0, 0, 0}, {9, 0.1, 9});
+  c.box("Wall", {0, 0, 0}, {9, 6, 9});
+  c.root("built", c.prototype("Lot"), Frame{});
+  const JsonValue model = written(c.scene, "ground.city.json");
+  EXPECT_EQ(model["CityObjects"].members().size(), 2u);
+  EXPECT_EQ(model["CityObjects"]["bare"]["type"].text(), "LandUse");
+  EXPECT_EQ(typesOf(model["CityObjects"]["built"]["geometry"].at(2)).count("GroundSurface"), 1u);
+}
+
 TEST(CityJsonWriter, aFeatureALine) {
   City c = houseWithGarden();
   c.box("Water", {0, 0, 0}, {5, 1, 5});

@@ -373,7 +373,7 @@ void IfcWriter::writeRoot(uint32_t number) {
   guids_ = 0;
   const Attributes known = options_.attributesOf ? options_.attributesOf(number) : Attributes{};
   const std::string& name = root.name < scene_.names.size() ? scene_.names[root.name] : path_;
-  const CityKind kind = kindOfShape(name, known);
+  const CityKind kind = kindOrLand(scene_, kinds_, root, kindOfShape(name, known));
   measure(root, kind);
   levels_.divide(storeyCountOf(known));
   const std::string title = titleOfShape(name, known);
