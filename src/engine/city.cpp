@@ -81,6 +81,8 @@ std::shared_ptr<const Shapes::Impl> shapesOf(const CityPlan& plan, const MapFeat
     input.id = s.rule + '/' + s.id + (before > 0 ? '/' + std::to_string(before) : "");
     input.mesh = meshOf(s);
     input.attributes = s.attributes;
+    if (!s.id.empty())
+      input.attributes.push_back({"id", {{PlainValue::Kind::Text, 0, s.id}}, 0, 0});
     input.attributes.push_back({kStartRuleAttribute, {{PlainValue::Kind::Text, 0, s.rule}}, 0, 0});
     out->footprints.push_back(footprint(std::move(input)));
     out->footprints.back().reachesImports = true;

@@ -296,6 +296,8 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
   }
   impl->result.scene.geoOrigin = shapes.impl().geoOrigin;
   impl->geo = shapes.impl().geo;
+  impl->startRule = options.startRule >= 0 ? options.startRule : r.program.startRule;
+  for (const auto& [name, value] : options.attributes) impl->setAttributes.insert(name);
   for (const ShapeFootprint& f : shapes.impl().footprints) {
     std::vector<AttributeValue>& known = impl->shapeAttributes.emplace_back(f.attributes);
     if (!f.id.empty()) known.push_back({"id", {{PlainValue::Kind::Text, 0, f.id}}, 0, 0});

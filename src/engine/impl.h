@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -89,6 +90,9 @@ struct Model::Impl {
   /// What initial shapes came with, and where their world lies on the Earth, for city models.
   std::vector<std::vector<AttributeValue>> shapeAttributes;
   std::shared_ptr<const GeoFrame> geo;
+  /// The rule that shapes start with that name none, and the attributes that the caller has set.
+  int32_t startRule = -1;
+  std::set<std::string> setAttributes;
   /// What of result.scene can be shown and written; a later derivation goes on from the other.
   SoundScene sound;
   double seconds = 0;
@@ -103,8 +107,9 @@ struct Model::Impl {
 /// operation a pair that meets.
 void cutNested(std::vector<ShapeFootprint>& footprints);
 
-/// What city models say of a root: its reports, numbers of one key summed; then the attributes of
-/// its shape as rules see them; then those that it came with.
+/// What city models say of a root: its reports, numbers of one key summed; then the attributes that
+/// its rules read or that the caller has set, as rules see them; then those that it came with, but
+/// for those of its edges.
 std::vector<AttributeValue> knownOfRoot(const Model::Impl& model, size_t root);
 
 /// Seconds of a steady clock.

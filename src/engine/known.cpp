@@ -2,12 +2,14 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // What is known of initial shapes, for models that hold attributes.
+#include <algorithm>
 #include <map>
 
 #include "base/work.h"
 #include "engine/footprint.h"
 #include "engine/impl.h"
 #include "runtime/output.h"
+#include "shape/edge_attributes.h"
 
 namespace gable {
 namespace {
@@ -30,6 +32,32 @@ void addReports(const Model::Impl& model, size_t root, std::vector<AttributeValu
   }
 }
 
+// The attributes that the rules of a shape may read, sorted.
+const std::vector<uint32_t>* readOf(const Model::Impl& model, size_t shape) {
+  const Program& program = model.rules->program;
+  int32_t rule = model.startRule;
+  if (shape < model.shapeAttributes.size()) {
+    for (const AttributeValue& a : model.shapeAttributes[shape]) {
+      if (a.name != kStartRuleAttribute || a.values.size() != 1) continue;
+      const int32_t named = program.findRule(a.values[0].text);
+      if (named >= 0) rule = named;
+    }
+  }
+  if (rule < 0 || static_cast<size_t>(rule) >= program.rules.size()) return nullptr;
+  return &program.rules[static_cast<size_t>(rule)].reads.attributes;
+}
+
+void addAttributes(const Model::Impl& model, size_t shape, std::vector<AttributeValue>& out) {
+  const std::vector<uint32_t>* read = readOf(model, shape);
+  for (const EvaluatedAttribute& a : model.result.attributes[shape]) {
+    work();
+    const std::string& name = model.rules->program.attributes[a.attribute].name;
+    const bool isRead = read && std::binary_search(read->begin(), read->end(), a.attribute);
+    if (!isRead && !model.setAttributes.count(name)) continue;
+    out.push_back(plainAttribute(name, a.value, *model.rules->pool));
+  }
+}
+
 }  // namespace
 
 std::vector<AttributeValue> knownOfRoot(const Model::Impl& model, size_t root) {
@@ -37,15 +65,11 @@ std::vector<AttributeValue> knownOfRoot(const Model::Impl& model, size_t root) {
   if (root >= model.result.roots.size()) return out;
   addReports(model, root, out);
   const size_t shape = model.result.roots[root].shape;
-  if (shape < model.result.attributes.size() && model.rules) {
-    for (const EvaluatedAttribute& a : model.result.attributes[shape]) {
-      const std::string& name = model.rules->program.attributes[a.attribute].name;
-      out.push_back(plainAttribute(name, a.value, *model.rules->pool));
-    }
-  }
+  if (shape < model.result.attributes.size() && model.rules) addAttributes(model, shape, out);
   if (shape >= model.shapeAttributes.size()) return out;
   for (const AttributeValue& a : model.shapeAttributes[shape]) {
-    if (a.name != kStartRuleAttribute) out.push_back(a);
+    const bool isOfEdges = EdgeAttributes::isNamed(a.name, a.rows > 0 || a.columns > 0);
+    if (a.name != kStartRuleAttribute && !isOfEdges) out.push_back(a);
   }
   return out;
 }

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/work.h"
+#include "scene/flatten.h"
 
 namespace gable {
 namespace {
@@ -119,9 +120,33 @@ CityKind kindOfShape(const std::string& name, const std::vector<AttributeValue>&
   return isOfBuilding(kind) || kind == CityKind::Land ? CityKind::Unknown : kind;
 }
 
+CityKind kindOrLand(const Scene& scene, const CityParts& kinds, const Root& root, CityKind kind) {
+  if (kind != CityKind::Unknown) return kind;
+  bool lies = false, stands = false;
+  forEachLeaf(scene, scene.prototypes[root.instance.prototype], root.instance.frame,
+              [&](const Leaf& leaf, const Frame&) {
+                const CityKind of = kinds.of(leaf).kind;
+                lies = lies || of == CityKind::Ground;
+                stands = stands || (of != CityKind::Ground && isOfBuilding(of));
+              });
+  return lies && !stands ? CityKind::Land : kind;
+}
+
+std::string titleOfShape(const std::string& name, const std::vector<AttributeValue>& attributes) {
+  for (const AttributeValue& a : attributes) {
+    if (a.name != "id" || a.values.empty()) continue;
+    const std::string& id = a.values[0].text;
+    const bool goesOn = id.size() > name.size() + 1 && id.starts_with(name + "/");
+    if (!goesOn || id[name.size() + 1] == '/') continue;
+    return name == "Building" ? id.substr(name.size() + 1) : id;
+  }
+  return name;
+}
+
 CityContent cityContentOf(const Scene& scene, const CityParts& kinds, CityFaces& faces,
                           const Root& root, CityKind kindOfShape) {
-  return Collector(scene, kinds, faces, kindOfShape).collect(root);
+  const CityKind kind = kindOrLand(scene, kinds, root, kindOfShape);
+  return Collector(scene, kinds, faces, kind).collect(root);
 }
 
 }  // namespace gable

@@ -19,8 +19,16 @@ namespace gable {
 /// on a lot, and names of several words are those of things: Park Road may be a house.
 CityKind kindOfShape(const std::string& name, const std::vector<AttributeValue>& attributes);
 
+/// What an initial shape is called: its name, unless that is of a kind of things and its id goes on
+/// from there. Then it is the id, such as "Street/way/7", and of buildings only the rest, "way/7":
+/// several shapes may be of one thing of a map.
+std::string titleOfShape(const std::string& name, const std::vector<AttributeValue>& attributes);
+
 /// What a leaf or a prototype of a shape of that kind is: a shape that is no building makes none.
 CityPart partWithin(CityPart part, CityKind kindOfShape);
+
+/// The kind of a shape, or Land where nothing of a building stands on its ground.
+CityKind kindOrLand(const Scene& scene, const CityParts& kinds, const Root& root, CityKind kind);
 
 struct PlacedPart {
   PlannedLeaf planned;

@@ -665,7 +665,7 @@ void CityJsonWriter::writeRoot(uint32_t number) {
   const Bodies bodies = bodiesOf(content);
   const bool builds = std::any_of(bodies.begin(), bodies.end(),
                                   [](const auto& b) { return !b.second.shells.empty(); });
-  const std::string id = uniqueId(name);
+  const std::string id = uniqueId(titleOfShape(name, known));
   if (builds) {
     openLine(id);
     writeBuilding(id, content, bodies, known);

@@ -21,7 +21,7 @@ constexpr CityKindSpec kSpecs[kCityKinds] = {
     {"Roof", "RoofSurface", nullptr, "IfcRoof",
      "roof roofs roofing dormer ridge thatch slate slates shingle shingles"},
     {"Floor", "OuterFloorSurface", nullptr, "IfcSlab", "slab slabs deck balcony terrace"},
-    {"Ground", "GroundSurface", nullptr, "IfcSlab", "foundation"},
+    {"Ground", "GroundSurface", nullptr, "IfcSlab", "foundation ground"},
     {"Ceiling", "OuterCeilingSurface", nullptr, "IfcCovering", "ceiling ceilings soffit"},
     {"Window", "Window", nullptr, "IfcWindow",
      "window windows glass glazing pane panes sash shutter shutters skylight"},
@@ -56,6 +56,10 @@ constexpr CityKindSpec kSpecs[kCityKinds] = {
     {"Tunnel", nullptr, "Tunnel", "IfcCivilElement", "tunnel"},
     {"Construction", nullptr, "OtherConstruction", "IfcBuildingElementProxy", "construction"},
 };
+
+// Words of a window that other things have as well.
+constexpr std::string_view kTrims[] = {"frame",  "frames",  "bar",  "bars",  "mullion", "mullions",
+                                       "muntin", "muntins", "sill", "sills", "trim",    "trims"};
 
 // Sorted.
 using Words = std::vector<std::pair<std::string_view, CityKind>>;
@@ -110,7 +114,14 @@ CityKind cityKindNamed(std::string_view name) {
   return CityKind::Unknown;
 }
 
-CityKind cityKindOfIdentifier(std::string_view name) {
+namespace {
+
+// What follows the last dot: what stands before is the name of an import.
+std::string_view ownName(std::string_view name) { return name.substr(name.rfind('.') + 1); }
+
+// Calls `take` for each word, the last first, until it gives true.
+template <class Take>
+void forEachWord(std::string_view name, Take&& take) {
   size_t end = name.size();
   while (end > 0) {
     if (!isLetter(name[end - 1])) {
@@ -120,17 +131,40 @@ CityKind cityKindOfIdentifier(std::string_view name) {
     // A word begins with a capital, or behind what is no letter.
     size_t begin = end - 1;
     while (begin > 0 && !isUpper(name[begin]) && isLetter(name[begin - 1])) --begin;
-    const CityKind kind = kindOfWord(lowerCase(name.substr(begin, end - begin)));
-    if (kind != CityKind::Unknown) return kind;
+    if (take(lowerCase(name.substr(begin, end - begin)))) return;
     end = begin;
   }
-  return CityKind::Unknown;
+}
+
+bool isWordOfTrim(const std::string& word) {
+  return std::find(std::begin(kTrims), std::end(kTrims), word) != std::end(kTrims);
+}
+
+}  // namespace
+
+CityKind cityKindOfIdentifier(std::string_view name) {
+  CityKind kind = CityKind::Unknown;
+  forEachWord(ownName(name), [&](const std::string& word) {
+    kind = kindOfWord(word);
+    return kind != CityKind::Unknown;
+  });
+  return kind;
+}
+
+bool isTrim(std::string_view name) {
+  bool is = false;
+  forEachWord(ownName(name), [&](const std::string& word) {
+    is = is || isWordOfTrim(word);
+    return is;
+  });
+  return is && cityKindOfIdentifier(name) == CityKind::Unknown;
 }
 
 CityParts::CityParts(const Scene& scene) {
   for (const std::string& name : scene.names) {
     work(name.size());
     nameKinds_.push_back(cityKindOfIdentifier(name));
+    trims_.push_back(isTrim(name));
   }
   for (const SourcePlace& s : scene.sources) {
     work(s.rule.size());
@@ -175,9 +209,10 @@ CityPart CityParts::of(const Leaf& leaf) const {
   if (part.kind == CityKind::Unknown && leaf.name < nameKinds_.size()) {
     part.kind = nameKinds_[leaf.name];
   }
-  if (part.kind == CityKind::Unknown && leaf.source < sourceKinds_.size()) {
-    part.kind = sourceKinds_[leaf.source];
-  }
+  if (part.kind != CityKind::Unknown) return part;
+  if (leaf.source < sourceKinds_.size()) part.kind = sourceKinds_[leaf.source];
+  const bool isTrimmed = part.kind == CityKind::Unknown || part.kind == CityKind::Wall;
+  if (isTrimmed && leaf.name < trims_.size() && trims_[leaf.name]) part.kind = CityKind::Window;
   return part;
 }
 

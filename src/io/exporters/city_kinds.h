@@ -7,6 +7,7 @@
 //      that CityJSON or IFC have for it ("WallSurface", "IfcWall");
 //   2. the last word of the leaf's name that says it: FrontDoor is a door, DoorWall a wall;
 //   3. the last such word of the rule that made it.
+// Of a name only what follows its last dot counts: what stands before is the name of an import.
 // What none of them says is unknown: part of the building, told by where it looks.
 // docs/guide/city-models.md has the table for authors of rules.
 #pragma once
@@ -75,8 +76,12 @@ bool isOpening(CityKind kind);
 
 /// A kind by a name of its row, whatever the case of its letters; Unknown for any other text.
 CityKind cityKindNamed(std::string_view name);
-/// The kind that the last telling word of an identifier says; Unknown where none does.
+/// The kind that the last telling word of an identifier says, without the import before its dot;
+/// Unknown where none does.
 CityKind cityKindOfIdentifier(std::string_view name);
+/// True where a name has only words of what windows have, and doors, railings and roofs as well,
+/// such as Frame: the rule's name counts before it, unless that is a wall.
+bool isTrim(std::string_view name);
 
 /// What a leaf is a part of.
 struct CityPart {
@@ -111,6 +116,7 @@ class CityParts {
 
   // By name, source and attribute set.
   std::vector<CityKind> nameKinds_, sourceKinds_;
+  std::vector<bool> trims_;
   std::vector<CityPart> setParts_;
   std::vector<std::string> texts_{""};
   std::map<std::string, uint32_t> textNumbers_;

@@ -210,6 +210,19 @@ TEST(CityJsonWriter, whatHasNoRoofIsNoBuilding) {
   EXPECT_EQ(model["CityObjects"].members().size(), 2u);
 }
 
+TEST(CityJsonWriter, groundWithoutABuildingIsLand) {
+  City c;
+  c.box("Ground", {0, 0, 0}, {9, 0.1, 9});
+  c.root("bare", c.prototype("Lot"), Frame{});
+  c.box("Ground", {0, 0, 0}, {9, 0.1, 9});
+  c.box("Wall", {0, 0, 0}, {9, 6, 9});
+  c.root("built", c.prototype("Lot"), Frame{});
+  const JsonValue model = written(c.scene, "ground.city.json");
+  EXPECT_EQ(model["CityObjects"].members().size(), 2u);
+  EXPECT_EQ(model["CityObjects"]["bare"]["type"].text(), "LandUse");
+  EXPECT_EQ(typesOf(model["CityObjects"]["built"]["geometry"].at(2)).count("GroundSurface"), 1u);
+}
+
 TEST(CityJsonWriter, aFeatureALine) {
   City c = houseWithGarden();
   c.box("Water", {0, 0, 0}, {5, 1, 5});
@@ -306,6 +319,87 @@ TEST(Ifc, storeysHaveTheNamesThatRulesGive) {
   EXPECT_NE(text.find("'Ground floor',$,$"), std::string::npos);
   EXPECT_NE(text.find("'Piano nobile',$,$"), std::string::npos);
   EXPECT_NE(text.find(".ELEMENT.,3.);"), std::string::npos);
+}
+
+TEST(Ifc, storeysEndAtTheEaves) {
+  // Two storeys of three metres below a roof of nearly four, with a blank wall and windows above.
+  City c;
+  c.box("Wall", {0, 0, 0}, {10, 6, 8});
+  c.box("Roof", {0, 6, 0}, {10, 3.78, 8});
+  c.box("Pane", {1, 1, 8}, {1, 1.4, 0.1});
+  c.box("Wall", {2, 0, 8}, {0.5, 5.9, 0.1});
+  c.box("Pane", {1, 4, 8}, {1, 1.4, 0.1});
+  c.root("a", c.prototype("Lot"), Frame{});
+  WriteOptions options;
+  options.attributesOf = [](size_t) {
+    return std::vector<AttributeValue>{{"levels", {{PlainValue::Kind::Text, 0, "2"}}, 0, 0}};
+  };
+  const std::string path = inWritten("eaves.ifc");
+  ASSERT_TRUE(writeModel(c.scene, path, options).ok());
+  const std::string text = readFile(path).value();
+  EXPECT_EQ(countOf(text, "=IFCBUILDINGSTOREY("), 2u);
+  EXPECT_EQ(countOf(text, "=IFCRELCONTAINEDINSPATIALSTRUCTURE("), 2u);
+  EXPECT_NE(text.find(".ELEMENT.,3.);"), std::string::npos);
+  EXPECT_NE(text.find(",$,'eaves',$"), std::string::npos);
+}
+
+TEST(Ifc, aHighWallDoesNotPullItsStoreyDown) {
+  City c;
+  const uint32_t first = c.says("cityStorey", "Storey 1"), zero = c.says("cityStorey", "Storey 0");
+  c.box("Wall", {0, 3, 0}, {9, 3, 1}, first);
+  c.box("Wall", {0, 0, 9}, {3, 6, 1}, first);
+  c.box("Wall", {0, 0, 0}, {9, 3, 1}, zero);
+  c.box("Roof", {0, 6, 0}, {9, 1, 1});
+  c.root("a", c.prototype("Lot"), Frame{});
+  const std::string path = inWritten("high.ifc");
+  ASSERT_TRUE(writeModel(c.scene, path, {}).ok());
+  const std::string text = readFile(path).value();
+  // The storeys that the roof would make are those that have names.
+  EXPECT_EQ(countOf(text, "=IFCBUILDINGSTOREY("), 2u);
+  EXPECT_NE(text.find(".ELEMENT.,3.);"), std::string::npos);
+  EXPECT_LT(text.find("'Storey 0'"), text.find("'Storey 1'"));
+}
+
+TEST(CityKinds, trimIsOfWhatItIsOn) {
+  City c;
+  c.scene.sources.resize(5);
+  const char* rules[] = {"", "", "Wall", "Railing", "furniture.Make"};
+  for (size_t i = 1; i < 5; ++i) c.scene.sources[i].rule = rules[i];
+  const auto add = [&](const char* leaf, uint32_t rule) {
+    c.box(leaf, {0, 0, 0}, {1, 1, 1}).source = rule;
+  };
+  add("Bars", 2);
+  add("Sill", 1);
+  add("Bars", 3);
+  add("DoorFrame", 2);
+  add("furniture.Wood", 1);
+  add("Wood", 4);
+  add("Step", 2);
+  add("Ground", 1);
+  c.prototype("Lot");
+  ASSERT_GE(c.scene.leaves.size(), 8u);
+  const CityParts parts(c.scene);
+  const CityKind expected[] = {CityKind::Window, CityKind::Window,  CityKind::Railing,
+                               CityKind::Door,   CityKind::Unknown, CityKind::Unknown,
+                               CityKind::Stair,  CityKind::Ground};
+  for (size_t i = 0; i < 8; ++i) EXPECT_EQ(parts.of(c.scene.leaves[i]).kind, expected[i]) << i;
+}
+
+TEST(CityJsonWriter, objectsHaveTheIdsOfMaps) {
+  City c = houseWithGarden();
+  c.scene.roots[0].name = c.name("Building");
+  WriteOptions options;
+  options.attributesOf = [](size_t) {
+    const auto text = [](const char* t) { return PlainValue{PlainValue::Kind::Text, 0, t}; };
+    return std::vector<AttributeValue>{{"id", {text("way/7")}, 0, 0},
+                                       {"id", {text("Building/way/7")}, 0, 0}};
+  };
+  const JsonValue model = written(c.scene, "ids.city.json", options);
+  EXPECT_EQ(model["CityObjects"]["way/7"]["type"].text(), "Building");
+  EXPECT_EQ(model["CityObjects"]["way/7"]["attributes"]["id"].text(), "way/7");
+  const std::string path = inWritten("ids.ifc");
+  ASSERT_TRUE(writeModel(c.scene, path, options).ok());
+  EXPECT_NE(readFile(path).value().find(",$,'way/7',$,$,"), std::string::npos);
 }
 
 TEST(StepText, isEscaped) {

@@ -6,8 +6,7 @@
 // element. A prototype that is of one kind and stands several times is an element for each place of
 // it, of one mapped shape. In memory are one element, and the numbers of those of a building.
 //
-// Elements lie in the storey that cityStorey names. Without it storeys are as high as the number of
-// them that the shape or its reports say allows, else three metres.
+// Elements lie in the storeys of ifc_storeys.h.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -19,6 +18,7 @@
 #include "io/exporters/city_content.h"
 #include "io/exporters/city_place.h"
 #include "io/exporters/ifc_elements.h"
+#include "io/exporters/ifc_storeys.h"
 #include "io/exporters/step_text.h"
 #include "io/exporters/write_model.h"
 #include "scene/flatten.h"
@@ -26,20 +26,12 @@
 namespace gable {
 namespace {
 
-constexpr double kStoreyHeight = 3;
-constexpr double kMostStoreys = 300;
 // An element of more is several.
 constexpr uint64_t kMostTriangles = 50'000;
 constexpr size_t kMostLabel = 255;
 
-// Attributes and reports that say how many storeys a building has.
-constexpr const char* kStoreyNames[] = {"storeys",         "storeysAboveGround", "floors",
-                                        "building:levels", "building_levels",    "levels"};
-
 struct Storey {
   StepId id = 0, placement = 0;
-  std::string name;
-  double elevation = 1e300;
   std::vector<StepId> elements;
 };
 
@@ -54,6 +46,7 @@ class IfcWriter {
         faces_(scene),
         triangles_(scene),
         place_(options.geo, scene.geoOrigin),
+        levels_(faces_, kinds_),
         shape_(scene, triangles_) {}
 
   Result<WriteReport> write();
@@ -76,8 +69,6 @@ class IfcWriter {
   void measure(const Root& root, CityKind kind);
   void openBuilding();
   void closeBuilding(const Attributes& known);
-  double storeyHeightBy(const Attributes& known) const;
-  Storey& storeyOf(const CityPart& part, const Box3& box);
   void addLeaf(uint32_t leaf, const Frame& world, CityKind kindOfShape);
   void addInstance(const Instance& in, const Frame& world, const CityPart& part);
   void endElement();
@@ -112,13 +103,15 @@ class IfcWriter {
   // By material of the scene.
   std::map<uint32_t, std::vector<StepId>> elementsOf_;
   uint64_t rootNumber_ = 0, guids_ = 0;
+  // How many shapes of a title were written.
+  std::map<std::string, uint64_t> titles_;
   // Of the building at hand.
   StepId building_ = 0, buildingPlacement_ = 0;
   std::string buildingName_;
-  Box3 bounds_;
   bool builds_ = false;
-  double storeyHeight_ = kStoreyHeight;
-  std::map<std::string, Storey> storeys_;
+  IfcStoreys levels_;
+  // By index into levels_.all().
+  std::vector<Storey> storeys_;
   // The element at hand.
   IfcShape shape_;
   CityRun run_;
@@ -162,6 +155,7 @@ void IfcWriter::writeContext() {
   }
   const StepId assigned = file_.add("IFCUNITASSIGNMENT(" + stepList(units) + ")");
   std::string name = fileNameOf(path_);
+  name.resize(std::min(name.rfind('.'), name.size()));
   project_ = file_.add("IFCPROJECT(" + guid() + ",$," + stepText(name, kMostLabel) + ",$,$,$,$,(" +
                        stepRef(context) + ")," + stepRef(assigned) + ")");
   shapes_ = std::make_unique<IfcShapeWriter>(scene_, file_, body_);
@@ -207,28 +201,15 @@ void IfcWriter::writeSite() {
 // ---- Buildings ----------------------------------------------------------------------------------
 
 void IfcWriter::measure(const Root& root, CityKind kind) {
-  bounds_ = Box3{};
+  levels_.clear();
   builds_ = false;
   forEachLeaf(scene_, scene_.prototypes[root.instance.prototype], root.instance.frame,
               [&](const Leaf& leaf, const Frame& world) {
-                if (!isOfBuilding(partWithin(kinds_.of(leaf), kind).kind)) return;
+                const CityPart part = partWithin(kinds_.of(leaf), kind);
+                if (!isOfBuilding(part.kind)) return;
                 builds_ = true;
-                bounds_.include(faces_.boxOf(leaf, world));
+                levels_.add(leaf, world, part);
               });
-}
-
-double IfcWriter::storeyHeightBy(const Attributes& known) const {
-  const double height = bounds_.size().y;
-  for (const char* name : kStoreyNames) {
-    for (const AttributeValue& a : known) {
-      if (a.name != name || a.values.empty()) continue;
-      double count = a.values[0].number;
-      const bool isText = a.values[0].kind == PlainValue::Kind::Text;
-      if (isText && !parseNumber(a.values[0].text, count)) continue;
-      if (count >= 1 && count <= kMostStoreys && height > 0) return height / count;
-    }
-  }
-  return kStoreyHeight;
 }
 
 void IfcWriter::openBuilding() {
@@ -238,43 +219,26 @@ void IfcWriter::openBuilding() {
   file_.put(building_, "IFCBUILDING(" + guid() + ",$," + buildingName_ + ",$,$," +
                            stepRef(buildingPlacement_) + ",$,$,.ELEMENT.,$,$,$)");
   buildings_.push_back(building_);
-}
-
-Storey& IfcWriter::storeyOf(const CityPart& part, const Box3& box) {
-  std::string key, name;
-  if (part.storey) {
-    name = kinds_.text(part.storey);
-    key = "s" + name;
-  } else {
-    const double up = box.center().y - bounds_.min.y;
-    const double number = std::clamp(std::floor(up / storeyHeight_), 0.0, kMostStoreys);
-    name = "Storey " + std::to_string(static_cast<int>(number));
-    // So that text order is that of numbers.
-    key = "h" + std::to_string(1000 + static_cast<int>(number));
+  storeys_.resize(levels_.all().size());
+  for (Storey& s : storeys_) {
+    work();
+    s.id = file_.reserve();
+    s.placement = file_.add("IFCLOCALPLACEMENT(" + stepRef(buildingPlacement_) + "," +
+                            stepRef(identity_) + ")");
   }
-  Storey& s = storeys_[key];
-  s.elevation = std::min(s.elevation, box.min.y);
-  if (s.id) return s;
-  s.name = name;
-  s.id = file_.reserve();
-  s.placement = file_.add("IFCLOCALPLACEMENT(" + stepRef(buildingPlacement_) + "," +
-                          stepRef(identity_) + ")");
-  return s;
 }
 
 void IfcWriter::closeBuilding(const Attributes& known) {
-  std::vector<std::pair<double, StepId>> all;
-  for (auto& [key, s] : storeys_) {
-    file_.put(s.id, "IFCBUILDINGSTOREY(" + guid() + ",$," + stepText(s.name, kMostLabel) + ",$,$," +
-                        stepRef(s.placement) + ",$,$,.ELEMENT.," +
-                        stepReal(std::round(s.elevation * 1e5) / 1e5) + ")");
-    relate("IFCRELCONTAINEDINSPATIALSTRUCTURE", s.id, s.elements);
-    all.emplace_back(s.elevation, s.id);
-  }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<StepId> ids;
-  for (const auto& [elevation, id] : all) ids.push_back(id);
+  for (size_t i = 0; i < storeys_.size(); ++i) {
+    const Storey& s = storeys_[i];
+    const IfcStorey& level = levels_.all()[i];
+    file_.put(s.id, "IFCBUILDINGSTOREY(" + guid() + ",$," + stepText(level.name, kMostLabel) +
+                        ",$,$," + stepRef(s.placement) + ",$,$,.ELEMENT.," +
+                        stepReal(std::round(level.elevation * 1e5) / 1e5) + ")");
+    relate("IFCRELCONTAINEDINSPATIALSTRUCTURE", s.id, s.elements);
+    ids.push_back(s.id);
+  }
   relate("IFCRELAGGREGATES", building_, ids);
   storeys_.clear();
   const StepId set = ifcProperties(file_, stepGuid(rootNumber_, ++guids_), known);
@@ -314,7 +278,8 @@ std::string upperCase(std::string text) {
 
 void IfcWriter::putElement(const Element& e, StepId representation, const Frame& frame) {
   const CityPart& part = e.part;
-  Storey* storey = isOfBuilding(part.kind) ? &storeyOf(part, e.box) : nullptr;
+  Storey* storey = nullptr;
+  if (isOfBuilding(part.kind) && !storeys_.empty()) storey = &storeys_[levels_.of(part, e.box)];
   const StepId around = storey ? storey->placement : sitePlacement_;
   const StepId axes = frame == Frame{} ? identity_ : ifcAxes(file_, frame);
   const StepId placement =
@@ -405,14 +370,16 @@ void IfcWriter::addInstance(const Instance& in, const Frame& world, const CityPa
 
 void IfcWriter::writeRoot(uint32_t number) {
   const Root& root = scene_.roots[number];
-  rootNumber_ = number + 1;
   guids_ = 0;
   const Attributes known = options_.attributesOf ? options_.attributesOf(number) : Attributes{};
   const std::string& name = root.name < scene_.names.size() ? scene_.names[root.name] : path_;
-  const CityKind kind = kindOfShape(name, known);
+  const CityKind kind = kindOrLand(scene_, kinds_, root, kindOfShape(name, known));
   measure(root, kind);
-  storeyHeight_ = storeyHeightBy(known);
-  buildingName_ = stepText(name, kMostLabel);
+  levels_.divide(storeyCountOf(known));
+  const std::string title = titleOfShape(name, known);
+  buildingName_ = stepText(title, kMostLabel);
+  // Ids stay as they are where other shapes come and go.
+  rootNumber_ = hashBytes(title, ++titles_[title]);
   if (builds_) openBuilding();
   const auto enter = [&](const Instance& in, const Frame& world) {
     const bool maps = kinds_.isWhole(in.prototype) && kinds_.uses(in.prototype) > 1;
