@@ -75,7 +75,7 @@ bool isSolid(const Stage& stage, const Vec3f& p) {
   int aside = 0;
   for (int k = 0; k < kAside; ++k) {
     const double a = 15 + 360.0 * k / kAside;
-    const double rise = 0.0007 * (k % 3) - 0.0006;
+    const double rise = 0.00007 * (k % 3) - 0.00006;
     aside += stage.tracer.isInside(start, toVec3f(normalized(Vec3{sinDeg(a), rise, cosDeg(a)})));
   }
   if (2 * aside > kAside) return true;
