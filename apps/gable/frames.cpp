@@ -86,7 +86,8 @@ int drawFrames(const gable::Model& model, const RenderArguments& arguments,
       };
     }
     const gable::WriteResult written = maker.write(files.path(frame), each);
-    print(written.diagnostics);
+    // What is said of one frame is said of all.
+    if (frame == 0 || !written.ok) print(written.diagnostics);
     if (!written.ok) return statusOf(written.diagnostics, kExitFile);
     if (!film) answer().wrote(files.path(frame));
   }

@@ -173,6 +173,20 @@ void watch(const PictureSettings& s, Allowance& allowance, RenderOptions& o) {
   };
 }
 
+void tellOfPicture(const Picture& picture, const Task& task, DiagnosticList& diagnostics) {
+  if (picture.cancelled) diagnostics.push_back(task.warning());
+  if (!picture.lacksPanes) return;
+  diagnostics.push_back(diagnosticOf(
+      {Severity::Warning,
+       "no-panes",
+       Span{},
+       "no room is lit: nothing in the model is a pane",
+       "a pane is a smooth face that is no metal: give the windows material(\"glass\"), or "
+       "set(material.roughness, 0.05)",
+       {}},
+      Sources{}));
+}
+
 WriteResult writtenPicture(const Picture& picture, const std::string& path, const Task& task) {
   const Result<std::string> png =
       encodePng({picture.image.width, picture.image.height, toRgba8(picture.image)}, 3);
@@ -181,7 +195,7 @@ WriteResult writtenPicture(const Picture& picture, const std::string& path, cons
   if (!bytes.ok()) return failed<WriteResult>(bytes.error());
   WriteResult out;
   out.ok = !picture.cancelled;
-  if (picture.cancelled) out.diagnostics.push_back(task.warning());
+  tellOfPicture(picture, task, out.diagnostics);
   out.triangles = picture.stats.triangles;
   out.bytes = bytes.value();
   return out;
@@ -224,7 +238,7 @@ PictureData dataOf(const Scene& scene, const RenderOptions& options, Picture&& p
                    const Task& task) {
   PictureData out;
   out.ok = !picture.cancelled;
-  if (picture.cancelled) out.diagnostics.push_back(task.warning());
+  tellOfPicture(picture, task, out.diagnostics);
   out.width = static_cast<int>(picture.image.width);
   out.height = static_cast<int>(picture.image.height);
   out.rgba = toRgba8(picture.image);

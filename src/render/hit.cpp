@@ -253,7 +253,11 @@ Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray) {
     s.base = mix(s.base, s.base * colorOf(texel), texel[3]);
   }
   if (layers.read(TextureLayer::Emissive, texel)) s.emissive *= colorOf(texel);
-  if (layers.read(TextureLayer::Roughness, texel)) s.roughness *= texel[1];
+  if (layers.read(TextureLayer::Roughness, texel)) {
+    s.roughness *= texel[1];
+    // The bars between panes are not lit from behind.
+    s.pane = m.pane && s.roughness < kPaneRoughness;
+  }
   if (layers.read(TextureLayer::Metallic, texel)) s.metallic *= texel[2];
   if (layers.read(TextureLayer::Occlusion, texel)) s.base *= texel[0];
   if (layers.read(TextureLayer::Normal, texel)) {

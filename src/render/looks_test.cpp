@@ -168,6 +168,48 @@ TEST(Cut, fillsWhatHasNoUnderside) {
   for (size_t y = 18; y < 24; ++y) EXPECT_LT(p.layers.albedo[3 * (y * 80 + 40)], 0.1f) << y;
 }
 
+// A house without thickness: its roof has an underside, and its windows stand back.
+TEST(Cut, fillsUnderRoofsWithUndersidesAndBehindPanesSetBack) {
+  SceneMaker m;
+  MeshBuilder b;
+  const auto quad = [&](const Vec3& from, const Vec3& along, const Vec3& up) {
+    std::vector<uint32_t> at;
+    for (const Vec3& p : {from, from + along, from + along + up, from + up}) {
+      at.push_back(b.addPosition(p));
+    }
+    b.addPolygon(at);
+  };
+  const Vec3 corner[] = {{-4, 0, 4}, {4, 0, 4}, {4, 0, -4}, {-4, 0, -4}};
+  for (int k = 0; k < 4; ++k) {
+    const Vec3 along = (corner[(k + 1) % 4] - corner[k]) * (1 / 8.0);
+    const Vec3 in{-along.z * -0.15, 0, along.x * -0.15}, up{0, 1, 0};
+    quad(corner[k], along * 8, up);
+    quad(corner[k] + up * 3, along * 8, up);
+    for (int i = 0; i < 4; ++i) {
+      quad(corner[k] + up + along * (2 * i), along, up * 2);
+      quad(corner[k] + up + along * (2 * i + 1) + in, along, up * 2);
+    }
+  }
+  m.mesh(b.take(), m.material("#ff0000"));
+  m.box({-4, 4, -4}, {8, 2, 8}, m.material("#ff0000"));
+  RenderOptions o = straightAhead();
+  o.cut = CutPlane{{0, 0, 1}, 0};
+  o.groundHeight = 0;
+  const Picture p = render(m.finish(), o);
+  int filled = 0, points = 0;
+  for (uint32_t y = 0; y < 40; ++y) {
+    for (uint32_t x = 0; x < 80; ++x) {
+      const size_t i = y * 80 + x;
+      const double metre = 40 / (24 * tanDeg(20));
+      const double across = (x + 0.5 - 40) / metre, high = 2 - (y + 0.5 - 20) / metre;
+      if (std::abs(across) > 3.8 || high < 0.1 || high > 3.9) continue;
+      ++points;
+      filled += p.layers.albedo[3 * i] < 0.1f;
+    }
+  }
+  EXPECT_EQ(filled, points);
+}
+
 TEST(Looks, sectionIsCutAtItsFrontOnPaper) {
   RenderOptions o = smallOptions(64, 48, 8);
   o.look = PictureLook::Section;
@@ -190,6 +232,20 @@ TEST(Looks, clayIsOfOneColour) {
       EXPECT_LT(std::abs(c[0] - c[1]), 0.35f * c[1]);
     }
   }
+}
+
+TEST(Looks, panesOfClayAreAShadeDarker) {
+  SceneMaker m;
+  m.box({-4, 0, 0}, {8, 4, 4}, m.material("#808080"));
+  m.box({-4, 0, 3.98}, {4, 4, 0.04}, m.material("#808080", 0.05));
+  RenderOptions o = straightAhead();
+  o.look = PictureLook::Clay;
+  o.samples = 16;
+  const Picture p = render(m.finish(), o);
+  const double pane = levelOf(p.image, 0.4, 0.45, 0.48, 0.55);
+  const double wall = levelOf(p.image, 0.52, 0.45, 0.6, 0.55);
+  EXPECT_LT(pane, 0.75 * wall);
+  EXPECT_GT(pane, 0.3 * wall);
 }
 
 TEST(Looks, drawingsArePaperWithLines) {

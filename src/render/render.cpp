@@ -193,6 +193,17 @@ struct Renderer::Impl {
     return false;
   }
 
+  bool anyPane() const {
+    for (const rt::Part& part : world.parts) {
+      for (const bool clear : {false, true}) {
+        for (const uint32_t m : part.set(clear).materials) {
+          if (world.materials[m].pane) return true;
+        }
+      }
+    }
+    return false;
+  }
+
   /// The block of soil: as wide as the model, and some.
   rt::Stage::Block block(double foot) const {
     const Vec3 size = world.bounds.size();
@@ -301,6 +312,8 @@ Picture Renderer::render(const RenderOptions& options) const {
   } else {
     impl.photograph(stage, options, picture, watch);
   }
+  const bool lights = options.look == PictureLook::Photo || options.look == PictureLook::Section;
+  picture.lacksPanes = lights && options.litRooms.value_or(0) > 0 && !impl.anyPane();
   if (options.layers && !picture.cancelled) {
     picture.layers = rt::traceLayers(stage, impl.scene, picture.camera, options);
   }

@@ -200,6 +200,8 @@ struct Picture {
     double elevation = 0, azimuth = 0;
   } sun;
   RenderStats stats;
+  /// Rooms were asked to be lit, but no face of the scene is a pane.
+  bool lacksPanes = false;
   /// True when `progress` ended it; the rows that were not reached are black.
   bool cancelled = false;
 };

@@ -327,6 +327,25 @@ TEST(Render, cutOutTexelsShowWhatIsBehind) {
   EXPECT_LT(luminanceOf(through), 0.6 * luminanceOf(solid));
 }
 
+// Materials of the library say only by a texture that they are smooth.
+TEST(Render, panesAreAsSmoothAsTheirTexture) {
+  const auto isPane = [](uint8_t rough, const char* shader) {
+    OneTexture textures;
+    textures.image.width = textures.image.height = 1;
+    textures.image.rgba = {255, rough, 0, 255};
+    Material laid;
+    laid.shader = std::string(kLaidShader) + shader;
+    laid.map(TextureLayer::Roughness).path = "quarters.png";
+    std::vector<rt::SurfaceMaterial> made;
+    rt::TextureTable table;
+    rt::makeMaterials({laid}, &textures, made, table);
+    return made[0].pane;
+  };
+  EXPECT_TRUE(isPane(13, "glass"));
+  EXPECT_FALSE(isPane(200, "glass"));
+  EXPECT_FALSE(isPane(13, "water"));
+}
+
 // A quad of one tile, a quarter of which is clear: that is the light that gets through.
 TEST(Render, cutOutTexelsOfLaidMaterialsLetLightThrough) {
   const OneTexture textures = quarters();

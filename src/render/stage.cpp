@@ -3,7 +3,7 @@
 //
 // A cut is a half-space without anything in it: each ray is shortened to what is left. Where a ray
 // enters what is left inside something closed, that is a cut face. Whether it is closed there is
-// counted along five directions, three of which must agree, since rules leave gaps.
+// counted along many directions, most of which must agree, since rules leave gaps.
 
 #include "render/stage.h"
 
@@ -15,6 +15,8 @@ namespace gable::rt {
 namespace {
 
 constexpr Vec3f kClay{0.70f, 0.67f, 0.63f}, kClayGround{0.58f, 0.555f, 0.525f};
+/// A shade darker, or fronts of clay would have no windows.
+constexpr Vec3f kClayPane{0.40f, 0.39f, 0.375f};
 constexpr Vec3f kCutSolid{0.045f, 0.04f, 0.04f}, kCutSoil{0.26f, 0.19f, 0.13f};
 
 /// A room behind panes: this wide and high.
@@ -64,13 +66,26 @@ bool shorten(const Stage& stage, Ray& ray, float& entry) {
 
 bool isSolid(const Stage& stage, const Vec3f& p) {
   const Vec3f start = p - stage.cut->normal * 1e-3f;
-  int votes = 0;
-  // Directions that no wall of a house runs along, and none downwards: houses have no undersides.
-  for (const Vec3f& d :
-       {Vec3f{0.83f, 0.21f, 0.31f}, Vec3f{-0.37f, 0.29f, 0.88f}, Vec3f{-0.52f, 0.97f, -0.61f}}) {
-    votes += stage.tracer.isInside(start, normalized(d));
+  // Directions that no wall of a house runs along, and none down: houses have no undersides. Most
+  // bodies are closed at their sides, whatever covers them: a roof with an underside counts for
+  // nothing on the way up, since a ray enters it before it leaves it. So they are as good as level,
+  // not quite, lest all run within one face. Panes that stand back behind their wall leave slits,
+  // through which few of the directions get.
+  constexpr int kAside = 9;
+  int aside = 0;
+  for (int k = 0; k < kAside; ++k) {
+    const double a = 15 + 360.0 * k / kAside;
+    const double rise = 0.00007 * (k % 3) - 0.00006;
+    aside += stage.tracer.isInside(start, toVec3f(normalized(Vec3{sinDeg(a), rise, cosDeg(a)})));
   }
-  return votes >= 2;
+  if (2 * aside > kAside) return true;
+  // Terrain may be closed nowhere but above.
+  int above = 0;
+  for (const Vec3f& d :
+       {Vec3f{0.63f, 0.71f, 0.21f}, Vec3f{-0.27f, 0.89f, 0.58f}, Vec3f{-0.52f, 0.97f, -0.61f}}) {
+    above += stage.tracer.isInside(start, normalized(d));
+  }
+  return above == 3;
 }
 
 void makeCut(const Stage& stage, const Ray& ray, float distance, const Vec3f& base,
@@ -141,7 +156,7 @@ bool meetBlock(const Stage& stage, const Ray& ray, float entry, bool found, floa
 }
 
 void makeClay(Surface& s) {
-  s.base = kClay;
+  s.base = s.pane ? kClayPane : kClay;
   s.emissive = {};
   s.metallic = 0;
   s.roughness = 0.9f;

@@ -4,7 +4,8 @@
 // A street view is searched, not computed: some hundred places in and around the scene are tried,
 // those under a roof or against a wall dropped, and from each one a coarse picture is taken in
 // every direction and marked for what makes a good photograph: walls over half of it, a quarter of
-// sky, depth, two thirds of the walls in the sun, something near but nothing in the way.
+// sky, depth, two thirds of the walls in the sun, something near but nothing in the way, and no
+// wall at arm's length beside it.
 //
 // A place that is wide has ground of its own, which may be a hill: there the eye stands on it, away
 // from its border, and looks along a street. Ground is told from roofs as surveys by laser tell it:
@@ -24,6 +25,8 @@ constexpr int kPlaces = 640, kDirections = 24;
 constexpr size_t kRefined = 8;
 constexpr int kSteps = 16;
 constexpr int kColumns = 20, kRows = 12;
+/// A third of the picture with walls nearer than this shows little of them.
+constexpr float kClose = 10;
 /// Just above the horizon.
 constexpr int kHorizonRow = 4;
 
@@ -51,7 +54,7 @@ bool isWater(const Subject& s, const Hit& hit) {
   const World& w = s.world;
   const Part& part = w.parts[hit.placement == kNone ? 0 : w.placements[hit.placement].part];
   const TriangleSet& set = hit.clear ? part.clear : part.solid;
-  return w.materials[set.materials[hit.triangle]].roughness < kWet;
+  return w.materials[set.materials[hit.triangle]].meanRoughness < kWet;
 }
 
 /// Whether what lies at `foot` is the ground of a place and no roof.
@@ -122,6 +125,40 @@ double widthBeside(const Subject& s, const Camera& camera) {
   return std::min(widest, kWidest);
 }
 
+/// How much nearer than a few metres, or than a third of the street's width, what stands at one
+/// side is, from 0 to 1: a front at arm's length fills a third of the picture and shows nothing.
+double nearnessBeside(const Subject& s, const Camera& camera) {
+  constexpr double kEnough = 6, kShare = 0.32;
+  double least = kEnough * 4, width = 0;
+  for (const double side : {-1.0, 1.0}) {
+    Ray ray;
+    ray.origin = toVec3f(camera.eye);
+    ray.direction = toVec3f(normalized(camera.right * side + camera.forward * 0.3));
+    ray.to = static_cast<float>(kEnough * 4);
+    Hit hit;
+    const bool any = s.tracer.intersect(ray, hit);
+    const double distance = any ? static_cast<double>(hit.distance) : kEnough * 4;
+    least = std::min(least, distance);
+    width += distance;
+  }
+  return off(least / std::min(kEnough, kShare * width), 1, 1e9);
+}
+
+/// The share of the width in front of which something near stands, up to an eighth. Even a lamp
+/// post parts the picture, and slips between the columns of the others.
+double blockedAhead(const Subject& s, const Camera& camera, double aspect) {
+  constexpr int kFine = 64;
+  int blocked = 0;
+  for (int k = 0; k < kFine; ++k) {
+    const double x = (k + 0.5) / kFine;
+    Ray ray = cameraRay(camera, aspect, x, kHorizon + 0.06);
+    ray.to = std::abs(x - 0.5) < 0.25 ? 9 : 4.5f;
+    Hit hit;
+    blocked += s.tracer.intersect(ray, hit);
+  }
+  return std::min(static_cast<double>(blocked) / kFine, 0.125);
+}
+
 /// Of a place: how far from its middle, how wide the street and how short the look along it is.
 double markInPlace(const Subject& s, const Camera& camera, double ahead) {
   if (!isPlace(s)) return 0;
@@ -134,7 +171,7 @@ double markInPlace(const Subject& s, const Camera& camera, double ahead) {
 double mark(const Subject& s, const Light& light, const Camera& camera, double aspect) {
   const bool place = isPlace(s);
   const double footY = camera.eye.y - kEyeHeight;
-  int sides[2] = {0, 0};
+  int sides[2] = {0, 0}, close[2] = {0, 0};
   int flat = 0, blank = 0;
   Vec3f last;
   Hit lastHit;
@@ -160,6 +197,8 @@ double mark(const Subject& s, const Light& light, const Camera& camera, double a
       cut += row == kRows - 1;
       inTheWay += hit.distance < 2.6f;
       near += hit.distance >= 2.6f && hit.distance < 7;
+      if (hit.distance < kClose && column < kColumns / 3) ++close[0];
+      if (hit.distance < kClose && column >= kColumns - kColumns / 3) ++close[1];
       const double l = std::log2(static_cast<double>(std::max(hit.distance, 0.5f)));
       logSum += l;
       logSquares += l * l;
@@ -193,10 +232,13 @@ double mark(const Subject& s, const Light& light, const Camera& camera, double a
   return -6 * off(things / all, 0.5, 0.68) - 4 * off(flat / all, 0.3, 0.6) -
          3 * off((things - walls) / all, 0, 0.1) - 3 * off((walls - flat) / all, 0, 0.16) -
          6 * off(blank / all, 0, 0.08) - 3 * off(sky / all, 0.16, 0.32) -
-         8 * off(inTheWay / all, 0, 0.02) - 2 * off(near / all, 0.02, 0.2) -
-         1.5 * off(litShare, 0.5, 0.8) + 2.4 * std::min(depth, 1.5) -
-         4 * off(sides[0] / third, 0.4, 1) - 4 * off(sides[1] / third, 0.4, 1) -
-         1.2 * off(static_cast<double>(cut) / kColumns, 0, 0.3) + markInPlace(s, camera, ahead);
+         8 * off(inTheWay / all, 0, 0.02) - 24 * blockedAhead(s, camera, aspect) -
+         2 * off(near / all, 0.02, 0.2) - 1.5 * off(litShare, 0.5, 0.8) +
+         2.4 * std::min(depth, 1.5) - 4 * off(close[0] / third, 0, 0.3) -
+         4 * off(close[1] / third, 0, 0.3) - 4 * off(sides[0] / third, 0.4, 1) -
+         4 * off(sides[1] / third, 0.4, 1) -
+         1.2 * off(static_cast<double>(cut) / kColumns, 0, 0.3) + markInPlace(s, camera, ahead) -
+         3 * nearnessBeside(s, camera);
 }
 
 struct Standpoint {

@@ -29,8 +29,6 @@ constexpr float kLeafTransmission = 0.22f;
 constexpr Vec3f kLeafTint{1.12f, 1.06f, 0.5f};
 /// Of water: what it mirrors when looked at from above, and the roughest material that can be it.
 constexpr float kWaterFacing = 0.02f, kWaterRoughness = 0.3f;
-/// The roughest material that can be a pane, and the most transparent and brightest one.
-constexpr float kPaneRoughness = 0.2f;
 
 constexpr std::string_view kWaterWords[] = {"water", "pond", "pool",  "river",
                                             "lake",  "sea",  "canal", "stream"};
@@ -185,14 +183,22 @@ Vec3f TextureTable::mean(int32_t image) const {
   return toVec3f(sum * (4.0 / static_cast<double>(texels.size())));
 }
 
+float TextureTable::meanRoughness(int32_t image) const {
+  const std::vector<uint8_t>& texels = images[static_cast<size_t>(image)]->rgba;
+  uint64_t sum = 0;
+  for (size_t i = 1; i < texels.size(); i += 4) sum += texels[i];
+  return static_cast<float>(static_cast<double>(sum) * (4.0 / 255) /
+                            static_cast<double>(texels.size()));
+}
+
 void makeMaterials(const std::vector<Material>& from, const TextureSource* source,
                    std::vector<SurfaceMaterial>& to, TextureTable& textures) {
   std::map<std::string, int32_t> known;
+  std::map<int32_t, float> roughnessOf;
   to.clear();
   for (const Material& m : from) {
     SurfaceMaterial s = surfaceOf(m);
     s.source = static_cast<uint32_t>(to.size());
-    s.pane = s.roughness < kPaneRoughness && s.metallic < 0.5f;
     for (const TextureLayer layer :
          {TextureLayer::Color, TextureLayer::Dirt, TextureLayer::Opacity, TextureLayer::Normal,
           TextureLayer::Emissive, TextureLayer::Occlusion, TextureLayer::Roughness,
@@ -208,15 +214,22 @@ void makeMaterials(const std::vector<Material>& from, const TextureSource* sourc
     const int32_t glow = s.maps[static_cast<size_t>(TextureLayer::Emissive)].image;
     s.meanEmissive = s.emissive;
     if (glow >= 0 && maxOf(s.emissive) > 0) s.meanEmissive *= textures.mean(glow);
+    const int32_t rough = s.maps[static_cast<size_t>(TextureLayer::Roughness)].image;
+    s.meanRoughness = s.roughness;
+    if (rough >= 0) {
+      const auto [at, isNew] = roughnessOf.try_emplace(rough, 0.0f);
+      if (isNew) at->second = textures.meanRoughness(rough);
+      s.meanRoughness *= at->second;
+    }
+    const Matter laidMatter =
+        s.laid ? matterNamed(std::string_view(m.shader).substr(kLaidShader.size())) : Matter::Plain;
+    s.pane = s.meanRoughness < kPaneRoughness && s.metallic < 0.5f && laidMatter != Matter::Water;
     const int32_t color = s.maps[static_cast<size_t>(TextureLayer::Color)].image;
     const bool cutOut = s.mask || s.maps[static_cast<size_t>(TextureLayer::Opacity)].image >= 0;
     const bool mapped = cutOut || (color >= 0 && textures.hasAlpha[static_cast<size_t>(color)]);
     s.clear = m.opacityMode != OpacityMode::Opaque && (s.opacity < 1 || mapped);
     if (m.doubleSided && cutOut && s.metallic == 0) s.transmission = kLeafTransmission;
-    if (s.laid &&
-        matterNamed(std::string_view(m.shader).substr(kLaidShader.size())) == Matter::Water) {
-      s = madeOf(s, Matter::Water);
-    }
+    if (laidMatter == Matter::Water) s = madeOf(s, Matter::Water);
     to.push_back(s);
   }
   // A scene may name no material at all.

@@ -31,6 +31,9 @@ struct TextureLookup {
   float uu = 1, uv = 0, u0 = 0, vu = 0, vv = 1, v0 = 0;
 };
 
+/// The roughest surface that can be a pane.
+constexpr float kPaneRoughness = 0.2f;
+
 /// What a surface is by the name that rules gave its shape.
 enum class Matter : uint8_t { Plain, Foliage, Water };
 
@@ -41,13 +44,16 @@ struct SurfaceMaterial {
   /// Index into Scene::materials.
   uint32_t source = 0;
   Matter matter = Matter::Plain;
-  /// Smooth enough for a window: at night there may be light behind it.
+  /// Smooth enough for a window: at night there may be light behind it. Where a texture says how
+  /// rough it is, parts of it may be too rough (Surface::pane).
   bool pane = false;
   Vec3f base{1, 1, 1};
   Vec3f emissive;
   /// With the mean of its texture.
   Vec3f meanEmissive;
   float roughness = 1, metallic = 0, opacity = 1;
+  /// With the mean of its texture.
+  float meanRoughness = 1;
   float facing = 0.04f;
   float transmission = 0;
   float cutoff = 0.5f;
@@ -69,6 +75,8 @@ struct TextureTable {
   std::array<float, 4> sample(const TextureLookup& map, Vec2f uv, bool decode) const;
   /// Of all texels in linear light.
   Vec3f mean(int32_t image) const;
+  /// Of all texels, as textures of roughness hold it.
+  float meanRoughness(int32_t image) const;
 };
 
 /// Materials with their textures looked up; those without images have no lookups.

@@ -115,6 +115,30 @@ TEST(Viewpoint, streetEyeStandsOnOpenGround) {
   ASSERT_TRUE(s.tracer.intersect(down, hit) || c.eye.y < s.subject.groundHeight + 2);
 }
 
+// A wall at arm's length would fill a third of the picture.
+TEST(Viewpoint, streetEyeKeepsAwayFromWalls) {
+  for (const double width : {9.0, 14.0, 20.0}) {
+    SceneMaker m;
+    const uint32_t wall = m.material("#e3cf9f");
+    m.box({-50, -0.2, -60}, {100, 0.2, 120}, m.material("#808080"));
+    for (int k = 0; k < 6; ++k) {
+      m.box({-width / 2 - 12, 0, -59.0 + 20 * k}, {12, 12.0 + k % 3, 19.5}, wall);
+      m.box({width / 2, 0, -59.0 + 20 * k}, {12, 13.0 + k % 2, 19.5}, wall);
+    }
+    const Set s(m.finish());
+    RenderOptions o;
+    o.view = PictureView::Street;
+    const Camera c = chooseCamera(s.subject, o, Light(o, 38, 225));
+    for (const double side : {-1.0, 1.0}) {
+      Ray aside;
+      aside.origin = toVec3f(c.eye);
+      aside.direction = toVec3f(normalized(c.right * side + c.forward * 0.3));
+      Hit hit;
+      if (s.tracer.intersect(aside, hit)) EXPECT_GT(hit.distance, 2.5f) << width;
+    }
+  }
+}
+
 // A slope of 30 % with houses along level streets.
 Scene hillTown() {
   SceneMaker m;

@@ -45,6 +45,17 @@ class Pictures(Case):
         self.assertEqual(noon, self.draw("same.png", "--sun-at", "48.86,2.35,2024-06-21,11:50Z"))
         self.assertNotEqual(noon, self.draw("night.png", "--sun-at", "48.86,2.35,2024-06-21,01:00"))
 
+    def testLitRoomsNeedPanes(self):
+        night = ("--sun=-14,0", "--view", "front", "--exposure", "0")
+        self.draw("a.png", *night, "--lit", "1", says="[no-panes]")
+        self.draw("a.png", *night, "--lit", "1", "--turntable", "2", says="[no-panes]")
+        for pane in ('material("glass")', 'color("#54707c") set(material.roughness, 0.05)'):
+            self.put("x.cga", RULES.replace('color("#e0d8c8")', pane))
+            for look in ("photo", "section"):
+                out = self.run_gable("render", "x.cga", *SMALL, *night, "--lit", "1", "--look", look, "-o", "lit.png")
+                self.assertNotIn("no-panes", str(out))
+            self.assertNotEqual(self.draw("lit.png", *night, "--lit", "1"), self.draw("dark.png", *night, "--lit", "0"))
+
     def testLooksDifferAndStyleTakesTheirWords(self):
         pictures = {look: self.draw(f"{look}.png", "--look", look) for look in ("photo", "clay", "blueprint", "ink", "section")}
         self.assertEqual(len(set(pictures.values())), 5)
