@@ -107,6 +107,8 @@ void cutNested(std::vector<ShapeFootprint>& footprints);
 /// its shape as rules see them; then those that it came with.
 std::vector<AttributeValue> knownOfRoot(const Model::Impl& model, size_t root);
 
+std::vector<ShapeReports> reportsByShapeOf(const Model::Impl& model);
+
 /// Seconds of a steady clock.
 double now();
 
