@@ -44,7 +44,7 @@ int readBox(const std::string& text, gable::CitySettings& settings) {
   if (text.empty()) return kExitDone;
   settings.box.emplace();
   if (parseNumbers(text, ',', {-1e9, 1e9}, settings.box->data(), 4)) return kExitDone;
-  return wrongOption("--box", "west,south,east,north, such as 7.41,43.72,7.44,43.75", text);
+  return wrongOption("--box", kBoxForm, text);
 }
 
 int readCountry(std::string text, gable::CitySettings& settings) {

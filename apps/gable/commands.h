@@ -13,7 +13,9 @@ struct GenerateArguments {
   DeriveArguments derive;
   std::string output;
   std::string stats;
-  std::string reports;
+  std::string reports, reportsByShape;
+  /// The part of --shapes: west,south,east,north.
+  std::string box;
   WriteArguments write;
   /// Run again whenever a file that is read changes, until Ctrl-C.
   bool watch = false;

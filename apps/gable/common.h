@@ -73,6 +73,8 @@ struct DeriveArguments {
 /// Coordinates and sizes in metres.
 constexpr NumberRange kMetres{-1e7, 1e7};
 constexpr NumberRange kDegrees{-3600, 3600};
+/// What --box takes.
+constexpr const char* kBoxForm = "west,south,east,north, such as 7.41,43.72,7.44,43.75";
 
 /// A number; or "random", which draws a signed integer of 32 bits and says which.
 bool parseSeed(const std::string& text, double& seed);

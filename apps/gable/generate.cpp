@@ -4,6 +4,7 @@
 // gable generate: the map of the program. Rules are read, initial shapes are read, the rules are
 // derived on the shapes, the model is written.
 
+#include <array>
 #include <cstdio>
 
 #include "answer.h"
@@ -32,6 +33,22 @@ void tellEmpty(const gable::Model& model, const Inputs& inputs) {
   print({d});
 }
 
+// Leaves the shapes of the part of the map that --box names.
+int takeBox(const std::string& text, gable::Shapes& shapes) {
+  if (text.empty()) return kExitDone;
+  std::array<double, 4> box{};
+  if (!parseNumbers(text, ',', {-1e9, 1e9}, box.data(), box.size())) {
+    return wrongOption("--box", kBoxForm, text);
+  }
+  gable::Shapes part = shapes.within(box);
+  if (part.size() == 0) {
+    print({part.diagnostics().back()});
+    return statusOf(part.diagnostics(), kExitWrong);
+  }
+  shapes = std::move(part);
+  return kExitDone;
+}
+
 int generateOnce(const GenerateArguments& arguments) {
   const double begin = secondsNow();
   std::vector<std::string> formats = gable::modelExtensions();
@@ -39,6 +56,7 @@ int generateOnce(const GenerateArguments& arguments) {
   if (const int status = checkExtension(arguments.output, formats)) return status;
   Inputs inputs;
   if (const int status = readInputs(arguments.derive, inputs)) return status;
+  if (const int status = takeBox(arguments.box, inputs.shapes)) return status;
   // JSON on the standard output is that and nothing else; what was printed is part of it.
   std::FILE* const prints = arguments.stats == "-" || terminal().json ? stderr : stdout;
   const gable::Model model = deriveModel(inputs.rules, inputs.shapes, inputs.settings, prints);
@@ -52,6 +70,12 @@ int generateOnce(const GenerateArguments& arguments) {
   if (!arguments.reports.empty()) {
     const std::string table = gable::reportsCsv(model.statistics().reports);
     if (const int status = writeText(arguments.reports, table, "table")) return status;
+  }
+  if (!arguments.reportsByShape.empty()) {
+    const std::string table = gable::reportsCsv(model.reportsByShape());
+    if (const int status = writeText(arguments.reportsByShape, table, "tableByShape")) {
+      return status;
+    }
   }
   figures.parseSeconds = inputs.rules.parseSeconds();
   figures.totalSeconds = secondsNow() - begin;

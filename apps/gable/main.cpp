@@ -237,6 +237,13 @@ void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
   generate->add_option("-o,--output", a.output, "The model: " + modelEndings())->required();
   generate->add_option("--stats", a.stats, "Write counts as JSON to a file, or - for stdout");
   generate->add_option("--reports", a.reports, "Write reports as CSV to a file, or - for stdout");
+  generate->add_option("--reports-by-shape", a.reportsByShape,
+                       "The same with lines of its own for each initial shape");
+  generate
+      ->add_option("--box", a.box,
+                   "Only those of --shapes with their middle in west,south,east,north, in degrees\n"
+                   "or in the metres of the file")
+      ->needs("--shapes");
   addWriting(generate, a.write);
   addWatch(generate, a.watch);
   generate->callback([&a, &status] { status = runGenerate(a); });

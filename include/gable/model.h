@@ -91,6 +91,15 @@ struct ReportSummary {
   std::vector<std::pair<std::string, uint64_t>> values;
 };
 
+/// What the rules reported for one initial shape.
+struct ShapeReports {
+  std::string name;
+  /// What its file calls it; empty where it does not.
+  std::string id;
+  /// Sorted by key.
+  std::vector<ReportSummary> reports;
+};
+
 /// Counts with instances expanded.
 struct Statistics {
   uint64_t shapes = 0, leaves = 0, faces = 0, vertices = 0, triangles = 0;
@@ -214,6 +223,8 @@ class Model {
   const DiagnosticList& diagnostics() const;
   double deriveSeconds() const;
   Statistics statistics() const;
+  /// By initial shape, in their order; those that a limit ended are left out.
+  std::vector<ShapeReports> reportsByShape() const;
   /// The evaluated attributes of an initial shape.
   std::vector<NamedValue> attributes(size_t shape) const;
   const std::vector<std::string>& prints() const;

@@ -64,6 +64,10 @@ class Shapes {
   /// name no shape are left out.
   Shapes only(const std::vector<size_t>& indices) const;
 
+  /// Those with their middle in a box: west, south, east, north in degrees where the shapes have a
+  /// place on the Earth, else in the metres of their file. Their draws stay as with only().
+  Shapes within(const std::array<double, 4>& box) const;
+
   /// A shape in plan: the outer ring of its largest face, its name, the area of its faces.
   struct Outline {
     std::string name;

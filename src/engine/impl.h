@@ -112,6 +112,8 @@ void cutNested(std::vector<ShapeFootprint>& footprints);
 /// for those of its edges.
 std::vector<AttributeValue> knownOfRoot(const Model::Impl& model, size_t root);
 
+std::vector<ShapeReports> reportsByShapeOf(const Model::Impl& model);
+
 /// Seconds of a steady clock.
 double now();
 

@@ -127,6 +127,11 @@ class ProjectFiles final : public Files {
     return out;
   }
 
+  std::vector<std::string> filesIn(const std::string& folder, const std::string& path) override {
+    const FileSearch* project = projectOf(path);
+    return project ? project->filesIn(folder) : std::vector<std::string>();
+  }
+
   void refresh() override {
     listings_.clear();
     ruleFiles_.clear();

@@ -227,6 +227,10 @@ Statistics Model::statistics() const {
   });
 }
 
+std::vector<ShapeReports> Model::reportsByShape() const {
+  return guardedValue<std::vector<ShapeReports>>([&] { return reportsByShapeOf(*impl_); });
+}
+
 std::vector<NamedValue> Model::attributes(size_t shape) const {
   return guardedValue<std::vector<NamedValue>>([&] {
     std::vector<NamedValue> out;

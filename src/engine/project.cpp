@@ -257,6 +257,10 @@ std::vector<std::string> Project::assets() const {
   return out;
 }
 
+std::vector<std::string> Project::filesIn(const std::string& folder) const {
+  return where_.filesIn(folder);
+}
+
 std::vector<std::string> Project::search(std::string_view pattern, std::string_view fromFile) {
   return where_.search(pattern, fromFile);
 }

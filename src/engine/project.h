@@ -35,6 +35,8 @@ class Project final : public Assets {
   std::string projectPath(const std::string& file) const { return where_.projectPath(file); }
   /// All files below the root, as rules write them: without the folder `assets`.
   std::vector<std::string> assets() const;
+  /// The files of the project that a folder such as "/gable/" names, with that folder before them.
+  std::vector<std::string> filesIn(const std::string& folder) const;
   /// A model file by its project path, with the textures in it known to texture() from then on.
   Result<Asset> load(std::string_view path);
   /// The bytes of a texture by the path that a material names, those inside of models included.

@@ -75,6 +75,10 @@ class ProjectLoader final : public lang::FileLoader {
 
   std::vector<std::string> assets(const std::string&) override { return project_.assets(); }
 
+  std::vector<std::string> filesIn(const std::string& folder, const std::string&) override {
+    return project_.filesIn(folder);
+  }
+
   lang::Tree parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics) override {
     return parseAs(dialectOfPath(sources.path(file)), sources, file, *this, diagnostics);
   }

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/files.h"
+#include "base/number.h"
 #include "base/work.h"
 #include "engine/file_search.h"
 #include "engine/footprint.h"
@@ -184,6 +185,31 @@ Shapes::Outline outlineOf(const ShapeFootprint& f) {
   return out;
 }
 
+using Box = std::array<double, 4>;
+
+std::string boxText(const Box& box) {
+  std::string out;
+  for (const double v : box) out += (out.empty() ? "" : ",") + shortestText(v);
+  return out;
+}
+
+// The middle of a shape: in degrees where they are asked for and can be told, else in metres.
+Vec2 middleOf(const ShapeFootprint& f, const GeoFrame* geo, bool degrees) {
+  const Box3 box = f.mesh.bounds();
+  if (box.empty()) return {};
+  const Vec3 p = f.origin.point(0.5 * (box.min + box.max));
+  if (!geo) return {p.x, -p.z};
+  const GeoPlace place = geo->at({p.x, -p.z});
+  if (degrees && place.degrees) return {place.degrees->longitude, place.degrees->latitude};
+  return {place.x, place.y};
+}
+
+Error nothingWithin(const Box& box, const Box& all, size_t count) {
+  return {"box-empty",
+          "none of the " + std::to_string(count) + " shapes lies in the box " + boxText(box),
+          "west,south,east,north; the middles of all lie in " + boxText(all)};
+}
+
 // One item, or as many as an array has places, all of one kind.
 bool isWhole(const RuleValue& v) {
   if (!v.array) return v.items.size() == 1;
@@ -316,6 +342,27 @@ Shapes Shapes::only(const std::vector<size_t>& indices) const {
       ShapeFootprint f = impl_->footprints[i];
       if (f.index < 0) f.index = static_cast<int64_t>(i);
       impl->footprints.push_back(std::move(f));
+    }
+    return impl;
+  }));
+}
+
+Shapes Shapes::within(const std::array<double, 4>& box) const {
+  return Shapes(guarded<Impl>([&] {
+    const auto& [west, south, east, north] = box;
+    const bool degrees = std::max(std::fabs(west), std::fabs(east)) <= 180 &&
+                         std::max(std::fabs(south), std::fabs(north)) <= 90;
+    Box all{1e300, 1e300, -1e300, -1e300};
+    std::vector<size_t> inside;
+    for (size_t i = 0; i < impl_->footprints.size(); ++i) {
+      const Vec2 p = middleOf(impl_->footprints[i], impl_->geo.get(), degrees);
+      all = {std::min(all[0], p.x), std::min(all[1], p.y), std::max(all[2], p.x),
+             std::max(all[3], p.y)};
+      if (p.x >= west && p.x <= east && p.y >= south && p.y <= north) inside.push_back(i);
+    }
+    auto impl = std::make_shared<Impl>(only(inside).impl());
+    if (inside.empty() && !impl_->footprints.empty()) {
+      impl->diagnostics.push_back(diagnosticOf(nothingWithin(box, all, impl_->footprints.size())));
     }
     return impl;
   }));

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 
+#include "base/work.h"
 #include "engine/impl.h"
 
 namespace gable {
@@ -19,9 +21,10 @@ struct ReportTotal {
   std::map<std::string, uint64_t> values;
 };
 
-std::map<std::string, ReportTotal> totals(const Scene& scene) {
+std::map<std::string, ReportTotal> totals(std::span<const Report> reports) {
   std::map<std::string, ReportTotal> out;
-  for (const Report& r : scene.reports) {
+  for (const Report& r : reports) {
+    work();
     ReportTotal& t = out[r.key];
     ++t.count;
     if (r.value.kind == PlainValue::Kind::Number) {
@@ -35,6 +38,19 @@ std::map<std::string, ReportTotal> totals(const Scene& scene) {
     }
     const bool isBool = r.value.kind == PlainValue::Kind::Bool;
     ++t.values[isBool ? (r.value.number != 0 ? "true" : "false") : r.value.text];
+  }
+  return out;
+}
+
+std::vector<ReportSummary> summariesOf(std::span<const Report> reports) {
+  std::vector<ReportSummary> out;
+  for (auto& [key, t] : totals(reports)) {
+    ReportSummary r;
+    r.key = key;
+    r.count = t.count;
+    if (t.numberCount > 0) r.numbers = t.numbers;
+    r.values.assign(t.values.begin(), t.values.end());
+    out.push_back(std::move(r));
   }
   return out;
 }
@@ -58,13 +74,30 @@ Statistics statisticsOf(const Scene& scene) {
   out.prototypes = c.prototypes;
   out.materials = c.materials;
   if (!c.bounds.empty()) out.bounds = boundingBoxOf(c.bounds);
-  for (auto& [key, t] : totals(scene)) {
-    ReportSummary r;
-    r.key = key;
-    r.count = t.count;
-    if (t.numberCount > 0) r.numbers = t.numbers;
-    r.values.assign(t.values.begin(), t.values.end());
-    out.reports.push_back(std::move(r));
+  out.reports = summariesOf(scene.reports);
+  return out;
+}
+
+std::vector<ShapeReports> reportsByShapeOf(const Model::Impl& model) {
+  std::vector<ShapeReports> out;
+  const Scene& scene = model.result.scene;
+  const std::span<const Report> all = scene.reports;
+  size_t begin = 0;
+  for (size_t i = 0; i < model.result.roots.size() && i < scene.roots.size(); ++i) {
+    const DerivedRoot& root = model.result.roots[i];
+    ShapeReports shape;
+    shape.name = scene.names[scene.roots[i].name];
+    // The id of the file comes behind a property of that name.
+    if (root.shape < model.shapeAttributes.size()) {
+      for (const AttributeValue& a : model.shapeAttributes[root.shape]) {
+        if (a.name == "id" && a.values.size() == 1 && !a.values[0].text.empty()) {
+          shape.id = a.values[0].text;
+        }
+      }
+    }
+    shape.reports = summariesOf(all.subspan(begin, root.reportsEnd - begin));
+    begin = root.reportsEnd;
+    out.push_back(std::move(shape));
   }
   return out;
 }

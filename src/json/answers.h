@@ -50,6 +50,8 @@ void writeRuleFile(JsonWriter& json, const Rules& rules, const std::vector<Named
 /// Reports as a table with a line for each key, or for each text that was reported under one:
 /// key,value,count,sum,average,minimum,maximum.
 std::string reportsCsv(const std::vector<ReportSummary>& reports);
+/// The same for each initial shape, with the columns `shape` and `id` before the others.
+std::string reportsCsv(const std::vector<ShapeReports>& shapes);
 
 /// A number, a text, a bool, null, or an array of them.
 void writeValue(JsonWriter& json, const RuleValue& value);

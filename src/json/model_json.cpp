@@ -181,12 +181,12 @@ std::string csvText(const std::string& text) {
   return out + "\"";
 }
 
-}  // namespace
+constexpr const char* kReportColumns = "key,value,count,sum,average,minimum,maximum\n";
 
-std::string reportsCsv(const std::vector<ReportSummary>& reports) {
-  std::string out = "key,value,count,sum,average,minimum,maximum\n";
+void addLines(const std::string& begin, const std::vector<ReportSummary>& reports,
+              std::string& out) {
   for (const ReportSummary& r : reports) {
-    const std::string key = csvText(r.key);
+    const std::string key = begin + csvText(r.key);
     for (const auto& [value, count] : r.values) {
       out += key + "," + csvText(value) + "," + std::to_string(count) + ",,,,\n";
     }
@@ -198,6 +198,21 @@ std::string reportsCsv(const std::vector<ReportSummary>& reports) {
       out += "," + shortestText(x);
     }
     out += "\n";
+  }
+}
+
+}  // namespace
+
+std::string reportsCsv(const std::vector<ReportSummary>& reports) {
+  std::string out = kReportColumns;
+  addLines({}, reports, out);
+  return out;
+}
+
+std::string reportsCsv(const std::vector<ShapeReports>& shapes) {
+  std::string out = std::string("shape,id,") + kReportColumns;
+  for (const ShapeReports& s : shapes) {
+    addLines(csvText(s.name) + "," + csvText(s.id) + ",", s.reports, out);
   }
   return out;
 }

@@ -34,6 +34,11 @@ class Files {
   virtual std::vector<std::string> assets(const std::string& path) = 0;
   /// What was listed is listed anew.
   virtual void refresh() = 0;
+  /// The files of the project that a folder such as "/gable/" names, with that folder before them.
+  virtual std::vector<std::string> filesIn(const std::string& folder, const std::string& path) {
+    (void)folder, (void)path;
+    return {};
+  }
 };
 
 }  // namespace gable::language

@@ -75,6 +75,11 @@ class Library::Loader final : public lang::FileLoader {
     return library_.files_->assets(importer);
   }
 
+  std::vector<std::string> filesIn(const std::string& folder,
+                                   const std::string& importer) override {
+    return library_.files_->filesIn(folder, importer);
+  }
+
   lang::Tree parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics) override {
     const std::string& path = sources.path(file);
     if (const Dialect* dialect = dialectOfPath(path)) {

@@ -433,7 +433,7 @@ void tellRooms(const Pass& pass, const RoomPlan& rooms, const DeriveShared& shar
                             asking + ": " + std::to_string(c.dropped) + " of " +
                                 std::to_string(c.kept + c.dropped) + " shapes have no room in '" +
                                 std::string(pool.text(c.group)) + "'",
-                            "'otherwise' in the block says what becomes of them",
+                            c.lost > 0 ? "'otherwise' in the block says what becomes of them" : "",
                             {},
                             {}});
   }

@@ -236,8 +236,7 @@ class Machine final : public Services, private WorkMeter {
   bool isLeftOut(uint32_t rule) const;
   bool leavesAreLeftOut() const { return claimsOnly_ && !gathers_.anyOpen(); }
   void leaveOut(uint32_t argumentCount);
-  void placeChild(const Activation& parent, uint32_t number, uint32_t slot,
-                  Activation& child) const;
+  void placeChild(const Activation& parent, uint32_t number, uint32_t slot, Activation& child);
   PlacePath placePath(uint32_t end) const;
 
   // Portions.

@@ -22,13 +22,14 @@ PlacePath Machine::placePath(uint32_t end) const {
 }
 
 void Machine::placeChild(const Activation& parent, uint32_t number, uint32_t slot,
-                         Activation& child) const {
+                         Activation& child) {
   child.steps = 0;
   child.step = parent.asked ? slot : parent.stepBase + number - parent.childBase;
   child.question = parent.asked ? parent.stepBase : Activation::kNoQuestion;
   child.condition = parent.condition;
   if (parent.asked && shared_.collectClaims) {
     child.condition = conditionOf(parent.claim, slot == parent.roomSlot);
+    if (slot != parent.roomSlot) claims_.goesOnOtherwise(parent.claim);
   }
 }
 

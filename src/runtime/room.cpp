@@ -186,16 +186,20 @@ void RoomPlan::putLabelsOf(RoomCondition condition) {
 }
 
 void RoomPlan::countAnswers() {
-  std::map<std::tuple<StringId, uint32_t, uint32_t>, size_t> known;
+  std::map<StringId, size_t> known;
   for (const Entry& e : entries_) {
     work();
     const RoomClaims::Claim& c = e.claim();
     if (!c.asks || e.state == State::NotMade) continue;
-    const auto [at, isNew] =
-        known.try_emplace({c.group, c.span.file, c.span.begin}, counts_.size());
-    if (isNew) counts_.push_back({c.group, c.span});
+    const auto [at, isNew] = known.try_emplace(c.group, counts_.size());
+    if (isNew) counts_.push_back({.group = c.group});
     RoomCount& count = counts_[at->second];
-    ++(e.state == State::Free ? count.kept : count.dropped);
+    if (e.state == State::Free) {
+      ++count.kept;
+      continue;
+    }
+    if (count.dropped++ == 0) count.span = c.span;
+    if (!c.hasOtherwise) ++count.lost;
   }
 }
 

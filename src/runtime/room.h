@@ -43,6 +43,8 @@ class RoomClaims {
     RoomCondition condition = kAlways;
     /// A label only stands in the way.
     bool asks = false, byHeight = true;
+    /// The block says what becomes of a shape without room.
+    bool hasOtherwise = false;
     StringId group = 0;
     double clearance = 0, rank = 0;
     /// The call, for messages.
@@ -56,6 +58,7 @@ class RoomClaims {
   uint32_t add(Claim claim, const PlacePath& path, const Shape& s, const Frame& world);
   uint32_t count() const { return static_cast<uint32_t>(claims_.size()); }
   const Claim& claim(uint32_t number) const { return claims_[number]; }
+  void goesOnOtherwise(uint32_t number) { claims_[number].hasOtherwise = true; }
   std::span<const uint32_t> path(const Claim& c) const {
     return std::span(paths_).subspan(c.pathBegin, c.pathEnd - c.pathBegin);
   }
@@ -68,11 +71,13 @@ class RoomClaims {
   RoomVolumes volumes_;
 };
 
-/// How many of a group had room, by the place of the call.
+/// How many of a group had room.
 struct RoomCount {
   StringId group = 0;
+  /// The call of the first that had none.
   Span span;
-  uint64_t kept = 0, dropped = 0;
+  /// `lost` are those dropped for which the block has no `otherwise`.
+  uint64_t kept = 0, dropped = 0, lost = 0;
 };
 
 /// The answers to all claims. Any number of threads may ask at once.

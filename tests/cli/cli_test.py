@@ -96,8 +96,17 @@ class Options(Case):
         self.run_gable("generate", "x.cga", "-o", "a.glb", says="note: 'ifFree': 1 of 2 shapes have no room in 'house' [no-room]")
         stats = self.run_gable("generate", "x.cga", "-o", "a.glb", "--stats", "s.json")
         self.assertNotIn("warning", stats)
+        self.assertNotIn("hint: 'otherwise'", stats)
         with open(self.folder / "s.json") as file:
             self.assertEqual(json.load(file)["room"], {"house": {"kept": 1, "dropped": 1}})
+
+    def testWhatHasNoRoomIsToldOnceForAllCallsOfAGroup(self):
+        self.put("x.cga", 'Lot --> [ ifFree("house") { A. } ] [ ifFree("house") { A. } ] [ ifFree("house") { A. | otherwise : B. } ] '
+                 '[ ifFree("tree") { A. } ] ifFree("tree") { A. }')
+        told = self.run_gable("generate", "x.cga", "-o", "a.glb", says="hint: 'otherwise' in the block")
+        self.assertIn("'ifFree': 2 of 3 shapes have no room in 'house' [no-room]", told)
+        self.assertIn("'ifFree': 1 of 2 shapes have no room in 'tree' [no-room]", told)
+        self.assertEqual(told.count("[no-room]"), 2)
 
     def testRuleFilesOfWindowsAreRead(self):
         (self.folder / "T\u00fcr.txt").write_text("door")

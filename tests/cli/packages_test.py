@@ -278,6 +278,36 @@ class Info(Case):
             {"key": "kind", "value": 'a,"b"', "count": "1", "sum": "", "average": "", "minimum": "", "maximum": ""}])
         self.gable("generate", "p/rules/main.cga", "-o", "x.glb", "--reports", "nowhere/x.csv", status=FILE)
 
+    TWO = ('{"type":"FeatureCollection","features":['
+           '{"type":"Feature","id":"A1","properties":{"n":2},"geometry":{"type":"Polygon","coordinates":'
+           '[[[7.4200,43.7350],[7.4203,43.7350],[7.4203,43.7352],[7.4200,43.7350]]]}},'
+           '{"type":"Feature","properties":{"n":5,"name":"b,c"},"geometry":{"type":"Polygon","coordinates":'
+           '[[[7.4300,43.7350],[7.4303,43.7350],[7.4303,43.7352],[7.4300,43.7350]]]}}]}')
+    RULE = 'attr n = 0\nLot --> report("n", n) report("n", 1) report("kind", case n > 3 : "big" else : "small") X.\n'
+
+    def testReportsOfEachShapeAreATable(self):
+        self.put("two.geojson", self.TWO)
+        self.put("n.cga", self.RULE)
+        self.gable("generate", "n.cga", "--shapes", "two.geojson", "-o", "x.glb", "--reports-by-shape", "x.csv")
+        rows = list(csv.reader(io.StringIO((self.folder / "x.csv").read_text())))
+        self.assertEqual(rows, [
+            ["shape", "id", "key", "value", "count", "sum", "average", "minimum", "maximum"],
+            ["A1", "A1", "kind", "small", "1", "", "", "", ""],
+            ["A1", "A1", "n", "", "2", "3", "1.5", "1", "2"],
+            ["b,c", "", "kind", "big", "1", "", "", "", ""],
+            ["b,c", "", "n", "", "2", "6", "3", "1", "5"]])
+
+    def testABoxTakesThePartOfAMap(self):
+        self.put("two.geojson", self.TWO)
+        self.put("n.cga", self.RULE)
+        shapes = ("generate", "n.cga", "--shapes", "two.geojson", "-o", "x.glb", "--reports", "x.csv")
+        self.gable(*shapes, "--box", "7.429,43.73,7.44,43.74")
+        self.assertIn("n,,2,6,3,1,5", (self.folder / "x.csv").read_text())
+        told = self.gable(*shapes, "--box", "8,43,9,44", status=WRONG)
+        self.assertIn("none of the 2 shapes lies in the box 8,43,9,44 [box-empty]", told)
+        self.assertIn("the middles of all lie in 7.42", told)
+        self.assertIn("west,south,east,north", self.gable(*shapes, "--box", "8,43,9", status=USAGE))
+
     def testNumbersAndTextsUnderOneKeyAreCollectedByThemselves(self):
         self.put("mixed.cga", 'Lot --> report("k", "t") report("k", 2) report("k", true) report("k", 6) X.\n')
         self.gable("generate", "mixed.cga", "-o", "x.glb", "--reports", "x.csv", "--stats", "x.json")

@@ -68,6 +68,14 @@ class Bundled(Case):
         self.assertEqual(reports["loose"], 0)
         self.assertEqual(reports["listed"], 0)
 
+    def testASlipInAPathOfGableNamesWhatIsMeant(self):
+        # A file of the project with nearly that name is not what such a path means.
+        self.put("mine/assets/trees.cga", "A --> X.\n")
+        self.put("mine/rules/main.cga", 'import x : "/gable/rules/treez.cga"\nLot --> i("/gable/park/benhc.glb") x.Birch(9)\n')
+        told = self.gable("check", "mine/rules/main.cga")
+        self.assertIn("did you mean '/gable/rules/trees.cga'?", told)
+        self.assertIn("did you mean '/gable/park/bench.glb'?", told)
+
     def testAFileOfTheProjectComesFirst(self):
         self.put("mine/gable/park/bench.glb", "own")
         self.put("mine/rules/main.cga", 'Lot --> report("bytes", len(readTextFile("/gable/park/bench.glb")))\n')

@@ -71,6 +71,7 @@ class GeoJsonReader {
   bool passes(const Feature& f) const;
   void noteProperties(const Feature& f);
   Error empty() const;
+  Error chosenButEmpty() const;
   void measureAll();
   void chooseProjection(const JsonValue& root);
   bool tellsMetres();
@@ -121,6 +122,8 @@ class GeoJsonReader {
   // Of features that the filter leaves out: their properties, and the values of the one that it
   // asks for, with how often they come.
   std::map<std::string, size_t> properties_, values_;
+  // Of those seen: which the filter lets pass, and which of these are points.
+  size_t chosen_ = 0, chosenPoints_ = 0;
   size_t seen_ = 0, faces_ = 0, messages_ = 0, otherGeometries_ = 0;
   // Those that have been handed on, when the file is read in pieces.
   size_t handedOn_ = 0;
@@ -175,6 +178,9 @@ void GeoJsonReader::collect(const JsonValue& v) {
   }
   ++seen_;
   if (passes(f)) {
+    ++chosen_;
+    const std::string& kind = f.geometry ? (*f.geometry)["type"].text() : std::string();
+    if (kind == "Point" || kind == "MultiPoint") ++chosenPoints_;
     features_.push_back(std::move(f));
   } else {
     noteProperties(f);
@@ -537,19 +543,56 @@ std::string commonest(const std::map<std::string, size_t>& counts) {
   return out + (all.size() > kShown ? ", ..." : "");
 }
 
+// The letters as one byte each, so that an accent that is left out counts as one slip.
+std::string oneByteEach(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) out += c;
+    if (byte >= 0xc0) out += '?';
+  }
+  return out;
+}
+
+// The nearest name, or where none is near, the nearest but for accents.
+std::string nearestButForAccents(std::string_view name,
+                                 const std::vector<std::string_view>& names) {
+  if (std::string nearest = nearestName(name, names); !nearest.empty()) return nearest;
+  std::vector<std::string> plain;
+  for (const std::string_view n : names) plain.push_back(oneByteEach(n));
+  const std::vector<std::string_view> views(plain.begin(), plain.end());
+  const std::string nearest = nearestName(oneByteEach(name), views);
+  const auto at = std::find(views.begin(), views.end(), nearest);
+  return nearest.empty() ? nearest : std::string(names[static_cast<size_t>(at - views.begin())]);
+}
+
+// There are features that the filter lets pass, and none has an extent.
+Error GeoJsonReader::chosenButEmpty() const {
+  const std::string wanted = filter_.key + (filter_.value.empty() ? "" : '=' + filter_.value);
+  const bool one = chosen_ == 1;
+  std::string what = one ? "it is no polygon and no line" : "none is a polygon or a line";
+  if (chosenPoints_ == chosen_) what = one ? "it is a point" : "all are points";
+  return {"shapes-empty",
+          std::to_string(chosen_) + " of the " + std::to_string(seen_) + " features of '" + path_ +
+              (one ? "' has '" : "' have '") + wanted + "', and " + what,
+          "initial shapes are made of polygons and lines; choose features that are with --only, "
+          "such as --only building or --only highway"};
+}
+
 Error GeoJsonReader::empty() const {
   if (filter_.key.empty() || seen_ == 0) {
     return {"shapes-empty",
             "'" + path_ + "' has no polygon and no line that could be an initial shape",
             {}};
   }
+  if (chosen_ > 0) return chosenButEmpty();
   // The value is wrong where others are there, else the property.
   const bool byValue = !filter_.value.empty() && !values_.empty();
   const std::map<std::string, size_t>& counts = byValue ? values_ : properties_;
   std::vector<std::string_view> names;
   for (const auto& [name, count] : counts) names.push_back(name);
   const std::string begin = byValue ? filter_.key + '=' : std::string();
-  const std::string nearest = nearestName(byValue ? filter_.value : filter_.key, names);
+  const std::string nearest = nearestButForAccents(byValue ? filter_.value : filter_.key, names);
   std::string hint = "choose others with --only, such as --only landuse or --only natural=water";
   if (!nearest.empty()) {
     hint = "did you mean --only " + begin + nearest + "?";
@@ -628,7 +671,7 @@ std::optional<Error> GeoJsonReader::measurePieces(FeaturePieces& file) {
   for (const bool lines : {false, true}) {
     if (!extent_.empty()) break;
     file.rewind();
-    seen_ = 0;
+    seen_ = chosen_ = chosenPoints_ = 0;
     for (;;) {
       const Result<std::string> features = file.next();
       if (!features.ok()) return features.error();
@@ -644,7 +687,7 @@ std::optional<Error> GeoJsonReader::measurePieces(FeaturePieces& file) {
   }
   properties_.clear();
   values_.clear();
-  seen_ = 0;
+  seen_ = chosen_ = chosenPoints_ = 0;
   return std::nullopt;
 }
 

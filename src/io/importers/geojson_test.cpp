@@ -222,6 +222,28 @@ TEST(GeoJson, aFilterThatNothingPassesNamesWhatThereIs) {
             "the values of 'building' are house (2), barn (1); choose with --only");
 }
 
+TEST(GeoJson, aFilterThatOnlyPointsPassSaysSo) {
+  const auto point = [](const char* street) {
+    return feature(R"({"type":"Point","coordinates":[7.42,43.73]})",
+                   (R"({"street":")" + std::string(street) + "\"}").c_str());
+  };
+  const std::string all = feature(polygon(kRing), R"({"building":"house"})") + "," +
+                          point("Z\u00e1h\u0159ebsk\u00e1") + "," +
+                          point("Z\u00e1h\u0159ebsk\u00e1") + "," + point("Mala");
+  const auto error = [&](const char* value) {
+    return readGeoJsonShapes(collection(all), "a.geojson", {"", "street", value}).error();
+  };
+  const Error points = error("Z\u00e1h\u0159ebsk\u00e1");
+  EXPECT_EQ(
+      points.message,
+      "2 of the 4 features of 'a.geojson' have 'street=Z\u00e1h\u0159ebsk\u00e1', and all are "
+      "points");
+  EXPECT_NE(points.hint.find("polygons and lines"), std::string::npos);
+  EXPECT_EQ(error("Mala").message,
+            "1 of the 4 features of 'a.geojson' has 'street=Mala', and it is a point");
+  EXPECT_EQ(error("Zahrebska").hint, "did you mean --only street=Z\u00e1h\u0159ebsk\u00e1?");
+}
+
 TEST(GeoJson, whatIsNoGeoJsonIsAnError) {
   for (const char* text :
        {"", "[]", "{}", "{\"type\":5}", "{\"type\":\"FeatureCollection\"}", "not json",

@@ -46,6 +46,9 @@ class FileLoader {
   virtual std::string materialHint(const std::string& name);
   /// The tree of a file that load gave: its notation may be another than this language's.
   virtual Tree parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics);
+  /// The files of the project that a folder such as "/gable/" names, as rules write them: with that
+  /// folder before them. Empty for a folder that names none.
+  virtual std::vector<std::string> filesIn(const std::string& folder, const std::string& importer);
 };
 
 struct AnalysisInput {

@@ -259,6 +259,8 @@ class Analysis {
   bool isSelectorWord(std::string_view word, const OpSpec* op) const;
   void expectType(NodeId node, ValueType got, ValueType wanted, const char* what);
   void reportUnknownName(NodeId node);
+  const AttributeInfo* attributeAt(NodeId node) const;
+  std::string typeRemedy(const AttributeInfo& a, ValueType wanted) const;
 
   // --- successors.cpp ---
   void visitSequence(NodeId node);
@@ -266,6 +268,7 @@ class Analysis {
   void visitApply(NodeId node);
   void visitOperation(NodeId node, const OpSpec& op);
   void visitSet(NodeId node, const OpSpec& op);
+  void reportUnknownPlace(NodeId place, ValueType given);
   void visitLocal(NodeId node, const OpSpec& op);
   void visitDo(NodeId node, const OpSpec& op);
   void visitImportCall(NodeId node, bool successor);

@@ -71,10 +71,18 @@ bool Analysis::asksForFile(NodeId argument, std::string_view path) {
   return asked.count(path) != 0 || asked.count(text(argument)) != 0 || asked.count(kAnyFile) != 0;
 }
 
+// A path such as "/gable/rules/x.cga" names a project: what is meant lies there before all others.
 std::string Analysis::nearFile(const std::string& path, const std::string& from) {
   if (missedFiles_.size() + missingImports_.size() > kMaxFileHints) return {};
-  if (!projectFiles_) projectFiles_ = loader_->assets(from);
-  std::string nearest = nearestFile(path, *projectFiles_);
+  std::string nearest;
+  const size_t second = path.starts_with('/') ? path.find('/', 1) : std::string::npos;
+  if (second != std::string::npos) {
+    nearest = nearestFile(path, loader_->filesIn(path.substr(0, second + 1), from));
+  }
+  if (nearest.empty()) {
+    if (!projectFiles_) projectFiles_ = loader_->assets(from);
+    nearest = nearestFile(path, *projectFiles_);
+  }
   if (!nearest.empty()) meant_ = {path, nearest};
   return nearest;
 }

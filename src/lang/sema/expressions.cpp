@@ -20,8 +20,34 @@ bool isArrayType(ValueType t) { return t >= ValueType::FloatArray; }
 
 void Analysis::expectType(NodeId node, ValueType got, ValueType wanted, const char* what) {
   if (got == ValueType::Null || wanted == ValueType::Null || got == wanted) return;
+  const AttributeInfo* named = attributeAt(node);
+  const std::string who = named ? std::string(what) + ' ' + quote(named->name) : what;
   errorAt("type-mismatch", node,
-          std::string(what) + " must be a " + typeName(wanted) + ", not a " + typeName(got), "");
+          who + " must be a " + typeName(wanted) + ", not a " + typeName(got),
+          named ? typeRemedy(*named, wanted) : "");
+}
+
+// The attribute that a name stands for; null for all else.
+const AttributeInfo* Analysis::attributeAt(NodeId node) const {
+  const Resolution& r = program_.modules[body_.module].at(node);
+  const bool named = tree().kind(node) == NodeKind::Name && r.kind == RefKind::Attribute;
+  return named ? &program_.attributes[r.index] : nullptr;
+}
+
+// Where the attribute gets its type, and how the value can be had in another.
+std::string Analysis::typeRemedy(const AttributeInfo& a, ValueType wanted) const {
+  const bool own = a.source == ValueSource::Own;
+  const uint32_t unit = program_.modules[own ? a.valueModule : a.module].unit;
+  const Tree& t = program_.units[unit].tree;
+  const Span place = t.span(own && a.valueNode != kNoNode ? a.valueNode : a.node);
+  const LineColumn at = sources_.locate(place.file, place.begin);
+  const std::string line = sources_.path(place.file) + ':' + std::to_string(at.line);
+  std::string out =
+      quote(a.name) + " gets its type at " + line + ": give it a " + typeName(wanted) + " there";
+  if (wanted == ValueType::Float) out += ", or write float(" + a.name + ") here";
+  if (wanted == ValueType::String) out += ", or write str(" + a.name + ") here";
+  if (wanted == ValueType::Bool) out += ", or write bool(" + a.name + ") here";
+  return out;
 }
 
 ValueType Analysis::slotType(uint32_t slot, ValueType expected) {

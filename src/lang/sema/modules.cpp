@@ -178,6 +178,8 @@ bool FileLoader::exists(const std::string&, const std::string&) { return true; }
 
 std::vector<std::string> FileLoader::assets(const std::string&) { return {}; }
 
+std::vector<std::string> FileLoader::filesIn(const std::string&, const std::string&) { return {}; }
+
 std::string FileLoader::materialHint(const std::string&) {
   return "'gable asset material' lists them";
 }

@@ -360,6 +360,29 @@ void Analysis::visitOperation(NodeId node, const OpSpec& op) {
   visitBlocks(node, op);
 }
 
+// set() of a name that is declared nowhere: another is meant, or its declaration is missing.
+void Analysis::reportUnknownPlace(NodeId place, ValueType given) {
+  const std::string_view name = text(place);
+  std::string hint = near(name, [&] {
+    std::vector<std::string_view> names;
+    for (const auto& [n, id] : scopes_[body_.module].attributes) names.push_back(n);
+    for (const AttributeSpec* s : catalogue_.attributes) names.push_back(s->name);
+    std::sort(names.begin(), names.end());
+    return names;
+  });
+  // A name with a dot is one of an import or of the shape, and declared there.
+  if (hint.empty() && name.find('.') == std::string_view::npos) {
+    const char* value = given == ValueType::Float         ? "0"
+                        : given == ValueType::Bool        ? "false"
+                        : given == ValueType::FloatArray  ? "floatArray"
+                        : given == ValueType::BoolArray   ? "boolArray"
+                        : given == ValueType::StringArray ? "stringArray"
+                                                          : "\"\"";
+    hint = "declare it: attr " + std::string(name) + " = " + value;
+  }
+  errorAt("unknown-attribute", place, "there is no attribute " + quote(name), hint);
+}
+
 // set(attribute, value): the first argument is a place, not a value.
 void Analysis::visitSet(NodeId node, const OpSpec& op) {
   const Tree& t = tree();
@@ -376,6 +399,7 @@ void Analysis::visitSet(NodeId node, const OpSpec& op) {
   }
   checkNamedArguments(args);
   ValueType wanted = ValueType::Null;
+  bool unknown = false;
   const NodeId place = args[0];
   const std::string_view name = t.text(place);
   if (t.kind(place) != NodeKind::Name) {
@@ -399,15 +423,11 @@ void Analysis::visitSet(NodeId node, const OpSpec& op) {
     resolve(place, RefKind::Selector);
   } else {
     resolve(place, RefKind::Selector);
-    errorAt("unknown-attribute", place, "there is no attribute " + quote(name), near(name, [&] {
-              std::vector<std::string_view> names;
-              for (const auto& [n, id] : scopes_[body_.module].attributes) names.push_back(n);
-              for (const AttributeSpec* s : catalogue_.attributes) names.push_back(s->name);
-              std::sort(names.begin(), names.end());
-              return names;
-            }));
+    unknown = true;
   }
-  expectType(args[1], visit(args[1], wanted), wanted, "the value");
+  const ValueType given = visit(args[1], wanted);
+  expectType(args[1], given, wanted, "the value");
+  if (unknown) reportUnknownPlace(place, given);
   // material.colormap and the like hold a picture.
   const bool ofShape = module().at(place).kind == RefKind::ShapeAttribute;
   if (ofShape && wanted == ValueType::String && name.ends_with("map")) checkFile(args[1]);
