@@ -26,9 +26,9 @@ namespace gable {
 /// EXT_mesh_gpu_instancing. None: not at all, everything is one mesh, merged by material.
 enum class Instancing : uint8_t { Auto, Nodes, Gpu, None };
 
-/// What a vertex of a glTF file takes. Float: single precision, which every program reads. Compact:
-/// half of that, by KHR_mesh_quantization; no vertex moves by more than half a millimetre along an
-/// axis, and only surfaces with textures have texture coordinates.
+/// What a vertex of a glTF file takes. Float: single precision. Compact: half of that, by
+/// KHR_mesh_quantization, within half a millimetre, and no texture coordinates without a texture.
+/// Bare: Compact without normals on flat surfaces. Auto: Float in small files, Compact in others.
 enum class Vertices : uint8_t { Auto, Float, Compact, Bare };
 
 /// Which levels of detail a CityJSON file has. One: blocks. Two: roofs and walls. Three: all that
