@@ -238,7 +238,10 @@ const journeys = {
     await ready(page);
     await page.keyboard.press('Alt+4');
     await page.waitForSelector('.gc img');
-    await page.getByRole('button', { name: /^Tower/ }).first().click();
+    await page
+      .getByRole('button', { name: /^Tower/ })
+      .first()
+      .click();
     await page.waitForSelector('text=tower.cga', { timeout: 60_000 });
     await ready(page);
     assert.ok(statSync(join(folder, 'tower/tower.cga')).size > 100);

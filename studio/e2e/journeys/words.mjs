@@ -253,7 +253,10 @@ Late --> extrude(3) Building roofGable(30)
     await ready(page);
     await page.keyboard.press('Alt+4');
     await page.waitForSelector('.gc img');
-    await page.getByRole('button', { name: /^Tower/ }).first().click();
+    await page
+      .getByRole('button', { name: /^Tower/ })
+      .first()
+      .click();
     await page.waitForSelector('text=tower.cga');
     await ready(page);
     await page.getByRole('button', { name: 'Sun', exact: true }).click();
