@@ -51,9 +51,11 @@ struct Activation {
   /// Of a child of such a block.
   static constexpr uint32_t kNoQuestion = 0xffffffff;
   uint32_t question = kNoQuestion;
-  /// In the first pass: the claim that the block at work belongs to, the slot for shapes that have
-  /// room, and on what it depends that there is this activation.
-  uint32_t claim = 0, roomSlot = 0;
+  /// In the first pass: the claim that the block at work belongs to (none where the call was
+  /// refused), the slot for shapes that have room, and on what it depends that there is this
+  /// activation.
+  static constexpr uint32_t kNoClaim = 0xffffffff;
+  uint32_t claim = kNoClaim, roomSlot = 0;
   RoomCondition condition = kAlways;
   /// Children made so far; none at the end makes the shape a leaf.
   uint32_t made = 0;

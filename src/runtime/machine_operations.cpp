@@ -143,6 +143,7 @@ void Machine::operation(const Instruction& i, const Value* constants) {
   if (context_.collects() && (spec.effects & kLeavesOccluder) != 0) {
     context_.add(0, a.shape, placeAtWork());
   }
+  if ((spec.effects & kAsksForRoom) != 0) a.claim = Activation::kNoClaim;
   instruction_ = &i;
   stack_.hold(blockValues + argumentsOnStack);
   const Status status = apply(call, i, {arguments, i.x}, block ? &input : nullptr);

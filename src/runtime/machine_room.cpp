@@ -27,7 +27,7 @@ void Machine::placeChild(const Activation& parent, uint32_t number, uint32_t slo
   child.step = parent.asked ? slot : parent.stepBase + number - parent.childBase;
   child.question = parent.asked ? parent.stepBase : Activation::kNoQuestion;
   child.condition = parent.condition;
-  if (parent.asked && shared_.collectClaims) {
+  if (parent.asked && shared_.collectClaims && parent.claim != Activation::kNoClaim) {
     child.condition = conditionOf(parent.claim, slot == parent.roomSlot);
     if (slot != parent.roomSlot) claims_.goesOnOtherwise(parent.claim);
   }
