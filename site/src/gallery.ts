@@ -5,11 +5,10 @@
 
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { escaped } from './html';
 import { relative, type Links } from './links';
 import { type Content, type Markdown, pngSize } from './markdown';
 import type { Page } from './pages';
-
-const escaped = (text: string) => text.replace(/[&<>"]/g, (letter) => `&#${letter.charCodeAt(0)};`);
 
 /** The pictures of an example, the one that shows it best first. */
 function picturesOf(root: string, folder: string, name: string): string[] {

@@ -15,6 +15,7 @@ import json from 'shiki/langs/json.mjs';
 import python from 'shiki/langs/python.mjs';
 import shell from 'shiki/langs/shellscript.mjs';
 import type { LanguageRegistration } from 'shiki';
+import { escaped } from './html';
 
 /** Code as HTML: a `pre` with colours, or without where the language is not known. */
 export type Highlight = (code: string, language: string) => string;
@@ -43,8 +44,6 @@ function grammar(root: string, file: string, name: string): LanguageRegistration
   const path = join(root, 'editors/vscode/syntaxes', file);
   return { ...(JSON.parse(readFileSync(path, 'utf8')) as LanguageRegistration), name };
 }
-
-const escaped = (text: string) => text.replace(/[&<>"]/g, (letter) => `&#${letter.charCodeAt(0)};`);
 
 export async function highlighter(root: string): Promise<Highlight> {
   const theme = createCssVariablesTheme({ name: 'gable', variablePrefix: '--code-' });

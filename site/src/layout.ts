@@ -4,6 +4,7 @@
 // What stands around the text of every page: the head, the menu, the headings beside it, and the pages
 // before and behind.
 
+import { escaped } from './html';
 import { relative } from './links';
 import type { Content } from './markdown';
 import type { MenuGroup, Page } from './pages';
@@ -15,8 +16,6 @@ export interface Parts {
   /** A model that can be turned, as a path within the site. */
   model?: string | undefined;
 }
-
-const escaped = (text: string) => text.replace(/[&<>"]/g, (letter) => `&#${letter.charCodeAt(0)};`);
 
 function menuOf(page: Page, menu: MenuGroup[]): string {
   const rows = menu.map((group) => {

@@ -6,12 +6,11 @@
 import { readdirSync, readFileSync, statSync } from 'node:fs';
 import { extname, join } from 'node:path';
 import type { Highlight } from './highlight';
+import { escaped } from './html';
 import type { Content } from './markdown';
 
 /** Longer files are shown up to here. */
 const kMostBytes = 200_000;
-
-const escaped = (text: string) => text.replace(/[&<>"]/g, (letter) => `&#${letter.charCodeAt(0)};`);
 
 export async function sourcePage(root: string, path: string, colour: Highlight): Promise<Content> {
   const text = readFileSync(join(root, path), 'utf8').slice(0, kMostBytes);
