@@ -16,14 +16,6 @@
 namespace gable {
 namespace {
 
-RenderOptions smallOptions(uint32_t width = 64, uint32_t height = 36, uint32_t samples = 4) {
-  RenderOptions o;
-  o.width = width;
-  o.height = height;
-  o.samples = samples;
-  return o;
-}
-
 /// Mean linear light of a part of a picture, from left and from above in [0, 1].
 Vec3 meanOf(const LinearImage& image, double x0 = 0, double y0 = 0, double x1 = 1, double y1 = 1) {
   Vec3 sum;

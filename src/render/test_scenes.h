@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "math/trig.h"
+#include "render/render.h"
 #include "scene/scene.h"
 
 namespace gable {
@@ -80,6 +81,15 @@ struct SceneMaker {
     return scene;
   }
 };
+
+/// For pictures that are measured, not looked at.
+inline RenderOptions smallOptions(uint32_t width = 64, uint32_t height = 36, uint32_t samples = 4) {
+  RenderOptions o;
+  o.width = width;
+  o.height = height;
+  o.samples = samples;
+  return o;
+}
 
 /// A ball of radius 1 about the origin with smooth faces.
 Mesh ballMesh(int rings = 24);
