@@ -141,12 +141,13 @@ class Cases(Case):
         return subprocess.Popen([str(GABLE), "test", "tests", *options], cwd=self.folder, stdout=subprocess.PIPE,
                                 stderr=subprocess.STDOUT, text=True)
 
-    def slow(self):
-        """A rule file whose derivation takes some seconds and leaves nothing."""
-        self.put("rules/slow.cga", "Lot --> split(x) { ~0.001 : A }*\nA --> split(z) { ~0.1 : extrude(rand) NIL }*\n")
+    def slow(self, part):
+        """A rule file that leaves nothing: seconds for parts of 0.05 m, longer than any test waits for 0.001."""
+        rules = f"Lot --> split(x) {{ ~0.001 : A }}*\nA --> split(z) {{ ~{part} : extrude(rand) NIL }}*\n"
+        self.put("rules/slow.cga", rules)
 
     def testWatchingSeesAnEditDuringARun(self):
-        self.slow()
+        self.slow(0.05)
         self.put("rules/tower.cga", RULES)
         self.cases(case("slow", "leaves 0", rules="rules: ../rules/slow.cga"))
         with self.watching("--watch", "--jobs", "1") as watching:
@@ -158,7 +159,7 @@ class Cases(Case):
                     told += line
                 self.assertIn(f"{self.folder}/rules/tower.cga has changed\n", told)
                 # The run that follows is stopped in the middle of a derivation.
-                time.sleep(1)
+                time.sleep(0.5)
                 begin = time.monotonic()
                 watching.send_signal(2)
                 self.assertEqual(watching.wait(timeout=10), LIMIT)
@@ -167,7 +168,7 @@ class Cases(Case):
                 watching.kill()
 
     def testAStoppedRunUpdatesNothing(self):
-        self.slow()
+        self.slow(0.001)
         self.cases(case("slow", "scene slow.scene", rules="rules: ../rules/slow.cga"), case("next", "leaves Glass 4"))
         with self.watching("--update", "--jobs", "1") as running:
             time.sleep(1)
