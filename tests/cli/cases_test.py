@@ -142,7 +142,7 @@ class Cases(Case):
                                 stderr=subprocess.STDOUT, text=True)
 
     def slow(self, part):
-        """A rule file that leaves nothing: seconds for parts of 0.05 m, longer than any test waits for 0.001."""
+        """A rule file that leaves nothing: parts of 0.05 m take seconds, of 0.001 m longer than any test waits."""
         rules = f"Lot --> split(x) {{ ~0.001 : A }}*\nA --> split(z) {{ ~{part} : extrude(rand) NIL }}*\n"
         self.put("rules/slow.cga", rules)
 
