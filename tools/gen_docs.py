@@ -16,6 +16,8 @@ from pathlib import Path
 
 from coverage import PAGE as COVERAGE
 from coverage import Coverage, table
+from rule_library import PAGE as RULE_LIBRARY
+from rule_library import rule_library
 
 ROOT = Path(__file__).resolve().parent.parent
 BUILTINS = ROOT / "src/builtins"
@@ -70,6 +72,7 @@ class Reference:
         self.index("functions", "Functions", functions, "summary")
         self.index("attributes", "Attributes of the shape", attributes, "doc", folder="functions")
         self.selectors()
+        self.pages[RULE_LIBRARY] = rule_library(ROOT)
         self.coverage({"operations": operations, "functions": functions, "attributes": attributes})
 
     def coverage(self, groups):

@@ -15,6 +15,7 @@ import coverage
 import figures
 import gen_docs
 import new_op
+import rule_library
 import run_tests
 import shrink_png
 from checks import ops
@@ -148,6 +149,21 @@ class RunTestsTest(FolderCase):
         self.assertEqual(run_tests.summarise([], 0, []), 1)
         self.assertEqual(run_tests.summarise([("a", "passed", 0.1, "")], 0, []), 0)
         self.assertEqual(run_tests.summarise([("a", "passed", 0.1, "")], 8, ["stopped"]), 1)
+
+
+class RuleLibraryTest(FolderCase):
+    def testListsWhatIsExplainedOrCalled(self):
+        rules = self.root / "examples/rules"
+        rules.mkdir(parents=True)
+        (rules / "things.cga").write_text(
+            '/* Things of\n   a street. */\nattr tone = "#ff0000" // Of the cloth.\n// ---- What hangs ----\n'
+            "// As wide as\n// the wall.\n@StartRule\nAwning(out, tone = 3) --> X.\nHidden --> X.\nStand --> Hidden\n")
+        (self.root / "examples/other.cga").write_text('import t : "/gable/rules/things.cga"\nLot --> t.Stand\n')
+        text = rule_library.rule_library(self.root)
+        self.assertIn("## things.cga\n\nThings of a street.\n", text)
+        self.assertIn('| `tone` | `"#ff0000"` | Of the cloth. |', text)
+        self.assertIn("| `Awning(out, [tone])` | As wide as the wall. |\n| `Stand` |  |", text)
+        self.assertNotIn("Hidden", text)
 
 
 class GenDocsTest(unittest.TestCase):

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The Gable authors
+"""The page docs/reference/rule-library.md: the rule files that come with Gable, and what is called from outside.
+
+A rule is listed where a comment stands right above it, or where another rule file of the examples calls it; an attribute's text
+is the comment behind it. tools/gen_docs.py writes the page.
+"""
+import re
+
+from coverage import table
+
+PAGE = "docs/reference/rule-library.md"
+FOLDER = "examples/rules"
+INTRO = """<!-- Made by tools/gen_docs.py of examples/rules; change the comments there instead. -->
+
+# Rule library
+
+Rule files that come with Gable, for your own rules to import. Import a file by its path and call its rules by the name that
+you give it:
+
+```
+import street : "/gable/rules/street.cga"
+Lot --> street.Cafe
+```
+
+An attribute is set in the import, as in `import setting : "/gable/rules/setting.cga" (lamps = "#ffffff")`, in
+the importing file by an attribute of the same name, or from outside by `--set setting.lamps=...`. An argument in brackets
+may be left out.
+"""
+HEADER = re.compile(r"/\*(.*?)\*/", re.S)
+RULE = re.compile(r"^([A-Z]\w*)(?:\((.*?)\))?\s*-->")
+ATTRIBUTE = re.compile(r"^attr\s+(\w+)\s*=\s*(.+)$")
+IMPORT = re.compile(r'^import\s+(\w+)\s*:\s*"([^"]+)"', re.M)
+
+
+def comments_above(lines, at):
+    """The lines of `//` right above lines[at], annotations between them left out; lines that rule off sections are none."""
+    out = []
+    while at > 0 and lines[at - 1].startswith(("//", "@")):
+        at -= 1
+        text = lines[at].removeprefix("//").strip()
+        if lines[at].startswith("//") and not text.startswith("---"):
+            out.insert(0, text)
+    return " ".join(out)
+
+
+def parameters(text):
+    """`(a, b = 3)` as `(a, [b])`; nothing for a rule that takes none."""
+    names = [p.strip() for p in text.split(",")] if text else []
+    return "(" + ", ".join(f"[{n.split('=')[0].strip()}]" if "=" in n else n for n in names) + ")" if names else ""
+
+
+def calls(files):
+    """{file name: rules that other files call}, over all rule files of the examples."""
+    called = {}
+    for path, text in files.items():
+        for name, imported in IMPORT.findall(text):
+            target = imported.rpartition("/")[2]
+            if target != path.name:
+                called.setdefault(target, set()).update(re.findall(rf"\b{name}\.([A-Z]\w*)", text))
+    return called
+
+
+def section(path, text, called):
+    """A file's header, attributes and rules."""
+    lines = text.split("\n")
+    header = HEADER.match(text)
+    attributes, rules, seen = [], [], set()
+    for at, line in enumerate(lines):
+        comment = comments_above(lines, at)
+        if match := ATTRIBUTE.match(line):
+            value, _, beside = match[2].partition("//")
+            attributes.append((f"`{match[1]}`", f"`{value.strip()}`", beside.strip()))
+        elif (match := RULE.match(line)) and match[1] not in seen and (comment or match[1] in called):
+            seen.add(match[1])
+            rules.append((f"`{match[1]}{parameters(match[2])}`", comment))
+    out = f"## {path.name}\n\n"
+    if header:
+        out += " ".join(header[1].split()) + "\n\n"
+    if attributes:
+        out += table(("attribute", "default", "meaning"), attributes) + "\n"
+    if rules:
+        out += table(("rule", "what it makes"), rules) + "\n"
+    return out
+
+
+def rule_library(root):
+    """The page's text."""
+    files = {p: p.read_text(encoding="utf-8") for p in sorted((root / "examples").rglob("*.cga"))}
+    called = calls(files)
+    parts = [section(p, t, called.get(p.name, set())) for p, t in files.items() if p.parent == root / FOLDER]
+    return INTRO + "\n" + "".join(parts).rstrip("\n") + "\n"
