@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <iterator>
+#include <optional>
 #include <set>
 
 #include "base/encoding.h"
@@ -218,16 +219,27 @@ std::shared_ptr<Rules::Impl> failed(const Error& e) {
   return impl;
 }
 
-// Models, maps and pictures, which would be mistakes from the first letter on. Any other file may
-// hold rules.
-bool isOther(const std::string& path) {
-  constexpr std::string_view kOthers[] = {"geojson", "json", "jsonl", "osm", "pbf", "gpkg", "fgb",
-                                          "shp",     "fbx",  "dae",   "png", "jpg", "tif"};
+// Models, maps and pictures would be mistakes from the first letter on; what to do with one of
+// them. Any other file may hold rules.
+std::optional<Error> asOtherFile(const std::string& path) {
+  constexpr std::string_view kMaps[] = {"geojson", "json", "jsonl", "osm", "pbf",
+                                        "gpkg",    "fgb",  "shp",   "kml", "dxf"};
+  constexpr std::string_view kOthers[] = {"fbx", "dae", "png", "jpg", "tif"};
   std::string extension = path.substr(std::min(path.rfind('.') + 1, path.size()));
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const auto& models = modelExtensions();
-  return std::find(models.begin(), models.end(), extension) != models.end() ||
-         std::find(std::begin(kOthers), std::end(kOthers), extension) != std::end(kOthers);
+  const auto isOf = [&](const auto& list) {
+    return std::find(std::begin(list), std::end(list), extension) != std::end(list);
+  };
+  const std::string what = "'" + path + "' is no file of rules";
+  if (isOf(kMaps)) {
+    return Error{"rules-format", what,
+                 "give rules, and its shapes with --shapes '" + path +
+                     "'; 'gable city' makes the place of a whole map"};
+  }
+  if (!isOf(modelExtensions()) && !isOf(kOthers)) return std::nullopt;
+  return Error{"rules-format", what,
+               "give a file such as .cga, .gbbg, .grammar or .park; 'gable render' draws "
+               "models in .glb, .gltf and .obj"};
 }
 
 std::shared_ptr<const Rules::Impl> parsed(const std::string& text, const Home& home,
@@ -299,10 +311,8 @@ Rules Rules::load(const std::string& path, const LoadSettings& settings) {
   return Rules(guarded<Impl>(readingRules(path, settings), [&]() -> std::shared_ptr<const Impl> {
     Result<Home> home = homeOf(path);
     if (!home.ok()) return failed(home.error());
-    if (!settings.dialect && isOther(home.value().path)) {
-      return failed({"rules-format", "'" + path + "' is no file of rules",
-                     "give a file such as .cga, .gbbg, .grammar or .park; 'gable render' draws "
-                     "models in .glb, .gltf and .obj"});
+    if (!settings.dialect) {
+      if (const auto other = asOtherFile(home.value().path)) return failed(*other);
     }
     const FileSearch files({}, {}, home.value().package);
     Result<std::string> text = files.read(home.value().path, kLargestRuleFile);

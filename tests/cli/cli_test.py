@@ -125,7 +125,7 @@ class Options(Case):
         self.put("town.cga", "attr height = 9\nLot --> extrude(height) House\nHouse --> X.\nstyle Old\nattr height = 3")
         for arguments, status, says in ((["twon.cga"], FILE, "did you mean 'town.cga'?"),
                                         (["town.glb"], FILE, "'town.glb' is no file of rules"),
-                                        (["town.GeoJSON"], FILE, "is no file of rules"),
+                                        (["town.GeoJSON"], FILE, "its shapes with --shapes 'town.GeoJSON'"),
                                         (["town.cga", "--shapes", "town.cgo"], FILE, "did you mean 'town.cga'?"),
                                         (["town.cga", "--style", "old"], WRONG, "did you mean 'Old'?"),
                                         (["town.cga", "--style", "zzzzz"], WRONG, "style"),

@@ -74,6 +74,7 @@ class GeoJsonReader {
   Error chosenButEmpty() const;
   void measureAll();
   void chooseProjection(const JsonValue& root);
+  std::string swappedHint() const;
   bool tellsMetres();
   void measure(const JsonValue& geometry, bool lines, int depth);
   void addFeature(const Feature& f);
@@ -579,11 +580,23 @@ Error GeoJsonReader::chosenButEmpty() const {
           "such as --only building or --only highway"};
 }
 
+// Degrees of which the second goes beyond the pole are read as metres, in which lots are points.
+std::string GeoJsonReader::swappedHint() const {
+  if (extent_.empty() || extent_.min.x < -90 || extent_.max.x > 90 || extent_.min.y < -180 ||
+      extent_.max.y > 180) {
+    return {};
+  }
+  const double most = std::max(extent_.max.y, -extent_.min.y);
+  if (most <= 90) return {};
+  return "its second numbers go to " + shortestText(most) +
+         ", and latitudes end at 90: GeoJSON writes longitude first; swap them if they are degrees";
+}
+
 Error GeoJsonReader::empty() const {
   if (filter_.key.empty() || seen_ == 0) {
     return {"shapes-empty",
             "'" + path_ + "' has no polygon and no line that could be an initial shape",
-            {}};
+            swappedHint()};
   }
   if (chosen_ > 0) return chosenButEmpty();
   // The value is wrong where others are there, else the property.

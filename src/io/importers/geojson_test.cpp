@@ -83,6 +83,15 @@ TEST(GeoJson, metresThatLookLikeDegreesAreRefused) {
   EXPECT_NEAR(r->shapes[0].mesh.area(), 1200, 1e-6);
 }
 
+TEST(GeoJson, latitudesBeyondThePoleAreToldToBeSwapped) {
+  const std::string lot = polygon(
+      "[[-33.86,151.2],[-33.86,151.2003],[-33.8603,151.2003],[-33.8603,151.2],[-33.86,151.2]]");
+  const auto r = readGeoJsonShapes(collection(feature(lot)), "a.geojson");
+  ASSERT_FALSE(r.ok());
+  EXPECT_EQ(r.error().code, std::string("shapes-empty"));
+  EXPECT_NE(r.error().hint.find("151.2003, and latitudes end at 90"), std::string::npos);
+}
+
 // Hundreds of holes in one place meet each other at more points than time allows.
 TEST(GeoJson, holesOverEachOtherAreMerged) {
   std::string rings = kRing;

@@ -119,6 +119,8 @@ class Analysis {
   /// The file of the project that a path was probably meant to be, which the report that follows
   /// proposes; empty where none is near. `from` names it.
   std::string nearFile(const std::string& path, const std::string& from);
+  /// The file of that name among those that come with Gable, as "/gable/rules/x.cga"; or empty.
+  std::string bundledFile(std::string_view path, const std::string& from);
   void indexUnit(uint32_t unit);
   void readVersion(uint32_t unit, NodeId node);
   /// Whether the file of a module was written for CGA before that version. One that does not say is
@@ -164,6 +166,8 @@ class Analysis {
   /// The module and the rest of a name with prefixes of imports.
   std::pair<ModuleId, std::string_view> enter(ModuleId module, std::string_view name) const;
   bool isImport(ModuleId module, std::string_view name) const;
+  /// What to import for a name such as "street.Bench"; empty where it has no prefix.
+  std::string hintOfImport(ModuleId module, std::string_view name);
   bool inMissingImport(ModuleId module, std::string_view name) const;
   bool ruleInAnyStyle(ModuleId module, std::string_view name) const;
   std::vector<std::string_view> ruleNames(ModuleId module) const;
@@ -283,6 +287,9 @@ class Analysis {
   void makeLeaf(NodeId node, bool known);
   bool fitsOperation(NodeId node, const OpSpec& op);
   void reportUndefinedRule(NodeId node, const RuleSet& found);
+  /// A rule with the names of its parameters, in quotes.
+  std::string formOf(const RuleInfo& rule) const;
+  void reportArgument(NodeId node, const RuleInfo& rule, size_t parameter, ValueType got);
   void reportMissingHead(NodeId item, const OpSpec& op);
   /// The operation whose name `name` is a slip of; empty when there is none.
   std::string_view slippedOperation(NodeId node);

@@ -16,6 +16,8 @@ namespace {
 constexpr std::string_view kFileParameter = "filePath";
 // Texts of this form name a material: one that comes with Gable, or a folder of the project.
 constexpr std::string_view kMaterialForm = "a material";
+// The folder of what comes with Gable.
+constexpr const char* kBundled = "/gable/";
 // No file has an empty path.
 constexpr std::string_view kAnyFile;
 
@@ -83,8 +85,18 @@ std::string Analysis::nearFile(const std::string& path, const std::string& from)
     if (!projectFiles_) projectFiles_ = loader_->assets(from);
     nearest = nearestFile(path, *projectFiles_);
   }
+  if (nearest.empty()) nearest = bundledFile(path, from);
   if (!nearest.empty()) meant_ = {path, nearest};
   return nearest;
+}
+
+std::string Analysis::bundledFile(std::string_view path, const std::string& from) {
+  if (!loader_) return {};
+  const std::string_view name = path.substr(path.find_last_of("/\\") + 1);
+  for (std::string& f : loader_->filesIn(kBundled, from)) {
+    if (withoutFolders(f) == name) return std::move(f);
+  }
+  return {};
 }
 
 void Analysis::checkMaterial(NodeId node) {

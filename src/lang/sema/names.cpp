@@ -36,6 +36,24 @@ std::pair<ModuleId, std::string_view> Analysis::enter(ModuleId module,
   }
 }
 
+std::string Analysis::hintOfImport(ModuleId module, std::string_view name) {
+  const size_t dot = name.find('.');
+  if (dot == std::string_view::npos || dot == 0) return {};
+  const std::string_view alias = name.substr(0, dot);
+  const auto& imports = scopes_[module].imports;
+  const std::string nearest = near(alias, [&] {
+    std::vector<std::string_view> names;
+    for (const auto& [known, target] : imports) names.push_back(known);
+    std::sort(names.begin(), names.end());
+    return names;
+  });
+  if (!nearest.empty()) return "nothing is imported as " + quote(alias) + "; " + nearest;
+  const std::string file = std::string(alias) + ".cga";
+  const std::string bundled = bundledFile(file, program_.units[program_.modules[module].unit].path);
+  return "nothing is imported as " + quote(alias) + "; write import " + std::string(alias) +
+         " : \"" + (bundled.empty() ? file : bundled) + "\" above the rules";
+}
+
 namespace {
 
 bool applies(const Tree& t, NodeId body, std::string_view rule) {

@@ -166,7 +166,7 @@ void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
             "the rule " + quote(name) + " takes " + std::to_string(r.paramCount) +
                 (r.paramCount == 1 ? " argument" : " arguments") +
                 ", so this is another name: a leaf",
-            "add or remove arguments");
+            "it is written " + formOf(r));
     return;
   }
   if (ruleInAnyStyle(body_.module, name) || inMissingImport(body_.module, name)) return;
@@ -189,6 +189,11 @@ void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
   }
   const std::pair<ModuleId, std::string_view> place = enter(body_.module, name);
   std::string hint = near(place.second, [&] { return ruleNames(place.first); });
+  if (!hint.empty() && place.second.size() < name.size()) {
+    const std::string_view before = name.substr(0, name.size() - place.second.size());
+    hint = "did you mean " + quote(std::string(before) + meant_.nearest) + "?";
+  }
+  if (hint.empty()) hint = hintOfImport(place.first, place.second);
   if (hint.empty()) hint = hintOfEarlyName(name);
   if (hint.empty() && !meant.empty()) {
     meant_ = {name, std::string(meant)};
@@ -208,6 +213,25 @@ void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
           "no rule or operation is named " + quote(name) + "; it becomes a leaf", std::move(hint));
 }
 
+std::string Analysis::formOf(const RuleInfo& rule) const {
+  const Tree& t = program_.tree(rule.module);
+  std::string out;
+  for (const NodeId p : t.children(paramsOf(t, rule.node))) {
+    out += (out.empty() ? "" : ", ") + std::string(t.text(p));
+  }
+  return quote(rule.qualifiedName + (out.empty() ? "" : '(' + out + ')'));
+}
+
+void Analysis::reportArgument(NodeId node, const RuleInfo& rule, size_t parameter, ValueType got) {
+  const Tree& t = program_.tree(rule.module);
+  const std::string name(t.text(t.child(paramsOf(t, rule.node), parameter)));
+  const ValueType wanted = rule.paramTypes[parameter];
+  errorAt("type-mismatch", node,
+          "the argument " + quote(name) + " must be a " + typeName(wanted) + ", not a " +
+              typeName(got),
+          "the rule is written " + formOf(rule));
+}
+
 bool Analysis::applyRule(NodeId node, const std::vector<RuleId>& rules,
                          std::span<const NodeId> args, const std::vector<ValueType>& types) {
   const RuleId id = chooseOverload(rules, program_.rules, args, types);
@@ -217,7 +241,7 @@ bool Analysis::applyRule(NodeId node, const std::vector<RuleId>& rules,
     const ValueType wanted = program_.rules[id].paramTypes[i], got = types[i];
     if (got == wanted || got == ValueType::Null || wanted == ValueType::Null) continue;
     if (!isBefore(kTypesChecked, body_.module)) {
-      expectType(args[i], got, wanted, "this argument");
+      reportArgument(args[i], program_.rules[id], i, got);
       continue;
     }
     warning("type-mismatch", tree().span(args[i]),
