@@ -295,6 +295,9 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
     impl->result = gable::derive(r.program, initial, own, options);
   }
   impl->result.scene.geoOrigin = shapes.impl().geoOrigin;
+  for (const ShapeFootprint& f : shapes.impl().footprints) {
+    for (const Vec3& p : f.mesh.positions) impl->result.scene.place.include(f.origin.point(p));
+  }
   impl->geo = shapes.impl().geo;
   impl->startRule = options.startRule >= 0 ? options.startRule : r.program.startRule;
   for (const auto& [name, value] : options.attributes) impl->setAttributes.insert(name);

@@ -43,7 +43,7 @@ class Stopwatch {
 double hazeDistance(const RenderOptions& options, const Camera& camera, const rt::World& world) {
   if (options.hazeDistance) return *options.hazeDistance;
   if (options.uniformSky || camera.parallel) return 0;
-  return std::max(9000.0, 24 * length(world.bounds.center() - camera.eye));
+  return std::max(9000.0, 24 * length(world.subject.center() - camera.eye));
 }
 
 /// Share of the picture's mean light that a lens scatters over all of it: shadows keep some light.
@@ -157,7 +157,7 @@ struct Renderer::Impl {
 
   Camera camera(const RenderOptions& o, const rt::Subject& subject, const rt::Light& light) const {
     Camera camera = rt::chooseCamera(subject, o, light);
-    orbit(camera, world.bounds.center(), o.orbit);
+    orbit(camera, world.subject.center(), o.orbit);
     return camera;
   }
 
@@ -171,7 +171,7 @@ struct Renderer::Impl {
     if (side == CutSide::None) return {};
     const double azimuth = o.frontAzimuth.value_or(front) - (side == CutSide::Side ? 90 : 0);
     const Vec3 normal{sinDeg(azimuth), 0, -cosDeg(azimuth)};
-    return rt::Cut{rt::toVec3f(normal), static_cast<float>(dot(normal, world.bounds.center()))};
+    return rt::Cut{rt::toVec3f(normal), static_cast<float>(dot(normal, world.subject.center()))};
   }
 
   rt::Emitters emitters(const RenderOptions& o, const rt::Light& light, double rooms) const {
@@ -258,7 +258,7 @@ struct Renderer::Impl {
       focus = static_cast<double>(
           rt::glimpse(stage, scene, camera, rt::cameraRay(camera, aspect, 0.5, 0.5)).depth);
     }
-    if (!(focus > 0)) focus = length(world.bounds.center() - camera.eye);
+    if (!(focus > 0)) focus = length(world.subject.center() - camera.eye);
     lens.focus = static_cast<float>(std::max(0.01, focus));
     return lens;
   }

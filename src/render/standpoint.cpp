@@ -77,7 +77,7 @@ bool groundOfPlace(const Subject& s, const Vec3& foot) {
 
 /// The foot of somebody who stands at (x, z); false where there is no open ground.
 bool openGround(const Subject& s, double x, double z, Vec3& foot) {
-  const Box3& box = s.world.bounds;
+  const Box3& box = s.world.subject;
   const double tall = box.max.y - s.groundHeight;
   foot = {x, s.groundHeight, z};
   Hit hit;
@@ -162,7 +162,7 @@ double blockedAhead(const Subject& s, const Camera& camera, double aspect) {
 /// Of a place: how far from its middle, how wide the street and how short the look along it is.
 double markInPlace(const Subject& s, const Camera& camera, double ahead) {
   if (!isPlace(s)) return 0;
-  const Vec3 aside = camera.eye - s.world.bounds.center(), size = s.world.bounds.size();
+  const Vec3 aside = camera.eye - s.world.subject.center(), size = s.world.subject.size();
   const double edge = 2 * std::max(std::abs(aside.x) / size.x, std::abs(aside.z) / size.z);
   return -6 * off(edge, 0, 0.6) - 1.5 * off(std::log2(std::max(ahead, 1.0)), 6, 40) -
          2 * off(std::log2(widthBeside(s, camera)), 0, 4.3);
@@ -257,7 +257,7 @@ struct Search {
                   Standpoint& best) const {
     Vec3 foot;
     if (!openGround(subject, x, z, foot) || !roomAround(subject, foot)) return;
-    const double tall = std::max(1.0, subject.world.bounds.max.y - subject.groundHeight);
+    const double tall = std::max(1.0, subject.world.subject.max.y - subject.groundHeight);
     const double raised = isPlace(subject) ? 0 : (foot.y - subject.groundHeight) / tall;
     for (int k = 0; k < count; ++k) {
       Camera c = cameraTowards(azimuth + (k - 0.5 * (count - 1)) * step, 0);
@@ -274,7 +274,7 @@ struct Search {
 
 bool findStandpoint(const Subject& s, const Light& light, double halfWidth, double aspect,
                     Camera& camera) {
-  const Box3& box = s.world.bounds;
+  const Box3& box = s.world.subject;
   const double tall = std::max(0.0, box.max.y - s.groundHeight);
   const double margin = isPlace(s) ? 0 : std::clamp(1.2 * tall, 8.0, 150.0);
   const Vec3 size = box.size();

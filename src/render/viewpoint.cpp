@@ -145,8 +145,8 @@ void keepAboveHill(Camera& camera, const Subject& subject) {
 
 /// A building that stands higher than half its plan is wide: seen from near, it would be cut.
 bool isTower(const Subject& subject) {
-  const Vec3 size = subject.world.bounds.size();
-  const double tall = subject.world.bounds.max.y - subject.groundHeight;
+  const Vec3 size = subject.world.subject.size();
+  const double tall = subject.world.subject.max.y - subject.groundHeight;
   return !isPlace(subject) && std::max(size.x, size.z) < 2 * tall;
 }
 
@@ -154,7 +154,7 @@ Camera standardCamera(const Subject& subject, const RenderOptions& options, cons
                       double aspect) {
   const double given = options.fov ? tanDeg(std::clamp(*options.fov, 1.0, 150.0) / 2) : 0;
   const double toFront = subject.frontAzimuth + 180;
-  const double tall = subject.world.bounds.max.y - subject.groundHeight;
+  const double tall = subject.world.subject.max.y - subject.groundHeight;
   switch (options.view) {
     case PictureView::Top: {
       Camera camera = cameraTowards(0, -90);
@@ -165,7 +165,7 @@ Camera standardCamera(const Subject& subject, const RenderOptions& options, cons
       Camera camera = cameraTowards(toFront - 30, 0);
       camera.halfWidth = given > 0 ? given : lens(40);
       // A park or a town is seen from a hill, a house from a ladder.
-      const Vec3 size = subject.world.bounds.size();
+      const Vec3 size = subject.world.subject.size();
       const double hill = std::min(0.06 * std::max(size.x, size.z), 60.0);
       const double height =
           subject.groundHeight + std::max(std::clamp(0.42 * tall, 1.6, 8.0), hill);
@@ -198,7 +198,7 @@ Camera standardCamera(const Subject& subject, const RenderOptions& options, cons
 
 bool isPlace(const Subject& subject) {
   constexpr double kLeastSide = 120;
-  const Vec3 size = subject.world.bounds.size();
+  const Vec3 size = subject.world.subject.size();
   return std::min(size.x, size.z) >= kLeastSide;
 }
 
@@ -222,7 +222,7 @@ Camera chooseCamera(const Subject& subject, const RenderOptions& options, const 
   if (!options.eye && !options.target) return standardCamera(subject, options, light, aspect);
 
   const Vec3 target =
-      options.target ? *options.target - subject.world.origin : subject.world.bounds.center();
+      options.target ? *options.target - subject.world.origin : subject.world.subject.center();
   Camera camera;
   if (options.eye) {
     camera.eye = *options.eye - subject.world.origin;

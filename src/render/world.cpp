@@ -388,10 +388,39 @@ class Builder {
 
 }  // namespace
 
+namespace {
+
+bool isWithinPlan(const Box3& box, const Vec3f& p) {
+  const Vec3 at = toVec3(p);
+  return at.x >= box.min.x && at.x <= box.max.x && at.z >= box.min.z && at.z <= box.max.z;
+}
+
+/// `place` is in the world. A model that reaches far beyond it shows land around it.
+Box3 subjectOf(const World& world, Box3 place) {
+  constexpr double kFarBeyond = 400;
+  if (place.empty()) return world.bounds;
+  place.min = place.min - world.origin;
+  place.max = place.max - world.origin;
+  const Vec3 before = place.min - world.bounds.min, behind = world.bounds.max - place.max;
+  if (std::max({before.x, before.z, behind.x, behind.z}) < kFarBeyond) return world.bounds;
+  // Steps and eaves may reach out of their lot.
+  const Vec3 size = place.size(), out = Vec3{size.x, 0, size.z} * 0.05;
+  place.min = place.min - out;
+  place.max = place.max + out;
+  Box3 subject;
+  for (const Vec3f& p : framingPoints(world)) {
+    if (isWithinPlan(place, p)) subject.include(toVec3(p));
+  }
+  return subject.empty() ? world.bounds : subject;
+}
+
+}  // namespace
+
 World makeWorld(const Scene& scene, const TextureSource* textures) {
   World world;
   makeMaterials(scene.materials, textures, world.materials, world.textures);
   Builder(scene, world).build();
+  world.subject = subjectOf(world, scene.place);
   return world;
 }
 
@@ -413,6 +442,9 @@ std::vector<Vec3f> framingPoints(const World& world, size_t limit) {
       const Vec3f& q = set.positions[i];
       points.push_back(p.origin + p.x * q.x + p.y * q.y + p.z * q.z);
     }
+  }
+  if (!world.subject.empty()) {
+    std::erase_if(points, [&](const Vec3f& p) { return !isWithinPlan(world.subject, p); });
   }
   return points;
 }

@@ -56,6 +56,8 @@ struct Part {
   TriangleSet solid, clear;
   std::vector<Piece> pieces;
   Box3 bounds;
+  /// What pictures are of: all of it, or the place without the land that runs on around it.
+  Box3 subject;
   /// Area of the box about what lies within half a metre above the part's lowest point.
   double footArea = 0;
   /// Sum over upright triangles of area and of area * (cos, sin) of four times the compass angle
@@ -93,7 +95,7 @@ struct World {
 /// O(triangles stored). Textures are asked for here, once each.
 World makeWorld(const Scene& scene, const TextureSource* textures);
 
-/// Points that span the world for framing: corners of triangles or of boxes, at most about `limit`.
+/// Points that span the subject for framing: corners of triangles or of boxes, at most about `limit`.
 std::vector<Vec3f> framingPoints(const World& world, size_t limit = 200000);
 
 uint32_t packNormal(const Vec3f& n);
