@@ -35,9 +35,10 @@ void Lowering::options(const Op& op, size_t first, std::initializer_list<Option>
                        Nodes& arguments) {
   for (size_t i = first; i < op.arguments.size(); ++i) {
     const Span span = spanOf(op, i);
-    for (const auto& [name, value] : RegionTexts::options(op.arguments[i].text)) {
-      const auto* option =
-          std::find_if(known.begin(), known.end(), [&](const Option& o) { return o.name == name; });
+    for (const auto& given : RegionTexts::options(op.arguments[i].text)) {
+      const auto& [name, value] = given;
+      const auto* option = std::find_if(known.begin(), known.end(),
+                                        [&](const Option& o) { return o.name == given.first; });
       if (option == known.end()) {
         std::vector<std::string_view> names;
         std::string list;
