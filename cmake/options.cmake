@@ -12,7 +12,7 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CXX_FLAGS)
 endif()
 
 find_program(GABLE_CCACHE ccache)
-if(GABLE_CCACHE)
+if(GABLE_CCACHE AND NOT EMSCRIPTEN)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${GABLE_CCACHE})
   set(CMAKE_C_COMPILER_LAUNCHER ${GABLE_CCACHE})
 endif()
@@ -47,11 +47,16 @@ if(GABLE_SANITIZE)
 endif()
 
 find_program(GABLE_LLD ld.lld)
-if(GABLE_LLD)
+if(GABLE_LLD AND NOT EMSCRIPTEN)
   add_link_options(-fuse-ld=lld)
 endif()
 
-find_package(Threads REQUIRED)
+if(EMSCRIPTEN)
+  # A browser gives no threads to pages of servers that send no headers for it: all work is done by the caller.
+  add_library(Threads::Threads INTERFACE IMPORTED)
+else()
+  find_package(Threads REQUIRED)
+endif()
 
 # gable_finds_libraries(PROGRAM): installed, it finds libraries in lib/gable, where archives have them; by
 # the older kind of path, which holds for the libraries of libraries as well.

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// The studio's server: a page on this machine where rules are written and places are seen.
+// The studio: a page where rules are written and places are seen, and the server that gives it out.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "gable/gable.h"
 
@@ -40,5 +44,37 @@ struct StudioResult {
 /// opened.
 StudioResult runStudio(const StudioSettings& settings, const std::atomic<bool>& stop,
                        const std::function<void(const std::string& url)>& ready);
+
+/// What a page asks, as docs/dev/studio-protocol.md has it: "POST", "/api/derive".
+struct StudioRequest {
+  std::string method, path;
+  /// Decoded.
+  std::map<std::string, std::string> query;
+  std::string body;
+};
+
+/// Its answer. Types and statuses are those of HTTP.
+struct StudioAnswer {
+  int status = 200;
+  std::string type, body;
+  std::vector<std::pair<std::string, std::string>> headers;
+};
+
+/// The studio without its server, for a page that has the engine in itself, as the playground has:
+/// each request is answered before the call returns. Of the settings, those of addresses are not
+/// used. Any thread may call.
+class StudioDesk {
+ public:
+  explicit StudioDesk(const StudioSettings& settings);
+  ~StudioDesk();
+
+  /// Whether the folder of the project is there.
+  bool ok() const;
+  StudioAnswer answer(StudioRequest request);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 }  // namespace gable

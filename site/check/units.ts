@@ -5,11 +5,13 @@ import { mkdtempSync, mkdirSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
+import { inflateSync } from 'node:zlib';
 import { introduction } from '../src/gallery';
 import { Links, relative } from '../src/links';
 import { Markdown, slug } from '../src/markdown';
 import { notebookText } from '../src/notebook';
 import { pathOf, titleOf, type Page } from '../src/pages';
+import { exampleOf, fragmentOf } from '../src/playground';
 
 const page = (source: string): Page => ({ source, path: pathOf(source), title: source, group: '' });
 
@@ -111,4 +113,27 @@ test('a notebook is its words, its code and what it shows', () => {
   );
   assert.match(text, /!\[[^\]]+\]\(data:image\/png;base64,AAAA\)\n\n```python\npass\n```/);
   assert.doesNotMatch(text, /<Image>/);
+});
+
+test('rules of a page become a link to a shared place', () => {
+  const rules = 'Lot --> extrude(3) Building.\n';
+  const code = fragmentOf('The `offset` operation', rules)!.slice('#share='.length);
+  const bundle = JSON.parse(inflateSync(Buffer.from(code, 'base64url')).toString()) as {
+    gable: number;
+    main: string;
+    files: Record<string, string>;
+  };
+  assert.equal(bundle.gable, 1);
+  assert.equal(bundle.main, 'The-offset-operation.cga');
+  assert.deepEqual(bundle.files, { [bundle.main]: rules });
+});
+
+test('parts of rules and rules of several files have no link', () => {
+  assert.equal(fragmentOf('x', 'extrude(3) comp(f) { top : Roof }'), undefined);
+  assert.equal(fragmentOf('x', 'import trees : "rules/trees.cga"\nLot --> trees.Oak\n'), undefined);
+});
+
+test('the page of an example names it', () => {
+  assert.equal(exampleOf('examples/town/README.md'), 'town');
+  assert.equal(exampleOf('examples/README.md'), undefined);
 });

@@ -4,9 +4,10 @@
 // Makes the site: each Markdown file and each notebook of the documentation becomes a page, each file that a page links to
 // comes along, and nothing is fetched from elsewhere when somebody reads it.
 //
-//   node build.mjs --root REPOSITORY --out FOLDER [--models FOLDER]
+//   node build.mjs --root REPOSITORY --out FOLDER [--models FOLDER] [--playground FOLDER]
 //
-// `--models` is a folder with NAME.glb for examples; their pages let the reader turn them.
+// `--models` is a folder with NAME.glb for examples; their pages let the reader turn them. `--playground` is the one that
+// tools/playground.sh has made; examples and rules on pages then open in it.
 
 import { cpSync, existsSync, mkdirSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, resolve } from 'node:path';
@@ -18,6 +19,7 @@ import { layout } from './layout';
 import { Links } from './links';
 import { Markdown } from './markdown';
 import { findPages, navigation, textOf, type Page } from './pages';
+import { exampleOf } from './playground';
 import { SearchText } from './search';
 import { folderPage, sourcePage } from './source';
 
@@ -25,6 +27,7 @@ interface Options {
   root: string;
   out: string;
   models: string | undefined;
+  playground: string | undefined;
 }
 
 function options(): Options {
@@ -33,10 +36,18 @@ function options(): Options {
       root: { type: 'string', default: '..' },
       out: { type: 'string', default: '../build/site' },
       models: { type: 'string' },
+      playground: { type: 'string' },
     },
   });
-  const models = values.models && existsSync(values.models) ? resolve(values.models) : undefined;
-  return { root: resolve(values.root), out: resolve(values.out), models };
+  const found = (folder: string | undefined) =>
+    folder && existsSync(folder) ? resolve(folder) : undefined;
+  const { models, playground } = values;
+  return {
+    root: resolve(values.root),
+    out: resolve(values.out),
+    models: found(models),
+    playground: found(playground),
+  };
 }
 
 function write(out: string, path: string, text: string): void {
@@ -47,17 +58,25 @@ function write(out: string, path: string, text: string): void {
 
 /** Where the model of an example's page is, within the site; nothing where there is none. */
 function modelOf(page: Page, models: string | undefined): string | undefined {
-  const example = /^examples\/([^/]+)\/README\.md$/.exec(page.source)?.[1];
+  const example = exampleOf(page.source);
   if (!models || !example || !existsSync(join(models, `${example}.glb`))) return undefined;
   return `models/${example}.glb`;
 }
 
+/** The example that the playground opens for a page. Places from maps are for the program. */
+function opened(page: Page, root: string, playground: string | undefined): string | undefined {
+  const example = playground ? exampleOf(page.source) : undefined;
+  const notations = ['cga', 'gbbg', 'grammar', 'park'];
+  const rules = notations.some((n) => existsSync(join(root, `examples/${example}/${example}.${n}`)));
+  return rules ? example : undefined;
+}
+
 async function main(): Promise<void> {
-  const { root, out, models } = options();
+  const { root, out, models, playground } = options();
   const pages = findPages(root);
   const links = new Links(root, pages);
   const colour = await highlighter(root);
-  const markdown = new Markdown(root, links, colour);
+  const markdown = new Markdown(root, links, colour, !!playground);
   const search = new SearchText();
   const menu = navigation(pages);
 
@@ -69,7 +88,7 @@ async function main(): Promise<void> {
       page.source === 'examples/README.md'
         ? galleryPage(markdown.page(page, text), pages, root, markdown, links, models)
         : markdown.page(page, text);
-    write(out, page.path, layout({ page, content, menu, model }));
+    write(out, page.path, layout({ page, content, menu, model, example: opened(page, root, playground) }));
     search.add(page, content.sections);
     if (model && models) {
       mkdirSync(join(out, 'models'), { recursive: true });
@@ -91,6 +110,7 @@ async function main(): Promise<void> {
     cpSync(join(root, path), join(out, path));
   }
 
+  if (playground) cpSync(playground, join(out, 'playground'), { recursive: true });
   write(out, 'assets/search.js', search.script());
   await bundleClient(root, join(out, 'assets'));
   console.log(

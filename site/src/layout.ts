@@ -8,6 +8,7 @@ import { escaped } from './html';
 import { relative } from './links';
 import type { Content } from './markdown';
 import type { MenuGroup, Page } from './pages';
+import { PLAYGROUND } from './playground';
 
 export interface Parts {
   page: Page;
@@ -15,6 +16,8 @@ export interface Parts {
   menu: MenuGroup[];
   /** A model that can be turned, as a path within the site. */
   model?: string | undefined;
+  /** The example that the playground opens. */
+  example?: string | undefined;
 }
 
 function menuOf(page: Page, menu: MenuGroup[]): string {
@@ -59,11 +62,17 @@ function modelOf(page: Page, model: string | undefined): string {
 <figcaption>Drag to turn, scroll to come closer, drag with the right button to move.</figcaption></figure>`;
 }
 
-export function layout({ page, content, menu, model }: Parts): string {
+function tryOf(page: Page, example: string | undefined): string {
+  if (!example) return '';
+  const address = `${relative(page.path, PLAYGROUND)}#example=${example}`;
+  return `<p class="try"><a href="${address}">Try it in the browser</a></p>`;
+}
+
+export function layout({ page, content, menu, model, example }: Parts): string {
   const asset = (name: string) => relative(page.path, `assets/${name}`);
   const home = relative(page.path, 'index.html');
   const title = page.path === 'index.html' ? 'Gable' : `${page.title} · Gable`;
-  const text = content.html.replace('</h1>', () => `</h1>${modelOf(page, model)}`);
+  const text = content.html.replace('</h1>', () => `</h1>${modelOf(page, model)}${tryOf(page, example)}`);
   // The theme is set before anything is drawn, so that no page flashes.
   return `<!doctype html>
 <html lang="en" data-theme="light">

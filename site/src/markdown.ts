@@ -8,8 +8,9 @@ import { closeSync, openSync, readSync } from 'node:fs';
 import { join, posix } from 'node:path';
 import MarkdownIt from 'markdown-it';
 import type { Highlight } from './highlight';
-import type { Links } from './links';
+import { relative, type Links } from './links';
 import type { Page } from './pages';
+import { fragmentOf, PLAYGROUND } from './playground';
 
 /** A heading and the text below it, for the search. */
 export interface Section {
@@ -61,12 +62,14 @@ export class Markdown {
     private readonly root: string,
     private readonly links: Links,
     colour: Highlight,
+    private readonly playground = false,
   ) {
     this.parser = new MarkdownIt({ html: true, linkify: false, typographer: false });
     const rules = this.parser.renderer.rules;
-    rules.fence = (tokens, at) => {
+    rules.fence = (tokens, at, _, page: Page) => {
       const token = tokens[at]!;
-      return colour(token.content, token.info.trim().split(/\s/)[0] ?? '');
+      const language = token.info.trim().split(/\s/)[0] ?? '';
+      return colour(token.content, language) + this.tryIt(page, language, token.content);
     };
     rules.code_block = (tokens, at) => colour(tokens[at]!.content, '');
     // Wide tables scroll by themselves, not the page.
@@ -85,10 +88,17 @@ export class Markdown {
     this.lead(page, tokens);
     const { sections, headings } = this.divide(page, tokens);
     return {
-      html: this.parser.renderer.render(tokens, this.parser.options, {}),
+      html: this.parser.renderer.render(tokens, this.parser.options, page),
       sections,
       headings,
     };
+  }
+
+  /** A link that opens rules in the playground. */
+  private tryIt(page: Page, language: string, text: string): string {
+    const fragment = this.playground && language === 'cga' && fragmentOf(page.title, text);
+    if (!fragment) return '';
+    return `<p class="try"><a href="${relative(page.path, PLAYGROUND)}${fragment}">Try it</a></p>`;
   }
 
   /** Links and pictures lead into the site. */

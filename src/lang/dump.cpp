@@ -51,7 +51,7 @@ class Dumper {
     switch (tree_.kind(id)) {
       case NodeKind::Number: out_ += shortestText(tree_.number(id)); return;
       case NodeKind::Bool: out_ += tree_.number(id) != 0 ? "true" : "false"; return;
-      case NodeKind::String: out_ += quoted(text); return;
+      case NodeKind::String: out_ += lang::quoted(text); return;
       case NodeKind::Name:
       case NodeKind::Param: out_ += text; return;
       case NodeKind::Call:

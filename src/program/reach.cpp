@@ -82,7 +82,8 @@ class Units {
     if (number < p_.rules.size()) {
       const RuleCode& r = p_.rules[number];
       h.add(r.qualifiedName).add(p_.pool->text(r.name)).add(p_.files[r.file]);
-      h.add(r.parameters.size()).add(uint64_t{r.shared} << 1 | uint64_t{r.needsPrevious});
+      h.add(uint64_t{r.parameters.size()});
+      h.add(uint64_t{r.shared} << 1 | uint64_t{r.needsPrevious});
       h.add(uint64_t{r.reads.effects});
     } else if (number < attributeUnit(0)) {
       h.add(uint64_t{p_.functions[number - functionUnit(0)].parameterCount});
@@ -169,7 +170,7 @@ class Units {
     // Figures of a block are numbered after each other; their order says how they hang together.
     const FigureCode& f = p_.figures[number];
     h.add(static_cast<uint64_t>(f.kind) << 32 | f.ordinal);
-    h.add(f.children.size());
+    h.add(uint64_t{f.children.size()});
     if (f.spec) addChoice(h, Choice<OpSpec>{f.spec, f.form});
     for (const ValueCode& v : f.values) addCode(h, u, v);
     for (const uint32_t c : f.children) addFigure(h, u, c);

@@ -65,16 +65,6 @@ HttpResponse plain(int status, const char* text) { return {status, "text/plain",
 
 }  // namespace
 
-std::string HttpRequest::header(const std::string& name) const {
-  const auto at = headers.find(name);
-  return at == headers.end() ? std::string() : at->second;
-}
-
-std::string HttpRequest::argument(const std::string& name) const {
-  const auto at = query.find(name);
-  return at == query.end() ? std::string() : at->second;
-}
-
 struct HttpServer::Impl {
   class Connection;
 

@@ -17,7 +17,6 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,31 +25,9 @@
 #include <vector>
 
 #include "base/result.h"
+#include "studio/message.h"
 
 namespace gable::studio {
-
-struct HttpRequest {
-  std::string method;
-  /// Decoded, without the query.
-  std::string path;
-  /// Decoded; of a name that comes twice, the last.
-  std::map<std::string, std::string> query;
-  /// Names in lower case.
-  std::map<std::string, std::string> headers;
-  std::string body;
-  std::shared_ptr<std::atomic<bool>> cancelled;
-
-  /// Empty when there is none.
-  std::string header(const std::string& name) const;
-  std::string argument(const std::string& name) const;
-};
-
-struct HttpResponse {
-  int status = 200;
-  std::string type = "application/json";
-  std::string body;
-  std::vector<std::pair<std::string, std::string>> headers;
-};
 
 /// The server's end of a connection that stays. One thread at a time uses it.
 class Conversation {

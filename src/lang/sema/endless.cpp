@@ -90,8 +90,8 @@ void Analysis::checkEndlessRules(ModuleId firstModule) {
       if (states[next] == kNew) {
         enter(next);
       } else if (states[next] == kOnTheWay && program_.rules[path.back()].module >= firstModule) {
-        const auto from = std::find(path.begin(), path.end(), next);
-        reportEndless({from, path.end()}, at);
+        const auto from = std::find(path.begin(), path.end(), next) - path.begin();
+        reportEndless(std::span<const RuleId>(path).subspan(static_cast<size_t>(from)), at);
       }
     }
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// EngineClient: the one way from the page to the server.
+// EngineClient: the one way from the page to the engine, over a transport.
 
 import {
   decodeDerived,
@@ -15,6 +15,7 @@ import {
   type PartsBelow,
   type Tree,
 } from './protocol';
+import type { Transport } from './transport';
 
 export interface ProjectFile {
   path: string;
@@ -94,7 +95,7 @@ export interface PictureView {
   height: number;
 }
 
-/** What the server refused, with its code. */
+/** What was refused, with its code. */
 export class Refusal extends Error {
   constructor(
     readonly status: number,
@@ -105,18 +106,7 @@ export class Refusal extends Error {
   }
 }
 
-const TOKEN = 'gable.token';
 const TAB = 'gable.tab';
-
-/** The token of the address, which then no longer shows it. */
-function tokenGiven(): string {
-  const url = new URL(location.href);
-  const given = url.searchParams.get('token') ?? '';
-  if (!given) return '';
-  url.searchParams.delete('token');
-  history.replaceState(null, '', url);
-  return given;
-}
 
 /** A tab keeps its name when it is loaded again. */
 function nameOfTab(): string {
@@ -128,24 +118,12 @@ function nameOfTab(): string {
 export class EngineClient {
   readonly page = crypto.randomUUID();
   readonly tab = nameOfTab();
-  /** Called when another page of this address has handed over the token of a new server. */
-  handedOver: (() => void) | null = null;
-  private token: string;
-  private readonly channel = new BroadcastChannel('gable.token');
 
-  constructor() {
-    this.channel.onmessage = (event: MessageEvent<unknown>) => {
-      if (typeof event.data !== 'string' || event.data === this.token) return;
-      this.token = event.data;
-      sessionStorage.setItem(TOKEN, event.data);
-      this.handedOver?.();
-    };
-    const fresh = tokenGiven();
-    this.token = fresh || (sessionStorage.getItem(TOKEN) ?? '');
-    if (!fresh) return;
-    sessionStorage.setItem(TOKEN, fresh);
-    // Pages that were left by a server before go on with this one.
-    this.channel.postMessage(fresh);
+  constructor(readonly transport: Transport) {}
+
+  /** Whether files outlast the page, and pictures are drawn: not in the playground. */
+  get kept(): boolean {
+    return this.transport.kept;
   }
 
   private async call(
@@ -154,12 +132,7 @@ export class EngineClient {
     body?: string | Blob,
     signal?: AbortSignal,
   ): Promise<Response> {
-    const answer = await fetch(`/api/${path}`, {
-      method,
-      headers: { 'X-Gable-Token': this.token },
-      ...(body === undefined ? {} : { body }),
-      ...(signal ? { signal } : {}),
-    });
+    const answer = await this.transport.send(method, path, body, signal);
     if (answer.ok) return answer;
     const text = await answer.text();
     try {
@@ -169,15 +142,6 @@ export class EngineClient {
       if (error instanceof Refusal) throw error;
       throw new Refusal(answer.status, 'refused', text.trim() || answer.statusText);
     }
-  }
-
-  /** A connection to the language server. Its token goes among the protocols: it has no headers. */
-  languageWire(): WebSocket {
-    const scheme = location.protocol === 'https:' ? 'wss:' : 'ws:';
-    return new WebSocket(`${scheme}//${location.host}/api/language`, [
-      'gable-language',
-      this.token,
-    ]);
   }
 
   async project(): Promise<ProjectInfo> {

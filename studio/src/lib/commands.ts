@@ -38,6 +38,7 @@ function ofFiles(studio: Studio): Command[] {
       icon: 'file',
       anywhere: true,
       run: () => void studio.documents.save(),
+      when: () => studio.client.kept,
     },
     {
       title: 'Save all files',
@@ -45,6 +46,7 @@ function ofFiles(studio: Studio): Command[] {
       icon: 'file',
       anywhere: true,
       run: () => void studio.documents.saveAll(),
+      when: () => studio.client.kept,
     },
     {
       title: 'Undo',

@@ -72,3 +72,12 @@ it('carriesBytes', () => {
   const bytes = Uint8Array.from({ length: 70_000 }, (_, i) => i % 256);
   expect(fromBase64(toBase64(bytes))).toEqual(bytes);
 });
+
+it('namesAnExampleAndWhatWasChangedInIt', () => {
+  const changed = { ...bundle, example: 'tower', main: 'tower/tower.cga', files: {} };
+  expect(check(JSON.stringify(changed))).toEqual(changed);
+  const wrong = { ...changed, example: '../tower' };
+  expect(check(JSON.stringify(wrong))).toBe('This shared place names no example.');
+  const outside = { ...changed, main: '../tower.cga' };
+  expect(check(JSON.stringify(outside))).toMatch('files that it must not');
+});

@@ -13,6 +13,8 @@ export interface Bundle {
   name: string;
   main: string;
   place: Place;
+  /** The example that it is a copy of: `files` are those that have been changed. */
+  example?: string;
   /** Texts by path; those of binary files as "base64:...". */
   files: Record<string, string>;
 }
@@ -95,8 +97,12 @@ export function check(text: string): Bundle | string {
   )
     return 'This is no shared place of Gable.';
   const paths = Object.keys(b.files);
-  if (paths.length > MOST_FILES || !paths.every(plain) || !paths.includes(b.main))
+  const example = b.example !== undefined;
+  if (example && !/^[\w-]{1,60}$/.test(String(b.example)))
+    return 'This shared place names no example.';
+  if (paths.length > MOST_FILES || ![...paths, b.main].every(plain))
     return 'This shared place names files that it must not.';
+  if (!example && !paths.includes(b.main)) return 'This shared place names files that it must not.';
   if (!Object.values(b.files).every((t) => typeof t === 'string'))
     return 'This is no shared place of Gable.';
   const p = b.place;

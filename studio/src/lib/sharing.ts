@@ -3,8 +3,9 @@
 //
 // Puts a place of the project into a bundle, and a bundle into the project.
 
+import type { Place } from './place';
 import { referredBy, resolved } from './references';
-import { decode, fromBase64, toBase64, type Bundle } from './share';
+import { decode, encode, fromBase64, LONGEST_LINK, toBase64, type Bundle } from './share';
 import type { Studio } from './studio.svelte';
 
 const TEXTS = /\.(cga|gbbg|grammar|pg3d|park|geojson|json|obj|mtl|gltf|csv|txt|md)$/i;
@@ -39,6 +40,65 @@ export async function bundleOf(studio: Studio): Promise<Bundle> {
   return withoutFolder({ gable: 1, name, main: studio.main, place, files });
 }
 
+/**
+ * The same where Gable's examples come with the page: of a copy of an example only what has been
+ * changed.
+ */
+async function smallBundleOf(studio: Studio): Promise<Bundle> {
+  const { example, main } = studio;
+  if (!example || !main.startsWith(`${example.folder}/`)) return bundleOf(studio);
+  const edited = studio.documents.open.filter((doc) => doc.text !== doc.saved);
+  return {
+    gable: 1,
+    name: example.name,
+    main: moved(main, example.folder, example.name),
+    example: example.name,
+    place: placeIn(studio.place, example.folder, example.name),
+    files: Object.fromEntries(
+      edited.map(({ path, text }) => [moved(path, example.folder, example.name), text]),
+    ),
+  };
+}
+
+/** The bundle that a link holds. */
+export async function linkOf(studio: Studio): Promise<{ bundle: Bundle; link: string }> {
+  const bundle = await (studio.client.kept ? bundleOf(studio) : smallBundleOf(studio));
+  return { bundle, link: `#share=${await encode(bundle)}` };
+}
+
+/** The address of the page with the place in it; empty where it is too large for a link. */
+export async function addressOf(studio: Studio): Promise<string> {
+  const { link } = await linkOf(studio);
+  return link.length > LONGEST_LINK ? '' : link;
+}
+
+/** A path with another folder in front. */
+function moved(path: string, from: string, to: string): string {
+  return path.startsWith(`${from}/`) ? to + path.slice(from.length) : path;
+}
+
+function placeIn(place: Place, from: string, to: string): Place {
+  const copy = JSON.parse(JSON.stringify(place)) as Place;
+  if ('file' in copy.shapes) copy.shapes.file = moved(copy.shapes.file, from, to);
+  return copy;
+}
+
+/** Opens a copy of the example, and in it the texts that were changed. */
+async function openChanged(studio: Studio, bundle: Bundle, name: string): Promise<void> {
+  const folder = await studio.client.copyExample(name);
+  await studio.refreshFiles();
+  studio.example = { name, folder };
+  const texts: [string, string][] = [];
+  for (const [path, text] of Object.entries(bundle.files)) {
+    const here = moved(path, name, folder);
+    await studio.documents.load(here);
+    texts.push([here, text]);
+  }
+  const place = placeIn(bundle.place, name, folder);
+  await studio.openRules(moved(bundle.main, name, folder), place);
+  studio.editAll(texts, 'Open what was shared');
+}
+
 /** Paths count from the folder that all files lie in. */
 export function withoutFolder(bundle: Bundle): Bundle {
   const folder = bundle.main.slice(0, bundle.main.lastIndexOf('/') + 1);
@@ -63,6 +123,16 @@ export async function openShared(studio: Studio, text: string): Promise<string |
   if (typeof bundle === 'string') return bundle;
   const stem = `shared-${bundle.name.replace(/[^\w-]/g, '') || 'place'}`;
   let folder = stem;
+  const { example } = bundle;
+  if (example) {
+    try {
+      await openChanged(studio, bundle, example);
+      return null;
+    } catch (error) {
+      return `It could not be opened: ${(error as Error).message}`;
+    }
+  }
+  studio.example = null;
   for (let i = 2; studio.files.some((f) => f.path.startsWith(`${folder}/`)); ++i)
     folder = `${stem}-${i}`;
   try {

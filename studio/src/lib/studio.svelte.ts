@@ -21,6 +21,7 @@ import { newPlace, placeBeside, placeOf, standpointOf, type Place } from './plac
 import type { DrawList, Stats, Tree, Value } from './protocol';
 import { readRegistry, type Entry } from './registry';
 import { Selection, type Reveal } from './selection.svelte';
+import type { Transport } from './transport';
 import type { Shapes } from './tree';
 import { ui } from './ui.svelte';
 import { Unsent } from './unsent';
@@ -50,7 +51,7 @@ const LOOK_MS = 2000;
 const MOST_LOOK_MS = 10_000;
 
 export class Studio {
-  readonly client = new EngineClient();
+  readonly client: EngineClient;
   page = $state<Page>('rules');
   theme = $state<Theme>('dark');
   name = $state('');
@@ -79,19 +80,20 @@ export class Studio {
   pictureView: (() => PictureView) | null = null;
   reveal: Reveal | null = null;
 
-  readonly documents = new Documents(
-    this,
-    new Unsent(localStorage, this.client.tab, () => this.root),
-  );
-  readonly model = new Model(this);
-  readonly selection = new Selection(this);
-  readonly guide = new Guide(this);
-  readonly language = new Language(this);
+  readonly documents: Documents;
+  readonly model: Model;
+  readonly selection: Selection;
+  readonly guide: Guide;
+  readonly language: Language;
 
   readonly ruleFiles = $derived(this.files.filter((f) => RULES.test(f.path)));
   readonly shapeFiles = $derived(this.files.filter((f) => SHAPES.test(f.path)));
 
   root = '';
+  /** The example that is open, and the folder of its copy. */
+  example: { name: string; folder: string } | null = null;
+  /** The address holds the work as it is. */
+  inAddress = false;
   private latest: { draw: DrawList; stats: Stats } | null = null;
   private places: Record<string, Place> = {};
   private keepTimer = 0;
@@ -99,6 +101,16 @@ export class Studio {
   private pollTimer = 0;
   private pollDelay = LOOK_MS;
   private readonly history = new History();
+
+  constructor(transport: Transport) {
+    this.client = new EngineClient(transport);
+    const unsent = new Unsent(localStorage, this.client.tab, () => this.root);
+    this.documents = new Documents(this, unsent);
+    this.model = new Model(this);
+    this.selection = new Selection(this);
+    this.guide = new Guide(this);
+    this.language = new Language(this);
+  }
 
   async open(): Promise<void> {
     gesture.takeBack = (number) => this.giveUp(number);
@@ -113,10 +125,10 @@ export class Studio {
       await this.recall();
       await this.openFirst();
       this.ready = true;
-      if (location.hash.startsWith('#share=')) await this.openLink();
       void this.client.examples().then((examples) => (this.examples = examples));
-      this.client.handedOver = () => void this.lookNow();
-      this.poll();
+      await this.openAddress();
+      this.client.transport.handedOver = () => void this.lookNow();
+      if (this.client.kept) this.poll();
     } catch (error) {
       this.trouble =
         error instanceof Refusal && error.status === 401
@@ -135,13 +147,32 @@ export class Studio {
     else this.page = 'gallery';
   }
 
-  /** The address of the page is a link to a shared place. */
-  private async openLink(): Promise<void> {
+  /** The address of the page may be a link to a shared place, or name an example. */
+  async openAddress(): Promise<void> {
     const link = location.hash;
-    history.replaceState(null, '', location.pathname);
+    const name = /^#example=([\w-]+)$/.exec(link)?.[1];
+    if (!name && !link.startsWith('#share=')) return;
+    // Where files are kept the work goes on in them. Elsewhere the address stays what opens it.
+    if (this.client.kept) history.replaceState(null, '', location.pathname);
+    if (name) return this.openNamed(name);
     const { openShared } = await import('./sharing');
     const said = await openShared(this, link);
     if (said) this.fail(said);
+  }
+
+  private async openNamed(name: string): Promise<void> {
+    const example = (await this.client.examples()).find((e) => e.name === name);
+    if (example) await this.openExample(example);
+    else this.fail(`There is no example '${name}'. The gallery has all of them.`);
+  }
+
+  /** Without a disk the work is kept in the address of the page, as a link to share. */
+  private async keepInAddress(): Promise<void> {
+    if (!this.main || (!this.undoLabel && !this.inAddress)) return;
+    const { addressOf } = await import('./sharing');
+    const address = await addressOf(this);
+    this.inAddress = address !== '';
+    if (address) history.replaceState(null, '', address);
   }
 
   private async recall(): Promise<void> {
@@ -283,7 +314,7 @@ export class Studio {
   }
 
   wire(): Wire {
-    return this.client.languageWire();
+    return this.client.transport.languageWire();
   }
 
   /** Something that the model depends on is another by now. */
@@ -297,6 +328,7 @@ export class Studio {
   /** What would be lost with this page goes to the server, or stays in the browser without one. */
   private async keep(): Promise<void> {
     this.places = { ...this.places, [this.main]: $state.snapshot(this.place) };
+    if (!this.client.kept) return this.keepInAddress();
     const memory: Remembered = { main: this.main, places: this.places };
     try {
       await this.client.keepRecovery(MEMORY, JSON.stringify(memory));
@@ -460,6 +492,9 @@ export class Studio {
       await this.refreshFiles();
       const rules = `${folder}/${example.name}.${example.notation}`;
       const from = standpointOf(example);
+      this.example = { name: example.name, folder };
+      this.inAddress = false;
+      if (!this.client.kept) history.replaceState(null, '', `#example=${example.name}`);
       // As its card shows it.
       if (from) [ui.look.camera, ui.look.sky] = [{ of: rules, ...from }, true];
       await this.openRules(rules, placeOf(example, folder));

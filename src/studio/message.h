@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// A request to the studio and its answer, whatever way they take.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gable::studio {
+
+struct HttpRequest {
+  std::string method;
+  /// Decoded, without the query.
+  std::string path;
+  /// Decoded; of a name that comes twice, the last.
+  std::map<std::string, std::string> query;
+  /// Names in lower case.
+  std::map<std::string, std::string> headers;
+  std::string body;
+  std::shared_ptr<std::atomic<bool>> cancelled;
+
+  /// Empty when there is none.
+  std::string header(const std::string& name) const;
+  std::string argument(const std::string& name) const;
+};
+
+struct HttpResponse {
+  int status = 200;
+  std::string type = "application/json";
+  std::string body;
+  std::vector<std::pair<std::string, std::string>> headers;
+};
+
+}  // namespace gable::studio
