@@ -192,8 +192,7 @@ GltfMaterials::Variant GltfMaterials::make(const Material& m, uint32_t uvMask, b
     v.layout.uvRepeats = repeatsIn(m).value_or(Vec2{1, 1});
     usesTransforms_ = needsTransforms_ = true;
   }
-  // Without normals there are no tangents either.
-  v.layout.normals = !(bare_ && flat && v.layout.tangentSet < 0);
+  v.layout.normals = !(bare_ && flat);
   return v;
 }
 
@@ -204,7 +203,8 @@ void GltfMaterials::addSets(Variant& v, uint32_t uvMask) {
   for (const Map* map : maps) {
     if (map->image != TextureSet::kNone) used |= 1u << map->texcoord;
   }
-  if (v.normal.image != TextureSet::kNone)
+  // Readers make them, as they make normals.
+  if (!bare_ && v.normal.image != TextureSet::kNone)
     v.layout.tangentSet = static_cast<int>(v.normal.texcoord);
   for (uint32_t set = 0; set < kTextureLayers; ++set) {
     if (used >> set & 1) v.layout.uvSets[v.layout.uvCount++] = static_cast<uint8_t>(set);

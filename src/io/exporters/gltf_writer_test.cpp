@@ -294,6 +294,28 @@ TEST(GltfWriter, compactTextureCoordinatesStayWithinATexel) {
   EXPECT_EQ(m.json["extensionsRequired"].size(), 2u);
 }
 
+TEST(GltfWriter, bareVerticesHaveNoTangents) {
+  const Scene s = textured();
+  const auto attributes = [&](WriteOptions::Vertices vertices, const std::string& name) {
+    WriteOptions o;
+    o.vertices = vertices;
+    o.readTexture = [](const std::string&) -> Result<std::string> {
+      return testing::picture(8, false);
+    };
+    const GlbModel m = roundTrip(s, "tangents.glb", o);
+    size_t count = 0;
+    for (const JsonValue& p : m.json["meshes"].at(0)["primitives"].items()) {
+      count += p["attributes"][name].isNumber() ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_EQ(attributes(WriteOptions::Vertices::Compact, "TANGENT"), 8u);
+  EXPECT_EQ(attributes(WriteOptions::Vertices::Bare, "TANGENT"), 0u);
+  // What is smooth keeps its normals.
+  EXPECT_GT(attributes(WriteOptions::Vertices::Bare, "NORMAL"), 1u);
+  EXPECT_LT(attributes(WriteOptions::Vertices::Bare, "NORMAL"), 8u);
+}
+
 TEST(GltfWriter, largeFilesAreCompact) {
   const auto boxes = [](int count) {
     SceneBuilder b;

@@ -58,7 +58,7 @@ struct WriteOptions {
     /// sets but those of textures, in 16 bits unless a surface repeats its picture more than a
     /// hundred times, within a texel of a picture with 512.
     Compact,
-    /// The same, and meshes that are lit flat have no normals: a reader
+    /// The same, and meshes that are lit flat have no normals, and none has tangents: a reader
     /// makes them, as glTF demands. Faces share vertices round edges as well.
     Bare,
   };
