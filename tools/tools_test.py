@@ -14,6 +14,7 @@ from pathlib import Path
 import coverage
 import figures
 import gen_docs
+import glb_bytes
 import new_op
 import rule_library
 import run_tests
@@ -131,6 +132,26 @@ class ShrinkTest(FolderCase):
                               capture_output=True, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertLessEqual(target.stat().st_size, 3000)
+
+
+class GlbBytesTest(unittest.TestCase):
+    def testCountsEveryByteOnce(self):
+        # Two primitives of one interleaved vertex buffer: a position, padding, a normal.
+        document = {
+            "accessors": [
+                {"bufferView": 0, "componentType": 5123, "count": 10, "type": "VEC3"},
+                {"bufferView": 0, "byteOffset": 8, "componentType": 5120, "count": 10, "type": "VEC3"},
+                {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"},
+                {"bufferView": 1, "byteOffset": 12, "componentType": 5123, "count": 3, "type": "SCALAR"}],
+            "bufferViews": [{"byteLength": 120, "byteStride": 12}, {"byteLength": 20}, {"byteLength": 100}],
+            "images": [{"bufferView": 2}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}, "indices": 2},
+                                       {"attributes": {"POSITION": 0, "NORMAL": 1}, "indices": 3}]}]}
+        text = json.dumps(document, separators=(",", ":")).encode()
+        data = struct.pack("<IIIII", 0x46546C67, 2, 0, len(text), 0x4E4F534A) + text + bytes(8 + 240)
+        counted = glb_bytes.bytes_by_kind(data)
+        self.assertEqual([counted[k] for k in ("POSITION", "NORMAL", "indices", "images")], [80, 40, 18, 100])
+        self.assertEqual(sum(counted.values()), len(data))
 
 
 class RunTestsTest(FolderCase):

@@ -328,7 +328,9 @@ void GltfDocument::writeAccessors(JsonWriter& w, const GltfContent& content, boo
       uint32_t offset = 0;
       const auto attribute = [&](const char* type, int component, uint32_t bytes) {
         begin(view, offset, component, count, type);
-        if (component == kByte) w.field("normalized", true);
+        if (component == kByte || (component == kUnsignedShort && offset > 0)) {
+          w.field("normalized", true);
+        }
         if (offset == 0) {
           writeFloats(w, "min", roomy ? widest : p.min);
           writeFloats(w, "max", roomy ? widest : p.max);
@@ -340,7 +342,8 @@ void GltfDocument::writeAccessors(JsonWriter& w, const GltfContent& content, boo
       attribute("VEC3", onGrid ? kUnsignedShort : kFloat, l.positionBytes(onGrid));
       if (l.normals) attribute("VEC3", direction, l.normalBytes());
       if (l.tangentSet >= 0) attribute("VEC4", direction, l.tangentBytes());
-      for (uint32_t i = 0; i < l.uvCount; ++i) attribute("VEC2", kFloat, 8);
+      const int uv = l.uvForm == UvForm::Float ? kFloat : kUnsignedShort;
+      for (uint32_t i = 0; i < l.uvCount; ++i) attribute("VEC2", uv, l.uvBytes());
       begin(view + 1, 0, p.wideIndices ? kUnsignedInt : kUnsignedShort, p.indexCount, "SCALAR");
       w.endObject();
       view += 2;
@@ -426,7 +429,7 @@ std::string GltfDocument::text(const GltfContent& content, bool roomy) const {
     w.endArray();
   };
   extensions("extensionsUsed", materials_.usesTransforms(), materials_.extensions());
-  extensions("extensionsRequired", false, {});
+  extensions("extensionsRequired", materials_.needsTransforms(), {});
   w.field("scene", 0).key("scenes").beginArray().beginObject();
   if (nodesWritten_ > 0) w.key("nodes").raw(roots_);
   w.endObject().endArray();

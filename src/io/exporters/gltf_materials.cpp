@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include "material/library.h"
 #include "math/trig.h"
@@ -25,6 +26,20 @@ void writeColor(JsonWriter& w, const Vec3& srgb) {
 
 bool plain(const TextureMap& t) {
   return t.su == 1 && t.sv == 1 && t.tu == 0 && t.tv == 0 && t.rw == 0;
+}
+
+// Repeats of all pictures of a material a unit of uv, if they are the same for all of them, and
+// none is turned.
+std::optional<Vec2> repeatsIn(const Material& m) {
+  std::optional<Vec2> all;
+  for (const TextureMap& t : m.maps) {
+    if (t.path.empty()) continue;
+    const Vec2 own{t.su, t.sv};
+    if (t.rw != 0 || !std::isfinite(t.su) || !std::isfinite(t.sv) || (all && *all != own))
+      return {};
+    all = own;
+  }
+  return all;
 }
 
 // What a material of the library has beyond glTF's core: each extension, its field, its value.
@@ -59,14 +74,31 @@ GltfMaterials::GltfMaterials(const Scene& scene, const WriteOptions& options,
       warnings_(warnings),
       textures_(options, warnings) {}
 
-uint32_t GltfMaterials::variant(uint32_t material, uint32_t uvMask, bool flat) {
+UvForm GltfMaterials::uvFormOf(uint32_t material, const UvReach& reach) {
+  if (!compact_ || material == kNoMaterial) return UvForm::Float;
+  if (reach.unit) return UvForm::Unit;
+  if (material >= repeats_.size()) repeats_.resize(scene_.materials.size(), -1);
+  double& repeats = repeats_[material];
+  if (repeats < 0) {
+    const std::optional<Vec2> r = repeatsIn(scene_.materials[material]);
+    repeats = r ? std::max(std::fabs(r->x), std::fabs(r->y)) : HUGE_VAL;
+  }
+  // A face is let reach over half of what there is: where it is laid, its reach is an estimate.
+  for (const UvForm form : {UvForm::Repeats, UvForm::ManyRepeats}) {
+    if (reach.most * repeats <= repeatsOf(form) / 2) return form;
+  }
+  return UvForm::Float;
+}
+
+uint32_t GltfMaterials::variant(uint32_t material, uint32_t uvMask, bool flat, UvForm form) {
   constexpr uint32_t kFlat = 1u << 31;
-  const uint64_t key = static_cast<uint64_t>(material) << 32 | uvMask | (bare_ && flat ? kFlat : 0);
+  const uint64_t key = static_cast<uint64_t>(material) << 32 | uvMask |
+                       static_cast<uint64_t>(form) << 16 | (bare_ && flat ? kFlat : 0);
   const auto found = known_.find(key);
   if (found != known_.end()) return found->second;
   static const Material kDefault;
   const Material& m = material == kNoMaterial ? kDefault : scene_.materials[material];
-  Variant v = make(m, uvMask, flat);
+  Variant v = make(m, uvMask, flat, form);
   // Masks that differ in sets which the material does not use give the same variant.
   const auto [at, isNew] =
       byLayout_.try_emplace(layoutKey(material, v.layout), static_cast<uint32_t>(variants_.size()));
@@ -78,13 +110,14 @@ uint32_t GltfMaterials::variant(uint32_t material, uint32_t uvMask, bool flat) {
 }
 
 std::vector<uint32_t> GltfMaterials::layoutKey(uint32_t material, const VertexLayout& layout) {
-  std::vector<uint32_t> key{material, static_cast<uint32_t>(layout.tangentSet), layout.normals};
+  std::vector<uint32_t> key{material, static_cast<uint32_t>(layout.tangentSet), layout.normals,
+                            static_cast<uint32_t>(layout.uvForm)};
   key.insert(key.end(), layout.uvSets, layout.uvSets + layout.uvCount);
   return key;
 }
 
 void GltfMaterials::numberMaterial(uint32_t material, Variant& v) {
-  std::vector<uint32_t> key{material};
+  std::vector<uint32_t> key{material, static_cast<uint32_t>(repeatsOf(v.layout.uvForm))};
   for (const Map* map : {&v.color, &v.metallicRoughness, &v.normal, &v.occlusion, &v.emissive}) {
     key.insert(key.end(), {static_cast<uint32_t>(map->image), map->texcoord});
   }
@@ -115,7 +148,8 @@ void GltfMaterials::warnOnce(const std::string& text) {
   if (warned_.insert(text).second) warnings_.push_back(text);
 }
 
-GltfMaterials::Variant GltfMaterials::make(const Material& m, uint32_t uvMask, bool flat) {
+GltfMaterials::Variant GltfMaterials::make(const Material& m, uint32_t uvMask, bool flat,
+                                           UvForm form) {
   Variant v;
   v.material = &m;
   v.layout.compact = compact_;
@@ -153,8 +187,12 @@ GltfMaterials::Variant GltfMaterials::make(const Material& m, uint32_t uvMask, b
              ": such textures are left out");
   }
   addSets(v, uvMask);
-  // Without normals there are no tangents either.
-  v.layout.normals = !(bare_ && flat && v.layout.tangentSet < 0);
+  if (v.layout.uvCount > 0) v.layout.uvForm = form;
+  if (repeatsOf(v.layout.uvForm) > 0) {
+    v.layout.uvRepeats = repeatsIn(m).value_or(Vec2{1, 1});
+    usesTransforms_ = needsTransforms_ = true;
+  }
+  v.layout.normals = !(bare_ && flat);
   return v;
 }
 
@@ -165,7 +203,8 @@ void GltfMaterials::addSets(Variant& v, uint32_t uvMask) {
   for (const Map* map : maps) {
     if (map->image != TextureSet::kNone) used |= 1u << map->texcoord;
   }
-  if (v.normal.image != TextureSet::kNone)
+  // Readers make them, as they make normals.
+  if (!bare_ && v.normal.image != TextureSet::kNone)
     v.layout.tangentSet = static_cast<int>(v.normal.texcoord);
   for (uint32_t set = 0; set < kTextureLayers; ++set) {
     if (used >> set & 1) v.layout.uvSets[v.layout.uvCount++] = static_cast<uint8_t>(set);
@@ -175,12 +214,13 @@ void GltfMaterials::addSets(Variant& v, uint32_t uvMask) {
   }
 }
 
-void GltfMaterials::writeMap(JsonWriter& w, const char* name, const Map& map) const {
+void GltfMaterials::writeMap(JsonWriter& w, const char* name, const Map& map, UvForm form) const {
   if (map.image == TextureSet::kNone) return;
   w.key(name).beginObject().field("index", map.image);
   if (map.texcoord) w.field("texCoord", map.texcoord);
   const TextureMap& t = map.transform;
-  if (!plain(t)) {
+  const double repeats = repeatsOf(form);
+  if (!plain(t) || repeats > 0) {
     // Ours turns and scales about the lower left corner with v upwards, glTF's about the upper left
     // with v downwards: substituting v = 1 - v' on both sides leaves scale and turn as they are and
     // changes the offset.
@@ -189,7 +229,9 @@ void GltfMaterials::writeMap(JsonWriter& w, const char* name, const Map& map) co
     w.key("offset").beginArray().value(static_cast<float>(t.tu - s * t.sv));
     w.value(static_cast<float>(1 - t.tv - c * t.sv)).endArray();
     if (t.rw != 0) w.field("rotation", static_cast<float>(toRadians(t.rw)));
-    w.key("scale").beginArray().value(static_cast<float>(t.su)).value(static_cast<float>(t.sv));
+    const Vec2 scale = repeats > 0 ? Vec2{repeats, repeats} : Vec2{t.su, t.sv};
+    w.key("scale").beginArray();
+    w.value(static_cast<float>(scale.x)).value(static_cast<float>(scale.y));
     w.endArray().endObject().endObject();
   }
   w.endObject();
@@ -203,15 +245,15 @@ void GltfMaterials::writeMaterial(JsonWriter& w, const Variant& v) const {
   w.key("baseColorFactor").beginArray();
   writeColor(w, m.color);
   w.value(static_cast<float>(v.transparent ? unit(m.opacity) : 1)).endArray();
-  writeMap(w, "baseColorTexture", v.color);
+  writeMap(w, "baseColorTexture", v.color, v.layout.uvForm);
   // With a texture in one channel only the other factor stands alone: white times the factor.
   w.field("metallicFactor", static_cast<float>(unit(m.metallic)));
   w.field("roughnessFactor", static_cast<float>(unit(m.roughness)));
-  writeMap(w, "metallicRoughnessTexture", v.metallicRoughness);
+  writeMap(w, "metallicRoughnessTexture", v.metallicRoughness, v.layout.uvForm);
   w.endObject();
-  writeMap(w, "normalTexture", v.normal);
-  writeMap(w, "occlusionTexture", v.occlusion);
-  writeMap(w, "emissiveTexture", v.emissive);
+  writeMap(w, "normalTexture", v.normal, v.layout.uvForm);
+  writeMap(w, "occlusionTexture", v.occlusion, v.layout.uvForm);
+  writeMap(w, "emissiveTexture", v.emissive, v.layout.uvForm);
   if (m.emissive != Vec3{}) {
     w.key("emissiveFactor").beginArray();
     writeColor(w, m.emissive);

@@ -17,8 +17,36 @@
 
 namespace gable {
 
+/// What a number of a uv set is in the file.
+enum class UvForm : uint8_t {
+  Float,
+  /// 16 bits over [0, 1].
+  Unit,
+  /// 16 bits over 32 repeats of the picture, from a whole one: the material's transform says so.
+  /// Half a step is 1/4096 of the picture.
+  Repeats,
+  /// The same over 256 repeats, with half a step of 1/512.
+  ManyRepeats,
+};
+
+/// What 16 bits reach over; 0 where they do not count repeats.
+constexpr double repeatsOf(UvForm form) {
+  return form == UvForm::Repeats ? 32 : form == UvForm::ManyRepeats ? 256 : 0;
+}
+/// Faces begin at a multiple of so many repeats, so that neighbours begin at one.
+constexpr double kUvStart = 8;
+
+/// What the uv coordinates of a surface reach over.
+struct UvReach {
+  /// All within [0, 1].
+  bool unit = false;
+  /// Of one face, in units of uv.
+  double most = 0;
+};
+
 /// A vertex: position, normal, tangent if any, uv sets. In floats 3, 3, 4 and 2 each; compact, the
-/// position takes 12 bytes, or 8 as integers, normal and tangent 4 each, a uv set 8.
+/// position takes 12 bytes, or 8 as integers, normal and tangent 4 each, a uv set 4, or 8 as
+/// floats.
 struct VertexLayout {
   bool compact = false;
   /// False where readers are to make flat normals.
@@ -30,13 +58,17 @@ struct VertexLayout {
   uint32_t uvCount = 0;
   /// TEXCOORD_n shows uv set uvSets[n].
   uint8_t uvSets[kTextureLayers] = {};
+  UvForm uvForm = UvForm::Float;
+  /// Of the picture, a unit of uv, where repeats are counted.
+  Vec2 uvRepeats{1, 1};
   /// Before it is packed: a normal is always there.
   uint32_t floats() const { return 6 + (tangentSet >= 0 ? 4 : 0) + 2 * uvCount; }
   uint32_t positionBytes(bool quantized) const { return quantized ? 8 : 12; }
   uint32_t normalBytes() const { return !normals ? 0 : compact ? 4 : 12; }
   uint32_t tangentBytes() const { return tangentSet < 0 ? 0 : compact ? 4 : 16; }
+  uint32_t uvBytes() const { return uvForm == UvForm::Float ? 8 : 4; }
   uint32_t stride(bool quantized) const {
-    return positionBytes(quantized) + normalBytes() + tangentBytes() + 8 * uvCount;
+    return positionBytes(quantized) + normalBytes() + tangentBytes() + uvBytes() * uvCount;
   }
 };
 
@@ -56,7 +88,10 @@ class GltfMaterials {
   /// `material` indexes Scene::materials or is kNoMaterial; bit s of `uvMask` says that the surface
   /// has uv set s; `flat` says that it is lit flat. Variants are numbered in the order of first
   /// use.
-  uint32_t variant(uint32_t material, uint32_t uvMask, bool flat = false);
+  uint32_t variant(uint32_t material, uint32_t uvMask, bool flat = false,
+                   UvForm form = UvForm::Float);
+  /// The narrowest form in which a picture of 512 texels moves by one at most.
+  UvForm uvFormOf(uint32_t material, const UvReach& reach);
   const VertexLayout& layout(uint32_t variant) const { return variants_[variant].layout; }
   size_t count() const { return variants_.size(); }
   /// The number of the variant's glTF material: variants that differ in their layout only share
@@ -66,6 +101,8 @@ class GltfMaterials {
   /// Whether vertices have integers of KHR_mesh_quantization.
   bool isCompact() const { return compact_; }
   bool usesTransforms() const { return usesTransforms_; }
+  /// Whether pictures are wrong without transforms.
+  bool needsTransforms() const { return needsTransforms_; }
   /// KHR_materials_... of the library's materials in use, sorted.
   const std::set<std::string>& extensions() const { return extensions_; }
 
@@ -86,13 +123,13 @@ class GltfMaterials {
     uint32_t number = 0;
     Map color, metallicRoughness, normal, occlusion, emissive;
   };
-  Variant make(const Material& m, uint32_t uvMask, bool flat);
+  Variant make(const Material& m, uint32_t uvMask, bool flat, UvForm form);
   void numberMaterial(uint32_t material, Variant& v);
   static std::vector<uint32_t> layoutKey(uint32_t material, const VertexLayout& layout);
   Map mapOf(const Material& m, TextureLayer layer, uint32_t uvMask, int image);
   void addSets(Variant& v, uint32_t uvMask);
   void writeMaterial(JsonWriter& w, const Variant& v) const;
-  void writeMap(JsonWriter& w, const char* name, const Map& map) const;
+  void writeMap(JsonWriter& w, const char* name, const Map& map, UvForm form) const;
   static void writeExtensions(JsonWriter& w, const Material& m);
   void warnOnce(const std::string& text);
 
@@ -107,7 +144,9 @@ class GltfMaterials {
   std::map<std::vector<uint32_t>, uint32_t> byLayout_, numbers_;
   std::set<std::string> warned_;
   std::set<std::string> extensions_;
-  bool usesTransforms_ = false;
+  bool usesTransforms_ = false, needsTransforms_ = false;
+  /// By material: repeats of its pictures a unit of uv; negative where not known yet.
+  std::vector<double> repeats_;
 };
 
 /// A colour component from sRGB to linear light (IEC 61966-2-1).

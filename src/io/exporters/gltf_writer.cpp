@@ -22,6 +22,7 @@
 #include "io/exporters/vertex_writer.h"
 #include "io/gltf_format.h"
 #include "io/uri.h"
+#include "material/library.h"
 #include "scene/flatten.h"
 
 namespace gable {
@@ -71,6 +72,29 @@ bool isLarge(const Scene& scene) {
   return false;
 }
 
+// Over all uv sets. Where normals are smooth, faces share vertices: they are one.
+UvReach uvReachOf(const Mesh& m, bool flat) {
+  UvReach reach{true, 0};
+  for (const std::vector<Vec2>& uv : m.uvs) {
+    if (uv.empty()) continue;
+    Box3 all;
+    for (size_t f = 0; f < m.faces.size(); ++f) {
+      if (flat) all = {};
+      for (const MeshLoop& l : m.loopsOf(f)) {
+        for (uint32_t c = l.firstCorner; c < l.firstCorner + l.cornerCount; ++c) {
+          const Vec2 at = uv[c];
+          all.include(Vec3{at.x, at.y, 0});
+          reach.unit = reach.unit && at.x >= 0 && at.x <= 1 && at.y >= 0 && at.y <= 1;
+        }
+      }
+      if (all.empty()) continue;
+      const Vec3 size = all.size();
+      reach.most = std::max({reach.most, size.x, size.y});
+    }
+  }
+  return reach;
+}
+
 class GltfWriter {
  public:
   GltfWriter(const Scene& scene, const std::string& path, const WriteOptions& options)
@@ -93,6 +117,7 @@ class GltfWriter {
     uint32_t uvMask = 0;
     /// No normals of its own, no face that is smooth.
     bool flat = false;
+    UvReach uv;
     std::vector<SlotTally> slots;
   };
 
@@ -103,7 +128,8 @@ class GltfWriter {
   VertexGrid gridFor(double largestScale);
   void cutPrimitives(std::vector<GltfPrimitive>& out, std::vector<size_t>* ends);
   const MeshInfo& infoOf(uint32_t mesh);
-  uint32_t variantOf(uint32_t material, const MeshInfo& info);
+  uint32_t variantOf(uint32_t material, const MeshInfo& info, UvForm form);
+  UvForm uvFormOf(uint32_t material, const MeshInfo& info, const PlannedLeaf& p);
   Error tooLarge(uint64_t bytes) const;
   std::vector<bool> meshFlags() const;
 
@@ -151,16 +177,30 @@ const GltfWriter::MeshInfo& GltfWriter::infoOf(uint32_t mesh) {
     info.flat = m.normals.empty() && std::none_of(m.faces.begin(), m.faces.end(),
                                                   [](const MeshFace& f) { return f.smooth; });
     info.slots = slotTallies(m);
+    if (materials_.isCompact()) info.uv = uvReachOf(m, info.flat);
   }
   return info;
 }
 
 // Neighbouring leaves alternate between few materials: a table in front of the map.
-uint32_t GltfWriter::variantOf(uint32_t material, const MeshInfo& info) {
-  const uint64_t key = static_cast<uint64_t>(material) << 32 | info.uvMask << 1 | info.flat;
+uint32_t GltfWriter::variantOf(uint32_t material, const MeshInfo& info, UvForm form) {
+  const uint64_t key = static_cast<uint64_t>(material) << 32 | info.uvMask << 1 | info.flat |
+                       static_cast<uint64_t>(form) << 16;
   auto& entry = recentVariants_[mix64(key) % recentVariants_.size()];
-  if (entry.first != key) entry = {key, materials_.variant(material, info.uvMask, info.flat)};
+  if (entry.first != key) entry = {key, materials_.variant(material, info.uvMask, info.flat, form)};
   return entry.second;
+}
+
+// What is laid has coordinates in metres: a face reaches no farther than its mesh.
+UvForm GltfWriter::uvFormOf(uint32_t material, const MeshInfo& info, const PlannedLeaf& p) {
+  if (!materials_.isCompact() || material == kNoMaterial) return UvForm::Float;
+  if (!isLaid(scene_.materials[material])) {
+    return info.uvMask == 0 ? UvForm::Float : materials_.uvFormOf(material, info.uv);
+  }
+  const Vec3 size = info.bounds.empty() ? Vec3{} : info.bounds.size();
+  const bool own = p.placement == ScenePlan::kNone;
+  const double most = length(own ? size : scaled(size, scene_.leaves[p.leaf].scale));
+  return materials_.uvFormOf(material, {false, most});
 }
 
 // Fills draws_, ordered by variant and by path within one.
@@ -173,7 +213,8 @@ void GltfWriter::makeDraws(uint32_t unit) {
     const Leaf& leaf = scene_.leaves[p.leaf];
     const MeshInfo& info = infoOf(leaf.mesh);
     for (const SlotTally& s : info.slots) {
-      const uint32_t v = variantOf(materialIndexOf(scene_, leaf, s.slot), info);
+      const uint32_t material = materialIndexOf(scene_, leaf, s.slot);
+      const uint32_t v = variantOf(material, info, uvFormOf(material, info, p));
       if (v >= rank.size()) rank.resize(v + size_t{1}, kNoMaterial);
       if (rank[v] == kNoMaterial) {
         rank[v] = static_cast<uint32_t>(order.size());

@@ -216,6 +216,106 @@ TEST(GltfWriter, bareBoxesHaveEightCorners) {
   EXPECT_NEAR(volume, 12, 0.05);
 }
 
+// A strip of squares, each with the picture `times` over, as one smooth surface or as many flat
+// ones.
+Mesh strip(int squares, double times, bool smooth) {
+  MeshBuilder b;
+  for (int i = 0; i < squares; ++i) {
+    b.beginFace(0, 0, smooth);
+    b.beginLoop();
+    for (const Vec2 p : {Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}}) {
+      const uint32_t c = b.addCorner(b.addPosition({i + p.x, 0, -p.y}));
+      b.setUv(c, 0, {(i + p.x) * times, p.y});
+    }
+  }
+  return b.take();
+}
+
+Scene textured() {
+  SceneBuilder b;
+  Material m = testing::colored("paper", {1, 1, 1});
+  m.map(TextureLayer::Color) = {"paper.png", 2.5, -0.75, 0.3, 0.1, 0};
+  m.map(TextureLayer::Normal) = {"normal.png", 2.5, -0.75, 0.3, 0.1, 0};
+  const uint32_t paper = b.material(m);
+  m.shader = std::string(kLaidShader) + "paper";
+  const uint32_t laid = b.material(m);
+  m.shader.clear();
+  m.map(TextureLayer::Color).rw = 30;
+  const uint32_t turned = b.material(m);
+  int z = 0;
+  for (const uint32_t material : {paper, laid, turned}) {
+    b.leaf(kUnitBoxUv, testing::turned(20, {-30, 1, 3.0 * ++z}), {1, 2, 1.5}, material);
+    for (const Mesh& mesh : {strip(40, 0.1, false), strip(40, 0.5, true), strip(40, 9, true)}) {
+      b.leaf(b.mesh(mesh), Frame::moved({0, 0, 3.0 * ++z}), {1, 1, 1}, material);
+    }
+  }
+  b.root("strips", b.prototype("Strips"), Frame{});
+  return b.scene;
+}
+
+TEST(GltfWriter, compactTextureCoordinatesStayWithinATexel) {
+  const Scene s = textured();
+  WriteOptions floats, narrow = compact();
+  floats.readTexture = narrow.readTexture = [](const std::string&) -> Result<std::string> {
+    return testing::picture(8, false);
+  };
+  const GlbModel full = roundTrip(s, "uv-float.glb", floats);
+  const GlbModel m = roundTrip(s, "uv-compact.glb", narrow);
+  ASSERT_EQ(m.triangles.size(), full.triangles.size());
+  // Primitives are in another order.
+  const auto ordered = [](const GlbModel& model) {
+    std::map<std::array<int64_t, 3>, testing::WorldTriangle> out;
+    for (const testing::WorldTriangle& t : model.triangles) {
+      const Vec3 middle = (t.p[0] + t.p[1] + t.p[2]) * (100.0 / 3);
+      out[{std::llround(middle.x), std::llround(middle.y), std::llround(middle.z)}] = t;
+    }
+    return out;
+  };
+  const auto a = ordered(full), b = ordered(m);
+  ASSERT_EQ(a.size(), full.triangles.size());
+  for (const auto& [place, t] : a) {
+    ASSERT_TRUE(b.count(place));
+    // By whole pictures, the same all over a triangle.
+    const Vec2 shift = b.at(place).uv[0] - t.uv[0];
+    for (size_t k = 0; k < 3; ++k) {
+      const Vec2 apart = b.at(place).uv[k] - t.uv[k];
+      EXPECT_NEAR(apart.x, std::round(shift.x), 1.0 / 500);
+      EXPECT_NEAR(apart.y, std::round(shift.y), 1.0 / 500);
+    }
+  }
+  std::multiset<int> forms;
+  for (const JsonValue& accessor : m.json["accessors"].items()) {
+    if (accessor["type"].text() == "VEC2")
+      forms.insert(static_cast<int>(accessor["componentType"].number(0)));
+  }
+  // Floats where a surface repeats the picture 900 times, or turns it.
+  EXPECT_EQ(forms.count(5123), 6u);
+  EXPECT_EQ(forms.count(5126), 2u);
+  EXPECT_EQ(m.json["extensionsRequired"].size(), 2u);
+}
+
+TEST(GltfWriter, bareVerticesHaveNoTangents) {
+  const Scene s = textured();
+  const auto attributes = [&](WriteOptions::Vertices vertices, const std::string& name) {
+    WriteOptions o;
+    o.vertices = vertices;
+    o.readTexture = [](const std::string&) -> Result<std::string> {
+      return testing::picture(8, false);
+    };
+    const GlbModel m = roundTrip(s, "tangents.glb", o);
+    size_t count = 0;
+    for (const JsonValue& p : m.json["meshes"].at(0)["primitives"].items()) {
+      count += p["attributes"][name].isNumber() ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_EQ(attributes(WriteOptions::Vertices::Compact, "TANGENT"), 8u);
+  EXPECT_EQ(attributes(WriteOptions::Vertices::Bare, "TANGENT"), 0u);
+  // What is smooth keeps its normals.
+  EXPECT_GT(attributes(WriteOptions::Vertices::Bare, "NORMAL"), 1u);
+  EXPECT_LT(attributes(WriteOptions::Vertices::Bare, "NORMAL"), 8u);
+}
+
 TEST(GltfWriter, largeFilesAreCompact) {
   const auto boxes = [](int count) {
     SceneBuilder b;

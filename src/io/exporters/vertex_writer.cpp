@@ -45,17 +45,57 @@ char* putBytes(char* to, const float* v, size_t count) {
   return to + 4;
 }
 
+uint16_t narrow(double v) {
+  return static_cast<uint16_t>(std::round(std::clamp(v, 0.0, 1.0) * 65535));
+}
+
+// Uv sets as they are written: `vertices` are floats, uv sets at `first`.
+struct UvPacker {
+  const VertexLayout& layout;
+  const double repeats = repeatsOf(layout.uvForm);
+  // By uv set: where its repeats begin.
+  std::array<Vec2, kTextureLayers> start{};
+
+  UvPacker(const VertexLayout& l, const float* vertices, uint32_t count, size_t first) : layout(l) {
+    if (repeats == 0) return;
+    for (size_t i = 0; i < layout.uvCount; ++i) {
+      Vec2 low{HUGE_VAL, HUGE_VAL};
+      for (uint32_t v = 0; v < count; ++v) {
+        const Vec2 at = repeatsAt(vertices + v * size_t{layout.floats()} + first + 2 * i);
+        low = {std::min(low.x, at.x), std::min(low.y, at.y)};
+      }
+      start[i] = {std::floor(low.x / kUvStart) * kUvStart, std::floor(low.y / kUvStart) * kUvStart};
+    }
+  }
+
+  Vec2 repeatsAt(const float* uv) const {
+    return {uv[0] * layout.uvRepeats.x, uv[1] * layout.uvRepeats.y};
+  }
+
+  char* put(char* to, const float* uv, size_t set) const {
+    if (layout.uvForm == UvForm::Float) {
+      std::memcpy(to, uv, 8);
+      return to + 8;
+    }
+    Vec2 at{uv[0], uv[1]};
+    if (repeats > 0) at = (repeatsAt(uv) - start[set]) * (1 / repeats);
+    const uint16_t q[2] = {narrow(at.x), narrow(at.y)};
+    std::memcpy(to, q, 4);
+    return to + 4;
+  }
+};
+
 // Corners of a box, and the normals of its sides, as they are written.
-template <size_t kPosition, size_t kNormal, class Box>
+template <size_t kPosition, size_t kNormal, class Box, class Uv>
 char* fillBox(char* p, const Box& box, const char (&corners)[8][12], const char (&normals)[6][12],
-              bool uv) {
+              const Uv* uv) {
   for (size_t v = 0; v < 24; ++v) {
     std::memcpy(p, corners[box.corner[v]], kPosition);
     std::memcpy(p + kPosition, normals[box.side[v]], kNormal);
     p += kPosition + kNormal;
     if (uv) {
-      std::memcpy(p, box.uv[v].data(), 8);
-      p += 8;
+      std::memcpy(p, uv + v, sizeof *uv);
+      p += sizeof *uv;
     }
   }
   return p;
@@ -118,6 +158,7 @@ VertexWriter::BoxTemplate VertexWriter::boxTemplate(const Mesh& m) {
     if (m.hasUv(0)) {
       const Vec2 uv = m.uvs[0][s.corners[v]];
       box.uv[v] = {static_cast<float>(uv.x), static_cast<float>(1 - uv.y)};
+      box.narrowUv[v] = {narrow(uv.x), narrow(1 - uv.y)};
     }
   }
   size_t i = 0;
@@ -137,6 +178,7 @@ bool VertexWriter::addBox(uint32_t mesh, const Frame& frame, const Vec3& scale,
                           const VertexLayout& layout, PrimitiveState& state) {
   const bool mirrors = scale.x < 0 || scale.y < 0 || scale.z < 0;
   if (layout.laid || layout.tangentSet >= 0 || layout.uvCount > 1 ||
+      (layout.uvCount > 0 && (layout.uvForm == UvForm::Unit) != layout.compact) ||
       ((mirrors || !layout.normals) && layout.uvCount > 0))
     return false;
   const Vec3 size{std::fabs(scale.x), std::fabs(scale.y), std::fabs(scale.z)};
@@ -176,10 +218,11 @@ bool VertexWriter::addBox(uint32_t mesh, const Frame& frame, const Vec3& scale,
     appendCorners(corners, box, layout.positionBytes(grid.on), state);
     return true;
   }
-  const bool uv = layout.uvCount == 1;
+  const auto* const uv = layout.uvCount == 1 ? box.uv.data() : nullptr;
+  const auto* const narrowUv = layout.uvCount == 1 ? box.narrowUv.data() : nullptr;
   char* const to = out_.reserve(24 * size_t{layout.stride(grid.on)});
-  out_.advanceTo(grid.on          ? fillBox<8, 4>(to, box, corners, normals, uv)
-                 : layout.compact ? fillBox<12, 4>(to, box, corners, normals, uv)
+  out_.advanceTo(grid.on          ? fillBox<8, 4>(to, box, corners, normals, narrowUv)
+                 : layout.compact ? fillBox<12, 4>(to, box, corners, normals, narrowUv)
                                   : fillBox<12, 12>(to, box, corners, normals, uv));
   const uint32_t base = state.vertexCount;
   const size_t first = state.indices.size();
@@ -260,7 +303,7 @@ char* VertexWriter::pack(const float* vertices, uint32_t count, const VertexLayo
     std::memcpy(p, vertices, packed_.size());
     return p;
   }
-  const size_t uvFloats = 2 * size_t{layout.uvCount};
+  const UvPacker uv(layout, vertices, count, layout.tangentSet < 0 ? 6 : 10);
   for (uint32_t v = 0; v < count; ++v) {
     if (quantized) {
       p = putSteps(p, vertices);
@@ -274,9 +317,7 @@ char* VertexWriter::pack(const float* vertices, uint32_t count, const VertexLayo
       p = putBytes(p, vertices, 4);
       vertices += 4;
     }
-    std::memcpy(p, vertices, uvFloats * 4);
-    p += uvFloats * 4;
-    vertices += uvFloats;
+    for (size_t i = 0; i < layout.uvCount; ++i, vertices += 2) p = uv.put(p, vertices, i);
   }
   return packed_.data();
 }

@@ -60,6 +60,8 @@ class VertexWriter {
     std::array<uint8_t, 24> corner;
     std::array<uint8_t, 24> side;
     std::array<std::array<float, 2>, 24> uv;
+    /// The same as UvForm::Unit.
+    std::array<std::array<uint16_t, 2>, 24> narrowUv;
     std::array<uint8_t, 36> indices;
   };
   struct CachedSurface {

@@ -52,6 +52,13 @@ TEST(LeafPictures, areLightSoThatTheColourShows) {
   }
 }
 
+TEST(LeafPictures, areSmallFiles) {
+  const Image image = drawLeaves(builtinLeaves("builtin:leaves/lime.png"));
+  const std::string png = encodePng(image, 4).value();
+  EXPECT_EQ(decodeImage(png).value().rgba, image.rgba);
+  EXPECT_LT(png.size(), 215'000u);
+}
+
 TEST(LeafPictures, haveNoDarkRims) {
   const Image image = drawLeaves(builtinLeaves("builtin:leaves/lime.png"));
   for (size_t k = 0; k < image.rgba.size(); k += 4) {

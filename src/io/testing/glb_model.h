@@ -23,6 +23,8 @@ namespace gable::testing {
 struct WorldTriangle {
   Vec3 p[3];
   Vec3 normal[3];
+  /// In the picture of the material's colour; nothing where it has none.
+  Vec2 uv[3];
   int material = -1;
 };
 
@@ -117,7 +119,7 @@ struct GlbModel {
   }
 
   // A vector of floats or of the integers of KHR_mesh_quantization.
-  Vec3 vector(const JsonValue& number, size_t i) const {
+  Vec3 vector(const JsonValue& number, size_t i, size_t width = 3) const {
     const JsonValue& a = accessor(number);
     size_t stride = 0;
     const char* at = buffer() + place(a, stride) + i * stride;
@@ -126,14 +128,29 @@ struct GlbModel {
       return static_cast<double>(unit);
     };
     Vec3 v;
-    for (size_t k = 0; k < 3; ++k) {
+    for (size_t k = 0; k < width; ++k) {
       switch (static_cast<int>(a["componentType"].number(0))) {
         case 5120: v[k] = read(int8_t{}, k) / 127; break;
-        case 5123: v[k] = read(uint16_t{}, k); break;
+        case 5123: v[k] = read(uint16_t{}, k) / (a["normalized"].boolean(false) ? 65535 : 1); break;
         default: v[k] = read(float{}, k);
       }
     }
     return v;
+  }
+
+  // As KHR_texture_transform says.
+  Vec2 textured(const JsonValue& primitive, size_t i) const {
+    const JsonValue& map = json["materials"].at(
+        index(primitive["material"]))["pbrMetallicRoughness"]["baseColorTexture"];
+    const JsonValue& uv = primitive["attributes"]["TEXCOORD_0"];
+    if (!map.isObject() || !uv.isNumber()) return {};
+    const Vec3 at = vector(uv, i, 2);
+    const JsonValue& t = map["extensions"]["KHR_texture_transform"];
+    if (!t.isObject()) return {at.x, at.y};
+    const double turn = t["rotation"].number(0);
+    const double x = at.x * t["scale"].at(0).number(1), y = at.y * t["scale"].at(1).number(1);
+    return {t["offset"].at(0).number(0) + std::cos(turn) * x - std::sin(turn) * y,
+            t["offset"].at(1).number(0) + std::sin(turn) * x + std::cos(turn) * y};
   }
 
   void addMesh(const JsonValue& node, const Frame& world, const Vec3& scale) {
@@ -163,6 +180,7 @@ struct GlbModel {
         const size_t to = mirrors ? 2 - k : k;
         t.p[to] = world.point(scaled(at, scale));
         bounds.include(t.p[to]);
+        t.uv[to] = textured(p, v);
         if (flat) continue;
         const Vec3 normal = vector(p["attributes"]["NORMAL"], v);
         const bool coarse = accessor(p["attributes"]["NORMAL"])["componentType"].number(0) == 5120;
