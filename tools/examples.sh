@@ -2,8 +2,9 @@
 # SPDX-FileCopyrightText: The Gable authors
 #
 # What an example is: examples/NAME/NAME.cga, or a grammar of that name in another notation, on the
-# shapes of examples/NAME/buildings.geojson where there is such a file. generate.args and picture.args beside them hold further arguments of
-# `gable generate` and `gable render`; # starts a comment in them. An example of a place is a map instead,
+# shapes of examples/NAME/buildings.geojson where there is such a file. generate.args beside them holds further arguments of
+# `gable generate`, pictures.args those of all pictures, picture.args, street.args, side.args and above.args those of one
+# each; # starts a comment in them. An example of a place is a map instead,
 # examples/NAME/NAME.osm or NAME.osm.pbf, for `gable city`. Sourced from the repository's root.
 
 # The park grammars share a folder: examples/park/NAME.park is the example park/NAME.
@@ -86,17 +87,20 @@ generate_example() {
   "$gable" generate "${arguments[@]}" "$@" -o "$model"
 }
 
-# render_example GABLE NAME PICTURE VIEW ARGUMENT...: VIEW.args beside the rules names the camera.
+# picture_arguments NAME VIEW: what all pictures of an example are told, and what one is: its camera.
+picture_arguments() { words "examples/$1/pictures.args"; words "examples/$1/$2.args"; }
+
+# render_example GABLE NAME PICTURE VIEW ARGUMENT...
 # Drawn from the rules, not from the model: parts that occur often are held in memory once.
 render_example() {
   local gable=$1 name=$2 picture=$3 view=$4 map arguments
   shift 4
   map=$(example_map "$name")
   if [ -n "$map" ]; then
-    mapfile -t arguments < <(words "examples/$name/generate.args"; words "examples/$name/$view.args")
+    mapfile -t arguments < <(words "examples/$name/generate.args"; picture_arguments "$name" "$view")
     "$gable" city "$map" "${arguments[@]}" "$@" --picture "$picture"
     return
   fi
-  mapfile -t arguments < <(derive_arguments "$name"; words "examples/$name/$view.args")
+  mapfile -t arguments < <(derive_arguments "$name"; picture_arguments "$name" "$view")
   "$gable" render "${arguments[@]}" "$@" -o "$picture"
 }

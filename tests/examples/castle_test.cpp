@@ -248,7 +248,7 @@ TEST(CastleRows, C5_facesCloseAnyNumberOfSides) {
     forEachNamed(m, "Recess", [&](const Mesh& mesh, const Frame&) {
       for (size_t f = 0; f < mesh.faceCount(); ++f) walls += mesh.area(f);
     });
-    forEachNamed(m, "Banner", [&](const Mesh&, const Frame&) { ++flags; });
+    forEachNamed(m, "Pole", [&](const Mesh&, const Frame&) { ++flags; });
     forEachNamed(m, "Sill", [&](const Mesh&, const Frame&) { ++windows; });
     EXPECT_NEAR(walls, n * 2 * 4 * std::tan(3.14159265358979 / n) * 15, 0.01) << sides;
     EXPECT_EQ(flags, 1u);
