@@ -80,7 +80,7 @@ struct RenderArguments {
   std::string sun;
   std::string eye, target;
   std::string ground;
-  std::optional<double> fieldOfView;
+  std::optional<double> fieldOfView, pitch;
   std::string look;
   /// latitude,longitude,date,hour
   std::string sunAt;
@@ -113,6 +113,27 @@ bool isModel(const std::string& path);
 
 /// gable watch: a picture or a model, by the ending of the output, made again at every change.
 int runWatch(const RenderArguments& arguments);
+
+struct DatasetArguments {
+  /// The rules, and the options of the pictures; its output has no use.
+  RenderArguments picture;
+  std::string output;
+  uint64_t count = 1;
+  uint32_t cameras = 4;
+  /// Of gable::datasetCamerasNames(), datasetLabelsNames(), datasetFormatNames().
+  std::string placing = "orbit", labels = "rule", format = "coco";
+  /// An extension of models, or "none".
+  std::string model = "glb";
+  WriteArguments write;
+  /// "0/4"; empty: whatever nobody else is making.
+  std::string shard;
+
+  DatasetArguments() {
+    picture.size = "512x512";
+    picture.samples = 16;
+  }
+};
+int runDataset(const DatasetArguments& arguments);
 
 struct DiffArguments {
   std::string before, after;

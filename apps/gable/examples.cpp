@@ -39,6 +39,7 @@ constexpr Example kExamples[] = {
     {"render",
      "gable render house.glb --sun-at 48.86,2.35,2024-06-21,19:30 --size 320x180 --samples 8 -o "
      "evening.png"},
+    {"dataset", "gable dataset house.cga --lot 24x18 --count 2 --size 128x128 -o houses"},
     {"watch", "gable watch house.cga --lot 24x18 -o house.png"},
     {"watch", "gable watch house.cga --shapes lots.geojson -o town.glb"},
     {"trace", "gable trace house.cga --rule Roof -o roofs.json"},

@@ -39,11 +39,11 @@ std::string modelEndings() {
   return out + ".png";
 }
 
-void addPictureOptions(CLI::App* app, RenderArguments& a) {
-  app->add_option("--view", a.view, "iso, top, front or street")
-      ->check(CLI::IsMember(gable::viewNames()));
-  app->add_option("--size", a.size, "Pixels (default 1600x900)");
-  app->add_option("--samples", a.samples, "Paths per pixel (default 48)")
+/// What pictures from any camera have; the defaults are those of the arguments.
+void addLookOptions(CLI::App* app, RenderArguments& a) {
+  app->add_option("--size", a.size, "Pixels (default " + a.size + ")");
+  app->add_option("--samples", a.samples,
+                  "Paths per pixel (default " + std::to_string(a.samples) + ")")
       ->check(number({1, 65536, true}));
   app->add_option("--look", a.look,
                   "photo, clay, blueprint, ink or section (a model cut open); --style takes these "
@@ -78,12 +78,20 @@ void addPictureOptions(CLI::App* app, RenderArguments& a) {
   app->add_option("--bounces", a.bounces, "Reflections that light is followed through (default 3)")
       ->check(number({0, 32, true}));
   app->add_flag("--no-denoise", a.noDenoise, "Leave the noise of few samples in the picture");
-  app->add_option("--eye", a.eye, "The camera's place: x,y,z in metres");
-  app->add_option("--target", a.target, "What it looks at: x,y,z in metres");
   app->add_option("--ground", a.ground,
                   "Colour of the ground around the model: #rrggbb (default #77766a)");
   app->add_option("--fov", a.fieldOfView, "Horizontal angle of view in degrees, 1 to 170")
       ->check(number({1, 170}));
+}
+
+void addPictureOptions(CLI::App* app, RenderArguments& a) {
+  app->add_option("--view", a.view, "iso, top, front or street")
+      ->check(CLI::IsMember(gable::viewNames()));
+  addLookOptions(app, a);
+  app->add_option("--pitch", a.pitch, "Degrees that the camera of iso looks down (default 38)")
+      ->check(number({0, 90}));
+  app->add_option("--eye", a.eye, "The camera's place: x,y,z in metres");
+  app->add_option("--target", a.target, "What it looks at: x,y,z in metres");
 }
 
 void addLimits(CLI::App* app, LimitArguments& a, const char* seconds) {
@@ -486,6 +494,46 @@ void addRender(CLI::App& app, RenderArguments& a, int& status) {
   command->callback([&a, &status] { status = runRender(a); });
 }
 
+void addDataset(CLI::App& app, DatasetArguments& a, int& status) {
+  auto* command = app.add_subcommand(
+      "dataset", "Make a data set for learning: labelled pictures of many seeds and cameras");
+  command->add_option("rules", a.picture.derive.rules, "The rule file or package")->required();
+  addDeriveOptions(command, a.picture.derive);
+  command->add_option("-o,--output", a.output, "The folder; what is there goes on")->required();
+  command->add_option("--count", a.count, "Seeds, from that of --seed on (default 1)")
+      ->check(number({1, 1e6, true}));
+  command->add_option("--cameras", a.cameras, "Pictures of each seed (default 4)")
+      ->check(number({1, 100'000, true}));
+  command
+      ->add_option("--placing", a.placing,
+                   "orbit (cameras evenly around the model, default) or sampled (each by chance)")
+      ->check(CLI::IsMember(gable::datasetCamerasNames()));
+  command
+      ->add_option("--labels", a.labels,
+                   "What pixels are: rule (that made them, default), or label (the @Label of the "
+                   "nearest rule above)")
+      ->check(CLI::IsMember(gable::datasetLabelsNames()));
+  command
+      ->add_option("--format", a.format,
+                   "The list of all: coco (coco.json, default) or json (items.json)")
+      ->check(CLI::IsMember(gable::datasetFormatNames()));
+  std::vector<std::string> models = gable::modelExtensions();
+  models.emplace_back("none");
+  command->add_option("--model", a.model, "The mesh of each seed: glb (default), obj, .., or none")
+      ->check(CLI::IsMember(models));
+  command->add_option(
+      "--shard", a.shard,
+      "Only a part of the seeds: NUMBER/COUNT (default: what nobody else is making)");
+  addLookOptions(command, a.picture);
+  command
+      ->add_option("--pitch", a.picture.pitch,
+                   "Degrees that cameras look down (default: drawn, 15 to 45 in an orbit, 8 to "
+                   "60 sampled)")
+      ->check(number({0, 90}));
+  addWriting(command, a.write);
+  command->callback([&a, &status] { status = runDataset(a); });
+}
+
 void addWatchCommand(CLI::App& app, RenderArguments& a, int& status) {
   auto* command =
       app.add_subcommand("watch", "Make a picture or a model again whenever a file changes");
@@ -619,6 +667,8 @@ int main(int argc, char** argv) {
 
   RenderArguments render;
   addRender(app, render, status);
+  DatasetArguments dataset;
+  addDataset(app, dataset, status);
   RenderArguments watched;
   addWatchCommand(app, watched, status);
   TraceArguments trace;

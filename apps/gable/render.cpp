@@ -163,6 +163,7 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
   s.height = static_cast<int>(size[1]);
   s.samples = a.samples;
   s.fieldOfView = a.fieldOfView;
+  s.pitch = a.pitch;
   s.jobs = a.derive.jobs;
   s.limits = fileLimits(a.derive.limits);
   if (!a.derive.limits.maxSeconds) s.limits.seconds.reset();

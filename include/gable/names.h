@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "gable/dataset.h"
 #include "gable/diagnostic.h"
 #include "gable/model.h"
 
@@ -36,5 +37,15 @@ std::optional<Vertices> verticesNamed(const std::string& name);
 /// "all", "1", "2", "3": in the order of Detail.
 const std::vector<std::string>& detailNames();
 std::optional<Detail> detailNamed(const std::string& name);
+
+/// "orbit", "sampled": in the order of DatasetCameras.
+const std::vector<std::string>& datasetCamerasNames();
+std::optional<DatasetCameras> datasetCamerasNamed(const std::string& name);
+/// "rule", "label": in the order of DatasetLabels.
+const std::vector<std::string>& datasetLabelsNames();
+std::optional<DatasetLabels> datasetLabelsNamed(const std::string& name);
+/// "coco", "json": in the order of DatasetFormat.
+const std::vector<std::string>& datasetFormatNames();
+std::optional<DatasetFormat> datasetFormatNamed(const std::string& name);
 
 }  // namespace gable

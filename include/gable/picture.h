@@ -91,6 +91,8 @@ struct PictureSettings {
   std::optional<Camera> camera;
   /// Horizontal angle of view in degrees; absent: the view's own.
   std::optional<double> fieldOfView;
+  /// Degrees that the camera of View::Iso looks down, 0 to 90; absent: 38.
+  std::optional<double> pitch;
   /// Degrees that the model is turned under the camera, the sun standing with it unless it is
   /// given: a turntable.
   double turn = 0;
@@ -171,6 +173,8 @@ class PictureMaker {
   bool ok() const;
   const DiagnosticList& diagnostics() const;
   PictureData draw(const PictureSettings& settings = {}) const;
+  /// The camera that a picture would have; absent where the settings are wrong.
+  std::optional<PictureData::Pose> pose(const PictureSettings& settings = {}) const;
   /// A PNG.
   WriteResult write(const std::string& path, const PictureSettings& settings = {}) const;
 

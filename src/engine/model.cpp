@@ -198,6 +198,33 @@ std::optional<Detail> detailNamed(const std::string& name) {
   return named<Detail>(detailNames(), name);
 }
 
+const std::vector<std::string>& datasetCamerasNames() {
+  static const std::vector<std::string> names{"orbit", "sampled"};
+  return names;
+}
+
+std::optional<DatasetCameras> datasetCamerasNamed(const std::string& name) {
+  return named<DatasetCameras>(datasetCamerasNames(), name);
+}
+
+const std::vector<std::string>& datasetLabelsNames() {
+  static const std::vector<std::string> names{"rule", "label"};
+  return names;
+}
+
+std::optional<DatasetLabels> datasetLabelsNamed(const std::string& name) {
+  return named<DatasetLabels>(datasetLabelsNames(), name);
+}
+
+const std::vector<std::string>& datasetFormatNames() {
+  static const std::vector<std::string> names{"coco", "json"};
+  return names;
+}
+
+std::optional<DatasetFormat> datasetFormatNamed(const std::string& name) {
+  return named<DatasetFormat>(datasetFormatNames(), name);
+}
+
 Model derive(const Rules& rules, const Shapes& shapes, const DeriveSettings& settings) {
   return Model(guarded<Model::Impl>([&] { return derived(rules, shapes, settings); }));
 }

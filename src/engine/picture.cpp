@@ -114,6 +114,9 @@ std::optional<Error> mistakeIn(const PictureSettings& s) {
     return wrongSetting("exposure, lamps, lit rooms or turn are out of their range",
                         "stops are -30 to 30, the share of lit rooms 0 to 1");
   }
+  if (!isWithin(s.pitch.value_or(0), 0, 90)) {
+    return wrongSetting("the camera's pitch is no number from 0 to 90", "38 is that of View::Iso");
+  }
   if (s.cut && (!(length(vec(s.cut->normal)) > 1e-9) || !std::isfinite(s.cut->offset))) {
     return wrongSetting("the plane of the cut has no direction", "give it a normal");
   }
@@ -147,6 +150,7 @@ Result<RenderOptions> renderOptions(const PictureSettings& s, const Scene& scene
   }
   if (s.ground) o.groundColor = vec(*s.ground);
   o.fov = s.fieldOfView;
+  o.pitch = s.pitch;
   o.haziness = s.haziness;
   o.hazeDistance = s.mist;
   o.adaptExposure = !s.exposure;
@@ -234,6 +238,11 @@ PictureLayers layersOf(const Scene& scene, RawLayers&& data) {
   return layers;
 }
 
+PictureData::Pose poseOf(const Camera& c) {
+  return {triple(c.eye), triple(c.right), triple(c.up), triple(c.forward),
+          c.halfWidth,   c.horizon,       c.parallel};
+}
+
 PictureData dataOf(const Scene& scene, const RenderOptions& options, Picture&& picture,
                    const Task& task) {
   PictureData out;
@@ -243,9 +252,7 @@ PictureData dataOf(const Scene& scene, const RenderOptions& options, Picture&& p
   out.height = static_cast<int>(picture.image.height);
   out.rgba = toRgba8(picture.image);
   out.light = std::move(picture.image.rgb);
-  const Camera& c = picture.camera;
-  out.pose = {triple(c.eye), triple(c.right), triple(c.up), triple(c.forward),
-              c.halfWidth,   c.horizon,       c.parallel};
+  out.pose = poseOf(picture.camera);
   out.sun = {picture.sun.elevation, picture.sun.azimuth};
   if (options.layers) out.layers = layersOf(scene, std::move(picture.layers));
   return out;
@@ -310,6 +317,15 @@ PictureData PictureMaker::draw(const PictureSettings& settings) const {
         watch(settings, task.allowance(), options.value());
         return dataOf(scene, options.value(), impl_->renderer->render(options.value()), task);
       });
+}
+
+std::optional<PictureData::Pose> PictureMaker::pose(const PictureSettings& settings) const {
+  if (!ok()) return std::nullopt;
+  return guardedValue<std::optional<PictureData::Pose>>([&]() -> std::optional<PictureData::Pose> {
+    const Result<RenderOptions> options = renderOptions(settings, impl_->model.impl().scene());
+    if (!options.ok()) return std::nullopt;
+    return poseOf(impl_->renderer->cameraOf(options.value()));
+  });
 }
 
 WriteResult PictureMaker::write(const std::string& path, const PictureSettings& settings) const {

@@ -67,6 +67,7 @@ constexpr KnownNote kNotes[] = {
     {"Hidden", "Hidden", "Not shown in forms."},
     {"Description", "Description(\"${1:text}\")", "Shown beside the name."},
     {"DisplayName", "DisplayName(\"${1:Name}\")", "The name that forms show."},
+    {"Label", "Label(\"${1:window}\")", "What shapes of this rule are, in data sets."},
     {"Handle", "Handle", "A handle in the view."},
     {"Angle", "Angle", "In degrees."},
     {"Distance", "Distance", "In metres."},

@@ -110,6 +110,8 @@ struct RenderOptions {
   /// The way from the scene's centre that its main front faces; absent: found from the walls, the
   /// wall direction nearest to south.
   std::optional<double> frontAzimuth;
+  /// Degrees that the camera of Iso looks down; absent: 38.
+  std::optional<double> pitch;
   /// Turns the camera that was chosen about the vertical through the scene's middle, and the sun
   /// with it unless it is given: the scene stands on a turntable.
   double orbit = 0;

@@ -21,6 +21,7 @@ constexpr double lens(double focalMillimetres) { return 18 / focalMillimetres; }
 
 /// Shares of the picture that the subject may take.
 constexpr double kIsoFill = 0.77, kIsoHeightFill = 0.9, kFrontFill = 0.77, kTopFill = 0.88;
+constexpr double kIsoPitch = 38;
 /// Levels of the front view: where the ground meets the subject and where its top may reach.
 constexpr double kGroundLine = 0.20, kTopLine = 0.78;
 
@@ -187,7 +188,7 @@ Camera standardCamera(const Subject& subject, const RenderOptions& options, cons
     }
     case PictureView::Iso: break;
   }
-  Camera camera = cameraTowards(toFront - 34, -38);
+  Camera camera = cameraTowards(toFront - 34, -options.pitch.value_or(kIsoPitch));
   camera.halfWidth = given > 0 ? given : lens(60);
   frame(camera, subject.points, aspect);
   keepAboveGround(camera, subject);

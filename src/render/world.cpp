@@ -199,7 +199,11 @@ class Builder {
     const Mesh& mesh = *scene_.meshes[leaf.mesh];
     const MeshTriangles& triangles = meshes_[leaf.mesh];
     work(1 + triangles.corners.size());
-    if (triangles.corners.empty()) return;
+    // A leaf without triangles has its number, too.
+    if (triangles.corners.empty()) {
+      part.pieces.push_back({index, root_, {}, 0});
+      return;
+    }
 
     points_.clear();
     Box3 box;

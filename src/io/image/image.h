@@ -60,6 +60,6 @@ struct NumberImage {
 };
 
 /// Without a colour space, so that no program bends the numbers.
-Result<std::string> encodePng(const NumberImage& image);
+Result<std::string> encodePng(const NumberImage& image, int level = 6);
 
 }  // namespace gable

@@ -167,6 +167,7 @@ bool writeNumbers(PngWriting& w, std::vector<uint8_t>& bytes) {
   png_set_IHDR(w.png, w.info, image.width, image.height, image.bits,
                image.channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_compression_level(w.png, w.level);
   png_write_info(w.png, w.info);
   const size_t row = static_cast<size_t>(image.width) * static_cast<size_t>(image.channels);
   for (size_t y = 0; y < image.height; ++y) {
@@ -203,13 +204,14 @@ Result<Image> decodePng(std::string_view bytes, uint64_t maxPixels) {
   return std::move(r.image);
 }
 
-Result<std::string> encodePng(const NumberImage& image) {
+Result<std::string> encodePng(const NumberImage& image, int level) {
   const size_t row = static_cast<size_t>(image.width) * static_cast<size_t>(image.channels);
   if (row == 0 || image.numbers.size() != row * image.height) {
     return Error{"image-broken", "a picture without pixels cannot be written", {}};
   }
   PngWriting w;
   w.numbers = &image;
+  w.level = level;
   w.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &w, onWriteError, onWarning);
   if (!w.png) return Error{"image-broken", w.why, {}};
   w.info = png_create_info_struct(w.png);

@@ -172,6 +172,7 @@ std::vector<AnnotationInfo> listed(const Annotations& a, ValuePool& pool) {
   if (a.separateShapes) {
     out.push_back({"Out", {{"granularity", pool.string("separatedShapes")}}});
   }
+  text(a.label, "Label");
   for (const HandleNote& handle : a.handles) {
     AnnotationInfo info{"Handle", {}};
     for (const auto& [key, value] : handle) info.arguments.push_back({key, pool.string(value)});

@@ -595,10 +595,11 @@ TEST(Analyse, annotationsBecomeData) {
 @StartRule @InPolygon Lot --> X.
 @Decription("x") @Orders attr q = 1
 @PreferredSize(4, 3.5, 0) Bay --> X. @PreferredSize(4) Bad --> X.
+@Label("window") Window --> X. @Label(window) Door --> X.
 @Hidden attr list = ["x"])");
   EXPECT_EQ(a.problems(),
             "8:1 unknown-annotation (warning)\n8:18 unknown-annotation (warning)\n"
-            "9:38 bad-annotation (warning)\n");
+            "9:38 bad-annotation (warning)\n10:32 bad-annotation (warning)\n");
   EXPECT_EQ(a.hint(0), "did you mean '@Description'?");
   EXPECT_EQ(a.program.description, "A house");
   const Annotations& h = a.attribute("h").annotations;
@@ -633,6 +634,8 @@ TEST(Analyse, annotationsBecomeData) {
   EXPECT_EQ(a.rule("Lot").annotations.input, InputNote::Polygon);
   EXPECT_EQ(*a.rule("Bay").annotations.preferredSize, (std::array<double, 3>{4, 3.5, 0}));
   EXPECT_FALSE(a.rule("Bad").annotations.preferredSize);
+  EXPECT_EQ(a.rule("Window").annotations.label, "window");
+  EXPECT_EQ(a.rule("Door").annotations.label, "");
 }
 
 TEST(Analyse, remediesAreEdits) {

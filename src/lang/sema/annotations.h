@@ -75,6 +75,8 @@ struct Annotations {
   /// @PreferredSize(x, y, z) of a rule: what splitRepeat, splitGrid and margin fit its shapes to;
   /// 0 along an axis: any size.
   std::optional<std::array<double, 3>> preferredSize;
+  /// @Label("window") of a rule: what its shapes are, in data sets.
+  std::string label;
   std::vector<HandleNote> handles;
   /// @Out(granularity=separatedShapes).
   bool separateShapes = false;

@@ -316,6 +316,7 @@ constexpr NoteKind kNotes[] = {
     {"InPoint", [](NoteReader&, Annotations& o) { o.input = InputNote::Point; }},
     {"InPointCloud", [](NoteReader&, Annotations& o) { o.input = InputNote::PointCloud; }},
     {"InPolygon", [](NoteReader&, Annotations& o) { o.input = InputNote::Polygon; }},
+    {"Label", [](NoteReader& r, Annotations& o) { o.label = r.oneString(); }},
     {"MaterialFile", [](NoteReader&, Annotations& o) { o.file = FileNote::MaterialFile; }},
     {"Order", readOrder},
     {"Out", readOut},

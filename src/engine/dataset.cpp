@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Who makes which items. A seed is derived once for all its cameras, so a seed is what is locked.
+// All that is made is a function of the settings, so it does not matter by whom, nor in what order.
+
+#include "engine/dataset.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <set>
+
+#include "base/file_lock.h"
+#include "base/parallel.h"
+#include "engine/guard.h"
+#include "gable/files.h"
+
+namespace gable {
+
+namespace {
+
+std::optional<Error> mistakeIn(const DatasetSettings& s) {
+  const auto wrong = [](const char* what, const char* remedy) {
+    return Error{"dataset-settings", what, remedy};
+  };
+  constexpr uint64_t kMostSeeds = 1'000'000;
+  if (s.count < 1 || s.count > kMostSeeds) {
+    return wrong("a data set has 1 to 1000000 seeds", "correct the count");
+  }
+  if (s.cameras < 1 || s.cameras > 100'000) {
+    return wrong("a seed has 1 to 100000 cameras", "correct their number");
+  }
+  if (s.shard && (s.shard->of < 1 || s.shard->index >= s.shard->of)) {
+    return wrong("a shard is one of as many as there are", "the first of four is 0 of 4");
+  }
+  const std::vector<std::string>& known = modelExtensions();
+  if (!s.model.empty() && std::find(known.begin(), known.end(), s.model) == known.end()) {
+    return wrong("the mesh's format is not known", "name an extension that models have, as glb");
+  }
+  return std::nullopt;
+}
+
+class Maker {
+ public:
+  Maker(const Rules& rules, const Shapes& shapes, const DatasetSettings& settings,
+        const DatasetFolder& folder, const Categories& categories, Task& task,
+        DatasetResult& result)
+      : rules_(rules),
+        shapes_(shapes),
+        settings_(settings),
+        folder_(folder),
+        categories_(categories),
+        task_(task),
+        result_(result) {}
+
+  void run() {
+    std::vector<uint64_t> seeds;
+    for (uint64_t seed = 0; seed < settings_.count; ++seed) {
+      result_.done += folder_.itemsOf(seed);
+      const auto& shard = settings_.shard;
+      if (shard && seed % shard->of != shard->index) continue;
+      if (!folder_.isWhole(seed)) seeds.push_back(seed);
+    }
+    tell(0);
+    const size_t jobs =
+        settings_.jobs.value_or(0) > 0 ? static_cast<size_t>(*settings_.jobs) : defaultJobs();
+    const size_t workers = std::max<size_t>(1, std::min(jobs, seeds.size()));
+    threads_ = static_cast<int>(std::max<size_t>(1, jobs / workers));
+    parallelFor(seeds.size(), static_cast<unsigned>(workers), [&](size_t i, unsigned) {
+      if (!stopped_) makeSeed(seeds[i]);
+    });
+  }
+
+ private:
+  void makeSeed(uint64_t seed) {
+    const std::string path = folder_.lock(seed);
+    const FileLock lock(path);
+    if (!lock.held() && (lock.failure().empty() || folder_.isWhole(seed))) return;
+    if (!lock.held() && !settings_.shard) {
+      return stop({diagnosticOf(
+          Error{"dataset-lock", "'" + path + "' cannot be locked: " + lock.failure(),
+                "where the file system has no locks, give each process a shard of its own"})});
+    }
+    // It may have been made since it was looked at.
+    if (!folder_.isWhole(seed)) fill(seed);
+    // Nobody needs the lock of what is whole, and where there is a mistake it is everybody's.
+    if (stopped_ || folder_.isWhole(seed)) lock.finish();
+  }
+
+  void fill(uint64_t seed) {
+    const double number = settings_.derive.seed + static_cast<double>(seed);
+    DeriveSettings derive = settings_.derive;
+    derive.seed = number;
+    derive.jobs = threads_;
+    derive.trace = settings_.labels == DatasetLabels::Label;
+    derive.progress = nullptr;
+    const Model model = gable::derive(rules_, shapes_, derive);
+    note(model.diagnostics());
+    if (model.end() != End::Done) return stop({}, model.end());
+    if (hasErrors(model.diagnostics())) return stop({});
+    if (const auto e = folder_.begin()) return stop({diagnosticOf(*e)});
+    if (!settings_.model.empty() && !folder_.has(folder_.model(seed))) {
+      if (!put(folder_.model(seed), [&](const std::string& aside) {
+            return model.write(aside + "model." + settings_.model, settings_.write).diagnostics;
+          })) {
+        return;
+      }
+    }
+    const PictureMaker maker(model);
+    if (!maker.ok()) return stop(maker.diagnostics());
+    const Labeller labeller(rules_, categories_, settings_.labels, model);
+    for (uint32_t camera = 0; camera < settings_.cameras && !stopped_; ++camera) {
+      const std::string name = folder_.item(seed, camera);
+      if (folder_.has(name)) continue;
+      if (!task_.allowance().look(0, 0)) return stopByLimit();
+      draw({name, seed * settings_.cameras + camera + 1, number, camera}, maker, labeller);
+    }
+  }
+
+  void draw(const DatasetItem& item, const PictureMaker& maker, const Labeller& labeller) {
+    PictureSettings settings = pictureOf(maker, settings_, item.seed, item.camera);
+    settings.jobs = threads_;
+    settings.progress = nullptr;
+    settings.limits = settings_.limits;
+    const PictureData picture = maker.draw(settings);
+    if (!picture.ok) {
+      return hasErrors(picture.diagnostics) ? stop(picture.diagnostics) : stopByLimit();
+    }
+    note(picture.diagnostics);
+    const bool made = put(item.name, [&](const std::string& aside) {
+      return writeItem(item, picture, labeller.marks(picture.layers), aside);
+    });
+    if (made) tell(1);
+  }
+
+  bool put(const std::string& part,
+           const std::function<DiagnosticList(const std::string& aside)>& fill) {
+    const DiagnosticList wrong = folder_.put(part, fill);
+    if (wrong.empty()) return true;
+    stop(wrong);
+    return false;
+  }
+
+  void tell(uint64_t made) {
+    const std::lock_guard lock(telling_);
+    result_.made += made;
+    result_.done += made;
+    if (settings_.progress) settings_.progress(result_.done, result_.items);
+  }
+
+  // What seeds have in common is told once.
+  void note(const DiagnosticList& diagnostics) {
+    const std::lock_guard lock(telling_);
+    for (const Diagnostic& d : diagnostics) {
+      if (told_.insert(d.code + d.message).second) result_.diagnostics.push_back(d);
+    }
+  }
+
+  void stop(const DiagnosticList& why, End end = End::Done) {
+    stopped_ = true;
+    note(why);
+    const std::lock_guard lock(telling_);
+    if (end != End::Done) result_.end = end;
+  }
+
+  void stopByLimit() {
+    const std::atomic<bool>* const cancel = settings_.picture.cancel;
+    stop({task_.warning()}, cancel && *cancel ? End::Cancelled : End::LimitReached);
+  }
+
+  const Rules& rules_;
+  const Shapes& shapes_;
+  const DatasetSettings& settings_;
+  const DatasetFolder& folder_;
+  const Categories& categories_;
+  Task& task_;
+  DatasetResult& result_;
+  int threads_ = 1;
+  std::atomic<bool> stopped_{false};
+  std::mutex telling_;
+  std::set<std::string> told_;
+};
+
+DatasetResult failed(const Error& e) {
+  DatasetResult out;
+  out.diagnostics.push_back(diagnosticOf(e));
+  return out;
+}
+
+DatasetResult made(const Rules& rules, const Shapes& shapes, const std::string& path,
+                   const DatasetSettings& settings, Task& task) {
+  if (!rules.ok()) return {};
+  if (const auto e = mistakeIn(settings)) return failed(*e);
+  const Result<Categories> categories = categoriesOf(rules, settings.labels);
+  if (!categories.ok()) return failed(categories.error());
+  DatasetFolder folder(path, settings);
+  if (const auto e = folder.open(descriptionOf(rules, shapes, categories.value(), settings))) {
+    return failed(*e);
+  }
+  DatasetResult result;
+  result.items = settings.count * settings.cameras;
+  Maker(rules, shapes, settings, folder, categories.value(), task, result).run();
+  if (result.done == 0 || result.done == result.items) folder.close();
+  if (hasErrors(result.diagnostics) || result.end != End::Done) return result;
+  result.ok = true;
+  for (uint64_t seed = 0; seed < settings.count; ++seed) {
+    if (!folder.isWhole(seed)) return result;
+  }
+  result.done = result.items;
+  const DiagnosticList wrong = writeList(folder, settings, categories.value());
+  result.merged = result.ok = wrong.empty();
+  result.diagnostics.insert(result.diagnostics.end(), wrong.begin(), wrong.end());
+  return result;
+}
+
+}  // namespace
+
+DatasetResult writeDataset(const Rules& rules, const Shapes& shapes, const std::string& folder,
+                           const DatasetSettings& settings) {
+  return guardedResult<DatasetResult>(Task("writing", folder, settings.limits), [&](Task& task) {
+    return made(rules, shapes, folder, settings, task);
+  });
+}
+
+}  // namespace gable

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include <cstdio>
+#include <filesystem>
+
+#include "base/bytes.h"
+#include "base/files.h"
+#include "base/json.h"
+#include "engine/dataset.h"
+#include "engine/shape_record.h"
+#include "engine/tile_plan.h"
+
+namespace gable {
+
+namespace {
+
+/// Of the files of an item; a program with another one cannot go on with it.
+constexpr int kFormat = 1;
+constexpr const char* kDescription = "dataset.json";
+constexpr const char* kLocks = "locks";
+
+std::string numbered(int digits, uint64_t number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%0*llu", digits, static_cast<unsigned long long>(number));
+  return text;
+}
+
+std::string checksumText(uint64_t checksum) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(checksum));
+  return text;
+}
+
+uint64_t checksumOf(const Shapes& shapes) {
+  std::string bytes;
+  for (const ShapeFootprint& f : shapes.impl().footprints) appendRecord(f, bytes);
+  return checksum(bytes);
+}
+
+template <class T>
+void optional(JsonWriter& w, const char* name, const std::optional<T>& v) {
+  w.key(name);
+  if (v)
+    w.value(*v);
+  else
+    w.null();
+}
+
+void writeDerive(JsonWriter& w, const DeriveSettings& derive) {
+  w.field("seed", derive.seed).field("sharing", derive.sharing);
+  w.field("startRule", derive.startRule.value_or(""));
+  w.key("attributes").beginObject();
+  for (const auto& [name, value] : derive.attributes) w.field(name, value);
+  w.endObject();
+}
+
+void writeSun(JsonWriter& w, const PictureSettings& p) {
+  w.key("sun").beginArray();
+  if (p.sun) w.value(p.sun->elevation).value(p.sun->azimuth);
+  w.endArray().key("sunTime").beginArray();
+  if (p.sunTime) {
+    const SunTime& t = *p.sunTime;
+    if (t.place) w.value(t.place->latitude).value(t.place->longitude);
+    w.value(t.year).value(t.month).value(t.day).value(t.hour);
+    if (t.hoursEast) w.value(*t.hoursEast);
+  }
+  w.endArray();
+}
+
+void writePicture(JsonWriter& w, const PictureSettings& p) {
+  w.field("width", p.width).field("height", p.height).field("samples", p.samples);
+  w.field("bounces", p.bounces).field("denoise", p.denoise);
+  w.field("look", static_cast<int>(p.look));
+  writeSun(w, p);
+  w.field("haziness", p.haziness).field("lamps", p.lamps).field("turn", p.turn);
+  optional(w, "mist", p.mist);
+  optional(w, "exposure", p.exposure);
+  optional(w, "litRooms", p.litRooms);
+  optional(w, "fieldOfView", p.fieldOfView);
+  optional(w, "pitch", p.pitch);
+  optional(w, "aperture", p.aperture);
+  optional(w, "focus", p.focus);
+  w.key("ground").beginArray();
+  for (size_t k = 0; p.ground && k < 3; ++k) w.value((*p.ground)[k]);
+  w.endArray().key("cut").beginArray();
+  if (p.cut) w.value(p.cut->normal[0]).value(p.cut->normal[1]).value(p.cut->normal[2]);
+  if (p.cut) w.value(p.cut->offset);
+  w.endArray().field("cutSide", static_cast<int>(p.cutSide));
+}
+
+bool equal(const JsonValue& a, const JsonValue& b) {
+  if (a.kind() != b.kind() || a.text() != b.text() || a.number(0) != b.number(0)) return false;
+  if (a.boolean(false) != b.boolean(false) || a.size() != b.size()) return false;
+  for (size_t i = 0; i < a.size(); ++i) {
+    if (!equal(a.at(i), b.at(i))) return false;
+  }
+  if (a.members().size() != b.members().size()) return false;
+  for (const auto& [name, value] : a.members()) {
+    if (!equal(value, b[name])) return false;
+  }
+  return true;
+}
+
+// The name of the first member that is another one.
+std::string differenceOf(const JsonValue& a, const JsonValue& b) {
+  for (const auto& [name, value] : a.members()) {
+    if (equal(value, b[name])) continue;
+    return name == "picture" ? differenceOf(value, b[name]) : name;
+  }
+  return {};
+}
+
+Error otherSettings(const std::string& path, const std::string& was, const std::string& is) {
+  const Result<JsonValue> before = parseJson(was), now = parseJson(is);
+  if (!before.ok() || before.value()["generator"].text() != "Gable") {
+    return {"dataset-folder", "'" + path + "' is no description of a data set of Gable",
+            "name another folder, or remove the file"};
+  }
+  return {"dataset-folder",
+          "the data set of '" + path + "' was begun with another value of '" +
+              differenceOf(now.value(), before.value()) + "'",
+          "go on with the settings of before, or name another folder"};
+}
+
+// Whether there is something else than what is written before the first item.
+bool holdsOthers(const std::string& folder) {
+  std::error_code error;
+  for (auto at = std::filesystem::directory_iterator(folder, error);
+       !error && at != std::filesystem::directory_iterator(); at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    if (name != kLocks && !name.starts_with(kDescription)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string descriptionOf(const Rules& rules, const Shapes& shapes, const Categories& categories,
+                          const DatasetSettings& s) {
+  std::string text;
+  JsonWriter w(text, 1);
+  w.beginObject().field("generator", "Gable").field("version", version());
+  w.field("format", kFormat);
+  w.field("rules", checksumText(checksumOf(rules)));
+  w.field("shapes", checksumText(checksumOf(shapes)));
+  writeDerive(w, s.derive);
+  w.field("cameras", s.cameras).field("placing", static_cast<int>(s.placing));
+  w.field("labels", static_cast<int>(s.labels)).field("list", static_cast<int>(s.format));
+  w.field("model", s.model).field("instancing", static_cast<int>(s.write.instancing));
+  w.field("vertices", static_cast<int>(s.write.vertices));
+  w.field("detail", static_cast<int>(s.write.detail));
+  w.key("picture").beginObject();
+  writePicture(w, s.picture);
+  w.endObject().key("categories").beginArray();
+  for (size_t i = 0; i < categories.size(); ++i) {
+    w.beginObject().field("id", static_cast<uint64_t>(i + 1)).field("name", categories[i]);
+    w.endObject();
+  }
+  w.endArray().endObject();
+  return text + "\n";
+}
+
+DatasetFolder::DatasetFolder(const std::string& path, const DatasetSettings& settings)
+    : path_(path.ends_with('/') ? path : path + '/'), settings_(settings) {}
+
+std::string DatasetFolder::item(uint64_t seed, uint32_t camera) const {
+  int digits = 2;
+  for (uint32_t most = settings_.cameras - 1; most >= 100; most /= 10) ++digits;
+  return numbered(6, seed) + "/" + numbered(digits, camera);
+}
+
+std::string DatasetFolder::model(uint64_t seed) const { return numbered(6, seed) + "/model"; }
+
+std::string DatasetFolder::lock(uint64_t seed) const {
+  // Another process may have removed the empty folder.
+  std::error_code ignored;
+  std::filesystem::create_directories(path_ + kLocks, ignored);
+  return path_ + kLocks + "/" + numbered(6, seed);
+}
+
+bool DatasetFolder::has(const std::string& part) const {
+  std::error_code error;
+  return std::filesystem::is_directory(path_ + part, error);
+}
+
+uint32_t DatasetFolder::itemsOf(uint64_t seed) const {
+  uint32_t items = 0;
+  for (uint32_t c = 0; c < settings_.cameras; ++c) items += has(item(seed, c)) ? 1 : 0;
+  return items;
+}
+
+bool DatasetFolder::isWhole(uint64_t seed) const {
+  return itemsOf(seed) == settings_.cameras && (settings_.model.empty() || has(model(seed)));
+}
+
+std::optional<Error> DatasetFolder::open(std::string description) {
+  description_ = std::move(description);
+  std::error_code error;
+  std::filesystem::create_directories(path_ + kLocks, error);
+  if (error) {
+    return Error{"dataset-folder", "the folder '" + path_ + "' cannot be made: " + error.message(),
+                 "name another one, or see to its permissions"};
+  }
+  const bool others = holdsOthers(path_);
+  // Looked for after the others: who writes others has written it before.
+  if (fileExists(path_ + kDescription)) return begin();
+  if (!others) return std::nullopt;
+  return Error{"dataset-folder",
+               "the folder '" + path_ + "' has files, and no dataset.json that says what they are",
+               "name another folder"};
+}
+
+std::optional<Error> DatasetFolder::begin() const {
+  const std::string path = path_ + kDescription;
+  if (!fileExists(path)) {
+    const Result<uint64_t> written = writeFile(path, description_);
+    if (!written.ok()) return written.error();
+  }
+  const Result<std::string> text = readFile(path);
+  if (!text.ok()) return text.error();
+  if (text.value() == description_) return std::nullopt;
+  return otherSettings(path, text.value(), description_);
+}
+
+void DatasetFolder::close() const {
+  std::error_code ignored;
+  std::filesystem::remove(path_ + kLocks, ignored);
+  std::filesystem::remove(path_, ignored);
+}
+
+DiagnosticList DatasetFolder::put(
+    const std::string& part,
+    const std::function<DiagnosticList(const std::string& aside)>& fill) const {
+  const std::string place = path_ + part, aside = place + ".part/";
+  std::error_code error;
+  // What a killed process has left: the lock says that nobody is writing there.
+  std::filesystem::remove_all(aside, error);
+  std::filesystem::create_directories(aside, error);
+  DiagnosticList wrong = fill(aside);
+  if (wrong.empty()) {
+    std::filesystem::rename(aside, place, error);
+    if (!error) return wrong;
+    wrong.push_back(
+        diagnosticOf(Error{"file-unwritable", "'" + place + "' cannot be made: " + error.message(),
+                           "see to the permissions of the folder"}));
+  }
+  std::filesystem::remove_all(aside, error);
+  return wrong;
+}
+
+}  // namespace gable
