@@ -15,6 +15,7 @@
 #include "base/text.h"
 #include "cases/measure.h"
 #include "cases/plan.h"
+#include "cases/solid_faults.h"
 #include "gable/names.h"
 #include "geom/region/boolean.h"
 #include "scene/dump.h"
@@ -196,6 +197,34 @@ std::string checkApart(const Facts& facts, const Words& words) {
     }
   }
   return leaves.empty() ? "there is no such leaf" : "";
+}
+
+/// Where the first fault is, in words: "Lamp at 1 2.5 0".
+std::string faultText(const Parts& parts, const SolidFault& fault, bool pair) {
+  return parts.name(fault.first) + (pair ? " and " + parts.name(fault.second) : "") + " at " +
+         roundedText(fault.at.x) + " " + roundedText(fault.at.y) + " " + roundedText(fault.at.z);
+}
+
+/// How many faults of a kind there are; with a name those that a leaf of the name has part in.
+std::string checkSolids(const Facts& facts, const Words& words) {
+  size_t at = 0;
+  spokenOf(facts, words, at);
+  const Parts parts(*facts.outcome->scene);
+  const bool pair = words[0] != "floating";
+  const std::vector<SolidFault> all =
+      words[0] == "coplanar"      ? coplanarFaces(parts, facts.outcome->ground)
+      : words[0] == "overlapping" ? overlaps(parts)
+                                  : floatingParts(parts, facts.outcome->ground);
+  const SolidFault* first = nullptr;
+  double found = 0;
+  for (const SolidFault& fault : all) {
+    const bool spoken = at == 1 || parts.name(fault.first) == words[1] ||
+                        (pair && parts.name(fault.second) == words[1]);
+    if (spoken && found++ == 0) first = &fault;
+  }
+  const std::string complaint = compare(found, words, at);
+  if (complaint.empty() || complaint == kNotUnderstood || !first) return complaint;
+  return complaint + ", such as " + faultText(parts, *first, pair);
 }
 
 std::string checkNames(const Facts& facts, const Words& words) {
@@ -404,6 +433,9 @@ constexpr Kind kKinds[] = {
     {"flat", checkFlat, kLeafForm},
     {"within", checkWithin, "lot [LEAF]"},
     {"apart", checkApart, kLeafForm},
+    {"coplanar", checkSolids, kNamedForm},
+    {"floating", checkSolids, kNamedForm},
+    {"overlapping", checkSolids, kNamedForm},
     {"names", checkNames, "LEAF LEAF .."},
     {"report", checkReport, "KEY n|sum|avg|min|max NUMBER, or KEY values TEXT=COUNT .."},
     {"attribute", checkAttribute, "LEAF NAME VALUE"},

@@ -23,6 +23,8 @@ struct Outcome {
   std::string dump;
   /// The initial shapes seen from above.
   Region lot;
+  /// The height of the lowest corner of the initial shapes.
+  double ground = 0;
   /// Null where nothing was derived.
   const Model* model = nullptr;
   /// Null: there are no expected files.

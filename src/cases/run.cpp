@@ -92,6 +92,14 @@ Region lotOf(const Shapes& shapes) {
   return lot;
 }
 
+double groundOf(const Shapes& shapes) {
+  Box3 box;
+  for (const ShapeFootprint& f : shapes.impl().footprints) {
+    box.include(transformed(f.mesh, {1, 1, 1}, f.origin).bounds());
+  }
+  return box.empty() ? 0 : box.min.y;
+}
+
 }  // namespace
 
 CaseRun::CaseRun(const Case& c, const std::string& file, const CaseSettings& settings)
@@ -219,6 +227,7 @@ void CaseRun::runCase() {
     outcome.scene = &model->impl().result.scene;
     outcome.dump = dumpText(*outcome.scene);
     outcome.lot = lotOf(*shapes);
+    outcome.ground = groundOf(*shapes);
     derived.sharing = false;
     const Model alone = derive(loaded, *shapes, derived);
     if (dumpText(alone.impl().result.scene) != outcome.dump) {
