@@ -390,10 +390,6 @@ class Builder {
   uint32_t root_ = 0;
 };
 
-}  // namespace
-
-namespace {
-
 bool isWithinPlan(const Box3& box, const Vec3f& p) {
   const Vec3 at = toVec3(p);
   return at.x >= box.min.x && at.x <= box.max.x && at.z >= box.min.z && at.z <= box.max.z;
