@@ -56,8 +56,6 @@ struct Part {
   TriangleSet solid, clear;
   std::vector<Piece> pieces;
   Box3 bounds;
-  /// What pictures are of: all of it, or the place without the land that runs on around it.
-  Box3 subject;
   /// Area of the box about what lies within half a metre above the part's lowest point.
   double footArea = 0;
   /// Sum over upright triangles of area and of area * (cos, sin) of four times the compass angle
@@ -84,6 +82,8 @@ struct World {
   Vec3 origin;
   /// Of everything, less `origin`; a unit box about it for an empty scene.
   Box3 bounds;
+  /// What pictures are of: all of it, or the place without the land that runs on around it.
+  Box3 subject;
   /// Height of the scene's foot less `origin`, single deep things left out.
   double footHeight = 0;
   /// Compass angle of a wall normal (degrees, in (-45, 45]) and how far walls agree on it, 0 to 1.
