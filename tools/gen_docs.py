@@ -73,6 +73,7 @@ class Reference:
         self.index("attributes", "Attributes of the shape", attributes, "doc", folder="functions")
         self.selectors()
         self.pages[RULE_LIBRARY] = rule_library(ROOT)
+        self.profiles()
         self.coverage({"operations": operations, "functions": functions, "attributes": attributes})
 
     def coverage(self, groups):
@@ -112,6 +113,24 @@ class Reference:
                           [(f"[`{n}`]({folder or name}/{stem}.md)", doc)
                            for n, stem, doc, f in rows if f == family]) + "\n"
         self.pages[f"{REFERENCE}/{name}.md"] = text.rstrip("\n") + "\n"
+
+    def profiles(self):
+        options, profiles = self.catalogue["writeOptions"], self.catalogue["writeProfiles"]
+        text = NOTE.format(source="src/engine/writing.cpp") + "\n# Options and profiles of models\n\n"
+        text += "`gable generate` and `gable city` take these options for the models that they write, `Model.write` of Python and\n"
+        text += "`gable_model_write` of C by the same names. `--for` chooses among them what suits a program; an option that is given holds\n"
+        text += "all the same, and a note says so. [Models for game engines](../guide/games.md) tells how to use them.\n\n## Profiles\n\n"
+        text += "An empty cell is the default.\n\n"
+        used = [o["name"] for o in options if any(o["name"] in p["choices"] for p in profiles)]
+        text += table(("", *(f"`--for {p['name']}`" for p in profiles)),
+                      [("for", *(p["title"] for p in profiles))] +
+                      [(f"`--{name}`", *(f"`{p['choices'][name]}`" if name in p["choices"] else "" for p in profiles))
+                       for name in used])
+        text += "\n## Options\n\n" + table(
+            ("option", "takes", "what it does"),
+            [(f"`--{o['name']}`", ", ".join(f"`{w}`" for w in o["words"]) or f"0 to {o['most']}",
+              " ".join(o["help"].split()).replace("|", "\\|")) for o in options])
+        self.pages[f"{REFERENCE}/profiles.md"] = text
 
     def selectors(self):
         text = NOTE.format(source="src/builtins") + "\n# Selectors\n\nWords that choose components, in `comp` and "

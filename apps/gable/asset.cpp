@@ -55,7 +55,9 @@ int runAssetPrepare(const AssetArguments& a) {
     print(ready.diagnostics());
     return statusOf(ready.diagnostics(), kExitWrong);
   }
-  const gable::WriteResult written = ready.write(a.output, writeSettings({}, a.limits));
+  gable::WriteSettings settings;
+  settings.limits = fileLimits(a.limits);
+  const gable::WriteResult written = ready.write(a.output, settings);
   print(written.diagnostics);
   if (!written.ok) return statusOf(written.diagnostics, kExitFile);
   const auto [low, high] = ready.bounds().value_or(gable::BoundingBox{});

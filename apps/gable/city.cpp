@@ -64,9 +64,21 @@ int checkPicture(const CityArguments& arguments, gable::PictureSettings& setting
   return pictureSettings(arguments.picture, settings);
 }
 
-int buildModel(const gable::City& city, CityArguments& arguments,
-               const gable::PictureSettings& picture, gable::RunFigures& figures,
-               gable::TileResult& tiles) {
+// How the model is drawn and written.
+struct Making {
+  gable::PictureSettings picture;
+  gable::WriteSettings write;
+};
+
+int checkMaking(const CityArguments& arguments, Making& making) {
+  if (!arguments.picture.output.empty()) {
+    if (const int status = checkPicture(arguments, making.picture)) return status;
+  }
+  return writeSettings(arguments.write, arguments.output, arguments.derive.limits, making.write);
+}
+
+int buildModel(const gable::City& city, CityArguments& arguments, const Making& making,
+               gable::RunFigures& figures, gable::TileResult& tiles) {
   gable::DeriveSettings settings;
   if (const int status = deriveSettings(arguments.derive, settings)) return status;
   gable::Rules rules(nullptr);
@@ -83,11 +95,12 @@ int buildModel(const gable::City& city, CityArguments& arguments,
   const gable::Model model = deriveModel(rules, city.shapes(), settings, stderr);
   if (gable::hasErrors(model.diagnostics())) return statusOf(model);
   if (!arguments.output.empty()) {
-    const gable::WriteSettings write = writeSettings(arguments.write, arguments.derive.limits);
-    if (const int status = writeModel(model, arguments.output, write, figures)) return status;
+    if (const int status = writeModel(model, arguments.output, making.write, figures))
+      return status;
   }
   if (!arguments.picture.output.empty()) {
-    if (const int status = drawPicture(model, arguments.picture.output, picture)) return status;
+    if (const int status = drawPicture(model, arguments.picture.output, making.picture))
+      return status;
   }
   return statusOf(model);
 }
@@ -113,10 +126,8 @@ int runCity(const CityArguments& given) {
     return fail(kExitUsage, "--plan-jobs plans tiles: give -o a folder, such as monaco/");
   }
   arguments.picture.derive = arguments.derive;
-  gable::PictureSettings picture;
-  if (draws) {
-    if (const int status = checkPicture(arguments, picture)) return status;
-  }
+  Making making;
+  if (const int status = checkMaking(arguments, making)) return status;
   if (builds) {
     if (const int status = findRules(arguments.derive)) return status;
   }
@@ -143,7 +154,7 @@ int runCity(const CityArguments& given) {
   }
   int status = kExitDone;
   gable::TileResult tiles;
-  if (builds) status = buildModel(city, arguments, picture, figures, tiles);
+  if (builds) status = buildModel(city, arguments, making, figures, tiles);
   if (status == kExitDone || status == kExitLimit) {
     figures.totalSeconds = secondsNow() - begin;
     figures.peakBytes = peakBytes();

@@ -17,7 +17,7 @@
 #include "answer.h"
 #include "derive_settings.h"
 #include "gable/files.h"
-#include "gable/names.h"
+#include "gable/writing.h"
 #include "progress.h"
 
 bool parseSeed(const std::string& text, double& seed) {
@@ -171,13 +171,26 @@ gable::Model deriveModel(const gable::Rules& rules, const gable::Shapes& shapes,
   return model;
 }
 
-gable::WriteSettings writeSettings(const WriteArguments& arguments, const LimitArguments& limits) {
-  gable::WriteSettings settings;
-  settings.instancing = gable::instancingNamed(arguments.instancing).value_or(settings.instancing);
-  settings.vertices = gable::verticesNamed(arguments.vertices).value_or(settings.vertices);
-  settings.detail = gable::detailNamed(arguments.detail).value_or(settings.detail);
+int writeSettings(const WriteArguments& arguments, const std::string& path,
+                  const LimitArguments& limits, gable::WriteSettings& settings) {
+  const std::string extension = extensionOf(path);
+  if (!arguments.profile.empty() && extension != "glb" && extension != "gltf") {
+    return fail(kExitUsage,
+                "'--for " + arguments.profile + "' is for .glb and .gltf, not for '" + path + "'");
+  }
+  gable::WriteChoices choices;
+  for (const auto& [name, value] : arguments.options) {
+    if (!value.empty()) choices.emplace_back(name, value);
+  }
+  const gable::ChosenWriting chosen = gable::chosenWriting(arguments.profile, choices);
+  print(chosen.diagnostics);
+  if (!chosen.ok) return kExitUsage;
+  const gable::DiagnosticList clashes = gable::writeClashes(path, chosen.settings);
+  print(clashes);
+  if (gable::hasErrors(clashes)) return kExitUsage;
+  settings = chosen.settings;
   settings.limits = fileLimits(limits);
-  return settings;
+  return kExitDone;
 }
 
 int writeModel(const gable::Model& model, const std::string& path,
@@ -189,7 +202,7 @@ int writeModel(const gable::Model& model, const std::string& path,
   }();
   print(written.diagnostics);
   if (!written.ok) return statusOf(written.diagnostics, kExitFile);
-  answer().wrote(path);
+  for (const std::string& file : written.models) answer().wrote(file);
   figures.deriveSeconds = model.deriveSeconds();
   figures.writeSeconds = secondsNow() - begin;
   if (written.triangles > 0) figures.triangles = written.triangles;

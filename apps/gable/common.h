@@ -5,6 +5,7 @@
 #pragma once
 
 #include <atomic>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -36,12 +37,11 @@ struct LimitArguments {
   uint64_t maxMegabytes = 4096;
 };
 
-/// How a model file is written: one of gable::instancingNames(), of gable::verticesNames() and of
-/// gable::detailNames().
+/// How a model file is written: a profile, and values of gable::writeOptions() by name; empty where
+/// they are not given.
 struct WriteArguments {
-  std::string instancing = "auto";
-  std::string vertices = "auto";
-  std::string detail = "all";
+  std::string profile;
+  std::map<std::string, std::string> options;
 };
 /// Those for reading, analysing, converting and writing. Ctrl-C cancels.
 gable::FileLimits fileLimits(const LimitArguments& arguments);

@@ -23,7 +23,10 @@ int readRules(const DeriveArguments& arguments, gable::Rules& rules);
 gable::Model deriveModel(const gable::Rules& rules, const gable::Shapes& shapes,
                          gable::DeriveSettings settings, std::FILE* prints);
 
-gable::WriteSettings writeSettings(const WriteArguments& arguments, const LimitArguments& limits);
+/// How the arguments want a model written to a path; says what they have against a profile. An exit
+/// status other than kExitDone when an option is wrong.
+int writeSettings(const WriteArguments& arguments, const std::string& path,
+                  const LimitArguments& limits, gable::WriteSettings& settings);
 
 /// Writes the model to a file, with a line of progress; an exit status. The figures tell what
 /// deriving and writing took.

@@ -54,6 +54,11 @@ int generateOnce(const GenerateArguments& arguments) {
   std::vector<std::string> formats = gable::modelExtensions();
   formats.emplace_back("png");
   if (const int status = checkExtension(arguments.output, formats)) return status;
+  gable::WriteSettings write;
+  if (const int status =
+          writeSettings(arguments.write, arguments.output, arguments.derive.limits, write)) {
+    return status;
+  }
   Inputs inputs;
   if (const int status = readInputs(arguments.derive, inputs)) return status;
   if (const int status = takeBox(arguments.box, inputs.shapes)) return status;
@@ -64,7 +69,6 @@ int generateOnce(const GenerateArguments& arguments) {
   tellEmpty(model, inputs);
 
   gable::RunFigures figures;
-  const gable::WriteSettings write = writeSettings(arguments.write, arguments.derive.limits);
   if (const int status = writeModel(model, arguments.output, write, figures)) return status;
 
   if (!arguments.reports.empty()) {

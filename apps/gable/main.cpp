@@ -15,6 +15,7 @@
 #include "folders.h"
 #include "gable/files.h"
 #include "gable/names.h"
+#include "gable/writing.h"
 #include "tiles.h"
 #include "tiles_viewer.h"
 #include "version.h"
@@ -217,21 +218,23 @@ void addCheck(CLI::App& app, CheckArguments& a, int& status) {
 }
 
 void addWriting(CLI::App* app, WriteArguments& a) {
-  app->add_option("--instancing", a.instancing,
-                  "glTF: how parts that occur several times are shown: auto (by nodes, at most\n"
-                  "20000; what saves least is merged), nodes (by a node each), gpu (by\n"
-                  "EXT_mesh_gpu_instancing), none (one mesh, merged by material)")
-      ->check(CLI::IsMember(gable::instancingNames()));
-  app->add_option(
-         "--vertices", a.vertices,
-         "glTF: what a vertex takes: auto (compact in large files), float (single\n"
-         "precision), compact (half of that, by KHR_mesh_quantization, no vertex moved by\n"
-         "more than half a millimetre), bare (compact, flat surfaces without normals)")
-      ->check(CLI::IsMember(gable::verticesNames()));
-  app->add_option("--lod", a.detail,
-                  "CityJSON: which levels of detail: 1 (blocks), 2 (roofs and walls), 3 (all that\n"
-                  "rules made), all")
-      ->check(CLI::IsMember(gable::detailNames()));
+  std::string programs;
+  std::vector<std::string> names;
+  for (const gable::WriteProfile& p : gable::writeProfiles()) {
+    programs += (names.empty() ? "" : ", ") + p.name + " (" + p.title + ")";
+    names.push_back(p.name);
+  }
+  app->add_option("--for", a.profile,
+                  "glTF: choose the options below as a program wants them: " + programs +
+                      ";\nan option that is given holds all the same")
+      ->check(CLI::IsMember(names));
+  for (const gable::WriteOption& o : gable::writeOptions()) {
+    CLI::Option* option = app->add_option("--" + o.name, a.options[o.name], o.help);
+    if (o.words.empty())
+      option->check(number({0, static_cast<double>(o.most), true}));
+    else
+      option->check(CLI::IsMember(o.words));
+  }
 }
 
 void addWatch(CLI::App* app, bool& watch) {

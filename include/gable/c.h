@@ -251,22 +251,30 @@ gable_status gable_model_report_value(const gable_model* model, size_t index, si
 gable_status gable_model_print(const gable_model* model, size_t index, char* buffer,
                                size_t capacity, size_t* length);
 
-/* Writes .glb .gltf .obj .ply .stl, and .png for a picture, by extension. */
 /* How glTF files show parts that occur several times: by nodes, at most 20,000 of them, by a node
-   each, by EXT_mesh_gpu_instancing, or not at all. */
+   each, by EXT_mesh_gpu_instancing, not at all, or by a mesh for each initial shape. */
 typedef enum gable_instancing {
   GABLE_INSTANCING_AUTO = 0,
   GABLE_INSTANCING_NODES = 1,
   GABLE_INSTANCING_GPU = 2,
-  GABLE_INSTANCING_NONE = 3
+  GABLE_INSTANCING_NONE = 3,
+  GABLE_INSTANCING_SHAPES = 4
 } gable_instancing;
 
 typedef struct gable_write_settings {
   size_t struct_size;
   /* A gable_instancing. */
   int32_t instancing;
+  /* "godot": the choices for a program that opens the model (docs/guide/games.md). NULL: none. */
+  const char* profile;
+  /* Options of `gable generate` by name, over the profile: "collision" and "hull". */
+  size_t option_count;
+  const char* const* option_names;
+  const char* const* option_values;
 } gable_write_settings;
 gable_status gable_write_settings_init(gable_write_settings* settings);
+/* Writes .glb .gltf .obj .usda .usdz .ply .stl .city.json .city.jsonl .ifc, and .png for a picture,
+   by extension. */
 gable_status gable_model_write(const gable_model* model, const char* path,
                                const gable_write_settings* settings);
 /* The same into memory, for formats of one file: "glb", "ply", "stl", "png". */

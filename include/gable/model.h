@@ -23,8 +23,9 @@ namespace gable {
 /// How glTF files show parts that occur several times. Auto: by nodes that share a mesh, at most
 /// 20,000 of them; beyond, parts that save least are merged, or, where that would add more than a
 /// GiB, equal ones become one node with EXT_mesh_gpu_instancing. Nodes: by a node each. Gpu: by
-/// EXT_mesh_gpu_instancing. None: not at all, everything is one mesh, merged by material.
-enum class Instancing : uint8_t { Auto, Nodes, Gpu, None };
+/// EXT_mesh_gpu_instancing. None: not at all, everything is one mesh, merged by material. Shapes: a
+/// mesh for each initial shape, merged by material; equal ones share it.
+enum class Instancing : uint8_t { Auto, Nodes, Gpu, None, Shapes };
 
 /// What a vertex of a glTF file takes. Float: single precision. Compact: half of that, by
 /// KHR_mesh_quantization, within half a millimetre, and no texture coordinates without a texture.
@@ -35,10 +36,33 @@ enum class Vertices : uint8_t { Auto, Float, Compact, Bare };
 /// rules made.
 enum class Detail : uint8_t { All, One, Two, Three };
 
+/// How things are called in a glTF file. Rules: as rules call them. The others have a name of its
+/// own for each initial shape and its mesh, of letters, digits and _, and mark collision shapes:
+/// Unique as House_collision, Godot as House-convcolonly or House-colonly, Unreal as UCX_House_00.
+enum class Names : uint8_t { Rules, Unique, Godot, Unreal };
+
+/// What a glTF file has for collisions, an initial shape each. Box: the smallest upright box. Hull:
+/// its convex hull, of 98 corners at most. Mesh: its triangles without small parts.
+enum class Collision : uint8_t { None, Box, Hull, Mesh };
+
+/// How coarser levels of detail are kept. Names: in the file, House_LOD0, House_LOD1. Extension: in
+/// the file, by MSFT_lod. Files: beside it, model_LOD1.glb.
+enum class LevelForm : uint8_t { Names, Extension, Files };
+
 struct WriteSettings {
   Instancing instancing = Instancing::Auto;
   Vertices vertices = Vertices::Auto;
   Detail detail = Detail::All;
+  Names names = Names::Rules;
+  Collision collision = Collision::None;
+  /// glTF: coarser levels of detail besides the model itself, 0 to 3.
+  int levels = 0;
+  LevelForm levelForm = LevelForm::Names;
+  /// glTF: texture coordinates are scaled, turned and moved as materials say, where all textures of
+  /// a material want the same; else readers do so (KHR_texture_transform).
+  bool bakedUv = false;
+  /// glTF, OBJ and USD: no side of a picture is longer; 0 for any.
+  uint32_t textureSize = 0;
   FileLimits limits;
 };
 
@@ -51,6 +75,8 @@ struct WriteResult {
   DiagnosticList diagnostics;
   /// glTF: what its geometry would take more if parts that occur several times were written out.
   uint64_t savedBytes = 0;
+  /// The models that were written: the one asked for, then its coarser levels.
+  std::vector<std::string> models;
 };
 
 /// A model file in memory.

@@ -11,7 +11,6 @@ from typing import Any
 from gable import _gable
 from gable._messages import Error, Message, checked, messages_of, path_text
 
-_INSTANCING = ("auto", "nodes", "gpu", "none")
 _VIEWS = ("iso", "top", "front", "street")
 _MOST_LEAVES = 1 << 40
 
@@ -175,19 +174,21 @@ class Model:
             rows.append({**leaf, "width": width, "height": height, "depth": depth, **attributes})
         return pandas.DataFrame(rows)
 
-    def write(self, path: str | os.PathLike[str], *, instancing: str = "auto") -> int:
-        """Writes .glb, .gltf, .obj, .ply or .stl, and gives the bytes written.
+    def write(
+        self, path: str | os.PathLike[str], *, profile: str = "", **options: str | int
+    ) -> int:
+        """Writes .glb, .gltf, .obj, .usda, .ply, .stl or another model, and gives the bytes written.
 
-        `instancing` says how glTF files show what occurs several times: "auto", "nodes", "gpu" or
-        "none".
+        `profile` is the program that opens it: "blender", "cesium", "godot", "unity" or "unreal".
+        `options` are those of `gable generate` for models, with _ for -, such as
+        instancing="nodes", collision="hull", lods=2 or texture_size=1024; they hold over the
+        profile.
         """
-        if instancing not in _INSTANCING:
-            raise ValueError(f"instancing is one of {', '.join(_INSTANCING)}, not {instancing!r}")
-        return _written(self._raw.write(path_text(path), instancing))
+        return _written(self._raw.write(path_text(path), profile, _choices(options)))
 
-    def encode(self, format: str) -> bytes:
-        """The bytes of a file: "glb", "ply", "stl" or "png"."""
-        return _written(self._raw.encode(format))
+    def encode(self, format: str, *, profile: str = "", **options: str | int) -> bytes:
+        """The bytes of a file: "glb", "ply", "stl" or "png"; the rest as for write()."""
+        return _written(self._raw.encode(format, profile, _choices(options)))
 
     def picture(
         self,
@@ -213,6 +214,10 @@ class Model:
 
     def __repr__(self) -> str:
         return f"<gable.Model, {len(self)} leaves>"
+
+
+def _choices(options: dict[str, str | int]) -> list[tuple[str, str]]:
+    return [(name.replace("_", "-"), str(value)) for name, value in options.items()]
 
 
 def _written(result: tuple[bool, list[dict[str, Any]], Any]) -> Any:

@@ -217,11 +217,16 @@ py::tuple resultOf(const WriteResult& r) {
   return py::make_tuple(r.ok, messagesOf(r.diagnostics), r.bytes);
 }
 
-py::tuple written(const Model& model, const std::string& path, const std::string& instancing) {
-  WriteSettings settings;
-  if (instancing == "nodes") settings.instancing = Instancing::Nodes;
-  if (instancing == "gpu") settings.instancing = Instancing::Gpu;
-  if (instancing == "none") settings.instancing = Instancing::None;
+// Throws a ValueError for what there is not.
+WriteSettings settingsOf(const std::string& profile, const WriteChoices& options) {
+  const ChosenWriting chosen = chosenWriting(profile, options);
+  if (!chosen.ok) throw py::value_error(render(chosen.diagnostics));
+  return chosen.settings;
+}
+
+py::tuple written(const Model& model, const std::string& path, const std::string& profile,
+                  const WriteChoices& options) {
+  const WriteSettings settings = settingsOf(profile, options);
   WriteResult result;
   {
     const py::gil_scoped_release released;
@@ -230,11 +235,13 @@ py::tuple written(const Model& model, const std::string& path, const std::string
   return resultOf(result);
 }
 
-py::tuple encoded(const Model& model, const std::string& format) {
+py::tuple encoded(const Model& model, const std::string& format, const std::string& profile,
+                  const WriteChoices& options) {
+  const WriteSettings settings = settingsOf(profile, options);
   EncodeResult result;
   {
     const py::gil_scoped_release released;
-    result = model.encode(format);
+    result = model.encode(format, settings);
   }
   return py::make_tuple(result.ok, messagesOf(result.diagnostics), py::bytes(result.bytes));
 }

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The Gable authors
 
 #include "c/object.h"
+#include "gable/names.h"
+#include "gable/writing.h"
 
 using namespace gable::c;
 
@@ -30,13 +32,28 @@ gable_write_settings writeDefaults() {
 
 namespace {
 
-bool isInstancing(const gable_write_settings& s) {
-  return s.instancing >= GABLE_INSTANCING_AUTO && s.instancing <= GABLE_INSTANCING_NONE;
-}
-
-// The two enumerations are in the same order.
-gable::Instancing instancingOf(const gable_write_settings& s) {
-  return static_cast<gable::Instancing>(s.instancing);
+// GABLE_OK where the settings can be used. The field `instancing` is an option like the others.
+gable_status settingsOf(const gable_write_settings* given, WriteSettings& out) {
+  gable_write_settings s = writeDefaults();
+  if (!takeStruct(given, s)) return fail(GABLE_ERROR_ARGUMENT, "struct_size is not set");
+  if (s.instancing < GABLE_INSTANCING_AUTO || s.instancing > GABLE_INSTANCING_SHAPES) {
+    return fail(GABLE_ERROR_ARGUMENT, "there is no such instancing");
+  }
+  WriteChoices choices;
+  if (s.instancing != GABLE_INSTANCING_AUTO) {
+    // The enumerations are in the same order.
+    const auto& names = instancingNames();
+    choices.emplace_back("instancing", names[static_cast<size_t>(s.instancing)]);
+  }
+  if (s.option_count > 0 && (!s.option_names || !s.option_values)) return nullArgument();
+  for (size_t i = 0; i < s.option_count; ++i) {
+    if (!s.option_names[i] || !s.option_values[i]) return nullArgument();
+    choices.emplace_back(s.option_names[i], s.option_values[i]);
+  }
+  const ChosenWriting chosen = chosenWriting(s.profile ? s.profile : "", choices);
+  if (!chosen.ok) return fail(GABLE_ERROR_ARGUMENT, render(chosen.diagnostics));
+  out = chosen.settings;
+  return GABLE_OK;
 }
 
 void setLimits(const gable_derive_settings& s, Limits& limits) {
@@ -224,11 +241,10 @@ gable_status gable_write_settings_init(gable_write_settings* settings) {
 gable_status gable_model_write(const gable_model* model, const char* path,
                                const gable_write_settings* settings) {
   return with<ModelObject>(model, [&](const ModelValue& m) {
-    gable_write_settings s = writeDefaults();
     if (!path) return nullArgument();
-    if (!takeStruct(settings, s)) return fail(GABLE_ERROR_ARGUMENT, "struct_size is not set");
-    if (!isInstancing(s)) return fail(GABLE_ERROR_ARGUMENT, "there is no such instancing");
-    const gable::WriteResult written = m.model.write(path, {instancingOf(s)});
+    WriteSettings s;
+    if (const gable_status status = settingsOf(settings, s); status != GABLE_OK) return status;
+    const gable::WriteResult written = m.model.write(path, s);
     return written.ok ? GABLE_OK : writeError(written.diagnostics);
   });
 }
@@ -237,11 +253,10 @@ gable_status gable_model_encode(const gable_model* model, const char* format,
                                 const gable_write_settings* settings, gable_blob** blob) {
   if (blob) *blob = nullptr;
   return with<ModelObject>(model, [&](const ModelValue& m) {
-    gable_write_settings s = writeDefaults();
     if (!format || !blob) return nullArgument();
-    if (!takeStruct(settings, s)) return fail(GABLE_ERROR_ARGUMENT, "struct_size is not set");
-    if (!isInstancing(s)) return fail(GABLE_ERROR_ARGUMENT, "there is no such instancing");
-    gable::EncodeResult encoded = m.model.encode(format, {instancingOf(s)});
+    WriteSettings s;
+    if (const gable_status status = settingsOf(settings, s); status != GABLE_OK) return status;
+    gable::EncodeResult encoded = m.model.encode(format, s);
     if (!encoded.ok) return writeError(encoded.diagnostics);
     *blob =
         reinterpret_cast<gable_blob*>(new BlobObject{BlobObject::kMark, std::move(encoded.bytes)});

@@ -8,11 +8,13 @@
 
 #include "base/files.h"
 #include "base/temporary_folder.h"
+#include "engine/game_scene.h"
 #include "engine/guard.h"
 #include "engine/impl.h"
 #include "engine/missing_files.h"
 #include "engine/picture.h"
 #include "gable/names.h"
+#include "gable/writing.h"
 #include "io/exporters/draw_list.h"
 #include "io/exporters/write_model.h"
 #include "io/importers/asset.h"
@@ -20,6 +22,7 @@
 #include "scene/dump.h"
 #include "scene/flatten.h"
 #include "shape/losses.h"
+#include "tiles/texture_tints.h"
 
 namespace gable {
 
@@ -88,13 +91,49 @@ std::vector<std::string> texturesOf(const Scene& scene, const std::string& path)
   return paths;
 }
 
+// model.glb is model_LOD1.glb at the first level.
+std::string levelPath(const std::string& path, size_t level) {
+  if (level == 0) return path;
+  const size_t end = path.size() - modelFormatOf(path).size() - 1;
+  return path.substr(0, end) + "_LOD" + std::to_string(level) + path.substr(end);
+}
+
+// The model with all that stands beside it, a file after the other.
+Result<WriteReport> writeGame(const Scene& scene, const std::string& path,
+                              const WriteSettings& settings, WriteOptions& options,
+                              std::vector<std::string>& models) {
+  TextureTints tints(options.readTexture);
+  GameScene game = gameSceneOf(scene, settings, [&](const Material& m) { return tints.of(m); });
+  options.apart = settings.instancing != Instancing::None;
+  options.levels = std::move(game.levels);
+  options.coverage = std::move(game.coverage);
+  std::optional<WriteReport> whole;
+  for (size_t i = 0; i < game.files.size(); ++i) {
+    game.scene.roots = std::move(game.files[i]);
+    const std::string file = levelPath(path, i);
+    Result<WriteReport> report = writeModel(game.scene, file, options);
+    if (!report.ok()) return report;
+    models.push_back(file);
+    if (whole)
+      whole->bytes += report->bytes;
+    else
+      whole = std::move(report.value());
+  }
+  return *whole;
+}
+
 WriteResult written(const Model::Impl& impl, const std::string& path,
                     const WriteSettings& settings) {
+  WriteResult out;
+  out.diagnostics = writeClashes(path, settings);
+  if (hasErrors(out.diagnostics)) return out;
   WriteOptions options;
   // The enumerations are in the same order.
   options.instancing = static_cast<WriteOptions::Instancing>(settings.instancing);
   options.vertices = static_cast<WriteOptions::Vertices>(settings.vertices);
   options.detail = static_cast<WriteOptions::Detail>(settings.detail);
+  options.bakedUv = settings.bakedUv;
+  options.textureSize = settings.textureSize;
   options.geo = impl.geo.get();
   options.attributesOf = [&impl](size_t root) { return knownOfRoot(impl, root); };
   options.readTexture = [&impl](const std::string& texture) -> Result<std::string> {
@@ -102,9 +141,11 @@ WriteResult written(const Model::Impl& impl, const std::string& path,
     return Error{"texture-not-found", "there is no picture '" + texture + "'", ""};
   };
   if (impl.project) impl.project->drawBuiltins(texturesOf(impl.scene(), path));
-  Result<WriteReport> report = writeModel(impl.scene(), path, options);
+  const bool game = asksForGameScene(settings) && !modelFormatOf(path).empty();
+  Result<WriteReport> report = game ? writeGame(impl.scene(), path, settings, options, out.models)
+                                    : writeModel(impl.scene(), path, options);
   if (!report.ok()) return failedWrite(report.error());
-  WriteResult out;
+  if (!game) out.models.push_back(path);
   out.ok = true;
   out.triangles = report->triangles;
   out.bytes = report->bytes;
@@ -132,6 +173,10 @@ EncodeResult encoded(const Model::Impl& impl, const std::string& format,
   if (std::find(std::begin(formats), std::end(formats), format) == std::end(formats)) {
     return fail({"format-unknown", "'" + format + "' is no format of one file",
                  "name glb, ply, stl or png; write the others to a path"});
+  }
+  if (format == "glb" && settings.levels > 0 && settings.levelForm == LevelForm::Files) {
+    return fail({"write-options-clash", "one file has no room for levels of detail in files",
+                 "choose the form 'names' or 'msft', or write to a path"});
   }
   const TemporaryFolder folder;
   if (folder.path().empty()) return fail({"file-unwritable", "there is no room for files", ""});
@@ -172,7 +217,7 @@ const std::vector<std::string>& lookNames() {
 std::optional<Look> lookNamed(const std::string& name) { return named<Look>(lookNames(), name); }
 
 const std::vector<std::string>& instancingNames() {
-  static const std::vector<std::string> names{"auto", "nodes", "gpu", "none"};
+  static const std::vector<std::string> names{"auto", "nodes", "gpu", "none", "shapes"};
   return names;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "gable/writing.h"
 #include "json/answers.h"
 
 namespace gable {
@@ -80,6 +81,21 @@ void write(JsonWriter& json, const BuiltinSelector& s) {
   json.beginObject().key("name").value(s.name).key("doc").value(s.doc).endObject();
 }
 
+void write(JsonWriter& json, const WriteOption& o) {
+  json.beginObject().key("name").value(o.name).key("help").value(o.help);
+  if (o.words.empty()) json.key("most").value(o.most);
+  json.key("words").beginArray();
+  for (const std::string& word : o.words) json.value(word);
+  json.endArray().endObject();
+}
+
+void write(JsonWriter& json, const WriteProfile& p) {
+  json.beginObject().key("name").value(p.name).key("title").value(p.title);
+  json.key("choices").beginObject();
+  for (const auto& [option, value] : p.choices) json.key(option).value(value);
+  json.endObject().endObject();
+}
+
 template <class Entry>
 void writeList(JsonWriter& json, const char* key, const std::vector<Entry>& entries) {
   json.key(key).beginArray();
@@ -97,6 +113,8 @@ std::string builtinsJson(const Builtins& builtins) {
   writeList(json, "functions", builtins.functions);
   writeList(json, "attributes", builtins.attributes);
   writeList(json, "selectors", builtins.selectors);
+  writeList(json, "writeOptions", writeOptions());
+  writeList(json, "writeProfiles", writeProfiles());
   json.endObject();
   return out + "\n";
 }

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
-#include <map>
 #include <utility>
 
 #include "base/bytes.h"
@@ -20,7 +19,7 @@
 #include "base/parallel.h"
 #include "io/exporters/plan.h"
 #include "io/exporters/surface.h"
-#include "io/image/image.h"
+#include "tiles/texture_tints.h"
 
 namespace gable {
 namespace {
@@ -48,37 +47,6 @@ struct Branch {
   std::optional<Error> error;
 
   TileNode& node() { return *part.root; }
-};
-
-// What textures look like from far away, by their paths.
-class TextureTints {
- public:
-  explicit TextureTints(const TextureReader& read) : read_(read) {}
-  Vec3 of(const Material& m) {
-    const std::string& path = m.map(TextureLayer::Color).path;
-    if (path.empty()) return m.color;
-    const auto [at, fresh] = known_.try_emplace(path, Vec3{1, 1, 1});
-    if (fresh) at->second = meanOf(path);
-    return scaled(m.color, at->second);
-  }
-
- private:
-  Vec3 meanOf(const std::string& path) const {
-    const Result<std::string> bytes =
-        read_ ? read_(path) : Result<std::string>(Error{"texture-not-found", "", ""});
-    if (!bytes.ok()) return {1, 1, 1};
-    const Result<Image> image = decodeImage(bytes.value());
-    if (!image.ok()) return {1, 1, 1};
-    Vec3 sum;
-    const std::vector<uint8_t>& rgba = image.value().rgba;
-    for (size_t i = 0; i + 3 < rgba.size(); i += 4) {
-      sum += Vec3{double{1} * rgba[i], double{1} * rgba[i + 1], double{1} * rgba[i + 2]};
-    }
-    return rgba.empty() ? Vec3{1, 1, 1} : sum * (4.0 / 255 / static_cast<double>(rgba.size()));
-  }
-
-  const TextureReader& read_;
-  std::map<std::string, Vec3> known_;
 };
 
 // Widens a range by what a box reaches up and down.

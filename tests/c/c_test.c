@@ -220,6 +220,40 @@ static void writesFilesAndMemory(const char* folder) {
   gable_model_release(model);
 }
 
+static void writesAsAProgramWantsIt(void) {
+  static const char* const names[] = {"collision"};
+  static const char* const values[] = {"hull"};
+  static const char* const unknown[] = {"hul"};
+  gable_model* model = derived(kHouse);
+  gable_blob* blob = NULL;
+  gable_write_settings settings;
+  char text[2000];
+  size_t length = 0, at;
+  int marked = 0;
+  char* bytes;
+  EXPECT(gable_write_settings_init(&settings) == GABLE_OK);
+  settings.profile = "godot";
+  settings.option_count = 1;
+  settings.option_names = names;
+  settings.option_values = values;
+  EXPECT(gable_model_encode(model, "glb", &settings, &blob) == GABLE_OK);
+  EXPECT(gable_blob_read(blob, NULL, 0, &length) == GABLE_OK);
+  bytes = malloc(length);
+  EXPECT(gable_blob_read(blob, bytes, length, &length) == GABLE_OK);
+  for (at = 0; at + 12 < length; ++at) marked |= memcmp(bytes + at, "-convcolonly", 12) == 0;
+  EXPECT(marked);
+  free(bytes);
+  gable_blob_release(blob);
+  settings.option_values = unknown;
+  EXPECT(gable_model_encode(model, "glb", &settings, &blob) == GABLE_ERROR_ARGUMENT);
+  EXPECT(gable_last_error(text, sizeof text, &length) == GABLE_OK && strstr(text, "'hull'"));
+  settings.option_count = 0;
+  settings.profile = "quake";
+  EXPECT(gable_model_encode(model, "glb", &settings, &blob) == GABLE_ERROR_ARGUMENT);
+  EXPECT(gable_last_error(text, sizeof text, &length) == GABLE_OK && strstr(text, "unreal"));
+  gable_model_release(model);
+}
+
 static int stopAtOnce(void* user, size_t done, size_t total) {
   (void)done;
   (void)total;
@@ -335,6 +369,7 @@ int main(int argc, char** argv) {
   readsReportsAndPrints();
   readsGeometry();
   writesFilesAndMemory(argv[1]);
+  writesAsAProgramWantsIt();
   keepsLimitsAndCancels();
   refusesMisuse();
   printf("%d failures\n", failures);

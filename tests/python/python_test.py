@@ -190,6 +190,19 @@ class Derivation(unittest.TestCase):
                 model.write(Path(folder) / "a.xyz")
         with self.assertRaisesRegex(ValueError, "instancing"):
             model.write("a.glb", instancing="some")
+        with self.assertRaisesRegex(ValueError, "did you mean 'godot'"):
+            model.write("a.glb", profile="godt")
+        with self.assertRaisesRegex(ValueError, "from 0 to 3"):
+            model.write("a.glb", lods=4)
+        with self.assertRaisesRegex(gable.Error, "a.obj"):
+            model.write("a.obj", collision="box")
+
+    def test_a_profile_is_that_of_the_command_line(self):
+        model = gable.derive(self.rules, gable.Shapes.lot(2, 3), height=5)
+        for profile, collision in (("godot", b"-colonly"), ("unreal", b"UCX_")):
+            self.assertIn(collision, model.encode("glb", profile=profile, lods=0))
+        self.assertIn(b"-convcolonly", model.encode("glb", profile="godot", collision="hull"))
+        self.assertNotIn(b"collision", model.encode("glb", profile="blender"))
 
     def test_the_same_for_any_number_of_threads(self):
         lots = gable.Shapes.joined([gable.Shapes.lot(w, 5) for w in range(1, 20)])

@@ -55,8 +55,8 @@ bool isEmpty(const std::vector<GltfPrimitive>& mesh) {
 }  // namespace
 
 GltfDocument::GltfDocument(const Scene& scene, const ScenePlan& plan,
-                           const GltfMaterials& materials)
-    : scene_(scene), plan_(plan), materials_(materials) {}
+                           const GltfMaterials& materials, const WriteOptions& options)
+    : scene_(scene), plan_(plan), materials_(materials), options_(options) {}
 
 std::vector<GltfDocument::Group> GltfDocument::groupsOf(const ScenePlan& plan, uint32_t unit,
                                                         bool instanced) {
@@ -192,7 +192,38 @@ void GltfDocument::writeNode(JsonWriter& w, const OpenUnit& open, const NodePlac
   }
   if (any) w.endArray();
   if (place.leaf != PlannedChild::kNone) writeExtras(w, scene_.leaves[place.leaf]);
+  if (place.levels && !place.levels->empty()) writeLevels(w, *place.levels);
   w.endObject();
+}
+
+// How much of a view each level wants is known of the extension's readers only, not of its text.
+void GltfDocument::writeLevels(JsonWriter& w, const std::vector<uint64_t>& levels) const {
+  w.key("extensions").beginObject().key("MSFT_lod").beginObject().key("ids").beginArray();
+  for (const uint64_t node : levels) w.value(node);
+  w.endArray().endObject().endObject();
+  w.key("extras").beginObject().key("MSFT_screencoverage").beginArray();
+  for (size_t i = 0; i <= levels.size() && i < options_.coverage.size(); ++i) {
+    w.value(i == levels.size() ? 0 : options_.coverage[i]);
+  }
+  w.endArray().endObject();
+}
+
+// By root: the nodes of its levels that are there.
+std::vector<std::vector<uint64_t>> GltfDocument::levelNodes() const {
+  constexpr uint64_t kNone = ~uint64_t{0};
+  std::vector<uint64_t> nodeOf(scene_.roots.size(), kNone);
+  uint64_t index = 0;
+  for (const PlannedRoot& root : plan_.roots()) {
+    if (nodeCount(root.unit) > 0) nodeOf[root.root] = index;
+    index += nodeCount(root.unit);
+  }
+  std::vector<std::vector<uint64_t>> out(scene_.roots.size());
+  for (size_t r = 0; r < options_.levels.size(); ++r) {
+    for (const uint32_t level : options_.levels[r]) {
+      if (nodeOf[level] != kNone) out[r].push_back(nodeOf[level]);
+    }
+  }
+  return out;
 }
 
 void GltfDocument::writeMeshNode(JsonWriter& w, uint32_t unit) const {
@@ -252,13 +283,23 @@ void GltfDocument::writeNodes() {
   roots.beginArray();
   uint64_t index = 0;
   static const std::string kNoName;
+  std::vector<std::vector<uint64_t>> levels;
+  std::vector<bool> isLevel(scene_.roots.size());
+  if (!options_.levels.empty()) levels = levelNodes();
+  for (const auto& of : options_.levels) {
+    for (const uint32_t level : of) isLevel[level] = true;
+  }
+  hasLevels_ = false;
   for (const PlannedRoot& root : plan_.roots()) {
     if (nodeCount(root.unit) == 0) continue;
     const bool named =
         root.root != PlannedRoot::kAll && scene_.roots[root.root].name < scene_.names.size();
     const std::string& name = named ? scene_.names[scene_.roots[root.root].name] : kNoName;
-    writeTree(nodes, root.unit, {&root.frame, {1, 1, 1}, &name, PlannedChild::kNone}, index);
-    roots.value(index);
+    NodePlace place{&root.frame, {1, 1, 1}, &name, PlannedChild::kNone};
+    if (!levels.empty()) place.levels = &levels[root.root];
+    hasLevels_ = hasLevels_ || (place.levels && !place.levels->empty());
+    writeTree(nodes, root.unit, place, index);
+    if (levels.empty() || !isLevel[root.root]) roots.value(index);
     index += nodeCount(root.unit);
   }
   nodes.endArray();
@@ -428,7 +469,9 @@ std::string GltfDocument::text(const GltfContent& content, bool roomy) const {
     for (const std::string& name : more) w.value(name);
     w.endArray();
   };
-  extensions("extensionsUsed", materials_.usesTransforms(), materials_.extensions());
+  std::set<std::string> used = materials_.extensions();
+  if (hasLevels_) used.insert("MSFT_lod");
+  extensions("extensionsUsed", materials_.usesTransforms(), used);
   extensions("extensionsRequired", materials_.needsTransforms(), {});
   w.field("scene", 0).key("scenes").beginArray().beginObject();
   if (nodesWritten_ > 0) w.key("nodes").raw(roots_);

@@ -53,7 +53,8 @@ struct GltfContent {
 
 class GltfDocument {
  public:
-  GltfDocument(const Scene& scene, const ScenePlan& plan, const GltfMaterials& materials);
+  GltfDocument(const Scene& scene, const ScenePlan& plan, const GltfMaterials& materials,
+               const WriteOptions& options);
 
   /// Numbers nodes and meshes, and gives the number of nodes: it may be too large to write them.
   /// Grids are by unit: what a node shows is placed by its scale, so a mesh on a grid whose unit
@@ -84,6 +85,8 @@ class GltfDocument {
     Vec3 scale;
     const std::string* name;
     uint32_t leaf;
+    /// The nodes of its levels of detail, or null.
+    const std::vector<uint64_t>* levels = nullptr;
   };
   uint64_t nodesFor(const Group& g) const;
   uint64_t nodeCount(uint32_t unit) const { return nodeCounts_[unit]; }
@@ -102,6 +105,8 @@ class GltfDocument {
   void writeMeshNode(JsonWriter& w, uint32_t unit) const;
   void writeGroup(JsonWriter& w, const Group& g, uint32_t accessor) const;
   void writeExtras(JsonWriter& w, const Leaf& leaf) const;
+  std::vector<std::vector<uint64_t>> levelNodes() const;
+  void writeLevels(JsonWriter& w, const std::vector<uint64_t>& levels) const;
   const std::string& nameOf(uint32_t unit) const;
   void writeMeshes(JsonWriter& w, const GltfContent& content) const;
   void writeAccessors(JsonWriter& w, const GltfContent& content, bool roomy) const;
@@ -111,6 +116,7 @@ class GltfDocument {
   const Scene& scene_;
   const ScenePlan& plan_;
   const GltfMaterials& materials_;
+  const WriteOptions& options_;
   bool instanced_ = false;
   // By unit: nodes that showing it takes (0 when it shows nothing), and its mesh's number.
   std::vector<uint64_t> nodeCounts_;
@@ -121,6 +127,7 @@ class GltfDocument {
   std::vector<uint32_t> instanceBase_;
   std::string nodes_, roots_;
   uint64_t nodesWritten_ = 0;
+  bool hasLevels_ = false;
 };
 
 }  // namespace gable

@@ -71,6 +71,7 @@ GltfMaterials::GltfMaterials(const Scene& scene, const WriteOptions& options,
       compact_(options.vertices == WriteOptions::Vertices::Compact ||
                options.vertices == WriteOptions::Vertices::Bare),
       bare_(options.vertices == WriteOptions::Vertices::Bare),
+      bakedUv_(options.bakedUv),
       warnings_(warnings),
       textures_(options, warnings) {}
 
@@ -140,7 +141,6 @@ GltfMaterials::Map GltfMaterials::mapOf(const Material& m, TextureLayer layer, u
   }
   map.image = image;
   map.transform = m.map(layer);
-  if (image != TextureSet::kNone && !plain(map.transform)) usesTransforms_ = true;
   return map;
 }
 
@@ -187,12 +187,19 @@ GltfMaterials::Variant GltfMaterials::make(const Material& m, uint32_t uvMask, b
              ": such textures are left out");
   }
   addSets(v, uvMask);
-  if (v.layout.uvCount > 0) v.layout.uvForm = form;
+  if (bakedUv_) bake(v);
+  // 16 bits need a transform to undo them, which is what baked numbers are to do without.
+  if (v.layout.uvCount > 0) v.layout.uvForm = bakedUv_ ? UvForm::Float : form;
   if (repeatsOf(v.layout.uvForm) > 0) {
     v.layout.uvRepeats = repeatsIn(m).value_or(Vec2{1, 1});
     usesTransforms_ = needsTransforms_ = true;
   }
-  v.layout.normals = !(bare_ && flat);
+  for (const Map* map : {&v.color, &v.metallicRoughness, &v.normal, &v.occlusion, &v.emissive}) {
+    usesTransforms_ =
+        usesTransforms_ || (map->image != TextureSet::kNone && !plain(map->transform));
+  }
+  // Without normals there are no tangents either.
+  v.layout.normals = !(bare_ && flat && v.layout.tangentSet < 0);
   return v;
 }
 
@@ -211,6 +218,31 @@ void GltfMaterials::addSets(Variant& v, uint32_t uvMask) {
   }
   for (Map* map : maps) {
     map->texcoord = static_cast<uint32_t>(std::popcount(used & ((1u << map->texcoord) - 1)));
+  }
+}
+
+// Maps that share a uv set share how they lie, or keep it for readers.
+void GltfMaterials::bake(Variant& v) const {
+  Map* maps[] = {&v.color, &v.metallicRoughness, &v.normal, &v.occlusion, &v.emissive};
+  const auto likeness = [](const TextureMap& t) {
+    return std::array<double, 5>{t.su, t.sv, t.tu, t.tv, t.rw};
+  };
+  for (uint32_t set = 0; set < v.layout.uvCount; ++set) {
+    const auto isOn = [set](const Map* m) {
+      return m->image != TextureSet::kNone && m->texcoord == set;
+    };
+    Map** const first = std::find_if(std::begin(maps), std::end(maps), isOn);
+    if (first == std::end(maps)) continue;
+    const TextureMap t = (*first)->transform;
+    const bool alike = std::all_of(first, std::end(maps), [&](const Map* m) {
+      return !isOn(m) || likeness(m->transform) == likeness(t);
+    });
+    if (!alike || plain(t)) continue;
+    v.layout.places[set] = {t.su, t.sv, t.tu, t.tv, cosDeg(t.rw), sinDeg(t.rw)};
+    v.layout.baked = true;
+    for (Map* m : maps) {
+      if (isOn(m)) m->transform = {};
+    }
   }
 }
 

@@ -5,6 +5,7 @@
 // brings: it fixes the layout of vertices and which TEXCOORD each texture reads.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -44,6 +45,14 @@ struct UvReach {
   double most = 0;
 };
 
+/// How a map lies on texture coordinates: scaled, turned, moved.
+struct UvPlace {
+  double su = 1, sv = 1, tu = 0, tv = 0, cosine = 1, sine = 0;
+  Vec2 at(const Vec2& uv) const {
+    return {cosine * su * uv.x - sine * sv * uv.y + tu, sine * su * uv.x + cosine * sv * uv.y + tv};
+  }
+};
+
 /// A vertex: position, normal, tangent if any, uv sets. In floats 3, 3, 4 and 2 each; compact, the
 /// position takes 12 bytes, or 8 as integers, normal and tangent 4 each, a uv set 4, or 8 as
 /// floats.
@@ -61,6 +70,9 @@ struct VertexLayout {
   UvForm uvForm = UvForm::Float;
   /// Of the picture, a unit of uv, where repeats are counted.
   Vec2 uvRepeats{1, 1};
+  /// Whether uv sets are written as places says, by TEXCOORD.
+  bool baked = false;
+  std::array<UvPlace, kTextureLayers> places{};
   /// Before it is packed: a normal is always there.
   uint32_t floats() const { return 6 + (tangentSet >= 0 ? 4 : 0) + 2 * uvCount; }
   uint32_t positionBytes(bool quantized) const { return quantized ? 8 : 12; }
@@ -128,13 +140,14 @@ class GltfMaterials {
   static std::vector<uint32_t> layoutKey(uint32_t material, const VertexLayout& layout);
   Map mapOf(const Material& m, TextureLayer layer, uint32_t uvMask, int image);
   void addSets(Variant& v, uint32_t uvMask);
+  void bake(Variant& v) const;
   void writeMaterial(JsonWriter& w, const Variant& v) const;
   void writeMap(JsonWriter& w, const char* name, const Map& map, UvForm form) const;
   static void writeExtensions(JsonWriter& w, const Material& m);
   void warnOnce(const std::string& text);
 
   const Scene& scene_;
-  bool keepUv_, compact_, bare_;
+  bool keepUv_, compact_, bare_, bakedUv_;
   std::vector<std::string>& warnings_;
   TextureSet textures_;
   std::vector<Variant> variants_;

@@ -50,9 +50,13 @@ using Instancing = WriteOptions::Instancing;
 PlanOptions planFor(const WriteOptions& options) {
   // As wide as a grid of the coarsest steps reaches, but for the steps that rounding may take.
   constexpr double kWidest = (VertexGrid::kMostSteps - 4) * 2 * WriteOptions::kMostQuantized;
-  return {options.instancing != Instancing::None,
-          options.instancing == Instancing::Auto ? WriteOptions::kMostNodes : 0,
-          options.vertices >= WriteOptions::Vertices::Compact ? kWidest : 0};
+  PlanOptions plan;
+  plan.share = options.instancing != Instancing::None;
+  plan.whole = options.instancing == Instancing::Shapes;
+  if (plan.whole || options.apart) return plan;
+  if (options.instancing == Instancing::Auto) plan.mostNodes = WriteOptions::kMostNodes;
+  if (options.vertices >= WriteOptions::Vertices::Compact) plan.widest = kWidest;
+  return plan;
 }
 
 // With a vertex of 24 bytes, as if each prototype were written once.
@@ -105,7 +109,7 @@ class GltfWriter {
         plan_(scene, planFor(options)),
         gpu_(options.instancing == Instancing::Gpu || plan_.grouped()),
         materials_(scene, options, report_.warnings),
-        document_(scene, plan_, materials_),
+        document_(scene, plan_, materials_, options),
         recentVariants_(256, {~uint64_t{0}, 0}) {}
 
   Result<WriteReport> write();

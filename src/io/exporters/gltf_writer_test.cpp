@@ -604,5 +604,111 @@ TEST(Quaternion, turnsAsTheFrameDoes) {
   }
 }
 
+TEST(GltfWriter, eachShapeIsOneMeshThatEqualOnesShare) {
+  const Scene s = street(5);
+  WriteOptions shapes;
+  shapes.instancing = WriteOptions::Instancing::Shapes;
+  const GlbModel model = roundTrip(s, "street-shapes.glb", shapes);
+  expectSame(model, s);
+  EXPECT_EQ(model.nodes, s.roots.size());
+  EXPECT_LT(model.meshes, model.nodes);
+  // A grid of steps fits no wide mesh; it is whole all the same.
+  shapes.vertices = WriteOptions::Vertices::Compact;
+  EXPECT_EQ(roundTrip(s, "street-shapes-compact.glb", shapes).nodes, model.nodes);
+}
+
+TEST(GltfWriter, levelsOfDetailAreNodesOutsideTheScene) {
+  SceneBuilder b;
+  const uint32_t fine = b.mesh(makeBoxMesh({2, 2, 2}, false)),
+                 coarse = b.mesh(makeBoxMesh({2, 2, 1.9}, false));
+  b.leaf(fine, Frame{}, {1, 1, 1});
+  const uint32_t house = b.prototype("House");
+  b.leaf(coarse, Frame{}, {1, 1, 1});
+  const uint32_t far = b.prototype("House_LOD1");
+  b.leaf(b.mesh(Mesh{}), Frame{}, {1, 1, 1});
+  const uint32_t nothing = b.prototype("Nothing");
+  b.root("House", house, Frame::moved({5, 0, 0}));
+  b.root("House_LOD1", far, Frame::moved({5, 0, 0}));
+  b.root("House_LOD2", nothing, Frame::moved({5, 0, 0}));
+  WriteOptions o;
+  o.apart = true;
+  o.levels = {{1, 2}, {}, {}};
+  o.coverage = {0.5, 0.25, 0};
+  const std::string path = written("levels.glb");
+  writeTo(b.scene, path, o);
+  GlbModel model;
+  model.read(path);
+  EXPECT_EQ(model.json["scenes"].at(0)["nodes"].size(), 1u);
+  const JsonValue& node = model.json["nodes"].at(0);
+  const JsonValue& ids = node["extensions"]["MSFT_lod"]["ids"];
+  // The level that has nothing to show is none.
+  ASSERT_EQ(ids.size(), 1u);
+  EXPECT_EQ(model.json["nodes"].at(1)["name"].text(), "House_LOD1");
+  EXPECT_EQ(ids.at(0).number(-1), 1);
+  EXPECT_EQ(node["extras"]["MSFT_screencoverage"].size(), 2u);
+  EXPECT_EQ(model.json["extensionsUsed"].at(0).text(), "MSFT_lod");
+  EXPECT_EQ(model.triangles.size(), 12u);
+}
+
+TEST(GltfWriter, bakedCoordinatesLieAsReadersWouldPlaceThem) {
+  SceneBuilder b;
+  Material m;
+  m.map(TextureLayer::Color) = {"wall.png", 2, 3, 0.25, 0.5, 90};
+  b.leaf(kUnitQuadXyUv, Frame{}, {1, 1, 1}, b.material(m));
+  b.root("a", b.prototype("a"), Frame{});
+  WriteOptions o;
+  o.bakedUv = true;
+  o.readTexture = [](const std::string&) { return encodePng(Image{1, 1, {9, 9, 9, 255}}, 3); };
+  const GlbModel model = roundTrip(b.scene, "baked.glb", o);
+  EXPECT_FALSE(model.json["extensionsUsed"].isArray());
+  EXPECT_EQ(model.bytes.find("KHR_texture_transform"), std::string::npos);
+  const JsonValue& attributes = model.json["meshes"].at(0)["primitives"].at(0)["attributes"];
+  const auto at = [&](const JsonValue& list, const JsonValue& number) -> const JsonValue& {
+    return list.at(static_cast<size_t>(number.number(-1)));
+  };
+  // The numbers of vertex i, of an attribute.
+  const auto values = [&](const char* name, size_t i, size_t count) {
+    const JsonValue& a = at(model.json["accessors"], attributes[name]);
+    const JsonValue& view = at(model.json["bufferViews"], a["bufferView"]);
+    const double start = view["byteOffset"].number(0) + a["byteOffset"].number(0) +
+                         static_cast<double>(i) * view["byteStride"].number(0);
+    std::vector<float> out(count);
+    std::memcpy(out.data(), model.buffer() + static_cast<size_t>(start), count * 4);
+    return out;
+  };
+  for (size_t i = 0; i < 4; ++i) {
+    const std::vector<float> p = values("POSITION", i, 3), uv = values("TEXCOORD_0", i, 2);
+    // Turned by a quarter: what ran along u runs along v.
+    EXPECT_NEAR(uv[0], 0.25 - 3.0 * p[1], 1e-6);
+    EXPECT_NEAR(1 - uv[1], 0.5 + 2.0 * p[0], 1e-6);
+  }
+}
+
+TEST(GltfWriter, texturesAreHalvedUntilTheyFit) {
+  Image image;
+  image.width = 40;
+  image.height = 9;
+  image.rgba.assign(size_t{40} * 9 * 4, 200);
+  const std::string png = encodePng(image).value();
+  SceneBuilder b;
+  Material m;
+  m.map(TextureLayer::Color).path = "wall.png";
+  b.leaf(kUnitBoxUv, Frame{}, {1, 1, 1}, b.material(m));
+  b.root("a", b.prototype("a"), Frame{});
+  for (const uint32_t size : {0u, 40u, 39u, 10u, 1u}) {
+    WriteOptions o;
+    o.readTexture = [&](const std::string&) { return Result<std::string>(png); };
+    o.textureSize = size;
+    const GlbModel model = roundTrip(b.scene, "halved.glb", o);
+    const JsonValue& view = model.json["bufferViews"].at(
+        static_cast<size_t>(model.json["images"].at(0)["bufferView"].number(-1)));
+    const std::string_view bytes(model.buffer() + static_cast<size_t>(view["byteOffset"].number(0)),
+                                 static_cast<size_t>(view["byteLength"].number(0)));
+    const ImageHeader h = readImageHeader(bytes).value();
+    EXPECT_EQ(h.width, size == 0 || size == 40 ? 40u : size == 39 ? 20u : size);
+    EXPECT_EQ(h.height, size == 0 || size == 40 ? 9u : size == 39 ? 5u : size == 10 ? 3u : 1u);
+  }
+}
+
 }  // namespace
 }  // namespace gable

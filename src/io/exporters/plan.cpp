@@ -140,10 +140,13 @@ Box3 boundsAt(const Box3& mesh, const Frame& at, const Vec3& scale) {
 }
 
 ScenePlan::ScenePlan(const Scene& scene, const PlanOptions& options)
-    : scene_(scene), share_(options.share), groupOf_(scene.roots.size(), kNone) {
+    : scene_(scene),
+      share_(options.share),
+      whole_(options.share && options.whole),
+      groupOf_(scene.roots.size(), kNone) {
   findEqual();
   measureMeshes();
-  if (share_) findAlone();
+  if (share_ && !whole_) findAlone();
   measure();
   const auto shown = std::count_if(scene.roots.begin(), scene.roots.end(),
                                    [&](const Root& r) { return bytes_[shownBy(r.instance)] > 0; });
@@ -328,7 +331,7 @@ void ScenePlan::decide() {
   for (size_t p = count; p-- > 0;) {
     if (references[p] == 0) continue;
     const bool tiny = isTiny(p) && roots[p] < 2;
-    if (!share_) {
+    if (!share_ || whole_) {
       use_[p] = Use::Solid;
     } else if (references[p] == 1 || tiny) {
       use_[p] = Use::Merged;

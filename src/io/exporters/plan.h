@@ -10,7 +10,8 @@
 //   - a large mesh (a tree, a statue) that several leaves place;
 //   - the content of many roots: of small ones of one name that stand near each other, when nodes
 //     are short; of all roots, when there are too many of them, or nothing is shared.
-// Prototypes of equal content are one, whatever made them.
+// Prototypes of equal content are one, whatever made them. Where roots are to be whole, the content
+// of each is one unit and there are no others.
 // A prototype placed once is merged into the unit around it. A prototype placed several times takes
 // its own children in when writing them again costs less than the nodes for each placement; one
 // that has little beside such children is merged, so that these are children of what is around it.
@@ -62,6 +63,8 @@ struct PlanOptions {
   uint64_t mostNodes = 0;
   /// Units that are wider, in metres, are cut into cells; 0 for none.
   double widest = 0;
+  /// The content of each root is one unit, which equal roots share.
+  bool whole = false;
 };
 
 /// By prototype: the first of equal content, whatever made them. Linear in the scene.
@@ -158,7 +161,7 @@ class ScenePlan {
   uint32_t unitOfLeaf(uint32_t leaf);
 
   const Scene& scene_;
-  bool share_;
+  bool share_, whole_;
   std::vector<Group> groups_;
   /// By root: its group, or kNone.
   std::vector<uint32_t> groupOf_;

@@ -346,5 +346,15 @@ TEST(Surface, scaledNormalsStayOutside) {
   EXPECT_EQ(scaledNormal({1, 0, 0}, {3, 0, 2}), (Vec3{1, 0, 0}));
 }
 
+TEST(ScenePlan, wholeRootsAreOneUnitEach) {
+  const Scene s = testing::street(5);
+  PlanOptions options;
+  options.whole = true;
+  const ScenePlan plan(s, options);
+  EXPECT_EQ(plan.roots().size(), s.roots.size());
+  EXPECT_LT(plan.units().size(), s.roots.size());
+  for (const ScenePlan::Unit& u : plan.units()) EXPECT_TRUE(u.children.empty());
+}
+
 }  // namespace
 }  // namespace gable

@@ -7,11 +7,13 @@
 #include "base/files.h"
 #include "base/work.h"
 #include "io/image/image.h"
+#include "io/image/jpeg.h"
 
 namespace gable {
 namespace {
 
 constexpr uint64_t kMostTextureBytes = 1ULL << 30;
+constexpr int kJpegQuality = 90;
 
 // Letters, digits and a few marks stay; the rest could mean something to a shell or in a URI.
 std::string plainName(const std::string& path) {
@@ -59,6 +61,12 @@ Result<std::string> TextureSet::load(const std::string& path) const {
   return read_ ? read_(path) : readFile(path, kMostTextureBytes);
 }
 
+Result<Image> TextureSet::fitted(Result<Image> image) const {
+  if (!image.ok() || longest_ == 0) return image;
+  while (std::max(image->width, image->height) > longest_) *image = halved(*image);
+  return image;
+}
+
 std::string TextureSet::uniqueName(const std::string& wanted) {
   if (names_.insert(wanted).second) return wanted;
   const std::string stem = stemOf(wanted), rest = wanted.substr(stem.size());
@@ -90,11 +98,14 @@ int TextureSet::add(const std::string& path) {
   if (!header.ok()) return refuse(path, path, header.error().message);
   const bool jpeg = header.value().format == ImageFormat::Jpeg;
   const bool png = !jpeg;
-  if (png && header.value().format != ImageFormat::Png) {
+  const bool large =
+      longest_ > 0 && std::max(header.value().width, header.value().height) > longest_;
+  if (large || (png && header.value().format != ImageFormat::Png)) {
     // Viewers read PNG and JPEG.
-    Result<Image> image = decodeImage(*bytes);
+    Result<Image> image = fitted(decodeImage(*bytes));
     if (!image.ok()) return refuse(path, path, image.error().message);
-    bytes = encodePng(*image, header.value().hasAlpha ? 4 : 3);
+    bytes = jpeg ? encodeJpeg(*image, kJpegQuality, false)
+                 : encodePng(*image, header.value().hasAlpha ? 4 : 3);
     if (!bytes.ok()) return refuse(path, path, bytes.error().message);
   }
   // The name's extension is made to tell the truth.
@@ -110,7 +121,7 @@ Result<TextureSet::Layer> TextureSet::readLayer(const std::string& path) const {
   if (path.empty()) return Layer{{1, 1, {255, 255, 255, 255}}, false};
   Result<std::string> bytes = load(path);
   if (!bytes.ok()) return bytes.error();
-  Result<Image> image = decodeImage(*bytes);
+  Result<Image> image = fitted(decodeImage(*bytes));
   if (!image.ok()) return image.error();
   return Layer{std::move(*image), readImageHeader(*bytes).value().hasAlpha};
 }

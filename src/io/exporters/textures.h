@@ -31,7 +31,7 @@ class TextureSet {
   static constexpr int kNone = -1;
 
   TextureSet(const WriteOptions& options, std::vector<std::string>& warnings)
-      : read_(options.readTexture), warnings_(warnings) {}
+      : read_(options.readTexture), longest_(options.textureSize), warnings_(warnings) {}
 
   /// The texture of a path; kNone, with one warning a path, when it cannot be used.
   int add(const std::string& path);
@@ -55,7 +55,11 @@ class TextureSet {
   std::string uniqueName(const std::string& wanted);
   int refuse(const std::string& key, const std::string& path, const std::string& why);
 
+  /// Made smaller, where it is too large.
+  Result<Image> fitted(Result<Image> image) const;
+
   TextureReader read_;
+  uint32_t longest_;
   std::vector<std::string>& warnings_;
   std::vector<ModelTexture> all_;
   std::map<std::string, int> known_;

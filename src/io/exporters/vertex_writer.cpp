@@ -177,7 +177,7 @@ VertexWriter::BoxTemplate VertexWriter::boxTemplate(const Mesh& m) {
 bool VertexWriter::addBox(uint32_t mesh, const Frame& frame, const Vec3& scale,
                           const VertexLayout& layout, PrimitiveState& state) {
   const bool mirrors = scale.x < 0 || scale.y < 0 || scale.z < 0;
-  if (layout.laid || layout.tangentSet >= 0 || layout.uvCount > 1 ||
+  if (layout.laid || layout.baked || layout.tangentSet >= 0 || layout.uvCount > 1 ||
       (layout.uvCount > 0 && (layout.uvForm == UvForm::Unit) != layout.compact) ||
       ((mirrors || !layout.normals) && layout.uvCount > 0))
     return false;
@@ -352,9 +352,10 @@ const float* VertexWriter::writeVertices(const Mesh& m, const Surface& s, const 
     }
     for (uint32_t i = 0; i < layout.uvCount; ++i) {
       const std::vector<Vec2>& uv = m.uvs[layout.uvSets[i]];
-      const Vec2 at = layout.laid  ? axes_.at(frame_.point(scaled(m.at(corner), scale_)))
-                      : uv.empty() ? Vec2{}
-                                   : uv[corner];
+      const Vec2 own = layout.laid  ? axes_.at(frame_.point(scaled(m.at(corner), scale_)))
+                       : uv.empty() ? Vec2{}
+                                    : uv[corner];
+      const Vec2 at = layout.places[i].at(own);
       *p++ = static_cast<float>(at.x);
       *p++ = static_cast<float>(1 - at.y);
     }

@@ -44,9 +44,22 @@ struct WriteOptions {
     Gpu,
     /// Not at all: everything is one mesh, merged by material.
     None,
+    /// A mesh for each initial shape, merged by material; equal ones share it.
+    Shapes,
   };
   static constexpr uint64_t kMostNodes = 20'000;
   Instancing instancing = Instancing::Auto;
+  /// glTF: every root has a node of its own, however many there are; not with Instancing::None.
+  bool apart = false;
+  /// glTF, where roots are apart: by root, the roots that show it from farther away, the finest
+  /// first (MSFT_lod). Those are in no scene of their own. Empty: there are none.
+  std::vector<std::vector<uint32_t>> levels;
+  /// The share of a view's height from which on each level is shown, the finest first.
+  std::vector<double> coverage;
+  /// glTF: as WriteSettings::bakedUv.
+  bool bakedUv = false;
+  /// Pictures are halved until no side is longer; 0 for any.
+  uint32_t textureSize = 0;
   /// glTF: what a vertex takes.
   enum class Vertices : uint8_t {
     /// Float where the parts of a scene, each once, take at most kMostFloat bytes; else Compact.

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The Gable authors
 #include "io/image/image.h"
 
+#include <algorithm>
+
 #include "base/work.h"
 #include "io/image/jpeg.h"
 #include "io/image/old_formats.h"
@@ -83,6 +85,35 @@ Result<Image> decodeImage(std::string_view bytes, uint64_t maxPixels) {
     case ImageFormat::Unknown: break;
   }
   return unknown();
+}
+
+Image halved(const Image& image) {
+  Image out;
+  out.width = (image.width + 1) / 2;
+  out.height = (image.height + 1) / 2;
+  reserveWork(out.rgba, 4.0 * out.width * out.height);
+  for (uint32_t y = 0; y < out.height; ++y) {
+    work(out.width);
+    for (uint32_t x = 0; x < out.width; ++x) {
+      const uint32_t right = std::min(2 * x + 1, image.width - 1);
+      const uint32_t below = std::min(2 * y + 1, image.height - 1);
+      const uint8_t* const four[] = {image.at(2 * x, 2 * y), image.at(right, 2 * y),
+                                     image.at(2 * x, below), image.at(right, below)};
+      uint32_t alpha = 0;
+      for (const uint8_t* p : four) alpha += p[3];
+      for (size_t c = 0; c < 3; ++c) {
+        uint32_t plain = 0, weighed = 0;
+        for (const uint8_t* p : four) {
+          plain += p[c];
+          weighed += uint32_t{p[c]} * p[3];
+        }
+        const uint32_t mean = alpha > 0 ? (weighed + alpha / 2) / alpha : (plain + 2) / 4;
+        out.rgba.push_back(static_cast<uint8_t>(mean));
+      }
+      out.rgba.push_back(static_cast<uint8_t>((alpha + 2) / 4));
+    }
+  }
+  return out;
 }
 
 }  // namespace gable

@@ -47,6 +47,10 @@ ImageFormat imageFormat(std::string_view bytes);
 Result<ImageHeader> readImageHeader(std::string_view bytes);
 Result<Image> decodeImage(std::string_view bytes, uint64_t maxPixels = kMostPixels);
 
+/// Half as wide and half as high, a pixel at least: the mean of four pixels each, weighed by their
+/// alpha.
+Image halved(const Image& image);
+
 /// `channels`: 3 drops alpha, 4 keeps it. `level`: zlib's, 1 fast to 9 small. The same bytes for
 /// the same picture on one version of the PNG library.
 Result<std::string> encodePng(const Image& image, int channels = 4, int level = 6);

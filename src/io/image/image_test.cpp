@@ -204,5 +204,17 @@ TEST(Image, largePicturesAreRefusedBeforeMemoryIsTaken) {
   EXPECT_FALSE(encodePng(Image{}, 4).ok());
 }
 
+TEST(Image, halvesWeighPixelsByTheirAlpha) {
+  Image image;
+  image.width = 3;
+  image.height = 2;
+  image.rgba = {100, 0, 0, 255, 200, 0, 0, 255, 8, 8, 8, 0,  //
+                100, 0, 0, 255, 0,   0, 0, 0,   8, 8, 8, 0};
+  const Image half = halved(image);
+  EXPECT_EQ(half.width, 2u);
+  EXPECT_EQ(half.height, 1u);
+  EXPECT_EQ(half.rgba, (std::vector<uint8_t>{133, 0, 0, 191, 8, 8, 8, 0}));
+}
+
 }  // namespace
 }  // namespace gable

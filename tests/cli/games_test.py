@@ -1,0 +1,213 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The Gable authors
+"""Models for game engines: games_test.py GABLE FOLDER. Run from the repository's root.
+
+A reader of its own looks at nodes, meshes and triangles of what is written."""
+import json
+import struct
+import sys
+import unittest
+from pathlib import Path
+
+from cli_test import USAGE, Case
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "written"))
+import model_check  # noqa: E402
+
+# Two houses, a court, and a lawn without height; the first of the names means something to Godot.
+RULES = """attr height = 9
+House --> extrude(height) comp(f) { side : Facade | top : Top }
+Top --> roofHip(30) Tiles.
+Facade --> split(y) { ~3 : split(x) { ~2 : Tile }* }*
+Tile --> split(x) { ~1 : Wall. | 1 : split(y) { 1 : Wall. | 1.2 : Window | ~1 : Wall. } | ~1 : Wall. }
+Window --> color("#335577") extrude(0.1) Pane.
+Court --> extrude(6) comp(f) { side : Wall. }
+Lawn --> color("#338833") Grass.
+Lot --> case startRule == "Court" : Court case startRule == "Lawn" : Lawn else : House
+attr startRule = "House"
+"""
+LOTS = (("House-col 1", "House", 0, 0, 20, 10), ("House-col 1", "House", 40, 0, 20, 10), ("Yard", "Court", 80, 0, 30, 30),
+        ("Lawn", "Lawn", 120, 0, 10, 10))
+
+METRES = {"type": "name", "properties": {"name": "EPSG:3857"}}
+
+
+def lots():
+    features = []
+    for name, rule, x, y, w, h in LOTS:
+        ring = [[x, y], [x + w, y], [x + w, y + h], [x, y + h], [x, y]]
+        features.append({"type": "Feature", "properties": {"name": name, "startRule": rule},
+                         "geometry": {"type": "Polygon", "coordinates": [ring]}})
+    return json.dumps({"type": "FeatureCollection", "crs": METRES, "features": features})
+
+
+class Glb:
+    def __init__(self, path):
+        data = path.read_bytes()
+        size, = struct.unpack_from("<I", data, 12)
+        self.json, self.buffer = json.loads(data[20:20 + size]), data[28 + size:]
+        self.top = [self.json["nodes"][n] for n in self.json["scenes"][0]["nodes"]]
+
+    def names(self):
+        return [n.get("name", "") for n in self.top]
+
+    def node(self, name):
+        found = [n for n in self.json["nodes"] if n.get("name") == name]
+        assert len(found) == 1, (name, self.names())
+        return found[0]
+
+    def mesh_name(self, node):
+        return self.json["meshes"][node["mesh"]]["name"]
+
+    def triangles(self, node):
+        """Triples of points in the frame of the node; turned nodes are not met."""
+        out = []
+        at = node.get("translation", [0, 0, 0])
+        for p in self.json["meshes"][node["mesh"]]["primitives"]:
+            points, _ = model_check.read_accessor(self.json, self.buffer, self.json["accessors"][p["attributes"]["POSITION"]])
+            corners, _ = model_check.read_accessor(self.json, self.buffer, self.json["accessors"][p["indices"]])
+            corner = [tuple(points[3 * c + k] + at[k] for k in range(3)) for c in corners]
+            out += [tuple(corner[i:i + 3]) for i in range(0, len(corner), 3)]
+        return out
+
+    def box(self, node):
+        points = [p for t in self.triangles(node) for p in t]
+        return [min(p[k] for p in points) for k in range(3)], [max(p[k] for p in points) for k in range(3)]
+
+    def volume(self, node):
+        """What closed triangles enclose."""
+        return sum(a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+                   a[2] * (b[0] * c[1] - b[1] * c[0]) for a, b, c in self.triangles(node)) / 6
+
+
+class Games(Case):
+    def setUp(self):
+        super().setUp()
+        self.put("x.cga", RULES)
+        self.put("lots.geojson", lots())
+
+    def made(self, *options, name="a.glb", says=""):
+        told = self.run_gable("generate", "x.cga", "--shapes", "lots.geojson", "-o", name, *options, says=says)
+        self.assertEqual(model_check.problems(self.folder / name), [])
+        return Glb(self.folder / name), told
+
+    def testShapesAreOneMeshEach(self):
+        glb, _ = self.made("--instancing", "shapes")
+        self.assertEqual(len(glb.json["nodes"]), 4)
+        self.assertEqual(len(glb.json["meshes"]), 4)
+        split, _ = self.made("--instancing", "nodes")
+        self.assertGreater(len(split.json["nodes"]), 10)
+
+    def testGodotFindsItsCollisionNodes(self):
+        glb, _ = self.made("--for", "godot")
+        shapes = ["House_col_1_part", "House_col_1_part_2", "Yard", "Lawn"]
+        self.assertEqual(sorted(glb.names()), sorted([*shapes, *(f"{s}-colonly" for s in shapes)]))
+        yard = glb.node("Yard-colonly")
+        # A court stays open: its four walls are there, and nothing between them.
+        self.assertEqual(len(glb.triangles(yard)), 8)
+        self.assertNotIn("extensionsRequired", glb.json)
+        hull, told = self.made("--for", "godot", "--collision", "hull")
+        self.assertIn("'--collision hull' holds in place of 'mesh', the choice for godot [profile-overridden]", told)
+        self.assertIn("Yard-convcolonly", hull.names())
+        self.assertAlmostEqual(hull.volume(hull.node("Yard-convcolonly")), 30 * 30 * 6, 1)
+
+    def testCollisionShapesEncloseTheirShape(self):
+        for kind in ("box", "hull"):
+            glb, _ = self.made("--names", "unique", "--instancing", "shapes", "--collision", kind)
+            for shape in ("House_col_1_part", "Yard", "Lawn"):
+                inner, outer = glb.box(glb.node(shape)), glb.box(glb.node(shape + "_collision"))
+                for k in range(3):
+                    self.assertLessEqual(outer[0][k], inner[0][k] + 1e-3, (kind, shape))
+                    self.assertGreaterEqual(outer[1][k], inner[1][k] - 1e-3, (kind, shape))
+            house = glb.node("House_col_1_part_collision")
+            low, high = glb.box(house)
+            around = (high[0] - low[0]) * (high[1] - low[1]) * (high[2] - low[2])
+            ratio = glb.volume(house) / around
+            self.assertAlmostEqual(ratio, 1, 2) if kind == "box" else self.assertLess(ratio, 0.97)
+            # What is flat gets a body, below its surface.
+            low, high = glb.box(glb.node("Lawn_collision"))
+            self.assertAlmostEqual(high[1], 0, 3)
+            self.assertAlmostEqual(low[1], -0.1, 3)
+
+    def testUnrealFindsMeshesByName(self):
+        glb, _ = self.made("--for", "unreal")
+        for node in glb.top:
+            if not node["name"].startswith("UCX_"):
+                hull = glb.node(f"UCX_{node['name']}_00")
+                self.assertEqual(glb.mesh_name(hull), f"UCX_{glb.mesh_name(node)}_00")
+                self.assertEqual(hull.get("translation"), node.get("translation"))
+        for level in (1, 2):
+            coarse = Glb(self.folder / f"a_LOD{level}.glb")
+            self.assertEqual({coarse.mesh_name(n) for n in coarse.top} - {"Lawn"},
+                             {glb.mesh_name(n) for n in glb.top if "UCX_" not in n["name"]} - {"Lawn"})
+        answer = json.loads(self.run_gable("generate", "x.cga", "--lot", "9x9", "-o", "b.glb", "--for", "unreal", "--json"))
+        self.assertEqual(answer["files"], ["b.glb", "b_LOD1.glb", "b_LOD2.glb"])
+
+    def testLevelsAreCoarser(self):
+        glb, _ = self.made("--for", "unity")
+        counts = [len(glb.triangles(glb.node(f"House_col_1_part_LOD{n}"))) for n in range(3)]
+        self.assertGreater(counts[0], 1.5 * counts[1])
+        self.assertGreaterEqual(counts[1], counts[2])
+        full, coarse = (glb.box(glb.node(f"House_col_1_part_LOD{n}")) for n in (0, 2))
+        for k in range(3):
+            self.assertAlmostEqual(full[0][k], coarse[0][k], delta=2)
+            self.assertAlmostEqual(full[1][k], coarse[1][k], delta=2)
+        # What saves nothing is the finer level once more.
+        self.assertEqual(glb.node("Yard_LOD1")["mesh"], glb.node("Yard_LOD0")["mesh"])
+
+    def testMsftLodNamesNodesOutsideTheScene(self):
+        glb, _ = self.made("--lods", "2", "--lod-form", "msft", "--instancing", "shapes")
+        self.assertEqual(glb.json["extensionsUsed"], ["MSFT_lod"])
+        self.assertEqual(len(glb.top), 4)
+        seen = set(glb.json["scenes"][0]["nodes"])
+        for node in glb.top[:3]:
+            ids = node["extensions"]["MSFT_lod"]["ids"]
+            self.assertEqual(len(ids), 2)
+            self.assertFalse(seen & set(ids))
+            coverage = node["extras"]["MSFT_screencoverage"]
+            self.assertEqual(len(coverage), 3)
+            self.assertEqual(coverage, sorted(coverage, reverse=True))
+            sizes = [len(glb.triangles(n)) for n in (node, *(glb.json["nodes"][i] for i in ids))]
+            self.assertEqual(sizes, sorted(sizes, reverse=True))
+
+    def testPicturesAreMadeSmaller(self):
+        self.put("t.cga", 'Lot --> setupProjection(0, scope.xz, 1, 1) projectUV(0) texture("builtin:textures/02_brick.png") X.')
+        for size, most in ((0, 1 << 14), (64, 64), (100, 100)):
+            self.run_gable("generate", "t.cga", "--lot", "9x9", "-o", "t.glb", "--texture-size", str(size))
+            glb = Glb(self.folder / "t.glb")
+            view = glb.json["bufferViews"][glb.json["images"][0]["bufferView"]]
+            width, height = struct.unpack_from(">II", glb.buffer, view.get("byteOffset", 0) + 16)
+            self.assertLessEqual(max(width, height), most)
+            self.assertGreater(min(width, height), 30)
+
+    def testThreadsDoNotMatter(self):
+        for profile in ("blender", "cesium", "godot", "unity", "unreal"):
+            self.made("--for", profile, "--jobs", "1", name="one.glb")
+            self.made("--for", profile, "--jobs", "4", name="four.glb")
+            self.assertEqual((self.folder / "one.glb").read_bytes(), (self.folder / "four.glb").read_bytes())
+
+    def testWhatCannotBeIsTold(self):
+        for options, says in ((["--for", "godt"], "godot"), (["--collision", "hul"], "hull"), (["--lods", "4"], "--lods"),
+                              (["--lods", "1.5"], "--lods"), (["--texture-size", "-1"], "--texture-size"),
+                              (["--collision", "box", "--instancing", "none"], "use the instancing 'shapes'"),
+                              (["--names", "unreal", "--collision", "mesh"], "convex")):
+            self.run_gable("generate", "x.cga", "--lot", "9x9", "-o", "a.glb", *options, status=USAGE, says=says)
+        self.run_gable("generate", "x.cga", "--lot", "9x9", "-o", "a.obj", "--for", "godot", status=USAGE, says="a.obj")
+        self.run_gable("generate", "x.cga", "--lot", "9x9", "-o", "a.obj", "--lods", "1", status=USAGE,
+                       says="[write-options-clash]")
+        self.assertFalse((self.folder / "a.glb").exists())
+        self.put("empty.cga", "Lot --> NIL")
+        self.run_gable("generate", "empty.cga", "--lot", "9x9", "-o", "a.glb", "--for", "unreal", says="empty-model")
+
+    def testPlacesAreShapesToo(self):
+        self.put("city.cga", 'attr height = 0\nBuilding --> extrude(7) X.\nLot --> X.\n')
+        house = {"type": "Feature", "properties": {"building": "house"},
+                 "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [20, 0], [20, 10], [0, 10], [0, 0]]]}}
+        self.put("map.geojson", json.dumps({"type": "FeatureCollection", "crs": METRES, "features": [house]}))
+        self.run_gable("city", "map.geojson", "--rules", "city.cga", "-o", "c.glb", "--for", "godot")
+        self.assertTrue(any("-colonly" in n for n in Glb(self.folder / "c.glb").names()))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
