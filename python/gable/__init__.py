@@ -14,6 +14,7 @@ Rules, Shapes and Model never change once they are made. What goes wrong is rais
 with the messages; what is only a warning stands in `messages` of the result.
 """
 
+from gable._dataset import Dataset, dataset
 from gable._derive import derive
 from gable._gable import version as __version__
 from gable._messages import Error, Message
@@ -23,6 +24,7 @@ from gable._shapes import Outline, Shapes
 
 __all__ = [
     "Attribute",
+    "Dataset",
     "Error",
     "Leaf",
     "Material",
@@ -35,5 +37,6 @@ __all__ = [
     "Rule",
     "Rules",
     "Shapes",
+    "dataset",
     "derive",
 ]

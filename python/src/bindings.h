@@ -41,9 +41,13 @@ py::array arrayOf(std::vector<T>&& values, size_t columns = 0) {
   return py::array_t<T>(shape, owner->data(), base);
 }
 
+/// Of the rules, by name, as DeriveSettings takes them.
+void setAttributes(DeriveSettings& settings, const py::dict& attributes);
+
 void bindRules(py::module_& m);
 void bindShapes(py::module_& m);
 void bindModel(py::module_& m);
 void bindDerive(py::module_& m);
+void bindDataset(py::module_& m);
 
 }  // namespace gable::python

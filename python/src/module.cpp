@@ -11,4 +11,5 @@ PYBIND11_MODULE(_gable, m) {
   bindShapes(m);
   bindModel(m);
   bindDerive(m);
+  bindDataset(m);
 }

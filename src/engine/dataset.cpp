@@ -99,6 +99,10 @@ class Maker {
     note(model.diagnostics());
     if (model.end() != End::Done) return stop({}, model.end());
     if (hasErrors(model.diagnostics())) return stop({});
+    const PictureMaker maker(model);
+    if (!maker.ok()) return stop(maker.diagnostics());
+    // Settings that no picture can be made by must not become those of the folder.
+    if (!maker.pose(settings_.picture)) return stop(maker.draw(settings_.picture).diagnostics);
     if (const auto e = folder_.begin()) return stop({diagnosticOf(*e)});
     if (!settings_.model.empty() && !folder_.has(folder_.model(seed))) {
       if (!put(folder_.model(seed), [&](const std::string& aside) {
@@ -107,8 +111,6 @@ class Maker {
         return;
       }
     }
-    const PictureMaker maker(model);
-    if (!maker.ok()) return stop(maker.diagnostics());
     const Labeller labeller(rules_, categories_, settings_.labels, model);
     for (uint32_t camera = 0; camera < settings_.cameras && !stopped_; ++camera) {
       const std::string name = folder_.item(seed, camera);

@@ -195,6 +195,8 @@ class Dataset(Case):
             self.make("a", *option, status=USAGE, says=option[0])
         self.assertFalse((self.folder / "a").exists())
         self.make("a", "--set", "heigth=3", status=WRONG, says="[unknown-attribute]")
+        self.make("a", "--sun-at", "2024-06-21,12", status=FILE, says="[picture-settings]")
+        self.assertFalse((self.folder / "a").exists())
         self.put("x.cga", "Lot --> extrude(3) X.")
         self.make("b", "--labels", "label", status=WRONG, says="[dataset-labels]")
         self.make("x.cga", status=FILE, says="[dataset-folder]")

@@ -6,6 +6,7 @@
 
 BUILD holds python/gable. The examples of docs/guide/python.md are run one after the other, too.
 """
+import json
 import os
 import re
 import signal
@@ -278,6 +279,53 @@ class OfPyPrt(unittest.TestCase):
                 pyprt.ModelGenerator(shapes).generate_model([{}] * 3, path)
             with self.assertRaisesRegex(ValueError, "no encoder"):
                 pyprt.ModelGenerator(shapes).generate_model([{}], path, "other", {})
+
+
+class Datasets(unittest.TestCase):
+    rules = gable.Rules.parse(BOX.replace("Lot -->", '@Label("box")\nLot -->'))
+    small = {"count": 2, "cameras": 2, "size": (24, 20), "samples": 1, "height": 6}
+
+    def files(self, folder):
+        return {p.relative_to(folder): p.read_bytes() for p in Path(folder).rglob("*") if p.is_file()}
+
+    def test_the_same_in_one_go_and_in_parts(self):
+        with tempfile.TemporaryDirectory() as folder:
+            whole, parts = Path(folder) / "whole", Path(folder) / "parts"
+            told = []
+            made = gable.dataset(self.rules, gable.Shapes.lot(9, 5), whole, labels="label", jobs=2,
+                                 progress=lambda done, total: told.append((done, total)), **self.small)
+            self.assertEqual((made.items, made.made, made.done, made.is_whole, told[-1]), (4, 4, 4, True, (4, 4)))
+            first = gable.dataset(self.rules, gable.Shapes.lot(9, 5), parts, labels="label", shard=(1, 2), **self.small)
+            self.assertEqual((first.made, first.is_whole), (2, False))
+            rest = gable.dataset(self.rules, gable.Shapes.lot(9, 5), parts, labels="label", jobs=1, **self.small)
+            self.assertEqual((rest.made, rest.is_whole), (2, True))
+            self.assertEqual(self.files(whole), self.files(parts))
+            coco = json.loads((whole / "coco.json").read_text())
+            self.assertEqual([c["name"] for c in coco["categories"]], ["box"])
+            self.assertEqual(len(coco["annotations"]), 4)
+
+    def test_mistakes(self):
+        lot = gable.Shapes.lot(9, 5)
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaisesRegex(ValueError, "labels"):
+                gable.dataset(self.rules, lot, folder, labels="colour")
+            with self.assertRaisesRegex(ValueError, "count"):
+                gable.dataset(self.rules, lot, folder, count=0)
+            for wrong, code in (({"model": "doc"}, "dataset-settings"), ({"shard": (2, 2)}, "dataset-settings"),
+                                ({"size": (0, 4)}, "picture-size"), ({"attributes": {"heigth": 3}}, "unknown-attribute")):
+                with self.assertRaises(gable.Error) as raised:
+                    gable.dataset(self.rules, lot, Path(folder) / "x", **{**self.small, **wrong})
+                self.assertEqual(raised.exception.messages[0].code, code)
+
+    def test_progress_and_what_it_raises(self):
+        class Enough(Exception):
+            pass
+        def stop(done, total):
+            raise Enough
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaises(Enough):
+                gable.dataset(self.rules, gable.Shapes.lot(9, 5), folder, progress=stop, **{**self.small, "count": 50})
+            self.assertFalse((Path(folder) / "coco.json").exists())
 
 
 class Package(unittest.TestCase):

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The Gable authors
+"""Data sets for learning."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from gable import _gable
+from gable._messages import Error, Message, messages_of, path_text
+from gable._rules import Rules
+from gable._shapes import Shapes
+
+_WORDS = {"placing": ("orbit", "sampled"), "labels": ("rule", "label"), "format": ("coco", "json")}
+
+
+@dataclass(frozen=True)
+class Dataset:
+    """What `dataset` has made."""
+
+    folder: str
+    items: int
+    """All that were asked for."""
+    made: int
+    """Those that this call has made."""
+    done: int
+    """Those that are there now."""
+    is_whole: bool
+    """All are there, and the list of them."""
+    messages: list[Message]
+
+
+def dataset(
+    rules: Rules,
+    shapes: Shapes,
+    folder: str | os.PathLike[str],
+    *,
+    count: int = 1,
+    cameras: int = 4,
+    seed: float = 0,
+    placing: str = "orbit",
+    labels: str = "rule",
+    format: str = "coco",
+    model: str | None = "glb",
+    size: tuple[int, int] = (512, 512),
+    samples: int = 16,
+    sun: tuple[float, float] | None = None,
+    field_of_view: float | None = None,
+    pitch: float | None = None,
+    start_rule: str | None = None,
+    attributes: Mapping[str, Any] | None = None,
+    shard: tuple[int, int] | None = None,
+    jobs: int | None = None,
+    seconds: float | None = None,
+    progress: Callable[[int, int], None] | None = None,
+    **more: Any,
+) -> Dataset:
+    """Makes labelled pictures of `count` seeds, from `seed` on, by `cameras` cameras each.
+
+    `placing` of cameras is "orbit" or "sampled"; `labels` are by "rule" or "label" (@Label); the
+    `format` of the list is "coco" or "json"; `model` is the extension of the mesh of each seed, or
+    None. What is in the folder already is kept, so that a call that was stopped goes on, and other
+    processes may work on the folder at the same time. `shard` (i, n) makes every n-th seed alone.
+
+    Attributes of the rules, `jobs`, `progress` and Ctrl-C are as in `derive`.
+    """
+    words = {"placing": placing, "labels": labels, "format": format}
+    for name, word in words.items():
+        if word not in _WORDS[name]:
+            raise ValueError(f"{name} is one of {', '.join(_WORDS[name])}, not {word!r}")
+    for name, number in (("count", count), ("cameras", cameras)):
+        if number < 1:
+            raise ValueError(f"{name} is 1 or more, not {number!r}")
+    options = {
+        **words,
+        "count": count,
+        "cameras": cameras,
+        "seed": float(seed),
+        "model": model,
+        "width": size[0],
+        "height": size[1],
+        "samples": samples,
+        "sun": sun,
+        "field_of_view": field_of_view,
+        "pitch": pitch,
+        "start_rule": start_rule,
+        "attributes": {**(attributes or {}), **more},
+        "shard": shard,
+        "jobs": jobs,
+        "seconds": seconds,
+    }
+    result = _gable.dataset(rules._raw, shapes._raw, path_text(folder), options, progress)
+    messages = messages_of(result.pop("messages"))
+    if not result.pop("ok"):
+        raise Error(messages)
+    return Dataset(folder=path_text(folder), messages=messages, **result)
