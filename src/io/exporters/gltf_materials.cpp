@@ -76,7 +76,8 @@ GltfMaterials::GltfMaterials(const Scene& scene, const WriteOptions& options,
       textures_(options, warnings) {}
 
 UvForm GltfMaterials::uvFormOf(uint32_t material, const UvReach& reach) {
-  if (!compact_ || material == kNoMaterial) return UvForm::Float;
+  // What counts repeats needs a transform, which is what baked numbers are to do without.
+  if (!compact_ || bakedUv_ || material == kNoMaterial) return UvForm::Float;
   if (reach.unit) return UvForm::Unit;
   if (material >= repeats_.size()) repeats_.resize(scene_.materials.size(), -1);
   double& repeats = repeats_[material];
@@ -188,8 +189,7 @@ GltfMaterials::Variant GltfMaterials::make(const Material& m, uint32_t uvMask, b
   }
   addSets(v, uvMask);
   if (bakedUv_) bake(v);
-  // 16 bits need a transform to undo them, which is what baked numbers are to do without.
-  if (v.layout.uvCount > 0) v.layout.uvForm = bakedUv_ ? UvForm::Float : form;
+  if (v.layout.uvCount > 0) v.layout.uvForm = form;
   if (repeatsOf(v.layout.uvForm) > 0) {
     v.layout.uvRepeats = repeatsIn(m).value_or(Vec2{1, 1});
     usesTransforms_ = needsTransforms_ = true;
