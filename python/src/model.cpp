@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bindings.h"
+#include "gable/writing.h"
 
 namespace gable::python {
 

@@ -242,7 +242,7 @@ gable_status gable_model_write(const gable_model* model, const char* path,
                                const gable_write_settings* settings) {
   return with<ModelObject>(model, [&](const ModelValue& m) {
     if (!path) return nullArgument();
-    WriteSettings s;
+    gable::WriteSettings s;
     if (const gable_status status = settingsOf(settings, s); status != GABLE_OK) return status;
     const gable::WriteResult written = m.model.write(path, s);
     return written.ok ? GABLE_OK : writeError(written.diagnostics);
@@ -254,7 +254,7 @@ gable_status gable_model_encode(const gable_model* model, const char* format,
   if (blob) *blob = nullptr;
   return with<ModelObject>(model, [&](const ModelValue& m) {
     if (!format || !blob) return nullArgument();
-    WriteSettings s;
+    gable::WriteSettings s;
     if (const gable_status status = settingsOf(settings, s); status != GABLE_OK) return status;
     gable::EncodeResult encoded = m.model.encode(format, s);
     if (!encoded.ok) return writeError(encoded.diagnostics);
