@@ -6,7 +6,7 @@
 namespace gable {
 
 void KeyHash::add(const ShapeExtra& extra) {
-  add(extra.trim.size());
+  add(uint64_t{extra.trim.size()});
   for (const TrimPlane& t : extra.trim) {
     add(t.normal);
     add(t.distance);

@@ -191,7 +191,8 @@ std::span<const uint32_t> Components::facesOfSlot(uint32_t slot) const {
                                           [&](uint32_t f) { return slotOf(f) < slot; });
   const auto end =
       std::partition_point(first, bySlot_.end(), [&](uint32_t f) { return slotOf(f) == slot; });
-  return {first, end};
+  const auto begin = static_cast<size_t>(first - bySlot_.begin());
+  return std::span(bySlot_).subspan(begin, static_cast<size_t>(end - first));
 }
 
 void Components::addSlots() {
