@@ -39,7 +39,9 @@ struct Example {
 void PrintTo(const Example& example, std::ostream* out) { *out << example.name; }
 
 // The examples that are looked at, besides all park grammars.
-const std::set<std::string> kLookedAt = {"brownstone", "halftimber", "haussmann", "rowhouse"};
+const std::set<std::string> kLookedAt = {"brownstone", "gbbg",         "grove",
+                                         "halftimber", "haussmann",    "progen3d",
+                                         "rowhouse",   "suburb_house", "tower"};
 
 std::string folder() { return std::string(GABLE_SOURCE_DIR) + "/examples/"; }
 
