@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// The models of examples, as things of solid parts: no faces of two materials in one plane,
+// nothing that nothing carries, and no thing that stands in another. What is not mended yet stands
+// in known_faults.txt.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <ostream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "cases/solid_faults.h"
+#include "engine/impl.h"
+#include "gable/gable.h"
+#include "known_faults.h"
+
+namespace gable {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Example {
+  std::string name, rules;
+  /// Shown on so many seeds, from its own on.
+  int seeds = 2;
+  double seed = 0, width = 20, depth = 20;
+};
+
+void PrintTo(const Example& example, std::ostream* out) { *out << example.name; }
+
+// The examples that are looked at, besides all park grammars.
+const std::set<std::string> kLookedAt = {"brownstone", "gbbg",         "grove",
+                                         "halftimber", "haussmann",    "progen3d",
+                                         "rowhouse",   "suburb_house", "tower"};
+
+std::string folder() { return std::string(GABLE_SOURCE_DIR) + "/examples/"; }
+
+// The lot and the seed of generate.args.
+void readArguments(Example& example) {
+  std::ifstream file(folder() + example.name + "/generate.args");
+  std::istringstream text(std::string(std::istreambuf_iterator<char>(file), {}));
+  for (std::string word; text >> word;) {
+    if (word == "--seed") text >> example.seed;
+    char by = 0;
+    if (word == "--lot") text >> example.width >> by >> example.depth;
+  }
+}
+
+std::vector<Example> examples() {
+  std::vector<Example> all;
+  for (const auto& entry : fs::recursive_directory_iterator(folder())) {
+    const fs::path& path = entry.path();
+    const std::string extension = path.extension().string(), stem = path.stem().string();
+    const std::string parent = path.parent_path().filename().string();
+    const bool park = extension == ".park";
+    const bool known = extension == ".cga" || extension == ".gbbg" || extension == ".grammar";
+    if (!park && (!known || stem != parent)) continue;
+    Example example;
+    example.name = park ? "park_" + stem : stem;
+    example.rules = path.string();
+    readArguments(example);
+    if (park) example.width = example.depth = 40;
+    if (!park && kLookedAt.count(stem) == 0) continue;
+    all.push_back(example);
+  }
+  std::sort(all.begin(), all.end(),
+            [](const Example& a, const Example& b) { return a.name < b.name; });
+  return all;
+}
+
+Shapes shapesOf(const Example& example) {
+  const std::string map = folder() + example.name + "/buildings.geojson";
+  if (!fs::exists(map)) return Shapes::lot(example.width, example.depth);
+  return Shapes::load(map);
+}
+
+// Parts of one thing, such as the limbs of a figure or the stones of a wall, may be joined by
+// standing in each other: rules of one file make one kind of thing. Twigs and leaves may reach into
+// anything.
+bool mayOverlap(const cases::Parts& parts, uint32_t a, uint32_t b) {
+  const auto fileOf = [&](uint32_t i) -> const std::string& {
+    return parts.scene().sources[parts[i].leaf->source].file;
+  };
+  const auto grows = [&](uint32_t i) {
+    return parts.name(i) == "Foliage" || parts.name(i) == "Petals";
+  };
+  return fileOf(a) == fileOf(b) || grows(a) || grows(b);
+}
+
+FaultCounts faultsOf(const Scene& scene) {
+  const cases::Parts parts(scene);
+  FaultCounts counts;
+  const auto label = [&](uint32_t i) { return parts.rule(i) + ":" + parts.name(i); };
+  const auto addPair = [&](const char* kind, const cases::SolidFault& fault) {
+    std::string a = label(fault.first), b = label(fault.second);
+    if (b < a) std::swap(a, b);
+    ++counts[std::string(kind) + " " + a + " " + b];
+  };
+  for (const cases::SolidFault& f : cases::coplanarFaces(parts, 0)) addPair("coplanar", f);
+  const auto skip = [&](uint32_t a, uint32_t b) { return mayOverlap(parts, a, b); };
+  for (const cases::SolidFault& f : cases::overlaps(parts, skip)) addPair("overlapping", f);
+  for (const cases::SolidFault& f : cases::floatingParts(parts, 0)) {
+    ++counts["floating " + label(f.first)];
+  }
+  return counts;
+}
+
+class Solids : public testing::TestWithParam<Example> {};
+
+TEST_P(Solids, standFreeOfFaults) {
+  const Example& example = GetParam();
+  const Rules rules = Rules::load(example.rules);
+  ASSERT_TRUE(rules.ok()) << render(rules.diagnostics());
+  FaultCounts most;
+  for (int i = 0; i < example.seeds; ++i) {
+    DeriveSettings settings;
+    settings.seed = example.seed + i;
+    settings.jobs = 2;
+    const Model model = derive(rules, shapesOf(example), settings);
+    ASSERT_FALSE(hasErrors(model.diagnostics())) << render(model.diagnostics());
+    EXPECT_GT(count(model.impl().result.scene).leaves, 3u);
+    for (const auto& [what, count] : faultsOf(model.impl().result.scene)) {
+      most[what] = std::max(most[what], count);
+    }
+  }
+  KnownFaults known(std::string(GABLE_SOURCE_DIR) + "/tests/examples/known_faults.txt");
+  EXPECT_EQ(known.complaints(), "");
+  if (std::getenv("GABLE_UPDATE")) known.lower(example.name, most);
+  EXPECT_EQ(known.compare(example.name, most), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Solids, testing::ValuesIn(examples()),
+                         [](const auto& each) { return each.param.name; });
+
+}  // namespace
+}  // namespace gable
