@@ -31,7 +31,10 @@ int datasetSettings(const DatasetArguments& a, gable::DatasetSettings& s) {
   s.labels = gable::datasetLabelsNamed(a.labels).value_or(s.labels);
   s.format = gable::datasetFormatNamed(a.format).value_or(s.format);
   s.model = a.model == "none" ? std::string() : a.model;
-  s.write = writeSettings(a.write, a.picture.derive.limits);
+  const std::string model = "model." + (s.model.empty() ? std::string("glb") : s.model);
+  if (const int status = writeSettings(a.write, model, a.picture.derive.limits, s.write)) {
+    return status;
+  }
   s.jobs = a.picture.derive.jobs;
   s.limits = s.picture.limits;
   s.limits.cancel = cancelFlag();
