@@ -25,8 +25,9 @@ constexpr To bit_cast(const From& from) noexcept {
 template <class C, class T, class A>
 strong_ordering operator<=>(const basic_string<C, T, A>& a, const basic_string<C, T, A>& b) {
   const int order = a.compare(b);
-  return order < 0 ? strong_ordering::less
-                   : order > 0 ? strong_ordering::greater : strong_ordering::equal;
+  return order < 0   ? strong_ordering::less
+         : order > 0 ? strong_ordering::greater
+                     : strong_ordering::equal;
 }
 
 // The results are those that the standard asks for: the same texts and numbers as everywhere.
