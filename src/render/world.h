@@ -95,7 +95,8 @@ struct World {
 /// O(triangles stored). Textures are asked for here, once each.
 World makeWorld(const Scene& scene, const TextureSource* textures);
 
-/// Points that span the subject for framing: corners of triangles or of boxes, at most about `limit`.
+/// Points that span the subject for framing: corners of triangles or of boxes, at most about
+/// `limit`.
 std::vector<Vec3f> framingPoints(const World& world, size_t limit = 200000);
 
 uint32_t packNormal(const Vec3f& n);

@@ -131,7 +131,8 @@ struct Scene {
   std::vector<Report> reports;
   std::vector<std::string> prints;
   GeoOrigin geoOrigin;
-  /// Around the initial shapes, in the world; empty where nobody knows. Rules may add land about it.
+  /// Around the initial shapes, in the world; empty where nobody knows. Rules may add land about
+  /// it.
   Box3 place;
 
   Scene();

@@ -226,10 +226,10 @@ void Analysis::reportArgument(NodeId node, const RuleInfo& rule, size_t paramete
   const Tree& t = program_.tree(rule.module);
   const std::string name(t.text(t.child(paramsOf(t, rule.node), parameter)));
   const ValueType wanted = rule.paramTypes[parameter];
-  errorAt("type-mismatch", node,
-          "the argument " + quote(name) + " must be a " + typeName(wanted) + ", not a " +
-              typeName(got),
-          "the rule is written " + formOf(rule));
+  errorAt(
+      "type-mismatch", node,
+      "the argument " + quote(name) + " must be a " + typeName(wanted) + ", not a " + typeName(got),
+      "the rule is written " + formOf(rule));
 }
 
 bool Analysis::applyRule(NodeId node, const std::vector<RuleId>& rules,
