@@ -3,8 +3,8 @@
 import { svelte } from '@sveltejs/vite-plugin-svelte';
 import { defineConfig } from 'vite';
 
-// The studio's page with the engine of build/wasm in a worker, as static files for any folder of any
-// server. tools/playground.sh adds the examples.
+// The studio's page with the engine of build/wasm in a worker, as static files for any folder of
+// any server. tools/playground.sh adds the examples.
 export default defineConfig({
   base: './',
   plugins: [

@@ -67,7 +67,9 @@ function modelOf(page: Page, models: string | undefined): string | undefined {
 function opened(page: Page, root: string, playground: string | undefined): string | undefined {
   const example = playground ? exampleOf(page.source) : undefined;
   const notations = ['cga', 'gbbg', 'grammar', 'park'];
-  const rules = notations.some((n) => existsSync(join(root, `examples/${example}/${example}.${n}`)));
+  const rules = notations.some((n) =>
+    existsSync(join(root, `examples/${example}/${example}.${n}`)),
+  );
   return rules ? example : undefined;
 }
 
@@ -88,7 +90,11 @@ async function main(): Promise<void> {
       page.source === 'examples/README.md'
         ? galleryPage(markdown.page(page, text), pages, root, markdown, links, models)
         : markdown.page(page, text);
-    write(out, page.path, layout({ page, content, menu, model, example: opened(page, root, playground) }));
+    write(
+      out,
+      page.path,
+      layout({ page, content, menu, model, example: opened(page, root, playground) }),
+    );
     search.add(page, content.sections);
     if (model && models) {
       mkdirSync(join(out, 'models'), { recursive: true });

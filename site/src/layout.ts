@@ -72,7 +72,10 @@ export function layout({ page, content, menu, model, example }: Parts): string {
   const asset = (name: string) => relative(page.path, `assets/${name}`);
   const home = relative(page.path, 'index.html');
   const title = page.path === 'index.html' ? 'Gable' : `${page.title} · Gable`;
-  const text = content.html.replace('</h1>', () => `</h1>${modelOf(page, model)}${tryOf(page, example)}`);
+  const text = content.html.replace(
+    '</h1>',
+    () => `</h1>${modelOf(page, model)}${tryOf(page, example)}`,
+  );
   // The theme is set before anything is drawn, so that no page flashes.
   return `<!doctype html>
 <html lang="en" data-theme="light">

@@ -11,7 +11,9 @@ export const PLAYGROUND = 'playground/index.html';
 
 /** Rules that make something of a lot: there is a rule, and nothing is read from elsewhere. */
 function isWhole(rules: string): boolean {
-  return /^\s*[A-Za-z]\w*\s*(\([^)]*\))?\s*-->/m.test(rules) && !/^\s*import\s|^version\b/m.test(rules);
+  return (
+    /^\s*[A-Za-z]\w*\s*(\([^)]*\))?\s*-->/m.test(rules) && !/^\s*import\s|^version\b/m.test(rules)
+  );
 }
 
 /** The part of an address that opens rules; nothing where they are no whole ones. */

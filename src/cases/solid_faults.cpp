@@ -13,8 +13,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#include "base/disjoint_sets.h"
 #include "cases/measure.h"
 
 namespace gable::cases {
@@ -39,25 +39,6 @@ struct Meeting {
     if (!first.empty()) parts.trianglesNear(b, Parts::grown(parts[a].box, gap), second);
     return !second.empty();
   }
-};
-
-class Groups {
- public:
-  explicit Groups(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-
-  uint32_t of(uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  // The smaller number stays, so that the result does not depend on the order.
-  void join(uint32_t a, uint32_t b) {
-    a = of(a);
-    b = of(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<uint32_t> parent_;
 };
 
 // Directions that differ, whichever way they point.
@@ -206,10 +187,10 @@ std::vector<SolidFault> coplanarFaces(const Parts& parts, double ground) {
 }
 
 std::vector<SolidFault> floatingParts(const Parts& parts, double ground) {
-  Groups groups(parts.size());
+  DisjointSets groups(parts.size());
   Meeting meeting;
   parts.forEachPair(kTouch, [&](uint32_t a, uint32_t b) {
-    if (groups.of(a) == groups.of(b) || !meeting.find(parts, a, b, kTouch)) return;
+    if (groups.find(a) == groups.find(b) || !meeting.find(parts, a, b, kTouch)) return;
     const bool touch =
         forEachNear(meeting.first, meeting.second, kTouch,
                     [](const Triangle& s, const Triangle& t) { return withinReach(s, t, kTouch); });
@@ -218,7 +199,7 @@ std::vector<SolidFault> floatingParts(const Parts& parts, double ground) {
   // By group: its lowest leaf, and how many leaves it has.
   std::vector<SolidFault> lowest(parts.size());
   for (uint32_t i = 0; i < parts.size(); ++i) {
-    SolidFault& group = lowest[groups.of(i)];
+    SolidFault& group = lowest[groups.find(i)];
     const double low = parts[i].box.min.y - ground;
     if (group.second++ == 0 || low < group.amount) {
       group.first = i;

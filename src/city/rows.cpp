@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "base/hash.h"
 #include "base/work.h"
 #include "geom/region/segment_grid.h"
@@ -23,24 +23,6 @@ constexpr double kLeastWall = 3;
 constexpr double kLeastHouse = 40;
 // A known house beside a group tells of so many in it: a lone tower says nothing of a quarter.
 constexpr size_t kSpeaksFor = 3;
-
-class Sets {
- public:
-  explicit Sets(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  uint32_t of(uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  // The lower number stands for both.
-  void join(uint32_t a, uint32_t b) {
-    a = of(a);
-    b = of(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<uint32_t> parent_;
-};
 
 // Pairs of buildings with the length of the wall between them.
 std::map<std::pair<uint32_t, uint32_t>, double> wallsBetween(
@@ -74,7 +56,7 @@ double middleOf(std::vector<double> values) {
 
 void joinRows(const std::vector<GroundPiece>& ground, const std::vector<MapFeature>& features,
               std::vector<BuildingFacts>& facts) {
-  Sets rows(features.size()), unknown(features.size());
+  DisjointSets rows(features.size()), unknown(features.size());
   std::set<uint32_t> members;
   std::map<uint32_t, std::vector<double>> beside;
   const auto walls = wallsBetween(ground, facts);
@@ -90,25 +72,25 @@ void joinRows(const std::vector<GroundPiece>& ground, const std::vector<MapFeatu
     if (wall < kLeastWall) continue;
     const auto [a, b] = pair;
     if (facts[a].levels == 0 && facts[b].levels > 0) {
-      beside[unknown.of(a)].push_back(facts[b].levels);
+      beside[unknown.find(a)].push_back(facts[b].levels);
     }
     if (facts[b].levels == 0 && facts[a].levels > 0) {
-      beside[unknown.of(b)].push_back(facts[a].levels);
+      beside[unknown.find(b)].push_back(facts[a].levels);
     }
   }
   std::map<uint32_t, std::vector<double>> guesses;
   std::map<uint32_t, size_t> sizes;
   std::map<uint32_t, std::map<std::string_view, size_t>> roofs;
   for (const uint32_t i : members) {
-    ++sizes[unknown.of(i)];
+    ++sizes[unknown.find(i)];
     if (facts[i].levels == 0 && facts[i].guessedLevels > 0) {
-      guesses[unknown.of(i)].push_back(facts[i].guessedLevels);
+      guesses[unknown.find(i)].push_back(facts[i].guessedLevels);
     }
     const std::string_view roof = features[i].tag("roof:shape");
-    if (!roof.empty()) ++roofs[rows.of(i)][roof];
+    if (!roof.empty()) ++roofs[rows.find(i)][roof];
   }
   for (const uint32_t i : members) {
-    const uint32_t row = rows.of(i), group = unknown.of(i);
+    const uint32_t row = rows.find(i), group = unknown.find(i);
     const uint64_t bits = mix64(hashBytes(features[row].id));
     facts[i].rowChance = static_cast<double>(bits >> 11) * 0x1p-53;
     size_t most = 0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// node e2e/playground.mjs FOLDER PICTURES: the playground in a browser, from a server of files and nothing else. An
-// example opens by its address and is derived in under two seconds; a change goes into the address,
-// and another page that opens it shows the same.
+// node e2e/playground.mjs FOLDER PICTURES: the playground in a browser, from a server of files and
+// nothing else. An example opens by its address and is derived in under two seconds; a change goes
+// into the address, and another page that opens it shows the same.
 
 import assert from 'node:assert/strict';
 import { createServer } from 'node:http';
