@@ -432,7 +432,7 @@ class Analysis {
   /// By unit: texts and names that it asks fileExists about.
   std::map<uint32_t, std::unordered_set<std::string_view>> askedFiles_;
   /// Listed when the first file is missed.
-  std::optional<std::vector<std::string>> projectFiles_;
+  std::optional<std::vector<std::string>> projectFiles_, bundledFiles_;
   /// The paths that have been told; each is told where it stands first.
   std::unordered_set<std::string> missedFiles_;
   /// Nodes of all modules together.

@@ -93,8 +93,9 @@ std::string Analysis::nearFile(const std::string& path, const std::string& from)
 std::string Analysis::bundledFile(std::string_view path, const std::string& from) {
   if (!loader_) return {};
   const std::string_view name = path.substr(path.find_last_of("/\\") + 1);
-  for (std::string& f : loader_->filesIn(kBundled, from)) {
-    if (withoutFolders(f) == name) return std::move(f);
+  if (!bundledFiles_) bundledFiles_ = loader_->filesIn(kBundled, from);
+  for (const std::string& f : *bundledFiles_) {
+    if (withoutFolders(f) == name) return f;
   }
   return {};
 }
