@@ -129,9 +129,7 @@ CameraPath CameraPath::load(const std::string& file) {
   return guardedResult<CameraPath>([&] {
     Result<CameraPath> path = read(file);
     if (path.ok()) return std::move(path.value());
-    CameraPath none;
-    none.diagnostics.push_back(diagnosticOf(path.error()));
-    return none;
+    return failed<CameraPath>(path.error());
   });
 }
 

@@ -184,21 +184,15 @@ class Maker {
   std::set<std::string> told_;
 };
 
-DatasetResult failed(const Error& e) {
-  DatasetResult out;
-  out.diagnostics.push_back(diagnosticOf(e));
-  return out;
-}
-
 DatasetResult made(const Rules& rules, const Shapes& shapes, const std::string& path,
                    const DatasetSettings& settings, Task& task) {
   if (!rules.ok()) return {};
-  if (const auto e = mistakeIn(settings)) return failed(*e);
+  if (const auto e = mistakeIn(settings)) return failed<DatasetResult>(*e);
   const Result<Categories> categories = categoriesOf(rules, settings.labels);
-  if (!categories.ok()) return failed(categories.error());
+  if (!categories.ok()) return failed<DatasetResult>(categories.error());
   DatasetFolder folder(path, settings);
   if (const auto e = folder.open(descriptionOf(rules, shapes, categories.value(), settings))) {
-    return failed(*e);
+    return failed<DatasetResult>(*e);
   }
   DatasetResult result;
   result.items = settings.count * settings.cameras;

@@ -119,6 +119,13 @@ double now();
 
 Diagnostic diagnosticOf(const Diagnostics::Entry& e, const Sources& sources);
 Diagnostic diagnosticOf(const Error& e);
+/// What an operation gives that could not be done: nothing but the reason.
+template <class Made>
+Made failed(const Error& e) {
+  Made none;
+  none.diagnostics.push_back(diagnosticOf(e));
+  return none;
+}
 DiagnosticList listOf(const Diagnostics& diagnostics, const Sources& sources);
 
 /// Text of the command line ("3", "true", "#ff0000", "[1,2;3,4]") as a value of an attribute, whose

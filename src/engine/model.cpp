@@ -28,12 +28,6 @@ namespace gable {
 
 namespace {
 
-WriteResult failedWrite(const Error& e) {
-  WriteResult r;
-  r.diagnostics.push_back(diagnosticOf(e));
-  return r;
-}
-
 // A model is a scene of one leaf; its textures are found beside it.
 std::shared_ptr<Model::Impl> loaded(const std::string& path) {
   auto impl = std::make_shared<Model::Impl>();
@@ -144,7 +138,7 @@ WriteResult written(const Model::Impl& impl, const std::string& path,
   const bool game = asksForGameScene(settings) && !modelFormatOf(path).empty();
   Result<WriteReport> report = game ? writeGame(impl.scene(), path, settings, options, out.models)
                                     : writeModel(impl.scene(), path, options);
-  if (!report.ok()) return failedWrite(report.error());
+  if (!report.ok()) return failed<WriteResult>(report.error());
   if (!game) out.models.push_back(path);
   out.ok = true;
   out.triangles = report->triangles;

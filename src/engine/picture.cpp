@@ -48,13 +48,6 @@ class ProjectTextures final : public TextureSource {
   mutable uint64_t held_ = 0;
 };
 
-template <class Result>
-Result failed(const Error& e) {
-  Result r;
-  r.diagnostics.push_back(diagnosticOf(e));
-  return r;
-}
-
 Vec3 vec(const Triple& t) { return {t[0], t[1], t[2]}; }
 Triple triple(const Vec3& v) { return {v.x, v.y, v.z}; }
 
