@@ -54,6 +54,7 @@ std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, const Rules:
     s.origin = f.origin;
     s.identity = f.id;
     s.faceTags = f.faceTags;
+    s.streetWidths = f.streetWidths;
     s.materials = f.materials;
     s.groups = f.groups;
     s.index = f.index;

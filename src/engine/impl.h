@@ -31,6 +31,7 @@ struct ShapeFootprint {
   std::vector<AttributeValue> attributes;
   /// By face, or empty.
   std::vector<std::string> faceTags;
+  std::vector<double> streetWidths;
   /// Of the slots from 1 of the mesh; see InitialShape.
   std::vector<Material> materials;
   std::vector<std::string> groups;

@@ -136,6 +136,8 @@ void appendRecord(const ShapeFootprint& f, std::string& out) {
   w.value(uint64_t{f.attributes.size()});
   for (const AttributeValue& a : f.attributes) write(w, a);
   write(w, f.faceTags);
+  w.value(uint64_t{f.streetWidths.size()});
+  for (const double width : f.streetWidths) w.value(width);
   w.value(uint64_t{f.materials.size()});
   for (const Material& m : f.materials) write(w, m);
   write(w, f.groups);
@@ -165,6 +167,8 @@ bool readRecord(ByteReader& r, ShapeFootprint& f) {
   f.attributes.resize(r.count(sizeof(uint64_t)));
   for (AttributeValue& a : f.attributes) a = readAttribute(r);
   f.faceTags = readTexts(r);
+  f.streetWidths.resize(r.count(sizeof(double)));
+  for (double& width : f.streetWidths) width = r.value<double>();
   f.materials.resize(r.count(sizeof(Vec3)));
   for (Material& m : f.materials) m = readMaterial(r);
   f.groups = readTexts(r);

@@ -25,6 +25,7 @@ ShapeFootprint footprint(ShapeInput input) {
   f.id = std::move(input.id);
   f.attributes = std::move(input.attributes);
   f.faceTags = std::move(input.faceTags);
+  f.streetWidths = std::move(input.streetWidths);
   f.materials = std::move(input.materials);
   f.groups = std::move(input.groups);
   const Box3 box = input.mesh.bounds();

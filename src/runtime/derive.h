@@ -48,6 +48,8 @@ struct InitialShape {
   std::vector<std::pair<std::string, Value>> edgeAttributes;
   /// By face of the mesh, or empty: its tag, if it has one.
   std::vector<std::string> faceTags;
+  /// By face of the mesh, or empty: the width of the street that a line is the middle of, or 0.
+  std::vector<double> streetWidths;
   /// Of the slots from 1 of the mesh: their materials, and the groups that they are of; both empty
   /// where the file tells of none.
   std::vector<Material> materials;

@@ -36,6 +36,20 @@ std::vector<bool> shownAttributes(const Program& program) {
   return shown;
 }
 
+// The mesh of a shape with what its file tells of each face.
+Mesh taggedMesh(const InitialShape& input, TagTable& tags) {
+  Mesh mesh = input.mesh;
+  const size_t faces = mesh.faceCount();
+  for (size_t f = 0; f < faces && input.faceTags.size() == faces; ++f) {
+    if (!input.faceTags[f].empty()) mesh.faces[f].tags = tags.of(input.faceTags[f]);
+  }
+  for (size_t f = 0; f < faces && input.streetWidths.size() == faces; ++f) {
+    const double width = input.streetWidths[f];
+    if (width > 0) mesh.faces[f].tags = tags.withStreetWidth(mesh.faces[f].tags, width);
+  }
+  return mesh;
+}
+
 }  // namespace
 
 Machine::Machine(DeriveShared& shared, uint32_t worker)
@@ -149,15 +163,7 @@ void Machine::begin(const InitialShape& input, uint32_t index) {
   const double seed = input.seed.value_or(options().seed);
   info_.seed = seed;
   info_.shape = Shape{};
-  if (input.faceTags.size() == input.mesh.faceCount() && !input.mesh.empty()) {
-    Mesh mesh = input.mesh;
-    for (size_t f = 0; f < mesh.faceCount(); ++f) {
-      if (!input.faceTags[f].empty()) mesh.faces[f].tags = tags().of(input.faceTags[f]);
-    }
-    setInitialGeometry(info_.shape, std::move(mesh));
-  } else {
-    setInitialGeometry(info_.shape, input.mesh);
-  }
+  setInitialGeometry(info_.shape, taggedMesh(input, tags()));
   setInitialMaterials(input);
   info_.shape.path = hashCombine(hashDouble(seed), identity);
   info_.edges = edgesOf(input);

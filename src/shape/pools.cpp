@@ -39,6 +39,7 @@ struct TagTable::Set {
   std::vector<StringId> names;
   std::optional<RegionProvenance> region;
   std::optional<EdgeProvenance> edge;
+  double streetWidth = 0;
   bool operator==(const Set&) const = default;
 };
 
@@ -104,11 +105,12 @@ TagSetId TagTable::intern(Set set) {
   for (StringId s : names) hash = hashCombine(hash, s);
   if (set.region) hash = hashCombine(hash, set.region->hash());
   if (set.edge) hash = hashCombine(hash, set.edge->hash());
+  if (set.streetWidth > 0) hash = hashCombine(hash, hashDouble(set.streetWidth));
   return impl_->sets.intern(hash, set);
 }
 
 TagSetId TagTable::intern(std::vector<StringId> names) {
-  return intern(Set{std::move(names), {}, {}});
+  return intern(Set{std::move(names), {}, {}, 0});
 }
 
 TagSetId TagTable::of(std::string_view name) {
@@ -136,21 +138,30 @@ TagSetId TagTable::merged(TagSetId a, TagSetId b) {
   out.names.insert(out.names.end(), more.names.begin(), more.names.end());
   if (more.region) out.region = more.region;
   if (more.edge) out.edge = more.edge;
+  if (more.streetWidth > 0) out.streetWidth = more.streetWidth;
   return intern(std::move(out));
 }
 
 TagSetId TagTable::marked(TagSetId set, const RegionProvenance& region) {
-  return intern(Set{names(set), region, {}});
+  return intern(Set{names(set), region, {}, streetWidth(set)});
 }
 
 TagSetId TagTable::marked(TagSetId set, const EdgeProvenance& edge) {
-  return intern(Set{names(set), {}, edge});
+  return intern(Set{names(set), {}, edge, streetWidth(set)});
 }
 
 TagSetId TagTable::plain(TagSetId set) {
   const Set& own = impl_->sets.get(set);
-  return own.region || own.edge ? intern(Set{own.names, {}, {}}) : set;
+  return own.region || own.edge ? intern(Set{own.names, {}, {}, own.streetWidth}) : set;
 }
+
+TagSetId TagTable::withStreetWidth(TagSetId set, double width) {
+  Set out = impl_->sets.get(set);
+  out.streetWidth = width;
+  return intern(std::move(out));
+}
+
+double TagTable::streetWidth(TagSetId set) const { return impl_->sets.get(set).streetWidth; }
 
 const RegionProvenance* TagTable::region(TagSetId set) const {
   const Set& own = impl_->sets.get(set);

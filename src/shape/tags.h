@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Tags: names on faces and edges of a mesh (roof.eave, extrude.top, a user's own), and where a face
-// or an edge of a region comes from. A mesh carries the id of an interned set; the table gives what
-// is in it. Id 0 is the empty set. Any thread may call.
+// Tags: names on faces and edges of a mesh (roof.eave, extrude.top, a user's own), where a face or
+// an edge of a region comes from, and how wide the street of a line is. A mesh carries the id of an
+// interned set; the table gives what is in it. Id 0 is the empty set. Any thread may call.
 #pragma once
 
 #include <cstdint>
@@ -37,6 +37,10 @@ class TagTable {
   TagSetId marked(TagSetId set, const RegionProvenance& region);
   TagSetId marked(TagSetId set, const EdgeProvenance& edge);
   TagSetId plain(TagSetId set);
+  /// The same with the width of the street that the line of a face is the middle of, in metres.
+  TagSetId withStreetWidth(TagSetId set, double width);
+  /// 0 where nobody has told one.
+  double streetWidth(TagSetId set) const;
   /// Null where there is none. Operations ask their services, which check the effects.
   const RegionProvenance* region(TagSetId set) const;
   const EdgeProvenance* edge(TagSetId set) const;

@@ -47,6 +47,26 @@ TEST(Shapes, haveAttributesOfTheirOwn) {
   EXPECT_EQ(2, height(model, 2));
 }
 
+TEST(Shapes, linesOfAMapKeepTheWidthsOfTheirStreets) {
+  const Rules rules = Rules::parse(
+      "@StartRule\nLot --> streets(given, 60, 10) { roadway : Road | all : NIL }\n"
+      "Road --> report(\"area\", geometry.area)\n",
+      "streets.cga");
+  const auto streets = [&](const std::string& properties) {
+    const std::string map =
+        R"({"type":"FeatureCollection","crs":{"properties":{"name":"x"}},"features":[)"
+        R"({"type":"Feature","properties":)" +
+        properties + R"(,"geometry":{"type":"LineString","coordinates":[[0,0],[100,0]]}}]})";
+    const auto reports = derive(rules, Shapes::parse(map, "streets.geojson")).statistics().reports;
+    return reports.size() == 1 && reports[0].numbers ? reports[0].numbers->sum : 0;
+  };
+  const double tenWide = streets("{}"), sixWide = streets(R"({"width":6})");
+  EXPECT_GT(sixWide, 0);
+  EXPECT_NEAR(sixWide / tenWide, 0.6, 0.05);
+  EXPECT_EQ(streets(R"({"width":"6"})"), sixWide);
+  EXPECT_EQ(streets(R"({"width":-6})"), tenWide);
+}
+
 TEST(Shapes, refuseValuesThatAreNone) {
   using Items = std::vector<RuleValue::Scalar>;
   const auto with = [](RuleValue value) {

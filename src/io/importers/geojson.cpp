@@ -81,7 +81,7 @@ class GeoJsonReader {
   void addGeometry(const JsonValue& geometry, int depth);
   void addPolygon(const JsonValue& rings);
   void addLine(const JsonValue& coordinates);
-  void buildLines(MeshBuilder& b, std::vector<std::string>& tags, size_t facesBefore) const;
+  void buildLines(MeshBuilder& b, std::vector<double>& widths) const;
   void addAllLines();
   Result<JsonValue> rootOf(std::string_view text) const;
   Result<ShapeFile> readRoot(const JsonValue& root);
@@ -118,7 +118,7 @@ class GeoJsonReader {
   std::vector<std::vector<Vec2>> lines_;
   // Those of features without polygons.
   MeshBuilder allLines_;
-  std::vector<std::string> allLineTags_;
+  std::vector<double> allLineWidths_;
   size_t lineFeatures_ = 0;
   // Of features that the filter leaves out: their properties, and the values of the one that it
   // asks for, with how often they come.
@@ -410,21 +410,19 @@ void GeoJsonReader::addLine(const JsonValue& coordinates) {
 }
 
 // A face of two corners for each stretch.
-void GeoJsonReader::buildLines(MeshBuilder& b, std::vector<std::string>& tags,
-                               size_t facesBefore) const {
+void GeoJsonReader::buildLines(MeshBuilder& b, std::vector<double>& widths) const {
   double width = 0;
   if (feature_->properties) {
     const JsonValue& v = (*feature_->properties)["width"];
     if (v.isNumber()) width = v.number(0);
     if (v.isText() && !parseNumber(v.text(), width)) width = 0;
   }
-  const std::string tag = width > 0 ? "width=" + shortestText(width) : std::string{};
-  if (!tag.empty()) tags.resize(facesBefore);
-  size_t stretches = 0;
+  const bool told = width > 0 && std::isfinite(width);
+  if (told) widths.resize(b.mesh().faceCount());
   for (const std::vector<Vec2>& line : lines_) {
     uint32_t from = b.addPosition(fromPlan(line[0]));
     const uint32_t first = from;
-    for (size_t i = 1; i < line.size(); ++i, ++stretches) {
+    for (size_t i = 1; i < line.size(); ++i) {
       const bool back = i > 1 && i + 1 == line.size() && line[i] == line[0];
       const uint32_t to = back ? first : b.addPosition(fromPlan(line[i]));
       const uint32_t ends[2] = {from, to};
@@ -432,7 +430,7 @@ void GeoJsonReader::buildLines(MeshBuilder& b, std::vector<std::string>& tags,
       from = to;
     }
   }
-  if (!tag.empty()) tags.resize(facesBefore + stretches, tag);
+  if (told) widths.resize(b.mesh().faceCount(), width);
 }
 
 void GeoJsonReader::addAllLines() {
@@ -444,8 +442,8 @@ void GeoJsonReader::addAllLines() {
   }
   if (shape.mesh.empty()) return;
   shape.name = "lines";
-  shape.faceTags = std::move(allLineTags_);
-  if (!shape.faceTags.empty()) shape.faceTags.resize(shape.mesh.faceCount());
+  shape.streetWidths = std::move(allLineWidths_);
+  if (!shape.streetWidths.empty()) shape.streetWidths.resize(shape.mesh.faceCount());
   out_.shapes.push_back(std::move(shape));
 }
 
@@ -508,8 +506,7 @@ void GeoJsonReader::addFeature(const Feature& f) {
   if (f.geometry && f.geometry->isObject()) addGeometry(*f.geometry, 0);
   if (faces_ == 0 && !lines_.empty()) {
     // Lines are a shape where there is no other.
-    if (out_.shapes.empty() && handedOn_ == 0)
-      buildLines(allLines_, allLineTags_, allLines_.mesh().faceCount());
+    if (out_.shapes.empty() && handedOn_ == 0) buildLines(allLines_, allLineWidths_);
     ++lineFeatures_;
     return;
   }
@@ -520,9 +517,8 @@ void GeoJsonReader::addFeature(const Feature& f) {
     return;
   }
   ShapeInput shape;
-  buildLines(builder_, shape.faceTags, builder_.mesh().faceCount());
+  buildLines(builder_, shape.streetWidths);
   shape.mesh = builder_.take();
-  if (!shape.faceTags.empty()) shape.faceTags.resize(shape.mesh.faceCount());
   shape.id = f.id;
   shape.name = !name_.empty()  ? name_
                : !f.id.empty() ? f.id

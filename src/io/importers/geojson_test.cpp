@@ -176,7 +176,7 @@ TEST(GeoJson, linesAloneBecomeOneShape) {
   EXPECT_EQ(s.name, "lines");
   ASSERT_EQ(s.mesh.faceCount(), 3u);
   EXPECT_TRUE(s.mesh.valid());
-  EXPECT_EQ(s.faceTags, (std::vector<std::string>{"width=7.5", "width=7.5", ""}));
+  EXPECT_EQ(s.streetWidths, (std::vector<double>{7.5, 7.5, 0}));
   // Stretches of a line share their points.
   EXPECT_EQ(s.mesh.corners[1], s.mesh.corners[2]);
   EXPECT_EQ(s.mesh.positions.size(), 5u);

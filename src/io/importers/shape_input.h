@@ -39,8 +39,11 @@ struct ShapeInput {
   std::vector<AttributeValue> attributes;
   /// The feature's own id, as text; may be empty.
   std::string id;
-  /// By face, or empty: a tag for it; lines have "width=7.5" by their property `width`.
+  /// By face, or empty: a tag for it.
   std::vector<std::string> faceTags;
+  /// By face, or empty: the width of the street that a line is the middle of, in metres, by the
+  /// property `width` of the line; 0 where there is none.
+  std::vector<double> streetWidths;
   /// Of the slots from 1 of the mesh, as Asset has them from 0; slot 0 is the shape's own material.
   std::vector<Material> materials;
   std::vector<std::string> groups;

@@ -330,7 +330,7 @@ std::vector<Path::Place> placesOn(const Chain& chain, const Spacing& spacing) {
 // Along lines every item gets its places; `sides` gets those to the right, then those to the left,
 // where the line is seen from its other end.
 void emitAlongLines(OpCall& call, const Mesh& mesh, const Layout& layout, Emitter& emitter) {
-  const auto lines = polylinesOf(mesh, call.services().tags(), call.services().pool());
+  const auto lines = polylinesOf(mesh, call.services().tags());
   Junctions junctions(lines, layout);
   for (uint32_t k = 0; k < lines.size(); ++k) {
     const Polyline2& line = lines[k];

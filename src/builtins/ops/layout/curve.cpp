@@ -150,7 +150,7 @@ struct Ribbon {
 Status applyRibbon(OpCall& call, const Ribbon& args) {
   const double width = args.width;
   const MeshRef mesh = meshInScope(call.shape());
-  const auto lines = polylinesOf(*mesh, call.services().tags(), call.services().pool());
+  const auto lines = polylinesOf(*mesh, call.services().tags());
   if (lines.empty()) {
     return call.fail("no-geometry", "the shape has no line to make a ribbon along",
                      "make one with curve, or read lines from a file");

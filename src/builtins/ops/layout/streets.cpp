@@ -89,7 +89,7 @@ std::vector<Street> grown(const Streets& args, const Ground& ground, uint64_t ad
 
 std::vector<Polyline2> givenLines(OpCall& call) {
   const MeshRef mesh = meshInScope(call.shape());
-  return polylinesOf(*mesh, call.services().tags(), call.services().pool());
+  return polylinesOf(*mesh, call.services().tags());
 }
 
 // The lines of the shape, within the area.

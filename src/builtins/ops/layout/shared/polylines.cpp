@@ -3,28 +3,9 @@
 
 #include "builtins/ops/layout/shared/polylines.h"
 
-#include <cmath>
-#include <string_view>
-
-#include "base/number.h"
-
 namespace gable {
 
 namespace {
-
-constexpr std::string_view kWidthTag = "width=";
-
-double widthOf(TagSetId set, const TagTable& tags, const ValuePool& pool) {
-  for (const StringId name : tags.names(set)) {
-    const std::string_view text = pool.text(name);
-    double width = 0;
-    if (text.starts_with(kWidthTag) && parseNumber(text.substr(kWidthTag.size()), width) &&
-        width > 0 && std::isfinite(width)) {
-      return width;
-    }
-  }
-  return 0;
-}
 
 Vec2 fromAbove(const Vec3& p) { return {p.x, -p.z}; }
 
@@ -42,7 +23,7 @@ Frame groundAt(double height) {
   return f;
 }
 
-std::vector<Polyline2> polylinesOf(const Mesh& mesh, const TagTable& tags, const ValuePool& pool) {
+std::vector<Polyline2> polylinesOf(const Mesh& mesh, const TagTable& tags) {
   std::vector<Polyline2> out;
   uint32_t last = MeshBuilder::kNoPosition, lastTags = 0;
   for (size_t f = 0; f < mesh.faceCount(); ++f) {
@@ -53,7 +34,7 @@ std::vector<Polyline2> polylinesOf(const Mesh& mesh, const TagTable& tags, const
     if (ends[0] != last || faceTags != lastTags) {
       if (!out.empty()) close(out.back());
       const Vec3& from = mesh.positions[ends[0]];
-      out.push_back({{fromAbove(from)}, false, from.y, widthOf(faceTags, tags, pool)});
+      out.push_back({{fromAbove(from)}, false, from.y, tags.streetWidth(faceTags)});
     }
     out.back().line.push_back(fromAbove(mesh.positions[ends[1]]));
     last = ends[1];

@@ -20,12 +20,12 @@ struct Polyline2 {
   bool closed = false;
   /// Above the scope's ground.
   double height = 0;
-  /// Of a street, by the tag "width=W" of its faces; 0 without one.
+  /// Of a street, as its faces have it; 0 where nobody has told one.
   double width = 0;
 };
 
 /// The lines of a mesh, in its order. O(n).
-std::vector<Polyline2> polylinesOf(const Mesh& mesh, const TagTable& tags, const ValuePool& pool);
+std::vector<Polyline2> polylinesOf(const Mesh& mesh, const TagTable& tags);
 
 /// Appends a line to the mesh that is being built.
 void addPolyline(MeshBuilder& b, const Line& line, bool closed, double height, uint32_t tags);
