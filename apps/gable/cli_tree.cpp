@@ -182,8 +182,10 @@ CommandDescription describe(const CLI::App& command) {
   return out;
 }
 
-std::string chosenCommand(const CLI::App& program) {
+const CLI::App& chosenApp(const CLI::App& program) {
   const CLI::App* at = &program;
   while (!at->get_subcommands().empty()) at = at->get_subcommands().front();
-  return pathOf(*at);
+  return *at;
 }
+
+std::string chosenCommand(const CLI::App& program) { return pathOf(chosenApp(program)); }

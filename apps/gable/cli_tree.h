@@ -14,5 +14,7 @@ void addCommon(CLI::App& program);
 
 CommandDescription describe(const CLI::App& program);
 
+/// The innermost command of what was parsed; the program itself before.
+const CLI::App& chosenApp(const CLI::App& program);
 /// "tiles plan" of what was parsed; empty before.
 std::string chosenCommand(const CLI::App& program);

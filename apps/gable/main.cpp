@@ -19,6 +19,7 @@
 #include "tiles.h"
 #include "tiles_viewer.h"
 #include "version.h"
+#include "wrong_line.h"
 
 namespace {
 
@@ -163,38 +164,6 @@ void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
       ->check(number({0, 1e6, true}));
   app->add_option("--max-depth", a.maxDepth, "Rule calls within rule calls (default 1024)")
       ->check(number({0, 4294967295.0, true}));
-}
-
-// What to say where the first word is no command; else nothing.
-std::string unknownCommand(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return {};
-  const std::string word = argv[1];
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  if (std::find(names.begin(), names.end(), word) != names.end()) return {};
-  std::string hint = gable::suggestion(word, names);
-  if (hint.empty()) {
-    for (const std::string& name : names) hint += (hint.empty() ? "there are " : ", ") + name;
-  }
-  return "there is no command '" + word + "'; " + hint;
-}
-
-/// Tells what is wrong with the command line. Help and the version are no mistakes.
-int wrongLine(const CLI::App& app, const CLI::ParseError& e, int argc, char** argv) {
-  if (e.get_exit_code() == 0) {
-    terminal().json = false;
-    return app.exit(e) == 0 ? kExitDone : kExitUsage;
-  }
-  for (int i = 1; i < argc; ++i) {
-    if (std::string_view(argv[i]) == "--json") terminal().json = true;
-  }
-  answer().begin(chosenCommand(app));
-  if (const std::string unknown = unknownCommand(app, argc, argv); !unknown.empty()) {
-    return fail(kExitUsage, unknown);
-  }
-  if (terminal().json) return fail(kExitUsage, e.what());
-  app.exit(e);
-  return kExitUsage;
 }
 
 void addLsp(CLI::App& app, LspArguments& a, int& status) {

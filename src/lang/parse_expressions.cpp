@@ -82,16 +82,31 @@ TokenKind Parser::wordOperatorHere() {
   return isAnd ? TokenKind::And : TokenKind::Or;
 }
 
-// A unit right behind a number: 1.2m.
-void Parser::skipUnit() {
+// A unit behind a number: 1.2m, or 1.2 m where nothing else can be meant.
+bool Parser::unitAt(size_t at) const {
   constexpr std::string_view kUnits[] = {"m", "cm", "mm", "km", "ft", "deg"};
-  const Token& t = current();
-  const bool adjacent = at_ > 0 && tokens_[at_ - 1].end == t.begin;
-  const std::string_view unit = textOf(t);
-  if (!adjacent || !isName(t) || declarationHere() ||
-      std::find(std::begin(kUnits), std::end(kUnits), unit) == std::end(kUnits)) {
-    return;
+  const Token& t = token(at);
+  if (at == 0 || token(at - 1).kind != TokenKind::Number || !isName(t) ||
+      std::find(std::begin(kUnits), std::end(kUnits), textOf(t)) == std::end(kUnits)) {
+    return false;
   }
+  const uint32_t end = token(at - 1).end;
+  if (end == t.begin) return true;
+  const std::string_view between = text_.substr(end, t.begin - end);
+  if (between.find_first_not_of(" \t") != std::string_view::npos) return false;
+  switch (token(at + 1).kind) {
+    case TokenKind::Comma:
+    case TokenKind::RParen:
+    case TokenKind::Colon:
+    case TokenKind::Pipe: return true;
+    default: return false;
+  }
+}
+
+void Parser::skipUnit() {
+  if (!unitAt(at_) || declarationHere()) return;
+  const Token& t = current();
+  const std::string_view unit = textOf(t);
   error("unexpected-token", spanOf(t), "numbers have no unit, but " + describe(t) + " stands here",
         unit == "m" || unit == "deg" ? "remove it: lengths are in metres, angles in degrees"
                                      : "lengths are in metres: write the number of metres alone");

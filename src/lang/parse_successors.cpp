@@ -80,6 +80,7 @@ bool Parser::skipBadSuccessor() {
   const bool closes = is(TokenKind::RBrace) || is(TokenKind::RParen) || is(TokenKind::RBracket);
   if (atEnd() || (closes && current().match != Token::kNoMatch)) return false;
   if (is(TokenKind::Pipe) && place_.blocks > 0) return false;
+  if (commaBetweenParts()) return false;
   if (is(TokenKind::Comma) && place_.inOverrides) return false;
   if (separatorMissing()) return false;
   if (dashesHere()) {
@@ -90,6 +91,11 @@ bool Parser::skipBadSuccessor() {
   if (is(TokenKind::LBrace) && current().match != Token::kNoMatch) at_ = current().match;
   advance();
   return true;
+}
+
+// A ',' in the place of the '|' between the parts of a block.
+bool Parser::commaBetweenParts() const {
+  return is(TokenKind::Comma) && place_.blocks > 0 && headAfter(at_ + 1);
 }
 
 // Adds one successor; false where the sequence ends.
@@ -423,6 +429,7 @@ bool Parser::headAfter(size_t first) const {
       case TokenKind::Name:
       case TokenKind::Number:
       case TokenKind::String:
+        if (unitAt(i)) break;
         if (afterOperand) return false;
         afterOperand = true;
         break;
@@ -558,6 +565,14 @@ NodeId Parser::parseBlock(bool expressions) {
                 "remove it, or write what belongs there");
         fix(spanOf(current()), "");
       }
+      advance();
+      wantItem = true;
+      continue;
+    }
+    if (!wantItem && commaBetweenParts()) {
+      error("missing-separator", spanOf(current()), "the parts of a block have '|' between them",
+            "write '|' for ','");
+      fix(spanOf(current()), endOfLast() < current().begin ? "|" : " |");
       advance();
       wantItem = true;
       continue;

@@ -101,6 +101,25 @@ TEST(ParserErrors, missingElseIsAnError) {
   EXPECT_EQ(declarations(p.tree), "f A D");
 }
 
+TEST(ParserErrors, unitsAreOneMistakeEach) {
+  Parsed p(
+      "A --> extrude(10 m) split(y) { 6.5m : B | ~6.5 m : C | '2 cm : D }\nE --> s(1, 2 ft, 3) F");
+  EXPECT_EQ(p.problems(),
+            "1:18 unexpected-token\n1:35 unexpected-token\n1:48 unexpected-token\n"
+            "1:59 unexpected-token\n2:14 unexpected-token\n")
+      << p.messages();
+  EXPECT_EQ(p.diagnostics.all()[0].hint, "remove it: lengths are in metres, angles in degrees");
+  // Names, where a number ends and something else begins.
+  Parsed names("attr a = 3\nm --> B\nC --> 30% : m else : cm");
+  EXPECT_EQ(names.problems(), "") << names.messages();
+}
+
+TEST(ParserErrors, aCommaBetweenPartsIsOneMistake) {
+  Parsed p("A --> split(x) { 2 : B, ~1 : C , '0.5 : D }");
+  EXPECT_EQ(p.problems(), "1:23 missing-separator\n1:32 missing-separator\n") << p.messages();
+  EXPECT_EQ(p.diagnostics.all()[0].message, "the parts of a block have '|' between them");
+}
+
 TEST(ParserErrors, emptyItemsWarn) {
   Parsed p("A --> comp(f) { | top : B | | side : C | }");
   EXPECT_EQ(p.problems(),

@@ -166,6 +166,7 @@ class Parser {
   bool caseHere() const { return is(Keyword::Case) || at_ == ifAt_; }
   bool starHere(size_t index) const;
   bool bareArgumentHere() const;
+  bool commaBetweenParts() const;
   NodeId parseBareArgument(const Token& name);
   bool parseStarHead(NodeId& head);
 
@@ -173,6 +174,7 @@ class Parser {
   NodeId parseExpression();
   TokenKind operatorHere();
   TokenKind wordOperatorHere();
+  bool unitAt(size_t at) const;
   void skipUnit();
   bool skipPercent(NodeId left);
   bool notHere() const;

@@ -177,6 +177,15 @@ class Words(Case):
         self.run_gable("xyz", status=USAGE, says="'xyz'; there are generate, city, tiles, check")
         self.run_gable(status=USAGE, says="subcommand")
 
+    def testUnknownOptionsAreNamed(self):
+        for words, says in ((("generate", "a.cga", "--shpaes", "b.geojson"), "'gable generate' has no option '--shpaes'; did you mean '--shapes'?"),
+                            (("tiles", "plan", "a.cga", "--cut-nestd=1"), "'gable tiles plan' has no option '--cut-nestd'; did you mean '--cut-nested'?"),
+                            (("check", "--qqqqqq"), "'--qqqqqq'; 'gable check --help' tells those that it has"),
+                            (("--versoin",), "'gable' has no option '--versoin'; did you mean '--version'?")):
+            self.run_gable(*words, status=USAGE, says=says)
+        self.run_gable("generate", "--attrr", "--json", status=USAGE, says="did you mean '--attr'?")
+        self.run_gable("generate", "a.cga", "-o", "a.glb", "--", "--odd", status=USAGE, says="--odd")
+
     def testFormatSaysWhatItLeaves(self):
         for name, text in (("a.park", "A -> Grid(2, 2) { LAWN } {} {}"), ("a.cga", 'Lot --> sweep("nonsense text", x) { all : X. }\n')):
             for mode in ((), ("--check",), ("--stdout",)):

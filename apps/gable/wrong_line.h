@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// What is told of a command line that cannot be read.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+/// Tells it, with the nearest word that there is, and gives the exit status. Help and the version
+/// are no mistakes.
+int wrongLine(const CLI::App& app, const CLI::ParseError& e, int argc, char** argv);
