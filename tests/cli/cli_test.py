@@ -183,7 +183,7 @@ class Words(Case):
                             (("check", "--qqqqqq"), "'--qqqqqq'; 'gable check --help' tells those that it has"),
                             (("--versoin",), "'gable' has no option '--versoin'; did you mean '--version'?")):
             self.run_gable(*words, status=USAGE, says=says)
-        self.run_gable("generate", "--attrr", "--json", status=USAGE, says="did you mean '--attr'?")
+        self.run_gable("generate", "--sead", "--json", status=USAGE, says="did you mean '--seed'?")
         self.run_gable("generate", "a.cga", "-o", "a.glb", "--", "--odd", status=USAGE, says="--odd")
 
     def testFormatSaysWhatItLeaves(self):
