@@ -121,9 +121,9 @@ void addSearch(CLI::App* app, gable::SearchSettings& search) {
 }
 
 void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
-  auto* shapes =
-      app->add_option("--shapes", a.shapes,
-                      "Footprints: .geojson .osm .pbf .gpkg .fgb .shp .kml .dxf .obj\n.gltf .glb");
+  auto* shapes = app->add_option(
+      "--shapes", a.shapes,
+      "Footprints: .geojson .json .city.json .osm .pbf .gpkg .fgb .shp .kml\n.dxf .obj .gltf .glb");
   app->add_option("--lot", a.lot, "A rectangular lot in metres, such as 30x40 (default 20x20)")
       ->excludes(shapes);
   app->add_option("--only", a.only,

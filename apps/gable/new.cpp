@@ -9,6 +9,7 @@
 
 #include "answer.h"
 #include "commands.h"
+#include "completion.h"
 #include "gable/files.h"
 
 namespace fs = std::filesystem;
@@ -105,6 +106,14 @@ bool isName(const std::string& name) {
   });
 }
 
+// As a shell reads it as one word.
+std::string asWord(const std::string& path) {
+  const bool plain = std::all_of(path.begin(), path.end(), [](char c) {
+    return c == '/' || c == '.' || isName({'x', c});
+  });
+  return plain ? path : shellQuoted(path);
+}
+
 }  // namespace
 
 int runNew(const NewArguments& arguments) {
@@ -137,7 +146,8 @@ int runNew(const NewArguments& arguments) {
   for (const auto& [path, text] : files) {
     if (const int status = writeText(path.string(), text)) return status;
   }
-  tell(arguments.folder + ": a project\n\n  cd " + arguments.folder + "\n  gable render rules/" +
-       name + ".cga --lot 24x18 -o " + name + ".png\n  gable studio .\n");
+  tell(arguments.folder + ": a project\n\n  cd " + asWord(arguments.folder) +
+       "\n  gable render rules/" + name + ".cga --lot 24x18 -o " + name +
+       ".png\n  gable studio .\n");
   return kExitDone;
 }

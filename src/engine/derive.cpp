@@ -15,23 +15,13 @@
 #include "city/plan.h"
 #include "engine/footprint.h"
 #include "engine/missing_files.h"
+#include "engine/unused_properties.h"
 #include "shape/edge_attributes.h"
 
 namespace gable {
 
 namespace {
 
-// Names of properties as rules can write them: "building:levels" is building_levels.
-std::string identifier(std::string name) {
-  for (char& c : name) {
-    const bool fits = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                      c == '_' || c == '.';
-    if (!fits) c = '_';
-  }
-  return name;
-}
-
-// Whether a list is a value of a rule attribute, be it one of edges as well.
 bool takesList(const Program& program, const std::string& name) {
   const int32_t found = program.findAttribute(name);
   if (found < 0) return false;
@@ -70,10 +60,10 @@ std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, const Rules:
         s.edgeAttributes.emplace_back(edgeAttributeName(a.name), value);
       }
       if (!EdgeAttributes::isNamed(a.name, value.isArray()) || takesList(program, a.name)) {
-        s.attributes.emplace_back(identifier(a.name), value);
+        s.attributes.emplace_back(identifierOf(a.name), value);
       }
       if (!f.reachesImports) continue;
-      const auto [begin, end] = r.open.equal_range(identifier(a.name));
+      const auto [begin, end] = r.open.equal_range(identifierOf(a.name));
       for (auto at = begin; at != end; ++at) s.attributes.emplace_back(at->second, value);
     }
     out.push_back(std::move(s));
@@ -311,6 +301,8 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
   const DiagnosticList made = told.without(
       listOf(inWordsOf(r.dialect, impl->result.diagnostics, builtinCatalogue()), r.sources));
   impl->diagnostics.insert(impl->diagnostics.end(), made.begin(), made.end());
+  const DiagnosticList unused = unusedProperties(shapes.impl(), r);
+  impl->diagnostics.insert(impl->diagnostics.end(), unused.begin(), unused.end());
   impl->makeSound();
   if (shapes.impl().terrain) layOnTerrain(*impl, *shapes.impl().terrain, options, now() - begin);
   impl->seconds = now() - begin;

@@ -38,6 +38,7 @@ class New(Case):
         self.run_gable("new", "file/below", status=FILE, says="cannot be made")
         (self.folder / "empty").mkdir()
         self.run_gable("new", "empty/", status=DONE)
+        self.run_gable("new", "two words/house", status=DONE, says="cd 'two words/house'")
 
     def testNamesThatAreNone(self):
         for name in ("a b", "-x", "ä", "/", ".."):

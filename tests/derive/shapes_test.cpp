@@ -67,6 +67,24 @@ TEST(Shapes, linesOfAMapKeepTheWidthsOfTheirStreets) {
   EXPECT_EQ(streets(R"({"width":-6})"), tenWide);
 }
 
+TEST(Shapes, propertiesThatSetNothingAreToldWhereTheyLookLikeASlip) {
+  const auto notes = [](const std::string& properties) {
+    const std::string map =
+        R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":)" + properties +
+        R"(,"geometry":{"type":"Polygon","coordinates":[[[0,0],[1e-4,0],[1e-4,1e-4],[0,0]]]}}]})";
+    std::string told;
+    const Model model = derive(rules(), Shapes::parse(map, "lots.geojson"));
+    for (const Diagnostic& d : model.diagnostics()) {
+      told += d.code + " " + d.hint + "; ";
+    }
+    return told;
+  };
+  EXPECT_EQ(notes(R"({"hieght":3})"), "unused-property did you mean 'height'?; ");
+  EXPECT_EQ(notes(R"({"Height":3})"), "unused-property did you mean 'height'?; ");
+  // Nobody misses what another property sets, and most of a map means nothing to the rules.
+  EXPECT_EQ(notes(R"({"height":3,"hieght":3,"name":"a","lis":1,"source":"survey"})"), "");
+}
+
 TEST(Shapes, refuseValuesThatAreNone) {
   using Items = std::vector<RuleValue::Scalar>;
   const auto with = [](RuleValue value) {
