@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "answer.h"
-#include "cli_tree.h"
 #include "commands.h"
 #include "gable/builtins.h"
 #include "terminal.h"

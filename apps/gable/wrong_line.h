@@ -4,7 +4,7 @@
 // What is told of a command line that cannot be read.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "cli_tree.h"
 
 /// Tells it, with the nearest word that there is, and gives the exit status. Help and the version
 /// are no mistakes.
