@@ -10,6 +10,7 @@
 #include <map>
 
 #include "base/files.h"
+#include "gable/sun.h"
 #include "io/image/image.h"
 #include "render/render.h"
 #include "render/sun_position.h"
@@ -252,6 +253,12 @@ PictureData dataOf(const Scene& scene, const RenderOptions& options, Picture&& p
 }
 
 }  // namespace
+
+std::optional<PictureSettings::Sun> sunOver(const Model& model, const SunTime& time) {
+  const Result<PictureSettings::Sun> sun = sunAt(time, model.impl().scene().geoOrigin);
+  if (!sun.ok()) return std::nullopt;
+  return sun.value();
+}
 
 WriteResult drawnPicture(const Model::Impl& model, const std::string& path,
                          const PictureSettings& settings, Task& task) {

@@ -7,6 +7,7 @@
 #include "studio/export.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
@@ -15,6 +16,7 @@
 
 #include "base/files.h"
 #include "base/json.h"
+#include "gable/sun.h"
 #include "studio/zip.h"
 
 namespace gable::studio {
@@ -96,7 +98,8 @@ bool readNumbers(const std::string& text, size_t count, double least, double mos
 
 }  // namespace
 
-Result<PictureSettings> pictureOf(const std::string& camera, const std::string& size) {
+Result<PictureSettings> pictureOf(const std::string& camera, const std::string& size,
+                                  const std::string& sun) {
   PictureSettings out;
   std::vector<double> numbers;
   if (!size.empty()) {
@@ -105,6 +108,13 @@ Result<PictureSettings> pictureOf(const std::string& camera, const std::string& 
     }
     out.width = static_cast<int>(numbers[0]);
     out.height = static_cast<int>(numbers[1]);
+  }
+  if (!sun.empty()) {
+    std::vector<double> angles;
+    if (!readNumbers(sun, 2, -360, 360, angles) || std::abs(angles[0]) > 90) {
+      return Error{"request-wrong", "'sun' is [elevation, azimuth] in degrees", ""};
+    }
+    out.sun = PictureSettings::Sun{angles[0], angles[1]};
   }
   if (camera.empty()) return out;
   std::vector<double> at;
@@ -118,6 +128,34 @@ Result<PictureSettings> pictureOf(const std::string& camera, const std::string& 
   out.fieldOfView = at[6];
   out.samples = kPageSamples;
   return out;
+}
+
+Result<std::string> sunJson(const Model& model, const std::string& day, const std::string& hour,
+                            const std::string& place) {
+  std::vector<double> date, at, where;
+  const bool read = readNumbers(day, 3, 1, 9999, date) &&
+                    readNumbers("[" + hour + "]", 1, 0, 24, at) &&
+                    (place.empty() || readNumbers(place, 2, -180, 180, where));
+  if (!read) {
+    return Error{"request-wrong",
+                 "'day' is [year, month, day], 'hour' 0 to 24, 'place' [latitude, longitude]", ""};
+  }
+  SunTime time;
+  if (!place.empty()) time.place = SunTime::Place{where[0], where[1]};
+  time.year = static_cast<int>(date[0]);
+  time.month = static_cast<int>(date[1]);
+  time.day = static_cast<int>(date[2]);
+  time.hour = at[0];
+  const std::optional<PictureSettings::Sun> sun = sunOver(model, time);
+  if (!sun) {
+    return Error{"place-unknown", "nobody knows where the sun stands there and then",
+                 "give a latitude of -90 to 90 and a longitude, and a year of 1950 to 2050"};
+  }
+  std::string text;
+  JsonWriter json(text);
+  json.beginObject().key("elevation").value(sun->elevation);
+  json.key("azimuth").value(sun->azimuth).endObject();
+  return text;
 }
 
 Result<Exported> Exports::write(const Model& model, const std::string& format,

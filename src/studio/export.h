@@ -24,9 +24,17 @@ struct Exported {
   std::string extension;
 };
 
-/// What a page says of a picture: `camera` as "[eye x, y, z, target x, y, z, horizontal angle]" and
-/// `size` as "[width, height]"; the usual ones where they are empty. Code: request-wrong.
-Result<PictureSettings> pictureOf(const std::string& camera, const std::string& size);
+/// What a page says of a picture: `camera` as "[eye x, y, z, target x, y, z, horizontal angle]",
+/// `size` as "[width, height]", `sun` as "[elevation, azimuth]"; the usual ones where they are
+/// empty. Code: request-wrong.
+Result<PictureSettings> pictureOf(const std::string& camera, const std::string& size,
+                                  const std::string& sun = {});
+
+/// What a page asks of the sun over a model: `day` as "[year, month, day]", `hour` of a clock by
+/// the sun there, `place` as "[latitude, longitude]" or empty for that of the model's map. JSON,
+/// {elevation, azimuth} in degrees. Codes: request-wrong, place-unknown.
+Result<std::string> sunJson(const Model& model, const std::string& day, const std::string& hour,
+                            const std::string& place);
 
 class Exports {
  public:

@@ -106,6 +106,7 @@ Router::Router(const StudioSettings& settings)
   routes_["GET /api/export-progress"] = [this](const HttpRequest& r) {
     return jsonOf(exports_.progressJson(r.argument("page")));
   };
+  routes_["GET /api/sun"] = [this](const HttpRequest& r) { return sun(r); };
   routes_["GET /api/leaf"] = [this](const HttpRequest& r) {
     return bytesOf(session_.leaf(numberOf(r.argument("derivation")), numberOf(r.argument("leaf"))),
                    "application/json");
@@ -231,7 +232,8 @@ HttpResponse Router::progress(const HttpRequest& r) const {
 HttpResponse Router::exported(const HttpRequest& r) {
   const Result<Model> model = session_.model(numberOf(r.argument("derivation")));
   if (!model.ok()) return failed(model.error());
-  const Result<PictureSettings> picture = pictureOf(r.argument("camera"), r.argument("size"));
+  const Result<PictureSettings> picture =
+      pictureOf(r.argument("camera"), r.argument("size"), r.argument("sun"));
   if (!picture.ok()) return failed(picture.error());
   Result<Exported> made = exports_.write(model.value(), r.argument("format"), r.argument("page"),
                                          r.cancelled, picture.value());
@@ -240,6 +242,13 @@ HttpResponse Router::exported(const HttpRequest& r) {
           kBytes,
           std::move(made->bytes),
           {{"Cache-Control", "no-store"}, {"X-Gable-Extension", made->extension}}};
+}
+
+HttpResponse Router::sun(const HttpRequest& r) const {
+  const Result<Model> model = session_.model(numberOf(r.argument("derivation")));
+  if (!model.ok()) return failed(model.error());
+  return bytesOf(sunJson(model.value(), r.argument("day"), r.argument("hour"), r.argument("place")),
+                 "application/json");
 }
 
 HttpResponse Router::converted(const HttpRequest& r) const {

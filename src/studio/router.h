@@ -40,6 +40,7 @@ class Router {
   HttpResponse derived(const HttpRequest& r, bool tree);
   HttpResponse progress(const HttpRequest& r) const;
   HttpResponse exported(const HttpRequest& r);
+  HttpResponse sun(const HttpRequest& r) const;
   HttpResponse converted(const HttpRequest& r) const;
   HttpResponse shapes(const HttpRequest& r);
   HttpResponse asset(const HttpRequest& r);

@@ -536,6 +536,30 @@ TEST(StudioExport, picturesAreTakenFromTheViewsCamera) {
   }
 }
 
+TEST(StudioExport, theSunIsThatOfTheView) {
+  Result<PictureSettings> dusk = pictureOf("", "", "[-3.5, 290]");
+  ASSERT_TRUE(dusk.ok() && dusk->sun);
+  EXPECT_EQ(dusk->sun->elevation, -3.5);
+  EXPECT_EQ(dusk->sun->azimuth, 290);
+  for (const char* wrong : {"[91, 0]", "[1]", "x", "[1, 1e9]"}) {
+    EXPECT_FALSE(pictureOf("", "", wrong).ok()) << wrong;
+  }
+}
+
+TEST(StudioExport, theSunIsKnownByDayHourAndPlace) {
+  const Model model = derive(Rules::parse("Lot --> X.", "a.cga"), Shapes::lot(1, 1));
+  const Result<std::string> noon = sunJson(model, "[2024, 6, 21]", "12", "[47, 8]");
+  ASSERT_TRUE(noon.ok());
+  const JsonValue sun = parseJson(noon.value()).value();
+  EXPECT_NEAR(sun["elevation"].number(0), 90 - 47 + 23.4, 0.5);
+  EXPECT_NEAR(sun["azimuth"].number(0), 180, 2);
+  // A lot without a map lies nowhere.
+  EXPECT_EQ(sunJson(model, "[2024, 6, 21]", "12", "").error().code, "place-unknown");
+  EXPECT_EQ(sunJson(model, "[2024, 6, 21]", "25", "[47, 8]").error().code, "request-wrong");
+  EXPECT_EQ(sunJson(model, "[2024, 6]", "12", "[47, 8]").error().code, "request-wrong");
+  EXPECT_EQ(sunJson(model, "[2024, 6, 21]", "12", "[95, 8]").error().code, "place-unknown");
+}
+
 TEST_F(Server, remediesComeAsEdits) {
   const std::string answer =
       ask("POST /api/derive",
