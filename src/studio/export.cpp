@@ -147,6 +147,8 @@ Result<std::string> sunJson(const Model& model, const std::string& day, const st
   time.day = static_cast<int>(date[2]);
   time.hour = at[0];
   const std::optional<PictureSettings::Sun> sun = sunOver(model, time);
+  // What lies on no map is nothing wrong.
+  if (!sun && place.empty()) return std::string("null");
   if (!sun) {
     return Error{"place-unknown", "nobody knows where the sun stands there and then",
                  "give a latitude of -90 to 90 and a longitude, and a year of 1950 to 2050"};

@@ -32,7 +32,8 @@ Result<PictureSettings> pictureOf(const std::string& camera, const std::string& 
 
 /// What a page asks of the sun over a model: `day` as "[year, month, day]", `hour` of a clock by
 /// the sun there, `place` as "[latitude, longitude]" or empty for that of the model's map. JSON,
-/// {elevation, azimuth} in degrees. Codes: request-wrong, place-unknown.
+/// {elevation, azimuth} in degrees; null for a model on no map. Codes: request-wrong,
+/// place-unknown.
 Result<std::string> sunJson(const Model& model, const std::string& day, const std::string& hour,
                             const std::string& place);
 

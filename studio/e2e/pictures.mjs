@@ -43,6 +43,15 @@ async function click(page, right = 0.5, below = 0.5, options = {}) {
   await page.mouse.click(box.x + box.width * right, box.y + box.height * below, options);
 }
 
+/** With the sky, and the light of an hour in June. */
+async function atHour(page, hour) {
+  await page.getByRole('button', { name: 'Sun', exact: true }).click();
+  await page.getByLabel('Sky').check();
+  await page.getByLabel('By time').check();
+  await page.getByLabel('Hour').fill(String(hour));
+  await page.waitForTimeout(1500);
+}
+
 const pictures = {
   async rules({ page }) {
     await open(page, 'suburb_house/suburb_house.cga');
@@ -79,6 +88,14 @@ const pictures = {
   async light({ page }) {
     await open(page, 'tower/tower.cga');
     await page.getByRole('button', { name: 'Light or dark' }).click();
+  },
+  async evening({ page }) {
+    await open(page, 'haussmann/haussmann.cga');
+    await atHour(page, 19.75);
+  },
+  async night({ page }) {
+    await open(page, 'haussmann/haussmann.cga');
+    await atHour(page, 22);
   },
   async form({ page }) {
     await open(page, 'gbbg/gbbg.gbbg');

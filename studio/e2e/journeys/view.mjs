@@ -4,9 +4,10 @@
 // The view: ways to move, what it shows, what a picked face tells.
 
 import assert from 'node:assert/strict';
-import { writeFileSync } from 'node:fs';
+import { execFileSync } from 'node:child_process';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { HOUSE, drawn, ready, untilDrawn, untilRefined, viewPixels } from '../studio.mjs';
+import { HOUSE, drawn, gable, ready, untilDrawn, untilRefined, viewPixels } from '../studio.mjs';
 
 const picture = (page) => viewPixels(page, '.stage canvas');
 
@@ -242,5 +243,70 @@ export default {
     await page.keyboard.press('Escape');
     for (const [x, y] of [found.at(-2), found.at(-1)]) await page.mouse.click(box.x + x, box.y + y);
     assert.match(await page.locator('.dimtag').innerText(), /^9 m$/);
+  },
+
+  /** The sun of a day, an hour and a place; at night it is dark. */
+  async theSunStandsWhereItDoesAtAnHour({ page }) {
+    await ready(page);
+    await page.getByRole('button', { name: 'Sun', exact: true }).click();
+    const card = page.locator('.sun-card');
+    await card.getByLabel('Sky').check();
+    await card.getByLabel('By time').check();
+    // A lot lies on no map.
+    await page.waitForFunction(
+      () => document.querySelector('[placeholder="that of the map"]')?.value,
+    );
+    await card.getByLabel('Place').fill('50, 8');
+    /** The height of the sun comes to lie between two at an hour. */
+    const stands = async (hour, low, high) => {
+      await card.getByLabel('Hour').fill(String(hour));
+      await page.waitForFunction(
+        ([least, most]) => {
+          const height = Number(document.querySelector('.sun-card input')?.value);
+          return height >= least && height <= most;
+        },
+        [low, high],
+      );
+    };
+    // Noon of the longest day.
+    await stands(12, 62, 65);
+    await page.waitForTimeout(1500);
+    const day = await colorAt(page, 0.02);
+    await stands(0, -18, -10);
+    await page.waitForTimeout(1500);
+    const night = await colorAt(page, 0.02);
+    assert.ok(night[2] < day[2] / 2, `the sky is dark: ${night} after ${day}`);
+    await card.getByLabel('Place').fill('here');
+    await page.getByText('Write latitude and longitude').waitFor();
+    await card.getByLabel('Turn').press('ArrowRight');
+    assert.ok(!(await card.getByLabel('By time').isChecked()), 'a hand takes over');
+  },
+
+  /** Stops of a camera path are taken, played and saved for gable render. */
+  async aCameraPathIsTakenPlayedAndSaved({ page, folder }) {
+    await ready(page);
+    await page.getByRole('button', { name: 'Camera path' }).click();
+    const canvas = page.locator('.stage canvas');
+    for (const key of ['ArrowLeft', 'ArrowLeft', 'ArrowUp']) {
+      await page.getByRole('button', { name: 'Add this view' }).click();
+      await canvas.focus();
+      for (let i = 0; i < 3; ++i) await page.keyboard.press(key);
+    }
+    await page.getByRole('button', { name: 'Leave out stop 3' }).click();
+    assert.equal(await page.getByRole('button', { name: /^Stop \d/ }).count(), 2);
+    await page.getByLabel('Speed').fill('30');
+    await changes(page, 'playing moves the camera', async () => {
+      await page.getByRole('button', { name: /^Play/ }).click();
+      await page.getByRole('button', { name: /^Play/ }).waitFor();
+    });
+    await page.getByRole('button', { name: 'Save', exact: true }).last().click();
+    const said = await page.getByText(/Saved .*-walk\.json/).innerText();
+    const [, rules, name] = /gable render (\S+) --walk (\S+)/.exec(said);
+    const file = join(folder, name);
+    const path = JSON.parse(readFileSync(file, 'utf-8'));
+    assert.equal(path.stops.length, 2);
+    assert.equal(path.speed, 30);
+    const words = ['render', join(folder, rules), '--walk', file, '--size', '64x36'];
+    execFileSync(gable, [...words, '--samples', '1', '-o', join(folder, 'walk.png')]);
   },
 };

@@ -87,12 +87,19 @@ export interface DeriveRequest {
 
 /** What a picture is taken of: as the view shows it. */
 export interface PictureView {
-  eye: readonly number[];
-  target: readonly number[];
+  eye: [number, number, number];
+  target: [number, number, number];
   /** The horizontal angle of view, in degrees. */
   angle: number;
   width: number;
   height: number;
+  /** Degrees above the horizon, and from north over east. */
+  sun: Sun;
+}
+
+export interface Sun {
+  elevation: number;
+  azimuth: number;
 }
 
 /** What was refused, with its code. */
@@ -236,7 +243,8 @@ export class EngineClient {
   ): Promise<{ blob: Blob; extension: string }> {
     const camera = picture
       ? `&camera=${JSON.stringify([...picture.eye, ...picture.target, picture.angle])}` +
-        `&size=${JSON.stringify([picture.width, picture.height])}`
+        `&size=${JSON.stringify([picture.width, picture.height])}` +
+        `&sun=${JSON.stringify([picture.sun.elevation, picture.sun.azimuth])}`
       : '';
     const answer = await this.call(
       'GET',
@@ -253,6 +261,18 @@ export class EngineClient {
       received((bytes += part.value.length), total);
     }
     return { blob: new Blob(chunks), extension: answer.headers.get('X-Gable-Extension') ?? format };
+  }
+
+  /** Of a day and an hour by the sun, over a place or the model; null for one on no map. */
+  async sun(
+    derivation: number,
+    day: [number, number, number],
+    hour: number,
+    place: [number, number] | null,
+  ): Promise<Sun | null> {
+    const where = place ? `&place=${JSON.stringify(place)}` : '';
+    const path = `sun?derivation=${derivation}&day=${JSON.stringify(day)}&hour=${hour}${where}`;
+    return (await this.call('GET', path)).json() as Promise<Sun | null>;
   }
 
   async exportNews(): Promise<ExportNews> {

@@ -4,6 +4,7 @@
 // What is open on the page. Nothing here is kept.
 
 import type { Mode } from '../view/navigation';
+import type { CameraPath } from '../view/camera_path';
 import type { Standpoint } from '../view/framing';
 
 export type Tool = 'select' | 'lot' | 'measure';
@@ -19,6 +20,10 @@ export class Look {
   handles = $state(true);
   sunOpen = $state(false);
   sun = $state({ elevation: 44, azimuth: -28 });
+  /** In place of that, day and hour by the sun; no place is that of the model's map. */
+  time = $state({ on: false, day: '2024-06-21', hour: 15, place: '' });
+  pathOpen = $state(false);
+  path = $state<CameraPath>({ stops: [], speed: 1.4, closed: false });
   /** Where the camera stood when the view was last closed, and over which rules. */
   camera: ({ of: string } & Standpoint) | null = null;
 }

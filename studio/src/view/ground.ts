@@ -52,9 +52,10 @@ export class Ground {
     return this.plain.position.y;
   }
 
-  setColors(ground: THREE.Color, line: string): void {
+  /** `air`: how bright the grid is, which no light falls on. */
+  setColors(ground: THREE.Color, line: string, air: number): void {
     this.plain.material.color.copy(ground).multiplyScalar(1.05);
-    (this.grid.material.uniforms.line!.value as THREE.Color).set(line);
+    (this.grid.material.uniforms.line!.value as THREE.Color).set(line).multiplyScalar(air);
   }
 
   /** Below a model of a radius, whose lowest point is at `lowest`. */

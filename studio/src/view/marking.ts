@@ -28,6 +28,7 @@ export class Marking {
   readonly marks: Marks = {
     selected: { value: new THREE.Vector2() },
     accent: { value: new THREE.Color() },
+    lit: { value: 0 },
     guideStep: { value: 1e9 },
   };
   /** The groups of boxes, for the scene. */

@@ -19,6 +19,7 @@ import { Navigation, type Mode } from './navigation';
 import { isSoftware, Pace } from './pace';
 import { Painter } from './painter';
 import { Schedule, type Work } from './schedule';
+import { compassAzimuth } from './sun_time';
 import { Surroundings, type ViewColors } from './surroundings';
 
 export type { Range, ViewColors };
@@ -67,6 +68,8 @@ export class SceneView {
   private bounds: Bounds = { min: [0, 0, 0], max: [20, 0, 20] };
   /** Counts models, so that one that was sorted too late is not shown. */
   private models = 0;
+  /** As the view counts it: see sun_time. */
+  private sun = { elevation: 44, azimuth: -28 };
   private wireframe = false;
 
   /** `posed`: for pictures that are taken as soon as they are drawn, so that all are in full. */
@@ -243,7 +246,9 @@ export class SceneView {
   }
 
   setSun(elevation: number, azimuth: number): void {
+    this.sun = { elevation, azimuth };
     this.surroundings.setSun(elevation, azimuth);
+    this.marking.marks.lit.value = this.surroundings.lights.day.lit;
     this.redraw();
   }
 
@@ -298,10 +303,16 @@ export class SceneView {
 
   /** What a picture shows that is taken from here. */
   pictureView(): PictureView {
-    const { position, target } = this.framing.standpoint();
+    // Who walks does not look at what an orbit turns about.
+    const { position, target: middle } = this.framing.standpoint();
+    const ahead = this.camera.getWorldDirection(new THREE.Vector3());
+    const far = Math.max(1, this.camera.position.distanceTo(new THREE.Vector3(...middle)));
+    const target = this.camera.position.clone().addScaledVector(ahead, far).toArray();
     const half = Math.tan((this.camera.fov * Math.PI) / 360) * this.camera.aspect;
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    return { eye: position, target, angle: (Math.atan(half) * 360) / Math.PI, width, height };
+    const angle = (Math.atan(half) * 360) / Math.PI;
+    const sun = { elevation: this.sun.elevation, azimuth: compassAzimuth(this.sun.azimuth) };
+    return { eye: position, target, angle, width, height, sun };
   }
 
   /** Stands where somebody stood before, over the model that comes next. */

@@ -12,6 +12,8 @@ export interface Marks {
   /** Leaves from, to; empty where from is not below to. */
   selected: { value: THREE.Vector2 };
   accent: { value: THREE.Color };
+  /** The share of rooms behind glass with light in them. */
+  lit: { value: number };
   /** The step that is shown; only materials of a derivation in steps look at it. */
   guideStep: { value: number };
 }
@@ -26,6 +28,14 @@ const LEAF = `
 float leafOfMesh = leaf;
 vLeaf = leafOfMesh;
 vTint = pow(tint.rgb, vec3(2.2));
+`;
+
+/** Light in the room behind a pane, by its leaf. What lies flat is water; cars have theirs lean. */
+const LIT_ROOM = `
+#include <emissivemap_fragment>
+float room = fract(mod(vLeaf, 1024.0) * 0.6180340 + floor(vLeaf / 1024.0) * 0.3770);
+if (room < lit && abs(inverseTransformDirection(normal, viewMatrix).y) < 0.25)
+  totalEmissiveRadiance += vec3(1.0, 0.69, 0.36) * (0.3 + 0.5 * fract(room * 57.0));
 `;
 
 /** A derivation in steps: each vertex or instance knows from and up to which step it is there. */
@@ -102,9 +112,12 @@ export function lookMaterial(look: Look, marks: Marks, stepped = false): THREE.M
   });
   if (look.emissive) material.emissive.setHex(swapRgb(look.emissive));
   const metal = look.metallic;
+  // Smooth enough for a window, as the path tracer has it.
+  const pane = look.roughness <= 0.2 && metal < 0.5 && !look.emissive;
   material.onBeforeCompile = (shader) => {
     shader.uniforms.selected = marks.selected;
     shader.uniforms.accent = marks.accent;
+    shader.uniforms.lit = marks.lit;
     shader.vertexShader =
       HEAD + shader.vertexShader.replace('#include <uv_vertex>', LEAF + '#include <uv_vertex>');
     if (stepped) {
@@ -119,18 +132,21 @@ export function lookMaterial(look: Look, marks: Marks, stepped = false): THREE.M
     shader.fragmentShader =
       (stepped ? 'varying float vFresh;\n' : '') +
       'varying vec3 vTint;\nflat varying float vLeaf;\n' +
-      'uniform vec2 selected;\nuniform vec3 accent;\n' +
-      softened(shader.fragmentShader).replace(
-        '#include <map_fragment>',
-        `diffuseColor.rgb *= vTint;
+      'uniform vec2 selected;\nuniform vec3 accent;\nuniform float lit;\n' +
+      softened(shader.fragmentShader)
+        .replace('#include <emissivemap_fragment>', pane ? LIT_ROOM : '$&')
+        .replace(
+          '#include <map_fragment>',
+          `diffuseColor.rgb *= vTint;
          ${metal > 0.4 ? 'diffuseColor.rgb *= 0.82;' : ''}
          if (vLeaf + 0.5 > selected.x && vLeaf + 0.5 < selected.y)
            diffuseColor.rgb = mix(diffuseColor.rgb, accent, 0.06);
          ${stepped ? 'diffuseColor.rgb = mix(diffuseColor.rgb, accent, 0.75 * vFresh);' : ''}
          #include <map_fragment>`,
-      );
+        );
   };
-  material.customProgramCacheKey = () => `look${metal > 0.4 ? 'm' : ''}${stepped ? 's' : ''}`;
+  const kind = (metal > 0.4 ? 'm' : '') + (stepped ? 's' : '') + (pane ? 'p' : '');
+  material.customProgramCacheKey = () => `look${kind}`;
   return material;
 }
 
@@ -222,6 +238,7 @@ export function skyMaterial(): THREE.ShaderMaterial {
       horizon: { value: new THREE.Color() },
       zenith: { value: new THREE.Color() },
       sun: { value: new THREE.Vector3(0, 1, 0) },
+      disc: { value: 1 },
     },
     vertexShader: `
       varying vec3 vAt;
@@ -234,13 +251,14 @@ export function skyMaterial(): THREE.ShaderMaterial {
       uniform vec3 horizon;
       uniform vec3 zenith;
       uniform vec3 sun;
+      uniform float disc;
       varying vec3 vAt;
       void main() {
         vec3 d = normalize(vAt);
         vec3 c = mix(horizon, zenith, smoothstep(0.0, 0.55, d.y));
         float near = max(0.0, dot(d, sun));
-        float disc = 0.9 * smoothstep(0.9993, 0.9996, near);
-        c += vec3(1.0, 0.86, 0.62) * (0.16 * pow(near, 24.0) + disc);
+        float orb = 0.9 * smoothstep(0.9993, 0.9996, near);
+        c += disc * vec3(1.0, 0.86, 0.62) * (0.16 * pow(near, 24.0) + orb);
         gl_FragColor = vec4(c, 1.0);
         #include <colorspace_fragment>
       }`,

@@ -2,18 +2,16 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Lights: the sun and the sky of the view, as three suns of which one shines. The first is where a
-// person put it; its shadows are drawn when the model or the sun has changed, not when the camera
-// moves. The second is the same with coarse shadows, for a model that changes just now. The third
-// goes about while a still picture is refined.
+// person put it, or the moon at night; its shadows are drawn when the model or the sun has changed,
+// not when the camera moves. The second is the same with coarse shadows, for a model that changes
+// just now. The third goes about while a still picture is refined.
 
 import * as THREE from 'three';
+import { daylight } from './daylight';
 
-const SUNLIGHT = 0xfff1dc;
-const SKYLIGHT = 0xe4edf4;
 const GROUNDLIGHT = 0x9a948a;
-/** How bright the sun is, and the sky. */
-const SUN = 2.9;
-const SKY = 1.7;
+/** Degrees above the horizon: the moon. */
+const MOON = 38;
 /** How much of the light of the sky comes from places in it once a picture is refined. */
 const FROM_PLACES = 0.7;
 /** A place in the sky stands for much of it: its shadow on the ground has no edge. */
@@ -36,10 +34,12 @@ export class Lights {
   readonly group = new THREE.Group();
   /** How far apart, as a share of the shadows' width, the ground looks for its shadow. */
   readonly scatter = { value: 0 };
-  private readonly still = new THREE.DirectionalLight(SUNLIGHT, SUN);
-  private readonly coarse = new THREE.DirectionalLight(SUNLIGHT, SUN);
-  private readonly moving = new THREE.DirectionalLight(SUNLIGHT, SUN);
-  private readonly sky = new THREE.HemisphereLight(SKYLIGHT, GROUNDLIGHT, SKY);
+  /** What the light of the time of day is. */
+  day = daylight(44);
+  private readonly still = new THREE.DirectionalLight();
+  private readonly coarse = new THREE.DirectionalLight();
+  private readonly moving = new THREE.DirectionalLight();
+  private readonly sky = new THREE.HemisphereLight(0xffffff, GROUNDLIGHT);
   private angles = { elevation: 44, azimuth: -28 };
   private centre = new THREE.Vector3();
   private radius = 10;
@@ -88,11 +88,15 @@ export class Lights {
   }
 
   turn(elevation: number, azimuth: number): void {
-    this.angles = { elevation, azimuth };
+    this.day = daylight(elevation);
+    this.angles = this.day.moon
+      ? { elevation: MOON, azimuth: azimuth + 180 }
+      : { elevation: Math.max(1, elevation), azimuth };
+    this.shine(this.still);
     for (const sun of [this.still, this.coarse]) this.place(sun, this.direction());
   }
 
-  /** Towards the sun, moved by so many degrees. */
+  /** Towards what shines, moved by so many degrees. */
   direction(higher = 0, aside = 0): THREE.Vector3 {
     const e = ((this.angles.elevation + higher) * Math.PI) / 180;
     const a = ((this.angles.azimuth + aside) * Math.PI) / 180;
@@ -111,7 +115,12 @@ export class Lights {
 
   private shine(which: THREE.DirectionalLight): void {
     for (const sun of [this.still, this.coarse, this.moving]) sun.visible = sun === which;
-    this.sky.color.set(SKYLIGHT);
+    for (const sun of [this.still, this.coarse]) {
+      sun.color.copy(this.day.light);
+      sun.intensity = this.day.strength;
+    }
+    this.sky.color.copy(this.day.sky);
+    this.sky.intensity = this.day.skyStrength;
     this.scatter.value = 0;
   }
 
@@ -121,16 +130,19 @@ export class Lights {
    * on their average as in the first picture.
    */
   pass(i: number): void {
-    const sun = SUN_PASSES.has((i - 1) % GROUP);
-    const to = sun
+    const fromSun = SUN_PASSES.has((i - 1) % GROUP);
+    const to = fromSun
       ? this.direction((spread(i, 5) - 0.5) * 2.4, (spread(i, 7) - 0.5) * 2.4)
       : inSky(i - 1);
     this.place(this.moving, to);
     this.shine(this.moving);
-    this.moving.color.set(sun ? SUNLIGHT : SKYLIGHT);
-    this.moving.intensity = sun ? SUN / SUN_SHARE : (SKY * FROM_PLACES * 2) / (1 - SUN_SHARE);
-    this.sky.color.set(SKYLIGHT).multiplyScalar(1 - FROM_PLACES);
-    this.scatter.value = sun ? 0 : SCATTER;
+    const { light, strength, sky, skyStrength } = this.day;
+    this.moving.color.copy(fromSun ? light : sky);
+    this.moving.intensity = fromSun
+      ? strength / SUN_SHARE
+      : (skyStrength * FROM_PLACES * 2) / (1 - SUN_SHARE);
+    this.sky.color.copy(sky).multiplyScalar(1 - FROM_PLACES);
+    this.scatter.value = fromSun ? 0 : SCATTER;
   }
 
   private place(sun: THREE.DirectionalLight, to: THREE.Vector3): void {

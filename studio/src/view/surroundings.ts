@@ -21,6 +21,11 @@ export interface ViewColors {
   horizon: string;
 }
 
+/** The horizon where the sun goes down. */
+const DUSK = new THREE.Color(0xf0a062);
+/** Metres, until a model is there. */
+const FOG = { near: 100, far: 1000 };
+
 export class Surroundings {
   readonly lights: Lights;
   readonly ground: Ground;
@@ -30,6 +35,9 @@ export class Surroundings {
   private readonly dome = new THREE.Mesh(new THREE.SphereGeometry(1, 32, 16), skyMaterial());
   private readonly groundColor = new THREE.Color();
   private readonly horizonColor = new THREE.Color();
+  private readonly zenithColor = new THREE.Color();
+  /** Of the theme; what is shown of it depends on the time of day. */
+  private colors: ViewColors | null = null;
   private sky = false;
 
   /** `cheap`: shadows for a machine without a graphics card. */
@@ -47,11 +55,25 @@ export class Surroundings {
   }
 
   setColors(colors: ViewColors): void {
-    this.groundColor.set(colors.ground);
-    this.horizonColor.set(colors.horizon);
+    this.colors = colors;
     this.dome.material.uniforms.horizon!.value = this.horizonColor;
-    (this.dome.material.uniforms.zenith!.value as THREE.Color).set(colors.zenith);
-    this.ground.setColors(this.groundColor, colors.line);
+    this.dome.material.uniforms.zenith!.value = this.zenithColor;
+    this.showAir();
+  }
+
+  /** What lies behind the model, at this time of day. */
+  private showAir(): void {
+    if (!this.colors) return;
+    const { air, glow } = this.lights.day;
+    const { uniforms } = this.dome.material;
+    this.ground.setColors(this.groundColor.set(this.colors.ground), this.colors.line, air);
+    this.groundColor.multiplyScalar(air);
+    this.zenithColor.set(this.colors.zenith).multiplyScalar(air);
+    this.horizonColor
+      .set(this.colors.horizon)
+      .multiplyScalar(air)
+      .lerp(DUSK, 0.6 * glow * air);
+    uniforms.disc!.value = this.lights.day.moon ? 0 : Math.min(1, air);
     this.setSky(this.sky);
   }
 
@@ -61,7 +83,8 @@ export class Surroundings {
     this.dome.visible = on;
     const far = on ? this.horizonColor : this.groundColor;
     this.scene.background = far;
-    this.scene.fog = new THREE.Fog(far, 100, 1000);
+    const { near, far: reach } = this.scene.fog instanceof THREE.Fog ? this.scene.fog : FOG;
+    this.scene.fog = new THREE.Fog(far, near, reach);
   }
 
   /** `within`: the camera stands in the place. */
@@ -81,6 +104,7 @@ export class Surroundings {
   /** In degrees, as a compass has them. */
   setSun(elevation: number, azimuth: number): void {
     this.lights.turn(elevation, azimuth);
+    this.showAir();
     this.showSun();
   }
 
