@@ -44,6 +44,16 @@ TEST(Convert, keepsOperationsBehindAChoiceOutOfIt) {
   expectSameModel("Lot -> Select { outer & W : A | len > 5 : B } else { C } Extrude(3)", "a.park");
 }
 
+TEST(Convert, keepsCommentsOfEitherKind) {
+  for (const char* sign : {"//", "#"}) {
+    const std::string remark = sign + std::string(" words \"of\" ours\n");
+    const std::string text = remark + "Lot -> Color(\"#5d7440\") LAWN " + remark;
+    const std::string out = converted(text, "a.park");
+    EXPECT_EQ(count(out, "// words \"of\" ours"), 2u) << out;
+    EXPECT_EQ(count(out, "#5d7440"), 1u) << out;
+  }
+}
+
 TEST(Convert, keepsChoicesWithinBranchesApart) {
   expectSameModel(
       "Lot -> case (border): Contract(1) Select { facing(world.N) : B } else { A }\n"

@@ -494,7 +494,7 @@ NodeId Lowering::node(const std::string& expression, std::string_view written, S
 
 void Lowering::unreadable(std::string_view written, Span span) {
   diagnostics_.error("bad-argument", span, "'" + std::string(written) + "' cannot be read",
-                     "see the notation's table in the guide to park grammars");
+                     "docs/guide/park.md has a table of the notation");
 }
 
 NodeId Lowering::formed(Form form, std::string_view written, Span span) {
@@ -509,7 +509,7 @@ NodeId Lowering::formed(Form form, std::string_view written, Span span) {
   } else if (hint.empty() && form == &lang::RegionTexts::smoothing) {
     hint = "write none, average(2), chaikin(2), bezier or round(1)";
   } else if (hint.empty()) {
-    hint = "see the selections in the guide to park grammars";
+    hint = "docs/guide/park.md lists the selections";
   }
   const Span word = placeOf(source_, span, texts.word());
   diagnostics_.error("bad-selection", word,

@@ -71,9 +71,10 @@ class Parser {
         if (text_[i] == '\n') quoted = false;
         continue;
       }
-      const bool line = text_.compare(i, 2, "//") == 0, block = text_.compare(i, 2, "/*") == 0;
+      const bool line = text_[i] == '#' || text_.compare(i, 2, "//") == 0,
+                 block = text_.compare(i, 2, "/*") == 0;
       if (!line && !block) continue;
-      size_t end = text_.find(line ? "\n" : "*/", i + 2);
+      size_t end = text_.find(line ? "\n" : "*/", i + (line ? 1 : 2));
       if (end == std::string::npos) {
         if (block) error("unclosed-comment", span(i, i + 2), "this comment has no end", "write */");
         end = text_.size();
@@ -230,7 +231,7 @@ class Parser {
       }
       grammar_.constants[what] = v;
       std::string text = text_.substr(start, at_ - start);
-      const size_t comment = std::min(text.find("//"), text.find("/*"));
+      const size_t comment = std::min({text.find("//"), text.find("/*"), text.find('#')});
       if (comment != std::string::npos) text.resize(comment);
       grammar_.written.push_back({what, std::move(text), where});
     } else {
