@@ -63,6 +63,9 @@ const char* typeOf(const std::string& path) {
   return at == kTypes.end() ? kBytes : at->second;
 }
 
+/// A text becomes a tree that takes five times its room, and a page may ask for four at once.
+constexpr size_t kLargestConverted = 8 << 20;
+
 uint64_t numberOf(const std::string& text) {
   return static_cast<uint64_t>(std::strtoull(text.c_str(), nullptr, 10));
 }
@@ -254,6 +257,10 @@ HttpResponse Router::sun(const HttpRequest& r) const {
 HttpResponse Router::converted(const HttpRequest& r) const {
   const std::string path = r.argument("path");
   if (!plainPath(path)) return failed({"path-outside", "'path' names no file", ""});
+  if (r.body.size() > kLargestConverted) {
+    return failed({"file-too-large", "rules of more than 8 MB are not converted here",
+                   "gable convert takes them"});
+  }
   LoadSettings options;
   options.project = files_.root();
   options.search = search_;

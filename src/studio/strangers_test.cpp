@@ -233,6 +233,12 @@ class Stranger : public ::testing::Test {
   RunningStudio studio_;
 };
 
+TEST_F(Stranger, largeTextsAreNotConverted) {
+  const std::string address = "POST /api/convert?path=rules/a.park";
+  EXPECT_EQ(status(ask(address, "A -> LAWN\n")), 200);
+  EXPECT_EQ(status(ask(address, std::string((8 << 20) + 1, ' '))), 413);
+}
+
 TEST_F(Stranger, noAddressLeadsOutOfTheProject) {
   const std::vector<std::string> outside = {
       "..%2Fsecret.obj", "%2e%2e%2Fsecret.obj", "rules%2F..%2F..%2Fsecret.obj",
