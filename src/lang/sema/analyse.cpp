@@ -115,6 +115,7 @@ void Analysis::walkRule(RuleId id) {
   body_.rule = id;
   walkLocals(node);
   visitSequence(bodyOf(tree(), node));
+  if (!runsInPlace()) reportUnused(bodyOf(tree(), node));
   openRules_[id] = body_.open;
   body_.types.resize(body_.paramCount);
   program_.rules[id].paramTypes = body_.types;

@@ -237,6 +237,19 @@ TEST(Analyse, weightsMustAddUp) {
             "1:31 weights-over-100 (warning)\n1:64 missing-else\n1:107 missing-else\n");
 }
 
+TEST(Analyse, operationsBehindTheLastRuleAreTold) {
+  const Analysed a(
+      "A --> extrude(1) B extrude(3) t(0, 1, 0)\n"
+      "B --> case geometry.area > 1 : X. extrude(2) else : [ X. t(1, 0, 0) ] Y.\n"
+      "C --> A t(0, 1, 0) B\n"
+      "D --> X. t(0, 1, 0) comp(f) { all : X. } E --> t(1, 0, 0)");
+  EXPECT_EQ(a.problems(),
+            "1:20 unused-operation (warning)\n2:35 unused-operation (warning)\n"
+            "2:58 unused-operation (warning)\n");
+  // What runs in place leaves its shape changed.
+  EXPECT_CLEAN(Analysed("A --> do(B) X. B --> X. t(1, 0, 0)"));
+}
+
 TEST(Analyse, additionsRunRulesInPlace) {
   const Analysed a(
       "attr n = 1 A --> do(B(2)) do(C) local(n = 3) { B(n) } B(x) --> extrude(x) C --> X.");

@@ -268,6 +268,8 @@ class Analysis {
 
   // --- successors.cpp ---
   void visitSequence(NodeId node);
+  void reportUnused(NodeId sequence);
+  bool runsInPlace();
   void visitSuccessor(NodeId node);
   void visitApply(NodeId node);
   void visitOperation(NodeId node, const OpSpec& op);
@@ -439,6 +441,8 @@ class Analysis {
   size_t nodes_ = 0;
   /// Body::open of rules and functions, between rounds.
   std::map<RuleId, std::vector<bool>> openRules_;
+  /// Whether any rule is run in place, once asked.
+  std::optional<bool> inPlace_;
   std::map<FunctionId, std::vector<bool>> openFunctions_;
 };
 

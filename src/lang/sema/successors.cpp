@@ -58,6 +58,54 @@ void Analysis::visitSequence(NodeId node) {
   for (const NodeId s : tree().children(node)) visitSuccessor(s);
 }
 
+// Whether a rule somewhere is run in place, so that what follows its calls is not lost.
+bool Analysis::runsInPlace() {
+  if (inPlace_) return *inPlace_;
+  inPlace_ = std::any_of(program_.units.begin(), program_.units.end(), [&](const Unit& unit) {
+    for (NodeId n = 1; n < unit.tree.size(); ++n) {
+      work();
+      if (unit.tree.kind(n) == NodeKind::Apply && unit.tree.text(n) == "do") return true;
+    }
+    return false;
+  });
+  return *inPlace_;
+}
+
+// Operations behind the last rule or leaf of a sequence change a shape that becomes nothing.
+void Analysis::reportUnused(NodeId sequence) {
+  if (sequence == kNoNode) return;
+  constexpr uint32_t kTells = kReports | kLabels | kAsksForRoom;
+  const Module& module = program_.modules[body_.module];
+  NodeId made = kNoNode, unused = kNoNode;
+  for (const NodeId s : tree().children(sequence)) {
+    const NodeKind kind = tree().kind(s);
+    const Resolution& means = module.at(s);
+    if (kind == NodeKind::Push) reportUnused(tree().child(s, 0));
+    if (kind == NodeKind::Choice) {
+      for (const NodeId branch : tree().children(s)) reportUnused(tree().child(branch, 1));
+    }
+    if (kind == NodeKind::Apply && means.kind == RefKind::Operation) {
+      const OpSpec& op = *means.spec.operation;
+      // NIL says that nothing is to become of it.
+      const bool changes =
+          op.block == BlockKind::None && (op.effects & kTells) == 0 && text(s) != "NIL";
+      if (changes && made != kNoNode && unused == kNoNode) unused = s;
+      if (!changes) made = unused = kNoNode;
+    } else {
+      // A name without a meaning has its own message.
+      const bool leaf = means.kind == RefKind::Leaf && tree().has(s, kFlagTerminal);
+      const bool ends = means.kind == RefKind::Rule || leaf;
+      made = ends ? s : kNoNode;
+      unused = kNoNode;
+    }
+  }
+  if (unused == kNoNode) return;
+  warning("unused-operation", nameSpan(tree(), unused),
+          quote(text(unused)) + " stands behind " + quote(text(made)) +
+              " and changes a shape that nothing is made of",
+          "write it before " + quote(text(made)) + ", or in its rule");
+}
+
 void Analysis::visitSuccessor(NodeId node) {
   work();
   switch (tree().kind(node)) {
