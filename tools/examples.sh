@@ -90,8 +90,12 @@ generate_example() {
 # picture_arguments NAME VIEW: what all pictures of an example are told, and what one is: its camera.
 picture_arguments() { words "examples/$1/pictures.args"; words "examples/$1/$2.args"; }
 
+# samples NAME VIEW: how many a pixel has, where the picture's own arguments do not say it.
+samples() { picture_arguments "$1" "$2" | grep -qx -e --samples || echo --samples 24; }
+
 # render_example GABLE NAME PICTURE VIEW ARGUMENT...
-# Drawn from the rules, not from the model: parts that occur often are held in memory once.
+# Drawn from the rules, not from the model: parts that occur often are held in memory once. Where there is
+# examples/NAME/pictures.cga, it is drawn in place of the rules: it calls them and what lies around.
 render_example() {
   local gable=$1 name=$2 picture=$3 view=$4 map arguments
   shift 4
@@ -102,5 +106,6 @@ render_example() {
     return
   fi
   mapfile -t arguments < <(derive_arguments "$name"; picture_arguments "$name" "$view")
+  [ ! -f "examples/$name/pictures.cga" ] || arguments[0]=examples/$name/pictures.cga
   "$gable" render "${arguments[@]}" "$@" -o "$picture"
 }

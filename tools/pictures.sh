@@ -24,7 +24,8 @@ for name in "${examples[@]}"; do
     drawn=$name
     [ "$view" = picture ] || drawn=$name-$view
     step "Drawing $drawn" "picture-$drawn.log" \
-      render_example "$gable" "$name" "build/pictures/$drawn.png" "$view" --size 1200x675 --samples 24 || exit 1
+      render_example "$gable" "$name" "build/pictures/$drawn.png" "$view" \
+      --size 1200x675 $(samples "$name" "$view") || exit 1
     python3 -B tools/shrink_png.py "build/pictures/$drawn.png" "examples/$name/$drawn.png"
   done
 done

@@ -17,6 +17,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cases/solid_faults.h"
@@ -34,14 +35,37 @@ struct Example {
   /// Shown on so many seeds, from its own on.
   int seeds = 2;
   double seed = 0, width = 20, depth = 20;
+  bool onMap = false;
+  std::vector<std::pair<std::string, std::string>> attributes;
 };
 
 void PrintTo(const Example& example, std::ostream* out) { *out << example.name; }
 
-// The examples that are looked at, besides all park grammars.
+// The examples that are looked at on their own shapes, besides all park grammars.
 const std::set<std::string> kLookedAt = {"brownstone", "gbbg",         "grove",
                                          "halftimber", "haussmann",    "progen3d",
                                          "rowhouse",   "suburb_house", "tower"};
+
+// Those that are looked at on a lot, which has all of their rules to show in less time.
+struct OnLot {
+  double width, depth;
+  int seeds = 2;
+  std::vector<std::pair<std::string, std::string>> attributes = {};
+};
+const std::map<std::string, OnLot> kOnLots = {
+    {"artdeco", {44, 44, 1}},
+    {"castle", {240, 240, 1, {{"huts.things", "true"}}}},
+    {"cathedral", {46, 80}},
+    {"gardens", {60, 45}},
+    {"machiya", {18, 36}},
+    {"monaco", {14, 12}},
+    {"palazzi", {24, 22}},
+    {"station", {50, 90}},
+    {"suburb", {320, 320, 1, {{"traffic", "true"}}}},
+    {"temple", {26, 40}},
+    {"terrace", {26, 24}},
+    {"town", {150, 150, 1, {{"traffic", "true"}}}},
+};
 
 std::string folder() { return std::string(GABLE_SOURCE_DIR) + "/examples/"; }
 
@@ -54,6 +78,17 @@ void readArguments(Example& example) {
     char by = 0;
     if (word == "--lot") text >> example.width >> by >> example.depth;
   }
+}
+
+void putOn(Example& example, const OnLot& lot) {
+  example.width = lot.width;
+  example.depth = lot.depth;
+  example.seeds = lot.seeds;
+  example.attributes = lot.attributes;
+}
+
+std::string mapOf(const Example& example) {
+  return folder() + example.name + "/buildings.geojson";
 }
 
 std::vector<Example> examples() {
@@ -70,7 +105,10 @@ std::vector<Example> examples() {
     example.rules = path.string();
     readArguments(example);
     if (park) example.width = example.depth = 40;
-    if (!park && kLookedAt.count(stem) == 0) continue;
+    const auto lot = park ? kOnLots.end() : kOnLots.find(stem);
+    if (lot != kOnLots.end()) putOn(example, lot->second);
+    if (!park && lot == kOnLots.end() && kLookedAt.count(stem) == 0) continue;
+    example.onMap = lot == kOnLots.end() && fs::exists(mapOf(example));
     all.push_back(example);
   }
   std::sort(all.begin(), all.end(),
@@ -79,9 +117,8 @@ std::vector<Example> examples() {
 }
 
 Shapes shapesOf(const Example& example) {
-  const std::string map = folder() + example.name + "/buildings.geojson";
-  if (!fs::exists(map)) return Shapes::lot(example.width, example.depth);
-  return Shapes::load(map);
+  if (example.onMap) return Shapes::load(mapOf(example));
+  return Shapes::lot(example.width, example.depth);
 }
 
 // Parts of one thing, such as the limbs of a figure or the stones of a wall, may be joined by
@@ -126,6 +163,7 @@ TEST_P(Solids, standFreeOfFaults) {
     DeriveSettings settings;
     settings.seed = example.seed + i;
     settings.jobs = 2;
+    settings.attributes = example.attributes;
     const Model model = derive(rules, shapesOf(example), settings);
     ASSERT_FALSE(hasErrors(model.diagnostics())) << render(model.diagnostics());
     EXPECT_GT(count(model.impl().result.scene).leaves, 3u);
