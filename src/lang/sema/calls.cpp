@@ -490,7 +490,7 @@ ValueType Analysis::visitSelectorWord(NodeId node, const std::vector<const Param
                      !functionsNamed(body_.module, word).empty();
   if (isOwn || !onlyWords) {
     if (!isOwn) wordsHere_ = known;
-    const ValueType type = visitName(node, ValueType::Null);
+    const ValueType type = typed(node, visitName(node, ValueType::Null));
     wordsHere_.clear();
     if (!onlyWords || type != ValueType::Float) return type;
   }
