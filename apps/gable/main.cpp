@@ -585,7 +585,8 @@ void addAsset(CLI::App& app, AssetArguments& asset, MaterialArguments& material,
 void addStudio(CLI::App& app, StudioArguments& a, int& status) {
   auto* studio = app.add_subcommand(
       "studio", "Start the studio: write rules in the browser and see the model");
-  studio->add_option("folder", a.folder, "The project (default: this folder)");
+  studio->add_option("folder", a.folder,
+                     "The project, or a rule file of it (default: this folder)");
   addSearch(studio, a.search);
   studio
       ->add_option("--port", a.port, "The port (default: that of the last start, or any free one)")

@@ -2,30 +2,38 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Gable in Visual Studio Code: the language server, and a button that shows the place in the browser.
-'use strict';
+"use strict";
 
-const { spawn } = require('node:child_process');
-const path = require('node:path');
-const vscode = require('vscode');
-const { LanguageClient } = require('vscode-languageclient/node');
+const { spawn } = require("node:child_process");
+const path = require("node:path");
+const vscode = require("vscode");
+const { LanguageClient } = require("vscode-languageclient/node");
 
-const LANGUAGES = ['cga', 'gable-gbbg', 'gable-park', 'gable-progen3d'];
-const MODELS = { glTF: ['glb', 'gltf'], OBJ: ['obj'], Picture: ['png'] };
+const LANGUAGES = ["cga", "gable-gbbg", "gable-park", "gable-progen3d"];
+const MODELS = { glTF: ["glb", "gltf"], OBJ: ["obj"], Picture: ["png"] };
 
 let client;
 /** The studios that run, by the folder that they serve: { process, url }. */
 const studios = new Map();
 
-const program = () => vscode.workspace.getConfiguration('gable').get('path') || 'gable';
+const program = () =>
+  vscode.workspace.getConfiguration("gable").get("path") || "gable";
 
 async function startClient() {
-  const server = { command: program(), args: ['lsp'] };
-  client = new LanguageClient('gable', 'Gable', { run: server, debug: server }, {
-    documentSelector: LANGUAGES.map((language) => ({ language })),
-    synchronize: {
-      fileEvents: vscode.workspace.createFileSystemWatcher('**/*.{cga,gbbg,park,grammar,pg3d}'),
+  const server = { command: program(), args: ["lsp"] };
+  client = new LanguageClient(
+    "gable",
+    "Gable",
+    { run: server, debug: server },
+    {
+      documentSelector: LANGUAGES.map((language) => ({ language })),
+      synchronize: {
+        fileEvents: vscode.workspace.createFileSystemWatcher(
+          "**/*.{cga,gbbg,park,grammar,pg3d}",
+        ),
+      },
     },
-  });
+  );
   try {
     await client.start();
   } catch (error) {
@@ -41,11 +49,18 @@ async function stopClient() {
 }
 
 function missing(error) {
-  const settings = 'Open Settings';
+  const settings = "Open Settings";
   vscode.window
-    .showErrorMessage(`'${program()}' could not be started (${error.message}). Install Gable, or set gable.path.`, settings)
+    .showErrorMessage(
+      `'${program()}' could not be started (${error.message}). Install Gable, or set gable.path.`,
+      settings,
+    )
     .then((choice) => {
-      if (choice === settings) vscode.commands.executeCommand('workbench.action.openSettings', 'gable.path');
+      if (choice === settings)
+        vscode.commands.executeCommand(
+          "workbench.action.openSettings",
+          "gable.path",
+        );
     });
 }
 
@@ -54,7 +69,7 @@ async function ruleFile() {
   const document = vscode.window.activeTextEditor?.document;
   if (!document || !LANGUAGES.includes(document.languageId)) return undefined;
   if (document.isUntitled || document.isDirty) await document.save();
-  return document.uri.scheme === 'file' ? document.uri.fsPath : undefined;
+  return document.uri.scheme === "file" ? document.uri.fsPath : undefined;
 }
 
 /** The folder that the studio is to serve: the workspace's, else the file's own. */
@@ -67,20 +82,22 @@ function folderOf(file) {
 function studioFor(folder) {
   const known = studios.get(folder);
   if (known) return known.url;
-  const child = spawn(program(), ['studio', folder], { stdio: ['ignore', 'pipe', 'pipe'] });
+  const child = spawn(program(), ["studio", folder], {
+    stdio: ["ignore", "pipe", "pipe"],
+  });
   const url = new Promise((done, failed) => {
-    let out = '';
-    let wrong = '';
-    child.stdout.on('data', (bytes) => {
+    let out = "";
+    let wrong = "";
+    child.stdout.on("data", (bytes) => {
       out += bytes;
-      const end = out.indexOf('\n');
+      const end = out.indexOf("\n");
       if (end >= 0) done(out.slice(0, end).trim());
     });
-    child.stderr.on('data', (bytes) => (wrong += bytes));
-    child.on('error', failed);
-    child.on('exit', () => {
+    child.stderr.on("data", (bytes) => (wrong += bytes));
+    child.on("error", failed);
+    child.on("exit", () => {
       studios.delete(folder);
-      failed(new Error(wrong.trim() || 'it ended'));
+      failed(new Error(wrong.trim() || "it ended"));
     });
   });
   studios.set(folder, { process: child, url });
@@ -91,8 +108,14 @@ async function preview() {
   const file = await ruleFile();
   if (!file) return;
   try {
-    const url = await studioFor(folderOf(file));
-    await vscode.env.openExternal(vscode.Uri.parse(url));
+    const folder = folderOf(file);
+    const inside = path
+      .relative(folder, file)
+      .split(path.sep)
+      .map(encodeURIComponent)
+      .join("/");
+    const url = await studioFor(folder);
+    await vscode.env.openExternal(vscode.Uri.parse(`${url}#file=${inside}`));
   } catch (error) {
     missing(error);
   }
@@ -102,25 +125,30 @@ async function generate() {
   const file = await ruleFile();
   if (!file) return;
   const target = await vscode.window.showSaveDialog({
-    defaultUri: vscode.Uri.file(file.replace(/\.\w+$/, '.glb')),
+    defaultUri: vscode.Uri.file(file.replace(/\.\w+$/, ".glb")),
     filters: MODELS,
   });
   if (!target) return;
   const task = new vscode.Task(
-    { type: 'gable' },
+    { type: "gable" },
     vscode.TaskScope.Workspace,
     `generate ${path.basename(file)}`,
-    'gable',
-    new vscode.ProcessExecution(program(), ['generate', file, '-o', target.fsPath]),
+    "gable",
+    new vscode.ProcessExecution(program(), [
+      "generate",
+      file,
+      "-o",
+      target.fsPath,
+    ]),
   );
   await vscode.tasks.executeTask(task);
 }
 
 async function activate(context) {
   context.subscriptions.push(
-    vscode.commands.registerCommand('gable.preview', preview),
-    vscode.commands.registerCommand('gable.generate', generate),
-    vscode.commands.registerCommand('gable.restart', async () => {
+    vscode.commands.registerCommand("gable.preview", preview),
+    vscode.commands.registerCommand("gable.generate", generate),
+    vscode.commands.registerCommand("gable.restart", async () => {
       await stopClient();
       await startClient();
     }),

@@ -213,4 +213,21 @@ export default {
     await page.keyboard.press('Control+e');
     await page.waitForSelector('[role=menu]');
   },
+
+  /** An address names the file that the page opens with. */
+  async anAddressNamesTheFileToOpen({ page, server, folder }) {
+    await ready(page);
+    writeFileSync(join(folder, 'other file.cga'), '@StartRule\nLot --> extrude(2) X.\n');
+    const opened = async (address) => {
+      await page.goto('about:blank');
+      await page.goto(`${server.url}${address}`);
+      await ready(page);
+    };
+    await opened('#file=other%20file.cga');
+    await page.waitForFunction(
+      () => document.querySelector('.crumb b')?.textContent === 'other file.cga',
+    );
+    await opened('#file=gone.cga');
+    await page.getByText("There is no rule file 'gone.cga'").waitFor();
+  },
 };

@@ -147,17 +147,31 @@ export class Studio {
     else this.page = 'gallery';
   }
 
-  /** The address of the page may be a link to a shared place, or name an example. */
+  /** The address of the page may be a link to a shared place, or name an example or a file. */
   async openAddress(): Promise<void> {
     const link = location.hash;
     const name = /^#example=([\w-]+)$/.exec(link)?.[1];
-    if (!name && !link.startsWith('#share=')) return;
+    const file = /^#file=(.+)$/.exec(link)?.[1];
+    if (!name && !file && !link.startsWith('#share=')) return;
     // Where files are kept the work goes on in them. Elsewhere the address stays what opens it.
     if (this.client.kept) history.replaceState(null, '', location.pathname);
     if (name) return this.openNamed(name);
+    if (file) return this.openFile(file);
     const { openShared } = await import('./sharing');
     const said = await openShared(this, link);
     if (said) this.fail(said);
+  }
+
+  /** `written`: as addresses have it. */
+  private async openFile(written: string): Promise<void> {
+    let path = written;
+    try {
+      path = decodeURIComponent(written);
+    } catch {
+      // What is no escape is meant as it stands.
+    }
+    if (this.ruleFiles.some((f) => f.path === path)) await this.openRules(path);
+    else this.fail(`There is no rule file '${path}' in this project.`);
   }
 
   private async openNamed(name: string): Promise<void> {
