@@ -20,6 +20,8 @@ namespace {
 // Short names are near to each other by chance.
 constexpr size_t kShortest = 5;
 constexpr size_t kMostNotes = 8;
+/// A file with more names than people give has them from a program, which does not misspell.
+constexpr size_t kMostNames = 400;
 
 // "roof_angle", "Roof-Angle" and "roofAngle" alike.
 std::string letters(std::string_view name) {
@@ -34,6 +36,7 @@ std::set<std::string_view> propertiesOf(const Shapes::Impl& shapes) {
     for (const AttributeValue& a : f.attributes) {
       const bool ofEdges = EdgeAttributes::isNamed(a.name, a.rows > 0);
       if (!ofEdges && a.name != kStartRuleAttribute) names.insert(a.name);
+      if (names.size() > kMostNames) return {};
     }
   }
   return names;
