@@ -308,8 +308,9 @@ std::vector<Action> actionsOf(const Snapshot& s, const Text& text, uint32_t begi
     if (d.code != "undefined-rule" || s.dialect) continue;
     const std::string word = text.content().substr(d.span.begin, d.span.end - d.span.begin);
     if (word.empty() || word.find('.') != std::string::npos) continue;
-    const bool called = d.span.end < text.content().size() && text.content()[d.span.end] == '(';
-    if (called) continue;
+    // `if (x)` is no leaf to be.
+    const size_t next = text.content().find_first_not_of(" \t", d.span.end);
+    if (next != std::string::npos && text.content()[next] == '(') continue;
     const auto last = static_cast<uint32_t>(text.content().size());
     const bool line = last == 0 || text.content()[last - 1] == '\n';
     offer("Write the rule " + word, last, last,

@@ -163,6 +163,20 @@ TEST(LanguageServer, offersRemedies) {
   EXPECT_EQ(edit["range"]["end"]["character"].number(0), 12);
 }
 
+TEST(LanguageServer, offersNoRuleForWhatIsCalled) {
+  Connection c;
+  c.open("file:///nowhere/a.cga", "A --> if (true) B");
+  c.run();
+  const JsonValue actions =
+      c.request("textDocument/codeAction",
+                R"({"textDocument":{"uri":"file:///nowhere/a.cga"},"context":{"diagnostics":[]},)"
+                R"("range":{"start":{"line":0,"character":0},"end":{"line":0,"character":17}}})");
+  std::string titles;
+  for (const JsonValue& action : actions.items()) titles += action["title"].text() + "; ";
+  EXPECT_EQ(titles.find("rule if"), std::string::npos) << titles;
+  EXPECT_NE(titles.find("rule B"), std::string::npos) << titles;
+}
+
 TEST(LanguageServer, endsAsTheProtocolWants) {
   Connection c;
   EXPECT_TRUE(c.request("shutdown", "null").isNull());
