@@ -311,6 +311,8 @@ void GltfDocument::writeMeshes(JsonWriter& w, const GltfContent& content) const 
   uint64_t accessor = 0;
   for (const auto& groups : content.instances) accessor += 3 * groups.size();
   bool any = false;
+  // Of the run.
+  uint64_t vertices = 0;
   for (uint32_t u = 0; u < content.meshes.size(); ++u) {
     if (isEmpty(content.meshes[u])) continue;
     if (!any) w.key("meshes").beginArray();
@@ -321,12 +323,17 @@ void GltfDocument::writeMeshes(JsonWriter& w, const GltfContent& content) const 
     for (const GltfPrimitive& p : content.meshes[u]) {
       if (p.indexCount == 0) continue;
       const VertexLayout& l = materials_.layout(p.variant);
+      if (p.first) {
+        vertices = accessor;
+        accessor += l.attributes();
+      }
+      uint64_t attribute = vertices;
       w.beginObject().key("attributes").beginObject();
-      w.field("POSITION", accessor++);
-      if (l.normals) w.field("NORMAL", accessor++);
-      if (l.tangentSet >= 0) w.field("TANGENT", accessor++);
+      w.field("POSITION", attribute++);
+      if (l.normals) w.field("NORMAL", attribute++);
+      if (l.tangentSet >= 0) w.field("TANGENT", attribute++);
       for (uint32_t i = 0; i < l.uvCount; ++i) {
-        w.field("TEXCOORD_" + std::to_string(i), accessor++);
+        w.field("TEXCOORD_" + std::to_string(i), attribute++);
       }
       w.endObject();
       w.field("indices", accessor++);
@@ -362,13 +369,15 @@ void GltfDocument::writeAccessors(JsonWriter& w, const GltfContent& content, boo
     const bool onGrid = content.grids[u].on;
     std::array<float, 3> widest;
     widest.fill(onGrid ? kWidestStep : kWidestFloat);
+    // Where the indices begin within those of the run.
+    uint32_t indices = 0;
     for (const GltfPrimitive& p : content.meshes[u]) {
       if (p.indexCount == 0) continue;
       const VertexLayout& l = materials_.layout(p.variant);
       const uint32_t count = p.vertexCount;
       uint32_t offset = 0;
       const auto attribute = [&](const char* type, int component, uint32_t bytes) {
-        begin(view, offset, component, count, type);
+        begin(view - 2, offset, component, count, type);
         if (component == kByte || (component == kUnsignedShort && offset > 0)) {
           w.field("normalized", true);
         }
@@ -379,15 +388,20 @@ void GltfDocument::writeAccessors(JsonWriter& w, const GltfContent& content, boo
         w.endObject();
         offset += bytes;
       };
-      const int direction = l.compact ? kByte : kFloat;
-      attribute("VEC3", onGrid ? kUnsignedShort : kFloat, l.positionBytes(onGrid));
-      if (l.normals) attribute("VEC3", direction, l.normalBytes());
-      if (l.tangentSet >= 0) attribute("VEC4", direction, l.tangentBytes());
-      const int uv = l.uvForm == UvForm::Float ? kFloat : kUnsignedShort;
-      for (uint32_t i = 0; i < l.uvCount; ++i) attribute("VEC2", uv, l.uvBytes());
-      begin(view + 1, 0, p.wideIndices ? kUnsignedInt : kUnsignedShort, p.indexCount, "SCALAR");
+      if (p.first) {
+        view += 2;
+        indices = 0;
+        const int direction = l.compact ? kByte : kFloat;
+        attribute("VEC3", onGrid ? kUnsignedShort : kFloat, l.positionBytes(onGrid));
+        if (l.normals) attribute("VEC3", direction, l.normalBytes());
+        if (l.tangentSet >= 0) attribute("VEC4", direction, l.tangentBytes());
+        const int uv = l.uvForm == UvForm::Float ? kFloat : kUnsignedShort;
+        for (uint32_t i = 0; i < l.uvCount; ++i) attribute("VEC2", uv, l.uvBytes());
+      }
+      const int index = p.wideIndices ? kUnsignedInt : kUnsignedShort;
+      begin(view - 1, indices, index, p.indexCount, "SCALAR");
       w.endObject();
-      view += 2;
+      indices += p.indexCount * 2;
     }
   }
   if (any) w.endArray();
@@ -415,10 +429,10 @@ void GltfDocument::writeViews(JsonWriter& w, const GltfContent& content, bool ro
   }
   for (size_t u = 0; u < content.meshes.size(); ++u) {
     for (const GltfPrimitive& p : content.meshes[u]) {
-      if (p.indexCount == 0) continue;
+      if (p.indexCount == 0 || !p.first) continue;
       const uint32_t stride = materials_.layout(p.variant).stride(content.grids[u].on);
       view(p.vertexOffset, uint64_t{p.vertexCount} * stride, stride, kArrayBuffer);
-      view(p.indexOffset, uint64_t{p.indexCount} * (p.wideIndices ? 4 : 2), 0, kElementArrayBuffer);
+      view(p.indexOffset, uint64_t{p.runIndices} * (p.wideIndices ? 4 : 2), 0, kElementArrayBuffer);
     }
   }
   for (const GltfImageRange& i : content.images) view(i.offset, i.bytes, 0, 0);
@@ -431,7 +445,7 @@ void GltfDocument::writeImages(JsonWriter& w, const GltfContent& content) const 
   uint64_t view = 0;
   for (const auto& groups : content.instances) view += 3 * groups.size();
   for (const auto& mesh : content.meshes) {
-    for (const GltfPrimitive& p : mesh) view += p.indexCount ? 2 : 0;
+    for (const GltfPrimitive& p : mesh) view += p.indexCount > 0 && p.first ? 2 : 0;
   }
   w.key("images").beginArray();
   for (size_t i = 0; i < images.size(); ++i) {

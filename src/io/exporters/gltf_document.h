@@ -14,10 +14,17 @@
 
 namespace gable {
 
-/// One primitive in the buffer: interleaved vertices, then triangle indices.
+/// One primitive in the buffer: interleaved vertices, then triangle indices. Small ones of one
+/// layout follow each other as a run: the vertices of all, which the first has, then the indices of
+/// all. Each accessor costs more text than a small primitive has numbers.
 struct GltfPrimitive {
   uint32_t variant = 0;
-  uint32_t vertexCount = 0, indexCount = 0;
+  /// Of the run; 0 behind the first.
+  uint32_t vertexCount = 0;
+  uint32_t indexCount = 0;
+  /// Of the run, where this is its first.
+  uint32_t runIndices = 0;
+  bool first = true;
   bool wideIndices = false;
   uint64_t vertexOffset = 0, indexOffset = 0;
   std::array<float, 3> min{}, max{};

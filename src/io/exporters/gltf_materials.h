@@ -73,6 +73,16 @@ struct VertexLayout {
   /// Whether uv sets are written as places says, by TEXCOORD.
   bool baked = false;
   std::array<UvPlace, kTextureLayers> places{};
+  /// Whether vertices have the same attributes in the same bytes.
+  bool isLike(const VertexLayout& o) const {
+    return compact == o.compact && normals == o.normals &&
+           (tangentSet >= 0) == (o.tangentSet >= 0) && uvCount == o.uvCount &&
+           (uvCount == 0 || uvForm == o.uvForm);
+  }
+  /// How many accessors that are.
+  uint32_t attributes() const {
+    return 1 + (normals ? 1 : 0) + (tangentSet >= 0 ? 1 : 0) + uvCount;
+  }
   /// Before it is packed: a normal is always there.
   uint32_t floats() const { return 6 + (tangentSet >= 0 ? 4 : 0) + 2 * uvCount; }
   uint32_t positionBytes(bool quantized) const { return quantized ? 8 : 12; }

@@ -9,10 +9,12 @@
 // A unit's leaves are ordered by material variant, in the order in which variants first occur, and
 // cut into primitives of at most 65535 vertices: indices then take two bytes, and what has to be
 // kept in memory until a primitive ends is small. A mesh that has more vertices gets its own.
+// Variants of one layout lie together, so that small primitives can share their vertices.
 #include <algorithm>
 #include <bit>
 #include <cstring>
 #include <optional>
+#include <span>
 
 #include "base/files.h"
 #include "base/hash.h"
@@ -31,6 +33,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian");
 
 constexpr uint32_t kMostVertices = 65535;
+// Of primitives that share them. Some readers give each primitive a copy of all: it stays small.
+constexpr uint32_t kMostShared = 1024;
 constexpr uint64_t kMostInDocument = 50'000'000;
 // Merged into one unit.
 constexpr double kMostLeaves = 1e8;
@@ -131,6 +135,10 @@ class GltfWriter {
   Box3 boundsOf(const PlannedLeaf& p);
   VertexGrid gridFor(double largestScale);
   void cutPrimitives(std::vector<GltfPrimitive>& out, std::vector<size_t>* ends);
+  void joinRuns(std::vector<GltfPrimitive>& primitives) const;
+  void writeRun(FileWriter& out, VertexWriter& vertices, std::span<GltfPrimitive> run,
+                std::span<const size_t> ends, size_t draw, const VertexGrid& grid);
+  std::vector<uint32_t> rankByLayout(const std::vector<uint32_t>& variants) const;
   const MeshInfo& infoOf(uint32_t mesh);
   uint32_t variantOf(uint32_t material, const MeshInfo& info, UvForm form);
   UvForm uvFormOf(uint32_t material, const MeshInfo& info, const PlannedLeaf& p);
@@ -168,6 +176,8 @@ class GltfWriter {
   // Of the unit at hand.
   UnitContent unit_;
   std::vector<Draw> draws_, sorted_;
+  // Of the run at hand.
+  PrimitiveState state_;
   bool tooManyLeaves_ = false;
 };
 
@@ -207,6 +217,21 @@ UvForm GltfWriter::uvFormOf(uint32_t material, const MeshInfo& info, const Plann
   return materials_.uvFormOf(material, {false, most});
 }
 
+// By variant: its place where those of one layout lie together, each kind where it first occurs.
+std::vector<uint32_t> GltfWriter::rankByLayout(const std::vector<uint32_t>& variants) const {
+  std::vector<uint32_t> rank(materials_.count(), kNoMaterial);
+  uint32_t next = 0;
+  for (size_t i = 0; i < variants.size(); ++i) {
+    if (rank[variants[i]] != kNoMaterial) continue;
+    const VertexLayout& layout = materials_.layout(variants[i]);
+    for (size_t k = i; k < variants.size(); ++k) {
+      uint32_t& r = rank[variants[k]];
+      if (r == kNoMaterial && layout.isLike(materials_.layout(variants[k]))) r = next++;
+    }
+  }
+  return rank;
+}
+
 // Fills draws_, ordered by variant and by path within one.
 void GltfWriter::makeDraws(uint32_t unit) {
   draws_.clear();
@@ -228,6 +253,7 @@ void GltfWriter::makeDraws(uint32_t unit) {
     }
   }
   if (order.size() < 2) return;
+  rank = rankByLayout(order);
   std::vector<size_t> starts(order.size() + 1);
   for (const Draw& d : draws_) ++starts[rank[d.variant] + 1];
   for (size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
@@ -259,6 +285,25 @@ void GltfWriter::cutPrimitives(std::vector<GltfPrimitive>& out, std::vector<size
     out.back().wideIndices = corners > kMostVertices;
   }
   if (ends && !draws_.empty()) ends->push_back(draws_.size());
+  joinRuns(out);
+}
+
+// Small primitives of one layout become runs; counts are the most that they can have.
+void GltfWriter::joinRuns(std::vector<GltfPrimitive>& primitives) const {
+  GltfPrimitive* run = nullptr;
+  for (GltfPrimitive& p : primitives) {
+    p.runIndices = p.indexCount;
+    const bool joins = run && run->vertexCount + uint64_t{p.vertexCount} <= kMostShared &&
+                       materials_.layout(run->variant).isLike(materials_.layout(p.variant));
+    if (!joins) {
+      run = &p;
+      continue;
+    }
+    run->vertexCount += p.vertexCount;
+    run->runIndices += p.indexCount;
+    p.vertexCount = p.runIndices = 0;
+    p.first = false;
+  }
 }
 
 // In the unit's frame, where the leaf's mesh lies: no smaller.
@@ -402,14 +447,29 @@ void GltfWriter::writeUnit(FileWriter& out, VertexWriter& vertices, uint32_t uni
   primitives.clear();
   std::vector<size_t> ends;
   cutPrimitives(primitives, &ends);
-  PrimitiveState state;
-  state.grid = content_.grids[unit];
-  size_t draw = 0;
-  for (size_t i = 0; i < primitives.size() && !out.failed(); ++i) {
-    GltfPrimitive& p = primitives[i];
+  for (size_t i = 0; i < primitives.size() && !out.failed();) {
+    size_t end = i + 1;
+    while (end < primitives.size() && !primitives[end].first) ++end;
+    writeRun(out, vertices, {primitives.data() + i, end - i}, {ends.data() + i, end - i},
+             i == 0 ? 0 : ends[i - 1], content_.grids[unit]);
+    i = end;
+  }
+  vertices.trimCache();
+}
+
+// `ends` tells where in draws_ each primitive of the run stops, `draw` where the first begins.
+void GltfWriter::writeRun(FileWriter& out, VertexWriter& vertices, std::span<GltfPrimitive> run,
+                          std::span<const size_t> ends, size_t draw, const VertexGrid& grid) {
+  PrimitiveState& state = state_;
+  state.grid = grid;
+  state.clear();
+  const uint64_t offset = out.offset() - bufferStart_;
+  // The first that has a triangle has the vertices.
+  GltfPrimitive* first = nullptr;
+  for (size_t i = 0; i < run.size(); ++i) {
+    GltfPrimitive& p = run[i];
     const VertexLayout& layout = materials_.layout(p.variant);
-    state.clear();
-    p.vertexOffset = out.offset() - bufferStart_;
+    const size_t before = state.indices.size();
     for (; draw < ends[i]; ++draw) {
       const Draw& d = draws_[draw];
       work(d.corners);
@@ -418,16 +478,21 @@ void GltfWriter::writeUnit(FileWriter& out, VertexWriter& vertices, uint32_t uni
       vertices.add(leaf.mesh, d.slot, own ? Frame{} : unit_.placements[d.placement] * leaf.frame,
                    own ? Vec3{1, 1, 1} : leaf.scale, layout, state);
     }
-    p.vertexCount = state.vertexCount;
-    p.indexCount = static_cast<uint32_t>(state.indices.size());
+    p.indexCount = static_cast<uint32_t>(state.indices.size() - before);
+    p.vertexCount = p.runIndices = 0;
     p.wideIndices = state.vertexCount > kMostVertices;
-    p.min = state.min;
-    p.max = state.max;
-    p.indexOffset = out.offset() - bufferStart_;
-    writeIndices(out, state, p.wideIndices);
-    align(out);
+    p.first = !first && p.indexCount > 0;
+    if (p.first) first = &p;
   }
-  vertices.trimCache();
+  if (!first) return;
+  first->vertexOffset = offset;
+  first->vertexCount = state.vertexCount;
+  first->runIndices = static_cast<uint32_t>(state.indices.size());
+  first->min = state.min;
+  first->max = state.max;
+  first->indexOffset = out.offset() - bufferStart_;
+  writeIndices(out, state, first->wideIndices);
+  align(out);
 }
 
 void GltfWriter::writeBuffer(FileWriter& out) {

@@ -469,10 +469,19 @@ void ScenePlan::makeUnits() {
       if (units_[done].leaf != kNone || units_[done].solid) continue;
       tooLarge_ = tooLarge_ || childCount(units_[done]) > kMostChildren;
       if (tooLarge_) continue;
-      std::vector<PlannedChild> children = childrenOf(units_[done]);
+      std::vector<PlannedChild> children = childrenOf(units_[done]), again;
+      // What is shown for the first time comes first: programs that make a mesh where a node shows
+      // it are sooner done while they have few nodes.
+      size_t firsts = 0;
       for (PlannedChild& c : children) {
+        const size_t known = units_.size();
         c.unit = c.leaf == PlannedChild::kNone ? unitOfPrototype(c.unit) : unitOfLeaf(c.leaf);
+        if (units_.size() > known)
+          children[firsts++] = c;
+        else
+          again.push_back(c);
       }
+      std::copy(again.begin(), again.end(), children.begin() + static_cast<std::ptrdiff_t>(firsts));
       units_[done].children = std::move(children);
     }
   };
