@@ -4,6 +4,8 @@
 # Exceptions of the machine itself: calls cost nothing where none is thrown. Jumps of the C libraries likewise.
 set(GABLE_WASM_MODE -fwasm-exceptions -sSUPPORT_LONGJMP=wasm)
 add_link_options(${GABLE_WASM_MODE})
+# emcc reads its own JavaScript by Debian's acorn, which a node from elsewhere does not find by itself.
+set_property(GLOBAL PROPERTY RULE_LAUNCH_LINK "${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs")
 
 # em++ starts Python for each file, which takes as long as compiling a small one. So the compiler behind it is called,
 # as em++ says that it would.

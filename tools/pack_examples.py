@@ -3,12 +3,14 @@
 # SPDX-FileCopyrightText: The Gable authors
 """Packs the examples for the playground into one file: tools/pack_examples.py TO.
 
-A line of JSON, [[path, bytes], ...], and behind it the files one after the other, all of it compressed by gzip: what
-studio/playground/worker.ts unpacks. Places from maps are left out, since a page reads no maps, and so are the
-pictures that show an example. The same files give the same bytes.
+A line of JSON, {"parts": [bytes, ...], "files": [[path, part, ...], ...]}, and behind it the parts one after the other,
+all of it compressed by gzip: what studio/playground/worker.ts unpacks. A file is its parts; models have the pictures
+within them as parts of their own, since many have the same. Places from maps are left out, since a page reads no
+maps, and so are the pictures that show an example. The same files give the same bytes.
 """
 import gzip
 import json
+import struct
 import sys
 from pathlib import Path
 
@@ -27,10 +29,33 @@ def belongs(file):
     return file.is_file() and len(path.parts) > 1 and not shows and not is_place(folder)
 
 
+def pictures(model):
+    """Where the pictures within a .glb begin and end, in their order."""
+    length = struct.unpack_from("<I", model, 12)[0]
+    description, data = json.loads(model[20 : 20 + length]), 28 + length
+    views = description.get("bufferViews", [])
+    own = [views[image["bufferView"]] for image in description.get("images", []) if "bufferView" in image]
+    starts = [(data + view.get("byteOffset", 0), view["byteLength"]) for view in own]
+    return sorted((start, start + size) for start, size in starts)
+
+
+def parts(file):
+    content, at = file.read_bytes(), 0
+    for start, end in pictures(content) if file.suffix == ".glb" else []:
+        yield content[at:start]
+        yield content[start:end]
+        at = end
+    yield content[at:]
+
+
 def pack():
-    files = [file for file in sorted(EXAMPLES.rglob("*")) if belongs(file)]
-    names = [[file.relative_to(EXAMPLES).as_posix(), file.stat().st_size] for file in files]
-    return b"".join([json.dumps(names).encode(), b"\n", *(file.read_bytes() for file in files)])
+    numbers, files = {}, []
+    for file in sorted(EXAMPLES.rglob("*")):
+        if belongs(file):
+            of = [numbers.setdefault(part, len(numbers)) for part in parts(file)]
+            files.append([file.relative_to(EXAMPLES).as_posix(), *of])
+    head = {"parts": [len(part) for part in numbers], "files": files}
+    return b"".join([json.dumps(head, separators=(",", ":")).encode(), b"\n", *numbers])
 
 
 def main():

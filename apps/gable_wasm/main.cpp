@@ -8,6 +8,7 @@
 // The project is the folder /project of the module's own file system, the examples are /examples.
 // One thread: whoever calls waits.
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <deque>
 #include <memory>
@@ -54,6 +55,9 @@ int gable_open() {
   gable::StudioSettings settings;
   settings.project = kProject;
   settings.examples = kExamples;
+  using std::chrono::milliseconds;
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  settings.derivationsBefore = std::chrono::duration_cast<milliseconds>(now).count();
   engine().desk = std::make_unique<gable::StudioDesk>(settings);
   return engine().desk->ok();
 }

@@ -33,6 +33,9 @@ struct StudioSettings {
   /// The secret that requests must have, as the address of the page has it; absent: that of this
   /// project's last studio, else drawn.
   std::optional<std::string> token;
+  /// Derivations are numbered from the one after it. A page that goes on with another desk takes
+  /// no number of one for one of the other where these lie far apart.
+  uint64_t derivationsBefore = 0;
 };
 
 struct StudioResult {

@@ -26,7 +26,8 @@ StudioAnswer StudioDesk::answer(StudioRequest request) {
   asked.query = std::move(request.query);
   asked.body = std::move(request.body);
   asked.cancelled = std::make_shared<std::atomic<bool>>(false);
-  studio::HttpResponse told = impl_->router.answer(asked);
+  studio::HttpResponse told = studio::answered(
+      [this](const studio::HttpRequest& r) { return impl_->router.answer(r); }, asked);
   return {told.status, std::move(told.type), std::move(told.body), std::move(told.headers)};
 }
 

@@ -50,7 +50,7 @@ TEST_F(Desk, derivesAndExports) {
   ASSERT_EQ(derived.status, 200);
   const JsonValue json = told(derived.body);
   EXPECT_EQ(json["end"].text(), "done");
-  const std::string number = std::to_string(static_cast<int>(json["derivation"].number(0)));
+  const std::string number = std::to_string(static_cast<uint64_t>(json["derivation"].number(0)));
   const StudioAnswer model = desk.answer(
       {"GET", "/api/export", {{"derivation", number}, {"format", "glb"}, {"page", "p"}}, {}});
   ASSERT_EQ(model.status, 200);

@@ -17,7 +17,6 @@
 #include <optional>
 #include <set>
 
-#include "base/json.h"
 #include "base/text.h"
 #include "studio/socket.h"
 
@@ -50,15 +49,6 @@ bool parseTarget(const std::string& target, HttpRequest& out) {
     from = to + 1;
   }
   return true;
-}
-
-// What a handler throws would end the program, and is told instead.
-HttpResponse failure(const char* code, const char* message, const char* hint) {
-  std::string out;
-  JsonWriter json(out);
-  json.beginObject().key("code").value(code).key("message").value(message);
-  json.key("hint").value(hint).endObject();
-  return {500, "application/json", out, {}};
 }
 
 HttpResponse plain(int status, const char* text) { return {status, "text/plain", text, {}}; }
@@ -209,17 +199,8 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
 
   // Makes the answer, on a thread of a pool. The connection goes back whole: it must not end there.
   static void make(std::shared_ptr<Connection>& self) {
-    // What a handler throws would end the program.
-    const auto answer = std::make_shared<HttpResponse>();
-    try {
-      *answer = self->server_.handler(self->request_);
-    } catch (const std::bad_alloc&) {
-      *answer = failure("out-of-memory", "there is too little memory for the answer",
-                        "derive fewer shapes at a time, or close other programs");
-    } catch (const std::exception&) {
-      *answer = failure("internal-error", "the answer could not be made",
-                        "what you have typed is safe; please report what led to this");
-    }
+    const auto answer =
+        std::make_shared<HttpResponse>(answered(self->server_.handler, self->request_));
     asio::io_context& io = self->server_.io;
     asio::post(io, [self = std::move(self), answer] { self->onAnswer(std::move(*answer)); });
   }

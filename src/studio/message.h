@@ -5,6 +5,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -35,5 +36,9 @@ struct HttpResponse {
   std::string body;
   std::vector<std::pair<std::string, std::string>> headers;
 };
+
+/// What the handler answers. What it throws would end the program, and is told instead.
+HttpResponse answered(const std::function<HttpResponse(const HttpRequest&)>& handler,
+                      const HttpRequest& request);
 
 }  // namespace gable::studio

@@ -120,7 +120,8 @@ std::vector<ProjectFile> ProjectFiles::list() const {
     } else if (at->is_regular_file(error)) {
       const std::string path = fs::relative(file, root_, error).generic_string();
       const uint64_t bytes = at->file_size(error);
-      const auto time = at->last_write_time(error).time_since_epoch().count();
+      // libc++ counts in 128 bits.
+      const auto time = static_cast<int64_t>(at->last_write_time(error).time_since_epoch().count());
       if (plainPath(path)) {
         out.push_back({path, bytes, std::to_string(bytes) + "-" + std::to_string(time)});
       }

@@ -77,7 +77,7 @@ Router::Router(const StudioSettings& settings)
       page_(settings.page),
       gallery_(settings.examples.value_or(std::string())),
       search_(settings.search),
-      session_(files_, settings.search) {
+      session_(files_, settings.search, settings.derivationsBefore) {
   routes_["GET /api/project"] = [this](const HttpRequest&) { return project(); };
   routes_["GET /api/ops"] = [](const HttpRequest&) { return jsonOf(builtinsJson(builtins())); };
   routes_["GET /api/file"] = [this](const HttpRequest& r) { return file(r); };

@@ -27,8 +27,10 @@ class Session {
  public:
   using Cancel = std::shared_ptr<std::atomic<bool>>;
 
-  explicit Session(const ProjectFiles& files, const SearchSettings& search = {})
-      : files_(files), search_(search) {}
+  /// Derivations are numbered from the one after `before`.
+  explicit Session(const ProjectFiles& files, const SearchSettings& search = {},
+                   uint64_t before = 0)
+      : files_(files), search_(search), last_(before) {}
 
   /// A request for derive() or tree() has come, which may have to wait: the one before of the same
   /// page ends now.
@@ -81,7 +83,7 @@ class Session {
   std::deque<std::pair<std::string, std::shared_ptr<const Shapes>>> shapes_;
   std::deque<Made> made_;
   std::map<std::string, std::shared_ptr<Work>> works_;
-  uint64_t last_ = 0;
+  uint64_t last_;
 };
 
 }  // namespace gable::studio

@@ -3,13 +3,14 @@
 //
 // node e2e/playground.mjs FOLDER PICTURES: the playground in a browser, from a server of files and
 // nothing else. An example opens by its address and is derived in under two seconds; a change goes
-// into the address, and another page that opens it shows the same.
+// into the address, and another page that opens it shows the same. Mistakes, rules without an end
+// and rules that are too large are told of, and the page goes on.
 
 import assert from 'node:assert/strict';
 import { createServer } from 'node:http';
 import { readFile } from 'node:fs/promises';
 import { extname, join, normalize } from 'node:path';
-import { caretBehind, code, launch, openPage, ready, status, untilRefined } from './studio.mjs';
+import { code, launch, openPage, ready, status, untilRefined } from './studio.mjs';
 
 const [folder, pictures] = process.argv.slice(2);
 const MOST_MS = 2000;
@@ -34,6 +35,18 @@ const server = createServer((request, response) => {
 await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
 const address = `http://127.0.0.1:${server.address().port}/try/`;
 const browser = await launch();
+
+/** Needs some gigabytes. */
+const TOO_MUCH = `Lot --> extrude(9) split(x) { 0.01 : A }*
+A --> split(z) { 0.02 : B }*
+B --> s('rand(0.5, 1), '1, '1) primitiveSphere(32, 32) Ball.`;
+
+/** Writes other rules in the place of those of the editor. */
+async function write(page, rules) {
+  await code(page).focus();
+  await page.keyboard.press('Control+a');
+  await page.keyboard.insertText(`${rules}\n`);
+}
 
 async function shot(page, name) {
   await untilRefined(page);
@@ -61,13 +74,23 @@ try {
   await ready(other.page);
   assert.match(await code(other.page).innerText(), /^\/\/ written in a browser/);
 
-  // Rules of a page of the documentation, with a mistake.
-  await other.page.goto(`${address}#example=tower`);
-  await ready(other.page);
-  await caretBehind(other.page, '-->');
-  await other.page.keyboard.type(' extrud(3)');
+  // A mistake is told, and the model stays.
+  await write(other.page, 'Lot --> extrude(9) extrud(3)');
   await other.page.waitForSelector('.status .err');
   await shot(other.page, 'playground-mistake');
+
+  // Rules that are too much for the memory of a page are told of, those that are long at work are
+  // stopped, and the page goes on with others.
+  await write(other.page, TOO_MUCH);
+  await other.page.getByText('there is not enough memory').first().waitFor({ timeout: 120_000 });
+  await shot(other.page, 'playground-memory');
+  await write(other.page, TOO_MUCH.replace('0.02', '0.021'));
+  await other.page.getByText('stops').waitFor();
+  await other.page.keyboard.press('Escape');
+  await write(other.page, 'Lot --> extrude(9) comp(f) { side : Wall. | top : Roof. }');
+  await other.page.waitForFunction(() =>
+    /No problems\s+\d+ ms\s+6 shapes/.test(document.querySelector('.status').innerText),
+  );
 
   assert.deepEqual(complaints.concat(other.complaints), []);
   console.log('playground: passed');

@@ -11,6 +11,8 @@ export type ToWorker =
   | { kind: 'say'; text: string };
 
 export type FromWorker =
+  /** What was asked is at work now, until its answer. */
+  | { kind: 'begun'; id: number }
   | {
       kind: 'answer';
       id: number;
@@ -19,5 +21,5 @@ export type FromWorker =
       body: Uint8Array<ArrayBuffer>;
     }
   | { kind: 'said'; text: string }
-  /** The engine could not be started, or broke off. */
+  /** The engine could not be started, or broke off: it answers nothing more. */
   | { kind: 'broken'; why: string };

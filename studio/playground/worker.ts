@@ -7,6 +7,7 @@
 import makeGable from 'gable-wasm/gable.mjs';
 import wasmAddress from 'gable-wasm/gable.wasm?url';
 import { openEngine, type Engine } from '../../apps/gable_wasm/engine.mjs';
+import { unpacked } from './examples';
 import type { FromWorker, ToWorker } from './messages';
 
 type Ask = Extract<ToWorker, { kind: 'ask' }>;
@@ -26,16 +27,15 @@ function again(): void {
   turns.port2.postMessage(null);
 }
 
-/** The examples lie beside the page: a list of paths and sizes, then the files, compressed. */
+/** The examples lie beside the page, as tools/pack_examples.py packs them. */
 async function examples(): Promise<[string, Uint8Array][]> {
   const packed = await fetch(new URL('../examples.pack', self.location.href));
   if (!packed.ok || !packed.body) throw new Error('the examples are missing');
   const plain = packed.body.pipeThrough(new DecompressionStream('gzip'));
-  const bytes = new Uint8Array(await new Response(plain).arrayBuffer());
-  const end = bytes.indexOf(10);
-  const list = JSON.parse(new TextDecoder().decode(bytes.subarray(0, end))) as [string, number][];
-  let at = end + 1;
-  return list.map(([path, size]) => [`/examples/${path}`, bytes.subarray(at, (at += size))]);
+  return unpacked(new Uint8Array(await new Response(plain).arrayBuffer())).map(([path, bytes]) => [
+    `/examples/${path}`,
+    bytes,
+  ]);
 }
 
 async function start(): Promise<void> {
@@ -48,6 +48,7 @@ async function start(): Promise<void> {
 }
 
 async function answer(engine: Engine, { id, method, path, body }: Ask): Promise<void> {
+  post({ kind: 'begun', id });
   const url = new URL(path, 'http://engine/api/');
   const bytes =
     typeof body === 'string'
@@ -82,6 +83,7 @@ async function turn(): Promise<void> {
 }
 
 function broken(error: unknown): void {
+  engine = null;
   post({ kind: 'broken', why: error instanceof Error ? error.message : String(error) });
 }
 

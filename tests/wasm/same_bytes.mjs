@@ -51,7 +51,7 @@ function requestOf(words) {
       seed: Number(after('--seed') ?? 0),
       attributes: {},
       shapes: shapes ? { file: shapes } : { lot: lot ?? [20, 20] },
-      limits: { seconds: 600 },
+      limits: { seconds: 600, shapes: 1e9 },
     },
   };
 }

@@ -51,6 +51,11 @@ template <class R, class F>
 bool none_of(R&& range, F&& f) {
   return std::none_of(std::begin(range), std::end(range), std::forward<F>(f));
 }
+template <class R, class T, class P>
+auto find(R&& range, const T& value, P of) {
+  return std::find_if(std::begin(range), std::end(range),
+                      [&](const auto& each) { return std::invoke(of, each) == value; });
+}
 template <class A, class B, class F = std::equal_to<>>
 bool equal(A&& a, B&& b, F f = {}) {
   return std::equal(std::begin(a), std::end(a), std::begin(b), std::end(b), f);
