@@ -87,9 +87,7 @@ void putOn(Example& example, const OnLot& lot) {
   example.attributes = lot.attributes;
 }
 
-std::string mapOf(const Example& example) {
-  return folder() + example.name + "/buildings.geojson";
-}
+std::string mapOf(const Example& example) { return folder() + example.name + "/buildings.geojson"; }
 
 std::vector<Example> examples() {
   std::vector<Example> all;
