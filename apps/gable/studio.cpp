@@ -23,9 +23,13 @@ std::pair<std::string, std::string> projectOf(const std::string& path) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return {path, {}};
   const fs::path file = fs::absolute(path, error).lexically_normal();
-  const fs::path folder = file.parent_path();
-  // Rules of a project lie in its folder `rules`.
-  const fs::path project = folder.filename() == "rules" ? folder.parent_path() : folder;
+  // As other commands find it: the nearest folder above that has one `rules` or `assets` in it.
+  fs::path project = file.parent_path();
+  for (fs::path at = project; at.has_relative_path(); at = at.parent_path()) {
+    if (!fs::is_directory(at / "rules", error) && !fs::is_directory(at / "assets", error)) continue;
+    project = at;
+    break;
+  }
   return {project.string(), file.lexically_relative(project).generic_string()};
 }
 

@@ -390,9 +390,12 @@ class Builder {
   uint32_t root_ = 0;
 };
 
+/// Points are rounded to floats, boxes are not.
 bool isWithinPlan(const Box3& box, const Vec3f& p) {
-  const Vec3 at = toVec3(p);
-  return at.x >= box.min.x && at.x <= box.max.x && at.z >= box.min.z && at.z <= box.max.z;
+  const Vec3 at = toVec3(p), size = box.size();
+  const double slack = 1e-3 + 1e-6 * std::max(size.x, size.z);
+  return at.x >= box.min.x - slack && at.x <= box.max.x + slack && at.z >= box.min.z - slack &&
+         at.z <= box.max.z + slack;
 }
 
 /// `place` is in the world. A model that reaches far beyond it shows land around it.
@@ -443,10 +446,12 @@ std::vector<Vec3f> framingPoints(const World& world, size_t limit) {
       points.push_back(p.origin + p.x * q.x + p.y * q.y + p.z * q.z);
     }
   }
-  if (!world.subject.empty()) {
-    std::erase_if(points, [&](const Vec3f& p) { return !isWithinPlan(world.subject, p); });
+  std::vector<Vec3f> within;
+  for (const Vec3f& p : points) {
+    if (!world.subject.empty() && isWithinPlan(world.subject, p)) within.push_back(p);
   }
-  return points;
+  // A camera needs something to frame.
+  return within.empty() ? points : within;
 }
 
 uint32_t packNormal(const Vec3f& n) {

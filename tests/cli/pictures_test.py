@@ -39,6 +39,11 @@ class Pictures(Case):
         self.draw("a.png", "--turntable", "2", "--aov", "layers", status=USAGE, says="--aov")
         self.draw("a.png", "--sun", "40,135", "--sun-at", "48,2,2024-06-21,12", status=USAGE, says="--sun")
 
+    def testAModelThatEndsAtItsBordersIsFramed(self):
+        rules = self.put("roof.cga", "@StartRule\nLot --> roofGable(30, 0.4, 0.3) comp(f) { aslant : X. | all : NIL }\n")
+        for view in ("iso", "front", "street", "top"):
+            self.run_gable("render", rules, "--lot", "10x8", "--view", view, "--size", "64x36", "--samples", "1", "-o", "a.png")
+
     def testTheSunOfAPlaceNeedsAPlace(self):
         self.draw("a.png", "--sun-at", "2024-06-21,12", status=FILE, says="[picture-settings]")
         noon = self.draw("noon.png", "--sun-at", "48.86,2.35,2024-06-21,13:50+02:00")

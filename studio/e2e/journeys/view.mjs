@@ -300,8 +300,10 @@ export default {
       await page.getByRole('button', { name: /^Play/ }).waitFor();
     });
     await page.getByRole('button', { name: 'Save', exact: true }).last().click();
-    const said = await page.getByText(/Saved .*-walk\.json/).innerText();
-    const [, rules, name] = /gable render (\S+) --walk (\S+)/.exec(said);
+    await page.getByText(/Saved .*-walk\.json/).waitFor();
+    const command = await page.locator('.path-card code').innerText();
+    const [, rules, , name] = /gable render (\S+) (.* )?--walk (\S+)/.exec(command);
+    assert.match(command, /--lot 20x30 --sun 44,208 /);
     const file = join(folder, name);
     const path = JSON.parse(readFileSync(file, 'utf-8'));
     assert.equal(path.stops.length, 2);

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The Gable authors
 import { expect, it } from 'vitest';
 import type { Example } from './client';
-import { newPlace, placeBeside, standpointOf } from './place';
+import { argumentsOf, newPlace, placeBeside, standpointOf } from './place';
 
 const seen = (view: string) => standpointOf({ view } as Example);
 
@@ -31,4 +31,18 @@ it('takes the lot of rules in a folder from what lies beside them', async () => 
   expect(row).toMatchObject({ seed: 4, shapes: { file: 'row/buildings.geojson' } });
   expect(await placeBeside('plain/plain.cga', files, read)).toEqual(newPlace());
   expect(await placeBeside('lot.cga', files, read)).toEqual(newPlace());
+});
+
+it('says a place as the command line takes it', () => {
+  expect(argumentsOf(newPlace())).toBe('--lot 20x30');
+  const place = {
+    ...newPlace(),
+    seed: 7,
+    start: 'Lot',
+    attributes: { height: '12', paint: "it's red" },
+    shapes: { file: 'my lots.geojson' },
+  };
+  expect(argumentsOf(place)).toBe(
+    `--shapes 'my lots.geojson' --start Lot --seed 7 --set height=12 --set 'paint=it'\\''s red'`,
+  );
 });

@@ -24,6 +24,26 @@ export function newPlace(): Place {
   return { start: '', seed: 0, attributes: {}, shapes: { lot: [20, 30] } };
 }
 
+/** A word as a shell reads it. */
+export function shellWord(text: string): string {
+  return /^[\w./:=@%+,-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
+}
+
+/** What `gable generate` and `gable render` take for a place, of what can be said there. */
+export function argumentsOf(place: Place): string {
+  const { shapes } = place;
+  const words: string[] = [];
+  if ('file' in shapes) words.push('--shapes', shapes.file);
+  else if ('lot' in shapes) words.push('--lot', shapes.lot.join('x'));
+  if (place.start) words.push('--start', place.start);
+  if (place.style) words.push('--style', place.style);
+  if (place.seed) words.push('--seed', String(place.seed));
+  for (const [name, value] of Object.entries(place.attributes)) {
+    words.push('--set', `${name}=${value}`);
+  }
+  return words.map(shellWord).join(' ');
+}
+
 /** The place of an example that was copied to a folder, as its own arguments have it. */
 export function placeOf(example: Pick<Example, 'arguments' | 'shapes'>, folder: string): Place {
   const place = newPlace();
