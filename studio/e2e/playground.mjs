@@ -79,10 +79,10 @@ try {
   await other.page.waitForSelector('.status .err');
   await other.page.screenshot({ path: join(pictures, 'playground-mistake.png') });
 
-  // Rules that are too much for the memory of a page are told of, those that are long at work are
+  // Rules that are too much for a page are told of, those that are long at work are
   // stopped, and the page goes on with others.
   await write(other.page, TOO_MUCH);
-  await other.page.getByText('there is not enough memory').first().waitFor({ timeout: 120_000 });
+  await other.page.getByText('A limit ended').first().waitFor({ timeout: 120_000 });
   await other.page.screenshot({ path: join(pictures, 'playground-memory.png') });
   await write(other.page, TOO_MUCH.replace('0.02', '0.021'));
   await other.page.getByText('stops').waitFor();
