@@ -9,7 +9,8 @@ namespace {
 
 template <class T>
 T notDrawn() {
-  return failed<T>(Error{"picture-settings", "pictures cannot be drawn here: Embree is not built in",
+  return failed<T>(Error{"picture-settings",
+                         "pictures cannot be drawn here: Embree is not built in",
                          "use the program gable"});
 }
 
