@@ -11,7 +11,12 @@ export default defineConfig({
   // know the name localhost.
   server: { host: '127.0.0.1', fs: { allow: ['..'] } },
   test: {
-    include: ['src/**/*.test.ts', 'viewer/**/*.test.ts', 'playground/**/*.test.ts', '*.test.ts'],
+    include: [
+      'src/**/*.test.ts',
+      'viewer/**/*.test.ts',
+      'playground/**/*.test.{ts,mjs}',
+      '*.test.ts',
+    ],
     environment: 'node',
     css: true,
     testTimeout: 30_000,
