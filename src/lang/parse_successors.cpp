@@ -95,7 +95,8 @@ bool Parser::skipBadSuccessor() {
 
 // A ',' in the place of the '|' between the parts of a block.
 bool Parser::commaBetweenParts() const {
-  return is(TokenKind::Comma) && place_.blocks > 0 && headAfter(at_ + 1);
+  const bool part = ahead(1).kind == TokenKind::LBrace || headAfter(at_ + 1);
+  return is(TokenKind::Comma) && place_.blocks > 0 && part;
 }
 
 // Adds one successor; false where the sequence ends.

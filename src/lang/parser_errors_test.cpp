@@ -115,8 +115,10 @@ TEST(ParserErrors, unitsAreOneMistakeEach) {
 }
 
 TEST(ParserErrors, aCommaBetweenPartsIsOneMistake) {
-  Parsed p("A --> split(x) { 2 : B, ~1 : C , '0.5 : D }");
-  EXPECT_EQ(p.problems(), "1:23 missing-separator\n1:32 missing-separator\n") << p.messages();
+  Parsed p("A --> split(x) { 2 : B, ~1 : C , '0.5 : D, { ~1 : E }* }");
+  EXPECT_EQ(p.problems(),
+            "1:23 missing-separator\n1:32 missing-separator\n1:42 missing-separator\n")
+      << p.messages();
   EXPECT_EQ(p.diagnostics.all()[0].message, "the parts of a block have '|' between them");
 }
 

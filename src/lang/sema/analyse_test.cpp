@@ -155,11 +155,11 @@ TEST(Analyse, countsOfArgumentsAreChecked) {
 TEST(Analyse, typesOfArgumentsAreChecked) {
   const Analysed a(
       "attr t1 = \"a\" f(x) = x + 1 g(x) = str(x)\n"
-      "A --> extrude(\"3\") extrude(t1) color(3) i(true) extrude(g(1)) setback([1,2]) { all : X. }"
-      " extrude([1])");
+      "A --> extrude(\"3\") extrude(t1) color(3) i(true) extrude(g(1)) extrude([1])"
+      " setback([1,2]) { all : X. }");
   EXPECT_EQ(a.problems(),
             "2:15 type-mismatch\n2:28 type-mismatch\n2:38 type-mismatch\n"
-            "2:43 type-mismatch\n2:57 type-mismatch\n2:99 type-mismatch\n")
+            "2:43 type-mismatch\n2:57 type-mismatch\n2:71 type-mismatch\n")
       << a.messages();
   EXPECT_EQ(a.meaning("setback"), "op:setback/1");
 }
@@ -242,10 +242,11 @@ TEST(Analyse, operationsBehindTheLastRuleAreTold) {
       "A --> extrude(1) B extrude(3) t(0, 1, 0)\n"
       "B --> case geometry.area > 1 : X. extrude(2) else : [ X. t(1, 0, 0) ] Y.\n"
       "C --> A t(0, 1, 0) B\n"
-      "D --> X. t(0, 1, 0) comp(f) { all : X. } E --> t(1, 0, 0)");
+      "D --> X. t(0, 1, 0) comp(f) { all : X. } E --> t(1, 0, 0)\n"
+      "F --> comp(f) { all : X. } t(1, 0, 0)");
   EXPECT_EQ(a.problems(),
             "1:20 unused-operation (warning)\n2:35 unused-operation (warning)\n"
-            "2:58 unused-operation (warning)\n");
+            "2:58 unused-operation (warning)\n5:28 unused-operation (warning)\n");
   // What runs in place leaves its shape changed.
   EXPECT_CLEAN(Analysed("A --> do(B) X. B --> X. t(1, 0, 0)"));
 }

@@ -71,7 +71,8 @@ bool Analysis::runsInPlace() {
   return *inPlace_;
 }
 
-// Operations behind the last rule or leaf of a sequence change a shape that becomes nothing.
+// Operations behind the last rule, leaf or division of a sequence change a shape that becomes
+// nothing.
 void Analysis::reportUnused(NodeId sequence) {
   if (sequence == kNoNode) return;
   constexpr uint32_t kTells = kReports | kLabels | kAsksForRoom;
@@ -89,8 +90,11 @@ void Analysis::reportUnused(NodeId sequence) {
       // NIL says that nothing is to become of it.
       const bool changes =
           op.block == BlockKind::None && (op.effects & kTells) == 0 && text(s) != "NIL";
+      // What divides a shape leaves nothing of it, unless it waits for its parts.
+      const bool divides =
+          (op.block == BlockKind::Split || op.block == BlockKind::Selectors) && !op.gathered;
       if (changes && made != kNoNode && unused == kNoNode) unused = s;
-      if (!changes) made = unused = kNoNode;
+      if (!changes) made = divides ? s : kNoNode, unused = kNoNode;
     } else {
       // A name without a meaning has its own message.
       const bool leaf = means.kind == RefKind::Leaf && tree().has(s, kFlagTerminal);
@@ -103,7 +107,7 @@ void Analysis::reportUnused(NodeId sequence) {
   warning("unused-operation", nameSpan(tree(), unused),
           quote(text(unused)) + " stands behind " + quote(text(made)) +
               " and changes a shape that nothing is made of",
-          "write it before " + quote(text(made)) + ", or in its rule");
+          "write it before " + quote(text(made)) + ", or in the rule of what it is for");
 }
 
 void Analysis::visitSuccessor(NodeId node) {
