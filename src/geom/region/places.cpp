@@ -50,7 +50,11 @@ namespace {
 struct Square {
   Vec2 middle;
   double half, distance, most;
-  bool operator<(const Square& o) const { return most < o.most; }
+  /// Of equal ones the lowest counts, then the leftmost: no library's queue decides.
+  bool operator<(const Square& o) const {
+    if (most != o.most) return most < o.most;
+    return middle.y != o.middle.y ? middle.y > o.middle.y : middle.x > o.middle.x;
+  }
 };
 
 }  // namespace

@@ -69,8 +69,8 @@ class Sections {
       spans_.push_back({from, std::min(to, whole), i});
       if (to > whole + tolerance_) spans_.push_back({0, to - whole, i});
     }
-    std::sort(spans_.begin(), spans_.end(),
-              [](const Span& a, const Span& b) { return a.from < b.from; });
+    std::stable_sort(spans_.begin(), spans_.end(),
+                     [](const Span& a, const Span& b) { return a.from < b.from; });
   }
 
   /// Where sections begin and end strictly between two places, ascending.
