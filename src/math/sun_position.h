@@ -5,7 +5,7 @@
 // 1950 to 2050; the air's refraction is part of it. The same numbers on every machine.
 #pragma once
 
-namespace gable::rt {
+namespace gable {
 
 /// A moment of the Gregorian calendar; `hour` may have any fraction and counts in the zone
 /// `hoursEast` of Greenwich.
@@ -23,4 +23,4 @@ struct SunPosition {
 /// `latitude` and `longitude` in degrees, north and east positive.
 SunPosition sunPosition(double latitude, double longitude, const Moment& moment);
 
-}  // namespace gable::rt
+}  // namespace gable

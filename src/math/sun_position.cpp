@@ -4,13 +4,13 @@
 // Michalsky 1988, The Astronomical Almanac's Algorithm for Approximate Solar Position (1950-2050),
 // Solar Energy 40(3), with the refraction of Saemundsson 1986. Angles are in degrees.
 
-#include "render/sun_position.h"
+#include "math/sun_position.h"
 
 #include <cmath>
 
 #include "math/trig.h"
 
-namespace gable::rt {
+namespace gable {
 
 namespace {
 
@@ -52,4 +52,4 @@ SunPosition sunPosition(double latitude, double longitude, const Moment& moment)
   return {elevation + refraction(elevation), turned(azimuth)};
 }
 
-}  // namespace gable::rt
+}  // namespace gable

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 
-#include "render/sun_position.h"
+#include "math/sun_position.h"
 
 #include <gtest/gtest.h>
 
-namespace gable::rt {
+namespace gable {
 namespace {
 
 // The worked example of Reda and Andreas 2003, Solar Position Algorithm (NREL/TP-560-34302): zenith
@@ -47,4 +47,4 @@ TEST(SunPosition, clocksEastOfGreenwichAreEarlier) {
 }
 
 }  // namespace
-}  // namespace gable::rt
+}  // namespace gable
