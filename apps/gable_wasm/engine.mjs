@@ -13,10 +13,10 @@ const text = new TextEncoder();
 export async function openEngine(makeGable, wasmBinary, files = []) {
   const module = await makeGable({ wasmBinary });
   const { FS } = module;
-  for (const folder of ["/project", "/examples"]) FS.mkdirTree(folder);
+  for (const folder of ['/project', '/examples']) FS.mkdirTree(folder);
 
   function put(path, bytes) {
-    FS.mkdirTree(path.slice(0, path.lastIndexOf("/")) || "/");
+    FS.mkdirTree(path.slice(0, path.lastIndexOf('/')) || '/');
     FS.writeFile(path, bytes);
   }
 
@@ -36,34 +36,27 @@ export async function openEngine(makeGable, wasmBinary, files = []) {
   }
 
   for (const [path, bytes] of files) put(path, bytes);
-  if (!module._gable_open()) throw new Error("the project cannot be opened");
+  if (!module._gable_open()) throw new Error('the project cannot be opened');
 
   return {
     put,
 
     /** `query`: names and values, not escaped. The body of the answer is a copy. */
     ask(method, path, query = [], body = new Uint8Array()) {
-      const head = text.encode(
-        [method, path, ...query.flat()].map((word) => `${word}\0`).join(""),
-      );
+      const head = text.encode([method, path, ...query.flat()].map((word) => `${word}\0`).join(''));
       const status = withBytes([head, body], module._gable_ask);
-      const lines = module.UTF8ToString(module._gable_head()).split("\n");
+      const lines = module.UTF8ToString(module._gable_head()).split('\n');
       const headers = [];
-      for (let i = 0; i + 1 < lines.length; i += 2)
-        headers.push([lines[i], lines[i + 1]]);
+      for (let i = 0; i + 1 < lines.length; i += 2) headers.push([lines[i], lines[i + 1]]);
       const at = module._gable_body() >>> 0;
-      const answer = module.HEAPU8.slice(
-        at,
-        at + (module._gable_body_bytes() >>> 0),
-      );
+      const answer = module.HEAPU8.slice(at, at + (module._gable_body_bytes() >>> 0));
       module._gable_done();
       return { status, headers, body: answer };
     },
 
     language: {
       begin: () => module._gable_language_begin(),
-      hear: (message) =>
-        withBytes([text.encode(message)], module._gable_language_hear),
+      hear: (message) => withBytes([text.encode(message)], module._gable_language_hear),
       step: () => module._gable_language_step() !== 0,
       wait: () => module._gable_language_wait(),
       said() {
