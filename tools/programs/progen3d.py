@@ -3,9 +3,9 @@
 """Random ProGen3d grammars."""
 from programs.tree import Node, joined, optional
 
-NUMBERS = ["1", "2", "0.5", "-1", "0.25", "1.1", "h", "w", "n", "1/3", "( h + 1 )", "sin ( h )", "B_count", "&h", "2^2"]
+NUMBERS = ["1", "2", "0.5", "-1", "0.25", "1.1", "h", "w", "n", "1/3", "( h + 1 )", "sin ( h )", "Q_count", "&h", "2^2"]
 HOSTILE = ["0", "1e308", "-1e308", "1e-12", "1/0", "1000000", "-h^h"]
-RULES = ["A", "B", "C", "D1"]
+RULES = ["P", "Q", "V", "W1"]
 BODIES = ["Cube", "CubeX", "CubeY", "Sphere", "Cylinder"]
 
 
@@ -26,9 +26,9 @@ class Progen3d:
         return Node([self.random.choice(HOSTILE if self.chance(0.04) else NUMBERS)], ("1",))
 
     def program(self, number):
-        lines = ["X -> R h ( 0.5 2 ) R* n ( 1 3 ) R w ( 1 1 ) A B\n"]
+        lines = ["X -> R h ( 0.5 2 ) R* n ( 1 3 ) R w ( 1 1 ) P Q\n"]
         for self.rank, name in enumerate(RULES):
-            lines.append(Node([name, self.head(), " ->", self.sections(number if name == "A" else None), "\n"],
+            lines.append(Node([name, self.head(), " ->", self.sections(number if name == "P" else None), "\n"],
                               (f"{name} -> I ( Cube )\n",)))
         return Node(lines)
 

@@ -65,9 +65,9 @@ class Lexer {
       return;
     }
     at_ = text_.size();
-    diagnostics_.warning("unclosed-comment",
-                         {file_, static_cast<uint32_t>(begin), static_cast<uint32_t>(begin + 2)},
-                         "this comment has no end", "add '*/'");
+    diagnostics_.error("unclosed-comment",
+                       {file_, static_cast<uint32_t>(begin), static_cast<uint32_t>(begin + 2)},
+                       "this comment has no end", "add '*/'");
   }
 
   void add(TokenKind kind, size_t length) {

@@ -165,8 +165,8 @@ class Lowering {
     const double share = evaluate(g_, r.probability, known);
     if (known) {
       if (share < 0 || share > 1) {
-        diagnostics_.warning("bad-probability", p.span, "a probability lies between 0 and 1",
-                             "write 0.5 for every second time");
+        diagnostics_.error("bad-probability", p.span, "a probability lies between 0 and 1",
+                           "write 0.5 for every second time");
       }
       if (share >= 1) return sections(r);
       if (!(share > 0)) return section(r.alternate);
@@ -349,9 +349,8 @@ class Lowering {
     const std::string nearest = nearestName(name, known);
     std::string hint =
         nearest.empty() ? "declare it: R " + std::string(name) + " ( min max )" : meaning(nearest);
-    diagnostics_.warning("unknown-variable", at,
-                         "there is no variable '" + std::string(name) + "'; it counts as 0",
-                         std::move(hint));
+    diagnostics_.error("unknown-variable", at, "there is no variable '" + std::string(name) + "'",
+                       std::move(hint));
     propose(diagnostics_, at, name, nearest);
   }
 

@@ -58,8 +58,8 @@ class Parser : TokenReader {
     const std::vector<size_t> begins = ruleBegins();
     const size_t first = begins.empty() ? tokens_.size() - 1 : begins[0];
     if (first > 0) {
-      warning("no-arrow", {file_, tokens_[0].begin, tokens_[first - 1].end},
-              "what stands before the first rule belongs to none", "write 'Name -> ...'");
+      error("no-arrow", {file_, tokens_[0].begin, tokens_[first - 1].end},
+            "what stands before the first rule belongs to none", "write 'Name -> ...'");
     }
     for (size_t r = 0; r < begins.size(); ++r) {
       const size_t end = r + 1 < begins.size() ? begins[r + 1] : tokens_.size() - 1;
@@ -116,9 +116,8 @@ class Parser : TokenReader {
       rule.alternate = parseAlternate();
     }
     if (is(TokenKind::Arrow)) {
-      warning("unexpected-token", spanOf(current()),
-              "a rule has one alternative; what follows a third arrow is ignored",
-              "move it to a rule of its own");
+      error("unexpected-token", spanOf(current()),
+            "a rule has one alternative; this is a third arrow", "move it to a rule of its own");
     }
     if (grammar_.rule(rule.name)) {
       warning(
@@ -140,23 +139,23 @@ class Parser : TokenReader {
       if (t.kind == TokenKind::Name) {
         rule.draws.push_back({textOf(t), spanOf(t)});
       } else {
-        warning("unexpected-token", spanOf(t),
-                "'" + std::string(textOf(t)) + "' cannot stand in the head of a rule",
-                "the form is 'Name repeat variable ... ; probability ->'");
+        error("unexpected-token", spanOf(t),
+              "'" + std::string(textOf(t)) + "' cannot stand in the head of a rule",
+              "the form is 'Name repeat variable ... ; probability ->'");
       }
     }
     if (accept(TokenKind::Semicolon)) {
       if (!is(TokenKind::Arrow)) {
         rule.probability = parseExpression();
       } else {
-        warning("bad-probability", spanOf(tokens_[at_ - 1]),
-                "a probability is missing behind this ';'", "write '; 0.5 ->', or remove the ';'");
+        error("bad-probability", spanOf(tokens_[at_ - 1]),
+              "a probability is missing behind this ';'", "write '; 0.5 ->', or remove the ';'");
       }
       const uint32_t begin = current().begin;
       while (at_ < end_ && !is(TokenKind::Arrow)) ++at_;
       if (lastEnd() > begin) {
-        warning("unexpected-token", since(begin), "this is ignored behind the probability",
-                "the form is 'Name repeat variable ... ; probability ->'");
+        error("unexpected-token", since(begin), "this cannot stand behind the probability",
+              "the form is 'Name repeat variable ... ; probability ->'");
       }
     }
     accept(TokenKind::Arrow);
@@ -179,8 +178,7 @@ class Parser : TokenReader {
     Section out;
     while (at_ < end_ && !is(TokenKind::Arrow)) {
       if (is(TokenKind::Pipe)) {
-        warning("unexpected-token", spanOf(current()),
-                "an alternative has no sections; this '|' is ignored", "remove it");
+        error("unexpected-token", spanOf(current()), "an alternative has no sections", "remove it");
         ++at_;
         continue;
       }
@@ -195,10 +193,9 @@ class Parser : TokenReader {
   void placeSections(Rule& rule, std::vector<Section> sections) {
     if (sections.size() > 1 && sections.back().empty() && sections.size() != 3) sections.pop_back();
     if (sections.size() > 3) {
-      warning("too-many-sections", pipe_,
-              "the rule '" + std::string(rule.name) +
-                  "' has more than three sections, so it draws nothing",
-              "write 'start | repeated | end'");
+      error("too-many-sections", pipe_,
+            "the rule '" + std::string(rule.name) + "' has more than three sections",
+            "write 'start | repeated | end'");
       return;
     }
     if (sections.size() == 1) {
@@ -223,8 +220,8 @@ class Parser : TokenReader {
       for (Step& step : *s) {
         if (step.kind == Step::Kind::Push && open.size() == kMaxNesting) {
           if (tooDeep++ == 0) {
-            warning("nesting-too-deep", step.span, "brackets nest too deeply here",
-                    "move the inner part to a rule");
+            error("nesting-too-deep", step.span, "brackets nest too deeply here",
+                  "move the inner part to a rule");
           }
           continue;
         }
@@ -235,7 +232,7 @@ class Parser : TokenReader {
             continue;
           }
           if (open.empty()) {
-            warning("unexpected-bracket", step.span, "this ']' closes nothing", "remove it");
+            error("unexpected-bracket", step.span, "this ']' closes nothing", "remove it");
             continue;
           }
           open.pop_back();
@@ -245,8 +242,8 @@ class Parser : TokenReader {
       *s = std::move(kept);
     }
     for (size_t i = open.size(); i-- > 0;) {
-      warning("unclosed-bracket", open[i], "this '[' is never closed",
-              "add ']'; it ends with the section");
+      error("unclosed-bracket", open[i], "this '[' is never closed",
+            "add ']'; it ends with the section");
       Step pop;
       pop.kind = Step::Kind::Pop;
       pop.span = place;
@@ -275,8 +272,8 @@ class Parser : TokenReader {
     }
     if (t.kind != TokenKind::Name) {
       ++at_;
-      warning("unexpected-token", spanOf(t), "'" + std::string(textOf(t)) + "' cannot stand here",
-              "a section is made of S T A D I R, rules, '[' and ']'");
+      error("unexpected-token", spanOf(t), "'" + std::string(textOf(t)) + "' cannot stand here",
+            "a section is made of S T A D I R, rules, '[' and ']'");
       return;
     }
     parseWord(out);
@@ -290,8 +287,8 @@ class Parser : TokenReader {
     const CommandWord* command = commandOf(word);
     if (command && is(TokenKind::Open)) return parseCommand(out, t, *command);
     if (command && command->kind == Step::Kind::Insert) {
-      warning("missing-arguments", spanOf(t), "'I' needs to know what to insert",
-              std::string("write '") + command->form + "'");
+      error("missing-arguments", spanOf(t), "'I' needs to know what to insert",
+            std::string("write '") + command->form + "'");
       return;
     }
     Step step;
@@ -299,8 +296,8 @@ class Parser : TokenReader {
     step.span = spanOf(t);
     if (is(TokenKind::Open)) {
       skipArguments();
-      warningOfWord("unknown-word", step.span, "there is no operation '" + std::string(word) + "'",
-                    "", operationLike(word));
+      errorOfWord("unknown-word", step.span, "there is no operation '" + std::string(word) + "'",
+                  "", operationLike(word));
       return;
     }
     out.push_back(std::move(step));
@@ -352,7 +349,7 @@ class Parser : TokenReader {
       out.push_back(parseExpression());
     }
     if (!accept(TokenKind::Close)) {
-      warning("unclosed-bracket", spanOf(open), "this '(' is never closed", "add ')'");
+      error("unclosed-bracket", spanOf(open), "this '(' is never closed", "add ')'");
     }
     return out;
   }
@@ -369,24 +366,24 @@ class Parser : TokenReader {
         // The type leaves the list of arguments.
         tokens_[at_ + 1] = {type.begin, type.end, TokenKind::Comma, false, false};
       } else {
-        warning("missing-arguments", spanOf(word), "'I' needs to know what to insert",
-                std::string("write '") + command.form + "'");
+        error("missing-arguments", spanOf(word), "'I' needs to know what to insert",
+              std::string("write '") + command.form + "'");
       }
     }
     step.arguments = parseArguments();
     step.span = since(word.begin);
     if (step.arguments.size() > command.most) {
-      warning("wrong-argument-count", step.span,
-              "'" + std::string(command.word) + "' has more arguments than it takes",
-              std::string("the form is '") + command.form + "'; separate arguments by blanks only");
+      error("wrong-argument-count", step.span,
+            "'" + std::string(command.word) + "' has more arguments than it takes",
+            std::string("the form is '") + command.form + "'; separate arguments by blanks only");
       step.arguments.resize(command.most);
     }
     if (step.arguments.size() < command.least) {
-      warning("wrong-argument-count", step.span,
-              "'" + std::string(command.word) + "' takes " + std::to_string(command.least) +
-                  (command.least == 1 ? " argument, not " : " arguments, not ") +
-                  std::to_string(step.arguments.size()) + ", so it is left out",
-              std::string("the form is '") + command.form + "'");
+      error("wrong-argument-count", step.span,
+            "'" + std::string(command.word) + "' takes " + std::to_string(command.least) +
+                (command.least == 1 ? " argument, not " : " arguments, not ") +
+                std::to_string(step.arguments.size()),
+            std::string("the form is '") + command.form + "'");
       return;
     }
     if (!known) return;
@@ -415,9 +412,9 @@ class Parser : TokenReader {
     }
     std::vector<std::string_view> names;
     for (const auto& [name, b] : kBodies) names.push_back(name);
-    warningOfWord(
-        "unknown-primitive", spanOf(t), "there is no primitive '" + std::string(textOf(t)) + "'",
-        "there are Cube, CubeX, CubeY, Sphere and Cylinder", nearestName(textOf(t), names));
+    errorOfWord("unknown-primitive", spanOf(t),
+                "there is no primitive '" + std::string(textOf(t)) + "'",
+                "there are Cube, CubeX, CubeY, Sphere and Cylinder", nearestName(textOf(t), names));
     return false;
   }
 
@@ -426,8 +423,8 @@ class Parser : TokenReader {
     Variable v;
     v.whole = accept(TokenKind::Star);
     if (!is(TokenKind::Name) || ahead(1).kind != TokenKind::Open) {
-      warning("missing-arguments", spanOf(word), "a variable needs a name and a range",
-              "write 'R name ( min max )'");
+      error("missing-arguments", spanOf(word), "a variable needs a name and a range",
+            "write 'R name ( min max )'");
       return;
     }
     v.name = textOf(current());
@@ -435,9 +432,9 @@ class Parser : TokenReader {
     const std::vector<uint32_t> bounds = parseArguments();
     v.span = since(word.begin);
     if (bounds.size() != 2) {
-      warning("wrong-argument-count", v.span,
-              "the range of '" + std::string(v.name) + "' is a least and a greatest value",
-              "write 'R name ( min max )'");
+      error("wrong-argument-count", v.span,
+            "the range of '" + std::string(v.name) + "' is a least and a greatest value",
+            "write 'R name ( min max )'");
       if (bounds.empty()) return;
     }
     v.min = constant(bounds[0], v.span);
@@ -464,7 +461,7 @@ class Parser : TokenReader {
     bool known = true;
     const double v = evaluate(grammar_, id, known);
     if (!known || !std::isfinite(v)) {
-      warning("not-constant", place, "a range needs numbers", "write numbers without variables");
+      error("not-constant", place, "a range needs numbers", "write numbers without variables");
       return 0;
     }
     return v;
@@ -478,7 +475,7 @@ class Parser : TokenReader {
       if (part != kNone) e.depth = std::max(e.depth, grammar_.expressions[part].depth + 1);
     }
     if (e.depth > kMaxNesting) {
-      warning("nesting-too-deep", e.span, "this expression is too long", "divide it");
+      error("nesting-too-deep", e.span, "this expression is too long", "divide it");
       at_ = end_;
       e = Expression();
     }
@@ -552,7 +549,7 @@ class Parser : TokenReader {
 
   uint32_t tooDeep() {
     const Span place = spanOf(current());
-    warning("nesting-too-deep", place, "this expression nests too deeply", "divide it");
+    error("nesting-too-deep", place, "this expression nests too deeply", "divide it");
     // Nothing of the rest of the rule could be understood.
     at_ = end_;
     --depth_;
@@ -576,15 +573,15 @@ class Parser : TokenReader {
           ++at_;
           return add(e, t.begin);
         }
-        warning("unexpected-token", spanOf(t), "'&' needs the name of a variable", "write '&name'");
+        error("unexpected-token", spanOf(t), "'&' needs the name of a variable", "write '&name'");
         return number(0, t.begin);
       case TokenKind::Open: ++at_; return inBrackets([&] { return parseExpression(); });
       default: break;
     }
-    warning("unexpected-token", spanOf(t),
-            t.kind == TokenKind::End ? "a value is missing here"
-                                     : "'" + std::string(textOf(t)) + "' is no value",
-            "write a number, a variable or a calculation");
+    error("unexpected-token", spanOf(t),
+          t.kind == TokenKind::End ? "a value is missing here"
+                                   : "'" + std::string(textOf(t)) + "' is no value",
+          "write a number, a variable or a calculation");
     const bool closes = t.kind == TokenKind::Close || t.kind == TokenKind::Comma || endsArguments();
     if (!closes) ++at_;
     return number(0, t.begin);

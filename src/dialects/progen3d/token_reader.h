@@ -39,16 +39,18 @@ class TokenReader {
   uint32_t lastEnd() const { return at_ > begin_ ? tokens_[at_ - 1].end : tokens_[begin_].begin; }
   Span since(uint32_t begin) const { return {file_, begin, std::max(begin, lastEnd())}; }
 
+  void error(const char* code, Span span, std::string message, std::string hint = {}) {
+    if (++told_ <= kMaxTold) diagnostics_.error(code, span, std::move(message), std::move(hint));
+  }
   void warning(const char* code, Span span, std::string message, std::string hint = {}) {
-    if (++warnings_ <= kMaxWarnings)
-      diagnostics_.warning(code, span, std::move(message), std::move(hint));
+    if (++told_ <= kMaxTold) diagnostics_.warning(code, span, std::move(message), std::move(hint));
   }
 
-  /// A warning about the word at `span`, which may mean `nearest`.
-  void warningOfWord(const char* code, Span span, std::string message, std::string hint,
-                     const std::string& nearest) {
-    warning(code, span, std::move(message), nearest.empty() ? std::move(hint) : meaning(nearest));
-    if (!nearest.empty() && warnings_ <= kMaxWarnings) diagnostics_.fixLast(span, nearest);
+  /// An error about the word at `span`, which may mean `nearest`.
+  void errorOfWord(const char* code, Span span, std::string message, std::string hint,
+                   const std::string& nearest) {
+    error(code, span, std::move(message), nearest.empty() ? std::move(hint) : meaning(nearest));
+    if (!nearest.empty() && told_ <= kMaxTold) diagnostics_.fixLast(span, nearest);
   }
 
   void window(size_t begin, size_t end) {
@@ -66,7 +68,7 @@ class TokenReader {
     const uint32_t inner = parseExpression();
     --innerBrackets_;
     if (!accept(TokenKind::Close)) {
-      warning("unclosed-bracket", spanOf(open), "this '(' is never closed", "add ')'");
+      error("unclosed-bracket", spanOf(open), "this '(' is never closed", "add ')'");
     }
     return inner;
   }
@@ -79,10 +81,10 @@ class TokenReader {
   int innerBrackets_ = 0;
 
  private:
-  static constexpr size_t kMaxWarnings = 200;
+  static constexpr size_t kMaxTold = 200;
 
   Token endToken_;
-  size_t warnings_ = 0;
+  size_t told_ = 0;
 };
 
 }  // namespace gable::progen3d

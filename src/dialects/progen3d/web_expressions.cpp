@@ -149,9 +149,9 @@ NodeId Expressions::rand(const Expression& e) {
   if (variable.empty() || !uses_.isDrawn(variable)) {
     const NodeId least = value(e.parts[0]);
     if (e.parts.size() == 1 && variable.empty()) {
-      diagnostics_.warning("wrong-argument-count", e.span,
-                           "'rand' draws between two values, or anew from the range of a variable",
-                           "write 'rand(min max)'");
+      diagnostics_.error("wrong-argument-count", e.span,
+                         "'rand' draws between two values, or anew from the range of a variable",
+                         "write 'rand(min max)'");
     }
     return e.parts.size() == 1 ? least : b_.call("rand", {least, value(e.parts[1])}, e.span);
   }
@@ -177,9 +177,8 @@ void Expressions::unknownVariable(std::string_view name, Span at) {
   const std::string nearest = nearestName(name, known);
   std::string hint =
       nearest.empty() ? "declare it: R " + std::string(name) + " ( min max )" : meaning(nearest);
-  diagnostics_.warning("unknown-variable", at,
-                       "there is no variable '" + std::string(name) + "'; it counts as 0",
-                       std::move(hint));
+  diagnostics_.error("unknown-variable", at, "there is no variable '" + std::string(name) + "'",
+                     std::move(hint));
   propose(diagnostics_, at, name, nearest);
 }
 
@@ -194,11 +193,11 @@ NodeId Expressions::name(const Expression& e) {
     return b_.number(0, e.span);
   }
   if (lost_.erase(e.name) > 0) {
-    diagnostics_.warning("drawn-in-brackets", e.span,
-                         "'" + std::string(e.name) +
-                             "' was drawn in brackets, and has its value "
-                             "from before them again",
-                         "draw it before the '['");
+    diagnostics_.error("drawn-in-brackets", e.span,
+                       "'" + std::string(e.name) +
+                           "' was drawn in brackets, and has its value "
+                           "from before them again",
+                       "draw it before the '['");
   }
   return read(e.name, e.span);
 }
@@ -212,19 +211,18 @@ NodeId Expressions::function(const Expression& e) {
       known.push_back(n);
     }
     const std::string nearest = nearestName(e.name, known);
-    diagnostics_.warning("unknown-function", e.span,
-                         "there is no function '" + std::string(e.name) + "'; it counts as 0",
-                         meaning(nearest));
+    diagnostics_.error("unknown-function", e.span,
+                       "there is no function '" + std::string(e.name) + "'", meaning(nearest));
     // The call begins with its name.
     const auto length = static_cast<uint32_t>(e.name.size());
     propose(diagnostics_, {e.span.file, e.span.begin, e.span.begin + length}, e.name, nearest);
     return b_.number(0, e.span);
   }
   if (e.parts.size() < f->least || e.parts.size() > f->most) {
-    diagnostics_.warning("wrong-argument-count", e.span,
-                         "'" + std::string(e.name) + "' cannot take " +
-                             std::to_string(e.parts.size()) + " arguments; it counts as 0",
-                         std::string("write '") + f->form + "'");
+    diagnostics_.error("wrong-argument-count", e.span,
+                       "'" + std::string(e.name) + "' cannot take " +
+                           std::to_string(e.parts.size()) + " arguments",
+                       std::string("write '") + f->form + "'");
     return b_.number(0, e.span);
   }
   if (e.name == "rand") return rand(e);

@@ -234,9 +234,9 @@ class Lowering {
     for (size_t k = 0; k < v.parameters.size(); ++k) {
       const auto& p = v.parameters[k];
       if (!own.insert(p.name).second) {
-        diagnostics_.warning("duplicate-parameter", p.span,
-                             "there are two parameters '" + std::string(p.name) + "'",
-                             "give one of them another name");
+        diagnostics_.error("duplicate-parameter", p.span,
+                           "there are two parameters '" + std::string(p.name) + "'",
+                           "give one of them another name");
         continue;
       }
       values.push_back(b_.add(NodeKind::NamedArg, p.span, {b_.name(argumentName(k), p.span)},
@@ -424,12 +424,11 @@ class Lowering {
     Nodes arguments = values(s.arguments);
     const size_t wanted = parametersOf(*r);
     if (arguments.size() != wanted) {
-      diagnostics_.warning(
+      diagnostics_.error(
           "wrong-argument-count", s.span,
           "'" + std::string(s.name) + "' takes " + std::to_string(wanted) +
               (wanted == 1 ? " argument, not " : " arguments, not ") +
-              std::to_string(arguments.size()) +
-              (arguments.size() < wanted ? "; the others are 0" : ""),
+              std::to_string(arguments.size()),
           "write one for each parameter in the head of '" + std::string(s.name) + "'");
     }
     arguments.resize(wanted, b_.number(0, s.span));

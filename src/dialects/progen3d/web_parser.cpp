@@ -31,8 +31,8 @@ class Parser : TokenReader {
     }
     const size_t first = begins.empty() ? tokens_.size() - 1 : begins[0];
     if (first > 0) {
-      warning("no-arrow", {file_, tokens_[0].begin, tokens_[first - 1].end},
-              "what stands before the first rule belongs to none", "write 'Name -> ...'");
+      error("no-arrow", {file_, tokens_[0].begin, tokens_[first - 1].end},
+            "what stands before the first rule belongs to none", "write 'Name -> ...'");
     }
     for (size_t r = 0; r < begins.size(); ++r) {
       parseRule(begins[r], r + 1 < begins.size() ? begins[r + 1] : tokens_.size() - 1);
@@ -80,8 +80,8 @@ class Parser : TokenReader {
     if (!is(TokenKind::Semicolon) && !is(TokenKind::Arrow)) variant.repeat = parseExpression();
     if (accept(TokenKind::Semicolon)) {
       if (is(TokenKind::Arrow)) {
-        warning("bad-probability", spanOf(tokens_[at_ - 1]), "a weight is missing behind this ';'",
-                "write '; 2 ->', or remove the ';'");
+        error("bad-probability", spanOf(tokens_[at_ - 1]), "a weight is missing behind this ';'",
+              "write '; 2 ->', or remove the ';'");
       } else {
         variant.weight = parseExpression();
       }
@@ -90,8 +90,8 @@ class Parser : TokenReader {
     const size_t from = at_;
     while (at_ < end_ && !is(TokenKind::Arrow)) ++at_;
     if (at_ > from) {
-      warning("unexpected-token", since(rest), "this cannot stand in the head of a rule",
-              "the form is 'Name ( parameters ) repeat ; weight ->'");
+      error("unexpected-token", since(rest), "this cannot stand in the head of a rule",
+            "the form is 'Name ( parameters ) repeat ; weight ->'");
     }
     accept(TokenKind::Arrow);
     parseSections(variant.body);
@@ -105,9 +105,9 @@ class Parser : TokenReader {
       if (t.kind == TokenKind::Name) {
         variant.parameters.push_back({textOf(t), spanOf(t)});
       } else if (t.kind != TokenKind::Comma) {
-        warning("unexpected-token", spanOf(t),
-                "'" + std::string(textOf(t)) + "' is no name of a parameter",
-                "the form is 'Name ( parameters ) repeat ; weight ->'");
+        error("unexpected-token", spanOf(t),
+              "'" + std::string(textOf(t)) + "' is no name of a parameter",
+              "the form is 'Name ( parameters ) repeat ; weight ->'");
       }
     }
     accept(TokenKind::Close);
@@ -123,9 +123,8 @@ class Parser : TokenReader {
       if (t.kind != TokenKind::Pipe) {
         stray(t);
       } else if (++sections > 3) {
-        warning("too-many-sections", spanOf(t),
-                "a rule has three sections at most; what follows is left out",
-                "write 'before | main | after'");
+        error("too-many-sections", spanOf(t), "a rule has three sections at most",
+              "write 'before | main | after'");
         at_ = end_;
       }
     }
@@ -172,14 +171,14 @@ class Parser : TokenReader {
   }
 
   void stray(const Token& t) {
-    warning("unexpected-token", spanOf(t), "'" + std::string(textOf(t)) + "' cannot stand here",
-            "a section is made of words such as T S A I R, of rules, '[', ']' and '?( )'");
+    error("unexpected-token", spanOf(t), "'" + std::string(textOf(t)) + "' cannot stand here",
+          "a section is made of words such as T S A I R, of rules, '[', ']' and '?( )'");
   }
 
   bool enter(const Token& t) {
     if (++depth_ <= kMaxNesting) return true;
-    warning("nesting-too-deep", spanOf(t), "brackets nest too deeply here",
-            "move the inner part to a rule");
+    error("nesting-too-deep", spanOf(t), "brackets nest too deeply here",
+          "move the inner part to a rule");
     // Nothing of the rest of the rule could be understood.
     at_ = end_;
     return false;
@@ -200,7 +199,7 @@ class Parser : TokenReader {
     --depth_;
     waitForColon_ = waiting;
     if (!accept(TokenKind::Pop)) {
-      warning("unclosed-bracket", spanOf(open), "this '[' is never closed", "add ']'");
+      error("unclosed-bracket", spanOf(open), "this '[' is never closed", "add ']'");
     }
     group.span = since(open.begin);
     out.push_back(std::move(group));
@@ -214,13 +213,13 @@ class Parser : TokenReader {
     s.kind = Statement::Kind::Condition;
     const Token open = current();
     if (!accept(TokenKind::Open)) {
-      warning("unexpected-token", spanOf(question), "a condition needs brackets",
-              "write '?( a > 1 ) Rule'");
+      error("unexpected-token", spanOf(question), "a condition needs brackets",
+            "write '?( a > 1 ) Rule'");
       return;
     }
     s.arguments.push_back(parseExpression());
     if (!accept(TokenKind::Close)) {
-      warning("unclosed-bracket", spanOf(open), "this '(' is never closed", "add ')'");
+      error("unclosed-bracket", spanOf(open), "this '(' is never closed", "add ')'");
     }
     if (!enter(question)) {
       --depth_;
@@ -235,8 +234,8 @@ class Parser : TokenReader {
     } else if (is(TokenKind::Name)) {
       parseWord(s.body);
     } else {
-      warning("missing-arguments", spanOf(question), "nothing follows this condition",
-              "write '?( a > 1 ) Rule', or '?( a > 1 ) this : that'");
+      error("missing-arguments", spanOf(question), "nothing follows this condition",
+            "write '?( a > 1 ) Rule', or '?( a > 1 ) this : that'");
     }
     --depth_;
     s.span = since(question.begin);
@@ -285,8 +284,8 @@ class Parser : TokenReader {
     s.kind = Statement::Kind::Draw;
     s.whole = accept(TokenKind::Star);
     if (!is(TokenKind::Name)) {
-      warning("missing-arguments", spanOf(word), "a variable needs a name and a range",
-              "write 'R name ( min max )'");
+      error("missing-arguments", spanOf(word), "a variable needs a name and a range",
+            "write 'R name ( min max )'");
       return;
     }
     s.name = textOf(current());
@@ -295,9 +294,9 @@ class Parser : TokenReader {
     if (is(TokenKind::Open)) {
       s.arguments = parseArguments(true);
       if (s.arguments.size() != 2) {
-        warning("wrong-argument-count", since(word.begin),
-                "the range of '" + std::string(s.name) + "' is a least and a greatest value",
-                "write 'R name ( min max )'");
+        error("wrong-argument-count", since(word.begin),
+              "the range of '" + std::string(s.name) + "' is a least and a greatest value",
+              "write 'R name ( min max )'");
         if (s.arguments.empty()) return;
         s.arguments.resize(2, s.arguments[0]);
       }
@@ -311,9 +310,9 @@ class Parser : TokenReader {
     s.kind = command.kind;
     s.axis = command.axis;
     if (!is(TokenKind::Open)) {
-      warning("missing-arguments", spanOf(word),
-              "'" + std::string(command.word) + "' needs arguments",
-              std::string("write '") + command.form + "'");
+      error("missing-arguments", spanOf(word),
+            "'" + std::string(command.word) + "' needs arguments",
+            std::string("write '") + command.form + "'");
       return;
     }
     bool known = true;
@@ -321,14 +320,13 @@ class Parser : TokenReader {
     s.arguments = parseArguments(true);
     s.span = since(word.begin);
     if (s.arguments.size() != command.count) {
-      warning("wrong-argument-count", s.span,
-              "'" + std::string(command.word) + "' takes " + std::to_string(command.count) +
-                  (command.count == 1 ? " number, not " : " numbers, not ") +
-                  std::to_string(s.arguments.size()) +
-                  (s.arguments.size() < command.count ? ", so it is left out" : ""),
-              std::string("the form is '") + command.form +
-                  "'; a '-' with a blank before it begins a new argument, so put brackets around "
-                  "such calculations");
+      error("wrong-argument-count", s.span,
+            "'" + std::string(command.word) + "' takes " + std::to_string(command.count) +
+                (command.count == 1 ? " number, not " : " numbers, not ") +
+                std::to_string(s.arguments.size()),
+            std::string("the form is '") + command.form +
+                "'; a '-' with a blank before it begins a new argument, so put brackets around "
+                "such calculations");
       if (s.arguments.size() < command.count) return;
       s.arguments.resize(command.count);
     }
@@ -343,8 +341,8 @@ class Parser : TokenReader {
       tokens_[at_ + n] = {t.begin, t.end, TokenKind::Comma, false, false};
     };
     if (body.kind != TokenKind::Name) {
-      warning("missing-arguments", spanOf(current()), "'I' needs to know what to insert",
-              "write 'I ( Cube brick 0.5 )'");
+      error("missing-arguments", spanOf(current()), "'I' needs to know what to insert",
+            "write 'I ( Cube brick 0.5 )'");
       return false;
     }
     take(1);
@@ -353,17 +351,17 @@ class Parser : TokenReader {
       s.nameSpan = spanOf(texture);
       take(2);
     } else {
-      warning("missing-arguments", spanOf(texture), "a texture has a name here",
-              "write 'I ( Cube brick 0.5 )'");
+      error("missing-arguments", spanOf(texture), "a texture has a name here",
+            "write 'I ( Cube brick 0.5 )'");
     }
     static constexpr std::string_view kBodies[] = {"CubeX", "CubeY", "CubeZ", "Cube"};
     const auto* at = std::find(std::begin(kBodies), std::end(kBodies), textOf(body));
     s.axis = static_cast<uint32_t>(at - kBodies);
     if (at != std::end(kBodies)) return true;
-    warningOfWord("unknown-primitive", spanOf(body),
-                  "there is no primitive '" + std::string(textOf(body)) + "'",
-                  "there are Cube, CubeX, CubeY and CubeZ",
-                  nearestName(textOf(body), {"Cube", "CubeX", "CubeY", "CubeZ"}));
+    errorOfWord("unknown-primitive", spanOf(body),
+                "there is no primitive '" + std::string(textOf(body)) + "'",
+                "there are Cube, CubeX, CubeY and CubeZ",
+                nearestName(textOf(body), {"Cube", "CubeX", "CubeY", "CubeZ"}));
     return false;
   }
 
@@ -395,7 +393,7 @@ class Parser : TokenReader {
     parted_ = before;
     innerBrackets_ = brackets;
     if (!accept(TokenKind::Close)) {
-      warning("unclosed-bracket", spanOf(open), "this '(' is never closed", "add ')'");
+      error("unclosed-bracket", spanOf(open), "this '(' is never closed", "add ')'");
     }
     return out;
   }
@@ -408,7 +406,7 @@ class Parser : TokenReader {
       e.depth = std::max(e.depth, grammar_.expressions[part].depth + 1);
     }
     if (e.depth > kMaxNesting) {
-      warning("nesting-too-deep", e.span, "this expression is too long", "divide it");
+      error("nesting-too-deep", e.span, "this expression is too long", "divide it");
       at_ = end_;
       e = Expression();
     }
@@ -479,7 +477,7 @@ class Parser : TokenReader {
 
   uint32_t tooDeep() {
     const Span place = spanOf(current());
-    warning("nesting-too-deep", place, "this expression nests too deeply", "divide it");
+    error("nesting-too-deep", place, "this expression nests too deeply", "divide it");
     at_ = end_;
     --depth_;
     return add(Expression(), place.begin);
@@ -506,10 +504,10 @@ class Parser : TokenReader {
       case TokenKind::Open: ++at_; return inBrackets([&] { return parseExpression(); });
       default: break;
     }
-    warning("unexpected-token", spanOf(t),
-            t.kind == TokenKind::End ? "a value is missing here"
-                                     : "'" + std::string(textOf(t)) + "' is no value",
-            "write a number, a variable or a calculation");
+    error("unexpected-token", spanOf(t),
+          t.kind == TokenKind::End ? "a value is missing here"
+                                   : "'" + std::string(textOf(t)) + "' is no value",
+          "write a number, a variable or a calculation");
     if (!is(TokenKind::Close) && !is(TokenKind::Comma) && !endsArguments()) ++at_;
     return add(std::move(e), t.begin);
   }

@@ -387,8 +387,9 @@ TEST(Web, mistakesAreTold) {
   }
 }
 
-TEST(Web, whatCanBeDrawnIsDrawn) {
-  const Drawn d = draw("Start -> Nothing( 1 ) T ( 1 2 ) I ( Cubus brick 1 ) I ( CubeZ brick 1 )\n");
+// As in other notations, a rule that is missing draws nothing, and the rest is drawn.
+TEST(Web, missingRulesLeaveTheRest) {
+  const Drawn d = draw("Start -> Nothing( 1 ) I ( CubeZ brick 1 )\n");
   EXPECT_TRUE(d.model.ok());
   EXPECT_EQ(d.bodies.size(), 1u);
 }
