@@ -96,6 +96,15 @@ int sideOf(std::string_view w) {
   return -1;
 }
 
+// CGA's words for the sides of a scope, whose front is the south of a plan.
+int sideOfScope(std::string_view w) {
+  if (w == "left") return sideOf("west");
+  if (w == "back") return sideOf("north");
+  if (w == "right") return sideOf("east");
+  if (w == "front") return sideOf("south");
+  return -1;
+}
+
 class EdgeSelector {
  public:
   explicit EdgeSelector(const SelectionInput& in)
@@ -224,6 +233,7 @@ class EdgeSelector {
     if (w == "strictOuter") return strictOuter();
     if (w == "inner") return outerOf(-1).complement();
     if (w == "border") return outerOf(0);
+    if (const int k = sideOfScope(w); k >= 0) return facing(directionOf(k, false));
     if (w == "pathSide") return ofRole(EdgeRole::Path);
     if (w == "centreSide") return ofRole(EdgeRole::Centre);
     if (w == "holeSide") return ofRole(EdgeRole::Hole);
