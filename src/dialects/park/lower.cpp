@@ -252,14 +252,13 @@ bool Lowering::symbol(const Op& op, Nodes& out) {
   return false;
 }
 
-// MARBLE is grey, which may be meant, but YELOW is not.
+// MARBLE is grey, which may be meant, but YELOW is a slip.
 void Lowering::warnOfColour(const Op& op) {
   if (knownColourOf(op.name)) return;
   const std::string nearest = nearestColour(op.name);
   if (nearest.empty()) return;
-  diagnostics_.warning("unknown-colour", op.span,
-                       "'" + op.name + "' is no colour or material; it becomes grey",
-                       meaning(nearest));
+  diagnostics_.error("unknown-colour", op.span, "'" + op.name + "' is no colour or material",
+                     meaning(nearest));
   propose(diagnostics_, placeOf(source_, op.span, op.name), op.name, nearest);
 }
 

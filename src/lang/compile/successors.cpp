@@ -97,8 +97,10 @@ void UnitCompiler::callRule(NodeId node, uint32_t rule, NodeId arguments) {
 }
 
 // set(attribute, value): the first argument is a place, no value.
-bool UnitCompiler::setStatement(NodeId arguments) {
-  const auto list = t_.children(arguments);
+bool UnitCompiler::setStatement(NodeId node, NodeId arguments) {
+  const auto named = m_.namedArguments.find(node);
+  const std::span<const NodeId> list =
+      named == m_.namedArguments.end() ? t_.children(arguments) : named->second;
   if (list.size() != 2) return false;
   const Resolution& place = m_.at(list[0]);
   if (place.kind != RefKind::Attribute && place.kind != RefKind::ShapeAttribute) return false;
@@ -163,7 +165,7 @@ bool UnitCompiler::inPlace(NodeId node, const OpSpec& spec, NodeId arguments) {
 }
 
 void UnitCompiler::operation(NodeId node, const OpSpec& spec, NodeId arguments) {
-  if (std::string_view(spec.name) == "set" && setStatement(arguments)) return;
+  if (std::string_view(spec.name) == "set" && setStatement(node, arguments)) return;
   if (inPlace(node, spec, arguments)) return;
   operationEffects(spec, arguments);
   const Span span = t_.span(node);

@@ -58,7 +58,7 @@ class UnitCompiler {
   void importApply(NodeId node);
   void callRule(NodeId node, uint32_t rule, NodeId arguments);
   void operation(NodeId node, const OpSpec& spec, NodeId arguments);
-  bool setStatement(NodeId arguments);
+  bool setStatement(NodeId node, NodeId arguments);
   /// do, repeat and local; false for any other operation.
   bool inPlace(NodeId node, const OpSpec& spec, NodeId arguments);
   void blockInPlace(NodeId node);

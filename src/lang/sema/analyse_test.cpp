@@ -544,6 +544,9 @@ TEST(Analyse, slipsOfCapitalsNameTheOperation) {
   const Analysed versioned("version \"2025.1\" Lot --> T(0, 1, 0)");
   EXPECT_EQ(versioned.problems(), "1:26 undefined-rule (warning)\n");
   EXPECT_EQ(versioned.hint(0), "did you mean 't'?");
+  const Analysed small("version \"2025.1\" Lot --> extrud(3) X.");
+  EXPECT_EQ(small.problems(), "1:26 unknown-operation\n");
+  EXPECT_EQ(small.hint(0), "did you mean 'extrude'?");
 }
 
 TEST(Analyse, valuesThatTheirEnumLeavesOutHaveTheNearest) {
@@ -612,7 +615,7 @@ TEST(Analyse, annotationsBecomeData) {
 @Label("window") Window --> X. @Label(window) Door --> X.
 @Hidden attr list = ["x"])");
   EXPECT_EQ(a.problems(),
-            "8:1 unknown-annotation (warning)\n8:18 unknown-annotation (warning)\n"
+            "8:1 unknown-annotation\n8:18 unknown-annotation\n"
             "9:38 bad-annotation (warning)\n10:32 bad-annotation (warning)\n");
   EXPECT_EQ(a.hint(0), "did you mean '@Description'?");
   EXPECT_EQ(a.program.description, "A house");
@@ -680,6 +683,7 @@ TEST(Analyse, remedyOfAnImportedNameKeepsTheImport) {
 TEST(Analyse, hintsSayWhatTheWordIs) {
   EXPECT_EQ(Analysed("A --> if X.").hint(),
             "conditions are written 'case condition : ... else : ...'");
+  EXPECT_EQ(Analysed("A --> if (1) X.").problems(), "1:7 unknown-operation\n");
   EXPECT_EQ(Analysed("w = extrude(1)").hint(),
             "it is an operation, and those stand in rules: 'Name --> extrude(...)'");
 }

@@ -194,6 +194,11 @@ class Analysis {
   /// The signatures that the arguments fit by count and names; reports when there are none.
   std::vector<uint16_t> signaturesByShape(const CallTarget& target,
                                           std::span<const NodeId> arguments);
+  bool hasNames(std::span<const NodeId> arguments) const;
+  /// The arguments of a call by name in the order of the signature, which they fit; kept for the
+  /// compiler. kNoNode where there is none.
+  std::span<const NodeId> orderArguments(NodeId node, const Signature& signature,
+                                         std::span<const NodeId> arguments);
   bool areNamesLast(std::span<const NodeId> arguments) const;
   void reportNamedArguments(const CallTarget& target, std::span<const NodeId> arguments);
   bool reportMissingArgument(const CallTarget& target, std::span<const NodeId> arguments);

@@ -103,13 +103,14 @@ std::string Analysis::bundledFile(std::string_view path, const std::string& from
 void Analysis::checkMaterial(NodeId node) {
   if (mute_ || !loader_) return;
   const NodeId written = writtenText(node);
-  if (written == kNoNode) return;
+  // Nothing is written yet.
+  if (written == kNoNode || text(written).empty()) return;
   const std::string name(text(written)), file = "materials/" + name + "/material.mtl";
   const std::string& from = program_.units[module().unit].path;
   if (loader_->exists("builtin:" + file, from) || loader_->exists(file, from)) return;
   if (!missedFiles_.insert(file).second) return;
-  warning("unknown-material", tree().span(written), "there is no material " + quote(name),
-          loader_->materialHint(name));
+  error("unknown-material", tree().span(written), "there is no material " + quote(name),
+        loader_->materialHint(name));
 }
 
 void Analysis::checkFile(NodeId node) {

@@ -153,6 +153,11 @@ size_t Analysis::parameterOf(const Signature& s, std::span<const NodeId> args, s
   return kNoParameter;
 }
 
+bool Analysis::hasNames(std::span<const NodeId> args) const {
+  return std::any_of(args.begin(), args.end(),
+                     [&](NodeId a) { return tree().kind(a) == NodeKind::NamedArg; });
+}
+
 bool Analysis::areNamesLast(std::span<const NodeId> args) const {
   return std::is_partitioned(args.begin(), args.end(),
                              [&](NodeId a) { return tree().kind(a) != NodeKind::NamedArg; });
@@ -344,10 +349,20 @@ void Analysis::reportMisfit(const CallTarget& target, const char* code, NodeId n
   warning(code, tree().span(node), std::move(message) + "; so the call is a leaf", std::move(hint));
 }
 
+std::span<const NodeId> Analysis::orderArguments(NodeId node, const Signature& s,
+                                                 std::span<const NodeId> args) {
+  std::vector<NodeId>& order = module().namedArguments[node];
+  order.assign(s.params.size(), kNoNode);
+  for (size_t i = 0; i < args.size(); ++i) {
+    const bool named = tree().kind(args[i]) == NodeKind::NamedArg;
+    order[parameterOf(s, args, i)] = named ? tree().child(args[i], 0) : args[i];
+  }
+  return order;
+}
+
 Analysis::Chosen Analysis::checkBuiltinCall(const CallTarget& target,
                                             std::span<const NodeId> args) {
-  const bool anyNamed = std::any_of(args.begin(), args.end(),
-                                    [&](NodeId a) { return tree().kind(a) == NodeKind::NamedArg; });
+  const bool anyNamed = hasNames(args);
   std::vector<uint16_t> left = signaturesByShape(target, args);
   if (left.empty()) {
     visitMisfits(target, args);
@@ -381,13 +396,7 @@ Analysis::Chosen Analysis::checkBuiltinCall(const CallTarget& target,
   }
   checkFiles(target.signatures[left[0]], args);
   if (anyNamed) {
-    const Signature& s = target.signatures[left[0]];
-    std::vector<NodeId> order(s.params.size(), kNoNode);
-    for (size_t i = 0; i < args.size(); ++i) {
-      const bool named = tree().kind(args[i]) == NodeKind::NamedArg;
-      order[parameterOf(s, args, i)] = named ? tree().child(args[i], 0) : args[i];
-    }
-    module().namedArguments[target.node] = std::move(order);
+    orderArguments(target.node, target.signatures[left[0]], args);
     return {left[0], false};
   }
   return {left[0], left.size() > 1 && unknownType};

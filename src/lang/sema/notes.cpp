@@ -346,12 +346,16 @@ Annotations readAnnotations(const Tree& tree, NodeId list, GroupNote& group,
       std::vector<std::string_view> names;
       for (const NoteKind& k : kNotes) names.push_back(k.name);
       const std::string nearest = nearestName(name, names);
-      diagnostics->warning("unknown-annotation", tree.span(id),
-                           "there is no annotation '@" + std::string(name) + "'; it has no effect",
-                           nearest.empty() ? "" : "did you mean '@" + nearest + "'?");
+      const std::string none = "there is no annotation '@" + std::string(name) + "'";
+      if (nearest.empty()) {
+        diagnostics->warning("unknown-annotation", tree.span(id), none + "; it has no effect");
+        continue;
+      }
+      diagnostics->error("unknown-annotation", tree.span(id), none,
+                         "did you mean '@" + nearest + "'?");
       const uint32_t begin = tree.span(id).begin + 1;
       const auto end = begin + static_cast<uint32_t>(name.size());
-      if (!nearest.empty()) diagnostics->fixLast({tree.file(), begin, end}, nearest);
+      diagnostics->fixLast({tree.file(), begin, end}, nearest);
     }
   }
   group = out.group;

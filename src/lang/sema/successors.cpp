@@ -177,6 +177,8 @@ void Analysis::makeLeaf(NodeId node, bool known) {
   }
 }
 
+bool isSmallLetter(char c) { return c >= 'a' && c <= 'z'; }
+
 // A name with arguments that is nearly that of an operation is meant to be it; as a leaf the model
 // would lack what the operation makes. Rules begin with a capital, and a file may call rules that
 // it does not define: so a name with a capital must be that of an operation but for the case, and
@@ -185,7 +187,7 @@ std::string_view Analysis::slippedOperation(NodeId node) {
   constexpr size_t kShortest = 5;
   const std::string_view name = text(node);
   if (name.empty()) return {};
-  if (name[0] < 'a' || name[0] > 'z') {
+  if (!isSmallLetter(name[0])) {
     for (const OpSpec* op : catalogue_.operations) {
       if (!equalButForCase(name, op->name)) continue;
       if (name.size() > 1 ? acceptsCount(op->signatures, arguments(tree().child(node, 0)).size())
@@ -232,7 +234,8 @@ void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
       return;
     }
     meant = slippedOperation(node);
-    if (!meant.empty() && !isVersioned(body_.module)) {
+    // A file of CityEngine may have leaves that look like rules: Extrude(3).
+    if (!meant.empty() && (isSmallLetter(name[0]) || !isVersioned(body_.module))) {
       meant_ = {name, std::string(meant)};
       error("unknown-operation", span, "there is no operation or rule " + quote(name),
             "did you mean " + quote(meant) + "?");
@@ -255,6 +258,10 @@ void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
   if (name == "if" || name == "while" || name == "for") {
     meant_ = {};
     hint = "conditions are written 'case condition : ... else : ...'";
+    if (called) {
+      error("unknown-operation", span, "there is no operation or rule " + quote(name), hint);
+      return;
+    }
   } else if (const OpSpec* op = catalogue_.operation(name); op && op->soft) {
     meant_ = {};
     hint = "the operation is written with its brackets: " + signatureText(name, op->signatures[0]);
@@ -462,11 +469,18 @@ void Analysis::reportUnknownPlace(NodeId place, ValueType given) {
 // set(attribute, value): the first argument is a place, not a value.
 void Analysis::visitSet(NodeId node, const OpSpec& op) {
   const Tree& t = tree();
-  const std::span<const NodeId> args = arguments(t.child(node, 0));
+  std::span<const NodeId> args = arguments(t.child(node, 0));
   resolve(node, RefKind::Operation);
   module().resolutions[node].spec.operation = &op;
   module().resolutions[node].signature = 0;
-  if (args.size() != 2) {
+  if (hasNames(args)) {
+    const CallTarget target{op.name, node, op.signatures};
+    if (signaturesByShape(target, args).empty()) {
+      visitMisfits(target, args);
+      return reportNamedArguments(target, args);
+    }
+    args = orderArguments(node, op.signatures[0], args);
+  } else if (args.size() != 2) {
     visitArguments(args);
     errorAt("wrong-argument-count", node,
             "'set' takes 2 arguments, not " + std::to_string(args.size()),

@@ -48,12 +48,11 @@ void Analysis::checkWrittenValue(NodeId node, const ParamSpec& param, std::strin
   }
   const Value v = writtenValue(node);
   if (v.type == ValueType::Null || isTaken(param, v, values_)) return;
-  // A text of another form does no harm: the shape stays as it is, or the value is that of none.
   if (v.type == ValueType::String) {
     const std::string_view text = values_.text(v.id);
     const std::string mended = mendedText(param, text);
     if (!mended.empty() && t.kind(node) == NodeKind::String) meant_ = {text, mended};
-    warning("bad-argument", t.span(node), refusalText(param, callee, v, values_),
+    errorAt("bad-argument", node, refusalText(param, callee, v, values_),
             mended.empty() ? refusalHint(param) : "write \"" + mended + "\"");
     return;
   }
