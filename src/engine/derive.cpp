@@ -15,6 +15,7 @@
 #include "city/plan.h"
 #include "engine/footprint.h"
 #include "engine/missing_files.h"
+#include "engine/outside_values.h"
 #include "engine/unused_properties.h"
 #include "shape/edge_attributes.h"
 
@@ -301,8 +302,10 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
   const DiagnosticList made = told.without(
       listOf(inWordsOf(r.dialect, impl->result.diagnostics, builtinCatalogue()), r.sources));
   impl->diagnostics.insert(impl->diagnostics.end(), made.begin(), made.end());
-  const DiagnosticList unused = unusedProperties(shapes.impl(), r);
-  impl->diagnostics.insert(impl->diagnostics.end(), unused.begin(), unused.end());
+  for (const DiagnosticList& some :
+       {outsideValues(initial, r), unusedProperties(shapes.impl(), r)}) {
+    impl->diagnostics.insert(impl->diagnostics.end(), some.begin(), some.end());
+  }
   impl->makeSound();
   if (shapes.impl().terrain) layOnTerrain(*impl, *shapes.impl().terrain, options, now() - begin);
   impl->seconds = now() - begin;

@@ -452,12 +452,25 @@ class Completer {
     if (cursor_.atArgument && !asksForFile()) return;
     if (cursor_.atArgument && cursor_.call.callee == "set" && cursor_.call.successor && choices())
       return;
+    const Picked wanted = wantedFiles();
     size_t count = 0;
     for (const std::string& asset : library_.files().assets(path_)) {
+      if (wanted != Picked::Any && isPicture(asset) != (wanted == Picked::Pictures)) continue;
       if (count++ >= kMostFiles) out_.partial = true;
       if (count > kMostFiles) break;
       file(asset);
     }
+  }
+
+  enum class Picked { Any, Pictures, Models };
+
+  // texture() and material maps take pictures, i() takes models.
+  Picked wantedFiles() const {
+    if (!cursor_.atArgument) return Picked::Any;
+    const std::string_view callee = cursor_.call.callee;
+    if (callee == "texture") return Picked::Pictures;
+    if (callee == "set" && cursor_.call.first.ends_with("map")) return Picked::Pictures;
+    return callee == "i" ? Picked::Models : Picked::Any;
   }
 
   // Offers the values of @Enum of the attribute that set() gives a value; false where it has none.

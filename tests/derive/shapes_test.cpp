@@ -85,6 +85,35 @@ TEST(Shapes, propertiesThatSetNothingAreToldWhereTheyLookLikeASlip) {
   EXPECT_EQ(notes(R"({"height":3,"hieght":3,"name":"a","lis":1,"source":"survey"})"), "");
 }
 
+TEST(Shapes, valuesThatTheRulesDoNotExpectAreToldOnce) {
+  const Rules bounded = Rules::parse(
+      "@Enum(\"flat\", \"gable\") attr roof = \"flat\"\n@Range(1, 9) attr levels = 3\n"
+      "Lot --> extrude(levels) print(roof) X.",
+      "bounded.cga");
+  std::string features;
+  for (const char* properties :
+       {R"({"roof":"gabel","levels":4})", R"({"roof":"hip","levels":12})", R"({"roof":"gable"})"}) {
+    features +=
+        (features.empty() ? "" : ",") +
+        std::string(R"({"type":"Feature","id":"a)" + std::to_string(features.size()) +
+                    R"(","properties":)") +
+        properties +
+        R"(,"geometry":{"type":"Polygon","coordinates":[[[0,0],[1e-4,0],[1e-4,1e-4],[0,0]]]}})";
+  }
+  const Model model =
+      derive(bounded, Shapes::parse(R"({"type":"FeatureCollection","features":[)" + features + "]}",
+                                    "lots.geojson"));
+  EXPECT_TRUE(model.ok());
+  ASSERT_EQ(model.diagnostics().size(), 2u);
+  const Diagnostic &roof = model.diagnostics()[0], &levels = model.diagnostics()[1];
+  EXPECT_EQ(roof.code, "attribute-value");
+  EXPECT_EQ(roof.severity, Diagnostic::Severity::Warning);
+  EXPECT_EQ(roof.message, "'roof' is one of: flat, gable, not gabel, in shape 'a0' and one more");
+  EXPECT_EQ(roof.hint, "did you mean 'gable'?");
+  EXPECT_EQ(levels.code, "attribute-outside");
+  EXPECT_EQ(levels.message.find("and"), std::string::npos) << levels.message;
+}
+
 TEST(Shapes, refuseValuesThatAreNone) {
   using Items = std::vector<RuleValue::Scalar>;
   const auto with = [](RuleValue value) {
