@@ -8,10 +8,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
-#include <map>
 #include <random>
 #include <sstream>
+#include <vector>
 
 #include "gable/language.h"
 
@@ -166,45 +167,114 @@ class Editor {
   std::u16string units_;
 };
 
-TEST(Edits, leaveNoTrace) {
-  const uint64_t count = setting("GABLE_EDITS", 1500);
-  const uint64_t seed = setting("GABLE_EDITS_SEED", 1);
-  const std::string mainPath = "/nowhere/main.cga", wallsPath = "/nowhere/walls.cga";
-  std::map<std::string, Editor> editors{{mainPath, Editor(kMain)}, {wallsPath, Editor(kWalls)}};
+struct Document {
+  std::string path, text;
+};
+
+// A text of the catalogue, or a few signs of the document itself, which are of its notation.
+std::string somePiece(std::mt19937_64& chance, const std::string& text) {
+  const uint64_t kind = chance() % 10;
+  if (kind < 2) return "";
+  if (kind < 7) {
+    const std::string piece = kPieces[chance() % std::size(kPieces)];
+    // A lone byte would be no text of an editor.
+    return piece == "\xc3" ? "\xc3\xa9" : piece;
+  }
+  const size_t begin = chance() % text.size();
+  const std::string slice = text.substr(begin, 1 + chance() % 12);
+  const bool plain = std::ranges::all_of(slice, [](char c) { return c > 0; });
+  return plain ? slice : "";
+}
+
+// Edits the first document mostly, and the others where there are some.
+void edit(const std::vector<Document>& documents, uint64_t count, uint64_t seed) {
+  std::vector<Editor> editors;
   Workspace live;
-  for (const auto& [path, e] : editors) live.open(path, e.utf8());
+  for (const Document& d : documents) {
+    editors.emplace_back(d.text);
+    live.open(d.path, d.text);
+  }
   std::mt19937_64 chance(seed);
   for (uint64_t n = 0; n < count; ++n) {
-    const std::string& path = chance() % 4 == 0 ? wallsPath : mainPath;
-    Editor& e = editors.at(path);
-    const auto restart = [&] {
-      e = Editor(path == mainPath ? kMain : kWalls);
-      live.change(path, {{std::nullopt, e.utf8()}});
-    };
+    const size_t edited = chance() % 4 == 0 ? chance() % documents.size() : 0;
+    const Document& document = documents[edited];
+    Editor& e = editors[edited];
     // What is broken for long says little.
-    if (e.size() > 3000 || chance() % 40 == 0) restart();
+    if (e.size() > document.text.size() + 1500 || chance() % 40 == 0) {
+      e = Editor(document.text);
+      live.change(document.path, {{std::nullopt, document.text}});
+    }
     const size_t begin = e.whole(chance() % (e.size() + 1));
     const size_t length = chance() % 3 == 0 ? chance() % 12 : 0;
     const size_t end = std::max(begin, e.whole(std::min(e.size(), begin + length)));
-    std::string piece = chance() % 5 == 0 ? "" : kPieces[chance() % std::size(kPieces)];
-    // A lone byte would be no text of an editor.
-    if (piece == "\xc3") piece = "\xc3\xa9";
+    const std::string piece = somePiece(chance, document.text);
     const Range range{e.position(begin), e.position(end)};
     e.replace(begin, end, piece);
-    ASSERT_TRUE(live.change(path, {{range, piece}}));
-    ASSERT_EQ(live.text(path), e.utf8()) << "edit " << n;
+    ASSERT_TRUE(live.change(document.path, {{range, piece}}));
+    ASSERT_EQ(live.text(document.path), e.utf8()) << "edit " << n;
 
     Workspace fresh;
-    for (const auto& [name, editor] : editors) fresh.open(name, editor.utf8());
+    for (size_t i = 0; i < documents.size(); ++i) fresh.open(documents[i].path, editors[i].utf8());
     const Position at = e.position(e.whole(chance() % (e.size() + 1)));
-    for (const std::string& which : {mainPath, wallsPath}) {
-      const Position place = which == path ? at : Position{1, 7};
-      ASSERT_EQ(told(live, which, place), told(fresh, which, place))
-          << "edit " << n << " of seed " << seed << " in " << which << "\n"
-          << live.text(which);
+    for (size_t i = 0; i < documents.size(); ++i) {
+      const std::string& path = documents[i].path;
+      const Position place = i == edited ? at : Position{1, 7};
+      ASSERT_EQ(told(live, path, place), told(fresh, path, place))
+          << "edit " << n << " of seed " << seed << " in " << path << "\n"
+          << live.text(path);
     }
   }
 }
+
+TEST(Edits, leaveNoTrace) {
+  edit({{"/nowhere/main.cga", kMain}, {"/nowhere/walls.cga", kWalls}}, setting("GABLE_EDITS", 1500),
+       setting("GABLE_EDITS_SEED", 1));
+}
+
+class EditsOf : public testing::TestWithParam<Document> {};
+
+TEST_P(EditsOf, theNotationLeaveNoTrace) {
+  edit({GetParam()}, setting("GABLE_EDITS", 300), setting("GABLE_EDITS_SEED", 1));
+}
+
+const Document kNotations[] = {
+    {"/nowhere/garden.park", R"(PathWidth = 3 // metres
+KerbWidth = 0.25
+Square -> Grid(2, 2) { Quarter } { Walk } { Circle(7, 64) Plaza }
+Walk -> GRAVEL
+Plaza -> Peel(all, 0.5) { Rim | Round }
+Quarter -> Peel(INNER, KerbWidth) { Kerbstone | Garden }
+Kerbstone -> KERB Extrude(0.12)
+Garden ->
+  case (ix == iy): Pond
+  else: Beds
+Beds -> Distribute(PI : 0.9, [: 5.0 :]) { Bench }
+  Place(CENTRE) { Tree }
+)"},
+    {"/nowhere/house.gbbg", R"(axiom START size (12, 9, 10)
+shape Storey [0, 3.6, 0]
+terminal Window [3.3, 3.6, 0], Balcony [3.3, 3.6, 0], Corner, Tiles [2, 0.1, 2]
+START -> Split(Y, {1, 4.6}, FromRoot) {PLINTH | STOREYS | ROOF}
+PLINTH -> Scope(T(-0.3, 0, -0.3, Add, Local), S(0.6, 0, 0.6, Add, Absolute)) {Corner}
+STOREYS -> Repeat(Y) {Storey}
+Storey -> Component(Y, Sides) {Facade}
+Facade -> Repeat(X) {Window 3, Balcony 1} # drawn
+ROOF -> Grid(Y) {Tiles}
+)"},
+    {"/nowhere/row.grammar", R"(# A row of houses.
+X -> R* n ( 2 4 ) R h ( 2 3 ) Row | Tower
+Row n h ; 0.7 -> [ S ( 4 h 5 ) I ( Cube 2 0 1 ) ] T ( 4 0 0 ) -> Tower
+Tower 2 -> [ A ( 45 1 ) D ( 1 0.5 1 ) I ( CubeY redbrick ) ] T ( 0 1 0 )
+)"},
+    {"/nowhere/web.pg3d", R"(Start -> R h ( 2 4 ) [ Part( h 3 ) ] T ( 4 0 0 ) Part( h*2 1 )
+Part( a b ) -> ?( a > b ) GDSX ( 1.2 1 1 ) I ( CubeY brick 0.5 )
+Part( a b ) -> [ S ( a 1 b ) I ( CubeZ grayStone 0.5 ) ]
+)"},
+};
+
+INSTANTIATE_TEST_SUITE_P(All, EditsOf, testing::ValuesIn(kNotations), [](const auto& t) {
+  return t.param.path.substr(t.param.path.rfind('.') + 1);
+});
 
 }  // namespace
 }  // namespace gable::language

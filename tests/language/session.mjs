@@ -80,8 +80,13 @@ items = (await client.request('textDocument/completion', at('w.Window', 2))).ite
 assert.ok(items.some((i) => i.label === 'w.Window'));
 await type('Roof -->', 8, ' i("")');
 items = (await client.request('textDocument/completion', at('i("', 3))).items;
-assert.deepEqual(items.map((i) => i.label), ['tree.obj', 'wall.png']);
-const pictured = await client.request('completionItem/resolve', items[1]);
+assert.deepEqual(items.map((i) => i.label), ['tree.obj']);
+await client.change(house, [{ text: HOUSE }]);
+text = HOUSE;
+await type('Roof -->', 8, ' texture("")');
+items = (await client.request('textDocument/completion', at('texture("', 9))).items;
+assert.deepEqual(items.map((i) => i.label), ['wall.png']);
+const pictured = await client.request('completionItem/resolve', items[0]);
 assert.equal(pictured.documentation.value, `![](${uri(join(folder, 'assets/wall.png'))})`);
 await client.change(house, [{ text: HOUSE }]);
 text = HOUSE;
