@@ -21,9 +21,10 @@ namespace {
 
 /// Larger prototypes are looked into.
 constexpr uint64_t kMostOfAnItem = 128;
-/// Of a chunk: an edit sends a few hundred leaves around each that it changes, and a town has some
-/// thousand chunks.
-constexpr uint32_t kFewLeaves = 192, kManyLeaves = 1024;
+/// Of a chunk: an edit sends some hundred leaves around each that it changes, and a town has two
+/// thousand chunks. With smaller ones less is sent, but a page that moves through a town goes
+/// through what each has of each batch, picture by picture.
+constexpr uint32_t kFewLeaves = 768, kManyLeaves = 2048;
 /// Beyond the few, one item of so many ends a chunk.
 constexpr uint64_t kItemsAnEnd = 8;
 constexpr size_t kLeavesATask = 1 << 14;

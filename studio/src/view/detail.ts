@@ -13,6 +13,7 @@ import type { Piece } from '../lib/chunks';
 import { Merged } from './merged';
 import {
   joinedRuns,
+  pixelsIn,
   sortIntoRuns,
   worthMore,
   worthOf,
@@ -218,7 +219,7 @@ class Instances implements Part {
   }
 
   seen(pixelIn: PixelIn): Float64Array {
-    return Float64Array.from(this.runs.cells, pixelIn);
+    return pixelsIn(this.runs.cells, pixelIn);
   }
 
   take(pixel: Float64Array, pixels: number): number {

@@ -9,6 +9,7 @@ import type { Piece } from '../lib/chunks';
 import type { Part } from './detail';
 import {
   joinedRuns,
+  pixelsIn,
   sortIntoRuns,
   worthMore,
   worthOf,
@@ -62,7 +63,7 @@ export class Merged implements Part {
   }
 
   seen(pixelIn: PixelIn): Float64Array {
-    return Float64Array.from(this.runs.cells, pixelIn);
+    return pixelsIn(this.runs.cells, pixelIn);
   }
 
   take(pixel: Float64Array, pixels: number): number {

@@ -88,6 +88,13 @@ export function sortIntoRuns({ at, reach, worth }: Things): Runs {
   return out;
 }
 
+/** What a pixel is worth in each cell. A large place has a hundred thousand of them. */
+export function pixelsIn(cells: Cell[], pixelIn: PixelIn): Float64Array {
+  const out = new Float64Array(cells.length);
+  for (let i = 0; i < cells.length; ++i) out[i] = pixelIn(cells[i]!);
+  return out;
+}
+
 /** Runs behind each other, as one; the order of each is in the things themselves. */
 export function joinedRuns(parts: Omit<Runs, 'order'>[]): Omit<Runs, 'order'> {
   const [only] = parts;
