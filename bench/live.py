@@ -32,7 +32,7 @@ SCENES = {
                    "was": "1.0", "typed": ["1.1", "1.2", "1.3", "1.4", "1.5", "1.6", "1.7", "1.8"],
                    "ask": {"shapes": {"file": "haussmann/buildings.geojson", "only": [0]}}},
     "town": TOWN | PITCH,
-    "lamps": TOWN | {"edited": "town/town.cga", "text": "s(0.22, 0.{}, 0.22) center(xz) primitiveCylinder(8) Iron", "was": "8",
+    "lamps": TOWN | {"edited": "town/town.cga", "text": "s(0.22, 0.{}, 0.22) center(xz) primitiveCylinder(6) Iron", "was": "8",
                      "typed": ["85", "7", "75", "6", "65", "9", "95", "55"]},
 }
 
@@ -48,6 +48,7 @@ class Studio:
             raise RuntimeError(f"'{gable} studio' printed no address")
         self.port = address.port
         self.token = urllib.parse.parse_qs(address.query)["token"][0]
+        self.known = 0
 
     def stop(self):
         self.process.terminate()
@@ -59,7 +60,8 @@ class Studio:
         return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
     def derive(self, request):
-        """The head of the answer, and its size in bytes."""
+        """The head of the answer, and its size in bytes; what it leaves out the page before has."""
+        request = request | {"known": self.known}
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=600)
         try:
             connection.request("POST", "/api/derive", json.dumps(request), {"X-Gable-Token": self.token})
@@ -70,7 +72,9 @@ class Studio:
         if answer.status != 200:
             raise RuntimeError(f"the studio answered {answer.status}: {body[:200]!r}")
         length, = struct.unpack_from("<I", body, 4)
-        return json.loads(body[8:8 + length]), len(body)
+        head = json.loads(body[8:8 + length])
+        self.known = head.get("derivation", 0)
+        return head, len(body)
 
 
 def request_of(scene, folder, number):

@@ -231,6 +231,17 @@ struct ModelGeometry {
   std::vector<PlacedMesh> leaves;
 };
 
+/// What a viewer holds of a model that it was sent in chunks.
+struct DrawnChunks;
+
+/// A model for a graphics card, as what has changed since the one before.
+struct DrawUpdate {
+  /// An update, or a draw list where the model is small; empty where a limit ends it.
+  std::string bytes;
+  /// Who applies the update holds this then; null for a draw list.
+  std::shared_ptr<const DrawnChunks> drawn;
+};
+
 class Model {
  public:
   /// Reads a file as it is, to be drawn, compared, prepared or written in another format: .obj
@@ -270,6 +281,8 @@ class Model {
   /// The model for a graphics card: batches of instances and of merged triangles; the bytes are
   /// described in docs/dev/studio-protocol.md. Empty where a limit ends it.
   std::string drawList(const FileLimits& limits = {}) const;
+  /// The same for a viewer that holds `before`, which may be null.
+  DrawUpdate drawUpdate(const DrawnChunks* before, const FileLimits& limits = {}) const;
   /// The bytes of a texture by the path that a material names.
   std::optional<std::string> texture(const std::string& path) const;
   /// By extension: .glb .gltf .obj .usda .usdz .ply .stl .city.json .city.jsonl .ifc, and .png for

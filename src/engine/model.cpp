@@ -15,6 +15,7 @@
 #include "engine/picture.h"
 #include "gable/names.h"
 #include "gable/writing.h"
+#include "io/exporters/chunked_list.h"
 #include "io/exporters/draw_list.h"
 #include "io/exporters/write_model.h"
 #include "io/importers/asset.h"
@@ -338,6 +339,15 @@ std::string Model::drawList(const FileLimits& limits) const {
     Task task("showing the model", {}, limits);
     const WorkScope scope(task.allowance());
     return gable::drawList(impl_->scene());
+  });
+}
+
+DrawUpdate Model::drawUpdate(const DrawnChunks* before, const FileLimits& limits) const {
+  return guardedValue<DrawUpdate>([&] {
+    Task task("showing the model", {}, limits);
+    const WorkScope scope(task.allowance());
+    ChunkedList list = chunkedList(impl_->scene(), before);
+    return DrawUpdate{std::move(list.bytes), std::move(list.drawn)};
   });
 }
 

@@ -21,6 +21,7 @@ struct CodeUnit {
   uint64_t own = 0;
   /// Units that it calls or asks, and attributes that it reads.
   std::vector<uint32_t> calls, attributes;
+  bool sets = false;
 };
 
 class Hash {
@@ -40,9 +41,9 @@ class Hash {
 class Units {
  public:
   explicit Units(const Program& p) : p_(p) {
-    for (const RuleCode& r : p.rules) units_.push_back({r.entry, 0, 0, {}, {}});
-    for (const FunctionCode& f : p.functions) units_.push_back({f.entry, 0, 0, {}, {}});
-    for (const AttributeCode& a : p.attributes) units_.push_back({a.entry, 0, 0, {}, {}});
+    for (const RuleCode& r : p.rules) units_.push_back({r.entry, 0, 0, {}, {}, false});
+    for (const FunctionCode& f : p.functions) units_.push_back({f.entry, 0, 0, {}, {}, false});
+    for (const AttributeCode& a : p.attributes) units_.push_back({a.entry, 0, 0, {}, {}, false});
     findEnds();
     for (uint32_t u = 0; u < units_.size(); ++u) read(u);
   }
@@ -107,7 +108,10 @@ class Units {
       case Code::RuleAttribute: u.attributes.push_back(i.a); [[fallthrough]];
       case Code::Initialise: u.calls.push_back(attributeUnit(i.a)); [[fallthrough]];
       case Code::SetAttribute:
-      case Code::Bind: h.add(p_.attributes[i.a].name); break;
+      case Code::Bind:
+        u.sets = u.sets || i.code == Code::SetAttribute || i.code == Code::Bind;
+        h.add(p_.attributes[i.a].name);
+        break;
       case Code::BuiltinAttribute:
       case Code::SetBuiltin: h.add(std::string_view(p_.builtinAttributes[i.a]->name)); break;
       case Code::Function: u.calls.push_back(functionUnit(i.a)); break;
@@ -213,6 +217,7 @@ class Folding {
   struct Component {
     uint64_t code = 0;
     std::vector<uint64_t> attributes;
+    bool sets = false;
   };
 
   const Component& of(uint32_t unit) {
@@ -271,11 +276,13 @@ class Folding {
     std::vector<uint64_t> parts;
     for (const uint32_t m : members) {
       parts.push_back(units_[m].own);
+      c.sets = c.sets || units_[m].sets;
       for (const uint32_t a : units_[m].attributes) c.attributes[a / 64] |= uint64_t{1} << a % 64;
       for (const uint32_t to : units_[m].calls) {
         if (state_[to].component == number) continue;
         const Component& below = components_[state_[to].component];
         parts.push_back(below.code);
+        c.sets = c.sets || below.sets;
         for (size_t w = 0; w < words_; ++w) c.attributes[w] |= below.attributes[w];
       }
     }
@@ -303,6 +310,7 @@ std::vector<Reach> reachOf(const Program& program) {
   for (uint32_t r = 0; r < out.size(); ++r) {
     const Folding::Component& c = folding.of(r);
     out[r].code = hashCombine(c.code, units[r].own);
+    out[r].setsAttributes = c.sets;
     for (uint32_t a = 0; a < program.attributes.size(); ++a) {
       if (c.attributes[a / 64] >> a % 64 & 1) out[r].attributes.push_back(a);
     }

@@ -19,6 +19,8 @@ struct Reach {
   uint64_t code = 0;
   /// Sorted indices of Program::attributes that are read on the way, initialisers included.
   std::vector<uint32_t> attributes;
+  /// Whether any are set on the way, for a shape or for a block.
+  bool setsAttributes = false;
 };
 
 /// By rule of the program. O(code + calls + rules * attributes).

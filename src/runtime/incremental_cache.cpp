@@ -226,9 +226,16 @@ void IncrementalCache::countTaken() {
   tally_.countVertices(counts.vertices);
 }
 
-std::optional<uint32_t> IncrementalCache::takePrototype(const ShareKey& key) {
+std::optional<uint32_t> IncrementalCache::takePrototype(const ShareKey& key, uint32_t rule,
+                                                        uint32_t attributes) {
   uint32_t number = 0;
-  if (!recaller_ || !recaller_->takePrototype(key, number)) return {};
+  if (!recaller_) return {};
+  // What the rule reads of them is in the key by its value; what it sets, leaves have.
+  const bool bare = attributes != 0 && !reach_[rule].setsAttributes;
+  if (!recaller_->takePrototype(key, number) &&
+      !(bare && recaller_->takePrototypeAs(key, attributes, number))) {
+    return {};
+  }
   taken_ += prototypes_.finished(number).range.shapes;
   countTaken();
   return number;

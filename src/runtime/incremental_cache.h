@@ -77,8 +77,9 @@ class IncrementalCache {
 
   // Prototypes.
 
-  /// The prototype of a key, taken over from the derivation before.
-  std::optional<uint32_t> takePrototype(const ShareKey& key);
+  /// The prototype of a call, taken over from the derivation before; also that of a call on a shape
+  /// with other attributes, if these change nothing. `attributes`: the set that the shape has.
+  std::optional<uint32_t> takePrototype(const ShareKey& key, uint32_t rule, uint32_t attributes);
 
   // Operations.
 

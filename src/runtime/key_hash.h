@@ -39,4 +39,12 @@ class KeyHash {
   uint64_t a_ = 0x243f6a8885a308d3ULL, b_ = 0x13198a2e03707344ULL;
 };
 
+/// A key of a call without the set of attributes that its shape has, and with it; and back again.
+inline ShareKey withAttributes(const ShareKey& key, uint32_t set) {
+  return {key.a + mix64(set), key.b + (mix64(~uint64_t{set}) << 1)};
+}
+inline ShareKey withoutAttributes(const ShareKey& key, uint32_t set) {
+  return {key.a - mix64(set), key.b - (mix64(~uint64_t{set}) << 1)};
+}
+
 }  // namespace gable

@@ -42,7 +42,7 @@ bool Machine::beginShared(const RuleCode& rule, Activation& call) {
   if (known)
     ++cacheHits_;
   else if (incremental_)
-    known = incremental_->takePrototype(key);
+    known = incremental_->takePrototype(key, call.rule, call.shape.attributes);
   if (known) {
     // The call itself has been counted already.
     tally_.countExpanded(prototypes_.finished(*known).range.shapes - 1);
@@ -51,7 +51,7 @@ bool Machine::beginShared(const RuleCode& rule, Activation& call) {
   }
   call.boundary = true;
   worlds_.open(outer);
-  prototypes_.begin(key, rule.name, outer, tally_.expanded() - 1);
+  prototypes_.begin(key, rule.name, outer, tally_.expanded() - 1, call.shape.attributes);
   return false;
 }
 

@@ -183,7 +183,7 @@ class Merger {
   void remember(const Output& output, const OutputPrototype& p) {
     Recall& recall = *input_.recall;
     recall.prototypes.push_back(
-        {p.key, static_cast<uint32_t>(recall.events.size()), p.eventCount, p.speaks});
+        {p.key, static_cast<uint32_t>(recall.events.size()), p.eventCount, p.speaks, p.attributes});
     recall.events.insert(recall.events.end(), output.events.begin() + p.firstEvent,
                          output.events.begin() + p.firstEvent + p.eventCount);
   }

@@ -35,6 +35,8 @@ struct OutputPrototype {
   bool speaks = false;
   /// (0, 0) for the prototype of an initial shape, which is never shared.
   ShareKey key;
+  /// The set of attributes of the shape that the call worked on, which is a part of the key.
+  uint32_t attributes = 0;
 };
 
 /// Leaves hold the worker's own numbers: mesh by Output::meshes, materials by Output::materials,

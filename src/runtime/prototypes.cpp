@@ -23,8 +23,8 @@ Output::Mark Prototypes::placeInUnit() const {
 }
 
 void Prototypes::begin(const ShareKey& key, StringId name, const Frame& frame,
-                       uint64_t shapesBefore) {
-  open_.push_back({output_.mark(), key, name, frame, shapesBefore});
+                       uint64_t shapesBefore, uint32_t attributes) {
+  open_.push_back({output_.mark(), key, name, frame, shapesBefore, attributes});
 }
 
 void Prototypes::end(uint64_t shapesNow, bool whole) {
@@ -32,6 +32,7 @@ void Prototypes::end(uint64_t shapesNow, bool whole) {
   // Where memory is refused it stays open, and its unit ends it.
   const uint32_t number = output_.close(open.mark, open.name, shapesNow - open.shapesBefore,
                                         whole ? open.key : ShareKey{});
+  output_.prototypes[number].attributes = open.attributes;
   open_.pop_back();
   place(number, open.frame);
   if (whole) numbers_.emplace(open.key, number);

@@ -34,8 +34,9 @@ class Prototypes {
     return number ? std::optional(*number) : std::nullopt;
   }
   /// A call begins whose result is to be a prototype, placed in `frame`; before it so many shapes
-  /// were made.
-  void begin(const ShareKey& key, StringId name, const Frame& frame, uint64_t shapesBefore);
+  /// were made. `attributes`: the set of its shape.
+  void begin(const ShareKey& key, StringId name, const Frame& frame, uint64_t shapesBefore,
+             uint32_t attributes = 0);
   /// The innermost open one ends, and is placed. One that a limit cut short (not `whole`) is kept,
   /// but never given to another call.
   void end(uint64_t shapesNow, bool whole);
@@ -65,6 +66,7 @@ class Prototypes {
     StringId name;
     Frame frame;
     uint64_t shapesBefore;
+    uint32_t attributes;
   };
   const Output::Mark& around() const { return open_.empty() ? unit_ : open_.back().mark; }
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "runtime/derive.h"
+#include "runtime/key_hash.h"
 
 namespace gable {
 
@@ -44,7 +45,12 @@ RecallInput recallInput(const DeriveResult* before, const Program& program,
   if (!before || !before->recall) return {};
   const Recall& recall = *before->recall;
   if (recall.tables != &environment || !sameAttributes(recall.attributes, program)) return {};
-  return {&recall, &before->scene, instructionsOf(recall.sources, program)};
+  RecallInput out{&recall, &before->scene, instructionsOf(recall.sources, program), {}};
+  for (uint32_t p = 0; p < recall.prototypes.size(); ++p) {
+    const Recall::PrototypeNotes& notes = recall.prototypes[p];
+    if (notes.attributes) out.bare.emplace(withoutAttributes(notes.key, notes.attributes), p);
+  }
+  return out;
 }
 
 Recaller::Recaller(const RecallInput& input, Output& output, KeyNumbers& cache)
@@ -88,15 +94,27 @@ Leaf Recaller::leaf(const Leaf& from) {
   to.name = recall_.names[from.name];
   to.source = input_.instructions[from.source];
   to.attributes = recall_.attributeSets[from.attributes];
+  if (to.attributes == attributesBefore_) to.attributes = attributesNow_;
   return to;
+}
+
+uint32_t& Recaller::known(uint32_t number) {
+  if (attributesBefore_ == attributesNow_) return prototypes_[number];
+  return changed_.try_emplace(number, kUnset).first->second;
+}
+
+ShareKey Recaller::keyNow(uint32_t number) const {
+  const Recall::PrototypeNotes& notes = recall_.prototypes[number];
+  if (notes.attributes != attributesBefore_) return notes.key;
+  return withAttributes(withoutAttributes(notes.key, attributesBefore_), attributesNow_);
 }
 
 // True where the output has the prototype already.
 bool Recaller::isTaken(uint32_t number) {
-  uint32_t& known = prototypes_[number];
-  if (known != kUnset) return true;
-  const uint32_t* const inOutput = cache_.find(recall_.prototypes[number].key);
-  if (inOutput) known = *inOutput;
+  uint32_t& at = known(number);
+  if (at != kUnset) return true;
+  const uint32_t* const inOutput = cache_.find(keyNow(number));
+  if (inOutput) at = *inOutput;
   return inOutput != nullptr;
 }
 
@@ -136,6 +154,17 @@ bool Recaller::takePrototype(const ShareKey& key, uint32_t& number) {
   return true;
 }
 
+bool Recaller::takePrototypeAs(const ShareKey& key, uint32_t attributes, uint32_t& number) {
+  const uint32_t* const before = input_.bare.find(withoutAttributes(key, attributes));
+  if (!before) return false;
+  attributesBefore_ = recall_.prototypes[*before].attributes;
+  attributesNow_ = attributes;
+  number = prototype(*before);
+  attributesBefore_ = attributesNow_ = 0;
+  changed_.clear();
+  return true;
+}
+
 // Prototypes are finished in the order in which deriving them would have done it: those that one
 // holds before itself. Shared calls nest as deep as rules do, so those at work are a list.
 uint32_t Recaller::prototype(uint32_t number) {
@@ -158,7 +187,7 @@ uint32_t Recaller::prototype(uint32_t number) {
     finish(top.number);
     open.pop_back();
   }
-  return prototypes_[number];
+  return known(number);
 }
 
 // Takes a prototype over whose instances have been.
@@ -168,12 +197,13 @@ void Recaller::finish(uint32_t number) {
   OutputPrototype to;
   to.range = from;
   to.range.name = recall_.names[from.name];
-  to.key = notes.key;
+  to.key = keyNow(number);
+  to.attributes = notes.attributes == attributesBefore_ ? attributesNow_ : notes.attributes;
   to.speaks = notes.speaks;
   to.range.firstInstance = static_cast<uint32_t>(output_.instances.size());
   for (uint32_t i = 0; i < from.instanceCount; ++i) {
     Instance& copy = output_.instances.emplace_back(scene_.instances[from.firstInstance + i]);
-    copy.prototype = prototypes_[copy.prototype];
+    copy.prototype = known(copy.prototype);
   }
   to.range.firstLeaf = static_cast<uint32_t>(output_.leaves.size());
   for (uint32_t l = 0; l < from.leafCount; ++l) {
@@ -184,8 +214,8 @@ void Recaller::finish(uint32_t number) {
   output_.events.insert(output_.events.end(), recall_.events.begin() + notes.firstEvent,
                         recall_.events.begin() + notes.firstEvent + notes.eventCount);
   output_.prototypes.push_back(to);
-  prototypes_[number] = static_cast<uint32_t>(output_.prototypes.size() - 1);
-  cache_.emplace(notes.key, prototypes_[number]);
+  known(number) = static_cast<uint32_t>(output_.prototypes.size() - 1);
+  cache_.emplace(to.key, known(number));
 }
 
 }  // namespace gable

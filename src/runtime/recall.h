@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "program/program.h"
@@ -68,6 +69,8 @@ struct Recall {
     ShareKey key;
     uint32_t firstEvent = 0, eventCount = 0;
     bool speaks = false;
+    /// The set of attributes of the shape that the call worked on.
+    uint32_t attributes = 0;
   };
   std::vector<PrototypeNotes> prototypes;
   std::vector<OutputEvent> events;
@@ -92,6 +95,8 @@ struct RecallInput {
   const Scene* scene = nullptr;
   /// By source of the scene: the instruction of the program at work.
   std::vector<uint32_t> instructions;
+  /// Prototypes of calls on shapes with attributes, by their keys without these.
+  KeyNumbers bare;
 };
 
 /// Empty where nothing can be taken over: there is no recall, or it is of other tables.
@@ -112,6 +117,9 @@ class Recaller {
   /// Finishes the prototype with that key, and those that it holds, in the output and the cache.
   /// False when it is not known.
   bool takePrototype(const ShareKey& key, uint32_t& number);
+  /// The same where the key was that of a shape with other attributes, of which the rule read none
+  /// that differ and set none: its leaves get the set that they have now.
+  bool takePrototypeAs(const ShareKey& key, uint32_t attributes, uint32_t& number);
 
   /// Since the last call of it: vertices of meshes of the leaves taken over, and instances of
   /// prototypes that the output had already.
@@ -122,6 +130,8 @@ class Recaller {
 
  private:
   bool isTaken(uint32_t number);
+  uint32_t& known(uint32_t number);
+  ShareKey keyNow(uint32_t number) const;
   uint32_t prototype(uint32_t number);
   void finish(uint32_t number);
   Leaf leaf(const Leaf& from);
@@ -134,6 +144,10 @@ class Recaller {
   KeyNumbers& cache_;
   /// By number in the scene before: that in the output.
   std::vector<uint32_t> prototypes_, meshes_, materials_;
+  /// The set of attributes that leaves get in the place of another; the same while none is changed.
+  uint32_t attributesBefore_ = 0, attributesNow_ = 0;
+  /// As `prototypes_`, of those with the set that is changed at present.
+  std::unordered_map<uint32_t, uint32_t> changed_;
   Counts counts_;
 };
 

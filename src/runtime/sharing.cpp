@@ -63,7 +63,6 @@ ShareKey sharedKey(const SharedCall& call) {
   h.add(uint64_t{s.trimVertical} << 1 | uint64_t{s.trimHorizontal});
   h.add(s.size);
   h.add(uint64_t{s.material} << 32 | s.assetMaterials);
-  h.add(uint64_t{s.attributes});
   for (const Value& v : call.arguments) h.add(v.hash());
   Geometry geometry = s.geometry;
   // A primitive fills the scope whatever the scope was when it was made.
@@ -78,7 +77,7 @@ ShareKey sharedKey(const SharedCall& call) {
   if (call.effects & (kReadsPivot | kReadsPivotAxes)) h.add(s.pivot);
   if (call.effects & kRandom) h.add(s.path);
   if (s.extra) h.add(*s.extra);
-  return h.key();
+  return withAttributes(h.key(), s.attributes);
 }
 
 bool isSharedWhenSeeded(uint32_t effects) {

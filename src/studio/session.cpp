@@ -298,6 +298,7 @@ Result<std::string> Session::derive(const JsonValue& request, const Cancel& canc
     json.key("diagnostics").raw(diagnosticsJson(diagnostics)).endObject();
     return joined("GBS1", text, {});
   }
+  const std::shared_ptr<const DrawnChunks> held = drawnOf(request["known"]);
   const Result<Model> derived = deriveFor(request, *rules, *work, Trace::None);
   if (!derived.ok()) return derived.error();
   const Model& model = derived.value();
@@ -309,7 +310,7 @@ Result<std::string> Session::derive(const JsonValue& request, const Cancel& canc
   if (drawn) {
     const std::lock_guard lock(mutex_);
     number = ++last_;
-    keepModel({number, model, request["page"].text(), 0});
+    keepModel({number, model, request["page"].text(), 0, nullptr});
   }
   json.key("end").value(wrong ? "wrong" : endName(model.end()));
   json.key("derivation").value(number);
@@ -320,11 +321,17 @@ Result<std::string> Session::derive(const JsonValue& request, const Cancel& canc
   figures.deriveSeconds = model.deriveSeconds();
   std::string stats, list;
   parallelFor(drawn ? 2 : 1, 2, [&](size_t i, unsigned) {
-    if (i == 0)
+    if (i == 0) {
       stats = statisticsJson(model, figures);
-    else
+    } else if (request.find("known")) {
+      DrawUpdate update = model.drawUpdate(held.get());
+      keepDrawn(number, std::move(update.drawn));
+      list = std::move(update.bytes);
+    } else {
       list = model.drawList();
+    }
   });
+  if (held) json.key("base").value(request["known"].number(0));
   json.key("stats").raw(stats).endObject();
   return joined("GBS1", text, std::move(list));
 }
@@ -361,6 +368,21 @@ std::optional<Model> Session::made(uint64_t number) const {
   return std::nullopt;
 }
 
+std::shared_ptr<const DrawnChunks> Session::drawnOf(const JsonValue& known) const {
+  const std::lock_guard lock(mutex_);
+  for (const Made& m : made_) {
+    if (static_cast<double>(m.number) == known.number(0)) return m.drawn;
+  }
+  return nullptr;
+}
+
+void Session::keepDrawn(uint64_t number, std::shared_ptr<const DrawnChunks> drawn) {
+  const std::lock_guard lock(mutex_);
+  for (Made& m : made_) {
+    if (m.number == number) m.drawn = std::move(drawn);
+  }
+}
+
 std::optional<Model> Session::lastOf(const std::string& page) const {
   const std::lock_guard lock(mutex_);
   for (const Made& m : made_) {
@@ -377,7 +399,7 @@ Result<Model> Session::model(uint64_t derivation) const {
 
 uint64_t Session::adopt(Model model) {
   const std::lock_guard lock(mutex_);
-  keepModel({++last_, std::move(model), "workshop", 0});
+  keepModel({++last_, std::move(model), "workshop", 0, nullptr});
   return last_;
 }
 

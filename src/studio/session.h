@@ -64,6 +64,8 @@ class Session {
     /// Models of other pages, or of a page's wall of variations, do not push this one out.
     std::string page;
     uint64_t leaves = 0;
+    /// What the page holds of it, where it was sent in chunks.
+    std::shared_ptr<const DrawnChunks> drawn;
   };
   /// With the lock held.
   void keepModel(Made made);
@@ -71,6 +73,9 @@ class Session {
   std::shared_ptr<const Rules> rulesOf(const JsonValue& request);
   Result<std::shared_ptr<const Shapes>> fileShapes(const std::string& file);
   std::optional<Model> made(uint64_t number) const;
+  /// What a page holds that says which derivation it shows; null where that is not known.
+  std::shared_ptr<const DrawnChunks> drawnOf(const JsonValue& known) const;
+  void keepDrawn(uint64_t number, std::shared_ptr<const DrawnChunks> drawn);
   /// The model that was derived last for a page.
   std::optional<Model> lastOf(const std::string& page) const;
   std::shared_ptr<Work> begin(const JsonValue& request, const Cancel& cancel);

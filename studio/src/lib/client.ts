@@ -15,6 +15,7 @@ import {
   type PartsBelow,
   type Tree,
 } from './protocol';
+import type { Held } from './chunks';
 import type { Transport } from './transport';
 
 export interface ProjectFile {
@@ -125,6 +126,8 @@ function nameOfTab(): string {
 export class EngineClient {
   readonly page = crypto.randomUUID();
   readonly tab = nameOfTab();
+  /** Of the large model that the page shows, so that the next one comes as what has changed. */
+  private held: Held | null = null;
 
   constructor(readonly transport: Transport) {}
 
@@ -199,8 +202,15 @@ export class EngineClient {
     request: DeriveRequest,
     signal: AbortSignal,
   ): Promise<{ derived: Derived; draw: DrawList | null }> {
-    const answer = await this.call('POST', 'derive', JSON.stringify(request), signal);
-    return decodeDerived(await answer.arrayBuffer());
+    const own = request.page === this.page;
+    const asked = own ? { ...request, known: this.held?.derivation ?? 0 } : request;
+    const answer = await this.call('POST', 'derive', JSON.stringify(asked), signal);
+    const { derived, draw, held } = decodeDerived(
+      await answer.arrayBuffer(),
+      own ? this.held : null,
+    );
+    if (own) this.held = held;
+    return { derived, draw };
   }
 
   /** The derivation tree; `steps`: with a draw list of the shapes of all steps. */

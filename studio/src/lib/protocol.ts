@@ -4,6 +4,8 @@
 // What the server says, as types, and the decoding of its binary answers. The fields are described
 // in docs/dev/studio-protocol.md.
 
+import { updated, type Held, type Piece } from './chunks';
+
 /** A remedy as an edit: the text in place of what stands there. */
 export interface Fix {
   file: string;
@@ -114,6 +116,8 @@ export interface Batch {
   color: Uint8Array;
   leaf: Float32Array;
   matrix?: Float32Array;
+  /** What it was put together from, where it came in chunks. */
+  pieces?: Piece[];
 }
 
 export interface DrawList {
@@ -171,22 +175,27 @@ export interface Tree {
 
 export const NONE = 0xffffffff;
 
-interface Parts {
+export interface Parts {
   json: unknown;
   bytes: ArrayBuffer;
   start: number;
 }
 
+function markAt(bytes: ArrayBuffer, from: number): string {
+  return new TextDecoder('latin1').decode(new Uint8Array(bytes, from, 4));
+}
+
 /** Splits "MARK", a count, JSON, the rest; throws on another mark. */
-function parts(bytes: ArrayBuffer, from: number, mark: string): Parts {
-  const head = new TextDecoder('latin1').decode(new Uint8Array(bytes, from, 4));
-  if (head !== mark) throw new Error(`The server's answer begins with ${head}, not ${mark}.`);
+export function head(bytes: ArrayBuffer, from: number, mark: string): Parts {
+  const found = markAt(bytes, from);
+  if (found !== mark) throw new Error(`The server's answer begins with ${found}, not ${mark}.`);
   const size = new DataView(bytes).getUint32(from + 4, true);
   const json: unknown = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, from + 8, size)));
   return { json, bytes, start: from + 8 + size };
 }
 
-type Section = [number, number];
+/** The first byte of an array, and how many numbers it has. */
+export type Section = [number, number];
 interface BatchHead {
   look: number;
   position: Section;
@@ -199,10 +208,10 @@ interface BatchHead {
 }
 
 export function decodeDrawList(bytes: ArrayBuffer, from = 0): DrawList {
-  const { json, start } = parts(bytes, from, 'GBL1');
-  const head = json as Omit<DrawList, 'batches'> & { batches: BatchHead[] };
+  const { json, start } = head(bytes, from, 'GBL1');
+  const list = json as Omit<DrawList, 'batches'> & { batches: BatchHead[] };
   const floats = (s: Section) => new Float32Array(bytes, start + s[0], s[1]);
-  const batches = head.batches.map((b): Batch => ({
+  const batches = list.batches.map((b): Batch => ({
     look: b.look,
     position: floats(b.position),
     normal: floats(b.normal),
@@ -212,15 +221,23 @@ export function decodeDrawList(bytes: ArrayBuffer, from = 0): DrawList {
     ...(b.uv ? { uv: floats(b.uv) } : {}),
     ...(b.matrix ? { matrix: floats(b.matrix) } : {}),
   }));
-  return { ...head, batches };
+  return { ...list, batches };
 }
 
-export function decodeDerived(bytes: ArrayBuffer): { derived: Derived; draw: DrawList | null } {
-  const { json, start } = parts(bytes, 0, 'GBS1');
-  return {
-    derived: json as Derived,
-    draw: start < bytes.byteLength ? decodeDrawList(bytes, start) : null,
-  };
+/**
+ * A derivation, and its draw list: a whole one, or an update of the one that the page holds. `held`
+ * is what it holds then.
+ */
+export function decodeDerived(
+  bytes: ArrayBuffer,
+  before: Held | null = null,
+): { derived: Derived; draw: DrawList | null; held: Held | null } {
+  const { json, start } = head(bytes, 0, 'GBS1');
+  const derived = json as Derived;
+  if (start >= bytes.byteLength) return { derived, draw: null, held: before };
+  if (markAt(bytes, start) === 'GBU1')
+    return { derived, ...updated(bytes, start, derived.derivation ?? 0, before) };
+  return { derived, draw: decodeDrawList(bytes, start), held: null };
 }
 
 /** A model that was read, for the workshop. */
@@ -233,7 +250,7 @@ export interface ModelPreview {
 }
 
 export function decodeModel(bytes: ArrayBuffer): ModelPreview {
-  const { json, start } = parts(bytes, 0, 'GBM1');
+  const { json, start } = head(bytes, 0, 'GBM1');
   return { ...(json as Omit<ModelPreview, 'draw'>), draw: decodeDrawList(bytes, start) };
 }
 
@@ -268,9 +285,9 @@ function readNote([
 
 /** The tree, and the draw list of all steps where it was asked for. */
 export function decodeTree(bytes: ArrayBuffer): { tree: Tree; draw: DrawList | null } {
-  const { json, start } = parts(bytes, 0, 'GBT1');
-  const head = json as Pick<Tree, 'count' | 'end' | 'names' | 'files'> & { notes?: RawNote[] };
-  const n = head.count;
+  const { json, start } = head(bytes, 0, 'GBT1');
+  const said = json as Pick<Tree, 'count' | 'end' | 'names' | 'files'> & { notes?: RawNote[] };
+  const n = said.count;
   let at = start;
   const column = () => {
     const out = new Uint32Array(bytes, at, n);
@@ -283,8 +300,8 @@ export function decodeTree(bytes: ArrayBuffer): { tree: Tree; draw: DrawList | n
     return out;
   };
   const tree: Tree = {
-    ...head,
-    notes: (head.notes ?? []).map(readNote),
+    ...said,
+    notes: (said.notes ?? []).map(readNote),
     parent: column(),
     shape: column(),
     name: column(),

@@ -4,6 +4,7 @@
 // Batches of a draw list as meshes, and the materials that write data instead of colours.
 
 import * as THREE from 'three';
+import type { Piece } from '../lib/chunks';
 import type { Batch } from '../lib/protocol';
 import { heightMaterial, leafMaterial, steppedShadow, type Marks } from './shading';
 
@@ -12,6 +13,7 @@ export interface Batched {
   plain: THREE.Material;
   /** Writes the number of the leaf. */
   leaf: THREE.Material;
+  pieces?: Piece[] | undefined;
 }
 
 export class BatchMaker {
@@ -54,7 +56,7 @@ export class BatchMaker {
     if (lives) this.addLives(mesh, batch, lives);
     mesh.castShadow = !plain.transparent;
     mesh.receiveShadow = true;
-    return { mesh, plain, leaf: this.leafOf(!!batch.matrix, !!lives) };
+    return { mesh, plain, leaf: this.leafOf(!!batch.matrix, !!lives), pieces: batch.pieces };
   }
 
   /** Writes how high a surface is above `base`, of `range` metres. */

@@ -41,12 +41,14 @@ const leaves = (mesh: THREE.InstancedMesh) => {
 };
 
 it('leaves small models alone', async () => {
-  expect(await Detail.of([new THREE.Mesh(new THREE.BoxGeometry())], () => false)).toBeNull();
+  expect(
+    await Detail.of([{ mesh: new THREE.Mesh(new THREE.BoxGeometry()) }], () => false),
+  ).toBeNull();
 });
 
 it('takes what is in sight and large enough, each once', async () => {
   const mesh = boxes();
-  const detail = (await Detail.of([mesh], () => false))!;
+  const detail = (await Detail.of([{ mesh }], () => false))!;
   detail.select(camera(1200), 720, 1e9);
   const far = leaves(mesh);
   expect(new Set(far).size).toBe(far.length);
@@ -62,7 +64,7 @@ it('takes what is in sight and large enough, each once', async () => {
 
 it('keeps within its budget', async () => {
   const mesh = boxes();
-  const detail = (await Detail.of([mesh], () => false))!;
+  const detail = (await Detail.of([{ mesh }], () => false))!;
   detail.select(camera(1200), 720, 50_000);
   expect(mesh.count * 12).toBeLessThanOrEqual(50_000);
   expect(mesh.count).toBeGreaterThan(100);
@@ -70,7 +72,7 @@ it('keeps within its budget', async () => {
 
 it('moves each instance with its number', async () => {
   const mesh = boxes();
-  const detail = (await Detail.of([mesh], () => false))!;
+  const detail = (await Detail.of([{ mesh }], () => false))!;
   detail.select(camera(900), 720, 1e9);
   const m = new THREE.Matrix4();
   leaves(mesh)
@@ -115,7 +117,7 @@ function quads(): THREE.Mesh {
 
 it('takes whole leaves of merged meshes', async () => {
   const mesh = quads();
-  const detail = (await Detail.of([boxes(), mesh], () => false))!;
+  const detail = (await Detail.of([{ mesh: boxes() }, { mesh }], () => false))!;
   const drawnLeaves = () => {
     const { geometry } = mesh;
     const corners = (geometry.index!.array as Uint32Array).subarray(0, geometry.drawRange.count);

@@ -9,8 +9,18 @@
 // card holds what was drawn at once at most, not all.
 
 import * as THREE from 'three';
+import type { Piece } from '../lib/chunks';
 import { Merged } from './merged';
-import { sortIntoRuns, worthMore, worthOf, type Least, type Runs, type Things } from './runs';
+import {
+  joinedRuns,
+  pixelsIn,
+  sortIntoRuns,
+  worthMore,
+  worthOf,
+  type PixelIn,
+  type Runs,
+  type Things,
+} from './runs';
 
 /** Models with fewer triangles are drawn whole. */
 const WORTH_IT = 600_000;
@@ -37,10 +47,12 @@ const LEAST_ROOM = 64;
 /** What is drawn of one mesh. */
 export interface Part {
   readonly transparent: boolean;
+  /** What is worth one pixel in each of its cells. */
+  seen(pixelIn: PixelIn): Float64Array;
   /**
-   * Takes what is worth no less than is said for its cell, and tells how many triangles that are.
+   * Takes what is worth so many pixels, and tells how many triangles that are.
    */
-  take(least: Least): number;
+  take(pixel: Float64Array, pixels: number): number;
   /** Puts together what was taken and is not in the picture yet. */
   fill(): void;
   /** Nothing is in the picture yet. */
@@ -48,6 +60,15 @@ export interface Part {
   /** Draws nothing until the next filling. */
   hide(): void;
 }
+
+/** A mesh, with the pieces that its arrays were put together from, if it was. */
+export interface Detailed {
+  mesh: THREE.Mesh;
+  pieces?: Piece[] | undefined;
+}
+
+/** What a camera, or the sun, makes of the cells of each part. */
+type Sight = Float64Array[];
 
 export function trianglesOf(mesh: THREE.Mesh): number {
   const index = (mesh.geometry as THREE.BufferGeometry).index;
@@ -58,17 +79,21 @@ export function trianglesOf(mesh: THREE.Mesh): number {
 export class Detail {
   private readonly parts: Part[] = [];
 
-  static worthIt(meshes: THREE.Mesh[]): boolean {
-    return meshes.reduce((sum, m) => sum + trianglesOf(m), 0) >= WORTH_IT;
+  static worthIt(meshes: Detailed[]): boolean {
+    return meshes.reduce((sum, { mesh }) => sum + trianglesOf(mesh), 0) >= WORTH_IT;
   }
 
   /** Null for models that need none, or when `over` has become true. */
-  static async of(meshes: THREE.Mesh[], over: () => boolean): Promise<Detail | null> {
+  static async of(meshes: Detailed[], over: () => boolean): Promise<Detail | null> {
     if (!Detail.worthIt(meshes)) return null;
     const out = new Detail();
     let began = performance.now();
-    for (const mesh of meshes) {
-      out.parts.push(mesh instanceof THREE.InstancedMesh ? new Instances(mesh) : new Merged(mesh));
+    for (const { mesh, pieces } of meshes) {
+      out.parts.push(
+        mesh instanceof THREE.InstancedMesh
+          ? new Instances(mesh, pieces)
+          : new Merged(mesh, pieces),
+      );
       if (performance.now() - began < SLICE_MS) continue;
       await new Promise((go) => setTimeout(go, 0));
       if (over()) return null;
@@ -81,10 +106,10 @@ export class Detail {
    * Takes what is in sight of a camera and large enough on a canvas of so many pixels in height.
    */
   select(camera: THREE.PerspectiveCamera, height: number, budget: number): void {
-    const least = worthSeeing(camera, height);
+    const sight = this.sightOf(pixelsOf(camera, height));
     this.forget();
     for (let pixels = LEAST_PIXELS; pixels < MOST_PIXELS; pixels *= FINER) {
-      if (this.take(least(pixels)) <= budget) break;
+      if (this.take(sight, pixels) <= budget) break;
     }
     for (const part of this.parts) part.fill();
   }
@@ -94,14 +119,14 @@ export class Detail {
    * which has all that is transparent.
    */
   *helpings(camera: THREE.PerspectiveCamera, height: number): Generator<boolean, void> {
-    const least = worthSeeing(camera, height);
+    const sight = this.sightOf(pixelsOf(camera, height));
     this.forget();
     let pixels = MOST_PIXELS;
     for (let before = 0, last = false; !last;) {
       const finer = () => Math.max(LEAST_PIXELS, pixels / FINER);
       do pixels = finer();
-      while (pixels > LEAST_PIXELS && this.take(least(finer())) - before <= HELPING);
-      before = this.take(least(pixels));
+      while (pixels > LEAST_PIXELS && this.take(sight, finer()) - before <= HELPING);
+      before = this.take(sight, pixels);
       last = pixels === LEAST_PIXELS || before > STILL;
       for (const part of this.parts) {
         if (part.transparent && !last) part.hide();
@@ -114,12 +139,19 @@ export class Detail {
   /** Takes all that casts a shadow which a map of that many metres a texel can show. */
   selectForShadow(texel: number): void {
     this.forget();
-    this.take(() => texel * LEAST_TEXELS);
+    this.take(
+      this.sightOf(() => texel),
+      LEAST_TEXELS,
+    );
     for (const part of this.parts) part.fill();
   }
 
-  private take(least: Least): number {
-    return this.parts.reduce((sum, part) => sum + part.take(least), 0);
+  private sightOf(pixelIn: PixelIn): Sight {
+    return this.parts.map((part) => part.seen(pixelIn));
+  }
+
+  private take(sight: Sight, pixels: number): number {
+    return this.parts.reduce((sum, part, i) => sum + part.take(sight[i]!, pixels), 0);
   }
 
   private forget(): void {
@@ -127,27 +159,38 @@ export class Detail {
   }
 }
 
-/** What is worth so many pixels of a camera's picture. */
-function worthSeeing(camera: THREE.PerspectiveCamera, height: number): (pixels: number) => Least {
+/** What one pixel of a camera's picture is worth, cell by cell. */
+function pixelsOf(camera: THREE.PerspectiveCamera, height: number): PixelIn {
   const frustum = new THREE.Frustum().setFromProjectionMatrix(
     new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse),
   );
   const pixel = (2 * Math.tan((camera.fov * Math.PI) / 360)) / height;
   const eye = camera.position.clone();
-  return (pixels) => (cell) => {
-    if (!frustum.intersectsSphere(new THREE.Sphere(cell.centre, cell.radius))) return Infinity;
-    return pixels * pixel * Math.max(camera.near, eye.distanceTo(cell.centre) - cell.radius);
+  const sphere = new THREE.Sphere();
+  return (cell) => {
+    if (!frustum.intersectsSphere(sphere.set(cell.centre, cell.radius))) return Infinity;
+    return pixel * Math.max(camera.near, eye.distanceTo(cell.centre) - cell.radius);
   };
 }
+
+/** The arrays of instances. */
+interface Placed {
+  matrix: Float32Array;
+  tint: Uint8Array;
+  leaf: Float32Array;
+}
+
+/** Of pieces that have been sorted: an update of a large model leaves most as they were. */
+const known = new WeakMap<Piece, Omit<Runs, 'order'>>();
 
 /** Of instances of one geometry, those that are to be seen. */
 class Instances implements Part {
   readonly transparent: boolean;
-  private readonly runs: Runs;
+  private readonly runs: Omit<Runs, 'order'>;
   private readonly triangles: number;
-  private readonly matrix: Float32Array;
-  private readonly tint: Uint8Array;
-  private readonly leaf: Float32Array;
+  readonly matrix: Float32Array;
+  readonly tint: Uint8Array;
+  readonly leaf: Float32Array;
   /** How many of each cell are drawn. */
   private readonly taken: Uint32Array;
   /** How many of each cell are in the picture already. */
@@ -155,8 +198,10 @@ class Instances implements Part {
   /** How many there is room for on the graphics card. */
   private room = 0;
 
-  constructor(private readonly mesh: THREE.InstancedMesh) {
-    const n = mesh.count;
+  constructor(
+    private readonly mesh: THREE.InstancedMesh,
+    pieces?: Piece[],
+  ) {
     const geometry = mesh.geometry as THREE.BufferGeometry;
     this.transparent = (mesh.material as THREE.Material).transparent;
     this.triangles = (geometry.index?.count ?? 0) / 3;
@@ -165,33 +210,23 @@ class Instances implements Part {
       .array as Uint8Array;
     this.leaf = (geometry.getAttribute('leaf') as THREE.InstancedBufferAttribute)
       .array as Float32Array;
-    this.runs = sortIntoRuns(placesOf(geometry, this.matrix, n));
-    // The draw list itself is put in order, so that it stays one.
-    const ordered = {
-      matrix: new Float32Array(n * 16),
-      tint: new Uint8Array(n * 4),
-      leaf: new Float32Array(n),
-    };
-    for (let k = 0; k < n; ++k) {
-      const i = this.runs.order[k]!;
-      ordered.matrix.set(this.matrix.subarray(i * 16, i * 16 + 16), k * 16);
-      ordered.tint.set(this.tint.subarray(i * 4, i * 4 + 4), k * 4);
-      ordered.leaf[k] = this.leaf[i]!;
-    }
-    this.matrix.set(ordered.matrix);
-    this.tint.set(ordered.tint);
-    this.leaf.set(ordered.leaf);
+    const sort = (placed: Placed) => sorted(geometry, placed);
+    this.runs = joinedRuns(pieces ? pieces.map((piece) => sortedOnce(piece, sort)) : [sort(this)]);
     this.taken = new Uint32Array(this.runs.cells.length);
     this.done = this.taken.slice();
     this.makeRoom(1);
     mesh.count = 0;
   }
 
-  take(least: Least): number {
+  seen(pixelIn: PixelIn): Float64Array {
+    return pixelsIn(this.runs.cells, pixelIn);
+  }
+
+  take(pixel: Float64Array, pixels: number): number {
+    const { cells, worth } = this.runs;
     let count = 0;
-    this.runs.cells.forEach(
-      (cell, i) => (count += this.taken[i] = worthMore(this.runs.worth, cell, least(cell))),
-    );
+    for (let i = 0; i < cells.length; ++i)
+      count += this.taken[i] = worthMore(worth, cells[i]!, pixels * pixel[i]!);
     return count * this.triangles;
   }
 
@@ -249,6 +284,30 @@ class Instances implements Part {
       new THREE.InstancedBufferAttribute(new Float32Array(room), 1),
     );
   }
+}
+
+function sortedOnce(
+  piece: Piece,
+  sort: (placed: Placed) => Omit<Runs, 'order'>,
+): Omit<Runs, 'order'> {
+  const before = known.get(piece);
+  if (before) return before;
+  const now = sort({ matrix: piece.matrix!, tint: piece.color, leaf: piece.leaf });
+  known.set(piece, now);
+  return now;
+}
+
+/** Puts instances in the order of their runs: the draw list itself, so that it stays one. */
+function sorted(geometry: THREE.BufferGeometry, placed: Placed): Omit<Runs, 'order'> {
+  const n = placed.leaf.length;
+  const { order, ...runs } = sortIntoRuns(placesOf(geometry, placed.matrix, n));
+  const [matrix, tint, leaf] = [placed.matrix.slice(), placed.tint.slice(), placed.leaf.slice()];
+  order.forEach((i, k) => {
+    placed.matrix.set(matrix.subarray(i * 16, i * 16 + 16), k * 16);
+    placed.tint.set(tint.subarray(i * 4, i * 4 + 4), k * 4);
+    placed.leaf[k] = leaf[i]!;
+  });
+  return runs;
 }
 
 function placesOf(geometry: THREE.BufferGeometry, from: Float32Array, n: number): Things {

@@ -5,50 +5,75 @@
 // corners are copied together from runs of leaves. The vertices stay where they are.
 
 import * as THREE from 'three';
+import type { Piece } from '../lib/chunks';
 import type { Part } from './detail';
-import { sortIntoRuns, worthMore, worthOf, type Least, type Runs, type Things } from './runs';
+import {
+  joinedRuns,
+  pixelsIn,
+  sortIntoRuns,
+  worthMore,
+  worthOf,
+  type PixelIn,
+  type Runs,
+  type Things,
+} from './runs';
+
+/** Leaves of a mesh whose corners have been put in the order of runs. */
+interface Sorted {
+  runs: Omit<Runs, 'order'>;
+  /** Corners up to each leaf. */
+  corners: Uint32Array;
+}
+
+/** Of pieces that have been sorted: an update of a large model leaves most as they were. */
+const known = new WeakMap<Piece, Sorted>();
 
 export class Merged implements Part {
   readonly transparent: boolean;
-  private readonly runs: Runs;
-  /** Corners up to each leaf, in the order of the runs. */
+  private readonly runs: Omit<Runs, 'order'>;
   private readonly corners: Uint32Array;
+  /** In the order of the runs. */
   private readonly all: Uint32Array;
   private readonly taken: Uint32Array;
   /** How many of each cell are in the picture already. */
   private readonly done: Uint32Array;
 
-  constructor(private readonly mesh: THREE.Mesh) {
+  constructor(
+    private readonly mesh: THREE.Mesh,
+    pieces?: Piece[],
+  ) {
     const { geometry } = mesh;
     this.transparent = (mesh.material as THREE.Material).transparent;
-    const from = geometry.index!.array as Uint32Array;
-    const { starts, things } = leavesOf(geometry, from);
-    this.runs = sortIntoRuns(things);
-    const n = starts.length - 1;
-    this.corners = new Uint32Array(n + 1);
-    this.all = new Uint32Array(from.length);
-    for (let k = 0; k < n; ++k) {
-      const i = this.runs.order[k]!;
-      const part = from.subarray(starts[i]!, starts[i + 1]!);
-      this.all.set(part, this.corners[k]!);
-      this.corners[k + 1] = this.corners[k]! + part.length;
-    }
+    const leaf = geometry.getAttribute('leaf').array as Float32Array;
+    const position = geometry.getAttribute('position').array as Float32Array;
+    this.all = geometry.index!.array as Uint32Array;
+    const parts = pieces
+      ? pieces.map((piece) => sortedOnce(piece, leaf, position))
+      : [sorted(this.all, leaf, position)];
+    this.runs = joinedRuns(parts.map((part) => part.runs));
+    this.corners = joinedCorners(parts, this.runs.worth.length);
     this.taken = new Uint32Array(this.runs.cells.length);
     this.done = this.taken.slice();
     geometry.setIndex(
-      new THREE.BufferAttribute(new Uint32Array(from.length), 1).setUsage(
+      new THREE.BufferAttribute(new Uint32Array(this.all.length), 1).setUsage(
         THREE.DynamicDrawUsage,
       ) as THREE.BufferAttribute,
     );
     geometry.setDrawRange(0, 0);
   }
 
-  take(least: Least): number {
+  seen(pixelIn: PixelIn): Float64Array {
+    return pixelsIn(this.runs.cells, pixelIn);
+  }
+
+  take(pixel: Float64Array, pixels: number): number {
+    const { cells, worth } = this.runs;
     let corners = 0;
-    this.runs.cells.forEach((cell, i) => {
-      this.taken[i] = worthMore(this.runs.worth, cell, least(cell));
+    for (let i = 0; i < cells.length; ++i) {
+      const cell = cells[i]!;
+      this.taken[i] = worthMore(worth, cell, pixels * pixel[i]!);
       corners += this.corners[cell.from + this.taken[i]!]! - this.corners[cell.from]!;
-    });
+    }
     return corners / 3;
   }
 
@@ -81,13 +106,46 @@ export class Merged implements Part {
   }
 }
 
-/** The leaves of a mesh, and where the corners of each begin. */
+function sortedOnce(piece: Piece, leaf: Float32Array, position: Float32Array): Sorted {
+  const before = known.get(piece);
+  if (before) return before;
+  const now = sorted(piece.index!, leaf, position);
+  known.set(piece, now);
+  return now;
+}
+
+/** Puts the corners of leaves in the order of their runs. */
+function sorted(index: Uint32Array, leaf: Float32Array, position: Float32Array): Sorted {
+  const { starts, things } = leavesOf(index, leaf, position);
+  const { order, ...runs } = sortIntoRuns(things);
+  const corners = new Uint32Array(order.length + 1);
+  const before = index.slice();
+  order.forEach((i, k) => {
+    const part = before.subarray(starts[i]!, starts[i + 1]!);
+    index.set(part, corners[k]!);
+    corners[k + 1] = corners[k]! + part.length;
+  });
+  return { runs, corners };
+}
+
+function joinedCorners(parts: Sorted[], leaves: number): Uint32Array {
+  const out = new Uint32Array(leaves + 1);
+  let at = 0;
+  let corner = 0;
+  for (const { corners } of parts) {
+    for (let k = 1; k < corners.length; ++k) out[at + k] = corners[k]! + corner;
+    at += corners.length - 1;
+    corner += corners[corners.length - 1]!;
+  }
+  return out;
+}
+
+/** The leaves of some corners, and where those of each begin. */
 function leavesOf(
-  geometry: THREE.BufferGeometry,
   corners: Uint32Array,
+  leaf: Float32Array,
+  position: Float32Array,
 ): { starts: number[]; things: Things } {
-  const leaf = geometry.getAttribute('leaf').array;
-  const position = geometry.getAttribute('position').array;
   const starts: number[] = [];
   for (let c = 0; c < corners.length; c += 3) {
     if (c === 0 || leaf[corners[c]!] !== leaf[corners[c - 3]!]) starts.push(c);

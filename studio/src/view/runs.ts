@@ -19,8 +19,10 @@ export interface Cell {
   radius: number;
 }
 
-/** The worth of the least that is to be drawn of a cell; Infinity for nothing. */
-export type Least = (cell: Cell) => number;
+/**
+ * What is worth one pixel in a cell, in metres; Infinity where nothing of it is to be drawn.
+ */
+export type PixelIn = (cell: Cell) => number;
 
 /** The middle of each thing (x, y, z), its longest side, and what it is worth, in metres. */
 export interface Things {
@@ -86,8 +88,33 @@ export function sortIntoRuns({ at, reach, worth }: Things): Runs {
   return out;
 }
 
+/** What a pixel is worth in each cell. A large place has a hundred thousand of them. */
+export function pixelsIn(cells: Cell[], pixelIn: PixelIn): Float64Array {
+  const out = new Float64Array(cells.length);
+  for (let i = 0; i < cells.length; ++i) out[i] = pixelIn(cells[i]!);
+  return out;
+}
+
+/** Runs behind each other, as one; the order of each is in the things themselves. */
+export function joinedRuns(parts: Omit<Runs, 'order'>[]): Omit<Runs, 'order'> {
+  const [only] = parts;
+  if (only && parts.length === 1) return only;
+  const worth = new Float32Array(parts.reduce((n, part) => n + part.worth.length, 0));
+  const cells: Cell[] = [];
+  let at = 0;
+  for (const part of parts) {
+    worth.set(part.worth, at);
+    for (const cell of part.cells) cells.push({ ...cell, from: cell.from + at, to: cell.to + at });
+    at += part.worth.length;
+  }
+  return { worth, cells };
+}
+
 /** How many at the beginning of a cell are worth no less than that. */
 export function worthMore(worth: Float32Array, cell: Cell, least: number): number {
+  // Of most cells of a large place there is nothing, or all.
+  if (cell.to === cell.from || !(worth[cell.from]! >= least)) return 0;
+  if (worth[cell.to - 1]! >= least) return cell.to - cell.from;
   let low = cell.from;
   let high = cell.to;
   while (low < high) {

@@ -193,12 +193,9 @@ export class SceneView {
     );
     // Sorting a large model takes a while; the one before stays in sight until then.
     const detail =
-      lives || !Detail.worthIt(batches.map((b) => b.mesh))
+      lives || !Detail.worthIt(batches)
         ? null
-        : await Detail.of(
-            batches.map((b) => b.mesh),
-            () => number !== this.models,
-          );
+        : await Detail.of(batches, () => number !== this.models);
     if (number !== this.models) return false;
     this.painter.detail = detail;
     for (const { mesh } of this.batches) {

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+#include "io/exporters/draw_batches.h"
+
+#include <cmath>
+#include <iterator>
+
+#include "base/work.h"
+
+namespace gable {
+
+namespace {
+
+/// Stands for the zero scale of a flat shape, which no normal survives.
+constexpr double kFlat = 1e-5;
+
+float narrow(double v) { return static_cast<float>(v); }
+
+void push(std::vector<float>& out, const Vec3& v) {
+  out.push_back(narrow(v.x));
+  out.push_back(narrow(v.y));
+  out.push_back(narrow(v.z));
+}
+
+// The geometry of a mirrored batch is mirrored in x itself, so the matrix takes that back: what a
+// graphics card gets never mirrors.
+void addMatrix(std::vector<float>& out, const Leaf& leaf, const Frame& world, bool mirrored) {
+  const auto whole = [](double s) { return std::abs(s) < kFlat ? kFlat : s; };
+  const Vec3 x = world.x * (whole(leaf.scale.x) * (mirrored ? -1 : 1));
+  const Vec3 y = world.y * whole(leaf.scale.y), z = world.z * whole(leaf.scale.z);
+  const Vec3& o = world.origin;
+  const float matrix[] = {
+      narrow(x.x), narrow(x.y), narrow(x.z), 0, narrow(y.x), narrow(y.y), narrow(y.z), 0,
+      narrow(z.x), narrow(z.y), narrow(z.z), 0, narrow(o.x), narrow(o.y), narrow(o.z), 1};
+  out.insert(out.end(), std::begin(matrix), std::end(matrix));
+}
+
+}  // namespace
+
+void BatchBuilder::clear() {
+  batches_.clear();
+  last_ = nullptr;
+}
+
+// Memory for all that it will hold is taken once.
+void BatchBuilder::reserve(Batch& batch, const BatchKey& key) const {
+  const BatchTally* const known = plan_.tally(key);
+  if (!known) return;
+  const BatchTally& sum = *known;
+  if (key.mesh != kMerged) {
+    batch.matrices.reserve(sum.instances * 16);
+    batch.leaves.reserve(sum.instances);
+    batch.colors.reserve(sum.instances);
+    return;
+  }
+  batch.own.positions.reserve(sum.corners * 3);
+  batch.own.normals.reserve(sum.corners * 3);
+  batch.own.uvs.reserve(sum.corners * 2);
+  batch.own.indices.reserve(sum.triangles * 3);
+  batch.leaves.reserve(sum.corners);
+  batch.colors.reserve(sum.corners);
+}
+
+// Leaves that lie beside each other mostly go into the same batch.
+Batch& BatchBuilder::batchOf(const BatchKey& key, uint32_t paint) {
+  if (last_ && key == lastKey_) return *last_;
+  const auto [at, fresh] = batches_.try_emplace(key);
+  if (fresh) {
+    at->second.geometry = key.mesh == kMerged ? &at->second.own : &geometries_[key];
+    reserve(at->second, key);
+    if (!met_[key.look]) looks_.push_back(paint);
+    met_[key.look] = true;
+  }
+  lastKey_ = key;
+  last_ = &at->second;
+  return *last_;
+}
+
+// Faces of what is laid have coordinates of their own.
+const Surface& BatchBuilder::surfaceOf(uint32_t mesh, bool apart) {
+  if (plan_.isSingle(mesh)) {
+    single_.build(*scene_.meshes[mesh], triangulator_, apart);
+    return single_;
+  }
+  const auto [at, fresh] = surfaces_.try_emplace({mesh, apart});
+  if (fresh) at->second.build(*scene_.meshes[mesh], triangulator_, apart);
+  return at->second;
+}
+
+void BatchBuilder::add(const Leaf& leaf, const Frame& world, uint32_t number) {
+  const bool often = plan_.isOften(leaf);
+  const bool mirrored = leaf.scale.x * leaf.scale.y * leaf.scale.z < 0;
+  const Surface& surface = surfaceOf(leaf.mesh, plan_.isLaidLeaf(leaf));
+  if (!often) work(surface.corners.size());
+  for (const SurfacePart& part : surface.parts) {
+    const uint32_t paint = plan_.paintOf(leaf, part.slot);
+    Batch& batch =
+        batchOf(DrawPlan::keyOf(leaf, part.slot, often, plan_.paint(paint).group), paint);
+    const bool laid = plan_.isLaidPaint(paint);
+    if (!often) {
+      addPart(batch.own, leaf.mesh, surface, part, world, leaf.scale, laid);
+      const size_t vertices = batch.own.positions.size() / 3;
+      batch.leaves.resize(vertices, narrow(number));
+      batch.colors.resize(vertices, plan_.paint(paint).color);
+      continue;
+    }
+    if (batch.geometry->positions.empty()) {
+      addPart(*batch.geometry, leaf.mesh, surface, part, {}, {mirrored ? -1.0 : 1.0, 1, 1}, laid);
+    }
+    addMatrix(batch.matrices, leaf, world, mirrored);
+    batch.leaves.push_back(narrow(number));
+    batch.colors.push_back(plan_.paint(paint).color);
+  }
+}
+
+void BatchBuilder::addPart(DrawGeometry& to, uint32_t mesh, const Surface& surface,
+                           const SurfacePart& part, const Frame& world, const Vec3& scale,
+                           bool laid) {
+  const Mesh& m = *scene_.meshes[mesh];
+  const bool turned = scale.x * scale.y * scale.z < 0;
+  for (uint32_t f = part.firstFace; f < part.firstFace + part.faceCount; ++f) {
+    const SurfaceFace& face = surface.faces[f];
+    const auto base = static_cast<uint32_t>(to.positions.size() / 3);
+    const FaceAxes axes = laid ? layingOf(m, surface, face, world, scale) : FaceAxes{};
+    for (uint32_t v = face.firstVertex; v < face.firstVertex + face.vertexCount; ++v) {
+      const uint32_t corner = surface.corners[v];
+      push(to.positions, world.point(scaled(m.at(corner), scale)));
+      push(to.normals, world.direction(scaledNormal(surface.normals[v], scale)));
+      const Vec2 uv = laid         ? axes.at(world.point(scaled(m.at(corner), scale)))
+                      : m.hasUv(0) ? m.uvs[0][corner]
+                                   : Vec2{};
+      to.uvs.push_back(narrow(uv.x));
+      to.uvs.push_back(narrow(uv.y));
+    }
+    for (uint32_t t = 0; t < face.triangleCount; ++t) {
+      const auto& tri = surface.triangles[face.firstTriangle + t];
+      for (int c = 0; c < 3; ++c) to.indices.push_back(base + tri[turned ? 2 - c : c]);
+    }
+  }
+}
+
+}  // namespace gable
