@@ -124,6 +124,8 @@ struct DatasetArguments {
   std::string placing = "orbit", labels = "rule", format = "coco";
   /// An extension of models, or "none".
   std::string model = "glb";
+  /// Of labels by tag.
+  std::vector<std::string> tags;
   WriteArguments write;
   /// "0/4"; empty: whatever nobody else is making.
   std::string shard;

@@ -482,13 +482,18 @@ void addDataset(CLI::App& app, DatasetArguments& a, int& status) {
       ->check(CLI::IsMember(gable::datasetCamerasNames()));
   command
       ->add_option("--labels", a.labels,
-                   "What pixels are: rule (that made them, default), or label (the @Label of the "
-                   "nearest rule above)")
+                   "What pixels are: rule (that made them, default), label (the @Label of the "
+                   "nearest rule above), or tag (the last that a shape above was given)")
       ->check(CLI::IsMember(gable::datasetLabelsNames()));
   command
       ->add_option("--format", a.format,
                    "The list of all: coco (coco.json, default) or json (items.json)")
       ->check(CLI::IsMember(gable::datasetFormatNames()));
+  command
+      ->add_option("--tags", a.tags,
+                   "The tags that --labels tag goes by, in the order in which they count (default: "
+                   "all that the rules give by name)")
+      ->delimiter(',');
   std::vector<std::string> models = gable::modelExtensions();
   models.emplace_back("none");
   command->add_option("--model", a.model, "The mesh of each seed: glb (default), obj, .., or none")

@@ -41,7 +41,7 @@ std::optional<Detail> detailNamed(const std::string& name);
 /// "orbit", "sampled": in the order of DatasetCameras.
 const std::vector<std::string>& datasetCamerasNames();
 std::optional<DatasetCameras> datasetCamerasNamed(const std::string& name);
-/// "rule", "label": in the order of DatasetLabels.
+/// "rule", "label", "tag": in the order of DatasetLabels.
 const std::vector<std::string>& datasetLabelsNames();
 std::optional<DatasetLabels> datasetLabelsNamed(const std::string& name);
 /// "coco", "json": in the order of DatasetFormat.

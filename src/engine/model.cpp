@@ -284,7 +284,7 @@ std::optional<DatasetCameras> datasetCamerasNamed(const std::string& name) {
 }
 
 const std::vector<std::string>& datasetLabelsNames() {
-  static const std::vector<std::string> names{"rule", "label"};
+  static const std::vector<std::string> names{"rule", "label", "tag"};
   return names;
 }
 
