@@ -25,6 +25,9 @@ std::optional<View> viewNamed(const std::string& name);
 const std::vector<std::string>& lookNames();
 /// Empty where there is no such look.
 std::optional<Look> lookNamed(const std::string& name);
+/// "paths", "direct": in the order of Lighting.
+const std::vector<std::string>& lightingNames();
+std::optional<Lighting> lightingNamed(const std::string& name);
 
 /// "auto", "nodes", "gpu", "none": in the order of Instancing.
 const std::vector<std::string>& instancingNames();

@@ -71,7 +71,7 @@ void writeSun(JsonWriter& w, const PictureSettings& p) {
 void writePicture(JsonWriter& w, const PictureSettings& p) {
   w.field("width", p.width).field("height", p.height).field("samples", p.samples);
   w.field("bounces", p.bounces).field("denoise", p.denoise);
-  w.field("look", static_cast<int>(p.look));
+  w.field("look", static_cast<int>(p.look)).field("lighting", static_cast<int>(p.lighting));
   writeSun(w, p);
   w.field("haziness", p.haziness).field("lamps", p.lamps).field("turn", p.turn);
   optional(w, "mist", p.mist);

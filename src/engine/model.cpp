@@ -274,6 +274,15 @@ std::optional<Detail> detailNamed(const std::string& name) {
   return named<Detail>(detailNames(), name);
 }
 
+const std::vector<std::string>& lightingNames() {
+  static const std::vector<std::string> names{"paths", "direct"};
+  return names;
+}
+
+std::optional<Lighting> lightingNamed(const std::string& name) {
+  return named<Lighting>(lightingNames(), name);
+}
+
 const std::vector<std::string>& datasetCamerasNames() {
   static const std::vector<std::string> names{"orbit", "sampled"};
   return names;
