@@ -82,6 +82,8 @@ struct RenderArguments {
   std::string ground;
   std::optional<double> fieldOfView, pitch;
   std::string look;
+  /// Of gable::lightingNames().
+  std::string lighting = "paths";
   /// latitude,longitude,date,hour
   std::string sunAt;
   std::optional<double> haze, mist, aperture, focus, lamps, litRooms;
@@ -122,6 +124,8 @@ struct DatasetArguments {
   uint32_t cameras = 4;
   /// Of gable::datasetCamerasNames(), datasetLabelsNames(), datasetFormatNames().
   std::string placing = "orbit", labels = "rule", format = "coco";
+  /// Of labels by tag.
+  std::vector<std::string> tags;
   /// An extension of models, or "none".
   std::string model = "glb";
   WriteArguments write;

@@ -208,6 +208,7 @@ int writeModel(const gable::Model& model, const std::string& path,
   if (written.triangles > 0) figures.triangles = written.triangles;
   figures.fileBytes = written.bytes;
   figures.savedBytes = written.savedBytes;
+  figures.atlas = written.atlas;
   return kExitDone;
 }
 

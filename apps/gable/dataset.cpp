@@ -29,6 +29,7 @@ int datasetSettings(const DatasetArguments& a, gable::DatasetSettings& s) {
   s.cameras = a.cameras;
   s.placing = gable::datasetCamerasNamed(a.placing).value_or(s.placing);
   s.labels = gable::datasetLabelsNamed(a.labels).value_or(s.labels);
+  s.tags = a.tags;
   s.format = gable::datasetFormatNamed(a.format).value_or(s.format);
   s.model = a.model == "none" ? std::string() : a.model;
   const std::string model = "model." + (s.model.empty() ? std::string("glb") : s.model);

@@ -51,6 +51,10 @@ void addLookOptions(CLI::App* app, RenderArguments& a) {
                   "photo, clay, blueprint, ink or section (a model cut open); --style takes these "
                   "words too")
       ->check(CLI::IsMember(gable::lookNames()));
+  app->add_option("--lighting", a.lighting,
+                  "paths (light from surface to surface, default) or direct (sun and sky alone, "
+                  "many times faster)")
+      ->check(CLI::IsMember(gable::lightingNames()));
   auto* sun = app->add_option("--sun", a.sun, "elevation,azimuth in degrees (azimuth from north)");
   app->add_option(
          "--sun-at", a.sunAt,
@@ -482,9 +486,14 @@ void addDataset(CLI::App& app, DatasetArguments& a, int& status) {
       ->check(CLI::IsMember(gable::datasetCamerasNames()));
   command
       ->add_option("--labels", a.labels,
-                   "What pixels are: rule (that made them, default), or label (the @Label of the "
-                   "nearest rule above)")
+                   "What pixels are: rule (that made them, default), label (the @Label of the "
+                   "nearest rule above), or tag (the last that a shape above was given)")
       ->check(CLI::IsMember(gable::datasetLabelsNames()));
+  command
+      ->add_option("--tags", a.tags,
+                   "The tags that --labels tag goes by, in the order in which they count (default: "
+                   "all that the rules give by name)")
+      ->delimiter(',');
   command
       ->add_option("--format", a.format,
                    "The list of all: coco (coco.json, default) or json (items.json)")

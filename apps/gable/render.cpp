@@ -114,6 +114,7 @@ bool parseCut(const std::string& text, gable::PictureSettings& s) {
 
 /// What photographers set.
 int lightSettings(const RenderArguments& a, gable::PictureSettings& s) {
+  s.lighting = gable::lightingNamed(a.lighting).value_or(s.lighting);
   if (!a.look.empty()) s.look = gable::lookNamed(a.look).value_or(s.look);
   gable::SunTime time;
   if (!a.sunAt.empty() && !parseSunAt(a.sunAt, time)) {

@@ -36,8 +36,9 @@ enum class DatasetCameras : uint8_t { Orbit, Sampled };
 
 /// What pixels are told apart by. Rule: the rule that made the leaf; an instance is a leaf. Label:
 /// the nearest rule above it with @Label; an instance is a shape of that rule with all that came of
-/// it. Labels are derived without sharing.
-enum class DatasetLabels : uint8_t { Rule, Label };
+/// it. Tag: the last tag that all faces of a shape above it were given; an instance is the shape
+/// that was given it, with all that came of it. Labels and tags are derived without sharing.
+enum class DatasetLabels : uint8_t { Rule, Label, Tag };
 
 /// Which file lists all items. Coco: coco.json, with the outlines of instances as pycocotools read
 /// them. Json: items.json, with cameras and files.
@@ -53,6 +54,10 @@ struct DatasetSettings {
   uint32_t cameras = 4;
   DatasetCameras placing = DatasetCameras::Orbit;
   DatasetLabels labels = DatasetLabels::Rule;
+  /// Of DatasetLabels::Tag: the categories in this order; where a shape is given several, the first
+  /// one counts. A tag's name or its beginning by dots; ? stands for one part, * for some. Empty:
+  /// all that the rules name in `tag`, in the order of the alphabet.
+  std::vector<std::string> tags;
   DatasetFormat format = DatasetFormat::Coco;
   /// The extension of the mesh of each seed, as Model::write has them; empty: no mesh.
   std::string model = "glb";

@@ -63,6 +63,9 @@ struct WriteSettings {
   bool bakedUv = false;
   /// glTF, OBJ and USD: no side of a picture is longer; 0 for any.
   uint32_t textureSize = 0;
+  /// glTF, OBJ and USD: plain colours and pictures that do not repeat are in one picture with sides
+  /// of so many pixels at most, so that their materials are few; 0 for none.
+  uint32_t atlas = 0;
   FileLimits limits;
 };
 
@@ -75,6 +78,13 @@ struct WriteResult {
   DiagnosticList diagnostics;
   /// glTF: what its geometry would take more if parts that occur several times were written out.
   uint64_t savedBytes = 0;
+  /// With WriteSettings::atlas: the materials that it has taken and those that they became; and
+  /// those that stay because their pictures repeat, because they have other maps or light of their
+  /// own, and for want of room.
+  struct Atlas {
+    uint32_t merged = 0, into = 0, repeating = 0, special = 0, large = 0;
+  };
+  std::optional<Atlas> atlas;
   /// The models that were written: the one asked for, then its coarser levels.
   std::vector<std::string> models;
 };

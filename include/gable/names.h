@@ -25,6 +25,9 @@ std::optional<View> viewNamed(const std::string& name);
 const std::vector<std::string>& lookNames();
 /// Empty where there is no such look.
 std::optional<Look> lookNamed(const std::string& name);
+/// "paths", "direct": in the order of Lighting.
+const std::vector<std::string>& lightingNames();
+std::optional<Lighting> lightingNamed(const std::string& name);
 
 /// "auto", "nodes", "gpu", "none": in the order of Instancing.
 const std::vector<std::string>& instancingNames();
@@ -41,7 +44,7 @@ std::optional<Detail> detailNamed(const std::string& name);
 /// "orbit", "sampled": in the order of DatasetCameras.
 const std::vector<std::string>& datasetCamerasNames();
 std::optional<DatasetCameras> datasetCamerasNamed(const std::string& name);
-/// "rule", "label": in the order of DatasetLabels.
+/// "rule", "label", "tag": in the order of DatasetLabels.
 const std::vector<std::string>& datasetLabelsNames();
 std::optional<DatasetLabels> datasetLabelsNamed(const std::string& name);
 /// "coco", "json": in the order of DatasetFormat.

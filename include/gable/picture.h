@@ -42,6 +42,10 @@ enum class View : uint8_t { Iso, Top, Front, Street };
 /// lines on blue. Ink: pen on paper, hatched in the shade. Section: a model cut open, on paper.
 enum class Look : uint8_t { Photo, Clay, Blueprint, Ink, Section };
 
+/// How surfaces are lit. Paths: light is followed from surface to surface. Direct: by the sun and
+/// by what a surface sees of the sky, with an even light where that is hidden; many times faster.
+enum class Lighting : uint8_t { Paths, Direct };
+
 /// A time at a place of the Earth, by which the sun is found.
 struct SunTime {
   /// Degrees, north and east positive; absent: where the shapes lie on the Earth.
@@ -112,6 +116,8 @@ struct PictureSettings {
   CutSide cutSide = CutSide::None;
   /// Diffuse reflections that light is followed through, 0 to 32.
   int bounces = 3;
+  /// Direct: `samples` are the most that a pixel has, and it has fewer where they agree.
+  Lighting lighting = Lighting::Paths;
   /// Smooths what noise is left, guided by colour, normal and depth.
   bool denoise = true;
   /// PictureMaker::draw() gives PictureData::layers too.

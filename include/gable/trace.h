@@ -53,6 +53,9 @@ struct DerivationTrace {
     bool leaf = false, dropped = false;
     /// Made by a rule call, so that a step of the derivation replaces it.
     bool ruleCall = false;
+    /// Index into tagSets: what all faces of the shape were tagged with, as it was made and while
+    /// its rule worked on it outside of blocks.
+    uint32_t tags = 0;
     /// The leaves that came of it, itself included.
     std::optional<Leaves> leaves;
     /// Its own places among the leaves: as its rule got it (with DeriveSettings::traceShapes), and
@@ -82,6 +85,8 @@ struct DerivationTrace {
 
   std::vector<Node> nodes;
   std::vector<std::string> names, files;
+  /// Each in the order of the alphabet; the first is empty.
+  std::vector<std::vector<std::string>> tagSets;
   /// With DeriveSettings::traceShapes.
   std::vector<Note> notes;
 };

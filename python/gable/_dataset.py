@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,7 +14,8 @@ from gable._messages import Error, Message, messages_of, path_text
 from gable._rules import Rules
 from gable._shapes import Shapes
 
-_WORDS = {"placing": ("orbit", "sampled"), "labels": ("rule", "label"), "format": ("coco", "json")}
+_WORDS = {"placing": ("orbit", "sampled"), "labels": ("rule", "label", "tag"), "format": ("coco", "json"),
+          "lighting": ("paths", "direct")}
 
 
 @dataclass(frozen=True)
@@ -43,10 +44,12 @@ def dataset(
     seed: float = 0,
     placing: str = "orbit",
     labels: str = "rule",
+    tags: Sequence[str] = (),
     format: str = "coco",
     model: str | None = "glb",
     size: tuple[int, int] = (512, 512),
     samples: int = 16,
+    lighting: str = "paths",
     sun: tuple[float, float] | None = None,
     field_of_view: float | None = None,
     pitch: float | None = None,
@@ -60,14 +63,15 @@ def dataset(
 ) -> Dataset:
     """Makes labelled pictures of `count` seeds, from `seed` on, by `cameras` cameras each.
 
-    `placing` of cameras is "orbit" or "sampled"; `labels` are by "rule" or "label" (@Label); the
-    `format` of the list is "coco" or "json"; `model` is the extension of the mesh of each seed, or
-    None. What is in the folder already is kept, so that a call that was stopped goes on, and other
+    `placing` of cameras is "orbit" or "sampled"; `labels` are by "rule", "label" (@Label) or
+    "tag", of which `tags` names those that count, the first ones first; the `format` of the list is
+    "coco" or "json"; `model` is the extension of the mesh of each seed, or
+    None; `lighting` is by "paths" or "direct", which is many times faster. What is in the folder already is kept, so that a call that was stopped goes on, and other
     processes may work on the folder at the same time. `shard` (i, n) makes every n-th seed alone.
 
     Attributes of the rules, `jobs`, `progress` and Ctrl-C are as in `derive`.
     """
-    words = {"placing": placing, "labels": labels, "format": format}
+    words = {"placing": placing, "labels": labels, "format": format, "lighting": lighting}
     for name, word in words.items():
         if word not in _WORDS[name]:
             raise ValueError(f"{name} is one of {', '.join(_WORDS[name])}, not {word!r}")
@@ -76,6 +80,7 @@ def dataset(
             raise ValueError(f"{name} is 1 or more, not {number!r}")
     options = {
         **words,
+        "tags": list(tags),
         "count": count,
         "cameras": cameras,
         "seed": float(seed),

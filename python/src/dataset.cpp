@@ -42,11 +42,13 @@ DatasetSettings settingsOf(const py::dict& options) {
   set(s.cameras, options, "cameras");
   setWord(s.placing, options, "placing", &datasetCamerasNamed);
   setWord(s.labels, options, "labels", &datasetLabelsNamed);
+  set(s.tags, options, "tags");
   setWord(s.format, options, "format", &datasetFormatNamed);
   s.model = given<std::string>(options, "model").value_or("");
   set(s.picture.width, options, "width");
   set(s.picture.height, options, "height");
   set(s.picture.samples, options, "samples");
+  setWord(s.picture.lighting, options, "lighting", &lightingNamed);
   set(s.picture.fieldOfView, options, "field_of_view");
   set(s.picture.pitch, options, "pitch");
   if (const auto sun = given<std::pair<double, double>>(options, "sun")) {

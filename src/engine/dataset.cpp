@@ -34,6 +34,13 @@ std::optional<Error> mistakeIn(const DatasetSettings& s) {
   if (s.shard && (s.shard->of < 1 || s.shard->index >= s.shard->of)) {
     return wrong("a shard is one of as many as there are", "the first of four is 0 of 4");
   }
+  if (!s.tags.empty() && s.labels != DatasetLabels::Tag) {
+    return wrong("tags are named, but labels do not go by them", "label by tag");
+  }
+  const std::set<std::string> tags(s.tags.begin(), s.tags.end());
+  if (tags.size() != s.tags.size() || tags.contains("")) {
+    return wrong("a tag is named twice, or has no name", "name each tag once");
+  }
   const std::vector<std::string>& known = modelExtensions();
   if (!s.model.empty() && std::find(known.begin(), known.end(), s.model) == known.end()) {
     return wrong("the mesh's format is not known", "name an extension that models have, as glb");
@@ -93,7 +100,7 @@ class Maker {
     DeriveSettings derive = settings_.derive;
     derive.seed = number;
     derive.jobs = threads_;
-    derive.trace = settings_.labels == DatasetLabels::Label;
+    derive.trace = settings_.labels != DatasetLabels::Rule;
     derive.progress = nullptr;
     const Model model = gable::derive(rules_, shapes_, derive);
     note(model.diagnostics());
@@ -188,7 +195,7 @@ DatasetResult made(const Rules& rules, const Shapes& shapes, const std::string& 
                    const DatasetSettings& settings, Task& task) {
   if (!rules.ok()) return {};
   if (const auto e = mistakeIn(settings)) return failed<DatasetResult>(*e);
-  const Result<Categories> categories = categoriesOf(rules, settings.labels);
+  const Result<Categories> categories = categoriesOf(rules, settings);
   if (!categories.ok()) return failed<DatasetResult>(categories.error());
   DatasetFolder folder(path, settings);
   if (const auto e = folder.open(descriptionOf(rules, shapes, categories.value(), settings))) {

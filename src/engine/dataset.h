@@ -29,7 +29,7 @@ namespace gable {
 using Categories = std::vector<std::string>;
 
 /// From the rules, so that it is the same for all items. Code: dataset-labels (there are none).
-Result<Categories> categoriesOf(const Rules& rules, DatasetLabels labels);
+Result<Categories> categoriesOf(const Rules& rules, const DatasetSettings& settings);
 
 /// By pixel: numbers of instances and ids of categories, 0 for none.
 struct Marks {
@@ -44,11 +44,14 @@ class Labeller {
   Marks marks(const PictureLayers& layers) const;
 
  private:
-  void readTrace(const Rules& rules, const Model& model);
+  /// By node of the trace its own category, 0 for none.
+  std::vector<uint32_t> labelled(const Rules& rules, const DerivationTrace& trace) const;
+  void mark(const DerivationTrace& trace, const std::vector<uint32_t>& categoryOfNode,
+            uint64_t leaves);
 
   DatasetLabels labels_;
   std::map<std::string, uint32_t> ids_;
-  /// By leaf in path order: of Label.
+  /// By leaf in path order: of Label and Tag.
   std::vector<uint32_t> instanceOf_, categoryOf_;
 };
 

@@ -16,7 +16,7 @@ namespace gable {
 namespace {
 
 /// Of the files of an item; a program with another one cannot go on with it.
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 constexpr const char* kDescription = "dataset.json";
 constexpr const char* kLocks = "locks";
 
@@ -71,7 +71,7 @@ void writeSun(JsonWriter& w, const PictureSettings& p) {
 void writePicture(JsonWriter& w, const PictureSettings& p) {
   w.field("width", p.width).field("height", p.height).field("samples", p.samples);
   w.field("bounces", p.bounces).field("denoise", p.denoise);
-  w.field("look", static_cast<int>(p.look));
+  w.field("look", static_cast<int>(p.look)).field("lighting", static_cast<int>(p.lighting));
   writeSun(w, p);
   w.field("haziness", p.haziness).field("lamps", p.lamps).field("turn", p.turn);
   optional(w, "mist", p.mist);
@@ -147,6 +147,9 @@ std::string descriptionOf(const Rules& rules, const Shapes& shapes, const Catego
   writeDerive(w, s.derive);
   w.field("cameras", s.cameras).field("placing", static_cast<int>(s.placing));
   w.field("labels", static_cast<int>(s.labels)).field("list", static_cast<int>(s.format));
+  w.key("tags").beginArray();
+  for (const std::string& tag : s.tags) w.value(tag);
+  w.endArray();
   w.field("model", s.model).field("instancing", static_cast<int>(s.write.instancing));
   w.field("vertices", static_cast<int>(s.write.vertices));
   w.field("detail", static_cast<int>(s.write.detail));

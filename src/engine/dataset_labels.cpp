@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// What pixels are. By rule it is in the layers of the picture. By @Label it comes from the
-// derivation tree: the leaves of a shape lie together in path order, and without sharing the
+// What pixels are. By rule it is in the layers of the picture. By @Label and by tag it comes from
+// the derivation tree: the leaves of a shape lie together in path order, and without sharing the
 // renderer numbers leaves in that order.
 
 #include <algorithm>
 #include <set>
 
+#include "builtins/selection.h"
 #include "engine/dataset.h"
 
 namespace gable {
@@ -29,20 +30,113 @@ std::map<std::string, std::string> labelsOf(const Rules& rules) {
 
 }  // namespace
 
-Result<Categories> categoriesOf(const Rules& rules, DatasetLabels labels) {
+namespace {
+
+// What the rules name where they give tags: texts that stand in the call itself.
+std::set<std::string> tagsNamedBy(const Program& program) {
   std::set<std::string> names;
-  if (labels == DatasetLabels::Rule) {
-    for (const RuleInfo& rule : rules.rules()) names.insert(rule.name);
-  } else {
-    for (const auto& [rule, label] : labelsOf(rules)) names.insert(label);
+  for (size_t at = 0; at + 1 < program.code.size(); ++at) {
+    const Instruction& i = program.code[at];
+    if (i.code != Code::OperationConstant || i.x == 0) continue;
+    if (std::string_view(program.operations[i.a]->name) != "tag") continue;
+    std::string name(program.pool->text(program.constants[program.code[at + 1].a].id));
+    // As the operation takes it.
+    std::erase_if(name, [](char c) { return c == '?' || c == '*'; });
+    if (!name.empty()) names.insert(std::move(name));
   }
-  if (names.empty()) {
-    return Error{"dataset-labels", "no rule has a label",
-                 "write @Label(\"window\") before the rules whose shapes are to be told apart, or "
-                 "label by rule"};
+  return names;
+}
+
+Error noCategories(DatasetLabels labels) {
+  if (labels == DatasetLabels::Tag) {
+    return {"dataset-labels", "no rule gives a tag",
+            "give tags where shapes are to be told apart, tag(\"window\"), or name those of "
+            "operations, such as extrude.top"};
   }
+  return {"dataset-labels", "no rule has a label",
+          "write @Label(\"window\") before the rules whose shapes are to be told apart, or label "
+          "by rule"};
+}
+
+}  // namespace
+
+Result<Categories> categoriesOf(const Rules& rules, const DatasetSettings& settings) {
+  if (!settings.tags.empty()) return settings.tags;
+  std::set<std::string> names;
+  switch (settings.labels) {
+    case DatasetLabels::Rule:
+      for (const RuleInfo& rule : rules.rules()) names.insert(rule.name);
+      break;
+    case DatasetLabels::Label:
+      for (const auto& [rule, label] : labelsOf(rules)) names.insert(label);
+      break;
+    case DatasetLabels::Tag: names = tagsNamedBy(rules.impl().program); break;
+  }
+  if (names.empty()) return noCategories(settings.labels);
   return Categories(names.begin(), names.end());
 }
+
+namespace {
+
+// Which categories shapes have from their tags and from those above them. What is above a shape has
+// been found before it, so each of its sets is one of few.
+class TagCategories {
+ public:
+  TagCategories(const Categories& queries, const std::vector<std::vector<std::string>>& tagSets) {
+    for (const std::vector<std::string>& set : tagSets) {
+      std::vector<uint32_t>& ids = ofTags_.emplace_back();
+      for (uint32_t q = 0; q < queries.size(); ++q) {
+        const auto matches = [&](const std::string& tag) { return tagMatches(queries[q], tag); };
+        if (std::any_of(set.begin(), set.end(), matches)) ids.push_back(q + 1);
+      }
+    }
+  }
+
+  struct Step {
+    /// The set of the shape with those above it, by number; 0 for the empty one.
+    uint32_t set = 0;
+    /// The first that is not above it, or 0.
+    uint32_t fresh = 0;
+  };
+  Step below(uint32_t above, uint32_t tags) {
+    const auto [at, isNew] = steps_.try_emplace({above, tags});
+    if (isNew) at->second = found(above, ofTags_[tags]);
+    return at->second;
+  }
+
+ private:
+  Step found(uint32_t above, const std::vector<uint32_t>& own) {
+    std::set<uint32_t> all = sets_[above];
+    Step step;
+    for (const uint32_t id : own) {
+      if (all.insert(id).second && step.fresh == 0) step.fresh = id;
+    }
+    const auto [at, isNew] = numbers_.try_emplace(all, static_cast<uint32_t>(sets_.size()));
+    if (isNew) sets_.push_back(std::move(all));
+    step.set = at->second;
+    return step;
+  }
+
+  std::vector<std::vector<uint32_t>> ofTags_;
+  std::vector<std::set<uint32_t>> sets_{{}};
+  std::map<std::set<uint32_t>, uint32_t> numbers_{{{}, 0}};
+  std::map<std::pair<uint32_t, uint32_t>, Step> steps_;
+};
+
+// By node of the trace its own category, 0 for none: a part of what has the same tag is no instance
+// of its own.
+std::vector<uint32_t> taggedNodes(const Categories& categories, const DerivationTrace& trace) {
+  TagCategories sets(categories, trace.tagSets);
+  std::vector<uint32_t> out, setOf;
+  for (const DerivationTrace::Node& node : trace.nodes) {
+    const auto step = sets.below(node.parent ? setOf[*node.parent] : 0, node.tags);
+    setOf.push_back(step.set);
+    out.push_back(step.fresh);
+  }
+  return out;
+}
+
+}  // namespace
 
 Labeller::Labeller(const Rules& rules, const Categories& categories, DatasetLabels labels,
                    const Model& model)
@@ -50,29 +144,40 @@ Labeller::Labeller(const Rules& rules, const Categories& categories, DatasetLabe
   for (const std::string& name : categories) {
     ids_.emplace(name, static_cast<uint32_t>(ids_.size() + 1));
   }
-  if (labels == DatasetLabels::Label) readTrace(rules, model);
+  if (labels == DatasetLabels::Rule) return;
+  const DerivationTrace trace = model.trace();
+  mark(trace,
+       labels == DatasetLabels::Tag ? taggedNodes(categories, trace) : labelled(rules, trace),
+       model.leafCount());
 }
 
-void Labeller::readTrace(const Rules& rules, const Model& model) {
+std::vector<uint32_t> Labeller::labelled(const Rules& rules, const DerivationTrace& trace) const {
   const std::map<std::string, std::string> labels = labelsOf(rules);
-  const DerivationTrace trace = model.trace();
   std::vector<uint32_t> idOfName;
   for (const std::string& name : trace.names) {
     const auto label = labels.find(name);
     idOfName.push_back(label == labels.end() ? 0 : ids_.at(label->second));
   }
-  const uint64_t leaves = model.leafCount();
+  std::vector<uint32_t> out;
+  for (const DerivationTrace::Node& node : trace.nodes) {
+    out.push_back(node.ruleCall ? idOfName[node.name] : 0);
+  }
+  return out;
+}
+
+void Labeller::mark(const DerivationTrace& trace, const std::vector<uint32_t>& categoryOfNode,
+                    uint64_t leaves) {
   instanceOf_.assign(leaves, 0);
   categoryOf_.assign(leaves, 0);
-  // Parents come before their children, so the nearest label is the last one to be written.
+  // Parents come before their children, so the nearest category is the last one to be written.
   uint32_t instance = 0;
-  for (const DerivationTrace::Node& node : trace.nodes) {
-    const uint32_t category = node.ruleCall ? idOfName[node.name] : 0;
-    if (category == 0 || !node.leaves) continue;
+  for (size_t n = 0; n < trace.nodes.size(); ++n) {
+    const std::optional<DerivationTrace::Leaves>& below = trace.nodes[n].leaves;
+    if (categoryOfNode[n] == 0 || !below) continue;
     ++instance;
-    for (uint64_t i = node.leaves->first; i < std::min<uint64_t>(node.leaves->end, leaves); ++i) {
+    for (uint64_t i = below->first; i < std::min<uint64_t>(below->end, leaves); ++i) {
       instanceOf_[i] = instance;
-      categoryOf_[i] = category;
+      categoryOf_[i] = categoryOfNode[n];
     }
   }
 }

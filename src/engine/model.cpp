@@ -15,6 +15,7 @@
 #include "engine/picture.h"
 #include "gable/names.h"
 #include "gable/writing.h"
+#include "io/exporters/atlas.h"
 #include "io/exporters/chunked_list.h"
 #include "io/exporters/draw_list.h"
 #include "io/exporters/write_model.h"
@@ -71,13 +72,16 @@ std::shared_ptr<Model::Impl> loaded(const std::string& path) {
   return impl;
 }
 
-// What the model will ask for; formats without textures ask for none.
+// Whether the format that a path names has textures.
+bool carriesTextures(const std::string& path) {
+  const std::string format = modelFormatOf(path);
+  return format != "ply" && format != "stl" && format != "ifc" && !format.starts_with("city.");
+}
+
+// What the model will ask for.
 std::vector<std::string> texturesOf(const Scene& scene, const std::string& path) {
   std::vector<std::string> paths;
-  const std::string format = extensionOf(path);
-  const std::string written = modelFormatOf(path);
-  if (format == "ply" || format == "stl" || written == "ifc") return paths;
-  if (written.starts_with("city.")) return paths;
+  if (!carriesTextures(path)) return paths;
   for (const Material& m : scene.materials) {
     for (const TextureMap& map : m.maps) {
       if (!map.path.empty()) paths.push_back(map.path);
@@ -93,12 +97,37 @@ std::string levelPath(const std::string& path, size_t level) {
   return path.substr(0, end) + "_LOD" + std::to_string(level) + path.substr(end);
 }
 
+// Makes the atlas of a scene, and lets its pictures be read.
+class Atlas {
+ public:
+  std::optional<WriteResult::Atlas> counts;
+
+  Scene of(const Scene& scene, WriteOptions& options) {
+    AtlasScene made = withAtlas(scene, options.readTexture, side_);
+    pictures_ = std::move(made.pictures);
+    const AtlasCounts& c = made.counts;
+    counts = WriteResult::Atlas{c.merged, c.into, c.repeating, c.special, c.large};
+    options.readTexture = [this, read = options.readTexture](const std::string& path) {
+      const auto own = pictures_.find(path);
+      return own == pictures_.end() ? read(path) : Result<std::string>(own->second);
+    };
+    return std::move(made.scene);
+  }
+
+  explicit Atlas(uint32_t side) : side_(side) {}
+
+ private:
+  uint32_t side_;
+  std::map<std::string, std::string> pictures_;
+};
+
 // The model with all that stands beside it, a file after the other.
 Result<WriteReport> writeGame(const Scene& scene, const std::string& path,
-                              const WriteSettings& settings, WriteOptions& options,
+                              const WriteSettings& settings, WriteOptions& options, Atlas& atlas,
                               std::vector<std::string>& models) {
   TextureTints tints(options.readTexture);
   GameScene game = gameSceneOf(scene, settings, [&](const Material& m) { return tints.of(m); });
+  if (settings.atlas > 0) game.scene = atlas.of(game.scene, options);
   options.apart = settings.instancing != Instancing::None;
   options.levels = std::move(game.levels);
   options.coverage = std::move(game.coverage);
@@ -137,14 +166,22 @@ WriteResult written(const Model::Impl& impl, const std::string& path,
   };
   if (impl.project) impl.project->drawBuiltins(texturesOf(impl.scene(), path));
   const bool game = asksForGameScene(settings) && !modelFormatOf(path).empty();
-  Result<WriteReport> report = game ? writeGame(impl.scene(), path, settings, options, out.models)
-                                    : writeModel(impl.scene(), path, options);
+  Atlas atlas(settings.atlas);
+  const auto write = [&] {
+    if (game) return writeGame(impl.scene(), path, settings, options, atlas, out.models);
+    if (settings.atlas == 0 || !carriesTextures(path)) {
+      return writeModel(impl.scene(), path, options);
+    }
+    return writeModel(atlas.of(impl.scene(), options), path, options);
+  };
+  Result<WriteReport> report = write();
   if (!report.ok()) return failed<WriteResult>(report.error());
   if (!game) out.models.push_back(path);
   out.ok = true;
   out.triangles = report->triangles;
   out.bytes = report->bytes;
   out.savedBytes = report->savedBytes;
+  out.atlas = atlas.counts;
   MissingFiles told;
   if (impl.rules) told.add(impl.rules->diagnostics);
   told.add(impl.diagnostics);
@@ -238,6 +275,15 @@ std::optional<Detail> detailNamed(const std::string& name) {
   return named<Detail>(detailNames(), name);
 }
 
+const std::vector<std::string>& lightingNames() {
+  static const std::vector<std::string> names{"paths", "direct"};
+  return names;
+}
+
+std::optional<Lighting> lightingNamed(const std::string& name) {
+  return named<Lighting>(lightingNames(), name);
+}
+
 const std::vector<std::string>& datasetCamerasNames() {
   static const std::vector<std::string> names{"orbit", "sampled"};
   return names;
@@ -248,7 +294,7 @@ std::optional<DatasetCameras> datasetCamerasNamed(const std::string& name) {
 }
 
 const std::vector<std::string>& datasetLabelsNames() {
-  static const std::vector<std::string> names{"rule", "label"};
+  static const std::vector<std::string> names{"rule", "label", "tag"};
   return names;
 }
 

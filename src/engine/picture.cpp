@@ -96,6 +96,7 @@ Result<RenderOptions> renderOptions(const PictureSettings& s, const Scene& scene
   // The enumerations are in the same order.
   o.view = static_cast<PictureView>(s.view);
   o.look = static_cast<PictureLook>(s.look);
+  o.lighting = static_cast<PictureLighting>(s.lighting);
   o.cutSide = static_cast<CutSide>(s.cutSide);
   o.width = static_cast<uint32_t>(s.width);
   o.height = static_cast<uint32_t>(s.height);

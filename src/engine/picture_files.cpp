@@ -3,6 +3,7 @@
 #include "engine/picture_files.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -79,14 +80,38 @@ void PictureFiles::writeNormals(const std::string& name) {
   write(name, encodePng(n, level_));
 }
 
+namespace {
+
+// sRGB of linear light by steps so fine that no byte is more than one off where colours are dark,
+// and none elsewhere; a call of pow for each would take longer than the picture's own file.
+class SrgbBytes {
+ public:
+  SrgbBytes() {
+    for (size_t i = 0; i < bytes_.size(); ++i) {
+      const double v = static_cast<double>(i) / (kSteps * kSteps) * static_cast<double>(i);
+      const double srgb = v <= 0.0031308 ? 12.92 * v : 1.055 * powOf(v, 1 / 2.4) - 0.055;
+      bytes_[i] = static_cast<uint8_t>(std::lround(255 * srgb));
+    }
+  }
+  uint8_t of(float linear) const {
+    const float v = std::sqrt(std::min(1.0f, std::max(0.0f, linear)));
+    return bytes_[static_cast<size_t>(v * kSteps + 0.5f)];
+  }
+
+ private:
+  static constexpr size_t kSteps = 4096;
+  std::array<uint8_t, kSteps + 1> bytes_;
+};
+
+}  // namespace
+
 void PictureFiles::writeAlbedo(const std::string& name) {
   Image rgba{static_cast<uint32_t>(picture_.width), static_cast<uint32_t>(picture_.height), {}};
   rgba.rgba.assign(pixels() * 4, 255);
+  static const SrgbBytes srgb;
   for (size_t i = 0; i < pixels(); ++i) {
     for (size_t k = 0; k < 3; ++k) {
-      const double v = std::min(1.0f, std::max(0.0f, picture_.layers.albedo[3 * i + k]));
-      const double srgb = v <= 0.0031308 ? 12.92 * v : 1.055 * powOf(v, 1 / 2.4) - 0.055;
-      rgba.rgba[4 * i + k] = static_cast<uint8_t>(std::lround(255 * srgb));
+      rgba.rgba[4 * i + k] = srgb.of(picture_.layers.albedo[3 * i + k]);
     }
   }
   write(name, encodePng(rgba, 3, level_));

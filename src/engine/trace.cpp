@@ -74,6 +74,11 @@ DerivationTrace traceOf(const DeriveResult& result, const Program& program,
   std::sort(named.begin(), named.end());
   named.erase(std::unique(named.begin(), named.end()), named.end());
   for (const auto& [id, unused] : named) tree.names.emplace_back(program.pool->text(id));
+  for (const std::vector<StringId>& set : result.traceTags) {
+    std::vector<std::string>& texts = tree.tagSets.emplace_back();
+    for (const StringId name : set) texts.emplace_back(program.pool->text(name));
+    std::sort(texts.begin(), texts.end());
+  }
   for (const TraceNode& n : result.trace) {
     DerivationTrace::Node out;
     if (n.parent != TraceNode::kNone) out.parent = n.parent;
@@ -85,6 +90,7 @@ DerivationTrace traceOf(const DeriveResult& result, const Program& program,
     out.leaf = n.leaf;
     out.dropped = n.dropped;
     out.ruleCall = n.ruleCall;
+    out.tags = n.tags;
     const auto numberOf = [&](uint32_t index) -> std::optional<uint32_t> {
       const bool known = index != TraceNode::kNone && n.initialShape + 1 < first.size();
       if (!known) return std::nullopt;

@@ -81,6 +81,12 @@ const std::vector<OptionRow>& optionRows() {
        {},
        16384,
        [](WriteSettings& s, int v) { s.textureSize = static_cast<uint32_t>(v); }},
+      {"atlas",
+       "glTF, OBJ and USD: put plain colours and pictures that do not repeat into one\n"
+       "picture of so many pixels a side at most, and merge their materials; 0: no atlas",
+       {},
+       8192,
+       [](WriteSettings& s, int v) { s.atlas = static_cast<uint32_t>(v); }},
   };
   return rows;
 }
@@ -177,7 +183,8 @@ const std::vector<WriteProfile>& writeProfiles() {
         {"names", "godot"},
         {"collision", "mesh"},
         {"uv", "baked"},
-        {"texture-size", "2048"}}},
+        {"texture-size", "2048"},
+        {"atlas", "2048"}}},
       {"unity",
        "Unity, by its package glTFast",
        {{"instancing", "shapes"},
@@ -186,7 +193,8 @@ const std::vector<WriteProfile>& writeProfiles() {
         {"collision", "mesh"},
         {"lods", "2"},
         {"lod-form", "names"},
-        {"texture-size", "2048"}}},
+        {"texture-size", "2048"},
+        {"atlas", "2048"}}},
       {"unreal",
        "Unreal Engine 5, by Interchange",
        {{"instancing", "shapes"},
@@ -195,7 +203,8 @@ const std::vector<WriteProfile>& writeProfiles() {
         {"collision", "hull"},
         {"lods", "2"},
         {"lod-form", "files"},
-        {"texture-size", "2048"}}},
+        {"texture-size", "2048"},
+        {"atlas", "2048"}}},
   };
   return all;
 }

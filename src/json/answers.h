@@ -28,6 +28,7 @@ struct RunFigures {
   std::optional<uint64_t> triangles;
   /// Of the file, and what sharing saves in it; see WriteResult.
   std::optional<uint64_t> fileBytes, savedBytes;
+  std::optional<WriteResult::Atlas> atlas;
 };
 /// Counts, bounds, reports, prints, diagnostics and figures as one object.
 std::string statisticsJson(const Model& model, const RunFigures& figures = {});

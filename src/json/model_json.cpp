@@ -53,6 +53,10 @@ void writeFigures(JsonWriter& json, const RunFigures& f) {
   if (f.peakBytes) json.key("peakBytes").value(*f.peakBytes);
   if (f.fileBytes) json.key("fileBytes").value(*f.fileBytes);
   if (f.savedBytes) json.key("savedBytes").value(*f.savedBytes);
+  if (!f.atlas) return;
+  json.key("atlas").beginObject().key("merged").value(f.atlas->merged);
+  json.key("into").value(f.atlas->into).key("repeating").value(f.atlas->repeating);
+  json.key("special").value(f.atlas->special).key("large").value(f.atlas->large).endObject();
 }
 
 void openNode(JsonWriter& json, const DerivationTrace& trace, const DerivationTrace::Node& n) {

@@ -15,7 +15,7 @@ namespace gable::rt {
 namespace {
 
 /// The sun's light has noise in penumbras only: small, and next to edges to be kept.
-constexpr int kSunPasses = 1, kIndirectPasses = 4;
+constexpr int kSunPasses = 1, kIndirectPasses = 4, kSkyPasses = 2;
 constexpr float kKernel[3] = {3.0f / 8, 1.0f / 4, 1.0f / 16};
 /// Least albedo to divide by.
 constexpr float kLeastAlbedo = 0.02f;
@@ -33,9 +33,15 @@ struct Smoother {
   const Film& film;
   /// Change of distance from pixel to pixel, across and down.
   std::vector<Vec2f> slope;
+  /// The film's normals as unit vectors, and how long they were: where a pixel's own samples
+  /// disagree, its mean normal says little.
+  std::vector<Vec3f> normal;
+  std::vector<float> agreement;
   /// The layer at work, over albedo.
   std::vector<Vec3f> light;
   std::vector<float> variance;
+  /// Of the layer at work.
+  std::vector<float> brightness;
   float brightnessWeight = 1;
 
   size_t index(int x, int y) const {
@@ -43,6 +49,15 @@ struct Smoother {
   }
   int width() const { return static_cast<int>(film.width); }
   int height() const { return static_cast<int>(film.height); }
+
+  void findNormals() {
+    normal.resize(film.normal.size());
+    agreement.resize(film.normal.size());
+    for (size_t i = 0; i < normal.size(); ++i) {
+      normal[i] = normalized(film.normal[i]);
+      agreement[i] = length(film.normal[i]);
+    }
+  }
 
   /// The smaller of the one-sided differences: at an outline, that of the pixel's own side.
   void findSlopes() {
@@ -86,9 +101,6 @@ struct Smoother {
     toLight[p] = light[p];
     toVariance[p] = variance[p];
     if (film.distance[p] <= 0) return;
-    const float agreement = length(film.normal[p]);
-    const Vec3f normal = normalized(film.normal[p]);
-    const float brightness = luminance(light[p]);
     const float deviation = brightnessWeight * std::sqrt(meanVariance(x, y)) + 1e-5f;
     const float nearness = 1 / (0.004f * film.distance[p] + 1e-3f);
 
@@ -102,9 +114,8 @@ struct Smoother {
         float w = kKernel[std::abs(i)] * kKernel[std::abs(j)];
         if (i != 0 || j != 0) {
           if (film.distance[q] <= 0) continue;
-          // Where a pixel's own samples disagree, its mean normal and depth say little.
-          const float agreed = agreement * length(film.normal[q]);
-          const float cosine = std::max(0.0f, dot(normal, normalized(film.normal[q])));
+          const float agreed = agreement[p] * agreement[q];
+          const float cosine = std::max(0.0f, dot(normal[p], normal[q]));
           const float bend = kSharpness * agreed * agreed * (1 - cosine);
           const float expected = film.distance[p] + slope[p].x * static_cast<float>(i * gap) +
                                  slope[p].y * static_cast<float>(j * gap);
@@ -112,7 +123,7 @@ struct Smoother {
                               std::abs(slope[p].y * static_cast<float>(j * gap));
           const float tolerance = 1 / nearness + 0.5f * steps + 2 * film.spread[p];
           const float apart = std::abs(film.distance[q] - expected) / tolerance;
-          const float unlike = std::abs(luminance(light[q]) - brightness) / deviation;
+          const float unlike = std::abs(brightness[q] - brightness[p]) / deviation;
           w *= std::exp(-apart - unlike - bend);
         }
         sum += light[q] * w;
@@ -136,7 +147,9 @@ struct Smoother {
     }
     std::vector<Vec3f> toLight(light.size());
     std::vector<float> toVariance(light.size());
+    brightness.resize(light.size());
     for (int pass = 0; pass < passes; ++pass) {
+      for (size_t i = 0; i < light.size(); ++i) brightness[i] = luminance(light[i]);
       parallelFor(
           film.height, threads,
           [&](size_t row, unsigned) {
@@ -153,23 +166,32 @@ struct Smoother {
 
 }  // namespace
 
-std::vector<Vec3f> resolve(const Film& film, bool smooth, unsigned threads) {
+std::vector<Vec3f> resolve(const Film& film, Smoothing smoothing, unsigned threads) {
   const size_t pixels = film.direct.size();
   std::vector<Vec3f> picture = film.direct;
-  if (!smooth) {
-    for (size_t i = 0; i < pixels; ++i) picture[i] += film.sun.light[i] + film.indirect.light[i];
+  const auto addPlain = [&](const FilmLayer& layer) {
+    for (size_t i = 0; i < pixels; ++i) picture[i] += layer.light[i];
+  };
+  if (smoothing == Smoothing::None) {
+    addPlain(film.sun);
+    addPlain(film.indirect);
     return picture;
   }
-  Smoother smoother{film, {}, {}, {}, 1};
+  Smoother smoother{.film = film};
   smoother.findSlopes();
+  smoother.findNormals();
   const auto add = [&](const FilmLayer& layer, int passes, float weight) {
     smoother.run(layer, passes, weight, threads);
     for (size_t i = 0; i < pixels; ++i) {
       picture[i] += smoother.light[i] * divisor(film.albedo[i]);
     }
   };
-  add(film.sun, kSunPasses, kSunBrightness);
-  add(film.indirect, kIndirectPasses, kIndirectBrightness);
+  if (smoothing == Smoothing::Sky)
+    addPlain(film.sun);
+  else
+    add(film.sun, kSunPasses, kSunBrightness);
+  add(film.indirect, smoothing == Smoothing::Sky ? kSkyPasses : kIndirectPasses,
+      kIndirectBrightness);
   return picture;
 }
 

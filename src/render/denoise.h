@@ -10,7 +10,11 @@
 
 namespace gable::rt {
 
-/// The picture's linear light, exposure not applied; `smooth` false only adds the parts up.
-std::vector<Vec3f> resolve(const Film& film, bool smooth, unsigned threads);
+/// None only adds the parts up. Sky: of light that comes from the sky straight, which is smoother
+/// than that of paths, and the sun's is not touched.
+enum class Smoothing : uint8_t { None, Paths, Sky };
+
+/// The picture's linear light, exposure not applied.
+std::vector<Vec3f> resolve(const Film& film, Smoothing smoothing, unsigned threads);
 
 }  // namespace gable::rt

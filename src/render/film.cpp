@@ -24,10 +24,12 @@ namespace {
 /// Dimensions of the sampler that no path uses.
 constexpr uint32_t kPixelDimension = 0, kLensDimension = 0x40000000;
 constexpr uint32_t kTile = 16;
-/// Brief paths a whole one at most, and the error that nobody sees, on a scale from black to white.
-/// Even samples err about half as much as their spread says.
+/// With Stage::ambient: whole paths of a pixel at most, and then brief ones up to all its samples.
+constexpr uint32_t kMostWhole = 4;
+/// Else: brief paths a whole one at most. And the error that nobody sees, on a scale from black to
+/// white, and the one that few see. Even samples err about half as much as their spread says.
 constexpr uint32_t kMostBrief = 2;
-constexpr float kSeenError = 0.014f;
+constexpr float kSeenError = 0.014f, kSeenErrorDirect = 0.02f;
 
 /// Offsets from the pixel's centre with the density of the Blackman-Harris window, 1.5 pixels to
 /// each side: averaging such samples is filtering with that window.
@@ -77,10 +79,10 @@ struct LayerSum {
 };
 
 /// A ray through a point of the lens, to what the ray through its middle shows sharp.
-Ray throughLens(const Ray& middle, const Camera& camera, const Lens& lens, Vec2f u) {
+Ray throughLens(const Ray& middle, const Camera& camera, const Lens& lens, const Sampler& sampler) {
   const float ahead = dot(middle.direction, toVec3f(camera.forward));
   if (lens.radius <= 0 || !(ahead > 0)) return middle;
-  const Vec2f d = onDisc(u);
+  const Vec2f d = onDisc(sampler.point(kLensDimension));
   const Vec3f sharp = middle.origin + middle.direction * (lens.focus / ahead);
   Ray ray = middle;
   ray.origin +=
@@ -137,6 +139,10 @@ struct PixelSum {
   }
 };
 
+struct Tile {
+  uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
 struct PixelTask {
   const Stage& stage;
   const Camera& camera;
@@ -145,43 +151,118 @@ struct PixelTask {
   const PixelFilter& filter;
   Film& film;
 
+  uint64_t run(const Tile& tile) const {
+    if (stage.ambient) return runTogether(tile);
+    uint64_t rays = 0;
+    for (uint32_t y = tile.y0; y < tile.y1; ++y) {
+      for (uint32_t x = tile.x0; x < tile.x1; ++x) rays += run(x, y);
+    }
+    return rays;
+  }
+
+ private:
   uint64_t run(uint32_t x, uint32_t y) const {
     const uint32_t n = std::max(1u, options.samples);
     PixelSum sum;
-    for (uint32_t s = 0; s < n; ++s) {
-      const PathResult path = trace(x, y, s, false);
-      sum.add(path, stage.light.exposure);
-      sum.indirect.add(path.indirect, path.albedo);
-    }
+    for (uint32_t s = 0; s < n; ++s) addWhole(sum, trace(x, y, s, false));
     const Vec3f albedo = sum.albedo * (1 / static_cast<float>(n));
-    const uint32_t all = n + briefPaths(sum, n);
+    const uint32_t all = n + briefPaths(sum, n, kMostBrief * n);
     for (uint32_t s = n; s < all; ++s) sum.add(trace(x, y, s, true), stage.light.exposure);
-    sum.store(film, static_cast<size_t>(y) * options.width + x, n, all, albedo);
+    sum.store(film, place(x, y), n, all, albedo);
     return sum.rays;
   }
 
-  PathResult trace(uint32_t x, uint32_t y, uint32_t s, bool brief) const {
+  /// The pixels of a tile in squares of 2 x 2, whose rays run side by side, and their sums.
+  struct Square {
+    uint32_t x = 0, y = 0, all = 0;
+    PixelSum sum;
+    Vec3f albedo;
+  };
+
+  uint64_t runTogether(const Tile& tile) const {
+    const uint32_t most = std::max(1u, options.samples), whole = std::min(most, kMostWhole);
+    std::vector<Square> pixels;
+    for (uint32_t y = tile.y0; y < tile.y1; y += 2) {
+      for (uint32_t x = tile.x0; x < tile.x1; x += 2) {
+        for (uint32_t k = 0; k < 4; ++k) {
+          const uint32_t px = x + (k & 1), py = y + (k >> 1);
+          if (px < tile.x1 && py < tile.y1) pixels.push_back({px, py, whole, {}, {}});
+        }
+      }
+    }
+    traceTogether(pixels, 0, false);
+    for (Square& p : pixels) {
+      p.albedo = p.sum.albedo * (1 / static_cast<float>(whole));
+      p.all = whole + briefPaths(p.sum, whole, most - whole);
+    }
+    traceTogether(pixels, whole, true);
+    uint64_t rays = 0;
+    for (const Square& p : pixels) {
+      p.sum.store(film, place(p.x, p.y), whole, p.all, p.albedo);
+      rays += p.sum.rays;
+    }
+    return rays;
+  }
+
+  /// The samples of all pixels from number `first` on.
+  void traceTogether(std::vector<Square>& pixels, uint32_t first, bool brief) const {
+    PathStart starts[Tracer::kMostTogether];
+    Square* owners[Tracer::kMostTogether];
+    PathResult results[Tracer::kMostTogether];
+    size_t count = 0;
+    const auto flush = [&] {
+      rt::traceTogether(stage, {starts, count}, options.seed, brief, results);
+      for (size_t i = 0; i < count; ++i) {
+        if (brief)
+          owners[i]->sum.add(results[i], stage.light.exposure);
+        else
+          addWhole(owners[i]->sum, results[i]);
+      }
+      count = 0;
+    };
+    for (Square& p : pixels) {
+      for (uint32_t s = first; s < p.all; ++s) {
+        owners[count] = &p;
+        starts[count++] = {ray(p.x, p.y, s), p.x, p.y, s};
+        if (count == Tracer::kMostTogether) flush();
+      }
+    }
+    if (count > 0) flush();
+  }
+
+  size_t place(uint32_t x, uint32_t y) const { return static_cast<size_t>(y) * options.width + x; }
+
+  void addWhole(PixelSum& sum, const PathResult& path) const {
+    sum.add(path, stage.light.exposure);
+    sum.indirect.add(path.indirect, path.albedo);
+  }
+
+  Ray ray(uint32_t x, uint32_t y, uint32_t s) const {
     const double width = options.width, height = options.height, aspect = width / height;
     const Sampler sampler(x, y, s, options.seed);
     const Vec2f u = sampler.point(kPixelDimension);
     const double px = x + 0.5 + static_cast<double>(filter.offset(u.x));
     const double py = y + 0.5 + static_cast<double>(filter.offset(u.y));
-    const Ray ray = throughLens(cameraRay(camera, aspect, px / width, 1 - py / height), camera,
-                                lens, sampler.point(kLensDimension));
-    return tracePath(stage, ray, x, y, s, options.seed, brief);
+    const Ray middle = cameraRay(camera, aspect, px / width, 1 - py / height);
+    return throughLens(middle, camera, lens, sampler);
+  }
+
+  PathResult trace(uint32_t x, uint32_t y, uint32_t s, bool brief) const {
+    return tracePath(stage, ray(x, y, s), x, y, s, options.seed, brief);
   }
 
   /// How many brief paths bring a pixel's edges and shadows below what the eye tells apart.
-  uint32_t briefPaths(const PixelSum& sum, uint32_t n) const {
-    if (n < 2 || !options.denoise) return 0;
+  uint32_t briefPaths(const PixelSum& sum, uint32_t n, uint32_t most) const {
+    if (!options.denoise) return stage.ambient ? most : 0;
+    if (n < 2) return 0;
     const float k = 1 / static_cast<float>(n);
     const float mean = sum.level * k;
     const float variance = std::max(0.0f, sum.levels * k - mean * mean) * k;
     // On a scale of even steps for the eye, about the square root.
     const float error = std::sqrt(variance) / (2 * std::sqrt(mean + 0.02f));
-    const float wanted = error / kSeenError;
+    const float wanted = error / (stage.ambient ? kSeenErrorDirect : kSeenError);
     const float more = static_cast<float>(n) * (wanted * wanted - 1);
-    return static_cast<uint32_t>(std::clamp(more, 0.0f, static_cast<float>(kMostBrief * n)));
+    return static_cast<uint32_t>(std::clamp(more, 0.0f, static_cast<float>(most)));
   }
 };
 
@@ -212,13 +293,12 @@ bool tracePicture(const Stage& stage, const Camera& camera, const Lens& lens,
   size_t done = 0;
   parallelFor(tiles, options.threads, [&](size_t tile, unsigned) {
     if (ended.load(std::memory_order_relaxed)) return;
-    const uint32_t x0 = static_cast<uint32_t>(tile % across) * kTile;
-    const uint32_t y0 = static_cast<uint32_t>(tile / across) * kTile;
-    uint64_t count = 0;
-    for (uint32_t y = y0; y < std::min(y0 + kTile, options.height); ++y) {
-      for (uint32_t x = x0; x < std::min(x0 + kTile, options.width); ++x) count += task.run(x, y);
-    }
-    allRays += count;
+    Tile t;
+    t.x0 = static_cast<uint32_t>(tile % across) * kTile;
+    t.y0 = static_cast<uint32_t>(tile / across) * kTile;
+    t.x1 = std::min(t.x0 + kTile, options.width);
+    t.y1 = std::min(t.y0 + kTile, options.height);
+    allRays += task.run(t);
     const std::lock_guard lock(reporting);
     ++done;
     if (options.progress &&

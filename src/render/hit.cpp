@@ -90,6 +90,7 @@ class LayerReader {
   void lay(const FaceAxes& axes, const Vec3f& point) {
     const Vec2 metres = axes.at(wide(point));
     laidAt_ = {static_cast<float>(metres.x), static_cast<float>(metres.y)};
+    last_ = nullptr;
   }
 
   bool read(TextureLayer layer, std::array<float, 4>& value) const {
@@ -98,13 +99,19 @@ class LayerReader {
     if (map.image < 0) return false;
     const bool isColor = layer == TextureLayer::Color || layer == TextureLayer::Dirt ||
                          layer == TextureLayer::Emissive;
-    if (material_.laid) {
-      value = world_.textures.sample(map, laidAt_, isColor);
-      return true;
+    const int uvSet = material_.laid ? -1 : setOf(corners_, i);
+    if (!material_.laid && uvSet < 0) return false;
+    // Roughness, metalness and occlusion are often channels of one picture.
+    const bool known = last_ && last_->image == map.image && lastSet_ == uvSet &&
+                       lastIsColor_ == isColor && *last_ == map;
+    if (!known) {
+      const Vec2f at = material_.laid ? laidAt_ : uvAt(set_, corners_, uvSet, u_, v_);
+      lastValue_ = world_.textures.sample(map, at, isColor);
+      last_ = &map;
+      lastSet_ = uvSet;
+      lastIsColor_ = isColor;
     }
-    const int uvSet = setOf(corners_, i);
-    if (uvSet < 0) return false;
-    value = world_.textures.sample(map, uvAt(set_, corners_, uvSet, u_, v_), isColor);
+    value = lastValue_;
     return true;
   }
 
@@ -128,6 +135,11 @@ class LayerReader {
   const Corners& corners_;
   float u_, v_;
   Vec2f laidAt_{0, 0};
+  /// What was read last.
+  mutable const TextureLookup* last_ = nullptr;
+  mutable std::array<float, 4> lastValue_{};
+  mutable int lastSet_ = -1;
+  mutable bool lastIsColor_ = false;
 };
 
 Vec3f colorOf(const std::array<float, 4>& texel) { return {texel[0], texel[1], texel[2]}; }

@@ -24,20 +24,8 @@ enum BlockPart : uint32_t { kOpacity, kSun, kDirection, kPick, kRoulette, kLamp,
 
 /// Straight passages through clear things a path may make.
 constexpr int kMostPassages = 24;
-/// A light sample may exceed sunlit white by this factor before it counts as a firefly.
-constexpr float kClamp = 4;
 /// Share of the open sky's light that stands for the bounces that are not traced.
 constexpr float kUntracedShare = 0.4f;
-/// Coats smoother than this show a picture of their surroundings, which must not be smoothed.
-constexpr float kMirror = 0.35f;
-/// Paling of far ground by squared metres: 63 % after a kilometre.
-constexpr float kGroundFade = 1e-6f;
-
-Vec3f withoutFireflies(const Vec3f& c, float limit) {
-  const float l = luminance(c);
-  return l > limit ? c * (limit / l) : c;
-}
-
 /// A path on its way.
 struct Walk {
   Ray ray;
@@ -61,7 +49,7 @@ class Tracing {
       : stage_(stage),
         light_(stage.light),
         sampler_(sampler),
-        limit_(kClamp / light_.exposure),
+        limit_(fireflyLimit(light_)),
         brief_(brief) {}
 
   void follow(Walk w) {
@@ -121,8 +109,7 @@ class Tracing {
   }
 
   void fade(Walk& w, const Surface& surface, float distance) {
-    const float far = surface.isGround ? std::max(0.0f, distance - stage_.nearGround) : 0;
-    const float clear = std::exp(-distance * stage_.haze - far * far * kGroundFade);
+    const float clear = clearAlong(stage_, surface, distance);
     result.direct += w.carried * light_.horizon(w.ray.direction) * (1 - clear);
     w.carried *= clear;
   }
@@ -168,27 +155,12 @@ class Tracing {
   }
 
   Vec3f lamplight(const Walk& w, const Surface& surface, const Lobes& lobes, const Vec3f& view) {
-    EmitterSample lamp;
-    if (!stage_.emitters.sample(surface.point, surface.facet, sampler_.number(w.dimension(kLamp)),
-                                sampler_.point(w.dimension(kLampPoint)), lamp)) {
-      return {};
-    }
-    const Vec3f to = lamp.point - surface.point;
-    const float squared = dot(to, to);
-    if (!(squared > 1e-8f)) return {};
-    const float away = std::sqrt(squared);
-    const Vec3f towards = to * (1 / away);
-    const Vec3f value = evaluate(surface, lobes, view, towards);
-    const float cosine = std::abs(dot(lamp.facet, towards));
-    if (maxOf(value) <= 0 || cosine <= 0) return {};
-    Ray shadow;
-    shadow.origin = offsetFrom(surface.point, surface.facet, towards);
-    shadow.direction = towards;
-    // It ends before the lamp and its own glass.
-    shadow.to = away * 0.999f - 0.002f;
+    const LampRay lamp =
+        rayToLamp(stage_, surface, lobes, view, sampler_.number(w.dimension(kLamp)),
+                  sampler_.point(w.dimension(kLampPoint)));
+    if (maxOf(lamp.light) <= 0) return {};
     ++result.rays;
-    const Vec3f light = lamp.emissive * (light_.glow * cosine / (squared * lamp.density));
-    return value * light * visibility(stage_, shadow);
+    return lamp.light * visibility(stage_, lamp.ray);
   }
 
   /// Mirror and water part here: half of the light each its way.
@@ -281,6 +253,7 @@ class Tracing {
       w.mirrored = true;
     } else {
       if (brief_) return false;
+      if (stage_.ambient) return lightBySky(w, surface, next.direction);
       w.sharp = false;
     }
     if (w.depth >= 1) {
@@ -293,6 +266,14 @@ class Tracing {
     return true;
   }
 
+  /// In place of a path's next surface: the sky, or what stands for all that hides it.
+  bool lightBySky(const Walk& w, const Surface& surface, const Vec3f& direction) {
+    ++result.rays;
+    const float open = visibility(stage_, startOf(surface, direction));
+    result.indirect += withoutFireflies(w.carried * skyBehind(stage_, direction, open), limit_);
+    return false;
+  }
+
   const Stage& stage_;
   const Light& light_;
   const Sampler& sampler_;
@@ -300,7 +281,51 @@ class Tracing {
   bool brief_;
 };
 
+/// Paling of far ground by squared metres: 63 % after a kilometre.
+constexpr float kGroundFade = 1e-6f;
+/// A light sample may exceed sunlit white by this factor before it counts as a firefly.
+constexpr float kClamp = 4;
+
 }  // namespace
+
+float clearAlong(const Stage& stage, const Surface& surface, float distance) {
+  const float far = surface.isGround ? std::max(0.0f, distance - stage.nearGround) : 0;
+  return std::exp(-distance * stage.haze - far * far * kGroundFade);
+}
+
+float fireflyLimit(const Light& light) { return kClamp / light.exposure; }
+
+Vec3f withoutFireflies(const Vec3f& c, float limit) {
+  const float l = luminance(c);
+  return l > limit ? c * (limit / l) : c;
+}
+
+Vec3f skyBehind(const Stage& stage, const Vec3f& direction, float open) {
+  Vec3f light = *stage.ambient * (1 - open);
+  if (open > 0) light += stage.light.sky(direction) * open;
+  return light;
+}
+
+LampRay rayToLamp(const Stage& stage, const Surface& surface, const Lobes& lobes, const Vec3f& view,
+                  float pick, Vec2f u) {
+  LampRay out;
+  EmitterSample lamp;
+  if (!stage.emitters.sample(surface.point, surface.facet, pick, u, lamp)) return out;
+  const Vec3f to = lamp.point - surface.point;
+  const float squared = dot(to, to);
+  if (!(squared > 1e-8f)) return out;
+  const float away = std::sqrt(squared);
+  const Vec3f towards = to * (1 / away);
+  const Vec3f value = evaluate(surface, lobes, view, towards);
+  const float cosine = std::abs(dot(lamp.facet, towards));
+  if (maxOf(value) <= 0 || cosine <= 0) return out;
+  out.ray.origin = offsetFrom(surface.point, surface.facet, towards);
+  out.ray.direction = towards;
+  // It ends before the lamp and its own glass.
+  out.ray.to = away * 0.999f - 0.002f;
+  out.light = value * (lamp.emissive * (stage.light.glow * cosine / (squared * lamp.density)));
+  return out;
+}
 
 PathResult tracePath(const Stage& stage, const Ray& ray, uint32_t x, uint32_t y, uint32_t sample,
                      uint32_t seed, bool brief) {

@@ -22,8 +22,39 @@ struct PathResult {
   uint32_t rays = 0;
 };
 
+/// Coats smoother than this show a picture of their surroundings, which must not be smoothed.
+constexpr float kMirror = 0.35f;
+
+/// The share of a surface's light that haze leaves on its way.
+float clearAlong(const Stage& stage, const Surface& surface, float distance);
+/// The brightest that a light sample may be.
+float fireflyLimit(const Light& light);
+Vec3f withoutFireflies(const Vec3f& light, float limit);
+/// With Stage::ambient: what comes from a direction whose sky is open to that share.
+Vec3f skyBehind(const Stage& stage, const Vec3f& direction, float open);
+
+/// A way from a surface to a lamp, and the light that comes back from the surface where nothing
+/// stands in it; black where there is no lamp.
+struct LampRay {
+  Ray ray;
+  Vec3f light;
+};
+LampRay rayToLamp(const Stage& stage, const Surface& surface, const Lobes& lobes, const Vec3f& view,
+                  float pick, Vec2f u);
+
 /// `brief` leaves out what is indirect, at a third of the cost: all else is as in a whole path.
 PathResult tracePath(const Stage& stage, const Ray& ray, uint32_t x, uint32_t y, uint32_t sample,
                      uint32_t seed, bool brief = false);
+
+/// A path of one sample of a pixel.
+struct PathStart {
+  Ray ray;
+  uint32_t x = 0, y = 0, sample = 0;
+};
+
+/// With Stage::ambient: several paths, Tracer::kMostTogether at most, each as tracePath() traces
+/// it but for its random numbers.
+void traceTogether(const Stage& stage, std::span<const PathStart> starts, uint32_t seed, bool brief,
+                   PathResult* results);
 
 }  // namespace gable::rt

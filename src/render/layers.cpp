@@ -25,35 +25,75 @@ void identify(const World& world, const Scene& scene, uint32_t number, Glimpse& 
   g.source = scene.leaves[piece.leaf].source + 1;
 }
 
+constexpr float kLookedThrough = 0.5f;
+
+/// What there is to say of a surface at a point.
+Glimpse glimpseOf(const Stage& stage, const Scene& scene, const Camera& camera, const Surface& s,
+                  const Vec3f& point) {
+  Glimpse g;
+  g.point = point;
+  g.depth = dot(g.point - toVec3f(camera.eye), toVec3f(camera.forward));
+  g.normal = s.normal;
+  // What shines looks bright whatever it would reflect.
+  g.albedo = mix(s.base, {1, 1, 1}, std::min(1.0f, maxOf(s.emissive)));
+  g.isGround = s.isGround;
+  g.isCut = s.isCut;
+  g.isPane = s.pane;
+  g.matter = s.matter;
+  if (s.piece != kNone) {
+    identify(stage.world, scene, s.piece, g);
+    g.material = stage.world.materials[s.material].source + 1;
+  }
+  return g;
+}
+
+/// Glimpses of pixels that lie side by side.
+void glimpseTogether(const Stage& stage, const Scene& scene, const Camera& camera,
+                     std::span<const Ray> rays, Glimpse* glimpses) {
+  Surface surfaces[Tracer::kMostTogether];
+  float distances[Tracer::kMostTogether] = {};
+  const uint32_t met = meetTogether(stage, rays, surfaces, distances);
+  for (size_t i = 0; i < rays.size(); ++i) {
+    const Vec3f point = rays[i].origin + rays[i].direction * distances[i];
+    if (!(met >> i & 1))
+      glimpses[i] = Glimpse();
+    else if (surfaces[i].opacity < kLookedThrough)
+      glimpses[i] = glimpse(stage, scene, camera, rays[i]);
+    else
+      glimpses[i] = glimpseOf(stage, scene, camera, surfaces[i], point);
+  }
+}
+
+/// Puts a glimpse into the place of a pixel.
+void store(const Glimpse& g, size_t i, RawLayers& layers) {
+  layers.depth[i] = g.depth;
+  const float normal[3] = {g.normal.x, g.normal.y, g.normal.z};
+  const float albedo[3] = {g.albedo.x, g.albedo.y, g.albedo.z};
+  for (size_t k = 0; k < 3; ++k) {
+    layers.normals[3 * i + k] = normal[k];
+    layers.albedo[3 * i + k] = albedo[k];
+  }
+  layers.objects[i] = g.object;
+  layers.instances[i] = g.instance;
+  layers.sources[i] = g.source;
+  layers.materials[i] = g.material;
+}
+
 }  // namespace
 
 Glimpse glimpse(const Stage& stage, const Scene& scene, const Camera& camera, const Ray& start) {
-  Glimpse g;
   Ray ray = start;
   for (int passages = 0; passages < kMostPassages; ++passages) {
     Surface s;
     float distance = 0;
-    if (!meet(stage, ray, true, s, distance)) return g;
-    if (s.opacity < 0.5f) {
+    if (!meet(stage, ray, true, s, distance)) break;
+    if (s.opacity < kLookedThrough) {
       ray.origin = offsetFrom(s.point, s.facet, ray.direction);
       continue;
     }
-    g.point = ray.origin + ray.direction * distance;
-    g.depth = dot(g.point - toVec3f(camera.eye), toVec3f(camera.forward));
-    g.normal = s.normal;
-    // What shines looks bright whatever it would reflect.
-    g.albedo = mix(s.base, {1, 1, 1}, std::min(1.0f, maxOf(s.emissive)));
-    g.isGround = s.isGround;
-    g.isCut = s.isCut;
-    g.isPane = s.pane;
-    g.matter = s.matter;
-    if (s.piece != kNone) {
-      identify(stage.world, scene, s.piece, g);
-      g.material = stage.world.materials[s.material].source + 1;
-    }
-    return g;
+    return glimpseOf(stage, scene, camera, s, ray.origin + ray.direction * distance);
   }
-  return g;
+  return {};
 }
 
 RawLayers traceLayers(const Stage& stage, const Scene& scene, const Camera& camera,
@@ -67,24 +107,19 @@ RawLayers traceLayers(const Stage& stage, const Scene& scene, const Camera& came
        {&layers.objects, &layers.instances, &layers.sources, &layers.materials}) {
     ids->resize(pixels);
   }
+  constexpr uint32_t kMost = Tracer::kMostTogether;
   const double width = options.width, height = options.height;
   parallelFor(options.height, options.threads, [&](size_t y, unsigned) {
-    for (uint32_t x = 0; x < options.width; ++x) {
-      const Ray ray = cameraRay(camera, width / height, (x + 0.5) / width,
-                                1 - (static_cast<double>(y) + 0.5) / height);
-      const Glimpse g = glimpse(stage, scene, camera, ray);
-      const size_t i = y * options.width + x;
-      layers.depth[i] = g.depth;
-      const float normal[3] = {g.normal.x, g.normal.y, g.normal.z};
-      const float albedo[3] = {g.albedo.x, g.albedo.y, g.albedo.z};
-      for (size_t k = 0; k < 3; ++k) {
-        layers.normals[3 * i + k] = normal[k];
-        layers.albedo[3 * i + k] = albedo[k];
+    for (uint32_t x = 0; x < options.width; x += kMost) {
+      const uint32_t count = std::min(kMost, options.width - x);
+      Ray rays[kMost];
+      for (uint32_t k = 0; k < count; ++k) {
+        rays[k] = cameraRay(camera, width / height, (x + k + 0.5) / width,
+                            1 - (static_cast<double>(y) + 0.5) / height);
       }
-      layers.objects[i] = g.object;
-      layers.instances[i] = g.instance;
-      layers.sources[i] = g.source;
-      layers.materials[i] = g.material;
+      Glimpse glimpses[kMost];
+      glimpseTogether(stage, scene, camera, {rays, count}, glimpses);
+      for (uint32_t k = 0; k < count; ++k) store(glimpses[k], y * options.width + x + k, layers);
     }
   });
   return layers;

@@ -91,6 +91,8 @@ Light::Light(const RenderOptions& options, double sunElevation, double sunAzimut
   sunDirection = toVec3f({c * sinDeg(sunAzimuth), sinDeg(sunElevation), -c * cosDeg(sunAzimuth)});
   sunPlan_ = {static_cast<float>(sinDeg(sunAzimuth)), static_cast<float>(-cosDeg(sunAzimuth))};
   groundAlbedo = srgbToLinear(options.groundColor);
+  basisAround(sunDirection, acrossSun_, upSun_);
+  sunRadius_ = static_cast<float>(tanDeg(kSunRadius));
 
   if (options.uniformSky) {
     uniform_ = ground_ = toVec3f(*options.uniformSky);
@@ -130,10 +132,7 @@ Light::Light(const RenderOptions& options, double sunElevation, double sunAzimut
 
 Vec3f Light::towardsSun(Vec2f u) const {
   const Vec2f d = onDisc(u);
-  Vec3f t, b;
-  basisAround(sunDirection, t, b);
-  const float r = static_cast<float>(tanDeg(kSunRadius));
-  return normalized(sunDirection + t * (d.x * r) + b * (d.y * r));
+  return normalized(sunDirection + acrossSun_ * (d.x * sunRadius_) + upSun_ * (d.y * sunRadius_));
 }
 
 Vec3f Light::radiance(const Vec3f& d, float up) const {

@@ -52,6 +52,9 @@ class Light {
   /// White balance: from the physical sky to its light, and to what is shown of it.
   Vec3f lightScale_, shownScale_, nightLight_, nightShown_;
   Vec3f ground_, uniform_;
+  /// The sun's disc.
+  Vec3f acrossSun_, upSun_;
+  float sunRadius_ = 0;
   Vec2f sunPlan_;
 };
 

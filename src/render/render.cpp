@@ -96,6 +96,10 @@ void develop(std::vector<rt::Vec3f> pixels, const rt::Light& light, bool adapt, 
 /// Of a section: the paper behind the model, and the block of soil it stands on.
 constexpr Vec3 kPaper{0xf4 / 255.0, 0xf1 / 255.0, 0xea / 255.0};
 
+/// Of PictureLighting::Direct: what surfaces reflect of the light of an open place, half of them in
+/// the shade.
+constexpr float kAmbientAlbedo = 0.15f;
+
 /// Share of rooms with light at night, where nobody says.
 constexpr double kLitRooms = 0.4;
 /// What a room gives to the street, over what a lamp as bright would give: it shows more than it
@@ -227,6 +231,7 @@ struct Renderer::Impl {
         length(world.bounds.center() - camera.eye) + length(world.bounds.size()) / 2;
     s.nearGround = static_cast<float>(std::max(250.0, 2 * away));
     s.bounces = o.bounces;
+    if (o.lighting == PictureLighting::Direct) s.ambient = ambient(light);
     s.clay = o.look == PictureLook::Clay;
     s.cut = cut(o);
     s.litRooms = static_cast<float>(rooms(o, light));
@@ -236,6 +241,12 @@ struct Renderer::Impl {
       s.block = block(foot);
     }
     return s;
+  }
+
+  /// What surfaces send on average of what sun and sky give them.
+  static rt::Vec3f ambient(const rt::Light& light) {
+    const float up = std::max(0.0f, light.sunDirection.y);
+    return (light.sun * up + light.skyIrradiance) * (kAmbientAlbedo / rt::kPif);
   }
 
   static double rooms(const RenderOptions& o, const rt::Light& light) {
@@ -270,8 +281,10 @@ struct Renderer::Impl {
     picture.cancelled = !rt::tracePicture(stage, picture.camera, lens(o, picture.camera, stage), o,
                                           film, picture.stats.rays);
     picture.stats.seconds.trace = watch.lap();
-    const std::vector<rt::Vec3f> pixels =
-        rt::resolve(film, o.denoise && !picture.cancelled, o.threads);
+    rt::Smoothing smoothing =
+        o.lighting == PictureLighting::Direct ? rt::Smoothing::Sky : rt::Smoothing::Paths;
+    if (!o.denoise || picture.cancelled) smoothing = rt::Smoothing::None;
+    const std::vector<rt::Vec3f> pixels = rt::resolve(film, smoothing, o.threads);
     const bool adapts = o.adaptExposure && !o.uniformSky && !stage.paper && !picture.cancelled;
     develop(pixels, stage.light, adapts, o.exposureStops, picture.image);
     picture.stats.seconds.denoise = watch.lap();

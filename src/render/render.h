@@ -71,6 +71,11 @@ enum class PictureLook : uint8_t {
   Section,
 };
 
+/// Paths: light is followed from surface to surface. Direct: surfaces have the light of the sun and
+/// of the sky that they see, and an even light where it is hidden. Then `samples` are the most that
+/// a pixel has; it has fewer where they agree.
+enum class PictureLighting : uint8_t { Paths, Direct };
+
 /// Cuts away what lies beyond: the points p with dot(normal, p) > offset.
 struct CutPlane {
   /// Unit.
@@ -89,6 +94,7 @@ struct RenderOptions {
   /// Diffuse reflections after the first hit.
   uint32_t bounces = 3;
   uint32_t seed = 1;
+  PictureLighting lighting = PictureLighting::Paths;
   /// Smooths what noise is left, guided by colour, normal and depth.
   bool denoise = true;
 

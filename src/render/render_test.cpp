@@ -60,12 +60,14 @@ Vec3 lightOfWall(const Vec3& eye, const Vec3& target, double* level = nullptr) {
   return meanOf(p.image);
 }
 
-class Furnace : public testing::TestWithParam<double> {};
+class Furnace : public testing::TestWithParam<std::pair<double, PictureLighting>> {};
 
 TEST_P(Furnace, whiteBallIsAsBrightAsTheUniformSky) {
+  const auto [roughness, lighting] = GetParam();
   SceneMaker m;
-  m.mesh(ballMesh(), m.material("#ffffff", GetParam()));
+  m.mesh(ballMesh(), m.material("#ffffff", roughness));
   RenderOptions o = smallOptions(40, 40, 64);
+  o.lighting = lighting;
   o.uniformSky = Vec3{0.5, 0.5, 0.5};
   o.ground = false;
   o.denoise = false;
@@ -74,11 +76,16 @@ TEST_P(Furnace, whiteBallIsAsBrightAsTheUniformSky) {
   o.fov = 25;
   const Picture p = render(m.finish(), o);
   // Single scattering at the coat loses a little energy on rough coats.
-  EXPECT_NEAR(luminanceOf(meanOf(p.image)), 0.5, GetParam() == 1 ? 0.002 : 0.015);
+  EXPECT_NEAR(luminanceOf(meanOf(p.image)), 0.5, roughness == 1 ? 0.002 : 0.015);
   EXPECT_NEAR(luminanceOf(meanOf(p.image, 0.4, 0.4, 0.6, 0.6)), 0.5, 0.02);
 }
 
-INSTANTIATE_TEST_SUITE_P(Roughness, Furnace, testing::Values(1.0, 0.6, 0.3, 0.05));
+constexpr PictureLighting kPaths = PictureLighting::Paths, kDirect = PictureLighting::Direct;
+INSTANTIATE_TEST_SUITE_P(Roughness, Furnace,
+                         testing::Values(std::pair(1.0, kPaths), std::pair(0.6, kPaths),
+                                         std::pair(0.3, kPaths), std::pair(0.05, kPaths),
+                                         std::pair(1.0, kDirect), std::pair(0.6, kDirect),
+                                         std::pair(0.3, kDirect), std::pair(0.05, kDirect)));
 
 TEST(Render, greyBallReflectsItsAlbedo) {
   SceneMaker m;
@@ -105,7 +112,31 @@ TEST(Render, shadedWallHasAQuarterOfTheSunlitWall) {
   EXPECT_LE(level, 222);
 }
 
-TEST(Render, boxCastsAShadowAwayFromTheSun) {
+TEST(Render, directLightIsMuchAsThatOfPathsWithFewerRays) {
+  const Scene scene = streetScene();
+  RenderOptions o = smallOptions(192, 108, 16);
+  o.adaptExposure = false;
+  const Picture paths = render(scene, o);
+  o.lighting = kDirect;
+  const Picture direct = render(scene, o);
+  expectClean(direct);
+  double apart = 0;
+  for (size_t i = 0; i < paths.image.rgb.size(); ++i) {
+    apart += std::abs(paths.image.rgb[i] - direct.image.rgb[i]);
+  }
+  apart /= static_cast<double>(paths.image.rgb.size());
+  const double mean = luminanceOf(meanOf(paths.image));
+  EXPECT_NEAR(luminanceOf(meanOf(direct.image)), mean, 0.1 * mean);
+  EXPECT_LT(apart, 0.1 * mean);
+  EXPECT_LT(direct.stats.rays, paths.stats.rays / 3);
+  // With few samples there is nothing to save.
+  o.samples = 1;
+  expectClean(render(scene, o));
+}
+
+class Shadow : public testing::TestWithParam<PictureLighting> {};
+
+TEST_P(Shadow, liesAwayFromTheSun) {
   SceneMaker m;
   m.box({-1, 0, -1}, {2, 6, 2}, m.material("#C4C4C4"));
   m.box({-20, 0, -20}, {40, 0.01, 40}, m.material("#C4C4C4"));
@@ -113,6 +144,7 @@ TEST(Render, boxCastsAShadowAwayFromTheSun) {
   o.view = PictureView::Top;
   o.sunElevation = 45;
   o.sunAzimuth = 270;
+  o.lighting = GetParam();
   const Picture p = render(m.finish(), o);
   // Six metres east of the box end the shadow; the plan is 45 metres wide.
   const double shadow = luminanceOf(meanOf(p.image, 0.56, 0.49, 0.61, 0.51));
@@ -122,11 +154,14 @@ TEST(Render, boxCastsAShadowAwayFromTheSun) {
   EXPECT_NEAR(west / beyond, 1, 0.1);
 }
 
+INSTANTIATE_TEST_SUITE_P(Lighting, Shadow, testing::Values(kPaths, kDirect));
+
 TEST(Render, samePixelsForAnyNumberOfThreads) {
   const Scene scene = streetScene();
   for (const PictureView view : {PictureView::Iso, PictureView::Street}) {
     RenderOptions o = smallOptions(96, 54, 3);
     o.view = view;
+    if (view == PictureView::Street) o.lighting = kDirect;
     o.threads = 1;
     const Picture one = render(scene, o);
     o.threads = 3;

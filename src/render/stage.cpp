@@ -174,14 +174,25 @@ Vec3f offsetFrom(const Vec3f& point, const Vec3f& facet, const Vec3f& direction)
   return point + facet * (dot(facet, direction) < 0 ? -by : by);
 }
 
-bool meet(const Stage& stage, const Ray& whole, bool ordered, Surface& surface, float& distance) {
-  Ray ray = whole;
-  float entry = -1;
-  if (!shorten(stage, ray, entry)) return false;
-  Hit hit;
-  const bool found =
-      ordered ? stage.tracer.intersectOrdered(ray, hit) : stage.tracer.intersect(ray, hit);
-  if (found) distance = hit.distance;
+namespace {
+
+/// What light in its window adds to a pane.
+void lightRoom(const Stage& stage, const Hit& hit, Surface& surface) {
+  const Placement* const p =
+      hit.placement == kNone ? nullptr : &stage.world.placements[hit.placement];
+  const Part& part = stage.world.parts[p ? p->part : 0];
+  const Piece& piece = part.pieces[part.set(hit.clear).pieces[hit.triangle]];
+  Vec3f middle = piece.middle;
+  if (p) middle = p->origin + p->x * middle.x + p->y * middle.y + p->z * middle.z;
+  if (piece.size > kLargePane) middle = surface.point;
+  surface.emissive += roomLight(stage.litRooms, middle, surface.facet);
+}
+
+/// The nearest thing along a ray that has been shortened, of what it met among triangles (null:
+/// nothing) and what the stage adds to them.
+bool nearest(const Stage& stage, const Ray& ray, float entry, const Hit* hit, Surface& surface,
+             float& distance) {
+  if (hit) distance = hit->distance;
   if (entry >= 0) {
     const Vec3f p = ray.origin + ray.direction * entry;
     // Below a house without an underside all counts as its inside: there, soil is what is cut.
@@ -193,29 +204,66 @@ bool meet(const Stage& stage, const Ray& whole, bool ordered, Surface& surface, 
       return true;
     }
   }
-  if (meetBlock(stage, ray, entry, found, distance, surface)) return true;
-  if (meetGround(stage, ray, found, distance, surface)) return true;
-  if (!found) return false;
-  surface = surfaceAt(stage.world, hit, ray);
+  if (meetBlock(stage, ray, entry, hit != nullptr, distance, surface)) return true;
+  if (meetGround(stage, ray, hit != nullptr, distance, surface)) return true;
+  if (!hit) return false;
+  surface = surfaceAt(stage.world, *hit, ray);
   if (stage.clay) {
     makeClay(surface);
   } else if (surface.pane && stage.litRooms > 0) {
-    const Placement* const p =
-        hit.placement == kNone ? nullptr : &stage.world.placements[hit.placement];
-    const Part& part = stage.world.parts[p ? p->part : 0];
-    const Piece& piece = part.pieces[part.set(hit.clear).pieces[hit.triangle]];
-    Vec3f middle = piece.middle;
-    if (p) middle = p->origin + p->x * middle.x + p->y * middle.y + p->z * middle.z;
-    if (piece.size > kLargePane) middle = surface.point;
-    surface.emissive += roomLight(stage.litRooms, middle, surface.facet);
+    lightRoom(stage, *hit, surface);
   }
   return true;
+}
+
+/// A ray that meets nothing.
+constexpr Ray kNoRay{{0, 0, 0}, 0, {0, 0, 1}, 0};
+
+}  // namespace
+
+bool meet(const Stage& stage, const Ray& whole, bool ordered, Surface& surface, float& distance) {
+  Ray ray = whole;
+  float entry = -1;
+  if (!shorten(stage, ray, entry)) return false;
+  Hit hit;
+  const bool found =
+      ordered ? stage.tracer.intersectOrdered(ray, hit) : stage.tracer.intersect(ray, hit);
+  return nearest(stage, ray, entry, found ? &hit : nullptr, surface, distance);
+}
+
+uint32_t meetTogether(const Stage& stage, std::span<const Ray> whole, Surface* surfaces,
+                      float* distances) {
+  Ray rays[Tracer::kMostTogether];
+  float entries[Tracer::kMostTogether];
+  Hit hits[Tracer::kMostTogether];
+  for (size_t i = 0; i < whole.size(); ++i) {
+    rays[i] = whole[i];
+    if (!shorten(stage, rays[i], entries[i])) rays[i] = kNoRay;
+  }
+  const uint32_t found = stage.tracer.intersectTogether({rays, whole.size()}, hits);
+  uint32_t met = 0;
+  for (size_t i = 0; i < whole.size(); ++i) {
+    if (!(rays[i].from < rays[i].to)) continue;
+    const Hit* const hit = found >> i & 1 ? &hits[i] : nullptr;
+    if (nearest(stage, rays[i], entries[i], hit, surfaces[i], distances[i])) met |= 1u << i;
+  }
+  return met;
 }
 
 float visibility(const Stage& stage, const Ray& whole) {
   Ray ray = whole;
   float entry = -1;
   return shorten(stage, ray, entry) ? stage.tracer.visibility(ray) : 1.0f;
+}
+
+void visibilityTogether(const Stage& stage, std::span<const Ray> whole, float* shares) {
+  Ray rays[Tracer::kMostTogether];
+  for (size_t i = 0; i < whole.size(); ++i) {
+    rays[i] = whole[i];
+    float entry = -1;
+    if (!shorten(stage, rays[i], entry)) rays[i] = kNoRay;
+  }
+  stage.tracer.visibilityTogether({rays, whole.size()}, shares);
 }
 
 Vec3f roomLight(float share, const Vec3f& middle, const Vec3f& facet) {

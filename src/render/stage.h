@@ -7,6 +7,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "render/emitters.h"
 #include "render/light.h"
@@ -34,6 +35,9 @@ struct Stage {
   /// From this distance on the empty ground pales, so that no edge shows where it meets the sky.
   float nearGround = 250;
   uint32_t bounces = 3;
+  /// Light comes from the sun and the sky alone: where the sky is hidden, this radiance stands for
+  /// what other surfaces send.
+  std::optional<Vec3f> ambient = {};
   bool clay = false;
   /// A plain background in place of sky and far ground, as light before the exposure.
   std::optional<Vec3f> paper = {};
@@ -53,6 +57,13 @@ bool meet(const Stage& stage, const Ray& ray, bool ordered, Surface& surface, fl
 
 /// The share of light that gets along a ray.
 float visibility(const Stage& stage, const Ray& ray);
+
+// Several rays at once, as Tracer takes them: those of the camera and of one sun run side by side.
+/// As meet() with `ordered`; bit i of the result: ray i met something.
+uint32_t meetTogether(const Stage& stage, std::span<const Ray> rays, Surface* surfaces,
+                      float* distances);
+/// A ray that starts at nothing (`to` not above `from`) gets 1.
+void visibilityTogether(const Stage& stage, std::span<const Ray> rays, float* shares);
 
 /// What a pane shows of the room behind it at night, as an emission; black where nobody is at home.
 /// `share`: of rooms with light; `middle`: of the piece it belongs to.

@@ -108,15 +108,21 @@ TextureLookup lookupOf(const TextureMap& map, int32_t image) {
   return l;
 }
 
-/// srgbToLinear of a byte.
-float decodedByte(uint8_t v) {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> t;
-    for (size_t i = 0; i < t.size(); ++i) t[i] = srgbToLinear(static_cast<float>(i) / 255);
-    return t;
-  }();
-  return table[v];
+/// By byte: its share of 255, and srgbToLinear of that.
+struct ByteTables {
+  std::array<float, 256> plain, decoded;
+  ByteTables() {
+    for (size_t i = 0; i < plain.size(); ++i) {
+      plain[i] = static_cast<float>(i) / 255;
+      decoded[i] = srgbToLinear(plain[i]);
+    }
+  }
+};
+const ByteTables& byteTables() {
+  static const ByteTables tables;
+  return tables;
 }
+float decodedByte(uint8_t v) { return byteTables().decoded[v]; }
 
 float unit(double v, double otherwise) {
   return static_cast<float>(std::isfinite(v) ? std::clamp(v, 0.0, 1.0) : otherwise);
@@ -155,20 +161,22 @@ std::array<float, 4> TextureTable::sample(const TextureLookup& map, Vec2f uv, bo
   if (!std::isfinite(x) || !std::isfinite(y)) x = y = 0;
   const double x0 = std::floor(x), y0 = std::floor(y);
   const float tx = static_cast<float>(x - x0), ty = static_cast<float>(y - y0);
-  const auto wrap = [](double v, uint32_t n) {
-    return v < 0 ? n - 1 : static_cast<uint32_t>(v) % n;
+  // From half a texel before the first to half a texel before the end.
+  const auto wrapped = [](double v, uint32_t n) {
+    const auto first = static_cast<int64_t>(v);
+    const auto at = static_cast<uint32_t>(first < 0 ? n - 1 : first);
+    return std::array<uint32_t, 2>{at, at + 1 == n ? 0 : at + 1};
   };
-  const uint32_t xs[2] = {wrap(x0, image.width), wrap(x0 + 1, image.width)};
-  const uint32_t ys[2] = {wrap(y0, image.height), wrap(y0 + 1, image.height)};
+  const std::array<uint32_t, 2> xs = wrapped(x0, image.width), ys = wrapped(y0, image.height);
+  const ByteTables& tables = byteTables();
+  const std::array<float, 256>& colors = decode ? tables.decoded : tables.plain;
   std::array<float, 4> sum{};
-  for (int j = 0; j < 2; ++j) {
-    for (int i = 0; i < 2; ++i) {
+  for (size_t j = 0; j < 2; ++j) {
+    for (size_t i = 0; i < 2; ++i) {
       const float weight = (i ? tx : 1 - tx) * (j ? ty : 1 - ty);
       const uint8_t* texel = &image.rgba[(static_cast<size_t>(ys[j]) * image.width + xs[i]) * 4];
-      for (size_t k = 0; k < 3; ++k) {
-        sum[k] += weight * (decode ? decodedByte(texel[k]) : static_cast<float>(texel[k]) / 255);
-      }
-      sum[3] += weight * (static_cast<float>(texel[3]) / 255);
+      for (size_t k = 0; k < 3; ++k) sum[k] += weight * colors[texel[k]];
+      sum[3] += weight * tables.plain[texel[3]];
     }
   }
   return sum;

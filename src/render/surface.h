@@ -29,6 +29,7 @@ struct TextureLookup {
   int32_t image = -1;
   /// u' = uu * u + uv * v + u0, the same for v.
   float uu = 1, uv = 0, u0 = 0, vu = 0, vv = 1, v0 = 0;
+  bool operator==(const TextureLookup&) const = default;
 };
 
 /// The roughest surface that can be a pane.

@@ -8,6 +8,8 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -23,25 +25,27 @@ struct ClearGeometry {
   const TriangleSet* set = nullptr;
 };
 
-/// What a shadow ray gathers on its way.
+/// What shadow rays gather on their way, by their number.
 struct ShadowContext {
   RTCIntersectContext embree;
-  float visibility = 1;
+  float* visibility = nullptr;
 };
 
 /// Lets light through clear triangles: takes its share and lets the ray go on.
 void passClear(const RTCFilterFunctionNArguments* args) {
   const auto& geometry = *static_cast<const ClearGeometry*>(args->geometryUserPtr);
-  if (args->valid[0] != -1) return;
-  const unsigned triangle = RTCHitN_primID(args->hit, 1, 0);
-  const float u = RTCHitN_u(args->hit, 1, 0), v = RTCHitN_v(args->hit, 1, 0);
-  const unsigned instance = RTCHitN_instID(args->hit, 1, 0, 0);
-  const uint32_t placement =
-      instance == RTC_INVALID_GEOMETRY_ID ? kNone : instance - kFirstPlacement;
-  const float share = clearness(*geometry.world, *geometry.set, triangle, placement, u, v);
   auto& shadow = *reinterpret_cast<ShadowContext*>(args->context);
-  shadow.visibility *= share;
-  if (shadow.visibility > 1e-3f) args->valid[0] = 0;
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] != -1) continue;
+    const unsigned triangle = RTCHitN_primID(args->hit, args->N, i);
+    const float u = RTCHitN_u(args->hit, args->N, i), v = RTCHitN_v(args->hit, args->N, i);
+    const unsigned instance = RTCHitN_instID(args->hit, args->N, i, 0);
+    const uint32_t placement =
+        instance == RTC_INVALID_GEOMETRY_ID ? kNone : instance - kFirstPlacement;
+    float& visibility = shadow.visibility[RTCRayN_id(args->ray, args->N, i)];
+    visibility *= clearness(*geometry.world, *geometry.set, triangle, placement, u, v);
+    if (visibility > 1e-3f) args->valid[i] = 0;
+  }
 }
 
 /// A ray as Embree wants it.
@@ -79,13 +83,17 @@ Hit hitOf(const World& world, const RTCHit& h, float distance) {
 }
 
 /// What a ray gathers among coinciding faces.
-struct OrderContext {
-  RTCIntersectContext embree;
-  const World* world = nullptr;
+struct Coinciding {
   Vec3f direction;
   Hit best;
   bool found = false;
 
+  void note(const Hit& hit) {
+    if (!found || shows(hit, best)) best = hit;
+    found = true;
+  }
+
+ private:
   /// Whether `a` shows where `a` and `b` coincide.
   bool shows(const Hit& a, const Hit& b) const {
     const bool af = dot(a.normal, direction) < 0, bf = dot(b.normal, direction) < 0;
@@ -97,15 +105,30 @@ struct OrderContext {
   }
 };
 
-/// Looks at every hit of the ray and lets it go on.
+/// The same of rays by their number.
+struct OrderContext {
+  RTCIntersectContext embree;
+  const World* world = nullptr;
+  Coinciding* rays = nullptr;
+};
+
+/// Looks at every hit of a ray and lets it go on.
 void noteHit(const RTCFilterFunctionNArguments* args) {
-  if (args->valid[0] != -1) return;
-  args->valid[0] = 0;
   auto& order = *reinterpret_cast<OrderContext*>(args->context);
-  const RTCHit h = rtcGetHitFromHitN(args->hit, 1, 0);
-  const Hit hit = hitOf(*order.world, h, RTCRayN_tfar(args->ray, 1, 0));
-  if (!order.found || order.shows(hit, order.best)) order.best = hit;
-  order.found = true;
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] != -1) continue;
+    args->valid[i] = 0;
+    const RTCHit h = rtcGetHitFromHitN(args->hit, args->N, i);
+    const Hit hit = hitOf(*order.world, h, RTCRayN_tfar(args->ray, args->N, i));
+    order.rays[RTCRayN_id(args->ray, args->N, i)].note(hit);
+  }
+}
+
+/// How far from a hit others coincide with it: distances to one plane differ by rounding, the more
+/// the flatter the ray meets it.
+float slackAt(const Ray& ray, const Hit& hit) {
+  const float cosine = std::abs(dot(normalized(hit.normal), normalized(ray.direction)));
+  return (5e-5f + 1e-6f * hit.distance) / std::max(0.05f, cosine);
 }
 
 /// Counts the faces that a ray leaves things by, less those it enters them by.
@@ -210,14 +233,13 @@ bool Tracer::intersect(const Ray& ray, Hit& hit) const {
 
 bool Tracer::intersectOrdered(const Ray& ray, Hit& hit) const {
   if (!intersect(ray, hit)) return false;
-  // Distances to one plane differ by rounding, the more the flatter the ray meets it.
-  const float cosine = std::abs(dot(normalized(hit.normal), normalized(ray.direction)));
-  const float slack = (5e-5f + 1e-6f * hit.distance) / std::max(0.05f, cosine);
+  const float slack = slackAt(ray, hit);
+  Coinciding coinciding{ray.direction, {}, false};
   OrderContext order;
   rtcInitIntersectContext(&order.embree);
   order.embree.filter = noteHit;
   order.world = &impl_->world;
-  order.direction = ray.direction;
+  order.rays = &coinciding;
   RTCRayHit r;
   r.ray = embreeRay(ray);
   r.ray.tnear = std::max(ray.from, hit.distance - slack);
@@ -225,16 +247,114 @@ bool Tracer::intersectOrdered(const Ray& ray, Hit& hit) const {
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(impl_->scenes[0], &order.embree, &r);
-  if (order.found) hit = order.best;
+  if (coinciding.found) hit = coinciding.best;
   return true;
 }
 
 float Tracer::visibility(const Ray& ray) const {
+  float visibility = 1;
   ShadowContext context;
   rtcInitIntersectContext(&context.embree);
+  context.visibility = &visibility;
   RTCRay r = embreeRay(ray);
   rtcOccluded1(impl_->scenes[0], &context.embree, &r);
-  return r.tfar < 0 ? 0 : context.visibility;
+  return r.tfar < 0 ? 0 : visibility;
+}
+
+namespace {
+
+constexpr size_t kPacket = Tracer::kMostTogether;
+
+struct alignas(64) Valid {
+  int lanes[kPacket];
+};
+
+template <class Packet>
+void setLane(Packet& p, size_t i, const Ray& ray) {
+  p.org_x[i] = ray.origin.x;
+  p.org_y[i] = ray.origin.y;
+  p.org_z[i] = ray.origin.z;
+  p.tnear[i] = ray.from;
+  p.dir_x[i] = ray.direction.x;
+  p.dir_y[i] = ray.direction.y;
+  p.dir_z[i] = ray.direction.z;
+  p.time[i] = 0;
+  p.tfar[i] = ray.to;
+  p.mask[i] = 0xffffffff;
+  p.id[i] = static_cast<unsigned>(i);
+  p.flags[i] = 0;
+}
+
+Valid validLanes(std::span<const Ray> rays) {
+  Valid valid;
+  for (size_t i = 0; i < kPacket; ++i) {
+    valid.lanes[i] = i < rays.size() && rays[i].from < rays[i].to ? -1 : 0;
+  }
+  return valid;
+}
+
+void clearHits(RTCHit16& hits) {
+  for (size_t i = 0; i < kPacket; ++i) hits.geomID[i] = hits.instID[0][i] = kNone;
+}
+static_assert(kNone == RTC_INVALID_GEOMETRY_ID);
+
+}  // namespace
+
+uint32_t Tracer::intersectTogether(std::span<const Ray> rays, Hit* hits) const {
+  RTCRayHit16 packet;
+  Valid valid = validLanes(rays);
+  for (size_t i = 0; i < kPacket; ++i) setLane(packet.ray, i, i < rays.size() ? rays[i] : Ray());
+  clearHits(packet.hit);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(valid.lanes, impl_->scenes[0], &context, &packet);
+
+  Coinciding coinciding[kPacket];
+  uint32_t found = 0;
+  for (size_t i = 0; i < rays.size(); ++i) {
+    if (valid.lanes[i] == 0 || packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) {
+      valid.lanes[i] = 0;
+      continue;
+    }
+    found |= 1u << i;
+    const RTCHit h = rtcGetHitFromHitN(reinterpret_cast<RTCHitN*>(&packet.hit), kPacket,
+                                       static_cast<unsigned>(i));
+    hits[i] = hitOf(impl_->world, h, packet.ray.tfar[i]);
+    coinciding[i].direction = rays[i].direction;
+    const float slack = slackAt(rays[i], hits[i]);
+    packet.ray.tnear[i] = std::max(rays[i].from, hits[i].distance - slack);
+    packet.ray.tfar[i] = std::min(rays[i].to, hits[i].distance + slack);
+  }
+  if (found == 0) return 0;
+  clearHits(packet.hit);
+  OrderContext order;
+  rtcInitIntersectContext(&order.embree);
+  order.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  order.embree.filter = noteHit;
+  order.world = &impl_->world;
+  order.rays = coinciding;
+  rtcIntersect16(valid.lanes, impl_->scenes[0], &order.embree, &packet);
+  for (size_t i = 0; i < rays.size(); ++i) {
+    if (coinciding[i].found) hits[i] = coinciding[i].best;
+  }
+  return found;
+}
+
+void Tracer::visibilityTogether(std::span<const Ray> rays, float* shares) const {
+  RTCRay16 packet;
+  const Valid valid = validLanes(rays);
+  for (size_t i = 0; i < kPacket; ++i) setLane(packet, i, i < rays.size() ? rays[i] : Ray());
+  float visibility[kPacket];
+  std::fill(std::begin(visibility), std::end(visibility), 1.0f);
+  ShadowContext context;
+  rtcInitIntersectContext(&context.embree);
+  context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.visibility = visibility;
+  rtcOccluded16(valid.lanes, impl_->scenes[0], &context.embree, &packet);
+  for (size_t i = 0; i < rays.size(); ++i) {
+    shares[i] = valid.lanes[i] != 0 && packet.tfar[i] < 0 ? 0 : visibility[i];
+  }
 }
 
 bool Tracer::isInside(const Vec3f& point, const Vec3f& direction) const {

@@ -173,8 +173,15 @@ std::vector<Occluder> takeOccluders(Pass& pass, const RoomPlan* rooms) {
 }
 
 // The trace in the order of the initial shapes, and what its rules drew and saw.
-void takeTrace(Pass& pass, DeriveResult& result) {
+void takeTrace(Pass& pass, const TagTable& tags, DeriveResult& result) {
   std::vector<TraceNode>& all = result.trace;
+  std::map<TagSetId, uint32_t> known{{0, 0}};
+  result.traceTags.assign(1, {});
+  const auto tagsOf = [&](TagSetId set) {
+    const auto [at, isNew] = known.try_emplace(set, result.traceTags.size());
+    if (isNew) result.traceTags.push_back(tags.names(set));
+    return at->second;
+  };
   for (const Pass::Range& r : pass.ranges) {
     Tracer& tracer = pass.machines[r.worker]->tracer();
     const std::vector<TraceNode>& nodes = tracer.nodes();
@@ -184,6 +191,7 @@ void takeTrace(Pass& pass, DeriveResult& result) {
       if (n.parent != TraceNode::kNone) {
         n.parent = static_cast<uint32_t>(n.parent - r.traceBegin + shift);
       }
+      n.tags = tagsOf(n.tags);
       all.push_back(n);
     }
     for (size_t i = r.noteBegin; i < r.noteEnd; ++i) {
@@ -246,7 +254,7 @@ void assemble(Pass& pass, DeriveShared& shared, const std::vector<InitialShape>&
   }
   result.portions = pass.portions->units().size();
   takeMessages(pass, result.diagnostics);
-  takeTrace(pass, result);
+  takeTrace(pass, shared.environment.tags, result);
   std::shared_ptr<Recall> recall;
   if (shared.options.remember && !shared.limitReached && !shared.unrepeatable) {
     recall = std::make_shared<Recall>();

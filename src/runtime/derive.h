@@ -87,6 +87,10 @@ struct TraceNode {
   bool dropped = false;
   /// Made by a rule call: there is a step of the derivation that replaces it.
   bool ruleCall = false;
+  /// What all faces of the shape were tagged with, as it was made and while its rule worked on it
+  /// outside of blocks. While deriving a set of the tag table, in the result an index into
+  /// DeriveResult::traceTags.
+  uint32_t tags = 0;
   /// Index among the leaves of its initial shape's prototype, for leaves with geometry.
   uint32_t leafIndex = kNone;
   /// With DeriveOptions::traceShapes: the same for the shape as the rule got it.
@@ -171,6 +175,8 @@ struct DeriveResult {
   End end = End::Done;
   std::vector<TraceNode> trace;
   std::vector<TraceNote> notes;
+  /// Sets of tags that nodes of the trace have, in the order of the nodes; the first is empty.
+  std::vector<std::vector<StringId>> traceTags;
   /// Rule attributes of each initial shape as they were evaluated: visible ones of the main file.
   std::vector<std::vector<EvaluatedAttribute>> attributes;
   /// Sorted by group; none where no shape asked.

@@ -288,6 +288,7 @@ class Machine final : public Services, private WorkMeter {
     return activationCount_ > 0 ? current().traceNode : TraceNode::kNone;
   }
   void traceLeaf(const Activation& a, StringId name, uint32_t source);
+  void traceTags(const Activation& a);
   ContextQueries::Place placeAtWork() const;
 
   // Limits and messages.

@@ -161,6 +161,7 @@ void Machine::operation(const Instruction& i, const Value* constants) {
     dropShape();
     return;
   }
+  if (options().trace) traceTags(a);
   if (!block) {
     const uint64_t vertices = verticesOf(a.shape);
     tally_.countSteps(vertices);

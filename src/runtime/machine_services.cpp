@@ -3,14 +3,70 @@
 //
 // Tracing, and the questions about other shapes.
 
+#include <algorithm>
+
 #include "runtime/machine.h"
 #include "shape/deformation.h"
 
 namespace gable {
 
+namespace {
+
+// What all faces of a shape are tagged with.
+TagSetId tagsOfAllFaces(const Shape& s, TagTable& table) {
+  std::vector<StringId> common;
+  bool first = true;
+  TagSetId last = 0;
+  // False where nothing is left that others could have, too.
+  const auto narrow = [&](TagSetId set) {
+    if (!first && set == last) return true;
+    const std::vector<StringId>& names = table.names(set);
+    if (first) {
+      common = names;
+    } else {
+      std::erase_if(common, [&](StringId n) {
+        return std::find(names.begin(), names.end(), n) == names.end();
+      });
+    }
+    first = false;
+    last = set;
+    return !common.empty();
+  };
+  const Geometry& g = s.geometry;
+  switch (g.kind) {
+    case GeometryKind::None: return 0;
+    case GeometryKind::Box:
+      if (!std::all_of(g.tags.begin(), g.tags.end(), narrow)) return 0;
+      break;
+    case GeometryKind::QuadXy: narrow(g.tags[kSideFront]); break;
+    case GeometryKind::QuadXz: narrow(g.tags[kSideTop]); break;
+    case GeometryKind::Mesh:
+      for (const MeshFace& f : g.mesh->faces) {
+        work();
+        if (!narrow(f.tags)) return 0;
+      }
+  }
+  return common.empty() ? 0 : table.intern(std::move(common));
+}
+
+}  // namespace
+
 Tracer::Made Machine::traced(const Shape& s, uint32_t parent, StringId name,
                              const Span& span) const {
-  return {parent, info_.index, name, span, worlds_.present() * s.scope, s.size};
+  return {parent,
+          info_.index,
+          name,
+          span,
+          worlds_.present() * s.scope,
+          s.size,
+          tagsOfAllFaces(s, tags())};
+}
+
+// What the rule of a shape has tagged all of it with, though it may go on to take it apart.
+void Machine::traceTags(const Activation& a) {
+  if (a.slot || a.traceNode >= TraceNode::kCut || shapeStack_.size() > a.shapeStackBase) return;
+  const TagSetId found = tagsOfAllFaces(a.shape, tags());
+  if (found != 0) tracer_.setTags(a.traceNode, tags().merged(tracer_.tagsOf(a.traceNode), found));
 }
 
 bool Machine::isTraced(uint32_t parentNode, const Activation* rule) const {

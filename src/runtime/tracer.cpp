@@ -31,6 +31,7 @@ TraceNode& Tracer::add(const Made& made) {
   node.span = made.span;
   node.scope = made.scope;
   node.size = made.size;
+  node.tags = made.tags;
   return node;
 }
 

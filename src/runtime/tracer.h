@@ -45,6 +45,7 @@ class Tracer {
     Span span;
     Frame scope;
     Vec3 size;
+    uint32_t tags = 0;
   };
   /// A rule is called on it. Gives the node's number.
   uint32_t addCall(const Made& made);
@@ -53,6 +54,8 @@ class Tracer {
   /// The rule made nothing, so its shape is the leaf.
   void endAsLeaf(uint32_t node, uint32_t leafIndex);
   void drop(uint32_t node);
+  uint32_t tagsOf(uint32_t node) const { return nodes_[node].tags; }
+  void setTags(uint32_t node, uint32_t tags) { nodes_[node].tags = tags; }
   /// The shape as the rule got it lies among the leaves.
   void showShape(uint32_t node, uint32_t leafIndex) { nodes_[node].shapeIndex = leafIndex; }
 

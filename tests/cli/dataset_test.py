@@ -23,6 +23,13 @@ Sill --> color("#b0a090")
 Pane --> Pane.
 Roof --> color("#c04030")
 """
+TAGGED = """@StartRule
+Lot --> s('0.7, '1, '0.6) extrude(4) comp(f) { top : Roof | side : Wall }
+Wall --> tag("Wall.Front") split(x) { ~1 : X. | 1 : tag("Window") Window | ~1 : X. }
+Window --> split(y) { ~1 : Sill | ~2 : Pane. }
+Sill --> tag("Window.Sill") extrude(0.1) split(x) { ~1 : Stone. }*
+Roof --> color("#c04030") Tiles.
+"""
 SMALL = {"--size": "48x40", "--samples": "1", "--lot": "20x10", "--jobs": "2", "--count": "3", "--cameras": "2"}
 LAYERS = ("albedo.png", "depth.pfm", "image.png", "instance.png", "item.json", "normal.png", "semantic.png")
 
@@ -122,7 +129,7 @@ class Dataset(Case):
         place = self.folder / folder
         coco = json.loads((place / "coco.json").read_text())
         categories = {c["id"]: c["name"] for c in coco["categories"]}
-        self.assertEqual([categories[i] for i in sorted(categories)], sorted(names))
+        self.assertEqual([categories[i] for i in sorted(categories)], names)
         self.assertEqual([a["id"] for a in coco["annotations"]], list(range(1, len(coco["annotations"]) + 1)))
         count = {}
         for image in coco["images"]:
@@ -160,6 +167,21 @@ class Dataset(Case):
         # A house has four walls with a window each, which is sill and pane.
         self.assertEqual(len(count["house"]), 3)
         self.assertEqual(len(count["window"]), 12)
+
+    def testLabelsByTagAreThoseOfTheNearestTaggedShape(self):
+        self.put("x.cga", TAGGED)
+        self.make("a", "--labels", "tag", "--cameras", "6", "--count", "1")
+        count = self.check("a", ["Wall.Front", "Window", "Window.Sill"])
+        # What a rule has split into parts keeps what it had tagged all of; roofs have no category.
+        self.assertEqual({name: len(instances) for name, instances in count.items()},
+                         {"Wall.Front": 4, "Window": 4, "Window.Sill": 4})
+
+    def testNamedTagsCountInTheirOrder(self):
+        self.put("x.cga", TAGGED)
+        self.make("a", "--labels", "tag", "--tags", "extrude.top,Window,Wall", "--cameras", "6", "--count", "1")
+        count = self.check("a", ["extrude.top", "Window", "Wall"])
+        # Sills are tagged Window.Sill, which is a Window: part of the one that they are in.
+        self.assertEqual({name: len(instances) for name, instances in count.items()}, {"Wall": 4, "Window": 4, "extrude.top": 1})
 
     def testCamerasProjectWhatTheySee(self):
         self.make("a", "--placing", "sampled", "--format", "json", "--model", "none", "--fov", "50")
@@ -199,6 +221,9 @@ class Dataset(Case):
         self.assertFalse((self.folder / "a").exists())
         self.put("x.cga", "Lot --> extrude(3) X.")
         self.make("b", "--labels", "label", status=WRONG, says="[dataset-labels]")
+        self.make("b", "--labels", "tag", status=WRONG, says="[dataset-labels]")
+        self.make("b", "--tags", "a", status=USAGE, says="label by tag")
+        self.make("b", "--labels", "tag", "--tags", "a,b,a", status=USAGE, says="named twice")
         self.make("x.cga", status=FILE, says="[dataset-folder]")
 
 

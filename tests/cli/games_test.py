@@ -181,6 +181,19 @@ class Games(Case):
             self.assertLessEqual(max(width, height), most)
             self.assertGreater(min(width, height), 30)
 
+    def testPlainColoursAreOneMaterial(self):
+        glb, _ = self.made("--instancing", "shapes")
+        self.assertEqual(len(glb.json["materials"]), 3)
+        told = json.loads(self.run_gable("generate", "x.cga", "--shapes", "lots.geojson", "-o", "atlas.glb", "--instancing", "shapes",
+                                         "--atlas", "512", "--stats", "-"))
+        self.assertEqual(told["atlas"], {"merged": 3, "into": 1, "repeating": 0, "special": 0, "large": 0})
+        glb = Glb(self.folder / "atlas.glb")
+        self.assertEqual([m["name"] for m in glb.json["materials"]], ["atlas"])
+        self.assertEqual(sum(len(m["primitives"]) for m in glb.json["meshes"]), len(glb.json["meshes"]))
+        # Levels of detail have colours of their own, in the same picture.
+        glb, _ = self.made("--for", "unity")
+        self.assertEqual([m["name"] for m in glb.json["materials"] if m["name"].startswith("atlas")], ["atlas"])
+
     def testThreadsDoNotMatter(self):
         for profile in ("blender", "cesium", "godot", "unity", "unreal"):
             self.made("--for", profile, "--jobs", "1", name="one.glb")

@@ -304,6 +304,15 @@ class Datasets(unittest.TestCase):
             self.assertEqual([c["name"] for c in coco["categories"]], ["box"])
             self.assertEqual(len(coco["annotations"]), 4)
 
+    def test_labels_by_tag_in_direct_light(self):
+        rules = gable.Rules.parse('@StartRule\nLot --> tag("ground") X\nX --> extrude(4) comp(f) { top : tag("roof") Y. | all : Z. }')
+        with tempfile.TemporaryDirectory() as folder:
+            small = {name: value for name, value in self.small.items() if name != "height"}
+            gable.dataset(rules, gable.Shapes.lot(9, 5), folder, labels="tag", tags=["roof", "ground"], lighting="direct", **small)
+            coco = json.loads((Path(folder) / "coco.json").read_text())
+            self.assertEqual([c["name"] for c in coco["categories"]], ["roof", "ground"])
+            self.assertEqual({a["category_id"] for a in coco["annotations"]}, {1, 2})
+
     def test_mistakes(self):
         lot = gable.Shapes.lot(9, 5)
         with tempfile.TemporaryDirectory() as folder:
