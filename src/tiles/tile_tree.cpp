@@ -20,6 +20,7 @@
 #include "io/exporters/plan.h"
 #include "io/exporters/surface.h"
 #include "tiles/texture_tints.h"
+#include "tiles/tile_images.h"
 
 namespace gable {
 namespace {
@@ -35,6 +36,9 @@ constexpr double kMargin = kMostQuantized;
 // most.
 constexpr double kCoarser = 2;
 constexpr int kMostCoarser = 4;
+// A coarse tile is there where it costs at most this share of those below it. Else
+// it would take bytes and save little: viewers go on to those below.
+constexpr double kMostOfBelow = 0.5;
 
 double toleranceOf(const TileSquare& square) { return square.side / kFineness; }
 
@@ -71,11 +75,13 @@ Branch failed(const Error& e) {
 // Squares that have been made, and the coarse one above them.
 class Coverer {
  public:
-  explicit Coverer(const TileTreeOptions& options) : options_(options) {}
+  explicit Coverer(const TileTreeOptions& options) : options_(options), images_(options.folder) {}
 
   Branch cover(std::vector<Branch>& branches, const TileSquare& square, const std::string& name);
   /// Writes a tile of a branch.
-  void write(Branch& b, const TileMesh& mesh) const;
+  void write(Branch& b, const TileMesh& mesh);
+  /// Of all tiles that it has written.
+  std::vector<TileFile> images() const { return images_.files(); }
 
  private:
   std::string uriOf(const std::string& name, const char* ending) const;
@@ -84,6 +90,7 @@ class Coverer {
   void divide(Branch& out, const std::vector<std::string>& names) const;
 
   const TileTreeOptions& options_;
+  TileImages images_;
 };
 
 void append(std::vector<std::string>& to, const std::vector<std::string>& more) {
@@ -101,12 +108,13 @@ std::string Coverer::uriOf(const std::string& name, const char* ending) const {
   return uri;
 }
 
-void Coverer::write(Branch& b, const TileMesh& mesh) const {
+void Coverer::write(Branch& b, const TileMesh& mesh) {
   append(b.part.warnings, mesh.warnings);
   b.node().uri = uriOf(b.name, ".glb");
   b.node().box = mesh.box;
-  b.node().triangles = mesh.triangles;
-  const Result<TileFile> file = writeTile(mesh, options_.folder, b.node().uri, options_.compressed);
+  b.node().cost = mesh.cost;
+  const Result<TileFile> file =
+      writeTile(mesh, options_.folder, b.node().uri, options_.form, images_);
   if (!file.ok()) {
     b.error = file.error();
     return;
@@ -124,6 +132,7 @@ void Coverer::addChild(Branch& out, Branch& child, Box3& box) const {
   out.node().nodes += part.root->nodes;
   out.node().children.push_back(std::move(*part.root));
   std::move(part.files.begin(), part.files.end(), std::back_inserter(out.part.files));
+  addImages(out.part.images, part.images);
   out.part.tiles += part.tiles;
   out.part.bytes += part.bytes;
   out.part.triangles += part.triangles;
@@ -187,10 +196,15 @@ Branch Coverer::cover(std::vector<Branch>& branches, const TileSquare& square,
   out.name = name;
   coarsen(out.part.coarse, toleranceOf(square));
   out.node().error = out.part.coarse.error;
+  uint64_t below = 0;
+  for (const TileNode& child : out.node().children) below += child.cost;
   const TileMesh mesh = meshOf(out.part.coarse);
-  if (mesh.triangles > 0) {
+  const bool saves = static_cast<double>(mesh.cost) <= kMostOfBelow * static_cast<double>(below);
+  if (mesh.triangles > 0 && saves) {
     write(out, mesh);
     out.part.coarseTriangles += mesh.triangles;
+  } else {
+    out.node().cost = below;
   }
   out.node().box.include(box);
   if (!out.error) divide(out, names);
@@ -217,6 +231,7 @@ class Builder {
     // What is not written by now is written for a square around this one.
     finish(one, toleranceOf(square) * 2);
     if (one[0].error) return *one[0].error;
+    one[0].part.images = coverer_.images();
     return std::move(one[0].part);
   }
 
@@ -316,6 +331,7 @@ class Builder {
       }
     }
     std::vector<uint32_t> out(count, TileLeaf::kNone);
+    if (options_.form.instancing == TileInstancing::None) return out;
     for (size_t i = 0; i < count; ++i) {
       const size_t p = same[i];
       if (placed[p] > 1 && triangles[p] >= kLeast &&
@@ -432,7 +448,7 @@ class Builder {
     });
   }
 
-  void finishOne(Branch& b, double tolerance) const {
+  void finishOne(Branch& b, double tolerance) {
     WriteOptions options;
     options.readTexture = options_.readTexture;
     options.keepUv = false;
