@@ -231,7 +231,7 @@ void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
 
 void addTileOptions(CLI::App* app, TileArguments& a) {
   app->add_option("--tile-triangles", a.triangles,
-                  "Triangles of a tile at most (default 49152 with --compress, else 8192)")
+                  "Triangles of a tile at most (default 49152 with --compress, else 16384)")
       ->check(number({100, 10'000'000, true}));
   app->add_flag(
       "--compress", a.compress,

@@ -36,7 +36,7 @@ struct TileSettings {
   DeriveSettings derive;
   /// How many triangles a tile has at most; a coarse one as far as that can be. 0: as many as take
   /// a browser's main thread no longer than 30 ms (docs/design/tiles.md): 49,152 compressed ones,
-  /// 8192 others.
+  /// 16,384 others.
   uint64_t triangles = 0;
   /// EXT_meshopt_compression and KHR_mesh_quantization: vertices are up to two millimetres from
   /// their places. An error where canCompressTiles() is false.

@@ -17,8 +17,8 @@ constexpr size_t kMostTold = 1000;
 // A unit is what can be made anew on its own. Its tiles are not joined with those of others, so it
 // has far more shapes than a tile.
 constexpr size_t kUnitShapes = 4096;
-// See docs/design/tiles.md: a plain tile has seven times the bytes, which the main thread copies.
-constexpr uint64_t kCompressedTriangles = 49'152, kPlainTriangles = 8192;
+// See docs/design/tiles.md: a plain tile has five times the bytes, which the main thread copies.
+constexpr uint64_t kCompressedTriangles = 49'152, kPlainTriangles = 16'384;
 
 std::string textOf(const AttributeValue& a) {
   return a.values.empty() || a.values[0].kind != PlainValue::Kind::Text ? std::string()

@@ -268,7 +268,7 @@ class Coarsener {
     if (s[thin] > kFlat * s[wide]) addSheet(part, along, thin, wide);
     fixed_.resize(out_.vertices.size(), true);
     out_.parts.push_back(part);
-    missed_ = std::max(missed_, std::hypot(s[wide], s[thin]) / 2);
+    missed_ = std::max(missed_, std::sqrt(s[wide] * s[wide] + s[thin] * s[thin]) / 2);
   }
 
   // A rectangle through the middle of the box of a part, along two axes.
