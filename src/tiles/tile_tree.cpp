@@ -36,9 +36,6 @@ constexpr double kMargin = kMostQuantized;
 // most.
 constexpr double kCoarser = 2;
 constexpr int kMostCoarser = 4;
-// A coarse tile is there where it costs at most this share of those below it. Else
-// it would take bytes and save little: viewers go on to those below.
-constexpr double kMostOfBelow = 0.5;
 
 double toleranceOf(const TileSquare& square) { return square.side / kFineness; }
 
@@ -196,15 +193,10 @@ Branch Coverer::cover(std::vector<Branch>& branches, const TileSquare& square,
   out.name = name;
   coarsen(out.part.coarse, toleranceOf(square));
   out.node().error = out.part.coarse.error;
-  uint64_t below = 0;
-  for (const TileNode& child : out.node().children) below += child.cost;
   const TileMesh mesh = meshOf(out.part.coarse);
-  const bool saves = static_cast<double>(mesh.cost) <= kMostOfBelow * static_cast<double>(below);
-  if (mesh.triangles > 0 && saves) {
+  if (mesh.triangles > 0) {
     write(out, mesh);
     out.part.coarseTriangles += mesh.triangles;
-  } else {
-    out.node().cost = below;
   }
   out.node().box.include(box);
   if (!out.error) divide(out, names);

@@ -36,9 +36,9 @@ struct TileNode {
   /// Metres; 0 where everything is shown.
   double error = 0;
   /// The file, from the folder of the tileset: a tile, or a tileset of its own for what is below.
-  /// Empty where those below are shown in its place.
+  /// Empty where nothing is left of it.
   std::string uri;
-  /// What it takes to show it, in triangles; of those below where they are shown in its place.
+  /// What it takes to show it, in triangles.
   uint64_t cost = 0;
   std::vector<TileNode> children;
   /// Levels from here down, tilesets of their own included, and nodes that stand in this one.
