@@ -126,6 +126,8 @@ int runCity(const CityArguments& given) {
     return fail(kExitUsage, "--plan-jobs plans tiles: give -o a folder, such as monaco/");
   }
   arguments.picture.derive = arguments.derive;
+  arguments.tiles.instancing = arguments.write.options["instancing"];
+  arguments.tiles.vertices = arguments.write.options["vertices"];
   Making making;
   if (const int status = checkMaking(arguments, making)) return status;
   if (builds) {

@@ -235,12 +235,25 @@ void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
 
 void addTileOptions(CLI::App* app, TileArguments& a) {
   app->add_option("--tile-triangles", a.triangles,
-                  "Triangles of a tile at most (default 49152 with --compress, else 8192)")
+                  "Triangles of a tile at most (default 49152 with --compress, else 16384)")
       ->check(number({100, 10'000'000, true}));
   app->add_flag(
       "--compress", a.compress,
       "Compress tiles (EXT_meshopt_compression): a quarter of the bytes, as near as 2 mm");
   app->add_flag("--viewer", a.viewer, "Put a page beside the tiles that shows them (index.html)");
+}
+
+// Cities have them among the options of models.
+void addTileForm(CLI::App* app, TileArguments& a) {
+  app->add_option("--instancing", a.instancing,
+                  "How parts that occur several times in a tile are shown: auto and gpu (by\n"
+                  "EXT_mesh_gpu_instancing), nodes (by a node each), none (not at all)")
+      ->check(CLI::IsMember(std::vector<std::string>{"auto", "nodes", "gpu", "none"}));
+  app->add_option(
+         "--vertices", a.vertices,
+         "What a vertex takes: auto and compact (integers of KHR_mesh_quantization, moved\n"
+         "by half a millimetre at most), float (single precision)")
+      ->check(CLI::IsMember(std::vector<std::string>{"auto", "compact", "float"}));
 }
 
 void addJobShapes(CLI::App* app, TileArguments& a) {
@@ -327,6 +340,7 @@ void addTileJobs(CLI::App* tiles, AllTilesArguments& a, int& status) {
   plan->add_option("-o,--output", a.plan.output, "The folder of the tiles")->required();
   addJobShapes(plan, a.plan.tiles);
   addTileOptions(plan, a.plan.tiles);
+  addTileForm(plan, a.plan.tiles);
   plan->callback([&a, &status] { status = runTilesPlan(a.plan); });
 
   auto* job = tiles->add_subcommand("job", "Make the tiles of a job that are not there yet");
@@ -380,6 +394,7 @@ void addTiles(CLI::App& app, AllTilesArguments& a, int& status) {
   tiles->add_option("-o,--output", a.whole.output, "The folder of the tiles");
   tiles->add_option("--stats", a.whole.stats, "Write counts as JSON to a file, or - for stdout");
   addTileOptions(tiles, a.whole.tiles);
+  addTileForm(tiles, a.whole.tiles);
   addReplacePlan(tiles, a.whole.tiles);
   addTileJobs(tiles, a, status);
   addTilesJoin(tiles, a, status);

@@ -11,6 +11,7 @@
 
 #include "answer.h"
 #include "derive_settings.h"
+#include "gable/names.h"
 #include "json/tiles_json.h"
 #include "progress.h"
 #include "tiles_viewer.h"
@@ -78,6 +79,8 @@ gable::TileSettings tileSettings(const TileArguments& arguments, const LimitArgu
   gable::TileSettings tiles;
   tiles.triangles = arguments.triangles;
   tiles.compress = arguments.compress;
+  tiles.instancing = gable::instancingNamed(arguments.instancing).value_or(tiles.instancing);
+  tiles.vertices = gable::verticesNamed(arguments.vertices).value_or(tiles.vertices);
   tiles.replacePlan = arguments.replacePlan;
   tiles.limits = fileLimits(limits);
   // Places take what time they take.

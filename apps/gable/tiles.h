@@ -15,6 +15,8 @@ struct TileArguments {
   uint64_t triangles = 0;
   /// Compress the tiles.
   bool compress = false;
+  /// Words of WriteSettings; empty where they are not given.
+  std::string instancing, vertices;
   /// Put the page that shows the tiles beside them.
   bool viewer = false;
   /// Of a plan.

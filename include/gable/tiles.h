@@ -26,6 +26,7 @@
 #include "gable/derive.h"
 #include "gable/diagnostic.h"
 #include "gable/limits.h"
+#include "gable/model.h"
 
 namespace gable {
 
@@ -35,11 +36,17 @@ struct TileSettings {
   DeriveSettings derive;
   /// How many triangles a tile has at most; a coarse one as far as that can be. 0: as many as take
   /// a browser's main thread no longer than 30 ms (docs/design/tiles.md): 49,152 compressed ones,
-  /// 8192 others.
+  /// 16,384 others.
   uint64_t triangles = 0;
   /// EXT_meshopt_compression and KHR_mesh_quantization: vertices are up to two millimetres from
   /// their places. An error where canCompressTiles() is false.
   bool compress = false;
+  /// Parts that occur several times in a tile. Auto and Gpu: by EXT_mesh_gpu_instancing. Nodes: by
+  /// nodes that share vertices, for readers without it. None: not at all. Shapes is an error.
+  Instancing instancing = Instancing::Auto;
+  /// Auto and Compact: integers of KHR_mesh_quantization, half a millimetre from their places.
+  /// Float: single precision, for readers without it. Bare is an error.
+  Vertices vertices = Vertices::Auto;
   /// A folder may hold a plan whose jobs others run: writing the whole place there in one process
   /// ends them, and is an error (tiles-planned) where this is false. The tiles of finished jobs
   /// stay where they fit.

@@ -7,6 +7,7 @@
 
 #include "base/files.h"
 #include "base/json.h"
+#include "tiles/tile_images.h"
 
 namespace gable {
 
@@ -16,8 +17,9 @@ constexpr const char* kGenerator = "Gable";
 // Says that the folders `tiles` and `plan` are ours as long as there is no tileset.
 constexpr const char* kUnfinished = "tiles/unfinished";
 
-// 0123.glb, 01230/1.json
+// 0123.glb, 01230/1.json, images/0123456789abcdef.png
 bool isTileName(std::string_view name) {
+  if (isTileImage(name)) return true;
   const size_t dot = std::min(name.find('.'), name.size());
   const std::string_view end = name.substr(dot);
   return (end == ".glb" || end == ".json") && isSquarePath(name.substr(0, dot));
@@ -52,6 +54,7 @@ Result<uint64_t> TileFolder::close(const TilePart& all, const std::vector<double
       writeFile(path_ + "tileset.json", tilesetJson(*all.root, transform));
   if (!bytes.ok()) return bytes;
   for (const TileFile& f : all.files) before_.erase(f.name);
+  for (const TileFile& f : all.images) before_.erase(f.name);
   std::error_code ignored;
   for (const std::string& old : before_) {
     std::filesystem::remove(path_ + old, ignored);

@@ -79,7 +79,7 @@ class JobRunner {
   }
 
   std::optional<Error> run(uint64_t number) {
-    if (auto e = compressMistake(settings_)) return e;
+    if (auto e = formMistake(settings_)) return e;
     if (checksumOf(rules_) != plan_.rulesChecksum) return changed(plan_);
     const Result<TileJob> job = readJob(plan_, number);
     if (!job.ok()) return job.error();
@@ -204,7 +204,7 @@ class Merger {
       : plan_(plan), run_(run), task_(task) {}
 
   std::optional<Error> run(TileResult& result) {
-    if (auto e = compressMistake(plan_.tiles)) return e;
+    if (auto e = formMistake(plan_.tiles)) return e;
     if (auto e = readJobs()) return e;
     check(result);
     if (!result.jobsToRun.empty()) return unfinished(result.jobsToRun);
@@ -213,7 +213,7 @@ class Merger {
     TileTreeOptions options;
     options.folder = folder.path();
     options.triangles = mostTriangles(plan_.tiles);
-    options.compressed = plan_.tiles.compress;
+    options.form = formOf(plan_.tiles);
     options.threads = threads();
     options.meter = &task_.allowance();
     const Result<TilePart> all = writeTileTop(

@@ -12,6 +12,7 @@
 #include "base/json.h"
 #include "engine/file_search.h"
 #include "engine/project.h"
+#include "gable/names.h"
 #include "io/geo/geo_frames.h"
 
 namespace gable {
@@ -19,7 +20,7 @@ namespace gable {
 namespace {
 
 // Of the files of a plan; a program with another one cannot go on with it.
-constexpr int kFormat = 2;
+constexpr int kFormat = 3;
 constexpr uint64_t kMostPlanBytes = 64 << 20;
 
 std::string hex(uint64_t v) {
@@ -87,6 +88,8 @@ auto limitsOf(Limits& limits) {
 void writeTiles(JsonWriter& w, const TileSettings& tiles) {
   const DeriveSettings& derive = tiles.derive;
   w.field("triangles", tiles.triangles).field("compress", tiles.compress);
+  w.field("instancing", instancingNames()[static_cast<size_t>(tiles.instancing)]);
+  w.field("vertices", verticesNames()[static_cast<size_t>(tiles.vertices)]);
   writeOptional(w, "startRule", derive.startRule);
   w.field("seed", derive.seed).field("sharing", derive.sharing);
   w.key("attributes").beginArray();
@@ -106,6 +109,8 @@ void readTiles(const JsonValue& v, TileSettings& tiles) {
   DeriveSettings& derive = tiles.derive;
   tiles.triangles = wholeOf(v["triangles"]);
   tiles.compress = v["compress"].boolean(false);
+  tiles.instancing = instancingNamed(v["instancing"].text()).value_or(Instancing::Auto);
+  tiles.vertices = verticesNamed(v["vertices"].text()).value_or(Vertices::Auto);
   derive.startRule = optionalOf(v["startRule"]);
   derive.seed = v["seed"].number(0);
   derive.sharing = v["sharing"].boolean(true);

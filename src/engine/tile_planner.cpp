@@ -30,7 +30,7 @@ class Planner {
       : rules_(rules), settings_(settings), folder_(folder), plan_(plan) {}
 
   std::optional<Error> begin() {
-    if (auto e = compressMistake(settings_.tiles)) return e;
+    if (auto e = formMistake(settings_.tiles)) return e;
     if (settings_.ofOneRun && !settings_.tiles.replacePlan) {
       if (auto e = planInUse(folder_)) return e;
     }

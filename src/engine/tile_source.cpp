@@ -17,8 +17,8 @@ constexpr size_t kMostTold = 1000;
 // A unit is what can be made anew on its own. Its tiles are not joined with those of others, so it
 // has far more shapes than a tile.
 constexpr size_t kUnitShapes = 4096;
-// See docs/design/tiles.md: a plain tile has seven times the bytes, which the main thread copies.
-constexpr uint64_t kCompressedTriangles = 49'152, kPlainTriangles = 8192;
+// See docs/design/tiles.md: a plain tile has five times the bytes, which the main thread copies.
+constexpr uint64_t kCompressedTriangles = 49'152, kPlainTriangles = 16'384;
 
 std::string textOf(const AttributeValue& a) {
   return a.values.empty() || a.values[0].kind != PlainValue::Kind::Text ? std::string()
@@ -170,6 +170,15 @@ void ShapeSource::take(const Model& model) {
   result_.prints.insert(result_.prints.end(), prints.begin(), prints.end());
 }
 
+TileForm formOf(const TileSettings& settings) {
+  TileForm form;
+  form.compressed = settings.compress;
+  form.floats = settings.vertices == Vertices::Float;
+  if (settings.instancing == Instancing::Nodes) form.instancing = TileInstancing::Nodes;
+  if (settings.instancing == Instancing::None) form.instancing = TileInstancing::None;
+  return form;
+}
+
 uint64_t mostTriangles(const TileSettings& settings) {
   if (settings.triangles > 0) return settings.triangles;
   return settings.compress ? kCompressedTriangles : kPlainTriangles;
@@ -182,7 +191,7 @@ TileTreeOptions tileOptions(const Rules& rules, const TileSettings& settings,
   options.threads = static_cast<unsigned>(std::max(0, settings.derive.jobs.value_or(0)));
   if (unitShapes(rules) == 0) options.batch = 0;
   options.folder = folder;
-  options.compressed = settings.compress;
+  options.form = formOf(settings);
   Project* const project = rules.impl().project.get();
   options.readTexture = [project](const std::string& texture) -> Result<std::string> {
     if (project) return project->texture(texture);
@@ -206,7 +215,15 @@ void warnTogether(DiagnosticList& diagnostics) {
                    Sources{}));
 }
 
-std::optional<Error> compressMistake(const TileSettings& settings) {
+std::optional<Error> formMistake(const TileSettings& settings) {
+  if (settings.instancing == Instancing::Shapes) {
+    return Error{"tiles-form", "tiles are divided by their size, and not by initial shapes",
+                 "choose the instancing 'auto', 'gpu', 'nodes' or 'none'"};
+  }
+  if (settings.vertices == Vertices::Bare) {
+    return Error{"tiles-form", "tiles have normals, as not all viewers of tiles make them",
+                 "choose the vertices 'auto', 'compact' or 'float'"};
+  }
   if (!settings.compress || canCompress()) return std::nullopt;
   return Error{"tiles-compress", "this program cannot compress tiles",
                "install libmeshoptimizer-dev and build it again, or leave out --compress"};
@@ -227,6 +244,7 @@ void takeCounts(const TilePart& all, TileResult& result) {
   result.triangles = all.triangles;
   result.coarseTriangles = all.coarseTriangles;
   result.bytes = all.bytes;
+  for (const TileFile& image : all.images) result.bytes += image.bytes;
 }
 
 bool canCompressTiles() { return canCompress(); }

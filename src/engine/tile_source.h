@@ -50,6 +50,8 @@ class ShapeSource final : public TileSource {
   std::function<void(size_t)> progress_;
 };
 
+TileForm formOf(const TileSettings& settings);
+
 /// Of a tile.
 uint64_t mostTriangles(const TileSettings& settings);
 
@@ -63,8 +65,8 @@ size_t unitShapes(const Rules& rules);
 /// The warning where all shapes are one unit.
 void warnTogether(DiagnosticList& diagnostics);
 
-/// The error for compressed tiles where the build cannot make any.
-std::optional<Error> compressMistake(const TileSettings& settings);
+/// The error for tiles that cannot be: compressed where the build cannot, or of another form.
+std::optional<Error> formMistake(const TileSettings& settings);
 
 void fail(TileResult& result, const Error& e);
 

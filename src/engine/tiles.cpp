@@ -17,7 +17,7 @@ namespace {
 void tile(const Rules& rules, const Shapes& shapes, const std::string& path,
           const TileSettings& settings, Task& task, TileResult& result) {
   const double begin = now();
-  if (auto e = compressMistake(settings)) return fail(result, *e);
+  if (auto e = formMistake(settings)) return fail(result, *e);
   TileFolder folder(path);
   if (!settings.replacePlan) {
     if (auto e = planInUse(folder)) return fail(result, *e);

@@ -3,7 +3,8 @@
 //
 // Whether a small part lies on a large one is asked of their boxes, which fit them, as rules make
 // parts along the axes of scopes: the eight corners of the one within the tolerance of the other.
-// A box is convex, so all between the corners is as near.
+// A box is convex, so all between the corners is as near. Where the large part does not fill its
+// box, the corners are held against its triangles.
 //
 // Joining corners is vertex clustering (Rossignac, Borrel: Multi-resolution 3D approximations for
 // rendering complex scenes, 1993), with the mean of the corners for each cell: a corner that stands
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <tuple>
 #include <unordered_map>
@@ -28,6 +30,12 @@ namespace {
 constexpr size_t kMostBearers = 256;
 // Longer ones are not gathered: a box of several would be far from them.
 constexpr double kLongestGathered = 2;
+// What is narrower covers less than two pixels, as a share of the tolerance.
+constexpr double kThin = 1.0 / 8;
+// A thing that is thinner, as a share of its width, is one sheet.
+constexpr double kFlat = 0.25;
+// A part with more triangles is known by its box alone.
+constexpr uint32_t kMostMeasured = 64;
 
 using Cell = std::array<int64_t, 3>;
 
@@ -62,8 +70,10 @@ std::array<Vec3, 8> cornersOf(const CoarsePart& p) {
   return out;
 }
 
-bool bears(const CoarsePart& large, const std::array<Vec3, 8>& corners, double tolerance) {
-  return std::all_of(corners.begin(), corners.end(), [&](const Vec3& c) {
+// How far the farthest corner is from the box; at once where that is more than `most`.
+double distanceTo(const CoarsePart& large, const std::array<Vec3, 8>& corners, double most) {
+  double farthest = 0;
+  for (const Vec3& c : corners) {
     const Vec3 p = large.frame.toLocal(c);
     const auto beyond = [](double v, double low, double high) {
       return std::max({low - v, v - high, 0.0});
@@ -71,8 +81,35 @@ bool bears(const CoarsePart& large, const std::array<Vec3, 8>& corners, double t
     const Vec3 d{beyond(p.x, large.box.min.x, large.box.max.x),
                  beyond(p.y, large.box.min.y, large.box.max.y),
                  beyond(p.z, large.box.min.z, large.box.max.z)};
-    return dot(d, d) <= tolerance * tolerance;
-  });
+    farthest = std::max(farthest, dot(d, d));
+    if (farthest > most * most) break;
+  }
+  return std::sqrt(farthest);
+}
+
+double longestOf(const Box3& box) {
+  const Vec3 s = box.size();
+  return std::max({s.x, s.y, s.z});
+}
+
+// Squared, of a point from a triangle: from its plane where the foot lies inside, else from a side.
+double distance2(const Vec3& p, const std::array<Vec3, 3>& t) {
+  const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
+  double best = std::numeric_limits<double>::infinity();
+  bool inside = true;
+  for (size_t i = 0; i < 3; ++i) {
+    const Vec3 &a = t[i], &b = t[(i + 1) % 3];
+    const Vec3 along = b - a;
+    inside = inside && dot(cross(along, p - a), n) >= 0;
+    const double length2 = dot(along, along);
+    const double at = length2 > 0 ? std::clamp(dot(p - a, along) / length2, 0.0, 1.0) : 0;
+    const Vec3 d = p - (a + along * at);
+    best = std::min(best, dot(d, d));
+  }
+  const double n2 = dot(n, n);
+  if (!inside || !(n2 > 0)) return best;
+  const double h = dot(p - t[0], n);
+  return h * h / n2;
 }
 
 // A colour and how much of it there is.
@@ -100,7 +137,7 @@ class Coarsener {
       i = end;
     }
     join();
-    out_.error = from_.error + std::max(tolerance_, boxError_) + shift_;
+    out_.error = from_.error + std::max(tolerance_ * kThin, missed_) + shift_;
     return std::move(out_);
   }
 
@@ -122,6 +159,7 @@ class Coarsener {
 
     std::vector<Tint> borne(bearers.size());
     std::map<Cell, std::vector<size_t>> cells;
+    std::vector<size_t> rods;
     size_t last = 0;
     for (size_t i = begin; i < end; ++i) {
       const CoarsePart& p = from_.parts[i];
@@ -132,16 +170,17 @@ class Coarsener {
       size_t tries = 0;
       for (; tries < bearers.size(); ++tries, at = at + 1 < bearers.size() ? at + 1 : 0) {
         work();
-        if (bears(from_.parts[bearers[at]], corners, tolerance_)) break;
+        if (distanceTo(from_.parts[bearers[at]], corners, tolerance_) <= tolerance_) break;
       }
       if (tries < bearers.size()) {
         last = at;
         borne[at].add(p.color, faceArea(p.box));
-        continue;
+        miss(p, distanceToSurface(from_.parts[bearers[at]], corners));
+      } else if (longestOf(p.box) <= kLongestGathered * tolerance_) {
+        cells[cellOf(p.frame.point(p.box.center()), tolerance_)].push_back(i);
+      } else if (widthOf(p.box) >= kThin * tolerance_) {
+        rods.push_back(i);
       }
-      const Vec3 s = p.box.size();
-      if (std::max({s.x, s.y, s.z}) > kLongestGathered * tolerance_) continue;
-      cells[cellOf(p.frame.point(p.box.center()), tolerance_)].push_back(i);
     }
     for (size_t b = 0; b < bearers.size(); ++b) {
       const CoarsePart& p = from_.parts[bearers[b]];
@@ -153,7 +192,33 @@ class Coarsener {
       copy(p, b == bearers.end() ? p.color
                                  : borne[static_cast<size_t>(b - bearers.begin())].mean(p.color));
     }
-    for (const auto& [cell, members] : cells) addBox(members);
+    for (const auto& [cell, members] : cells) gather(members);
+    for (const size_t i : rods) addRod(from_.parts[i]);
+  }
+
+  // Something is not shown that is so far from what is; no farther than it is long.
+  void miss(const CoarsePart& p, double distance) {
+    if (widthOf(p.box) < kThin * tolerance_) return;
+    missed_ = std::max(missed_, std::min(distance, longestOf(p.box)));
+  }
+
+  // How far the farthest corner is from what a large part shows.
+  double distanceToSurface(const CoarsePart& large, const std::array<Vec3, 8>& corners) const {
+    const double toBox = distanceTo(large, corners, std::numeric_limits<double>::infinity());
+    const Vec3 s = large.box.size();
+    const double thickness = std::min({s.x, s.y, s.z});
+    if (large.triangleCount > kMostMeasured) return toBox + thickness;
+    double farthest = 0;
+    for (const Vec3& c : corners) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (uint32_t t = 0; t < large.triangleCount; ++t) {
+        const auto& tri = from_.triangles[large.firstTriangle + t];
+        const auto at = [&](size_t k) { return from_.vertices[large.firstVertex + tri[k]]; };
+        nearest = std::min(nearest, distance2(c, {at(0), at(1), at(2)}));
+      }
+      farthest = std::max(farthest, nearest);
+    }
+    return std::sqrt(farthest);
   }
 
   void copy(const CoarsePart& p, const Vec3& color) {
@@ -168,8 +233,8 @@ class Coarsener {
     out_.parts.push_back(part);
   }
 
-  // One box for what stands in a cell; its underside is never seen.
-  void addBox(const std::vector<size_t>& members) {
+  // One box for what stands in a cell.
+  void gather(const std::vector<size_t>& members) {
     Box3 box;
     Tint tint;
     for (const size_t i : members) {
@@ -177,12 +242,54 @@ class Coarsener {
       for (const Vec3& c : cornersOf(p)) box.include(c);
       tint.add(p.color, faceArea(p.box));
     }
-    if (widthOf(box) < side_) return;
     CoarsePart part;
     part.feature = from_.parts[members[0]].feature;
     part.color = tint.mean(from_.parts[members[0]].color);
     part.area = faceArea(box);
     part.box = box;
+    if (widthOf(box) < side_) return miss(part, longestOf(box));
+    addBox(part);
+    missed_ = std::max(missed_, length(box.size()));
+  }
+
+  // A long thin thing becomes what shows it from all sides with few triangles: two crossed sheets
+  // through its middle, or one where it is flat. Their corners are not joined: it would be gone.
+  void addRod(const CoarsePart& p) {
+    const Vec3 s = p.box.size();
+    const size_t along = s.x >= s.y && s.x >= s.z ? 0 : s.y >= s.z ? 1 : 2;
+    size_t wide = (along + 1) % 3, thin = (along + 2) % 3;
+    if (s[wide] < s[thin]) std::swap(wide, thin);
+    CoarsePart part = p;
+    part.firstVertex = static_cast<uint32_t>(out_.vertices.size());
+    part.firstTriangle = static_cast<uint32_t>(out_.triangles.size());
+    part.vertexCount = part.triangleCount = 0;
+    fixed_.resize(out_.vertices.size(), false);
+    addSheet(part, along, wide, thin);
+    if (s[thin] > kFlat * s[wide]) addSheet(part, along, thin, wide);
+    fixed_.resize(out_.vertices.size(), true);
+    out_.parts.push_back(part);
+    missed_ = std::max(missed_, std::sqrt(s[wide] * s[wide] + s[thin] * s[thin]) / 2);
+  }
+
+  // A rectangle through the middle of the box of a part, along two axes.
+  void addSheet(CoarsePart& part, size_t along, size_t across, size_t normal) {
+    const uint32_t first = part.vertexCount;
+    for (size_t i = 0; i < 4; ++i) {
+      Vec3 at = part.box.center();
+      at[along] = i == 1 || i == 2 ? part.box.max[along] : part.box.min[along];
+      at[across] = i >= 2 ? part.box.max[across] : part.box.min[across];
+      at[normal] = part.box.center()[normal];
+      out_.vertices.push_back(part.frame.point(at));
+    }
+    out_.triangles.push_back({first, first + 1, first + 2});
+    out_.triangles.push_back({first, first + 2, first + 3});
+    part.vertexCount += 4;
+    part.triangleCount += 2;
+  }
+
+  // The box of a part in the place of its triangles; its underside is never seen.
+  void addBox(CoarsePart part) {
+    fixed_.resize(out_.vertices.size(), false);
     part.firstVertex = static_cast<uint32_t>(out_.vertices.size());
     part.firstTriangle = static_cast<uint32_t>(out_.triangles.size());
     part.vertexCount = 8;
@@ -200,7 +307,6 @@ class Coarsener {
                                                                         {0, 6, 2}}};
     out_.triangles.insert(out_.triangles.end(), kSides.begin(), kSides.end());
     out_.parts.push_back(part);
-    boxError_ = std::max(boxError_, length(box.size()));
   }
 
   // Corners of one cell become their mean.
@@ -211,8 +317,10 @@ class Coarsener {
     };
     std::unordered_map<Cell, Sum, CellHash> cells;
     std::vector<Sum*> cellOfVertex(out_.vertices.size());
+    fixed_.resize(out_.vertices.size(), false);
     for (size_t v = 0; v < out_.vertices.size(); ++v) {
       work();
+      if (fixed_[v]) continue;
       const Vec3& p = out_.vertices[v];
       Sum& s = cells[cellOf(p, side_)];
       if (s.count == 0) s.first = p;
@@ -222,6 +330,7 @@ class Coarsener {
       cellOfVertex[v] = &s;
     }
     for (size_t v = 0; v < out_.vertices.size(); ++v) {
+      if (fixed_[v]) continue;
       const Sum& s = *cellOfVertex[v];
       const Vec3 mean = s.first + s.sum * (1 / s.count);
       shift_ = std::max(shift_, length(mean - out_.vertices[v]));
@@ -261,7 +370,10 @@ class Coarsener {
       }
       p.vertexCount = static_cast<uint32_t>(vertices.size()) - p.firstVertex;
       p.triangleCount = static_cast<uint32_t>(triangles.size()) - p.firstTriangle;
-      if (p.triangleCount > 0) parts.push_back(p);
+      if (p.triangleCount > 0)
+        parts.push_back(p);
+      else
+        miss(old, longestOf(old.box));
     }
     out_.parts.swap(parts);
     out_.vertices.swap(vertices);
@@ -284,7 +396,9 @@ class Coarsener {
   const CoarseModel& from_;
   double tolerance_, side_;
   CoarseModel out_;
-  double boxError_ = 0, shift_ = 0;
+  /// By vertex: whether it stays where it is.
+  std::vector<bool> fixed_;
+  double missed_ = 0, shift_ = 0;
 };
 
 // One leaf: a part for each of its material slots.

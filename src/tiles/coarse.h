@@ -7,11 +7,14 @@
 // model with a tolerance of a model with a smaller one:
 //   1. Parts narrower than the tolerance that lie on a larger part of their feature go; the larger
 //      one takes on their colour by area (windows, cornices, tiles).
-//   2. Others of them that stand close together become boxes, a cell of the tolerance each (the
-//      crowns of trees); single ones go.
+//   2. Others of them that are short become boxes, where they stand close together, a cell of the
+//      tolerance each (the crowns of trees); single ones go. Long ones become sheets (lamps,
+//      rails), down to an eighth of the tolerance: viewers change to a finer tile before an error
+//      covers sixteen pixels, so thinner ones cover less than two.
 //   3. Corners in one cell of half the tolerance become one, and triangles without area go.
-// `error` bounds, in metres, how far a point of the full model is from the coarse one, other than
-// points of things that are narrower than `error`.
+// `error` is what that came to, in metres: how far what was moved or left out is from what is
+// shown, or how long it is where nothing near it is shown. It bounds how far points of the full
+// model are from the coarse one, other than those of things narrower than an eighth of it.
 #pragma once
 
 #include <array>

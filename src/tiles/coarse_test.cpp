@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace gable {
@@ -111,6 +112,76 @@ TEST(Coarse, everyLevelIsAtMostItsErrorAway) {
     }
   }
   EXPECT_LT(m.triangles.size(), full / 4);
+}
+
+double distanceOf(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  // Points all over the triangle are near enough for a test.
+  constexpr int kSteps = 16;
+  double best = 1e9;
+  for (int u = 0; u <= kSteps; ++u) {
+    for (int v = 0; u + v <= kSteps; ++v) {
+      const Vec3 at = a + (b - a) * (u / double{kSteps}) + (c - a) * (v / double{kSteps});
+      best = std::min(best, length(p - at));
+    }
+  }
+  return best;
+}
+
+double distanceOf(const Vec3& p, const CoarseModel& m) {
+  double best = 1e9;
+  for (const CoarsePart& part : m.parts) {
+    for (uint32_t t = 0; t < part.triangleCount; ++t) {
+      const auto at = [&](size_t k) {
+        return m.vertices[part.firstVertex + m.triangles[part.firstTriangle + t][k]];
+      };
+      best = std::min(best, distanceOf(p, at(0), at(1), at(2)));
+    }
+  }
+  return best;
+}
+
+// A house with cornices, a chimney, a rail with its posts, and a lamp before it.
+TEST(Coarse, whatIsNotShownIsWithinTheError) {
+  struct Thing {
+    Vec3 low, size;
+  };
+  std::vector<Thing> things = {
+      {{0, 0, 0}, {10, 8, 9}},          {{-0.2, 3, -0.2}, {10.4, 0.3, 0.2}},
+      {{4, 8, 4}, {0.6, 1.5, 0.6}},     {{0, 3.3, -1.2}, {10, 0.1, 1.2}},
+      {{0, 4.3, -1.2}, {10, 0.1, 0.1}}, {{-4, 0, -5}, {0.2, 6, 0.2}},
+      {{-5, 5.8, -5}, {2, 0.3, 0.3}}};
+  for (int i = 0; i < 20; ++i) things.push_back({{0.5 * i, 3.4, -1.2}, {0.08, 0.9, 0.08}});
+  Place place;
+  for (const Thing& t : things) place.add(t.low, t.size);
+  for (const double tolerance : {0.1, 0.3, 0.5, 1.0, 2.0, 3.0}) {
+    const CoarseModel m = place.coarse(tolerance);
+    EXPECT_LT(m.error, 4 * tolerance);
+    for (const Thing& t : things) {
+      std::array<double, 3> sides = {t.size.x, t.size.y, t.size.z};
+      std::sort(sides.begin(), sides.end());
+      if (sides[1] < m.error / 8 || sides[2] <= m.error) continue;
+      for (const double u : {0.0, 1.0}) {
+        for (const double v : {0.0, 1.0}) {
+          for (const double w : {0.0, 1.0}) {
+            const Vec3 p = t.low + Vec3{u * t.size.x, v * t.size.y, w * t.size.z};
+            EXPECT_LE(distanceOf(p, m), m.error + 0.5) << tolerance << " " << p.x << " " << p.y;
+          }
+        }
+      }
+    }
+  }
+}
+
+// Lamps and rails are seen from where crowns of trees are boxes.
+TEST(Coarse, longThingsStayAsSheets) {
+  Place place;
+  place.add({0, 0, 0}, {0.4, 8, 0.4});
+  const CoarseModel m = place.coarse(2);
+  EXPECT_EQ(boundsOf(m).max, Vec3(0.4, 8, 0.4));
+  EXPECT_EQ(m.triangles.size(), 4u);
+  EXPECT_LE(m.error, 0.3);
+  const CoarseModel again = coarsened(m, 3);
+  EXPECT_EQ(boundsOf(again).max, Vec3(0.4, 8, 0.4));
 }
 
 TEST(Coarse, hugeAndOddNumbersEnd) {

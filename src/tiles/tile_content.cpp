@@ -31,8 +31,17 @@ void TileContent::append(TileContent&& other) {
   triangles += other.triangles;
 }
 
+namespace {
+
+constexpr uint64_t kTimesCheaper = 8;
+
+}  // namespace
+
+uint64_t costOf(uint64_t triangles, uint64_t times) {
+  return times == 0 ? 0 : triangles + triangles * (times - 1) / kTimesCheaper;
+}
+
 void TileContent::measure() {
-  constexpr uint32_t kTimesCheaper = 8;
   std::set<std::pair<uint32_t, uint32_t>> known;
   uint32_t placement = TileLeaf::kNone;
   bool again = false;

@@ -72,6 +72,9 @@ struct TileContent {
   void measure();
 };
 
+/// What it costs to show so many triangles so many times.
+uint64_t costOf(uint64_t triangles, uint64_t times);
+
 /// Placements of one prototype, by number.
 struct TileGroup {
   uint32_t scene = 0, prototype = 0;

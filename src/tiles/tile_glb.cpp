@@ -2,26 +2,27 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // The pieces of a tile's buffer are made first, so that the JSON before them knows all offsets:
-// vertices and indices of each primitive, the columns of the table of features, pictures. Each
-// begins at a multiple of eight bytes, as EXT_structural_metadata wants it.
+// vertices and triangles of each stream, the columns of places, those of the table of features.
+// Each begins at a multiple of eight bytes, as EXT_structural_metadata wants it. Pictures are files
+// that the tiles of a place share.
 //
-// Compressed, the first two kinds lie in views of a second buffer that no file holds
+// Compressed, all but the table lies in views of a second buffer that no file holds
 // (EXT_meshopt_compression calls it a fallback), and their extension says where the bytes are.
-// Integers for positions (KHR_mesh_quantization) count steps of one size from a corner of the tile,
-// or of a part that is placed several times: then the places scale the steps.
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cmath>
-#include <cstring>
+#include <set>
 #include <utility>
 
 #include "base/bytes.h"
 #include "base/files.h"
+#include "base/json.h"
 #include "base/work.h"
 #include "io/exporters/quaternion.h"
 #include "io/gltf_format.h"
 #include "tiles/compress.h"
-#include "tiles/tile_mesh.h"
+#include "tiles/tile_images.h"
+#include "tiles/tile_streams.h"
 
 namespace gable {
 namespace {
@@ -30,39 +31,9 @@ using namespace gltf;
 
 // Stands in the table where a number is not known.
 constexpr float kNoNumber = -1;
-
-constexpr double kMostSteps = 65535;
-
-// How the vertices of a primitive lie in its view.
-struct Layout {
-  struct Field {
-    uint32_t offset = 0;
-    int component = kFloat;
-    bool normalized = false;
-  };
-  Field position, normal, color, feature, uv;
-  uint32_t stride = 0;
-};
-
-// Of the tile's own mesh, or of instances.
-struct Steps {
-  bool on = false;
-  std::array<float, 3> low{};
-  double size = 0;
-
-  Vec3 corner() const { return on ? Vec3{double{low[0]}, double{low[1]}, double{low[2]}} : Vec3{}; }
-};
-
-// A primitive of the file: of the mesh 0, the tile's own, or of that of instances `mesh` - 1.
-struct Part {
-  const TilePrimitive* primitive = nullptr;
-  size_t mesh = 0;
-  Layout layout;
-  uint32_t vertices = 0;
-  // As they are written: vertices that no triangle uses are gone when compressed.
-  std::array<float, 3> low{}, high{};
-  uint32_t accessors() const { return 4 + (mesh == 0 ? 1 : 0) + primitive->uvCount; }
-};
+// Translations, rotations, scales and features of instances.
+constexpr std::array<const char*, 4> kPlaceTypes = {"VEC3", "VEC4", "VEC3", "SCALAR"};
+constexpr std::array<uint32_t, 4> kPlaceBytes = {12, 16, 12, 4};
 
 struct Piece {
   std::string bytes;
@@ -74,10 +45,27 @@ struct Piece {
   uint64_t count = 0, rawBytes = 0, rawOffset = 0;
 };
 
+// A mesh of the file: 0, or that of instances `mesh` - 1. Where they are nodes, it has a feature.
+struct ShownMesh {
+  size_t mesh = 0;
+  uint32_t feature = 0;
+};
+
+void putFloat(std::string& to, double v) {
+  const auto f = static_cast<float>(v);
+  to.append(reinterpret_cast<const char*>(&f), sizeof f);
+}
+
 class TileWriter {
  public:
-  TileWriter(const TileMesh& mesh, const std::string& name, bool compressed)
-      : mesh_(mesh), name_(name), compressed_(compressed) {}
+  TileWriter(const TileMesh& mesh, const std::string& name, const TileForm& form,
+             const std::vector<std::string>& images)
+      : mesh_(mesh),
+        name_(name),
+        images_(images),
+        compressed_(form.compressed),
+        nodes_(form.instancing == TileInstancing::Nodes),
+        streams_(mesh, form) {}
 
   /// The whole file.
   Result<std::string> bytes() {
@@ -122,7 +110,6 @@ class TileWriter {
     return pieces_.back();
   }
 
-  // Of something that is `raw` bytes when it has been read.
   void addCompressed(std::string bytes, int target, uint32_t stride, const char* mode,
                      uint64_t count) {
     Piece& piece = add(std::move(bytes), target, stride);
@@ -133,115 +120,82 @@ class TileWriter {
     rawBytes_ = piece.rawOffset + piece.rawBytes;
   }
 
-  template <class T>
-  static std::string bytesOf(const std::vector<T>& list) {
-    return std::string(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T));
-  }
-
-  // Whether positions are integers: where that moves none by more than it may.
-  Steps stepsOf(const std::vector<TilePrimitive>& primitives) const {
-    Steps out;
-    std::array<float, 3> most;
-    out.low.fill(std::numeric_limits<float>::infinity());
-    most.fill(-std::numeric_limits<float>::infinity());
-    for (const TilePrimitive& p : primitives) {
-      for (size_t i = 0; i < 3; ++i) {
-        out.low[i] = std::min(out.low[i], p.min[i]);
-        most[i] = std::max(most[i], p.max[i]);
-      }
+  // Vertices, or columns of places, of `stride` bytes each.
+  void addRows(std::string bytes, uint32_t stride, int target) {
+    const uint64_t count = bytes.size() / stride;
+    if (compressed_) {
+      addCompressed(compressedVertices(bytes, stride), target, stride, "ATTRIBUTES", count);
+    } else {
+      add(std::move(bytes), target, stride);
     }
-    double side = 0;
-    for (size_t i = 0; i < 3; ++i) side = std::max(side, double{most[i]} - double{out.low[i]});
-    out.size = side / kMostSteps;
-    out.on = compressed_ && out.size > 0 && out.size <= 2 * kMostQuantized;
-    return out;
   }
 
-  Layout layoutOf(const TilePrimitive& p, size_t mesh) const {
-    Layout l;
-    const auto field = [&l](int component, uint32_t bytes, bool normalized) {
-      const Layout::Field f{l.stride, component, normalized};
-      l.stride += (bytes + 3) / 4 * 4;
-      return f;
-    };
-    const bool fewFeatures = mesh_.features.size() <= 65536;
-    l.position = steps_[mesh].on ? field(kUnsignedShort, 6, false) : field(kFloat, 12, false);
-    l.normal = compressed_ ? field(kByte, 3, true) : field(kFloat, 12, false);
-    l.color = field(kUnsignedShort, 8, true);
-    // Instances have it once each; plain vertices are written as they are all the same.
-    if (mesh == 0 || !compressed_) {
-      l.feature =
-          compressed_ && fewFeatures ? field(kUnsignedShort, 2, false) : field(kFloat, 4, false);
-    }
-    l.uv = field(kFloat, 8 * p.uvCount, false);
-    return l;
-  }
-
-  std::string packed(const TilePrimitive& p, const Layout& l, const Steps& steps) const {
-    std::string out(uint64_t{p.vertexCount()} * l.stride, '\0');
-    for (uint32_t v = 0; v < p.vertexCount(); ++v) {
-      const uint32_t* from = p.words.data() + size_t{v} * p.floats();
-      char* to = out.data() + size_t{v} * l.stride;
-      const auto real = [from](size_t i) { return double{std::bit_cast<float>(from[i])}; };
-      for (size_t i = 0; i < 3; ++i) {
-        if (steps.on) {
-          const double step = std::round((real(i) - double{steps.low[i]}) / steps.size);
-          const auto q = static_cast<uint16_t>(std::clamp(step, 0.0, kMostSteps));
-          std::memcpy(to + 2 * i, &q, 2);
-        }
-        const auto n = static_cast<int8_t>(std::lround(std::clamp(real(3 + i), -1.0, 1.0) * 127));
-        to[l.normal.offset + i] = static_cast<char>(n);
-      }
-      if (!steps.on) std::memcpy(to, from, 12);
-      std::memcpy(to + l.color.offset, from + 6, 8);
-      if (l.feature.offset > 0 && l.feature.component == kFloat) {
-        std::memcpy(to + l.feature.offset, from + 8, 4);
-      } else if (l.feature.offset > 0) {
-        const auto feature = static_cast<uint16_t>(real(8));
-        std::memcpy(to + l.feature.offset, &feature, 2);
-      }
-      std::memcpy(to + l.uv.offset, from + 9, size_t{8} * p.uvCount);
-    }
-    return out;
-  }
-
-  void addPrimitive(const TilePrimitive& p, size_t mesh) {
-    if (p.indices.empty()) return;
-    Part part{&p, mesh, layoutOf(p, mesh), p.vertexCount(), p.min, p.max};
-    const Layout& l = part.layout;
-    if (!compressed_) {
-      add(bytesOf(p.words), kArrayBuffer, l.stride);
-      add(bytesOf(p.indices), kElementArrayBuffer);
-      parts_.push_back(part);
+  void addTriangles(const TileStream& stream) {
+    const uint32_t stride = stream.isShort() ? 2 : 4;
+    if (compressed_) {
+      addCompressed(compressedTriangles(stream.indices, stream.count()), kElementArrayBuffer,
+                    stride, "TRIANGLES", stream.indices.size());
       return;
     }
-    std::string vertices = packed(p, l, steps_[mesh]);
-    std::vector<uint32_t> indices = p.indices;
-    settleOrder(vertices, l.stride, indices);
-    setBounds(part, vertices);
-    part.vertices = static_cast<uint32_t>(vertices.size() / l.stride);
-    addCompressed(compressedVertices(vertices, l.stride), kArrayBuffer, l.stride, "ATTRIBUTES",
-                  part.vertices);
-    addCompressed(compressedTriangles(indices, part.vertices), kElementArrayBuffer, 4, "TRIANGLES",
-                  indices.size());
-    parts_.push_back(part);
+    std::string bytes;
+    bytes.reserve(stream.indices.size() * stride);
+    for (const uint32_t i : stream.indices) {
+      bytes.append(reinterpret_cast<const char*>(&i), stride);
+    }
+    add(std::move(bytes), kElementArrayBuffer);
   }
 
-  // Translations, rotations, scales and features, a column each.
-  void addPlaces(const TileInstances& instances, const Steps& steps) {
+  // Where a part stands: at its lowest corner, and as large as its steps, where it has some.
+  Vec3 cornerOf(size_t mesh, const Frame& at) const {
+    return at.point(streams_.steps(mesh).corner());
+  }
+  double scaleOf(size_t mesh) const {
+    return streams_.steps(mesh).on ? streams_.steps(mesh).size : 1;
+  }
+
+  // A column each, of all instances.
+  void addPlaces() {
     std::array<std::string, 4> columns;
-    const auto put = [](std::string& to, double v) {
-      const auto f = static_cast<float>(v);
-      to.append(reinterpret_cast<const char*>(&f), 4);
-    };
-    for (const TileInstances::Place& p : instances.places) {
-      const Vec3 at = p.frame.point(steps.corner());
-      for (size_t i = 0; i < 3; ++i) put(columns[0], at[i]);
-      for (const double q : quaternionOf(p.frame)) put(columns[1], q);
-      for (size_t i = 0; i < 3; ++i) put(columns[2], steps.on ? steps.size : 1);
-      put(columns[3], p.feature);
+    for (size_t i = 0; i < mesh_.instances.size(); ++i) {
+      for (const TileInstances::Place& p : mesh_.instances[i].places) {
+        const Vec3 at = cornerOf(i + 1, p.frame);
+        for (size_t k = 0; k < 3; ++k) putFloat(columns[0], at[k]);
+        for (const double q : quaternionOf(p.frame)) putFloat(columns[1], q);
+        for (size_t k = 0; k < 3; ++k) putFloat(columns[2], scaleOf(i + 1));
+        putFloat(columns[3], p.feature);
+      }
     }
-    for (std::string& c : columns) add(std::move(c));
+    for (size_t k = 0; k < 4; ++k) addRows(std::move(columns[k]), kPlaceBytes[k], 0);
+  }
+
+  // Of meshes that are nodes: the feature of each, as often as its streams have vertices.
+  void addFeatureColumn() {
+    std::string column;
+    eachColumn([&](const ShownMesh& shown, const TileStream& stream) {
+      for (uint32_t v = 0; v < stream.count(); ++v) putFloat(column, shown.feature);
+    });
+    addRows(std::move(column), 4, kArrayBuffer);
+  }
+
+  // Calls `column` with the mesh and the stream, in the order of their accessors.
+  template <class Column>
+  void eachColumn(Column column) const {
+    for (const ShownMesh& shown : shown_) {
+      if (shown.mesh == 0) continue;
+      for (const size_t s : streams_.of(shown.mesh)) column(shown, streams_.all()[s]);
+    }
+  }
+
+  void findMeshes() {
+    if (!streams_.of(0).empty()) shown_.push_back({});
+    for (size_t i = 0; i < mesh_.instances.size(); ++i) {
+      std::set<uint32_t> features;
+      if (!nodes_) features.insert(0);
+      for (const TileInstances::Place& p : mesh_.instances[i].places) {
+        if (nodes_) features.insert(p.feature);
+      }
+      for (const uint32_t f : features) shown_.push_back({i + 1, f});
+    }
   }
 
   template <class Get>
@@ -274,15 +228,17 @@ class TileWriter {
   }
 
   void layOut() {
-    steps_.push_back(stepsOf(mesh_.primitives));
-    for (const TileInstances& i : mesh_.instances) steps_.push_back(stepsOf(i.primitives));
-    for (const TilePrimitive& p : mesh_.primitives) addPrimitive(p, 0);
-    for (size_t i = 0; i < mesh_.instances.size(); ++i) {
-      for (const TilePrimitive& p : mesh_.instances[i].primitives) addPrimitive(p, i + 1);
+    findMeshes();
+    for (const TileStream& s : streams_.all()) {
+      addRows(s.vertices, s.layout.stride, kArrayBuffer);
+      addTriangles(s);
+      accessors_ += s.layout.attributes();
     }
+    firstRange_ = accessors_;
+    firstPlace_ = firstRange_ + streams_.ranges().size();
     firstPlaces_ = pieces_.size();
-    for (size_t i = 0; i < mesh_.instances.size(); ++i) {
-      addPlaces(mesh_.instances[i], steps_[i + 1]);
+    if (!mesh_.instances.empty()) {
+      nodes_ ? addFeatureColumn() : addPlaces();
     }
     firstColumn_ = pieces_.size();
     if (!mesh_.features.empty()) {
@@ -294,8 +250,6 @@ class TileWriter {
       addNumbers([&](size_t i) { return mesh_.features[i].levels; });
       addNumbers([&](size_t i) { return mesh_.features[i].height; });
     }
-    firstImage_ = pieces_.size();
-    for (const ModelTexture& t : mesh_.materials->images()) add(t.bytes);
     bytes_ = (bytes_ + 7) / 8 * 8;
   }
 
@@ -335,32 +289,52 @@ class TileWriter {
     w.endObject().endObject().endArray().endObject().endObject();
   }
 
+  // The first accessor of a stream: its position; the others follow.
+  uint64_t accessorOf(size_t stream) const {
+    uint64_t accessor = 0;
+    for (size_t s = 0; s < stream; ++s) accessor += streams_.all()[s].layout.attributes();
+    return accessor;
+  }
+
   void writeMeshes(JsonWriter& w) const {
     w.key("meshes").beginArray();
-    uint64_t accessor = 0;
-    for (size_t at = 0; at < parts_.size(); ++at) {
-      const Part& part = parts_[at];
-      if (at == 0 || parts_[at - 1].mesh != part.mesh) {
-        w.beginObject().key("primitives").beginArray();
+    uint64_t column = firstPlace_;
+    for (const ShownMesh& shown : shown_) {
+      w.beginObject().key("primitives").beginArray();
+      const std::vector<size_t> own = streams_.of(shown.mesh);
+      for (size_t r = 0; r < streams_.ranges().size(); ++r) {
+        const TileRange& range = streams_.ranges()[r];
+        if (range.mesh != shown.mesh) continue;
+        const auto at = std::find(own.begin(), own.end(), range.stream) - own.begin();
+        writePrimitive(w, range, firstRange_ + r, column + static_cast<uint64_t>(at));
       }
-      w.beginObject().key("attributes").beginObject();
-      w.field("POSITION", accessor).field("NORMAL", accessor + 1).field("COLOR_0", accessor + 2);
-      accessor += 3;
-      if (part.mesh == 0) w.field("_FEATURE_ID_0", accessor++);
-      for (uint32_t i = 0; i < part.primitive->uvCount; ++i) {
-        w.field("TEXCOORD_" + std::to_string(i), accessor++);
-      }
-      w.endObject().field("indices", accessor++);
-      w.field("material", mesh_.materials->materialOf(part.primitive->variant));
-      if (part.mesh == 0) {
-        w.key("extensions").beginObject().key("EXT_mesh_features").beginObject();
-        writeFeatureIds(w);
-        w.endObject().endObject();
-      }
-      w.endObject();
-      if (at + 1 == parts_.size() || parts_[at + 1].mesh != part.mesh) w.endArray().endObject();
+      if (nodes_ && shown.mesh > 0) column += own.size();
+      w.endArray().endObject();
     }
     w.endArray();
+  }
+
+  // `column`: the accessor of its features, where they are not among the vertices.
+  void writePrimitive(JsonWriter& w, const TileRange& range, uint64_t indices,
+                      uint64_t column) const {
+    const TileLayout& layout = streams_.all()[range.stream].layout;
+    uint64_t accessor = accessorOf(range.stream);
+    w.beginObject().key("attributes").beginObject();
+    w.field("POSITION", accessor).field("NORMAL", accessor + 1).field("COLOR_0", accessor + 2);
+    accessor += 3;
+    const bool features = layout.features || nodes_;
+    if (features) w.field("_FEATURE_ID_0", layout.features ? accessor++ : column);
+    for (uint32_t i = 0; i < layout.uvCount; ++i) {
+      w.field("TEXCOORD_" + std::to_string(i), accessor++);
+    }
+    w.endObject().field("indices", indices);
+    w.field("material", mesh_.materials->materialOf(range.primitive->variant));
+    if (features) {
+      w.key("extensions").beginObject().key("EXT_mesh_features").beginObject();
+      writeFeatureIds(w);
+      w.endObject().endObject();
+    }
+    w.endObject();
   }
 
   void writeFeatureIds(JsonWriter& w) const {
@@ -369,65 +343,70 @@ class TileWriter {
     w.field("attribute", 0).field("propertyTable", 0).endObject().endArray();
   }
 
-  void setBounds(Part& part, const std::string& vertices) const {
-    part.low.fill(std::numeric_limits<float>::infinity());
-    part.high.fill(-std::numeric_limits<float>::infinity());
-    for (size_t at = 0; at < vertices.size(); at += part.layout.stride) {
-      std::array<float, 3> v{};
-      std::array<uint16_t, 3> q{};
-      if (steps_[part.mesh].on) {
-        std::memcpy(q.data(), vertices.data() + at, sizeof q);
-        for (size_t i = 0; i < 3; ++i) v[i] = static_cast<float>(q[i]);
-      } else {
-        std::memcpy(v.data(), vertices.data() + at, sizeof v);
+  static void writeAccessor(JsonWriter& w, uint64_t view, uint64_t offset, int component,
+                            uint64_t count, const char* type) {
+    w.beginObject().field("bufferView", view);
+    if (offset) w.field("byteOffset", offset);
+    w.field("componentType", component).field("count", count).field("type", type);
+  }
+
+  static void writeStreamAccessors(JsonWriter& w, const TileStream& stream, uint64_t view) {
+    const TileLayout& l = stream.layout;
+    const auto accessor = [&](const TileField& f, const char* type) {
+      writeAccessor(w, view, f.offset, f.component, stream.count(), type);
+      if (f.normalized) w.field("normalized", true);
+      if (f.offset == 0) {
+        for (const auto& [name, v] : {std::pair{"min", stream.low}, {"max", stream.high}}) {
+          w.key(name).beginArray().value(v[0]).value(v[1]).value(v[2]).endArray();
+        }
       }
-      for (size_t i = 0; i < 3; ++i) {
-        part.low[i] = std::min(part.low[i], v[i]);
-        part.high[i] = std::max(part.high[i], v[i]);
-      }
+      w.endObject();
+    };
+    accessor(l.position, "VEC3");
+    accessor(l.normal, "VEC3");
+    accessor(l.color, "VEC4");
+    if (l.features) accessor(l.feature, "SCALAR");
+    for (uint32_t i = 0; i < l.uvCount; ++i) {
+      TileField uv = l.uv;
+      uv.offset += 8 * i;
+      accessor(uv, "VEC2");
     }
   }
 
   void writeAccessors(JsonWriter& w) const {
     w.key("accessors").beginArray();
-    for (size_t at = 0; at < parts_.size(); ++at) {
-      const Part& part = parts_[at];
-      const Layout& l = part.layout;
-      const auto accessor = [&](const Layout::Field& f, const char* type) {
-        w.beginObject().field("bufferView", uint64_t{2 * at});
-        if (f.offset) w.field("byteOffset", f.offset);
-        w.field("componentType", f.component).field("count", part.vertices).field("type", type);
-        if (f.normalized) w.field("normalized", true);
-        if (f.offset == 0) {
-          for (const auto& [name, v] : {std::pair{"min", part.low}, std::pair{"max", part.high}}) {
-            w.key(name).beginArray().value(v[0]).value(v[1]).value(v[2]).endArray();
-          }
-        }
-        w.endObject();
-      };
-      accessor(l.position, "VEC3");
-      accessor(l.normal, "VEC3");
-      accessor(l.color, "VEC4");
-      if (part.mesh == 0) accessor(l.feature, "SCALAR");
-      for (uint32_t i = 0; i < part.primitive->uvCount; ++i) {
-        Layout::Field uv = l.uv;
-        uv.offset += 8 * i;
-        accessor(uv, "VEC2");
-      }
-      w.beginObject().field("bufferView", uint64_t{2 * at + 1});
-      w.field("componentType", kUnsignedInt);
-      w.field("count", uint64_t{part.primitive->indices.size()})
-          .field("type", "SCALAR")
-          .endObject();
+    for (size_t s = 0; s < streams_.all().size(); ++s) {
+      writeStreamAccessors(w, streams_.all()[s], 2 * s);
     }
-    uint64_t view = firstPlaces_;
-    for (const TileInstances& i : mesh_.instances) {
-      for (const char* type : {"VEC3", "VEC4", "VEC3", "SCALAR"}) {
-        w.beginObject().field("bufferView", view++).field("componentType", kFloat);
-        w.field("count", uint64_t{i.places.size()}).field("type", type).endObject();
-      }
+    for (const TileRange& r : streams_.ranges()) {
+      const bool isShort = streams_.all()[r.stream].isShort();
+      writeAccessor(w, 2 * r.stream + 1, r.firstIndex * (isShort ? 2 : 4),
+                    isShort ? kUnsignedShort : kUnsignedInt, r.indexCount, "SCALAR");
+      w.endObject();
     }
+    nodes_ ? writeColumnAccessors(w) : writePlaceAccessors(w);
     w.endArray();
+  }
+
+  void writeColumnAccessors(JsonWriter& w) const {
+    uint64_t offset = 0;
+    eachColumn([&](const ShownMesh&, const TileStream& stream) {
+      writeAccessor(w, firstPlaces_, offset, kFloat, stream.count(), "SCALAR");
+      w.endObject();
+      offset += uint64_t{4} * stream.count();
+    });
+  }
+
+  void writePlaceAccessors(JsonWriter& w) const {
+    uint64_t first = 0;
+    for (const TileInstances& i : mesh_.instances) {
+      for (size_t k = 0; k < kPlaceTypes.size(); ++k) {
+        writeAccessor(w, firstPlaces_ + k, first * kPlaceBytes[k], kFloat, i.places.size(),
+                      kPlaceTypes[k]);
+        w.endObject();
+      }
+      first += i.places.size();
+    }
   }
 
   void writeViews(JsonWriter& w) const {
@@ -457,78 +436,106 @@ class TileWriter {
     w.endArray();
   }
 
+  // Whether vertices are other than glTF alone has them.
+  bool quantized() const {
+    const std::vector<TileStream>& all = streams_.all();
+    return std::any_of(all.begin(), all.end(), [](const TileStream& s) {
+      return s.layout.normal.component != kFloat || s.layout.position.component != kFloat;
+    });
+  }
+
   void writeExtensions(JsonWriter& w) const {
     w.key("extensionsUsed").beginArray();
     w.value("EXT_mesh_features").value("EXT_structural_metadata");
-    const bool instanced = !mesh_.instances.empty();
+    const bool instanced = !nodes_ && !mesh_.instances.empty();
     if (instanced) w.value("EXT_instance_features").value("EXT_mesh_gpu_instancing");
     if (mesh_.materials->usesTransforms()) w.value("KHR_texture_transform");
-    if (compressed_) w.value("EXT_meshopt_compression").value("KHR_mesh_quantization");
+    if (compressed_) w.value("EXT_meshopt_compression");
+    if (quantized()) w.value("KHR_mesh_quantization");
     w.endArray();
-    if (!compressed_ && !instanced) return;
+    if (!compressed_ && !instanced && !quantized()) return;
     w.key("extensionsRequired").beginArray();
     if (instanced) w.value("EXT_mesh_gpu_instancing");
-    if (compressed_) w.value("EXT_meshopt_compression").value("KHR_mesh_quantization");
+    if (compressed_) w.value("EXT_meshopt_compression");
+    if (quantized()) w.value("KHR_mesh_quantization");
     w.endArray();
   }
 
   // Steps of integers become metres from the middle of the tile.
-  void writeNodes(JsonWriter& w) const {
+  static void beginNode(JsonWriter& w, size_t mesh, const Vec3& at) {
+    w.beginObject().field("mesh", uint64_t{mesh});
+    w.key("translation").beginArray().value(at.x).value(at.y).value(at.z).endArray();
+  }
+  static void writeScale(JsonWriter& w, double scale) {
+    if (scale != 1) w.key("scale").beginArray().value(scale).value(scale).value(scale).endArray();
+  }
+
+  void writeNodes(JsonWriter& w) {
     w.key("nodes").beginArray();
-    uint64_t accessor = 0, number = 0;
-    for (const Part& p : parts_) accessor += p.accessors();
-    const auto begin = [&](const Vec3& at) {
-      w.beginObject().field("mesh", number++);
-      w.key("translation").beginArray().value(at.x).value(at.y).value(at.z).endArray();
-    };
-    if (ownMesh()) {
-      begin(mesh_.center + steps_[0].corner());
-      if (steps_[0].on) {
-        const double step = steps_[0].size;
-        w.key("scale").beginArray().value(step).value(step).value(step).endArray();
+    for (size_t m = 0; m < shown_.size(); ++m) {
+      if (shown_[m].mesh == 0) {
+        beginNode(w, m, mesh_.center + streams_.steps(0).corner());
+        writeScale(w, scaleOf(0));
+        w.endObject();
+        ++nodeCount_;
+      } else if (nodes_) {
+        writePlacedNodes(w, m);
+      } else {
+        writeInstancedNode(w, m);
       }
-      w.endObject();
-    }
-    for (size_t i = 0; i < mesh_.instances.size(); ++i) {
-      begin(mesh_.center);
-      w.key("extensions").beginObject();
-      w.key("EXT_mesh_gpu_instancing").beginObject().key("attributes").beginObject();
-      w.field("TRANSLATION", accessor).field("ROTATION", accessor + 1).field("SCALE", accessor + 2);
-      w.field("_FEATURE_ID_0", accessor + 3).endObject().endObject();
-      w.key("EXT_instance_features").beginObject();
-      writeFeatureIds(w);
-      w.endObject().endObject().endObject();
-      accessor += 4;
     }
     w.endArray();
   }
 
-  /// Whether the tile has a mesh beside those of instances.
-  bool ownMesh() const { return !parts_.empty() && parts_[0].mesh == 0; }
+  void writeInstancedNode(JsonWriter& w, size_t m) {
+    uint64_t accessor = firstPlace_ + kPlaceTypes.size() * (shown_[m].mesh - 1);
+    beginNode(w, m, mesh_.center);
+    w.key("extensions").beginObject();
+    w.key("EXT_mesh_gpu_instancing").beginObject().key("attributes").beginObject();
+    for (const char* name : {"TRANSLATION", "ROTATION", "SCALE", "_FEATURE_ID_0"}) {
+      w.field(name, accessor++);
+    }
+    w.endObject().endObject();
+    w.key("EXT_instance_features").beginObject();
+    writeFeatureIds(w);
+    w.endObject().endObject().endObject();
+    ++nodeCount_;
+  }
+
+  void writePlacedNodes(JsonWriter& w, size_t m) {
+    const auto [mesh, feature] = shown_[m];
+    for (const TileInstances::Place& p : mesh_.instances[mesh - 1].places) {
+      if (p.feature != feature) continue;
+      beginNode(w, m, mesh_.center + cornerOf(mesh, p.frame));
+      w.key("rotation").beginArray();
+      for (const double q : quaternionOf(p.frame)) w.value(static_cast<float>(q));
+      w.endArray();
+      writeScale(w, scaleOf(mesh));
+      w.endObject();
+      ++nodeCount_;
+    }
+  }
 
   void writeImages(JsonWriter& w) const {
-    const std::vector<ModelTexture>& images = mesh_.materials->images();
-    if (images.empty()) return;
+    if (images_.empty()) return;
     w.key("images").beginArray();
-    for (size_t i = 0; i < images.size(); ++i) {
-      w.beginObject().field("name", images[i].name);
-      w.field("bufferView", uint64_t{firstImage_ + i}).field("mimeType", images[i].mime);
-      w.endObject();
+    for (const std::string& image : images_) {
+      w.beginObject().field("uri", addressFrom(name_, image)).endObject();
     }
     w.endArray();
   }
 
-  std::string text() const {
+  std::string text() {
     std::string out;
     JsonWriter w(out);
     w.beginObject();
     w.key("asset").beginObject().field("version", "2.0").field("generator", "Gable").endObject();
     writeExtensions(w);
     writeTable(w);
-    w.field("scene", 0).key("scenes").beginArray().beginObject().key("nodes").beginArray();
-    for (size_t n = 0; n < mesh_.instances.size() + (ownMesh() ? 1 : 0); ++n) w.value(uint64_t{n});
-    w.endArray().endObject().endArray();
     writeNodes(w);
+    w.field("scene", 0).key("scenes").beginArray().beginObject().key("nodes").beginArray();
+    for (uint64_t n = 0; n < nodeCount_; ++n) w.value(n);
+    w.endArray().endObject().endArray();
     writeMeshes(w);
     mesh_.materials->write(w);
     writeImages(w);
@@ -540,20 +547,25 @@ class TileWriter {
 
   const TileMesh& mesh_;
   const std::string& name_;
-  const bool compressed_;
+  const std::vector<std::string>& images_;
+  const bool compressed_, nodes_;
+  TileStreams streams_;
+  std::vector<ShownMesh> shown_;
   std::vector<Piece> pieces_;
-  // By mesh.
-  std::vector<Steps> steps_;
-  std::vector<Part> parts_;
-  size_t firstPlaces_ = 0, firstColumn_ = 0, firstImage_ = 0;
-  uint64_t bytes_ = 0, rawBytes_ = 0;
+  // Accessors: of vertices, from where those of triangles, and of places or of their features.
+  uint64_t accessors_ = 0, firstRange_ = 0, firstPlace_ = 0;
+  // Pieces.
+  size_t firstPlaces_ = 0, firstColumn_ = 0;
+  uint64_t nodeCount_ = 0, bytes_ = 0, rawBytes_ = 0;
 };
 
 }  // namespace
 
 Result<TileFile> writeTile(const TileMesh& mesh, const std::string& folder, const std::string& name,
-                           bool compressed) {
-  const Result<std::string> bytes = TileWriter(mesh, name, compressed).bytes();
+                           const TileForm& form, TileImages& images) {
+  const Result<std::vector<std::string>> pictures = images.write(mesh.materials->images());
+  if (!pictures.ok()) return pictures.error();
+  const Result<std::string> bytes = TileWriter(mesh, name, form, pictures.value()).bytes();
   if (!bytes.ok()) return bytes.error();
   const Result<uint64_t> written = writeFile(folder + name, bytes.value());
   if (!written.ok()) return written.error();

@@ -103,9 +103,11 @@ void measure(TileMesh& mesh) {
     return sum;
   };
   Box3 box = boxOf(mesh.primitives);
-  mesh.triangles = triangles(mesh.primitives);
+  mesh.triangles = mesh.cost = triangles(mesh.primitives);
   for (const TileInstances& i : mesh.instances) {
-    mesh.triangles += triangles(i.primitives) * i.places.size();
+    const uint64_t once = triangles(i.primitives);
+    mesh.triangles += once * i.places.size();
+    mesh.cost += costOf(once, i.places.size());
     const Box3 part = boxOf(i.primitives);
     for (const TileInstances::Place& p : i.places) {
       const Box3 placed = boundsAt(part, p.frame, {1, 1, 1});

@@ -56,12 +56,31 @@ struct TileMesh {
   std::vector<std::string> warnings;
   /// Of the vertices as they are written, in the frame of the place.
   Box3 box;
-  /// As they are shown, each as often as it is placed.
-  uint64_t triangles = 0;
+  /// As they are shown, each as often as it is placed; and what they cost (TileContent::triangles).
+  uint64_t triangles = 0, cost = 0;
 };
 
 /// Metres: positions are integers where that moves none by more.
 constexpr double kMostQuantized = 0.002;
+
+/// How parts that are placed several times are shown.
+enum class TileInstancing : uint8_t {
+  /// By nodes of EXT_mesh_gpu_instancing and EXT_instance_features.
+  Gpu,
+  /// By nodes that share vertices and triangles; those of one feature share a mesh.
+  Nodes,
+  /// Not at all: they are written as often as they are placed.
+  None,
+};
+
+/// How a tile is written.
+struct TileForm {
+  /// EXT_meshopt_compression, where the build has the library.
+  bool compressed = false;
+  /// Single precision, no KHR_mesh_quantization.
+  bool floats = false;
+  TileInstancing instancing = TileInstancing::Gpu;
+};
 
 /// Triangles without area in single precision are left out.
 TileMesh meshOf(const TileContent& content, const WriteOptions& options);
@@ -73,11 +92,13 @@ struct TileFile {
   uint64_t bytes = 0, checksum = 0;
 };
 
-/// Writes it as GLB to `folder` + `name`: one node, EXT_mesh_features, EXT_structural_metadata with
-/// a table of features; `compressed` where the build has the library, with vertices at most
-/// kMostQuantized from their places. Instances are nodes of EXT_mesh_gpu_instancing and
-/// EXT_instance_features. Code: file-unwritable.
+class TileImages;
+
+/// Writes it as GLB to `folder` + `name`, and its pictures to `images`: EXT_mesh_features,
+/// EXT_structural_metadata with a table of features. A vertex is at most kMostQuantized from its
+/// place where the tile is compressed, WriteOptions::kMostQuantized where it is not, and in its
+/// place where it has floats. Codes: file-unwritable, model-too-large.
 Result<TileFile> writeTile(const TileMesh& mesh, const std::string& folder, const std::string& name,
-                           bool compressed);
+                           const TileForm& form, TileImages& images);
 
 }  // namespace gable

@@ -12,7 +12,7 @@
 namespace gable {
 namespace {
 
-constexpr uint64_t kPartMark = 0x3130747261706c67;
+constexpr uint64_t kPartMark = 0x3230747261706c67;
 // Squares are divided so often, and a tile of one unit into quarters of it again.
 constexpr int kDeepestNode = 4 * kDeepestSquare;
 
@@ -20,7 +20,7 @@ void write(ByteWriter& w, const TileNode& node) {
   w.value(node.box);
   w.value(node.error);
   w.text(node.uri);
-  w.value(node.triangles);
+  w.value(node.cost);
   w.value(node.levels);
   w.value(node.nodes);
   w.value(uint64_t{node.children.size()});
@@ -31,7 +31,7 @@ bool read(ByteReader& r, TileNode& node, int depth) {
   node.box = r.value<Box3>();
   node.error = r.value<double>();
   node.uri = r.text();
-  node.triangles = r.value<uint64_t>();
+  node.cost = r.value<uint64_t>();
   node.levels = r.value<uint32_t>();
   node.nodes = r.value<uint64_t>();
   const size_t children = r.count(sizeof(Box3));
@@ -70,6 +70,24 @@ void write(ByteWriter& w, const CoarseModel& model) {
   w.list(model.vertices);
   w.list(model.triangles);
   w.value(model.error);
+}
+
+void write(ByteWriter& w, const std::vector<TileFile>& files) {
+  w.value(uint64_t{files.size()});
+  for (const TileFile& f : files) {
+    w.text(f.name);
+    w.value(f.bytes);
+    w.value(f.checksum);
+  }
+}
+
+void read(ByteReader& r, std::vector<TileFile>& files) {
+  files.resize(r.count(3 * sizeof(uint64_t)));
+  for (TileFile& f : files) {
+    f.name = r.text();
+    f.bytes = r.value<uint64_t>();
+    f.checksum = r.value<uint64_t>();
+  }
 }
 
 // Whether the numbers of a part name what is there.
@@ -120,12 +138,8 @@ std::string partBytes(const TilePart& part, uint64_t plan) {
   w.value(uint64_t{part.root.has_value()});
   if (part.root) write(w, *part.root);
   write(w, part.coarse);
-  w.value(uint64_t{part.files.size()});
-  for (const TileFile& f : part.files) {
-    w.text(f.name);
-    w.value(f.bytes);
-    w.value(f.checksum);
-  }
+  write(w, part.files);
+  write(w, part.images);
   for (const uint64_t v : {part.tiles, part.bytes, part.triangles, part.coarseTriangles}) {
     w.value(v);
   }
@@ -149,12 +163,8 @@ std::optional<TilePart> partOf(std::string_view bytes, uint64_t plan) {
     if (!read(r, *part.root, 0)) return std::nullopt;
   }
   if (!read(r, part.coarse)) return std::nullopt;
-  part.files.resize(r.count(3 * sizeof(uint64_t)));
-  for (TileFile& f : part.files) {
-    f.name = r.text();
-    f.bytes = r.value<uint64_t>();
-    f.checksum = r.value<uint64_t>();
-  }
+  read(r, part.files);
+  read(r, part.images);
   for (uint64_t* v : {&part.tiles, &part.bytes, &part.triangles, &part.coarseTriangles}) {
     *v = r.value<uint64_t>();
   }
@@ -165,11 +175,13 @@ std::optional<TilePart> partOf(std::string_view bytes, uint64_t plan) {
 }
 
 std::string damagedFile(const TilePart& part, const std::string& folder) {
-  for (const TileFile& f : part.files) {
-    work();
-    const Result<std::string> bytes = readFile(folder + f.name, f.bytes + 1);
-    if (!bytes.ok() || bytes.value().size() != f.bytes || checksum(bytes.value()) != f.checksum) {
-      return f.name;
+  for (const std::vector<TileFile>* files : {&part.files, &part.images}) {
+    for (const TileFile& f : *files) {
+      work();
+      const Result<std::string> bytes = readFile(folder + f.name, f.bytes + 1);
+      if (!bytes.ok() || bytes.value().size() != f.bytes || checksum(bytes.value()) != f.checksum) {
+        return f.name;
+      }
     }
   }
   return {};

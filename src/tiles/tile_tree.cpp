@@ -20,6 +20,7 @@
 #include "io/exporters/plan.h"
 #include "io/exporters/surface.h"
 #include "tiles/texture_tints.h"
+#include "tiles/tile_images.h"
 
 namespace gable {
 namespace {
@@ -71,11 +72,13 @@ Branch failed(const Error& e) {
 // Squares that have been made, and the coarse one above them.
 class Coverer {
  public:
-  explicit Coverer(const TileTreeOptions& options) : options_(options) {}
+  explicit Coverer(const TileTreeOptions& options) : options_(options), images_(options.folder) {}
 
   Branch cover(std::vector<Branch>& branches, const TileSquare& square, const std::string& name);
   /// Writes a tile of a branch.
-  void write(Branch& b, const TileMesh& mesh) const;
+  void write(Branch& b, const TileMesh& mesh);
+  /// Of all tiles that it has written.
+  std::vector<TileFile> images() const { return images_.files(); }
 
  private:
   std::string uriOf(const std::string& name, const char* ending) const;
@@ -84,6 +87,7 @@ class Coverer {
   void divide(Branch& out, const std::vector<std::string>& names) const;
 
   const TileTreeOptions& options_;
+  TileImages images_;
 };
 
 void append(std::vector<std::string>& to, const std::vector<std::string>& more) {
@@ -101,12 +105,13 @@ std::string Coverer::uriOf(const std::string& name, const char* ending) const {
   return uri;
 }
 
-void Coverer::write(Branch& b, const TileMesh& mesh) const {
+void Coverer::write(Branch& b, const TileMesh& mesh) {
   append(b.part.warnings, mesh.warnings);
   b.node().uri = uriOf(b.name, ".glb");
   b.node().box = mesh.box;
-  b.node().triangles = mesh.triangles;
-  const Result<TileFile> file = writeTile(mesh, options_.folder, b.node().uri, options_.compressed);
+  b.node().cost = mesh.cost;
+  const Result<TileFile> file =
+      writeTile(mesh, options_.folder, b.node().uri, options_.form, images_);
   if (!file.ok()) {
     b.error = file.error();
     return;
@@ -124,6 +129,7 @@ void Coverer::addChild(Branch& out, Branch& child, Box3& box) const {
   out.node().nodes += part.root->nodes;
   out.node().children.push_back(std::move(*part.root));
   std::move(part.files.begin(), part.files.end(), std::back_inserter(out.part.files));
+  addImages(out.part.images, part.images);
   out.part.tiles += part.tiles;
   out.part.bytes += part.bytes;
   out.part.triangles += part.triangles;
@@ -217,6 +223,7 @@ class Builder {
     // What is not written by now is written for a square around this one.
     finish(one, toleranceOf(square) * 2);
     if (one[0].error) return *one[0].error;
+    one[0].part.images = coverer_.images();
     return std::move(one[0].part);
   }
 
@@ -316,6 +323,7 @@ class Builder {
       }
     }
     std::vector<uint32_t> out(count, TileLeaf::kNone);
+    if (options_.form.instancing == TileInstancing::None) return out;
     for (size_t i = 0; i < count; ++i) {
       const size_t p = same[i];
       if (placed[p] > 1 && triangles[p] >= kLeast &&
@@ -432,7 +440,7 @@ class Builder {
     });
   }
 
-  void finishOne(Branch& b, double tolerance) const {
+  void finishOne(Branch& b, double tolerance) {
     WriteOptions options;
     options.readTexture = options_.readTexture;
     options.keepUv = false;

@@ -36,8 +36,10 @@ struct TileNode {
   /// Metres; 0 where everything is shown.
   double error = 0;
   /// The file, from the folder of the tileset: a tile, or a tileset of its own for what is below.
+  /// Empty where nothing is left of it.
   std::string uri;
-  uint64_t triangles = 0;
+  /// What it takes to show it, in triangles.
+  uint64_t cost = 0;
   std::vector<TileNode> children;
   /// Levels from here down, tilesets of their own included, and nodes that stand in this one.
   uint32_t levels = 1;
@@ -50,6 +52,9 @@ struct TilePart {
   std::optional<TileNode> root;
   CoarseModel coarse;
   std::vector<TileFile> files;
+  /// Pictures that tiles show, by name; other parts may show them as well.
+  std::vector<TileFile> images;
+  /// Bytes without those of pictures.
   uint64_t tiles = 0, bytes = 0;
   /// Of the tiles that show everything, and of the others.
   uint64_t triangles = 0, coarseTriangles = 0;
@@ -64,8 +69,7 @@ struct TileTreeOptions {
   /// A tileset with more nodes has its larger parts in files of their own.
   uint64_t mostNodes = 1000;
   unsigned threads = 0;
-  /// Quantised and compressed (tiles/compress.h).
-  bool compressed = false;
+  TileForm form;
   /// Ends in a slash.
   std::string folder;
   TextureReader readTexture;

@@ -17,7 +17,13 @@ import { dirname, extname, join, normalize } from 'node:path';
 import { hasBrowser, launch, openPage, root } from './studio.mjs';
 
 const MOST_MS = 30;
-const TYPES = { '.js': 'text/javascript', '.mjs': 'text/javascript', '.json': 'application/json' };
+const TYPES = {
+  '.js': 'text/javascript',
+  '.mjs': 'text/javascript',
+  '.json': 'application/json',
+  '.png': 'image/png',
+  '.jpg': 'image/jpeg',
+};
 
 const PAGE = `<!doctype html><link rel="icon" href="data:,"><script type="importmap">{"imports":{
 "three":"/modules/three/build/three.module.js",

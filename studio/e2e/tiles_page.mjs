@@ -45,7 +45,11 @@ const places = new ShaderMaterial({
   side: DoubleSide,
   uniforms: { center: { value: new Vector3() } },
   vertexShader: `varying vec3 at; uniform vec3 center;
-    void main() { vec4 p = modelMatrix * vec4(position, 1.0); at = p.xyz - center;
+    void main() { vec4 p = vec4(position, 1.0);
+      #ifdef USE_INSTANCING
+      p = instanceMatrix * p;
+      #endif
+      p = modelMatrix * p; at = p.xyz - center;
       gl_Position = projectionMatrix * viewMatrix * p; }`,
   fragmentShader: `varying vec3 at; void main() { gl_FragColor = vec4(at, 1.0); }`,
 });
