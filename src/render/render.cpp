@@ -102,6 +102,22 @@ constexpr double kLitRooms = 0.4;
 /// shines, through curtains and towards its own walls.
 constexpr float kRoomShine = 0.12f;
 
+/// What a cut leaves of the corners of a block, and where it goes through the block's edges.
+void addBlock(const rt::Stage::Block& block, const rt::Cut& cut, std::vector<rt::Vec3f>& points) {
+  const auto corner = [&](unsigned i) {
+    return rt::Vec3f{i & 1 ? block.max.x : block.min.x, i & 2 ? block.max.y : block.min.y,
+                     i & 4 ? block.max.z : block.min.z};
+  };
+  for (unsigned i = 0; i < 8; ++i) {
+    const rt::Vec3f a = corner(i);
+    if (cut.beyond(a) <= 0) points.push_back(a);
+    for (const unsigned bit : {1u, 2u, 4u}) {
+      const rt::Vec3f b = corner(i | bit);
+      if ((cut.beyond(a) > 0) != (cut.beyond(b) > 0)) points.push_back(cut.between(a, b));
+    }
+  }
+}
+
 /// Turned about the vertical through `middle`, counter-clockwise from above.
 void orbit(Camera& camera, const Vec3& middle, double degrees) {
   if (degrees == 0) return;
@@ -137,7 +153,16 @@ struct Renderer::Impl {
 
   rt::Subject subject(const RenderOptions& o) const {
     const double foot = o.groundHeight ? *o.groundHeight - world.origin.y : world.footHeight;
-    return {world, tracer, points, foot, o.frontAzimuth.value_or(front)};
+    return {world, tracer, framed(o, foot), foot, o.frontAzimuth.value_or(front)};
+  }
+
+  /// What a camera without a place of its own has to show.
+  std::vector<rt::Vec3f> framed(const RenderOptions& o, double foot) const {
+    const std::optional<rt::Cut> plane = cut(o);
+    if (!plane) return points;
+    std::vector<rt::Vec3f> left = rt::framingPoints(world, &*plane);
+    if (o.look == PictureLook::Section) addBlock(block(foot), *plane, left);
+    return left;
   }
 
   rt::Light light(const RenderOptions& o) const {
