@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -351,6 +352,53 @@ TEST(Looks, drawingsArePaperWithLines) {
     }
     EXPECT_GT(paper, rgba.size() / 4 / 4);
     EXPECT_GT(lines, rgba.size() / 4 / 400);
+  }
+}
+
+/// The sky from the horizon up, 60 degrees across, away from the sun.
+Picture nightSky(double sunElevation) {
+  SceneMaker m;
+  m.box({-1, 0, -1}, {2, 1, 2}, m.material("#808080"));
+  RenderOptions o = smallOptions(200, 100, 4);
+  o.sunElevation = sunElevation;
+  o.sunAzimuth = 180;
+  o.eye = Vec3{0, 2, -10};
+  o.target = Vec3{0, 14, -40};
+  o.fov = 60;
+  return render(m.finish(), o);
+}
+
+TEST(Night, isDarkBlueWithStars) {
+  const std::vector<uint8_t> night = toRgba8(nightSky(-18).image);
+  std::vector<int> levels;
+  int64_t red = 0, blue = 0;
+  for (size_t i = 0; i < night.size() / 2; i += 4) {
+    levels.push_back(night[i + 1]);
+    red += night[i];
+    blue += night[i + 2];
+  }
+  std::sort(levels.begin(), levels.end());
+  EXPECT_LT(levels[levels.size() / 2], 50);
+  EXPECT_GT(levels[levels.size() / 2], 4);
+  EXPECT_GT(blue, red * 5 / 4);
+  // A few pixels are stars, and some of them bright.
+  EXPECT_GT(levels.back(), 90);
+  const auto stars = std::count_if(levels.begin(), levels.end(),
+                                   [&](int v) { return v > levels[levels.size() / 2] + 25; });
+  EXPECT_GT(stars, 5);
+  EXPECT_LT(stars, static_cast<int64_t>(levels.size() / 40));
+}
+
+TEST(Night, comesAfterDuskAndItsStarsToo) {
+  const double dusk = levelOf(nightSky(-3).image), night = levelOf(nightSky(-18).image);
+  EXPECT_GT(dusk, 3 * night);
+  const std::vector<uint8_t> evening = toRgba8(nightSky(-2).image);
+  // Even, row by row.
+  for (size_t y = 0; y < 40; ++y) {
+    for (size_t x = 1; x < 200; ++x) {
+      const size_t i = 4 * (y * 200 + x) + 1;
+      ASSERT_LT(std::abs(evening[i] - evening[i - 4]), 8);
+    }
   }
 }
 

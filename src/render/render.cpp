@@ -52,7 +52,9 @@ constexpr float kVeil = 0.008f;
 /// stone on which the exposure rests stays between 195 and 225.
 constexpr float kMeanLevel = 126 / 255.0f, kLeastStops = -0.3f, kMostStops = 0.35f;
 /// The same at night, when the brightest part of the dusk may be before the camera or behind it.
-constexpr float kNightLevel = 56 / 255.0f, kNightStops = -1.0f;
+constexpr float kNightLevel = 40 / 255.0f, kNightStops = -1.0f;
+/// By day, what shines less than this is lost in the light.
+constexpr float kLostByDay = 0.5f;
 
 /// Mean display level of some thousand pixels.
 float meanLevel(const std::vector<rt::Vec3f>& pixels, float exposure) {
@@ -100,7 +102,7 @@ constexpr Vec3 kPaper{0xf4 / 255.0, 0xf1 / 255.0, 0xea / 255.0};
 constexpr double kLitRooms = 0.4;
 /// What a room gives to the street, over what a lamp as bright would give: it shows more than it
 /// shines, through curtains and towards its own walls.
-constexpr float kRoomShine = 0.12f;
+constexpr float kRoomShine = 0.04f;
 
 /// What a cut leaves of the corners of a block, and where it goes through the block's edges.
 void addBlock(const rt::Stage::Block& block, const rt::Cut& cut, std::vector<rt::Vec3f>& points) {
@@ -201,9 +203,10 @@ struct Renderer::Impl {
 
   rt::Emitters emitters(const RenderOptions& o, const rt::Light& light, double rooms) const {
     if (o.look == PictureLook::Clay || o.lampPower <= 0) return {};
-    if (light.night <= 0 && rooms <= 0 && !anyEmission()) return {};
+    const float least = light.night > 0 ? 0 : kLostByDay;
+    if (light.night <= 0 && rooms <= 0 && !anyEmission(least)) return {};
     return {world, [&](const rt::SurfaceMaterial& m, const rt::Vec3f& middle, const rt::Vec3f& n) {
-              rt::Vec3f shine = m.meanEmissive;
+              rt::Vec3f shine = rt::maxOf(m.meanEmissive) > least ? m.meanEmissive : rt::Vec3f{};
               if (m.pane && rooms > 0) {
                 shine += rt::roomLight(static_cast<float>(rooms), middle, n) * kRoomShine;
               }
@@ -211,9 +214,9 @@ struct Renderer::Impl {
             }};
   }
 
-  bool anyEmission() const {
+  bool anyEmission(float least) const {
     for (const rt::SurfaceMaterial& m : world.materials) {
-      if (rt::maxOf(m.emissive) > 0) return true;
+      if (rt::maxOf(m.emissive) > least) return true;
     }
     return false;
   }

@@ -281,7 +281,7 @@ Vec3f roomLight(float share, const Vec3f& middle, const Vec3f& facet) {
   if (draw(1) >= share) return {};
   const Vec3f warm = mix({1, 0.56f, 0.22f}, {1, 0.75f, 0.46f}, draw(2));
   const Vec3f colour = draw(3) < 0.07f ? Vec3f{0.62f, 0.76f, 1} : warm;
-  return colour * (0.18f + 0.62f * draw(4) * draw(4));
+  return colour * (0.06f + 0.21f * draw(4) * draw(4));
 }
 
 }  // namespace gable::rt
