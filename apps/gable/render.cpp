@@ -177,6 +177,7 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
     }
     s.sun = {sun[0], sun[1]};
   }
+  s.groundBlock = a.block;
   if (!a.ground.empty()) {
     if (!parseColor(a.ground, s.ground.emplace())) {
       return wrongOption("--ground", "a colour such as #77766a", a.ground);
@@ -253,9 +254,10 @@ int readForPicture(RenderArguments& a, Inputs& inputs) {
   const std::vector<std::string>& declared = inputs.rules.styles();
   if (std::find(declared.begin(), declared.end(), style) == declared.end()) {
     if (isLook) a.look = style;
-    return isLook ? kExitDone
-                  : fail(kExitUsage, "neither a style of the rules nor a look of pictures is named '" +
-                                         style + "'; " + meant);
+    return isLook
+               ? kExitDone
+               : fail(kExitUsage, "neither a style of the rules nor a look of pictures is named '" +
+                                      style + "'; " + meant);
   }
   a.derive.style = style;
   return readInputs(a.derive, inputs);

@@ -307,6 +307,23 @@ TEST(Looks, sectionIsCutAtItsFrontOnPaper) {
   EXPECT_LT(darkest, 90);
 }
 
+TEST(Looks, aBlockOfSoilEndsWhereTheModelDoes) {
+  SceneMaker m;
+  m.box({-40, 0, -40}, {80, 1, 80}, m.material("#808080"));
+  const Scene scene = m.finish();
+  RenderOptions o = smallOptions(96, 54, 1);
+  o.layers = true;
+  o.view = PictureView::Iso;
+  const auto shows = [&](bool block) {
+    o.groundBlock = block;
+    const Picture p = render(scene, o);
+    // The middle, and the lower left corner.
+    return std::pair(p.layers.depth[27 * 96 + 48] > 0, p.layers.depth[53 * 96] > 0);
+  };
+  EXPECT_EQ(shows(false), std::pair(true, true));
+  EXPECT_EQ(shows(true), std::pair(true, false));
+}
+
 TEST(Looks, clayIsOfOneColour) {
   RenderOptions o = smallOptions(64, 36, 16);
   o.look = PictureLook::Clay;

@@ -104,18 +104,19 @@ constexpr double kLitRooms = 0.4;
 /// shines, through curtains and towards its own walls.
 constexpr float kRoomShine = 0.04f;
 
-/// What a cut leaves of the corners of a block, and where it goes through the block's edges.
-void addBlock(const rt::Stage::Block& block, const rt::Cut& cut, std::vector<rt::Vec3f>& points) {
+/// The corners of a block, or what a cut leaves of them and where it goes through the block's
+/// edges.
+void addBlock(const rt::Stage::Block& block, const rt::Cut* cut, std::vector<rt::Vec3f>& points) {
   const auto corner = [&](unsigned i) {
     return rt::Vec3f{i & 1 ? block.max.x : block.min.x, i & 2 ? block.max.y : block.min.y,
                      i & 4 ? block.max.z : block.min.z};
   };
   for (unsigned i = 0; i < 8; ++i) {
     const rt::Vec3f a = corner(i);
-    if (cut.beyond(a) <= 0) points.push_back(a);
+    if (!cut || cut->beyond(a) <= 0) points.push_back(a);
     for (const unsigned bit : {1u, 2u, 4u}) {
       const rt::Vec3f b = corner(i | bit);
-      if ((cut.beyond(a) > 0) != (cut.beyond(b) > 0)) points.push_back(cut.between(a, b));
+      if (cut && (cut->beyond(a) > 0) != (cut->beyond(b) > 0)) points.push_back(cut->between(a, b));
     }
   }
 }
@@ -161,10 +162,14 @@ struct Renderer::Impl {
   /// What a camera without a place of its own has to show.
   std::vector<rt::Vec3f> framed(const RenderOptions& o, double foot) const {
     const std::optional<rt::Cut> plane = cut(o);
-    if (!plane) return points;
-    std::vector<rt::Vec3f> left = rt::framingPoints(world, &*plane);
-    if (o.look == PictureLook::Section) addBlock(block(foot), *plane, left);
+    const rt::Cut* const cut = plane ? &*plane : nullptr;
+    std::vector<rt::Vec3f> left = cut ? rt::framingPoints(world, cut) : points;
+    if (standsOnBlock(o)) addBlock(block(foot), cut, left);
     return left;
+  }
+
+  static bool standsOnBlock(const RenderOptions& o) {
+    return o.ground && (o.groundBlock || o.look == PictureLook::Section);
   }
 
   rt::Light light(const RenderOptions& o) const {
@@ -261,8 +266,8 @@ struct Renderer::Impl {
     if (o.look == PictureLook::Section) {
       s.paper = rt::inverseToneMapped(rt::srgbToLinear(kPaper)) * (1 / light.exposure);
       s.haze = 0;
-      s.block = block(foot);
     }
+    if (standsOnBlock(o)) s.block = block(foot);
     return s;
   }
 
