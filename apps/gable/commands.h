@@ -80,6 +80,7 @@ struct RenderArguments {
   std::string sun;
   std::string eye, target;
   std::string ground;
+  bool block = false;
   std::optional<double> fieldOfView, pitch;
   std::string look;
   /// Of gable::lightingNames().

@@ -86,6 +86,8 @@ void addLookOptions(CLI::App* app, RenderArguments& a) {
   app->add_flag("--no-denoise", a.noDenoise, "Leave the noise of few samples in the picture");
   app->add_option("--ground", a.ground,
                   "Colour of the ground around the model: #rrggbb (default #77766a)");
+  app->add_flag("--block", a.block,
+                "A block of soil under the model, cut at its sides, in place of endless ground");
   app->add_option("--fov", a.fieldOfView, "Horizontal angle of view in degrees, 1 to 170")
       ->check(number({1, 170}));
 }

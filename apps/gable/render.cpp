@@ -8,6 +8,7 @@
 #include "answer.h"
 #include "commands.h"
 #include "derive_settings.h"
+#include "gable/builtins.h"
 #include "gable/names.h"
 #include "progress.h"
 #include "watch.h"
@@ -177,6 +178,7 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
     }
     s.sun = {sun[0], sun[1]};
   }
+  s.groundBlock = a.block;
   if (!a.ground.empty()) {
     if (!parseColor(a.ground, s.ground.emplace())) {
       return wrongOption("--ground", "a colour such as #77766a", a.ground);
@@ -245,13 +247,18 @@ int drawWithLayers(const gable::Model& model, const RenderArguments& arguments,
 int readForPicture(RenderArguments& a, Inputs& inputs) {
   const std::string style = a.derive.style.value_or("");
   const bool isLook = a.look.empty() && style != "photo" && gable::lookNamed(style);
-  if (isLook) a.derive.style.reset();
+  const std::string meant =
+      a.look.empty() && !isLook ? gable::suggestion(style, gable::lookNames()) : "";
+  if (isLook || !meant.empty()) a.derive.style.reset();
   const int status = readInputs(a.derive, inputs);
-  if (status || !isLook) return status;
+  if (status || !(isLook || !meant.empty())) return status;
   const std::vector<std::string>& declared = inputs.rules.styles();
   if (std::find(declared.begin(), declared.end(), style) == declared.end()) {
-    a.look = style;
-    return kExitDone;
+    if (isLook) a.look = style;
+    return isLook
+               ? kExitDone
+               : fail(kExitUsage, "neither a style of the rules nor a look of pictures is named '" +
+                                      style + "'; " + meant);
   }
   a.derive.style = style;
   return readInputs(a.derive, inputs);

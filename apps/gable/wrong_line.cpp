@@ -49,6 +49,29 @@ std::string unknownOption(const CLI::App& app, int argc, char** argv) {
   return {};
 }
 
+// What to say of the first word that an option does not take; else nothing.
+std::string unknownWord(const CLI::App& app, int argc, char** argv) {
+  for (const OptionDescription& option : describe(chosenApp(app)).options) {
+    if (option.words.empty()) continue;
+    for (int i = 1; i < argc; ++i) {
+      const std::string argument = argv[i], name = argument.substr(0, argument.find('='));
+      const auto& names = option.names;
+      if (std::find(names.begin(), names.end(), name) == names.end()) continue;
+      const bool follows = name == argument;
+      if (follows && i + 1 == argc) continue;
+      const std::string word = follows ? argv[i + 1] : argument.substr(name.size() + 1);
+      const auto& words = option.words;
+      if (std::find(words.begin(), words.end(), word) != words.end()) continue;
+      std::string hint = gable::suggestion(word, words);
+      if (hint.empty()) {
+        for (const std::string& w : words) hint += (hint.empty() ? "there are " : ", ") + w;
+      }
+      return "'" + name + "' does not take '" + word + "'; " + hint;
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 int wrongLine(const CLI::App& app, const CLI::ParseError& e, int argc, char** argv) {
@@ -60,7 +83,7 @@ int wrongLine(const CLI::App& app, const CLI::ParseError& e, int argc, char** ar
     if (std::string_view(argv[i]) == "--json") terminal().json = true;
   }
   answer().begin(chosenCommand(app));
-  for (const auto& unknown : {unknownCommand, unknownOption}) {
+  for (const auto& unknown : {unknownCommand, unknownOption, unknownWord}) {
     const std::string mistake = unknown(app, argc, argv);
     if (!mistake.empty()) return fail(kExitUsage, mistake);
   }

@@ -87,6 +87,8 @@ struct PictureSettings {
   std::optional<double> litRooms;
   /// The colour of the ground around the model, sRGB from 0 to 1.
   std::optional<Triple> ground;
+  /// The ground is a block of soil under the model, cut at its sides.
+  bool groundBlock = false;
   /// Metres.
   struct Camera {
     Triple eye{}, target{};

@@ -116,6 +116,7 @@ Result<RenderOptions> renderOptions(const PictureSettings& s, const Scene& scene
     o.eye = vec(s.camera->eye);
     o.target = vec(s.camera->target);
   }
+  o.groundBlock = s.groundBlock;
   if (s.ground) o.groundColor = vec(*s.ground);
   o.fov = s.fieldOfView;
   o.pitch = s.pitch;

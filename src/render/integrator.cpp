@@ -104,7 +104,7 @@ class Tracing {
     const Vec3f& d = w.ray.direction;
     Vec3f sky = w.sharp ? light_.shownSky(d) : light_.sky(d);
     if (stage_.paper && w.sharp) sky = *stage_.paper;
-    if (w.depth == 0 && !stage_.paper) sky += light_.shownSun(d);
+    if (w.depth == 0 && !stage_.paper) sky += light_.shownSun(d) + light_.shownStars(d);
     target(w) += withoutFireflies(w.carried * sky, limit_ * 4);
   }
 

@@ -37,10 +37,16 @@ constexpr float kNightShare = 2e-5f;
 constexpr Vec3f kNightTint{0.62f, 0.85f, 1.6f};
 /// The least share of the day's brightness that a picture of the night has.
 constexpr double kNightLevel = 0.045;
-/// An emissive 1 shows a little under white by day and above it at night.
-constexpr float kGlowByDay = 0.9f, kGlowAtNight = 1.7f;
+/// An emissive 1 shows a little under white by day and far above it at night.
+constexpr float kGlowByDay = 0.9f, kGlowAtNight = 5;
 /// How much brighter than they are shown lamps are at night.
 constexpr float kLampPower = 80;
+/// How much of a moonlit sky is shown, at the horizon and above: to an eye that lamps dazzle it is
+/// dark.
+constexpr float kDarkHorizon = 0.3f, kDarkAbove = 0.13f;
+/// Stars: cells along the side of a cube about the eye, the share of cells with one, and the radius
+/// in radians of its disc.
+constexpr float kStarCells = 90, kStarShare = 0.11f, kStarRadius = 0.0008f;
 /// Sine of the elevation whose sky stands for the light of haze.
 constexpr float kHazeUp = 0.05f;
 /// The sun's disc, and the radius in degrees of the glare that a lens adds.
@@ -108,6 +114,7 @@ Light::Light(const RenderOptions& options, double sunElevation, double sunAzimut
   nightLight_ = kNightTint * (kSkyShare * kNightShare / kPif);
   night = static_cast<float>(std::clamp((2 - sunElevation) / 8, 0.0, 1.0));
   night = night * night * (3 - 2 * night);
+  dark_ = static_cast<float>(std::clamp((-3 - sunElevation) / 9, 0.0, 1.0));
   skyIrradiance = adapted(sky_->irradiance, night) * lightScale_ + nightLight_ * kPif;
   const auto groundUnder = [&](const Vec3f& sunlight, double elevation, const Vec3f& sky) {
     const float up = static_cast<float>(std::max(0.0, sinDeg(elevation)));
@@ -149,12 +156,45 @@ Vec3f Light::sky(const Vec3f& direction) const {
 
 Vec3f Light::shownSky(const Vec3f& direction) const {
   if (!sky_) return uniform_;
-  return radiance(direction, direction.y) * shownScale_ + nightShown_;
+  return (radiance(direction, direction.y) * shownScale_ + nightShown_) * shownShare(direction.y);
 }
 
 Vec3f Light::horizon(const Vec3f& direction) const {
   if (!sky_) return uniform_;
-  return radiance(direction, kHazeUp) * shownScale_ + nightShown_;
+  return (radiance(direction, kHazeUp) * shownScale_ + nightShown_) * shownShare(kHazeUp);
+}
+
+float Light::shownShare(float up) const {
+  const float above = std::sqrt(std::clamp(up, 0.0f, 1.0f));
+  return 1 + dark_ * (kDarkHorizon + (kDarkAbove - kDarkHorizon) * above - 1);
+}
+
+Vec3f Light::shownStars(const Vec3f& d) const {
+  if (!sky_ || dark_ <= 0 || d.y <= 0) return {};
+  // On the face of a cube about the eye, in cells with one star at most.
+  const float ax = std::abs(d.x), ay = std::abs(d.y), az = std::abs(d.z);
+  const bool onX = ax >= ay && ax >= az, onY = !onX && ay >= az;
+  const float w = onX ? d.x : onY ? d.y : d.z, u = onX ? d.y : d.x, v = onX || onY ? d.z : d.y;
+  const float s = (u / std::abs(w) + 1) * (kStarCells / 2);
+  const float t = (v / std::abs(w) + 1) * (kStarCells / 2);
+  const uint32_t face = (onX ? 0u : onY ? 2u : 4u) + (w < 0 ? 1u : 0u);
+  const uint32_t cell =
+      mix32(static_cast<uint32_t>(s) + mix32(static_cast<uint32_t>(t) + mix32(face + 0x5741u)));
+  const auto draw = [cell](uint32_t k) {
+    return static_cast<float>(mix32(cell + k * 0x9e3779b9U) >> 8) * 0x1p-24f;
+  };
+  if (draw(1) >= kStarShare) return {};
+  // A cell is this wide where it is, in radians.
+  const float wide = 2 * w * w / kStarCells;
+  const float du = s - std::floor(s) - 0.15f - 0.7f * draw(2);
+  const float dv = t - std::floor(t) - 0.15f - 0.7f * draw(3);
+  const float away = std::sqrt(du * du + dv * dv) * wide / kStarRadius;
+  if (away >= 1) return {};
+  // Few are bright; haze takes those near the horizon.
+  const float bright = draw(4), power = 0.12f + 1.6f * bright * bright * bright * bright * bright;
+  const float clear = std::clamp((d.y - 0.03f) / 0.35f, 0.0f, 1.0f);
+  const Vec3f tint = mix({1, 0.86f, 0.72f}, {0.78f, 0.88f, 1}, draw(5));
+  return tint * (dark_ * dark_ * clear * power * (1 - away * away) / exposure);
 }
 
 Vec3f Light::shownSun(const Vec3f& direction) const {

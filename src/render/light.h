@@ -42,11 +42,15 @@ class Light {
   Vec3f shownSky(const Vec3f& direction) const;
   /// The same at the horizon below or above a direction: what distance fades into.
   Vec3f horizon(const Vec3f& direction) const;
+  /// What the camera sees of the stars.
+  Vec3f shownStars(const Vec3f& direction) const;
   /// What the camera sees of the sun's disc and the glare about it.
   Vec3f shownSun(const Vec3f& direction) const;
 
  private:
   Vec3f radiance(const Vec3f& direction, float up) const;
+  /// How much of the sky's light is shown at that sine of elevation: less of it in the dark.
+  float shownShare(float up) const;
 
   std::optional<Sky> sky_;
   /// White balance: from the physical sky to its light, and to what is shown of it.
@@ -56,6 +60,8 @@ class Light {
   Vec3f acrossSun_, upSun_;
   float sunRadius_ = 0;
   Vec2f sunPlan_;
+  /// 0 until dusk is far on, 1 in the depth of night.
+  float dark_ = 0;
 };
 
 }  // namespace gable::rt

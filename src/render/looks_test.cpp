@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -202,6 +203,98 @@ TEST(Cut, fillsUnderRoofsWithUndersidesAndBehindPanesSetBack) {
   EXPECT_EQ(filled, points);
 }
 
+/// A parallelogram whose normal is cross(along, up).
+void addQuad(MeshBuilder& b, const Vec3& from, const Vec3& along, const Vec3& up) {
+  std::vector<uint32_t> at;
+  for (const Vec3& p : {from, from + along, from + along + up, from + up}) {
+    at.push_back(b.addPosition(p));
+  }
+  b.addPolygon(at);
+}
+
+/// Four walls without thickness about 8 x 8 m, seen from outside or from within.
+Mesh skin(double high, bool fromWithin) {
+  const Vec3 corner[] = {{-4, 0, 4}, {4, 0, 4}, {4, 0, -4}, {-4, 0, -4}};
+  MeshBuilder b;
+  for (int k = 0; k < 4; ++k) {
+    const Vec3 from = corner[k], along = corner[(k + 1) % 4] - from;
+    if (fromWithin)
+      addQuad(b, from + along, -along, {0, high, 0});
+    else
+      addQuad(b, from, along, {0, high, 0});
+  }
+  return b.take();
+}
+
+/// What the cut through the middle shows at a height above the ground: the depth of the cut face
+/// is 24.
+double depthAtHeight(const Scene& scene, double height) {
+  RenderOptions o = straightAhead();
+  o.cut = CutPlane{{0, 0, 1}, 0};
+  o.groundHeight = 0;
+  const Picture p = render(scene, o);
+  const double metre = 40 / (24 * tanDeg(20));
+  const size_t row = static_cast<size_t>(20 - (height - 2) * metre);
+  return static_cast<double>(p.layers.depth[row * 80 + 43]);
+}
+
+// All walls have bars at one height: a closed box there is no skin, whatever is behind it.
+TEST(Cut, fillsASkinWithClosedBarsInItsWindowsUnderASlab) {
+  SceneMaker m;
+  const uint32_t grey = m.material("#808080");
+  m.mesh(skin(1.5, false), grey);
+  Frame above;
+  above.origin = {0, 2, 0};
+  m.mesh(skin(1.5, false), grey, above);
+  for (const double z : {-4.0, 3.9}) m.box({-4, 1.5, z}, {8, 0.5, 0.1}, grey);
+  for (const double x : {-4.0, 3.9}) m.box({x, 1.5, -4}, {0.1, 0.5, 8}, grey);
+  // An attic: a box about it that is open below.
+  m.box({-4.5, 4.5, -4.5}, {9, 0.2, 9}, grey);
+  for (const double z : {-4.5, 4.3}) m.box({-4.5, 3.5, z}, {9, 1, 0.2}, grey);
+  for (const double x : {-4.5, 4.3}) m.box({x, 3.5, -4.5}, {0.2, 1, 9}, grey);
+  const Scene scene = m.finish();
+  for (const double height : {0.5, 1.75, 3.2, 4.0}) {
+    EXPECT_NEAR(depthAtHeight(scene, height), 24, 1e-2) << height;
+  }
+}
+
+TEST(Cut, leavesRoomsOpenWhoseWallsAreFacesToo) {
+  SceneMaker m;
+  const uint32_t grey = m.material("#808080");
+  m.mesh(skin(3.5, true), grey);
+  m.box({-4.5, 3.5, -4.5}, {9, 0.2, 9}, grey);
+  m.box({-4, 0, -4}, {8, 0.1, 8}, grey);
+  const Scene scene = m.finish();
+  EXPECT_NEAR(depthAtHeight(scene, 1.75), 28, 1e-2);
+}
+
+TEST(Cut, leavesOpenWhatOneSeesOutOf) {
+  SceneMaker m;
+  const uint32_t grey = m.material("#808080");
+  // A bus stop: a wall and a roof.
+  MeshBuilder b;
+  addQuad(b, {-4, 0, 4}, {8, 0, 0}, {0, 3, 0});
+  m.mesh(b.take(), grey);
+  m.box({-4, 3, -4}, {8, 0.2, 8}, grey);
+  EXPECT_GT(std::abs(depthAtHeight(m.finish(), 1.5) - 24), 1);
+}
+
+TEST(Cut, framesWhatItLeaves) {
+  SceneMaker m;
+  const uint32_t grey = m.material("#808080");
+  m.box({-2, 0, -4}, {4, 4, 4}, grey);
+  m.box({-30, 0, 20}, {60, 4, 4}, grey);
+  const Scene scene = m.finish();
+  RenderOptions o = smallOptions(80, 45, 1);
+  o.layers = true;
+  o.cut = CutPlane{{0, 0, 1}, -1};
+  o.frontAzimuth = 180;
+  const Picture p = render(scene, o);
+  size_t shown = 0;
+  for (const uint32_t number : p.layers.objects) shown += number > 0;
+  EXPECT_GT(shown, p.layers.objects.size() / 8);
+}
+
 TEST(Looks, sectionIsCutAtItsFrontOnPaper) {
   RenderOptions o = smallOptions(64, 48, 8);
   o.look = PictureLook::Section;
@@ -212,6 +305,23 @@ TEST(Looks, sectionIsCutAtItsFrontOnPaper) {
   double darkest = 255;
   for (size_t i = 0; i < rgba.size(); i += 4) darkest = std::min<double>(darkest, rgba[i + 1]);
   EXPECT_LT(darkest, 90);
+}
+
+TEST(Looks, aBlockOfSoilEndsWhereTheModelDoes) {
+  SceneMaker m;
+  m.box({-40, 0, -40}, {80, 1, 80}, m.material("#808080"));
+  const Scene scene = m.finish();
+  RenderOptions o = smallOptions(96, 54, 1);
+  o.layers = true;
+  o.view = PictureView::Iso;
+  const auto shows = [&](bool block) {
+    o.groundBlock = block;
+    const Picture p = render(scene, o);
+    // The middle, and the lower left corner.
+    return std::pair(p.layers.depth[27 * 96 + 48] > 0, p.layers.depth[53 * 96] > 0);
+  };
+  EXPECT_EQ(shows(false), std::pair(true, true));
+  EXPECT_EQ(shows(true), std::pair(true, false));
 }
 
 TEST(Looks, clayIsOfOneColour) {
@@ -259,6 +369,53 @@ TEST(Looks, drawingsArePaperWithLines) {
     }
     EXPECT_GT(paper, rgba.size() / 4 / 4);
     EXPECT_GT(lines, rgba.size() / 4 / 400);
+  }
+}
+
+/// The sky from the horizon up, 60 degrees across, away from the sun.
+Picture nightSky(double sunElevation) {
+  SceneMaker m;
+  m.box({-1, 0, -1}, {2, 1, 2}, m.material("#808080"));
+  RenderOptions o = smallOptions(200, 100, 4);
+  o.sunElevation = sunElevation;
+  o.sunAzimuth = 180;
+  o.eye = Vec3{0, 2, -10};
+  o.target = Vec3{0, 14, -40};
+  o.fov = 60;
+  return render(m.finish(), o);
+}
+
+TEST(Night, isDarkBlueWithStars) {
+  const std::vector<uint8_t> night = toRgba8(nightSky(-18).image);
+  std::vector<int> levels;
+  int64_t red = 0, blue = 0;
+  for (size_t i = 0; i < night.size() / 2; i += 4) {
+    levels.push_back(night[i + 1]);
+    red += night[i];
+    blue += night[i + 2];
+  }
+  std::sort(levels.begin(), levels.end());
+  EXPECT_LT(levels[levels.size() / 2], 50);
+  EXPECT_GT(levels[levels.size() / 2], 4);
+  EXPECT_GT(blue, red * 5 / 4);
+  // A few pixels are stars, and some of them bright.
+  EXPECT_GT(levels.back(), 90);
+  const auto stars = std::count_if(levels.begin(), levels.end(),
+                                   [&](int v) { return v > levels[levels.size() / 2] + 25; });
+  EXPECT_GT(stars, 5);
+  EXPECT_LT(stars, static_cast<int64_t>(levels.size() / 40));
+}
+
+TEST(Night, comesAfterDuskAndItsStarsToo) {
+  const double dusk = levelOf(nightSky(-3).image), night = levelOf(nightSky(-18).image);
+  EXPECT_GT(dusk, 3 * night);
+  const std::vector<uint8_t> evening = toRgba8(nightSky(-2).image);
+  // Even, row by row.
+  for (size_t y = 0; y < 40; ++y) {
+    for (size_t x = 1; x < 200; ++x) {
+      const size_t i = 4 * (y * 200 + x) + 1;
+      ASSERT_LT(std::abs(evening[i] - evening[i - 4]), 8);
+    }
   }
 }
 

@@ -52,7 +52,9 @@ constexpr float kVeil = 0.008f;
 /// stone on which the exposure rests stays between 195 and 225.
 constexpr float kMeanLevel = 126 / 255.0f, kLeastStops = -0.3f, kMostStops = 0.35f;
 /// The same at night, when the brightest part of the dusk may be before the camera or behind it.
-constexpr float kNightLevel = 56 / 255.0f, kNightStops = -1.0f;
+constexpr float kNightLevel = 40 / 255.0f, kNightStops = -1.0f;
+/// By day, what shines less than this is lost in the light.
+constexpr float kLostByDay = 0.5f;
 
 /// Mean display level of some thousand pixels.
 float meanLevel(const std::vector<rt::Vec3f>& pixels, float exposure) {
@@ -104,7 +106,24 @@ constexpr float kAmbientAlbedo = 0.15f;
 constexpr double kLitRooms = 0.4;
 /// What a room gives to the street, over what a lamp as bright would give: it shows more than it
 /// shines, through curtains and towards its own walls.
-constexpr float kRoomShine = 0.12f;
+constexpr float kRoomShine = 0.04f;
+
+/// The corners of a block, or what a cut leaves of them and where it goes through the block's
+/// edges.
+void addBlock(const rt::Stage::Block& block, const rt::Cut* cut, std::vector<rt::Vec3f>& points) {
+  const auto corner = [&](unsigned i) {
+    return rt::Vec3f{i & 1 ? block.max.x : block.min.x, i & 2 ? block.max.y : block.min.y,
+                     i & 4 ? block.max.z : block.min.z};
+  };
+  for (unsigned i = 0; i < 8; ++i) {
+    const rt::Vec3f a = corner(i);
+    if (!cut || cut->beyond(a) <= 0) points.push_back(a);
+    for (const unsigned bit : {1u, 2u, 4u}) {
+      const rt::Vec3f b = corner(i | bit);
+      if (cut && (cut->beyond(a) > 0) != (cut->beyond(b) > 0)) points.push_back(cut->between(a, b));
+    }
+  }
+}
 
 /// Turned about the vertical through `middle`, counter-clockwise from above.
 void orbit(Camera& camera, const Vec3& middle, double degrees) {
@@ -141,7 +160,20 @@ struct Renderer::Impl {
 
   rt::Subject subject(const RenderOptions& o) const {
     const double foot = o.groundHeight ? *o.groundHeight - world.origin.y : world.footHeight;
-    return {world, tracer, points, foot, o.frontAzimuth.value_or(front)};
+    return {world, tracer, framed(o, foot), foot, o.frontAzimuth.value_or(front)};
+  }
+
+  /// What a camera without a place of its own has to show.
+  std::vector<rt::Vec3f> framed(const RenderOptions& o, double foot) const {
+    const std::optional<rt::Cut> plane = cut(o);
+    const rt::Cut* const cut = plane ? &*plane : nullptr;
+    std::vector<rt::Vec3f> left = cut ? rt::framingPoints(world, cut) : points;
+    if (standsOnBlock(o)) addBlock(block(foot), cut, left);
+    return left;
+  }
+
+  static bool standsOnBlock(const RenderOptions& o) {
+    return o.ground && (o.groundBlock || o.look == PictureLook::Section);
   }
 
   rt::Light light(const RenderOptions& o) const {
@@ -180,9 +212,10 @@ struct Renderer::Impl {
 
   rt::Emitters emitters(const RenderOptions& o, const rt::Light& light, double rooms) const {
     if (o.look == PictureLook::Clay || o.lampPower <= 0) return {};
-    if (light.night <= 0 && rooms <= 0 && !anyEmission()) return {};
+    const float least = light.night > 0 ? 0 : kLostByDay;
+    if (light.night <= 0 && rooms <= 0 && !anyEmission(least)) return {};
     return {world, [&](const rt::SurfaceMaterial& m, const rt::Vec3f& middle, const rt::Vec3f& n) {
-              rt::Vec3f shine = m.meanEmissive;
+              rt::Vec3f shine = rt::maxOf(m.meanEmissive) > least ? m.meanEmissive : rt::Vec3f{};
               if (m.pane && rooms > 0) {
                 shine += rt::roomLight(static_cast<float>(rooms), middle, n) * kRoomShine;
               }
@@ -190,9 +223,9 @@ struct Renderer::Impl {
             }};
   }
 
-  bool anyEmission() const {
+  bool anyEmission(float least) const {
     for (const rt::SurfaceMaterial& m : world.materials) {
-      if (rt::maxOf(m.emissive) > 0) return true;
+      if (rt::maxOf(m.emissive) > least) return true;
     }
     return false;
   }
@@ -238,8 +271,8 @@ struct Renderer::Impl {
     if (o.look == PictureLook::Section) {
       s.paper = rt::inverseToneMapped(rt::srgbToLinear(kPaper)) * (1 / light.exposure);
       s.haze = 0;
-      s.block = block(foot);
     }
+    if (standsOnBlock(o)) s.block = block(foot);
     return s;
   }
 

@@ -132,6 +132,8 @@ struct RenderOptions {
   std::optional<double> groundHeight;
   /// sRGB.
   Vec3 groundColor{0x77 / 255.0, 0x76 / 255.0, 0x6a / 255.0};
+  /// The ground is a block of soil that the scene stands on, cut at its sides, instead of endless.
+  bool groundBlock = false;
   /// Metres over which haze takes 63 % of a thing's colour; 0 for none; absent: by the view.
   std::optional<double> hazeDistance;
   /// Moves the exposure by up to a third of a stop where the picture would be too bright or too

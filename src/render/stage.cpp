@@ -3,9 +3,13 @@
 //
 // A cut is a half-space without anything in it: each ray is shortened to what is left. Where a ray
 // enters what is left inside something closed, that is a cut face. Whether it is closed there is
-// counted along many directions, most of which must agree, since rules leave gaps.
+// counted along many directions, most of which must agree, since rules leave gaps. Where they do
+// not, under a roof that is a slab or behind bars that are, the way into what is closed decides.
 
 #include "render/stage.h"
+
+#include <algorithm>
+#include <vector>
 
 #include "math/trig.h"
 #include "render/sampler.h"
@@ -64,28 +68,70 @@ bool shorten(const Stage& stage, Ray& ray, float& entry) {
   return ray.from < ray.to;
 }
 
-bool isSolid(const Stage& stage, const Vec3f& p) {
-  const Vec3f start = p - stage.cut->normal * 1e-3f;
-  // Directions that no wall of a house runs along, and none down: houses have no undersides. Most
-  // bodies are closed at their sides, whatever covers them: a roof with an underside counts for
-  // nothing on the way up, since a ray enters it before it leaves it. So they are as good as level,
-  // not quite, lest all run within one face. Panes that stand back behind their wall leave slits,
-  // through which few of the directions get.
+/// Whether most level rays from a point leave a body there. Directions that no wall of a house runs
+/// along, and none down: houses have no undersides. Most bodies are closed at their sides, whatever
+/// covers them: a roof with an underside counts for nothing on the way up, since a ray enters it
+/// before it leaves it. So they are as good as level, not quite, lest all run within one face.
+/// Panes that stand back behind their wall leave slits, through which few of the directions get.
+bool isWalledIn(const Stage& stage, const Vec3f& p) {
   constexpr int kAside = 9;
   int aside = 0;
   for (int k = 0; k < kAside; ++k) {
     const double a = 15 + 360.0 * k / kAside;
     const double rise = 0.00007 * (k % 3) - 0.00006;
-    aside += stage.tracer.isInside(start, toVec3f(normalized(Vec3{sinDeg(a), rise, cosDeg(a)})));
+    aside += stage.tracer.isInside(p, toVec3f(normalized(Vec3{sinDeg(a), rise, cosDeg(a)})));
   }
-  if (2 * aside > kAside) return true;
+  return 2 * aside > kAside;
+}
+
+/// What is met first, all around a point.
+struct Around {
+  static constexpr int kRays = 32;
+  /// Rays that meet nothing, the ground left out, and those that meet a face from behind.
+  int gaps = 0, backs = 0;
+  /// Points on the way to the latter.
+  std::vector<Vec3f> ways;
+};
+
+Around lookAround(const Stage& stage, const Vec3f& p) {
+  Around around;
+  for (int k = 0; k < Around::kRays; ++k) {
+    // Even over the sphere: the golden spiral.
+    const double y = 1 - 2 * (k + 0.5) / Around::kRays, flat = std::sqrt(1 - y * y);
+    Ray ray;
+    ray.origin = p;
+    ray.direction = toVec3f({flat * cosDeg(137.50776 * k), y, flat * sinDeg(137.50776 * k)});
+    Hit hit;
+    if (!stage.tracer.intersect(ray, hit)) {
+      around.gaps += !(stage.ground && y < 0);
+    } else if (dot(hit.normal, ray.direction) > 0) {
+      ++around.backs;
+      around.ways.push_back(p + ray.direction * (0.6f * hit.distance));
+    }
+  }
+  return around;
+}
+
+/// Whether what is cut at a point is something's inside.
+bool isSolid(const Stage& stage, const Vec3f& p) {
+  const Vec3f start = p - stage.cut->normal * 1e-3f;
+  // In a room only fronts of faces are seen, or almost.
+  constexpr int kMostInRooms = 1, kMostGaps = 2;
+  const Around around = lookAround(stage, start);
+  if (around.backs <= kMostInRooms) return false;
+  if (isWalledIn(stage, start)) return true;
   // Terrain may be closed nowhere but above.
   int above = 0;
   for (const Vec3f& d :
        {Vec3f{0.63f, 0.71f, 0.21f}, Vec3f{-0.27f, 0.89f, 0.58f}, Vec3f{-0.52f, 0.97f, -0.61f}}) {
     above += stage.tracer.isInside(start, normalized(d));
   }
-  return above == 3;
+  if (above == 3) return true;
+  // Without a way out, but with a free way into a body: under a roof of slabs, or between the
+  // closed bars of windows.
+  return around.gaps <= kMostGaps &&
+         std::any_of(around.ways.begin(), around.ways.end(),
+                     [&](const Vec3f& way) { return isWalledIn(stage, way); });
 }
 
 void makeCut(const Stage& stage, const Ray& ray, float distance, const Vec3f& base,
@@ -283,7 +329,7 @@ Vec3f roomLight(float share, const Vec3f& middle, const Vec3f& facet) {
   if (draw(1) >= share) return {};
   const Vec3f warm = mix({1, 0.56f, 0.22f}, {1, 0.75f, 0.46f}, draw(2));
   const Vec3f colour = draw(3) < 0.07f ? Vec3f{0.62f, 0.76f, 1} : warm;
-  return colour * (0.18f + 0.62f * draw(4) * draw(4));
+  return colour * (0.06f + 0.21f * draw(4) * draw(4));
 }
 
 }  // namespace gable::rt

@@ -16,13 +16,6 @@
 
 namespace gable::rt {
 
-/// Less World::origin: what lies beyond is cut away.
-struct Cut {
-  Vec3f normal{0, 1, 0};
-  float offset = 0;
-  float beyond(const Vec3f& p) const { return dot(normal, p) - offset; }
-};
-
 struct Stage {
   const World& world;
   const Tracer& tracer;

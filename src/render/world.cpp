@@ -398,6 +398,30 @@ bool isWithinPlan(const Box3& box, const Vec3f& p) {
          at.z <= box.max.z + slack;
 }
 
+/// The points of a set for framing, about `most` of them.
+void addFraming(const TriangleSet& set, const Placement* placement, const Cut* cut, size_t most,
+                std::vector<Vec3f>& points) {
+  const auto at = [&](uint32_t i) {
+    const Vec3f& q = set.positions[i];
+    return placement
+               ? placement->origin + placement->x * q.x + placement->y * q.y + placement->z * q.z
+               : q;
+  };
+  const size_t step = 1 + set.positions.size() / most;
+  for (size_t i = 0; i + 1 < set.positions.size(); i += step) {
+    const Vec3f p = at(static_cast<uint32_t>(i));
+    if (!cut || cut->beyond(p) <= 0) points.push_back(p);
+  }
+  if (!cut) return;
+  const size_t stride = 1 + set.corners.size() / most;
+  for (size_t i = 0; i < set.corners.size(); i += stride) {
+    for (size_t k = 0; k < 3; ++k) {
+      const Vec3f a = at(set.corners[i][k]), b = at(set.corners[i][(k + 1) % 3]);
+      if ((cut->beyond(a) > 0) != (cut->beyond(b) > 0)) points.push_back(cut->between(a, b));
+    }
+  }
+}
+
 /// `place` is in the world. A model that reaches far beyond it shows land around it.
 Box3 subjectOf(const World& world, Box3 place) {
   constexpr double kFarBeyond = 400;
@@ -427,30 +451,24 @@ World makeWorld(const Scene& scene, const TextureSource* textures) {
   return world;
 }
 
-std::vector<Vec3f> framingPoints(const World& world, size_t limit) {
+std::vector<Vec3f> framingPoints(const World& world, const Cut* cut, size_t limit) {
   std::vector<Vec3f> points;
   const Part& merged = world.parts[0];
   for (const TriangleSet* set : {&merged.solid, &merged.clear}) {
-    const size_t step = 1 + set->positions.size() / std::max<size_t>(1, limit / 2);
-    for (size_t i = 0; i + 1 < set->positions.size(); i += step)
-      points.push_back(set->positions[i]);
+    addFraming(*set, nullptr, cut, std::max<size_t>(1, limit / 2), points);
   }
   const size_t each =
       world.placements.empty() ? 0 : std::max<size_t>(8, limit / world.placements.size());
   for (const Placement& p : world.placements) {
-    const TriangleSet& set = world.parts[p.part].solid.corners.empty() ? world.parts[p.part].clear
-                                                                       : world.parts[p.part].solid;
-    const size_t step = 1 + set.positions.size() / each;
-    for (size_t i = 0; i + 1 < set.positions.size(); i += step) {
-      const Vec3f& q = set.positions[i];
-      points.push_back(p.origin + p.x * q.x + p.y * q.y + p.z * q.z);
-    }
+    const Part& part = world.parts[p.part];
+    addFraming(part.solid.corners.empty() ? part.clear : part.solid, &p, cut, each, points);
   }
   std::vector<Vec3f> within;
   for (const Vec3f& p : points) {
     if (!world.subject.empty() && isWithinPlan(world.subject, p)) within.push_back(p);
   }
   // A camera needs something to frame.
+  if (points.empty() && cut) return framingPoints(world, nullptr, limit);
   return within.empty() ? points : within;
 }
 

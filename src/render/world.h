@@ -73,6 +73,17 @@ struct Placement {
   Vec3f x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, origin;
 };
 
+/// Less World::origin: what lies beyond is cut away.
+struct Cut {
+  Vec3f normal{0, 1, 0};
+  float offset = 0;
+  float beyond(const Vec3f& p) const { return dot(normal, p) - offset; }
+  /// Where the line between two points of either side goes through.
+  Vec3f between(const Vec3f& a, const Vec3f& b) const {
+    return mix(a, b, beyond(a) / (beyond(a) - beyond(b)));
+  }
+};
+
 struct World {
   std::vector<Part> parts;
   std::vector<Placement> placements;
@@ -95,9 +106,10 @@ struct World {
 /// O(triangles stored). Textures are asked for here, once each.
 World makeWorld(const Scene& scene, const TextureSource* textures);
 
-/// Points that span the subject for framing: corners of triangles or of boxes, at most about
-/// `limit`.
-std::vector<Vec3f> framingPoints(const World& world, size_t limit = 200000);
+/// Points that span the subject for framing, or what a cut leaves of it: corners of triangles, and
+/// where the cut goes through their sides. About `limit` at most.
+std::vector<Vec3f> framingPoints(const World& world, const Cut* cut = nullptr,
+                                 size_t limit = 200000);
 
 uint32_t packNormal(const Vec3f& n);
 Vec3f unpackNormal(uint32_t packed);

@@ -186,6 +186,14 @@ class Words(Case):
         self.run_gable("generate", "--sead", "--json", status=USAGE, says="did you mean '--seed'?")
         self.run_gable("generate", "a.cga", "-o", "a.glb", "--", "--odd", status=USAGE, says="--odd")
 
+    def testUnknownWordsOfOptionsAreNamed(self):
+        for words, says in ((("--look", "blueprnt"), "'--look' does not take 'blueprnt'; did you mean 'blueprint'?"),
+                            (("--view=strete",), "'--view' does not take 'strete'; did you mean 'street'?"),
+                            (("--look", "sketch"), "'--look' does not take 'sketch'; there are photo, clay, blueprint, ink, section")):
+            self.run_gable("render", "a.cga", *words, "-o", "a.png", status=USAGE, says=says)
+        rules = self.put("a.cga", "Lot --> extrude(2) A.\n")
+        self.run_gable("render", rules, "--style", "sectoin", "-o", "a.png", status=USAGE, says="did you mean 'section'?")
+
     def testFormatSaysWhatItLeaves(self):
         for name, text in (("a.park", "A -> Grid(2, 2) { LAWN } {} {}"), ("a.cga", 'Lot --> sweep("nonsense text", x) { all : X. }\n')):
             for mode in ((), ("--check",), ("--stdout",)):
