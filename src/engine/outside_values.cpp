@@ -28,13 +28,15 @@ std::string nameOf(const InitialShape& shape, size_t index) {
   return "shape " + std::to_string(index + 1);
 }
 
-// The attributes that bound their values, by name.
+// The attributes that bound their values, by name. Those of imports are no business of a map: a
+// property of its own may have their name.
 std::unordered_map<std::string_view, const AttributeCode*> boundedOf(const Program& program) {
   std::unordered_map<std::string_view, const AttributeCode*> out;
   for (const AttributeCode& a : program.attributes) {
     const bool bounded = std::ranges::any_of(
         a.annotations, [](const auto& n) { return n.name == "Range" || n.name == "Enum"; });
-    if (bounded && !a.constant) out.emplace(a.name, &a);
+    const bool main = a.name.find('.') == std::string::npos;
+    if (bounded && main && !a.constant) out.emplace(a.name, &a);
   }
   return out;
 }

@@ -134,7 +134,9 @@ TEST(Viewpoint, streetEyeKeepsAwayFromWalls) {
       aside.origin = toVec3f(c.eye);
       aside.direction = toVec3f(normalized(c.right * side + c.forward * 0.3));
       Hit hit;
-      if (s.tracer.intersect(aside, hit)) EXPECT_GT(hit.distance, 2.5f) << width;
+      if (s.tracer.intersect(aside, hit)) {
+        EXPECT_GT(hit.distance, 2.5f) << width;
+      }
     }
   }
 }

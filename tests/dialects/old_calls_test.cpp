@@ -120,10 +120,10 @@ TEST(OldCalls, WhatFormatLeavesIsNotPromised) {
 
 // Words that the operation does not know are found in what format wrote, by their name.
 TEST(OldCalls, UnknownWordsAreNamed) {
-  const std::string text = "Lot --> peel(\"outer & front\", 1) { strip : A. }";
+  const std::string text = "Lot --> peel(\"outer & sunny\", 1) { strip : A. }";
   const Rules now = Rules::parse(format(text, "old.cga").text, "new.cga");
   ASSERT_EQ(now.diagnostics().size(), 1u) << render(now.diagnostics());
-  EXPECT_NE(now.diagnostics()[0].message.find("'front'"), std::string::npos);
+  EXPECT_NE(now.diagnostics()[0].message.find("'sunny'"), std::string::npos);
 }
 
 }  // namespace

@@ -139,7 +139,9 @@ std::vector<std::string> folders() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Operations, HostileNumbers, testing::ValuesIn(folders()),
-                         [](const auto& info) { return fs::path(info.param).filename().string(); });
+                         [](const auto& folder) {
+                           return fs::path(folder.param).filename().string();
+                         });
 
 }  // namespace
 }  // namespace gable
