@@ -59,8 +59,8 @@ struct Dialect {
   /// With the dot, in lower case.
   std::span<const char* const> extensions;
   lang::Tree (*parse)(const DialectInput& input, Diagnostics& diagnostics);
-  /// The text in canonical form, or as it is when it has mistakes; null when the notation has none.
-  std::string (*format)(const Sources& sources, uint32_t file, Diagnostics& diagnostics) = nullptr;
+  /// The text in canonical form, or as it is when it has mistakes.
+  std::string (*format)(const Sources& sources, uint32_t file, Diagnostics& diagnostics);
   /// Comments may begin with '#', besides // and /* */.
   bool hashComments = false;
   /// In place of the hints that speak Gable's own language.

@@ -435,17 +435,6 @@ uint32_t modernised(Sources& sources, uint32_t file, Diagnostics& diagnostics) {
   }
 }
 
-void noteThatNothingIsDone(const Dialect& dialect, const std::string& path,
-                           Diagnostics& diagnostics) {
-  Diagnostics::Entry d;
-  d.severity = Severity::Note;
-  d.code = "no-canonical-form";
-  d.message =
-      std::string(dialect.title) + " has no canonical form: '" + path + "' is left as it is";
-  d.hint = "'gable convert' writes it in Gable's own language";
-  diagnostics.add(std::move(d));
-}
-
 }  // namespace
 
 Formatted format(const std::string& text, const std::string& path, const FileLimits& limits) {
@@ -457,8 +446,7 @@ Formatted format(const std::string& text, const std::string& path, const FileLim
     const Dialect* dialect = dialectOfPath(path);
     const auto layout = dialect ? dialect->format : lang::format;
     const uint32_t layoutOf = dialect ? file : modernised(sources, file, diagnostics);
-    if (!layout) noteThatNothingIsDone(*dialect, path, diagnostics);
-    out.text = layout ? layout(sources, layoutOf, diagnostics) : text;
+    out.text = layout(sources, layoutOf, diagnostics);
     diagnostics.sortByPlace();
     out.diagnostics = listOf(diagnostics, sources);
     if (diagnostics.hasErrors()) out.text = text;

@@ -385,12 +385,8 @@ std::vector<Edit> formatEdits(const Parsed& parsed, const std::string& path) {
   Sources sources;
   Diagnostics diagnostics;
   const uint32_t file = sources.add(path, text);
-  std::string after = text;
-  if (!parsed.dialect) {
-    after = lang::format(sources, file, diagnostics);
-  } else if (parsed.dialect->format) {
-    after = parsed.dialect->format(sources, file, diagnostics);
-  }
+  const auto layout = parsed.dialect ? parsed.dialect->format : lang::format;
+  const std::string after = layout(sources, file, diagnostics);
   if (diagnostics.hasErrors() || after == text) return {};
   if (std::optional<std::vector<Edit>> edits = spaceEdits(parsed.text, after)) return *edits;
   return {{parsed.text.range(0, static_cast<uint32_t>(text.size())), after}};

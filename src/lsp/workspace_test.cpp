@@ -372,6 +372,23 @@ TEST(Format, touchesWhiteSpaceAlone) {
   EXPECT_TRUE(d.workspace.format(kMain).empty());
 }
 
+TEST(Format, laysOutEveryNotation) {
+  const std::pair<const char*, const char*> rows[] = {
+      {"/nowhere/a.park", "A->Grid(2 ,2){B|C}\nB ->GRAVEL"},
+      {"/nowhere/a.grammar", "X ->   I ( Cube )\n      Y\nY -> I ( Cube )"},
+      {"/nowhere/a.pg3d", "Start ->  ?( 1 )  I ( CubeZ brick 1 )"},
+      {"/nowhere/a.gbbg", "axiom  START size (1,2,3)\nSTART -> Repeat(X) {W}\nterminal W [1,1,1]"}};
+  for (const auto& [path, text] : rows) {
+    Desk d("");
+    d.workspace.open(path, text);
+    const std::vector<Edit> edits = d.workspace.format(path);
+    ASSERT_FALSE(edits.empty()) << path;
+    const std::string laid = d.apply(path, edits);
+    d.workspace.open(path, laid);
+    EXPECT_TRUE(d.workspace.format(path).empty()) << laid;
+  }
+}
+
 // --- Names ---
 
 TEST(Definition, crossesImports) {

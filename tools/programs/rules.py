@@ -171,8 +171,10 @@ class Rules:
             return Node(["[", self.number(), " + 0 * h, ", self.number(), " + 0 * h]"], ("[1 + 0 * h]",))
         if "range" in param and kind != "selection" and not kind.endswith("[]"):
             return Node(["(", self.number(), " + 0 * h)"], ("(1 + 0 * h)",))
-        if param["name"] in ("hexValue", "label") and kind == "string":
+        if param["name"] in ("hexValue", "label", "tint", "group") and kind == "string":
             return '"#aabbcc"'
+        if param["name"] == "name" and kind == "string":
+            return '"brick.flemish"'
         if "words" in param and kind == "string":
             return f'"{self.random.choice(param["words"].split())}"'
         if "words" in param:

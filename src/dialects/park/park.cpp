@@ -3,6 +3,7 @@
 
 #include "dialects/park/park.h"
 
+#include "dialects/line_layout.h"
 #include "dialects/park/expression.h"
 #include "dialects/park/grammar.h"
 #include "dialects/park/lower.h"
@@ -20,6 +21,12 @@ lang::Tree parse(const DialectInput& input, Diagnostics& diagnostics) {
   }
   return park::lower(grammar, {input.file, text, input.sources.path(input.file), input.loader},
                      diagnostics);
+}
+
+std::string format(const Sources& sources, uint32_t file, Diagnostics& diagnostics) {
+  const std::string_view text = sources.text(file);
+  park::parseGrammar(text, file, diagnostics);
+  return diagnostics.hasErrors() ? std::string(text) : withLaidOutLines(text, SignSpacing::Even);
 }
 
 constexpr const char* kEnd = "let the rule end: 'case (w > 2): A else: B'";
@@ -46,7 +53,7 @@ const Dialect kParkDialect{"park",
                            "Park grammar",
                            kExtensions,
                            parse,
-                           nullptr,
+                           format,
                            true,
                            kRemedies,
                            false,

@@ -3,6 +3,7 @@
 
 #include "dialects/progen3d/progen3d.h"
 
+#include "dialects/line_layout.h"
 #include "dialects/progen3d/grammar.h"
 #include "dialects/progen3d/lexer.h"
 #include "dialects/progen3d/lower.h"
@@ -35,6 +36,18 @@ lang::Tree parse(const DialectInput& input, Diagnostics& diagnostics) {
   return progen3d::lower(grammar, input.file, input.catalogue, exists, diagnostics);
 }
 
+std::string format(const Sources& sources, uint32_t file, Diagnostics& diagnostics) {
+  const std::string_view text = sources.text(file);
+  std::vector<progen3d::Token> tokens = progen3d::tokenize(text, file, diagnostics);
+  if (progen3d::web::isWebLanguage(text, tokens)) {
+    progen3d::web::parseGrammar(text, file, std::move(tokens), diagnostics);
+  } else {
+    progen3d::parseGrammar(text, file, std::move(tokens), diagnostics);
+  }
+  return diagnostics.hasErrors() ? std::string(text)
+                                 : withLaidOutLines(text, SignSpacing::AsWritten);
+}
+
 constexpr const char* kEnd =
     "give the rule an end: 'X ; 0.8 -> A X ->' goes on four times of five, then stops";
 constexpr Remedy kRemedies[] = {
@@ -56,7 +69,7 @@ const Dialect kProgen3d{"progen3d",
                         "ProGen3d",
                         kExtensions,
                         parse,
-                        nullptr,
+                        format,
                         true,
                         kRemedies,
                         false,
