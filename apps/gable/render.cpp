@@ -249,16 +249,18 @@ int readForPicture(RenderArguments& a, Inputs& inputs) {
   const bool isLook = a.look.empty() && style != "photo" && gable::lookNamed(style);
   const std::string meant =
       a.look.empty() && !isLook ? gable::suggestion(style, gable::lookNames()) : "";
-  if (isLook || !meant.empty()) a.derive.style.reset();
+  const bool mayBeLook = isLook || !meant.empty();
+  if (mayBeLook) a.derive.style.reset();
   const int status = readInputs(a.derive, inputs);
-  if (status || !(isLook || !meant.empty())) return status;
+  if (status || !mayBeLook) return status;
   const std::vector<std::string>& declared = inputs.rules.styles();
   if (std::find(declared.begin(), declared.end(), style) == declared.end()) {
-    if (isLook) a.look = style;
-    return isLook
-               ? kExitDone
-               : fail(kExitUsage, "neither a style of the rules nor a look of pictures is named '" +
-                                      style + "'; " + meant);
+    if (!isLook) {
+      return fail(kExitUsage, "neither a style of the rules nor a look of pictures is named '" +
+                                  style + "'; " + meant);
+    }
+    a.look = style;
+    return kExitDone;
   }
   a.derive.style = style;
   return readInputs(a.derive, inputs);

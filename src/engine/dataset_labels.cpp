@@ -28,10 +28,6 @@ std::map<std::string, std::string> labelsOf(const Rules& rules) {
   return out;
 }
 
-}  // namespace
-
-namespace {
-
 // What the rules name where they give tags: texts that stand in the call itself.
 std::set<std::string> tagsNamedBy(const Program& program) {
   std::set<std::string> names;

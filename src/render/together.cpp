@@ -99,6 +99,12 @@ class Bundle {
       ray.direction = towards;
       if (!(maxOf(values_[i]) > 0)) ray.to = 0;
     }
+    answer(add);
+  }
+
+  /// Calls `add` with how open the ray of each lit surface is, where it goes anywhere.
+  template <class Add>
+  void answer(Add&& add) {
     float open[kMost];
     visibilityTogether(stage_, {rays_, count_}, open);
     for (size_t k = 0; k < count_; ++k) {
@@ -150,14 +156,9 @@ class Bundle {
       values_[i] = lamp.light;
       if (maxOf(lamp.light) <= 0) rays_[k].to = 0;
     }
-    float open[kMost];
-    visibilityTogether(stage_, {rays_, count_}, open);
-    for (size_t k = 0; k < count_; ++k) {
-      const size_t i = lit_[k];
-      if (!(rays_[k].to > 0)) continue;
-      ++results_[i].rays;
-      results_[i].indirect += withoutFireflies(carried_[i] * values_[i] * open[k], limit_);
-    }
+    answer([&](size_t i, const Vec3f&, float open) {
+      results_[i].indirect += withoutFireflies(carried_[i] * values_[i] * open, limit_);
+    });
   }
 
   const Stage& stage_;

@@ -177,7 +177,11 @@ void Analysis::makeLeaf(NodeId node, bool known) {
   }
 }
 
+namespace {
+
 bool isSmallLetter(char c) { return c >= 'a' && c <= 'z'; }
+
+}  // namespace
 
 // A name with arguments that is nearly that of an operation is meant to be it; as a leaf the model
 // would lack what the operation makes. Rules begin with a capital, and a file may call rules that
