@@ -195,10 +195,19 @@ class Words(Case):
         self.run_gable("render", rules, "--style", "sectoin", "-o", "a.png", status=USAGE, says="did you mean 'section'?")
 
     def testFormatSaysWhatItLeaves(self):
-        for name, text in (("a.park", "A -> Grid(2, 2) { LAWN } {} {}"), ("a.cga", 'Lot --> sweep("nonsense text", x) { all : X. }\n')):
-            for mode in ((), ("--check",), ("--stdout",)):
-                self.run_gable("format", *mode, self.put(name, text), says="is left as it is")
-            self.assertEqual((self.folder / name).read_text(), text)
+        name, text = "a.cga", 'Lot --> sweep("nonsense text", x) { all : X. }\n'
+        for mode in ((), ("--check",), ("--stdout",)):
+            self.run_gable("format", *mode, self.put(name, text), says="is left as it is")
+        self.assertEqual((self.folder / name).read_text(), text)
+
+    def testFormatWritesTheOtherNotations(self):
+        for name, text, canonical in (("a.park", "A -> Grid(2,2)  { LAWN } {} {}\n", "A -> Grid(2, 2) { LAWN } {} {}\n"),
+                                      ("a.grammar", "Start->T(1,2,3)  A\n", None)):
+            self.run_gable("format", self.put(name, text))
+            written = (self.folder / name).read_text()
+            self.assertNotEqual(written, text)
+            if canonical: self.assertEqual(written, canonical)
+            self.run_gable("format", "--check", self.folder / name)
 
     def testHelpNamesEveryNotation(self):
         for ending in (".grammar", ".pg3d", ".gbbg", ".park"):
