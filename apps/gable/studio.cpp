@@ -22,14 +22,8 @@ namespace fs = std::filesystem;
 std::pair<std::string, std::string> projectOf(const std::string& path) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return {path, {}};
-  const fs::path file = fs::absolute(path, error).lexically_normal();
-  // As other commands find it: the nearest folder above that has one `rules` or `assets` in it.
-  fs::path project = file.parent_path();
-  for (fs::path at = project; at.has_relative_path(); at = at.parent_path()) {
-    if (!fs::is_directory(at / "rules", error) && !fs::is_directory(at / "assets", error)) continue;
-    project = at;
-    break;
-  }
+  const fs::path file = fs::weakly_canonical(path, error);
+  const fs::path project = gable::projectFolder(path);
   return {project.string(), file.lexically_relative(project).generic_string()};
 }
 

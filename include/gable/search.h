@@ -29,4 +29,9 @@ struct SearchSettings {
   bool operator==(const SearchSettings&) const = default;
 };
 
+/// The folder of the project that a rule file belongs to, as all commands find it: the one in the
+/// workspace, else the nearest folder above that has one `rules` or `assets` in it, else the file's
+/// own. Absolute, without symbolic links.
+std::string projectFolder(const std::string& ruleFile, const SearchSettings& settings = {});
+
 }  // namespace gable

@@ -61,8 +61,6 @@ struct Dialect {
   lang::Tree (*parse)(const DialectInput& input, Diagnostics& diagnostics);
   /// The text in canonical form, or as it is when it has mistakes.
   std::string (*format)(const Sources& sources, uint32_t file, Diagnostics& diagnostics);
-  /// Comments may begin with '#', besides // and /* */.
-  bool hashComments = false;
   /// In place of the hints that speak Gable's own language.
   std::span<const Remedy> remedies = {};
   /// Seeds are signed whole numbers of 32 bits.

@@ -30,7 +30,7 @@ bool isFirstOfLine(std::string_view text, size_t at) {
 
 }  // namespace
 
-std::vector<lang::Remark> remarksOf(const Dialect& dialect, std::string_view text) {
+std::vector<lang::Remark> remarksOf(std::string_view text) {
   std::vector<lang::Remark> out;
   for (size_t at = 0; at < text.size();) {
     const char c = text[at], next = at + 1 < text.size() ? text[at + 1] : '\0';
@@ -39,7 +39,7 @@ std::vector<lang::Remark> remarksOf(const Dialect& dialect, std::string_view tex
       at = end == text.npos ? text.size() : end + 1;
       continue;
     }
-    const bool hash = c == '#' && dialect.hashComments;
+    const bool hash = c == '#';
     const bool line = hash || (c == '/' && next == '/');
     if (!line && !(c == '/' && next == '*')) {
       ++at;

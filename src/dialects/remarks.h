@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // The comments of a text in another notation, as comments of Gable's own language. All notations
-// have `// ...` and `/* ... */`; some have `# ...` too.
+// have `// ...`, `/* ... */` and `# ...`.
 #pragma once
 
 #include <string_view>
@@ -14,6 +14,6 @@
 namespace gable {
 
 /// In the order of the text. Signs in "..." are none. Linear in the text.
-std::vector<lang::Remark> remarksOf(const Dialect& dialect, std::string_view text);
+std::vector<lang::Remark> remarksOf(std::string_view text);
 
 }  // namespace gable

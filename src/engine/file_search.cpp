@@ -108,6 +108,10 @@ FileSearch::FileSearch(const std::string& root, const SearchSettings& settings,
   if (settings.bundled) bundled_ = {kBundledName, canonical(*settings.bundled)};
 }
 
+std::string projectFolder(const std::string& ruleFile, const SearchSettings& settings) {
+  return FileSearch::rootFor(ruleFile, settings);
+}
+
 std::string FileSearch::rootFor(const std::string& ruleFile, const SearchSettings& settings) {
   const std::string file = canonical(ruleFile);
   if (settings.workspace) {

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "base/files.h"
+#include "engine/picture_settings.h"
 #include "engine/sun.h"
 #include "io/image/image.h"
 #include "render/render.h"
@@ -50,12 +51,6 @@ class ProjectTextures final : public TextureSource {
 
 Vec3 vec(const Triple& t) { return {t[0], t[1], t[2]}; }
 Triple triple(const Vec3& v) { return {v.x, v.y, v.z}; }
-
-bool isWithin(double v, double least, double most) { return v >= least && v <= most; }
-
-Error wrongSetting(const std::string& what, const std::string& remedy) {
-  return {"picture-settings", what, remedy};
-}
 
 // The first thing that no picture can be made of.
 std::optional<Error> mistakeIn(const PictureSettings& s) {

@@ -391,7 +391,7 @@ Converted convert(const std::string& text, const std::string& path, const LoadSe
     } else {
       ProjectLoader loader(project, settings);
       const lang::Tree tree = parseAs(dialect.value(), sources, file, loader, diagnostics);
-      const std::vector<lang::Remark> remarks = remarksOf(*dialect.value(), sources.text(file));
+      const std::vector<lang::Remark> remarks = remarksOf(sources.text(file));
       const uint32_t printed = sources.add("converted.cga", lang::print(tree, remarks));
       if (!diagnostics.hasErrors()) out.text = lang::format(sources, printed, diagnostics);
     }

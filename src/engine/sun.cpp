@@ -4,20 +4,11 @@
 #include "gable/sun.h"
 
 #include "engine/impl.h"
+#include "engine/picture_settings.h"
 #include "engine/sun.h"
 #include "math/sun_position.h"
 
 namespace gable {
-
-namespace {
-
-bool isWithin(double v, double least, double most) { return v >= least && v <= most; }
-
-Error wrong(const std::string& what, const std::string& remedy) {
-  return {"picture-settings", what, remedy};
-}
-
-}  // namespace
 
 Result<PictureSettings::Sun> sunAt(const SunTime& time, const GeoOrigin& origin) {
   double latitude = origin.latitude, longitude = origin.longitude;
@@ -25,19 +16,19 @@ Result<PictureSettings::Sun> sunAt(const SunTime& time, const GeoOrigin& origin)
     latitude = time.place->latitude;
     longitude = time.place->longitude;
   } else if (!origin.present) {
-    return wrong("the sun's place is not known: the shapes do not say where they lie",
-                 "give latitude and longitude with the date and the hour");
+    return wrongSetting("the sun's place is not known: the shapes do not say where they lie",
+                        "give latitude and longitude with the date and the hour");
   }
   if (!isWithin(latitude, -90, 90) || !isWithin(longitude, -180, 180)) {
-    return wrong("there is no such latitude and longitude on the Earth",
-                 "latitudes are -90 to 90 degrees, longitudes -180 to 180");
+    return wrongSetting("there is no such latitude and longitude on the Earth",
+                        "latitudes are -90 to 90 degrees, longitudes -180 to 180");
   }
   const bool date = isWithin(time.year, 1950, 2050) && isWithin(time.month, 1, 12) &&
                     isWithin(time.day, 1, 31) && isWithin(time.hour, 0, 24) &&
                     isWithin(time.hoursEast.value_or(0), -14, 14);
   if (!date) {
-    return wrong("the sun is not known at that date and hour",
-                 "years are 1950 to 2050, hours 0 to 24");
+    return wrongSetting("the sun is not known at that date and hour",
+                        "years are 1950 to 2050, hours 0 to 24");
   }
   const SunPosition sun = sunPosition(
       latitude, longitude,

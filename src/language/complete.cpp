@@ -560,7 +560,7 @@ class DialectCompleter {
  public:
   DialectCompleter(const Parsed& parsed, uint32_t offset, const Catalogue& catalogue)
       : parsed_(parsed), catalogue_(catalogue), text_(parsed.text.content()), begin_(offset) {
-    for (const Word& w : wordsOf(text_, parsed.dialect->hashComments)) {
+    for (const Word& w : wordsOf(text_)) {
       if (w.begin >= offset) break;
       if (offset > w.end) continue;
       const bool inString = w.kind == WordKind::String && offset < w.end;

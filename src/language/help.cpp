@@ -177,7 +177,7 @@ SignatureHelp dialectSignature(const Lexed& lexed, uint32_t offset, const Catalo
   // Behind each bracket that is open, the word before it.
   std::vector<std::string_view> open;
   std::string_view last;
-  for (const Word& w : wordsOf(text, lexed.dialect->hashComments)) {
+  for (const Word& w : wordsOf(text)) {
     if (w.begin >= offset) break;
     const std::string_view word = text.substr(w.begin, w.end - w.begin);
     if (word == "(") open.push_back(last);
@@ -195,7 +195,7 @@ SignatureHelp dialectSignature(const Lexed& lexed, uint32_t offset, const Catalo
 std::optional<Hover> dialectHover(const Parsed& parsed, uint32_t offset,
                                   const Catalogue& catalogue) {
   const std::string_view text = parsed.text.content();
-  for (const Word& w : wordsOf(text, parsed.dialect->hashComments)) {
+  for (const Word& w : wordsOf(text)) {
     if (w.begin > offset) break;
     if (w.kind != WordKind::Name || offset > w.end) continue;
     const DialectWord* word = dialectWord(*parsed.dialect, text.substr(w.begin, w.end - w.begin));

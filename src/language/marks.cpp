@@ -202,7 +202,7 @@ std::vector<Highlight> dialectMarks(const Parsed& parsed) {
   std::vector<Highlight> out;
   const DialectMarks marks(parsed);
   Walker begins(parsed.text), ends(parsed.text);
-  for (const Word& w : wordsOf(parsed.text.content(), parsed.dialect->hashComments)) {
+  for (const Word& w : wordsOf(parsed.text.content())) {
     std::optional<Highlight> h = marks(w);
     if (!h) continue;
     h->range = {begins(w.begin), ends(w.end)};

@@ -337,7 +337,7 @@ std::vector<Name> namesOfDialect(const Snapshot& snapshot, uint32_t unit, const 
     const uint32_t quote = begin < text.size() && text[begin] == '"' ? 1 : 0;
     if (text.substr(begin + quote, word.size()) == word) declared[word].insert(begin + quote);
   }
-  const std::vector<Word> words = wordsOf(text, dialect.hashComments);
+  const std::vector<Word> words = wordsOf(text);
   std::map<std::string_view, std::set<uint32_t>> besides;
   bool declaring = false;
   for (const Word& w : words) {

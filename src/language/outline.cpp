@@ -141,7 +141,7 @@ std::vector<Symbol> symbolsOf(const Parsed& parsed, const std::string& path) {
 std::vector<Color> colorsOf(const Parsed& parsed) {
   const std::string_view text = parsed.text.content();
   std::vector<Color> out;
-  for (const Word& w : wordsOf(text, !parsed.dialect || parsed.dialect->hashComments)) {
+  for (const Word& w : wordsOf(text)) {
     if (w.kind != WordKind::String || w.end - w.begin < 9) continue;
     std::optional<Color> c = hexColor(text.substr(w.begin + 1, w.end - w.begin - 2));
     if (!c) continue;
@@ -197,7 +197,7 @@ void foldDeclarations(const Parsed& parsed, std::vector<Fold>& out) {
       out.push_back({*first, parsed.text.lineOf(last), Fold::Kind::Code});
     }
   };
-  for (const Word& w : wordsOf(text, parsed.dialect->hashComments)) {
+  for (const Word& w : wordsOf(text)) {
     if (w.kind == WordKind::Comment) continue;
     if (begins.count(w.begin) != 0) {
       put();
@@ -224,7 +224,7 @@ std::vector<Fold> foldsOf(const Parsed& parsed) {
     if (run) put(commentBegin, commentEnd, Fold::Kind::Comment);
     run = false;
   };
-  for (const Word& w : wordsOf(text, !parsed.dialect || parsed.dialect->hashComments)) {
+  for (const Word& w : wordsOf(text)) {
     if (w.kind == WordKind::Comment) {
       const uint32_t line = parsed.text.lineOf(w.begin);
       const bool alone =

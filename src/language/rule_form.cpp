@@ -25,8 +25,6 @@ struct Head {
   NodeId node = kNoNode;
 };
 
-bool hashed(const Parsed& parsed) { return !parsed.dialect || parsed.dialect->hashComments; }
-
 std::vector<Head> headsOf(const Parsed& parsed) {
   std::vector<Head> out;
   const std::string& text = parsed.text.content();
@@ -57,8 +55,8 @@ std::vector<Head> headsOf(const Parsed& parsed) {
 }
 
 // What stands first behind the arrow.
-std::string typeOf(std::string_view rule, bool hash) {
-  const std::vector<Word> words = wordsOf(rule, hash);
+std::string typeOf(std::string_view rule) {
+  const std::vector<Word> words = wordsOf(rule);
   bool body = false;
   for (size_t i = 0; i < words.size(); ++i) {
     const Word& w = words[i];
@@ -104,7 +102,7 @@ uint32_t leadOf(const Parsed& parsed, const Head& h, const std::vector<Word>& co
 Range ruleRemoval(const Parsed& parsed, const Head& h) {
   const std::string& text = parsed.text.content();
   std::vector<Word> comments;
-  for (const Word& w : wordsOf(text, hashed(parsed))) {
+  for (const Word& w : wordsOf(text)) {
     if (w.kind == WordKind::Comment) comments.push_back(w);
   }
   const uint32_t lead = leadOf(parsed, h, comments);
@@ -161,8 +159,7 @@ TextForm formOf(const Parsed& parsed, const std::string& rule) {
   std::set<std::string> taken, symbols{"NIL"};
   for (const Head& h : heads) {
     const std::string_view source = std::string_view(text).substr(h.begin, h.end - h.begin);
-    out.rules.push_back(
-        {h.name, h.parameters, typeOf(source, hashed(parsed)), parsed.text.range(h.begin, h.end)});
+    out.rules.push_back({h.name, h.parameters, typeOf(source), parsed.text.range(h.begin, h.end)});
     symbols.insert(h.name);
     if (h.name == rule && shown->name != rule) shown = &h;
   }

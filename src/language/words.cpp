@@ -50,7 +50,7 @@ size_t numberEnd(std::string_view text, size_t at) {
 
 }  // namespace
 
-std::vector<Word> wordsOf(std::string_view text, bool hash) {
+std::vector<Word> wordsOf(std::string_view text) {
   std::vector<Word> out;
   const auto put = [&](size_t begin, size_t end, WordKind kind) {
     out.push_back({static_cast<uint32_t>(begin), static_cast<uint32_t>(end), kind});
@@ -61,7 +61,7 @@ std::vector<Word> wordsOf(std::string_view text, bool hash) {
     const char next = at + 1 < text.size() ? text[at + 1] : '\0';
     if (c == ' ' || c == '\t' || c == '\r' || c == '\n') {
       ++at;
-    } else if ((c == '#' && hash) || (c == '/' && next == '/')) {
+    } else if (c == '#' || (c == '/' && next == '/')) {
       at = put(at, lineEnd(text, at), WordKind::Comment);
     } else if (c == '/' && next == '*') {
       const size_t end = text.find("*/", at + 2);

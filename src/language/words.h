@@ -18,7 +18,7 @@ struct Word {
   WordKind kind = WordKind::Mark;
 };
 
-/// In the order of the text. Comments begin with // or /*, and with # where `hash` says so.
-std::vector<Word> wordsOf(std::string_view text, bool hash = true);
+/// In the order of the text. Comments begin with //, # or /*.
+std::vector<Word> wordsOf(std::string_view text);
 
 }  // namespace gable::language

@@ -148,17 +148,9 @@ constexpr Remedy kRemedies[] = {
 
 }  // namespace
 
-const Dialect kGbbgDialect = {"gbbg",
-                              "GBBG",
-                              kExtensions,
-                              parseGbbg,
-                              formatGbbg,
-                              true,
-                              kRemedies,
-                              true,
-                              gbbg::words,
-                              nullptr,
-                              "see the guide to GBBG, docs/guide/gbbg.md",
-                              kDeclaring};
+const Dialect kGbbgDialect = {
+    "gbbg",    "GBBG", kExtensions, parseGbbg, formatGbbg,
+    kRemedies, true,   gbbg::words, nullptr,   "see the guide to GBBG, docs/guide/gbbg.md",
+    kDeclaring};
 
 }  // namespace gable

@@ -49,17 +49,11 @@ constexpr const char* kDeclaring[] = {"fun"};
 
 }  // namespace
 
-const Dialect kParkDialect{"park",
-                           "Park grammar",
-                           kExtensions,
-                           parse,
-                           format,
-                           true,
-                           kRemedies,
-                           false,
-                           park::words,
-                           nullptr,
-                           "see the guide to park grammars, docs/guide/park.md",
+const Dialect kParkDialect{"park",      "Park grammar",
+                           kExtensions, parse,
+                           format,      kRemedies,
+                           false,       park::words,
+                           nullptr,     "see the guide to park grammars, docs/guide/park.md",
                            kDeclaring};
 
 }  // namespace gable
