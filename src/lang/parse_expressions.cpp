@@ -82,32 +82,34 @@ TokenKind Parser::wordOperatorHere() {
   return isAnd ? TokenKind::And : TokenKind::Or;
 }
 
-// A unit behind a number: 1.2m, or 1.2 m where nothing else can be meant.
+// A unit behind a number: 1.2m, or 1.2 m where nothing else can be meant. Behind a name only as the
+// last word of an argument: (height m).
 bool Parser::unitAt(size_t at) const {
   constexpr std::string_view kUnits[] = {"m", "cm", "mm", "km", "ft", "deg"};
   const Token& t = token(at);
-  if (at == 0 || token(at - 1).kind != TokenKind::Number || !isName(t) ||
+  if (at == 0 || !isName(t) ||
       std::find(std::begin(kUnits), std::end(kUnits), textOf(t)) == std::end(kUnits)) {
     return false;
   }
-  const uint32_t end = token(at - 1).end;
-  if (end == t.begin) return true;
-  const std::string_view between = text_.substr(end, t.begin - end);
+  const Token& before = token(at - 1);
+  const Token& next = token(at + 1);
+  const bool ends = next.kind == TokenKind::Comma || next.kind == TokenKind::RParen;
+  if (before.kind != TokenKind::Number && !(isName(before) && ends)) return false;
+  if (before.end == t.begin) return true;
+  const std::string_view between = text_.substr(before.end, t.begin - before.end);
   if (between.find_first_not_of(" \t") != std::string_view::npos) return false;
-  switch (token(at + 1).kind) {
-    case TokenKind::Comma:
-    case TokenKind::RParen:
-    case TokenKind::Colon:
-    case TokenKind::Pipe: return true;
-    default: return false;
-  }
+  const bool endsLine =
+      next.kind == TokenKind::End ||
+      text_.substr(t.end, next.begin - t.end).find('\n') != std::string_view::npos;
+  return ends || endsLine || next.kind == TokenKind::Colon || next.kind == TokenKind::Pipe;
 }
 
 void Parser::skipUnit() {
   if (!unitAt(at_) || declarationHere()) return;
   const Token& t = current();
   const std::string_view unit = textOf(t);
-  error("unexpected-token", spanOf(t), "numbers have no unit, but " + describe(t) + " stands here",
+  error("unexpected-token", spanOf(t),
+        "lengths and angles have no unit, but " + describe(t) + " stands here",
         unit == "m" || unit == "deg" ? "remove it: lengths are in metres, angles in degrees"
                                      : "lengths are in metres: write the number of metres alone");
   if (unit == "m" || unit == "deg") fix(spanOf(t), "");
@@ -262,7 +264,10 @@ NodeId Parser::parsePrimary() {
 NodeId Parser::parseNameExpression() {
   const Token name = current();
   advance();
-  if (!is(TokenKind::LParen)) return named(NodeKind::Name, name);
+  if (!is(TokenKind::LParen)) {
+    skipUnit();
+    return named(NodeKind::Name, name);
+  }
   const NodeId arguments = parseArguments();
   if (memberHere()) return parseMember(name, arguments, NodeKind::ImportCall);
   Node n = node(NodeKind::Call, name.begin);

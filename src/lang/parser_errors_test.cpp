@@ -109,8 +109,14 @@ TEST(ParserErrors, unitsAreOneMistakeEach) {
             "1:59 unexpected-token\n2:14 unexpected-token\n")
       << p.messages();
   EXPECT_EQ(p.diagnostics.all()[0].hint, "remove it: lengths are in metres, angles in degrees");
+  Parsed values("attr h = 9 m\nattr w = 2 cm // wide\nA --> extrude(h m) s(w ft, 1, 1) B");
+  EXPECT_EQ(values.problems(),
+            "1:12 unexpected-token\n2:12 unexpected-token\n3:17 unexpected-token\n"
+            "3:24 unexpected-token\n")
+      << values.messages();
   // Names, where a number ends and something else begins.
-  Parsed names("attr a = 3\nm --> B\nC --> 30% : m else : cm");
+  Parsed names(
+      "attr a = 3\nm --> B\nC --> 30% : m else : cm\nD --> extrude(a) m\nattr b = a\nft --> B");
   EXPECT_EQ(names.problems(), "") << names.messages();
 }
 

@@ -229,6 +229,14 @@ TEST(Analyse, blocksAreCheckedByKind) {
             "1:197 unexpected-block\n");
 }
 
+TEST(Analyse, percentagesAreNoSizes) {
+  const Analysed a(
+      "A --> split(x) { 25% : B. | 75% : C. } B --> split(y) { 50% : B. 50% : C. | 2 : B. }");
+  ASSERT_EQ(a.problems(), "1:18 missing-size\n1:29 missing-size\n1:57 missing-size (warning)\n");
+  EXPECT_EQ(a.diagnostics.all()[0].hint,
+            "write a share of the scope's size with a quote before it: '0.25");
+}
+
 TEST(Analyse, weightsMustAddUp) {
   const Analysed a(
       "A --> 50% : A 50% : NIL B --> 60% : A 50% : NIL else : A C --> 30% : A 20% : NIL"

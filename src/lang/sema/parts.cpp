@@ -6,9 +6,26 @@
 
 #include <algorithm>
 
+#include "base/number.h"
 #include "lang/sema/analysis.h"
 
 namespace gable::lang {
+
+namespace {
+
+// The choice of an item "50% : ..." that has nothing else to choose; kNoNode for others.
+NodeId loneWeight(const Tree& t, NodeId item) {
+  const std::span<const NodeId> body = t.children(t.child(item, 2));
+  if (body.size() != 1 || t.kind(body[0]) != NodeKind::Choice ||
+      t[body[0]].op != static_cast<uint8_t>(ChoiceKind::Percent) ||
+      t.children(body[0]).size() != 1) {
+    return kNoNode;
+  }
+  const NodeId weight = t.child(t.child(body[0], 0), 0);
+  return t.kind(weight) == NodeKind::Number && t.number(weight) < 100 ? body[0] : kNoNode;
+}
+
+}  // namespace
 
 bool Analysis::isSelectorWord(std::string_view word, const OpSpec* op) const {
   return selectors_.count(word) != 0 || (op && op->part(word));
@@ -100,6 +117,15 @@ void Analysis::reportMissingHead(NodeId item, const OpSpec& op) {
   const Tree& t = tree();
   const uint32_t begin = t[item].begin;
   if (op.block == BlockKind::Split) {
+    if (const NodeId choice = loneWeight(t, item); choice != kNoNode) {
+      // One mistake: that the weights are not whole is not told.
+      headless_ = choice;
+      const double weight = t.number(t.child(t.child(choice, 0), 0));
+      errorAt("missing-size", item, "'" + shortestText(weight) + "%' is no size, but a probability",
+              "write a share of the scope's size with a quote before it: '" +
+                  shortestText(weight / 100));
+      return;
+    }
     warning("missing-size", t.span(item), "this part has no size, and takes '~1'",
             "write 'size : operations'");
     fix({t.file(), begin, begin}, "~1 : ");

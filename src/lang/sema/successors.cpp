@@ -131,7 +131,7 @@ void Analysis::visitSuccessorChoice(NodeId node) {
     }
     visitSequence(tree().child(branch, 1));
   }
-  if (!isCase) checkWeights(node);
+  if (!isCase && node != headless_) checkWeights(node);
 }
 
 // Constant weights above 100 % can never all happen; below it something must stand under "else".
