@@ -4,6 +4,7 @@
 // The commands. Each takes its parsed arguments and gives an exit status.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,19 @@ struct GenerateArguments {
   /// The part of --shapes: west,south,east,north.
   std::string box;
   WriteArguments write;
+  /// Seeds, from that of --seed on, each with files of its own; 0: that of --seed alone.
+  int count = 0;
   /// Run again whenever a file that is read changes, until Ctrl-C.
   bool watch = false;
 };
 int runGenerate(const GenerateArguments& arguments);
+
+/// Runs `once` with `count` seeds from the first on, written alike so that file names sort; ends
+/// with the first that fails. With --json each has an answer of its own.
+int forSeeds(int count, const std::string& firstSeed,
+             const std::function<int(const std::string& seed)>& once);
+/// "house-3.glb" of "house.glb"; empty and "-" stay.
+std::string withSeed(const std::string& path, const std::string& seed);
 
 struct CheckArguments {
   std::vector<std::string> rules;
@@ -34,6 +44,8 @@ int runCheck(const CheckArguments& arguments);
 
 struct InfoArguments {
   DeriveArguments derive;
+  /// List what imported files have as well. JSON has it always.
+  bool all = false;
 };
 int runInfo(const InfoArguments& arguments);
 
@@ -99,6 +111,8 @@ struct RenderArguments {
   std::string walk;
   /// Of a turntable.
   double framesPerSecond = 24;
+  /// Seeds, from that of --seed on, each with files of its own; 0: that of --seed alone.
+  int count = 0;
   /// Run again whenever a file that is read changes, until Ctrl-C.
   bool watch = false;
 };

@@ -16,6 +16,7 @@ constexpr Example kExamples[] = {
     {"generate", "gable generate house.cga --lot 24x18 -o house.glb"},
     {"generate", "gable generate house.cga --shapes lots.geojson --set height=12 -o town.glb"},
     {"generate", "gable generate house.cga --reports - -o house.obj"},
+    {"generate", "gable generate house.cga --count 3 -o variant.glb"},
     {"city", "gable city map.geojson -o place.glb"},
     {"city", "gable city map.geojson --plan ground.geojson --stats -"},
     {"tiles", "gable tiles house.cga --shapes lots.geojson -o tiles"},

@@ -95,6 +95,16 @@ int generateOnce(const GenerateArguments& arguments) {
 }  // namespace
 
 int runGenerate(const GenerateArguments& arguments) {
+  if (arguments.count > 0) {
+    return forSeeds(arguments.count, arguments.derive.seed, [&](const std::string& seed) {
+      GenerateArguments each = arguments;
+      each.derive.seed = seed;
+      for (std::string* path : {&each.output, &each.stats, &each.reports, &each.reportsByShape}) {
+        *path = withSeed(*path, seed);
+      }
+      return generateOnce(each);
+    });
+  }
   if (!arguments.watch) return generateOnce(arguments);
   return watch({[&] { return inputTimes(arguments.derive); },
                 [&] {

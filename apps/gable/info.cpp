@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 
 #include "answer.h"
 #include "commands.h"
@@ -66,23 +67,52 @@ void printFiles(const gable::Rules& rules) {
   }
 }
 
-void printInfo(const gable::Rules& rules, const std::vector<gable::NamedValue>& values) {
-  if (!rules.description().empty()) std::printf("%s\n", rules.description().c_str());
+// Names of imported files begin with the name of the import.
+bool isImported(const std::string& name) { return name.find('.') != std::string::npos; }
+
+// The line for what is not listed.
+void printRest(size_t count) {
+  if (count > 0) std::printf("  and %zu of imported files, which --all lists\n", count);
+}
+
+void printStartRules(const gable::Rules& rules, bool all) {
   const std::string first = rules.startRule().value_or(std::string());
   title("start rules", !first.empty());
+  size_t rest = 0;
   for (const gable::RuleInfo& r : rules.rules()) {
     if (r.name != first && (!r.start || r.parameters > 0)) continue;
+    if (!all && r.name != first && isImported(r.name)) {
+      ++rest;
+      continue;
+    }
     const std::string place = r.file + ":" + std::to_string(r.line);
     row(r.name + (r.name == first ? " *" : ""), place, textOf(r.annotations));
   }
+  printRest(rest);
+}
+
+void printAttributes(const gable::Rules& rules, const std::vector<gable::NamedValue>& values,
+                     bool all) {
   title("attributes", !rules.attributes().empty());
+  std::map<std::string_view, const gable::RuleValue*> known;
+  for (const gable::NamedValue& v : values) known.emplace(v.name, &v.value);
+  size_t rest = 0;
   for (const gable::AttributeInfo& a : rules.attributes()) {
-    std::string value;
-    for (const gable::NamedValue& v : values) {
-      if (v.name == a.name) value = " = " + textOf(v.value);
+    if (!all && isImported(a.name)) {
+      ++rest;
+      continue;
     }
-    row(a.name, a.type + value, textOf(a.annotations));
+    const auto value = known.find(a.name);
+    row(a.name, a.type + (value == known.end() ? "" : " = " + textOf(*value->second)),
+        textOf(a.annotations));
   }
+  printRest(rest);
+}
+
+void printInfo(const gable::Rules& rules, const std::vector<gable::NamedValue>& values, bool all) {
+  if (!rules.description().empty()) std::printf("%s\n", rules.description().c_str());
+  printStartRules(rules, all);
+  printAttributes(rules, values, all);
   title("styles", rules.styles().size() > 1);
   for (size_t i = 0; rules.styles().size() > 1 && i < rules.styles().size(); ++i) {
     row(rules.styles()[i], "");
@@ -110,6 +140,6 @@ int runInfo(const InfoArguments& arguments) {
   }
   const std::vector<gable::NamedValue> values = valuesOf(inputs);
   addMembers(inputs.rules, values);
-  if (!terminal().json) printInfo(inputs.rules, values);
+  if (!terminal().json) printInfo(inputs.rules, values, arguments.all);
   return kExitDone;
 }

@@ -212,8 +212,13 @@ void addWriting(CLI::App* app, WriteArguments& a) {
   }
 }
 
-void addWatch(CLI::App* app, bool& watch) {
-  app->add_flag("--watch", watch, "Run again whenever a file that is read changes, until Ctrl-C");
+// How often it runs.
+void addRuns(CLI::App* app, int& count, bool& watch) {
+  auto* seeds = app->add_option("--count", count,
+                                "So many seeds, from that of --seed on: NAME-0, NAME-1 and so on")
+                    ->check(number({1, 1e6, true}));
+  app->add_flag("--watch", watch, "Run again whenever a file that is read changes, until Ctrl-C")
+      ->excludes(seeds);
 }
 
 void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
@@ -231,7 +236,7 @@ void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
                    "or in the metres of the file")
       ->needs("--shapes");
   addWriting(generate, a.write);
-  addWatch(generate, a.watch);
+  addRuns(generate, a.count, a.watch);
   generate->callback([&a, &status] { status = runGenerate(a); });
 }
 
@@ -425,6 +430,7 @@ void addInfo(CLI::App& app, InfoArguments& a, int& status) {
   auto* info = app.add_subcommand(
       "info", "Show start rules, attributes with their values, imports and assets of rules");
   info->add_option("rules", a.derive.rules, "The rule file or package")->required();
+  info->add_flag("--all", a.all, "List the start rules and attributes of imported files as well");
   addDeriveOptions(info, a.derive);
   info->callback([&a, &status] { status = runInfo(a); });
 }
@@ -483,7 +489,7 @@ void addRender(CLI::App& app, RenderArguments& a, int& status) {
       ->required();
   addPictureOptions(command, a);
   addFrameOptions(command, a);
-  addWatch(command, a.watch);
+  addRuns(command, a.count, a.watch);
   command->callback([&a, &status] { status = runRender(a); });
 }
 

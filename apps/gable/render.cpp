@@ -321,6 +321,15 @@ int runWatch(const RenderArguments& arguments) {
 }
 
 int runRender(const RenderArguments& arguments) {
+  if (arguments.count > 0) {
+    return forSeeds(arguments.count, arguments.derive.seed, [&](const std::string& seed) {
+      RenderArguments each = arguments;
+      each.derive.seed = seed;
+      each.output = withSeed(each.output, seed);
+      each.layers = withSeed(each.layers, seed);
+      return renderOnce(each);
+    });
+  }
   if (!arguments.watch) return renderOnce(arguments);
   return watch({[&] { return inputTimes(arguments.derive); },
                 [&] {

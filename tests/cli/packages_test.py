@@ -262,8 +262,12 @@ class Info(Case):
     def testTellsTheSameInWords(self):
         told = self.gable("info", "p/rules/main.cga")
         for part in ["A house.", "Lot *", "height", "float = 9", "@Range(min=3, max=30, restricted=true)", "@InPolygon",
-                     "missing: /Gone/gone.cga", "w.width", "Red"]:
+                     "missing: /Gone/gone.cga", "and 1 of imported files, which --all lists", "Red"]:
             self.assertIn(part, told)
+        self.assertNotIn("w.width", told)
+        everything = self.gable("info", "p/rules/main.cga", "--all")
+        self.assertIn("w.width", everything)
+        self.assertNotIn("of imported files", everything)
 
     def testFailsForRulesThatCannotBeRead(self):
         self.gable("info", "gone.cga", status=FILE)

@@ -39,6 +39,22 @@ class Pictures(Case):
         self.draw("a.png", "--turntable", "2", "--aov", "layers", status=USAGE, says="--aov")
         self.draw("a.png", "--sun", "40,135", "--sun-at", "48,2,2024-06-21,12", status=USAGE, says="--sun")
 
+    def testSeveralSeedsHavePicturesOfTheirOwn(self):
+        self.put("x.cga", "Lot --> extrude(rand(3, 9)) House.\n")
+        self.draw("a.png", "--count", "2", "--seed", "9")
+        many = [(self.folder / f"a-{seed}.png").read_bytes() for seed in ("09", "10")]
+        self.assertNotEqual(*many)
+        self.assertEqual(many[0], self.draw("one.png", "--seed", "9"))
+        self.assertFalse((self.folder / "a.png").exists())
+        self.run_gable("generate", "x.cga", "--count", "2", "--seed=-1", "--reports", "r.csv", "-o", "a.city.json")
+        for name in ("a--1.city.json", "a-0.city.json", "r--1.csv", "r-0.csv"):
+            self.assertTrue((self.folder / name).exists(), name)
+        answers = self.run_gable("generate", "x.cga", "--count", "2", "--json", "-o", "b.glb")
+        self.assertEqual(answers.count('"command"'), 2)
+        for wrong in ("--seed=0.5", "--seed=1e300", "--count=0", "--count=1.5", "--watch"):
+            says = "--watch" if wrong == "--watch" else wrong.split("=")[0]
+            self.draw("a.png", "--count", "2", wrong, status=USAGE, says=says)
+
     def testAModelThatEndsAtItsBordersIsFramed(self):
         rules = self.put("roof.cga", "@StartRule\nLot --> roofGable(30, 0.4, 0.3) comp(f) { aslant : X. | all : NIL }\n")
         for view in ("iso", "front", "street", "top"):
