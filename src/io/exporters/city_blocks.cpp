@@ -251,6 +251,49 @@ struct Piece {
 using PlanKey = std::pair<double, double>;
 PlanKey keyOf(Vec2 p) { return {p.x, p.y}; }
 
+// Where the border of the pieces touches itself: no wall could stand there, since four would share
+// its upright side.
+std::vector<Vec2> contactsOf(const std::vector<OverlayPiece>& pieces) {
+  std::map<PlanKey, int> begins;
+  for (const OverlayPiece& p : pieces) {
+    size_t edge = 0;
+    const auto count = [&](const Ring& ring) {
+      for (const Vec2 at : ring) {
+        if (p.beyond[edge++] == OverlayPiece::kNothing) ++begins[keyOf(at)];
+      }
+    };
+    count(p.polygon.outer);
+    for (const Ring& hole : p.polygon.holes) count(hole);
+  }
+  std::vector<Vec2> out;
+  for (const auto& [at, count] : begins) {
+    if (count > 1) out.push_back({at.first, at.second});
+  }
+  return out;
+}
+
+// The overlay, where what touches itself in points has a neck there, as wide as gaps that are
+// closed.
+std::vector<OverlayPiece> joinedOverlay(std::vector<OverlayLayer> layers) {
+  OverlayOptions options;
+  options.thin = kThin;
+  std::vector<OverlayPiece> pieces = overlay(layers, options);
+  // A neck may touch what is near it.
+  constexpr int kMostTurns = 3;
+  for (int turn = 0; turn < kMostTurns; ++turn) {
+    const std::vector<Vec2> contacts = contactsOf(pieces);
+    if (contacts.empty()) break;
+    work(contacts.size());
+    const double r = kGap * (turn + 1);
+    for (const Vec2 c : contacts) {
+      layers[0].rings.push_back(
+          {{c.x - r, c.y - r}, {c.x + r, c.y - r}, {c.x + r, c.y + r}, {c.x - r, c.y + r}});
+    }
+    pieces = overlay(layers, options);
+  }
+  return pieces;
+}
+
 std::vector<Piece> piecesOf(const std::vector<Layer>& layers, const std::vector<uint32_t>& order) {
   std::vector<OverlayLayer> flat(1);
   flat[0].fill = FillRule::NonZero;
@@ -269,9 +312,7 @@ std::vector<Piece> piecesOf(const std::vector<Layer>& layers, const std::vector<
     flat[0].rings.push_back(p.outer);
     flat[0].rings.insert(flat[0].rings.end(), p.holes.begin(), p.holes.end());
   }
-  OverlayOptions options;
-  options.thin = kThin;
-  const std::vector<OverlayPiece> seen = overlay(flat, options);
+  const std::vector<OverlayPiece> seen = joinedOverlay(std::move(flat));
   std::vector<Piece> out;
   for (const OverlayPiece& p : seen) {
     Piece& piece = out.emplace_back();

@@ -137,6 +137,23 @@ TEST(CityBlocks, courtsAreHoles) {
   EXPECT_NEAR(volumeOf(blockOf(shells[0])), shells[0].volume, 0.4);
 }
 
+TEST(CityBlocks, outlinesThatTouchThemselvesGetANeck) {
+  // A court whose corner is that of the outline, and a balcony that hangs at a corner.
+  const std::vector<std::vector<RoofFace>> plans{{level(0, 0, 20, 5, 6), level(0, 5, 5, 10, 6),
+                                                  level(0, 15, 15, 5, 6), level(15, 5, 5, 10, 6)},
+                                                 {level(0, 0, 10, 10, 6), level(10, 10, 2, 2, 4),
+                                                  level(9, 12, 3, 3, 6), level(9, 10, 1, 2, 5)}};
+  for (const std::vector<RoofFace>& faces : plans) {
+    const auto shells = shellsOf(faces, 0);
+    ASSERT_EQ(shells.size(), 1u);
+    EXPECT_TRUE(shells[0].closed);
+    expectSound(shells[0]);
+    double area = 0;
+    for (const RoofFace& f : faces) area += length(ringNormal(f.rings[0])) / 2;
+    EXPECT_NEAR(shells[0].area, area, 0.02);
+  }
+}
+
 TEST(CityBlocks, anyRoofsMakeSoundShells) {
   int closed = 0, all = 0;
   for (uint64_t seed = 0; seed < 60; ++seed) {
@@ -168,7 +185,7 @@ TEST(CityBlocks, anyRoofsMakeSoundShells) {
     }
   }
   EXPECT_GE(all, 60);
-  EXPECT_GE(closed * 20, all * 19);
+  EXPECT_GE(closed, all - 1);
 }
 
 }  // namespace
