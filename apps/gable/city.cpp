@@ -64,6 +64,20 @@ int checkPicture(const CityArguments& arguments, gable::PictureSettings& setting
   return pictureSettings(arguments.picture, settings);
 }
 
+// Options of tiles without tiles.
+int checkTileOptions(const CityArguments& arguments) {
+  if (!tileFolder(arguments.output).empty()) return kExitDone;
+  const TileArguments& t = arguments.tiles;
+  const char* const given = t.onlyPlan      ? "--plan-jobs"
+                            : t.viewer      ? "--viewer"
+                            : t.compress    ? "--compress"
+                            : t.triangles   ? "--tile-triangles"
+                            : t.replacePlan ? "--replace-plan"
+                                            : nullptr;
+  if (!given) return kExitDone;
+  return fail(kExitUsage, std::string(given) + " is for tiles: give -o a folder, such as monaco/");
+}
+
 // How the model is drawn and written.
 struct Making {
   gable::PictureSettings picture;
@@ -74,7 +88,9 @@ int checkMaking(const CityArguments& arguments, Making& making) {
   if (!arguments.picture.output.empty()) {
     if (const int status = checkPicture(arguments, making.picture)) return status;
   }
-  return writeSettings(arguments.write, arguments.output, arguments.derive.limits, making.write);
+  const std::string folder = tileFolder(arguments.output);
+  return writeSettings(arguments.write, folder.empty() ? arguments.output : folder,
+                       arguments.derive.limits, making.write);
 }
 
 int buildModel(const gable::City& city, CityArguments& arguments, const Making& making,
@@ -122,9 +138,7 @@ int runCity(const CityArguments& given) {
     formats.emplace_back("png");
     if (const int status = checkExtension(arguments.output, formats)) return status;
   }
-  if (arguments.tiles.onlyPlan && tileFolder(arguments.output).empty()) {
-    return fail(kExitUsage, "--plan-jobs plans tiles: give -o a folder, such as monaco/");
-  }
+  if (const int status = checkTileOptions(arguments)) return status;
   arguments.picture.derive = arguments.derive;
   arguments.tiles.instancing = arguments.write.options["instancing"];
   arguments.tiles.vertices = arguments.write.options["vertices"];

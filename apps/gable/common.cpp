@@ -185,6 +185,9 @@ int writeSettings(const WriteArguments& arguments, const std::string& path,
   const gable::ChosenWriting chosen = gable::chosenWriting(arguments.profile, choices);
   print(chosen.diagnostics);
   if (!chosen.ok) return kExitUsage;
+  const gable::DiagnosticList unfit = gable::unfitChoices(path, choices);
+  print(unfit);
+  if (gable::hasErrors(unfit)) return kExitUsage;
   const gable::DiagnosticList clashes = gable::writeClashes(path, chosen.settings);
   print(clashes);
   if (gable::hasErrors(clashes)) return kExitUsage;

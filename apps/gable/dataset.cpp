@@ -80,6 +80,10 @@ int runDataset(const DatasetArguments& arguments) {
   answer().member("done", std::to_string(result.done));
   answer().member("merged", result.merged ? "true" : "false");
   if (result.ok) answer().wrote(arguments.output);
+  if (result.end != gable::End::Done) {
+    note(std::to_string(result.done) + " of " + std::to_string(result.items) +
+         " items are there; the same command goes on");
+  }
   if (result.ok && !result.merged) {
     note(std::to_string(result.done) + " of " + std::to_string(result.items) +
          " items are there; others are making the rest, or their shards have it");

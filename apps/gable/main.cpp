@@ -516,7 +516,10 @@ void addDataset(CLI::App& app, DatasetArguments& a, int& status) {
       ->add_option("--tags", a.tags,
                    "The tags that --labels tag goes by, in the order in which they count (default: "
                    "all that the rules give by name)")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->type_size(1)
+      ->expected(1)
+      ->take_all();
   command
       ->add_option("--format", a.format,
                    "The list of all: coco (coco.json, default) or json (items.json)")

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: The Gable authors
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <iterator>
 
@@ -173,8 +174,12 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
   if (const int status = lightSettings(a, s)) return status;
   double sun[2];
   if (!a.sun.empty()) {
-    if (!parseNumbers(a.sun, ',', kDegrees, sun, 2)) {
-      return wrongOption("--sun", "elevation,azimuth in degrees, such as 40,135", a.sun);
+    if (!parseNumbers(a.sun, ',', kDegrees, sun, 2) || std::fabs(sun[0]) > 90 ||
+        std::fabs(sun[1]) > 360) {
+      return wrongOption("--sun",
+                         "elevation,azimuth in degrees, from -90 to 90 and -360 to 360, such as "
+                         "40,135",
+                         a.sun);
     }
     s.sun = {sun[0], sun[1]};
   }
@@ -246,24 +251,27 @@ int drawWithLayers(const gable::Model& model, const RenderArguments& arguments,
 /// a style of that name.
 int readForPicture(RenderArguments& a, Inputs& inputs) {
   const std::string style = a.derive.style.value_or("");
-  const bool isLook = a.look.empty() && style != "photo" && gable::lookNamed(style);
-  const std::string meant =
-      a.look.empty() && !isLook ? gable::suggestion(style, gable::lookNames()) : "";
-  const bool mayBeLook = isLook || !meant.empty();
+  const bool oneWord = !style.empty() && style.find_first_of(".,") == std::string::npos;
+  const bool mayBeLook = a.look.empty() && oneWord;
   if (mayBeLook) a.derive.style.reset();
   const int status = readInputs(a.derive, inputs);
   if (status || !mayBeLook) return status;
   const std::vector<std::string>& declared = inputs.rules.styles();
-  if (std::find(declared.begin(), declared.end(), style) == declared.end()) {
-    if (!isLook) {
-      return fail(kExitUsage, "neither a style of the rules nor a look of pictures is named '" +
-                                  style + "'; " + meant);
-    }
+  if (std::find(declared.begin(), declared.end(), style) != declared.end()) {
+    a.derive.style = style;
+    return readInputs(a.derive, inputs);
+  }
+  if (gable::lookNamed(style)) {
     a.look = style;
     return kExitDone;
   }
-  a.derive.style = style;
-  return readInputs(a.derive, inputs);
+  std::vector<std::string> known = declared;
+  known.insert(known.end(), gable::lookNames().begin(), gable::lookNames().end());
+  const std::string meant = gable::suggestion(style, known);
+  std::string list;
+  for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+  return fail(kExitUsage, "neither a style of the rules nor a look of pictures is named '" + style +
+                              "'; " + (meant.empty() ? "there are " + list : meant));
 }
 
 int makeModel(RenderArguments& arguments, gable::Model& model) {

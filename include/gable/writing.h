@@ -24,6 +24,9 @@ struct WriteOption {
   /// What it takes; empty for a whole number up to `most`.
   std::vector<std::string> words;
   int most = 0;
+  /// Endings of the models that it says something about: "glb". "tiles" stands for folders of
+  /// tiles.
+  std::vector<std::string> formats;
 };
 const std::vector<WriteOption>& writeOptions();
 
@@ -47,6 +50,10 @@ struct ChosenWriting {
 };
 /// The choices of a profile (empty: none) and over them those given.
 ChosenWriting chosenWriting(const std::string& profile, const WriteChoices& choices);
+
+/// An error for each option that says nothing about what is written to a path: --lods about an OBJ.
+/// Paths that end in '/' are folders of tiles. Paths of no format have none.
+DiagnosticList unfitChoices(const std::string& path, const WriteChoices& choices);
 
 /// Why a model cannot be written to a path in this way; empty where it can.
 DiagnosticList writeClashes(const std::string& path, const WriteSettings& settings);

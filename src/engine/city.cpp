@@ -72,6 +72,7 @@ std::shared_ptr<const Shapes::Impl> shapesOf(const CityPlan& plan, const MapFeat
   out->geoOrigin = map.geoOrigin;
   out->geo = map.geo;
   out->terrain = plan.terrain;
+  out->ofMap = true;
   std::map<std::pair<std::string, std::string>, uint32_t> seen;
   for (const CityShape& s : plan.shapes) {
     work();

@@ -147,7 +147,13 @@ class Maker {
            const std::function<DiagnosticList(const std::string& aside)>& fill) {
     const DiagnosticList wrong = folder_.put(part, fill);
     if (wrong.empty()) return true;
-    stop(wrong);
+    // What is half written when it is cancelled is made again by the next run.
+    const bool cancelled = std::any_of(
+        wrong.begin(), wrong.end(), [](const Diagnostic& d) { return d.code == "was-cancelled"; });
+    if (cancelled)
+      stopByLimit();
+    else
+      stop(wrong);
     return false;
   }
 
@@ -199,12 +205,13 @@ DatasetResult made(const Rules& rules, const Shapes& shapes, const std::string& 
   if (!categories.ok()) return failed<DatasetResult>(categories.error());
   DatasetFolder folder(path, settings);
   if (const auto e = folder.open(descriptionOf(rules, shapes, categories.value(), settings))) {
+    folder.close();
     return failed<DatasetResult>(*e);
   }
   DatasetResult result;
   result.items = settings.count * settings.cameras;
   Maker(rules, shapes, settings, folder, categories.value(), task, result).run();
-  if (result.done == 0 || result.done == result.items) folder.close();
+  folder.close();
   if (hasErrors(result.diagnostics) || result.end != End::Done) return result;
   result.ok = true;
   for (uint64_t seed = 0; seed < settings.count; ++seed) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/text.h"
 #include "builtins/selection.h"
 #include "engine/dataset.h"
 
@@ -43,6 +44,36 @@ std::set<std::string> tagsNamedBy(const Program& program) {
   return names;
 }
 
+// Rules may give tags that they compute.
+bool computesTags(const Program& program) {
+  return std::any_of(program.code.begin(), program.code.end(), [&](const Instruction& i) {
+    return i.code == Code::Operation && std::string_view(program.operations[i.a]->name) == "tag";
+  });
+}
+
+// A tag that no rule gives. Operations give those with a dot, such as extrude.top.
+std::optional<Error> missingTag(const Program& program, const std::vector<std::string>& tags) {
+  const std::set<std::string> named = tagsNamedBy(program);
+  const std::vector<std::string_view> names(named.begin(), named.end());
+  for (const std::string& tag : tags) {
+    const auto isMeant = [&](const std::string& name) { return tagMatches(tag, name); };
+    if (tag.find_first_of(".?*") != std::string::npos ||
+        std::any_of(named.begin(), named.end(), isMeant)) {
+      continue;
+    }
+    const std::string near = didYouMean(tag, names);
+    if (near.empty() && computesTags(program)) continue;
+    std::string known;
+    for (const std::string_view n : names) known += (known.empty() ? "" : ", ") + std::string(n);
+    return Error{"dataset-labels", "no rule gives the tag '" + tag + "'",
+                 !near.empty()   ? near
+                 : known.empty() ? "give it with the operation tag, or name those of operations, "
+                                   "such as extrude.top"
+                                 : "rules give " + known};
+  }
+  return std::nullopt;
+}
+
 Error noCategories(DatasetLabels labels) {
   if (labels == DatasetLabels::Tag) {
     return {"dataset-labels", "no rule gives a tag",
@@ -57,7 +88,10 @@ Error noCategories(DatasetLabels labels) {
 }  // namespace
 
 Result<Categories> categoriesOf(const Rules& rules, const DatasetSettings& settings) {
-  if (!settings.tags.empty()) return settings.tags;
+  if (!settings.tags.empty()) {
+    if (const auto missing = missingTag(rules.impl().program, settings.tags)) return *missing;
+    return settings.tags;
+  }
   std::set<std::string> names;
   switch (settings.labels) {
     case DatasetLabels::Rule:

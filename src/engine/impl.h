@@ -79,6 +79,8 @@ struct Shapes::Impl {
   /// Where it is set, what is made of shapes that lie on the ground is laid on it; see
   /// city/drape.h.
   std::shared_ptr<const TerrainSurface> terrain;
+  /// Their properties are words of the map, which nobody has written for these rules.
+  bool ofMap = false;
 };
 
 struct Model::Impl {

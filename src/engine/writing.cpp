@@ -24,68 +24,80 @@ struct OptionRow {
   const char* help;
   std::vector<std::string> words;
   int most;
+  std::vector<std::string> formats;
   void (*set)(WriteSettings& settings, int value);
 };
 
 // Values are places in the words, or numbers.
 const std::vector<OptionRow>& optionRows() {
+  static const std::vector<std::string> gltf{"glb", "gltf"}, gltfAndTiles{"glb", "gltf", "tiles"},
+      cityJson{"city.json", "city.jsonl"}, withPictures{"glb", "gltf", "obj", "usda", "usdz"};
   static const std::vector<OptionRow> rows{
       {"instancing",
        "glTF: how parts that occur several times are shown: auto (by nodes, at most\n"
        "20000; what saves least is merged), nodes (by a node each), gpu (by\n"
        "EXT_mesh_gpu_instancing), none (one mesh, merged by material), shapes (a mesh for\n"
        "each initial shape, which equal ones share)",
-       instancingNames(), 0,
+       instancingNames(), 0, gltfAndTiles,
        [](WriteSettings& s, int v) { s.instancing = static_cast<Instancing>(v); }},
       {"vertices",
        "glTF: what a vertex takes: auto (compact in large files), float (single\n"
        "precision), compact (half of that, by KHR_mesh_quantization, no vertex moved by\n"
        "more than half a millimetre), bare (compact, flat surfaces without normals)",
-       verticesNames(), 0, [](WriteSettings& s, int v) { s.vertices = static_cast<Vertices>(v); }},
+       verticesNames(), 0, gltfAndTiles,
+       [](WriteSettings& s, int v) { s.vertices = static_cast<Vertices>(v); }},
       {"lod",
        "CityJSON: which levels of detail: 1 (blocks), 2 (roofs and walls), 3 (all that\n"
        "rules made), all",
-       detailNames(), 0, [](WriteSettings& s, int v) { s.detail = static_cast<Detail>(v); }},
+       detailNames(), 0, cityJson,
+       [](WriteSettings& s, int v) { s.detail = static_cast<Detail>(v); }},
       {"names",
        "glTF: what things are called: rules (as rules call them), unique (a name of its own\n"
        "for each initial shape and mesh), godot and unreal (unique, collision shapes as that\n"
        "engine marks them)",
        {"rules", "unique", "godot", "unreal"},
        0,
+       gltf,
        [](WriteSettings& s, int v) { s.names = static_cast<Names>(v); }},
       {"collision",
        "glTF: collision shapes, an initial shape each: none, box (the smallest upright box),\n"
        "hull (the convex hull, 98 corners at most), mesh (triangles without small parts)",
        {"none", "box", "hull", "mesh"},
        0,
+       gltf,
        [](WriteSettings& s, int v) { s.collision = static_cast<Collision>(v); }},
       {"lods",
        "glTF: how many coarser levels of detail each initial shape has",
        {},
        3,
+       gltf,
        [](WriteSettings& s, int v) { s.levels = v; }},
       {"lod-form",
        "glTF: how --lods are kept: names (in the file, as House_LOD0, House_LOD1), msft (in\n"
        "the file, by MSFT_lod), files (beside it, as model_LOD1.glb)",
        {"names", "msft", "files"},
        0,
+       gltf,
        [](WriteSettings& s, int v) { s.levelForm = static_cast<LevelForm>(v); }},
       {"uv",
        "glTF: how materials scale, turn and move textures: extension (KHR_texture_transform),\n"
        "baked (in the texture coordinates, where all textures of a material want the same)",
        {"extension", "baked"},
        0,
+       gltf,
        [](WriteSettings& s, int v) { s.bakedUv = v == 1; }},
       {"texture-size",
        "glTF, OBJ and USD: halve pictures until no side has more pixels; 0: as they are",
        {},
        16384,
+       withPictures,
        [](WriteSettings& s, int v) { s.textureSize = static_cast<uint32_t>(v); }},
       {"atlas",
        "glTF, OBJ and USD: put plain colours and pictures that do not repeat into one\n"
        "picture of so many pixels a side at most, and merge their materials; 0: no atlas",
        {},
        8192,
+       withPictures,
        [](WriteSettings& s, int v) { s.atlas = static_cast<uint32_t>(v); }},
   };
   return rows;
@@ -162,7 +174,8 @@ const std::string* valueOf(const WriteChoices& choices, const std::string& name)
 const std::vector<WriteOption>& writeOptions() {
   static const std::vector<WriteOption> all = [] {
     std::vector<WriteOption> out;
-    for (const OptionRow& r : optionRows()) out.push_back({r.name, r.help, r.words, r.most});
+    for (const OptionRow& r : optionRows())
+      out.push_back({r.name, r.help, r.words, r.most, r.formats});
     return out;
   }();
   return all;
@@ -182,6 +195,7 @@ const std::vector<WriteProfile>& writeProfiles() {
         {"vertices", "float"},
         {"names", "godot"},
         {"collision", "mesh"},
+        {"lod-form", "files"},
         {"uv", "baked"},
         {"texture-size", "2048"},
         {"atlas", "2048"}}},
@@ -229,6 +243,27 @@ ChosenWriting chosenWriting(const std::string& profile, const WriteChoices& choi
         "");
   }
   out.ok = !hasErrors(out.diagnostics);
+  return out;
+}
+
+DiagnosticList unfitChoices(const std::string& path, const WriteChoices& choices) {
+  DiagnosticList out;
+  const bool tiles = path.ends_with('/');
+  const std::string format = tiles ? "tiles" : modelFormatOf(path);
+  if (format.empty()) return out;
+  for (const auto& [name, value] : choices) {
+    for (const OptionRow& row : optionRows()) {
+      const auto& fit = row.formats;
+      if (name != row.name || std::find(fit.begin(), fit.end(), format) != fit.end()) continue;
+      std::string list;
+      for (const std::string& f : fit) {
+        if (f != "tiles") list += (list.empty() ? "." : " .") + f;
+      }
+      say(out, Severity::Error, kClash,
+          "'--" + name + "' says nothing about " + (tiles ? "tiles" : "'" + path + "'"),
+          "leave it out, or write " + list);
+    }
+  }
   return out;
 }
 

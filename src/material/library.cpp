@@ -255,7 +255,19 @@ const LibraryMaterial* libraryMaterial(std::string_view name) {
 
 std::string materialHint(std::string_view name) {
   const std::string hint = didYouMean(name, names());
-  return hint.empty() ? "'gable asset material' lists them" : hint;
+  if (!hint.empty()) return hint;
+  // "brick", or nearly: all that begin so.
+  const auto kind = [](std::string_view n) { return n.substr(0, n.find('.')); };
+  std::vector<std::string_view> kinds;
+  for (const std::string_view n : names()) kinds.push_back(kind(n));
+  const std::string_view given = kind(name);
+  const bool known = std::find(kinds.begin(), kinds.end(), given) != kinds.end();
+  const std::string meant = known ? std::string(given) : nearestName(given, kinds);
+  std::string list;
+  for (const std::string_view n : names()) {
+    if (kind(n) == meant) list += (list.empty() ? "there are " : ", ") + std::string(n);
+  }
+  return list.empty() ? "'gable asset material' lists them" : list;
 }
 
 std::string materialPicturePath(const LibraryMaterial& m, MaterialPicture picture) {

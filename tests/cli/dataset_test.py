@@ -75,6 +75,15 @@ class Dataset(Case):
         place = self.folder / folder
         return {str(p.relative_to(place)): p.read_bytes() for p in sorted(place.rglob("*")) if p.is_file()}
 
+    def testTagsThatNoRuleGivesAreTold(self):
+        self.put("x.cga", 'Lot --> extrude(4) comp(f) { side : tag("Window") W. | all : R. }\n')
+        for tags, says in (("Windw", "did you mean 'Window'?"), ("Window,Chimney", "rules give")):
+            self.make("a", "--labels", "tag", "--tags", tags, status=WRONG, says=says)
+        self.assertFalse((self.folder / "a").exists())
+        # The option takes one word, so the rule file may follow it.
+        self.run_gable("dataset", "--labels", "tag", "--tags", "Window", "x.cga", "--count", "1", "--cameras", "1", "--size", "32x32",
+                       "--samples", "1", "-o", "b")
+
     def testAllFilesAreThere(self):
         self.make("a")
         seeds = [f"00000{seed}" for seed in range(3)]

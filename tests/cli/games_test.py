@@ -207,6 +207,7 @@ class Games(Case):
                               (["--names", "unreal", "--collision", "mesh"], "convex")):
             self.run_gable("generate", "x.cga", "--lot", "9x9", "-o", "a.glb", *options, status=USAGE, says=says)
         self.run_gable("generate", "x.cga", "--lot", "9x9", "-o", "a.obj", "--for", "godot", status=USAGE, says="a.obj")
+        self.run_gable("generate", "x.cga", "--lot", "9x9", "-o", "a.obj", "--uv", "baked", status=USAGE, says="'--uv' says nothing about 'a.obj'")
         self.run_gable("generate", "x.cga", "--lot", "9x9", "-o", "a.obj", "--lods", "1", status=USAGE,
                        says="[write-options-clash]")
         self.assertFalse((self.folder / "a.glb").exists())

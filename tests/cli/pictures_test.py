@@ -89,7 +89,7 @@ class Pictures(Case):
         self.assertEqual(self.draw("a.png", "--style", "clay"), self.draw("b.png"))
 
     def testAnUnknownStyleIsStillTold(self):
-        self.draw("a.png", "--style", "Baroque", status=1, says="Baroque")
+        self.draw("a.png", "--style", "Baroque", status=USAGE, says="Baroque")
 
     def testLayersAreFiles(self):
         self.draw("a.png", "--aov", "layers", "--view", "front")

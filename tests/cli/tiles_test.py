@@ -530,8 +530,11 @@ class Jobs(Case):
         self.put("plain/city.cga", "import b : \"block.cga\"\n@StartRule Ground --> Flat.\nBuilding --> b.Block\n")
         self.put("plain/block.cga", "attr levels = 9\nBlock --> extrude(3 + levels + rand(1)) comp(f) { all : Face. }\n")
         arguments = ("town.geojson", "--terrain", "hill.tif", "--rules", "plain", "--tile-triangles", "3000")
+        self.run_gable("city", *arguments, "-o", "many.glb", status=USAGE, says="--tile-triangles is for tiles")
         self.run_gable("city", *arguments, "-o", "one/")
         self.run_gable("city", *arguments, "--plan-jobs", "-o", "many.glb", status=USAGE, says="give -o a folder")
+        self.run_gable("city", *arguments, "--compress", "-o", "many.glb", status=USAGE, says="--compress is for tiles")
+        self.run_gable("city", *arguments, "--atlas", "512", "-o", "many/", status=USAGE, says="'--atlas' says nothing about tiles")
         self.run_gable("city", *arguments, "--plan-jobs", "--job-shapes", "100", "-o", "many/", says="jobs for")
         count = self.jobs("many")
         self.assertGreater(count, 1)
@@ -554,7 +557,7 @@ class Jobs(Case):
         # What the ground and the levels are reaches the jobs.
         self.run_gable("city", *arguments[:1], *arguments[3:], "-o", "flat/")
         self.assertNotEqual(self.contents("flat"), one)
-        self.run_gable("city", *arguments, "-o", "one.obj")
+        self.run_gable("city", *arguments[:5], "-o", "one.obj")
         faces = (self.folder / "one.obj").read_text().count("\nf ")
         self.assertGreater(faces, 10_000)
 

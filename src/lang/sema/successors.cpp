@@ -29,6 +29,23 @@ bool hasSections(const OpSpec& op) { return op.block == BlockKind::Split && !op.
 
 /// Operations of the first shape grammars and of CityEngine before 2009, and what CGA has in their
 /// place.
+// Words of other languages for what case does.
+std::string hintOfConditions(std::string_view name) {
+  const bool is = name == "if" || name == "while" || name == "for";
+  return is ? "conditions are written 'case condition : ... else : ...'" : "";
+}
+
+// Operations of one letter, by what other programs call them.
+std::string_view shortNameOf(std::string_view name) {
+  constexpr std::pair<std::string_view, std::string_view> kNames[] = {
+      {"insert", "i"}, {"rotate", "r"},    {"scale", "s"},
+      {"size", "s"},   {"translate", "t"}, {"move", "t"}};
+  for (const auto& [word, operation] : kNames) {
+    if (equalButForCase(word, name)) return operation;
+  }
+  return {};
+}
+
 std::string hintOfEarlyName(std::string_view name) {
   struct Early {
     std::string_view name;
@@ -165,6 +182,7 @@ void Analysis::makeLeaf(NodeId node, bool known) {
   for (const NodeId block : tree().children(node).subspan(1)) {
     const std::string_view now = modernOperation(text(node));
     std::string hint = hintOfEarlyName(text(node));
+    if (hint.empty()) hint = hintOfConditions(text(node));
     if (hint.empty()) {
       hint = now.empty() ? near(text(node), [&] { return ruleNames(body_.module); })
                          : hintOfNewName(now);
@@ -259,9 +277,9 @@ void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
     hint = "did you mean " + quote(meant) + "?";
   }
   const bool leaf = hint.empty();
-  if (name == "if" || name == "while" || name == "for") {
+  if (const std::string conditions = hintOfConditions(name); !conditions.empty()) {
     meant_ = {};
-    hint = "conditions are written 'case condition : ... else : ...'";
+    hint = conditions;
     if (called) {
       error("unknown-operation", span, "there is no operation or rule " + quote(name), hint);
       return;
@@ -269,6 +287,10 @@ void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
   } else if (const OpSpec* op = catalogue_.operation(name); op && op->soft) {
     meant_ = {};
     hint = "the operation is written with its brackets: " + signatureText(name, op->signatures[0]);
+  } else if (const std::string_view meantOp = called ? shortNameOf(name) : "";
+             leaf && !meantOp.empty()) {
+    hint = "the operation is " + quote(meantOp) + "; write " + quote(std::string(name) + ".") +
+           " if it shall be a leaf";
   } else if (leaf) {
     hint = "write " + quote(std::string(name) + ".") + " if it shall be a leaf";
   }
