@@ -35,7 +35,7 @@ async function isClean(path) {
   const report = await validator.validateBytes(new Uint8Array(readFileSync(path)), {
     uri: path,
     maxIssues: 100,
-    // Bare files leave tangents to readers, for which the specification names a method (MikkTSpace).
+    // Compact files leave tangents to readers, for which the specification names a method (MikkTSpace).
     severityOverrides: { MESH_PRIMITIVE_GENERATED_TANGENT_SPACE: 2 },
     externalResourceFunction: async (uri) =>
       new Uint8Array(readFileSync(join(dirname(path), decodeURIComponent(uri)))),

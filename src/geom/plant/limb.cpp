@@ -18,6 +18,9 @@ namespace gable {
 
 namespace {
 
+/// Limbs of a tree whose stem has fewer sides are seen from afar.
+constexpr double kCoarseSides = 8;
+
 constexpr double kGoldenAngle = 137.50776405003785;
 constexpr Vec3 kUp{0, 1, 0};
 
@@ -100,8 +103,8 @@ struct Collar {
 };
 
 Collar collarOf(const LimbOptions& o, const Foot& f) {
-  // Of twigs nobody sees it.
-  if (f.goesOn || f.level > 1) return {};
+  // Of twigs nobody sees it, nor of boughs from afar.
+  if (f.goesOn || f.level > 1 || (f.level == 1 && o.sides < kCoarseSides)) return {};
   if (f.level == 0) return {0, std::min(4 * f.radius, 0.4 * f.length), o.flare};
   const double sine = std::max(0.35, sinDeg(f.slant));
   const double out = std::min(f.inside / sine, 0.5 * f.length);
@@ -151,9 +154,12 @@ class Grower {
     return static_cast<uint32_t>(std::max(3.0, std::nearbyint(o_.sides * share)));
   }
 
-  // Twigs have as few as their turn lets them.
-  uint32_t stepsOf(size_t order, const LimbLevel& level) const {
-    const double turned = 4 * std::fabs(level.rise) + level.wander / 45;
+  // Twigs have as few as their turn lets them. What is straight has one: its taper is even.
+  uint32_t stepsOf(size_t order, const LimbLevel& level, double turn, bool lobed) const {
+    if (level.wander == 0 && (level.rise == 0 || turn == 0) && !lobed) return 1;
+    // Where limbs have few sides, bends may be coarse as well.
+    const double fine = std::min(1.0, o_.sides / (kCoarseSides + 2));
+    const double turned = fine * (4 * std::fabs(level.rise) + level.wander / 45);
     if (order > 1) return 1 + static_cast<uint32_t>(turned);
     return static_cast<uint32_t>(
         std::max(2.0, std::nearbyint(o_.sides * (order == 0 ? 0.9 : 0.55))));
@@ -165,14 +171,14 @@ class Grower {
     Limb limb;
     limb.level = static_cast<uint32_t>(f.level);
     limb.sides = sidesOf(f);
-    limb.pointed = f.level > 1;
+    limb.pointed = f.level > 1 || (f.level == 1 && o_.sides < kCoarseSides && level.tip < 0.15);
     const Collar collar = collarOf(o_, f);
     // Fewer sides show no lobes.
     if (f.level == 0 && limb.sides >= 10) limb.lobes = 0.35 * o_.flare;
-    const uint32_t steps = stepsOf(f.level, level);
-    const std::vector<double> distances = ringDistances(collar, f.length, steps);
     const Vec3 aim = level.rise < 0 ? kUp * -1 : kUp;
     const double turn = angleBetween(f.along, aim);
+    const uint32_t steps = stepsOf(f.level, level, turn, limb.lobes > 0);
+    const std::vector<double> distances = ringDistances(collar, f.length, steps);
     Limb::Ring ring{f.at, f.along, squareTo(f.along, {chance.either(1), 0.3, chance.either(2)}), 0,
                     0};
     // Two slow waves across the limb make it stray.
@@ -344,14 +350,21 @@ class Skin {
       const Vec3 out = ring.aside * cosDeg(around) + third * sinDeg(around);
       const Vec3 at = ring.at + out * (ring.radius * lobed(limb_, ring, around));
       points_.push_back(isPoint(r) ? point : b_.addPosition(at));
-      normals_.push_back(normalized(out + ring.along * lean));
+      normals_.push_back(isPoint(r) ? ring.along : normalized(out + ring.along * lean));
     }
   }
 
+  // Twigs are most of a tree's limbs, so they take few vertices: a point is one, whichever side it
+  // ends, and where sides are few the last of them shows the tiles backwards, to where u begins.
+  double around(size_t r, uint32_t i) const {
+    constexpr uint32_t kFew = 4;
+    if (isPoint(r)) return 0.5;
+    return limb_.pointed && n_ <= kFew ? 1.0 * (i % n_) / (n_ - 1) : 1.0 * i / n_;
+  }
   void corner(size_t r, uint32_t i) {
     const size_t at = r * n_ + i % n_;
     const uint32_t c = b_.addCorner(points_[at]);
-    b_.setUv(c, 0, {tiles_ * i / n_, limb_.rings[r].distance / tile_});
+    b_.setUv(c, 0, {tiles_ * around(r, i), limb_.rings[r].distance / tile_});
     b_.setNormal(c, normals_[at]);
   }
   void triangle(size_t r0, uint32_t i0, size_t r1, uint32_t i1, size_t r2, uint32_t i2) {
@@ -367,12 +380,17 @@ class Skin {
     triangle(r, i, r, i + 1, r + 1, turned ? i + 1 : i);
     if (!isPoint(r + 1)) triangle(r + 1, i + 1, r + 1, i, r, turned ? i : i + 1);
   }
+  // A bough's foot lies inside what carries it: nobody sees it, and it takes the skin's vertices.
   void addCap(bool end) {
     const size_t r = end ? limb_.rings.size() - 1 : 0;
     b_.beginFace();
     b_.beginLoop();
     for (uint32_t k = 0; k < n_; ++k) {
       const uint32_t i = end ? k : n_ - 1 - k;
+      if (!end && limb_.level > 0) {
+        corner(r, i);
+        continue;
+      }
       const uint32_t c = b_.addCorner(points_[r * n_ + i]);
       const double around = 360.0 * i / n_;
       b_.setUv(c, 0, {0.5 + 0.5 * cosDeg(around), 0.5 + 0.5 * sinDeg(around)});

@@ -86,7 +86,7 @@ struct Limb {
   };
   std::vector<Ring> rings;
   uint32_t level = 0, sides = 3;
-  /// It ends in a point, as twigs do.
+  /// It ends in a point, as twigs do, and thin boughs of trees with few sides.
   bool pointed = false;
   /// The stem's foot: how deep its lobes are, as a share of the radius.
   double lobes = 0;
@@ -115,7 +115,8 @@ LimbCounts limbCounts(const LimbOptions& o);
 LimbSystem growLimbs(const LimbOptions& o);
 
 /// Adds the skin of a limb, with corner normals; u runs around in whole tiles of about a metre,
-/// v along in tiles of the same size.
+/// v along in tiles of the same size. Around a twig of few sides u runs there and, over the last
+/// side, back.
 void addSkin(MeshBuilder& b, const Limb& limb);
 /// Adds a leaf: two faces along its middle where it is folded, one elsewhere; the picture stands
 /// upright from the stalk.

@@ -394,7 +394,7 @@ void GltfDocument::writeAccessors(JsonWriter& w, const GltfContent& content, boo
         const int direction = l.compact ? kByte : kFloat;
         attribute("VEC3", onGrid ? kUnsignedShort : kFloat, l.positionBytes(onGrid));
         if (l.normals) attribute("VEC3", direction, l.normalBytes());
-        if (l.tangentSet >= 0) attribute("VEC4", direction, l.tangentBytes());
+        if (l.tangentSet >= 0) attribute("VEC4", kFloat, l.tangentBytes());
         const int uv = l.uvForm == UvForm::Float ? kFloat : kUnsignedShort;
         for (uint32_t i = 0; i < l.uvCount; ++i) attribute("VEC2", uv, l.uvBytes());
       }

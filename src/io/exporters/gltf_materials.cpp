@@ -210,8 +210,8 @@ void GltfMaterials::addSets(Variant& v, uint32_t uvMask) {
   for (const Map* map : maps) {
     if (map->image != TextureSet::kNone) used |= 1u << map->texcoord;
   }
-  // Readers make them, as they make normals.
-  if (!bare_ && v.normal.image != TextureSet::kNone)
+  // Readers make them where there are none, by the method that glTF names.
+  if (!compact_ && v.normal.image != TextureSet::kNone)
     v.layout.tangentSet = static_cast<int>(v.normal.texcoord);
   for (uint32_t set = 0; set < kTextureLayers; ++set) {
     if (used >> set & 1) v.layout.uvSets[v.layout.uvCount++] = static_cast<uint8_t>(set);

@@ -54,8 +54,8 @@ struct UvPlace {
 };
 
 /// A vertex: position, normal, tangent if any, uv sets. In floats 3, 3, 4 and 2 each; compact, the
-/// position takes 12 bytes, or 8 as integers, normal and tangent 4 each, a uv set 4, or 8 as
-/// floats.
+/// position takes 12 bytes, or 8 as integers, the normal 4, a uv set 4, or 8 as floats, and there
+/// is no tangent.
 struct VertexLayout {
   bool compact = false;
   /// False where readers are to make flat normals.
@@ -87,7 +87,7 @@ struct VertexLayout {
   uint32_t floats() const { return 6 + (tangentSet >= 0 ? 4 : 0) + 2 * uvCount; }
   uint32_t positionBytes(bool quantized) const { return quantized ? 8 : 12; }
   uint32_t normalBytes() const { return !normals ? 0 : compact ? 4 : 12; }
-  uint32_t tangentBytes() const { return tangentSet < 0 ? 0 : compact ? 4 : 16; }
+  uint32_t tangentBytes() const { return tangentSet < 0 ? 0 : 16; }
   uint32_t uvBytes() const { return uvForm == UvForm::Float ? 8 : 4; }
   uint32_t stride(bool quantized) const {
     return positionBytes(quantized) + normalBytes() + tangentBytes() + uvBytes() * uvCount;

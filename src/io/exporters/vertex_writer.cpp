@@ -35,10 +35,10 @@ char* putSteps(char* to, const float* position) {
   return to + 8;
 }
 
-// A direction in bytes; the fourth is the sense of a tangent, or zero.
-char* putBytes(char* to, const float* v, size_t count) {
+// A direction in bytes; the fourth is zero.
+char* putBytes(char* to, const float* v) {
   int8_t q[4]{};
-  for (size_t i = 0; i < count; ++i) {
+  for (size_t i = 0; i < 3; ++i) {
     q[i] = static_cast<int8_t>(std::round(std::clamp(v[i], -1.0f, 1.0f) * 127));
   }
   std::memcpy(to, q, 4);
@@ -209,7 +209,7 @@ bool VertexWriter::addBox(uint32_t mesh, const Frame& frame, const Vec3& scale,
     float n[3];
     put(n, i & 1 ? axis : -axis);
     if (layout.compact)
-      putBytes(normals[i], n, 3);
+      putBytes(normals[i], n);
     else
       std::memcpy(normals[i], n, 12);
   }
@@ -303,7 +303,7 @@ char* VertexWriter::pack(const float* vertices, uint32_t count, const VertexLayo
     std::memcpy(p, vertices, packed_.size());
     return p;
   }
-  const UvPacker uv(layout, vertices, count, layout.tangentSet < 0 ? 6 : 10);
+  const UvPacker uv(layout, vertices, count, 6);
   for (uint32_t v = 0; v < count; ++v) {
     if (quantized) {
       p = putSteps(p, vertices);
@@ -311,12 +311,8 @@ char* VertexWriter::pack(const float* vertices, uint32_t count, const VertexLayo
       std::memcpy(p, vertices, 12);
       p += 12;
     }
-    if (layout.normals) p = putBytes(p, vertices + 3, 3);
+    if (layout.normals) p = putBytes(p, vertices + 3);
     vertices += 6;
-    if (layout.tangentSet >= 0) {
-      p = putBytes(p, vertices, 4);
-      vertices += 4;
-    }
     for (size_t i = 0; i < layout.uvCount; ++i, vertices += 2) p = uv.put(p, vertices, i);
   }
   return packed_.data();

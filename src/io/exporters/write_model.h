@@ -66,13 +66,13 @@ struct WriteOptions {
     Auto,
     /// Single precision.
     Float,
-    /// Integers of KHR_mesh_quantization: normals and tangents in bytes, positions in 16 bits where
-    /// a mesh is small enough that no vertex moves by more than kMostQuantized along an axis; no uv
-    /// sets but those of textures, in 16 bits unless a surface repeats its picture more than a
-    /// hundred times, within a texel of a picture with 512.
+    /// Integers of KHR_mesh_quantization: normals in bytes, positions in 16 bits where a mesh is
+    /// small enough that no vertex moves by more than kMostQuantized along an axis; no uv sets but
+    /// those of textures, in 16 bits unless a surface repeats its picture more than a hundred
+    /// times, within a texel of a picture with 512; no tangents, which readers make.
     Compact,
-    /// The same, and meshes that are lit flat have no normals, and none has tangents: a reader
-    /// makes them, as glTF demands. Faces share vertices round edges as well.
+    /// The same, and meshes that are lit flat have no normals: a reader makes them, as glTF
+    /// demands. Faces share vertices round edges as well.
     Bare,
   };
   static constexpr uint64_t kMostFloat = 4 << 20;

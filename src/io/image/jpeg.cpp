@@ -149,6 +149,8 @@ bool write(JpegWriting& w) {
   // The reference transform, which is the same on every machine.
   w.jpeg.dct_method = JDCT_ISLOW;
   w.jpeg.optimize_coding = TRUE;
+  // The same pixels in fewer bytes.
+  jpeg_simple_progression(&w.jpeg);
   if (!w.thinColor) {
     for (int c = 0; c < 3; ++c) {
       w.jpeg.comp_info[c].h_samp_factor = w.jpeg.comp_info[c].v_samp_factor = 1;

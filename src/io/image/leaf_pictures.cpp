@@ -14,6 +14,7 @@
 #include "base/check.h"
 #include "base/elementary.h"
 #include "base/work.h"
+#include "io/image/palette.h"
 #include "io/image/surface_noise.h"
 #include "material/builtin_textures.h"
 #include "math/trig.h"
@@ -26,6 +27,8 @@ using surface::chance;
 
 constexpr int kCells = 2, kFine = 2;
 constexpr int kCell = static_cast<int>(kLeafPictureSize) / kCells * kFine;
+// The picture takes a third of the room that it takes with all its colours, and nobody sees it.
+constexpr size_t kLeafColors = 64;
 
 /// Half the width of a leaf over its length: it widens like t^low and narrows like (1 - t)^high.
 struct Outline {
@@ -389,8 +392,7 @@ class Twig {
 };
 
 uint8_t byteOf(double v) {
-  // Steps of four: the picture takes half of the room, and nobody sees it.
-  return static_cast<uint8_t>(std::lround(std::clamp(v, 0.0, 1.0) * 63) * 255 / 63);
+  return static_cast<uint8_t>(std::lround(std::clamp(v, 0.0, 1.0) * 255));
 }
 
 /// What is clear has the mean colour: pictures that are made smaller mix it in.
@@ -439,6 +441,7 @@ Image drawLeaves(size_t number) {
     Twig twig(kKinds[number], number, static_cast<uint64_t>(cell));
     put(twig.take(), cell % kCells, cell / kCells, image);
   }
+  reduceColors(image, kLeafColors);
   return image;
 }
 

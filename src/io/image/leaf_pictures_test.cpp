@@ -56,7 +56,7 @@ TEST(LeafPictures, areSmallFiles) {
   const Image image = drawLeaves(builtinLeaves("builtin:leaves/lime.png"));
   const std::string png = encodePng(image, 4).value();
   EXPECT_EQ(decodeImage(png).value().rgba, image.rgba);
-  EXPECT_LT(png.size(), 215'000u);
+  EXPECT_LT(png.size(), 75'000u);
 }
 
 TEST(LeafPictures, haveNoDarkRims) {

@@ -176,15 +176,20 @@ Image pictureOf(const SurfaceField& field, const LibraryMaterial& m, MaterialPic
 
 Result<std::string> encodeMaterialPicture(const SurfaceField& field, const LibraryMaterial& m,
                                           MaterialPicture picture) {
-  // Grass and leaves are noise, which takes the most and shows the least.
-  constexpr std::array<size_t, 3> kMostBytes{80'000, 100'000, 40'000};
-  const Image image = pictureOf(field, m, picture);
+  // Of normals, more pixels of less quality are nearer than fewer of more, down to the least
+  // quality. Grass and leaves are noise, which takes the most and shows the least.
+  constexpr std::array<size_t, 3> kMostBytes{56'000, 44'000, 20'000};
+  constexpr int kLeast = 30;
+  Image image = pictureOf(field, m, picture);
   const bool color = picture == MaterialPicture::Color;
-  for (int quality = 80;; quality -= 10) {
+  const int best = color ? 75 : 60;
+  for (int quality = best;; quality -= 10) {
     work(kWorkBetweenLooks);
     Result<std::string> bytes = encodeJpeg(image, quality, color);
-    const bool fits = !bytes.ok() || bytes->size() <= kMostBytes[static_cast<size_t>(picture)];
-    if (fits || quality <= 20) return bytes;
+    if (!bytes.ok() || bytes->size() <= kMostBytes[static_cast<size_t>(picture)]) return bytes;
+    if (quality > kLeast) continue;
+    image = halved(image);
+    quality = best + 10;
   }
 }
 

@@ -42,9 +42,9 @@ struct SurfaceField {
 SurfaceField drawSurface(const LibraryMaterial& m);
 Image pictureOf(const SurfaceField& field, const LibraryMaterial& m, MaterialPicture picture);
 /// Of all pictures of a library material.
-inline constexpr size_t kMostMaterialBytes = 220'000;
-/// As JPEG, in a quality that falls to 20 while the colour has more than 80 kB, the normals more
-/// than 100, the rest more than 40: those of the library then fit.
+inline constexpr size_t kMostMaterialBytes = 120'000;
+/// As JPEG, in a quality that falls to 30 while the colour has more than 56 kB, the normals more
+/// than 44, the rest more than 20; then at half the size. Those of the library then fit.
 Result<std::string> encodeMaterialPicture(const SurfaceField& field, const LibraryMaterial& m,
                                           MaterialPicture picture);
 
