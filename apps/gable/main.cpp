@@ -517,9 +517,7 @@ void addDataset(CLI::App& app, DatasetArguments& a, int& status) {
                    "The tags that --labels tag goes by, in the order in which they count (default: "
                    "all that the rules give by name)")
       ->delimiter(',')
-      ->type_size(1)
-      ->expected(1)
-      ->take_all();
+      ->allow_extra_args(false);
   command
       ->add_option("--format", a.format,
                    "The list of all: coco (coco.json, default) or json (items.json)")
