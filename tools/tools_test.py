@@ -16,6 +16,7 @@ import figures
 import gen_docs
 import glb_bytes
 import new_op
+import noise
 import rule_library
 import run_tests
 import shrink_png
@@ -96,6 +97,21 @@ class CoverageTest(FolderCase):
         self.assertIn("knows it", self.problems([extrude | {"missing": True}]))
         self.assertIn("does not know it", self.problems([extrude, {"name": "union", "lacks": "holes"}]))
         self.assertIn("belong together", self.problems([extrude | {"readings": ["one", "two"]}]))
+
+
+class NoiseTest(unittest.TestCase):
+    def setUp(self):
+        self.flat = [[(100, 100, 100)] * 16 for _ in range(12)]
+        self.lines = [[(60 + 80 * (x % 2),) * 3 for x in range(16)] for _ in range(12)]
+
+    def testEqualPicturesAreWithoutError(self):
+        self.assertEqual(noise.error(self.lines, self.lines), 0)
+        self.assertAlmostEqual(noise.similarity(self.lines, self.lines), 1)
+
+    def testErrorsAreMeasuredInLevels(self):
+        self.assertAlmostEqual(noise.error(self.lines, self.flat), 40)
+        self.assertAlmostEqual(noise.error([[(1, 2, 4)]], [[(1, 2, 1)]]), 3 ** 0.5)
+        self.assertLess(noise.similarity(self.lines, self.flat), 0.1)
 
 
 class ShrinkTest(FolderCase):

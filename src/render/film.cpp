@@ -143,7 +143,8 @@ struct Tile {
   uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
-struct PixelTask {
+/// Traces the pixels of a tile.
+struct TileTask {
   const Stage& stage;
   const Camera& camera;
   const Lens& lens;
@@ -151,37 +152,12 @@ struct PixelTask {
   const PixelFilter& filter;
   Film& film;
 
-  uint64_t run(const Tile& tile) const {
-    if (stage.ambient) return runTogether(tile);
-    uint64_t rays = 0;
-    for (uint32_t y = tile.y0; y < tile.y1; ++y) {
-      for (uint32_t x = tile.x0; x < tile.x1; ++x) rays += run(x, y);
-    }
-    return rays;
-  }
-
- private:
-  uint64_t run(uint32_t x, uint32_t y) const {
-    const uint32_t n = std::max(1u, options.samples);
-    PixelSum sum;
-    for (uint32_t s = 0; s < n; ++s) addWhole(sum, trace(x, y, s, false));
-    const Vec3f albedo = sum.albedo * (1 / static_cast<float>(n));
-    const uint32_t all = n + briefPaths(sum, n, kMostBrief * n);
-    for (uint32_t s = n; s < all; ++s) sum.add(trace(x, y, s, true), stage.light.exposure);
-    sum.store(film, place(x, y), n, all, albedo);
-    return sum.rays;
-  }
-
   /// The pixels of a tile in squares of 2 x 2, whose rays run side by side, and their sums.
-  struct Square {
-    uint32_t x = 0, y = 0, all = 0;
-    PixelSum sum;
-    Vec3f albedo;
-  };
-
-  uint64_t runTogether(const Tile& tile) const {
-    const uint32_t most = std::max(1u, options.samples), whole = std::min(most, kMostWhole);
-    std::vector<Square> pixels;
+  uint64_t run(const Tile& tile) const {
+    const uint32_t samples = std::max(1u, options.samples);
+    const uint32_t whole = stage.ambient ? std::min(samples, kMostWhole) : samples;
+    const uint32_t most = stage.ambient ? samples - whole : kMostBrief * whole;
+    std::vector<Pixel> pixels;
     for (uint32_t y = tile.y0; y < tile.y1; y += 2) {
       for (uint32_t x = tile.x0; x < tile.x1; x += 2) {
         for (uint32_t k = 0; k < 4; ++k) {
@@ -190,37 +166,43 @@ struct PixelTask {
         }
       }
     }
-    traceTogether(pixels, 0, false);
-    for (Square& p : pixels) {
+    trace(pixels, 0, false);
+    for (Pixel& p : pixels) {
       p.albedo = p.sum.albedo * (1 / static_cast<float>(whole));
-      p.all = whole + briefPaths(p.sum, whole, most - whole);
+      p.all = whole + briefPaths(p.sum, whole, most);
     }
-    traceTogether(pixels, whole, true);
+    trace(pixels, whole, true);
     uint64_t rays = 0;
-    for (const Square& p : pixels) {
+    for (const Pixel& p : pixels) {
       p.sum.store(film, place(p.x, p.y), whole, p.all, p.albedo);
       rays += p.sum.rays;
     }
     return rays;
   }
 
+ private:
+  struct Pixel {
+    uint32_t x = 0, y = 0, all = 0;
+    PixelSum sum;
+    /// Of whole paths.
+    Vec3f albedo;
+  };
+
   /// The samples of all pixels from number `first` on.
-  void traceTogether(std::vector<Square>& pixels, uint32_t first, bool brief) const {
+  void trace(std::vector<Pixel>& pixels, uint32_t first, bool brief) const {
     PathStart starts[Tracer::kMostTogether];
-    Square* owners[Tracer::kMostTogether];
+    Pixel* owners[Tracer::kMostTogether];
     PathResult results[Tracer::kMostTogether];
     size_t count = 0;
     const auto flush = [&] {
-      rt::traceTogether(stage, {starts, count}, options.seed, brief, results);
+      traceTogether(stage, {starts, count}, options.seed, brief, results);
       for (size_t i = 0; i < count; ++i) {
-        if (brief)
-          owners[i]->sum.add(results[i], stage.light.exposure);
-        else
-          addWhole(owners[i]->sum, results[i]);
+        owners[i]->sum.add(results[i], stage.light.exposure);
+        if (!brief) owners[i]->sum.indirect.add(results[i].indirect, results[i].albedo);
       }
       count = 0;
     };
-    for (Square& p : pixels) {
+    for (Pixel& p : pixels) {
       for (uint32_t s = first; s < p.all; ++s) {
         owners[count] = &p;
         starts[count++] = {ray(p.x, p.y, s), p.x, p.y, s};
@@ -232,11 +214,6 @@ struct PixelTask {
 
   size_t place(uint32_t x, uint32_t y) const { return static_cast<size_t>(y) * options.width + x; }
 
-  void addWhole(PixelSum& sum, const PathResult& path) const {
-    sum.add(path, stage.light.exposure);
-    sum.indirect.add(path.indirect, path.albedo);
-  }
-
   Ray ray(uint32_t x, uint32_t y, uint32_t s) const {
     const double width = options.width, height = options.height, aspect = width / height;
     const Sampler sampler(x, y, s, options.seed);
@@ -245,10 +222,6 @@ struct PixelTask {
     const double py = y + 0.5 + static_cast<double>(filter.offset(u.y));
     const Ray middle = cameraRay(camera, aspect, px / width, 1 - py / height);
     return throughLens(middle, camera, lens, sampler);
-  }
-
-  PathResult trace(uint32_t x, uint32_t y, uint32_t s, bool brief) const {
-    return tracePath(stage, ray(x, y, s), x, y, s, options.seed, brief);
   }
 
   /// How many brief paths bring a pixel's edges and shadows below what the eye tells apart.
@@ -283,7 +256,7 @@ bool tracePicture(const Stage& stage, const Camera& camera, const Lens& lens,
   }
 
   const PixelFilter filter;
-  const PixelTask task{stage, camera, lens, options, filter, film};
+  const TileTask task{stage, camera, lens, options, filter, film};
   const uint32_t across = (options.width + kTile - 1) / kTile;
   const uint32_t down = (options.height + kTile - 1) / kTile;
   const size_t tiles = static_cast<size_t>(across) * down;

@@ -83,8 +83,14 @@ std::array<Vec3f, 3> cornersAt(const TriangleSet& set, uint32_t triangle, const 
 class LayerReader {
  public:
   LayerReader(const World& world, const SurfaceMaterial& material, const TriangleSet& set,
-              const Corners& corners, float u, float v)
-      : world_(world), material_(material), set_(set), corners_(corners), u_(u), v_(v) {}
+              const Corners& corners, float u, float v, float width = 0)
+      : world_(world),
+        material_(material),
+        set_(set),
+        corners_(corners),
+        u_(u),
+        v_(v),
+        width_(width) {}
 
   /// Where a laid material's textures are read: at a point of the world, on a face with these axes.
   void lay(const FaceAxes& axes, const Vec3f& point) {
@@ -106,7 +112,8 @@ class LayerReader {
                        lastIsColor_ == isColor && *last_ == map;
     if (!known) {
       const Vec2f at = material_.laid ? laidAt_ : uvAt(set_, corners_, uvSet, u_, v_);
-      lastValue_ = world_.textures.sample(map, at, isColor);
+      lastValue_ = isCoarse(map) ? world_.textures.sampleCoarse(map, at, isColor)
+                                 : world_.textures.sample(map, at, isColor);
       last_ = &map;
       lastSet_ = uvSet;
       lastIsColor_ = isColor;
@@ -129,11 +136,20 @@ class LayerReader {
   }
 
  private:
+  /// Whether a coarse texel is no wider than what is to be seen. How wide one is, is known where
+  /// textures lie in metres.
+  bool isCoarse(const TextureLookup& map) const {
+    if (!material_.laid) return width_ >= kNoDetails;
+    const float perMetre = std::max(std::abs(map.uu), std::abs(map.vu));
+    return width_ * perMetre * static_cast<float>(TextureTable::kCoarse) > 1;
+  }
+
   const World& world_;
   const SurfaceMaterial& material_;
   const TriangleSet& set_;
   const Corners& corners_;
   float u_, v_;
+  float width_;
   Vec2f laidAt_{0, 0};
   /// What was read last.
   mutable const TextureLookup* last_ = nullptr;
@@ -201,7 +217,7 @@ float clearness(const World& world, const TriangleSet& set, uint32_t triangle, u
   return 1 - layers.opacity();
 }
 
-Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray) {
+Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray, float width) {
   const Placement* placement = hit.placement == kNone ? nullptr : &world.placements[hit.placement];
   const Part& part = world.parts[placement ? placement->part : 0];
   const TriangleSet& set = part.set(hit.clear);
@@ -253,7 +269,8 @@ Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray) {
     }
   }
 
-  LayerReader layers(world, m, set, corners, hit.u, hit.v);
+  // The holes of leaves and grilles are never coarse.
+  LayerReader layers(world, m, set, corners, hit.u, hit.v, hit.clear ? 0 : width);
   FaceAxes axes;
   if (m.laid) {
     axes = layingAxes(normalized(wide(hit.normal)));
@@ -272,7 +289,7 @@ Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray) {
   }
   if (layers.read(TextureLayer::Metallic, texel)) s.metallic *= texel[2];
   if (layers.read(TextureLayer::Occlusion, texel)) s.base *= texel[0];
-  if (layers.read(TextureLayer::Normal, texel)) {
+  if (width < kNoDetails && layers.read(TextureLayer::Normal, texel)) {
     if (m.laid)
       bendLaidNormal(axes, texel, s);
     else

@@ -57,6 +57,17 @@ class Tracing {
     }
   }
 
+  /// From a surface whose sunlight is known on to the next; false where the path ends.
+  bool leave(Walk& w, const Surface& surface, const Lobes& lobes, const Vec3f& view) {
+    gatherLamp(w, surface, lobes, view);
+    if (w.depth >= stage_.bounces) {
+      const Vec3f rest = lobes.diffuse * light_.skyIrradiance * (kUntracedShare / kPif);
+      target(w) += w.carried * rest;
+      return false;
+    }
+    return scatterOn(w, surface, lobes, view);
+  }
+
   PathResult result;
 
  private:
@@ -88,13 +99,8 @@ class Tracing {
       result.normal = surface.normal;
       result.distance = w.travelled;
     }
-    gatherDirect(w, surface, lobes, view);
-    if (w.depth >= stage_.bounces) {
-      const Vec3f rest = lobes.diffuse * light_.skyIrradiance * (kUntracedShare / kPif);
-      (w.sharp ? result.direct : result.indirect) += w.carried * rest;
-      return false;
-    }
-    return scatterOn(w, surface, lobes, view);
+    gatherSun(w, surface, lobes, view);
+    return leave(w, surface, lobes, view);
   }
 
   /// Where the light of a step goes to.
@@ -129,13 +135,16 @@ class Tracing {
     result.direct += w.carried * surface.emissive * light_.shownGlow;
   }
 
-  void gatherDirect(const Walk& w, const Surface& surface, const Lobes& lobes, const Vec3f& view) {
+  void gatherSun(const Walk& w, const Surface& surface, const Lobes& lobes, const Vec3f& view) {
     const Vec3f sun = sunlight(w, surface, lobes, view);
     (w.mirrored && w.sharp ? result.direct
      : w.sharp             ? result.sun
                            : result.indirect) +=
         withoutFireflies(w.carried * sun, w.sharp ? limit_ * 4 : limit_);
-    // What lamps give to the first surface is indirect.
+  }
+
+  /// What lamps give to the first surface is indirect.
+  void gatherLamp(const Walk& w, const Surface& surface, const Lobes& lobes, const Vec3f& view) {
     if (stage_.emitters.empty() || (brief_ && !w.mirrored)) return;
     const Vec3f lamp = lamplight(w, surface, lobes, view);
     (w.mirrored && w.sharp ? result.direct : result.indirect) +=
@@ -339,6 +348,17 @@ PathResult tracePath(const Stage& stage, const Ray& ray, uint32_t x, uint32_t y,
     if (!isFinite(*part)) *part = {};
   }
   return result;
+}
+
+PathResult goOn(const Stage& stage, const PathStart& start, const Surface& surface,
+                const Lobes& lobes, const Vec3f& carried, uint32_t seed) {
+  const Sampler sampler(start.x, start.y, start.sample, seed);
+  Tracing tracing(stage, sampler, false);
+  Walk walk;
+  walk.ray = start.ray;
+  walk.carried = carried;
+  if (tracing.leave(walk, surface, lobes, -start.ray.direction)) tracing.follow(walk);
+  return tracing.result;
 }
 
 }  // namespace gable::rt

@@ -52,8 +52,13 @@ struct PathStart {
   uint32_t x = 0, y = 0, sample = 0;
 };
 
-/// With Stage::ambient: several paths, Tracer::kMostTogether at most, each as tracePath() traces
-/// it but for its random numbers.
+/// The rest of a path whose first surface, one that mirrors nothing and is not clear, has its
+/// sunlight already; `carried`: what of the light that leaves it gets to the camera.
+PathResult goOn(const Stage& stage, const PathStart& start, const Surface& surface,
+                const Lobes& lobes, const Vec3f& carried, uint32_t seed);
+
+/// Several paths, Tracer::kMostTogether at most, each as tracePath() traces it. The rays to their
+/// first surfaces run side by side, and those on to the sun; with Stage::ambient all do.
 void traceTogether(const Stage& stage, std::span<const PathStart> starts, uint32_t seed, bool brief,
                    PathResult* results);
 

@@ -263,6 +263,8 @@ struct Renderer::Impl {
     const double away =
         length(world.bounds.center() - camera.eye) + length(world.bounds.size()) / 2;
     s.nearGround = static_cast<float>(std::max(250.0, 2 * away));
+    s.pixel = static_cast<float>(2 * camera.halfWidth / o.width);
+    s.parallel = camera.parallel;
     s.bounces = o.bounces;
     if (o.lighting == PictureLighting::Direct) s.ambient = ambient(light);
     s.clay = o.look == PictureLook::Clay;

@@ -355,6 +355,35 @@ TEST(Render, cutOutTexelsShowWhatIsBehind) {
 }
 
 // Materials of the library say only by a texture that they are smooth.
+TEST(Textures, coarseOnesHaveTheLightOfTheirCells) {
+  // Black and white by turns, the right half red.
+  TextureImage image{256, 128, {}};
+  for (uint32_t y = 0; y < image.height; ++y) {
+    for (uint32_t x = 0; x < image.width; ++x) {
+      const uint8_t white = (x / 2 + y) % 2 ? 255 : 0;
+      const bool red = x >= 128;
+      for (const uint8_t v : {red ? uint8_t{255} : white, red ? uint8_t{0} : white,
+                              red ? uint8_t{0} : white, uint8_t{255}}) {
+        image.rgba.push_back(v);
+      }
+    }
+  }
+  rt::TextureTable table;
+  table.add(image);
+  rt::TextureLookup map;
+  map.image = 0;
+  for (const float v : {-3.7f, 0.0f, 0.4f, 0.999f}) {
+    const std::array<float, 4> grey = table.sampleCoarse(map, {0.3f, v}, true);
+    EXPECT_NEAR(grey[0], 0.5, 0.01);
+    EXPECT_NEAR(grey[2], 0.5, 0.01);
+    EXPECT_EQ(grey[3], 1);
+    const std::array<float, 4> red = table.sampleCoarse(map, {-0.3f, v}, true);
+    EXPECT_NEAR(red[0], 1, 1e-6);
+    EXPECT_NEAR(red[1], 0, 1e-6);
+  }
+  EXPECT_FALSE(table.hasAlpha[0]);
+}
+
 TEST(Render, panesAreAsSmoothAsTheirTexture) {
   const auto isPane = [](uint8_t rough, const char* shader) {
     OneTexture textures;

@@ -234,10 +234,16 @@ void lightRoom(const Stage& stage, const Hit& hit, Surface& surface) {
   surface.emissive += roomLight(stage.litRooms, middle, surface.facet);
 }
 
+/// How wide a pixel is at a distance; what is not looked at has no details.
+float widthAt(const Stage& stage, bool sharp, float distance) {
+  if (!sharp) return kNoDetails;
+  return stage.parallel ? stage.pixel : stage.pixel * distance;
+}
+
 /// The nearest thing along a ray that has been shortened, of what it met among triangles (null:
 /// nothing) and what the stage adds to them.
-bool nearest(const Stage& stage, const Ray& ray, float entry, const Hit* hit, Surface& surface,
-             float& distance) {
+bool nearest(const Stage& stage, const Ray& ray, float entry, const Hit* hit, bool sharp,
+             Surface& surface, float& distance) {
   if (hit) distance = hit->distance;
   if (entry >= 0) {
     const Vec3f p = ray.origin + ray.direction * entry;
@@ -253,7 +259,7 @@ bool nearest(const Stage& stage, const Ray& ray, float entry, const Hit* hit, Su
   if (meetBlock(stage, ray, entry, hit != nullptr, distance, surface)) return true;
   if (meetGround(stage, ray, hit != nullptr, distance, surface)) return true;
   if (!hit) return false;
-  surface = surfaceAt(stage.world, *hit, ray);
+  surface = surfaceAt(stage.world, *hit, ray, widthAt(stage, sharp, hit->distance));
   if (stage.clay) {
     makeClay(surface);
   } else if (surface.pane && stage.litRooms > 0) {
@@ -274,7 +280,7 @@ bool meet(const Stage& stage, const Ray& whole, bool ordered, Surface& surface, 
   Hit hit;
   const bool found =
       ordered ? stage.tracer.intersectOrdered(ray, hit) : stage.tracer.intersect(ray, hit);
-  return nearest(stage, ray, entry, found ? &hit : nullptr, surface, distance);
+  return nearest(stage, ray, entry, found ? &hit : nullptr, ordered, surface, distance);
 }
 
 uint32_t meetTogether(const Stage& stage, std::span<const Ray> whole, Surface* surfaces,
@@ -291,7 +297,7 @@ uint32_t meetTogether(const Stage& stage, std::span<const Ray> whole, Surface* s
   for (size_t i = 0; i < whole.size(); ++i) {
     if (!(rays[i].from < rays[i].to)) continue;
     const Hit* const hit = found >> i & 1 ? &hits[i] : nullptr;
-    if (nearest(stage, rays[i], entries[i], hit, surfaces[i], distances[i])) met |= 1u << i;
+    if (nearest(stage, rays[i], entries[i], hit, true, surfaces[i], distances[i])) met |= 1u << i;
   }
   return met;
 }

@@ -27,6 +27,9 @@ struct Stage {
   float haze = 0;
   /// From this distance on the empty ground pales, so that no edge shows where it meets the sky.
   float nearGround = 250;
+  /// How wide a pixel is, in metres or, seen from an eye, in metres a metre away.
+  float pixel = 0;
+  bool parallel = false;
   uint32_t bounces = 3;
   /// Light comes from the sun and the sky alone: where the sky is hidden, this radiance stands for
   /// what other surfaces send.
@@ -44,8 +47,8 @@ struct Stage {
   float litRooms = 0;
 };
 
-/// The nearest thing along a ray. `ordered`: what was laid on a face shows (see
-/// Tracer::intersectOrdered).
+/// The nearest thing along a ray. `ordered`: it is looked at, so what was laid on a face shows (see
+/// Tracer::intersectOrdered) and textures are sharp.
 bool meet(const Stage& stage, const Ray& ray, bool ordered, Surface& surface, float& distance);
 
 /// The share of light that gets along a ray.

@@ -85,10 +85,7 @@ int32_t imageIndex(const std::string& path, const TextureSource* source,
                         image->rgba.size() >= static_cast<size_t>(image->width) * image->height * 4;
     if (usable) {
       at->second = static_cast<int32_t>(table.images.size());
-      table.images.push_back(image);
-      bool alpha = false;
-      for (size_t i = 3; i < image->rgba.size() && !alpha; i += 4) alpha = image->rgba[i] < 255;
-      table.hasAlpha.push_back(alpha);
+      table.add(*image);
     }
   }
   return at->second;
@@ -124,6 +121,41 @@ const ByteTables& byteTables() {
 }
 float decodedByte(uint8_t v) { return byteTables().decoded[v]; }
 
+/// Means of cells of pixels, as light and written as sRGB again; what is no colour differs by less
+/// than its own texels do.
+TextureImage coarseOf(const TextureImage& image) {
+  const auto cells = [](uint32_t n) { return std::min(n, TextureTable::kCoarse); };
+  TextureImage out{cells(image.width), cells(image.height), {}};
+  out.rgba.reserve(static_cast<size_t>(out.width) * out.height * 4);
+  // Some rows and columns of a cell are as good as all.
+  constexpr uint32_t kMost = 4;
+  const auto part = [](uint32_t cell, uint32_t k, uint32_t of, uint32_t full, uint32_t n) {
+    return static_cast<uint32_t>((static_cast<uint64_t>(cell) * of + k) * full / of / n);
+  };
+  const uint32_t down = std::min(kMost, (image.height + out.height - 1) / out.height);
+  const uint32_t across = std::min(kMost, (image.width + out.width - 1) / out.width);
+  const float share = 1 / static_cast<float>(down * across);
+  for (uint32_t y = 0; y < out.height; ++y) {
+    for (uint32_t x = 0; x < out.width; ++x) {
+      float sum[4] = {};
+      for (uint32_t j = 0; j < down; ++j) {
+        const size_t row = part(y, j, down, image.height, out.height);
+        for (uint32_t i = 0; i < across; ++i) {
+          const size_t column = part(x, i, across, image.width, out.width);
+          const uint8_t* const texel = &image.rgba[(row * image.width + column) * 4];
+          for (size_t k = 0; k < 3; ++k) sum[k] += byteTables().decoded[texel[k]];
+          sum[3] += byteTables().plain[texel[3]];
+        }
+      }
+      for (size_t k = 0; k < 4; ++k) {
+        const float mean = sum[k] * share;
+        out.rgba.push_back(static_cast<uint8_t>(255 * (k < 3 ? linearToSrgb(mean) : mean) + 0.5f));
+      }
+    }
+  }
+  return out;
+}
+
 float unit(double v, double otherwise) {
   return static_cast<float>(std::isfinite(v) ? std::clamp(v, 0.0, 1.0) : otherwise);
 }
@@ -149,6 +181,14 @@ SurfaceMaterial surfaceOf(const Material& m) {
 }
 
 }  // namespace
+
+void TextureTable::add(const TextureImage& image) {
+  images.push_back(&image);
+  bool alpha = false;
+  for (size_t i = 3; i < image.rgba.size() && !alpha; i += 4) alpha = image.rgba[i] < 255;
+  hasAlpha.push_back(alpha);
+  coarse.push_back(coarseOf(image));
+}
 
 std::array<float, 4> TextureTable::sample(const TextureLookup& map, Vec2f uv, bool decode) const {
   const TextureImage& image = *images[static_cast<size_t>(map.image)];
@@ -180,6 +220,23 @@ std::array<float, 4> TextureTable::sample(const TextureLookup& map, Vec2f uv, bo
     }
   }
   return sum;
+}
+
+std::array<float, 4> TextureTable::sampleCoarse(const TextureLookup& map, Vec2f uv,
+                                                bool decode) const {
+  const TextureImage& image = coarse[static_cast<size_t>(map.image)];
+  const float fu = map.uu * uv.x + map.uv * uv.y + map.u0;
+  const float fv = map.vu * uv.x + map.vv * uv.y + map.v0;
+  const auto cell = [](float share, uint32_t n) {
+    const float at = share * static_cast<float>(n);
+    return at >= 0 ? std::min(static_cast<uint32_t>(std::min(at, 65535.0f)), n - 1) : 0;
+  };
+  const size_t x = cell(fu - std::floor(fu), image.width);
+  const size_t y = cell(1 - (fv - std::floor(fv)), image.height);
+  const uint8_t* const texel = &image.rgba[(y * image.width + x) * 4];
+  const ByteTables& tables = byteTables();
+  const std::array<float, 256>& colors = decode ? tables.decoded : tables.plain;
+  return {colors[texel[0]], colors[texel[1]], colors[texel[2]], tables.plain[texel[3]]};
 }
 
 Vec3f TextureTable::mean(int32_t image) const {

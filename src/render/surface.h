@@ -72,8 +72,15 @@ struct TextureTable {
   std::vector<const TextureImage*> images;
   /// Whether any texel of the image lets light through.
   std::vector<bool> hasAlpha;
+  /// The same images, kCoarse pixels a side at most, for light that comes from all around.
+  std::vector<TextureImage> coarse;
+  static constexpr uint32_t kCoarse = 32;
+
+  void add(const TextureImage& image);
   /// Bilinear, repeating, alpha last; `decode` takes the colours from sRGB to linear light.
   std::array<float, 4> sample(const TextureLookup& map, Vec2f uv, bool decode) const;
+  /// The same from the coarse image, the nearest texel: it stays in the processor's cache.
+  std::array<float, 4> sampleCoarse(const TextureLookup& map, Vec2f uv, bool decode) const;
   /// Of all texels in linear light.
   Vec3f mean(int32_t image) const;
   /// Of all texels, as textures of roughness hold it.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Paths that end at their first surface, several at once: their rays to the surface, to the sun and
-// to the sky are asked together (Stage::ambient stands for all that is behind the first surface).
-// What needs more rays than these, as clear things, mirrors and water do, is followed alone.
+// Several paths at once: their rays to the first surface and from there to the sun are asked
+// together, since they run side by side. From there on each goes its own way and is followed alone,
+// as is what clear things, mirrors and water need. Where Stage::ambient stands for all that is
+// behind the first surface, the rays to the sky end all paths and are asked together as well.
 
 #include "render/integrator.h"
 #include "render/sampler.h"
@@ -46,8 +47,12 @@ class Bundle {
         miss(i);
     }
     addSun();
-    if (!brief_) addSky();
-    if (!brief_) addLamps();
+    if (!brief_ && stage_.ambient) {
+      addSky();
+      addLamps();
+    } else if (!brief_) {
+      goOnAlone();
+    }
     for (size_t i = 0; i < starts_.size(); ++i) {
       for (Vec3f* part : {&results_[i].direct, &results_[i].sun, &results_[i].indirect}) {
         if (!isFinite(*part)) *part = {};
@@ -58,7 +63,8 @@ class Bundle {
  private:
   void miss(size_t i) {
     const Vec3f& d = starts_[i].ray.direction;
-    const Vec3f sky = stage_.paper ? *stage_.paper : light_.shownSky(d) + light_.shownSun(d);
+    const Vec3f sky = stage_.paper ? *stage_.paper
+                                   : light_.shownSky(d) + light_.shownSun(d) + light_.shownStars(d);
     results_[i].direct = withoutFireflies(sky, limit_ * 4);
   }
 
@@ -159,6 +165,16 @@ class Bundle {
     answer([&](size_t i, const Vec3f&, float open) {
       results_[i].indirect += withoutFireflies(carried_[i] * values_[i] * open, limit_);
     });
+  }
+
+  void goOnAlone() {
+    for (size_t k = 0; k < count_; ++k) {
+      const size_t i = lit_[k];
+      const PathResult rest = goOn(stage_, starts_[i], surfaces_[i], lobes_[i], carried_[i], seed_);
+      results_[i].direct += rest.direct;
+      results_[i].indirect += rest.indirect;
+      results_[i].rays += rest.rays;
+    }
   }
 
   const Stage& stage_;

@@ -263,6 +263,8 @@ float Tracer::visibility(const Ray& ray) const {
 
 namespace {
 
+// Embree's own way through packets of RTC_INTERSECT_CONTEXT_FLAG_COHERENT is not asked for: in 3.13
+// some packets never come back from it.
 constexpr size_t kPacket = Tracer::kMostTogether;
 
 struct alignas(64) Valid {
@@ -307,7 +309,6 @@ uint32_t Tracer::intersectTogether(std::span<const Ray> rays, Hit* hits) const {
   clearHits(packet.hit);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect16(valid.lanes, impl_->scenes[0], &context, &packet);
 
   Coinciding coinciding[kPacket];
@@ -330,7 +331,6 @@ uint32_t Tracer::intersectTogether(std::span<const Ray> rays, Hit* hits) const {
   clearHits(packet.hit);
   OrderContext order;
   rtcInitIntersectContext(&order.embree);
-  order.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   order.embree.filter = noteHit;
   order.world = &impl_->world;
   order.rays = coinciding;
@@ -349,7 +349,6 @@ void Tracer::visibilityTogether(std::span<const Ray> rays, float* shares) const 
   std::fill(std::begin(visibility), std::end(visibility), 1.0f);
   ShadowContext context;
   rtcInitIntersectContext(&context.embree);
-  context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   context.visibility = visibility;
   rtcOccluded16(valid.lanes, impl_->scenes[0], &context.embree, &packet);
   for (size_t i = 0; i < rays.size(); ++i) {

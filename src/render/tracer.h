@@ -69,7 +69,9 @@ class Tracer {
 float clearness(const World& world, const TriangleSet& set, uint32_t triangle, uint32_t placement,
                 float u, float v);
 
-/// What lies at a hit, seen along the ray's direction.
-Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray);
+/// What lies at a hit, seen along the ray's direction. Details finer than `width`, in metres, need
+/// not be seen; with kNoDetails only the light that it sends around counts.
+constexpr float kNoDetails = 1e30f;
+Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray, float width);
 
 }  // namespace gable::rt
