@@ -15,9 +15,11 @@ namespace {
 
 /// Steps of a call that is worth a key.
 constexpr uint64_t kManySteps = 256;
-/// The work() of an operation that is worth keeping with all that it made: some hundredths of a
-/// millisecond, where a key takes a microsecond or two.
+/// The work() of an operation that is worth keeping, for each shape that it makes: some hundredths
+/// of a millisecond, where a key takes a microsecond or two, and a shape a kilobyte.
 constexpr uint64_t kMuchWork = 512;
+/// Of more shapes it is the work for all of them that counts.
+constexpr uint64_t kFewShapes = 8;
 /// Every so often what was small is looked at again.
 constexpr uint64_t kBetweenSamples = 16;
 
@@ -288,8 +290,10 @@ bool IncrementalCache::takeOperation(const ShareKey& key, uint32_t instruction, 
 
 void IncrementalCache::endOperation(const ShareKey& key, uint32_t instruction, uint64_t units,
                                     const OperationResult* result) {
-  operationCosts_[instruction].add(units);
-  if (!result || thrownAway_ || units < kMuchWork) return;
+  const uint64_t shapes = result ? 1 + result->children.size() : 1;
+  const uint64_t worth = units / std::min(shapes, kFewShapes);
+  operationCosts_[instruction].add(worth);
+  if (!result || thrownAway_ || worth < kMuchWork) return;
   const auto hasOthers = [&](const Shape& s) { return s.attributes != result->attributes; };
   if (hasOthers(result->shape) ||
       std::ranges::any_of(result->children, hasOthers, &BlockChild::shape)) {

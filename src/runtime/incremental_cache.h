@@ -6,8 +6,8 @@
 //
 // A call is kept as a part when calls of its rule cost enough that a key is little beside them. A
 // part that warned is not kept: the warning would be lost. Nor is one of which another worker made
-// a portion. An operation is kept when it was much work(), counted and not timed, so that the same
-// is kept each time.
+// a portion. An operation is kept when it was much work() for what it made, counted and not timed,
+// so that the same is kept each time.
 #pragma once
 
 #include <cstdint>

@@ -176,6 +176,15 @@ TEST_F(IncrementalCacheTest, KeepsOperationsThatAreMuchWork) {
   cache->endOperation(kKey, 0, kMuch, &result);
   ASSERT_EQ(cache->operations().size(), 1u);
   EXPECT_EQ(cache->operations()[0]->children.size(), 2u);
+  // So much for so many shapes is no more than it takes to keep them.
+  const std::vector<BlockChild> many(1000, {shape, 1});
+  const IncrementalCache::OperationResult large{shape, many};
+  cache->endOperation(kInnerKey, 0, 3000, &large);
+  EXPECT_EQ(cache->operations().size(), 1u);
+  cache->endOperation(kInnerKey, 0, 3000, &result);
+  EXPECT_EQ(cache->operations().size(), 2u);
+  cache->endOperation(kInnerKey, 0, kMuch, &large);
+  EXPECT_EQ(cache->operations().size(), 3u);
 }
 
 TEST_F(IncrementalCacheTest, TakesAnOperationOverWithTheLocalValuesOfNow) {
@@ -249,8 +258,8 @@ TEST_F(IncrementalCacheTest, APassThatIsThrownAwayTakesOperationsAndKeepsNone) {
   const Scene scene;
   before.recall = &recall;
   before.scene = &scene;
-  cache = std::make_unique<IncrementalCache>(
-      IncrementalCache::Tables{program, reach, before, true}, output, prototypes, tally);
+  cache = std::make_unique<IncrementalCache>(IncrementalCache::Tables{program, reach, before, true},
+                                             output, prototypes, tally);
   Shape now;
   std::vector<BlockChild> taken;
   ASSERT_TRUE(cache->takeOperation(kKey, 1, now, taken));

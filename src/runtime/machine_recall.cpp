@@ -54,9 +54,8 @@ Status Machine::applyRemembering(OpCall& call, const Instruction& i,
   const bool repeatable = status.ok() && !call.dropped() && log_.warnings() == warnings &&
                           !aborted_ && pieces_.size() == firstPiece &&
                           output_.openLeaves.size() == leaves;
-  const IncrementalCache::OperationResult result{call.shape(),
-                                                 std::span(children_).subspan(firstChild),
-                                                 attributes};
+  const IncrementalCache::OperationResult result{
+      call.shape(), std::span(children_).subspan(firstChild), attributes};
   incremental_->endOperation(*key, at, count.units(), repeatable ? &result : nullptr);
   return status;
 }
