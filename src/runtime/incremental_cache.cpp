@@ -3,6 +3,8 @@
 
 #include "runtime/incremental_cache.h"
 
+#include <algorithm>
+
 #include "runtime/key_hash.h"
 #include "shape/edge_attributes.h"
 #include "shape/geo_frame.h"
@@ -13,9 +15,11 @@ namespace {
 
 /// Steps of a call that is worth a key.
 constexpr uint64_t kManySteps = 256;
-/// The work() of an operation that is worth keeping with all that it made: some tenths of a
-/// millisecond, where a key takes microseconds.
-constexpr uint64_t kMuchWork = 4096;
+/// The work() of an operation that is worth keeping, for each shape that it makes: some hundredths
+/// of a millisecond, where a key takes a microsecond or two, and a shape a kilobyte.
+constexpr uint64_t kMuchWork = 512;
+/// Of more shapes it is the work for all of them that counts.
+constexpr uint64_t kFewShapes = 8;
 /// Every so often what was small is looked at again.
 constexpr uint64_t kBetweenSamples = 16;
 
@@ -27,7 +31,7 @@ void addShape(KeyHash& h, const Shape& s, const LocalValues& locals) {
   h.add(s.pivot);
   h.add(contentHash(s.geometry));
   h.add(uint64_t{s.material} << 32 | s.assetMaterials);
-  h.add(uint64_t{s.attributes} << 32 | s.compSelector);
+  h.add(uint64_t{s.compSelector});
   h.add(uint64_t{s.split.index} << 32 | s.split.total);
   h.add(uint64_t{s.comp.index} << 32 | s.comp.total);
   locals.forEach(s.locals, [&](uint32_t attribute, const Value& v) {
@@ -98,6 +102,7 @@ IncrementalCache::IncrementalCache(const Tables& tables, Output& output, Prototy
       output_(output),
       prototypes_(prototypes),
       tally_(tally),
+      thrownAway_(tables.thrownAway),
       recaller_(tables.before.recall
                     ? std::make_unique<Recaller>(tables.before, output, prototypes.numbers())
                     : nullptr),
@@ -147,6 +152,7 @@ ShareKey IncrementalCache::keyOf(const Call& call) {
   h.add(inputsOf(call.rule));
   h.add(uint64_t{call.depth});
   addShape(h, call.shape, call.locals);
+  h.add(uint64_t{call.shape.attributes});
   for (const Value& v : call.arguments) h.add(v.hash());
   if (call.path != 0) h.add(call.path);
   return h.key();
@@ -268,12 +274,15 @@ bool IncrementalCache::takeOperation(const ShareKey& key, uint32_t instruction, 
   if (!recaller_) return false;
   std::shared_ptr<const RecallOperation> known = recaller_->operation(key);
   if (!known) return false;
-  const uint32_t locals = shape.locals;
-  for (const KeptShape& child : known->children) {
-    children.push_back({takenShape(child, locals), child.slot});
-  }
-  shape = takenShape(known->shape, locals);
-  operations_.push_back(std::move(known));
+  const uint32_t locals = shape.locals, attributes = shape.attributes;
+  const auto taken = [&](const KeptShape& kept) {
+    Shape s = takenShape(kept, locals);
+    s.attributes = attributes;
+    return s;
+  };
+  for (const KeptShape& child : known->children) children.push_back({taken(child), child.slot});
+  shape = taken(known->shape);
+  if (!thrownAway_) operations_.push_back(std::move(known));
   // It was much work, or it would not be known.
   operationCosts_[instruction].add(kMuchWork);
   return true;
@@ -281,8 +290,15 @@ bool IncrementalCache::takeOperation(const ShareKey& key, uint32_t instruction, 
 
 void IncrementalCache::endOperation(const ShareKey& key, uint32_t instruction, uint64_t units,
                                     const OperationResult* result) {
-  operationCosts_[instruction].add(units);
-  if (!result || units < kMuchWork) return;
+  const uint64_t shapes = result ? 1 + result->children.size() : 1;
+  const uint64_t worth = units / std::min(shapes, kFewShapes);
+  operationCosts_[instruction].add(worth);
+  if (!result || thrownAway_ || worth < kMuchWork) return;
+  const auto hasOthers = [&](const Shape& s) { return s.attributes != result->attributes; };
+  if (hasOthers(result->shape) ||
+      std::ranges::any_of(result->children, hasOthers, &BlockChild::shape)) {
+    return;
+  }
   auto kept = std::make_shared<RecallOperation>();
   kept->key = key;
   kept->shape = keptShape(result->shape, 0);

@@ -6,8 +6,8 @@
 //
 // A call is kept as a part when calls of its rule cost enough that a key is little beside them. A
 // part that warned is not kept: the warning would be lost. Nor is one of which another worker made
-// a portion. An operation is kept when it was much work(), counted and not timed, so that the same
-// is kept each time.
+// a portion. An operation is kept when it was much work() for what it made, counted and not timed,
+// so that the same is kept each time.
 #pragma once
 
 #include <cstdint>
@@ -34,6 +34,8 @@ class IncrementalCache {
     /// By rule.
     const std::vector<Reach>& reach;
     const RecallInput& before;
+    /// What is made is thrown away: operations are taken over, and nothing is kept.
+    bool thrownAway = false;
   };
   /// What it takes over goes into the output, with its prototypes, and is counted. All must outlive
   /// the cache.
@@ -85,8 +87,8 @@ class IncrementalCache {
 
   /// Whether the operation at an instruction is worth a key; as with rules.
   bool isOperationDue(uint32_t instruction);
-  /// Of a call with these arguments; none where it takes code to know what they say. `shape` is the
-  /// one that the call works on.
+  /// Of a call with these arguments; none where it takes code to know what they say. What the
+  /// rules have set for the shape does not count: operations neither read nor change it.
   std::optional<ShareKey> keyOf(OpCall& call, std::span<const Value> arguments,
                                 const BlockInput* block, const LocalValues& locals) const;
   /// True when it is known what the operation does to the shape, and that has been done.
@@ -97,6 +99,8 @@ class IncrementalCache {
   struct OperationResult {
     const Shape& shape;
     std::span<const BlockChild> children;
+    /// The set of attributes of the shape that it worked on.
+    uint32_t attributes = 0;
   };
   void endOperation(const ShareKey& key, uint32_t instruction, uint64_t units,
                     const OperationResult* result);
@@ -138,6 +142,7 @@ class IncrementalCache {
   Output& output_;
   Prototypes& prototypes_;
   Tally& tally_;
+  const bool thrownAway_;
   /// Null where there is nothing to take over.
   std::unique_ptr<Recaller> recaller_;
   Inputs inputs_;

@@ -176,6 +176,15 @@ TEST_F(IncrementalCacheTest, KeepsOperationsThatAreMuchWork) {
   cache->endOperation(kKey, 0, kMuch, &result);
   ASSERT_EQ(cache->operations().size(), 1u);
   EXPECT_EQ(cache->operations()[0]->children.size(), 2u);
+  // So much for so many shapes is no more than it takes to keep them.
+  const std::vector<BlockChild> many(1000, {shape, 1});
+  const IncrementalCache::OperationResult large{shape, many};
+  cache->endOperation(kInnerKey, 0, 3000, &large);
+  EXPECT_EQ(cache->operations().size(), 1u);
+  cache->endOperation(kInnerKey, 0, 3000, &result);
+  EXPECT_EQ(cache->operations().size(), 2u);
+  cache->endOperation(kInnerKey, 0, kMuch, &large);
+  EXPECT_EQ(cache->operations().size(), 3u);
 }
 
 TEST_F(IncrementalCacheTest, TakesAnOperationOverWithTheLocalValuesOfNow) {
@@ -204,6 +213,59 @@ TEST_F(IncrementalCacheTest, TakesAnOperationOverWithTheLocalValuesOfNow) {
   // What is known stays known for the derivation after this one, and is looked for again.
   EXPECT_EQ(cache->operations().size(), 1u);
   for (int call = 0; call < 20; ++call) EXPECT_TRUE(cache->isOperationDue(1));
+}
+
+TEST_F(IncrementalCacheTest, OperationsThatChangeTheSetOfAttributesAreNotKept) {
+  const std::vector<BlockChild> children{{shape, 1}};
+  Shape other = shape;
+  other.attributes = 5;
+  const IncrementalCache::OperationResult changed{other, children};
+  cache->endOperation(kKey, 0, kMuch, &changed);
+  const IncrementalCache::OperationResult changedChild{other, children, 5};
+  cache->endOperation(kKey, 0, kMuch, &changedChild);
+  EXPECT_TRUE(cache->operations().empty());
+}
+
+TEST_F(IncrementalCacheTest, AnOperationIsTheSameForShapesWithOtherAttributes) {
+  shape.attributes = 5;
+  const std::vector<BlockChild> children{{shape, 1}};
+  const IncrementalCache::OperationResult result{shape, children, 5};
+  cache->endOperation(kKey, 0, kMuch, &result);
+  ASSERT_EQ(cache->operations().size(), 1u);
+  Recall recall;
+  recall.operations = cache->operations();
+  recall.operationNumbers.emplace(kKey, 0);
+  const Scene scene;
+  before.recall = &recall;
+  before.scene = &scene;
+  cache = make();
+  Shape now;
+  now.attributes = 6;
+  std::vector<BlockChild> taken;
+  ASSERT_TRUE(cache->takeOperation(kKey, 1, now, taken));
+  EXPECT_EQ(now.attributes, 6u);
+  EXPECT_EQ(now.size, shape.size);
+  ASSERT_EQ(taken.size(), 1u);
+  EXPECT_EQ(taken[0].shape.attributes, 6u);
+}
+
+TEST_F(IncrementalCacheTest, APassThatIsThrownAwayTakesOperationsAndKeepsNone) {
+  const IncrementalCache::OperationResult result{shape, {}};
+  cache->endOperation(kKey, 0, kMuch, &result);
+  Recall recall;
+  recall.operations = cache->operations();
+  recall.operationNumbers.emplace(kKey, 0);
+  const Scene scene;
+  before.recall = &recall;
+  before.scene = &scene;
+  cache = std::make_unique<IncrementalCache>(IncrementalCache::Tables{program, reach, before, true},
+                                             output, prototypes, tally);
+  Shape now;
+  std::vector<BlockChild> taken;
+  ASSERT_TRUE(cache->takeOperation(kKey, 1, now, taken));
+  EXPECT_EQ(now.size, shape.size);
+  cache->endOperation(kInnerKey, 0, kMuch, &result);
+  EXPECT_TRUE(cache->operations().empty());
 }
 
 TEST_F(IncrementalCacheTest, TakesAPartOverToWhereItIsCalledNow) {

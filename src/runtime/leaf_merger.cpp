@@ -304,9 +304,11 @@ uint32_t LeafMerger::attributesNumber(uint32_t set) {
   const auto [at, fresh] =
       attributeNumbers_.try_emplace(set, static_cast<uint32_t>(scene_.attributeSets.size()));
   if (!fresh) return at->second;
-  for (const auto& e : input_.attributes.entries(set)) attributeBytes_ += bytesOf(e.value);
+  const auto& entries = input_.attributes.entries(set);
+  for (const auto& e : entries) attributeBytes_ += bytesOf(e.value);
   std::vector<AttributeValue> values;
-  for (const auto& e : input_.attributes.entries(set)) {
+  values.reserve(entries.size());
+  for (const auto& e : entries) {
     if (attributesFull()) break;
     values.push_back(
         plainAttribute(input_.program.attributes[e.key].name, e.value, *input_.program.pool));

@@ -72,10 +72,10 @@ Machine::Machine(DeriveShared& shared, uint32_t worker)
   assets_ = &shared.environment.assets;
   builtinSetSpec_ = &kSetSpec;
   lightPartsAllowed_ = !context_.collects() && !claimsOnly_ && !shared.options.trace;
-  if (shared.options.remember && !isFirstPass()) {
+  if (shared.options.remember) {
     incremental_ = std::make_unique<IncrementalCache>(
-        IncrementalCache::Tables{program_, shared.reach, shared.before}, output_, prototypes_,
-        tally_);
+        IncrementalCache::Tables{program_, shared.reach, shared.before, isFirstPass()}, output_,
+        prototypes_, tally_);
   }
 }
 

@@ -81,8 +81,9 @@ Status Machine::apply(OpCall& call, const Instruction& i, std::span<const Value>
   }
   const size_t firstChild = children_.size(), firstPiece = pieces_.size();
   const auto run = [&] {
-    Status status =
-        incremental_ && worksInTheOpen() ? applyRemembering(call, i, arguments, block) : call.run();
+    Status status = incremental_ && !gathers_.anyOpen()
+                        ? applyRemembering(call, i, arguments, block)
+                        : call.run();
     if (!status.ok() || madeFinite(call.shape(), firstChild, firstPiece)) return status;
     return call.fail("not-finite", "the result has sizes or places that are no finite numbers",
                      "look for a division by zero, or for sizes that grow with each turn");

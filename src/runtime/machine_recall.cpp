@@ -3,7 +3,8 @@
 //
 // The incremental cache in the machine: which calls it is asked about. A call is a part when it
 // works in the world, not in the frame of a shared rule (those are found as prototypes), and where
-// no operation waits for its leaves.
+// no operation waits for its leaves. Operations are kept in prototypes as well, but for those that
+// ask where in the world they are: a prototype stands in many places.
 
 #include <algorithm>
 
@@ -15,7 +16,8 @@ namespace gable {
 IncrementalCache::Moment Machine::moment() const { return {log_.warnings(), holes_.placed()}; }
 
 bool Machine::beginPart(Activation& call) {
-  if (!worksInTheOpen() || aborted_ || !incremental_->isRuleDue(call.rule)) return false;
+  const bool due = !isFirstPass() && worksInTheOpen() && !aborted_;
+  if (!due || !incremental_->isRuleDue(call.rule)) return false;
   const uint32_t effects = program_.rules[call.rule].reads.effects;
   // What came of it depends on shapes anywhere.
   if ((effects & kAsksForRoom) != 0) return false;
@@ -38,20 +40,22 @@ Status Machine::applyRemembering(OpCall& call, const Instruction& i,
   const uint32_t at = pcOf(&i);
   const bool split = block && !block->split.items.empty();
   const bool told = (call.spec().effects & kTold) != 0 || call.spec().gathered;
-  if (split || told || !incremental_->isOperationDue(at)) return call.run();
+  const bool placed = prototypes_.anyOpen() && (call.spec().effects & kReadsWorld) != 0;
+  if (split || told || placed || !incremental_->isOperationDue(at)) return call.run();
   const std::optional<ShareKey> key = incremental_->keyOf(call, arguments, block, locals_);
   if (!key) return call.run();
   if (incremental_->takeOperation(*key, at, call.shape(), children_)) return {};
   const size_t firstChild = children_.size(), firstPiece = pieces_.size();
   const size_t leaves = output_.openLeaves.size();
   const uint64_t warnings = log_.warnings();
+  const uint32_t attributes = call.shape().attributes;
   const WorkCount count;
   const Status status = call.run();
   const bool repeatable = status.ok() && !call.dropped() && log_.warnings() == warnings &&
                           !aborted_ && pieces_.size() == firstPiece &&
                           output_.openLeaves.size() == leaves;
-  const IncrementalCache::OperationResult result{call.shape(),
-                                                 std::span(children_).subspan(firstChild)};
+  const IncrementalCache::OperationResult result{
+      call.shape(), std::span(children_).subspan(firstChild), attributes};
   incremental_->endOperation(*key, at, count.units(), repeatable ? &result : nullptr);
   return status;
 }

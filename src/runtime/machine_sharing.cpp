@@ -41,7 +41,7 @@ bool Machine::beginShared(const RuleCode& rule, Activation& call) {
   std::optional<uint32_t> known = prototypes_.find(key);
   if (known)
     ++cacheHits_;
-  else if (incremental_)
+  else if (incremental_ && !isFirstPass())
     known = incremental_->takePrototype(key, call.rule, call.shape.attributes);
   if (known) {
     // The call itself has been counted already.

@@ -38,6 +38,7 @@ class Merger {
     }
     scene_.instances.reserve(instances);
     scene_.prototypes.reserve(prototypes);
+    if (input.recall) input.recall->prototypes.reserve(prototypes);
     byKey_.reserve(prototypes);
   }
 

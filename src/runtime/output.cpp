@@ -100,6 +100,12 @@ uint32_t moveTail(std::vector<T>& from, uint32_t begin, std::vector<T>& to, uint
 
 }  // namespace
 
+void Output::makeRoomFor(const Prototype& content) {
+  makeRoom(leaves, content.leafCount);
+  makeRoom(instances, content.instanceCount);
+  makeRoom(prototypes, 1);
+}
+
 uint32_t Output::close(const Mark& from, StringId name, uint64_t shapes, const ShareKey& key) {
   makeRoomForTail(openLeaves, from.leaves, leaves);
   makeRoomForTail(openInstances, from.instances, instances);

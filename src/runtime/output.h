@@ -65,6 +65,8 @@ struct Output {
     uint32_t leaves = 0, instances = 0, events = 0;
   };
   Mark mark() const;
+  /// For a finished prototype that is added to the lists.
+  void makeRoomFor(const Prototype& content);
   /// Forgets all, with the numbering of meshes and materials. Keeps its memory.
   void drop();
   /// Moves what lies open beyond the marks into a finished prototype and gives its number. Where

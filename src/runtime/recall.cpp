@@ -194,6 +194,7 @@ uint32_t Recaller::prototype(uint32_t number) {
 void Recaller::finish(uint32_t number) {
   const Recall::PrototypeNotes& notes = recall_.prototypes[number];
   const Prototype& from = scene_.prototypes[number];
+  output_.makeRoomFor(from);
   OutputPrototype to;
   to.range = from;
   to.range.name = recall_.names[from.name];

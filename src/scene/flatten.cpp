@@ -60,6 +60,7 @@ struct PoolHashes {
 
 std::vector<uint64_t> prototypeLeafCounts(const Scene& scene) {
   std::vector<uint64_t> counts;
+  counts.reserve(scene.prototypes.size());
   for (const Prototype& p : scene.prototypes) {
     uint64_t n = p.leafCount;
     for (uint32_t i = 0; i < p.instanceCount; ++i) {

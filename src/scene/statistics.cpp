@@ -75,6 +75,7 @@ class Bounds {
  public:
   explicit Bounds(const Scene& scene) : scene_(scene) {
     for (const MeshRef& m : scene.meshes) meshes_.push_back(m->bounds());
+    prototypes_.reserve(scene.prototypes.size());
     for (const Prototype& p : scene.prototypes) prototypes_.push_back(ownBox(p));
   }
 
@@ -138,6 +139,7 @@ class Bounds {
 
 SceneCounts count(const Scene& scene) {
   std::vector<Tally> meshes, prototypes;
+  prototypes.reserve(scene.prototypes.size());
   for (const MeshRef& m : scene.meshes) meshes.push_back(tallyOf(*m));
   for (const Prototype& p : scene.prototypes) {
     Tally t;

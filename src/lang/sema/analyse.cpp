@@ -134,7 +134,7 @@ void Analysis::walkFunction(FunctionId id) {
   after.paramTypes = body_.types;
   if (after.result == ValueType::Null && type != ValueType::Null) {
     after.result = type;
-    changed_ = true;
+    settle();
   }
 }
 
@@ -147,7 +147,7 @@ void Analysis::walkAttribute(AttributeId id) {
   AttributeInfo& a = program_.attributes[id];
   if (a.type == ValueType::Null && type != ValueType::Null) {
     a.type = type;
-    changed_ = true;
+    settle();
   }
   if (a.source != ValueSource::Override) return;
   const NodeId value = a.valueNode;
@@ -158,13 +158,48 @@ void Analysis::walkAttribute(AttributeId id) {
   expectType(value, visit(value, wanted), wanted, "the value of this attribute");
 }
 
-void Analysis::round() {
-  changed_ = false;
+// A type of a parameter, a function or an attribute has become known, or is left open.
+void Analysis::settle() {
+  changed_ = true;
+  // Modules that have come in this round count as settled anyway.
+  if (body_.module < settledIn_.size()) settledIn_[body_.module] = true;
+}
+
+// The modules whose rules the last round may have left with other types than they have now. A rule
+// sees its own module and the imports below; those above only where they put rules in the place of
+// imported ones.
+std::vector<bool> Analysis::unsettled() const {
+  const size_t count = program_.modules.size();
+  // What a module above has settled, and below: modules come behind their importers.
+  std::vector<bool> settled = settledIn_, above(count), below, replaced(count), out(count);
+  settled.resize(count, true);
+  below = settled;
+  const auto importer = [&](size_t m) { return program_.modules[m].importer; };
+  for (size_t m = 0; m < count; ++m) {
+    replaced[m] = !scopes_[m].replaced.empty();
+    if (importer(m) != kNone) above[m] = above[importer(m)] || settled[importer(m)];
+  }
+  for (size_t m = count; m-- > 0;) {
+    out[m] = below[m] || (replaced[m] && above[m]);
+    if (importer(m) == kNone) continue;
+    if (below[m]) below[importer(m)] = true;
+    if (replaced[m]) replaced[importer(m)] = true;
+  }
+  return out;
+}
+
+void Analysis::round(bool everything) {
+  const std::vector<bool> open = everything ? std::vector<bool>() : unsettled();
   const size_t modules = program_.modules.size();
+  settledIn_.assign(modules, false);
+  changed_ = false;
+  const auto isOpen = [&](ModuleId m) { return m >= open.size() || open[m]; };
   // By index: dynamic imports append to all three while they are walked.
   for (AttributeId i = 0; i < program_.attributes.size(); ++i) walkAttribute(i);
   for (FunctionId i = 0; i < program_.functions.size(); ++i) walkFunction(i);
-  for (RuleId i = 0; i < program_.rules.size(); ++i) walkRule(i);
+  for (RuleId i = 0; i < program_.rules.size(); ++i) {
+    if (isOpen(program_.rules[i].module)) walkRule(i);
+  }
   changed_ = changed_ || program_.modules.size() != modules;
 }
 
@@ -173,11 +208,11 @@ void Analysis::infer() {
   constexpr int kRounds = 20;
   mute_ = true;
   for (int i = 0; i < kRounds; ++i) {
-    round();
+    round(i == 0);
     if (!changed_) break;
   }
   mute_ = false;
-  round();
+  round(true);
 }
 
 // --- Duplicates, which types decide ---

@@ -181,6 +181,25 @@ TEST(Analyse, typesAreInferredThroughCalls) {
   EXPECT_EQ(a.attribute("e").type, ValueType::FloatArray);
 }
 
+// A round settles one of them, and what hangs on it is looked at again: rules of importers, and
+// rules that call what an importer has put in the place of another.
+TEST(Analyse, typesAreInferredThroughImportsAndReplacedRules) {
+  const Analysed a(
+      "import i : \"i.cga\" import k : \"k.cga\"\n"
+      "A(x) --> i.B(x)\n"
+      "G(x) --> k.E(x)\n"
+      "k.Put(x) --> Later(x)\n"
+      "Later(x) --> Last(x)\n"
+      "Last(x) --> extrude(x)",
+      {{"i.cga", "import j : \"j.cga\"\nB(x) --> j.C(x)"},
+       {"k.cga", "E(x) --> Put(x)"},
+       {"j.cga", "C(x) --> D(x)\nD(x) --> F(x)\nF(x) --> extrude(x)"}});
+  EXPECT_CLEAN(a);
+  for (const char* name : {"A", "i.B", "i.j.C", "G", "k.E", "Later"}) {
+    EXPECT_EQ(a.rule(name, 1).paramTypes[0], ValueType::Float) << name;
+  }
+}
+
 TEST(Analyse, overloadsAreChosenByCountAndType) {
   const Analysed a(
       "A(x) --> extrude(x) A(n) --> i(n) A(x, y) --> X.\n"

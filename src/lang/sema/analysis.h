@@ -342,7 +342,9 @@ class Analysis {
   void openFrame(ModuleId module, NodeId declaration, const std::vector<ValueType>& paramTypes,
                  const std::vector<bool>& open);
   void walkLocals(NodeId declaration);
-  void round();
+  void round(bool everything);
+  std::vector<bool> unsettled() const;
+  void settle();
   void infer();
   template <class Info>
   void reportOverloads(const std::vector<std::vector<uint32_t>>& sets,
@@ -433,6 +435,8 @@ class Analysis {
   /// The words that may stand for the name at work, beside values.
   std::vector<std::string_view> wordsHere_;
   bool changed_ = false;
+  /// By module: whether this round, or the last one, has settled a type there.
+  std::vector<bool> settledIn_;
   int hints_ = 0;
   size_t errors_ = 0;
   size_t warnings_ = 0;

@@ -61,7 +61,7 @@ ValueType Analysis::slotType(uint32_t slot, ValueType expected) {
   } else {
     type = expected;
   }
-  changed_ = true;
+  settle();
   return type;
 }
 
