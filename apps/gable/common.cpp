@@ -196,6 +196,25 @@ int writeSettings(const WriteArguments& arguments, const std::string& path,
   return kExitDone;
 }
 
+namespace {
+
+// An artist who asks for one atlas is told what is not in it.
+void tellAtlas(const gable::WriteResult::Atlas& a) {
+  const uint32_t left = a.repeating + a.special + a.large;
+  if (left == 0) return;
+  std::string why;
+  const auto add = [&](uint32_t count, const char* what) {
+    if (count > 0) why += (why.empty() ? "" : ", ") + std::to_string(count) + what;
+  };
+  add(a.repeating, " repeat their pictures");
+  add(a.special, " have maps of their own");
+  add(a.large, " have no room in it");
+  note("the atlas has " + std::to_string(a.merged) + " materials as " + std::to_string(a.into) +
+       "; outside of it are " + why);
+}
+
+}  // namespace
+
 int writeModel(const gable::Model& model, const std::string& path,
                const gable::WriteSettings& settings, gable::RunFigures& figures) {
   const double begin = secondsNow();
@@ -212,6 +231,7 @@ int writeModel(const gable::Model& model, const std::string& path,
   figures.fileBytes = written.bytes;
   figures.savedBytes = written.savedBytes;
   figures.atlas = written.atlas;
+  if (written.atlas) tellAtlas(*written.atlas);
   return kExitDone;
 }
 
