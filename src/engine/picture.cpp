@@ -143,6 +143,16 @@ void watch(const PictureSettings& s, Allowance& allowance, RenderOptions& o) {
 
 void tellOfPicture(const Picture& picture, const Task& task, DiagnosticList& diagnostics) {
   if (picture.cancelled) diagnostics.push_back(task.warning());
+  if (picture.isCutAway) {
+    diagnostics.push_back(diagnosticOf({Severity::Warning,
+                                        "cut-away",
+                                        Span{},
+                                        "the cut leaves nothing of the model",
+                                        "the plane leaves out what lies beyond it: turn its sign, "
+                                        "or choose another place",
+                                        {}},
+                                       Sources{}));
+  }
   if (!picture.lacksPanes) return;
   diagnostics.push_back(diagnosticOf(
       {Severity::Warning,

@@ -295,6 +295,24 @@ TEST(Cut, framesWhatItLeaves) {
   EXPECT_GT(shown, p.layers.objects.size() / 8);
 }
 
+TEST(Cut, goesThroughTheHouseAndNotItsGarden) {
+  SceneMaker m;
+  const uint32_t grey = m.material("#808080");
+  m.box({-5, 0, -4}, {10, 6, 4}, grey);
+  m.box({-5, 0, 0}, {10, 0.1, 30}, grey);
+  const Scene scene = m.finish();
+  RenderOptions o = straightAhead();
+  o.look = PictureLook::Section;
+  o.frontAzimuth = 180;
+  o.groundHeight = 0;
+  const Picture p = render(scene, o);
+  EXPECT_FALSE(p.isCutAway);
+  // In the middle of the picture the cut face of the house, at z = -2.
+  EXPECT_NEAR(static_cast<double>(p.layers.depth[20 * 80 + 43]), 26, 0.3);
+  o.cut = CutPlane{{0, 0, 1}, -100};
+  EXPECT_TRUE(render(scene, o).isCutAway);
+}
+
 TEST(Looks, sectionIsCutAtItsFrontOnPaper) {
   RenderOptions o = smallOptions(64, 48, 8);
   o.look = PictureLook::Section;

@@ -7,6 +7,7 @@
 
 #include "render/render.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <tuple>
@@ -206,8 +207,42 @@ struct Renderer::Impl {
     if (side == CutSide::None && o.look == PictureLook::Section) side = CutSide::Front;
     if (side == CutSide::None) return {};
     const double azimuth = o.frontAzimuth.value_or(front) - (side == CutSide::Side ? 90 : 0);
-    const Vec3 normal{sinDeg(azimuth), 0, -cosDeg(azimuth)};
-    return rt::Cut{rt::toVec3f(normal), static_cast<float>(dot(normal, world.subject.center()))};
+    const Vec3 normal{sinDeg(azimuth), 0, -cosDeg(azimuth)}, size = world.subject.size();
+    const double across = std::abs(normal.x) * size.x + std::abs(normal.z) * size.z;
+    const double middle = dot(normal, world.subject.center()), built = dot(normal, builtMiddle());
+    // A house in the front of its lot is cut, and not its garden.
+    const bool isAside = std::abs(built - middle) > 0.05 * across;
+    return rt::Cut{rt::toVec3f(normal), static_cast<float>(isAside ? built : middle)};
+  }
+
+  /// The middle of what is seen from above and stands high, without leaves; of the whole where
+  /// nothing does.
+  Vec3 builtMiddle() const {
+    constexpr int kRays = 48;
+    constexpr double kHigh = 2;
+    const Box3& s = world.subject;
+    Vec3 sum;
+    double weight = 0;
+    for (int i = 0; i < kRays * kRays; ++i) {
+      const Vec3 share{(i % kRays + 0.5) / kRays, 0, (i / kRays + 0.5) / kRays}, size = s.size();
+      const Vec3 from{s.min.x + share.x * size.x, s.max.y + 1, s.min.z + share.z * size.z};
+      const rt::Ray ray{rt::toVec3f(from), 0, {0, -1, 0}};
+      rt::Hit hit;
+      if (!tracer.intersect(ray, hit) || hit.clear) continue;
+      const double height = from.y - static_cast<double>(hit.distance) - world.footHeight;
+      if (height < kHigh) continue;
+      sum += height * from;
+      weight += height;
+    }
+    return weight > 0 ? sum * (1 / weight) : s.center();
+  }
+
+  /// Whether a cut takes all of it away.
+  bool isCutAway(const RenderOptions& o) const {
+    const std::optional<rt::Cut> plane = cut(o);
+    return plane && !points.empty() &&
+           std::all_of(points.begin(), points.end(),
+                       [&](const rt::Vec3f& p) { return plane->beyond(p) > 0; });
   }
 
   rt::Emitters emitters(const RenderOptions& o, const rt::Light& light, double rooms) const {
@@ -361,6 +396,7 @@ Picture Renderer::render(const RenderOptions& options) const {
     impl.photograph(stage, options, picture, watch);
   }
   const bool lights = options.look == PictureLook::Photo || options.look == PictureLook::Section;
+  picture.isCutAway = impl.isCutAway(options);
   picture.lacksPanes = lights && options.litRooms.value_or(0) > 0 && !impl.anyPane();
   if (options.layers && !picture.cancelled) {
     picture.layers = rt::traceLayers(stage, impl.scene, picture.camera, options);

@@ -82,8 +82,8 @@ struct CutPlane {
   Vec3 normal{0, 1, 0};
   double offset = 0;
 };
-/// The planes through the scene's middle that cut away its front, or its right side as seen from
-/// there.
+/// The planes through the middle of what is built that cut away its front, or its right side as
+/// seen from there.
 enum class CutSide : uint8_t { None, Front, Side };
 
 struct RenderOptions {
@@ -212,6 +212,8 @@ struct Picture {
   RenderStats stats;
   /// Rooms were asked to be lit, but no face of the scene is a pane.
   bool lacksPanes = false;
+  /// The cut leaves nothing.
+  bool isCutAway = false;
   /// True when `progress` ended it; the rows that were not reached are black.
   bool cancelled = false;
 };
