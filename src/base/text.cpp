@@ -50,16 +50,16 @@ std::string nearestName(std::string_view name, const std::vector<std::string_vie
   constexpr size_t kLongest = 64;
   if (name.size() < 2 || name.size() > kLongest) return {};
   const std::string folded = lowerCase(name);
-  // Short names are near to each other by chance.
-  const bool isShort = name.size() < 4;
-  size_t bestDistance = std::max<size_t>(1, name.size() / 3) + 1;
+  // Short names are near to each other by chance, unless they begin alike.
+  const size_t mostUnlike = name.size() < 4 ? 0 : name.size() < 6 ? 1 : kLongest;
+  size_t bestDistance = std::max<size_t>(1, (name.size() + 1) / 3) + 1;
   std::string_view best;
   for (const std::string_view candidate : candidates) {
     work(name.size());
     if (candidate.empty() || candidate == name || candidate.size() > kLongest) continue;
-    if (isShort && lowerCase(candidate[0]) != folded[0]) continue;
     const size_t distance =
         lowerCase(candidate) == folded ? 0 : editDistance(name, candidate, bestDistance - 1);
+    if (lowerCase(candidate[0]) != folded[0] && distance > mostUnlike) continue;
     if (distance < bestDistance && distance < candidate.size()) {
       bestDistance = distance;
       best = candidate;
