@@ -80,13 +80,12 @@ int runDataset(const DatasetArguments& arguments) {
   answer().member("done", std::to_string(result.done));
   answer().member("merged", result.merged ? "true" : "false");
   if (result.ok) answer().wrote(arguments.output);
-  if (result.end != gable::End::Done) {
+  const bool stopped = result.end != gable::End::Done;
+  if (stopped || (result.ok && !result.merged)) {
     note(std::to_string(result.done) + " of " + std::to_string(result.items) +
-         " items are there; the same command goes on");
-  }
-  if (result.ok && !result.merged) {
-    note(std::to_string(result.done) + " of " + std::to_string(result.items) +
-         " items are there; others are making the rest, or their shards have it");
+         " items are there; " +
+         (stopped ? "the same command goes on"
+                  : "others are making the rest, or their shards have it"));
   }
   return statusOfDataset(result);
 }

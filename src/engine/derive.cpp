@@ -303,8 +303,7 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
       listOf(inWordsOf(r.dialect, impl->result.diagnostics, builtinCatalogue()), r.sources));
   impl->diagnostics.insert(impl->diagnostics.end(), made.begin(), made.end());
   for (const DiagnosticList& some :
-       {outsideValues(initial, r),
-        shapes.impl().ofMap ? DiagnosticList() : unusedProperties(shapes.impl(), r)}) {
+       {outsideValues(initial, r), unusedProperties(shapes.impl(), r)}) {
     impl->diagnostics.insert(impl->diagnostics.end(), some.begin(), some.end());
   }
   impl->makeSound();

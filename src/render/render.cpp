@@ -238,8 +238,7 @@ struct Renderer::Impl {
   }
 
   /// Whether a cut takes all of it away.
-  bool isCutAway(const RenderOptions& o) const {
-    const std::optional<rt::Cut> plane = cut(o);
+  bool isCutAway(const std::optional<rt::Cut>& plane) const {
     return plane && !points.empty() &&
            std::all_of(points.begin(), points.end(),
                        [&](const rt::Vec3f& p) { return plane->beyond(p) > 0; });
@@ -396,7 +395,7 @@ Picture Renderer::render(const RenderOptions& options) const {
     impl.photograph(stage, options, picture, watch);
   }
   const bool lights = options.look == PictureLook::Photo || options.look == PictureLook::Section;
-  picture.isCutAway = impl.isCutAway(options);
+  picture.isCutAway = impl.isCutAway(stage.cut);
   picture.lacksPanes = lights && options.litRooms.value_or(0) > 0 && !impl.anyPane();
   if (options.layers && !picture.cancelled) {
     picture.layers = rt::traceLayers(stage, impl.scene, picture.camera, options);

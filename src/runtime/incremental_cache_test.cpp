@@ -27,9 +27,17 @@ class IncrementalCacheTest : public testing::Test {
     cache->begin({7, {21, 22}});
     prototypes.beginUnit();
   }
-  std::unique_ptr<IncrementalCache> make() {
-    return std::make_unique<IncrementalCache>(IncrementalCache::Tables{program, reach, before},
-                                              output, prototypes, tally);
+  std::unique_ptr<IncrementalCache> make(bool thrownAway = false) {
+    return std::make_unique<IncrementalCache>(
+        IncrementalCache::Tables{program, reach, before, thrownAway}, output, prototypes, tally);
+  }
+  /// The cache of the next derivation: the operation that was kept by kKey is known to it.
+  void goOn(bool thrownAway = false) {
+    recall.operations = cache->operations();
+    recall.operationNumbers.emplace(kKey, 0);
+    before.recall = &recall;
+    before.scene = &scene;
+    cache = make(thrownAway);
   }
   ShareKey keyOf(uint32_t rule, std::vector<Value> arguments = {}, uint32_t depth = 1,
                  uint64_t path = 0) {
@@ -49,6 +57,9 @@ class IncrementalCacheTest : public testing::Test {
   Program program;
   std::vector<Reach> reach;
   RecallInput before;
+  /// What the derivation before has left.
+  Recall recall;
+  Scene scene;
   Limits limits;
   Usage usage{limits, nullptr};
   Tally tally{usage};
@@ -193,13 +204,7 @@ TEST_F(IncrementalCacheTest, TakesAnOperationOverWithTheLocalValuesOfNow) {
   const std::vector<BlockChild> children{{shape, 1}, {shape, 2}};
   const IncrementalCache::OperationResult result{shape, children};
   cache->endOperation(kKey, 0, kMuch, &result);
-  Recall recall;
-  recall.operations = cache->operations();
-  recall.operationNumbers.emplace(kKey, 0);
-  const Scene scene;
-  before.recall = &recall;
-  before.scene = &scene;
-  cache = make();
+  goOn();
   Shape now;
   now.locals = 8;
   std::vector<BlockChild> taken;
@@ -232,13 +237,7 @@ TEST_F(IncrementalCacheTest, AnOperationIsTheSameForShapesWithOtherAttributes) {
   const IncrementalCache::OperationResult result{shape, children, 5};
   cache->endOperation(kKey, 0, kMuch, &result);
   ASSERT_EQ(cache->operations().size(), 1u);
-  Recall recall;
-  recall.operations = cache->operations();
-  recall.operationNumbers.emplace(kKey, 0);
-  const Scene scene;
-  before.recall = &recall;
-  before.scene = &scene;
-  cache = make();
+  goOn();
   Shape now;
   now.attributes = 6;
   std::vector<BlockChild> taken;
@@ -252,14 +251,7 @@ TEST_F(IncrementalCacheTest, AnOperationIsTheSameForShapesWithOtherAttributes) {
 TEST_F(IncrementalCacheTest, APassThatIsThrownAwayTakesOperationsAndKeepsNone) {
   const IncrementalCache::OperationResult result{shape, {}};
   cache->endOperation(kKey, 0, kMuch, &result);
-  Recall recall;
-  recall.operations = cache->operations();
-  recall.operationNumbers.emplace(kKey, 0);
-  const Scene scene;
-  before.recall = &recall;
-  before.scene = &scene;
-  cache = std::make_unique<IncrementalCache>(IncrementalCache::Tables{program, reach, before, true},
-                                             output, prototypes, tally);
+  goOn(true);
   Shape now;
   std::vector<BlockChild> taken;
   ASSERT_TRUE(cache->takeOperation(kKey, 1, now, taken));
@@ -269,8 +261,6 @@ TEST_F(IncrementalCacheTest, APassThatIsThrownAwayTakesOperationsAndKeepsNone) {
 }
 
 TEST_F(IncrementalCacheTest, TakesAPartOverToWhereItIsCalledNow) {
-  Recall recall;
-  Scene scene;
   scene.prototypes.resize(1);
   scene.prototypes[0].leafCount = 6;
   scene.leaves.resize(6);
