@@ -166,16 +166,21 @@ void choosePalette(PngWriting& w) {
   if (w.channels == 4 && w.alphas.empty()) w.alphas.push_back(w.palette->colors[0][3]);
 }
 
-bool writePalette(PngWriting& w) {
-  if (setjmp(png_jmpbuf(w.png))) return false;
+// What all pictures begin with. Called where libpng may jump back to.
+void begin(PngWriting& w, uint32_t width, uint32_t height, int bits, int colorType) {
   png_set_write_fn(w.png, &w, onWrite, onFlush);
   png_set_user_limits(w.png, kLongestSide, kLongestSide);
+  png_set_IHDR(w.png, w.info, width, height, bits, colorType, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_compression_level(w.png, w.level);
+  if (!w.filtered) png_set_filter(w.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+}
+
+bool writePalette(PngWriting& w) {
+  if (setjmp(png_jmpbuf(w.png))) return false;
   const size_t count = w.colors.size();
   const int bits = count <= 2 ? 1 : count <= 4 ? 2 : count <= 16 ? 4 : 8;
-  png_set_IHDR(w.png, w.info, w.image->width, w.image->height, bits, PNG_COLOR_TYPE_PALETTE,
-               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_set_compression_level(w.png, w.level);
-  png_set_filter(w.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+  begin(w, w.image->width, w.image->height, bits, PNG_COLOR_TYPE_PALETTE);
   png_set_sRGB_gAMA_and_cHRM(w.png, w.info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_set_PLTE(w.png, w.info, w.colors.data(), static_cast<int>(count));
   if (!w.alphas.empty()) {
@@ -192,13 +197,8 @@ bool writePalette(PngWriting& w) {
 
 bool writePixels(PngWriting& w) {
   if (setjmp(png_jmpbuf(w.png))) return false;
-  png_set_write_fn(w.png, &w, onWrite, onFlush);
-  png_set_user_limits(w.png, kLongestSide, kLongestSide);
-  png_set_IHDR(w.png, w.info, w.image->width, w.image->height, 8,
-               w.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_set_compression_level(w.png, w.level);
-  if (!w.filtered) png_set_filter(w.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+  begin(w, w.image->width, w.image->height, 8,
+        w.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB);
   png_set_sRGB_gAMA_and_cHRM(w.png, w.info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_write_info(w.png, w.info);
   if (w.channels == 3) png_set_filler(w.png, 0, PNG_FILLER_AFTER);
@@ -210,12 +210,8 @@ bool writePixels(PngWriting& w) {
 bool writeNumbers(PngWriting& w, std::vector<uint8_t>& bytes) {
   const NumberImage& image = *w.numbers;
   if (setjmp(png_jmpbuf(w.png))) return false;
-  png_set_write_fn(w.png, &w, onWrite, onFlush);
-  png_set_user_limits(w.png, kLongestSide, kLongestSide);
-  png_set_IHDR(w.png, w.info, image.width, image.height, image.bits,
-               image.channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_set_compression_level(w.png, w.level);
+  begin(w, image.width, image.height, image.bits,
+        image.channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY);
   png_write_info(w.png, w.info);
   const size_t row = static_cast<size_t>(image.width) * static_cast<size_t>(image.channels);
   for (size_t y = 0; y < image.height; ++y) {
