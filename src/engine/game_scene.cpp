@@ -34,8 +34,9 @@ constexpr double kSeen = 4, kRows = 1080;
 constexpr double kStumble = 0.2;
 // Physics engines take no shapes without a volume, in metres.
 constexpr double kThinnest = 0.1;
-// Colours of coarse levels have so many steps, so that their materials are few.
-constexpr double kColorSteps = 15;
+// Colours of coarse levels have so many steps, so that their materials are few: of their lightness,
+// and of their differences to grey, which tell the hue.
+constexpr double kLightSteps = 24, kHueSteps = 40;
 // A level has at most so many triangles of the finer one.
 constexpr double kSaving = 0.8;
 
@@ -390,16 +391,24 @@ class GameSceneMaker {
     return coarse;
   }
 
+  // In steps of lightness, and of orange against blue and green against purple (YCoCg): steps of
+  // red, green and blue would turn greys pink and green.
   uint32_t materialOf(const Vec3& color) {
-    std::array<int, 3> steps{};
-    Material m;
-    for (size_t i = 0; i < 3; ++i) {
-      steps[i] = static_cast<int>(std::clamp(color[i], 0.0, 1.0) * kColorSteps + 0.5);
-      m.color[i] = steps[i] / kColorSteps;
-    }
+    const double between = (color.x + color.z) / 2;
+    const std::array<int, 3> steps = {
+        static_cast<int>(std::lround((between + color.y) / 2 * kLightSteps)),
+        static_cast<int>(std::lround((color.x - color.z) * kHueSteps)),
+        static_cast<int>(std::lround((color.y - between) * kHueSteps))};
     const auto [at, fresh] =
         materials_.try_emplace(steps, static_cast<uint32_t>(out_.scene.materials.size()));
-    if (fresh) out_.scene.materials.push_back(m);
+    if (!fresh) return at->second;
+    const double light = steps[0] / kLightSteps, orange = steps[1] / kHueSteps,
+                 green = steps[2] / kHueSteps;
+    const double base = light - green / 2;
+    Material m;
+    m.color = {base + orange / 2, light + green / 2, base - orange / 2};
+    for (size_t i = 0; i < 3; ++i) m.color[i] = std::clamp(m.color[i], 0.0, 1.0);
+    out_.scene.materials.push_back(m);
     return at->second;
   }
 

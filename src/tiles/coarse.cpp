@@ -16,12 +16,14 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <unordered_map>
 
 #include "base/hash.h"
 #include "base/work.h"
 #include "scene/flatten.h"
+#include "tiles/plates.h"
 
 namespace gable {
 namespace {
@@ -34,6 +36,10 @@ constexpr double kLongestGathered = 2;
 constexpr double kThin = 1.0 / 8;
 // A thing that is thinner, as a share of its width, is one sheet.
 constexpr double kFlat = 0.25;
+// Of the normals of what lies along each other, the least cosine.
+constexpr double kAlong = 0.7;
+// Colours that are the same have so many steps.
+constexpr double kTints = 1024;
 // A part with more triangles is known by its box alone.
 constexpr uint32_t kMostMeasured = 64;
 
@@ -55,11 +61,6 @@ struct CellHash {
     return h;
   }
 };
-
-double faceArea(const Box3& box) {
-  const Vec3 s = box.size();
-  return std::max({s.x * s.y, s.y * s.z, s.x * s.z});
-}
 
 std::array<Vec3, 8> cornersOf(const CoarsePart& p) {
   std::array<Vec3, 8> out;
@@ -146,51 +147,160 @@ class Coarsener {
     return p.triangleCount > 0 && widthOf(p.box) >= tolerance_;
   }
 
+  // A part that smaller ones lie on, and the colour that they give it.
+  struct Bearer {
+    const CoarsePart* part;
+    Tint tint;
+  };
+
   void addFeature(size_t begin, size_t end) {
-    std::vector<size_t> large;
-    for (size_t i = begin; i < end; ++i) {
-      if (isLarge(from_.parts[i])) large.push_back(i);
+    std::vector<size_t> large, narrow;
+    for (size_t i = begin; i < end; ++i) (isLarge(from_.parts[i]) ? large : narrow).push_back(i);
+    std::vector<Bearer> bearers = bearersOf(large);
+    narrow = bear(bearers, narrow, true);
+    Plates plates = platesOf(from_, narrow, large, tolerance_);
+    std::vector<size_t> rest;
+    for (size_t i = 0; i < narrow.size(); ++i) {
+      if (!plates.taken[i]) rest.push_back(narrow[i]);
     }
-    std::vector<size_t> bearers = large;
-    std::stable_sort(bearers.begin(), bearers.end(), [&](size_t a, size_t b) {
+    for (const Plate& p : plates.plates) {
+      if (bearers.size() < kMostBearers) bearers.push_back({&p.part, {}});
+    }
+    rest = bear(bearers, rest, false);
+    const Tints tints = tintsOf(bearers);
+    for (size_t i = 0; i < large.size(); ++i) {
+      const CoarsePart& p = from_.parts[large[i]];
+      copy(p, tintOf(tints, p.color), plates.moves[i]);
+    }
+    for (Plate& p : plates.plates) addPlate(p, tintOf(tints, p.part.color));
+    addLoose(rest);
+  }
+
+  // The largest parts, largest first.
+  std::vector<Bearer> bearersOf(std::vector<size_t> large) const {
+    std::stable_sort(large.begin(), large.end(), [&](size_t a, size_t b) {
       return faceArea(from_.parts[a].box) > faceArea(from_.parts[b].box);
     });
-    if (bearers.size() > kMostBearers) bearers.resize(kMostBearers);
+    if (large.size() > kMostBearers) large.resize(kMostBearers);
+    std::vector<Bearer> out;
+    for (const size_t i : large) out.push_back({&from_.parts[i], {}});
+    return out;
+  }
 
-    std::vector<Tint> borne(bearers.size());
-    std::map<Cell, std::vector<size_t>> cells;
-    std::vector<size_t> rods;
+  // Gives narrow parts to what bears them, and those back that nothing does. `within`: not what
+  // lies beside a part in its plane.
+  std::vector<size_t> bear(std::vector<Bearer>& bearers, const std::vector<size_t>& narrow,
+                           bool within) {
+    std::vector<size_t> rest;
     size_t last = 0;
-    for (size_t i = begin; i < end; ++i) {
+    for (const size_t i : narrow) {
       const CoarsePart& p = from_.parts[i];
-      if (isLarge(p)) continue;
       const std::array<Vec3, 8> corners = cornersOf(p);
+      const Vec3 center = p.frame.point(p.box.center());
       // Neighbours in the list are neighbours on a wall.
       size_t at = last;
       size_t tries = 0;
       for (; tries < bearers.size(); ++tries, at = at + 1 < bearers.size() ? at + 1 : 0) {
         work();
-        if (distanceTo(from_.parts[bearers[at]], corners, tolerance_) <= tolerance_) break;
+        const CoarsePart& bearer = *bearers[at].part;
+        if (within && !isBefore(bearer, center)) continue;
+        if (distanceTo(bearer, corners, tolerance_) > tolerance_) continue;
+        if (!within || isAlong(bearer, p, center)) break;
       }
-      if (tries < bearers.size()) {
-        last = at;
-        borne[at].add(p.color, faceArea(p.box));
-        miss(p, distanceToSurface(from_.parts[bearers[at]], corners));
-      } else if (longestOf(p.box) <= kLongestGathered * tolerance_) {
+      if (tries == bearers.size()) {
+        rest.push_back(i);
+        continue;
+      }
+      last = at;
+      bearers[at].tint.add(p.color, faceArea(p.box));
+      miss(p, distanceToSurface(*bearers[at].part, corners));
+    }
+    return rest;
+  }
+
+  // Whether a point lies in a part, or across one of its faces: not beside a thin one in its plane.
+  bool isBefore(const CoarsePart& part, const Vec3& point) const {
+    const Vec3 p = part.frame.toLocal(point), size = part.box.size();
+    const double slack = tolerance_ / 64;
+    size_t beyond = 0, thin = 0;
+    for (size_t i = 0; i < 3; ++i) {
+      const bool isBeyond = p[i] < part.box.min[i] - slack || p[i] > part.box.max[i] + slack;
+      const bool isThin = size[i] < tolerance_;
+      if (isThin) ++thin;
+      if (isBeyond && !isThin) ++beyond;
+    }
+    return beyond <= (thin > 0 ? 0u : 1u);
+  }
+
+  // A sheet does not lie on a surface that it stands on edge to: the walls at a corner, those under
+  // a roof.
+  bool isAlong(const CoarsePart& bearer, const CoarsePart& part, const Vec3& center) const {
+    const Vec3 size = part.box.size();
+    const size_t across = thinnestOf(size);
+    if (size[across] > kFlat * widthOf(part.box)) return true;
+    const std::optional<Vec3> normal = normalNear(bearer, center);
+    return normal && std::abs(dot(*normal, axisOf(part.frame, across))) > kAlong;
+  }
+
+  // Of what a part shows nearest to a point; none where that is too much to look through.
+  std::optional<Vec3> normalNear(const CoarsePart& part, const Vec3& point) const {
+    const size_t across = thinnestOf(part.box.size());
+    if (part.box.size()[across] < tolerance_) return axisOf(part.frame, across);
+    if (part.triangleCount > kMostMeasured) return std::nullopt;
+    std::optional<Vec3> normal;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (uint32_t t = 0; t < part.triangleCount; ++t) {
+      const auto corners = triangleOf(part, t);
+      const double d = distance2(point, corners);
+      const Vec3 n = cross(corners[1] - corners[0], corners[2] - corners[0]);
+      if (!(d < nearest) || !(length(n) > 0)) continue;
+      nearest = d;
+      normal = n * (1 / length(n));
+    }
+    return normal;
+  }
+
+  std::array<Vec3, 3> triangleOf(const CoarsePart& part, uint32_t number) const {
+    const auto& tri = from_.triangles[part.firstTriangle + number];
+    const auto at = [&](size_t k) { return from_.vertices[part.firstVertex + tri[k]]; };
+    return {at(0), at(1), at(2)};
+  }
+
+  // By the colour that parts had: walls of one stone stay of one colour.
+  using Tints = std::map<std::array<int64_t, 3>, Tint>;
+
+  static std::array<int64_t, 3> keyOf(const Vec3& color) {
+    // Means of equal colours differ in their last digits.
+    return cellOf(color + Vec3{0.5, 0.5, 0.5} * (1 / kTints), 1 / kTints);
+  }
+
+  static Tints tintsOf(const std::vector<Bearer>& bearers) {
+    Tints out;
+    for (const Bearer& b : bearers) {
+      Tint& tint = out[keyOf(b.part->color)];
+      tint.add(b.part->color, b.part->area);
+      tint.sum += b.tint.sum;
+      tint.weight += b.tint.weight;
+    }
+    return out;
+  }
+
+  static Vec3 tintOf(const Tints& tints, const Vec3& color) {
+    const auto found = tints.find(keyOf(color));
+    return found == tints.end() ? color : found->second.mean(color);
+  }
+
+  // What lies on nothing.
+  void addLoose(const std::vector<size_t>& narrow) {
+    std::map<Cell, std::vector<size_t>> cells;
+    std::vector<size_t> rods;
+    for (const size_t i : narrow) {
+      const CoarsePart& p = from_.parts[i];
+      if (longestOf(p.box) <= kLongestGathered * tolerance_) {
         cells[cellOf(p.frame.point(p.box.center()), tolerance_)].push_back(i);
       } else if (widthOf(p.box) >= kThin * tolerance_) {
         rods.push_back(i);
       }
-    }
-    for (size_t b = 0; b < bearers.size(); ++b) {
-      const CoarsePart& p = from_.parts[bearers[b]];
-      borne[b].add(p.color, p.area);
-    }
-    for (const size_t i : large) {
-      const auto b = std::find(bearers.begin(), bearers.end(), i);
-      const CoarsePart& p = from_.parts[i];
-      copy(p, b == bearers.end() ? p.color
-                                 : borne[static_cast<size_t>(b - bearers.begin())].mean(p.color));
     }
     for (const auto& [cell, members] : cells) gather(members);
     for (const size_t i : rods) addRod(from_.parts[i]);
@@ -207,30 +317,32 @@ class Coarsener {
     const double toBox = distanceTo(large, corners, std::numeric_limits<double>::infinity());
     const Vec3 s = large.box.size();
     const double thickness = std::min({s.x, s.y, s.z});
+    // A plate is its box.
+    if (large.triangleCount == 0) return toBox;
     if (large.triangleCount > kMostMeasured) return toBox + thickness;
     double farthest = 0;
     for (const Vec3& c : corners) {
       double nearest = std::numeric_limits<double>::infinity();
       for (uint32_t t = 0; t < large.triangleCount; ++t) {
-        const auto& tri = from_.triangles[large.firstTriangle + t];
-        const auto at = [&](size_t k) { return from_.vertices[large.firstVertex + tri[k]]; };
-        nearest = std::min(nearest, distance2(c, {at(0), at(1), at(2)}));
+        nearest = std::min(nearest, distance2(c, triangleOf(large, t)));
       }
       farthest = std::max(farthest, nearest);
     }
     return std::sqrt(farthest);
   }
 
-  void copy(const CoarsePart& p, const Vec3& color) {
+  void copy(const CoarsePart& p, const Vec3& color, const Vec3& move) {
     CoarsePart part = p;
     part.color = color;
     part.firstVertex = static_cast<uint32_t>(out_.vertices.size());
     part.firstTriangle = static_cast<uint32_t>(out_.triangles.size());
     const auto vertices = from_.vertices.begin() + p.firstVertex;
     const auto triangles = from_.triangles.begin() + p.firstTriangle;
-    out_.vertices.insert(out_.vertices.end(), vertices, vertices + p.vertexCount);
+    for (auto v = vertices; v != vertices + p.vertexCount; ++v) out_.vertices.push_back(*v + move);
     out_.triangles.insert(out_.triangles.end(), triangles, triangles + p.triangleCount);
+    part.frame.origin += move;
     out_.parts.push_back(part);
+    missed_ = std::max(missed_, length(move));
   }
 
   // One box for what stands in a cell.
@@ -269,6 +381,16 @@ class Coarsener {
     fixed_.resize(out_.vertices.size(), true);
     out_.parts.push_back(part);
     missed_ = std::max(missed_, std::sqrt(s[wide] * s[wide] + s[thin] * s[thin]) / 2);
+  }
+
+  void addPlate(const Plate& plate, const Vec3& color) {
+    CoarsePart part = plate.part;
+    part.color = color;
+    part.firstVertex = static_cast<uint32_t>(out_.vertices.size());
+    part.firstTriangle = static_cast<uint32_t>(out_.triangles.size());
+    addSheet(part, 0, 1, 2);
+    out_.parts.push_back(part);
+    missed_ = std::max(missed_, plate.offset);
   }
 
   // A rectangle through the middle of the box of a part, along two axes.

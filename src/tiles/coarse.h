@@ -6,12 +6,16 @@
 // A model is a list of parts: a leaf, or a box that stands for many small ones. coarsened() makes a
 // model with a tolerance of a model with a smaller one:
 //   1. Parts narrower than the tolerance that lie on a larger part of their feature go; the larger
-//      one takes on their colour by area (windows, cornices, tiles).
-//   2. Others of them that are short become boxes, where they stand close together, a cell of the
-//      tolerance each (the crowns of trees); single ones go. Long ones become sheets (lamps,
-//      rails), down to an eighth of the tolerance: viewers change to a finer tile before an error
-//      covers sixteen pixels, so thinner ones cover less than two.
-//   3. Corners in one cell of half the tolerance become one, and triangles without area go.
+//      one takes on their colour by area (windows, cornices, tiles). Large parts of one colour keep
+//      one.
+//   2. Those that cover a plane together become plates of their mean colour (tiles/plates.h): the
+//      strips and panels of a facade.
+//   3. Of the others, those beside a large part or a plate go as in 1. Short ones become boxes,
+//      where they stand close together, a cell of the tolerance each (the crowns of trees); single
+//      ones go. Long ones become sheets (lamps, rails), down to an eighth of the tolerance: viewers
+//      change to a finer tile before an error covers sixteen pixels, so thinner ones cover less
+//      than two.
+//   4. Corners in one cell of half the tolerance become one, and triangles without area go.
 // `error` is what that came to, in metres: how far what was moved or left out is from what is
 // shown, or how long it is where nothing near it is shown. It bounds how far points of the full
 // model are from the coarse one, other than those of things narrower than an eighth of it.

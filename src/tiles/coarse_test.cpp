@@ -184,6 +184,110 @@ TEST(Coarse, longThingsStayAsSheets) {
   EXPECT_EQ(boundsOf(again).max, Vec3(0.4, 8, 0.4));
 }
 
+// Square metres of all triangles.
+double areaOf(const CoarseModel& m) {
+  double area = 0;
+  for (const CoarsePart& part : m.parts) {
+    for (uint32_t t = 0; t < part.triangleCount; ++t) {
+      const auto at = [&](size_t k) {
+        return m.vertices[part.firstVertex + m.triangles[part.firstTriangle + t][k]];
+      };
+      area += length(cross(at(1) - at(0), at(2) - at(0))) / 2;
+    }
+  }
+  return area;
+}
+
+// A facade of strips, each narrower than what is left out: from far away it is one wall.
+TEST(Coarse, stripsOfOneWallBecomeAPlate) {
+  Place place;
+  for (int i = 0; i < 96; ++i) place.add({0.25 * i, 0, 0}, {0.25, 30, 0}, i % 2);
+  const CoarseModel m = place.coarse(0.75);
+  ASSERT_EQ(m.parts.size(), 1u);
+  EXPECT_NEAR(m.parts[0].color.x, 0.5, 0.01);
+  EXPECT_EQ(m.triangles.size(), 2u);
+  EXPECT_NEAR(areaOf(m), 24 * 30, 1);
+  EXPECT_LE(m.error, 0.75);
+}
+
+// Houses of a row keep their colours.
+TEST(Coarse, platesEndWhereColoursDo) {
+  Place place;
+  for (int i = 0; i < 96; ++i) place.add({0.25 * i, 0, 0}, {0.25, 12, 0}, i / 48);
+  const CoarseModel m = place.coarse(0.75);
+  ASSERT_GE(m.parts.size(), 2u);
+  EXPECT_LE(m.parts.size(), 4u);
+  EXPECT_NEAR(m.parts.front().color.x, 1, 0.01);
+  EXPECT_NEAR(m.parts.back().color.x + m.parts[1].color.x, 0, 1);
+  EXPECT_NEAR(areaOf(m), 24 * 12, 1);
+}
+
+// Windows that are large stay before a wall of strips and panels, which is closed around them.
+TEST(Coarse, wallsOfStripsAreClosedAroundWindows) {
+  Place place;
+  for (int floor = 0; floor < 8; ++floor) {
+    for (int bay = 0; bay < 8; ++bay) {
+      const Vec3 at{3.0 * bay, 3.0 * floor, 0};
+      place.add(at, {0.7, 3, 0});
+      place.add(at + Vec3{2.3, 0, 0}, {0.7, 3, 0});
+      place.add(at + Vec3{0.7, 0, 0}, {1.6, 0.7, 0});
+      place.add(at + Vec3{0.7, 2.3, 0}, {1.6, 0.7, 0});
+      place.add(at + Vec3{0.7, 0.7, -0.2}, {1.6, 1.6, 0}, 1);
+    }
+  }
+  const CoarseModel m = place.coarse(0.8);
+  const auto isDark = [](const CoarsePart& p) { return p.color.x < 0.1; };
+  EXPECT_EQ(std::count_if(m.parts.begin(), m.parts.end(), isDark), 64);
+  // Points between the windows and at their edges are near something.
+  for (double x = 0.1; x < 24; x += 0.47) {
+    for (double y = 0.1; y < 24; y += 0.53) {
+      double nearest = 1e9;
+      for (const CoarsePart& p : m.parts) {
+        const Vec3 at = p.frame.toLocal({x, y, 0});
+        const auto beyond = [&](size_t i) {
+          return std::max({p.box.min[i] - at[i], at[i] - p.box.max[i], 0.0});
+        };
+        nearest = std::min(nearest, std::hypot(beyond(0), beyond(1), beyond(2)));
+      }
+      EXPECT_LE(nearest, 0.5) << x << " " << y;
+    }
+  }
+}
+
+// A wall with windows on it is one wall: nothing is put behind it.
+TEST(Coarse, wallsThatAreLargeGetNoPlate) {
+  Place place;
+  place.add({0, 0, 0}, {24, 12, 0});
+  for (int i = 0; i < 60; ++i) {
+    place.add({0.3 + 2.0 * (i % 12), 1 + 2.2 * (i / 12), 0.1}, {0.7, 1.2, 0}, 1);
+  }
+  for (int i = 0; i < 2; ++i) place.add({i * 24.0 - i * 0.3, 0, 0.05}, {0.3, 12, 0}, 1);
+  EXPECT_EQ(place.coarse(0.8).parts.size(), 1u);
+}
+
+// Pieces of one stone with more windows on one than on the other are of one colour.
+TEST(Coarse, piecesOfOneColourKeepOne) {
+  Place place;
+  for (int i = 0; i < 4; ++i) place.add({5.0 * i, 0, 0}, {5, 12, 0});
+  for (int i = 0; i < 5; ++i) place.add({1.0 + 0.5 * i, 3, 0.1}, {0.4, 1, 0}, 1);
+  const CoarseModel m = place.coarse(1);
+  ASSERT_EQ(m.parts.size(), 4u);
+  for (const CoarsePart& p : m.parts) EXPECT_EQ(p.color, m.parts[0].color);
+  EXPECT_LT(m.parts[0].color.x, 1);
+}
+
+TEST(Coarse, partsInOneDirectionThatLieApartMakeNoPlate) {
+  Place place;
+  // Railings: less than half is there.
+  for (int i = 0; i < 40; ++i) place.add({0.5 * i, 0, 0}, {0.1, 8, 0.1});
+  EXPECT_LT(areaOf(place.coarse(1)), 0.5 * 20 * 8);
+  Place far;
+  far.add({-1e30, 0, 0}, {0.5, 30, 0});
+  far.add({1e30, 0, 0}, {0.5, 30, 0});
+  for (int i = 0; i < 10; ++i) far.add({0.5 * i, 0, 0}, {1e9, 0.5, 0});
+  EXPECT_NO_FATAL_FAILURE(far.coarse(1));
+}
+
 TEST(Coarse, hugeAndOddNumbersEnd) {
   Place place;
   place.add({1e30, 0, -1e30}, {1e30, 1, 1e30});

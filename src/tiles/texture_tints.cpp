@@ -1,17 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
+//
+// Light is mixed, not the numbers of pictures, and what is transparent gives none.
 #include "tiles/texture_tints.h"
 
+#include <array>
+
+#include "base/elementary.h"
+#include "io/exporters/gltf_materials.h"
 #include "io/image/image.h"
 
 namespace gable {
+
+namespace {
+
+// Back from linear light (IEC 61966-2-1).
+double srgbOf(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * powOf(linear, 1 / 2.4) - 0.055;
+}
+
+Vec3 meanOf(const std::vector<uint8_t>& rgba) {
+  std::array<double, 256> linear{};
+  for (size_t i = 0; i < linear.size(); ++i) linear[i] = linearOf(static_cast<double>(i) / 255);
+  Vec3 sum;
+  double weight = 0;
+  for (size_t i = 0; i + 3 < rgba.size(); i += 4) {
+    const double alpha = rgba[i + 3];
+    sum += Vec3{linear[rgba[i]], linear[rgba[i + 1]], linear[rgba[i + 2]]} * alpha;
+    weight += alpha;
+  }
+  return weight > 0 ? sum * (1 / weight) : Vec3{1, 1, 1};
+}
+
+}  // namespace
 
 Vec3 TextureTints::of(const Material& m) {
   const std::string& path = m.map(TextureLayer::Color).path;
   if (path.empty()) return m.color;
   const auto [at, fresh] = known_.try_emplace(path, Vec3{1, 1, 1});
   if (fresh) at->second = meanOf(path);
-  return scaled(m.color, at->second);
+  Vec3 out;
+  for (size_t i = 0; i < 3; ++i) out[i] = srgbOf(linearOf(m.color[i]) * at->second[i]);
+  return out;
 }
 
 Vec3 TextureTints::meanOf(const std::string& path) const {
@@ -19,13 +49,7 @@ Vec3 TextureTints::meanOf(const std::string& path) const {
       read_ ? read_(path) : Result<std::string>(Error{"texture-not-found", "", ""});
   if (!bytes.ok()) return {1, 1, 1};
   const Result<Image> image = decodeImage(bytes.value());
-  if (!image.ok()) return {1, 1, 1};
-  Vec3 sum;
-  const std::vector<uint8_t>& rgba = image.value().rgba;
-  for (size_t i = 0; i + 3 < rgba.size(); i += 4) {
-    sum += Vec3{double{1} * rgba[i], double{1} * rgba[i + 1], double{1} * rgba[i + 2]};
-  }
-  return rgba.empty() ? Vec3{1, 1, 1} : sum * (4.0 / 255 / static_cast<double>(rgba.size()));
+  return image.ok() ? gable::meanOf(image.value().rgba) : Vec3{1, 1, 1};
 }
 
 }  // namespace gable

@@ -19,9 +19,11 @@ class TextureTints {
   Vec3 of(const Material& m);
 
  private:
+  // In linear light.
   Vec3 meanOf(const std::string& path) const;
 
   const TextureReader& read_;
+  /// By path, in linear light.
   std::map<std::string, Vec3> known_;
 };
 

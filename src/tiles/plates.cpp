@@ -1,0 +1,452 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+#include "tiles/plates.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "base/work.h"
+
+namespace gable {
+namespace {
+
+// Longer parts would fill too many cells.
+constexpr double kMostCells = 1024;
+// Directions are equal that differ by less.
+constexpr double kTurn = 1.0 / 1024;
+// A cell is full that is covered so far, and needs no plate where large parts cover so much.
+constexpr double kFull = 0.5, kShown = 7.0 / 8;
+// Of the colours of a plate, each of three.
+constexpr double kAlike = 0.12;
+// Rules can make larger ones.
+constexpr double kMostArea = 1e12;
+// A rectangle has at least such a share of cells that need it.
+constexpr double kNeeded = 0.25;
+
+// A part that is thin across its plane.
+struct Sheet {
+  size_t part = 0;
+  /// Into the narrow or the large parts.
+  size_t number = 0;
+  bool isLarge = false;
+  /// Of the axis across it; the sign is such that both sides of a wall have one plane.
+  std::array<int64_t, 3> direction{};
+  Vec3 normal;
+  /// Where the plane lies along the normal.
+  double offset = 0;
+};
+
+// Covered square metres of a cell.
+struct Cover {
+  double narrow = 0, large = 0;
+  /// Of the narrow ones, by cover.
+  Vec3 color;
+};
+
+using Cell = std::pair<int64_t, int64_t>;
+
+// The sheets of one plane.
+class PlaneGrid {
+ public:
+  PlaneGrid(const CoarseModel& model, std::span<const Sheet> sheets, double tolerance)
+      : model_(model), sheets_(sheets), tolerance_(tolerance) {}
+
+  void run(Plates& out) {
+    first_ = sheetOfNarrow();
+    if (!first_) return;
+    chooseFrame();
+    measure();
+    if (!isWide()) return;
+    for (const Sheet& s : sheets_) cover(s);
+    findRectangles();
+    emit(out);
+  }
+
+ private:
+  // The largest, whose axes the grid has; null where all are large parts.
+  const Sheet* sheetOfNarrow() const {
+    const Sheet* out = nullptr;
+    double most = -1;
+    for (const Sheet& s : sheets_) {
+      const double area = faceArea(partOf(s).box);
+      if (s.isLarge || !(area > most)) continue;
+      most = area;
+      out = &s;
+    }
+    return out;
+  }
+
+  const CoarsePart& partOf(const Sheet& s) const { return model_.parts[s.part]; }
+
+  // The axes of the first narrow part. Faces know where they look by the z of their scope, so those
+  // without thickness say where the front is.
+  void chooseFrame() {
+    const CoarsePart& p = partOf(*first_);
+    const size_t across = thinnestOf(p.box.size());
+    double front = 0;
+    for (const Sheet& s : sheets_) {
+      const Box3& box = partOf(s).box;
+      const Vec3 size = box.size();
+      if (size[thinnestOf(size)] > 0) continue;
+      front += std::min(faceArea(box), kMostArea) *
+               dot(s.normal, axisOf(partOf(s).frame, thinnestOf(size)));
+    }
+    Vec3 z = first_->normal, x = axisOf(p.frame, (across + 1) % 3);
+    if (front < 0) z = z * -1;
+    frame_ = Frame::of(p.frame.point(p.box.center()), x, cross(z, x), z);
+  }
+
+  Box3 inPlane(const CoarsePart& p) const {
+    Box3 box;
+    for (size_t i = 0; i < 8; ++i) {
+      box.include(frame_.toLocal(
+          p.frame.point({i & 1 ? p.box.max.x : p.box.min.x, i & 2 ? p.box.max.y : p.box.min.y,
+                         i & 4 ? p.box.max.z : p.box.min.z})));
+    }
+    return box;
+  }
+
+  // How far narrow parts reach, and the plane that most of them lie in.
+  void measure() {
+    double weight = 0;
+    std::vector<std::pair<double, double>> depths;
+    for (const Sheet& s : sheets_) {
+      if (s.isLarge) continue;
+      const CoarsePart& p = partOf(s);
+      const Box3 box = inPlane(p);
+      reach_.include(box.min);
+      reach_.include(box.max);
+      const double area = std::min(faceArea(p.box), kMostArea);
+      weight += area;
+      depths.emplace_back(box.center().z, area);
+    }
+    depth_ = medianOf(std::move(depths), weight);
+    const Vec3 size = reach_.size();
+    for (size_t i = 0; i < 2; ++i) {
+      count_[i] = std::clamp(std::round(size[i] / tolerance_), 1.0, 1e15);
+      side_[i] = size[i] / count_[i];
+    }
+  }
+
+  static double medianOf(std::vector<std::pair<double, double>> weighted, double whole) {
+    std::sort(weighted.begin(), weighted.end());
+    double below = 0;
+    for (const auto& [value, weight] : weighted) {
+      below += weight;
+      if (below >= whole / 2) return value;
+    }
+    return weighted.back().first;
+  }
+
+  bool isWide() const {
+    const Vec3 size = reach_.size();
+    return std::isfinite(size.x + size.y) && std::min(size.x, size.y) >= tolerance_;
+  }
+
+  void cover(const Sheet& s) {
+    const CoarsePart& p = partOf(s);
+    const Box3 box = inPlane(p);
+    const Vec3 size = box.size();
+    const double whole = size.x * size.y;
+    if (!(whole > 0)) return;
+    // What does not fill its rectangle, a polygon or what is turned, covers the same share of it
+    // everywhere.
+    const double filled = std::min(1.0, (s.isLarge ? shownOf(p) : faceArea(p.box)) / whole);
+    std::array<double, 2> from{}, to{};
+    for (size_t i = 0; i < 2; ++i) {
+      from[i] = std::max((box.min[i] - reach_.min[i]) / side_[i], 0.0);
+      to[i] = std::min((box.max[i] - reach_.min[i]) / side_[i], count_[i]);
+      if (!(to[i] > from[i]) || to[i] - from[i] > kMostCells) return;
+    }
+    for (double x = std::floor(from[0]); x < to[0]; ++x) {
+      for (double y = std::floor(from[1]); y < to[1]; ++y) {
+        work();
+        const double wide = std::min(to[0], x + 1) - std::max(from[0], x);
+        const double high = std::min(to[1], y + 1) - std::max(from[1], y);
+        Cover& cell = cells_[{static_cast<int64_t>(y), static_cast<int64_t>(x)}];
+        const double share = filled * wide * high;
+        (s.isLarge ? cell.large : cell.narrow) += share;
+        if (!s.isLarge) cell.color += p.color * share;
+      }
+    }
+  }
+
+  double shownOf(const CoarsePart& p) const {
+    double area = 0;
+    for (uint32_t t = 0; t < p.triangleCount; ++t) {
+      const auto& tri = model_.triangles[p.firstTriangle + t];
+      const auto at = [&](size_t k) { return model_.vertices[p.firstVertex + tri[k]]; };
+      area += length(cross(at(1) - at(0), at(2) - at(0))) / 2;
+    }
+    return area;
+  }
+
+  enum class Kind : uint8_t { Empty, Shown, Needed };
+
+  Kind kindOf(const Cell& at) const {
+    const auto found = cells_.find(at);
+    if (found == cells_.end()) return Kind::Empty;
+    const Cover& c = found->second;
+    if (c.narrow + c.large < kFull) return Kind::Empty;
+    return c.large >= kShown || !(c.narrow > 0) ? Kind::Shown : Kind::Needed;
+  }
+
+  struct Rectangle {
+    int64_t x = 0, y = 0, width = 0, height = 0;
+  };
+
+  // First also across what large parts show, where enough of it needs a plate; then what is left.
+  void findRectangles() {
+    for (const auto& [at, c] : cells_) {
+      work();
+      if (kindOf(at) != Kind::Needed || owned_.contains(at)) continue;
+      const Rectangle whole = grown(at, Kind::Shown);
+      claim(shareOf(whole) >= kNeeded ? whole : grown(at, Kind::Needed));
+    }
+  }
+
+  // The mean of the narrow parts in a cell and around it: windows and the wall between them are one
+  // colour, the house beside may have another.
+  Vec3 colorAround(const Cell& at) const {
+    Cover sum;
+    for (int64_t y = -1; y <= 1; ++y) {
+      for (int64_t x = -1; x <= 1; ++x) add(sum, {at.first + y, at.second + x});
+    }
+    return sum.narrow > 0 ? sum.color * (1 / sum.narrow) : Vec3{};
+  }
+
+  void add(Cover& sum, const Cell& at) const {
+    const auto found = cells_.find(at);
+    if (found == cells_.end()) return;
+    sum.narrow += found->second.narrow;
+    sum.color += found->second.color;
+  }
+
+  // As far to the sides as cells are at least of a kind and of a colour, then as far up and down.
+  Rectangle grown(const Cell& from, Kind least) const {
+    const Vec3 color = colorAround(from);
+    const auto isFree = [&](int64_t y, int64_t x) {
+      work();
+      const Kind kind = kindOf({y, x});
+      if (kind < least || owned_.contains({y, x})) return false;
+      const Vec3 d = colorAround({y, x}) - color;
+      return kind == Kind::Shown ||
+             std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= kAlike;
+    };
+    Rectangle r{from.second, from.first, 1, 1};
+    while (isFree(r.y, r.x + r.width)) ++r.width;
+    for (; isFree(r.y, r.x - 1); ++r.width) --r.x;
+    const auto rowIsFree = [&](int64_t y) {
+      for (int64_t x = r.x; x < r.x + r.width; ++x) {
+        if (!isFree(y, x)) return false;
+      }
+      return true;
+    };
+    while (rowIsFree(r.y + r.height)) ++r.height;
+    for (; rowIsFree(r.y - 1); ++r.height) --r.y;
+    return r;
+  }
+
+  double shareOf(const Rectangle& r) const {
+    double needed = 0;
+    for (int64_t y = r.y; y < r.y + r.height; ++y) {
+      for (int64_t x = r.x; x < r.x + r.width; ++x) {
+        work();
+        if (kindOf({y, x}) == Kind::Needed) ++needed;
+      }
+    }
+    return needed / (static_cast<double>(r.width) * static_cast<double>(r.height));
+  }
+
+  void claim(const Rectangle& r) {
+    for (int64_t y = r.y; y < r.y + r.height; ++y) {
+      for (int64_t x = r.x; x < r.x + r.width; ++x) owned_.insert({y, x});
+    }
+    rectangles_.push_back(r);
+  }
+
+  bool isOnPlate(const Box3& box) const {
+    const Vec3 middle = box.center();
+    const auto cellAt = [&](size_t i) {
+      return static_cast<int64_t>(
+          std::clamp(std::floor((middle[i] - reach_.min[i]) / side_[i]), -1.0, count_[i]));
+    };
+    return owned_.contains({cellAt(1), cellAt(0)});
+  }
+
+  void emit(Plates& out) {
+    double offset = 0;
+    for (const Sheet& s : sheets_) {
+      const Box3 box = inPlane(partOf(s));
+      if (!isOnPlate(box)) continue;
+      if (s.isLarge) {
+        // Just before the plate: windows in their reveals.
+        const double forward = depth_ + tolerance_ / 64 - box.min.z;
+        if (forward > 0) out.moves[s.number] = frame_.z * forward;
+        continue;
+      }
+      out.taken[s.number] = true;
+      offset = std::max({offset, std::abs(box.min.z - depth_), std::abs(box.max.z - depth_)});
+    }
+    for (const Rectangle& r : rectangles_) out.plates.push_back({plateOf(r), offset});
+  }
+
+  CoarsePart plateOf(const Rectangle& r) const {
+    CoarsePart p;
+    p.feature = partOf(*first_).feature;
+    Cover sum;
+    for (int64_t y = r.y; y < r.y + r.height; ++y) {
+      for (int64_t x = r.x; x < r.x + r.width; ++x) add(sum, {y, x});
+    }
+    p.color = sum.narrow > 0 ? sum.color * (1 / sum.narrow) : partOf(*first_).color;
+    p.frame = frame_;
+    const auto at = [&](size_t i, int64_t cell) {
+      return reach_.min[i] + side_[i] * static_cast<double>(cell);
+    };
+    p.box.include(Vec3{at(0, r.x), at(1, r.y), depth_});
+    p.box.include(Vec3{at(0, r.x + r.width), at(1, r.y + r.height), depth_});
+    p.area = p.box.size().x * p.box.size().y;
+    return p;
+  }
+
+  const CoarseModel& model_;
+  std::span<const Sheet> sheets_;
+  double tolerance_;
+  const Sheet* first_ = nullptr;
+  Frame frame_;
+  Box3 reach_;
+  double depth_ = 0;
+  std::array<double, 2> count_{}, side_{};
+  /// By row and column; Cover in shares of a cell.
+  std::map<Cell, Cover> cells_;
+  /// Those of rectangles.
+  std::set<Cell> owned_;
+  std::vector<Rectangle> rectangles_;
+};
+
+class SheetFinder {
+ public:
+  SheetFinder(const CoarseModel& model, double tolerance) : model_(model), tolerance_(tolerance) {}
+
+  void add(size_t part, size_t number, bool isLarge) {
+    const CoarsePart& p = model_.parts[part];
+    const Vec3 size = p.box.size();
+    const size_t across = thinnestOf(size);
+    if (!(size[across] <= tolerance_)) return;
+    Sheet s;
+    s.part = part;
+    s.number = number;
+    s.isLarge = isLarge;
+    s.normal = axisOf(p.frame, across);
+    for (size_t i = 0; i < 3; ++i) s.direction[i] = std::llround(s.normal[i] / kTurn);
+    if (s.direction < std::array<int64_t, 3>{}) {
+      s.normal = s.normal * -1;
+      for (int64_t& d : s.direction) d = -d;
+    }
+    s.offset = dot(s.normal, p.frame.point(p.box.center()));
+    if (std::isfinite(s.offset)) sheets_.push_back(s);
+  }
+
+  // Sheets of equal directions around the offsets where most of the narrow ones lie, within the
+  // tolerance to both sides.
+  template <class Run>
+  void forEachPlane(const Run& run) {
+    std::stable_sort(sheets_.begin(), sheets_.end(), [](const Sheet& a, const Sheet& b) {
+      return std::tie(a.direction, a.offset) < std::tie(b.direction, b.offset);
+    });
+    for (size_t i = 0; i < sheets_.size();) {
+      size_t end = i + 1;
+      while (end < sheets_.size() && sheets_[end].direction == sheets_[i].direction) ++end;
+      divide(std::span<const Sheet>(sheets_).subspan(i, end - i), run);
+      i = end;
+    }
+  }
+
+ private:
+  // Sheets of one direction, by offset.
+  template <class Run>
+  void divide(std::span<const Sheet> sheets, const Run& run) const {
+    const std::vector<double> mass = massesOf(sheets);
+    std::vector<size_t> order(sheets.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](size_t a, size_t b) { return mass[a] > mass[b]; });
+    std::vector<bool> isTaken(sheets.size(), false);
+    for (const size_t middle : order) {
+      if (isTaken[middle]) continue;
+      const auto isNear = [&](size_t i) {
+        return !isTaken[i] && std::abs(sheets[i].offset - sheets[middle].offset) <= tolerance_;
+      };
+      size_t begin = middle, end = middle + 1;
+      while (begin > 0 && isNear(begin - 1)) --begin;
+      while (end < sheets.size() && isNear(end)) ++end;
+      std::fill(isTaken.begin() + static_cast<ptrdiff_t>(begin),
+                isTaken.begin() + static_cast<ptrdiff_t>(end), true);
+      if (end - begin > 1) run(sheets.subspan(begin, end - begin));
+    }
+  }
+
+  // By sheet: the square metres of narrow ones in its plane, and a little before and behind it.
+  std::vector<double> massesOf(std::span<const Sheet> sheets) const {
+    std::vector<double> before(sheets.size() + 1, 0);
+    for (size_t i = 0; i < sheets.size(); ++i) {
+      const double area = std::min(faceArea(model_.parts[sheets[i].part].box), kMostArea);
+      before[i + 1] = before[i] + (sheets[i].isLarge ? 0 : area);
+    }
+    std::vector<double> out(sheets.size());
+    size_t begin = 0, end = 0;
+    for (size_t i = 0; i < sheets.size(); ++i) {
+      const double reach = tolerance_ / 16;
+      while (sheets[begin].offset < sheets[i].offset - reach) ++begin;
+      while (end < sheets.size() && sheets[end].offset <= sheets[i].offset + reach) ++end;
+      out[i] = before[end] - before[begin];
+    }
+    return out;
+  }
+
+  const CoarseModel& model_;
+  double tolerance_;
+  std::vector<Sheet> sheets_;
+};
+
+}  // namespace
+
+size_t thinnestOf(const Vec3& size) {
+  const size_t least = size.x <= size.y ? 0 : 1;
+  return size[least] <= size.z ? least : 2;
+}
+
+double faceArea(const Box3& box) {
+  const Vec3 s = box.size();
+  return std::max({s.x * s.y, s.y * s.z, s.x * s.z});
+}
+
+Vec3 axisOf(const Frame& frame, size_t axis) {
+  Vec3 unit;
+  unit[axis] = 1;
+  return frame.direction(unit);
+}
+
+Plates platesOf(const CoarseModel& model, std::span<const size_t> narrow,
+                std::span<const size_t> large, double tolerance) {
+  Plates out;
+  out.taken.assign(narrow.size(), false);
+  out.moves.assign(large.size(), {});
+  SheetFinder finder(model, tolerance);
+  for (size_t i = 0; i < narrow.size(); ++i) finder.add(narrow[i], i, false);
+  for (size_t i = 0; i < large.size(); ++i) finder.add(large[i], i, true);
+  finder.forEachPlane([&](std::span<const Sheet> sheets) {
+    work(sheets.size());
+    PlaneGrid(model, sheets, tolerance).run(out);
+  });
+  return out;
+}
+
+}  // namespace gable
