@@ -241,6 +241,7 @@ bool anyHas(uint32_t effects, const Program& program, const std::vector<InitialS
 MergeInput mergeInput(const DeriveShared& shared, Recall* recall) {
   const Environment& e = shared.environment;
   MergeInput input{shared.program, e.materials, e.attributes, shared.options.sources, recall};
+  if (shared.before.recall) input.before = &shared.before;
   if (const auto bytes = shared.options.limits.bytes) input.mostAttributeBytes = *bytes / 4;
   return input;
 }
