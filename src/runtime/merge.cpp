@@ -165,7 +165,8 @@ class Merger {
           hole < u.holes.size()
               ? u.holes[hole].at
               : Output::Mark{whole.range.leafCount, whole.range.instanceCount, whole.eventCount};
-      Segment s{u.worker, u.prototype, begin, whole, u.worker, segmentKey(u.prototype, hole, false)};
+      Segment s{u.worker, u.prototype, begin,
+                whole,    u.worker,    segmentKey(u.prototype, hole, false)};
       cut(s, end);
       // Each unit counts its shapes once.
       if (hole > 0) s.content.range.shapes = 0;
@@ -174,8 +175,8 @@ class Merger {
     const auto taken = [&](const OutputUnit& u, size_t hole) {
       const RecallPart& part = *u.holes[hole].taken;
       const Recall::PrototypeNotes& notes = input_.before->recall->prototypes[part.prototype];
-      Segment s{before_, part.prototype, part.begin, {}, u.worker,
-                segmentKey(u.prototype, hole, true)};
+      Segment s{before_, part.prototype, part.begin,
+                {},      u.worker,       segmentKey(u.prototype, hole, true)};
       s.content.range = rangeOf(before_, part.prototype);
       s.content.firstEvent = notes.firstEvent;
       s.content.speaks = notes.speaks;
@@ -379,8 +380,7 @@ class Merger {
       return {worker, prototype, eventsOf(worker) + p.firstEvent, p.eventCount, 0, count, p.speaks};
     }
     const Recall::PrototypeNotes& notes = input_.before->recall->prototypes[taken];
-    const bool isChanged =
-        worker != before_ && outputs_[worker].prototypes[prototype].isChanged();
+    const bool isChanged = worker != before_ && outputs_[worker].prototypes[prototype].isChanged();
     return {isChanged ? worker : before_,
             isChanged ? prototype : taken,
             eventsOf(before_) + notes.firstEvent,
@@ -393,8 +393,8 @@ class Merger {
   // Instances multiply: a few nested calls can stand for more prints than memory holds.
   void replay(const Segment& s) {
     std::vector<Speech> open{{s.worker, s.prototype, eventsOf(s.worker) + s.content.firstEvent,
-                              s.content.eventCount, s.from.instances,
-                              s.content.range.instanceCount, s.content.speaks}};
+                              s.content.eventCount, s.from.instances, s.content.range.instanceCount,
+                              s.content.speaks}};
     while (!open.empty() && !full()) {
       work();
       Speech& top = open.back();
@@ -407,8 +407,7 @@ class Merger {
         open.pop_back();
         continue;
       }
-      const uint32_t next =
-          innerOf(top.worker, top.prototype, top.firstInstance + top.instance++);
+      const uint32_t next = innerOf(top.worker, top.prototype, top.firstInstance + top.instance++);
       open.push_back(speechOf(top.worker, next));
     }
   }

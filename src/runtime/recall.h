@@ -27,6 +27,7 @@ namespace gable {
 
 struct Environment;
 struct DeriveResult;
+class RoomPlan;
 
 /// A rule call's result, as ranges of the leaves, instances and events of the prototype of its
 /// initial shape.
@@ -34,8 +35,8 @@ struct RecallPart {
   ShareKey key;
   /// Of the scene; of the worker's output until the outputs are merged.
   uint32_t prototype = 0, worker = 0;
-  /// Until then: how many holes of the unit lie before its begin and its end. None within is that of
-  /// a portion.
+  /// Until then: how many holes of the unit lie before its begin and its end. None within is that
+  /// of a portion.
   uint32_t holes = 0, holesEnd = 0;
   /// Until then: it lies in the hole of that number, which was filled from the scene before, and
   /// begin and end are places there.
@@ -67,6 +68,9 @@ struct Recall {
   KeyNumbers prototypeNumbers;
   std::vector<std::shared_ptr<const RecallOperation>> operations;
   KeyNumbers operationNumbers;
+  /// Who has room, and what that depends on; null where no rule asks or that cannot be told.
+  std::shared_ptr<RoomPlan> rooms;
+  ShareKey roomsKey;
 
   /// By prototype of the scene: its key, and its events in `events`.
   struct PrototypeNotes {
