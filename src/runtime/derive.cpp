@@ -19,6 +19,7 @@
 #include <mutex>
 #include <unordered_set>
 
+#include "base/dispose.h"
 #include "base/hash.h"
 #include "base/parallel.h"
 #include "base/work.h"
@@ -247,6 +248,22 @@ MergeInput mergeInput(const DeriveShared& shared, Recall* recall) {
   return input;
 }
 
+// What the workers made, until merge() has emptied it. Who has stopped the derivation does not wait
+// until it is freed.
+struct MadeOutputs {
+  explicit MadeOutputs(Pass& pass, const Usage& use) : usage(use) {
+    for (auto& m : pass.machines) all.push_back(std::move(m->output()));
+  }
+  ~MadeOutputs() {
+    if (usage.cancelled() && !all.empty()) disposeLater(std::move(all));
+  }
+  MadeOutputs(const MadeOutputs&) = delete;
+  MadeOutputs& operator=(const MadeOutputs&) = delete;
+
+  const Usage& usage;
+  std::vector<Output> all;
+};
+
 // The scene of all that the workers made, the messages and the trace.
 void assemble(Pass& pass, DeriveShared& shared, const std::vector<InitialShape>& shapes,
               const std::shared_ptr<RoomPlan>& rooms, DeriveResult& result) {
@@ -268,8 +285,7 @@ void assemble(Pass& pass, DeriveShared& shared, const std::vector<InitialShape>&
       recall->roomsKey = *shared.roomKey;
     }
   }
-  std::vector<Output> outputs;
-  for (auto& m : pass.machines) outputs.push_back(std::move(m->output()));
+  MadeOutputs outputs(pass, shared.usage);
   std::vector<const OutputUnit*> roots;
   for (size_t i = 0; i < shapes.size(); ++i) {
     if (!pass.derived[i]) continue;
@@ -277,7 +293,8 @@ void assemble(Pass& pass, DeriveShared& shared, const std::vector<InitialShape>&
     result.roots.push_back({i, 0});
   }
   result.attributes = std::move(pass.attributes);
-  Merged merged = merge(outputs, roots, pass.portions->units(), mergeInput(shared, recall.get()));
+  Merged merged =
+      merge(outputs.all, roots, pass.portions->units(), mergeInput(shared, recall.get()));
   result.scene = std::move(merged.scene);
   for (size_t r = 0; r < result.roots.size(); ++r) {
     result.roots[r].reportsEnd = merged.reportsEnd[r];
